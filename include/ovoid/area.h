@@ -1,0 +1,88 @@
+/**
+ * @file area.h
+ * Facial area splitting: cells of directions as seen from the inner ellipsoid's centre, the faces that rays of a cell
+ * leave by and the vertices that are extreme for its directions. W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision
+ * Detection Method Based on Enclosed Ellipsoid by Facial Areas Splitting.
+ */
+#ifndef OVOID_AREA_H
+#define OVOID_AREA_H
+
+#include "ovoid/ellipsoid.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How directions are split into areas. */
+typedef enum ovoid_split {
+    OVOID_SPLIT_OCTANTS = 0, /**< the paper's 8 areas, by the signs of the three coordinates */
+    OVOID_SPLIT_CUBE = 1 /**< 6 k k cells of a cube map, k a power of two, so that finer cells nest in coarser ones */
+} ovoid_split;
+
+/** Which areas a direction keeps. */
+typedef enum ovoid_area_rule {
+    OVOID_RULE_ALL = 0,   /**< every face: full face checking */
+    OVOID_RULE_RAY = 1,   /**< the one area that holds the ray: sound and least work; the default */
+    OVOID_RULE_SIGNS = 2, /**< sound half-sphere rule: drop the area opposite to the direction (octants) */
+    OVOID_RULE_PAPER = 3  /**< UNSOUND: drop areas whose vector . direction < -sqrt(2)/2, a proof for 2-D only */
+} ovoid_area_rule;
+
+/**
+ * The tables of one polyhedron: in the space where the ellipsoid is the unit sphere, cell -> facets that rays of the
+ * cell leave by (conservative), cell -> vertices that are extreme for some direction of the cell (conservative).
+ */
+typedef struct ovoid_areas ovoid_areas;
+
+/**
+ * Makes the tables. ellipsoid: positive definite, centre strictly inside (of a solid). k: cells per cube edge, a power
+ * of two from 1 to 64; ignored for octants. NULL on failure, with *error filled. Owned by the caller; keeps pointers
+ * into the polytope, which must outlive it.
+ */
+OVOID_API ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid,
+                                          ovoid_split split, uint32_t k, const ovoid_allocator *allocator,
+                                          ovoid_error *error);
+OVOID_API void ovoid_areas_destroy(ovoid_areas *areas);
+
+/** Counts of a table. */
+typedef struct ovoid_area_counts {
+    uint32_t cells;
+    uint64_t facet_entries, vertex_entries; /**< sums over the cells */
+    uint64_t bytes;
+} ovoid_area_counts;
+OVOID_API ovoid_area_counts ovoid_areas_get_counts(const ovoid_areas *areas);
+
+/** The exit of a ray. */
+typedef struct ovoid_exit {
+    double t;         /**< where the ray center + t direction leaves: facet planes' rounded answer; infinity if none */
+    ovoid_vec3 point; /**< center + t direction */
+    uint32_t facet;   /**< the facet it leaves by */
+    uint32_t touched; /**< facets looked at */
+} ovoid_exit;
+
+/**
+ * (g) Where the ray from the ellipsoid's centre along direction (body frame, any length but zero) leaves the
+ * polyhedron, looking only at the facets of the areas that the rule keeps. Under OVOID_RULE_PAPER the answer may be
+ * wrong. toward: the direction to the other body, for the rules that drop areas by it; often the same as direction.
+ */
+OVOID_API ovoid_exit ovoid_areas_find_exit(const ovoid_areas *areas, ovoid_vec3 direction, ovoid_vec3 toward,
+                                           ovoid_area_rule rule);
+
+/** The vertex extreme along direction (body frame), looking only at its cell's candidates; ties: lowest index. */
+OVOID_API uint32_t ovoid_areas_find_support(const ovoid_areas *areas, ovoid_vec3 direction, uint32_t *touched);
+
+/** What cutting the faces along the octants' three planes gives. */
+typedef struct ovoid_split_counts {
+    uint32_t faces;         /**< triangles before */
+    uint32_t pieces;        /**< polygon pieces after: the paper's count, 12 -> 36 for a box */
+    uint32_t triangles;     /**< pieces cut into triangles */
+    uint32_t per_octant[8]; /**< pieces by octant; bit 0: x < 0, bit 1: y < 0, bit 2: z < 0 */
+} ovoid_split_counts;
+
+/** Cuts every triangle along the three coordinate planes of the ellipsoid's space and counts the pieces. */
+OVOID_API ovoid_split_counts ovoid_polytope_compute_split(const ovoid_polytope *polytope,
+                                                          const ovoid_ellipsoid *ellipsoid);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,105 @@
+/**
+ * @file ellipsoid.h
+ * Ellipsoids around and inside a polyhedron, and proximity of ellipsoids. All in the polyhedron's body frame.
+ */
+#ifndef OVOID_ELLIPSOID_H
+#define OVOID_ELLIPSOID_H
+
+#include "ovoid/polytope.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/**
+ * The ellipsoid { center + x : x' Q^-1 x <= 1 } with Q symmetric, positive semidefinite; a singular Q is a flat
+ * ellipsoid. Its support is h(n) = n . center + sqrt(n' Q n).
+ */
+typedef struct ovoid_ellipsoid {
+    ovoid_vec3 center;
+    ovoid_sym3 q;
+} ovoid_ellipsoid;
+
+/** The result of an offline step. */
+typedef struct ovoid_fit {
+    ovoid_ellipsoid ellipsoid;
+    double volume;       /**< of the ellipsoid; area or length where the body is flat */
+    double gap;          /**< proven relative gap of that volume to the optimum; NaN where the step proves none */
+    uint32_t iterations; /**< of the solver or bisection */
+    uint32_t converged;  /**< 1 if the gap asked for was reached; else the ellipsoid is contained all the same */
+    double beta;         /**< phase 2 only: the final beta, 0 where the stretch is stuck */
+    uint32_t facet;      /**< phase 2 only: the farthest facet that s was taken from */
+} ovoid_fit;
+
+/**
+ * (a) The Loewner-John ellipsoid: smallest volume that encloses every vertex, proven to after rounding.
+ * L. Khachiyan, Rounding of polytopes in the real number model of computation, 1996; P. Kumar and E. A. Yildirim,
+ * Minimum-volume enclosing ellipsoids and core sets, 2005 (start); M. J. Todd and E. A. Yildirim, On Khachiyan's
+ * algorithm for the computation of minimum-volume enclosing ellipsoids, 2007 (away steps).
+ * gap: relative volume gap asked for, 0 means 1e-6. Memory from allocator (NULL: malloc).
+ * Returns OVOID_OK or ARGUMENT, MEMORY. Cost: linear in the vertices per iteration.
+ */
+OVOID_API ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
+                                                   const ovoid_allocator *allocator);
+
+/**
+ * (b) Phase 1 of the paper: shrink the outer ellipsoid isotropically, by bisection from a quarter of its radii, until
+ * it touches the first facet. W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on Enclosed
+ * Ellipsoid by Facial Areas Splitting. Proven inside the polyhedron after rounding. Allocates nothing.
+ */
+OVOID_API ovoid_fit ovoid_ellipsoid_compute_shrunk(const ovoid_polytope *polytope, const ovoid_ellipsoid *outer);
+
+/** (c) Phase 2 of the paper: move the centre toward the farthest facet and stretch along the way, by bisection. */
+OVOID_API ovoid_fit ovoid_ellipsoid_compute_stretched(const ovoid_polytope *polytope, const ovoid_ellipsoid *shrunk);
+
+/** (d) Phase 3 of the paper: enlarge each radius, one after another, in the ellipsoid's own axes. */
+OVOID_API ovoid_fit ovoid_ellipsoid_compute_enlarged(const ovoid_polytope *polytope, const ovoid_ellipsoid *stretched);
+
+/**
+ * The maximum-volume inscribed ellipsoid, proven inside after rounding.
+ * L. G. Khachiyan and M. J. Todd, On the complexity of approximating the maximal inscribed ellipsoid for a polytope,
+ * 1993; Y. Zhang and L. Gao, On numerical solution of the maximum volume ellipsoid problem, 2003.
+ * gap: relative volume gap asked for, 0 means 1e-6. Returns OVOID_OK or ARGUMENT, MEMORY.
+ */
+OVOID_API ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
+                                                   const ovoid_allocator *allocator);
+
+/** Radii in descending order; zero where the ellipsoid is flat. */
+OVOID_API ovoid_vec3 ovoid_ellipsoid_compute_radii(const ovoid_ellipsoid *ellipsoid);
+
+/** Volume, 4/3 pi sqrt(det Q). */
+OVOID_API double ovoid_ellipsoid_compute_volume(const ovoid_ellipsoid *ellipsoid);
+
+/** The ellipsoid under a pose: R Q R' and the moved centre. Rounded; not proven to contain anything. */
+OVOID_API ovoid_ellipsoid ovoid_ellipsoid_compute_posed(const ovoid_ellipsoid *ellipsoid, const ovoid_pose *pose);
+
+/** Nearest points of two ellipsoids, or of a point and one. */
+typedef struct ovoid_nearest {
+    ovoid_vec3 point_a, point_b;
+    ovoid_vec3 normal; /**< unit, from a to b; the direction that separates best where they are apart */
+    double distance;   /**< |point_b - point_a|; 0 where they overlap */
+    double lower;      /**< proven: the gap of the two supports along normal; negative where they overlap */
+    uint32_t iterations;
+    uint32_t overlap; /**< 1: they share a point (point_a = point_b is one) */
+} ovoid_nearest;
+
+/** The point of the ellipsoid nearest to a point (the point itself where it is inside); point_b is the given point. */
+OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, ovoid_vec3 point);
+
+/**
+ * (e) The paper's X* and Y*: a is mapped to the unit sphere, the point of the mapped b nearest to its centre and the
+ * sphere's point on that line are mapped back. A good direction; not the Euclidean nearest points, and distance is only
+ * an upper bound of theirs. Q of a must be positive definite, else the Euclidean result is returned.
+ */
+OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest_by_sphere(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
+
+/** The Euclidean nearest points of two ellipsoids, to about 1e-12 of their size. Bounded iterations. */
+OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
+
+/** 1 if the ellipsoids share a point (a common one in *point, if not NULL), 0 if proven apart or not known to. */
+OVOID_API int ovoid_ellipsoid_is_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, ovoid_vec3 *point);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

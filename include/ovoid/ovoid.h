@@ -1,0 +1,16 @@
+/**
+ * @file ovoid.h
+ * Everything of the core library. Meshes and scenes are in <ovoid/io.h> (a second library).
+ */
+#ifndef OVOID_OVOID_H
+#define OVOID_OVOID_H
+
+#include "ovoid/area.h"
+#include "ovoid/base.h"
+#include "ovoid/ellipsoid.h"
+#include "ovoid/linear.h"
+#include "ovoid/polytope.h"
+#include "ovoid/query.h"
+#include "ovoid/shape.h"
+
+#endif

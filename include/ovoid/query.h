@@ -1,0 +1,180 @@
+/**
+ * @file query.h
+ * Proximity of two posed shapes: do they touch, how far apart, how deep; each answer with its bracket and its proof.
+ * Queries allocate nothing, lock nothing, keep no global state and do bounded work.
+ */
+#ifndef OVOID_QUERY_H
+#define OVOID_QUERY_H
+
+#include "ovoid/shape.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Two posed shapes. The shapes are borrowed. */
+typedef struct ovoid_pair {
+    const ovoid_shape *shape_a, *shape_b;
+    ovoid_pose pose_a, pose_b;
+} ovoid_pair;
+
+/** What is proven of the signed distance d (positive apart, negative the penetration depth). */
+typedef enum ovoid_status {
+    OVOID_UNDECIDED = 0, /**< the sign of d is not proven; ovoid_answer.limit says why */
+    OVOID_SEPARATED,     /**< lower > 0 */
+    OVOID_TOUCHING,      /**< lower <= 0 <= upper, and the bracket is narrower than the tolerance */
+    OVOID_OVERLAPPING    /**< upper < 0 */
+} ovoid_status;
+
+/** What decided. */
+typedef enum ovoid_stage {
+    OVOID_STAGE_NONE = 0,
+    OVOID_STAGE_PROOF,   /**< the earlier proof handed in */
+    OVOID_STAGE_SPHERE,  /**< bounding spheres */
+    OVOID_STAGE_OUTER,   /**< outer ellipsoids */
+    OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction */
+    OVOID_STAGE_INNER,   /**< inner ellipsoids */
+    OVOID_STAGE_EXIT,    /**< exits of the rays from the inner centres */
+    OVOID_STAGE_GJK,     /**< exact: Gilbert, Johnson, Keerthi 1988 */
+    OVOID_STAGE_EPA      /**< exact: expanding polytope, van den Bergen 2001 */
+} ovoid_stage;
+
+/** Why a query stopped before its bracket was narrower than the tolerance. */
+typedef enum ovoid_limit {
+    OVOID_LIMIT_NONE = 0,   /**< it did not: answered in full */
+    OVOID_LIMIT_ANSWERED,   /**< the question (collide, within, bounds) was answered; the bracket is true but wide */
+    OVOID_LIMIT_CAP,        /**< proven farther than options.cap */
+    OVOID_LIMIT_ITERATIONS, /**< options.iterations used up */
+    OVOID_LIMIT_PRECISION,  /**< no further progress in double precision */
+    OVOID_LIMIT_CAPACITY,   /**< the depth search filled its fixed working memory */
+    OVOID_LIMIT_POSE_A,     /**< refused: pose_a has NaN, infinity, a length out of range or a zero quaternion */
+    OVOID_LIMIT_POSE_B,     /**< refused: likewise pose_b */
+    OVOID_LIMIT_OPTIONS     /**< refused: NaN or a negative tolerance in the options */
+} ovoid_limit;
+
+/** What the upper bound rests on. */
+typedef enum ovoid_proof_kind {
+    OVOID_PROOF_NONE = 0, /**< no upper bound: upper is infinity */
+    OVOID_PROOF_POINTS,   /**< a point of A and a point of B, convex combinations of vertices: d <= their distance */
+    OVOID_PROOF_HULL,     /**< the origin is strictly inside the hull of four differences b[i] - a[i]: d < 0 */
+    OVOID_PROOF_INNER,    /**< a point strictly inside both inner ellipsoids: d < 0 */
+    OVOID_PROOF_INNER_POINTS, /**< a point of each inner ellipsoid: d <= their distance */
+    OVOID_PROOF_COVER         /**< a closed surface of differences around the origin (ovoid_cover): depth */
+} ovoid_proof_kind;
+
+/**
+ * A proof: plain data that ovoid_proof_check, or anyone with exact arithmetic, can check, and the warm start of the
+ * next query of the pair. Indices are vertices of ovoid_polytope. Rounding radii are subtracted from both bounds.
+ *
+ * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal is that n (nearly unit:
+ * divide by its norm). Zero where there is no lower bound.
+ * Upper bound: as `kind` says. POINTS: sum weight_a[i] x(a[i]) / sum weight_a is the point of A, likewise of B.
+ */
+typedef struct ovoid_proof {
+    ovoid_vec3 normal; /**< world frame, from A to B */
+    ovoid_proof_kind kind;
+    uint32_t count; /**< entries used of the arrays, 0 to 4 */
+    uint32_t a[4], b[4];
+    double weight_a[4], weight_b[4]; /**< >= 0, not all zero */
+    ovoid_vec3 inner_a;              /**< INNER: the common point; INNER_POINTS: the point of A; body frame of A */
+    ovoid_vec3 inner_b;              /**< INNER_POINTS: the point of B, body frame of B */
+} ovoid_proof;
+
+/** Most points of a cover. */
+#define OVOID_COVER_POINTS 512
+
+/**
+ * What proves a depth from below: differences x(b[i]) - x(a[i]) and triangles over them that form a closed oriented
+ * surface which winds around the origin. No point of the surface is nearer to the origin than r, hence the ball of
+ * radius r lies inside the Minkowski difference and d <= -r - radii.
+ */
+typedef struct ovoid_cover {
+    uint32_t point_count, triangle_count;
+    uint32_t a[OVOID_COVER_POINTS], b[OVOID_COVER_POINTS];
+    uint16_t triangles[2 * OVOID_COVER_POINTS][3];
+} ovoid_cover;
+
+/** Options of a query; all zero is the default, and NULL means that. */
+typedef struct ovoid_options {
+    double absolute_tolerance; /**< stop when upper - lower is at most this, or at most the relative one; default 0 */
+    double relative_tolerance; /**< of the pair's size: the sum of both radii about their centres and the centres'
+                                    distance; 0 means 1e-9 */
+    double cap;                /**< stop when proven farther than this; 0 means no cap */
+    uint32_t iterations;       /**< most iterations of each exact method; 0 means 1000 */
+} ovoid_options;
+
+/** The answer to a query. lower <= d <= upper always holds, rounding included. */
+typedef struct ovoid_answer {
+    ovoid_status status;
+    ovoid_stage stage;
+    ovoid_limit limit;
+    uint32_t iterations;         /**< of the exact methods */
+    double lower, upper;         /**< bracket of the signed distance; -infinity and infinity where refused */
+    ovoid_vec3 point_a, point_b; /**< witness points, world frame: on their bodies to rounding. Distance and depth:
+                                      point_b - point_a = d normal. Other queries: the points behind upper, a common
+                                      point where an overlap is proven; not the nearest ones. */
+    ovoid_vec3 normal;           /**< unit, world frame, from A to B; the direction of the lower bound */
+    ovoid_proof proof;
+} ovoid_answer;
+
+/** Do the bodies touch? Stops as soon as the sign of d is proven. earlier: a proof of this pair, or NULL. */
+OVOID_API ovoid_answer ovoid_collide(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier);
+
+/**
+ * Are the bodies within margin (>= 0) of each other? Stops when lower > margin, or when upper <= margin and the sign
+ * of d is proven too. Read it with ovoid_answer_is_within. A bracket around the margin is narrower than the tolerance.
+ */
+OVOID_API ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
+                                    const ovoid_proof *earlier);
+
+/** The distance to the tolerance, where the bodies are apart; where they overlap only that is proven. */
+OVOID_API ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier);
+
+/**
+ * The signed distance to the tolerance: the distance where the bodies are apart, minus the penetration depth where
+ * they overlap. cover (may be NULL) receives the proof of the depth's lower bound; point_count 0 where none is needed.
+ */
+OVOID_API ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier,
+                                   ovoid_cover *cover);
+
+/** The bracket from the ellipsoids alone, without a search: smooth in the poses, O(1). */
+OVOID_API ovoid_answer ovoid_bounds(const ovoid_pair *pair);
+
+/** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: the bracket straddles it. */
+OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
+
+/**
+ * Checks an answer against its pair without any search: every bound is recomputed from the proof alone, with directed
+ * error bounds. cover: that of ovoid_depth, or NULL. OVOID_OK, or PROOF with a sentence in *error (may be NULL).
+ */
+OVOID_API ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
+                                        ovoid_error *error);
+
+/** Names for results: "separated", "gjk", "precision", "points" and so on; never NULL. */
+OVOID_API const char *ovoid_status_get_name(ovoid_status status);
+OVOID_API const char *ovoid_stage_get_name(ovoid_stage stage);
+OVOID_API const char *ovoid_limit_get_name(ovoid_limit limit);
+OVOID_API const char *ovoid_proof_kind_get_name(ovoid_proof_kind kind);
+
+/** The online steps of the paper for a pair, each with its cost, for study; not how the library decides. */
+typedef struct ovoid_paper_bounds {
+    ovoid_nearest nearest; /**< (e) X* and Y* of the inner ellipsoids, world frame */
+    double lower;          /**< (f) proven gap of the outer ellipsoids along their direction */
+    double upper;          /**< (g) |Q1 Q2|, or 0 where the exits pass each other */
+    ovoid_vec3 q1, q2;     /**< exits of the line X*Y* from the polyhedra */
+    ovoid_vec3 p1, p2;     /**< exits of the line from the outer ellipsoids */
+    uint32_t faces;        /**< facets touched */
+    int collides;          /**< HEURISTIC, no proof: the paper's criterion says that they collide */
+} ovoid_paper_bounds;
+
+/**
+ * Steps (e), (f), (g) of the paper and its criterion, |Q1 Q2| > min(|P1 Q1|, |P2 Q2|, threshold) means apart: a
+ * heuristic, often wrong. areas_a, areas_b: the tables to use with the rule.
+ */
+OVOID_API ovoid_paper_bounds ovoid_paper_compute_bounds(const ovoid_pair *pair, const ovoid_areas *areas[2],
+                                                        ovoid_area_rule rule, double threshold);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

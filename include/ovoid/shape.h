@@ -1,0 +1,117 @@
+/**
+ * @file shape.h
+ * A shape: an immutable convex body in one block of memory, shared by any number of bodies and threads.
+ */
+#ifndef OVOID_SHAPE_H
+#define OVOID_SHAPE_H
+
+#include "ovoid/area.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/**
+ * A convex body: the convex hull of its vertices, enlarged by a rounding radius >= 0. A point with a radius is a
+ * sphere, a segment a capsule, a flat polygon a rounded plate. Holds faces, both ellipsoids, measures and area tables.
+ */
+typedef struct ovoid_shape ovoid_shape;
+
+/** Which inner ellipsoid a shape holds. */
+typedef enum ovoid_inner_method {
+    OVOID_INNER_MAXIMUM = 0, /**< the maximum-volume inscribed ellipsoid */
+    OVOID_INNER_PHASES = 1   /**< the paper's three phases */
+} ovoid_inner_method;
+
+/** Options of all ovoid_shape_create_* functions; all zero is the default, and NULL means that. */
+typedef struct ovoid_shape_options {
+    double radius;                    /**< rounding radius, >= 0, added around the hull */
+    double gap;                       /**< relative volume gap of the ellipsoids; 0 means 1e-6 */
+    ovoid_inner_method inner;         /**< which inner ellipsoid */
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied into the shape */
+} ovoid_shape_options;
+
+/**
+ * The convex hull of points. xyz: count points, xyz of point i at 3 i, finite. The array is not kept.
+ * An extreme point is never lost: a point is dropped only if it equals another or if exact arithmetic shows it inside
+ * the hull of those kept. Returns NULL on failure with *error filled (error may be NULL): EMPTY, NOT_FINITE (place: the
+ * point), RANGE, RADIUS, LIMIT, HULL, MEMORY. The caller destroys the shape. Cost: n log n.
+ * Hull: C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996 (Qhull).
+ */
+OVOID_API ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count,
+                                                      const ovoid_shape_options *options, ovoid_error *error);
+
+/** Faces of a polyhedron: polygons, counter-clockwise from outside, as runs of vertex indices. */
+typedef struct ovoid_faces {
+    const double *vertices; /**< xyz of vertex i at 3 i */
+    size_t vertex_count;
+    const uint32_t *indices; /**< all faces' indices, one face after another */
+    const uint32_t *sizes;   /**< number of indices of each face, >= 3 */
+    size_t face_count;
+} ovoid_faces;
+
+/**
+ * From vertices and faces that claim to be convex: checked (indices, closed surface, every vertex behind every face by
+ * exact arithmetic up to the faces' own flatness), never trusted; then the hull of the vertices.
+ * Errors: INDEX (place: the face), NOT_CONVEX (place: the face), and those of ovoid_shape_create_from_points.
+ */
+OVOID_API ovoid_shape *ovoid_shape_create_from_faces(const ovoid_faces *faces, const ovoid_shape_options *options,
+                                                     ovoid_error *error);
+
+/** An axis-aligned box of the given half sizes around the origin (>= 0; zero makes it flat). */
+OVOID_API ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape_options *options, ovoid_error *error);
+
+/** A sphere around the origin: a point with a radius (added to options->radius). */
+OVOID_API ovoid_shape *ovoid_shape_create_sphere(double radius, const ovoid_shape_options *options, ovoid_error *error);
+
+/** A capsule along z: a segment of length 2 half_length with a radius (added to options->radius). */
+OVOID_API ovoid_shape *ovoid_shape_create_capsule(double half_length, double radius, const ovoid_shape_options *options,
+                                                  ovoid_error *error);
+
+/** A prism of n >= 3 sides along z, inscribed in the cylinder of that radius. */
+OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, uint32_t sides,
+                                                   const ovoid_shape_options *options, ovoid_error *error);
+
+/** A pyramid of n >= 3 sides along z, apex at z = +half_length, base circle at z = -half_length. */
+OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, uint32_t sides,
+                                               const ovoid_shape_options *options, ovoid_error *error);
+
+/** A copy with memory of its own. */
+OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator,
+                                               ovoid_error *error);
+
+/** Frees the shape; NULL is allowed. No query may be using it. */
+OVOID_API void ovoid_shape_destroy(ovoid_shape *shape);
+
+/** The polyhedron. A view into the shape. */
+OVOID_API ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *shape);
+/** The rounding radius. */
+OVOID_API double ovoid_shape_get_radius(const ovoid_shape *shape);
+/** What was done with the points given. */
+OVOID_API ovoid_report ovoid_shape_get_report(const ovoid_shape *shape);
+/** The outer ellipsoid of the polyhedron (without the radius), with its gap. Body frame. */
+OVOID_API ovoid_fit ovoid_shape_get_outer(const ovoid_shape *shape);
+/** The inner ellipsoid of the polyhedron (without the radius), with its gap. Body frame. */
+OVOID_API ovoid_fit ovoid_shape_get_inner(const ovoid_shape *shape);
+/** Measures of the polyhedron without its radius. */
+OVOID_API ovoid_measures ovoid_shape_get_measures(const ovoid_shape *shape);
+/** Size of the block in bytes. */
+OVOID_API size_t ovoid_shape_get_size(const ovoid_shape *shape);
+
+/**
+ * The shape as bytes of a versioned, little-endian file (".ovoid") with a checksum. Writes at most capacity bytes to
+ * buffer and returns the number of bytes needed; nothing is written where capacity is too small.
+ */
+OVOID_API size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity);
+
+/**
+ * A shape from such bytes, each of them checked: magic, version, sizes, checksum, indices, finiteness, and that the
+ * ellipsoids enclose and are enclosed. Errors: FORMAT (place: byte offset), MEMORY.
+ */
+OVOID_API ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *allocator,
+                                        ovoid_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

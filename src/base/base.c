@@ -1,0 +1,80 @@
+// Version, names of codes, errors, the default allocator, the assert hook.
+#include "base/allocator.h"
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define TEXT_OF(x) #x
+#define TEXT(x) TEXT_OF(x)
+
+const char *ovoid_get_version(void) {
+    return TEXT(OVOID_VERSION_MAJOR) "." TEXT(OVOID_VERSION_MINOR) "." TEXT(OVOID_VERSION_PATCH);
+}
+
+const char *ovoid_code_get_name(ovoid_code code) {
+    switch (code) {
+    case OVOID_OK: return "ok";
+    case OVOID_ERROR_MEMORY: return "out of memory";
+    case OVOID_ERROR_ARGUMENT: return "bad argument";
+    case OVOID_ERROR_NOT_FINITE: return "not finite";
+    case OVOID_ERROR_EMPTY: return "empty";
+    case OVOID_ERROR_RANGE: return "out of range";
+    case OVOID_ERROR_RADIUS: return "bad radius";
+    case OVOID_ERROR_ROTATION: return "zero quaternion";
+    case OVOID_ERROR_INDEX: return "bad index";
+    case OVOID_ERROR_NOT_CONVEX: return "not convex";
+    case OVOID_ERROR_HULL: return "hull failed";
+    case OVOID_ERROR_FORMAT: return "bad format";
+    case OVOID_ERROR_FILE: return "file error";
+    case OVOID_ERROR_LIMIT: return "limit exceeded";
+    case OVOID_ERROR_PROOF: return "proof does not hold";
+    }
+    return "unknown code";
+}
+
+ovoid_code error_set(ovoid_error *error, ovoid_code code, int64_t place, const char *format, ...) {
+    if (!error) return code;
+    error->code = code;
+    error->place = place;
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(error->message, sizeof error->message, format, arguments);
+    va_end(arguments);
+    return code;
+}
+
+static void *allocate_aligned(void *context, size_t size) {
+    (void)context;
+    if (size > SIZE_MAX - 63) return NULL;
+    return aligned_alloc(64, (size + 63) / 64 * 64);
+}
+
+static void release_aligned(void *context, void *memory) {
+    (void)context;
+    free(memory);
+}
+
+ovoid_allocator allocator_make(const ovoid_allocator *given) {
+    return given ? *given : (ovoid_allocator){allocate_aligned, release_aligned, NULL};
+}
+
+void *allocator_allocate(const ovoid_allocator *allocator, size_t count, size_t size) {
+    if (size && count > SIZE_MAX / size) return NULL;
+    size_t bytes = count * size;
+    return allocator->allocate(allocator->context, bytes ? bytes : 1);
+}
+
+void allocator_release(const ovoid_allocator *allocator, void *memory) {
+    if (memory) allocator->release(allocator->context, memory);
+}
+
+static ovoid_assert_hook assert_hook;
+
+void ovoid_set_assert_hook(ovoid_assert_hook hook) { assert_hook = hook; }
+
+void assert_fail(const char *expression, const char *file, int line) {
+    if (assert_hook) assert_hook(expression, file, line);
+    abort();
+}

@@ -1,0 +1,47 @@
+// The one block of memory that a shape is: a header, then arrays at offsets from the block's start, each aligned to 64
+// bytes. A copy is a memcpy; nothing in the block points anywhere but to the allocator. All lengths in the body frame.
+#ifndef OVOID_SHAPE_BLOCK_H
+#define OVOID_SHAPE_BLOCK_H
+
+#include "ovoid/shape.h"
+
+/// Bytes from the block's start to an array.
+typedef struct block_offsets {
+    uint64_t x, y, z;         ///< vertices as structure of arrays, padded_count doubles each; padding repeats vertex 0
+    uint64_t vertices;        ///< xyz, 3 vertex_count doubles
+    uint64_t planes;          ///< ovoid_plane, facet_count
+    uint64_t triangles;       ///< uint32, 3 triangle_count
+    uint64_t triangle_facets; ///< uint32, triangle_count
+    uint64_t neighbor_starts; ///< uint32, vertex_count + 1
+    uint64_t neighbors;       ///< uint32, neighbor_starts[vertex_count]
+} block_offsets;
+
+struct ovoid_shape {
+    // What the cheap stages read: the first cache lines.
+    double reach;      ///< no vertex is farther than this from `center`, rounding included
+    double radius;     ///< rounding radius
+    ovoid_vec3 center; ///< of the enclosing sphere of radius reach, body frame
+    ovoid_vec3 origin; ///< of the body frame, in the user's local frame
+    double extent;     ///< no vertex is farther than this from the body frame's origin, rounding included
+    uint32_t vertex_count, padded_count;
+    uint32_t rank;
+    uint32_t has_origin; ///< origin is not zero
+    ovoid_ellipsoid outer, inner;
+    // The rest.
+    block_offsets at;
+    uint32_t triangle_count, facet_count;
+    ovoid_fit outer_fit, inner_fit;
+    ovoid_report report;
+    ovoid_measures measures;
+    uint64_t size; ///< of the whole block, bytes
+    ovoid_allocator allocator;
+};
+
+static inline const double *shape_x(const ovoid_shape *s) { return (const double *)((const char *)s + s->at.x); }
+static inline const double *shape_y(const ovoid_shape *s) { return (const double *)((const char *)s + s->at.y); }
+static inline const double *shape_z(const ovoid_shape *s) { return (const double *)((const char *)s + s->at.z); }
+static inline const double *shape_vertices(const ovoid_shape *s) {
+    return (const double *)((const char *)s + s->at.vertices);
+}
+
+#endif

@@ -1,0 +1,22 @@
+// The vector kernel of support queries: the index of the largest dot product.
+#ifndef OVOID_SIMD_SUPPORT_H
+#define OVOID_SIMD_SUPPORT_H
+
+#include <stdint.h>
+
+/// The vertex extreme along a direction.
+typedef struct support_result {
+    double value;   ///< (x dx + y dy) + z dz of that vertex, rounded in this order
+    uint32_t index; ///< lowest index among equal values
+} support_result;
+
+/// Points as structure of arrays, padded_count (a multiple of 8) entries; padding repeats point 0. The same bits from
+/// every instruction set. Cost: padded_count / lanes steps.
+support_result simd_find_support(const double *x, const double *y, const double *z, uint32_t padded_count, double dx,
+                                 double dy, double dz);
+
+/// The scalar twin, always compiled, for tests and machines without vectors.
+support_result simd_find_support_scalar(const double *x, const double *y, const double *z, uint32_t padded_count,
+                                        double dx, double dy, double dz);
+
+#endif

@@ -1,0 +1,84 @@
+// The linear floor against closed forms and identities.
+#include "check.h"
+#include "linear/exact.h"
+#include "linear/mat3.h"
+#include "linear/rotation.h"
+
+// Eigenvalues of Q = R D R' are D to rounding of the largest.
+static void check_eigen(void) {
+    uint64_t s = 1;
+    for (int i = 0; i < 2000; i++) {
+        check_seed = s;
+        ovoid_quat q = {random_normal(&s), random_normal(&s), random_normal(&s), random_normal(&s)};
+        double d[3] = {pow(10, random_uniform(&s, -8, 8)), pow(10, random_uniform(&s, -8, 8)), 0};
+        mat3 r = quat_to_mat3(q);
+        sym3 m = sym3_rotate(sym3_diagonal(d[0], d[1], d[2]), r);
+        eigen3 e = sym3_compute_eigen(m);
+        double top = fmax(d[0], d[1]), bottom = fmin(d[0], d[1]);
+        CHECK_NEAR(e.value[2], top, 1e-14 * top);
+        CHECK_NEAR(e.value[1], bottom, 1e-14 * top);
+        CHECK_NEAR(e.value[0], 0, 1e-14 * top);
+        CHECK_NEAR(vec3_dot(e.v.r0, vec3_cross(e.v.r1, e.v.r2)), 1, 1e-14);
+        sym3 back = sym3_from_eigen(e.value, e.v);
+        CHECK_NEAR(back.xy, m.xy, 1e-14 * top);
+        CHECK_NEAR(back.zz, m.zz, 1e-14 * top);
+    }
+    check_seed = 0;
+}
+
+// Orientation of points that are coplanar but for the last bit; integer coordinates give the truth exactly.
+static void check_orientation(void) {
+    vec3 a = {0, 0, 0}, b = {1, 0, 0}, c = {0, 1, 0};
+    CHECK_EQ(orient3d_sign(a, b, c, vec3_make(0.3, 0.3, -1)), 1);
+    CHECK_EQ(orient3d_sign(a, b, c, vec3_make(0.3, 0.3, 1)), -1);
+    CHECK_EQ(orient3d_sign(a, b, c, vec3_make(0.3, 0.3, 0)), 0);
+    CHECK_EQ(orient3d_sign(a, b, c, vec3_make(1e6, 1e6, 1e-80)), -1);
+    uint64_t s = 7;
+    for (int i = 0; i < 20000; i++) {
+        check_seed = s;
+        int64_t p[4][3];
+        vec3 v[4];
+        for (int k = 0; k < 4; k++) {
+            // Near-coplanar: the last point is a small combination of the others, moved by at most one unit.
+            for (int j = 0; j < 3; j++) p[k][j] = (int64_t)(random_next(&s) % 200001) - 100000;
+            if (k == 3)
+                for (int j = 0; j < 3; j++) p[3][j] = p[0][j] + p[1][j] - p[2][j] + (int64_t)(random_next(&s) % 3) - 1;
+            v[k] = vec3_make((double)p[k][0] * 0x1p-40 + 0x1p10, (double)p[k][1] * 0x1p-40 + 0x1p10,
+                             (double)p[k][2] * 0x1p-40 + 0x1p10);
+        }
+        int64_t m[3][3];
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < 3; j++) m[k][j] = p[k][j] - p[3][j];
+        int64_t det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                      m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+        CHECK_EQ(orient3d_sign(v[0], v[1], v[2], v[3]), (det > 0) - (det < 0));
+    }
+    check_seed = 0;
+}
+
+static void check_rotation(void) {
+    mat3 m = quat_to_mat3((ovoid_quat){1e-300, 0, 0, 1e-300});
+    CHECK_NEAR(m.r0.y, -1, 1e-15);
+    CHECK_NEAR(m.r1.x, 1, 1e-15);
+    m = quat_to_mat3((ovoid_quat){1e300, 1e300, 0, 0});
+    CHECK_NEAR(m.r1.z, -1, 1e-15);
+    m = quat_to_mat3((ovoid_quat){5e-324, 0, 0, 0});
+    CHECK_EQ(m.r0.x, 1);
+}
+
+static void check_double_double(void) {
+    // (1/3) 3 = 1 to 2^-100; 1/3 in double-double.
+    dd third = dd_div(dd_from(1), dd_from(3));
+    dd one = dd_sub(dd_mul(third, dd_from(3)), dd_from(1));
+    CHECK_LE(fabs(one.high), 0x1p-100);
+    CHECK(third.low != 0);
+}
+
+int main(void) {
+    check_eigen();
+    check_orientation();
+    check_rotation();
+    check_double_double();
+    return check_end();
+}
