@@ -1,0 +1,259 @@
+/**
+ * @file io.h
+ * Files: meshes, shapes, scenes, lists, pairs, results and pictures. A second library, libovoid_io, because what it
+ * stands on (jansson, Assimp) is not the core's. docs/formats.md and docs/scene.md describe every format.
+ *
+ * Every function returns a code or NULL and fills *error (which may be NULL); message is "path:line: what is wrong"
+ * and place the line of a text file, the vertex or face of a binary one. Nothing prints, exits or leaks, and no file
+ * makes a reader allocate more than a small multiple of its own size. Memory comes from malloc. Numbers are read and
+ * written with a point whatever the locale. Not for concurrent use of one object; different objects are independent.
+ */
+#ifndef OVOID_IO_H
+#define OVOID_IO_H
+
+#include "ovoid/query.h"
+
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Largest file that is read as a mesh, shape, scene or list, bytes. */
+#define OVOID_FILE_SIZE_MAX ((size_t)1 << 30)
+
+/** Most points, after equal ones are merged, of a mesh file. */
+#define OVOID_MESH_POINTS_MAX 5000000
+
+/* ---- meshes ---- */
+
+/** A mesh as a file holds it: one part or several. Owned by the caller. */
+typedef struct ovoid_mesh ovoid_mesh;
+
+/** One part: a view into the mesh. */
+typedef struct ovoid_mesh_part {
+    const char *name;  /**< the file's name of it; "" where it has none; never NULL */
+    ovoid_faces faces; /**< points and polygons; point clouds have no faces */
+} ovoid_mesh_part;
+
+/** How to read a mesh; all zero is the default, and NULL means that. */
+typedef struct ovoid_read_options {
+    double scale; /**< each coordinate is multiplied by it; > 0; 0 means 1 */
+    int parts;    /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
+} ovoid_read_options;
+
+/** The metres of a unit, "m", "cm", "mm", "in" or "ft"; 0 for any other word. For ovoid_read_options.scale. */
+OVOID_API double ovoid_unit_get_scale(const char *unit);
+
+/**
+ * Reads a mesh: STL (text, binary), OBJ, OFF, PLY (text, binary) by readers of our own; COLLADA (.dae), glTF (.gltf,
+ * .glb), 3DS, X3D, FBX, 3MF through Assimp where it was built in, with the transforms of their nodes applied. What a
+ * file is, is decided by its first bytes where they tell, else by its extension.
+ * One part: every point of the file. Several: the points that the object's faces use; of an object without faces those
+ * that it declares; objects without points are left out. STL's equal points are merged, nothing else.
+ * Errors: FILE, FORMAT, EMPTY (no points), NOT_FINITE, RANGE, INDEX, LIMIT, ARGUMENT (scale), MEMORY.
+ */
+OVOID_API ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options, ovoid_error *error);
+OVOID_API void ovoid_mesh_destroy(ovoid_mesh *mesh);
+/** Number of parts, at least 1. */
+OVOID_API size_t ovoid_mesh_get_part_count(const ovoid_mesh *mesh);
+/** Part i < part count. */
+OVOID_API ovoid_mesh_part ovoid_mesh_get_part(const ovoid_mesh *mesh, size_t i);
+
+/** 1 where ovoid_mesh_read can use Assimp. */
+OVOID_API int ovoid_io_has_assimp(void);
+
+/* ---- shapes ---- */
+
+/** 1 if the path is that of a shape file: it ends in ".ovoid". */
+OVOID_API int ovoid_path_is_shape(const char *path);
+
+/**
+ * A shape from a file: a `.ovoid` file, checked byte by byte, or the hull of a mesh file. A `.ovoid` file is what it
+ * is: a scale other than 1 or a radius is refused (ARGUMENT). options->parts is not looked at. The caller destroys it.
+ */
+OVOID_API ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read,
+                                             const ovoid_shape_options *options, ovoid_error *error);
+
+/** Writes a `.ovoid` file through an ovoid_output: all of it, or the path is as it was. */
+OVOID_API ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ovoid_error *error);
+
+/** Shapes with names. Owned by the caller. */
+typedef struct ovoid_shapes ovoid_shapes;
+
+/** One of them: a view. */
+typedef struct ovoid_named_shape {
+    const char *name; /**< of the part, or "part 3" where it has none (counted from 0); of a whole file: its path */
+    const ovoid_shape *shape;
+} ovoid_named_shape;
+
+/** The shapes of one file: one, or with read->parts one for each part. */
+OVOID_API ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_read_options *read,
+                                               const ovoid_shape_options *options, ovoid_error *error);
+
+/**
+ * The shapes of a LIST: a text file with one path a line, relative to the list's folder. Empty lines and lines that
+ * begin with '#' are skipped and not counted. A path that comes twice is read once. read->parts is not looked at.
+ */
+OVOID_API ovoid_shapes *ovoid_shapes_read_list(const char *path, const ovoid_read_options *read,
+                                               const ovoid_shape_options *options, ovoid_error *error);
+
+OVOID_API void ovoid_shapes_destroy(ovoid_shapes *shapes);
+OVOID_API size_t ovoid_shapes_get_count(const ovoid_shapes *shapes);
+OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i);
+
+/* ---- scenes ---- */
+
+/**
+ * A scene: {"objects": [...], "ignore": [["a", "b"], ...]}. Each object has a "name" and exactly one of these, along z
+ * and around the origin:
+ *
+ *     "mesh": path, relative to the scene file
+ *     "box": [x, y, z], full sizes
+ *     "sphere": radius
+ *     "capsule": {"radius", "length"}, the length of its segment
+ *     "cylinder" or "cone": {"radius", "length", "sides"}, 32 sides by default
+ *     "points": [[x, y, z], ...]
+ *
+ * Optional: "pose": {"xyz", and "quat_wxyz" or "rpy"}; "radius", a rounding radius around the body; for meshes and
+ * points "scale" and "unit". Anything else is refused: unknown keys, unknown names in "ignore", two objects of one
+ * name, wrong types, a zero quaternion. docs/scene.md has examples.
+ */
+typedef struct ovoid_scene ovoid_scene;
+
+/** One object: a view. */
+typedef struct ovoid_scene_object {
+    const char *name;
+    const ovoid_shape *shape; /**< objects of the same mesh file, scale and radius share it */
+    ovoid_pose pose;
+} ovoid_scene_object;
+
+/** Reads a scene and the meshes it names. options: of all shapes; their radius must be 0. The caller destroys it. */
+OVOID_API ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error);
+OVOID_API void ovoid_scene_destroy(ovoid_scene *scene);
+OVOID_API size_t ovoid_scene_get_count(const ovoid_scene *scene);
+OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i);
+/** The object of that name, or (size_t)-1. */
+OVOID_API size_t ovoid_scene_find(const ovoid_scene *scene, const char *name);
+/** 1 if "ignore" names the pair, in either order. */
+OVOID_API int ovoid_scene_is_ignored(const ovoid_scene *scene, size_t a, size_t b);
+
+/* ---- pairs ---- */
+
+/**
+ * A PAIRS.csv read line by line. Header: a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz. Errors: FORMAT,
+ * INDEX (no such shape), NOT_FINITE, RANGE, ROTATION; place is the line.
+ */
+typedef struct ovoid_pairs_reader ovoid_pairs_reader;
+
+/** One line. */
+typedef struct ovoid_indexed_pair {
+    size_t a, b; /**< 0-based shapes of the list */
+    ovoid_pose pose_a, pose_b;
+} ovoid_indexed_pair;
+
+/** Opens the file ("-": standard input) and reads the header. shape_count: a and b must be below it. */
+OVOID_API ovoid_pairs_reader *ovoid_pairs_reader_create(const char *path, size_t shape_count, ovoid_error *error);
+/** The next pair. 1: *pair is filled; 0: the end; -1: *error is filled. */
+OVOID_API int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_pair *pair, ovoid_error *error);
+OVOID_API void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader);
+
+/* ---- results ---- */
+
+/** The answer for one pair of bodies, as results files hold it. */
+typedef struct ovoid_record {
+    const char *a, *b;        /**< names; NULL: the indices are meant */
+    size_t index_a, index_b;  /**< of a batch; not looked at where there are names */
+    ovoid_answer answer;      /**< limit survives a file only where the status is undecided */
+    const ovoid_cover *cover; /**< of ovoid_depth; NULL where there is none */
+} ovoid_record;
+
+/**
+ * One line of JSON with the keys a, b, status, lower, upper, point_a, point_b, normal, stage, iterations, proof, in
+ * this order; numbers with 17 digits; infinity and NaN are null; "undecided" is followed by its limit, as in
+ * "undecided: iterations". FILE where the stream failed.
+ */
+OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
+
+/** The same columns as CSV: vectors are three columns, the proof is one field of JSON. */
+OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file);
+OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record);
+
+/** A table for people, in the order given. margin: pairs proven within it are marked; negative: none is. */
+OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, double margin);
+
+/** A results file of JSON lines, read strictly: the keys above, each once, no other. */
+typedef struct ovoid_results_reader ovoid_results_reader;
+
+/** Opens the file; "-" is standard input. */
+OVOID_API ovoid_results_reader *ovoid_results_reader_create(const char *path, ovoid_error *error);
+/** The next record, valid until the next call. 1: *record is filled; 0: the end; -1: *error is filled. */
+OVOID_API int ovoid_results_reader_read(ovoid_results_reader *reader, ovoid_record *record, ovoid_error *error);
+/** The 1-based line of the last record. */
+OVOID_API int64_t ovoid_results_reader_get_line(const ovoid_results_reader *reader);
+OVOID_API void ovoid_results_reader_destroy(ovoid_results_reader *reader);
+
+/* ---- output files ---- */
+
+/** A file that appears whole or not at all: written under another name in the same folder, then renamed. */
+typedef struct ovoid_output ovoid_output;
+
+/** Starts one. A path that exists and is no regular file (a device, a pipe) is written to directly; "-": stdout. */
+OVOID_API ovoid_output *ovoid_output_create(const char *path, ovoid_error *error);
+/** Where to write; not to be closed. */
+OVOID_API FILE *ovoid_output_get_file(ovoid_output *output);
+/** Flushes and puts the file in its place; FILE if anything was not written (a full disk), the path is as it was. */
+OVOID_API ovoid_code ovoid_output_commit(ovoid_output *output, ovoid_error *error);
+/** Frees it; what was not committed is removed. NULL is allowed. */
+OVOID_API void ovoid_output_destroy(ovoid_output *output);
+
+/* ---- pictures ---- */
+
+/** What is drawn. */
+typedef enum ovoid_picture_layer {
+    OVOID_PICTURE_OUTER = 1,   /**< outer ellipsoids: outlines and a few lines on them */
+    OVOID_PICTURE_INNER = 2,   /**< inner ellipsoids */
+    OVOID_PICTURE_AREAS = 4,   /**< the 8 areas: faces cut along the inner ellipsoid's octants and tinted by them */
+    OVOID_PICTURE_WITNESS = 8, /**< witness points, the line between them and its length */
+    OVOID_PICTURE_NAMES = 16,  /**< names at the bodies */
+    OVOID_PICTURE_LEGEND = 32  /**< legend and scale bar */
+} ovoid_picture_layer;
+
+/** A body of a picture. */
+typedef struct ovoid_picture_body {
+    const char *name; /**< may be NULL */
+    const ovoid_shape *shape;
+    ovoid_pose pose;
+} ovoid_picture_body;
+
+/** A pair of a picture: its witness points are drawn. */
+typedef struct ovoid_picture_link {
+    size_t a, b;
+    const ovoid_answer *answer;
+} ovoid_picture_link;
+
+/** A picture. */
+typedef struct ovoid_picture {
+    const ovoid_picture_body *bodies;
+    size_t body_count;
+    const ovoid_picture_link *links;
+    size_t link_count;
+    const char *title; /**< may be NULL */
+    const char *unit;  /**< of the lengths written, for example "m"; may be NULL */
+} ovoid_picture;
+
+/** How to draw; all zero is the default, and NULL means that. */
+typedef struct ovoid_picture_options {
+    uint32_t width, height; /**< pixels; 0 means 1200 and 800 */
+    ovoid_vec3 view;        /**< from the scene to the eye; zero means three quarters from above: (1, -1.6, 0.9) */
+    uint32_t layers;        /**< ovoid_picture_layer bits; 0 means all but the areas */
+} ovoid_picture_options;
+
+/** Writes an SVG picture through an ovoid_output. At most 1 000 000 triangles in all (LIMIT). */
+OVOID_API ovoid_code ovoid_picture_write_svg(const char *path, const ovoid_picture *picture,
+                                             const ovoid_picture_options *options, ovoid_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
