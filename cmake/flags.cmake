@@ -1,0 +1,23 @@
+# The language and the flags that every target of this project is compiled with.
+set(CMAKE_C_STANDARD 17)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_C_EXTENSIONS OFF)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+# Contraction off: a fused multiply-add would give other bits on other machines and break the error bounds.
+add_library(ovoid_flags INTERFACE)
+target_compile_options(ovoid_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
+  $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes;-Wmissing-prototypes> $<$<BOOL:${OVOID_WERROR}>:-Werror>)
+
+if(OVOID_SANITIZE)
+  add_compile_options(-fsanitize=${OVOID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${OVOID_SANITIZE})
+else()
+  # A library that lacks a symbol fails here, not at its user's. (Sanitized ones find their runtime in the program.)
+  add_link_options($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,SHARED_LIBRARY>:-Wl,-z,defs>)
+endif()
