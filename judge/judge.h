@@ -1,0 +1,41 @@
+// The judge: decides in exact arithmetic (GMP) whether an answer's proof shows what the answer claims. It includes only
+// <ovoid/*.h> and gmp.h, shares no code with the library and never searches: an answer whose proof does not suffice is
+// rejected, even where the answer is true. A body is taken as the hull of the polytope's vertices plus the radius, its
+// pose as the rational map position + R(q) x / |q|^2. docs/proofs.md has the theorems. GMP aborts when memory is out.
+#ifndef OVOID_JUDGE_H
+#define OVOID_JUDGE_H
+
+#include "ovoid/query.h"
+
+/// Working numbers, and what was proven of each shape's inner ellipsoid (by address: a shape that was seen must live as
+/// long as the judge, or judge_forget must be called before it is destroyed). One thread at a time.
+typedef struct judge judge;
+
+/// NULL where memory is out. The caller destroys it.
+judge *judge_create(void);
+void judge_destroy(judge *context);
+
+/// Forgets all shapes.
+void judge_forget(judge *context);
+
+/// OVOID_OK if everything the answer claims is proven: lower by proof.normal, upper by proof.kind, the status, the unit
+/// normal, and that the witness points lie on their bodies to rounding. Else OVOID_ERROR_PROOF (or INDEX, NOT_FINITE)
+/// with a sentence in *error (may be NULL). cover: that of ovoid_depth, or NULL.
+ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
+                              const ovoid_cover *cover, ovoid_error *error);
+
+/// For answers of ovoid_distance that are apart and of ovoid_depth: that point_b - point_a = d normal, as near as the
+/// bracket lets it be. OVOID_OK or OVOID_ERROR_PROOF.
+ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error);
+
+/// The truth about a pair of few vertices, by brute force over all features, independent of any proof.
+typedef struct judge_truth {
+    int core_sign;    ///< exact sign of the signed distance of the two hulls, without their radii
+    int sign;         ///< exact sign of the signed distance, radii included
+    double low, high; ///< low <= d <= high, neighbouring doubles or nearly so
+} judge_truth;
+
+/// Cost: about (vertices of A + vertices of B)^4; meant for at most 12 vertices each. OVOID_ERROR_LIMIT above 32.
+ovoid_code judge_compute_truth(judge *context, const ovoid_pair *pair, judge_truth *truth, ovoid_error *error);
+
+#endif
