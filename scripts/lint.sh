@@ -1,0 +1,28 @@
+#!/bin/sh
+# lint.sh [STEP...]: floors, format, shell, tidy; all of them where none is named. format-in-place rewrites the sources.
+# Says what is wrong; exit 1 where anything is.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+
+sources() { find src include cli judge bench examples fuzz tests -name '*.[ch]' -print; }
+
+run_step() {
+    case $1 in
+    floors) scripts/check-floors ;;
+    format) sources | xargs clang-format --dry-run -Werror ;;
+    format-in-place) sources | xargs clang-format -i ;;
+    shell) find scripts tests cli -name '*.sh' -exec shellcheck scripts/check-floors .ci/run {} + ;;
+    tidy)
+        # The compile commands of the clang build; tests are left to the compilers' own warnings.
+        cmake --preset check >/dev/null &&
+            sources | grep '\.c$' | grep -v '^tests/' |
+            xargs -n 4 -P "${JOBS:-2}" clang-tidy --quiet --warnings-as-errors='*' -p build/check 2>/dev/null
+        ;;
+    *) echo "lint: no such step: $1" >&2 && return 2 ;;
+    esac
+}
+
+[ $# -gt 0 ] || set -- floors format shell tidy
+bad=0
+for step in "$@"; do run_step "$step" || bad=1; done
+exit $bad

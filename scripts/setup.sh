@@ -1,0 +1,48 @@
+#!/bin/sh
+# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, demo, bench or docs.
+# Nothing missing: nothing is called. Nowhere to install from or no right to: a sentence that names the packages.
+set -eu
+
+# The packages that each job needs.
+packages_of() {
+    for job in "$@"; do
+        case $job in
+        build) echo build-essential cmake pkgconf libqhull-dev libjansson-dev libassimp-dev libgmp-dev ;;
+        check) packages_of build && echo clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc ;;
+        demo) packages_of build && echo libcgal-demo ;;
+        bench) packages_of build && echo libccd-dev ;;
+        docs) echo cmake build-essential doxygen ;;
+        *) echo "setup: no such job: $job" >&2 && return 1 ;;
+        esac
+    done | tr ' ' '\n' | sort -u | tr '\n' ' '
+}
+
+if ! command -v dpkg-query >/dev/null; then
+    echo "setup: this is not Debian; make sure that these packages' like are here: $(packages_of "$@")" >&2
+    exit 0
+fi
+
+missing=
+for package in $(packages_of "$@"); do
+    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) || status=absent
+    if [ "$status" != installed ]; then missing="$missing $package"; fi
+done
+if [ -z "$missing" ]; then exit 0; fi
+
+say_and_stop() {
+    echo "setup: $1. Please install:$missing" >&2
+    exit 1
+}
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || say_and_stop "not root, and there is no sudo"
+    as_root=sudo
+fi
+command -v apt-get >/dev/null || say_and_stop "there is no apt-get"
+
+echo "setup: installing$missing" >&2
+# The lists of a fresh machine may be empty or old; where they cannot be had, what is there may do.
+$as_root apt-get -qq update >&2 || echo "setup: could not refresh the package lists" >&2
+# shellcheck disable=SC2086 # a list of package names
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $missing >&2 ||
+    say_and_stop "apt-get could not install them"
