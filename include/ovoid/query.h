@@ -34,7 +34,6 @@ typedef enum ovoid_stage {
     OVOID_STAGE_OUTER,   /**< outer ellipsoids */
     OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction */
     OVOID_STAGE_INNER,   /**< inner ellipsoids */
-    OVOID_STAGE_EXIT,    /**< exits of the rays from the inner centres */
     OVOID_STAGE_GJK,     /**< exact: Gilbert, Johnson, Keerthi 1988 */
     OVOID_STAGE_EPA      /**< exact: expanding polytope, van den Bergen 2001 */
 } ovoid_stage;
@@ -56,11 +55,17 @@ typedef enum ovoid_limit {
 typedef enum ovoid_proof_kind {
     OVOID_PROOF_NONE = 0, /**< no upper bound: upper is infinity */
     OVOID_PROOF_POINTS,   /**< a point of A and a point of B, convex combinations of vertices: d <= their distance */
-    OVOID_PROOF_HULL,     /**< the origin is strictly inside the hull of four differences b[i] - a[i]: d < 0 */
+    OVOID_PROOF_HULL,     /**< the origin is strictly inside a surface of 4 to 6 differences b[i] - a[i]: d < 0 */
     OVOID_PROOF_INNER,    /**< a point strictly inside both inner ellipsoids: d < 0 */
     OVOID_PROOF_INNER_POINTS, /**< a point of each inner ellipsoid: d <= their distance */
     OVOID_PROOF_COVER         /**< a closed surface of differences around the origin (ovoid_cover): depth */
 } ovoid_proof_kind;
+
+/**
+ * Most pairs of vertices in a proof. A point inside a hull is strictly inside the hull of at most six of its points (E.
+ * Steinitz, Bedingt konvergente Reihen und konvexe Systeme, 1913), and the centre of an octahedron needs all six.
+ */
+#define OVOID_PROOF_PAIRS 6
 
 /**
  * A proof: plain data that ovoid_proof_check, or anyone with exact arithmetic, can check, and the warm start of the
@@ -68,14 +73,17 @@ typedef enum ovoid_proof_kind {
  *
  * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal is that n (nearly unit:
  * divide by its norm). Zero where there is no lower bound.
- * Upper bound: as `kind` says. POINTS: sum weight_a[i] x(a[i]) / sum weight_a is the point of A, likewise of B.
+ * Upper bound: as `kind` says. POINTS: sum weight_a[i] x(a[i]) / sum weight_a is the point of A, likewise of B. HULL:
+ * four differences are the corners of a tetrahedron; of five or six, 0 and 1 are the tips of a double pyramid over the
+ * closed ring 2, 3, ..., with triangles (0, r, next r) and (1, next r, r); upper is minus the origin's distance to that
+ * surface, minus the radii; the weights give a common point of the bodies.
  */
 typedef struct ovoid_proof {
     ovoid_vec3 normal; /**< world frame, from A to B */
     ovoid_proof_kind kind;
     uint32_t count; /**< entries used of the arrays, 0 to 4 */
-    uint32_t a[4], b[4];
-    double weight_a[4], weight_b[4]; /**< >= 0, not all zero */
+    uint32_t a[OVOID_PROOF_PAIRS], b[OVOID_PROOF_PAIRS];
+    double weight_a[OVOID_PROOF_PAIRS], weight_b[OVOID_PROOF_PAIRS]; /**< >= 0, not all zero */
     ovoid_vec3 inner_a;              /**< INNER: the common point; INNER_POINTS: the point of A; body frame of A */
     ovoid_vec3 inner_b;              /**< INNER_POINTS: the point of B, body frame of B */
 } ovoid_proof;

@@ -1,0 +1,167 @@
+// The pipeline and its answer.
+#include "query/answer.h"
+
+#include "base/error.h"
+#include "query/epa.h"
+#include "query/gjk.h"
+#include "query/stages.h"
+
+// --- answers
+// ----------------------------------------------------------------------------------------------------------
+
+int proof_is_sound(const pair_frame *f, const ovoid_proof *p) {
+    if (!vec3_is_finite(p->normal) || p->count > OVOID_PROOF_PAIRS) return 0;
+    double sum_a = 0, sum_b = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        if (p->a[i] >= f->a->vertex_count || p->b[i] >= f->b->vertex_count) return 0;
+        if (!(p->weight_a[i] >= 0) || !(p->weight_b[i] >= 0)) return 0;
+        sum_a += p->weight_a[i];
+        sum_b += p->weight_b[i];
+    }
+    return p->count == 0 || (sum_a > 0 && sum_b > 0 && isfinite(sum_a) && isfinite(sum_b));
+}
+
+// The weighted points of both bodies.
+static witness_points weighted(const pair_frame *f, const ovoid_proof *p) {
+    witness_points w = {{0, 0, 0}, {0, 0, 0}};
+    double sum_a = 0, sum_b = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        w.a = vec3_add_scaled(w.a, frame_vertex_a(f, p->a[i]), p->weight_a[i]);
+        w.b = vec3_add_scaled(w.b, frame_vertex_b(f, p->b[i]), p->weight_b[i]);
+        sum_a += p->weight_a[i];
+        sum_b += p->weight_b[i];
+    }
+    return (witness_points){vec3_scale(w.a, 1 / sum_a), vec3_scale(w.b, 1 / sum_b)};
+}
+
+witness_points witness_compute_points(const pair_frame *f, const ovoid_proof *p) {
+    vec3 n = vec3_unit(frame_direction_from_world(f, p->normal));
+    witness_points w;
+    switch (p->kind) {
+    case OVOID_PROOF_POINTS: {
+        // The radii go along the difference; along the normal where the cores touch or cross.
+        w = weighted(f, p);
+        vec3 d = vec3_sub(w.b, w.a);
+        if (vec3_norm(d) > 4 * f->claim) n = vec3_unit(d);
+        break;
+    }
+    case OVOID_PROOF_INNER_POINTS:
+        w = (witness_points){p->inner_a, frame_b(f, p->inner_b)};
+        n = vec3_unit(vec3_sub(w.b, w.a));
+        break;
+    case OVOID_PROOF_COVER: w = weighted(f, p); break;
+    case OVOID_PROOF_HULL: return weighted(f, p);
+    default: return (witness_points){p->inner_a, p->inner_a};
+    }
+    w.a = vec3_add_scaled(w.a, n, f->a->radius);
+    w.b = vec3_add_scaled(w.b, n, -f->b->radius);
+    return w;
+}
+
+ovoid_answer answer_make_refused(ovoid_limit limit) {
+    return (ovoid_answer){.limit = limit, .lower = -INFINITY, .upper = INFINITY};
+}
+
+// The part of the proof behind the upper bound.
+static void set_upper_proof(ovoid_proof *p, const search *s) {
+    p->kind = s->kind;
+    p->inner_a = s->inner_a;
+    p->inner_b = s->inner_b;
+    if (s->kind == OVOID_PROOF_INNER || s->kind == OVOID_PROOF_INNER_POINTS) return;
+    p->count = (uint32_t)s->witness.count;
+    for (int i = 0; i < s->witness.count; i++) {
+        p->a[i] = s->witness.p[i].a;
+        p->b[i] = s->witness.p[i].b;
+        p->weight_a[i] = p->weight_b[i] = s->witness.weight[i];
+    }
+}
+
+static ovoid_status find_status(const search *s) {
+    if (s->lower > 0) return OVOID_SEPARATED;
+    if (s->upper < 0) return OVOID_OVERLAPPING;
+    return s->upper - s->lower <= s->ask.tolerance ? OVOID_TOUCHING : OVOID_UNDECIDED;
+}
+
+// Why the bracket is wider than the tolerance, if it is.
+static ovoid_limit find_limit(const search *s, ovoid_status status) {
+    if (s->upper - s->lower <= s->ask.tolerance) return OVOID_LIMIT_NONE;
+    if (s->limit != OVOID_LIMIT_NONE) return s->limit;
+    if (status == OVOID_UNDECIDED) return OVOID_LIMIT_PRECISION;
+    return s->ask.wants_bracket && s->lower > s->ask.far ? OVOID_LIMIT_CAP : OVOID_LIMIT_ANSWERED;
+}
+
+ovoid_answer answer_make(search *s) {
+    const pair_frame *f = s->frame;
+    // A stage that proved one side only: any direction and any vertex pair bound the other.
+    if (s->lower == -INFINITY) (void)search_probe(s, (vec3){1, 0, 0});
+    if (s->upper == INFINITY) {
+        simplex any = {.p = {{frame_difference(f, 0, 0), 0, 0}}, .weight = {1}, .count = 1};
+        search_take_points(s, &any);
+    }
+    ovoid_answer out = {.status = find_status(s), .stage = s->stage, .iterations = s->iterations};
+    out.limit = find_limit(s, out.status);
+    out.lower = s->lower;
+    out.upper = s->upper;
+    out.normal = out.proof.normal = frame_direction_to_world(f, s->normal);
+    set_upper_proof(&out.proof, s);
+    witness_points w = witness_compute_points(f, &out.proof);
+    out.point_a = frame_point_to_world(f, w.a);
+    out.point_b = frame_point_to_world(f, w.b);
+    return out;
+}
+
+// --- the pipeline
+// -----------------------------------------------------------------------------------------------------
+
+int options_make(const ovoid_options *given, ovoid_options *options) {
+    *options = given ? *given : (ovoid_options){0, 0, 0, 0};
+    if (!(options->absolute_tolerance >= 0) || !(options->relative_tolerance >= 0)) return 0;
+    if (isnan(options->cap) || options->cap < 0) return 0;
+    if (options->relative_tolerance == 0) options->relative_tolerance = 1e-9;
+    if (options->cap == 0) options->cap = INFINITY;
+    if (options->iterations == 0) options->iterations = 1000;
+    return 1;
+}
+
+// The stages before the search; the simplex to start from.
+static void run_stages(search *s, const ovoid_proof *earlier, simplex *start) {
+    stage_proof(s, earlier, start);
+    if (search_is_done(s)) return;
+    stage_sphere(s);
+    if (search_is_done(s) || start->count) return;
+    vec3 n;
+    stage_outer(s, &n);
+    if (search_is_done(s)) return;
+    stage_support(s, n, start);
+    if (search_is_done(s) || s->lower + s->frame->radii > 0 || s->ask.wants_depth) return;
+    stage_inner(s);
+}
+
+// GJK, and EPA where the cores touch or overlap and GJK cannot say more.
+static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
+    gjk_end end = gjk_run(s, start);
+    if (end == GJK_ANSWERED) return;
+    if (end == GJK_ITERATIONS) s->limit = OVOID_LIMIT_ITERATIONS;
+    int cores_apart = s->lower + s->frame->radii > 0;
+    if (cores_apart || end == GJK_ITERATIONS) return;
+    epa_run(s, start, cover);
+}
+
+ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
+                         ovoid_cover *cover) {
+    OVOID_ASSERT(pair && pair->shape_a && pair->shape_b);
+    ovoid_options options;
+    pair_frame frame;
+    if (cover) cover->point_count = cover->triangle_count = 0;
+    if (!options_make(given, &options) || isnan(ask.far) || ask.far < 0)
+        return answer_make_refused(OVOID_LIMIT_OPTIONS);
+    ovoid_limit refused = frame_make(pair, &frame);
+    if (refused != OVOID_LIMIT_NONE) return answer_make_refused(refused);
+    ask.tolerance = fmax(options.absolute_tolerance, options.relative_tolerance * frame.size);
+    ask.iterations = options.iterations;
+    search s = search_make(&frame, ask);
+    simplex start;
+    run_stages(&s, earlier, &start);
+    if (!search_is_done(&s)) run_exact(&s, &start, cover);
+    return answer_make(&s);
+}

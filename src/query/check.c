@@ -1,0 +1,112 @@
+// Checking an answer without a search: each bound is measured again from the proof, and must hold with room for the
+// rounding of this measurement. What passes here holds in exact arithmetic.
+#include "base/error.h"
+#include "query/answer.h"
+#include "query/cover.h"
+#include "query/hull.h"
+
+static ovoid_code refuse(ovoid_error *error, const char *what, double claimed, double found) {
+    return error_set(error, OVOID_ERROR_PROOF, -1, "%s: claimed %.17g, the proof shows %.17g", what, claimed, found);
+}
+
+static ovoid_code check_lower(const pair_frame *f, const ovoid_answer *x, ovoid_error *error) {
+    if (x->lower == -INFINITY) return OVOID_OK;
+    vec3 n = vec3_unit(frame_direction_from_world(f, x->proof.normal));
+    if (!(vec3_norm_squared(n) > 0)) return refuse(error, "lower bound without a normal", x->lower, 0);
+    double found = frame_find_support(f, n).gap - f->radii - f->check;
+    return found >= x->lower ? OVOID_OK : refuse(error, "lower bound", x->lower, found);
+}
+
+// The weighted points of both bodies, for POINTS.
+static double measure_points(const pair_frame *f, const ovoid_proof *p) {
+    vec3 a = {0, 0, 0}, b = {0, 0, 0};
+    double sum_a = 0, sum_b = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        a = vec3_add_scaled(a, frame_vertex_a(f, p->a[i]), p->weight_a[i]);
+        b = vec3_add_scaled(b, frame_vertex_b(f, p->b[i]), p->weight_b[i]);
+        sum_a += p->weight_a[i];
+        sum_b += p->weight_b[i];
+    }
+    return vec3_norm(vec3_sub(vec3_scale(b, 1 / sum_b), vec3_scale(a, 1 / sum_a))) - f->radii + f->check;
+}
+
+static double measure_hull(const pair_frame *f, const ovoid_proof *p) {
+    vec3 w[OVOID_PROOF_PAIRS];
+    for (uint32_t i = 0; i < p->count; i++) w[i] = proof_difference(f, p, i).w;
+    double depth = hull_compute_depth(w, (int)p->count, f->check);
+    return depth > 0 ? -depth - f->radii : INFINITY;
+}
+
+static double measure_cover(const pair_frame *f, const ovoid_cover *cover) {
+    vec3 w[OVOID_COVER_POINTS];
+    if (!cover || cover->point_count > OVOID_COVER_POINTS || cover->triangle_count > 2 * OVOID_COVER_POINTS)
+        return INFINITY;
+    for (uint32_t i = 0; i < cover->point_count; i++) {
+        if (cover->a[i] >= f->a->vertex_count || cover->b[i] >= f->b->vertex_count) return INFINITY;
+        w[i] = frame_difference(f, cover->a[i], cover->b[i]);
+    }
+    surface all = {w, (const uint16_t(*)[3])cover->triangles, cover->point_count, cover->triangle_count};
+    double depth = surface_is_closed(&all) ? surface_compute_depth(&all, f->check) : 0;
+    return depth > 0 ? -depth - f->radii : INFINITY;
+}
+
+static ovoid_code check_upper(const pair_frame *f, const ovoid_answer *x, const ovoid_cover *cover,
+                              ovoid_error *error) {
+    const ovoid_proof *p = &x->proof;
+    double found = INFINITY;
+    switch (p->kind) {
+    case OVOID_PROOF_NONE: break;
+    case OVOID_PROOF_POINTS: found = p->count ? measure_points(f, p) : INFINITY; break;
+    case OVOID_PROOF_HULL: found = measure_hull(f, p); break;
+    case OVOID_PROOF_INNER: {
+        double upper = inner_compute_upper(f, p->inner_a);
+        if (upper < 0) found = upper;
+        break;
+    }
+    case OVOID_PROOF_INNER_POINTS: found = inner_points_compute_upper(f, p->inner_a, p->inner_b, f->check); break;
+    case OVOID_PROOF_COVER: found = measure_cover(f, cover); break;
+    }
+    if (p->kind == OVOID_PROOF_COVER && !cover) return refuse(error, "a depth without its cover", x->upper, found);
+    return found <= x->upper ? OVOID_OK : refuse(error, "upper bound", x->upper, found);
+}
+
+// The points and the normal are those of the proof.
+static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, ovoid_error *error) {
+    vec3 turn = vec3_sub(x->normal, x->proof.normal);
+    if (!(vec3_max_abs(turn) <= 0)) return refuse(error, "normal is not the proof's", vec3_norm(x->normal), 1);
+    if (!(fabs(vec3_norm(x->normal) - 1) <= 1e-12))
+        return refuse(error, "length of the normal", vec3_norm(x->normal), 1);
+    witness_points w = witness_compute_points(f, &x->proof);
+    double slack = f->claim + 0x1p-50 * (vec3_max_abs(x->point_a) + vec3_max_abs(x->point_b));
+    double off = fmax(vec3_norm(vec3_sub(frame_point_to_world(f, w.a), x->point_a)),
+                      vec3_norm(vec3_sub(frame_point_to_world(f, w.b), x->point_b)));
+    return off <= slack ? OVOID_OK : refuse(error, "witness points are not the proof's, off by", off, slack);
+}
+
+static ovoid_code check_status(const ovoid_answer *x, ovoid_error *error) {
+    int ok = 0;
+    switch (x->status) {
+    case OVOID_UNDECIDED: ok = 1; break;
+    case OVOID_SEPARATED: ok = x->lower > 0; break;
+    case OVOID_TOUCHING: ok = x->lower <= 0 && x->upper >= 0; break;
+    case OVOID_OVERLAPPING: ok = x->upper < 0; break;
+    }
+    if (ok && x->lower <= x->upper) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from the bracket [%.17g, %.17g]",
+                     ovoid_status_get_name(x->status), x->lower, x->upper);
+}
+
+ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
+                              ovoid_error *error) {
+    OVOID_ASSERT(pair && pair->shape_a && pair->shape_b && x);
+    pair_frame f;
+    if (frame_make(pair, &f) != OVOID_LIMIT_NONE)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "the poses are not valid, so nothing can be proven");
+    ovoid_code code = check_status(x, error);
+    if (code != OVOID_OK) return code;
+    if (!proof_is_sound(&f, &x->proof))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
+    code = check_lower(&f, x, error);
+    if (code == OVOID_OK) code = check_upper(&f, x, cover, error);
+    return code == OVOID_OK ? check_witness(&f, x, error) : code;
+}

@@ -1,0 +1,7 @@
+// Do the bodies touch? The sign of d, and nothing more.
+#include "query/answer.h"
+
+ovoid_answer ovoid_collide(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
+    question ask = {.far = 0, .near = -INFINITY};
+    return answer_find(pair, options, ask, earlier, NULL);
+}

@@ -1,0 +1,21 @@
+// A closed surface of differences around the origin: the proof of a depth from below.
+#ifndef OVOID_QUERY_COVER_H
+#define OVOID_QUERY_COVER_H
+
+#include "linear/vec3.h"
+
+/// A surface over points, at most 65535 of them.
+typedef struct surface {
+    const vec3 *points;
+    const uint16_t (*triangles)[3];
+    uint32_t point_count, triangle_count;
+} surface;
+
+/// A radius r > 0 such that no point of the surface is nearer to the origin than r and the surface winds around it,
+/// when each coordinate may be off by `error`; 0 if that is not proven. The surface must be closed.
+double surface_compute_depth(const surface *s, double error);
+
+/// 1 if each directed edge is met exactly once and its reverse exactly once, and all indices are in range.
+int surface_is_closed(const surface *s);
+
+#endif

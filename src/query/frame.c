@@ -1,0 +1,71 @@
+// Making the frame of a pair, and supports in it.
+#include "query/frame.h"
+
+#include "linear/exact.h"
+#include "linear/rotation.h"
+#include "simd/support.h"
+
+typedef struct dd3 {
+    dd x, y, z;
+} dd3;
+
+// R(q)/|q|^2 v in double-double: v + 2 (w (p x v) + p x (p x v)) / |q|^2 with q = (w, p).
+static dd3 rotate_exactly(ovoid_quat q, vec3 v) {
+    q = quat_scaled(q);
+    dd w = dd_from(q.w), p[3] = {dd_from(q.x), dd_from(q.y), dd_from(q.z)};
+    dd x[3] = {dd_from(v.x), dd_from(v.y), dd_from(v.z)}, c[3], e[3], out[3];
+    dd norm = dd_add(dd_add(dd_mul(w, w), dd_mul(p[0], p[0])), dd_add(dd_mul(p[1], p[1]), dd_mul(p[2], p[2])));
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        c[i] = dd_sub(dd_mul(p[j], x[k]), dd_mul(p[k], x[j]));
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        e[i] = dd_add(dd_mul(w, c[i]), dd_sub(dd_mul(p[j], c[k]), dd_mul(p[k], c[j])));
+    }
+    for (int i = 0; i < 3; i++) out[i] = dd_add(x[i], dd_mul(dd_from(2), dd_div(e[i], norm)));
+    return (dd3){out[0], out[1], out[2]};
+}
+
+// Where a body frame's origin is in the world, in double-double.
+static dd3 place(const ovoid_shape *shape, const ovoid_pose *pose) {
+    vec3 p = pose->position;
+    if (!shape->has_origin) return (dd3){dd_from(p.x), dd_from(p.y), dd_from(p.z)};
+    dd3 o = rotate_exactly(pose->rotation, shape->origin);
+    return (dd3){dd_add(o.x, dd_from(p.x)), dd_add(o.y, dd_from(p.y)), dd_add(o.z, dd_from(p.z))};
+}
+
+static vec3 rounded(dd3 v) { return (vec3){v.x.high, v.y.high, v.z.high}; }
+
+ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
+    if (ovoid_pose_compute_check(&pair->pose_a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+    if (ovoid_pose_compute_check(&pair->pose_b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+    f->a = pair->shape_a;
+    f->b = pair->shape_b;
+    f->world = quat_to_mat3(pair->pose_a.rotation);
+    f->rotation = mat3_mul_transposed(f->world, quat_to_mat3(pair->pose_b.rotation));
+    // The difference of the origins is formed before anything is rounded to one double.
+    dd3 a = place(f->a, &pair->pose_a), b = place(f->b, &pair->pose_b);
+    dd3 d = {dd_sub(b.x, a.x), dd_sub(b.y, a.y), dd_sub(b.z, a.z)};
+    f->world_origin = rounded(a);
+    f->translation = mat3_mul_transposed_vec3(f->world, rounded(d));
+    f->radii = f->a->radius + f->b->radius;
+    f->size = f->a->extent + f->b->extent + vec3_norm(f->translation) + f->radii;
+    // What double-double leaves of large positions and origins; zero digits of an ordinary pair.
+    double far = vec3_max_abs(f->world_origin) + vec3_max_abs(rounded(b)) + vec3_max_abs(f->a->origin) +
+                 vec3_max_abs(f->b->origin);
+    double hidden = OVOID_LENGTH_MIN + 0x1p-95 * far;
+    f->claim = FRAME_CLAIM * f->size + 2 * hidden;
+    f->check = FRAME_CHECK * f->size + hidden;
+    return OVOID_LIMIT_NONE;
+}
+
+frame_support frame_find_support(const pair_frame *f, vec3 n) {
+    const ovoid_shape *a = f->a, *b = f->b;
+    support_result high = simd_find_support(shape_x(a), shape_y(a), shape_z(a), a->padded_count, n.x, n.y, n.z);
+    vec3 m = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
+    support_result low = simd_find_support(shape_x(b), shape_y(b), shape_z(b), b->padded_count, m.x, m.y, m.z);
+    frame_support s = {high.index, low.index, (vec3_dot(n, f->translation) - low.value) - high.value, {0, 0, 0}};
+    s.w = frame_difference(f, s.a, s.b);
+    return s;
+}

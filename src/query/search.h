@@ -1,0 +1,62 @@
+// The state of one query: the best bounds so far with what proves them, and the question that says when to stop.
+#ifndef OVOID_QUERY_SEARCH_H
+#define OVOID_QUERY_SEARCH_H
+
+#include "query/simplex.h"
+
+/// What is asked. All bounds are of the signed distance, radii subtracted.
+typedef struct question {
+    double far;          ///< answered when lower > far: the margin, the cap
+    double near;         ///< answered when upper <= near and the sign is proven: the margin; -infinity: never
+    double tolerance;    ///< answered when the bracket is this narrow
+    uint32_t iterations; ///< most iterations of each exact method
+    int wants_depth;     ///< a proven overlap does not answer it
+    int wants_bracket;   ///< narrowing the bracket is asked, not only the sign
+} question;
+
+/// The differences behind an upper bound, with weights.
+typedef struct evidence {
+    difference p[OVOID_PROOF_PAIRS];
+    double weight[OVOID_PROOF_PAIRS];
+    int count;
+} evidence;
+
+typedef struct search {
+    const pair_frame *frame;
+    question ask;
+    double lower, upper; ///< proven; radii subtracted
+    vec3 normal;         ///< unit direction (frame) of the lower bound
+    evidence witness;    ///< POINTS, HULL; of COVER the nearest face
+    ovoid_proof_kind kind;
+    vec3 inner_a, inner_b; ///< INNER: the common point, A's body frame; INNER_POINTS
+    ovoid_stage stage;     ///< the last one that improved a bound
+    ovoid_limit limit;
+    uint32_t iterations;
+} search;
+
+/// The state before anything is known: the bracket is everything.
+search search_make(const pair_frame *frame, question ask);
+
+/// 1 if the question is answered by the bounds.
+int search_is_done(const search *s);
+
+/// 1 if lower > 0 or upper < 0.
+int search_is_sign_known(const search *s);
+
+/// Measures the gap along the unit direction n and takes it as lower bound if it is the best so far.
+frame_support search_probe(search *s, vec3 n);
+
+/// Takes the simplex's nearest point as upper bound if it is the best so far.
+void search_take_points(search *s, const simplex *points);
+
+/// Takes 4 to 6 differences (hull.h) as proof of an overlap if the origin is strictly inside, rounding included; 1 if
+/// so.
+int search_take_hull(search *s, const evidence *hull);
+
+/// The simplex as evidence.
+evidence evidence_make(const simplex *x);
+
+/// Weights of the point nearest to the origin, by the best of the tetrahedra that four of the differences make.
+void evidence_set_weights(evidence *x);
+
+#endif

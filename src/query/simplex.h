@@ -1,0 +1,36 @@
+// The point of a simplex nearest to the origin: the inner step of GJK. The signed-volume view of M. Montanari,
+// N. Petrinic, E. Barbieri, Improving the GJK algorithm for faster and more reliable distance queries between convex
+// objects, 2017: each face of the simplex is asked on which side the origin lies.
+//
+// Nothing here is trusted: whatever comes back is a convex combination of the simplex's points, so its norm is an upper
+// bound, and the direction only proposes a lower bound that the supports then prove.
+#ifndef OVOID_QUERY_SIMPLEX_H
+#define OVOID_QUERY_SIMPLEX_H
+
+#include "query/frame.h"
+
+/// A difference of two vertices.
+typedef struct difference {
+    vec3 w;
+    uint32_t a, b;
+} difference;
+
+/// One to four differences with the weights of the point nearest to the origin.
+typedef struct simplex {
+    difference p[4];
+    double weight[4]; ///< >= 0, sum 1 to rounding
+    int count;
+} simplex;
+
+/// Reduces the simplex to its smallest face that holds the nearest point, sets the weights and returns the unit
+/// direction from the origin to that point, orthogonal to the face to rounding. Zero if the origin lies in the simplex
+/// as far as doubles can tell: then all points are kept, with the weights of the origin.
+vec3 simplex_reduce(simplex *s);
+
+/// The nearest point, from the weights.
+vec3 simplex_compute_point(const simplex *s);
+
+/// The part of n that is orthogonal to e1 and e2, as a unit vector: one step of Gram and Schmidt.
+vec3 orthogonalised(vec3 n, vec3 e1, vec3 e2);
+
+#endif

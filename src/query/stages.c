@@ -1,0 +1,116 @@
+#include "query/stages.h"
+
+#include "query/answer.h"
+
+// Adds a difference that is not there yet, while there is room.
+static void take_start(simplex *start, difference d) {
+    for (int k = 0; k < start->count; k++)
+        if (start->p[k].a == d.a && start->p[k].b == d.b) return;
+    if (start->count < 4) start->p[start->count++] = d;
+}
+
+void stage_proof(search *s, const ovoid_proof *earlier, simplex *start) {
+    const pair_frame *f = s->frame;
+    start->count = 0;
+    if (!earlier || !proof_is_sound(f, earlier)) return;
+    // Its direction.
+    vec3 n = vec3_unit(frame_direction_from_world(f, earlier->normal));
+    if (vec3_norm_squared(n) > 0) (void)search_probe(s, n);
+    if (search_is_done(s)) {
+        s->stage = OVOID_STAGE_PROOF;
+        return;
+    }
+    // Its differences.
+    if (earlier->kind == OVOID_PROOF_INNER && !s->ask.wants_depth) {
+        double upper = inner_compute_upper(f, earlier->inner_a);
+        if (upper < 0 && upper < s->upper) {
+            s->upper = upper;
+            s->kind = OVOID_PROOF_INNER;
+            s->inner_a = earlier->inner_a;
+        }
+    }
+    evidence known = {.count = (int)earlier->count};
+    for (uint32_t i = 0; i < earlier->count; i++) {
+        known.p[i] = proof_difference(f, earlier, i);
+        known.weight[i] = earlier->weight_a[i];
+        take_start(start, known.p[i]);
+    }
+    if (earlier->kind == OVOID_PROOF_HULL) {
+        evidence_set_weights(&known);
+        (void)search_take_hull(s, &known);
+    }
+    if (search_is_done(s)) s->stage = OVOID_STAGE_PROOF;
+}
+
+void stage_sphere(search *s) {
+    const pair_frame *f = s->frame;
+    vec3 d = vec3_sub(frame_b(f, f->b->center), f->a->center);
+    double distance = vec3_norm(d), lower = distance - f->a->reach - f->b->reach - f->radii - f->claim;
+    if (!(lower > s->ask.far)) return;
+    s->lower = lower;
+    s->normal = vec3_scale(d, 1 / distance);
+    s->stage = OVOID_STAGE_SPHERE;
+}
+
+double ellipsoid_compute_spread(sym3 q, vec3 n) {
+    return fmax(0, sym3_quadratic(q, n)) + 256 * 0x1p-53 * sym3_trace(q);
+}
+
+vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
+    vec3 n = vec3_unit(d);
+    double sa = 0, sb = 0;
+    for (int round = 0; round < 3; round++) {
+        sa = sqrt(ellipsoid_compute_spread(qa, n));
+        sb = sqrt(ellipsoid_compute_spread(qb, n));
+        if (round == 2 || !(sa + sb > 0)) break;
+        sym3 m = {0, 0, 0, 0, 0, 0};
+        if (sa > 0) m = sym3_add(m, sym3_scale(qa, 1 / sa));
+        if (sb > 0) m = sym3_add(m, sym3_scale(qb, 1 / sb));
+        // Flat bodies of one plane: a little thickness keeps the matrix regular, the direction is only a proposal.
+        double thickness = 1e-9 * sym3_trace(m);
+        vec3 next;
+        if (!sym3_solve(sym3_add(m, sym3_diagonal(thickness, thickness, thickness)), d, &next)) break;
+        next = vec3_unit(next);
+        if (!vec3_is_finite(next) || !(vec3_norm_squared(next) > 0)) break;
+        n = next;
+    }
+    *gap = vec3_dot(n, d) - sa - sb;
+    return n;
+}
+
+void stage_outer(search *s, vec3 *n) {
+    const pair_frame *f = s->frame;
+    const ovoid_ellipsoid *a = &f->a->outer, *b = &f->b->outer;
+    vec3 d = vec3_sub(frame_b(f, b->center), a->center);
+    if (!(vec3_norm_squared(d) > 0)) d = (vec3){1, 0, 0};
+    double gap;
+    *n = ellipsoids_find_direction(a->q, sym3_rotate(b->q, f->rotation), d, &gap);
+    double lower = gap - f->radii - f->claim;
+    if (!(lower > s->ask.far)) return;
+    s->lower = lower;
+    s->normal = *n;
+    s->stage = OVOID_STAGE_OUTER;
+}
+
+void stage_support(search *s, vec3 n, simplex *start) {
+    frame_support p = search_probe(s, n);
+    start->p[0] = (difference){p.w, p.a, p.b};
+    start->weight[0] = 1;
+    start->count = 1;
+    search_take_points(s, start);
+    s->stage = OVOID_STAGE_SUPPORT;
+}
+
+void stage_inner(search *s) {
+    const pair_frame *f = s->frame;
+    if (f->a->rank < 3 || f->b->rank < 3) return;
+    ovoid_ellipsoid b = {frame_b(f, f->b->inner.center), sym3_rotate(f->b->inner.q, f->rotation)};
+    vec3 x;
+    if (!ovoid_ellipsoid_is_overlapping(&f->a->inner, &b, &x)) return;
+    double upper = inner_compute_upper(f, x);
+    if (!(upper < 0)) return;
+    s->upper = upper;
+    s->kind = OVOID_PROOF_INNER;
+    s->inner_a = x;
+    s->stage = OVOID_STAGE_INNER;
+}

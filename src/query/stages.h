@@ -1,0 +1,31 @@
+// The stages before the exact search, in the order of their cost. Each may answer the question, and each leaves its
+// direction or its points to the next. The bounds are the search's; nothing is returned but hints.
+#ifndef OVOID_QUERY_STAGES_H
+#define OVOID_QUERY_STAGES_H
+
+#include "query/search.h"
+
+/// The pair's earlier proof: its normal is measured again, its differences become the first simplex. *start stays
+/// empty where the proof is of another pair or none.
+void stage_proof(search *s, const ovoid_proof *earlier, simplex *start);
+
+/// Bounding spheres.
+void stage_sphere(search *s);
+
+/// Outer ellipsoids; the direction that separates them best, unit, in *n.
+void stage_outer(search *s, vec3 *n);
+
+/// The polyhedra's own supports along n; the vertex pair goes into *start.
+void stage_support(search *s, vec3 n, simplex *start);
+
+/// Inner ellipsoids: a common point proves an overlap.
+void stage_inner(search *s);
+
+/// The direction n = unit((QA/sA + QB/sB)^-1 d), two rounds, of ellipsoids whose centres are d apart; s = sqrt(n'Qn).
+/// The support gap of the two along it goes into *gap (rounded).
+vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap);
+
+/// n'Qn from above: rounding of a posed Q included.
+double ellipsoid_compute_spread(sym3 q, vec3 n);
+
+#endif

@@ -1,0 +1,14 @@
+// Are the bodies within a margin of each other?
+#include "query/answer.h"
+
+ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
+                          const ovoid_proof *earlier) {
+    question ask = {.far = margin, .near = margin, .wants_bracket = 1};
+    ovoid_answer out = answer_find(pair, options, ask, earlier, NULL);
+    if (out.limit == OVOID_LIMIT_CAP) out.limit = OVOID_LIMIT_ANSWERED;
+    return out;
+}
+
+int ovoid_answer_is_within(const ovoid_answer *answer, double margin) {
+    return answer->upper <= margin ? 1 : answer->lower > margin ? 0 : -1;
+}
