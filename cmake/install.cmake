@@ -24,6 +24,8 @@ install(EXPORT ovoid-targets NAMESPACE ovoid:: DESTINATION ${package_folder})
 write_basic_package_version_file(ovoid-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/ovoid-config.cmake ${PROJECT_BINARY_DIR}/ovoid-config-version.cmake DESTINATION ${package_folder})
 
+# From the folder of the .pc files up to the prefix.
+file(RELATIVE_PATH up_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 foreach(package ${packages})
   configure_file(cmake/${package}.pc.in ${package}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${package}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -53,6 +53,7 @@ for preset in release check check-gcc; do
     step "$preset: build" configure_and_build $preset && run_tests $preset
 done
 step "lint: tidy" scripts/lint.sh tidy
+step "docs" scripts/docs.sh
 
 echo "$passed passed, $failed failed, $skipped skipped"
 [ $failed -eq 0 ]

@@ -41,6 +41,7 @@ typedef struct ovoid_areas ovoid_areas;
 OVOID_API ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid,
                                           ovoid_split split, uint32_t k, const ovoid_allocator *allocator,
                                           ovoid_error *error);
+/** Frees the tables; NULL is allowed. */
 OVOID_API void ovoid_areas_destroy(ovoid_areas *areas);
 
 /** Counts of a table. */
@@ -49,6 +50,7 @@ typedef struct ovoid_area_counts {
     uint64_t facet_entries, vertex_entries; /**< sums over the cells */
     uint64_t bytes;
 } ovoid_area_counts;
+/** How large the tables are. */
 OVOID_API ovoid_area_counts ovoid_areas_get_counts(const ovoid_areas *areas);
 
 /** The exit of a ray. */

@@ -12,10 +12,14 @@
 extern "C" {
 #endif
 
+/** The version of these headers; ovoid_get_version is the library's. */
 #define OVOID_VERSION_MAJOR 0
+/** Grows with every release that adds or, before 1.0, changes something. */
 #define OVOID_VERSION_MINOR 1
+/** Grows with every release that only mends. */
 #define OVOID_VERSION_PATCH 0
 
+/** Marks what the shared library exports. */
 #if defined(_WIN32)
 #define OVOID_API
 #else
@@ -75,6 +79,7 @@ OVOID_API const char *ovoid_get_version(void);
  * nothing. Set once, before other threads use the library. Asserts exist in builds without NDEBUG only.
  */
 typedef void (*ovoid_assert_hook)(const char *expression, const char *file, int line);
+/** Sets the hook; NULL takes it away. */
 OVOID_API void ovoid_set_assert_hook(ovoid_assert_hook hook);
 
 #ifdef __cplusplus

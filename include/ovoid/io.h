@@ -54,6 +54,7 @@ OVOID_API double ovoid_unit_get_scale(const char *unit);
  * Errors: FILE, FORMAT, EMPTY (no points), NOT_FINITE, RANGE, INDEX, LIMIT, ARGUMENT (scale), MEMORY.
  */
 OVOID_API ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options, ovoid_error *error);
+/** Frees it; NULL is allowed. */
 OVOID_API void ovoid_mesh_destroy(ovoid_mesh *mesh);
 /** Number of parts, at least 1. */
 OVOID_API size_t ovoid_mesh_get_part_count(const ovoid_mesh *mesh);
@@ -98,8 +99,11 @@ OVOID_API ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_rea
 OVOID_API ovoid_shapes *ovoid_shapes_read_list(const char *path, const ovoid_read_options *read,
                                                const ovoid_shape_options *options, ovoid_error *error);
 
+/** Frees it; NULL is allowed. */
 OVOID_API void ovoid_shapes_destroy(ovoid_shapes *shapes);
+/** How many there are. */
 OVOID_API size_t ovoid_shapes_get_count(const ovoid_shapes *shapes);
+/** Shape i < count. */
 OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i);
 
 /* ---- scenes ---- */
@@ -130,8 +134,11 @@ typedef struct ovoid_scene_object {
 
 /** Reads a scene and the meshes it names. options: of all shapes; their radius must be 0. The caller destroys it. */
 OVOID_API ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error);
+/** Frees it; NULL is allowed. */
 OVOID_API void ovoid_scene_destroy(ovoid_scene *scene);
+/** How many objects there are. */
 OVOID_API size_t ovoid_scene_get_count(const ovoid_scene *scene);
+/** Object i < count. */
 OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i);
 /** The object of that name, or (size_t)-1. */
 OVOID_API size_t ovoid_scene_find(const ovoid_scene *scene, const char *name);
@@ -156,6 +163,7 @@ typedef struct ovoid_indexed_pair {
 OVOID_API ovoid_pairs_reader *ovoid_pairs_reader_create(const char *path, size_t shape_count, ovoid_error *error);
 /** The next pair. 1: *pair is filled; 0: the end; -1: *error is filled. */
 OVOID_API int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_pair *pair, ovoid_error *error);
+/** Frees it; NULL is allowed. */
 OVOID_API void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader);
 
 /* ---- results ---- */
@@ -177,6 +185,7 @@ OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *rec
 
 /** The same columns as CSV: vectors are three columns, the proof is one field of JSON. */
 OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file);
+/** One line of it. */
 OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record);
 
 /** A table for people, in the order given. margin: pairs proven within it are marked; negative: none is. */
@@ -191,6 +200,7 @@ OVOID_API ovoid_results_reader *ovoid_results_reader_create(const char *path, ov
 OVOID_API int ovoid_results_reader_read(ovoid_results_reader *reader, ovoid_record *record, ovoid_error *error);
 /** The 1-based line of the last record. */
 OVOID_API int64_t ovoid_results_reader_get_line(const ovoid_results_reader *reader);
+/** Frees it; NULL is allowed. */
 OVOID_API void ovoid_results_reader_destroy(ovoid_results_reader *reader);
 
 /* ---- output files ---- */

@@ -84,8 +84,8 @@ typedef struct ovoid_proof {
     uint32_t count; /**< entries used of the arrays, 0 to 4 */
     uint32_t a[OVOID_PROOF_PAIRS], b[OVOID_PROOF_PAIRS];
     double weight_a[OVOID_PROOF_PAIRS], weight_b[OVOID_PROOF_PAIRS]; /**< >= 0, not all zero */
-    ovoid_vec3 inner_a;              /**< INNER: the common point; INNER_POINTS: the point of A; body frame of A */
-    ovoid_vec3 inner_b;              /**< INNER_POINTS: the point of B, body frame of B */
+    ovoid_vec3 inner_a; /**< INNER: the common point; INNER_POINTS: the point of A; body frame of A */
+    ovoid_vec3 inner_b; /**< INNER_POINTS: the point of B, body frame of B */
 } ovoid_proof;
 
 /** Most points of a cover. */
@@ -158,10 +158,13 @@ OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
 OVOID_API ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
                                         ovoid_error *error);
 
-/** Names for results: "separated", "gjk", "precision", "points" and so on; never NULL. */
+/** The word for results, for example "separated"; never NULL. */
 OVOID_API const char *ovoid_status_get_name(ovoid_status status);
+/** Likewise, for example "gjk". */
 OVOID_API const char *ovoid_stage_get_name(ovoid_stage stage);
+/** Likewise, for example "precision". */
 OVOID_API const char *ovoid_limit_get_name(ovoid_limit limit);
+/** Likewise, for example "points". */
 OVOID_API const char *ovoid_proof_kind_get_name(ovoid_proof_kind kind);
 
 /** The online steps of the paper for a pair, each with its cost, for study; not how the library decides. */
