@@ -17,7 +17,7 @@ target_compile_options(ovoid_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wp
 if(OVOID_SANITIZE)
   add_compile_options(-fsanitize=${OVOID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${OVOID_SANITIZE})
-else()
+elseif(OVOID_WERROR)
   # A library that lacks a symbol fails here, not at its user's. (Sanitized ones find their runtime in the program.)
   add_link_options($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,SHARED_LIBRARY>:-Wl,-z,defs>)
 endif()

@@ -35,7 +35,7 @@ ovoid_answer answer_make_refused(ovoid_limit limit);
 int options_make(const ovoid_options *given, ovoid_options *options);
 
 /// The whole pipeline for one question; cover may be NULL.
-ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *options, question ask, const ovoid_proof *earlier,
+ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
                          ovoid_cover *cover);
 
 #endif

@@ -6,6 +6,6 @@
 
 /// Runs from the differences that GJK ended with; narrows the bracket until the question is answered or a limit is met
 /// (which goes into s->limit). *cover (may be NULL) receives the surface where the upper bound rests on it.
-void epa_run(search *s, const simplex *start, ovoid_cover *cover);
+void epa_run(search *s, const simplex *from, ovoid_cover *cover);
 
 #endif
