@@ -1,0 +1,29 @@
+// Does an ellipsoid enclose a polytope, or lie in one? Rigorous: rounding can turn a yes into a no, never a no into a
+// yes. No memory; cost linear in vertices and triangles.
+#ifndef OVOID_ELLIPSOID_CONTAIN_H
+#define OVOID_ELLIPSOID_CONTAIN_H
+
+#include "ovoid/ellipsoid.h"
+
+/// 1 only if it is proven that Q - (v - c)(v - c)' is positive semidefinite for every vertex v. That is the same as
+/// h(n) >= n . v for every direction n and vertex v, whether Q is singular or not. Q singular in any other way than by
+/// zero rows gives 0.
+int ellipsoid_is_enclosing(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
+/// 1 only if it is proven that the ellipsoid lies in the convex hull of the vertices, and that Q is positive definite
+/// or that the ellipsoid is just a vertex (Q zero). Taken for granted: indices in range, finite vertices, and that the
+/// triangles are a closed surface (each directed edge is matched by its opposite). Planes are not: any will do.
+/// Always 0 where rank < 3: nothing is proven of flat bodies.
+int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
+/// An upper bound of the largest (v - c)' Q^-1 (v - c) over the vertices; INFINITY where Q has no proven factor.
+double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
+/// A factor s such that the ellipsoid with its radii times s, about its centre, meets no triangle of the surface: a
+/// lower bound of the largest such factor. Not above zero where none is proven.
+double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
+/// 1 only if the surface is proven to wind around the point, and not to pass through it.
+int polytope_is_winding(const ovoid_polytope *polytope, ovoid_vec3 point);
+
+#endif

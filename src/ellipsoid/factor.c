@@ -1,0 +1,137 @@
+// The proven factor: Cholesky in double-double on a matrix whose axes were first scaled, by powers of two, to a unit
+// diagonal. A. van der Sluis, Condition numbers and equilibration of matrices, 1969: such scaling is nearly the best.
+#include "ellipsoid/factor.h"
+
+sym3dd sym3dd_from(sym3 s) {
+    dd xy = dd_from(s.xy), xz = dd_from(s.xz), yz = dd_from(s.yz);
+    return (sym3dd){{{dd_from(s.xx), xy, xz}, {xy, dd_from(s.yy), yz}, {xz, yz, dd_from(s.zz)}}};
+}
+
+sym3 sym3dd_round(const sym3dd *s) {
+    return (sym3){s->m[0][0].high, s->m[0][1].high, s->m[0][2].high, s->m[1][1].high, s->m[1][2].high, s->m[2][2].high};
+}
+
+// Half the exponent of a square: 2^-2k x lies in [1/4, 1).
+static int half_exponent(double x) {
+    int e;
+    (void)frexp(x, &e);
+    return e >= 0 ? (e + 1) / 2 : -(-e / 2);
+}
+
+static dd dd_scale(dd a, int e) { return (dd){ldexp(a.high, e), ldexp(a.low, e)}; }
+
+// The axes that are not exactly zero, each with the power of two that brings its diagonal entry to [1/4, 1); the number
+// of them, or -1 where the diagonal alone shows that the matrix is not positive semidefinite.
+static int find_axes(const sym3dd *s, int axis[3], int exponent[3]) {
+    int count = 0;
+    for (int i = 0; i < 3; i++) {
+        double top = 0;
+        for (int j = 0; j < 3; j++) top = fmax(top, fabs(s->m[i][j].high));
+        if (top == 0) continue;
+        if (!(s->m[i][i].high > 0) || !isfinite(top)) return -1;
+        axis[count] = i;
+        exponent[count++] = half_exponent(s->m[i][i].high);
+    }
+    return count;
+}
+
+// The leading part of the matrix in the scaled axes.
+static void take_scaled(const sym3dd *s, int count, const int axis[3], const int exponent[3], dd a[3][3]) {
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++) a[i][j] = dd_scale(s->m[axis[i]][axis[j]], -exponent[i] - exponent[j]);
+}
+
+// a = l d l' with unit lower triangular l; 0 where a pivot is not above the rounding of double-double.
+static int decompose(int count, dd a[3][3], dd l[3][3], dd d[3]) {
+    for (int j = 0; j < count; j++) {
+        d[j] = a[j][j];
+        for (int k = 0; k < j; k++) d[j] = dd_sub(d[j], dd_mul(dd_mul(l[j][k], l[j][k]), d[k]));
+        if (!(d[j].high > 0x1p-96)) return 0;
+        for (int i = j + 1; i < count; i++) {
+            dd x = a[i][j];
+            for (int k = 0; k < j; k++) x = dd_sub(x, dd_mul(dd_mul(l[i][k], l[j][k]), d[k]));
+            l[i][j] = dd_div(x, d[j]);
+        }
+    }
+    return 1;
+}
+
+// W = d^(-1/2) l^-1, rounded to doubles.
+static void invert(int count, dd l[3][3], const dd d[3], double w[3][3]) {
+    dd inverse[3][3];
+    for (int j = 0; j < count; j++)
+        for (int i = 0; i < count; i++) {
+            inverse[i][j] = dd_from(i == j);
+            for (int k = j; k < i; k++) inverse[i][j] = dd_sub(inverse[i][j], dd_mul(l[i][k], inverse[k][j]));
+            w[i][j] = i >= j ? inverse[i][j].high / sqrt(d[i].high) : 0;
+        }
+}
+
+// An upper bound of |W A W' - I| by its largest row sum. Per entry at most 9 products of three doubles, each within
+// 2^-101 of itself, and 9 sums, each within 2^-102 of the sum of sizes: 2^-97 of that sum bounds them all. Entries of
+// A or products that are subnormal are wrong by 2^-1020 at most: 2^-800 covers them, as no entry of W is above 2^100.
+static double compute_defect(int count, dd a[3][3], double w[3][3]) {
+    double defect = 0;
+    for (int i = 0; i < count; i++) {
+        double row = 0;
+        for (int j = 0; j < count; j++) {
+            dd sum = dd_from(i == j ? -1 : 0);
+            double size = 1;
+            for (int k = 0; k <= i; k++)
+                for (int n = 0; n <= j; n++) {
+                    sum = dd_add(sum, dd_mul(two_product(w[i][k], w[j][n]), a[k][n]));
+                    size += fabs(w[i][k] * w[j][n] * a[k][n].high);
+                }
+            row += fabs(sum.high) + 0x1p-97 * size + 0x1p-800;
+        }
+        defect = fmax(defect, row);
+    }
+    return defect * (1 + 8 * ROUNDING);
+}
+
+int factor_make(sym3 q, factor *f) {
+    sym3dd s = sym3dd_from(q);
+    int exponent[3];
+    f->count = find_axes(&s, f->axis, exponent);
+    if (f->count < 0) return 0;
+    dd a[3][3], l[3][3], d[3];
+    take_scaled(&s, f->count, f->axis, exponent, a);
+    if (!decompose(f->count, a, l, d)) return 0;
+    invert(f->count, l, d, f->w);
+    for (int i = 0; i < f->count; i++) f->scale[i] = ldexp(1, -exponent[i]);
+    f->defect = compute_defect(f->count, a, f->w);
+    return f->defect < 0.5;
+}
+
+// All three axes: the pivots of the scaled matrix.
+static double compute_solid_content(const sym3dd *s) {
+    int axis[3], exponent[3];
+    if (find_axes(s, axis, exponent) != 3) return 0;
+    dd a[3][3], l[3][3], d[3];
+    take_scaled(s, 3, axis, exponent, a);
+    if (!decompose(3, a, l, d)) return 0;
+    double product = 1;
+    for (int i = 0; i < 3; i++) product *= ldexp(sqrt(d[i].high), exponent[i]);
+    return product;
+}
+
+double sym3dd_compute_content(const sym3dd *s, int rank) {
+    if (rank == 3) return compute_solid_content(s);
+    // Scaled so that no square overflows.
+    double top = fmax(fabs(s->m[0][0].high), fmax(fabs(s->m[1][1].high), fabs(s->m[2][2].high)));
+    if (!(top > 0) || !isfinite(top)) return 0;
+    int e = half_exponent(top);
+    dd sum = dd_from(0), a[3][3];
+    take_scaled(s, 3, (int[3]){0, 1, 2}, (int[3]){e, e, e}, a);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3;
+        dd minor = rank == 1 ? a[i][i] : dd_sub(dd_mul(a[i][i], a[j][j]), dd_mul(a[i][j], a[i][j]));
+        sum = dd_add(sum, minor);
+    }
+    return sum.high > 0 ? ldexp(sqrt(sum.high), rank * e) : 0;
+}
+
+double ball_get_measure(int rank) {
+    const double pi = 3.14159265358979323846;
+    return rank == 3 ? 4 * pi / 3 : rank == 2 ? pi : rank == 1 ? 2 : 0;
+}

@@ -1,0 +1,44 @@
+// A proven factor of an ellipsoid's matrix Q, and its determinant, for Q as ill-conditioned as doubles can store.
+//
+// Let W be any lower triangular matrix of doubles, I + R = W Q W' and |R| <= defect < 1. Then Q is positive definite
+// and Q^-1 = W' (I + R)^-1 W, so that (1 - defect) x' Q^-1 x <= |W x|^2 for every x. W is made from a Cholesky factor
+// in double-double, but nothing is believed of it: the defect is computed from W and Q themselves.
+#ifndef OVOID_ELLIPSOID_FACTOR_H
+#define OVOID_ELLIPSOID_FACTOR_H
+
+#include "linear/exact.h"
+#include "linear/mat3.h"
+
+/// The unit of rounding of doubles, 2^-53.
+#define ROUNDING 0x1p-53
+
+/// A symmetric matrix in double-double; both halves are stored.
+typedef struct sym3dd {
+    dd m[3][3];
+} sym3dd;
+
+sym3dd sym3dd_from(sym3 s);
+/// Each entry rounded to nearest.
+sym3 sym3dd_round(const sym3dd *s);
+
+/// The factor, in units of its own for every axis: powers of two, so that changing to them is exact.
+typedef struct factor {
+    int count;       ///< axes along which Q is not exactly zero
+    int axis[3];     ///< these axes, ascending
+    double scale[3]; ///< a length along axis[i] times scale[i] is in units of the factor
+    double w[3][3];  ///< W, lower triangular
+    double defect;   ///< at least |W Q W' - I|, rounding included
+} factor;
+
+/// 1 and the factor, or 0 where Q is not proven positive definite on the axes where it is not zero.
+int factor_make(sym3 q, factor *f);
+
+/// The square root of the sum of the principal minors of order `rank` (1 to 3): the product of the radii of a solid, of
+/// the two radii of a flat ellipsoid, the one of a segment. 0 where the sum is not positive. Relative error below 2^-45
+/// where the thinnest axis is longer than 1e-12 of its bounding box's.
+double sym3dd_compute_content(const sym3dd *s, int rank);
+
+/// The measure of the unit ball of that dimension: 4/3 pi, pi, 2, 0.
+double ball_get_measure(int rank);
+
+#endif
