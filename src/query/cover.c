@@ -16,17 +16,35 @@ static const vec3 rays[] = {{0.5301, 0.3377, 0.7778},   {-0.6129, 0.7207, 0.3241
                             {0.8847, 0.1213, -0.4501},  {-0.3571, -0.5819, -0.7307}, {0.0917, 0.9631, -0.2531},
                             {-0.9173, 0.0731, -0.3913}, {0.1931, -0.2287, 0.9541}};
 
+// The direction from the origin to the nearest point of the longest edge: for slivers, whose own plane is uncertain.
+static vec3 find_edge_direction(vec3 a, vec3 b, vec3 c) {
+    vec3 p[4] = {a, b, c, a};
+    simplex longest = {.count = 2};
+    double most = -1;
+    for (int i = 0; i < 3; i++) {
+        double length = vec3_norm_squared(vec3_sub(p[i + 1], p[i]));
+        if (!(length > most)) continue;
+        most = length;
+        longest.p[0].w = p[i];
+        longest.p[1].w = p[i + 1];
+    }
+    return simplex_reduce(&longest);
+}
+
 // A proven distance, from below, of the origin to a triangle, when each corner may be off by `error`; not positive if
-// none is proven. *normal: the unit direction along which all of the triangle is at least that far. For any unit n all
-// of the triangle has n.x >= the least of its corners; two are tried: its normal, and the way to its nearest point.
+// none is proven. *normal: the unit direction along which all of the triangle is at least that far.
+//
+// For any unit n all of the triangle has n.x >= the least of its corners. Three are tried: its normal, the way to its
+// nearest point, the way to the longest edge.
 static double compute_clearance(vec3 a, vec3 b, vec3 c, double error, vec3 *normal) {
     simplex t = {.p = {{a, 0, 0}, {b, 0, 0}, {c, 0, 0}}, .count = 3};
-    vec3 n[2];
+    vec3 n[3];
     n[0] = orthogonalised(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)), vec3_sub(b, a), vec3_sub(c, a));
     if (vec3_dot(n[0], a) < 0) n[0] = vec3_neg(n[0]);
     n[1] = simplex_reduce(&t);
+    n[2] = find_edge_direction(a, b, c);
     double best = -INFINITY;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
         double least = fmin(vec3_dot(n[i], a), fmin(vec3_dot(n[i], b), vec3_dot(n[i], c))) - error;
         if (!(least > best)) continue;
         best = least;

@@ -169,6 +169,7 @@ static int grow(search *s, expansion *e, uint16_t nearest) {
     frame_support x = search_probe(s, vec3_neg(e->f[nearest].n));
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
     double high = vec3_dot(e->f[nearest].n, x.w);
+    if (s->ask.wants_depth && is_narrow(s, e->f[nearest].low)) return 0;
     if (high - e->f[nearest].low <= e->slack || has_point(e, x.a, x.b)) return 0;
     if (e->points == EXPANSION_POINTS) {
         s->limit = OVOID_LIMIT_CAPACITY;
@@ -193,9 +194,7 @@ void epa_run(search *s, const simplex *from, ovoid_cover *cover) {
         if (grown < 0) return;
         if (!grown || search_is_done(s)) break;
         nearest = expansion_find_nearest(&e);
-        double low = e.f[nearest].low;
-        if (s->ask.wants_depth && is_narrow(s, low)) break;
-        if (!s->ask.wants_depth && low > 2 * s->frame->claim && take_hull(s, &e)) break;
+        if (!s->ask.wants_depth && e.f[nearest].low > 2 * s->frame->claim && take_hull(s, &e)) break;
     }
     finish(s, &e, nearest, cover);
 }

@@ -51,10 +51,11 @@ ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
     f->translation = mat3_mul_transposed_vec3(f->world, rounded(d));
     f->radii = f->a->radius + f->b->radius;
     f->size = f->a->extent + f->b->extent + vec3_norm(f->translation) + f->radii;
-    // What double-double leaves of large positions and origins; zero digits of an ordinary pair.
-    double far = vec3_max_abs(f->world_origin) + vec3_max_abs(rounded(b)) + vec3_max_abs(f->a->origin) +
-                 vec3_max_abs(f->b->origin);
-    double hidden = OVOID_LENGTH_MIN + 0x1p-95 * far;
+    // A difference of positions is exact in double-double; origins that are rotated into the world are not.
+    double hidden = OVOID_LENGTH_MIN;
+    if (f->a->has_origin || f->b->has_origin)
+        hidden += 0x1p-95 * (vec3_max_abs(f->world_origin) + vec3_max_abs(rounded(b)) + vec3_max_abs(f->a->origin) +
+                             vec3_max_abs(f->b->origin));
     f->claim = FRAME_CLAIM * f->size + 2 * hidden;
     f->check = FRAME_CHECK * f->size + hidden;
     return OVOID_LIMIT_NONE;

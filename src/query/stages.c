@@ -57,6 +57,11 @@ double ellipsoid_compute_spread(sym3 q, vec3 n) {
 }
 
 vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
+    // Concentric ellipsoids: nothing separates them, any direction will do.
+    if (!(vec3_norm_squared(d) > 0)) {
+        *gap = -INFINITY;
+        return (vec3){1, 0, 0};
+    }
     vec3 n = vec3_unit(d);
     double sa = 0, sb = 0;
     for (int round = 0; round < 3; round++) {
@@ -82,7 +87,6 @@ void stage_outer(search *s, vec3 *n) {
     const pair_frame *f = s->frame;
     const ovoid_ellipsoid *a = &f->a->outer, *b = &f->b->outer;
     vec3 d = vec3_sub(frame_b(f, b->center), a->center);
-    if (!(vec3_norm_squared(d) > 0)) d = (vec3){1, 0, 0};
     double gap;
     *n = ellipsoids_find_direction(a->q, sym3_rotate(b->q, f->rotation), d, &gap);
     double lower = gap - f->radii - f->claim;
