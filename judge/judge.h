@@ -18,6 +18,10 @@ void judge_destroy(judge *context);
 /// Forgets all shapes.
 void judge_forget(judge *context);
 
+/// How wide, in parts of the pair's size, the bracket of an answer with status "touching" may be: its query's
+/// tolerance. 1e-6 unless set; INFINITY asks nothing.
+void judge_set_touching(judge *context, double relative);
+
 /// OVOID_OK if everything the answer claims is proven: lower by proof.normal, upper by proof.kind, the status, the unit
 /// normal, and that the witness points lie on their bodies to rounding. Else OVOID_ERROR_PROOF (or INDEX, NOT_FINITE)
 /// with a sentence in *error (may be NULL). cover: that of ovoid_depth, or NULL.

@@ -1,0 +1,144 @@
+// The order of the judgement: the answer's own data, the pair, the bounds, the status, the direction, the points.
+#include "parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// Part of the pair's size that a bracket of status "touching" may be wide, unless the caller set another.
+#define TOUCHING 1e-6
+
+judge *judge_create(void) {
+    judge *context = calloc(1, sizeof *context);
+    if (!context) return NULL;
+    context->p = pool_create();
+    context->touching = TOUCHING;
+    if (context->p) return context;
+    free(context);
+    return NULL;
+}
+
+void judge_forget(judge *context) {
+    for (size_t i = 0; i < context->capacity; i++)
+        if (context->table[i].shape) mpz_clear(context->table[i].radius.m);
+    free(context->table);
+    context->table = NULL;
+    context->capacity = context->count = 0;
+}
+
+void judge_destroy(judge *context) {
+    if (!context) return;
+    judge_forget(context);
+    pool_destroy(context->p);
+    free(context);
+}
+
+void judge_set_touching(judge *context, double relative) { context->touching = relative; }
+
+static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
+
+// --- refusals
+
+static ovoid_code check_refusal(const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
+    int valid_a = pose_is_valid(&pair->pose_a), valid_b = pose_is_valid(&pair->pose_b);
+    if (answer->status != OVOID_UNDECIDED || answer->lower != -INFINITY || answer->upper != INFINITY)
+        return reject(error, OVOID_ERROR_PROOF, "a refused query with an answer");
+    if ((answer->limit == OVOID_LIMIT_POSE_A && valid_a) || (answer->limit == OVOID_LIMIT_POSE_B && valid_b))
+        return reject(error, OVOID_ERROR_PROOF, "a valid pose was refused");
+    return OVOID_OK;
+}
+
+static int is_refusal(const ovoid_answer *answer) {
+    return answer->limit == OVOID_LIMIT_POSE_A || answer->limit == OVOID_LIMIT_POSE_B ||
+           answer->limit == OVOID_LIMIT_OPTIONS;
+}
+
+// --- what can be judged without the bodies
+
+static ovoid_code check_data(const ovoid_answer *answer, ovoid_error *error) {
+    if (isnan(answer->lower) || isnan(answer->upper) || answer->lower == INFINITY || answer->upper == -INFINITY)
+        return reject(error, OVOID_ERROR_NOT_FINITE, "the bracket is not one of numbers");
+    if (!is_finite(answer->point_a) || !is_finite(answer->point_b) || !is_finite(answer->normal))
+        return reject(error, OVOID_ERROR_NOT_FINITE, "a witness point or the normal is not finite");
+    if (answer->lower > answer->upper)
+        return reject(error, OVOID_ERROR_PROOF, "lower %.17g is above upper %.17g", answer->lower, answer->upper);
+    return OVOID_OK;
+}
+
+static ovoid_code check_status(const judge *context, const posed *s, const ovoid_answer *answer, ovoid_error *error) {
+    if ((answer->status == OVOID_SEPARATED) != (answer->lower > 0))
+        return reject(error, OVOID_ERROR_PROOF, "the status is not what lower, %.17g, says", answer->lower);
+    if ((answer->status == OVOID_OVERLAPPING) != (answer->upper < 0))
+        return reject(error, OVOID_ERROR_PROOF, "the status is not what upper, %.17g, says", answer->upper);
+    double width = answer->upper - answer->lower;
+    if (answer->status == OVOID_TOUCHING && width > context->touching * s->size + OVOID_LENGTH_MIN)
+        return reject(error, OVOID_ERROR_PROOF, "touching within %.3g is wide for a pair of size %.3g", width, s->size);
+    return OVOID_OK;
+}
+
+// Unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is asked where there is no lower bound.
+static ovoid_code check_normal(pool *p, const ovoid_answer *answer, ovoid_error *error) {
+    if (answer->lower == -INFINITY) return OVOID_OK;
+    nvec n = nvec_from(p, answer->normal), direction = nvec_from(p, answer->proof.normal);
+    num square = nvec_norm_squared(p, n), tolerance = number_from(p, 1e-12), one = number_from_integer(p, 1);
+    if (compare(p, square, mul(p, sub(p, one, tolerance), sub(p, one, tolerance))) < 0 ||
+        compare(p, square, mul(p, add(p, one, tolerance), add(p, one, tolerance))) > 0)
+        return reject(error, OVOID_ERROR_PROOF, "the normal's length is %.17g", sqrt(to_double(square)));
+    // sine and cosine of the angle between the two
+    num across = nvec_norm_squared(p, nvec_cross(p, n, direction));
+    if (sign(nvec_dot(p, n, direction)) <= 0 ||
+        compare_roots(p, one, across, tolerance, mul(p, square, nvec_norm_squared(p, direction))) > 0)
+        return reject(error, OVOID_ERROR_PROOF, "the normal is not the direction of the lower bound");
+    return OVOID_OK;
+}
+
+static ovoid_code check_indices(const posed *s, const ovoid_proof *proof, ovoid_error *error) {
+    if (proof->count > 4) return reject(error, OVOID_ERROR_INDEX, "%u entries of a proof of at most 4", proof->count);
+    for (uint32_t i = 0; i < proof->count; i++)
+        if (proof->a[i] >= s->a.polytope.vertex_count || proof->b[i] >= s->b.polytope.vertex_count)
+            return reject(error, OVOID_ERROR_INDEX, "entry %u of the proof has no such vertex", i);
+    return OVOID_OK;
+}
+
+// --- all of it
+
+static ovoid_code check_bounds(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
+                               ovoid_error *error) {
+    pool *p = s->p;
+    claim c = {.context = context, .s = s, .proof = &answer->proof, .error = error};
+    ovoid_code code = OVOID_OK;
+    if (answer->lower != -INFINITY) {
+        c.core = add(p, number_from(p, answer->lower), s->radii);
+        code = judge_check_lower(&c);
+    }
+    if (code == OVOID_OK && answer->upper != INFINITY) {
+        c.core = add(p, number_from(p, answer->upper), s->radii);
+        code = judge_check_upper(&c, cover);
+        if (code == OVOID_OK) code = judge_check_witness(&c, answer);
+    }
+    return code;
+}
+
+static ovoid_code check_pair(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
+                             const ovoid_cover *cover, ovoid_error *error) {
+    if (!pose_is_valid(&pair->pose_a) || !pose_is_valid(&pair->pose_b))
+        return reject(error, OVOID_ERROR_PROOF, "an answer for a pose that is none");
+    posed s = posed_make(context->p, pair);
+    ovoid_code code = check_indices(&s, &answer->proof, error);
+    if (code == OVOID_OK) code = check_bounds(context, &s, answer, cover, error);
+    if (code == OVOID_OK) code = check_status(context, &s, answer, error);
+    if (code == OVOID_OK) code = check_normal(context->p, answer, error);
+    return code;
+}
+
+ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
+                              const ovoid_cover *cover, ovoid_error *error) {
+    if (!context || !pair || !pair->shape_a || !pair->shape_b || !answer)
+        return reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
+    if (is_refusal(answer)) return check_refusal(pair, answer, error);
+    ovoid_code code = check_data(answer, error);
+    if (code != OVOID_OK) return code;
+    size_t mark = pool_get_mark(context->p);
+    code = check_pair(context, pair, answer, cover, error);
+    pool_release(context->p, mark);
+    return code;
+}

@@ -1,0 +1,78 @@
+// Exact numbers m 2^e with an integer m of any size (GMP): every double is one, and so is every sum, difference and
+// product of them. No division: where a bound needs one, both sides are multiplied instead. Numbers live in a pool that
+// is released as a stack, so that formulas read as formulas.
+#ifndef OVOID_JUDGE_NUMBER_H
+#define OVOID_JUDGE_NUMBER_H
+
+#include <gmp.h>
+
+#include "ovoid/linear.h"
+
+/// A number of a pool; constant once made.
+typedef struct number {
+    mpz_t m;
+    long e;
+} number;
+typedef const number *num;
+
+/// Where numbers live. pool_get_mark and pool_release: all numbers made in between are gone.
+typedef struct pool pool;
+pool *pool_create(void);
+void pool_destroy(pool *p);
+size_t pool_get_mark(const pool *p);
+void pool_release(pool *p, size_t mark);
+
+/// From a finite double, an integer, an integer of GMP; and a copy.
+num number_from(pool *p, double x);
+num number_from_integer(pool *p, long x);
+num number_from_mpz(pool *p, const mpz_t m, long e);
+
+num add(pool *p, num a, num b);
+num sub(pool *p, num a, num b);
+num mul(pool *p, num a, num b);
+num neg(pool *p, num a);
+/// a 2^k
+num scaled(pool *p, num a, long k);
+/// a, with trailing zero bits moved into the exponent.
+num trimmed(pool *p, num a);
+
+/// -1, 0, 1
+int sign(num a);
+/// sign(a - b)
+int compare(pool *p, num a, num b);
+/// The sign of a sqrt(p) - b sqrt(q) for p, q >= 0: decided by the signs and the squares.
+int compare_roots(pool *p, num a, num p_radicand, num b, num q_radicand);
+
+/// Bounds of sqrt(a), a >= 0, of about `bits` bits: floor and the next number above.
+num root_below(pool *p, num a, long bits);
+num root_above(pool *p, num a, long bits);
+/// Bounds of a / b, b > 0, relative precision about 2^-bits.
+num quotient_below(pool *p, num a, num b, long bits);
+
+/// The nearest double toward zero and the doubles below and above (for reports and brackets).
+double to_double(num a);
+double to_double_below(num a);
+double to_double_above(num a);
+
+/// Room for one number that outlives a release: a slot made before the mark, written later.
+typedef number *slot;
+slot slot_make(pool *p);
+void slot_set(slot s, num a);
+
+/// Vectors of three.
+typedef struct nvec {
+    num x, y, z;
+} nvec;
+nvec nvec_from(pool *p, ovoid_vec3 v);
+nvec nvec_zero(pool *p);
+nvec nvec_add(pool *p, nvec a, nvec b);
+nvec nvec_sub(pool *p, nvec a, nvec b);
+nvec nvec_scale(pool *p, nvec a, num s);
+nvec nvec_cross(pool *p, nvec a, nvec b);
+num nvec_dot(pool *p, nvec a, nvec b);
+num nvec_norm_squared(pool *p, nvec a);
+/// det(a, b, c)
+num nvec_det(pool *p, nvec a, nvec b, nvec c);
+int nvec_is_zero(nvec a);
+
+#endif

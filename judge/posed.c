@@ -1,0 +1,103 @@
+// Posed shapes in exact arithmetic: the rational pose, its points, supports over every vertex.
+#include "posed.h"
+
+#include <math.h>
+
+static int is_length(double x) { return isfinite(x) && fabs(x) <= OVOID_LENGTH_MAX; }
+
+int pose_is_valid(const ovoid_pose *pose) {
+    ovoid_quat q = pose->rotation;
+    return is_length(pose->position.x) && is_length(pose->position.y) && is_length(pose->position.z) && isfinite(q.w) &&
+           isfinite(q.x) && isfinite(q.y) && isfinite(q.z) && (q.w != 0 || q.x != 0 || q.y != 0 || q.z != 0);
+}
+
+// |q|^2 and the rows of |q|^2 R(q).
+static void set_rotation(pool *p, body *b, ovoid_quat q) {
+    num w = number_from(p, q.w), x = number_from(p, q.x), y = number_from(p, q.y), z = number_from(p, q.z);
+    num ww = mul(p, w, w), xx = mul(p, x, x), yy = mul(p, y, y), zz = mul(p, z, z);
+    num xy = scaled(p, mul(p, x, y), 1), xz = scaled(p, mul(p, x, z), 1), yz = scaled(p, mul(p, y, z), 1);
+    num wx = scaled(p, mul(p, w, x), 1), wy = scaled(p, mul(p, w, y), 1), wz = scaled(p, mul(p, w, z), 1);
+    num plus = add(p, ww, xx), minus = sub(p, ww, xx), sum = add(p, yy, zz), difference = sub(p, yy, zz);
+    b->rows[0] = (nvec){trimmed(p, sub(p, plus, sum)), sub(p, xy, wz), add(p, xz, wy)};
+    b->rows[1] = (nvec){add(p, xy, wz), trimmed(p, add(p, minus, difference)), sub(p, yz, wx)};
+    b->rows[2] = (nvec){sub(p, xz, wy), add(p, yz, wx), trimmed(p, sub(p, minus, difference))};
+    b->n = trimmed(p, add(p, plus, sum));
+}
+
+static double sum_abs(ovoid_vec3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
+
+// The largest |vertex|, in doubles.
+static double find_extent(const ovoid_polytope *polytope) {
+    double extent = 0;
+    for (uint32_t i = 0; i < polytope->vertex_count; i++) {
+        const double *v = polytope->vertices + 3 * (size_t)i;
+        extent = fmax(extent, hypot(hypot(v[0], v[1]), v[2]));
+    }
+    return extent;
+}
+
+static body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose) {
+    body b = {.shape = shape, .polytope = ovoid_shape_get_polytope(shape)};
+    set_rotation(p, &b, pose->rotation);
+    b.position = nvec_from(p, pose->position);
+    b.origin = nvec_from(p, b.polytope.origin);
+    b.radius = number_from(p, ovoid_shape_get_radius(shape));
+    b.reach = sum_abs(pose->position) + sum_abs(b.polytope.origin) + find_extent(&b.polytope);
+    return b;
+}
+
+posed posed_make(pool *p, const ovoid_pair *pair) {
+    posed s = {.p = p};
+    s.a = body_make(p, pair->shape_a, &pair->pose_a);
+    s.b = body_make(p, pair->shape_b, &pair->pose_b);
+    s.k = mul(p, s.a.n, s.b.n);
+    s.radii = add(p, s.a.radius, s.b.radius);
+    // The frames' distance: exact difference, rounded.
+    nvec t = posed_difference(&s, body_point(p, &s.a, nvec_zero(p)), body_point(p, &s.b, nvec_zero(p)));
+    num square = quotient_below(p, nvec_norm_squared(p, t), mul(p, s.k, s.k), 60);
+    s.size = sqrt(to_double(square)) + find_extent(&s.a.polytope) + find_extent(&s.b.polytope) + to_double(s.radii);
+    return s;
+}
+
+nvec body_rotate(pool *p, const body *b, nvec v) {
+    return (nvec){nvec_dot(p, b->rows[0], v), nvec_dot(p, b->rows[1], v), nvec_dot(p, b->rows[2], v)};
+}
+
+nvec body_rotate_back(pool *p, const body *b, nvec v) {
+    nvec x = nvec_scale(p, b->rows[0], v.x), y = nvec_scale(p, b->rows[1], v.y), z = nvec_scale(p, b->rows[2], v.z);
+    return nvec_add(p, nvec_add(p, x, y), z);
+}
+
+nvec body_point(pool *p, const body *b, nvec local) {
+    nvec user = nvec_add(p, b->origin, local);
+    return nvec_add(p, nvec_scale(p, b->position, b->n), body_rotate(p, b, user));
+}
+
+static nvec vertex_at(pool *p, const ovoid_polytope *polytope, uint32_t i) {
+    const double *v = polytope->vertices + 3 * (size_t)i;
+    return nvec_from(p, (ovoid_vec3){v[0], v[1], v[2]});
+}
+
+nvec body_vertex(pool *p, const body *b, uint32_t i) { return body_point(p, b, vertex_at(p, &b->polytope, i)); }
+
+num body_support(pool *p, const body *b, nvec direction, int side) {
+    slot best = slot_make(p);
+    // In the body frame the direction is M' direction; vertices are compared there.
+    nvec local = body_rotate_back(p, b, direction);
+    for (uint32_t i = 0; i < b->polytope.vertex_count; i++) {
+        size_t mark = pool_get_mark(p);
+        num value = nvec_dot(p, local, vertex_at(p, &b->polytope, i));
+        if (i == 0 || compare(p, value, best) * side > 0) slot_set(best, value);
+        pool_release(p, mark);
+    }
+    num at_position = mul(p, nvec_dot(p, direction, b->position), b->n);
+    return add(p, add(p, at_position, nvec_dot(p, local, b->origin)), best);
+}
+
+nvec posed_difference(const posed *s, nvec xa, nvec xb) {
+    return nvec_sub(s->p, nvec_scale(s->p, xb, s->a.n), nvec_scale(s->p, xa, s->b.n));
+}
+
+nvec posed_vertex_difference(const posed *s, uint32_t a, uint32_t b) {
+    return posed_difference(s, body_vertex(s->p, &s->a, a), body_vertex(s->p, &s->b, b));
+}

@@ -1,0 +1,50 @@
+// A pair of posed shapes in exact arithmetic. With a quaternion q, M = |q|^2 R(q) has entries of degree two in q, so
+// the world point n x = n position + M (origin + vertex), n = |q|^2, needs no division. Lengths of A carry the factor
+// n_a, those of B n_b, differences k = n_a n_b.
+#ifndef OVOID_JUDGE_POSED_H
+#define OVOID_JUDGE_POSED_H
+
+#include "judge.h"
+#include "number.h"
+
+/// One body. All values exact.
+typedef struct body {
+    const ovoid_shape *shape;
+    ovoid_polytope polytope;
+    nvec rows[3]; ///< of M
+    num n;        ///< |q|^2 > 0
+    nvec position, origin;
+    num radius;
+    double reach; ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
+} body;
+
+typedef struct posed {
+    pool *p;
+    body a, b;
+    num k;       ///< n_a n_b
+    num radii;   ///< sum of the rounding radii
+    double size; ///< about the sum of both bodies' extents and the distance of their frames, in doubles
+} posed;
+
+/// The pair in exact arithmetic. Both poses must have passed pose_is_valid.
+posed posed_make(pool *p, const ovoid_pair *pair);
+
+/// 1 if finite, within OVOID_LENGTH_MAX, and the quaternion not zero.
+int pose_is_valid(const ovoid_pose *pose);
+
+/// M v and M' v.
+nvec body_rotate(pool *p, const body *b, nvec v);
+nvec body_rotate_back(pool *p, const body *b, nvec v);
+
+/// n times the world point of a body-frame point, of a vertex.
+nvec body_point(pool *p, const body *b, nvec local);
+nvec body_vertex(pool *p, const body *b, uint32_t i);
+
+/// The largest (side 1) or smallest (side -1) n (direction . x) over all vertices.
+num body_support(pool *p, const body *b, nvec direction, int side);
+
+/// k (x_b - x_a) for two points that carry n_a and n_b; for two vertices.
+nvec posed_difference(const posed *s, nvec xa, nvec xb);
+nvec posed_vertex_difference(const posed *s, uint32_t a, uint32_t b);
+
+#endif

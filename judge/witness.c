@@ -1,0 +1,116 @@
+// The witness points lie on their bodies, to rounding. A body here is what its pose makes of its hull, enlarged by its
+// radius. First the points that the proof itself names, which are in the hull by construction; else every triangle: the
+// point is near one, or the surface winds around it. (A flat body's triangles, a segment, a point: near it.)
+#include "parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// Rounding of a witness point: 256 half ulps of all lengths that enter it, coordinates, positions and radii of both
+// bodies, since points of B may have been computed in A's frame.
+#define WITNESS_ROUNDING (256 * 0x1p-53)
+
+static double compute_tolerance(const posed *s) {
+    return WITNESS_ROUNDING * (s->a.reach + s->b.reach + to_double(s->radii)) + OVOID_LENGTH_MIN;
+}
+
+// |x / n - y / m| <= radius + tolerance for two points that carry factors n and m.
+static int is_near(pool *p, nvec x, num n, nvec y, num m, num reach) {
+    nvec d = nvec_sub(p, nvec_scale(p, x, m), nvec_scale(p, y, n));
+    num limit = mul(p, reach, mul(p, n, m));
+    return compare(p, nvec_norm_squared(p, d), mul(p, limit, limit)) <= 0;
+}
+
+// --- a point against every triangle of a body
+
+// Near a triangle, an edge or a vertex of the polytope, seen from the point: corners carry the factor n.
+static int is_near_boundary(pool *p, const ovoid_polytope *polytope, const nvec *corners, num square) {
+    // "Not farther than" is "farther than" a little less; the square is a tolerance, its equality does not matter.
+    for (uint32_t t = 0; t < polytope->triangle_count; t++) {
+        const uint32_t *v = polytope->triangles + 3 * (size_t)t;
+        if (!triangle_is_farther(p, corners[v[0]], corners[v[1]], corners[v[2]], square)) return 1;
+    }
+    if (polytope->triangle_count) return 0;
+    if (polytope->vertex_count == 1) return compare(p, nvec_norm_squared(p, corners[0]), square) <= 0;
+    return !segment_is_farther(p, corners[0], corners[1], square);
+}
+
+static int is_in_body(pool *p, const body *b, nvec point, num reach) {
+    const ovoid_polytope *polytope = &b->polytope;
+    nvec *corners = malloc(polytope->vertex_count * sizeof *corners);
+    if (!corners) abort();
+    nvec at = nvec_scale(p, point, b->n);
+    for (uint32_t i = 0; i < polytope->vertex_count; i++) corners[i] = nvec_sub(p, body_vertex(p, b, i), at);
+    num limit = mul(p, reach, b->n);
+    surface s = {corners, polytope->triangles, polytope->vertex_count, polytope->triangle_count};
+    int inside = is_near_boundary(p, polytope, corners, mul(p, limit, limit)) ||
+                 (polytope->rank == 3 && surface_is_closed(&s) && surface_is_winding(p, &s));
+    free(corners);
+    return inside;
+}
+
+// --- the points that a proof names
+
+typedef struct named {
+    nvec point;
+    num factor;
+    int is_known;
+} named;
+
+static int are_weights(const double *w, uint32_t count) {
+    double sum = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(w[i] >= 0 && isfinite(w[i]))) return 0;
+        sum = fmax(sum, w[i]);
+    }
+    return sum > 0;
+}
+
+static named find_named(const claim *c, int of_b) {
+    const posed *s = c->s;
+    const body *b = of_b ? &s->b : &s->a;
+    const ovoid_proof *proof = c->proof;
+    if (proof->kind == OVOID_PROOF_INNER) return (named){inner_point_a(c), s->a.n, 1};
+    if (proof->kind == OVOID_PROOF_INNER_POINTS) return (named){of_b ? inner_point_b(c) : inner_point_a(c), b->n, 1};
+    const double *weights = of_b ? proof->weight_b : proof->weight_a;
+    if (!are_weights(weights, proof->count)) return (named){nvec_zero(s->p), b->n, 0};
+    weighted w = body_weighted_point(s->p, b, of_b ? proof->b : proof->a, weights, proof->count);
+    return (named){w.point, mul(s->p, w.weight, b->n), 1};
+}
+
+static int is_witness(const claim *c, int of_b, nvec point, double tolerance) {
+    const posed *s = c->s;
+    const body *b = of_b ? &s->b : &s->a;
+    num one = number_from_integer(s->p, 1), reach = add(s->p, b->radius, number_from(s->p, tolerance));
+    named n = find_named(c, of_b);
+    if (n.is_known && is_near(s->p, point, one, n.point, n.factor, reach)) return 1;
+    return is_in_body(s->p, b, point, reach);
+}
+
+ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
+    double tolerance = compute_tolerance(c->s);
+    if (!is_witness(c, 0, nvec_from(c->s->p, answer->point_a), tolerance))
+        return reject(c->error, OVOID_ERROR_PROOF, "point_a is not on A, rounding (%.3g) included", tolerance);
+    if (!is_witness(c, 1, nvec_from(c->s->p, answer->point_b), tolerance))
+        return reject(c->error, OVOID_ERROR_PROOF, "point_b is not on B, rounding (%.3g) included", tolerance);
+    return OVOID_OK;
+}
+
+// |point_b - point_a - d n| for d in the bracket: with w = upper - lower the points may differ from the nearest ones by
+// what the bracket leaves open, sqrt(w (w + 2 |d|)) across and w along the normal.
+ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
+    if (!(isfinite(answer->lower) && isfinite(answer->upper)))
+        return reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
+    pool *p = context->p;
+    size_t mark = pool_get_mark(p);
+    posed s = posed_make(p, pair);
+    double width = answer->upper - answer->lower, size = fmax(fabs(answer->lower), fabs(answer->upper));
+    double slack = width + sqrt(width * (width + 2 * size)) + 2 * compute_tolerance(&s);
+    num d = scaled(p, add(p, number_from(p, answer->lower), number_from(p, answer->upper)), -1);
+    nvec along = nvec_scale(p, nvec_from(p, answer->normal), d);
+    nvec off = nvec_sub(p, nvec_sub(p, nvec_from(p, answer->point_b), nvec_from(p, answer->point_a)), along);
+    double found = sqrt(to_double(nvec_norm_squared(p, off)));
+    pool_release(p, mark);
+    if (found <= slack) return OVOID_OK;
+    return reject(error, OVOID_ERROR_PROOF, "point_b - point_a is off d normal by %.3g, more than %.3g", found, slack);
+}
