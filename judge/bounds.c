@@ -6,7 +6,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-ovoid_code reject(ovoid_error *error, ovoid_code code, const char *format, ...) {
+ovoid_code judge_reject(ovoid_error *error, ovoid_code code, const char *format, ...) {
     if (error) {
         va_list arguments;
         error->code = code;
@@ -23,17 +23,18 @@ ovoid_code judge_check_lower(const claim *c) {
     pool *p = s->p;
     ovoid_vec3 n = c->proof->normal;
     if (!isfinite(n.x) || !isfinite(n.y) || !isfinite(n.z))
-        return reject(c->error, OVOID_ERROR_NOT_FINITE, "the proof's normal is not finite");
+        return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "the proof's normal is not finite");
     nvec normal = nvec_from(p, n);
-    if (nvec_is_zero(normal)) return reject(c->error, OVOID_ERROR_PROOF, "a lower bound without a normal");
+    if (nvec_is_zero(normal)) return judge_reject(c->error, OVOID_ERROR_PROOF, "a lower bound without a normal");
 
     // k gap |n|, against the claim: core |n| k <= n_a min_B - n_b max_A.
-    num gap =
-        sub(p, mul(p, body_support(p, &s->b, normal, -1), s->a.n), mul(p, body_support(p, &s->a, normal, 1), s->b.n));
+    num gap = num_sub(p, num_mul(p, body_support(p, &s->b, normal, -1), s->a.n),
+                      num_mul(p, body_support(p, &s->a, normal, 1), s->b.n));
     num one = number_from_integer(p, 1);
-    if (compare_roots(p, mul(p, c->core, s->k), nvec_norm_squared(p, normal), gap, one) > 0)
-        return reject(c->error, OVOID_ERROR_PROOF, "lower is above the gap along the normal, %.17g, radii aside",
-                      to_double(gap) / to_double(s->k) / sqrt(to_double(nvec_norm_squared(p, normal))));
+    if (num_compare_roots(p, num_mul(p, c->core, s->k), nvec_norm_squared(p, normal), gap, one) > 0)
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "lower is above the gap along the normal, %.17g, radii aside",
+                            num_to_double(gap) / num_to_double(s->k) /
+                                sqrt(num_to_double(nvec_norm_squared(p, normal))));
     return OVOID_OK;
 }
 
@@ -42,7 +43,7 @@ weighted body_weighted_point(pool *p, const body *b, const uint32_t *v, const do
     for (uint32_t i = 0; i < count; i++) {
         num weight = number_from(p, w[i]);
         sum.point = nvec_add(p, sum.point, nvec_scale(p, body_vertex(p, b, v[i]), weight));
-        sum.weight = add(p, sum.weight, weight);
+        sum.weight = num_add(p, sum.weight, weight);
     }
     return sum;
 }
@@ -51,9 +52,10 @@ weighted body_weighted_point(pool *p, const body *b, const uint32_t *v, const do
 static ovoid_code check_distance(const claim *c, nvec difference, num denominator) {
     pool *p = c->s->p;
     num square = nvec_norm_squared(p, difference), one = number_from_integer(p, 1);
-    if (compare_roots(p, one, square, mul(p, c->core, denominator), one) > 0)
-        return reject(c->error, OVOID_ERROR_PROOF, "upper is below the distance of the two points, %.17g, radii aside",
-                      sqrt(to_double(square)) / to_double(denominator));
+    if (num_compare_roots(p, one, square, num_mul(p, c->core, denominator), one) > 0)
+        return judge_reject(c->error, OVOID_ERROR_PROOF,
+                            "upper is below the distance of the two points, %.17g, radii aside",
+                            sqrt(num_to_double(square)) / num_to_double(denominator));
     return OVOID_OK;
 }
 
@@ -63,14 +65,14 @@ static ovoid_code check_points(const claim *c) {
     for (uint32_t i = 0; i < proof->count; i++)
         if (!(proof->weight_a[i] >= 0 && proof->weight_b[i] >= 0 && isfinite(proof->weight_a[i]) &&
               isfinite(proof->weight_b[i])))
-            return reject(c->error, OVOID_ERROR_PROOF, "weight %u is not a finite number of at least zero", i);
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "weight %u is not a finite number of at least zero", i);
     weighted a = body_weighted_point(s->p, &s->a, proof->a, proof->weight_a, proof->count);
     weighted b = body_weighted_point(s->p, &s->b, proof->b, proof->weight_b, proof->count);
-    if (sign(a.weight) == 0 || sign(b.weight) == 0)
-        return reject(c->error, OVOID_ERROR_PROOF, "the weights are all zero");
+    if (num_sign(a.weight) == 0 || num_sign(b.weight) == 0)
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "the weights are all zero");
     // k wa wb (B - A)
     nvec difference = posed_difference(s, nvec_scale(s->p, a.point, b.weight), nvec_scale(s->p, b.point, a.weight));
-    return check_distance(c, difference, mul(s->p, s->k, mul(s->p, a.weight, b.weight)));
+    return check_distance(c, difference, num_mul(s->p, s->k, num_mul(s->p, a.weight, b.weight)));
 }
 
 ovoid_code judge_check_inner_points(const claim *c) {
@@ -81,59 +83,61 @@ ovoid_code judge_check_inner_points(const claim *c) {
 static ovoid_code check_hull(const claim *c) {
     const posed *s = c->s;
     pool *p = s->p;
-    if (c->proof->count != 4) return reject(c->error, OVOID_ERROR_PROOF, "a hull of %u differences", c->proof->count);
+    if (c->proof->count != 4)
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "a hull of %u differences", c->proof->count);
     nvec d[4];
     for (int i = 0; i < 4; i++) d[i] = posed_vertex_difference(s, c->proof->a[i], c->proof->b[i]);
     // Inside, and no nearer to a face's plane than the claim: the origin is on each face's inner side.
     static const int faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
-    num depth = mul(p, c->core, s->k);
+    num depth = num_mul(p, c->core, s->k);
     for (int f = 0; f < 4; f++) {
         nvec a = d[faces[f][0]], b = d[faces[f][1]], e = d[faces[f][2]], opposite = d[faces[f][3]];
         nvec normal = nvec_cross(p, nvec_sub(p, b, a), nvec_sub(p, e, a));
         num offset = nvec_dot(p, normal, a), other = nvec_dot(p, normal, nvec_sub(p, opposite, a));
-        if (sign(offset) * sign(other) >= 0)
-            return reject(c->error, OVOID_ERROR_PROOF, "the origin is not strictly inside the four differences");
+        if (num_sign(offset) * num_sign(other) >= 0)
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "the origin is not strictly inside the four differences");
         // core k |n| >= -|offset|
-        num distance = sign(offset) > 0 ? neg(p, offset) : offset;
-        if (compare_roots(p, depth, nvec_norm_squared(p, normal), distance, number_from_integer(p, 1)) < 0)
-            return reject(c->error, OVOID_ERROR_PROOF, "upper is deeper than the four differences show");
+        num distance = num_sign(offset) > 0 ? num_neg(p, offset) : offset;
+        if (num_compare_roots(p, depth, nvec_norm_squared(p, normal), distance, number_from_integer(p, 1)) < 0)
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "upper is deeper than the four differences show");
     }
     return OVOID_OK;
 }
 
 // The surface of the cover, its points times k.
-static ovoid_code read_cover(const claim *c, const ovoid_cover *cover, surface *out) {
+static ovoid_code read_cover(const claim *c, const ovoid_cover *cover, shell *out) {
     judge *j = c->context;
     const posed *s = c->s;
     uint32_t na = s->a.polytope.vertex_count, nb = s->b.polytope.vertex_count;
-    if (!cover) return reject(c->error, OVOID_ERROR_PROOF, "the upper bound rests on a cover, and none is given");
+    if (!cover) return judge_reject(c->error, OVOID_ERROR_PROOF, "the upper bound rests on a cover, and none is given");
     if (cover->point_count > OVOID_COVER_POINTS || cover->triangle_count > 2 * OVOID_COVER_POINTS)
-        return reject(c->error, OVOID_ERROR_INDEX, "the cover's counts exceed its arrays");
+        return judge_reject(c->error, OVOID_ERROR_INDEX, "the cover's counts exceed its arrays");
     for (uint32_t i = 0; i < cover->point_count; i++) {
         if (cover->a[i] >= na || cover->b[i] >= nb)
-            return reject(c->error, OVOID_ERROR_INDEX, "point %u of the cover has no such vertex", i);
+            return judge_reject(c->error, OVOID_ERROR_INDEX, "point %u of the cover has no such vertex", i);
         j->points[i] = posed_vertex_difference(s, cover->a[i], cover->b[i]);
     }
     for (uint32_t t = 0; t < cover->triangle_count; t++)
         for (int e = 0; e < 3; e++) j->triangles[3 * t + (uint32_t)e] = cover->triangles[t][e];
-    *out = (surface){j->points, j->triangles, cover->point_count, cover->triangle_count};
+    *out = (shell){j->points, j->triangles, cover->point_count, cover->triangle_count};
     return OVOID_OK;
 }
 
 static ovoid_code check_cover(const claim *c, const ovoid_cover *cover) {
     pool *p = c->s->p;
-    surface s;
+    shell s;
     ovoid_code code = read_cover(c, cover, &s);
     if (code != OVOID_OK) return code;
-    if (!surface_is_closed(&s)) return reject(c->error, OVOID_ERROR_PROOF, "the cover is not a closed surface");
-    if (!surface_is_winding(p, &s))
-        return reject(c->error, OVOID_ERROR_PROOF, "the cover does not wind around the origin");
-    if (sign(c->core) >= 0) return OVOID_OK;
-    num depth = mul(p, c->core, c->s->k), square = mul(p, depth, depth);
+    if (!shell_is_closed(&s)) return judge_reject(c->error, OVOID_ERROR_PROOF, "the cover is not a closed surface");
+    if (!shell_is_winding(p, &s))
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "the cover does not wind around the origin");
+    if (num_sign(c->core) >= 0) return OVOID_OK;
+    num depth = num_mul(p, c->core, c->s->k), square = num_mul(p, depth, depth);
     for (uint32_t t = 0; t < s.triangle_count; t++) {
         const uint32_t *v = s.triangles + 3 * (size_t)t;
         if (!triangle_is_farther(p, s.points[v[0]], s.points[v[1]], s.points[v[2]], square))
-            return reject(c->error, OVOID_ERROR_PROOF, "triangle %u of the cover is nearer than the depth claimed", t);
+            return judge_reject(c->error, OVOID_ERROR_PROOF,
+                                "triangle %u of the cover is nearer than the depth claimed", t);
     }
     return OVOID_OK;
 }
@@ -147,5 +151,5 @@ ovoid_code judge_check_upper(const claim *c, const ovoid_cover *cover) {
     case OVOID_PROOF_COVER: return check_cover(c, cover);
     case OVOID_PROOF_NONE: break;
     }
-    return reject(c->error, OVOID_ERROR_PROOF, "an upper bound without a proof");
+    return judge_reject(c->error, OVOID_ERROR_PROOF, "an upper bound without a proof");
 }

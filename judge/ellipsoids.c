@@ -24,7 +24,7 @@ static symmetric symmetric_from(pool *p, ovoid_sym3 q) {
                        number_from(p, q.yy), number_from(p, q.yz), number_from(p, q.zz)};
 }
 
-static num minor2(pool *p, num a, num b, num c, num d) { return sub(p, mul(p, a, d), mul(p, b, c)); }
+static num minor2(pool *p, num a, num b, num c, num d) { return num_sub(p, num_mul(p, a, d), num_mul(p, b, c)); }
 
 static symmetric compute_adjugate(pool *p, symmetric q) {
     return (symmetric){minor2(p, q.d, q.e, q.e, q.f), minor2(p, q.c, q.b, q.f, q.e), minor2(p, q.b, q.c, q.d, q.e),
@@ -43,8 +43,8 @@ static num compute_det(pool *p, symmetric q, symmetric adjugate) {
 // By the leading minors (J. J. Sylvester, 1852).
 static int is_positive_definite(pool *p, symmetric q) {
     size_t mark = pool_get_mark(p);
-    int yes =
-        sign(q.a) > 0 && sign(minor2(p, q.a, q.b, q.b, q.d)) > 0 && sign(compute_det(p, q, compute_adjugate(p, q))) > 0;
+    int yes = num_sign(q.a) > 0 && num_sign(minor2(p, q.a, q.b, q.b, q.d)) > 0 &&
+              num_sign(compute_det(p, q, compute_adjugate(p, q))) > 0;
     pool_release(p, mark);
     return yes;
 }
@@ -71,19 +71,20 @@ static num inner_form(pool *p, const inner *e, nvec u, nvec v) {
 // 1 if the form is at least 1 everywhere on the segment, as seen from the centre.
 static int segment_is_outside(pool *p, const inner *e, nvec a, nvec b) {
     nvec along = nvec_sub(p, b, a);
-    num aa = inner_form(p, e, a, a), t = neg(p, inner_form(p, e, a, along)), length = inner_form(p, e, along, along);
-    if (sign(t) <= 0) return compare(p, aa, e->det) >= 0;
-    if (compare(p, t, length) >= 0) return compare(p, inner_form(p, e, b, b), e->det) >= 0;
+    num aa = inner_form(p, e, a, a), t = num_neg(p, inner_form(p, e, a, along)),
+        length = inner_form(p, e, along, along);
+    if (num_sign(t) <= 0) return num_compare(p, aa, e->det) >= 0;
+    if (num_compare(p, t, length) >= 0) return num_compare(p, inner_form(p, e, b, b), e->det) >= 0;
     // At its least point the form is aa - t^2 / length.
-    return compare(p, sub(p, mul(p, aa, length), mul(p, t, t)), mul(p, e->det, length)) >= 0;
+    return num_compare(p, num_sub(p, num_mul(p, aa, length), num_mul(p, t, t)), num_mul(p, e->det, length)) >= 0;
 }
 
 // 1 if the point of the triangle's plane, of normal n, where the form is least lies in the triangle. It is the multiple
 // offset / (n' Q n) of Q n, and a . n = det(a, b, c) = offset, so that the offset's sign drops out.
 static int is_least_point_inside(pool *p, const inner *e, nvec n, nvec a, nvec b, nvec c) {
     nvec along = symmetric_apply(p, e->q, n);
-    return sign(nvec_det(p, along, a, b)) >= 0 && sign(nvec_det(p, along, b, c)) >= 0 &&
-           sign(nvec_det(p, along, c, a)) >= 0;
+    return num_sign(nvec_det(p, along, a, b)) >= 0 && num_sign(nvec_det(p, along, b, c)) >= 0 &&
+           num_sign(nvec_det(p, along, c, a)) >= 0;
 }
 
 static int triangle_is_outside(pool *p, const inner *e, nvec a, nvec b, nvec c) {
@@ -91,7 +92,7 @@ static int triangle_is_outside(pool *p, const inner *e, nvec a, nvec b, nvec c) 
     nvec n = nvec_cross(p, nvec_sub(p, b, a), nvec_sub(p, c, a));
     num offset = nvec_dot(p, n, a), spread = nvec_dot(p, n, symmetric_apply(p, e->q, n));
     // The plane keeps out of the interior: offset^2 >= n' Q n.
-    int outside = !nvec_is_zero(n) && compare(p, mul(p, offset, offset), spread) >= 0;
+    int outside = !nvec_is_zero(n) && num_compare(p, num_mul(p, offset, offset), spread) >= 0;
     if (!outside)
         outside = (nvec_is_zero(n) || !is_least_point_inside(p, e, n, a, b, c)) && segment_is_outside(p, e, a, b) &&
                   segment_is_outside(p, e, b, c) && segment_is_outside(p, e, c, a);
@@ -100,7 +101,7 @@ static int triangle_is_outside(pool *p, const inner *e, nvec a, nvec b, nvec c) 
 }
 
 // The polyhedron's triangles around the ellipsoid's centre; points to free.
-static surface surface_create(pool *p, const ovoid_polytope *polytope, ovoid_vec3 center, nvec **points) {
+static shell shell_create(pool *p, const ovoid_polytope *polytope, ovoid_vec3 center, nvec **points) {
     uint32_t count = polytope->vertex_count;
     nvec c = nvec_from(p, center);
     *points = malloc((count ? count : 1) * sizeof **points);
@@ -109,13 +110,13 @@ static surface surface_create(pool *p, const ovoid_polytope *polytope, ovoid_vec
         const double *v = polytope->vertices + 3 * (size_t)i;
         (*points)[i] = nvec_sub(p, nvec_from(p, (ovoid_vec3){v[0], v[1], v[2]}), c);
     }
-    return (surface){*points, polytope->triangles, count, polytope->triangle_count};
+    return (shell){*points, polytope->triangles, count, polytope->triangle_count};
 }
 
 static int is_inside_polyhedron(pool *p, const body *b, const inner *e) {
     nvec *points;
-    surface s = surface_create(p, &b->polytope, ovoid_shape_get_inner(b->shape).ellipsoid.center, &points);
-    int inside = surface_is_closed(&s) && surface_is_winding(p, &s);
+    shell s = shell_create(p, &b->polytope, ovoid_shape_get_inner(b->shape).ellipsoid.center, &points);
+    int inside = shell_is_closed(&s) && shell_is_winding(p, &s);
     for (uint32_t t = 0; t < s.triangle_count && inside; t++) {
         const uint32_t *v = s.triangles + 3 * (size_t)t;
         inside = triangle_is_outside(p, e, points[v[0]], points[v[1]], points[v[2]]);
@@ -127,19 +128,19 @@ static int is_inside_polyhedron(pool *p, const body *b, const inner *e) {
 // A lower bound of the least eigenvalue of positive definite Q, good to about 2^-60: the largest t, bit by bit, for
 // which Q - t I is still positive definite.
 static num find_least_eigenvalue(pool *p, symmetric q) {
-    num least = compare(p, q.a, q.d) < 0 ? q.a : q.d;
-    if (compare(p, q.f, least) < 0) least = q.f;
+    num least = num_compare(p, q.a, q.d) < 0 ? q.a : q.d;
+    if (num_compare(p, q.f, least) < 0) least = q.f;
     slot t = slot_make(p);
-    long top_bit = (long)ilogb(to_double(least)) + 1;
+    long top_bit = (long)ilogb(num_to_double(least)) + 1;
     int digits = 0;
     // The first bit is at most the least diagonal entry; Q is positive definite, so one is found in the end.
     for (long bit = top_bit; digits < 60; bit--) {
         size_t mark = pool_get_mark(p);
-        num trial = add(p, t, scaled(p, number_from_integer(p, 1), bit));
+        num trial = num_add(p, t, num_scaled(p, number_from_integer(p, 1), bit));
         symmetric shifted = q;
-        shifted.a = sub(p, q.a, trial);
-        shifted.d = sub(p, q.d, trial);
-        shifted.f = sub(p, q.f, trial);
+        shifted.a = num_sub(p, q.a, trial);
+        shifted.d = num_sub(p, q.d, trial);
+        shifted.f = num_sub(p, q.f, trial);
         int holds = is_positive_definite(p, shifted);
         if (holds) slot_set(t, trial);
         if (holds || digits) digits++;
@@ -157,7 +158,7 @@ static void compute_facts(pool *p, const body *b, facts *f) {
     f->radius.e = 0;
     f->shape = b->shape;
     f->is_inside = b->polytope.rank == 3 && is_positive_definite(p, e.q) && is_inside_polyhedron(p, b, &e);
-    if (f->is_inside) slot_set(&f->radius, root_below(p, find_least_eigenvalue(p, e.q), ROOT_BITS));
+    if (f->is_inside) slot_set(&f->radius, num_root_below(p, find_least_eigenvalue(p, e.q), ROOT_BITS));
     pool_release(p, mark);
 }
 
@@ -203,7 +204,7 @@ static depth_in compute_depth_in(pool *p, const body *b, nvec local, num factor)
     inner e = inner_make(p, b->shape);
     nvec center = nvec_from(p, ovoid_shape_get_inner(b->shape).ellipsoid.center);
     nvec y = nvec_sub(p, local, nvec_scale(p, center, factor));
-    return (depth_in){inner_form(p, &e, y, y), mul(p, e.det, mul(p, factor, factor))};
+    return (depth_in){inner_form(p, &e, y, y), num_mul(p, e.det, num_mul(p, factor, factor))};
 }
 
 // k times the body-frame point of B that is the world point x / n_a.
@@ -218,10 +219,10 @@ static nvec local_in_b(const posed *s, nvec xa) {
 static int is_depth_proven(const claim *c, depth_in a, depth_in b, num ra, num rb) {
     pool *p = c->s->p;
     // (1 - sqrt(form / whole)) whole = whole - sqrt(form whole)
-    num left_a = sub(p, a.whole, root_above(p, mul(p, a.form, a.whole), ROOT_BITS));
-    num left_b = sub(p, b.whole, root_above(p, mul(p, b.form, b.whole), ROOT_BITS));
-    num balls = add(p, mul(p, mul(p, left_a, ra), b.whole), mul(p, mul(p, left_b, rb), a.whole));
-    return sign(add(p, mul(p, c->core, mul(p, a.whole, b.whole)), balls)) >= 0;
+    num left_a = num_sub(p, a.whole, num_root_above(p, num_mul(p, a.form, a.whole), ROOT_BITS));
+    num left_b = num_sub(p, b.whole, num_root_above(p, num_mul(p, b.form, b.whole), ROOT_BITS));
+    num balls = num_add(p, num_mul(p, num_mul(p, left_a, ra), b.whole), num_mul(p, num_mul(p, left_b, rb), a.whole));
+    return num_sign(num_add(p, num_mul(p, c->core, num_mul(p, a.whole, b.whole)), balls)) >= 0;
 }
 
 static ovoid_code check_common_point(const claim *c, const facts *a, const facts *b) {
@@ -230,10 +231,11 @@ static ovoid_code check_common_point(const claim *c, const facts *a, const facts
     nvec local_a = nvec_from(p, c->proof->inner_a);
     depth_in in_a = compute_depth_in(p, &s->a, local_a, number_from_integer(p, 1));
     depth_in in_b = compute_depth_in(p, &s->b, local_in_b(s, inner_point_a(c)), s->k);
-    if (compare(p, in_a.form, in_a.whole) >= 0 || compare(p, in_b.form, in_b.whole) >= 0)
-        return reject(c->error, OVOID_ERROR_PROOF, "the common point is not strictly inside both inner ellipsoids");
+    if (num_compare(p, in_a.form, in_a.whole) >= 0 || num_compare(p, in_b.form, in_b.whole) >= 0)
+        return judge_reject(c->error, OVOID_ERROR_PROOF,
+                            "the common point is not strictly inside both inner ellipsoids");
     if (!is_depth_proven(c, in_a, in_b, &a->radius, &b->radius))
-        return reject(c->error, OVOID_ERROR_PROOF, "upper is deeper than the inner ellipsoids' balls show");
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "upper is deeper than the inner ellipsoids' balls show");
     return OVOID_OK;
 }
 
@@ -243,8 +245,8 @@ static ovoid_code check_two_points(const claim *c) {
     num one = number_from_integer(p, 1);
     depth_in in_a = compute_depth_in(p, &s->a, nvec_from(p, c->proof->inner_a), one);
     depth_in in_b = compute_depth_in(p, &s->b, nvec_from(p, c->proof->inner_b), one);
-    if (compare(p, in_a.form, in_a.whole) > 0 || compare(p, in_b.form, in_b.whole) > 0)
-        return reject(c->error, OVOID_ERROR_PROOF, "a point of the proof is outside of its inner ellipsoid");
+    if (num_compare(p, in_a.form, in_a.whole) > 0 || num_compare(p, in_b.form, in_b.whole) > 0)
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "a point of the proof is outside of its inner ellipsoid");
     return judge_check_inner_points(c);
 }
 
@@ -253,12 +255,12 @@ static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && is
 ovoid_code judge_check_inner(const claim *c) {
     int common = c->proof->kind == OVOID_PROOF_INNER;
     if (!is_finite(c->proof->inner_a) || (!common && !is_finite(c->proof->inner_b)))
-        return reject(c->error, OVOID_ERROR_NOT_FINITE, "a point of the proof is not finite");
+        return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "a point of the proof is not finite");
     // The second call may move the table: the first pointer is fetched again.
     (void)judge_get_facts(c->context, &c->s->a);
     const facts *b = judge_get_facts(c->context, &c->s->b), *a = judge_get_facts(c->context, &c->s->a);
     if (!a->is_inside || !b->is_inside)
-        return reject(c->error, OVOID_ERROR_PROOF, "the inner ellipsoid of %s is not inside its polyhedron",
-                      a->is_inside ? "B" : "A");
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "the inner ellipsoid of %s is not inside its polyhedron",
+                            a->is_inside ? "B" : "A");
     return common ? check_common_point(c, a, b) : check_two_points(c);
 }

@@ -39,11 +39,11 @@ static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && is
 // --- refusals
 
 static ovoid_code check_refusal(const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
-    int valid_a = pose_is_valid(&pair->pose_a), valid_b = pose_is_valid(&pair->pose_b);
+    int valid_a = judge_is_pose_valid(&pair->pose_a), valid_b = judge_is_pose_valid(&pair->pose_b);
     if (answer->status != OVOID_UNDECIDED || answer->lower != -INFINITY || answer->upper != INFINITY)
-        return reject(error, OVOID_ERROR_PROOF, "a refused query with an answer");
+        return judge_reject(error, OVOID_ERROR_PROOF, "a refused query with an answer");
     if ((answer->limit == OVOID_LIMIT_POSE_A && valid_a) || (answer->limit == OVOID_LIMIT_POSE_B && valid_b))
-        return reject(error, OVOID_ERROR_PROOF, "a valid pose was refused");
+        return judge_reject(error, OVOID_ERROR_PROOF, "a valid pose was refused");
     return OVOID_OK;
 }
 
@@ -56,22 +56,23 @@ static int is_refusal(const ovoid_answer *answer) {
 
 static ovoid_code check_data(const ovoid_answer *answer, ovoid_error *error) {
     if (isnan(answer->lower) || isnan(answer->upper) || answer->lower == INFINITY || answer->upper == -INFINITY)
-        return reject(error, OVOID_ERROR_NOT_FINITE, "the bracket is not one of numbers");
+        return judge_reject(error, OVOID_ERROR_NOT_FINITE, "the bracket is not one of numbers");
     if (!is_finite(answer->point_a) || !is_finite(answer->point_b) || !is_finite(answer->normal))
-        return reject(error, OVOID_ERROR_NOT_FINITE, "a witness point or the normal is not finite");
+        return judge_reject(error, OVOID_ERROR_NOT_FINITE, "a witness point or the normal is not finite");
     if (answer->lower > answer->upper)
-        return reject(error, OVOID_ERROR_PROOF, "lower %.17g is above upper %.17g", answer->lower, answer->upper);
+        return judge_reject(error, OVOID_ERROR_PROOF, "lower %.17g is above upper %.17g", answer->lower, answer->upper);
     return OVOID_OK;
 }
 
 static ovoid_code check_status(const judge *context, const posed *s, const ovoid_answer *answer, ovoid_error *error) {
     if ((answer->status == OVOID_SEPARATED) != (answer->lower > 0))
-        return reject(error, OVOID_ERROR_PROOF, "the status is not what lower, %.17g, says", answer->lower);
+        return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what lower, %.17g, says", answer->lower);
     if ((answer->status == OVOID_OVERLAPPING) != (answer->upper < 0))
-        return reject(error, OVOID_ERROR_PROOF, "the status is not what upper, %.17g, says", answer->upper);
+        return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what upper, %.17g, says", answer->upper);
     double width = answer->upper - answer->lower;
     if (answer->status == OVOID_TOUCHING && width > context->touching * s->size + OVOID_LENGTH_MIN)
-        return reject(error, OVOID_ERROR_PROOF, "touching within %.3g is wide for a pair of size %.3g", width, s->size);
+        return judge_reject(error, OVOID_ERROR_PROOF, "touching within %.3g is wide for a pair of size %.3g", width,
+                            s->size);
     return OVOID_OK;
 }
 
@@ -80,22 +81,23 @@ static ovoid_code check_normal(pool *p, const ovoid_answer *answer, ovoid_error 
     if (answer->lower == -INFINITY) return OVOID_OK;
     nvec n = nvec_from(p, answer->normal), direction = nvec_from(p, answer->proof.normal);
     num square = nvec_norm_squared(p, n), tolerance = number_from(p, 1e-12), one = number_from_integer(p, 1);
-    if (compare(p, square, mul(p, sub(p, one, tolerance), sub(p, one, tolerance))) < 0 ||
-        compare(p, square, mul(p, add(p, one, tolerance), add(p, one, tolerance))) > 0)
-        return reject(error, OVOID_ERROR_PROOF, "the normal's length is %.17g", sqrt(to_double(square)));
+    if (num_compare(p, square, num_mul(p, num_sub(p, one, tolerance), num_sub(p, one, tolerance))) < 0 ||
+        num_compare(p, square, num_mul(p, num_add(p, one, tolerance), num_add(p, one, tolerance))) > 0)
+        return judge_reject(error, OVOID_ERROR_PROOF, "the normal's length is %.17g", sqrt(num_to_double(square)));
     // sine and cosine of the angle between the two
     num across = nvec_norm_squared(p, nvec_cross(p, n, direction));
-    if (sign(nvec_dot(p, n, direction)) <= 0 ||
-        compare_roots(p, one, across, tolerance, mul(p, square, nvec_norm_squared(p, direction))) > 0)
-        return reject(error, OVOID_ERROR_PROOF, "the normal is not the direction of the lower bound");
+    if (num_sign(nvec_dot(p, n, direction)) <= 0 ||
+        num_compare_roots(p, one, across, tolerance, num_mul(p, square, nvec_norm_squared(p, direction))) > 0)
+        return judge_reject(error, OVOID_ERROR_PROOF, "the normal is not the direction of the lower bound");
     return OVOID_OK;
 }
 
 static ovoid_code check_indices(const posed *s, const ovoid_proof *proof, ovoid_error *error) {
-    if (proof->count > 4) return reject(error, OVOID_ERROR_INDEX, "%u entries of a proof of at most 4", proof->count);
+    if (proof->count > 4)
+        return judge_reject(error, OVOID_ERROR_INDEX, "%u entries of a proof of at most 4", proof->count);
     for (uint32_t i = 0; i < proof->count; i++)
         if (proof->a[i] >= s->a.polytope.vertex_count || proof->b[i] >= s->b.polytope.vertex_count)
-            return reject(error, OVOID_ERROR_INDEX, "entry %u of the proof has no such vertex", i);
+            return judge_reject(error, OVOID_ERROR_INDEX, "entry %u of the proof has no such vertex", i);
     return OVOID_OK;
 }
 
@@ -107,11 +109,11 @@ static ovoid_code check_bounds(judge *context, const posed *s, const ovoid_answe
     claim c = {.context = context, .s = s, .proof = &answer->proof, .error = error};
     ovoid_code code = OVOID_OK;
     if (answer->lower != -INFINITY) {
-        c.core = add(p, number_from(p, answer->lower), s->radii);
+        c.core = num_add(p, number_from(p, answer->lower), s->radii);
         code = judge_check_lower(&c);
     }
     if (code == OVOID_OK && answer->upper != INFINITY) {
-        c.core = add(p, number_from(p, answer->upper), s->radii);
+        c.core = num_add(p, number_from(p, answer->upper), s->radii);
         code = judge_check_upper(&c, cover);
         if (code == OVOID_OK) code = judge_check_witness(&c, answer);
     }
@@ -120,8 +122,8 @@ static ovoid_code check_bounds(judge *context, const posed *s, const ovoid_answe
 
 static ovoid_code check_pair(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
                              const ovoid_cover *cover, ovoid_error *error) {
-    if (!pose_is_valid(&pair->pose_a) || !pose_is_valid(&pair->pose_b))
-        return reject(error, OVOID_ERROR_PROOF, "an answer for a pose that is none");
+    if (!judge_is_pose_valid(&pair->pose_a) || !judge_is_pose_valid(&pair->pose_b))
+        return judge_reject(error, OVOID_ERROR_PROOF, "an answer for a pose that is none");
     posed s = posed_make(context->p, pair);
     ovoid_code code = check_indices(&s, &answer->proof, error);
     if (code == OVOID_OK) code = check_bounds(context, &s, answer, cover, error);
@@ -133,7 +135,7 @@ static ovoid_code check_pair(judge *context, const ovoid_pair *pair, const ovoid
 ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
                               const ovoid_cover *cover, ovoid_error *error) {
     if (!context || !pair || !pair->shape_a || !pair->shape_b || !answer)
-        return reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
+        return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
     if (is_refusal(answer)) return check_refusal(pair, answer, error);
     ovoid_code code = check_data(answer, error);
     if (code != OVOID_OK) return code;

@@ -95,26 +95,26 @@ static num add_signed(pool *p, num a, num b, int minus) {
     return r;
 }
 
-num add(pool *p, num a, num b) { return add_signed(p, a, b, 0); }
-num sub(pool *p, num a, num b) { return add_signed(p, a, b, 1); }
+num num_add(pool *p, num a, num b) { return add_signed(p, a, b, 0); }
+num num_sub(pool *p, num a, num b) { return add_signed(p, a, b, 1); }
 
-num mul(pool *p, num a, num b) {
+num num_mul(pool *p, num a, num b) {
     number *r = pool_next(p);
     mpz_mul(r->m, a->m, b->m);
     r->e = a->e + b->e;
     return r;
 }
 
-num neg(pool *p, num a) {
+num num_neg(pool *p, num a) {
     number *r = pool_next(p);
     mpz_neg(r->m, a->m);
     r->e = a->e;
     return r;
 }
 
-num scaled(pool *p, num a, long k) { return number_from_mpz(p, a->m, a->e + k); }
+num num_scaled(pool *p, num a, long k) { return number_from_mpz(p, a->m, a->e + k); }
 
-num trimmed(pool *p, num a) {
+num num_trimmed(pool *p, num a) {
     number *r = pool_next(p);
     if (mpz_sgn(a->m) == 0) {
         mpz_set_ui(r->m, 0);
@@ -127,33 +127,33 @@ num trimmed(pool *p, num a) {
     return r;
 }
 
-int sign(num a) { return mpz_sgn(a->m); }
+int num_sign(num a) { return mpz_sgn(a->m); }
 
 // The exponent of the highest bit, of a number that is not zero.
 static long top(num a) { return a->e + (long)mpz_sizeinbase(a->m, 2); }
 
-int compare(pool *p, num a, num b) {
-    int sa = sign(a), sb = sign(b);
+int num_compare(pool *p, num a, num b) {
+    int sa = num_sign(a), sb = num_sign(b);
     if (sa != sb) return sa > sb ? 1 : -1;
     if (sa == 0) return 0;
     if (top(a) != top(b)) return top(a) > top(b) ? sa : -sa;
     size_t mark = pool_get_mark(p);
-    int s = sign(sub(p, a, b));
+    int s = num_sign(num_sub(p, a, b));
     pool_release(p, mark);
     return s;
 }
 
-int compare_roots(pool *p, num a, num p_radicand, num b, num q_radicand) {
-    int sa = sign(p_radicand) ? sign(a) : 0, sb = sign(q_radicand) ? sign(b) : 0;
+int num_compare_roots(pool *p, num a, num p_radicand, num b, num q_radicand) {
+    int sa = num_sign(p_radicand) ? num_sign(a) : 0, sb = num_sign(q_radicand) ? num_sign(b) : 0;
     if (sa != sb) return sa > sb ? 1 : -1;
     if (sa == 0) return 0;
     size_t mark = pool_get_mark(p);
-    int s = compare(p, mul(p, mul(p, a, a), p_radicand), mul(p, mul(p, b, b), q_radicand));
+    int s = num_compare(p, num_mul(p, num_mul(p, a, a), p_radicand), num_mul(p, num_mul(p, b, b), q_radicand));
     pool_release(p, mark);
     return sa > 0 ? s : -s;
 }
 
-num root_below(pool *p, num a, long bits) {
+num num_root_below(pool *p, num a, long bits) {
     number *r = pool_next(p);
     // Shift to about 2 bits bits and an even exponent.
     long shift = 2 * bits - (long)mpz_sizeinbase(a->m, 2);
@@ -165,16 +165,16 @@ num root_below(pool *p, num a, long bits) {
     return r;
 }
 
-num root_above(pool *p, num a, long bits) {
-    num below = root_below(p, a, bits);
-    if (compare(p, mul(p, below, below), a) == 0) return below;
+num num_root_above(pool *p, num a, long bits) {
+    num below = num_root_below(p, a, bits);
+    if (num_compare(p, num_mul(p, below, below), a) == 0) return below;
     number *r = pool_next(p);
     mpz_add_ui(r->m, below->m, 1);
     r->e = below->e;
     return r;
 }
 
-num quotient_below(pool *p, num a, num b, long bits) {
+num num_quotient_below(pool *p, num a, num b, long bits) {
     number *r = pool_next(p);
     long shift = bits + (long)mpz_sizeinbase(b->m, 2) - (long)mpz_sizeinbase(a->m, 2);
     if (shift < 0) shift = 0;
@@ -184,9 +184,9 @@ num quotient_below(pool *p, num a, num b, long bits) {
     return r;
 }
 
-double to_double(num a) {
-    if (sign(a) == 0) return 0;
-    if (top(a) > 1100) return sign(a) * INFINITY;
+double num_to_double(num a) {
+    if (num_sign(a) == 0) return 0;
+    if (top(a) > 1100) return num_sign(a) * INFINITY;
     if (top(a) < -1100) return 0;
     long e;
     double m = mpz_get_d_2exp(&e, a->m);
@@ -195,17 +195,17 @@ double to_double(num a) {
 
 // The double next to `a` on the side of `direction` (-1, 1), or `a` itself.
 static double to_double_toward(num a, int direction) {
-    double x = to_double(a);
+    double x = num_to_double(a);
     if (isinf(x)) return (x > 0) == (direction > 0) ? x : nextafter(x, 0);
     pool *p = pool_create();
     if (!p) abort();
-    while (isfinite(x) && compare(p, number_from(p, x), a) * direction < 0) x = nextafter(x, direction * INFINITY);
+    while (isfinite(x) && num_compare(p, number_from(p, x), a) * direction < 0) x = nextafter(x, direction * INFINITY);
     pool_destroy(p);
     return x;
 }
 
-double to_double_below(num a) { return to_double_toward(a, -1); }
-double to_double_above(num a) { return to_double_toward(a, 1); }
+double num_to_double_below(num a) { return to_double_toward(a, -1); }
+double num_to_double_above(num a) { return to_double_toward(a, 1); }
 
 slot slot_make(pool *p) {
     slot s = pool_next(p);
@@ -226,21 +226,28 @@ nvec nvec_zero(pool *p) {
     return (nvec){zero, zero, zero};
 }
 
-nvec nvec_add(pool *p, nvec a, nvec b) { return (nvec){add(p, a.x, b.x), add(p, a.y, b.y), add(p, a.z, b.z)}; }
-
-nvec nvec_sub(pool *p, nvec a, nvec b) { return (nvec){sub(p, a.x, b.x), sub(p, a.y, b.y), sub(p, a.z, b.z)}; }
-
-nvec nvec_scale(pool *p, nvec a, num s) { return (nvec){mul(p, a.x, s), mul(p, a.y, s), mul(p, a.z, s)}; }
-
-nvec nvec_cross(pool *p, nvec a, nvec b) {
-    return (nvec){sub(p, mul(p, a.y, b.z), mul(p, a.z, b.y)), sub(p, mul(p, a.z, b.x), mul(p, a.x, b.z)),
-                  sub(p, mul(p, a.x, b.y), mul(p, a.y, b.x))};
+nvec nvec_add(pool *p, nvec a, nvec b) {
+    return (nvec){num_add(p, a.x, b.x), num_add(p, a.y, b.y), num_add(p, a.z, b.z)};
 }
 
-num nvec_dot(pool *p, nvec a, nvec b) { return add(p, add(p, mul(p, a.x, b.x), mul(p, a.y, b.y)), mul(p, a.z, b.z)); }
+nvec nvec_sub(pool *p, nvec a, nvec b) {
+    return (nvec){num_sub(p, a.x, b.x), num_sub(p, a.y, b.y), num_sub(p, a.z, b.z)};
+}
+
+nvec nvec_scale(pool *p, nvec a, num s) { return (nvec){num_mul(p, a.x, s), num_mul(p, a.y, s), num_mul(p, a.z, s)}; }
+
+nvec nvec_cross(pool *p, nvec a, nvec b) {
+    return (nvec){num_sub(p, num_mul(p, a.y, b.z), num_mul(p, a.z, b.y)),
+                  num_sub(p, num_mul(p, a.z, b.x), num_mul(p, a.x, b.z)),
+                  num_sub(p, num_mul(p, a.x, b.y), num_mul(p, a.y, b.x))};
+}
+
+num nvec_dot(pool *p, nvec a, nvec b) {
+    return num_add(p, num_add(p, num_mul(p, a.x, b.x), num_mul(p, a.y, b.y)), num_mul(p, a.z, b.z));
+}
 
 num nvec_norm_squared(pool *p, nvec a) { return nvec_dot(p, a, a); }
 
 num nvec_det(pool *p, nvec a, nvec b, nvec c) { return nvec_dot(p, a, nvec_cross(p, b, c)); }
 
-int nvec_is_zero(nvec a) { return sign(a.x) == 0 && sign(a.y) == 0 && sign(a.z) == 0; }
+int nvec_is_zero(nvec a) { return num_sign(a.x) == 0 && num_sign(a.y) == 0 && num_sign(a.z) == 0; }

@@ -27,32 +27,32 @@ num number_from(pool *p, double x);
 num number_from_integer(pool *p, long x);
 num number_from_mpz(pool *p, const mpz_t m, long e);
 
-num add(pool *p, num a, num b);
-num sub(pool *p, num a, num b);
-num mul(pool *p, num a, num b);
-num neg(pool *p, num a);
+num num_add(pool *p, num a, num b);
+num num_sub(pool *p, num a, num b);
+num num_mul(pool *p, num a, num b);
+num num_neg(pool *p, num a);
 /// a 2^k
-num scaled(pool *p, num a, long k);
+num num_scaled(pool *p, num a, long k);
 /// a, with trailing zero bits moved into the exponent.
-num trimmed(pool *p, num a);
+num num_trimmed(pool *p, num a);
 
 /// -1, 0, 1
-int sign(num a);
-/// sign(a - b)
-int compare(pool *p, num a, num b);
+int num_sign(num a);
+/// num_sign(a - b)
+int num_compare(pool *p, num a, num b);
 /// The sign of a sqrt(p) - b sqrt(q) for p, q >= 0: decided by the signs and the squares.
-int compare_roots(pool *p, num a, num p_radicand, num b, num q_radicand);
+int num_compare_roots(pool *p, num a, num p_radicand, num b, num q_radicand);
 
 /// Bounds of sqrt(a), a >= 0, of about `bits` bits: floor and the next number above.
-num root_below(pool *p, num a, long bits);
-num root_above(pool *p, num a, long bits);
+num num_root_below(pool *p, num a, long bits);
+num num_root_above(pool *p, num a, long bits);
 /// Bounds of a / b, b > 0, relative precision about 2^-bits.
-num quotient_below(pool *p, num a, num b, long bits);
+num num_quotient_below(pool *p, num a, num b, long bits);
 
 /// The nearest double toward zero and the doubles below and above (for reports and brackets).
-double to_double(num a);
-double to_double_below(num a);
-double to_double_above(num a);
+double num_to_double(num a);
+double num_to_double_below(num a);
+double num_to_double_above(num a);
 
 /// Room for one number that outlives a release: a slot made before the mark, written later.
 typedef number *slot;

@@ -3,7 +3,7 @@
 #define OVOID_JUDGE_PARTS_H
 
 #include "posed.h"
-#include "surface.h"
+#include "shell.h"
 
 /// What was proven, once, of a shape's inner ellipsoid.
 typedef struct facts {
@@ -26,7 +26,7 @@ struct judge {
 __attribute__((format(printf, 3, 4)))
 #endif
 ovoid_code
-reject(ovoid_error *error, ovoid_code code, const char *format, ...);
+judge_reject(ovoid_error *error, ovoid_code code, const char *format, ...);
 
 /// A claim on the hulls without their radii, d <= core or d >= core, and what is to prove it.
 typedef struct claim {

@@ -5,7 +5,7 @@
 
 static int is_length(double x) { return isfinite(x) && fabs(x) <= OVOID_LENGTH_MAX; }
 
-int pose_is_valid(const ovoid_pose *pose) {
+int judge_is_pose_valid(const ovoid_pose *pose) {
     ovoid_quat q = pose->rotation;
     return is_length(pose->position.x) && is_length(pose->position.y) && is_length(pose->position.z) && isfinite(q.w) &&
            isfinite(q.x) && isfinite(q.y) && isfinite(q.z) && (q.w != 0 || q.x != 0 || q.y != 0 || q.z != 0);
@@ -14,14 +14,17 @@ int pose_is_valid(const ovoid_pose *pose) {
 // |q|^2 and the rows of |q|^2 R(q).
 static void set_rotation(pool *p, body *b, ovoid_quat q) {
     num w = number_from(p, q.w), x = number_from(p, q.x), y = number_from(p, q.y), z = number_from(p, q.z);
-    num ww = mul(p, w, w), xx = mul(p, x, x), yy = mul(p, y, y), zz = mul(p, z, z);
-    num xy = scaled(p, mul(p, x, y), 1), xz = scaled(p, mul(p, x, z), 1), yz = scaled(p, mul(p, y, z), 1);
-    num wx = scaled(p, mul(p, w, x), 1), wy = scaled(p, mul(p, w, y), 1), wz = scaled(p, mul(p, w, z), 1);
-    num plus = add(p, ww, xx), minus = sub(p, ww, xx), sum = add(p, yy, zz), difference = sub(p, yy, zz);
-    b->rows[0] = (nvec){trimmed(p, sub(p, plus, sum)), sub(p, xy, wz), add(p, xz, wy)};
-    b->rows[1] = (nvec){add(p, xy, wz), trimmed(p, add(p, minus, difference)), sub(p, yz, wx)};
-    b->rows[2] = (nvec){sub(p, xz, wy), add(p, yz, wx), trimmed(p, sub(p, minus, difference))};
-    b->n = trimmed(p, add(p, plus, sum));
+    num ww = num_mul(p, w, w), xx = num_mul(p, x, x), yy = num_mul(p, y, y), zz = num_mul(p, z, z);
+    num xy = num_scaled(p, num_mul(p, x, y), 1), xz = num_scaled(p, num_mul(p, x, z), 1),
+        yz = num_scaled(p, num_mul(p, y, z), 1);
+    num wx = num_scaled(p, num_mul(p, w, x), 1), wy = num_scaled(p, num_mul(p, w, y), 1),
+        wz = num_scaled(p, num_mul(p, w, z), 1);
+    num plus = num_add(p, ww, xx), minus = num_sub(p, ww, xx), sum = num_add(p, yy, zz),
+        difference = num_sub(p, yy, zz);
+    b->rows[0] = (nvec){num_trimmed(p, num_sub(p, plus, sum)), num_sub(p, xy, wz), num_add(p, xz, wy)};
+    b->rows[1] = (nvec){num_add(p, xy, wz), num_trimmed(p, num_add(p, minus, difference)), num_sub(p, yz, wx)};
+    b->rows[2] = (nvec){num_sub(p, xz, wy), num_add(p, yz, wx), num_trimmed(p, num_sub(p, minus, difference))};
+    b->n = num_trimmed(p, num_add(p, plus, sum));
 }
 
 static double sum_abs(ovoid_vec3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
@@ -50,12 +53,13 @@ posed posed_make(pool *p, const ovoid_pair *pair) {
     posed s = {.p = p};
     s.a = body_make(p, pair->shape_a, &pair->pose_a);
     s.b = body_make(p, pair->shape_b, &pair->pose_b);
-    s.k = mul(p, s.a.n, s.b.n);
-    s.radii = add(p, s.a.radius, s.b.radius);
+    s.k = num_mul(p, s.a.n, s.b.n);
+    s.radii = num_add(p, s.a.radius, s.b.radius);
     // The frames' distance: exact difference, rounded.
     nvec t = posed_difference(&s, body_point(p, &s.a, nvec_zero(p)), body_point(p, &s.b, nvec_zero(p)));
-    num square = quotient_below(p, nvec_norm_squared(p, t), mul(p, s.k, s.k), 60);
-    s.size = sqrt(to_double(square)) + find_extent(&s.a.polytope) + find_extent(&s.b.polytope) + to_double(s.radii);
+    num square = num_quotient_below(p, nvec_norm_squared(p, t), num_mul(p, s.k, s.k), 60);
+    s.size =
+        sqrt(num_to_double(square)) + find_extent(&s.a.polytope) + find_extent(&s.b.polytope) + num_to_double(s.radii);
     return s;
 }
 
@@ -87,11 +91,11 @@ num body_support(pool *p, const body *b, nvec direction, int side) {
     for (uint32_t i = 0; i < b->polytope.vertex_count; i++) {
         size_t mark = pool_get_mark(p);
         num value = nvec_dot(p, local, vertex_at(p, &b->polytope, i));
-        if (i == 0 || compare(p, value, best) * side > 0) slot_set(best, value);
+        if (i == 0 || num_compare(p, value, best) * side > 0) slot_set(best, value);
         pool_release(p, mark);
     }
-    num at_position = mul(p, nvec_dot(p, direction, b->position), b->n);
-    return add(p, add(p, at_position, nvec_dot(p, local, b->origin)), best);
+    num at_position = num_mul(p, nvec_dot(p, direction, b->position), b->n);
+    return num_add(p, num_add(p, at_position, nvec_dot(p, local, b->origin)), best);
 }
 
 nvec posed_difference(const posed *s, nvec xa, nvec xb) {

@@ -26,11 +26,11 @@ typedef struct posed {
     double size; ///< about the sum of both bodies' extents and the distance of their frames, in doubles
 } posed;
 
-/// The pair in exact arithmetic. Both poses must have passed pose_is_valid.
+/// The pair in exact arithmetic. Both poses must have passed judge_is_pose_valid.
 posed posed_make(pool *p, const ovoid_pair *pair);
 
 /// 1 if finite, within OVOID_LENGTH_MAX, and the quaternion not zero.
-int pose_is_valid(const ovoid_pose *pose);
+int judge_is_pose_valid(const ovoid_pose *pose);
 
 /// M v and M' v.
 nvec body_rotate(pool *p, const body *b, nvec v);

@@ -26,13 +26,13 @@ static void find_range(pool *p, const nvec *points, uint32_t count, nvec n, num 
     *least = *largest = nvec_dot(p, n, points[0]);
     for (uint32_t i = 1; i < count; i++) {
         num value = nvec_dot(p, n, points[i]);
-        if (compare(p, value, *least) < 0) *least = value;
-        if (compare(p, value, *largest) > 0) *largest = value;
+        if (num_compare(p, value, *least) < 0) *least = value;
+        if (num_compare(p, value, *largest) > 0) *largest = value;
     }
 }
 
 static void take_gap(brute *t, num gap, num square) {
-    if (sign(t->square) != 0 && compare_roots(t->p, gap, t->square, t->gap, square) <= 0) return;
+    if (num_sign(t->square) != 0 && num_compare_roots(t->p, gap, t->square, t->gap, square) <= 0) return;
     slot_set(t->gap, gap);
     slot_set(t->square, square);
 }
@@ -43,8 +43,8 @@ static void try_direction(brute *t, nvec n) {
     num least_a, largest_a, least_b, largest_b, square = nvec_norm_squared(t->p, n);
     find_range(t->p, t->a, t->count_a, n, &least_a, &largest_a);
     find_range(t->p, t->b, t->count_b, n, &least_b, &largest_b);
-    take_gap(t, sub(t->p, least_b, largest_a), square);
-    take_gap(t, sub(t->p, least_a, largest_b), square);
+    take_gap(t, num_sub(t->p, least_b, largest_a), square);
+    take_gap(t, num_sub(t->p, least_a, largest_b), square);
 }
 
 static void collect_edges(brute *t, const nvec *points, uint32_t count) {
@@ -93,20 +93,21 @@ static int are_edges_parallel(const brute *t) {
 // gap / (k sqrt(square)) - radii, between two doubles, and its signs.
 static judge_truth read_truth(const brute *t, const posed *s) {
     pool *p = t->p;
-    num one = number_from_integer(p, 1), whole = mul(p, t->square, mul(p, s->k, s->k));
-    judge_truth truth = {.core_sign = sign(t->gap)};
-    truth.sign = compare_roots(p, t->gap, one, mul(p, s->radii, s->k), t->square);
+    num one = number_from_integer(p, 1), whole = num_mul(p, t->square, num_mul(p, s->k, s->k));
+    judge_truth truth = {.core_sign = num_sign(t->gap)};
+    truth.sign = num_compare_roots(p, t->gap, one, num_mul(p, s->radii, s->k), t->square);
 
     num below = number_from_integer(p, 0), above = below;
     if (truth.core_sign != 0) {
-        num low = quotient_below(p, mul(p, t->gap, t->gap), whole, 2 * ROOT_BITS);
-        num unit = scaled(p, one, low->e);
-        below = root_below(p, low, ROOT_BITS);
-        above = root_above(p, add(p, low, unit), ROOT_BITS);
+        num low = num_quotient_below(p, num_mul(p, t->gap, t->gap), whole, 2 * ROOT_BITS);
+        num unit = num_scaled(p, one, low->e);
+        below = num_root_below(p, low, ROOT_BITS);
+        above = num_root_above(p, num_add(p, low, unit), ROOT_BITS);
     }
     int apart = truth.core_sign >= 0;
-    truth.low = to_double_below(sub(p, apart ? below : neg(p, above), s->radii));
-    truth.high = to_double_above(sub(p, apart ? above : neg(p, below), s->radii));
+    if (truth.sign == 0) return truth; // low = high = 0
+    truth.low = num_to_double_below(num_sub(p, apart ? below : num_neg(p, above), s->radii));
+    truth.high = num_to_double_above(num_sub(p, apart ? above : num_neg(p, below), s->radii));
     return truth;
 }
 
@@ -124,14 +125,14 @@ static void run(brute *t, const posed *s) {
 }
 
 ovoid_code judge_compute_truth(judge *context, const ovoid_pair *pair, judge_truth *truth, ovoid_error *error) {
-    if (!pose_is_valid(&pair->pose_a) || !pose_is_valid(&pair->pose_b))
-        return reject(error, OVOID_ERROR_ARGUMENT, "a pose is none");
+    if (!judge_is_pose_valid(&pair->pose_a) || !judge_is_pose_valid(&pair->pose_b))
+        return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pose is none");
     size_t mark = pool_get_mark(context->p);
     posed s = posed_make(context->p, pair);
     brute t = {.p = context->p, .count_a = s.a.polytope.vertex_count, .count_b = s.b.polytope.vertex_count};
     ovoid_code code = OVOID_OK;
     if (t.count_a > MOST_VERTICES || t.count_b > MOST_VERTICES)
-        code = reject(error, OVOID_ERROR_LIMIT, "more than %d vertices", MOST_VERTICES);
+        code = judge_reject(error, OVOID_ERROR_LIMIT, "more than %d vertices", MOST_VERTICES);
     if (code == OVOID_OK) {
         t.edges = malloc(MOST_VERTICES * MOST_VERTICES * sizeof *t.edges);
         if (!t.edges) abort();

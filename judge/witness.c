@@ -11,14 +11,14 @@
 #define WITNESS_ROUNDING (256 * 0x1p-53)
 
 static double compute_tolerance(const posed *s) {
-    return WITNESS_ROUNDING * (s->a.reach + s->b.reach + to_double(s->radii)) + OVOID_LENGTH_MIN;
+    return WITNESS_ROUNDING * (s->a.reach + s->b.reach + num_to_double(s->radii)) + OVOID_LENGTH_MIN;
 }
 
 // |x / n - y / m| <= radius + tolerance for two points that carry factors n and m.
 static int is_near(pool *p, nvec x, num n, nvec y, num m, num reach) {
     nvec d = nvec_sub(p, nvec_scale(p, x, m), nvec_scale(p, y, n));
-    num limit = mul(p, reach, mul(p, n, m));
-    return compare(p, nvec_norm_squared(p, d), mul(p, limit, limit)) <= 0;
+    num limit = num_mul(p, reach, num_mul(p, n, m));
+    return num_compare(p, nvec_norm_squared(p, d), num_mul(p, limit, limit)) <= 0;
 }
 
 // --- a point against every triangle of a body
@@ -31,7 +31,7 @@ static int is_near_boundary(pool *p, const ovoid_polytope *polytope, const nvec 
         if (!triangle_is_farther(p, corners[v[0]], corners[v[1]], corners[v[2]], square)) return 1;
     }
     if (polytope->triangle_count) return 0;
-    if (polytope->vertex_count == 1) return compare(p, nvec_norm_squared(p, corners[0]), square) <= 0;
+    if (polytope->vertex_count == 1) return num_compare(p, nvec_norm_squared(p, corners[0]), square) <= 0;
     return !segment_is_farther(p, corners[0], corners[1], square);
 }
 
@@ -41,10 +41,10 @@ static int is_in_body(pool *p, const body *b, nvec point, num reach) {
     if (!corners) abort();
     nvec at = nvec_scale(p, point, b->n);
     for (uint32_t i = 0; i < polytope->vertex_count; i++) corners[i] = nvec_sub(p, body_vertex(p, b, i), at);
-    num limit = mul(p, reach, b->n);
-    surface s = {corners, polytope->triangles, polytope->vertex_count, polytope->triangle_count};
-    int inside = is_near_boundary(p, polytope, corners, mul(p, limit, limit)) ||
-                 (polytope->rank == 3 && surface_is_closed(&s) && surface_is_winding(p, &s));
+    num limit = num_mul(p, reach, b->n);
+    shell s = {corners, polytope->triangles, polytope->vertex_count, polytope->triangle_count};
+    int inside = is_near_boundary(p, polytope, corners, num_mul(p, limit, limit)) ||
+                 (polytope->rank == 3 && shell_is_closed(&s) && shell_is_winding(p, &s));
     free(corners);
     return inside;
 }
@@ -75,13 +75,13 @@ static named find_named(const claim *c, int of_b) {
     const double *weights = of_b ? proof->weight_b : proof->weight_a;
     if (!are_weights(weights, proof->count)) return (named){nvec_zero(s->p), b->n, 0};
     weighted w = body_weighted_point(s->p, b, of_b ? proof->b : proof->a, weights, proof->count);
-    return (named){w.point, mul(s->p, w.weight, b->n), 1};
+    return (named){w.point, num_mul(s->p, w.weight, b->n), 1};
 }
 
 static int is_witness(const claim *c, int of_b, nvec point, double tolerance) {
     const posed *s = c->s;
     const body *b = of_b ? &s->b : &s->a;
-    num one = number_from_integer(s->p, 1), reach = add(s->p, b->radius, number_from(s->p, tolerance));
+    num one = number_from_integer(s->p, 1), reach = num_add(s->p, b->radius, number_from(s->p, tolerance));
     named n = find_named(c, of_b);
     if (n.is_known && is_near(s->p, point, one, n.point, n.factor, reach)) return 1;
     return is_in_body(s->p, b, point, reach);
@@ -90,9 +90,9 @@ static int is_witness(const claim *c, int of_b, nvec point, double tolerance) {
 ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
     double tolerance = compute_tolerance(c->s);
     if (!is_witness(c, 0, nvec_from(c->s->p, answer->point_a), tolerance))
-        return reject(c->error, OVOID_ERROR_PROOF, "point_a is not on A, rounding (%.3g) included", tolerance);
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "point_a is not on A, rounding (%.3g) included", tolerance);
     if (!is_witness(c, 1, nvec_from(c->s->p, answer->point_b), tolerance))
-        return reject(c->error, OVOID_ERROR_PROOF, "point_b is not on B, rounding (%.3g) included", tolerance);
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "point_b is not on B, rounding (%.3g) included", tolerance);
     return OVOID_OK;
 }
 
@@ -100,17 +100,18 @@ ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
 // what the bracket leaves open, sqrt(w (w + 2 |d|)) across and w along the normal.
 ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
     if (!(isfinite(answer->lower) && isfinite(answer->upper)))
-        return reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
+        return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
     pool *p = context->p;
     size_t mark = pool_get_mark(p);
     posed s = posed_make(p, pair);
     double width = answer->upper - answer->lower, size = fmax(fabs(answer->lower), fabs(answer->upper));
     double slack = width + sqrt(width * (width + 2 * size)) + 2 * compute_tolerance(&s);
-    num d = scaled(p, add(p, number_from(p, answer->lower), number_from(p, answer->upper)), -1);
+    num d = num_scaled(p, num_add(p, number_from(p, answer->lower), number_from(p, answer->upper)), -1);
     nvec along = nvec_scale(p, nvec_from(p, answer->normal), d);
     nvec off = nvec_sub(p, nvec_sub(p, nvec_from(p, answer->point_b), nvec_from(p, answer->point_a)), along);
-    double found = sqrt(to_double(nvec_norm_squared(p, off)));
+    double found = sqrt(num_to_double(nvec_norm_squared(p, off)));
     pool_release(p, mark);
     if (found <= slack) return OVOID_OK;
-    return reject(error, OVOID_ERROR_PROOF, "point_b - point_a is off d normal by %.3g, more than %.3g", found, slack);
+    return judge_reject(error, OVOID_ERROR_PROOF, "point_b - point_a is off d normal by %.3g, more than %.3g", found,
+                        slack);
 }

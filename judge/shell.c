@@ -1,7 +1,7 @@
 // Closed surfaces. The winding number around the origin is the signed count of the triangles that a ray from it
 // crosses, for any ray that meets no edge; which side of an edge a ray passes is the sign of a 3x3 determinant,
 // exactly.
-#include "surface.h"
+#include "shell.h"
 
 #include <stdlib.h>
 
@@ -11,7 +11,7 @@ static int compare_keys(const void *a, const void *b) {
 }
 
 // The directed edges in ascending order; NULL where an index is out of range or memory is out.
-static uint64_t *create_sorted_edges(const surface *s) {
+static uint64_t *create_sorted_edges(const shell *s) {
     size_t count = 3 * (size_t)s->triangle_count;
     uint64_t *keys = malloc((count ? count : 1) * sizeof *keys);
     if (!keys) return NULL;
@@ -27,7 +27,7 @@ static uint64_t *create_sorted_edges(const surface *s) {
     return keys;
 }
 
-int surface_is_closed(const surface *s) {
+int shell_is_closed(const shell *s) {
     if (s->triangle_count == 0) return 0;
     uint64_t *keys = create_sorted_edges(s);
     if (!keys) return 0;
@@ -45,16 +45,16 @@ int surface_is_closed(const surface *s) {
 // +1 or -1 where the ray along g crosses the triangle, 0 where it misses; *ok = 0 where it meets an edge's line or the
 // origin lies in the triangle's plane, so that the ray cannot tell.
 static int count_crossing(pool *p, nvec g, nvec a, nvec b, nvec c, int *ok) {
-    int ab = sign(nvec_det(p, g, a, b)), bc = sign(nvec_det(p, g, b, c));
+    int ab = num_sign(nvec_det(p, g, a, b)), bc = num_sign(nvec_det(p, g, b, c));
     if (ab * bc < 0) return 0;
-    int ca = sign(nvec_det(p, g, c, a));
+    int ca = num_sign(nvec_det(p, g, c, a));
     if (ab * ca < 0 || bc * ca < 0) return 0;
-    int side = sign(nvec_det(p, a, b, c));
+    int side = num_sign(nvec_det(p, a, b, c));
     *ok &= ab != 0 && bc != 0 && ca != 0 && side != 0;
     return side == ab ? ab : 0;
 }
 
-static long count_winding(pool *p, const surface *s, ovoid_vec3 ray, int *ok) {
+static long count_winding(pool *p, const shell *s, ovoid_vec3 ray, int *ok) {
     long winding = 0;
     nvec g = nvec_from(p, ray);
     *ok = 1;
@@ -67,7 +67,7 @@ static long count_winding(pool *p, const surface *s, ovoid_vec3 ray, int *ok) {
     return winding;
 }
 
-int surface_is_winding(pool *p, const surface *s) {
+int shell_is_winding(pool *p, const shell *s) {
     // Directions without symmetry; one suffices unless it meets an edge.
     static const ovoid_vec3 rays[] = {{1009, 2003, -3001}, {-4001, 907, 1301}, {577, -2741, 991},
                                       {-1511, -3307, 271}, {89, 233, 4657},    {-2203, 3541, -613}};
@@ -82,21 +82,22 @@ int surface_is_winding(pool *p, const surface *s) {
 int segment_is_farther(pool *p, nvec a, nvec b, num square) {
     size_t mark = pool_get_mark(p);
     nvec e = nvec_sub(p, b, a);
-    num length = nvec_norm_squared(p, e), t = neg(p, nvec_dot(p, a, e));
+    num length = nvec_norm_squared(p, e), t = num_neg(p, nvec_dot(p, a, e));
     int farther;
-    if (sign(t) <= 0)
-        farther = compare(p, nvec_norm_squared(p, a), square) >= 0;
-    else if (compare(p, t, length) >= 0)
-        farther = compare(p, nvec_norm_squared(p, b), square) >= 0;
+    if (num_sign(t) <= 0)
+        farther = num_compare(p, nvec_norm_squared(p, a), square) >= 0;
+    else if (num_compare(p, t, length) >= 0)
+        farther = num_compare(p, nvec_norm_squared(p, b), square) >= 0;
     else
-        farther = compare(p, nvec_norm_squared(p, nvec_cross(p, a, b)), mul(p, square, length)) >= 0;
+        farther = num_compare(p, nvec_norm_squared(p, nvec_cross(p, a, b)), num_mul(p, square, length)) >= 0;
     pool_release(p, mark);
     return farther;
 }
 
 // 1 if the foot of the origin on the triangle's plane, of normal n, lies in the triangle.
 static int is_foot_inside(pool *p, nvec n, nvec a, nvec b, nvec c) {
-    return sign(nvec_det(p, n, a, b)) >= 0 && sign(nvec_det(p, n, b, c)) >= 0 && sign(nvec_det(p, n, c, a)) >= 0;
+    return num_sign(nvec_det(p, n, a, b)) >= 0 && num_sign(nvec_det(p, n, b, c)) >= 0 &&
+           num_sign(nvec_det(p, n, c, a)) >= 0;
 }
 
 int triangle_is_farther(pool *p, nvec a, nvec b, nvec c, num square) {
@@ -105,7 +106,8 @@ int triangle_is_farther(pool *p, nvec a, nvec b, nvec c, num square) {
     num offset = nvec_dot(p, n, a);
     // The plane is far enough, or the foot on it is outside and the edges are far enough.
     int is_flat = nvec_is_zero(n);
-    int farther = !is_flat && compare(p, mul(p, offset, offset), mul(p, square, nvec_norm_squared(p, n))) >= 0;
+    int farther =
+        !is_flat && num_compare(p, num_mul(p, offset, offset), num_mul(p, square, nvec_norm_squared(p, n))) >= 0;
     if (!farther)
         farther = (is_flat || !is_foot_inside(p, n, a, b, c)) && segment_is_farther(p, a, b, square) &&
                   segment_is_farther(p, b, c, square) && segment_is_farther(p, c, a, square);
