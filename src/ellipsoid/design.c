@@ -1,0 +1,214 @@
+// The design by exchanges of weight.
+//
+// In k dimensions let c and S be the weighted mean and covariance of the points, and v(x) = 1 + (x - c)' S^-1 (x - c)
+// the variance of x: m = k + 1 is its weighted mean. The weights are optimal if and only if no point's variance
+// exceeds m (Kiefer and Wolfowitz 1960). A step takes weight from a point of small variance that carries some and gives
+// it to one of large variance, as much as is best: with weight t moved from l to h the determinant of the moment matrix
+// changes by the factor 1 + t (v_h - v_l) - t^2 (v_h v_l - v_hl^2). Away steps: M. J. Todd and E. A. Yildirim, On
+// Khachiyan's algorithm for the computation of minimum-volume enclosing ellipsoids, 2007; exchanges of pairs: D.
+// Boehning, A vertex-exchange-method in D-optimal design theory, 1986. They converge linearly: S. D. Ahipasaoglu, P.
+// Sun, M. J. Todd, Linear convergence of a modified Frank-Wolfe algorithm for computing minimum-volume enclosing
+// ellipsoids, 2008.
+//
+// The steps run on a few points at a time; then all points are evaluated, the worst of each direction join, and points
+// that cannot carry weight at the optimum are dropped for good: R. Harman and L. Pronzato, Improvements on removing
+// nonoptimal support points in D-optimum design algorithms, 2007. Start: P. Kumar and E. A. Yildirim, Minimum-volume
+// enclosing ellipsoids and core sets, 2005.
+// Cost: about ten evaluations of all points, and some hundred steps of the cost of a few dozen points each.
+#include "ellipsoid/design.h"
+
+// The points with the smallest and the largest n . x.
+static void find_extremes(const double *vertices, uint32_t count, vec3 n, uint32_t extreme[2]) {
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        double x = vec3_dot(n, vec3_at(vertices, i));
+        if (x < low) low = x, extreme[0] = i;
+        if (x > high) high = x, extreme[1] = i;
+    }
+}
+
+// b less its part along the unit vector a, twice, so that rounding leaves nothing.
+static vec3 reject(vec3 b, vec3 a) {
+    b = vec3_add_scaled(b, a, -vec3_dot(a, b));
+    return vec3_add_scaled(b, a, -vec3_dot(a, b));
+}
+
+// The unit direction from the line through p along a to the point that is farthest from it.
+static vec3 find_across(const double *vertices, uint32_t count, vec3 p, vec3 a) {
+    vec3 best = {0, 0, 0};
+    double most = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        vec3 d = reject(vec3_sub(vec3_at(vertices, i), p), a);
+        double size = vec3_max_abs(d);
+        if (size > most) most = size, best = d;
+    }
+    return most > 0 ? vec3_unit(reject(vec3_unit(best), a)) : vec3_orthogonal(a);
+}
+
+// Half of the extent of the points along a (1 where there is none), and the middle.
+static double measure(const double *vertices, uint32_t count, vec3 origin, vec3 a, double *middle) {
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        double x = vec3_dot(a, vec3_sub(vec3_at(vertices, i), origin));
+        low = fmin(low, x);
+        high = fmax(high, x);
+    }
+    *middle = low + (high - low) / 2;
+    return high > low ? (high - low) / 2 : 1;
+}
+
+frame frame_compute(const double *vertices, uint32_t count, uint32_t rank) {
+    frame f = {.rank = rank};
+    // The longest extent along a coordinate gives the first axis.
+    double most = -1;
+    for (int i = 0; i < 3; i++) {
+        uint32_t extreme[2] = {0, 0};
+        vec3 n = {i == 0, i == 1, i == 2};
+        find_extremes(vertices, count, n, extreme);
+        double size = vec3_dot(n, vec3_sub(vec3_at(vertices, extreme[1]), vec3_at(vertices, extreme[0])));
+        if (size > most) most = size, f.extreme[0] = extreme[0], f.extreme[1] = extreme[1];
+    }
+    vec3 p = vec3_at(vertices, f.extreme[0]), along = vec3_unit(vec3_sub(vec3_at(vertices, f.extreme[1]), p));
+    // Across it, toward the farthest point; then across both differences found.
+    vec3 across = find_across(vertices, count, p, along), normal = vec3_cross(along, across);
+    if (rank >= 2) {
+        find_extremes(vertices, count, across, f.extreme + 2);
+        vec3 second = vec3_sub(vec3_at(vertices, f.extreme[3]), vec3_at(vertices, f.extreme[2]));
+        normal = vec3_unit(reject(vec3_cross(along, vec3_unit(reject(second, along))), along));
+    }
+    if (rank >= 3) find_extremes(vertices, count, normal, f.extreme + 4);
+    f.axes = (mat3){along, vec3_cross(normal, along), normal};
+    // The box.
+    vec3 middle = {0, 0, 0};
+    f.half.x = f.half.y = f.half.z = measure(vertices, count, p, f.axes.r0, &middle.x);
+    if (rank >= 2) f.half.y = measure(vertices, count, p, f.axes.r1, &middle.y);
+    if (rank >= 3) f.half.z = measure(vertices, count, p, f.axes.r2, &middle.z);
+    f.origin = vec3_add(p, mat3_mul_transposed_vec3(f.axes, middle));
+    return f;
+}
+
+vec3 frame_compute_local(const frame *f, vec3 x) {
+    vec3 y = mat3_mul_vec3(f->axes, vec3_sub(x, f->origin));
+    return (vec3){y.x / f->half.x, f->rank >= 2 ? y.y / f->half.y : 0, f->rank >= 3 ? y.z / f->half.z : 0};
+}
+
+static double compute_variance(const design *d, vec3 y) { return 1 + sym3_quadratic(d->inverse, vec3_sub(y, d->mean)); }
+
+// Mean and inverse covariance of the weighted points; 0 where the covariance is not positive definite in doubles.
+static int evaluate(design *d) {
+    double total = 0;
+    vec3 mean = {0, 0, 0};
+    for (uint32_t i = 0; i < d->count; i++) {
+        total += d->weight[i];
+        mean = vec3_add_scaled(mean, vec3_at(d->local, d->point[i]), d->weight[i]);
+    }
+    mean = vec3_scale(mean, 1 / total);
+    sym3 s = sym3_diagonal(0, d->rank < 2, d->rank < 3);
+    for (uint32_t i = 0; i < d->count; i++)
+        s = sym3_add(s, sym3_outer(vec3_sub(vec3_at(d->local, d->point[i]), mean), d->weight[i] / total));
+    vec3 x;
+    if (!sym3_solve(s, (vec3){1, 1, 1}, &x) || !(sym3_det(s) > 1e-30)) return 0;
+    d->mean = mean;
+    d->inverse = sym3_inverse(s);
+    for (uint32_t i = 0; i < d->count; i++) d->variance[i] = compute_variance(d, vec3_at(d->local, d->point[i]));
+    return 1;
+}
+
+// Moves weight from the weighted point of least variance to the one of largest variance. 0 and no move where the
+// largest excess is small enough.
+static int exchange(design *d, double excess) {
+    uint32_t low = 0, high = 0;
+    for (uint32_t i = 0; i < d->count; i++) {
+        if (d->variance[i] > d->variance[high]) high = i;
+        if (d->weight[i] > 0 && (d->weight[low] == 0 || d->variance[i] < d->variance[low])) low = i;
+    }
+    double h = d->variance[high], l = d->variance[low];
+    if (h <= (d->rank + 1) * (1 + excess)) return 0;
+    vec3 a = vec3_sub(vec3_at(d->local, d->point[high]), d->mean);
+    vec3 b = vec3_sub(vec3_at(d->local, d->point[low]), d->mean);
+    double both = 1 + vec3_dot(a, sym3_mul_vec3(d->inverse, b)), curve = 2 * (h * l - both * both);
+    double step = h - l < curve * d->weight[low] ? (h - l) / curve : d->weight[low];
+    d->weight[high] += step;
+    d->weight[low] = step < d->weight[low] ? d->weight[low] - step : 0;
+    d->steps++;
+    return 1;
+}
+
+// Steps among the points at hand until their excess is small; then those without weight leave.
+static int settle(design *d, double excess) {
+    int defined = evaluate(d);
+    for (int i = 0; i < 3000 && defined && exchange(d, excess); i++) defined = evaluate(d);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < d->count; i++)
+        if (d->weight[i] > 0) d->point[count] = d->point[i], d->weight[count++] = d->weight[i];
+    d->count = count;
+    return defined;
+}
+
+// One of 24 cells of directions: the signs, and the coordinate that is largest.
+static int find_cell(vec3 y) {
+    double x = fabs(y.x), a = fabs(y.y), z = fabs(y.z);
+    int axis = x >= a && x >= z ? 0 : a >= z ? 1 : 2;
+    return axis * 8 + (y.x < 0) + 2 * (y.y < 0) + 4 * (y.z < 0);
+}
+
+static int is_weighted(const design *d, uint32_t point) {
+    for (uint32_t i = 0; i < d->count; i++)
+        if (d->point[i] == point) return 1;
+    return 0;
+}
+
+// Evaluates all candidates, drops those that cannot matter, and adds the worst of each cell. 0 where none was added.
+static int scan(design *d) {
+    double m = d->rank + 1, worst[24] = {0}, top = 0;
+    uint32_t which[24] = {0};
+    for (uint32_t i = 0; i < d->candidate_count; i++) {
+        vec3 y = vec3_at(d->local, d->candidate[i]);
+        double v = compute_variance(d, y);
+        int cell = find_cell(vec3_sub(y, d->mean));
+        if (v > worst[cell]) worst[cell] = v, which[cell] = d->candidate[i];
+        top = fmax(top, v);
+    }
+    d->excess = top / m - 1;
+    // Every point that carries weight at the optimum has at least this variance (Harman and Pronzato).
+    double e = fmax(top - m, 0), least = m * (1 + e / 2 - sqrt(e * (4 + e - 4 / m)) / 2) - 1e-9;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < d->candidate_count; i++)
+        if (compute_variance(d, vec3_at(d->local, d->candidate[i])) >= least) d->candidate[kept++] = d->candidate[i];
+    d->candidate_count = kept;
+    int added = 0;
+    for (int cell = 0; cell < 24; cell++) {
+        if (worst[cell] <= m || d->count == DESIGN_SUPPORT || is_weighted(d, which[cell])) continue;
+        d->point[d->count] = which[cell];
+        d->weight[d->count++] = 0;
+        added = 1;
+    }
+    return added;
+}
+
+void design_solve(design *d, const frame *f, const double *vertices, uint32_t count, double excess) {
+    d->rank = f->rank;
+    d->candidate_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        vec3 y = frame_compute_local(f, vec3_at(vertices, i));
+        d->candidate[i] = i;
+        d->local[3 * (size_t)i] = y.x, d->local[3 * (size_t)i + 1] = y.y, d->local[3 * (size_t)i + 2] = y.z;
+    }
+    for (uint32_t i = 0; i < 2 * d->rank; i++) {
+        if (is_weighted(d, f->extreme[i])) continue;
+        d->point[d->count] = f->extreme[i];
+        d->weight[d->count++] = 1.0 / (2 * d->rank);
+    }
+    // Coordinates across thin axes may be noise below this.
+    double longest = vec3_max_abs(f->half), shortest = fmin(f->half.x, fmin(f->half.y, f->half.z));
+    double noise = 32 * 0x1p-53 * (longest + vec3_max_abs(f->origin)) / shortest;
+    // The points at hand are settled more finely than all points are; rounds without progress are the end.
+    d->excess = INFINITY;
+    for (int round = 0, stalls = 0; round < 200 && stalls < 3; round++) {
+        double before = d->excess;
+        if (!settle(d, fmax(fmin(0.1 * before, 1e-2), 0.5 * excess))) return;
+        int added = scan(d);
+        if (d->excess <= excess || (d->excess <= noise && d->excess > 0.5 * before)) return;
+        stalls = added || d->excess < 0.99 * before ? 0 : stalls + 1;
+    }
+}

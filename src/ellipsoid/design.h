@@ -1,0 +1,44 @@
+// Weights on points whose weighted covariance is as large as it can be: the D-optimal design, which is the dual of the
+// smallest enclosing ellipsoid. L. Khachiyan, Rounding of polytopes in the real number model of computation, 1996.
+#ifndef OVOID_ELLIPSOID_DESIGN_H
+#define OVOID_ELLIPSOID_DESIGN_H
+
+#include "linear/mat3.h"
+
+/// Orthonormal axes and a box along them that hold the points: y = (axes (x - origin)) / half lies in about [-1, 1]^3,
+/// and the points fill a fair part of it, however thin they are.
+typedef struct frame {
+    uint32_t rank;
+    vec3 origin, half;   ///< half: of an axis beyond the rank that of the first
+    mat3 axes;           ///< rows
+    uint32_t extreme[6]; ///< two points a coordinate, 2 rank of them
+} frame;
+
+/// The frame of at least two points that are not all one; rank 1 to 3.
+frame frame_compute(const double *vertices, uint32_t count, uint32_t rank);
+/// Coordinates beyond the rank are 0.
+vec3 frame_compute_local(const frame *f, vec3 x);
+
+/// Most points that carry weight at a time.
+#define DESIGN_SUPPORT 256
+
+typedef struct design {
+    uint32_t rank;
+    double *local;       ///< 3 coordinates a point, in the frame
+    uint32_t *candidate; ///< points that may still carry weight at the optimum
+    uint32_t candidate_count;
+    uint32_t count;                  ///< points that carry weight
+    uint32_t point[DESIGN_SUPPORT];  ///< which
+    double weight[DESIGN_SUPPORT];   ///< how much: sum 1 to rounding
+    double variance[DESIGN_SUPPORT]; ///< of the last evaluation
+    vec3 mean;                       ///< weighted, in the frame
+    sym3 inverse;                    ///< of the weighted covariance, with ones on the diagonal beyond the rank
+    double excess;                   ///< largest variance of a candidate, over rank + 1, less 1
+    uint32_t steps;                  ///< exchanges of weight
+} design;
+
+/// Starts with equal weights on the frame's extreme points and moves weight until excess is at most the one asked for,
+/// or no progress is left. candidate and local: room for count and 3 count.
+void design_solve(design *d, const frame *f, const double *vertices, uint32_t count, double excess);
+
+#endif

@@ -1,0 +1,135 @@
+// (a) The Loewner-John ellipsoid. Weights come from design.c; what is returned and promised is computed from them and
+// the vertices alone, in double-double:
+//
+// Let k be the rank, c and S the weighted mean and covariance of the vertices. Any ellipsoid with matrix Q that holds
+// all vertices has, by the inequality of the means, det Q >= det k S: the lower bound of the volume, whatever the
+// weights. And Q = t k S holds all of them once t is the largest (v - c)' (k S)^-1 (v - c). So the gap reported,
+// sqrt(det Q / det k S) - 1 for the Q that is returned, is true. docs/ellipsoid.md has the proofs.
+//
+// Q is stored in six doubles. Rounding it moves a thin axis: of a body thinner than 1e-8 of its length and not along
+// the axes, nothing of the thickness is left. So the check of contain.c is repeated on the stored Q: it is scaled up
+// until the check holds, and where it is too flat to be factored, every axis is lengthened a little first.
+#include "ellipsoid/contain.h"
+#include "ellipsoid/design.h"
+#include "ellipsoid/factor.h"
+
+#include "base/allocator.h"
+
+// Centre, rounded, and covariance of the weighted vertices about their true mean.
+typedef struct moments {
+    vec3 center;
+    int exponent; // of the unit of `covariance`: lengths times 2^-exponent
+    sym3dd covariance;
+    int fixed[3]; // all vertices have the same coordinate
+} moments;
+
+// The power of two that brings the differences of the vertices to about 1, and the axes along which there are none.
+static void find_unit(const double *vertices, uint32_t count, moments *m) {
+    double extent = 0;
+    for (size_t i = 0; i < 3 * (size_t)count; i++) extent = fmax(extent, fabs(vertices[i] - vertices[i % 3]));
+    (void)frexp(extent, &m->exponent);
+    for (int k = 0; k < 3; k++) m->fixed[k] = 1;
+    for (size_t i = 0; i < 3 * (size_t)count; i++) m->fixed[i % 3] &= vertices[i] == vertices[i % 3];
+}
+
+static moments compute_moments(const design *d, const double *vertices, uint32_t count) {
+    moments m;
+    find_unit(vertices, count, &m);
+    dd total = dd_from(0), mean[3] = {{0, 0}, {0, 0}, {0, 0}};
+    double unit = ldexp(1, -m.exponent), center[3];
+    for (uint32_t i = 0; i < d->count; i++) {
+        total = dd_add(total, dd_from(d->weight[i]));
+        for (int k = 0; k < 3; k++)
+            mean[k] = dd_add(mean[k], two_product(d->weight[i], vertices[3 * (size_t)d->point[i] + k] * unit));
+    }
+    for (int k = 0; k < 3; k++) center[k] = m.fixed[k] ? vertices[k] : dd_div(mean[k], total).high / unit;
+    m.center = vec3_at(center, 0);
+    // About the rounded centre, less what the rounding took.
+    dd sum[3][3] = {{{0, 0}}}, rest[3] = {{0, 0}, {0, 0}, {0, 0}};
+    for (uint32_t i = 0; i < d->count; i++) {
+        dd x[3], w = dd_from(d->weight[i]);
+        for (int k = 0; k < 3; k++) x[k] = two_sum(vertices[3 * (size_t)d->point[i] + k] * unit, -center[k] * unit);
+        for (int k = 0; k < 3; k++) {
+            dd wx = dd_mul(w, x[k]);
+            rest[k] = dd_add(rest[k], wx);
+            for (int n = 0; n <= k; n++) sum[k][n] = dd_add(sum[k][n], dd_mul(wx, x[n]));
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        for (int n = 0; n <= k; n++) {
+            dd out = dd_mul(dd_div(rest[k], total), dd_div(rest[n], total));
+            m.covariance.m[k][n] = m.covariance.m[n][k] = dd_sub(dd_div(sum[k][n], total), out);
+        }
+    return m;
+}
+
+// scale S + thickness on the axes that any vertex moves along, rounded.
+static sym3 combine(const moments *m, double scale, double thickness) {
+    sym3dd q;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            q.m[i][j] = dd_mul(m->covariance.m[i][j], dd_from(scale));
+            if (i == j && !m->fixed[i]) q.m[i][i] = dd_add(q.m[i][i], dd_from(thickness));
+        }
+    return sym3dd_round(&q);
+}
+
+// An ellipsoid of the covariance's form that is proven to enclose, by trials from a given thickness; in units of S.
+static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double rank, double thickness) {
+    sym3 q = {0, 0, 0, 0, 0, 0};
+    double scale = rank, unit = ldexp(1, m->exponent);
+    for (int trial = 0; trial < 200; trial++) {
+        q = combine(m, scale, thickness);
+        ovoid_ellipsoid e = {m->center, sym3_scale(sym3_scale(q, unit), unit)};
+        double bound = ellipsoid_compute_enclosing_bound(polytope, &e);
+        if (bound <= 1) break;
+        // What is missing is either size, or thickness that rounding destroyed.
+        if (bound <= 1 + 1e-3)
+            scale *= bound * (1 + ldexp(ROUNDING, trial / 4));
+        else
+            thickness = fmax(2 * thickness, ROUNDING);
+    }
+    return q;
+}
+
+static void fill_fit(const ovoid_polytope *polytope, const design *d, uint32_t rank, double gap, ovoid_fit *fit) {
+    moments m = compute_moments(d, polytope->vertices, polytope->vertex_count);
+    double unit = ldexp(1, m.exponent), measure = ball_get_measure((int)rank), best = INFINITY;
+    double least = pow(rank, 0.5 * rank) * sym3dd_compute_content(&m.covariance, (int)rank);
+    *fit = (ovoid_fit){.ellipsoid.center = m.center, .iterations = d->steps, .gap = INFINITY};
+    // Thin axes that rounding hurts: a little thickness beforehand may cost less than a larger scale afterwards.
+    for (int i = 0; i < 5 && !fit->converged; i++) {
+        sym3 q = enclose(polytope, &m, rank, i ? ldexp(ROUNDING, i - 2) : 0);
+        sym3dd q2 = sym3dd_from(q);
+        double content = sym3dd_compute_content(&q2, (int)rank);
+        if (!(content < best)) continue;
+        best = content;
+        fit->ellipsoid.q = sym3_scale(sym3_scale(q, unit), unit);
+        fit->volume = measure * pow(unit, rank) * content;
+        // Both contents are true to 2^-45; 1e-13 covers them.
+        if (least > 0) fit->gap = content / least - 1 + 1e-13;
+        fit->converged = fit->gap <= gap;
+    }
+}
+
+ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
+                                         const ovoid_allocator *allocator) {
+    if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
+        return OVOID_ERROR_ARGUMENT;
+    if (gap == 0) gap = 1e-6;
+    uint32_t count = polytope->vertex_count, rank = polytope->rank > 0 || count == 1 ? polytope->rank : 1;
+    if (rank == 0) {
+        *fit = (ovoid_fit){.ellipsoid.center = vec3_at(polytope->vertices, 0), .converged = 1};
+        return OVOID_OK;
+    }
+    ovoid_allocator memory = allocator_make(allocator);
+    double *block = allocator_allocate(&memory, count, 3 * sizeof(double) + sizeof(uint32_t));
+    if (!block) return OVOID_ERROR_MEMORY;
+    design d = {.local = block, .candidate = (uint32_t *)(block + 3 * (size_t)count)};
+    frame f = frame_compute(polytope->vertices, count, rank);
+    // An excess of x makes a volume of about 1 + x (rank + 1) / 2; rounding and the last trials need the rest.
+    design_solve(&d, &f, polytope->vertices, count, 0.5 * fmin(gap, 1) / (rank + 1));
+    fill_fit(polytope, &d, rank, gap, fit);
+    allocator_release(&memory, block);
+    return OVOID_OK;
+}
