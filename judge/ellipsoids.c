@@ -256,11 +256,10 @@ ovoid_code judge_check_inner(const claim *c) {
     int common = c->proof->kind == OVOID_PROOF_INNER;
     if (!is_finite(c->proof->inner_a) || (!common && !is_finite(c->proof->inner_b)))
         return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "a point of the proof is not finite");
-    // The second call may move the table: the first pointer is fetched again.
-    (void)judge_get_facts(c->context, &c->s->a);
-    const facts *b = judge_get_facts(c->context, &c->s->b), *a = judge_get_facts(c->context, &c->s->a);
-    if (!a->is_inside || !b->is_inside)
+    // Values: the second call may move the table.
+    const facts a = *judge_get_facts(c->context, &c->s->a), b = *judge_get_facts(c->context, &c->s->b);
+    if (!a.is_inside || !b.is_inside)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "the inner ellipsoid of %s is not inside its polyhedron",
-                            a->is_inside ? "B" : "A");
-    return common ? check_common_point(c, a, b) : check_two_points(c);
+                            a.is_inside ? "B" : "A");
+    return common ? check_common_point(c, &a, &b) : check_two_points(c);
 }

@@ -13,10 +13,14 @@ run_step() {
     format-in-place) sources | xargs clang-format -i ;;
     shell) find scripts tests cli -name '*.sh' -exec shellcheck scripts/check-floors .ci/run {} + ;;
     tidy)
-        # The compile commands of the clang build; tests are left to the compilers' own warnings.
+        # With the compile commands of the clang build; tests are left to the compilers' own warnings. The paths that led
+        # to a finding stay in the log.
         cmake --preset check >/dev/null &&
             sources | grep '\.c$' | grep -v '^tests/' |
-            xargs -n 4 -P "${JOBS:-2}" clang-tidy --quiet --warnings-as-errors='*' -p build/check 2>/dev/null
+            xargs -n 4 -P "${JOBS:-2}" clang-tidy --quiet --warnings-as-errors='*' -p build/check >build/tidy.log 2>&1
+        tidy=$?
+        grep -A 2 ' error: ' build/tidy.log
+        return $tidy
         ;;
     *) echo "lint: no such step: $1" >&2 && return 2 ;;
     esac

@@ -5,6 +5,7 @@ cd "$OVOID_SOURCE_DIR" || exit 1
 passed=0 failed=0
 for page in *.md docs/*.md; do
     # Links of the form ](target), without those to other hosts and to places within a page.
+    # shellcheck disable=SC2013 # targets have no spaces
     for target in $(grep -o ']([^)]*)' "$page" | sed 's/^](//; s/)$//; s/#.*//' | grep -v '^[a-z]*:'); do
         if [ -e "$(dirname "$page")/$target" ]; then
             passed=$((passed + 1))
