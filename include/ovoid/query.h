@@ -105,8 +105,8 @@ typedef struct ovoid_cover {
 /** Options of a query; all zero is the default, and NULL means that. */
 typedef struct ovoid_options {
     double absolute_tolerance; /**< stop when upper - lower is at most this, or at most the relative one; default 0 */
-    double relative_tolerance; /**< of the pair's size: the sum of both radii about their centres and the centres'
-                                    distance; 0 means 1e-9 */
+    double relative_tolerance; /**< of the pair's size: the largest vertex norms of both shapes in their body frames,
+                                  the distance of those frames' origins, and the radii; 0 means 1e-9 */
     double cap;                /**< stop when proven farther than this; 0 means no cap */
     uint32_t iterations;       /**< most iterations of each exact method; 0 means 1000 */
 } ovoid_options;

@@ -86,6 +86,23 @@ static evidence face_evidence(const expansion *e, const face *f) {
     return evidence_make(&x);
 }
 
+// The face that holds the foot of the origin: of all that lie in the nearest plane (a facet of the difference body is
+// often several triangles), the one whose own nearest point is nearest.
+static uint16_t find_foot(const search *s, const expansion *e, uint16_t nearest) {
+    double least = INFINITY;
+    uint16_t best = nearest;
+    for (uint32_t i = 0; i < e->faces; i++) {
+        const face *f = &e->f[i];
+        if (!f->alive || f->low > e->f[nearest].low + s->frame->claim) continue;
+        evidence x = face_evidence(e, f);
+        vec3 foot = {0, 0, 0};
+        for (int k = 0; k < x.count; k++) foot = vec3_add_scaled(foot, x.p[k].w, x.weight[k]);
+        double distance = vec3_norm(foot);
+        if (distance < least) least = distance, best = (uint16_t)i;
+    }
+    return best;
+}
+
 // The upper bound that the surface proves, with the nearest face as witness.
 static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_cover *cover) {
     uint16_t triangles[EXPANSION_FACES][3];
@@ -151,6 +168,7 @@ static void agree(search *s, const expansion *e, uint16_t nearest) {
 // Ends the run: proves what the surface shows.
 static void finish(search *s, const expansion *e, uint16_t nearest, ovoid_cover *cover) {
     double upper = s->upper;
+    nearest = find_foot(s, e, nearest);
     if (e->f[nearest].low > s->frame->claim && !search_is_done(s)) {
         if (s->ask.wants_depth)
             take_cover(s, e, nearest, cover);
