@@ -1,0 +1,70 @@
+// A text read line by line through a buffer of its own: a line is handed out where it lies, without a copy. The buffer
+// grows to the longest line, of which there is a limit: no input can ask for more memory.
+#include "io/text.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+ovoid_code line_source_open(line_source *source, const char *path, ovoid_error *error) {
+    *source = (line_source){.path = text_copy(path, strlen(path)), .capacity = 1 << 16};
+    source->buffer = malloc(source->capacity);
+    ovoid_code code = source->path && source->buffer ? OVOID_OK : io_fail_memory(error, path);
+    if (!code) source->file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    if (!code && !source->file)
+        code = io_fail(error, OVOID_ERROR_FILE, (where){path, 0, -1}, "cannot be opened: %s", strerror(errno));
+    if (code) line_source_close(source);
+    return code;
+}
+
+void line_source_close(line_source *source) {
+    if (source->file && source->file != stdin) fclose(source->file);
+    free(source->path);
+    free(source->buffer);
+    *source = (line_source){.file = NULL};
+}
+
+// More bytes at the end of the buffer. 1, 0 at the end of the file, -1: failed.
+static int read_more(line_source *source, ovoid_error *error) {
+    // Room: first by moving what is left to the front, then by growing.
+    if (source->begin) {
+        memmove(source->buffer, source->buffer + source->begin, source->end - source->begin);
+        source->end -= source->begin;
+        source->begin = 0;
+    }
+    where at = {source->path, source->line + 1, -1};
+    if (source->end == source->capacity) {
+        char *grown = source->capacity < LINE_MAX_BYTES ? realloc(source->buffer, source->capacity * 2) : NULL;
+        if (!grown) {
+            io_fail(error, OVOID_ERROR_LIMIT, at, "the line has more than %zu bytes", source->capacity);
+            return -1;
+        }
+        source->buffer = grown;
+        source->capacity *= 2;
+    }
+    size_t n = fread(source->buffer + source->end, 1, source->capacity - source->end, source->file);
+    source->end += n;
+    if (n) return 1;
+    if (!ferror(source->file)) return 0;
+    io_fail(error, OVOID_ERROR_FILE, (where){source->path, 0, -1}, "cannot be read: %s", strerror(errno));
+    return -1;
+}
+
+int line_source_next(line_source *source, const char **line, size_t *length, ovoid_error *error) {
+    size_t looked = 0;
+    char *end;
+    for (;;) {
+        end = memchr(source->buffer + source->begin + looked, '\n', source->end - source->begin - looked);
+        if (end) break;
+        looked = source->end - source->begin;
+        int more = read_more(source, error);
+        if (more < 0 || (more == 0 && looked == 0)) return more;
+        if (more == 0) break; // the last line has no end
+    }
+    *line = source->buffer + source->begin;
+    *length = end ? (size_t)(end - *line) : looked;
+    source->begin += *length + (end != NULL);
+    source->line++;
+    if (*length && (*line)[*length - 1] == '\r') --*length;
+    return 1;
+}

@@ -1,0 +1,111 @@
+// Output files that appear whole or not at all: written beside their place under a name of their own, flushed to the
+// disk, then renamed over it. A link is followed first, so that it stays a link. Whatever is not a regular file (a
+// terminal, a pipe, /dev/null) is written to directly.
+#define _XOPEN_SOURCE 700 // realpath, fsync
+#include "io/text.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct ovoid_output {
+    FILE *file;
+    char *path;      ///< as the caller named it, for messages
+    char *target;    ///< what is renamed over; NULL: written to directly
+    char *temporary; ///< the file being written
+};
+
+static ovoid_code fail_output(ovoid_error *error, const char *path, const char *what) {
+    return io_fail(error, OVOID_ERROR_FILE, (where){path, 0, -1}, "%s: %s", what, strerror(errno));
+}
+
+// A new file beside the target; mode "x" never opens one that is there.
+static FILE *open_temporary(ovoid_output *output) {
+    size_t length = strlen(output->target);
+    output->temporary = malloc(length + 48);
+    if (!output->temporary) return NULL;
+    for (unsigned attempt = 0; attempt < 100; attempt++) {
+        snprintf(output->temporary, length + 48, "%s.%ld-%u.tmp", output->target, (long)getpid(), attempt);
+        FILE *file = fopen(output->temporary, "wbx");
+        if (file || errno != EEXIST) return file;
+    }
+    return NULL;
+}
+
+// Where the path leads: its target, or NULL for what is no regular file.
+static ovoid_code find_target(ovoid_output *output, ovoid_error *error) {
+    struct stat status;
+    int exists = strcmp(output->path, "-") != 0 && stat(output->path, &status) == 0;
+    if (exists && S_ISDIR(status.st_mode))
+        return io_fail(error, OVOID_ERROR_FILE, (where){output->path, 0, -1}, "is a folder");
+    if (strcmp(output->path, "-") == 0 || (exists && !S_ISREG(status.st_mode))) return OVOID_OK;
+    output->target = exists ? realpath(output->path, NULL) : text_copy(output->path, strlen(output->path));
+    return output->target ? OVOID_OK : fail_output(error, output->path, "cannot be written");
+}
+
+ovoid_output *ovoid_output_create(const char *path, ovoid_error *error) {
+    ovoid_output *output = calloc(1, sizeof *output);
+    if (output) output->path = text_copy(path, strlen(path));
+    if (!output || !output->path) {
+        io_fail_memory(error, path);
+        ovoid_output_destroy(output);
+        return NULL;
+    }
+    ovoid_code code = find_target(output, error);
+    if (!code && output->target)
+        output->file = open_temporary(output);
+    else if (!code)
+        output->file = strcmp(path, "-") == 0 ? stdout : fopen(path, "wb");
+    if (output->file) return output;
+    if (!code) fail_output(error, path, "cannot be written");
+    // Nothing was created: there is nothing to remove.
+    free(output->temporary);
+    output->temporary = NULL;
+    ovoid_output_destroy(output);
+    return NULL;
+}
+
+FILE *ovoid_output_get_file(ovoid_output *output) { return output->file; }
+
+// Closes the file. 0 if all of it was written; a full disk may show only here.
+static ovoid_code close_file(ovoid_output *output, ovoid_error *error) {
+    ovoid_code code = OVOID_OK;
+    if (ferror(output->file))
+        code = io_fail(error, OVOID_ERROR_FILE, (where){output->path, 0, -1},
+                       "could not be written in full (is the disk full?)");
+    if (!code && (fflush(output->file) || (output->target && fsync(fileno(output->file)))))
+        code = fail_output(error, output->path, "could not be written in full");
+    if (output->file != stdout && fclose(output->file) && !code)
+        code = fail_output(error, output->path, "could not be written in full");
+    output->file = NULL;
+    return code;
+}
+
+// The new file keeps the rights of the one that it replaces.
+static void copy_mode(const ovoid_output *output) {
+    struct stat status;
+    if (stat(output->target, &status) == 0) (void)chmod(output->temporary, status.st_mode & 07777);
+}
+
+ovoid_code ovoid_output_commit(ovoid_output *output, ovoid_error *error) {
+    if (!output->file) return io_fail(error, OVOID_ERROR_ARGUMENT, (where){output->path, 0, -1}, "was written before");
+    ovoid_code code = close_file(output, error);
+    if (code || !output->target) return code;
+    copy_mode(output);
+    if (rename(output->temporary, output->target)) return fail_output(error, output->path, "could not be put in place");
+    free(output->temporary);
+    output->temporary = NULL;
+    return OVOID_OK;
+}
+
+void ovoid_output_destroy(ovoid_output *output) {
+    if (!output) return;
+    if (output->file && output->file != stdout) fclose(output->file);
+    if (output->temporary) remove(output->temporary);
+    free(output->temporary);
+    free(output->target);
+    free(output->path);
+    free(output);
+}

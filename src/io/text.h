@@ -1,0 +1,78 @@
+// What every reader stands on: a whole file in memory, errors with path and line, numbers in any locale, arrays that
+// grow. Nothing here knows a format.
+#ifndef OVOID_IO_TEXT_H
+#define OVOID_IO_TEXT_H
+
+#include "ovoid/io.h"
+
+#include <stdarg.h>
+
+/// Fills *error: "path:line: sentence" with place = line where line > 0, else "path: sentence" with the place given.
+/// A long path keeps its end. Returns the code.
+typedef struct where {
+    const char *path;
+    int64_t line;  ///< 1-based; 0: none
+    int64_t place; ///< where there is no line
+} where;
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+ovoid_code
+io_fail(ovoid_error *error, ovoid_code code, where at, const char *format, ...);
+
+/// The error for memory that malloc did not give.
+ovoid_code io_fail_memory(ovoid_error *error, const char *path);
+
+/// Puts "path: " before the sentence of an error that the core has filled.
+void io_prefix_path(ovoid_error *error, const char *path);
+
+/// A file in memory; a zero byte follows the last one.
+typedef struct bytes {
+    char *data;
+    size_t size;
+} bytes;
+
+/// Reads a regular file of at most OVOID_FILE_SIZE_MAX bytes. The caller frees out->data.
+ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error);
+
+/// A growing array: makes room for one more item of size bytes. 0 where there is no memory.
+int array_reserve(void **data, size_t *capacity, size_t count, size_t size);
+
+/// A decimal number, or inf, infinity, nan in any case, with a sign; always with a point. Returns the byte after it, or
+/// NULL where none begins at `at`. Correctly rounded; beyond the range of double it is infinite or zero.
+const char *number_read(const char *at, const char *end, double *value);
+
+/// An optional sign and digits; saturates at the ends of int64. Returns the byte after it, or NULL.
+const char *integer_read(const char *at, const char *end, int64_t *value);
+
+/// %.*g with at most 17 digits and a point whatever the locale; not finite: "inf", "-inf", "nan". Returns the length.
+size_t number_write(char out[32], double value, int digits);
+
+/// A text that is read line by line, from a file or a pipe of any length.
+typedef struct line_source {
+    FILE *file;
+    char *path;
+    char *buffer;
+    size_t capacity, begin, end; ///< the bytes read and not yet handed out: buffer[begin .. end)
+    int64_t line;                ///< 1-based number of the last line handed out
+} line_source;
+
+/// Longest line that is read, bytes.
+enum { LINE_MAX_BYTES = 1 << 20 };
+
+/// Opens the path; "-" is standard input.
+ovoid_code line_source_open(line_source *source, const char *path, ovoid_error *error);
+/// The next line without its end ("\n" or "\r\n"), valid until the next call. 1, 0 at the end, -1: *error is filled.
+int line_source_next(line_source *source, const char **line, size_t *length, ovoid_error *error);
+void line_source_close(line_source *source);
+
+/// malloc'ed copy of length bytes, terminated; NULL where there is no memory.
+char *text_copy(const char *text, size_t length);
+
+/// malloc'ed path of `name` relative to the folder of `base`; an absolute name stays.
+char *path_join(const char *base, const char *name);
+
+/// 1 if the path ends in `.extension` (given without the point, in lower case), in any case.
+int path_has_extension(const char *path, const char *extension);
+
+#endif
