@@ -26,6 +26,9 @@ install(FILES cmake/ovoid-config.cmake ${PROJECT_BINARY_DIR}/ovoid-config-versio
 
 # From the folder of the .pc files up to the prefix.
 file(RELATIVE_PATH up_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+if(TARGET ovoid_assimp)
+  set(assimp_flag " -lassimp")
+endif()
 foreach(package ${packages})
   configure_file(cmake/${package}.pc.in ${package}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${package}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

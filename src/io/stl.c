@@ -90,14 +90,9 @@ static where here(const stl_text *s) { return (where){s->reader->path, s->c.line
 // The next word must be `name`.
 static ovoid_code expect(stl_text *s, const char *name) {
     const char *word = s->c.at;
-    size_t length = 0;
-    int64_t line = s->c.line;
-    if (skip_to_text(&s->c, 0)) {
-        line = s->c.line;
-        length = cursor_read_word(&s->c, &word);
-    }
+    size_t length = skip_to_text(&s->c, 0) ? cursor_read_word(&s->c, &word) : 0;
     if (word_is(word, length, name)) return OVOID_OK;
-    where at = {s->reader->path, line, -1};
+    where at = here(s);
     if (!length)
         return io_fail(s->reader->error, OVOID_ERROR_FORMAT, at, "truncated: \"%s\" is missing at the end", name);
     return io_fail(s->reader->error, OVOID_ERROR_FORMAT, at, "\"%.*s\" stands where \"%s\" must be",

@@ -1,0 +1,65 @@
+// Small files for the tests of readers and writers, in a folder of the build.
+#ifndef OVOID_TESTS_FILES_H
+#define OVOID_TESTS_FILES_H
+
+#include "check.h"
+
+#include "ovoid/io.h"
+
+#include <sys/stat.h>
+
+/// The path of a file in the tests' folder; valid until the eighth next call.
+static inline const char *file_path(const char *name) {
+    static char paths[8][512];
+    static int turn;
+    char *path = paths[turn++ % 8];
+    mkdir(OVOID_BUILD_DIR "/test_files", 0777);
+    snprintf(path, 512, "%s/%s", OVOID_BUILD_DIR "/test_files", name);
+    return path;
+}
+
+/// Writes a file and returns its path.
+static inline const char *file_write(const char *name, const void *data, size_t size) {
+    const char *path = file_path(name);
+    FILE *file = fopen(path, "wb");
+    if (!file || fwrite(data, 1, size, file) != size || fclose(file)) {
+        printf("%s cannot be written\n", path);
+        exit(2);
+    }
+    return path;
+}
+
+static inline const char *file_write_text(const char *name, const char *text) {
+    return file_write(name, text, strlen(text));
+}
+
+/// The whole file, terminated; the caller frees it. NULL where there is none.
+static inline char *file_read(const char *path, size_t *size) {
+    FILE *file = fopen(path, "rb");
+    if (!file) return NULL;
+    char *data = malloc(1 << 24);
+    *size = fread(data, 1, (1 << 24) - 1, file);
+    data[*size] = 0;
+    fclose(file);
+    return data;
+}
+
+/// One line of a table of bad inputs: what must be said of it.
+typedef struct bad_input {
+    const char *name; ///< of the case and, with its extension, of the file
+    const char *text;
+    ovoid_code code;
+    int64_t place;
+    const char *phrase; ///< part of the message
+} bad_input;
+
+/// Checks the error of a case; prints what was said where it is another.
+static inline void check_error(const bad_input *input, const ovoid_error *error) {
+    int good = error->code == input->code && error->place == input->place && strstr(error->message, input->phrase) &&
+               strstr(error->message, input->name);
+    if (!CHECK(good))
+        printf("  %s: code %d, place %lld, \"%s\"\n", input->name, (int)error->code, (long long)error->place,
+               error->message);
+}
+
+#endif
