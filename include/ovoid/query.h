@@ -81,7 +81,7 @@ typedef enum ovoid_proof_kind {
 typedef struct ovoid_proof {
     ovoid_vec3 normal; /**< world frame, from A to B */
     ovoid_proof_kind kind;
-    uint32_t count; /**< entries used of the arrays, 0 to 4 */
+    uint32_t count; /**< entries used of the arrays */
     uint32_t a[OVOID_PROOF_PAIRS], b[OVOID_PROOF_PAIRS];
     double weight_a[OVOID_PROOF_PAIRS], weight_b[OVOID_PROOF_PAIRS]; /**< >= 0, not all zero */
     ovoid_vec3 inner_a; /**< INNER: the common point; INNER_POINTS: the point of A; body frame of A */
