@@ -1,0 +1,176 @@
+// (b) (c) (d) The three phases from the outer ellipsoid to an enclosed one: shrink, stretch, enlarge each radius.
+// W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on Enclosed Ellipsoid by Facial Areas
+// Splitting, section 2.3. Each phase is a bisection against the facets' planes, 2^-40 fine; then the result is shrunk
+// by what its proof needs (seal.c). The paper writes M = Q^-1; here its formulas stand in Q, and no square root is
+// needed. A phase never returns less than it was given: where there is no room, it returns its input. Flat bodies:
+// within the plane, against the edges; a segment: against its ends. Nothing is proven of these. Cost: 40 to 250
+// evaluations of all facets a phase.
+#include "ellipsoid/seal.h"
+#include "ellipsoid/walls.h"
+
+// Ellipsoids that grow with t.
+typedef ovoid_ellipsoid (*family)(const void *context, double t);
+
+static int is_inside(const walls *w, const ovoid_ellipsoid *e) {
+    for (uint32_t i = 0; i < w->count; i++) {
+        ovoid_plane plane = walls_get(w, i);
+        if (!(ellipsoid_compute_support(e, plane.normal) <= plane.offset)) return 0;
+    }
+    return 1;
+}
+
+// The largest t in [low, high] that is inside, by bisection; low is taken to be.
+static double bisect(const walls *w, family make, const void *context, double range[2], uint32_t *iterations) {
+    double low = range[0], high = range[1];
+    ovoid_ellipsoid e = make(context, high);
+    if (is_inside(w, &e)) return high;
+    for (int i = 0; i < 40; i++, (*iterations)++) {
+        double middle = low + (high - low) / 2;
+        e = make(context, middle);
+        if (is_inside(w, &e))
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+// The proven result, or the input where that is larger.
+static ovoid_fit finish(const walls *w, const ovoid_ellipsoid *e, const ovoid_ellipsoid *input) {
+    sym3dd q = sym3dd_from(e->q);
+    uint32_t rank = w->polytope->rank;
+    ovoid_fit fit = {.ellipsoid = ellipsoid_compute_sealed(w->polytope, e->center, &q), .gap = NAN, .converged = 1};
+    fit.volume = ellipsoid_compute_measure(&fit.ellipsoid, rank);
+    double before = input ? ellipsoid_compute_measure(input, rank) : 0;
+    if (input && before >= fit.volume) fit.ellipsoid = *input, fit.volume = before;
+    return fit;
+}
+
+static ovoid_ellipsoid make_scaled(const void *context, double t) {
+    const ovoid_ellipsoid *e = context;
+    return (ovoid_ellipsoid){e->center, sym3_scale(e->q, t * t)};
+}
+
+ovoid_fit ovoid_ellipsoid_compute_shrunk(const ovoid_polytope *polytope, const ovoid_ellipsoid *outer) {
+    walls w = walls_make(polytope);
+    uint32_t iterations = 0;
+    // A quarter of the radii lies inside by John's theorem, which promises a third.
+    double t = bisect(&w, make_scaled, outer, (double[2]){0.25, 1}, &iterations);
+    ovoid_ellipsoid e = make_scaled(outer, t);
+    ovoid_fit fit = finish(&w, &e, NULL);
+    fit.iterations = iterations;
+    return fit;
+}
+
+// The mean of a facet's vertices. Each is the start of one edge of the facet; diagonals between its triangles are no
+// edges, so the neighbours tell.
+static vec3 compute_facet_mean(const ovoid_polytope *p, uint32_t facet) {
+    vec3 sum = {0, 0, 0};
+    double count = 0;
+    for (uint32_t t = 0; t < p->triangle_count; t++)
+        for (uint32_t k = 0; p->triangle_facets[t] == facet && k < 3; k++) {
+            uint32_t a = p->triangles[3 * (size_t)t + k], b = p->triangles[3 * (size_t)t + (k + 1) % 3], at;
+            for (at = p->neighbor_starts[a]; at < p->neighbor_starts[a + 1] && p->neighbors[at] != b;) at++;
+            if (at == p->neighbor_starts[a + 1]) continue;
+            sum = vec3_add(sum, vec3_at(p->vertices, a));
+            count++;
+        }
+    return count > 0 ? vec3_scale(sum, 1 / count) : vec3_at(p->vertices, 0);
+}
+
+// The mean of a wall's vertices: of a facet, an edge, an end.
+static vec3 compute_wall_mean(const walls *w, uint32_t wall) {
+    const ovoid_polytope *p = w->polytope;
+    if (p->rank == 3) return compute_facet_mean(p, wall);
+    if (p->rank == 1) return vec3_at(p->vertices, wall);
+    vec3 a = vec3_at(p->vertices, wall / 2);
+    vec3 b = vec3_at(p->vertices, p->neighbors[p->neighbor_starts[wall / 2] + wall % 2]);
+    return vec3_scale(vec3_add(a, b), 0.5);
+}
+
+// c' = c + beta d, d = s - c, and M'^(1/2) = (I + (alpha - 1) a a') M^(1/2) with a = M^(1/2) d / m, m = |M^(1/2) d|,
+// alpha = 1 / (1 + beta m). Inverted: Q' = Q + (2 beta / m + beta^2) d d'.
+typedef struct stretch {
+    ovoid_ellipsoid base;
+    vec3 d;
+    double m;
+} stretch;
+
+static ovoid_ellipsoid make_stretched(const void *context, double beta) {
+    const stretch *s = context;
+    return (ovoid_ellipsoid){vec3_add_scaled(s->base.center, s->d, beta),
+                             sym3_add(s->base.q, sym3_outer(s->d, 2 * beta / s->m + beta * beta))};
+}
+
+// |M^(1/2) d| in the eigen-axes that the body has extent along.
+static double compute_gauge(sym3 q, vec3 d, uint32_t rank) {
+    eigen3 e = sym3_compute_eigen(q);
+    const vec3 axis[3] = {e.v.r0, e.v.r1, e.v.r2};
+    double sum = 0;
+    for (uint32_t i = 3 - rank; i < 3; i++) sum += pow(vec3_dot(axis[i], d), 2) / e.value[i];
+    return sqrt(sum);
+}
+
+ovoid_fit ovoid_ellipsoid_compute_stretched(const ovoid_polytope *polytope, const ovoid_ellipsoid *shrunk) {
+    walls w = walls_make(polytope);
+    // The facet farthest from the centre, the first of equals.
+    uint32_t facet = 0, iterations = 0;
+    double farthest = -INFINITY;
+    for (uint32_t i = 0; i < w.count; i++) {
+        ovoid_plane plane = walls_get(&w, i);
+        double distance = plane.offset - vec3_dot(plane.normal, shrunk->center);
+        if (distance > farthest) farthest = distance, facet = i;
+    }
+    // s = c + l (s_m - c) / |s_m - c|.
+    stretch s = {*shrunk, {0, 0, 0}, 0};
+    if (w.count > 0) s.d = vec3_scale(vec3_unit(vec3_sub(compute_wall_mean(&w, facet), s.base.center)), farthest);
+    s.m = compute_gauge(shrunk->q, s.d, polytope->rank);
+    double beta = 0;
+    ovoid_ellipsoid e = *shrunk;
+    if (s.m > 0 && isfinite(s.m)) {
+        beta = bisect(&w, make_stretched, &s, (double[2]){0, 1}, &iterations);
+        e = make_stretched(&s, beta);
+    }
+    ovoid_fit fit = finish(&w, &e, shrunk);
+    int stuck = fit.ellipsoid.center.x == shrunk->center.x && fit.ellipsoid.center.y == shrunk->center.y &&
+                fit.ellipsoid.center.z == shrunk->center.z;
+    fit.beta = stuck ? 0 : beta;
+    fit.facet = facet;
+    fit.iterations = iterations;
+    return fit;
+}
+
+typedef struct enlargement {
+    ovoid_ellipsoid base;
+    vec3 axis;
+    double value; // the square of the radius at hand
+} enlargement;
+
+static ovoid_ellipsoid make_enlarged(const void *context, double radius) {
+    const enlargement *g = context;
+    return (ovoid_ellipsoid){g->base.center, sym3_add(g->base.q, sym3_outer(g->axis, radius * radius - g->value))};
+}
+
+ovoid_fit ovoid_ellipsoid_compute_enlarged(const ovoid_polytope *polytope, const ovoid_ellipsoid *stretched) {
+    walls w = walls_make(polytope);
+    eigen3 axes = sym3_compute_eigen(stretched->q);
+    const vec3 axis[3] = {axes.v.r0, axes.v.r1, axes.v.r2};
+    ovoid_ellipsoid e = *stretched;
+    uint32_t iterations = 0;
+    // Shortest radius first; those across a flat body stay as they are.
+    for (uint32_t i = 3 - polytope->rank; i < 3; i++) {
+        enlargement g = {e, axis[i], axes.value[i]};
+        double range[2] = {sqrt(fmax(g.value, 0)), sqrt(fmax(g.value, 0))};
+        if (!(range[0] > 0)) continue;
+        // Twice as long until it no longer fits.
+        do {
+            range[1] *= 2;
+            e = make_enlarged(&g, range[1]);
+            iterations++;
+        } while (is_inside(&w, &e) && iterations < 1000);
+        e = make_enlarged(&g, bisect(&w, make_enlarged, &g, range, &iterations));
+    }
+    ovoid_fit fit = finish(&w, &e, stretched);
+    fit.iterations = iterations;
+    return fit;
+}
