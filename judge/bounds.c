@@ -1,5 +1,5 @@
 // The bounds, each by its theorem (docs/proofs.md), without their radii. Lower: a direction and the supports along it.
-// Upper: points of both bodies; a tetrahedron of differences around the origin; a closed surface of differences.
+// Upper: points of both bodies; a closed surface of differences around the origin, small (hull) or large (cover).
 #include "parts.h"
 
 #include <math.h>
@@ -80,28 +80,20 @@ ovoid_code judge_check_inner_points(const claim *c) {
     return check_distance(c, posed_difference(s, inner_point_a(c), inner_point_b(c)), s->k);
 }
 
-static ovoid_code check_hull(const claim *c) {
-    const posed *s = c->s;
-    pool *p = s->p;
-    if (c->proof->count != 4)
-        return judge_reject(c->error, OVOID_ERROR_PROOF, "a hull of %u differences", c->proof->count);
-    nvec d[4];
-    for (int i = 0; i < 4; i++) d[i] = posed_vertex_difference(s, c->proof->a[i], c->proof->b[i]);
-    // Inside, and no nearer to a face's plane than the claim: the origin is on each face's inner side.
-    static const int faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
-    num depth = num_mul(p, c->core, s->k);
-    for (int f = 0; f < 4; f++) {
-        nvec a = d[faces[f][0]], b = d[faces[f][1]], e = d[faces[f][2]], opposite = d[faces[f][3]];
-        nvec normal = nvec_cross(p, nvec_sub(p, b, a), nvec_sub(p, e, a));
-        num offset = nvec_dot(p, normal, a), other = nvec_dot(p, normal, nvec_sub(p, opposite, a));
-        if (num_sign(offset) * num_sign(other) >= 0)
-            return judge_reject(c->error, OVOID_ERROR_PROOF, "the origin is not strictly inside the four differences");
-        // core k |n| >= -|offset|
-        num distance = num_sign(offset) > 0 ? num_neg(p, offset) : offset;
-        if (num_compare_roots(p, depth, nvec_norm_squared(p, normal), distance, number_from_integer(p, 1)) < 0)
-            return judge_reject(c->error, OVOID_ERROR_PROOF, "upper is deeper than the four differences show");
+// The closed surface of four to six differences: a tetrahedron, or a double pyramid with tips 0 and 1.
+static shell make_hull(const claim *c) {
+    judge *j = c->context;
+    uint32_t count = c->proof->count, triangles = 0;
+    for (uint32_t i = 0; i < count; i++) j->points[i] = posed_vertex_difference(c->s, c->proof->a[i], c->proof->b[i]);
+    static const uint32_t tetrahedron[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
+    if (count == 4) return (shell){j->points, tetrahedron, 4, 4};
+    for (uint32_t r = 2; r < count; r++) {
+        uint32_t next = r + 1 < count ? r + 1 : 2, *t = j->triangles + 3 * triangles;
+        t[0] = 0, t[1] = r, t[2] = next;
+        t[3] = 1, t[4] = next, t[5] = r;
+        triangles += 2;
     }
-    return OVOID_OK;
+    return (shell){j->points, j->triangles, count, triangles};
 }
 
 // The surface of the cover, its points times k.
@@ -123,23 +115,33 @@ static ovoid_code read_cover(const claim *c, const ovoid_cover *cover, shell *ou
     return OVOID_OK;
 }
 
-static ovoid_code check_cover(const claim *c, const ovoid_cover *cover) {
+// The surface winds around the origin, and none of it is nearer than the depth claimed.
+static ovoid_code check_shell(const claim *c, const shell *s) {
     pool *p = c->s->p;
-    shell s;
-    ovoid_code code = read_cover(c, cover, &s);
-    if (code != OVOID_OK) return code;
-    if (!shell_is_closed(&s)) return judge_reject(c->error, OVOID_ERROR_PROOF, "the cover is not a closed surface");
-    if (!shell_is_winding(p, &s))
-        return judge_reject(c->error, OVOID_ERROR_PROOF, "the cover does not wind around the origin");
+    if (!shell_is_closed(s)) return judge_reject(c->error, OVOID_ERROR_PROOF, "the surface is not closed");
+    if (!shell_is_winding(p, s))
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "the surface does not wind around the origin");
     if (num_sign(c->core) >= 0) return OVOID_OK;
     num depth = num_mul(p, c->core, c->s->k), square = num_mul(p, depth, depth);
-    for (uint32_t t = 0; t < s.triangle_count; t++) {
-        const uint32_t *v = s.triangles + 3 * (size_t)t;
-        if (!triangle_is_farther(p, s.points[v[0]], s.points[v[1]], s.points[v[2]], square))
-            return judge_reject(c->error, OVOID_ERROR_PROOF,
-                                "triangle %u of the cover is nearer than the depth claimed", t);
+    for (uint32_t t = 0; t < s->triangle_count; t++) {
+        const uint32_t *v = s->triangles + 3 * (size_t)t;
+        if (!triangle_is_farther(p, s->points[v[0]], s->points[v[1]], s->points[v[2]], square))
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "triangle %u of the surface is nearer than the depth", t);
     }
     return OVOID_OK;
+}
+
+static ovoid_code check_hull(const claim *c) {
+    if (c->proof->count < 4)
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "%u differences hold nothing", c->proof->count);
+    shell s = make_hull(c);
+    return check_shell(c, &s);
+}
+
+static ovoid_code check_cover(const claim *c, const ovoid_cover *cover) {
+    shell s;
+    ovoid_code code = read_cover(c, cover, &s);
+    return code == OVOID_OK ? check_shell(c, &s) : code;
 }
 
 ovoid_code judge_check_upper(const claim *c, const ovoid_cover *cover) {

@@ -93,8 +93,8 @@ static ovoid_code check_normal(pool *p, const ovoid_answer *answer, ovoid_error 
 }
 
 static ovoid_code check_indices(const posed *s, const ovoid_proof *proof, ovoid_error *error) {
-    if (proof->count > 4)
-        return judge_reject(error, OVOID_ERROR_INDEX, "%u entries of a proof of at most 4", proof->count);
+    if (proof->count > OVOID_PROOF_PAIRS)
+        return judge_reject(error, OVOID_ERROR_INDEX, "%u pairs, more than a proof has", proof->count);
     for (uint32_t i = 0; i < proof->count; i++)
         if (proof->a[i] >= s->a.polytope.vertex_count || proof->b[i] >= s->b.polytope.vertex_count)
             return judge_reject(error, OVOID_ERROR_INDEX, "entry %u of the proof has no such vertex", i);

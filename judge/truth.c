@@ -99,10 +99,12 @@ static judge_truth read_truth(const brute *t, const posed *s) {
 
     num below = number_from_integer(p, 0), above = below;
     if (truth.core_sign != 0) {
-        num low = num_quotient_below(p, num_mul(p, t->gap, t->gap), whole, 2 * ROOT_BITS);
-        num unit = num_scaled(p, one, low->e);
+        num squared = num_mul(p, t->gap, t->gap), low = num_quotient_below(p, squared, whole, 2 * ROOT_BITS);
+        // The quotient is exact, or less than one unit of its last place too low.
+        int exact = num_compare(p, num_mul(p, low, whole), squared) == 0;
+        num high = exact ? low : num_add(p, low, num_scaled(p, one, low->e));
         below = num_root_below(p, low, ROOT_BITS);
-        above = num_root_above(p, num_add(p, low, unit), ROOT_BITS);
+        above = num_root_above(p, high, ROOT_BITS);
     }
     int apart = truth.core_sign >= 0;
     if (truth.sign == 0) return truth; // low = high = 0
