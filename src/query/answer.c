@@ -84,7 +84,8 @@ static ovoid_status find_status(const search *s) {
 
 // Why the bracket is wider than the tolerance, if it is.
 static ovoid_limit find_limit(const search *s, ovoid_status status) {
-    if (s->upper - s->lower <= s->ask.tolerance) return OVOID_LIMIT_NONE;
+    int points_agree = !(s->ask.wants_depth && s->kind == OVOID_PROOF_HULL);
+    if (s->upper - s->lower <= s->ask.tolerance && points_agree) return OVOID_LIMIT_NONE;
     if (s->limit != OVOID_LIMIT_NONE) return s->limit;
     if (status == OVOID_UNDECIDED) return OVOID_LIMIT_PRECISION;
     return s->ask.wants_bracket && s->lower > s->ask.far ? OVOID_LIMIT_CAP : OVOID_LIMIT_ANSWERED;

@@ -108,8 +108,10 @@ static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_co
     uint16_t triangles[EXPANSION_FACES][3];
     surface all = {e->w, (const uint16_t(*)[3])triangles, e->points, expansion_pack(e, triangles)};
     double depth = surface_compute_depth(&all, s->frame->claim);
-    if (!(depth > 0) || !(-depth - s->frame->radii < s->upper)) return;
-    s->upper = -depth - s->frame->radii;
+    double upper = -depth - s->frame->radii;
+    if (!(depth > 0) || !(upper < s->upper || upper - s->lower <= s->ask.tolerance)) return;
+    s->upper = upper;
+    s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
     s->witness = face_evidence(e, &e->f[nearest]);
     if (!cover) return;
@@ -141,14 +143,15 @@ static int take_tetrahedron(search *s, const expansion *e) {
 
 // Evidence of an overlap from the surface: a tetrahedron, or where the origin is on a line of two corners, up to six.
 static int take_hull(search *s, const expansion *e) {
-    if (take_tetrahedron(s, e)) return 1;
-    int kept[OVOID_PROOF_PAIRS];
-    if (e->points > HULL_POINTS_MAX) return 0;
-    evidence x = {.count = hull_find_few(e->w, (int)e->points, s->frame->claim, e->slack, kept)};
-    if (x.count == 0) return 0;
-    for (int i = 0; i < x.count; i++) x.p[i] = (difference){e->w[kept[i]], e->a[kept[i]], e->b[kept[i]]};
-    evidence_set_weights(&x);
-    return search_take_hull(s, &x);
+    int taken = take_tetrahedron(s, e), kept[OVOID_PROOF_PAIRS];
+    if (!taken && e->points <= HULL_POINTS_MAX) {
+        evidence x = {.count = hull_find_few(e->w, (int)e->points, s->frame->claim, e->slack, kept)};
+        for (int i = 0; i < x.count; i++) x.p[i] = (difference){e->w[kept[i]], e->a[kept[i]], e->b[kept[i]]};
+        evidence_set_weights(&x);
+        taken = x.count > 0 && search_take_hull(s, &x);
+    }
+    if (taken) s->stage = OVOID_STAGE_EPA;
+    return taken;
 }
 
 // The bracket as it would be if the surface were proven now.
@@ -167,7 +170,6 @@ static void agree(search *s, const expansion *e, uint16_t nearest) {
 
 // Ends the run: proves what the surface shows.
 static void finish(search *s, const expansion *e, uint16_t nearest, ovoid_cover *cover) {
-    double upper = s->upper;
     nearest = find_foot(s, e, nearest);
     if (e->f[nearest].low > s->frame->claim && !search_is_done(s)) {
         if (s->ask.wants_depth)
@@ -175,7 +177,6 @@ static void finish(search *s, const expansion *e, uint16_t nearest, ovoid_cover 
         else
             (void)take_hull(s, e);
     }
-    if (s->upper < upper) s->stage = OVOID_STAGE_EPA;
     if (s->kind == OVOID_PROOF_COVER) agree(s, e, nearest);
     if (!search_is_done(s) && s->limit == OVOID_LIMIT_NONE) s->limit = OVOID_LIMIT_PRECISION;
 }
