@@ -156,7 +156,8 @@ static int take_hull(search *s, const expansion *e) {
 
 // The bracket as it would be if the surface were proven now.
 static int is_narrow(const search *s, double low) {
-    return -low + s->frame->claim - s->frame->radii - s->lower <= s->ask.tolerance;
+    double claim = s->frame->claim;
+    return low > claim && -low + claim - s->frame->radii - s->lower <= s->ask.tolerance;
 }
 
 // The nearest face's own normal as lower bound, where that costs no more than the tolerance: witness and normal agree.
