@@ -1,0 +1,215 @@
+// The maximum-volume inscribed ellipsoid. L. G. Khachiyan and M. J. Todd, On the complexity of approximating the
+// maximal inscribed ellipsoid for a polytope, 1993; Y. Zhang and L. Gao, On numerical solution of the maximum volume
+// ellipsoid problem, 2003.
+//
+// The body is first mapped so that its outer ellipsoid is about the unit ball: needles and slabs are then as round as
+// anything. There each facet becomes one half-space, with the normal of its largest triangle and the offset of its
+// lowest vertex, so that the half-spaces' intersection holds nothing that the body does not. inscribe.c solves; the
+// result is mapped back, rounded, and shrunk by what its proof needs (seal.c); certificate.c tells how much larger any
+// other could be, which makes the gap reported true. A flat polygon is solved as a prism over it, whose largest
+// ellipsoid is the polygon's, times the height. Cost: 10 to 25 iterations, linear in the facets, and a few passes over
+// the vertices.
+#include "ellipsoid/certificate.h"
+#include "ellipsoid/contain.h"
+#include "ellipsoid/design.h"
+#include "ellipsoid/inscribe.h"
+#include "ellipsoid/seal.h"
+
+#include "base/allocator.h"
+
+// The body in coordinates z, x = origin + map z, where it is round.
+typedef struct work {
+    const ovoid_polytope *polytope;
+    double *local; // z of each vertex
+    double reach;  // the largest |z| of the body
+    vec3 origin;
+    mat3 map, inverse;
+    double height; // of the prism over a flat polygon, to either side
+    vec3 normal;   // of the polygon
+    constraint *constraints;
+    uint32_t count;
+} work;
+
+static mat3 mat3_scale_rows(mat3 m, vec3 s) {
+    return (mat3){vec3_scale(m.r0, s.x), vec3_scale(m.r1, s.y), vec3_scale(m.r2, s.z)};
+}
+
+// The lower triangular L with L L' = s, and its inverse; the identity where s is not positive definite.
+static mat3 compute_root(sym3 s, mat3 *inverse) {
+    double a = sqrt(s.xx), b = s.xy / a, c = s.xz / a, d = sqrt(s.yy - b * b), e = (s.yz - b * c) / d;
+    double f = sqrt(s.zz - c * c - e * e);
+    if (!(a > 0 && d > 0 && f > 0 && isfinite(a * d * f))) a = d = f = 1, b = c = e = 0;
+    *inverse = (mat3){{1 / a, 0, 0}, {-b / (a * d), 1 / d, 0}, {(b * e - c * d) / (a * d * f), -e / (d * f), 1 / f}};
+    return (mat3){{a, 0, 0}, {b, d, 0}, {c, e, f}};
+}
+
+// The map from the unit ball to a rough outer ellipsoid, and the vertices in its coordinates.
+static void whiten(work *w, uint32_t *candidate) {
+    const ovoid_polytope *p = w->polytope;
+    design d = {.local = w->local, .candidate = candidate};
+    frame f = frame_compute(p->vertices, p->vertex_count, p->rank);
+    design_solve(&d, &f, p->vertices, p->vertex_count, 0.02);
+    // x = f.origin + axes' half (mean + root z).
+    mat3 lower, root = compute_root(sym3_scale(sym3_inverse(d.inverse), p->rank), &lower);
+    vec3 mean = {d.mean.x * f.half.x, d.mean.y * f.half.y, d.mean.z * f.half.z};
+    vec3 part = {1 / f.half.x, 1 / f.half.y, 1 / f.half.z};
+    w->origin = vec3_add(f.origin, mat3_mul_transposed_vec3(f.axes, mean));
+    w->map = mat3_mul(mat3_transpose(mat3_scale_rows(f.axes, f.half)), root);
+    w->inverse = mat3_mul(lower, mat3_scale_rows(f.axes, part));
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        vec3 z = mat3_mul_vec3(lower, vec3_sub(vec3_at(d.local, v), d.mean));
+        w->local[3 * (size_t)v] = z.x, w->local[3 * (size_t)v + 1] = z.y, w->local[3 * (size_t)v + 2] = z.z;
+        w->reach = fmax(w->reach, vec3_norm(z));
+    }
+    w->normal = f.axes.r2;
+    w->height = p->rank == 2 ? f.half.z * root.r2.z : 0;
+}
+
+// Of a solid: a half-space for each facet that has a triangle.
+static void build_from_facets(work *w) {
+    const ovoid_polytope *p = w->polytope;
+    for (uint32_t f = 0; f < p->facet_count; f++) w->constraints[f] = (constraint){.b = INFINITY};
+    for (uint32_t t = 0; t < p->triangle_count; t++) {
+        const uint32_t *i = p->triangles + 3 * (size_t)t;
+        constraint *c = &w->constraints[p->triangle_facets[t]];
+        vec3 a = vec3_at(w->local, i[0]);
+        vec3 n = vec3_cross(vec3_sub(vec3_at(w->local, i[1]), a), vec3_sub(vec3_at(w->local, i[2]), a));
+        double size = vec3_norm(n);
+        if (size > c->h) c->h = size, c->n = vec3_scale(n, 1 / size);
+    }
+    for (uint32_t t = 0; t < p->triangle_count; t++)
+        for (int k = 0; k < 3; k++) {
+            constraint *c = &w->constraints[p->triangle_facets[t]];
+            c->b = fmin(c->b, vec3_dot(c->n, vec3_at(w->local, p->triangles[3 * (size_t)t + k])));
+        }
+    w->count = 0;
+    for (uint32_t f = 0; f < p->facet_count; f++)
+        if (w->constraints[f].h > 0) w->constraints[w->count++] = w->constraints[f];
+}
+
+// Of a flat polygon: a half-space for each edge, and the two ends of the prism.
+static void build_from_edges(work *w) {
+    const ovoid_polytope *p = w->polytope;
+    w->count = 0;
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        for (uint32_t k = p->neighbor_starts[v]; k < p->neighbor_starts[v + 1]; k++) {
+            vec3 a = vec3_at(w->local, v), b = vec3_at(w->local, p->neighbors[k]), e = vec3_sub(b, a);
+            vec3 n = vec3_unit((vec3){e.y, -e.x, 0});
+            if (vec3_dot(n, a) < 0) n = vec3_neg(n);
+            if (p->neighbors[k] > v && vec3_max_abs(n) > 0)
+                w->constraints[w->count++] = (constraint){.n = n, .b = fmin(vec3_dot(n, a), vec3_dot(n, b))};
+        }
+    w->constraints[w->count++] = (constraint){.n = {0, 0, 1}, .b = 1};
+    w->constraints[w->count++] = (constraint){.n = {0, 0, -1}, .b = 1};
+    w->reach += 1;
+}
+
+// The solver's ellipsoid; a small ball where it failed or could not start.
+static inscribed solve(const work *w, double gap) {
+    double least = INFINITY;
+    for (uint32_t i = 0; i < w->count; i++) least = fmin(least, w->constraints[i].b);
+    inscribed s = {.e = sym3_diagonal(0.1, 0.1, 0.1)};
+    if (!(least > 0) || !isfinite(least)) return s;
+    inscribed solved = inscribe_solve(w->constraints, w->count, 0.02 * fmin(gap, 1));
+    vec3 x;
+    return vec3_is_finite(solved.x) && sym3_solve(solved.e, (vec3){0, 0, 0}, &x) ? solved : s;
+}
+
+// M M' of the columns that the body has extent along.
+static sym3dd compute_square(const mat3 *m, uint32_t rank) {
+    const double full[3][3] = {{m->r0.x, m->r0.y, m->r0.z}, {m->r1.x, m->r1.y, m->r1.z}, {m->r2.x, m->r2.y, m->r2.z}};
+    sym3dd q;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            q.m[i][j] = dd_from(0);
+            for (uint32_t k = 0; k < rank; k++) q.m[i][j] = dd_add(q.m[i][j], two_product(full[i][k], full[j][k]));
+        }
+    return q;
+}
+
+// How much larger than { center + m u } any ellipsoid in the body can be.
+static double compute_bound(const work *w, const inscribed *s, vec3 center, mat3 m) {
+    certificate c = {0};
+    double total = 0;
+    for (uint32_t i = 0; i < w->count; i++) total += w->constraints[i].y * w->constraints[i].h;
+    for (uint32_t i = 0; i < w->count; i++) {
+        const constraint *k = &w->constraints[i];
+        double weight = k->y * k->h;
+        if (weight > 1e-12 * total) certificate_add(&c, i, weight, k->w, (k->b - vec3_dot(k->n, s->x)) / k->h);
+    }
+    vec3 directions[CERTIFICATE_SIZE];
+    for (int i = 0; i < c.count; i++)
+        directions[i] = vec3_unit(mat3_mul_transposed_vec3(w->inverse, w->constraints[c.wall[i]].n));
+    // |u| = |E^-1 (z - x)|; a margin for the rounding of z.
+    double least = sym3_compute_eigen(s->e).value[0];
+    inscribed_body body = {.vertices = w->polytope->vertices,
+                           .vertex_count = w->polytope->vertex_count,
+                           .normal = w->normal,
+                           .height = w->height,
+                           .center = center,
+                           .map = m,
+                           .reach = 1.1 * (w->reach + vec3_norm(s->x)) / least};
+    return certificate_compute_bound(&c, &body, directions);
+}
+
+// Maps the solution back, seals it, and bounds what is missing.
+static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *fit) {
+    uint32_t rank = w->polytope->rank;
+    mat3 e = {{s->e.xx, s->e.xy, s->e.xz}, {s->e.xy, s->e.yy, s->e.yz}, {s->e.xz, s->e.yz, s->e.zz}};
+    mat3 m = mat3_mul(w->map, e);
+    vec3 center = vec3_add(w->origin, mat3_mul_vec3(w->map, s->x));
+    // The solution keeps a little distance from the walls: out to where the first is met.
+    sym3dd q = compute_square(&m, rank);
+    ovoid_ellipsoid loose = {center, sym3dd_round(&q)};
+    double clear = rank == 3 ? ellipsoid_compute_clear_bound(w->polytope, &loose) : 1, scale = 1;
+    if (clear > 1 && clear < 2) scale = clear * clear * (1 - 4 * ROUNDING);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) q.m[i][j] = dd_mul(q.m[i][j], dd_from(scale));
+    *fit = (ovoid_fit){.ellipsoid = ellipsoid_compute_sealed(w->polytope, center, &q), .iterations = s->iterations};
+    fit->volume = ellipsoid_compute_measure(&fit->ellipsoid, rank);
+    // The bound is about the ellipsoid of m; of a flat polygon's, about the prism's.
+    sym3dd whole = compute_square(&m, 3);
+    double most = compute_bound(w, s, center, m) * sym3dd_compute_content(&whole, 3) / (rank == 2 ? w->height : 1);
+    fit->gap = fit->volume > 0 ? most / (fit->volume / ball_get_measure((int)rank)) - 1 + 1e-13 : INFINITY;
+    fit->converged = fit->gap <= gap;
+}
+
+static ovoid_code compute(const ovoid_polytope *p, double gap, ovoid_fit *fit, const ovoid_allocator *memory) {
+    // Walls of a flat polygon: its edges, each from one of its ends, and two.
+    uint32_t walls = p->rank == 3 ? p->facet_count : p->vertex_count + 2;
+    double *local = allocator_allocate(memory, p->vertex_count, 3 * sizeof(double) + sizeof(uint32_t));
+    constraint *constraints = allocator_allocate(memory, walls, sizeof(constraint));
+    if (local && constraints) {
+        work w = {.polytope = p, .local = local, .constraints = constraints};
+        whiten(&w, (uint32_t *)(local + 3 * (size_t)p->vertex_count));
+        if (p->rank == 3)
+            build_from_facets(&w);
+        else
+            build_from_edges(&w);
+        inscribed s = solve(&w, gap);
+        fill_fit(&w, &s, gap, fit);
+    }
+    allocator_release(memory, constraints);
+    allocator_release(memory, local);
+    return local && constraints ? OVOID_OK : OVOID_ERROR_MEMORY;
+}
+
+// The middle of a segment, or the point.
+static ovoid_fit compute_segment(const ovoid_polytope *p) {
+    vec3 a = vec3_at(p->vertices, 0), b = vec3_at(p->vertices, p->vertex_count - 1);
+    vec3 half = vec3_sub(vec3_scale(b, 0.5), vec3_scale(a, 0.5));
+    ovoid_ellipsoid e = {vec3_add_scaled(a, half, 1), sym3_outer(half, 1)};
+    return (ovoid_fit){.ellipsoid = e, .volume = ellipsoid_compute_measure(&e, p->rank), .converged = 1};
+}
+
+ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
+                                         const ovoid_allocator *allocator) {
+    if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
+        return OVOID_ERROR_ARGUMENT;
+    if (polytope->rank < 2) {
+        *fit = compute_segment(polytope);
+        return OVOID_OK;
+    }
+    ovoid_allocator memory = allocator_make(allocator);
+    return compute(polytope, gap > 0 ? gap : 1e-6, fit, &memory);
+}
