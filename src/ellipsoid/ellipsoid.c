@@ -4,8 +4,24 @@
 #include "ellipsoid/factor.h"
 #include "linear/rotation.h"
 
+// Eigenvalues of Q lose those far below the largest to rounding; these are the largest of Q^-1 = W' W.
+static void improve_small(sym3 q, double square[3]) {
+    factor f;
+    if (!factor_make(q, &f) || f.count < 3) return;
+    double h[3][3] = {{0}};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) h[i][j] += f.w[k][i] * f.w[k][j] * f.scale[i] * f.scale[j];
+    eigen3 e = sym3_compute_eigen((sym3){h[0][0], h[0][1], h[0][2], h[1][1], h[1][2], h[2][2]});
+    square[0] = 1 / e.value[2];
+    // The middle one is nearer to the largest or to the smallest.
+    if (square[1] < sqrt(square[0]) * sqrt(square[2])) square[1] = 1 / e.value[1];
+    square[1] = fmin(fmax(square[1], square[0]), square[2]);
+}
+
 ovoid_vec3 ovoid_ellipsoid_compute_radii(const ovoid_ellipsoid *ellipsoid) {
     eigen3 e = sym3_compute_eigen(ellipsoid->q);
+    improve_small(ellipsoid->q, e.value);
     return vec3_make(sqrt(fmax(e.value[2], 0)), sqrt(fmax(e.value[1], 0)), sqrt(fmax(e.value[0], 0)));
 }
 

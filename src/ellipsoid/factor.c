@@ -7,10 +7,6 @@ sym3dd sym3dd_from(sym3 s) {
     return (sym3dd){{{dd_from(s.xx), xy, xz}, {xy, dd_from(s.yy), yz}, {xz, yz, dd_from(s.zz)}}};
 }
 
-sym3 sym3dd_round(const sym3dd *s) {
-    return (sym3){s->m[0][0].high, s->m[0][1].high, s->m[0][2].high, s->m[1][1].high, s->m[1][2].high, s->m[2][2].high};
-}
-
 // Half the exponent of a square: 2^-2k x lies in [1/4, 1).
 static int half_exponent(double x) {
     int e;
@@ -89,18 +85,31 @@ static double compute_defect(int count, dd a[3][3], double w[3][3]) {
     return defect * (1 + 8 * ROUNDING);
 }
 
-int factor_make(sym3 q, factor *f) {
-    sym3dd s = sym3dd_from(q);
+// Everything but the defect; the scaled matrix in a.
+static int make_unproven(const sym3dd *s, factor *f, dd a[3][3]) {
     int exponent[3];
-    f->count = find_axes(&s, f->axis, exponent);
+    f->count = find_axes(s, f->axis, exponent);
     if (f->count < 0) return 0;
-    dd a[3][3], l[3][3], d[3];
-    take_scaled(&s, f->count, f->axis, exponent, a);
+    dd l[3][3], d[3];
+    take_scaled(s, f->count, f->axis, exponent, a);
     if (!decompose(f->count, a, l, d)) return 0;
     invert(f->count, l, d, f->w);
     for (int i = 0; i < f->count; i++) f->scale[i] = ldexp(1, -exponent[i]);
+    return 1;
+}
+
+int factor_make(sym3 q, factor *f) {
+    sym3dd s = sym3dd_from(q);
+    dd a[3][3];
+    if (!make_unproven(&s, f, a)) return 0;
     f->defect = compute_defect(f->count, a, f->w);
     return f->defect < 0.5;
+}
+
+int factor_make_unproven(const sym3dd *s, factor *f) {
+    dd a[3][3];
+    f->defect = INFINITY;
+    return make_unproven(s, f, a);
 }
 
 // All three axes: the pivots of the scaled matrix.

@@ -18,7 +18,8 @@ typedef struct sym3dd {
 } sym3dd;
 
 sym3dd sym3dd_from(sym3 s);
-/// Each entry rounded to nearest.
+/// Doubles near s, chosen together (round.c): the ellipsoid of the result is as near to that of s, in its own metric,
+/// as doubles allow, though it be a needle or a slab.
 sym3 sym3dd_round(const sym3dd *s);
 
 /// The factor, in units of its own for every axis: powers of two, so that changing to them is exact.
@@ -32,6 +33,8 @@ typedef struct factor {
 
 /// 1 and the factor, or 0 where Q is not proven positive definite on the axes where it is not zero.
 int factor_make(sym3 q, factor *f);
+/// A factor of a matrix in double-double, with no defect computed.
+int factor_make_unproven(const sym3dd *s, factor *f);
 
 /// The square root of the sum of the principal minors of order `rank` (1 to 3): the product of the radii of a solid, of
 /// the two radii of a flat ellipsoid, the one of a segment. 0 where the sum is not positive. Relative error below 2^-45

@@ -167,10 +167,16 @@ static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *f
         for (int j = 0; j < 3; j++) q.m[i][j] = dd_mul(q.m[i][j], dd_from(scale));
     *fit = (ovoid_fit){.ellipsoid = ellipsoid_compute_sealed(w->polytope, center, &q), .iterations = s->iterations};
     fit->volume = ellipsoid_compute_measure(&fit->ellipsoid, rank);
-    // The bound is about the ellipsoid of m; of a flat polygon's, about the prism's.
-    sym3dd whole = compute_square(&m, 3);
-    double most = compute_bound(w, s, center, m) * sym3dd_compute_content(&whole, 3) / (rank == 2 ? w->height : 1);
-    fit->gap = fit->volume > 0 ? most / (fit->volume / ball_get_measure((int)rank)) - 1 + 1e-13 : INFINITY;
+    // The bound is about the ellipsoid of m; of a flat polygon's, about the prism's. In units of the body.
+    int exponent;
+    (void)frexp(fmax(vec3_max_abs(m.r0), fmax(vec3_max_abs(m.r1), vec3_max_abs(m.r2))), &exponent);
+    double unit = ldexp(1, -exponent);
+    mat3 whole = mat3_scale_rows(m, (vec3){unit, unit, unit});
+    sym3dd most = compute_square(&whole, 3),
+           reached = sym3dd_from(sym3_scale(sym3_scale(fit->ellipsoid.q, unit), unit));
+    double bound = compute_bound(w, s, center, m) * sym3dd_compute_content(&most, 3);
+    double content = sym3dd_compute_content(&reached, (int)rank) * (rank == 2 ? w->height * unit : 1);
+    fit->gap = content > 0 ? bound / content - 1 + 1e-13 : INFINITY;
     fit->converged = fit->gap <= gap;
 }
 

@@ -84,7 +84,7 @@ static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double ran
         double bound = ellipsoid_compute_enclosing_bound(polytope, &e);
         if (bound <= 1) break;
         // What is missing is either size, or thickness that rounding destroyed.
-        if (bound <= 1 + 1e-3)
+        if (bound <= 2)
             scale *= bound * (1 + ldexp(ROUNDING, trial / 4));
         else
             thickness = fmax(2 * thickness, ROUNDING);
