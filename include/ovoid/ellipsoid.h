@@ -93,10 +93,19 @@ OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest_to_point(const ovoid_ell
  */
 OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest_by_sphere(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
 
-/** The Euclidean nearest points of two ellipsoids, to about 1e-12 of their size. Bounded iterations. */
+/**
+ * The Euclidean nearest points of two ellipsoids, flat or not, to about 1e-12 of their size (where rounding left a
+ * flat Q not quite positive semidefinite, to the root of what it lacks). D. Eberly, Distance from a point to an
+ * ellipse, an ellipsoid, or a hyperellipsoid, 2013, for one body; docs/ellipsoid-proximity.md for two. At most 200
+ * iterations.
+ */
 OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
 
-/** 1 if the ellipsoids share a point (a common one in *point, if not NULL), 0 if proven apart or not known to. */
+/**
+ * 1 if the ellipsoids are proven to share a point: *point (if not NULL) lies strictly inside both, rounding included;
+ * of a flat ellipsoid it is the centre. 0 if they are apart or it is not known. J. W. Perram and M. S. Wertheim,
+ * Statistical mechanics of hard ellipsoids I: overlap algorithm and the contact function, 1985.
+ */
 OVOID_API int ovoid_ellipsoid_is_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, ovoid_vec3 *point);
 
 #ifdef __cplusplus

@@ -1,0 +1,85 @@
+// Do two ellipsoids share a point? The pencil (pencil.c) decides in doubles. "Apart" needs no proof here, since 0 also
+// means "not known"; "share a point" does: the rounded point itself is shown to lie strictly inside both.
+//
+// With v and s as they are, rounded, the exact points xa = ca + (1 - s) Qa v and xb = cb - s Qb v have the exact norms
+// ma, mb of the pencil. The point returned differs from them by roundings and by what the solve left over, all of which
+// is computed and bounded; a point off by e has a norm higher by at most e / r, where r^2 is a lower bound of the least
+// eigenvalue. So ellipsoids too thin for doubles (radii 1 : 1e-7) get 0, and of a flat ellipsoid only the centre, which
+// is exact, can be shown to be in another. Cost: 15 ns for most pairs apart, about 100 ns for a proof.
+#include "ellipsoid/gap.h"
+#include "ellipsoid/pencil.h"
+
+static const double rounding = 0x1p-53;
+
+/// At most the least eigenvalue of Q, rounding included; not positive where that is not certain. The trace of Q^-1 =
+/// L'^-1 D^-1 L^-1 bounds its largest eigenvalue; the computed factor belongs to a matrix off by less than 16 u trace.
+static double least_eigenvalue_below(sym3 q) {
+    ldl3 f;
+    if (!ldl3_make(q, &f)) return 0;
+    double m20 = f.l10 * f.l21 - f.l20;
+    double inverse_trace = ((1 + f.l10 * f.l10) + m20 * m20) * f.r0 + (1 + f.l21 * f.l21) * f.r1 + f.r2;
+    return (1 - 64 * rounding) / inverse_trace - 16 * rounding * sym3_trace(q);
+}
+
+static double norm_1(vec3 v) { return (fabs(v.x) + fabs(v.y)) + fabs(v.z); }
+
+/// Is the point x strictly inside the ellipsoid (c, Q)? It is known that x = c + t Q v up to `off` (a length), which
+/// makes (x - c)' Q^-1 (x - c) = t^2 v' Q v; the three-term sums of Q v and v' Q v are off by less than 16 u in all.
+static int is_inside(vec3 c, sym3 q, vec3 v, double t, double off) {
+    double least = least_eigenvalue_below(q);
+    if (!(least > 0)) return 0;
+    double length = norm_1(v) * fabs(t), trace = sym3_trace(q);
+    double m = t * t * sym3_quadratic(q, v) + 32 * rounding * trace * length * length;
+    double slip = off + 32 * rounding * (norm_1(c) + trace * length);
+    return sqrt(fmax(m, 0)) + slip / sqrt(least) <= 1 - 1e-12;
+}
+
+/// Is the point of the pencil in both?
+static int is_common(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, const pencil *p, vec3 *x) {
+    *x = vec3_add_scaled(a->center, sym3_mul_vec3(a->q, p->v), 1 - p->s);
+    vec3 same = vec3_add_scaled(b->center, sym3_mul_vec3(b->q, p->v), -p->s);
+    double mine = 4 * rounding * norm_1(*x), off = norm_1(vec3_sub(*x, same)) + mine;
+    return is_inside(a->center, a->q, p->v, 1 - p->s, mine) && is_inside(b->center, b->q, p->v, -p->s, off);
+}
+
+/// Is the centre of b, which is a point of it exactly, inside a?
+static int is_center_inside(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
+    ldl3 f;
+    if (!ldl3_make(a->q, &f)) return 0;
+    vec3 d = vec3_sub(b->center, a->center), v = ldl3_solve(&f, d);
+    double off = norm_1(vec3_sub(sym3_mul_vec3(a->q, v), d)) + 4 * rounding * norm_1(d);
+    return is_inside((vec3){0, 0, 0}, a->q, v, 1, off);
+}
+
+/// Lengths such that no fourth power of one over- or underflows.
+static int is_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, vec3 *x) {
+    // Apart along the line of centres?
+    vec3 d = vec3_sub(b->center, a->center);
+    if (vec3_norm_squared(d) > sym3_spread(a->q, d) + sym3_spread(b->q, d)) return 0;
+
+    pencil p = pencil_search(a->q, b->q, d);
+    if (p.state == PENCIL_APART) return 0;
+    if (p.state == PENCIL_COMMON && is_common(a, b, &p, x)) return 1;
+    *x = b->center;
+    if (is_center_inside(a, b)) return 1;
+    *x = a->center;
+    return is_center_inside(b, a);
+}
+
+int ovoid_ellipsoid_is_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, ovoid_vec3 *point) {
+    vec3 x, d = vec3_sub(b->center, a->center);
+    double trace = sym3_trace(a->q) + sym3_trace(b->q), size = fmax(vec3_norm_squared(d), trace);
+    int known;
+    if (size > 1e-60 && size < 1e60) {
+        known = is_overlapping(a, b, &x);
+    } else {
+        // Far from one: in units of a power of two near the pair's size, which changes no digit.
+        scaled_pair p = ellipsoids_make_scaled(a, b);
+        ovoid_ellipsoid near_a = {vec3_scale(a->center, 1 / p.unit), p.qa};
+        ovoid_ellipsoid near_b = {vec3_scale(b->center, 1 / p.unit), p.qb};
+        known = is_overlapping(&near_a, &near_b, &x);
+        x = vec3_scale(x, p.unit);
+    }
+    if (known && point) *point = x;
+    return known;
+}
