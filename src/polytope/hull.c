@@ -1,0 +1,247 @@
+// From points to a polytope: points.h makes them distinct, quickhull.h finds the extreme ones, and once more the hull
+// of these alone, so that triangles, facets and adjacency depend on nothing but the vertices. Bodies whose thickness is
+// rounding get a lower rank, but keep every extreme point.
+#include "polytope/hull.h"
+
+#include "base/error.h"
+#include "polytope/facets.h"
+#include "polytope/points.h"
+#include "polytope/polygon.h"
+#include "polytope/quickhull.h"
+
+#include <string.h>
+
+// ---- which points are extreme ----
+
+// Drops the points that are not extreme and finds the hull of the rest again, until all are.
+static ovoid_code find_solid(points *p, surface *s, const ovoid_allocator *allocator, ovoid_report *report,
+                             ovoid_error *error) {
+    for (;;) {
+        ovoid_code code = quickhull_create(p->grid, p->count, allocator, s, error);
+        if (code || s->rank < 3) return code;
+        uint32_t extreme = 0;
+        for (uint32_t i = 0; i < p->count; i++) {
+            report->coplanar += s->state[i] == POINT_ON_FACE;
+            extreme += s->state[i] == POINT_EXTREME;
+            s->state[i] = s->state[i] == POINT_EXTREME;
+        }
+        if (extreme == p->count) return OVOID_OK;
+        points_keep(p, s->state);
+        surface_destroy(s, allocator);
+    }
+}
+
+// Keeps the listed points; all others lie on the body's boundary.
+static ovoid_code keep_only(points *p, const uint32_t *list, uint32_t count, const ovoid_allocator *allocator,
+                            ovoid_report *report) {
+    uint8_t *keep = allocator_allocate(allocator, p->count, 1);
+    if (!keep) return OVOID_ERROR_MEMORY;
+    memset(keep, 0, p->count);
+    for (uint32_t i = 0; i < count; i++) keep[list[i]] = 1;
+    report->coplanar += p->count - count;
+    points_keep(p, keep);
+    allocator_release(allocator, keep);
+    return OVOID_OK;
+}
+
+// An axis along which the corners of a flat body do not lie on a line: exactly so where they are no line.
+static int find_axis(const points *p, const uint32_t corner[3]) {
+    vec3 c[3];
+    for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, corner[i]);
+    vec3 n = vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0]));
+    double size[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
+    int best = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    for (int i = 0; i < 3; i++)
+        if (orient2d_sign(c[0], c[1], c[2], (best + i) % 3)) return (best + i) % 3;
+    return best;
+}
+
+// The corners of an exactly flat body.
+static ovoid_code find_flat(points *p, const surface *s, const ovoid_allocator *allocator, ovoid_report *report) {
+    uint32_t *loop = allocator_allocate(allocator, p->count, sizeof *loop);
+    if (!loop) return OVOID_ERROR_MEMORY;
+    uint32_t count = polygon_find_loop(p->grid, p->count, find_axis(p, s->corner), loop, allocator);
+    ovoid_code code = count ? keep_only(p, loop, count, allocator, report) : OVOID_ERROR_MEMORY;
+    allocator_release(allocator, loop);
+    return code;
+}
+
+// Drops all points that are not extreme; *s is the surface where the rank is 3.
+static ovoid_code find_extreme(points *p, surface *s, const ovoid_allocator *allocator, ovoid_report *report,
+                               ovoid_error *error) {
+    ovoid_code code = find_solid(p, s, allocator, report, error);
+    if (code || s->rank == 3) return code;
+    code = s->rank == 2 ? find_flat(p, s, allocator, report) : keep_only(p, s->corner, s->rank + 1, allocator, report);
+    if (code) return error_set(error, code, -1, "no memory for a flat hull of %u points", p->count);
+    return quickhull_create(p->grid, p->count, allocator, s, error);
+}
+
+// ---- what the body is seen as ----
+
+// How far the vertices are from the line through the two that the simplex began with.
+static double compute_straightness(const points *p, const uint32_t end[2]) {
+    vec3 a = vec3_at(p->grid, end[0]), n = vec3_unit(vec3_sub(vec3_at(p->grid, end[1]), a));
+    double width = 0;
+    for (uint32_t i = 0; i < p->count; i++)
+        width = fmax(width, vec3_norm(vec3_cross(n, vec3_sub(vec3_at(p->grid, i), a))));
+    return width;
+}
+
+// The rank to rounding, and of a nearly flat body the normal.
+static uint32_t find_rank(const points *p, const surface *s, vec3 *normal) {
+    double flatness = FACET_FLATNESS * compute_extent(p->grid, p->count);
+    if (s->rank < 2) return s->rank;
+    if (compute_straightness(p, s->corner) <= flatness) return 1;
+    vec3 c[3];
+    for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, s->corner[i]);
+    *normal = vec3_unit(vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0])));
+    if (s->rank == 2) return 2;
+    thickness thin = surface_compute_thickness(s, p->grid, p->count);
+    *normal = thin.normal;
+    return thin.width <= flatness ? 2 : 3;
+}
+
+static int fill_vertices(hull *h, const points *p, const double *xyz, const ovoid_allocator *allocator) {
+    h->vertex_count = p->count;
+    h->origin = p->origin;
+    h->vertices = allocator_allocate(allocator, p->count, 3 * sizeof *h->vertices);
+    h->neighbor_starts = allocator_allocate(allocator, (size_t)p->count + 1, sizeof *h->neighbor_starts);
+    if (!h->vertices || !h->neighbor_starts) return 0;
+    memset(h->neighbor_starts, 0, ((size_t)p->count + 1) * sizeof *h->neighbor_starts);
+    for (size_t i = 0; i < p->count; i++) {
+        // + 0.0 makes every zero a positive one.
+        vec3 v = vec3_sub(vec3_at(xyz, p->source[i]), p->origin);
+        h->vertices[3 * i] = v.x + 0.0;
+        h->vertices[3 * i + 1] = v.y + 0.0;
+        h->vertices[3 * i + 2] = v.z + 0.0;
+    }
+    return 1;
+}
+
+static ovoid_code fill_solid(hull *h, const points *p, surface *s, const ovoid_allocator *allocator) {
+    h->triangle_count = s->triangle_count;
+    h->triangle_facets = allocator_allocate(allocator, h->triangle_count, sizeof *h->triangle_facets);
+    h->neighbors = allocator_allocate(allocator, h->triangle_count, 3 * sizeof *h->neighbors);
+    if (!h->triangle_facets || !h->neighbors) return OVOID_ERROR_MEMORY;
+    h->facet_count = facets_create(s, p->grid, h->vertices, p->count, h->triangle_facets, &h->planes, allocator);
+    if (!h->facet_count || !neighbors_compute(s, p->count, h->neighbor_starts, h->neighbors, allocator))
+        return OVOID_ERROR_MEMORY;
+    h->triangles = s->triangles;
+    s->triangles = NULL;
+    return OVOID_OK;
+}
+
+// Joins each corner of a loop to the one before and the one after; two corners to each other.
+static void join_loop(hull *h, const uint32_t *loop, uint32_t count) {
+    uint32_t degree = count > 2 ? 2 : count - 1;
+    for (uint32_t i = 0; i < count; i++) h->neighbor_starts[loop[i] + 1] = degree;
+    for (uint32_t v = 0; v < h->vertex_count; v++) h->neighbor_starts[v + 1] += h->neighbor_starts[v];
+    for (uint32_t i = 0; i < count && degree; i++) {
+        uint32_t *neighbor = h->neighbors + h->neighbor_starts[loop[i]];
+        neighbor[0] = loop[(i + count - 1) % count];
+        neighbor[degree - 1] = loop[(i + 1) % count];
+    }
+}
+
+// A fan from the first corner, and the plane on its side.
+static ovoid_code fill_fan(hull *h, const uint32_t *loop, uint32_t count, vec3 normal,
+                           const ovoid_allocator *allocator) {
+    h->triangle_count = count - 2;
+    h->facet_count = 1;
+    h->triangles = allocator_allocate(allocator, h->triangle_count, 3 * sizeof *h->triangles);
+    h->triangle_facets = allocator_allocate(allocator, h->triangle_count, sizeof *h->triangle_facets);
+    h->planes = allocator_allocate(allocator, 1, sizeof *h->planes);
+    if (!h->triangles || !h->triangle_facets || !h->planes) return OVOID_ERROR_MEMORY;
+    for (uint32_t t = 0; t < h->triangle_count; t++) {
+        h->triangles[3 * (size_t)t] = loop[0];
+        h->triangles[3 * (size_t)t + 1] = loop[t + 1];
+        h->triangles[3 * (size_t)t + 2] = loop[t + 2];
+        h->triangle_facets[t] = 0;
+    }
+    double offset = -INFINITY;
+    for (uint32_t i = 0; i < h->vertex_count; i++) offset = fmax(offset, vec3_dot(normal, vec3_at(h->vertices, i)));
+    h->planes[0] = (ovoid_plane){normal, offset};
+    return OVOID_OK;
+}
+
+// The loop of a flat body is seen along the axis nearest to its normal, and counter-clockwise from that axis' positive
+// end, so the normal is turned there too. Off the loop are vertices of nearly flat bodies only.
+static ovoid_code fill_polygon(hull *h, const points *p, vec3 normal, uint32_t *loop,
+                               const ovoid_allocator *allocator) {
+    double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
+    int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    double side = axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z;
+    uint32_t count = polygon_find_loop(p->grid, p->count, axis, loop, allocator);
+    if (count < 3) return count ? OVOID_ERROR_HULL : OVOID_ERROR_MEMORY;
+    join_loop(h, loop, count);
+    return fill_fan(h, loop, count, side < 0 ? vec3_neg(normal) : normal, allocator);
+}
+
+// Rank 0 to 2.
+static ovoid_code fill_flat(hull *h, const points *p, const surface *s, vec3 normal, const ovoid_allocator *allocator) {
+    uint32_t *loop = allocator_allocate(allocator, p->count, sizeof *loop);
+    h->neighbors = allocator_allocate(allocator, p->count, 2 * sizeof *h->neighbors);
+    ovoid_code code = loop && h->neighbors ? OVOID_OK : OVOID_ERROR_MEMORY;
+    if (!code && h->rank == 2) code = fill_polygon(h, p, normal, loop, allocator);
+    if (!code && h->rank < 2) join_loop(h, s->corner, h->rank + 1);
+    allocator_release(allocator, loop);
+    return code;
+}
+
+static ovoid_code fill(hull *h, const points *p, surface *s, const double *xyz, const ovoid_allocator *allocator,
+                       ovoid_error *error) {
+    vec3 normal = {0, 0, 0};
+    h->rank = find_rank(p, s, &normal);
+    ovoid_code code = OVOID_ERROR_MEMORY;
+    if (fill_vertices(h, p, xyz, allocator))
+        code = h->rank == 3 ? fill_solid(h, p, s, allocator) : fill_flat(h, p, s, normal, allocator);
+    if (!code) return OVOID_OK;
+    hull_destroy(h, allocator);
+    if (code == OVOID_ERROR_HULL)
+        return error_set(error, code, -1, "no polygon is seen of a flat body of %u vertices", p->count);
+    return error_set(error, code, -1, "no memory for a hull of %u vertices", p->count);
+}
+
+ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *h, ovoid_error *error) {
+    *h = (hull){0};
+    points p;
+    surface s = {0};
+    ovoid_code code = points_create(xyz, count, allocator, &p, error);
+    if (code) return code;
+    ovoid_report report = {.points = count, .duplicates = p.duplicates};
+    code = find_extreme(&p, &s, allocator, &report, error);
+    if (!code) code = fill(h, &p, &s, xyz, allocator, error);
+    if (!code) {
+        report.vertices = p.count;
+        report.interior = report.points - report.vertices - report.duplicates;
+        report.rank = h->rank;
+        h->report = report;
+    }
+    surface_destroy(&s, allocator);
+    points_destroy(&p, allocator);
+    return code;
+}
+
+void hull_destroy(hull *h, const ovoid_allocator *allocator) {
+    allocator_release(allocator, h->vertices);
+    allocator_release(allocator, h->triangles);
+    allocator_release(allocator, h->triangle_facets);
+    allocator_release(allocator, h->neighbor_starts);
+    allocator_release(allocator, h->neighbors);
+    allocator_release(allocator, h->planes);
+    *h = (hull){0};
+}
+
+ovoid_polytope hull_get_polytope(const hull *h) {
+    return (ovoid_polytope){.vertices = h->vertices,
+                            .triangles = h->triangles,
+                            .triangle_facets = h->triangle_facets,
+                            .planes = h->planes,
+                            .neighbor_starts = h->neighbor_starts,
+                            .neighbors = h->neighbors,
+                            .origin = h->origin,
+                            .vertex_count = h->vertex_count,
+                            .triangle_count = h->triangle_count,
+                            .facet_count = h->facet_count,
+                            .rank = h->rank};
+}

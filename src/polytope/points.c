@@ -1,0 +1,159 @@
+// From the user's points to distinct points in the body frame.
+//
+// Body frame. A component of the origin is zero unless the points lie farther than four times their size from zero
+// along it; then it is the centre rounded to a multiple of a power of two near the size. Every coordinate is then a
+// multiple of an ulp that divides the origin too, and the difference is smaller than the coordinate, so it is exact;
+// that is checked for every point, and the component falls back to zero where it should not hold.
+//
+// Grid. Signs of determinants are computed from coordinates scaled by a power of two, so that the largest lies between
+// 2^239 and 2^240, and rounded to multiples of 2^-340. Then no product of three differences can overflow or underflow
+// (2^-340 cubed is 2^-1020), so the signs are those of exact arithmetic, of whatever size the body is. What the grid
+// takes away is below 2^-580 of the body's size, 1e-174 of it: the only rounding of this floor.
+//
+// Distinct points are found with a hash table of open addresses. Cost: linear; 8 to 16 bytes a point for the table.
+#include "polytope/points.h"
+
+#include "base/error.h"
+#include "linear/exact.h"
+
+#include <string.h>
+
+#define GRID_TOP 240
+#define NOTHING UINT32_MAX
+
+// Finite and in range; the box of the points.
+static ovoid_code check_points(const double *xyz, size_t count, double low[3], double high[3], ovoid_error *error) {
+    for (int c = 0; c < 3; c++) low[c] = INFINITY, high[c] = -INFINITY;
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            double v = xyz[3 * i + (size_t)c];
+            if (!isfinite(v))
+                return error_set(error, OVOID_ERROR_NOT_FINITE, (int64_t)i, "point %zu: coordinate %c is %s", i,
+                                 "xyz"[c], isnan(v) ? "not a number" : "infinite");
+            if (fabs(v) > OVOID_LENGTH_MAX)
+                return error_set(error, OVOID_ERROR_RANGE, (int64_t)i, "point %zu: %c = %g is beyond %g", i, "xyz"[c],
+                                 v, OVOID_LENGTH_MAX);
+            low[c] = fmin(low[c], v);
+            high[c] = fmax(high[c], v);
+        }
+    return OVOID_OK;
+}
+
+// The origin's component for points between low and high of a body of that size.
+static double choose_origin(double low, double high, double size) {
+    double center = low / 2 + high / 2;
+    if (!(fabs(center) > 4 * size)) return 0;
+    if (low == high) return low;
+    int e;
+    (void)frexp(size, &e);
+    // Beyond 2^53 units every double is a multiple of the unit.
+    double units = ldexp(center, -e);
+    return fabs(units) < 0x1p53 ? ldexp(rint(units), e) : center;
+}
+
+static vec3 make_origin(const double *xyz, size_t count, const double low[3], const double high[3]) {
+    double size = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2])), origin[3];
+    for (int c = 0; c < 3; c++) origin[c] = choose_origin(low[c], high[c], size);
+    if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return (vec3){0, 0, 0};
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            if (two_sum(xyz[3 * i + (size_t)c], -origin[c]).low != 0) origin[c] = 0;
+    return (vec3){origin[0], origin[1], origin[2]};
+}
+
+// Bits of the point, mixed; -0 counts as 0.
+static uint64_t compute_hash(const double *p) {
+    uint64_t h = 0;
+    for (int c = 0; c < 3; c++) {
+        double v = p[c] + 0.0;
+        uint64_t bits;
+        memcpy(&bits, &v, sizeof bits);
+        h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+        h ^= h >> 32;
+    }
+    return h;
+}
+
+// The first of each run of equal points into p->source.
+static void find_distinct(const double *xyz, size_t count, uint32_t *table, size_t mask, points *p) {
+    memset(table, 0xff, (mask + 1) * sizeof *table);
+    for (size_t i = 0; i < count; i++) {
+        const double *a = xyz + 3 * i;
+        size_t slot = (size_t)compute_hash(a) & mask;
+        for (; table[slot] != NOTHING; slot = (slot + 1) & mask) {
+            const double *b = xyz + 3 * (size_t)table[slot];
+            if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) break;
+        }
+        if (table[slot] != NOTHING) {
+            p->duplicates++;
+            continue;
+        }
+        table[slot] = (uint32_t)i;
+        p->source[p->count++] = (uint32_t)i;
+    }
+}
+
+// A coordinate of the body frame in units of the grid: times 2^e in two steps, as that may not be a double by itself;
+// below 2^-288 doubles are finer than the grid.
+static double snap(double v, const double factor[2]) {
+    v = v * factor[0] * factor[1];
+    return fabs(v) < 0x1p-288 ? rint(v * 0x1p340) * 0x1p-340 : v;
+}
+
+static void fill_grid(const double *xyz, points *p) {
+    const double origin[3] = {p->origin.x, p->origin.y, p->origin.z};
+    double top = 0;
+    for (uint32_t i = 0; i < p->count; i++)
+        for (size_t c = 0; c < 3; c++) top = fmax(top, fabs(xyz[3 * (size_t)p->source[i] + c] - origin[c]));
+    int e = 0;
+    (void)frexp(top, &e);
+    e = GRID_TOP - e;
+    double factor[2] = {ldexp(1, e / 2), ldexp(1, e - e / 2)};
+    for (uint32_t i = 0; i < p->count; i++)
+        for (size_t c = 0; c < 3; c++)
+            p->grid[3 * (size_t)i + c] = snap(xyz[3 * (size_t)p->source[i] + c] - origin[c], factor);
+}
+
+ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
+                         ovoid_error *error) {
+    *p = (points){0};
+    if (count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "no points");
+    if (count > POINTS_MAX)
+        return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu points; at most %zu are taken", count, POINTS_MAX);
+    double low[3], high[3];
+    ovoid_code code = check_points(xyz, count, low, high, error);
+    if (code) return code;
+    p->origin = make_origin(xyz, count, low, high);
+
+    size_t capacity = 16;
+    while (capacity < 2 * count) capacity *= 2;
+    uint32_t *table = allocator_allocate(allocator, capacity, sizeof *table);
+    p->source = allocator_allocate(allocator, count, sizeof *p->source);
+    if (table && p->source) {
+        find_distinct(xyz, count, table, capacity - 1, p);
+        p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
+    }
+    allocator_release(allocator, table);
+    if (!p->grid) {
+        points_destroy(p, allocator);
+        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu points", count);
+    }
+    fill_grid(xyz, p);
+    return OVOID_OK;
+}
+
+void points_destroy(points *p, const ovoid_allocator *allocator) {
+    allocator_release(allocator, p->grid);
+    allocator_release(allocator, p->source);
+    *p = (points){0};
+}
+
+void points_keep(points *p, const uint8_t *keep) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        if (!keep[i]) continue;
+        memmove(p->grid + 3 * (size_t)kept, p->grid + 3 * (size_t)i, 3 * sizeof *p->grid);
+        p->source[kept++] = p->source[i];
+    }
+    p->count = kept;
+}

@@ -1,0 +1,29 @@
+// The points of a body made ready for its hull: checked, moved to the body frame, each kept once.
+#ifndef OVOID_POLYTOPE_POINTS_H
+#define OVOID_POLYTOPE_POINTS_H
+
+#include "base/allocator.h"
+#include "linear/vec3.h"
+
+/// Most points that a body may be made from: what the working memory, about 80 bytes a point, is planned for.
+#define POINTS_MAX ((size_t)1 << 24)
+
+/// The distinct points of a body.
+typedef struct points {
+    double *grid;     ///< xyz in units of the grid: only for exact signs and what leads to them
+    uint32_t *source; ///< where each was given first, ascending
+    uint32_t count;
+    uint64_t duplicates; ///< points that equal an earlier one
+    vec3 origin;         ///< of the body frame; given - origin is exact for every point
+} points;
+
+/// Fills *p. Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY; *p needs no destroying then.
+/// Cost: linear.
+ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
+                         ovoid_error *error);
+void points_destroy(points *p, const ovoid_allocator *allocator);
+
+/// Drops the points where keep is zero.
+void points_keep(points *p, const uint8_t *keep);
+
+#endif

@@ -1,0 +1,485 @@
+// Quickhull with exact decisions.
+//
+// C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996: every facet keeps the
+// points above it; the highest one of a facet is added to the hull: the facets that it is above are replaced by a cone
+// over their outline, and their points are shared out among the cone's facets. Here facets are triangles and every
+// "above" is the exact sign of a determinant, so nothing is merged, no tolerance is needed and no point that is above a
+// facet can be lost:
+//
+//   A point q above a replaced facet f that is in the new hull's outside is above a facet of the cone. For the facets
+//   of the old hull that q is strictly above are connected through edges. If q is above a facet g that stays, some edge
+//   on the way from f to g is part of the outline, q is above both of its facets, and the plane of the cone through
+//   this edge has a normal that is a nonnegative combination of theirs.
+//
+// Heights in doubles choose only which point is next. Triangles may be coplanar; the new point is strictly above a
+// facet at each outline edge, so it is not collinear with the edge and no triangle degenerates. Points exactly on a new
+// triangle are kept with it until it goes. In the end a point of the surface is extreme if at least three of its edges
+// are creases; others are marked as on a face, and the caller runs again without them.
+//
+// An above is first tried with the facet's normal in doubles against a bound of its rounding (Shewchuk 1997), so that
+// the exact determinant is left for points within about 1e-15 of the body's size.
+#include "polytope/quickhull.h"
+
+#include "base/error.h"
+#include "linear/exact.h"
+
+#include <string.h>
+
+#define NOTHING UINT32_MAX
+
+typedef struct facet {
+    vec3 normal;        // (a - c) x (b - c), rounded
+    double bound;       // of the rounding of normal . (q - c), for any point q
+    uint32_t vertex[3]; // a, b, c
+    uint32_t across[3]; // beyond a b, b c, c a
+    uint32_t points;    // its list: the highest point above it first, where one is; NOTHING where empty
+    uint32_t pending;   // the next facet of the queue, NOTHING at its end
+    uint32_t stamp;     // of the last point that saw it
+    uint8_t is_queued, is_above, is_free;
+} facet;
+
+// An edge of the outline: from a replaced facet to one that stays.
+typedef struct edge {
+    uint32_t from, to, across;
+} edge;
+
+// A growing array of n items.
+typedef struct array {
+    void *items;
+    uint32_t count, capacity;
+} array;
+
+typedef struct builder {
+    const double *grid;
+    const ovoid_allocator *allocator;
+    uint8_t *state;
+    uint32_t *next;       // of a point in its list; of an outline's corner: the facet that starts there
+    array facets, free;   // facet, uint32_t
+    array seen, outline;  // uint32_t, edge
+    uint32_t first, last; // of the queue of facets with points above
+    uint32_t stamp;
+    vec3 size; // of the points' box, rounded up
+} builder;
+
+static int array_grow(array *a, size_t size, const ovoid_allocator *allocator) {
+    if (a->capacity > UINT32_MAX / 2) return 0;
+    uint32_t capacity = a->capacity ? 2 * a->capacity : 64;
+    void *items = allocator_allocate(allocator, capacity, size);
+    if (!items) return 0;
+    if (a->count) memcpy(items, a->items, a->count * size);
+    allocator_release(allocator, a->items);
+    a->items = items;
+    a->capacity = capacity;
+    return 1;
+}
+
+static int push_index(array *a, uint32_t value, const ovoid_allocator *allocator) {
+    if (a->count == a->capacity && !array_grow(a, sizeof value, allocator)) return 0;
+    ((uint32_t *)a->items)[a->count++] = value;
+    return 1;
+}
+
+static facet *get_facet(const builder *b, uint32_t f) { return (facet *)b->facets.items + f; }
+
+static vec3 get_point(const builder *b, uint32_t p) { return vec3_at(b->grid, p); }
+
+int orient2d_sign(vec3 a, vec3 b, vec3 c, int axis) {
+    // Seen along the axis the three points lie in a plane; the fourth one a unit below the first makes the
+    // determinant the area.
+    vec3 p[3] = {a, b, c};
+    for (int i = 0; i < 3; i++)
+        p[i] = axis == 0   ? (vec3){p[i].y, p[i].z, 0}
+               : axis == 1 ? (vec3){p[i].z, p[i].x, 0}
+                           : (vec3){p[i].x, p[i].y, 0};
+    return orient3d_sign(p[0], p[1], p[2], (vec3){p[0].x, p[0].y, -1});
+}
+
+// ---- the first simplex ----
+
+static int is_collinear(vec3 a, vec3 b, vec3 c) {
+    for (int axis = 0; axis < 3; axis++)
+        if (orient2d_sign(a, b, c, axis)) return 0;
+    return 1;
+}
+
+// The least and the greatest point in the order of x, y, z: the ends, where all are collinear.
+static void find_ends(const builder *b, uint32_t count, uint32_t end[2]) {
+    end[0] = end[1] = 0;
+    for (uint32_t i = 1; i < count; i++) {
+        for (int k = 0; k < 2; k++) {
+            vec3 p = get_point(b, i), q = get_point(b, end[k]);
+            double d = p.x != q.x ? p.x - q.x : p.y != q.y ? p.y - q.y : p.z - q.z;
+            if (k ? d > 0 : d < 0) end[k] = i;
+        }
+    }
+}
+
+// Two points far apart, `far` to begin with: where all are nearly collinear, ends whatever way the line runs.
+static void find_far(const builder *b, uint32_t count, uint32_t far[2]) {
+    for (int k = 0; k < 2; k++) {
+        vec3 from = get_point(b, far[1 - k]);
+        for (uint32_t i = 0; i < count; i++)
+            if (vec3_norm_squared(vec3_sub(get_point(b, i), from)) >
+                vec3_norm_squared(vec3_sub(get_point(b, far[k]), from)))
+                far[k] = i;
+    }
+}
+
+// How far a point is from the span of the first `rank` + 1 corners, times a constant; in doubles.
+static double compute_height(const vec3 corner[3], vec3 normal, int rank, vec3 p) {
+    vec3 d = vec3_sub(p, corner[0]);
+    if (rank == 2) return fabs(vec3_dot(normal, d));
+    return vec3_norm_squared(rank == 1 ? vec3_cross(normal, d) : d);
+}
+
+static int is_in_span(const vec3 corner[3], int rank, vec3 p) {
+    return rank == 2 ? orient3d_sign(corner[0], corner[1], corner[2], p) == 0 : is_collinear(corner[0], corner[1], p);
+}
+
+// The next corner: the farthest point, if it is exactly out of the span; else any that is. 0 where there is none.
+static int find_corner(const builder *b, uint32_t count, int rank, uint32_t corner[4]) {
+    vec3 c[3] = {{0, 0, 0}};
+    for (int i = 0; i <= rank; i++) c[i] = get_point(b, corner[i]);
+    // Powers of two near the lengths at hand, so that no square overflows.
+    double unit = 0x1p-240;
+    for (int i = 0; i < 3; i++) c[i] = vec3_scale(c[i], unit);
+    vec3 edge1 = vec3_sub(c[1], c[0]), normal = rank == 2 ? vec3_cross(edge1, vec3_sub(c[2], c[0])) : edge1;
+    double best = -1;
+    for (uint32_t i = 0; i < count; i++) {
+        double height = compute_height(c, normal, rank, vec3_scale(get_point(b, i), unit));
+        if (height > best) best = height, corner[rank + 1] = i;
+    }
+    for (int i = 0; i < 3; i++) c[i] = vec3_scale(c[i], 1 / unit);
+    if (!is_in_span(c, rank, get_point(b, corner[rank + 1]))) return 1;
+    for (uint32_t i = 0; i < count; i++)
+        if (!is_in_span(c, rank, get_point(b, i))) {
+            corner[rank + 1] = i;
+            return 1;
+        }
+    return 0;
+}
+
+static void find_simplex(const builder *b, uint32_t count, surface *s) {
+    find_ends(b, count, s->corner);
+    if (s->corner[0] == s->corner[1]) return;
+    s->rank = 1;
+    uint32_t end[2] = {s->corner[0], s->corner[1]};
+    find_far(b, count, s->corner);
+    if (!find_corner(b, count, 1, s->corner)) {
+        s->corner[0] = end[0];
+        s->corner[1] = end[1];
+        return;
+    }
+    s->rank = 2;
+    if (!find_corner(b, count, 2, s->corner)) return;
+    s->rank = 3;
+}
+
+// ---- facets ----
+
+// A free facet, with nothing across yet. NOTHING where there is no memory.
+static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
+    uint32_t index;
+    if (b->free.count)
+        index = ((uint32_t *)b->free.items)[--b->free.count];
+    else {
+        if (b->facets.count == b->facets.capacity && !array_grow(&b->facets, sizeof(facet), b->allocator))
+            return NOTHING;
+        index = b->facets.count++;
+        *get_facet(b, index) = (facet){.pending = NOTHING};
+    }
+    facet *f = get_facet(b, index);
+    vec3 c = get_point(b, w), p = vec3_sub(get_point(b, u), c), q = vec3_sub(get_point(b, v), c);
+    f->normal = vec3_cross(p, q);
+    double x = fabs(p.y * q.z) + fabs(p.z * q.y), y = fabs(p.z * q.x) + fabs(p.x * q.z);
+    double z = fabs(p.x * q.y) + fabs(p.y * q.x);
+    // Shewchuk's (7 + 56 u) u on the permanent, with the box for q - c; rounded up generously.
+    f->bound = 9e-16 * ((x * b->size.x + y * b->size.y) + z * b->size.z);
+    f->vertex[0] = u;
+    f->vertex[1] = v;
+    f->vertex[2] = w;
+    f->across[0] = f->across[1] = f->across[2] = f->points = NOTHING;
+    f->stamp = 0;
+    f->is_free = 0;
+    return index;
+}
+
+static double get_height(const builder *b, const facet *f, uint32_t p) {
+    return vec3_dot(f->normal, vec3_sub(get_point(b, p), get_point(b, f->vertex[2])));
+}
+
+// The exact sign of the height over the facet's plane.
+static int get_side(const builder *b, const facet *f, uint32_t p, double height) {
+    if (height > f->bound) return 1;
+    if (-height > f->bound) return -1;
+    return -orient3d_sign(get_point(b, f->vertex[0]), get_point(b, f->vertex[1]), get_point(b, f->vertex[2]),
+                          get_point(b, p));
+}
+
+static void queue_facet(builder *b, uint32_t index) {
+    facet *f = get_facet(b, index);
+    if (f->is_queued) return;
+    f->is_queued = 1;
+    f->pending = NOTHING;
+    if (b->first == NOTHING)
+        b->first = index;
+    else
+        get_facet(b, b->last)->pending = index;
+    b->last = index;
+}
+
+static int has_above(const builder *b, const facet *f) {
+    return f->points != NOTHING && b->state[f->points] == POINT_EXTREME;
+}
+
+// Puts a point into a facet's list. Points above are marked as extreme until proven otherwise.
+static void list_point(builder *b, uint32_t index, uint32_t p, int side, double height) {
+    facet *f = get_facet(b, index);
+    b->state[p] = side > 0 ? POINT_EXTREME : POINT_ON_FACE;
+    int is_first = f->points == NOTHING || (side > 0 && (!has_above(b, f) || height > get_height(b, f, f->points)));
+    uint32_t *link = is_first ? &f->points : &b->next[f->points];
+    b->next[p] = *link;
+    *link = p;
+    if (side > 0) queue_facet(b, index);
+}
+
+// Shares a point out: to the first of the facets that it is above, else to one that it is on, else it is inside. Only
+// a point that was above an earlier facet can be above one now.
+static void place_point(builder *b, uint32_t p, const uint32_t *facets, uint32_t count) {
+    uint32_t on = NOTHING;
+    for (uint32_t i = 0; i < count; i++) {
+        const facet *f = get_facet(b, facets[i]);
+        double height = get_height(b, f, p);
+        int side = get_side(b, f, p, height);
+        if (side > 0) {
+            list_point(b, facets[i], p, side, height);
+            return;
+        }
+        if (side == 0) on = facets[i];
+    }
+    if (on != NOTHING)
+        list_point(b, on, p, 0, 0);
+    else
+        b->state[p] = POINT_INSIDE;
+}
+
+static int make_simplex(builder *b, uint32_t count, const uint32_t given[4]) {
+    uint32_t c[4] = {given[0], given[1], given[2], given[3]}, f[4];
+    // The fourth corner below the first three.
+    if (orient3d_sign(get_point(b, c[0]), get_point(b, c[1]), get_point(b, c[2]), get_point(b, c[3])) < 0) {
+        c[1] = given[2];
+        c[2] = given[1];
+    }
+    static const int corners[4][3] = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
+    static const int across[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    for (int i = 0; i < 4; i++) {
+        f[i] = add_facet(b, c[corners[i][0]], c[corners[i][1]], c[corners[i][2]]);
+        if (f[i] == NOTHING) return 0;
+    }
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 3; k++) get_facet(b, f[i])->across[k] = f[across[i][k]];
+    for (uint32_t p = 0; p < count; p++) {
+        b->state[p] = POINT_EXTREME;
+        if (p != c[0] && p != c[1] && p != c[2] && p != c[3]) place_point(b, p, f, 4);
+    }
+    return 1;
+}
+
+// ---- adding a point ----
+
+// The facets that the point is above, from one of them on, into b->seen; the edges around them into b->outline.
+static int find_outline(builder *b, uint32_t start, uint32_t p) {
+    b->seen.count = b->outline.count = 0;
+    b->stamp++;
+    get_facet(b, start)->stamp = b->stamp;
+    get_facet(b, start)->is_above = 1;
+    if (!push_index(&b->seen, start, b->allocator)) return 0;
+    for (uint32_t i = 0; i < b->seen.count; i++) {
+        const facet *f = get_facet(b, ((uint32_t *)b->seen.items)[i]);
+        for (int k = 0; k < 3; k++) {
+            facet *g = get_facet(b, f->across[k]);
+            int is_new = g->stamp != b->stamp;
+            if (is_new) {
+                g->stamp = b->stamp;
+                g->is_above = get_side(b, g, p, get_height(b, g, p)) > 0;
+            }
+            if (g->is_above) {
+                if (is_new && !push_index(&b->seen, f->across[k], b->allocator)) return 0;
+                continue;
+            }
+            if (b->outline.count == b->outline.capacity && !array_grow(&b->outline, sizeof(edge), b->allocator))
+                return 0;
+            ((edge *)b->outline.items)[b->outline.count++] = (edge){f->vertex[k], f->vertex[(k + 1) % 3], f->across[k]};
+        }
+    }
+    return 1;
+}
+
+// Makes `across` look back to the facet over the edge.
+static int join_across(builder *b, const edge *e, uint32_t index) {
+    facet *g = get_facet(b, e->across);
+    for (int k = 0; k < 3; k++)
+        if (g->vertex[k] == e->to && g->vertex[(k + 1) % 3] == e->from) {
+            g->across[k] = index;
+            return 1;
+        }
+    return 0;
+}
+
+// The cone from the point over the outline; the facets' indices replace the edges' `across`. OVOID_ERROR_HULL where the
+// outline is not one closed loop: exact signs do not allow it.
+static ovoid_code make_cone(builder *b, uint32_t p) {
+    edge *edges = b->outline.items;
+    for (uint32_t i = 0; i < b->outline.count; i++) {
+        uint32_t index = add_facet(b, edges[i].from, edges[i].to, p);
+        if (index == NOTHING) return OVOID_ERROR_MEMORY;
+        get_facet(b, index)->across[0] = edges[i].across;
+        if (!join_across(b, &edges[i], index)) return OVOID_ERROR_HULL;
+        b->next[edges[i].from] = index;
+        edges[i].across = index;
+    }
+    for (uint32_t i = 0; i < b->outline.count; i++) {
+        uint32_t index = edges[i].across, after = b->next[edges[i].to];
+        if (after >= b->facets.count || get_facet(b, after)->vertex[0] != edges[i].to ||
+            get_facet(b, after)->vertex[2] != p || get_facet(b, after)->across[2] != NOTHING)
+            return OVOID_ERROR_HULL;
+        get_facet(b, index)->across[1] = after;
+        get_facet(b, after)->across[2] = index;
+    }
+    return OVOID_OK;
+}
+
+// Shares out the points of the facets that the point replaces, and frees these.
+static int share_points(builder *b, uint32_t p) {
+    // The edges' first members become a plain list of the new facets.
+    uint32_t *fresh = b->outline.items;
+    const edge *edges = b->outline.items;
+    for (uint32_t i = 0; i < b->outline.count; i++) fresh[i] = edges[i].across;
+    for (uint32_t i = 0; i < b->seen.count; i++) {
+        uint32_t index = ((uint32_t *)b->seen.items)[i];
+        facet *f = get_facet(b, index);
+        for (uint32_t q = f->points, after; q != NOTHING; q = after) {
+            after = b->next[q];
+            if (q != p) place_point(b, q, fresh, b->outline.count);
+        }
+        f->points = NOTHING;
+        f->is_free = 1;
+        if (!push_index(&b->free, index, b->allocator)) return 0;
+    }
+    return 1;
+}
+
+static ovoid_code add_point(builder *b, uint32_t start) {
+    uint32_t p = get_facet(b, start)->points;
+    if (!find_outline(b, start, p)) return OVOID_ERROR_MEMORY;
+    ovoid_code code = make_cone(b, p);
+    if (code) return code;
+    return share_points(b, p) ? OVOID_OK : OVOID_ERROR_MEMORY;
+}
+
+static ovoid_code build(builder *b, uint32_t count, const uint32_t corner[4]) {
+    if (!make_simplex(b, count, corner)) return OVOID_ERROR_MEMORY;
+    while (b->first != NOTHING) {
+        uint32_t index = b->first;
+        facet *f = get_facet(b, index);
+        b->first = f->pending;
+        f->is_queued = 0;
+        if (f->is_free || !has_above(b, f)) continue;
+        ovoid_code code = add_point(b, index);
+        if (code) return code;
+    }
+    return OVOID_OK;
+}
+
+// ---- the result ----
+
+// The corner beyond edge k of a triangle, in the triangle across.
+static uint32_t find_beyond(const surface *s, uint32_t t, uint32_t k) {
+    const uint32_t *other = s->triangles + 3 * (size_t)s->across[3 * (size_t)t + k];
+    uint32_t from = s->triangles[3 * (size_t)t + k];
+    return other[0] == from ? other[1] : other[1] == from ? other[2] : other[0];
+}
+
+// What the points are that were corners of facets at some time: inside if none is left at them, on a face if fewer than
+// three of the edges that are left are creases. (A corner all of whose facets are replaced is strictly inside: the new
+// point is above all of them.)
+static void mark_corners(builder *b, const surface *s, uint32_t count) {
+    uint32_t *creases = b->next;
+    memset(creases, 0xff, count * sizeof *creases);
+    for (size_t i = 0; i < 3 * (size_t)s->triangle_count; i++) creases[s->triangles[i]] = 0;
+    for (uint32_t t = 0; t < s->triangle_count; t++) {
+        const uint32_t *corner = s->triangles + 3 * (size_t)t;
+        vec3 p[3] = {get_point(b, corner[0]), get_point(b, corner[1]), get_point(b, corner[2])};
+        for (uint32_t k = 0; k < 3; k++)
+            if (orient3d_sign(p[0], p[1], p[2], get_point(b, find_beyond(s, t, k)))) creases[corner[k]]++;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (b->state[i] != POINT_EXTREME) continue;
+        if (creases[i] == NOTHING)
+            b->state[i] = POINT_INSIDE;
+        else if (creases[i] < 3)
+            b->state[i] = POINT_ON_FACE;
+    }
+}
+
+// The facets in use as plain arrays.
+static int extract(builder *b, uint32_t count, surface *s) {
+    uint32_t used = b->facets.count - b->free.count;
+    s->triangles = allocator_allocate(b->allocator, used, 3 * sizeof *s->triangles);
+    s->across = allocator_allocate(b->allocator, used, 3 * sizeof *s->across);
+    if (!s->triangles || !s->across) return 0;
+    // New numbers of the facets, in their stamps.
+    for (uint32_t i = 0; i < b->facets.count; i++)
+        if (!get_facet(b, i)->is_free) get_facet(b, i)->stamp = s->triangle_count++;
+    uint32_t t = 0;
+    for (uint32_t i = 0; i < b->facets.count; i++) {
+        const facet *f = get_facet(b, i);
+        if (f->is_free) continue;
+        for (int k = 0; k < 3; k++) {
+            s->triangles[t] = f->vertex[k];
+            s->across[t++] = get_facet(b, f->across[k])->stamp;
+        }
+    }
+    mark_corners(b, s, count);
+    return 1;
+}
+
+static vec3 compute_size(const double *grid, uint32_t count) {
+    vec3 low = vec3_at(grid, 0), high = low;
+    for (uint32_t i = 1; i < count; i++) {
+        vec3 p = vec3_at(grid, i);
+        low = (vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
+        high = (vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
+    }
+    return vec3_scale(vec3_sub(high, low), 1 + 0x1p-50);
+}
+
+ovoid_code quickhull_create(const double *grid, uint32_t count, const ovoid_allocator *allocator, surface *s,
+                            ovoid_error *error) {
+    builder b = {.grid = grid, .allocator = allocator, .first = NOTHING, .last = NOTHING};
+    *s = (surface){0};
+    find_simplex(&b, count, s);
+    if (s->rank < 3) return OVOID_OK;
+
+    b.size = compute_size(grid, count);
+    b.state = s->state = allocator_allocate(allocator, count, 1);
+    b.next = allocator_allocate(allocator, count, sizeof *b.next);
+    ovoid_code code = s->state && b.next ? build(&b, count, s->corner) : OVOID_ERROR_MEMORY;
+    if (!code && !extract(&b, count, s)) code = OVOID_ERROR_MEMORY;
+    allocator_release(allocator, b.next);
+    allocator_release(allocator, b.facets.items);
+    allocator_release(allocator, b.free.items);
+    allocator_release(allocator, b.seen.items);
+    allocator_release(allocator, b.outline.items);
+    if (code) surface_destroy(s, allocator);
+    if (code == OVOID_ERROR_MEMORY) return error_set(error, code, -1, "no memory for the hull of %u points", count);
+    if (code) return error_set(error, code, -1, "the hull of %u points does not close", count);
+    return OVOID_OK;
+}
+
+void surface_destroy(surface *s, const ovoid_allocator *allocator) {
+    allocator_release(allocator, s->state);
+    allocator_release(allocator, s->triangles);
+    allocator_release(allocator, s->across);
+    *s = (surface){0};
+}

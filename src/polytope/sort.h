@@ -1,0 +1,13 @@
+// Stable sorting of indices: merge sort from the bottom up (J. von Neumann, 1945).
+#ifndef OVOID_POLYTOPE_SORT_H
+#define OVOID_POLYTOPE_SORT_H
+
+#include <stdint.h>
+
+/// Negative where a comes before b.
+typedef int (*index_order)(const void *context, uint32_t a, uint32_t b);
+
+/// Sorts `count` indices; scratch has room for as many. Cost: n log n.
+void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_order order, const void *context);
+
+#endif
