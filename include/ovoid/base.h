@@ -53,7 +53,7 @@ typedef struct ovoid_error {
 } ovoid_error;
 
 /** Lengths (coordinates, positions, radii) above this are refused, so that no product can overflow. */
-#define OVOID_LENGTH_MAX 1e90
+#define OVOID_LENGTH_MAX 1e50
 
 /** Below this length nothing is resolved: brackets are never narrower. It stands for all underflow. */
 #define OVOID_LENGTH_MIN 1e-130

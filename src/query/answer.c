@@ -158,7 +158,8 @@ ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, que
         return answer_make_refused(OVOID_LIMIT_OPTIONS);
     ovoid_limit refused = frame_make(pair, &frame);
     if (refused != OVOID_LIMIT_NONE) return answer_make_refused(refused);
-    ask.tolerance = fmax(options.absolute_tolerance, options.relative_tolerance * frame.size);
+    // Nothing is resolved below the least length.
+    ask.tolerance = fmax(options.absolute_tolerance, options.relative_tolerance * frame.size) + 8 * OVOID_LENGTH_MIN;
     ask.iterations = options.iterations;
     search s = search_make(&frame, ask);
     simplex start;

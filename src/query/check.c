@@ -100,8 +100,13 @@ ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, con
                               ovoid_error *error) {
     OVOID_ASSERT(pair && pair->shape_a && pair->shape_b && x);
     pair_frame f;
-    if (frame_make(pair, &f) != OVOID_LIMIT_NONE)
-        return error_set(error, OVOID_ERROR_PROOF, -1, "the poses are not valid, so nothing can be proven");
+    ovoid_limit refused = frame_make(pair, &f);
+    if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS) {
+        // A refusal claims nothing, and is right if it says so.
+        int claims = x->lower != -INFINITY || x->upper != INFINITY || x->status != OVOID_UNDECIDED;
+        if (!claims && (x->limit == refused || x->limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
+        return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer");
+    }
     ovoid_code code = check_status(x, error);
     if (code != OVOID_OK) return code;
     if (!proof_is_sound(&f, &x->proof))

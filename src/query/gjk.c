@@ -10,6 +10,18 @@ static int is_known(const simplex *x, const frame_support *p) {
     return 0;
 }
 
+// Answered with the direction at hand: a bracket that is asked for is taken along the witness points' own direction,
+// so that points, normal and distance agree.
+static int is_answered(search *s, vec3 n, double gap) {
+    double lower = gap - s->frame->radii - s->frame->claim;
+    if (!search_is_done(s)) return 0;
+    if (s->lower > s->ask.far || !s->ask.wants_bracket || s->upper <= s->ask.near) return 1;
+    if (s->upper - lower > s->ask.tolerance) return 0;
+    s->lower = lower;
+    s->normal = n;
+    return 1;
+}
+
 gjk_end gjk_run(search *s, simplex *x) {
     const pair_frame *f = s->frame;
     double last = INFINITY;
@@ -25,16 +37,16 @@ gjk_end gjk_run(search *s, simplex *x) {
         double upper = s->upper, lower = s->lower;
         search_take_points(s, x);
         if (s->upper < upper) s->stage = OVOID_STAGE_GJK;
-        if (search_is_done(s)) return GJK_ANSWERED;
+        if (search_is_done(s) && !s->ask.wants_bracket) return GJK_ANSWERED;
         double distance = vec3_norm(simplex_compute_point(x));
         if (distance <= f->claim) return GJK_CONTACT;
-        if (!(distance < last)) return GJK_STALLED;
+        if (!(distance < last)) return search_is_done(s) ? GJK_ANSWERED : GJK_STALLED;
         last = distance;
         // From below: the gap along its direction.
         frame_support p = search_probe(s, n);
         if (s->lower > lower) s->stage = OVOID_STAGE_GJK;
-        if (search_is_done(s)) return GJK_ANSWERED;
-        if (is_known(x, &p)) return GJK_STALLED;
+        if (is_answered(s, n, p.gap)) return GJK_ANSWERED;
+        if (is_known(x, &p)) return search_is_done(s) ? GJK_ANSWERED : GJK_STALLED;
         x->p[x->count++] = (difference){p.w, p.a, p.b};
     }
     return GJK_ITERATIONS;

@@ -8,8 +8,10 @@
 // The least radius of the ellipsoid from below, 0 where it is too flat to be safe in doubles: with eigenvalues
 // l1 <= l2 <= l3, l1 = det / (l2 l3) >= 4 det / trace^2.
 static double least_radius(sym3 q) {
-    double trace = sym3_trace(q), least = 4 * sym3_det(q) / (trace * trace);
-    return least > 1e-7 * trace ? sqrt(least) * (1 - 1e-7) : 0;
+    double trace = sym3_trace(q);
+    if (!(trace > 0)) return 0;
+    double least = 4 * sym3_det(sym3_scale(q, 1 / trace));
+    return least > 1e-7 ? sqrt(least * trace) * (1 - 1e-7) : 0;
 }
 
 // sqrt(m) of a point that may be off by `error`, from above; 2 where it cannot be told. The condition of Q is below

@@ -25,7 +25,8 @@ frame_support search_probe(search *s, vec3 n) {
     const pair_frame *f = s->frame;
     frame_support found = frame_find_support(f, n);
     double lower = found.gap - f->radii - f->claim;
-    if (lower > s->lower) {
+    // A direction that underflowed to nothing proves nothing.
+    if (lower > s->lower && vec3_norm_squared(n) > 0.5) {
         s->lower = lower;
         s->normal = n;
     }

@@ -13,8 +13,14 @@ typedef struct block_offsets {
     uint64_t triangles;       ///< uint32, 3 triangle_count
     uint64_t triangle_facets; ///< uint32, triangle_count
     uint64_t neighbor_starts; ///< uint32, vertex_count + 1
-    uint64_t neighbors;       ///< uint32, neighbor_starts[vertex_count]
+    uint64_t neighbors;       ///< uint32, neighbor_count
+    uint64_t size;            ///< of the whole block
 } block_offsets;
+
+/// What decides the layout.
+typedef struct block_counts {
+    uint32_t vertices, triangles, facets, neighbors;
+} block_counts;
 
 struct ovoid_shape {
     // What the cheap stages read: the first cache lines.
@@ -29,11 +35,10 @@ struct ovoid_shape {
     ovoid_ellipsoid outer, inner;
     // The rest.
     block_offsets at;
-    uint32_t triangle_count, facet_count;
+    block_counts counts;
     ovoid_fit outer_fit, inner_fit;
     ovoid_report report;
     ovoid_measures measures;
-    uint64_t size; ///< of the whole block, bytes
     ovoid_allocator allocator;
 };
 
@@ -43,5 +48,15 @@ static inline const double *shape_z(const ovoid_shape *s) { return (const double
 static inline const double *shape_vertices(const ovoid_shape *s) {
     return (const double *)((const char *)s + s->at.vertices);
 }
+
+/// The layout of a block with these counts. All counts are 32-bit, so no sum overflows 64 bits.
+block_offsets block_compute_offsets(block_counts counts);
+
+/// A block with room for the counts, cleared, with counts, layout and allocator set. NULL with *error filled.
+ovoid_shape *block_create(block_counts counts, const ovoid_allocator *allocator, ovoid_error *error);
+
+/// Copies the polytope's arrays into the block, and derives what follows from the vertices: structure of arrays,
+/// padding, sphere, extent, measures. The polytope must have the block's counts.
+void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope);
 
 #endif

@@ -1,0 +1,121 @@
+// The block's layout, and what every shape does with it: getters, copies, the end.
+#include "shape/block.h"
+
+#include "base/allocator.h"
+#include "base/error.h"
+#include "linear/vec3.h"
+
+#include <string.h>
+
+// The next 64-byte boundary after size bytes from `at`.
+static uint64_t advance(uint64_t *at, uint64_t size) {
+    uint64_t start = *at;
+    *at = (start + size + 63) / 64 * 64;
+    return start;
+}
+
+static uint64_t padded(uint32_t count) { return ((uint64_t)count + 7) / 8 * 8; }
+
+block_offsets block_compute_offsets(block_counts c) {
+    block_offsets o;
+    uint64_t at = (sizeof(ovoid_shape) + 63) / 64 * 64, lane = padded(c.vertices) * sizeof(double);
+    o.x = advance(&at, lane);
+    o.y = advance(&at, lane);
+    o.z = advance(&at, lane);
+    o.vertices = advance(&at, (uint64_t)c.vertices * 3 * sizeof(double));
+    o.planes = advance(&at, (uint64_t)c.facets * sizeof(ovoid_plane));
+    o.triangles = advance(&at, (uint64_t)c.triangles * 3 * sizeof(uint32_t));
+    o.triangle_facets = advance(&at, (uint64_t)c.triangles * sizeof(uint32_t));
+    o.neighbor_starts = advance(&at, ((uint64_t)c.vertices + 1) * sizeof(uint32_t));
+    o.neighbors = advance(&at, (uint64_t)c.neighbors * sizeof(uint32_t));
+    o.size = at;
+    return o;
+}
+
+ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error) {
+    ovoid_allocator allocator = allocator_make(given);
+    block_offsets at = block_compute_offsets(counts);
+    ovoid_shape *shape = allocator_allocate(&allocator, 1, at.size);
+    if (!shape) {
+        error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a shape of %llu bytes", (unsigned long long)at.size);
+        return NULL;
+    }
+    memset(shape, 0, at.size);
+    shape->at = at;
+    shape->counts = counts;
+    shape->allocator = allocator;
+    shape->vertex_count = counts.vertices;
+    shape->padded_count = (uint32_t)padded(counts.vertices);
+    return shape;
+}
+
+static void copy_array(ovoid_shape *shape, uint64_t at, const void *from, uint64_t size) {
+    if (size) memcpy((char *)shape + at, from, size);
+}
+
+// The largest norm of a vertex, rounded up: a norm is within 4 u.
+static double compute_extent(const ovoid_polytope *p) {
+    double extent = 0;
+    for (uint32_t i = 0; i < p->vertex_count; i++) extent = fmax(extent, vec3_norm(vec3_at(p->vertices, i)));
+    return extent * (1 + 8 * 0x1p-53);
+}
+
+void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
+    const block_offsets *at = &shape->at;
+    const block_counts *c = &shape->counts;
+    copy_array(shape, at->vertices, p->vertices, (uint64_t)c->vertices * 3 * sizeof(double));
+    copy_array(shape, at->planes, p->planes, (uint64_t)c->facets * sizeof(ovoid_plane));
+    copy_array(shape, at->triangles, p->triangles, (uint64_t)c->triangles * 3 * sizeof(uint32_t));
+    copy_array(shape, at->triangle_facets, p->triangle_facets, (uint64_t)c->triangles * sizeof(uint32_t));
+    copy_array(shape, at->neighbor_starts, p->neighbor_starts, ((uint64_t)c->vertices + 1) * sizeof(uint32_t));
+    copy_array(shape, at->neighbors, p->neighbors, (uint64_t)c->neighbors * sizeof(uint32_t));
+    double *lane[3] = {(double *)((char *)shape + at->x), (double *)((char *)shape + at->y),
+                       (double *)((char *)shape + at->z)};
+    for (uint32_t i = 0; i < shape->padded_count; i++)
+        for (int k = 0; k < 3; k++) lane[k][i] = p->vertices[3 * (size_t)(i < c->vertices ? i : 0) + k];
+    shape->rank = p->rank;
+    shape->origin = p->origin;
+    shape->has_origin = p->origin.x != 0 || p->origin.y != 0 || p->origin.z != 0;
+    shape->measures = ovoid_polytope_compute_measures(p);
+    shape->center = shape->measures.sphere_center;
+    shape->reach = shape->measures.sphere_radius;
+    shape->extent = compute_extent(p);
+}
+
+ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator, ovoid_error *error) {
+    OVOID_ASSERT(shape);
+    ovoid_shape *copy = block_create(shape->counts, allocator, error);
+    if (!copy) return NULL;
+    ovoid_allocator own = copy->allocator;
+    memcpy(copy, shape, shape->at.size);
+    copy->allocator = own;
+    return copy;
+}
+
+void ovoid_shape_destroy(ovoid_shape *shape) {
+    if (!shape) return;
+    ovoid_allocator allocator = shape->allocator;
+    allocator_release(&allocator, shape);
+}
+
+ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *s) {
+    const char *base = (const char *)s;
+    return (ovoid_polytope){.vertices = shape_vertices(s),
+                            .triangles = (const uint32_t *)(base + s->at.triangles),
+                            .triangle_facets = (const uint32_t *)(base + s->at.triangle_facets),
+                            .planes = (const ovoid_plane *)(base + s->at.planes),
+                            .neighbor_starts = (const uint32_t *)(base + s->at.neighbor_starts),
+                            .neighbors = (const uint32_t *)(base + s->at.neighbors),
+                            .origin = s->origin,
+                            .vertex_count = s->counts.vertices,
+                            .triangle_count = s->counts.triangles,
+                            .facet_count = s->counts.facets,
+                            .rank = s->rank};
+}
+
+double ovoid_shape_get_radius(const ovoid_shape *shape) { return shape->radius; }
+ovoid_report ovoid_shape_get_report(const ovoid_shape *shape) { return shape->report; }
+ovoid_fit ovoid_shape_get_outer(const ovoid_shape *shape) { return shape->outer_fit; }
+ovoid_fit ovoid_shape_get_inner(const ovoid_shape *shape) { return shape->inner_fit; }
+ovoid_measures ovoid_shape_get_measures(const ovoid_shape *shape) { return shape->measures; }
+size_t ovoid_shape_get_size(const ovoid_shape *shape) { return shape->at.size; }

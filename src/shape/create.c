@@ -1,0 +1,72 @@
+// From points to a shape: the hull, the ellipsoids, one block.
+#include "shape/create.h"
+
+#include "base/allocator.h"
+#include "base/error.h"
+#include "linear/vec3.h"
+#include "polytope/hull.h"
+#include "shape/block.h"
+
+ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *o, ovoid_error *error) {
+    *o = given ? *given : (ovoid_shape_options){0};
+    if (!isfinite(o->radius)) return error_set(error, OVOID_ERROR_NOT_FINITE, -1, "the radius is not finite");
+    if (o->radius < 0) return error_set(error, OVOID_ERROR_RADIUS, -1, "the radius %g is negative", o->radius);
+    if (o->radius > OVOID_LENGTH_MAX)
+        return error_set(error, OVOID_ERROR_RANGE, -1, "the radius %g is above %g", o->radius, OVOID_LENGTH_MAX);
+    if (!(o->gap >= 0 && o->gap < 1))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the ellipsoids' gap %g is not in [0, 1)", o->gap);
+    if (o->inner != OVOID_INNER_MAXIMUM && o->inner != OVOID_INNER_PHASES)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no such inner method: %d", (int)o->inner);
+    return OVOID_OK;
+}
+
+// The paper's three phases, one after another.
+static ovoid_fit compute_phases(const ovoid_polytope *p, const ovoid_ellipsoid *outer) {
+    ovoid_fit shrunk = ovoid_ellipsoid_compute_shrunk(p, outer);
+    ovoid_fit stretched = ovoid_ellipsoid_compute_stretched(p, &shrunk.ellipsoid);
+    return ovoid_ellipsoid_compute_enlarged(p, &stretched.ellipsoid);
+}
+
+static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o) {
+    ovoid_polytope p = ovoid_shape_get_polytope(shape);
+    ovoid_code code = ovoid_ellipsoid_compute_outer(&p, o->gap, &shape->outer_fit, &shape->allocator);
+    if (code != OVOID_OK) return code;
+    if (o->inner == OVOID_INNER_MAXIMUM)
+        code = ovoid_ellipsoid_compute_inner(&p, o->gap, &shape->inner_fit, &shape->allocator);
+    else
+        shape->inner_fit = compute_phases(&p, &shape->outer_fit.ellipsoid);
+    shape->outer = shape->outer_fit.ellipsoid;
+    shape->inner = shape->inner_fit.ellipsoid;
+    return code;
+}
+
+static ovoid_shape *create_from_hull(const hull *h, const ovoid_shape_options *o, ovoid_error *error) {
+    ovoid_polytope p = hull_get_polytope(h);
+    block_counts counts = {h->vertex_count, h->triangle_count, h->facet_count, h->neighbor_starts[h->vertex_count]};
+    ovoid_shape *shape = block_create(counts, o->allocator, error);
+    if (!shape) return NULL;
+    block_fill(shape, &p);
+    shape->radius = o->radius;
+    shape->report = h->report;
+    ovoid_code code = fit_ellipsoids(shape, o);
+    if (code == OVOID_OK) return shape;
+    error_set(error, code, -1, "no memory for the ellipsoids of %u vertices", h->vertex_count);
+    ovoid_shape_destroy(shape);
+    return NULL;
+}
+
+ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
+                                            ovoid_error *error) {
+    ovoid_shape_options o;
+    if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
+    if (!xyz && count) {
+        error_set(error, OVOID_ERROR_ARGUMENT, -1, "the array of points is NULL");
+        return NULL;
+    }
+    ovoid_allocator allocator = allocator_make(o.allocator);
+    hull h;
+    if (hull_create(xyz, count, &allocator, &h, error) != OVOID_OK) return NULL;
+    ovoid_shape *shape = create_from_hull(&h, &o, error);
+    hull_destroy(&h, &allocator);
+    return shape;
+}

@@ -1,0 +1,102 @@
+// Boxes, spheres, capsules, cylinders and cones: a few points and a radius.
+#include "base/allocator.h"
+#include "base/error.h"
+#include "linear/vec3.h"
+#include "ovoid/shape.h"
+
+// A length of a primitive: finite and not negative.
+static int is_length(double length, const char *name, ovoid_error *error) {
+    if (!isfinite(length))
+        error_set(error, OVOID_ERROR_NOT_FINITE, -1, "the %s is not finite", name);
+    else if (length < 0)
+        error_set(error, OVOID_ERROR_ARGUMENT, -1, "the %s %g is negative", name, length);
+    else
+        return 1;
+    return 0;
+}
+
+ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape_options *options, ovoid_error *error) {
+    if (!is_length(half.x, "half size in x", error) || !is_length(half.y, "half size in y", error) ||
+        !is_length(half.z, "half size in z", error))
+        return NULL;
+    double xyz[24];
+    for (int i = 0; i < 8; i++) {
+        xyz[3 * i] = i & 1 ? half.x : -half.x;
+        xyz[3 * i + 1] = i & 2 ? half.y : -half.y;
+        xyz[3 * i + 2] = i & 4 ? half.z : -half.z;
+    }
+    return ovoid_shape_create_from_points(xyz, 8, options, error);
+}
+
+// Points enlarged by a radius on top of that of the options.
+static ovoid_shape *create_rounded(const double *xyz, size_t count, double radius, const ovoid_shape_options *options,
+                                   ovoid_error *error) {
+    if (!isfinite(radius) || radius < 0) {
+        error_set(error, isfinite(radius) ? OVOID_ERROR_RADIUS : OVOID_ERROR_NOT_FINITE, -1,
+                  isfinite(radius) ? "the radius %g is negative" : "the radius %g is not finite", radius);
+        return NULL;
+    }
+    ovoid_shape_options o = options ? *options : (ovoid_shape_options){0};
+    o.radius += radius;
+    return ovoid_shape_create_from_points(xyz, count, &o, error);
+}
+
+ovoid_shape *ovoid_shape_create_sphere(double radius, const ovoid_shape_options *options, ovoid_error *error) {
+    const double xyz[3] = {0, 0, 0};
+    return create_rounded(xyz, 1, radius, options, error);
+}
+
+ovoid_shape *ovoid_shape_create_capsule(double half_length, double radius, const ovoid_shape_options *options,
+                                        ovoid_error *error) {
+    if (!is_length(half_length, "half length", error)) return NULL;
+    const double xyz[6] = {0, 0, -half_length, 0, 0, half_length};
+    return create_rounded(xyz, 2, radius, options, error);
+}
+
+// `sides` points of a circle around z, from *xyz on.
+static void fill_circle(double *xyz, double radius, double z, uint32_t sides) {
+    for (uint32_t i = 0; i < sides; i++) {
+        double angle = 6.283185307179586 * i / sides;
+        xyz[3 * (size_t)i] = radius * cos(angle);
+        xyz[3 * (size_t)i + 1] = radius * sin(angle);
+        xyz[3 * (size_t)i + 2] = z;
+    }
+}
+
+// Points of a prism (rings = 2) or a pyramid (rings = 1).
+static ovoid_shape *create_turned(double radius, double half_length, uint32_t sides, int rings,
+                                  const ovoid_shape_options *options, ovoid_error *error) {
+    if (!is_length(radius, "radius", error) || !is_length(half_length, "half length", error)) return NULL;
+    if (sides < 3) {
+        error_set(error, OVOID_ERROR_ARGUMENT, -1, "%u sides; at least 3 are needed", sides);
+        return NULL;
+    }
+    ovoid_allocator allocator = allocator_make(options ? options->allocator : NULL);
+    size_t count = (size_t)sides * (size_t)rings + (rings == 1);
+    double *xyz = allocator_allocate(&allocator, count, 3 * sizeof *xyz);
+    if (!xyz) {
+        error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %u sides", sides);
+        return NULL;
+    }
+    fill_circle(xyz, radius, -half_length, sides);
+    if (rings == 2) {
+        fill_circle(xyz + 3 * (size_t)sides, radius, half_length, sides);
+    } else {
+        double *apex = xyz + 3 * (size_t)sides;
+        apex[0] = apex[1] = 0;
+        apex[2] = half_length;
+    }
+    ovoid_shape *shape = ovoid_shape_create_from_points(xyz, count, options, error);
+    allocator_release(&allocator, xyz);
+    return shape;
+}
+
+ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, uint32_t sides,
+                                         const ovoid_shape_options *options, ovoid_error *error) {
+    return create_turned(radius, half_length, sides, 2, options, error);
+}
+
+ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, uint32_t sides,
+                                     const ovoid_shape_options *options, ovoid_error *error) {
+    return create_turned(radius, half_length, sides, 1, options, error);
+}

@@ -1,0 +1,68 @@
+// Queries allocate nothing and leave no floating-point flag behind that the caller did not have: malloc and its family
+// are replaced by counters in this program. Truth: the counter. Not built on sanitizers, which own malloc.
+#include "check.h"
+#include "ovoid/ovoid.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+#define OWN_MALLOC 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define OWN_MALLOC 0
+#endif
+#endif
+#ifndef OWN_MALLOC
+#define OWN_MALLOC 1
+#endif
+
+static volatile long allocations;
+
+#if OWN_MALLOC
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *memory, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
+void *malloc(size_t size) {
+    allocations++;
+    return __libc_malloc(size);
+}
+void *calloc(size_t count, size_t size) {
+    allocations++;
+    return __libc_calloc(count, size);
+}
+void *realloc(void *memory, size_t size) {
+    allocations++;
+    return __libc_realloc(memory, size);
+}
+void *aligned_alloc(size_t alignment, size_t size) {
+    allocations++;
+    return __libc_memalign(alignment, size);
+}
+#endif
+
+int main(void) {
+    if (!OWN_MALLOC) {
+        check_skip("allocations are not counted under a sanitizer");
+        return check_end();
+    }
+    ovoid_shape *a = ovoid_shape_create_cylinder(1, 1, 40, NULL, NULL);
+    ovoid_shape *b = ovoid_shape_create_box((ovoid_vec3){0.5, 1, 2}, NULL, NULL);
+    CHECK(a && b && allocations > 0);
+    static ovoid_cover cover;
+    uint64_t s = 1;
+    long before = allocations;
+    double sum = 0;
+    for (int i = 0; i < 2000; i++) {
+        ovoid_pair p = {a, b, {{0, 0, 0}, {1, 0.1, 0.2, 0.3}}, {{0, 0, 0}, {1, 0, 0, 0}}};
+        p.pose_b.position =
+            (ovoid_vec3){random_uniform(&s, -3, 3), random_uniform(&s, -3, 3), random_uniform(&s, -3, 3)};
+        ovoid_answer x = ovoid_depth(&p, NULL, NULL, &cover);
+        sum += x.lower + ovoid_collide(&p, NULL, &x.proof).upper + ovoid_within(&p, 0.1, NULL, NULL).upper;
+        sum += ovoid_distance(&p, NULL, NULL).upper + ovoid_bounds(&p).upper;
+        sum += ovoid_answer_check(&p, &x, &cover, NULL);
+    }
+    CHECK(isfinite(sum));
+    CHECK_EQ(allocations - before, 0);
+    ovoid_shape_destroy(a);
+    ovoid_shape_destroy(b);
+    return check_end();
+}
