@@ -246,7 +246,7 @@ static inline made made_random(uint32_t count, int on_sphere, uint64_t *seed) {
 
 /// A flat polygon of n given corners, counter-clockwise about the normal of the first three.
 static inline made made_polygon(const double *xyz, uint32_t n) {
-    uint32_t *indices = malloc(sizeof(uint32_t) * n);
+    uint32_t *indices = calloc(n, sizeof(uint32_t));
     for (uint32_t i = 0; i < n; i++) indices[i] = i;
     made m = made_from_polygons(xyz, n, indices, &n, 1);
     free(indices);

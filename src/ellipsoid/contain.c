@@ -96,8 +96,7 @@ static double bound_factor(const scaled *s, const vec3 corner[3], vec3 n, double
     return least / reach * (1 - 4 * ROUNDING);
 }
 
-// The normal of a triangle from exact differences: of a needle's side, one made in doubles leans along the needle.
-static vec3 compute_normal(const vec3 corner[3]) {
+vec3 triangle_compute_normal(const vec3 corner[3]) {
     const vec3 *p = corner;
     dd ax = two_sum(p[1].x, -p[0].x), ay = two_sum(p[1].y, -p[0].y), az = two_sum(p[1].z, -p[0].z);
     dd bx = two_sum(p[2].x, -p[0].x), by = two_sum(p[2].y, -p[0].y), bz = two_sum(p[2].z, -p[0].z);
@@ -122,7 +121,7 @@ double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid
         double clear = bound_factor(&s, corner, n, reach);
         if (clear >= bound) continue;
         // Where that is what holds the ellipsoid back, the triangle's own normal may do better.
-        vec3 own = compute_normal(corner);
+        vec3 own = triangle_compute_normal(corner);
         clear = fmax(clear, bound_factor(&s, corner, own, bound_reach(&s, own)));
         if (!(clear >= bound)) bound = clear;
         if (isnan(bound)) return -INFINITY;

@@ -65,26 +65,45 @@ static void whiten(work *w, uint32_t *candidate) {
     w->height = p->rank == 2 ? f.half.z * root.r2.z : 0;
 }
 
-// Of a solid: a half-space for each facet that has a triangle.
+// The unit normal in z of a plane with normal n in x.
+static vec3 compute_local_normal(const work *w, vec3 n) { return vec3_unit(mat3_mul_transposed_vec3(w->map, n)); }
+
+// Lowers b and other_b to the corners of triangle t along the two directions.
+static void lower(const work *w, uint32_t t, constraint *c) {
+    for (int k = 0; k < 3; k++) {
+        vec3 z = vec3_at(w->local, w->polytope->triangles[3 * (size_t)t + k]);
+        c->b = fmin(c->b, vec3_dot(c->n, z));
+        c->h = fmin(c->h, vec3_dot(c->w, z));
+    }
+}
+
+// Of a solid: a half-space for each facet that has a triangle. Of the normal of its largest triangle and that of its
+// plane the one that cuts less: a sliver's own normal may be noise, and so may be the plane's.
 static void build_from_facets(work *w) {
     const ovoid_polytope *p = w->polytope;
-    for (uint32_t f = 0; f < p->facet_count; f++) w->constraints[f] = (constraint){.b = INFINITY};
+    for (uint32_t f = 0; f < p->facet_count; f++) w->constraints[f] = (constraint){.y = 0};
+    // n: by the largest triangle, whose size is in y; w: by the plane; b and h are their offsets.
     for (uint32_t t = 0; t < p->triangle_count; t++) {
         const uint32_t *i = p->triangles + 3 * (size_t)t;
         constraint *c = &w->constraints[p->triangle_facets[t]];
-        vec3 a = vec3_at(w->local, i[0]);
-        vec3 n = vec3_cross(vec3_sub(vec3_at(w->local, i[1]), a), vec3_sub(vec3_at(w->local, i[2]), a));
-        double size = vec3_norm(n);
-        if (size > c->h) c->h = size, c->n = vec3_scale(n, 1 / size);
+        vec3 a = vec3_at(w->local, i[0]), b = vec3_at(w->local, i[1]), d = vec3_at(w->local, i[2]);
+        double size = vec3_norm(vec3_cross(vec3_sub(b, a), vec3_sub(d, a)));
+        if (!(size > c->y)) continue;
+        const vec3 corner[3] = {vec3_at(p->vertices, i[0]), vec3_at(p->vertices, i[1]), vec3_at(p->vertices, i[2])};
+        c->y = size;
+        c->n = compute_local_normal(w, triangle_compute_normal(corner));
     }
-    for (uint32_t t = 0; t < p->triangle_count; t++)
-        for (int k = 0; k < 3; k++) {
-            constraint *c = &w->constraints[p->triangle_facets[t]];
-            c->b = fmin(c->b, vec3_dot(c->n, vec3_at(w->local, p->triangles[3 * (size_t)t + k])));
-        }
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        w->constraints[f].w = compute_local_normal(w, p->planes[f].normal);
+        w->constraints[f].b = w->constraints[f].h = INFINITY;
+    }
+    for (uint32_t t = 0; t < p->triangle_count; t++) lower(w, t, &w->constraints[p->triangle_facets[t]]);
     w->count = 0;
-    for (uint32_t f = 0; f < p->facet_count; f++)
-        if (w->constraints[f].h > 0) w->constraints[w->count++] = w->constraints[f];
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        constraint c = w->constraints[f];
+        if (c.h > c.b) c.b = c.h, c.n = c.w;
+        if (c.y > 0) w->constraints[w->count++] = c;
+    }
 }
 
 // Of a flat polygon: a half-space for each edge, and the two ends of the prism.
@@ -125,6 +144,17 @@ static sym3dd compute_square(const mat3 *m, uint32_t rank) {
             for (uint32_t k = 0; k < rank; k++) q.m[i][j] = dd_add(q.m[i][j], two_product(full[i][k], full[j][k]));
         }
     return q;
+}
+
+// |det m| in double-double.
+static double compute_volume_factor(const mat3 *m) {
+    dd x[3];
+    const double a[3][2] = {{m->r1.y, m->r1.z}, {m->r1.z, m->r1.x}, {m->r1.x, m->r1.y}};
+    const double b[3][2] = {{m->r2.z, m->r2.y}, {m->r2.x, m->r2.z}, {m->r2.y, m->r2.x}};
+    for (int i = 0; i < 3; i++) x[i] = dd_sub(two_product(a[i][0], b[i][0]), two_product(a[i][1], b[i][1]));
+    dd sum = dd_mul(x[0], dd_from(m->r0.x));
+    sum = dd_add(sum, dd_mul(x[1], dd_from(m->r0.y)));
+    return fabs(dd_add(sum, dd_mul(x[2], dd_from(m->r0.z))).high);
 }
 
 // How much larger than { center + m u } any ellipsoid in the body can be.
@@ -172,11 +202,10 @@ static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *f
     (void)frexp(fmax(vec3_max_abs(m.r0), fmax(vec3_max_abs(m.r1), vec3_max_abs(m.r2))), &exponent);
     double unit = ldexp(1, -exponent);
     mat3 whole = mat3_scale_rows(m, (vec3){unit, unit, unit});
-    sym3dd most = compute_square(&whole, 3),
-           reached = sym3dd_from(sym3_scale(sym3_scale(fit->ellipsoid.q, unit), unit));
-    double bound = compute_bound(w, s, center, m) * sym3dd_compute_content(&most, 3);
+    sym3dd reached = sym3dd_from(sym3_scale(sym3_scale(fit->ellipsoid.q, unit), unit));
+    double most = compute_bound(w, s, center, m) * compute_volume_factor(&whole);
     double content = sym3dd_compute_content(&reached, (int)rank) * (rank == 2 ? w->height * unit : 1);
-    fit->gap = content > 0 ? bound / content - 1 + 1e-13 : INFINITY;
+    fit->gap = content > 0 && most > 0 ? most / content - 1 + 1e-13 : INFINITY;
     fit->converged = fit->gap <= gap;
 }
 
