@@ -319,7 +319,7 @@ static void check_against_qhull(void) {
 
 // The same cloud at any scale and place gives the same hull.
 static void check_scales(void) {
-    static const double scales[] = {1e-290, 1e-120, 1e-9, 1, 1e9, 1e80};
+    static const double scales[] = {1e-290, 1e-120, 1e-9, 1, 1e9, 1e45};
     uint32_t vertices = 0;
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         uint64_t s = 5;
@@ -355,10 +355,10 @@ static void check_far(void) {
     CHECK_LE(compute_extent_of(&h), 5);
     hull_destroy(&h, &allocator);
 
-    put(0, (vec3){1e7, -1e-30, 1e90});
+    put(0, (vec3){1e7, -1e-30, 1e50});
     h = check_hull(cloud, 1);
     CHECK_EQ(h.rank, 0);
-    CHECK_EQ(h.origin.z, 1e90);
+    CHECK_EQ(h.origin.z, 1e50);
     CHECK_EQ(h.vertices[2], 0);
     hull_destroy(&h, &allocator);
 }
@@ -525,7 +525,7 @@ static void check_errors(void) {
     cloud[3 * 7 + 1] = -INFINITY;
     code = hull_create(cloud, 10, &allocator, &h, &error);
     CHECK_EQ(code, OVOID_ERROR_NOT_FINITE);
-    cloud[3 * 7 + 1] = -1.1e90;
+    cloud[3 * 7 + 1] = -1.1e50;
     code = hull_create(cloud, 10, &allocator, &h, &error);
     CHECK_EQ(code, OVOID_ERROR_RANGE);
     CHECK_EQ(error.place, 7);

@@ -277,7 +277,7 @@ static void check_numbers(void) {
     double *values = malloc(n * sizeof *values);
     char *long_text = malloc(n * 64), *at = long_text;
     for (size_t i = 0; i < n; i++) {
-        values[i] = random_normal(&s) * pow(10, random_uniform(&s, -320, 80));
+        values[i] = random_normal(&s) * pow(10, random_uniform(&s, -320, 48));
         at += sprintf(at, "v 0 0 %.17g\n", values[i]);
     }
     mesh = ovoid_mesh_read(file_write_text("random.obj", long_text), NULL, NULL);
