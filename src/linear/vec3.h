@@ -28,8 +28,10 @@ static inline double vec3_norm(vec3 a) { return sqrt(vec3_dot(a, a)); }
 static inline int vec3_is_finite(vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 static inline double vec3_max_abs(vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
 
-/// The unit vector along a; a zero vector stays zero. Scaled first, so that no square can under- or overflow.
+/// The unit vector along a; a zero vector stays zero. Scaled first where a square could under- or overflow.
 static inline vec3 vec3_unit(vec3 a) {
+    double square = vec3_norm_squared(a);
+    if (square > 1e-250 && square < 1e250) return vec3_scale(a, 1 / sqrt(square));
     double m = vec3_max_abs(a);
     if (!(m > 0)) return (vec3){0, 0, 0};
     a = (vec3){a.x / m, a.y / m, a.z / m};

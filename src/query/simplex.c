@@ -77,13 +77,17 @@ vec3 orthogonalised(vec3 n, vec3 e1, vec3 e2) {
     return vec3_unit(n);
 }
 
-// The direction to the nearest point, cleaned of what rounding left along the face.
+// The direction to the nearest point, cleaned of what rounding left along the face. Of a segment e: the point is off by
+// u |w|, which turns the direction by u |w| / |point|; that moves the gap by |e| times as much, nothing where |point|
+// and |e| compare. Of a triangle: its normal is off by u / sin of the angle at the corner, nothing but for slivers.
 static vec3 direction(const simplex *s, vec3 point) {
     vec3 zero = {0, 0, 0}, n = vec3_unit(point);
     if (s->count == 1) return n;
     vec3 e1 = vec3_sub(s->p[1].w, s->p[0].w);
-    if (s->count == 2) return orthogonalised(n, e1, zero);
-    return orthogonalised(n, e1, vec3_sub(s->p[2].w, s->p[0].w));
+    if (s->count == 2) return vec3_norm_squared(point) > 0.01 * vec3_norm_squared(e1) ? n : orthogonalised(n, e1, zero);
+    vec3 e2 = vec3_sub(s->p[2].w, s->p[0].w);
+    double sine_squared = vec3_norm_squared(vec3_cross(e1, e2)) / (vec3_norm_squared(e1) * vec3_norm_squared(e2));
+    return sine_squared > 1e-4 ? n : orthogonalised(n, e1, e2);
 }
 
 vec3 simplex_reduce(simplex *s) {
