@@ -1,0 +1,103 @@
+// The smallest enclosing sphere is that of at most four of the points. From the sphere of such a few, the farthest
+// point is added, and the smallest sphere of those at most five gives the next few; the radius grows with every step,
+// until no point is outside. E. Welzl, Smallest enclosing disks (balls and ellipsoids), 1991 (what it rests on); B.
+// Gaertner, Fast and robust smallest enclosing balls, 1999 (the farthest point as the next one). Rounding may end the
+// search early; the radius is then computed from the centre and all points and rounded up, so the sphere encloses them
+// whatever the search did.
+#include "polytope/sphere.h"
+
+#include "linear/mat3.h"
+
+// Points in units of the cloud's size, about its middle.
+typedef struct cloud {
+    const double *xyz;
+    uint32_t count;
+    vec3 middle;
+    double unit; // a power of two
+} cloud;
+
+static vec3 get_point(const cloud *c, uint32_t i) {
+    return vec3_scale(vec3_sub(vec3_at(c->xyz, i), c->middle), 1 / c->unit);
+}
+
+static cloud make_cloud(const double *xyz, uint32_t count) {
+    vec3 low = vec3_at(xyz, 0), high = low;
+    for (uint32_t i = 1; i < count; i++) {
+        vec3 p = vec3_at(xyz, i);
+        low = (vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
+        high = (vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
+    }
+    int e;
+    (void)frexp(vec3_max_abs(vec3_sub(high, low)), &e);
+    // Not so small that its inverse overflows.
+    return (cloud){xyz, count, vec3_add(vec3_scale(low, 0.5), vec3_scale(high, 0.5)), ldexp(1, e < -1000 ? -1000 : e)};
+}
+
+// The sphere through k <= 4 points, with its centre in their span; 0 where there is none in doubles.
+static int make_through(const vec3 *p, int k, sphere *s) {
+    vec3 e[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    for (int i = 1; i < k; i++) e[i - 1] = vec3_sub(p[i], p[0]);
+    // With c = p0 + sum of x_i e_i: e_i . (c - p0) = |e_i|^2 / 2. Missing edges give the rows of the unit matrix.
+    sym3 gram = {k > 1 ? vec3_dot(e[0], e[0]) : 1, vec3_dot(e[0], e[1]), vec3_dot(e[0], e[2]),
+                 k > 2 ? vec3_dot(e[1], e[1]) : 1, vec3_dot(e[1], e[2]), k > 3 ? vec3_dot(e[2], e[2]) : 1};
+    vec3 half = {vec3_dot(e[0], e[0]) / 2, vec3_dot(e[1], e[1]) / 2, vec3_dot(e[2], e[2]) / 2}, x;
+    if (!sym3_solve(gram, half, &x)) return 0;
+    vec3 d = vec3_add_scaled(vec3_add_scaled(vec3_scale(e[0], x.x), e[1], x.y), e[2], x.z);
+    *s = (sphere){vec3_add(p[0], d), vec3_norm(d)};
+    return vec3_is_finite(s->center);
+}
+
+// The smallest sphere of n <= 5 points that goes through the last one; the points on it become the first ones. Returns
+// their number, 0 where rounding leaves none.
+static int find_smallest(vec3 *p, int n, sphere *best) {
+    int best_set = 0;
+    for (int set = 0; set < 1 << (n - 1); set++) {
+        vec3 on[5] = {p[n - 1]};
+        int k = 1;
+        for (int i = 0; i < n - 1; i++)
+            if (set >> i & 1) on[k++] = p[i];
+        sphere s;
+        if (k > 4 || !make_through(on, k, &s) || (best_set && s.radius >= best->radius)) continue;
+        int holds = 1;
+        for (int i = 0; i < n; i++) holds &= vec3_norm(vec3_sub(p[i], s.center)) <= s.radius * (1 + 1e-12);
+        if (holds) *best = s, best_set = set | 1 << (n - 1);
+    }
+    int k = 0;
+    for (int i = 0; i < n && best_set; i++)
+        if (best_set >> i & 1) p[k++] = p[i];
+    return k;
+}
+
+sphere sphere_compute_smallest(const double *xyz, uint32_t count) {
+    cloud c = make_cloud(xyz, count);
+    vec3 few[5] = {get_point(&c, 0)};
+    sphere s = {few[0], 0};
+    for (int pass = 0, n = 1; pass < 100 && n; pass++) {
+        double farthest = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            double d = vec3_norm_squared(vec3_sub(get_point(&c, i), s.center));
+            if (d > farthest) farthest = d, few[n] = get_point(&c, i);
+        }
+        if (sqrt(farthest) <= s.radius * (1 + 1e-12)) break;
+        sphere next = s;
+        n = find_smallest(few, n + 1, &next);
+        if (!(next.radius > s.radius)) break;
+        s = next;
+    }
+    vec3 center = vec3_add(c.middle, vec3_scale(s.center, c.unit));
+    return (sphere){center, sphere_compute_radius(xyz, count, center)};
+}
+
+double sphere_compute_radius(const double *xyz, uint32_t count, vec3 center) {
+    double size = 0, farthest = 0;
+    for (uint32_t i = 0; i < count; i++) size = fmax(size, vec3_max_abs(vec3_sub(vec3_at(xyz, i), center)));
+    if (size == 0) return 0;
+    int e;
+    (void)frexp(size, &e);
+    double unit = ldexp(1, e < -1000 ? -1000 : e);
+    for (uint32_t i = 0; i < count; i++)
+        farthest = fmax(farthest, vec3_norm_squared(vec3_scale(vec3_sub(vec3_at(xyz, i), center), 1 / unit)));
+    // Differences, squares and sums are within 5 roundings of the square, so 2.5 of the root; its own rounding and
+    // those of this line make 6. What underflows is below the last term.
+    return sqrt(farthest) * (1 + 8 * 0x1p-53) * unit + 0x1p-1074;
+}
