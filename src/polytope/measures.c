@@ -2,7 +2,7 @@
 // simplices whose measure, first and second moments are polynomials of their corners and add up. For a simplex of
 // dimension d with corners v_i and s their sum, the first moment is measure / (d + 1) s and the second
 // measure / ((d + 1) (d + 2)) (sum of v_i v_i' + s s'). Everything is computed in units of the body's size, a power of
-// two, so that only results can overflow.
+// two, so that only results can underflow.
 #include "linear/mat3.h"
 #include "ovoid/polytope.h"
 #include "polytope/sphere.h"

@@ -3,7 +3,7 @@
 
 #include "base/allocator.h"
 #include "base/error.h"
-#include "linear/vec3.h"
+#include "polytope/sphere.h"
 
 #include <string.h>
 
@@ -53,13 +53,6 @@ static void copy_array(ovoid_shape *shape, uint64_t at, const void *from, uint64
     if (size) memcpy((char *)shape + at, from, size);
 }
 
-// The largest norm of a vertex, rounded up: a norm is within 4 u.
-static double compute_extent(const ovoid_polytope *p) {
-    double extent = 0;
-    for (uint32_t i = 0; i < p->vertex_count; i++) extent = fmax(extent, vec3_norm(vec3_at(p->vertices, i)));
-    return extent * (1 + 8 * 0x1p-53);
-}
-
 void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
     const block_offsets *at = &shape->at;
     const block_counts *c = &shape->counts;
@@ -79,7 +72,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
     shape->measures = ovoid_polytope_compute_measures(p);
     shape->center = shape->measures.sphere_center;
     shape->reach = shape->measures.sphere_radius;
-    shape->extent = compute_extent(p);
+    shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
 }
 
 ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator, ovoid_error *error) {
