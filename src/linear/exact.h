@@ -53,8 +53,8 @@ static inline dd dd_div(dd a, dd b) {
 }
 
 /// The exact sign (-1, 0, 1) of det(a - d, b - d, c - d): positive where d lies below the plane through a, b, c that
-/// is seen counter-clockwise from above. Filtered twice, then expansions. Coordinates below 1e50 in size; differences of
-/// products below 1e-280 count as zero.
+/// is seen counter-clockwise from above. Filtered twice, then expansions. Coordinates below 1e50 in size; differences
+/// of products below 1e-280 count as zero.
 int orient3d_sign(vec3 a, vec3 b, vec3 c, vec3 d);
 
 #endif
