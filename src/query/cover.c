@@ -31,24 +31,27 @@ static vec3 find_edge_direction(vec3 a, vec3 b, vec3 c) {
     return simplex_reduce(&longest);
 }
 
-// A proven distance, from below, of the origin to a triangle, when each corner may be off by `error`; not positive if
-// none is proven. *normal: the unit direction along which all of the triangle is at least that far.
+static double least_along(vec3 n, vec3 a, vec3 b, vec3 c) {
+    return fmin(vec3_dot(n, a), fmin(vec3_dot(n, b), vec3_dot(n, c)));
+}
+
+// A distance, from below, of the origin to a triangle; negative if none is found. *normal: the unit direction along
+// which all of the triangle is at least that far.
 //
-// For any unit n all of the triangle has n.x >= the least of its corners. Three are tried: its normal, the way to its
-// nearest point, the way to the longest edge.
-static double compute_clearance(vec3 a, vec3 b, vec3 c, double error, vec3 *normal) {
+// For any unit n all of the triangle has n.x >= the least of its corners. Its own normal is tried first; where that
+// does not give `enough`, the way to its nearest point and to its longest edge.
+static double compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *normal) {
+    vec3 n = simplex_compute_normal(vec3_sub(b, a), vec3_sub(c, a));
+    *normal = vec3_dot(n, a) < 0 ? vec3_neg(n) : n;
+    double best = least_along(*normal, a, b, c);
+    if (best >= enough) return best;
     simplex t = {.p = {{a, 0, 0}, {b, 0, 0}, {c, 0, 0}}, .count = 3};
-    vec3 n[3];
-    n[0] = orthogonalised(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)), vec3_sub(b, a), vec3_sub(c, a));
-    if (vec3_dot(n[0], a) < 0) n[0] = vec3_neg(n[0]);
-    n[1] = simplex_reduce(&t);
-    n[2] = find_edge_direction(a, b, c);
-    double best = -INFINITY;
-    for (int i = 0; i < 3; i++) {
-        double least = fmin(vec3_dot(n[i], a), fmin(vec3_dot(n[i], b), vec3_dot(n[i], c))) - error;
+    vec3 other[2] = {simplex_reduce(&t), find_edge_direction(a, b, c)};
+    for (int i = 0; i < 2; i++) {
+        double least = least_along(other[i], a, b, c);
         if (!(least > best)) continue;
         best = least;
-        *normal = n[i];
+        *normal = other[i];
     }
     return best;
 }
@@ -59,8 +62,9 @@ static int edge_sign(vec3 u, vec3 a, vec3 b, double slack) {
     return det > slack ? 1 : det < -slack ? -1 : 0;
 }
 
-// Crossings of the surface by the ray u, by sign; 0 in *ok where the ray cannot be used.
-static long count_crossings(const surface *s, vec3 u, double slack, int *ok) {
+// Crossings of the surface by the ray u, by sign; 0 in *ok where the ray cannot be used. enough: what the clearances
+// gave.
+static long count_crossings(const surface *s, vec3 u, double slack, double enough, int *ok) {
     long sum = 0;
     *ok = 1;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
@@ -75,7 +79,7 @@ static long count_crossings(const surface *s, vec3 u, double slack, int *ok) {
         }
         // The line meets the triangle; the triangle is on one side of the plane through the origin with normal n.
         vec3 n;
-        (void)compute_clearance(a, b, c, 0, &n);
+        (void)compute_clearance(a, b, c, enough, &n);
         double ahead = vec3_dot(n, u);
         if (fabs(ahead) < 1e-12) {
             *ok = 0;
@@ -89,19 +93,18 @@ static long count_crossings(const surface *s, vec3 u, double slack, int *ok) {
 double surface_compute_depth(const surface *s, double error) {
     double depth = INFINITY, reach = 0;
     for (uint32_t i = 0; i < s->point_count; i++) reach = fmax(reach, vec3_norm(s->points[i]));
-    for (uint32_t t = 0; t < s->triangle_count && depth > 0; t++) {
+    for (uint32_t t = 0; t < s->triangle_count && depth > error; t++) {
         const uint16_t *v = s->triangles[t];
         vec3 n;
-        double d = compute_clearance(s->points[v[0]], s->points[v[1]], s->points[v[2]], error, &n);
-        depth = fmin(depth, d);
+        depth = fmin(depth, compute_clearance(s->points[v[0]], s->points[v[1]], s->points[v[2]], depth, &n));
     }
-    if (!(depth > 0) || s->triangle_count == 0) return 0;
+    if (!(depth > error) || s->triangle_count == 0) return 0;
     // |u| <= 1.01; two corners off by `error`, and the evaluation of the determinant.
     double slack = 4 * reach * (error + 16 * 0x1p-53 * reach);
     for (size_t i = 0; i < sizeof rays / sizeof *rays; i++) {
         int ok;
-        long crossings = count_crossings(s, rays[i], slack, &ok);
-        if (ok) return crossings != 0 ? depth : 0;
+        long crossings = count_crossings(s, rays[i], slack, depth, &ok);
+        if (ok) return crossings != 0 ? depth - error : 0;
     }
     return 0;
 }

@@ -57,7 +57,7 @@ static int find_tetrahedron(search *s, expansion *e) {
     push(e, t[wide]);
     // The farthest from that plane.
     vec3 e2 = vec3_sub(e->w[2], e->w[0]);
-    vec3 n = orthogonalised(vec3_cross(e1, e2), e1, e2);
+    vec3 n = simplex_compute_normal(e1, e2);
     frame_support top = probe_both(s, n, vec3_dot(n, e->w[0]), &far[0]);
     if (!(far[0] > e->slack)) return 0;
     push(e, top);

@@ -16,10 +16,10 @@ void expansion_clear(expansion *p, double slack) {
 
 static void set_plane(expansion *p, face *f, vec3 fallback) {
     vec3 a = p->w[f->v[0]], b = p->w[f->v[1]], c = p->w[f->v[2]];
-    vec3 e1 = vec3_sub(b, a), e2 = vec3_sub(c, a), n = vec3_cross(e1, e2);
+    vec3 e1 = vec3_sub(b, a), e2 = vec3_sub(c, a);
     // A face without area takes the direction of its neighbour: any direction gives true bounds.
-    int flat = !(vec3_norm(n) > 1e-13 * vec3_norm(e1) * vec3_norm(e2));
-    f->n = flat ? fallback : orthogonalised(n, e1, e2);
+    double area = vec3_norm_squared(vec3_cross(e1, e2)), edges = vec3_norm_squared(e1) * vec3_norm_squared(e2);
+    f->n = area > 1e-26 * edges ? simplex_compute_normal(e1, e2) : fallback;
     f->low = fmin(vec3_dot(f->n, a), fmin(vec3_dot(f->n, b), vec3_dot(f->n, c)));
     f->alive = 1;
 }

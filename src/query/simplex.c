@@ -66,7 +66,8 @@ static nearest nearest_of_tetrahedron(simplex *s) {
     return best;
 }
 
-vec3 orthogonalised(vec3 n, vec3 e1, vec3 e2) {
+// The part of n that is orthogonal to e1 and e2, as a unit vector: one step of Gram and Schmidt.
+static vec3 orthogonalised(vec3 n, vec3 e1, vec3 e2) {
     double l1 = vec3_dot(e1, e1);
     if (l1 > 0) {
         n = vec3_add_scaled(n, e1, -vec3_dot(n, e1) / l1);
@@ -75,6 +76,13 @@ vec3 orthogonalised(vec3 n, vec3 e1, vec3 e2) {
     double l2 = vec3_dot(e2, e2);
     if (l2 > 0) n = vec3_add_scaled(n, e2, -vec3_dot(n, e2) / l2);
     return vec3_unit(n);
+}
+
+// A sliver's cross product is off by u / sin of the angle between its edges: that is cleaned.
+vec3 simplex_compute_normal(vec3 e1, vec3 e2) {
+    vec3 n = vec3_cross(e1, e2);
+    double area = vec3_norm_squared(n), edges = vec3_norm_squared(e1) * vec3_norm_squared(e2);
+    return area > 1e-4 * edges ? vec3_scale(n, 1 / sqrt(area)) : orthogonalised(n, e1, e2);
 }
 
 // The direction to the nearest point, cleaned of what rounding left along the face. Of a segment e: the point is off by

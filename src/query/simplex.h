@@ -30,7 +30,8 @@ vec3 simplex_reduce(simplex *s);
 /// The nearest point, from the weights.
 vec3 simplex_compute_point(const simplex *s);
 
-/// The part of n that is orthogonal to e1 and e2, as a unit vector: one step of Gram and Schmidt.
-vec3 orthogonalised(vec3 n, vec3 e1, vec3 e2);
+/// The unit normal of the triangle with edges e1 and e2, orthogonal to them to rounding also where it is a sliver; zero
+/// where it has no area.
+vec3 simplex_compute_normal(vec3 e1, vec3 e2);
 
 #endif
