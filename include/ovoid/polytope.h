@@ -23,11 +23,14 @@ typedef struct ovoid_plane {
  * The body frame is the user's local frame moved by `origin`: a user's vertex is origin + vertex, exactly. The origin
  * is zero unless the points lie far from their own frame's origin.
  *
- * rank 3: a solid; triangles form a closed surface, counter-clockwise from outside.
- * rank 2: a flat polygon; the boundary loop is in `neighbors` (two per vertex), triangles are a fan of one side.
- * rank 1: a segment of two vertices. rank 0: one point. Both have no triangles and no planes.
- * A nearly flat body may have a rank below 3 though its vertices are not exactly coplanar: the body is always the
- * convex hull of the vertices; faces and planes describe it to rounding.
+ * rank 3: a solid; triangles form a closed surface, counter-clockwise from outside, exactly convex.
+ * rank 2: a flat polygon; triangles are the fan of one side: corner 0, then 1 and 2 of the first, 2 of each next one.
+ * rank 1: a segment. rank 0: one point. Both have no triangles and no planes.
+ *
+ * A body whose thickness is rounding (64 roundings of its largest coordinate) has a rank below 3 though its vertices
+ * are not exactly coplanar. It keeps every extreme point, so some vertices may not be corners of the polygon or ends of
+ * the segment; those have no neighbors. The body is always the convex hull of the vertices; planes describe it to
+ * rounding.
  */
 typedef struct ovoid_polytope {
     const double *vertices;          /**< xyz of vertex i at 3 i; finite */
@@ -35,11 +38,12 @@ typedef struct ovoid_polytope {
     const uint32_t *triangle_facets; /**< the facet of triangle t */
     const ovoid_plane *planes;       /**< plane of facet f (rank 3), or of the polygon (rank 2, one facet) */
     const uint32_t *neighbor_starts; /**< vertex_count + 1 offsets into neighbors */
-    const uint32_t *neighbors;       /**< vertices joined to a vertex by an edge of a facet */
+    const uint32_t *neighbors;       /**< of a vertex: by edges of triangles, ascending (rank 3); by the
+                                          edges of the polygon, before and after (2); the other end (1) */
     ovoid_vec3 origin;               /**< of the body frame, in the user's local frame */
     uint32_t vertex_count;
     uint32_t triangle_count;
-    uint32_t facet_count; /**< facets: maximal flat faces, as Qhull merged them */
+    uint32_t facet_count; /**< facets: triangles joined where flat to rounding */
     uint32_t rank;        /**< 0 point, 1 segment, 2 flat, 3 solid */
 } ovoid_polytope;
 

@@ -36,7 +36,8 @@ typedef struct ovoid_shape_options {
  * An extreme point is never lost: a point is dropped only if it equals another or if exact arithmetic shows it inside
  * the hull of those kept. Returns NULL on failure with *error filled (error may be NULL): EMPTY, NOT_FINITE (place: the
  * point), RANGE, RADIUS, LIMIT, HULL, MEMORY. The caller destroys the shape. Cost: n log n.
- * Hull: C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996 (Qhull).
+ * At most 2^24 points. Hull: C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996,
+ * with every decision in exact arithmetic.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count,
                                                       const ovoid_shape_options *options, ovoid_error *error);

@@ -82,10 +82,10 @@ static vec3 compute_facet_mean(const ovoid_polytope *p, uint32_t facet) {
 static vec3 compute_wall_mean(const walls *w, uint32_t wall) {
     const ovoid_polytope *p = w->polytope;
     if (p->rank == 3) return compute_facet_mean(p, wall);
-    if (p->rank == 1) return vec3_at(p->vertices, wall);
-    vec3 a = vec3_at(p->vertices, wall / 2);
-    vec3 b = vec3_at(p->vertices, p->neighbors[p->neighbor_starts[wall / 2] + wall % 2]);
-    return vec3_scale(vec3_add(a, b), 0.5);
+    uint32_t corner[2];
+    walls_get_edge(w, wall, corner);
+    vec3 a = vec3_at(p->vertices, corner[0]), b = vec3_at(p->vertices, corner[1]);
+    return p->rank == 1 ? a : vec3_scale(vec3_add(a, b), 0.5);
 }
 
 // c' = c + beta d, d = s - c, and M'^(1/2) = (I + (alpha - 1) a a') M^(1/2) with a = M^(1/2) d / m, m = |M^(1/2) d|,

@@ -14,8 +14,11 @@ typedef struct walls {
 
 walls walls_make(const ovoid_polytope *polytope);
 
-/// The plane of wall i. A polygon's vertex gives two walls, so each edge comes twice.
+/// The plane of wall i < count.
 ovoid_plane walls_get(const walls *w, uint32_t i);
+
+/// Of a flat body: the corners of edge i of the polygon; of a segment: end i, then the other one.
+void walls_get_edge(const walls *w, uint32_t i, uint32_t corner[2]);
 
 /// n . c + sqrt(n' Q n), rounded.
 static inline double ellipsoid_compute_support(const ovoid_ellipsoid *e, vec3 n) {
