@@ -19,17 +19,22 @@ typedef enum ovoid_split {
     OVOID_SPLIT_CUBE = 1 /**< 6 k k cells of a cube map, k a power of two, so that finer cells nest in coarser ones */
 } ovoid_split;
 
-/** Which areas a direction keeps. */
+/**
+ * Which areas a search keeps. SIGNS and PAPER work on the eight octants, which every ovoid_areas has beside its own
+ * split. SIGNS is sound for rays into the front half: those whose image in the ellipsoid's sphere space makes at most a
+ * right angle with the image of `toward`. ALL, RAY and SIGNS give the same facet and t, bit for bit.
+ */
 typedef enum ovoid_area_rule {
     OVOID_RULE_ALL = 0,   /**< every face: full face checking */
     OVOID_RULE_RAY = 1,   /**< the one area that holds the ray: sound and least work; the default */
-    OVOID_RULE_SIGNS = 2, /**< sound half-sphere rule: drop the area opposite to the direction (octants) */
-    OVOID_RULE_PAPER = 3  /**< UNSOUND: drop areas whose vector . direction < -sqrt(2)/2, a proof for 2-D only */
+    OVOID_RULE_SIGNS = 2, /**< sound half-sphere rule: drop the octant opposite to the direction to the other body */
+    OVOID_RULE_PAPER = 3  /**< UNSOUND: drop octants whose vector . direction < -sqrt(2)/2, a proof for 2-D only */
 } ovoid_area_rule;
 
 /**
- * The tables of one polyhedron: in the space where the ellipsoid is the unit sphere, cell -> facets that rays of the
- * cell leave by (conservative), cell -> vertices that are extreme for some direction of the cell (conservative).
+ * The tables of one polyhedron, in sphere space, x' = Q^-1/2 (x - center) with the symmetric root: cell -> facets that
+ * rays of the cell leave by, cell -> vertices extreme for directions of the cell, both conservative. A ray's direction
+ * u falls in the cell of Q^-1/2 u; a support's direction n, being a normal, in the cell of Q^1/2 n.
  */
 typedef struct ovoid_areas ovoid_areas;
 
@@ -64,12 +69,15 @@ typedef struct ovoid_exit {
 /**
  * (g) Where the ray from the ellipsoid's centre along direction (body frame, any length but zero) leaves the
  * polyhedron, looking only at the facets of the areas that the rule keeps. Under OVOID_RULE_PAPER the answer may be
- * wrong. toward: the direction to the other body, for the rules that drop areas by it; often the same as direction.
+ * wrong. toward: the direction to the other body (body frame), for the rules that drop areas by it.
  */
 OVOID_API ovoid_exit ovoid_areas_find_exit(const ovoid_areas *areas, ovoid_vec3 direction, ovoid_vec3 toward,
                                            ovoid_area_rule rule);
 
-/** The vertex extreme along direction (body frame), looking only at its cell's candidates; ties: lowest index. */
+/**
+ * The vertex extreme along direction (body frame), looking only at its cell's candidates; ties: lowest index. The same
+ * vertex as a search of all, bit for bit. *touched (may be NULL): vertices looked at.
+ */
 OVOID_API uint32_t ovoid_areas_find_support(const ovoid_areas *areas, ovoid_vec3 direction, uint32_t *touched);
 
 /** What cutting the faces along the octants' three planes gives. */
@@ -80,7 +88,10 @@ typedef struct ovoid_split_counts {
     uint32_t per_octant[8]; /**< pieces by octant; bit 0: x < 0, bit 1: y < 0, bit 2: z < 0 */
 } ovoid_split_counts;
 
-/** Cuts every triangle along the three coordinate planes of the ellipsoid's space and counts the pieces. */
+/**
+ * Cuts every triangle along the three coordinate planes of sphere space and counts the pieces. Only `faces` is filled
+ * where Q is not positive definite.
+ */
 OVOID_API ovoid_split_counts ovoid_polytope_compute_split(const ovoid_polytope *polytope,
                                                           const ovoid_ellipsoid *ellipsoid);
 
