@@ -81,9 +81,8 @@ int64_t json_find_line(bytes text, const json_step *steps, size_t count) {
 
 // ---- writing
 
-// The length of the UTF-8 sequence at c, or 0 if there is none (R. Pike, K. Thompson, 1992; RFC 3629: no surrogates, no
-// overlong forms, nothing above U+10FFFF).
-static int utf8_length(const unsigned char *c) {
+// R. Pike, K. Thompson, 1992; RFC 3629: no surrogates, no overlong forms, nothing above U+10FFFF.
+int utf8_get_length(const unsigned char *c) {
     if (c[0] < 0x80) return 1;
     int length = c[0] >= 0xc2 && c[0] < 0xe0   ? 2
                  : c[0] >= 0xe0 && c[0] < 0xf0 ? 3
@@ -101,7 +100,7 @@ static int utf8_length(const unsigned char *c) {
 void json_write_text(FILE *file, const char *text) {
     fputc('"', file);
     for (const unsigned char *c = (const unsigned char *)text; *c;) {
-        int length = utf8_length(c);
+        int length = utf8_get_length(c);
         if (*c == '"' || *c == '\\')
             fprintf(file, "\\%c", *c);
         else if (*c < 0x20 || *c == 0x7f)

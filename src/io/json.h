@@ -14,6 +14,9 @@ typedef struct json_step {
 /// leads nowhere, the line of the value before it. Linear in the text: meant for messages.
 int64_t json_find_line(bytes text, const json_step *steps, size_t count);
 
+/// The length of the UTF-8 sequence at c, of a text that ends with a zero byte; 0 if there is none.
+int utf8_get_length(const unsigned char *c);
+
 /// Writes a text in quotes. Bytes that are not UTF-8 become U+FFFD.
 void json_write_text(FILE *file, const char *text);
 

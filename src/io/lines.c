@@ -36,7 +36,7 @@ static int read_more(line_source *source, ovoid_error *error) {
     if (source->end == source->capacity) {
         char *grown = source->capacity < LINE_MAX_BYTES ? realloc(source->buffer, source->capacity * 2) : NULL;
         if (!grown) {
-            io_fail(error, OVOID_ERROR_LIMIT, at, "the line has more than %zu bytes", source->capacity);
+            io_report(error, OVOID_ERROR_LIMIT, at, "the line has more than %zu bytes", source->capacity);
             return -1;
         }
         source->buffer = grown;
@@ -46,7 +46,7 @@ static int read_more(line_source *source, ovoid_error *error) {
     source->end += n;
     if (n) return 1;
     if (!ferror(source->file)) return 0;
-    io_fail(error, OVOID_ERROR_FILE, (where){source->path, 0, -1}, "cannot be read: %s", strerror(errno));
+    io_report(error, OVOID_ERROR_FILE, (where){source->path, 0, -1}, "cannot be read: %s", strerror(errno));
     return -1;
 }
 

@@ -140,7 +140,7 @@ static ovoid_code read_mesh(mesh_reader *reader) {
 ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options, ovoid_error *error) {
     double scale = options && options->scale != 0 ? options->scale : 1;
     if (!(scale > 0 && scale <= OVOID_LENGTH_MAX)) {
-        io_fail(error, OVOID_ERROR_ARGUMENT, (where){path, 0, -1}, "the scale %g is not a number above 0", scale);
+        io_report(error, OVOID_ERROR_ARGUMENT, (where){path, 0, -1}, "the scale %g is not a number above 0", scale);
         return NULL;
     }
     mesh_reader reader = {.path = path, .scale = scale, .parts = options && options->parts, .error = error};

@@ -274,7 +274,7 @@ static ovoid_code read_item(ply_file *p, const ply_element *e) {
     double xyz[3] = {0, 0, 0};
     for (int i = 0; i < e->property_count; i++) {
         const ply_property *property = &e->properties[i];
-        double value;
+        double value = 0;
         ovoid_code code = property->count_type ? read_list(p, property) : read_value(p, property->type, &value);
         if (code) return code;
         if (property->role >= 'x') xyz[property->role - 'x'] = value;

@@ -135,8 +135,8 @@ static ovoid_code read_points(ovoid_results_reader *r, const json_t *json, ovoid
     for (int i = 0; i < 4; i++) present += json_object_get(json, keys[i]) != NULL;
     if (!present) return OVOID_OK;
     size_t count = json_array_size(json_object_get(json, "a"));
-    if (present < 4 || count < 1 || count > 4)
-        return fail(r, "proof", "needs a, b, weight_a, weight_b of 1 to 4 items");
+    if (present < 4 || count < 1 || count > OVOID_PROOF_PAIRS)
+        return fail(r, "proof", "needs a, b, weight_a, weight_b of 1 to 6 items");
     proof->count = (uint32_t)count;
     ovoid_code code = read_indices(r, json, "a", proof->count, proof->a);
     if (!code) code = read_indices(r, json, "b", proof->count, proof->b);

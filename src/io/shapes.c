@@ -12,7 +12,7 @@ static ovoid_shape *read_shape_bytes(const char *path, const ovoid_read_options 
                                      const ovoid_shape_options *options, ovoid_error *error) {
     where at = {path, 0, -1};
     if ((read && read->scale != 0 && read->scale != 1) || (options && options->radius != 0)) {
-        io_fail(error, OVOID_ERROR_ARGUMENT, at, "a .ovoid file has its scale and radius already; fit the mesh anew");
+        io_report(error, OVOID_ERROR_ARGUMENT, at, "a .ovoid file has its scale and radius already; fit the mesh anew");
         return NULL;
     }
     bytes file;

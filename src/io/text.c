@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <locale.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -21,8 +22,8 @@ static const char *shorten_path(const char *path) {
     return length <= 110 ? path : path + length - 110;
 }
 
-ovoid_code io_fail(ovoid_error *error, ovoid_code code, where at, const char *format, ...) {
-    if (!error) return code;
+void io_report(ovoid_error *error, ovoid_code code, where at, const char *format, ...) {
+    if (!error) return;
     error->code = code;
     error->place = at.line > 0 ? at.line : at.place;
     const char *path = shorten_path(at.path);
@@ -35,17 +36,12 @@ ovoid_code io_fail(ovoid_error *error, ovoid_code code, where at, const char *fo
     if (used >= 0 && (size_t)used < room)
         (void)vsnprintf(error->message + used, room - (size_t)used, format, arguments);
     va_end(arguments);
-    return code;
-}
-
-ovoid_code io_fail_memory(ovoid_error *error, const char *path) {
-    return io_fail(error, OVOID_ERROR_MEMORY, (where){path, 0, -1}, "there is not enough memory");
 }
 
 void io_prefix_path(ovoid_error *error, const char *path) {
     if (!error) return;
     ovoid_error inner = *error;
-    io_fail(error, inner.code, (where){path, 0, inner.place}, "%s", inner.message);
+    io_report(error, inner.code, (where){path, 0, inner.place}, "%s", inner.message);
 }
 
 // ---- files

@@ -5,23 +5,27 @@
 
 #include "ovoid/io.h"
 
-#include <stdarg.h>
-
-/// Fills *error: "path:line: sentence" with place = line where line > 0, else "path: sentence" with the place given.
-/// A long path keeps its end. Returns the code.
+/// Where something is wrong.
 typedef struct where {
     const char *path;
     int64_t line;  ///< 1-based; 0: none
     int64_t place; ///< where there is no line
 } where;
+
+/// Fills *error (NULL is allowed): "path:line: sentence" with place = line where there is a line, else "path: sentence"
+/// with the place given. A long path keeps its end.
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
-ovoid_code
-io_fail(ovoid_error *error, ovoid_code code, where at, const char *format, ...);
+void io_report(ovoid_error *error, ovoid_code code, where at, const char *format, ...);
+
+/// Reports and is the code: a macro, so that compilers see that it is not OVOID_OK.
+#define io_fail(error, code, ...) (io_report(error, code, __VA_ARGS__), (code))
 
 /// The error for memory that malloc did not give.
-ovoid_code io_fail_memory(ovoid_error *error, const char *path);
+static inline ovoid_code io_fail_memory(ovoid_error *error, const char *path) {
+    return io_fail(error, OVOID_ERROR_MEMORY, (where){path, 0, -1}, "there is not enough memory");
+}
 
 /// Puts "path: " before the sentence of an error that the core has filled.
 void io_prefix_path(ovoid_error *error, const char *path);

@@ -1,0 +1,201 @@
+// PAIRS.csv and output files. Truth: texts written here; what a folder holds after each outcome.
+#define _XOPEN_SOURCE 700 // symlink, lstat
+#include "files.h"
+
+#include <dirent.h>
+#include <unistd.h>
+
+#define HEADER "a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n"
+#define GOOD "0,2,1,2,3,1,0,0,0,4,5,6,0,1,0,0\n"
+
+static void check_good(void) {
+    const char *path =
+        file_write_text("good.csv", HEADER GOOD "\n 2 , 1 ,-1e-3,+2.5,0,\t0.5,.5,0.5,-0.5,0,0,0,2,0,0,0\r\n\r\n"
+                                                "1,1,0,0,0,1,0,0,0,0,0,0,1,0,0,0.1");
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, 3, &error);
+    if (!CHECK(reader != NULL)) return;
+    ovoid_indexed_pair p;
+    int got = ovoid_pairs_reader_read(reader, &p, &error);
+    CHECK(got == 1 && p.a == 0 && p.b == 2 && p.pose_a.position.z == 3 && p.pose_b.position.x == 4);
+    CHECK(p.pose_a.rotation.w == 1 && p.pose_b.rotation.w == 0 && p.pose_b.rotation.x == 1);
+    got = ovoid_pairs_reader_read(reader, &p, &error);
+    CHECK(got == 1 && p.a == 2 && p.b == 1 && p.pose_a.position.x == -1e-3 && p.pose_a.position.y == 2.5);
+    CHECK(p.pose_a.rotation.z == -0.5 && p.pose_b.rotation.w == 2);
+    got = ovoid_pairs_reader_read(reader, &p, &error);
+    CHECK(got == 1 && p.pose_b.rotation.z == 0.1);
+    got = ovoid_pairs_reader_read(reader, &p, &error);
+    CHECK(got == 0 && error.code == OVOID_OK);
+    ovoid_pairs_reader_destroy(reader);
+}
+
+static const bad_input bad_files[] = {
+    {"empty.csv", "", OVOID_ERROR_EMPTY, 1, "the file is empty"},
+    {"header.csv", "a,b\n", OVOID_ERROR_FORMAT, 1, "the first line must be a,b,ax"},
+    {"no_header.csv", GOOD, OVOID_ERROR_FORMAT, 1, "the first line must be"},
+    {"few.csv", HEADER GOOD "0,1,2\n", OVOID_ERROR_FORMAT, 3, "fewer than 16 columns"},
+    {"many.csv", HEADER "0,2,1,2,3,1,0,0,0,4,5,6,0,1,0,0,7\n", OVOID_ERROR_FORMAT, 2, "more than 16 columns"},
+    {"word.csv", HEADER "0,2,1,2,3,1,0,0,0,4,5,six,0,1,0,0\n", OVOID_ERROR_FORMAT, 2, "column bz: \"six\""},
+    {"blank.csv", HEADER "0,2,1,,3,1,0,0,0,4,5,6,0,1,0,0\n", OVOID_ERROR_FORMAT, 2, "column ay: \"\" is not a number"},
+    {"glued.csv", HEADER "0,2,1 2,2,3,1,0,0,0,4,5,6,0,1,0\n", OVOID_ERROR_FORMAT, 2, "column ax: \"1 2\""},
+    {"shape.csv", HEADER GOOD "0,3,1,2,3,1,0,0,0,4,5,6,0,1,0,0\n", OVOID_ERROR_INDEX, 3, "no shape 3; the list has 3"},
+    {"negative.csv", HEADER "-1,2,1,2,3,1,0,0,0,4,5,6,0,1,0,0\n", OVOID_ERROR_INDEX, 2,
+     "column a: there is no shape -1"},
+    {"half.csv", HEADER "0.5,2,1,2,3,1,0,0,0,4,5,6,0,1,0,0\n", OVOID_ERROR_INDEX, 2, "no shape 0.5"},
+    {"nan.csv", HEADER "0,2,nan,2,3,1,0,0,0,4,5,6,0,1,0,0\n", OVOID_ERROR_NOT_FINITE, 2, "column ax is not finite"},
+    {"infinite.csv", HEADER "0,2,1,2,3,1,0,0,0,4,5,6,0,1,0,1e999\n", OVOID_ERROR_NOT_FINITE, 2, "column bqz is not"},
+    {"zero.csv", HEADER "0,2,1,2,3,1,0,0,0,4,5,6,0,0,0,0\n", OVOID_ERROR_ROTATION, 2, "pose of b has a quaternion of"},
+    {"far.csv", HEADER "0,2,1e99,2,3,1,0,0,0,4,5,6,0,1,0,0\n", OVOID_ERROR_RANGE, 2, "pose of a has a number out of"},
+};
+
+static int read_all(const char *path, ovoid_error *error) {
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, 3, error);
+    ovoid_indexed_pair pair;
+    int got = reader ? 1 : -1;
+    while (got == 1) got = ovoid_pairs_reader_read(reader, &pair, error);
+    ovoid_pairs_reader_destroy(reader);
+    return got;
+}
+
+static void check_bad(void) {
+    for (size_t i = 0; i < sizeof bad_files / sizeof *bad_files; i++) {
+        ovoid_error error = {OVOID_OK, -2, ""};
+        int got = read_all(file_write_text(bad_files[i].name, bad_files[i].text), &error);
+        CHECK_EQ(got, -1);
+        check_error(&bad_files[i], &error);
+    }
+    ovoid_error error;
+    CHECK(read_all(file_path("absent.csv"), &error) == -1 && error.code == OVOID_ERROR_FILE);
+    CHECK(read_all(OVOID_BUILD_DIR, &error) == -1 && error.code == OVOID_ERROR_FILE);
+    CHECK(read_all(OVOID_BUILD_DIR, NULL) == -1);
+    // Damaged bytes: an end or an error with a sentence, never a crash.
+    uint64_t s = 23;
+    const char *good = HEADER GOOD GOOD;
+    for (int i = 0; i < 1000; i++) {
+        check_seed = s;
+        char text[200];
+        strcpy(text, good);
+        size_t length = strlen(good), at = strlen(HEADER) + random_next(&s) % (length - strlen(HEADER));
+        text[at] = (char)random_next(&s);
+        error.message[0] = 0;
+        int got = read_all(file_write("damaged.csv", text, length - random_next(&s) % 40), &error);
+        CHECK(got == 0 || error.message[0]);
+    }
+    check_seed = 0;
+}
+
+// Lines around the borders of the reader's buffer, 65536 bytes, come out whole.
+static void check_many(void) {
+    enum { COUNT = 5000 };
+    const char *path = file_path("many.csv");
+    FILE *file = fopen(path, "wb");
+    fputs(HEADER, file);
+    for (int i = 0; i < COUNT; i++)
+        fprintf(file, "%d,%d,%d,%.17g,0,1,0,0,0,0,0,0,1,0,0,0\n", i, COUNT - 1 - i, i, i / 3.0);
+    fclose(file);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, COUNT, &error);
+    ovoid_indexed_pair p;
+    for (int i = 0; reader && i < COUNT; i++) {
+        int got = ovoid_pairs_reader_read(reader, &p, &error);
+        CHECK(got == 1 && p.a == (size_t)i && p.b == (size_t)(COUNT - 1 - i) && p.pose_a.position.x == i &&
+              p.pose_a.position.y == i / 3.0);
+    }
+    CHECK(reader && ovoid_pairs_reader_read(reader, &p, &error) == 0);
+    ovoid_pairs_reader_destroy(reader);
+}
+
+// ---- output files
+
+static int count_files(const char *folder) {
+    DIR *dir = opendir(folder);
+    int count = 0;
+    while (dir && readdir(dir)) count++;
+    if (dir) closedir(dir);
+    return count;
+}
+
+static void check_holds(const char *path, const char *text) {
+    size_t size = 0;
+    char *found = file_read(path, &size);
+    CHECK(found && size == strlen(text) && memcmp(found, text, size) == 0);
+    free(found);
+}
+
+static void check_output(void) {
+    const char *folder = file_path("out");
+    mkdir(folder, 0777);
+    const char *path = file_path("out/a.txt");
+    remove(path);
+    int before = count_files(folder);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    // Not there until it is committed; a second one replaces it and keeps its rights.
+    for (int round = 0; round < 2; round++) {
+        ovoid_output *output = ovoid_output_create(path, &error);
+        if (!CHECK(output != NULL)) return;
+        fprintf(ovoid_output_get_file(output), "round %d", round);
+        CHECK(round ? access(path, F_OK) == 0 : access(path, F_OK) != 0);
+        CHECK(ovoid_output_commit(output, &error) == OVOID_OK);
+        CHECK(ovoid_output_commit(output, &error) == OVOID_ERROR_ARGUMENT);
+        ovoid_output_destroy(output);
+        check_holds(path, round ? "round 1" : "round 0");
+        struct stat status;
+        CHECK(stat(path, &status) == 0 && (round == 0 || (status.st_mode & 0777) == 0640));
+        chmod(path, 0640);
+    }
+    // Given up: the old file stays, nothing else does.
+    ovoid_output *output = ovoid_output_create(path, &error);
+    if (output) fputs("never", ovoid_output_get_file(output));
+    ovoid_output_destroy(output);
+    check_holds(path, "round 1");
+    CHECK_EQ(count_files(folder), before + 1);
+    // Through a link: the link stays one.
+    const char *link_path = file_path("out/link");
+    remove(link_path);
+    CHECK(symlink("a.txt", link_path) == 0);
+    output = ovoid_output_create(link_path, &error);
+    if (output) fputs("linked", ovoid_output_get_file(output));
+    CHECK(output && ovoid_output_commit(output, &error) == OVOID_OK);
+    ovoid_output_destroy(output);
+    check_holds(path, "linked");
+    struct stat status;
+    CHECK(lstat(link_path, &status) == 0 && S_ISLNK(status.st_mode));
+    remove(link_path);
+    remove(path);
+    CHECK_EQ(count_files(folder), before);
+}
+
+static void check_bad_output(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    CHECK(!ovoid_output_create(file_path("no_folder/x"), &error) && error.code == OVOID_ERROR_FILE);
+    CHECK(!ovoid_output_create(OVOID_BUILD_DIR, &error) && strstr(error.message, "is a folder"));
+    // A device is written to, not replaced; a full one is reported.
+    ovoid_output *output = ovoid_output_create("/dev/null", &error);
+    if (CHECK(output != NULL)) {
+        fputs("x", ovoid_output_get_file(output));
+        CHECK(ovoid_output_commit(output, &error) == OVOID_OK);
+    }
+    ovoid_output_destroy(output);
+    struct stat status;
+    CHECK(stat("/dev/null", &status) == 0 && S_ISCHR(status.st_mode));
+    if (access("/dev/full", W_OK) != 0) {
+        check_skip("there is no /dev/full");
+        return;
+    }
+    for (int size = 1; size < 100000; size += 99000) { // seen at the flush; seen while writing
+        output = ovoid_output_create("/dev/full", &error);
+        if (!CHECK(output != NULL)) return;
+        for (int i = 0; i < size; i++) fputc('x', ovoid_output_get_file(output));
+        CHECK(ovoid_output_commit(output, &error) == OVOID_ERROR_FILE && strstr(error.message, "written in full"));
+        ovoid_output_destroy(output);
+    }
+}
+
+int main(void) {
+    check_good();
+    check_bad();
+    check_many();
+    check_output();
+    check_bad_output();
+    return check_end();
+}
