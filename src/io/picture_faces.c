@@ -193,7 +193,7 @@ static void draw_edges(const figure *f, const drawing *d, const edge *edges, siz
     const color dark = {0.07, 0.09, 0.14};
     char hex[8];
     color_write(color_mix(f->base, dark, 0.6), hex);
-    for (edge_kind kind = EDGE_SOFT; kind <= EDGE_OUTLINE; kind++) {
+    for (edge_kind kind = front ? EDGE_SOFT : EDGE_SHARP; kind <= EDGE_OUTLINE; kind++) {
         double length = 0;
         size_t found = write_edges(f, d, edges, count, kind, front, NULL, &length);
         if (!found) continue;
@@ -201,8 +201,8 @@ static void draw_edges(const figure *f, const drawing *d, const edge *edges, siz
         double opacity = kind == EDGE_OUTLINE ? 0.9 : (kind == EDGE_SHARP ? 0.75 : 0.38) * fade;
         double width = kind == EDGE_OUTLINE ? 1.1 : kind == EDGE_SHARP ? 0.8 : 0.55;
         if (!front) opacity *= 0.45;
-        if (opacity < 0.03 || f->rounded) opacity = kind == EDGE_OUTLINE ? opacity : 0;
-        if (opacity == 0) continue;
+        // What is hardly seen is left out; the folds of a rounded body are not its own.
+        if (opacity < 0.08 || (f->rounded && kind != EDGE_OUTLINE)) continue;
         fprintf(d->file,
                 "<path fill=\"none\" stroke=\"%s\" stroke-opacity=\"%.2f\" stroke-width=\"%.2f\" "
                 "stroke-linecap=\"round\"%s d=\"",

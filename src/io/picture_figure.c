@@ -43,7 +43,9 @@ static ovoid_shape *make_rounded(const ovoid_polytope *polytope, double radius, 
         vec3 p = vec3_add_scaled(vec3_at(polytope->vertices, i / n), sphere_point(i % n, n), radius);
         memcpy(xyz + 3 * i, &p, sizeof p);
     }
-    ovoid_shape *shape = ovoid_shape_create_from_points(xyz, count, NULL, error);
+    // Its ellipsoids are not drawn: any will do.
+    ovoid_shape_options options = {.gap = 0.5};
+    ovoid_shape *shape = ovoid_shape_create_from_points(xyz, count, &options, error);
     free(xyz);
     return shape;
 }
