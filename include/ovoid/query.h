@@ -170,18 +170,21 @@ OVOID_API const char *ovoid_proof_kind_get_name(ovoid_proof_kind kind);
 
 /** The online steps of the paper for a pair, each with its cost, for study; not how the library decides. */
 typedef struct ovoid_paper_bounds {
-    ovoid_nearest nearest; /**< (e) X* and Y* of the inner ellipsoids, world frame */
-    double lower;          /**< (f) proven gap of the outer ellipsoids along their direction */
-    double upper;          /**< (g) |Q1 Q2|, or 0 where the exits pass each other */
-    ovoid_vec3 q1, q2;     /**< exits of the line X*Y* from the polyhedra */
-    ovoid_vec3 p1, p2;     /**< exits of the line from the outer ellipsoids */
-    uint32_t faces;        /**< facets touched */
-    int collides;          /**< HEURISTIC, no proof: the paper's criterion says that they collide */
+    ovoid_nearest
+        nearest;       /**< (e) X* and Y* of the inner ellipsoids, world frame; its lower bound is theirs, not d's */
+    double lower;      /**< (f) proven: d >= the gap of the outer ellipsoids along the normal between them */
+    double upper;      /**< (g) |Q1 Q2| less the rounding radii, 0 where the inner ellipsoids overlap: d <= it, to
+                            rounding; under OVOID_RULE_PAPER not even that */
+    ovoid_vec3 q1, q2; /**< where the rays from the inner centres through X* and Y* leave the polyhedra */
+    ovoid_vec3 p1, p2; /**< where the same rays leave the outer ellipsoids */
+    uint32_t faces;    /**< facets touched */
+    int collides;      /**< HEURISTIC, no proof: the paper's criterion says that they collide */
 } ovoid_paper_bounds;
 
 /**
- * Steps (e), (f), (g) of the paper and its criterion, |Q1 Q2| > min(|P1 Q1|, |P2 Q2|, threshold) means apart: a
- * heuristic, often wrong. areas_a, areas_b: the tables to use with the rule.
+ * Steps (e), (f), (g) of the paper and its criterion: |Q1 Q2| > min(|P1 Q1|, |P2 Q2|, threshold), with Q1 before Q2 on
+ * the way, means apart. A heuristic, often wrong. areas: the tables of shape_a and shape_b, made of their inner
+ * ellipsoids; NULL for a flat shape, whose Q is then X* or Y* itself. Refused poses: -infinity, infinity.
  */
 OVOID_API ovoid_paper_bounds ovoid_paper_compute_bounds(const ovoid_pair *pair, const ovoid_areas *areas[2],
                                                         ovoid_area_rule rule, double threshold);
