@@ -154,6 +154,40 @@ static void check_order(void) {
     ovoid_shape_destroy(cube);
 }
 
+// The pieces of faces that areas give, counted in pictures from opposite sides: each face is seen in one of them. The
+// truth is the core's own count, made independently of pictures.
+static void check_areas(void) {
+    double points[3 * 40];
+    uint64_t s = 19;
+    for (int i = 0; i < 40; i++) {
+        points[3 * i] = random_normal(&s);
+        points[3 * i + 1] = 2 * random_normal(&s) + points[3 * i];
+        points[3 * i + 2] = 0.5 * random_normal(&s) - points[3 * i];
+    }
+    ovoid_shape *shape = ovoid_shape_create_from_points(points, 40, NULL, NULL);
+    ovoid_picture_body body = make_body(NULL, shape, 1, 2, 3);
+    body.pose.rotation = (ovoid_quat){1, 0.5, -0.3, 0.2};
+    ovoid_picture picture = {.bodies = &body, .body_count = 1};
+    size_t found = 0;
+    for (int side = -1; side <= 1; side += 2) {
+        ovoid_picture_options options = {.view = {side, 2 * side, 0.7 * side}, .layers = OVOID_PICTURE_AREAS};
+        size_t size;
+        char *text = draw(&picture, &options, &size);
+        // The last group of faces is the front; its paths begin a piece with M.
+        const char *group = text, *next;
+        while ((next = strstr(group + 1, "<g opacity="))) group = next;
+        const char *end = strstr(group, "</g>");
+        for (const char *c = group; c < end; c++) found += *c == 'M';
+        free(text);
+    }
+    ovoid_polytope polytope = ovoid_shape_get_polytope(shape);
+    ovoid_ellipsoid inner = ovoid_shape_get_inner(shape).ellipsoid;
+    ovoid_split_counts counts = ovoid_polytope_compute_split(&polytope, &inner);
+    CHECK_EQ(found, counts.pieces);
+    CHECK(counts.pieces > counts.faces);
+    ovoid_shape_destroy(shape);
+}
+
 // Every kind of body, every layer, hostile names, links with and without an answer.
 static void check_kinds(void) {
     const double points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
@@ -254,6 +288,7 @@ static void check_bad(void) {
 int main(void) {
     check_extents();
     check_order();
+    check_areas();
     check_kinds();
     check_size();
     check_bad();

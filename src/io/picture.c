@@ -128,8 +128,8 @@ static void write_head(const ovoid_picture *picture, const drawing *d) {
 }
 
 static ovoid_code draw_figure(const figure *f, const drawing *d, ovoid_error *error) {
-    int has_outer = (d->layers & OVOID_PICTURE_OUTER) && f->outer.radius[0] > 0;
-    int has_inner = (d->layers & OVOID_PICTURE_INNER) && f->inner.radius[0] > 0;
+    int has_outer = (d->layers & OVOID_PICTURE_OUTER) && f->has_ellipsoids;
+    int has_inner = (d->layers & OVOID_PICTURE_INNER) && f->has_ellipsoids;
     fputs("<g>\n", d->file);
     if (has_outer) figure_draw_outer_back(f, d);
     ovoid_code code = figure_draw_back(f, d, error);

@@ -27,22 +27,25 @@ static inline vec2 camera_project(const camera *c, vec3 p) {
 /// Grows toward the eye.
 static inline double camera_get_depth(const camera *c, vec3 p) { return vec3_dot(c->eye, vec3_sub(p, c->center)); }
 
-/// An ellipsoid as center + sum of axis[i] u_i, |u| <= 1: its principal axes, world frame, longest first.
+/// An ellipsoid as center + sum of axis[i] u_i, |u| <= 1, world frame; u_i = dual[i] . (x - center). The axes need not
+/// be orthogonal: any square root of Q will do.
 typedef struct solid_ellipsoid {
-    vec3 center, axis[3];
-    double radius[3];
+    vec3 center, axis[3], dual[3];
+    int is_solid; ///< it has a volume to speak of; else there are no duals
 } solid_ellipsoid;
 
 /// A body as it is drawn.
 typedef struct figure {
     const ovoid_picture_body *body;
-    ovoid_shape *rounded;    ///< of a body with a rounding radius: the hull of spheres at its vertices; owned
-    ovoid_polytope polytope; ///< what is drawn, body frame
-    vec3 *points;            ///< its vertices, world frame
-    vec3 *normals;           ///< of its facets, world frame
-    vec2 *pixels;            ///< its vertices, projected
-    solid_ellipsoid outer, inner;
-    double ball; ///< the radius of a ball, which has one vertex; 0: not a ball
+    ovoid_shape *rounded;         ///< of a body with a rounding radius: the hull of spheres at its vertices; owned
+    ovoid_polytope polytope;      ///< what is drawn, body frame
+    vec3 *points;                 ///< its vertices, world frame
+    vec3 *normals;                ///< of its facets, world frame
+    vec2 *pixels;                 ///< its vertices, projected
+    solid_ellipsoid outer, inner; ///< by their principal axes
+    solid_ellipsoid areas; ///< the inner one by the axes that bound its octants: those of Q^1/2, as in ovoid_areas
+    int has_ellipsoids;    ///< those of a point or a segment are not drawn
+    double ball;           ///< the radius of a ball, which has one vertex; 0: not a ball
     color base;
     int number;     ///< of the body, for names in the file
     vec2 low, high; ///< pixels that the points span
@@ -71,7 +74,7 @@ void figure_draw_outer_front(const figure *f, const drawing *d);
 /// The inner ellipsoid, solid.
 void figure_draw_inner(const figure *f, const drawing *d);
 
-/// The tint of an octant of the inner ellipsoid.
+/// The tint of an octant; bit i is set where u_i < 0.
 color octant_get_color(int octant);
 
 /// The smallest box of pixels that holds the outline of an ellipsoid.

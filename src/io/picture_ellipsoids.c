@@ -38,21 +38,17 @@ static void write_outline(const solid_ellipsoid *e, const drawing *d, double gro
     fputs("z\"", d->file);
 }
 
-// 1 if it has a volume to speak of: lines on a flat one mean nothing.
-static int is_solid(const solid_ellipsoid *e) { return e->radius[2] > 1e-6 * e->radius[0]; }
-
 // The half of the great circle through axes i and j that is before (side 1) or behind (side -1) the outline. The normal
-// at center + A u is along the sum of axis_i u_i / radius_i^2.
+// at center + A u is along the sum of dual_i u_i.
 static void write_half_circle(const solid_ellipsoid *e, const drawing *d, int i, int j, int side) {
-    double a = vec3_dot(e->axis[i], d->camera.eye) / (e->radius[i] * e->radius[i]);
-    double b = vec3_dot(e->axis[j], d->camera.eye) / (e->radius[j] * e->radius[j]);
+    double a = vec3_dot(e->dual[i], d->camera.eye), b = vec3_dot(e->dual[j], d->camera.eye);
     double middle = atan2(b, a) + (side < 0 ? pi : 0);
     svg_path path = {d->file, 0, 0};
     svg_arc(&path, camera_project(&d->camera, e->center), camera_project_vector(&d->camera, e->axis[i]),
             camera_project_vector(&d->camera, e->axis[j]), middle - pi / 2, middle + pi / 2);
 }
 
-// The halves of all three principal sections on that side.
+// The halves of all three sections on that side.
 static void write_sections(const solid_ellipsoid *e, const drawing *d, int side) {
     fputs(" d=\"", d->file);
     for (int i = 0; i < 3; i++) write_half_circle(e, d, i, (i + 1) % 3, side);
@@ -67,7 +63,7 @@ void figure_draw_outer_back(const figure *f, const drawing *d) {
     fprintf(d->file, "<path class=\"outer\" fill=\"%s\" fill-opacity=\".07\"", hex);
     write_outline(&f->outer, d, 1);
     fputs("/>\n", d->file);
-    if (!is_solid(&f->outer)) return;
+    if (!f->outer.is_solid) return;
     fprintf(d->file,
             "<path fill=\"none\" stroke=\"%s\" stroke-opacity=\".3\" stroke-width=\".7\" "
             "stroke-dasharray=\"3 3\"",
@@ -79,7 +75,7 @@ void figure_draw_outer_back(const figure *f, const drawing *d) {
 void figure_draw_outer_front(const figure *f, const drawing *d) {
     char hex[8];
     color_write(color_mix(f->base, dark, 0.15), hex);
-    if (is_solid(&f->outer)) {
+    if (f->outer.is_solid) {
         fprintf(d->file, "<path fill=\"none\" stroke=\"%s\" stroke-opacity=\".55\" stroke-width=\".8\"", hex);
         write_sections(&f->outer, d, 1);
         fputs("/>\n", d->file);
@@ -105,9 +101,9 @@ void figure_draw_inner(const figure *f, const drawing *d) {
     fprintf(d->file, "<path class=\"inner\" fill=\"url(#g%d)\" stroke=\"%s\" stroke-width=\".8\"", f->number, deep);
     write_outline(&f->inner, d, 1);
     fputs("/>\n", d->file);
-    if (!is_solid(&f->inner)) return;
+    if (!f->inner.is_solid) return;
     fprintf(d->file, "<path fill=\"none\" stroke=\"#fff\" stroke-opacity=\"%s\" stroke-width=\"%s\"",
             areas ? ".95" : ".5", areas ? "1.6" : ".8");
-    write_sections(&f->inner, d, 1);
+    write_sections(areas ? &f->areas : &f->inner, d, 1);
     fputs("/>\n", d->file);
 }

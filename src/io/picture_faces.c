@@ -1,7 +1,7 @@
 // The faces of a body in a picture. No two faces of a convex body that look toward the eye hide each other, nor do two
 // that look away: so the order within a body is free, and faces of one shade become one path. Seams between them are
 // closed by a thin line of the same shade; the translucency is that of the whole group. With areas, each face is cut
-// by the three planes through the inner ellipsoid's principal axes, and tinted by the octant.
+// by the three planes that bound the octants of the inner ellipsoid, and tinted by the octant.
 // Cost: linear in the triangles, but for sorting edges and pieces.
 #include "io/picture.h"
 
@@ -51,13 +51,13 @@ color octant_get_color(int octant) {
 
 // ---- cutting along the areas
 
-// The part of the piece where sign * axis . (x - center) >= 0 (I. E. Sutherland, G. W. Hodgman, Reentrant polygon
+// The part of the piece where sign * dual . (x - center) >= 0 (I. E. Sutherland, G. W. Hodgman, Reentrant polygon
 // clipping, 1974). A triangle has at most six corners after three cuts.
-static piece cut(const piece *p, vec3 center, vec3 axis, double sign) {
+static piece cut(const piece *p, vec3 center, vec3 dual, double sign) {
     piece out = {.count = 0, .key = p->key};
     for (int i = 0; i < p->count; i++) {
         vec3 a = p->corner[i], b = p->corner[(i + 1) % p->count];
-        double da = sign * vec3_dot(axis, vec3_sub(a, center)), db = sign * vec3_dot(axis, vec3_sub(b, center));
+        double da = sign * vec3_dot(dual, vec3_sub(a, center)), db = sign * vec3_dot(dual, vec3_sub(b, center));
         if (da >= 0 && out.count < CORNERS) out.corner[out.count++] = a;
         if ((da < 0) != (db < 0) && da != 0 && db != 0 && out.count < CORNERS)
             out.corner[out.count++] = vec3_add_scaled(a, vec3_sub(b, a), da / (da - db));
@@ -72,11 +72,11 @@ static int add_piece(pieces *list, const piece *p) {
     return 1;
 }
 
-// The parts of the piece in the eight octants of the inner ellipsoid; bit i of the octant: negative along axis i.
-static int add_octants(pieces *list, const piece *whole, const solid_ellipsoid *inner) {
+// The parts of the piece in the eight octants.
+static int add_octants(pieces *list, const piece *whole, const solid_ellipsoid *areas) {
     for (int octant = 0; octant < 8; octant++) {
         piece p = *whole;
-        for (int i = 0; i < 3 && p.count; i++) p = cut(&p, inner->center, inner->axis[i], octant >> i & 1 ? -1 : 1);
+        for (int i = 0; i < 3 && p.count; i++) p = cut(&p, areas->center, areas->dual[i], octant >> i & 1 ? -1 : 1);
         p.key = octant * SHADES + whole->key;
         if (!add_piece(list, &p)) return 0;
     }
@@ -100,7 +100,7 @@ static int collect(const figure *f, const drawing *d, int front, int areas, piec
         if (p->rank < 3 && vec3_dot(normal, d->camera.eye) < 0) normal = vec3_neg(normal);
         piece whole = {.count = 3, .key = (int)(get_light(normal, &d->camera) * (SHADES - 1) + 0.5)};
         for (int k = 0; k < 3; k++) whole.corner[k] = f->points[p->triangles[3 * t + (uint32_t)k]];
-        if (!(areas ? add_octants(list, &whole, &f->inner) : add_piece(list, &whole))) return 0;
+        if (!(areas ? add_octants(list, &whole, &f->areas) : add_piece(list, &whole))) return 0;
     }
     return 1;
 }
@@ -127,7 +127,7 @@ static void write_pieces(const figure *f, const drawing *d, pieces *list, int ar
 }
 
 static ovoid_code draw_faces(const figure *f, const drawing *d, int front, const char *opacity, ovoid_error *error) {
-    int areas = front && (d->layers & OVOID_PICTURE_AREAS) && f->inner.radius[2] > 0;
+    int areas = front && (d->layers & OVOID_PICTURE_AREAS) && f->areas.is_solid;
     pieces list = {NULL, 0, 0};
     ovoid_code code = OVOID_OK;
     if (collect(f, d, front, areas, &list)) {
@@ -267,7 +267,7 @@ ovoid_code figure_draw_front(const figure *f, const drawing *d, ovoid_error *err
         return OVOID_OK;
     }
     // The inner ellipsoid shows through the faces.
-    int is_clear = (d->layers & OVOID_PICTURE_INNER) && f->inner.radius[2] > 0;
+    int is_clear = (d->layers & OVOID_PICTURE_INNER) && f->inner.is_solid;
     ovoid_code code = draw_faces(f, d, 1, !is_clear ? ".94" : d->layers & OVOID_PICTURE_AREAS ? ".58" : ".5", error);
     return code ? code : sort_and_draw_edges(f, d, 1, error);
 }

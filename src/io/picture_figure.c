@@ -56,15 +56,31 @@ static ovoid_shape *make_rounded(const ovoid_polytope *polytope, double radius, 
 static const color palette[] = {{0.25, 0.47, 0.72}, {0.90, 0.55, 0.24}, {0.33, 0.63, 0.42}, {0.58, 0.43, 0.71},
                                 {0.80, 0.38, 0.44}, {0.25, 0.62, 0.67}, {0.71, 0.57, 0.27}, {0.48, 0.52, 0.58}};
 
-// Principal axes under the pose. The ellipsoid is given in the body frame, whose origin is moved.
-static solid_ellipsoid make_ellipsoid(const ovoid_ellipsoid *e, const mat3 *rotation, vec3 origin, vec3 position) {
+/// Where a body's frame is in the world: x -> position + rotation (origin + x).
+typedef struct body_frame {
+    mat3 rotation;
+    vec3 origin, position;
+} body_frame;
+
+// By its principal axes, or by the columns of the symmetric root Q^1/2.
+static solid_ellipsoid make_ellipsoid(const ovoid_ellipsoid *e, const body_frame *frame, int symmetric) {
     eigen3 eigen = sym3_compute_eigen(e->q);
     const vec3 rows[3] = {eigen.v.r0, eigen.v.r1, eigen.v.r2};
-    solid_ellipsoid s;
-    s.center = vec3_add(position, mat3_mul_vec3(*rotation, vec3_add(origin, e->center)));
+    double radius[3];
+    for (int i = 0; i < 3; i++) radius[i] = sqrt(fmax(eigen.value[i], 0));
+    solid_ellipsoid s = {.is_solid = radius[0] > 1e-6 * radius[2]};
+    s.center = vec3_add(frame->position, mat3_mul_vec3(frame->rotation, vec3_add(frame->origin, e->center)));
     for (int i = 0; i < 3; i++) {
-        s.radius[i] = sqrt(fmax(eigen.value[2 - i], 0));
-        s.axis[i] = vec3_scale(mat3_mul_vec3(*rotation, rows[2 - i]), s.radius[i]);
+        // Principal: u = e_i of the basis. Symmetric: u = e_i of the body, whose coordinates are a column of the basis.
+        vec3 axis = {0, 0, 0}, dual = {0, 0, 0};
+        for (int k = 0; k < 3; k++) {
+            const double row[3] = {rows[k].x, rows[k].y, rows[k].z};
+            double part = symmetric ? row[i] : k == i;
+            axis = vec3_add_scaled(axis, rows[k], part * radius[k]);
+            if (s.is_solid) dual = vec3_add_scaled(dual, rows[k], part / radius[k]);
+        }
+        s.axis[i] = mat3_mul_vec3(frame->rotation, axis);
+        s.dual[i] = mat3_mul_vec3(frame->rotation, dual);
     }
     return s;
 }
@@ -74,6 +90,7 @@ ovoid_code figure_make(figure *f, const ovoid_picture_body *body, int number, co
     ovoid_polytope own = ovoid_shape_get_polytope(body->shape);
     vec3 origin = own.origin;
     double radius = ovoid_shape_get_radius(body->shape);
+    f->has_ellipsoids = own.rank >= 2;
     f->ball = own.vertex_count == 1 ? radius : 0;
     if (radius > 0 && f->ball == 0) {
         f->rounded = make_rounded(&own, radius, error);
@@ -94,8 +111,10 @@ ovoid_code figure_make(figure *f, const ovoid_picture_body *body, int number, co
         f->normals[i] = mat3_mul_vec3(rotation, f->polytope.planes[i].normal);
     ovoid_ellipsoid outer = ovoid_shape_get_outer(body->shape).ellipsoid;
     ovoid_ellipsoid inner = ovoid_shape_get_inner(body->shape).ellipsoid;
-    f->outer = make_ellipsoid(&outer, &rotation, origin, body->pose.position);
-    f->inner = make_ellipsoid(&inner, &rotation, origin, body->pose.position);
+    body_frame frame = {rotation, origin, body->pose.position};
+    f->outer = make_ellipsoid(&outer, &frame, 0);
+    f->inner = make_ellipsoid(&inner, &frame, 0);
+    f->areas = make_ellipsoid(&inner, &frame, 1);
     return OVOID_OK;
 }
 

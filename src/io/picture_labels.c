@@ -54,7 +54,9 @@ double text_get_width(const char *text, double font_size) {
     double width = 0;
     for (; *text; text++) {
         if (((unsigned char)*text & 0xc0) == 0x80) continue;
-        width += strchr("iljtfI.,:;|!'() ", *text) ? 0.38 : strchr("mwMW@", *text) ? 1.0 : 0.67;
+        width += strchr("iljtfI.,:;|!'() ", *text)                        ? 0.38
+                 : strchr("mwMW@", *text) || (unsigned char)*text >= 0x80 ? 1.0
+                                                                          : 0.69;
     }
     return width * font_size;
 }
