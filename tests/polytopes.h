@@ -97,8 +97,17 @@ static inline void made_map(made *m, mat3 a, vec3 b) {
 }
 
 static inline mat3 mat3_diagonal(double x, double y, double z) { return (mat3){{x, 0, 0}, {0, y, 0}, {0, 0, z}}; }
+/// One after another: the order of initialisers is the compiler's.
+static inline vec3 vec3_random(uint64_t *s) {
+    vec3 v;
+    v.x = random_normal(s);
+    v.y = random_normal(s);
+    v.z = random_normal(s);
+    return v;
+}
 static inline mat3 mat3_random_rotation(uint64_t *s) {
-    return quat_to_mat3((ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)});
+    vec3 v = vec3_random(s);
+    return quat_to_mat3((ovoid_quat){random_normal(s), v.x, v.y, v.z});
 }
 
 static inline made made_box(double x, double y, double z) {
@@ -235,7 +244,7 @@ static inline made made_hull(const double *xyz, uint32_t count) {
 static inline made made_random(uint32_t count, int on_sphere, uint64_t *seed) {
     double *v = malloc(3 * sizeof(double) * count);
     for (uint32_t i = 0; i < count; i++) {
-        vec3 p = {random_normal(seed), random_normal(seed), random_normal(seed)};
+        vec3 p = vec3_random(seed);
         if (on_sphere) p = vec3_unit(p);
         memcpy(v + 3 * i, &p, sizeof p);
     }

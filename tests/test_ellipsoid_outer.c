@@ -242,7 +242,7 @@ static void check_time(void) {
     uint64_t s = 61;
     made bodies[] = {made_sphere(50), made_prism(5000), made_sphere(50)};
     for (uint32_t v = 0; v < bodies[2].p.vertex_count; v++) {
-        vec3 x = vec3_unit(vec3_make(random_normal(&s), random_normal(&s), random_normal(&s)));
+        vec3 x = vec3_unit(vec3_random(&s));
         memcpy(bodies[2].vertices + 3 * v, &(vec3){x.x, 3 * x.y, 0.01 * x.z}, sizeof x);
     }
     for (int i = 0; i < 3; i++) {

@@ -20,15 +20,26 @@ typedef struct ovoid_ellipsoid {
     ovoid_sym3 q;
 } ovoid_ellipsoid;
 
-/** The result of an offline step. */
+/**
+ * The result of an offline step.
+ *
+ * What is proven, for the doubles returned. Outer, any rank: Q - (v - center)(v - center)' is positive semidefinite for
+ * every vertex v, hence h(n) >= n . v in every direction n, whether Q is singular or not. A flat body gets the
+ * thickness that this takes: none if it lies in a coordinate plane or along an axis, else about 1e-8 of its size, since
+ * Q is stored in six doubles. Inner and phases, rank 3: the ellipsoid lies in the convex hull of the vertices and Q is
+ * positive definite; only of a body thinner than a few roundings is Q zero, with a vertex as center. Rank below 3: the
+ * ellipse in the polygon's plane or the segment itself, for information and drawing; nothing is proven to lie inside,
+ * as the rounded center may miss the plane.
+ */
 typedef struct ovoid_fit {
     ovoid_ellipsoid ellipsoid;
-    double volume;       /**< of the ellipsoid; area or length where the body is flat */
-    double gap;          /**< proven relative gap of that volume to the optimum; NaN where the step proves none */
+    double volume;       /**< of the ellipsoid; area or length by the body's rank */
+    double gap;          /**< proven relative gap of that volume to the optimum, infinity where none is; NaN for the
+                              phases, which have none; flat bodies: true up to their deviation from the plane */
     uint32_t iterations; /**< of the solver or bisection */
-    uint32_t converged;  /**< 1 if the gap asked for was reached; else the ellipsoid is contained all the same */
+    uint32_t converged;  /**< 1 if the gap asked for was reached; else what is proven is proven all the same */
     double beta;         /**< phase 2 only: the final beta, 0 where the stretch is stuck */
-    uint32_t facet;      /**< phase 2 only: the farthest facet that s was taken from */
+    uint32_t facet;      /**< phase 2 only: the farthest facet that s was taken from (flat: edge or end) */
 } ovoid_fit;
 
 /**
@@ -64,7 +75,7 @@ OVOID_API ovoid_fit ovoid_ellipsoid_compute_enlarged(const ovoid_polytope *polyt
 OVOID_API ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
                                                    const ovoid_allocator *allocator);
 
-/** Radii in descending order; zero where the ellipsoid is flat. */
+/** Radii in descending order; zero where the ellipsoid is flat. Relative error 2^-50 times longest over shortest. */
 OVOID_API ovoid_vec3 ovoid_ellipsoid_compute_radii(const ovoid_ellipsoid *ellipsoid);
 
 /** Volume, 4/3 pi sqrt(det Q). */

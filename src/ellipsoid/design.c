@@ -10,12 +10,18 @@
 // Sun, M. J. Todd, Linear convergence of a modified Frank-Wolfe algorithm for computing minimum-volume enclosing
 // ellipsoids, 2008.
 //
+// Where they crawl, since the optimum is flat in the weights, Newton steps on the weighted points follow.
+//
 // The steps run on a few points at a time; then all points are evaluated, the worst of each direction join, and points
 // that cannot carry weight at the optimum are dropped for good: R. Harman and L. Pronzato, Improvements on removing
 // nonoptimal support points in D-optimum design algorithms, 2007. Start: P. Kumar and E. A. Yildirim, Minimum-volume
 // enclosing ellipsoids and core sets, 2005.
-// Cost: about ten evaluations of all points, and some hundred steps of the cost of a few dozen points each.
+// Cost: about ten evaluations of all points, and some hundred steps of the cost of a few dozen points each; at most 200
+// and 600 000.
 #include "ellipsoid/design.h"
+
+// Most weights that Newton steps are made for.
+enum { POLISHED = 32 };
 
 // The points with the smallest and the largest n . x.
 static void find_extremes(const double *vertices, uint32_t count, vec3 n, uint32_t extreme[2]) {
@@ -134,10 +140,73 @@ static int exchange(design *d, double excess) {
     return 1;
 }
 
+// The Newton step of the weights that are not zero, for the logarithm of the determinant: its second derivative is
+// minus the squares of v_ij, its first v_i. A trace of the identity is added, since more than (k + 1)(k + 2) / 2
+// weights are not unique.
+static int compute_newton_step(const design *d, const uint32_t *index, uint32_t n, double step[POLISHED]) {
+    double a[POLISHED][POLISHED], p[POLISHED], q[POLISHED], sum_p = 0, sum_q = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        vec3 x = vec3_sub(vec3_at(d->local, d->point[index[i]]), d->mean), hx = sym3_mul_vec3(d->inverse, x);
+        for (uint32_t j = 0; j <= i; j++) {
+            double v = 1 + vec3_dot(hx, vec3_sub(vec3_at(d->local, d->point[index[j]]), d->mean));
+            a[i][j] = v * v;
+        }
+        a[i][i] *= 1 + 1e-12;
+        p[i] = d->variance[index[i]], q[i] = 1;
+    }
+    // Cholesky, and both right sides forward, then back.
+    for (uint32_t i = 0; i < n; i++) {
+        for (uint32_t j = 0; j <= i; j++) {
+            for (uint32_t k = 0; k < j; k++) a[i][j] -= a[i][k] * a[j][k];
+            if (i == j && !(a[i][i] > 0)) return 0;
+            a[i][j] = i == j ? sqrt(a[i][i]) : a[i][j] / a[j][j];
+        }
+        for (uint32_t k = 0; k < i; k++) p[i] -= a[i][k] * p[k], q[i] -= a[i][k] * q[k];
+        p[i] /= a[i][i], q[i] /= a[i][i];
+    }
+    for (uint32_t i = n; i-- > 0;) {
+        for (uint32_t k = i + 1; k < n; k++) p[i] -= a[k][i] * p[k], q[i] -= a[k][i] * q[k];
+        p[i] /= a[i][i], q[i] /= a[i][i];
+        sum_p += p[i], sum_q += q[i];
+    }
+    // The sum of the weights stays.
+    for (uint32_t i = 0; i < n; i++) step[i] = p[i] - sum_p / sum_q * q[i];
+    return 1;
+}
+
+// Newton steps on the weights that are not zero, as long as the determinant grows; where a weight would turn negative
+// the step ends at zero. For optima so flat in the weights that exchanges crawl.
+static int polish(design *d, double excess) {
+    for (int iteration = 0; iteration < 20; iteration++) {
+        uint32_t index[POLISHED], n = 0, gone = UINT32_MAX;
+        double step[POLISHED], before[POLISHED], top = 0, part = 1, content = sym3_det(d->inverse);
+        for (uint32_t i = 0; i < d->count; i++) {
+            if (!(d->weight[i] > 0)) continue;
+            if (n == POLISHED) return 1;
+            before[n] = d->weight[i];
+            index[n++] = i;
+            top = fmax(top, d->variance[i]);
+        }
+        if (top <= (d->rank + 1) * (1 + excess) || !compute_newton_step(d, index, n, step)) return 1;
+        for (uint32_t i = 0; i < n; i++)
+            if (part * step[i] < -before[i]) part = -before[i] / step[i], gone = index[i];
+        for (uint32_t i = 0; i < n; i++) d->weight[index[i]] = fmax(before[i] + part * step[i], 0);
+        if (gone != UINT32_MAX) d->weight[gone] = 0;
+        d->steps++;
+        if (evaluate(d) && sym3_det(d->inverse) <= content) continue;
+        for (uint32_t i = 0; i < n; i++) d->weight[index[i]] = before[i];
+        return evaluate(d);
+    }
+    return 1;
+}
+
 // Steps among the points at hand until their excess is small; then those without weight leave.
 static int settle(design *d, double excess) {
     int defined = evaluate(d);
-    for (int i = 0; i < 3000 && defined && exchange(d, excess); i++) defined = evaluate(d);
+    for (int i = 1; i < 3000 && defined && exchange(d, excess); i++) {
+        defined = evaluate(d);
+        if (i % 100 == 0 && defined) defined = polish(d, 0.5 * excess);
+    }
     uint32_t count = 0;
     for (uint32_t i = 0; i < d->count; i++)
         if (d->weight[i] > 0) d->point[count] = d->point[i], d->weight[count++] = d->weight[i];

@@ -20,8 +20,9 @@
 // The body in coordinates z, x = origin + map z, where it is round.
 typedef struct work {
     const ovoid_polytope *polytope;
-    double *local; // z of each vertex
-    double reach;  // the largest |z| of the body
+    double *local;       // z of each vertex
+    uint32_t *candidate; // room for the outer solver
+    double reach;        // the largest |z| of the body
     vec3 origin;
     mat3 map, inverse;
     double height; // of the prism over a flat polygon, to either side
@@ -44,9 +45,9 @@ static mat3 compute_root(sym3 s, mat3 *inverse) {
 }
 
 // The map from the unit ball to a rough outer ellipsoid, and the vertices in its coordinates.
-static void whiten(work *w, uint32_t *candidate) {
+static void whiten(work *w) {
     const ovoid_polytope *p = w->polytope;
-    design d = {.local = w->local, .candidate = candidate};
+    design d = {.local = w->local, .candidate = w->candidate};
     frame f = frame_compute(p->vertices, p->vertex_count, p->rank);
     design_solve(&d, &f, p->vertices, p->vertex_count, 0.02);
     // x = f.origin + axes' half (mean + root z).
@@ -77,8 +78,8 @@ static void lower(const work *w, uint32_t t, constraint *c) {
     }
 }
 
-// Of a solid: a half-space for each facet that has a triangle. Of the normal of its largest triangle and that of its
-// plane the one that cuts less: a sliver's own normal may be noise, and so may be the plane's.
+// Of a solid: a half-space for each facet that has a triangle, by the exact normal of its largest triangle; by that of
+// its plane where the former cuts much deeper, as a sliver's may that is folded against its neighbours.
 static void build_from_facets(work *w) {
     const ovoid_polytope *p = w->polytope;
     for (uint32_t f = 0; f < p->facet_count; f++) w->constraints[f] = (constraint){.y = 0};
@@ -101,7 +102,7 @@ static void build_from_facets(work *w) {
     w->count = 0;
     for (uint32_t f = 0; f < p->facet_count; f++) {
         constraint c = w->constraints[f];
-        if (c.h > c.b) c.b = c.h, c.n = c.w;
+        if (c.h > 1.01 * c.b) c.b = c.h, c.n = c.w;
         if (c.y > 0) w->constraints[w->count++] = c;
     }
 }
@@ -115,7 +116,7 @@ static void build_from_edges(work *w) {
             vec3 a = vec3_at(w->local, v), b = vec3_at(w->local, p->neighbors[k]), e = vec3_sub(b, a);
             vec3 n = vec3_unit((vec3){e.y, -e.x, 0});
             if (vec3_dot(n, a) < 0) n = vec3_neg(n);
-            if (p->neighbors[k] > v && vec3_max_abs(n) > 0)
+            if (p->neighbors[k] > v && vec3_max_abs(n) > 0 && w->count < p->vertex_count)
                 w->constraints[w->count++] = (constraint){.n = n, .b = fmin(vec3_dot(n, a), vec3_dot(n, b))};
         }
     w->constraints[w->count++] = (constraint){.n = {0, 0, 1}, .b = 1};
@@ -129,7 +130,7 @@ static inscribed solve(const work *w, double gap) {
     for (uint32_t i = 0; i < w->count; i++) least = fmin(least, w->constraints[i].b);
     inscribed s = {.e = sym3_diagonal(0.1, 0.1, 0.1)};
     if (!(least > 0) || !isfinite(least)) return s;
-    inscribed solved = inscribe_solve(w->constraints, w->count, 0.02 * fmin(gap, 1));
+    inscribed solved = inscribe_solve(w->constraints, w->count, fmax(0.02 * fmin(gap, 1), 1e-14));
     vec3 x;
     return vec3_is_finite(solved.x) && sym3_solve(solved.e, (vec3){0, 0, 0}, &x) ? solved : s;
 }
@@ -215,8 +216,9 @@ static ovoid_code compute(const ovoid_polytope *p, double gap, ovoid_fit *fit, c
     double *local = allocator_allocate(memory, p->vertex_count, 3 * sizeof(double) + sizeof(uint32_t));
     constraint *constraints = allocator_allocate(memory, walls, sizeof(constraint));
     if (local && constraints) {
-        work w = {.polytope = p, .local = local, .constraints = constraints};
-        whiten(&w, (uint32_t *)(local + 3 * (size_t)p->vertex_count));
+        uint32_t *candidate = (uint32_t *)(local + 3 * (size_t)p->vertex_count);
+        work w = {.polytope = p, .local = local, .candidate = candidate, .constraints = constraints};
+        whiten(&w);
         if (p->rank == 3)
             build_from_facets(&w);
         else

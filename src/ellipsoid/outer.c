@@ -77,16 +77,17 @@ static sym3 combine(const moments *m, double scale, double thickness) {
 // An ellipsoid of the covariance's form that is proven to enclose, by trials from a given thickness; in units of S.
 static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double rank, double thickness) {
     sym3 q = {0, 0, 0, 0, 0, 0};
-    double scale = rank, unit = ldexp(1, m->exponent);
-    for (int trial = 0; trial < 200; trial++) {
+    double scale = rank, unit = ldexp(1, m->exponent), slack = ROUNDING;
+    for (int trial = 0; trial < 120; trial++) {
         q = combine(m, scale, thickness);
         ovoid_ellipsoid e = {m->center, sym3_scale(sym3_scale(q, unit), unit)};
         double bound = ellipsoid_compute_enclosing_bound(polytope, &e);
         if (bound <= 1) break;
         // What is missing is either size, or thickness that rounding destroyed.
-        if (bound <= 2)
-            scale *= bound * (1 + ldexp(ROUNDING, trial / 4));
-        else
+        if (bound <= 2) {
+            scale *= bound * (1 + slack);
+            slack *= 2;
+        } else
             thickness = fmax(2 * thickness, ROUNDING);
     }
     return q;
@@ -95,7 +96,7 @@ static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double ran
 static void fill_fit(const ovoid_polytope *polytope, const design *d, uint32_t rank, double gap, ovoid_fit *fit) {
     moments m = compute_moments(d, polytope->vertices, polytope->vertex_count);
     double unit = ldexp(1, m.exponent), measure = ball_get_measure((int)rank), best = INFINITY;
-    double least = pow(rank, 0.5 * rank) * sym3dd_compute_content(&m.covariance, (int)rank);
+    double least = sqrt(rank == 3 ? 27 : rank == 2 ? 4 : 1) * sym3dd_compute_content(&m.covariance, (int)rank);
     *fit = (ovoid_fit){.ellipsoid.center = m.center, .iterations = d->steps, .gap = INFINITY};
     // Thin axes that rounding hurts: a little thickness beforehand may cost less than a larger scale afterwards.
     for (int i = 0; i < 5 && !fit->converged; i++) {
@@ -105,7 +106,7 @@ static void fill_fit(const ovoid_polytope *polytope, const design *d, uint32_t r
         if (!(content < best)) continue;
         best = content;
         fit->ellipsoid.q = sym3_scale(sym3_scale(q, unit), unit);
-        fit->volume = measure * pow(unit, rank) * content;
+        fit->volume = measure * ldexp(content, (int)rank * m.exponent);
         // Both contents are true to 2^-45; 1e-13 covers them.
         if (least > 0) fit->gap = content / least - 1 + 1e-13;
         fit->converged = fit->gap <= gap;

@@ -5,6 +5,7 @@
 // needed. A phase never returns less than it was given: where there is no room, it returns its input. Flat bodies:
 // within the plane, against the edges; a segment: against its ends. Nothing is proven of these. Cost: 40 to 250
 // evaluations of all facets a phase.
+#include "ellipsoid/contain.h"
 #include "ellipsoid/seal.h"
 #include "ellipsoid/walls.h"
 
@@ -20,7 +21,7 @@ static int is_inside(const walls *w, const ovoid_ellipsoid *e) {
 }
 
 // The largest t in [low, high] that is inside, by bisection; low is taken to be.
-static double bisect(const walls *w, family make, const void *context, double range[2], uint32_t *iterations) {
+static double bisect(const walls *w, family make, const void *context, const double range[2], uint32_t *iterations) {
     double low = range[0], high = range[1];
     ovoid_ellipsoid e = make(context, high);
     if (is_inside(w, &e)) return high;
@@ -35,14 +36,15 @@ static double bisect(const walls *w, family make, const void *context, double ra
     return low;
 }
 
-// The proven result, or the input where that is larger.
+// The proven result, or the input where that is larger and proven too.
 static ovoid_fit finish(const walls *w, const ovoid_ellipsoid *e, const ovoid_ellipsoid *input) {
     sym3dd q = sym3dd_from(e->q);
     uint32_t rank = w->polytope->rank;
     ovoid_fit fit = {.ellipsoid = ellipsoid_compute_sealed(w->polytope, e->center, &q), .gap = NAN, .converged = 1};
     fit.volume = ellipsoid_compute_measure(&fit.ellipsoid, rank);
     double before = input ? ellipsoid_compute_measure(input, rank) : 0;
-    if (input && before >= fit.volume) fit.ellipsoid = *input, fit.volume = before;
+    if (input && before >= fit.volume && (rank < 3 || ellipsoid_is_enclosed(w->polytope, input)))
+        fit.ellipsoid = *input, fit.volume = before;
     return fit;
 }
 
@@ -107,7 +109,7 @@ static double compute_gauge(sym3 q, vec3 d, uint32_t rank) {
     eigen3 e = sym3_compute_eigen(q);
     const vec3 axis[3] = {e.v.r0, e.v.r1, e.v.r2};
     double sum = 0;
-    for (uint32_t i = 3 - rank; i < 3; i++) sum += pow(vec3_dot(axis[i], d), 2) / e.value[i];
+    for (uint32_t i = 3 - rank; i < 3; i++) sum += vec3_dot(axis[i], d) / e.value[i] * vec3_dot(axis[i], d);
     return sqrt(sum);
 }
 

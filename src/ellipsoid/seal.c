@@ -20,13 +20,13 @@ static sym3 round_scaled(const sym3dd *q, double scale) {
 static int shrink(const ovoid_polytope *polytope, const sym3dd *q, ovoid_ellipsoid *e) {
     double scale = 1;
     factor f;
-    for (int trial = 0; trial < 60; trial++) {
+    for (int trial = 0; trial < 44; trial++) {
         e->q = round_scaled(q, scale);
         if (!factor_make(e->q, &f) || f.count < 3) return 0;
         double clear = ellipsoid_compute_clear_bound(polytope, e);
         if (clear >= 1) return 1;
         if (!(clear > 0.5)) return 0;
-        scale *= clear * clear * (1 - ldexp(ROUNDING, 1 + trial / 4));
+        scale *= clear * clear * (1 - ldexp(ROUNDING, 1 + trial));
     }
     return 0;
 }
