@@ -31,8 +31,11 @@ static int is_near_boundary(pool *p, const ovoid_polytope *polytope, const nvec 
         if (!triangle_is_farther(p, corners[v[0]], corners[v[1]], corners[v[2]], square)) return 1;
     }
     if (polytope->triangle_count) return 0;
-    if (polytope->vertex_count == 1) return num_compare(p, nvec_norm_squared(p, corners[0]), square) <= 0;
-    return !segment_is_farther(p, corners[0], corners[1], square);
+    // No triangles: every segment between vertices, or the one point.
+    for (uint32_t i = 0; i < polytope->vertex_count; i++)
+        for (uint32_t k = i; k < polytope->vertex_count; k++)
+            if (!segment_is_farther(p, corners[i], corners[k], square)) return 1;
+    return 0;
 }
 
 static int is_in_body(pool *p, const body *b, nvec point, num reach) {

@@ -1,0 +1,211 @@
+// Pairs on which other libraries failed, from their issue threads. Truth: brute force over all features in exact
+// arithmetic (the bodies have few vertices), the exact judge for every answer, and the number of the thread where there
+// is one. Poses given as matrices are applied to the vertices in doubles, so the hulls judged are those asked about.
+#include "trial.h"
+
+static tally counts = {.name = "known cases"};
+
+typedef struct known {
+    const char *name;
+    const double *a, *b;
+    size_t count_a, count_b;
+    double d, tolerance; // of the thread; infinite: brute force only
+    int sign;            // -1, 0, 1; 2: not known beforehand
+} known;
+
+static void check_known(const known *k) {
+    ovoid_pair pair = {ovoid_shape_create_from_points(k->a, k->count_a, NULL, NULL),
+                       ovoid_shape_create_from_points(k->b, k->count_b, NULL, NULL), ovoid_pose_make_identity(),
+                       ovoid_pose_make_identity()};
+    uint64_t state = 1;
+    judge_truth truth;
+    (void)trial_ask(&counts, &pair, NULL, &state);
+    CHECK_EQ(judge_compute_truth(trial_judge, &pair, &truth, NULL), OVOID_OK);
+    ovoid_answer x = ovoid_depth(&pair, NULL, NULL, NULL);
+    printf("%-16s %-11s %.17g, brute force %.17g\n", k->name, ovoid_status_get_name(x.status),
+           0.5 * (x.lower + x.upper), truth.low);
+    // The bracket holds the truth, to 1e-9 of the pair's size; the sign is the truth's.
+    CHECK_LE(x.lower, truth.high);
+    CHECK_LE(truth.low, x.upper);
+    CHECK_LE(x.upper - x.lower, 1e-9 * pair_size(&pair));
+    CHECK(x.status != OVOID_UNDECIDED);
+    if (x.status == OVOID_SEPARATED) CHECK_EQ(truth.sign, 1);
+    if (x.status == OVOID_OVERLAPPING) CHECK_EQ(truth.sign, -1);
+    if (k->sign != 2) CHECK_EQ(truth.sign, k->sign);
+    CHECK_NEAR(truth.low, k->d, k->tolerance);
+    ovoid_shape_destroy((ovoid_shape *)pair.shape_a);
+    ovoid_shape_destroy((ovoid_shape *)pair.shape_b);
+    judge_forget(trial_judge);
+}
+
+// The corners of a box of these full sizes under a 3 x 4 matrix.
+static void set_box(double *xyz, double x, double y, double z, const double *m) {
+    for (int i = 0; i < 8; i++) {
+        double v[3] = {i & 1 ? x / 2 : -x / 2, i & 2 ? y / 2 : -y / 2, i & 4 ? z / 2 : -z / 2};
+        for (int r = 0; r < 3; r++)
+            xyz[3 * i + r] = m[4 * r] * v[0] + m[4 * r + 1] * v[1] + m[4 * r + 2] * v[2] + m[4 * r + 3];
+    }
+}
+
+typedef struct boxes {
+    const char *name;
+    double size_a[3], at_a[12], size_b[3], at_b[12], d, tolerance;
+    int sign;
+} boxes;
+
+static const boxes box_cases[] = {
+    // Off by far at a tolerance of 1e-6; the thread has the distance. Its matrices have 10 digits.
+    {"coal#604",
+     {0.363, 0.277, 0.363},
+     {0.9999195703, 0.01021849413, 0.007512347878, 1.503354966, -0.01021878248, 0.9999477869, -3.329855922e-17,
+      -0.8531707835, -0.007511955635, -7.676704888e-05, 0.9999717819, 0.7700092418},
+     {0.363, 0.363, 0.277},
+     {0.9998670967, -0.01297708324, 0.009868343982, 1.48838308, 0.01297771517, 0.9999157859, 5.255670031e-17,
+      -1.102020834, -0.009867512928, 0.0001280685574, 0.9999513067, 0.4497073799},
+     3.57545430925419e-06,
+     1e-9,
+     1},
+    // Kissing boxes of one orientation: EPA threw, since the origin was outside of its polytope.
+    {"fcl#493",
+     {0.5, 0.5, 0.5},
+     {0.96193976625564348026, 0.15401279915737359216, 0.22572537250328919556, 2.0770063995786869349,
+      -0.19134171618254486313, 0.96936494951283913579, 0.15401279915737359216, 0.48468247475641951239,
+      -0.19509032201612822033, -0.19134171618254486313, 0.96193976625564348026, 1.1543291419087275962},
+     {0.5, 0.5, 0.5},
+     {0.96193976625564348026, 0.15401279915737359216, 0.22572537250328919556, 2, -0.19134171618254486313,
+      0.96936494951283913579, 0.15401279915737359216, 0, -0.19509032201612822033, -0.19134171618254486313,
+      0.96193976625564348026, 1.25},
+     0,
+     1e-14,
+     2},
+    {"fcl#495",
+     {0.25, 0.25, 0.25},
+     {0.94096063217417758029, 0.29296840037289501035, 0.16959541586174811667, 0.073242100093223821977,
+      -0.23569836841299879326, 0.92661523595848427348, -0.29296840037289506586, 0.2316538089896212349,
+      -0.2429801799032638987, 0.23569836841299884878, 0.94096063217417758029, 1.3089245921032497399},
+     {0.25, 0.25, 0.25},
+     {0.94096063217417758029, 0.29296840037289501035, 0.16959541586174811667, 0, -0.23569836841299879326,
+      0.92661523595848427348, -0.29296840037289506586, 0, -0.2429801799032638987, 0.23569836841299884878,
+      0.94096063217417758029, 1.25},
+     0,
+     1e-14,
+     2},
+    // Apart, and EPA was called.
+    {"fcl#399",
+     {0.23768037557601928711, 0.15702305734157562256, 0.25},
+     {-0.099432387353076273628, 0.99504432079443971837, 0, 0.29526406526565551758, -0.99504432079443971837,
+      -0.099432387353076273628, 0, -0.013230856508016586304, 0, 0, 1, 0},
+     {0.010000000000000000208, 0.78165709971381591797, 0.25},
+     {0.99506598442099225554, 0.099215354901756730444, 0, 0.22759585694545214629, -0.099215354901756730444,
+      0.99506598442099225554, 0, 0.14974093549228112421, 0, 0, 1, 0},
+     0,
+     1,
+     2},
+    // Two unit boxes 4 apart along y: 3.16228 was the answer, 3 is the truth.
+    {"fcl#508",
+     {1, 1, 1},
+     {1, 0, 0, 0, 0, 1, 0, 4, 0, 0, 1, 0},
+     {1, 1, 1},
+     {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
+     3,
+     0,
+     1},
+    // Two cubes, one on the other: NaN; the depth is 2 - 1.9.
+    {"libccd#25",
+     {2, 2, 2},
+     {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
+     {2, 2, 2},
+     {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1.9},
+     -0.1,
+     1e-15,
+     -1},
+    // Penetrating cubes that were called apart, 2 of 10 000: of one orientation, centres near.
+    {"openGJK#13",
+     {1, 1, 1},
+     {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
+     {1, 1, 1},
+     {0, -1, 0, 0.5, 1, 0, 0, 0.25, 0, 0, 1, 0.125},
+     -0.5,
+     0,
+     -1},
+};
+
+static void test_boxes(void) {
+    for (size_t i = 0; i < sizeof box_cases / sizeof *box_cases; i++) {
+        const boxes *k = &box_cases[i];
+        double a[24], b[24];
+        set_box(a, k->size_a[0], k->size_a[1], k->size_a[2], k->at_a);
+        set_box(b, k->size_b[0], k->size_b[1], k->size_b[2], k->at_b);
+        check_known(&(known){k->name, a, b, 8, 8, k->d, k->tolerance, k->sign});
+    }
+}
+
+static void test_points(void) {
+    // A point and seven: no convergence.
+    static const double dolfinx_a[] = {44.2919, 39.7508, 18.8208};
+    static const double dolfinx_b[] = {46.0659, 38.6251, 16.3637, 44.2764, 42.3867, 18.239,  50.0397,
+                                       38.4649, 19.9843, 47.1963, 40.4563, 19.1057, 48.0266, 38.5593,
+                                       18.2475, 45.1735, 40.495,  17.3336, 48.0415, 40.4456, 18.1963};
+    check_known(&(known){"dolfinx#3653", dolfinx_a, dolfinx_b, 1, 7, 0, 10, 1});
+
+    // Overlapping prisms at coordinates of 9e4, singles: 0.0033 apart. Their sides are nearly what the z extent is:
+    // 300.
+    static const double open_a[] = {90945.08f, 54122.54f,  300, 91077.46f, 53745.082f, 300, 91454.92f, 53877.46f,  300,
+                                    91322.54f, 54254.918f, 300, 90945.08f, 54122.54f,  0,   91077.46f, 53745.082f, 0,
+                                    91454.92f, 53877.46f,  0,   91322.54f, 54254.918f, 0};
+    static const double open_b[] = {90919.64f, 54037.383f, 300, 91162.62f, 53719.637f, 300, 91480.36f, 53962.617f, 300,
+                                    91237.38f, 54280.363f, 300, 90919.64f, 54037.383f, 0,   91162.62f, 53719.637f, 0,
+                                    91480.36f, 53962.617f, 0,   91237.38f, 54280.363f, 0};
+    check_known(&(known){"openGJK#52", open_a, open_b, 8, 8, -300, 0, -1});
+
+    // Flat polygons that cross: 0.509 apart. Coplanar bodies have depth 0.
+    static const double flat_a[] = {0.795121,  -0.727851, 0, -0.178424, -0.989183, 0,
+                                    -0.412644, -0.770664, 0, 0.566564,  0.548772,  0};
+    static const double flat_b[] = {-0.211223, -0.511346, 0, -0.347973, 0.45872, 0, 0.277308, 0.969689, 0};
+    check_known(&(known){"openGJK#3", flat_a, flat_b, 4, 3, 0, 0, 0});
+
+    // Six points each: no agreement between GJK and the truth.
+    static const double six_a[] = {1.9408982677575293,  1.7555630101186028, 0.18558370457138618,  0.8325772811802072,
+                                   0.07348739881751665, 1.7363835855830982, 0.4647979626331866,   0.7802364656205514,
+                                   0.7683352436509485,  1.8147849498111688, 0.1710650007346617,   1.802196858095821,
+                                   0.05742372721610556, 1.6599005060005285, 0.014474511746654706, 1.5270861966500002,
+                                   0.4945624540164677,  0.7162419894551117};
+    static const double six_b[] = {0.13746727993941066,  0.20129636190312772, 0.34482818309629215, 0.5315223185064999,
+                                   0.859293459032485,    0.6275795914219559,  0.5810087058274663,  0.42871589938255994,
+                                   0.6201313431197037,   0.48395328848552066, 0.35710287272501984, 0.27586601014041534,
+                                   0.1586377710691551,   0.6421620047252284,  0.6487788989727401,  0.5185197562895357,
+                                   0.058044153658207476, 0.4020269780737239};
+    check_known(&(known){"distance3d#27", six_a, six_b, 6, 6, 0, 10, 2});
+
+    // A long box and a turned one that overlap: an assertion failed.
+    static const double long_a[] = {-119.5, -120.5, -119.5, -119.5, -119.5, -119.5, -119.5, -120.5,
+                                    -120.5, -119.5, -119.5, -120.5, -89.5,  -120.5, -119.5, -89.5,
+                                    -119.5, -119.5, -89.5,  -120.5, -120.5, -89.5,  -119.5, -120.5};
+    static const double turned_b[] = {-90.0,         -120.14644661, -120.85355335, -90.0,         -120.85355339,
+                                      -120.14644656, -90.70710679,  -119.64644658, -120.35355338, -90.70710679,
+                                      -120.35355336, -119.64644659, -89.29289321,  -119.64644664, -120.35355341,
+                                      -89.29289321,  -120.35355342, -119.64644662, -90.0,         -119.14644661,
+                                      -119.85355344, -90.0,         -119.85355339, -119.14644665};
+    check_known(&(known){"distance3d#72", long_a, turned_b, 8, 8, -1, 1, -1});
+}
+
+// A cube given with each corner three times, as 24 vertices (godot#41522): the same answer as from 8.
+static void test_duplicates(void) {
+    double corners[24], many[72];
+    const double here[12] = {1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0};
+    set_box(corners, 1, 1, 1, here);
+    for (int i = 0; i < 24; i++) memcpy(many + 3 * i, corners + 3 * (i % 8), 3 * sizeof(double));
+    check_known(&(known){"godot#41522", many, corners, 24, 8, -1, 0, -1});
+}
+
+int main(void) {
+    trial_judge = judge_create();
+    if (!CHECK(trial_judge != NULL)) return check_end();
+    test_boxes();
+    test_points();
+    test_duplicates();
+    judge_destroy(trial_judge);
+    tally_print_header();
+    tally_print(&counts);
+    return check_end();
+}
