@@ -30,6 +30,7 @@ int sphere_space_make(sym3 q, sym3 *root, sym3 *inverse_root, double *ratio) {
 
 vec3 direction_scaled(vec3 v) {
     double m = vec3_max_abs(v);
+    if (m > 1e-20 && m < 1e20 && vec3_is_finite(v)) return v;
     if (!(m > 0) || !vec3_is_finite(v)) return (vec3){0, 0, 0};
     int e;
     (void)frexp(m, &e);

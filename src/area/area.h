@@ -25,7 +25,7 @@ int sphere_space_make(sym3 q, sym3 *root, sym3 *inverse_root, double *ratio);
 /// The octants that a rule keeps, as bits. toward: the direction to the other body, in sphere space.
 uint32_t octants_find_kept(vec3 toward, ovoid_area_rule rule);
 
-/// A direction scaled by a power of two so that its largest coordinate is in [1/2, 1); zero where it is not finite.
+/// A direction that no mapping over- or underflows: itself, or scaled by a power of two; zero where it is not finite.
 vec3 direction_scaled(vec3 v);
 
 #endif

@@ -5,10 +5,9 @@
 // For s in (0, 1) let G = (1 - s) Qa + s Qb, G v = d = cb - ca. The point x = ca + (1 - s) Qa v = cb - s Qb v has
 //     (x - ca)' Qa^-1 (x - ca) = (1 - s)^2 v' Qa v = ma,    (x - cb)' Qb^-1 (x - cb) = s^2 v' Qb v = mb,
 // and minimises s ma(x) + (1 - s) mb(x), whose value there is F(s) = s (1 - s) d' v = s ma + (1 - s) mb. So one solve
-// gives two answers: F(s) > 1 shows that no point is in both, ma, mb <= 1 that x is. F is concave, its slope has the
-// sign of (1 - s) sqrt(v' Qa v) - s sqrt(v' Qb v), and at its maximum ma = mb = F: no third case but touching. No
-// matrix is inverted, so one of the two may be flat. Cost: one evaluation for most pairs (30 ns), two or three near
-// contact, where Newton's method runs on the slope inside a bracket.
+// gives two answers: F(s) > 1 shows that no point is in both, ma, mb <= 1 that x is. F is concave with slope ma - mb,
+// so at its maximum ma = mb = F: no third case but touching. No matrix is inverted, so one of the two may be flat. Cost:
+// one evaluation for most pairs (30 ns), two or three near contact, where Newton's method runs inside a bracket.
 #include "ellipsoid/pencil.h"
 
 int ldl3_make(sym3 q, ldl3 *f) {
