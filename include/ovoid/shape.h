@@ -52,9 +52,11 @@ typedef struct ovoid_faces {
 } ovoid_faces;
 
 /**
- * From vertices and faces that claim to be convex: checked (indices, closed surface, every vertex behind every face by
- * exact arithmetic up to the faces' own flatness), never trusted; then the hull of the vertices.
- * Errors: INDEX (place: the face), NOT_CONVEX (place: the face), and those of ovoid_shape_create_from_points.
+ * From vertices and faces that claim to be convex: checked, never trusted; then the hull of the vertices. Checked are
+ * the indices, that every edge is run through once in each direction (equal points count as one), and that no vertex is
+ * above any face's plane by more than the face's own corners are off it, or 64 roundings of the largest coordinate.
+ * Errors: INDEX (place: the face), NOT_CONVEX (place: the face), and those of ovoid_shape_create_from_points; EMPTY
+ * where there are no faces.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_from_faces(const ovoid_faces *faces, const ovoid_shape_options *options,
                                                      ovoid_error *error);

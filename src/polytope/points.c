@@ -74,23 +74,34 @@ static uint64_t compute_hash(const double *p) {
     return h;
 }
 
-// The first of each run of equal points into p->source.
-static void find_distinct(const double *xyz, size_t count, uint32_t *table, size_t mask, points *p) {
-    memset(table, 0xff, (mask + 1) * sizeof *table);
+int points_find_first(const double *xyz, size_t count, const ovoid_allocator *allocator, uint32_t *first) {
+    size_t capacity = 16;
+    while (capacity < 2 * count) capacity *= 2;
+    uint32_t *table = allocator_allocate(allocator, capacity, sizeof *table);
+    if (!table) return 0;
+    memset(table, 0xff, capacity * sizeof *table);
     for (size_t i = 0; i < count; i++) {
         const double *a = xyz + 3 * i;
-        size_t slot = (size_t)compute_hash(a) & mask;
-        for (; table[slot] != NOTHING; slot = (slot + 1) & mask) {
+        size_t slot = (size_t)compute_hash(a) & (capacity - 1);
+        for (; table[slot] != NOTHING; slot = (slot + 1) & (capacity - 1)) {
             const double *b = xyz + 3 * (size_t)table[slot];
             if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) break;
         }
-        if (table[slot] != NOTHING) {
-            p->duplicates++;
-            continue;
-        }
-        table[slot] = (uint32_t)i;
-        p->source[p->count++] = (uint32_t)i;
+        if (table[slot] == NOTHING) table[slot] = (uint32_t)i;
+        first[i] = table[slot];
     }
+    allocator_release(allocator, table);
+    return 1;
+}
+
+// The points that are the first of their kind, into p->source.
+static int find_distinct(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p) {
+    p->source = allocator_allocate(allocator, count, sizeof *p->source);
+    if (!p->source || !points_find_first(xyz, count, allocator, p->source)) return 0;
+    for (size_t i = 0; i < count; i++)
+        if (p->source[i] == i) p->source[p->count++] = (uint32_t)i;
+    p->duplicates = count - p->count;
+    return 1;
 }
 
 // A coordinate of the body frame in units of the grid: times 2^e in two steps, as that may not be a double by itself;
@@ -125,15 +136,7 @@ ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator 
     if (code) return code;
     p->origin = make_origin(xyz, count, low, high);
 
-    size_t capacity = 16;
-    while (capacity < 2 * count) capacity *= 2;
-    uint32_t *table = allocator_allocate(allocator, capacity, sizeof *table);
-    p->source = allocator_allocate(allocator, count, sizeof *p->source);
-    if (table && p->source) {
-        find_distinct(xyz, count, table, capacity - 1, p);
-        p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
-    }
-    allocator_release(allocator, table);
+    if (find_distinct(xyz, count, allocator, p)) p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
     if (!p->grid) {
         points_destroy(p, allocator);
         return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu points", count);

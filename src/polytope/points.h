@@ -23,6 +23,9 @@ ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator 
                          ovoid_error *error);
 void points_destroy(points *p, const ovoid_allocator *allocator);
 
+/// The first point that equals each one, 0 and -0 being the same; count at most POINTS_MAX. 0 where there is no memory.
+int points_find_first(const double *xyz, size_t count, const ovoid_allocator *allocator, uint32_t *first);
+
 /// Drops the points where keep is zero.
 void points_keep(points *p, const uint8_t *keep);
 

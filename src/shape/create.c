@@ -29,23 +29,35 @@ static ovoid_fit compute_phases(const ovoid_polytope *p, const ovoid_ellipsoid *
 
 static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
-    ovoid_code code = ovoid_ellipsoid_compute_outer(&p, o->gap, &shape->outer_fit, &shape->allocator);
+    ovoid_fit outer, inner;
+    ovoid_code code = ovoid_ellipsoid_compute_outer(&p, o->gap, &outer, &shape->allocator);
     if (code != OVOID_OK) return code;
     if (o->inner == OVOID_INNER_MAXIMUM)
-        code = ovoid_ellipsoid_compute_inner(&p, o->gap, &shape->inner_fit, &shape->allocator);
+        code = ovoid_ellipsoid_compute_inner(&p, o->gap, &inner, &shape->allocator);
     else
-        shape->inner_fit = compute_phases(&p, &shape->outer_fit.ellipsoid);
-    shape->outer = shape->outer_fit.ellipsoid;
-    shape->inner = shape->inner_fit.ellipsoid;
+        inner = compute_phases(&p, &outer.ellipsoid);
+    if (code == OVOID_OK) shape_set_fits(shape, &outer, &inner);
     return code;
 }
 
-static ovoid_shape *create_from_hull(const hull *h, const ovoid_shape_options *o, ovoid_error *error) {
+void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner) {
+    shape->outer_fit = *outer;
+    shape->inner_fit = *inner;
+    shape->outer = outer->ellipsoid;
+    shape->inner = inner->ellipsoid;
+}
+
+ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error) {
     ovoid_polytope p = hull_get_polytope(h);
     block_counts counts = {h->vertex_count, h->triangle_count, h->facet_count, h->neighbor_starts[h->vertex_count]};
-    ovoid_shape *shape = block_create(counts, o->allocator, error);
+    ovoid_shape *shape = block_create(counts, allocator, error);
+    if (shape) block_fill(shape, &p);
+    return shape;
+}
+
+ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *o, ovoid_error *error) {
+    ovoid_shape *shape = shape_create_block(h, o->allocator, error);
     if (!shape) return NULL;
-    block_fill(shape, &p);
     shape->radius = o->radius;
     shape->report = h->report;
     ovoid_code code = fit_ellipsoids(shape, o);
@@ -66,7 +78,7 @@ ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, con
     ovoid_allocator allocator = allocator_make(o.allocator);
     hull h;
     if (hull_create(xyz, count, &allocator, &h, error) != OVOID_OK) return NULL;
-    ovoid_shape *shape = create_from_hull(&h, &o, error);
+    ovoid_shape *shape = shape_create_from_hull(&h, &o, error);
     hull_destroy(&h, &allocator);
     return shape;
 }

@@ -3,8 +3,17 @@
 #define OVOID_SHAPE_CREATE_H
 
 #include "ovoid/shape.h"
+#include "polytope/hull.h"
 
 /// The options with their defaults; NULL allowed. Errors: RADIUS, RANGE, ARGUMENT.
 ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *options, ovoid_error *error);
+
+/// A block with all that follows from the hull, but radius, report and ellipsoids. NULL with MEMORY.
+ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error);
+
+void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner);
+
+/// The shape of a hull with its ellipsoids. The options are checked already. NULL with MEMORY.
+ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *options, ovoid_error *error);
 
 #endif

@@ -1,0 +1,304 @@
+// The file of a shape (".ovoid"), version 1. docs/polytope.md has the table.
+//
+// A file holds what a shape cannot be made from again: the vertices, the ellipsoids as they were fitted, the radius,
+// and what became of the points given. Faces, adjacency, planes and measures depend on the vertices alone, bit for bit
+// (polytope/hull.h), so they are made anew; nothing in a file is an index, and nothing can be out of step. Reading
+// checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no single wrong byte escapes), the
+// size against the count, every number's range, that all vertices are extreme and in the body frame, that the rank is
+// right, and that the ellipsoids are proven to enclose and to be enclosed.
+#include "base/error.h"
+#include "ellipsoid/contain.h"
+#include "ellipsoid/walls.h"
+#include "linear/exact.h"
+#include "polytope/hull.h"
+#include "polytope/points.h"
+#include "shape/block.h"
+#include "shape/create.h"
+
+#include <string.h>
+
+#define VERSION 1
+#define OUTER_AT 104
+#define INNER_AT 216
+#define HEADER_SIZE 328
+#define CHECKSUM_SIZE 8
+static const uint8_t magic[8] = {0x89, 'O', 'V', 'O', 'I', 'D', '\n', 0x1a};
+
+static uint64_t compute_checksum(const uint8_t *bytes, size_t size) {
+    uint64_t h = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < size; i++) h = (h ^ bytes[i]) * 0x100000001b3u;
+    return h;
+}
+
+// ---- writing ----
+
+typedef struct writer {
+    uint8_t *at;
+} writer;
+
+static void put_integer(writer *w, uint64_t value, int bytes) {
+    for (int i = 0; i < bytes; i++) *w->at++ = (uint8_t)(value >> 8 * i);
+}
+
+static void put_double(writer *w, double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    put_integer(w, bits, 8);
+}
+
+static void put_vec3(writer *w, ovoid_vec3 v) {
+    put_double(w, v.x);
+    put_double(w, v.y);
+    put_double(w, v.z);
+}
+
+static void put_fit(writer *w, const ovoid_fit *f) {
+    const ovoid_sym3 *q = &f->ellipsoid.q;
+    put_vec3(w, f->ellipsoid.center);
+    put_vec3(w, (ovoid_vec3){q->xx, q->xy, q->xz});
+    put_vec3(w, (ovoid_vec3){q->yy, q->yz, q->zz});
+    put_vec3(w, (ovoid_vec3){f->volume, f->gap, f->beta});
+    put_integer(w, f->iterations, 4);
+    put_integer(w, f->converged, 4);
+    put_integer(w, f->facet, 4);
+    put_integer(w, 0, 4);
+}
+
+size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity) {
+    OVOID_ASSERT(shape);
+    size_t size = HEADER_SIZE + (size_t)shape->vertex_count * 24 + CHECKSUM_SIZE;
+    if (!buffer || capacity < size) return size;
+    writer w = {buffer};
+    memcpy(w.at, magic, sizeof magic);
+    w.at += sizeof magic;
+    put_integer(&w, VERSION, 4);
+    put_integer(&w, shape->rank, 4);
+    put_integer(&w, size, 8);
+    put_integer(&w, shape->vertex_count, 8);
+    put_double(&w, shape->radius);
+    put_vec3(&w, shape->origin);
+    put_integer(&w, shape->report.points, 8);
+    put_integer(&w, shape->report.duplicates, 8);
+    put_integer(&w, shape->report.interior, 8);
+    put_integer(&w, shape->report.coplanar, 8);
+    put_integer(&w, shape->report.faces, 8);
+    put_fit(&w, &shape->outer_fit);
+    put_fit(&w, &shape->inner_fit);
+    const double *vertices = shape_vertices(shape);
+    for (size_t i = 0; i < 3 * (size_t)shape->vertex_count; i++) put_double(&w, vertices[i]);
+    put_integer(&w, compute_checksum(buffer, size - CHECKSUM_SIZE), 8);
+    return size;
+}
+
+// ---- reading ----
+
+typedef struct reader {
+    const uint8_t *bytes;
+    size_t at;
+    ovoid_error *error;
+} reader;
+
+static uint64_t get_integer(reader *r, int bytes) {
+    uint64_t value = 0;
+    for (int i = 0; i < bytes; i++) value |= (uint64_t)r->bytes[r->at++] << 8 * i;
+    return value;
+}
+
+static double get_double(reader *r) {
+    uint64_t bits = get_integer(r, 8);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static ovoid_vec3 get_vec3(reader *r) {
+    double x = get_double(r), y = get_double(r), z = get_double(r);
+    return (ovoid_vec3){x, y, z};
+}
+
+static ovoid_fit get_fit(reader *r) {
+    ovoid_fit f = {.ellipsoid.center = get_vec3(r)};
+    ovoid_vec3 a = get_vec3(r), b = get_vec3(r), c = get_vec3(r);
+    f.ellipsoid.q = (ovoid_sym3){a.x, a.y, a.z, b.x, b.y, b.z};
+    f.volume = c.x;
+    f.gap = c.y;
+    f.beta = c.z;
+    f.iterations = (uint32_t)get_integer(r, 4);
+    f.converged = (uint32_t)get_integer(r, 4);
+    f.facet = (uint32_t)get_integer(r, 4);
+    return f;
+}
+
+// What a file says.
+typedef struct content {
+    uint32_t rank, vertex_count;
+    double radius;
+    ovoid_vec3 origin;
+    ovoid_report report;
+    ovoid_fit outer, inner;
+    double *vertices;
+} content;
+
+static ovoid_code refuse(const reader *r, size_t place, const char *what) {
+    return error_set(r->error, OVOID_ERROR_FORMAT, (int64_t)place, "byte %zu: %s", place, what);
+}
+
+// Magic, version, size and checksum: the file is one, and whole.
+static ovoid_code check_frame(reader *r, size_t size, content *c) {
+    if (size < sizeof magic || memcmp(r->bytes, magic, sizeof magic) != 0) return refuse(r, 0, "not an .ovoid file");
+    if (size < HEADER_SIZE + CHECKSUM_SIZE) return refuse(r, size, "the file ends within its header");
+    r->at = sizeof magic;
+    if (get_integer(r, 4) != VERSION) return refuse(r, 8, "written by another version of the format");
+    c->rank = (uint32_t)get_integer(r, 4);
+    uint64_t total = get_integer(r, 8), count = get_integer(r, 8);
+    if (total != size) return refuse(r, size, total > size ? "the file is truncated" : "bytes after the end");
+    if (count == 0 || count > POINTS_MAX || HEADER_SIZE + count * 24 + CHECKSUM_SIZE != total)
+        return refuse(r, 24, "the number of vertices does not agree with the size");
+    c->vertex_count = (uint32_t)count;
+    reader end = {r->bytes, size - CHECKSUM_SIZE, r->error};
+    if (get_integer(&end, 8) != compute_checksum(r->bytes, size - CHECKSUM_SIZE))
+        return refuse(r, size - CHECKSUM_SIZE, "the checksum does not agree: the file is damaged");
+    return OVOID_OK;
+}
+
+static int is_length(double v) { return fabs(v) <= OVOID_LENGTH_MAX; }
+static int is_vec3(ovoid_vec3 v) { return is_length(v.x) && is_length(v.y) && is_length(v.z); }
+
+static int is_fit(const ovoid_fit *f) {
+    return is_vec3(f->ellipsoid.center) && isfinite(f->ellipsoid.q.xx + f->ellipsoid.q.xy + f->ellipsoid.q.xz) &&
+           isfinite(f->ellipsoid.q.yy + f->ellipsoid.q.yz + f->ellipsoid.q.zz) && f->volume >= 0 &&
+           isfinite(f->volume) && f->beta >= 0 && isfinite(f->beta) && f->converged <= 1;
+}
+
+static ovoid_code read_fit(reader *r, ovoid_fit *f) {
+    size_t start = r->at;
+    *f = get_fit(r);
+    if (get_integer(r, 4) != 0 || !is_fit(f)) return refuse(r, start, "a number of an ellipsoid is out of its range");
+    return OVOID_OK;
+}
+
+static ovoid_code read_report(reader *r, content *c) {
+    size_t start = r->at;
+    ovoid_report *p = &c->report;
+    p->points = get_integer(r, 8);
+    p->duplicates = get_integer(r, 8);
+    p->interior = get_integer(r, 8);
+    p->coplanar = get_integer(r, 8);
+    p->faces = get_integer(r, 8);
+    p->vertices = c->vertex_count;
+    p->rank = c->rank;
+    if (p->points > POINTS_MAX || p->duplicates > p->points || p->interior > p->points ||
+        p->vertices + p->duplicates + p->interior != p->points || p->coplanar > p->interior)
+        return refuse(r, start, "the counts of the report do not add up");
+    return OVOID_OK;
+}
+
+static ovoid_code read_header(reader *r, content *c) {
+    c->radius = get_double(r);
+    if (!(c->radius >= 0 && is_length(c->radius))) return refuse(r, 32, "the radius is not a length");
+    c->origin = get_vec3(r);
+    if (!is_vec3(c->origin)) return refuse(r, 40, "the origin is not a point");
+    ovoid_code code = read_report(r, c);
+    if (!code) code = read_fit(r, &c->outer);
+    if (!code) code = read_fit(r, &c->inner);
+    return code;
+}
+
+// Coordinates of the body frame: origin + vertex is a double, exactly, and no zero is negative.
+static ovoid_code read_vertices(reader *r, content *c) {
+    const double origin[3] = {c->origin.x, c->origin.y, c->origin.z};
+    for (size_t i = 0; i < 3 * (size_t)c->vertex_count; i++) {
+        double v = c->vertices[i] = get_double(r);
+        if (!is_length(v) || (v == 0 && signbit(v))) return refuse(r, r->at - 8, "a coordinate is not a length");
+        dd given = two_sum(origin[i % 3], v);
+        if (given.low != 0 || !is_length(given.high))
+            return refuse(r, r->at - 8, "a coordinate is not of the body frame");
+    }
+    return OVOID_OK;
+}
+
+// Flat bodies: nothing rests on their inner ellipsoids, and a tilted one cannot be stored flatter than the root of a
+// rounding, 1e-8 of its size; so these are held to ten times that.
+static int is_flat_inner(const ovoid_polytope *p, const ovoid_ellipsoid *e, double extent) {
+    double slack = 1e-7 * extent;
+    walls w = walls_make(p);
+    for (uint32_t i = 0; i < w.count; i++) {
+        ovoid_plane wall = walls_get(&w, i);
+        if (!(ellipsoid_compute_support(e, wall.normal) <= wall.offset + slack)) return 0;
+    }
+    static const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 0; i < 3; i++) {
+        double most = -INFINITY, least = INFINITY;
+        for (uint32_t v = 0; v < p->vertex_count; v++) {
+            most = fmax(most, vec3_dot(axes[i], vec3_at(p->vertices, v)));
+            least = fmin(least, vec3_dot(axes[i], vec3_at(p->vertices, v)));
+        }
+        if (!(ellipsoid_compute_support(e, axes[i]) <= most + slack) ||
+            !(-ellipsoid_compute_support(e, vec3_neg(axes[i])) >= least - slack))
+            return 0;
+    }
+    return 1;
+}
+
+// The hull of the vertices must be these vertices.
+static ovoid_code check_hull(const reader *r, const content *c, const hull *h) {
+    if (h->vertex_count != c->vertex_count) return refuse(r, HEADER_SIZE, "a vertex is not extreme");
+    if (h->origin.x != 0 || h->origin.y != 0 || h->origin.z != 0)
+        return refuse(r, HEADER_SIZE, "the vertices are not in the body frame");
+    if (h->rank != c->rank) return refuse(r, 12, "the rank is not that of the vertices");
+    return OVOID_OK;
+}
+
+static ovoid_code check_ellipsoids(const reader *r, const content *c, const ovoid_shape *shape) {
+    ovoid_polytope p = ovoid_shape_get_polytope(shape);
+    if (!ellipsoid_is_enclosing(&p, &c->outer.ellipsoid))
+        return refuse(r, OUTER_AT, "the outer ellipsoid does not enclose");
+    if (c->rank == 3 ? !ellipsoid_is_enclosed(&p, &c->inner.ellipsoid)
+                     : !is_flat_inner(&p, &c->inner.ellipsoid, shape->extent))
+        return refuse(r, INNER_AT, "the inner ellipsoid is not enclosed");
+    return OVOID_OK;
+}
+
+static ovoid_shape *make_shape(const reader *r, const content *c, hull *h, const ovoid_allocator *allocator) {
+    h->origin = c->origin;
+    ovoid_shape *shape = shape_create_block(h, allocator, r->error);
+    if (!shape) return NULL;
+    shape->radius = c->radius;
+    shape->report = c->report;
+    shape_set_fits(shape, &c->outer, &c->inner);
+    if (!check_ellipsoids(r, c, shape)) return shape;
+    ovoid_shape_destroy(shape);
+    return NULL;
+}
+
+static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *allocator) {
+    if (read_header(r, c) || read_vertices(r, c)) return NULL;
+    hull h;
+    ovoid_code code = hull_create(c->vertices, c->vertex_count, allocator, &h, r->error);
+    if (code) {
+        if (code != OVOID_ERROR_MEMORY) refuse(r, HEADER_SIZE, "the vertices have no hull");
+        return NULL;
+    }
+    ovoid_shape *shape = check_hull(r, c, &h) ? NULL : make_shape(r, c, &h, allocator);
+    hull_destroy(&h, allocator);
+    return shape;
+}
+
+ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *given, ovoid_error *error) {
+    reader r = {bytes, 0, error};
+    content c = {0};
+    if (!bytes && size) {
+        error_set(error, OVOID_ERROR_ARGUMENT, -1, "the bytes are NULL");
+        return NULL;
+    }
+    if (check_frame(&r, size, &c)) return NULL;
+    ovoid_allocator allocator = allocator_make(given);
+    c.vertices = allocator_allocate(&allocator, c.vertex_count, 3 * sizeof *c.vertices);
+    if (!c.vertices) {
+        error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %u vertices", c.vertex_count);
+        return NULL;
+    }
+    ovoid_shape *shape = read_shape(&r, &c, &allocator);
+    allocator_release(&allocator, c.vertices);
+    return shape;
+}
