@@ -6,8 +6,8 @@
 //     (x - ca)' Qa^-1 (x - ca) = (1 - s)^2 v' Qa v = ma,    (x - cb)' Qb^-1 (x - cb) = s^2 v' Qb v = mb,
 // and minimises s ma(x) + (1 - s) mb(x), whose value there is F(s) = s (1 - s) d' v = s ma + (1 - s) mb. So one solve
 // gives two answers: F(s) > 1 shows that no point is in both, ma, mb <= 1 that x is. F is concave with slope ma - mb,
-// so at its maximum ma = mb = F: no third case but touching. No matrix is inverted, so one of the two may be flat. Cost:
-// one evaluation for most pairs (30 ns), two or three near contact, where Newton's method runs inside a bracket.
+// so at its maximum ma = mb = F: no third case but touching. No matrix is inverted, so one of the two may be flat.
+// Cost: one evaluation for most pairs (30 ns), two or three near contact, where Newton's method runs inside a bracket.
 #include "ellipsoid/pencil.h"
 
 int ldl3_make(sym3 q, ldl3 *f) {
