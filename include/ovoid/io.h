@@ -212,6 +212,8 @@ typedef struct ovoid_output ovoid_output;
 OVOID_API ovoid_output *ovoid_output_create(const char *path, ovoid_error *error);
 /** Where to write; not to be closed. */
 OVOID_API FILE *ovoid_output_get_file(ovoid_output *output);
+/** The path of the unfinished file, for signal handlers that must remove it; NULL where it is written to directly. */
+OVOID_API const char *ovoid_output_get_temporary(const ovoid_output *output);
 /** Flushes and puts the file in its place; FILE if anything was not written (a full disk), the path is as it was. */
 OVOID_API ovoid_code ovoid_output_commit(ovoid_output *output, ovoid_error *error);
 /** Frees it; what was not committed is removed. NULL is allowed. */

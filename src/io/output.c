@@ -69,6 +69,8 @@ ovoid_output *ovoid_output_create(const char *path, ovoid_error *error) {
 
 FILE *ovoid_output_get_file(ovoid_output *output) { return output->file; }
 
+const char *ovoid_output_get_temporary(const ovoid_output *output) { return output->temporary; }
+
 // Closes the file. 0 if all of it was written; a full disk may show only here.
 static ovoid_code close_file(ovoid_output *output, ovoid_error *error) {
     ovoid_code code = OVOID_OK;

@@ -1,0 +1,77 @@
+// The command line: each command is one table of options, and everything that concerns options comes from that table:
+// parsing, the messages about mistakes, --help, and the words that shell completion offers.
+#ifndef OVOID_CLI_ARGS_H
+#define OVOID_CLI_ARGS_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+/// How the program ends; the same for every command.
+typedef enum exit_code {
+    EXIT_APART = 0,      ///< apart; or done, for commands that ask nothing
+    EXIT_TOUCH = 1,      ///< touching, overlapping or within the margin
+    EXIT_USAGE = 2,      ///< the command line is wrong
+    EXIT_INPUT = 3,      ///< bad input, or output that could not be written
+    EXIT_NOT_PROVEN = 4, ///< no proof, or a proof that does not hold
+    EXIT_PIPE = 141      ///< the reader of our output went away: what a shell reports for SIGPIPE
+} exit_code;
+
+/// What an option takes, and how it is kept in the command's settings.
+typedef enum option_kind {
+    OPTION_FLAG,     ///< nothing; int 1
+    OPTION_LENGTH,   ///< a finite number >= 0; double
+    OPTION_POSITIVE, ///< a finite number > 0; double
+    OPTION_COUNT,    ///< a whole number from 1 to 1 000 000 000; unsigned
+    OPTION_CHOICE,   ///< one of `choices`; int, its place in the list
+    OPTION_SET,      ///< some of `choices`, between commas; unsigned, bit i for the i-th
+    OPTION_FILE,     ///< a path; const char *
+    OPTION_VECTOR,   ///< three numbers in one argument; ovoid_vec3
+    OPTION_POSE      ///< seven numbers in one argument; ovoid_pose
+} option_kind;
+
+/// One option.
+typedef struct cli_option {
+    const char *name; ///< without the dashes; NULL ends a table
+    char letter;      ///< short form, 0 for none
+    option_kind kind;
+    size_t offset;       ///< of its value in the settings
+    const char *value;   ///< name of the value in help, NULL for a flag
+    const char *choices; ///< "one|two|three" for OPTION_CHOICE and OPTION_SET
+    const char *help;    ///< what it does, and its default
+} cli_option;
+
+/// What is left of a command line once its options are taken: the operands, in order.
+typedef struct cli_operands {
+    const char **items;
+    int count;
+} cli_operands;
+
+/// One command of the tool.
+typedef struct cli_command {
+    const char *name;
+    const char *summary;     ///< for the list of commands
+    const char *usage;       ///< synopsis lines after the name, separated by newlines
+    const char *description; ///< paragraphs, separated by newlines
+    const char *exits;       ///< what the exit codes mean, lines "CODE text"
+    const char *examples;    ///< lines
+    const cli_option *options;
+    int operands_min, operands_max; ///< -1: no limit
+    int (*run)(const struct cli_command *command, int argc, char **argv);
+} cli_command;
+
+/// Parses argv (without the program's and the command's names) into the settings, which hold the defaults before. argv
+/// is reordered: operands come first. Returns -1 to go on, or the exit code: after --help, or after a mistake was
+/// named.
+int args_parse(const cli_command *command, int argc, char **argv, void *settings, cli_operands *operands);
+
+/// Says on stderr what is wrong with the command line, and where help is; returns EXIT_USAGE. command may be NULL.
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+int
+args_complain(const cli_command *command, const char *format, ...);
+
+/// The entry nearest to a mistyped word (at most two edits, or a third of its letters), or NULL. next gives the words.
+const char *args_find_similar(const char *word, const char *const *words, size_t count);
+
+#endif

@@ -1,0 +1,224 @@
+// ovoid batch: many pairs of a list of shapes, on several threads, results in the order of the pairs.
+#include "commands.h"
+
+#include "inputs.h"
+#include "message.h"
+#include "pipeline.h"
+#include "progress.h"
+#include "results.h"
+
+#include <ovoid/ovoid.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+/// Pairs of one piece of work. The same for any number of threads, so that the output is too.
+#define CHUNK 128
+
+enum query { QUERY_COLLIDE, QUERY_WITHIN, QUERY_DISTANCE, QUERY_DEPTH };
+
+typedef struct settings {
+    read_settings read;
+    output_settings out;
+    const char *list, *pairs;
+    int query;
+    unsigned threads; ///< 0: as many as there are processors
+    double margin, tolerance;
+} settings;
+
+static const cli_option options[] = {
+    {"shapes", 0, OPTION_FILE, offsetof(settings, list), "LIST", NULL,
+     "text file with one mesh or .ovoid path a line, relative to the list's folder (required)"},
+    {"pairs", 0, OPTION_FILE, offsetof(settings, pairs), "PAIRS.csv", NULL,
+     "the pairs, \"-\" for standard input (required)"},
+    {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", "collide|within|distance|depth",
+     "collide: do they touch? within: are they within --margin? distance: how far apart? (default) depth: the signed "
+     "distance"},
+    {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
+     "the margin of within; for distance and depth, exit code 1 if a pair is within M"},
+    {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
+     "stop when the bracket is at most T wide (default: 1e-9 of the pair's size)"},
+    {"threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,
+     "work on N threads; the output is the same bytes for any N (default: one for each processor)"},
+    INPUTS_OPTIONS(settings),
+    RESULTS_OPTIONS(settings),
+    {0},
+};
+
+/// A piece of work: pairs in, lines of text or records out.
+typedef struct chunk {
+    size_t count;
+    ovoid_indexed_pair pairs[CHUNK];
+    ovoid_answer answers[CHUNK];
+    ovoid_cover *cover; ///< of one answer after another, for depth
+    char *text;         ///< their lines
+    size_t size;
+    int failed; ///< no memory
+} chunk;
+
+/// What the whole run shares.
+typedef struct batch {
+    const settings *settings;
+    const ovoid_shapes *shapes;
+    ovoid_pairs_reader *reader;
+    cli_results results;
+    size_t done;
+    size_t counts[4]; ///< by ovoid_status
+    exit_code worst;
+    int refused; ///< a line of the pairs is wrong: *error says how
+    ovoid_error error;
+} batch;
+
+static int fill(void *context, void *slot) {
+    batch *b = context;
+    chunk *c = slot;
+    c->count = 0;
+    while (!b->refused && c->count < CHUNK) {
+        int got = ovoid_pairs_reader_read(b->reader, &c->pairs[c->count], &b->error);
+        if (got < 0) b->refused = 1;
+        if (got <= 0) break;
+        c->count++;
+    }
+    return c->count > 0;
+}
+
+static ovoid_answer ask(const settings *s, const ovoid_pair *pair, ovoid_cover *cover) {
+    ovoid_options query = {.absolute_tolerance = s->tolerance};
+    if (s->query == QUERY_COLLIDE) return ovoid_collide(pair, &query, NULL);
+    if (s->query == QUERY_WITHIN) return ovoid_within(pair, s->margin, &query, NULL);
+    if (s->query == QUERY_DISTANCE) return ovoid_distance(pair, &query, NULL);
+    return ovoid_depth(pair, &query, NULL, cover);
+}
+
+static ovoid_record make_record(const ovoid_indexed_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover) {
+    return (ovoid_record){.index_a = pair->a, .index_b = pair->b, .answer = *answer, .cover = cover};
+}
+
+static void work(void *context, void *slot) {
+    const batch *b = context;
+    chunk *c = slot;
+    int depth = b->settings->query == QUERY_DEPTH, lines = results_are_lines(&b->results);
+    if (depth && !c->cover) c->cover = malloc(sizeof *c->cover);
+    FILE *file = lines ? open_memstream(&c->text, &c->size) : NULL;
+    c->failed = (depth && !c->cover) || (lines && !file);
+    for (size_t i = 0; i < c->count && !c->failed; i++) {
+        const ovoid_indexed_pair *p = &c->pairs[i];
+        ovoid_pair pair = {ovoid_shapes_get(b->shapes, p->a).shape, ovoid_shapes_get(b->shapes, p->b).shape, p->pose_a,
+                           p->pose_b};
+        c->answers[i] = ask(b->settings, &pair, depth ? c->cover : NULL);
+        ovoid_record record = make_record(p, &c->answers[i], depth ? c->cover : NULL);
+        if (lines) results_write_line(file, &b->settings->out, &record);
+    }
+    if (file && fclose(file) != 0) c->failed = 1;
+}
+
+/// Writes a chunk's results and counts them.
+static int drain(void *context, void *slot) {
+    batch *b = context;
+    chunk *c = slot;
+    int lines = results_are_lines(&b->results), code = 0;
+    if (c->failed) {
+        message_error("out of memory");
+        return EXIT_INPUT;
+    }
+    if (lines) code = results_add_text(&b->results, c->text, c->size);
+    for (size_t i = 0; i < c->count && !code; i++) {
+        ovoid_record record = make_record(&c->pairs[i], &c->answers[i], NULL);
+        if (!lines) code = results_add(&b->results, &record);
+        b->counts[c->answers[i].status]++;
+        b->worst = results_worse(b->worst, results_judge(&c->answers[i], b->settings->margin));
+    }
+    free(c->text);
+    c->text = NULL;
+    progress_set(b->done += c->count);
+    return code;
+}
+
+static void clear(void *slot) {
+    chunk *c = slot;
+    free(c->cover);
+    free(c->text);
+}
+
+/// The number of pairs, for the progress bar; 0 where it cannot be known or nobody would see it.
+static size_t count_pairs(const char *path) {
+    char block[1 << 16];
+    size_t lines = 0, size;
+    FILE *file = message_is_terminal(stderr) && strcmp(path, "-") != 0 ? fopen(path, "rb") : NULL;
+    if (!file) return 0;
+    while ((size = fread(block, 1, sizeof block, file)) > 0)
+        for (const char *at = block; (at = memchr(at, '\n', size - (size_t)(at - block))) != NULL; at++) lines++;
+    fclose(file);
+    return lines > 1 ? lines - 1 : 0;
+}
+
+/// Runs all pairs through the pipeline; returns the exit code.
+static int run_pairs(batch *b) {
+    const settings *s = b->settings;
+    cli_pipeline line = {b, sizeof(chunk), fill, work, drain, clear};
+    if (results_open(&b->results, &s->out, s->query == QUERY_COLLIDE ? -1 : s->margin)) return EXIT_INPUT;
+    double start = progress_get_seconds();
+    progress_start("pairs", count_pairs(s->pairs));
+    int code = pipeline_run(&line, s->threads ? s->threads : pipeline_get_processors());
+    progress_end();
+    if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
+    if (!code && b->refused) message_error("%s", b->error.message), code = EXIT_INPUT;
+    code = results_close(&b->results, code ? code : (int)b->worst);
+    if (code != EXIT_INPUT && code != EXIT_PIPE)
+        message_note("%zu pairs in %.2f s; separated: %zu, touching: %zu, overlapping: %zu, undecided: %zu", b->done,
+                     progress_get_seconds() - start, b->counts[OVOID_SEPARATED], b->counts[OVOID_TOUCHING],
+                     b->counts[OVOID_OVERLAPPING], b->counts[OVOID_UNDECIDED]);
+    return code;
+}
+
+/// What the options must be together. -1 to go on, or EXIT_USAGE.
+static int check_settings(const cli_command *command, const settings *s) {
+    if (!s->list) return args_complain(command, "batch: --shapes LIST is missing");
+    if (!s->pairs) return args_complain(command, "batch: --pairs PAIRS.csv is missing");
+    if (s->query == QUERY_WITHIN && s->margin < 0)
+        return args_complain(command, "batch: --query within needs --margin");
+    if (s->query == QUERY_COLLIDE && s->margin >= 0)
+        return args_complain(command, "batch: --query collide takes no --margin; --query within does");
+    return results_check_settings(command, &s->out);
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    settings s = {.read.unit = INPUTS_NO_UNIT, .query = QUERY_DISTANCE, .margin = -1};
+    cli_operands none;
+    int code = args_parse(command, argc, argv, &s, &none);
+    if (code < 0) code = check_settings(command, &s);
+    if (code >= 0) return code;
+    batch b = {.settings = &s};
+    ovoid_shapes *shapes = inputs_read_list(s.list, &s.read);
+    if (!shapes) return EXIT_INPUT;
+    b.shapes = shapes;
+    b.reader = ovoid_pairs_reader_create(s.pairs, ovoid_shapes_get_count(shapes), &b.error);
+    if (b.reader)
+        code = run_pairs(&b);
+    else
+        message_error("%s", b.error.message), code = EXIT_INPUT;
+    ovoid_pairs_reader_destroy(b.reader);
+    ovoid_shapes_destroy(shapes);
+    return code;
+}
+
+const cli_command command_batch = {
+    .name = "batch",
+    .summary = "many pairs of a list of shapes, on several threads",
+    .usage = "[OPTION...] --shapes LIST --pairs PAIRS.csv",
+    .description =
+        "One result for each pair of PAIRS.csv, in the file's order. Its first line must be\n\n"
+        "    a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n\n"
+        "a and b are 0-based lines of LIST; the position and the quaternion of each body follow.\n\n"
+        "Pairs are read, answered and written as they come, in bounded memory. A bad line (an index that LIST does not "
+        "have, NaN, a zero quaternion) ends the run with code 3 and the line's number: what stands on standard output "
+        "by then are the results of all pairs before it; a file asked for with --output is not made.",
+    .exits = "0 every pair is apart (with --margin: farther than M)\n1 a pair touches or overlaps (or is within M)\n"
+             "2 the command line is wrong\n3 bad input, or output that could not be written\n"
+             "4 for some pair nothing is proven; this comes before 1",
+    .examples = "ovoid batch --shapes hulls.txt --pairs pairs.csv --csv -o results.csv\n"
+                "ovoid batch --shapes hulls.txt --pairs pairs.csv --query depth --json |\n"
+                "    ovoid verify - --shapes hulls.txt --pairs pairs.csv",
+    .options = options,
+    .run = run,
+};

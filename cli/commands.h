@@ -1,0 +1,9 @@
+// The commands of the tool, one file each.
+#ifndef OVOID_CLI_COMMANDS_H
+#define OVOID_CLI_COMMANDS_H
+
+#include "args.h"
+
+extern const cli_command command_fit, command_distance, command_batch, command_check, command_verify, command_view;
+
+#endif

@@ -1,0 +1,133 @@
+// ovoid distance: the signed distance of one pair, with its bracket, witness points and proof.
+#include "commands.h"
+
+#include "finish.h"
+#include "inputs.h"
+#include "message.h"
+#include "results.h"
+
+#include <ovoid/ovoid.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct settings {
+    read_settings read;
+    output_settings out;
+    ovoid_pose pose_a, pose_b;
+    double margin, tolerance; ///< margin negative: not given
+} settings;
+
+static const cli_option options[] = {
+    {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), "\"X Y Z QW QX QY QZ\"", NULL,
+     "pose of A: position, then quaternion, which need not be normalised (default: \"0 0 0 1 0 0 0\")"},
+    {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), "\"X Y Z QW QX QY QZ\"", NULL, "pose of B"},
+    {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
+     "also ask whether the bodies are within M of each other: exit code 1 if they are"},
+    {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
+     "stop when the bracket is at most T wide (default: 1e-9 of the pair's size)"},
+    INPUTS_OPTIONS(settings),
+    RESULTS_OPTIONS(settings),
+    {0},
+};
+
+static void print_vector(FILE *file, const char *title, ovoid_vec3 v) {
+    fprintf(file, "%-11s %.9g %.9g %.9g\n", title, v.x, v.y, v.z);
+}
+
+static void print_body(FILE *file, const char *title, const char *path, const ovoid_shape *shape) {
+    ovoid_report report = ovoid_shape_get_report(shape);
+    fprintf(file, "%-11s %s; vertices: %llu", title, path, (unsigned long long)report.vertices);
+    if (ovoid_shape_get_radius(shape) > 0) fprintf(file, "; radius: %.9g", ovoid_shape_get_radius(shape));
+    fputc('\n', file);
+}
+
+/// What is known about the margin, in words.
+static void print_margin(FILE *file, const ovoid_answer *answer, double margin) {
+    int within = ovoid_answer_is_within(answer, margin);
+    const char *words = within > 0                          ? "within"
+                        : within == 0                       ? "farther"
+                        : answer->limit == OVOID_LIMIT_NONE ? "exactly there, as far as the bracket tells"
+                                                            : "not proven";
+    fprintf(file, "%-11s %.9g: %s\n", "margin", margin, words);
+}
+
+/// The report for people: what, then how far, then why.
+static void print_report(FILE *file, const ovoid_pair *pair, const ovoid_record *record, double margin, int holds) {
+    const ovoid_answer *x = &record->answer;
+    double middle = x->lower + (x->upper - x->lower) / 2;
+    print_body(file, "a", record->a, pair->shape_a);
+    print_body(file, "b", record->b, pair->shape_b);
+    fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(x->status));
+    if (isfinite(middle)) fprintf(file, "%-11s %.9g\n", x->upper < 0 ? "depth" : "distance", fabs(middle));
+    fprintf(file, "%-11s %.17g .. %.17g\n", "bracket", x->lower, x->upper);
+    if (margin >= 0) print_margin(file, x, margin);
+    print_vector(file, "point on a", x->point_a);
+    print_vector(file, "point on b", x->point_b);
+    print_vector(file, "normal", x->normal);
+    fprintf(file, "%-11s %s; iterations: %u", "decided by", ovoid_stage_get_name(x->stage), (unsigned)x->iterations);
+    if (x->limit != OVOID_LIMIT_NONE) fprintf(file, "; stopped by: %s", ovoid_limit_get_name(x->limit));
+    fprintf(file, "\n%-11s %s; %s\n", "proof", ovoid_proof_kind_get_name(x->proof.kind),
+            holds ? "checked" : "DOES NOT HOLD");
+}
+
+/// Asks, checks the proof, writes. Returns the exit code.
+static int answer_pair(const settings *s, const ovoid_pair *pair, const char *const paths[2], ovoid_cover *cover) {
+    ovoid_options query = {.absolute_tolerance = s->tolerance};
+    ovoid_error error;
+    cli_results results;
+    ovoid_record record = {.a = paths[0], .b = paths[1], .cover = cover};
+    record.answer = ovoid_depth(pair, &query, NULL, cover);
+    int holds = ovoid_answer_check(pair, &record.answer, cover, &error) == OVOID_OK;
+    int code = holds ? (int)results_judge(&record.answer, s->margin) : EXIT_NOT_PROVEN;
+    if (!holds) message_error("the proof does not hold: %s", error.message);
+    if (results_open(&results, &s->out, s->margin)) return EXIT_INPUT;
+    if (results_are_lines(&results))
+        results_add(&results, &record);
+    else
+        print_report(results.file, pair, &record, s->margin, holds);
+    return results_close(&results, code);
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    settings s = {.read.unit = INPUTS_NO_UNIT,
+                  .pose_a = ovoid_pose_make_identity(),
+                  .pose_b = ovoid_pose_make_identity(),
+                  .margin = -1};
+    cli_operands paths;
+    ovoid_shape *shapes[2];
+    int code = args_parse(command, argc, argv, &s, &paths);
+    if (code < 0) code = results_check_settings(command, &s.out);
+    if (code >= 0) return code;
+    if ((code = inputs_read_pair(paths.items, &s.read, shapes)) != 0) return code;
+    ovoid_pair pair = {shapes[0], shapes[1], s.pose_a, s.pose_b};
+    ovoid_cover *cover = malloc(sizeof *cover);
+    if (cover)
+        code = answer_pair(&s, &pair, paths.items, cover);
+    else
+        message_error("out of memory"), code = EXIT_INPUT;
+    free(cover);
+    ovoid_shape_destroy(shapes[0]);
+    ovoid_shape_destroy(shapes[1]);
+    return code;
+}
+
+const cli_command command_distance = {
+    .name = "distance",
+    .summary = "the signed distance of two bodies, with its proof",
+    .usage = "[OPTION...] A B",
+    .description =
+        "The signed distance of two convex bodies: positive where they are apart, minus the depth where they overlap. "
+        "The answer is a bracket, lower <= d <= upper, rounding included, with witness points, a normal from A to B, "
+        "and a proof, which is checked before it is written.\n\n"
+        "A and B are meshes (STL, OBJ, OFF, PLY, COLLADA, glTF), of which the convex hull is meant, or .ovoid files.",
+    .exits = "0 apart (with --margin: farther than M)\n1 touching or overlapping (with --margin: within M)\n"
+             "2 the command line is wrong\n3 bad input, or output that could not be written\n4 not proven",
+    .examples = "ovoid distance a.stl b.obj --pose-b \"0 0 1.5 1 0 0 0\"\n"
+                "ovoid distance a.ovoid b.ovoid --margin 0.05 || echo too near\n"
+                "ovoid distance part.stl tool.stl --unit mm --json",
+    .options = options,
+    .operands_min = 2,
+    .operands_max = 2,
+    .run = run,
+};

@@ -1,0 +1,285 @@
+// ovoid fit: the offline steps of each mesh, one after another, each with its result and its time; .ovoid files.
+#include "fit.h"
+
+#include "commands.h"
+#include "finish.h"
+#include "inputs.h"
+#include "message.h"
+#include "progress.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef struct settings {
+    read_settings read;
+    const char *output; ///< a file, or a folder; NULL: none
+    int parts, json, csv, phases;
+    double radius, gap;
+} settings;
+
+static const cli_option options[] = {
+    {"output", 'o', OPTION_FILE, offsetof(settings, output), "PATH", NULL,
+     "write .ovoid files: PATH is the file for one body; with several meshes or --parts, or where it ends in \"/\" or "
+     "is a folder, the folder of NAME.ovoid or NAME-PART.ovoid"},
+    {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
+     "each object of a mesh file is a body of its own (default: the hull of the whole file)"},
+    {"radius", 0, OPTION_LENGTH, offsetof(settings, radius), "R", NULL,
+     "rounding radius around each body (default: 0)"},
+    {"gap", 0, OPTION_POSITIVE, offsetof(settings, gap), "G", NULL,
+     "relative volume gap of the outer and the inner ellipsoid (default: 1e-6)"},
+    {"phases", 0, OPTION_FLAG, offsetof(settings, phases), NULL, NULL,
+     "the files hold the inner ellipsoid of the three phases (default: that of maximum volume)"},
+    INPUTS_OPTIONS(settings),
+    {"json", 0, OPTION_FLAG, offsetof(settings, json), NULL, NULL, "write JSON Lines, one object a body"},
+    {"csv", 0, OPTION_FLAG, offsetof(settings, csv), NULL, NULL, "write CSV with a header line"},
+    {0},
+};
+
+/// What the whole run shares.
+typedef struct fit {
+    const settings *settings;
+    int is_folder, is_table, title_due;
+    int failed;         ///< a mesh was bad
+    char **written;     ///< paths of the files made so far
+    size_t write_count; ///< of them
+} fit;
+
+/* ---- where .ovoid files go ---- */
+
+static int is_folder(const char *path) {
+    struct stat info;
+    size_t length = strlen(path);
+    return (length && path[length - 1] == '/') || (stat(path, &info) == 0 && S_ISDIR(info.st_mode));
+}
+
+/// Appends to a name what a file name may hold; other bytes become "_".
+static void append_safe(char *name, size_t size, const char *text, size_t length) {
+    size_t at = strlen(name);
+    for (size_t i = 0; i < length && at + 1 < size; i++) {
+        unsigned char c = (unsigned char)text[i];
+        int safe = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_' ||
+                   c == '.' || c >= 128;
+        name[at++] = (char)(safe ? c : '_');
+    }
+    name[at] = 0;
+}
+
+static int is_written(const fit *f, const char *path) {
+    for (size_t i = 0; i < f->write_count; i++)
+        if (strcmp(f->written[i], path) == 0) return 1;
+    return 0;
+}
+
+/// "FOLDER/NAME-PART.ovoid", with "-2" and so on where this run has made that already. NULL where memory is out.
+static char *make_path(const fit *f, const char *mesh, const char *part) {
+    char name[200] = "";
+    const char *folder = f->settings->output, *slash = strrchr(mesh, '/'), *base = slash ? slash + 1 : mesh;
+    const char *dot = strrchr(base, '.');
+    append_safe(name, sizeof name, base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
+    if (*part) append_safe(name, sizeof name, "-", 1);
+    append_safe(name, sizeof name, part, strlen(part));
+    size_t length = strlen(folder), size = length + sizeof name + 32;
+    char *path = malloc(size);
+    if (!path) return NULL;
+    const char *separator = length && folder[length - 1] == '/' ? "" : "/";
+    snprintf(path, size, "%s%s%s.ovoid", folder, separator, name);
+    for (int i = 2; is_written(f, path); i++) snprintf(path, size, "%s%s%s-%d.ovoid", folder, separator, name, i);
+    return path;
+}
+
+/// Writes the shape and remembers the path in `written`. NULL after a message.
+static const char *write_shape(fit *f, const ovoid_shape *shape, const char *mesh, const char *part) {
+    ovoid_error error;
+    char **list = realloc(f->written, (f->write_count + 1) * sizeof *list);
+    if (list) f->written = list;
+    char *path = !list ? NULL : f->is_folder ? make_path(f, mesh, part) : strdup(f->settings->output);
+    if (!path) return message_error("out of memory"), NULL;
+    finish_hold_signals();
+    ovoid_code code = ovoid_shape_write_file(shape, path, &error);
+    finish_release_signals();
+    if (code != OVOID_OK) {
+        message_error("%s", error.message);
+        free(path);
+        return NULL;
+    }
+    return f->written[f->write_count++] = path;
+}
+
+/// Makes the folder where there must be one. 0, or EXIT_INPUT after a message.
+static int make_folder(const fit *f) {
+    const char *path = f->settings->output;
+    if (!path || !f->is_folder || mkdir(path, 0777) == 0 || errno == EEXIST) return 0;
+    message_error("%s: %s", path, strerror(errno));
+    return EXIT_INPUT;
+}
+
+/* ---- the steps ---- */
+
+/// Volume, area of one side, or length.
+static double get_measure(const ovoid_polytope *p, const ovoid_measures *measures) {
+    if (p->rank == 3) return measures->volume;
+    if (p->rank == 2) return measures->area / 2;
+    if (p->rank == 0) return 0;
+    const double *v = p->vertices;
+    return hypot(hypot(v[3] - v[0], v[4] - v[1]), v[5] - v[2]);
+}
+
+/// Runs the offline steps on the polytope, timing each. OVOID_OK or MEMORY.
+static ovoid_code run_steps(const ovoid_polytope *p, double gap, fitted *out) {
+    for (int i = 0; i < FIT_STEPS; i++) out->steps[i] = (ovoid_fit){.volume = NAN, .gap = NAN};
+    double start = progress_get_seconds();
+    ovoid_code code = ovoid_ellipsoid_compute_outer(p, gap, &out->steps[FIT_OUTER], NULL);
+    out->seconds[FIT_OUTER] = progress_get_seconds() - start;
+    if (code != OVOID_OK) return code;
+    // The paper's phases are for solids.
+    static ovoid_fit (*const phases[])(const ovoid_polytope *, const ovoid_ellipsoid *) = {
+        ovoid_ellipsoid_compute_shrunk, ovoid_ellipsoid_compute_stretched, ovoid_ellipsoid_compute_enlarged};
+    for (int i = FIT_SHRUNK; i <= FIT_ENLARGED && p->rank == 3; i++) {
+        start = progress_get_seconds();
+        out->steps[i] = phases[i - FIT_SHRUNK](p, &out->steps[i - 1].ellipsoid);
+        out->seconds[i] = progress_get_seconds() - start;
+    }
+    start = progress_get_seconds();
+    code = ovoid_ellipsoid_compute_inner(p, gap, &out->steps[FIT_INNER], NULL);
+    out->seconds[FIT_INNER] = progress_get_seconds() - start;
+    return code;
+}
+
+static void write_findings(fit *f, const fitted *found) {
+    const settings *s = f->settings;
+    if (f->title_due && s->csv) fit_write_csv_title(stdout);
+    if (f->title_due && !s->csv && !s->json && f->is_table) fit_write_table_title(stdout);
+    f->title_due = 0;
+    if (s->json)
+        fit_write_json(stdout, found);
+    else if (s->csv)
+        fit_write_csv_row(stdout, found);
+    else if (f->is_table)
+        fit_write_table_row(stdout, found);
+    else
+        fit_write_report(stdout, found);
+}
+
+/// Everything about one shape. 0, or an exit code after a message.
+static int fit_shape(fit *f, const ovoid_shape *shape, fitted *found) {
+    ovoid_polytope polytope = ovoid_shape_get_polytope(shape);
+    found->report = ovoid_shape_get_report(shape);
+    found->measures = ovoid_shape_get_measures(shape);
+    found->radius = ovoid_shape_get_radius(shape);
+    found->triangles = polytope.triangle_count;
+    found->facets = polytope.facet_count;
+    found->measure = get_measure(&polytope, &found->measures);
+    if (run_steps(&polytope, f->settings->gap, found) != OVOID_OK) {
+        message_error("%s: out of memory", found->file);
+        return EXIT_INPUT;
+    }
+    if (f->settings->output && !(found->output = write_shape(f, shape, found->file, found->name))) return EXIT_INPUT;
+    write_findings(f, found);
+    return finish_file(stdout);
+}
+
+static ovoid_shape_options make_options(const settings *s) {
+    return (ovoid_shape_options){
+        .radius = s->radius, .gap = s->gap, .inner = s->phases ? OVOID_INNER_PHASES : OVOID_INNER_MAXIMUM};
+}
+
+/// A .ovoid file: looked at as it is.
+static int fit_file(fit *f, const char *path) {
+    ovoid_error error;
+    ovoid_read_options read = inputs_make_options(&f->settings->read);
+    ovoid_shape_options make = make_options(f->settings);
+    fitted found = {.file = path, .name = ""};
+    double start = progress_get_seconds();
+    ovoid_shape *shape = ovoid_shape_read_file(path, &read, &make, &error);
+    if (!shape) return message_error("%s", error.message), f->failed = 1, 0;
+    found.read_seconds = progress_get_seconds() - start;
+    int code = fit_shape(f, shape, &found);
+    ovoid_shape_destroy(shape);
+    return code;
+}
+
+/// One part of a mesh. A bad one is named, and the run goes on.
+static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t number, double read_seconds) {
+    ovoid_error error;
+    ovoid_mesh_part part = ovoid_mesh_get_part(mesh, number);
+    ovoid_shape_options make = make_options(f->settings);
+    char name[200] = "";
+    if (f->settings->parts) snprintf(name, sizeof name, "%s", part.name);
+    if (f->settings->parts && !*name) snprintf(name, sizeof name, "part %zu", number);
+    fitted found = {.file = path, .name = name, .read_seconds = read_seconds};
+    double start = progress_get_seconds();
+    ovoid_shape *shape = ovoid_shape_create_from_points(part.faces.vertices, part.faces.vertex_count, &make, &error);
+    if (!shape) {
+        message_error("%s%s%s: %s", path, *name ? ": " : "", name, error.message);
+        return f->failed = 1, 0;
+    }
+    found.make_seconds = progress_get_seconds() - start;
+    found.report.faces = part.faces.face_count;
+    int code = fit_shape(f, shape, &found);
+    ovoid_shape_destroy(shape);
+    return code;
+}
+
+/// One mesh file, or its parts. 0, also after a bad mesh, which is named; or the exit code that ends the run.
+static int fit_mesh(fit *f, const char *path) {
+    ovoid_error error;
+    if (ovoid_path_is_shape(path)) return fit_file(f, path);
+    ovoid_read_options read = inputs_make_options(&f->settings->read);
+    read.parts = f->settings->parts;
+    double start = progress_get_seconds();
+    ovoid_mesh *mesh = ovoid_mesh_read(path, &read, &error);
+    if (!mesh) return message_error("%s", error.message), f->failed = 1, 0;
+    double seconds = progress_get_seconds() - start;
+    size_t count = ovoid_mesh_get_part_count(mesh);
+    int code = 0;
+    f->is_table |= count > 1;
+    for (size_t i = 0; i < count && !code; i++) code = fit_part(f, path, mesh, i, seconds);
+    ovoid_mesh_destroy(mesh);
+    return code;
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    settings s = {.read.unit = INPUTS_NO_UNIT};
+    cli_operands paths;
+    int code = args_parse(command, argc, argv, &s, &paths);
+    if (code >= 0) return code;
+    if (s.json && s.csv) return args_complain(command, "fit: --json and --csv exclude each other");
+    fit f = {.settings = &s, .is_table = paths.count > 1, .title_due = 1};
+    f.is_folder = s.output && (paths.count > 1 || s.parts || is_folder(s.output));
+    if ((code = make_folder(&f)) != 0) return code;
+    progress_start("meshes", (size_t)paths.count);
+    for (int i = 0; i < paths.count && !code; i++) {
+        code = fit_mesh(&f, paths.items[i]);
+        progress_set((size_t)i + 1);
+    }
+    progress_end();
+    for (size_t i = 0; i < f.write_count; i++) free(f.written[i]);
+    free(f.written);
+    return code ? code : f.failed ? EXIT_INPUT : EXIT_APART;
+}
+
+const cli_command command_fit = {
+    .name = "fit",
+    .summary = "the ellipsoids of meshes, step by step; makes .ovoid files",
+    .usage = "[OPTION...] MESH...",
+    .description =
+        "For each mesh: what became of its points, the convex hull, and the offline steps with their volumes, radii, "
+        "proven gaps and times: the smallest ellipsoid around it (outer), the three phases of Su, Liu and Chen "
+        "(shrink, "
+        "stretch, enlarge), and the largest ellipsoid inside it (inner). One body gives a report; several give a table "
+        "of volumes relative to the body's.\n\n"
+        "A .ovoid file keeps the hull and the ellipsoids, so that other commands need not find them again. A bad mesh "
+        "is named, the others are done all the same, and the exit code is 3; every file that is written is whole.",
+    .exits = "0 done\n2 the command line is wrong\n3 bad input, or output that could not be written",
+    .examples = "ovoid fit bunny.obj\n"
+                "ovoid fit --unit mm -o link3.ovoid link3.stl\n"
+                "ovoid fit --parts -o parts/ decomposed.obj\n"
+                "ovoid fit --csv *.stl > fits.csv",
+    .options = options,
+    .operands_min = 1,
+    .operands_max = -1,
+    .run = run,
+};

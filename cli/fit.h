@@ -1,0 +1,38 @@
+// What ovoid fit finds out about one body, and how it is written.
+#ifndef OVOID_CLI_FIT_H
+#define OVOID_CLI_FIT_H
+
+#include <ovoid/ovoid.h>
+
+#include <stdio.h>
+
+/// The offline steps, in the order of the report.
+enum fit_step { FIT_OUTER, FIT_SHRUNK, FIT_STRETCHED, FIT_ENLARGED, FIT_INNER, FIT_STEPS };
+
+/// All that is known of a body.
+typedef struct fitted {
+    const char *file, *name; ///< name: "" for a whole file
+    const char *output;      ///< the .ovoid file that was written, or NULL
+    ovoid_report report;
+    ovoid_measures measures;
+    uint32_t triangles, facets;
+    double radius;
+    double measure;                    ///< volume, area (one side) or length, by rank; 0 for a point
+    ovoid_fit steps[FIT_STEPS];        ///< of a flat body the phases are left out (volume NaN)
+    double seconds[FIT_STEPS];         ///< of each step, asked for by itself
+    double read_seconds, make_seconds; ///< of the file, shared by its parts; of the shape, all in all
+} fitted;
+
+/// The report of one body for people.
+void fit_write_report(FILE *file, const fitted *fitted);
+
+/// One line a body, for several bodies; the title line first.
+void fit_write_table_title(FILE *file);
+void fit_write_table_row(FILE *file, const fitted *fitted);
+
+/// One line of JSON; the same as CSV.
+void fit_write_json(FILE *file, const fitted *fitted);
+void fit_write_csv_title(FILE *file);
+void fit_write_csv_row(FILE *file, const fitted *fitted);
+
+#endif

@@ -1,0 +1,50 @@
+// Reading what the commands ask for, with the options that say how.
+#ifndef OVOID_CLI_INPUTS_H
+#define OVOID_CLI_INPUTS_H
+
+#include "args.h"
+
+#include <ovoid/io.h>
+
+/// Options of every command that reads meshes.
+typedef struct read_settings {
+    int unit;     ///< place in INPUTS_UNITS; INPUTS_NO_UNIT: lengths stay as they are
+    double scale; ///< 0: 1
+} read_settings;
+
+#define INPUTS_UNITS "m|cm|mm|in|ft"
+#define INPUTS_NO_UNIT (-1)
+
+/// Their rows for an options table; `read` is the member of the settings that holds them.
+#define INPUTS_OPTIONS(settings)                                                                                       \
+    {"unit",                                                                                                           \
+     0,                                                                                                                \
+     OPTION_CHOICE,                                                                                                    \
+     offsetof(settings, read.unit),                                                                                    \
+     "UNIT",                                                                                                           \
+     INPUTS_UNITS,                                                                                                     \
+     "unit of the mesh files: m, cm, mm, in or ft; lengths become metres (default: no change)"},                       \
+    {                                                                                                                  \
+        "scale", 0, OPTION_POSITIVE, offsetof(settings, read.scale), "S", NULL,                                        \
+            "multiply the coordinates of meshes by S (default: 1)"                                                     \
+    }
+
+/// What the io library wants to know.
+ovoid_read_options inputs_make_options(const read_settings *settings);
+
+/// A shape from a mesh or .ovoid file; NULL after a message.
+ovoid_shape *inputs_read_shape(const char *path, const read_settings *settings);
+
+/// Likewise both shapes of a pair. 0, or EXIT_INPUT with nothing left behind.
+int inputs_read_pair(const char *const paths[2], const read_settings *settings, ovoid_shape *shapes[2]);
+
+/// A scene; NULL after a message.
+ovoid_scene *inputs_read_scene(const char *path);
+
+/// The shapes of a LIST; NULL after a message.
+ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings);
+
+/// 1 if the operand names a scene: it ends in ".json".
+int inputs_is_scene(const char *path);
+
+#endif

@@ -1,0 +1,25 @@
+// What the tool says to the person in front of it, on stderr: results never go there, and nothing else goes to stdout.
+#ifndef OVOID_CLI_MESSAGE_H
+#define OVOID_CLI_MESSAGE_H
+
+#include <stdio.h>
+
+#if defined(__GNUC__)
+#define MESSAGE_FORMAT __attribute__((format(printf, 1, 2)))
+#else
+#define MESSAGE_FORMAT
+#endif
+
+/// "ovoid: error: ..." with a line end.
+MESSAGE_FORMAT void message_error(const char *format, ...);
+
+/// "ovoid: ..." with a line end: counts, times, hints.
+MESSAGE_FORMAT void message_note(const char *format, ...);
+
+/// 1 if the stream is a terminal that understands colours, and NO_COLOR is not set.
+int message_is_colored(FILE *stream);
+
+/// 1 if the stream is a terminal.
+int message_is_terminal(FILE *stream);
+
+#endif

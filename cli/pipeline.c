@@ -1,0 +1,118 @@
+// The pipeline: a ring of slots and one lock. A worker claims the next slot of the ring once it is drained, fills it
+// under the lock (that is what keeps the order), works on it without, and marks it done; the caller's thread drains.
+#include "pipeline.h"
+
+#include <pthread.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/// Slots for each thread: enough that none waits for a slow neighbour, few enough to stay small.
+#define SLOTS_PER_THREAD 4
+
+typedef struct ring {
+    const cli_pipeline *pipeline;
+    char *slots;
+    unsigned char *done; // of each slot: worked on, not yet drained
+    size_t count;
+    uint64_t filled, drained; // slots ever
+    int ended, stopped;       // no more to fill; the caller wants no more
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+} ring;
+
+static void *get_slot(const ring *r, uint64_t number) {
+    return r->slots + (size_t)(number % r->count) * r->pipeline->slot_size;
+}
+
+/// Claims and fills the next slot; UINT64_MAX where there is none. Called with the lock held.
+static uint64_t claim(ring *r) {
+    while (!r->ended && !r->stopped && r->filled - r->drained == r->count) pthread_cond_wait(&r->changed, &r->lock);
+    if (r->ended || r->stopped) return UINT64_MAX;
+    if (!r->pipeline->fill(r->pipeline->context, get_slot(r, r->filled))) {
+        r->ended = 1;
+        pthread_cond_broadcast(&r->changed);
+        return UINT64_MAX;
+    }
+    return r->filled++;
+}
+
+static void *run_worker(void *argument) {
+    ring *r = argument;
+    pthread_mutex_lock(&r->lock);
+    for (;;) {
+        uint64_t number = claim(r);
+        if (number == UINT64_MAX) break;
+        pthread_mutex_unlock(&r->lock);
+        r->pipeline->work(r->pipeline->context, get_slot(r, number));
+        pthread_mutex_lock(&r->lock);
+        r->done[number % r->count] = 1;
+        pthread_cond_broadcast(&r->changed);
+    }
+    pthread_mutex_unlock(&r->lock);
+    return NULL;
+}
+
+/// Drains slots in order until all that were filled are drained, or drain says stop.
+static int drain_all(ring *r) {
+    int code = 0;
+    pthread_mutex_lock(&r->lock);
+    while (!code) {
+        size_t place = (size_t)(r->drained % r->count);
+        while (!r->done[place] && !(r->ended && r->drained == r->filled)) pthread_cond_wait(&r->changed, &r->lock);
+        if (!r->done[place]) break;
+        pthread_mutex_unlock(&r->lock);
+        code = r->pipeline->drain(r->pipeline->context, get_slot(r, r->drained));
+        pthread_mutex_lock(&r->lock);
+        r->done[place] = 0;
+        r->drained++;
+        r->stopped = code != 0;
+        pthread_cond_broadcast(&r->changed);
+    }
+    pthread_mutex_unlock(&r->lock);
+    return code;
+}
+
+/// One thread: fill, work, drain, one slot after another.
+static int run_alone(ring *r) {
+    const cli_pipeline *p = r->pipeline;
+    int code = 0;
+    while (!code && p->fill(p->context, r->slots)) {
+        p->work(p->context, r->slots);
+        code = p->drain(p->context, r->slots);
+    }
+    return code;
+}
+
+static int run_threads(ring *r, unsigned threads) {
+    pthread_t *workers = malloc(threads * sizeof *workers);
+    unsigned started = 0;
+    int code = -1;
+    if (!workers) return -1;
+    while (started < threads && pthread_create(&workers[started], NULL, run_worker, r) == 0) started++;
+    if (started) code = drain_all(r);
+    for (unsigned i = 0; i < started; i++) pthread_join(workers[i], NULL);
+    free(workers);
+    return code;
+}
+
+int pipeline_run(const cli_pipeline *pipeline, unsigned threads) {
+    ring r = {.pipeline = pipeline, .count = threads > 1 ? (size_t)threads * SLOTS_PER_THREAD : 1};
+    int code = -1;
+    r.slots = calloc(r.count, pipeline->slot_size);
+    r.done = calloc(r.count, 1);
+    pthread_mutex_init(&r.lock, NULL);
+    pthread_cond_init(&r.changed, NULL);
+    if (r.slots && r.done) code = threads > 1 ? run_threads(&r, threads) : run_alone(&r);
+    for (size_t i = 0; r.slots && i < r.count; i++) pipeline->clear(r.slots + i * pipeline->slot_size);
+    pthread_cond_destroy(&r.changed);
+    pthread_mutex_destroy(&r.lock);
+    free(r.done);
+    free(r.slots);
+    return code;
+}
+
+unsigned pipeline_get_processors(void) {
+    long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count > 1 ? (unsigned)count : 1;
+}

@@ -1,0 +1,28 @@
+// Ordered work on several threads with bounded memory: slots are filled one after another, worked on side by side, and
+// drained one after another in the order they were filled. So the output is the same bytes for any number of threads.
+#ifndef OVOID_CLI_PIPELINE_H
+#define OVOID_CLI_PIPELINE_H
+
+#include <stddef.h>
+
+/// What a pipeline does; context is the caller's.
+typedef struct cli_pipeline {
+    void *context;
+    size_t slot_size; ///< bytes of a slot; zeroed once, then reused as it is
+    /// In order, one at a time. 1: filled; 0: there is no more (the slot is not used).
+    int (*fill)(void *context, void *slot);
+    /// Side by side with others; touches its slot and what is constant in the context.
+    void (*work)(void *context, void *slot);
+    /// In order, one at a time, on the thread that called pipeline_run. 0: go on; else pipeline_run stops with it.
+    int (*drain)(void *context, void *slot);
+    /// Frees what a slot owns.
+    void (*clear)(void *slot);
+} cli_pipeline;
+
+/// Runs it on that many threads (1: none are started). Returns 0, what drain returned, or -1: no memory or no threads.
+int pipeline_run(const cli_pipeline *pipeline, unsigned threads);
+
+/// The number of processors this process may use, at least 1.
+unsigned pipeline_get_processors(void);
+
+#endif

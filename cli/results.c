@@ -1,0 +1,105 @@
+// Results as a table, as JSON lines or as CSV. A table is written in blocks of many rows, so that any number of results
+// passes through bounded memory.
+#include "results.h"
+
+#include "finish.h"
+#include "message.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/// Rows of one block of a table.
+#define BLOCK_ROWS 20000
+
+int results_check_settings(const cli_command *command, const output_settings *settings) {
+    if (settings->json && settings->csv)
+        return args_complain(command, "%s: --json and --csv exclude each other", command->name);
+    return -1;
+}
+
+int results_open(cli_results *results, const output_settings *settings, double margin) {
+    ovoid_error error;
+    *results = (cli_results){.settings = settings, .margin = margin, .header_due = settings->csv};
+    finish_hold_signals();
+    results->output = ovoid_output_create(settings->path ? settings->path : "-", &error);
+    if (results->output) finish_set_unfinished(ovoid_output_get_temporary(results->output));
+    finish_release_signals();
+    if (!results->output) {
+        message_error("%s", error.message);
+        return EXIT_INPUT;
+    }
+    results->file = ovoid_output_get_file(results->output);
+    return 0;
+}
+
+int results_are_lines(const cli_results *results) { return results->settings->json || results->settings->csv; }
+
+/// Writes the rows that wait.
+static void write_rows(cli_results *results) {
+    ovoid_records_write_table(results->file, results->rows, results->row_count, results->margin);
+    results->row_count = 0;
+}
+
+static void write_header(cli_results *results) {
+    if (results->header_due) ovoid_record_write_csv_header(results->file);
+    results->header_due = 0;
+}
+
+void results_write_line(FILE *file, const output_settings *settings, const ovoid_record *record) {
+    if (settings->csv)
+        ovoid_record_write_csv(file, record);
+    else
+        ovoid_record_write_json(file, record);
+}
+
+int results_add(cli_results *results, const ovoid_record *record) {
+    if (results_are_lines(results)) {
+        write_header(results);
+        results_write_line(results->file, results->settings, record);
+        return ferror(results->file) ? EXIT_INPUT : 0;
+    }
+    if (!results->rows) results->rows = malloc(BLOCK_ROWS * sizeof *results->rows);
+    if (!results->rows) {
+        message_error("out of memory");
+        return EXIT_INPUT;
+    }
+    results->rows[results->row_count] = *record;
+    results->rows[results->row_count++].cover = NULL; // a table does not show it, and it does not live that long
+    if (results->row_count == BLOCK_ROWS) write_rows(results);
+    return ferror(results->file) ? EXIT_INPUT : 0;
+}
+
+int results_add_text(cli_results *results, const char *text, size_t size) {
+    write_header(results);
+    return fwrite(text, 1, size, results->file) == size ? 0 : EXIT_INPUT;
+}
+
+int results_close(cli_results *results, int code) {
+    int dropped = code == EXIT_INPUT && !ferror(results->file);
+    // What came before a bad line of input is still true: it stays where it cannot be taken back, on a stream.
+    if (!(dropped && results->settings->path)) {
+        write_header(results);
+        if (results->row_count) write_rows(results);
+        int failed = finish_output(results->output);
+        if (failed) code = failed;
+    }
+    ovoid_output_destroy(results->output);
+    finish_set_unfinished(NULL);
+    free(results->rows);
+    return code;
+}
+
+exit_code results_judge(const ovoid_answer *answer, double margin) {
+    if (answer->status == OVOID_TOUCHING || answer->status == OVOID_OVERLAPPING) return EXIT_TOUCH;
+    if (answer->status == OVOID_UNDECIDED) return EXIT_NOT_PROVEN;
+    if (!(margin >= 0)) return EXIT_APART;
+    int within = ovoid_answer_is_within(answer, margin);
+    // A bracket as narrow as it can be that straddles the margin: at the margin, as touching is at zero.
+    if (within < 0 && answer->limit != OVOID_LIMIT_NONE) return EXIT_NOT_PROVEN;
+    return within ? EXIT_TOUCH : EXIT_APART;
+}
+
+exit_code results_worse(exit_code a, exit_code b) {
+    if (a == EXIT_NOT_PROVEN || b == EXIT_NOT_PROVEN) return EXIT_NOT_PROVEN;
+    return a == EXIT_TOUCH || b == EXIT_TOUCH ? EXIT_TOUCH : EXIT_APART;
+}

@@ -1,0 +1,63 @@
+// Where results go: standard output or a file that appears whole or not at all; a table, JSON lines or CSV.
+#ifndef OVOID_CLI_RESULTS_H
+#define OVOID_CLI_RESULTS_H
+
+#include "args.h"
+
+#include <ovoid/io.h>
+
+/// Options of every command that writes results.
+typedef struct output_settings {
+    int json, csv;
+    const char *path; ///< NULL: standard output
+} output_settings;
+
+/// Their rows for an options table; `out` is the member of the settings that holds them.
+#define RESULTS_OPTIONS(settings)                                                                                      \
+    {"json", 0, OPTION_FLAG, offsetof(settings, out.json), NULL, NULL, "write JSON Lines, one object a line"},         \
+        {"csv", 0, OPTION_FLAG, offsetof(settings, out.csv), NULL, NULL, "write CSV with a header line"}, {            \
+        "output", 'o', OPTION_FILE, offsetof(settings, out.path), "FILE", NULL,                                        \
+            "write to FILE, which appears whole or not at all (default: standard output)"                              \
+    }
+
+/// Refuses --json together with --csv. -1 to go on, or EXIT_USAGE.
+int results_check_settings(const cli_command *command, const output_settings *settings);
+
+/// An open stream of results.
+typedef struct cli_results {
+    ovoid_output *output;
+    FILE *file;
+    const output_settings *settings;
+    double margin;      ///< of the table's marks; negative: none
+    ovoid_record *rows; ///< of the table, until there are enough to be written
+    size_t row_count;
+    int header_due; ///< the CSV header is not written yet
+} cli_results;
+
+/// Opens it. 0, or EXIT_INPUT after a message.
+int results_open(cli_results *results, const output_settings *settings, double margin);
+
+/// Writes one answer: a line of JSON or CSV at once, a row of the table later. Names must live until the end. Failures
+/// of the stream are found by results_close.
+int results_add(cli_results *results, const ovoid_record *record);
+
+/// 1 if answers become lines of text that can be made apart from the stream (not a table).
+int results_are_lines(const cli_results *results);
+
+/// Writes text made of such lines.
+int results_add_text(cli_results *results, const char *text, size_t size);
+
+/// Ends it: writes what is due and puts the file in its place. code: the exit code so far; if it is EXIT_INPUT, a file
+/// is dropped. Returns the exit code.
+int results_close(cli_results *results, int code);
+
+/// Writes one answer to a stream in the format of the settings (not a table).
+void results_write_line(FILE *file, const output_settings *settings, const ovoid_record *record);
+
+/// What an answer means for the exit code. margin: negative where none was asked for.
+exit_code results_judge(const ovoid_answer *answer, double margin);
+
+/// The more serious of two exit codes: 4 before 1 before 0.
+exit_code results_worse(exit_code a, exit_code b);
+
+#endif

@@ -1,0 +1,86 @@
+// One judge for each thread: a judge remembers what it proved of a shape's inner ellipsoid, and works for one thread at
+// a time. Threads take one and give it back.
+#include "verdict.h"
+
+#ifdef OVOID_HAVE_JUDGE
+
+#include <judge.h>
+
+#include <pthread.h>
+#include <stdlib.h>
+
+struct verdict {
+    pthread_mutex_t lock;
+    unsigned count; ///< judges that are free, at the front
+    judge **judges;
+};
+
+verdict *verdict_create(unsigned threads) {
+    verdict *v = calloc(1, sizeof *v);
+    if (!v) return NULL;
+    pthread_mutex_init(&v->lock, NULL);
+    v->judges = calloc(threads, sizeof *v->judges);
+    while (v->judges && v->count < threads && (v->judges[v->count] = judge_create()) != NULL) v->count++;
+    if (v->count == threads) return v;
+    verdict_destroy(v);
+    return NULL;
+}
+
+void verdict_destroy(verdict *v) {
+    if (!v) return;
+    for (unsigned i = 0; i < v->count; i++) judge_destroy(v->judges[i]);
+    pthread_mutex_destroy(&v->lock);
+    free(v->judges);
+    free(v);
+}
+
+/// There are as many judges as threads: one is always free.
+static judge *take(verdict *v) {
+    pthread_mutex_lock(&v->lock);
+    judge *taken = v->judges[--v->count];
+    pthread_mutex_unlock(&v->lock);
+    return taken;
+}
+
+static void give_back(verdict *v, judge *given) {
+    pthread_mutex_lock(&v->lock);
+    v->judges[v->count++] = given;
+    pthread_mutex_unlock(&v->lock);
+}
+
+ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
+                         int points, ovoid_error *error) {
+    judge *mine = take(v);
+    ovoid_code code = judge_check_answer(mine, pair, answer, cover, error);
+    if (code == OVOID_OK && points && answer->status != OVOID_UNDECIDED)
+        code = judge_check_points(mine, pair, answer, error);
+    give_back(v, mine);
+    return code;
+}
+
+const char *verdict_get_name(void) { return "exact arithmetic"; }
+
+#else
+
+/// The library's check needs no working memory.
+struct verdict {
+    int nothing;
+};
+
+verdict *verdict_create(unsigned threads) {
+    static verdict only;
+    (void)threads;
+    return &only;
+}
+
+void verdict_destroy(verdict *v) { (void)v; }
+
+ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
+                         int points, ovoid_error *error) {
+    (void)v, (void)points;
+    return ovoid_answer_check(pair, answer, cover, error);
+}
+
+const char *verdict_get_name(void) { return "floating point with rigorous error bounds"; }
+
+#endif

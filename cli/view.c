@@ -1,0 +1,203 @@
+// ovoid view: a scene, a pair or one body as an SVG picture: polyhedra, ellipsoids, areas, witness points.
+#include "commands.h"
+
+#include "finish.h"
+#include "inputs.h"
+#include "message.h"
+
+#include <ovoid/ovoid.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct settings {
+    read_settings read;
+    ovoid_pose pose_a, pose_b;
+    const char *output;
+    ovoid_vec3 from;
+    unsigned layers, width, height;
+    double margin; ///< negative: not given
+} settings;
+
+static const cli_option options[] = {
+    {"output", 'o', OPTION_FILE, offsetof(settings, output), "FILE", NULL,
+     "the picture, an SVG file (default: standard output)"},
+    {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), "\"X Y Z QW QX QY QZ\"", NULL,
+     "pose of A: position, then quaternion (default: \"0 0 0 1 0 0 0\")"},
+    {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), "\"X Y Z QW QX QY QZ\"", NULL, "pose of B"},
+    {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
+     "draw the witness points of all pairs within M (default: of each object and the one nearest to it)"},
+    {"layers", 0, OPTION_SET, offsetof(settings, layers), "LIST", "outer|inner|areas|witness|names|legend",
+     "what is drawn with the polyhedra, with commas between: outer, inner (ellipsoids), areas (the 8 facial areas), "
+     "witness, names, legend (default: all but areas)"},
+    {"from", 0, OPTION_VECTOR, offsetof(settings, from), "\"X Y Z\"", NULL,
+     "direction from the scene to the eye (default: \"1 -1.6 0.9\")"},
+    {"width", 0, OPTION_COUNT, offsetof(settings, width), "W", NULL, "pixels (default: 1200)"},
+    {"height", 0, OPTION_COUNT, offsetof(settings, height), "H", NULL, "pixels (default: 800)"},
+    INPUTS_OPTIONS(settings),
+    {0},
+};
+
+/// What goes into the picture.
+typedef struct drawing {
+    ovoid_picture_body *bodies;
+    ovoid_picture_link *links;
+    ovoid_answer *answers; ///< of the links
+    size_t body_count, link_count, link_capacity;
+} drawing;
+
+static int add_link(drawing *d, size_t a, size_t b, const ovoid_answer *answer) {
+    if (d->link_count == d->link_capacity) {
+        size_t capacity = d->link_capacity ? 2 * d->link_capacity : 64;
+        ovoid_picture_link *links = realloc(d->links, capacity * sizeof *links);
+        if (links) d->links = links;
+        ovoid_answer *answers = realloc(d->answers, capacity * sizeof *answers);
+        if (answers) d->answers = answers;
+        if (!links || !answers) return message_error("out of memory"), EXIT_INPUT;
+        d->link_capacity = capacity;
+    }
+    d->links[d->link_count] = (ovoid_picture_link){.a = a, .b = b};
+    d->answers[d->link_count++] = *answer;
+    return 0;
+}
+
+static ovoid_pair make_pair(const drawing *d, size_t a, size_t b) {
+    return (ovoid_pair){d->bodies[a].shape, d->bodies[b].shape, d->bodies[a].pose, d->bodies[b].pose};
+}
+
+/// Links each body with the one nearest to it; a pair that is nearest both ways once.
+static int link_nearest(drawing *d, const ovoid_scene *scene) {
+    int code = 0;
+    size_t none = d->body_count, *nearest = malloc((d->body_count + 1) * sizeof *nearest);
+    if (!nearest) return message_error("out of memory"), EXIT_INPUT;
+    for (size_t a = 0; a < d->body_count && !code; a++) {
+        ovoid_answer best = {.lower = 0};
+        nearest[a] = none;
+        for (size_t b = 0; b < d->body_count; b++) {
+            if (b == a || (scene && ovoid_scene_is_ignored(scene, a, b))) continue;
+            // Always the lower index first, so that both ways give the same answer.
+            ovoid_pair pair = make_pair(d, a < b ? a : b, a < b ? b : a);
+            ovoid_answer answer = ovoid_depth(&pair, NULL, NULL, NULL);
+            if (nearest[a] == none || answer.lower < best.lower) best = answer, nearest[a] = b;
+        }
+        size_t b = nearest[a];
+        int drawn = b < a && nearest[b] == a;
+        if (b != none && !drawn) code = add_link(d, a < b ? a : b, a < b ? b : a, &best);
+    }
+    free(nearest);
+    return code;
+}
+
+/// Links all pairs that are not proven farther than the margin.
+static int link_within(drawing *d, const ovoid_scene *scene, double margin) {
+    int code = 0;
+    for (size_t a = 0; a < d->body_count; a++)
+        for (size_t b = a + 1; b < d->body_count && !code; b++) {
+            if (scene && ovoid_scene_is_ignored(scene, a, b)) continue;
+            ovoid_pair pair = make_pair(d, a, b);
+            ovoid_answer answer = ovoid_within(&pair, margin, NULL, NULL);
+            if (ovoid_answer_is_within(&answer, margin) == 0) continue;
+            answer = ovoid_depth(&pair, NULL, NULL, NULL);
+            code = add_link(d, a, b, &answer);
+        }
+    return code;
+}
+
+/// Finds the links and writes the picture; returns the exit code.
+static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
+    ovoid_error error;
+    int code = s->margin >= 0 ? link_within(d, scene, s->margin) : link_nearest(d, scene);
+    if (code) return code;
+    for (size_t i = 0; i < d->link_count; i++) d->links[i].answer = &d->answers[i];
+    ovoid_picture picture = {.bodies = d->bodies,
+                             .body_count = d->body_count,
+                             .links = d->links,
+                             .link_count = d->link_count,
+                             .unit = s->read.unit == INPUTS_NO_UNIT ? NULL : "m"};
+    ovoid_picture_options how = {.width = s->width, .height = s->height, .view = s->from, .layers = s->layers};
+    finish_hold_signals();
+    ovoid_code written = ovoid_picture_write_svg(s->output ? s->output : "-", &picture, &how, &error);
+    finish_release_signals();
+    if (written == OVOID_OK) return EXIT_APART;
+    if (finish_is_unread(stdout) && !s->output) return EXIT_PIPE;
+    finish_tell_failure(&error);
+    return EXIT_INPUT;
+}
+
+static int draw_scene(const settings *s, const char *path) {
+    ovoid_scene *scene = inputs_read_scene(path);
+    if (!scene) return EXIT_INPUT;
+    drawing d = {.body_count = ovoid_scene_get_count(scene)};
+    d.bodies = calloc(d.body_count + 1, sizeof *d.bodies);
+    int code = EXIT_INPUT;
+    for (size_t i = 0; i < d.body_count && d.bodies; i++) {
+        ovoid_scene_object object = ovoid_scene_get(scene, i);
+        d.bodies[i] = (ovoid_picture_body){object.name, object.shape, object.pose};
+    }
+    if (d.bodies)
+        code = draw(&d, s, scene);
+    else
+        message_error("out of memory");
+    free(d.bodies);
+    free(d.links);
+    free(d.answers);
+    ovoid_scene_destroy(scene);
+    return code;
+}
+
+/// The file's name without its folder.
+static const char *get_base(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash && slash[1] ? slash + 1 : path;
+}
+
+/// One body, or A and B.
+static int draw_bodies(const settings *s, const cli_operands *paths) {
+    ovoid_shape *shapes[2] = {NULL, NULL};
+    ovoid_picture_body bodies[2];
+    const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
+    drawing d = {.bodies = bodies, .body_count = (size_t)paths->count};
+    int code = 0;
+    for (int i = 0; i < paths->count && !code; i++) {
+        shapes[i] = inputs_read_shape(paths->items[i], &s->read);
+        bodies[i] = (ovoid_picture_body){get_base(paths->items[i]), shapes[i], poses[i]};
+        if (!shapes[i]) code = EXIT_INPUT;
+    }
+    if (!code) code = draw(&d, s, NULL);
+    free(d.links);
+    free(d.answers);
+    ovoid_shape_destroy(shapes[0]);
+    ovoid_shape_destroy(shapes[1]);
+    return code;
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    settings s = {.read.unit = INPUTS_NO_UNIT,
+                  .pose_a = ovoid_pose_make_identity(),
+                  .pose_b = ovoid_pose_make_identity(),
+                  .margin = -1};
+    cli_operands paths;
+    int code = args_parse(command, argc, argv, &s, &paths);
+    if (code >= 0) return code;
+    if (!s.output && message_is_terminal(stdout))
+        return args_complain(command, "view: --output FILE is missing, and standard output is a terminal");
+    if (paths.count == 1 && inputs_is_scene(paths.items[0])) return draw_scene(&s, paths.items[0]);
+    return draw_bodies(&s, &paths);
+}
+
+const cli_command command_view = {
+    .name = "view",
+    .summary = "a picture of a scene or of bodies",
+    .usage = "[OPTION...] SCENE.json -o PICTURE.svg\n"
+             "[OPTION...] A [B] -o PICTURE.svg",
+    .description = "Draws a scene, a pair or one body as an SVG picture: the polyhedra, the ellipsoid around each and "
+                   "the one inside it, the witness points of pairs and the distance between them.",
+    .exits = "0 drawn\n2 the command line is wrong\n3 bad input, or a picture that could not be written",
+    .examples = "ovoid view cell.json -o cell.svg\n"
+                "ovoid view a.stl b.stl --pose-b \"0 0 2 1 0 0 0\" -o pair.svg\n"
+                "ovoid view rock.obj --layers inner,areas -o areas.svg",
+    .options = options,
+    .operands_min = 1,
+    .operands_max = 2,
+    .run = run,
+};

@@ -1,0 +1,57 @@
+#!/bin/sh
+# test_cli.sh [--update] [NAME...]: the tool as a user meets it. Each tests/cli/NAME.txt is a transcript: "$ command", then
+# what it prints (both streams), then "[code]" where the exit code is not 0; "# " lines are remarks. Every command is run
+# again, in a folder with a copy of tests/cli/data, and the transcript that comes out must be the one that is stored.
+# Truth: the transcripts were read by a person; numbers in them are closed forms of boxes and the like.
+# --update stores what comes out: then read the difference.
+set -u
+: "${OVOID_SOURCE_DIR:=$(cd "$(dirname "$0")/.." && pwd)}" "${OVOID_BUILD_DIR:=$OVOID_SOURCE_DIR/build/release}"
+: "${OVOID_TOOL:=$OVOID_BUILD_DIR/ovoid}"
+if [ ! -x "$OVOID_TOOL" ]; then
+    echo "skipped: the tool is not built"
+    echo "0 passed, 0 failed, 1 skipped"
+    exit 0
+fi
+update=0
+if [ "${1:-}" = --update ]; then update=1 && shift; fi
+cases=$OVOID_SOURCE_DIR/tests/cli
+work=$OVOID_BUILD_DIR/test_cli
+mkdir -p "$work/bin"
+ln -sf "$OVOID_TOOL" "$work/bin/ovoid"
+PATH=$work/bin:$PATH
+LC_ALL=C NO_COLOR=
+export PATH LC_ALL NO_COLOR OVOID_SOURCE_DIR
+
+# replay FILE: the transcript of its commands.
+replay() {
+    while IFS= read -r line; do
+        case $line in
+        '# '*) printf '%s\n' "$line" ;;
+        '$ '*)
+            printf '%s\n' "$line"
+            sh -c "${line#\$ }" </dev/null 2>&1
+            code=$?
+            [ $code -eq 0 ] || printf '[%d]\n' "$code"
+            ;;
+        esac
+    done <"$1"
+}
+
+passed=0 failed=0
+if [ $# -eq 0 ]; then
+    for file in "$cases"/*.txt; do set -- "$@" "$(basename "$file" .txt)"; done
+fi
+for name; do
+    rm -rf "${work:?}/$name"
+    cp -R "$cases/data" "$work/$name"
+    (cd "$work/$name" && replay "$cases/$name.txt") >"$work/$name.out"
+    if [ $update -eq 1 ]; then cp "$work/$name.out" "$cases/$name.txt"; fi
+    if diff -u "$cases/$name.txt" "$work/$name.out"; then
+        passed=$((passed + $(grep -c '^\$ ' "$cases/$name.txt")))
+    else
+        failed=$((failed + 1))
+        echo "FAILED tests/cli/$name.txt"
+    fi
+done
+echo "$passed passed, $failed failed, 0 skipped"
+[ $failed -eq 0 ]

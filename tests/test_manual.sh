@@ -1,0 +1,37 @@
+#!/bin/sh
+# The manual page: clean for mandoc, and it names every command and every option that the tool has (and the tool every
+# option that the page names).
+set -u
+if [ ! -x "$OVOID_TOOL" ] || ! command -v mandoc >/dev/null; then
+    echo "skipped: the tool or mandoc is absent"
+    echo "0 passed, 0 failed, 1 skipped"
+    exit 0
+fi
+page=$OVOID_SOURCE_DIR/cli/ovoid.1
+work=$OVOID_BUILD_DIR/test_manual
+passed=0 failed=0
+mkdir -p "$work"
+
+check() {
+    if [ -z "$2" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        printf 'FAILED %s: %s\n' "$1" "$2"
+    fi
+}
+
+check lint "$(mandoc -Tlint "$page" 2>&1)"
+
+# Options of the tool, and those of the page: "-name" after Fl, or after a comma in a list of them.
+: >"$work/tool"
+for command in $("$OVOID_TOOL" complete); do
+    check "command $command" "$(grep -q "^\.Ss $command\$" "$page" || echo absent)"
+    "$OVOID_TOOL" complete "$command" | cut -f 1 | grep '^--' >>"$work/tool"
+done
+mandoc -Tascii "$page" | col -bx | grep -oE -- '--[a-z-]+' | sort -u >"$work/page"
+echo --version >>"$work/tool"
+sort -u -o "$work/tool" "$work/tool"
+check options "$(diff "$work/tool" "$work/page")"
+echo "$passed passed, $failed failed, 0 skipped"
+[ $failed -eq 0 ]
