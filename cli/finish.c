@@ -43,7 +43,7 @@ void finish_catch_signals(void) {
 void finish_set_unfinished(const char *path) {
     has_unfinished = 0;
     if (!path || strlen(path) >= sizeof unfinished) return;
-    strcpy(unfinished, path);
+    memcpy(unfinished, path, strlen(path) + 1);
     has_unfinished = 1;
 }
 

@@ -28,7 +28,7 @@ verdict *verdict_create(unsigned threads) {
 
 void verdict_destroy(verdict *v) {
     if (!v) return;
-    for (unsigned i = 0; i < v->count; i++) judge_destroy(v->judges[i]);
+    while (v->judges && v->count) judge_destroy(v->judges[--v->count]);
     pthread_mutex_destroy(&v->lock);
     free(v->judges);
     free(v);

@@ -18,7 +18,11 @@ int main(void) {
     size_t size = ovoid_shape_write(cone, NULL, 0);
     unsigned char *bytes = malloc(size);
     FILE *file = tmpfile();
-    if (!bytes || !file) return 1;
+    if (!bytes || !file) {
+        fprintf(stderr, "no memory or no file\n");
+        free(bytes);
+        return 1;
+    }
     ovoid_shape_write(cone, bytes, size);
     fwrite(bytes, 1, size, file);
 

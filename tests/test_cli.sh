@@ -2,6 +2,7 @@
 # test_cli.sh [--update] [NAME...]: the tool as a user meets it. Each tests/cli/NAME.txt is a transcript: "$ command", then
 # what it prints (both streams), then "[code]" where the exit code is not 0; "# " lines are remarks. Every command is run
 # again, in a folder with a copy of tests/cli/data, and the transcript that comes out must be the one that is stored.
+# The sessions of docs/tool.md are replayed likewise.
 # Truth: the transcripts were read by a person; numbers in them are closed forms of boxes and the like.
 # --update stores what comes out: then read the difference.
 set -u
@@ -37,21 +38,36 @@ replay() {
     done <"$1"
 }
 
+# even FILE: without what differs from run to run (times, and the blanks that line them up) or from build to build.
+even() {
+    sed -E 's/ +[0-9.]+ (m?s)\>/ T \1/g; s/ +[0-9.]+  ([a-z]+\.(off|obj))/ T  \1/; s/(checked in|altered.jsonl:6:).*/\1 .../' "$1"
+}
+
+# expect PLACE WANTED: replays WANTED in a folder of its own and compares; a failure names the place.
+expect() {
+    rm -rf "$work/run"
+    cp -R "$cases/data" "$work/run"
+    (cd "$work/run" && replay "$2") >"$work/out"
+    even "$2" >"$work/wanted.even"
+    even "$work/out" >"$work/out.even"
+    if diff -u "$work/wanted.even" "$work/out.even"; then
+        passed=$((passed + $(grep -c '^\$ ' "$2")))
+    else
+        failed=$((failed + 1))
+        echo "FAILED $1"
+    fi
+}
+
 passed=0 failed=0
 if [ $# -eq 0 ]; then
+    # The sessions of the page about the tool.
+    awk '/^```/ { inside = /console/; next } inside' "$OVOID_SOURCE_DIR/docs/tool.md" >"$work/page"
+    expect docs/tool.md "$work/page"
     for file in "$cases"/*.txt; do set -- "$@" "$(basename "$file" .txt)"; done
 fi
 for name; do
-    rm -rf "${work:?}/$name"
-    cp -R "$cases/data" "$work/$name"
-    (cd "$work/$name" && replay "$cases/$name.txt") >"$work/$name.out"
-    if [ $update -eq 1 ]; then cp "$work/$name.out" "$cases/$name.txt"; fi
-    if diff -u "$cases/$name.txt" "$work/$name.out"; then
-        passed=$((passed + $(grep -c '^\$ ' "$cases/$name.txt")))
-    else
-        failed=$((failed + 1))
-        echo "FAILED tests/cli/$name.txt"
-    fi
+    expect "tests/cli/$name.txt" "$cases/$name.txt"
+    if [ $update -eq 1 ]; then cp "$work/out" "$cases/$name.txt"; fi
 done
 echo "$passed passed, $failed failed, 0 skipped"
 [ $failed -eq 0 ]
