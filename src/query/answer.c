@@ -84,8 +84,9 @@ static ovoid_status find_status(const search *s) {
 
 // Why the bracket is wider than the tolerance, if it is.
 static ovoid_limit find_limit(const search *s, ovoid_status status) {
-    int points_agree = !(s->ask.wants_depth && s->kind == OVOID_PROOF_HULL);
-    if (s->upper - s->lower <= s->ask.tolerance && points_agree) return OVOID_LIMIT_NONE;
+    // A common point is no witness of a depth, unless the depth is within the tolerance.
+    int common = s->ask.wants_depth && s->kind == OVOID_PROOF_HULL && s->lower < -s->ask.tolerance;
+    if (s->upper - s->lower <= s->ask.tolerance && !common) return OVOID_LIMIT_NONE;
     if (s->limit != OVOID_LIMIT_NONE) return s->limit;
     if (status == OVOID_UNDECIDED) return OVOID_LIMIT_PRECISION;
     return s->ask.wants_bracket && s->lower > s->ask.far ? OVOID_LIMIT_CAP : OVOID_LIMIT_ANSWERED;
@@ -158,8 +159,7 @@ ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, que
         return answer_make_refused(OVOID_LIMIT_OPTIONS);
     ovoid_limit refused = frame_make(pair, &frame);
     if (refused != OVOID_LIMIT_NONE) return answer_make_refused(refused);
-    // Nothing is resolved below the least length.
-    ask.tolerance = fmax(options.absolute_tolerance, options.relative_tolerance * frame.size) + 8 * OVOID_LENGTH_MIN;
+    ask.tolerance = fmax(options.absolute_tolerance, options.relative_tolerance * frame.size) + 8 * frame.hidden;
     ask.iterations = options.iterations;
     search s = search_make(&frame, ask);
     simplex start;

@@ -86,14 +86,21 @@ static evidence face_evidence(const expansion *e, const face *f) {
     return evidence_make(&x);
 }
 
-// The face that holds the foot of the origin: of all that lie in the nearest plane (a facet of the difference body is
+// 1 if the face lies in the plane of the other one.
+static int is_coplanar(const expansion *e, const face *f, const face *plane, double slack) {
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(vec3_dot(plane->n, e->w[f->v[k]]) - plane->low) <= slack)) return 0;
+    return 1;
+}
+
+// The face that holds the foot of the origin: of all in the nearest face's plane (a facet of the difference body is
 // often several triangles), the one whose own nearest point is nearest.
 static uint16_t find_foot(const search *s, const expansion *e, uint16_t nearest) {
     double least = INFINITY;
     uint16_t best = nearest;
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
-        if (!f->alive || f->low > e->f[nearest].low + s->frame->claim) continue;
+        if (!f->alive || !is_coplanar(e, f, &e->f[nearest], s->frame->claim)) continue;
         evidence x = face_evidence(e, f);
         vec3 foot = {0, 0, 0};
         for (int k = 0; k < x.count; k++) foot = vec3_add_scaled(foot, x.p[k].w, x.weight[k]);
@@ -113,7 +120,7 @@ static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_co
     s->upper = upper;
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
-    s->witness = face_evidence(e, &e->f[nearest]);
+    s->witness = face_evidence(e, &e->f[find_foot(s, e, nearest)]);
     if (!cover) return;
     cover->point_count = e->points;
     cover->triangle_count = all.triangle_count;
@@ -154,10 +161,11 @@ static int take_hull(search *s, const expansion *e) {
     return taken;
 }
 
-// The bracket as it would be if the surface were proven now.
-static int is_narrow(const search *s, double low) {
+// The bracket as it would be if the surface were proven now, with the nearest face's own gap: so that the normal is
+// that of the witness points.
+static int is_narrow(const search *s, double low, double high) {
     double claim = s->frame->claim;
-    return low > claim && -low + claim - s->frame->radii - s->lower <= s->ask.tolerance;
+    return low > claim && high - low + 2 * claim <= s->ask.tolerance;
 }
 
 // The nearest face's own normal as lower bound, where that costs no more than the tolerance: witness and normal agree.
@@ -171,7 +179,6 @@ static void agree(search *s, const expansion *e, uint16_t nearest) {
 
 // Ends the run: proves what the surface shows.
 static void finish(search *s, const expansion *e, uint16_t nearest, ovoid_cover *cover) {
-    nearest = find_foot(s, e, nearest);
     if (e->f[nearest].low > s->frame->claim && !search_is_done(s)) {
         if (s->ask.wants_depth)
             take_cover(s, e, nearest, cover);
@@ -189,7 +196,7 @@ static int grow(search *s, expansion *e, uint16_t nearest) {
     frame_support x = search_probe(s, vec3_neg(e->f[nearest].n));
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
     double high = vec3_dot(e->f[nearest].n, x.w);
-    if (s->ask.wants_depth && is_narrow(s, e->f[nearest].low)) return 0;
+    if (s->ask.wants_depth && is_narrow(s, e->f[nearest].low, high)) return 0;
     if (high - e->f[nearest].low <= e->slack || has_point(e, x.a, x.b)) return 0;
     if (e->points == EXPANSION_POINTS) {
         s->limit = OVOID_LIMIT_CAPACITY;

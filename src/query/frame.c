@@ -56,6 +56,7 @@ ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
     if (f->a->has_origin || f->b->has_origin)
         hidden += 0x1p-95 * (vec3_max_abs(f->world_origin) + vec3_max_abs(rounded(b)) + vec3_max_abs(f->a->origin) +
                              vec3_max_abs(f->b->origin));
+    f->hidden = hidden;
     f->claim = FRAME_CLAIM * f->size + 2 * hidden;
     f->check = FRAME_CHECK * f->size + hidden;
     return OVOID_LIMIT_NONE;

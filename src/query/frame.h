@@ -28,6 +28,7 @@ typedef struct pair_frame {
     double size;       ///< s
     double claim;      ///< FRAME_CLAIM s, and what underflow can hide
     double check;      ///< FRAME_CHECK s, likewise
+    double hidden;     ///< what underflow and far origins can hide, whatever the size
     double radii;      ///< sum of the rounding radii
 } pair_frame;
 

@@ -16,7 +16,7 @@ int search_is_done(const search *s) {
     if (!search_is_sign_known(s)) return 0;
     if (s->upper <= s->ask.near) return 1;
     if (s->upper < 0 && !s->ask.wants_depth) return 1;
-    // A tetrahedron around the origin may be a narrow bracket of a shallow depth, but its witness is not the depth's.
+    // A tetrahedron around the origin may bracket a shallow depth well, but its witness is one common point.
     if (s->ask.wants_depth && s->kind == OVOID_PROOF_HULL) return 0;
     return s->ask.wants_bracket && s->upper - s->lower <= s->ask.tolerance;
 }

@@ -82,7 +82,7 @@ static vec3 orthogonalised(vec3 n, vec3 e1, vec3 e2) {
 vec3 simplex_compute_normal(vec3 e1, vec3 e2) {
     vec3 n = vec3_cross(e1, e2);
     double area = vec3_norm_squared(n), edges = vec3_norm_squared(e1) * vec3_norm_squared(e2);
-    return area > 1e-4 * edges ? vec3_scale(n, 1 / sqrt(area)) : orthogonalised(n, e1, e2);
+    return area > 1e-4 * edges ? vec3_unit(n) : orthogonalised(n, e1, e2);
 }
 
 // The direction to the nearest point, cleaned of what rounding left along the face. Of a segment e: the point is off by
