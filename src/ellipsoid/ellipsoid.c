@@ -27,7 +27,7 @@ ovoid_vec3 ovoid_ellipsoid_compute_radii(const ovoid_ellipsoid *ellipsoid) {
 
 double ovoid_ellipsoid_compute_volume(const ovoid_ellipsoid *ellipsoid) {
     sym3dd q = sym3dd_from(ellipsoid->q);
-    return ball_get_measure(3) * sym3dd_compute_content(&q, 3);
+    return ball_get_measure(3) * sym3dd_compute_content(&q, 3, NULL);
 }
 
 ovoid_ellipsoid ovoid_ellipsoid_compute_posed(const ovoid_ellipsoid *ellipsoid, const ovoid_pose *pose) {

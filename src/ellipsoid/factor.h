@@ -37,9 +37,9 @@ int factor_make(sym3 q, factor *f);
 int factor_make_unproven(const sym3dd *s, factor *f);
 
 /// The square root of the sum of the principal minors of order `rank` (1 to 3): the product of the radii of a solid, of
-/// the two radii of a flat ellipsoid, the one of a segment. 0 where the sum is not positive. Relative error below 2^-45
-/// where the thinnest axis is longer than 1e-12 of its bounding box's.
-double sym3dd_compute_content(const sym3dd *s, int rank);
+/// the two radii of a flat ellipsoid, the one of a segment. 0 where the sum is not positive. *error (may be NULL)
+/// bounds the relative error, for entries that are true to 2^-92 of the diagonal.
+double sym3dd_compute_content(const sym3dd *s, int rank, double *error);
 
 /// The measure of the unit ball of that dimension: 4/3 pi, pi, 2, 0.
 double ball_get_measure(int rank);

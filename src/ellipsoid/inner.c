@@ -147,7 +147,7 @@ static sym3dd compute_square(const mat3 *m, uint32_t rank) {
     return q;
 }
 
-// |det m| in double-double.
+// |det m| of entries up to 1, from above: six products in double-double, each within 2^-99.
 static double compute_volume_factor(const mat3 *m) {
     dd x[3];
     const double a[3][2] = {{m->r1.y, m->r1.z}, {m->r1.z, m->r1.x}, {m->r1.x, m->r1.y}};
@@ -155,7 +155,7 @@ static double compute_volume_factor(const mat3 *m) {
     for (int i = 0; i < 3; i++) x[i] = dd_sub(two_product(a[i][0], b[i][0]), two_product(a[i][1], b[i][1]));
     dd sum = dd_mul(x[0], dd_from(m->r0.x));
     sum = dd_add(sum, dd_mul(x[1], dd_from(m->r0.y)));
-    return fabs(dd_add(sum, dd_mul(x[2], dd_from(m->r0.z))).high);
+    return fabs(dd_add(sum, dd_mul(x[2], dd_from(m->r0.z))).high) * (1 + ROUNDING) + 0x1p-96;
 }
 
 // How much larger than { center + m u } any ellipsoid in the body can be.
@@ -205,8 +205,9 @@ static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *f
     mat3 whole = mat3_scale_rows(m, (vec3){unit, unit, unit});
     sym3dd reached = sym3dd_from(sym3_scale(sym3_scale(fit->ellipsoid.q, unit), unit));
     double most = compute_bound(w, s, center, m) * compute_volume_factor(&whole);
-    double content = sym3dd_compute_content(&reached, (int)rank) * (rank == 2 ? w->height * unit : 1);
-    fit->gap = content > 0 && most > 0 ? most / content - 1 + 1e-13 : INFINITY;
+    double error, content = sym3dd_compute_content(&reached, (int)rank, &error);
+    content *= (1 - fmin(error, 1)) * (rank == 2 ? w->height * unit : 1);
+    fit->gap = content > 0 ? most / content - 1 + 8 * ROUNDING : INFINITY;
     fit->converged = fit->gap <= gap;
 }
 

@@ -45,7 +45,7 @@ static void get_gradient(const constraint *c, double g[UNKNOWNS]) {
     g[8] = n->z;
 }
 
-// Adds v' (D c D) v for symmetric D: for c = sum (y / h) n n' that is sum (y / h) |D n|^2.
+// Adds the form tr(D c D) in changes D of E: for c = sum (y / h) n n' that is sum (y / h) |D n|^2.
 static void add_curvature(newton *m, sym3 c) {
     m->h[0][0] += c.xx;
     m->h[1][0] += c.xy;

@@ -96,19 +96,20 @@ static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double ran
 static void fill_fit(const ovoid_polytope *polytope, const design *d, uint32_t rank, double gap, ovoid_fit *fit) {
     moments m = compute_moments(d, polytope->vertices, polytope->vertex_count);
     double unit = ldexp(1, m.exponent), measure = ball_get_measure((int)rank), best = INFINITY;
-    double least = sqrt(rank == 3 ? 27 : rank == 2 ? 4 : 1) * sym3dd_compute_content(&m.covariance, (int)rank);
+    // Covariances of up to 256 points are true to 2^-92 of the diagonal.
+    double least_error, error, least = sym3dd_compute_content(&m.covariance, (int)rank, &least_error);
+    least *= sqrt(rank == 3 ? 27 : rank == 2 ? 4 : 1) * (1 - fmin(least_error, 1));
     *fit = (ovoid_fit){.ellipsoid.center = m.center, .iterations = d->steps, .gap = INFINITY};
     // Thin axes that rounding hurts: a little thickness beforehand may cost less than a larger scale afterwards.
     for (int i = 0; i < 5 && !fit->converged; i++) {
         sym3 q = enclose(polytope, &m, rank, i ? ldexp(ROUNDING, i - 2) : 0);
         sym3dd q2 = sym3dd_from(q);
-        double content = sym3dd_compute_content(&q2, (int)rank);
+        double content = sym3dd_compute_content(&q2, (int)rank, &error);
         if (!(content < best)) continue;
         best = content;
         fit->ellipsoid.q = sym3_scale(sym3_scale(q, unit), unit);
         fit->volume = measure * ldexp(content, (int)rank * m.exponent);
-        // Both contents are true to 2^-45; 1e-13 covers them.
-        if (least > 0) fit->gap = content / least - 1 + 1e-13;
+        if (least > 0) fit->gap = content * (1 + error) / least - 1 + 4 * ROUNDING;
         fit->converged = fit->gap <= gap;
     }
 }

@@ -6,7 +6,7 @@
 double ellipsoid_compute_measure(const ovoid_ellipsoid *ellipsoid, uint32_t rank) {
     if (rank == 0) return 0;
     sym3dd q = sym3dd_from(ellipsoid->q);
-    return ball_get_measure((int)rank) * sym3dd_compute_content(&q, (int)rank);
+    return ball_get_measure((int)rank) * sym3dd_compute_content(&q, (int)rank, NULL);
 }
 
 static sym3 round_scaled(const sym3dd *q, double scale) {
