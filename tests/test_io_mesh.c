@@ -436,16 +436,20 @@ static void check_bad_paths(void) {
     CHECK(!ovoid_mesh_read(long_path, NULL, &error) && strstr(error.message, "/lost.stl: cannot be opened"));
 }
 
-// One point more than the limit, each of them different.
+// One point more than the limit, three bytes each.
 static void check_limit(void) {
-    const char *path = file_path("limit.obj");
+    const char *path = file_path("limit.ply");
     FILE *file = fopen(path, "wb");
     if (!CHECK(file != NULL)) return;
-    for (int i = 0; i <= OVOID_MESH_POINTS_MAX; i++) fputs("v 0 0 0\n", file);
+    fprintf(file,
+            "ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty uchar x\nproperty uchar y\n"
+            "property uchar z\nend_header\n",
+            OVOID_MESH_POINTS_MAX + 1);
+    for (int i = 0; i <= OVOID_MESH_POINTS_MAX; i++) fputs("xyz", file);
     fclose(file);
     ovoid_error error = {OVOID_OK, -1, ""};
     CHECK(!ovoid_mesh_read(path, NULL, &error));
-    CHECK(error.code == OVOID_ERROR_LIMIT && error.place == OVOID_MESH_POINTS_MAX + 1);
+    CHECK(error.code == OVOID_ERROR_LIMIT && error.place == OVOID_MESH_POINTS_MAX);
     remove(path);
 }
 

@@ -79,6 +79,10 @@ int64_t json_find_line(bytes text, const json_step *steps, size_t count) {
     return line;
 }
 
+int json_is_memory_error(const json_error_t *why) {
+    return !why->text[0] || json_error_code(why) == json_error_out_of_memory;
+}
+
 // ---- writing
 
 // R. Pike, K. Thompson, 1992; RFC 3629: no surrogates, no overlong forms, nothing above U+10FFFF.

@@ -4,6 +4,8 @@
 
 #include "io/text.h"
 
+#include <jansson.h>
+
 /// A step into a value: the member of an object by its key, or the element of an array by its index (key NULL).
 typedef struct json_step {
     const char *key;
@@ -13,6 +15,9 @@ typedef struct json_step {
 /// The 1-based line where the value at the end of the steps begins, of a text that jansson has accepted. Where a step
 /// leads nowhere, the line of the value before it. Linear in the text: meant for messages.
 int64_t json_find_line(bytes text, const json_step *steps, size_t count);
+
+/// 1 if jansson failed for want of memory; it does not always say so, but then it says nothing.
+int json_is_memory_error(const json_error_t *why);
 
 /// The length of the UTF-8 sequence at c, of a text that ends with a zero byte; 0 if there is none.
 int utf8_get_length(const unsigned char *c);

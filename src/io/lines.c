@@ -34,9 +34,13 @@ static int read_more(line_source *source, ovoid_error *error) {
     }
     where at = {source->path, source->line + 1, -1};
     if (source->end == source->capacity) {
-        char *grown = source->capacity < LINE_MAX_BYTES ? realloc(source->buffer, source->capacity * 2) : NULL;
-        if (!grown) {
+        if (source->capacity >= LINE_MAX_BYTES) {
             io_report(error, OVOID_ERROR_LIMIT, at, "the line has more than %zu bytes", source->capacity);
+            return -1;
+        }
+        char *grown = realloc(source->buffer, source->capacity * 2);
+        if (!grown) {
+            (void)io_fail_memory(error, source->path);
             return -1;
         }
         source->buffer = grown;

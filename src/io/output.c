@@ -22,16 +22,22 @@ static ovoid_code fail_output(ovoid_error *error, const char *path, const char *
 }
 
 // A new file beside the target; mode "x" never opens one that is there.
-static FILE *open_temporary(ovoid_output *output) {
+static ovoid_code open_temporary(ovoid_output *output, ovoid_error *error) {
     size_t length = strlen(output->target);
-    output->temporary = malloc(length + 48);
-    if (!output->temporary) return NULL;
-    for (unsigned attempt = 0; attempt < 100; attempt++) {
-        snprintf(output->temporary, length + 48, "%s.%ld-%u.tmp", output->target, (long)getpid(), attempt);
-        FILE *file = fopen(output->temporary, "wbx");
-        if (file || errno != EEXIST) return file;
+    char *name = malloc(length + 48);
+    if (!name) return io_fail_memory(error, output->path);
+    for (unsigned attempt = 0; attempt < 100 && !output->file; attempt++) {
+        snprintf(name, length + 48, "%s.%ld-%u.tmp", output->target, (long)getpid(), attempt);
+        output->file = fopen(name, "wbx");
+        if (!output->file && errno != EEXIST) break;
     }
-    return NULL;
+    if (output->file) {
+        output->temporary = name;
+        return OVOID_OK;
+    }
+    ovoid_code code = fail_output(error, output->path, "cannot be written");
+    free(name);
+    return code;
 }
 
 // Where the path leads: its target, or NULL for what is no regular file.
@@ -54,15 +60,13 @@ ovoid_output *ovoid_output_create(const char *path, ovoid_error *error) {
         return NULL;
     }
     ovoid_code code = find_target(output, error);
-    if (!code && output->target)
-        output->file = open_temporary(output);
-    else if (!code)
+    if (!code && output->target) {
+        code = open_temporary(output, error);
+    } else if (!code) {
         output->file = strcmp(path, "-") == 0 ? stdout : fopen(path, "wb");
-    if (output->file) return output;
-    if (!code) fail_output(error, path, "cannot be written");
-    // Nothing was created: there is nothing to remove.
-    free(output->temporary);
-    output->temporary = NULL;
+        if (!output->file) code = fail_output(error, path, "cannot be written");
+    }
+    if (!code) return output;
     ovoid_output_destroy(output);
     return NULL;
 }

@@ -1,8 +1,7 @@
 // Results files, read strictly: a file that is checked must not be read with good will. Each line is a JSON object with
 // the keys that ovoid_record_write_json writes, each once and no other; every number in the range of its field.
-#include "io/text.h"
+#include "io/json.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -257,6 +256,7 @@ static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t 
     json_error_t why;
     json_decref(r->line);
     r->line = json_loadb(text, length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
+    if (!r->line && json_is_memory_error(&why)) return io_fail_memory(r->error, r->source.path);
     if (!r->line) return io_fail(r->error, OVOID_ERROR_FORMAT, at, "JSON, column %d: %s", why.column, why.text);
     const char *bad = "line";
     if (!json_is_object(r->line)) return fail(r, bad, "must be a JSON object");

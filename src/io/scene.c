@@ -3,7 +3,6 @@
 // file, plus the shapes; n log n for the names.
 #include "io/json.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -426,6 +425,7 @@ static ovoid_code read_scene(scene_reader *r) {
                        "a scene gives the radius of each object itself");
     json_error_t why;
     json_t *root = json_loadb(r->file.data, r->file.size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
+    if (!root && json_is_memory_error(&why)) return io_fail_memory(r->error, r->path);
     if (!root) return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, why.line, -1}, "JSON: %s", why.text);
     ovoid_code code = read_root(r, root);
     json_decref(root);

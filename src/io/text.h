@@ -76,6 +76,9 @@ char *text_copy(const char *text, size_t length);
 /// malloc'ed path of `name` relative to the folder of `base`; an absolute name stays.
 char *path_join(const char *base, const char *name);
 
+/// 1 if the word `name`, given in lower case, stands at `at`, in any case.
+int text_begins_with(const char *at, const char *end, const char *name);
+
 /// 1 if the path ends in `.extension` (given without the point, in lower case), in any case.
 int path_has_extension(const char *path, const char *extension);
 
