@@ -104,7 +104,8 @@ static void check_ends(void) {
         CHECK_EQ(value, cases[i].value);
     }
     double nan = 0;
-    CHECK(number_read("NaN", "NaN" + 3, &nan) && isnan(nan));
+    const char *word = "NaN";
+    CHECK(number_read(word, word + 3, &nan) && isnan(nan));
     // A number of a thousand digits is refused, not cut.
     char text[1200];
     memset(text, '1', sizeof text);
