@@ -30,8 +30,11 @@ static void write_step(FILE *file, const fitted *f, int step) {
             1e3 * f->seconds[step]);
 }
 
+/// File and part; a name from a file must not end the line or speak to the terminal.
 static void write_name(FILE *file, const fitted *f) {
-    fprintf(file, "%s%s%s\n", f->file, *f->name ? ": " : "", f->name);
+    fprintf(file, "%s%s", f->file, *f->name ? ": " : "");
+    for (const char *c = f->name; *c; c++) fputc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, file);
+    fputc('\n', file);
 }
 
 void fit_write_report(FILE *file, const fitted *f) {

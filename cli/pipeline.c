@@ -1,5 +1,6 @@
-// The pipeline: a ring of slots and one lock. A worker claims the next slot of the ring once it is drained, fills it
-// under the lock (that is what keeps the order), works on it without, and marks it done; the caller's thread drains.
+// The pipeline: a ring of slots. A worker claims the next slot of the ring once it is drained, fills it while it holds
+// the lock for filling (that is what keeps the order), works on it without a lock, and marks it done; the caller's
+// thread drains. Filling may wait for input while others work and drain.
 #include "pipeline.h"
 
 #include <pthread.h>
@@ -17,7 +18,8 @@ typedef struct ring {
     size_t count;
     uint64_t filled, drained; // slots ever
     int ended, stopped;       // no more to fill; the caller wants no more
-    pthread_mutex_t lock;
+    pthread_mutex_t filling;  // held by the worker that fills; taken before `lock`
+    pthread_mutex_t lock;     // of all numbers above
     pthread_cond_t changed;
 } ring;
 
@@ -25,31 +27,41 @@ static void *get_slot(const ring *r, uint64_t number) {
     return r->slots + (size_t)(number % r->count) * r->pipeline->slot_size;
 }
 
-/// Claims and fills the next slot; UINT64_MAX where there is none. Called with the lock held.
-static uint64_t claim(ring *r) {
+/// Waits until the next slot is free. 0 where nothing more is to be filled.
+static int wait_for_room(ring *r, uint64_t *number) {
+    pthread_mutex_lock(&r->lock);
     while (!r->ended && !r->stopped && r->filled - r->drained == r->count) pthread_cond_wait(&r->changed, &r->lock);
-    if (r->ended || r->stopped) return UINT64_MAX;
-    if (!r->pipeline->fill(r->pipeline->context, get_slot(r, r->filled))) {
+    int go = !r->ended && !r->stopped;
+    *number = r->filled;
+    pthread_mutex_unlock(&r->lock);
+    return go;
+}
+
+/// Claims and fills the next slot. 0 where there is none.
+static int claim(ring *r, uint64_t *number) {
+    pthread_mutex_lock(&r->filling);
+    int go = wait_for_room(r, number) && r->pipeline->fill(r->pipeline->context, get_slot(r, *number));
+    pthread_mutex_lock(&r->lock);
+    if (go)
+        r->filled++;
+    else
         r->ended = 1;
-        pthread_cond_broadcast(&r->changed);
-        return UINT64_MAX;
-    }
-    return r->filled++;
+    pthread_cond_broadcast(&r->changed);
+    pthread_mutex_unlock(&r->lock);
+    pthread_mutex_unlock(&r->filling);
+    return go;
 }
 
 static void *run_worker(void *argument) {
     ring *r = argument;
-    pthread_mutex_lock(&r->lock);
-    for (;;) {
-        uint64_t number = claim(r);
-        if (number == UINT64_MAX) break;
-        pthread_mutex_unlock(&r->lock);
+    uint64_t number;
+    while (claim(r, &number)) {
         r->pipeline->work(r->pipeline->context, get_slot(r, number));
         pthread_mutex_lock(&r->lock);
         r->done[number % r->count] = 1;
         pthread_cond_broadcast(&r->changed);
+        pthread_mutex_unlock(&r->lock);
     }
-    pthread_mutex_unlock(&r->lock);
     return NULL;
 }
 
@@ -101,12 +113,14 @@ int pipeline_run(const cli_pipeline *pipeline, unsigned threads) {
     int code = -1;
     r.slots = calloc(r.count, pipeline->slot_size);
     r.done = calloc(r.count, 1);
+    pthread_mutex_init(&r.filling, NULL);
     pthread_mutex_init(&r.lock, NULL);
     pthread_cond_init(&r.changed, NULL);
     if (r.slots && r.done) code = threads > 1 ? run_threads(&r, threads) : run_alone(&r);
     for (size_t i = 0; r.slots && i < r.count; i++) pipeline->clear(r.slots + i * pipeline->slot_size);
     pthread_cond_destroy(&r.changed);
     pthread_mutex_destroy(&r.lock);
+    pthread_mutex_destroy(&r.filling);
     free(r.done);
     free(r.slots);
     return code;

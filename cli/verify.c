@@ -199,12 +199,17 @@ static int drain(void *context, void *slot) {
 
 static void clear(void *slot) { (void)slot; }
 
-/// Are there pairs that no result speaks of? The results of a batch are complete or cut off.
+/// Are there pairs that no result speaks of? The results of a batch, and of one pair, are complete or cut off.
 static void look_for_rest(verify *v) {
     ovoid_indexed_pair pair;
     size_t rest = 0;
     int got = 1;
-    if (!v->bodies.pairs || v->refused) return;
+    if (v->refused || v->bodies.scene) return;
+    if (!v->bodies.pairs) {
+        v->refused = v->proofs == 0;
+        if (v->refused) snprintf(v->error.message, sizeof v->error.message, "%s: there is no result", v->path);
+        return;
+    }
     while ((got = ovoid_pairs_reader_read(v->bodies.pairs, &pair, &v->error)) > 0) rest++;
     v->refused = got < 0 || rest > 0;
     if (got == 0 && rest) {

@@ -11,7 +11,12 @@ typedef struct table_row {
     char cell[COLUMNS][CELL];
 } table_row;
 
-static void set_cell(char cell[CELL], const char *text) { snprintf(cell, CELL, "%s", text); }
+// A name from a file must not end the line or speak to the terminal.
+static void set_cell(char cell[CELL], const char *text) {
+    snprintf(cell, CELL, "%s", text);
+    for (; *cell; cell++)
+        if ((unsigned char)*cell < 0x20 || *cell == 0x7f) *cell = '?';
+}
 
 static void set_number(char cell[CELL], double value) { number_write(cell, value, 9); }
 
