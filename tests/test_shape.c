@@ -138,6 +138,9 @@ static void check_options(void) {
     check_refused(ovoid_shape_create_sphere(NAN, NULL, &e), &e, OVOID_ERROR_NOT_FINITE, "radius");
     check_refused(ovoid_shape_create_capsule(NAN, 1, NULL, &e), &e, OVOID_ERROR_NOT_FINITE, "half length");
     check_refused(ovoid_shape_create_cone(1, 1, 2, NULL, &e), &e, OVOID_ERROR_ARGUMENT, "sides");
+    check_refused(ovoid_shape_create_cylinder(1, 1, UINT32_MAX, NULL, &e), &e, OVOID_ERROR_LIMIT, "sides");
+    o = (ovoid_shape_options){.radius = -1};
+    check_refused(ovoid_shape_create_sphere(2, &o, &e), &e, OVOID_ERROR_RADIUS, "negative");
     check_refused(ovoid_shape_create_from_points(NULL, 0, NULL, &e), &e, OVOID_ERROR_EMPTY, "points");
     check_refused(ovoid_shape_create_from_points(NULL, 5, NULL, &e), &e, OVOID_ERROR_ARGUMENT, "NULL");
     double bad[6] = {0, 0, 0, 0, NAN, 0};
@@ -253,6 +256,12 @@ static void check_random_faces(void) {
     check_seed = 0;
 }
 
+// Rounded to a float; volatile, as GCC 12 at -O2 leaves the rounding out of pairs of doubles.
+static double to_float(double v) {
+    volatile float f = (float)v;
+    return f;
+}
+
 // Polygons whose corners were rounded to floats are flat to about 1e-7, and so convex only to that.
 static void check_float_faces(void) {
     uint64_t s = 19;
@@ -264,7 +273,7 @@ static void check_float_faces(void) {
             double a = 6.283185307179586 * k / SIDES;
             for (uint32_t top = 0; top < 2; top++) {
                 vec3 v = mat3_mul_vec3(r, (vec3){cos(a), sin(a), top ? 1 : -1});
-                put(2 * k + top, (vec3){(float)v.x, (float)v.y, (float)v.z});
+                put(2 * k + top, (vec3){to_float(v.x), to_float(v.y), to_float(v.z)});
             }
         }
         for (uint32_t k = 0; k < SIDES; k++) {

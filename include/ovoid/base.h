@@ -38,7 +38,7 @@ typedef enum ovoid_code {
     OVOID_ERROR_ROTATION,   /**< a quaternion of four zeros */
     OVOID_ERROR_INDEX,      /**< an index past the end of what it points into */
     OVOID_ERROR_NOT_CONVEX, /**< the faces given do not bound a convex body */
-    OVOID_ERROR_HULL,       /**< Qhull could not finish; its own words are in the message */
+    OVOID_ERROR_HULL,       /**< the hull does not close: exact signs do not let it happen */
     OVOID_ERROR_FORMAT,     /**< bytes that do not follow the file format */
     OVOID_ERROR_FILE,       /**< a file could not be opened, read or written */
     OVOID_ERROR_LIMIT,      /**< more items than a documented limit allows */

@@ -53,7 +53,7 @@ static inline const double *shape_vertices(const ovoid_shape *s) {
 block_offsets block_compute_offsets(block_counts counts);
 
 /// A block with room for the counts, cleared, with counts, layout and allocator set. NULL with *error filled.
-ovoid_shape *block_create(block_counts counts, const ovoid_allocator *allocator, ovoid_error *error);
+ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error);
 
 /// Copies the polytope's arrays into the block, and derives what follows from the vertices: structure of arrays,
 /// padding, sphere, extent, measures. The polytope must have the block's counts.

@@ -215,32 +215,39 @@ static ovoid_code check_convex(checker *c) {
 // ----
 
 static ovoid_code check_surface(checker *c) {
-    c->first = allocator_allocate(c->allocator, c->faces->vertex_count, sizeof *c->first);
-    ovoid_code code = OVOID_OK;
-    if (!c->first || !points_find_first(c->faces->vertices, c->faces->vertex_count, c->allocator, c->first))
-        code = error_set(c->error, OVOID_ERROR_MEMORY, -1, "no memory for %zu vertices", c->faces->vertex_count);
-    if (!code) code = check_closed(c);
+    size_t count = c->faces->vertex_count;
+    c->first = allocator_allocate(c->allocator, count, sizeof *c->first);
+    ovoid_code code = OVOID_ERROR_MEMORY;
+    if (c->first && points_find_first(c->faces->vertices, count, c->allocator, c->first))
+        code = check_closed(c);
+    else
+        error_set(c->error, code, -1, "no memory for %zu vertices", count);
     if (!code) code = check_convex(c);
     allocator_release(c->allocator, c->first);
     return code;
 }
 
-static ovoid_code check_arguments(const ovoid_faces *f, ovoid_error *error) {
-    if (!f) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the faces are NULL");
-    if (f->vertex_count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "no points");
-    if (f->face_count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "no faces");
-    if (!f->vertices || !f->indices || !f->sizes)
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "an array of the faces is NULL");
-    if (f->vertex_count > POINTS_MAX || f->face_count > CORNERS_MAX / 3)
-        return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu vertices and %zu faces; at most %zu and %zu are taken",
-                         f->vertex_count, f->face_count, POINTS_MAX, CORNERS_MAX / 3);
-    return OVOID_OK;
+static int is_argument(const ovoid_faces *f, ovoid_error *error) {
+    if (!f)
+        error_set(error, OVOID_ERROR_ARGUMENT, -1, "the faces are NULL");
+    else if (f->vertex_count == 0)
+        error_set(error, OVOID_ERROR_EMPTY, -1, "no points");
+    else if (f->face_count == 0)
+        error_set(error, OVOID_ERROR_EMPTY, -1, "no faces");
+    else if (!f->vertices || !f->indices || !f->sizes)
+        error_set(error, OVOID_ERROR_ARGUMENT, -1, "an array of the faces is NULL");
+    else if (f->vertex_count > POINTS_MAX || f->face_count > CORNERS_MAX / 3)
+        error_set(error, OVOID_ERROR_LIMIT, -1, "%zu vertices and %zu faces; at most %zu and %zu are taken",
+                  f->vertex_count, f->face_count, POINTS_MAX, CORNERS_MAX / 3);
+    else
+        return 1;
+    return 0;
 }
 
 ovoid_shape *ovoid_shape_create_from_faces(const ovoid_faces *faces, const ovoid_shape_options *options,
                                            ovoid_error *error) {
     ovoid_shape_options o;
-    if (shape_options_make(options, &o, error) || check_arguments(faces, error)) return NULL;
+    if (shape_options_make(options, &o, error) || !is_argument(faces, error)) return NULL;
     ovoid_allocator allocator = allocator_make(o.allocator);
     checker c = {.faces = faces, .allocator = &allocator, .error = error};
     hull h;

@@ -285,12 +285,12 @@ static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *all
 }
 
 ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *given, ovoid_error *error) {
-    reader r = {bytes, 0, error};
-    content c = {0};
-    if (!bytes && size) {
-        error_set(error, OVOID_ERROR_ARGUMENT, -1, "the bytes are NULL");
+    if (!bytes) {
+        error_set(error, size ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_FORMAT, size ? -1 : 0, "there are no bytes");
         return NULL;
     }
+    reader r = {bytes, 0, error};
+    content c = {0};
     if (check_frame(&r, size, &c)) return NULL;
     ovoid_allocator allocator = allocator_make(given);
     c.vertices = allocator_allocate(&allocator, c.vertex_count, 3 * sizeof *c.vertices);

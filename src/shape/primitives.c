@@ -2,7 +2,8 @@
 #include "base/allocator.h"
 #include "base/error.h"
 #include "linear/vec3.h"
-#include "ovoid/shape.h"
+#include "polytope/points.h"
+#include "shape/create.h"
 
 // A length of a primitive: finite and not negative.
 static int is_length(double length, const char *name, ovoid_error *error) {
@@ -31,12 +32,13 @@ ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape_options *
 // Points enlarged by a radius on top of that of the options.
 static ovoid_shape *create_rounded(const double *xyz, size_t count, double radius, const ovoid_shape_options *options,
                                    ovoid_error *error) {
+    ovoid_shape_options o;
+    if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
     if (!isfinite(radius) || radius < 0) {
         error_set(error, isfinite(radius) ? OVOID_ERROR_RADIUS : OVOID_ERROR_NOT_FINITE, -1,
                   isfinite(radius) ? "the radius %g is negative" : "the radius %g is not finite", radius);
         return NULL;
     }
-    ovoid_shape_options o = options ? *options : (ovoid_shape_options){0};
     o.radius += radius;
     return ovoid_shape_create_from_points(xyz, count, &o, error);
 }
@@ -69,6 +71,10 @@ static ovoid_shape *create_turned(double radius, double half_length, uint32_t si
     if (!is_length(radius, "radius", error) || !is_length(half_length, "half length", error)) return NULL;
     if (sides < 3) {
         error_set(error, OVOID_ERROR_ARGUMENT, -1, "%u sides; at least 3 are needed", sides);
+        return NULL;
+    }
+    if (sides > POINTS_MAX / 2) {
+        error_set(error, OVOID_ERROR_LIMIT, -1, "%u sides; at most %zu are taken", sides, POINTS_MAX / 2);
         return NULL;
     }
     ovoid_allocator allocator = allocator_make(options ? options->allocator : NULL);
