@@ -77,7 +77,9 @@ static int link_nearest(drawing *d, const ovoid_scene *scene) {
             if (b == a || (scene && ovoid_scene_is_ignored(scene, a, b))) continue;
             // Always the lower index first, so that both ways give the same answer.
             ovoid_pair pair = make_pair(d, a < b ? a : b, a < b ? b : a);
-            ovoid_answer answer = ovoid_depth(&pair, NULL, NULL, NULL);
+            // What is proven farther than the best so far need not be known better.
+            ovoid_options query = {.cap = nearest[a] != none && best.upper > 0 ? best.upper : 0};
+            ovoid_answer answer = ovoid_depth(&pair, &query, NULL, NULL);
             if (nearest[a] == none || answer.lower < best.lower) best = answer, nearest[a] = b;
         }
         size_t b = nearest[a];
