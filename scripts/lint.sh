@@ -16,7 +16,7 @@ run_step() {
         # With the compile commands of the clang build; tests are left to the compilers' own warnings. The paths that led
         # to a finding stay in the log.
         cmake --preset check >/dev/null &&
-            sources | grep '\.c$' | grep -v '^tests/' |
+            sed -n 's|^ *"file": "\(.*\)".*|\1|p' build/check/compile_commands.json | grep -v '/\(tests\|build\)/' | sort -u |
             xargs -n 4 -P "${JOBS:-2}" clang-tidy --quiet --warnings-as-errors='*' -p build/check >build/tidy.log 2>&1
         tidy=$?
         grep -A 2 ' error: ' build/tidy.log

@@ -143,7 +143,8 @@ static inline void trial_ask_within(tally *t, const ovoid_pair *pair, double d, 
     int within = ovoid_answer_is_within(&x, margin);
     if (within == 1 && !(x.upper <= margin)) trial_fail(t, pair, &x, "within", "says within and is not");
     if (within == 0 && !(x.lower > margin)) trial_fail(t, pair, &x, "within", "says farther and is not");
-    if (within == -1 && x.upper - x.lower > 1e-6 * pair_size(pair) + 16 * OVOID_LENGTH_MIN && x.limit == OVOID_LIMIT_NONE)
+    if (within == -1 && x.upper - x.lower > 1e-6 * pair_size(pair) + 16 * OVOID_LENGTH_MIN &&
+        x.limit == OVOID_LIMIT_NONE)
         trial_fail(t, pair, &x, "within", "open, and the bracket is wide");
 }
 

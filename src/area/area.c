@@ -141,7 +141,7 @@ ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_elli
     ovoid_allocator use = allocator_make(allocator);
     ovoid_areas *a = allocator_allocate(&use, 1, sizeof *a);
     if (!a) {
-        error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the areas");
+        error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the areas");
         return NULL;
     }
     *a = (ovoid_areas){.polytope = *polytope, .center = ellipsoid->center, .allocator = use};

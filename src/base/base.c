@@ -34,15 +34,14 @@ const char *ovoid_code_get_name(ovoid_code code) {
     return "unknown code";
 }
 
-ovoid_code error_set(ovoid_error *error, ovoid_code code, int64_t place, const char *format, ...) {
-    if (!error) return code;
+void error_write(ovoid_error *error, ovoid_code code, int64_t place, const char *format, ...) {
+    if (!error) return;
     error->code = code;
     error->place = place;
     va_list arguments;
     va_start(arguments, format);
     (void)vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
-    return code;
 }
 
 static void *allocate_aligned(void *context, size_t size) {

@@ -96,10 +96,11 @@ int points_find_first(const double *xyz, size_t count, const ovoid_allocator *al
 
 // The points that are the first of their kind, into p->source.
 static int find_distinct(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p) {
-    p->source = allocator_allocate(allocator, count, sizeof *p->source);
-    if (!p->source || !points_find_first(xyz, count, allocator, p->source)) return 0;
+    uint32_t *source = allocator_allocate(allocator, count, sizeof *source);
+    p->source = source;
+    if (!source || !points_find_first(xyz, count, allocator, source)) return 0;
     for (size_t i = 0; i < count; i++)
-        if (p->source[i] == i) p->source[p->count++] = (uint32_t)i;
+        if (source[i] == i) source[p->count++] = (uint32_t)i;
     p->duplicates = count - p->count;
     return 1;
 }

@@ -37,7 +37,7 @@ ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovo
     block_offsets at = block_compute_offsets(counts);
     ovoid_shape *shape = allocator_allocate(&allocator, 1, at.size);
     if (!shape) {
-        error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a shape of %llu bytes", (unsigned long long)at.size);
+        error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for a shape of %llu bytes", (unsigned long long)at.size);
         return NULL;
     }
     memset(shape, 0, at.size);

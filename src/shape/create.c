@@ -62,7 +62,7 @@ ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *o,
     shape->report = h->report;
     ovoid_code code = fit_ellipsoids(shape, o);
     if (code == OVOID_OK) return shape;
-    error_set(error, code, -1, "no memory for the ellipsoids of %u vertices", h->vertex_count);
+    error_write(error, code, -1, "no memory for the ellipsoids of %u vertices", h->vertex_count);
     ovoid_shape_destroy(shape);
     return NULL;
 }
@@ -72,7 +72,7 @@ ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, con
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
     if (!xyz && count) {
-        error_set(error, OVOID_ERROR_ARGUMENT, -1, "the array of points is NULL");
+        error_write(error, OVOID_ERROR_ARGUMENT, -1, "the array of points is NULL");
         return NULL;
     }
     ovoid_allocator allocator = allocator_make(o.allocator);

@@ -221,7 +221,7 @@ static ovoid_code check_surface(checker *c) {
     if (c->first && points_find_first(c->faces->vertices, count, c->allocator, c->first))
         code = check_closed(c);
     else
-        error_set(c->error, code, -1, "no memory for %zu vertices", count);
+        error_write(c->error, code, -1, "no memory for %zu vertices", count);
     if (!code) code = check_convex(c);
     allocator_release(c->allocator, c->first);
     return code;
@@ -229,16 +229,16 @@ static ovoid_code check_surface(checker *c) {
 
 static int is_argument(const ovoid_faces *f, ovoid_error *error) {
     if (!f)
-        error_set(error, OVOID_ERROR_ARGUMENT, -1, "the faces are NULL");
+        error_write(error, OVOID_ERROR_ARGUMENT, -1, "the faces are NULL");
     else if (f->vertex_count == 0)
-        error_set(error, OVOID_ERROR_EMPTY, -1, "no points");
+        error_write(error, OVOID_ERROR_EMPTY, -1, "no points");
     else if (f->face_count == 0)
-        error_set(error, OVOID_ERROR_EMPTY, -1, "no faces");
+        error_write(error, OVOID_ERROR_EMPTY, -1, "no faces");
     else if (!f->vertices || !f->indices || !f->sizes)
-        error_set(error, OVOID_ERROR_ARGUMENT, -1, "an array of the faces is NULL");
+        error_write(error, OVOID_ERROR_ARGUMENT, -1, "an array of the faces is NULL");
     else if (f->vertex_count > POINTS_MAX || f->face_count > CORNERS_MAX / 3)
-        error_set(error, OVOID_ERROR_LIMIT, -1, "%zu vertices and %zu faces; at most %zu and %zu are taken",
-                  f->vertex_count, f->face_count, POINTS_MAX, CORNERS_MAX / 3);
+        error_write(error, OVOID_ERROR_LIMIT, -1, "%zu vertices and %zu faces; at most %zu and %zu are taken",
+                    f->vertex_count, f->face_count, POINTS_MAX, CORNERS_MAX / 3);
     else
         return 1;
     return 0;

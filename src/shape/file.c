@@ -286,7 +286,7 @@ static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *all
 
 ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *given, ovoid_error *error) {
     if (!bytes) {
-        error_set(error, size ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_FORMAT, size ? -1 : 0, "there are no bytes");
+        error_write(error, size ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_FORMAT, size ? -1 : 0, "there are no bytes");
         return NULL;
     }
     reader r = {bytes, 0, error};
@@ -295,7 +295,7 @@ ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_alloca
     ovoid_allocator allocator = allocator_make(given);
     c.vertices = allocator_allocate(&allocator, c.vertex_count, 3 * sizeof *c.vertices);
     if (!c.vertices) {
-        error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %u vertices", c.vertex_count);
+        error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for %u vertices", c.vertex_count);
         return NULL;
     }
     ovoid_shape *shape = read_shape(&r, &c, &allocator);

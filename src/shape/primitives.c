@@ -8,9 +8,9 @@
 // A length of a primitive: finite and not negative.
 static int is_length(double length, const char *name, ovoid_error *error) {
     if (!isfinite(length))
-        error_set(error, OVOID_ERROR_NOT_FINITE, -1, "the %s is not finite", name);
+        error_write(error, OVOID_ERROR_NOT_FINITE, -1, "the %s is not finite", name);
     else if (length < 0)
-        error_set(error, OVOID_ERROR_ARGUMENT, -1, "the %s %g is negative", name, length);
+        error_write(error, OVOID_ERROR_ARGUMENT, -1, "the %s %g is negative", name, length);
     else
         return 1;
     return 0;
@@ -35,8 +35,8 @@ static ovoid_shape *create_rounded(const double *xyz, size_t count, double radiu
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
     if (!isfinite(radius) || radius < 0) {
-        error_set(error, isfinite(radius) ? OVOID_ERROR_RADIUS : OVOID_ERROR_NOT_FINITE, -1,
-                  isfinite(radius) ? "the radius %g is negative" : "the radius %g is not finite", radius);
+        error_write(error, isfinite(radius) ? OVOID_ERROR_RADIUS : OVOID_ERROR_NOT_FINITE, -1,
+                    isfinite(radius) ? "the radius %g is negative" : "the radius %g is not finite", radius);
         return NULL;
     }
     o.radius += radius;
@@ -70,18 +70,18 @@ static ovoid_shape *create_turned(double radius, double half_length, uint32_t si
                                   const ovoid_shape_options *options, ovoid_error *error) {
     if (!is_length(radius, "radius", error) || !is_length(half_length, "half length", error)) return NULL;
     if (sides < 3) {
-        error_set(error, OVOID_ERROR_ARGUMENT, -1, "%u sides; at least 3 are needed", sides);
+        error_write(error, OVOID_ERROR_ARGUMENT, -1, "%u sides; at least 3 are needed", sides);
         return NULL;
     }
     if (sides > POINTS_MAX / 2) {
-        error_set(error, OVOID_ERROR_LIMIT, -1, "%u sides; at most %zu are taken", sides, POINTS_MAX / 2);
+        error_write(error, OVOID_ERROR_LIMIT, -1, "%u sides; at most %zu are taken", sides, POINTS_MAX / 2);
         return NULL;
     }
     ovoid_allocator allocator = allocator_make(options ? options->allocator : NULL);
     size_t count = (size_t)sides * (size_t)rings + (rings == 1);
     double *xyz = allocator_allocate(&allocator, count, 3 * sizeof *xyz);
     if (!xyz) {
-        error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %u sides", sides);
+        error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for %u sides", sides);
         return NULL;
     }
     fill_circle(xyz, radius, -half_length, sides);

@@ -1,0 +1,4 @@
+// Meshes: OBJ.
+#include "fuzz.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) { return fuzz_mesh("mesh.obj", data, size); }

@@ -1,0 +1,4 @@
+// Meshes: OFF.
+#include "fuzz.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) { return fuzz_mesh("mesh.off", data, size); }

@@ -1,0 +1,32 @@
+// Results: what is read is checked against a pair of boxes (its proofs may hold or not, but are never followed out of
+// bounds) and can be written again.
+#include "fuzz.h"
+
+#include <ovoid/io.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_results_reader *reader = ovoid_results_reader_create(fuzz_write_file("results.jsonl", data, size), &error);
+    if (!reader) {
+        fuzz_require_error(&error);
+        return 0;
+    }
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
+    FILE *nowhere = fopen("/dev/null", "w");
+    fuzz_require(box != NULL && nowhere != NULL);
+    ovoid_pair pair = {box, box, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
+    pair.pose_b.position.x = 3;
+    ovoid_record record;
+    int got;
+    while ((got = ovoid_results_reader_read(reader, &record, &error)) == 1) {
+        fuzz_require(ovoid_results_reader_get_line(reader) > 0);
+        (void)ovoid_answer_check(&pair, &record.answer, record.cover, &error);
+        fuzz_require(ovoid_record_write_json(nowhere, &record) == OVOID_OK);
+        fuzz_require(ovoid_record_write_csv(nowhere, &record) == OVOID_OK);
+    }
+    if (got < 0) fuzz_require_error(&error);
+    (void)fclose(nowhere);
+    ovoid_shape_destroy(box);
+    ovoid_results_reader_destroy(reader);
+    return 0;
+}
