@@ -159,6 +159,38 @@ static void check_formats(void) {
     }
 }
 
+// COLLADA of centimetres with z up: coordinates become metres and keep their axes.
+static const char text_dae[] =
+    "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\"><asset>"
+    "<unit name=\"centimeter\" meter=\"0.01\"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id=\"g\">"
+    "<mesh><source id=\"p\"><float_array id=\"a\" count=\"9\">0 0 0 100 0 0 0 200 300</float_array><technique_common>"
+    "<accessor source=\"#a\" count=\"3\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" "
+    "type=\"float\"/>"
+    "<param name=\"Z\" type=\"float\"/></accessor></technique_common></source><vertices id=\"v\"><input "
+    "semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" "
+    "offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene "
+    "id=\"s\"><node id=\"n\"><instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes><scene>"
+    "<instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+
+static void check_collada(void) {
+    if (!ovoid_io_has_assimp()) {
+        check_skip("COLLADA: this build has no Assimp");
+        return;
+    }
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_mesh *mesh = ovoid_mesh_read(file_write_text("units.dae", text_dae), NULL, &error);
+    if (!CHECK(mesh != NULL)) {
+        printf("  %s\n", error.message);
+        return;
+    }
+    ovoid_faces faces = ovoid_mesh_get_part(mesh, 0).faces;
+    CHECK_EQ(faces.vertex_count, 3);
+    const double truth[9] = {0, 0, 0, 1, 0, 0, 0, 2, 3};
+    // Assimp computes in floats: a few units in their last place.
+    for (size_t i = 0; i < 9 && faces.vertex_count == 3; i++) CHECK_NEAR(faces.vertices[i], truth[i], 1e-6);
+    ovoid_mesh_destroy(mesh);
+}
+
 // Node transforms: p -> (10, 0, 0) + 2 p, exact in floats.
 static void check_nodes(void) {
     if (!ovoid_io_has_assimp()) {
@@ -436,6 +468,13 @@ static void check_bad_paths(void) {
     CHECK(!ovoid_mesh_read(long_path, NULL, &error) && strstr(error.message, "/lost.stl: cannot be opened"));
 }
 
+// What only Assimp reads: refused with its words, or for want of it.
+static void check_bad_scene_file(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    CHECK(!ovoid_mesh_read(file_write_text("broken.gltf", "{\"asset\":"), NULL, &error));
+    CHECK(error.code == OVOID_ERROR_FORMAT && strstr(error.message, "Assimp"));
+}
+
 // One point more than the limit, three bytes each.
 static void check_limit(void) {
     const char *path = file_path("limit.ply");
@@ -553,12 +592,14 @@ static void check_real(void) {
 int main(void) {
     check_formats();
     check_nodes();
+    check_collada();
     check_parts();
     check_solids();
     check_numbers();
     check_bad_inputs();
     check_bad_binaries();
     check_bad_paths();
+    check_bad_scene_file();
     check_limit();
     check_damaged();
     check_real();
