@@ -34,6 +34,7 @@ static double measure_hull(const pair_frame *f, const ovoid_proof *p) {
     vec3 w[OVOID_PROOF_PAIRS];
     for (uint32_t i = 0; i < p->count; i++) w[i] = proof_difference(f, p, i).w;
     double depth = hull_compute_depth(w, (int)p->count, f->check);
+    depth = fmax(depth, hull_compute_clearance(w, (int)p->count, f->check));
     return depth > 0 ? -depth - f->radii : INFINITY;
 }
 

@@ -78,39 +78,33 @@ static int start(search *s, expansion *e, const simplex *from) {
     return find_tetrahedron(s, e);
 }
 
-// The corners of a face as evidence, weighted to the point nearest to the origin.
-static evidence face_evidence(const expansion *e, const face *f) {
+// The corners of a face as evidence, weighted to the point nearest to the target; *distance: how near.
+static evidence face_evidence(const expansion *e, const face *f, vec3 target, double *distance) {
     simplex x = {.count = 3};
-    for (int i = 0; i < 3; i++) x.p[i] = (difference){e->w[f->v[i]], e->a[f->v[i]], e->b[f->v[i]]};
+    for (int i = 0; i < 3; i++) x.p[i] = (difference){vec3_sub(e->w[f->v[i]], target), e->a[f->v[i]], e->b[f->v[i]]};
     (void)simplex_reduce(&x);
+    *distance = vec3_norm(simplex_compute_point(&x));
     return evidence_make(&x);
 }
 
-// 1 if the face lies in the plane of the other one.
-static int is_coplanar(const expansion *e, const face *f, const face *plane, double slack) {
-    for (int k = 0; k < 3; k++)
-        if (!(fabs(vec3_dot(plane->n, e->w[f->v[k]]) - plane->low) <= slack)) return 0;
-    return 1;
-}
-
-// The face that holds the foot of the origin: of all in the nearest face's plane (a facet of the difference body is
-// often several triangles), the one whose own nearest point is nearest.
-static uint16_t find_foot(const search *s, const expansion *e, uint16_t nearest) {
-    double least = INFINITY;
-    uint16_t best = nearest;
-    for (uint32_t i = 0; i < e->faces; i++) {
+// The witness of the depth: the surface's point nearest to the foot of the origin on the nearest face's plane. That
+// face may be one of several triangles of a facet, or of a small body's facet on a large one, so all about as near are
+// tried.
+static evidence find_witness(const search *s, const expansion *e, const face *nearest) {
+    vec3 foot = vec3_scale(nearest->n, nearest->low);
+    double least;
+    evidence best = face_evidence(e, nearest, foot, &least);
+    for (uint32_t i = 0; i < e->faces && least > s->frame->claim; i++) {
         const face *f = &e->f[i];
-        if (!f->alive || !is_coplanar(e, f, &e->f[nearest], s->frame->claim)) continue;
-        evidence x = face_evidence(e, f);
-        vec3 foot = {0, 0, 0};
-        for (int k = 0; k < x.count; k++) foot = vec3_add_scaled(foot, x.p[k].w, x.weight[k]);
-        double distance = vec3_norm(foot);
-        if (distance < least) least = distance, best = (uint16_t)i;
+        if (!f->alive || f->low > nearest->low + s->ask.tolerance) continue;
+        double distance;
+        evidence x = face_evidence(e, f, foot, &distance);
+        if (distance < least) least = distance, best = x;
     }
     return best;
 }
 
-// The upper bound that the surface proves, with the nearest face as witness.
+// The upper bound that the surface proves, with its witness.
 static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_cover *cover) {
     uint16_t triangles[EXPANSION_FACES][3];
     surface all = {e->w, (const uint16_t(*)[3])triangles, e->points, expansion_pack(e, triangles)};
@@ -120,7 +114,7 @@ static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_co
     s->upper = upper;
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
-    s->witness = face_evidence(e, &e->f[find_foot(s, e, nearest)]);
+    s->witness = find_witness(s, e, &e->f[nearest]);
     if (!cover) return;
     cover->point_count = e->points;
     cover->triangle_count = all.triangle_count;
@@ -129,21 +123,16 @@ static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_co
     memcpy(cover->triangles, triangles, all.triangle_count * sizeof *triangles);
 }
 
-static simplex cone_over_face(const expansion *e, const face *f) {
-    simplex x = {.count = 4, .p = {{e->w[0], e->a[0], e->b[0]}}};
-    for (int k = 0; k < 3; k++) x.p[k + 1] = (difference){e->w[f->v[k]], e->a[f->v[k]], e->b[f->v[k]]};
-    return x;
-}
-
 // A tetrahedron that strictly contains the origin: point 0 and a face.
 static int take_tetrahedron(search *s, const expansion *e) {
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
         if (!f->alive || f->v[0] == 0 || f->v[1] == 0 || f->v[2] == 0) continue;
-        simplex x = cone_over_face(e, f);
-        if (vec3_norm_squared(simplex_reduce(&x)) > 0 || x.count < 4) continue;
-        evidence inside = evidence_make(&x);
-        if (search_take_hull(s, &inside)) return 1;
+        evidence x = {.count = 4, .p = {{e->w[0], e->a[0], e->b[0]}}};
+        for (int k = 0; k < 3; k++) x.p[k + 1] = (difference){e->w[f->v[k]], e->a[f->v[k]], e->b[f->v[k]]};
+        if (!search_take_hull(s, &x)) continue;
+        evidence_set_weights(&s->witness);
+        return 1;
     }
     return 0;
 }

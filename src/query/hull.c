@@ -3,26 +3,37 @@
 #include "query/cover.h"
 #include "query/expand.h"
 
+static const uint16_t tetrahedron[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
 // A tetrahedron by its determinants: the origin is inside iff the four have one sign. A determinant of corners off by
 // `error` is off by 4 reach^2 error, its evaluation by 64 u reach^3; a cross product by 8 reach (error + 4 u reach).
-static double tetrahedron_depth(const vec3 w[4], double error) {
-    static const int faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
-    double reach = 0;
-    for (int i = 0; i < 4; i++) reach = fmax(reach, vec3_norm(w[i]));
-    double slack = reach * reach * (4 * error + 64 * 0x1p-53 * reach);
-    double depth = INFINITY;
-    int sign = 0;
+// Corners of about unit length: no square can underflow to where it loses digits. 0: in doubt; -1: outside.
+static double compact_tetrahedron_depth(const vec3 w[4], double reach, double error) {
+    double slack = reach * reach * (4 * error + 64 * 0x1p-53 * reach), depth = INFINITY;
+    int above = 0, below = 0;
     for (int i = 0; i < 4; i++) {
-        vec3 a = w[faces[i][0]], b = w[faces[i][1]], c = w[faces[i][2]];
+        vec3 a = w[tetrahedron[i][0]], b = w[tetrahedron[i][1]], c = w[tetrahedron[i][2]];
         double det = vec3_dot(a, vec3_cross(b, c));
-        if (!(fabs(det) > slack)) return 0;
-        int side = det > 0 ? 1 : -1;
-        if (i > 0 && side != sign) return 0;
-        sign = side;
+        above += det > slack;
+        below += det < -slack;
         double area = vec3_norm(vec3_cross(vec3_sub(b, a), vec3_sub(c, a))) + 8 * reach * (error + 4 * 0x1p-53 * reach);
         depth = fmin(depth, (fabs(det) - slack) / area * (1 - 0x1p-50));
     }
-    return depth;
+    if (above > 0 && below > 0) return -1;
+    return above == 4 || below == 4 ? depth : 0;
+}
+
+// In units of the corners' size.
+static double tetrahedron_depth(const vec3 w[4], double error) {
+    double reach = 0;
+    for (int i = 0; i < 4; i++) reach = fmax(reach, vec3_max_abs(w[i]));
+    int exponent;
+    (void)frexp(reach, &exponent);
+    double unit = ldexp(1, -exponent);
+    vec3 compact[4];
+    for (int i = 0; i < 4; i++) compact[i] = vec3_scale(w[i], unit);
+    double depth = compact_tetrahedron_depth(compact, 2, error * unit);
+    return depth > 0 ? depth / unit * (1 - 0x1p-50) : depth;
 }
 
 static double double_pyramid_depth(const vec3 *w, int count, double error) {
@@ -37,9 +48,15 @@ static double double_pyramid_depth(const vec3 *w, int count, double error) {
     return surface_compute_depth(&s, error);
 }
 
-double hull_compute_depth(const vec3 *w, int count, double error) {
-    if (count == 4) return tetrahedron_depth(w, error);
+double hull_compute_clearance(const vec3 *w, int count, double error) {
+    surface s = {w, tetrahedron, 4, 4};
+    if (count == 4) return surface_compute_depth(&s, error);
     return count == 5 || count == 6 ? double_pyramid_depth(w, count, error) : 0;
+}
+
+double hull_compute_depth(const vec3 *w, int count, double error) {
+    double depth = count == 4 ? tetrahedron_depth(w, error) : 0;
+    return depth != 0 ? fmax(depth, 0) : hull_compute_clearance(w, count, error);
 }
 
 // The hull of the points that are not dropped; its depth around the origin, 0 if it does not contain it.

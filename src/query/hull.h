@@ -9,6 +9,10 @@
 /// `error`; 0 if none is proven.
 double hull_compute_depth(const vec3 *w, int count, double error);
 
+/// Likewise by the surface's distance alone: dearer, and better where the tetrahedron is thin; the greater of both is
+/// never below what a larger error gave.
+double hull_compute_clearance(const vec3 *w, int count, double error);
+
 /// Chooses 4 to 6 of the points (at most HULL_POINTS_MAX) for hull_compute_depth, in its order, into kept. Returns
 /// their number; 0 if the points do not contain the origin, as far as can be proven, or no such choice is found. Drops
 /// points one after another as long as the origin stays inside the hull of the rest; what cannot be reduced has at most
