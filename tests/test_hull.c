@@ -230,6 +230,39 @@ static void check_tiny_differences(void) {
     check_seed = 0;
 }
 
+// A coordinate: small integers, plain or made hard. Exact coincidences of all kinds come up all the time.
+static double make_coordinate(int kind, int axis, uint64_t *s) {
+    double v = (double)(random_next(s) % 7) - 3;
+    switch (kind) {
+    case 0: return v;
+    case 1: return v * 0.1 + (axis == 0 ? 1e3 : 0);
+    case 2: return ldexp(v, -(int)(random_next(s) % 60));
+    case 3: return v * (axis == 2 ? 1e-15 : 1);
+    case 4: return v / 3;
+    case 5: return v == 0 ? 0 : nextafter(v, (double)(random_next(s) % 3) - 1);
+    case 6: return v * pow(10, -8 * (int)(random_next(s) % 3));
+    default: return ldexp(v, (int)(random_next(s) % 160) - 80);
+    }
+}
+
+// Thousands of small bodies of every rank and degeneracy.
+static void check_lattices(void) {
+    uint64_t s = 100;
+    for (int i = 0; i < 4000; i++) {
+        check_seed = s;
+        size_t n = 1 + random_next(&s) % 40;
+        int kind = i % 8;
+        for (size_t k = 0; k < n; k++) {
+            double x = make_coordinate(kind, 0, &s), y = make_coordinate(kind, 1, &s);
+            put(k, (vec3){x, y, make_coordinate(kind, 2, &s)});
+        }
+        if (kind == 4) rotate_cloud(n, random_rotation(&s));
+        hull h = check_hull(cloud, n);
+        hull_destroy(&h, &allocator);
+    }
+    check_seed = 0;
+}
+
 // ---- trouble ----
 
 typedef struct countdown {
@@ -302,6 +335,7 @@ int main(void) {
     check_hard();
     check_flat();
     check_tiny_differences();
+    check_lattices();
     check_memory();
     check_errors();
     uint64_t s = 2;

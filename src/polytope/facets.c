@@ -2,9 +2,10 @@
 //
 // Faces that were flat before their points were rounded come as bundles of triangles whose planes differ in the last
 // bits, some of them slivers whose own normal is noise. They are joined from the largest triangle on: every triangle
-// that is reached over edges and has its three corners within FACET_FLATNESS of the first one's plane. The facet's
-// normal is the sum of its triangles' areas as vectors, so that slivers do not count; its offset is the largest n . v
-// of its corners and of the corners next to them. The triangles stay what the body is; planes are approximations.
+// that is reached over edges, faces the same way and has its three corners within FACET_FLATNESS of the first one's
+// plane. The facet's normal is the sum of its triangles' areas as vectors, so that slivers do not count; its offset is
+// the largest n . v of its corners and of the corners next to them. The triangles stay what the body is; planes are
+// approximations.
 #include "polytope/facets.h"
 
 #include "linear/exact.h"
@@ -17,14 +18,15 @@
 // a b - c d
 static double compute_minor(dd a, dd b, dd c, dd d) { return dd_sub(dd_mul(a, b), dd_mul(c, d)).high; }
 
-// Twice the area as a vector, through double-double: in doubles the normal of a thin triangle is off by a rounding over
-// its least angle.
-static vec3 compute_area(const surface *s, const double *grid, uint32_t t) {
-    const uint32_t *corner = s->triangles + 3 * (size_t)t;
-    vec3 a = vec3_at(grid, corner[0]), b = vec3_at(grid, corner[1]), c = vec3_at(grid, corner[2]);
+vec3 compute_area(vec3 a, vec3 b, vec3 c) {
     dd px = two_sum(b.x, -a.x), py = two_sum(b.y, -a.y), pz = two_sum(b.z, -a.z);
     dd qx = two_sum(c.x, -a.x), qy = two_sum(c.y, -a.y), qz = two_sum(c.z, -a.z);
     return (vec3){compute_minor(py, qz, pz, qy), compute_minor(pz, qx, px, qz), compute_minor(px, qy, py, qx)};
+}
+
+static vec3 get_area(const surface *s, const double *grid, uint32_t t) {
+    const uint32_t *corner = s->triangles + 3 * (size_t)t;
+    return compute_area(vec3_at(grid, corner[0]), vec3_at(grid, corner[1]), vec3_at(grid, corner[2]));
 }
 
 double compute_extent(const double *xyz, uint32_t count) {
@@ -37,12 +39,12 @@ thickness surface_compute_thickness(const surface *s, const double *grid, uint32
     // The largest triangle, then the mean normal of its side of the surface.
     vec3 largest = {0, 0, 0}, sum = {0, 0, 0};
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        vec3 area = compute_area(s, grid, t);
+        vec3 area = get_area(s, grid, t);
         if (vec3_norm_squared(area) > vec3_norm_squared(largest)) largest = area;
     }
     largest = vec3_unit(largest);
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        vec3 area = compute_area(s, grid, t);
+        vec3 area = get_area(s, grid, t);
         if (vec3_dot(area, largest) > 0) sum = vec3_add(sum, area);
     }
     vec3 n = vec3_unit(sum);
@@ -83,9 +85,15 @@ static double compute_distance(const joiner *j, uint32_t t, const ovoid_plane *p
     return distance;
 }
 
+// A triangle that faces the other way is the back of something thin, however near it is.
+static int is_joining(const joiner *j, uint32_t t, const ovoid_plane *plane) {
+    return j->facet_of[t] == NOTHING && compute_distance(j, t, plane) <= j->flatness &&
+           vec3_dot(get_area(j->s, j->grid, t), plane->normal) > 0;
+}
+
 static void grow_facet(joiner *j, uint32_t seed, uint32_t facet) {
     ovoid_plane *plane = j->planes + facet;
-    plane->normal = vec3_unit(compute_area(j->s, j->grid, seed));
+    plane->normal = vec3_unit(get_area(j->s, j->grid, seed));
     plane->offset = vec3_dot(plane->normal, vec3_at(j->grid, j->s->triangles[3 * (size_t)seed]));
     uint32_t count = 1;
     j->queue[0] = seed;
@@ -93,7 +101,7 @@ static void grow_facet(joiner *j, uint32_t seed, uint32_t facet) {
     for (uint32_t i = 0; i < count; i++)
         for (size_t k = 0; k < 3; k++) {
             uint32_t t = j->s->across[3 * (size_t)j->queue[i] + k];
-            if (j->facet_of[t] != NOTHING || !(compute_distance(j, t, plane) <= j->flatness)) continue;
+            if (!is_joining(j, t, plane)) continue;
             j->facet_of[t] = facet;
             j->queue[count++] = t;
         }
@@ -118,7 +126,7 @@ static uint32_t find_host(const joiner *j, uint32_t t) {
 static uint32_t join(joiner *j) {
     uint32_t count = j->s->triangle_count, facets = 0;
     for (uint32_t t = 0; t < count; t++) {
-        j->area[t] = vec3_norm(compute_area(j->s, j->grid, t));
+        j->area[t] = vec3_norm(get_area(j->s, j->grid, t));
         j->order[t] = t;
         j->facet_of[t] = NOTHING;
     }
@@ -132,23 +140,28 @@ static uint32_t join(joiner *j) {
     return facets;
 }
 
-static void compute_planes(const surface *s, const double *grid, const double *vertices, const uint32_t *facet_of,
-                           ovoid_plane *planes, uint32_t count) {
+// From the planes of first triangles to those of facets: the sum of the areas that face the same way.
+static void compute_normals(const joiner *j, ovoid_plane *planes, uint32_t count) {
     for (uint32_t f = 0; f < count; f++) planes[f] = (ovoid_plane){{0, 0, 0}, -INFINITY};
-    for (uint32_t t = 0; t < s->triangle_count; t++) {
-        ovoid_plane *plane = planes + facet_of[t];
-        plane->normal = vec3_add(plane->normal, compute_area(s, grid, t));
+    for (uint32_t t = 0; t < j->s->triangle_count; t++) {
+        uint32_t f = j->facet_of[t];
+        vec3 area = get_area(j->s, j->grid, t);
+        if (vec3_dot(area, j->planes[f].normal) > 0) planes[f].normal = vec3_add(planes[f].normal, area);
     }
     for (uint32_t f = 0; f < count; f++) planes[f].normal = vec3_unit(planes[f].normal);
-    // The corners of each triangle support its own facet and those across its edges.
-    for (uint32_t t = 0; t < s->triangle_count; t++)
-        for (size_t k = 0; k < 3; k++)
+}
+
+// The corners of each triangle support its own facet and those across its edges.
+static void compute_offsets(const joiner *j, const double *vertices, ovoid_plane *planes) {
+    for (uint32_t t = 0; t < j->s->triangle_count; t++)
+        for (size_t k = 0; k < 4; k++) {
+            uint32_t beyond = k < 3 ? j->s->across[3 * (size_t)t + k] : t;
+            ovoid_plane *plane = planes + j->facet_of[beyond];
             for (size_t i = 0; i < 3; i++) {
-                vec3 v = vec3_at(vertices, s->triangles[3 * (size_t)t + i]);
-                ovoid_plane *own = planes + facet_of[t], *beyond = planes + facet_of[s->across[3 * (size_t)t + k]];
-                own->offset = fmax(own->offset, vec3_dot(own->normal, v));
-                beyond->offset = fmax(beyond->offset, vec3_dot(beyond->normal, v));
+                vec3 corner = vec3_at(vertices, j->s->triangles[3 * (size_t)t + i]);
+                plane->offset = fmax(plane->offset, vec3_dot(plane->normal, corner));
             }
+        }
 }
 
 uint32_t facets_create(const surface *s, const double *grid, const double *vertices, uint32_t count, uint32_t *facet_of,
@@ -162,12 +175,13 @@ uint32_t facets_create(const surface *s, const double *grid, const double *verti
     j.order = (uint32_t *)(j.area + s->triangle_count);
     j.queue = j.order + s->triangle_count;
     uint32_t facets = join(&j);
-    allocator_release(allocator, j.planes);
-
     *planes = allocator_allocate(allocator, facets, sizeof **planes);
-    if (!*planes) return 0;
-    compute_planes(s, grid, vertices, facet_of, *planes, facets);
-    return facets;
+    if (*planes) {
+        compute_normals(&j, *planes, facets);
+        compute_offsets(&j, vertices, *planes);
+    }
+    allocator_release(allocator, j.planes);
+    return *planes ? facets : 0;
 }
 
 // ---- adjacency ----

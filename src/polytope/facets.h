@@ -10,6 +10,10 @@
 /// the rank are concerned: 64 roundings, what points on a common plane are off by after a rotation or two.
 #define FACET_FLATNESS (64 * 0x1p-53)
 
+/// Twice the area of a triangle as a vector, through double-double: in doubles the normal of a thin triangle is off by
+/// a rounding over its least angle.
+vec3 compute_area(vec3 a, vec3 b, vec3 c);
+
 /// The direction in which the hull is thinnest, if it is thin: unit, and the thickness along it.
 typedef struct thickness {
     vec3 normal;

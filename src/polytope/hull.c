@@ -48,7 +48,7 @@ static ovoid_code keep_only(points *p, const uint32_t *list, uint32_t count, con
 static int find_axis(const points *p, const uint32_t corner[3]) {
     vec3 c[3];
     for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, corner[i]);
-    vec3 n = vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0]));
+    vec3 n = compute_area(c[0], c[1], c[2]);
     double size[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
     int best = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
     for (int i = 0; i < 3; i++)
@@ -94,7 +94,7 @@ static uint32_t find_rank(const points *p, const surface *s, vec3 *normal) {
     if (compute_straightness(p, s->corner) <= flatness) return 1;
     vec3 c[3];
     for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, s->corner[i]);
-    *normal = vec3_unit(vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0])));
+    *normal = vec3_unit(compute_area(c[0], c[1], c[2]));
     if (s->rank == 2) return 2;
     thickness thin = surface_compute_thickness(s, p->grid, p->count);
     *normal = thin.normal;

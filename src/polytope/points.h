@@ -5,7 +5,8 @@
 #include "base/allocator.h"
 #include "linear/vec3.h"
 
-/// Most points that a body may be made from: what the working memory, about 80 bytes a point, is planned for.
+/// Most points that a body may be made from: the working memory is below 150 bytes a point and 600 a
+/// vertex.
 #define POINTS_MAX ((size_t)1 << 24)
 
 /// The distinct points of a body.
