@@ -106,6 +106,23 @@ static void check_table(void) {
     free(text);
 }
 
+// Names from hostile files: no escape sequence reaches the terminal, no character is cut in half.
+static void check_table_names(void) {
+    char name[200] = "\x1b[31m\n";
+    for (int i = 0; i < 60; i++) strcat(name, "\xc3\xa4");
+    ovoid_record record = {.a = name, .b = "b"};
+    const char *path = file_path("table.txt");
+    FILE *file = fopen(path, "wb");
+    CHECK(file && ovoid_records_write_table(file, &record, 1, -1) == OVOID_OK);
+    fclose(file);
+    size_t size;
+    char *text = file_read(path, &size);
+    const char *line = strchr(text, '\n') + 1;
+    // 95 bytes hold the six of the escape and 44 letters of two bytes.
+    CHECK(memcmp(line, "?[31m?", 6) == 0 && !strchr(line, 0x1b) && memcmp(line + 6 + 88, "  b  ", 5) == 0);
+    free(text);
+}
+
 // ---- the way back
 
 static int is_same_bits(const void *a, const void *b, size_t size) { return memcmp(a, b, size) == 0; }
@@ -367,6 +384,7 @@ static void check_damaged(void) {
 int main(void) {
     check_golden();
     check_table();
+    check_table_names();
     check_round_trip();
     check_locale();
     check_bad_lines();

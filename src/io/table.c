@@ -13,9 +13,15 @@ typedef struct table_row {
 
 // A name from a file must not end the line or speak to the terminal.
 static void set_cell(char cell[CELL], const char *text) {
-    snprintf(cell, CELL, "%s", text);
-    for (; *cell; cell++)
-        if ((unsigned char)*cell < 0x20 || *cell == 0x7f) *cell = '?';
+    size_t n = 0;
+    for (; text[n] && n < CELL - 1; n++) {
+        unsigned char c = (unsigned char)text[n];
+        cell[n] = c < 0x20 || c == 0x7f ? '?' : text[n];
+    }
+    // No character of several bytes is cut in half.
+    if (text[n])
+        while (n > 0 && ((unsigned char)text[n] & 0xc0) == 0x80) n--;
+    cell[n] = 0;
 }
 
 static void set_number(char cell[CELL], double value) { number_write(cell, value, 9); }
