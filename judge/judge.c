@@ -69,8 +69,10 @@ static ovoid_code check_status(const judge *context, const posed *s, const ovoid
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what lower, %.17g, says", answer->lower);
     if ((answer->status == OVOID_OVERLAPPING) != (answer->upper < 0))
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what upper, %.17g, says", answer->upper);
-    double width = answer->upper - answer->lower;
-    if (answer->status == OVOID_TOUCHING && width > context->touching * s->size + 16 * OVOID_LENGTH_MIN)
+    // What pairs of doubles cannot resolve of positions and origins is touching too, however small the bodies.
+    double width = answer->upper - answer->lower,
+           unresolved = 0x1p-88 * (s->a.reach + s->b.reach) + 16 * OVOID_LENGTH_MIN;
+    if (answer->status == OVOID_TOUCHING && width > context->touching * s->size + unresolved)
         return judge_reject(error, OVOID_ERROR_PROOF, "touching within %.3g is wide for a pair of size %.3g", width,
                             s->size);
     return OVOID_OK;

@@ -28,8 +28,8 @@ void judge_set_touching(judge *context, double relative);
 ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
                               const ovoid_cover *cover, ovoid_error *error);
 
-/// For answers of ovoid_distance that are apart and of ovoid_depth: that point_b - point_a = d normal, as near as the
-/// bracket lets it be. OVOID_OK or OVOID_ERROR_PROOF.
+/// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: that point_b - point_a =
+/// d normal, as near as the bracket and the tolerance let it be. OVOID_OK or OVOID_ERROR_PROOF.
 ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error);
 
 /// The truth about a pair of few vertices, by brute force over all features, independent of any proof.

@@ -99,8 +99,11 @@ ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
     return OVOID_OK;
 }
 
+// The default tolerance of the queries, in parts of the pair's size.
+#define ASKED 1e-9
+
 // |point_b - point_a - d n| for d in the bracket: with w = upper - lower the points may differ from the nearest ones by
-// what the bracket leaves open, sqrt(w (w + 2 |d|)) across and w along the normal.
+// what the bracket leaves open, sqrt(w (w + 2 |d|)) across and w along the normal, and by the tolerance asked for.
 ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
     if (!(isfinite(answer->lower) && isfinite(answer->upper)))
         return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
@@ -108,7 +111,7 @@ ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoi
     size_t mark = pool_get_mark(p);
     posed s = posed_make(p, pair);
     double width = answer->upper - answer->lower, size = fmax(fabs(answer->lower), fabs(answer->upper));
-    double slack = width + sqrt(width * (width + 2 * size)) + 2 * compute_tolerance(&s);
+    double slack = width + sqrt(width * (width + 2 * size)) + ASKED * s.size + 2 * compute_tolerance(&s);
     num d = num_scaled(p, num_add(p, number_from(p, answer->lower), number_from(p, answer->upper)), -1);
     nvec along = nvec_scale(p, nvec_from(p, answer->normal), d);
     nvec off = nvec_sub(p, nvec_sub(p, nvec_from(p, answer->point_b), nvec_from(p, answer->point_a)), along);

@@ -76,6 +76,19 @@ static inline double pair_size(const ovoid_pair *pair) {
            ovoid_shape_get_radius(pair->shape_a) + ovoid_shape_get_radius(pair->shape_b);
 }
 
+// The least that a bracket can be asked to be narrower than: underflow, and what pairs of doubles leave of positions
+// and origins.
+static inline double pair_unresolved(const ovoid_pair *pair) {
+    const ovoid_shape *shapes[2] = {pair->shape_a, pair->shape_b};
+    const ovoid_pose *poses[2] = {&pair->pose_a, &pair->pose_b};
+    double sum = 0;
+    for (int i = 0; i < 2; i++) {
+        ovoid_vec3 o = ovoid_shape_get_polytope(shapes[i]).origin, p = poses[i]->position;
+        sum += fabs(o.x) + fabs(o.y) + fabs(o.z) + fabs(p.x) + fabs(p.y) + fabs(p.z);
+    }
+    return 0x1p-88 * sum + 16 * OVOID_LENGTH_MIN;
+}
+
 // Counts the answer and judges it. full: the whole signed distance was asked for (depth), or the distance.
 static inline void trial_judge_answer(tally *t, const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
                                       const char *query, int full) {
@@ -104,7 +117,7 @@ static inline void trial_count_sign(tally *t, const ovoid_pair *pair, const ovoi
 
 // A query that was asked for the bracket to 1e-9 of the size.
 static inline void trial_count_width(tally *t, const ovoid_pair *pair, const ovoid_answer *x) {
-    double width = (x->upper - x->lower - 16 * OVOID_LENGTH_MIN) / pair_size(pair);
+    double width = (x->upper - x->lower - pair_unresolved(pair)) / pair_size(pair);
     if (!(width > 1e-9)) return;
     t->wide++;
     if (width > t->widest) t->widest = width;
@@ -143,7 +156,7 @@ static inline void trial_ask_within(tally *t, const ovoid_pair *pair, double d, 
     int within = ovoid_answer_is_within(&x, margin);
     if (within == 1 && !(x.upper <= margin)) trial_fail(t, pair, &x, "within", "says within and is not");
     if (within == 0 && !(x.lower > margin)) trial_fail(t, pair, &x, "within", "says farther and is not");
-    if (within == -1 && x.upper - x.lower > 1e-6 * pair_size(pair) + 16 * OVOID_LENGTH_MIN &&
+    if (within == -1 && x.upper - x.lower > 1e-6 * pair_size(pair) + pair_unresolved(pair) &&
         x.limit == OVOID_LIMIT_NONE)
         trial_fail(t, pair, &x, "within", "open, and the bracket is wide");
 }
