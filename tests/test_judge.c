@@ -125,7 +125,7 @@ static void test_proofs_altered(void) {
     ALTER(bad.point_a.x = NAN, REFUSE);
     CHECK_EQ(judge_check_points(court, &pair, &good, NULL), OVOID_OK);
     bad = good;
-    bad.point_a.y -= 1e-9;
+    bad.point_a.y -= 1e-8;
     CHECK_EQ(judge_check_points(court, &pair, &bad, NULL), OVOID_ERROR_PROOF);
     // The pair.
     pair.pose_b.position.x = nextafter(1.25, 1);
