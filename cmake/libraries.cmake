@@ -1,4 +1,4 @@
-# What ovoid stands on. The core: libm and Qhull, the reentrant one. libovoid_io: jansson and Assimp. The exact judge: GMP.
+# What ovoid stands on. The core: libm. libovoid_io: jansson and Assimp. The exact judge: GMP. One test: Qhull, as a peer.
 
 # ovoid_find(NAME header library package): an interface target ovoid_NAME, or a sentence that names what is missing.
 function(ovoid_find name header library package required)
@@ -14,7 +14,7 @@ function(ovoid_find name header library package required)
   endif()
 endfunction()
 
-ovoid_find(qhull libqhull_r/libqhull_r.h qhull_r libqhull-dev TRUE)
+ovoid_find(qhull libqhull_r/libqhull_r.h qhull_r libqhull-dev FALSE)
 if(OVOID_IO)
   ovoid_find(jansson jansson.h jansson libjansson-dev TRUE)
   # Without it, STL, OBJ, OFF and PLY are still read.

@@ -35,7 +35,7 @@ expect intrinsics src/query/a.c '#include <immintrin.h>\n' '1: intrinsics are fo
 expect intrinsics_below bench/a.c '#include <x86intrin.h>\n' '1: intrinsics are for src/simd only: x86intrin.h'
 expect intrinsics_home src/simd/a.c '#include <immintrin.h>\n__attribute__((target("avx2"))) int f(void);\n' ''
 expect target src/area/a.c '__attribute__((target("avx2"))) int f(void);\n' '1: per-ISA code is for src/simd only'
-expect qhull src/shape/a.c '#include <libqhull_r/libqhull_r.h>\n' '1: libqhull_r is for src/polytope only'
+expect qhull src/shape/a.c '#include <libqhull_r/libqhull_r.h>\n' '1: libqhull_r is for tests only'
 expect jansson src/query/a.c '#include <jansson.h>\n' '1: jansson is for src/io only'
 expect program cli/a.c '#include "query/gjk.h"\n' \
     '1: a program includes <ovoid/...> and its own headers only: query/gjk.h'
