@@ -259,6 +259,25 @@ static void check_hard(void) {
     check_seed = 0;
 }
 
+// Small bodies of wild coordinates: needles, ribbons thinner than an ellipsoid can be stored, points that nearly agree.
+static void check_wild(void) {
+    uint64_t s = 71;
+    for (int i = 0; i < 4000; i++) {
+        check_seed = s;
+        size_t n = 1 + random_next(&s) % 8;
+        for (size_t k = 0; k < 3 * n; k++) {
+            double v = (double)(random_next(&s) % 7) - 3;
+            cloud[k] =
+                i % 2 ? v * pow(10, -8 * (int)(random_next(&s) % 3)) : ldexp(v, (int)(random_next(&s) % 160) - 80);
+        }
+        ovoid_shape_options o = {.inner = (ovoid_inner_method)(i / 2 % 2)};
+        ovoid_shape *shape = ovoid_shape_create_from_points(cloud, n, &o, NULL);
+        check_round_trip(shape);
+        ovoid_shape_destroy(shape);
+    }
+    check_seed = 0;
+}
+
 static void check_game_hulls(void) {
     const char *folder = check_data_folder();
     char path[1024];
@@ -289,6 +308,7 @@ int main(void) {
     check_kinds();
     check_forged();
     check_hard();
+    check_wild();
     check_game_hulls();
     return check_end();
 }

@@ -3,6 +3,8 @@
 
 #include "base/allocator.h"
 #include "base/error.h"
+#include "ellipsoid/contain.h"
+#include "ellipsoid/walls.h"
 #include "linear/vec3.h"
 #include "polytope/hull.h"
 #include "shape/block.h"
@@ -27,6 +29,30 @@ static ovoid_fit compute_phases(const ovoid_polytope *p, const ovoid_ellipsoid *
     return ovoid_ellipsoid_compute_enlarged(p, &stretched.ellipsoid);
 }
 
+// Flat bodies: nothing rests on their inner ellipsoids, and a tilted one cannot be stored flatter than the root of a
+// rounding, 1e-8 of its size; so these are held to ten times that, at the edges and at the sides of the box.
+static int is_flat_inner(const ovoid_polytope *p, const ovoid_measures *m, const ovoid_ellipsoid *e, double slack) {
+    walls w = walls_make(p);
+    for (uint32_t i = 0; i < w.count; i++) {
+        ovoid_plane wall = walls_get(&w, i);
+        if (!(ellipsoid_compute_support(e, wall.normal) <= wall.offset + slack)) return 0;
+    }
+    const double low[3] = {m->box_min.x, m->box_min.y, m->box_min.z};
+    const double high[3] = {m->box_max.x, m->box_max.y, m->box_max.z};
+    for (int i = 0; i < 3; i++) {
+        vec3 axis = {i == 0, i == 1, i == 2};
+        if (!(ellipsoid_compute_support(e, axis) <= high[i] + slack) ||
+            !(ellipsoid_compute_support(e, vec3_neg(axis)) <= slack - low[i]))
+            return 0;
+    }
+    return 1;
+}
+
+int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *e) {
+    ovoid_polytope p = ovoid_shape_get_polytope(shape);
+    return p.rank == 3 ? ellipsoid_is_enclosed(&p, e) : is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
+}
+
 static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_fit outer, inner;
@@ -36,8 +62,12 @@ static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *
         code = ovoid_ellipsoid_compute_inner(&p, o->gap, &inner, &shape->allocator);
     else
         inner = compute_phases(&p, &outer.ellipsoid);
-    if (code == OVOID_OK) shape_set_fits(shape, &outer, &inner);
-    return code;
+    if (code != OVOID_OK) return code;
+    // Ribbons thinner than 1e-8 of their length may have none that can be stored; a vertex is one.
+    if (!shape_is_inner(shape, &inner.ellipsoid))
+        inner = (ovoid_fit){.ellipsoid.center = vec3_at(p.vertices, 0), .gap = INFINITY};
+    shape_set_fits(shape, &outer, &inner);
+    return OVOID_OK;
 }
 
 void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner) {

@@ -11,6 +11,9 @@ ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_opti
 /// A block with all that follows from the hull, but radius, report and ellipsoids. NULL with MEMORY.
 ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error);
 
+/// 1 if the ellipsoid is proven to lie in the shape's hull; of flat bodies, if it does to 1e-7 of their size.
+int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *ellipsoid);
+
 void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner);
 
 /// The shape of a hull with its ellipsoids. The options are checked already. NULL with MEMORY.

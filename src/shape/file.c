@@ -8,7 +8,6 @@
 // right, and that the ellipsoids are proven to enclose and to be enclosed.
 #include "base/error.h"
 #include "ellipsoid/contain.h"
-#include "ellipsoid/walls.h"
 #include "linear/exact.h"
 #include "polytope/hull.h"
 #include "polytope/points.h"
@@ -217,29 +216,6 @@ static ovoid_code read_vertices(reader *r, content *c) {
     return OVOID_OK;
 }
 
-// Flat bodies: nothing rests on their inner ellipsoids, and a tilted one cannot be stored flatter than the root of a
-// rounding, 1e-8 of its size; so these are held to ten times that.
-static int is_flat_inner(const ovoid_polytope *p, const ovoid_ellipsoid *e, double extent) {
-    double slack = 1e-7 * extent;
-    walls w = walls_make(p);
-    for (uint32_t i = 0; i < w.count; i++) {
-        ovoid_plane wall = walls_get(&w, i);
-        if (!(ellipsoid_compute_support(e, wall.normal) <= wall.offset + slack)) return 0;
-    }
-    static const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int i = 0; i < 3; i++) {
-        double most = -INFINITY, least = INFINITY;
-        for (uint32_t v = 0; v < p->vertex_count; v++) {
-            most = fmax(most, vec3_dot(axes[i], vec3_at(p->vertices, v)));
-            least = fmin(least, vec3_dot(axes[i], vec3_at(p->vertices, v)));
-        }
-        if (!(ellipsoid_compute_support(e, axes[i]) <= most + slack) ||
-            !(-ellipsoid_compute_support(e, vec3_neg(axes[i])) >= least - slack))
-            return 0;
-    }
-    return 1;
-}
-
 // The hull of the vertices must be these vertices.
 static ovoid_code check_hull(const reader *r, const content *c, const hull *h) {
     if (h->vertex_count != c->vertex_count) return refuse(r, HEADER_SIZE, "a vertex is not extreme");
@@ -253,9 +229,7 @@ static ovoid_code check_ellipsoids(const reader *r, const content *c, const ovoi
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     if (!ellipsoid_is_enclosing(&p, &c->outer.ellipsoid))
         return refuse(r, OUTER_AT, "the outer ellipsoid does not enclose");
-    if (c->rank == 3 ? !ellipsoid_is_enclosed(&p, &c->inner.ellipsoid)
-                     : !is_flat_inner(&p, &c->inner.ellipsoid, shape->extent))
-        return refuse(r, INNER_AT, "the inner ellipsoid is not enclosed");
+    if (!shape_is_inner(shape, &c->inner.ellipsoid)) return refuse(r, INNER_AT, "the inner ellipsoid is not enclosed");
     return OVOID_OK;
 }
 
