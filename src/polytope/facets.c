@@ -166,7 +166,8 @@ static void compute_offsets(const joiner *j, const double *vertices, ovoid_plane
 
 uint32_t facets_create(const surface *s, const double *grid, const double *vertices, uint32_t count, uint32_t *facet_of,
                        ovoid_plane **planes, const ovoid_allocator *allocator) {
-    joiner j = {.s = s, .grid = grid, .facet_of = facet_of};
+    joiner j = {.s = s, .grid = grid};
+    j.facet_of = facet_of;
     j.flatness = FACET_FLATNESS * compute_extent(grid, count);
     j.planes =
         allocator_allocate(allocator, s->triangle_count, sizeof *j.planes + sizeof *j.area + 2 * sizeof *j.order);
