@@ -1,6 +1,7 @@
 // The bracket from the ellipsoids alone: the gap of the outer ones from below, the nearest points of the inner ones
 // from above. Smooth in the poses wherever the nearest points are unique; O(1), whatever the number of vertices.
 #include "query/answer.h"
+#include "query/inner.h"
 #include "query/stages.h"
 
 // The gap of the outer ellipsoids along the direction that separates them best.

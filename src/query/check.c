@@ -4,6 +4,8 @@
 #include "query/answer.h"
 #include "query/cover.h"
 #include "query/hull.h"
+#include "query/inner.h"
+#include "query/proof.h"
 
 static ovoid_code refuse(ovoid_error *error, const char *what, double claimed, double found) {
     return error_set(error, OVOID_ERROR_PROOF, -1, "%s: claimed %.17g, the proof shows %.17g", what, claimed, found);
@@ -17,17 +19,9 @@ static ovoid_code check_lower(const pair_frame *f, const ovoid_answer *x, ovoid_
     return found >= x->lower ? OVOID_OK : refuse(error, "lower bound", x->lower, found);
 }
 
-// The weighted points of both bodies, for POINTS.
 static double measure_points(const pair_frame *f, const ovoid_proof *p) {
-    vec3 a = {0, 0, 0}, b = {0, 0, 0};
-    double sum_a = 0, sum_b = 0;
-    for (uint32_t i = 0; i < p->count; i++) {
-        a = vec3_add_scaled(a, frame_vertex_a(f, p->a[i]), p->weight_a[i]);
-        b = vec3_add_scaled(b, frame_vertex_b(f, p->b[i]), p->weight_b[i]);
-        sum_a += p->weight_a[i];
-        sum_b += p->weight_b[i];
-    }
-    return vec3_norm(vec3_sub(vec3_scale(b, 1 / sum_b), vec3_scale(a, 1 / sum_a))) - f->radii + f->check;
+    witness_points w = proof_compute_points(f, p);
+    return vec3_norm(vec3_sub(w.b, w.a)) - f->radii + f->check;
 }
 
 static double measure_hull(const pair_frame *f, const ovoid_proof *p) {

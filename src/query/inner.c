@@ -3,7 +3,7 @@
 //
 // A point x of E with m = (x - c)' Q^-1 (x - c) < 1 has the ball of radius (1 - sqrt m) r around it inside E, where r
 // is the least radius; a common point of two bodies with balls of radii ra and rb around it has d <= -ra - rb.
-#include "query/answer.h"
+#include "query/inner.h"
 
 // The least radius of the ellipsoid from below, 0 where it is too flat to be safe in doubles: with eigenvalues
 // l1 <= l2 <= l3, l1 = det / (l2 l3) >= 4 det / trace^2.

@@ -1,6 +1,7 @@
 #include "query/stages.h"
 
-#include "query/answer.h"
+#include "query/inner.h"
+#include "query/proof.h"
 
 // Adds a difference that is not there yet, while there is room.
 static void take_start(simplex *start, difference d) {
