@@ -446,6 +446,7 @@ int main(int count, char **arguments) {
     judge_destroy(trial_judge);
     printf("seed %llu\n", (unsigned long long)seed);
     tally_print_header();
-    for (size_t i = 0; i < FAMILY_COUNT; i++) tally_print(&families[i].counts);
+    for (size_t i = 0; i < FAMILY_COUNT; i++)
+        if (families[i].counts.pairs) tally_print(&families[i].counts);
     return check_end();
 }
