@@ -41,7 +41,7 @@ static ovoid_shape *make_points(const double *xyz, size_t count, double radius) 
 
 // count points on an ellipsoid of these half axes, or filling it.
 static ovoid_shape *make_hull(uint64_t *r, size_t count, ovoid_vec3 axes, ovoid_vec3 center, double radius) {
-    static double xyz[3 * 1024];
+    static double xyz[3 * 5000];
     int fill = random_next(r) % 3 == 0;
     for (size_t i = 0; i < count; i++) {
         ovoid_vec3 v = random_vec3(r, 1);
@@ -174,7 +174,12 @@ static void close_in(trial *t, double gap) {
 }
 
 static trial hulls(uint64_t *r) { return place(r, make_random_hull(r, 64, 1), make_random_hull(r, 64, 1)); }
-static trial large_hulls(uint64_t *r) { return place(r, make_random_hull(r, 512, 1), make_random_hull(r, 512, 1)); }
+// Up to 512 vertices, and now and then 5000.
+static trial large_hulls(uint64_t *r) {
+    const ovoid_vec3 axes = {1, 1, 2};
+    ovoid_shape *a = random_next(r) % 64 ? make_random_hull(r, 512, 1) : make_hull(r, 5000, axes, origin, 0);
+    return place(r, a, make_random_hull(r, 512, 1));
+}
 static trial mixed(uint64_t *r) { return place(r, make_any(r), make_any(r)); }
 static trial needles(uint64_t *r) { return place(r, make_needle(r), make_needle(r)); }
 static trial slabs(uint64_t *r) { return place(r, make_slab(r), make_slab(r)); }
