@@ -30,10 +30,11 @@ witness_points witness_compute_points(const pair_frame *f, const ovoid_proof *p)
     witness_points w;
     switch (p->kind) {
     case OVOID_PROOF_POINTS: {
-        // The radii go along the difference; along the normal where the cores touch or cross.
+        // The radii go along the difference; along the normal where they overlap, and a short difference may have
+        // another direction.
         w = proof_compute_points(f, p);
         vec3 d = vec3_sub(w.b, w.a);
-        if (vec3_norm(d) > 4 * f->claim) n = vec3_unit(d);
+        if (vec3_norm(d) > f->radii) n = vec3_unit(d);
         break;
     }
     case OVOID_PROOF_INNER_POINTS:
