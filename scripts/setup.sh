@@ -8,7 +8,7 @@ packages_of() {
     for job in "$@"; do
         case $job in
         build) echo build-essential cmake pkgconf libjansson-dev libassimp-dev libgmp-dev ;;
-        check) packages_of build && echo libqhull-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen ;;
+        check) packages_of build && echo libqhull-dev libcgal-demo clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen ;;
         demo) packages_of build && echo libcgal-demo ;;
         bench) packages_of build && echo libccd-dev ;;
         docs) echo cmake build-essential doxygen ;;

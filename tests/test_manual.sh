@@ -29,7 +29,7 @@ for command in $("$OVOID_TOOL" complete); do
     check "command $command" "$(grep -q "^\.Ss $command\$" "$page" || echo absent)"
     "$OVOID_TOOL" complete "$command" | cut -f 1 | grep '^--' >>"$work/tool"
 done
-mandoc -Tascii "$page" | col -bx | grep -oE -- '--[a-z-]+' | sort -u >"$work/page"
+mandoc -Tascii "$page" | sed "s/.$(printf '\b')//g" | grep -oE -- '--[a-z-]+' | sort -u >"$work/page"
 echo --version >>"$work/tool"
 sort -u -o "$work/tool" "$work/tool"
 check options "$(diff "$work/tool" "$work/page")"
