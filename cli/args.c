@@ -51,7 +51,10 @@ static size_t compute_edits(const char *a, const char *b) {
 
 const char *args_find_similar(const char *word, const char *const *words, size_t count) {
     const char *found = NULL;
-    size_t most = strlen(word) < 4 ? 1 : 2, best = most + 1;
+    size_t length = strlen(word), most = length < 4 ? 1 : 2, best = most + 1;
+    // The beginning of a word means that word.
+    for (size_t i = 0; i < count && length > 1; i++)
+        if (strncmp(words[i], word, length) == 0) return words[i];
     for (size_t i = 0; i < count; i++) {
         size_t edits = compute_edits(word, words[i]);
         if (edits < best) best = edits, found = words[i];

@@ -71,7 +71,7 @@ __attribute__((format(printf, 2, 3)))
 int
 args_complain(const cli_command *command, const char *format, ...);
 
-/// The entry nearest to a mistyped word (at most two edits, or a third of its letters), or NULL. next gives the words.
+/// The entry that a mistyped word begins, or else the nearest one (at most two edits), or NULL.
 const char *args_find_similar(const char *word, const char *const *words, size_t count);
 
 #endif

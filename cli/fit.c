@@ -16,7 +16,7 @@
 typedef struct settings {
     read_settings read;
     const char *output; ///< a file, or a folder; NULL: none
-    int parts, json, csv, phases;
+    int parts, json, csv, table, phases;
     double radius, gap;
 } settings;
 
@@ -33,6 +33,8 @@ static const cli_option options[] = {
     {"phases", 0, OPTION_FLAG, offsetof(settings, phases), NULL, NULL,
      "the files hold the inner ellipsoid of the three phases (default: that of maximum volume)"},
     INPUTS_OPTIONS(settings),
+    {"table", 0, OPTION_FLAG, offsetof(settings, table), NULL, NULL,
+     "one line a body, the ellipsoids' volumes relative to the body's (default: a report of each body)"},
     {"json", 0, OPTION_FLAG, offsetof(settings, json), NULL, NULL, "write JSON Lines, one object a body"},
     {"csv", 0, OPTION_FLAG, offsetof(settings, csv), NULL, NULL, "write CSV with a header line"},
     {0},
@@ -41,7 +43,7 @@ static const cli_option options[] = {
 /// What the whole run shares.
 typedef struct fit {
     const settings *settings;
-    int is_folder, is_table, title_due;
+    int is_folder, title_due;
     int failed;         ///< a mesh was bad
     char **written;     ///< paths of the files made so far
     size_t write_count; ///< of them
@@ -151,13 +153,13 @@ static ovoid_code run_steps(const ovoid_polytope *p, double gap, fitted *out) {
 static void write_findings(fit *f, const fitted *found) {
     const settings *s = f->settings;
     if (f->title_due && s->csv) fit_write_csv_title(stdout);
-    if (f->title_due && !s->csv && !s->json && f->is_table) fit_write_table_title(stdout);
+    if (f->title_due && s->table) fit_write_table_title(stdout);
     f->title_due = 0;
     if (s->json)
         fit_write_json(stdout, found);
     else if (s->csv)
         fit_write_csv_row(stdout, found);
-    else if (f->is_table)
+    else if (s->table)
         fit_write_table_row(stdout, found);
     else
         fit_write_report(stdout, found);
@@ -235,7 +237,6 @@ static int fit_mesh(fit *f, const char *path) {
     double seconds = progress_get_seconds() - start;
     size_t count = ovoid_mesh_get_part_count(mesh);
     int code = 0;
-    f->is_table |= count > 1;
     for (size_t i = 0; i < count && !code; i++) code = fit_part(f, path, mesh, i, seconds);
     ovoid_mesh_destroy(mesh);
     return code;
@@ -246,8 +247,9 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_operands paths;
     int code = args_parse(command, argc, argv, &s, &paths);
     if (code >= 0) return code;
-    if (s.json && s.csv) return args_complain(command, "fit: --json and --csv exclude each other");
-    fit f = {.settings = &s, .is_table = paths.count > 1, .title_due = 1};
+    if (s.json + s.csv + s.table > 1)
+        return args_complain(command, "fit: --json, --csv and --table exclude each other");
+    fit f = {.settings = &s, .title_due = 1};
     f.is_folder = s.output && (paths.count > 1 || s.parts || is_folder(s.output));
     if ((code = make_folder(&f)) != 0) return code;
     progress_start("meshes", (size_t)paths.count);
@@ -269,14 +271,15 @@ const cli_command command_fit = {
         "For each mesh: what became of its points, the convex hull, and the offline steps with their volumes, radii, "
         "proven gaps and times: the smallest ellipsoid around it (outer), the three phases of Su, Liu and Chen "
         "(shrink, "
-        "stretch, enlarge), and the largest ellipsoid inside it (inner). One body gives a report; several give a table "
-        "of volumes relative to the body's.\n\n"
+        "stretch, enlarge), and the largest ellipsoid inside it (inner). Each body gives a "
+        "report; --table gives a line instead.\n\n"
         "A .ovoid file keeps the hull and the ellipsoids, so that other commands need not find them again. A bad mesh "
         "is named, the others are done all the same, and the exit code is 3; every file that is written is whole.",
     .exits = "0 done\n2 the command line is wrong\n3 bad input, or output that could not be written",
     .examples = "ovoid fit bunny.obj\n"
                 "ovoid fit --unit mm -o link3.ovoid link3.stl\n"
                 "ovoid fit --parts -o parts/ decomposed.obj\n"
+                "ovoid fit --table *.stl\n"
                 "ovoid fit --csv *.stl > fits.csv",
     .options = options,
     .operands_min = 1,

@@ -32,7 +32,7 @@ title() { printf '\n== %s\n\n' "$1"; }
 
 title "Fit: the smallest ellipsoid around each mesh's hull and the largest inside"
 # shellcheck disable=SC2086 # a list of names
-ovoid fit $files
+ovoid fit --table $files
 
 title "Check: every pair of the scene, nearest first; lower <= d <= upper, and what decided"
 ovoid check scene.json
