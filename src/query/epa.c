@@ -210,12 +210,14 @@ void epa_run(search *s, const simplex *from, ovoid_cover *cover) {
     }
     expansion_make_tetrahedron(&e);
     uint16_t nearest = expansion_find_nearest(&e);
-    for (uint32_t steps = 0; steps < s->ask.iterations; steps++, s->iterations++) {
+    uint32_t steps = 0;
+    for (; steps < s->ask.iterations; steps++, s->iterations++) {
         int grown = grow(s, &e, nearest);
         if (grown < 0) return;
         if (!grown || search_is_done(s)) break;
         nearest = expansion_find_nearest(&e);
         if (!s->ask.wants_depth && e.f[nearest].low > 2 * s->frame->claim && take_hull(s, &e)) break;
     }
+    if (steps == s->ask.iterations) s->limit = OVOID_LIMIT_ITERATIONS;
     finish(s, &e, nearest, cover);
 }
