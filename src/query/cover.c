@@ -35,12 +35,9 @@ static double least_along(vec3 n, vec3 a, vec3 b, vec3 c) {
     return fmin(vec3_dot(n, a), fmin(vec3_dot(n, b), vec3_dot(n, c)));
 }
 
-// A distance, from below, of the origin to a triangle; negative if none is found. *normal: the unit direction along
-// which all of the triangle is at least that far.
-//
 // For any unit n all of the triangle has n.x >= the least of its corners. Its own normal is tried first; where that
 // does not give `enough`, the way to its nearest point and to its longest edge.
-static double compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *normal) {
+double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *normal) {
     vec3 n = simplex_compute_normal(vec3_sub(b, a), vec3_sub(c, a));
     *normal = vec3_dot(n, a) < 0 ? vec3_neg(n) : n;
     double best = least_along(*normal, a, b, c);
@@ -79,7 +76,7 @@ static long count_crossings(const surface *s, vec3 u, double slack, double enoug
         }
         // The line meets the triangle; the triangle is on one side of the plane through the origin with normal n.
         vec3 n;
-        (void)compute_clearance(a, b, c, enough, &n);
+        (void)triangle_compute_clearance(a, b, c, enough, &n);
         double ahead = vec3_dot(n, u);
         if (fabs(ahead) < 1e-12) {
             *ok = 0;
@@ -96,7 +93,7 @@ double surface_compute_depth(const surface *s, double error) {
     for (uint32_t t = 0; t < s->triangle_count && depth > error; t++) {
         const uint16_t *v = s->triangles[t];
         vec3 n;
-        depth = fmin(depth, compute_clearance(s->points[v[0]], s->points[v[1]], s->points[v[2]], depth, &n));
+        depth = fmin(depth, triangle_compute_clearance(s->points[v[0]], s->points[v[1]], s->points[v[2]], depth, &n));
     }
     if (!(depth > error) || s->triangle_count == 0) return 0;
     // |u| <= 1.01; two corners off by `error`, and the evaluation of the determinant.

@@ -11,6 +11,10 @@ typedef struct surface {
     uint32_t point_count, triangle_count;
 } surface;
 
+/// A distance, from below, of the origin to a triangle; negative if none is found. *normal: the unit direction along
+/// which all of the triangle is at least that far. What is at least `enough` need not be the best.
+double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *normal);
+
 /// A radius r > 0 such that no point of the surface is nearer to the origin than r and the surface winds around it,
 /// when each coordinate may be off by `error`; 0 if that is not proven. The surface must be closed.
 double surface_compute_depth(const surface *s, double error);

@@ -183,6 +183,16 @@ static void finish(search *s, const expansion *e, uint16_t nearest, ovoid_cover 
     if (!search_is_done(s) && s->limit == OVOID_LIMIT_NONE) s->limit = OVOID_LIMIT_PRECISION;
 }
 
+// A face whose support is a corner already is a sliver with an uncertain plane: the triangle itself is farther from the
+// origin than its plane. 0 if that is not so.
+static int measure_sliver(const expansion *e, face *f) {
+    vec3 n;
+    double clearance = triangle_compute_clearance(e->w[f->v[0]], e->w[f->v[1]], e->w[f->v[2]], INFINITY, &n);
+    if (!(clearance > f->low)) return 0;
+    f->low = clearance;
+    return 1;
+}
+
 // One step: the support of the nearest face. 0 when there is nothing to gain or a limit is met, -1 if the surface is
 // spoilt.
 static int grow(search *s, expansion *e, uint16_t nearest) {
@@ -191,7 +201,8 @@ static int grow(search *s, expansion *e, uint16_t nearest) {
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
     double high = vec3_dot(e->f[nearest].n, x.w);
     if (s->ask.wants_depth && is_narrow(s, e->f[nearest].low, high)) return 0;
-    if (high - e->f[nearest].low <= e->slack || has_point(e, x.a, x.b)) return 0;
+    if (high - e->f[nearest].low <= e->slack) return 0;
+    if (has_point(e, x.a, x.b)) return measure_sliver(e, &e->f[nearest]);
     if (e->points == EXPANSION_POINTS) {
         s->limit = OVOID_LIMIT_CAPACITY;
         return 0;
