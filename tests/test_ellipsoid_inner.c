@@ -1,6 +1,7 @@
 // The maximum-volume inscribed ellipsoid against closed forms, an independent slow solver, and its own promises. That
 // it lies inside is judged in exact arithmetic by test_ellipsoid_exact.c. A volume V reported with gap g and a true
 // optimum T: V <= T <= V (1 + g), up to the rounding of T here, 1e-12.
+#include "countdown.h"
 #include "ellipsoid/contain.h"
 #include "polytopes.h"
 
@@ -237,24 +238,15 @@ static void check_hard(void) {
     made_destroy(&m);
 }
 
-static long allocations, allowed;
-static void *allocate(void *context, size_t size) {
-    (void)context;
-    if (allocations++ >= allowed) return NULL;
-    return aligned_alloc(64, (size + 63) / 64 * 64);
-}
-static void release(void *context, void *memory) {
-    (void)context;
-    free(memory);
-}
-
 static void check_contract(void) {
     made m = made_box(1, 1, 1);
     ovoid_fit fit;
-    const ovoid_allocator allocator = {allocate, release, NULL};
-    for (allowed = 0; allowed < 9; allowed++) {
-        allocations = 0;
+    long allowed = 0;
+    for (; allowed < 9; allowed++) {
+        countdown c = {allowed, 0};
+        ovoid_allocator allocator = countdown_make_allocator(&c);
         ovoid_code code = ovoid_ellipsoid_compute_inner(&m.p, 0, &fit, &allocator);
+        CHECK_EQ(c.held, 0);
         if (code == OVOID_OK) break;
         CHECK_EQ(code, OVOID_ERROR_MEMORY);
     }

@@ -3,6 +3,7 @@
 // how the points were made; Qhull, another program, gives the vertices and the volume of random clouds. Tolerances:
 // planes and rank are promised to 64 roundings of the largest coordinate (polytope/facets.h); the tests allow twice
 // that, as a facet's plane turns away from that of its largest triangle by as much.
+#include "countdown.h"
 #include "hulls.h"
 #include "linear/rotation.h"
 #include "polytope/points.h"
@@ -265,21 +266,6 @@ static void check_lattices(void) {
 
 // ---- trouble ----
 
-typedef struct countdown {
-    long left, held;
-} countdown;
-
-static void *allocate_counted(void *context, size_t size) {
-    countdown *c = context;
-    if (c->left-- <= 0) return NULL;
-    c->held++;
-    return aligned_alloc(64, (size + 63) / 64 * 64);
-}
-static void release_counted(void *context, void *memory) {
-    ((countdown *)context)->held--;
-    free(memory);
-}
-
 static void check_memory(void) {
     uint64_t s = 6;
     for (int kind = 0; kind < 4; kind++) {
@@ -292,7 +278,7 @@ static void check_memory(void) {
         ovoid_code code = OVOID_ERROR_MEMORY;
         for (long k = 0; code; k++) {
             countdown c = {k, 0};
-            ovoid_allocator counted = {allocate_counted, release_counted, &c};
+            ovoid_allocator counted = countdown_make_allocator(&c);
             hull h;
             code = hull_create(cloud, n, &counted, &h, NULL);
             if (code)

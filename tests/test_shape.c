@@ -2,6 +2,7 @@
 // allocation leaks. Truths are closed forms, exact arithmetic (ellipsoid_is_enclosing and ellipsoid_is_enclosed, tested
 // by themselves) and counts known from how the input was made.
 #include "check.h"
+#include "countdown.h"
 #include "ellipsoid/contain.h"
 #include "linear/exact.h"
 #include "linear/rotation.h"
@@ -303,21 +304,6 @@ static void check_float_faces(void) {
 
 // ---- copies, memory ----
 
-typedef struct countdown {
-    long left, held;
-} countdown;
-
-static void *allocate_counted(void *context, size_t size) {
-    countdown *c = context;
-    if (c->left-- <= 0) return NULL;
-    c->held++;
-    return aligned_alloc(64, (size + 63) / 64 * 64);
-}
-static void release_counted(void *context, void *memory) {
-    ((countdown *)context)->held--;
-    free(memory);
-}
-
 static ovoid_shape *make(int kind, const ovoid_shape_options *o, ovoid_error *e) {
     ovoid_faces f = {cube, 8, cube_indices, fours, 6};
     switch (kind) {
@@ -340,7 +326,7 @@ static void check_memory(void) {
             ovoid_shape *shape = NULL;
             for (long k = 0; !shape; k++) {
                 countdown c = {k, 0};
-                ovoid_allocator counted = {allocate_counted, release_counted, &c};
+                ovoid_allocator counted = countdown_make_allocator(&c);
                 ovoid_shape_options o = {.allocator = &counted, .inner = (ovoid_inner_method)method};
                 ovoid_error e = {0};
                 shape = make(kind, &o, &e);
@@ -359,7 +345,7 @@ static void check_memory(void) {
             }
         }
     countdown none = {0, 0};
-    ovoid_allocator counted = {allocate_counted, release_counted, &none};
+    ovoid_allocator counted = countdown_make_allocator(&none);
     ovoid_shape *shape = make(0, NULL, NULL);
     ovoid_error e;
     check_refused(ovoid_shape_create_copy(shape, &counted, &e), &e, OVOID_ERROR_MEMORY, "memory");

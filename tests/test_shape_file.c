@@ -2,6 +2,7 @@
 // every extension is refused; the same with the checksum mended gives a refusal or a shape that holds what it promises
 // (its file is then the changed file itself), and never a crash. Files are small, so all of it is tried.
 #include "check.h"
+#include "countdown.h"
 #include "ellipsoid/contain.h"
 #include "linear/rotation.h"
 #include "shape/block.h"
@@ -181,26 +182,11 @@ static void check_forged(void) {
     ovoid_shape_destroy(s);
 }
 
-typedef struct countdown {
-    long left, held;
-} countdown;
-
-static void *allocate_counted(void *context, size_t size) {
-    countdown *c = context;
-    if (c->left-- <= 0) return NULL;
-    c->held++;
-    return aligned_alloc(64, (size + 63) / 64 * 64);
-}
-static void release_counted(void *context, void *memory) {
-    ((countdown *)context)->held--;
-    free(memory);
-}
-
 static void check_memory(size_t size) {
     ovoid_shape *s = NULL;
     for (long k = 0; !s; k++) {
         countdown c = {k, 0};
-        ovoid_allocator counted = {allocate_counted, release_counted, &c};
+        ovoid_allocator counted = countdown_make_allocator(&c);
         ovoid_error e = {0};
         s = ovoid_shape_read(file, size, &counted, &e);
         CHECK_EQ(e.code, s ? OVOID_OK : OVOID_ERROR_MEMORY);
