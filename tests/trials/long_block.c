@@ -94,6 +94,20 @@ static void check_exactly(work *w, const scene *s, const ovoid_answer *x, const 
         fail(w, s, x, kind, error.message);
 }
 
+// What was asked with the default options: the sign, and for a distance or a depth a narrow bracket.
+static void check_completeness(work *w, const scene *s, const ovoid_answer *x, question_kind kind) {
+    const block_run *run = w->run;
+    int is_wide = x->upper - x->lower - s->unresolved > 1.0001e-9 * s->size;
+    int wants_bracket = kind == ASK_DEPTH || (kind == ASK_DISTANCE && x->status == OVOID_SEPARATED);
+    if (is_wide && x->status == OVOID_TOUCHING) fail(w, s, x, kind, "touching, and the bracket is wide");
+    if (is_wide && wants_bracket && x->limit == OVOID_LIMIT_NONE) fail(w, s, x, kind, "wide, and no limit says why");
+    w->c.open += x->status == OVOID_UNDECIDED;
+    w->c.wide += is_wide && wants_bracket;
+    if (!run->is_shown) return;
+    const char *what = x->status == OVOID_UNDECIDED ? "open" : is_wide && wants_bracket ? "wide" : NULL;
+    if (what) run->report(run->context, run->family, run->number, &s->pair, x, question_names[kind], what);
+}
+
 // in_full: the default options, so that the answer is to be complete.
 static void check_answer(work *w, scene *s, const ovoid_answer *x, const ovoid_cover *cover, question_kind kind,
                          int in_full) {
@@ -112,15 +126,7 @@ static void check_answer(work *w, scene *s, const ovoid_answer *x, const ovoid_c
         fail(w, s, x, kind, "its bracket and another one of this pair exclude each other");
         s->low = -INFINITY, s->high = INFINITY;
     }
-    double width = x->upper - x->lower - s->unresolved;
-    if (in_full && x->status == OVOID_TOUCHING && width > 1.0001e-9 * s->size)
-        fail(w, s, x, kind, "touching, and the bracket is wide");
-    if (in_full && kind != ASK_BOUNDS) c->open += x->status == OVOID_UNDECIDED;
-    if (in_full && (kind == ASK_DEPTH || (kind == ASK_DISTANCE && x->status == OVOID_SEPARATED))) {
-        c->wide += width > 1.0001e-9 * s->size;
-        if (width > 1.0001e-9 * s->size && x->limit == OVOID_LIMIT_NONE)
-            fail(w, s, x, kind, "wide, and no limit says why");
-    }
+    if (in_full && kind != ASK_BOUNDS) check_completeness(w, s, x, kind);
     if (--w->until_exact == 0) {
         w->until_exact = w->run->sample;
         check_exactly(w, s, x, cover, kind, in_full);

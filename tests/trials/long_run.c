@@ -4,7 +4,7 @@
 //   --seconds S (0)      stop after so many; 0: never
 //   --threads T (1), --sample N (1000: one answer of so many goes before the judge), --seed N (1)
 //   --state FILE         read at the start where it is there, written each minute and at the end: the run goes on
-//   --family NAME, --block N   this block again, and nothing else
+//   --family NAME, --block N   this block again, and nothing else; open and wide answers are shown too
 // Ctrl-C ends the run after the blocks at hand, and saves. Failures go to the output and, at once, to FILE.failures.
 #include "long_run.h"
 
@@ -133,14 +133,14 @@ static int read_state(long_run *run) {
     return 1;
 }
 
-// --- failures
+// --- failures (and, where one block is run again, answers that are open or wide)
 
 static void report(void *context, const long_family *f, uint64_t block, const ovoid_pair *pair, const ovoid_answer *x,
                    const char *question, const char *why) {
     long_run *run = context;
     mtx_lock(&run->lock);
     if (run->printed++ < 1000) {
-        printf("FAILED %s, block %llu, seed %llu, %s: %s\n", f->name, (unsigned long long)block,
+        printf("SEEN %s, block %llu, seed %llu, %s: %s\n", f->name, (unsigned long long)block,
                (unsigned long long)run->seed, question, why);
         print_answer(stdout, x);
         if (run->printed <= 4) print_pair(stdout, pair);
@@ -296,8 +296,15 @@ static void run_block(long_run *run, uint64_t number) {
     if (!j) abort();
     for (size_t i = 0; i < long_family_count; i++) {
         if (strcmp(run->family, long_families[i].name) != 0) continue;
-        block_run block = {
-            &long_families[i], number, find_block_seed(run->seed, number), run->sample, &run->clouds, j, report, run};
+        block_run block = {.family = &long_families[i],
+                           .number = number,
+                           .seed = find_block_seed(run->seed, number),
+                           .sample = run->sample,
+                           .is_shown = 1,
+                           .clouds = &run->clouds,
+                           .judge = j,
+                           .report = report,
+                           .context = run};
         block_execute(&block, &run->counts[i]);
         run->begun = 1;
     }

@@ -77,6 +77,7 @@ typedef struct block_run {
     const long_family *family;
     uint64_t number, seed;
     uint64_t sample; // one answer of so many goes before the judge
+    int is_shown;    // answers that are open or wide are reported too
     const clouds *clouds;
     judge *judge;
     report_failure *report;
