@@ -265,6 +265,44 @@ typedef struct ovoid_picture_options {
 OVOID_API ovoid_code ovoid_picture_write_svg(const char *path, const ovoid_picture *picture,
                                              const ovoid_picture_options *options, ovoid_error *error);
 
+/* ---- charts ---- */
+
+/** How a series is drawn. */
+typedef enum ovoid_series_kind {
+    OVOID_SERIES_LINE = 0, /**< points joined by lines, with marks where they are few */
+    OVOID_SERIES_POINTS,   /**< marks only */
+    OVOID_SERIES_BARS,     /**< bars from zero, side by side */
+    OVOID_SERIES_STACK     /**< bars on top of each other, in the order of the series */
+} ovoid_series_kind;
+
+/** One row of values. Values that are not finite, or not positive on a logarithmic axis, leave a gap. */
+typedef struct ovoid_series {
+    const char *name; /**< for the legend; NULL: none */
+    ovoid_series_kind kind;
+    size_t count;
+    const double *x;          /**< NULL: 0, 1, 2, ... */
+    const double *y;          /**< count values */
+    const double *low, *high; /**< a band around the line or a whisker on the bar; both or NULL */
+} ovoid_series;
+
+/** A chart; all zero but the series is the default. The arrays and texts are borrowed. */
+typedef struct ovoid_chart {
+    const char *title, *x_label, *y_label; /**< may be NULL */
+    const ovoid_series *series;
+    size_t series_count;
+    const char *const *categories; /**< labels of x = 0, 1, 2, ...; NULL: a number axis */
+    size_t category_count;
+    int x_log, y_log;       /**< logarithmic axes */
+    double y_min, y_max;    /**< 0 and 0: as the values are */
+    uint32_t width, height; /**< pixels; 0 means 720 and 400 */
+} ovoid_chart;
+
+/**
+ * Writes the chart as one svg element, which is a file of its own or a part of an HTML page. The same chart gives the
+ * same bytes. FILE if the stream failed, LIMIT above 12 series (there are no more colours to tell apart).
+ */
+OVOID_API ovoid_code ovoid_chart_write_svg(FILE *file, const ovoid_chart *chart);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,122 @@
+// Charts: every number lands where its axis says, odd values leave gaps, the same chart gives the same bytes. The truth
+// is the picture's own geometry, read back from the SVG.
+#include "check.h"
+#include "ovoid/io.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static char text[1 << 20];
+
+// The chart as text; "" where it failed.
+static const char *draw(const ovoid_chart *chart) {
+    FILE *file = tmpfile();
+    text[0] = 0;
+    if (!CHECK(file != NULL)) return text;
+    ovoid_code code = ovoid_chart_write_svg(file, chart);
+    if (CHECK_EQ(code, OVOID_OK)) {
+        rewind(file);
+        text[fread(text, 1, sizeof text - 1, file)] = 0;
+    }
+    fclose(file);
+    return text;
+}
+
+static size_t count(const char *where, const char *what) {
+    size_t found = 0;
+    for (const char *at = strstr(where, what); at; at = strstr(at + 1, what)) found++;
+    return found;
+}
+
+// The y of circle number i.
+static double get_circle(const char *svg, size_t i) {
+    const char *at = strstr(svg, "<circle");
+    for (; at && i; i--) at = strstr(at + 1, "<circle");
+    at = at ? strstr(at, "cy=\"") : NULL;
+    return at ? atof(at + 4) : NAN;
+}
+
+static void test_places(void) {
+    const double x[] = {1, 2, 3}, y[] = {0, 50, 100};
+    const ovoid_series s = {NULL, OVOID_SERIES_POINTS, 3, x, y, NULL, NULL};
+    ovoid_chart chart = {.series = &s, .series_count = 1};
+    const char *svg = draw(&chart);
+    CHECK_EQ(count(svg, "<circle"), 3);
+    double bottom = get_circle(svg, 0), middle = get_circle(svg, 1), top = get_circle(svg, 2);
+    CHECK_NEAR(middle, (bottom + top) / 2, 0.11);
+    CHECK_LE(top, bottom - 200);
+    // Decades are equally far apart.
+    const double tens[] = {1, 100, 10000};
+    const ovoid_series logs = {NULL, OVOID_SERIES_POINTS, 3, tens, tens, NULL, NULL};
+    chart = (ovoid_chart){.series = &logs, .series_count = 1, .x_log = 1, .y_log = 1};
+    svg = draw(&chart);
+    CHECK_NEAR(get_circle(svg, 1), (get_circle(svg, 0) + get_circle(svg, 2)) / 2, 0.11);
+    CHECK(strstr(svg, ">10000<") != NULL);
+}
+
+// Nothing that is not a number, and no value out of its axis, whatever comes in.
+static void test_odd_values(void) {
+    const double y[] = {NAN, INFINITY, -INFINITY, 0, -1, 1e300, 5};
+    for (int kind = 0; kind < 4; kind++)
+        for (int logs = 0; logs < 4; logs++) {
+            const ovoid_series s = {"odd", (ovoid_series_kind)kind, 7, NULL, y, y, y};
+            const ovoid_chart chart = {.series = &s, .series_count = 1, .x_log = logs & 1, .y_log = logs >> 1};
+            const char *svg = draw(&chart);
+            CHECK(!strstr(svg, "nan") && !strstr(svg, "inf"));
+            CHECK(strstr(svg, "</svg>") != NULL);
+        }
+    // No series, no values, equal values.
+    ovoid_chart chart = {.title = "<none> & \"nothing\""};
+    CHECK(strstr(draw(&chart), "&#60;none&#62; &#38;") != NULL);
+    const double same[] = {7, 7};
+    const ovoid_series s[] = {{"none", OVOID_SERIES_LINE, 0, NULL, same, NULL, NULL},
+                              {"same", OVOID_SERIES_LINE, 2, same, same, NULL, NULL}};
+    chart = (ovoid_chart){.series = s, .series_count = 2};
+    CHECK(!strstr(draw(&chart), "nan"));
+    // More series than colours.
+    ovoid_series many[13] = {{0}};
+    chart = (ovoid_chart){.series = many, .series_count = 13};
+    FILE *file = tmpfile();
+    ovoid_code code = ovoid_chart_write_svg(file, &chart);
+    CHECK_EQ(code, OVOID_ERROR_LIMIT);
+    fclose(file);
+}
+
+static void test_bars(void) {
+    const double a[] = {1, 2}, b[] = {3, 1};
+    const char *const names[] = {"first", "second"};
+    ovoid_series s[] = {{"a", OVOID_SERIES_STACK, 2, NULL, a, NULL, NULL},
+                        {"b", OVOID_SERIES_STACK, 2, NULL, b, NULL, NULL}};
+    ovoid_chart chart = {.series = s, .series_count = 2, .categories = names, .category_count = 2, .y_label = "ms"};
+    const char *svg = draw(&chart);
+    // Background, two keys, four bars; the axis goes to the top of the highest stack.
+    CHECK_EQ(count(svg, "<rect"), 7);
+    CHECK(strstr(svg, ">4<") && !strstr(svg, ">5<") && strstr(svg, ">second<"));
+    s[0].kind = s[1].kind = OVOID_SERIES_BARS;
+    CHECK(strstr(draw(&chart), ">3<") != NULL);
+    char first[4096];
+    snprintf(first, sizeof first, "%.4000s", draw(&chart));
+    CHECK(strncmp(first, draw(&chart), 4000) == 0);
+}
+
+static void test_full_disk(void) {
+    FILE *full = fopen("/dev/full", "w");
+    if (!full) {
+        check_skip("no /dev/full");
+        return;
+    }
+    static const double y[2000] = {0};
+    const ovoid_series s = {NULL, OVOID_SERIES_POINTS, 2000, NULL, y, NULL, NULL};
+    const ovoid_chart chart = {.series = &s, .series_count = 1};
+    ovoid_code code = ovoid_chart_write_svg(full, &chart);
+    CHECK_EQ(code, OVOID_ERROR_FILE);
+    fclose(full);
+}
+
+int main(void) {
+    test_places();
+    test_odd_values();
+    test_bars();
+    test_full_disk();
+    return check_end();
+}
