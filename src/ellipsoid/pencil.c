@@ -33,8 +33,8 @@ vec3 ldl3_solve(const ldl3 *f, vec3 b) {
 
 pencil pencil_search(sym3 qa, sym3 qb, vec3 d) {
     // Start where the two radii along the line of centres say.
-    double sa = sqrt(fmax(0, sym3_quadratic(qa, d))), sb = sqrt(fmax(0, sym3_quadratic(qb, d)));
-    double low = 0, high = 1, s = sa + sb > 0 ? fmin(fmax(sa / (sa + sb), 1e-6), 1 - 1e-6) : 0.5;
+    double sa = sqrt(max2(sym3_quadratic(qa, d), 0)), sb = sqrt(max2(sym3_quadratic(qb, d), 0));
+    double low = 0, high = 1, s = sa + sb > 0 ? min2(max2(sa / (sa + sb), 1e-6), 1 - 1e-6) : 0.5;
     pencil r = {s, {0, 0, 0}, 0, 0, PENCIL_TOUCHING};
 
     for (int round = 0; round < 20; round++) {
@@ -49,7 +49,7 @@ pencil pencil_search(sym3 qa, sym3 qb, vec3 d) {
         r.mb = s * s * beta;
         r.state = s * r.ma + t * r.mb > 1 ? PENCIL_APART : r.ma < 1 && r.mb < 1 ? PENCIL_COMMON : PENCIL_TOUCHING;
         // A point well inside both is easier to prove than one at the rim: go on a little for it.
-        if (r.state == PENCIL_APART || fmax(r.ma, r.mb) <= 0.999) return r;
+        if (r.state == PENCIL_APART || max2(r.ma, r.mb) <= 0.999) return r;
 
         // Newton's step for (1 - s) sqrt(alpha) = s sqrt(beta), kept in the bracket.
         double ra = sqrt(alpha), rb = sqrt(beta), slope = t * ra - s * rb;
@@ -60,7 +60,7 @@ pencil pencil_search(sym3 qa, sym3 qb, vec3 d) {
         vec3 turn = ldl3_solve(&f, vec3_sub(ub, ua));
         double change = (s * vec3_dot(turn, ub) / rb - t * vec3_dot(turn, ua) / ra) - (ra + rb);
         double step = slope / change, next = s - step;
-        if (fabs(step) <= 1e-15 * fmin(s, t)) return r;
+        if (fabs(step) <= 1e-15 * min2(s, t)) return r;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
         s = next;
     }

@@ -9,6 +9,10 @@
 
 typedef ovoid_vec3 vec3;
 
+/// The larger and the smaller of two numbers, in one instruction where fmax is a call; b where one of them is NaN.
+static inline double max2(double a, double b) { return a > b ? a : b; }
+static inline double min2(double a, double b) { return a < b ? a : b; }
+
 static inline vec3 vec3_make(double x, double y, double z) { return (vec3){x, y, z}; }
 static inline vec3 vec3_at(const double *xyz, size_t i) { return (vec3){xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}; }
 static inline vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -26,7 +30,7 @@ static inline vec3 vec3_cross(vec3 a, vec3 b) {
 static inline double vec3_norm_squared(vec3 a) { return vec3_dot(a, a); }
 static inline double vec3_norm(vec3 a) { return sqrt(vec3_dot(a, a)); }
 static inline int vec3_is_finite(vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
-static inline double vec3_max_abs(vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static inline double vec3_max_abs(vec3 a) { return max2(fabs(a.x), max2(fabs(a.y), fabs(a.z))); }
 
 /// The unit vector along a; a zero vector stays zero. Scaled first where a square could under- or overflow.
 static inline vec3 vec3_unit(vec3 a) {

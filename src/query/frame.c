@@ -37,29 +37,51 @@ static dd3 place(const ovoid_shape *shape, const ovoid_pose *pose) {
 
 static vec3 rounded(dd3 v) { return (vec3){v.x.high, v.y.high, v.z.high}; }
 
-ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
-    if (ovoid_pose_compute_check(&pair->pose_a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
-    if (ovoid_pose_compute_check(&pair->pose_b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+// Where a shape has an origin: the difference of the origins is formed before anything is rounded to one double. What
+// that can hide, unlike the plain difference of two positions, which is off by one rounding of itself.
+static double place_origins(pair_frame *f, const ovoid_pair *pair) {
+    dd3 a = place(f->a, &pair->pose_a), b = place(f->b, &pair->pose_b);
+    f->world_origin = rounded(a);
+    f->offset = rounded((dd3){dd_sub(b.x, a.x), dd_sub(b.y, a.y), dd_sub(b.z, a.z)});
+    return 0x1p-95 * (vec3_max_abs(f->world_origin) + vec3_max_abs(rounded(b)) + vec3_max_abs(f->a->origin) +
+                      vec3_max_abs(f->b->origin));
+}
+
+// ovoid_pose_compute_check for the common case; NaN fails every comparison.
+static int is_plain(const ovoid_pose *pose) {
+    vec3 p = pose->position;
+    return quat_is_plain(quat_norm_squared(pose->rotation)) && fabs(p.x) <= OVOID_LENGTH_MAX &&
+           fabs(p.y) <= OVOID_LENGTH_MAX && fabs(p.z) <= OVOID_LENGTH_MAX;
+}
+
+ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
+    const ovoid_pose *a = &pair->pose_a, *b = &pair->pose_b;
+    if (!is_plain(a) && ovoid_pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+    if (!is_plain(b) && ovoid_pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
     f->a = pair->shape_a;
     f->b = pair->shape_b;
-    f->world = quat_to_mat3(pair->pose_a.rotation);
-    f->rotation = mat3_mul_transposed(f->world, quat_to_mat3(pair->pose_b.rotation));
-    // The difference of the origins is formed before anything is rounded to one double.
-    dd3 a = place(f->a, &pair->pose_a), b = place(f->b, &pair->pose_b);
-    dd3 d = {dd_sub(b.x, a.x), dd_sub(b.y, a.y), dd_sub(b.z, a.z)};
-    f->world_origin = rounded(a);
-    f->translation = mat3_mul_transposed_vec3(f->world, rounded(d));
+    f->world = quat_to_mat3(a->rotation);
+    f->world_b = quat_to_mat3(b->rotation);
+    f->world_origin = a->position;
+    f->offset = vec3_sub(b->position, a->position);
+    f->hidden = OVOID_LENGTH_MIN;
+    if (f->a->has_origin || f->b->has_origin) f->hidden += place_origins(f, pair);
     f->radii = f->a->radius + f->b->radius;
-    f->size = f->a->extent + f->b->extent + vec3_norm(f->translation) + f->radii;
-    // A difference of positions is exact in double-double; origins that are rotated into the world are not.
-    double hidden = OVOID_LENGTH_MIN;
-    if (f->a->has_origin || f->b->has_origin)
-        hidden += 0x1p-95 * (vec3_max_abs(f->world_origin) + vec3_max_abs(rounded(b)) + vec3_max_abs(f->a->origin) +
-                             vec3_max_abs(f->b->origin));
-    f->hidden = hidden;
-    f->claim = FRAME_CLAIM * f->size + 2 * hidden;
-    f->check = FRAME_CHECK * f->size + hidden;
+    f->size = f->a->extent + f->b->extent + vec3_norm(f->offset) + f->radii;
+    f->claim = FRAME_CLAIM * f->size + 2 * f->hidden;
+    f->check = FRAME_CHECK * f->size + f->hidden;
     return OVOID_LIMIT_NONE;
+}
+
+void frame_relate(pair_frame *f) {
+    f->rotation = mat3_mul_transposed(f->world, f->world_b);
+    f->translation = mat3_mul_transposed_vec3(f->world, f->offset);
+}
+
+ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
+    ovoid_limit refused = frame_place(pair, f);
+    if (refused == OVOID_LIMIT_NONE) frame_relate(f);
+    return refused;
 }
 
 frame_support frame_find_support(const pair_frame *f, vec3 n) {

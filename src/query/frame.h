@@ -20,20 +20,27 @@
 #define FRAME_CHECK (148 * 0x1p-53)
 
 typedef struct pair_frame {
+    // By frame_place: both bodies in the world.
     const ovoid_shape *a, *b;
-    mat3 rotation;     ///< x_a_frame = rotation x_b + translation
-    vec3 translation;  ///< of B's body frame
-    mat3 world;        ///< A's rotation to the world
-    vec3 world_origin; ///< of A's body frame, world
-    double size;       ///< s
-    double claim;      ///< FRAME_CLAIM s, and what underflow can hide
-    double check;      ///< FRAME_CHECK s, likewise
-    double hidden;     ///< what underflow and far origins can hide, whatever the size
-    double radii;      ///< sum of the rounding radii
+    mat3 world, world_b; ///< the rotations of A and B to the world
+    vec3 world_origin;   ///< of A's body frame, world
+    vec3 offset;         ///< of B's body frame from A's, world
+    double size;         ///< s
+    double claim;        ///< FRAME_CLAIM s, and what underflow can hide
+    double check;        ///< FRAME_CHECK s, likewise
+    double hidden;       ///< what underflow and far origins can hide, whatever the size
+    double radii;        ///< sum of the rounding radii
+    // By frame_relate: B in the frame of A.
+    mat3 rotation;    ///< x_a_frame = rotation x_b + translation
+    vec3 translation; ///< of B's body frame
 } pair_frame;
 
 /// The frame of a pair, or the reason why there is none: POSE_A, POSE_B.
 ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *frame);
+
+/// frame_make in two steps, for those who are done after the first: both bodies in the world; B in the frame of A.
+ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *frame);
+void frame_relate(pair_frame *frame);
 
 /// A vertex of B in the frame.
 static inline vec3 frame_b(const pair_frame *f, vec3 x) {

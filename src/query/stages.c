@@ -54,7 +54,7 @@ void stage_sphere(search *s) {
 }
 
 double ellipsoid_compute_spread(sym3 q, vec3 n) {
-    return fmax(0, sym3_quadratic(q, n)) + 256 * 0x1p-53 * sym3_trace(q);
+    return max2(sym3_quadratic(q, n), 0) + 256 * 0x1p-53 * sym3_trace(q);
 }
 
 vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
