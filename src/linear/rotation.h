@@ -16,9 +16,7 @@ static inline ovoid_quat quat_scaled(ovoid_quat q) {
 
 /// |q|^2 where no square under- or overflowed to speak of: q needs no scaling, and the products of its components are
 /// those of the scaled one but for a power of two, unless they are below 2^-900.
-static inline double quat_norm_squared(ovoid_quat q) {
-    return (q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z);
-}
+static inline double quat_norm_squared(ovoid_quat q) { return (q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z); }
 static inline int quat_is_plain(double norm_squared) { return norm_squared > 0x1p-60 && norm_squared < 0x1p60; }
 
 /// R(q)/|q|^2. Each entry has at most 12 roundings of quantities below 1 after the division: absolute error at most
