@@ -2,42 +2,10 @@
 // exact judge, none undecided. Truth: exact arithmetic. The file is repeated records of a 32-bit little-endian count n
 // and n times three 32-bit floats; it is not part of the project, and the test is skipped where it is absent.
 //   --pairs N (default 5000), --seed N; --export DIR: writes each cloud as OBJ, LIST and PAIRS.csv for `ovoid batch`.
-#include "trial.h"
-
-typedef struct cloud {
-    double *xyz;
-    uint32_t count;
-} cloud;
-
-typedef struct clouds {
-    cloud *items;
-    size_t count;
-} clouds;
-
-// --- the file
-
-static clouds read_clouds(const char *path) {
-    clouds all = {NULL, 0};
-    FILE *f = fopen(path, "rb");
-    if (!f) return all;
-    uint32_t n;
-    while (fread(&n, sizeof n, 1, f) == 1 && n > 0 && n < 100000) {
-        float *raw = malloc(n * 3 * sizeof *raw);
-        cloud c = {malloc(n * 3 * sizeof(double)), n};
-        all.items = realloc(all.items, (all.count + 1) * sizeof *all.items);
-        if (!raw || !c.xyz || !all.items || fread(raw, 12, n, f) != n) abort();
-        for (uint32_t i = 0; i < 3 * n; i++) c.xyz[i] = raw[i];
-        all.items[all.count++] = c;
-        free(raw);
-    }
-    fclose(f);
-    return all;
-}
-
-static void free_clouds(clouds all) {
-    for (size_t i = 0; i < all.count; i++) free(all.items[i].xyz);
-    free(all.items);
-}
+#include "check.h"
+#include "trials/ask.h"
+#include "trials/clouds.h"
+#include "trials/shapes.h"
 
 // --- the pairs
 
@@ -89,7 +57,6 @@ static void run_pair(run *all, const ovoid_pair *pair) {
     all->judge_seconds += seconds_now() - between;
     all->query_seconds += between - before;
     if (code == OVOID_OK) code = ovoid_answer_check(pair, &x, &cover, &error);
-    check_passed++;
     t->pairs++;
     t->answers++;
     if (code != OVOID_OK) trial_fail(t, pair, &x, "depth", error.message);
@@ -178,7 +145,7 @@ static void run_all(const clouds *all, long pairs, uint64_t seed, const char *fo
     FILE *f = folder && export_clouds(all, folder) ? open_in(folder, "PAIRS.csv") : NULL;
     if (f) fprintf(f, "a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n");
     for (long i = 0; i < pairs; i++) {
-        uint64_t r = check_seed = seed + (uint64_t)i;
+        uint64_t r = trial_seed = seed + (uint64_t)i;
         size_t a = (size_t)(random_next(&r) % all->count), b = (size_t)(random_next(&r) % all->count);
         if (!shapes[a] || !shapes[b]) continue;
         ovoid_pair pair = make_pair(shapes[a], shapes[b], &r);
@@ -187,6 +154,8 @@ static void run_all(const clouds *all, long pairs, uint64_t seed, const char *fo
     }
     if (f) fclose(f);
     print_run(&total);
+    check_passed += (long)(total.counts.answers - total.counts.wrong);
+    check_failed += (long)total.counts.wrong;
     judge_forget(trial_judge);
     for (size_t i = 0; i < all->count; i++) ovoid_shape_destroy(shapes[i]);
     free(shapes);
@@ -195,15 +164,13 @@ static void run_all(const clouds *all, long pairs, uint64_t seed, const char *fo
 int main(int count, char **arguments) {
     long pairs = 5000;
     uint64_t seed = 1;
-    const char *folder = NULL, *data = check_data_folder();
+    const char *folder = NULL;
     for (int i = 1; i + 1 < count; i += 2) {
         if (strcmp(arguments[i], "--pairs") == 0) pairs = atol(arguments[i + 1]);
         if (strcmp(arguments[i], "--seed") == 0) seed = strtoull(arguments[i + 1], NULL, 10);
         if (strcmp(arguments[i], "--export") == 0) folder = arguments[i + 1];
     }
-    char path[1024];
-    snprintf(path, sizeof path, "%s/pieces/game_hulls.bin", data ? data : "");
-    clouds all = read_clouds(path);
+    clouds all = clouds_read();
     if (all.count == 0) {
         check_skip("pieces/game_hulls.bin is not in the data folder (OVOID_DATA)");
         return check_end();
@@ -212,6 +179,6 @@ int main(int count, char **arguments) {
     if (!CHECK(trial_judge != NULL)) return check_end();
     run_all(&all, pairs, seed, folder);
     judge_destroy(trial_judge);
-    free_clouds(all);
+    clouds_destroy(all);
     return check_end();
 }
