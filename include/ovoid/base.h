@@ -1,6 +1,12 @@
 /**
  * @file base.h
  * Version, errors and memory: what every other header stands on.
+ *
+ * Floating-point environment: every function of the core library computes in the default one (round to nearest,
+ * subnormals kept, no exception trapped) and returns with the caller's as it was: rounding mode, masks, flush-to-zero
+ * and exception flags. So the caller may have set anything; the answers have the same bits. An allocator or assert hook
+ * is called in the default environment. Cost: about a nanosecond a call, about 0.1 microseconds where a flag that the
+ * caller had not raised has to be taken back (in most programs "inexact" is raised for good by their first division).
  */
 #ifndef OVOID_BASE_H
 #define OVOID_BASE_H

@@ -10,6 +10,7 @@
 
 #include "area/cells.h"
 #include "base/allocator.h"
+#include "base/environment.h"
 #include "base/error.h"
 
 #include <string.h>
@@ -135,8 +136,8 @@ static ovoid_code fill_areas(ovoid_areas *a, const ovoid_ellipsoid *ellipsoid, o
     return code == OVOID_OK ? code : error_set(error, code, -1, "no memory for the tables of the areas");
 }
 
-ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
-                                uint32_t k, const ovoid_allocator *allocator, ovoid_error *error) {
+static ovoid_areas *create_areas(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
+                                 uint32_t k, const ovoid_allocator *allocator, ovoid_error *error) {
     if (check_input(polytope, ellipsoid, split, k, error) != OVOID_OK) return NULL;
     ovoid_allocator use = allocator_make(allocator);
     ovoid_areas *a = allocator_allocate(&use, 1, sizeof *a);
@@ -151,6 +152,11 @@ ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_elli
         return NULL;
     }
     return a;
+}
+
+ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
+                                uint32_t k, const ovoid_allocator *allocator, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_areas *, polytope, create_areas(polytope, ellipsoid, split, k, allocator, error));
 }
 
 void ovoid_areas_destroy(ovoid_areas *areas) {

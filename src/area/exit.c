@@ -5,6 +5,7 @@
 // to the lowest index: rules that are sound give the same answer as looking at all facets, bit for bit.
 #include "area/area.h"
 #include "area/cells.h"
+#include "base/environment.h"
 
 /// The best facet so far.
 typedef struct best_facet {
@@ -56,8 +57,7 @@ static void look_at_cell(best_facet *b, const ovoid_areas *a, vec3 u) {
     for (uint32_t i = 0; i < t->counts[cell]; i++) look_at(b, a, list[i], u);
 }
 
-ovoid_exit ovoid_areas_find_exit(const ovoid_areas *areas, ovoid_vec3 direction, ovoid_vec3 toward,
-                                 ovoid_area_rule rule) {
+static ovoid_exit find_exit(const ovoid_areas *areas, ovoid_vec3 direction, ovoid_vec3 toward, ovoid_area_rule rule) {
     vec3 u = sym3_mul_vec3(areas->inverse_root, direction_scaled(direction));
     best_facet best = {-INFINITY, 0, 0};
     if (rule == OVOID_RULE_ALL)
@@ -80,7 +80,13 @@ ovoid_exit ovoid_areas_find_exit(const ovoid_areas *areas, ovoid_vec3 direction,
     return e;
 }
 
-uint32_t ovoid_areas_find_support(const ovoid_areas *areas, ovoid_vec3 direction, uint32_t *touched) {
+ovoid_exit ovoid_areas_find_exit(const ovoid_areas *areas, ovoid_vec3 direction, ovoid_vec3 toward,
+                                 ovoid_area_rule rule) {
+    vec3 both[2] = {direction, toward};
+    ENVIRONMENT_RETURN(ovoid_exit, both, find_exit(areas, both[0], both[1], rule));
+}
+
+static uint32_t find_support(const ovoid_areas *areas, ovoid_vec3 direction, uint32_t *touched) {
     const area_table *t = &areas->vertices;
     vec3 n = sym3_mul_vec3(areas->root, direction_scaled(direction));
     uint32_t cell = areas->k > 0 ? cube_cell_of(n, areas->k) : octant_of(n);
@@ -96,4 +102,8 @@ uint32_t ovoid_areas_find_support(const ovoid_areas *areas, ovoid_vec3 direction
     }
     if (touched) *touched = t->counts[cell];
     return best;
+}
+
+uint32_t ovoid_areas_find_support(const ovoid_areas *areas, ovoid_vec3 direction, uint32_t *touched) {
+    ENVIRONMENT_RETURN(uint32_t, direction, find_support(areas, direction, touched));
 }

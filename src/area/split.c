@@ -6,6 +6,7 @@
 // A coordinate below 2^-46 of the largest is taken for zero, so that a vertex meant to lie on a plane cuts no sliver.
 #include "area/area.h"
 #include "area/cells.h"
+#include "base/environment.h"
 
 enum { CORNERS_MAX = 6 };
 
@@ -61,7 +62,7 @@ static vec3 map_vertex(const ovoid_polytope *polytope, uint32_t i, vec3 center, 
     return (vec3){fabs(v.x) <= least ? 0 : v.x, fabs(v.y) <= least ? 0 : v.y, fabs(v.z) <= least ? 0 : v.z};
 }
 
-ovoid_split_counts ovoid_polytope_compute_split(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+static ovoid_split_counts compute_split(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     ovoid_split_counts counts = {.faces = polytope->triangle_count};
     sym3 root, inverse_root;
     double ratio;
@@ -73,4 +74,8 @@ ovoid_split_counts ovoid_polytope_compute_split(const ovoid_polytope *polytope, 
         count_pieces(&counts, &p, 0, 0);
     }
     return counts;
+}
+
+ovoid_split_counts ovoid_polytope_compute_split(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+    ENVIRONMENT_RETURN(ovoid_split_counts, polytope, compute_split(polytope, ellipsoid));
 }

@@ -1,6 +1,7 @@
 // The ellipsoid as a value: radii, volume, and what a pose makes of it.
 #include "ovoid/ellipsoid.h"
 
+#include "base/environment.h"
 #include "ellipsoid/factor.h"
 #include "linear/rotation.h"
 
@@ -19,19 +20,31 @@ static void improve_small(sym3 q, double square[3]) {
     square[1] = fmin(fmax(square[1], square[0]), square[2]);
 }
 
-ovoid_vec3 ovoid_ellipsoid_compute_radii(const ovoid_ellipsoid *ellipsoid) {
+static ovoid_vec3 compute_radii(const ovoid_ellipsoid *ellipsoid) {
     eigen3 e = sym3_compute_eigen(ellipsoid->q);
     improve_small(ellipsoid->q, e.value);
     return vec3_make(sqrt(fmax(e.value[2], 0)), sqrt(fmax(e.value[1], 0)), sqrt(fmax(e.value[0], 0)));
 }
 
-double ovoid_ellipsoid_compute_volume(const ovoid_ellipsoid *ellipsoid) {
+ovoid_vec3 ovoid_ellipsoid_compute_radii(const ovoid_ellipsoid *ellipsoid) {
+    ENVIRONMENT_RETURN(ovoid_vec3, ellipsoid, compute_radii(ellipsoid));
+}
+
+static double compute_volume(const ovoid_ellipsoid *ellipsoid) {
     sym3dd q = sym3dd_from(ellipsoid->q);
     return ball_get_measure(3) * sym3dd_compute_content(&q, 3, NULL);
 }
 
-ovoid_ellipsoid ovoid_ellipsoid_compute_posed(const ovoid_ellipsoid *ellipsoid, const ovoid_pose *pose) {
+double ovoid_ellipsoid_compute_volume(const ovoid_ellipsoid *ellipsoid) {
+    ENVIRONMENT_RETURN(double, ellipsoid, compute_volume(ellipsoid));
+}
+
+static ovoid_ellipsoid compute_posed(const ovoid_ellipsoid *ellipsoid, const ovoid_pose *pose) {
     mat3 r = quat_to_mat3(pose->rotation);
     return (ovoid_ellipsoid){vec3_add(pose->position, mat3_mul_vec3(r, ellipsoid->center)),
                              sym3_rotate(ellipsoid->q, r)};
+}
+
+ovoid_ellipsoid ovoid_ellipsoid_compute_posed(const ovoid_ellipsoid *ellipsoid, const ovoid_pose *pose) {
+    ENVIRONMENT_RETURN(ovoid_ellipsoid, ellipsoid, compute_posed(ellipsoid, pose));
 }

@@ -22,4 +22,7 @@ typedef struct scaled_pair {
 
 scaled_pair ellipsoids_make_scaled(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
 
+/// ovoid_ellipsoid_is_overlapping, for callers that have set up the floating-point environment.
+int ellipsoids_are_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, ovoid_vec3 *point);
+
 #endif

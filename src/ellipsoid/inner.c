@@ -16,6 +16,7 @@
 #include "ellipsoid/working_set.h"
 
 #include "base/allocator.h"
+#include "base/environment.h"
 
 // The body in coordinates z, x = origin + map z, where it is round.
 typedef struct work {
@@ -241,8 +242,8 @@ static ovoid_fit compute_segment(const ovoid_polytope *p) {
     return (ovoid_fit){.ellipsoid = e, .volume = ellipsoid_compute_measure(&e, p->rank), .converged = 1};
 }
 
-ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
-                                         const ovoid_allocator *allocator) {
+static ovoid_code compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
+                                const ovoid_allocator *allocator) {
     if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
         return OVOID_ERROR_ARGUMENT;
     if (polytope->rank < 2) {
@@ -251,4 +252,9 @@ ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double 
     }
     ovoid_allocator memory = allocator_make(allocator);
     return compute(polytope, gap > 0 ? gap : 1e-6, fit, &memory);
+}
+
+ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
+                                         const ovoid_allocator *allocator) {
+    ENVIRONMENT_RETURN(ovoid_code, gap, compute_inner(polytope, gap, fit, allocator));
 }

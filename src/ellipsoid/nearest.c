@@ -21,6 +21,7 @@
 // than 2^-46 of the pair's size, when it closes no more, or after 200 rounds. The best points and the best direction
 // are returned; the lower bound is evaluated anew with every rounding bounded (gap.h). Cost: 4 to 8 rounds, 1 to 2
 // microseconds in all; 5 to 10 for flat bodies.
+#include "base/environment.h"
 #include "ellipsoid/gap.h"
 #include "ellipsoid/pencil.h"
 #include "ellipsoid/rows.h"
@@ -342,9 +343,9 @@ static ovoid_nearest make_answer(const ovoid_ellipsoid *a, const ovoid_ellipsoid
     return r;
 }
 
-ovoid_nearest ovoid_ellipsoid_compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
+static ovoid_nearest compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
     vec3 common;
-    if (ovoid_ellipsoid_is_overlapping(a, b, &common)) return make_overlapping(a, b, common);
+    if (ellipsoids_are_overlapping(a, b, &common)) return make_overlapping(a, b, common);
 
     scaled_pair p = ellipsoids_make_scaled(a, b);
     search s = {.pair = &p, .a = root3_make(p.qa, 0), .b = root3_make(p.qb, 0), .normal = {1, 0, 0}};
@@ -365,4 +366,8 @@ ovoid_nearest ovoid_ellipsoid_compute_nearest(const ovoid_ellipsoid *a, const ov
     if (!(m.dual > 0)) m = find_start(&t);
     search_run(&t, &m, ROUNDS_CAREFUL);
     return make_answer(a, b, &t);
+}
+
+ovoid_nearest ovoid_ellipsoid_compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
+    ENVIRONMENT_RETURN(ovoid_nearest, a, compute_nearest(a, b));
 }

@@ -14,6 +14,7 @@
 #include "ellipsoid/factor.h"
 
 #include "base/allocator.h"
+#include "base/environment.h"
 
 // Centre, rounded, and covariance of the weighted vertices about their true mean.
 typedef struct moments {
@@ -114,8 +115,8 @@ static void fill_fit(const ovoid_polytope *polytope, const design *d, uint32_t r
     }
 }
 
-ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
-                                         const ovoid_allocator *allocator) {
+static ovoid_code compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
+                                const ovoid_allocator *allocator) {
     if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
         return OVOID_ERROR_ARGUMENT;
     if (gap == 0) gap = 1e-6;
@@ -134,4 +135,9 @@ ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double 
     fill_fit(polytope, &d, rank, gap, fit);
     allocator_release(&memory, block);
     return OVOID_OK;
+}
+
+ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
+                                         const ovoid_allocator *allocator) {
+    ENVIRONMENT_RETURN(ovoid_code, gap, compute_outer(polytope, gap, fit, allocator));
 }

@@ -5,6 +5,7 @@
 // needed. A phase never returns less than it was given: where there is no room, it returns its input. Flat bodies:
 // within the plane, against the edges; a segment: against its ends. Nothing is proven of these. Cost: 40 to 250
 // evaluations of all facets a phase.
+#include "base/environment.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/seal.h"
 #include "ellipsoid/walls.h"
@@ -53,7 +54,7 @@ static ovoid_ellipsoid make_scaled(const void *context, double t) {
     return (ovoid_ellipsoid){e->center, sym3_scale(e->q, t * t)};
 }
 
-ovoid_fit ovoid_ellipsoid_compute_shrunk(const ovoid_polytope *polytope, const ovoid_ellipsoid *outer) {
+static ovoid_fit compute_shrunk(const ovoid_polytope *polytope, const ovoid_ellipsoid *outer) {
     walls w = walls_make(polytope);
     uint32_t iterations = 0;
     // A quarter of the radii lies inside by John's theorem, which promises a third.
@@ -62,6 +63,10 @@ ovoid_fit ovoid_ellipsoid_compute_shrunk(const ovoid_polytope *polytope, const o
     ovoid_fit fit = finish(&w, &e, NULL);
     fit.iterations = iterations;
     return fit;
+}
+
+ovoid_fit ovoid_ellipsoid_compute_shrunk(const ovoid_polytope *polytope, const ovoid_ellipsoid *outer) {
+    ENVIRONMENT_RETURN(ovoid_fit, outer, compute_shrunk(polytope, outer));
 }
 
 // The mean of a facet's vertices. Each is the start of one edge of the facet; diagonals between its triangles are no
@@ -113,7 +118,7 @@ static double compute_gauge(sym3 q, vec3 d, uint32_t rank) {
     return sqrt(sum);
 }
 
-ovoid_fit ovoid_ellipsoid_compute_stretched(const ovoid_polytope *polytope, const ovoid_ellipsoid *shrunk) {
+static ovoid_fit compute_stretched(const ovoid_polytope *polytope, const ovoid_ellipsoid *shrunk) {
     walls w = walls_make(polytope);
     // The facet farthest from the centre, the first of equals.
     uint32_t facet = 0, iterations = 0;
@@ -142,6 +147,10 @@ ovoid_fit ovoid_ellipsoid_compute_stretched(const ovoid_polytope *polytope, cons
     return fit;
 }
 
+ovoid_fit ovoid_ellipsoid_compute_stretched(const ovoid_polytope *polytope, const ovoid_ellipsoid *shrunk) {
+    ENVIRONMENT_RETURN(ovoid_fit, shrunk, compute_stretched(polytope, shrunk));
+}
+
 typedef struct enlargement {
     ovoid_ellipsoid base;
     vec3 axis;
@@ -153,7 +162,7 @@ static ovoid_ellipsoid make_enlarged(const void *context, double radius) {
     return (ovoid_ellipsoid){g->base.center, sym3_add(g->base.q, sym3_outer(g->axis, radius * radius - g->value))};
 }
 
-ovoid_fit ovoid_ellipsoid_compute_enlarged(const ovoid_polytope *polytope, const ovoid_ellipsoid *stretched) {
+static ovoid_fit compute_enlarged(const ovoid_polytope *polytope, const ovoid_ellipsoid *stretched) {
     walls w = walls_make(polytope);
     eigen3 axes = sym3_compute_eigen(stretched->q);
     const vec3 axis[3] = {axes.v.r0, axes.v.r1, axes.v.r2};
@@ -175,4 +184,8 @@ ovoid_fit ovoid_ellipsoid_compute_enlarged(const ovoid_polytope *polytope, const
     ovoid_fit fit = finish(&w, &e, stretched);
     fit.iterations = iterations;
     return fit;
+}
+
+ovoid_fit ovoid_ellipsoid_compute_enlarged(const ovoid_polytope *polytope, const ovoid_ellipsoid *stretched) {
+    ENVIRONMENT_RETURN(ovoid_fit, stretched, compute_enlarged(polytope, stretched));
 }

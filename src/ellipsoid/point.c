@@ -8,6 +8,7 @@
 // below, and one radius alone it solves in one step. It begins at the largest t where one term alone reaches 1, where r
 // is between 1 and sqrt(3); 3 to 8 steps reach rounding. A zero radius contributes nothing to p, and x_i = 0: so flat
 // ellipsoids, segments and points need no case of their own.
+#include "base/environment.h"
 #include "ellipsoid/gap.h"
 
 /// part / (t + e^2), 0 where both parts of the sum are zero.
@@ -45,7 +46,7 @@ static vec3 find_outward(const double *square, vec3 y) {
     return vec3_norm_squared(n) > 0 ? n : (vec3){1, 0, 0};
 }
 
-ovoid_nearest ovoid_ellipsoid_compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, ovoid_vec3 point) {
+static ovoid_nearest compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, ovoid_vec3 point) {
     // The point as seen from the ellipsoid's axes, in units of the pair's size.
     ovoid_ellipsoid b = {point, {0, 0, 0, 0, 0, 0}};
     scaled_pair p = ellipsoids_make_scaled(ellipsoid, &b);
@@ -76,4 +77,8 @@ ovoid_nearest ovoid_ellipsoid_compute_nearest_to_point(const ovoid_ellipsoid *el
         r.point_b = point;
     }
     return r;
+}
+
+ovoid_nearest ovoid_ellipsoid_compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, ovoid_vec3 point) {
+    ENVIRONMENT_RETURN(ovoid_nearest, point, compute_nearest_to_point(ellipsoid, point));
 }

@@ -9,6 +9,7 @@
 // Euclidean nearest points, and |X* Y*| is only an upper bound of the distance. But a and b share a point if and only
 // if |y| <= 1, and the plane across y, which separates sphere and b', maps back to one whose normal is E'^-1 y: a lower
 // bound that is positive whenever the ellipsoids are apart. Cost: one 3x3 eigenproblem.
+#include "base/environment.h"
 #include "ellipsoid/gap.h"
 
 /// Lower triangular E with E E' = Q.
@@ -57,7 +58,7 @@ static sym3 map_form(const cholesky3 *e, sym3 q) {
     return (sym3){r0.x, r0.y, r0.z, r1.y, r1.z, r2.z};
 }
 
-ovoid_nearest ovoid_ellipsoid_compute_nearest_by_sphere(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
+static ovoid_nearest compute_nearest_by_sphere(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
     scaled_pair p = ellipsoids_make_scaled(a, b);
     cholesky3 e;
     if (!cholesky3_make(p.qa, &e)) return ovoid_ellipsoid_compute_nearest(a, b);
@@ -80,4 +81,8 @@ ovoid_nearest ovoid_ellipsoid_compute_nearest_by_sphere(const ovoid_ellipsoid *a
     r.distance = vec3_norm(vec3_sub(r.point_b, r.point_a));
     r.lower = fmin(ellipsoids_compute_gap(a, b, r.normal), r.distance);
     return r;
+}
+
+ovoid_nearest ovoid_ellipsoid_compute_nearest_by_sphere(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
+    ENVIRONMENT_RETURN(ovoid_nearest, a, compute_nearest_by_sphere(a, b));
 }

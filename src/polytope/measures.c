@@ -3,6 +3,7 @@
 // dimension d with corners v_i and s their sum, the first moment is measure / (d + 1) s and the second
 // measure / ((d + 1) (d + 2)) (sum of v_i v_i' + s s'). Everything is computed in units of the body's size, a power of
 // two, so that only results can underflow.
+#include "base/environment.h"
 #include "linear/mat3.h"
 #include "ovoid/polytope.h"
 #include "polytope/sphere.h"
@@ -77,7 +78,7 @@ static void fill_box(const ovoid_polytope *p, ovoid_measures *m) {
     m->box_max = high;
 }
 
-ovoid_measures ovoid_polytope_compute_measures(const ovoid_polytope *polytope) {
+static ovoid_measures compute_measures(const ovoid_polytope *polytope) {
     ovoid_measures result = {0};
     fill_box(polytope, &result);
     sphere s = sphere_compute_smallest(polytope->vertices, polytope->vertex_count);
@@ -105,4 +106,8 @@ ovoid_measures ovoid_polytope_compute_measures(const ovoid_polytope *polytope) {
     result.volume = dimension == 3 ? m.measure * unit * unit * unit : 0;
     result.area = m.area * unit * unit;
     return result;
+}
+
+ovoid_measures ovoid_polytope_compute_measures(const ovoid_polytope *polytope) {
+    ENVIRONMENT_RETURN(ovoid_measures, polytope, compute_measures(polytope));
 }

@@ -1,6 +1,7 @@
 // The pipeline and its answer.
 #include "query/answer.h"
 
+#include "base/environment.h"
 #include "base/error.h"
 #include "query/epa.h"
 #include "query/gjk.h"
@@ -41,7 +42,7 @@ static ovoid_limit find_limit(const search *s, ovoid_status status) {
     return s->ask.wants_bracket && s->lower > s->ask.far ? OVOID_LIMIT_CAP : OVOID_LIMIT_ANSWERED;
 }
 
-ovoid_answer answer_make(search *s) {
+void answer_write(search *s, ovoid_answer *out) {
     const pair_frame *f = s->frame;
     // A stage that proved one side only: any direction and any vertex pair bound the other.
     if (s->lower == -INFINITY) (void)search_probe(s, (vec3){1, 0, 0});
@@ -49,16 +50,15 @@ ovoid_answer answer_make(search *s) {
         simplex any = {.p = {{frame_difference(f, 0, 0), 0, 0}}, .weight = {1}, .count = 1};
         search_take_points(s, &any);
     }
-    ovoid_answer out = {.status = find_status(s), .stage = s->stage, .iterations = s->iterations};
-    out.limit = find_limit(s, out.status);
-    out.lower = s->lower;
-    out.upper = s->upper;
-    out.normal = out.proof.normal = frame_direction_to_world(f, s->normal);
-    set_upper_proof(&out.proof, s);
-    witness_points w = witness_compute_points(f, &out.proof);
-    out.point_a = frame_point_to_world(f, w.a);
-    out.point_b = frame_point_to_world(f, w.b);
-    return out;
+    *out = (ovoid_answer){.status = find_status(s), .stage = s->stage, .iterations = s->iterations};
+    out->limit = find_limit(s, out->status);
+    out->lower = s->lower;
+    out->upper = s->upper;
+    out->normal = out->proof.normal = frame_direction_to_world(f, s->normal);
+    set_upper_proof(&out->proof, s);
+    witness_points w = witness_compute_points(f, &out->proof);
+    out->point_a = frame_point_to_world(f, w.a);
+    out->point_b = frame_point_to_world(f, w.b);
 }
 
 // 1 if the options' numbers make sense; fills in the defaults.
@@ -96,21 +96,35 @@ static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
     epa_run(s, start, cover);
 }
 
-ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
-                         ovoid_cover *cover) {
-    OVOID_ASSERT(pair && pair->shape_a && pair->shape_b);
+// The answer goes to *out: returned by value it would be copied once more.
+static void find_answer(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
+                        ovoid_cover *cover, ovoid_answer *out) {
     ovoid_options options;
     pair_frame frame;
     if (cover) cover->point_count = cover->triangle_count = 0;
-    if (!options_make(given, &options) || isnan(ask.far) || ask.far < 0)
-        return answer_make_refused(OVOID_LIMIT_OPTIONS);
-    ovoid_limit refused = frame_make(pair, &frame);
-    if (refused != OVOID_LIMIT_NONE) return answer_make_refused(refused);
+    ovoid_limit refused = OVOID_LIMIT_OPTIONS;
+    if (options_make(given, &options) && !isnan(ask.far) && ask.far >= 0) refused = frame_make(pair, &frame);
+    if (refused != OVOID_LIMIT_NONE) {
+        *out = answer_make_refused(refused);
+        return;
+    }
     ask.tolerance = fmax(options.absolute_tolerance, options.relative_tolerance * frame.size) + 8 * frame.hidden;
     ask.iterations = options.iterations;
     search s = search_make(&frame, ask);
     simplex start;
     run_stages(&s, earlier, &start);
     if (!search_is_done(&s)) run_exact(&s, &start, cover);
-    return answer_make(&s);
+    answer_write(&s, out);
+}
+
+ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
+                         ovoid_cover *cover) {
+    OVOID_ASSERT(pair && pair->shape_a && pair->shape_b);
+    ovoid_answer out;
+    environment before = environment_enter();
+    environment_hide(ask);
+    find_answer(pair, given, ask, earlier, cover, &out);
+    environment_hide(out);
+    environment_leave(before);
+    return out;
 }

@@ -4,8 +4,8 @@
 
 #include "query/search.h"
 
-/// The answer, widened to hold after rounding.
-ovoid_answer answer_make(search *s);
+/// The answer.
+void answer_write(search *s, ovoid_answer *out);
 
 /// The answer of a query that was refused: no bracket.
 ovoid_answer answer_make_refused(ovoid_limit limit);

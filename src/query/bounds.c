@@ -1,5 +1,6 @@
 // The bracket from the ellipsoids alone: the gap of the outer ones from below, the nearest points of the inner ones
 // from above. Smooth in the poses wherever the nearest points are unique; O(1), whatever the number of vertices.
+#include "base/environment.h"
 #include "query/answer.h"
 #include "query/inner.h"
 #include "query/stages.h"
@@ -42,7 +43,7 @@ static void take_inner(search *s) {
     if (s->upper < INFINITY) s->kind = OVOID_PROOF_INNER_POINTS;
 }
 
-ovoid_answer ovoid_bounds(const ovoid_pair *pair) {
+static ovoid_answer find_bounds(const ovoid_pair *pair) {
     pair_frame frame;
     ovoid_limit refused = frame_make(pair, &frame);
     if (refused != OVOID_LIMIT_NONE) return answer_make_refused(refused);
@@ -51,5 +52,9 @@ ovoid_answer ovoid_bounds(const ovoid_pair *pair) {
     take_outer(&s);
     take_inner(&s);
     s.limit = OVOID_LIMIT_ANSWERED;
-    return answer_make(&s);
+    ovoid_answer out;
+    answer_write(&s, &out);
+    return out;
 }
+
+ovoid_answer ovoid_bounds(const ovoid_pair *pair) { ENVIRONMENT_RETURN(ovoid_answer, pair, find_bounds(pair)); }

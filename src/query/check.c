@@ -1,5 +1,6 @@
 // Checking an answer without a search: each bound is measured again from the proof, and must hold with room for the
 // rounding of this measurement. What passes here holds in exact arithmetic.
+#include "base/environment.h"
 #include "base/error.h"
 #include "query/answer.h"
 #include "query/cover.h"
@@ -91,8 +92,8 @@ static ovoid_code check_status(const ovoid_answer *x, ovoid_error *error) {
                      ovoid_status_get_name(x->status), x->lower, x->upper);
 }
 
-ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
-                              ovoid_error *error) {
+static ovoid_code check_answer(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
+                               ovoid_error *error) {
     OVOID_ASSERT(pair && pair->shape_a && pair->shape_b && x);
     pair_frame f;
     ovoid_limit refused = frame_make(pair, &f);
@@ -109,4 +110,9 @@ ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, con
     code = check_lower(&f, x, error);
     if (code == OVOID_OK) code = check_upper(&f, x, cover, error);
     return code == OVOID_OK ? check_witness(&f, x, error) : code;
+}
+
+ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
+                              ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, pair, check_answer(pair, x, cover, error));
 }

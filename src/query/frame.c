@@ -2,6 +2,7 @@
 #include "query/frame.h"
 
 #include "linear/exact.h"
+#include "linear/pose.h"
 #include "linear/rotation.h"
 #include "simd/support.h"
 
@@ -47,7 +48,7 @@ static double place_origins(pair_frame *f, const ovoid_pair *pair) {
                       vec3_max_abs(f->b->origin));
 }
 
-// ovoid_pose_compute_check for the common case; NaN fails every comparison.
+// pose_compute_check for the common case; NaN fails every comparison.
 static int is_plain(const ovoid_pose *pose) {
     vec3 p = pose->position;
     return quat_is_plain(quat_norm_squared(pose->rotation)) && fabs(p.x) <= OVOID_LENGTH_MAX &&
@@ -56,8 +57,8 @@ static int is_plain(const ovoid_pose *pose) {
 
 ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
     const ovoid_pose *a = &pair->pose_a, *b = &pair->pose_b;
-    if (!is_plain(a) && ovoid_pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
-    if (!is_plain(b) && ovoid_pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+    if (!is_plain(a) && pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+    if (!is_plain(b) && pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
     f->a = pair->shape_a;
     f->b = pair->shape_b;
     f->world = quat_to_mat3(a->rotation);

@@ -11,6 +11,7 @@
 // point into the front half as the rule of signs asks: for A's since the mapped b is convex, for B's since Y* - cb =
 // -Qb n / sqrt(n' Qb n) has the product n . (cb - ca) / sqrt(n' Qb n) > 0 with the other centre, n the separating
 // normal.
+#include "base/environment.h"
 #include "query/frame.h"
 #include "query/stages.h"
 
@@ -76,8 +77,8 @@ static void find_upper(ovoid_paper_bounds *r, const pair_frame *f, const ovoid_n
     r->p2 = frame_point_to_world(f, p2);
 }
 
-ovoid_paper_bounds ovoid_paper_compute_bounds(const ovoid_pair *pair, const ovoid_areas *areas[2], ovoid_area_rule rule,
-                                              double threshold) {
+static ovoid_paper_bounds compute_bounds(const ovoid_pair *pair, const ovoid_areas *areas[2], ovoid_area_rule rule,
+                                         double threshold) {
     ovoid_paper_bounds r = {.lower = -INFINITY, .upper = INFINITY};
     pair_frame f;
     if (frame_make(pair, &f) != OVOID_LIMIT_NONE) return r;
@@ -93,4 +94,9 @@ ovoid_paper_bounds ovoid_paper_compute_bounds(const ovoid_pair *pair, const ovoi
     r.nearest.point_b = frame_point_to_world(&f, inner.point_b);
     r.nearest.normal = frame_direction_to_world(&f, inner.normal);
     return r;
+}
+
+ovoid_paper_bounds ovoid_paper_compute_bounds(const ovoid_pair *pair, const ovoid_areas *areas[2], ovoid_area_rule rule,
+                                              double threshold) {
+    ENVIRONMENT_RETURN(ovoid_paper_bounds, threshold, compute_bounds(pair, areas, rule, threshold));
 }

@@ -1,5 +1,6 @@
 #include "query/stages.h"
 
+#include "ellipsoid/gap.h"
 #include "query/inner.h"
 #include "query/proof.h"
 
@@ -111,7 +112,7 @@ void stage_inner(search *s) {
     if (f->a->rank < 3 || f->b->rank < 3) return;
     ovoid_ellipsoid b = {frame_b(f, f->b->inner.center), sym3_rotate(f->b->inner.q, f->rotation)};
     vec3 x;
-    if (!ovoid_ellipsoid_is_overlapping(&f->a->inner, &b, &x)) return;
+    if (!ellipsoids_are_overlapping(&f->a->inner, &b, &x)) return;
     double upper = inner_compute_upper(f, x);
     if (!(upper < 0)) return;
     s->upper = upper;

@@ -1,4 +1,5 @@
 // Are the bodies within a margin of each other?
+#include "base/environment.h"
 #include "query/answer.h"
 
 ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
@@ -9,6 +10,10 @@ ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_opt
     return out;
 }
 
-int ovoid_answer_is_within(const ovoid_answer *answer, double margin) {
+static int is_within(const ovoid_answer *answer, double margin) {
     return answer->upper <= margin ? 1 : answer->lower > margin ? 0 : -1;
+}
+
+int ovoid_answer_is_within(const ovoid_answer *answer, double margin) {
+    ENVIRONMENT_RETURN(int, margin, is_within(answer, margin));
 }

@@ -2,6 +2,7 @@
 #include "shape/create.h"
 
 #include "base/allocator.h"
+#include "base/environment.h"
 #include "base/error.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/walls.h"
@@ -97,8 +98,8 @@ ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *o,
     return NULL;
 }
 
-ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
-                                            ovoid_error *error) {
+static ovoid_shape *create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
+                                       ovoid_error *error) {
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
     if (!xyz && count) {
@@ -111,4 +112,9 @@ ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, con
     ovoid_shape *shape = shape_create_from_hull(&h, &o, error);
     hull_destroy(&h, &allocator);
     return shape;
+}
+
+ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
+                                            ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_shape *, xyz, create_from_points(xyz, count, options, error));
 }

@@ -11,6 +11,7 @@
 //
 // The vertex that is highest above a face is found by climbing from edge to edge of the hull, which is exactly convex.
 // Cost: linear in the faces' corners, times the climb.
+#include "base/environment.h"
 #include "base/error.h"
 #include "linear/vec3.h"
 #include "polytope/facets.h"
@@ -244,8 +245,8 @@ static int is_argument(const ovoid_faces *f, ovoid_error *error) {
     return 0;
 }
 
-ovoid_shape *ovoid_shape_create_from_faces(const ovoid_faces *faces, const ovoid_shape_options *options,
-                                           ovoid_error *error) {
+static ovoid_shape *create_from_faces(const ovoid_faces *faces, const ovoid_shape_options *options,
+                                      ovoid_error *error) {
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) || !is_argument(faces, error)) return NULL;
     ovoid_allocator allocator = allocator_make(o.allocator);
@@ -257,4 +258,9 @@ ovoid_shape *ovoid_shape_create_from_faces(const ovoid_faces *faces, const ovoid
     ovoid_shape *shape = check_surface(&c) ? NULL : shape_create_from_hull(&h, &o, error);
     hull_destroy(&h, &allocator);
     return shape;
+}
+
+ovoid_shape *ovoid_shape_create_from_faces(const ovoid_faces *faces, const ovoid_shape_options *options,
+                                           ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_shape *, faces, create_from_faces(faces, options, error));
 }

@@ -6,6 +6,7 @@
 // checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no single wrong byte escapes), the
 // size against the count, every number's range, that all vertices are extreme and in the body frame, that the rank is
 // right, and that the ellipsoids are proven to enclose and to be enclosed.
+#include "base/environment.h"
 #include "base/error.h"
 #include "ellipsoid/contain.h"
 #include "linear/exact.h"
@@ -258,7 +259,7 @@ static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *all
     return shape;
 }
 
-ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *given, ovoid_error *error) {
+static ovoid_shape *read_bytes(const void *bytes, size_t size, const ovoid_allocator *given, ovoid_error *error) {
     if (!bytes) {
         error_write(error, size ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_FORMAT, size ? -1 : 0, "there are no bytes");
         return NULL;
@@ -275,4 +276,8 @@ ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_alloca
     ovoid_shape *shape = read_shape(&r, &c, &allocator);
     allocator_release(&allocator, c.vertices);
     return shape;
+}
+
+ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *given, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_shape *, bytes, read_bytes(bytes, size, given, error));
 }

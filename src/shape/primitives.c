@@ -1,5 +1,6 @@
 // Boxes, spheres, capsules, cylinders and cones: a few points and a radius.
 #include "base/allocator.h"
+#include "base/environment.h"
 #include "base/error.h"
 #include "linear/vec3.h"
 #include "polytope/points.h"
@@ -16,7 +17,7 @@ static int is_length(double length, const char *name, ovoid_error *error) {
     return 0;
 }
 
-ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape_options *options, ovoid_error *error) {
+static ovoid_shape *create_box(ovoid_vec3 half, const ovoid_shape_options *options, ovoid_error *error) {
     if (!is_length(half.x, "half size in x", error) || !is_length(half.y, "half size in y", error) ||
         !is_length(half.z, "half size in z", error))
         return NULL;
@@ -27,6 +28,10 @@ ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape_options *
         xyz[3 * i + 2] = i & 4 ? half.z : -half.z;
     }
     return ovoid_shape_create_from_points(xyz, 8, options, error);
+}
+
+ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape_options *options, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_shape *, half, create_box(half, options, error));
 }
 
 // Points enlarged by a radius on top of that of the options.
@@ -45,14 +50,20 @@ static ovoid_shape *create_rounded(const double *xyz, size_t count, double radiu
 
 ovoid_shape *ovoid_shape_create_sphere(double radius, const ovoid_shape_options *options, ovoid_error *error) {
     const double xyz[3] = {0, 0, 0};
-    return create_rounded(xyz, 1, radius, options, error);
+    ENVIRONMENT_RETURN(ovoid_shape *, radius, create_rounded(xyz, 1, radius, options, error));
+}
+
+static ovoid_shape *create_capsule(double half_length, double radius, const ovoid_shape_options *options,
+                                   ovoid_error *error) {
+    if (!is_length(half_length, "half length", error)) return NULL;
+    const double xyz[6] = {0, 0, -half_length, 0, 0, half_length};
+    return create_rounded(xyz, 2, radius, options, error);
 }
 
 ovoid_shape *ovoid_shape_create_capsule(double half_length, double radius, const ovoid_shape_options *options,
                                         ovoid_error *error) {
-    if (!is_length(half_length, "half length", error)) return NULL;
-    const double xyz[6] = {0, 0, -half_length, 0, 0, half_length};
-    return create_rounded(xyz, 2, radius, options, error);
+    double lengths[2] = {half_length, radius};
+    ENVIRONMENT_RETURN(ovoid_shape *, lengths, create_capsule(lengths[0], lengths[1], options, error));
 }
 
 // `sides` points of a circle around z, from *xyz on.
@@ -66,8 +77,9 @@ static void fill_circle(double *xyz, double radius, double z, uint32_t sides) {
 }
 
 // Points of a prism (rings = 2) or a pyramid (rings = 1).
-static ovoid_shape *create_turned(double radius, double half_length, uint32_t sides, int rings,
+static ovoid_shape *create_turned(const double lengths[2], uint32_t sides, int rings,
                                   const ovoid_shape_options *options, ovoid_error *error) {
+    double radius = lengths[0], half_length = lengths[1];
     if (!is_length(radius, "radius", error) || !is_length(half_length, "half length", error)) return NULL;
     if (sides < 3) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "%u sides; at least 3 are needed", sides);
@@ -99,10 +111,12 @@ static ovoid_shape *create_turned(double radius, double half_length, uint32_t si
 
 ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, uint32_t sides,
                                          const ovoid_shape_options *options, ovoid_error *error) {
-    return create_turned(radius, half_length, sides, 2, options, error);
+    double lengths[2] = {radius, half_length};
+    ENVIRONMENT_RETURN(ovoid_shape *, lengths, create_turned(lengths, sides, 2, options, error));
 }
 
 ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, uint32_t sides,
                                      const ovoid_shape_options *options, ovoid_error *error) {
-    return create_turned(radius, half_length, sides, 1, options, error);
+    double lengths[2] = {radius, half_length};
+    ENVIRONMENT_RETURN(ovoid_shape *, lengths, create_turned(lengths, sides, 1, options, error));
 }
