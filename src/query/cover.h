@@ -11,6 +11,13 @@ typedef struct surface {
     uint32_t point_count, triangle_count;
 } surface;
 
+/// A triangle (a, b, c) has the origin behind it, whatever the corners' rounding, if det(a, b, c)^2 is above this times
+/// the sum |b - a|^2 + |c - a|^2, and det positive. Corners of norm at most `reach`, each off by `error`.
+static inline double triangle_compute_doubt(double reach, double error) {
+    double off = reach * (error + 8 * 0x1p-53 * reach);
+    return 128 * off * off;
+}
+
 /// A distance, from below, of the origin to a triangle; negative if none is found. *normal: the unit direction along
 /// which all of the triangle is at least that far. What is at least `enough` need not be the best.
 double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *normal);

@@ -109,11 +109,30 @@ static evidence find_witness(const search *s, const expansion *e, const face *ne
     return best;
 }
 
+// The radius that the surface keeps from the origin, as surface_compute_depth finds it, from what is known of the faces.
+// A face that is no sliver has its plane's distance to 503 u s, so that only slivers and those about as near as the
+// nearest are measured again. 0 where a face may not be outward: then the whole surface has to be looked at.
+static double measure_faces(const search *s, const expansion *e, uint16_t nearest) {
+    double doubt = 1100 * 0x1p-53 * s->frame->size, depth = e->f[nearest].low + doubt;
+    for (uint32_t i = 0; i < e->faces; i++) {
+        const face *f = &e->f[i];
+        if (!f->alive) continue;
+        if (!f->outward) return 0;
+        vec3 n;
+        if (f->low < e->f[nearest].low + 2 * doubt)
+            depth =
+                fmin(depth, triangle_compute_clearance(e->w[f->v[0]], e->w[f->v[1]], e->w[f->v[2]], depth, &n));
+    }
+    return depth - s->frame->claim;
+}
+
 // The upper bound that the surface proves, with its witness.
 static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_cover *cover) {
     uint16_t triangles[EXPANSION_FACES][3];
-    surface all = {e->w, (const uint16_t(*)[3])triangles, e->points, expansion_pack(e, triangles)};
-    double depth = surface_compute_depth(&all, s->frame->claim);
+    surface all = {e->w, (const uint16_t(*)[3])triangles, e->points, 0};
+    double depth = measure_faces(s, e, nearest);
+    if (cover || !(depth > 0)) all.triangle_count = expansion_pack(e, triangles);
+    if (!(depth > 0)) depth = surface_compute_depth(&all, s->frame->claim);
     double upper = -depth - s->frame->radii;
     if (!(depth > 0) || !(upper < s->upper || upper - s->lower <= s->ask.tolerance)) return;
     s->upper = upper;
@@ -200,6 +219,7 @@ static int grow(search *s, expansion *e, uint16_t nearest) {
     frame_support x = search_probe(s, vec3_neg(e->f[nearest].n));
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
     double high = vec3_dot(e->f[nearest].n, x.w);
+    e->bound = -(s->lower + s->frame->radii);
     if (s->ask.wants_depth && is_narrow(s, e->f[nearest].low, high)) return 0;
     if (high - e->f[nearest].low <= e->slack) return 0;
     if (has_point(e, x.a, x.b)) return measure_sliver(e, &e->f[nearest]);
@@ -215,6 +235,7 @@ static int grow(search *s, expansion *e, uint16_t nearest) {
 void epa_run(search *s, const simplex *from, ovoid_cover *cover) {
     expansion e;
     expansion_clear(&e, 16 * 0x1p-53 * s->frame->size);
+    e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
     if (!start(s, &e, from)) {
         if (!search_is_done(s)) s->limit = OVOID_LIMIT_PRECISION;
         return;

@@ -10,18 +10,30 @@ typedef expansion_face face;
 enum { POINTS = EXPANSION_POINTS, FACES = EXPANSION_FACES, NONE = EXPANSION_NONE };
 
 void expansion_clear(expansion *p, double slack) {
-    p->points = p->faces = p->free_count = 0;
+    p->points = p->faces = p->free_count = p->open_count = p->made_count = 0;
     p->slack = slack;
+    p->doubt = INFINITY;
+    p->bound = INFINITY;
 }
 
-static void set_plane(expansion *p, face *f, vec3 fallback) {
+// A face without area takes the direction of its neighbour: any direction gives true bounds.
+static vec3 find_sliver_normal(vec3 e1, vec3 e2, double area, double edges, vec3 fallback) {
+    return area > 1e-26 * edges ? simplex_compute_normal(e1, e2) : fallback;
+}
+
+static void set_plane(expansion *p, uint16_t g, vec3 fallback) {
+    face *f = &p->f[g];
     vec3 a = p->w[f->v[0]], b = p->w[f->v[1]], c = p->w[f->v[2]];
-    vec3 e1 = vec3_sub(b, a), e2 = vec3_sub(c, a);
-    // A face without area takes the direction of its neighbour: any direction gives true bounds.
-    double area = vec3_norm_squared(vec3_cross(e1, e2)), edges = vec3_norm_squared(e1) * vec3_norm_squared(e2);
-    f->n = area > 1e-26 * edges ? simplex_compute_normal(e1, e2) : fallback;
-    f->low = fmin(vec3_dot(f->n, a), fmin(vec3_dot(f->n, b), vec3_dot(f->n, c)));
+    vec3 e1 = vec3_sub(b, a), e2 = vec3_sub(c, a), n = vec3_cross(e1, e2);
+    double area = vec3_norm_squared(n), l1 = vec3_norm_squared(e1), l2 = vec3_norm_squared(e2), edges = l1 * l2;
+    f->sliver = !(area > 1e-4 * edges && area > 1e-250);
+    f->n = f->sliver ? find_sliver_normal(e1, e2, area, edges, fallback) : vec3_scale(n, 1 / sqrt(area));
+    double na = vec3_dot(f->n, a), nb = vec3_dot(f->n, b), nc = vec3_dot(f->n, c);
+    double least = nb < nc ? nb : nc;
+    f->low = na < least ? na : least;
+    f->outward = !f->sliver && f->low > 0 && area * f->low * f->low > p->doubt * (l1 + l2);
     f->alive = 1;
+    if (f->low < p->bound) p->open[p->open_count++] = g;
 }
 
 static uint16_t add_face(expansion *p) {
@@ -33,13 +45,14 @@ uint16_t expansion_add_point(expansion *p, vec3 w, uint32_t a, uint32_t b) {
     p->w[p->points] = w;
     p->a[p->points] = a;
     p->b[p->points] = b;
+    p->stamp[p->points] = 0;
     return (uint16_t)p->points++;
 }
 
 // The four faces of the first tetrahedron, outward.
 void expansion_make_tetrahedron(expansion *p) {
     static const uint16_t corner[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    static const uint16_t across[4][3] = {{2, 3, 1}, {0, 3, 2}, {1, 3, 0}, {0, 2, 1}};
+    static const uint16_t across[4][3] = {{10, 12, 4}, {2, 14, 8}, {6, 13, 0}, {1, 9, 5}};
     vec3 e1 = vec3_sub(p->w[1], p->w[0]), e2 = vec3_sub(p->w[2], p->w[0]), e3 = vec3_sub(p->w[3], p->w[0]);
     if (vec3_dot(vec3_cross(e1, e2), e3) < 0) {
         vec3 w = p->w[1];
@@ -48,74 +61,97 @@ void expansion_make_tetrahedron(expansion *p) {
         p->w[2] = w, p->a[2] = a, p->b[2] = b;
     }
     p->faces = 4;
-    for (int i = 0; i < 4; i++) {
+    for (uint16_t i = 0; i < 4; i++) {
         memcpy(p->f[i].v, corner[i], sizeof p->f[i].v);
-        memcpy(p->f[i].next, across[i], sizeof p->f[i].next);
-        set_plane(p, &p->f[i], (vec3){0, 0, 0});
+        memcpy(p->f[i].twin, across[i], sizeof p->f[i].twin);
+        set_plane(p, i, (vec3){0, 0, 0});
     }
 }
 
-uint16_t expansion_find_nearest(const expansion *p) {
+static uint16_t find_least(const expansion *p) {
     uint16_t best = NONE;
     for (uint32_t i = 0; i < p->faces; i++)
         if (p->f[i].alive && (best == NONE || p->f[i].low < p->f[best].low)) best = (uint16_t)i;
     return best;
 }
 
-// The faces that the point sees, connected to the first; their number.
-static uint32_t find_visible(expansion *p, uint16_t first, vec3 w) {
+// Among the open ones, which lose those that were replaced; if none is left, among all.
+uint16_t expansion_find_nearest(expansion *p) {
+    uint32_t kept = 0;
+    uint16_t best = NONE;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < p->open_count; i++) {
+        uint16_t g = p->open[i];
+        const face *f = &p->f[g];
+        if (!f->alive || f->low > p->bound) continue;
+        p->open[kept++] = g;
+        if (f->low < least) least = f->low, best = g;
+    }
+    p->open_count = kept;
+    return best != NONE ? best : find_least(p);
+}
+
+// A new face on an edge of the horizon, joined to its outer neighbour. 0 if the horizon passes the edge's first corner
+// a second time or memory is used up.
+static int add_on_edge(expansion *p, const face *old, int e, uint16_t apex) {
+    uint16_t g = add_face(p), from = old->v[e], outer = old->twin[e];
+    if (g == NONE || p->stamp[from] == apex) return 0;
+    face *f = &p->f[g];
+    f->v[0] = from, f->v[1] = old->v[e == 2 ? 0 : e + 1], f->v[2] = apex;
+    f->twin[0] = outer;
+    p->f[outer / 4].twin[outer % 4] = (uint16_t)(4 * g);
+    p->stamp[from] = apex;
+    p->leaving[from] = g;
+    p->made[p->made_count++] = g;
+    return 1;
+}
+
+// Replaces the faces that the point sees, connected to the first, by new faces on the edges of their horizon.
+static int replace_visible(expansion *p, uint16_t first, uint16_t apex) {
+    vec3 w = p->w[apex];
     uint32_t count = 0;
     p->visible[count++] = first;
     p->f[first].alive = 0;
-    for (uint32_t i = 0; i < count; i++)
+    p->made_count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const face *old = &p->f[p->visible[i]];
         for (int e = 0; e < 3; e++) {
-            uint16_t g = p->f[p->visible[i]].next[e];
+            uint16_t g = old->twin[e] / 4;
             face *f = &p->f[g];
-            if (!f->alive || !(vec3_dot(f->n, w) - f->low > p->slack)) continue;
-            f->alive = 0;
-            p->visible[count++] = g;
+            if (!f->alive) continue;
+            if (vec3_dot(f->n, w) - f->low > p->slack) {
+                f->alive = 0;
+                p->visible[count++] = g;
+            } else if (!add_on_edge(p, old, e, apex)) {
+                return 0;
+            }
         }
-    return count;
+    }
+    for (uint32_t i = 0; i < count; i++) p->free[p->free_count++] = p->visible[i];
+    return p->made_count >= 3;
 }
 
-// A new face on each edge of the horizon, joined to its neighbours. 0 if the horizon is not one simple loop or memory
-// is used up; the surface is then spoilt.
-static int close_horizon(expansion *p, uint32_t count, uint16_t apex) {
-    uint16_t leaving[POINTS];
-    memset(leaving, 0xff, sizeof leaving);
-    uint16_t first = NONE;
-    uint32_t made = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        for (int e = 0; e < 3; e++) {
-            const face *old = &p->f[p->visible[i]];
-            uint16_t outer = old->next[e], from = old->v[e], to = old->v[(e + 1) % 3];
-            if (!p->f[outer].alive) continue;
-            uint16_t g = add_face(p);
-            if (g == NONE || leaving[from] != NONE) return 0;
-            face *f = &p->f[g];
-            f->v[0] = from, f->v[1] = to, f->v[2] = apex;
-            f->next[0] = outer, f->next[1] = f->next[2] = NONE;
-            set_plane(p, f, p->f[outer].n);
-            leaving[from] = g;
-            for (int k = 0; k < 3; k++)
-                if (p->f[outer].v[k] == to && p->f[outer].v[(k + 1) % 3] == from) p->f[outer].next[k] = g;
-            first = g;
-            made++;
-        }
-    }
-    // Around the loop: each new face's edge (to, apex) meets the one that leaves `to`.
-    uint16_t g = first;
-    for (uint32_t i = 0; i < made; i++) {
-        uint16_t follower = leaving[p->f[g].v[1]];
-        if (follower == NONE) return 0;
-        p->f[g].next[1] = follower;
-        p->f[follower].next[2] = g;
+// Around the loop: each new face's edge (to, apex) meets the one that leaves `to`. 0 if it is not one simple loop.
+static int close_loop(expansion *p, uint16_t apex) {
+    uint16_t first = p->made[0], g = first;
+    for (uint32_t i = 0; i < p->made_count; i++) {
+        uint16_t to = p->f[g].v[1];
+        if (p->stamp[to] != apex || (g == first && i > 0)) return 0;
+        uint16_t follower = p->leaving[to];
+        p->f[g].twin[1] = (uint16_t)(4 * follower + 2);
+        p->f[follower].twin[2] = (uint16_t)(4 * g + 1);
         g = follower;
-        if (g == first && i + 1 < made) return 0;
     }
-    if (g != first) return 0;
-    for (uint32_t i = 0; i < count; i++) p->free[p->free_count++] = p->visible[i];
-    return made >= 3;
+    return g == first;
+}
+
+int expansion_join(expansion *p, uint16_t first, uint16_t apex) {
+    if (!replace_visible(p, first, apex) || !close_loop(p, apex)) return 0;
+    for (uint32_t i = 0; i < p->made_count; i++) {
+        uint16_t g = p->made[i];
+        set_plane(p, g, p->f[p->f[g].twin[0] / 4].n);
+    }
+    return 1;
 }
 
 uint32_t expansion_pack(const expansion *p, uint16_t (*triangles)[3]) {
@@ -123,11 +159,6 @@ uint32_t expansion_pack(const expansion *p, uint16_t (*triangles)[3]) {
     for (uint32_t i = 0; i < p->faces; i++)
         if (p->f[i].alive) memcpy(triangles[count++], p->f[i].v, sizeof p->f[i].v);
     return count;
-}
-
-int expansion_join(expansion *p, uint16_t first, uint16_t apex) {
-    uint32_t count = find_visible(p, first, p->w[apex]);
-    return close_horizon(p, count, apex);
 }
 
 // The point farthest from the first `have` points' hull (a point, a line, a plane); its distance.
@@ -159,6 +190,7 @@ static uint16_t find_seen(const expansion *p, vec3 w) {
 
 int expansion_make_hull(expansion *p, const vec3 *w, int count, double slack) {
     expansion_clear(p, slack);
+    p->bound = -INFINITY;
     if (count < 4) return 0;
     // Four that span space.
     expansion_add_point(p, w[0], 0, 0);

@@ -11,18 +11,25 @@ typedef struct expansion_face {
     vec3 n;           ///< unit, outward
     double low;       ///< least n.w of its corners
     uint16_t v[3];    ///< corners, counter-clockwise from outside
-    uint16_t next[3]; ///< the face across the edge v[e], v[e + 1]
+    uint16_t twin[3]; ///< across the edge v[e], v[e + 1]: 4 face + edge
     uint8_t alive;    ///< 0: replaced
+    uint8_t sliver;   ///< its plane is uncertain
+    uint8_t outward;  ///< the origin is behind its triangle, beyond any rounding
 } expansion_face;
 
 typedef struct expansion {
+    double slack;    ///< of rounding, when a point is held against a face
+    double doubt;    ///< how small det(corners)^2 may be against the square of the edges before its sign is in doubt
+    double bound;    ///< faces at least this far need not be looked at: at first infinity
+    uint32_t points, faces, free_count, open_count, made_count;
     vec3 w[EXPANSION_POINTS];
     uint32_t a[EXPANSION_POINTS], b[EXPANSION_POINTS]; ///< where each point came from
+    uint16_t leaving[EXPANSION_POINTS], stamp[EXPANSION_POINTS]; ///< the new face from a point, as of which apex
+    uint16_t made[EXPANSION_POINTS]; ///< the last point's new faces
     expansion_face f[EXPANSION_FACES];
     uint16_t free[EXPANSION_FACES]; ///< faces that can be used again
     uint16_t visible[EXPANSION_FACES];
-    uint32_t points, faces, free_count;
-    double slack; ///< of rounding, when a point is held against a face
+    uint16_t open[EXPANSION_FACES + EXPANSION_POINTS]; ///< faces nearer than `bound`; some may have been replaced
 } expansion;
 
 /// No points yet.
@@ -39,7 +46,7 @@ void expansion_make_tetrahedron(expansion *p);
 int expansion_join(expansion *p, uint16_t first, uint16_t apex);
 
 /// The face of least offset.
-uint16_t expansion_find_nearest(const expansion *p);
+uint16_t expansion_find_nearest(expansion *p);
 
 /// The triangles of the surface; their number.
 uint32_t expansion_pack(const expansion *p, uint16_t (*triangles)[3]);
