@@ -206,9 +206,10 @@ static void check_options(void) {
     // One iteration: a true bracket, and the limit named.
     p.pose_b = (ovoid_pose){{2.4, 1.1, 0.7}, {0.9, 0.1, -0.3, 0.2}};
     o = (ovoid_options){.iterations = 1};
-    x = ovoid_depth(&p, &o, NULL, NULL);
+    ovoid_cover cover;
+    x = ovoid_depth(&p, &o, NULL, &cover);
     CHECK(x.lower <= x.upper && (x.limit == OVOID_LIMIT_ITERATIONS || x.limit == OVOID_LIMIT_NONE) &&
-          holds(&p, &x, NULL));
+          holds(&p, &x, &cover));
     // A wide tolerance is used.
     o = (ovoid_options){.absolute_tolerance = 0.5};
     x = ovoid_distance(&p, &o, NULL);

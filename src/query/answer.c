@@ -72,13 +72,14 @@ static int options_make(const ovoid_options *given, ovoid_options *options) {
     return 1;
 }
 
-// The stages before the search; the simplex to start from.
+// The stages before the search; the simplex to start from. A depth goes to EPA as soon as the bodies seem to overlap.
 static void run_stages(search *s, const ovoid_proof *earlier, simplex *start) {
     stage_proof(s, earlier, start);
     if (search_is_done(s)) return;
     stage_sphere(s);
     if (search_is_done(s) || start->count) return;
     vec3 n;
+    if (s->ask.wants_depth && stage_center(s, start)) return;
     stage_outer(s, &n);
     if (search_is_done(s)) return;
     stage_support(s, n, start);
@@ -86,14 +87,17 @@ static void run_stages(search *s, const ovoid_proof *earlier, simplex *start) {
     stage_inner(s);
 }
 
-// GJK, and EPA where the cores touch or overlap and GJK cannot say more.
+// GJK, and EPA where the cores touch or overlap and GJK cannot say more. A depth tries EPA first, unless the cores are
+// known to be apart.
 static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
+    int cores_apart = s->lower + s->frame->radii > 0;
+    if (s->ask.wants_depth && !cores_apart && epa_run(s, start, 1, cover)) return;
     gjk_end end = gjk_run(s, start);
     if (end == GJK_ANSWERED) return;
     if (end == GJK_ITERATIONS) s->limit = OVOID_LIMIT_ITERATIONS;
-    int cores_apart = s->lower + s->frame->radii > 0;
+    cores_apart = s->lower + s->frame->radii > 0;
     if (cores_apart || end == GJK_ITERATIONS) return;
-    epa_run(s, start, cover);
+    if (!epa_run(s, start, 0, cover) && !search_is_done(s)) s->limit = OVOID_LIMIT_PRECISION;
 }
 
 // The answer goes to *out: returned by value it would be copied once more.

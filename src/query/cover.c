@@ -87,8 +87,8 @@ static long count_crossings(const surface *s, vec3 u, double slack, double enoug
     return sum;
 }
 
-// With L = |b - a| + |c - a|, the corners' errors move det = ((b - a) x (c - a)).a by less than 8 reach L error, and its
-// evaluation by less than 64 u reach^2 L.
+// With L = |b - a| + |c - a|, the corners' errors move det = ((b - a) x (c - a)).a by less than 8 reach L error, and
+// its evaluation by less than 64 u reach^2 L.
 static int is_outward(vec3 a, vec3 b, vec3 c, double doubt) {
     vec3 e1 = vec3_sub(b, a), e2 = vec3_sub(c, a);
     double det = vec3_dot(vec3_cross(e1, e2), a);

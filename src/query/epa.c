@@ -10,35 +10,46 @@
 #include "query/cover.h"
 #include "query/expand.h"
 #include "query/hull.h"
+#include "query/probe.h"
 
 #include <string.h>
 
 typedef expansion_face face;
 
-static int has_point(const expansion *e, uint32_t a, uint32_t b) {
+typedef struct growth {
+    search *s;
+    prober p;
+    expansion e;
+    uint16_t nearest; ///< face
+    double gap;       ///< along its normal, NAN until measured
+    ovoid_cover *cover;
+} growth;
+
+static int has_point(const expansion *e, const frame_support *x) {
     for (uint32_t i = 0; i < e->points; i++)
-        if (e->a[i] == a && e->b[i] == b) return 1;
+        if (e->a[i] == x->a && e->b[i] == x->b) return 1;
     return 0;
 }
 
+static void push(expansion *e, frame_support w) { (void)expansion_add_point(e, w.w, w.a, w.b); }
+
 // The farther support of +n and -n from the plane n.x = offset; its distance in *far.
-static frame_support probe_both(search *s, vec3 n, double offset, double *far) {
-    frame_support up = search_probe(s, vec3_neg(n)), down = search_probe(s, n);
+static frame_support probe_both(const prober *p, vec3 n, double offset, double *far) {
+    frame_support up = probe_find(p, n), down = probe_find(p, vec3_neg(n));
     double high = vec3_dot(n, up.w) - offset, low = offset - vec3_dot(n, down.w);
     *far = fmax(high, low);
     return high >= low ? up : down;
 }
 
-static void push(expansion *e, frame_support w) { (void)expansion_add_point(e, w.w, w.a, w.b); }
-
 // Four differences that span space; 0 if the difference body is flat, as far as doubles can tell.
-static int find_tetrahedron(search *s, expansion *e) {
+static int find_tetrahedron(const prober *p, expansion *e) {
     static const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    e->points = 0;
     // The widest of three axes.
     double widest = -1;
     frame_support ends[2] = {{0}, {0}};
     for (int i = 0; i < 3; i++) {
-        frame_support up = search_probe(s, vec3_neg(axes[i])), down = search_probe(s, axes[i]);
+        frame_support up = probe_find(p, axes[i]), down = probe_find(p, vec3_neg(axes[i]));
         double width = vec3_norm(vec3_sub(up.w, down.w));
         if (width > widest) widest = width, ends[0] = up, ends[1] = down;
     }
@@ -51,31 +62,52 @@ static int find_tetrahedron(search *s, expansion *e) {
     side[1] = vec3_cross(e1, side[0]);
     double far[2];
     frame_support t[2];
-    for (int i = 0; i < 2; i++) t[i] = probe_both(s, side[i], vec3_dot(side[i], e->w[0]), &far[i]);
+    for (int i = 0; i < 2; i++) t[i] = probe_both(p, side[i], vec3_dot(side[i], e->w[0]), &far[i]);
     int wide = far[0] >= far[1] ? 0 : 1;
     if (!(far[wide] > e->slack)) return 0;
     push(e, t[wide]);
     // The farthest from that plane.
     vec3 e2 = vec3_sub(e->w[2], e->w[0]);
     vec3 n = simplex_compute_normal(e1, e2);
-    frame_support top = probe_both(s, n, vec3_dot(n, e->w[0]), &far[0]);
+    frame_support top = probe_both(p, n, vec3_dot(n, e->w[0]), &far[0]);
     if (!(far[0] > e->slack)) return 0;
     push(e, top);
     return 1;
 }
 
-// GJK's own tetrahedron if it has a volume to speak of, else one found afresh.
-static int start(search *s, expansion *e, const simplex *from) {
-    if (from->count == 4) {
-        vec3 e1 = vec3_sub(from->p[1].w, from->p[0].w), e2 = vec3_sub(from->p[2].w, from->p[0].w);
-        vec3 e3 = vec3_sub(from->p[3].w, from->p[0].w);
-        double volume = fabs(vec3_dot(vec3_cross(e1, e2), e3));
-        if (volume > 1e-6 * vec3_norm(e1) * vec3_norm(e2) * vec3_norm(e3)) {
-            for (int i = 0; i < 4; i++) (void)expansion_add_point(e, from->p[i].w, from->p[i].a, from->p[i].b);
-            return 1;
+// 1 if the first four points have a volume to speak of.
+static int is_solid(const expansion *e) {
+    vec3 e1 = vec3_sub(e->w[1], e->w[0]), e2 = vec3_sub(e->w[2], e->w[0]), e3 = vec3_sub(e->w[3], e->w[0]);
+    double volume = vec3_dot(vec3_cross(e1, e2), e3);
+    double edges = vec3_norm_squared(e1) * vec3_norm_squared(e2) * vec3_norm_squared(e3);
+    return volume * volume > 1e-12 * edges;
+}
+
+// From the differences at hand on, each next point is looked for where the origin is, as GJK would. 0 where that gives
+// no tetrahedron to speak of.
+static int complete(const prober *p, expansion *e) {
+    while (e->points < 4) {
+        vec3 w = e->w[0], e1 = vec3_sub(e->w[1], w), n;
+        if (e->points == 1) {
+            n = w;
+        } else if (e->points == 2) {
+            double l = vec3_norm_squared(e1);
+            n = l > 0 ? vec3_add_scaled(w, e1, -vec3_dot(w, e1) / l) : w;
+        } else {
+            n = vec3_cross(e1, vec3_sub(e->w[2], w));
+            if (vec3_dot(n, w) < 0) n = vec3_neg(n);
         }
+        frame_support x = probe_find(p, vec3_neg(vec3_unit(n)));
+        if (has_point(e, &x)) return 0;
+        push(e, x);
     }
-    return find_tetrahedron(s, e);
+    return is_solid(e);
+}
+
+// The differences at hand made a tetrahedron, else one found afresh.
+static int start(const prober *p, expansion *e, const simplex *from) {
+    for (int i = 0; i < from->count; i++) (void)expansion_add_point(e, from->p[i].w, from->p[i].a, from->p[i].b);
+    return (from->count > 0 && complete(p, e)) || find_tetrahedron(p, e);
 }
 
 // The corners of a face as evidence, weighted to the point nearest to the target; *distance: how near.
@@ -109,9 +141,9 @@ static evidence find_witness(const search *s, const expansion *e, const face *ne
     return best;
 }
 
-// The radius that the surface keeps from the origin, as surface_compute_depth finds it, from what is known of the faces.
-// A face that is no sliver has its plane's distance to 503 u s, so that only slivers and those about as near as the
-// nearest are measured again. 0 where a face may not be outward: then the whole surface has to be looked at.
+// The radius that the surface keeps from the origin, as surface_compute_depth finds it, from what is known of the
+// faces. A face that is no sliver has its plane's distance to 503 u s, so that only slivers and those about as near as
+// the nearest are measured again. 0 where a face may not be outward: then the whole surface has to be looked at.
 static double measure_faces(const search *s, const expansion *e, uint16_t nearest) {
     double doubt = 1100 * 0x1p-53 * s->frame->size, depth = e->f[nearest].low + doubt;
     for (uint32_t i = 0; i < e->faces; i++) {
@@ -120,17 +152,19 @@ static double measure_faces(const search *s, const expansion *e, uint16_t neares
         if (!f->outward) return 0;
         vec3 n;
         if (f->low < e->f[nearest].low + 2 * doubt)
-            depth =
-                fmin(depth, triangle_compute_clearance(e->w[f->v[0]], e->w[f->v[1]], e->w[f->v[2]], depth, &n));
+            depth = fmin(depth, triangle_compute_clearance(e->w[f->v[0]], e->w[f->v[1]], e->w[f->v[2]], depth, &n));
     }
     return depth - s->frame->claim;
 }
 
 // The upper bound that the surface proves, with its witness.
-static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_cover *cover) {
+static void take_cover(growth *g) {
+    search *s = g->s;
+    const expansion *e = &g->e;
+    ovoid_cover *cover = g->cover;
     uint16_t triangles[EXPANSION_FACES][3];
     surface all = {e->w, (const uint16_t(*)[3])triangles, e->points, 0};
-    double depth = measure_faces(s, e, nearest);
+    double depth = measure_faces(s, e, g->nearest);
     if (cover || !(depth > 0)) all.triangle_count = expansion_pack(e, triangles);
     if (!(depth > 0)) depth = surface_compute_depth(&all, s->frame->claim);
     double upper = -depth - s->frame->radii;
@@ -138,7 +172,7 @@ static void take_cover(search *s, const expansion *e, uint16_t nearest, ovoid_co
     s->upper = upper;
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
-    s->witness = find_witness(s, e, &e->f[nearest]);
+    s->witness = find_witness(s, e, &e->f[g->nearest]);
     if (!cover) return;
     cover->point_count = e->points;
     cover->triangle_count = all.triangle_count;
@@ -182,24 +216,26 @@ static int is_narrow(const search *s, double low, double high) {
 }
 
 // The nearest face's own normal as lower bound, where that costs no more than the tolerance: witness and normal agree.
-static void agree(search *s, const expansion *e, uint16_t nearest) {
-    vec3 n = vec3_neg(e->f[nearest].n);
-    double lower = frame_find_support(s->frame, n).gap - s->frame->radii - s->frame->claim;
+static void agree(const growth *g) {
+    search *s = g->s;
+    vec3 n = vec3_neg(g->e.f[g->nearest].n);
+    double gap = isnan(g->gap) ? frame_find_support(s->frame, n).gap : g->gap;
+    double lower = gap - s->frame->radii - s->frame->claim;
     if (s->upper - lower > fmax(s->ask.tolerance, s->upper - s->lower)) return;
     s->lower = lower;
     s->normal = n;
 }
 
 // Ends the run: proves what the surface shows.
-static void finish(search *s, const expansion *e, uint16_t nearest, ovoid_cover *cover) {
-    if (e->f[nearest].low > s->frame->claim && !search_is_done(s)) {
+static void finish(growth *g) {
+    search *s = g->s;
+    if (g->e.f[g->nearest].low > s->frame->claim && !search_is_done(s)) {
         if (s->ask.wants_depth)
-            take_cover(s, e, nearest, cover);
+            take_cover(g);
         else
-            (void)take_hull(s, e);
+            (void)take_hull(s, &g->e);
     }
-    if (s->kind == OVOID_PROOF_COVER) agree(s, e, nearest);
-    if (!search_is_done(s) && s->limit == OVOID_LIMIT_NONE) s->limit = OVOID_LIMIT_PRECISION;
+    if (s->kind == OVOID_PROOF_COVER) agree(g);
 }
 
 // A face whose support is a corner already is a sliver with an uncertain plane: the triangle itself is farther from the
@@ -214,42 +250,61 @@ static int measure_sliver(const expansion *e, face *f) {
 
 // One step: the support of the nearest face. 0 when there is nothing to gain or a limit is met, -1 if the surface is
 // spoilt.
-static int grow(search *s, expansion *e, uint16_t nearest) {
+static int grow(growth *g) {
+    search *s = g->s;
+    expansion *e = &g->e;
+    face *f = &e->f[g->nearest];
     double lower = s->lower;
-    frame_support x = search_probe(s, vec3_neg(e->f[nearest].n));
+    frame_support x = probe_find(&g->p, f->n);
+    double high = vec3_dot(f->n, x.w);
+    g->gap = x.gap;
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
-    double high = vec3_dot(e->f[nearest].n, x.w);
     e->bound = -(s->lower + s->frame->radii);
-    if (s->ask.wants_depth && is_narrow(s, e->f[nearest].low, high)) return 0;
-    if (high - e->f[nearest].low <= e->slack) return 0;
-    if (has_point(e, x.a, x.b)) return measure_sliver(e, &e->f[nearest]);
+    if (s->ask.wants_depth && is_narrow(s, f->low, high)) return 0;
+    if (high - f->low <= e->slack) return 0;
+    if (has_point(e, &x)) return measure_sliver(e, f);
     if (e->points == EXPANSION_POINTS) {
         s->limit = OVOID_LIMIT_CAPACITY;
         return 0;
     }
-    if (expansion_join(e, nearest, expansion_add_point(e, x.w, x.a, x.b))) return 1;
-    s->limit = OVOID_LIMIT_PRECISION;
-    return -1;
+    return expansion_join(e, g->nearest, expansion_add_point(e, x.w, x.a, x.b)) ? 1 : -1;
 }
 
-void epa_run(search *s, const simplex *from, ovoid_cover *cover) {
-    expansion e;
-    expansion_clear(&e, 16 * 0x1p-53 * s->frame->size);
-    e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
-    if (!start(s, &e, from)) {
-        if (!search_is_done(s)) s->limit = OVOID_LIMIT_PRECISION;
-        return;
-    }
-    expansion_make_tetrahedron(&e);
-    uint16_t nearest = expansion_find_nearest(&e);
+static void find_next(growth *g) {
+    g->nearest = expansion_find_nearest(&g->e);
+    g->gap = NAN;
+}
+
+static void leave(growth *g, simplex *x) {
+    const face *f = &g->e.f[g->nearest];
+    x->count = 3;
+    for (int i = 0; i < 3; i++) x->p[i] = (difference){g->e.w[f->v[i]], g->e.a[f->v[i]], g->e.b[f->v[i]]};
+}
+
+static int is_apart(const search *s) { return s->lower + s->frame->radii > 0; }
+
+int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
+    growth g;
+    g.s = s;
+    g.cover = cover;
+    prober_make(&g.p, s);
+    expansion_clear(&g.e, 16 * 0x1p-53 * s->frame->size);
+    g.e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
+    if (!start(&g.p, &g.e, x) || (is_first && is_apart(s))) return search_is_done(s);
+    expansion_make_tetrahedron(&g.e);
+    find_next(&g);
     uint32_t steps = 0;
     for (; steps < s->ask.iterations; steps++, s->iterations++) {
-        int grown = grow(s, &e, nearest);
-        if (grown < 0) return;
+        int grown = grow(&g);
+        if (grown < 0) return 0;
         if (!grown || search_is_done(s)) break;
-        nearest = expansion_find_nearest(&e);
-        if (!s->ask.wants_depth && e.f[nearest].low > 2 * s->frame->claim && take_hull(s, &e)) break;
+        find_next(&g);
+        if (is_first && is_apart(s)) break;
+        if (!s->ask.wants_depth && g.e.f[g.nearest].low > 2 * s->frame->claim && take_hull(s, &g.e)) break;
     }
     if (steps == s->ask.iterations) s->limit = OVOID_LIMIT_ITERATIONS;
-    finish(s, &e, nearest, cover);
+    finish(&g);
+    if (search_is_done(s) || s->limit != OVOID_LIMIT_NONE) return 1;
+    leave(&g, x);
+    return 0;
 }

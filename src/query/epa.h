@@ -4,8 +4,9 @@
 
 #include "query/search.h"
 
-/// Runs from the differences that GJK ended with; narrows the bracket until the question is answered or a limit is met
-/// (which goes into s->limit). *cover (may be NULL) receives the surface where the upper bound rests on it.
-void epa_run(search *s, const simplex *from, ovoid_cover *cover);
+/// Runs from one to four differences; narrows the bracket until the question is answered or a limit is met (which goes
+/// into s->limit): 1. 0 where it can say no more; is_first: also where the cores are apart, so that GJK should go on,
+/// from the differences in *x then. *cover (may be NULL) receives the surface where the upper bound rests on it.
+int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover);
 
 #endif

@@ -18,14 +18,14 @@ typedef struct expansion_face {
 } expansion_face;
 
 typedef struct expansion {
-    double slack;    ///< of rounding, when a point is held against a face
-    double doubt;    ///< how small det(corners)^2 may be against the square of the edges before its sign is in doubt
-    double bound;    ///< faces at least this far need not be looked at: at first infinity
+    double slack; ///< of rounding, when a point is held against a face
+    double doubt; ///< how small det(corners)^2 may be against the square of the edges before its sign is in doubt
+    double bound; ///< faces at least this far need not be looked at: at first infinity
     uint32_t points, faces, free_count, open_count, made_count;
     vec3 w[EXPANSION_POINTS];
-    uint32_t a[EXPANSION_POINTS], b[EXPANSION_POINTS]; ///< where each point came from
+    uint32_t a[EXPANSION_POINTS], b[EXPANSION_POINTS];           ///< where each point came from
     uint16_t leaving[EXPANSION_POINTS], stamp[EXPANSION_POINTS]; ///< the new face from a point, as of which apex
-    uint16_t made[EXPANSION_POINTS]; ///< the last point's new faces
+    uint16_t made[EXPANSION_POINTS];                             ///< the last point's new faces
     expansion_face f[EXPANSION_FACES];
     uint16_t free[EXPANSION_FACES]; ///< faces that can be used again
     uint16_t visible[EXPANSION_FACES];

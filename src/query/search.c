@@ -21,15 +21,18 @@ int search_is_done(const search *s) {
     return s->ask.wants_bracket && s->upper - s->lower <= s->ask.tolerance;
 }
 
-frame_support search_probe(search *s, vec3 n) {
+void search_take_gap(search *s, vec3 n, double gap) {
     const pair_frame *f = s->frame;
-    frame_support found = frame_find_support(f, n);
-    double lower = found.gap - f->radii - f->claim;
+    double lower = gap - f->radii - f->claim;
     // A direction that underflowed to nothing proves nothing.
-    if (lower > s->lower && vec3_norm_squared(n) > 0.5) {
-        s->lower = lower;
-        s->normal = n;
-    }
+    if (!(lower > s->lower) || !(vec3_norm_squared(n) > 0.5)) return;
+    s->lower = lower;
+    s->normal = n;
+}
+
+frame_support search_probe(search *s, vec3 n) {
+    frame_support found = frame_find_support(s->frame, n);
+    search_take_gap(s, n, found.gap);
     return found;
 }
 

@@ -43,6 +43,9 @@ int search_is_done(const search *s);
 /// 1 if lower > 0 or upper < 0.
 int search_is_sign_known(const search *s);
 
+/// Takes the gap that was measured along the unit direction n as lower bound if it is the best so far.
+void search_take_gap(search *s, vec3 n, double gap);
+
 /// Measures the gap along the unit direction n and takes it as lower bound if it is the best so far.
 frame_support search_probe(search *s, vec3 n);
 

@@ -12,6 +12,9 @@ void stage_proof(search *s, const ovoid_proof *earlier, simplex *start);
 /// Bounding spheres.
 void stage_sphere(search *s);
 
+/// The supports along the line of centres; the vertex pair goes into *start. 1 if they do not tell the bodies apart.
+int stage_center(search *s, simplex *start);
+
 /// Outer ellipsoids; the direction that separates them best, unit, in *n.
 void stage_outer(search *s, vec3 *n);
 
