@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "query/epa.h"
 #include "query/gjk.h"
+#include "query/glance.h"
 #include "query/proof.h"
 #include "query/stages.h"
 
@@ -72,12 +73,18 @@ static int options_make(const ovoid_options *given, ovoid_options *options) {
     return 1;
 }
 
+// The first look. An overlap's proof has a normal that parted nothing.
+static int take_glance(const pair_frame *f, const question *ask, const ovoid_proof *earlier, glance *found) {
+    int was_apart = earlier && (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
+    if (was_apart && ask->far < INFINITY && glance_at_proof(f, ask->far, earlier, found)) return 1;
+    return glance_at_spheres(f, ask->far, found);
+}
+
 // The stages before the search; the simplex to start from. A depth goes to EPA as soon as the bodies seem to overlap.
 static void run_stages(search *s, const ovoid_proof *earlier, simplex *start) {
     stage_proof(s, earlier, start);
     if (search_is_done(s)) return;
-    stage_sphere(s);
-    if (search_is_done(s) || start->count) return;
+    if (start->count) return;
     vec3 n;
     if (s->ask.wants_depth && stage_center(s, start)) return;
     stage_outer(s, &n);
@@ -107,13 +114,19 @@ static void find_answer(const ovoid_pair *pair, const ovoid_options *given, ques
     pair_frame frame;
     if (cover) cover->point_count = cover->triangle_count = 0;
     ovoid_limit refused = OVOID_LIMIT_OPTIONS;
-    if (options_make(given, &options) && !isnan(ask.far) && ask.far >= 0) refused = frame_make(pair, &frame);
+    if (options_make(given, &options) && !isnan(ask.far) && ask.far >= 0) refused = frame_place(pair, &frame);
     if (refused != OVOID_LIMIT_NONE) {
         *out = answer_make_refused(refused);
         return;
     }
-    ask.tolerance = fmax(options.absolute_tolerance, options.relative_tolerance * frame.size) + 8 * frame.hidden;
+    ask.tolerance = max2(options.absolute_tolerance, options.relative_tolerance * frame.size) + 8 * frame.hidden;
     ask.iterations = options.iterations;
+    glance seen;
+    if (take_glance(&frame, &ask, earlier, &seen)) {
+        glance_write(&seen, &frame, &ask, out);
+        return;
+    }
+    frame_relate(&frame);
     search s = search_make(&frame, ask);
     simplex start;
     run_stages(&s, earlier, &start);

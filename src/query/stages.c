@@ -44,16 +44,6 @@ void stage_proof(search *s, const ovoid_proof *earlier, simplex *start) {
     if (search_is_done(s)) s->stage = OVOID_STAGE_PROOF;
 }
 
-void stage_sphere(search *s) {
-    const pair_frame *f = s->frame;
-    vec3 d = vec3_sub(frame_b(f, f->b->center), f->a->center);
-    double distance = vec3_norm(d), lower = distance - f->a->reach - f->b->reach - f->radii - f->claim;
-    if (!(lower > s->ask.far)) return;
-    s->lower = lower;
-    s->normal = vec3_scale(d, 1 / distance);
-    s->stage = OVOID_STAGE_SPHERE;
-}
-
 int stage_center(search *s, simplex *start) {
     const pair_frame *f = s->frame;
     vec3 d = vec3_sub(frame_b(f, f->b->center), f->a->center);

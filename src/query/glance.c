@@ -1,0 +1,59 @@
+#include "query/glance.h"
+
+#include "query/answer.h"
+#include "simd/support.h"
+
+static double claim(const pair_frame *f) { return FRAME_GLANCE * f->size + 3 * f->hidden; }
+
+// B's point minus A's, world; both in their body frames.
+static vec3 find_difference(const pair_frame *f, vec3 a, vec3 b) {
+    return vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, b), mat3_mul_vec3(f->world, a)));
+}
+
+int glance_at_spheres(const pair_frame *f, double far, glance *found) {
+    vec3 d = find_difference(f, f->a->center, f->b->center);
+    double distance = vec3_norm(d), lower = distance - (f->a->reach + f->b->reach) - f->radii - claim(f);
+    if (!(lower > far)) return 0;
+    *found = (glance){lower, vec3_scale(d, 1 / distance), 0, 0, OVOID_STAGE_SPHERE};
+    return 1;
+}
+
+int glance_at_proof(const pair_frame *f, double far, const ovoid_proof *earlier, glance *found) {
+    if (!vec3_is_finite(earlier->normal)) return 0;
+    vec3 n = vec3_unit(earlier->normal);
+    const ovoid_shape *a = f->a, *b = f->b;
+    vec3 in_a = mat3_mul_transposed_vec3(f->world, n), in_b = vec3_neg(mat3_mul_transposed_vec3(f->world_b, n));
+    support_result high =
+        simd_find_support(shape_x(a), shape_y(a), shape_z(a), a->padded_count, in_a.x, in_a.y, in_a.z);
+    support_result low = simd_find_support(shape_x(b), shape_y(b), shape_z(b), b->padded_count, in_b.x, in_b.y, in_b.z);
+    double gap = (vec3_dot(n, f->offset) - low.value) - high.value, lower = gap - f->radii - claim(f);
+    // A direction that underflowed to nothing proves nothing.
+    if (!(lower > far) || !(vec3_norm_squared(n) > 0.5)) return 0;
+    *found = (glance){lower, n, high.index, low.index, OVOID_STAGE_PROOF};
+    return 1;
+}
+
+void glance_write(const glance *g, const pair_frame *f, const question *ask, ovoid_answer *out) {
+    vec3 a = mat3_mul_vec3(f->world, vec3_at(shape_vertices(f->a), g->a));
+    vec3 b = mat3_mul_vec3(f->world_b, vec3_at(shape_vertices(f->b), g->b));
+    vec3 d = vec3_add(f->offset, vec3_sub(b, a));
+    double distance = vec3_norm(d);
+    answer_clear(out);
+    out->status = OVOID_SEPARATED;
+    out->stage = g->stage;
+    out->lower = g->lower;
+    out->upper = distance - f->radii + claim(f);
+    out->limit = out->upper - out->lower <= ask->tolerance ? OVOID_LIMIT_NONE
+                 : ask->wants_bracket                      ? OVOID_LIMIT_CAP
+                                                           : OVOID_LIMIT_ANSWERED;
+    out->normal = out->proof.normal = g->normal;
+    out->proof.kind = OVOID_PROOF_POINTS;
+    out->proof.count = 1;
+    out->proof.a[0] = g->a;
+    out->proof.b[0] = g->b;
+    out->proof.weight_a[0] = out->proof.weight_b[0] = 1;
+    // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
+    double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
+    out->point_a = vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a));
+    out->point_b = vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b));
+}
