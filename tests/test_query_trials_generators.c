@@ -100,7 +100,7 @@ static void test_kissing_stacks(void) {
 // the report with its neighbours along its own axes and diagonals, at gaps of rounding. Brute force knows the truth.
 static void test_wall(void) {
     tally t = {.name = "drake#18704, a wall of cubes"};
-    // The report's matrix as a quaternion: the rotation of its column vectors.
+    // The report's orientation, rounded to a quaternion of seven digits.
     const ovoid_quat q = {0.9999009, 0.0038484, 0.0030452, -0.0086402};
     const ovoid_pose wall = {{0.85626818476862631702, -0.77764714060125894601, 0.070907056388150049853}, q};
     uint64_t r = 18704;
