@@ -40,7 +40,7 @@ int fuzz_mesh(const char *name, const uint8_t *data, size_t size) {
     const char *file = fuzz_write_file(name, data, size);
     for (int parts = 0; parts < 2; parts++) {
         ovoid_error error = {OVOID_OK, -1, ""};
-        ovoid_read_options options = {0, parts};
+        ovoid_read_options options = {.parts = parts};
         ovoid_mesh *mesh = ovoid_mesh_read(file, &options, &error);
         if (!mesh) {
             fuzz_require_error(&error);

@@ -35,14 +35,14 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
 static const char *mesh_path;
 
 static int read_mesh(ovoid_error *error) {
-    ovoid_read_options options = {0, 1};
+    ovoid_read_options options = {.parts = 1};
     ovoid_mesh *mesh = ovoid_mesh_read(mesh_path, &options, error);
     ovoid_mesh_destroy(mesh);
     return mesh != NULL;
 }
 
 static int read_parts(ovoid_error *error) {
-    ovoid_read_options options = {0, 1};
+    ovoid_read_options options = {.parts = 1};
     ovoid_shapes *shapes = ovoid_shapes_read_file(file_path("memory.obj"), &options, NULL, error);
     ovoid_shapes_destroy(shapes);
     return shapes != NULL;

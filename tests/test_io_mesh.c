@@ -121,7 +121,7 @@ static const char text_gltf[] =
 // The file holds the tetrahedron, to the last bit, with its faces in the order above.
 static void check_tetrahedron(const char *path, double scale) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_read_options options = {scale, 0};
+    ovoid_read_options options = {.scale = scale};
     ovoid_mesh *mesh = ovoid_mesh_read(path, &options, &error);
     if (!CHECK(mesh != NULL)) {
         printf("  %s\n", error.message);
@@ -197,7 +197,7 @@ static void check_nodes(void) {
         check_skip("glTF: this build has no Assimp");
         return;
     }
-    ovoid_read_options options = {0, 1};
+    ovoid_read_options options = {.parts = 1};
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_mesh *mesh = ovoid_mesh_read(file_write_text("nodes.gltf", text_gltf), &options, &error);
     if (!CHECK(mesh != NULL)) {
@@ -221,7 +221,7 @@ static const char objects[] = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\no first one\n
 static void check_parts(void) {
     ovoid_error error = {OVOID_OK, -1, ""};
     const char *path = file_write_text("objects.obj", objects);
-    ovoid_read_options options = {0, 1};
+    ovoid_read_options options = {.parts = 1};
     ovoid_mesh *mesh = ovoid_mesh_read(path, &options, &error);
     if (!CHECK(mesh != NULL)) return;
     // The empty object is left out; the first one takes the points it uses, not the stray (9, 9, 9).
@@ -258,7 +258,7 @@ static void check_solids(void) {
     static const char two[] = "solid one\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\n"
                               "endloop\nendfacet\nendsolid\nsolid\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\n"
                               "vertex 0 1 0\nvertex 2 0 0\nendloop\nendfacet\nendsolid\n";
-    ovoid_read_options options = {0, 1};
+    ovoid_read_options options = {.parts = 1};
     const char *path = file_write_text("two.stl", two);
     ovoid_mesh *mesh = ovoid_mesh_read(path, &options, NULL);
     CHECK(mesh && ovoid_mesh_get_part_count(mesh) == 2 && strcmp(ovoid_mesh_get_part(mesh, 0).name, "one") == 0 &&
@@ -455,10 +455,10 @@ static void check_bad_paths(void) {
     const double scales[] = {-1, NAN, INFINITY, 1e300};
     const char *path = file_write_text("text.obj", text_obj);
     for (int i = 0; i < 4; i++) {
-        ovoid_read_options options = {scales[i], 0};
+        ovoid_read_options options = {.scale = scales[i]};
         CHECK(!ovoid_mesh_read(path, &options, &error) && error.code == OVOID_ERROR_ARGUMENT);
     }
-    CHECK(!ovoid_mesh_read(path, &(ovoid_read_options){-1, 0}, NULL));
+    CHECK(!ovoid_mesh_read(path, &(ovoid_read_options){.scale = -1}, NULL));
     CHECK_EQ(ovoid_unit_get_scale("in"), 0.0254);
     CHECK_EQ(ovoid_unit_get_scale("inch"), 0);
     // A path longer than a message: its end is what is shown.
@@ -496,7 +496,7 @@ static void check_limit(void) {
 // whose indices are good or an error with a sentence. Assimp is not tried: its importers are not ours to vouch for.
 static void try_bytes(const char *name, const void *data, size_t size) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_read_options options = {0, (int)(size % 2)};
+    ovoid_read_options options = {.parts = (int)(size % 2)};
     ovoid_mesh *mesh = ovoid_mesh_read(file_write(name, data, size), &options, &error);
     if (!mesh) {
         CHECK(error.code != OVOID_OK && error.message[0]);
@@ -578,7 +578,7 @@ static void check_real(void) {
         }
         size_t whole = faces.vertex_count, sum = 0;
         ovoid_mesh_destroy(mesh);
-        ovoid_read_options options = {0, 1};
+        ovoid_read_options options = {.parts = 1};
         mesh = ovoid_mesh_read(path, &options, &error);
         if (!CHECK(mesh != NULL)) continue;
         CHECK_EQ(ovoid_mesh_get_part_count(mesh), files[i].parts);

@@ -189,7 +189,7 @@ static void check_damaged(void) {
 static void check_shapes(void) {
     ovoid_error error = {OVOID_OK, -1, ""};
     const char *path = file_write_text("parts.obj", two_parts);
-    ovoid_read_options parts = {2, 1};
+    ovoid_read_options parts = {.scale = 2, .parts = 1};
     ovoid_shapes *shapes = ovoid_shapes_read_file(path, &parts, NULL, &error);
     if (CHECK(shapes && ovoid_shapes_get_count(shapes) == 2)) {
         CHECK(strcmp(ovoid_shapes_get(shapes, 0).name, "low") == 0);
@@ -241,7 +241,7 @@ static void check_shape_files(void) {
         free(other);
     }
     ovoid_shape_destroy(back);
-    ovoid_read_options scaled = {2, 0};
+    ovoid_read_options scaled = {.scale = 2};
     CHECK(!ovoid_shape_read_file(path, &scaled, NULL, &error) && error.code == OVOID_ERROR_ARGUMENT);
     ovoid_shape_options rounded = {.radius = 1};
     CHECK(!ovoid_shape_read_file(path, NULL, &rounded, &error) && error.code == OVOID_ERROR_ARGUMENT);

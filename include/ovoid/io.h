@@ -40,6 +40,7 @@ typedef struct ovoid_mesh_part {
 typedef struct ovoid_read_options {
     double scale; /**< each coordinate is multiplied by it; > 0; 0 means 1 */
     int parts;    /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
+    int trusted;  /**< 0: Assimp's importers run in a child process; 1: in this one, where their crashes are yours */
 } ovoid_read_options;
 
 /** The metres of a unit, "m", "cm", "mm", "in" or "ft"; 0 for any other word. For ovoid_read_options.scale. */
@@ -51,7 +52,11 @@ OVOID_API double ovoid_unit_get_scale(const char *unit);
  * file is, is decided by its first bytes where they tell, else by its extension.
  * One part: every point of the file. Several: the points that the object's faces use; of an object without faces those
  * that it declares; objects without points are left out. STL's equal points are merged, nothing else.
- * Errors: FILE, FORMAT, EMPTY (no points), NOT_FINITE, RANGE, INDEX, LIMIT, ARGUMENT (scale), MEMORY.
+ * Assimp's importers are not safe with hostile bytes. They run in a child process (fork) with limits on memory and
+ * time, and what it hands over is checked as any file is: its crash is an error here. The host sees a SIGCHLD. Where
+ * fork is not to be used, or must not be while other threads run, set options->trusted for files that are.
+ * docs/formats.md says more. Errors: FILE, FORMAT, EMPTY (no points), NOT_FINITE, RANGE, INDEX, LIMIT, ARGUMENT
+ * (scale), MEMORY.
  */
 OVOID_API ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. */

@@ -143,7 +143,8 @@ ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options,
         io_report(error, OVOID_ERROR_ARGUMENT, (where){path, 0, -1}, "the scale %g is not a number above 0", scale);
         return NULL;
     }
-    mesh_reader reader = {.path = path, .scale = scale, .parts = options && options->parts, .error = error};
+    mesh_reader reader = {.path = path, .scale = scale, .error = error};
+    if (options) reader.parts = options->parts, reader.trusted = options->trusted;
     if (bytes_read(path, &reader.file, error)) return NULL;
     reader.mesh = calloc(1, sizeof *reader.mesh);
     ovoid_code code = reader.mesh ? read_mesh(&reader) : io_fail_memory(error, path);

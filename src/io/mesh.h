@@ -29,7 +29,7 @@ typedef struct mesh_reader {
     const char *path;
     bytes file;
     double scale;
-    int parts;
+    int parts, trusted;
     ovoid_mesh *mesh;
     ovoid_error *error;
 } mesh_reader;

@@ -34,7 +34,9 @@ static ovoid_shape *hull_of_part(const ovoid_mesh *mesh, size_t i, const ovoid_s
 ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
                                    ovoid_error *error) {
     if (ovoid_path_is_shape(path)) return read_shape_bytes(path, read, options, error);
-    ovoid_read_options whole = {read ? read->scale : 0, 0};
+    ovoid_read_options whole = {.scale = 0};
+    if (read) whole = *read;
+    whole.parts = 0;
     ovoid_mesh *mesh = ovoid_mesh_read(path, &whole, error);
     if (!mesh) return NULL;
     ovoid_shape *shape = hull_of_part(mesh, 0, options, path, error);
