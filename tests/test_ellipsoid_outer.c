@@ -206,6 +206,27 @@ static void check_hard(void) {
     made_destroy(&m);
 }
 
+// Points that are nearly, not quite, on one ellipsoid: any ten of many would do, and exchanges alone crawl.
+static void check_nearly_round(void) {
+    for (int i = 0; i < 12; i++) {
+        uint64_t s = check_seed = 500 + (uint64_t)i;
+        uint32_t count = 200 + 100 * (uint32_t)i;
+        double *xyz = malloc(sizeof *xyz * 3 * count);
+        for (uint32_t k = 0; k < count; k++) {
+            double x = random_normal(&s), y = random_normal(&s), z = random_normal(&s);
+            double r = sqrt(x * x + y * y + z * z) * (1 + pow(10, -2 - i % 6) * random_normal(&s));
+            xyz[3 * k] = x / r, xyz[3 * k + 1] = 2 * y / r, xyz[3 * k + 2] = 3 * z / r;
+        }
+        made m = made_hull(xyz, count);
+        ovoid_fit fit;
+        CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, 0, &fit, NULL), OVOID_OK);
+        CHECK(fit.converged);
+        CHECK_LE(fit.iterations, 20000);
+        made_destroy(&m);
+        free(xyz);
+    }
+}
+
 static void check_contract(void) {
     made m = made_box(1, 1, 1);
     ovoid_fit fit;
@@ -256,6 +277,7 @@ int main(void) {
     check_affine();
     check_flat();
     check_hard();
+    check_nearly_round();
     check_contract();
     check_time();
     return check_end();

@@ -151,6 +151,17 @@ static void ask_points(void) {
     add_shape(ovoid_shape_create_from_points(cloud, 5, &o, NULL));
 }
 
+static void ask_changes(void) {
+    ovoid_shape *shape = ovoid_shape_create_from_points(cloud, 24, NULL, NULL), *parts[2];
+    const ovoid_plane plane = {{third, 0.1, 0.7}, 0.01};
+    add_shape(ovoid_shape_create_deformed(shape, cloud, NULL, NULL));
+    int code = (int)ovoid_shape_create_divided(shape, &plane, NULL, parts, NULL);
+    ADD(code);
+    add_shape(parts[0]);
+    add_shape(parts[1]);
+    ovoid_shape_destroy(shape);
+}
+
 static void ask_faces(void) {
     static const double corners[12] = {0.1, 0.2, 0.3, 1.1, 0.2, 0.3, 0.1, 1.2, 0.3, 0.1, 0.2, 1.3};
     static const uint32_t indices[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}, sizes[4] = {3, 3, 3, 3};
@@ -244,6 +255,7 @@ static const struct {
                  {"bounds", ask_bounds},
                  {"paper", ask_paper},
                  {"from points", ask_points},
+                 {"deformed, divided", ask_changes},
                  {"from faces", ask_faces},
                  {"primitives", ask_primitives},
                  {"fits", ask_fits},

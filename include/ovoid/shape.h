@@ -79,6 +79,26 @@ OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_le
 OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, uint32_t sides,
                                                const ovoid_shape_options *options, ovoid_error *error);
 
+/**
+ * The shape with its vertices moved: the hull of the new points, its ellipsoids looked for from those of the shape.
+ * What comes out is proven like that of ovoid_shape_create_from_points; it only comes sooner where the body changed
+ * little. xyz: one point for each vertex of ovoid_polytope, in its order, in the user's local frame. Points that are no
+ * longer extreme are dropped. Errors as there.
+ */
+OVOID_API ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double *xyz,
+                                                   const ovoid_shape_options *options, ovoid_error *error);
+
+/**
+ * The shape cut in two by a plane { x : normal . x = offset } of the user's local frame, normal of any length but zero:
+ * parts[0] lies where normal . x <= offset, parts[1] where it is >=; NULL where nothing but the plane itself is left.
+ * Where an edge is cut, both parts get the same point, which is on the edge to rounding. The polyhedron is cut; the
+ * rounding radius is that of the options, as for every new shape. Errors as ovoid_shape_create_from_points, and
+ * ARGUMENT (normal), NOT_FINITE; then both parts are NULL. The caller destroys the parts.
+ */
+OVOID_API ovoid_code ovoid_shape_create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
+                                                const ovoid_shape_options *options, ovoid_shape *parts[2],
+                                                ovoid_error *error);
+
 /** A copy with memory of its own. */
 OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator,
                                                ovoid_error *error);

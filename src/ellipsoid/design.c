@@ -10,7 +10,8 @@
 // Sun, M. J. Todd, Linear convergence of a modified Frank-Wolfe algorithm for computing minimum-volume enclosing
 // ellipsoids, 2008.
 //
-// Where they crawl, since the optimum is flat in the weights, Newton steps on the weighted points follow.
+// Where they crawl, since the optimum is flat in the weights, the weight is moved to ten points of the same covariance,
+// and Newton steps on the weighted points follow.
 //
 // The steps run on a few points at a time; then all points are evaluated, the worst of each direction join, and points
 // that cannot carry weight at the optimum are dropped for good: R. Harman and L. Pronzato, Improvements on removing
@@ -19,6 +20,8 @@
 // Cost: about ten evaluations of all points, and some hundred steps of the cost of a few dozen points each; at most 200
 // and 600 000.
 #include "ellipsoid/design.h"
+
+#include "ellipsoid/certificate.h"
 
 // Most weights that Newton steps are made for.
 enum { POLISHED = 32 };
@@ -174,6 +177,22 @@ static int compute_newton_step(const design *d, const uint32_t *index, uint32_t 
     return 1;
 }
 
+// Moves weight among the points, mean and covariance unchanged, until at most ten carry any: so many are enough
+// (C. Caratheodory 1907), and exchanges spread it over ever more where many points are nearly as far out.
+static void reduce(design *d) {
+    certificate c = {0};
+    for (uint32_t i = 0; i < d->count; i++)
+        if (d->weight[i] > 0) certificate_add(&c, i, d->weight[i], vec3_at(d->local, d->point[i]), 1);
+    for (uint32_t i = 0; i < d->count; i++) d->weight[i] = 0;
+    for (int i = 0; i < c.count; i++) d->weight[c.wall[i]] = c.weight[i];
+}
+
+static uint32_t count_weighted(const design *d) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < d->count; i++) count += d->weight[i] > 0;
+    return count;
+}
+
 // Newton steps on the weights that are not zero, as long as the determinant grows; where a weight would turn negative
 // the step ends at zero. For optima so flat in the weights that exchanges crawl.
 static int polish(design *d, double excess) {
@@ -205,7 +224,9 @@ static int settle(design *d, double excess) {
     int defined = evaluate(d);
     for (int i = 1; i < 3000 && defined && exchange(d, excess); i++) {
         defined = evaluate(d);
-        if (i % 100 == 0 && defined) defined = polish(d, 0.5 * excess);
+        if (i % (i < 100 ? 100 : 20) || !defined) continue;
+        if (count_weighted(d) > POLISHED) reduce(d), defined = evaluate(d);
+        if (defined) defined = polish(d, 0.5 * excess);
     }
     uint32_t count = 0;
     for (uint32_t i = 0; i < d->count; i++)
@@ -227,10 +248,10 @@ static int is_weighted(const design *d, uint32_t point) {
     return 0;
 }
 
-// Evaluates all candidates, drops those that cannot matter, and adds the worst of each cell. 0 where none was added.
-static int scan(design *d) {
-    double m = d->rank + 1, worst[24] = {0}, top = 0;
-    uint32_t which[24] = {0};
+// The candidate of largest variance in each cell; returns the largest of all. worst: -infinity where a cell has none.
+static double find_worst(const design *d, double worst[24], uint32_t which[24]) {
+    double top = 0;
+    for (int cell = 0; cell < 24; cell++) worst[cell] = -INFINITY;
     for (uint32_t i = 0; i < d->candidate_count; i++) {
         vec3 y = vec3_at(d->local, d->candidate[i]);
         double v = compute_variance(d, y);
@@ -238,6 +259,14 @@ static int scan(design *d) {
         if (v > worst[cell]) worst[cell] = v, which[cell] = d->candidate[i];
         top = fmax(top, v);
     }
+    return top;
+}
+
+// Evaluates all candidates, drops those that cannot matter, and adds the worst of each cell. 0 where none was added.
+static int scan(design *d) {
+    double m = d->rank + 1, worst[24];
+    uint32_t which[24];
+    double top = find_worst(d, worst, which);
     d->excess = top / m - 1;
     // Every point that carries weight at the optimum has at least this variance (Harman and Pronzato).
     double e = fmax(top - m, 0), least = m * (1 + e / 2 - sqrt(e * (4 + e - 4 / m)) / 2) - 1e-9;
@@ -255,6 +284,30 @@ static int scan(design *d) {
     return added;
 }
 
+static void add_weight(design *d, uint32_t point, double weight) {
+    if (is_weighted(d, point)) return;
+    d->point[d->count] = point;
+    d->weight[d->count++] = weight;
+}
+
+// The points that reach as far as any in the space where `near` is a ball, within a tenth: most that carry weight at
+// the optimum are among them.
+static void add_near(design *d, const frame *f) {
+    const vec3 part = {1 / f->half.x, 1 / f->half.y, 1 / f->half.z};
+    mat3 map = {vec3_scale(f->axes.r0, part.x), vec3_scale(f->axes.r1, part.y), vec3_scale(f->axes.r2, part.z)};
+    sym3 q = sym3_rotate(d->near->q, map);
+    vec3 x;
+    if (f->rank < 3 || !sym3_solve(q, (vec3){1, 1, 1}, &x)) return;
+    d->inverse = sym3_inverse(q);
+    d->mean = mat3_mul_vec3(map, vec3_sub(d->near->center, f->origin));
+    double worst[24], top;
+    uint32_t which[24], count = 0;
+    top = find_worst(d, worst, which);
+    for (int cell = 0; cell < 24; cell++) count += worst[cell] > 0.9 * top;
+    for (int cell = 0; cell < 24; cell++)
+        if (worst[cell] > 0.9 * top) add_weight(d, which[cell], 0.9 / count);
+}
+
 void design_solve(design *d, const frame *f, const double *vertices, uint32_t count, double excess) {
     d->rank = f->rank;
     d->candidate_count = count;
@@ -263,11 +316,10 @@ void design_solve(design *d, const frame *f, const double *vertices, uint32_t co
         d->candidate[i] = i;
         d->local[3 * (size_t)i] = y.x, d->local[3 * (size_t)i + 1] = y.y, d->local[3 * (size_t)i + 2] = y.z;
     }
-    for (uint32_t i = 0; i < 2 * d->rank; i++) {
-        if (is_weighted(d, f->extreme[i])) continue;
-        d->point[d->count] = f->extreme[i];
-        d->weight[d->count++] = 1.0 / (2 * d->rank);
-    }
+    if (d->near) add_near(d, f);
+    // Extreme points make the covariance definite, whatever came before.
+    double share = d->count ? 0.1 / (2 * d->rank) : 1.0 / (2 * d->rank);
+    for (uint32_t i = 0; i < 2 * d->rank; i++) add_weight(d, f->extreme[i], share);
     // Coordinates across thin axes may be noise below this.
     double longest = vec3_max_abs(f->half), shortest = fmin(f->half.x, fmin(f->half.y, f->half.z));
     double noise = 32 * 0x1p-53 * (longest + vec3_max_abs(f->origin)) / shortest;

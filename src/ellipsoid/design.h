@@ -4,6 +4,7 @@
 #define OVOID_ELLIPSOID_DESIGN_H
 
 #include "linear/mat3.h"
+#include "ovoid/ellipsoid.h"
 
 /// Orthonormal axes and a box along them that hold the points: y = (axes (x - origin)) / half lies in about [-1, 1]^3,
 /// and the points fill a fair part of it, however thin they are.
@@ -23,6 +24,7 @@ vec3 frame_compute_local(const frame *f, vec3 x);
 #define DESIGN_SUPPORT 256
 
 typedef struct design {
+    const ovoid_ellipsoid *near; ///< an ellipsoid near the smallest, to start from; NULL: none
     uint32_t rank;
     double *local;       ///< 3 coordinates a point, in the frame
     uint32_t *candidate; ///< points that may still carry weight at the optimum
@@ -37,8 +39,8 @@ typedef struct design {
     uint32_t steps;                  ///< exchanges of weight
 } design;
 
-/// Starts with equal weights on the frame's extreme points and moves weight until excess is at most the one asked for,
-/// or no progress is left. candidate and local: room for count and 3 count.
+/// Starts with equal weights on the frame's extreme points, and on those that stick out of `near`, and moves weight
+/// until excess is at most the one asked for, or no progress is left. candidate and local: room for count and 3 count.
 void design_solve(design *d, const frame *f, const double *vertices, uint32_t count, double excess);
 
 #endif

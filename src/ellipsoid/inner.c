@@ -12,6 +12,7 @@
 #include "ellipsoid/certificate.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
+#include "ellipsoid/refit.h"
 #include "ellipsoid/seal.h"
 #include "ellipsoid/working_set.h"
 
@@ -21,9 +22,10 @@
 // The body in coordinates z, x = origin + map z, where it is round.
 typedef struct work {
     const ovoid_polytope *polytope;
-    double *local;       // z of each vertex
-    uint32_t *candidate; // room for the outer solver
-    double reach;        // the largest |z| of the body
+    const fit_start *start; // NULL: none
+    double *local;          // z of each vertex
+    uint32_t *candidate;    // room for the outer solver
+    double reach;           // the largest |z| of the body
     vec3 origin;
     mat3 map, inverse;
     double height; // of the prism over a flat polygon, to either side
@@ -48,7 +50,7 @@ static mat3 compute_root(sym3 s, mat3 *inverse) {
 // The map from the unit ball to a rough outer ellipsoid, and the vertices in its coordinates.
 static void whiten(work *w) {
     const ovoid_polytope *p = w->polytope;
-    design d = {.local = w->local, .candidate = w->candidate};
+    design d = {.near = w->start ? &w->start->outer : NULL, .local = w->local, .candidate = w->candidate};
     frame f = frame_compute(p->vertices, p->vertex_count, p->rank);
     design_solve(&d, &f, p->vertices, p->vertex_count, 0.02);
     // x = f.origin + axes' half (mean + root z).
@@ -125,13 +127,25 @@ static void build_from_edges(work *w) {
     w->reach += 1;
 }
 
+// The ellipsoid to look from first: the one to start from, in the coordinates z, or a small ball.
+static inscribed guess(const work *w) {
+    const inscribed ball = {.e = sym3_diagonal(0.1, 0.1, 0.1)};
+    if (!w->start || w->polytope->rank < 3) return ball;
+    eigen3 q = sym3_compute_eigen(sym3_rotate(w->start->inner.q, w->inverse));
+    if (!(q.value[0] > 1e-6 && q.value[2] < 1e6)) return ball;
+    for (int i = 0; i < 3; i++) q.value[i] = sqrt(q.value[i]);
+    vec3 x = mat3_mul_vec3(w->inverse, vec3_sub(w->start->inner.center, w->origin));
+    return (inscribed){.e = sym3_from_eigen(q.value, q.v), .x = x};
+}
+
 // The solver's ellipsoid; a small ball where it failed or could not start.
 static inscribed solve(const work *w, double gap) {
     double least = INFINITY;
     for (uint32_t i = 0; i < w->count; i++) least = fmin(least, w->constraints[i].b);
     inscribed s = {.e = sym3_diagonal(0.1, 0.1, 0.1)};
     if (!(least > 0) || !isfinite(least)) return s;
-    inscribed solved = working_set_solve(w->constraints, w->count, &s, fmax(0.02 * fmin(gap, 1), 1e-14));
+    inscribed first = guess(w);
+    inscribed solved = working_set_solve(w->constraints, w->count, &first, fmax(0.02 * fmin(gap, 1), 1e-14));
     vec3 x;
     return vec3_is_finite(solved.x) && sym3_solve(solved.e, (vec3){0, 0, 0}, &x) ? solved : s;
 }
@@ -213,14 +227,15 @@ static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *f
     fit->converged = fit->gap <= gap;
 }
 
-static ovoid_code compute(const ovoid_polytope *p, double gap, ovoid_fit *fit, const ovoid_allocator *memory) {
+static ovoid_code compute(const ovoid_polytope *p, double gap, const fit_start *start, ovoid_fit *fit,
+                          const ovoid_allocator *memory) {
     // Walls of a flat polygon: its edges, each from one of its ends, and two.
     uint32_t walls = p->rank == 3 ? p->facet_count : p->vertex_count + 2;
     double *local = allocator_allocate(memory, p->vertex_count, 3 * sizeof(double) + sizeof(uint32_t));
     constraint *constraints = allocator_allocate(memory, walls, sizeof(constraint));
     if (local && constraints) {
         uint32_t *candidate = (uint32_t *)(local + 3 * (size_t)p->vertex_count);
-        work w = {.polytope = p, .local = local, .candidate = candidate, .constraints = constraints};
+        work w = {.polytope = p, .start = start, .local = local, .candidate = candidate, .constraints = constraints};
         whiten(&w);
         if (p->rank == 3)
             build_from_facets(&w);
@@ -242,8 +257,8 @@ static ovoid_fit compute_segment(const ovoid_polytope *p) {
     return (ovoid_fit){.ellipsoid = e, .volume = ellipsoid_compute_measure(&e, p->rank), .converged = 1};
 }
 
-static ovoid_code compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
-                                const ovoid_allocator *allocator) {
+ovoid_code ellipsoid_refit_inner(const ovoid_polytope *polytope, double gap, const fit_start *start, ovoid_fit *fit,
+                                 const ovoid_allocator *allocator) {
     if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
         return OVOID_ERROR_ARGUMENT;
     if (polytope->rank < 2) {
@@ -251,10 +266,10 @@ static ovoid_code compute_inner(const ovoid_polytope *polytope, double gap, ovoi
         return OVOID_OK;
     }
     ovoid_allocator memory = allocator_make(allocator);
-    return compute(polytope, gap > 0 ? gap : 1e-6, fit, &memory);
+    return compute(polytope, gap > 0 ? gap : 1e-6, start, fit, &memory);
 }
 
 ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
                                          const ovoid_allocator *allocator) {
-    ENVIRONMENT_RETURN(ovoid_code, gap, compute_inner(polytope, gap, fit, allocator));
+    ENVIRONMENT_RETURN(ovoid_code, gap, ellipsoid_refit_inner(polytope, gap, NULL, fit, allocator));
 }

@@ -12,6 +12,7 @@
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
 #include "ellipsoid/factor.h"
+#include "ellipsoid/refit.h"
 
 #include "base/allocator.h"
 #include "base/environment.h"
@@ -115,8 +116,8 @@ static void fill_fit(const ovoid_polytope *polytope, const design *d, uint32_t r
     }
 }
 
-static ovoid_code compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
-                                const ovoid_allocator *allocator) {
+ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, double gap, const fit_start *start, ovoid_fit *fit,
+                                 const ovoid_allocator *allocator) {
     if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
         return OVOID_ERROR_ARGUMENT;
     if (gap == 0) gap = 1e-6;
@@ -128,7 +129,8 @@ static ovoid_code compute_outer(const ovoid_polytope *polytope, double gap, ovoi
     ovoid_allocator memory = allocator_make(allocator);
     double *block = allocator_allocate(&memory, count, 3 * sizeof(double) + sizeof(uint32_t));
     if (!block) return OVOID_ERROR_MEMORY;
-    design d = {.local = block, .candidate = (uint32_t *)(block + 3 * (size_t)count)};
+    design d = {
+        .near = start ? &start->outer : NULL, .local = block, .candidate = (uint32_t *)(block + 3 * (size_t)count)};
     frame f = frame_compute(polytope->vertices, count, rank);
     // An excess of x makes a volume of about 1 + x (rank + 1) / 2; rounding and the last trials need the rest.
     design_solve(&d, &f, polytope->vertices, count, 0.5 * fmin(gap, 1) / (rank + 1));
@@ -139,5 +141,5 @@ static ovoid_code compute_outer(const ovoid_polytope *polytope, double gap, ovoi
 
 ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
                                          const ovoid_allocator *allocator) {
-    ENVIRONMENT_RETURN(ovoid_code, gap, compute_outer(polytope, gap, fit, allocator));
+    ENVIRONMENT_RETURN(ovoid_code, gap, ellipsoid_refit_outer(polytope, gap, NULL, fit, allocator));
 }

@@ -5,6 +5,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "ellipsoid/contain.h"
+#include "ellipsoid/refit.h"
 #include "ellipsoid/walls.h"
 #include "linear/vec3.h"
 #include "polytope/hull.h"
@@ -54,13 +55,24 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *e) {
     return p.rank == 3 ? ellipsoid_is_enclosed(&p, e) : is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
 }
 
-static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o) {
+// The ellipsoids of a shape in the body frame of another one.
+static fit_start make_start(const ovoid_shape *near, const ovoid_shape *shape) {
+    vec3 shift = vec3_sub(near->origin, shape->origin);
+    fit_start start = {near->outer, near->inner};
+    start.outer.center = vec3_add(start.outer.center, shift);
+    start.inner.center = vec3_add(start.inner.center, shift);
+    return start;
+}
+
+static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o, const ovoid_shape *near) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_fit outer, inner;
-    ovoid_code code = ovoid_ellipsoid_compute_outer(&p, o->gap, &outer, &shape->allocator);
+    fit_start begin, *start = NULL;
+    if (near) begin = make_start(near, shape), start = &begin;
+    ovoid_code code = ellipsoid_refit_outer(&p, o->gap, start, &outer, &shape->allocator);
     if (code != OVOID_OK) return code;
     if (o->inner == OVOID_INNER_MAXIMUM)
-        code = ovoid_ellipsoid_compute_inner(&p, o->gap, &inner, &shape->allocator);
+        code = ellipsoid_refit_inner(&p, o->gap, start, &inner, &shape->allocator);
     else
         inner = compute_phases(&p, &outer.ellipsoid);
     if (code != OVOID_OK) return code;
@@ -86,20 +98,21 @@ ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator,
     return shape;
 }
 
-ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *o, ovoid_error *error) {
+ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *o, const ovoid_shape *near,
+                                    ovoid_error *error) {
     ovoid_shape *shape = shape_create_block(h, o->allocator, error);
     if (!shape) return NULL;
     shape->radius = o->radius;
     shape->report = h->report;
-    ovoid_code code = fit_ellipsoids(shape, o);
+    ovoid_code code = fit_ellipsoids(shape, o, near);
     if (code == OVOID_OK) return shape;
     error_write(error, code, -1, "no memory for the ellipsoids of %u vertices", h->vertex_count);
     ovoid_shape_destroy(shape);
     return NULL;
 }
 
-static ovoid_shape *create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
-                                       ovoid_error *error) {
+ovoid_shape *shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
+                                      const ovoid_shape *near, ovoid_error *error) {
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
     if (!xyz && count) {
@@ -109,12 +122,12 @@ static ovoid_shape *create_from_points(const double *xyz, size_t count, const ov
     ovoid_allocator allocator = allocator_make(o.allocator);
     hull h;
     if (hull_create(xyz, count, &allocator, &h, error) != OVOID_OK) return NULL;
-    ovoid_shape *shape = shape_create_from_hull(&h, &o, error);
+    ovoid_shape *shape = shape_create_from_hull(&h, &o, near, error);
     hull_destroy(&h, &allocator);
     return shape;
 }
 
 ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
                                             ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_shape *, xyz, create_from_points(xyz, count, options, error));
+    ENVIRONMENT_RETURN(ovoid_shape *, xyz, shape_create_from_points(xyz, count, options, NULL, error));
 }

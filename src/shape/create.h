@@ -16,7 +16,13 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *ellipsoid);
 
 void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner);
 
-/// The shape of a hull with its ellipsoids. The options are checked already. NULL with MEMORY.
-ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *options, ovoid_error *error);
+/// The shape of a hull with its ellipsoids. The options are checked already. near: a shape whose ellipsoids the new
+/// ones are looked for from, or NULL. NULL with MEMORY.
+ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *options, const ovoid_shape *near,
+                                    ovoid_error *error);
+
+/// As ovoid_shape_create_from_points, in the environment at hand, from a shape near by or NULL.
+ovoid_shape *shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
+                                      const ovoid_shape *near, ovoid_error *error);
 
 #endif

@@ -255,7 +255,7 @@ static ovoid_shape *create_from_faces(const ovoid_faces *faces, const ovoid_shap
     if (check_indices(&c) || hull_create(faces->vertices, faces->vertex_count, &allocator, &h, error)) return NULL;
     c.hull = &h;
     h.report.faces = faces->face_count;
-    ovoid_shape *shape = check_surface(&c) ? NULL : shape_create_from_hull(&h, &o, error);
+    ovoid_shape *shape = check_surface(&c) ? NULL : shape_create_from_hull(&h, &o, NULL, error);
     hull_destroy(&h, &allocator);
     return shape;
 }
