@@ -13,7 +13,7 @@
 
 #include <signal.h>
 
-#define ROUNDS 60
+#define ROUNDS 100
 
 typedef struct soak {
     uint64_t seed, rounds; // rounds done

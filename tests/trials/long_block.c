@@ -104,7 +104,10 @@ static void check_completeness(work *w, const scene *s, const ovoid_answer *x, q
     w->c.open += x->status == OVOID_UNDECIDED;
     w->c.wide += is_wide && wants_bracket;
     if (!run->is_shown) return;
-    const char *what = x->status == OVOID_UNDECIDED ? "open" : is_wide && wants_bracket ? "wide" : NULL;
+    const char *what = x->status == OVOID_UNDECIDED   ? "open"
+                       : x->stage == OVOID_STAGE_NONE ? "decided by no stage"
+                       : is_wide && wants_bracket     ? "wide"
+                                                      : NULL;
     if (what) run->report(run->context, run->family, run->number, &s->pair, x, question_names[kind], what);
 }
 
