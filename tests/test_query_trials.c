@@ -36,7 +36,8 @@ static ovoid_proof foreign[FOREIGN];
 static void fill_foreign(void) {
     uint64_t r = 7;
     for (int i = 0; i < FOREIGN; i++) {
-        trial t = place_anywhere(&r, make_any(&r), make_any(&r));
+        ovoid_shape *a = make_any(&r), *b = make_any(&r);
+        trial t = place_anywhere(&r, a, b);
         ovoid_pair pair = {t.a, t.b, t.pose_a, t.pose_b};
         ovoid_answer x = i % 2 ? ovoid_collide(&pair, NULL, NULL) : ovoid_depth(&pair, NULL, NULL, NULL);
         foreign[i] = x.proof;
@@ -51,7 +52,8 @@ static void move(trial *t, uint64_t *r) {
     ovoid_quat *q = &t->pose_b.rotation;
     double norm = sqrt(q->w * q->w + q->x * q->x + q->y * q->y + q->z * q->z);
     *p = (ovoid_vec3){p->x + d.x, p->y + d.y, p->z + d.z};
-    *q = (ovoid_quat){q->w + 0.01 * norm * random_normal(r), q->x + 0.01 * norm * random_normal(r), q->y, q->z};
+    q->w += 0.01 * norm * random_normal(r);
+    q->x += 0.01 * norm * random_normal(r);
 }
 
 // What is known of the pair: by construction, or by brute force.

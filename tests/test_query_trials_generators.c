@@ -198,7 +198,8 @@ static void test_long_triangle(void) {
                            make_pose(0, 0, 0),
                            {{0, 0, 0}, random_quat(&r)}};
         trial on = {(ovoid_shape *)pair.shape_a, (ovoid_shape *)pair.shape_b, pair.pose_a, pair.pose_b, 0, 0};
-        on.pose_b.position = (ovoid_vec3){random_uniform(&r, 1, 40), random_uniform(&r, 1, 40), 0.5};
+        double x = random_uniform(&r, 1, 40), y = random_uniform(&r, 1, 40);
+        on.pose_b.position = (ovoid_vec3){x, y, 0.5};
         close_in(&on, -0.05);
         pair.pose_b = on.pose_b;
         judge_truth truth;

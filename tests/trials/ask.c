@@ -146,7 +146,7 @@ static ovoid_proof make_garbage(uint64_t *state) {
     memset(&p, 0, sizeof p);
     p.kind = (ovoid_proof_kind)(random_next(state) % 6);
     p.count = (uint32_t)(random_next(state) % (OVOID_PROOF_PAIRS + 2));
-    p.normal = (ovoid_vec3){random_normal(state), random_normal(state), random_normal(state)};
+    p.normal = random_vec3(state, 1);
     for (int i = 0; i < OVOID_PROOF_PAIRS; i++) {
         p.a[i] = (uint32_t)(random_next(state) % 9);
         p.b[i] = (uint32_t)(random_next(state) % 9);
@@ -255,7 +255,7 @@ void tally_print(const tally *t) {
            (unsigned long long)t->touching, (unsigned long long)t->overlapping, (unsigned long long)t->undecided,
            (unsigned long long)t->wide, t->widest, (unsigned long long)t->compared, (unsigned long long)t->iterations,
            (unsigned long long)t->wrong);
-    if (t->undecided) printf("%-32s first open: seed %llu\n", "", (unsigned long long)t->opened);
+    if (t->opened) printf("%-32s first open: seed %llu\n", "", (unsigned long long)t->opened);
 }
 
 void tally_add(tally *sum, const tally *more) {

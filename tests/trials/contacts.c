@@ -7,10 +7,15 @@
 #include "clouds.h"
 #include "shapes.h"
 
+static ovoid_pose random_pose(uint64_t *r, double deviation) {
+    ovoid_vec3 position = random_vec3(r, deviation);
+    return (ovoid_pose){position, random_quat(r)};
+}
+
 // Both bodies turned and moved alike, one time in two: the contact is then one to rounding, and the distance not known.
 static void move_both(trial *t, uint64_t *r) {
     if (random_next(r) % 2) return;
-    ovoid_pose move = {random_vec3(r, 3), random_quat(r)};
+    ovoid_pose move = random_pose(r, 3);
     ovoid_pose *poses[2] = {&t->pose_a, &t->pose_b};
     for (int i = 0; i < 2; i++) {
         ovoid_quat p = move.rotation, q = poses[i]->rotation;
@@ -39,7 +44,8 @@ static trial stack(uint64_t *r, ovoid_shape *a, double top, ovoid_shape *b, doub
     const ovoid_quat turns[] = {{1, 0, 0, 0}, {4, 0, 0, 1}, {3, 0, 0, -1}, {7, 0, 0, 2}};
     t.pose_b.rotation = turns[random_next(r) % 4];
     double height = top + bottom, z = height + choose_gap(r);
-    t.pose_b.position = (ovoid_vec3){random_uniform(r, -0.25, 0.25), random_uniform(r, -0.25, 0.25), z};
+    double x = random_uniform(r, -0.25, 0.25), y = random_uniform(r, -0.25, 0.25);
+    t.pose_b.position = (ovoid_vec3){x, y, z};
     t.d = z - height;
     move_both(&t, r);
     return t;
@@ -115,8 +121,9 @@ trial make_touching(uint64_t *r) {
 
 // Corners of one lattice in one pose: shared vertices, edges and planes, all exactly; brute force knows the rest.
 trial make_shared_vertices(uint64_t *r) {
-    trial t = {make_lattice(r), make_lattice(r), {{0, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}, 0, 0};
-    if (random_next(r) % 2) t.pose_a = t.pose_b = (ovoid_pose){random_vec3(r, 10), random_quat(r)};
+    ovoid_shape *a = make_lattice(r), *b = make_lattice(r);
+    trial t = {a, b, {{0, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}, 0, 0};
+    if (random_next(r) % 2) t.pose_a = t.pose_b = random_pose(r, 10);
     return t;
 }
 
@@ -135,16 +142,12 @@ trial make_split(uint64_t *r) {
             halves[k][3 * i] = random_normal(r), halves[k][3 * i + 1] = random_normal(r);
             halves[k][3 * i + 2] = random_uniform(r, 0.1, 2) * (k ? 1 : -1);
         }
-    trial t = {make_points(halves[0], cut + more, 0),
-               make_points(halves[1], cut + more, 0),
-               {random_vec3(r, 3), random_quat(r)},
-               {{0, 0, 0}, {0, 0, 0, 0}},
-               1,
-               0};
-    t.pose_b = t.pose_a;
+    trial t = {.a = make_points(halves[0], cut + more, 0), .b = make_points(halves[1], cut + more, 0), .is_known = 1};
+    t.pose_a = t.pose_b = random_pose(r, 3);
     if (random_next(r) % 4) return t;
     t.is_known = 0;
-    close_in(&t, log_uniform(r, 1e-15, 1e-3) * (random_next(r) % 2 ? 1 : -1));
+    double gap = log_uniform(r, 1e-15, 1e-3);
+    close_in(&t, random_next(r) % 2 ? gap : -gap);
     return t;
 }
 
@@ -171,9 +174,11 @@ trial make_real_hulls(uint64_t *r) {
     read_once();
     if (hulls.count == 0) return (trial){0};
     const cloud *a = &hulls.items[random_next(r) % hulls.count], *b = &hulls.items[random_next(r) % hulls.count];
-    trial t = place_anywhere(r, make_points(a->xyz, a->count, 0), make_points(b->xyz, b->count, 0));
+    ovoid_shape *of_a = make_points(a->xyz, a->count, 0), *of_b = make_points(b->xyz, b->count, 0);
+    trial t = place_anywhere(r, of_a, of_b);
     double size = sphere_radius(t.a) + sphere_radius(t.b);
-    if (random_next(r) % 2) close_in(&t, size * log_uniform(r, 1e-15, 0.1) * (random_next(r) % 2 ? 1 : -1));
+    double gap = size * log_uniform(r, 1e-15, 0.1);
+    if (random_next(r) % 2) close_in(&t, random_next(r) % 2 ? gap : -gap);
     return t;
 }
 
@@ -191,6 +196,6 @@ trial make_compound_parts(uint64_t *r) {
                {{0, 0, 0}, {1, 0, 0, 0}},
                0,
                0};
-    if (random_next(r) % 2) t.pose_a = t.pose_b = (ovoid_pose){random_vec3(r, 10), random_quat(r)};
+    if (random_next(r) % 2) t.pose_a = t.pose_b = random_pose(r, 10);
     return t;
 }

@@ -13,8 +13,12 @@ double sphere_radius(const ovoid_shape *s) {
 trial place_anywhere(uint64_t *r, ovoid_shape *a, ovoid_shape *b) {
     double size = sphere_radius(a) + sphere_radius(b);
     const double far[] = {6, 1.5, 1, 0.6, 0.2, 0};
-    trial t = {a, b, {random_vec3(r, size), random_quat(r)}, {{0, 0, 0}, random_quat(r)}, 0, 0};
-    ovoid_vec3 d = random_vec3(r, 0.6 * size * far[random_next(r) % 6]), p = t.pose_a.position;
+    trial t = {.a = a, .b = b};
+    t.pose_a.position = random_vec3(r, size);
+    t.pose_a.rotation = random_quat(r);
+    t.pose_b.rotation = random_quat(r);
+    double off = 0.6 * size * far[random_next(r) % 6];
+    ovoid_vec3 d = random_vec3(r, off), p = t.pose_a.position;
     t.pose_b.position = (ovoid_vec3){p.x + d.x, p.y + d.y, p.z + d.z};
     return t;
 }
@@ -32,38 +36,52 @@ void close_in(trial *t, double gap) {
 
 // --- by shape
 
-static trial hulls(uint64_t *r) { return place_anywhere(r, make_random_hull(r, 64, 1), make_random_hull(r, 64, 1)); }
+// Two bodies of one maker. The first is drawn first.
+typedef ovoid_shape *maker(uint64_t *r);
+static trial place_two(uint64_t *r, maker *first, maker *second) {
+    ovoid_shape *a = first(r), *b = second(r);
+    return place_anywhere(r, a, b);
+}
+static ovoid_shape *make_64(uint64_t *r) { return make_random_hull(r, 64, 1); }
+static ovoid_shape *make_40(uint64_t *r) { return make_random_hull(r, 40, 1); }
+static ovoid_shape *make_6(uint64_t *r) { return make_random_hull(r, 6, 1); }
+static ovoid_shape *make_2048(uint64_t *r) { return make_long_hull(r, 2048); }
+static ovoid_shape *make_sharp_flat(uint64_t *r) { return make_flat(r, 0); }
+static ovoid_shape *make_sharp_segment(uint64_t *r) { return make_segment(r, 0); }
+static ovoid_shape *make_sharp_point(uint64_t *r) { return make_point(r, 0); }
+
+static trial hulls(uint64_t *r) { return place_two(r, make_64, make_64); }
 // 4 to 2048 vertices, axes 1:1 to 1:1000.
-static trial long_hulls(uint64_t *r) { return place_anywhere(r, make_long_hull(r, 2048), make_long_hull(r, 2048)); }
+static trial long_hulls(uint64_t *r) { return place_two(r, make_2048, make_2048); }
 // Up to 512 vertices, and now and then 5000.
 static trial large_hulls(uint64_t *r) {
     const ovoid_vec3 axes = {1, 1, 2};
     ovoid_shape *a = random_next(r) % 64 ? make_random_hull(r, 512, 1) : make_hull(r, 5000, axes, origin, 0);
-    return place_anywhere(r, a, make_random_hull(r, 512, 1));
+    ovoid_shape *b = make_random_hull(r, 512, 1);
+    return place_anywhere(r, a, b);
 }
-static trial mixed(uint64_t *r) { return place_anywhere(r, make_any(r), make_any(r)); }
-static trial needles(uint64_t *r) { return place_anywhere(r, make_needle(r), make_needle(r)); }
-static trial slabs(uint64_t *r) { return place_anywhere(r, make_slab(r), make_slab(r)); }
-static trial flats(uint64_t *r) { return place_anywhere(r, make_flat(r, 0), make_flat(r, 0)); }
+static trial mixed(uint64_t *r) { return place_two(r, make_any, make_any); }
+static trial needles(uint64_t *r) { return place_two(r, make_needle, make_needle); }
+static trial slabs(uint64_t *r) { return place_two(r, make_slab, make_slab); }
+static trial flats(uint64_t *r) { return place_two(r, make_sharp_flat, make_sharp_flat); }
 static trial low_ranks(uint64_t *r) {
-    ovoid_shape *a = random_next(r) % 2 ? make_segment(r, 0) : make_point(r, 0);
-    return place_anywhere(r, a, random_next(r) % 2 ? make_segment(r, 0) : make_any(r));
+    maker *first = random_next(r) % 2 ? make_sharp_segment : make_sharp_point;
+    return place_two(r, first, random_next(r) % 2 ? make_sharp_segment : make_any);
 }
-static trial rounds(uint64_t *r) {
-    return place_anywhere(r, make_round(r), random_next(r) % 2 ? make_round(r) : make_any(r));
-}
-static trial grids(uint64_t *r) { return place_anywhere(r, make_grid(r), make_grid(r)); }
-static trial prisms(uint64_t *r) { return place_anywhere(r, make_prism(r), make_prism(r)); }
+static trial rounds(uint64_t *r) { return place_two(r, make_round, random_next(r) % 2 ? make_round : make_any); }
+static trial grids(uint64_t *r) { return place_two(r, make_grid, make_grid); }
+static trial prisms(uint64_t *r) { return place_two(r, make_prism, make_prism); }
 
 // Faces that are nearly one, brought near one another: in the same orientation face meets face.
 static trial near_coplanar(uint64_t *r) {
-    trial t = place_anywhere(r, make_near_coplanar(r), make_near_coplanar(r));
+    trial t = place_two(r, make_near_coplanar, make_near_coplanar);
     if (random_next(r) % 2) {
         ovoid_shape_destroy(t.b);
         t.b = ovoid_shape_create_copy(t.a, NULL, NULL);
         t.pose_b.rotation = t.pose_a.rotation;
     }
-    if (random_next(r) % 2) close_in(&t, log_uniform(r, 1e-15, 1e-2) * (random_next(r) % 2 ? 1 : -1));
+    double gap = log_uniform(r, 1e-15, 1e-2);
+    if (random_next(r) % 2) close_in(&t, random_next(r) % 2 ? gap : -gap);
     return t;
 }
 
@@ -71,50 +89,58 @@ static trial near_coplanar(uint64_t *r) {
 
 // Gaps and depths of every order, from far below rounding to a thousand sizes.
 static trial gaps(uint64_t *r) {
-    trial t =
-        place_anywhere(r, random_next(r) % 2 ? make_any(r) : make_random_hull(r, 40, 1), make_random_hull(r, 40, 1));
-    double gap = log_uniform(r, 1e-15, random_next(r) % 2 ? 1e-6 : 1e3), size = sphere_radius(t.a) + sphere_radius(t.b);
+    trial t = place_two(r, random_next(r) % 2 ? make_any : make_40, make_40);
+    double most = random_next(r) % 2 ? 1e-6 : 1e3, gap = log_uniform(r, 1e-15, most);
+    double size = sphere_radius(t.a) + sphere_radius(t.b);
     close_in(&t, size * (random_next(r) % 2 ? gap : -fmin(gap, 0.05)));
     return t;
 }
 
 static trial identical(uint64_t *r) {
     ovoid_shape *a = make_any(r);
-    trial t = {
-        a, ovoid_shape_create_copy(a, NULL, NULL), {random_vec3(r, 1), random_quat(r)}, {{0, 0, 0}, {0, 0, 0, 0}}, 0,
-        0};
+    trial t = {.a = a, .b = ovoid_shape_create_copy(a, NULL, NULL)};
+    t.pose_a.position = random_vec3(r, 1);
+    t.pose_a.rotation = random_quat(r);
     t.pose_b = t.pose_a;
     return t;
 }
 
 static trial contained(uint64_t *r) {
-    trial t = place_anywhere(r, make_random_hull(r, 100, 1), make_random_hull(r, 30, log_uniform(r, 1e-6, 0.2)));
+    double scale = log_uniform(r, 1e-6, 0.2);
+    ovoid_shape *a = make_random_hull(r, 100, 1), *b = make_random_hull(r, 30, scale);
+    trial t = place_anywhere(r, a, b);
     ovoid_vec3 d = random_vec3(r, 0.1), p = t.pose_a.position;
     t.pose_b.position = (ovoid_vec3){p.x + d.x, p.y + d.y, p.z + d.z};
     return t;
+}
+
+// Hulls of two scales.
+static trial place_scaled(uint64_t *r, double most, double sa, double sb) {
+    ovoid_shape *a = make_random_hull(r, most, sa), *b = make_random_hull(r, most, sb);
+    return place_anywhere(r, a, b);
 }
 
 // Lengths of 1e-9, 1e9, and both in one pair; then of any order that the library accepts.
 static trial scales(uint64_t *r) {
     const double orders[] = {1e-9, 1, 1e9};
     double sa = orders[random_next(r) % 3], sb = random_next(r) % 2 ? sa : orders[random_next(r) % 3];
-    trial t = place_anywhere(r, make_random_hull(r, 40, sa), make_random_hull(r, 40, sb));
+    trial t = place_scaled(r, 40, sa, sb);
     if (random_next(r) % 2) close_in(&t, random_normal(r) * 0.01 * fmin(sa, sb));
     return t;
 }
 static trial wild_scales(uint64_t *r) {
     double sa = log_uniform(r, 1e-80, 1e45), sb = random_next(r) % 2 ? sa : log_uniform(r, 1e-80, 1e45);
-    return place_anywhere(r, make_random_hull(r, 20, sa), make_random_hull(r, 20, sb));
+    return place_scaled(r, 20, sa, sb);
 }
 
 // At the ends of what is accepted: lengths up to 1e50, and below 1e-130, where nothing is resolved.
 static trial huge(uint64_t *r) {
-    double scale = log_uniform(r, 1e35, 2e48);
-    return place_anywhere(r, make_random_hull(r, 20, scale), make_random_hull(r, 20, scale * log_uniform(r, 1e-3, 1)));
+    double scale = log_uniform(r, 1e35, 2e48), other = scale * log_uniform(r, 1e-3, 1);
+    return place_scaled(r, 20, scale, other);
 }
 static trial tiny(uint64_t *r) {
-    double scale = log_uniform(r, 1e-305, 1e-110);
-    return place_anywhere(r, make_random_hull(r, 20, scale), make_random_hull(r, 20, scale * log_uniform(r, 1e-3, 1)));
+    double scale = log_uniform(r, 1e-305, 1e-110), other = scale * log_uniform(r, 1e-3, 1);
+    return place_scaled(r, 20, scale, other);
 }
 
 // Far from the world's origin, and vertices far from their own.
@@ -127,11 +153,17 @@ static trial far_poses(uint64_t *r) {
     *b = (ovoid_vec3){b->x + d.x, b->y + d.y, b->z + d.z};
     return t;
 }
+static ovoid_shape *make_far_hull(uint64_t *r) {
+    size_t count = random_count(r, 40);
+    ovoid_vec3 center = random_vec3(r, 1e7);
+    return make_hull(r, count, (ovoid_vec3){1, 2, 1}, center, 0);
+}
 static trial far_vertices(uint64_t *r) {
-    ovoid_shape *a = make_hull(r, random_count(r, 40), (ovoid_vec3){1, 2, 1}, random_vec3(r, 1e7), 0);
-    ovoid_shape *b = make_hull(r, random_count(r, 40), (ovoid_vec3){1, 2, 1}, random_vec3(r, 1e7), 0);
+    ovoid_shape *a = make_far_hull(r), *b = make_far_hull(r);
     ovoid_vec3 oa = ovoid_shape_get_polytope(a).origin, ob = ovoid_shape_get_polytope(b).origin;
-    trial t = {a, b, {{0, 0, 0}, random_quat(r)}, {{0, 0, 0}, random_quat(r)}, 0, 0};
+    trial t = {.a = a, .b = b};
+    t.pose_a.rotation = random_quat(r);
+    t.pose_b.rotation = random_quat(r);
     // Brings the two clouds together again.
     ovoid_vec3 pa = ovoid_pose_compute_point(&t.pose_a, oa), pb = ovoid_pose_compute_point(&t.pose_b, ob);
     ovoid_vec3 d = random_vec3(r, 1.5);
@@ -141,37 +173,46 @@ static trial far_vertices(uint64_t *r) {
 
 static trial quaternions(uint64_t *r) {
     trial t = hulls(r);
-    double norms[2] = {log_uniform(r, 1e-150, 1e150), log_uniform(r, 1e-150, 1e150)};
     ovoid_quat *q[2] = {&t.pose_a.rotation, &t.pose_b.rotation};
-    for (int i = 0; i < 2; i++)
-        *q[i] = (ovoid_quat){q[i]->w * norms[i], q[i]->x * norms[i], q[i]->y * norms[i], q[i]->z * norms[i]};
+    for (int i = 0; i < 2; i++) {
+        double norm = log_uniform(r, 1e-150, 1e150);
+        *q[i] = (ovoid_quat){q[i]->w * norm, q[i]->x * norm, q[i]->y * norm, q[i]->z * norm};
+    }
     if (random_next(r) % 4 == 0) q[0]->w = q[0]->x = 0x1p-1060;
     return t;
 }
 
 // --- few vertices, for brute force
 
+// One time in two to a gap or depth of any order from 1e-15 to 0.1 of the size.
+static void close_in_a_little(trial *t, uint64_t *r) {
+    if (random_next(r) % 2) return;
+    double size = sphere_radius(t->a) + sphere_radius(t->b), part = log_uniform(r, 1e-15, 0.1);
+    close_in(t, size * random_normal(r) * part);
+}
+
 static trial small_hulls(uint64_t *r) {
-    trial t = place_anywhere(r, make_random_hull(r, 6, 1), make_random_hull(r, 6, 1));
-    if (random_next(r) % 2) close_in(&t, random_normal(r) * log_uniform(r, 1e-14, 0.1));
+    trial t = place_two(r, make_6, make_6);
+    close_in_a_little(&t, r);
     return t;
 }
 static trial eight_corners(uint64_t *r) {
-    trial t = place_anywhere(r, make_random_hull(r, 8, 1), make_box(1, log_uniform(r, 1e-3, 1), 0.5, 0));
-    if (random_next(r) % 2) close_in(&t, random_normal(r) * log_uniform(r, 1e-14, 0.1));
+    ovoid_shape *a = make_random_hull(r, 8, 1), *b = make_box(1, log_uniform(r, 1e-3, 1), 0.5, 0);
+    trial t = place_anywhere(r, a, b);
+    close_in_a_little(&t, r);
     return t;
 }
 // Points, segments, triangles, tetrahedra of any axes, some of them rounded.
 static ovoid_shape *make_simplex(uint64_t *r) {
     double xyz[12], radius = random_next(r) % 4 ? 0 : log_uniform(r, 1e-3, 1);
-    double axes[3] = {1, log_uniform(r, 1e-6, 1), log_uniform(r, 1e-6, 1)};
+    double y = log_uniform(r, 1e-6, 1), z = log_uniform(r, 1e-6, 1);
+    const double axes[3] = {1, y, z};
     for (int i = 0; i < 12; i++) xyz[i] = axes[i % 3] * random_normal(r);
     return make_points(xyz, 1 + (size_t)(random_next(r) % 4), radius);
 }
 static trial simplices(uint64_t *r) {
-    trial t = place_anywhere(r, make_simplex(r), make_simplex(r));
-    double size = sphere_radius(t.a) + sphere_radius(t.b);
-    if (random_next(r) % 2) close_in(&t, size * random_normal(r) * log_uniform(r, 1e-15, 0.1));
+    trial t = place_two(r, make_simplex, make_simplex);
+    close_in_a_little(&t, r);
     return t;
 }
 

@@ -252,7 +252,8 @@ static int is_pose_in_range(const ovoid_pose *p) { return sum_abs(p->position) <
 
 static void run_scene(work *w, uint64_t *r) {
     const long_family *f = w->run->family;
-    scene s = {.a = &w->pool[random_next(r) % w->pool_count], .b = &w->pool[random_next(r) % w->pool_count]};
+    const item *a = &w->pool[random_next(r) % w->pool_count], *b = &w->pool[random_next(r) % w->pool_count];
+    scene s = {.a = a, .b = b};
     if (f->place == PLACE_SAME) s.b = s.a;
     place_pair(f, s.a, s.b, &s.pair, r);
     begin_frame(&s);

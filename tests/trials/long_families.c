@@ -19,7 +19,8 @@ static ovoid_shape *make_half_box(uint64_t *r) {
 // Hulls of about so many vertices, axes 1:1 to 1:4.
 static ovoid_shape *make_sized(uint64_t *r, size_t low, size_t high) {
     double x = log_uniform(r, 1, 4), y = log_uniform(r, 1, 4), z = log_uniform(r, 1, 4);
-    return make_hull(r, low + (size_t)(random_next(r) % (high - low + 1)), (ovoid_vec3){x, y, z}, zero, 0);
+    size_t count = low + (size_t)(random_next(r) % (high - low + 1));
+    return make_hull(r, count, (ovoid_vec3){x, y, z}, zero, 0);
 }
 static ovoid_shape *make_8(uint64_t *r) { return make_sized(r, 4, 8); }
 static ovoid_shape *make_32(uint64_t *r) { return make_sized(r, 9, 32); }
@@ -76,11 +77,13 @@ const long_family long_families[] = {
 };
 const size_t long_family_count = sizeof long_families / sizeof *long_families;
 
+static double random_sign(uint64_t *r, double x) { return random_next(r) % 2 ? x : -x; }
+
 double random_gap(uint64_t *r) {
     switch (random_next(r) % 8) {
     case 0: return 0;
-    case 1: return log_uniform(r, 1e-15, 1e-9) * (random_next(r) % 2 ? 1 : -1);
-    case 2: return log_uniform(r, 1e-9, 1e-3) * (random_next(r) % 2 ? 1 : -1);
+    case 1: return random_sign(r, log_uniform(r, 1e-15, 1e-9));
+    case 2: return random_sign(r, log_uniform(r, 1e-9, 1e-3));
     case 3: return -log_uniform(r, 1e-3, 0.2);
     case 4: return log_uniform(r, 1, 1e3);
     case 5: return 0.01;
@@ -105,7 +108,7 @@ static void place_aligned(ovoid_pair *pair, uint64_t *r) {
     for (int i = 0; i < 3; i++) {
         d[i] = 0.5 * (double)((int)(random_next(r) % 13) - 6);
         // Sometimes a little off.
-        if (random_next(r) % 4 == 0) d[i] += log_uniform(r, 0x1p-50, 0x1p-10) * (random_next(r) % 2 ? 1 : -1);
+        if (random_next(r) % 4 == 0) d[i] += random_sign(r, log_uniform(r, 0x1p-50, 0x1p-10));
     }
     pair->pose_a.rotation = pair->pose_b.rotation = turn.rotation;
     pair->pose_b.position = ovoid_pose_compute_point(&turn, (ovoid_vec3){d[0], d[1], d[2]});
@@ -113,7 +116,8 @@ static void place_aligned(ovoid_pair *pair, uint64_t *r) {
 
 static void place_common(ovoid_pair *pair, uint64_t *r) {
     if (random_next(r) % 2) {
-        pair->pose_a = (ovoid_pose){random_vec3(r, 10), random_quat(r)};
+        pair->pose_a.position = random_vec3(r, 10);
+        pair->pose_a.rotation = random_quat(r);
         pair->pose_b = pair->pose_a;
         return;
     }
@@ -138,12 +142,13 @@ void place_pair(const long_family *f, const item *a, const item *b, ovoid_pair *
         place_common(pair, r);
         return;
     }
-    pair->pose_a = (ovoid_pose){random_vec3(r, f->place == PLACE_FAR ? 1e7 : size), random_quat(r)};
+    pair->pose_a.position = random_vec3(r, f->place == PLACE_FAR ? 1e7 : size);
+    pair->pose_a.rotation = random_quat(r);
     if (f->place == PLACE_SAME) {
         pair->shape_b = pair->shape_a;
         pair->pose_b = pair->pose_a;
-        if (random_next(r) % 2)
-            pair->pose_b.position = add(pair->pose_b.position, random_vec3(r, size * random_gap(r)));
+        double off = random_gap(r) * size;
+        if (random_next(r) % 2) pair->pose_b.position = add(pair->pose_b.position, random_vec3(r, off));
         return;
     }
     pair->pose_b.rotation = random_quat(r);

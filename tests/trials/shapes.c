@@ -1,4 +1,5 @@
-// Makers of bodies. Each draws all that it needs from the state given.
+// Makers of bodies. Each draws all that it needs from the state given, one number after another: C leaves the order of
+// arguments and of initializers open, so no two draws stand in one list, and a seed makes the same body everywhere.
 #include "shapes.h"
 
 #include "check.h"
@@ -65,7 +66,8 @@ ovoid_shape *make_needle(uint64_t *r) {
 }
 
 ovoid_shape *make_slab(uint64_t *r) {
-    return make_hull(r, random_count(r, 40), (ovoid_vec3){1, 1, log_uniform(r, 1e-8, 1e-2)}, zero, 0);
+    double thin = log_uniform(r, 1e-8, 1e-2);
+    return make_hull(r, random_count(r, 40), (ovoid_vec3){1, 1, thin}, zero, 0);
 }
 
 ovoid_shape *make_flat(uint64_t *r, double radius) {
@@ -74,7 +76,8 @@ ovoid_shape *make_flat(uint64_t *r, double radius) {
     int exact = random_next(r) % 2;
     ovoid_pose pose = {{0, 0, 0}, random_quat(r)};
     for (size_t i = 0; i < count; i++) {
-        ovoid_vec3 v = {random_uniform(r, -1, 1), random_uniform(r, -1, 1), 0};
+        double x = random_uniform(r, -1, 1), y = random_uniform(r, -1, 1);
+        ovoid_vec3 v = {x, y, 0};
         if (!exact) v = ovoid_pose_compute_point(&pose, v);
         xyz[3 * i] = v.x, xyz[3 * i + 1] = v.y, xyz[3 * i + 2] = v.z;
     }
@@ -101,9 +104,10 @@ ovoid_shape *make_box(double x, double y, double z, double radius) {
 ovoid_shape *make_grid(uint64_t *r) {
     double xyz[3 * 64];
     double jitter = random_next(r) % 3 ? log_uniform(r, 1e-17, 1e-9) : 0;
-    for (int i = 0; i < 64; i++)
-        for (int k = 0; k < 3; k++)
-            xyz[3 * i + k] = (double)(random_next(r) % 4) - 1.5 + jitter * random_uniform(r, -1, 1);
+    for (int i = 0; i < 3 * 64; i++) {
+        double at = (double)(random_next(r) % 4) - 1.5;
+        xyz[i] = at + jitter * random_uniform(r, -1, 1);
+    }
     return make_points(xyz, 20 + (size_t)(random_next(r) % 44), 0);
 }
 
