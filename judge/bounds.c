@@ -18,13 +18,18 @@ ovoid_code judge_reject(ovoid_error *error, ovoid_code code, const char *format,
     return code;
 }
 
+static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
+
+nvec proof_direction(pool *p, const ovoid_proof *proof) {
+    return nvec_add(p, nvec_from(p, proof->normal), nvec_from(p, proof->normal_low));
+}
+
 ovoid_code judge_check_lower(const claim *c) {
     const posed *s = c->s;
     pool *p = s->p;
-    ovoid_vec3 n = c->proof->normal;
-    if (!isfinite(n.x) || !isfinite(n.y) || !isfinite(n.z))
+    if (!is_finite(c->proof->normal) || !is_finite(c->proof->normal_low))
         return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "the proof's normal is not finite");
-    nvec normal = nvec_from(p, n);
+    nvec normal = proof_direction(p, c->proof);
     if (nvec_is_zero(normal)) return judge_reject(c->error, OVOID_ERROR_PROOF, "a lower bound without a normal");
 
     // k gap |n|, against the claim: core |n| k <= n_a min_B - n_b max_A.

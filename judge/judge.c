@@ -81,7 +81,7 @@ static ovoid_code check_status(const judge *context, const posed *s, const ovoid
 // Unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is asked where there is no lower bound.
 static ovoid_code check_normal(pool *p, const ovoid_answer *answer, ovoid_error *error) {
     if (answer->lower == -INFINITY) return OVOID_OK;
-    nvec n = nvec_from(p, answer->normal), direction = nvec_from(p, answer->proof.normal);
+    nvec n = nvec_from(p, answer->normal), direction = proof_direction(p, &answer->proof);
     num square = nvec_norm_squared(p, n), tolerance = number_from(p, 1e-12), one = number_from_integer(p, 1);
     if (num_compare(p, square, num_mul(p, num_sub(p, one, tolerance), num_sub(p, one, tolerance))) < 0 ||
         num_compare(p, square, num_mul(p, num_add(p, one, tolerance), num_add(p, one, tolerance))) > 0)

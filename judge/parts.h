@@ -37,6 +37,9 @@ typedef struct claim {
     ovoid_error *error;
 } claim;
 
+/// The direction of the lower bound: the exact sum of its two parts, which must be finite.
+nvec proof_direction(pool *p, const ovoid_proof *proof);
+
 ovoid_code judge_check_lower(const claim *c);
 /// By proof.kind.
 ovoid_code judge_check_upper(const claim *c, const ovoid_cover *cover);

@@ -40,7 +40,7 @@ static ovoid_pair make_pair(const ovoid_shape *a, const ovoid_shape *b, uint64_t
 
 typedef struct run {
     tally counts;
-    long stages[OVOID_STAGE_EPA + 1], kinds[OVOID_PROOF_COVER + 1];
+    long stages[OVOID_STAGE_REFINE + 1], kinds[OVOID_PROOF_COVER + 1];
     double query_seconds, judge_seconds;
     double nearest, farthest; // |d| in parts of the size
 } run;
@@ -73,7 +73,7 @@ static void print_run(const run *all) {
     tally_print_header();
     tally_print(&all->counts);
     printf("stages:");
-    for (int i = 0; i <= OVOID_STAGE_EPA; i++)
+    for (int i = 0; i <= OVOID_STAGE_REFINE; i++)
         if (all->stages[i]) printf(" %s %ld", ovoid_stage_get_name((ovoid_stage)i), all->stages[i]);
     printf("; proofs:");
     for (int i = 0; i <= OVOID_PROOF_COVER; i++)

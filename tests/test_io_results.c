@@ -171,7 +171,7 @@ static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
     if (random_next(s) % 2) r.a = "one", r.b = "two";
     ovoid_answer *x = &r.answer;
     x->status = (ovoid_status)(random_next(s) % 4);
-    x->stage = (ovoid_stage)(random_next(s) % (OVOID_STAGE_EPA + 1));
+    x->stage = (ovoid_stage)(random_next(s) % (OVOID_STAGE_REFINE + 1));
     x->limit = (ovoid_limit)(random_next(s) % (OVOID_LIMIT_OPTIONS + 1));
     x->iterations = (uint32_t)random_next(s);
     x->lower = random_next(s) % 8 ? random_double(s) : -INFINITY;

@@ -35,7 +35,8 @@ typedef enum ovoid_stage {
     OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction */
     OVOID_STAGE_INNER,   /**< inner ellipsoids */
     OVOID_STAGE_GJK,     /**< exact: Gilbert, Johnson, Keerthi 1988 */
-    OVOID_STAGE_EPA      /**< exact: expanding polytope, van den Bergen 2001 */
+    OVOID_STAGE_EPA,     /**< exact: expanding polytope, van den Bergen 2001 */
+    OVOID_STAGE_REFINE   /**< in pairs of doubles, where doubles cannot tell the sign or reach the tolerance */
 } ovoid_stage;
 
 /** Why a query stopped before its bracket was narrower than the tolerance. */
@@ -44,7 +45,7 @@ typedef enum ovoid_limit {
     OVOID_LIMIT_ANSWERED,   /**< the question (collide, within, bounds) was answered; the bracket is true but wide */
     OVOID_LIMIT_CAP,        /**< proven farther than options.cap */
     OVOID_LIMIT_ITERATIONS, /**< options.iterations used up */
-    OVOID_LIMIT_PRECISION,  /**< no further progress in double precision */
+    OVOID_LIMIT_PRECISION,  /**< no further progress, in pairs of doubles either */
     OVOID_LIMIT_CAPACITY,   /**< the depth search filled its fixed working memory */
     OVOID_LIMIT_POSE_A,     /**< refused: pose_a has NaN, infinity, a length out of range or a zero quaternion */
     OVOID_LIMIT_POSE_B,     /**< refused: likewise pose_b */
@@ -71,15 +72,16 @@ typedef enum ovoid_proof_kind {
  * A proof: plain data that ovoid_proof_check, or anyone with exact arithmetic, can check, and the warm start of the
  * next query of the pair. Indices are vertices of ovoid_polytope. Rounding radii are subtracted from both bounds.
  *
- * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal is that n (nearly unit:
- * divide by its norm). Zero where there is no lower bound.
+ * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal + normal_low is that n
+ * (nearly unit: divide by its norm). Zero where there is no lower bound.
  * Upper bound: as `kind` says. POINTS: sum weight_a[i] x(a[i]) / sum weight_a is the point of A, likewise of B. HULL:
  * four differences are the corners of a tetrahedron; of five or six, 0 and 1 are the tips of a double pyramid over the
  * closed ring 2, 3, ..., with triangles (0, r, next r) and (1, next r, r); upper is minus the origin's distance to that
  * surface, minus the radii; the weights give a common point of the bodies.
  */
 typedef struct ovoid_proof {
-    ovoid_vec3 normal; /**< world frame, from A to B */
+    ovoid_vec3 normal;     /**< world frame, from A to B */
+    ovoid_vec3 normal_low; /**< what normal leaves of the direction meant, their exact sum; zero but for REFINE */
     ovoid_proof_kind kind;
     uint32_t count; /**< entries used of the arrays */
     uint32_t a[OVOID_PROOF_PAIRS], b[OVOID_PROOF_PAIRS];

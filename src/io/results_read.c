@@ -79,7 +79,7 @@ static int find_limit(const char *text) {
 }
 
 static int find_stage(const char *text) {
-    for (int i = OVOID_STAGE_NONE; i <= OVOID_STAGE_EPA; i++)
+    for (int i = OVOID_STAGE_NONE; i <= OVOID_STAGE_REFINE; i++)
         if (strcmp(ovoid_stage_get_name((ovoid_stage)i), text) == 0) return i;
     return -1;
 }
@@ -189,16 +189,18 @@ static ovoid_code read_cover(ovoid_results_reader *r, json_t *json) {
 }
 
 static ovoid_code read_proof(ovoid_results_reader *r, json_t *json, ovoid_record *record) {
-    static const char *const keys[] = {"normal",   "kind",    "a",       "b",    "weight_a",
-                                       "weight_b", "inner_a", "inner_b", "cover"};
+    static const char *const keys[] = {"normal",   "normal_low", "kind",    "a",       "b",
+                                       "weight_a", "weight_b",   "inner_a", "inner_b", "cover"};
     ovoid_proof *proof = &record->answer.proof;
     const char *bad = "proof";
-    if (!json_is_object(json) || !has_keys(json, keys, 9, 0, &bad)) return fail(r, bad, "does not belong into a proof");
+    if (!json_is_object(json) || !has_keys(json, keys, 10, 0, &bad))
+        return fail(r, bad, "does not belong into a proof");
     const char *kind = json_string_value(json_object_get(json, "kind"));
     int found = kind ? find_kind(kind) : -1;
     if (found < 0) return fail(r, "kind", "is not a kind of proof");
     proof->kind = (ovoid_proof_kind)found;
     ovoid_code code = read_vector(r, json, "normal", &proof->normal);
+    if (!code && json_object_get(json, "normal_low")) code = read_vector(r, json, "normal_low", &proof->normal_low);
     if (!code) code = read_points(r, json, proof);
     if (!code) code = read_inner(r, json, proof);
     json_t *cover = json_object_get(json, "cover");

@@ -53,6 +53,10 @@ static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
     const ovoid_proof *proof = &record->answer.proof;
     write_key(file, q, "{", "normal");
     write_vector(file, proof->normal);
+    if (proof->normal_low.x != 0 || proof->normal_low.y != 0 || proof->normal_low.z != 0) {
+        write_key(file, q, ",", "normal_low");
+        write_vector(file, proof->normal_low);
+    }
     write_key(file, q, ",", "kind");
     fprintf(file, "%s%s%s", q, ovoid_proof_kind_get_name(proof->kind), q);
     if (proof->count) {

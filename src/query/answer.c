@@ -7,6 +7,7 @@
 #include "query/gjk.h"
 #include "query/glance.h"
 #include "query/proof.h"
+#include "query/refine.h"
 #include "query/stages.h"
 
 ovoid_answer answer_make_refused(ovoid_limit limit) {
@@ -55,7 +56,9 @@ void answer_write(search *s, ovoid_answer *out) {
     out->limit = find_limit(s, out->status);
     out->lower = s->lower;
     out->upper = s->upper;
-    out->normal = out->proof.normal = frame_direction_to_world(f, s->normal);
+    int refined = vec3_norm_squared(s->world) > 0;
+    out->normal = out->proof.normal = refined ? s->world : frame_direction_to_world(f, s->normal);
+    out->proof.normal_low = s->world_low;
     set_upper_proof(&out->proof, s);
     witness_points w = witness_compute_points(f, &out->proof);
     out->point_a = frame_point_to_world(f, w.a);
@@ -131,6 +134,7 @@ static void find_answer(const ovoid_pair *pair, const ovoid_options *given, ques
     simplex start;
     run_stages(&s, earlier, &start);
     if (!search_is_done(&s)) run_exact(&s, &start, cover);
+    if (!search_is_done(&s)) refine_run(&s, pair, earlier);
     answer_write(&s, out);
 }
 

@@ -1,22 +1,46 @@
 // Checking an answer without a search: each bound is measured again from the proof, and must hold with room for the
-// rounding of this measurement. What passes here holds in exact arithmetic.
+// rounding of this measurement, in doubles or, where these do not confirm it, in pairs of them. What passes here holds
+// in exact arithmetic.
 #include "base/environment.h"
 #include "base/error.h"
 #include "query/answer.h"
 #include "query/cover.h"
+#include "query/fine.h"
 #include "query/hull.h"
 #include "query/inner.h"
 #include "query/proof.h"
+
+// What is measured: the pair in doubles, and in pairs of doubles once that is needed.
+typedef struct measure {
+    const ovoid_pair *pair;
+    const pair_frame *frame;
+    int has_fine; ///< 0: not tried, -1: it would tell no more
+    fine_frame fine;
+} measure;
+
+static int make_fine(measure *m) {
+    if (!m->has_fine) m->has_fine = fine_make(m->pair, &m->fine) ? 1 : -1;
+    return m->has_fine > 0;
+}
 
 static ovoid_code refuse(ovoid_error *error, const char *what, double claimed, double found) {
     return error_set(error, OVOID_ERROR_PROOF, -1, "%s: claimed %.17g, the proof shows %.17g", what, claimed, found);
 }
 
-static ovoid_code check_lower(const pair_frame *f, const ovoid_answer *x, ovoid_error *error) {
+// What doubles do not confirm is measured again in pairs of them.
+static double measure_lower_again(const measure *m, const ovoid_proof *p) {
+    dd3 n = dd3_make(p->normal, p->normal_low);
+    if (!(fabs(vec3_norm(dd3_high(n)) - 1) <= 1e-6)) return -INFINITY;
+    return fine_compute_lower(&m->fine, fine_find_support(&m->fine, n).gap, m->fine.check);
+}
+
+static ovoid_code check_lower(measure *m, const ovoid_answer *x, ovoid_error *error) {
+    const pair_frame *f = m->frame;
     if (x->lower == -INFINITY) return OVOID_OK;
-    vec3 n = vec3_unit(frame_direction_from_world(f, x->proof.normal));
+    vec3 n = vec3_unit(frame_direction_from_world(f, vec3_add(x->proof.normal, x->proof.normal_low)));
     if (!(vec3_norm_squared(n) > 0)) return refuse(error, "lower bound without a normal", x->lower, 0);
     double found = frame_find_support(f, n).gap - f->radii - f->check;
+    if (found < x->lower && make_fine(m)) found = measure_lower_again(m, &x->proof);
     return found >= x->lower ? OVOID_OK : refuse(error, "lower bound", x->lower, found);
 }
 
@@ -33,6 +57,15 @@ static double measure_hull(const pair_frame *f, const ovoid_proof *p) {
     return depth > 0 ? -depth - f->radii : INFINITY;
 }
 
+static double measure_upper_again(const measure *m, const ovoid_proof *p) {
+    if (p->kind == OVOID_PROOF_POINTS && p->count)
+        return fine_compute_upper(&m->fine, fine_measure_points(&m->fine, p), m->fine.check);
+    if (p->kind != OVOID_PROOF_HULL) return INFINITY;
+    dd3 w[OVOID_PROOF_PAIRS];
+    for (uint32_t i = 0; i < p->count; i++) w[i] = fine_difference(&m->fine, p->a[i], p->b[i]);
+    return fine_measure_hull(&m->fine, w, (int)p->count, m->fine.check);
+}
+
 static double measure_cover(const pair_frame *f, const ovoid_cover *cover) {
     vec3 w[OVOID_COVER_POINTS];
     if (!cover || cover->point_count > OVOID_COVER_POINTS || cover->triangle_count > 2 * OVOID_COVER_POINTS)
@@ -46,8 +79,8 @@ static double measure_cover(const pair_frame *f, const ovoid_cover *cover) {
     return depth > 0 ? -depth - f->radii : INFINITY;
 }
 
-static ovoid_code check_upper(const pair_frame *f, const ovoid_answer *x, const ovoid_cover *cover,
-                              ovoid_error *error) {
+static ovoid_code check_upper(measure *m, const ovoid_answer *x, const ovoid_cover *cover, ovoid_error *error) {
+    const pair_frame *f = m->frame;
     const ovoid_proof *p = &x->proof;
     double found = INFINITY;
     switch (p->kind) {
@@ -63,6 +96,7 @@ static ovoid_code check_upper(const pair_frame *f, const ovoid_answer *x, const 
     case OVOID_PROOF_COVER: found = measure_cover(f, cover); break;
     }
     if (p->kind == OVOID_PROOF_COVER && !cover) return refuse(error, "a depth without its cover", x->upper, found);
+    if (!(found <= x->upper) && make_fine(m)) found = fmin(found, measure_upper_again(m, p));
     return found <= x->upper ? OVOID_OK : refuse(error, "upper bound", x->upper, found);
 }
 
@@ -107,8 +141,9 @@ static ovoid_code check_answer(const ovoid_pair *pair, const ovoid_answer *x, co
     if (code != OVOID_OK) return code;
     if (!proof_is_sound(&f, &x->proof))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
-    code = check_lower(&f, x, error);
-    if (code == OVOID_OK) code = check_upper(&f, x, cover, error);
+    measure m = {.pair = pair, .frame = &f};
+    code = check_lower(&m, x, error);
+    if (code == OVOID_OK) code = check_upper(&m, x, cover, error);
     return code == OVOID_OK ? check_witness(&f, x, error) : code;
 }
 

@@ -21,6 +21,7 @@ const char *ovoid_stage_get_name(ovoid_stage stage) {
     case OVOID_STAGE_INNER: return "inner";
     case OVOID_STAGE_GJK: return "gjk";
     case OVOID_STAGE_EPA: return "epa";
+    case OVOID_STAGE_REFINE: return "refine";
     }
     return "unknown";
 }

@@ -2,7 +2,7 @@
 #include "query/proof.h"
 
 int proof_is_sound(const pair_frame *f, const ovoid_proof *p) {
-    if (!vec3_is_finite(p->normal) || p->count > OVOID_PROOF_PAIRS) return 0;
+    if (!vec3_is_finite(p->normal) || !vec3_is_finite(p->normal_low) || p->count > OVOID_PROOF_PAIRS) return 0;
     double sum_a = 0, sum_b = 0;
     for (uint32_t i = 0; i < p->count; i++) {
         if (p->a[i] >= f->a->vertex_count || p->b[i] >= f->b->vertex_count) return 0;

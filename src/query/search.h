@@ -24,9 +24,10 @@ typedef struct evidence {
 typedef struct search {
     const pair_frame *frame;
     question ask;
-    double lower, upper; ///< proven; radii subtracted
-    vec3 normal;         ///< unit direction (frame) of the lower bound
-    evidence witness;    ///< POINTS, HULL; of COVER the nearest face
+    double lower, upper;   ///< proven; radii subtracted
+    vec3 normal;           ///< unit direction (frame) of the lower bound
+    vec3 world, world_low; ///< REFINE: the direction of the lower bound, world, as a sum; zero: it is `normal`
+    evidence witness;      ///< POINTS, HULL; of COVER the nearest face
     ovoid_proof_kind kind;
     vec3 inner_a, inner_b; ///< INNER: the common point, A's body frame; INNER_POINTS
     ovoid_stage stage;     ///< the last one that improved a bound

@@ -280,7 +280,7 @@ static void print_tables(const long_run *run) {
     print_names("questions", all.questions, ASK_KINDS, name_question);
     print_names("earlier proof", all.warm, WARM_KINDS, name_warm);
     print_names("statuses", all.statuses, OVOID_OVERLAPPING + 1, name_status);
-    print_names("stages", all.stages, OVOID_STAGE_EPA + 1, name_stage);
+    print_names("stages", all.stages, OVOID_STAGE_REFINE + 1, name_stage);
     print_names("limits", all.limits, OVOID_LIMIT_OPTIONS + 1, name_limit);
     printf("with options: %llu\n", (unsigned long long)all.limited);
     printf("seed %llu, %llu blocks: %llu queries, %llu before the judge, %llu wrong\n", (unsigned long long)run->seed,

@@ -24,7 +24,7 @@ typedef struct counts {
         wide; // the sign not proven; a distance or depth wider than 1e-9 of the size. Both only by default options
     uint64_t pairs, nanoseconds;
     uint64_t questions[ASK_KINDS], warm[WARM_KINDS], limited; // limited: with options of the caller's
-    uint64_t statuses[OVOID_OVERLAPPING + 1], stages[OVOID_STAGE_EPA + 1], limits[OVOID_LIMIT_OPTIONS + 1];
+    uint64_t statuses[OVOID_OVERLAPPING + 1], stages[OVOID_STAGE_REFINE + 1], limits[OVOID_LIMIT_OPTIONS + 1];
     uint64_t iterations;
 } counts;
 
