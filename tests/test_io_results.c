@@ -141,6 +141,7 @@ static void check_same(const ovoid_record *a, const ovoid_record *b) {
     CHECK(is_same_bits(&x->lower, &y->lower, 8) && is_same_bits(&x->upper, &y->upper, 8));
     CHECK(is_same_vector(x->point_a, y->point_a) && is_same_vector(x->point_b, y->point_b));
     CHECK(is_same_vector(x->normal, y->normal) && is_same_vector(x->proof.normal, y->proof.normal));
+    CHECK(is_same_vector(x->proof.normal_low, y->proof.normal_low));
     CHECK_EQ(x->proof.kind, y->proof.kind);
     if (!CHECK(x->proof.count == y->proof.count)) return;
     size_t n = x->proof.count;
@@ -180,6 +181,7 @@ static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
     x->point_b = random_vector(s);
     x->normal = random_vector(s);
     x->proof.normal = random_vector(s);
+    if (random_next(s) % 2) x->proof.normal_low = (ovoid_vec3){1, random_double(s), random_double(s)};
     x->proof.kind = (ovoid_proof_kind)(random_next(s) % (OVOID_PROOF_COVER + 1));
     x->proof.count = (uint32_t)(random_next(s) % (OVOID_PROOF_PAIRS + 1));
     for (int i = 0; i < OVOID_PROOF_PAIRS; i++) {
@@ -291,6 +293,8 @@ static const bad_input bad_lines[] = {
      "\"x\" does not belong"},
     {"kind.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"belief\"}"), OVOID_ERROR_FORMAT, 1, "\"kind\" is not"},
     {"no_normal.jsonl", WITH_PROOF("{\"kind\":\"none\"}"), OVOID_ERROR_FORMAT, 1, "\"normal\" must be three"},
+    {"normal_low.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"normal_low\":[0,0],\"kind\":\"none\"}"), OVOID_ERROR_FORMAT,
+     1, "\"normal_low\" must be three"},
     {"weights.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"points\",\"a\":[1],\"b\":[1],\"weight_a\":[1]}"),
      OVOID_ERROR_FORMAT, 1, "\"proof\" needs"},
     {"lengths.jsonl",

@@ -94,6 +94,15 @@ static void test_numbers_altered(void) {
     ALTER(bad.proof.normal = ((ovoid_vec3){0, 0, 0}), REFUSE);
     ALTER(bad.proof.normal.y = INFINITY, REFUSE);
     ALTER(bad.proof.normal.x = 0x1p-700, ACCEPT); // only its direction counts
+    // The low half is added exactly: any of it across the exact direction loses the exact bound, and only that.
+    ALTER(bad.proof.normal_low.y = 1e-30, REFUSE);
+    ALTER(bad.proof.normal_low.y = 1e-300, REFUSE);
+    ALTER(bad.proof.normal_low.y = 1e-30; bad.lower = nextafter(bad.lower, 0), ACCEPT);
+    ALTER(bad.proof.normal_low.x = 1e-30, ACCEPT);
+    ALTER(bad.proof.normal_low.x = -1, REFUSE);
+    ALTER(bad.proof.normal.y = 1e-18; bad.proof.normal_low.y = -1e-18, ACCEPT);
+    ALTER(bad.proof.normal_low.z = NAN, REFUSE);
+    ALTER(bad.proof.normal_low.z = INFINITY, REFUSE);
     ovoid_shape_destroy(s);
     judge_forget(court);
 }

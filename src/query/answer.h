@@ -17,7 +17,7 @@ static inline void answer_clear(ovoid_answer *out) {
     out->lower = out->upper = 0;
     out->point_a = out->point_b = out->normal = zero;
     ovoid_proof *p = &out->proof;
-    p->normal = p->inner_a = p->inner_b = zero;
+    p->normal = p->normal_low = p->inner_a = p->inner_b = zero;
     p->kind = OVOID_PROOF_NONE;
     p->count = 0;
     for (int i = 0; i < OVOID_PROOF_PAIRS; i++) {
