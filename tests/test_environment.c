@@ -107,6 +107,24 @@ static void ask_depth(void) {
     }
 }
 
+static void ask_batch(void) {
+    ovoid_body bodies[2 * PAIRS];
+    ovoid_couple couples[PAIRS];
+    ovoid_proof proofs[PAIRS];
+    ovoid_answer answers[PAIRS];
+    for (uint32_t i = 0; i < PAIRS; i++) {
+        bodies[2 * i] = (ovoid_body){pairs[i].shape_a, pairs[i].pose_a};
+        bodies[2 * i + 1] = (ovoid_body){pairs[i].shape_b, pairs[i].pose_b};
+        couples[i] = (ovoid_couple){2 * i, 2 * i + 1};
+        proofs[i] = known[i];
+    }
+    ovoid_batch batch = {bodies, 2 * PAIRS, couples, PAIRS, NULL, proofs, NULL, answers};
+    ovoid_code code[4] = {ovoid_collide_batch(&batch, NULL), ovoid_within_batch(&batch, third, NULL),
+                          ovoid_distance_batch(&batch, NULL), ovoid_depth_batch(&batch, NULL)};
+    ADD(code);
+    for (int i = 0; i < PAIRS; i++) add_answer(&answers[i]);
+}
+
 static void ask_bounds(void) {
     for (int i = 0; i < PAIRS; i++) {
         ovoid_answer x = ovoid_bounds(&pairs[i]);
@@ -252,6 +270,7 @@ static const struct {
                  {"within", ask_within},
                  {"distance", ask_distance},
                  {"depth and check", ask_depth},
+                 {"batches", ask_batch},
                  {"bounds", ask_bounds},
                  {"paper", ask_paper},
                  {"from points", ask_points},

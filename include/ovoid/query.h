@@ -148,6 +148,51 @@ OVOID_API ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_option
 OVOID_API ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier,
                                    ovoid_cover *cover);
 
+/** A posed shape. The shape is borrowed. */
+typedef struct ovoid_body {
+    const ovoid_shape *shape;
+    ovoid_pose pose;
+} ovoid_body;
+
+/** Two bodies of a batch, by index. */
+typedef struct ovoid_couple {
+    uint32_t a, b;
+} ovoid_couple;
+
+/** The beginning of an answer, for those who ask about many pairs: what it says, without the evidence. */
+typedef struct ovoid_verdict {
+    ovoid_status status;
+    ovoid_stage stage;
+    ovoid_limit limit;
+    uint32_t iterations;
+    double lower, upper;
+} ovoid_verdict;
+
+/**
+ * One question about many pairs. What is written, of couple i, are the bits that the query of that pair alone would
+ * give. To use several threads, give each a part of the couples and of the arrays beside them; bodies may be shared.
+ */
+typedef struct ovoid_batch {
+    const ovoid_body *bodies;
+    size_t body_count;
+    const ovoid_couple *couples;
+    size_t couple_count;
+    const ovoid_options *options; /**< of all; NULL: the default */
+    ovoid_proof *proofs;     /**< couple_count, NULL if none are kept: each is the couple's earlier proof (all zero:
+                                  none), and is replaced by that of the new answer */
+    ovoid_verdict *verdicts; /**< couple_count, or NULL */
+    ovoid_answer *answers;   /**< couple_count, or NULL */
+} ovoid_batch;
+
+/** ovoid_collide for each couple. OVOID_OK, or INDEX (place: the couple) and nothing is written. */
+OVOID_API ovoid_code ovoid_collide_batch(const ovoid_batch *batch, ovoid_error *error);
+/** ovoid_within for each couple; likewise. */
+OVOID_API ovoid_code ovoid_within_batch(const ovoid_batch *batch, double margin, ovoid_error *error);
+/** ovoid_distance for each couple; likewise. */
+OVOID_API ovoid_code ovoid_distance_batch(const ovoid_batch *batch, ovoid_error *error);
+/** ovoid_depth for each couple, without covers; likewise. */
+OVOID_API ovoid_code ovoid_depth_batch(const ovoid_batch *batch, ovoid_error *error);
+
 /** The bracket from the ellipsoids alone, without a search: smooth in the poses, O(1). */
 OVOID_API ovoid_answer ovoid_bounds(const ovoid_pair *pair);
 

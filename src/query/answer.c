@@ -41,7 +41,7 @@ static ovoid_limit find_limit(const search *s, ovoid_status status) {
     if (s->upper - s->lower <= s->ask.tolerance && !common) return OVOID_LIMIT_NONE;
     if (s->limit != OVOID_LIMIT_NONE) return s->limit;
     if (status == OVOID_UNDECIDED) return OVOID_LIMIT_PRECISION;
-    return s->ask.wants_bracket && s->lower > s->ask.far ? OVOID_LIMIT_CAP : OVOID_LIMIT_ANSWERED;
+    return s->lower > s->ask.far ? s->ask.beyond : OVOID_LIMIT_ANSWERED;
 }
 
 void answer_write(search *s, ovoid_answer *out) {
@@ -111,8 +111,9 @@ static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
 }
 
 // The answer goes to *out: returned by value it would be copied once more.
-static void find_answer(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
+void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
                         ovoid_cover *cover, ovoid_answer *out) {
+    OVOID_ASSERT(pair && pair->shape_a && pair->shape_b);
     ovoid_options options;
     pair_frame frame;
     if (cover) cover->point_count = cover->triangle_count = 0;
@@ -140,11 +141,10 @@ static void find_answer(const ovoid_pair *pair, const ovoid_options *given, ques
 
 ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
                          ovoid_cover *cover) {
-    OVOID_ASSERT(pair && pair->shape_a && pair->shape_b);
     ovoid_answer out;
     environment before = environment_enter();
     environment_hide(ask);
-    find_answer(pair, given, ask, earlier, cover, &out);
+    answer_find_inside(pair, given, ask, earlier, cover, &out);
     environment_hide(out);
     environment_leave(before);
     return out;

@@ -33,4 +33,25 @@ ovoid_answer answer_make_refused(ovoid_limit limit);
 ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
                          ovoid_cover *cover);
 
+/// Likewise inside a public function: the floating-point environment is the default one already.
+void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
+                        ovoid_cover *cover, ovoid_answer *out);
+
+/// The questions.
+static inline question question_make_collide(void) {
+    return (question){.far = 0, .near = -INFINITY, .beyond = OVOID_LIMIT_ANSWERED};
+}
+static inline question question_make_within(double margin) {
+    return (question){.far = margin, .near = margin, .wants_bracket = 1, .beyond = OVOID_LIMIT_ANSWERED};
+}
+static inline question question_make_distance(const ovoid_options *options) {
+    double cap = options && options->cap != 0 ? options->cap : INFINITY;
+    return (question){.far = cap, .near = -INFINITY, .wants_bracket = 1, .beyond = OVOID_LIMIT_CAP};
+}
+static inline question question_make_depth(const ovoid_options *options) {
+    question ask = question_make_distance(options);
+    ask.wants_depth = 1;
+    return ask;
+}
+
 #endif

@@ -2,6 +2,5 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_collide(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
-    question ask = {.far = 0, .near = -INFINITY};
-    return answer_find(pair, options, ask, earlier, NULL);
+    return answer_find(pair, options, question_make_collide(), earlier, NULL);
 }

@@ -3,9 +3,5 @@
 
 ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier,
                          ovoid_cover *cover) {
-    question ask = {.far = options && options->cap != 0 ? options->cap : INFINITY,
-                    .near = -INFINITY,
-                    .wants_depth = 1,
-                    .wants_bracket = 1};
-    return answer_find(pair, options, ask, earlier, cover);
+    return answer_find(pair, options, question_make_depth(options), earlier, cover);
 }

@@ -2,7 +2,5 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
-    question ask = {
-        .far = options && options->cap != 0 ? options->cap : INFINITY, .near = -INFINITY, .wants_bracket = 1};
-    return answer_find(pair, options, ask, earlier, NULL);
+    return answer_find(pair, options, question_make_distance(options), earlier, NULL);
 }

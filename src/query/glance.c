@@ -43,9 +43,7 @@ void glance_write(const glance *g, const pair_frame *f, const question *ask, ovo
     out->stage = g->stage;
     out->lower = g->lower;
     out->upper = distance - f->radii + claim(f);
-    out->limit = out->upper - out->lower <= ask->tolerance ? OVOID_LIMIT_NONE
-                 : ask->wants_bracket                      ? OVOID_LIMIT_CAP
-                                                           : OVOID_LIMIT_ANSWERED;
+    out->limit = out->upper - out->lower <= ask->tolerance ? OVOID_LIMIT_NONE : ask->beyond;
     out->normal = out->proof.normal = g->normal;
     out->proof.kind = OVOID_PROOF_POINTS;
     out->proof.count = 1;

@@ -12,6 +12,7 @@ typedef struct question {
     uint32_t iterations; ///< most iterations of each exact method
     int wants_depth;     ///< a proven overlap does not answer it
     int wants_bracket;   ///< narrowing the bracket is asked, not only the sign
+    ovoid_limit beyond;  ///< what an answer says that stopped at lower > far
 } question;
 
 /// The differences behind an upper bound, with weights.

@@ -4,10 +4,7 @@
 
 ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
                           const ovoid_proof *earlier) {
-    question ask = {.far = margin, .near = margin, .wants_bracket = 1};
-    ovoid_answer out = answer_find(pair, options, ask, earlier, NULL);
-    if (out.limit == OVOID_LIMIT_CAP) out.limit = OVOID_LIMIT_ANSWERED;
-    return out;
+    return answer_find(pair, options, question_make_within(margin), earlier, NULL);
 }
 
 static int is_within(const ovoid_answer *answer, double margin) {
