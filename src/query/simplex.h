@@ -27,6 +27,13 @@ typedef struct simplex {
 /// as far as doubles can tell: then all points are kept, with the weights of the origin.
 vec3 simplex_reduce(simplex *s);
 
+/// Weights of the nearest point of a simplex of 1 to 3 points, which lies inside it: no point may be left out.
+/// Where rounding sees it otherwise, the simplex is reduced.
+void simplex_compute_weights(simplex *s);
+
+/// Weights of the origin, which lies in the tetrahedron.
+void simplex_compute_inside_weights(simplex *s);
+
 /// The nearest point, from the weights.
 vec3 simplex_compute_point(const simplex *s);
 
