@@ -1,128 +1,179 @@
-// bench [--smoke]: nanoseconds per query over random hulls, one thread, no warm start, beside libccd where it was there
-// at build time. A cell is the fastest of five passes over its pairs: what the machine can do, not what it was
-// disturbed in. --smoke: one pass over few pairs, to see that it runs.
-#define _POSIX_C_SOURCE 200809L
-#include "pairs.h"
+// bench: nanoseconds per query of ovoid and its peers, side by side, every answer judged. bench --help says how.
+#include "cells.h"
+#include "field.h"
+#include "ours.h"
+#include "plan.h"
+#include "scale.h"
+#include "stages.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#if defined(OVOID_HAVE_CCD)
-#include "peer.h"
-#endif
+static const char help[] =
+    "bench [OPTION...]: nanoseconds per query of ovoid and its peers over the same pairs\n"
+    "\n"
+    "  --smoke          few pairs, one repetition: does it run\n"
+    "  --workload TEXT  only workloads whose name holds TEXT: hulls, boxes, real, motion, paper, 'gap 1%', ...\n"
+    "  --sizes N,...    vertices of the random hulls (8,16,32,64,128,512,2048)\n"
+    "  --count N        bodies and pairs of each still workload (200)\n"
+    "  --seconds S      time spent on each line of the table (1.5)\n"
+    "  --csv FILE       all numbers\n"
+    "  --svg FILE       a plot of them\n"
+    "  --data FOLDER    where pieces/game_hulls.bin is (OVOID_DATA, else ../shared/data)\n"
+    "  --peer FILE      a module with one more peer (bench/peer.h); may be repeated\n"
+    "  --alone          without the peers built beside it\n"
+    "  --stages         instead: which stage decides how many pairs, at what cost; spheres and boxes beside ellipsoids\n"
+    "  --scale          instead: cost over vertices, pairs and threads; memory and set-up of a shape\n"
+    "  --pairs N        with --scale: most pairs of a batch (1000000)\n"
+    "  --help           this\n"
+    "\n"
+    "A number is the median of the repetitions; CSV has quartiles and minima too. A name with + starts from the last\n"
+    "frame's result, and 'ovoid' with its last proof. '*': some of the answers are wrong, '!': more than 1 %.\n";
 
-/// Runs one query; the number returned keeps the compiler from leaving it out.
-typedef double (*query)(const ovoid_pair *pair);
+typedef struct settings {
+    plan what;
+    effort much;
+    field all;
+    const char *csv, *svg;
+    int alone, stages, scale;
+    uint32_t pairs;
+} settings;
 
-static double run_collide(const ovoid_pair *pair) { return ovoid_collide(pair, NULL, NULL).upper; }
-static double run_distance(const ovoid_pair *pair) { return ovoid_distance(pair, NULL, NULL).upper; }
-static double run_depth(const ovoid_pair *pair) { return ovoid_depth(pair, NULL, NULL, NULL).upper; }
-#if defined(OVOID_HAVE_CCD)
-static double run_peer_gjk(const ovoid_pair *pair) { return peer_collide_gjk(pair); }
-static double run_peer_mpr(const ovoid_pair *pair) { return peer_collide_mpr(pair); }
-#endif
+/// All cells of one workload.
+typedef struct table {
+    const settings *how;
+    cells results;
+} table;
 
-static const struct column {
-    const char *name;
-    query run;
-    int only_overlaps;
-} columns[] = {
-    {"collide", run_collide, 0},  {"distance", run_distance, 0}, {"depth", run_depth, 1},
-#if defined(OVOID_HAVE_CCD)
-    {"ccd gjk", run_peer_gjk, 0}, {"ccd mpr", run_peer_mpr, 0},  {"ccd depth", peer_depth, 1},
-#endif
-};
-enum { COLUMNS = sizeof columns / sizeof columns[0] };
-
-static double get_seconds(void) {
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+static void print_cell(table *t, const cell *c) {
+    // A new head where the family of workloads changes.
+    const cell *last = t->results.count > 1 ? &t->results.items[t->results.count - 2] : NULL;
+    if (!last || strncmp(last->workload, c->workload, 4) != 0) cells_print_head(c);
+    cells_print_row(c, t->results.own);
 }
 
-/// Nanoseconds per query of the fastest pass.
-static double measure(query run, const ovoid_pair *pairs, uint32_t count, int passes) {
-    static volatile double sink;
-    double best = 1e300;
-    for (int pass = 0; pass < passes; pass++) {
-        double start = get_seconds(), sum = 0;
-        for (uint32_t i = 0; i < count; i++) sum += run(&pairs[i]);
-        sink = sum;
-        double took = (get_seconds() - start) / count * 1e9;
-        if (took < best) best = took;
+static int measure_question(table *t, const workload *work, question what, const truth *truths, found *answers,
+                            cell *c) {
+    // Who does not answer the question, or is not warm here, sits out.
+    void *selves[ENTRANTS_MOST];
+    for (uint32_t i = 0; i < c->count; i++) {
+        entrant *e = &c->entrants[i];
+        selves[i] = e->self;
+        if (!(e->who->questions >> what & 1)) e->self = NULL;
+        if (i >= t->results.own) e->warm = work->tracks && (e->who->warm >> what & 1);
     }
-    (void)sink;
-    return best;
+    measure(c->entrants, c->count, work, what, truths, answers, t->how->much);
+    for (uint32_t i = 0; i < c->count; i++) c->entrants[i].self = selves[i];
+    c->what = what;
+    c->unproven = ours_count_unproven(work, what);
+    if (!cells_add(&t->results, c)) return 0;
+    print_cell(t, c);
+    return 1;
 }
 
-/// How many pairs the queries left unproven, and how many the peer got wrong against a proven sign.
-typedef struct faults {
-    uint32_t pairs, unproven, peer_gjk, peer_mpr;
-} faults;
-
-static void count_faults(const ovoid_pair *pairs, uint32_t count, faults *sum) {
-    for (uint32_t i = 0; i < count; i++) {
-        ovoid_answer answer = ovoid_depth(&pairs[i], NULL, NULL, NULL);
-        sum->pairs++;
-        if (answer.status == OVOID_UNDECIDED || answer.limit != OVOID_LIMIT_NONE) sum->unproven++;
-#if defined(OVOID_HAVE_CCD)
-        int overlap = answer.status == OVOID_OVERLAPPING;
-        if (answer.status != OVOID_OVERLAPPING && answer.status != OVOID_SEPARATED) continue;
-        sum->peer_gjk += peer_collide_gjk(&pairs[i]) != overlap;
-        sum->peer_mpr += peer_collide_mpr(&pairs[i]) != overlap;
-#endif
-    }
+static int measure_workload(void *context, const workload *work) {
+    table *t = context;
+    static cell c;
+    c = (cell){.vertices = work->vertices, .pairs = work->pair_count, .tracks = work->tracks};
+    memcpy(c.workload, work->name, sizeof c.workload);
+    truth *truths = truths_create(work, &c.open);
+    found *answers = calloc(work->pair_count, sizeof *answers);
+    c.count = field_enter(&t->how->all, work, c.entrants);
+    int good = truths && answers;
+    for (int what = 0; good && what < QUESTION_COUNT; what++)
+        if (work->questions >> what & 1) good = measure_question(t, work, (question)what, truths, answers, &c);
+    field_leave(c.entrants, c.count);
+    free(answers);
+    free(truths);
+    return good;
 }
 
-/// One line: all queries over pairs of one size and placement. 0 where memory is out.
-static int print_line(ovoid_shape **shapes, uint32_t count, uint32_t vertices, placement place, int passes,
-                      faults *sum) {
-    ovoid_pair *pairs = pairs_create(shapes, count, place);
-    if (!pairs) return 0;
-    printf("%-5s %8u", placement_get_name(place), vertices);
-    for (int i = 0; i < COLUMNS; i++) {
-        if (columns[i].only_overlaps && place != PLACE_OVER)
-            printf(" %10s", "");
-        else
-            printf(" %10.0f", measure(columns[i].run, pairs, count, passes));
+static int run_table(const settings *how) {
+    static table t;
+    t = (table){how, {.own = 2}};
+    printf("ovoid %s, nanoseconds per query, one thread\n%s\n", ovoid_get_version(), get_build());
+    int good = plan_visit(&how->what, measure_workload, &t);
+    if (good) cells_print_faults(&t.results);
+    uint32_t unproven = 0;
+    for (uint32_t i = 0; i < t.results.count; i++) unproven += t.results.items[i].unproven;
+    if (how->csv && !cells_write_csv(&t.results, how->csv)) good = 0;
+    if (how->svg && !cells_write_svg(&t.results, how->svg)) good = 0;
+    cells_destroy(&t.results);
+    return good && unproven == 0;
+}
+
+/// "8,16": 0 where it is not such a list.
+static int read_sizes(const char *text, plan *what) {
+    what->size_count = 0;
+    while (*text) {
+        char *end;
+        unsigned long n = strtoul(text, &end, 10);
+        if (end == text || n < 4 || n > 1000000 || what->size_count == SIZES_MOST || (*end && *end != ',')) return 0;
+        what->sizes[what->size_count++] = (uint32_t)n;
+        text = *end ? end + 1 : end;
     }
-    printf("\n");
-    (void)fflush(stdout);
-    count_faults(pairs, count, sum);
-    free(pairs);
+    return what->size_count > 0;
+}
+
+static int read_count(const char *text, uint32_t *count) {
+    char *end;
+    unsigned long n = strtoul(text, &end, 10);
+    *count = (uint32_t)n;
+    return *text && !*end && n >= 2 && n <= 100000000;
+}
+
+/// An option with its value; 0 where it is none.
+static int read_valued(settings *how, const char *name, const char *value) {
+    if (!value) return 0;
+    if (!strcmp(name, "--workload")) how->what.only = value;
+    else if (!strcmp(name, "--sizes")) return read_sizes(value, &how->what);
+    else if (!strcmp(name, "--count")) return read_count(value, &how->what.count);
+    else if (!strcmp(name, "--seconds")) return (how->much.seconds = strtod(value, NULL)) > 0;
+    else if (!strcmp(name, "--csv")) how->csv = value;
+    else if (!strcmp(name, "--svg")) how->svg = value;
+    else if (!strcmp(name, "--data")) how->what.data = value;
+    else if (!strcmp(name, "--peer")) return field_load(&how->all, value);
+    else if (!strcmp(name, "--pairs")) return read_count(value, &how->pairs);
+    else return 0;
+    return 1;
+}
+
+/// An option alone; 0 where it is none.
+static int read_switch(settings *how, const char *name) {
+    if (!strcmp(name, "--alone")) how->alone = 1;
+    else if (!strcmp(name, "--stages")) how->stages = 1;
+    else if (!strcmp(name, "--scale")) how->scale = 1;
+    else if (!strcmp(name, "--smoke")) {
+        how->what.smoke = 1;
+        how->what.count = 10;
+        how->what.size_count = 2;
+        how->much = (effort){0, 1};
+        how->pairs = 100;
+    } else return 0;
     return 1;
 }
 
 int main(int argc, char **argv) {
-    static const uint32_t sizes[] = {8, 16, 32, 64, 128, 512};
-    int smoke = argc == 2 && strcmp(argv[1], "--smoke") == 0;
-    if (argc > 1 && !smoke) {
-        (void)fprintf(stderr, "usage: bench [--smoke]\n");
-        return 2;
+    const char *data = getenv("OVOID_DATA");
+    settings how = {.what = {{8, 16, 32, 64, 128, 512, 2048}, 7, 200, NULL, data && *data ? data : "../shared/data", 0},
+                    .much = {1.5, 5},
+                    .all = field_make(),
+                    .pairs = 1000000};
+    for (int i = 1; i < argc; i++) {
+        if (!strcmp(argv[i], "--help")) {
+            (void)fputs(help, stdout);
+            return 0;
+        }
+        if (read_switch(&how, argv[i])) continue;
+        if (!read_valued(&how, argv[i], i + 1 < argc ? argv[i + 1] : NULL)) {
+            (void)fprintf(stderr, "bench: not understood: %s\n%s", argv[i], help);
+            return 2;
+        }
+        i++;
     }
-    uint32_t count = smoke ? 10 : 200, size_count = smoke ? 2 : sizeof sizes / sizeof sizes[0];
-
-    // The head: what the numbers are.
-    printf("ovoid %s, nanoseconds per query, %u pairs a line\n%-5s %8s", ovoid_get_version(), count, "place",
-           "vertices");
-    for (int i = 0; i < COLUMNS; i++) printf(" %10s", columns[i].name);
-    printf("\n");
-
-    faults sum = {0, 0, 0, 0};
-    for (uint32_t i = 0; i < size_count; i++) {
-        ovoid_shape **shapes = shapes_create(sizes[i], count);
-        int good = shapes != NULL;
-        for (int place = 0; good && place < PLACE_COUNT; place++)
-            good = print_line(shapes, count, sizes[i], (placement)place, smoke ? 1 : 5, &sum);
-        shapes_destroy(shapes, count);
-        if (!good) return 1;
-    }
-    printf("of %u pairs ovoid left %u unproven", sum.pairs, sum.unproven);
-#if defined(OVOID_HAVE_CCD)
-    printf("; against the proven signs libccd's GJK is wrong on %u, its MPR on %u", sum.peer_gjk, sum.peer_mpr);
-#endif
-    printf("\n");
-    return 0;
+    if (how.stages) return !stages_run(&how.what);
+    if (how.scale) return !scale_run(how.csv, how.svg, how.pairs, how.what.smoke);
+    if (!how.alone) field_load_built(&how.all);
+    return !run_table(&how);
 }

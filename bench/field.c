@@ -1,0 +1,59 @@
+// Peers are shared modules, each with its libraries in a scope of its own: Bullet in double and Bullet in single precision
+// could not be linked into one program.
+#define _GNU_SOURCE
+#include "field.h"
+
+#include "ours.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+
+field field_make(void) { return (field){{&ours}, 1}; }
+
+typedef const peer *const *(*get_peers)(void);
+
+int field_load(field *all, const char *path) {
+    void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!module) {
+        (void)fprintf(stderr, "bench: %s\n", dlerror());
+        return 0;
+    }
+    // C has no conversion of an object pointer to a function pointer; POSIX promises that the bytes will do.
+    void *symbol = dlsym(module, "bench_get_peers");
+    get_peers get = NULL;
+    memcpy(&get, &symbol, sizeof get);
+    if (!get) {
+        (void)fprintf(stderr, "bench: %s exports no bench_get_peers\n", path);
+        return 0;
+    }
+    // One entrant is ovoid's second.
+    for (const peer *const *p = get(); *p && all->count < ENTRANTS_MOST - 1; p++) all->members[all->count++] = *p;
+    return 1;
+}
+
+void field_load_built(field *all) {
+    static const struct {
+        const char *name, *path;
+    } modules[] = {OVOID_BENCH_MODULES{"", ""}};
+    for (size_t i = 0; i + 1 < sizeof modules / sizeof modules[0]; i++) {
+        if (modules[i].path[0])
+            (void)field_load(all, modules[i].path);
+        else
+            printf("without %s: it was not found when this was built\n", modules[i].name);
+    }
+}
+
+uint32_t field_enter(const field *all, const workload *work, entrant *entrants) {
+    uint32_t count = 0;
+    entrants[count++] = (entrant){.who = &ours, .self = ours.create(work)};
+    entrants[count++] = (entrant){.who = &ours, .warm = 1, .self = work->tracks ? ours.create(work) : NULL};
+    for (uint32_t i = 1; i < all->count; i++)
+        entrants[count++] = (entrant){.who = all->members[i], .self = all->members[i]->create(work)};
+    return count;
+}
+
+void field_leave(entrant *entrants, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++)
+        if (entrants[i].self) entrants[i].who->destroy(entrants[i].self);
+}

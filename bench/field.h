@@ -1,0 +1,24 @@
+// The field: ovoid and the peers that could be loaded.
+#ifndef OVOID_BENCH_FIELD_H
+#define OVOID_BENCH_FIELD_H
+
+#include "measure.h"
+
+typedef struct field {
+    const peer *members[ENTRANTS_MOST]; ///< ovoid first
+    uint32_t count;
+} field;
+
+/// ovoid alone.
+field field_make(void);
+/// Adds the peers of a module; 0, with a line on stderr, where it cannot be loaded.
+int field_load(field *all, const char *path);
+/// Adds the modules that were built beside the program; a line for each that was not, its package being absent.
+void field_load_built(field *all);
+
+/// An entrant for each member, ovoid's cold one and, for a moving workload, a warm one; `self` filled. Returns their
+/// number.
+uint32_t field_enter(const field *all, const workload *work, entrant *entrants);
+void field_leave(entrant *entrants, uint32_t count);
+
+#endif
