@@ -26,9 +26,9 @@ check: ## lint, then build and test: gcc, clang, sanitizers
 	@scripts/setup.sh check
 	@JOBS=$(JOBS) scripts/check.sh
 
-bench: ## nanoseconds per query, beside libccd
+bench: ## nanoseconds per query beside libccd, FCL, Bullet and ODE: the table, its CSV and its plot in build/
 	@$(call build,bench,bench)
-	@$(BUILD)/bench/bench
+	@$(BUILD)/bench/bench --csv build/bench.csv --svg build/bench.svg
 
 soak: ## random and hostile pairs before the exact judge, SECONDS=3600; goes on where it stopped
 	@$(call build,build,test_query_trials)

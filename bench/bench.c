@@ -1,4 +1,5 @@
 // bench: nanoseconds per query of ovoid and its peers, side by side, every answer judged. bench --help says how.
+#include "build.h"
 #include "cells.h"
 #include "field.h"
 #include "ours.h"
@@ -23,7 +24,8 @@ static const char help[] =
     "  --data FOLDER    where pieces/game_hulls.bin is (OVOID_DATA, else ../shared/data)\n"
     "  --peer FILE      a module with one more peer (bench/peer.h); may be repeated\n"
     "  --alone          without the peers built beside it\n"
-    "  --stages         instead: which stage decides how many pairs, at what cost; spheres and boxes beside ellipsoids\n"
+    "  --stages         instead: which stage decides how many pairs, at what cost; spheres and boxes beside "
+    "ellipsoids\n"
     "  --scale          instead: cost over vertices, pairs and threads; memory and set-up of a shape\n"
     "  --pairs N        with --scale: most pairs of a batch (1000000)\n"
     "  --help           this\n"
@@ -126,31 +128,45 @@ static int read_count(const char *text, uint32_t *count) {
 /// An option with its value; 0 where it is none.
 static int read_valued(settings *how, const char *name, const char *value) {
     if (!value) return 0;
-    if (!strcmp(name, "--workload")) how->what.only = value;
-    else if (!strcmp(name, "--sizes")) return read_sizes(value, &how->what);
-    else if (!strcmp(name, "--count")) return read_count(value, &how->what.count);
-    else if (!strcmp(name, "--seconds")) return (how->much.seconds = strtod(value, NULL)) > 0;
-    else if (!strcmp(name, "--csv")) how->csv = value;
-    else if (!strcmp(name, "--svg")) how->svg = value;
-    else if (!strcmp(name, "--data")) how->what.data = value;
-    else if (!strcmp(name, "--peer")) return field_load(&how->all, value);
-    else if (!strcmp(name, "--pairs")) return read_count(value, &how->pairs);
-    else return 0;
+    if (!strcmp(name, "--workload"))
+        how->what.only = value;
+    else if (!strcmp(name, "--sizes"))
+        return read_sizes(value, &how->what);
+    else if (!strcmp(name, "--count"))
+        return read_count(value, &how->what.count);
+    else if (!strcmp(name, "--seconds"))
+        return (how->much.seconds = strtod(value, NULL)) > 0;
+    else if (!strcmp(name, "--csv"))
+        how->csv = value;
+    else if (!strcmp(name, "--svg"))
+        how->svg = value;
+    else if (!strcmp(name, "--data"))
+        how->what.data = value;
+    else if (!strcmp(name, "--peer"))
+        return field_load(&how->all, value);
+    else if (!strcmp(name, "--pairs"))
+        return read_count(value, &how->pairs);
+    else
+        return 0;
     return 1;
 }
 
 /// An option alone; 0 where it is none.
 static int read_switch(settings *how, const char *name) {
-    if (!strcmp(name, "--alone")) how->alone = 1;
-    else if (!strcmp(name, "--stages")) how->stages = 1;
-    else if (!strcmp(name, "--scale")) how->scale = 1;
+    if (!strcmp(name, "--alone"))
+        how->alone = 1;
+    else if (!strcmp(name, "--stages"))
+        how->stages = 1;
+    else if (!strcmp(name, "--scale"))
+        how->scale = 1;
     else if (!strcmp(name, "--smoke")) {
         how->what.smoke = 1;
         how->what.count = 10;
         how->what.size_count = 2;
         how->much = (effort){0, 1};
         how->pairs = 100;
-    } else return 0;
+    } else
+        return 0;
     return 1;
 }
 

@@ -21,9 +21,8 @@ static int fill_body(body *b, ovoid_shape *shape) {
         vertices[3 * i + 2] = p.vertices[3 * i + 2] + p.origin.z;
     }
     ovoid_vec3 c = ovoid_shape_get_measures(shape).centroid;
-    *b = (body){shape,         vertices,       p.triangles,
-                p.neighbor_starts, p.neighbors, p.vertex_count,
-                p.triangle_count,  {c.x + p.origin.x, c.y + p.origin.y, c.z + p.origin.z}};
+    *b = (body){shape,       vertices,       p.triangles,      p.neighbor_starts,
+                p.neighbors, p.vertex_count, p.triangle_count, {c.x + p.origin.x, c.y + p.origin.y, c.z + p.origin.z}};
     return 1;
 }
 

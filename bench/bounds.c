@@ -54,8 +54,8 @@ static double fit_box(volumes *v, const ovoid_polytope *p) {
         }
     }
     v->half = (ovoid_vec3){0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1]), 0.5 * (high[2] - low[2])};
-    v->box_center = apply(v->axes, (ovoid_vec3){0.5 * (high[0] + low[0]), 0.5 * (high[1] + low[1]),
-                                                0.5 * (high[2] + low[2])});
+    v->box_center =
+        apply(v->axes, (ovoid_vec3){0.5 * (high[0] + low[0]), 0.5 * (high[1] + low[1]), 0.5 * (high[2] + low[2])});
     return v->half.x * v->half.y * v->half.z;
 }
 
@@ -103,7 +103,8 @@ double bound_by_box(const bounded *pair) {
     }
     // The faces of A, then of B.
     for (int i = 0; i < 3; i++)
-        best = fmax(best, fabs(du[i]) - ha[i] - hb[0] * absolute[i][0] - hb[1] * absolute[i][1] - hb[2] * absolute[i][2]);
+        best =
+            fmax(best, fabs(du[i]) - ha[i] - hb[0] * absolute[i][0] - hb[1] * absolute[i][1] - hb[2] * absolute[i][2]);
     for (int j = 0; j < 3; j++)
         best = fmax(best, fabs(dot(d, v[j])) - hb[j] - ha[0] * absolute[0][j] - ha[1] * absolute[1][j] -
                               ha[2] * absolute[2][j]);

@@ -1,7 +1,7 @@
 // Results as a table and as CSV.
 #include "cells.h"
 
-#include "commit.h"
+#include "build.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -126,19 +126,6 @@ void cells_print_faults(const cells *all) {
         const peer *who = all->items[0].entrants[i].who;
         if (i == 0 || who != all->items[0].entrants[i - 1].who) print_faults_of(all, who);
     }
-}
-
-const char *get_build(void) {
-    static char text[1024], processor[256] = "unknown";
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    char line[256];
-    while (file && fgets(line, sizeof line, file))
-        if (sscanf(line, "model name : %255[^\n]", processor) == 1) break;
-    if (file) (void)fclose(file);
-    (void)snprintf(text, sizeof text, "commit %s, compiler " OVOID_BENCH_COMPILER ", flags " OVOID_BENCH_FLAGS
-                                      ", processor %s",
-                   OVOID_BENCH_COMMIT, processor);
-    return text;
 }
 
 int cells_write_csv(const cells *all, const char *path) {

@@ -41,7 +41,4 @@ int cells_write_csv(const cells *all, const char *path);
 /// A plot: a panel for each question and placement of the random hulls.
 int cells_write_svg(const cells *all, const char *path);
 
-/// "commit ..., compiler ..., flags ..., processor ...".
-const char *get_build(void);
-
 #endif

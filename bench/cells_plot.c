@@ -1,49 +1,79 @@
-// The results over random hulls as a picture: a panel for each question and placement, ovoid beside the fastest peer of
-// each cell, and beside the fastest whose answers there are right.
+// The results over random hulls as a picture: a chart for each question and placement, ovoid beside the fastest peer of
+// each cell, and beside the fastest whose answers there are right. Bands: quartiles.
+#include "build.h"
 #include "cells.h"
-#include "plot.h"
+#include "sheet.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void add_cell(panel *p, const cell *c, uint32_t own) {
-    const entrant *best = cell_find_fastest_own(c, own);
-    if (best) panel_add_point(p, 0, c->vertices, best->time.median);
-    for (int right = 0; right < 2; right++) {
-        const entrant *other = cell_find_fastest_peer(c, own, right);
-        if (other) panel_add_point(p, 1 + (uint32_t)right, c->vertices, other->time.median);
-    }
+enum { LINES = 3, POINTS = 16, PANELS = 16 };
+static const char *const line_names[LINES] = {"ovoid", "fastest peer", "fastest right peer"};
+
+typedef struct panel {
+    char title[64];
+    size_t counts[LINES];
+    double x[LINES][POINTS], y[LINES][POINTS], low[LINES][POINTS], high[LINES][POINTS];
+    ovoid_series series[LINES];
+} panel;
+
+static void add_point(panel *p, int line, uint32_t vertices, const entrant *e) {
+    if (!e || p->counts[line] == POINTS) return;
+    size_t k = p->counts[line]++;
+    p->x[line][k] = vertices;
+    p->y[line][k] = e->time.median;
+    p->low[line][k] = e->time.low;
+    p->high[line][k] = e->time.high;
 }
 
 /// The panel of that title; a new one where there is none; NULL where there is no room.
 static panel *get_panel(panel *panels, uint32_t *count, const char *title) {
     for (uint32_t i = 0; i < *count; i++)
         if (!strcmp(panels[i].title, title)) return &panels[i];
-    if (*count == PANELS_MOST) return NULL;
+    if (*count == PANELS) return NULL;
     panel *p = &panels[(*count)++];
     (void)snprintf(p->title, sizeof p->title, "%s", title);
-    (void)snprintf(p->x_name, sizeof p->x_name, "vertices");
-    (void)snprintf(p->y_name, sizeof p->y_name, "ns");
-    static const char *const names[] = {"ovoid", "fastest peer", "fastest right peer"};
-    for (int i = 0; i < 3; i++) (void)snprintf(p->lines[i].name, sizeof p->lines[i].name, "%s", names[i]);
     return p;
 }
 
+static void add_cell(panel *panels, uint32_t *count, const cell *c, uint32_t own) {
+    char title[64];
+    (void)snprintf(title, sizeof title, "%s, %s", question_get_name(c->what), c->workload + strlen("hulls "));
+    panel *p = get_panel(panels, count, title);
+    if (!p) return;
+    add_point(p, 0, c->vertices, cell_find_fastest_own(c, own));
+    add_point(p, 1, c->vertices, cell_find_fastest_peer(c, own, 0));
+    add_point(p, 2, c->vertices, cell_find_fastest_peer(c, own, 1));
+}
+
+static ovoid_chart make_chart(panel *p) {
+    for (int k = 0; k < LINES; k++)
+        p->series[k] =
+            (ovoid_series){line_names[k], OVOID_SERIES_LINE, p->counts[k], p->x[k], p->y[k], p->low[k], p->high[k]};
+    return (ovoid_chart){.title = p->title,
+                         .x_label = "vertices",
+                         .y_label = "ns",
+                         .series = p->series,
+                         .series_count = LINES,
+                         .x_log = 1,
+                         .y_log = 1,
+                         .width = 400,
+                         .height = 300};
+}
+
 int cells_write_svg(const cells *all, const char *path) {
-    panel *panels = calloc(PANELS_MOST, sizeof *panels);
+    panel *panels = calloc(PANELS, sizeof *panels);
     if (!panels) return 0;
     uint32_t count = 0;
     for (int what = 0; what < QUESTION_COUNT; what++)
-        for (uint32_t i = 0; i < all->count; i++) {
-            const cell *c = &all->items[i];
-            if (c->what != (question)what || what == QUESTION_WITHIN || strncmp(c->workload, "hulls", 5) != 0) continue;
-            char title[64];
-            (void)snprintf(title, sizeof title, "%s, %s", question_get_name(c->what), c->workload + 6);
-            panel *p = get_panel(panels, &count, title);
-            if (p) add_cell(p, c, all->own);
-        }
-    int good = plot_write(path, panels, count, 4, get_build());
+        for (uint32_t i = 0; i < all->count; i++)
+            if (all->items[i].what == (question)what && what != QUESTION_WITHIN &&
+                !strncmp(all->items[i].workload, "hulls ", 6))
+                add_cell(panels, &count, &all->items[i], all->own);
+    ovoid_chart charts[PANELS];
+    for (uint32_t i = 0; i < count; i++) charts[i] = make_chart(&panels[i]);
+    int good = sheet_write(path, charts, count, 4, get_build());
     free(panels);
     return good;
 }

@@ -1,5 +1,5 @@
-// Peers are shared modules, each with its libraries in a scope of its own: Bullet in double and Bullet in single precision
-// could not be linked into one program.
+// Peers are shared modules, each with its libraries in a scope of its own: Bullet in double and Bullet in single
+// precision could not be linked into one program.
 #define _GNU_SOURCE
 #include "field.h"
 
@@ -33,9 +33,7 @@ int field_load(field *all, const char *path) {
 }
 
 void field_load_built(field *all) {
-    static const struct {
-        const char *name, *path;
-    } modules[] = {OVOID_BENCH_MODULES{"", ""}};
+    static const struct { const char *name, *path; } modules[] = {OVOID_BENCH_MODULES{"", ""}};
     for (size_t i = 0; i + 1 < sizeof modules / sizeof modules[0]; i++) {
         if (modules[i].path[0])
             (void)field_load(all, modules[i].path);

@@ -1,4 +1,5 @@
-// Judging by proven brackets. Where a bracket itself is not proven, it is taken as unbounded, so nobody is blamed by it.
+// Judging by proven brackets. Where a bracket itself is not proven, it is taken as unbounded, so nobody is blamed by
+// it.
 #include "judge.h"
 
 #include <math.h>
@@ -26,8 +27,7 @@ static double get_outside(const ovoid_shape *shape, const ovoid_pose *pose, ovoi
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_vec3 local = sub(ovoid_pose_compute_local_point(pose, point), p.origin);
     double most = -INFINITY;
-    for (uint32_t f = 0; f < p.facet_count; f++)
-        most = fmax(most, dot(p.planes[f].normal, local) - p.planes[f].offset);
+    for (uint32_t f = 0; f < p.facet_count; f++) most = fmax(most, dot(p.planes[f].normal, local) - p.planes[f].offset);
     return most;
 }
 
@@ -75,7 +75,8 @@ static void judge_one(const workload *work, const placed *p, const truth *t, que
     sum->asked++;
     sum->none += answer->yes == VERDICT_NONE;
     sum->sign += answer->yes != VERDICT_NONE && answer->yes != right;
-    int measured = (what == QUESTION_DISTANCE && right == VERDICT_NO) || (what == QUESTION_DEPTH && right == VERDICT_YES);
+    int measured =
+        (what == QUESTION_DISTANCE && right == VERDICT_NO) || (what == QUESTION_DEPTH && right == VERDICT_YES);
     if (!measured || answer->yes != right || !(t->upper - t->lower <= 1e-7 * p->size)) return;
     double exact = fabs(t->upper), miss = fabs(answer->distance - exact), width = t->upper - t->lower;
     sum->off += !(miss <= (what == QUESTION_DEPTH ? 1e-3 : 1e-4) * exact + width);

@@ -20,8 +20,8 @@ typedef struct faults {
     uint32_t sign;     ///< yes for no, or no for yes
     uint32_t off;      ///< distance off by more than 1e-4 of itself, depth by more than 1e-3 of itself
     uint32_t off_fine; ///< off by more than 1e-6 of itself
-    uint32_t points;   ///< distance: a point off its body, or not that distance apart, by 1e-4 of the size; depth: moving
-                       ///< along the normal by the true depth, and 1e-3 more, leaves more than that of overlap
+    uint32_t points; ///< distance: a point off its body, or not that distance apart, by 1e-4 of the size; depth: moving
+                     ///< along the normal by the true depth, and 1e-3 more, leaves more than that of overlap
 } faults;
 
 faults faults_count(const workload *work, const truth *truths, question what, const found *answers);

@@ -60,8 +60,7 @@ static void run(void *state, question what, int warm, found *answers) {
     self *s = state;
     for (uint32_t i = 0; i < s->count; i++) {
         ovoid_proof *proof = warm ? &s->proofs[i % s->tracks] : NULL;
-        ovoid_answer answer =
-            ours_get_answer(&s->pairs[i], what, s->margins[i], warm && i >= s->tracks ? proof : NULL);
+        ovoid_answer answer = ours_get_answer(&s->pairs[i], what, s->margins[i], warm && i >= s->tracks ? proof : NULL);
         if (proof) *proof = answer.proof;
         double distance = what == QUESTION_DEPTH ? -answer.upper : answer.upper;
         answers[i] = (found){read_verdict(&answer, what, s->margins[i]), distance, answer.point_a, answer.point_b,
@@ -69,13 +68,7 @@ static void run(void *state, question what, int warm, found *answers) {
     }
 }
 
-const peer ours = {"ovoid",
-                   (1u << QUESTION_COUNT) - 1,
-                   (1u << QUESTION_COUNT) - 1,
-                   0,
-                   create,
-                   run,
-                   destroy};
+const peer ours = {"ovoid", (1u << QUESTION_COUNT) - 1, (1u << QUESTION_COUNT) - 1, 0, create, run, destroy};
 
 uint32_t ours_count_unproven(const workload *work, question what) {
     static ovoid_cover cover;

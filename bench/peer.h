@@ -34,7 +34,8 @@ typedef enum question {
     QUESTION_COUNT
 } question;
 
-/// Pairs to be asked about. With tracks > 0, pair i is one frame after pair i - tracks: the same bodies, moved a little.
+/// Pairs to be asked about. With tracks > 0, pair i is one frame after pair i - tracks: the same bodies, moved a
+/// little.
 typedef struct workload {
     char name[40];
     uint32_t vertices; ///< of each body; 0 where they differ

@@ -1,7 +1,7 @@
 // Bullet, hull shapes with all margins 0; built once in double and once in single precision, as Debian ships both. Two
 // contestants each: epa2, the calls of btGjkEpaSolver2, and pair, its collision pipeline's btGjkPairDetector with
-// btGjkEpaPenetrationDepthSolver. Warm start: the pair detector's cached separating axis. Yes or no by the pair detector: a
-// point pair at a distance below 0 (or the margin), with its own cut-off of what is farther.
+// btGjkEpaPenetrationDepthSolver. Warm start: the pair detector's cached separating axis. Yes or no by the pair
+// detector: a point pair at a distance below 0 (or the margin), with its own cut-off of what is farther.
 #include "peer.h"
 
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>

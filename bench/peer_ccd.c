@@ -1,6 +1,6 @@
 // libccd (D. Fiser): booleans by GJK and by MPR (XenoCollide), depth by GJK and EPA and by MPR. Its user writes the
-// supports: here a loop over a contiguous array in the body's frame, rotated by a matrix. Tolerances are its own. Within a
-// margin: both supports are enlarged by half of it. It measures no distance and has no warm start.
+// supports: here a loop over a contiguous array in the body's frame, rotated by a matrix. Tolerances are its own.
+// Within a margin: both supports are enlarged by half of it. It measures no distance and has no warm start.
 #include "peer.h"
 #include "rotation.h"
 
@@ -99,7 +99,8 @@ static void run(self *s, question what, intersect boolean, penetrate depth, foun
             ccd_real_t d = 0;
             ccd_vec3_t n = {{0, 0, 0}}, at = {{0, 0, 0}};
             int apart = depth(a, b, &settings, &d, &n, &at);
-            answers[i] = (found){.yes = apart ? VERDICT_NO : VERDICT_YES, .distance = d, .normal = {n.v[0], n.v[1], n.v[2]}};
+            answers[i] =
+                (found){.yes = apart ? VERDICT_NO : VERDICT_YES, .distance = d, .normal = {n.v[0], n.v[1], n.v[2]}};
         } else {
             a->radius = b->radius = what == QUESTION_WITHIN ? 0.5 * s->margins[i] : 0;
             answers[i] = (found){.yes = boolean(a, b, &settings) ? VERDICT_YES : VERDICT_NO};

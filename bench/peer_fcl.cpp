@@ -1,7 +1,7 @@
 // FCL in double: Convex shapes, which climb from vertex to vertex above 32 of them, through fcl::collide and
-// fcl::distance. Two contestants, one for each of its solvers, its own (fcl) and that over libccd (fcl-ccd, its default).
-// Its own solver gives the depth a minus sign, which is forgiven, and the normal in the frame of A, which is not.
-// Warm start: the cached guess, which its own solver has for collide. Within a margin: its distance, compared.
+// fcl::distance. Two contestants, one for each of its solvers, its own (fcl) and that over libccd (fcl-ccd, its
+// default). Its own solver gives the depth a minus sign, which is forgiven, and the normal in the frame of A, which is
+// not. Warm start: the cached guess, which its own solver has for collide. Within a margin: its distance, compared.
 #include "peer.h"
 
 #include <fcl/fcl.h>
@@ -53,8 +53,8 @@ void *create(const workload *work, fcl::GJKSolverType solver) {
     for (uint32_t i = 0; i < work->body_count; i++) s->shapes.push_back(make_shape(work->bodies[i]));
     for (uint32_t i = 0; i < work->pair_count; i++) {
         const placed &p = work->pairs[i];
-        s->pairs.push_back({s->shapes[p.a].get(), s->shapes[p.b].get(), make_transform(p.pose_a),
-                            make_transform(p.pose_b), p.margin});
+        s->pairs.push_back(
+            {s->shapes[p.a].get(), s->shapes[p.b].get(), make_transform(p.pose_a), make_transform(p.pose_b), p.margin});
     }
     s->guesses.resize(work->tracks ? work->tracks : work->pair_count);
     return s;
@@ -103,8 +103,9 @@ void run(void *state, question what, int warm, found *answers) {
     for (size_t i = 0; i < s->pairs.size(); i++) {
         bool collides = what == QUESTION_COLLIDE || what == QUESTION_DEPTH;
         fcl::Vector3d *guess = warm ? &s->guesses[i % s->guesses.size()] : nullptr;
-        answers[i] = collides ? ask_collide(s->pairs[i], s->solver, what == QUESTION_DEPTH, guess, i >= s->guesses.size())
-                              : ask_distance(s->pairs[i], s->solver, what == QUESTION_WITHIN);
+        answers[i] = collides
+                         ? ask_collide(s->pairs[i], s->solver, what == QUESTION_DEPTH, guess, i >= s->guesses.size())
+                         : ask_distance(s->pairs[i], s->solver, what == QUESTION_WITHIN);
     }
 }
 

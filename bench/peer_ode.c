@@ -1,6 +1,6 @@
 // ODE (R. Smith): dCollide of two convex geometries, which Debian's build hands to libccd's MPR, after its own bounding
-// boxes. It wants the origin inside a body, so bodies are moved there. Boolean: one contact asked for, its least; depth and normal: the deepest of eight contacts. It measures no
-// distance and has no warm start.
+// boxes. It wants the origin inside a body, so bodies are moved there. Boolean: one contact asked for, its least; depth
+// and normal: the deepest of eight contacts. It measures no distance and has no warm start.
 #include "peer.h"
 #include "rotation.h"
 
@@ -31,7 +31,7 @@ static int fill_hull(hull *h, const body *b) {
     for (uint32_t t = 0; t < b->triangle_count; t++) {
         const uint32_t *c = b->triangles + (size_t)3 * t;
         const dReal *p = h->points + (size_t)3 * c[0], *q = h->points + (size_t)3 * c[1],
-                     *r = h->points + (size_t)3 * c[2];
+                    *r = h->points + (size_t)3 * c[2];
         double u[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
         double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
         double norm = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

@@ -74,8 +74,8 @@ static int visit_paper(const visit *v) {
     int good = all.count > 0;
     for (uint32_t i = 0; good && i < 3; i++)
         if (is_wanted(v->what, names[i]))
-            good = hand_on(v, workload_create_passing(names[i], &all, 1 + 10 * i, 10 + 10 * i,
-                                                      v->what->smoke ? 3 : 60));
+            good =
+                hand_on(v, workload_create_passing(names[i], &all, 1 + 10 * i, 10 + 10 * i, v->what->smoke ? 3 : 60));
     bodies_destroy(&all);
     return good;
 }

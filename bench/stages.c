@@ -1,9 +1,10 @@
-// Which stage decides how many pairs, and what such a pair costs in all: pairs are grouped by the stage that decided, and
-// each group is timed. A stage that decides few and makes the later ones dearer does not pay for itself. Then, on the same
-// pairs, a sphere, an oriented box and an ellipsoid as the first stage, each timed alone.
+// Which stage decides how many pairs, and what such a pair costs in all: pairs are grouped by the stage that decided,
+// and each group is timed. A stage that decides few and makes the later ones dearer does not pay for itself. Then, on
+// the same pairs, a sphere, an oriented box and an ellipsoid as the first stage, each timed alone.
 #include "stages.h"
 
 #include "bounds.h"
+#include "build.h"
 #include "cells.h"
 #include "ours.h"
 
@@ -81,8 +82,8 @@ static double time_bound(bound compute, const bounded *pairs, uint32_t count) {
     return timing_make(samples, PASSES).median;
 }
 
-/// Of the pairs whose bounding spheres do not part them by more than the limit, the share that each volume parts; and of
-/// those that neither sphere nor box parts, the ellipsoids' share.
+/// Of the pairs whose bounding spheres do not part them by more than the limit, the share that each volume parts; and
+/// of those that neither sphere nor box parts, the ellipsoids' share.
 static void print_bounds_for(const workload *work, const bounded *pairs, int within) {
     uint32_t by[3] = {0}, beyond = 0, left = 0;
     for (uint32_t i = 0; i < work->pair_count; i++) {
@@ -149,9 +150,10 @@ int stages_run(const plan *what) {
     for (int s = OVOID_STAGE_SPHERE; s < STAGE_COUNT; s++) printf(" %13s", ovoid_stage_get_name((ovoid_stage)s));
     printf("\n");
     if (!plan_visit(what, visit_stages, NULL)) return 0;
-    printf("\nFirst stages alone: share of pairs parted by the sphere, by sphere or box, by sphere or ellipsoid; by the "
-           "ellipsoid of those left by both others; nanoseconds each\n");
-    printf("%-16s %5s %-9s %8s %8s %8s %14s %8s %8s %8s\n", "", "n", "question", "sphere", "box", "ellips.", "beyond both",
-           "sphere", "box", "ellips.");
+    printf(
+        "\nFirst stages alone: share of pairs parted by the sphere, by sphere or box, by sphere or ellipsoid; by the "
+        "ellipsoid of those left by both others; nanoseconds each\n");
+    printf("%-16s %5s %-9s %8s %8s %8s %14s %8s %8s %8s\n", "", "n", "question", "sphere", "box", "ellips.",
+           "beyond both", "sphere", "box", "ellips.");
     return plan_visit(what, visit_bounds, NULL);
 }

@@ -53,8 +53,8 @@ static void put_at(const workload *work, placed *p, ovoid_vec3 u, double t) {
     ovoid_vec3 centers[2];
     for (int i = 0; i < 2; i++) {
         const ovoid_shape *shape = work->bodies[i ? p->b : p->a].shape;
-        ovoid_vec3 local = add_scaled(ovoid_shape_get_measures(shape).sphere_center,
-                                      ovoid_shape_get_polytope(shape).origin, 1);
+        ovoid_vec3 local =
+            add_scaled(ovoid_shape_get_measures(shape).sphere_center, ovoid_shape_get_polytope(shape).origin, 1);
         ovoid_pose pose = {{0, 0, 0}, i ? p->pose_b.rotation : p->pose_a.rotation};
         centers[i] = ovoid_pose_compute_point(&pose, local);
     }

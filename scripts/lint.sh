@@ -4,7 +4,7 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
-sources() { find src include cli judge bench examples fuzz tests -name '*.[ch]' -print; }
+sources() { find src include cli judge bench examples fuzz tests \( -name '*.[ch]' -o -name '*.cpp' \) -print; }
 
 run_step() {
     case $1 in

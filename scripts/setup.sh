@@ -10,7 +10,7 @@ packages_of() {
         build) echo build-essential cmake pkgconf libjansson-dev libassimp-dev libgmp-dev ;;
         check) packages_of build && echo libqhull-dev libcgal-demo clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen ;;
         demo) packages_of build && echo libcgal-demo ;;
-        bench) packages_of build && echo libccd-dev ;;
+        bench) packages_of build && echo libccd-dev libfcl-dev libbullet-dev libode-dev libqhull-dev ;;
         docs) echo cmake build-essential doxygen ;;
         *) echo "setup: no such job: $job" >&2 && return 1 ;;
         esac

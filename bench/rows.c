@@ -1,0 +1,91 @@
+// Measured curves as lines of text, CSV and a sheet of charts, all axes logarithmic.
+#include "rows.h"
+
+#include "build.h"
+#include "sheet.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rows_add(rows *all, row one) {
+    if (all->count == ROWS_MOST) return;
+    const row *last = all->count ? &all->items[all->count - 1] : NULL;
+    if (!last || strcmp(last->chart, one.chart) != 0)
+        printf("\n%s\n%12s  %-24s %14s %14s %14s\n", one.chart, one.x_name, "", one.y_name, "quartile 1", "quartile 3");
+    printf("%12.0f  %-24s %14.6g %14.6g %14.6g\n", one.x, one.line, one.y.median, one.y.low, one.y.high);
+    (void)fflush(stdout);
+    all->items[all->count++] = one;
+}
+
+int rows_write_csv(const rows *all, const char *path) {
+    FILE *file = fopen(path, "w");
+    if (!file) return 0;
+    (void)fprintf(file, "# %s\nchart,line,x_name,x,y_name,median,quartile1,quartile3,minimum\n", get_build());
+    for (uint32_t i = 0; i < all->count; i++) {
+        const row *r = &all->items[i];
+        (void)fprintf(file, "%s,%s,%s,%.0f,%s,%.6g,%.6g,%.6g,%.6g\n", r->chart, r->line, r->x_name, r->x, r->y_name,
+                      r->y.median, r->y.low, r->y.high, r->y.least);
+    }
+    return fclose(file) == 0;
+}
+
+enum { LINES = 12, POINTS = 24, CHARTS = 12 };
+
+typedef struct curve {
+    size_t count;
+    double x[POINTS], y[POINTS], low[POINTS], high[POINTS];
+} curve;
+
+typedef struct page {
+    curve curves[CHARTS][LINES];
+    ovoid_series series[CHARTS][LINES];
+    ovoid_chart charts[CHARTS];
+    uint32_t count;
+} page;
+
+/// The number of the chart of that name, made where there is none.
+static uint32_t get_chart(page *p, const row *r) {
+    for (uint32_t i = 0; i < p->count; i++)
+        if (!strcmp(p->charts[i].title, r->chart)) return i;
+    p->charts[p->count] = (ovoid_chart){.title = r->chart,
+                                        .x_label = r->x_name,
+                                        .y_label = r->y_name,
+                                        .series = p->series[p->count],
+                                        .x_log = 1,
+                                        .y_log = 1,
+                                        .width = 480,
+                                        .height = 360};
+    return p->count++;
+}
+
+static size_t get_line(page *p, uint32_t chart, const row *r) {
+    ovoid_chart *c = &p->charts[chart];
+    for (size_t k = 0; k < c->series_count; k++)
+        if (!strcmp(p->series[chart][k].name, r->line)) return k;
+    curve *v = &p->curves[chart][c->series_count];
+    p->series[chart][c->series_count] =
+        (ovoid_series){.name = r->line, .x = v->x, .y = v->y, .low = v->low, .high = v->high};
+    return c->series_count++;
+}
+
+static void add_to_page(page *p, const row *r) {
+    uint32_t chart = get_chart(p, r);
+    size_t line = get_line(p, chart, r), k = p->curves[chart][line].count;
+    if (k == POINTS) return;
+    curve *v = &p->curves[chart][line];
+    v->x[k] = r->x;
+    v->y[k] = r->y.median;
+    v->low[k] = r->y.low;
+    v->high[k] = r->y.high;
+    p->series[chart][line].count = ++v->count;
+}
+
+int rows_write_svg(const rows *all, const char *path) {
+    page *p = calloc(1, sizeof *p);
+    if (!p) return 0;
+    for (uint32_t i = 0; i < all->count; i++) add_to_page(p, &all->items[i]);
+    int good = sheet_write(path, p->charts, p->count, 3, get_build());
+    free(p);
+    return good;
+}
