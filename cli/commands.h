@@ -4,6 +4,7 @@
 
 #include "args.h"
 
-extern const cli_command command_fit, command_distance, command_batch, command_check, command_verify, command_view;
+extern const cli_command command_fit, command_distance, command_batch, command_check, command_verify, command_view,
+    command_paper;
 
 #endif

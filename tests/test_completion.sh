@@ -28,7 +28,7 @@ expect() {
     fi
 }
 
-expect 'fit distance batch check verify view help --help --version' ''
+expect 'fit distance batch check verify view paper help --help --version' ''
 expect 'verify view' v
 expect '--help' --h
 expect 'distance' help di

@@ -43,6 +43,8 @@ expect program cli/a.c '#include "query/gjk.h"\n' \
     '1: a program includes <ovoid/...> and its own headers only: query/gjk.h'
 expect program_absent bench/a.c '#include "gjk.h"\n' \
     '1: a program includes <ovoid/...> and its own headers only: gjk.h'
+expect program_up cli/a.c '#include "../src/query/gjk.h"\n' \
+    '1: a program includes <ovoid/...> and its own headers only: ../src/query/gjk.h'
 expect own cli/a.c '#include "args.h"\n#include <ovoid/ovoid.h>\n#include <stdio.h>\n' ''
 expect long src/query/a.c "$(awk 'BEGIN { for (i = 0; i < 801; i++) printf "int a%d;\\n", i }')" '801: over 800 lines'
 rm -rf "$folder"

@@ -1,0 +1,256 @@
+// The page is built in memory and written at the end; each file appears whole or not at all.
+#include "paper/report.h"
+
+#include "finish.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+struct report {
+    char *folder;
+    FILE *page; ///< into `text`
+    char *text;
+    size_t size;
+    ovoid_code code; ///< the first failure
+    ovoid_error error;
+};
+
+struct report_table {
+    report *report;
+    char *name, *text;
+    size_t size;
+    FILE *rows; ///< into `text`
+};
+
+static const char head[] =
+    "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>The paper's experiment, repeated</title>\n"
+    "<style>\nbody{font:16px/1.5 Georgia,serif;color:#222;max-width:760px;margin:2em auto;padding:0 1em}\n"
+    "h1,h2,th,td,figcaption{font-family:Helvetica,Arial,sans-serif}\nh1{font-size:1.7em}h2{font-size:1.25em;margin-top:"
+    "2.2em;"
+    "border-bottom:1px solid #ccc}\nfigure{margin:1.2em 0}svg{max-width:100%;height:auto}\n"
+    "table{border-collapse:collapse;font-size:13px;margin:1em 0}td,th{padding:2px 9px;text-align:right;"
+    "border-bottom:1px solid #ddd}td:first-child,th:first-child{text-align:left}\n"
+    "dl{display:grid;grid-template-columns:7em 1fr;gap:.2em 1em;background:#f6f6f2;padding:.7em 1em;font-size:15px}\n"
+    "dt{font-weight:bold}dd{margin:0}p.more{font-size:13px;color:#666;margin-top:-.6em}\n"
+    "@media print{body{font-size:11px;max-width:none}h2,figure,dl,tr{break-inside:avoid}h2{break-after:avoid}}\n"
+    "</style></head><body>\n";
+
+// Keeps the first failure: what, where, why.
+static void fail(report *r, ovoid_code code, const char *what, const char *why) {
+    if (r->code) return;
+    r->code = code;
+    r->error = (ovoid_error){.code = code, .place = -1};
+    snprintf(r->error.message, sizeof r->error.message, "%.120s: %.120s", what, why);
+}
+
+static void fail_memory(report *r) { fail(r, OVOID_ERROR_MEMORY, "the report", "out of memory"); }
+
+report *report_create(const char *folder) {
+    report *r = calloc(1, sizeof *r);
+    if (!r) return NULL;
+    r->folder = strdup(folder);
+    r->page = open_memstream(&r->text, &r->size);
+    if (!r->folder || !r->page) {
+        fail_memory(r);
+        return r;
+    }
+    if (mkdir(folder, 0777) && errno != EEXIST) fail(r, OVOID_ERROR_FILE, folder, strerror(errno));
+    fputs(head, r->page);
+    return r;
+}
+
+int report_is_good(const report *r) { return !r->code; }
+
+char *report_make_path(const report *r, const char *name, const char *extension) {
+    size_t size = strlen(r->folder) + strlen(name) + strlen(extension) + 3;
+    char *path = malloc(size);
+    if (path) snprintf(path, size, "%s/%s.%s", r->folder, name, extension);
+    return path;
+}
+
+static void write_escaped(FILE *file, const char *text, size_t length) {
+    for (size_t i = 0; i < length; i++) switch (text[i]) {
+        case '&': fputs("&amp;", file); break;
+        case '<': fputs("&lt;", file); break;
+        case '>': fputs("&gt;", file); break;
+        default: fputc(text[i], file);
+        }
+}
+
+void report_add_section(report *r, const char *title) {
+    if (r->code) return;
+    // The first one is the page's own title.
+    int level = r->page && ftell(r->page) > (long)sizeof head ? 2 : 1;
+    fprintf(r->page, "<h%d>", level);
+    write_escaped(r->page, title, strlen(title));
+    fprintf(r->page, "</h%d>\n", level);
+}
+
+void report_add_text(report *r, const char *format, ...) {
+    if (r->code) return;
+    va_list arguments;
+    va_start(arguments, format);
+    char text[4096];
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    for (const char *at = text; *at;) {
+        const char *end = strstr(at, "\n\n");
+        size_t length = end ? (size_t)(end - at) : strlen(at);
+        fputs("<p>", r->page);
+        write_escaped(r->page, at, length);
+        fputs("</p>\n", r->page);
+        at += length + (end ? 2 : 0);
+    }
+}
+
+void report_add_finding(report *r, report_finding finding) {
+    if (r->code) return;
+    const char *const names[] = {"Paper", "Here", "Why"};
+    const char *const texts[] = {finding.paper, finding.measured, finding.why};
+    fputs("<dl>", r->page);
+    for (int i = 0; i < 3; i++) {
+        if (!texts[i]) continue;
+        fprintf(r->page, "<dt>%s</dt><dd>", names[i]);
+        write_escaped(r->page, texts[i], strlen(texts[i]));
+        fputs("</dd>", r->page);
+    }
+    fputs("</dl>\n", r->page);
+}
+
+// A file of the folder with that text.
+static void write_file(report *r, const char *name, const char *extension, const char *text, size_t size) {
+    char *path = report_make_path(r, name, extension);
+    if (!path) {
+        fail_memory(r);
+        return;
+    }
+    ovoid_error error = {0};
+    ovoid_output *output = ovoid_output_create(path, &error);
+    finish_set_unfinished(output ? ovoid_output_get_temporary(output) : NULL);
+    if (output) fwrite(text, 1, size, ovoid_output_get_file(output));
+    if ((!output || ovoid_output_commit(output, &error)) && !r->code) {
+        r->code = error.code;
+        r->error = error;
+    }
+    finish_set_unfinished(NULL);
+    ovoid_output_destroy(output);
+    free(path);
+}
+
+void report_add_chart(report *r, const char *name, const ovoid_chart *chart) {
+    if (r->code) return;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    ovoid_code code = file ? ovoid_chart_write_svg(file, chart) : OVOID_ERROR_MEMORY;
+    if (file && fclose(file)) code = OVOID_ERROR_MEMORY;
+    if (code)
+        fail_memory(r);
+    else {
+        write_file(r, name, "svg", text, size);
+        fputs("<figure>\n", r->page);
+        fwrite(text, 1, size, r->page);
+        fputs("</figure>\n", r->page);
+    }
+    free(text);
+}
+
+void report_add_picture(report *r, const char *name, const char *caption) {
+    char *path = r->code ? NULL : report_make_path(r, name, "svg");
+    FILE *file = path ? fopen(path, "rb") : NULL;
+    if (file) {
+        char block[4096];
+        fputs("<figure>\n", r->page);
+        // The declaration before the element is for files.
+        int is_open = 0;
+        while (fgets(block, sizeof block, file)) {
+            const char *from = is_open ? block : strstr(block, "<svg");
+            if (from) fputs(from, r->page);
+            is_open = is_open || from;
+        }
+        fputs("<figcaption>", r->page);
+        write_escaped(r->page, caption, strlen(caption));
+        fputs("</figcaption></figure>\n", r->page);
+        fclose(file);
+    } else if (!r->code)
+        fail(r, OVOID_ERROR_FILE, name, "the picture cannot be read again");
+    free(path);
+}
+
+// ---- tables
+
+report_table *report_begin_table(report *r, const char *name, const char *header) {
+    report_table *t = calloc(1, sizeof *t);
+    if (t) {
+        *t = (report_table){.report = r, .name = strdup(name)};
+        t->rows = open_memstream(&t->text, &t->size);
+    }
+    if (!t || !t->name || !t->rows) {
+        fail_memory(r);
+        if (t) free(t->name);
+        free(t);
+        return NULL;
+    }
+    fprintf(t->rows, "%s\n", header);
+    return t;
+}
+
+void report_add_row(report_table *t, const char *format, ...) {
+    if (!t) return;
+    va_list arguments;
+    va_start(arguments, format);
+    vfprintf(t->rows, format, arguments);
+    va_end(arguments);
+    fputc('\n', t->rows);
+}
+
+// A line of CSV as a row of the page.
+static const char *add_html_row(FILE *page, const char *line, const char *tag) {
+    fputs("<tr>", page);
+    for (const char *at = line;; at++) {
+        size_t length = strcspn(at, ",\n");
+        fprintf(page, "<%s>", tag);
+        write_escaped(page, at, length);
+        fprintf(page, "</%s>", tag);
+        at += length;
+        if (*at == ',') continue;
+        fputs("</tr>\n", page);
+        return *at ? at + 1 : at;
+    }
+}
+
+void report_end_table(report_table *t, size_t in_page) {
+    if (!t) return;
+    report *r = t->report;
+    if (fclose(t->rows)) fail_memory(r);
+    if (!r->code) {
+        write_file(r, t->name, "csv", t->text, t->size);
+        if (in_page) {
+            fputs("<table>", r->page);
+            const char *at = add_html_row(r->page, t->text, "th");
+            for (; in_page && *at; in_page--) at = add_html_row(r->page, at, "td");
+            fputs("</table>\n", r->page);
+        }
+        fprintf(r->page, "<p class=\"more\">Numbers: %s.csv</p>\n", t->name);
+    }
+    free(t->name);
+    free(t->text);
+    free(t);
+}
+
+ovoid_code report_finish(report *r, ovoid_error *error) {
+    if (r->page) {
+        fputs("</body></html>\n", r->page);
+        if (fclose(r->page)) fail_memory(r);
+    }
+    if (!r->code) write_file(r, "report", "html", r->text, r->size);
+    ovoid_code code = r->code;
+    if (error && code) *error = r->error;
+    free(r->text);
+    free(r->folder);
+    free(r);
+    return code;
+}
