@@ -81,13 +81,20 @@ typedef struct hearing {
     double d; // a distance near the true one, for margins and caps
 } hearing;
 
-static void compare_truth(const hearing *h, const ovoid_answer *x, const char *query) {
+// Distances above this part of the size have a proven sign: ten times what docs/query.md says of overlaps.
+#define RESOLVED 1e-26
+
+// must_decide: asked for the sign, with the default options.
+static void compare_truth(const hearing *h, const ovoid_answer *x, const char *query, int must_decide) {
     const judge_truth *truth = h->hints->truth;
     if (!truth) return;
     h->t->compared++;
     if (!(x->lower <= truth->high && truth->low <= x->upper)) trial_fail(h->t, h->pair, x, query, "not the truth");
     if ((x->status == OVOID_SEPARATED && truth->sign <= 0) || (x->status == OVOID_OVERLAPPING && truth->sign >= 0))
         trial_fail(h->t, h->pair, x, query, "not the truth's sign");
+    double known = fmin(fabs(truth->low), fabs(truth->high)) - pair_unresolved(h->pair);
+    if (must_decide && truth->sign != 0 && known > RESOLVED * pair_size(h->pair) && x->status == OVOID_TOUCHING)
+        trial_fail(h->t, h->pair, x, query, "touching, though the distance is not that small");
 }
 
 // Counts the answer and judges it. full: the whole signed distance was asked for (depth), or the distance.
@@ -103,7 +110,6 @@ static void judge_answer(const hearing *h, const ovoid_answer *x, const ovoid_co
     else if (x->stage != OVOID_STAGE_NONE && full && x->status != OVOID_UNDECIDED &&
              judge_check_points(trial_judge, h->pair, x, &error) != OVOID_OK)
         trial_fail(h->t, h->pair, x, query, error.message);
-    compare_truth(h, x, query);
 }
 
 void trial_count_sign(tally *t, const ovoid_pair *pair, const ovoid_answer *x, const char *query) {
@@ -124,16 +130,19 @@ void trial_count_width(tally *t, const ovoid_pair *pair, const ovoid_answer *x) 
 
 static void hear_depth(const hearing *h, const ovoid_answer *x, const ovoid_cover *cover, const char *query) {
     judge_answer(h, x, cover, query, 1);
+    compare_truth(h, x, query, 1);
     trial_count_sign(h->t, h->pair, x, query);
     trial_count_width(h->t, h->pair, x);
 }
 static void hear_distance(const hearing *h, const ovoid_answer *x, const char *query) {
     judge_answer(h, x, NULL, query, x->status == OVOID_SEPARATED);
+    compare_truth(h, x, query, 1);
     trial_count_sign(h->t, h->pair, x, query);
     if (x->status == OVOID_SEPARATED) trial_count_width(h->t, h->pair, x);
 }
 static void hear_collide(const hearing *h, const ovoid_answer *x, const char *query) {
     judge_answer(h, x, NULL, query, 0);
+    compare_truth(h, x, query, 1);
     trial_count_sign(h->t, h->pair, x, query);
 }
 
@@ -172,6 +181,7 @@ static void ask_within(const hearing *h, const ovoid_proof *earlier) {
     const char *query = earlier ? "within, warm" : "within";
     ovoid_answer x = ovoid_within(h->pair, margin, NULL, earlier);
     judge_answer(h, &x, NULL, query, 0);
+    compare_truth(h, &x, query, 0);
     int within = ovoid_answer_is_within(&x, margin);
     if (within == 1 && !(x.upper <= margin)) trial_fail(h->t, h->pair, &x, query, "says within and is not");
     if (within == 0 && !(x.lower > margin)) trial_fail(h->t, h->pair, &x, query, "says farther and is not");
@@ -195,6 +205,7 @@ static void ask_limited(const hearing *h) {
     ovoid_answer x = random_next(h->state) % 2 ? ovoid_depth(h->pair, &options, NULL, &cover)
                                                : (cover.point_count = 0, ovoid_distance(h->pair, &options, NULL));
     judge_answer(h, &x, &cover, "with options", 0);
+    compare_truth(h, &x, "with options", 0);
     judge_set_touching(trial_judge, 1e-6);
     if (x.limit == OVOID_LIMIT_CAP && !(x.lower > options.cap))
         trial_fail(h->t, h->pair, &x, "cap", "not proven farther");
@@ -228,6 +239,7 @@ ovoid_proof trial_ask(tally *t, const ovoid_pair *pair, const trial_hints *hints
     hear_distance(&h, &distance, "distance");
     ovoid_answer bounds = ovoid_bounds(pair);
     judge_answer(&h, &bounds, NULL, "bounds", 0);
+    compare_truth(&h, &bounds, "bounds", 0);
     h.d = distance.upper;
     ask_within(&h, NULL);
     ask_limited(&h);

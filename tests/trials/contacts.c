@@ -28,22 +28,33 @@ static void move_both(trial *t, uint64_t *r) {
 }
 
 // None, of any order from far below rounding to 1000, or a depth of up to a hundredth.
-static double choose_gap(uint64_t *r) {
+static double choose_gap(uint64_t *r, double least) {
     switch (random_next(r) % 4) {
     case 0: return 0;
-    case 1: return -log_uniform(r, 1e-15, 1e-2);
-    case 2: return log_uniform(r, 1e-15, 1e3);
-    default: return log_uniform(r, 1e-15, 1e-9);
+    case 1: return -log_uniform(r, least, 1e-2);
+    case 2: return log_uniform(r, least, 1e3);
+    default: return log_uniform(r, least, 1e-9);
     }
 }
 
-// B above A by the gap: A reaches up to top, B down to -bottom. The nearest points are one above the other as long as B
-// is aside by no more than 1/4 and deeper than all else for gaps above -1/50.
-static trial stack(uint64_t *r, ovoid_shape *a, double top, ovoid_shape *b, double bottom) {
-    trial t = {a, b, {{0, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}, 1, 0};
+// Bodies of 8 corners, to stand on one another: A reaches up to z = top, B down to z = -bottom.
+typedef struct stacked {
+    double a[24], b[24], top, bottom;
+} stacked;
+
+// B above A by the gap. The nearest points are one above the other as long as B is aside by no more than 1/4 and deeper
+// than all else for gaps above -1/50. One time in two both contacts are at height 0 in their own frames: the gap is
+// then the position, and may be as small as 1e-40.
+static trial stack(uint64_t *r, stacked s) {
+    if (random_next(r) % 2) {
+        for (int i = 2; i < 24; i += 3) s.a[i] -= s.top, s.b[i] += s.bottom;
+        s.top = s.bottom = 0;
+    }
+    trial t = {
+        make_points(s.a, 8, 0), make_points(s.b, 8, 0), {{0, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}, 1, 0};
     const ovoid_quat turns[] = {{1, 0, 0, 0}, {4, 0, 0, 1}, {3, 0, 0, -1}, {7, 0, 0, 2}};
     t.pose_b.rotation = turns[random_next(r) % 4];
-    double height = top + bottom, z = height + choose_gap(r);
+    double height = s.top + s.bottom, z = height + choose_gap(r, height > 0 ? 1e-15 : 1e-40);
     double x = random_uniform(r, -0.25, 0.25), y = random_uniform(r, -0.25, 0.25);
     t.pose_b.position = (ovoid_vec3){x, y, z};
     t.d = z - height;
@@ -51,27 +62,42 @@ static trial stack(uint64_t *r, ovoid_shape *a, double top, ovoid_shape *b, doub
     return t;
 }
 
+// The corners of a box of these half sizes.
+static void set_corners(double *xyz, double x, double y, double z) {
+    for (int i = 0; i < 8; i++) {
+        xyz[3 * i] = i & 1 ? x : -x;
+        xyz[3 * i + 1] = i & 2 ? y : -y;
+        xyz[3 * i + 2] = i & 4 ? z : -z;
+    }
+}
+
 trial make_face_to_face(uint64_t *r) {
-    double a = 0.5 * (double)(1 + random_next(r) % 4), b = 0.5 * (double)(1 + random_next(r) % 4);
-    return stack(r, make_box(1, 2, a, 0), a, make_box(1, 1, b, 0), b);
+    stacked s = {.top = 0.5 * (double)(1 + random_next(r) % 4)};
+    s.bottom = 0.5 * (double)(1 + random_next(r) % 4);
+    set_corners(s.a, 1, 2, s.top);
+    set_corners(s.b, 1, 1, s.bottom);
+    return stack(r, s);
 }
 
 // Square bars on their edges: that of A along x at z = 2, that of B along y at z = -2, before it is turned.
 trial make_edge_to_edge(uint64_t *r) {
-    static const double a[] = {-2, 0, 2, 2, 0, 2, -2, 0, -2, 2, 0, -2, -2, 2, 0, 2, 2, 0, -2, -2, 0, 2, -2, 0};
-    static const double b[] = {0, -2, 2, 0, 2, 2, 0, -2, -2, 0, 2, -2, 2, -2, 0, 2, 2, 0, -2, -2, 0, -2, 2, 0};
-    return stack(r, make_points(a, 8, 0), 2, make_points(b, 8, 0), 2);
+    static const stacked bars = {{-2, 0, 2, 2, 0, 2, -2, 0, -2, 2, 0, -2, -2, 2, 0, 2, 2, 0, -2, -2, 0, 2, -2, 0},
+                                 {0, -2, 2, 0, 2, 2, 0, -2, -2, 0, 2, -2, 2, -2, 0, 2, 2, 0, -2, -2, 0, -2, 2, 0},
+                                 2,
+                                 2};
+    return stack(r, bars);
 }
 
 // A cube of edges (2, 4, 4), (4, 2, -4), (4, -4, 2) on a corner, over a plate.
 trial make_vertex_to_face(uint64_t *r) {
     static const double edges[3][3] = {{1, 2, 2}, {2, 1, -2}, {2, -2, 1}};
-    double xyz[24];
+    stacked s = {.top = 0.5, .bottom = 5};
+    set_corners(s.a, 8, 8, s.top);
     for (int i = 0; i < 8; i++)
         for (int k = 0; k < 3; k++)
-            xyz[3 * i + k] =
+            s.b[3 * i + k] =
                 (i & 1 ? 1 : -1) * edges[0][k] + (i & 2 ? 1 : -1) * edges[1][k] + (i & 4 ? 1 : -1) * edges[2][k];
-    return stack(r, make_box(8, 8, 0.5, 0), 0.5, make_points(xyz, 8, 0), 5);
+    return stack(r, s);
 }
 
 // Axis-aligned boxes of the same axes at small distances: parallel faces and edges, nothing unique.

@@ -24,6 +24,8 @@ void print_answer(FILE *f, const ovoid_answer *x) {
             ovoid_status_get_name(x->status), ovoid_stage_get_name(x->stage), ovoid_limit_get_name(x->limit),
             x->iterations, x->lower, x->upper, ovoid_proof_kind_get_name(x->proof.kind), x->proof.count, x->normal.x,
             x->normal.y, x->normal.z);
+    fprintf(f, "  low part of the normal %.17g %.17g %.17g\n", x->proof.normal_low.x, x->proof.normal_low.y,
+            x->proof.normal_low.z);
     fprintf(f, "  points %.17g %.17g %.17g, %.17g %.17g %.17g\n", x->point_a.x, x->point_a.y, x->point_a.z,
             x->point_b.x, x->point_b.y, x->point_b.z);
 }
