@@ -93,7 +93,7 @@ static int measure_workload(void *context, const workload *work) {
 
 static int run_table(const settings *how) {
     static table t;
-    t = (table){how, {.own = 2}};
+    t = (table){how, {.own = FIELD_OWN}};
     printf("ovoid %s, nanoseconds per query, one thread\n%s\n", ovoid_get_version(), get_build());
     int good = plan_visit(&how->what, measure_workload, &t);
     if (good) cells_print_faults(&t.results);

@@ -41,11 +41,12 @@ const entrant *cell_find_fastest_peer(const cell *c, uint32_t own, int right) {
     return best;
 }
 
-const entrant *cell_find_fastest_own(const cell *c, uint32_t own) {
+const entrant *cell_find_fastest_own(const cell *c, uint32_t own, const char *name) {
     const entrant *best = NULL;
     for (uint32_t i = 0; i < own && i < c->count; i++) {
         const entrant *e = &c->entrants[i];
-        if (e->time.median > 0 && (!best || e->time.median < best->time.median)) best = e;
+        if (strcmp(e->who->name, name) != 0 || !(e->time.median > 0)) continue;
+        if (!best || e->time.median < best->time.median) best = e;
     }
     return best;
 }
@@ -59,15 +60,17 @@ static const char *get_entrant_name(const entrant *e) {
 void cells_print_head(const cell *c) {
     printf("\n%-16s %5s %-8s", "", "n", "question");
     for (uint32_t i = 0; i < c->count; i++) printf(" %9s", get_entrant_name(&c->entrants[i]));
-    printf("  %-20s %s\n", "fastest peer / ovoid", "fastest right peer / ovoid");
+    printf("  %-23s  %s\n", "fastest peer / us, batch", "fastest right peer");
 }
 
+/// The peer, and its time over that of ovoid's calls and of its batches.
 static void print_ratio(const cell *c, uint32_t own, const entrant *other) {
-    const entrant *best = cell_find_fastest_own(c, own);
-    if (!best || !other)
-        printf("  %-20s", "-");
+    const entrant *single = cell_find_fastest_own(c, own, "ovoid"), *batch = cell_find_fastest_own(c, own, "batch");
+    if (!other || !single || !batch)
+        printf("  %-23s", "-");
     else
-        printf("  %-9s %10.2f", get_entrant_name(other), other->time.median / best->time.median);
+        printf("  %-9s %6.2f %6.2f", get_entrant_name(other), other->time.median / single->time.median,
+               other->time.median / batch->time.median);
 }
 
 void cells_print_row(const cell *c, uint32_t own) {

@@ -28,8 +28,8 @@ const char *question_get_name(question what);
 
 /// The fastest entrant that is not ovoid's; right: of those with at most 1 % wrong answers. NULL: none.
 const entrant *cell_find_fastest_peer(const cell *c, uint32_t own, int right);
-/// ovoid's fastest.
-const entrant *cell_find_fastest_own(const cell *c, uint32_t own);
+/// ovoid's fastest of the first `own` entrants that bears the name.
+const entrant *cell_find_fastest_own(const cell *c, uint32_t own, const char *name);
 
 /// The terminal's table: a head for the entrants, a row for a cell, and the sums of faults.
 void cells_print_head(const cell *c);

@@ -42,7 +42,7 @@ static void add_cell(panel *panels, uint32_t *count, const cell *c, uint32_t own
     (void)snprintf(title, sizeof title, "%s, %s", question_get_name(c->what), c->workload + strlen("hulls "));
     panel *p = get_panel(panels, count, title);
     if (!p) return;
-    add_point(p, 0, c->vertices, cell_find_fastest_own(c, own));
+    add_point(p, 0, c->vertices, cell_find_fastest_own(c, own, "ovoid"));
     add_point(p, 1, c->vertices, cell_find_fastest_peer(c, own, 0));
     add_point(p, 2, c->vertices, cell_find_fastest_peer(c, own, 1));
 }

@@ -27,8 +27,8 @@ int field_load(field *all, const char *path) {
         (void)fprintf(stderr, "bench: %s exports no bench_get_peers\n", path);
         return 0;
     }
-    // One entrant is ovoid's second.
-    for (const peer *const *p = get(); *p && all->count < ENTRANTS_MOST - 1; p++) all->members[all->count++] = *p;
+    // Two more entrants are ovoid's.
+    for (const peer *const *p = get(); *p && all->count < ENTRANTS_MOST - 2; p++) all->members[all->count++] = *p;
     return 1;
 }
 
@@ -46,6 +46,8 @@ uint32_t field_enter(const field *all, const workload *work, entrant *entrants) 
     uint32_t count = 0;
     entrants[count++] = (entrant){.who = &ours, .self = ours.create(work)};
     entrants[count++] = (entrant){.who = &ours, .warm = 1, .self = work->tracks ? ours.create(work) : NULL};
+    entrants[count++] =
+        (entrant){.who = &ours_in_batches, .warm = work->tracks > 0, .self = ours_in_batches.create(work)};
     for (uint32_t i = 1; i < all->count; i++)
         entrants[count++] = (entrant){.who = all->members[i], .self = all->members[i]->create(work)};
     return count;

@@ -2,6 +2,7 @@
 #include "ours.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct self {
     ovoid_pair *pairs;
@@ -69,6 +70,106 @@ static void run(void *state, question what, int warm, found *answers) {
 }
 
 const peer ours = {"ovoid", (1u << QUESTION_COUNT) - 1, (1u << QUESTION_COUNT) - 1, 0, create, run, destroy};
+
+// --- in batches
+
+typedef struct batch_self {
+    ovoid_batch batch; ///< of all couples
+    double margin;
+    uint32_t frame; ///< couples that are asked about at once
+} batch_self;
+
+static void destroy_batch(void *state) {
+    batch_self *s = state;
+    if (!s) return;
+    free((void *)s->batch.bodies);
+    free((void *)s->batch.couples);
+    free(s->batch.proofs);
+    free(s->batch.verdicts);
+    free(s->batch.answers);
+    free(s);
+}
+
+static void *create_batch(const workload *work) {
+    batch_self *s = calloc(1, sizeof *s);
+    if (!s) return NULL;
+    size_t count = work->pair_count;
+    s->frame = work->tracks ? work->tracks : work->pair_count;
+    s->margin = work->pairs[0].margin;
+    ovoid_body *posed = malloc(sizeof *posed * 2 * count);
+    ovoid_couple *couples = malloc(sizeof *couples * count);
+    s->batch = (ovoid_batch){.bodies = posed,
+                             .body_count = 2 * count,
+                             .couples = couples,
+                             .couple_count = s->frame,
+                             .proofs = calloc(s->frame, sizeof(ovoid_proof)),
+                             .verdicts = malloc(sizeof(ovoid_verdict) * s->frame),
+                             .answers = malloc(sizeof(ovoid_answer) * s->frame)};
+    if (!posed || !couples || !s->batch.proofs || !s->batch.verdicts || !s->batch.answers) {
+        destroy_batch(s);
+        return NULL;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        ovoid_pair pair = workload_get_pair(work, i);
+        posed[2 * i] = (ovoid_body){pair.shape_a, pair.pose_a};
+        posed[2 * i + 1] = (ovoid_body){pair.shape_b, pair.pose_b};
+        couples[i] = (ovoid_couple){2 * i, 2 * i + 1};
+    }
+    return s;
+}
+
+static ovoid_code ask_batch(const ovoid_batch *batch, question what, double margin) {
+    switch (what) {
+    case QUESTION_COLLIDE: return ovoid_collide_batch(batch, NULL);
+    case QUESTION_WITHIN: return ovoid_within_batch(batch, margin, NULL);
+    case QUESTION_DISTANCE: return ovoid_distance_batch(batch, NULL);
+    default: return ovoid_depth_batch(batch, NULL);
+    }
+}
+
+static void read_verdicts(const batch_self *s, question what, found *answers) {
+    for (uint32_t i = 0; i < s->frame; i++) {
+        const ovoid_verdict *v = &s->batch.verdicts[i];
+        ovoid_answer answer = {.status = v->status, .lower = v->lower, .upper = v->upper};
+        answers[i] = (found){.yes = read_verdict(&answer, what, s->margin)};
+    }
+}
+
+static void read_answers(const batch_self *s, question what, found *answers) {
+    for (uint32_t i = 0; i < s->frame; i++) {
+        const ovoid_answer *a = &s->batch.answers[i];
+        answers[i] = (found){read_verdict(a, what, s->margin), what == QUESTION_DEPTH ? -a->upper : a->upper,
+                             a->point_a, a->point_b, a->normal};
+    }
+}
+
+/// Yes or no: verdicts are asked for, else answers. A frame is a batch, and its proofs go into the next one's.
+static void run_batch(void *state, question what, int warm, found *answers) {
+    batch_self *s = state;
+    int yes_or_no = what == QUESTION_COLLIDE || what == QUESTION_WITHIN;
+    ovoid_batch batch = s->batch;
+    if (yes_or_no)
+        batch.answers = NULL;
+    else
+        batch.verdicts = NULL;
+    if (warm)
+        memset(batch.proofs, 0, sizeof *batch.proofs * s->frame);
+    else
+        batch.proofs = NULL;
+    for (size_t at = 0; at < batch.body_count / 2; at += s->frame) {
+        batch.couples = s->batch.couples + at;
+        int good = ask_batch(&batch, what, s->margin) == OVOID_OK;
+        if (!good)
+            for (uint32_t i = 0; i < s->frame; i++) answers[at + i] = (found){.yes = VERDICT_NONE};
+        else if (yes_or_no)
+            read_verdicts(s, what, answers + at);
+        else
+            read_answers(s, what, answers + at);
+    }
+}
+
+const peer ours_in_batches = {
+    "batch", (1u << QUESTION_COUNT) - 1, (1u << QUESTION_COUNT) - 1, 0, create_batch, run_batch, destroy_batch};
 
 uint32_t ours_count_unproven(const workload *work, question what) {
     static ovoid_cover cover;

@@ -6,6 +6,8 @@
 
 /// One query at a time; warm: with the proof of the last frame.
 extern const peer ours;
+/// All still pairs, or a frame of the moving ones, in one call; warm: with the proofs of the last frame.
+extern const peer ours_in_batches;
 
 /// ovoid's answer to the pair.
 ovoid_answer ours_get_answer(const ovoid_pair *pair, question what, double margin, const ovoid_proof *earlier);

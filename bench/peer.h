@@ -23,7 +23,7 @@ typedef struct body {
 typedef struct placed {
     uint32_t a, b;
     ovoid_pose pose_a, pose_b;
-    double size, margin; ///< margin: of QUESTION_WITHIN
+    double size, margin; ///< margin: of QUESTION_WITHIN, one for all pairs of a workload
 } placed;
 
 typedef enum question {

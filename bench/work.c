@@ -78,11 +78,17 @@ static double put_with_gap(const workload *work, placed *p, ovoid_vec3 u, double
     return high;
 }
 
+/// One margin for all, 5 % of the mean size.
+static void set_margins(placed *pairs, uint32_t count) {
+    double sum = 0;
+    for (uint32_t i = 0; i < count; i++) sum += pairs[i].size;
+    for (uint32_t i = 0; i < count; i++) pairs[i].margin = 0.05 * sum / count;
+}
+
 /// A pair in random orientations somewhere within ten sizes of the world's origin.
 static placed make_placed(const workload *work, uint32_t a, uint32_t b, uint64_t *state) {
     placed p = {.a = a, .b = b};
     p.size = body_get_reach(&work->bodies[a]) + body_get_reach(&work->bodies[b]);
-    p.margin = 0.05 * p.size;
     p.pose_a.rotation = random_rotation(state);
     p.pose_b.rotation = random_rotation(state);
     ovoid_vec3 u = random_unit(state);
@@ -105,6 +111,7 @@ workload workload_create_still(const char *name, const bodies *all, placement pl
         pairs[i] = make_placed(&work, i, (i + 1) % all->count, &state);
         (void)put_as(&work, &pairs[i], random_unit(&state), place);
     }
+    if (pairs) set_margins(pairs, work.pair_count);
     work.questions = get_questions(place);
     return work;
 }
@@ -149,6 +156,7 @@ workload workload_create_moving(const char *name, const bodies *all, placement p
         pairs[i] = make_placed(&work, i, (i + 1) % all->count, &state);
         move_around(&work, pairs + i, place, &state);
     }
+    if (pairs) set_margins(pairs, work.pair_count);
     work.questions = get_questions(place);
     return work;
 }
@@ -175,6 +183,7 @@ workload workload_create_passing(const char *name, const bodies *all, uint32_t f
                 add_scaled(nearest.pose_b.position, way, 0.01 * nearest.size * ((double)k - frames / 2.0) / n);
         }
     }
+    if (pairs) set_margins(pairs, work.pair_count);
     work.questions = 1u << QUESTION_COLLIDE | 1u << QUESTION_WITHIN | 1u << QUESTION_DISTANCE;
     return work;
 }
