@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check bench soak trust docs install format lint clean
+.PHONY: all help demo check bits bench soak trust docs install format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -25,6 +25,10 @@ demo: ## fit real meshes, pose them, prove every pair, draw the picture
 check: ## lint, then build and test: gcc, clang, sanitizers
 	@scripts/setup.sh check
 	@JOBS=$(JOBS) scripts/check.sh
+
+bits: ## the same bits from 14 builds by gcc and clang, some minutes
+	@scripts/setup.sh check
+	@scripts/bits.sh
 
 bench: ## nanoseconds per query beside libccd, FCL, Bullet and ODE: the table, its CSV and its plot in build/
 	@$(call build,bench,bench)

@@ -15,6 +15,18 @@ add_library(ovoid_flags INTERFACE)
 target_compile_options(ovoid_flags INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow
   $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes;-Wmissing-prototypes> $<$<BOOL:${OVOID_WERROR}>:-Werror>)
 
+# Where the flags allow fused operations at all (-march=native), gcc 12 makes them of alternating sums and differences of
+# products (a b + c, a b - c side by side) though contraction is off; that pattern is of its vectorizer of straight-line
+# code. scripts/bits.sh looks for what is left.
+include(CheckCSourceCompiles)
+check_c_source_compiles("#if !defined(__FMA__) && !defined(__FMA4__) && !defined(__AVX512F__)
+  #error none
+  #endif
+  int main(void) { return 0; }" OVOID_HAS_FUSED)
+if(OVOID_HAS_FUSED AND CMAKE_C_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(ovoid_flags INTERFACE -fno-tree-slp-vectorize)
+endif()
+
 if(OVOID_SANITIZE)
   add_compile_options(-fsanitize=${OVOID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${OVOID_SANITIZE})

@@ -60,6 +60,7 @@ static void ask_pose(void) {
 static void add_answer(const ovoid_answer *x) {
     add(x, offsetof(ovoid_answer, proof));
     ADD(x->proof.normal);
+    ADD(x->proof.normal_low);
     ADD(x->proof.kind);
     add(x->proof.a, x->proof.count * sizeof *x->proof.a);
     add(x->proof.b, x->proof.count * sizeof *x->proof.b);
