@@ -3,6 +3,7 @@
 #ifndef OVOID_FUZZ_H
 #define OVOID_FUZZ_H
 
+#include <ovoid/io.h>
 #include <ovoid/ovoid.h>
 
 #include <stdint.h>
@@ -29,5 +30,8 @@ const char *fuzz_write_file(const char *name, const uint8_t *data, size_t size);
 
 /// Reads the bytes as a mesh file of this name and walks over all that was read.
 int fuzz_mesh(const char *name, const uint8_t *data, size_t size);
+
+/// Looks at all of a part: finite points, indices in range.
+void fuzz_walk_part(ovoid_mesh_part part);
 
 #endif

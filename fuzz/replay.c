@@ -1,12 +1,13 @@
-// replay FOLDER: runs a fuzz target over every file of its corpus, and over up to 256 truncated lengths and as many
-// single changed bytes of each, so that the ordinary tests keep what fuzzing found. Each run counts as passed; a target
-// that is not content aborts.
+// replay FOLDER [VARIANTS]: runs a fuzz target over every file of its corpus, and over up to 256 (VARIANTS) truncated
+// lengths and as many single changed bytes of each, so that the ordinary tests keep what fuzzing found. Each run counts
+// as passed; a target that is not content aborts.
 #define _POSIX_C_SOURCE 200809L
 #include "fuzz.h"
 
 #include <dirent.h>
 
 static long passed;
+static size_t variants = 256;
 
 static void run(const uint8_t *data, size_t size) {
     // A copy of just that size, so that a sanitizer sees the first byte read past the end.
@@ -20,7 +21,7 @@ static void run(const uint8_t *data, size_t size) {
 
 static void run_variants(uint8_t *data, size_t size) {
     run(data, size);
-    size_t step = size / 256 + 1;
+    size_t step = size / variants + 1;
     for (size_t length = 0; length < size; length += step) run(data, length);
     for (size_t place = 0; place < size; place += step) {
         uint8_t kept = data[place];
@@ -40,8 +41,9 @@ static void run_file(const char *path) {
 }
 
 int main(int argc, char **argv) {
-    DIR *folder = argc == 2 ? opendir(argv[1]) : NULL;
-    if (!folder) {
+    DIR *folder = argc >= 2 ? opendir(argv[1]) : NULL;
+    if (argc == 3) variants = strtoul(argv[2], NULL, 10);
+    if (!folder || !variants) {
         printf("0 passed, 1 failed: no folder\n");
         return 1;
     }

@@ -99,6 +99,8 @@ ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
     return OVOID_OK;
 }
 
+static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
+
 // The default tolerance of the queries, in parts of the pair's size.
 #define ASKED 1e-9
 
@@ -107,6 +109,8 @@ ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
 ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
     if (!(isfinite(answer->lower) && isfinite(answer->upper)))
         return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
+    if (!is_finite(answer->point_a) || !is_finite(answer->point_b) || !is_finite(answer->normal))
+        return judge_reject(error, OVOID_ERROR_NOT_FINITE, "a witness point or the normal is not finite");
     pool *p = context->p;
     size_t mark = pool_get_mark(p);
     posed s = posed_make(p, pair);

@@ -2,7 +2,8 @@
 # fuzz.sh SECONDS [TARGET...]: runs the fuzz targets one after another, each for that long, on one processor. Seeds: the
 # corpus in fuzz/corpus, and where Debian's assimp-testmodels are installed its small files of the target's formats. What is
 # found on the way is kept in build/fuzz/grown, so that the next run goes on from there; what breaks a promise is written
-# to build/fuzz/found. One line a target in build/fuzz/fuzz.log: runs, seconds, edges covered, inputs kept, failures.
+# to build/fuzz/found. One line a target in build/fuzz/fuzz.log: runs, seconds of the clock and of processor time, edges
+# covered, inputs kept, failures.
 # Exit 1 where a target failed.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -49,6 +50,12 @@ collect_seeds() {
 # read_stat NAME LOG: the number after it.
 read_stat() { sed -n "s/^stat::$1: *//p" "$2" | tail -n 1; }
 
+# Seconds of processor time of all that ran so far.
+read_cpu() {
+    times >"$build/times"
+    awk 'NR == 2 { split($1, u, /[ms]/); split($2, s, /[ms]/); printf "%d", 60 * (u[1] + s[1]) + u[2] + s[2] }' "$build/times"
+}
+
 failed=0
 for target; do
     seeds=$build/seeds/$target grown=$build/grown/$target found=$build/found log=$build/fuzz_$target.log
@@ -56,14 +63,17 @@ for target; do
     collect_seeds "$target" "$seeds"
     before=$(find "$found" -name "$target-*" | wc -l)
     start=$(date +%s)
+    read_cpu >"$build/cpu_before"
     "$build/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=65536 \
         -print_final_stats=1 -artifact_prefix="$found/$target-" "$grown" "fuzz/corpus/$target" "$seeds" >"$log" 2>&1
     code=$?
+    read_cpu >"$build/cpu_after"
     crashes=$(($(find "$found" -name "$target-*" | wc -l) - before))
     [ $code -eq 0 ] && [ $crashes -eq 0 ] || failed=1
     edges=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
-    printf '%s  %-8s %9s runs %5s s %6s edges %6s inputs %3s failures (exit %s)\n' "$(date -u +%FT%TZ)" "$target" \
-        "$(read_stat number_of_executed_units "$log")" $(($(date +%s) - start)) "$edges" \
+    printf '%s  %-8s %9s runs %5s s %5s s cpu %6s edges %6s inputs %3s failures (exit %s)\n' "$(date -u +%FT%TZ)" \
+        "$target" "$(read_stat number_of_executed_units "$log")" $(($(date +%s) - start)) \
+        $(($(cat "$build/cpu_after") - $(cat "$build/cpu_before"))) "$edges" \
         "$(find "$grown" -type f | wc -l)" "$crashes" "$code" | tee -a "$build/fuzz.log"
 done
 [ $failed -eq 0 ]

@@ -1,0 +1,108 @@
+// Truth: the judge (docs/proofs.md), which knows nothing of how an answer was found; and for small bodies its brute
+// force, which knows nothing of proofs.
+#include "ask.h"
+
+#ifdef OVOID_HAVE_JUDGE
+
+#include <judge.h>
+
+/// What the answers to a pair have said so far: d is in [lower, upper].
+typedef struct findings {
+    const ovoid_pair *pair;
+    judge *judge;
+    double lower, upper;
+} findings;
+
+// An answer and, where the full default question was asked, its points.
+static void check(findings *f, const ovoid_answer *x, const ovoid_cover *cover, int is_full) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_code code = judge_check_answer(f->judge, f->pair, x, cover, &error);
+    if (code == OVOID_OK) code = ovoid_answer_check(f->pair, x, cover, &error);
+    if (code == OVOID_OK && is_full && x->stage != OVOID_STAGE_NONE && x->status != OVOID_UNDECIDED)
+        code = judge_check_points(f->judge, f->pair, x, &error);
+    if (code != OVOID_OK) {
+        (void)fprintf(stderr, "wrong answer: %s\n", error.message);
+        abort();
+    }
+    // Brackets of one d have a point in common.
+    f->lower = fmax(f->lower, x->lower);
+    f->upper = fmin(f->upper, x->upper);
+    fuzz_require(f->lower <= f->upper);
+}
+
+static void check_within(findings *f, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
+    ovoid_answer x = ovoid_within(f->pair, margin, options, earlier);
+    check(f, &x, NULL, 0);
+    int within = ovoid_answer_is_within(&x, margin);
+    if (within == 1) fuzz_require(x.upper <= margin);
+    if (within == 0) fuzz_require(x.lower > margin);
+}
+
+static void ask_all(findings *f, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
+    static ovoid_cover cover; // large, and filled by each call
+    int is_full = options == NULL;
+    ovoid_answer x = ovoid_collide(f->pair, options, earlier);
+    check(f, &x, NULL, 0);
+    check_within(f, margin, options, earlier);
+    x = ovoid_distance(f->pair, options, earlier);
+    check(f, &x, NULL, is_full && x.status == OVOID_SEPARATED);
+    x = ovoid_depth(f->pair, options, earlier, &cover);
+    check(f, &x, &cover, is_full);
+    // With its own proof.
+    ovoid_proof own = x.proof;
+    x = ovoid_depth(f->pair, options, &own, &cover);
+    check(f, &x, &cover, is_full);
+    x = ovoid_bounds(f->pair);
+    check(f, &x, NULL, 0);
+}
+
+static void check_truth(findings *f) {
+    enum { MOST = 7 };
+    judge_truth truth;
+    if (ovoid_shape_get_polytope(f->pair->shape_a).vertex_count > MOST ||
+        ovoid_shape_get_polytope(f->pair->shape_b).vertex_count > MOST || f->lower == -INFINITY ||
+        judge_compute_truth(f->judge, f->pair, &truth, NULL) != OVOID_OK)
+        return;
+    fuzz_require(f->lower <= truth.high && truth.low <= f->upper);
+    if (f->lower > 0) fuzz_require(truth.sign > 0);
+    if (f->upper < 0) fuzz_require(truth.sign < 0);
+}
+
+void fuzz_ask(const ovoid_pair *pair, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
+    findings f = {pair, judge_create(), -INFINITY, INFINITY};
+    fuzz_require(f.judge != NULL);
+    ask_all(&f, margin, NULL, NULL);
+    ask_all(&f, margin, NULL, earlier);
+    // "touching" within the tolerance of the options, whatever that is.
+    judge_set_touching(f.judge, INFINITY);
+    if (options) ask_all(&f, margin, options, earlier);
+    check_truth(&f);
+    judge_destroy(f.judge);
+}
+
+#else
+
+void fuzz_ask(const ovoid_pair *pair, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
+    ovoid_answer answers[4] = {ovoid_collide(pair, options, earlier), ovoid_distance(pair, options, earlier),
+                               ovoid_within(pair, margin, options, earlier), ovoid_bounds(pair)};
+    for (int i = 0; i < 4; i++) fuzz_require(ovoid_answer_check(pair, &answers[i], NULL, NULL) == OVOID_OK);
+}
+
+#endif
+
+ovoid_proof fuzz_take_proof(fuzz_bytes *from) {
+    ovoid_proof p;
+    memset(&p, 0, sizeof p);
+    p.kind = (ovoid_proof_kind)((unsigned)take_byte(from) % 6);
+    p.count = (uint32_t)take_byte(from) % (OVOID_PROOF_PAIRS + 3);
+    p.normal = (ovoid_vec3){take_double(from), take_double(from), take_double(from)};
+    for (int i = 0; i < OVOID_PROOF_PAIRS; i++) {
+        p.a[i] = (uint32_t)take_byte(from); // negative: huge
+        p.b[i] = (uint32_t)take_byte(from);
+        p.weight_a[i] = take_double(from);
+        p.weight_b[i] = take_double(from);
+    }
+    p.inner_a = (ovoid_vec3){take_double(from), take_double(from), take_double(from)};
+    p.inner_b = (ovoid_vec3){take_double(from), take_double(from), take_double(from)};
+    return p;
+}
