@@ -165,9 +165,11 @@ static int fill(void *context, void *slot) {
     return c->count > 0;
 }
 
-/// Answers to distance, where the bodies are apart, and to depth promise that point_b - point_a is d times the normal.
-static int has_nearest_points(int query, ovoid_status status) {
-    return query == QUERY_DEPTH || (query == QUERY_DISTANCE && status != OVOID_OVERLAPPING);
+/// Answers to distance, where the bodies are apart, and to depth promise that point_b - point_a is d times the normal;
+/// not where a limit ended the search of a depth and the proof is a common point.
+static int has_nearest_points(int query, const ovoid_answer *answer) {
+    if (answer->proof.kind == OVOID_PROOF_HULL || answer->proof.kind == OVOID_PROOF_INNER) return 0;
+    return query == QUERY_DEPTH || (query == QUERY_DISTANCE && answer->status != OVOID_OVERLAPPING);
 }
 
 static void work(void *context, void *slot) {
@@ -175,7 +177,7 @@ static void work(void *context, void *slot) {
     chunk *c = slot;
     for (claim *i = c->items; i < c->items + c->count; i++) {
         ovoid_error error = {.message = ""};
-        int points = has_nearest_points(v->settings->query, i->answer.status);
+        int points = has_nearest_points(v->settings->query, &i->answer);
         if (!i->message[0] && verdict_check(v->verdict, &i->pair, &i->answer, i->cover, points, &error) != OVOID_OK)
             disprove(i, error.message[0] ? error.message : "the proof does not hold");
         i->holds = !i->message[0];

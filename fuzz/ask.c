@@ -18,7 +18,9 @@ static void check(findings *f, const ovoid_answer *x, const ovoid_cover *cover, 
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_code code = judge_check_answer(f->judge, f->pair, x, cover, &error);
     if (code == OVOID_OK) code = ovoid_answer_check(f->pair, x, cover, &error);
-    if (code == OVOID_OK && is_full && x->stage != OVOID_STAGE_NONE && x->status != OVOID_UNDECIDED)
+    // Where a limit ended the search of a depth, a common point may be all there is.
+    int has_points = x->status == OVOID_SEPARATED || x->limit == OVOID_LIMIT_NONE;
+    if (code == OVOID_OK && is_full && has_points && x->stage != OVOID_STAGE_NONE && x->status != OVOID_UNDECIDED)
         code = judge_check_points(f->judge, f->pair, x, &error);
     if (code != OVOID_OK) {
         (void)fprintf(stderr, "wrong answer: %s\n", error.message);

@@ -26,7 +26,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     ovoid_shape *a = take_shape(&from), *b = take_shape(&from);
     if (a && b) {
         ovoid_pair pair = {a, b, take_pose(&from), take_pose(&from)};
-        double margin = take_double(&from);
+        int is_signed = take_byte(&from) > 64; // a negative margin is refused
+        double margin = is_signed ? take_double(&from) : fabs(take_double(&from));
         ovoid_options options = {take_double(&from), take_double(&from), take_double(&from),
                                  (uint32_t)take_byte(&from) & 63};
         ovoid_proof earlier = fuzz_take_proof(&from);

@@ -5,6 +5,7 @@
 #include "countdown.h"
 #include "ellipsoid/contain.h"
 #include "linear/rotation.h"
+#include "ovoid/query.h"
 #include "shape/block.h"
 
 #define CAPACITY 20000
@@ -290,8 +291,38 @@ static void check_game_hulls(void) {
     fclose(in);
 }
 
+// Bodies down to the smallest doubles, whose ellipsoids underflow to points: their files are read, and nothing of them
+// is infinite or not a number. (Found by fuzzing: a power of two and its reciprocal overflowed.)
+static void check_tiny(void) {
+    static const double corners[5][3] = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {1, 1, 2}};
+    for (int e = -400; e > -1074; e -= 7)
+        for (size_t count = 1; count <= 5; count++) {
+            for (size_t i = 0; i < count; i++)
+                put(i, (vec3){ldexp(corners[i][0], e), ldexp(corners[i][1], e), ldexp(corners[i][2], e)});
+            ovoid_shape *shape = ovoid_shape_create_from_points(cloud, count, NULL, NULL);
+            if (!CHECK(shape)) continue;
+            ovoid_fit outer = ovoid_shape_get_outer(shape), inner = ovoid_shape_get_inner(shape);
+            CHECK(vec3_is_finite(outer.ellipsoid.center) && vec3_is_finite(inner.ellipsoid.center));
+            CHECK(isfinite(outer.ellipsoid.q.xx) && isfinite(inner.ellipsoid.q.xx));
+            size_t size = ovoid_shape_write(shape, file, CAPACITY);
+            ovoid_shape *again = ovoid_shape_read(file, size, NULL, NULL);
+            if (!CHECK(again && ovoid_shape_write(again, other, CAPACITY) == size && memcmp(file, other, size) == 0))
+                break;
+            ovoid_pair pair = {shape, again, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
+            for (int far = 0; far < 2; far++, pair.pose_b.position.y = 5) {
+                ovoid_answer bounds = ovoid_bounds(&pair), distance = ovoid_distance(&pair, NULL, NULL);
+                CHECK(bounds.lower <= 5 * far && bounds.upper >= 5 * far);
+                CHECK(distance.lower <= 5 * far && distance.upper >= 5 * far);
+                CHECK(ovoid_answer_check(&pair, &bounds, NULL, NULL) == OVOID_OK);
+            }
+            ovoid_shape_destroy(shape);
+            ovoid_shape_destroy(again);
+        }
+}
+
 int main(void) {
     check_kinds();
+    check_tiny();
     check_forged();
     check_hard();
     check_wild();

@@ -62,9 +62,7 @@ typedef struct scaled {
 
 static scaled scale(const ovoid_ellipsoid *ellipsoid) {
     const sym3 *q = &ellipsoid->q;
-    int e;
-    (void)frexp(sqrt(fmax(q->xx, fmax(q->yy, q->zz))), &e);
-    double unit = ldexp(1, -e);
+    double unit = ldexp(1, -find_unit_exponent(sqrt(fmax(q->xx, fmax(q->yy, q->zz)))));
     return (scaled){sym3dd_from(sym3_scale(sym3_scale(*q, unit), unit)), ellipsoid->center, unit};
 }
 
@@ -145,9 +143,7 @@ int polytope_is_winding(const ovoid_polytope *polytope, ovoid_vec3 point) {
     // In units of the body: the orientations underflow for bodies below 1e-90.
     double top = 0;
     for (uint32_t v = 0; v < polytope->vertex_count; v++) top = fmax(top, vec3_max_abs(vec3_at(polytope->vertices, v)));
-    int e;
-    (void)frexp(top, &e);
-    double unit = ldexp(1, -e);
+    double unit = ldexp(1, -find_unit_exponent(top));
     vec3 c = vec3_scale(point, unit);
     // Rays through points inside a triangle, at weights of no symmetry; another one where a ray meets an edge.
     for (uint32_t attempt = 0; attempt < 8 && polytope->triangle_count > 0; attempt++) {

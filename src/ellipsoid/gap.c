@@ -38,8 +38,7 @@ static double spread_above(sym3 q, vec3 n) {
 scaled_pair ellipsoids_make_scaled(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
     vec3 d = vec3_sub(b->center, a->center);
     double size = fmax(vec3_max_abs(d), sqrt(fmax(sym3_trace(a->q), sym3_trace(b->q))));
-    int e = 0;
-    if (size > 0) (void)frexp(size, &e);
+    int e = find_unit_exponent(size);
     double down = ldexp(1, -e);
     return (scaled_pair){vec3_scale(d, down), sym3_scale(sym3_scale(a->q, down), down),
                          sym3_scale(sym3_scale(b->q, down), down), ldexp(1, e)};

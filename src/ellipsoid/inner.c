@@ -215,9 +215,8 @@ static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *f
     *fit = (ovoid_fit){.ellipsoid = ellipsoid_compute_sealed(w->polytope, center, &q), .iterations = s->iterations};
     fit->volume = ellipsoid_compute_measure(&fit->ellipsoid, rank);
     // The bound is about the ellipsoid of m; of a flat polygon's, about the prism's. In units of the body.
-    int exponent;
-    (void)frexp(fmax(vec3_max_abs(m.r0), fmax(vec3_max_abs(m.r1), vec3_max_abs(m.r2))), &exponent);
-    double unit = ldexp(1, -exponent);
+    double reach = fmax(vec3_max_abs(m.r0), fmax(vec3_max_abs(m.r1), vec3_max_abs(m.r2)));
+    double unit = ldexp(1, -find_unit_exponent(reach));
     mat3 whole = mat3_scale_rows(m, (vec3){unit, unit, unit});
     sym3dd reached = sym3dd_from(sym3_scale(sym3_scale(fit->ellipsoid.q, unit), unit));
     double most = compute_bound(w, s, center, m, gap) * compute_volume_factor(&whole);

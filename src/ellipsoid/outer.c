@@ -29,7 +29,7 @@ typedef struct moments {
 static void find_unit(const double *vertices, uint32_t count, moments *m) {
     double extent = 0;
     for (size_t i = 0; i < 3 * (size_t)count; i++) extent = fmax(extent, fabs(vertices[i] - vertices[i % 3]));
-    (void)frexp(extent, &m->exponent);
+    m->exponent = find_unit_exponent(extent);
     for (int k = 0; k < 3; k++) m->fixed[k] = 1;
     for (size_t i = 0; i < 3 * (size_t)count; i++) m->fixed[i % 3] &= vertices[i] == vertices[i % 3];
 }

@@ -20,15 +20,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define HAS_SHADOW_MEMORY
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define HAS_SHADOW_MEMORY
-#endif
-
 static double get_seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -44,15 +35,6 @@ static void set_limit(int what, rlim_t value, rlim_t hard) {
     now.rlim_cur = value < now.rlim_max ? value : now.rlim_max;
     (void)setrlimit(what, &now);
 }
-
-#ifdef HAS_SHADOW_MEMORY
-
-// The shadow takes terabytes of addresses: no limit would mean anything.
-static void limit_memory(size_t bytes) { (void)bytes; }
-
-void child_allow_memory(size_t bytes) { (void)bytes; }
-
-#else
 
 // Bytes of addresses in use, 0 where the system does not say.
 static size_t get_used_memory(void) {
@@ -75,8 +57,6 @@ void child_allow_memory(size_t bytes) {
     if (getrlimit(RLIMIT_AS, &now) == 0 && now.rlim_cur != RLIM_INFINITY)
         set_limit(RLIMIT_AS, now.rlim_cur + bytes, RLIM_INFINITY);
 }
-
-#endif
 
 static void set_limits(const child_limits *limits) {
     set_limit(RLIMIT_CORE, 0, 0);

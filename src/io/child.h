@@ -7,7 +7,7 @@
 
 /// What a child may use.
 typedef struct child_limits {
-    size_t memory;        ///< bytes beyond what the process has already; not kept under AddressSanitizer
+    size_t memory;        ///< bytes beyond what the process has already; none where the system does not say
     unsigned cpu_seconds; ///< of processor time
     unsigned seconds;     ///< of any time: the last resort, where the child waits for something
 } child_limits;

@@ -42,6 +42,14 @@ static inline vec3 vec3_unit(vec3 a) {
     return vec3_scale(a, 1 / vec3_norm(a));
 }
 
+/// The exponent of a power of two that brings lengths of that size to about 1. Below 2^-1000 it stays there, so that
+/// neither the power nor its reciprocal overflows.
+static inline int find_unit_exponent(double size) {
+    int e;
+    (void)frexp(size, &e);
+    return e < -1000 ? -1000 : e;
+}
+
 /// A unit vector orthogonal to the unit vector a.
 static inline vec3 vec3_orthogonal(vec3 a) {
     double x = fabs(a.x), y = fabs(a.y), z = fabs(a.z);

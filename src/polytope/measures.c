@@ -85,11 +85,7 @@ static ovoid_measures compute_measures(const ovoid_polytope *polytope) {
     result.sphere_center = s.center;
     result.sphere_radius = s.radius;
 
-    // The unit is not so small that its inverse overflows.
-    int e;
-    (void)frexp(vec3_max_abs(vec3_sub(result.box_max, result.box_min)), &e);
-    if (e < -1000) e = -1000;
-    double unit = ldexp(1, e);
+    double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(result.box_max, result.box_min))));
     frame f = {polytope, compute_mean(polytope, s.center, unit), unit};
     moments m = {0};
     if (polytope->rank >= 2) add_triangles(&m, &f);

@@ -27,10 +27,8 @@ static cloud make_cloud(const double *xyz, uint32_t count) {
         low = (vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
         high = (vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
     }
-    int e;
-    (void)frexp(vec3_max_abs(vec3_sub(high, low)), &e);
-    // Not so small that its inverse overflows.
-    return (cloud){xyz, count, vec3_add(vec3_scale(low, 0.5), vec3_scale(high, 0.5)), ldexp(1, e < -1000 ? -1000 : e)};
+    double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(high, low))));
+    return (cloud){xyz, count, vec3_add(vec3_scale(low, 0.5), vec3_scale(high, 0.5)), unit};
 }
 
 // The sphere through k <= 4 points, with its centre in their span; 0 where there is none in doubles.
@@ -92,9 +90,7 @@ double sphere_compute_radius(const double *xyz, uint32_t count, vec3 center) {
     double size = 0, farthest = 0;
     for (uint32_t i = 0; i < count; i++) size = fmax(size, vec3_max_abs(vec3_sub(vec3_at(xyz, i), center)));
     if (size == 0) return 0;
-    int e;
-    (void)frexp(size, &e);
-    double unit = ldexp(1, e < -1000 ? -1000 : e);
+    double unit = ldexp(1, find_unit_exponent(size));
     for (uint32_t i = 0; i < count; i++)
         farthest = fmax(farthest, vec3_norm_squared(vec3_scale(vec3_sub(vec3_at(xyz, i), center), 1 / unit)));
     // Differences, squares and sums are within 5 roundings of the square, so 2.5 of the root; its own rounding and

@@ -113,9 +113,7 @@ static int start(const prober *p, expansion *e, const simplex *from) {
 // The corners of a face as evidence, weighted to the point nearest to the target; *distance: how near.
 static evidence face_evidence(const expansion *e, const face *f, vec3 target, double *distance) {
     // In a unit of the face's size, so that no product of four lengths underflows.
-    int exponent;
-    (void)frexp(vec3_max_abs(e->w[f->v[0]]), &exponent);
-    double unit = ldexp(1, -exponent);
+    double unit = ldexp(1, -find_unit_exponent(vec3_max_abs(e->w[f->v[0]])));
     simplex x = {.count = 3};
     for (int i = 0; i < 3; i++)
         x.p[i] = (difference){vec3_scale(vec3_sub(e->w[f->v[i]], target), unit), e->a[f->v[i]], e->b[f->v[i]]};

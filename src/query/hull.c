@@ -27,9 +27,7 @@ static double compact_tetrahedron_depth(const vec3 w[4], double reach, double er
 static double tetrahedron_depth(const vec3 w[4], double error) {
     double reach = 0;
     for (int i = 0; i < 4; i++) reach = fmax(reach, vec3_max_abs(w[i]));
-    int exponent;
-    (void)frexp(reach, &exponent);
-    double unit = ldexp(1, -exponent);
+    double unit = ldexp(1, -find_unit_exponent(reach));
     vec3 compact[4];
     for (int i = 0; i < 4; i++) compact[i] = vec3_scale(w[i], unit);
     double depth = compact_tetrahedron_depth(compact, 2, error * unit);

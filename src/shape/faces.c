@@ -197,9 +197,7 @@ static ovoid_code check_face_plane(const checker *c, size_t face, const face_pla
 }
 
 static ovoid_code check_convex(checker *c) {
-    int e;
-    (void)frexp(compute_extent(c->hull->vertices, c->hull->vertex_count), &e);
-    c->scale = ldexp(1, e < -1000 ? 1000 : -e);
+    c->scale = ldexp(1, -find_unit_exponent(compute_extent(c->hull->vertices, c->hull->vertex_count)));
     if (compute_volume(c) < -FACET_FLATNESS)
         return error_set(c->error, OVOID_ERROR_NOT_CONVEX, -1,
                          "the faces are inside out: corners must run counter-clockwise as seen from outside");
