@@ -57,17 +57,18 @@ double pair_size(const ovoid_pair *pair) {
            ovoid_shape_get_radius(pair->shape_a) + ovoid_shape_get_radius(pair->shape_b);
 }
 
-// The least that a bracket can be asked to be narrower than: underflow, and what pairs of doubles leave of positions
-// and origins.
+static double sum_abs(ovoid_vec3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
+
+// What pairs of doubles leave of turned origins, and underflow.
+static double pair_unresolved_sign(const ovoid_pair *pair) {
+    return 0x1p-88 * (sum_abs(ovoid_shape_get_polytope(pair->shape_a).origin) +
+                      sum_abs(ovoid_shape_get_polytope(pair->shape_b).origin)) +
+           16 * OVOID_LENGTH_MIN;
+}
+
+// The least that a bracket can be asked to be narrower than: the same, and of the witness points' positions.
 static double pair_unresolved(const ovoid_pair *pair) {
-    const ovoid_shape *shapes[2] = {pair->shape_a, pair->shape_b};
-    const ovoid_pose *poses[2] = {&pair->pose_a, &pair->pose_b};
-    double sum = 0;
-    for (int i = 0; i < 2; i++) {
-        ovoid_vec3 o = ovoid_shape_get_polytope(shapes[i]).origin, p = poses[i]->position;
-        sum += fabs(o.x) + fabs(o.y) + fabs(o.z) + fabs(p.x) + fabs(p.y) + fabs(p.z);
-    }
-    return 0x1p-88 * sum + 16 * OVOID_LENGTH_MIN;
+    return 0x1p-88 * (sum_abs(pair->pose_a.position) + sum_abs(pair->pose_b.position)) + pair_unresolved_sign(pair);
 }
 
 // --- judging one answer
@@ -92,7 +93,7 @@ static void compare_truth(const hearing *h, const ovoid_answer *x, const char *q
     if (!(x->lower <= truth->high && truth->low <= x->upper)) trial_fail(h->t, h->pair, x, query, "not the truth");
     if ((x->status == OVOID_SEPARATED && truth->sign <= 0) || (x->status == OVOID_OVERLAPPING && truth->sign >= 0))
         trial_fail(h->t, h->pair, x, query, "not the truth's sign");
-    double known = fmin(fabs(truth->low), fabs(truth->high)) - pair_unresolved(h->pair);
+    double known = fmin(fabs(truth->low), fabs(truth->high)) - pair_unresolved_sign(h->pair);
     if (must_decide && truth->sign != 0 && known > RESOLVED * pair_size(h->pair) && x->status == OVOID_TOUCHING)
         trial_fail(h->t, h->pair, x, query, "touching, though the distance is not that small");
 }
