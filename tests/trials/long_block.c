@@ -64,7 +64,9 @@ static void fill_pool(work *w, uint64_t *r) {
     const long_family *f = run->family;
     for (w->pool_count = 0; w->pool_count < f->pool; w->pool_count++) {
         ovoid_shape *shape;
-        if (f->make)
+        if (f->make_b && w->pool_count >= f->pool / 2)
+            shape = f->make_b(r);
+        else if (f->make)
             shape = f->make(r);
         else {
             const cloud *c = &run->clouds->items[random_next(r) % run->clouds->count];
@@ -127,7 +129,7 @@ static void check_answer(work *w, scene *s, const ovoid_answer *x, const ovoid_c
     s->low = fmax(s->low, x->lower);
     s->high = fmin(s->high, x->upper);
     if (!(s->low <= s->high)) {
-        fail(w, s, x, kind, "its bracket and another one of this pair exclude each other");
+        fail(w, s, x, kind, "its bracket excludes another one of this pair, or the known distance");
         s->low = -INFINITY, s->high = INFINITY;
     }
     if (in_full && kind != ASK_BOUNDS) check_completeness(w, s, x, kind);
@@ -251,25 +253,44 @@ static void move_a_little(scene *s, uint64_t *r) {
 
 static int is_pose_in_range(const ovoid_pose *p) { return sum_abs(p->position) < 1e49; }
 
+// Two bodies of the pool, A of its first half where B has a maker of its own.
+static scene choose_bodies(const work *w, uint64_t *r) {
+    const long_family *f = w->run->family;
+    uint32_t half = f->make_b ? w->pool_count / 2 : w->pool_count, from = f->make_b ? half : 0;
+    const item *a = &w->pool[random_next(r) % half], *b = &w->pool[from + random_next(r) % (w->pool_count - from)];
+    return (scene){.a = a, .b = f->place == PLACE_SAME ? a : b};
+}
+
+// Places the pair anew; where the distance is known, it is the first bracket of the frame.
+static void place_frame(const long_family *f, scene *s, uint64_t *r) {
+    double d = place_pair(f, s->a, s->b, &s->pair, r);
+    begin_frame(s);
+    if (!isnan(d)) s->low = s->high = d;
+}
+
+// The next place of a scene: a new one, at another gap along the normal of the last answer, or a little aside.
+static void go_on(const long_family *f, scene *s, const ovoid_answer *last, uint64_t *r) {
+    int is_normal_known = last->lower > 0 || last->limit == OVOID_LIMIT_NONE;
+    if (f->place == PLACE_ALIGNED || f->place == PLACE_COMMON || f->place == PLACE_STACKED) {
+        place_frame(f, s, r);
+        return;
+    }
+    if (is_normal_known && random_next(r) % 2)
+        set_gap(s, last, random_gap(r) * (s->a->reach + s->b->reach));
+    else
+        move_a_little(s, r);
+    begin_frame(s);
+}
+
 static void run_scene(work *w, uint64_t *r) {
     const long_family *f = w->run->family;
-    const item *a = &w->pool[random_next(r) % w->pool_count], *b = &w->pool[random_next(r) % w->pool_count];
-    scene s = {.a = a, .b = b};
-    if (f->place == PLACE_SAME) s.b = s.a;
-    place_pair(f, s.a, s.b, &s.pair, r);
-    begin_frame(&s);
+    scene s = choose_bodies(w, r);
+    place_frame(f, &s, r);
     w->c.pairs++;
     ovoid_answer x = ask(w, &s, random_next(r) % 2 ? ASK_DEPTH : ASK_DISTANCE, r);
     for (s.frame = 1; s.frame <= FRAMES; s.frame++) {
-        int is_normal_known = x.lower > 0 || x.limit == OVOID_LIMIT_NONE;
-        if (f->place == PLACE_ALIGNED || f->place == PLACE_COMMON)
-            place_pair(f, s.a, s.b, &s.pair, r);
-        else if (is_normal_known && random_next(r) % 2)
-            set_gap(&s, &x, random_gap(r) * (s.a->reach + s.b->reach));
-        else
-            move_a_little(&s, r);
+        go_on(f, &s, &x, r);
         if (!is_pose_in_range(&s.pair.pose_b)) return;
-        begin_frame(&s);
         w->c.pairs++;
         (void)ask(w, &s, ASK_COLLIDE, r);
         (void)ask(w, &s, ASK_WITHIN, r);

@@ -8,6 +8,8 @@
 
 static const ovoid_vec3 zero = {0, 0, 0};
 
+static double random_sign(uint64_t *r, double x) { return random_next(r) % 2 ? x : -x; }
+
 static ovoid_shape *make_some_box(uint64_t *r) {
     double x = log_uniform(r, 0.1, 1), y = log_uniform(r, 0.1, 1);
     return make_box(x, y, log_uniform(r, 0.1, 1), 0);
@@ -47,37 +49,51 @@ static ovoid_shape *make_far_vertices(uint64_t *r) {
     return make_hull(r, random_count(r, 40), (ovoid_vec3){1, 2, 1}, center, 0);
 }
 
+// A plate whose top is at z = 0, and bodies that reach down to z = 0: a box, a bar on its edge, a cube on a corner.
+static ovoid_shape *make_plate(uint64_t *r) {
+    double x = random_uniform(r, 8, 16), y = random_uniform(r, 8, 16), z = log_uniform(r, 0.1, 4);
+    const double xyz[24] = {-x, -y, 0, x, -y, 0, -x, y, 0, x, y, 0, -x, -y, -z, x, -y, -z, -x, y, -z, x, y, -z};
+    return make_points(xyz, 8, 0);
+}
+static ovoid_shape *make_standing(uint64_t *r) {
+    static const double bar[24] = {0, -2, 4, 0, 2, 4, 0, -2, 0, 0, 2, 0, 2, -2, 2, 2, 2, 2, -2, -2, 2, -2, 2, 2};
+    static const double cube[24] = {-3, 5, 0, -5, 1, 5, -1, 1, 4, -3, -3, 9, 3, 3, 1, 1, -1, 6, 5, -1, 5, 3, -5, 10};
+    double x = random_uniform(r, 0.5, 4), y = random_uniform(r, 0.5, 4), z = log_uniform(r, 0.5, 4);
+    const double box[24] = {-x, -y, 0, x, -y, 0, -x, y, 0, x, y, 0, -x, -y, z, x, -y, z, -x, y, z, x, y, z};
+    const double *const all[] = {bar, cube, box};
+    return make_points(all[random_next(r) % 3], 8, 0);
+}
+
 const long_family long_families[] = {
-    {"boxes", make_some_box, 16, 12, PLACE_ANY},
-    {"boxes, aligned", make_half_box, 16, 8, PLACE_ALIGNED},
-    {"lattice, shared corners", make_lattice, 24, 8, PLACE_COMMON},
-    {"hulls of 4 to 8", make_8, 24, 14, PLACE_ANY},
-    {"hulls of 9 to 32", make_32, 16, 14, PLACE_ANY},
-    {"hulls of 33 to 128", make_128, 8, 6, PLACE_ANY},
-    {"hulls of 129 to 512", make_512, 4, 2, PLACE_ANY},
-    {"hulls of 513 to 2048", make_2048, 2, 1, PLACE_ANY},
-    {"axes to 1:1000", make_long, 16, 6, PLACE_ANY},
-    {"needles", make_needle, 16, 5, PLACE_ANY},
-    {"slabs", make_slab, 16, 5, PLACE_ANY},
-    {"flat polygons", make_flat_one, 16, 5, PLACE_ANY},
-    {"segments and points", make_low_rank, 16, 5, PLACE_ANY},
-    {"round", make_round, 16, 5, PLACE_ANY},
-    {"prisms", make_prism, 12, 4, PLACE_ANY},
-    {"near-coplanar", make_near_coplanar, 8, 4, PLACE_ANY},
-    {"grids", make_grid, 8, 4, PLACE_ANY},
-    {"any with any", make_any, 16, 6, PLACE_ANY},
-    {"identical", make_8, 16, 2, PLACE_SAME},
-    {"contained", make_32, 16, 2, PLACE_INSIDE},
-    {"scales 1e-9, 1, 1e9", make_scaled, 16, 3, PLACE_ANY},
-    {"scales 1e-80 to 1e45", make_wild, 16, 2, PLACE_ANY},
-    {"1e7 from the origin", make_32, 16, 3, PLACE_FAR},
-    {"vertices 1e7 away", make_far_vertices, 12, 3, PLACE_ANY},
-    {"quaternions of any norm", make_8, 24, 3, PLACE_NORMS},
-    {"real hulls", NULL, 24, 8, PLACE_ANY},
+    {"boxes", make_some_box, 16, 12, PLACE_ANY, NULL},
+    {"boxes, aligned", make_half_box, 16, 8, PLACE_ALIGNED, NULL},
+    {"lattice, shared corners", make_lattice, 24, 8, PLACE_COMMON, NULL},
+    {"contacts known exactly", make_plate, 24, 4, PLACE_STACKED, make_standing},
+    {"hulls of 4 to 8", make_8, 24, 14, PLACE_ANY, NULL},
+    {"hulls of 9 to 32", make_32, 16, 14, PLACE_ANY, NULL},
+    {"hulls of 33 to 128", make_128, 8, 6, PLACE_ANY, NULL},
+    {"hulls of 129 to 512", make_512, 4, 2, PLACE_ANY, NULL},
+    {"hulls of 513 to 2048", make_2048, 2, 1, PLACE_ANY, NULL},
+    {"axes to 1:1000", make_long, 16, 6, PLACE_ANY, NULL},
+    {"needles", make_needle, 16, 5, PLACE_ANY, NULL},
+    {"slabs", make_slab, 16, 5, PLACE_ANY, NULL},
+    {"flat polygons", make_flat_one, 16, 5, PLACE_ANY, NULL},
+    {"segments and points", make_low_rank, 16, 5, PLACE_ANY, NULL},
+    {"round", make_round, 16, 5, PLACE_ANY, NULL},
+    {"prisms", make_prism, 12, 4, PLACE_ANY, NULL},
+    {"near-coplanar", make_near_coplanar, 8, 4, PLACE_ANY, NULL},
+    {"grids", make_grid, 8, 4, PLACE_ANY, NULL},
+    {"any with any", make_any, 16, 6, PLACE_ANY, NULL},
+    {"identical", make_8, 16, 2, PLACE_SAME, NULL},
+    {"contained", make_32, 16, 2, PLACE_INSIDE, NULL},
+    {"scales 1e-9, 1, 1e9", make_scaled, 16, 3, PLACE_ANY, NULL},
+    {"scales 1e-80 to 1e45", make_wild, 16, 2, PLACE_ANY, NULL},
+    {"1e7 from the origin", make_32, 16, 3, PLACE_FAR, NULL},
+    {"vertices 1e7 away", make_far_vertices, 12, 3, PLACE_ANY, NULL},
+    {"quaternions of any norm", make_8, 24, 3, PLACE_NORMS, NULL},
+    {"real hulls", NULL, 24, 8, PLACE_ANY, NULL},
 };
 const size_t long_family_count = sizeof long_families / sizeof *long_families;
-
-static double random_sign(uint64_t *r, double x) { return random_next(r) % 2 ? x : -x; }
 
 double random_gap(uint64_t *r) {
     switch (random_next(r) % 8) {
@@ -128,19 +144,34 @@ static void place_common(ovoid_pair *pair, uint64_t *r) {
     if (random_next(r) % 2) pair->pose_b.rotation = (ovoid_quat){1, 0, 0, 1};
 }
 
+// Turns about z leave heights as they are, whatever the quaternion; the gap is B's height. Aside by up to 1/4, and no
+// deeper than 1/50, B is nearest straight above A.
+static double place_stacked(ovoid_pair *pair, uint64_t *r) {
+    double above = log_uniform(r, 1e-16, 1e3), below = -log_uniform(r, 1e-16, 1e-2);
+    double tiny = random_sign(r, log_uniform(r, 1e-40, 1e-16));
+    const double gaps[] = {0, tiny, above, above, above, above, below, below};
+    pair->pose_a.rotation.z = random_normal(r);
+    pair->pose_b.rotation.z = random_normal(r);
+    pair->pose_b.position.x = random_uniform(r, -0.25, 0.25);
+    pair->pose_b.position.y = random_uniform(r, -0.25, 0.25);
+    pair->pose_b.position.z = gaps[random_next(r) % 8];
+    return pair->pose_b.position.z;
+}
+
 static void scale_norm(ovoid_quat *q, double s) { *q = (ovoid_quat){q->w * s, q->x * s, q->y * s, q->z * s}; }
 
-void place_pair(const long_family *f, const item *a, const item *b, ovoid_pair *pair, uint64_t *r) {
+double place_pair(const long_family *f, const item *a, const item *b, ovoid_pair *pair, uint64_t *r) {
     const double far[] = {3, 1, 0.6, 0.4, 0.2, 0.1};
     double size = a->reach + b->reach;
     *pair = (ovoid_pair){a->shape, b->shape, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
+    if (f->place == PLACE_STACKED) return place_stacked(pair, r);
     if (f->place == PLACE_ALIGNED) {
         place_aligned(pair, r);
-        return;
+        return NAN;
     }
     if (f->place == PLACE_COMMON) {
         place_common(pair, r);
-        return;
+        return NAN;
     }
     pair->pose_a.position = random_vec3(r, f->place == PLACE_FAR ? 1e7 : size);
     pair->pose_a.rotation = random_quat(r);
@@ -149,7 +180,7 @@ void place_pair(const long_family *f, const item *a, const item *b, ovoid_pair *
         pair->pose_b = pair->pose_a;
         double off = random_gap(r) * size;
         if (random_next(r) % 2) pair->pose_b.position = add(pair->pose_b.position, random_vec3(r, off));
-        return;
+        return NAN;
     }
     pair->pose_b.rotation = random_quat(r);
     double off = f->place == PLACE_INSIDE ? log_uniform(r, 1e-12, 0.1) : far[random_next(r) % 6];
@@ -158,4 +189,5 @@ void place_pair(const long_family *f, const item *a, const item *b, ovoid_pair *
         scale_norm(&pair->pose_a.rotation, log_uniform(r, 1e-150, 1e150));
         scale_norm(&pair->pose_b.rotation, log_uniform(r, 1e-150, 1e150));
     }
+    return NAN;
 }

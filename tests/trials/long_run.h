@@ -48,7 +48,8 @@ typedef enum place_kind {
     PLACE_ALIGNED, // of one orientation, at multiples of a half
     PLACE_COMMON,  // both in one pose: what the vertices share, they share exactly
     PLACE_INSIDE,  // centres nearly in one place
-    PLACE_SAME     // the same shape in the same pose, and moved from there
+    PLACE_SAME,    // the same shape in the same pose, and moved from there
+    PLACE_STACKED  // B stands on A, or hangs above it, or is in it: the distance is known exactly
 } place_kind;
 
 /// A family of the long run.
@@ -58,13 +59,15 @@ typedef struct long_family {
     uint32_t pool;                     // shapes
     uint32_t share;                    // of all blocks, in parts of the sum
     place_kind place;
+    ovoid_shape *(*make_b)(
+        uint64_t *r); // of the second half of the pool, from where B is taken; NULL: one pool for both
 } long_family;
 
 extern const long_family long_families[];
 extern const size_t long_family_count;
 
-/// The two poses of a scene's first pair.
-void place_pair(const long_family *f, const item *a, const item *b, ovoid_pair *pair, uint64_t *r);
+/// The two poses of a scene's first pair. Returns the signed distance where it is known, else NAN.
+double place_pair(const long_family *f, const item *a, const item *b, ovoid_pair *pair, uint64_t *r);
 /// A gap of any order, in parts of the size; often none or a small one.
 double random_gap(uint64_t *r);
 
