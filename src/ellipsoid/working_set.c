@@ -6,8 +6,6 @@
 // like that of inscribe.c: the caller proves it.
 #include "ellipsoid/working_set.h"
 
-#include <stdlib.h>
-
 // Cells of directions: 4 x 4 on each side of a cube. Below FEW walls a working set does not pay.
 enum { CELLS = 96, FEW = 256, ROUNDS = 40 };
 
@@ -19,15 +17,19 @@ static int find_cell(vec3 n) {
     return ((x[axis] < 0 ? 3 : 0) + axis) * 16 + row * 4 + column;
 }
 
-static int compare_indices(const void *a, const void *b) {
-    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return x < y ? -1 : x > y;
+// By insertion: there are few.
+static void sort(uint32_t *list, uint32_t count) {
+    for (uint32_t i = 1; i < count; i++) {
+        uint32_t x = list[i], k = i;
+        for (; k > 0 && list[k - 1] > x; k--) list[k] = list[k - 1];
+        list[k] = x;
+    }
 }
 
 // Brings the chosen walls to the end of the working set; returns its new size.
 static uint32_t bring_forward(constraint *constraints, uint32_t set, uint32_t *chosen, uint32_t count) {
     // In ascending order a wall is never moved away before its turn.
-    qsort(chosen, count, sizeof *chosen, compare_indices);
+    sort(chosen, count);
     for (uint32_t i = 0; i < count; i++, set++) {
         constraint c = constraints[set];
         constraints[set] = constraints[chosen[i]];

@@ -5,10 +5,9 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/vec3.h"
+#include "polytope/sort.h"
 #include "shape/block.h"
 #include "shape/create.h"
-
-#include <stdlib.h>
 
 ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double *xyz,
                                          const ovoid_shape_options *options, ovoid_error *error) {
@@ -30,6 +29,7 @@ typedef struct division {
     double *points;  // of the part at hand, user's frame
     double *cuts;    // where edges are cut, likewise
     crossing *edges; // room for all
+    uint32_t *order; // room for twice as many
     uint32_t edge_count, cut_count;
 } division;
 
@@ -43,8 +43,8 @@ static void add_edge(division *d, uint32_t a, uint32_t b, uint32_t facet) {
     d->edges[d->edge_count++] = ha < 0 ? (crossing){a, b, facet} : (crossing){b, a, facet};
 }
 
-static int compare_crossings(const void *a, const void *b) {
-    const crossing *x = a, *y = b;
+static int compare_crossings(const void *context, uint32_t a, uint32_t b) {
+    const crossing *x = (const crossing *)context + a, *y = (const crossing *)context + b;
     if (x->below != y->below) return x->below < y->below ? -1 : 1;
     return (x->above > y->above) - (x->above < y->above);
 }
@@ -58,10 +58,11 @@ static void find_cuts(division *d) {
             add_edge(d, p.triangles[3 * (size_t)t + k], p.triangles[3 * (size_t)t + (k + 1) % 3], p.triangle_facets[t]);
     for (uint32_t v = 0; v < p.vertex_count && p.rank < 3; v++)
         for (uint32_t k = p.neighbor_starts[v]; k < p.neighbor_starts[v + 1]; k++) add_edge(d, v, p.neighbors[k], v);
-    if (d->edge_count) qsort(d->edges, d->edge_count, sizeof *d->edges, compare_crossings);
+    for (uint32_t i = 0; i < d->edge_count; i++) d->order[i] = i;
+    sort_indices(d->order, d->order + d->edge_count, d->edge_count, compare_crossings, d->edges);
     for (uint32_t i = 0; i + 1 < d->edge_count; i += 2) {
-        const crossing *e = &d->edges[i];
-        if (p.rank == 3 && e[0].facet == e[1].facet) continue;
+        const crossing *e = &d->edges[d->order[i]], *twin = &d->edges[d->order[i + 1]];
+        if (p.rank == 3 && e->facet == twin->facet) continue;
         vec3 a = get_user_vertex(d->shape, e->below), b = get_user_vertex(d->shape, e->above);
         double t = d->height[e->below] / (d->height[e->below] - d->height[e->above]);
         vec3 x = vec3_add_scaled(a, vec3_sub(b, a), t);
@@ -120,11 +121,12 @@ static ovoid_code create_divided(const ovoid_shape *shape, const ovoid_plane *pl
     size_t vertices = shape->vertex_count, edges = 2 * (size_t)shape->counts.triangles + shape->counts.neighbors;
     ovoid_allocator memory = allocator_make(o.allocator);
     double *doubles = allocator_allocate(&memory, 4 * vertices + 6 * edges, sizeof *doubles);
-    crossing *crossings = allocator_allocate(&memory, edges + 1, sizeof *crossings);
+    crossing *crossings = allocator_allocate(&memory, edges + 1, sizeof *crossings + 2 * sizeof(uint32_t));
     division d = {.shape = shape, .height = doubles, .edges = crossings};
     if (doubles && crossings) {
         d.cuts = doubles + vertices;
         d.points = d.cuts + 3 * edges;
+        d.order = (uint32_t *)(crossings + edges + 1);
         code = divide(&d, plane, options, parts, error);
     } else
         code = error_set(error, OVOID_ERROR_MEMORY, -1, "no memory to divide a shape of %zu vertices", vertices);
