@@ -1,5 +1,6 @@
 // The linear floor against closed forms and identities.
 #include "check.h"
+#include "linear/dd3.h"
 #include "linear/exact.h"
 #include "linear/mat3.h"
 #include "linear/rotation.h"
@@ -57,6 +58,45 @@ static void check_orientation(void) {
     check_seed = 0;
 }
 
+// Double-double by what undoes it: roots by squares, quotients by products, rotations by their transposes, each to a
+// few E = 2^-102; and against numbers whose exact value is known.
+static void check_dd3(void) {
+    uint64_t s = 3;
+    const double E = 0x1p-102;
+    for (int i = 0; i < 20000; i++) {
+        check_seed = s;
+        double high = pow(2, random_uniform(&s, -60, 60)), low = high * 0x1p-54 * random_uniform(&s, -1, 1);
+        dd a = two_sum(high, low), b = two_sum(random_uniform(&s, 1, 2), random_uniform(&s, -1, 1) * 0x1p-60);
+        dd root = dd_sqrt(a), back = dd_sub(dd_mul(root, root), a);
+        CHECK_LE(fabs(back.high), 4 * E * a.high);
+        back = dd_sub(dd_mul(dd_div(a, b), b), a);
+        CHECK_LE(fabs(back.high), 4 * E * a.high);
+        back = dd_sub(dd_mul_double(a, b.high), dd_mul(a, dd_from(b.high)));
+        CHECK_LE(fabs(back.high), 4 * E * a.high);
+        CHECK(dd_round_down(a) <= a.high && dd_round_up(a) >= a.high);
+        CHECK(dd_sub(a, dd_from(dd_round_down(a))).high >= 0 && dd_sub(dd_from(dd_round_up(a)), a).high >= 0);
+        // R R' = 1, and R v has the length of v.
+        double q[4];
+        for (int k = 0; k < 4; k++) q[k] = random_uniform(&s, -1, 1);
+        dd33 r = dd33_from_quat((ovoid_quat){q[0], q[1], q[2], q[3]});
+        CHECK_LE(fabs(dd3_dot(r.r0, r.r1).high), 64 * E);
+        CHECK_LE(fabs(dd_sub(dd3_dot(r.r2, r.r2), dd_from(1)).high), 64 * E);
+        vec3 v = {high, q[1], -high};
+        dd difference = dd_sub(dd3_norm(dd33_mul_vec3(&r, v)), dd3_norm(dd3_from(v)));
+        CHECK_LE(fabs(difference.high), 48 * E * vec3_norm(v));
+    }
+    check_seed = 0;
+    // 3-4-5: cosine 3/5, sine 4/5; a fifth is 0.2 + what 0.2 lacks. The root of 2 + 2^-60 squared out is 2 + 2^-60.
+    dd33 r = dd33_from_quat((ovoid_quat){2, 0, 0, 1});
+    dd off = dd_sub(dd_mul(r.r0.x, dd_from(5)), dd_from(3));
+    CHECK_LE(fabs(off.high), 16 * E);
+    off = dd_add(dd_mul(r.r0.y, dd_from(5)), dd_from(4));
+    CHECK_LE(fabs(off.high), 16 * E);
+    CHECK_EQ(dd_sqrt(dd_from(9)).high, 3);
+    CHECK_EQ(dd_sqrt(dd_from(0)).high, 0);
+    CHECK(dd_is_less((dd){1, -0x1p-60}, dd_from(1)) && !dd_is_less(dd_from(1), dd_from(1)));
+}
+
 static void check_rotation(void) {
     mat3 m = quat_to_mat3((ovoid_quat){1e-300, 0, 0, 1e-300});
     CHECK_NEAR(m.r0.y, -1, 1e-15);
@@ -78,6 +118,7 @@ static void check_double_double(void) {
 int main(void) {
     check_eigen();
     check_orientation();
+    check_dd3();
     check_rotation();
     check_double_double();
     return check_end();

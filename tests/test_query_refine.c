@@ -6,6 +6,7 @@
 #include "check.h"
 #include "judge.h"
 #include "ovoid/ovoid.h"
+#include "query/fine.h"
 
 static judge *court;
 
@@ -87,6 +88,18 @@ static ovoid_shape *make_body(uint64_t *r, feature what, int along_z, double at,
     return make_points(xyz, n + more, radius);
 }
 
+// One after another: a list's order is the compiler's.
+static ovoid_vec3 random_vector(uint64_t *r, double scale) {
+    double x = random_uniform(r, -scale, scale), y = random_uniform(r, -scale, scale);
+    return (ovoid_vec3){x, y, random_uniform(r, -scale, scale)};
+}
+
+// 2^-44 to 2^-88.
+static double random_gap(uint64_t *r) {
+    double mantissa = random_uniform(r, 1, 2);
+    return ldexp(mantissa, -(int)(random_next(r) % 44) - 44);
+}
+
 // Small integers, so that products of two are exact; by any norm that is a power of two.
 static ovoid_quat random_turn(uint64_t *r) {
     double q[4], k = random_next(r) % 2 ? 1 : 0x1p-30;
@@ -112,16 +125,17 @@ static const double least = 1e-27;
 static void test_meetings(uint64_t seed) {
     uint64_t r = check_seed = seed;
     const feature *m = meetings[random_next(&r) % MEETINGS];
-    double gap = ldexp(random_uniform(&r, 1, 2), -(int)(random_next(&r) % 44) - 44);
+    double gap = random_gap(&r);
     switch (random_next(&r) % 5) {
     case 0: gap = 0; break;
     case 1:
     case 2: gap = -gap; break;
     }
-    ovoid_shape *a = make_body(&r, m[0], 0, -gap, -1, 1 + (size_t)(random_next(&r) % 30), 0);
-    ovoid_shape *b = make_body(&r, m[1], 1, 0, 1, 1 + (size_t)(random_next(&r) % 30), 0);
+    size_t more_a = 1 + (size_t)(random_next(&r) % 30), more_b = 1 + (size_t)(random_next(&r) % 30);
+    ovoid_shape *a = make_body(&r, m[0], 0, -gap, -1, more_a, 0), *b = make_body(&r, m[1], 1, 0, 1, more_b, 0);
     ovoid_quat q = random_turn(&r);
-    ovoid_vec3 at = {random_normal(&r) * 1e7, random_normal(&r), random_normal(&r) * 1e12};
+    ovoid_vec3 at = random_vector(&r, 1);
+    at.x *= 1e7, at.z *= 1e12;
     ovoid_pair p = {a, b, {at, q}, {at, q}};
     // Of A a turn about x more, by 3-4-5 or a quarter, where that leaves the features across one another.
     const ovoid_quat more[] = {{1, 0, 0, 0}, {3, 1, 0, 0}, {1, 1, 0, 0}};
@@ -174,7 +188,7 @@ static void test_flat(uint64_t seed) {
                                       {FACE, FACE},     {CORNER, EDGE}, {SIDE, SIDE}, {CORNER, CORNER}};
     uint64_t r = check_seed = seed;
     const feature *m = both[random_next(&r) % 9];
-    double gap = random_next(&r) % 3 ? ldexp(random_uniform(&r, 1, 2), -(int)(random_next(&r) % 44) - 44) : 0;
+    double gap = random_next(&r) % 3 ? random_gap(&r) : 0;
     ovoid_shape *a = make_body(&r, m[0], 0, -gap, -1, 0, 0), *b = make_body(&r, m[1], 1, 0, 1, 0, 0);
     ovoid_quat q = random_turn(&r);
     ovoid_pair p = {a, b, {{3e6, 0, 0}, q}, {{3e6, 0, 0}, q}};
@@ -329,15 +343,17 @@ static void test_brute_force(uint64_t seed) {
     size_t counts[2];
     for (int k = 0; k < 2; k++) {
         counts[k] = 1 + (size_t)(random_next(&r) % 6);
-        for (size_t i = 0; i < 3 * counts[k]; i++) xyz[k][i] = random_normal(&r);
-        s[k] = make_points(xyz[k], counts[k], random_next(&r) % 4 ? 0 : random_uniform(&r, 0, 1));
+        for (size_t i = 0; i < 3 * counts[k]; i++) xyz[k][i] = random_uniform(&r, -2, 2);
+        double radius = random_next(&r) % 4 ? 0 : random_uniform(&r, 0, 1);
+        s[k] = make_points(xyz[k], counts[k], radius);
     }
-    double target = ldexp(random_uniform(&r, 1, 2), -(int)(random_next(&r) % 40) - 48);
+    double target = random_gap(&r) / 16;
     if (random_next(&r) % 2) target = -target;
     ovoid_pair p = {s[0], s[1], {{0, 0, 0}, {1, 0, 0, 0}}, {{2, 1, 1}, {1, 0, 0, 0}}};
     for (int k = 0; k < 2; k++) {
         ovoid_quat *q = k ? &p.pose_b.rotation : &p.pose_a.rotation;
-        *q = (ovoid_quat){random_normal(&r), random_normal(&r), random_normal(&r), random_normal(&r)};
+        ovoid_vec3 v = random_vector(&r, 1);
+        *q = (ovoid_quat){random_uniform(&r, -1, 1), v.x, v.y, v.z};
     }
     judge_truth truth;
     for (int k = 0; k < 8; k++) {
@@ -364,6 +380,45 @@ static void test_brute_force(uint64_t seed) {
     judge_forget(court);
 }
 
+// The measurements' bits, whatever the search does with them: what gcc gave at -O3; clang and -O0 must give it too.
+static void test_bits(void) {
+    uint64_t r = 5, hash = 14695981039346656037u;
+    for (int i = 0; i < 300; i++) {
+        ovoid_shape *a = make_body(&r, FACE, 0, -0x1p-70, -1, 12, 0.25);
+        ovoid_shape *b = make_body(&r, EDGE, 1, 0, 1, 12, 0);
+        ovoid_pair p = {.shape_a = a, .shape_b = b};
+        p.pose_a.position = random_vector(&r, 4), p.pose_a.rotation = random_turn(&r);
+        p.pose_b.position = random_vector(&r, 4), p.pose_b.rotation = random_turn(&r);
+        fine_frame f;
+        CHECK(fine_make(&p, &f));
+        ovoid_vec3 n = random_vector(&r, 1), low = random_vector(&r, 1e-20);
+        fine_support found = fine_find_support(&f, dd3_unit(dd3_make(n, low)));
+        ovoid_proof proof = {.count = 3, .a = {0, 1, 2}, .b = {2, 1, 0}};
+        for (int k = 0; k < 3; k++) proof.weight_a[k] = proof.weight_b[k] = random_uniform(&r, 0, 1);
+        dd distance = fine_measure_points(&f, &proof);
+        dd3 w[6];
+        for (uint32_t k = 0; k < 6; k++) w[k] = fine_difference(&f, k, k);
+        double all[] = {found.gap.high,
+                        found.gap.low,
+                        found.a,
+                        found.b,
+                        distance.high,
+                        distance.low,
+                        w[5].x.low,
+                        w[3].y.low,
+                        fine_measure_hull(&f, w, 4, f.check),
+                        fine_compute_lower(&f, found.gap, f.claim),
+                        fine_compute_upper(&f, distance, f.claim)};
+        for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+            unsigned char bytes[sizeof *all];
+            memcpy(bytes, &all[k], sizeof bytes);
+            for (size_t j = 0; j < sizeof bytes; j++) hash = (hash ^ bytes[j]) * 1099511628211u;
+        }
+        ovoid_shape_destroy(a), ovoid_shape_destroy(b);
+    }
+    if (!CHECK(hash == 0xfae4b94c46524affu)) printf("the hash is 0x%llxu\n", (unsigned long long)hash);
+}
+
 int main(void) {
     court = judge_create();
     if (!court) return 1;
@@ -374,9 +429,10 @@ int main(void) {
     for (uint64_t seed = 1; seed <= 100; seed++) test_brute_force(seed);
     check_seed = 0;
     test_far_vertices();
-    test_many();
     test_tolerance();
     test_altered();
+    test_many();
+    test_bits();
     judge_destroy(court);
     return check_end();
 }

@@ -302,11 +302,11 @@ static void find_side(refinement *r, const fine_simplex *on, dd3 normal) {
 
 // --- the stage
 
-// 1 if there is something left to find, and the bracket says that it is near.
+// 1 if there is something left to find: contact, or a bracket that rounding kept a little wide.
 static int is_wanted(const search *s) {
     if (search_is_done(s) || s->limit == OVOID_LIMIT_ITERATIONS) return 0;
     if (s->upper < 0 && s->kind != OVOID_PROOF_POINTS) return 0;
-    return s->upper - s->lower <= 0x1p-30 * s->frame->size + 64 * s->frame->hidden;
+    return s->upper - s->lower <= 0x1p-20 * s->frame->size + 64 * s->frame->hidden;
 }
 
 // The double search's points, and the support along its direction.
