@@ -229,7 +229,7 @@ static ovoid_code check_hull(const reader *r, const content *c, const hull *h) {
 // A body far below OVOID_LENGTH_MIN: its Q underflows to zero, and a point at its place is all that queries see of it.
 static int is_point_to_queries(const ovoid_polytope *p, const ovoid_ellipsoid *e) {
     const double least = OVOID_LENGTH_MIN / 16;
-    int is_small = vec3_max_abs(e->center) <= least;
+    int is_small = p->rank > 0 && vec3_max_abs(e->center) <= least;
     for (uint32_t v = 0; v < p->vertex_count; v++) is_small &= vec3_max_abs(vec3_at(p->vertices, v)) <= least;
     const ovoid_sym3 *q = &e->q;
     return is_small && q->xx == 0 && q->xy == 0 && q->xz == 0 && q->yy == 0 && q->yz == 0 && q->zz == 0;
