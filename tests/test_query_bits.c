@@ -5,7 +5,7 @@
 // other tests.
 #include "bits.h"
 
-#define STORED 0x069d11a6b1dd848cu
+#define STORED 0xa4de6a2cad17240du
 
 enum { PAIRS = 250 };
 

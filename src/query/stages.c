@@ -72,8 +72,9 @@ vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
         sym3 m = {0, 0, 0, 0, 0, 0};
         if (sa > 0) m = sym3_add(m, sym3_scale(qa, 1 / sa));
         if (sb > 0) m = sym3_add(m, sym3_scale(qb, 1 / sb));
-        // Flat bodies of one plane: a little thickness keeps the matrix regular, the direction is only a proposal.
-        double thickness = 1e-9 * sym3_trace(m);
+        // The nearest points' distance is on the diagonal: x_b - x_a = d - m n = distance n. Flat bodies of one plane:
+        // a little thickness keeps the matrix regular, the direction is only a proposal.
+        double thickness = max2(vec3_dot(n, d) - sa - sb, 1e-9 * sym3_trace(m));
         vec3 next;
         if (!sym3_solve(sym3_add(m, sym3_diagonal(thickness, thickness, thickness)), d, &next)) break;
         next = vec3_unit(next);
