@@ -20,7 +20,9 @@ typedef struct entrant {
 
 enum { ENTRANTS_MOST = 32, REPETITIONS_MOST = 101 };
 
+/// Wall time, and the time that this thread had the processor: on a shared machine only the latter can be compared.
 double get_seconds(void);
+double get_own_seconds(void);
 
 /// The median and quartiles of the samples, which are sorted.
 timing timing_make(double *samples, uint32_t count);

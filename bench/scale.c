@@ -27,9 +27,9 @@ static timing time_query(const workload *work, question what) {
     void *self = ours.create(work);
     for (int pass = -1; self && answers && pass < PASSES; pass++) {
         // The first pass warms the caches.
-        double start = get_seconds();
+        double start = get_own_seconds();
         ours.run(self, what, 0, answers);
-        if (pass >= 0) samples[pass] = (get_seconds() - start) / work->pair_count * 1e9;
+        if (pass >= 0) samples[pass] = (get_own_seconds() - start) / work->pair_count * 1e9;
     }
     timing result = timing_make(samples, self && answers ? PASSES : 0);
     if (self) ours.destroy(self);
@@ -119,9 +119,9 @@ static void add_setup(rows *all, const bodies *set) {
         double samples[PASSES];
         int good = 1;
         for (uint32_t pass = 0; good && pass < passes; pass++) {
-            double start = get_seconds();
+            double start = get_own_seconds();
             for (uint32_t i = 0; good && i < set->count; i++) good = run_setup(&set->items[i], (setup)step);
-            samples[pass] = (get_seconds() - start) / set->count * 1e3;
+            samples[pass] = (get_own_seconds() - start) / set->count * 1e3;
         }
         if (good)
             rows_add(all, (row){"Set-up of a shape", "vertices", "ms", setup_names[step], vertices,
@@ -222,9 +222,9 @@ static int add_pairs(rows *all, uint32_t most) {
         uint32_t passes = count > 100000 ? 3 : 5, again = count < 1000 ? (uint32_t)(1000 / count) : 1;
         for (uint32_t pass = 0; pass < passes; pass++) {
             share s = {pairs, (uint32_t)count, 0};
-            double start = get_seconds();
+            double start = get_own_seconds();
             for (uint32_t k = 0; k < again; k++) (void)run_share(&s);
-            seconds[pass] = (get_seconds() - start) / again;
+            seconds[pass] = (get_own_seconds() - start) / again;
         }
         rows_add(all,
                  make_pairs_row("Many pairs, one thread", "pairs", (double)count, (uint32_t)count, seconds, passes));
