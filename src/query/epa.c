@@ -122,13 +122,37 @@ static evidence face_evidence(const expansion *e, const face *f, vec3 target, do
     return evidence_make(&x);
 }
 
+// The foot of the origin on a face's plane as evidence, if it lies in the face.
+static int find_foot(const search *s, const expansion *e, const face *f, evidence *x) {
+    vec3 p[3];
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        x->p[i] = (difference){e->w[f->v[i]], e->a[f->v[i]], e->b[f->v[i]]};
+        p[i] = vec3_add_scaled(x->p[i].w, f->n, -f->low);
+    }
+    for (int i = 0; i < 3; i++) {
+        x->weight[i] = vec3_dot(f->n, vec3_cross(p[(i + 1) % 3], p[(i + 2) % 3]));
+        if (!(x->weight[i] > 0)) return 0;
+        sum += x->weight[i];
+    }
+    vec3 off = {0, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        x->weight[i] /= sum;
+        off = vec3_add_scaled(off, p[i], x->weight[i]);
+    }
+    x->count = 3;
+    return vec3_norm(off) <= s->frame->claim;
+}
+
 // The witness of the depth: the surface's point nearest to the foot of the origin on the nearest face's plane. That
 // face may be one of several triangles of a facet, or of a small body's facet on a large one, so all about as near are
 // tried.
 static evidence find_witness(const search *s, const expansion *e, const face *nearest) {
     vec3 foot = vec3_scale(nearest->n, nearest->low);
     double least;
-    evidence best = face_evidence(e, nearest, foot, &least);
+    evidence best;
+    if (find_foot(s, e, nearest, &best)) return best;
+    best = face_evidence(e, nearest, foot, &least);
     for (uint32_t i = 0; i < e->faces && least > s->frame->claim; i++) {
         const face *f = &e->f[i];
         if (!f->alive || f->low > nearest->low + s->ask.tolerance) continue;
@@ -139,18 +163,16 @@ static evidence find_witness(const search *s, const expansion *e, const face *ne
     return best;
 }
 
-// The radius that the surface keeps from the origin, as surface_compute_depth finds it, from what is known of the
-// faces. A face that is no sliver has its plane's distance to 503 u s, so that only slivers and those about as near as
-// the nearest are measured again. 0 where a face may not be outward: then the whole surface has to be looked at.
-static double measure_faces(const search *s, const expansion *e, uint16_t nearest) {
-    double doubt = 1100 * 0x1p-53 * s->frame->size, depth = e->f[nearest].low + doubt;
+// The radius that the surface keeps from the origin. The plane of a face that is outward (and so no sliver) was
+// measured as triangle_compute_clearance does it, in the same operations. 0 where a face may not be outward: then the
+// whole surface has to be looked at.
+static double measure_faces(const search *s, const expansion *e) {
+    double depth = INFINITY;
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
         if (!f->alive) continue;
         if (!f->outward) return 0;
-        vec3 n;
-        if (f->low < e->f[nearest].low + 2 * doubt)
-            depth = fmin(depth, triangle_compute_clearance(e->w[f->v[0]], e->w[f->v[1]], e->w[f->v[2]], depth, &n));
+        if (f->low < depth) depth = f->low;
     }
     return depth - s->frame->claim;
 }
@@ -162,7 +184,7 @@ static void take_cover(growth *g) {
     ovoid_cover *cover = g->cover;
     uint16_t triangles[EXPANSION_FACES][3];
     surface all = {e->w, (const uint16_t(*)[3])triangles, e->points, 0};
-    double depth = measure_faces(s, e, g->nearest);
+    double depth = measure_faces(s, e);
     if (cover || !(depth > 0)) all.triangle_count = expansion_pack(e, triangles);
     if (!(depth > 0)) depth = surface_compute_depth(&all, s->frame->claim);
     double upper = -depth - s->frame->radii;

@@ -14,6 +14,7 @@ void expansion_clear(expansion *p, double slack) {
     p->slack = slack;
     p->doubt = INFINITY;
     p->bound = INFINITY;
+    memset(p->lanes.corner, 0, sizeof p->lanes.corner);
 }
 
 // A face without area takes the direction of its neighbour: any direction gives true bounds.
@@ -21,19 +22,47 @@ static vec3 find_sliver_normal(vec3 e1, vec3 e2, double area, double edges, vec3
     return area > 1e-26 * edges ? simplex_compute_normal(e1, e2) : fallback;
 }
 
-static void set_plane(expansion *p, uint16_t g, vec3 fallback) {
-    face *f = &p->f[g];
+static void set_sliver(expansion *p, face *f, double area, double edges, vec3 fallback) {
     vec3 a = p->w[f->v[0]], b = p->w[f->v[1]], c = p->w[f->v[2]];
-    vec3 e1 = vec3_sub(b, a), e2 = vec3_sub(c, a), n = vec3_cross(e1, e2);
-    double area = vec3_norm_squared(n), l1 = vec3_norm_squared(e1), l2 = vec3_norm_squared(e2), edges = l1 * l2;
-    f->sliver = !(area > 1e-4 * edges && area > 1e-250);
-    f->n = f->sliver ? find_sliver_normal(e1, e2, area, edges, fallback) : vec3_scale(n, 1 / sqrt(area));
-    double na = vec3_dot(f->n, a), nb = vec3_dot(f->n, b), nc = vec3_dot(f->n, c);
-    double least = nb < nc ? nb : nc;
-    f->low = na < least ? na : least;
-    f->outward = !f->sliver && f->low > 0 && area * f->low * f->low > p->doubt * (l1 + l2);
+    f->n = find_sliver_normal(vec3_sub(b, a), vec3_sub(c, a), area, edges, fallback);
+    f->low = fmin(vec3_dot(f->n, a), fmin(vec3_dot(f->n, b), vec3_dot(f->n, c)));
+    f->outward = 0;
+}
+
+// The plane of a face from lane i.
+static void set_plane(expansion *p, uint16_t g, uint32_t i, vec3 fallback) {
+    const simd_triangles *t = &p->lanes;
+    face *f = &p->f[g];
+    double area = t->area[i], low = t->low[i];
+    if (area > 1e-4 * t->product[i] && area > SIMD_AREA_MIN) {
+        f->n = (vec3){t->n[0][i], t->n[1][i], t->n[2][i]};
+        f->low = low;
+        f->outward = low > 0 && area * low * low > p->doubt * t->sum[i];
+    } else {
+        set_sliver(p, f, area, t->product[i], fallback);
+    }
     f->alive = 1;
     if (f->low < p->bound) p->open[p->open_count++] = g;
+}
+
+// The planes of the new faces; a sliver may fall back on that of its outer neighbour.
+static void set_planes(expansion *p) {
+    simd_triangles *t = &p->lanes;
+    for (uint32_t first = 0; first < p->made_count; first += SIMD_TRIANGLES) {
+        uint32_t count = p->made_count - first < SIMD_TRIANGLES ? p->made_count - first : SIMD_TRIANGLES;
+        for (uint32_t i = 0; i < count; i++) {
+            const face *f = &p->f[p->made[first + i]];
+            for (int k = 0; k < 3; k++) {
+                vec3 w = p->w[f->v[k]];
+                t->corner[k][0][i] = w.x, t->corner[k][1][i] = w.y, t->corner[k][2][i] = w.z;
+            }
+        }
+        simd_compute_planes(t, count);
+        for (uint32_t i = 0; i < count; i++) {
+            uint16_t g = p->made[first + i];
+            set_plane(p, g, i, p->f[p->f[g].twin[0] / 4].n);
+        }
+    }
 }
 
 static uint16_t add_face(expansion *p) {
@@ -64,8 +93,11 @@ void expansion_make_tetrahedron(expansion *p) {
     for (uint16_t i = 0; i < 4; i++) {
         memcpy(p->f[i].v, corner[i], sizeof p->f[i].v);
         memcpy(p->f[i].twin, across[i], sizeof p->f[i].twin);
-        set_plane(p, i, (vec3){0, 0, 0});
+        p->f[i].n = (vec3){0, 0, 0};
+        p->made[i] = i;
     }
+    p->made_count = 4;
+    set_planes(p);
 }
 
 static uint16_t find_least(const expansion *p) {
@@ -147,10 +179,7 @@ static int close_loop(expansion *p, uint16_t apex) {
 
 int expansion_join(expansion *p, uint16_t first, uint16_t apex) {
     if (!replace_visible(p, first, apex) || !close_loop(p, apex)) return 0;
-    for (uint32_t i = 0; i < p->made_count; i++) {
-        uint16_t g = p->made[i];
-        set_plane(p, g, p->f[p->f[g].twin[0] / 4].n);
-    }
+    set_planes(p);
     return 1;
 }
 

@@ -4,6 +4,7 @@
 
 #include "linear/vec3.h"
 #include "ovoid/query.h"
+#include "simd/planes.h"
 
 enum { EXPANSION_POINTS = OVOID_COVER_POINTS, EXPANSION_FACES = 2 * OVOID_COVER_POINTS, EXPANSION_NONE = 0xffff };
 
@@ -22,6 +23,7 @@ typedef struct expansion {
     double doubt; ///< how small det(corners)^2 may be against the square of the edges before its sign is in doubt
     double bound; ///< faces at least this far need not be looked at: at first infinity
     uint32_t points, faces, free_count, open_count, made_count;
+    simd_triangles lanes;
     vec3 w[EXPANSION_POINTS];
     uint32_t a[EXPANSION_POINTS], b[EXPANSION_POINTS];           ///< where each point came from
     uint16_t leaving[EXPANSION_POINTS], stamp[EXPANSION_POINTS]; ///< the new face from a point, as of which apex
