@@ -3,12 +3,14 @@
 #define OVOID_QUERY_PROBE_H
 
 #include "query/search.h"
+#include "simd/pair.h"
 
 enum { PROBE_POSED = 64 };
 
 typedef struct prober {
     search *s;
     int is_posed;
+    simd_points a, b;              ///< in the frame
     double posed[3 * PROBE_POSED]; ///< B's vertices in the frame: all x, all y, all z
 } prober;
 

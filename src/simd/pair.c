@@ -1,0 +1,103 @@
+// The largest value first, by a tree of maxima without indices; then one mask of the values that equal it, whose lowest
+// bit is the index. No branch depends on the values. The two sets' chains run side by side.
+#include "simd/pair.h"
+
+#include <stddef.h>
+
+static simd_pair find_pair_scalar(const simd_points *high, const simd_points *low, double nx, double ny, double nz) {
+    return (simd_pair){simd_find_support_scalar(high->x, high->y, high->z, high->padded_count, nx, ny, nz),
+                       simd_find_support_scalar(low->x, low->y, low->z, low->padded_count, -nx, -ny, -nz)};
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#include <immintrin.h>
+
+enum { MOST = 64 };
+
+#define AVX2 __attribute__((target("avx2")))
+
+AVX2 static inline __attribute__((always_inline)) support_result find_avx2(const simd_points *p, double dx, double dy,
+                                                                           double dz) {
+    __m256d value[MOST / 4], ax = _mm256_set1_pd(dx), ay = _mm256_set1_pd(dy), az = _mm256_set1_pd(dz);
+    __m256d even = _mm256_set1_pd(-__builtin_inf()), odd = even;
+    uint32_t count = p->padded_count / 4;
+    for (uint32_t i = 0; i < count; i += 2) {
+        for (uint32_t k = 0; k < 2; k++)
+            value[i + k] = _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(p->x + 4 * (i + k)), ax),
+                                                       _mm256_mul_pd(_mm256_loadu_pd(p->y + 4 * (i + k)), ay)),
+                                         _mm256_mul_pd(_mm256_loadu_pd(p->z + 4 * (i + k)), az));
+        even = _mm256_max_pd(even, value[i]);
+        odd = _mm256_max_pd(odd, value[i + 1]);
+    }
+    __m256d m = _mm256_max_pd(even, odd);
+    m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
+    m = _mm256_max_pd(m, _mm256_permute_pd(m, 5));
+    uint64_t equal = 0;
+    for (uint32_t i = 0; i < count; i++)
+        equal |= (uint64_t)(unsigned)_mm256_movemask_pd(_mm256_cmp_pd(value[i], m, _CMP_EQ_OQ)) << 4 * i;
+    return (support_result){_mm256_cvtsd_f64(m) + 0.0, (uint32_t)__builtin_ctzll(equal)};
+}
+
+AVX2 static simd_pair find_pair_avx2(const simd_points *high, const simd_points *low, double nx, double ny, double nz) {
+    return (simd_pair){find_avx2(high, nx, ny, nz), find_avx2(low, -nx, -ny, -nz)};
+}
+
+#define AVX512 __attribute__((target("avx512f")))
+
+AVX512 static inline __m512d dot8(const simd_points *p, uint32_t i, __m512d ax, __m512d ay, __m512d az) {
+    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(p->x + 8 * i), ax),
+                                       _mm512_mul_pd(_mm512_loadu_pd(p->y + 8 * i), ay)),
+                         _mm512_mul_pd(_mm512_loadu_pd(p->z + 8 * i), az));
+}
+
+AVX512 static inline __attribute__((always_inline)) support_result find_avx512(const simd_points *p, double dx,
+                                                                               double dy, double dz) {
+    __m512d value[MOST / 8], ax = _mm512_set1_pd(dx), ay = _mm512_set1_pd(dy), az = _mm512_set1_pd(dz);
+    uint32_t count = p->padded_count / 8;
+    __m512d m = value[0] = dot8(p, 0, ax, ay, az);
+    for (uint32_t i = 1; i < count; i++) {
+        value[i] = dot8(p, i, ax, ay, az);
+        m = _mm512_max_pd(m, value[i]);
+    }
+    m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0x4e));
+    m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0xb1));
+    m = _mm512_max_pd(m, _mm512_permute_pd(m, 0x55));
+    uint64_t equal = _mm512_cmp_pd_mask(value[0], m, _CMP_EQ_OQ);
+    for (uint32_t i = 1; i < count; i++) equal |= (uint64_t)_mm512_cmp_pd_mask(value[i], m, _CMP_EQ_OQ) << 8 * i;
+    return (support_result){_mm512_cvtsd_f64(m) + 0.0, (uint32_t)__builtin_ctzll(equal)};
+}
+
+AVX512 static simd_pair find_pair_avx512(const simd_points *high, const simd_points *low, double nx, double ny,
+                                         double nz) {
+    return (simd_pair){find_avx512(high, nx, ny, nz), find_avx512(low, -nx, -ny, -nz)};
+}
+
+simd_pair simd_find_pair(const simd_points *high, const simd_points *low, double nx, double ny, double nz) {
+    if (high->padded_count > MOST || low->padded_count > MOST)
+        return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, nx, ny, nz),
+                           simd_find_support(low->x, low->y, low->z, low->padded_count, -nx, -ny, -nz)};
+    if (__builtin_cpu_supports("avx512f")) return find_pair_avx512(high, low, nx, ny, nz);
+    if (__builtin_cpu_supports("avx2")) return find_pair_avx2(high, low, nx, ny, nz);
+    return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, nx, ny, nz),
+                       simd_find_support(low->x, low->y, low->z, low->padded_count, -nx, -ny, -nz)};
+}
+
+simd_pair_function *simd_get_pair(simd_isa isa) {
+    switch (isa) {
+    case SIMD_SCALAR: return find_pair_scalar;
+    case SIMD_AVX2: return __builtin_cpu_supports("avx2") ? find_pair_avx2 : NULL;
+    case SIMD_AVX512: return __builtin_cpu_supports("avx512f") ? find_pair_avx512 : NULL;
+    default: return NULL;
+    }
+}
+
+#else
+
+simd_pair simd_find_pair(const simd_points *high, const simd_points *low, double nx, double ny, double nz) {
+    return find_pair_scalar(high, low, nx, ny, nz);
+}
+
+simd_pair_function *simd_get_pair(simd_isa isa) { return isa == SIMD_SCALAR ? find_pair_scalar : NULL; }
+
+#endif
