@@ -1,5 +1,7 @@
 // The vector kernels against their scalar twin, bit for bit: no tolerance. The scalar twin itself against its
 // definition, read off a sorted copy of the values.
+#include "simd/pair.h"
+#include "simd/planes.h"
 #include "simd/support.h"
 
 #include "check.h"
@@ -102,6 +104,65 @@ static void test_unaligned(void) {
     }
 }
 
+static void check_pair(const simd_points *high, const simd_points *low, const double *d) {
+    simd_pair expected = simd_get_pair(SIMD_SCALAR)(high, low, d[0], d[1], d[2]);
+    for (simd_isa isa = SIMD_SCALAR; isa <= SIMD_ISA_COUNT; isa++) {
+        simd_pair_function *find = isa == SIMD_ISA_COUNT ? simd_find_pair : simd_get_pair(isa);
+        if (!find || (isa != SIMD_ISA_COUNT && (high->padded_count > 64 || low->padded_count > 64))) continue;
+        simd_pair r = find(high, low, d[0], d[1], d[2]);
+        CHECK_EQ(r.high.index, expected.high.index);
+        CHECK_EQ(r.low.index, expected.low.index);
+        CHECK(bits_of(r.high.value) == bits_of(expected.high.value));
+        CHECK(bits_of(r.low.value) == bits_of(expected.low.value));
+    }
+}
+
+/// Both bodies at once, of all lengths, with and without ties: what two calls of the scalar twin give.
+static void test_pairs(void) {
+    static const double ties[][3] = {{1, 0, 0}, {0, 0, 0}, {-0.0, 0, -0.0}, {1, -1, 1}};
+    for (uint32_t n = 8; n <= 80; n += 8)
+        for (uint32_t m = 8; m <= 80; m += 8) {
+            uint64_t state = check_seed = 100 * n + m;
+            simd_points high = {x, y, z, n}, low = {x + 100, y + 100, z + 100, m};
+            fill_ties(&state, 200);
+            for (size_t k = 0; k < sizeof ties / sizeof ties[0]; k++) check_pair(&high, &low, ties[k]);
+            fill_random(&state, 200, 1, 0);
+            double d[3] = {random_normal(&state), random_normal(&state), random_normal(&state)};
+            check_pair(&high, &low, d);
+        }
+}
+
+/// Cones of every length, some triangles without area: the scalar twin's bits.
+static void test_cones(void) {
+    static simd_cone a, b;
+    for (uint32_t count = 1; count <= SIMD_CONE; count++)
+        for (uint64_t seed = 1; seed <= 200; seed++) {
+            uint64_t state = check_seed = seed;
+            double scale = seed % 5 == 0 ? 1e-70 : seed % 7 == 0 ? 1e45 : 1;
+            for (int k = 0; k < 3; k++)
+                for (int i = 0; i < SIMD_CONE + 4; i++)
+                    a.edge[k][i] = random_next(&state) % 8 ? scale * random_normal(&state) : 0;
+            b = a;
+            double w[3] = {scale * random_normal(&state), scale * random_normal(&state), scale * random_normal(&state)};
+            simd_compute_cone(&a, count, w[0], w[1], w[2]);
+            simd_compute_cone_scalar(&b, count, w[0], w[1], w[2]);
+            for (uint32_t i = 0; i < count; i++) {
+                for (int k = 0; k < 3; k++) CHECK(bits_of(a.n[k][i]) == bits_of(b.n[k][i]));
+                CHECK(bits_of(a.offset[i]) == bits_of(b.offset[i]));
+                CHECK(bits_of(a.area[i]) == bits_of(b.area[i]));
+                CHECK(bits_of(a.product[i]) == bits_of(b.product[i]));
+                CHECK(bits_of(a.sum[i]) == bits_of(b.sum[i]));
+            }
+            // The definition, by its property: the plane's normal is orthogonal to both edges.
+            for (uint32_t i = 0; i < count; i++) {
+                if (!(b.area[i] > 1e-2 * b.product[i])) continue;
+                double e = 0;
+                for (int k = 0; k < 3; k++) e += b.n[k][i] * b.edge[k][i];
+                CHECK_LE(fabs(e), 1e-13 * scale);
+            }
+        }
+}
+
 int main(void) {
     for (simd_isa isa = SIMD_SCALAR; isa < SIMD_ISA_COUNT; isa++)
         if (!simd_get_support(isa)) {
@@ -112,5 +173,7 @@ int main(void) {
     test_lengths();
     test_scales();
     test_unaligned();
+    test_pairs();
+    test_cones();
     return check_end();
 }

@@ -83,13 +83,21 @@ static int take_glance(const pair_frame *f, const question *ask, const ovoid_pro
     return glance_at_spheres(f, ask->far, found);
 }
 
-// The stages before the search; the simplex to start from. A depth goes to EPA as soon as the bodies seem to overlap.
+static int may_overlap(const search *s) {
+    const pair_frame *f = s->frame;
+    double reach = f->a->reach + f->b->reach;
+    return s->lower + f->radii <= 0 &&
+           vec3_norm_squared(vec3_sub(frame_b(f, f->b->center), f->a->center)) < reach * reach;
+}
+
+// The stages before the search; the simplex to start from. A depth goes to EPA at once if the spheres overlap,
+// without one.
 static void run_stages(search *s, const ovoid_proof *earlier, simplex *start) {
     stage_proof(s, earlier, start);
     if (search_is_done(s)) return;
     if (start->count) return;
     vec3 n;
-    if (s->ask.wants_depth && stage_center(s, start)) return;
+    if (s->ask.wants_depth && may_overlap(s)) return;
     stage_outer(s, &n);
     if (search_is_done(s)) return;
     stage_support(s, n, start);

@@ -104,10 +104,24 @@ static int complete(const prober *p, expansion *e) {
     return is_solid(e);
 }
 
-// The differences at hand made a tetrahedron, else one found afresh.
-static int start(const prober *p, expansion *e, const simplex *from) {
-    for (int i = 0; i < from->count; i++) (void)expansion_add_point(e, from->p[i].w, from->p[i].a, from->p[i].b);
-    return (from->count > 0 && complete(p, e)) || find_tetrahedron(p, e);
+// The first difference: the support along the line of centres.
+static void probe_center(const prober *p, simplex *x) {
+    const pair_frame *f = p->s->frame;
+    vec3 d = vec3_sub(f->a->center, frame_b(f, f->b->center));
+    frame_support w = probe_find(p, vec3_norm_squared(d) > 0 ? vec3_unit(d) : (vec3){1, 0, 0});
+    x->p[0] = (difference){w.w, w.a, w.b};
+    x->weight[0] = 1;
+    x->count = 1;
+}
+
+static int is_apart(const search *s) { return s->lower + s->frame->radii > 0; }
+
+// The differences at hand made a tetrahedron, else one found afresh. 0 where there is none, or none is needed.
+static int start(const prober *p, expansion *e, simplex *x, int is_first) {
+    if (x->count == 0) probe_center(p, x);
+    if (is_first && is_apart(p->s)) return 0;
+    for (int i = 0; i < x->count; i++) (void)expansion_add_point(e, x->p[i].w, x->p[i].a, x->p[i].b);
+    return (complete(p, e) || find_tetrahedron(p, e)) && !(is_first && is_apart(p->s));
 }
 
 // The corners of a face as evidence, weighted to the point nearest to the target; *distance: how near.
@@ -163,16 +177,26 @@ static evidence find_witness(const search *s, const expansion *e, const face *ne
     return best;
 }
 
-// The radius that the surface keeps from the origin. The plane of a face that is outward (and so no sliver) was
-// measured as triangle_compute_clearance does it, in the same operations. 0 where a face may not be outward: then the
-// whole surface has to be looked at.
+static double measure_face(const expansion *e, const face *f) {
+    double a = vec3_dot(f->n, e->w[f->v[0]]), b = vec3_dot(f->n, e->w[f->v[1]]), c = vec3_dot(f->n, e->w[f->v[2]]);
+    return min2(a, min2(b, c));
+}
+
+// The radius that the surface keeps from the origin, as triangle_compute_clearance finds it: the normal of a face that
+// is outward (and so no sliver) was computed in the same operations, and n.w differs by less than 1100 u s between its
+// corners, which matters for the nearest only. 0 where a face may not be outward: the surface has to be looked at then.
 static double measure_faces(const search *s, const expansion *e) {
-    double depth = INFINITY;
+    double doubt = 1100 * 0x1p-53 * s->frame->size, least = INFINITY;
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
         if (!f->alive) continue;
         if (!f->outward) return 0;
-        if (f->low < depth) depth = f->low;
+        least = min2(least, f->low);
+    }
+    double depth = least + doubt;
+    for (uint32_t i = 0; i < e->faces; i++) {
+        const face *f = &e->f[i];
+        if (f->alive && f->low < least + 2 * doubt) depth = min2(depth, measure_face(e, f));
     }
     return depth - s->frame->claim;
 }
@@ -282,7 +306,7 @@ static int grow(growth *g) {
     e->bound = -(s->lower + s->frame->radii);
     if (s->ask.wants_depth && is_narrow(s, f->low, high)) return 0;
     if (high - f->low <= e->slack) return 0;
-    if (has_point(e, &x)) return measure_sliver(e, f);
+    if (high - f->low < 1e-3 * s->frame->size && has_point(e, &x)) return measure_sliver(e, f);
     if (e->points == EXPANSION_POINTS) {
         s->limit = OVOID_LIMIT_CAPACITY;
         return 0;
@@ -301,8 +325,6 @@ static void leave(growth *g, simplex *x) {
     for (int i = 0; i < 3; i++) x->p[i] = (difference){g->e.w[f->v[i]], g->e.a[f->v[i]], g->e.b[f->v[i]]};
 }
 
-static int is_apart(const search *s) { return s->lower + s->frame->radii > 0; }
-
 int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
     growth g;
     g.s = s;
@@ -310,7 +332,7 @@ int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
     prober_make(&g.p, s);
     expansion_clear(&g.e, 16 * 0x1p-53 * s->frame->size);
     g.e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
-    if (!start(&g.p, &g.e, x) || (is_first && is_apart(s))) return search_is_done(s);
+    if (!start(&g.p, &g.e, x, is_first)) return search_is_done(s);
     expansion_make_tetrahedron(&g.e);
     find_next(&g);
     uint32_t steps = 0;

@@ -10,57 +10,57 @@ typedef expansion_face face;
 enum { POINTS = EXPANSION_POINTS, FACES = EXPANSION_FACES, NONE = EXPANSION_NONE };
 
 void expansion_clear(expansion *p, double slack) {
-    p->points = p->faces = p->free_count = p->open_count = p->made_count = 0;
+    p->points = p->faces = p->free_count = p->open_count = p->ring_count = 0;
     p->slack = slack;
     p->doubt = INFINITY;
     p->bound = INFINITY;
-    memset(p->lanes.corner, 0, sizeof p->lanes.corner);
+    memset(p->cone.edge, 0, sizeof p->cone.edge);
 }
 
-// A face without area takes the direction of its neighbour: any direction gives true bounds.
-static vec3 find_sliver_normal(vec3 e1, vec3 e2, double area, double edges, vec3 fallback) {
-    return area > 1e-26 * edges ? simplex_compute_normal(e1, e2) : fallback;
+static void open_face(expansion *p, uint16_t g) {
+    p->f[g].alive = 1;
+    if (p->f[g].low < p->bound) p->open[p->open_count++] = g;
 }
 
-static void set_sliver(expansion *p, face *f, double area, double edges, vec3 fallback) {
+// A sliver is cleaned; a face without area takes the direction of its neighbour: any direction gives true bounds.
+static void set_plane(expansion *p, face *f, vec3 fallback) {
     vec3 a = p->w[f->v[0]], b = p->w[f->v[1]], c = p->w[f->v[2]];
-    f->n = find_sliver_normal(vec3_sub(b, a), vec3_sub(c, a), area, edges, fallback);
+    vec3 e1 = vec3_sub(b, a), e2 = vec3_sub(c, a);
+    double l1 = vec3_norm_squared(e1), l2 = vec3_norm_squared(e2), area = vec3_norm_squared(vec3_cross(e1, e2));
+    f->n = area > 1e-26 * (l1 * l2) ? simplex_compute_normal(e1, e2) : fallback;
     f->low = fmin(vec3_dot(f->n, a), fmin(vec3_dot(f->n, b), vec3_dot(f->n, c)));
-    f->outward = 0;
+    f->outward = area > 1e-4 * (l1 * l2) && f->low > 0 && area * f->low * f->low > p->doubt * (l1 + l2);
 }
 
-// The plane of a face from lane i.
-static void set_plane(expansion *p, uint16_t g, uint32_t i, vec3 fallback) {
-    const simd_triangles *t = &p->lanes;
-    face *f = &p->f[g];
-    double area = t->area[i], low = t->low[i];
-    if (area > 1e-4 * t->product[i] && area > SIMD_AREA_MIN) {
-        f->n = (vec3){t->n[0][i], t->n[1][i], t->n[2][i]};
-        f->low = low;
-        f->outward = low > 0 && area * low * low > p->doubt * t->sum[i];
-    } else {
-        set_sliver(p, f, area, t->product[i], fallback);
+// The plane of a face from its lane; a sliver's is found apart.
+static void take_lane(expansion *p, face *f, uint32_t i) {
+    const simd_cone *c = &p->cone;
+    double area = c->area[i], low = c->offset[i];
+    if (!(area > 1e-4 * c->product[i] && area > SIMD_AREA_MIN)) {
+        set_plane(p, f, p->f[f->twin[1] / 4].n);
+        return;
     }
-    f->alive = 1;
-    if (f->low < p->bound) p->open[p->open_count++] = g;
+    f->n = (vec3){c->n[0][i], c->n[1][i], c->n[2][i]};
+    f->low = low;
+    f->outward = low > 0 && area * low * low > p->doubt * c->sum[i];
 }
 
-// The planes of the new faces; a sliver may fall back on that of its outer neighbour.
-static void set_planes(expansion *p) {
-    simd_triangles *t = &p->lanes;
-    for (uint32_t first = 0; first < p->made_count; first += SIMD_TRIANGLES) {
-        uint32_t count = p->made_count - first < SIMD_TRIANGLES ? p->made_count - first : SIMD_TRIANGLES;
-        for (uint32_t i = 0; i < count; i++) {
-            const face *f = &p->f[p->made[first + i]];
-            for (int k = 0; k < 3; k++) {
-                vec3 w = p->w[f->v[k]];
-                t->corner[k][0][i] = w.x, t->corner[k][1][i] = w.y, t->corner[k][2][i] = w.z;
-            }
+// The planes of the ring of new faces.
+static void set_ring(expansion *p, uint16_t apex) {
+    simd_cone *c = &p->cone;
+    vec3 w = p->w[apex];
+    for (uint32_t first = 0; first < p->ring_count; first += SIMD_CONE) {
+        uint32_t count = p->ring_count - first < SIMD_CONE ? p->ring_count - first : SIMD_CONE;
+        for (uint32_t i = 0; i <= count; i++) {
+            uint32_t at = first + i < p->ring_count ? first + i : 0;
+            vec3 e = vec3_sub(p->w[p->f[p->ring[at]].v[1]], w);
+            c->edge[0][i] = e.x, c->edge[1][i] = e.y, c->edge[2][i] = e.z;
         }
-        simd_compute_planes(t, count);
+        simd_compute_cone(c, count, w.x, w.y, w.z);
         for (uint32_t i = 0; i < count; i++) {
-            uint16_t g = p->made[first + i];
-            set_plane(p, g, i, p->f[p->f[g].twin[0] / 4].n);
+            uint16_t g = p->ring[first + i];
+            take_lane(p, &p->f[g], i);
+            open_face(p, g);
         }
     }
 }
@@ -78,10 +78,10 @@ uint16_t expansion_add_point(expansion *p, vec3 w, uint32_t a, uint32_t b) {
     return (uint16_t)p->points++;
 }
 
-// The four faces of the first tetrahedron, outward.
+// The four faces of the first tetrahedron, outward: a base, and a cone from point 3 over it.
 void expansion_make_tetrahedron(expansion *p) {
-    static const uint16_t corner[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    static const uint16_t across[4][3] = {{10, 12, 4}, {2, 14, 8}, {6, 13, 0}, {1, 9, 5}};
+    static const uint16_t corner[4][3] = {{0, 2, 1}, {3, 0, 1}, {3, 1, 2}, {3, 2, 0}};
+    static const uint16_t across[4][3] = {{13, 9, 5}, {14, 2, 8}, {6, 1, 12}, {10, 0, 4}};
     vec3 e1 = vec3_sub(p->w[1], p->w[0]), e2 = vec3_sub(p->w[2], p->w[0]), e3 = vec3_sub(p->w[3], p->w[0]);
     if (vec3_dot(vec3_cross(e1, e2), e3) < 0) {
         vec3 w = p->w[1];
@@ -93,11 +93,12 @@ void expansion_make_tetrahedron(expansion *p) {
     for (uint16_t i = 0; i < 4; i++) {
         memcpy(p->f[i].v, corner[i], sizeof p->f[i].v);
         memcpy(p->f[i].twin, across[i], sizeof p->f[i].twin);
-        p->f[i].n = (vec3){0, 0, 0};
-        p->made[i] = i;
+        if (i > 0) p->ring[i - 1] = i;
     }
-    p->made_count = 4;
-    set_planes(p);
+    set_plane(p, &p->f[0], (vec3){0, 0, 0});
+    open_face(p, 0);
+    p->ring_count = 3;
+    set_ring(p, 3);
 }
 
 static uint16_t find_least(const expansion *p) {
@@ -129,12 +130,13 @@ static int add_on_edge(expansion *p, const face *old, int e, uint16_t apex) {
     uint16_t g = add_face(p), from = old->v[e], outer = old->twin[e];
     if (g == NONE || p->stamp[from] == apex) return 0;
     face *f = &p->f[g];
-    f->v[0] = from, f->v[1] = old->v[e == 2 ? 0 : e + 1], f->v[2] = apex;
-    f->twin[0] = outer;
-    p->f[outer / 4].twin[outer % 4] = (uint16_t)(4 * g);
+    f->v[0] = apex, f->v[1] = from, f->v[2] = old->v[e == 2 ? 0 : e + 1];
+    f->twin[1] = outer;
+    p->f[outer / 4].twin[outer % 4] = (uint16_t)(4 * g + 1);
     p->stamp[from] = apex;
     p->leaving[from] = g;
-    p->made[p->made_count++] = g;
+    p->ring[0] = g;
+    p->ring_count++;
     return 1;
 }
 
@@ -144,7 +146,7 @@ static int replace_visible(expansion *p, uint16_t first, uint16_t apex) {
     uint32_t count = 0;
     p->visible[count++] = first;
     p->f[first].alive = 0;
-    p->made_count = 0;
+    p->ring_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         const face *old = &p->f[p->visible[i]];
         for (int e = 0; e < 3; e++) {
@@ -160,26 +162,27 @@ static int replace_visible(expansion *p, uint16_t first, uint16_t apex) {
         }
     }
     for (uint32_t i = 0; i < count; i++) p->free[p->free_count++] = p->visible[i];
-    return p->made_count >= 3;
+    return p->ring_count >= 3;
 }
 
 // Around the loop: each new face's edge (to, apex) meets the one that leaves `to`. 0 if it is not one simple loop.
-static int close_loop(expansion *p, uint16_t apex) {
-    uint16_t first = p->made[0], g = first;
-    for (uint32_t i = 0; i < p->made_count; i++) {
-        uint16_t to = p->f[g].v[1];
+static int close_ring(expansion *p, uint16_t apex) {
+    uint16_t first = p->ring[0], g = first;
+    for (uint32_t i = 0; i < p->ring_count; i++) {
+        uint16_t to = p->f[g].v[2];
         if (p->stamp[to] != apex || (g == first && i > 0)) return 0;
         uint16_t follower = p->leaving[to];
-        p->f[g].twin[1] = (uint16_t)(4 * follower + 2);
-        p->f[follower].twin[2] = (uint16_t)(4 * g + 1);
+        p->f[g].twin[2] = (uint16_t)(4 * follower);
+        p->f[follower].twin[0] = (uint16_t)(4 * g + 2);
+        p->ring[i] = g;
         g = follower;
     }
     return g == first;
 }
 
 int expansion_join(expansion *p, uint16_t first, uint16_t apex) {
-    if (!replace_visible(p, first, apex) || !close_loop(p, apex)) return 0;
-    set_planes(p);
+    if (!replace_visible(p, first, apex) || !close_ring(p, apex)) return 0;
+    set_ring(p, apex);
     return 1;
 }
 

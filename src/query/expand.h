@@ -10,7 +10,7 @@ enum { EXPANSION_POINTS = OVOID_COVER_POINTS, EXPANSION_FACES = 2 * OVOID_COVER_
 
 typedef struct expansion_face {
     vec3 n;           ///< unit, outward
-    double low;       ///< least n.w of its corners
+    double low;       ///< n.w of its corners, to rounding
     uint16_t v[3];    ///< corners, counter-clockwise from outside
     uint16_t twin[3]; ///< across the edge v[e], v[e + 1]: 4 face + edge
     uint8_t alive;    ///< 0: replaced
@@ -22,12 +22,12 @@ typedef struct expansion {
     double slack; ///< of rounding, when a point is held against a face
     double doubt; ///< how small det(corners)^2 may be against the square of the edges before its sign is in doubt
     double bound; ///< faces at least this far need not be looked at: at first infinity
-    uint32_t points, faces, free_count, open_count, made_count;
-    simd_triangles lanes;
+    uint32_t points, faces, free_count, open_count, ring_count;
+    simd_cone cone;
     vec3 w[EXPANSION_POINTS];
     uint32_t a[EXPANSION_POINTS], b[EXPANSION_POINTS];           ///< where each point came from
     uint16_t leaving[EXPANSION_POINTS], stamp[EXPANSION_POINTS]; ///< the new face from a point, as of which apex
-    uint16_t made[EXPANSION_POINTS];                             ///< the last point's new faces
+    uint16_t ring[EXPANSION_POINTS];                             ///< the last point's new faces, around it
     expansion_face f[EXPANSION_FACES];
     uint16_t free[EXPANSION_FACES]; ///< faces that can be used again
     uint16_t visible[EXPANSION_FACES];

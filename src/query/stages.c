@@ -44,15 +44,6 @@ void stage_proof(search *s, const ovoid_proof *earlier, simplex *start) {
     if (search_is_done(s)) s->stage = OVOID_STAGE_PROOF;
 }
 
-int stage_center(search *s, simplex *start) {
-    const pair_frame *f = s->frame;
-    vec3 d = vec3_sub(frame_b(f, f->b->center), f->a->center);
-    double reach = f->a->reach + f->b->reach, square = vec3_norm_squared(d);
-    if (!(square > 0) || square >= reach * reach) return 0;
-    stage_support(s, vec3_unit(d), start);
-    return s->lower + f->radii <= 0;
-}
-
 double ellipsoid_compute_spread(sym3 q, vec3 n) {
     return max2(sym3_quadratic(q, n), 0) + 256 * 0x1p-53 * sym3_trace(q);
 }

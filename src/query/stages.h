@@ -9,9 +9,6 @@
 /// empty where the proof is of another pair or none.
 void stage_proof(search *s, const ovoid_proof *earlier, simplex *start);
 
-/// The supports along the line of centres; the vertex pair goes into *start. 1 if they do not tell the bodies apart.
-int stage_center(search *s, simplex *start);
-
 /// Outer ellipsoids; the direction that separates them best, unit, in *n.
 void stage_outer(search *s, vec3 *n);
 
