@@ -354,9 +354,9 @@ void refine_run(search *s, const ovoid_pair *pair, const ovoid_proof *earlier) {
     if (!is_wanted(s) || !fine_make(pair, &r.f)) return;
     r.noise = 2 * r.f.claim;
     uint64_t left = 2 * (uint64_t)s->ask.iterations - s->iterations;
-    // A round may take a few supports more.
-    if (left < 4) return;
-    left -= 2;
+    // The first look and the last round may take a few supports more.
+    if (left < 10) return;
+    left -= 8;
     r.most = left < STEPS ? (int)left : STEPS;
     run(&r, earlier);
     if (r.has_points && s->kind == OVOID_PROOF_POINTS) state_points(&r);
