@@ -42,11 +42,25 @@ static void take_lower(search *s, double lower, vec3 n) {
     s->normal = n;
 }
 
+// The points of a tetrahedron's faces: where it is flat its volumes are noise, and so are the weights they give.
+static void take_faces(search *s, const simplex *x) {
+    for (int out = 0; out < 4; out++) {
+        simplex face = {.count = 3};
+        for (int i = 0, k = 0; i < 4; i++)
+            if (i != out) face.p[k++] = x->p[i];
+        (void)simplex_reduce(&face);
+        search_take_points(s, &face);
+    }
+}
+
 // The origin lies in the simplex, as far as doubles can tell.
 static gjk_end end_inside(search *s, const simplex *x) {
     s->stage = OVOID_STAGE_GJK;
     evidence inside = evidence_make(x);
-    if (x->count < 4 || !search_take_hull(s, &inside)) search_take_points(s, x);
+    if (x->count < 4 || !search_take_hull(s, &inside)) {
+        search_take_points(s, x);
+        if (x->count == 4) take_faces(s, x);
+    }
     return search_is_done(s) ? GJK_ANSWERED : GJK_CONTACT;
 }
 

@@ -96,6 +96,11 @@ void stage_support(search *s, vec3 n, simplex *start) {
     start->count = 1;
     search_take_points(s, start);
     s->stage = OVOID_STAGE_SUPPORT;
+    if (!(s->frame->radii > 0) || !s->ask.wants_bracket || !search_is_done(s)) return;
+    // Where radii overlap the points are on the bodies along the normal: the bracket is taken along the difference's
+    // own direction, as gjk.c does, so that points, normal and depth agree.
+    s->lower = -INFINITY;
+    (void)search_probe(s, vec3_unit(p.w));
 }
 
 void stage_inner(search *s) {
