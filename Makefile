@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check bits bench soak trust docs install format lint clean
+.PHONY: all help demo check bits bench soak trust fuzz docs install format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -41,6 +41,11 @@ soak: ## random and hostile pairs before the exact judge, SECONDS=3600; goes on 
 trust: ## 10^9 queries checked by proof, 10^6 by the judge, about an hour; goes on where it stopped
 	@$(call build,build,long_run)
 	@$(BUILD)/tests/long_run --queries 1e9 --threads $(JOBS) --state build/long_run.state
+
+fuzz: ## each fuzz target for SECONDS=60; goes on from what it found before
+	@scripts/setup.sh fuzz
+	@cmake --preset fuzz >/dev/null && cmake --build build/fuzz -j$(JOBS) --target fuzz_targets >/dev/null
+	@scripts/fuzz.sh $(if $(filter command,$(firstword $(origin SECONDS))),$(SECONDS),60)
 
 docs: ## the manual, in build/docs/html
 	@scripts/setup.sh docs

@@ -64,14 +64,14 @@ for target; do
     seeds=$build/seeds/$target grown=$build/grown/$target found=$build/found log=$build/fuzz_$target.log
     mkdir -p "$grown" "$found"
     collect_seeds "$target" "$seeds"
-    before=$(find "$found" -name "$target-*" | wc -l)
+    before=$(find "$found" -name "$target-*" -size +0c | wc -l) # an Assimp child that dies may leave an empty one
     start=$(date +%s)
     read_cpu >"$build/cpu_before"
     "$build/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout="$(timeout_of "$target")" -rss_limit_mb=2048 -max_len=65536 \
         -malloc_limit_mb=-1 -print_final_stats=1 -artifact_prefix="$found/$target-" "$grown" "fuzz/corpus/$target" "$seeds" >"$log" 2>&1
     code=$?
     read_cpu >"$build/cpu_after"
-    crashes=$(($(find "$found" -name "$target-*" | wc -l) - before))
+    crashes=$(($(find "$found" -name "$target-*" -size +0c | wc -l) - before))
     [ $code -eq 0 ] && [ $crashes -eq 0 ] || failed=1
     edges=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
     printf '%s  %-8s %9s runs %5s s %5s s cpu %6s edges %6s inputs %3s failures (exit %s)\n' "$(date -u +%FT%TZ)" \

@@ -1,5 +1,5 @@
 #!/bin/sh
-# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, demo, bench or docs.
+# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, demo, bench, fuzz or docs.
 # Nothing missing: nothing is called. Nowhere to install from or no right to: a sentence that names the packages.
 set -eu
 
@@ -11,6 +11,7 @@ packages_of() {
         check) packages_of build && echo libqhull-dev libcgal-demo clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen ;;
         demo) packages_of build && echo libcgal-demo ;;
         bench) packages_of build && echo libccd-dev libfcl-dev libbullet-dev libode-dev libqhull-dev ;;
+        fuzz) packages_of build && echo clang libclang-rt-14-dev assimp-testmodels ;;
         docs) echo cmake build-essential doxygen ;;
         *) echo "setup: no such job: $job" >&2 && return 1 ;;
         esac

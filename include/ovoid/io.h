@@ -19,8 +19,14 @@
 extern "C" {
 #endif
 
-/** Largest file that is read as a mesh, shape, scene or list, bytes. */
+/** Largest file that is read as a mesh, shape or list, bytes. */
 #define OVOID_FILE_SIZE_MAX ((size_t)1 << 30)
+
+/** Largest scene, bytes: JSON takes up to 80 times as much in memory. */
+#define OVOID_SCENE_SIZE_MAX ((size_t)1 << 26)
+
+/** Most parts of a mesh file. */
+#define OVOID_MESH_PARTS_MAX 65536
 
 /** Most points, after equal ones are merged, of a mesh file. */
 #define OVOID_MESH_POINTS_MAX 5000000

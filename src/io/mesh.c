@@ -31,6 +31,11 @@ ovoid_mesh_part ovoid_mesh_get_part(const ovoid_mesh *mesh, size_t i) {
 
 mesh_part *mesh_add_part(mesh_reader *reader, const char *name, size_t length) {
     ovoid_mesh *mesh = reader->mesh;
+    if (mesh->part_count >= OVOID_MESH_PARTS_MAX) {
+        io_report(reader->error, OVOID_ERROR_LIMIT, (where){reader->path, 0, -1}, "more than %d parts",
+                  OVOID_MESH_PARTS_MAX);
+        return NULL;
+    }
     char *copy = text_copy(name, length);
     if (!copy || !array_reserve((void **)&mesh->parts, &mesh->part_capacity, mesh->part_count, sizeof(mesh_part))) {
         free(copy);

@@ -34,7 +34,8 @@ typedef struct mesh_reader {
     ovoid_error *error;
 } mesh_reader;
 
-/// A new part at the end, empty; NULL with the error filled where there is no memory. Earlier pointers become invalid.
+/// A new part at the end, empty; NULL with the error filled where there is no memory or there are too many. Earlier
+/// pointers become invalid.
 mesh_part *mesh_add_part(mesh_reader *reader, const char *name, size_t length);
 
 /// Checks (finite, in range, not too many), scales and adds a point. line: of a text file, or 0; place: of a binary

@@ -146,8 +146,8 @@ static ovoid_shape *make_round(scene_reader *r, const geometry *g) {
         return NULL;
     ovoid_error why = {OVOID_OK, -1, ""};
     if (is_capsule) return name_failure(r, g, ovoid_shape_create_capsule(length / 2, radius, &g->options, &why), &why);
-    if (sides < 3 || sides > 100000 || sides != floor(sides)) {
-        fail_member(r, OVOID_ERROR_FORMAT, g->kind, "needs a whole number of sides from 3 to 100000");
+    if (sides < 3 || sides > 4096 || sides != floor(sides)) {
+        fail_member(r, OVOID_ERROR_FORMAT, g->kind, "needs a whole number of sides from 3 to 4096");
         return NULL;
     }
     uint32_t n = (uint32_t)sides;
@@ -434,7 +434,7 @@ static ovoid_code read_scene(scene_reader *r) {
 
 ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error) {
     scene_reader r = {.path = path, .options = options, .error = error};
-    if (bytes_read(path, &r.file, error)) return NULL;
+    if (bytes_read_at_most(path, OVOID_SCENE_SIZE_MAX, &r.file, error)) return NULL;
     r.scene = calloc(1, sizeof *r.scene);
     ovoid_code code = r.scene ? read_scene(&r) : io_fail_memory(error, path);
     free(r.file.data);

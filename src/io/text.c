@@ -63,6 +63,10 @@ static ovoid_code read_all(int file, size_t size, const char *path, bytes *out, 
 }
 
 ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error) {
+    return bytes_read_at_most(path, OVOID_FILE_SIZE_MAX, out, error);
+}
+
+ovoid_code bytes_read_at_most(const char *path, size_t most, bytes *out, ovoid_error *error) {
     *out = (bytes){NULL, 0};
     where at = {path, 0, -1};
     // O_NONBLOCK: a pipe of that name must be refused, not waited for.
@@ -74,9 +78,9 @@ ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error) {
         code = io_fail(error, OVOID_ERROR_FILE, at, "cannot be read: %s", strerror(errno));
     else if (!S_ISREG(status.st_mode))
         code = io_fail(error, OVOID_ERROR_FILE, at, "is not a regular file");
-    else if ((uint64_t)status.st_size > OVOID_FILE_SIZE_MAX)
+    else if ((uint64_t)status.st_size > most)
         code = io_fail(error, OVOID_ERROR_LIMIT, at, "has %lld bytes; at most %zu are read", (long long)status.st_size,
-                       OVOID_FILE_SIZE_MAX);
+                       most);
     else if (status.st_size == 0)
         code = io_fail(error, OVOID_ERROR_EMPTY, at, "the file is empty");
     else
@@ -88,7 +92,7 @@ ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error) {
 int array_reserve(void **data, size_t *capacity, size_t count, size_t size) {
     if (count < *capacity) return 1;
     if (*capacity > SIZE_MAX / 4 / size) return 0;
-    size_t grown = *capacity ? *capacity * 2 : 64;
+    size_t grown = *capacity ? *capacity * 2 : 8;
     void *moved = realloc(*data, grown * size);
     if (!moved) return 0;
     *data = moved;

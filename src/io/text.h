@@ -38,6 +38,8 @@ typedef struct bytes {
 
 /// Reads a regular file of at most OVOID_FILE_SIZE_MAX bytes. The caller frees out->data.
 ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error);
+/// Likewise one of at most that many bytes.
+ovoid_code bytes_read_at_most(const char *path, size_t most, bytes *out, ovoid_error *error);
 
 /// A growing array: makes room for one more item of size bytes. 0 where there is no memory.
 int array_reserve(void **data, size_t *capacity, size_t count, size_t size);
