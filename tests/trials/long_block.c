@@ -103,7 +103,8 @@ static void check_completeness(work *w, const scene *s, const ovoid_answer *x, q
     int is_wide = x->upper - x->lower - s->unresolved > 1.0001e-9 * s->size;
     int wants_bracket = kind == ASK_DEPTH || (kind == ASK_DISTANCE && x->status == OVOID_SEPARATED);
     if (is_wide && x->status == OVOID_TOUCHING) fail(w, s, x, kind, "touching, and the bracket is wide");
-    if (is_wide && wants_bracket && x->limit == OVOID_LIMIT_NONE) fail(w, s, x, kind, "wide, and no limit says why");
+    if (is_wide && wants_bracket && (x->limit == OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_ANSWERED))
+        fail(w, s, x, kind, "wide, and no limit says why");
     w->c.open += x->status == OVOID_UNDECIDED;
     w->c.wide += is_wide && wants_bracket;
     if (!run->is_shown) return;
