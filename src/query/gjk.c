@@ -177,7 +177,7 @@ static walk_state fan(search *s, walk *k, heading *to) {
     vec3 off = vec3_add_scaled(w, n, -h);
     double length = vec3_norm(off);
     // Far apart, or where w itself is tilted less, it is the better direction.
-    if (!(length > tilt * fmax(h, 0)) || 4 * h > f->a->reach + f->b->reach || s->ask.iterations - s->iterations < 3)
+    if (!(length > tilt * fmax(h, 0)) || 4 * h > f->a->reach + f->b->reach || s->ask.iterations < s->iterations + 3)
         return WALK_ON;
     vec3 u = vec3_add_scaled(n, off, tilt / length), v = vec3_scale(vec3_cross(n, off), tilt / length), unit;
     heading side[2] = {{vec3_add(u, v), 0, 0}, {vec3_sub(u, v), 0, 0}};
