@@ -210,8 +210,7 @@ static void ask_limited(const hearing *h) {
     judge_set_touching(trial_judge, 1e-6);
     if (x.limit == OVOID_LIMIT_CAP && !(x.lower > options.cap))
         trial_fail(h->t, h->pair, &x, "cap", "not proven farther");
-    // Of each exact method so many: GJK, EPA, and the one in pairs of doubles.
-    if (options.iterations && x.iterations > 3 * options.iterations)
+    if (options.iterations && x.iterations > 2 * options.iterations)
         trial_fail(h->t, h->pair, &x, "iterations", "too many");
 }
 
