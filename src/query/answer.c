@@ -17,9 +17,11 @@ ovoid_answer answer_make_refused(ovoid_limit limit) {
 // The part of the proof behind the upper bound.
 static void set_upper_proof(ovoid_proof *p, const search *s) {
     p->kind = s->kind;
-    p->inner_a = s->inner_a;
-    p->inner_b = s->inner_b;
-    if (s->kind == OVOID_PROOF_INNER || s->kind == OVOID_PROOF_INNER_POINTS) return;
+    if (s->kind == OVOID_PROOF_INNER || s->kind == OVOID_PROOF_INNER_POINTS) {
+        p->inner_a = s->inner_a;
+        p->inner_b = s->inner_b;
+        return;
+    }
     p->count = (uint32_t)s->witness.count;
     for (int i = 0; i < s->witness.count; i++) {
         p->a[i] = s->witness.p[i].a;
@@ -44,10 +46,19 @@ static ovoid_limit find_limit(const search *s, ovoid_status status) {
     return s->lower > s->ask.far ? s->ask.beyond : OVOID_LIMIT_ANSWERED;
 }
 
+// A lower bound for a search that has none: the enclosing spheres' gap along the line of centres.
+static void take_spheres(search *s) {
+    const pair_frame *f = s->frame;
+    vec3 d = vec3_sub(frame_b(f, f->b->center), f->a->center), n = vec3_unit(d);
+    if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){1, 0, 0};
+    s->lower = vec3_dot(n, d) - (f->a->reach + f->b->reach) - f->radii - f->claim;
+    s->normal = n;
+}
+
 void answer_write(search *s, ovoid_answer *out) {
     const pair_frame *f = s->frame;
-    // A stage that proved one side only: any direction and any vertex pair bound the other.
-    if (s->lower == -INFINITY) (void)search_probe(s, (vec3){1, 0, 0});
+    // A stage that proved one side only: spheres and any vertex pair bound the other.
+    if (s->lower == -INFINITY) take_spheres(s);
     if (s->upper == INFINITY) {
         simplex any = {.p = {{frame_difference(f, 0, 0), 0, 0}}, .weight = {1}, .count = 1};
         search_take_points(s, &any);
@@ -91,18 +102,19 @@ static int may_overlap(const search *s) {
 }
 
 // The stages before the search; the simplex to start from. A depth goes to EPA at once if the spheres overlap,
-// without one.
+// without one. A distance starts from the earlier proof's simplex; where a direction may be enough, that of the
+// ellipsoids is tried.
 static void run_stages(search *s, const ovoid_proof *earlier, simplex *start) {
     stage_proof(s, earlier, start);
     if (search_is_done(s)) return;
-    if (start->count) return;
+    if (!s->ask.wants_depth) stage_inner(s);
+    if (search_is_done(s) || (start->count && s->ask.far == INFINITY)) return;
     vec3 n;
     if (s->ask.wants_depth && may_overlap(s)) return;
     stage_outer(s, &n);
     if (search_is_done(s)) return;
-    stage_support(s, n, start);
-    if (search_is_done(s) || s->lower + s->frame->radii > 0 || s->ask.wants_depth) return;
-    stage_inner(s);
+    simplex fresh;
+    stage_support(s, n, start->count > 1 ? &fresh : start);
 }
 
 // GJK, and EPA where the cores touch or overlap and GJK cannot say more. A depth tries EPA first, unless the cores are
@@ -139,7 +151,8 @@ void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, ques
         return;
     }
     frame_relate(&frame);
-    search s = search_make(&frame, ask);
+    search s;
+    search_make(&s, &frame, &ask);
     simplex start;
     run_stages(&s, earlier, &start);
     if (!search_is_done(&s)) run_exact(&s, &start, cover);

@@ -7,25 +7,6 @@
 /// The answer.
 void answer_write(search *s, ovoid_answer *out);
 
-/// An answer that says nothing: all zero, but without the block store of a compiler's own, which is slow to start.
-static inline void answer_clear(ovoid_answer *out) {
-    const vec3 zero = {0, 0, 0};
-    out->status = OVOID_UNDECIDED;
-    out->stage = OVOID_STAGE_NONE;
-    out->limit = OVOID_LIMIT_NONE;
-    out->iterations = 0;
-    out->lower = out->upper = 0;
-    out->point_a = out->point_b = out->normal = zero;
-    ovoid_proof *p = &out->proof;
-    p->normal = p->normal_low = p->inner_a = p->inner_b = zero;
-    p->kind = OVOID_PROOF_NONE;
-    p->count = 0;
-    for (int i = 0; i < OVOID_PROOF_PAIRS; i++) {
-        p->a[i] = p->b[i] = 0;
-        p->weight_a[i] = p->weight_b[i] = 0;
-    }
-}
-
 /// The answer of a query that was refused: no bracket.
 ovoid_answer answer_make_refused(ovoid_limit limit);
 

@@ -48,7 +48,8 @@ static ovoid_answer find_bounds(const ovoid_pair *pair) {
     ovoid_limit refused = frame_make(pair, &frame);
     if (refused != OVOID_LIMIT_NONE) return answer_make_refused(refused);
     question ask = {.tolerance = 1e-9 * frame.size};
-    search s = search_make(&frame, ask);
+    search s;
+    search_make(&s, &frame, &ask);
     take_outer(&s);
     take_inner(&s);
     s.limit = OVOID_LIMIT_ANSWERED;

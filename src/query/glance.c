@@ -34,13 +34,11 @@ int glance_at_proof(const pair_frame *f, double far, const ovoid_proof *earlier,
 }
 
 void glance_write(const glance *g, const pair_frame *f, const question *ask, ovoid_answer *out) {
-    vec3 a = mat3_mul_vec3(f->world, vec3_at(shape_vertices(f->a), g->a));
-    vec3 b = mat3_mul_vec3(f->world_b, vec3_at(shape_vertices(f->b), g->b));
+    vec3 a = mat3_mul_vec3(f->world, g->a ? vec3_at(shape_vertices(f->a), g->a) : f->a->first);
+    vec3 b = mat3_mul_vec3(f->world_b, g->b ? vec3_at(shape_vertices(f->b), g->b) : f->b->first);
     vec3 d = vec3_add(f->offset, vec3_sub(b, a));
     double distance = vec3_norm(d);
-    answer_clear(out);
-    out->status = OVOID_SEPARATED;
-    out->stage = g->stage;
+    *out = (ovoid_answer){.status = OVOID_SEPARATED, .stage = g->stage};
     out->lower = g->lower;
     out->upper = distance - f->radii + claim(f);
     out->limit = out->upper - out->lower <= ask->tolerance ? OVOID_LIMIT_NONE : ask->beyond;

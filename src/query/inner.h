@@ -8,6 +8,10 @@
 /// x: in A's body frame. Solids only.
 double inner_compute_upper(const pair_frame *frame, vec3 x);
 
+/// A point between the centres that is well inside both inner ellipsoids, as far as doubles can tell; 0 where there is
+/// none.
+int inner_find_common(const pair_frame *frame, vec3 *x);
+
 /// An upper bound of d from a point of each inner ellipsoid, each in its body frame; infinity if one is outside.
 double inner_points_compute_upper(const pair_frame *frame, vec3 a, vec3 b, double error);
 

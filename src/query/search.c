@@ -5,10 +5,6 @@
 
 #include <string.h>
 
-search search_make(const pair_frame *frame, question ask) {
-    return (search){.frame = frame, .ask = ask, .lower = -INFINITY, .upper = INFINITY};
-}
-
 int search_is_sign_known(const search *s) { return s->lower > 0 || s->upper < 0; }
 
 int search_is_done(const search *s) {

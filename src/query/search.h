@@ -36,8 +36,22 @@ typedef struct search {
     uint32_t iterations;
 } search;
 
-/// The state before anything is known: the bracket is everything.
-search search_make(const pair_frame *frame, question ask);
+/// The state before anything is known: the bracket is everything. The witness' entries, most of it all, stay as they
+/// are, for no one reads past its count.
+static inline void search_make(search *s, const pair_frame *frame, const question *ask) {
+    const vec3 zero = {0, 0, 0};
+    s->frame = frame;
+    s->ask = *ask;
+    s->lower = -INFINITY;
+    s->upper = INFINITY;
+    s->normal = s->world = s->world_low = zero;
+    s->witness.count = 0;
+    s->kind = OVOID_PROOF_NONE;
+    s->inner_a = s->inner_b = zero;
+    s->stage = OVOID_STAGE_NONE;
+    s->limit = OVOID_LIMIT_NONE;
+    s->iterations = 0;
+}
 
 /// 1 if the question is answered by the bounds.
 int search_is_done(const search *s);

@@ -1,6 +1,5 @@
 #include "query/stages.h"
 
-#include "ellipsoid/gap.h"
 #include "query/inner.h"
 #include "query/proof.h"
 
@@ -11,37 +10,35 @@ static void take_start(simplex *start, difference d) {
     if (start->count < 4) start->p[start->count++] = d;
 }
 
+// The common point or the hull around the origin that an earlier overlap was proven by.
+static void take_overlap(search *s, const ovoid_proof *earlier) {
+    const pair_frame *f = s->frame;
+    if (earlier->kind == OVOID_PROOF_INNER && !s->ask.wants_depth) {
+        double upper = inner_compute_upper(f, earlier->inner_a);
+        if (!(upper < 0)) return;
+        s->upper = upper;
+        s->kind = OVOID_PROOF_INNER;
+        s->inner_a = earlier->inner_a;
+    } else if (earlier->kind == OVOID_PROOF_HULL) {
+        evidence known = {.count = (int)earlier->count};
+        for (uint32_t i = 0; i < earlier->count; i++) known.p[i] = proof_difference(f, earlier, i);
+        if (search_take_hull(s, &known)) evidence_set_weights(&s->witness);
+    }
+}
+
 void stage_proof(search *s, const ovoid_proof *earlier, simplex *start) {
     const pair_frame *f = s->frame;
     start->count = 0;
     if (!earlier || !proof_is_sound(f, earlier)) return;
-    // Its direction.
+    take_overlap(s, earlier);
+    // Its direction, which the first look has not measured for a depth, nor where there is no more than it. Elsewhere
+    // that of its differences is newer.
     vec3 n = vec3_unit(frame_direction_from_world(f, earlier->normal));
-    if (vec3_norm_squared(n) > 0) (void)search_probe(s, n);
-    if (search_is_done(s)) {
-        s->stage = OVOID_STAGE_PROOF;
-        return;
-    }
-    // Its differences.
-    if (earlier->kind == OVOID_PROOF_INNER && !s->ask.wants_depth) {
-        double upper = inner_compute_upper(f, earlier->inner_a);
-        if (upper < 0 && upper < s->upper) {
-            s->upper = upper;
-            s->kind = OVOID_PROOF_INNER;
-            s->inner_a = earlier->inner_a;
-        }
-    }
-    evidence known = {.count = (int)earlier->count};
-    for (uint32_t i = 0; i < earlier->count; i++) {
-        known.p[i] = proof_difference(f, earlier, i);
-        known.weight[i] = earlier->weight_a[i];
-        take_start(start, known.p[i]);
-    }
-    if (earlier->kind == OVOID_PROOF_HULL) {
-        evidence_set_weights(&known);
-        (void)search_take_hull(s, &known);
-    }
-    if (search_is_done(s)) s->stage = OVOID_STAGE_PROOF;
+    if ((s->ask.wants_depth || earlier->count == 0) && !search_is_done(s) && vec3_norm_squared(n) > 0)
+        (void)search_probe(s, n);
+    if (s->lower > -INFINITY || s->upper < INFINITY) s->stage = OVOID_STAGE_PROOF;
+    if (search_is_done(s)) return;
+    for (uint32_t i = 0; i < earlier->count; i++) take_start(start, proof_difference(f, earlier, i));
 }
 
 double ellipsoid_compute_spread(sym3 q, vec3 n) {
@@ -55,24 +52,25 @@ vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
         return (vec3){1, 0, 0};
     }
     vec3 n = vec3_unit(d);
-    double sa = 0, sb = 0;
+    double sa = 0, sb = 0, apart = 0;
     for (int round = 0; round < 3; round++) {
         sa = sqrt(ellipsoid_compute_spread(qa, n));
         sb = sqrt(ellipsoid_compute_spread(qb, n));
+        apart = vec3_dot(n, d) - sa - sb;
         if (round == 2 || !(sa + sb > 0)) break;
         sym3 m = {0, 0, 0, 0, 0, 0};
         if (sa > 0) m = sym3_add(m, sym3_scale(qa, 1 / sa));
         if (sb > 0) m = sym3_add(m, sym3_scale(qb, 1 / sb));
         // The nearest points' distance is on the diagonal: x_b - x_a = d - m n = distance n. Flat bodies of one plane:
         // a little thickness keeps the matrix regular, the direction is only a proposal.
-        double thickness = max2(vec3_dot(n, d) - sa - sb, 1e-9 * sym3_trace(m));
+        double thickness = max2(apart, 1e-9 * sym3_trace(m));
         vec3 next;
         if (!sym3_solve(sym3_add(m, sym3_diagonal(thickness, thickness, thickness)), d, &next)) break;
         next = vec3_unit(next);
         if (!vec3_is_finite(next) || !(vec3_norm_squared(next) > 0)) break;
         n = next;
     }
-    *gap = vec3_dot(n, d) - sa - sb;
+    *gap = apart;
     return n;
 }
 
@@ -104,12 +102,9 @@ void stage_support(search *s, vec3 n, simplex *start) {
 }
 
 void stage_inner(search *s) {
-    const pair_frame *f = s->frame;
-    if (f->a->rank < 3 || f->b->rank < 3) return;
-    ovoid_ellipsoid b = {frame_b(f, f->b->inner.center), sym3_rotate(f->b->inner.q, f->rotation)};
     vec3 x;
-    if (!ellipsoids_are_overlapping(&f->a->inner, &b, &x)) return;
-    double upper = inner_compute_upper(f, x);
+    if (!inner_find_common(s->frame, &x)) return;
+    double upper = inner_compute_upper(s->frame, x);
     if (!(upper < 0)) return;
     s->upper = upper;
     s->kind = OVOID_PROOF_INNER;

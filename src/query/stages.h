@@ -18,8 +18,9 @@ void stage_support(search *s, vec3 n, simplex *start);
 /// Inner ellipsoids: a common point proves an overlap.
 void stage_inner(search *s);
 
-/// The direction n = unit((QA/sA + QB/sB)^-1 d), two rounds, of ellipsoids whose centres are d apart; s = sqrt(n'Qn).
-/// The support gap of the two along it goes into *gap (rounded).
+/// The direction n = unit((QA/sA + QB/sB + g I)^-1 d), two rounds, of ellipsoids whose centres are d apart; s =
+/// sqrt(n'Qn), g their gap along the n before, or 0: the nearest points have d = (QA/sA + QB/sB) n + g n. The support
+/// gap of the two along it goes into *gap (rounded).
 vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap);
 
 /// n'Qn from above: rounding of a posed Q included.

@@ -72,6 +72,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
     shape->measures = ovoid_polytope_compute_measures(p);
     shape->center = shape->measures.sphere_center;
     shape->reach = shape->measures.sphere_radius;
+    shape->first = (ovoid_vec3){p->vertices[0], p->vertices[1], p->vertices[2]};
     shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
 }
 

@@ -22,19 +22,29 @@ typedef struct block_counts {
     uint32_t vertices, triangles, facets, neighbors;
 } block_counts;
 
+/// The inner ellipsoid as queries use it: |W (x - c)| (1 + 1e-7) is at least the norm in which it is the unit ball.
+typedef struct shape_inner {
+    double w[6];  ///< W, lower triangular, by rows
+    double least; ///< its least radius from below; 0 where it is too thin, or flat, for doubles: W is not to be used
+    double reach; ///< its largest radius from above
+} shape_inner;
+
 struct ovoid_shape {
-    // What the cheap stages read: the first cache lines.
+    // The first look: one cache line, and the beginning of the next.
     double reach;      ///< no vertex is farther than this from `center`, rounding included
     double radius;     ///< rounding radius
     ovoid_vec3 center; ///< of the enclosing sphere of radius reach, body frame
-    ovoid_vec3 origin; ///< of the body frame, in the user's local frame
     double extent;     ///< no vertex is farther than this from the body frame's origin, rounding included
     uint32_t vertex_count, padded_count;
     uint32_t rank;
     uint32_t has_origin; ///< origin is not zero
-    ovoid_ellipsoid outer, inner;
-    // The rest.
+    ovoid_vec3 first;    ///< vertex 0
     block_offsets at;
+    // The cheap stages.
+    ovoid_ellipsoid outer, inner;
+    shape_inner inside;
+    ovoid_vec3 origin; ///< of the body frame, in the user's local frame
+    // The rest.
     block_counts counts;
     ovoid_fit outer_fit, inner_fit;
     ovoid_report report;

@@ -5,6 +5,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "ellipsoid/contain.h"
+#include "ellipsoid/factor.h"
 #include "ellipsoid/refit.h"
 #include "ellipsoid/walls.h"
 #include "linear/vec3.h"
@@ -93,11 +94,33 @@ static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *
     return OVOID_OK;
 }
 
+// The least radius of the ellipsoid from below, 0 where it is too flat to be safe in doubles: with eigenvalues
+// l1 <= l2 <= l3, l1 = det / (l2 l3) >= 4 det / trace^2. Condition below 1e8.
+static double least_radius(sym3 q) {
+    double trace = sym3_trace(q);
+    if (!(trace > 0)) return 0;
+    double least = 4 * sym3_det(sym3_scale(q, 1 / trace));
+    return least > 1e-7 ? sqrt(least * trace) * (1 - 1e-7) : 0;
+}
+
+// W from the proven factor, whose units are powers of two: (1 - defect) x' Q^-1 x <= |W x|^2, and 1e-7 is far more than
+// a defect of 1e-12 and the rounding of W x, 8 u times the root of the condition.
+static shape_inner make_inside(sym3 q, uint32_t rank) {
+    shape_inner in = {.reach = sqrt(sym3_trace(q)) * (1 + 1e-7)};
+    factor f;
+    if (rank < 3 || !factor_make(q, &f) || f.count < 3 || !(f.defect < 1e-12)) return in;
+    in.least = least_radius(q);
+    for (int i = 0, k = 0; i < 3; i++)
+        for (int j = 0; j <= i; j++) in.w[k++] = f.w[i][j] * f.scale[j];
+    return in;
+}
+
 void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner) {
     shape->outer_fit = *outer;
     shape->inner_fit = *inner;
     shape->outer = outer->ellipsoid;
     shape->inner = inner->ellipsoid;
+    shape->inside = make_inside(inner->ellipsoid.q, shape->rank);
 }
 
 ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error) {
