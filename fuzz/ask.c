@@ -104,6 +104,7 @@ ovoid_proof fuzz_take_proof(fuzz_bytes *from) {
         p.weight_a[i] = take_double(from);
         p.weight_b[i] = take_double(from);
     }
+    if (take_byte(from) > 64) p.normal_low = (ovoid_vec3){take_double(from), take_double(from), take_double(from)};
     p.inner_a = (ovoid_vec3){take_double(from), take_double(from), take_double(from)};
     p.inner_b = (ovoid_vec3){take_double(from), take_double(from), take_double(from)};
     return p;
