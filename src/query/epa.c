@@ -4,7 +4,8 @@
 //   offset then gives a normal along which the gap is 0 to rounding.
 // - Nothing is believed: the lower bound is the gap along a face's normal, by the supports; the upper bound is the
 //   radius that the whole surface keeps from the origin, checked at the end as a proof (cover.c).
-// Working memory is fixed, on the stack, about 80 KB. Cost: one support and a scan of the faces for each new point.
+// Working memory is fixed, on the stack, about 80 KB. Cost: one support and a look at the faces
+// that may be the nearest for each new point.
 #include "query/epa.h"
 
 #include "query/cover.h"
