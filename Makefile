@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check bits bench soak trust fuzz docs install format lint clean
+.PHONY: all help demo check bits mutate bench soak trust fuzz docs install format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -29,6 +29,10 @@ check: ## lint, then build and test: gcc, clang, sanitizers
 bits: ## the same bits from 14 builds by gcc and clang, some minutes
 	@scripts/setup.sh check
 	@scripts/bits.sh
+
+mutate: ## small faults in a copy of the sources: which test notices each, an hour or two
+	@scripts/setup.sh check
+	@JOBS=$(JOBS) scripts/mutate.sh
 
 bench: ## nanoseconds per query beside libccd, FCL, Bullet and ODE: the table, its CSV and its plot in build/
 	@$(call build,bench,bench)
