@@ -105,11 +105,12 @@ static void test_unaligned(void) {
 }
 
 static void check_pair(const simd_points *high, const simd_points *low, const double *d) {
-    simd_pair expected = simd_get_pair(SIMD_SCALAR)(high, low, d[0], d[1], d[2]);
+    const double e[3] = {d[1], -d[0], -d[2]};
+    simd_pair expected = simd_get_pair(SIMD_SCALAR)(high, d, low, e);
     for (simd_isa isa = SIMD_SCALAR; isa <= SIMD_ISA_COUNT; isa++) {
         simd_pair_function *find = isa == SIMD_ISA_COUNT ? simd_find_pair : simd_get_pair(isa);
         if (!find || (isa != SIMD_ISA_COUNT && (high->padded_count > 64 || low->padded_count > 64))) continue;
-        simd_pair r = find(high, low, d[0], d[1], d[2]);
+        simd_pair r = find(high, d, low, e);
         CHECK_EQ(r.high.index, expected.high.index);
         CHECK_EQ(r.low.index, expected.low.index);
         CHECK(bits_of(r.high.value) == bits_of(expected.high.value));

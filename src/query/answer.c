@@ -43,7 +43,10 @@ static ovoid_limit find_limit(const search *s, ovoid_status status) {
     if (s->upper - s->lower <= s->ask.tolerance && !common) return OVOID_LIMIT_NONE;
     if (s->limit != OVOID_LIMIT_NONE) return s->limit;
     if (status == OVOID_UNDECIDED) return OVOID_LIMIT_PRECISION;
-    return s->lower > s->ask.far ? s->ask.beyond : OVOID_LIMIT_ANSWERED;
+    if (s->lower > s->ask.far) return s->ask.beyond;
+    // A distance or a depth that was asked for, and is wide.
+    int is_asked = s->ask.wants_bracket && (status == OVOID_SEPARATED || s->ask.wants_depth);
+    return is_asked ? OVOID_LIMIT_PRECISION : OVOID_LIMIT_ANSWERED;
 }
 
 // A lower bound for a search that has none: the enclosing spheres' gap along the line of centres.

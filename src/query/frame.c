@@ -4,7 +4,6 @@
 #include "linear/exact.h"
 #include "linear/pose.h"
 #include "linear/rotation.h"
-#include "simd/support.h"
 
 typedef struct dd3 {
     dd x, y, z;
@@ -85,12 +84,16 @@ ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
     return refused;
 }
 
-frame_support frame_find_support(const pair_frame *f, vec3 n) {
+simd_pair frame_find_pair(const pair_frame *f, vec3 in_a, vec3 in_b) {
     const ovoid_shape *a = f->a, *b = f->b;
-    support_result high = simd_find_support(shape_x(a), shape_y(a), shape_z(a), a->padded_count, n.x, n.y, n.z);
-    vec3 m = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
-    support_result low = simd_find_support(shape_x(b), shape_y(b), shape_z(b), b->padded_count, m.x, m.y, m.z);
-    frame_support s = {high.index, low.index, (vec3_dot(n, f->translation) - low.value) - high.value, {0, 0, 0}};
-    s.w = frame_difference(f, s.a, s.b);
-    return s;
+    simd_points points_a = {shape_x(a), shape_y(a), shape_z(a), a->padded_count};
+    simd_points points_b = {shape_x(b), shape_y(b), shape_z(b), b->padded_count};
+    double along_a[3] = {in_a.x, in_a.y, in_a.z}, along_b[3] = {in_b.x, in_b.y, in_b.z};
+    return simd_find_pair(&points_a, along_a, &points_b, along_b);
+}
+
+frame_support frame_find_support(const pair_frame *f, vec3 n) {
+    simd_pair x = frame_find_pair(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
+    double gap = (vec3_dot(n, f->translation) - x.low.value) - x.high.value;
+    return (frame_support){x.high.index, x.low.index, gap, frame_difference(f, x.high.index, x.low.index)};
 }

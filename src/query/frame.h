@@ -15,6 +15,7 @@
 #include "linear/mat3.h"
 #include "ovoid/query.h"
 #include "shape/block.h"
+#include "simd/pair.h"
 
 #define FRAME_CLAIM (256 * 0x1p-53)
 #define FRAME_CHECK (148 * 0x1p-53)
@@ -70,5 +71,8 @@ typedef struct frame_support {
     vec3 w;     ///< x_b - x_a of the two vertices
 } frame_support;
 frame_support frame_find_support(const pair_frame *f, vec3 n);
+
+/// The supports of A along in_a and of B along in_b, each in its own body frame.
+simd_pair frame_find_pair(const pair_frame *f, vec3 in_a, vec3 in_b);
 
 #endif

@@ -200,7 +200,8 @@ static gjk_end run_fast(search *s, simplex *x) {
     vec3 n;
     if (!start(x, &to)) return end_inside(s, x);
     walk_make(&k, x);
-    walk_state state = x->count == 1 ? fan(s, &k, &to) : WALK_ON;
+    // An earlier proof's single corner comes without the direction it was met along.
+    walk_state state = x->count == 1 && s->lower > -INFINITY ? fan(s, &k, &to) : WALK_ON;
     if (s->lower > s->ask.far) {
         take_upper(s, x);
         return GJK_ANSWERED;

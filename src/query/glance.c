@@ -1,7 +1,6 @@
 #include "query/glance.h"
 
 #include "query/answer.h"
-#include "simd/support.h"
 
 static double claim(const pair_frame *f) { return FRAME_GLANCE * f->size + 3 * f->hidden; }
 
@@ -21,15 +20,12 @@ int glance_at_spheres(const pair_frame *f, double far, glance *found) {
 int glance_at_proof(const pair_frame *f, double far, const ovoid_proof *earlier, glance *found) {
     if (!vec3_is_finite(earlier->normal)) return 0;
     vec3 n = vec3_unit(earlier->normal);
-    const ovoid_shape *a = f->a, *b = f->b;
-    vec3 in_a = mat3_mul_transposed_vec3(f->world, n), in_b = vec3_neg(mat3_mul_transposed_vec3(f->world_b, n));
-    support_result high =
-        simd_find_support(shape_x(a), shape_y(a), shape_z(a), a->padded_count, in_a.x, in_a.y, in_a.z);
-    support_result low = simd_find_support(shape_x(b), shape_y(b), shape_z(b), b->padded_count, in_b.x, in_b.y, in_b.z);
-    double gap = (vec3_dot(n, f->offset) - low.value) - high.value, lower = gap - f->radii - claim(f);
+    simd_pair x =
+        frame_find_pair(f, mat3_mul_transposed_vec3(f->world, n), vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)));
+    double gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value, lower = gap - f->radii - claim(f);
     // A direction that underflowed to nothing proves nothing.
     if (!(lower > far) || !(vec3_norm_squared(n) > 0.5)) return 0;
-    *found = (glance){lower, n, high.index, low.index, OVOID_STAGE_PROOF};
+    *found = (glance){lower, n, x.high.index, x.low.index, OVOID_STAGE_PROOF};
     return 1;
 }
 

@@ -21,7 +21,8 @@ void prober_make(prober *p, search *s) {
 
 static frame_support find_posed(const prober *p, vec3 n) {
     const simd_points *a = &p->a, *b = &p->b;
-    simd_pair x = simd_find_pair(b, a, n.x, n.y, n.z);
+    double up[3] = {n.x, n.y, n.z}, down[3] = {-n.x, -n.y, -n.z};
+    simd_pair x = simd_find_pair(b, up, a, down);
     uint32_t i = x.low.index, k = x.high.index;
     vec3 w = {b->x[k] - a->x[i], b->y[k] - a->y[i], b->z[k] - a->z[i]};
     return (frame_support){i, k, -x.high.value - x.low.value, w};

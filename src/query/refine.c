@@ -45,7 +45,7 @@ static int is_done(const search *s) { return search_is_done(s) || (s->kind == OV
 // The gap along n; one that is no direction shows nothing.
 static fine_support probe(refinement *r, dd3 n) {
     search *s = r->s;
-    if (!(fabs(vec3_norm(dd3_high(n)) - 1) <= 1e-6)) return (fine_support){.gap = {-INFINITY, 0}};
+    if (!(fabs(vec3_norm(dd3_high(n)) - 1) <= 1e-13)) return (fine_support){.gap = {-INFINITY, 0}};
     fine_support found = fine_find_support(&r->f, n);
     double lower = fine_compute_lower(&r->f, found.gap, r->f.claim);
     r->steps++;
@@ -306,7 +306,7 @@ static void find_side(refinement *r, const fine_simplex *on, dd3 normal) {
 static int is_wanted(const search *s) {
     if (search_is_done(s) || s->limit == OVOID_LIMIT_ITERATIONS) return 0;
     if (s->upper < 0 && s->kind != OVOID_PROOF_POINTS) return 0;
-    return s->upper - s->lower <= 0x1p-20 * s->frame->size + 64 * s->frame->hidden;
+    return s->upper - s->lower <= 0x1p-10 * s->frame->size + 64 * s->frame->hidden;
 }
 
 // The double search's points, and the support along its direction.

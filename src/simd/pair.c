@@ -4,9 +4,10 @@
 
 #include <stddef.h>
 
-static simd_pair find_pair_scalar(const simd_points *high, const simd_points *low, double nx, double ny, double nz) {
-    return (simd_pair){simd_find_support_scalar(high->x, high->y, high->z, high->padded_count, nx, ny, nz),
-                       simd_find_support_scalar(low->x, low->y, low->z, low->padded_count, -nx, -ny, -nz)};
+static simd_pair find_pair_scalar(const simd_points *high, const double h[3], const simd_points *low,
+                                  const double l[3]) {
+    return (simd_pair){simd_find_support_scalar(high->x, high->y, high->z, high->padded_count, h[0], h[1], h[2]),
+                       simd_find_support_scalar(low->x, low->y, low->z, low->padded_count, l[0], l[1], l[2])};
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -36,11 +37,12 @@ AVX2 static inline __attribute__((always_inline)) support_result find_avx2(const
     uint64_t equal = 0;
     for (uint32_t i = 0; i < count; i++)
         equal |= (uint64_t)(unsigned)_mm256_movemask_pd(_mm256_cmp_pd(value[i], m, _CMP_EQ_OQ)) << 4 * i;
-    return (support_result){_mm256_cvtsd_f64(m) + 0.0, (uint32_t)__builtin_ctzll(equal)};
+    return (support_result){_mm256_cvtsd_f64(m) + 0.0, equal ? (uint32_t)__builtin_ctzll(equal) : 0};
 }
 
-AVX2 static simd_pair find_pair_avx2(const simd_points *high, const simd_points *low, double nx, double ny, double nz) {
-    return (simd_pair){find_avx2(high, nx, ny, nz), find_avx2(low, -nx, -ny, -nz)};
+AVX2 static simd_pair find_pair_avx2(const simd_points *high, const double h[3], const simd_points *low,
+                                     const double l[3]) {
+    return (simd_pair){find_avx2(high, h[0], h[1], h[2]), find_avx2(low, l[0], l[1], l[2])};
 }
 
 #define AVX512 __attribute__((target("avx512f")))
@@ -65,22 +67,24 @@ AVX512 static inline __attribute__((always_inline)) support_result find_avx512(c
     m = _mm512_max_pd(m, _mm512_permute_pd(m, 0x55));
     uint64_t equal = _mm512_cmp_pd_mask(value[0], m, _CMP_EQ_OQ);
     for (uint32_t i = 1; i < count; i++) equal |= (uint64_t)_mm512_cmp_pd_mask(value[i], m, _CMP_EQ_OQ) << 8 * i;
-    return (support_result){_mm512_cvtsd_f64(m) + 0.0, (uint32_t)__builtin_ctzll(equal)};
+    return (support_result){_mm512_cvtsd_f64(m) + 0.0, equal ? (uint32_t)__builtin_ctzll(equal) : 0};
 }
 
-AVX512 static simd_pair find_pair_avx512(const simd_points *high, const simd_points *low, double nx, double ny,
-                                         double nz) {
-    return (simd_pair){find_avx512(high, nx, ny, nz), find_avx512(low, -nx, -ny, -nz)};
+AVX512 static simd_pair find_pair_avx512(const simd_points *high, const double h[3], const simd_points *low,
+                                         const double l[3]) {
+    return (simd_pair){find_avx512(high, h[0], h[1], h[2]), find_avx512(low, l[0], l[1], l[2])};
 }
 
-simd_pair simd_find_pair(const simd_points *high, const simd_points *low, double nx, double ny, double nz) {
+simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]) {
     if (high->padded_count > MOST || low->padded_count > MOST)
-        return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, nx, ny, nz),
-                           simd_find_support(low->x, low->y, low->z, low->padded_count, -nx, -ny, -nz)};
-    if (__builtin_cpu_supports("avx512f")) return find_pair_avx512(high, low, nx, ny, nz);
-    if (__builtin_cpu_supports("avx2")) return find_pair_avx2(high, low, nx, ny, nz);
-    return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, nx, ny, nz),
-                       simd_find_support(low->x, low->y, low->z, low->padded_count, -nx, -ny, -nz)};
+        return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, h[0], h[1], h[2]),
+                           simd_find_support(low->x, low->y, low->z, low->padded_count, l[0], l[1], l[2])};
+    // As in simd_find_support: up to 16 points the wider kernel's last step costs more than it saves.
+    int is_small = high->padded_count <= 16 && low->padded_count <= 16;
+    if (!is_small && __builtin_cpu_supports("avx512f")) return find_pair_avx512(high, h, low, l);
+    if (__builtin_cpu_supports("avx2")) return find_pair_avx2(high, h, low, l);
+    return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, h[0], h[1], h[2]),
+                       simd_find_support(low->x, low->y, low->z, low->padded_count, l[0], l[1], l[2])};
 }
 
 simd_pair_function *simd_get_pair(simd_isa isa) {
@@ -94,8 +98,8 @@ simd_pair_function *simd_get_pair(simd_isa isa) {
 
 #else
 
-simd_pair simd_find_pair(const simd_points *high, const simd_points *low, double nx, double ny, double nz) {
-    return find_pair_scalar(high, low, nx, ny, nz);
+simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]) {
+    return find_pair_scalar(high, h, low, l);
 }
 
 simd_pair_function *simd_get_pair(simd_isa isa) { return isa == SIMD_SCALAR ? find_pair_scalar : NULL; }

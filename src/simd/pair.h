@@ -10,16 +10,18 @@ typedef struct simd_points {
     uint32_t padded_count;
 } simd_points;
 
-/// Of one set the support along n, of the other that along -n.
+/// The supports of two sets, each along a direction of its own.
 typedef struct simd_pair {
     support_result high, low;
 } simd_pair;
 
 /// The same bits as two calls of simd_find_support. Fastest up to 64 points a set: all values stay in registers or the
 /// first cache, and the index is that of the first one equal to the largest.
-simd_pair simd_find_pair(const simd_points *high, const simd_points *low, double nx, double ny, double nz);
+simd_pair simd_find_pair(const simd_points *high, const double along_high[3], const simd_points *low,
+                         const double along_low[3]);
 
-typedef simd_pair simd_pair_function(const simd_points *high, const simd_points *low, double nx, double ny, double nz);
+typedef simd_pair simd_pair_function(const simd_points *high, const double along_high[3], const simd_points *low,
+                                     const double along_low[3]);
 
 /// The kernel of one instruction set, for sets of at most 64 points; NULL where this machine or build lacks it.
 simd_pair_function *simd_get_pair(simd_isa isa);

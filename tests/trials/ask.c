@@ -149,10 +149,26 @@ static void hear_collide(const hearing *h, const ovoid_answer *x, const char *qu
 
 // --- earlier proofs
 
-// A proof that fits nothing: whatever it holds, the query must not trust it.
-static ovoid_proof make_garbage(uint64_t *state) {
-    ovoid_proof p;
-    unsigned char *bytes = (unsigned char *)&p;
+// Some bytes turned over, all but the kind's: NaN, infinity, huge indices, a normal that is a little too long.
+static void damage(ovoid_proof *p, int bytes_changed, uint64_t *state) {
+    unsigned char *bytes = (unsigned char *)p;
+    for (int i = 0; i < bytes_changed; i++) {
+        size_t at = (size_t)(random_next(state) % sizeof *p);
+        if (at < offsetof(ovoid_proof, kind) || at >= offsetof(ovoid_proof, count))
+            bytes[at] = (unsigned char)random_next(state);
+    }
+}
+
+// A proof that fits nothing: whatever it holds, the query must not trust it. One time in three it is the right one,
+// with a normal that is no longer quite unit, or with some bytes changed.
+static ovoid_proof make_garbage(const ovoid_proof *right, uint64_t *state) {
+    ovoid_proof p = *right;
+    if (random_next(state) % 3 == 0) {
+        double stretch = 1 + pow(10, -random_uniform(state, 1, 16));
+        p.normal = (ovoid_vec3){stretch * p.normal.x, stretch * p.normal.y, stretch * p.normal.z};
+        damage(&p, (int)(random_next(state) % 4), state);
+        return p;
+    }
     memset(&p, 0, sizeof p);
     p.kind = (ovoid_proof_kind)(random_next(state) % 6);
     p.count = (uint32_t)(random_next(state) % (OVOID_PROOF_PAIRS + 2));
@@ -163,13 +179,7 @@ static ovoid_proof make_garbage(uint64_t *state) {
         p.weight_a[i] = random_normal(state);
         p.weight_b[i] = fabs(random_normal(state));
     }
-    // Some of them with bits turned over: NaN, infinity, huge indices.
-    if (random_next(state) % 2)
-        for (int i = 0; i < 6; i++) {
-            size_t at = (size_t)(random_next(state) % sizeof p);
-            if (at < offsetof(ovoid_proof, kind) || at >= offsetof(ovoid_proof, count))
-                bytes[at] = (unsigned char)random_next(state);
-        }
+    if (random_next(state) % 2) damage(&p, 6, state);
     return p;
 }
 
@@ -246,7 +256,7 @@ ovoid_proof trial_ask(tally *t, const ovoid_pair *pair, const trial_hints *hints
     ask_limited(&h);
 
     // Warm: the pair's own proof, one of elsewhere, one of nothing at all; or the one given.
-    ovoid_proof garbage = make_garbage(state);
+    ovoid_proof garbage = make_garbage(&depth.proof, state);
     const ovoid_proof *given = hints->earlier ? hints->earlier : &distance.proof;
     const ovoid_proof *proofs[] = {&depth.proof, &collide.proof, given, &garbage};
     const ovoid_proof *warm = proofs[random_next(state) % 4], *other = proofs[random_next(state) % 4];
