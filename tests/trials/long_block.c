@@ -78,10 +78,14 @@ static void fill_pool(work *w, uint64_t *r) {
 
 // --- judging
 
-static void fail(work *w, const scene *s, const ovoid_answer *x, question_kind kind, const char *why) {
+static void report(work *w, const scene *s, const ovoid_answer *x, question_kind kind, const char *why) {
     const block_run *run = w->run;
-    w->c.wrong++;
     run->report(run->context, run->family, run->number, &s->pair, x, question_names[kind], why);
+}
+
+static void fail(work *w, const scene *s, const ovoid_answer *x, question_kind kind, const char *why) {
+    w->c.wrong++;
+    report(w, s, x, kind, why);
 }
 
 static void check_exactly(work *w, const scene *s, const ovoid_answer *x, const ovoid_cover *cover, question_kind kind,
@@ -104,7 +108,7 @@ static void check_completeness(work *w, const scene *s, const ovoid_answer *x, q
     int wants_bracket = kind == ASK_DEPTH || (kind == ASK_DISTANCE && x->status == OVOID_SEPARATED);
     if (is_wide && x->status == OVOID_TOUCHING) fail(w, s, x, kind, "touching, and the bracket is wide");
     if (is_wide && wants_bracket && (x->limit == OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_ANSWERED))
-        fail(w, s, x, kind, "wide, and no limit says why");
+        w->c.vague++, report(w, s, x, kind, "wide, and no limit says why");
     w->c.open += x->status == OVOID_UNDECIDED;
     w->c.wide += is_wide && wants_bracket;
     if (!run->is_shown) return;
@@ -112,7 +116,7 @@ static void check_completeness(work *w, const scene *s, const ovoid_answer *x, q
                        : x->stage == OVOID_STAGE_NONE ? "decided by no stage"
                        : is_wide && wants_bracket     ? "wide"
                                                       : NULL;
-    if (what) run->report(run->context, run->family, run->number, &s->pair, x, question_names[kind], what);
+    if (what) report(w, s, x, kind, what);
 }
 
 // in_full: the default options, so that the answer is to be complete.

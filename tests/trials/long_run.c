@@ -87,7 +87,7 @@ static void write_state(const long_run *run) {
         printf("cannot write %s\n", part);
         return;
     }
-    fprintf(f, "ovoid long run 1, seed %llu, schedule %u, blocks %llu\n", (unsigned long long)run->seed,
+    fprintf(f, "ovoid long run 2, seed %llu, schedule %u, blocks %llu\n", (unsigned long long)run->seed,
             run->schedule_count, (unsigned long long)run->begun);
     for (size_t i = 0; i < long_family_count; i++)
         if (run->counts[i].blocks) write_counts(f, long_families[i].name, &run->counts[i]);
@@ -113,7 +113,7 @@ static int read_state(long_run *run) {
     unsigned long long seed, blocks;
     unsigned schedule;
     char name[128];
-    int ok = fscanf(f, "ovoid long run 1, seed %llu, schedule %u, blocks %llu\n", &seed, &schedule, &blocks) == 3;
+    int ok = fscanf(f, "ovoid long run 2, seed %llu, schedule %u, blocks %llu\n", &seed, &schedule, &blocks) == 3;
     ok = ok && schedule == run->schedule_count;
     while (ok && fgets(name, sizeof name, f)) {
         name[strcspn(name, "\n")] = 0;
@@ -210,11 +210,11 @@ static void print_progress(long_run *run, uint64_t at_start) {
     mtx_lock(&run->lock);
     sum_all(run, &all);
     double elapsed = now_seconds() - run->start;
-    printf(
-        "%.1f min, seed %llu: %llu queries (%.3g a second), %llu before the judge, open %llu, wide %llu, wrong %llu\n",
-        elapsed / 60, (unsigned long long)run->seed, (unsigned long long)all.queries,
-        (double)(all.queries - at_start) / elapsed, (unsigned long long)all.exact, (unsigned long long)all.open,
-        (unsigned long long)all.wide, (unsigned long long)all.wrong);
+    printf("%.1f min, seed %llu: %llu queries (%.3g a second), %llu before the judge, open %llu, wide %llu, vague "
+           "%llu, wrong %llu\n",
+           elapsed / 60, (unsigned long long)run->seed, (unsigned long long)all.queries,
+           (double)(all.queries - at_start) / elapsed, (unsigned long long)all.exact, (unsigned long long)all.open,
+           (unsigned long long)all.wide, (unsigned long long)all.vague, (unsigned long long)all.wrong);
     fflush(stdout);
     mtx_unlock(&run->lock);
 }
@@ -259,21 +259,21 @@ static const char *name_stage(int i) { return ovoid_stage_get_name((ovoid_stage)
 static const char *name_limit(int i) { return ovoid_limit_get_name((ovoid_limit)i); }
 
 static void print_row(const char *name, const counts *c, uint64_t queries) {
-    printf("%-24s %5.1f %12llu %10llu %9llu %6.2f %6.2f %6.2f %9llu %9llu %6llu %6.0f %6llu\n", name,
+    printf("%-24s %5.1f %12llu %10llu %9llu %6.2f %6.2f %6.2f %7llu %7llu %6llu %6llu %6.0f %6llu\n", name,
            100.0 * (double)c->queries / (double)queries, (unsigned long long)c->queries, (unsigned long long)c->pairs,
            (unsigned long long)c->exact, 100.0 * (double)c->statuses[OVOID_SEPARATED] / (double)c->queries,
            100.0 * (double)c->statuses[OVOID_TOUCHING] / (double)c->queries,
            100.0 * (double)c->statuses[OVOID_OVERLAPPING] / (double)c->queries, (unsigned long long)c->open,
-           (unsigned long long)c->wide, (unsigned long long)c->iterations, (double)c->nanoseconds / (double)c->queries,
-           (unsigned long long)c->wrong);
+           (unsigned long long)c->wide, (unsigned long long)c->vague, (unsigned long long)c->iterations,
+           (double)c->nanoseconds / (double)c->queries, (unsigned long long)c->wrong);
 }
 
 static void print_tables(const long_run *run) {
     counts all;
     sum_all(run, &all);
     if (!all.queries) return;
-    printf("%-24s %5s %12s %10s %9s %6s %6s %6s %9s %9s %6s %6s %6s\n", "family", "%", "queries", "places", "exact",
-           "apart%", "touch%", "over%", "open", "wide", "iter", "ns", "wrong");
+    printf("%-24s %5s %12s %10s %9s %6s %6s %6s %7s %7s %6s %6s %6s %6s\n", "family", "%", "queries", "places", "exact",
+           "apart%", "touch%", "over%", "open", "wide", "vague", "iter", "ns", "wrong");
     for (size_t i = 0; i < long_family_count; i++)
         if (run->counts[i].queries) print_row(long_families[i].name, &run->counts[i], all.queries);
     print_row("all", &all, all.queries);
@@ -283,11 +283,11 @@ static void print_tables(const long_run *run) {
     print_names("stages", all.stages, OVOID_STAGE_REFINE + 1, name_stage);
     print_names("limits", all.limits, OVOID_LIMIT_OPTIONS + 1, name_limit);
     printf("with options: %llu\n", (unsigned long long)all.limited);
-    printf("seed %llu, %llu blocks: %llu queries, %llu before the judge, %llu wrong\n", (unsigned long long)run->seed,
-           (unsigned long long)run->begun, (unsigned long long)all.queries, (unsigned long long)all.exact,
-           (unsigned long long)all.wrong);
-    check_passed = (long)(all.queries - all.wrong);
-    check_failed += (long)all.wrong;
+    printf("seed %llu, %llu blocks: %llu queries, %llu before the judge, %llu vague, %llu wrong\n",
+           (unsigned long long)run->seed, (unsigned long long)run->begun, (unsigned long long)all.queries,
+           (unsigned long long)all.exact, (unsigned long long)all.vague, (unsigned long long)all.wrong);
+    check_passed = (long)(all.queries - all.wrong - all.vague);
+    check_failed += (long)(all.wrong + all.vague);
 }
 
 // One block again, whatever the schedule says of it.

@@ -20,6 +20,7 @@ typedef enum warm_kind { WARM_NONE, WARM_LAST, WARM_STALE, WARM_FOREIGN, WARM_GA
 /// What is counted, all of them uint64_t; every one is a sum but the last, which is a maximum.
 typedef struct counts {
     uint64_t blocks, queries, exact, wrong;
+    uint64_t vague; // true, but wider than promised with no limit that says why
     uint64_t open,
         wide; // the sign not proven; a distance or depth wider than 1e-9 of the size. Both only by default options
     uint64_t pairs, nanoseconds;
