@@ -90,11 +90,13 @@ static int options_make(const ovoid_options *given, ovoid_options *options) {
     return 1;
 }
 
-// The first look. An overlap's proof has a normal that parted nothing.
+// The first look. The spheres come first, as they cost the same for any number of vertices. An overlap's proof has a
+// normal that parted nothing.
 static int take_glance(const pair_frame *f, const question *ask, const ovoid_proof *earlier, glance *found) {
+    if (ask->far == INFINITY) return 0;
+    if (glance_at_spheres(f, ask->far, found)) return 1;
     int was_apart = earlier && (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
-    if (was_apart && ask->far < INFINITY && glance_at_proof(f, ask->far, earlier, found)) return 1;
-    return glance_at_spheres(f, ask->far, found);
+    return was_apart && glance_at_proof(f, ask->far, earlier, found);
 }
 
 static int may_overlap(const search *s) {
