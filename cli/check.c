@@ -80,7 +80,10 @@ static int add_row(check *c, uint32_t a, uint32_t b) {
     if (ovoid_scene_is_ignored(c->scene, a, b)) return 0;
     if (c->row_count == c->row_capacity) {
         size_t capacity = c->row_capacity ? 2 * c->row_capacity : 1024;
-        row *rows = capacity <= 2 * (size_t)ROWS_MAX ? realloc(c->rows, capacity * sizeof *rows) : NULL;
+        if (capacity > ROWS_MAX) capacity = ROWS_MAX;
+        int is_full = c->row_count == ROWS_MAX;
+        row *rows = is_full ? NULL : realloc(c->rows, capacity * sizeof *rows);
+        if (!rows && !is_full) return message_error("out of memory for %zu pairs", capacity), EXIT_INPUT;
         if (!rows) {
             message_error("too many pairs to sort: above %zu; %s", c->row_count,
                           c->settings->margin >= 0 ? "give a smaller --margin"

@@ -33,6 +33,7 @@ static void set_handler(int number, void (*handler)(int)) {
 
 void finish_catch_signals(void) {
     set_handler(SIGPIPE, SIG_IGN);
+    set_handler(SIGXFSZ, SIG_IGN);
     for (size_t i = 0; i < NUMBER_COUNT; i++) {
         struct sigaction now;
         sigaction(numbers[i], NULL, &now);

@@ -4,8 +4,8 @@
 
 #include <ovoid/io.h>
 
-/// From now on, pipes that nobody reads give errors, not signals; SIGINT, SIGTERM and SIGHUP end the program as they
-/// always do, but the unfinished file is removed first.
+/// From now on, pipes that nobody reads and files at their limit give errors, not signals; SIGINT, SIGTERM and SIGHUP
+/// end the program as they always do, but the unfinished file is removed first.
 void finish_catch_signals(void);
 
 /// Names the unfinished file, NULL for none. One at a time.

@@ -1,0 +1,222 @@
+#!/bin/sh
+# The tool when things end badly: a full disk, readers that go away, signals in the middle, streams that are closed, little
+# memory. Truth: the exit code and the message are what docs/tool.md promises, no unfinished file stays, and a file that was
+# there before is as it was.
+set -u
+: "${OVOID_SOURCE_DIR:=$(cd "$(dirname "$0")/.." && pwd)}" "${OVOID_BUILD_DIR:=$OVOID_SOURCE_DIR/build/release}"
+: "${OVOID_TOOL:=$OVOID_BUILD_DIR/ovoid}"
+if [ ! -x "$OVOID_TOOL" ]; then
+    echo "skipped: the tool is not built"
+    echo "0 passed, 0 failed, 1 skipped"
+    exit 0
+fi
+work=$OVOID_BUILD_DIR/test_cli_hostile
+rm -rf "$work" && cp -R "$OVOID_SOURCE_DIR/tests/cli/data" "$work" && cd "$work" || exit 1
+passed=0 failed=0 skipped=0
+LC_ALL=C
+export LC_ALL
+
+pass() { passed=$((passed + 1)); }
+fail() {
+    failed=$((failed + 1))
+    echo "FAILED $1"
+}
+
+# A batch of many pairs, a scene of many bodies, a mesh of many points: each takes a while.
+awk 'NR == 1; NR > 1 { for (i = 0; i < 3000; i++) print }' pairs.csv >many.csv
+awk 'BEGIN { printf "{\"objects\":["
+    for (i = 0; i < 1500; i++) printf "%s{\"name\":\"n%d\",\"box\":[1,1,1],\"pose\":{\"xyz\":[%d,%d,%d]}}", i ? "," : "", i, i % 12, i / 12 % 12, i / 144
+    print "]}" }' >many.json
+awk 'BEGIN { srand(1)
+    for (i = 0; i < 40000; i++) { x = rand() - 0.5; y = rand() - 0.5; z = rand() - 0.5; r = sqrt(x * x + y * y + z * z)
+        printf "v %.9g %.9g %.9g\n", x / r, y / r, z / r } }' >many.obj
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json -o many.jsonl 2>/dev/null
+
+# clean NAME: no unfinished file, no results under the final names, what was there as it was.
+clean() {
+    left=$(find . -name '*.tmp' -o -name 'new.*')
+    if [ -z "$left" ] && [ "$(cat old.out)" = old ]; then
+        pass
+    else
+        fail "$1: left behind: $left, old.out: $(head -c 100 old.out)"
+        find . \( -name '*.tmp' -o -name 'new.*' \) -exec rm {} +
+    fi
+    echo old >old.out
+}
+echo old >old.out
+
+# expect NAME CODE PHRASE: what the command that just ran (its code in $code, its words in `err`) must have said. An empty
+# phrase: nothing at all.
+expect() {
+    if [ -n "$3" ]; then grep -q "$3" err; else [ ! -s err ]; fi
+    said=$?
+    if [ "$code" -eq "$2" ] && [ $said -eq 0 ]; then
+        pass
+    else
+        fail "$1: exit $code, not $2; said: $(head -c 300 err)"
+    fi
+}
+
+# ---- a disk that is full after 8 blocks: by a limit on the size of files, whose signal is ignored or not
+
+for ignored in XFSZ ''; do
+    for target in new.out old.out; do
+        for run in "batch --shapes shapes.txt --pairs many.csv --json -o $target" \
+            "batch --shapes shapes.txt --pairs many.csv -o $target" "check many.json --margin 1 --csv -o $target" \
+            "view scene.json -o $target"; do
+            (
+                if [ -n "$ignored" ]; then trap '' "$ignored"; fi
+                ulimit -f 8
+                # shellcheck disable=SC2086 # a command line
+                exec "$OVOID_TOOL" $run
+            ) >/dev/null 2>err
+            code=$?
+            expect "full disk ($ignored), $run" 3 'could not be written'
+            clean "full disk ($ignored), $run"
+        done
+    done
+    (
+        ulimit -f 1
+        exec "$OVOID_TOOL" fit --table many.obj -o new.ovoid
+    ) >/dev/null 2>err
+    code=$?
+    expect "full disk ($ignored), fit" 3 'could not be written'
+    clean "full disk ($ignored), fit"
+done
+
+# ---- a small disk, where one may be made
+
+mkdir -p small
+if mount -t tmpfs -o size=64k none small 2>/dev/null; then
+    "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json -o small/new.out 2>err
+    code=$?
+    expect 'small disk, batch' 3 'No space left\|is the disk full'
+    "$OVOID_TOOL" fit many.obj -o small/new.ovoid >/dev/null 2>err
+    code=$?
+    expect 'small disk, fit' 3 'No space left\|is the disk full'
+    if [ -z "$(ls -A small)" ]; then pass; else fail "small disk: left behind: $(ls -A small)"; fi
+    umount small
+else
+    skipped=$((skipped + 1))
+    echo 'skipped: no small disk can be made here'
+fi
+
+# ---- readers that go away: no word, exit code 141
+
+for run in "batch --shapes shapes.txt --pairs many.csv --json" "batch --shapes shapes.txt --pairs many.csv --csv" \
+    "batch --shapes shapes.txt --pairs many.csv" "check many.json --margin 0.5 --json" "check many.json --margin 0.5" \
+    "fit --json $(for i in 1 2 3 4 5 6 7 8; do printf 'cube.off tetra.obj parts.obj square.off ' && : "$i"; done)" \
+    "view scene.json" "check --help"; do
+    # shellcheck disable=SC2086 # a command line
+    (sleep 0.1 && "$OVOID_TOOL" $run 2>err && code=0 || code=$? && echo $code >code) | true
+    code=$(cat code)
+    sed -i '/ms$\|objects in\|pairs in/d' err # notes with counts are none of our matter
+    expect "closed pipe, $run" 141 ''
+done
+
+# ---- signals: 128 and their number, nothing left behind. timeout sends them; a shell would have them ignored.
+
+# interrupt SECONDS NAME INPUT COMMAND...: all three signals. The input comes, and then nothing more: the middle is where
+# it is.
+interrupt() {
+    after=$1 name=$2 input=$3
+    shift 3
+    for signal in INT TERM HUP; do
+        { cat "$input" && sleep 1; } 2>/dev/null | {
+            timeout --preserve-status -s "$signal" "$after" "$@" >/dev/null 2>err
+            echo $? >code
+        }
+        code=$(cat code)
+        case $signal in INT) wanted=130 ;; TERM) wanted=143 ;; HUP) wanted=129 ;; esac
+        if [ "$code" -eq "$wanted" ] && ! grep -q 'error\|Sanitizer' err; then
+            pass
+        else
+            fail "$name, SIG$signal: exit $code, not $wanted; said: $(head -c 300 err)"
+        fi
+        clean "$name, SIG$signal"
+    done
+}
+
+if command -v timeout >/dev/null; then
+    interrupt 0.4 'batch to a new file' many.csv "$OVOID_TOOL" batch --shapes shapes.txt --pairs - --json -o new.out
+    interrupt 0.4 'batch over a file' many.csv "$OVOID_TOOL" batch --shapes shapes.txt --pairs - --threads 3 --csv -o old.out
+    interrupt 0.4 'batch, a table' many.csv "$OVOID_TOOL" batch --shapes shapes.txt --pairs - --threads 1 -o new.out
+    interrupt 0.4 'verify' many.jsonl "$OVOID_TOOL" verify - --shapes shapes.txt --pairs many.csv
+    interrupt 0.2 'check' /dev/null "$OVOID_TOOL" check many.json --json -o new.out
+    interrupt 0.2 'check over a file' /dev/null "$OVOID_TOOL" check many.json --json -o old.out
+    # fit makes one whole file after another.
+    mkdir made
+    interrupt 0.3 'fit' /dev/null "$OVOID_TOOL" fit --gap 1e-15 -o made/ many.obj many.obj many.obj many.obj many.obj
+    for file in made/*; do
+        if [ ! -e "$file" ] || "$OVOID_TOOL" fit "$file" >/dev/null 2>&1; then pass; else fail "fit left $file"; fi
+    done
+    # Whatever the moment.
+    for after in 0.01 0.02 0.03 0.05 0.07 0.1 0.15 0.2 0.3; do
+        timeout --preserve-status -s INT $after "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json -o old.out \
+            >/dev/null 2>err
+        code=$?
+        if [ $code -eq 130 ]; then clean "batch after $after s"; else
+            # It was done by then: all of it is there.
+            if [ $code -eq 1 ] && cmp -s many.jsonl old.out; then pass; else fail "batch after $after s: exit $code"; fi
+            echo old >old.out
+        fi
+        find . -name '*.tmp' | grep . && fail "batch after $after s left a file"
+    done
+else
+    skipped=$((skipped + 1))
+    echo 'skipped: there is no timeout'
+fi
+
+# ---- bad input in the middle: the file that was there stays
+
+(cat many.csv && echo 0,1,nonsense) >broken.csv
+for target in new.out old.out; do
+    "$OVOID_TOOL" batch --shapes shapes.txt --pairs broken.csv --json -o $target 2>err
+    code=$?
+    expect "bad line, $target" 3 'broken.csv:12002:'
+    clean "bad line, $target"
+done
+
+# ---- streams that are closed or full
+
+"$OVOID_TOOL" verify - scene.json <&- >/dev/null 2>err
+code=$?
+expect 'standard input closed' 3 'Bad file descriptor'
+"$OVOID_TOOL" distance missing.off cube.off 2>/dev/full
+code=$? && : >err
+expect 'standard error full' 3 ''
+"$OVOID_TOOL" distance missing.off cube.off 2>&-
+code=$? && : >err
+expect 'standard error closed' 3 ''
+"$OVOID_TOOL" check scene.json -o new.out 0<&- 1>&- 2>&-
+code=$?
+if [ $code -eq 1 ] && [ "$(grep -c overlapping new.out)" -ge 1 ]; then pass; else fail "all streams closed: exit $code"; fi
+rm -f new.out
+
+# ---- little memory (sanitizers need terabytes of addresses)
+
+# shellcheck disable=SC3045 # where ulimit has no -v, it is skipped
+if (ulimit -v 400000 && "$OVOID_TOOL" --version) >/dev/null 2>&1; then
+    for run in "fit many.obj" "check many.json -o new.out" "distance many.obj cube.off"; do
+        (
+            # shellcheck disable=SC3045
+            ulimit -v 60000
+            # shellcheck disable=SC2086 # a command line
+            exec "$OVOID_TOOL" $run
+        ) >/dev/null 2>err
+        code=$?
+        case $code in
+        0 | 1) pass ;; # it was enough
+        3) expect "little memory, $run" 3 'memory' ;;
+        *) fail "little memory, $run: exit $code: $(head -c 200 err)" ;;
+        esac
+        rm -f new.out
+        clean "little memory, $run"
+    done
+else
+    skipped=$((skipped + 1))
+    echo 'skipped: memory cannot be limited here'
+fi
+
+echo "$passed passed, $failed failed, $skipped skipped"
+[ $failed -eq 0 ]
