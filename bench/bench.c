@@ -183,7 +183,8 @@ int main(int argc, char **argv) {
         }
         if (read_switch(&how, argv[i])) continue;
         if (!read_valued(&how, argv[i], i + 1 < argc ? argv[i + 1] : NULL)) {
-            (void)fprintf(stderr, "bench: not understood: %s\n%s", argv[i], help);
+            (void)fprintf(stderr, "bench: not understood: %s %s; bench --help says what is\n", argv[i],
+                          i + 1 < argc ? argv[i + 1] : "");
             return 2;
         }
         i++;

@@ -84,8 +84,8 @@ static int run_qhull(const double *points, uint32_t count) {
 
 /// The steps of a set-up; those inside ovoid_shape_create_from_points are run again, alone.
 typedef enum setup { SETUP_SHAPE, SETUP_OUTER, SETUP_INNER, SETUP_TABLES, SETUP_QHULL, SETUP_COUNT } setup;
-static const char *const setup_names[SETUP_COUNT] = {"whole shape", "outer ellipsoid", "inner ellipsoid", "area tables",
-                                                     "Qhull's hull"};
+static const char *const setup_names[SETUP_COUNT] = {"whole shape", "outer ellipsoid", "inner ellipsoid",
+                                                     "ovoid_areas, k = 8", "Qhull's hull"};
 
 /// 0: it failed, or is not there.
 static int run_setup(const body *b, setup step) {
