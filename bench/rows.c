@@ -4,6 +4,7 @@
 #include "build.h"
 #include "sheet.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,6 +80,11 @@ static void add_to_page(page *p, const row *r) {
     v->low[k] = r->y.low;
     v->high[k] = r->y.high;
     p->series[chart][line].count = ++v->count;
+    // Whole decades, so that what is flat looks flat.
+    ovoid_chart *c = &p->charts[chart];
+    double low = pow(10, floor(log10(r->y.low))), high = pow(10, ceil(log10(r->y.high)));
+    c->y_min = c->y_min > 0 ? fmin(c->y_min, low) : low;
+    c->y_max = fmax(c->y_max, high);
 }
 
 int rows_write_svg(const rows *all, const char *path) {

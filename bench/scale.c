@@ -163,21 +163,60 @@ static int visit_memory(rows *all, const bodies *set) {
 
 // --- pairs and threads
 
+/// Pairs as a batch takes them: bodies 2 i and 2 i + 1.
+typedef struct crowd {
+    ovoid_body *bodies;
+    ovoid_couple *couples;
+    ovoid_verdict *verdicts;
+} crowd;
+
+static void crowd_destroy(crowd *c) {
+    free(c->bodies);
+    free(c->couples);
+    free(c->verdicts);
+}
+
+/// Hulls in random poses, the centres of a pair within two sizes: some touch, most do not. 0 where memory is out.
+static int crowd_create(crowd *c, const bodies *set, uint32_t count) {
+    *c = (crowd){malloc(sizeof *c->bodies * 2 * count), malloc(sizeof *c->couples * count),
+                 malloc(sizeof *c->verdicts * count)};
+    if (!c->bodies || !c->couples || !c->verdicts) return 0;
+    uint64_t state = 4;
+    for (uint32_t i = 0; i < count; i++) {
+        const body *a = &set->items[i % set->count], *b = &set->items[(i / set->count + i + 1) % set->count];
+        double size = body_get_reach(a) + body_get_reach(b), apart = random_uniform(&state, 0.2, 2) * size;
+        ovoid_vec3 u = random_unit(&state);
+        ovoid_quat turn_a = random_rotation(&state), turn_b = random_rotation(&state);
+        c->bodies[2 * (size_t)i] = (ovoid_body){a->shape, {{0, 0, 0}, turn_a}};
+        c->bodies[2 * (size_t)i + 1] = (ovoid_body){b->shape, {{u.x * apart, u.y * apart, u.z * apart}, turn_b}};
+        c->couples[i] = (ovoid_couple){2 * i, 2 * i + 1};
+    }
+    return 1;
+}
+
+/// The couples from one to another, exclusive.
 typedef struct share {
-    const ovoid_pair *pairs;
-    uint32_t count;
-    uint32_t touching;
+    ovoid_batch batch;
+    int failed;
 } share;
+
+static share share_make(const crowd *c, uint32_t total, uint32_t from, uint32_t to) {
+    return (share){{.bodies = c->bodies,
+                    .body_count = 2 * (size_t)total,
+                    .couples = c->couples + from,
+                    .couple_count = to - from,
+                    .verdicts = c->verdicts + from},
+                   0};
+}
 
 static void *run_share(void *data) {
     share *s = data;
-    for (uint32_t i = 0; i < s->count; i++)
-        s->touching += ovoid_collide(&s->pairs[i], NULL, NULL).status != OVOID_SEPARATED;
+    s->failed |= ovoid_collide_batch(&s->batch, NULL) != OVOID_OK;
     return NULL;
 }
 
 /// Seconds for all pairs on so many threads; 0 where a thread cannot be started.
-static double time_threads(const ovoid_pair *pairs, uint32_t count, uint32_t threads) {
+static double time_threads(const crowd *c, uint32_t count, uint32_t threads) {
     pthread_t ids[THREADS_MOST];
     share shares[THREADS_MOST];
     double start = get_seconds();
@@ -185,26 +224,11 @@ static double time_threads(const ovoid_pair *pairs, uint32_t count, uint32_t thr
     for (; started < threads; started++) {
         uint32_t from = (uint32_t)((uint64_t)count * started / threads);
         uint32_t to = (uint32_t)((uint64_t)count * (started + 1) / threads);
-        shares[started] = (share){pairs + from, to - from, 0};
+        shares[started] = share_make(c, count, from, to);
         if (pthread_create(&ids[started], NULL, run_share, &shares[started])) break;
     }
     for (uint32_t i = 0; i < started; i++) (void)pthread_join(ids[i], NULL);
     return started == threads ? get_seconds() - start : 0;
-}
-
-/// Bodies of 32 vertices in random poses, their centres within two sizes: some touch, most do not.
-static ovoid_pair *create_pairs(const bodies *set, uint32_t count) {
-    ovoid_pair *pairs = malloc(sizeof *pairs * count);
-    uint64_t state = 4;
-    for (uint32_t i = 0; pairs && i < count; i++) {
-        const body *a = &set->items[i % set->count], *b = &set->items[(i / set->count + i + 1) % set->count];
-        double size = body_get_reach(a) + body_get_reach(b), apart = random_uniform(&state, 0.2, 2) * size;
-        ovoid_vec3 u = random_unit(&state);
-        ovoid_quat turn_a = random_rotation(&state), turn_b = random_rotation(&state);
-        pairs[i] =
-            (ovoid_pair){a->shape, b->shape, {{0, 0, 0}, turn_a}, {{u.x * apart, u.y * apart, u.z * apart}, turn_b}};
-    }
-    return pairs;
 }
 
 static row make_pairs_row(const char *chart, const char *x_name, double x, uint32_t count, double *seconds,
@@ -213,30 +237,42 @@ static row make_pairs_row(const char *chart, const char *x_name, double x, uint3
     return (row){chart, x_name, "ns per pair", "collide", x, timing_make(seconds, passes)};
 }
 
-static int add_pairs(rows *all, uint32_t most) {
-    bodies set = bodies_create_hulls(32, 100);
-    ovoid_pair *pairs = set.count ? create_pairs(&set, most) : NULL;
+/// Batches of more and more pairs.
+static void add_pairs(rows *all, const crowd *c, uint32_t most) {
     double seconds[PASSES];
-    for (uint64_t count = 1; pairs && count <= most; count *= 10) {
+    for (uint64_t count = 1; count <= most; count *= 10) {
         // Few pairs again and again, so that the clock's own cost does not count.
         uint32_t passes = count > 100000 ? 3 : 5, again = count < 1000 ? (uint32_t)(1000 / count) : 1;
+        share s = share_make(c, most, 0, (uint32_t)count);
         for (uint32_t pass = 0; pass < passes; pass++) {
-            share s = {pairs, (uint32_t)count, 0};
             double start = get_own_seconds();
             for (uint32_t k = 0; k < again; k++) (void)run_share(&s);
             seconds[pass] = (get_own_seconds() - start) / again;
         }
-        rows_add(all,
-                 make_pairs_row("Many pairs, one thread", "pairs", (double)count, (uint32_t)count, seconds, passes));
+        rows_add(all, make_pairs_row("Pairs of a batch, one thread", "pairs", (double)count, (uint32_t)count, seconds,
+                                     passes));
     }
+}
+
+/// The same batch cut into a part for each thread, up to twice the cores. Wall time.
+static void add_threads(rows *all, const crowd *c, uint32_t count) {
+    double seconds[PASSES];
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    uint32_t count = most < 100000 ? most : 100000;
-    for (uint32_t threads = 1; pairs && threads <= 2 * cores && threads <= THREADS_MOST; threads *= 2) {
-        for (uint32_t pass = 0; pass < 5; pass++) seconds[pass] = time_threads(pairs, count, threads);
-        rows_add(all, make_pairs_row("Many pairs, threads", "threads", threads, count, seconds, 5));
+    for (uint32_t threads = 1; threads <= 2 * cores && threads <= THREADS_MOST; threads *= 2) {
+        for (uint32_t pass = 0; pass < 5; pass++) seconds[pass] = time_threads(c, count, threads);
+        rows_add(all, make_pairs_row("A batch on several threads", "threads", threads, count, seconds, 5));
     }
-    int good = pairs != NULL;
-    free(pairs);
+}
+
+static int visit_pairs(rows *all, uint32_t most) {
+    bodies set = bodies_create_hulls(32, 100);
+    crowd c = {0};
+    int good = set.count && crowd_create(&c, &set, most);
+    if (good) {
+        add_pairs(all, &c, most);
+        add_threads(all, &c, most < 100000 ? most : 100000);
+    }
+    crowd_destroy(&c);
     bodies_destroy(&set);
     return good;
 }
@@ -245,7 +281,7 @@ int scale_run(const char *csv, const char *svg, uint32_t most_pairs, int smoke) 
     static rows all;
     printf("%s\n", get_build());
     if (!visit_sizes(&all, smoke, add_queries) || !visit_sizes(&all, smoke, visit_memory) ||
-        !visit_sizes(&all, smoke, visit_setup) || !add_pairs(&all, most_pairs))
+        !visit_sizes(&all, smoke, visit_setup) || !visit_pairs(&all, most_pairs))
         return 0;
     return (!csv || rows_write_csv(&all, csv)) && (!svg || rows_write_svg(&all, svg));
 }

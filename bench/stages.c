@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { STAGE_COUNT = OVOID_STAGE_EPA + 1, PASSES = 15 };
+enum { STAGE_COUNT = OVOID_STAGE_REFINE + 1, PASSES = 15 };
 
 typedef struct asked {
     ovoid_pair pair;
