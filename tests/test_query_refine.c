@@ -238,6 +238,40 @@ static void test_far_vertices(void) {
     judge_forget(court);
 }
 
+// Likewise turned by anything, so that their rotation is rounded: closed in by A's position, a double near 0, on a gap
+// near what is hidden. Truth: the judge, and the sign by brute force.
+static void test_far_turned(uint64_t seed) {
+    uint64_t r = check_seed = seed;
+    ovoid_shape *s[2];
+    for (int k = 0; k < 2; k++) {
+        double xyz[15];
+        for (int i = 0; i < 15; i++) xyz[i] = random_uniform(&r, -1, 1) + 0x1p23;
+        s[k] = make_points(xyz, 5, 0);
+    }
+    ovoid_pair p = {.shape_a = s[0], .shape_b = s[1]};
+    p.pose_a.rotation = random_turn(&r), p.pose_b.rotation = random_turn(&r);
+    ovoid_vec3 far = {0x1p23, 0x1p23, 0x1p23}, a = ovoid_pose_compute_point(&p.pose_a, far);
+    ovoid_vec3 b = ovoid_pose_compute_point(&p.pose_b, far);
+    p.pose_b.position = (ovoid_vec3){a.x - b.x + 1, a.y - b.y, a.z - b.z};
+    double target = ldexp(random_uniform(&r, -1, 1), -66);
+    judge_truth truth;
+    for (int k = 0; k < 6; k++) {
+        CHECK_EQ(judge_compute_truth(court, &p, &truth, NULL), OVOID_OK);
+        ovoid_answer x = ovoid_depth(&p, NULL, NULL, NULL);
+        double step = 0.5 * (truth.low + truth.high) - target;
+        ovoid_vec3 *at = &p.pose_a.position;
+        at->x += step * x.normal.x, at->y += step * x.normal.y, at->z += step * x.normal.z;
+    }
+    CHECK_EQ(judge_compute_truth(court, &p, &truth, NULL), OVOID_OK);
+    ovoid_answer x = ovoid_distance(&p, NULL, NULL);
+    CHECK(holds(&p, &x, NULL));
+    CHECK(x.lower <= truth.high && truth.low <= x.upper);
+    if (truth.low > 4e-21) CHECK_EQ(x.status, OVOID_SEPARATED);
+    if (truth.high < -4e-20) CHECK_EQ(x.status, OVOID_OVERLAPPING);
+    ovoid_shape_destroy(s[0]), ovoid_shape_destroy(s[1]);
+    judge_forget(court);
+}
+
 // Thousands of vertices in the two planes that meet, all of them candidates.
 static void test_many(void) {
     enum { N = 2000 };
@@ -429,6 +463,8 @@ int main(void) {
     for (uint64_t seed = 1; seed <= 100; seed++) test_brute_force(seed);
     check_seed = 0;
     test_far_vertices();
+    for (uint64_t seed = 1; seed <= 40; seed++) test_far_turned(seed);
+    check_seed = 0;
     test_tolerance();
     test_altered();
     test_many();

@@ -312,7 +312,7 @@ static int is_wanted(const search *s) {
 // The double search's points, and the support along its direction.
 static void set_start(refinement *r, fine_simplex *x, const fine_support *first) {
     const search *s = r->s;
-    x->count = 0;
+    *x = (fine_simplex){.distance = {INFINITY, 0}};
     add(r, x, *first, NULL, 0);
     if (s->kind != OVOID_PROOF_POINTS) return;
     for (int i = 0; i < s->witness.count && x->count < 4; i++) {
@@ -353,7 +353,8 @@ void refine_run(search *s, const ovoid_pair *pair, const ovoid_proof *earlier) {
     refinement r = {.s = s};
     if (!is_wanted(s) || !fine_make(pair, &r.f)) return;
     r.noise = 2 * r.f.claim;
-    uint64_t left = 2 * (uint64_t)s->ask.iterations - s->iterations;
+    // The exact methods take at most twice the iterations asked for, all together.
+    int64_t left = 2 * (int64_t)s->ask.iterations - (int64_t)s->iterations;
     // The first look and the last round may take a few supports more.
     if (left < 10) return;
     left -= 8;
