@@ -13,7 +13,7 @@ tree=$copy/tree
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
-    query="test_query test_judge_check test_query_surface test_judge test_query_trials:--rounds:5 test_query_trials_known"
+    query="test_query test_judge_check test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known"
     query="$query test_query_batch test_game_hulls test_query_refine"
     case $1 in
     query) echo "$query" ;;

@@ -135,6 +135,17 @@ static void check_strange(const ovoid_pair *p, const ovoid_answer *x) {
     CHECK_EQ(ovoid_answer_is_within(&y, first.lower), 0);
 }
 
+/// Touching is said of brackets within the tolerance only, however early the search was stopped.
+static void check_stopped(const ovoid_pair *p) {
+    double tolerance = 1e-4 * size_of(p);
+    for (uint32_t most = 1; most <= 3; most++) {
+        ovoid_options o = {.iterations = most, .absolute_tolerance = tolerance, .relative_tolerance = 1e-12};
+        ovoid_answer y[3] = {ovoid_collide(p, &o, NULL), ovoid_distance(p, &o, NULL), ovoid_depth(p, &o, NULL, NULL)};
+        for (int k = 0; k < 3; k++)
+            if (y[k].status == OVOID_TOUCHING) CHECK_LE(y[k].upper - y[k].lower, 1.01 * tolerance);
+    }
+}
+
 static void check_pair(const ovoid_pair *p) {
     cover.point_count = cover.triangle_count = 0;
     ovoid_answer x[4] = {ovoid_collide(p, NULL, NULL), ovoid_distance(p, NULL, NULL), ovoid_bounds(p),
@@ -145,6 +156,7 @@ static void check_pair(const ovoid_pair *p) {
         check_altered(p, &x[k]);
     }
     check_strange(p, &x[1]);
+    check_stopped(p);
 }
 
 int main(void) {

@@ -250,6 +250,20 @@ static void check_holes(uint64_t *s) {
     CHECK(!surface_is_closed(&all));
 }
 
+/// The hull of points that are almost on the faces of a box is convex, and holds them all, to a few roundings.
+static void check_convex(uint64_t *s) {
+    static expansion e;
+    vec3 w[32];
+    for (int i = 0; i < 32; i++) {
+        double c[3] = {random_uniform(s, -1, 1), random_uniform(s, -1, 1), random_uniform(s, -1, 1)};
+        c[i % 3] = (i / 3 % 2 ? 1 : -1) + random_uniform(s, 0, 1e-9);
+        w[i] = (vec3){c[0], c[1], c[2]};
+    }
+    if (!expansion_make_hull(&e, w, 32, 1e-14)) return;
+    for (uint32_t f = 0; f < e.faces; f++)
+        for (int i = 0; i < 32 && e.f[f].alive; i++) CHECK_LE(vec3_dot(e.f[f].n, w[i]) - e.f[f].low, 1e-12);
+}
+
 int main(void) {
     for (uint64_t seed = 0; seed < 3000; seed++) {
         uint64_t s = check_seed = seed;
@@ -260,6 +274,7 @@ int main(void) {
         check_nested(&s);
         check_plain(&s);
         check_holes(&s);
+        check_convex(&s);
     }
     printf("%ld proven, %ld refused\n", proven, refused);
     CHECK(proven > 1000 && refused > 1000);

@@ -37,8 +37,8 @@ void simplex_compute_inside_weights(simplex *s);
 /// The nearest point, from the weights.
 vec3 simplex_compute_point(const simplex *s);
 
-/// The unit normal of the triangle with edges e1 and e2, orthogonal to them to rounding also where it is a sliver; zero
-/// where it has no area.
+/// The unit normal of the triangle with edges e1 and e2, orthogonal to them to rounding u; of a sliver, whose edges
+/// have the sine s between them, to a few (u / s)^2. Zero where it has no area.
 vec3 simplex_compute_normal(vec3 e1, vec3 e2);
 
 #endif
