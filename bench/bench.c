@@ -58,7 +58,7 @@ static void print_cell(table *t, const cell *c) {
 static int measure_question(table *t, const workload *work, question what, const truth *truths, found *answers,
                             cell *c) {
     // Who does not answer the question, or is not warm here, sits out.
-    void *selves[ENTRANTS_MOST];
+    void *selves[ENTRANTS_MOST] = {NULL};
     for (uint32_t i = 0; i < c->count; i++) {
         entrant *e = &c->entrants[i];
         selves[i] = e->self;

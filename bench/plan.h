@@ -19,6 +19,6 @@ typedef struct plan {
 typedef int (*visitor)(void *context, const workload *work);
 
 /// 0 where a visitor failed or memory is out.
-int plan_visit(const plan *what, visitor visit, void *context);
+int plan_visit(const plan *what, visitor call, void *context);
 
 #endif
