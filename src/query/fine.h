@@ -6,7 +6,7 @@
 // (that are rotated; positions count for nothing, they differ exactly):
 // - a difference x_b - x_a is off by 48 E s + H, a gap along a direction, divided by the direction's length, by 64 E s
 //   + H, the distance of two weighted points by 80 E s + H.
-// Hence a measurement is off by less than FINE_CHECK s + H, and a claim that is lowered by FINE_CLAIM s + 2 H holds and
+// Hence a measurement is off by less than FINE_CHECK s + H, and a claim that is lowered by twice that holds and
 // is confirmed by whoever measures it again within the former. docs/error-analysis.md derives these numbers.
 #ifndef OVOID_QUERY_FINE_H
 #define OVOID_QUERY_FINE_H
@@ -15,7 +15,6 @@
 #include "query/frame.h"
 
 #define FINE_CHECK (96 * 0x1p-102)
-#define FINE_CLAIM (192 * 0x1p-102)
 
 /// Lengths in here are in the unit in which the size is about one.
 typedef struct fine_frame {
