@@ -61,7 +61,7 @@ static void write_forever(int output, void *context) {
 static void take_memory(int output, void *context) {
     size_t size = *(size_t *)context;
     char said[2] = {'0', '0'};
-    char *memory = malloc(size);
+    void *volatile memory = malloc(size); // a compiler may leave out what nobody looks at
     if (!memory) said[0] = '1';
     free(memory);
     child_allow_memory(2 * size);
