@@ -46,7 +46,7 @@ static ovoid_limit find_limit(const search *s, ovoid_status status) {
     if (s->lower > s->ask.far) return s->ask.beyond;
     // A distance or a depth that was asked for, and is wide.
     int is_asked = s->ask.wants_bracket && (status == OVOID_SEPARATED || s->ask.wants_depth);
-    return is_asked ? OVOID_LIMIT_PRECISION : OVOID_LIMIT_ANSWERED;
+    return is_asked && s->upper > s->ask.near ? OVOID_LIMIT_PRECISION : OVOID_LIMIT_ANSWERED;
 }
 
 // A lower bound for a search that has none: the enclosing spheres' gap along the line of centres.

@@ -109,6 +109,7 @@ static void check_completeness(work *w, const scene *s, const ovoid_answer *x, q
     if (is_wide && x->status == OVOID_TOUCHING) fail(w, s, x, kind, "touching, and the bracket is wide");
     if (is_wide && wants_bracket && (x->limit == OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_ANSWERED))
         w->c.vague++, report(w, s, x, kind, "wide, and no limit says why");
+    if (x->iterations >= 1000) report(w, s, x, kind, "a thousand steps");
     w->c.open += x->status == OVOID_UNDECIDED;
     w->c.wide += is_wide && wants_bracket;
     if (!run->is_shown) return;
