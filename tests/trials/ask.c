@@ -196,7 +196,8 @@ static void ask_within(const hearing *h, const ovoid_proof *earlier) {
     int within = ovoid_answer_is_within(&x, margin);
     if (within == 1 && !(x.upper <= margin)) trial_fail(h->t, h->pair, &x, query, "says within and is not");
     if (within == 0 && !(x.lower > margin)) trial_fail(h->t, h->pair, &x, query, "says farther and is not");
-    if (within != -1 && x.limit != OVOID_LIMIT_NONE && x.limit != OVOID_LIMIT_ANSWERED)
+    int is_answered = within != -1 && x.status != OVOID_UNDECIDED;
+    if (is_answered && x.limit != OVOID_LIMIT_NONE && x.limit != OVOID_LIMIT_ANSWERED)
         trial_fail(h->t, h->pair, &x, query, "answered, and the limit says otherwise");
     if (within == -1 && x.upper - x.lower > 1e-6 * pair_size(h->pair) + pair_unresolved(h->pair) &&
         x.limit == OVOID_LIMIT_NONE)
