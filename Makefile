@@ -42,7 +42,7 @@ soak: ## random and hostile pairs before the exact judge, SECONDS=3600; goes on 
 	@$(call build,build,test_query_trials)
 	@$(BUILD)/tests/test_query_trials --seconds $(SECONDS) --state build/soak.state
 
-trust: ## 10^9 queries checked by proof, 10^6 by the judge, about an hour; goes on where it stopped
+trust: ## 10^9 queries checked by proof, 10^6 by the judge, half an hour to an hour; goes on where it stopped
 	@$(call build,build,long_run)
 	@$(BUILD)/tests/long_run --queries 1e9 --threads $(JOBS) --state build/long_run.state
 
