@@ -81,6 +81,12 @@ static void test_deformed(void) {
     ovoid_shape_destroy(box);
 }
 
+// Divides, which must succeed.
+static void divide(const ovoid_shape *shape, ovoid_plane plane, ovoid_shape *parts[2]) {
+    ovoid_code code = ovoid_shape_create_divided(shape, &plane, NULL, parts, NULL);
+    CHECK_EQ(code, OVOID_OK);
+}
+
 // Each vertex of the body on its side is in that part (by the distance of a point shape to it), and the part is on its
 // side.
 static void check_part(const ovoid_shape *body, const ovoid_shape *part, ovoid_plane plane, int side, double size) {
@@ -118,7 +124,7 @@ static void test_divided(void) {
         ovoid_plane plane = {{a / r, b / r, c / r}, 0};
         plane.offset = plane.normal.x * center.x + plane.normal.y * center.y + 0.2 * scale * random_normal(&s);
         ovoid_shape *parts[2];
-        CHECK_EQ(ovoid_shape_create_divided(body, &plane, NULL, parts, NULL), OVOID_OK);
+        divide(body, plane, parts);
         double volume = 0;
         for (int k = 0; k < 2; k++) {
             check_part(body, parts[k], plane, k ? 1 : -1, 4 * scale);
@@ -135,7 +141,7 @@ static void test_divided(void) {
 static void test_known_cuts(void) {
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL), *parts[2];
     // Through the middle: two boxes of eight vertices each, whatever diagonals the faces have.
-    CHECK_EQ(ovoid_shape_create_divided(box, &(ovoid_plane){{0, 0, 4}, 2}, NULL, parts, NULL), OVOID_OK);
+    divide(box, (ovoid_plane){{0, 0, 4}, 2}, parts);
     if (CHECK(parts[0] && parts[1])) {
         CHECK_EQ(ovoid_shape_get_polytope(parts[0]).vertex_count, 8);
         CHECK_EQ(ovoid_shape_get_measures(parts[0]).volume, 6);
@@ -144,17 +150,17 @@ static void test_known_cuts(void) {
     ovoid_shape_destroy(parts[0]);
     ovoid_shape_destroy(parts[1]);
     // Through four corners: two prisms.
-    CHECK_EQ(ovoid_shape_create_divided(box, &(ovoid_plane){{1, 1, 0}, 0}, NULL, parts, NULL), OVOID_OK);
+    divide(box, (ovoid_plane){{1, 1, 0}, 0}, parts);
     for (int k = 0; k < 2; k++) {
         CHECK(parts[k] && ovoid_shape_get_polytope(parts[k]).vertex_count == 6);
         CHECK(parts[k] && ovoid_shape_get_measures(parts[k]).volume == 4);
         ovoid_shape_destroy(parts[k]);
     }
     // Beside it, and along a face.
-    CHECK_EQ(ovoid_shape_create_divided(box, &(ovoid_plane){{1, 0, 0}, 3}, NULL, parts, NULL), OVOID_OK);
+    divide(box, (ovoid_plane){{1, 0, 0}, 3}, parts);
     CHECK(parts[0] && !parts[1]);
     ovoid_shape_destroy(parts[0]);
-    CHECK_EQ(ovoid_shape_create_divided(box, &(ovoid_plane){{1, 0, 0}, -1}, NULL, parts, NULL), OVOID_OK);
+    divide(box, (ovoid_plane){{1, 0, 0}, -1}, parts);
     CHECK(!parts[0] && parts[1]);
     ovoid_shape_destroy(parts[1]);
     ovoid_shape_destroy(box);
@@ -163,7 +169,7 @@ static void test_known_cuts(void) {
     const uint32_t counts[] = {4, 2, 1}, expected[] = {4, 2, 0};
     for (int i = 0; i < 3; i++) {
         ovoid_shape *s = ovoid_shape_create_from_points(flat, counts[i], NULL, NULL);
-        CHECK_EQ(ovoid_shape_create_divided(s, &(ovoid_plane){{1, 0, 0}, 0.5}, NULL, parts, NULL), OVOID_OK);
+        divide(s, (ovoid_plane){{1, 0, 0}, 0.5}, parts);
         CHECK_EQ(parts[0] ? ovoid_shape_get_polytope(parts[0]).vertex_count : 0, i < 2 ? expected[i] : 1);
         CHECK_EQ(parts[1] ? ovoid_shape_get_polytope(parts[1]).vertex_count : 0, expected[i]);
         ovoid_shape_destroy(parts[0]);
