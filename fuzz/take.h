@@ -36,7 +36,8 @@ static inline double take_double(fuzz_bytes *from) {
         take_raw(from, &digits, sizeof digits);
         return ldexp(digits, take_byte(from));
     }
-    return how / 8;
+    int eighths = how / 8;
+    return eighths;
 }
 
 #endif

@@ -402,6 +402,7 @@ static void check_trusted(void) {
     ovoid_mesh_destroy(meshes[1]);
 }
 
+#ifndef HAS_ASAN
 // Many threads, some in malloc while others fork.
 static void *import_often(void *context) {
     long bad = 0;
@@ -424,6 +425,7 @@ static void check_threads(void) {
         CHECK(pthread_join(threads[i], &bad) == 0 && bad == NULL);
     }
 }
+#endif
 
 static int count_own_files(void) {
     int count = 0;
@@ -450,7 +452,11 @@ int main(void) {
         check_hostile_file("good.3mf", OVOID_OK);
         check_other_files();
         check_trusted();
+#ifdef HAS_ASAN
+        check_skip("AddressSanitizer's own malloc may be locked in the child of a process with threads");
+#else
         check_threads();
+#endif
     } else
         check_skip("Assimp was not built in");
     // Nothing is left: no child, no open file.

@@ -41,6 +41,7 @@ static void fill_rings(paper_model *m, const ring *rings, uint32_t ring_count, u
 }
 
 static int allocate(paper_model *m, uint32_t vertices, uint32_t triangles) {
+    if (!vertices || !triangles) return 0;
     m->vertex_count = vertices;
     m->triangle_count = triangles;
     m->xyz = calloc(vertices, 3 * sizeof *m->xyz);

@@ -25,6 +25,6 @@ int glance_at_spheres(const pair_frame *frame, double far, glance *found);
 int glance_at_proof(const pair_frame *frame, double far, const ovoid_proof *earlier, glance *found);
 
 /// The answer to the question, whose tolerance is set.
-void glance_write(const glance *found, const pair_frame *frame, const question *ask, ovoid_answer *out);
+void glance_write(const glance *g, const pair_frame *f, const question *ask, ovoid_answer *out);
 
 #endif

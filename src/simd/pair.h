@@ -10,15 +10,14 @@ typedef struct simd_points {
     uint32_t padded_count;
 } simd_points;
 
-/// The supports of two sets, each along a direction of its own.
+/// The supports of two sets, each along a direction of its own: h of the first, l of the second.
 typedef struct simd_pair {
     support_result high, low;
 } simd_pair;
 
 /// The same bits as two calls of simd_find_support. Fastest up to 64 points a set: all values stay in registers or the
 /// first cache, and the index is that of the first one equal to the largest.
-simd_pair simd_find_pair(const simd_points *high, const double along_high[3], const simd_points *low,
-                         const double along_low[3]);
+simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]);
 
 typedef simd_pair simd_pair_function(const simd_points *high, const double along_high[3], const simd_points *low,
                                      const double along_low[3]);
