@@ -3,25 +3,13 @@
 // by its own plane; a tetrahedron's inside by four determinants. Simplices of every shape, the origin near and far;
 // cases that rounding decides are left out by their distance from a change.
 #include "check.h"
+#include "distances.h"
 #include "linear/mat3.h"
 #include "query/simplex.h"
 
 static vec3 random_vec3(uint64_t *s, double scale) {
     double x = random_normal(s), y = random_normal(s), z = random_normal(s);
     return (vec3){scale * x, scale * y, scale * z};
-}
-
-static double segment_distance(vec3 a, vec3 b) {
-    vec3 e = vec3_sub(b, a);
-    double l = vec3_norm_squared(e), t = l > 0 ? fmin(fmax(-vec3_dot(a, e) / l, 0), 1) : 0;
-    return vec3_norm(vec3_add_scaled(a, e, t));
-}
-
-static double triangle_distance(vec3 a, vec3 b, vec3 c) {
-    vec3 n = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
-    double u = vec3_dot(n, vec3_cross(b, c)), v = vec3_dot(n, vec3_cross(c, a)), w = vec3_dot(n, vec3_cross(a, b));
-    double edges = fmin(segment_distance(a, b), fmin(segment_distance(b, c), segment_distance(c, a)));
-    return u > 0 && v > 0 && w > 0 ? fmin(edges, fabs(vec3_dot(n, a)) / vec3_norm(n)) : edges;
 }
 
 static int is_inside(const vec3 w[4]) {

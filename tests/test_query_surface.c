@@ -5,6 +5,7 @@
 // angles, are measured here, with nothing of the library's but vectors. Also what must be proven: plain surfaces,
 // either side out.
 #include "check.h"
+#include "distances.h"
 #include "linear/mat3.h"
 #include "query/cover.h"
 #include "query/expand.h"
@@ -39,19 +40,6 @@ static long winding_of(const body *x) {
     for (uint32_t i = 0; i < x->triangles; i++)
         sum += solid_angle(x->w[x->t[i][0]], x->w[x->t[i][1]], x->w[x->t[i][2]]);
     return lround(sum / (4 * 3.141592653589793));
-}
-
-static double segment_distance(vec3 a, vec3 b) {
-    vec3 e = vec3_sub(b, a);
-    double l = vec3_norm_squared(e), t = l > 0 ? fmin(fmax(-vec3_dot(a, e) / l, 0), 1) : 0;
-    return vec3_norm(vec3_add_scaled(a, e, t));
-}
-
-static double triangle_distance(vec3 a, vec3 b, vec3 c) {
-    vec3 n = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
-    double u = vec3_dot(n, vec3_cross(b, c)), v = vec3_dot(n, vec3_cross(c, a)), w = vec3_dot(n, vec3_cross(a, b));
-    double edges = fmin(segment_distance(a, b), fmin(segment_distance(b, c), segment_distance(c, a)));
-    return u > 0 && v > 0 && w > 0 ? fmin(edges, fabs(vec3_dot(n, a)) / vec3_norm(n)) : edges;
 }
 
 static double distance_of(const body *x) {

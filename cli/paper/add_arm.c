@@ -3,7 +3,6 @@
 #include "paper/experiment.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LINKS = 4, STEPS = 240 };
@@ -67,10 +66,7 @@ static void add_picture(const experiment *e, const arm *a, double t, int nearest
     const ovoid_picture picture = {bodies, LINKS + 1, &link, 1, NULL, "m"};
     const ovoid_picture_options options = {
         900, 560, {0.6, -2, 0.7}, OVOID_PICTURE_WITNESS | OVOID_PICTURE_INNER | OVOID_PICTURE_NAMES};
-    char *path = report_make_path(e->report, "arm_picture", "svg");
-    if (path && ovoid_picture_write_svg(path, &picture, &options, NULL) == OVOID_OK)
-        report_add_picture(e->report, "arm_picture", "The arm where it is nearest to the obstacle.");
-    free(path);
+    report_add_picture(e->report, "arm_picture", &picture, &options, "The arm where it is nearest to the obstacle.");
 }
 
 static int arm_make(arm *a) {

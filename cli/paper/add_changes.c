@@ -93,10 +93,8 @@ static void add_picture(const experiment *e) {
                                              {NULL, parts[1], {{2.4, 1.2, 0.35}, {1, 0, 0, 0}}}};
         const ovoid_picture picture = {bodies, 3, NULL, 0, NULL, NULL};
         const ovoid_picture_options options = {900, 420, {1, -1.6, 0.6}, OVOID_PICTURE_OUTER | OVOID_PICTURE_INNER};
-        char *path = report_make_path(e->report, "divided", "svg");
-        if (path && ovoid_picture_write_svg(path, &picture, &options, NULL) == OVOID_OK)
-            report_add_picture(e->report, "divided", "A body and its two parts, each with ellipsoids of its own.");
-        free(path);
+        report_add_picture(e->report, "divided", &picture, &options,
+                           "A body and its two parts, each with ellipsoids of its own.");
     }
     ovoid_shape_destroy(parts[0]);
     ovoid_shape_destroy(parts[1]);

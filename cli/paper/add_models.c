@@ -1,8 +1,6 @@
 // Chart 0: vertices, faces, faces after splitting; a picture of each family.
 #include "paper/experiment.h"
 
-#include <stdlib.h>
-
 /// The least and the largest of a family.
 typedef struct span {
     uint32_t low, high;
@@ -23,12 +21,9 @@ static void add_pictures(const experiment *e) {
     const ovoid_picture picture = {bodies, FAMILY_COUNT, NULL, 0, NULL, NULL};
     const ovoid_picture_options options = {1000, 420, view,
                                            OVOID_PICTURE_AREAS | OVOID_PICTURE_INNER | OVOID_PICTURE_NAMES};
-    char *path = report_make_path(e->report, "models", "svg");
-    if (path && ovoid_picture_write_svg(path, &picture, &options, NULL) == OVOID_OK)
-        report_add_picture(
-            e->report, "models",
-            "One of each family: the enclosed ellipsoid and the eight areas that its axes cut the faces into.");
-    free(path);
+    report_add_picture(
+        e->report, "models", &picture, &options,
+        "One of each family: the enclosed ellipsoid and the eight areas that its axes cut the faces into.");
 }
 
 void experiment_add_models(const experiment *e) {
@@ -42,7 +37,6 @@ void experiment_add_models(const experiment *e) {
                     "A box moves past ten cylinders, ten complex cylinders and ten spheres. A cylinder of k sides with "
                     "a vertex in the middle of each cap has 2k + 2 vertices and 4k triangles; a closed mesh of V "
                     "vertices has 2V - 4. Both fit the paper's numbers exactly, so these are taken to be its models.");
-    add_pictures(e);
     report_table *t = report_begin_table(
         e->report, "models", "model,vertices,faces,hull vertices,facets,pieces after splitting,polyhedron volume");
     for (int i = 0; i < MODEL_COUNT; i++) {
@@ -57,6 +51,7 @@ void experiment_add_models(const experiment *e) {
                        hull.facet_count, split.pieces, ovoid_shape_get_measures(m->shape).volume);
     }
     report_end_table(t, 0);
+    add_pictures(e);
     t = report_begin_table(e->report, "models_ranges",
                            "family,vertices (paper),here,faces (paper),here,after splitting (paper),here");
     for (int i = 0; i < FAMILY_COUNT; i++) {

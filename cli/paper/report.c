@@ -64,7 +64,8 @@ report *report_create(const char *folder) {
 
 int report_is_good(const report *r) { return !r->code; }
 
-char *report_make_path(const report *r, const char *name, const char *extension) {
+// "FOLDER/NAME.EXTENSION", to be freed; NULL without memory.
+static char *make_path(const report *r, const char *name, const char *extension) {
     size_t size = strlen(r->folder) + strlen(name) + strlen(extension) + 3;
     char *path = malloc(size);
     if (path) snprintf(path, size, "%s/%s.%s", r->folder, name, extension);
@@ -122,7 +123,7 @@ void report_add_finding(report *r, report_finding finding) {
 
 // A file of the folder with that text.
 static void write_file(report *r, const char *name, const char *extension, const char *text, size_t size) {
-    char *path = report_make_path(r, name, extension);
+    char *path = make_path(r, name, extension);
     if (!path) {
         fail_memory(r);
         return;
@@ -158,25 +159,37 @@ void report_add_chart(report *r, const char *name, const ovoid_chart *chart) {
     free(text);
 }
 
-void report_add_picture(report *r, const char *name, const char *caption) {
-    char *path = r->code ? NULL : report_make_path(r, name, "svg");
-    FILE *file = path ? fopen(path, "rb") : NULL;
+// What is in an SVG file, without the declaration before the element, which is for files.
+static void embed(report *r, FILE *file) {
+    char block[4096];
+    int is_open = 0;
+    while (fgets(block, sizeof block, file)) {
+        const char *from = is_open ? block : strstr(block, "<svg");
+        if (from) fputs(from, r->page);
+        is_open = is_open || from;
+    }
+}
+
+void report_add_picture(report *r, const char *name, const ovoid_picture *picture, const ovoid_picture_options *options,
+                        const char *caption) {
+    if (r->code) return;
+    char *path = make_path(r, name, "svg");
+    ovoid_error error = {0};
+    FILE *file = NULL;
+    if (!path)
+        fail_memory(r);
+    else if (ovoid_picture_write_svg(path, picture, options, &error))
+        r->code = error.code, r->error = error;
+    else if (!(file = fopen(path, "rb")))
+        fail(r, OVOID_ERROR_FILE, name, "the picture cannot be read again");
     if (file) {
-        char block[4096];
         fputs("<figure>\n", r->page);
-        // The declaration before the element is for files.
-        int is_open = 0;
-        while (fgets(block, sizeof block, file)) {
-            const char *from = is_open ? block : strstr(block, "<svg");
-            if (from) fputs(from, r->page);
-            is_open = is_open || from;
-        }
+        embed(r, file);
         fputs("<figcaption>", r->page);
         write_escaped(r->page, caption, strlen(caption));
         fputs("</figcaption></figure>\n", r->page);
         fclose(file);
-    } else if (!r->code)
-        fail(r, OVOID_ERROR_FILE, name, "the picture cannot be read again");
+    }
     free(path);
 }
 

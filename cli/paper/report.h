@@ -33,11 +33,9 @@ void report_add_finding(report *r, report_finding finding);
 /// NAME.svg, and the same figure in the page.
 void report_add_chart(report *r, const char *name, const ovoid_chart *chart);
 
-/// The same for an SVG file that was written into the folder already.
-void report_add_picture(report *r, const char *name, const char *caption);
-
-/// "FOLDER/NAME.EXTENSION"; for the caller to free. NULL without memory.
-char *report_make_path(const report *r, const char *name, const char *extension);
+/// The same for a picture of bodies, with a caption.
+void report_add_picture(report *r, const char *name, const ovoid_picture *picture, const ovoid_picture_options *options,
+                        const char *caption);
 
 /// A table under construction: NAME.csv with `header` (comma separated), and in the page.
 typedef struct report_table report_table;

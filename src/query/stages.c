@@ -10,15 +10,21 @@ static void take_start(simplex *start, difference d) {
     if (start->count < 4) start->p[start->count++] = d;
 }
 
+// A point that seems common to the inner ellipsoids, in A's body frame: 1 if it proves an overlap.
+static int take_common(search *s, vec3 x) {
+    double upper = inner_compute_upper(s->frame, x);
+    if (!(upper < 0)) return 0;
+    s->upper = upper;
+    s->kind = OVOID_PROOF_INNER;
+    s->inner_a = x;
+    return 1;
+}
+
 // The common point or the hull around the origin that an earlier overlap was proven by.
 static void take_overlap(search *s, const ovoid_proof *earlier) {
     const pair_frame *f = s->frame;
     if (earlier->kind == OVOID_PROOF_INNER && !s->ask.wants_depth) {
-        double upper = inner_compute_upper(f, earlier->inner_a);
-        if (!(upper < 0)) return;
-        s->upper = upper;
-        s->kind = OVOID_PROOF_INNER;
-        s->inner_a = earlier->inner_a;
+        (void)take_common(s, earlier->inner_a);
     } else if (earlier->kind == OVOID_PROOF_HULL) {
         evidence known = {.count = (int)earlier->count};
         for (uint32_t i = 0; i < earlier->count; i++) known.p[i] = proof_difference(f, earlier, i);
@@ -103,11 +109,5 @@ void stage_support(search *s, vec3 n, simplex *start) {
 
 void stage_inner(search *s) {
     vec3 x;
-    if (!inner_find_common(s->frame, &x)) return;
-    double upper = inner_compute_upper(s->frame, x);
-    if (!(upper < 0)) return;
-    s->upper = upper;
-    s->kind = OVOID_PROOF_INNER;
-    s->inner_a = x;
-    s->stage = OVOID_STAGE_INNER;
+    if (inner_find_common(s->frame, &x) && take_common(s, x)) s->stage = OVOID_STAGE_INNER;
 }
