@@ -49,6 +49,8 @@ static void ask_pose(void) {
     ovoid_vec3 v[3] = {ovoid_pose_compute_point(&p, turn), ovoid_pose_compute_local_point(&p, turn),
                        ovoid_pose_compute_point(&p, small)};
     add_vec3s(v, 3);
+    ovoid_pose more[2] = {ovoid_pose_compute_product(&p, &pairs[0].pose_b), ovoid_pose_compute_inverse(&p)};
+    ADD(more);
     p.position.y = third;
     ovoid_code code = ovoid_pose_compute_check(&p);
     ADD(code);

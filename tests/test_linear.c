@@ -115,7 +115,55 @@ static void check_double_double(void) {
     CHECK(third.low != 0);
 }
 
+// A point through two poses, one after the other, in double-double: E = 2^-102 of what enters.
+static dd3 pose_point(const ovoid_pose *pose, dd3 local) {
+    dd33 r = dd33_from_quat(quat_scaled(pose->rotation));
+    return (dd3){dd_add(dd3_dot(r.r0, local), dd_from(pose->position.x)),
+                 dd_add(dd3_dot(r.r1, local), dd_from(pose->position.y)),
+                 dd_add(dd3_dot(r.r2, local), dd_from(pose->position.z))};
+}
+static double dd3_distance(dd3 a, dd3 b) {
+    vec3 d = {dd_sub(a.x, b.x).high, dd_sub(a.y, b.y).high, dd_sub(a.z, b.z).high};
+    return vec3_norm(d);
+}
+
+// The product of two poses against the two in double-double, within the bounds that linear.h states; a pose with its
+// inverse is the identity. Quaternions of every length, positions near and far.
+static void check_product(void) {
+    uint64_t s = 11;
+    const double u = 0x1p-53;
+    for (int i = 0; i < 20000; i++) {
+        check_seed = s;
+        ovoid_pose p[2];
+        for (int k = 0; k < 2; k++) {
+            double norm = pow(10, i % 3 ? random_uniform(&s, -2, 2) : random_uniform(&s, -300, 300));
+            double far = pow(10, random_uniform(&s, -9, 9));
+            p[k].rotation = (ovoid_quat){norm * random_uniform(&s, -1, 1), norm * random_uniform(&s, -1, 1),
+                                         norm * random_uniform(&s, -1, 1), norm * random_uniform(&s, -1, 1)};
+            p[k].position = (vec3){far * random_uniform(&s, -1, 1), far * random_uniform(&s, -1, 1),
+                                   far * random_uniform(&s, -1, 1)};
+        }
+        ovoid_pose product = ovoid_pose_compute_product(&p[0], &p[1]);
+        CHECK_EQ(ovoid_pose_compute_check(&product), OVOID_OK);
+        double inner = vec3_norm(p[1].position), allowed = 46 * u * inner + 2 * u * vec3_norm(p[0].position);
+        dd3 zero = dd3_from((vec3){0, 0, 0}), at = pose_point(&p[0], pose_point(&p[1], zero));
+        CHECK_LE(dd3_distance(at, dd3_from(product.position)), allowed);
+        vec3 far = vec3_scale((vec3){random_uniform(&s, -1, 1), random_uniform(&s, -1, 1), 1}, 1e20);
+        at = pose_point(&p[0], pose_point(&p[1], dd3_from(far)));
+        CHECK_LE(dd3_distance(at, pose_point(&product, dd3_from(far))), 16 * u * vec3_norm(far) + allowed);
+        ovoid_pose inverse = ovoid_pose_compute_inverse(&p[0]);
+        allowed = 45 * u * vec3_norm(p[0].position);
+        CHECK_LE(dd3_distance(pose_point(&inverse, pose_point(&p[0], zero)), zero), allowed);
+    }
+    check_seed = 0;
+    // Closed form: two quarter turns about z, and the second's way is turned by the first.
+    ovoid_pose turn = {{1, 2, 3}, {1, 0, 0, 1}}, both = ovoid_pose_compute_product(&turn, &turn);
+    CHECK(both.rotation.w == 0 && both.rotation.x == 0 && both.rotation.y == 0 && both.rotation.z == 2);
+    CHECK(both.position.x == -1 && both.position.y == 3 && both.position.z == 6);
+}
+
 int main(void) {
+    check_product();
     check_eigen();
     check_orientation();
     check_dd3();

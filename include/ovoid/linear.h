@@ -49,6 +49,17 @@ OVOID_API ovoid_vec3 ovoid_pose_compute_point(const ovoid_pose *pose, ovoid_vec3
 /** The world point in the local frame; the inverse of ovoid_pose_compute_point, rounded likewise. */
 OVOID_API ovoid_vec3 ovoid_pose_compute_local_point(const ovoid_pose *pose, ovoid_vec3 world);
 
+/**
+ * The pose of what is posed by `inner` in a body that is posed by `outer`: its points are, to rounding, those of inner
+ * moved by outer. The result is the definition of where a part of a body is: the same bits everywhere. Its rotation is
+ * that of the exact product to 16 u in operator norm, u = 2^-53; its position is off by at most 46 u |inner.position| +
+ * 2 u |outer.position|. Neither pose may be one that ovoid_pose_compute_check refuses.
+ */
+OVOID_API ovoid_pose ovoid_pose_compute_product(const ovoid_pose *outer, const ovoid_pose *inner);
+
+/** The pose that undoes it: its rotation exactly, its position is off by at most 45 u |position|, u = 2^-53. */
+OVOID_API ovoid_pose ovoid_pose_compute_inverse(const ovoid_pose *pose);
+
 /** OVOID_OK, or what is wrong with the pose: NOT_FINITE, RANGE, ROTATION. */
 OVOID_API ovoid_code ovoid_pose_compute_check(const ovoid_pose *pose);
 

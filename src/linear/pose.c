@@ -47,3 +47,26 @@ ovoid_code pose_compute_check(const ovoid_pose *pose) {
 ovoid_code ovoid_pose_compute_check(const ovoid_pose *pose) {
     ENVIRONMENT_RETURN(ovoid_code, pose, pose_compute_check(pose));
 }
+
+ovoid_pose pose_compute_product(const ovoid_pose *outer, const ovoid_pose *inner) {
+    ovoid_quat a = outer->rotation, b = inner->rotation;
+    if (!quat_is_plain(quat_norm_squared(a))) a = quat_scaled(a);
+    if (!quat_is_plain(quat_norm_squared(b))) b = quat_scaled(b);
+    ovoid_quat q = {
+        (a.w * b.w - a.x * b.x) - (a.y * b.y + a.z * b.z), (a.w * b.x + a.x * b.w) + (a.y * b.z - a.z * b.y),
+        (a.w * b.y - a.x * b.z) + (a.y * b.w + a.z * b.x), (a.w * b.z + a.x * b.y) + (a.z * b.w - a.y * b.x)};
+    return (ovoid_pose){compute_point(outer, inner->position), q};
+}
+
+ovoid_pose ovoid_pose_compute_product(const ovoid_pose *outer, const ovoid_pose *inner) {
+    ENVIRONMENT_RETURN(ovoid_pose, outer, pose_compute_product(outer, inner));
+}
+
+static ovoid_pose compute_inverse(const ovoid_pose *pose) {
+    ovoid_quat q = pose->rotation;
+    return (ovoid_pose){mat3_mul_transposed_vec3(quat_to_mat3(q), vec3_neg(pose->position)), {q.w, -q.x, -q.y, -q.z}};
+}
+
+ovoid_pose ovoid_pose_compute_inverse(const ovoid_pose *pose) {
+    ENVIRONMENT_RETURN(ovoid_pose, pose, compute_inverse(pose));
+}
