@@ -68,6 +68,16 @@ static int read_pairs(ovoid_error *error) {
     return got == 1;
 }
 
+static ovoid_scene *moved;
+
+static int read_motion(ovoid_error *error) {
+    ovoid_motion_reader *reader = ovoid_motion_reader_create(file_path("memory_motion.csv"), moved, error);
+    ovoid_motion_line line;
+    int got = reader ? ovoid_motion_reader_read(reader, &line, error) : -1;
+    ovoid_motion_reader_destroy(reader);
+    return got == 1;
+}
+
 static int read_results(ovoid_error *error) {
     ovoid_results_reader *reader = ovoid_results_reader_create(file_path("memory.jsonl"), error);
     ovoid_record record;
@@ -140,6 +150,10 @@ int main(void) {
     check_operation("scene", 1, read_scene);
     file_write_text("memory.csv", csv);
     check_operation("pairs", 0, read_pairs);
+    moved = ovoid_scene_read(file_path("memory.json"), NULL, NULL);
+    file_write_text("memory_motion.csv", "time,body,x,y,z,qw,qx,qy,qz\n0,a,0,0,0,1,0,0,0\n");
+    check_operation("motion", 0, read_motion);
+    ovoid_scene_destroy(moved);
     FILE *file = fopen(file_path("memory.jsonl"), "wb");
     ovoid_record record = {.a = "a", .b = "b"};
     ovoid_record_write_json(file, &record);

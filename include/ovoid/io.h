@@ -177,6 +177,41 @@ OVOID_API int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader);
 
+/* ---- motions ---- */
+
+/** What a MOTION.csv gives, by its header. */
+typedef enum ovoid_motion_columns {
+    OVOID_MOTION_COLUMNS_POSE = 0, /**< time,body,x,y,z,qw,qx,qy,qz */
+    OVOID_MOTION_COLUMNS_VELOCITY  /**< time,body,vx,vy,vz,wx,wy,wz */
+} ovoid_motion_columns;
+
+/** One line: where a body of the scene is at that time, or how it moves from then on. */
+typedef struct ovoid_motion_line {
+    double time;
+    size_t body;                /**< object of the scene */
+    ovoid_pose pose;            /**< of OVOID_MOTION_COLUMNS_POSE */
+    ovoid_vec3 linear, angular; /**< of OVOID_MOTION_COLUMNS_VELOCITY: of the body frame's origin, length a unit of
+                                     time; radians a unit of time about axes of the world */
+} ovoid_motion_line;
+
+/**
+ * A MOTION.csv read line by line: times that never decrease, a body at most once at each time. Errors: FORMAT (also:
+ * times out of order, no such body, a body twice), NOT_FINITE, RANGE, ROTATION; place is the line.
+ */
+typedef struct ovoid_motion_reader ovoid_motion_reader;
+
+/** Opens the file ("-": standard input) and reads the header. The scene is borrowed: its names are the bodies. */
+OVOID_API ovoid_motion_reader *ovoid_motion_reader_create(const char *path, const ovoid_scene *scene,
+                                                          ovoid_error *error);
+/** What its lines give. */
+OVOID_API ovoid_motion_columns ovoid_motion_reader_get_columns(const ovoid_motion_reader *reader);
+/** The next line. 1: *line is filled; 0: the end; -1: *error is filled. */
+OVOID_API int ovoid_motion_reader_read(ovoid_motion_reader *reader, ovoid_motion_line *line, ovoid_error *error);
+/** The 1-based line of the file that was read last. */
+OVOID_API int64_t ovoid_motion_reader_get_line(const ovoid_motion_reader *reader);
+/** Frees it; NULL is allowed. */
+OVOID_API void ovoid_motion_reader_destroy(ovoid_motion_reader *reader);
+
 /* ---- results ---- */
 
 /** The answer for one pair of bodies, as results files hold it. */

@@ -1,11 +1,11 @@
 // PAIRS.csv, read line by line: two shapes and their poses. Linear in the file, constant memory.
-#include "io/text.h"
+#include "io/csv.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char header[] = "a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz";
+static const char *const header = "a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz";
 
 enum { COLUMNS = 16 };
 static const char *const columns[COLUMNS] = {"a",   "b",  "ax", "ay", "az",  "aqw", "aqx", "aqy",
@@ -18,18 +18,6 @@ struct ovoid_pairs_reader {
 
 static where here(const ovoid_pairs_reader *reader) { return (where){reader->source.path, reader->source.line, -1}; }
 
-// The header must be there, exactly.
-static ovoid_code read_header(ovoid_pairs_reader *reader, ovoid_error *error) {
-    const char *line;
-    size_t length;
-    int got = line_source_next(&reader->source, &line, &length, error);
-    if (got < 0) return OVOID_ERROR_FILE;
-    where at = {reader->source.path, 1, -1};
-    if (got == 0) return io_fail(error, OVOID_ERROR_EMPTY, at, "the file is empty; its first line must be %s", header);
-    if (length == sizeof header - 1 && memcmp(line, header, length) == 0) return OVOID_OK;
-    return io_fail(error, OVOID_ERROR_FORMAT, at, "the first line must be %s", header);
-}
-
 ovoid_pairs_reader *ovoid_pairs_reader_create(const char *path, size_t shape_count, ovoid_error *error) {
     ovoid_pairs_reader *reader = calloc(1, sizeof *reader);
     if (!reader) {
@@ -38,8 +26,7 @@ ovoid_pairs_reader *ovoid_pairs_reader_create(const char *path, size_t shape_cou
     }
     reader->shape_count = shape_count;
     ovoid_code code = line_source_open(&reader->source, path, error);
-    if (!code) code = read_header(reader, error);
-    if (!code) return reader;
+    if (!code && csv_read_header(&reader->source, &header, 1, error) == 0) return reader;
     ovoid_pairs_reader_destroy(reader);
     return NULL;
 }
@@ -48,35 +35,6 @@ void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader) {
     if (!reader) return;
     line_source_close(&reader->source);
     free(reader);
-}
-
-static const char *skip(const char *at, const char *end) {
-    while (at < end && (*at == ' ' || *at == '\t')) at++;
-    return at;
-}
-
-// The numbers of a line, exactly COLUMNS.
-static ovoid_code read_columns(ovoid_pairs_reader *reader, const char *line, size_t length, double values[COLUMNS],
-                               ovoid_error *error) {
-    const char *at = line, *end = line + length;
-    for (int i = 0; i < COLUMNS; i++) {
-        const char *begin = skip(at, end);
-        const char *after = number_read(begin, end, &values[i]);
-        if (after) after = skip(after, end);
-        if (!after || (after < end && *after != ',')) {
-            const char *comma = memchr(begin, ',', (size_t)(end - begin));
-            int shown = (int)((comma ? comma : end) - begin);
-            return io_fail(error, OVOID_ERROR_FORMAT, here(reader), "column %s: \"%.*s\" is not a number", columns[i],
-                           shown < 40 ? shown : 40, begin);
-        }
-        if (!isfinite(values[i]))
-            return io_fail(error, OVOID_ERROR_NOT_FINITE, here(reader), "column %s is not finite", columns[i]);
-        if ((after == end) != (i == COLUMNS - 1))
-            return io_fail(error, OVOID_ERROR_FORMAT, here(reader), "the line has %s than %d columns",
-                           after == end ? "fewer" : "more", COLUMNS);
-        at = after + 1;
-    }
-    return OVOID_OK;
 }
 
 static ovoid_code read_index(ovoid_pairs_reader *reader, double value, char column, size_t *index, ovoid_error *error) {
@@ -99,13 +57,12 @@ static ovoid_code read_pose(ovoid_pairs_reader *reader, const double v[7], char 
 int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_pair *pair, ovoid_error *error) {
     const char *line;
     size_t length;
-    // Empty lines are nothing.
-    do {
-        int got = line_source_next(&reader->source, &line, &length, error);
-        if (got <= 0) return got;
-    } while (skip(line, line + length) == line + length);
+    int got = csv_next_line(&reader->source, &line, &length, error);
+    if (got <= 0) return got;
     double v[COLUMNS];
-    ovoid_code code = read_columns(reader, line, length, v, error);
+    csv_line columns_left = {line, line + length, columns, 0, COLUMNS, here(reader), error};
+    ovoid_code code = OVOID_OK;
+    for (int i = 0; i < COLUMNS && !code; i++) code = csv_read_number(&columns_left, &v[i]);
     if (!code) code = read_index(reader, v[0], 'a', &pair->a, error);
     if (!code) code = read_index(reader, v[1], 'b', &pair->b, error);
     if (!code) code = read_pose(reader, v + 2, 'a', &pair->pose_a, error);

@@ -1,0 +1,29 @@
+// One line of a CSV file taken apart column by column, strictly: every column there, no other, numbers finite.
+#ifndef OVOID_IO_CSV_H
+#define OVOID_IO_CSV_H
+
+#include "io/text.h"
+
+/// Where reading stands in a line of known columns.
+typedef struct csv_line {
+    const char *at, *end;       ///< what is not read yet
+    const char *const *columns; ///< their names
+    int column, count;          ///< the one that is next; how many there are
+    where place;
+    ovoid_error *error;
+} csv_line;
+
+/// The next column as a finite number.
+ovoid_code csv_read_number(csv_line *line, double *value);
+
+/// The next column as a text, without the blanks around it, or in quotes ("" stands for a quote). Terminated; FORMAT
+/// where it does not fit into the room.
+ovoid_code csv_read_text(csv_line *line, char *text, size_t room);
+
+/// The first line of a file, which must be one of these: which one, or -1 with the error filled.
+int csv_read_header(line_source *source, const char *const *headers, int count, ovoid_error *error);
+
+/// The next line that is not blank. 1, 0 at the end, -1: *error is filled.
+int csv_next_line(line_source *source, const char **line, size_t *length, ovoid_error *error);
+
+#endif
