@@ -41,7 +41,7 @@ static void write_rows(cli_results *results) {
 }
 
 static void write_header(cli_results *results) {
-    if (results->header_due) ovoid_record_write_csv_header(results->file);
+    if (results->header_due) ovoid_record_write_csv_header(results->file, results->fields);
     results->header_due = 0;
 }
 

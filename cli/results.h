@@ -29,6 +29,7 @@ typedef struct cli_results {
     FILE *file;
     const output_settings *settings;
     double margin;      ///< of the table's marks; negative: none
+    unsigned fields;    ///< of all records, ovoid_record_field bits: set before the first; 0: none
     ovoid_record *rows; ///< of the table, until there are enough to be written
     size_t row_count;
     int header_due; ///< the CSV header is not written yet

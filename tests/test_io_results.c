@@ -53,6 +53,52 @@ static const char golden_csv[] =
     "\"{\"\"normal\"\":[0,0.5,-1],\"\"kind\"\":\"\"points\"\",\"\"a\"\":[7,4294967295],\"\"b\"\":[0,3],"
     "\"\"weight_a\"\":[0.25,0.75],\"\"weight_b\"\":[1,0]}\"\n";
 
+static char *write_header(unsigned fields) {
+    const char *path = file_path("record.txt");
+    FILE *file = fopen(path, "wb");
+    CHECK(file && ovoid_record_write_csv_header(file, fields) == OVOID_OK);
+    fclose(file);
+    size_t size;
+    return file_read(path, &size);
+}
+
+// What stands before and between the names of a frame, of compounds, of an impact.
+static void check_golden_fields(ovoid_record record) {
+    record.a = "x";
+    record.b = "y";
+    record.time = 0.5;
+    record.part_a = 7;
+    record.part_b = OVOID_RECORD_NO_PART;
+    record.free_until = 0.25;
+    static const struct {
+        unsigned fields;
+        const char *json, *header, *csv;
+    } truth[] = {{0, "{\"a\":\"x\",\"b\":\"y\",\"status\"", "a,b,status,lower,", "x,y,separated,"},
+                 {OVOID_RECORD_TIME, "{\"time\":0.5,\"a\":\"x\",\"b\":\"y\",\"status\"", "time,a,b,status,",
+                  "0.5,x,y,separated,"},
+                 {OVOID_RECORD_PARTS, "{\"a\":\"x\",\"part_a\":7,\"b\":\"y\",\"status\"", "a,part_a,b,part_b,status,",
+                  "x,7,y,,separated,"},
+                 {7, "{\"time\":0.5,\"free_until\":0.25,\"a\":\"x\",\"part_a\":7,\"b\":\"y\",\"status\"",
+                  "time,free_until,a,part_a,b,part_b,status,", "0.5,0.25,x,7,y,,separated,"}};
+    for (size_t i = 0; i < sizeof truth / sizeof *truth; i++) {
+        record.fields = truth[i].fields;
+        char *texts[] = {write_with(ovoid_record_write_json, &record), write_header(record.fields),
+                         write_with(ovoid_record_write_csv, &record)};
+        const char *truths[] = {truth[i].json, truth[i].header, truth[i].csv};
+        for (int k = 0; k < 3; k++) {
+            if (!CHECK(strncmp(texts[k], truths[k], strlen(truths[k])) == 0)) printf("  found: %s\n", texts[k]);
+            free(texts[k]);
+        }
+    }
+    // The line of a frame among impacts: no key, an empty column.
+    record.fields = OVOID_RECORD_TIME | OVOID_RECORD_IMPACT;
+    record.free_until = NAN;
+    char *json = write_with(ovoid_record_write_json, &record), *csv = write_with(ovoid_record_write_csv, &record);
+    CHECK(!strstr(json, "free_until") && strncmp(csv, "0.5,,x,y,", 9) == 0);
+    free(json);
+    free(csv);
+}
+
 static void check_golden(void) {
     ovoid_record record = make_record();
     char *text = write_with(ovoid_record_write_json, &record);
@@ -61,6 +107,7 @@ static void check_golden(void) {
     text = write_with(ovoid_record_write_csv, &record);
     check_text(text, golden_csv);
     free(text);
+    check_golden_fields(record);
     // A refused pair of a batch: no bounds, no points.
     ovoid_record refused = {.index_a = 12, .index_b = 0};
     refused.answer.limit = OVOID_LIMIT_POSE_A;
@@ -106,6 +153,40 @@ static void check_table(void) {
     free(text);
 }
 
+// Times stand first, parts behind the names; a long name makes room for its part.
+static void check_table_fields(void) {
+    char name[120];
+    memset(name, 'n', 119);
+    name[119] = 0;
+    ovoid_record records[2] = {{.a = "arm", .b = "box"}, {.a = name, .b = "box"}};
+    for (int i = 0; i < 2; i++) {
+        records[i].fields = 7;
+        records[i].time = 0.5 + i;
+        records[i].free_until = i ? 1.25 : NAN;
+        records[i].part_a = 12;
+        records[i].part_b = OVOID_RECORD_NO_PART;
+        records[i].answer.status = OVOID_SEPARATED;
+        records[i].answer.lower = records[i].answer.upper = 0.125;
+    }
+    const char *path = file_path("table.txt");
+    FILE *file = fopen(path, "wb");
+    CHECK(file && ovoid_records_write_table(file, records, 1, 0.25) == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, records + 1, 1, 0.25) == OVOID_OK);
+    fclose(file);
+    size_t size;
+    char *text = file_read(path, &size);
+    static const char truth[] = "time  a        b    status     lower  upper  stage  steps\n"
+                                " 0.5  arm[12]  box  separated  0.125  0.125  none       0  within\n"
+                                "time  a";
+    CHECK(strncmp(text, truth, strlen(truth)) == 0);
+    // 95 bytes: 91 letters and the part.
+    CHECK(strstr(text, "\n 1.5  nnnn") &&
+          strstr(text, "nnn[12]  box  separated  0.125  0.125  none       0  impact\n"));
+    const char *long_name = strstr(text, "nnnn");
+    if (long_name) CHECK_EQ(strcspn(long_name, "["), 91);
+    free(text);
+}
+
 // Names from hostile files: no escape sequence reaches the terminal, no character is cut in half.
 static void check_table_names(void) {
     char name[200] = "\x1b[31m\n";
@@ -134,6 +215,10 @@ static void check_same(const ovoid_record *a, const ovoid_record *b) {
     const ovoid_answer *x = &a->answer, *y = &b->answer;
     CHECK(!a->a == !b->a && (!a->a || (strcmp(a->a, b->a) == 0 && strcmp(a->b, b->b) == 0)));
     if (!a->a) CHECK(a->index_a == b->index_a && a->index_b == b->index_b);
+    CHECK_EQ(a->fields, b->fields);
+    if (a->fields & OVOID_RECORD_TIME) CHECK(is_same_bits(&a->time, &b->time, 8));
+    if (a->fields & OVOID_RECORD_IMPACT) CHECK(is_same_bits(&a->free_until, &b->free_until, 8));
+    if (a->fields & OVOID_RECORD_PARTS) CHECK(a->part_a == b->part_a && a->part_b == b->part_b);
     CHECK_EQ(x->status, y->status);
     CHECK_EQ(x->stage, y->stage);
     CHECK_EQ(x->iterations, y->iterations);
@@ -170,6 +255,13 @@ static ovoid_vec3 random_vector(uint64_t *s) {
 static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
     ovoid_record r = {.index_a = random_next(s) % 1000000, .index_b = random_next(s) % 10, .cover = NULL};
     if (random_next(s) % 2) r.a = "one", r.b = "two";
+    // An impact has a time; of the parts one may be none.
+    r.fields = (unsigned)random_next(s) % 8;
+    if (r.fields & OVOID_RECORD_IMPACT) r.fields |= OVOID_RECORD_TIME;
+    r.time = random_double(s);
+    r.free_until = random_double(s);
+    r.part_a = (uint32_t)random_next(s) % OVOID_RECORD_NO_PART;
+    r.part_b = random_next(s) % 2 ? 0 : OVOID_RECORD_NO_PART;
     ovoid_answer *x = &r.answer;
     x->status = (ovoid_status)(random_next(s) % 4);
     x->stage = (ovoid_stage)(random_next(s) % (OVOID_STAGE_REFINE + 1));
@@ -257,8 +349,14 @@ static void check_locale(void) {
 #define PROOF "{\"normal\":[0,0,1],\"kind\":\"none\"}"
 #define WITH_PROOF(proof) LINE("0", "\"separated\"", "0.5", "[0,0,0]", "\"gjk\"", "3", proof)
 #define GOOD WITH_PROOF(PROOF)
+#define GOOD_REST                                                                                                      \
+    "\"a\":0,\"b\":1,\"status\":\"separated\",\"lower\":0,\"upper\":1,\"point_a\":[0,0,0],\"point_b\":[0,0,0],"        \
+    "\"normal\":[0,0,1],\"stage\":\"gjk\",\"iterations\":0,\"proof\":" PROOF "}\n"
 
 static const bad_input bad_lines[] = {
+    {"time.jsonl", "{\"time\":null," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"time\" must be a number"},
+    {"until.jsonl", "{\"free_until\":1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"free_until\" must be a number beside"},
+    {"part.jsonl", "{\"part_b\":-1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"part_b\" must be a whole"},
     {"syntax.jsonl", GOOD "{\"a\":0,}\n", OVOID_ERROR_FORMAT, 2, "JSON, column"},
     {"cut.jsonl", GOOD GOOD "{\"a\":0,\"b\":1", OVOID_ERROR_FORMAT, 3, "JSON, column"},
     {"empty_line.jsonl", "\n", OVOID_ERROR_FORMAT, 1, "JSON"},
@@ -388,6 +486,7 @@ static void check_damaged(void) {
 int main(void) {
     check_golden();
     check_table();
+    check_table_fields();
     check_table_names();
     check_round_trip();
     check_locale();

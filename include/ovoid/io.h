@@ -214,30 +214,48 @@ OVOID_API void ovoid_motion_reader_destroy(ovoid_motion_reader *reader);
 
 /* ---- results ---- */
 
+/** What a record may have besides the answer of a pair. */
+typedef enum ovoid_record_field {
+    OVOID_RECORD_TIME = 1,  /**< of a frame, or of an impact */
+    OVOID_RECORD_PARTS = 2, /**< the parts of compounds that the answer is about */
+    OVOID_RECORD_IMPACT = 4 /**< since when the pair was free, where the time is that of an impact */
+} ovoid_record_field;
+
+/** The part of a body that is no compound. */
+#define OVOID_RECORD_NO_PART UINT32_MAX
+
 /** The answer for one pair of bodies, as results files hold it. */
 typedef struct ovoid_record {
     const char *a, *b;        /**< names; NULL: the indices are meant */
     size_t index_a, index_b;  /**< of a batch; not looked at where there are names */
     ovoid_answer answer;      /**< limit survives a file only where the status is undecided */
     const ovoid_cover *cover; /**< of ovoid_depth; NULL where there is none */
+    unsigned fields;          /**< ovoid_record_field bits: which of the following are given; 0: none */
+    double time;
+    double free_until;       /**< of an impact: until then the pair is proven farther; NaN: this is none */
+    uint32_t part_a, part_b; /**< 0-based; OVOID_RECORD_NO_PART: the body is no compound */
 } ovoid_record;
 
 /**
- * One line of JSON with the keys a, b, status, lower, upper, point_a, point_b, normal, stage, iterations, proof, in
- * this order; numbers with 17 digits; infinity and NaN are null; "undecided" is followed by its limit, as in
- * "undecided: iterations". FILE where the stream failed.
+ * One line of JSON with the keys time, free_until, a, part_a, b, part_b, status, lower, upper, point_a, point_b,
+ * normal, stage, iterations, proof, in this order, the first two and the parts where they are given; numbers with 17
+ * digits; infinity and NaN are null; "undecided" is followed by its limit, as in "undecided: iterations". FILE where
+ * the stream failed.
  */
 OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
 
-/** The same columns as CSV: vectors are three columns, the proof is one field of JSON. */
-OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file);
-/** One line of it. */
+/** The same columns as CSV: vectors are three columns, the proof is one field of JSON. fields: of all records. */
+OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields);
+/** One line of it, with the columns of its fields; one that is given as nothing is empty. */
 OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record);
 
-/** A table for people, in the order given. margin: pairs proven within it are marked; negative: none is. */
+/**
+ * A table for people, in the order given, with a column for the time where the first record has one; the part of a
+ * compound follows its name, as in "arm[3]". margin: pairs proven within it are marked; negative: none is.
+ */
 OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, double margin);
 
-/** A results file of JSON lines, read strictly: the keys above, each once, no other. */
+/** A results file of JSON lines, read strictly: the keys above, each once, no other. A record's fields are its keys. */
 typedef struct ovoid_results_reader ovoid_results_reader;
 
 /** Opens the file; "-" is standard input. */

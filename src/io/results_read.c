@@ -20,19 +20,17 @@ static ovoid_code fail(ovoid_results_reader *r, const char *key, const char *wha
 
 // ---- values
 
-// 1 if the object has exactly these keys, all of them where `all` is set.
-static int has_keys(json_t *object, const char *const *keys, size_t count, int all, const char **bad) {
+// 1 if the object has no other keys than these, and the first `needed` of them.
+static int has_keys(json_t *object, const char *const *keys, size_t count, size_t needed, const char **bad) {
     const char *key;
     json_t *value;
-    size_t seen = 0;
     json_object_foreach(object, key, value) {
         size_t i = 0;
         while (i < count && strcmp(keys[i], key) != 0) i++;
         *bad = key;
         if (i == count) return 0;
-        seen++;
     }
-    for (size_t i = 0; i < count && all && seen < count; i++) {
+    for (size_t i = 0; i < needed; i++) {
         *bad = keys[i];
         if (!json_object_get(object, keys[i])) return 0;
     }
@@ -164,7 +162,7 @@ static int read_item(const json_t *item, size_t width, double top, double *numbe
 static ovoid_code read_cover(ovoid_results_reader *r, json_t *json) {
     static const char *const keys[] = {"pairs", "triangles"};
     const char *bad = "cover";
-    if (!json_is_object(json) || !has_keys(json, keys, 2, 1, &bad)) return fail(r, bad, "does not belong into a cover");
+    if (!json_is_object(json) || !has_keys(json, keys, 2, 2, &bad)) return fail(r, bad, "does not belong into a cover");
     const json_t *pairs = json_object_get(json, "pairs"), *triangles = json_object_get(json, "triangles");
     size_t points = json_array_size(pairs), count = json_array_size(triangles);
     if (!json_is_array(pairs) || !points || points > OVOID_COVER_POINTS)
@@ -229,6 +227,34 @@ static ovoid_code read_bodies(ovoid_results_reader *r, const json_t *line, ovoid
     return OVOID_OK;
 }
 
+static int read_part(const json_t *value, ovoid_record *record, uint32_t *part) {
+    double whole;
+    *part = OVOID_RECORD_NO_PART;
+    if (!value) return 1;
+    if (!read_whole(value, OVOID_RECORD_NO_PART - 1, &whole)) return 0;
+    *part = (uint32_t)whole;
+    record->fields |= OVOID_RECORD_PARTS;
+    return 1;
+}
+
+static ovoid_code read_parts(ovoid_results_reader *r, const json_t *line, ovoid_record *record) {
+    if (!read_part(json_object_get(line, "part_a"), record, &record->part_a))
+        return fail(r, "part_a", "must be a whole number >= 0");
+    if (!read_part(json_object_get(line, "part_b"), record, &record->part_b))
+        return fail(r, "part_b", "must be a whole number >= 0");
+    return OVOID_OK;
+}
+
+static ovoid_code read_times(ovoid_results_reader *r, const json_t *line, ovoid_record *record) {
+    const json_t *time = json_object_get(line, "time"), *until = json_object_get(line, "free_until");
+    record->free_until = NAN;
+    if (time && !json_is_number(time)) return fail(r, "time", "must be a number");
+    if (until && (!time || !json_is_number(until))) return fail(r, "free_until", "must be a number beside a time");
+    if (time) record->time = json_number_value(time), record->fields |= OVOID_RECORD_TIME;
+    if (until) record->free_until = json_number_value(until), record->fields |= OVOID_RECORD_IMPACT;
+    return OVOID_OK;
+}
+
 static ovoid_code read_answer(ovoid_results_reader *r, json_t *line, ovoid_record *record) {
     ovoid_answer *answer = &record->answer;
     ovoid_code code = read_status(r, json_object_get(line, "status"), answer);
@@ -252,8 +278,10 @@ static ovoid_code read_answer(ovoid_results_reader *r, json_t *line, ovoid_recor
 }
 
 static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t length, ovoid_record *record) {
-    static const char *const keys[] = {"a",       "b",      "status", "lower",      "upper", "point_a",
-                                       "point_b", "normal", "stage",  "iterations", "proof"};
+    static const char *const keys[] = {"a",       "b",       "status",     "lower",  "upper",
+                                       "point_a", "point_b", "normal",     "stage",  "iterations",
+                                       "proof",   "time",    "free_until", "part_a", "part_b"};
+    enum { ALL = sizeof keys / sizeof *keys, NEEDED = 11 };
     where at = {r->source.path, r->source.line, -1};
     json_error_t why;
     json_decref(r->line);
@@ -262,10 +290,12 @@ static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t 
     if (!r->line) return io_fail(r->error, OVOID_ERROR_FORMAT, at, "JSON, column %d: %s", why.column, why.text);
     const char *bad = "line";
     if (!json_is_object(r->line)) return fail(r, bad, "must be a JSON object");
-    if (!has_keys(r->line, keys, sizeof keys / sizeof *keys, 1, &bad))
+    if (!has_keys(r->line, keys, ALL, NEEDED, &bad))
         return fail(r, bad, json_object_get(r->line, bad) ? "is not a key of results" : "is missing");
     *record = (ovoid_record){.a = NULL};
     ovoid_code code = read_bodies(r, r->line, record);
+    if (!code) code = read_parts(r, r->line, record);
+    if (!code) code = read_times(r, r->line, record);
     return code ? code : read_answer(r, r->line, record);
 }
 

@@ -96,13 +96,37 @@ static void write_body(FILE *file, const char *name, size_t index) {
         fprintf(file, "%zu", index);
 }
 
+static void write_part(FILE *file, const char *key, const ovoid_record *record, uint32_t part) {
+    if (!(record->fields & OVOID_RECORD_PARTS) || part == OVOID_RECORD_NO_PART) return;
+    write_key(file, "\"", ",", key);
+    fprintf(file, "%lu", (unsigned long)part);
+}
+
+// The keys of a motion; returns what comes before the next one.
+static const char *write_times(FILE *file, const ovoid_record *record) {
+    const char *comma = "{";
+    if (record->fields & OVOID_RECORD_TIME) {
+        write_key(file, "\"", comma, "time");
+        json_write_number(file, record->time);
+        comma = ",";
+    }
+    if (record->fields & OVOID_RECORD_IMPACT && !isnan(record->free_until)) {
+        write_key(file, "\"", comma, "free_until");
+        json_write_number(file, record->free_until);
+        comma = ",";
+    }
+    return comma;
+}
+
 ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
     const ovoid_answer *answer = &record->answer;
     const char *q = "\"";
-    write_key(file, q, "{", "a");
+    write_key(file, q, write_times(file, record), "a");
     write_body(file, record->a, record->index_a);
+    write_part(file, "part_a", record, record->part_a);
     write_key(file, q, ",", "b");
     write_body(file, record->b, record->index_b);
+    write_part(file, "part_b", record, record->part_b);
     write_key(file, q, ",", "status");
     fputs(q, file);
     write_status(file, answer);
@@ -129,8 +153,11 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
 
 // ---- CSV (RFC 4180, with "\n" line ends)
 
-ovoid_code ovoid_record_write_csv_header(FILE *file) {
-    fputs("a,b,status,lower,upper,point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,normal_x,normal_y,"
+ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields) {
+    if (fields & OVOID_RECORD_TIME) fputs("time,", file);
+    if (fields & OVOID_RECORD_IMPACT) fputs("free_until,", file);
+    fputs(fields & OVOID_RECORD_PARTS ? "a,part_a,b,part_b," : "a,b,", file);
+    fputs("status,lower,upper,point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,normal_x,normal_y,"
           "normal_z,stage,iterations,proof\n",
           file);
     return stream_code(file);
@@ -156,20 +183,42 @@ static void write_csv_body(FILE *file, const char *name, size_t index) {
 
 static void write_csv_number(FILE *file, double value) {
     char digits[32];
-    fputc(',', file);
     fwrite(digits, 1, number_write(digits, value, 17), file);
+}
+
+static void write_csv_part(FILE *file, const ovoid_record *record, uint32_t part) {
+    fputc(',', file);
+    if (!(record->fields & OVOID_RECORD_PARTS)) return;
+    if (part != OVOID_RECORD_NO_PART) fprintf(file, "%lu", (unsigned long)part);
+    fputc(',', file);
+}
+
+// The columns of a motion; an impact's is empty in the line of a frame.
+static void write_csv_times(FILE *file, const ovoid_record *record) {
+    if (record->fields & OVOID_RECORD_TIME) {
+        write_csv_number(file, record->time);
+        fputc(',', file);
+    }
+    if (record->fields & OVOID_RECORD_IMPACT) {
+        if (!isnan(record->free_until)) write_csv_number(file, record->free_until);
+        fputc(',', file);
+    }
 }
 
 ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record) {
     const ovoid_answer *answer = &record->answer;
+    write_csv_times(file, record);
     write_csv_body(file, record->a, record->index_a);
-    fputc(',', file);
+    write_csv_part(file, record, record->part_a);
     write_csv_body(file, record->b, record->index_b);
-    fputc(',', file);
+    write_csv_part(file, record, record->part_b);
     write_status(file, answer);
     const ovoid_vec3 a = answer->point_a, b = answer->point_b, n = answer->normal;
     const double numbers[] = {answer->lower, answer->upper, a.x, a.y, a.z, b.x, b.y, b.z, n.x, n.y, n.z};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) write_csv_number(file, numbers[i]);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        fputc(',', file);
+        write_csv_number(file, numbers[i]);
+    }
     fprintf(file, ",%s,%lu,\"", ovoid_stage_get_name(answer->stage), (unsigned long)answer->iterations);
     write_proof(file, "\"\"", record);
     fputs("\"\n", file);

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { COLUMNS = 8, CELL = 96 };
+enum { TIME, A, B, STATUS, LOWER, UPPER, STAGE, STEPS, NOTE, COLUMNS };
+enum { CELL = 96 };
 
 /// One line of the table: texts that are cut where they are longer than a cell.
 typedef struct table_row {
@@ -26,11 +27,21 @@ static void set_cell(char cell[CELL], const char *text) {
 
 static void set_number(char cell[CELL], double value) { number_write(cell, value, 9); }
 
-static void set_body(char cell[CELL], const char *name, size_t index) {
+static void set_body(char cell[CELL], const char *name, size_t index, uint32_t part) {
     if (name)
         set_cell(cell, name);
     else
         snprintf(cell, CELL, "%zu", index);
+    // A compound's part follows its name, which is cut for it.
+    char number[16];
+    if (part == OVOID_RECORD_NO_PART) return;
+    int width = snprintf(number, sizeof number, "[%lu]", (unsigned long)part);
+    size_t end = strlen(cell);
+    if (end + (size_t)width >= CELL) {
+        end = CELL - 1 - (size_t)width;
+        while (end > 0 && ((unsigned char)cell[end] & 0xc0) == 0x80) end--;
+    }
+    memcpy(cell + end, number, (size_t)width + 1);
 }
 
 // What is proven of the margin; nothing where there is none.
@@ -40,24 +51,32 @@ static const char *name_within(const ovoid_answer *answer, double margin) {
     return within > 0 ? "within" : within == 0 ? "" : "not proven";
 }
 
+static const char *name_note(const ovoid_record *record, double margin) {
+    int is_impact = record->fields & OVOID_RECORD_IMPACT && !isnan(record->free_until);
+    return is_impact ? "impact" : name_within(&record->answer, margin);
+}
+
 static table_row make_row(const ovoid_record *record, double margin) {
     const ovoid_answer *answer = &record->answer;
     table_row row;
-    set_body(row.cell[0], record->a, record->index_a);
-    set_body(row.cell[1], record->b, record->index_b);
-    set_cell(row.cell[2], ovoid_status_get_name(answer->status));
+    int has_parts = (record->fields & OVOID_RECORD_PARTS) != 0;
+    row.cell[TIME][0] = 0;
+    if (record->fields & OVOID_RECORD_TIME) set_number(row.cell[TIME], record->time);
+    set_body(row.cell[A], record->a, record->index_a, has_parts ? record->part_a : OVOID_RECORD_NO_PART);
+    set_body(row.cell[B], record->b, record->index_b, has_parts ? record->part_b : OVOID_RECORD_NO_PART);
+    set_cell(row.cell[STATUS], ovoid_status_get_name(answer->status));
     if (answer->status == OVOID_UNDECIDED)
-        snprintf(row.cell[2], CELL, "%s: %s", ovoid_status_get_name(answer->status),
+        snprintf(row.cell[STATUS], CELL, "%s: %s", ovoid_status_get_name(answer->status),
                  ovoid_limit_get_name(answer->limit));
-    set_number(row.cell[3], answer->lower);
-    set_number(row.cell[4], answer->upper);
-    set_cell(row.cell[5], ovoid_stage_get_name(answer->stage));
-    snprintf(row.cell[6], CELL, "%lu", (unsigned long)answer->iterations);
-    set_cell(row.cell[7], name_within(answer, margin));
+    set_number(row.cell[LOWER], answer->lower);
+    set_number(row.cell[UPPER], answer->upper);
+    set_cell(row.cell[STAGE], ovoid_stage_get_name(answer->stage));
+    snprintf(row.cell[STEPS], CELL, "%lu", (unsigned long)answer->iterations);
+    set_cell(row.cell[NOTE], name_note(record, margin));
     return row;
 }
 
-static const table_row head = {{"a", "b", "status", "lower", "upper", "stage", "steps", ""}};
+static const table_row head = {{"time", "a", "b", "status", "lower", "upper", "stage", "steps", ""}};
 
 // Characters, not bytes: those of UTF-8 that begin one.
 static int text_width(const char *text) {
@@ -73,13 +92,14 @@ static void widen(int widths[COLUMNS], const table_row *row) {
     }
 }
 
-static void write_row(FILE *file, const int widths[COLUMNS], const table_row *row) {
-    int last = COLUMNS - 1;
-    while (last > 0 && !row->cell[last][0]) last--;
-    for (int i = 0; i <= last; i++) {
-        int is_number = i == 3 || i == 4 || i == 6;
+// first: TIME where there are times, else A.
+static void write_row(FILE *file, const int widths[COLUMNS], int first, const table_row *row) {
+    int last = NOTE;
+    while (last > first && !row->cell[last][0]) last--;
+    for (int i = first; i <= last; i++) {
+        int is_number = i == TIME || i == LOWER || i == UPPER || i == STEPS;
         int blanks = widths[i] - text_width(row->cell[i]);
-        if (i) fputs("  ", file);
+        if (i > first) fputs("  ", file);
         // No blanks at the line's end.
         if (is_number)
             fprintf(file, "%*s%s", blanks, "", row->cell[i]);
@@ -90,16 +110,16 @@ static void write_row(FILE *file, const int widths[COLUMNS], const table_row *ro
 }
 
 ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, double margin) {
-    int widths[COLUMNS] = {0};
+    int widths[COLUMNS] = {0}, first = count && records[0].fields & OVOID_RECORD_TIME ? TIME : A;
     widen(widths, &head);
     for (size_t i = 0; i < count; i++) {
         table_row row = make_row(&records[i], margin);
         widen(widths, &row);
     }
-    write_row(file, widths, &head);
+    write_row(file, widths, first, &head);
     for (size_t i = 0; i < count; i++) {
         table_row row = make_row(&records[i], margin);
-        write_row(file, widths, &row);
+        write_row(file, widths, first, &row);
     }
     return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK;
 }
