@@ -7,6 +7,7 @@
 
 #include "ovoid/area.h"
 #include "ovoid/base.h"
+#include "ovoid/compound.h"
 #include "ovoid/ellipsoid.h"
 #include "ovoid/linear.h"
 #include "ovoid/polytope.h"

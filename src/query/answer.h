@@ -18,6 +18,13 @@ ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, que
 void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
                         ovoid_cover *cover, ovoid_answer *out);
 
+/// ovoid_answer_check, likewise inside.
+ovoid_code answer_check_inside(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
+                               ovoid_error *error);
+
+/// Of that, the lower bound alone: does the proof's normal show it?
+ovoid_code lower_check_inside(const ovoid_pair *pair, double lower, const ovoid_proof *proof, ovoid_error *error);
+
 /// The questions.
 static inline question question_make_collide(void) {
     return (question){.far = 0, .near = -INFINITY, .beyond = OVOID_LIMIT_ANSWERED};

@@ -34,14 +34,22 @@ static double measure_lower_again(const measure *m, const ovoid_proof *p) {
     return fine_compute_lower(&m->fine, fine_find_support(&m->fine, n).gap, m->fine.check);
 }
 
-static ovoid_code check_lower(measure *m, const ovoid_answer *x, ovoid_error *error) {
+static ovoid_code check_lower(measure *m, double lower, const ovoid_proof *p, ovoid_error *error) {
     const pair_frame *f = m->frame;
-    if (x->lower == -INFINITY) return OVOID_OK;
-    vec3 n = vec3_unit(frame_direction_from_world(f, vec3_add(x->proof.normal, x->proof.normal_low)));
-    if (!(vec3_norm_squared(n) > 0)) return refuse(error, "lower bound without a normal", x->lower, 0);
+    if (lower == -INFINITY) return OVOID_OK;
+    vec3 n = vec3_unit(frame_direction_from_world(f, vec3_add(p->normal, p->normal_low)));
+    if (!(vec3_norm_squared(n) > 0)) return refuse(error, "lower bound without a normal", lower, 0);
     double found = frame_find_support(f, n).gap - f->radii - f->check;
-    if (found < x->lower && make_fine(m)) found = measure_lower_again(m, &x->proof);
-    return found >= x->lower ? OVOID_OK : refuse(error, "lower bound", x->lower, found);
+    if (found < lower && make_fine(m)) found = measure_lower_again(m, p);
+    return found >= lower ? OVOID_OK : refuse(error, "lower bound", lower, found);
+}
+
+ovoid_code lower_check_inside(const ovoid_pair *pair, double lower, const ovoid_proof *p, ovoid_error *error) {
+    pair_frame f;
+    if (frame_make(pair, &f) != OVOID_LIMIT_NONE || !vec3_is_finite(p->normal) || !vec3_is_finite(p->normal_low))
+        return refuse(error, "lower bound of poses or by a normal that are not numbers", lower, 0);
+    measure m = {.pair = pair, .frame = &f};
+    return check_lower(&m, lower, p, error);
 }
 
 static double measure_points(const pair_frame *f, const ovoid_proof *p) {
@@ -126,7 +134,7 @@ static ovoid_code check_status(const ovoid_answer *x, ovoid_error *error) {
                      ovoid_status_get_name(x->status), x->lower, x->upper);
 }
 
-static ovoid_code check_answer(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
+ovoid_code answer_check_inside(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
                                ovoid_error *error) {
     OVOID_ASSERT(pair && pair->shape_a && pair->shape_b && x);
     pair_frame f;
@@ -142,12 +150,12 @@ static ovoid_code check_answer(const ovoid_pair *pair, const ovoid_answer *x, co
     if (!proof_is_sound(&f, &x->proof))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
     measure m = {.pair = pair, .frame = &f};
-    code = check_lower(&m, x, error);
+    code = check_lower(&m, x->lower, &x->proof, error);
     if (code == OVOID_OK) code = check_upper(&m, x, cover, error);
     return code == OVOID_OK ? check_witness(&f, x, error) : code;
 }
 
 ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
                               ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, pair, check_answer(pair, x, cover, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, answer_check_inside(pair, x, cover, error));
 }

@@ -1,0 +1,160 @@
+// The tree over a compound's parts, built from the top down: parts are sorted along the longest axis of their boxes'
+// centres and halved. Ties go to the lower index, so the tree depends on the parts alone.
+//
+// What is proven: every node's box and sphere contain its parts, radii and all rounding included. A posed vertex as it
+// comes here is off by less than 46 u E (compound.h); a box's centre and half sizes by 4 u E, the sphere's radius by 8
+// u of itself: 64 u E, the largest E of the compound, pays for all of it.
+#include "scene/compound.h"
+
+#include "base/allocator.h"
+#include "polytope/sort.h"
+
+typedef struct box {
+    vec3 low, high;
+} box;
+
+// Working memory: boxes in the caller's order, and the order itself.
+typedef struct builder {
+    ovoid_compound *compound;
+    const ovoid_body *parts;
+    const parts_vertices *all;
+    box *boxes;
+    uint32_t *order, *scratch;
+    double error; ///< 64 u E
+} builder;
+
+double body_compute_extent(const ovoid_body *body) {
+    const ovoid_shape *s = body->shape;
+    return (vec3_norm(body->pose.position) + vec3_norm(s->origin)) + (s->extent + s->radius);
+}
+
+static box box_join(box a, box b) {
+    return (box){{min2(a.low.x, b.low.x), min2(a.low.y, b.low.y), min2(a.low.z, b.low.z)},
+                 {max2(a.high.x, b.high.x), max2(a.high.y, b.high.y), max2(a.high.z, b.high.z)}};
+}
+
+// Of the vertices alone.
+static box find_box(const parts_vertices *all, uint32_t part) {
+    box b = {vec3_at(all->xyz, all->starts[part]), vec3_at(all->xyz, all->starts[part])};
+    for (size_t k = all->starts[part] + 1; k < all->starts[part + 1]; k++) {
+        vec3 v = vec3_at(all->xyz, k);
+        b = box_join(b, (box){v, v});
+    }
+    return b;
+}
+
+static box grow(box b, double by) {
+    vec3 all = {by, by, by};
+    return (box){vec3_sub(b.low, all), vec3_add(b.high, all)};
+}
+
+// The farthest that a part reaches from a point, without its radius.
+static double find_reach(const parts_vertices *all, uint32_t part, vec3 center) {
+    double most = 0;
+    for (size_t k = all->starts[part]; k < all->starts[part + 1]; k++)
+        most = max2(most, vec3_norm_squared(vec3_sub(vec3_at(all->xyz, k), center)));
+    return sqrt(most);
+}
+
+// The bounds of the parts order[first..end).
+static compound_node make_node(const builder *b, uint32_t first, uint32_t end) {
+    box all = b->boxes[b->order[first]];
+    for (uint32_t k = first + 1; k < end; k++) all = box_join(all, b->boxes[b->order[k]]);
+    compound_node n = {.first = first, .end = end};
+    n.center = vec3_add(vec3_scale(all.low, 0.5), vec3_scale(all.high, 0.5));
+    n.half =
+        vec3_add(vec3_sub(vec3_scale(all.high, 0.5), vec3_scale(all.low, 0.5)), (vec3){b->error, b->error, b->error});
+    for (uint32_t k = first; k < end; k++) {
+        uint32_t part = b->order[k];
+        n.radius = max2(n.radius, find_reach(b->all, part, n.center) + b->parts[part].shape->radius);
+    }
+    n.radius = n.radius * (1 + 16 * 0x1p-53) + b->error;
+    return n;
+}
+
+// The order along an axis of the boxes' centres.
+typedef struct along {
+    const box *boxes;
+    int axis;
+} along;
+
+static double get_axis(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+static int compare_along(const void *context, uint32_t a, uint32_t b) {
+    const along *by = context;
+    double x = get_axis(by->boxes[a].low, by->axis) + get_axis(by->boxes[a].high, by->axis);
+    double y = get_axis(by->boxes[b].low, by->axis) + get_axis(by->boxes[b].high, by->axis);
+    if (x < y || x > y) return x < y ? -1 : 1;
+    return a < b ? -1 : a > b;
+}
+
+// The axis along which the centres spread most.
+static int find_axis(const builder *b, uint32_t first, uint32_t end) {
+    box spread = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (uint32_t k = first; k < end; k++) {
+        const box *x = &b->boxes[b->order[k]];
+        vec3 twice = vec3_add(x->low, x->high);
+        spread = box_join(spread, (box){twice, twice});
+    }
+    vec3 size = vec3_sub(spread.high, spread.low);
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+// Nodes in preorder, with a stack of the right halves that wait.
+static void build(builder *b) {
+    struct {
+        size_t node;
+        uint32_t first, end;
+    } stack[COMPOUND_DEPTH_MAX] = {{0, 0, b->compound->count}};
+    for (int waiting = 1; waiting > 0;) {
+        waiting--;
+        size_t node = stack[waiting].node;
+        uint32_t first = stack[waiting].first, end = stack[waiting].end;
+        for (; end - first > 1; node++) {
+            b->compound->nodes[node] = make_node(b, first, end);
+            along by = {b->boxes, find_axis(b, first, end)};
+            sort_indices(b->order + first, b->scratch, end - first, compare_along, &by);
+            uint32_t middle = first + (end - first) / 2;
+            stack[waiting].node = node + 2 * (size_t)(middle - first);
+            stack[waiting].first = middle;
+            stack[waiting].end = end;
+            waiting++;
+            end = middle;
+        }
+        b->compound->nodes[node] = make_node(b, first, end);
+    }
+}
+
+int tree_build(ovoid_compound *c, const ovoid_body *parts, const parts_vertices *all) {
+    uint32_t count = c->count;
+    builder b = {.compound = c, .parts = parts, .all = all, .order = c->order, .error = 64 * 0x1p-53 * c->extent};
+    b.boxes = allocator_allocate(&c->allocator, count, sizeof(box));
+    b.scratch = allocator_allocate(&c->allocator, count, sizeof(uint32_t));
+    int ok = b.boxes && b.scratch;
+    if (ok) {
+        for (uint32_t i = 0; i < count; i++) {
+            b.boxes[i] = grow(find_box(all, i), parts[i].shape->radius);
+            b.order[i] = i;
+        }
+        build(&b);
+        for (uint32_t k = 0; k < count; k++) {
+            c->parts[k] = parts[c->order[k]];
+            c->places[c->order[k]] = k;
+        }
+    }
+    allocator_release(&c->allocator, b.boxes);
+    allocator_release(&c->allocator, b.scratch);
+    return ok;
+}
+
+compound_node node_make_shape(const ovoid_shape *s) {
+    vec3 low = s->measures.box_min, high = s->measures.box_max;
+    double error = 64 * 0x1p-53 * (vec3_norm(s->origin) + s->extent + s->radius), grown = s->radius + error;
+    vec3 middle = vec3_add(vec3_scale(low, 0.5), vec3_scale(high, 0.5));
+    vec3 half = vec3_add(vec3_sub(vec3_scale(high, 0.5), vec3_scale(low, 0.5)), (vec3){grown, grown, grown});
+    double reach = vec3_norm(vec3_sub(s->center, middle)) + s->reach;
+    compound_node n = {.half = half, .radius = min2(reach + s->radius, vec3_norm(half)) * (1 + 16 * 0x1p-53) + error};
+    n.center = vec3_add(middle, s->origin);
+    n.end = 1;
+    return n;
+}
