@@ -131,7 +131,7 @@ static void read_verdicts(const batch_self *s, question what, found *answers) {
     for (uint32_t i = 0; i < s->frame; i++) {
         const ovoid_verdict *v = &s->batch.verdicts[i];
         ovoid_answer answer = {.status = v->status, .lower = v->lower, .upper = v->upper};
-        answers[i] = (found){.yes = read_verdict(&answer, what, s->margin)};
+        answers[i].yes = read_verdict(&answer, what, s->margin);
     }
 }
 

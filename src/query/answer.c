@@ -58,18 +58,27 @@ static void take_spheres(search *s) {
     s->normal = n;
 }
 
-void answer_write(search *s, ovoid_answer *out) {
-    const pair_frame *f = s->frame;
-    // A stage that proved one side only: spheres and any vertex pair bound the other.
+// A stage that proved one side only: spheres and any vertex pair bound the other.
+static void complete(search *s) {
     if (s->lower == -INFINITY) take_spheres(s);
     if (s->upper == INFINITY) {
-        simplex any = {.p = {{frame_difference(f, 0, 0), 0, 0}}, .weight = {1}, .count = 1};
+        simplex any = {.p = {{frame_difference(s->frame, 0, 0), 0, 0}}, .weight = {1}, .count = 1};
         search_take_points(s, &any);
     }
-    *out = (ovoid_answer){.status = find_status(s), .stage = s->stage, .iterations = s->iterations};
-    out->limit = find_limit(s, out->status);
-    out->lower = s->lower;
-    out->upper = s->upper;
+}
+
+ovoid_verdict answer_make_verdict(search *s) {
+    complete(s);
+    ovoid_status status = find_status(s);
+    return (ovoid_verdict){status, s->stage, find_limit(s, status), s->iterations, s->lower, s->upper};
+}
+
+void answer_write(search *s, ovoid_answer *out) {
+    const pair_frame *f = s->frame;
+    ovoid_verdict is = answer_make_verdict(s);
+    *out = (ovoid_answer){.status = is.status, .stage = is.stage, .limit = is.limit, .iterations = is.iterations};
+    out->lower = is.lower;
+    out->upper = is.upper;
     int refined = vec3_norm_squared(s->world) > 0;
     out->normal = out->proof.normal = refined ? s->world : frame_direction_to_world(f, s->normal);
     out->proof.normal_low = s->world_low;
@@ -79,8 +88,7 @@ void answer_write(search *s, ovoid_answer *out) {
     out->point_b = frame_point_to_world(f, w.b);
 }
 
-// 1 if the options' numbers make sense; fills in the defaults.
-static int options_make(const ovoid_options *given, ovoid_options *options) {
+int options_make(const ovoid_options *given, ovoid_options *options) {
     *options = given ? *given : (ovoid_options){0, 0, 0, 0};
     if (!(options->absolute_tolerance >= 0) || !(options->relative_tolerance >= 0)) return 0;
     if (isnan(options->cap) || options->cap < 0) return 0;
@@ -135,6 +143,11 @@ static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
     if (!epa_run(s, start, 0, cover) && !search_is_done(s)) s->limit = OVOID_LIMIT_PRECISION;
 }
 
+void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier, simplex *start, ovoid_cover *cover) {
+    if (!search_is_done(s)) run_exact(s, start, cover);
+    if (!search_is_done(s)) refine_run(s, pair, earlier);
+}
+
 // The answer goes to *out: returned by value it would be copied once more.
 void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
                         ovoid_cover *cover, ovoid_answer *out) {
@@ -143,7 +156,7 @@ void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, ques
     pair_frame frame;
     if (cover) cover->point_count = cover->triangle_count = 0;
     ovoid_limit refused = OVOID_LIMIT_OPTIONS;
-    if (options_make(given, &options) && !isnan(ask.far) && ask.far >= 0) refused = frame_place(pair, &frame);
+    if (options_make(given, &options) && ask.far >= 0) refused = frame_place(pair, &frame);
     if (refused != OVOID_LIMIT_NONE) {
         *out = answer_make_refused(refused);
         return;
@@ -160,8 +173,7 @@ void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, ques
     search_make(&s, &frame, &ask);
     simplex start;
     run_stages(&s, earlier, &start);
-    if (!search_is_done(&s)) run_exact(&s, &start, cover);
-    if (!search_is_done(&s)) refine_run(&s, pair, earlier);
+    answer_search(&s, pair, earlier, &start, cover);
     answer_write(&s, out);
 }
 

@@ -4,8 +4,16 @@
 
 #include "query/search.h"
 
-/// The answer.
+/// The answer; its beginning alone.
 void answer_write(search *s, ovoid_answer *out);
+ovoid_verdict answer_make_verdict(search *s);
+
+/// The exact methods, from the bounds and the simplex that the stages before them left, until the question is answered
+/// or there is no more to be done. cover may be NULL.
+void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier, simplex *start, ovoid_cover *cover);
+
+/// 1 if the options' numbers make sense; fills in the defaults. NULL: all of them.
+int options_make(const ovoid_options *given, ovoid_options *options);
 
 /// The answer of a query that was refused: no bracket.
 ovoid_answer answer_make_refused(ovoid_limit limit);

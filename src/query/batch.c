@@ -1,38 +1,34 @@
 // One question about many pairs: arrays in, arrays out. Each couple's answer has the bits of the single query's.
 #include "base/environment.h"
 #include "base/error.h"
-#include "query/answer.h"
+#include "query/crowd.h"
 
-// No earlier proof: nothing in it could help.
-static int is_blank(const ovoid_proof *p) {
-    return p->kind == OVOID_PROOF_NONE && p->count == 0 && !(p->normal.x != 0 || p->normal.y != 0 || p->normal.z != 0);
-}
-
-static void write_outputs(const ovoid_batch *batch, size_t i, const ovoid_answer *x) {
-    if (batch->proofs) batch->proofs[i] = x->proof;
-    if (batch->verdicts)
-        batch->verdicts[i] = (ovoid_verdict){x->status, x->stage, x->limit, x->iterations, x->lower, x->upper};
-    if (batch->answers && x != &batch->answers[i]) batch->answers[i] = *x;
+// The first couple that names a body past the last; couple_count where there is none. Without a branch for each.
+static size_t find_bad_couple(const ovoid_batch *batch) {
+    size_t bad = 0;
+    for (size_t i = 0; i < batch->couple_count; i++)
+        bad |= (size_t)(batch->couples[i].a >= batch->body_count) | (size_t)(batch->couples[i].b >= batch->body_count);
+    if (!bad) return batch->couple_count;
+    size_t i = 0;
+    while (batch->couples[i].a < batch->body_count && batch->couples[i].b < batch->body_count) i++;
+    return i;
 }
 
 static void find_answers(const ovoid_batch *batch, question ask) {
-    ovoid_answer own;
-    for (size_t i = 0; i < batch->couple_count; i++) {
-        const ovoid_body *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
-        ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
-        const ovoid_proof *earlier = batch->proofs && !is_blank(&batch->proofs[i]) ? &batch->proofs[i] : NULL;
-        ovoid_answer *out = batch->answers ? &batch->answers[i] : &own;
-        answer_find_inside(&pair, batch->options, ask, earlier, NULL, out);
-        write_outputs(batch, i, out);
-    }
+    ovoid_options options;
+    // What is refused is refused for each, and a depth has no cheap stages.
+    if (ask.wants_depth || !options_make(batch->options, &options) || !(ask.far >= 0))
+        for (size_t i = 0; i < batch->couple_count; i++) crowd_ask_single(batch, i, ask);
+    else
+        crowd_run(batch, ask, &options);
 }
 
 static ovoid_code run(const ovoid_batch *batch, question ask, ovoid_error *error) {
     OVOID_ASSERT(batch && (batch->couples || !batch->couple_count));
-    for (size_t i = 0; i < batch->couple_count; i++)
-        if (batch->couples[i].a >= batch->body_count || batch->couples[i].b >= batch->body_count)
-            return error_set(error, OVOID_ERROR_INDEX, (int64_t)i, "couple %zu names a body past the last of %zu", i,
-                             batch->body_count);
+    size_t bad = find_bad_couple(batch);
+    if (bad < batch->couple_count)
+        return error_set(error, OVOID_ERROR_INDEX, (int64_t)bad, "couple %zu names a body past the last of %zu", bad,
+                         batch->body_count);
     environment before = environment_enter();
     environment_hide(ask);
     find_answers(batch, ask);

@@ -8,13 +8,12 @@
 int search_is_sign_known(const search *s) { return s->lower > 0 || s->upper < 0; }
 
 int search_is_done(const search *s) {
+    if (!s->ask.wants_depth) return question_is_answered(&s->ask, s->lower, s->upper);
     if (s->lower > s->ask.far) return 1;
     if (!search_is_sign_known(s)) return 0;
     if (s->upper <= s->ask.near) return 1;
-    if (s->upper < 0 && !s->ask.wants_depth) return 1;
     // A tetrahedron around the origin may bracket a shallow depth well, but its witness is one common point.
-    if (s->ask.wants_depth && s->kind == OVOID_PROOF_HULL) return 0;
-    return s->ask.wants_bracket && s->upper - s->lower <= s->ask.tolerance;
+    return s->kind != OVOID_PROOF_HULL && s->ask.wants_bracket && s->upper - s->lower <= s->ask.tolerance;
 }
 
 void search_take_gap(search *s, vec3 n, double gap) {

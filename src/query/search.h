@@ -53,6 +53,13 @@ static inline void search_make(search *s, const pair_frame *frame, const questio
     s->iterations = 0;
 }
 
+/// 1 if bounds answer the question, of a depth asked for apart.
+static inline int question_is_answered(const question *ask, double lower, double upper) {
+    if (lower > ask->far) return 1;
+    if (!(lower > 0 || upper < 0)) return 0;
+    return upper <= ask->near || upper < 0 || (ask->wants_bracket && upper - lower <= ask->tolerance);
+}
+
 /// 1 if the question is answered by the bounds.
 int search_is_done(const search *s);
 

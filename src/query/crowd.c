@@ -1,0 +1,356 @@
+// Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
+// so eight couples are taken at once, without a branch. Those that the spheres leave open are packed into full eights
+// before they go on to the ellipsoids, and those that the supports along the ellipsoids' direction leave open go on to
+// the exact search one by one. A couple that is in any way unusual (an earlier proof, a far origin, a quaternion to be
+// scaled, a refused pose) is asked about alone, from the start.
+//
+// Every lane has the bits of the single query, so that nothing depends on which couples come together, and a batch may
+// be cut anywhere. Working memory: two eights on the stack, 14 KB.
+#include "query/crowd.h"
+
+#include "base/error.h"
+#include "query/glance.h"
+#include "simd/octet.h"
+#include "simd/prefetch.h"
+
+#include <stddef.h>
+
+// The kernels read these as rows of doubles.
+_Static_assert(sizeof(ovoid_pose) == 7 * sizeof(double), "a pose is seven numbers");
+_Static_assert(offsetof(ovoid_shape, radius) == 8 && offsetof(ovoid_shape, center) == 16 &&
+                   offsetof(ovoid_shape, extent) == 40 && offsetof(ovoid_shape, first) == 64,
+               "what `place` reads");
+_Static_assert(offsetof(ovoid_shape, inner) == offsetof(ovoid_shape, outer) + 9 * sizeof(double) &&
+                   sizeof(shape_inner) == 8 * sizeof(double),
+               "what `part` reads");
+
+// Eight couples, in lanes.
+typedef struct eight {
+    size_t index[OCTET];
+    const ovoid_body *a[OCTET], *b[OCTET];
+    octet lanes;
+    unsigned count; ///< lanes that are meant; the others repeat one of them
+} eight;
+
+typedef struct crowd {
+    const ovoid_batch *batch;
+    const octet_kernels *kernels;
+    question ask; ///< without the tolerance, which is each couple's own
+    octet_ask numbers;
+    int wants_evidence; ///< answers or proofs, not only verdicts
+    eight *waiting;     ///< couples on their way to the ellipsoids
+} crowd;
+
+// No earlier proof: nothing in it could help.
+static int is_blank(const ovoid_proof *p) {
+    return p->kind == OVOID_PROOF_NONE && p->count == 0 && !(p->normal.x != 0 || p->normal.y != 0 || p->normal.z != 0);
+}
+
+void crowd_write(const ovoid_batch *batch, size_t i, const ovoid_answer *x) {
+    if (batch->proofs) batch->proofs[i] = x->proof;
+    if (batch->verdicts)
+        batch->verdicts[i] = (ovoid_verdict){x->status, x->stage, x->limit, x->iterations, x->lower, x->upper};
+    if (batch->answers && x != &batch->answers[i]) batch->answers[i] = *x;
+}
+
+static void write_verdict(const ovoid_batch *batch, size_t i, ovoid_verdict is) {
+    if (batch->verdicts) batch->verdicts[i] = is;
+}
+
+void crowd_ask_single(const ovoid_batch *batch, size_t i, question ask) {
+    const ovoid_body *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
+    ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+    ovoid_answer own, *out = batch->answers ? &batch->answers[i] : &own;
+    const ovoid_proof *earlier = batch->proofs && !is_blank(&batch->proofs[i]) ? &batch->proofs[i] : NULL;
+    answer_find_inside(&pair, batch->options, ask, earlier, NULL, out);
+    crowd_write(batch, i, out);
+}
+
+// ---- one lane
+
+static vec3 get3(const octet_column *c, unsigned k) { return (vec3){c[0].lane[k], c[1].lane[k], c[2].lane[k]}; }
+static void put3(octet_column *c, unsigned k, vec3 v) {
+    c[0].lane[k] = v.x;
+    c[1].lane[k] = v.y;
+    c[2].lane[k] = v.z;
+}
+static mat3 get9(const octet_column *c, unsigned k) { return (mat3){get3(c, k), get3(c + 3, k), get3(c + 6, k)}; }
+
+// The frame of a lane, as frame_place and frame_relate make it; the latter's part is meant after the ellipsoids only.
+static pair_frame get_frame(const eight *e, unsigned k) {
+    const octet *o = &e->lanes;
+    double size = o->size.lane[k], hidden = OVOID_LENGTH_MIN;
+    return (pair_frame){e->a[k]->shape,
+                        e->b[k]->shape,
+                        get9(o->world_a, k),
+                        get9(o->world_b, k),
+                        e->a[k]->pose.position,
+                        get3(o->offset, k),
+                        size,
+                        FRAME_CLAIM * size + 2 * hidden,
+                        FRAME_CHECK * size + hidden,
+                        hidden,
+                        o->radii.lane[k],
+                        get9(o->rotation, k),
+                        get3(o->translation, k)};
+}
+
+static question get_ask(const crowd *c, const eight *e, unsigned k) {
+    question ask = c->ask;
+    ask.tolerance = e->lanes.tolerance.lane[k];
+    return ask;
+}
+
+// The verdict of a stage that answered the question, from the lane's bounds.
+static void write_bounds(const crowd *c, const eight *e, unsigned k, ovoid_stage stage) {
+    const octet *o = &e->lanes;
+    double lower = o->lower.lane[k], upper = o->upper.lane[k];
+    int is_apart = lower > 0;
+    ovoid_limit limit = upper - lower <= o->tolerance.lane[k] ? OVOID_LIMIT_NONE
+                        : lower > c->ask.far                  ? c->ask.beyond
+                                                              : OVOID_LIMIT_ANSWERED;
+    write_verdict(c->batch, e->index[k],
+                  (ovoid_verdict){is_apart ? OVOID_SEPARATED : OVOID_OVERLAPPING, stage, limit, 0, lower, upper});
+}
+
+// Decided by the spheres. The evidence is that of the first look, taken again.
+static void end_at_spheres(const crowd *c, const eight *e, unsigned k) {
+    write_bounds(c, e, k, OVOID_STAGE_SPHERE);
+    if (!c->wants_evidence) return;
+    pair_frame frame = get_frame(e, k);
+    question ask = get_ask(c, e, k);
+    glance seen;
+    ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[e->index[k]] : &own;
+    (void)glance_at_spheres(&frame, ask.far, &seen);
+    glance_write(&seen, &frame, &ask, out);
+    crowd_write(c->batch, e->index[k], out);
+}
+
+// The search as the lane's stage leaves it; *frame must outlive it.
+static search get_search(const crowd *c, const eight *e, unsigned k, ovoid_stage stage, pair_frame *frame) {
+    search s;
+    question ask = get_ask(c, e, k);
+    *frame = get_frame(e, k);
+    search_make(&s, frame, &ask);
+    s.stage = stage;
+    return s;
+}
+
+static void end_search(const crowd *c, const eight *e, unsigned k, search *s) {
+    if (!c->wants_evidence) {
+        write_verdict(c->batch, e->index[k], answer_make_verdict(s));
+        return;
+    }
+    ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[e->index[k]] : &own;
+    answer_write(s, out);
+    crowd_write(c->batch, e->index[k], out);
+}
+
+static void end_at_inner(const crowd *c, const eight *e, unsigned k) {
+    if (!c->wants_evidence) {
+        write_bounds(c, e, k, OVOID_STAGE_INNER);
+        return;
+    }
+    pair_frame frame;
+    search s = get_search(c, e, k, OVOID_STAGE_INNER, &frame);
+    s.upper = e->lanes.upper.lane[k];
+    s.kind = OVOID_PROOF_INNER;
+    s.inner_a = get3(e->lanes.inner, k);
+    end_search(c, e, k, &s);
+}
+
+static void end_at_outer(const crowd *c, const eight *e, unsigned k) {
+    if (!c->wants_evidence) {
+        write_bounds(c, e, k, OVOID_STAGE_OUTER);
+        return;
+    }
+    pair_frame frame;
+    search s = get_search(c, e, k, OVOID_STAGE_OUTER, &frame);
+    s.lower = e->lanes.lower.lane[k];
+    s.normal = get3(e->lanes.n, k);
+    end_search(c, e, k, &s);
+}
+
+// After the supports: answered, or the exact search goes on from their corner.
+static void end_at_support(const crowd *c, const eight *e, unsigned k, uint32_t a, uint32_t b) {
+    double lower = e->lanes.lower.lane[k], upper = e->lanes.upper.lane[k];
+    question ask = get_ask(c, e, k);
+    int is_answered = question_is_answered(&ask, lower, upper);
+    // Where radii overlap the single query looks a second time (stage_support).
+    if (is_answered && ask.wants_bracket && e->lanes.radii.lane[k] > 0) {
+        crowd_ask_single(c->batch, e->index[k], c->ask);
+        return;
+    }
+    if (is_answered && !c->wants_evidence) {
+        write_bounds(c, e, k, OVOID_STAGE_SUPPORT);
+        return;
+    }
+    pair_frame frame;
+    search s = get_search(c, e, k, OVOID_STAGE_SUPPORT, &frame);
+    simplex start = {.p = {{get3(e->lanes.w, k), a, b}}, .weight = {1}, .count = 1};
+    s.lower = lower;
+    s.normal = get3(e->lanes.n, k);
+    s.upper = upper;
+    s.kind = OVOID_PROOF_POINTS;
+    s.witness = evidence_make(&start);
+    if (!is_answered) {
+        ovoid_pair pair = {frame.a, frame.b, e->a[k]->pose, e->b[k]->pose};
+        answer_search(&s, &pair, NULL, &start, NULL);
+    }
+    end_search(c, e, k, &s);
+}
+
+// ---- eight lanes
+
+// The supports along the ellipsoids' direction for the lanes of `open`.
+static void meet(const crowd *c, eight *e, unsigned open) {
+    octet *o = &e->lanes;
+    uint32_t a[OCTET], b[OCTET];
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = (unsigned)__builtin_ctz(rest);
+        pair_frame f;
+        f.a = e->a[k]->shape;
+        f.b = e->b[k]->shape;
+        simd_pair x = frame_find_pair(&f, get3(o->n, k), get3(o->low, k));
+        o->high_value.lane[k] = x.high.value;
+        o->low_value.lane[k] = x.low.value;
+        put3(o->vertex_a, k, frame_vertex_a(&f, a[k] = x.high.index));
+        put3(o->vertex_b, k, vec3_at(shape_vertices(f.b), b[k] = x.low.index));
+    }
+    c->kernels->meet(o);
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = (unsigned)__builtin_ctz(rest);
+        end_at_support(c, e, k, a[k], b[k]);
+    }
+}
+
+// From the placed lanes of `some` on, to their answers.
+static void settle(const crowd *c, eight *e, unsigned some) {
+    octet_ellipsoids rows;
+    for (unsigned k = 0; k < OCTET; k++) {
+        const ovoid_shape *a = e->a[k]->shape, *b = e->b[k]->shape;
+        rows.outer_a[k] = &a->outer.center.x;
+        rows.outer_b[k] = &b->outer.center.x;
+        rows.inner_a[k] = a->inside.w;
+        rows.inner_b[k] = b->inside.w;
+    }
+    octet_found found = c->kernels->part(&rows, &c->numbers, &e->lanes);
+    for (unsigned rest = some; rest; rest &= rest - 1) {
+        unsigned k = (unsigned)__builtin_ctz(rest);
+        if (found.odd >> k & 1)
+            crowd_ask_single(c->batch, e->index[k], c->ask);
+        else if (found.inner >> k & 1)
+            end_at_inner(c, e, k);
+        else if (found.apart >> k & 1)
+            end_at_outer(c, e, k);
+    }
+    unsigned open = some & ~(found.odd | found.inner | found.apart);
+    if (open) meet(c, e, open);
+}
+
+// The lanes from `count` on repeat lane 0.
+static void fill(eight *e) {
+    octet_column *column = (octet_column *)&e->lanes;
+    for (unsigned k = e->count; k < OCTET; k++) {
+        e->a[k] = e->a[0];
+        e->b[k] = e->b[0];
+        for (int i = 0; i < OCTET_PLACED; i++) column[i].lane[k] = column[i].lane[0];
+    }
+}
+
+static void settle_waiting(const crowd *c) {
+    eight *e = c->waiting;
+    if (!e->count) return;
+    fill(e);
+    settle(c, e, (1u << e->count) - 1);
+    e->count = 0;
+}
+
+// Lane k of e joins those that wait.
+static void wait_for_others(const crowd *c, const eight *e, unsigned k) {
+    eight *to = c->waiting;
+    unsigned at = to->count++;
+    to->index[at] = e->index[k];
+    to->a[at] = e->a[k];
+    to->b[at] = e->b[k];
+    const octet_column *from = (const octet_column *)&e->lanes;
+    octet_column *column = (octet_column *)&to->lanes;
+    for (int i = 0; i < OCTET_PLACED; i++) column[i].lane[at] = from[i].lane[k];
+    if (to->count == OCTET) settle_waiting(c);
+}
+
+// Couples ahead: first their bodies, later the beginning of their shapes. A batch of many bodies is bound by memory.
+enum { AHEAD = 16 };
+
+static void fetch_ahead(const ovoid_batch *batch, size_t first) {
+    const ovoid_couple *couples = batch->couples;
+    for (size_t i = first + 2 * AHEAD; i < first + 2 * AHEAD + OCTET && i < batch->couple_count; i++) {
+        simd_prefetch(&batch->bodies[couples[i].a]);
+        simd_prefetch(&batch->bodies[couples[i].b]);
+    }
+    for (size_t i = first + AHEAD; i < first + AHEAD + OCTET && i < batch->couple_count; i++) {
+        const char *a = (const char *)batch->bodies[couples[i].a].shape;
+        const char *b = (const char *)batch->bodies[couples[i].b].shape;
+        simd_prefetch(a);
+        simd_prefetch(a + 64);
+        simd_prefetch(b);
+        simd_prefetch(b + 64);
+    }
+}
+
+// A couple that the lanes are not for.
+static int is_unusual(const crowd *c, const eight *e, unsigned k) {
+    const ovoid_proof *proofs = c->batch->proofs;
+    return e->a[k]->shape->has_origin || e->b[k]->shape->has_origin || (proofs && !is_blank(&proofs[e->index[k]]));
+}
+
+// Couples first to first + count (at most 8), exclusive.
+static void take_eight(const crowd *c, size_t first, unsigned count) {
+    const ovoid_batch *batch = c->batch;
+    eight e;
+    octet_places rows;
+    e.count = count;
+    unsigned odd = 0;
+    for (unsigned k = 0; k < OCTET; k++) {
+        e.index[k] = first + (k < count ? k : 0);
+        const ovoid_couple *couple = &batch->couples[e.index[k]];
+        e.a[k] = &batch->bodies[couple->a];
+        e.b[k] = &batch->bodies[couple->b];
+        OVOID_ASSERT(e.a[k]->shape && e.b[k]->shape);
+        rows.pose_a[k] = &e.a[k]->pose.position.x;
+        rows.pose_b[k] = &e.b[k]->pose.position.x;
+        rows.shape_a[k] = &e.a[k]->shape->reach;
+        rows.shape_b[k] = &e.b[k]->shape->reach;
+        odd |= (unsigned)is_unusual(c, &e, k) << k;
+    }
+    octet_found found = c->kernels->place(&rows, &c->numbers, &e.lanes);
+    odd |= found.odd;
+    unsigned all = (1u << count) - 1, apart = found.apart & ~odd & all, open = all & ~(odd | apart);
+    for (unsigned rest = odd & all; rest; rest &= rest - 1)
+        crowd_ask_single(batch, first + (unsigned)__builtin_ctz(rest), c->ask);
+    for (unsigned rest = apart; rest; rest &= rest - 1) end_at_spheres(c, &e, (unsigned)__builtin_ctz(rest));
+    if (open == OCTET_ALL && !c->waiting->count) {
+        settle(c, &e, open);
+        return;
+    }
+    for (; open; open &= open - 1) wait_for_others(c, &e, (unsigned)__builtin_ctz(open));
+}
+
+void crowd_run(const ovoid_batch *batch, question ask, const ovoid_options *options) {
+    eight waiting;
+    waiting.count = 0;
+    ask.iterations = options->iterations;
+    crowd c = {batch,
+               octet_get_kernels(),
+               ask,
+               {ask.far, options->absolute_tolerance, options->relative_tolerance, FRAME_GLANCE, FRAME_CLAIM,
+                OVOID_LENGTH_MIN, OVOID_LENGTH_MAX},
+               batch->answers || batch->proofs,
+               &waiting};
+    for (size_t first = 0; first < batch->couple_count; first += OCTET) {
+        size_t left = batch->couple_count - first;
+        fetch_ahead(batch, first);
+        take_eight(&c, first, left < OCTET ? (unsigned)left : OCTET);
+    }
+    settle_waiting(&c);
+}

@@ -1,0 +1,149 @@
+// Numbers side by side, LANES of them: 8 (AVX-512), 4 (AVX2) or 1 (plain C, the scalar twin). A kernel is written once
+// over these (octet_kernel.h) and compiled for each; every operation is IEEE 754's, lane by lane, so all widths give
+// the same bits. Sums and products are the operators.
+#ifndef OVOID_SIMD_LANES_H
+#define OVOID_SIMD_LANES_H
+
+#include <math.h>
+
+#if LANES == 8
+
+#include <immintrin.h>
+
+#define LANES_TARGET __attribute__((target("avx512f")))
+#define LANES_INLINE LANES_TARGET static inline __attribute__((always_inline))
+
+typedef __m512d lane;
+typedef __mmask8 lane_mask;
+
+LANES_INLINE lane lane_set(double x) { return _mm512_set1_pd(x); }
+LANES_INLINE lane lane_load(const double *x) { return _mm512_loadu_pd(x); }
+LANES_INLINE void lane_store(double *x, lane v) { _mm512_storeu_pd(x, v); }
+LANES_INLINE lane lane_sqrt(lane v) { return _mm512_sqrt_pd(v); }
+LANES_INLINE lane lane_abs(lane v) { return _mm512_abs_pd(v); }
+LANES_INLINE lane_mask lane_greater(lane a, lane b) { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }
+LANES_INLINE lane_mask lane_at_least(lane a, lane b) { return _mm512_cmp_pd_mask(a, b, _CMP_GE_OQ); }
+LANES_INLINE lane lane_select(lane_mask m, lane yes, lane no) { return _mm512_mask_blend_pd(m, no, yes); }
+LANES_INLINE lane_mask lane_and(lane_mask a, lane_mask b) { return (lane_mask)(a & b); }
+LANES_INLINE lane_mask lane_or(lane_mask a, lane_mask b) { return (lane_mask)(a | b); }
+LANES_INLINE lane_mask lane_not(lane_mask m) { return (lane_mask)~m; }
+LANES_INLINE unsigned lane_bits(lane_mask m) { return m; }
+
+#elif LANES == 4
+
+#include <immintrin.h>
+
+#define LANES_TARGET __attribute__((target("avx2")))
+#define LANES_INLINE LANES_TARGET static inline __attribute__((always_inline))
+
+typedef __m256d lane;
+typedef __m256d lane_mask;
+
+LANES_INLINE lane lane_set(double x) { return _mm256_set1_pd(x); }
+LANES_INLINE lane lane_load(const double *x) { return _mm256_loadu_pd(x); }
+LANES_INLINE void lane_store(double *x, lane v) { _mm256_storeu_pd(x, v); }
+LANES_INLINE lane lane_sqrt(lane v) { return _mm256_sqrt_pd(v); }
+LANES_INLINE lane lane_abs(lane v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
+LANES_INLINE lane_mask lane_greater(lane a, lane b) { return _mm256_cmp_pd(a, b, _CMP_GT_OQ); }
+LANES_INLINE lane_mask lane_at_least(lane a, lane b) { return _mm256_cmp_pd(a, b, _CMP_GE_OQ); }
+LANES_INLINE lane lane_select(lane_mask m, lane yes, lane no) { return _mm256_blendv_pd(no, yes, m); }
+LANES_INLINE lane_mask lane_and(lane_mask a, lane_mask b) { return _mm256_and_pd(a, b); }
+LANES_INLINE lane_mask lane_or(lane_mask a, lane_mask b) { return _mm256_or_pd(a, b); }
+LANES_INLINE lane_mask lane_not(lane_mask m) { return _mm256_xor_pd(m, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))); }
+LANES_INLINE unsigned lane_bits(lane_mask m) { return (unsigned)_mm256_movemask_pd(m); }
+
+#else
+
+#define LANES_TARGET
+#define LANES_INLINE static inline
+
+typedef double lane;
+typedef int lane_mask;
+
+LANES_INLINE lane lane_set(double x) { return x; }
+LANES_INLINE lane lane_load(const double *x) { return *x; }
+LANES_INLINE void lane_store(double *x, lane v) { *x = v; }
+LANES_INLINE lane lane_sqrt(lane v) { return sqrt(v); }
+LANES_INLINE lane lane_abs(lane v) { return fabs(v); }
+LANES_INLINE lane_mask lane_greater(lane a, lane b) { return a > b; }
+LANES_INLINE lane_mask lane_at_least(lane a, lane b) { return a >= b; }
+LANES_INLINE lane lane_select(lane_mask m, lane yes, lane no) { return m ? yes : no; }
+LANES_INLINE lane_mask lane_and(lane_mask a, lane_mask b) { return a & b; }
+LANES_INLINE lane_mask lane_or(lane_mask a, lane_mask b) { return a | b; }
+LANES_INLINE lane_mask lane_not(lane_mask m) { return !m; }
+LANES_INLINE unsigned lane_bits(lane_mask m) { return (unsigned)m; }
+
+#endif
+
+LANES_INLINE lane_mask lane_less(lane a, lane b) { return lane_greater(b, a); }
+LANES_INLINE lane_mask lane_at_most(lane a, lane b) { return lane_at_least(b, a); }
+/// b where one of them is NaN.
+LANES_INLINE lane lane_max(lane a, lane b) { return lane_select(lane_greater(a, b), a, b); }
+
+/// Vectors, symmetric and general matrices in lanes, with the operations and the order of linear/vec3.h and mat3.h.
+typedef struct lane3 {
+    lane x, y, z;
+} lane3;
+
+typedef struct lane6 {
+    lane xx, xy, xz, yy, yz, zz;
+} lane6;
+
+typedef struct lane9 {
+    lane3 r0, r1, r2;
+} lane9;
+
+LANES_INLINE lane3 lane3_add(lane3 a, lane3 b) { return (lane3){a.x + b.x, a.y + b.y, a.z + b.z}; }
+LANES_INLINE lane3 lane3_sub(lane3 a, lane3 b) { return (lane3){a.x - b.x, a.y - b.y, a.z - b.z}; }
+LANES_INLINE lane3 lane3_scale(lane3 a, lane s) { return (lane3){a.x * s, a.y * s, a.z * s}; }
+LANES_INLINE lane3 lane3_add_scaled(lane3 a, lane3 b, lane s) {
+    return (lane3){a.x + b.x * s, a.y + b.y * s, a.z + b.z * s};
+}
+LANES_INLINE lane3 lane3_neg(lane3 a) { return (lane3){-a.x, -a.y, -a.z}; }
+LANES_INLINE lane lane3_dot(lane3 a, lane3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+LANES_INLINE lane lane3_norm(lane3 a) { return lane_sqrt(lane3_dot(a, a)); }
+LANES_INLINE lane3 lane3_select(lane_mask m, lane3 yes, lane3 no) {
+    return (lane3){lane_select(m, yes.x, no.x), lane_select(m, yes.y, no.y), lane_select(m, yes.z, no.z)};
+}
+/// The larger of two numbers, where no square may over- or underflow: vec3_unit's common case. *good loses the others.
+LANES_INLINE lane3 lane3_unit(lane3 a, lane_mask *good) {
+    lane square = lane3_dot(a, a);
+    *good = lane_and(*good, lane_and(lane_greater(square, lane_set(1e-250)), lane_less(square, lane_set(1e250))));
+    return lane3_scale(a, lane_set(1) / lane_sqrt(square));
+}
+LANES_INLINE lane9 lane9_transpose(lane9 m) {
+    return (lane9){{m.r0.x, m.r1.x, m.r2.x}, {m.r0.y, m.r1.y, m.r2.y}, {m.r0.z, m.r1.z, m.r2.z}};
+}
+LANES_INLINE lane3 lane9_mul3(lane9 m, lane3 v) {
+    return (lane3){lane3_dot(m.r0, v), lane3_dot(m.r1, v), lane3_dot(m.r2, v)};
+}
+/// m' v
+LANES_INLINE lane3 lane9_mul3_transposed(lane9 m, lane3 v) { return lane9_mul3(lane9_transpose(m), v); }
+/// a' b
+LANES_INLINE lane9 lane9_mul_transposed(lane9 a, lane9 b) {
+    lane9 t = lane9_transpose(a);
+    return (lane9){lane9_mul3_transposed(b, t.r0), lane9_mul3_transposed(b, t.r1), lane9_mul3_transposed(b, t.r2)};
+}
+LANES_INLINE lane3 lane6_mul3(lane6 s, lane3 v) {
+    return (lane3){(s.xx * v.x + s.xy * v.y) + s.xz * v.z, (s.xy * v.x + s.yy * v.y) + s.yz * v.z,
+                   (s.xz * v.x + s.yz * v.y) + s.zz * v.z};
+}
+LANES_INLINE lane lane6_trace(lane6 s) { return s.xx + s.yy + s.zz; }
+LANES_INLINE lane6 lane6_add(lane6 a, lane6 b) {
+    return (lane6){a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz};
+}
+LANES_INLINE lane6 lane6_scale(lane6 a, lane s) {
+    return (lane6){a.xx * s, a.xy * s, a.xz * s, a.yy * s, a.yz * s, a.zz * s};
+}
+LANES_INLINE lane6 lane6_select(lane_mask m, lane6 yes, lane6 no) {
+    return (lane6){lane_select(m, yes.xx, no.xx), lane_select(m, yes.xy, no.xy), lane_select(m, yes.xz, no.xz),
+                   lane_select(m, yes.yy, no.yy), lane_select(m, yes.yz, no.yz), lane_select(m, yes.zz, no.zz)};
+}
+/// R S R'
+LANES_INLINE lane6 lane6_rotate(lane6 s, lane9 r) {
+    lane3 a = lane6_mul3(s, r.r0), b = lane6_mul3(s, r.r1), c = lane6_mul3(s, r.r2);
+    return (lane6){lane3_dot(r.r0, a), lane3_dot(r.r1, a), lane3_dot(r.r2, a),
+                   lane3_dot(r.r1, b), lane3_dot(r.r2, b), lane3_dot(r.r2, c)};
+}
+
+#endif
