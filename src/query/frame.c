@@ -86,13 +86,27 @@ ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
 
 simd_pair frame_find_pair(const pair_frame *f, vec3 in_a, vec3 in_b) {
     const ovoid_shape *a = f->a, *b = f->b;
+    if (a->support.k | b->support.k) {
+        simd_extreme x = shape_find_extreme(a, in_a), y = shape_find_extreme(b, in_b);
+        return (simd_pair){{x.value, x.index}, {y.value, y.index}};
+    }
     simd_points points_a = {shape_x(a), shape_y(a), shape_z(a), a->padded_count};
     simd_points points_b = {shape_x(b), shape_y(b), shape_z(b), b->padded_count};
     double along_a[3] = {in_a.x, in_a.y, in_a.z}, along_b[3] = {in_b.x, in_b.y, in_b.z};
     return simd_find_pair(&points_a, along_a, &points_b, along_b);
 }
 
+// Where one of them has a table of supports: the places come with the indices.
+static frame_support find_support_apart(const pair_frame *f, vec3 n, vec3 in_b) {
+    simd_extreme a = shape_find_extreme(f->a, n), b = shape_find_extreme(f->b, in_b);
+    double gap = (vec3_dot(n, f->translation) - b.value) - a.value;
+    vec3 w = vec3_sub(frame_b(f, (vec3){b.x, b.y, b.z}), (vec3){a.x, a.y, a.z});
+    return (frame_support){a.index, b.index, gap, w};
+}
+
 frame_support frame_find_support(const pair_frame *f, vec3 n) {
+    if (f->a->support.k | f->b->support.k)
+        return find_support_apart(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
     simd_pair x = frame_find_pair(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
     double gap = (vec3_dot(n, f->translation) - x.low.value) - x.high.value;
     return (frame_support){x.high.index, x.low.index, gap, frame_difference(f, x.high.index, x.low.index)};

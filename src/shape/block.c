@@ -28,6 +28,7 @@ block_offsets block_compute_offsets(block_counts c) {
     o.triangle_facets = advance(&at, (uint64_t)c.triangles * sizeof(uint32_t));
     o.neighbor_starts = advance(&at, ((uint64_t)c.vertices + 1) * sizeof(uint32_t));
     o.neighbors = advance(&at, (uint64_t)c.neighbors * sizeof(uint32_t));
+    o.cells = advance(&at, (uint64_t)c.cells * sizeof(simd_cell));
     o.size = at;
     return o;
 }
@@ -105,6 +106,14 @@ ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *s) {
                             .triangle_count = s->counts.triangles,
                             .facet_count = s->counts.facets,
                             .rank = s->rank};
+}
+
+simd_extreme shape_find_extreme(const ovoid_shape *s, ovoid_vec3 n) {
+    simd_extreme x;
+    if (s->support.k && lookup_find(&s->support, shape_cells(s), n, &x)) return x;
+    support_result r = simd_find_support(shape_x(s), shape_y(s), shape_z(s), s->padded_count, n.x, n.y, n.z);
+    ovoid_vec3 v = {shape_x(s)[r.index], shape_y(s)[r.index], shape_z(s)[r.index]};
+    return (simd_extreme){r.value, v.x, v.y, v.z, r.index};
 }
 
 double ovoid_shape_get_radius(const ovoid_shape *shape) { return shape->radius; }

@@ -3,6 +3,7 @@
 #ifndef OVOID_SHAPE_BLOCK_H
 #define OVOID_SHAPE_BLOCK_H
 
+#include "area/lookup.h"
 #include "ovoid/shape.h"
 
 /// Bytes from the block's start to an array.
@@ -14,12 +15,13 @@ typedef struct block_offsets {
     uint64_t triangle_facets; ///< uint32, triangle_count
     uint64_t neighbor_starts; ///< uint32, vertex_count + 1
     uint64_t neighbors;       ///< uint32, neighbor_count
+    uint64_t cells;           ///< simd_cell, of `support`; none for bodies of few vertices
     uint64_t size;            ///< of the whole block
 } block_offsets;
 
 /// What decides the layout.
 typedef struct block_counts {
-    uint32_t vertices, triangles, facets, neighbors;
+    uint32_t vertices, triangles, facets, neighbors, cells;
 } block_counts;
 
 /// The inner ellipsoid as queries use it: |W (x - c)| (1 + 1e-7) is at least the norm in which it is the unit ball.
@@ -40,6 +42,7 @@ struct ovoid_shape {
     uint32_t has_origin; ///< origin is not zero
     ovoid_vec3 first;    ///< vertex 0
     block_offsets at;
+    lookup support; ///< the table of supports; k = 0: none
     // The cheap stages.
     ovoid_ellipsoid outer, inner;
     shape_inner inside;
@@ -58,6 +61,12 @@ static inline const double *shape_z(const ovoid_shape *s) { return (const double
 static inline const double *shape_vertices(const ovoid_shape *s) {
     return (const double *)((const char *)s + s->at.vertices);
 }
+static inline const simd_cell *shape_cells(const ovoid_shape *s) {
+    return (const simd_cell *)((const char *)s + s->at.cells);
+}
+
+/// The vertex extreme along n: the lowest index among equal values.
+simd_extreme shape_find_extreme(const ovoid_shape *shape, ovoid_vec3 n);
 
 /// The layout of a block with these counts. All counts are 32-bit, so no sum overflows 64 bits.
 block_offsets block_compute_offsets(block_counts counts);

@@ -12,6 +12,8 @@
 #include "polytope/hull.h"
 #include "shape/block.h"
 
+#include <string.h>
+
 ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *o, ovoid_error *error) {
     *o = given ? *given : (ovoid_shape_options){0};
     if (!isfinite(o->radius)) return error_set(error, OVOID_ERROR_NOT_FINITE, -1, "the radius is not finite");
@@ -125,9 +127,23 @@ void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit 
 
 ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error) {
     ovoid_polytope p = hull_get_polytope(h);
-    block_counts counts = {h->vertex_count, h->triangle_count, h->facet_count, h->neighbor_starts[h->vertex_count]};
+    ovoid_allocator use = allocator_make(allocator);
+    lookup support;
+    simd_cell *cells;
+    ovoid_code code = lookup_create(p.vertices, p.vertex_count, &use, &support, &cells);
+    if (code != OVOID_OK) {
+        error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
+        return NULL;
+    }
+    block_counts counts = {h->vertex_count, h->triangle_count, h->facet_count, h->neighbor_starts[h->vertex_count],
+                           support.cell_count};
     ovoid_shape *shape = block_create(counts, allocator, error);
-    if (shape) block_fill(shape, &p);
+    if (shape) {
+        block_fill(shape, &p);
+        shape->support = support;
+        if (cells) memcpy((char *)shape + shape->at.cells, cells, support.cell_count * sizeof *cells);
+    }
+    allocator_release(&use, cells);
     return shape;
 }
 

@@ -1,0 +1,156 @@
+// Products are (x dx + y dy) + z dz as in support.c, so that a value is the same bits wherever it is computed, and the
+// lowest index among equal values wins: entries are ascending, and a later one has to be greater.
+#include "simd/cell.h"
+
+static inline simd_extreme take(const simd_cell *c, unsigned lane, double value) {
+    return (simd_extreme){value + 0.0, c->x[lane], c->y[lane], c->z[lane], c->index[lane]};
+}
+
+static simd_extreme find_scalar(const simd_cell *c, double dx, double dy, double dz) {
+    unsigned lane = 0;
+    double best = (c->x[0] * dx + c->y[0] * dy) + c->z[0] * dz;
+    for (unsigned i = 1; i < SIMD_CELL; i++) {
+        double value = (c->x[i] * dx + c->y[i] * dy) + c->z[i] * dz;
+        if (value > best) best = value, lane = i;
+    }
+    return take(c, lane, best);
+}
+
+simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *more, uint32_t count, double dx,
+                                      double dy, double dz) {
+    simd_extreme best = find_scalar(first, dx, dy, dz);
+    for (; count > SIMD_CELL; count = count > 2 * SIMD_CELL ? count - SIMD_CELL : 0) {
+        simd_extreme other = find_scalar(more++, dx, dy, dz);
+        if (other.value > best.value) best = other;
+    }
+    return best;
+}
+
+void simd_find_unbeaten_scalar(const simd_cull *by, const double *x, const double *y, const double *z,
+                               uint32_t padded_count, uint8_t *bits) {
+    for (uint32_t i = 0; i < padded_count; i++) {
+        double v[4];
+        for (int k = 0; k < 4; k++)
+            v[k] = (x[i] * by->corners[k][0] + y[i] * by->corners[k][1]) + z[i] * by->corners[k][2];
+        unsigned beaten = 0;
+        for (uint32_t w = 0; w < by->limit_count; w++) {
+            const double *limit = by->limits[w];
+            beaten |= (unsigned)(v[0] < limit[0]) & (unsigned)(v[1] < limit[1]) & (unsigned)(v[2] < limit[2]) &
+                      (unsigned)(v[3] < limit[3]);
+        }
+        unsigned all = i % 8 ? bits[i / 8] : 0;
+        bits[i / 8] = (uint8_t)(all | (beaten ^ 1u) << i % 8);
+    }
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#include <immintrin.h>
+
+#define AVX2 __attribute__((target("avx2")))
+
+AVX2 static inline __m256d dot4(const double *x, const double *y, const double *z, __m256d dx, __m256d dy, __m256d dz) {
+    return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(x), dx), _mm256_mul_pd(_mm256_loadu_pd(y), dy)),
+                         _mm256_mul_pd(_mm256_loadu_pd(z), dz));
+}
+
+AVX2 static inline simd_extreme find_avx2(const simd_cell *c, __m256d dx, __m256d dy, __m256d dz) {
+    __m256d low = dot4(c->x, c->y, c->z, dx, dy, dz), high = dot4(c->x + 4, c->y + 4, c->z + 4, dx, dy, dz);
+    __m256d m = _mm256_max_pd(low, high);
+    m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
+    m = _mm256_max_pd(m, _mm256_permute_pd(m, 5));
+    unsigned equal = (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(low, m, _CMP_EQ_OQ)) |
+                     (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(high, m, _CMP_EQ_OQ)) << 4 | 1u << 8;
+    return take(c, (unsigned)__builtin_ctz(equal) & 7, _mm256_cvtsd_f64(m));
+}
+
+AVX2 static simd_extreme find_in_cell_avx2(const simd_cell *first, const simd_cell *more, uint32_t count, double dx,
+                                           double dy, double dz) {
+    __m256d ax = _mm256_set1_pd(dx), ay = _mm256_set1_pd(dy), az = _mm256_set1_pd(dz);
+    simd_extreme best = find_avx2(first, ax, ay, az);
+    for (; count > SIMD_CELL; count = count > 2 * SIMD_CELL ? count - SIMD_CELL : 0) {
+        simd_extreme other = find_avx2(more++, ax, ay, az);
+        if (other.value > best.value) best = other;
+    }
+    return best;
+}
+
+AVX2 static void find_unbeaten_avx2(const simd_cull *by, const double *x, const double *y, const double *z,
+                                    uint32_t padded_count, uint8_t *bits) {
+    __m256d d[4][3];
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 3; i++) d[k][i] = _mm256_set1_pd(by->corners[k][i]);
+    for (uint32_t i = 0; i < padded_count; i += 4) {
+        __m256d v[4], beaten = _mm256_setzero_pd();
+        for (int k = 0; k < 4; k++) v[k] = dot4(x + i, y + i, z + i, d[k][0], d[k][1], d[k][2]);
+        for (uint32_t w = 0; w < by->limit_count; w++) {
+            const double *limit = by->limits[w];
+            __m256d a = _mm256_and_pd(_mm256_cmp_pd(v[0], _mm256_set1_pd(limit[0]), _CMP_LT_OQ),
+                                      _mm256_cmp_pd(v[1], _mm256_set1_pd(limit[1]), _CMP_LT_OQ));
+            __m256d b = _mm256_and_pd(_mm256_cmp_pd(v[2], _mm256_set1_pd(limit[2]), _CMP_LT_OQ),
+                                      _mm256_cmp_pd(v[3], _mm256_set1_pd(limit[3]), _CMP_LT_OQ));
+            beaten = _mm256_or_pd(beaten, _mm256_and_pd(a, b));
+        }
+        unsigned kept = ~(unsigned)_mm256_movemask_pd(beaten) & 15;
+        bits[i / 8] = (uint8_t)(i % 8 ? bits[i / 8] | kept << 4 : kept);
+    }
+}
+
+#define AVX512 __attribute__((target("avx512f")))
+
+AVX512 static inline __m512d dot8(const double *x, const double *y, const double *z, __m512d dx, __m512d dy,
+                                  __m512d dz) {
+    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(x), dx), _mm512_mul_pd(_mm512_loadu_pd(y), dy)),
+                         _mm512_mul_pd(_mm512_loadu_pd(z), dz));
+}
+
+AVX512 static void find_unbeaten_avx512(const simd_cull *by, const double *x, const double *y, const double *z,
+                                        uint32_t padded_count, uint8_t *bits) {
+    __m512d d[4][3];
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 3; i++) d[k][i] = _mm512_set1_pd(by->corners[k][i]);
+    for (uint32_t i = 0; i < padded_count; i += 8) {
+        __m512d v[4];
+        unsigned beaten = 0;
+        for (int k = 0; k < 4; k++) v[k] = dot8(x + i, y + i, z + i, d[k][0], d[k][1], d[k][2]);
+        for (uint32_t w = 0; w < by->limit_count; w++) {
+            const double *limit = by->limits[w];
+            __mmask8 all = _mm512_cmp_pd_mask(v[0], _mm512_set1_pd(limit[0]), _CMP_LT_OQ);
+            all = _mm512_mask_cmp_pd_mask(all, v[1], _mm512_set1_pd(limit[1]), _CMP_LT_OQ);
+            all = _mm512_mask_cmp_pd_mask(all, v[2], _mm512_set1_pd(limit[2]), _CMP_LT_OQ);
+            all = _mm512_mask_cmp_pd_mask(all, v[3], _mm512_set1_pd(limit[3]), _CMP_LT_OQ);
+            beaten |= all;
+        }
+        bits[i / 8] = (uint8_t)~beaten;
+    }
+}
+
+simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, double dx, double dy,
+                               double dz) {
+    if (__builtin_cpu_supports("avx2")) return find_in_cell_avx2(first, more, count, dx, dy, dz);
+    return simd_find_in_cell_scalar(first, more, count, dx, dy, dz);
+}
+
+void simd_find_unbeaten(const simd_cull *by, const double *x, const double *y, const double *z, uint32_t padded_count,
+                        uint8_t *bits) {
+    if (__builtin_cpu_supports("avx512f"))
+        find_unbeaten_avx512(by, x, y, z, padded_count, bits);
+    else if (__builtin_cpu_supports("avx2"))
+        find_unbeaten_avx2(by, x, y, z, padded_count, bits);
+    else
+        simd_find_unbeaten_scalar(by, x, y, z, padded_count, bits);
+}
+
+#else
+
+simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, double dx, double dy,
+                               double dz) {
+    return simd_find_in_cell_scalar(first, more, count, dx, dy, dz);
+}
+
+void simd_find_unbeaten(const simd_cull *by, const double *x, const double *y, const double *z, uint32_t padded_count,
+                        uint8_t *bits) {
+    simd_find_unbeaten_scalar(by, x, y, z, padded_count, bits);
+}
+
+#endif
