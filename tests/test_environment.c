@@ -135,6 +135,22 @@ static void ask_bounds(void) {
     }
 }
 
+static void ask_smooth(void) {
+    for (int i = 0; i < PAIRS; i++)
+        for (int order = 0; order <= 2; order += 2) {
+            ovoid_smooth x = ovoid_smooth_compute(&pairs[i], order);
+            const ovoid_smooth_value *v[2] = {&x.outer, &x.inner};
+            for (int k = 0; k < 2; k++) {
+                ADD(v[k]->value);
+                ADD(v[k]->error);
+                ADD(v[k]->condition);
+                add_vec3s(&v[k]->point_a, 3);
+                ADD(v[k]->gradient);
+                ADD(v[k]->hessian);
+            }
+        }
+}
+
 static void ask_paper(void) {
     const ovoid_areas *areas[2] = {hull_areas, hull_areas};
     ovoid_pair p = {hull_shape, hull_shape, pairs[0].pose_a, pairs[0].pose_b};
@@ -275,6 +291,7 @@ static const struct {
                  {"depth and check", ask_depth},
                  {"batches", ask_batch},
                  {"bounds", ask_bounds},
+                 {"smooth", ask_smooth},
                  {"paper", ask_paper},
                  {"from points", ask_points},
                  {"deformed, divided", ask_changes},

@@ -13,5 +13,6 @@
 #include "ovoid/polytope.h"
 #include "ovoid/query.h"
 #include "ovoid/shape.h"
+#include "ovoid/smooth.h"
 
 #endif

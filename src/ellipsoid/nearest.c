@@ -24,8 +24,8 @@
 #include "base/environment.h"
 #include "ellipsoid/gap.h"
 #include "ellipsoid/pencil.h"
+#include "ellipsoid/root.h"
 #include "ellipsoid/rows.h"
-#include "linear/exact.h"
 
 enum { ROUNDS_PLAIN = 20, ROUNDS_CAREFUL = 180 };
 
@@ -38,47 +38,6 @@ enum { ROUNDS_PLAIN = 20, ROUNDS_CAREFUL = 180 };
 /// Where the bracket is closed, in units of the pair's size.
 #define CLOSED 0x1p-46
 
-/// Three vectors whose outer products sum to Q: the columns of E.
-typedef struct root3 {
-    vec3 axis[3];
-} root3;
-
-/// By Cholesky with diagonal pivots, in doubles or in double-double: of a thin body doubles lose the thin axis. Pivots
-/// that are rounding of the largest are taken for zero.
-static root3 root3_make(sym3 q, int is_exact) {
-    root3 e = {{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
-    dd m[3][3] = {{dd_from(q.xx), dd_from(q.xy), dd_from(q.xz)},
-                  {dd_from(q.xy), dd_from(q.yy), dd_from(q.yz)},
-                  {dd_from(q.xz), dd_from(q.yz), dd_from(q.zz)}};
-    int is_diagonal = q.xy == 0 && q.xz == 0 && q.yz == 0;
-    double least = is_diagonal ? 0 : (is_exact ? 0x1p-95 : 0x1p-51) * sym3_trace(q);
-    for (int k = 0; k < 3; k++) {
-        int p = m[0][0].high >= m[1][1].high ? 0 : 1;
-        if (m[2][2].high > m[p][p].high) p = 2;
-        double pivot = m[p][p].high, root = sqrt(fmax(pivot, 0));
-        if (!(pivot > least)) break;
-        e.axis[k] = (vec3){m[p][0].high / root, m[p][1].high / root, m[p][2].high / root};
-        dd row[3] = {m[p][0], m[p][1], m[p][2]};
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++) {
-                if (i == p || j == p)
-                    m[i][j] = dd_from(0);
-                else if (is_exact)
-                    m[i][j] = dd_sub(m[i][j], dd_div(dd_mul(row[i], row[j]), row[p]));
-                else
-                    m[i][j].high -= row[i].high * row[j].high / pivot;
-            }
-    }
-    return e;
-}
-
-static vec3 root3_map(const root3 *e, vec3 p) {
-    return vec3_add_scaled(vec3_add_scaled(vec3_scale(e->axis[0], p.x), e->axis[1], p.y), e->axis[2], p.z);
-}
-static vec3 root3_map_transposed(const root3 *e, vec3 n) {
-    return (vec3){vec3_dot(e->axis[0], n), vec3_dot(e->axis[1], n), vec3_dot(e->axis[2], n)};
-}
-
 /// The pair and the best bracket so far.
 typedef struct search {
     const scaled_pair *pair;
@@ -87,6 +46,7 @@ typedef struct search {
     double lower, upper;
     vec3 normal;        ///< of the best lower bound
     vec3 offset_a, way; ///< of the best upper bound: the point of a from its centre, and on to that of b
+    vec3 p, q;          ///< likewise, in the unit balls
     uint32_t rounds;
 } search;
 
@@ -204,14 +164,16 @@ static int take_bracket(search *s, const multipliers *m) {
         s->normal = n;
         is_better = 1;
     }
-    vec3 x = root3_map(&s->a, vec3_scale(m->p, 1 / fmax(1, m->ma)));
-    vec3 y = root3_map(&s->b, vec3_scale(m->q, 1 / fmax(1, m->mb)));
+    vec3 p = vec3_scale(m->p, 1 / fmax(1, m->ma)), q = vec3_scale(m->q, 1 / fmax(1, m->mb));
+    vec3 x = root3_map(&s->a, p), y = root3_map(&s->b, q);
     vec3 way = vec3_sub(vec3_sub(s->pair->d, x), y);
     double upper = vec3_norm(way);
     if (upper < s->upper) {
         s->upper = upper;
         s->offset_a = x;
         s->way = way;
+        s->p = p;
+        s->q = q;
         is_better = 1;
     }
     return is_better;
@@ -295,9 +257,10 @@ static double find_ratio(const search *s, double scale) {
 /// Multipliers where the dual function is positive, if there are any.
 static multipliers find_start(const search *s) {
     // On the ray of the pencil: 1/(1 - s) : 1/s, and w near the separating direction's gap.
-    pencil p = pencil_search(s->pair->qa, s->pair->qb, s->pair->d);
+    pencil p = {.state = PENCIL_TOUCHING};
+    if (!s->is_careful) p = pencil_search(s->pair->qa, s->pair->qb, s->pair->d);
     double small = 1e-16, length = vec3_norm(p.v);
-    if (p.state != PENCIL_APART || s->is_careful) {
+    if (p.state != PENCIL_APART) {
         p.s = find_ratio(s, small);
         multipliers m = evaluate(s, small / (1 - p.s), small / p.s);
         if (!(m.dual > 0)) return m;
@@ -366,6 +329,18 @@ static ovoid_nearest compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellip
     if (!(m.dual > 0)) m = find_start(&t);
     search_run(&t, &m, ROUNDS_CAREFUL);
     return make_answer(a, b, &t);
+}
+
+int roots_find_nearest(const root3 *a, const root3 *b, vec3 d, root3_nearest *found) {
+    scaled_pair pair = {.d = d, .unit = 1};
+    search s = {.pair = &pair, .a = *a, .b = *b, .normal = {1, 0, 0}, .is_careful = 1};
+    s.lower = -INFINITY;
+    s.upper = INFINITY;
+    multipliers m = find_start(&s);
+    if (!(m.dual > 0)) return 0;
+    search_run(&s, &m, ROUNDS_CAREFUL);
+    *found = (root3_nearest){s.normal, s.p, s.q, s.rounds};
+    return s.lower > 0;
 }
 
 ovoid_nearest ovoid_ellipsoid_compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {

@@ -1,0 +1,50 @@
+/**
+ * @file smooth.h
+ * A smooth bracket of the signed distance, from the ellipsoids, with derivatives.
+ *
+ * Derivatives are with respect to twelve numbers, at zero: 0-2 the translation of A (world), 3-5 the rotation vector of
+ * A (world axes, about the point pose_a.position), 6-8 and 9-11 those of B. That is, of the value at the poses
+ * (position + t, exp(w) rotation). The second derivatives are those of this function of twelve numbers: symmetric.
+ */
+#ifndef OVOID_SMOOTH_H
+#define OVOID_SMOOTH_H
+
+#include "ovoid/query.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** One side of the smooth bracket: the signed distance of two ellipsoids, less the rounding radii. */
+typedef struct ovoid_smooth_value {
+    double value;                /**< proven: outer, value <= d; inner, d <= value. Rounding included */
+    double error;                /**< the ellipsoids' own signed distance is within this of value, proven; infinity for
+                                      the inner ones where they overlap and no depth is proven */
+    double condition;            /**< >= 1: how much roundings grow in the gradient (once) and in the Hessian (about
+                                      twice); infinity where there is no derivative */
+    uint32_t is_smooth;          /**< 0: not known to be differentiable here; the gradient is one of several */
+    uint32_t iterations;         /**< of all searches */
+    ovoid_vec3 point_a, point_b; /**< world; the points of the ellipsoids behind value, without the radii */
+    ovoid_vec3 normal;           /**< unit, world, from A to B */
+    double gradient[12];         /**< zero where not asked for */
+    double hessian[12][12];      /**< likewise; symmetric */
+} ovoid_smooth_value;
+
+/** outer.value <= d <= inner.value. */
+typedef struct ovoid_smooth {
+    ovoid_limit limit; /**< NONE; POSE_A, POSE_B: refused, -infinity and infinity, the rest zero; OPTIONS: the order */
+    ovoid_smooth_value outer, inner;
+} ovoid_smooth;
+
+/**
+ * The signed distances of the outer and of the inner ellipsoids: max over unit n of the gap of their supports along n,
+ * which where they overlap is minus their depth. order: 0 values, 1 gradients too, 2 Hessians too. Flat inner
+ * ellipsoids are ellipses, segments, points. Cost: O(1), but linear in the corners of a flat polygon. docs/smooth.md
+ * derives it all. Bounded work, no allocation; 96 KB of stack where ellipsoids overlap deeply.
+ */
+OVOID_API ovoid_smooth ovoid_smooth_compute(const ovoid_pair *pair, int order);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
