@@ -42,14 +42,14 @@ static size_t advance(size_t *at, size_t count, size_t size) {
 static ovoid_compound *create_block(size_t count, const ovoid_allocator *memory) {
     size_t size = 0, header = advance(&size, 1, sizeof(ovoid_compound));
     size_t nodes = advance(&size, 2 * count - 1, sizeof(compound_node));
-    size_t parts = advance(&size, count, sizeof(ovoid_body));
+    size_t parts = advance(&size, count, sizeof(compound_part));
     size_t order = advance(&size, count, sizeof(uint32_t)), places = advance(&size, count, sizeof(uint32_t));
     char *block = allocator_allocate(memory, 1, size);
     if (!block) return NULL;
     ovoid_compound *c = (ovoid_compound *)(void *)(block + header);
     *c = (ovoid_compound){.count = (uint32_t)count, .size = size, .allocator = *memory};
     c->nodes = (compound_node *)(void *)(block + nodes);
-    c->parts = (ovoid_body *)(void *)(block + parts);
+    c->parts = (compound_part *)(void *)(block + parts);
     c->order = (uint32_t *)(void *)(block + order);
     c->places = (uint32_t *)(void *)(block + places);
     return c;
@@ -115,7 +115,8 @@ void ovoid_compound_destroy(ovoid_compound *compound) {
 size_t ovoid_compound_get_part_count(const ovoid_compound *compound) { return compound->count; }
 ovoid_body ovoid_compound_get_part(const ovoid_compound *compound, size_t i) {
     OVOID_ASSERT(i < compound->count);
-    return compound->parts[compound->places[i]];
+    const compound_part *part = &compound->parts[compound->places[i]];
+    return (ovoid_body){part->shape, part->pose};
 }
 const uint32_t *ovoid_compound_get_order(const ovoid_compound *compound) { return compound->order; }
 ovoid_ellipsoid ovoid_compound_get_outer(const ovoid_compound *compound) { return compound->outer; }

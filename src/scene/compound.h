@@ -19,6 +19,16 @@ typedef struct compound_node {
     uint32_t first, end;
 } compound_node;
 
+/// A part in the compound's frame, ready for a first look.
+typedef struct compound_part {
+    const ovoid_shape *shape;
+    ovoid_pose pose;
+    mat3 rotation; ///< of the pose
+    vec3 at;       ///< of the shape's body frame
+    vec3 center;   ///< of the sphere around the part
+    double reach;  ///< its radius: the rounding radius and all rounding included
+} compound_part;
+
 /// More than the depth of a tree that halves 2^24 parts.
 enum { COMPOUND_DEPTH_MAX = 32 };
 
@@ -30,7 +40,7 @@ struct ovoid_compound {
     ovoid_allocator allocator;
     // Into the block.
     compound_node *nodes; ///< 2 count - 1
-    ovoid_body *parts;    ///< in the order of the tree
+    compound_part *parts; ///< in the order of the tree
     uint32_t *order;      ///< the caller's index of the part at a place
     uint32_t *places;     ///< the place of the caller's part
 };
@@ -62,18 +72,23 @@ int tree_build(ovoid_compound *compound, const ovoid_body *parts, const parts_ve
 /// One node around a shape in its own frame.
 compound_node node_make_shape(const ovoid_shape *shape);
 
+/// The part, in the frame that its pose is in.
+compound_part part_make(const ovoid_body *body);
+
 /// Fills the outer and inner ellipsoids; 0 where there is no memory.
 int compound_compute_bounds(ovoid_compound *compound, const ovoid_body *parts, const parts_vertices *all);
 
 /// A solid as queries see it: a tree over parts.
 typedef struct solid_view {
     const compound_node *nodes;
+    const compound_part *parts;
     const ovoid_compound *compound; ///< NULL: a shape
-    const ovoid_shape *shape;
     const ovoid_pose *pose;
     double extent;
     uint32_t count;
-    compound_node own; ///< of a shape
+    // Of a shape.
+    compound_node own_node;
+    compound_part own_part;
 } solid_view;
 
 /// 0 where the pose is refused.
@@ -81,8 +96,8 @@ int solid_view_make(const ovoid_solid *solid, solid_view *view);
 
 /// The part at a place, in the world.
 static inline ovoid_body solid_view_get_part(const solid_view *v, uint32_t place) {
-    if (!v->compound) return (ovoid_body){v->shape, *v->pose};
-    const ovoid_body *part = &v->compound->parts[place];
+    const compound_part *part = &v->parts[place];
+    if (!v->compound) return (ovoid_body){part->shape, *v->pose};
     return (ovoid_body){part->shape, pose_compute_product(v->pose, &part->pose)};
 }
 /// The caller's index of it.

@@ -43,15 +43,17 @@ int solid_view_make(const ovoid_solid *solid, solid_view *v) {
     if (pose_compute_check(&solid->pose) != OVOID_OK) return 0;
     v->pose = &solid->pose;
     v->compound = solid->compound;
-    v->shape = solid->shape;
     if (v->compound) {
         v->nodes = v->compound->nodes;
+        v->parts = v->compound->parts;
         v->extent = v->compound->extent;
         v->count = v->compound->count;
     } else {
-        ovoid_body body = {v->shape, {{0, 0, 0}, {1, 0, 0, 0}}};
-        v->own = node_make_shape(v->shape);
-        v->nodes = &v->own;
+        ovoid_body body = {solid->shape, {{0, 0, 0}, {1, 0, 0, 0}}};
+        v->own_node = node_make_shape(solid->shape);
+        v->own_part = part_make(&body);
+        v->nodes = &v->own_node;
+        v->parts = &v->own_part;
         v->extent = body_compute_extent(&body);
         v->count = 1;
     }
@@ -66,11 +68,27 @@ static void add_exclusion(hunt *h, const ovoid_exclusion *x) {
     all->count++;
 }
 
-static void exclude_nodes(hunt *h, const compound_node *a, const compound_node *b, double lower) {
-    h->lower = min2(h->lower, lower);
+// A pair of nodes that waits, and what is known of it.
+typedef struct waiting {
+    const compound_node *a, *b;
+    nodes_bound bound;
+    vec3 normal; ///< the frame's at the time
+} waiting;
+
+static waiting look_at(hunt *h, const compound_node *a, const compound_node *b) {
+    h->out->visited++;
+    double enough = min2(h->ask.far, h->enough);
+    return (waiting){a, b, nodes_compute_lower(&h->frame, a, b, enough), h->frame.normal};
+}
+
+static void exclude_nodes(hunt *h, const waiting *w) {
+    h->lower = min2(h->lower, w->bound.lower);
     if (!h->exclusions) return;
-    ovoid_exclusion x = {a->first, a->end, b->first, b->end, {0, 0, 0}, {0, 0, 0}, lower};
-    x.normal = nodes_compute_normal(&h->frame, a, b);
+    const compound_node *a = w->a, *b = w->b;
+    ovoid_exclusion x = {a->first, a->end, b->first, b->end, {0, 0, 0}, {0, 0, 0}, w->bound.lower};
+    if (w->bound.means == NODES_PARTS)
+        x.normal = parts_compute_normal(&h->frame, &h->a.parts[a->first], &h->b.parts[b->first]);
+    else x.normal = nodes_compute_normal(&h->frame, a, b, w->bound.means, w->normal);
     add_exclusion(h, &x);
 }
 
@@ -120,6 +138,7 @@ static void take_best(hunt *h, uint32_t a, uint32_t b, const ovoid_answer *x) {
     h->out->answer = *x;
     h->place_a = a;
     h->place_b = b;
+    nodes_frame_set_normal(&h->frame, x->proof.normal);
     tighten(h);
 }
 
@@ -150,15 +169,14 @@ static int is_decided(const hunt *h) {
 }
 static int is_left_out(const hunt *h, double lower) { return lower > h->ask.far || lower >= h->enough; }
 
-// A pair of nodes that waits.
-typedef struct waiting {
-    const compound_node *a, *b;
-    double lower;
-} waiting;
-
-static waiting look_at(hunt *h, const compound_node *a, const compound_node *b) {
-    h->out->visited++;
-    return (waiting){a, b, nodes_compute_lower(&h->frame, a, b, min2(h->ask.far, h->enough))};
+// Two parts: a closer look at their own bounds, then the pair query.
+static void visit_leaves(hunt *h, waiting *w) {
+    uint32_t a = w->a->first, b = w->b->first;
+    if (a == h->warm_a && b == h->warm_b) return;
+    w->bound = parts_compute_lower(&h->frame, &h->a.parts[a], &h->b.parts[b], min2(h->ask.far, h->enough));
+    w->normal = h->frame.normal;
+    if (is_left_out(h, w->bound.lower)) exclude_nodes(h, w);
+    else visit_parts(h, a, b, NULL);
 }
 
 static void walk(hunt *h) {
@@ -167,12 +185,12 @@ static void walk(hunt *h) {
     stack[0] = look_at(h, h->a.nodes, h->b.nodes);
     for (int count = 1; count > 0 && !is_decided(h);) {
         waiting w = stack[--count];
-        if (is_left_out(h, w.lower)) {
-            exclude_nodes(h, w.a, w.b, w.lower);
+        if (is_left_out(h, w.bound.lower)) {
+            exclude_nodes(h, &w);
             continue;
         }
         if (node_is_leaf(w.a) && node_is_leaf(w.b)) {
-            if (w.a->first != h->warm_a || w.b->first != h->warm_b) visit_parts(h, w.a->first, w.b->first, NULL);
+            visit_leaves(h, &w);
             continue;
         }
         waiting near, far;
@@ -183,7 +201,7 @@ static void walk(hunt *h) {
             near = look_at(h, w.a, node_get_left(w.b));
             far = look_at(h, w.a, node_get_right(w.b));
         }
-        int is_turned = far.lower < near.lower;
+        int is_turned = far.bound.lower < near.bound.lower;
         stack[count++] = is_turned ? near : far;
         stack[count++] = is_turned ? far : near;
     }
@@ -222,7 +240,9 @@ static ovoid_limit find_limit(const hunt *h, const ovoid_answer *x, ovoid_status
 // All pairs of parts by the roots alone, where the walk ended before its time.
 static void exclude_all(hunt *h) {
     if (h->exclusions) h->exclusions->count = 0;
-    exclude_nodes(h, h->a.nodes, h->b.nodes, nodes_compute_lower(&h->frame, h->a.nodes, h->b.nodes, INFINITY));
+    waiting roots = {h->a.nodes, h->b.nodes, nodes_compute_lower(&h->frame, h->a.nodes, h->b.nodes, INFINITY),
+                     h->frame.normal};
+    exclude_nodes(h, &roots);
 }
 
 static void finish(hunt *h) {
@@ -275,7 +295,7 @@ void solid_find_inside(const ovoid_solid_pair *pair, const ovoid_options *option
         return;
     }
     if (!h.a.compound && !h.b.compound) {
-        ovoid_pair parts = {h.a.shape, h.b.shape, pair->a.pose, pair->b.pose};
+        ovoid_pair parts = {pair->a.shape, pair->b.shape, pair->a.pose, pair->b.pose};
         answer_find_inside(&parts, options, ask, earlier ? &earlier->proof : NULL, cover, &out->answer);
         out->tested = 1;
         return;

@@ -28,7 +28,27 @@ void nodes_frame_make(const solid_view *a, const solid_view *b, nodes_frame *f) 
     f->size = a->extent + b->extent + vec3_norm(offset);
     double positions = vec3_norm(a->pose->position) + vec3_norm(b->pose->position);
     f->claim = 512 * 0x1p-53 * f->size + 8 * 0x1p-53 * positions + 4 * OVOID_LENGTH_MIN;
+    f->normal = (vec3){0, 0, 0};
     f->check = 100 * 0x1p-53 * f->size + OVOID_LENGTH_MIN;
+}
+
+void nodes_frame_set_normal(nodes_frame *f, vec3 normal) {
+    vec3 n = vec3_is_finite(normal) ? vec3_unit(normal) : (vec3){0, 0, 0};
+    if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){0, 0, 0};
+    f->normal = n;
+    f->in_a = mat3_mul_transposed_vec3(f->world_a, n);
+    f->in_b = mat3_mul_transposed_vec3(f->world_b, n);
+    f->offset = vec3_dot(f->in_a, f->translation);
+}
+
+// How far a node reaches from its centre along a unit direction of its axes.
+static double find_reach(const compound_node *node, vec3 n) {
+    const vec3 *h = &node->half;
+    return min2((fabs(n.x) * h->x + fabs(n.y) * h->y) + fabs(n.z) * h->z, node->radius);
+}
+static double find_gap_along(const nodes_frame *f, const compound_node *a, const compound_node *b) {
+    double apart = (f->offset + vec3_dot(f->in_b, b->center)) - vec3_dot(f->in_a, a->center);
+    return apart - (find_reach(a, f->in_a) + find_reach(b, f->in_b));
 }
 
 // How far the boxes are apart along each of three common axes, negative where they overlap.
@@ -44,32 +64,38 @@ static double measure(vec3 g) {
     return vec3_norm((vec3){max2(g.x, 0), max2(g.y, 0), max2(g.z, 0)});
 }
 
-// What two nodes are measured by.
-typedef struct gaps {
-    vec3 t;              // between the centres, frame of a
-    double sphere;       // between the spheres
-    vec3 in_a, in_b;     // between the boxes, along the axes of each
-    double box_a, box_b; // what they show
-} gaps;
-
-static inline void find_spheres(const nodes_frame *f, const compound_node *a, const compound_node *b, gaps *g) {
-    g->t = vec3_sub(vec3_add(mat3_mul_vec3(f->rotation, b->center), f->translation), a->center);
-    g->sphere = vec3_norm(g->t) - (a->radius + b->radius);
+// A point of b from a point of a, in the frame; and as a unit direction of the world.
+static vec3 find_offset(const nodes_frame *f, vec3 a, vec3 b) {
+    return vec3_sub(vec3_add(mat3_mul_vec3(f->rotation, b), f->translation), a);
 }
-static inline void find_boxes(const nodes_frame *f, const compound_node *a, const compound_node *b, gaps *g) {
-    g->in_a = find_gaps(g->t, a->half, mat3_mul_vec3(f->sizes, b->half));
-    g->in_b =
-        find_gaps(mat3_mul_transposed_vec3(f->rotation, g->t), b->half, mat3_mul_transposed_vec3(f->sizes, a->half));
-    g->box_a = measure(g->in_a);
-    g->box_b = measure(g->in_b);
+static vec3 turn_offset(const nodes_frame *f, vec3 t) {
+    vec3 n = vec3_unit(t);
+    return mat3_mul_vec3(f->world_a, vec3_norm_squared(n) > 0.5 ? n : (vec3){1, 0, 0});
+}
+static int has_normal(const nodes_frame *f) { return f->normal.x != 0 || f->normal.y != 0 || f->normal.z != 0; }
+
+// The gaps along the axes of A, of B, given the offset of the centres.
+static vec3 find_gaps_in_a(const nodes_frame *f, const compound_node *a, const compound_node *b, vec3 t) {
+    return find_gaps(t, a->half, mat3_mul_vec3(f->sizes, b->half));
+}
+static vec3 find_gaps_in_b(const nodes_frame *f, const compound_node *a, const compound_node *b, vec3 t) {
+    return find_gaps(mat3_mul_transposed_vec3(f->rotation, t), b->half, mat3_mul_transposed_vec3(f->sizes, a->half));
 }
 
-double nodes_compute_lower(const nodes_frame *f, const compound_node *a, const compound_node *b, double enough) {
-    gaps g;
-    find_spheres(f, a, b, &g);
-    if (g.sphere - f->claim > enough) return g.sphere - f->claim;
-    find_boxes(f, a, b, &g);
-    return max2(g.sphere, max2(g.box_a, g.box_b)) - f->claim;
+static nodes_bound better(nodes_bound x, nodes_bound y) { return y.lower > x.lower ? y : x; }
+
+nodes_bound nodes_compute_lower(const nodes_frame *f, const compound_node *a, const compound_node *b, double enough) {
+    nodes_bound best = {-INFINITY, NODES_SPHERES};
+    if (has_normal(f)) {
+        best = (nodes_bound){find_gap_along(f, a, b) - f->claim, NODES_NORMAL};
+        if (best.lower > enough) return best;
+    }
+    vec3 t = find_offset(f, a->center, b->center);
+    best = better(best, (nodes_bound){vec3_norm(t) - (a->radius + b->radius) - f->claim, NODES_SPHERES});
+    if (best.lower > enough) return best;
+    best = better(best, (nodes_bound){measure(find_gaps_in_a(f, a, b, t)) - f->claim, NODES_BOX_A});
+    if (best.lower > enough) return best;
+    return better(best, (nodes_bound){measure(find_gaps_in_b(f, a, b, t)) - f->claim, NODES_BOX_B});
 }
 
 static double with_sign_of(double size, double sign) { return sign < 0 ? -size : size; }
@@ -82,15 +108,36 @@ static vec3 find_direction(vec3 g, vec3 t) {
     return vec3_unit((vec3){with_sign_of(n.x, t.x), with_sign_of(n.y, t.y), with_sign_of(n.z, t.z)});
 }
 
-vec3 nodes_compute_normal(const nodes_frame *f, const compound_node *a, const compound_node *b) {
-    gaps g;
-    find_spheres(f, a, b, &g);
-    find_boxes(f, a, b, &g);
-    if (g.sphere >= g.box_a && g.sphere >= g.box_b) {
-        vec3 n = vec3_unit(g.t);
-        if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){1, 0, 0};
-        return mat3_mul_vec3(f->world_a, n);
+vec3 nodes_compute_normal(const nodes_frame *f, const compound_node *a, const compound_node *b, nodes_means means,
+                          vec3 normal) {
+    vec3 t = find_offset(f, a->center, b->center), n;
+    switch (means) {
+    case NODES_NORMAL: return normal;
+    case NODES_BOX_A: return mat3_mul_vec3(f->world_a, find_direction(find_gaps_in_a(f, a, b, t), t));
+    case NODES_BOX_B:
+        n = find_direction(find_gaps_in_b(f, a, b, t), mat3_mul_transposed_vec3(f->rotation, t));
+        return mat3_mul_vec3(f->world_b, n);
+    default: break;
     }
-    if (g.box_a >= g.box_b) return mat3_mul_vec3(f->world_a, find_direction(g.in_a, g.t));
-    return mat3_mul_vec3(f->world_b, find_direction(g.in_b, mat3_mul_transposed_vec3(f->rotation, g.t)));
+    return turn_offset(f, t);
+}
+
+nodes_bound parts_compute_lower(const nodes_frame *f, const compound_part *a, const compound_part *b, double enough) {
+    vec3 t = find_offset(f, a->center, b->center);
+    nodes_bound best = {vec3_norm(t) - (a->reach + b->reach) - f->claim, NODES_PARTS};
+    if (best.lower > enough || !has_normal(f)) return best;
+    // The parts' own vertices along the normal.
+    const ovoid_shape *x = a->shape, *y = b->shape;
+    vec3 in_a = mat3_mul_transposed_vec3(a->rotation, f->in_a), in_b = mat3_mul_transposed_vec3(b->rotation, f->in_b);
+    simd_points of_a = {shape_x(x), shape_y(x), shape_z(x), x->padded_count};
+    simd_points of_b = {shape_x(y), shape_y(y), shape_z(y), y->padded_count};
+    double along_a[3] = {in_a.x, in_a.y, in_a.z}, along_b[3] = {-in_b.x, -in_b.y, -in_b.z};
+    simd_pair most = simd_find_pair(&of_a, along_a, &of_b, along_b);
+    double apart = (f->offset + vec3_dot(f->in_b, b->at)) - vec3_dot(f->in_a, a->at);
+    double gap = (apart - (most.high.value + most.low.value)) - (x->radius + y->radius);
+    return better(best, (nodes_bound){gap - f->claim, NODES_NORMAL});
+}
+
+vec3 parts_compute_normal(const nodes_frame *f, const compound_part *a, const compound_part *b) {
+    return turn_offset(f, find_offset(f, a->center, b->center));
 }

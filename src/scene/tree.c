@@ -7,6 +7,7 @@
 #include "scene/compound.h"
 
 #include "base/allocator.h"
+#include "linear/rotation.h"
 #include "polytope/sort.h"
 
 typedef struct box {
@@ -138,7 +139,7 @@ int tree_build(ovoid_compound *c, const ovoid_body *parts, const parts_vertices 
         }
         build(&b);
         for (uint32_t k = 0; k < count; k++) {
-            c->parts[k] = parts[c->order[k]];
+            c->parts[k] = part_make(&parts[c->order[k]]);
             c->places[c->order[k]] = k;
         }
     }
@@ -157,4 +158,13 @@ compound_node node_make_shape(const ovoid_shape *s) {
     n.center = vec3_add(middle, s->origin);
     n.end = 1;
     return n;
+}
+
+compound_part part_make(const ovoid_body *body) {
+    const ovoid_shape *s = body->shape;
+    compound_part p = {.shape = s, .pose = body->pose, .rotation = quat_to_mat3(body->pose.rotation)};
+    p.at = vec3_add(body->pose.position, mat3_mul_vec3(p.rotation, s->origin));
+    p.center = vec3_add(p.at, mat3_mul_vec3(p.rotation, s->center));
+    p.reach = (s->reach + s->radius) * (1 + 4 * 0x1p-53) + 64 * 0x1p-53 * body_compute_extent(body);
+    return p;
 }
