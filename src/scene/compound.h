@@ -29,8 +29,8 @@ typedef struct compound_part {
     double reach;  ///< its radius: the rounding radius and all rounding included
 } compound_part;
 
-/// More than the depth of a tree that halves 2^24 parts.
-enum { COMPOUND_DEPTH_MAX = 32 };
+/// More than the depth of a tree of 2^24 parts, of which each split gives at least a quarter to either side.
+enum { COMPOUND_DEPTH_MAX = 64 };
 
 struct ovoid_compound {
     uint32_t count;

@@ -21,6 +21,7 @@ typedef struct builder {
     const parts_vertices *all;
     box *boxes;
     uint32_t *order, *scratch;
+    double *areas;
     double error; ///< 64 u E
 } builder;
 
@@ -89,16 +90,48 @@ static int compare_along(const void *context, uint32_t a, uint32_t b) {
     return a < b ? -1 : a > b;
 }
 
-// The axis along which the centres spread most.
-static int find_axis(const builder *b, uint32_t first, uint32_t end) {
-    box spread = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (uint32_t k = first; k < end; k++) {
-        const box *x = &b->boxes[b->order[k]];
-        vec3 twice = vec3_add(x->low, x->high);
-        spread = box_join(spread, (box){twice, twice});
+static double find_area(const box *b) {
+    vec3 d = vec3_sub(b->high, b->low);
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+// Where to cut a sorted run in two: surfaces weighed by their parts, the least sum; a quarter at least to each side.
+static uint32_t find_cut(const builder *b, const uint32_t *order, uint32_t count, double *cost) {
+    box right = b->boxes[order[count - 1]];
+    for (uint32_t k = count - 1; k > 0; k--) {
+        right = box_join(right, b->boxes[order[k]]);
+        b->areas[k] = find_area(&right) * (count - k);
     }
-    vec3 size = vec3_sub(spread.high, spread.low);
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    uint32_t best = 0, least = count / 4 > 0 ? count / 4 : 1;
+    box left = b->boxes[order[0]];
+    for (uint32_t k = 1; k <= count - least; k++) {
+        double sum = find_area(&left) * k + b->areas[k];
+        left = box_join(left, b->boxes[order[k]]);
+        if (k < least || (best > 0 && !(sum < *cost))) continue;
+        best = k;
+        *cost = sum;
+    }
+    return best;
+}
+
+// Sorts the parts order[first..end) along the best axis; where the right half begins.
+static uint32_t split(builder *b, uint32_t first, uint32_t end) {
+    uint32_t count = end - first, best = 0, *run = b->order + first;
+    double least = INFINITY;
+    int axis = 0;
+    for (int i = 0; i < 3; i++) {
+        along by = {b->boxes, i};
+        sort_indices(run, b->scratch, count, compare_along, &by);
+        double cost = 0;
+        uint32_t cut = find_cut(b, run, count, &cost);
+        if (best > 0 && !(cost < least)) continue;
+        best = cut;
+        least = cost;
+        axis = i;
+    }
+    along by = {b->boxes, axis};
+    if (axis != 2) sort_indices(run, b->scratch, count, compare_along, &by);
+    return first + best;
 }
 
 // Nodes in preorder, with a stack of the right halves that wait.
@@ -113,9 +146,7 @@ static void build(builder *b) {
         uint32_t first = stack[waiting].first, end = stack[waiting].end;
         for (; end - first > 1; node++) {
             b->compound->nodes[node] = make_node(b, first, end);
-            along by = {b->boxes, find_axis(b, first, end)};
-            sort_indices(b->order + first, b->scratch, end - first, compare_along, &by);
-            uint32_t middle = first + (end - first) / 2;
+            uint32_t middle = split(b, first, end);
             stack[waiting].node = node + 2 * (size_t)(middle - first);
             stack[waiting].first = middle;
             stack[waiting].end = end;
@@ -131,7 +162,8 @@ int tree_build(ovoid_compound *c, const ovoid_body *parts, const parts_vertices 
     builder b = {.compound = c, .parts = parts, .all = all, .order = c->order, .error = 64 * 0x1p-53 * c->extent};
     b.boxes = allocator_allocate(&c->allocator, count, sizeof(box));
     b.scratch = allocator_allocate(&c->allocator, count, sizeof(uint32_t));
-    int ok = b.boxes && b.scratch;
+    b.areas = allocator_allocate(&c->allocator, count, sizeof(double));
+    int ok = b.boxes && b.scratch && b.areas;
     if (ok) {
         for (uint32_t i = 0; i < count; i++) {
             b.boxes[i] = grow(find_box(all, i), parts[i].shape->radius);
@@ -145,6 +177,7 @@ int tree_build(ovoid_compound *c, const ovoid_body *parts, const parts_vertices 
     }
     allocator_release(&c->allocator, b.boxes);
     allocator_release(&c->allocator, b.scratch);
+    allocator_release(&c->allocator, b.areas);
     return ok;
 }
 
