@@ -88,7 +88,8 @@ static void exclude_nodes(hunt *h, const waiting *w) {
     ovoid_exclusion x = {a->first, a->end, b->first, b->end, {0, 0, 0}, {0, 0, 0}, w->bound.lower};
     if (w->bound.means == NODES_PARTS)
         x.normal = parts_compute_normal(&h->frame, &h->a.parts[a->first], &h->b.parts[b->first]);
-    else x.normal = nodes_compute_normal(&h->frame, a, b, w->bound.means, w->normal);
+    else
+        x.normal = nodes_compute_normal(&h->frame, a, b, w->bound.means, w->normal);
     add_exclusion(h, &x);
 }
 
@@ -175,8 +176,10 @@ static void visit_leaves(hunt *h, waiting *w) {
     if (a == h->warm_a && b == h->warm_b) return;
     w->bound = parts_compute_lower(&h->frame, &h->a.parts[a], &h->b.parts[b], min2(h->ask.far, h->enough));
     w->normal = h->frame.normal;
-    if (is_left_out(h, w->bound.lower)) exclude_nodes(h, w);
-    else visit_parts(h, a, b, NULL);
+    if (is_left_out(h, w->bound.lower))
+        exclude_nodes(h, w);
+    else
+        visit_parts(h, a, b, NULL);
 }
 
 static void walk(hunt *h) {

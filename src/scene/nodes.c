@@ -78,8 +78,15 @@ static int has_normal(const nodes_frame *f) { return f->normal.x != 0 || f->norm
 static vec3 find_gaps_in_a(const nodes_frame *f, const compound_node *a, const compound_node *b, vec3 t) {
     return find_gaps(t, a->half, mat3_mul_vec3(f->sizes, b->half));
 }
+// Likewise along those of b; t: along its axes.
 static vec3 find_gaps_in_b(const nodes_frame *f, const compound_node *a, const compound_node *b, vec3 t) {
-    return find_gaps(mat3_mul_transposed_vec3(f->rotation, t), b->half, mat3_mul_transposed_vec3(f->sizes, a->half));
+    return find_gaps(t, b->half, mat3_mul_transposed_vec3(f->sizes, a->half));
+}
+
+// The gap along the line of the centres, given that line along the axes of both.
+static double find_gap_of_line(const compound_node *a, const compound_node *b, vec3 in_a, vec3 in_b, double length) {
+    double scale = 1 / length;
+    return length - (find_reach(a, vec3_scale(in_a, scale)) + find_reach(b, vec3_scale(in_b, scale)));
 }
 
 static nodes_bound better(nodes_bound x, nodes_bound y) { return y.lower > x.lower ? y : x; }
@@ -91,11 +98,18 @@ nodes_bound nodes_compute_lower(const nodes_frame *f, const compound_node *a, co
         if (best.lower > enough) return best;
     }
     vec3 t = find_offset(f, a->center, b->center);
-    best = better(best, (nodes_bound){vec3_norm(t) - (a->radius + b->radius) - f->claim, NODES_SPHERES});
+    double length = vec3_norm(t);
+    best = better(best, (nodes_bound){length - (a->radius + b->radius) - f->claim, NODES_SPHERES});
     if (best.lower > enough) return best;
+    vec3 turned = mat3_mul_transposed_vec3(f->rotation, t);
+    // Of nodes that lie in each other it shows nothing.
+    if (length > a->radius || length > b->radius) {
+        best = better(best, (nodes_bound){find_gap_of_line(a, b, t, turned, length) - f->claim, NODES_SPHERES});
+        if (best.lower > enough) return best;
+    }
     best = better(best, (nodes_bound){measure(find_gaps_in_a(f, a, b, t)) - f->claim, NODES_BOX_A});
     if (best.lower > enough) return best;
-    return better(best, (nodes_bound){measure(find_gaps_in_b(f, a, b, t)) - f->claim, NODES_BOX_B});
+    return better(best, (nodes_bound){measure(find_gaps_in_b(f, a, b, turned)) - f->claim, NODES_BOX_B});
 }
 
 static double with_sign_of(double size, double sign) { return sign < 0 ? -size : size; }
@@ -110,13 +124,11 @@ static vec3 find_direction(vec3 g, vec3 t) {
 
 vec3 nodes_compute_normal(const nodes_frame *f, const compound_node *a, const compound_node *b, nodes_means means,
                           vec3 normal) {
-    vec3 t = find_offset(f, a->center, b->center), n;
+    vec3 t = find_offset(f, a->center, b->center), turned = mat3_mul_transposed_vec3(f->rotation, t);
     switch (means) {
     case NODES_NORMAL: return normal;
     case NODES_BOX_A: return mat3_mul_vec3(f->world_a, find_direction(find_gaps_in_a(f, a, b, t), t));
-    case NODES_BOX_B:
-        n = find_direction(find_gaps_in_b(f, a, b, t), mat3_mul_transposed_vec3(f->rotation, t));
-        return mat3_mul_vec3(f->world_b, n);
+    case NODES_BOX_B: return mat3_mul_vec3(f->world_b, find_direction(find_gaps_in_b(f, a, b, turned), turned));
     default: break;
     }
     return turn_offset(f, t);

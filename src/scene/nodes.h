@@ -41,7 +41,8 @@ vec3 nodes_compute_normal(const nodes_frame *frame, const compound_node *a, cons
 
 /// The same for two parts, by their own spheres (NODES_PARTS) and by their supports along the frame's normal
 /// (NODES_NORMAL).
-nodes_bound parts_compute_lower(const nodes_frame *frame, const compound_part *a, const compound_part *b, double enough);
+nodes_bound parts_compute_lower(const nodes_frame *frame, const compound_part *a, const compound_part *b,
+                                double enough);
 
 /// The unit direction, world, between the spheres.
 vec3 parts_compute_normal(const nodes_frame *frame, const compound_part *a, const compound_part *b);
