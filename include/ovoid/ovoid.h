@@ -14,5 +14,6 @@
 #include "ovoid/query.h"
 #include "ovoid/shape.h"
 #include "ovoid/smooth.h"
+#include "ovoid/world.h"
 
 #endif

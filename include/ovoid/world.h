@@ -1,0 +1,179 @@
+/**
+ * @file world.h
+ * Many bodies that move: which of them touch, which are near, from frame to frame, each pair's proof kept.
+ *
+ * A world holds bodies by ids, a tree of enlarged boxes over them, the list of pairs whose enlarged boxes overlap, and
+ * of each such pair the last proof. A frame asks one question of all pairs at once. What the frame says is the same,
+ * bit for bit, whatever the number of threads. docs/world.md has the mathematics.
+ *
+ * Functions that take a const world may run at the same time in any number of threads; all others need the world for
+ * themselves. Lengths are the caller's unit, poses are in the world frame, quaternions as ovoid_pose has them.
+ */
+#ifndef OVOID_WORLD_H
+#define OVOID_WORLD_H
+
+#include "ovoid/compound.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Bodies and all that is kept of them and their pairs. */
+typedef struct ovoid_world ovoid_world;
+
+/**
+ * A body of a world: index << 32 | generation; 0 is none. The index of a removed body is used again, with another
+ * generation, so an old id is refused, not taken for another body. Comparing ids compares indices.
+ */
+typedef uint64_t ovoid_id;
+
+/** Most bodies of a world. */
+#define OVOID_WORLD_BODIES 0x7fffff00u
+
+/**
+ * The host's task system. start: calls run(work, first, end, worker) for parts [first, end) that together make
+ * [0, count), in any threads, at once or later, parts of at least `least` items where it can; worker tells the threads
+ * that run at the same time apart, and is below ovoid_world_options.threads. finish: returns when all of a started work
+ * is done. Both are called by the thread that called the world. All zero: the world's own threads.
+ */
+typedef struct ovoid_tasks {
+    void *(*start)(void *context, void (*run)(void *work, uint32_t first, uint32_t end, uint32_t worker), void *work,
+                   uint32_t count, uint32_t least);
+    void (*finish)(void *context, void *handle);
+    void *context;
+} ovoid_tasks;
+
+/** 1: the pair is looked at, 0: it never is. Must depend on the ids alone and may be called by several threads. */
+typedef int ovoid_filter(void *context, ovoid_id a, ovoid_id b);
+
+/** Options of a world; all zero is the default, and NULL means that. */
+typedef struct ovoid_world_options {
+    uint32_t threads;   /**< workers, the caller's thread included; 0: 1. At most 256 */
+    ovoid_tasks tasks;  /**< who runs them; all zero: threads of the world's own, asleep when there is nothing to do */
+    double enlargement; /**< of a body's box to each side, in units of the body's size: how far it may go before the
+                           tree hears of it. 0: chosen by the world. At most 100 */
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied. Called from the workers too */
+    ovoid_filter *filter;             /**< NULL: all pairs */
+    void *filter_context;             /**< handed to the filter */
+} ovoid_world_options;
+
+/** A world without bodies; NULL on failure: ARGUMENT, MEMORY, LIMIT (threads could not be started). */
+OVOID_API ovoid_world *ovoid_world_create(const ovoid_world_options *options, ovoid_error *error);
+
+/** Ends its threads and frees it; NULL is allowed. The shapes stay the caller's. */
+OVOID_API void ovoid_world_destroy(ovoid_world *world);
+
+/** What a body is made with. Two bodies are a pair if a.group & b.mask and b.group & a.mask are both not zero. */
+typedef struct ovoid_world_body {
+    ovoid_solid solid;    /**< what it points to must live as long as the body */
+    uint32_t group, mask; /**< both zero: all of both */
+    uint64_t user;        /**< the caller's own; only kept */
+} ovoid_world_body;
+
+/**
+ * Adds a body; 0 on failure, and the world is as it was: ARGUMENT, the codes of ovoid_pose_compute_check, LIMIT,
+ * MEMORY. Cost: one insertion into the tree.
+ */
+OVOID_API ovoid_id ovoid_world_add(ovoid_world *world, const ovoid_world_body *body, ovoid_error *error);
+/** Many at once, all or none (place: the body that is refused); ids (count, may be NULL) receives theirs. Faster than
+ * one by one. */
+OVOID_API ovoid_code ovoid_world_add_many(ovoid_world *world, const ovoid_world_body *bodies, size_t count,
+                                          ovoid_id *ids, ovoid_error *error);
+
+/** Removes a body with its ignored pairs. Errors: INDEX, the id is none of this world's, or no more. */
+OVOID_API ovoid_code ovoid_world_remove(ovoid_world *world, ovoid_id id, ovoid_error *error);
+/** Many at once, all or none: an id that is refused (INDEX, also one that comes twice; place: where) leaves all as it
+ * was. */
+OVOID_API ovoid_code ovoid_world_remove_many(ovoid_world *world, const ovoid_id *ids, size_t count, ovoid_error *error);
+
+/**
+ * Moves a body to a pose, allocating nothing. Errors: INDEX, and the codes of ovoid_pose_compute_check; then the body
+ * stays where it was.
+ */
+OVOID_API ovoid_code ovoid_world_move(ovoid_world *world, ovoid_id id, const ovoid_pose *pose, ovoid_error *error);
+/** Many at once, in the order given; all or none (place: the first that is refused). */
+OVOID_API ovoid_code ovoid_world_move_many(ovoid_world *world, const ovoid_id *ids, const ovoid_pose *poses,
+                                           size_t count, ovoid_error *error);
+
+/** The body as it is now. Errors: INDEX. */
+OVOID_API ovoid_code ovoid_world_get(const ovoid_world *world, ovoid_id id, ovoid_world_body *body, ovoid_error *error);
+/** Number of bodies. */
+OVOID_API size_t ovoid_world_get_count(const ovoid_world *world);
+/** The first body after the given one in the order of ids (0: the first of all); 0 when there is none. */
+OVOID_API ovoid_id ovoid_world_find_next(const ovoid_world *world, ovoid_id after);
+
+/** Other groups for a body; its pairs are found afresh. Errors: INDEX. */
+OVOID_API ovoid_code ovoid_world_set_groups(ovoid_world *world, ovoid_id id, uint32_t group, uint32_t mask,
+                                            ovoid_error *error);
+/** The filter's answers for this body may have changed: its pairs are found afresh. Errors: INDEX. */
+OVOID_API ovoid_code ovoid_world_renew(ovoid_world *world, ovoid_id id, ovoid_error *error);
+/** Leaves a pair out from now on (ignored 1), or takes it back (0). Errors: INDEX, ARGUMENT (a is b), MEMORY. */
+OVOID_API ovoid_code ovoid_world_set_ignored(ovoid_world *world, ovoid_id a, ovoid_id b, int ignored,
+                                             ovoid_error *error);
+/** 1 if the two are a pair that is looked at: groups, ignored pairs and filter; 0 if not, or an id is stale. */
+OVOID_API int ovoid_world_is_pair(const ovoid_world *world, ovoid_id a, ovoid_id b);
+
+/** What a frame asks of each pair. */
+typedef enum ovoid_question {
+    OVOID_QUESTION_COLLIDE = 0, /**< do they touch? (ovoid_collide) margin must be 0 */
+    OVOID_QUESTION_WITHIN,      /**< are they within the margin? (ovoid_within) */
+    OVOID_QUESTION_DISTANCE,    /**< how far apart, if within the margin? (ovoid_distance with the margin as cap) */
+    OVOID_QUESTION_DEPTH        /**< likewise, and how deep where they overlap? (ovoid_depth) */
+} ovoid_question;
+
+/** A frame's question. */
+typedef struct ovoid_frame_query {
+    ovoid_question question;
+    double margin;                /**< >= 0, finite; boxes are enlarged by half of it, so changing it costs a rebuild */
+    const ovoid_options *options; /**< of each query; NULL: the default. cap is not used: it is the margin */
+} ovoid_frame_query;
+
+/** A pair that is not proven farther than the margin. verdict.lower <= d <= verdict.upper holds at the present poses.
+ */
+typedef struct ovoid_contact {
+    ovoid_id a, b;           /**< a < b */
+    uint32_t part_a, part_b; /**< of compounds: the deciding parts; 0 for a shape */
+    ovoid_verdict verdict;   /**< stage PROOF with 0 iterations: by the aged bounds of an earlier frame's proof */
+} ovoid_contact;
+
+/** Where: as in ovoid_answer. */
+typedef struct ovoid_witness {
+    ovoid_vec3 point_a, point_b, normal;
+} ovoid_witness;
+
+/** The contacts of a frame. The arrays are the world's, valid until the next call with a world that is not const. */
+typedef struct ovoid_frame {
+    const ovoid_contact *contacts; /**< sorted by a, then b */
+    const ovoid_witness
+        *witnesses; /**< beside them for DISTANCE and DEPTH; else NULL (ovoid_world_compute_proof has more) */
+    size_t count;
+    size_t bodies;         /**< in the world */
+    size_t pairs;          /**< whose enlarged boxes overlap */
+    size_t aged;           /**< of these, answered by the bounds of an earlier proof, without looking at the bodies */
+    size_t queried;        /**< the others */
+    size_t added, dropped; /**< pairs since the frame before */
+    size_t moved;          /**< bodies that left their enlarged boxes since the frame before, or are new */
+    uint32_t rebuilt;      /**< 1: the tree was built anew */
+    size_t memory;         /**< bytes that the world holds */
+} ovoid_frame;
+
+/**
+ * All pairs that are not proven farther than the margin, with their answers: the statuses are those that the query of
+ * each pair alone gives. Errors: ARGUMENT (question, margin), MEMORY; then nothing is lost, and the frame can be asked
+ * again. Cost: docs/world.md.
+ */
+OVOID_API ovoid_code ovoid_world_compute_frame(ovoid_world *world, const ovoid_frame_query *query, ovoid_frame *frame,
+                                               ovoid_error *error);
+
+/**
+ * The whole answer of a contact at the present poses, with the proof that ovoid_answer_check wants: the question is
+ * that of the last frame, the start is what the frame kept. cover (may be NULL): as in ovoid_depth. Errors: INDEX
+ * (place 0: a, 1: b), ARGUMENT. Cost: one query.
+ */
+OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const ovoid_contact *contact,
+                                               ovoid_cover *cover, ovoid_answer *answer, ovoid_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,27 @@
+// A frame's question of one pair: the query, what is kept of it, how long it lasts.
+#ifndef OVOID_SCENE_ASK_H
+#define OVOID_SCENE_ASK_H
+
+#include "query/answer.h"
+#include "scene/state.h"
+
+/// The question of a frame, ready for the query floor.
+question ask_make(const ovoid_frame_query *query);
+
+/// The query itself at the present poses, warm from what is kept (NULL: cold).
+void ask_pair(const ovoid_world *w, uint32_t a, uint32_t b, const kept *k, question ask, ovoid_cover *cover,
+              ovoid_answer *out);
+
+/// How long what is kept answers the world's question: sets kind, v, c and CONTACT.
+void pair_set_age(const ovoid_world *w, pair *p, const kept *k);
+
+/// Asks anew, keeps the answer and sets its age.
+void pair_ask(ovoid_world *w, pair *p);
+
+/// 1 if what is kept still answers; no geometry is looked at.
+int pair_is_answered(const ovoid_world *w, const pair *p);
+
+/// What is reported.
+ovoid_contact pair_make_contact(const ovoid_world *w, const pair *p);
+
+#endif

@@ -1,0 +1,39 @@
+// One contact in full: the query of the pair, from what is kept of it, with a proof that can be checked.
+#include "base/environment.h"
+#include "base/error.h"
+#include "scene/ask.h"
+
+// The pair in the list, or NULL: by halving.
+static const pair *find_pair(const ovoid_world *w, uint64_t key) {
+    size_t first = 0, end = w->pair_count;
+    while (first < end) {
+        size_t middle = first + (end - first) / 2;
+        const pair *p = &w->pairs[middle];
+        uint64_t here = key_make(p->a, p->b);
+        if (here == key) return p;
+        if (here < key)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return NULL;
+}
+
+static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_cover *cover,
+                                ovoid_answer *out, ovoid_error *error) {
+    OVOID_ASSERT(w && contact && out);
+    uint32_t a = world_find_body(w, contact->a), b = world_find_body(w, contact->b);
+    if (a == NONE) return world_refuse_id(error, 0, contact->a);
+    if (b == NONE) return world_refuse_id(error, 1, contact->b);
+    if (a >= b || !w->is_asked)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no contact of a frame: a must come before b");
+    const pair *p = find_pair(w, key_make(a, b));
+    ovoid_frame_query query = {w->question, w->margin, NULL};
+    ask_pair(w, a, b, p && p->flags & PAIR_KNOWN ? &w->kept[p->slot] : NULL, ask_make(&query), cover, out);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_cover *cover,
+                                     ovoid_answer *out, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, compute_proof(w, contact, cover, out, error));
+}

@@ -1,0 +1,159 @@
+// A frame: the pairs are brought up to date, each is answered by what is kept of it or asked anew, and those that are
+// not proven farther than the margin are written in the order of the list. A pair's state depends on nothing but its
+// own past, so it does not matter which worker looks at it.
+#include "base/environment.h"
+#include "base/error.h"
+#include "scene/ask.h"
+
+#include <string.h>
+
+enum { CHUNK = 512 };
+
+// ---- deciding
+
+static void decide_pair(ovoid_world *w, pair *p, size_t *queried) {
+    int has_moved = (w->marks[p->a] | w->marks[p->b]) & MARK_MOVED || p->flags & PAIR_CHECK;
+    if (p->flags & PAIR_KNOWN && !has_moved) return;
+    if (p->flags & PAIR_KNOWN && pair_is_answered(w, p)) {
+        p->flags &= (uint16_t) ~(PAIR_STILL | PAIR_CHECK);
+        return;
+    }
+    p->flags &= (uint16_t)~PAIR_CHECK;
+    pair_ask(w, p);
+    ++*queried;
+}
+
+static void decide_chunks(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    ovoid_world *w = work;
+    (void)worker;
+    for (uint32_t c = first; c < end; c++) {
+        size_t from = (size_t)c * CHUNK, to = from + CHUNK < w->pair_count ? from + CHUNK : w->pair_count;
+        size_t queried = 0, contacts = 0;
+        for (size_t i = from; i < to; i++) {
+            decide_pair(w, &w->pairs[i], &queried);
+            contacts += (w->pairs[i].flags & PAIR_CONTACT) != 0;
+        }
+        w->chunks[c] = (chunk){contacts, queried};
+    }
+}
+
+// Another question than the last frame's: how long what is kept answers this one. Points are not kept for all
+// questions.
+static void renew_ages(ovoid_world *w) {
+    for (size_t i = 0; i < w->pair_count; i++) {
+        pair *p = &w->pairs[i];
+        if (!(p->flags & PAIR_KNOWN)) continue;
+        p->flags &= (uint16_t) ~(PAIR_STILL | PAIR_KNOWN);
+        pair_set_age(w, p, &w->kept[p->slot]);
+        if (p->kind != PAIR_OPEN) p->flags |= PAIR_KNOWN | PAIR_CHECK;
+    }
+}
+
+// ---- writing
+
+static void write_chunks(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    ovoid_world *w = work;
+    (void)worker;
+    for (uint32_t c = first; c < end; c++) {
+        size_t from = (size_t)c * CHUNK, to = from + CHUNK < w->pair_count ? from + CHUNK : w->pair_count;
+        size_t at = w->chunks[c].contacts;
+        for (size_t i = from; i < to; i++) {
+            const pair *p = &w->pairs[i];
+            if (!(p->flags & PAIR_CONTACT)) continue;
+            w->contacts[at] = pair_make_contact(w, p);
+            if (world_is_measuring(w)) w->contact_witnesses[at] = w->witnesses[p->slot];
+            at++;
+        }
+    }
+}
+
+static int reserve_contacts(ovoid_world *w, size_t count) {
+    return world_reserve(w, (void **)&w->contacts, &w->contact_capacity, 0, count, sizeof *w->contacts) &&
+           (!world_is_measuring(w) || world_reserve(w, (void **)&w->contact_witnesses, &w->witness_capacity, 0, count,
+                                                    sizeof *w->contact_witnesses));
+}
+
+// ---- the frame
+
+static ovoid_code check_query(const ovoid_frame_query *q, ovoid_error *error) {
+    static const ovoid_options none;
+    const ovoid_options *o = q->options ? q->options : &none;
+    if ((unsigned)q->question > OVOID_QUESTION_DEPTH)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "question %d: there are 0 .. 3", (int)q->question);
+    if (!(q->margin >= 0 && q->margin <= OVOID_LENGTH_MAX))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "margin %.17g: it must be finite and not negative",
+                         q->margin);
+    if (q->question == OVOID_QUESTION_COLLIDE && q->margin > 0)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "margin %.17g: to collide there is none, ask within",
+                         q->margin);
+    if (!(o->absolute_tolerance >= 0 && o->relative_tolerance >= 0 && o->cap >= 0))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "options: a tolerance or the cap is NaN or negative");
+    return OVOID_OK;
+}
+
+static ovoid_code refuse_memory(ovoid_error *error) {
+    return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the frame; nothing is lost, ask again");
+}
+
+static int is_same(const ovoid_options *a, const ovoid_options *b) {
+    return a->absolute_tolerance == b->absolute_tolerance && a->relative_tolerance == b->relative_tolerance &&
+           a->iterations == b->iterations;
+}
+
+// Takes the question over.
+static void take_question(ovoid_world *w, const ovoid_frame_query *q) {
+    static const ovoid_options none;
+    ovoid_options options = q->options ? *q->options : none;
+    if (w->is_asked && w->question == q->question && w->margin == q->margin && is_same(&w->asked, &options)) return;
+    if (w->margin != q->margin) world_set_margin(w, q->margin);
+    w->is_asked = 1;
+    w->question = q->question;
+    w->asked = options;
+    renew_ages(w);
+}
+
+// Room for the points of every slot that there may be.
+static int reserve_witnesses(ovoid_world *w) {
+    return !world_is_measuring(w) || world_reserve(w, (void **)&w->witnesses, &w->witness_slots, w->witness_slots,
+                                                   w->slot_capacity, sizeof *w->witnesses);
+}
+
+static void decide(ovoid_world *w, uint32_t chunks, ovoid_frame *f) {
+    pool_do(&w->host, decide_chunks, w, chunks, 1);
+    for (uint32_t c = 0; c < chunks; c++) {
+        size_t here = w->chunks[c].contacts;
+        w->chunks[c].contacts = f->count;
+        f->count += here;
+        f->queried += w->chunks[c].queried;
+    }
+}
+
+static ovoid_code compute_frame(ovoid_world *w, const ovoid_frame_query *q, ovoid_frame *out, ovoid_error *error) {
+    OVOID_ASSERT(w && q && out);
+    ovoid_code code = check_query(q, error);
+    if (code != OVOID_OK) return code;
+    ovoid_frame f = {.bodies = w->count};
+    take_question(w, q);
+    f.rebuilt = (uint32_t)world_mend_tree(w);
+    if (!world_update_pairs(w, &f) || !reserve_witnesses(w)) return refuse_memory(error);
+    uint32_t chunks = (uint32_t)((w->pair_count + CHUNK - 1) / CHUNK);
+    if (!world_reserve(w, (void **)&w->chunks, &w->chunk_capacity, 0, chunks, sizeof *w->chunks))
+        return refuse_memory(error);
+    decide(w, chunks, &f);
+    if (!reserve_contacts(w, f.count)) return refuse_memory(error);
+    pool_do(&w->host, write_chunks, w, chunks, 1);
+    if (w->used) memset(w->marks, 0, w->used);
+    w->frames++;
+    f.contacts = w->contacts;
+    f.witnesses = world_is_measuring(w) ? w->contact_witnesses : NULL;
+    f.pairs = w->pair_count;
+    f.aged = f.pairs - f.queried;
+    f.memory = world_get_memory(w);
+    *out = f;
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_compute_frame(ovoid_world *w, const ovoid_frame_query *query, ovoid_frame *frame,
+                                     ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, query, compute_frame(w, query, frame, error));
+}

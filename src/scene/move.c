@@ -1,0 +1,150 @@
+// Moving a body. Its travel grows by what no point of it can have exceeded; its box stays as long as the way since the
+// box was made fits into the room that was left around it.
+//
+// The chord of a rotation: unit quaternions p, q with p.q >= 0 are 2 sin(a / 4) apart, a the angle between the
+// rotations, and the norm of R(p) - R(q) is 2 sin(a / 2) <= 2 |p - q|. Each p, q is off by 4 u when normalised; 32 u is
+// added.
+#include "scene/move.h"
+
+#include "base/environment.h"
+#include "base/error.h"
+#include "linear/pose.h"
+#include "linear/rotation.h"
+#include "scene/solid.h"
+
+#include <string.h>
+
+// Relative slack of a few sums.
+#define SLACK (1 + 0x1p-48)
+
+// The room where the world chooses: some steps of the last size, in fractions of the body's size.
+enum { STEPS_AHEAD = 4 };
+#define ROOM_LEAST 0.04
+#define ROOM_MOST 0.5
+
+static double compute_room(const ovoid_world *w, const body *b) {
+    double size = b->reach + b->radius;
+    if (w->enlargement > 0) return w->enlargement * size;
+    return max2(ROOM_LEAST * size, min2(STEPS_AHEAD * b->step, ROOM_MOST * size));
+}
+
+box body_compute_box(ovoid_world *w, uint32_t i) {
+    body *b = &w->bodies[i];
+    solid_ball ball = solid_compute_ball(&b->solid);
+    b->placed = w->places[i];
+    b->room = compute_room(w, b);
+    double grow = (b->room + w->margin / 2) * SLACK;
+    box x = solid_compute_box(&b->solid, &ball);
+    return (box){{x.min.x - grow, x.min.y - grow, x.min.z - grow}, {x.max.x + grow, x.max.y + grow, x.max.z + grow}};
+}
+
+void body_mark_fresh(ovoid_world *w, uint32_t i) {
+    if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) w->changed[w->changed_count++] = i;
+    w->marks[i] |= MARK_BOX | MARK_FRESH | MARK_MOVED;
+    w->bodies[i].seen = box_make_empty();
+}
+
+void body_refresh(ovoid_world *w, uint32_t i) {
+    uint32_t leaf = w->leaf_of[i];
+    box old = w->tree.nodes[leaf].bounds, now = body_compute_box(w, i);
+    if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) {
+        w->changed[w->changed_count++] = i;
+        w->bodies[i].seen = old;
+        w->marks[i] |= MARK_BOX;
+    }
+    if (box_is_overlapping(&old, &now)) {
+        broad_refit(&w->tree, leaf, &now);
+    } else {
+        broad_remove(&w->tree, leaf, w->leaf_of);
+        broad_add(&w->tree, i, &now, w->leaf_of);
+    }
+}
+
+static ovoid_quat normalised(ovoid_quat q) {
+    if (!quat_is_plain(quat_norm_squared(q))) q = quat_scaled(q);
+    double s = 1 / sqrt(quat_norm_squared(q));
+    return (ovoid_quat){q.w * s, q.x * s, q.y * s, q.z * s};
+}
+
+// No less than the norm of the difference of the two rotations.
+static double compute_chord(ovoid_quat before, ovoid_quat after) {
+    if (memcmp(&before, &after, sizeof before) == 0) return 0;
+    ovoid_quat p = normalised(before), q = normalised(after);
+    double sign = (p.w * q.w + p.x * q.x) + (p.y * q.y + p.z * q.z) < 0 ? -1 : 1;
+    ovoid_quat e = {q.w - sign * p.w, q.x - sign * p.x, q.y - sign * p.y, q.z - sign * p.z};
+    return min2(2 * sqrt(quat_norm_squared(e)) * SLACK + 32 * 0x1p-53, 2);
+}
+
+static void move_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
+    body *b = &w->bodies[i];
+    body_place *p = &w->places[i];
+    if (memcmp(&b->solid.pose, pose, sizeof *pose) == 0) return;
+    solid_ball ball = solid_compute_ball(&b->solid);
+    double blur, chord = compute_chord(b->solid.pose.rotation, pose->rotation);
+    vec3 at = solid_compute_center(&ball, pose, &blur), way = vec3_sub(at, p->at);
+    double turn = (chord * b->reach + (b->blur + blur)) * SLACK;
+    double travel = p->travel + turn;
+    b->step = vec3_norm(way) + turn;
+    *p = (body_place){at, travel + travel * 0x1p-51};
+    b->blur = blur;
+    b->solid.pose = *pose;
+    w->marks[i] |= MARK_MOVED;
+    double gone = vec3_max_abs(vec3_sub(at, b->placed.at)) + (p->travel - b->placed.travel);
+    if (!(gone * SLACK <= b->room)) body_refresh(w, i);
+}
+
+static ovoid_code check_move(const ovoid_world *w, ovoid_id id, const ovoid_pose *pose, int64_t place,
+                             ovoid_error *error) {
+    uint32_t i = world_find_body(w, id);
+    if (i == NONE) return world_refuse_id(error, place, id);
+    ovoid_solid moved = w->bodies[i].solid;
+    moved.pose = *pose;
+    return world_check_solid(&moved, place, error);
+}
+
+static ovoid_code move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, size_t count,
+                            ovoid_error *error) {
+    OVOID_ASSERT(w && ((ids && poses) || !count));
+    for (size_t k = 0; k < count; k++) {
+        ovoid_code code = check_move(w, ids[k], &poses[k], (int64_t)k, error);
+        if (code != OVOID_OK) return code;
+    }
+    for (size_t k = 0; k < count; k++) move_body(w, (uint32_t)(ids[k] >> 32), &poses[k]);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, size_t count,
+                                 ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, count, move_many(w, ids, poses, count, error));
+}
+
+ovoid_code ovoid_world_move(ovoid_world *w, ovoid_id id, const ovoid_pose *pose, ovoid_error *error) {
+    return ovoid_world_move_many(w, &id, pose, 1, error);
+}
+
+// ---- the tree over the boxes
+
+static int rebuild(ovoid_world *w) {
+    broad_item *items = world_allocate(w, w->count, sizeof *items);
+    if (!items) return 0;
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < w->used; i++)
+        if (w->leaf_of[i] != NONE) items[at++] = (broad_item){w->tree.nodes[w->leaf_of[i]].bounds, i};
+    broad_build(&w->tree, items, at, w->leaf_of);
+    world_release(w, items, w->count, sizeof *items);
+    return 1;
+}
+
+int world_mend_tree(ovoid_world *w) {
+    // Worn: half of the leaves are not where they were built, or the nodes have grown by a third.
+    int worn = w->tree.changes > 64 + w->count / 2;
+    if (!worn && w->frames % 16 == 0) worn = broad_compute_cost(&w->tree) > 1.33 * w->tree.built;
+    if (!worn || w->count < 2) return 0;
+    return rebuild(w);
+}
+
+void world_set_margin(ovoid_world *w, double margin) {
+    w->margin = margin;
+    for (uint32_t i = 0; i < w->used; i++)
+        if (w->leaf_of[i] != NONE) body_refresh(w, i);
+}

@@ -1,0 +1,163 @@
+// The list of pairs whose enlarged boxes overlap, brought up to date with the boxes that changed.
+//
+// A pair is new exactly where the boxes overlap now and those that the list was made of, `seen`, did not; so no search
+// in the list is needed. Workers look the changed bodies up in the tree; what they find is sorted, and merged into the
+// list from the back. Pairs that are none any more are taken out on the way. All memory is there before the list
+// changes.
+#include "scene/state.h"
+
+#include "scene/keys.h"
+
+#include <string.h>
+
+enum { LEAST = 64 };
+
+// ---- who is a pair
+
+static int is_in_groups(const body *a, const body *b) { return a->group & b->mask && b->group & a->mask; }
+
+int world_is_pair(const ovoid_world *w, uint32_t a, uint32_t b) {
+    if (!is_in_groups(&w->bodies[a], &w->bodies[b])) return 0;
+    if (w->ignored.count && ignored_is_in(&w->ignored, key_make(a, b))) return 0;
+    if (!w->filter) return 1;
+    uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    return w->filter(w->filter_context, body_get_id(w, low), body_get_id(w, high)) != 0;
+}
+
+// ---- finding
+
+static int gather(const ovoid_world *w, gathered *g, uint64_t key) {
+    if (g->count == g->capacity) {
+        size_t room = g->capacity ? 2 * g->capacity : 1024;
+        uint64_t *larger = allocator_allocate(&w->allocator, room, sizeof *larger);
+        if (!larger) return 0;
+        if (g->count) memcpy(larger, g->keys, g->count * sizeof *larger);
+        allocator_release(&w->allocator, g->keys);
+        g->keys = larger;
+        g->capacity = room;
+    }
+    g->keys[g->count++] = key;
+    return 1;
+}
+
+// Boxes that overlap now: were they seen to?
+static int is_new(const ovoid_world *w, uint32_t i, uint32_t j, const box *box_j) {
+    if (!(w->marks[j] & (MARK_BOX | MARK_FRESH))) return !box_is_overlapping(&w->bodies[i].seen, box_j);
+    // Both have changed: both find the pair, one reports it.
+    return i < j && !box_is_overlapping(&w->bodies[i].seen, &w->bodies[j].seen);
+}
+
+static int find_pairs_of(const ovoid_world *w, uint32_t i, gathered *g) {
+    const broad_node *nodes = w->tree.nodes;
+    box bounds = nodes[w->leaf_of[i]].bounds;
+    for (uint32_t at = 0; at != NONE;) {
+        const broad_node *n = &nodes[at];
+        int is_near = box_is_overlapping(&bounds, &n->bounds);
+        if (is_near && n->child) {
+            at = n->child;
+            continue;
+        }
+        uint32_t j = n->body;
+        if (is_near && j != i && is_new(w, i, j, &n->bounds) && world_is_pair(w, i, j) && !gather(w, g, key_make(i, j)))
+            return 0;
+        at = broad_skip(&w->tree, at);
+    }
+    return 1;
+}
+
+static void find_pairs(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    const ovoid_world *w = work;
+    gathered *g = &w->gathered[worker];
+    for (uint32_t k = first; k < end && !g->failed; k++) {
+        uint32_t i = w->changed[k];
+        if (w->leaf_of[i] != NONE) g->failed = !find_pairs_of(w, i, g);
+    }
+}
+
+// All new pairs, sorted, in w->keys; 0 without memory.
+static int find_new(ovoid_world *w, size_t *count) {
+    for (uint32_t k = 0; k < w->threads; k++) w->gathered[k].count = 0, w->gathered[k].failed = 0;
+    pool_do(&w->host, find_pairs, w, w->changed_count, LEAST);
+    *count = 0;
+    for (uint32_t k = 0; k < w->threads; k++) {
+        if (w->gathered[k].failed) return 0;
+        *count += w->gathered[k].count;
+    }
+    // The keys, and as many more to sort them in.
+    if (!world_reserve(w, (void **)&w->keys, &w->key_capacity, 0, *count, 2 * sizeof *w->keys)) return 0;
+    size_t at = 0;
+    for (uint32_t k = 0; k < w->threads; k++) {
+        if (w->gathered[k].count) memcpy(w->keys + at, w->gathered[k].keys, w->gathered[k].count * sizeof *w->keys);
+        at += w->gathered[k].count;
+    }
+    keys_sort(w->keys, w->keys + w->key_capacity, *count);
+    return 1;
+}
+
+// ---- the list
+
+static int reserve_pairs(ovoid_world *w, size_t count) {
+    return world_reserve(w, (void **)&w->pairs, &w->pair_capacity, w->pair_count, count, sizeof *w->pairs) &&
+           world_reserve(w, (void **)&w->free_slots, &w->free_slot_capacity, w->free_slot_count, count,
+                         sizeof *w->free_slots) &&
+           world_reserve(w, (void **)&w->kept, &w->slot_capacity, w->slot_used, count, sizeof *w->kept);
+}
+
+// Pairs that are none any more are dropped; the rest keeps its order.
+static size_t drop_pairs(ovoid_world *w) {
+    size_t to = 0;
+    for (size_t from = 0; from < w->pair_count; from++) {
+        const pair *p = &w->pairs[from];
+        unsigned marks = w->marks[p->a] | w->marks[p->b];
+        int ends =
+            marks & MARK_FRESH || (marks & MARK_BOX && !box_is_overlapping(&w->tree.nodes[w->leaf_of[p->a]].bounds,
+                                                                           &w->tree.nodes[w->leaf_of[p->b]].bounds));
+        if (ends) {
+            w->free_slots[w->free_slot_count++] = p->slot;
+        } else {
+            if (to != from) w->pairs[to] = *p;
+            to++;
+        }
+    }
+    return to;
+}
+
+static pair make_pair(ovoid_world *w, uint64_t key) {
+    uint32_t slot = w->free_slot_count ? w->free_slots[--w->free_slot_count] : (uint32_t)w->slot_used++;
+    w->kept[slot] = (kept){.proof = OVOID_PROOF_NONE};
+    return (pair){.a = key_get_a(key), .b = key_get_b(key), .slot = slot};
+}
+
+// The new keys go in from the back, so that nothing is moved twice.
+static void merge_pairs(ovoid_world *w, size_t count) {
+    size_t old = w->pair_count, at = old + count;
+    while (count) {
+        const pair *last = old ? &w->pairs[old - 1] : NULL;
+        uint64_t key = w->keys[count - 1];
+        if (last && key_make(last->a, last->b) > key) {
+            w->pairs[--at] = *last;
+            old--;
+        } else {
+            w->pairs[--at] = make_pair(w, key);
+            count--;
+        }
+    }
+}
+
+int world_update_pairs(ovoid_world *w, ovoid_frame *counts) {
+    size_t fresh = 0;
+    if (!w->changed_count) return 1;
+    if (!find_new(w, &fresh) || !reserve_pairs(w, w->pair_count + fresh)) return 0;
+    size_t stay = drop_pairs(w);
+    counts->dropped = w->pair_count - stay;
+    counts->added = fresh;
+    w->pair_count = stay;
+    merge_pairs(w, fresh);
+    w->pair_count += fresh;
+    for (uint32_t k = 0; k < w->changed_count; k++) {
+        w->marks[w->changed[k]] &= (uint8_t) ~(MARK_BOX | MARK_FRESH);
+        counts->moved += w->leaf_of[w->changed[k]] != NONE;
+    }
+    w->changed_count = 0;
+    return 1;
+}

@@ -1,0 +1,46 @@
+#include "scene/solid.h"
+
+#include "linear/rotation.h"
+#include "query/frame.h"
+#include "simd/pair.h"
+
+// u = 2^-53. R(q) is off by 36 u, a product with it by 6 u more, the sum by u of itself: 43 u |local| + u |r|, and
+// local itself, a sum, by u. The largest coordinate times sqrt 3 bounds a length: 64 u 2 (max|p| + max|local|) is above
+// it.
+#define BLUR (128 * 0x1p-53)
+
+solid_ball solid_compute_ball(const ovoid_solid *solid) {
+    const ovoid_shape *s = solid->shape;
+    vec3 local = vec3_add(s->origin, s->center);
+    return (solid_ball){local, s->reach, s->radius, vec3_max_abs(s->origin) + s->extent + s->radius};
+}
+
+vec3 solid_compute_center(const solid_ball *ball, const ovoid_pose *pose, double *blur) {
+    *blur = BLUR * (vec3_max_abs(pose->position) + ball->size) + OVOID_LENGTH_MIN;
+    return vec3_add(pose->position, mat3_mul_vec3(quat_to_mat3(pose->rotation), ball->local));
+}
+
+// The extent of a shape along a row of R, from r: max and min over the vertices v of row.(v - c). Dots are off by 42 u
+// |v| and 3 u |v|, v and c below the extent: the pad of 128 u is above it.
+static void find_extent(const ovoid_shape *s, vec3 row, double *low, double *high) {
+    simd_points points = {shape_x(s), shape_y(s), shape_z(s), s->padded_count};
+    double up[3] = {row.x, row.y, row.z}, down[3] = {-row.x, -row.y, -row.z};
+    simd_pair x = simd_find_pair(&points, up, &points, down);
+    double c = vec3_dot(row, s->center);
+    *high = x.high.value - c;
+    *low = -x.low.value - c;
+}
+
+box solid_compute_box(const ovoid_solid *solid, const solid_ball *ball) {
+    const ovoid_shape *s = solid->shape;
+    mat3 r = quat_to_mat3(solid->pose.rotation);
+    double blur, pad;
+    vec3 at = solid_compute_center(ball, &solid->pose, &blur);
+    pad = s->radius + blur + 128 * 0x1p-53 * (s->extent + s->radius) + 4 * 0x1p-53 * vec3_max_abs(at);
+    vec3 low, high;
+    find_extent(s, r.r0, &low.x, &high.x);
+    find_extent(s, r.r1, &low.y, &high.y);
+    find_extent(s, r.r2, &low.z, &high.z);
+    return (box){{at.x + low.x - pad, at.y + low.y - pad, at.z + low.z - pad},
+                 {at.x + high.x + pad, at.y + high.y + pad, at.z + high.z + pad}};
+}
