@@ -8,6 +8,7 @@
 typedef struct life {
     ovoid_world *world;
     ovoid_shape **shapes;
+    ovoid_compound *compound;
     ovoid_id ids[64];
     size_t count;
     double side, scale;
@@ -16,6 +17,7 @@ typedef struct life {
 
 static ovoid_world_body make_body(life *l) {
     ovoid_world_body b = {.solid = {.shape = l->shapes[random_next(&l->s) % WORLD_SHAPES]}};
+    if (random_next(&l->s) % 8 == 0) b.solid = (ovoid_solid){.compound = l->compound};
     b.solid.pose = (ovoid_pose){random_place(&l->s, l->side), random_quat(&l->s)};
     if (random_next(&l->s) % 4 == 0) {
         b.group = 1u << random_next(&l->s) % 3;
@@ -64,6 +66,7 @@ static void test_life(uint64_t seed, double scale, ovoid_vec3 where, int frames)
     life l = {.world = ovoid_world_create(NULL, NULL), .shapes = shapes, .side = 4 * scale, .scale = scale, .s = seed};
     (void)where;
     world_make_shapes(&l.s, scale, shapes);
+    l.compound = world_make_compound(&l.s, shapes, scale);
     for (int i = 0; i < 40; i++) add_body(&l);
     ovoid_frame_query q = {.question = (ovoid_question)(seed % 4), .margin = seed % 4 ? 0.3 * scale : 0};
     for (int f = 0; f < frames; f++) {
@@ -77,6 +80,7 @@ static void test_life(uint64_t seed, double scale, ovoid_vec3 where, int frames)
         live(&l);
     }
     ovoid_world_destroy(l.world);
+    ovoid_compound_destroy(l.compound);
     world_destroy_shapes(shapes);
 }
 

@@ -26,6 +26,16 @@ static inline void world_destroy_shapes(ovoid_shape *shapes[WORLD_SHAPES]) {
     for (int k = 0; k < WORLD_SHAPES; k++) ovoid_shape_destroy(shapes[k]);
 }
 
+/// A few of the shapes in one body.
+static inline ovoid_compound *world_make_compound(uint64_t *s, ovoid_shape *const *shapes, double scale) {
+    ovoid_body parts[5];
+    for (int i = 0; i < 5; i++)
+        parts[i] = (ovoid_body){shapes[random_next(s) % WORLD_SHAPES],
+                                {{scale * random_uniform(s, -2, 2), scale * random_uniform(s, -1, 1), 0},
+                                 {1, random_uniform(s, -1, 1), 0, 0.5}}};
+    return ovoid_compound_create(parts, 5, NULL, NULL);
+}
+
 static inline ovoid_quat random_quat(uint64_t *s) {
     return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
 }
@@ -34,36 +44,41 @@ static inline ovoid_vec3 random_place(uint64_t *s, double side) {
 }
 
 /// The answer of the pair alone, cold.
-static inline ovoid_answer world_ask(const ovoid_world_body *a, const ovoid_world_body *b, const ovoid_frame_query *q) {
-    ovoid_pair pair = {a->solid.shape, b->solid.shape, a->solid.pose, b->solid.pose};
+static inline ovoid_compound_answer world_ask(const ovoid_world_body *a, const ovoid_world_body *b,
+                                              const ovoid_frame_query *q) {
+    ovoid_solid_pair pair = {a->solid, b->solid};
     ovoid_options o = {.cap = 0};
     if (q->options) o = *q->options;
     o.cap = q->margin > 0 ? q->margin : 1e-300;
     switch (q->question) {
-    case OVOID_QUESTION_COLLIDE: return ovoid_collide(&pair, &o, NULL);
-    case OVOID_QUESTION_WITHIN: return ovoid_within(&pair, q->margin, &o, NULL);
-    case OVOID_QUESTION_DISTANCE: return ovoid_distance(&pair, &o, NULL);
-    default: return ovoid_depth(&pair, &o, NULL, NULL);
+    case OVOID_QUESTION_COLLIDE: return ovoid_compound_collide(&pair, &o, NULL, NULL);
+    case OVOID_QUESTION_WITHIN: return ovoid_compound_within(&pair, q->margin, &o, NULL, NULL);
+    case OVOID_QUESTION_DISTANCE: return ovoid_compound_distance(&pair, &o, NULL, NULL);
+    default: return ovoid_compound_depth(&pair, &o, NULL, NULL);
     }
 }
 
-/// One contact beside the truth: an exact bracket of the signed distance.
+/// One contact beside the truth: an exact bracket of the signed distance, and the proof that is made of it.
 static inline void world_check_contact(const ovoid_world *w, const ovoid_contact *c, const ovoid_world_body *a,
                                        const ovoid_world_body *b, const ovoid_frame_query *q) {
-    ovoid_pair pair = {a->solid.shape, b->solid.shape, a->solid.pose, b->solid.pose};
-    ovoid_answer alone = world_ask(a, b, q), truth = ovoid_depth(&pair, NULL, NULL, NULL);
+    static ovoid_exclusion items[4096];
+    static ovoid_cover cover;
+    ovoid_exclusions exclusions = {items, 4096, 0, &cover};
+    ovoid_solid_pair pair = {a->solid, b->solid};
+    ovoid_answer alone = world_ask(a, b, q).answer, truth = ovoid_compound_depth(&pair, NULL, NULL, NULL).answer;
     CHECK_EQ(c->verdict.status, alone.status);
-    ovoid_answer proven;
-    ovoid_cover cover;
-    ovoid_error error = {0};
-    CHECK(ovoid_world_compute_proof(w, c, &cover, &proven, &error) == OVOID_OK);
-    if (!CHECK(ovoid_answer_check(&pair, &proven, &cover, &error) == OVOID_OK)) printf("  %s\n", error.message);
-    CHECK_EQ(proven.status, alone.status);
     CHECK_LE(c->verdict.lower, truth.upper);
     CHECK_LE(truth.lower, c->verdict.upper);
-    if (q->question == OVOID_QUESTION_DEPTH) CHECK_NEAR(c->verdict.upper, truth.upper, 1e-8 * (1 + fabs(truth.upper)));
+    ovoid_compound_answer proven;
+    ovoid_error error = {0};
+    CHECK(ovoid_world_compute_proof(w, c, &exclusions, &proven, &error) == OVOID_OK);
+    if (!CHECK(ovoid_compound_answer_check(&pair, &proven, &exclusions, &error) == OVOID_OK))
+        printf("  %s\n", error.message);
+    CHECK_EQ(proven.answer.status, alone.status);
+    double near = 1e-8 * (1 + fabs(truth.upper));
+    if (q->question == OVOID_QUESTION_DEPTH) CHECK_NEAR(c->verdict.upper, truth.upper, near);
     if (q->question == OVOID_QUESTION_DISTANCE && alone.status == OVOID_SEPARATED)
-        CHECK_NEAR(c->verdict.lower, truth.lower, 1e-8 * (1 + fabs(truth.upper)));
+        CHECK_NEAR(c->verdict.lower, truth.lower, near);
 }
 
 /// The frame against all pairs of the world, which must be small.
@@ -83,7 +98,7 @@ static inline void world_check_frame(const ovoid_world *w, const ovoid_frame_que
             } else if (is_in) {
                 world_check_contact(w, c, &body_a, &body_b, q);
             } else {
-                ovoid_answer alone = world_ask(&body_a, &body_b, q);
+                ovoid_answer alone = world_ask(&body_a, &body_b, q).answer;
                 CHECK(alone.lower > q->margin || (q->question == OVOID_QUESTION_DISTANCE && alone.lower >= q->margin));
             }
         }

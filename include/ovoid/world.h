@@ -166,12 +166,13 @@ OVOID_API ovoid_code ovoid_world_compute_frame(ovoid_world *world, const ovoid_f
                                                ovoid_error *error);
 
 /**
- * The whole answer of a contact at the present poses, with the proof that ovoid_answer_check wants: the question is
- * that of the last frame, the start is what the frame kept. cover (may be NULL): as in ovoid_depth. Errors: INDEX
- * (place 0: a, 1: b), ARGUMENT. Cost: one query.
+ * The whole answer of a contact at the present poses, with the proof that ovoid_compound_answer_check wants (of two
+ * shapes: that ovoid_answer_check wants): the question is that of the last frame, the start is what the frame kept.
+ * exclusions: as in ovoid_compound_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT. Cost: one query.
  */
 OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const ovoid_contact *contact,
-                                               ovoid_cover *cover, ovoid_answer *answer, ovoid_error *error);
+                                               ovoid_exclusions *exclusions, ovoid_compound_answer *answer,
+                                               ovoid_error *error);
 
 #ifdef __cplusplus
 }

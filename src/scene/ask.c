@@ -57,16 +57,17 @@ question ask_make(const ovoid_frame_query *query) {
     return ask;
 }
 
-void ask_pair(const ovoid_world *w, uint32_t a, uint32_t b, const kept *k, question ask, ovoid_cover *cover,
-              ovoid_answer *out) {
-    const ovoid_solid *sa = &w->bodies[a].solid, *sb = &w->bodies[b].solid;
-    ovoid_pair both = {sa->shape, sb->shape, sa->pose, sb->pose};
-    ovoid_proof earlier;
-    if (k && k->proof != OVOID_PROOF_NONE)
-        write_proof(k, &earlier);
-    else
-        k = NULL;
-    answer_find_inside(&both, &w->asked, ask, k ? &earlier : NULL, cover, out);
+void ask_pair(const ovoid_world *w, uint32_t a, uint32_t b, const kept *k, question ask, ovoid_exclusions *exclusions,
+              ovoid_compound_answer *out) {
+    ovoid_solid_pair both = {w->bodies[a].solid, w->bodies[b].solid};
+    ovoid_compound_proof earlier;
+    if (k && k->proof == OVOID_PROOF_NONE) k = NULL;
+    if (k) {
+        earlier.part_a = k->part_a;
+        earlier.part_b = k->part_b;
+        write_proof(k, &earlier.proof);
+    }
+    solid_find_inside(&both, &w->asked, ask, k ? &earlier : NULL, exclusions, out);
 }
 
 // d and t of a pair now.
@@ -82,16 +83,20 @@ void pair_set_age(const ovoid_world *w, pair *p, const kept *k) {
     p->kind = PAIR_OPEN;
     p->flags &= (uint16_t)~PAIR_CONTACT;
     if (!(k->lower > margin)) p->flags |= PAIR_CONTACT;
-    if (k->lower > margin && vec3_norm_squared(k->normal) > 0.5) {
+    int is_plane = !w->bodies[p->a].solid.compound && !w->bodies[p->b].solid.compound;
+    if (k->lower > margin && is_plane && vec3_norm_squared(k->normal) > 0.5) {
         p->kind = PAIR_PLANE;
         p->v = k->normal;
         p->c = ((k->lower - margin) - vec3_dot(k->normal, k->between)) + k->travel - slack;
         return;
     }
-    // Points move with the bodies: what is measured is measured again.
-    if (world_is_measuring(w) || !(p->flags & PAIR_CONTACT)) return;
+    // Points move with the bodies: what is measured is measured again. Compounds have a normal for each pair of parts.
+    if (world_is_measuring(w) && p->flags & PAIR_CONTACT) return;
     double lasts = -k->upper;
-    if (k->status == OVOID_SEPARATED) lasts = min2(k->lower, margin - k->upper);
+    if (k->lower > margin)
+        lasts = k->lower - margin;
+    else if (k->status == OVOID_SEPARATED)
+        lasts = min2(k->lower, margin - k->upper);
     if (!(lasts > 0)) return;
     p->kind = PAIR_BALL;
     p->v = k->between;
@@ -109,18 +114,21 @@ int pair_is_answered(const ovoid_world *w, const pair *p) {
 
 void pair_ask(ovoid_world *w, pair *p) {
     kept *k = &w->kept[p->slot];
-    ovoid_answer x;
+    ovoid_compound_answer found;
     ovoid_frame_query query = {w->question, w->margin, NULL};
-    ask_pair(w, p->a, p->b, k, ask_make(&query), NULL, &x);
+    ask_pair(w, p->a, p->b, k, ask_make(&query), NULL, &found);
+    const ovoid_answer *x = &found.answer;
     k->between = find_between(w, p, &k->travel);
-    k->lower = x.lower;
-    k->upper = x.upper;
-    k->status = (uint8_t)x.status;
-    k->stage = (uint8_t)x.stage;
-    k->limit = (uint8_t)x.limit;
-    k->iterations = x.iterations;
-    keep_proof(k, &x.proof);
-    if (world_is_measuring(w)) w->witnesses[p->slot] = (ovoid_witness){x.point_a, x.point_b, x.normal};
+    k->lower = x->lower;
+    k->upper = x->upper;
+    k->status = (uint8_t)x->status;
+    k->stage = (uint8_t)x->stage;
+    k->limit = (uint8_t)x->limit;
+    k->iterations = x->iterations;
+    k->part_a = found.part_a;
+    k->part_b = found.part_b;
+    keep_proof(k, &x->proof);
+    if (world_is_measuring(w)) w->witnesses[p->slot] = (ovoid_witness){x->point_a, x->point_b, x->normal};
     p->flags |= PAIR_STILL | PAIR_KNOWN;
     pair_set_age(w, p, k);
 }

@@ -2,15 +2,15 @@
 #ifndef OVOID_SCENE_ASK_H
 #define OVOID_SCENE_ASK_H
 
-#include "query/answer.h"
+#include "scene/compound.h"
 #include "scene/state.h"
 
 /// The question of a frame, ready for the query floor.
 question ask_make(const ovoid_frame_query *query);
 
 /// The query itself at the present poses, warm from what is kept (NULL: cold).
-void ask_pair(const ovoid_world *w, uint32_t a, uint32_t b, const kept *k, question ask, ovoid_cover *cover,
-              ovoid_answer *out);
+void ask_pair(const ovoid_world *w, uint32_t a, uint32_t b, const kept *k, question ask, ovoid_exclusions *exclusions,
+              ovoid_compound_answer *out);
 
 /// How long what is kept answers the world's question: sets kind, v, c and CONTACT.
 void pair_set_age(const ovoid_world *w, pair *p, const kept *k);

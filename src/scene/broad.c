@@ -2,7 +2,7 @@
 #include "scene/broad.h"
 
 void broad_make(broad *t, broad_node *nodes, uint32_t capacity) {
-    *t = (tree){.nodes = nodes, .capacity = capacity, .used = 2};
+    *t = (broad){.nodes = nodes, .capacity = capacity, .used = 2};
     nodes[0] = (broad_node){.bounds = box_make_empty(), .parent = NONE, .body = NONE};
 }
 

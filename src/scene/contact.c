@@ -19,8 +19,8 @@ static const pair *find_pair(const ovoid_world *w, uint64_t key) {
     return NULL;
 }
 
-static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_cover *cover,
-                                ovoid_answer *out, ovoid_error *error) {
+static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_exclusions *exclusions,
+                                ovoid_compound_answer *out, ovoid_error *error) {
     OVOID_ASSERT(w && contact && out);
     uint32_t a = world_find_body(w, contact->a), b = world_find_body(w, contact->b);
     if (a == NONE) return world_refuse_id(error, 0, contact->a);
@@ -29,11 +29,11 @@ static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *conta
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no contact of a frame: a must come before b");
     const pair *p = find_pair(w, key_make(a, b));
     ovoid_frame_query query = {w->question, w->margin, NULL};
-    ask_pair(w, a, b, p && p->flags & PAIR_KNOWN ? &w->kept[p->slot] : NULL, ask_make(&query), cover, out);
+    ask_pair(w, a, b, p && p->flags & PAIR_KNOWN ? &w->kept[p->slot] : NULL, ask_make(&query), exclusions, out);
     return OVOID_OK;
 }
 
-ovoid_code ovoid_world_compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_cover *cover,
-                                     ovoid_answer *out, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, w, compute_proof(w, contact, cover, out, error));
+ovoid_code ovoid_world_compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_exclusions *exclusions,
+                                     ovoid_compound_answer *out, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, compute_proof(w, contact, exclusions, out, error));
 }

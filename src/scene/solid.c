@@ -1,7 +1,7 @@
 #include "scene/solid.h"
 
 #include "linear/rotation.h"
-#include "query/frame.h"
+#include "scene/compound.h"
 #include "simd/pair.h"
 
 // u = 2^-53. R(q) is off by 36 u, a product with it by 6 u more, the sum by u of itself: 43 u |local| + u |r|, and
@@ -11,6 +11,12 @@
 
 solid_ball solid_compute_ball(const ovoid_solid *solid) {
     const ovoid_shape *s = solid->shape;
+    if (solid->compound) {
+        // A part is where the rounded product of poses puts it: off by 46 u of the extent (compound.h), and by a few u
+        // of the position. Four times the extent pays for it.
+        const compound_node *root = &solid->compound->nodes[0];
+        return (solid_ball){root->center, root->radius, 0, 4 * solid->compound->extent};
+    }
     vec3 local = vec3_add(s->origin, s->center);
     return (solid_ball){local, s->reach, s->radius, vec3_max_abs(s->origin) + s->extent + s->radius};
 }
@@ -31,11 +37,24 @@ static void find_extent(const ovoid_shape *s, vec3 row, double *low, double *hig
     *low = -x.low.value - c;
 }
 
+static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
+
+// The box of a compound's own box, turned, and of its ball.
+static box find_compound_box(const ovoid_compound *c, const solid_ball *ball, mat3 r, vec3 at, double blur) {
+    vec3 half = c->nodes[0].half;
+    double pad = blur + 128 * 0x1p-53 * ball->reach + 4 * 0x1p-53 * vec3_max_abs(at);
+    vec3 e = {min2(vec3_dot(absolute(r.r0), half), ball->reach) + pad,
+              min2(vec3_dot(absolute(r.r1), half), ball->reach) + pad,
+              min2(vec3_dot(absolute(r.r2), half), ball->reach) + pad};
+    return (box){vec3_sub(at, e), vec3_add(at, e)};
+}
+
 box solid_compute_box(const ovoid_solid *solid, const solid_ball *ball) {
     const ovoid_shape *s = solid->shape;
     mat3 r = quat_to_mat3(solid->pose.rotation);
     double blur, pad;
     vec3 at = solid_compute_center(ball, &solid->pose, &blur);
+    if (solid->compound) return find_compound_box(solid->compound, ball, r, at, blur);
     pad = s->radius + blur + 128 * 0x1p-53 * (s->extent + s->radius) + 4 * 0x1p-53 * vec3_max_abs(at);
     vec3 low, high;
     find_extent(s, r.r0, &low.x, &high.x);

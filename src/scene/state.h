@@ -10,9 +10,9 @@
 #define OVOID_SCENE_STATE_H
 
 #include "ovoid/world.h"
+#include "scene/broad.h"
 #include "scene/ignored.h"
 #include "scene/pool.h"
-#include "scene/broad.h"
 
 /// Where a body is, as the pairs need it: half a cache line.
 typedef struct body_place {

@@ -4,6 +4,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/pose.h"
+#include "scene/compound.h"
 #include "scene/move.h"
 #include "scene/solid.h"
 
@@ -99,6 +100,9 @@ ovoid_code world_check_solid(const ovoid_solid *solid, int64_t place, ovoid_erro
     if (!solid->shape == !solid->compound)
         return error_set(error, OVOID_ERROR_ARGUMENT, place, "a solid needs either a shape or a compound");
     ovoid_code code = pose_compute_check(&solid->pose);
+    if (code == OVOID_OK && solid->compound &&
+        !(vec3_norm(solid->pose.position) + solid->compound->extent <= OVOID_LENGTH_MAX))
+        code = OVOID_ERROR_RANGE;
     return code == OVOID_OK ? code : refuse_pose(error, place, code);
 }
 
