@@ -10,6 +10,7 @@
 #include "ovoid/compound.h"
 #include "ovoid/ellipsoid.h"
 #include "ovoid/linear.h"
+#include "ovoid/motion.h"
 #include "ovoid/polytope.h"
 #include "ovoid/query.h"
 #include "ovoid/shape.h"

@@ -1,0 +1,227 @@
+/**
+ * @file motion.h
+ * Bodies that move: where they are at a time, when they meet, how near they come, casts and rays, and the boxes that
+ * they sweep. Every answer is a bracket that holds for all times in between, rounding included; what is proven comes as
+ * steps that can be checked without a search. Nothing is allocated, locked or kept; work is bounded.
+ */
+#ifndef OVOID_MOTION_H
+#define OVOID_MOTION_H
+
+#include "ovoid/query.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How a motion is given. */
+typedef enum ovoid_motion_kind {
+    OVOID_MOTION_STILL = 0, /**< at `start`, at all times */
+    OVOID_MOTION_VELOCITY,  /**< a constant linear and angular velocity from time 0 to `duration` */
+    OVOID_MOTION_POSES,     /**< from `start` at time 0 to `end` at time `duration` */
+    OVOID_MOTION_PATH       /**< through poses[i] at times[i] */
+} ovoid_motion_kind;
+
+/**
+ * A motion: an exact mathematical object. With p, R the position and rotation of `start`, c = p + R pivot:
+ * - VELOCITY: x(t) = c + t linear + exp(t [angular]) R (x - pivot). Angular is in the world frame, in radians per unit
+ *   of time; `pivot`, in the body's local frame, is the point that moves along a straight line.
+ * - POSES: the position is linear in time; the rotation turns about one fixed axis with constant velocity, the shorter
+ *   way round (slerp); at half a turn, the sign of the computed product of both quaternions decides.
+ * - PATH: POSES between each two neighbours of the path.
+ * At the ends of POSES and at the times of a PATH the pose is the one given, bit for bit.
+ */
+typedef struct ovoid_motion {
+    ovoid_motion_kind kind;
+    ovoid_pose start, end;
+    ovoid_vec3 linear, angular, pivot;
+    double duration;         /**< > 0; VELOCITY and POSES */
+    const double *times;     /**< PATH: count >= 2, strictly increasing; borrowed */
+    const ovoid_pose *poses; /**< PATH: count; borrowed */
+    size_t count;
+} ovoid_motion;
+
+/** A body that stands still. */
+OVOID_API ovoid_motion ovoid_motion_make_still(ovoid_pose pose);
+/** Constant velocities, turning about the origin of the body's local frame. */
+OVOID_API ovoid_motion ovoid_motion_make_velocity(ovoid_pose start, ovoid_vec3 linear, ovoid_vec3 angular,
+                                                  double duration);
+/** From one pose to another. */
+OVOID_API ovoid_motion ovoid_motion_make_poses(ovoid_pose start, ovoid_pose end, double duration);
+/** Through poses at times; both arrays are borrowed. */
+OVOID_API ovoid_motion ovoid_motion_make_path(const double *times, const ovoid_pose *poses, size_t count);
+
+/**
+ * OVOID_OK, or what is wrong with a motion: NOT_FINITE, ROTATION, RANGE (a position above OVOID_LENGTH_MAX anywhere, a
+ * time above 1e100, more than 1e9 radians in a piece), ARGUMENT (kind, duration, times that do not increase, fewer than
+ * two), with a sentence in *error (may be NULL); place: of a path, the pose.
+ */
+OVOID_API ovoid_code ovoid_motion_compute_check(const ovoid_motion *motion, ovoid_error *error);
+
+/**
+ * The pose at a time, rounded; before and after its time a motion rests. Off the exact motion by at most 16 u of the
+ * way travelled, 4 u of the starting position, 128 u of the pivot and, in the rotation, 160 u + 16 u of the angle
+ * turned, u = 2^-53; docs/motion.md derives this. The motion must be sound (ovoid_motion_compute_check).
+ */
+OVOID_API ovoid_pose ovoid_motion_compute_pose(const ovoid_motion *motion, double time);
+
+/** A shape that moves. The shape and a path's arrays are borrowed. */
+typedef struct ovoid_moving {
+    const ovoid_shape *shape;
+    ovoid_motion motion;
+    ovoid_pose part; /**< all zero: none. Else the shape is fixed in what moves, as a part of a compound: its pose is
+                          ovoid_pose_compute_product of the motion's pose and this one */
+} ovoid_moving;
+
+/** The shape's pose at a time, rounded: that of the motion, times `part`. */
+OVOID_API ovoid_pose ovoid_moving_compute_pose(const ovoid_moving *moving, double time);
+
+/** An axis-aligned box. */
+typedef struct ovoid_box {
+    ovoid_vec3 low, high;
+} ovoid_box;
+
+/**
+ * A box that holds the body at all times of [begin, end], rounding included. Exact but for rounding where it does not
+ * turn; else wider by at most a 32nd of the width of the body where it turns less than 4 radians, and the box of all
+ * turned positions where it turns more. NaN where the motion is not sound or begin > end. Cost: some supports a piece.
+ */
+OVOID_API ovoid_box ovoid_moving_compute_box(const ovoid_moving *moving, double begin, double end);
+
+/** What is proven about two bodies that move. */
+typedef enum ovoid_impact_status {
+    OVOID_IMPACT_UNDECIDED = 0, /**< no impact is proven, nor that there is none; `limit` says why */
+    OVOID_IMPACT_FREE,          /**< never within the margin, proven */
+    OVOID_IMPACT_HIT            /**< within the margin at hit_at, proven */
+} ovoid_impact_status;
+
+/** What the direction of a step turns with. */
+typedef enum ovoid_step_frame {
+    OVOID_STEP_WORLD = 0, /**< nothing: it is fixed in the world */
+    OVOID_STEP_A = 1,     /**< the motion of A */
+    OVOID_STEP_B = 2      /**< the motion of B */
+} ovoid_step_frame;
+
+/**
+ * A step of the proof that two bodies stay apart: from the step before (the first: from `begin`) until `until` their
+ * gap along a direction is above the level; the direction is `normal` (world, unit) at the step's beginning and turns
+ * with `frame`. Over a step, with s from 0 to 1, the gap is at least (1 - s) g(0) + s g(1) - s (1 - s) K, with K from
+ * the angles turned and the lengths alone (docs/motion.md).
+ */
+typedef struct ovoid_step {
+    double until;
+    ovoid_vec3 normal;
+    ovoid_step_frame frame;
+} ovoid_step;
+
+/** Options of queries about motions; all zero is the default, and NULL means that. */
+typedef struct ovoid_motion_options {
+    double begin, end; /**< the times asked about; both 0: from the later begin to the earlier end of the motions, from
+                          0 to 0 where both stand still */
+    double tolerance;  /**< impact: of hit_at - free_until, in parts of end - begin; 0 means 1e-9, for casts 1e-12.
+                            approach: of upper - lower, in parts of the pair's size; 0 means 1e-6 */
+    uint32_t iterations;        /**< most steps and queries; 0 means 10 000 */
+    const ovoid_options *query; /**< of the queries at single times; NULL: the default */
+    ovoid_step *steps;          /**< receives the proof's steps, up to capacity; NULL where none are wanted */
+    size_t capacity;
+} ovoid_motion_options;
+
+/** When two moving bodies come within a margin of each other. */
+typedef struct ovoid_impact {
+    ovoid_impact_status status;
+    ovoid_limit limit;   /**< POSE_A, POSE_B: that motion is refused (ovoid_motion_compute_check says why); OPTIONS:
+                              margin, times or options are; ITERATIONS; PRECISION: the gap stays so near the margin that
+                              doubles do not tell */
+    uint32_t iterations; /**< queries at single times */
+    double begin, end;   /**< the times asked about */
+    double free_until;   /**< proven: farther apart than the margin at all times before it, from begin on */
+    double hit_at;     /**< proven: within the margin at that time; infinity where that is not proven. So the true time
+                            of impact is in [free_until, hit_at] */
+    size_t step_count; /**< steps that prove free_until; more than the capacity: those beyond it were not written */
+    ovoid_answer free, hit; /**< the answers for the poses (ovoid_moving_compute_pose) at free_until and at hit_at; of
+                                 what is undecided, `hit` is the last that was looked at */
+} ovoid_impact;
+
+/**
+ * When do two moving bodies first come within margin (>= 0) of each other? Conservative advancement: B. Mirtich,
+ * Impulse-based dynamic simulation of rigid body systems, 1996; X. Zhang, M. Lee, Y. J. Kim, Interactive continuous
+ * collision detection for non-convex polyhedra, 2006; here with a bound of second order along one normal. Where they
+ * are within the margin at the beginning, hit_at = begin. Cost: a distance query and some supports a step, two to
+ * twenty steps for most motions.
+ */
+OVOID_API ovoid_impact ovoid_impact_find(const ovoid_moving *a, const ovoid_moving *b, double margin,
+                                         const ovoid_motion_options *options);
+
+/**
+ * Checks an impact without any search: that each step's gap is above the margin from its beginning to its end, that the
+ * steps reach free_until, that the bodies are within the margin at hit_at, and that the status follows. steps: all
+ * step_count of them. OVOID_OK, or PROOF with a sentence in *error (may be NULL); place: the step.
+ */
+OVOID_API ovoid_code ovoid_impact_check(const ovoid_moving *a, const ovoid_moving *b, double margin,
+                                        const ovoid_impact *impact, const ovoid_step *steps, ovoid_error *error);
+
+/**
+ * The first time at which B, moved along `displacement` (time 0: where it is, 1: all the way), is within margin of A,
+ * which stands still; neither turns. G. van den Bergen, Ray casting against general convex objects with application to
+ * continuous collision detection, 2004. The bracket of the time is narrowed to rounding.
+ */
+OVOID_API ovoid_impact ovoid_translation_cast(const ovoid_pair *pair, ovoid_vec3 displacement, double margin,
+                                              const ovoid_motion_options *options);
+
+/** A ray of a finite or infinite length, thick where radius > 0. */
+typedef struct ovoid_ray {
+    ovoid_vec3 origin, direction; /**< world; the direction has any length but zero */
+    double length;                /**< of t, in lengths of `direction`; may be infinity */
+    double radius;                /**< >= 0: a ball that is moved along the ray */
+} ovoid_ray;
+
+/** Where a ray meets a body. */
+typedef struct ovoid_ray_hit {
+    ovoid_impact_status status;
+    ovoid_limit limit;
+    uint32_t iterations;
+    double lower, upper; /**< bracket of the first t at which origin + t direction is in the body, its radius included;
+                              lower = upper = 0 where it begins inside; where it misses, the length and infinity */
+    ovoid_vec3 point;    /**< the body's point that is met (its nearest point where the ray begins outside) */
+    ovoid_vec3 normal;   /**< unit, out of the body */
+} ovoid_ray_hit;
+
+/**
+ * Where a ray first meets a body. A body without an inside (a flat polygon or a segment, without a radius) is met by a
+ * ray without a radius in one point at most, which no arithmetic of rounded numbers can prove: UNDECIDED, with lower at
+ * that point; give the ray a radius. Refused: POSE_B (the body's), OPTIONS (the ray: NaN, infinity, lengths above
+ * OVOID_LENGTH_MAX, a direction of zero).
+ */
+OVOID_API ovoid_ray_hit ovoid_ray_cast(const ovoid_body *body, const ovoid_ray *ray);
+
+/** How near two moving bodies come. */
+typedef struct ovoid_approach {
+    ovoid_status status; /**< SEPARATED: lower > 0; OVERLAPPING: they overlap at `time`, upper < 0; TOUCHING: the
+                            bracket is around 0 and narrow */
+    ovoid_limit limit;
+    uint32_t iterations;
+    double begin, end;
+    double lower, upper; /**< bracket of the smallest signed distance over [begin, end]; an overlap ends the search */
+    double time;         /**< the distance at this time is at most upper */
+    size_t step_count;
+    ovoid_answer answer; /**< for the poses at that time */
+} ovoid_approach;
+
+/**
+ * The smallest distance of two moving bodies over a time, and when. The same steps as ovoid_impact_find, above a level
+ * that follows the smallest distance seen. Cost: about 10 to 60 queries.
+ */
+OVOID_API ovoid_approach ovoid_approach_find(const ovoid_moving *a, const ovoid_moving *b,
+                                             const ovoid_motion_options *options);
+
+/** Checks an approach without any search, likewise: the steps prove lower over all of [begin, end], the answer upper.
+ */
+OVOID_API ovoid_code ovoid_approach_check(const ovoid_moving *a, const ovoid_moving *b, const ovoid_approach *approach,
+                                          const ovoid_step *steps, ovoid_error *error);
+
+/** The word for results, for example "hit"; never NULL. */
+OVOID_API const char *ovoid_impact_status_get_name(ovoid_impact_status status);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

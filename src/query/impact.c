@@ -1,0 +1,180 @@
+// When do two moving bodies first come within a margin of each other? Conservative advancement (B. Mirtich,
+// Impulse-based dynamic simulation of rigid body systems, 1996) with proven steps: the normal of the nearest points is
+// kept fixed, and the gap along it bounds the distance from below over the whole step (motion_gap.h), so no motion
+// between two looks is missed. Where the steps become shorter than the time's tolerance, looks ahead find a time at
+// which the bodies are proven to be within the margin: free_until <= true time <= hit_at.
+#include "query/impact.h"
+#include "base/environment.h"
+#include "base/error.h"
+#include "query/answer.h"
+#include "query/impact_sweep.h"
+
+enum { MOST_LOOKS = 60 };
+
+typedef struct advance {
+    sweep s;
+    double margin;
+    double shortest; ///< time: what is shorter is no progress
+    double finest;   ///< time: what rounding leaves of it, as far as is known
+    double free_at;  ///< the time of out->free
+    ovoid_impact *out;
+} advance;
+
+static vec3 get_normal(const sweep *s) { return vec3_unit(s->answer.normal); }
+static int is_within(const advance *x) { return sweep_get_upper(&x->s) <= x->margin; }
+static int is_beyond(const advance *x) { return sweep_get_lower(&x->s) > x->margin; }
+
+static void take_hit(advance *x) {
+    x->out->status = OVOID_IMPACT_HIT;
+    x->out->hit_at = x->s.asked;
+    x->out->hit = x->s.answer;
+}
+
+// At the time until which they are free.
+static void ask_here(advance *x) {
+    if (!x->s.used || x->s.asked != x->s.time) sweep_ask(&x->s, x->s.time);
+    x->out->free = x->s.answer;
+    x->free_at = x->s.time;
+}
+
+// How far ahead the bodies should be within the margin by more than rounding, if they go on as they do.
+static double guess_ahead(const advance *x) {
+    const sweep *s = &x->s;
+    double way = max2(sweep_get_upper(s) - x->margin, 0) + 32 * s->error;
+    double least = nextafter(fabs(s->time), INFINITY) - fabs(s->time);
+    double most = s->end - s->time, ahead = s->fall > 0 ? 1.5 * way / s->fall : x->shortest;
+    return max2(min2(max2(ahead, 0.5 * x->shortest), most), 4 * least);
+}
+
+// A look at a time where the bodies are beyond the margin: is the way there free, along its normal or the last one?
+static int step_to_look(advance *x, vec3 before) {
+    sweep *s = &x->s;
+    double until = s->asked;
+    return sweep_step_to(s, until, get_normal(s), x->margin) || sweep_step_to(s, until, before, x->margin);
+}
+
+// Between a time that is free and a hit, or a look that cannot be proven to be reached free: halves. 1 if a hit was
+// found or is there already and nothing is left to find, 0 if the search went on with a step.
+static int narrow(advance *x, vec3 before, double high) {
+    sweep *s = &x->s;
+    double low = s->time;
+    for (int look = 0; look < MOST_LOOKS && s->used < s->most && high - low > x->shortest; look++) {
+        double middle = low + 0.5 * (high - low);
+        if (!(middle > low && middle < high)) break;
+        sweep_ask(s, middle);
+        if (is_within(x)) {
+            take_hit(x);
+            high = middle;
+        } else if (is_beyond(x) && s->pieces.end >= middle && step_to_look(x, before)) {
+            if (x->out->status != OVOID_IMPACT_HIT) return 0;
+            low = middle;
+        } else if (x->out->status == OVOID_IMPACT_HIT || !is_beyond(x)) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return 1;
+}
+
+// Looks ahead from where the steps became short: 1 at the end of the search.
+static int look_ahead(advance *x) {
+    sweep *s = &x->s;
+    ask_here(x);
+    if (is_within(x)) {
+        take_hit(x);
+        return 1;
+    }
+    vec3 before = get_normal(s);
+    double ahead = guess_ahead(x);
+    x->finest = 16 * ahead;
+    for (int look = 0; look < MOST_LOOKS && s->used < s->most; look++, ahead *= 4) {
+        double time = min2(s->time + ahead, s->end);
+        if (!(time > s->time)) return 1;
+        sweep_ask(s, time);
+        if (is_within(x)) {
+            take_hit(x);
+            return narrow(x, before, time);
+        }
+        if (is_beyond(x) && time <= s->pieces.end && step_to_look(x, before)) return 0;
+        if (is_beyond(x) && look == 0 && !narrow(x, before, time)) return 0;
+        if (x->out->status == OVOID_IMPACT_HIT || time >= s->end) return 1;
+    }
+    return 1;
+}
+
+static void run(advance *x) {
+    sweep *s = &x->s;
+    ovoid_impact *out = x->out;
+    for (;;) {
+        ask_here(x);
+        if (is_within(x)) {
+            take_hit(x);
+            return;
+        }
+        if (s->time >= s->end) {
+            if (s->count || is_beyond(x)) out->status = OVOID_IMPACT_FREE;
+            return;
+        }
+        if (s->used >= s->most) {
+            out->limit = OVOID_LIMIT_ITERATIONS;
+            return;
+        }
+        double before = s->time;
+        if (sweep_step(s, get_normal(s), x->margin) && (s->time - before > x->shortest || s->time >= s->end)) continue;
+        if (look_ahead(x)) return;
+    }
+}
+
+static void finish(advance *x) {
+    sweep *s = &x->s;
+    ovoid_impact *out = x->out;
+    if (out->status == OVOID_IMPACT_UNDECIDED) out->hit = s->answer;
+    if (x->free_at != s->time) ask_here(x);
+    out->iterations = s->used;
+    out->begin = s->begin;
+    out->end = s->end;
+    out->free_until = s->time;
+    out->step_count = s->count;
+    if (out->status == OVOID_IMPACT_FREE || out->limit != OVOID_LIMIT_NONE) return;
+    double wide = out->status == OVOID_IMPACT_HIT ? out->hit_at - s->time : INFINITY;
+    if (wide <= s->tolerance * (s->end - s->begin) || wide <= x->finest) return;
+    out->limit = s->used >= s->most ? OVOID_LIMIT_ITERATIONS : OVOID_LIMIT_PRECISION;
+}
+
+void impact_find(const ovoid_moving *a, const ovoid_moving *b, double margin, const ovoid_motion_options *options,
+                 double tolerance, ovoid_impact *out) {
+    OVOID_ASSERT(a && b && a->shape && b->shape);
+    *out = (ovoid_impact){.hit_at = INFINITY};
+    advance x = {.margin = margin, .out = out};
+    out->limit = sweep_make(&x.s, a, b, options, tolerance);
+    if (out->limit == OVOID_LIMIT_NONE && !(margin >= 0 && margin < INFINITY)) out->limit = OVOID_LIMIT_OPTIONS;
+    if (out->limit != OVOID_LIMIT_NONE) {
+        out->free = out->hit = answer_make_refused(out->limit);
+        return;
+    }
+    x.shortest = 0.5 * x.s.tolerance * (x.s.end - x.s.begin);
+    run(&x);
+    finish(&x);
+}
+
+static ovoid_impact find(const ovoid_moving *a, const ovoid_moving *b, double margin,
+                         const ovoid_motion_options *options) {
+    ovoid_impact out;
+    impact_find(a, b, margin, options, 1e-9, &out);
+    return out;
+}
+
+ovoid_impact ovoid_impact_find(const ovoid_moving *a, const ovoid_moving *b, double margin,
+                               const ovoid_motion_options *options) {
+    ENVIRONMENT_RETURN(ovoid_impact, margin, find(a, b, margin, options));
+}
+
+const char *ovoid_impact_status_get_name(ovoid_impact_status status) {
+    switch (status) {
+    case OVOID_IMPACT_UNDECIDED: return "undecided";
+    case OVOID_IMPACT_FREE: return "free";
+    case OVOID_IMPACT_HIT: return "hit";
+    }
+    return "unknown";
+}

@@ -1,0 +1,114 @@
+#include "query/impact_sweep.h"
+
+#include "query/answer.h"
+
+// The times that both motions have, or that were asked about.
+static int set_times(sweep *s, const ovoid_motion_options *o) {
+    double first = max2(motion_get_begin(&s->a->motion), motion_get_begin(&s->b->motion));
+    double last = min2(motion_get_end(&s->a->motion), motion_get_end(&s->b->motion));
+    if (o->begin == 0 && o->end == 0) {
+        s->begin = first > -INFINITY ? first : 0;
+        s->end = last < INFINITY ? last : 0;
+    } else {
+        s->begin = o->begin;
+        s->end = o->end;
+    }
+    s->time = s->begin;
+    return s->begin >= first && s->end <= last && s->begin <= s->end && isfinite(s->begin) && isfinite(s->end);
+}
+
+// A path must have times before they can be looked at.
+static int has_times(const ovoid_motion *m) {
+    return m->kind != OVOID_MOTION_PATH || (m->times && m->poses && m->count >= 2);
+}
+
+ovoid_limit sweep_make(sweep *s, const ovoid_moving *a, const ovoid_moving *b, const ovoid_motion_options *options,
+                       double tolerance) {
+    static const ovoid_motion_options none = {0};
+    const ovoid_motion_options *o = options ? options : &none;
+    *s = (sweep){.a = a, .b = b, .query = o->query, .least = INFINITY, .steps = o->steps, .capacity = o->capacity};
+    s->tolerance = o->tolerance != 0 ? o->tolerance : tolerance;
+    s->most = o->iterations ? o->iterations : 10000;
+    if (!o->steps) s->capacity = 0;
+    if (!has_times(&a->motion)) return OVOID_LIMIT_POSE_A;
+    if (!has_times(&b->motion)) return OVOID_LIMIT_POSE_B;
+    if (!(s->tolerance >= 0 && s->tolerance < INFINITY) || isnan(o->begin) || isnan(o->end)) return OVOID_LIMIT_OPTIONS;
+    int ok = set_times(s, o);
+    // Of what is wrong with motions and times, the motions come first: bad ones have no times.
+    if (motion_check(&a->motion, s->begin, s->end, NULL) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+    if (motion_check(&b->motion, s->begin, s->end, NULL) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+    return ok ? motion_pair_make(a, b, s->time, &s->pieces) : OVOID_LIMIT_OPTIONS;
+}
+
+void sweep_ask(sweep *s, double time) {
+    motion_pair other;
+    const motion_pair *pieces = &s->pieces;
+    if (!(time >= pieces->begin && time <= pieces->end)) {
+        // The parts have places: those of the first pieces had.
+        (void)motion_pair_make(s->a, s->b, time, &other);
+        pieces = &other;
+    }
+    ovoid_pair pair;
+    motion_gap gap;
+    ovoid_proof earlier = s->answer.proof;
+    s->shift = motion_pair_find_pair(pieces, time, &pair);
+    answer_find_inside(&pair, s->query, question_make_distance(s->query), s->used ? &earlier : NULL, NULL, &s->answer);
+    motion_gap_find(pieces, time, vec3_unit(s->answer.normal), &gap);
+    s->fall = gap.speed[0][0] + gap.speed[1][0];
+    s->error = gap.error;
+    s->asked = time;
+    s->used++;
+}
+
+static void take_step(sweep *s, ovoid_step step, double least) {
+    if (s->count < s->capacity) s->steps[s->count] = step;
+    s->count++;
+    s->time = step.until;
+    s->least = min2(s->least, least);
+    if (s->time >= s->pieces.end && s->time < s->end) (void)motion_pair_make(s->a, s->b, s->time, &s->pieces);
+}
+
+int motion_pair_is_above(const motion_pair *pieces, const ovoid_step *step, double from, double level, double *least) {
+    motion_gap begin, end;
+    motion_gap_find(pieces, from, step->normal, &begin);
+    motion_gap_find_end(pieces, &begin, step->frame, step->until, &end);
+    *least = motion_gap_compute_lower(pieces, step->frame, &begin, &end);
+    return *least > level;
+}
+
+int sweep_step_to(sweep *s, double until, vec3 n, double level) {
+    ovoid_step step = {until, n, OVOID_STEP_WORLD};
+    double least;
+    if (!(until > s->time && until <= s->pieces.end)) return 0;
+    if (!motion_pair_is_above(&s->pieces, &step, s->time, level, &least)) return 0;
+    take_step(s, step, least);
+    return 1;
+}
+
+// Of the three frames, the one that promises the longest step is tried; where its step is not proven, it is shortened
+// for the next trial: by a secant where the end is too near, else as the curvature asks.
+int sweep_step(sweep *s, vec3 n, double level) {
+    enum { FRAMES = 3, TRIALS = 12 };
+    motion_gap from, to;
+    motion_gap_find(&s->pieces, s->time, n, &from);
+    double room = motion_gap_get_lower(&from) - level, last = min2(s->pieces.end, s->end), reach[FRAMES];
+    if (!(room > 0)) return 0;
+    for (int f = 0; f < FRAMES; f++)
+        reach[f] = min2(motion_gap_guess_reach(&s->pieces, (ovoid_step_frame)f, &from, level), last);
+    for (int trial = 0; trial < TRIALS; trial++) {
+        int f = reach[1] > reach[0] ? 1 : 0;
+        if (reach[2] > reach[f]) f = 2;
+        ovoid_step step = {reach[f], n, (ovoid_step_frame)f};
+        if (!(step.until > s->time)) return 0;
+        motion_gap_find_end(&s->pieces, &from, step.frame, step.until, &to);
+        double least = motion_gap_compute_lower(&s->pieces, step.frame, &from, &to);
+        if (least > level) {
+            take_step(s, step, least);
+            return 1;
+        }
+        double left = motion_gap_get_lower(&to) - level, share = 0.6;
+        if (left < 0) share = min2(share, 0.999 * room / (room - left));
+        reach[f] = s->time + (step.until - s->time) * share;
+    }
+    return 0;
+}

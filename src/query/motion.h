@@ -1,0 +1,68 @@
+// Motions, taken apart into pieces of constant velocity, and bodies that move so.
+//
+// A piece is x(t) = from + s travel + exp(s turn [axis]) x0, s = (t - begin) / span, where x0 = inner(x) is a point of
+// the body at the piece's begin, seen from the pivot. docs/motion.md derives what rounding does:
+// - the rotation of a computed pose is off by (160 + 16 s turn) u in norm, its position by 16 u |s travel| + 4 u of the
+//   starting position + 128 u of the pivot, and what the rotation's error does to the pivot's arm;
+// - a part adds 16 u to the rotation and 64 u of its position and of the pose's.
+// Poses that are given, at a piece's ends, are exact.
+#ifndef OVOID_QUERY_MOTION_H
+#define OVOID_QUERY_MOTION_H
+
+#include "linear/mat3.h"
+#include "ovoid/motion.h"
+
+#define ROUNDING 0x1p-53
+
+typedef struct motion_piece {
+    double begin, end; ///< times; infinite where it stands still
+    double span;
+    int is_still, has_last; ///< last: the pose at the end is given
+    ovoid_pose first, last;
+    ovoid_pose inner; ///< of the body as seen from the pivot, at the begin
+    vec3 from, travel, axis;
+    double turn;       ///< >= 0, in radians, for s from 0 to 1
+    double turn_error; ///< of the vector turn axis, for s = 1
+    double fixed;      ///< what the position is off by wherever it is, beside the arm's share
+} motion_piece;
+
+/// ovoid_motion_compute_check for the pieces of [begin, end] only.
+ovoid_code motion_check(const ovoid_motion *motion, double begin, double end, ovoid_error *error);
+
+/// The times of a motion.
+double motion_get_begin(const ovoid_motion *motion);
+double motion_get_end(const ovoid_motion *motion);
+
+/// The piece at a time, the later one of two; a time outside belongs to the first or last one. The motion is sound.
+void motion_find_piece(const ovoid_motion *motion, double time, motion_piece *piece);
+
+/// The computed pose at a time of the piece, and what it may be off by.
+typedef struct motion_place {
+    ovoid_pose pose;
+    double shift; ///< of the position, length
+    double turn;  ///< of the rotation, norm
+} motion_place;
+void motion_piece_find_place(const motion_piece *piece, double time, motion_place *place);
+
+/// Inside a public function.
+void moving_find_pose(const ovoid_moving *moving, double time, ovoid_pose *pose);
+
+/// A shape in a piece of its motion. Lengths are rounded up.
+typedef struct motion_body {
+    const ovoid_moving *moving;
+    motion_piece piece;
+    int has_part;
+    double reach;           ///< no vertex is farther than this from the origin of the shape's local frame or the pivot
+    vec3 pivot;             ///< from the shape's body frame (its origin), in its axes
+    double low, high, wide; ///< the cylinder about the axis through the pivot that holds the vertices
+    vec3 axis;              ///< in the shape's axes, at the piece's begin
+    double axis_error;      ///< of the unit axis, at most 1
+} motion_body;
+
+/// 0 where `part` has no place.
+int motion_body_make(const ovoid_moving *moving, double time, motion_body *body);
+
+/// The shape's computed pose, and by how much the exact motion may have any of its points elsewhere.
+double motion_body_find_pose(const motion_body *body, double time, ovoid_pose *pose);
+
+#endif

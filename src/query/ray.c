@@ -1,0 +1,86 @@
+// Where a ray meets a body: a point, or a ball, moved along a straight line (cast.c), so hulls of any rank and rounding
+// radius are met alike, with the same bracket. The direction is made a unit vector, so times are lengths; it is off by
+// 4 u, and so is the point by 4 u of its way, of which motion.h leaves 16 u.
+#include "base/environment.h"
+#include "base/error.h"
+#include "linear/rotation.h"
+#include "query/answer.h"
+#include "query/impact.h"
+#include "query/motion.h"
+#include "shape/block.h"
+
+#include <string.h>
+
+// A point as a shape, without an allocation: all its arrays are these zeros.
+typedef struct point_shape {
+    ovoid_shape shape;
+    _Alignas(64) double zeros[8];
+} point_shape;
+
+static void point_make(point_shape *p, double radius) {
+    const uint64_t at = offsetof(point_shape, zeros);
+    memset(p, 0, sizeof *p);
+    p->shape.radius = radius;
+    p->shape.vertex_count = p->shape.counts.vertices = 1;
+    p->shape.padded_count = 8;
+    p->shape.at.x = p->shape.at.y = p->shape.at.z = p->shape.at.vertices = at;
+    p->shape.at.size = sizeof *p;
+}
+
+static int ray_is_sound(const ovoid_ray *r) {
+    return vec3_max_abs(r->origin) <= OVOID_LENGTH_MAX && vec3_max_abs(r->direction) <= OVOID_LENGTH_MAX &&
+           vec3_is_finite(r->origin) && vec3_is_finite(r->direction) && vec3_max_abs(r->direction) > 0 &&
+           r->length >= 0 && r->radius >= 0 && r->radius <= OVOID_LENGTH_MAX;
+}
+
+// Behind this length no point of the body is.
+static double find_end(const ovoid_body *body, const ovoid_ray *ray) {
+    vec3 center = vec3_add(body->shape->center, body->shape->origin);
+    vec3 c = vec3_add(body->pose.position, mat3_mul_vec3(quat_to_mat3(body->pose.rotation), center));
+    double far = vec3_max_abs(c) + vec3_max_abs(body->shape->origin) + vec3_max_abs(ray->origin);
+    return 1.001 * (vec3_norm(vec3_sub(c, ray->origin)) + body->shape->reach + body->shape->radius + ray->radius) +
+           64 * 0x1p-53 * far + OVOID_LENGTH_MIN;
+}
+
+static ovoid_ray_hit refuse(ovoid_limit limit) { return (ovoid_ray_hit){.limit = limit, .upper = INFINITY}; }
+
+// The nearest way out for a ray that begins inside.
+static void take_inside(const ovoid_pair *pair, ovoid_ray_hit *out) {
+    ovoid_answer depth;
+    answer_find_inside(pair, NULL, question_make_depth(NULL), NULL, NULL, &depth);
+    out->point = depth.point_a;
+    out->normal = depth.normal;
+    out->upper = 0;
+}
+
+static ovoid_ray_hit cast(const ovoid_body *body, const ovoid_ray *ray) {
+    OVOID_ASSERT(body && body->shape && ray);
+    const ovoid_pose none = {{0, 0, 0}, {0, 0, 0, 0}}, at = {ray->origin, {1, 0, 0, 0}};
+    ovoid_moving still = {body->shape, ovoid_motion_make_still(body->pose), none}, moving;
+    if (motion_check(&still.motion, 0, 0, NULL) != OVOID_OK) return refuse(OVOID_LIMIT_POSE_B);
+    if (!ray_is_sound(ray)) return refuse(OVOID_LIMIT_OPTIONS);
+    point_shape point;
+    ovoid_impact x;
+    point_make(&point, ray->radius);
+    double most = vec3_max_abs(ray->direction);
+    vec3 scaled = vec3_scale(ray->direction, 1 / most);
+    double norm = vec3_norm(scaled), length = ray->length * most * norm;
+    vec3 unit = vec3_scale(scaled, 1 / norm);
+    moving = (ovoid_moving){&point.shape, ovoid_motion_make_still(at), none};
+    if (length > 0)
+        moving.motion = ovoid_motion_make_velocity(at, unit, (vec3){0, 0, 0}, min2(length, find_end(body, ray)));
+    impact_find(&still, &moving, 0, NULL, 1e-12, &x);
+    ovoid_ray_hit out = {.status = x.status, .limit = x.limit, .iterations = x.iterations};
+    if (x.limit == OVOID_LIMIT_POSE_B) return refuse(OVOID_LIMIT_OPTIONS);
+    out.point = x.free.point_a;
+    out.normal = x.free.normal;
+    out.lower = x.free_until / norm / most * (1 - 8 * 0x1p-53);
+    out.upper = x.hit_at / norm / most * (1 + 8 * 0x1p-53);
+    if (x.status == OVOID_IMPACT_FREE) out.lower = ray->length;
+    if (x.hit_at == 0) take_inside(&(ovoid_pair){body->shape, &point.shape, body->pose, at}, &out);
+    return out;
+}
+
+ovoid_ray_hit ovoid_ray_cast(const ovoid_body *body, const ovoid_ray *ray) {
+    ENVIRONMENT_RETURN(ovoid_ray_hit, body, cast(body, ray));
+}
