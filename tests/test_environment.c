@@ -149,6 +149,12 @@ static void ask_smooth(void) {
                 ADD(v[k]->hessian);
             }
         }
+    static ovoid_cover cover;
+    for (int i = 0; i < PAIRS; i++) {
+        ovoid_answer x = ovoid_depth(&pairs[i], NULL, NULL, &cover);
+        ovoid_gradient g = ovoid_answer_compute_gradient(&pairs[i], &x, &cover);
+        ADD(g);
+    }
 }
 
 static void ask_paper(void) {
@@ -291,7 +297,7 @@ static const struct {
                  {"depth and check", ask_depth},
                  {"batches", ask_batch},
                  {"bounds", ask_bounds},
-                 {"smooth", ask_smooth},
+                 {"smooth, gradient", ask_smooth},
                  {"paper", ask_paper},
                  {"from points", ask_points},
                  {"deformed, divided", ask_changes},

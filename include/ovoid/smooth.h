@@ -1,6 +1,6 @@
 /**
  * @file smooth.h
- * A smooth bracket of the signed distance, from the ellipsoids, with derivatives.
+ * A smooth bracket of the signed distance, from the ellipsoids, with derivatives; the gradient of the exact distance.
  *
  * Derivatives are with respect to twelve numbers, at zero: 0-2 the translation of A (world), 3-5 the rotation vector of
  * A (world axes, about the point pose_a.position), 6-8 and 9-11 those of B. That is, of the value at the poses
@@ -43,6 +43,29 @@ typedef struct ovoid_smooth {
  * derives it all. Bounded work, no allocation; 96 KB of stack where ellipsoids overlap deeply.
  */
 OVOID_API ovoid_smooth ovoid_smooth_compute(const ovoid_pair *pair, int order);
+
+/** The gradient of the exact signed distance, as far as an answer shows it. */
+typedef struct ovoid_gradient {
+    double gradient[12];      /**< by translations (0-2, 6-8) and rotations (3-5, 9-11); zero of a refused answer */
+    uint32_t has_translation; /**< 1: shown: the derivative by translations exists, and is this one to `turn` */
+    uint32_t has_rotation;    /**< 1: shown: that by rotations exists too, and is this one to `turn` and `slide` */
+    double turn;   /**< radians: the exact normal is within this of the one used, proven; pi where nothing is */
+    double slope;  /**< 0 to 1: how much the bodies fall away from each other where both witness points are moved along
+                        them, rise over run, at least; 0: parallel faces or edges, the witness points are not unique */
+    double slide;  /**< the exact witness points are within this length of those used, to first order; infinity where
+                        slope is 0 */
+    double margin; /**< of a depth: every other way out is longer by at least this, proven; 0 where that is not shown.
+                        Infinity where the bodies without their radii are apart */
+} ovoid_gradient;
+
+/**
+ * The gradient of the exact signed distance from an answer of ovoid_distance or ovoid_depth and its pair. cover: the
+ * one that ovoid_depth gave, or NULL; without it no derivative of a depth is shown. Nothing is shown where the hulls,
+ * without radii, touch to rounding. What is not shown is filled in all the same: one of several gradients, or an
+ * inexact one. Cost: the edges at the witness points, and the cover's triangles; 0.1 to some microseconds.
+ */
+OVOID_API ovoid_gradient ovoid_answer_compute_gradient(const ovoid_pair *pair, const ovoid_answer *answer,
+                                                       const ovoid_cover *cover);
 
 #ifdef __cplusplus
 }
