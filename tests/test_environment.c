@@ -157,6 +157,31 @@ static void ask_smooth(void) {
     }
 }
 
+static void ask_compounds(void) {
+    ovoid_body parts[6];
+    for (int i = 0; i < 6; i++) parts[i] = (ovoid_body){i == 3 ? hull_shape : pairs[i].shape_a, pairs[i].pose_b};
+    ovoid_compound *compound = ovoid_compound_create(parts, 5, NULL, NULL);
+    ovoid_ellipsoid both[2] = {ovoid_compound_get_outer(compound), ovoid_compound_get_inner(compound)};
+    ADD(both);
+    static ovoid_exclusion items[256];
+    for (int i = 0; i < 3; i++) {
+        ovoid_exclusions all = {.items = items, .capacity = 256};
+        ovoid_solid_pair p = {{NULL, compound, pairs[i].pose_b}, {NULL, compound, {{2.5 * i, third, 0}, {1, 0, 0, 1}}}};
+        ovoid_compound_answer x[4] = {
+            ovoid_compound_collide(&p, NULL, NULL, NULL), ovoid_compound_within(&p, third, NULL, NULL, NULL),
+            ovoid_compound_distance(&p, NULL, NULL, NULL), ovoid_compound_depth(&p, NULL, NULL, &all)};
+        for (int k = 0; k < 4; k++) {
+            add_answer(&x[k].answer);
+            ADD(x[k].part_a);
+            ADD(x[k].visited);
+        }
+        for (size_t k = 0; k < all.count && k < 256; k++) ADD(items[k].lower);
+        ovoid_code code = ovoid_compound_answer_check(&p, &x[3], &all, NULL);
+        ADD(code);
+    }
+    ovoid_compound_destroy(compound);
+}
+
 static void ask_paper(void) {
     const ovoid_areas *areas[2] = {hull_areas, hull_areas};
     ovoid_pair p = {hull_shape, hull_shape, pairs[0].pose_a, pairs[0].pose_b};
@@ -298,6 +323,7 @@ static const struct {
                  {"batches", ask_batch},
                  {"bounds", ask_bounds},
                  {"smooth, gradient", ask_smooth},
+                 {"compounds", ask_compounds},
                  {"paper", ask_paper},
                  {"from points", ask_points},
                  {"deformed, divided", ask_changes},

@@ -84,8 +84,7 @@ ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
     return refused;
 }
 
-simd_pair frame_find_pair(const pair_frame *f, vec3 in_a, vec3 in_b) {
-    const ovoid_shape *a = f->a, *b = f->b;
+simd_pair shapes_find_pair(const ovoid_shape *a, const ovoid_shape *b, vec3 in_a, vec3 in_b) {
     if (a->support.k | b->support.k) {
         simd_extreme x = shape_find_extreme(a, in_a), y = shape_find_extreme(b, in_b);
         return (simd_pair){{x.value, x.index}, {y.value, y.index}};

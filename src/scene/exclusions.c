@@ -61,9 +61,8 @@ static double find_top(const cut *c, const ovoid_body *body, vec3 n) {
     const ovoid_shape *s = body->shape;
     mat3 r = quat_to_mat3(body->pose.rotation);
     vec3 in = mat3_mul_transposed_vec3(r, n);
-    support_result top = simd_find_support(shape_x(s), shape_y(s), shape_z(s), s->padded_count, in.x, in.y, in.z);
     vec3 at = vec3_sub(body->pose.position, c->a.pose->position);
-    return (vec3_dot(n, at) + vec3_dot(in, s->origin)) + (top.value + s->radius);
+    return (vec3_dot(n, at) + vec3_dot(in, s->origin)) + (shape_find_extreme(s, in).value + s->radius);
 }
 
 static double find_top_of(const cut *c, const solid_view *v, uint32_t first, uint32_t end, vec3 n) {

@@ -139,14 +139,10 @@ nodes_bound parts_compute_lower(const nodes_frame *f, const compound_part *a, co
     nodes_bound best = {vec3_norm(t) - (a->reach + b->reach) - f->claim, NODES_PARTS};
     if (best.lower > enough || !has_normal(f)) return best;
     // The parts' own vertices along the normal.
-    const ovoid_shape *x = a->shape, *y = b->shape;
     vec3 in_a = mat3_mul_transposed_vec3(a->rotation, f->in_a), in_b = mat3_mul_transposed_vec3(b->rotation, f->in_b);
-    simd_points of_a = {shape_x(x), shape_y(x), shape_z(x), x->padded_count};
-    simd_points of_b = {shape_x(y), shape_y(y), shape_z(y), y->padded_count};
-    double along_a[3] = {in_a.x, in_a.y, in_a.z}, along_b[3] = {-in_b.x, -in_b.y, -in_b.z};
-    simd_pair most = simd_find_pair(&of_a, along_a, &of_b, along_b);
+    simd_pair most = shapes_find_pair(a->shape, b->shape, in_a, vec3_neg(in_b));
     double apart = (f->offset + vec3_dot(f->in_b, b->at)) - vec3_dot(f->in_a, a->at);
-    double gap = (apart - (most.high.value + most.low.value)) - (x->radius + y->radius);
+    double gap = (apart - (most.high.value + most.low.value)) - (a->shape->radius + b->shape->radius);
     return better(best, (nodes_bound){gap - f->claim, NODES_NORMAL});
 }
 
