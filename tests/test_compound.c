@@ -118,7 +118,142 @@ static void check_random(int rounds, double scale, uint64_t seed) {
     check_seed = 0;
 }
 
+// ---- named ones
+
+// 10 000 cubes of half size 0.3 at the points of a grid, and a ball: the distance in closed form.
+static void check_grid(void) {
+    enum { SIDE = 100 };
+    ovoid_shape *cube = ovoid_shape_create_box((ovoid_vec3){0.3, 0.3, 0.3}, NULL, NULL);
+    ovoid_shape *ball = ovoid_shape_create_sphere(0.25, NULL, NULL);
+    ovoid_body *parts = malloc(sizeof *parts * SIDE * SIDE);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        int x = i % SIDE, y = i / SIDE;
+        parts[i] = (ovoid_body){cube, {{x, y, (x * 7 + y * 3) % 5}, {1, 0, 0, 0}}};
+    }
+    ovoid_compound *grid = ovoid_compound_create(parts, (size_t)SIDE * SIDE, NULL, NULL);
+    uint64_t s = 77;
+    for (int i = 0; grid && i < 300; i++) {
+        check_seed = s;
+        ovoid_vec3 at = {random_uniform(&s, -20, 120), random_uniform(&s, -20, 120), random_uniform(&s, -3, 8)};
+        double truth = INFINITY;
+        for (int k = 0; k < SIDE * SIDE; k++) {
+            ovoid_vec3 p = parts[k].pose.position;
+            double x = fmax(fabs(at.x - p.x) - 0.3, 0), y = fmax(fabs(at.y - p.y) - 0.3, 0);
+            double z = fmax(fabs(at.z - p.z) - 0.3, 0);
+            truth = fmin(truth, sqrt(x * x + y * y + z * z) - 0.25);
+        }
+        ovoid_solid_pair pair = {{NULL, grid, {{0, 0, 0}, {1, 0, 0, 0}}}, {ball, NULL, {at, {0, 3, 4, 0}}}};
+        ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
+        ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
+        // With its centre in a cube the ball is deeper than this formula says.
+        bracket known = {truth > -0.25 ? truth - 1e-12 : -INFINITY, truth + 1e-12};
+        check_answer(&pair, &x, &all, known);
+        CHECK_LE(x.visited, 2000);
+        x = ovoid_compound_collide(&pair, NULL, NULL, &all);
+        check_answer(&pair, &x, &all, known);
+        CHECK_EQ(x.answer.status, truth > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING);
+    }
+    check_seed = 0;
+    CHECK(grid != NULL);
+    ovoid_compound_destroy(grid);
+    free(parts);
+    ovoid_shape_destroy(cube);
+    ovoid_shape_destroy(ball);
+}
+
+// A cup of five walls: what is in it touches nothing; moved by exactly the gap it touches, a little on it overlaps by
+// what it was moved. Truth: the gaps by construction, in binary fractions, so that nothing is rounded.
+static void check_cup(void) {
+    ovoid_shape *wall = ovoid_shape_create_box((ovoid_vec3){0.25, 2, 2}, NULL, NULL);
+    ovoid_shape *floor = ovoid_shape_create_box((ovoid_vec3){2, 2, 0.25}, NULL, NULL);
+    ovoid_shape *ball = ovoid_shape_create_box((ovoid_vec3){0.5, 0.5, 0.5}, NULL, NULL);
+    const ovoid_quat none = {1, 0, 0, 0}, quarter = {1, 0, 0, 1};
+    ovoid_body parts[5] = {{wall, {{2, 0, 0}, none}},
+                           {wall, {{-2, 0, 0}, none}},
+                           {wall, {{0, 2, 0}, quarter}},
+                           {wall, {{0, -2, 0}, quarter}},
+                           {floor, {{0, 0, -2}, none}}};
+    ovoid_compound *cup = ovoid_compound_create(parts, 5, NULL, NULL);
+    ovoid_body inside = {ball, {{0, 0, 0}, none}};
+    ovoid_compound *one = ovoid_compound_create(&inside, 1, NULL, NULL);
+    // Free space: from 0.5 to 1.75 along x. The second number is the gap.
+    static const double moves[6][2] = {{0, 1.25}, {1, 0.25}, {1.25, 0}, {1.5, -0.25}, {-1.25, 0}, {-1.125, 0.125}};
+    for (int i = 0; cup && one && i < 6; i++)
+        for (int as_shape = 0; as_shape < 2; as_shape++) {
+            ovoid_solid_pair pair = {{NULL, cup, {{0, 0, 0}, none}}, {NULL, one, {{moves[i][0], 0, 0}, none}}};
+            if (as_shape) pair.b.shape = ball, pair.b.compound = NULL;
+            ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
+            ovoid_compound_answer x = ovoid_compound_depth(&pair, NULL, NULL, &all);
+            double gap = moves[i][1];
+            check_answer(&pair, &x, &all, (bracket){gap, gap});
+            CHECK_NEAR(x.answer.upper, gap, 1e-8);
+            CHECK_EQ(x.answer.status, gap > 0 ? OVOID_SEPARATED : gap < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING);
+            if (i) CHECK_EQ(x.part_a, moves[i][0] > 0 ? 0 : 1);
+            x = ovoid_compound_collide(&pair, NULL, NULL, &all);
+            check_answer(&pair, &x, &all, (bracket){gap, gap});
+            CHECK_EQ(x.answer.status, gap > 0 ? OVOID_SEPARATED : gap < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING);
+        }
+    CHECK(cup && one);
+    ovoid_compound_destroy(cup);
+    ovoid_compound_destroy(one);
+    ovoid_shape_destroy(wall);
+    ovoid_shape_destroy(floor);
+    ovoid_shape_destroy(ball);
+}
+
+// ---- what is refused
+
+static void expect_refused(const ovoid_solid_pair *pair, const ovoid_options *options, ovoid_limit limit) {
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .count = 7};
+    ovoid_compound_answer x = ovoid_compound_distance(pair, options, NULL, &all);
+    CHECK_EQ(x.answer.limit, limit);
+    CHECK(x.answer.status == OVOID_UNDECIDED && x.answer.lower == -INFINITY && x.answer.upper == INFINITY);
+    CHECK_EQ(all.count, 0);
+    CHECK_EQ(ovoid_compound_answer_check(pair, &x, &all, NULL), OVOID_OK);
+    // An answer where there can be none.
+    x.answer.lower = 1;
+    x.answer.status = OVOID_SEPARATED;
+    CHECK_EQ(ovoid_compound_answer_check(pair, &x, &all, NULL), OVOID_ERROR_PROOF);
+}
+
+static void check_refused(void) {
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
+    ovoid_body parts[2] = {{box, {{0, 0, 0}, {1, 0, 0, 0}}}, {box, {{5, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_compound *c = ovoid_compound_create(parts, 2, NULL, NULL);
+    const ovoid_solid_pair sound = {{NULL, c, parts[0].pose}, {box, NULL, {{9, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_solid_pair pair = sound;
+    pair.a.pose.rotation = (ovoid_quat){0, 0, 0, 0};
+    expect_refused(&pair, NULL, OVOID_LIMIT_POSE_A);
+    pair.a.pose.rotation.w = NAN;
+    expect_refused(&pair, NULL, OVOID_LIMIT_POSE_A);
+    pair = sound;
+    pair.b.pose.position.z = INFINITY;
+    expect_refused(&pair, NULL, OVOID_LIMIT_POSE_B);
+    pair.b.pose.position.z = 2e50;
+    expect_refused(&pair, NULL, OVOID_LIMIT_POSE_B);
+    pair = sound;
+    // In range itself, not so its parts.
+    pair.a.pose.position = (ovoid_vec3){0.9e50, 0.9e50, 0};
+    expect_refused(&pair, NULL, OVOID_LIMIT_POSE_A);
+    static const ovoid_options wrong[4] = {
+        {.absolute_tolerance = -1}, {.relative_tolerance = NAN}, {.cap = -1}, {.cap = NAN}};
+    for (int i = 0; i < 4; i++) expect_refused(&sound, &wrong[i], OVOID_LIMIT_OPTIONS);
+    ovoid_compound_answer x = ovoid_compound_within(&sound, -1, NULL, NULL, NULL);
+    CHECK_EQ(x.answer.limit, OVOID_LIMIT_OPTIONS);
+    x = ovoid_compound_within(&sound, NAN, NULL, NULL, NULL);
+    CHECK_EQ(x.answer.limit, OVOID_LIMIT_OPTIONS);
+    // A warm start made of nonsense.
+    ovoid_compound_proof nonsense = {1, 0, {.kind = OVOID_PROOF_POINTS, .count = 77, .normal = {NAN, 1e300, 0}}};
+    x = ovoid_compound_distance(&sound, NULL, &nonsense, NULL);
+    CHECK_NEAR(x.answer.upper, 2, 1e-8);
+    ovoid_compound_destroy(c);
+    ovoid_shape_destroy(box);
+}
+
 int main(void) {
+    check_grid();
+    check_cup();
+    check_refused();
     check_random(60, 1, 100);
     check_random(15, 1e-9, 1000);
     check_random(15, 1e9, 2000);

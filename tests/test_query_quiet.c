@@ -49,6 +49,12 @@ int main(void) {
     CHECK(a && b && allocations > 0);
     static ovoid_cover cover;
     uint64_t s = 1;
+    ovoid_body parts[3] = {
+        {a, {{0, 0, 3}, {1, 0, 0, 0}}}, {b, {{1, 0, 0}, {1, 2, 0, 0}}}, {b, {{0, -2, 0}, {3, 2, 0, 1}}}};
+    ovoid_compound *compound = ovoid_compound_create(parts, 3, NULL, NULL);
+    static ovoid_exclusion items[64];
+    ovoid_exclusions all = {.items = items, .capacity = 64, .cover = &cover};
+    CHECK(compound != NULL);
     long before = allocations;
     double sum = 0;
     for (int i = 0; i < 2000; i++) {
@@ -59,9 +65,13 @@ int main(void) {
         sum += x.lower + ovoid_collide(&p, NULL, &x.proof).upper + ovoid_within(&p, 0.1, NULL, NULL).upper;
         sum += ovoid_distance(&p, NULL, NULL).upper + ovoid_bounds(&p).upper;
         sum += ovoid_answer_check(&p, &x, &cover, NULL);
+        ovoid_solid_pair solids = {{NULL, compound, p.pose_a}, {NULL, compound, p.pose_b}};
+        ovoid_compound_answer y = ovoid_compound_depth(&solids, NULL, NULL, &all);
+        sum += y.answer.upper + (double)ovoid_compound_answer_check(&solids, &y, &all, NULL);
     }
     CHECK(isfinite(sum));
     CHECK_EQ(allocations - before, 0);
+    ovoid_compound_destroy(compound);
     ovoid_shape_destroy(a);
     ovoid_shape_destroy(b);
     return check_end();
