@@ -34,9 +34,10 @@ mutate: ## small faults in a copy of the sources: which test notices each, an ho
 	@scripts/setup.sh check
 	@JOBS=$(JOBS) scripts/mutate.sh
 
-bench: ## nanoseconds per query beside libccd, FCL, Bullet and ODE: the table, its CSV and its plot in build/
+bench: ## nanoseconds per query and time of frames beside other libraries: tables, CSV and plots in build/
 	@$(call build,bench,bench)
 	@$(BUILD)/bench/bench --csv build/bench.csv --svg build/bench.svg
+	@$(BUILD)/bench/bench --many --csv build/many.csv --svg build/many.svg
 
 soak: ## random and hostile pairs before the exact judge, SECONDS=3600; goes on where it stopped
 	@$(call build,build,test_query_trials)

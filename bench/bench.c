@@ -2,6 +2,7 @@
 #include "build.h"
 #include "cells.h"
 #include "field.h"
+#include "many.h"
 #include "ours.h"
 #include "plan.h"
 #include "scale.h"
@@ -27,6 +28,8 @@ static const char help[] =
     "  --stages         instead: which stage decides how many pairs, at what cost; spheres and boxes beside "
     "ellipsoids\n"
     "  --scale          instead: cost over vertices, pairs and threads; memory and set-up of a shape\n"
+    "  --many           instead: frames of many moving bodies; a robot among parts, for a planner and a monitor\n"
+    "  --bodies N,...   with --many: numbers of bodies (1000,10000,100000)\n"
     "  --pairs N        with --scale: most pairs of a batch (1000000)\n"
     "  --help           this\n"
     "\n"
@@ -38,8 +41,9 @@ typedef struct settings {
     effort much;
     field all;
     const char *csv, *svg;
-    int alone, stages, scale;
+    int alone, stages, scale, many;
     uint32_t pairs;
+    many_plan crowd;
 } settings;
 
 /// All cells of one workload.
@@ -105,17 +109,17 @@ static int run_table(const settings *how) {
     return good && unproven == 0;
 }
 
-/// "8,16": 0 where it is not such a list.
-static int read_sizes(const char *text, plan *what) {
-    what->size_count = 0;
+/// "8,16": 0 where it is not such a list, or longer than `most`.
+static int read_list(const char *text, uint32_t *items, uint32_t most, uint32_t *count) {
+    *count = 0;
     while (*text) {
         char *end;
         unsigned long n = strtoul(text, &end, 10);
-        if (end == text || n < 4 || n > 1000000 || what->size_count == SIZES_MOST || (*end && *end != ',')) return 0;
-        what->sizes[what->size_count++] = (uint32_t)n;
+        if (end == text || n < 4 || n > 1000000 || *count == most || (*end && *end != ',')) return 0;
+        items[(*count)++] = (uint32_t)n;
         text = *end ? end + 1 : end;
     }
-    return what->size_count > 0;
+    return *count > 0;
 }
 
 static int read_count(const char *text, uint32_t *count) {
@@ -129,9 +133,11 @@ static int read_count(const char *text, uint32_t *count) {
 static int read_valued(settings *how, const char *name, const char *value) {
     if (!value) return 0;
     if (!strcmp(name, "--workload"))
-        how->what.only = value;
+        how->crowd.only = how->what.only = value;
     else if (!strcmp(name, "--sizes"))
-        return read_sizes(value, &how->what);
+        return read_list(value, how->what.sizes, SIZES_MOST, &how->what.size_count);
+    else if (!strcmp(name, "--bodies"))
+        return read_list(value, how->crowd.counts, COUNTS_MOST, &how->crowd.count_of_counts);
     else if (!strcmp(name, "--count"))
         return read_count(value, &how->what.count);
     else if (!strcmp(name, "--seconds"))
@@ -141,7 +147,7 @@ static int read_valued(settings *how, const char *name, const char *value) {
     else if (!strcmp(name, "--svg"))
         how->svg = value;
     else if (!strcmp(name, "--data"))
-        how->what.data = value;
+        how->crowd.data = how->what.data = value;
     else if (!strcmp(name, "--peer"))
         return field_load(&how->all, value);
     else if (!strcmp(name, "--pairs"))
@@ -159,12 +165,15 @@ static int read_switch(settings *how, const char *name) {
         how->stages = 1;
     else if (!strcmp(name, "--scale"))
         how->scale = 1;
+    else if (!strcmp(name, "--many"))
+        how->many = 1;
     else if (!strcmp(name, "--smoke")) {
         how->what.smoke = 1;
         how->what.count = 10;
         how->what.size_count = 2;
         how->much = (effort){0, 1};
         how->pairs = 100;
+        how->crowd = many_plan_make_smoke();
     } else
         return 0;
     return 1;
@@ -175,7 +184,9 @@ int main(int argc, char **argv) {
     settings how = {.what = {{8, 16, 32, 64, 128, 512, 2048}, 7, 200, NULL, data && *data ? data : "../shared/data", 0},
                     .much = {1.5, 5},
                     .all = field_make(),
-                    .pairs = 1000000};
+                    .pairs = 1000000,
+                    .crowd = many_plan_make()};
+    how.crowd.data = how.what.data;
     for (int i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {
             (void)fputs(help, stdout);
@@ -191,6 +202,7 @@ int main(int argc, char **argv) {
     }
     if (how.stages) return !stages_run(&how.what);
     if (how.scale) return !scale_run(how.csv, how.svg, how.pairs, how.what.smoke);
+    if (how.many) return !many_run(&how.crowd, how.csv, how.svg, how.alone);
     if (!how.alone) field_load_built(&how.all);
     return !run_table(&how);
 }

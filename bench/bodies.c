@@ -26,8 +26,7 @@ static int fill_body(body *b, ovoid_shape *shape) {
     return 1;
 }
 
-/// Adds the shape; 0 where it is NULL or memory is out.
-static int add_shape(bodies *all, ovoid_shape *shape) {
+int bodies_add_shape(bodies *all, ovoid_shape *shape) {
     if (shape && fill_body(&all->items[all->count], shape)) {
         all->count++;
         return 1;
@@ -65,7 +64,7 @@ bodies bodies_create_hulls(uint32_t vertices, uint32_t count) {
             xyz[3 * k + 1] = p.y * stretch_y;
             xyz[3 * k + 2] = p.z * stretch_z;
         }
-        if (!add_shape(&all, ovoid_shape_create_from_points(xyz, vertices, NULL, NULL))) break;
+        if (!bodies_add_shape(&all, ovoid_shape_create_from_points(xyz, vertices, NULL, NULL))) break;
     }
     free(xyz);
     return expect(all, count);
@@ -76,7 +75,7 @@ bodies bodies_create_boxes(uint32_t count) {
     bodies all = make_room(count);
     for (uint32_t i = 0; all.items && i < count; i++) {
         ovoid_vec3 half = {random_uniform(&state, 1, 4), random_uniform(&state, 1, 4), random_uniform(&state, 1, 4)};
-        if (!add_shape(&all, ovoid_shape_create_box(half, NULL, NULL))) break;
+        if (!bodies_add_shape(&all, ovoid_shape_create_box(half, NULL, NULL))) break;
     }
     return expect(all, count);
 }
@@ -104,13 +103,13 @@ static ovoid_shape *create_ringed(uint32_t rings, uint32_t sides, int round) {
 bodies bodies_create_paper(void) {
     bodies all = make_room(31);
     if (!all.items) return all;
-    int good = add_shape(&all, ovoid_shape_create_box((ovoid_vec3){0.5, 0.4, 0.3}, NULL, NULL));
+    int good = bodies_add_shape(&all, ovoid_shape_create_box((ovoid_vec3){0.5, 0.4, 0.3}, NULL, NULL));
     // 14 to 62 vertices, of which those in the middle of the caps are no corners.
     for (uint32_t i = 0; i < 10 && good; i++)
-        good = add_shape(&all, ovoid_shape_create_cylinder(0.5, 1, 6 + i * 24 / 9, NULL, NULL));
+        good = bodies_add_shape(&all, ovoid_shape_create_cylinder(0.5, 1, 6 + i * 24 / 9, NULL, NULL));
     // 30 to 142, here with pointed caps so that all of them count; then spheres of 22 to 102.
-    for (uint32_t i = 0; i < 10 && good; i++) good = add_shape(&all, create_ringed(2, 14 + i * 56 / 9, 0));
-    for (uint32_t i = 0; i < 10 && good; i++) good = add_shape(&all, create_ringed(4 + i / 2, 5 + i * 6 / 9, 1));
+    for (uint32_t i = 0; i < 10 && good; i++) good = bodies_add_shape(&all, create_ringed(2, 14 + i * 56 / 9, 0));
+    for (uint32_t i = 0; i < 10 && good; i++) good = bodies_add_shape(&all, create_ringed(4 + i / 2, 5 + i * 6 / 9, 1));
     return expect(all, 31);
 }
 
@@ -138,7 +137,7 @@ bodies bodies_create_from_clouds(const char *path, uint32_t count) {
         ovoid_shape *shape = i % 8 == 0 ? ovoid_shape_create_from_points(xyz, n, NULL, NULL) : NULL;
         free(xyz);
         if (shape && ovoid_shape_get_polytope(shape).rank == 3)
-            (void)add_shape(&all, shape);
+            (void)bodies_add_shape(&all, shape);
         else
             ovoid_shape_destroy(shape);
     }

@@ -11,22 +11,25 @@
 
 field field_make(void) { return (field){{&ours}, 1}; }
 
-typedef const peer *const *(*get_peers)(void);
-
-int field_load(field *all, const char *path) {
+module_function module_load(const char *path, const char *name) {
     void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!module) {
         (void)fprintf(stderr, "bench: %s\n", dlerror());
-        return 0;
+        return NULL;
     }
     // C has no conversion of an object pointer to a function pointer; POSIX promises that the bytes will do.
-    void *symbol = dlsym(module, "bench_get_peers");
-    get_peers get = NULL;
-    memcpy(&get, &symbol, sizeof get);
-    if (!get) {
-        (void)fprintf(stderr, "bench: %s exports no bench_get_peers\n", path);
-        return 0;
-    }
+    void *symbol = dlsym(module, name);
+    module_function function = NULL;
+    memcpy(&function, &symbol, sizeof function);
+    if (!function) (void)fprintf(stderr, "bench: %s exports no %s\n", path, name);
+    return function;
+}
+
+typedef const peer *const *(*get_peers)(void);
+
+int field_load(field *all, const char *path) {
+    get_peers get = (get_peers)module_load(path, "bench_get_peers");
+    if (!get) return 0;
     // Two more entrants are ovoid's.
     for (const peer *const *p = get(); *p && all->count < ENTRANTS_MOST - 2; p++) all->members[all->count++] = *p;
     return 1;

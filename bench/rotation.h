@@ -1,8 +1,25 @@
-// The matrix of a unit quaternion, by rows, for peers that take matrices.
+// Unit quaternions, and their matrices by rows for peers that take those.
 #ifndef OVOID_BENCH_ROTATION_H
 #define OVOID_BENCH_ROTATION_H
 
+#include <math.h>
 #include <ovoid/linear.h>
+
+/// First q, then p; a unit quaternion again.
+static inline ovoid_quat rotation_multiply(ovoid_quat p, ovoid_quat q) {
+    ovoid_quat r = {p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z, p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
+                    p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x, p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w};
+    double norm = sqrt(r.w * r.w + r.x * r.x + r.y * r.y + r.z * r.z);
+    ovoid_quat unit = {r.w / norm, r.x / norm, r.y / norm, r.z / norm};
+    return unit;
+}
+
+/// By an angle around a unit axis.
+static inline ovoid_quat rotation_make_turn(ovoid_vec3 axis, double angle) {
+    double half = angle / 2;
+    ovoid_quat q = {cos(half), axis.x * sin(half), axis.y * sin(half), axis.z * sin(half)};
+    return q;
+}
 
 typedef struct rotation {
     double m[9];

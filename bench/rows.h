@@ -7,7 +7,8 @@
 typedef struct row {
     const char *chart, *x_name, *y_name, *line; ///< not copied
     double x;
-    timing y; ///< in the unit of y_name
+    timing y;             ///< in the unit of y_name
+    double judged, wrong; ///< answers, where they are judged
 } row;
 
 enum { ROWS_MOST = 400 };

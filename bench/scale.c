@@ -53,7 +53,7 @@ static int add_queries(rows *all, const bodies *set) {
         workload work = workload_create_still("", set, query_curves[i].place);
         if (!work.pairs) return 0;
         rows_add(all, (row){"Time of a query", "vertices", "ns", query_curves[i].line, set->items[0].vertex_count,
-                            time_query(&work, query_curves[i].what)});
+                            time_query(&work, query_curves[i].what), 0, 0});
         workload_destroy(&work);
     }
     return 1;
@@ -125,7 +125,7 @@ static void add_setup(rows *all, const bodies *set) {
         }
         if (good)
             rows_add(all, (row){"Set-up of a shape", "vertices", "ms", setup_names[step], vertices,
-                                timing_make(samples, passes)});
+                                timing_make(samples, passes), 0, 0});
     }
 }
 
@@ -137,7 +137,9 @@ static void add_memory(rows *all, const bodies *set) {
                         "KiB",
                         "shape",
                         set->items[0].vertex_count,
-                        {bytes / 1024, bytes / 1024, bytes / 1024, bytes / 1024}});
+                        {bytes / 1024, bytes / 1024, bytes / 1024, bytes / 1024},
+                        0,
+                        0});
 }
 
 static int visit_sizes(rows *all, int smoke, int (*visit)(rows *, const bodies *)) {
@@ -234,7 +236,7 @@ static double time_threads(const crowd *c, uint32_t count, uint32_t threads) {
 static row make_pairs_row(const char *chart, const char *x_name, double x, uint32_t count, double *seconds,
                           uint32_t passes) {
     for (uint32_t i = 0; i < passes; i++) seconds[i] *= 1e9 / count;
-    return (row){chart, x_name, "ns per pair", "collide", x, timing_make(seconds, passes)};
+    return (row){chart, x_name, "ns per pair", "collide", x, timing_make(seconds, passes), 0, 0};
 }
 
 /// Batches of more and more pairs.
