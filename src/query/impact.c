@@ -43,7 +43,7 @@ static double guess_ahead(const advance *x) {
     double way = max2(sweep_get_upper(s) - x->margin, 0) + 32 * s->error;
     double least = nextafter(fabs(s->time), INFINITY) - fabs(s->time);
     double most = s->end - s->time, ahead = s->fall > 0 ? 1.5 * way / s->fall : x->shortest;
-    return max2(min2(max2(ahead, 0.5 * x->shortest), most), 4 * least);
+    return max2(min2(ahead, most), 4 * least);
 }
 
 // A look at a time where the bodies are beyond the margin: is the way there free, along its normal or the last one?
@@ -58,13 +58,15 @@ static int step_to_look(advance *x, vec3 before) {
 static int narrow(advance *x, vec3 before, double high) {
     sweep *s = &x->s;
     double low = s->time;
-    for (int look = 0; look < MOST_LOOKS && s->used < s->most && high - low > x->shortest; look++) {
+    double enough = x->out->status == OVOID_IMPACT_HIT ? x->shortest : 0;
+    for (int look = 0; look < MOST_LOOKS && s->used < s->most && high - low > enough; look++) {
         double middle = low + 0.5 * (high - low);
         if (!(middle > low && middle < high)) break;
         sweep_ask(s, middle);
         if (is_within(x)) {
             take_hit(x);
             high = middle;
+            enough = x->shortest;
         } else if (is_beyond(x) && s->pieces.end >= middle && step_to_look(x, before)) {
             if (x->out->status != OVOID_IMPACT_HIT) return 0;
             low = middle;
@@ -86,8 +88,17 @@ static int look_ahead(advance *x) {
         return 1;
     }
     vec3 before = get_normal(s);
-    double ahead = guess_ahead(x);
+    double ahead = guess_ahead(x), coarse = 0.5 * x->shortest;
     x->finest = 16 * ahead;
+    // As deep as the tolerance lets it be, an overlap is proven at once.
+    if (coarse > ahead && s->time + coarse < s->end) {
+        sweep_ask(s, s->time + coarse);
+        if (is_within(x)) {
+            take_hit(x);
+            return 1;
+        }
+        if (is_beyond(x) && step_to_look(x, before)) return 0;
+    }
     for (int look = 0; look < MOST_LOOKS && s->used < s->most; look++, ahead *= 4) {
         double time = min2(s->time + ahead, s->end);
         if (!(time > s->time)) return 1;
