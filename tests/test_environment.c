@@ -182,6 +182,53 @@ static void ask_compounds(void) {
     ovoid_compound_destroy(compound);
 }
 
+static void add_impact(const ovoid_impact *x) {
+    ADD(x->status);
+    ADD(x->limit);
+    ADD(x->iterations);
+    ADD(x->free_until);
+    ADD(x->hit_at);
+    add_answer(&x->free);
+    add_answer(&x->hit);
+}
+
+static void ask_motions(void) {
+    const ovoid_vec3 linear = {-2.9, third, 0.1}, angular = {third, 1.7, -0.9};
+    const double times[3] = {0, third, 1};
+    const ovoid_pose poses[3] = {pairs[0].pose_b, pairs[1].pose_b, pairs[0].pose_a};
+    ovoid_moving a = {.shape = hull_shape, .motion = ovoid_motion_make_path(times, poses, 3)};
+    ovoid_moving b = {.shape = box_shape,
+                      .motion = ovoid_motion_make_velocity(pairs[3].pose_b, linear, angular, 1),
+                      .part = pairs[1].pose_b};
+    ovoid_pose p[2] = {ovoid_motion_compute_pose(&a.motion, 0.7), ovoid_moving_compute_pose(&b, third)};
+    ADD(p);
+    ovoid_code code = ovoid_motion_compute_check(&b.motion, NULL);
+    ADD(code);
+    ovoid_box box = ovoid_moving_compute_box(&a, 0.1, third);
+    ADD(box);
+    static ovoid_step steps[1000];
+    ovoid_motion_options o = {.begin = 0.01, .end = 0.99, .steps = steps, .capacity = 1000};
+    ovoid_impact x = ovoid_impact_find(&a, &b, 0.01, &o);
+    add_impact(&x);
+    code = ovoid_impact_check(&a, &b, 0.01, &x, steps, NULL);
+    ADD(code);
+    ovoid_approach y = ovoid_approach_find(&a, &b, &o);
+    ADD(y.lower);
+    ADD(y.upper);
+    ADD(y.time);
+    code = ovoid_approach_check(&a, &b, &y, steps, NULL);
+    ADD(code);
+    x = ovoid_translation_cast(&pairs[0], linear, third, NULL);
+    add_impact(&x);
+    ovoid_body body = {hull_shape, pairs[0].pose_b};
+    ovoid_ray ray = {point, {2.1, 2.2, -2.7}, INFINITY, 0.01};
+    ovoid_ray_hit hit = ovoid_ray_cast(&body, &ray);
+    ADD(hit.lower);
+    ADD(hit.upper);
+    ADD(hit.point);
+    ADD(hit.normal);
+}
+
 static void ask_paper(void) {
     const ovoid_areas *areas[2] = {hull_areas, hull_areas};
     ovoid_pair p = {hull_shape, hull_shape, pairs[0].pose_a, pairs[0].pose_b};
@@ -324,6 +371,8 @@ static const struct {
                  {"bounds", ask_bounds},
                  {"smooth, gradient", ask_smooth},
                  {"compounds", ask_compounds},
+                 {"smooth", ask_smooth},
+                 {"motions", ask_motions},
                  {"paper", ask_paper},
                  {"from points", ask_points},
                  {"deformed, divided", ask_changes},

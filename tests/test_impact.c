@@ -1,5 +1,5 @@
-// Times of impact, casts and rays whose truth is a closed form, and what must be refused. Every answer's steps are checked
-// (ovoid_impact_check). Tolerances: that of the time asked for, and rounding of the closed form.
+// Times of impact, casts and rays whose truth is a closed form, and what must be refused. Every answer's steps are
+// checked (ovoid_impact_check). Tolerances: that of the time asked for, and rounding of the closed form.
 #include "linear/vec3.h"
 #include "moving.h"
 
@@ -38,8 +38,9 @@ static void check_free(const char *what, const ovoid_moving *a, const ovoid_movi
     ovoid_impact x = find(a, b, margin);
     int ok = CHECK_EQ(x.status, OVOID_IMPACT_FREE) && CHECK_EQ(x.free_until, x.end) && CHECK(isinf(x.hit_at));
     ok &= CHECK_LE(x.step_count, most);
-    if (!ok) printf("  %s: %s, free until %.17g, %zu steps\n", what, ovoid_impact_status_get_name(x.status), x.free_until,
-                    x.step_count);
+    if (!ok)
+        printf("  %s: %s, free until %.17g, %zu steps\n", what, ovoid_impact_status_get_name(x.status), x.free_until,
+               x.step_count);
 }
 
 // ---- closed forms
@@ -87,7 +88,8 @@ static void check_box_and_wall(double scale) {
 // A rod (capsule of radius 0.1 along x) turns about its middle toward a ball at distance 3, angle 1, through some turns
 // away from it first: distance to its axis 3 sin(angle between) = 0.1 + 0.5.
 static void check_rod(void) {
-    ovoid_shape *rod = ovoid_shape_create_capsule(5, 0.1, NULL, NULL), *ball = ovoid_shape_create_sphere(0.5, NULL, NULL);
+    ovoid_shape *rod = ovoid_shape_create_capsule(5, 0.1, NULL, NULL),
+                *ball = ovoid_shape_create_sphere(0.5, NULL, NULL);
     ovoid_pose along_x = {{0, 0, 0}, {1, 0, 1, 0}};
     for (int k = 0; k < 8; k++) {
         double speed = 0.9 + 200 * k * k;
@@ -160,9 +162,7 @@ static void check_near(void) {
     for (int k = -1; k <= 1; k++) {
         ovoid_moving b = moving(ball, at(-4, 0, 1.5 + 1e-9 * k), (ovoid_vec3){8, 0, 0}, (ovoid_vec3){0, 30, 0});
         ovoid_impact x = find(&a, &b, 0);
-        CHECK_EQ(x.status, k > 0   ? OVOID_IMPACT_FREE
-                           : k < 0 ? OVOID_IMPACT_HIT
-                                   : OVOID_IMPACT_UNDECIDED);
+        CHECK_EQ(x.status, k > 0 ? OVOID_IMPACT_FREE : k < 0 ? OVOID_IMPACT_HIT : OVOID_IMPACT_UNDECIDED);
         if (k == 0) CHECK_EQ(x.limit, OVOID_LIMIT_PRECISION);
         if (k <= 0) CHECK_NEAR(x.free_until, 3.0 / 8, 1e-4);
     }
@@ -195,8 +195,8 @@ static void check_near(void) {
 
 static void check_casts(double scale) {
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){scale, scale, scale}, NULL, NULL);
-    ovoid_shape *round = ovoid_shape_create_box((ovoid_vec3){scale, scale, scale},
-                                                &(ovoid_shape_options){.radius = 0.25 * scale}, NULL);
+    ovoid_shape *round =
+        ovoid_shape_create_box((ovoid_vec3){scale, scale, scale}, &(ovoid_shape_options){.radius = 0.25 * scale}, NULL);
     ovoid_pair pair = {box, round, at(0, 0, 0), at(4 * scale, 0.3 * scale, 0)};
     ovoid_impact x = ovoid_translation_cast(&pair, (ovoid_vec3){-8 * scale, 0, 0}, 0, NULL);
     CHECK(x.status == OVOID_IMPACT_HIT && x.limit == OVOID_LIMIT_NONE);
@@ -289,8 +289,8 @@ static void check_refusals(void) {
     check_refused(&a, &b, NAN, NULL, OVOID_LIMIT_OPTIONS);
     check_refused(&a, &b, -1, NULL, OVOID_LIMIT_OPTIONS);
     check_refused(&a, &b, INFINITY, NULL, OVOID_LIMIT_OPTIONS);
-    const ovoid_motion_options bad[6] = {{.begin = NAN},    {.end = 2},         {.begin = -1},
-                                         {.begin = 0.5, .end = 0.25}, {.tolerance = -1}, {.tolerance = NAN}};
+    const ovoid_motion_options bad[6] = {
+        {.begin = NAN}, {.end = 2}, {.begin = -1}, {.begin = 0.5, .end = 0.25}, {.tolerance = -1}, {.tolerance = NAN}};
     for (int i = 0; i < 6; i++) check_refused(&a, &b, 0, &bad[i], OVOID_LIMIT_OPTIONS);
     c.motion.duration = -1;
     check_refused(&a, &c, 0, NULL, OVOID_LIMIT_POSE_B);

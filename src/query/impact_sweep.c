@@ -34,8 +34,8 @@ ovoid_limit sweep_make(sweep *s, const ovoid_moving *a, const ovoid_moving *b, c
     if (!has_times(&b->motion)) return OVOID_LIMIT_POSE_B;
     if (!(s->tolerance >= 0 && s->tolerance < INFINITY) || isnan(o->begin) || isnan(o->end)) return OVOID_LIMIT_OPTIONS;
     int ok = set_times(s, o);
-    // Of what is wrong with motions and times, the motions come first: bad ones have no times. Of a path, the pieces in the
-    // times asked about are looked at.
+    // Of what is wrong with motions and times, the motions come first: bad ones have no times. Of a path, the pieces in
+    // the times asked about are looked at.
     int all = o->begin == 0 && o->end == 0;
     double from = all ? -INFINITY : s->begin, to = all ? INFINITY : s->end;
     if (motion_check(&a->motion, from, to, NULL) != OVOID_OK) return OVOID_LIMIT_POSE_A;
