@@ -129,7 +129,7 @@ static const ovoid_pair *pose_pair(hunt *h, uint32_t a, uint32_t b) {
 // What may be left out from now on.
 static void tighten(hunt *h) {
     const ovoid_answer *best = &h->out->answer;
-    if (h->ask.wants_bracket) h->enough = max2(best->lower, best->upper - h->tolerance);
+    if (h->ask.wants_bracket) h->enough = min2(best->lower, best->upper - h->tolerance);
     // The margin is met: what is still asked is the sign.
     if (best->upper <= h->ask.near) h->ask = question_make_collide();
 }
@@ -148,7 +148,7 @@ static void visit_parts(hunt *h, uint32_t a, uint32_t b, const ovoid_proof *earl
     question ask = h->ask;
     int has_best = h->place_a < h->a.count;
     if (has_best && ask.wants_bracket && h->out->answer.upper < ask.far) {
-        ask.far = max2(h->out->answer.upper, 0);
+        ask.far = max2(h->enough, 0);
         ask.beyond = OVOID_LIMIT_CAP;
     }
     ovoid_cover cover, *wanted = ask.wants_depth && h->exclusions && h->exclusions->cover ? &cover : NULL;
