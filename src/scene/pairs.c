@@ -90,7 +90,7 @@ static int find_new(ovoid_world *w, size_t *count) {
         if (w->gathered[k].count) memcpy(w->keys + at, w->gathered[k].keys, w->gathered[k].count * sizeof *w->keys);
         at += w->gathered[k].count;
     }
-    keys_sort(w->keys, w->keys + w->key_capacity, *count);
+    if (*count) keys_sort(w->keys, w->keys + w->key_capacity, *count);
     return 1;
 }
 

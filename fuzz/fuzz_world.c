@@ -1,0 +1,198 @@
+// A world of up to twelve bodies under any sequence of its functions. Truth: a model of the bodies and their groups,
+// and the query of each pair alone: a frame's contacts are sorted, are pairs, leave none out that is proven within the
+// margin, and each bracket has a point in common with the pair's own; whole answers pass their check.
+#include "bodies.h"
+
+enum { SHAPES = 4, BODIES = 12, OPERATIONS = 48 };
+
+typedef struct model {
+    ovoid_world *world;
+    ovoid_shape *shapes[SHAPES];
+    ovoid_compound *compound;
+    struct {
+        ovoid_id id;
+        ovoid_solid solid;
+        uint32_t group, mask;
+    } bodies[BODIES];
+    int count;
+    ovoid_id ignored[OPERATIONS][2];
+    int ignored_count;
+    ovoid_id stale; ///< of the body removed last
+    int is_wild;
+} model;
+
+static int find_body(const model *m, ovoid_id id) {
+    for (int i = 0; i < m->count; i++)
+        if (m->bodies[i].id == id) return i;
+    return -1;
+}
+static int find_ignored(const model *m, ovoid_id a, ovoid_id b) {
+    for (int i = 0; i < m->ignored_count; i++)
+        if ((m->ignored[i][0] == a && m->ignored[i][1] == b) || (m->ignored[i][0] == b && m->ignored[i][1] == a))
+            return i;
+    return -1;
+}
+static int is_pair(const model *m, int i, int j) {
+    return (m->bodies[i].group & m->bodies[j].mask) && (m->bodies[j].group & m->bodies[i].mask) &&
+           find_ignored(m, m->bodies[i].id, m->bodies[j].id) < 0;
+}
+
+static void add(model *m, fuzz_bytes *from) {
+    int which = (unsigned)take_byte(from) % (SHAPES + 1);
+    ovoid_world_body body = {.user = 7};
+    if (which < SHAPES)
+        body.solid.shape = m->shapes[which];
+    else
+        body.solid.compound = m->compound;
+    body.solid.pose = take_any_pose(from, m->is_wild);
+    body.group = (uint32_t)(take_byte(from) & 3);
+    body.mask = (uint32_t)(take_byte(from) & 3);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_id id = ovoid_world_add(m->world, &body, &error);
+    if (!id) {
+        fuzz_require_error(&error);
+        return;
+    }
+    fuzz_require(find_body(m, id) < 0);
+    m->bodies[m->count].id = id;
+    m->bodies[m->count].solid = body.solid;
+    int is_all = body.group == 0 && body.mask == 0;
+    m->bodies[m->count].group = is_all ? UINT32_MAX : body.group;
+    m->bodies[m->count++].mask = is_all ? UINT32_MAX : body.mask;
+}
+
+static void remove_one(model *m, int i) {
+    fuzz_require(ovoid_world_remove(m->world, m->bodies[i].id, NULL) == OVOID_OK);
+    m->stale = m->bodies[i].id;
+    for (int k = m->ignored_count - 1; k >= 0; k--)
+        if (m->ignored[k][0] == m->stale || m->ignored[k][1] == m->stale) {
+            m->ignored_count--;
+            m->ignored[k][0] = m->ignored[m->ignored_count][0];
+            m->ignored[k][1] = m->ignored[m->ignored_count][1];
+        }
+    m->bodies[i] = m->bodies[--m->count];
+}
+
+static void set_ignored(model *m, int i, int j, int ignored) {
+    ovoid_id a = m->bodies[i].id, b = m->bodies[j].id;
+    ovoid_code code = ovoid_world_set_ignored(m->world, a, b, ignored, NULL);
+    fuzz_require(code == (i == j ? OVOID_ERROR_ARGUMENT : OVOID_OK));
+    int k = find_ignored(m, a, b);
+    if (i == j || (k >= 0) == ignored) return;
+    if (ignored) {
+        m->ignored[m->ignored_count][0] = a;
+        m->ignored[m->ignored_count++][1] = b;
+    } else {
+        m->ignored_count--;
+        m->ignored[k][0] = m->ignored[m->ignored_count][0];
+        m->ignored[k][1] = m->ignored[m->ignored_count][1];
+    }
+}
+
+static void check_contact(const model *m, const ovoid_contact *c, double margin) {
+    int i = find_body(m, c->a), j = find_body(m, c->b);
+    fuzz_require(c->a < c->b && i >= 0 && j >= 0 && is_pair(m, i, j) && ovoid_world_is_pair(m->world, c->a, c->b));
+    ovoid_solid_pair pair = {m->bodies[i].solid, m->bodies[j].solid};
+    ovoid_compound_answer alone = ovoid_compound_depth(&pair, NULL, NULL, NULL), whole;
+    fuzz_require(c->verdict.lower <= alone.answer.upper && alone.answer.lower <= c->verdict.upper);
+    fuzz_require(!(c->verdict.lower > margin));
+    static ovoid_exclusion items[256];
+    static ovoid_cover cover;
+    ovoid_exclusions exclusions = {items, 256, 0, &cover};
+    ovoid_error error = {OVOID_OK, -1, ""};
+    fuzz_require_code(ovoid_world_compute_proof(m->world, c, &exclusions, &whole, &error), &error);
+    fuzz_require_code(ovoid_compound_answer_check(&pair, &whole, &exclusions, &error), &error);
+}
+
+static void ask_frame(model *m, fuzz_bytes *from) {
+    ovoid_frame_query query = {.question = (ovoid_question)((unsigned)take_byte(from) % 4)};
+    query.margin = query.question == OVOID_QUESTION_COLLIDE ? 0 : fabs(take_number(from, m->is_wild)) / 4;
+    ovoid_frame frame;
+    ovoid_error error = {OVOID_OK, -1, ""};
+    if (ovoid_world_compute_frame(m->world, &query, &frame, &error) != OVOID_OK) {
+        fuzz_require_error(&error);
+        fuzz_require(error.code == OVOID_ERROR_ARGUMENT && m->is_wild);
+        return;
+    }
+    fuzz_require(frame.bodies == (size_t)m->count && frame.count <= frame.pairs);
+    fuzz_require(frame.aged + frame.queried == frame.pairs);
+    for (size_t k = 0; k < frame.count; k++) {
+        const ovoid_contact *c = &frame.contacts[k];
+        if (k) fuzz_require(c[-1].a < c->a || (c[-1].a == c->a && c[-1].b < c->b));
+        check_contact(m, c, query.margin);
+    }
+    // None is left out.
+    for (int i = 0; i < m->count; i++)
+        for (int j = 0; j < i; j++) {
+            if (!is_pair(m, i, j)) continue;
+            ovoid_solid_pair pair = {m->bodies[i].solid, m->bodies[j].solid};
+            ovoid_compound_answer x = ovoid_compound_within(&pair, query.margin, NULL, NULL, NULL);
+            int is_there = 0;
+            for (size_t k = 0; k < frame.count; k++)
+                is_there |= (frame.contacts[k].a == m->bodies[i].id && frame.contacts[k].b == m->bodies[j].id) ||
+                            (frame.contacts[k].b == m->bodies[i].id && frame.contacts[k].a == m->bodies[j].id);
+            if (ovoid_answer_is_within(&x.answer, query.margin) == 1) fuzz_require(is_there);
+        }
+}
+
+static void move(model *m, int i, fuzz_bytes *from) {
+    ovoid_pose pose = take_any_pose(from, m->is_wild);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    if (ovoid_world_move(m->world, m->bodies[i].id, &pose, &error) == OVOID_OK)
+        m->bodies[i].solid.pose = pose;
+    else
+        fuzz_require_error(&error);
+}
+
+static void operate(model *m, fuzz_bytes *from) {
+    unsigned what = (unsigned)take_byte(from) % 8, one = (unsigned)take_byte(from), other = (unsigned)take_byte(from);
+    int i = m->count ? (int)(one % (unsigned)m->count) : 0, j = m->count ? (int)(other % (unsigned)m->count) : 0;
+    if (what <= 1 && m->count < BODIES) add(m, from);
+    if (what == 7 || m->count == 0) ask_frame(m, from);
+    if (m->count == 0) return;
+    ovoid_world_body body;
+    switch (what) {
+    case 2: remove_one(m, i); break;
+    case 3:
+    case 4: move(m, i, from); break;
+    case 5: set_ignored(m, i, j, one & 1); break;
+    case 6:
+        m->bodies[i].group = (uint32_t)(other & 3);
+        m->bodies[i].mask = (uint32_t)(other >> 2 & 3);
+        fuzz_require(ovoid_world_set_groups(m->world, m->bodies[i].id, m->bodies[i].group, m->bodies[i].mask, NULL) ==
+                     OVOID_OK);
+        fuzz_require(ovoid_world_get(m->world, m->bodies[i].id, &body, NULL) == OVOID_OK && body.user == 7);
+        // Both zero means all.
+        m->bodies[i].group = body.group;
+        m->bodies[i].mask = body.mask;
+        break;
+    default: break;
+    }
+    // An id of the past stays of the past.
+    if (m->stale && find_body(m, m->stale) < 0)
+        fuzz_require(ovoid_world_get(m->world, m->stale, &body, NULL) == OVOID_ERROR_INDEX);
+    fuzz_require(ovoid_world_get_count(m->world) == (size_t)m->count);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    fuzz_bytes from = {data, size};
+    model m = {.is_wild = take_byte(&from) > 96};
+    ovoid_world_options options = {.threads = take_byte(&from) == 77 ? 3 : 1,
+                                   .enlargement = (take_byte(&from) & 3) * 0.1};
+    ovoid_error error = {OVOID_OK, -1, ""};
+    int all = 1;
+    for (int i = 0; i < SHAPES; i++) all &= (m.shapes[i] = take_any_shape(&from, m.is_wild)) != NULL;
+    if (all) {
+        ovoid_body parts[3];
+        for (int i = 0; i < 3; i++) parts[i] = (ovoid_body){m.shapes[i], take_any_pose(&from, m.is_wild)};
+        m.compound = ovoid_compound_create(parts, 3, NULL, &error);
+        m.world = ovoid_world_create(&options, &error);
+        fuzz_require(m.world != NULL);
+        for (int k = 0; k < OPERATIONS && from.size && m.compound; k++) operate(&m, &from);
+        if (m.compound) ask_frame(&m, &from);
+    }
+    ovoid_world_destroy(m.world);
+    ovoid_compound_destroy(m.compound);
+    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(m.shapes[i]);
+    return 0;
+}
