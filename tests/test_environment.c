@@ -220,6 +220,12 @@ static void ask_motions(void) {
     ADD(code);
     x = ovoid_translation_cast(&pairs[0], linear, third, NULL);
     add_impact(&x);
+    ovoid_moving_solid solids[2] = {{.shape = hull_shape, .motion = a.motion},
+                                    {.shape = box_shape, .motion = b.motion}};
+    ovoid_compound_impact z = ovoid_compound_impact_find(&solids[0], &solids[1], 0.01, &o);
+    add_impact(&z.impact);
+    box = ovoid_moving_solid_compute_box(&solids[1], 0, third);
+    ADD(box);
     ovoid_body body = {hull_shape, pairs[0].pose_b};
     ovoid_ray ray = {point, {2.1, 2.2, -2.7}, INFINITY, 0.01};
     ovoid_ray_hit hit = ovoid_ray_cast(&body, &ray);

@@ -8,6 +8,7 @@
 #include "ovoid/area.h"
 #include "ovoid/base.h"
 #include "ovoid/compound.h"
+#include "ovoid/compound_impact.h"
 #include "ovoid/ellipsoid.h"
 #include "ovoid/linear.h"
 #include "ovoid/motion.h"

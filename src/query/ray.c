@@ -7,25 +7,7 @@
 #include "query/answer.h"
 #include "query/impact.h"
 #include "query/motion.h"
-#include "shape/block.h"
-
-#include <string.h>
-
-// A point as a shape, without an allocation: all its arrays are these zeros.
-typedef struct point_shape {
-    ovoid_shape shape;
-    _Alignas(64) double zeros[8];
-} point_shape;
-
-static void point_make(point_shape *p, double radius) {
-    const uint64_t at = offsetof(point_shape, zeros);
-    memset(p, 0, sizeof *p);
-    p->shape.radius = radius;
-    p->shape.vertex_count = p->shape.counts.vertices = 1;
-    p->shape.padded_count = 8;
-    p->shape.at.x = p->shape.at.y = p->shape.at.z = p->shape.at.vertices = at;
-    p->shape.at.size = sizeof *p;
-}
+#include "query/point.h"
 
 static int ray_is_sound(const ovoid_ray *r) {
     return vec3_max_abs(r->origin) <= OVOID_LENGTH_MAX && vec3_max_abs(r->direction) <= OVOID_LENGTH_MAX &&

@@ -1,0 +1,245 @@
+// When do two moving compounds first meet? A branch and bound down both trees (the traversal of X. Zhang, S. Redon, M.
+// Lee, Y. J. Kim, Continuous collision detection for articulated models using Taylor models and temporal culling,
+// 2007): the balls around two nodes are moved with their solids, and the time until which these are free is a lower
+// bound of that of all their parts. The pair of nodes that may meet first is opened first; what is free until the first
+// hit found is left out. Each pair of parts is an ordinary impact (query/impact.c), with its own steps.
+#include "ovoid/compound_impact.h"
+#include "base/environment.h"
+#include "base/error.h"
+#include "query/impact.h"
+#include "query/impact_sweep.h"
+#include "query/point.h"
+#include "scene/compound.h"
+
+enum { BOX_DEPTH = 4 };
+
+typedef struct couple {
+    const compound_node *a, *b;
+    double after; ///< no two of their parts meet before this time
+} couple;
+
+typedef struct descent {
+    const ovoid_moving_solid *a, *b;
+    solid_view view_a, view_b;
+    double margin, begin, end; ///< end: of the times that matter, the first hit found
+    double tolerance;          ///< of times
+    ovoid_motion_options options;
+    ovoid_compound_impact *out;
+    uint32_t place_a, place_b; ///< of the deciding pair
+    double window;             ///< the end of times when it was asked
+    double free_until;         ///< the least of all pairs
+} descent;
+
+static const ovoid_pose no_part = {{0, 0, 0}, {0, 0, 0, 0}};
+
+static ovoid_moving make_part(const ovoid_moving_solid *solid, const solid_view *view, uint32_t place) {
+    const compound_part *part = &view->parts[place];
+    return (ovoid_moving){part->shape, solid->motion, solid->compound ? part->pose : no_part};
+}
+
+// The times that matter, and the tolerance in parts of them.
+static ovoid_motion_options make_options(const descent *d, double end, double tolerance) {
+    ovoid_motion_options o = d->options;
+    o.steps = NULL;
+    o.begin = d->begin;
+    o.end = end;
+    o.tolerance = end > d->begin ? tolerance / (end - d->begin) : 0;
+    return o;
+}
+
+// The time until which the balls around two nodes are free; infinity where they are to the end.
+static double find_free(const descent *d, const compound_node *a, const compound_node *b) {
+    point_shape ball_a, ball_b;
+    const ovoid_quat none = {1, 0, 0, 0};
+    ovoid_impact x;
+    point_make(&ball_a, a->radius);
+    point_make(&ball_b, b->radius);
+    ovoid_moving moving_a = {&ball_a.shape, d->a->motion, {a->center, none}};
+    ovoid_moving moving_b = {&ball_b.shape, d->b->motion, {b->center, none}};
+    ovoid_motion_options o = make_options(d, d->end, 1e-3 * (d->end - d->begin));
+    o.query = NULL;
+    impact_find(&moving_a, &moving_b, d->margin, &o, 1e-3, &x);
+    return x.status == OVOID_IMPACT_FREE ? INFINITY : x.free_until;
+}
+
+// A pair of parts.
+static void take_parts(descent *d, uint32_t a, uint32_t b) {
+    ovoid_impact x, *best = &d->out->impact;
+    ovoid_moving moving_a = make_part(d->a, &d->view_a, a), moving_b = make_part(d->b, &d->view_b, b);
+    ovoid_motion_options o = make_options(d, d->end, d->tolerance);
+    impact_find(&moving_a, &moving_b, d->margin, &o, 1e-9, &x);
+    d->out->tested++;
+    uint32_t all = best->iterations + x.iterations;
+    // A hit before all others, or what is not decided where there is no hit.
+    int is_first = x.status == OVOID_IMPACT_HIT || (x.status == OVOID_IMPACT_UNDECIDED &&
+                                                    best->status != OVOID_IMPACT_HIT && x.free_until < d->free_until);
+    if (x.status != OVOID_IMPACT_FREE && x.free_until < d->free_until) d->free_until = x.free_until;
+    if (is_first) {
+        d->window = d->end;
+        d->place_a = a;
+        d->place_b = b;
+        *best = x;
+    }
+    best->iterations = all;
+    if (x.status == OVOID_IMPACT_HIT) d->end = x.hit_at;
+}
+
+// Pairs of children, the one that may meet first on top of the stack.
+static int open_couple(const descent *d, const couple *c, couple *stack) {
+    int is_a = node_is_split_first(c->a, c->b), count = 0;
+    const compound_node *opened = is_a ? c->a : c->b, *halves[2] = {node_get_left(opened), node_get_right(opened)};
+    couple found[2];
+    for (int i = 0; i < 2; i++) {
+        couple half = {is_a ? halves[i] : c->a, is_a ? c->b : halves[i], c->after};
+        d->out->visited++;
+        // Two parts are asked at once.
+        if (!(node_is_leaf(half.a) && node_is_leaf(half.b))) half.after = find_free(d, half.a, half.b);
+        if (half.after < d->end || (half.after <= d->end && d->out->impact.status != OVOID_IMPACT_HIT))
+            found[count++] = half;
+    }
+    int last_first = count == 2 && found[0].after <= found[1].after;
+    for (int i = 0; i < count; i++) stack[i] = found[last_first ? count - 1 - i : i];
+    return count;
+}
+
+static void descend(descent *d) {
+    couple stack[2 * COMPOUND_DEPTH_MAX + 2];
+    int top = 0;
+    stack[top++] = (couple){d->view_a.nodes, d->view_b.nodes, d->begin};
+    while (top > 0) {
+        couple c = stack[--top];
+        int is_hit = d->out->impact.status == OVOID_IMPACT_HIT;
+        if (is_hit && (c.after >= d->end || d->end <= d->begin)) continue;
+        if (node_is_leaf(c.a) && node_is_leaf(c.b))
+            take_parts(d, c.a->first, c.b->first);
+        else
+            top += open_couple(d, &c, stack + top);
+    }
+}
+
+// The deciding pair again, now with its steps.
+static void finish(descent *d) {
+    ovoid_compound_impact *out = d->out;
+    ovoid_impact *best = &out->impact;
+    uint32_t iterations = best->iterations;
+    if (best->status == OVOID_IMPACT_FREE) return;
+    ovoid_moving a = make_part(d->a, &d->view_a, d->place_a), b = make_part(d->b, &d->view_b, d->place_b);
+    ovoid_motion_options o = make_options(d, d->window, d->tolerance);
+    o.steps = d->options.steps;
+    o.capacity = d->options.capacity;
+    impact_find(&a, &b, d->margin, &o, 1e-9, best);
+    best->iterations = iterations;
+    out->part_a = solid_view_get_index(&d->view_a, d->place_a);
+    out->part_b = solid_view_get_index(&d->view_b, d->place_b);
+    // Another pair may have been free for a shorter time without being hit.
+    if (d->free_until < best->free_until) {
+        best->free_until = d->free_until;
+        if (best->limit == OVOID_LIMIT_NONE) best->limit = OVOID_LIMIT_PRECISION;
+    }
+}
+
+static void make_view(const ovoid_moving_solid *s, solid_view *view) {
+    const ovoid_pose origin = {{0, 0, 0}, {1, 0, 0, 0}};
+    ovoid_solid solid = {s->shape, s->compound, origin};
+    // The pose is the motion's; parts are taken in the solid's own frame.
+    (void)solid_view_make(&solid, view);
+    view->pose = NULL;
+}
+
+// The solids as trees, and the times; what is refused is refused as of two parts.
+static ovoid_limit start(descent *d, const ovoid_motion_options *given) {
+    static const ovoid_motion_options none = {0};
+    sweep s;
+    d->options = given ? *given : none;
+    make_view(d->a, &d->view_a);
+    make_view(d->b, &d->view_b);
+    ovoid_moving a = make_part(d->a, &d->view_a, 0), b = make_part(d->b, &d->view_b, 0);
+    ovoid_limit limit = sweep_make(&s, &a, &b, &d->options, 1e-9);
+    if (limit == OVOID_LIMIT_NONE && !(d->margin >= 0 && d->margin < INFINITY)) limit = OVOID_LIMIT_OPTIONS;
+    d->begin = s.begin;
+    d->end = s.end;
+    d->tolerance = s.tolerance * (s.end - s.begin);
+    return limit;
+}
+
+static ovoid_compound_impact find(const ovoid_moving_solid *a, const ovoid_moving_solid *b, double margin,
+                                  const ovoid_motion_options *options) {
+    OVOID_ASSERT(a && b && !a->shape != !a->compound && !b->shape != !b->compound);
+    ovoid_compound_impact out = {.impact = {.hit_at = INFINITY}};
+    ovoid_impact *x = &out.impact;
+    descent d = {.a = a, .b = b, .margin = margin, .out = &out, .free_until = INFINITY};
+    x->limit = start(&d, options);
+    x->free = x->hit = answer_make_refused(x->limit);
+    if (x->limit != OVOID_LIMIT_NONE) return out;
+    double end = d.end;
+    x->status = OVOID_IMPACT_FREE;
+    descend(&d);
+    finish(&d);
+    x->begin = d.begin;
+    x->end = end;
+    if (x->status == OVOID_IMPACT_FREE) x->free_until = end;
+    return out;
+}
+
+ovoid_compound_impact ovoid_compound_impact_find(const ovoid_moving_solid *a, const ovoid_moving_solid *b,
+                                                 double margin, const ovoid_motion_options *options) {
+    ENVIRONMENT_RETURN(ovoid_compound_impact, margin, find(a, b, margin, options));
+}
+
+ovoid_moving ovoid_moving_solid_get_part(const ovoid_moving_solid *solid, size_t i) {
+    if (!solid->compound) return (ovoid_moving){solid->shape, solid->motion, no_part};
+    ovoid_body part = ovoid_compound_get_part(solid->compound, i);
+    return (ovoid_moving){part.shape, solid->motion, part.pose};
+}
+
+// ---- boxes
+
+static void join(ovoid_box *all, ovoid_box box) {
+    all->low = (vec3){min2(all->low.x, box.low.x), min2(all->low.y, box.low.y), min2(all->low.z, box.low.z)};
+    all->high = (vec3){max2(all->high.x, box.high.x), max2(all->high.y, box.high.y), max2(all->high.z, box.high.z)};
+}
+
+// The box of a part, or of the ball around a node.
+static ovoid_box find_box(const ovoid_moving_solid *solid, const solid_view *view, const compound_node *n, double begin,
+                          double end) {
+    const ovoid_quat none = {1, 0, 0, 0};
+    ovoid_moving m = make_part(solid, view, n->first);
+    if (node_is_leaf(n)) return ovoid_moving_compute_box(&m, begin, end);
+    point_shape ball;
+    point_make(&ball, n->radius);
+    m = (ovoid_moving){&ball.shape, solid->motion, {n->center, none}};
+    return ovoid_moving_compute_box(&m, begin, end);
+}
+
+static ovoid_box compute_box(const ovoid_moving_solid *solid, double begin, double end) {
+    struct {
+        const compound_node *node;
+        int depth;
+    } stack[2 * BOX_DEPTH + 2];
+    OVOID_ASSERT(solid && !solid->shape != !solid->compound);
+    solid_view view;
+    make_view(solid, &view);
+    ovoid_box all = find_box(solid, &view, view.nodes, begin, end);
+    if (isnan(all.low.x) || node_is_leaf(view.nodes)) return all;
+    all = (ovoid_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    int top = 0;
+    stack[top].node = view.nodes;
+    stack[top++].depth = 0;
+    while (top > 0) {
+        const compound_node *n = stack[--top].node;
+        int depth = stack[top].depth + 1;
+        if (depth > BOX_DEPTH || node_is_leaf(n)) {
+            join(&all, find_box(solid, &view, n, begin, end));
+            continue;
+        }
+        stack[top].node = node_get_left(n);
+        stack[top++].depth = depth;
+        stack[top].node = node_get_right(n);
+        stack[top++].depth = depth;
+    }
+    return all;
+}
+
+ovoid_box ovoid_moving_solid_compute_box(const ovoid_moving_solid *solid, double begin, double end) {
+    ENVIRONMENT_RETURN(ovoid_box, begin, compute_box(solid, begin, end));
+}

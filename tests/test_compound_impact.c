@@ -1,0 +1,136 @@
+// Compounds that move. Truth: every pair of parts by ovoid_impact_find, with its own proof; distances of the compounds
+// at sampled times; boxes hold the parts' boxes. The deciding pair's steps are checked.
+#include "moving.h"
+
+enum { PARTS = 12, CAPACITY = 4000 };
+static ovoid_step steps[CAPACITY];
+
+typedef struct machine {
+    ovoid_shape *shapes[3];
+    ovoid_compound *compound;
+    ovoid_moving_solid solid;
+} machine;
+
+static void make(machine *m, uint64_t *s, uint32_t count) {
+    ovoid_body parts[PARTS];
+    for (int i = 0; i < 3; i++)
+        m->shapes[i] = bits_make_shape(i == 0 ? BITS_BALL : i == 1 ? BITS_NEEDLE : BITS_PLAIN, s);
+    for (uint32_t i = 0; i < count; i++)
+        parts[i] = (ovoid_body){m->shapes[random_next(s) % 3], {bits_vec3(s, 3), bits_quat(s)}};
+    m->compound = ovoid_compound_create(parts, count, NULL, NULL);
+    m->solid = (ovoid_moving_solid){.compound = m->compound};
+}
+
+static void destroy(machine *m) {
+    ovoid_compound_destroy(m->compound);
+    for (int i = 0; i < 3; i++) ovoid_shape_destroy(m->shapes[i]);
+}
+
+static ovoid_motion make_motion(uint64_t *s, double far) {
+    const double spins[4] = {0, 1, 6, 200};
+    ovoid_pose start = {bits_vec3(s, far), bits_quat(s)}, end = {bits_vec3(s, far), bits_quat(s)};
+    if (random_next(s) % 3 == 0) return ovoid_motion_make_poses(start, end, 1);
+    return ovoid_motion_make_velocity(start, bits_vec3(s, 12), bits_vec3(s, spins[random_next(s) % 4]), 1);
+}
+
+// The first hit of all pairs of parts, and until when all are free.
+static ovoid_impact find_all(const ovoid_moving_solid *a, const ovoid_moving_solid *b, double margin) {
+    ovoid_impact best = {.status = OVOID_IMPACT_FREE, .hit_at = INFINITY, .free_until = INFINITY};
+    size_t count_a = a->compound ? ovoid_compound_get_part_count(a->compound) : 1;
+    size_t count_b = b->compound ? ovoid_compound_get_part_count(b->compound) : 1;
+    for (size_t i = 0; i < count_a; i++)
+        for (size_t j = 0; j < count_b; j++) {
+            ovoid_moving x = ovoid_moving_solid_get_part(a, i), y = ovoid_moving_solid_get_part(b, j);
+            ovoid_impact one = ovoid_impact_find(&x, &y, margin, NULL);
+            best.free_until = fmin(best.free_until, one.free_until);
+            best.hit_at = fmin(best.hit_at, one.hit_at);
+            if (one.status == OVOID_IMPACT_HIT) best.status = OVOID_IMPACT_HIT;
+            if (one.status == OVOID_IMPACT_UNDECIDED && best.status == OVOID_IMPACT_FREE) best.status = one.status;
+        }
+    return best;
+}
+
+static void check_samples(const ovoid_moving_solid *a, const ovoid_moving_solid *b, double margin,
+                          const ovoid_impact *x, uint64_t *s) {
+    for (int i = 0; i < 20; i++) {
+        double t = x->begin + (x->free_until - x->begin) * random_uniform(s, 0, 1);
+        ovoid_solid_pair pair = {{a->shape, a->compound, ovoid_motion_compute_pose(&a->motion, t)},
+                                 {b->shape, b->compound, ovoid_motion_compute_pose(&b->motion, t)}};
+        if (t < x->free_until) CHECK_LE(margin - 1e-10, ovoid_compound_distance(&pair, NULL, NULL, NULL).answer.upper);
+    }
+}
+
+static void check_pair(const ovoid_moving_solid *a, const ovoid_moving_solid *b, double margin, uint64_t *s) {
+    ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY};
+    ovoid_compound_impact found = ovoid_compound_impact_find(a, b, margin, &o);
+    const ovoid_impact *x = &found.impact;
+    ovoid_impact all = find_all(a, b, margin);
+    CHECK_EQ(x->status, all.status);
+    CHECK_NEAR(fmin(x->hit_at, 2), fmin(all.hit_at, 2), 2e-9);
+    CHECK_NEAR(x->free_until, all.free_until, 2e-9);
+    CHECK(x->begin == 0 && x->end == 1);
+    check_samples(a, b, margin, x, s);
+    if (x->status != OVOID_IMPACT_HIT) return;
+    ovoid_moving part_a = ovoid_moving_solid_get_part(a, found.part_a);
+    ovoid_moving part_b = ovoid_moving_solid_get_part(b, found.part_b);
+    ovoid_error error;
+    if (!CHECK_EQ(ovoid_impact_check(&part_a, &part_b, margin, x, steps, &error), OVOID_OK))
+        printf("  %s\n", error.message);
+}
+
+static void check_box(const ovoid_moving_solid *m, double begin, double end) {
+    ovoid_box box = ovoid_moving_solid_compute_box(m, begin, end);
+    size_t count = m->compound ? ovoid_compound_get_part_count(m->compound) : 1;
+    for (size_t i = 0; i < count; i++) {
+        ovoid_moving part = ovoid_moving_solid_get_part(m, i);
+        ovoid_polytope p = ovoid_shape_get_polytope(part.shape);
+        double r = ovoid_shape_get_radius(part.shape);
+        for (int k = 0; k <= 20; k++) {
+            ovoid_pose pose = ovoid_moving_compute_pose(&part, begin + (end - begin) * k / 20);
+            for (uint32_t v = 0; v < p.vertex_count; v++) {
+                ovoid_vec3 local = {p.origin.x + p.vertices[3 * v], p.origin.y + p.vertices[3 * v + 1],
+                                    p.origin.z + p.vertices[3 * v + 2]};
+                ovoid_vec3 x = ovoid_pose_compute_point(&pose, local);
+                CHECK(x.x - r >= box.low.x - 1e-12 && x.y - r >= box.low.y - 1e-12 && x.z - r >= box.low.z - 1e-12);
+                CHECK(x.x + r <= box.high.x + 1e-12 && x.y + r <= box.high.y + 1e-12 && x.z + r <= box.high.z + 1e-12);
+            }
+        }
+    }
+}
+
+static void check_refusals(const ovoid_moving_solid *a) {
+    ovoid_moving_solid bad = *a;
+    bad.motion.duration = -1;
+    bad.motion.kind = OVOID_MOTION_POSES;
+    CHECK_EQ(ovoid_compound_impact_find(a, &bad, 0, NULL).impact.limit, OVOID_LIMIT_POSE_B);
+    CHECK_EQ(ovoid_compound_impact_find(&bad, a, 0, NULL).impact.limit, OVOID_LIMIT_POSE_A);
+    CHECK_EQ(ovoid_compound_impact_find(a, a, -1, NULL).impact.limit, OVOID_LIMIT_OPTIONS);
+    CHECK(isnan(ovoid_moving_solid_compute_box(&bad, 0, 1).low.x));
+}
+
+int main(void) {
+    long hits = 0, tested = 0, pairs = 0;
+    for (uint64_t seed = 1; seed <= 120; seed++) {
+        uint64_t s = check_seed = seed;
+        machine a, b;
+        make(&a, &s, 1 + (uint32_t)(seed % PARTS));
+        make(&b, &s, PARTS);
+        a.solid.motion = make_motion(&s, 4);
+        b.solid.motion = make_motion(&s, seed % 2 ? 5 : 12);
+        // A shape, too.
+        if (seed % 5 == 0) a.solid = (ovoid_moving_solid){.shape = a.shapes[2], .motion = a.solid.motion};
+        check_pair(&a.solid, &b.solid, seed % 3 ? 0 : 0.3, &s);
+        ovoid_compound_impact x = ovoid_compound_impact_find(&a.solid, &b.solid, 0, NULL);
+        hits += x.impact.status == OVOID_IMPACT_HIT;
+        tested += x.tested;
+        pairs += (a.solid.shape ? 1 : 1 + (long)(seed % PARTS)) * PARTS;
+        check_box(&a.solid, 0, 0.5);
+        check_box(&b.solid, 0.25, 1);
+        if (seed == 1) check_refusals(&a.solid);
+        destroy(&a);
+        destroy(&b);
+    }
+    check_seed = 0;
+    printf("%ld of 120 hit; %ld of %ld pairs of parts were looked at\n", hits, tested, pairs);
+    return check_end();
+}
