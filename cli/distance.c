@@ -1,6 +1,7 @@
 // ovoid distance: the signed distance of one pair, with its bracket, witness points and proof.
 #include "commands.h"
 
+#include "answers.h"
 #include "finish.h"
 #include "inputs.h"
 #include "message.h"
@@ -9,19 +10,21 @@
 #include <ovoid/ovoid.h>
 
 #include <math.h>
-#include <stdlib.h>
 
 typedef struct settings {
     read_settings read;
     output_settings out;
     ovoid_pose pose_a, pose_b;
     double margin, tolerance; ///< margin negative: not given
+    int parts;
 } settings;
 
 static const cli_option options[] = {
     {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), "\"X Y Z QW QX QY QZ\"", NULL,
      "pose of A: position, then quaternion, which need not be normalised (default: \"0 0 0 1 0 0 0\")"},
     {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), "\"X Y Z QW QX QY QZ\"", NULL, "pose of B"},
+    {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
+     "A and B are compounds: each object of their files is a convex part; the nearest parts are named"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "also ask whether the bodies are within M of each other: exit code 1 if they are"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
@@ -35,11 +38,24 @@ static void print_vector(FILE *file, const char *title, ovoid_vec3 v) {
     fprintf(file, "%-11s %.9g %.9g %.9g\n", title, v.x, v.y, v.z);
 }
 
-static void print_body(FILE *file, const char *title, const char *path, const ovoid_shape *shape) {
+static void print_shape(FILE *file, const char *title, const char *path, const ovoid_shape *shape) {
     ovoid_report report = ovoid_shape_get_report(shape);
     fprintf(file, "%-11s %s; vertices: %llu", title, path, (unsigned long long)report.vertices);
     if (ovoid_shape_get_radius(shape) > 0) fprintf(file, "; radius: %.9g", ovoid_shape_get_radius(shape));
     fputc('\n', file);
+}
+
+static void print_body(FILE *file, const char *title, const char *path, const cli_body *body) {
+    if (body->shape)
+        print_shape(file, title, path, body->shape);
+    else
+        fprintf(file, "%-11s %s; parts: %zu\n", title, path, ovoid_shapes_get_count(body->parts));
+}
+
+/// The number of a part, and its name in the file.
+static void print_part(FILE *file, const char *title, const cli_body *body, uint32_t part) {
+    if (body->shape) return;
+    fprintf(file, "%-11s %lu; %s\n", title, (unsigned long)part, ovoid_shapes_get(body->parts, part).name);
 }
 
 /// What is known about the margin, in words.
@@ -53,39 +69,63 @@ static void print_margin(FILE *file, const ovoid_answer *answer, double margin) 
 }
 
 /// The report for people: what, then how far, then why.
-static void print_report(FILE *file, const ovoid_pair *pair, const ovoid_record *record, double margin, int holds) {
+static void print_report(FILE *file, const cli_body bodies[2], const ovoid_record *record, double margin, int holds) {
     const ovoid_answer *x = &record->answer;
     double middle = x->lower + (x->upper - x->lower) / 2;
-    print_body(file, "a", record->a, pair->shape_a);
-    print_body(file, "b", record->b, pair->shape_b);
+    print_body(file, "a", record->a, &bodies[0]);
+    print_body(file, "b", record->b, &bodies[1]);
     fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(x->status));
     if (isfinite(middle)) fprintf(file, "%-11s %.9g\n", x->upper < 0 ? "depth" : "distance", fabs(middle));
     fprintf(file, "%-11s %.17g .. %.17g\n", "bracket", x->lower, x->upper);
     if (margin >= 0) print_margin(file, x, margin);
+    print_part(file, "part of a", &bodies[0], record->part_a);
+    print_part(file, "part of b", &bodies[1], record->part_b);
     print_vector(file, "point on a", x->point_a);
     print_vector(file, "point on b", x->point_b);
     print_vector(file, "normal", x->normal);
     fprintf(file, "%-11s %s; iterations: %u", "decided by", ovoid_stage_get_name(x->stage), (unsigned)x->iterations);
     if (x->limit != OVOID_LIMIT_NONE) fprintf(file, "; stopped by: %s", ovoid_limit_get_name(x->limit));
-    fprintf(file, "\n%-11s %s; %s\n", "proof", ovoid_proof_kind_get_name(x->proof.kind),
-            holds ? "checked" : "DOES NOT HOLD");
+    fprintf(file, "\n%-11s %s; ", "proof", ovoid_proof_kind_get_name(x->proof.kind));
+    if (bodies[0].compound) fprintf(file, "exclusions: %zu; ", record->exclusion_count);
+    fprintf(file, "%s\n", holds ? "checked" : "DOES NOT HOLD");
+}
+
+/// Checks what is written, by its proof alone.
+static int check_record(const ovoid_solid_pair *pair, const ovoid_record *record) {
+    ovoid_error error;
+    ovoid_compound_answer answer = {.answer = record->answer,
+                                    .part_a = pair->a.compound ? record->part_a : 0,
+                                    .part_b = pair->b.compound ? record->part_b : 0};
+    ovoid_exclusions exclusions = {(ovoid_exclusion *)record->exclusions, record->exclusion_count,
+                                   record->exclusion_count, (ovoid_cover *)record->cover};
+    if (ovoid_compound_answer_check(pair, &answer, &exclusions, &error) == OVOID_OK) return 1;
+    message_error("the proof does not hold: %s", error.message);
+    return 0;
 }
 
 /// Asks, checks the proof, writes. Returns the exit code.
-static int answer_pair(const settings *s, const ovoid_pair *pair, const char *const paths[2], ovoid_cover *cover) {
-    ovoid_options query = {.absolute_tolerance = s->tolerance};
-    ovoid_error error;
+static int answer_pair(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
+    ovoid_solid_pair pair = {inputs_get_solid(&bodies[0], &s->pose_a), inputs_get_solid(&bodies[1], &s->pose_b)};
+    answer_room room = {NULL, NULL, 0};
     cli_results results;
-    ovoid_record record = {.a = paths[0], .b = paths[1], .cover = cover};
-    record.answer = ovoid_depth(pair, &query, NULL, cover);
-    int holds = ovoid_answer_check(pair, &record.answer, cover, &error) == OVOID_OK;
+    ovoid_record record = {.a = paths[0], .b = paths[1], .fields = s->parts ? OVOID_RECORD_PARTS : 0};
+    if (!answers_ask(&room, &pair, QUERY_DEPTH, 0, s->tolerance, 1, &record)) {
+        message_error("out of memory");
+        answer_room_clear(&room);
+        return EXIT_INPUT;
+    }
+    int holds = check_record(&pair, &record);
     int code = holds ? (int)results_judge(&record.answer, s->margin) : EXIT_NOT_PROVEN;
-    if (!holds) message_error("the proof does not hold: %s", error.message);
-    if (results_open(&results, &s->out, s->margin)) return EXIT_INPUT;
+    if (results_open(&results, &s->out, s->margin)) {
+        answer_room_clear(&room);
+        return EXIT_INPUT;
+    }
+    results.fields = record.fields;
     if (results_are_lines(&results))
         results_add(&results, &record);
     else
-        print_report(results.file, pair, &record, s->margin, holds);
+        print_report(results.file, bodies, &record, s->margin, holds);
+    answer_room_clear(&room);
     return results_close(&results, code);
 }
 
@@ -95,20 +135,14 @@ static int run(const cli_command *command, int argc, char **argv) {
                   .pose_b = ovoid_pose_make_identity(),
                   .margin = -1};
     cli_operands paths;
-    ovoid_shape *shapes[2];
+    cli_body bodies[2];
     int code = args_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_check_settings(command, &s.out);
     if (code >= 0) return code;
-    if ((code = inputs_read_pair(paths.items, &s.read, shapes)) != 0) return code;
-    ovoid_pair pair = {shapes[0], shapes[1], s.pose_a, s.pose_b};
-    ovoid_cover *cover = malloc(sizeof *cover);
-    if (cover)
-        code = answer_pair(&s, &pair, paths.items, cover);
-    else
-        message_error("out of memory"), code = EXIT_INPUT;
-    free(cover);
-    ovoid_shape_destroy(shapes[0]);
-    ovoid_shape_destroy(shapes[1]);
+    if ((code = inputs_open_pair(paths.items, &s.read, s.parts, bodies)) != 0) return code;
+    code = answer_pair(&s, bodies, paths.items);
+    inputs_close_body(&bodies[0]);
+    inputs_close_body(&bodies[1]);
     return code;
 }
 
@@ -120,12 +154,16 @@ const cli_command command_distance = {
         "The signed distance of two convex bodies: positive where they are apart, minus the depth where they overlap. "
         "The answer is a bracket, lower <= d <= upper, rounding included, with witness points, a normal from A to B, "
         "and a proof, which is checked before it is written.\n\n"
-        "A and B are meshes (STL, OBJ, OFF, PLY, COLLADA, glTF), of which the convex hull is meant, or .ovoid files.",
+        "A and B are meshes (STL, OBJ, OFF, PLY, COLLADA, glTF), of which the convex hull is meant, or .ovoid files. "
+        "With --parts, they are compounds of convex parts, as CoACD and V-HACD write them: d is then the smallest "
+        "signed "
+        "distance of a part of A and a part of B, and the proof also says why no other two are nearer.",
     .exits = "0 apart (with --margin: farther than M)\n1 touching or overlapping (with --margin: within M)\n"
              "2 the command line is wrong\n3 bad input, or output that could not be written\n4 not proven",
     .examples = "ovoid distance a.stl b.obj --pose-b \"0 0 1.5 1 0 0 0\"\n"
                 "ovoid distance a.ovoid b.ovoid --margin 0.05 || echo too near\n"
-                "ovoid distance part.stl tool.stl --unit mm --json",
+                "ovoid distance part.stl tool.stl --unit mm --json\n"
+                "ovoid distance chair.obj lamp.obj --parts --pose-b \"0.4 0 0 1 0 0 0\"",
     .options = options,
     .operands_min = 2,
     .operands_max = 2,

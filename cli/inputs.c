@@ -3,6 +3,7 @@
 
 #include "message.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 ovoid_read_options inputs_make_options(const read_settings *settings) {
@@ -20,13 +21,40 @@ ovoid_shape *inputs_read_shape(const char *path, const read_settings *settings) 
     return shape;
 }
 
-int inputs_read_pair(const char *const paths[2], const read_settings *settings, ovoid_shape *shapes[2]) {
-    shapes[1] = NULL;
-    shapes[0] = inputs_read_shape(paths[0], settings);
-    if (shapes[0]) shapes[1] = inputs_read_shape(paths[1], settings);
-    if (shapes[1]) return 0;
-    ovoid_shape_destroy(shapes[0]);
-    return EXIT_INPUT;
+static int open_body(const char *path, const read_settings *settings, int parts, cli_body *body) {
+    ovoid_error error;
+    *body = (cli_body){NULL, NULL, NULL};
+    if (!parts) {
+        body->shape = inputs_read_shape(path, settings);
+        return body->shape ? 0 : EXIT_INPUT;
+    }
+    ovoid_read_options read = inputs_make_options(settings);
+    read.parts = 1;
+    body->parts = ovoid_shapes_read_file(path, &read, NULL, &error);
+    if (body->parts) body->compound = ovoid_shapes_create_compound(body->parts, NULL, &error);
+    if (!body->compound) message_error("%s", error.message);
+    return body->compound ? 0 : EXIT_INPUT;
+}
+
+int inputs_open_pair(const char *const paths[2], const read_settings *settings, int parts, cli_body bodies[2]) {
+    bodies[1] = (cli_body){NULL, NULL, NULL};
+    int code = open_body(paths[0], settings, parts, &bodies[0]);
+    if (!code) code = open_body(paths[1], settings, parts, &bodies[1]);
+    if (!code) return 0;
+    inputs_close_body(&bodies[0]);
+    inputs_close_body(&bodies[1]);
+    return code;
+}
+
+ovoid_solid inputs_get_solid(const cli_body *body, const ovoid_pose *pose) {
+    return (ovoid_solid){body->shape, body->compound, *pose};
+}
+
+void inputs_close_body(cli_body *body) {
+    ovoid_compound_destroy(body->compound);
+    ovoid_shapes_destroy(body->parts);
+    ovoid_shape_destroy(body->shape);
+    *body = (cli_body){NULL, NULL, NULL};
 }
 
 ovoid_scene *inputs_read_scene(const char *path) {
@@ -34,6 +62,14 @@ ovoid_scene *inputs_read_scene(const char *path) {
     ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
     if (!scene) message_error("%s", error.message);
     return scene;
+}
+
+ovoid_pose *inputs_copy_poses(const ovoid_scene *scene) {
+    size_t count = ovoid_scene_get_count(scene);
+    ovoid_pose *poses = malloc((count + 1) * sizeof *poses);
+    if (!poses) message_error("out of memory");
+    for (size_t i = 0; i < count && poses; i++) poses[i] = ovoid_scene_get(scene, i).pose;
+    return poses;
 }
 
 ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings) {

@@ -35,11 +35,23 @@ ovoid_read_options inputs_make_options(const read_settings *settings);
 /// A shape from a mesh or .ovoid file; NULL after a message.
 ovoid_shape *inputs_read_shape(const char *path, const read_settings *settings);
 
-/// Likewise both shapes of a pair. 0, or EXIT_INPUT with nothing left behind.
-int inputs_read_pair(const char *const paths[2], const read_settings *settings, ovoid_shape *shapes[2]);
+/// A body from a file: its hull, or with parts a compound of its objects.
+typedef struct cli_body {
+    ovoid_shape *shape;
+    ovoid_shapes *parts;
+    ovoid_compound *compound;
+} cli_body;
+
+/// Both bodies of a pair. 0, or EXIT_INPUT after a message, with nothing left behind.
+int inputs_open_pair(const char *const paths[2], const read_settings *settings, int parts, cli_body bodies[2]);
+ovoid_solid inputs_get_solid(const cli_body *body, const ovoid_pose *pose);
+void inputs_close_body(cli_body *body);
 
 /// A scene; NULL after a message.
 ovoid_scene *inputs_read_scene(const char *path);
+
+/// The poses of its objects, which the caller frees; NULL after a message.
+ovoid_pose *inputs_copy_poses(const ovoid_scene *scene);
 
 /// The shapes of a LIST; NULL after a message.
 ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings);

@@ -9,8 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const cli_command *const commands[] = {&command_fit,    &command_distance, &command_batch, &command_check,
-                                              &command_verify, &command_view,     &command_paper, NULL};
+static const cli_command *const commands[] = {&command_fit,   &command_distance, &command_batch,
+                                              &command_check, &command_run,      &command_verify,
+                                              &command_view,  &command_paper,    NULL};
 #define COMMAND_COUNT (sizeof commands / sizeof *commands - 1)
 
 static const cli_command *find_command(const char *name) {

@@ -3,7 +3,9 @@
 // rigorous error bounds.
 #include "commands.h"
 
+#include "answers.h"
 #include "finish.h"
+#include "frames.h"
 #include "inputs.h"
 #include "message.h"
 #include "pipeline.h"
@@ -21,12 +23,10 @@
 /// Failures that are told one by one.
 #define TOLD_MAX 10
 
-enum query { QUERY_NONE = -1, QUERY_COLLIDE, QUERY_WITHIN, QUERY_DISTANCE, QUERY_DEPTH };
-
 typedef struct settings {
     read_settings read;
-    const char *list, *pairs;
-    int query;
+    const char *list, *pairs, *motion;
+    int query, parts;
     unsigned threads;
     ovoid_pose pose_a, pose_b;
 } settings;
@@ -34,34 +34,40 @@ typedef struct settings {
 static const cli_option options[] = {
     {"shapes", 0, OPTION_FILE, offsetof(settings, list), "LIST", NULL, "the shapes of ovoid batch"},
     {"pairs", 0, OPTION_FILE, offsetof(settings, pairs), "PAIRS.csv", NULL, "the pairs of ovoid batch"},
-    {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", "collide|within|distance|depth",
-     "the query of ovoid batch; for distance and depth, it is also checked that the witness points differ by the "
+    {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
+     "the query of ovoid batch or run; for distance and depth, it is also checked that the witness points differ by "
+     "the "
      "distance along the normal (default: within; of a scene or of A and B: depth)"},
     {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), "\"X Y Z QW QX QY QZ\"", NULL,
      "pose of A, as given to ovoid distance"},
     {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), "\"X Y Z QW QX QY QZ\"", NULL, "pose of B"},
+    {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
+     "A and B are compounds of their files' objects, as given to ovoid distance"},
+    {"motion", 0, OPTION_FILE, offsetof(settings, motion), "MOTION.csv", NULL, "the motion of ovoid run"},
     {"threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,
      "work on N threads (default: one for each processor)"},
     INPUTS_OPTIONS(settings),
     {0},
 };
 
-/// Where the bodies of a result come from: one of a scene, a list with pairs, or two shapes.
+/// Where the bodies of a result come from: one of a scene, which may move, a list with pairs, or two bodies.
 typedef struct body_source {
     ovoid_scene *scene;
+    cli_frames frames; ///< of a motion; else without poses
     ovoid_shapes *list;
     ovoid_pairs_reader *pairs;
-    ovoid_shape *shapes[2];
+    cli_body bodies[2];
     const char *paths[2];
-    ovoid_pair pair; ///< of the two shapes
+    ovoid_solid_pair pair; ///< of the two bodies
 } body_source;
 
 /// One result, with what became of it.
 typedef struct claim {
     int64_t line;
-    ovoid_pair pair;
-    ovoid_answer answer;
-    ovoid_cover *cover; ///< NULL where there is none
+    ovoid_solid_pair pair;
+    ovoid_moving moving[2]; ///< of an impact
+    double duration;        ///< likewise: of the motions
+    ovoid_record record;    ///< with copies of what it points to; the names are gone
     int holds;
     char message[256]; ///< where it does not
 } claim;
@@ -79,7 +85,7 @@ typedef struct verify {
     ovoid_results_reader *reader;
     verdict *verdict;
     size_t proofs, held, undecided;
-    int refused; ///< *error says why
+    int refused; ///< *error says why, if it has a message
     ovoid_error error;
 } verify;
 
@@ -94,17 +100,67 @@ static int refuse(verify *v, const char *message) {
 
 static void disprove(claim *item, const char *message) { snprintf(item->message, sizeof item->message, "%s", message); }
 
-/// The objects of the scene that the result names.
-static void find_in_scene(const body_source *bodies, const ovoid_record *record, claim *item) {
+/// Goes on to the frame of the result: the last one that is not after it, or of an impact the one that ends its step. 0
+/// where the motion is refused.
+static int go_to_frame(verify *v, const ovoid_record *record, claim *item) {
+    cli_frames *f = &v->bodies.frames;
+    int is_impact = (record->fields & OVOID_RECORD_IMPACT) != 0, got = 1;
+    if (!(record->fields & OVOID_RECORD_TIME)) {
+        disprove(item, "it has no time, which the results of a motion have");
+        return 1;
+    }
+    double from = is_impact ? record->frame : record->time;
+    while (got > 0 && !(f->count && (is_impact ? f->time > from : f->time >= from))) got = frames_next(f);
+    if (got < 0) return v->refused = 1, v->error.message[0] = 0, 0;
+    if (is_impact ? f->earlier != from || !(f->time > from) : f->time != from)
+        disprove(item, is_impact ? "the motion has no such frame" : "the motion has no frame at this time");
+    return 1;
+}
+
+/// The part of a compound that a record names, with the motion of the compound.
+static int set_moving(const ovoid_solid *solid, uint32_t part, ovoid_motion motion, ovoid_moving *moving) {
+    *moving = (ovoid_moving){.shape = solid->shape, .motion = motion};
+    if (!solid->compound) return 1;
+    if (part >= ovoid_compound_get_part_count(solid->compound)) return 0;
+    ovoid_body body = ovoid_compound_get_part(solid->compound, part);
+    moving->shape = body.shape;
+    moving->part = body.pose;
+    return 1;
+}
+
+/// Where both bodies of an impact are, and how they moved.
+static void set_impact(const verify *v, const ovoid_record *record, size_t a, size_t b, claim *item) {
+    const cli_frames *f = &v->bodies.frames;
+    ovoid_motion motions[2] = {frames_get_motion(f, a), frames_get_motion(f, b)};
+    item->duration = f->time - f->earlier;
+    item->pair.a.pose = ovoid_motion_compute_pose(&motions[0], record->hit_after);
+    item->pair.b.pose = ovoid_motion_compute_pose(&motions[1], record->hit_after);
+    if (!(record->hit_after >= 0 && record->hit_after <= item->duration && record->free_for >= 0) ||
+        record->time != record->frame + record->hit_after)
+        disprove(item, "its times are not those of an impact between two frames");
+    else if (!set_moving(&item->pair.a, record->part_a, motions[0], &item->moving[0]) ||
+             !set_moving(&item->pair.b, record->part_b, motions[1], &item->moving[1]))
+        disprove(item, "the compound has no such part");
+}
+
+/// The objects of the scene that the result names. 0 where the motion is refused.
+static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
+    const ovoid_scene *scene = v->bodies.scene;
     size_t none = (size_t)-1;
-    size_t a = record->a ? ovoid_scene_find(bodies->scene, record->a) : none;
-    size_t b = record->b ? ovoid_scene_find(bodies->scene, record->b) : none;
+    size_t a = record->a ? ovoid_scene_find(scene, record->a) : none;
+    size_t b = record->b ? ovoid_scene_find(scene, record->b) : none;
     if (a == none || b == none) {
         disprove(item, "the scene has no object of that name");
-        return;
+        return 1;
     }
-    ovoid_scene_object object_a = ovoid_scene_get(bodies->scene, a), object_b = ovoid_scene_get(bodies->scene, b);
-    item->pair = (ovoid_pair){object_a.shape, object_b.shape, object_a.pose, object_b.pose};
+    const cli_frames *f = &v->bodies.frames;
+    if (v->settings->motion && !go_to_frame(v, record, item)) return 0;
+    if (!v->settings->motion && record->fields & OVOID_RECORD_TIME) disprove(item, "it has a time: give the --motion");
+    ovoid_pose pose_a = f->poses ? f->poses[a] : ovoid_scene_get(scene, a).pose;
+    ovoid_pose pose_b = f->poses ? f->poses[b] : ovoid_scene_get(scene, b).pose;
+    item->pair = (ovoid_solid_pair){answers_get_solid(scene, a, &pose_a), answers_get_solid(scene, b, &pose_b)};
+    if (record->fields & OVOID_RECORD_IMPACT && !item->message[0]) set_impact(v, record, a, b, item);
+    return 1;
 }
 
 /// The next pair of the pairs file, which must be the one that the result names. 0 where there is none.
@@ -114,8 +170,8 @@ static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
     int got = ovoid_pairs_reader_read(bodies->pairs, &pair, &v->error);
     if (got < 0) return v->refused = 1, 0;
     if (got == 0) return refuse(v, "there are more results than pairs");
-    item->pair = (ovoid_pair){ovoid_shapes_get(bodies->list, pair.a).shape,
-                              ovoid_shapes_get(bodies->list, pair.b).shape, pair.pose_a, pair.pose_b};
+    item->pair = (ovoid_solid_pair){{.shape = ovoid_shapes_get(bodies->list, pair.a).shape, .pose = pair.pose_a},
+                                    {.shape = ovoid_shapes_get(bodies->list, pair.b).shape, .pose = pair.pose_b}};
     if (record->a || record->b || record->index_a != pair.a || record->index_b != pair.b)
         disprove(item, "a and b are not those of the pair with the same place in the pairs");
     return 1;
@@ -130,13 +186,31 @@ static void find_given(const body_source *bodies, const ovoid_record *record, cl
 
 /* ---- the run ---- */
 
-/// Keeps a copy of the record's cover. 0 where memory is out.
-static int copy_cover(const ovoid_record *record, claim *item) {
-    item->cover = NULL;
-    if (!record->cover || record->cover->point_count == 0) return 1;
-    item->cover = malloc(sizeof *item->cover);
-    if (item->cover) *item->cover = *record->cover;
-    return item->cover != NULL;
+/// A copy of `size` bytes; NULL for none, and where memory is out.
+static void *copy(const void *data, size_t size) {
+    void *made = size ? malloc(size) : NULL;
+    if (made) memcpy(made, data, size);
+    return made;
+}
+
+/// Keeps the record with copies of what it points to. 0 where memory is out.
+static int keep_record(const ovoid_record *record, claim *item) {
+    ovoid_record *kept = &item->record;
+    *kept = *record;
+    kept->a = kept->b = NULL;
+    kept->cover = NULL;
+    if (record->cover && record->cover->point_count) kept->cover = copy(record->cover, sizeof *record->cover);
+    kept->exclusions = copy(record->exclusions, record->exclusion_count * sizeof *record->exclusions);
+    kept->steps = copy(record->steps, record->step_count * sizeof *record->steps);
+    return !kept->cover == !(record->cover && record->cover->point_count) &&
+           !kept->exclusions == !record->exclusion_count && !kept->steps == !record->step_count;
+}
+
+static void drop_record(claim *item) {
+    free((void *)item->record.cover);
+    free((void *)item->record.exclusions);
+    free((void *)item->record.steps);
+    item->record = (ovoid_record){.a = NULL};
 }
 
 /// The next result with its bodies. 0: the end, or refused.
@@ -145,16 +219,17 @@ static int read_item(verify *v, claim *item) {
     int got = ovoid_results_reader_read(v->reader, &record, &v->error);
     if (got < 0) v->refused = 1;
     if (got <= 0) return 0;
-    item->line = ovoid_results_reader_get_line(v->reader);
-    item->message[0] = 0;
-    item->answer = record.answer;
+    *item = (claim){.line = ovoid_results_reader_get_line(v->reader)};
     if (v->bodies.scene)
-        find_in_scene(&v->bodies, &record, item);
-    else if (!v->bodies.list)
+        got = find_in_scene(v, &record, item);
+    else if (v->bodies.list)
+        got = find_in_list(v, &record, item);
+    else
         find_given(&v->bodies, &record, item);
-    else if (!find_in_list(v, &record, item))
-        return 0;
-    return copy_cover(&record, item) || refuse(v, "out of memory");
+    if (got <= 0) return 0;
+    if (keep_record(&record, item)) return 1;
+    drop_record(item);
+    return refuse(v, "out of memory");
 }
 
 static int fill(void *context, void *slot) {
@@ -172,34 +247,106 @@ static int has_nearest_points(int query, const ovoid_answer *answer) {
     return query == QUERY_DEPTH || (query == QUERY_DISTANCE && answer->status != OVOID_OVERLAPPING);
 }
 
+/// The pair of parts that a record is about; 0 where there is none such.
+static int get_parts(const ovoid_solid_pair *solids, const ovoid_record *record, ovoid_pair *pair) {
+    const ovoid_solid *solid[2] = {&solids->a, &solids->b};
+    const uint32_t part[2] = {record->fields & OVOID_RECORD_PARTS ? record->part_a : OVOID_RECORD_NO_PART,
+                              record->fields & OVOID_RECORD_PARTS ? record->part_b : OVOID_RECORD_NO_PART};
+    ovoid_body found[2];
+    for (int i = 0; i < 2; i++) {
+        found[i] = (ovoid_body){solid[i]->shape, solid[i]->pose};
+        if (!solid[i]->compound != (part[i] == OVOID_RECORD_NO_PART)) return 0;
+        if (!solid[i]->compound) continue;
+        if (part[i] >= ovoid_compound_get_part_count(solid[i]->compound)) return 0;
+        found[i] = ovoid_compound_get_part(solid[i]->compound, part[i]);
+        found[i].pose = ovoid_pose_compute_product(&solid[i]->pose, &found[i].pose);
+    }
+    *pair = (ovoid_pair){found[0].shape, found[1].shape, found[0].pose, found[1].pose};
+    return 1;
+}
+
+/// What is said of a compound: the exclusions hold and leave out no other pair of parts.
+static ovoid_code check_compound(const claim *item, ovoid_error *error) {
+    const ovoid_record *r = &item->record;
+    if (!item->pair.a.compound && !item->pair.b.compound) return OVOID_OK;
+    ovoid_compound_answer answer = {.answer = r->answer,
+                                    .part_a = item->pair.a.compound ? r->part_a : 0,
+                                    .part_b = item->pair.b.compound ? r->part_b : 0};
+    ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count,
+                                   (ovoid_cover *)r->cover};
+    return ovoid_compound_answer_check(&item->pair, &answer, &exclusions, error);
+}
+
+/// What is said of an impact: the steps show that the pair was farther than the margin until then, and at the end it is
+/// not. Of compounds the steps of other parts are not in the file: there only the end is looked at.
+static ovoid_code check_impact(const claim *item, ovoid_error *error) {
+    const ovoid_record *r = &item->record;
+    if (!(r->fields & OVOID_RECORD_IMPACT)) return OVOID_OK;
+    ovoid_impact impact = {.status = OVOID_IMPACT_HIT,
+                           .end = item->duration,
+                           .free_until = r->free_for,
+                           .hit_at = r->hit_after,
+                           .step_count = r->step_count,
+                           .hit = r->answer};
+    if (item->pair.a.compound || item->pair.b.compound) {
+        int is_there = ovoid_answer_is_within(&r->answer, r->margin) != 0 && r->free_for <= r->hit_after;
+        if (!is_there) snprintf(error->message, sizeof error->message, "it is not within the margin");
+        return is_there ? OVOID_OK : OVOID_ERROR_PROOF;
+    }
+    // How near they are there, is asked here: it is not what is claimed.
+    ovoid_pair free = {item->moving[0].shape, item->moving[1].shape,
+                       ovoid_moving_compute_pose(&item->moving[0], r->free_for),
+                       ovoid_moving_compute_pose(&item->moving[1], r->free_for)};
+    impact.free = ovoid_within(&free, r->margin, NULL, NULL);
+    return ovoid_impact_check(&item->moving[0], &item->moving[1], r->margin, &impact, r->steps, error);
+}
+
+static ovoid_code check_claim(const verify *v, const claim *item, ovoid_error *error) {
+    ovoid_pair pair;
+    ovoid_answer answer = item->record.answer;
+    int is_compound = item->pair.a.compound || item->pair.b.compound;
+    if (!get_parts(&item->pair, &item->record, &pair)) {
+        snprintf(error->message, sizeof error->message, "the parts are not those of the bodies");
+        return OVOID_ERROR_PROOF;
+    }
+    // How narrow a bracket around zero must be, is measured by the size of the whole compounds, which come below.
+    if (is_compound && answer.status == OVOID_TOUCHING)
+        answer.status = OVOID_UNDECIDED, answer.limit = OVOID_LIMIT_PRECISION;
+    int points = !is_compound && has_nearest_points(v->settings->query, &answer);
+    ovoid_code code = verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
+    if (code == OVOID_OK) code = check_compound(item, error);
+    return code == OVOID_OK ? check_impact(item, error) : code;
+}
+
 static void work(void *context, void *slot) {
     const verify *v = context;
     chunk *c = slot;
     for (claim *i = c->items; i < c->items + c->count; i++) {
         ovoid_error error = {.message = ""};
-        int points = has_nearest_points(v->settings->query, &i->answer);
-        if (!i->message[0] && verdict_check(v->verdict, &i->pair, &i->answer, i->cover, points, &error) != OVOID_OK)
+        if (!i->message[0] && check_claim(v, i, &error) != OVOID_OK)
             disprove(i, error.message[0] ? error.message : "the proof does not hold");
         i->holds = !i->message[0];
-        free(i->cover);
-        i->cover = NULL;
     }
 }
 
 static int drain(void *context, void *slot) {
     verify *v = context;
-    const chunk *c = slot;
-    for (const claim *i = c->items; i < c->items + c->count; i++) {
+    chunk *c = slot;
+    for (claim *i = c->items; i < c->items + c->count; i++) {
         size_t failures = v->proofs++ - v->held;
         v->held += (size_t)i->holds;
-        v->undecided += i->answer.status == OVOID_UNDECIDED;
+        v->undecided += i->record.answer.status == OVOID_UNDECIDED;
         if (!i->holds && failures < TOLD_MAX) message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
+        drop_record(i);
     }
     progress_set(v->proofs);
     return 0;
 }
 
-static void clear(void *slot) { (void)slot; }
+static void clear(void *slot) {
+    chunk *c = slot;
+    for (size_t i = 0; i < CHUNK; i++) drop_record(&c->items[i]);
+}
 
 /// Are there pairs that no result speaks of? The results of a batch, and of one pair, are complete or cut off.
 static void look_for_rest(verify *v) {
@@ -232,7 +379,8 @@ static int run_results(verify *v) {
     verdict_destroy(v->verdict);
     if (code) return code < 0 ? (message_error("out of memory or threads"), EXIT_INPUT) : code;
     look_for_rest(v);
-    if (v->refused) return message_error("%s", v->error.message), EXIT_INPUT;
+    if (v->refused && v->error.message[0]) message_error("%s", v->error.message);
+    if (v->refused) return EXIT_INPUT;
     printf("proofs: %zu, hold: %zu, do not: %zu; undecided answers: %zu; checked in %s\n", v->proofs, v->held,
            v->proofs - v->held, v->undecided, verdict_get_name());
     code = finish_file(stdout);
@@ -253,15 +401,19 @@ static int check_inputs(const cli_command *command, const settings *s, const cli
     if (!has_list && paths->count == 2 && !inputs_is_scene(paths->items[1]))
         return args_complain(command, "verify: %s is no scene (.json); of two bodies, both must be given",
                              paths->items[1]);
+    if (s->motion && (has_list || paths->count > 2))
+        return args_complain(command, "verify: --motion is that of a scene: give SCENE.json");
+    if (s->parts && (has_list || paths->count < 3)) return args_complain(command, "verify: --parts goes with A and B");
     return -1;
 }
 
 static void close_bodies(body_source *bodies) {
+    frames_close(&bodies->frames);
     ovoid_scene_destroy(bodies->scene);
     ovoid_pairs_reader_destroy(bodies->pairs);
     ovoid_shapes_destroy(bodies->list);
-    ovoid_shape_destroy(bodies->shapes[0]);
-    ovoid_shape_destroy(bodies->shapes[1]);
+    inputs_close_body(&bodies->bodies[0]);
+    inputs_close_body(&bodies->bodies[1]);
 }
 
 /// The bodies of ovoid batch. 0, or EXIT_INPUT after a message.
@@ -278,8 +430,9 @@ static int open_list(body_source *bodies, const settings *s) {
 static int open_pair(body_source *bodies, const settings *s, const cli_operands *paths) {
     bodies->paths[0] = paths->items[1];
     bodies->paths[1] = paths->items[2];
-    if (inputs_read_pair(bodies->paths, &s->read, bodies->shapes)) return EXIT_INPUT;
-    bodies->pair = (ovoid_pair){bodies->shapes[0], bodies->shapes[1], s->pose_a, s->pose_b};
+    if (inputs_open_pair(bodies->paths, &s->read, s->parts, bodies->bodies)) return EXIT_INPUT;
+    bodies->pair = (ovoid_solid_pair){inputs_get_solid(&bodies->bodies[0], &s->pose_a),
+                                      inputs_get_solid(&bodies->bodies[1], &s->pose_b)};
     return 0;
 }
 
@@ -287,7 +440,8 @@ static int open_bodies(body_source *bodies, const settings *s, const cli_operand
     if (s->list) return open_list(bodies, s);
     if (paths->count == 3) return open_pair(bodies, s, paths);
     bodies->scene = inputs_read_scene(paths->items[1]);
-    return bodies->scene ? 0 : EXIT_INPUT;
+    if (!bodies->scene) return EXIT_INPUT;
+    return s->motion ? frames_open(&bodies->frames, s->motion, bodies->scene) : 0;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -318,14 +472,21 @@ const cli_command command_verify = {
     .name = "verify",
     .summary = "checks the proofs of a results file",
     .usage = "[OPTION...] RESULTS.jsonl SCENE.json\n"
+             "[OPTION...] RESULTS.jsonl SCENE.json --motion MOTION.csv\n"
              "[OPTION...] RESULTS.jsonl A B\n"
              "[OPTION...] RESULTS.jsonl --shapes LIST --pairs PAIRS.csv",
     .description =
-        "Checks every result of a file written with --json by check, distance or batch, on the same bodies, without "
+        "Checks every result of a file written with --json by check, run, distance or batch, on the same bodies, "
+        "without "
         "the "
         "search that found it: each bound is computed again from the proof alone, in exact rational arithmetic where "
         "ovoid was built with GMP. A result holds if its proof shows lower <= d <= upper and the status, if the normal "
         "is the one that proves the lower bound, and if the witness points lie on their bodies.\n\n"
+        "Of compounds, it is also checked that the exclusions leave out no pair of parts, in floating point with "
+        "rigorous "
+        "error bounds; likewise the steps that show that a pair was free until an impact (of two compounds these are "
+        "not "
+        "in the file: there only the impact itself is checked).\n\n"
         "RESULTS.jsonl is \"-\" for standard input. The first failures are told with their lines. Of a scene, pairs "
         "that "
         "the file does not speak of are not missed (check --margin leaves far ones out); of a batch they are.",

@@ -1,6 +1,7 @@
 // ovoid view: a scene, a pair or one body as an SVG picture: polyhedra, ellipsoids, areas, witness points.
 #include "commands.h"
 
+#include "answers.h"
 #include "finish.h"
 #include "inputs.h"
 #include "message.h"
@@ -40,13 +41,52 @@ static const cli_option options[] = {
 
 /// What goes into the picture.
 typedef struct drawing {
-    ovoid_picture_body *bodies;
+    ovoid_solid *solids;        ///< the objects
+    size_t *first;              ///< of each object: its first body; of a compound the parts follow
+    ovoid_picture_body *bodies; ///< shapes, and the parts of compounds
     ovoid_picture_link *links;
     ovoid_answer *answers; ///< of the links
-    size_t body_count, link_count, link_capacity;
+    size_t solid_count, body_count, link_count, link_capacity;
 } drawing;
 
-static int add_link(drawing *d, size_t a, size_t b, const ovoid_answer *answer) {
+/// Room for so many objects and bodies; 0 after a message.
+static int make_drawing(drawing *d, size_t solids, size_t bodies) {
+    *d = (drawing){.solids = calloc(solids + 1, sizeof *d->solids),
+                   .first = calloc(solids + 1, sizeof *d->first),
+                   .bodies = calloc(bodies + 1, sizeof *d->bodies)};
+    if (d->solids && d->first && d->bodies) return 1;
+    message_error("out of memory");
+    return 0;
+}
+
+static void clear_drawing(drawing *d) {
+    free(d->solids);
+    free(d->first);
+    free(d->bodies);
+    free(d->links);
+    free(d->answers);
+}
+
+static size_t count_parts(const ovoid_compound *compound) {
+    return compound ? ovoid_compound_get_part_count(compound) : 1;
+}
+
+/// Adds an object: a body, or those of its parts, of which the first has the name.
+static void add_solid(drawing *d, const char *name, const ovoid_solid *solid) {
+    d->first[d->solid_count] = d->body_count;
+    d->solids[d->solid_count] = *solid;
+    uint32_t group = (uint32_t)++d->solid_count;
+    for (size_t i = 0; i < count_parts(solid->compound); i++) {
+        ovoid_body part = {solid->shape, solid->pose};
+        if (solid->compound) {
+            part = ovoid_compound_get_part(solid->compound, i);
+            part.pose = ovoid_pose_compute_product(&solid->pose, &part.pose);
+        }
+        d->bodies[d->body_count++] = (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group};
+    }
+}
+
+static int add_link(drawing *d, size_t a, size_t b, const ovoid_compound_answer *answer) {
     if (d->link_count == d->link_capacity) {
         size_t capacity = d->link_capacity ? 2 * d->link_capacity : 64;
         ovoid_picture_link *links = realloc(d->links, capacity * sizeof *links);
@@ -56,31 +96,32 @@ static int add_link(drawing *d, size_t a, size_t b, const ovoid_answer *answer) 
         if (!links || !answers) return message_error("out of memory"), EXIT_INPUT;
         d->link_capacity = capacity;
     }
-    d->links[d->link_count] = (ovoid_picture_link){.a = a, .b = b};
-    d->answers[d->link_count++] = *answer;
+    d->links[d->link_count] =
+        (ovoid_picture_link){.a = d->first[a] + answer->part_a, .b = d->first[b] + answer->part_b};
+    d->answers[d->link_count++] = answer->answer;
     return 0;
 }
 
-static ovoid_pair make_pair(const drawing *d, size_t a, size_t b) {
-    return (ovoid_pair){d->bodies[a].shape, d->bodies[b].shape, d->bodies[a].pose, d->bodies[b].pose};
+static ovoid_solid_pair make_pair(const drawing *d, size_t a, size_t b) {
+    return (ovoid_solid_pair){d->solids[a], d->solids[b]};
 }
 
 /// Links each body with the one nearest to it; a pair that is nearest both ways once.
 static int link_nearest(drawing *d, const ovoid_scene *scene) {
     int code = 0;
-    size_t none = d->body_count, *nearest = malloc((d->body_count + 1) * sizeof *nearest);
+    size_t none = d->solid_count, *nearest = malloc((d->solid_count + 1) * sizeof *nearest);
     if (!nearest) return message_error("out of memory"), EXIT_INPUT;
-    for (size_t a = 0; a < d->body_count && !code; a++) {
-        ovoid_answer best = {.lower = 0};
+    for (size_t a = 0; a < d->solid_count && !code; a++) {
+        ovoid_compound_answer best = {.part_a = 0};
         nearest[a] = none;
-        for (size_t b = 0; b < d->body_count; b++) {
+        for (size_t b = 0; b < d->solid_count; b++) {
             if (b == a || (scene && ovoid_scene_is_ignored(scene, a, b))) continue;
             // Always the lower index first, so that both ways give the same answer.
-            ovoid_pair pair = make_pair(d, a < b ? a : b, a < b ? b : a);
+            ovoid_solid_pair pair = make_pair(d, a < b ? a : b, a < b ? b : a);
             // What is proven farther than the best so far need not be known better.
-            ovoid_options query = {.cap = nearest[a] != none && best.upper > 0 ? best.upper : 0};
-            ovoid_answer answer = ovoid_depth(&pair, &query, NULL, NULL);
-            if (nearest[a] == none || answer.lower < best.lower) best = answer, nearest[a] = b;
+            ovoid_options query = {.cap = nearest[a] != none && best.answer.upper > 0 ? best.answer.upper : 0};
+            ovoid_compound_answer answer = ovoid_compound_depth(&pair, &query, NULL, NULL);
+            if (nearest[a] == none || answer.answer.lower < best.answer.lower) best = answer, nearest[a] = b;
         }
         size_t b = nearest[a];
         int drawn = b < a && nearest[b] == a;
@@ -93,13 +134,13 @@ static int link_nearest(drawing *d, const ovoid_scene *scene) {
 /// Links all pairs that are not proven farther than the margin.
 static int link_within(drawing *d, const ovoid_scene *scene, double margin) {
     int code = 0;
-    for (size_t a = 0; a < d->body_count; a++)
-        for (size_t b = a + 1; b < d->body_count && !code; b++) {
+    for (size_t a = 0; a < d->solid_count; a++)
+        for (size_t b = a + 1; b < d->solid_count && !code; b++) {
             if (scene && ovoid_scene_is_ignored(scene, a, b)) continue;
-            ovoid_pair pair = make_pair(d, a, b);
-            ovoid_answer answer = ovoid_within(&pair, margin, NULL, NULL);
-            if (ovoid_answer_is_within(&answer, margin) == 0) continue;
-            answer = ovoid_depth(&pair, NULL, NULL, NULL);
+            ovoid_solid_pair pair = make_pair(d, a, b);
+            ovoid_compound_answer answer = ovoid_compound_within(&pair, margin, NULL, NULL, NULL);
+            if (ovoid_answer_is_within(&answer.answer, margin) == 0) continue;
+            answer = ovoid_compound_depth(&pair, NULL, NULL, NULL);
             code = add_link(d, a, b, &answer);
         }
     return code;
@@ -129,20 +170,19 @@ static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
 static int draw_scene(const settings *s, const char *path) {
     ovoid_scene *scene = inputs_read_scene(path);
     if (!scene) return EXIT_INPUT;
-    drawing d = {.body_count = ovoid_scene_get_count(scene)};
-    d.bodies = calloc(d.body_count + 1, sizeof *d.bodies);
+    size_t count = ovoid_scene_get_count(scene), bodies = 0;
+    for (size_t i = 0; i < count; i++) bodies += count_parts(ovoid_scene_get(scene, i).compound);
+    drawing d;
     int code = EXIT_INPUT;
-    for (size_t i = 0; i < d.body_count && d.bodies; i++) {
-        ovoid_scene_object object = ovoid_scene_get(scene, i);
-        d.bodies[i] = (ovoid_picture_body){object.name, object.shape, object.pose};
-    }
-    if (d.bodies)
+    if (make_drawing(&d, count, bodies)) {
+        for (size_t i = 0; i < count; i++) {
+            ovoid_scene_object object = ovoid_scene_get(scene, i);
+            ovoid_solid solid = answers_get_solid(scene, i, &object.pose);
+            add_solid(&d, object.name, &solid);
+        }
         code = draw(&d, s, scene);
-    else
-        message_error("out of memory");
-    free(d.bodies);
-    free(d.links);
-    free(d.answers);
+    }
+    clear_drawing(&d);
     ovoid_scene_destroy(scene);
     return code;
 }
@@ -156,18 +196,19 @@ static const char *get_base(const char *path) {
 /// One body, or A and B.
 static int draw_bodies(const settings *s, const cli_operands *paths) {
     ovoid_shape *shapes[2] = {NULL, NULL};
-    ovoid_picture_body bodies[2];
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
-    drawing d = {.bodies = bodies, .body_count = (size_t)paths->count};
-    int code = 0;
+    drawing d;
+    int code = make_drawing(&d, 2, 2) ? 0 : EXIT_INPUT;
     for (int i = 0; i < paths->count && !code; i++) {
         shapes[i] = inputs_read_shape(paths->items[i], &s->read);
-        bodies[i] = (ovoid_picture_body){get_base(paths->items[i]), shapes[i], poses[i]};
-        if (!shapes[i]) code = EXIT_INPUT;
+        ovoid_solid solid = {shapes[i], NULL, poses[i]};
+        if (shapes[i])
+            add_solid(&d, get_base(paths->items[i]), &solid);
+        else
+            code = EXIT_INPUT;
     }
     if (!code) code = draw(&d, s, NULL);
-    free(d.links);
-    free(d.answers);
+    clear_drawing(&d);
     ovoid_shape_destroy(shapes[0]);
     ovoid_shape_destroy(shapes[1]);
     return code;

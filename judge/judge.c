@@ -10,7 +10,7 @@
 judge *judge_create(void) {
     judge *context = calloc(1, sizeof *context);
     if (!context) return NULL;
-    context->p = pool_create();
+    context->p = number_pool_create();
     context->touching = TOUCHING;
     if (context->p) return context;
     free(context);
@@ -28,7 +28,7 @@ void judge_forget(judge *context) {
 void judge_destroy(judge *context) {
     if (!context) return;
     judge_forget(context);
-    pool_destroy(context->p);
+    number_pool_destroy(context->p);
     free(context);
 }
 

@@ -12,9 +12,9 @@ struct pool {
     size_t chunk_count, count;
 };
 
-pool *pool_create(void) { return calloc(1, sizeof(pool)); }
+pool *number_pool_create(void) { return calloc(1, sizeof(pool)); }
 
-void pool_destroy(pool *p) {
+void number_pool_destroy(pool *p) {
     if (!p) return;
     for (size_t c = 0; c < p->chunk_count; c++) {
         for (size_t i = 0; i < CHUNK; i++) mpz_clear(p->chunks[c][i].m);
@@ -197,10 +197,10 @@ double num_to_double(num a) {
 static double to_double_toward(num a, int direction) {
     double x = num_to_double(a);
     if (isinf(x)) return (x > 0) == (direction > 0) ? x : nextafter(x, 0);
-    pool *p = pool_create();
+    pool *p = number_pool_create();
     if (!p) abort();
     while (isfinite(x) && num_compare(p, number_from(p, x), a) * direction < 0) x = nextafter(x, direction * INFINITY);
-    pool_destroy(p);
+    number_pool_destroy(p);
     return x;
 }
 

@@ -17,8 +17,8 @@ typedef const number *num;
 
 /// Where numbers live. pool_get_mark and pool_release: all numbers made in between are gone.
 typedef struct pool pool;
-pool *pool_create(void);
-void pool_destroy(pool *p);
+pool *number_pool_create(void);
+void number_pool_destroy(pool *p);
 size_t pool_get_mark(const pool *p);
 void pool_release(pool *p, size_t mark);
 

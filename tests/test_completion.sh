@@ -28,12 +28,14 @@ expect() {
     fi
 }
 
-expect 'fit distance batch check verify view paper help --help --version' ''
+expect 'fit distance batch check run verify view paper help --help --version' ''
 expect 'verify view' v
 expect '--help' --h
 expect 'distance' help di
 expect '--margin' check --m
-expect '--pose-a --pose-b' distance a.stl --p
+expect '--pose-a --pose-b --parts' distance a.stl --p
+expect '--margin --motion' run --m
+expect 'collide within distance depth' run --query ''
 expect 'collide within distance depth' batch --query ''
 expect 'collide' batch --query = c
 expect 'a.stl b.stl folder/' fit ''

@@ -68,6 +68,16 @@ static int read_pairs(ovoid_error *error) {
     return got == 1;
 }
 
+static int read_compound(ovoid_error *error) {
+    ovoid_read_options options = {.parts = 1};
+    ovoid_shapes *parts = ovoid_shapes_read_file(file_path("memory.obj"), &options, NULL, error);
+    ovoid_compound *compound = parts ? ovoid_shapes_create_compound(parts, NULL, error) : NULL;
+    int made = compound != NULL;
+    ovoid_compound_destroy(compound);
+    ovoid_shapes_destroy(parts);
+    return made;
+}
+
 static ovoid_scene *moved;
 
 static int read_motion(ovoid_error *error) {
@@ -89,8 +99,8 @@ static int read_results(ovoid_error *error) {
 static ovoid_shape *shapes[2];
 
 static int write_picture(ovoid_error *error) {
-    ovoid_picture_body bodies[2] = {{"a", shapes[0], ovoid_pose_make_identity()},
-                                    {"b", shapes[1], ovoid_pose_make_identity()}};
+    ovoid_picture_body bodies[2] = {{"a", shapes[0], ovoid_pose_make_identity(), 0},
+                                    {"b", shapes[1], ovoid_pose_make_identity(), 0}};
     ovoid_picture picture = {.bodies = bodies, .body_count = 2, .title = "t"};
     ovoid_picture_options options = {.layers = 63};
     return ovoid_picture_write_svg(file_path("memory.svg"), &picture, &options, error) == OVOID_OK;
@@ -132,6 +142,7 @@ static const char ply[] =
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 static const char scene[] =
     "{\"objects\":[{\"name\":\"a\",\"mesh\":\"memory.obj\"},{\"name\":\"b\",\"mesh\":\"memory.obj\"},"
+    "{\"name\":\"e\",\"compound\":[{\"box\":[1,1,1]},{\"mesh\":\"memory.obj\",\"parts\":true}]},"
     "{\"name\":\"c\",\"box\":[1,1,1]},{\"name\":\"d\",\"points\":[[0,0,0],[1,0,0]]}],\"ignore\":[[\"a\",\"b\"]]}";
 static const char csv[] = "a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n0,1,0,0,0,1,0,0,0,0,0,0,1,0,0,0\n";
 
@@ -144,6 +155,7 @@ int main(void) {
         check_operation(mesh_path, 0, read_mesh);
     }
     check_operation("parts", 0, read_parts);
+    check_operation("compound", 0, read_compound);
     file_write_text("memory.txt", "memory.obj\nmemory.stl\nmemory.obj\n");
     check_operation("list", 0, read_list);
     file_write_text("memory.json", scene);
@@ -155,7 +167,12 @@ int main(void) {
     check_operation("motion", 0, read_motion);
     ovoid_scene_destroy(moved);
     FILE *file = fopen(file_path("memory.jsonl"), "wb");
+    ovoid_exclusion exclusion = {0, 1, 0, 1, {0, 0, 1}, {0, 0, 0}, 1};
+    ovoid_step step = {1, {0, 0, 1}, OVOID_STEP_A};
     ovoid_record record = {.a = "a", .b = "b"};
+    record.exclusions = &exclusion;
+    record.steps = &step;
+    record.exclusion_count = record.step_count = 1;
     ovoid_record_write_json(file, &record);
     fclose(file);
     check_operation("results", 1, read_results);

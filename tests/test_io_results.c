@@ -69,7 +69,10 @@ static void check_golden_fields(ovoid_record record) {
     record.time = 0.5;
     record.part_a = 7;
     record.part_b = OVOID_RECORD_NO_PART;
-    record.free_until = 0.25;
+    record.frame = 0.25;
+    record.margin = 0.75;
+    record.free_for = 0.125;
+    record.hit_after = 0.25;
     static const struct {
         unsigned fields;
         const char *json, *header, *csv;
@@ -78,8 +81,12 @@ static void check_golden_fields(ovoid_record record) {
                   "0.5,x,y,separated,"},
                  {OVOID_RECORD_PARTS, "{\"a\":\"x\",\"part_a\":7,\"b\":\"y\",\"status\"", "a,part_a,b,part_b,status,",
                   "x,7,y,,separated,"},
-                 {7, "{\"time\":0.5,\"free_until\":0.25,\"a\":\"x\",\"part_a\":7,\"b\":\"y\",\"status\"",
-                  "time,free_until,a,part_a,b,part_b,status,", "0.5,0.25,x,7,y,,separated,"}};
+                 {7,
+                  "{\"time\":0.5,\"frame\":0.25,\"margin\":0.75,\"free_for\":0.125,\"hit_after\":0.25,\"a\":\"x\","
+                  "\"part_a\":7,\"b\":"
+                  "\"y\",\"status\"",
+                  "time,frame,margin,free_for,hit_after,a,part_a,b,part_b,status,",
+                  "0.5,0.25,0.75,0.125,0.25,x,7,y,,separated,"}};
     for (size_t i = 0; i < sizeof truth / sizeof *truth; i++) {
         record.fields = truth[i].fields;
         char *texts[] = {write_with(ovoid_record_write_json, &record), write_header(record.fields),
@@ -92,9 +99,9 @@ static void check_golden_fields(ovoid_record record) {
     }
     // The line of a frame among impacts: no key, an empty column.
     record.fields = OVOID_RECORD_TIME | OVOID_RECORD_IMPACT;
-    record.free_until = NAN;
+    record.frame = NAN;
     char *json = write_with(ovoid_record_write_json, &record), *csv = write_with(ovoid_record_write_csv, &record);
-    CHECK(!strstr(json, "free_until") && strncmp(csv, "0.5,,x,y,", 9) == 0);
+    CHECK(!strstr(json, "free_for") && strncmp(csv, "0.5,,,,,x,y,", 12) == 0);
     free(json);
     free(csv);
 }
@@ -162,7 +169,7 @@ static void check_table_fields(void) {
     for (int i = 0; i < 2; i++) {
         records[i].fields = 7;
         records[i].time = 0.5 + i;
-        records[i].free_until = i ? 1.25 : NAN;
+        records[i].frame = i ? 1.25 : NAN;
         records[i].part_a = 12;
         records[i].part_b = OVOID_RECORD_NO_PART;
         records[i].answer.status = OVOID_SEPARATED;
@@ -217,7 +224,20 @@ static void check_same(const ovoid_record *a, const ovoid_record *b) {
     if (!a->a) CHECK(a->index_a == b->index_a && a->index_b == b->index_b);
     CHECK_EQ(a->fields, b->fields);
     if (a->fields & OVOID_RECORD_TIME) CHECK(is_same_bits(&a->time, &b->time, 8));
-    if (a->fields & OVOID_RECORD_IMPACT) CHECK(is_same_bits(&a->free_until, &b->free_until, 8));
+    if (a->fields & OVOID_RECORD_IMPACT)
+        CHECK(is_same_bits(&a->frame, &b->frame, 8) && is_same_bits(&a->margin, &b->margin, 8) &&
+              is_same_bits(&a->free_for, &b->free_for, 8) && is_same_bits(&a->hit_after, &b->hit_after, 8));
+    if (CHECK(a->exclusion_count == b->exclusion_count && a->step_count == b->step_count)) {
+        for (size_t i = 0; i < a->exclusion_count; i++) {
+            const ovoid_exclusion *p = &a->exclusions[i], *q = &b->exclusions[i];
+            CHECK(p->first_a == q->first_a && p->end_a == q->end_a && p->first_b == q->first_b && p->end_b == q->end_b);
+            CHECK(is_same_vector(p->normal, q->normal) && is_same_vector(p->normal_low, q->normal_low));
+            CHECK(is_same_bits(&p->lower, &q->lower, 8));
+        }
+        for (size_t i = 0; i < a->step_count; i++)
+            CHECK(is_same_bits(&a->steps[i].until, &b->steps[i].until, 8) &&
+                  is_same_vector(a->steps[i].normal, b->steps[i].normal) && a->steps[i].frame == b->steps[i].frame);
+    }
     if (a->fields & OVOID_RECORD_PARTS) CHECK(a->part_a == b->part_a && a->part_b == b->part_b);
     CHECK_EQ(x->status, y->status);
     CHECK_EQ(x->stage, y->stage);
@@ -259,7 +279,23 @@ static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
     r.fields = (unsigned)random_next(s) % 8;
     if (r.fields & OVOID_RECORD_IMPACT) r.fields |= OVOID_RECORD_TIME;
     r.time = random_double(s);
-    r.free_until = random_double(s);
+    r.frame = random_double(s);
+    r.margin = random_double(s);
+    r.free_for = random_double(s);
+    r.hit_after = random_double(s);
+    static ovoid_exclusion exclusions[3];
+    static ovoid_step steps[3];
+    for (int i = 0; i < 3; i++) {
+        uint32_t first = (uint32_t)random_next(s) % 1000;
+        exclusions[i] = (ovoid_exclusion){first,     first + 1,       (uint32_t)random_next(s), 0, random_vector(s),
+                                          {0, 0, 0}, random_double(s)};
+        if (random_next(s) % 2) exclusions[i].normal_low = (ovoid_vec3){random_double(s), 1, 0};
+        steps[i] = (ovoid_step){random_double(s), random_vector(s), (ovoid_step_frame)(random_next(s) % 3)};
+    }
+    r.exclusions = exclusions;
+    r.exclusion_count = random_next(s) % 4;
+    r.steps = steps;
+    r.step_count = random_next(s) % 4;
     r.part_a = (uint32_t)random_next(s) % OVOID_RECORD_NO_PART;
     r.part_b = random_next(s) % 2 ? 0 : OVOID_RECORD_NO_PART;
     ovoid_answer *x = &r.answer;
@@ -355,7 +391,18 @@ static void check_locale(void) {
 
 static const bad_input bad_lines[] = {
     {"time.jsonl", "{\"time\":null," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"time\" must be a number"},
-    {"until.jsonl", "{\"free_until\":1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"free_until\" must be a number beside"},
+    {"until.jsonl", "{\"free_for\":1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"time\" must be a number, as all"},
+    {"frame.jsonl", "{\"time\":1,\"frame\":1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"margin\" must be a number, as"},
+    {"no_exclusions.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"exclusions\":[]}"), OVOID_ERROR_FORMAT,
+     1, "\"exclusions\" must be a list"},
+    {"exclusion.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"exclusions\":[{\"a\":[0,1]}]}"),
+     OVOID_ERROR_FORMAT, 1, "\"b\" is not that of an exclusion"},
+    {"range.jsonl",
+     WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"exclusions\":[{\"a\":[0,1],\"b\":[0,0.5],\"normal\":[0,0,1],"
+                "\"lower\":0}]}"),
+     OVOID_ERROR_FORMAT, 1, "ranges of two whole numbers"},
+    {"step.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"steps\":[{\"until\":0}]}"), OVOID_ERROR_FORMAT,
+     1, "\"normal\" is not that of a step"},
     {"part.jsonl", "{\"part_b\":-1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"part_b\" must be a whole"},
     {"syntax.jsonl", GOOD "{\"a\":0,}\n", OVOID_ERROR_FORMAT, 2, "JSON, column"},
     {"cut.jsonl", GOOD GOOD "{\"a\":0,\"b\":1", OVOID_ERROR_FORMAT, 3, "JSON, column"},

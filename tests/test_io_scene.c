@@ -87,11 +87,97 @@ static void check_good(void) {
     ovoid_scene_destroy(scene);
 }
 
+static const char compounds[] =
+    "{\"objects\": [\n"
+    "  {\"name\": \"file\", \"mesh\": \"parts.obj\", \"parts\": true, \"radius\": 0.5, \"unit\": \"cm\"},\n"
+    "  {\"name\": \"hull\", \"mesh\": \"parts.obj\", \"parts\": false, \"radius\": 0.5, \"unit\": \"cm\"},\n"
+    "  {\"name\": \"again\", \"unit\": \"cm\", \"radius\": 0.5, \"parts\": true, \"mesh\": \"parts.obj\"},\n"
+    "  {\"name\": \"tool\", \"pose\": {\"xyz\": [9, 0, 0]}, \"compound\": [\n"
+    "    {\"box\": [1, 2, 3], \"pose\": {\"xyz\": [1, 0, 0]}},\n"
+    "    {\"sphere\": 2},\n"
+    "    {\"box\": [1, 2, 3], \"pose\": {\"xyz\": [0, 5, 0], \"rpy\": [0, 0, 1]}},\n"
+    "    {\"mesh\": \"parts.obj\", \"parts\": true, \"pose\": {\"xyz\": [0, 0, 7]}}]},\n"
+    "  {\"name\": \"box\", \"box\": [1, 2, 3]}]}\n";
+
+// Compounds: from a mesh's objects and from parts; equal geometries are one body.
+static void check_compounds(void) {
+    file_write_text("parts.obj", two_parts);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(file_write_text("compounds.json", compounds), NULL, &error);
+    if (!CHECK(scene != NULL)) {
+        printf("  %s\n", error.message);
+        return;
+    }
+    ovoid_scene_object file = ovoid_scene_get(scene, 0), hull = ovoid_scene_get(scene, 1);
+    ovoid_scene_object again = ovoid_scene_get(scene, 2), tool = ovoid_scene_get(scene, 3);
+    ovoid_scene_object box = ovoid_scene_get(scene, 4);
+    CHECK(file.compound && !file.shape && hull.shape && !hull.compound && file.compound == again.compound);
+    CHECK_EQ(ovoid_compound_get_part_count(file.compound), 2);
+    for (size_t i = 0; i < 2; i++) {
+        ovoid_body part = ovoid_compound_get_part(file.compound, i);
+        CHECK(ovoid_shape_get_radius(part.shape) == 0.5 && part.pose.position.z == 0 && part.pose.rotation.w == 1);
+        CHECK_NEAR(get_size(part.shape, 2), 0.01, 1e-17);
+    }
+    // Five parts: the last two are those of the mesh.
+    CHECK(tool.pose.position.x == 9 && tool.compound && ovoid_compound_get_part_count(tool.compound) == 5);
+    ovoid_body first = ovoid_compound_get_part(tool.compound, 0), third = ovoid_compound_get_part(tool.compound, 2);
+    CHECK(first.shape == box.shape && third.shape == box.shape);
+    CHECK(first.pose.position.x == 1 && third.pose.position.y == 5 && third.pose.rotation.z > 0.4);
+    CHECK_EQ(ovoid_shape_get_radius(ovoid_compound_get_part(tool.compound, 1).shape), 2);
+    ovoid_body last = ovoid_compound_get_part(tool.compound, 4);
+    CHECK(last.pose.position.z == 7 && ovoid_shape_get_radius(last.shape) == 0);
+    CHECK_NEAR(get_size(last.shape, 2), 1, 1e-15);
+    ovoid_scene_destroy(scene);
+}
+
+// Many objects: names, geometries that are all different, and all the same.
+static void check_many(void) {
+    enum { COUNT = 3000 };
+    char *text = malloc(COUNT * 100 + 100), *at = text;
+    at += sprintf(at, "{\"objects\": [");
+    for (int i = 0; i < COUNT; i++)
+        at += sprintf(at, "%s{\"name\": \"n%d\", \"sphere\": %d}", i ? "," : "", i, i % 2 ? i : 1);
+    sprintf(at, "]}");
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(file_write_text("many.json", text), NULL, &error);
+    free(text);
+    if (!CHECK(scene != NULL)) return;
+    for (size_t i = 0; i < COUNT; i++) {
+        const ovoid_shape *shape = ovoid_scene_get(scene, i).shape;
+        CHECK_EQ(ovoid_shape_get_radius(shape), i % 2 ? (double)i : 1);
+        CHECK_EQ(shape == ovoid_scene_get(scene, 0).shape, i % 2 == 0 || i == 1);
+    }
+    ovoid_scene_destroy(scene);
+}
+
 #define OBJECT(rest) "{\"objects\": [\n{\"name\": \"a\", \"sphere\": 1},\n{\"name\": \"b\",\n" rest "}]}"
 #define BOX "\"box\": [1, 1, 1],\n"
 
 static const bad_input bad_scenes[] = {
     {"empty.json", "", OVOID_ERROR_EMPTY, -1, "empty"},
+    {"c_parts.json", OBJECT(BOX "\"parts\": true"), OVOID_ERROR_FORMAT, 5, "object \"b\": \"parts\" is for meshes"},
+    {"c_parts_type.json", OBJECT("\"mesh\": \"tetra.obj\",\n\"parts\": 1"), OVOID_ERROR_FORMAT, 5,
+     "\"parts\" must be true or false"},
+    {"c_none.json", OBJECT("\"compound\": []"), OVOID_ERROR_FORMAT, 4, "\"compound\" must be a list of parts"},
+    {"c_type.json", OBJECT("\"compound\": {}"), OVOID_ERROR_FORMAT, 4, "\"compound\" must be a list of parts"},
+    {"c_number.json", OBJECT("\"compound\": [\n7]"), OVOID_ERROR_FORMAT, 5,
+     "object \"b\": part 0: must be a JSON object"},
+    {"c_radius.json", OBJECT("\"radius\": 1,\n\"compound\": [{\"sphere\": 1}]"), OVOID_ERROR_FORMAT, 4,
+     "\"radius\" is for the parts"},
+    {"c_scale.json", OBJECT("\"compound\": [{\"sphere\": 1}],\n\"scale\": 2"), OVOID_ERROR_FORMAT, 5,
+     "\"scale\" is for meshes and points"},
+    {"c_name.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"sphere\": 1, \"name\": \"x\"}]"), OVOID_ERROR_FORMAT, 5,
+     "object \"b\": part 1: \"name\" is not a key of parts"},
+    {"c_nested.json", OBJECT("\"compound\": [\n{\"compound\": [{\"sphere\": 1}]}]"), OVOID_ERROR_FORMAT, 5,
+     "part 0: \"compound\" is not a key of parts"},
+    {"c_size.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"pose\": {},\n\"sphere\": -1}]"), OVOID_ERROR_FORMAT, 6,
+     "object \"b\": part 1: \"sphere\" must be a radius"},
+    {"c_pose.json", OBJECT("\"compound\": [{\"sphere\": 1,\n\"pose\": 1}]"), OVOID_ERROR_FORMAT, 5,
+     "part 0: \"pose\" must"},
+    {"c_bare.json", OBJECT("\"compound\": [{\"pose\": {}}]"), OVOID_ERROR_FORMAT, 4, "part 0: no geometry"},
+    {"c_absent.json", OBJECT("\"compound\": [{\"mesh\": \"absent.obj\"}]"), OVOID_ERROR_FILE, 4, "part 0: "},
+    {"c_far.json", OBJECT("\"compound\": [{\"sphere\": 1, \"pose\": {\"xyz\": [1e99, 0, 0]}}]"), OVOID_ERROR_RANGE, 4,
+     "part 0: \"pose\" has a number out of range"},
     {"syntax.json", "{\"objects\": [\n{\"name\": }]}", OVOID_ERROR_FORMAT, 2, "JSON: "},
     {"array.json", "[]", OVOID_ERROR_FORMAT, 1, "must be a JSON object"},
     {"twice.json", "{\"objects\": [],\n\"objects\": []}", OVOID_ERROR_FORMAT, 2, "JSON: duplicate"},
@@ -254,6 +340,8 @@ static void check_shape_files(void) {
 
 int main(void) {
     check_good();
+    check_compounds();
+    check_many();
     check_bad();
     check_damaged();
     check_shapes();

@@ -16,8 +16,10 @@ static void add_pictures(const experiment *e) {
     const int shown[FAMILY_COUNT] = {0, 4, 1 + MODELS_EACH + 4, 1 + 2 * MODELS_EACH + 9};
     ovoid_picture_body bodies[FAMILY_COUNT];
     for (int i = 0; i < FAMILY_COUNT; i++)
-        bodies[i] = (ovoid_picture_body){
-            e->models[shown[i]].name, e->models[shown[i]].shape, {{2.6 * i * 0.85, 2.6 * i * 0.53, 0}, {1, 0, 0, 0}}};
+        bodies[i] = (ovoid_picture_body){e->models[shown[i]].name,
+                                         e->models[shown[i]].shape,
+                                         {{2.6 * i * 0.85, 2.6 * i * 0.53, 0}, {1, 0, 0, 0}},
+                                         0};
     const ovoid_picture picture = {bodies, FAMILY_COUNT, NULL, 0, NULL, NULL};
     const ovoid_picture_options options = {1000, 420, view,
                                            OVOID_PICTURE_AREAS | OVOID_PICTURE_INNER | OVOID_PICTURE_NAMES};

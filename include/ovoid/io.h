@@ -11,7 +11,8 @@
 #ifndef OVOID_IO_H
 #define OVOID_IO_H
 
-#include "ovoid/query.h"
+#include "ovoid/compound.h"
+#include "ovoid/motion.h"
 
 #include <stdio.h>
 
@@ -110,6 +111,13 @@ OVOID_API ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_rea
 OVOID_API ovoid_shapes *ovoid_shapes_read_list(const char *path, const ovoid_read_options *read,
                                                const ovoid_shape_options *options, ovoid_error *error);
 
+/**
+ * The compound whose parts are these shapes, in this order, each where its file has it. It borrows them: destroy it
+ * first. Errors as those of ovoid_compound_create. allocator: NULL for malloc.
+ */
+OVOID_API ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes, const ovoid_allocator *allocator,
+                                                       ovoid_error *error);
+
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_shapes_destroy(ovoid_shapes *shapes);
 /** How many there are. */
@@ -129,17 +137,20 @@ OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t 
  *     "capsule": {"radius", "length"}, the length of its segment
  *     "cylinder" or "cone": {"radius", "length", "sides"}, 32 sides by default
  *     "points": [[x, y, z], ...]
+ *     "compound": [part, ...], each like an object, without a name, not itself such a list
  *
  * Optional: "pose": {"xyz", and "quat_wxyz" or "rpy"}; "radius", a rounding radius around the body; for meshes and
- * points "scale" and "unit". Anything else is refused: unknown keys, unknown names in "ignore", two objects of one
- * name, wrong types, a zero quaternion. docs/scene.md has examples.
+ * points "scale" and "unit"; for meshes "parts": true, a compound of the file's objects. Anything else is refused:
+ * unknown keys, unknown names in "ignore", two objects of one name, wrong types, a zero quaternion. docs/scene.md has
+ * examples.
  */
 typedef struct ovoid_scene ovoid_scene;
 
 /** One object: a view. */
 typedef struct ovoid_scene_object {
     const char *name;
-    const ovoid_shape *shape; /**< objects of the same mesh file, scale and radius share it */
+    const ovoid_shape *shape;       /**< objects of equal geometry share it; NULL for a compound */
+    const ovoid_compound *compound; /**< likewise; NULL for a shape */
     ovoid_pose pose;
 } ovoid_scene_object;
 
@@ -218,7 +229,7 @@ OVOID_API void ovoid_motion_reader_destroy(ovoid_motion_reader *reader);
 typedef enum ovoid_record_field {
     OVOID_RECORD_TIME = 1,  /**< of a frame, or of an impact */
     OVOID_RECORD_PARTS = 2, /**< the parts of compounds that the answer is about */
-    OVOID_RECORD_IMPACT = 4 /**< since when the pair was free, where the time is that of an impact */
+    OVOID_RECORD_IMPACT = 4 /**< that the time is that of an impact, and its bracket */
 } ovoid_record_field;
 
 /** The part of a body that is no compound. */
@@ -232,15 +243,22 @@ typedef struct ovoid_record {
     const ovoid_cover *cover; /**< of ovoid_depth; NULL where there is none */
     unsigned fields;          /**< ovoid_record_field bits: which of the following are given; 0: none */
     double time;
-    double free_until;       /**< of an impact: until then the pair is proven farther; NaN: this is none */
-    uint32_t part_a, part_b; /**< 0-based; OVOID_RECORD_NO_PART: the body is no compound */
+    double frame;     /**< of an impact: the time of the frame before, from which on times count; NaN: none */
+    double margin;    /**< of the next two */
+    double free_for;  /**< so long the pair is proven farther apart than the margin */
+    double hit_after; /**< it is within the margin then, proven by the answer; time is frame + hit_after, rounded */
+    uint32_t part_a, part_b;           /**< 0-based; OVOID_RECORD_NO_PART: the body is no compound */
+    const ovoid_exclusion *exclusions; /**< that prove a compound's answer beside the parts' proof; NULL: none */
+    size_t exclusion_count;
+    const ovoid_step *steps; /**< that prove free_for; NULL: none */
+    size_t step_count;
 } ovoid_record;
 
 /**
- * One line of JSON with the keys time, free_until, a, part_a, b, part_b, status, lower, upper, point_a, point_b,
- * normal, stage, iterations, proof, in this order, the first two and the parts where they are given; numbers with 17
- * digits; infinity and NaN are null; "undecided" is followed by its limit, as in "undecided: iterations". FILE where
- * the stream failed.
+ * One line of JSON with the keys time, frame, margin, free_for, hit_after, a, part_a, b, part_b, status, lower, upper,
+ * point_a, point_b, normal, stage, iterations, proof, in this order, the first five and the parts where they are given;
+ * numbers with 17 digits; infinity and NaN are null; "undecided" is followed by its limit, as in "undecided:
+ * iterations". FILE where the stream failed.
  */
 OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
 
@@ -300,6 +318,7 @@ typedef struct ovoid_picture_body {
     const char *name; /**< may be NULL */
     const ovoid_shape *shape;
     ovoid_pose pose;
+    uint32_t group; /**< bodies of one group, as the parts of a compound, have one colour; 0: a colour of its own */
 } ovoid_picture_body;
 
 /** A pair of a picture: its witness points are drawn. */

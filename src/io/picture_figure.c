@@ -86,7 +86,8 @@ static solid_ellipsoid make_ellipsoid(const ovoid_ellipsoid *e, const body_frame
 }
 
 ovoid_code figure_make(figure *f, const ovoid_picture_body *body, int number, const char *path, ovoid_error *error) {
-    *f = (figure){.body = body, .number = number, .base = palette[(size_t)number % (sizeof palette / sizeof *palette)]};
+    size_t tone = body->group ? body->group - 1 : (size_t)number;
+    *f = (figure){.body = body, .number = number, .base = palette[tone % (sizeof palette / sizeof *palette)]};
     ovoid_polytope own = ovoid_shape_get_polytope(body->shape);
     vec3 origin = own.origin;
     double radius = ovoid_shape_get_radius(body->shape);

@@ -9,7 +9,9 @@
 struct ovoid_results_reader {
     line_source source;
     json_t *line;      ///< of the last record: its names are the record's
-    ovoid_cover cover; ///< of the last record
+    ovoid_cover cover; ///< of the last record, as the next two
+    ovoid_exclusion *exclusions;
+    ovoid_step *steps;
     ovoid_error *error;
 };
 
@@ -186,12 +188,77 @@ static ovoid_code read_cover(ovoid_results_reader *r, json_t *json) {
     return OVOID_OK;
 }
 
+// Both ends of a range of parts.
+static int read_range(const json_t *json, const char *key, uint32_t *first, uint32_t *end) {
+    double v[2];
+    if (!read_item(json_object_get(json, key), 2, UINT32_MAX, v)) return 0;
+    *first = (uint32_t)v[0];
+    *end = (uint32_t)v[1];
+    return 1;
+}
+
+static ovoid_code read_exclusion(ovoid_results_reader *r, json_t *json, ovoid_exclusion *x) {
+    static const char *const keys[] = {"a", "b", "normal", "lower", "normal_low"};
+    const char *bad = "exclusions";
+    *x = (ovoid_exclusion){.first_a = 0};
+    if (!json_is_object(json) || !has_keys(json, keys, 5, 4, &bad)) return fail(r, bad, "is not that of an exclusion");
+    if (!read_range(json, "a", &x->first_a, &x->end_a) || !read_range(json, "b", &x->first_b, &x->end_b))
+        return fail(r, bad, "must have ranges of two whole numbers");
+    if (!read_number(json_object_get(json, "lower"), -INFINITY, &x->lower)) return fail(r, "lower", "must be a number");
+    ovoid_code code = read_vector(r, json, "normal", &x->normal);
+    return code || !json_object_get(json, "normal_low") ? code : read_vector(r, json, "normal_low", &x->normal_low);
+}
+
+static ovoid_code read_exclusions(ovoid_results_reader *r, const json_t *json, ovoid_record *record) {
+    size_t count = json_array_size(json);
+    if (!count) return fail(r, "exclusions", "must be a list, not an empty one");
+    ovoid_exclusion *items = realloc(r->exclusions, count * sizeof *items);
+    if (!items) return io_fail_memory(r->error, r->source.path);
+    r->exclusions = items;
+    record->exclusions = items;
+    record->exclusion_count = count;
+    ovoid_code code = OVOID_OK;
+    for (size_t i = 0; i < count && !code; i++) code = read_exclusion(r, json_array_get(json, i), &items[i]);
+    return code;
+}
+
+static ovoid_code read_frame(ovoid_results_reader *r, const json_t *json, ovoid_step_frame *frame) {
+    const char *name = json_string_value(json);
+    *frame = OVOID_STEP_WORLD;
+    if (!json) return OVOID_OK;
+    if (name && strcmp(name, "a") == 0) return *frame = OVOID_STEP_A, OVOID_OK;
+    if (name && strcmp(name, "b") == 0) return *frame = OVOID_STEP_B, OVOID_OK;
+    return fail(r, "frame", "of a step must be \"a\" or \"b\"");
+}
+
+static ovoid_code read_steps(ovoid_results_reader *r, const json_t *json, ovoid_record *record) {
+    static const char *const keys[] = {"until", "normal", "frame"};
+    size_t count = json_array_size(json);
+    if (!count) return fail(r, "steps", "must be a list, not an empty one");
+    ovoid_step *items = realloc(r->steps, count * sizeof *items);
+    if (!items) return io_fail_memory(r->error, r->source.path);
+    r->steps = items;
+    record->steps = items;
+    record->step_count = count;
+    ovoid_code code = OVOID_OK;
+    for (size_t i = 0; i < count && !code; i++) {
+        json_t *step = json_array_get(json, i);
+        const char *bad = "steps";
+        if (!json_is_object(step) || !has_keys(step, keys, 3, 2, &bad)) return fail(r, bad, "is not that of a step");
+        if (!read_number(json_object_get(step, "until"), NAN, &items[i].until))
+            return fail(r, "until", "must be a number");
+        code = read_vector(r, step, "normal", &items[i].normal);
+        if (!code) code = read_frame(r, json_object_get(step, "frame"), &items[i].frame);
+    }
+    return code;
+}
+
 static ovoid_code read_proof(ovoid_results_reader *r, json_t *json, ovoid_record *record) {
-    static const char *const keys[] = {"normal",   "normal_low", "kind",    "a",       "b",
-                                       "weight_a", "weight_b",   "inner_a", "inner_b", "cover"};
+    static const char *const keys[] = {"normal",   "normal_low", "kind",    "a",     "b",          "weight_a",
+                                       "weight_b", "inner_a",    "inner_b", "cover", "exclusions", "steps"};
     ovoid_proof *proof = &record->answer.proof;
     const char *bad = "proof";
-    if (!json_is_object(json) || !has_keys(json, keys, 10, 0, &bad))
+    if (!json_is_object(json) || !has_keys(json, keys, 12, 0, &bad))
         return fail(r, bad, "does not belong into a proof");
     const char *kind = json_string_value(json_object_get(json, "kind"));
     int found = kind ? find_kind(kind) : -1;
@@ -201,7 +268,10 @@ static ovoid_code read_proof(ovoid_results_reader *r, json_t *json, ovoid_record
     if (!code && json_object_get(json, "normal_low")) code = read_vector(r, json, "normal_low", &proof->normal_low);
     if (!code) code = read_points(r, json, proof);
     if (!code) code = read_inner(r, json, proof);
-    json_t *cover = json_object_get(json, "cover");
+    json_t *cover = json_object_get(json, "cover"), *exclusions = json_object_get(json, "exclusions");
+    json_t *steps = json_object_get(json, "steps");
+    if (!code && exclusions) code = read_exclusions(r, exclusions, record);
+    if (!code && steps) code = read_steps(r, steps, record);
     if (code || !cover) return code;
     record->cover = &r->cover;
     return read_cover(r, cover);
@@ -245,13 +315,22 @@ static ovoid_code read_parts(ovoid_results_reader *r, const json_t *line, ovoid_
     return OVOID_OK;
 }
 
+// A time alone, or all five of an impact.
 static ovoid_code read_times(ovoid_results_reader *r, const json_t *line, ovoid_record *record) {
-    const json_t *time = json_object_get(line, "time"), *until = json_object_get(line, "free_until");
-    record->free_until = NAN;
-    if (time && !json_is_number(time)) return fail(r, "time", "must be a number");
-    if (until && (!time || !json_is_number(until))) return fail(r, "free_until", "must be a number beside a time");
-    if (time) record->time = json_number_value(time), record->fields |= OVOID_RECORD_TIME;
-    if (until) record->free_until = json_number_value(until), record->fields |= OVOID_RECORD_IMPACT;
+    static const char *const keys[] = {"time", "frame", "margin", "free_for", "hit_after"};
+    double *const values[] = {&record->time, &record->frame, &record->margin, &record->free_for, &record->hit_after};
+    int present = 0;
+    for (int i = 1; i < 5; i++) present += json_object_get(line, keys[i]) != NULL;
+    int count = present ? 5 : json_object_get(line, "time") ? 1 : 0;
+    record->frame = NAN;
+    for (int i = 0; i < count; i++) {
+        const json_t *value = json_object_get(line, keys[i]);
+        if (!json_is_number(value))
+            return fail(r, keys[i], present ? "must be a number, as all of an impact" : "must be a number");
+        *values[i] = json_number_value(value);
+    }
+    if (count) record->fields |= OVOID_RECORD_TIME;
+    if (present) record->fields |= OVOID_RECORD_IMPACT;
     return OVOID_OK;
 }
 
@@ -278,9 +357,9 @@ static ovoid_code read_answer(ovoid_results_reader *r, json_t *line, ovoid_recor
 }
 
 static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t length, ovoid_record *record) {
-    static const char *const keys[] = {"a",       "b",       "status",     "lower",  "upper",
-                                       "point_a", "point_b", "normal",     "stage",  "iterations",
-                                       "proof",   "time",    "free_until", "part_a", "part_b"};
+    static const char *const keys[] = {"a",       "b",      "status",   "lower",      "upper",  "point_a",
+                                       "point_b", "normal", "stage",    "iterations", "proof",  "time",
+                                       "frame",   "margin", "free_for", "hit_after",  "part_a", "part_b"};
     enum { ALL = sizeof keys / sizeof *keys, NEEDED = 11 };
     where at = {r->source.path, r->source.line, -1};
     json_error_t why;
@@ -325,5 +404,7 @@ void ovoid_results_reader_destroy(ovoid_results_reader *reader) {
     if (!reader) return;
     line_source_close(&reader->source);
     json_decref(reader->line);
+    free(reader->exclusions);
+    free(reader->steps);
     free(reader);
 }

@@ -49,11 +49,55 @@ static void write_cover(FILE *file, const char *q, const ovoid_cover *cover) {
     fputs(cover->triangle_count ? "]}" : "[]}", file);
 }
 
+static void write_range(FILE *file, const char *q, const char *comma, const char *key, uint32_t first, uint32_t end) {
+    write_key(file, q, comma, key);
+    fprintf(file, "[%lu,%lu]", (unsigned long)first, (unsigned long)end);
+}
+
+static int is_zero(ovoid_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+static void write_exclusions(FILE *file, const char *q, const ovoid_record *record) {
+    write_key(file, q, ",", "exclusions");
+    for (size_t i = 0; i < record->exclusion_count; i++) {
+        const ovoid_exclusion *x = &record->exclusions[i];
+        fputc(i ? ',' : '[', file);
+        write_range(file, q, "{", "a", x->first_a, x->end_a);
+        write_range(file, q, ",", "b", x->first_b, x->end_b);
+        write_key(file, q, ",", "normal");
+        write_vector(file, x->normal);
+        if (!is_zero(x->normal_low)) {
+            write_key(file, q, ",", "normal_low");
+            write_vector(file, x->normal_low);
+        }
+        write_key(file, q, ",", "lower");
+        json_write_number(file, x->lower);
+        fputc('}', file);
+    }
+    fputc(']', file);
+}
+
+static void write_steps(FILE *file, const char *q, const ovoid_record *record) {
+    write_key(file, q, ",", "steps");
+    for (size_t i = 0; i < record->step_count; i++) {
+        fputc(i ? ',' : '[', file);
+        write_key(file, q, "{", "until");
+        json_write_number(file, record->steps[i].until);
+        write_key(file, q, ",", "normal");
+        write_vector(file, record->steps[i].normal);
+        if (record->steps[i].frame != OVOID_STEP_WORLD) {
+            write_key(file, q, ",", "frame");
+            fprintf(file, "%s%s%s", q, record->steps[i].frame == OVOID_STEP_A ? "a" : "b", q);
+        }
+        fputc('}', file);
+    }
+    fputc(']', file);
+}
+
 static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
     const ovoid_proof *proof = &record->answer.proof;
     write_key(file, q, "{", "normal");
     write_vector(file, proof->normal);
-    if (proof->normal_low.x != 0 || proof->normal_low.y != 0 || proof->normal_low.z != 0) {
+    if (!is_zero(proof->normal_low)) {
         write_key(file, q, ",", "normal_low");
         write_vector(file, proof->normal_low);
     }
@@ -78,6 +122,8 @@ static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
         write_vector(file, proof->inner_b);
     }
     if (record->cover && record->cover->point_count) write_cover(file, q, record->cover);
+    if (record->exclusion_count) write_exclusions(file, q, record);
+    if (record->step_count) write_steps(file, q, record);
     fputc('}', file);
 }
 
@@ -102,20 +148,21 @@ static void write_part(FILE *file, const char *key, const ovoid_record *record, 
     fprintf(file, "%lu", (unsigned long)part);
 }
 
+// The times of an impact, or of a frame.
+static int is_impact(const ovoid_record *record) {
+    return record->fields & OVOID_RECORD_IMPACT && !isnan(record->frame);
+}
+
 // The keys of a motion; returns what comes before the next one.
 static const char *write_times(FILE *file, const ovoid_record *record) {
-    const char *comma = "{";
-    if (record->fields & OVOID_RECORD_TIME) {
-        write_key(file, "\"", comma, "time");
-        json_write_number(file, record->time);
-        comma = ",";
+    static const char *const keys[] = {"time", "frame", "margin", "free_for", "hit_after"};
+    const double values[] = {record->time, record->frame, record->margin, record->free_for, record->hit_after};
+    int count = is_impact(record) ? 5 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
+    for (int i = 0; i < count; i++) {
+        write_key(file, "\"", i ? "," : "{", keys[i]);
+        json_write_number(file, values[i]);
     }
-    if (record->fields & OVOID_RECORD_IMPACT && !isnan(record->free_until)) {
-        write_key(file, "\"", comma, "free_until");
-        json_write_number(file, record->free_until);
-        comma = ",";
-    }
-    return comma;
+    return count ? "," : "{";
 }
 
 ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
@@ -155,7 +202,7 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
 
 ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields) {
     if (fields & OVOID_RECORD_TIME) fputs("time,", file);
-    if (fields & OVOID_RECORD_IMPACT) fputs("free_until,", file);
+    if (fields & OVOID_RECORD_IMPACT) fputs("frame,margin,free_for,hit_after,", file);
     fputs(fields & OVOID_RECORD_PARTS ? "a,part_a,b,part_b," : "a,b,", file);
     fputs("status,lower,upper,point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,normal_x,normal_y,"
           "normal_z,stage,iterations,proof\n",
@@ -193,14 +240,12 @@ static void write_csv_part(FILE *file, const ovoid_record *record, uint32_t part
     fputc(',', file);
 }
 
-// The columns of a motion; an impact's is empty in the line of a frame.
+// The columns of a motion; those of an impact are empty in the line of a frame.
 static void write_csv_times(FILE *file, const ovoid_record *record) {
-    if (record->fields & OVOID_RECORD_TIME) {
-        write_csv_number(file, record->time);
-        fputc(',', file);
-    }
-    if (record->fields & OVOID_RECORD_IMPACT) {
-        if (!isnan(record->free_until)) write_csv_number(file, record->free_until);
+    const double values[] = {record->time, record->frame, record->margin, record->free_for, record->hit_after};
+    int count = record->fields & OVOID_RECORD_IMPACT ? 5 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
+    for (int i = 0; i < count; i++) {
+        if (!i || is_impact(record)) write_csv_number(file, values[i]);
         fputc(',', file);
     }
 }

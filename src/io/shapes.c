@@ -91,13 +91,6 @@ ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i) {
     return (ovoid_named_shape){shapes->entries[i].name, shapes->entries[i].shape};
 }
 
-// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991).
-static uint64_t hash_text(const char *text) {
-    uint64_t h = 0xcbf29ce484222325u;
-    for (; *text; text++) h = (h ^ (unsigned char)*text) * 0x100000001b3u;
-    return h;
-}
-
 // Takes over the shape and copies the name. The shape is destroyed where there is no memory.
 static ovoid_code add_entry(ovoid_shapes *shapes, const char *name, ovoid_shape *shape, int is_shared,
                             ovoid_error *error) {
@@ -107,7 +100,7 @@ static ovoid_code add_entry(ovoid_shapes *shapes, const char *name, ovoid_shape 
         if (!is_shared) ovoid_shape_destroy(shape);
         return io_fail_memory(error, name);
     }
-    shapes->entries[shapes->count++] = (shape_entry){copy, shape, hash_text(name), is_shared};
+    shapes->entries[shapes->count++] = (shape_entry){copy, shape, text_hash(name), is_shared};
     return OVOID_OK;
 }
 
@@ -150,12 +143,26 @@ ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_read_options 
     return NULL;
 }
 
+ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes, const ovoid_allocator *allocator,
+                                             ovoid_error *error) {
+    ovoid_body *parts = malloc((shapes->count + 1) * sizeof *parts);
+    if (!parts) {
+        io_fail_memory(error, shapes->count ? shapes->entries[0].name : "compound");
+        return NULL;
+    }
+    for (size_t i = 0; i < shapes->count; i++)
+        parts[i] = (ovoid_body){shapes->entries[i].shape, ovoid_pose_make_identity()};
+    ovoid_compound *compound = ovoid_compound_create(parts, shapes->count, allocator, error);
+    free(parts);
+    return compound;
+}
+
 // ---- LIST files
 
 // The shape of a line: read, or shared with the first line of the same path.
 static ovoid_code add_line(ovoid_shapes *shapes, const char *path, const ovoid_read_options *read,
                            const ovoid_shape_options *options, ovoid_error *error) {
-    uint64_t hash = hash_text(path);
+    uint64_t hash = text_hash(path);
     for (size_t i = 0; i < shapes->count; i++)
         if (shapes->entries[i].hash == hash && strcmp(shapes->entries[i].name, path) == 0)
             return add_entry(shapes, path, shapes->entries[i].shape, 1, error);

@@ -52,7 +52,7 @@ static const char *name_within(const ovoid_answer *answer, double margin) {
 }
 
 static const char *name_note(const ovoid_record *record, double margin) {
-    int is_impact = record->fields & OVOID_RECORD_IMPACT && !isnan(record->free_until);
+    int is_impact = record->fields & OVOID_RECORD_IMPACT && !isnan(record->frame);
     return is_impact ? "impact" : name_within(&record->answer, margin);
 }
 

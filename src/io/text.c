@@ -110,6 +110,13 @@ char *text_copy(const char *text, size_t length) {
     return copy;
 }
 
+// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991).
+uint64_t text_hash(const char *text) {
+    uint64_t h = 0xcbf29ce484222325u;
+    for (; *text; text++) h = (h ^ (unsigned char)*text) * 0x100000001b3u;
+    return h;
+}
+
 char *path_join(const char *base, const char *name) {
     const char *slash = strrchr(base, '/');
     size_t folder = slash && name[0] != '/' ? (size_t)(slash - base) + 1 : 0;

@@ -75,6 +75,9 @@ void line_source_close(line_source *source);
 /// malloc'ed copy of length bytes, terminated; NULL where there is no memory.
 char *text_copy(const char *text, size_t length);
 
+/// A hash of the text.
+uint64_t text_hash(const char *text);
+
 /// malloc'ed path of `name` relative to the folder of `base`; an absolute name stays.
 char *path_join(const char *base, const char *name);
 

@@ -1,0 +1,171 @@
+// Pairs in, records out: pieces of the same size for any number of threads, so that the output is the same bytes.
+#include "answers.h"
+
+#include "message.h"
+#include "pipeline.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// Pairs of one piece of work.
+#define CHUNK 128
+
+/// Exclusions that there is room for at first.
+#define ROOM 256
+
+typedef struct chunk {
+    size_t first, count;
+    ovoid_record *records; ///< CHUNK
+    answer_room room;
+    char *text;
+    size_t size;
+    int failed; ///< no memory
+} chunk;
+
+typedef struct work_state {
+    const answers_job *job;
+    size_t next;
+} work_state;
+
+/* ---- one answer */
+
+ovoid_solid answers_get_solid(const ovoid_scene *scene, size_t object, const ovoid_pose *pose) {
+    ovoid_scene_object o = ovoid_scene_get(scene, object);
+    return (ovoid_solid){o.shape, o.compound, *pose};
+}
+
+unsigned answers_get_fields(const ovoid_scene *scene) {
+    for (size_t i = 0; i < ovoid_scene_get_count(scene); i++)
+        if (ovoid_scene_get(scene, i).compound) return OVOID_RECORD_PARTS;
+    return 0;
+}
+
+static ovoid_compound_answer ask(const ovoid_solid_pair *pair, int query, double margin, const ovoid_options *options,
+                                 ovoid_exclusions *exclusions) {
+    if (query == QUERY_COLLIDE) return ovoid_compound_collide(pair, options, NULL, exclusions);
+    if (query == QUERY_WITHIN) return ovoid_compound_within(pair, margin, options, NULL, exclusions);
+    if (query == QUERY_DISTANCE) return ovoid_compound_distance(pair, options, NULL, exclusions);
+    return ovoid_compound_depth(pair, options, NULL, exclusions);
+}
+
+/// Room for so many exclusions; 0 where memory is out.
+static int reserve(answer_room *room, size_t count) {
+    if (!room->cover) room->cover = malloc(sizeof *room->cover);
+    if (count > room->capacity) {
+        ovoid_exclusion *items = realloc(room->items, count * sizeof *items);
+        if (!items) return 0;
+        room->items = items;
+        room->capacity = count;
+    }
+    return room->cover != NULL;
+}
+
+int answers_ask(answer_room *room, const ovoid_solid_pair *pair, int query, double margin, double tolerance, int proven,
+                ovoid_record *record) {
+    ovoid_options options = {.absolute_tolerance = tolerance};
+    if (!reserve(room, ROOM)) return 0;
+    ovoid_exclusions proof = {room->items, room->capacity, 0, query == QUERY_DEPTH ? room->cover : NULL};
+    room->cover->point_count = 0;
+    ovoid_compound_answer found = ask(pair, query, margin, &options, proven ? &proof : NULL);
+    if (proof.count > room->capacity) {
+        if (!reserve(room, proof.count)) return 0;
+        proof.items = room->items;
+        proof.capacity = room->capacity;
+        found = ask(pair, query, margin, &options, &proof);
+    }
+    record->answer = found.answer;
+    record->part_a = pair->a.compound ? found.part_a : OVOID_RECORD_NO_PART;
+    record->part_b = pair->b.compound ? found.part_b : OVOID_RECORD_NO_PART;
+    record->cover = proven && room->cover->point_count ? room->cover : NULL;
+    record->exclusions = proof.items;
+    record->exclusion_count = proof.count;
+    return 1;
+}
+
+void answer_room_clear(answer_room *room) {
+    free(room->cover);
+    free(room->items);
+    *room = (answer_room){NULL, NULL, 0};
+}
+
+/* ---- many */
+
+static int fill(void *context, void *slot) {
+    work_state *w = context;
+    chunk *k = slot;
+    size_t left = w->job->count - w->next;
+    k->first = w->next;
+    k->count = left < CHUNK ? left : CHUNK;
+    w->next += k->count;
+    return k->count > 0;
+}
+
+static ovoid_couple get_couple(const answers_job *job, size_t i) {
+    return *(const ovoid_couple *)(const void *)((const char *)job->couples + i * job->stride);
+}
+
+/// Record i of the chunk; 0 where memory is out.
+static int make_record(const answers_job *job, chunk *k, size_t i, int proven) {
+    ovoid_couple c = get_couple(job, k->first + i);
+    ovoid_solid_pair pair = {answers_get_solid(job->scene, c.a, &job->poses[c.a]),
+                             answers_get_solid(job->scene, c.b, &job->poses[c.b])};
+    k->records[i] = (ovoid_record){.a = ovoid_scene_get(job->scene, c.a).name,
+                                   .b = ovoid_scene_get(job->scene, c.b).name,
+                                   .fields = job->fields,
+                                   .time = job->time,
+                                   .frame = NAN};
+    return answers_ask(&k->room, &pair, job->query, job->margin, job->tolerance, proven, &k->records[i]);
+}
+
+static void work(void *context, void *slot) {
+    const answers_job *job = ((work_state *)context)->job;
+    chunk *k = slot;
+    int lines = job->results && results_are_lines(job->results);
+    if (!k->records) k->records = malloc(CHUNK * sizeof *k->records);
+    FILE *file = lines ? open_memstream(&k->text, &k->size) : NULL;
+    k->failed = !k->records || (lines && !file);
+    for (size_t i = 0; i < k->count && !k->failed; i++) {
+        k->failed = !make_record(job, k, i, lines);
+        if (lines && !k->failed) results_write_line(file, job->results->settings, &k->records[i]);
+        // The room is the next one's.
+        k->records[i].cover = NULL;
+        k->records[i].exclusions = NULL;
+        k->records[i].exclusion_count = 0;
+    }
+    if (file && fclose(file) != 0) k->failed = 1;
+}
+
+static int drain(void *context, void *slot) {
+    const answers_job *job = ((work_state *)context)->job;
+    chunk *k = slot;
+    int lines = job->results && results_are_lines(job->results), code = 0;
+    if (k->failed) {
+        message_error("out of memory");
+        return EXIT_INPUT;
+    }
+    if (lines) code = results_add_text(job->results, k->text, k->size);
+    for (size_t i = 0; i < k->count && !code; i++) {
+        if (job->results && !lines) code = results_add(job->results, &k->records[i]);
+        if (job->take) job->take(job->context, k->first + i, &k->records[i]);
+    }
+    free(k->text);
+    k->text = NULL;
+    return code;
+}
+
+static void clear(void *slot) {
+    chunk *k = slot;
+    answer_room_clear(&k->room);
+    free(k->records);
+    free(k->text);
+}
+
+int answers_run(const answers_job *job) {
+    work_state w = {job, 0};
+    cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
+    // A few pairs are answered before a thread has started.
+    unsigned threads = job->threads ? job->threads : pipeline_get_processors();
+    int code = job->count ? pipeline_run(&line, job->count <= CHUNK ? 1 : threads) : 0;
+    if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
+    return code;
+}

@@ -1,0 +1,37 @@
+// The frames of a motion: where every object of a scene is, at one time after another of a MOTION.csv.
+#ifndef OVOID_CLI_FRAMES_H
+#define OVOID_CLI_FRAMES_H
+
+#include <ovoid/io.h>
+#include <ovoid/ovoid.h>
+
+/// The motion of a scene's objects, frame by frame. The arrays are of all objects and the frames' own.
+typedef struct cli_frames {
+    const ovoid_scene *scene;
+    const char *path;
+    ovoid_motion_reader *reader;
+    ovoid_motion_line line; ///< the first of the next frame, where has_line
+    int has_line;
+    size_t count;           ///< of frames so far
+    double time, earlier;   ///< of this frame and of the one before; of the first both are its own
+    ovoid_pose *poses;      ///< now
+    ovoid_pose *starts;     ///< in the frame before
+    ovoid_vec3 (*speed)[2]; ///< linear and angular, from now on; NULL where the file has poses
+    ovoid_vec3 (*used)[2];  ///< likewise, from the frame before until now
+    uint32_t *moved;        ///< those whose pose is not that of the frame before
+    unsigned char *is_moved;
+    size_t moved_count;
+} cli_frames;
+
+/// Opens the file. 0, or EXIT_INPUT after a message, with nothing left behind.
+int frames_open(cli_frames *frames, const char *path, const ovoid_scene *scene);
+
+/// Goes on to the next frame. 1, 0 at the end, or -1 after a message.
+int frames_next(cli_frames *frames);
+
+/// How an object moves from the frame before (time 0) to this one (the difference of both times).
+ovoid_motion frames_get_motion(const cli_frames *frames, size_t object);
+
+void frames_close(cli_frames *frames);
+
+#endif

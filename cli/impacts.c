@@ -1,0 +1,329 @@
+// Impacts between two frames: boxes that hold each object over the whole step are swept along x (D. Baraff, Dynamic
+// simulation of non-penetrating rigid bodies, 1992); what is left is asked by ovoid_impact_find, part by part where
+// there are compounds, on several threads. A pair is looked at until it first comes within the margin.
+#include "impacts.h"
+
+#include "message.h"
+#include "pipeline.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// Pairs of one piece of work.
+#define CHUNK 16
+
+/// Steps of a proof that there is room for at first.
+#define STEPS 64
+
+/// An impact that was found, or that none is.
+typedef struct impact {
+    ovoid_couple couple;
+    uint32_t part_a, part_b;
+    ovoid_impact_status status;
+    double free_for;
+    ovoid_impact hit; ///< of the deciding parts, where the status is HIT
+    ovoid_step *steps;
+    int failed; ///< no memory
+} impact;
+
+typedef struct chunk {
+    size_t first, count;
+} chunk;
+
+typedef struct work_state {
+    const cli_impacts *impacts;
+    impact *items;
+    size_t next;
+} work_state;
+
+/// Where an object's box begins along x.
+typedef struct cli_span {
+    double low;
+    uint32_t object;
+} cli_span;
+
+int impacts_open(cli_impacts *x) {
+    size_t count = ovoid_scene_get_count(x->scene);
+    x->boxes = calloc(count + 1, sizeof *x->boxes);
+    x->is_fresh = calloc(count + 1, 1);
+    x->spans = calloc(count + 1, sizeof *x->spans);
+    if (x->boxes && x->is_fresh && x->spans) return 0;
+    message_error("out of memory");
+    impacts_close(x);
+    return EXIT_INPUT;
+}
+
+void impacts_close(cli_impacts *x) {
+    free(x->boxes);
+    free(x->is_fresh);
+    free(x->spans);
+    free(x->held);
+    free(x->couples);
+    *x = (cli_impacts){.scene = NULL};
+}
+
+static int add_couple(ovoid_couple **couples, size_t *count, size_t *capacity, ovoid_couple couple) {
+    if (*count == *capacity) {
+        size_t grown = *capacity ? 2 * *capacity : 256;
+        ovoid_couple *moved = realloc(*couples, grown * sizeof *moved);
+        if (!moved) return message_error("out of memory for %zu pairs", grown), EXIT_INPUT;
+        *couples = moved;
+        *capacity = grown;
+    }
+    (*couples)[(*count)++] = couple;
+    return 0;
+}
+
+int impacts_hold(cli_impacts *x, ovoid_couple couple) {
+    return add_couple(&x->held, &x->held_count, &x->held_capacity, couple);
+}
+
+/* ---- which pairs come near each other */
+
+static size_t count_parts(const cli_impacts *x, size_t object) {
+    const ovoid_compound *compound = ovoid_scene_get(x->scene, object).compound;
+    return compound ? ovoid_compound_get_part_count(compound) : 1;
+}
+
+/// A part of an object, with the motion of the step.
+static ovoid_moving get_moving(const cli_impacts *x, size_t object, size_t part) {
+    ovoid_scene_object o = ovoid_scene_get(x->scene, object);
+    ovoid_moving moving = {.shape = o.shape, .motion = frames_get_motion(x->frames, object)};
+    if (!o.compound) return moving;
+    ovoid_body body = ovoid_compound_get_part(o.compound, part);
+    moving.shape = body.shape;
+    moving.part = body.pose;
+    return moving;
+}
+
+static double get_duration(const cli_impacts *x) { return x->frames->time - x->frames->earlier; }
+
+static ovoid_box join(ovoid_box a, ovoid_box b) {
+    return (ovoid_box){{fmin(a.low.x, b.low.x), fmin(a.low.y, b.low.y), fmin(a.low.z, b.low.z)},
+                       {fmax(a.high.x, b.high.x), fmax(a.high.y, b.high.y), fmax(a.high.z, b.high.z)}};
+}
+
+static void make_box(cli_impacts *x, size_t object) {
+    int moves = x->frames->is_moved[object];
+    if (!moves && x->is_fresh[object]) return;
+    for (size_t i = 0; i < count_parts(x, object); i++) {
+        ovoid_moving moving = get_moving(x, object, i);
+        ovoid_box box = ovoid_moving_compute_box(&moving, 0, get_duration(x));
+        x->boxes[object] = i ? join(x->boxes[object], box) : box;
+        // A motion that is refused has no box: it is anywhere, and its pairs will say so.
+        if (isnan(box.low.x))
+            x->boxes[object] = (ovoid_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    }
+    x->is_fresh[object] = !moves;
+}
+
+/// Not proven apart by more than the margin.
+static int is_near(const ovoid_box *a, const ovoid_box *b, double margin) {
+    const double gaps[] = {b->low.x - a->high.x, a->low.x - b->high.x, b->low.y - a->high.y,
+                           a->low.y - b->high.y, b->low.z - a->high.z, a->low.z - b->high.z};
+    for (int i = 0; i < 6; i++)
+        if (gaps[i] > margin * (1 + 1e-15)) return 0;
+    return 1;
+}
+
+static int compare_couples(const void *a, const void *b) {
+    const ovoid_couple *p = a, *q = b;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
+}
+
+/// A candidate: one of them moves, the scene does not ignore them, they were farther apart.
+static int is_candidate(const cli_impacts *x, ovoid_couple c) {
+    if (!x->frames->is_moved[c.a] && !x->frames->is_moved[c.b]) return 0;
+    if (!is_near(&x->boxes[c.a], &x->boxes[c.b], x->margin) || ovoid_scene_is_ignored(x->scene, c.a, c.b)) return 0;
+    return !x->held_count || !bsearch(&c, x->held, x->held_count, sizeof c, compare_couples);
+}
+
+static int compare_spans(const void *a, const void *b) {
+    const cli_span *p = a, *q = b;
+    if (p->low != q->low) return p->low < q->low ? -1 : 1;
+    return p->object < q->object ? -1 : p->object > q->object;
+}
+
+static int find_couples(cli_impacts *x) {
+    size_t count = ovoid_scene_get_count(x->scene);
+    int code = 0;
+    x->couple_count = 0;
+    for (size_t i = 0; i < count; i++) {
+        make_box(x, i);
+        x->spans[i] = (cli_span){x->boxes[i].low.x, (uint32_t)i};
+    }
+    qsort(x->spans, count, sizeof *x->spans, compare_spans);
+    for (size_t i = 0; i < count; i++) {
+        uint32_t a = x->spans[i].object;
+        double end = x->boxes[a].high.x + x->margin;
+        end += 1e-15 * fabs(end);
+        for (size_t k = i + 1; k < count && !(x->spans[k].low > end) && !code; k++) {
+            uint32_t b = x->spans[k].object;
+            ovoid_couple c = {a < b ? a : b, a < b ? b : a};
+            if (is_candidate(x, c)) code = add_couple(&x->couples, &x->couple_count, &x->couple_capacity, c);
+        }
+    }
+    if (x->couple_count) qsort(x->couples, x->couple_count, sizeof *x->couples, compare_couples);
+    return code;
+}
+
+/* ---- their impacts */
+
+/// The impact of two parts before a time, with its steps where they are wanted. 0 where memory is out.
+static int find_impact(const cli_impacts *x, const ovoid_moving pair[2], double end, ovoid_impact *found,
+                       ovoid_step **steps) {
+    ovoid_motion_options options = {.end = end};
+    *steps = NULL;
+    if (!results_are_lines(x->results)) {
+        *found = ovoid_impact_find(&pair[0], &pair[1], x->margin, &options);
+        return 1;
+    }
+    options.capacity = STEPS;
+    for (;;) {
+        ovoid_step *grown = realloc(*steps, options.capacity * sizeof *grown);
+        if (!grown) return free(*steps), *steps = NULL, 0;
+        *steps = options.steps = grown;
+        *found = ovoid_impact_find(&pair[0], &pair[1], x->margin, &options);
+        if (found->step_count <= options.capacity) return 1;
+        options.capacity = found->step_count;
+    }
+}
+
+/// Takes the impact of two parts into that of their objects.
+static void take_parts(impact *item, const ovoid_impact *found, ovoid_step *steps, uint32_t part_a, uint32_t part_b) {
+    item->free_for = fmin(item->free_for, found->free_until);
+    if (found->status == OVOID_IMPACT_HIT) {
+        free(item->steps);
+        item->status = OVOID_IMPACT_HIT;
+        item->hit = *found;
+        item->steps = steps;
+        item->part_a = part_a;
+        item->part_b = part_b;
+        return;
+    }
+    if (found->status == OVOID_IMPACT_UNDECIDED && item->status == OVOID_IMPACT_FREE)
+        item->status = OVOID_IMPACT_UNDECIDED;
+    free(steps);
+}
+
+/// The first impact of any parts: what comes after the first found so far is not looked at.
+static void find_first(const cli_impacts *x, impact *item) {
+    double duration = get_duration(x);
+    size_t count_a = count_parts(x, item->couple.a), count_b = count_parts(x, item->couple.b);
+    item->status = OVOID_IMPACT_FREE;
+    item->free_for = duration;
+    for (size_t i = 0; i < count_a && !item->failed; i++) {
+        ovoid_moving pair[2] = {get_moving(x, item->couple.a, i)};
+        ovoid_box box_a = ovoid_moving_compute_box(&pair[0], 0, duration);
+        if (!is_near(&box_a, &x->boxes[item->couple.b], x->margin)) continue;
+        for (size_t k = 0; k < count_b && !item->failed; k++) {
+            pair[1] = get_moving(x, item->couple.b, k);
+            ovoid_box box_b = ovoid_moving_compute_box(&pair[1], 0, duration);
+            double end = item->status == OVOID_IMPACT_HIT ? item->hit.hit_at : duration;
+            if (!(end > 0) || !is_near(&box_a, &box_b, x->margin)) continue;
+            ovoid_impact found;
+            ovoid_step *steps;
+            item->failed = !find_impact(x, pair, end, &found, &steps);
+            if (!item->failed) take_parts(item, &found, steps, (uint32_t)i, (uint32_t)k);
+        }
+    }
+}
+
+static int fill(void *context, void *slot) {
+    work_state *w = context;
+    chunk *k = slot;
+    size_t left = w->impacts->couple_count - w->next;
+    k->first = w->next;
+    k->count = left < CHUNK ? left : CHUNK;
+    w->next += k->count;
+    return k->count > 0;
+}
+
+static void work(void *context, void *slot) {
+    const work_state *w = context;
+    const chunk *k = slot;
+    for (size_t i = k->first; i < k->first + k->count; i++) {
+        w->items[i].couple = w->impacts->couples[i];
+        find_first(w->impacts, &w->items[i]);
+    }
+}
+
+static int drain(void *context, void *slot) {
+    const work_state *w = context;
+    const chunk *k = slot;
+    for (size_t i = k->first; i < k->first + k->count; i++)
+        if (w->items[i].failed) return message_error("out of memory"), EXIT_INPUT;
+    return 0;
+}
+
+static void clear(void *slot) { (void)slot; }
+
+/* ---- what is written */
+
+static int compare_impacts(const void *a, const void *b) {
+    const impact *p = a, *q = b;
+    int p_hit = p->status == OVOID_IMPACT_HIT, q_hit = q->status == OVOID_IMPACT_HIT;
+    if (p_hit != q_hit) return q_hit - p_hit;
+    if (p_hit && p->hit.hit_at != q->hit.hit_at) return p->hit.hit_at < q->hit.hit_at ? -1 : 1;
+    return compare_couples(&p->couple, &q->couple);
+}
+
+/// The record of an impact. Of compounds the answer is that of the whole bodies there, whose proof is complete.
+static int make_record(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
+    const ovoid_couple c = item->couple;
+    *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
+                             .b = ovoid_scene_get(x->scene, c.b).name,
+                             .answer = item->hit.hit,
+                             .fields = x->fields,
+                             .time = x->frames->earlier + item->hit.hit_at,
+                             .frame = x->frames->earlier,
+                             .margin = x->margin,
+                             .free_for = item->free_for,
+                             .hit_after = item->hit.hit_at,
+                             .part_a = OVOID_RECORD_NO_PART,
+                             .part_b = OVOID_RECORD_NO_PART};
+    if (!ovoid_scene_get(x->scene, c.a).compound && !ovoid_scene_get(x->scene, c.b).compound) {
+        record->steps = item->steps;
+        record->step_count = item->steps ? item->hit.step_count : 0;
+        return 1;
+    }
+    ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
+    ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], item->hit.hit_at),
+                           ovoid_motion_compute_pose(&motions[1], item->hit.hit_at)};
+    ovoid_solid_pair pair = {answers_get_solid(x->scene, c.a, &poses[0]), answers_get_solid(x->scene, c.b, &poses[1])};
+    return answers_ask(room, &pair, QUERY_WITHIN, x->margin, 0, results_are_lines(x->results), record);
+}
+
+static int write_impacts(cli_impacts *x, const impact *items) {
+    answer_room room = {NULL, NULL, 0};
+    int code = 0;
+    for (size_t i = 0; i < x->couple_count && !code; i++) {
+        ovoid_record record;
+        x->not_proven += items[i].status == OVOID_IMPACT_UNDECIDED;
+        if (items[i].status != OVOID_IMPACT_HIT) continue;
+        x->found++;
+        if (!make_record(x, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
+        if (!code) code = results_add(x->results, &record);
+        if (!code) x->take(x->context, items[i].couple, &record);
+    }
+    answer_room_clear(&room);
+    return code;
+}
+
+int impacts_find(cli_impacts *x) {
+    int code = find_couples(x);
+    x->held_count = 0;
+    if (code || !x->couple_count) return code;
+    work_state w = {x, calloc(x->couple_count, sizeof(impact)), 0};
+    if (!w.items) return message_error("out of memory"), EXIT_INPUT;
+    cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
+    unsigned threads = x->threads ? x->threads : pipeline_get_processors();
+    code = pipeline_run(&line, x->couple_count <= CHUNK ? 1 : threads);
+    if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
+    if (!code) qsort(w.items, x->couple_count, sizeof *w.items, compare_impacts);
+    if (!code) code = write_impacts(x, w.items);
+    for (size_t i = 0; i < x->couple_count; i++) free(w.items[i].steps);
+    free(w.items);
+    return code;
+}

@@ -1,0 +1,122 @@
+// Near pairs come from a world (broad phase and kept proofs, see <ovoid/world.h>); what is said of them later is asked
+// anew, so that it does not depend on what was asked before.
+#include "near.h"
+
+#include "message.h"
+#include "pipeline.h"
+
+#include <stdlib.h>
+
+/// Most pairs that are kept.
+#define COUPLES_MAX 50000000
+
+/// Bodies that are moved at a time.
+#define MOVES 1024
+
+/// The object of an id: they were added in order, to an empty world.
+static uint32_t get_object(const cli_near *near, ovoid_id id) { return (uint32_t)((id >> 32) - (near->ids[0] >> 32)); }
+
+static int is_wanted(void *context, ovoid_id a, ovoid_id b) {
+    const cli_near *near = context;
+    return !ovoid_scene_is_ignored(near->scene, get_object(near, a), get_object(near, b));
+}
+
+static int add_bodies(cli_near *near) {
+    size_t count = ovoid_scene_get_count(near->scene);
+    ovoid_world_body *bodies = calloc(count + 1, sizeof *bodies);
+    ovoid_error error = {OVOID_ERROR_MEMORY, -1, "out of memory"};
+    near->ids = calloc(count + 1, sizeof *near->ids);
+    int done = 0;
+    if (bodies && near->ids) {
+        for (size_t i = 0; i < count; i++) {
+            ovoid_scene_object o = ovoid_scene_get(near->scene, i);
+            bodies[i].solid = (ovoid_solid){o.shape, o.compound, o.pose};
+        }
+        done = ovoid_world_add_many(near->world, bodies, count, near->ids, &error) == OVOID_OK;
+    }
+    free(bodies);
+    if (!done) message_error("%s", error.message);
+    return done ? 0 : EXIT_INPUT;
+}
+
+int near_open(cli_near *near, const ovoid_scene *scene, ovoid_question question, double margin, unsigned threads) {
+    ovoid_error error;
+    *near = (cli_near){.scene = scene, .query = {.question = question, .margin = margin}};
+    if (margin < 0) return 0;
+    ovoid_world_options options = {
+        .threads = threads ? threads : pipeline_get_processors(), .filter = is_wanted, .filter_context = near};
+    near->world = ovoid_world_create(&options, &error);
+    if (!near->world) return message_error("%s", error.message), EXIT_INPUT;
+    int code = add_bodies(near);
+    if (code) near_close(near);
+    return code;
+}
+
+void near_close(cli_near *near) {
+    ovoid_world_destroy(near->world);
+    free(near->ids);
+    free(near->couples);
+    near->world = NULL;
+    near->ids = NULL;
+    near->couples = NULL;
+}
+
+int near_move(cli_near *near, const uint32_t *moved, size_t count, const ovoid_pose *poses) {
+    ovoid_id ids[MOVES];
+    ovoid_pose to[MOVES];
+    ovoid_error error;
+    for (size_t done = 0; near->world && done < count; done += MOVES) {
+        size_t n = count - done < MOVES ? count - done : MOVES;
+        for (size_t i = 0; i < n; i++) {
+            ids[i] = near->ids[moved[done + i]];
+            to[i] = poses[moved[done + i]];
+        }
+        if (ovoid_world_move_many(near->world, ids, to, n, &error) == OVOID_OK) continue;
+        return message_error("%s", error.message), EXIT_INPUT;
+    }
+    return 0;
+}
+
+/// Room for more couples. 0, or EXIT_INPUT after a message.
+static int reserve(cli_near *near, size_t count) {
+    if (count <= near->capacity) return 0;
+    size_t capacity = 2 * near->capacity > count ? 2 * near->capacity : count;
+    ovoid_couple *couples = count > COUPLES_MAX ? NULL : realloc(near->couples, capacity * sizeof *couples);
+    if (couples) {
+        near->couples = couples;
+        near->capacity = capacity;
+        return 0;
+    }
+    if (count <= COUPLES_MAX)
+        message_error("out of memory for %zu pairs", capacity);
+    else
+        message_error("too many pairs: above %d; %s", COUPLES_MAX,
+                      near->world ? "give a smaller --margin" : "give --margin to leave out far pairs");
+    return EXIT_INPUT;
+}
+
+static int find_all(cli_near *near) {
+    size_t count = ovoid_scene_get_count(near->scene);
+    near->count = 0;
+    for (size_t a = 0; a < count; a++) {
+        if (reserve(near, near->count + count - a)) return EXIT_INPUT;
+        for (size_t b = a + 1; b < count; b++)
+            if (!ovoid_scene_is_ignored(near->scene, a, b))
+                near->couples[near->count++] = (ovoid_couple){(uint32_t)a, (uint32_t)b};
+    }
+    return 0;
+}
+
+int near_find(cli_near *near) {
+    ovoid_error error;
+    ovoid_frame frame;
+    // All pairs are always the same.
+    if (!near->world) return near->count ? 0 : find_all(near);
+    if (ovoid_world_compute_frame(near->world, &near->query, &frame, &error) != OVOID_OK)
+        return message_error("%s", error.message), EXIT_INPUT;
+    if (reserve(near, frame.count)) return EXIT_INPUT;
+    for (size_t i = 0; i < frame.count; i++)
+        near->couples[i] = (ovoid_couple){get_object(near, frame.contacts[i].a), get_object(near, frame.contacts[i].b)};
+    near->count = frame.count;
+    return 0;
+}

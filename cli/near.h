@@ -1,0 +1,32 @@
+// Which pairs of a scene's objects are worth an answer: all, or those that are not proven farther apart than a margin.
+#ifndef OVOID_CLI_NEAR_H
+#define OVOID_CLI_NEAR_H
+
+#include "args.h"
+
+#include <ovoid/io.h>
+#include <ovoid/ovoid.h>
+
+/// The objects of a scene in a world, and the pairs that were found last.
+typedef struct cli_near {
+    const ovoid_scene *scene;
+    ovoid_world *world;    ///< NULL: all pairs are wanted
+    ovoid_id *ids;         ///< of the objects
+    ovoid_couple *couples; ///< a < b, ascending
+    size_t count, capacity;
+    ovoid_frame_query query;
+} cli_near;
+
+/// Puts the objects into a world, at the poses of the scene. margin: negative for all pairs. question: collide (margin
+/// 0) or within. 0, or EXIT_INPUT after a message.
+int near_open(cli_near *near, const ovoid_scene *scene, ovoid_question question, double margin, unsigned threads);
+
+/// Moves some objects; poses are those of all. 0, or EXIT_INPUT after a message.
+int near_move(cli_near *near, const uint32_t *moved, size_t count, const ovoid_pose *poses);
+
+/// Finds the pairs for the present poses. 0, or EXIT_INPUT after a message.
+int near_find(cli_near *near);
+
+void near_close(cli_near *near);
+
+#endif

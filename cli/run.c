@@ -1,0 +1,292 @@
+// ovoid run: a scene that moves. Frame by frame a world finds the pairs that are not proven farther apart than the
+// margin; each is answered anew, so that a line says the same whatever came before, and can be checked alone. Between
+// frames the times of impact are bracketed where that is asked for. Memory does not grow with the number of frames, but
+// for the points of a plot.
+#include "commands.h"
+
+#include "answers.h"
+#include "finish.h"
+#include "frames.h"
+#include "impacts.h"
+#include "inputs.h"
+#include "message.h"
+#include "near.h"
+#include "progress.h"
+#include "track.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct settings {
+    output_settings out;
+    const char *motion, *plot;
+    int query, continuous;
+    unsigned threads;
+    double margin, tolerance; ///< margin negative: not given
+} settings;
+
+static const cli_option options[] = {
+    {"motion", 0, OPTION_FILE, offsetof(settings, motion), "MOTION.csv", NULL,
+     "times with poses or velocities of objects, \"-\" for standard input (required)"},
+    {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
+     "list only the pairs that are not proven farther apart than M; without it, every pair of every frame"},
+    {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
+     "collide: which pairs touch? within: which are within --margin? distance: how far apart? depth: the signed "
+     "distance "
+     "(default)"},
+    {"continuous", 0, OPTION_FLAG, offsetof(settings, continuous), NULL, NULL,
+     "between frames, also find when pairs come within the margin (without one: touch)"},
+    {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
+     "stop when the bracket of a pair is at most T wide (default: 1e-9 of the pair's size)"},
+    {"plot", 0, OPTION_FILE, offsetof(settings, plot), "FILE", NULL,
+     "draw the distances of the nearest pairs over time, an SVG file"},
+    {"threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,
+     "work on N threads; the output is the same bytes for any N (default: one for each processor)"},
+    RESULTS_OPTIONS(settings),
+    {0},
+};
+
+/// What the whole run shares.
+typedef struct run_state {
+    const settings *settings;
+    const ovoid_scene *scene;
+    cli_frames frames;
+    cli_near near;
+    cli_impacts impacts;
+    cli_track track;
+    cli_results results;
+    size_t pairs, counts[4]; ///< records of frames; by ovoid_status
+    exit_code worst;
+    int code; ///< of what the callbacks could not do
+} run_state;
+
+/// The margin of impacts: touching where none was given.
+static double get_margin(const settings *s) { return s->margin > 0 ? s->margin : 0; }
+
+/* ---- records, as they come */
+
+static void take_record(void *context, size_t i, const ovoid_record *record) {
+    run_state *r = context;
+    const settings *s = r->settings;
+    ovoid_couple couple = r->near.couples[i];
+    r->pairs++;
+    r->counts[record->answer.status]++;
+    r->worst = results_worse(r->worst, results_judge(&record->answer, s->margin));
+    track_add(&r->track, couple, record, s->margin, r->frames.count > 1 ? r->frames.earlier : NAN);
+    if (s->continuous && ovoid_answer_is_within(&record->answer, get_margin(s)) != 0 && !r->code)
+        r->code = impacts_hold(&r->impacts, couple);
+}
+
+static void take_impact(void *context, ovoid_couple couple, const ovoid_record *record) {
+    run_state *r = context;
+    r->worst = results_worse(r->worst, EXIT_TOUCH);
+    track_add_impact(&r->track, couple, record);
+}
+
+/* ---- the frames */
+
+static int answer_frame(run_state *r) {
+    const settings *s = r->settings;
+    answers_job job = {.scene = r->scene,
+                       .poses = r->frames.poses,
+                       .query = s->query,
+                       .margin = s->margin,
+                       .tolerance = s->tolerance,
+                       .threads = s->threads,
+                       .couples = r->near.couples,
+                       .stride = sizeof *r->near.couples,
+                       .count = r->near.count,
+                       .time = r->frames.time,
+                       .fields = r->results.fields,
+                       .results = &r->results,
+                       .take = take_record,
+                       .context = r};
+    int code = answers_run(&job);
+    return code ? code : r->code;
+}
+
+static int run_frame(run_state *r) {
+    int code = 0;
+    if (r->settings->continuous && r->frames.count > 1) code = impacts_find(&r->impacts);
+    if (!code) code = near_move(&r->near, r->frames.moved, r->frames.moved_count, r->frames.poses);
+    if (!code) code = near_find(&r->near);
+    track_add_frame(&r->track, r->frames.time);
+    if (!code) code = answer_frame(r);
+    progress_set(r->frames.count);
+    return code;
+}
+
+static int run_frames(run_state *r) {
+    int code = 0, got = 0;
+    progress_start("frames", 0);
+    while (!code && (got = frames_next(&r->frames)) > 0) code = run_frame(r);
+    progress_end();
+    return code || got >= 0 ? code : EXIT_INPUT;
+}
+
+/* ---- the summary */
+
+/// "arm[3], table", in a text of the given room.
+static void write_names(char *text, size_t room, const char *a, uint32_t part_a, const char *b, uint32_t part_b) {
+    char parts[2][16] = {"", ""};
+    if (part_a != OVOID_RECORD_NO_PART) snprintf(parts[0], 16, "[%lu]", (unsigned long)part_a);
+    if (part_b != OVOID_RECORD_NO_PART) snprintf(parts[1], 16, "[%lu]", (unsigned long)part_b);
+    snprintf(text, room, "%.60s%s, %.60s%s", a, parts[0], b, parts[1]);
+}
+
+static void tell_event(const run_state *r, const char *what, const track_event *event) {
+    char names[200];
+    if (!event->is_there) {
+        message_note("%s: none", what);
+        return;
+    }
+    write_names(names, sizeof names, ovoid_scene_get(r->scene, event->a).name, event->part_a,
+                ovoid_scene_get(r->scene, event->b).name, event->part_b);
+    if (isnan(event->from)) {
+        message_note("%s: %s, from the beginning", what, names);
+        return;
+    }
+    // An impact's bracket is narrow: as many digits as tell its ends apart.
+    char from[40], until[40];
+    for (int digits = 9; digits <= 17; digits += 4) {
+        snprintf(from, sizeof from, "%.*g", digits, event->from);
+        snprintf(until, sizeof until, "%.*g", digits, event->until);
+        if (strcmp(from, until) != 0) break;
+    }
+    message_note("%s: %s, between %s and %s", what, names, from, until);
+}
+
+static void tell_summary(const run_state *r, double seconds) {
+    const settings *s = r->settings;
+    char within[48] = "first within the margin", names[200];
+    message_note(
+        "%zu frames, %zu objects in %.2f s; pairs listed: %zu; separated: %zu, touching: %zu, overlapping: %zu, "
+        "undecided: %zu",
+        r->frames.count, ovoid_scene_get_count(r->scene), seconds, r->pairs, r->counts[OVOID_SEPARATED],
+        r->counts[OVOID_TOUCHING], r->counts[OVOID_OVERLAPPING], r->counts[OVOID_UNDECIDED]);
+    if (s->continuous) message_note("impacts: %zu, not proven: %zu", r->impacts.found, r->impacts.not_proven);
+    if (s->margin > 0) {
+        snprintf(within, sizeof within, "first within %g", s->margin);
+        tell_event(r, within, &r->track.reach);
+    }
+    tell_event(r, "first contact", &r->track.touch);
+    const ovoid_record *least = &r->track.smallest;
+    if (s->query < QUERY_DISTANCE) return;
+    if (r->track.has_smallest) {
+        write_names(names, sizeof names, least->a,
+                    least->fields & OVOID_RECORD_PARTS ? least->part_a : OVOID_RECORD_NO_PART, least->b,
+                    least->fields & OVOID_RECORD_PARTS ? least->part_b : OVOID_RECORD_NO_PART);
+        message_note("smallest distance: %.9g .. %.9g, at %.9g, %s", least->answer.lower, least->answer.upper,
+                     least->time, names);
+    } else if (s->margin >= 0)
+        message_note("smallest distance: above %g, proven", s->margin);
+}
+
+/* ---- the run */
+
+static int open_all(run_state *r) {
+    const settings *s = r->settings;
+    int is_collide = s->query == QUERY_COLLIDE;
+    unsigned parts = answers_get_fields(r->scene);
+    int code = frames_open(&r->frames, s->motion, r->scene);
+    if (!code)
+        code = near_open(&r->near, r->scene, is_collide ? OVOID_QUESTION_COLLIDE : OVOID_QUESTION_WITHIN,
+                         is_collide ? 0 : s->margin, s->threads);
+    if (!code && s->continuous) {
+        r->impacts = (cli_impacts){.scene = r->scene,
+                                   .frames = &r->frames,
+                                   .margin = get_margin(s),
+                                   .threads = s->threads,
+                                   .fields = OVOID_RECORD_TIME | OVOID_RECORD_IMPACT | parts,
+                                   .results = &r->results,
+                                   .take = take_impact,
+                                   .context = r};
+        code = impacts_open(&r->impacts);
+    }
+    return code;
+}
+
+static int run_motion(run_state *r) {
+    const settings *s = r->settings;
+    double start = progress_get_seconds();
+    int code = open_all(r);
+    if (code) return code;
+    if (results_open(&r->results, &s->out, s->query == QUERY_COLLIDE ? -1 : s->margin)) return EXIT_INPUT;
+    r->results.fields = OVOID_RECORD_TIME | answers_get_fields(r->scene) | (s->continuous ? OVOID_RECORD_IMPACT : 0);
+    r->track.keeps = s->plot != NULL;
+    code = run_frames(r);
+    if (r->impacts.not_proven) r->worst = EXIT_NOT_PROVEN;
+    int worst = (int)r->worst;
+    code = results_close(&r->results, code ? code : worst);
+    if (code != worst) return code;
+    if (s->plot && track_write_plot(&r->track, s->plot, r->scene, s->margin)) return EXIT_INPUT;
+    tell_summary(r, progress_get_seconds() - start);
+    return code;
+}
+
+/// What the options must be together. -1 to go on, or EXIT_USAGE.
+static int check_settings(const cli_command *command, const settings *s) {
+    if (!s->motion) return args_complain(command, "run: --motion MOTION.csv is missing");
+    if (s->query == QUERY_WITHIN && s->margin < 0) return args_complain(command, "run: --query within needs --margin");
+    if (s->query == QUERY_COLLIDE && s->margin >= 0)
+        return args_complain(command, "run: --query collide takes no --margin; --query within does");
+    if (s->plot && strcmp(s->plot, "-") == 0)
+        return args_complain(command, "run: --plot needs a file; standard output has the results");
+    return results_check_settings(command, &s->out);
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    settings s = {.query = QUERY_DEPTH, .margin = -1};
+    cli_operands paths;
+    int code = args_parse(command, argc, argv, &s, &paths);
+    if (code < 0) code = check_settings(command, &s);
+    if (code >= 0) return code;
+    ovoid_scene *scene = inputs_read_scene(paths.items[0]);
+    if (!scene) return EXIT_INPUT;
+    run_state r = {.settings = &s, .scene = scene};
+    code = run_motion(&r);
+    impacts_close(&r.impacts);
+    track_clear(&r.track);
+    near_close(&r.near);
+    frames_close(&r.frames);
+    ovoid_scene_destroy(scene);
+    return code;
+}
+
+const cli_command command_run = {
+    .name = "run",
+    .summary = "a scene that moves: what is near, touches, and when",
+    .usage = "[OPTION...] SCENE.json --motion MOTION.csv",
+    .description =
+        "The signed distances of the pairs of a scene at each time of a motion: a line for each frame and pair. The "
+        "first "
+        "line of MOTION.csv must be one of\n\n"
+        "    time,body,x,y,z,qw,qx,qy,qz\n"
+        "    time,body,vx,vy,vz,wx,wy,wz\n\n"
+        "for poses of objects, or velocities from that time on (of the frame's origin, and in radians about axes of "
+        "the "
+        "world). Times never decrease; an object stays, or goes on, until its next line; until its first it is where "
+        "the "
+        "scene has it.\n\n"
+        "With --continuous, motion between two frames counts too: from pose to pose the position is linear and the "
+        "rotation turns about one axis, the shorter way round; velocities are constant. An impact is a line of its "
+        "own, "
+        "with the time until which the pair is proven farther apart and the time when it is within the margin. No "
+        "motion "
+        "is too fast for it.\n\n"
+        "At the end the first contact and the smallest distance of the frames are told. ovoid verify --motion checks "
+        "the "
+        "lines of --json.",
+    .exits = "0 every pair is apart in every frame (with --margin: farther than M)\n"
+             "1 a pair touches or overlaps (or is within M)\n2 the command line is wrong\n"
+             "3 bad input, or output that could not be written\n"
+             "4 for some pair nothing is proven; this comes before 1",
+    .examples = "ovoid run cell.json --motion pick.csv --margin 0.1 --plot pick.svg\n"
+                "ovoid run cell.json --motion pick.csv --continuous --query collide\n"
+                "ovoid run cell.json --motion pick.csv --margin 0.05 --json -o near.jsonl",
+    .options = options,
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};

@@ -1,0 +1,205 @@
+// What is remembered of a motion, and its plot. Memory: three numbers for each pair and frame within the margin, and
+// only where a plot is wanted.
+#include "track.h"
+
+#include "args.h"
+#include "finish.h"
+#include "message.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Most points that are kept: 24 bytes each.
+#define POINTS_MAX 50000000
+
+/// Pairs that are drawn.
+#define DRAWN_MAX 6
+
+/// Points of a line beyond which neighbours are drawn as one.
+#define LINE_POINTS 1500
+
+/* ---- keeping */
+
+/// Room for one more item; 0 where memory is out.
+static int reserve(void **items, size_t *capacity, size_t count, size_t size) {
+    if (count < *capacity) return 1;
+    size_t grown = *capacity ? 2 * *capacity : 16;
+    void *moved = realloc(*items, grown * size);
+    if (!moved) return 0;
+    *items = moved;
+    *capacity = grown;
+    return 1;
+}
+
+static size_t *find_slot(const cli_track *t, uint32_t a, uint32_t b) {
+    uint64_t hash = ((uint64_t)a << 32 | b) * 0x9e3779b97f4a7c15u;
+    for (size_t at = (size_t)(hash >> 20) & (t->slot_count - 1);; at = (at + 1) & (t->slot_count - 1)) {
+        size_t *slot = &t->slots[at];
+        if (!*slot || (t->pairs[*slot - 1].a == a && t->pairs[*slot - 1].b == b)) return slot;
+    }
+}
+
+static int grow_slots(cli_track *t) {
+    if (2 * (t->pair_count + 1) <= t->slot_count) return 1;
+    size_t count = t->slot_count ? 2 * t->slot_count : 64, *slots = calloc(count, sizeof *slots);
+    if (!slots) return 0;
+    free(t->slots);
+    t->slots = slots;
+    t->slot_count = count;
+    for (size_t i = 0; i < t->pair_count; i++) *find_slot(t, t->pairs[i].a, t->pairs[i].b) = i + 1;
+    return 1;
+}
+
+/// The pair's memory, made where there is none; NULL where memory is out.
+static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
+    if (!grow_slots(t)) return NULL;
+    size_t *slot = find_slot(t, couple.a, couple.b);
+    if (*slot) return &t->pairs[*slot - 1];
+    if (!reserve((void **)&t->pairs, &t->pair_capacity, t->pair_count, sizeof *t->pairs)) return NULL;
+    t->pairs[t->pair_count] = (track_pair){.a = couple.a, .b = couple.b, .lowest = INFINITY};
+    *slot = ++t->pair_count;
+    return &t->pairs[t->pair_count - 1];
+}
+
+static int keep_point(cli_track *t, ovoid_couple couple, const ovoid_answer *answer) {
+    track_pair *pair = t->point_count < POINTS_MAX ? find_pair(t, couple) : NULL;
+    if (!pair || !reserve((void **)&pair->points, &pair->capacity, pair->count, sizeof *pair->points)) return 0;
+    pair->points[pair->count++] = (track_point){t->frame_count - 1, answer->lower, answer->upper};
+    if (answer->lower < pair->lowest) pair->lowest = answer->lower;
+    t->point_count++;
+    return 1;
+}
+
+void track_add_frame(cli_track *t, double time) {
+    if (!t->keeps || t->failed) return;
+    t->failed = !reserve((void **)&t->times, &t->frame_capacity, t->frame_count, sizeof *t->times);
+    if (!t->failed) t->times[t->frame_count++] = time;
+}
+
+static void set_event(track_event *event, ovoid_couple couple, const ovoid_record *record, double from, double until) {
+    if (event->is_there) return;
+    *event = (track_event){1, from, until, couple.a, couple.b, record->part_a, record->part_b};
+}
+
+void track_add(cli_track *t, ovoid_couple couple, const ovoid_record *record, double margin, double earlier) {
+    const ovoid_answer *answer = &record->answer;
+    int touches = answer->status == OVOID_TOUCHING || answer->status == OVOID_OVERLAPPING;
+    if (touches) set_event(&t->touch, couple, record, earlier, record->time);
+    if (touches || (margin >= 0 && ovoid_answer_is_within(answer, margin) > 0))
+        set_event(&t->reach, couple, record, earlier, record->time);
+    if (!t->has_smallest || answer->lower < t->smallest.answer.lower) t->smallest = *record, t->has_smallest = 1;
+    if (t->keeps && !t->failed) t->failed = !keep_point(t, couple, answer);
+}
+
+void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *record) {
+    double from = record->frame + record->free_for;
+    set_event(&t->reach, couple, record, from, record->time);
+    if (record->margin == 0) set_event(&t->touch, couple, record, from, record->time);
+}
+
+void track_clear(cli_track *t) {
+    for (size_t i = 0; i < t->pair_count; i++) free(t->pairs[i].points);
+    free(t->pairs);
+    free(t->times);
+    free(t->slots);
+    *t = (cli_track){.keeps = 0};
+}
+
+/* ---- drawing */
+
+/// The columns of a line.
+typedef struct line_room {
+    double *x, *y, *low, *high;
+    size_t count, capacity;
+    char name[128];
+} line_room;
+
+static void add_value(line_room *l, double x, double low, double high) {
+    l->x[l->count] = x;
+    l->low[l->count] = low;
+    l->high[l->count] = high;
+    l->y[l->count++] = isfinite(low) && isfinite(high) ? low + (high - low) / 2 : NAN;
+}
+
+/// The pair's distances; a gap where frames are missing, `group` neighbours as one.
+static int fill_line(const cli_track *t, const track_pair *pair, line_room *l) {
+    size_t group = pair->count / LINE_POINTS + 1, room = 2 * pair->count + 2;
+    *l = (line_room){.x = malloc(4 * room * sizeof *l->x)};
+    if (!l->x) return 0;
+    l->y = l->x + room;
+    l->low = l->y + room;
+    l->high = l->low + room;
+    for (size_t i = 0; i < pair->count;) {
+        const track_point *first = &pair->points[i];
+        if (i && first->frame > pair->points[i - 1].frame + 1) add_value(l, t->times[first->frame], NAN, NAN);
+        double low = first->lower, high = first->upper;
+        size_t end = i + 1;
+        for (; end < pair->count && end < i + group && pair->points[end].frame == pair->points[end - 1].frame + 1;
+             end++) {
+            low = fmin(low, pair->points[end].lower);
+            high = fmax(high, pair->points[end].upper);
+        }
+        add_value(l, t->times[first->frame], low, high);
+        i = end;
+    }
+    return 1;
+}
+
+static int compare_pairs(const void *a, const void *b) {
+    const track_pair *p = a, *q = b;
+    if (p->lowest != q->lowest) return p->lowest < q->lowest ? -1 : 1;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
+}
+
+/// Writes the chart to the file, which appears whole or not at all.
+static int write_chart(const ovoid_chart *chart, const char *path) {
+    ovoid_error error;
+    finish_hold_signals();
+    ovoid_output *output = ovoid_output_create(path, &error);
+    int failed = !output;
+    if (output) {
+        (void)ovoid_chart_write_svg(ovoid_output_get_file(output), chart); // commit looks at the stream
+        failed = ovoid_output_commit(output, &error) != OVOID_OK;
+    }
+    ovoid_output_destroy(output);
+    finish_release_signals();
+    if (failed) finish_tell_failure(&error);
+    return failed ? EXIT_INPUT : 0;
+}
+
+int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, double margin) {
+    if (t->failed)
+        return message_error("the plot has too many points for the memory; give a smaller --margin"), EXIT_INPUT;
+    line_room lines[DRAWN_MAX];
+    ovoid_series series[DRAWN_MAX + 1];
+    size_t count = 0;
+    int code = 0;
+    // The nearest pairs first.
+    if (t->pair_count) qsort(t->pairs, t->pair_count, sizeof *t->pairs, compare_pairs);
+    for (; count < t->pair_count && count < DRAWN_MAX && !code; count++) {
+        const track_pair *pair = &t->pairs[count];
+        line_room *l = &lines[count];
+        if (!fill_line(t, pair, l)) return message_error("out of memory"), EXIT_INPUT;
+        snprintf(l->name, sizeof l->name, "%.50s, %.50s", ovoid_scene_get(scene, pair->a).name,
+                 ovoid_scene_get(scene, pair->b).name);
+        series[count] = (ovoid_series){l->name, OVOID_SERIES_LINE, l->count, l->x, l->y, l->low, l->high};
+    }
+    double ends[2] = {t->frame_count ? t->times[0] : 0, t->frame_count ? t->times[t->frame_count - 1] : 1};
+    double limits[2] = {margin, margin};
+    size_t drawn = count;
+    if (margin > 0) series[drawn++] = (ovoid_series){"margin", OVOID_SERIES_LINE, 2, ends, limits, NULL, NULL};
+    char title[80];
+    snprintf(title, sizeof title, "Signed distance over time: the nearest %zu of %zu pairs", count, t->pair_count);
+    ovoid_chart chart = {.title = title,
+                         .x_label = "time",
+                         .y_label = "signed distance",
+                         .series = series,
+                         .series_count = drawn,
+                         .width = 900,
+                         .height = 480};
+    code = write_chart(&chart, path);
+    for (size_t i = 0; i < count; i++) free(lines[i].x);
+    return code;
+}
