@@ -213,17 +213,16 @@ static int run_monitor(rows *all, const robot *machine, const many_field *field,
 
 static int is_wanted(const many_plan *plan, const char *name) { return !plan->only || !strcmp(plan->only, name); }
 
-static int run_both(rows *all, const robot *machine, const many_field *field, const many_plan *plan) {
+static int run_question(rows *all, const robot *machine, const many_field *field, const many_plan *plan, int monitor) {
     static const char *const charts[2][2] = {
-        {"Planner, a made robot of 10 links", "Monitor, a made robot of 10 links"},
-        {"Planner, a panda among real parts", "Monitor, a panda among real parts"}};
-    int real = !strcmp(machine->name, "panda");
-    return (!is_wanted(plan, "planner") || run_planner(all, machine, field, plan->states, charts[real][0])) &&
-           (!is_wanted(plan, "monitor") || run_monitor(all, machine, field, plan->cycles, charts[real][1]));
+        {"Planner, a made robot of 10 links", "Planner, a panda among real parts"},
+        {"Monitor, a made robot of 10 links", "Monitor, a panda among real parts"}};
+    const char *chart = charts[monitor][!strcmp(machine->name, "panda")];
+    return monitor ? run_monitor(all, machine, field, plan->cycles, chart)
+                   : run_planner(all, machine, field, plan->states, chart);
 }
 
-int many_run_cells(rows *all, const many_field *field, const many_plan *plan) {
-    if (!is_wanted(plan, "planner") && !is_wanted(plan, "monitor")) return 1;
+static int run_made(rows *all, const many_field *field, const many_plan *plan, int monitor) {
     robot machine;
     if (!robot_create_made(&machine)) return 0;
     // The same cell with a part of its parts, for how it grows.
@@ -231,15 +230,28 @@ int many_run_cells(rows *all, const many_field *field, const many_plan *plan) {
     int good = 1;
     for (uint32_t share = 16; good && share >= 1; share /= 4) {
         machine.cell.part_count = parts / share;
-        good = run_both(all, &machine, field, plan);
+        good = run_question(all, &machine, field, plan, monitor);
     }
     robot_destroy(&machine);
-    if (!good) return 0;
+    return good;
+}
+
+static int run_real(rows *all, const many_field *field, const many_plan *plan, int monitor) {
+    robot machine;
     if (!plan->data || !robot_create_panda(&machine, plan->data)) {
         printf("without the panda: its files are not there\n");
         return 1;
     }
-    good = run_both(all, &machine, field, plan);
+    int good = run_question(all, &machine, field, plan, monitor);
     robot_destroy(&machine);
     return good;
+}
+
+int many_run_cells(rows *all, const many_field *field, const many_plan *plan) {
+    static const char *const names[2] = {"planner", "monitor"};
+    for (int monitor = 0; monitor < 2; monitor++)
+        if (is_wanted(plan, names[monitor]) &&
+            !(run_made(all, field, plan, monitor) && run_real(all, field, plan, monitor)))
+            return 0;
+    return 1;
 }

@@ -1,7 +1,146 @@
-// ovoid's world as a contestant: the public calls, with default options.
+// ovoid as a contestant: a world for frames and for the monitor; for the planner, the parts as one compound.
 #include "many_ours.h"
 
-static const swarm_peer *const swarms[] = {NULL};
-static const cell_peer *const cells[] = {NULL};
+#include <ovoid/ovoid.h>
+
+// --- a swarm, and what a monitor asks: a world
+
+typedef struct self {
+    const workcell *cell; ///< NULL: a swarm
+    ovoid_world *world;
+    ovoid_id *ids;
+    uint32_t moving; ///< bodies 0 .. moving - 1 move
+    ovoid_frame_query query;
+    ovoid_compound *parts;
+} self;
+
+static void destroy(void *state) {
+    self *s = state;
+    ovoid_world_destroy(s->world);
+    ovoid_compound_destroy(s->parts);
+    free(s->ids);
+    free(s);
+}
+
+static self *create_world(uint32_t count, uint32_t threads) {
+    self *s = calloc(1, sizeof *s);
+    if (!s) return NULL;
+    s->ids = malloc(sizeof *s->ids * count);
+    s->world = ovoid_world_create(&(ovoid_world_options){.threads = threads}, NULL);
+    if (s->ids && s->world) return s;
+    destroy(s);
+    return NULL;
+}
+
+/// The bodies' ids are their numbers here, since they are added in order. 0, and the state destroyed, on failure.
+static int add_bodies(self *s, const ovoid_world_body *list, uint32_t count) {
+    if (list && ovoid_world_add_many(s->world, list, count, s->ids, NULL) == OVOID_OK) return 1;
+    destroy(s);
+    return 0;
+}
+
+static void *create_swarm(const swarm *what, const ovoid_pose *poses) {
+    self *s = create_world(what->body_count, what->threads);
+    if (!s) return NULL;
+    ovoid_world_body *list = calloc(what->body_count, sizeof *list);
+    for (uint32_t i = 0; list && i < what->body_count; i++)
+        list[i].solid = (ovoid_solid){.shape = what->shapes[what->shape_of[i]].shape, .pose = poses[i]};
+    int good = add_bodies(s, list, what->body_count);
+    free(list);
+    if (!good) return NULL;
+    s->moving = what->body_count;
+    return s;
+}
+
+static uint32_t get_index(ovoid_id id) { return (uint32_t)(id >> 32); }
+
+/// Everything moves, one frame is asked for; `all` receives the contacts whose status says that they count.
+static void run_frame(self *s, const ovoid_pose *poses, meetings *all) {
+    ovoid_frame frame;
+    if (ovoid_world_move_many(s->world, s->ids, poses, s->moving, NULL) != OVOID_OK ||
+        ovoid_world_compute_frame(s->world, &s->query, &frame, NULL) != OVOID_OK) {
+        all->failed = 1;
+        return;
+    }
+    for (size_t i = 0; i < frame.count; i++) {
+        const ovoid_contact *c = &frame.contacts[i];
+        if (c->verdict.status == OVOID_SEPARATED && c->verdict.upper > s->query.margin) continue;
+        meetings_add(all, get_index(c->a), get_index(c->b), c->verdict.upper);
+    }
+}
+
+static void run_swarm(void *state, const ovoid_pose *poses, meetings *touching) { run_frame(state, poses, touching); }
+
+static const swarm_peer our_swarm = {"ovoid", create_swarm, run_swarm, destroy};
+
+// --- a robot
+
+enum { GROUP_LINK = 1, GROUP_PART = 2, LINKS_MOST = 16 };
+
+/// Links and parts of which only pairs with a link count.
+static int add_cell(self *s, const workcell *what, const ovoid_pose *links) {
+    uint32_t count = what->link_count + what->part_count;
+    ovoid_world_body *list = calloc(count, sizeof *list);
+    for (uint32_t i = 0; list && i < count; i++) {
+        int is_link = i < what->link_count;
+        const ovoid_pose *pose = is_link ? &links[i] : &what->parts[i - what->link_count];
+        list[i] = (ovoid_world_body){.solid = {.shape = what->shapes[what->shape_of[i]].shape, .pose = *pose},
+                                     .group = is_link ? GROUP_LINK : GROUP_PART,
+                                     .mask = is_link ? GROUP_LINK | GROUP_PART : GROUP_LINK};
+    }
+    int good = add_bodies(s, list, count);
+    free(list);
+    for (uint32_t i = 0; good && i < what->link_count; i++)
+        for (uint32_t k = i + 1; k < what->link_count; k++)
+            if (what->ignored[i * what->link_count + k])
+                (void)ovoid_world_set_ignored(s->world, s->ids[i], s->ids[k], 1, NULL);
+    return good;
+}
+
+static int add_compound(self *s, const workcell *what) {
+    ovoid_body *list = malloc(sizeof *list * what->part_count);
+    for (uint32_t i = 0; list && i < what->part_count; i++)
+        list[i] = (ovoid_body){what->shapes[what->shape_of[what->link_count + i]].shape, what->parts[i]};
+    if (list) s->parts = ovoid_compound_create(list, what->part_count, NULL, NULL);
+    free(list);
+    return s->parts != NULL;
+}
+
+static void *create_cell(const workcell *what, const ovoid_pose *links) {
+    self *s = create_world(what->link_count + what->part_count, 1);
+    if (!s || !add_cell(s, what, links)) return NULL;
+    s->cell = what;
+    s->moving = what->link_count;
+    s->query = (ovoid_frame_query){.question = OVOID_QUESTION_DISTANCE, .margin = what->margin};
+    if (add_compound(s, what)) return s;
+    destroy(s);
+    return NULL;
+}
+
+/// Links with links, then each with the compound of all parts.
+static int is_hit(void *state, const ovoid_pose *links) {
+    self *s = state;
+    const workcell *what = s->cell;
+    ovoid_solid_pair pair = {.b = {.compound = s->parts, .pose = ovoid_pose_make_identity()}};
+    for (uint32_t i = 0; i < what->link_count; i++) {
+        pair.a = (ovoid_solid){.shape = what->shapes[what->shape_of[i]].shape, .pose = links[i]};
+        if (ovoid_compound_collide(&pair, NULL, NULL, NULL).answer.status != OVOID_SEPARATED) return 1;
+    }
+    for (uint32_t i = 0; i < what->link_count; i++)
+        for (uint32_t k = i + 1; k < what->link_count; k++) {
+            if (what->ignored[i * what->link_count + k]) continue;
+            ovoid_pair two = {what->shapes[what->shape_of[i]].shape, what->shapes[what->shape_of[k]].shape, links[i],
+                              links[k]};
+            if (ovoid_collide(&two, NULL, NULL).status != OVOID_SEPARATED) return 1;
+        }
+    return 0;
+}
+
+static void measure(void *state, const ovoid_pose *links, meetings *near) { run_frame(state, links, near); }
+
+static const cell_peer our_cell = {"ovoid", create_cell, is_hit, measure, destroy};
+
+static const swarm_peer *const swarms[] = {&our_swarm, NULL};
+static const cell_peer *const cells[] = {&our_cell, NULL};
 
 many_peers many_get_ours(void) { return (many_peers){swarms, cells}; }
