@@ -75,10 +75,29 @@ typedef struct waiting {
     vec3 normal; ///< the frame's at the time
 } waiting;
 
-static waiting look_at(hunt *h, const compound_node *a, const compound_node *b) {
-    h->out->visited++;
+// Both children of one node with the other node, the nearer one last. side: 0 where the node is of a.
+static void look_at_children(hunt *h, int side, const waiting *w, waiting two[2]) {
+    const compound_node *node = side ? w->b : w->a;
+    const compound_node *children[2] = {node_get_right(node), node_get_left(node)};
+    nodes_other other = nodes_turn(&h->frame, side, side ? w->a : w->b);
     double enough = min2(h->ask.far, h->enough);
-    return (waiting){a, b, nodes_compute_lower(&h->frame, a, b, enough), h->frame.normal};
+    nodes_bound bounds[2];
+    for (int i = 0; i < 2; i++) bounds[i] = nodes_compute_lower(&h->frame, side, children[i], &other, enough);
+    h->out->visited += 2;
+    int turned = bounds[0].lower < bounds[1].lower;
+    for (int i = 0; i < 2; i++) {
+        const compound_node *child = children[i ^ turned];
+        two[i].a = side ? other.node : child;
+        two[i].b = side ? child : other.node;
+        two[i].bound = bounds[i ^ turned];
+        two[i].normal = h->frame.normal;
+    }
+}
+
+static waiting look_at_roots(hunt *h, double enough) {
+    nodes_other other = nodes_turn(&h->frame, 0, h->b.nodes);
+    nodes_bound bound = nodes_compute_lower(&h->frame, 0, h->a.nodes, &other, enough);
+    return (waiting){h->a.nodes, h->b.nodes, bound, h->frame.normal};
 }
 
 static void exclude_nodes(hunt *h, const waiting *w) {
@@ -185,7 +204,8 @@ static void visit_leaves(hunt *h, waiting *w) {
 static void walk(hunt *h) {
     // One pair waits for each step down, of either tree.
     waiting stack[2 * COMPOUND_DEPTH_MAX];
-    stack[0] = look_at(h, h->a.nodes, h->b.nodes);
+    stack[0] = look_at_roots(h, min2(h->ask.far, h->enough));
+    h->out->visited++;
     for (int count = 1; count > 0 && !is_decided(h);) {
         waiting w = stack[--count];
         if (is_left_out(h, w.bound.lower)) {
@@ -196,17 +216,8 @@ static void walk(hunt *h) {
             visit_leaves(h, &w);
             continue;
         }
-        waiting near, far;
-        if (node_is_split_first(w.a, w.b)) {
-            near = look_at(h, node_get_left(w.a), w.b);
-            far = look_at(h, node_get_right(w.a), w.b);
-        } else {
-            near = look_at(h, w.a, node_get_left(w.b));
-            far = look_at(h, w.a, node_get_right(w.b));
-        }
-        int is_turned = far.bound.lower < near.bound.lower;
-        stack[count++] = is_turned ? near : far;
-        stack[count++] = is_turned ? far : near;
+        look_at_children(h, !node_is_split_first(w.a, w.b), &w, stack + count);
+        count += 2;
     }
 }
 
@@ -243,8 +254,7 @@ static ovoid_limit find_limit(const hunt *h, const ovoid_answer *x, ovoid_status
 // All pairs of parts by the roots alone, where the walk ended before its time.
 static void exclude_all(hunt *h) {
     if (h->exclusions) h->exclusions->count = 0;
-    waiting roots = {h->a.nodes, h->b.nodes, nodes_compute_lower(&h->frame, h->a.nodes, h->b.nodes, INFINITY),
-                     h->frame.normal};
+    waiting roots = look_at_roots(h, INFINITY);
     exclude_nodes(h, &roots);
 }
 

@@ -15,101 +15,114 @@
 
 #include "linear/rotation.h"
 
+static mat3 find_sizes(const mat3 *m) {
+    return (mat3){{fabs(m->r0.x), fabs(m->r0.y), fabs(m->r0.z)},
+                  {fabs(m->r1.x), fabs(m->r1.y), fabs(m->r1.z)},
+                  {fabs(m->r2.x), fabs(m->r2.y), fabs(m->r2.z)}};
+}
+
 void nodes_frame_make(const solid_view *a, const solid_view *b, nodes_frame *f) {
-    f->world_a = quat_to_mat3(a->pose->rotation);
-    f->world_b = quat_to_mat3(b->pose->rotation);
-    f->rotation = mat3_mul_transposed(f->world_a, f->world_b);
-    const mat3 *m = &f->rotation;
-    f->sizes = (mat3){{fabs(m->r0.x), fabs(m->r0.y), fabs(m->r0.z)},
-                      {fabs(m->r1.x), fabs(m->r1.y), fabs(m->r1.z)},
-                      {fabs(m->r2.x), fabs(m->r2.y), fabs(m->r2.z)}};
+    f->world[0] = quat_to_mat3(a->pose->rotation);
+    f->world[1] = quat_to_mat3(b->pose->rotation);
     vec3 offset = vec3_sub(b->pose->position, a->pose->position);
-    f->translation = mat3_mul_transposed_vec3(f->world_a, offset);
+    nodes_side *of_a = &f->sides[0], *of_b = &f->sides[1];
+    of_a->rotation = mat3_mul_transposed(f->world[0], f->world[1]);
+    of_a->sizes = find_sizes(&of_a->rotation);
+    of_a->translation = mat3_mul_transposed_vec3(f->world[0], offset);
+    of_b->rotation = mat3_transpose(of_a->rotation);
+    of_b->sizes = mat3_transpose(of_a->sizes);
+    of_b->translation = vec3_neg(mat3_mul_transposed_vec3(f->world[1], offset));
     f->size = a->extent + b->extent + vec3_norm(offset);
     double positions = vec3_norm(a->pose->position) + vec3_norm(b->pose->position);
     f->claim = 512 * 0x1p-53 * f->size + 8 * 0x1p-53 * positions + 4 * OVOID_LENGTH_MIN;
-    f->normal = (vec3){0, 0, 0};
     f->check = 100 * 0x1p-53 * f->size + OVOID_LENGTH_MIN;
+    nodes_frame_set_normal(f, (vec3){0, 0, 0});
 }
+
+static int has_normal(const nodes_frame *f) { return f->normal.x != 0 || f->normal.y != 0 || f->normal.z != 0; }
 
 void nodes_frame_set_normal(nodes_frame *f, vec3 normal) {
     vec3 n = vec3_is_finite(normal) ? vec3_unit(normal) : (vec3){0, 0, 0};
     if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){0, 0, 0};
     f->normal = n;
-    f->in_a = mat3_mul_transposed_vec3(f->world_a, n);
-    f->in_b = mat3_mul_transposed_vec3(f->world_b, n);
-    f->offset = vec3_dot(f->in_a, f->translation);
+    if (!has_normal(f)) return;
+    nodes_side *of_a = &f->sides[0], *of_b = &f->sides[1];
+    of_a->own = mat3_mul_transposed_vec3(f->world[0], n);
+    of_a->other = mat3_mul_transposed_vec3(f->world[1], n);
+    of_b->own = vec3_neg(of_a->other);
+    of_b->other = vec3_neg(of_a->own);
+    of_a->offset = of_b->offset = vec3_dot(of_a->own, of_a->translation);
 }
 
 // How far a node reaches from its centre along a unit direction of its axes.
-static double find_reach(const compound_node *node, vec3 n) {
+static inline double find_reach(const compound_node *node, vec3 n) {
     const vec3 *h = &node->half;
     return min2((fabs(n.x) * h->x + fabs(n.y) * h->y) + fabs(n.z) * h->z, node->radius);
 }
-static double find_gap_along(const nodes_frame *f, const compound_node *a, const compound_node *b) {
-    double apart = (f->offset + vec3_dot(f->in_b, b->center)) - vec3_dot(f->in_a, a->center);
-    return apart - (find_reach(a, f->in_a) + find_reach(b, f->in_b));
+
+// A point of the other in the own frame; as a unit direction of the world; from an own point.
+static inline vec3 turn_point(const nodes_side *s, vec3 other) {
+    return vec3_add(mat3_mul_vec3(s->rotation, other), s->translation);
+}
+static vec3 find_world_direction(const mat3 *world, vec3 t) {
+    vec3 n = vec3_unit(t);
+    return mat3_mul_vec3(*world, vec3_norm_squared(n) > 0.5 ? n : (vec3){1, 0, 0});
+}
+
+nodes_other nodes_turn(const nodes_frame *f, int side, const compound_node *other) {
+    const nodes_side *s = &f->sides[side];
+    nodes_other o = {other, turn_point(s, other->center), mat3_mul_vec3(s->sizes, other->half), -INFINITY};
+    if (has_normal(f)) o.along = (s->offset + vec3_dot(s->other, other->center)) - find_reach(other, s->other);
+    return o;
 }
 
 // How far the boxes are apart along each of three common axes, negative where they overlap.
-static vec3 find_gaps(vec3 t, vec3 half_a, vec3 half_b) {
-    return (vec3){fabs(t.x) - (half_a.x + half_b.x), fabs(t.y) - (half_a.y + half_b.y),
-                  fabs(t.z) - (half_a.z + half_b.z)};
+static inline vec3 find_gaps(vec3 t, vec3 half, vec3 other) {
+    return (vec3){fabs(t.x) - (half.x + other.x), fabs(t.y) - (half.y + other.y), fabs(t.z) - (half.z + other.z)};
 }
 
 // The signed distance from below of two boxes with those gaps.
-static double measure(vec3 g) {
+static inline double measure(vec3 g) {
     double most = max2(g.x, max2(g.y, g.z));
     if (!(most > 0)) return most;
     return vec3_norm((vec3){max2(g.x, 0), max2(g.y, 0), max2(g.z, 0)});
 }
 
-// A point of b from a point of a, in the frame; and as a unit direction of the world.
-static vec3 find_offset(const nodes_frame *f, vec3 a, vec3 b) {
-    return vec3_sub(vec3_add(mat3_mul_vec3(f->rotation, b), f->translation), a);
+static inline nodes_bound lowered(nodes_bound x, const nodes_frame *f) {
+    return (nodes_bound){x.lower - f->claim, x.means};
 }
-static vec3 turn_offset(const nodes_frame *f, vec3 t) {
-    vec3 n = vec3_unit(t);
-    return mat3_mul_vec3(f->world_a, vec3_norm_squared(n) > 0.5 ? n : (vec3){1, 0, 0});
-}
-static int has_normal(const nodes_frame *f) { return f->normal.x != 0 || f->normal.y != 0 || f->normal.z != 0; }
-
-// The gaps along the axes of A, of B, given the offset of the centres.
-static vec3 find_gaps_in_a(const nodes_frame *f, const compound_node *a, const compound_node *b, vec3 t) {
-    return find_gaps(t, a->half, mat3_mul_vec3(f->sizes, b->half));
-}
-// Likewise along those of b; t: along its axes.
-static vec3 find_gaps_in_b(const nodes_frame *f, const compound_node *a, const compound_node *b, vec3 t) {
-    return find_gaps(t, b->half, mat3_mul_transposed_vec3(f->sizes, a->half));
+static inline void take(nodes_bound *best, double gap, nodes_means means) {
+    if (gap > best->lower) *best = (nodes_bound){gap, means};
 }
 
-// The gap along the line of the centres, given that line along the axes of both.
-static double find_gap_of_line(const compound_node *a, const compound_node *b, vec3 in_a, vec3 in_b, double length) {
-    double scale = 1 / length;
-    return length - (find_reach(a, vec3_scale(in_a, scale)) + find_reach(b, vec3_scale(in_b, scale)));
-}
-
-static nodes_bound better(nodes_bound x, nodes_bound y) { return y.lower > x.lower ? y : x; }
-
-nodes_bound nodes_compute_lower(const nodes_frame *f, const compound_node *a, const compound_node *b, double enough) {
-    nodes_bound best = {-INFINITY, NODES_SPHERES};
+nodes_bound nodes_compute_lower(const nodes_frame *f, int side, const compound_node *own, const nodes_other *other,
+                                double enough) {
+    const nodes_side *s = &f->sides[side];
+    const compound_node *node = other->node;
+    nodes_bound best = {-INFINITY, NODES_NORMAL};
+    enough += f->claim;
     if (has_normal(f)) {
-        best = (nodes_bound){find_gap_along(f, a, b) - f->claim, NODES_NORMAL};
-        if (best.lower > enough) return best;
+        best.lower = other->along - (vec3_dot(s->own, own->center) + find_reach(own, s->own));
+        if (best.lower > enough) return lowered(best, f);
     }
-    vec3 t = find_offset(f, a->center, b->center);
+    // The line of the centres: spheres, then boxes, which show nothing of nodes that lie in each other.
+    vec3 t = vec3_sub(other->center, own->center);
     double length = vec3_norm(t);
-    best = better(best, (nodes_bound){length - (a->radius + b->radius) - f->claim, NODES_SPHERES});
-    if (best.lower > enough) return best;
-    vec3 turned = mat3_mul_transposed_vec3(f->rotation, t);
-    // Of nodes that lie in each other it shows nothing.
-    if (length > a->radius || length > b->radius) {
-        best = better(best, (nodes_bound){find_gap_of_line(a, b, t, turned, length) - f->claim, NODES_SPHERES});
-        if (best.lower > enough) return best;
+    take(&best, length - (own->radius + node->radius), NODES_LINE);
+    if (best.lower > enough) return lowered(best, f);
+    vec3 back = mat3_mul_transposed_vec3(s->rotation, t);
+    if (length > own->radius || length > node->radius) {
+        double scale = 1 / length;
+        double reach = find_reach(own, vec3_scale(t, scale)) + find_reach(node, vec3_scale(back, scale));
+        take(&best, length - reach, NODES_LINE);
+        if (best.lower > enough) return lowered(best, f);
     }
-    best = better(best, (nodes_bound){measure(find_gaps_in_a(f, a, b, t)) - f->claim, NODES_BOX_A});
-    if (best.lower > enough) return best;
-    return better(best, (nodes_bound){measure(find_gaps_in_b(f, a, b, turned)) - f->claim, NODES_BOX_B});
+    // The boxes.
+    take(&best, measure(find_gaps(t, own->half, other->half)), side ? NODES_BOX_B : NODES_BOX_A);
+    if (best.lower > enough) return lowered(best, f);
+    take(&best, measure(find_gaps(back, node->half, mat3_mul_transposed_vec3(s->sizes, own->half))),
+         side ? NODES_BOX_A : NODES_BOX_B);
+    return lowered(best, f);
 }
 
 static double with_sign_of(double size, double sign) { return sign < 0 ? -size : size; }
@@ -122,30 +135,40 @@ static vec3 find_direction(vec3 g, vec3 t) {
     return vec3_unit((vec3){with_sign_of(n.x, t.x), with_sign_of(n.y, t.y), with_sign_of(n.z, t.z)});
 }
 
+// The direction of the boxes along the axes of the own solid, from it to the other, world.
+static vec3 find_box_normal(const nodes_frame *f, int side, const compound_node *own, const compound_node *other) {
+    const nodes_side *s = &f->sides[side];
+    vec3 t = vec3_sub(turn_point(s, other->center), own->center);
+    vec3 gaps = find_gaps(t, own->half, mat3_mul_vec3(s->sizes, other->half));
+    return mat3_mul_vec3(f->world[side], find_direction(gaps, t));
+}
+
 vec3 nodes_compute_normal(const nodes_frame *f, const compound_node *a, const compound_node *b, nodes_means means,
                           vec3 normal) {
-    vec3 t = find_offset(f, a->center, b->center), turned = mat3_mul_transposed_vec3(f->rotation, t);
     switch (means) {
     case NODES_NORMAL: return normal;
-    case NODES_BOX_A: return mat3_mul_vec3(f->world_a, find_direction(find_gaps_in_a(f, a, b, t), t));
-    case NODES_BOX_B: return mat3_mul_vec3(f->world_b, find_direction(find_gaps_in_b(f, a, b, turned), turned));
-    default: break;
+    case NODES_BOX_A: return find_box_normal(f, 0, a, b);
+    case NODES_BOX_B: return vec3_neg(find_box_normal(f, 1, b, a));
+    default: return find_world_direction(&f->world[0], vec3_sub(turn_point(&f->sides[0], b->center), a->center));
     }
-    return turn_offset(f, t);
 }
 
 nodes_bound parts_compute_lower(const nodes_frame *f, const compound_part *a, const compound_part *b, double enough) {
-    vec3 t = find_offset(f, a->center, b->center);
-    nodes_bound best = {vec3_norm(t) - (a->reach + b->reach) - f->claim, NODES_PARTS};
-    if (best.lower > enough || !has_normal(f)) return best;
-    // The parts' own vertices along the normal.
-    vec3 in_a = mat3_mul_transposed_vec3(a->rotation, f->in_a), in_b = mat3_mul_transposed_vec3(b->rotation, f->in_b);
-    simd_pair most = shapes_find_pair(a->shape, b->shape, in_a, vec3_neg(in_b));
-    double apart = (f->offset + vec3_dot(f->in_b, b->at)) - vec3_dot(f->in_a, a->at);
-    double gap = (apart - (most.high.value + most.low.value)) - (a->shape->radius + b->shape->radius);
-    return better(best, (nodes_bound){gap - f->claim, NODES_NORMAL});
+    const nodes_side *s = &f->sides[0];
+    vec3 t = vec3_sub(turn_point(s, b->center), a->center);
+    nodes_bound best = {vec3_norm(t) - (a->reach + b->reach), NODES_PARTS};
+    if (!(best.lower > enough + f->claim) && has_normal(f)) {
+        // The parts' own vertices along the normal.
+        vec3 in_a = mat3_mul_transposed_vec3(a->rotation, s->own),
+             in_b = mat3_mul_transposed_vec3(b->rotation, s->other);
+        simd_pair most = shapes_find_pair(a->shape, b->shape, in_a, vec3_neg(in_b));
+        double apart = (s->offset + vec3_dot(s->other, b->at)) - vec3_dot(s->own, a->at);
+        double gap = (apart - (most.high.value + most.low.value)) - (a->shape->radius + b->shape->radius);
+        take(&best, gap, NODES_NORMAL);
+    }
+    return lowered(best, f);
 }
 
 vec3 parts_compute_normal(const nodes_frame *f, const compound_part *a, const compound_part *b) {
-    return turn_offset(f, find_offset(f, a->center, b->center));
+    return find_world_direction(&f->world[0], vec3_sub(turn_point(&f->sides[0], b->center), a->center));
 }

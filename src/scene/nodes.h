@@ -4,27 +4,42 @@
 
 #include "scene/compound.h"
 
-/// Two solids in one frame, that of a.
-typedef struct nodes_frame {
-    mat3 world_a, world_b; ///< the rotations to the world
-    mat3 rotation;         ///< x_a = rotation x_b + translation
-    mat3 sizes;            ///< the rotation's entries without their signs
+/// The other solid as one sees it: x_own = rotation x_other + translation.
+typedef struct nodes_side {
+    mat3 rotation;
+    mat3 sizes; ///< its entries without their signs
     vec3 translation;
-    double size;  ///< S
-    double claim; ///< what a measured bound is lowered by
-    double check; ///< what the measurement of an exclusion may be off by
-    // A direction that parts some of the nodes, by nodes_frame_set_normal.
-    vec3 normal;     ///< unit, world; zero: none
-    vec3 in_a, in_b; ///< along the axes of each
+    vec3 own, other; ///< the frame's normal along the axes of each, from the own to the other
     double offset;   ///< of the frames' origins along it
+} nodes_side;
+
+/// Two solids.
+typedef struct nodes_frame {
+    mat3 world[2];       ///< the rotations of a and b to the world
+    nodes_side sides[2]; ///< b as a sees it, a as b does
+    double size;         ///< S
+    double claim;        ///< what a measured bound is lowered by
+    double check;        ///< what the measurement of an exclusion may be off by
+    vec3 normal;         ///< a direction that parts some nodes, unit, world; zero: none
 } nodes_frame;
 
 void nodes_frame_make(const solid_view *a, const solid_view *b, nodes_frame *frame);
 /// Another direction to try first; any numbers are safe.
 void nodes_frame_set_normal(nodes_frame *frame, vec3 normal);
 
-/// What a bound was found by.
-typedef enum nodes_means { NODES_SPHERES, NODES_NORMAL, NODES_BOX_A, NODES_BOX_B, NODES_PARTS } nodes_means;
+/// A node of the other solid, along the axes of the own one: what its pairs with several own nodes share.
+typedef struct nodes_other {
+    const compound_node *node;
+    vec3 center, half;
+    double along; ///< its nearest offset along the normal
+} nodes_other;
+
+/// side: 0 where the own solid is a, 1 where it is b.
+nodes_other nodes_turn(const nodes_frame *frame, int side, const compound_node *other);
+
+/// What a bound was found by: spheres or boxes along the line of the centres, the frame's normal, the boxes along the
+/// axes of a or of b, the spheres of two parts.
+typedef enum nodes_means { NODES_LINE, NODES_NORMAL, NODES_BOX_A, NODES_BOX_B, NODES_PARTS } nodes_means;
 typedef struct nodes_bound {
     double lower;
     nodes_means means;
@@ -32,7 +47,7 @@ typedef struct nodes_bound {
 
 /// How far apart the nodes are; negative where they overlap. Proven, rounding included. `enough`: a bound above it need
 /// not be the best.
-nodes_bound nodes_compute_lower(const nodes_frame *frame, const compound_node *a, const compound_node *b,
+nodes_bound nodes_compute_lower(const nodes_frame *frame, int side, const compound_node *own, const nodes_other *other,
                                 double enough);
 
 /// The unit direction, world, that shows the bound; normal: that of the frame at the time.
