@@ -112,23 +112,53 @@ int pair_is_answered(const ovoid_world *w, const pair *p) {
     return 0;
 }
 
-void pair_ask(ovoid_world *w, pair *p) {
-    kept *k = &w->kept[p->slot];
-    ovoid_compound_answer found;
+double pair_compute_age(const ovoid_world *w, const pair *p, const kept *k) {
+    double t;
+    vec3 d = find_between(w, p, &t);
+    return (vec3_norm(vec3_sub(d, k->between)) + (t - k->travel)) +
+           SLACK_SAID * (sum_abs(d) + sum_abs(k->between) + t + fabs(k->lower) + fabs(k->upper));
+}
+
+static void ask_shapes(const ovoid_world *w, const pair *p, const kept *k, ovoid_answer *out) {
+    const ovoid_solid *a = &w->bodies[p->a].solid, *b = &w->bodies[p->b].solid;
+    ovoid_pair both = {a->shape, b->shape, a->pose, b->pose};
     ovoid_frame_query query = {w->question, w->margin, NULL};
-    ask_pair(w, p->a, p->b, k, ask_make(&query), NULL, &found);
-    const ovoid_answer *x = &found.answer;
-    k->between = find_between(w, p, &k->travel);
+    ovoid_proof earlier;
+    int is_warm = k->proof != OVOID_PROOF_NONE;
+    if (is_warm) write_proof(k, &earlier);
+    answer_find_inside(&both, &w->asked, ask_make(&query), is_warm ? &earlier : NULL, NULL, out);
+}
+
+static void keep_answer(ovoid_world *w, const pair *p, kept *k, const ovoid_answer *x) {
     k->lower = x->lower;
     k->upper = x->upper;
     k->status = (uint8_t)x->status;
     k->stage = (uint8_t)x->stage;
     k->limit = (uint8_t)x->limit;
     k->iterations = x->iterations;
-    k->part_a = found.part_a;
-    k->part_b = found.part_b;
     keep_proof(k, &x->proof);
     if (world_is_measuring(w)) w->witnesses[p->slot] = (ovoid_witness){x->point_a, x->point_b, x->normal};
+}
+
+static void ask_anew(ovoid_world *w, const pair *p, kept *k) {
+    if (!w->bodies[p->a].solid.compound && !w->bodies[p->b].solid.compound) {
+        ovoid_answer x;
+        ask_shapes(w, p, k, &x);
+        keep_answer(w, p, k, &x);
+        return;
+    }
+    ovoid_compound_answer x;
+    ovoid_frame_query query = {w->question, w->margin, NULL};
+    ask_pair(w, p->a, p->b, k, ask_make(&query), NULL, &x);
+    k->part_a = x.part_a;
+    k->part_b = x.part_b;
+    keep_answer(w, p, k, &x.answer);
+}
+
+void pair_ask(ovoid_world *w, pair *p) {
+    kept *k = &w->kept[p->slot];
+    if (!(p->flags & PAIR_KNOWN) || !pair_measure(w, p, k)) ask_anew(w, p, k);
+    k->between = find_between(w, p, &k->travel);
     p->flags |= PAIR_STILL | PAIR_KNOWN;
     pair_set_age(w, p, k);
 }
@@ -141,10 +171,7 @@ ovoid_contact pair_make_contact(const ovoid_world *w, const pair *p) {
     x.verdict = (ovoid_verdict){
         (ovoid_status)k->status, (ovoid_stage)k->stage, (ovoid_limit)k->limit, k->iterations, k->lower, k->upper};
     if (p->flags & PAIR_STILL) return x;
-    double t;
-    vec3 d = find_between(w, p, &t);
-    double age = vec3_norm(vec3_sub(d, k->between)) + (t - k->travel);
-    age += SLACK_SAID * (sum_abs(d) + sum_abs(k->between) + t + fabs(k->lower) + fabs(k->upper));
+    double age = pair_compute_age(w, p, k);
     x.verdict = (ovoid_verdict){.status = (ovoid_status)k->status,
                                 .stage = OVOID_STAGE_PROOF,
                                 .limit = OVOID_LIMIT_ANSWERED,

@@ -18,6 +18,12 @@ void pair_set_age(const ovoid_world *w, pair *p, const kept *k);
 /// Asks anew, keeps the answer and sets its age.
 void pair_ask(ovoid_world *w, pair *p);
 
+/// How far the signed distance can have changed since what is kept was found, rounding included.
+double pair_compute_age(const ovoid_world *w, const pair *p, const kept *k);
+
+/// What is kept, measured again at the present poses: 1 if it still answers; the bounds of k are then those of now.
+int pair_measure(const ovoid_world *w, const pair *p, kept *k);
+
 /// 1 if what is kept still answers; no geometry is looked at.
 int pair_is_answered(const ovoid_world *w, const pair *p);
 
