@@ -83,6 +83,14 @@ void pair_set_age(const ovoid_world *w, pair *p, const kept *k) {
     p->kind = PAIR_OPEN;
     p->flags &= (uint16_t)~PAIR_CONTACT;
     if (!(k->lower > margin)) p->flags |= PAIR_CONTACT;
+    if (k->lower > margin && k->stage == OVOID_STAGE_SPHERE) {
+        // Three times the blur of now is above what the positions do not explain of any blur to come.
+        const body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
+        double reach = (a->reach + b->reach) + (a->radius + b->radius);
+        p->kind = PAIR_SPHERE;
+        p->c = (reach + margin) * (1 + 0x1p-48) + 3 * (a->blur + b->blur);
+        return;
+    }
     int is_plane = !w->bodies[p->a].solid.compound && !w->bodies[p->b].solid.compound;
     if (k->lower > margin && is_plane && vec3_norm_squared(k->normal) > 0.5) {
         p->kind = PAIR_PLANE;
@@ -103,13 +111,18 @@ void pair_set_age(const ovoid_world *w, pair *p, const kept *k) {
     p->c = lasts + k->travel - slack;
 }
 
+// What rounding hides in both centres for the sake of where they are: solid.c, its 128 u of a position.
+static double find_blur(const ovoid_world *w, const pair *p) {
+    return 0x1p-45 * (sum_abs(w->places[p->a].at) + sum_abs(w->places[p->b].at));
+}
+
 int pair_is_answered(const ovoid_world *w, const pair *p) {
     double t;
     vec3 d = find_between(w, p, &t);
     double slack = SLACK_SET * (sum_abs(d) + t + fabs(p->c));
     if (p->kind == PAIR_PLANE) return p->c + vec3_dot(p->v, d) - t > slack;
     if (p->kind == PAIR_BALL) return p->c - vec3_norm(vec3_sub(d, p->v)) - t > slack;
-    return 0;
+    return p->kind == PAIR_SPHERE && vec3_norm(d) > p->c + slack + find_blur(w, p);
 }
 
 double pair_compute_age(const ovoid_world *w, const pair *p, const kept *k) {

@@ -50,6 +50,9 @@ static inline uint32_t broad_skip(const broad *t, uint32_t at) {
     return at ? at + 1 : NONE;
 }
 
+/// What a walk with a stack pushes at most before it goes on without one; no tree that is built is as deep.
+enum { BROAD_STACK = 256 };
+
 /// The sum of all inner nodes' surfaces over the root's: what a query looks at.
 double broad_compute_cost(const broad *t);
 

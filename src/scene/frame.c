@@ -11,30 +11,53 @@ enum { CHUNK = 512 };
 
 // ---- deciding
 
-static void decide_pair(ovoid_world *w, pair *p, size_t *queried) {
+// 1 if the pair is answered; the state of most is in the list alone.
+static int is_answered(const ovoid_world *w, pair *p) {
     int has_moved = (w->marks[p->a] | w->marks[p->b]) & MARK_MOVED || p->flags & PAIR_CHECK;
-    if (p->flags & PAIR_KNOWN && !has_moved) return;
-    if (p->flags & PAIR_KNOWN && pair_is_answered(w, p)) {
-        p->flags &= (uint16_t) ~(PAIR_STILL | PAIR_CHECK);
-        return;
+    if (!(p->flags & PAIR_KNOWN)) return 0;
+    if (!has_moved) return 1;
+    p->flags &= (uint16_t) ~(PAIR_STILL | PAIR_CHECK);
+    return pair_is_answered(w, p);
+}
+
+// The bodies of a pair, and its proof, are anywhere in memory: they are asked for some pairs ahead.
+enum { AHEAD = 4 };
+static void prefetch(const ovoid_world *w, const pair *p) {
+    const char *a = (const char *)&w->bodies[p->a], *b = (const char *)&w->bodies[p->b],
+               *k = (const char *)&w->kept[p->slot];
+    for (int line = 0; line < 2; line++) {
+        __builtin_prefetch(a + 64 * line);
+        __builtin_prefetch(b + 64 * line);
+        __builtin_prefetch(k + 64 * line);
     }
-    p->flags &= (uint16_t)~PAIR_CHECK;
-    pair_ask(w, p);
-    ++*queried;
+}
+
+static void decide_chunk(ovoid_world *w, pair *pairs, uint32_t count, chunk *out) {
+    uint16_t open[CHUNK];
+    uint32_t open_count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        open[open_count] = (uint16_t)i;
+        open_count += !is_answered(w, &pairs[i]);
+    }
+    for (uint32_t i = 0; i < open_count && i < AHEAD; i++) prefetch(w, &pairs[open[i]]);
+    for (uint32_t i = 0; i < open_count; i++) {
+        if (i + AHEAD < open_count) prefetch(w, &pairs[open[i + AHEAD]]);
+        pair_ask(w, &pairs[open[i]]);
+    }
+    *out = (chunk){0, open_count};
+    for (uint32_t i = 0; i < count; i++) out->contacts += (pairs[i].flags & PAIR_CONTACT) != 0;
+}
+
+static uint32_t get_chunk_size(const ovoid_world *w, uint32_t c) {
+    size_t rest = w->pair_count - (size_t)c * CHUNK;
+    return rest < CHUNK ? (uint32_t)rest : CHUNK;
 }
 
 static void decide_chunks(void *work, uint32_t first, uint32_t end, uint32_t worker) {
     ovoid_world *w = work;
     (void)worker;
-    for (uint32_t c = first; c < end; c++) {
-        size_t from = (size_t)c * CHUNK, to = from + CHUNK < w->pair_count ? from + CHUNK : w->pair_count;
-        size_t queried = 0, contacts = 0;
-        for (size_t i = from; i < to; i++) {
-            decide_pair(w, &w->pairs[i], &queried);
-            contacts += (w->pairs[i].flags & PAIR_CONTACT) != 0;
-        }
-        w->chunks[c] = (chunk){contacts, queried};
-    }
+    for (uint32_t c = first; c < end; c++)
+        decide_chunk(w, &w->pairs[(size_t)c * CHUNK], get_chunk_size(w, c), &w->chunks[c]);
 }
 
 // Another question than the last frame's: how long what is kept answers this one. Points are not kept for all
@@ -55,10 +78,9 @@ static void write_chunks(void *work, uint32_t first, uint32_t end, uint32_t work
     ovoid_world *w = work;
     (void)worker;
     for (uint32_t c = first; c < end; c++) {
-        size_t from = (size_t)c * CHUNK, to = from + CHUNK < w->pair_count ? from + CHUNK : w->pair_count;
         size_t at = w->chunks[c].contacts;
-        for (size_t i = from; i < to; i++) {
-            const pair *p = &w->pairs[i];
+        for (uint32_t i = 0, count = get_chunk_size(w, c); i < count; i++) {
+            const pair *p = &w->pairs[(size_t)c * CHUNK + i];
             if (!(p->flags & PAIR_CONTACT)) continue;
             w->contacts[at] = pair_make_contact(w, p);
             if (world_is_measuring(w)) w->contact_witnesses[at] = w->witnesses[p->slot];

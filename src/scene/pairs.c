@@ -47,20 +47,43 @@ static int is_new(const ovoid_world *w, uint32_t i, uint32_t j, const box *box_j
     return i < j && !box_is_overlapping(&w->bodies[i].seen, &w->bodies[j].seen);
 }
 
+static int take_leaf(const ovoid_world *w, uint32_t i, const broad_node *leaf, gathered *g) {
+    uint32_t j = leaf->body;
+    if (j == i || !is_new(w, i, j, &leaf->bounds) || !world_is_pair(w, i, j)) return 1;
+    return gather(w, g, key_make(i, j));
+}
+
+// Below a node of a tree deeper than the stack: the same without one.
+static int find_pairs_below(const ovoid_world *w, uint32_t i, const box *bounds, uint32_t root, gathered *g) {
+    const broad_node *nodes = w->tree.nodes;
+    uint32_t end = broad_skip(&w->tree, root);
+    for (uint32_t at = root; at != end;) {
+        const broad_node *n = &nodes[at];
+        int is_near = box_is_overlapping(bounds, &n->bounds);
+        if (is_near && !n->child && !take_leaf(w, i, n, g)) return 0;
+        at = is_near && n->child ? n->child : broad_skip(&w->tree, at);
+    }
+    return 1;
+}
+
+// Both children are looked at together and pushed without a branch: which of them overlap cannot be predicted.
 static int find_pairs_of(const ovoid_world *w, uint32_t i, gathered *g) {
     const broad_node *nodes = w->tree.nodes;
     box bounds = nodes[w->leaf_of[i]].bounds;
-    for (uint32_t at = 0; at != NONE;) {
-        const broad_node *n = &nodes[at];
-        int is_near = box_is_overlapping(&bounds, &n->bounds);
-        if (is_near && n->child) {
-            at = n->child;
-            continue;
+    uint32_t stack[BROAD_STACK + 2], count = 1;
+    stack[0] = 0;
+    while (count) {
+        const broad_node *n = &nodes[stack[--count]];
+        if (!n->child) {
+            if (!take_leaf(w, i, n, g)) return 0;
+        } else if (count >= BROAD_STACK) {
+            if (!find_pairs_below(w, i, &bounds, (uint32_t)(n - nodes), g)) return 0;
+        } else {
+            stack[count] = n->child;
+            count += (uint32_t)box_is_overlapping(&bounds, &nodes[n->child].bounds);
+            stack[count] = n->child + 1;
+            count += (uint32_t)box_is_overlapping(&bounds, &nodes[n->child + 1].bounds);
         }
-        uint32_t j = n->body;
-        if (is_near && j != i && is_new(w, i, j, &n->bounds) && world_is_pair(w, i, j) && !gather(w, g, key_make(i, j)))
-            return 0;
-        at = broad_skip(&w->tree, at);
     }
     return 1;
 }
@@ -74,8 +97,19 @@ static void find_pairs(void *work, uint32_t first, uint32_t end, uint32_t worker
     }
 }
 
+// The changed bodies in the order of their leaves, in which neighbours look at the same nodes. 0 without memory.
+static int sort_changed(ovoid_world *w) {
+    size_t count = w->changed_count;
+    if (!world_reserve(w, (void **)&w->keys, &w->key_capacity, 0, count, 2 * sizeof *w->keys)) return 0;
+    for (size_t k = 0; k < count; k++) w->keys[k] = (uint64_t)w->leaf_of[w->changed[k]] << 32 | w->changed[k];
+    keys_sort(w->keys, w->keys + w->key_capacity, count);
+    for (size_t k = 0; k < count; k++) w->changed[k] = (uint32_t)w->keys[k];
+    return 1;
+}
+
 // All new pairs, sorted, in w->keys; 0 without memory.
 static int find_new(ovoid_world *w, size_t *count) {
+    if (!sort_changed(w)) return 0;
     for (uint32_t k = 0; k < w->threads; k++) w->gathered[k].count = 0, w->gathered[k].failed = 0;
     pool_do(&w->host, find_pairs, w, w->changed_count, LEAST);
     *count = 0;

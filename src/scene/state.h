@@ -35,15 +35,16 @@ typedef struct body {
     double step;       ///< how far the last move took it
     box seen;          ///< MARK_BOX: the box that the list of pairs is made of; empty where MARK_FRESH
     uint64_t user;
-    uint32_t group, mask, generation;
+    uint32_t group, mask;
     uint32_t next; ///< of a free index: the next one; else the number of its ignored pairs
 } body;
 
 /// What of a pair is read every frame. The state of an answer that lasts is one comparison:
-///   PLANE: c + v.d - t > 0        v the normal, farther than the margin
-///   BALL:  c - |d - v| - t > 0    v was d, within the margin or overlapping
+///   PLANE:  c + v.d - t > 0        v the normal, farther than the margin
+///   BALL:   c - |d - v| - t > 0    v was d, within the margin or overlapping
+///   SPHERE: |d| - c > 0            the enclosing spheres are farther than the margin
 /// with t the sum of both travels.
-typedef enum pair_kind { PAIR_OPEN = 0, PAIR_PLANE, PAIR_BALL } pair_kind;
+typedef enum pair_kind { PAIR_OPEN = 0, PAIR_PLANE, PAIR_BALL, PAIR_SPHERE } pair_kind;
 enum { PAIR_CONTACT = 1, PAIR_STILL = 2, PAIR_KNOWN = 4, PAIR_CHECK = 8 };
 typedef struct pair {
     uint32_t a, b;
@@ -94,7 +95,7 @@ struct ovoid_world {
     body *bodies;
     body_place *places;
     uint8_t *marks;
-    uint32_t *leaf_of, *changed;
+    uint32_t *leaf_of, *changed, *generations;
     uint32_t capacity, used, count, free;
     uint32_t changed_count; ///< bodies with MARK_BOX or MARK_FRESH: changed[0 ..]
     broad tree;
@@ -139,9 +140,7 @@ static inline int world_is_measuring(const ovoid_world *w) { return w->question 
 
 // ---- bodies
 
-static inline ovoid_id body_get_id(const ovoid_world *w, uint32_t i) {
-    return (uint64_t)i << 32 | w->bodies[i].generation;
-}
+static inline ovoid_id body_get_id(const ovoid_world *w, uint32_t i) { return (uint64_t)i << 32 | w->generations[i]; }
 /// The index of an id; NONE where it names no body.
 uint32_t world_find_body(const ovoid_world *w, ovoid_id id);
 ovoid_code world_refuse_id(ovoid_error *error, int64_t place, ovoid_id id);

@@ -79,7 +79,7 @@ size_t ovoid_world_get_count(const ovoid_world *w) { return w->count; }
 
 uint32_t world_find_body(const ovoid_world *w, ovoid_id id) {
     uint64_t i = id >> 32;
-    if (i >= w->used || w->leaf_of[i] == NONE || w->bodies[i].generation != (uint32_t)id) return NONE;
+    if (i >= w->used || w->leaf_of[i] == NONE || w->generations[i] != (uint32_t)id) return NONE;
     return (uint32_t)i;
 }
 
@@ -117,19 +117,22 @@ static int reserve_bodies(ovoid_world *w, uint32_t count) {
     if (count <= w->capacity) return 1;
     uint32_t room = w->capacity < OVOID_WORLD_BODIES / 2 && 2 * w->capacity > count ? 2 * w->capacity : count;
     if (room < 16) room = 16;
-    const size_t sizes[6] = {sizeof *w->bodies,  sizeof *w->places,  sizeof *w->marks,
-                             sizeof *w->leaf_of, sizeof *w->changed, 2 * sizeof *w->tree.nodes};
-    void *old[6] = {w->bodies, w->places, w->marks, w->leaf_of, w->changed, w->tree.nodes}, *larger[6];
-    for (int i = 0; i < 6; i++) {
-        larger[i] = world_allocate(w, room + 1, sizes[i]);
+    enum { ARRAYS = 7 };
+    const size_t sizes[ARRAYS] = {sizeof *w->bodies,        sizeof *w->places,  sizeof *w->marks,
+                                  sizeof *w->leaf_of,       sizeof *w->changed, sizeof *w->generations,
+                                  2 * sizeof *w->tree.nodes};
+    void *larger[ARRAYS];
+    void *const old[ARRAYS] = {w->bodies, w->places, w->marks, w->leaf_of, w->changed, w->generations, w->tree.nodes};
+    for (int i = 0; i < ARRAYS; i++) {
+        larger[i] = world_allocate(w, (size_t)room + 1, sizes[i]);
         if (larger[i]) continue;
-        while (i--) world_release(w, larger[i], room + 1, sizes[i]);
+        while (i--) world_release(w, larger[i], (size_t)room + 1, sizes[i]);
         return 0;
     }
-    const size_t used[6] = {w->used, w->used, w->used, w->used, w->changed_count, 0};
-    for (int i = 0; i < 6; i++) {
-        if (used[i]) memcpy(larger[i], old[i], used[i] * sizes[i]);
-        if (i == 5 && old[i]) memcpy(larger[i], old[i], w->tree.used * sizeof *w->tree.nodes);
+    // Of the nodes, twice as many as bodies and two more, the used ones are copied.
+    const size_t used[ARRAYS] = {w->used, w->used, w->used, w->used, w->changed_count, w->used, (w->tree.used + 1) / 2};
+    for (int i = 0; i < ARRAYS; i++) {
+        if (old[i] && used[i]) memcpy(larger[i], old[i], used[i] * sizes[i]);
         if (old[i]) world_release(w, old[i], (size_t)w->capacity + 1, sizes[i]);
     }
     w->bodies = larger[0];
@@ -137,11 +140,12 @@ static int reserve_bodies(ovoid_world *w, uint32_t count) {
     w->marks = larger[2];
     w->leaf_of = larger[3];
     w->changed = larger[4];
+    w->generations = larger[5];
     if (w->tree.nodes) {
-        w->tree.nodes = larger[5];
+        w->tree.nodes = larger[6];
         w->tree.capacity = room;
     } else {
-        broad_make(&w->tree, larger[5], room);
+        broad_make(&w->tree, larger[6], room);
     }
     w->capacity = room;
     return 1;
@@ -154,14 +158,14 @@ static uint32_t take_index(ovoid_world *w) {
         return i;
     }
     i = w->used++;
-    w->bodies[i].generation = 1;
+    w->generations[i] = 1;
     w->marks[i] = 0;
     return i;
 }
 
 // Everything of a body but its leaf.
 static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
-    uint32_t i = take_index(w), generation = w->bodies[i].generation;
+    uint32_t i = take_index(w);
     body *b = &w->bodies[i];
     int all = !given->group && !given->mask;
     solid_ball ball = solid_compute_ball(&given->solid);
@@ -172,7 +176,6 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
                 .user = given->user,
                 .group = all ? ~0u : given->group,
                 .mask = all ? ~0u : given->mask,
-                .generation = generation,
                 .seen = box_make_empty()};
     w->places[i] = (body_place){solid_compute_center(&ball, &b->solid.pose, &b->blur), 0};
     body_mark_fresh(w, i);
@@ -251,7 +254,7 @@ static void remove_body(ovoid_world *w, uint32_t i) {
     body_mark_fresh(w, i);
     broad_remove(&w->tree, w->leaf_of[i], w->leaf_of);
     w->leaf_of[i] = NONE;
-    if (++b->generation == 0) b->generation = 1;
+    if (++w->generations[i] == 0) w->generations[i] = 1;
     b->next = w->free;
     w->free = i;
     w->count--;
