@@ -13,6 +13,7 @@
 #define OVOID_WORLD_H
 
 #include "ovoid/compound.h"
+#include "ovoid/motion.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -173,6 +174,80 @@ OVOID_API ovoid_code ovoid_world_compute_frame(ovoid_world *world, const ovoid_f
 OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const ovoid_contact *contact,
                                                ovoid_exclusions *exclusions, ovoid_compound_answer *answer,
                                                ovoid_error *error);
+
+/*
+ * Questions between frames. None of them allocates or changes anything; each looks at the bodies where they are now, in
+ * any thread, while no other thread changes the world. Pairs that are not looked at (ovoid_world_is_pair) are left out;
+ * of a probe, which is no body of the world, groups and masks count, ignored pairs and the filter do not. Answers are
+ * those of <ovoid/compound.h>, cold. Errors of all: ARGUMENT (options, margin), INDEX (an id), and for a probe those of
+ * ovoid_world_add.
+ */
+
+/** What was found. */
+typedef struct ovoid_world_hit {
+    ovoid_id a, b; /**< b: the body found; 0: none. a: the body that asked, or 0 for a probe */
+    double lower;  /**< nearest: no pair asked about is nearer, unless two overlap, which ends the search; where none
+                        was found the cap, or infinity */
+    ovoid_compound_answer answer; /**< of the solids of a and b, in that order */
+} ovoid_world_hit;
+
+/**
+ * Does any of these bodies touch another one? ids NULL: any of all. Stops at the first pair that is not proven apart:
+ * hit->b is 0 where all are. Cost: a walk for each body, and the queries of what its box meets.
+ */
+OVOID_API ovoid_code ovoid_world_find_any(const ovoid_world *world, const ovoid_id *ids, size_t count,
+                                          const ovoid_options *options, ovoid_world_hit *hit, ovoid_error *error);
+
+/** The body nearest to a body, within options->cap. Of those that overlap it, one. */
+OVOID_API ovoid_code ovoid_world_find_nearest(const ovoid_world *world, ovoid_id id, const ovoid_options *options,
+                                              ovoid_world_hit *hit, ovoid_error *error);
+/** The body nearest to a solid that is not in the world. */
+OVOID_API ovoid_code ovoid_world_find_nearest_to(const ovoid_world *world, const ovoid_world_body *probe,
+                                                 const ovoid_options *options, ovoid_world_hit *hit,
+                                                 ovoid_error *error);
+/** The two nearest of all bodies, within options->cap; two that overlap end the search. Both trees are walked at once.
+ */
+OVOID_API ovoid_code ovoid_world_find_nearest_pair(const ovoid_world *world, const ovoid_options *options,
+                                                   ovoid_world_hit *hit, ovoid_error *error);
+
+/** Where hits go. */
+typedef struct ovoid_world_hits {
+    ovoid_world_hit *items; /**< the caller's; may be NULL where capacity is 0 */
+    size_t capacity;
+    size_t count; /**< written: how many there are; more than capacity: those found first were written */
+    const ovoid_options *options; /**< of each query; NULL: the default */
+} ovoid_world_hits;
+
+/** All bodies that are not proven farther than margin from a solid, sorted by id. */
+OVOID_API ovoid_code ovoid_world_find_overlaps(const ovoid_world *world, const ovoid_world_body *probe, double margin,
+                                               ovoid_world_hits *hits, ovoid_error *error);
+
+/** A probe that is a point: for the bodies that contain it, or the one nearest to it. Its shape is the world's. */
+OVOID_API ovoid_world_body ovoid_world_make_point(const ovoid_world *world, ovoid_vec3 point);
+
+/** What a ray or a moved solid meets first. */
+typedef struct ovoid_world_cast {
+    ovoid_id body;        /**< 0: none */
+    uint32_t part, probe; /**< part of the body, and of the probe */
+    double lower, upper;  /**< bracket of the first t; where nothing is met the whole length, and infinity */
+    ovoid_vec3 point;     /**< of the body, world */
+    ovoid_vec3 normal;    /**< unit, out of the body */
+    uint32_t undecided;   /**< casts that ended without a bracket; lower holds with them, upper is of the others */
+} ovoid_world_cast;
+
+/** A ray that meets the bodies of its groups. */
+typedef struct ovoid_world_ray {
+    ovoid_ray ray;
+    uint32_t group, mask; /**< as of a body; both zero: all */
+} ovoid_world_ray;
+
+/** What a ray meets first, thick where its radius is above 0; t in lengths of its direction. Errors: ARGUMENT (the
+ * ray). */
+OVOID_API ovoid_code ovoid_world_cast_ray(const ovoid_world *world, const ovoid_world_ray *ray, ovoid_world_cast *cast,
+                                          ovoid_error *error);
+/** What a solid meets first on its way along `displacement`, without turning; t from 0 to 1. */
+OVOID_API ovoid_code ovoid_world_cast_solid(const ovoid_world *world, const ovoid_world_body *probe,
+                                            ovoid_vec3 displacement, ovoid_world_cast *cast, ovoid_error *error);
 
 #ifdef __cplusplus
 }

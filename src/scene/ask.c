@@ -71,13 +71,13 @@ void ask_pair(const ovoid_world *w, uint32_t a, uint32_t b, const kept *k, quest
 }
 
 // d and t of a pair now.
-static vec3 find_between(const ovoid_world *w, const pair *p, double *travel) {
+static vec3 find_between(const ovoid_world *w, const world_pair *p, double *travel) {
     const body_place *a = &w->places[p->a], *b = &w->places[p->b];
     *travel = a->travel + b->travel;
     return vec3_sub(b->at, a->at);
 }
 
-void pair_set_age(const ovoid_world *w, pair *p, const kept *k) {
+void pair_set_age(const ovoid_world *w, world_pair *p, const kept *k) {
     double margin = w->margin;
     double slack = SLACK_SET * (sum_abs(k->between) + k->travel + fabs(k->lower) + fabs(k->upper) + margin);
     p->kind = PAIR_OPEN;
@@ -85,7 +85,7 @@ void pair_set_age(const ovoid_world *w, pair *p, const kept *k) {
     if (!(k->lower > margin)) p->flags |= PAIR_CONTACT;
     if (k->lower > margin && k->stage == OVOID_STAGE_SPHERE) {
         // Three times the blur of now is above what the positions do not explain of any blur to come.
-        const body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
+        const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
         double reach = (a->reach + b->reach) + (a->radius + b->radius);
         p->kind = PAIR_SPHERE;
         p->c = (reach + margin) * (1 + 0x1p-48) + 3 * (a->blur + b->blur);
@@ -112,11 +112,11 @@ void pair_set_age(const ovoid_world *w, pair *p, const kept *k) {
 }
 
 // What rounding hides in both centres for the sake of where they are: solid.c, its 128 u of a position.
-static double find_blur(const ovoid_world *w, const pair *p) {
+static double find_blur(const ovoid_world *w, const world_pair *p) {
     return 0x1p-45 * (sum_abs(w->places[p->a].at) + sum_abs(w->places[p->b].at));
 }
 
-int pair_is_answered(const ovoid_world *w, const pair *p) {
+int pair_is_answered(const ovoid_world *w, const world_pair *p) {
     double t;
     vec3 d = find_between(w, p, &t);
     double slack = SLACK_SET * (sum_abs(d) + t + fabs(p->c));
@@ -125,14 +125,14 @@ int pair_is_answered(const ovoid_world *w, const pair *p) {
     return p->kind == PAIR_SPHERE && vec3_norm(d) > p->c + slack + find_blur(w, p);
 }
 
-double pair_compute_age(const ovoid_world *w, const pair *p, const kept *k) {
+double pair_compute_age(const ovoid_world *w, const world_pair *p, const kept *k) {
     double t;
     vec3 d = find_between(w, p, &t);
     return (vec3_norm(vec3_sub(d, k->between)) + (t - k->travel)) +
            SLACK_SAID * (sum_abs(d) + sum_abs(k->between) + t + fabs(k->lower) + fabs(k->upper));
 }
 
-static void ask_shapes(const ovoid_world *w, const pair *p, const kept *k, ovoid_answer *out) {
+static void ask_shapes(const ovoid_world *w, const world_pair *p, const kept *k, ovoid_answer *out) {
     const ovoid_solid *a = &w->bodies[p->a].solid, *b = &w->bodies[p->b].solid;
     ovoid_pair both = {a->shape, b->shape, a->pose, b->pose};
     ovoid_frame_query query = {w->question, w->margin, NULL};
@@ -142,7 +142,7 @@ static void ask_shapes(const ovoid_world *w, const pair *p, const kept *k, ovoid
     answer_find_inside(&both, &w->asked, ask_make(&query), is_warm ? &earlier : NULL, NULL, out);
 }
 
-static void keep_answer(ovoid_world *w, const pair *p, kept *k, const ovoid_answer *x) {
+static void keep_answer(ovoid_world *w, const world_pair *p, kept *k, const ovoid_answer *x) {
     k->lower = x->lower;
     k->upper = x->upper;
     k->status = (uint8_t)x->status;
@@ -153,7 +153,7 @@ static void keep_answer(ovoid_world *w, const pair *p, kept *k, const ovoid_answ
     if (world_is_measuring(w)) w->witnesses[p->slot] = (ovoid_witness){x->point_a, x->point_b, x->normal};
 }
 
-static void ask_anew(ovoid_world *w, const pair *p, kept *k) {
+static void ask_anew(ovoid_world *w, const world_pair *p, kept *k) {
     if (!w->bodies[p->a].solid.compound && !w->bodies[p->b].solid.compound) {
         ovoid_answer x;
         ask_shapes(w, p, k, &x);
@@ -168,7 +168,7 @@ static void ask_anew(ovoid_world *w, const pair *p, kept *k) {
     keep_answer(w, p, k, &x.answer);
 }
 
-void pair_ask(ovoid_world *w, pair *p) {
+void pair_ask(ovoid_world *w, world_pair *p) {
     kept *k = &w->kept[p->slot];
     if (!(p->flags & PAIR_KNOWN) || !pair_measure(w, p, k)) ask_anew(w, p, k);
     k->between = find_between(w, p, &k->travel);
@@ -178,7 +178,7 @@ void pair_ask(ovoid_world *w, pair *p) {
 
 // ---- reporting
 
-ovoid_contact pair_make_contact(const ovoid_world *w, const pair *p) {
+ovoid_contact pair_make_contact(const ovoid_world *w, const world_pair *p) {
     const kept *k = &w->kept[p->slot];
     ovoid_contact x = {.a = body_get_id(w, p->a), .b = body_get_id(w, p->b), .part_a = k->part_a, .part_b = k->part_b};
     x.verdict = (ovoid_verdict){

@@ -13,21 +13,21 @@ void ask_pair(const ovoid_world *w, uint32_t a, uint32_t b, const kept *k, quest
               ovoid_compound_answer *out);
 
 /// How long what is kept answers the world's question: sets kind, v, c and CONTACT.
-void pair_set_age(const ovoid_world *w, pair *p, const kept *k);
+void pair_set_age(const ovoid_world *w, world_pair *p, const kept *k);
 
 /// Asks anew, keeps the answer and sets its age.
-void pair_ask(ovoid_world *w, pair *p);
+void pair_ask(ovoid_world *w, world_pair *p);
 
 /// How far the signed distance can have changed since what is kept was found, rounding included.
-double pair_compute_age(const ovoid_world *w, const pair *p, const kept *k);
+double pair_compute_age(const ovoid_world *w, const world_pair *p, const kept *k);
 
 /// What is kept, measured again at the present poses: 1 if it still answers; the bounds of k are then those of now.
-int pair_measure(const ovoid_world *w, const pair *p, kept *k);
+int pair_measure(const ovoid_world *w, const world_pair *p, kept *k);
 
 /// 1 if what is kept still answers; no geometry is looked at.
-int pair_is_answered(const ovoid_world *w, const pair *p);
+int pair_is_answered(const ovoid_world *w, const world_pair *p);
 
 /// What is reported.
-ovoid_contact pair_make_contact(const ovoid_world *w, const pair *p);
+ovoid_contact pair_make_contact(const ovoid_world *w, const world_pair *p);
 
 #endif

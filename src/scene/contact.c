@@ -4,11 +4,11 @@
 #include "scene/ask.h"
 
 // The pair in the list, or NULL: by halving.
-static const pair *find_pair(const ovoid_world *w, uint64_t key) {
+static const world_pair *find_pair(const ovoid_world *w, uint64_t key) {
     size_t first = 0, end = w->pair_count;
     while (first < end) {
         size_t middle = first + (end - first) / 2;
-        const pair *p = &w->pairs[middle];
+        const world_pair *p = &w->pairs[middle];
         uint64_t here = key_make(p->a, p->b);
         if (here == key) return p;
         if (here < key)
@@ -27,7 +27,7 @@ static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *conta
     if (b == NONE) return world_refuse_id(error, 1, contact->b);
     if (a >= b || !w->is_asked)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no contact of a frame: a must come before b");
-    const pair *p = find_pair(w, key_make(a, b));
+    const world_pair *p = find_pair(w, key_make(a, b));
     ovoid_frame_query query = {w->question, w->margin, NULL};
     ask_pair(w, a, b, p && p->flags & PAIR_KNOWN ? &w->kept[p->slot] : NULL, ask_make(&query), exclusions, out);
     return OVOID_OK;

@@ -12,7 +12,7 @@ enum { CHUNK = 512 };
 // ---- deciding
 
 // 1 if the pair is answered; the state of most is in the list alone.
-static int is_answered(const ovoid_world *w, pair *p) {
+static int is_answered(const ovoid_world *w, world_pair *p) {
     int has_moved = (w->marks[p->a] | w->marks[p->b]) & MARK_MOVED || p->flags & PAIR_CHECK;
     if (!(p->flags & PAIR_KNOWN)) return 0;
     if (!has_moved) return 1;
@@ -22,7 +22,7 @@ static int is_answered(const ovoid_world *w, pair *p) {
 
 // The bodies of a pair, and its proof, are anywhere in memory: they are asked for some pairs ahead.
 enum { AHEAD = 4 };
-static void prefetch(const ovoid_world *w, const pair *p) {
+static void prefetch(const ovoid_world *w, const world_pair *p) {
     const char *a = (const char *)&w->bodies[p->a], *b = (const char *)&w->bodies[p->b],
                *k = (const char *)&w->kept[p->slot];
     for (int line = 0; line < 2; line++) {
@@ -32,7 +32,7 @@ static void prefetch(const ovoid_world *w, const pair *p) {
     }
 }
 
-static void decide_chunk(ovoid_world *w, pair *pairs, uint32_t count, chunk *out) {
+static void decide_chunk(ovoid_world *w, world_pair *pairs, uint32_t count, chunk *out) {
     uint16_t open[CHUNK];
     uint32_t open_count = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -64,7 +64,7 @@ static void decide_chunks(void *work, uint32_t first, uint32_t end, uint32_t wor
 // questions.
 static void renew_ages(ovoid_world *w) {
     for (size_t i = 0; i < w->pair_count; i++) {
-        pair *p = &w->pairs[i];
+        world_pair *p = &w->pairs[i];
         if (!(p->flags & PAIR_KNOWN)) continue;
         p->flags &= (uint16_t) ~(PAIR_STILL | PAIR_KNOWN);
         pair_set_age(w, p, &w->kept[p->slot]);
@@ -80,7 +80,7 @@ static void write_chunks(void *work, uint32_t first, uint32_t end, uint32_t work
     for (uint32_t c = first; c < end; c++) {
         size_t at = w->chunks[c].contacts;
         for (uint32_t i = 0, count = get_chunk_size(w, c); i < count; i++) {
-            const pair *p = &w->pairs[(size_t)c * CHUNK + i];
+            const world_pair *p = &w->pairs[(size_t)c * CHUNK + i];
             if (!(p->flags & PAIR_CONTACT)) continue;
             w->contacts[at] = pair_make_contact(w, p);
             if (world_is_measuring(w)) w->contact_witnesses[at] = w->witnesses[p->slot];

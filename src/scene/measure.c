@@ -48,8 +48,8 @@ static int measure_gap(const pair_frame *f, kept *k, double margin, double age) 
     return 1;
 }
 
-int pair_measure(const ovoid_world *w, const pair *p, kept *k) {
-    const body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
+int pair_measure(const ovoid_world *w, const world_pair *p, kept *k) {
+    const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
     int is_apart = k->status == OVOID_SEPARATED && k->lower > w->margin;
     int is_overlap = k->status == OVOID_OVERLAPPING && !world_is_measuring(w);
     if (!(is_apart || is_overlap) || a->solid.compound || b->solid.compound) return 0;

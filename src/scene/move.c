@@ -22,14 +22,14 @@ enum { STEPS_AHEAD = 4 };
 #define ROOM_LEAST 0.04
 #define ROOM_MOST 0.5
 
-static double compute_room(const ovoid_world *w, const body *b) {
+static double compute_room(const ovoid_world *w, const world_body *b) {
     double size = b->reach + b->radius;
     if (w->enlargement > 0) return w->enlargement * size;
     return max2(ROOM_LEAST * size, min2(STEPS_AHEAD * b->step, ROOM_MOST * size));
 }
 
 box body_compute_box(ovoid_world *w, uint32_t i) {
-    body *b = &w->bodies[i];
+    world_body *b = &w->bodies[i];
     solid_ball ball = solid_compute_ball(&b->solid);
     b->placed = w->places[i];
     b->room = compute_room(w, b);
@@ -76,7 +76,7 @@ static double compute_chord(ovoid_quat before, ovoid_quat after) {
 }
 
 static void move_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
-    body *b = &w->bodies[i];
+    world_body *b = &w->bodies[i];
     body_place *p = &w->places[i];
     if (memcmp(&b->solid.pose, pose, sizeof *pose) == 0) return;
     solid_ball ball = solid_compute_ball(&b->solid);

@@ -14,7 +14,7 @@ enum { LEAST = 64 };
 
 // ---- who is a pair
 
-static int is_in_groups(const body *a, const body *b) { return a->group & b->mask && b->group & a->mask; }
+static int is_in_groups(const world_body *a, const world_body *b) { return a->group & b->mask && b->group & a->mask; }
 
 int world_is_pair(const ovoid_world *w, uint32_t a, uint32_t b) {
     if (!is_in_groups(&w->bodies[a], &w->bodies[b])) return 0;
@@ -141,7 +141,7 @@ static int reserve_pairs(ovoid_world *w, size_t count) {
 static size_t drop_pairs(ovoid_world *w) {
     size_t to = 0;
     for (size_t from = 0; from < w->pair_count; from++) {
-        const pair *p = &w->pairs[from];
+        const world_pair *p = &w->pairs[from];
         unsigned marks = w->marks[p->a] | w->marks[p->b];
         int ends =
             marks & MARK_FRESH || (marks & MARK_BOX && !box_is_overlapping(&w->tree.nodes[w->leaf_of[p->a]].bounds,
@@ -156,17 +156,17 @@ static size_t drop_pairs(ovoid_world *w) {
     return to;
 }
 
-static pair make_pair(ovoid_world *w, uint64_t key) {
+static world_pair make_pair(ovoid_world *w, uint64_t key) {
     uint32_t slot = w->free_slot_count ? w->free_slots[--w->free_slot_count] : (uint32_t)w->slot_used++;
     w->kept[slot] = (kept){.proof = OVOID_PROOF_NONE};
-    return (pair){.a = key_get_a(key), .b = key_get_b(key), .slot = slot};
+    return (world_pair){.a = key_get_a(key), .b = key_get_b(key), .slot = slot};
 }
 
 // The new keys go in from the back, so that nothing is moved twice.
 static void merge_pairs(ovoid_world *w, size_t count) {
     size_t old = w->pair_count, at = old + count;
     while (count) {
-        const pair *last = old ? &w->pairs[old - 1] : NULL;
+        const world_pair *last = old ? &w->pairs[old - 1] : NULL;
         uint64_t key = w->keys[count - 1];
         if (last && key_make(last->a, last->b) > key) {
             w->pairs[--at] = *last;

@@ -24,7 +24,7 @@ typedef struct body_place {
 /// is used within one call.
 enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8 };
 
-typedef struct body {
+typedef struct world_body {
     ovoid_solid solid;
     vec3 local;        ///< r in the user's local frame
     double reach;      ///< no point of the body without its radius is farther from r
@@ -37,7 +37,7 @@ typedef struct body {
     uint64_t user;
     uint32_t group, mask;
     uint32_t next; ///< of a free index: the next one; else the number of its ignored pairs
-} body;
+} world_body;
 
 /// What of a pair is read every frame. The state of an answer that lasts is one comparison:
 ///   PLANE:  c + v.d - t > 0        v the normal, farther than the margin
@@ -46,7 +46,7 @@ typedef struct body {
 /// with t the sum of both travels.
 typedef enum pair_kind { PAIR_OPEN = 0, PAIR_PLANE, PAIR_BALL, PAIR_SPHERE } pair_kind;
 enum { PAIR_CONTACT = 1, PAIR_STILL = 2, PAIR_KNOWN = 4, PAIR_CHECK = 8 };
-typedef struct pair {
+typedef struct world_pair {
     uint32_t a, b;
     vec3 v;
     double c;
@@ -54,7 +54,7 @@ typedef struct pair {
     uint16_t kind;
     uint16_t flags; ///< CONTACT: reported; STILL: neither body has moved since the query; KNOWN: it was asked;
                     ///< CHECK: kind and c are of this frame, not yet compared
-} pair;
+} world_pair;
 
 /// What is kept of a pair's last query.
 typedef struct kept {
@@ -89,10 +89,11 @@ struct ovoid_world {
     pool_host host;
     uint32_t threads;
     double enlargement;
+    ovoid_shape *point;
     ovoid_filter *filter;
     void *filter_context;
     // Bodies, by index. leaf_of is NONE where there is none.
-    body *bodies;
+    world_body *bodies;
     body_place *places;
     uint8_t *marks;
     uint32_t *leaf_of, *changed, *generations;
@@ -101,7 +102,7 @@ struct ovoid_world {
     broad tree;
     ignored ignored;
     // Pairs, sorted by a, then b.
-    pair *pairs;
+    world_pair *pairs;
     size_t pair_count, pair_capacity;
     kept *kept;
     ovoid_witness *witnesses; ///< beside kept, once a distance or depth was asked for

@@ -46,6 +46,8 @@ static ovoid_world *create(const ovoid_world_options *given, ovoid_error *error)
     w->gathered = world_allocate(w, w->threads, sizeof *w->gathered);
     if (!w->gathered) return refuse_world(w, error);
     memset(w->gathered, 0, w->threads * sizeof *w->gathered);
+    w->point = ovoid_shape_create_sphere(0, &(ovoid_shape_options){.allocator = &w->allocator}, error);
+    if (!w->point) return refuse_world(w, error);
     if (w->threads > 1 && !o.tasks.start) {
         w->host.own = pool_create(w->threads, &w->allocator, error);
         if (!w->host.own) {
@@ -63,6 +65,7 @@ ovoid_world *ovoid_world_create(const ovoid_world_options *options, ovoid_error 
 void ovoid_world_destroy(ovoid_world *w) {
     if (!w) return;
     pool_destroy(w->host.own, &w->allocator);
+    ovoid_shape_destroy(w->point);
     void *all[] = {w->bodies,     w->places,       w->marks,  w->leaf_of,  w->changed,
                    w->tree.nodes, w->ignored.keys, w->pairs,  w->kept,     w->witnesses,
                    w->free_slots, w->keys,         w->chunks, w->contacts, w->contact_witnesses};
@@ -166,17 +169,17 @@ static uint32_t take_index(ovoid_world *w) {
 // Everything of a body but its leaf.
 static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
     uint32_t i = take_index(w);
-    body *b = &w->bodies[i];
+    world_body *b = &w->bodies[i];
     int all = !given->group && !given->mask;
     solid_ball ball = solid_compute_ball(&given->solid);
-    *b = (body){.solid = given->solid,
-                .local = ball.local,
-                .reach = ball.reach,
-                .radius = ball.radius,
-                .user = given->user,
-                .group = all ? ~0u : given->group,
-                .mask = all ? ~0u : given->mask,
-                .seen = box_make_empty()};
+    *b = (world_body){.solid = given->solid,
+                      .local = ball.local,
+                      .reach = ball.reach,
+                      .radius = ball.radius,
+                      .user = given->user,
+                      .group = all ? ~0u : given->group,
+                      .mask = all ? ~0u : given->mask,
+                      .seen = box_make_empty()};
     w->places[i] = (body_place){solid_compute_center(&ball, &b->solid.pose, &b->blur), 0};
     body_mark_fresh(w, i);
     w->count++;
@@ -249,7 +252,7 @@ static void forget_ignored(ovoid_world *w, uint32_t i) {
 }
 
 static void remove_body(ovoid_world *w, uint32_t i) {
-    body *b = &w->bodies[i];
+    world_body *b = &w->bodies[i];
     if (b->next) forget_ignored(w, i);
     body_mark_fresh(w, i);
     broad_remove(&w->tree, w->leaf_of[i], w->leaf_of);
@@ -290,10 +293,14 @@ ovoid_code ovoid_world_remove(ovoid_world *w, ovoid_id id, ovoid_error *error) {
 
 // ---- what is known of a body
 
+ovoid_world_body ovoid_world_make_point(const ovoid_world *w, ovoid_vec3 point) {
+    return (ovoid_world_body){.solid = {w->point, NULL, {point, {1, 0, 0, 0}}}};
+}
+
 ovoid_code ovoid_world_get(const ovoid_world *w, ovoid_id id, ovoid_world_body *out, ovoid_error *error) {
     uint32_t i = world_find_body(w, id);
     if (i == NONE) return world_refuse_id(error, -1, id);
-    const body *b = &w->bodies[i];
+    const world_body *b = &w->bodies[i];
     *out = (ovoid_world_body){b->solid, b->group, b->mask, b->user};
     return OVOID_OK;
 }

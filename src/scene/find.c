@@ -1,0 +1,348 @@
+// Questions about a world between its frames: what a body or a solid touches, what is nearest to it, which two of all
+// are nearest. The tree is walked with the solid's own box; pairs that remain are asked cold, so nothing is changed or
+// kept, and any number of threads may ask at once.
+#include "base/environment.h"
+#include "base/error.h"
+#include "scene/compound.h"
+#include "scene/solid.h"
+#include "scene/state.h"
+#include "scene/walk.h"
+
+#include <string.h>
+
+// Who asks, what, and what was found.
+typedef struct asking {
+    const ovoid_world *w;
+    ovoid_solid solid;
+    uint32_t self, after; ///< the body that asks, or NONE; only bodies behind that one are looked at, NONE: all
+    uint32_t group, mask;
+    box bounds;
+    ovoid_options options;
+    question ask;
+    double bound; ///< of the walk
+    double lower; ///< of all that was looked at
+    ovoid_compound_answer found;
+    uint32_t found_a, found_b;
+    // Overlaps.
+    ovoid_world_hit *hits;
+    size_t capacity, count;
+} asking;
+
+// ---- making
+
+static ovoid_code check_options(const ovoid_options *given, ovoid_options *options, ovoid_error *error) {
+    *options = given ? *given : (ovoid_options){.cap = 0};
+    if (options->absolute_tolerance >= 0 && options->relative_tolerance >= 0 && options->cap >= 0) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_ARGUMENT, -1, "options: a tolerance or the cap is NaN or negative");
+}
+
+static void set_box(asking *x) {
+    solid_ball ball = solid_compute_ball(&x->solid);
+    x->bounds = solid_compute_box(&x->solid, &ball);
+}
+
+static void take_body(asking *x, uint32_t i) {
+    x->self = i;
+    x->solid = x->w->bodies[i].solid;
+    set_box(x);
+}
+
+static ovoid_code take_probe(asking *x, const ovoid_world_body *probe, ovoid_error *error) {
+    ovoid_code code = world_check_solid(&probe->solid, -1, error);
+    if (code != OVOID_OK) return code;
+    int all = !probe->group && !probe->mask;
+    x->self = NONE;
+    x->solid = probe->solid;
+    x->group = all ? ~0u : probe->group;
+    x->mask = all ? ~0u : probe->mask;
+    set_box(x);
+    return OVOID_OK;
+}
+
+static void asking_make(asking *x, const ovoid_world *w) {
+    x->w = w;
+    x->after = x->found_a = x->found_b = NONE;
+    x->bound = x->lower = INFINITY;
+    x->hits = NULL;
+    x->capacity = x->count = 0;
+}
+
+// ---- looking
+
+static int is_asked(const asking *x, uint32_t j) {
+    const world_body *b = &x->w->bodies[j];
+    if (x->self == NONE) return (x->group & b->mask) && (b->group & x->mask);
+    return j != x->self && (x->after == NONE || j > x->after) && world_is_pair(x->w, x->self, j);
+}
+
+static void look(const asking *x, uint32_t j, ovoid_compound_answer *out) {
+    ovoid_solid_pair pair = {x->solid, x->w->bodies[j].solid};
+    solid_find_inside(&pair, &x->options, x->ask, NULL, NULL, out);
+}
+
+static double measure_distance(const void *context, const box *bounds) {
+    const asking *x = context;
+    return box_compute_distance(&x->bounds, bounds);
+}
+
+static void visit_nearest(void *context, uint32_t j) {
+    asking *x = context;
+    if (!is_asked(x, j)) return;
+    ovoid_compound_answer out;
+    x->ask.far = x->bound;
+    look(x, j, &out);
+    x->lower = min2(x->lower, out.answer.lower);
+    if (!(out.answer.upper <= x->bound)) return;
+    x->found = out;
+    x->found_a = x->self;
+    x->found_b = j;
+    // Nothing is nearer than what overlaps.
+    x->bound = out.answer.upper > 0 ? out.answer.upper : -INFINITY;
+}
+
+static void visit_touching(void *context, uint32_t j) {
+    asking *x = context;
+    if (!is_asked(x, j)) return;
+    ovoid_compound_answer out;
+    look(x, j, &out);
+    if (out.answer.lower > x->ask.far) return;
+    x->found = out;
+    x->found_a = x->self;
+    x->found_b = j;
+    x->bound = -INFINITY;
+}
+
+static ovoid_id get_id(const ovoid_world *w, uint32_t i) { return i == NONE ? 0 : body_get_id(w, i); }
+
+static void visit_overlaps(void *context, uint32_t j) {
+    asking *x = context;
+    if (!is_asked(x, j)) return;
+    ovoid_compound_answer out;
+    look(x, j, &out);
+    if (out.answer.lower > x->ask.far) return;
+    if (x->count < x->capacity)
+        x->hits[x->count] = (ovoid_world_hit){get_id(x->w, x->self), body_get_id(x->w, j), out.answer.lower, out};
+    x->count++;
+}
+
+static void run(asking *x, walk_visit *visit) {
+    walk all = {&x->w->tree, measure_distance, visit, x, &x->bound};
+    walk_run(&all);
+}
+
+// ---- answers
+
+static void write_hit(const asking *x, ovoid_world_hit *hit) {
+    if (x->found_b == NONE) {
+        memset(hit, 0, sizeof *hit);
+        hit->lower = min2(x->lower, x->bound);
+        return;
+    }
+    *hit = (ovoid_world_hit){get_id(x->w, x->found_a), body_get_id(x->w, x->found_b),
+                             min2(x->lower, x->found.answer.lower), x->found};
+}
+
+static ovoid_code find_nearest_of(asking *x, ovoid_world_hit *hit) {
+    x->bound = x->options.cap > 0 ? x->options.cap : INFINITY;
+    x->ask = question_make_distance(NULL);
+    run(x, visit_nearest);
+    write_hit(x, hit);
+    return OVOID_OK;
+}
+
+static ovoid_code find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_options *options, ovoid_world_hit *hit,
+                               ovoid_error *error) {
+    OVOID_ASSERT(w && hit);
+    asking x;
+    asking_make(&x, w);
+    ovoid_code code = check_options(options, &x.options, error);
+    uint32_t i = world_find_body(w, id);
+    if (code == OVOID_OK && i == NONE) code = world_refuse_id(error, -1, id);
+    if (code != OVOID_OK) return code;
+    take_body(&x, i);
+    return find_nearest_of(&x, hit);
+}
+
+ovoid_code ovoid_world_find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_options *options,
+                                    ovoid_world_hit *hit, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, id, find_nearest(w, id, options, hit, error));
+}
+
+static ovoid_code find_nearest_to(const ovoid_world *w, const ovoid_world_body *probe, const ovoid_options *options,
+                                  ovoid_world_hit *hit, ovoid_error *error) {
+    OVOID_ASSERT(w && probe && hit);
+    asking x;
+    asking_make(&x, w);
+    ovoid_code code = check_options(options, &x.options, error);
+    if (code == OVOID_OK) code = take_probe(&x, probe, error);
+    return code == OVOID_OK ? find_nearest_of(&x, hit) : code;
+}
+
+ovoid_code ovoid_world_find_nearest_to(const ovoid_world *w, const ovoid_world_body *probe,
+                                       const ovoid_options *options, ovoid_world_hit *hit, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, find_nearest_to(w, probe, options, hit, error));
+}
+
+// Any of the bodies named, or of all, each with those behind it.
+static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
+                           ovoid_world_hit *hit, ovoid_error *error) {
+    OVOID_ASSERT(w && hit);
+    asking x;
+    asking_make(&x, w);
+    ovoid_code code = check_options(options, &x.options, error);
+    for (size_t k = 0; ids && k < count && code == OVOID_OK; k++)
+        if (world_find_body(w, ids[k]) == NONE) code = world_refuse_id(error, (int64_t)k, ids[k]);
+    if (code != OVOID_OK) return code;
+    x.ask = question_make_collide();
+    x.bound = 0;
+    for (size_t k = 0; k < (ids ? count : w->used) && x.found_b == NONE; k++) {
+        uint32_t i = ids ? (uint32_t)(ids[k] >> 32) : (uint32_t)k;
+        if (w->leaf_of[i] == NONE) continue;
+        take_body(&x, i);
+        if (!ids) x.after = i;
+        run(&x, visit_touching);
+    }
+    x.bound = 0;
+    write_hit(&x, hit);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
+                                ovoid_world_hit *hit, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, count, find_any(w, ids, count, options, hit, error));
+}
+
+// ---- overlaps, sorted in place: heap sort (J. W. J. Williams, 1964)
+
+static void sift(ovoid_world_hit *hits, size_t at, size_t count) {
+    for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
+        if (child + 1 < count && hits[child + 1].b > hits[child].b) child++;
+        if (hits[child].b <= hits[at].b) return;
+        ovoid_world_hit swapped = hits[at];
+        hits[at] = hits[child];
+        hits[child] = swapped;
+        at = child;
+    }
+}
+
+static void sort_hits(ovoid_world_hit *hits, size_t count) {
+    for (size_t i = count / 2; i-- > 0;) sift(hits, i, count);
+    while (count > 1) {
+        ovoid_world_hit swapped = hits[0];
+        hits[0] = hits[--count];
+        hits[count] = swapped;
+        sift(hits, 0, count);
+    }
+}
+
+static ovoid_code find_overlaps(const ovoid_world *w, const ovoid_world_body *probe, double margin,
+                                ovoid_world_hits *hits, ovoid_error *error) {
+    OVOID_ASSERT(w && probe && hits);
+    asking x;
+    asking_make(&x, w);
+    if (!(margin >= 0 && margin <= OVOID_LENGTH_MAX))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "margin %.17g: it must be finite and not negative", margin);
+    ovoid_code code = check_options(hits->options, &x.options, error);
+    if (code == OVOID_OK) code = take_probe(&x, probe, error);
+    if (code != OVOID_OK) return code;
+    x.hits = hits->items;
+    x.capacity = hits->items ? hits->capacity : 0;
+    x.ask = margin > 0 ? question_make_within(margin) : question_make_collide();
+    x.bound = margin;
+    run(&x, visit_overlaps);
+    hits->count = x.count;
+    sort_hits(x.hits, x.count < x.capacity ? x.count : x.capacity);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_overlaps(const ovoid_world *w, const ovoid_world_body *probe, double margin,
+                                     ovoid_world_hits *hits, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, margin, find_overlaps(w, probe, margin, hits, error));
+}
+
+// ---- the nearest two of all
+
+typedef struct couple_entry {
+    uint32_t a, b;
+    double key;
+} couple_entry;
+
+static void visit_pair(asking *x, uint32_t i, uint32_t j) {
+    take_body(x, i < j ? i : j);
+    visit_nearest(x, i < j ? j : i);
+}
+
+// Two subtrees of trees deeper than the stack: all leaves of the one against the other.
+static void run_pair_below(asking *x, uint32_t a, uint32_t b) {
+    const broad *t = &x->w->tree;
+    uint32_t end_a = broad_skip(t, a), end_b = broad_skip(t, b);
+    for (uint32_t i = a; i != end_a; i = t->nodes[i].child ? t->nodes[i].child : broad_skip(t, i)) {
+        const broad_node *leaf = &t->nodes[i];
+        for (uint32_t j = b; j != end_b && !leaf->child;) {
+            const broad_node *n = &t->nodes[j];
+            int is_near = box_compute_distance(&leaf->bounds, &n->bounds) <= x->bound;
+            if (is_near && !n->child && (a != b || leaf->body < n->body)) visit_pair(x, leaf->body, n->body);
+            j = is_near && n->child ? n->child : broad_skip(t, j);
+        }
+    }
+}
+
+static couple_entry make_entry(const asking *x, uint32_t a, uint32_t b) {
+    const broad_node *nodes = x->w->tree.nodes;
+    return (couple_entry){a, b, a == b ? 0 : box_compute_distance(&nodes[a].bounds, &nodes[b].bounds)};
+}
+
+// The couples below one, the nearer on top of the stack.
+static uint32_t push_below(const asking *x, couple_entry e, couple_entry *stack, uint32_t count) {
+    const broad_node *nodes = x->w->tree.nodes, *a = &nodes[e.a], *b = &nodes[e.b];
+    if (e.a == e.b) {
+        if (!a->child) return count;
+        stack[count++] = make_entry(x, a->child, a->child + 1);
+        stack[count++] = make_entry(x, a->child + 1, a->child + 1);
+        stack[count++] = make_entry(x, a->child, a->child);
+        return count;
+    }
+    int splits_a = a->child && (!b->child || box_compute_surface(&a->bounds) >= box_compute_surface(&b->bounds));
+    couple_entry left = splits_a ? make_entry(x, a->child, e.b) : make_entry(x, e.a, b->child);
+    couple_entry right = splits_a ? make_entry(x, a->child + 1, e.b) : make_entry(x, e.a, b->child + 1);
+    int is_right_first = right.key < left.key;
+    stack[count++] = is_right_first ? left : right;
+    stack[count++] = is_right_first ? right : left;
+    return count;
+}
+
+static void run_pairs(asking *x) {
+    const broad_node *nodes = x->w->tree.nodes;
+    couple_entry stack[2 * BROAD_STACK + 3];
+    uint32_t count = 0;
+    if (x->w->count > 1) stack[count++] = make_entry(x, 0, 0);
+    while (count) {
+        couple_entry e = stack[--count];
+        if (!(e.key <= x->bound)) continue;
+        if (e.a != e.b && !nodes[e.a].child && !nodes[e.b].child)
+            visit_pair(x, nodes[e.a].body, nodes[e.b].body);
+        else if (count >= 2 * BROAD_STACK)
+            run_pair_below(x, e.a, e.b);
+        else
+            count = push_below(x, e, stack, count);
+    }
+}
+
+static ovoid_code find_nearest_pair(const ovoid_world *w, const ovoid_options *options, ovoid_world_hit *hit,
+                                    ovoid_error *error) {
+    OVOID_ASSERT(w && hit);
+    asking x;
+    asking_make(&x, w);
+    ovoid_code code = check_options(options, &x.options, error);
+    if (code != OVOID_OK) return code;
+    x.bound = x.options.cap > 0 ? x.options.cap : INFINITY;
+    x.ask = question_make_distance(NULL);
+    run_pairs(&x);
+    write_hit(&x, hit);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_nearest_pair(const ovoid_world *w, const ovoid_options *options, ovoid_world_hit *hit,
+                                         ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, find_nearest_pair(w, options, hit, error));
+}
