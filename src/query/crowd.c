@@ -16,7 +16,8 @@
 #include <stddef.h>
 
 // The kernels read these as rows of doubles.
-_Static_assert(sizeof(ovoid_pose) == 7 * sizeof(double), "a pose is seven numbers");
+_Static_assert(sizeof(ovoid_body) == 8 * sizeof(double) && offsetof(ovoid_body, pose) == sizeof(double),
+               "a body is a pointer and seven numbers");
 _Static_assert(offsetof(ovoid_shape, radius) == 8 && offsetof(ovoid_shape, center) == 16 &&
                    offsetof(ovoid_shape, extent) == 40 && offsetof(ovoid_shape, first) == 64,
                "what `place` reads");
@@ -24,10 +25,10 @@ _Static_assert(offsetof(ovoid_shape, inner) == offsetof(ovoid_shape, outer) + 9 
                    sizeof(shape_inner) == 8 * sizeof(double),
                "what `part` reads");
 
-// Eight couples, in lanes.
+// Eight couples, in lanes. Their bodies and shapes are kept as the kernels read them.
 typedef struct eight {
     size_t index[OCTET];
-    const ovoid_body *a[OCTET], *b[OCTET];
+    octet_places at; ///< their bodies and shapes
     octet lanes;
     unsigned count; ///< lanes that are meant; the others repeat one of them
 } eight;
@@ -76,15 +77,18 @@ static void put3(octet_column *c, unsigned k, vec3 v) {
 }
 static mat3 get9(const octet_column *c, unsigned k) { return (mat3){get3(c, k), get3(c + 3, k), get3(c + 6, k)}; }
 
+static const ovoid_body *get_a(const eight *e, unsigned k) { return (const void *)e->at.body_a[k]; }
+static const ovoid_body *get_b(const eight *e, unsigned k) { return (const void *)e->at.body_b[k]; }
+
 // The frame of a lane, as frame_place and frame_relate make it; the latter's part is meant after the ellipsoids only.
 static pair_frame get_frame(const eight *e, unsigned k) {
     const octet *o = &e->lanes;
     double size = o->size.lane[k], hidden = OVOID_LENGTH_MIN;
-    return (pair_frame){e->a[k]->shape,
-                        e->b[k]->shape,
+    return (pair_frame){get_a(e, k)->shape,
+                        get_b(e, k)->shape,
                         get9(o->world_a, k),
                         get9(o->world_b, k),
-                        e->a[k]->pose.position,
+                        get_a(e, k)->pose.position,
                         get3(o->offset, k),
                         size,
                         FRAME_CLAIM * size + 2 * hidden,
@@ -102,21 +106,20 @@ static question get_ask(const crowd *c, const eight *e, unsigned k) {
 }
 
 // The verdict of a stage that answered the question, from the lane's bounds.
-static void write_bounds(const crowd *c, const eight *e, unsigned k, ovoid_stage stage) {
-    const octet *o = &e->lanes;
-    double lower = o->lower.lane[k], upper = o->upper.lane[k];
-    int is_apart = lower > 0;
-    ovoid_limit limit = upper - lower <= o->tolerance.lane[k] ? OVOID_LIMIT_NONE
-                        : lower > c->ask.far                  ? c->ask.beyond
-                                                              : OVOID_LIMIT_ANSWERED;
-    write_verdict(c->batch, e->index[k],
-                  (ovoid_verdict){is_apart ? OVOID_SEPARATED : OVOID_OVERLAPPING, stage, limit, 0, lower, upper});
+static void write_bounds(const crowd *c, const eight *e, unsigned k, ovoid_stage stage, unsigned narrow) {
+    double lower = e->lanes.lower.lane[k], upper = e->lanes.upper.lane[k];
+    ovoid_status status = lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
+    ovoid_limit wide = lower > c->ask.far ? c->ask.beyond : OVOID_LIMIT_ANSWERED;
+    ovoid_limit limit = narrow >> k & 1 ? OVOID_LIMIT_NONE : wide;
+    write_verdict(c->batch, e->index[k], (ovoid_verdict){status, stage, limit, 0, lower, upper});
 }
 
 // Decided by the spheres. The evidence is that of the first look, taken again.
-static void end_at_spheres(const crowd *c, const eight *e, unsigned k) {
-    write_bounds(c, e, k, OVOID_STAGE_SPHERE);
-    if (!c->wants_evidence) return;
+static void end_at_spheres(const crowd *c, const eight *e, unsigned k, unsigned narrow) {
+    if (!c->wants_evidence) {
+        write_bounds(c, e, k, OVOID_STAGE_SPHERE, narrow);
+        return;
+    }
     pair_frame frame = get_frame(e, k);
     question ask = get_ask(c, e, k);
     glance seen;
@@ -146,9 +149,9 @@ static void end_search(const crowd *c, const eight *e, unsigned k, search *s) {
     crowd_write(c->batch, e->index[k], out);
 }
 
-static void end_at_inner(const crowd *c, const eight *e, unsigned k) {
+static void end_at_inner(const crowd *c, const eight *e, unsigned k, unsigned narrow) {
     if (!c->wants_evidence) {
-        write_bounds(c, e, k, OVOID_STAGE_INNER);
+        write_bounds(c, e, k, OVOID_STAGE_INNER, narrow);
         return;
     }
     pair_frame frame;
@@ -159,9 +162,9 @@ static void end_at_inner(const crowd *c, const eight *e, unsigned k) {
     end_search(c, e, k, &s);
 }
 
-static void end_at_outer(const crowd *c, const eight *e, unsigned k) {
+static void end_at_outer(const crowd *c, const eight *e, unsigned k, unsigned narrow) {
     if (!c->wants_evidence) {
-        write_bounds(c, e, k, OVOID_STAGE_OUTER);
+        write_bounds(c, e, k, OVOID_STAGE_OUTER, narrow);
         return;
     }
     pair_frame frame;
@@ -182,7 +185,7 @@ static void end_at_support(const crowd *c, const eight *e, unsigned k, uint32_t 
         return;
     }
     if (is_answered && !c->wants_evidence) {
-        write_bounds(c, e, k, OVOID_STAGE_SUPPORT);
+        write_bounds(c, e, k, OVOID_STAGE_SUPPORT, (unsigned)(upper - lower <= ask.tolerance) << k);
         return;
     }
     pair_frame frame;
@@ -194,7 +197,7 @@ static void end_at_support(const crowd *c, const eight *e, unsigned k, uint32_t 
     s.kind = OVOID_PROOF_POINTS;
     s.witness = evidence_make(&start);
     if (!is_answered) {
-        ovoid_pair pair = {frame.a, frame.b, e->a[k]->pose, e->b[k]->pose};
+        ovoid_pair pair = {frame.a, frame.b, get_a(e, k)->pose, get_b(e, k)->pose};
         answer_search(&s, &pair, NULL, &start, NULL);
     }
     end_search(c, e, k, &s);
@@ -209,8 +212,8 @@ static void meet(const crowd *c, eight *e, unsigned open) {
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = (unsigned)__builtin_ctz(rest);
         pair_frame f;
-        f.a = e->a[k]->shape;
-        f.b = e->b[k]->shape;
+        f.a = get_a(e, k)->shape;
+        f.b = get_b(e, k)->shape;
         simd_pair x = frame_find_pair(&f, get3(o->n, k), get3(o->low, k));
         o->high_value.lane[k] = x.high.value;
         o->low_value.lane[k] = x.low.value;
@@ -228,7 +231,7 @@ static void meet(const crowd *c, eight *e, unsigned open) {
 static void settle(const crowd *c, eight *e, unsigned some) {
     octet_ellipsoids rows;
     for (unsigned k = 0; k < OCTET; k++) {
-        const ovoid_shape *a = e->a[k]->shape, *b = e->b[k]->shape;
+        const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
         rows.outer_a[k] = &a->outer.center.x;
         rows.outer_b[k] = &b->outer.center.x;
         rows.inner_a[k] = a->inside.w;
@@ -240,9 +243,9 @@ static void settle(const crowd *c, eight *e, unsigned some) {
         if (found.odd >> k & 1)
             crowd_ask_single(c->batch, e->index[k], c->ask);
         else if (found.inner >> k & 1)
-            end_at_inner(c, e, k);
+            end_at_inner(c, e, k, found.narrow);
         else if (found.apart >> k & 1)
-            end_at_outer(c, e, k);
+            end_at_outer(c, e, k, found.narrow);
     }
     unsigned open = some & ~(found.odd | found.inner | found.apart);
     if (open) meet(c, e, open);
@@ -252,8 +255,8 @@ static void settle(const crowd *c, eight *e, unsigned some) {
 static void fill(eight *e) {
     octet_column *column = (octet_column *)&e->lanes;
     for (unsigned k = e->count; k < OCTET; k++) {
-        e->a[k] = e->a[0];
-        e->b[k] = e->b[0];
+        e->at.body_a[k] = e->at.body_a[0];
+        e->at.body_b[k] = e->at.body_b[0];
         for (int i = 0; i < OCTET_PLACED; i++) column[i].lane[k] = column[i].lane[0];
     }
 }
@@ -271,16 +274,17 @@ static void wait_for_others(const crowd *c, const eight *e, unsigned k) {
     eight *to = c->waiting;
     unsigned at = to->count++;
     to->index[at] = e->index[k];
-    to->a[at] = e->a[k];
-    to->b[at] = e->b[k];
+    to->at.body_a[at] = e->at.body_a[k];
+    to->at.body_b[at] = e->at.body_b[k];
     const octet_column *from = (const octet_column *)&e->lanes;
     octet_column *column = (octet_column *)&to->lanes;
     for (int i = 0; i < OCTET_PLACED; i++) column[i].lane[at] = from[i].lane[k];
     if (to->count == OCTET) settle_waiting(c);
 }
 
-// Couples ahead: first their bodies, later the beginning of their shapes. A batch of many bodies is bound by memory.
-enum { AHEAD = 16 };
+// Couples ahead: first their bodies, later the beginning of their shapes. A batch of many bodies is bound by memory;
+// fewer than MANY stay in the cache.
+enum { AHEAD = 16, MANY = 4096 };
 
 static void fetch_ahead(const ovoid_batch *batch, size_t first) {
     const ovoid_couple *couples = batch->couples;
@@ -299,36 +303,39 @@ static void fetch_ahead(const ovoid_batch *batch, size_t first) {
 }
 
 // A couple that the lanes are not for.
-static int is_unusual(const crowd *c, const eight *e, unsigned k) {
-    const ovoid_proof *proofs = c->batch->proofs;
-    return e->a[k]->shape->has_origin || e->b[k]->shape->has_origin || (proofs && !is_blank(&proofs[e->index[k]]));
+static unsigned is_unusual(const ovoid_batch *batch, size_t i, const ovoid_shape *a, const ovoid_shape *b) {
+    return (a->has_origin | b->has_origin) || (batch->proofs && !is_blank(&batch->proofs[i]));
 }
 
-// Couples first to first + count (at most 8), exclusive.
-static void take_eight(const crowd *c, size_t first, unsigned count) {
+// The couples from `first` on, `count` of them, at most 8. The lanes that have none are lane 0 again.
+static unsigned find_places(const crowd *c, size_t first, unsigned count, eight *e) {
     const ovoid_batch *batch = c->batch;
-    eight e;
-    octet_places rows;
-    e.count = count;
     unsigned odd = 0;
+    e->count = count;
     for (unsigned k = 0; k < OCTET; k++) {
-        e.index[k] = first + (k < count ? k : 0);
-        const ovoid_couple *couple = &batch->couples[e.index[k]];
-        e.a[k] = &batch->bodies[couple->a];
-        e.b[k] = &batch->bodies[couple->b];
-        OVOID_ASSERT(e.a[k]->shape && e.b[k]->shape);
-        rows.pose_a[k] = &e.a[k]->pose.position.x;
-        rows.pose_b[k] = &e.b[k]->pose.position.x;
-        rows.shape_a[k] = &e.a[k]->shape->reach;
-        rows.shape_b[k] = &e.b[k]->shape->reach;
-        odd |= (unsigned)is_unusual(c, &e, k) << k;
+        size_t i = first + (k < count ? k : 0);
+        const ovoid_body *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
+        OVOID_ASSERT(a->shape && b->shape);
+        e->index[k] = i;
+        e->at.body_a[k] = (const void *)a;
+        e->at.body_b[k] = (const void *)b;
+        e->at.shape_a[k] = (const void *)a->shape;
+        e->at.shape_b[k] = (const void *)b->shape;
+        odd |= is_unusual(batch, i, a->shape, b->shape) << k;
     }
-    octet_found found = c->kernels->place(&rows, &c->numbers, &e.lanes);
+    return odd;
+}
+
+static void take_eight(const crowd *c, size_t first, unsigned count) {
+    eight e;
+    unsigned odd = find_places(c, first, count, &e), all = (1u << count) - 1;
+    octet_found found = c->kernels->place(&e.at, &c->numbers, &e.lanes);
     odd |= found.odd;
-    unsigned all = (1u << count) - 1, apart = found.apart & ~odd & all, open = all & ~(odd | apart);
+    unsigned apart = found.apart & ~odd & all, open = all & ~(odd | apart);
     for (unsigned rest = odd & all; rest; rest &= rest - 1)
-        crowd_ask_single(batch, first + (unsigned)__builtin_ctz(rest), c->ask);
-    for (unsigned rest = apart; rest; rest &= rest - 1) end_at_spheres(c, &e, (unsigned)__builtin_ctz(rest));
+        crowd_ask_single(c->batch, first + (unsigned)__builtin_ctz(rest), c->ask);
+    for (unsigned rest = apart; rest; rest &= rest - 1)
+        end_at_spheres(c, &e, (unsigned)__builtin_ctz(rest), found.narrow);
     if (open == OCTET_ALL && !c->waiting->count) {
         settle(c, &e, open);
         return;
@@ -340,16 +347,17 @@ void crowd_run(const ovoid_batch *batch, question ask, const ovoid_options *opti
     eight waiting;
     waiting.count = 0;
     ask.iterations = options->iterations;
+    int wants_evidence = batch->answers || batch->proofs;
     crowd c = {batch,
                octet_get_kernels(),
                ask,
                {ask.far, options->absolute_tolerance, options->relative_tolerance, FRAME_GLANCE, FRAME_CLAIM,
-                OVOID_LENGTH_MIN, OVOID_LENGTH_MAX},
-               batch->answers || batch->proofs,
+                OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, wants_evidence},
+               wants_evidence,
                &waiting};
     for (size_t first = 0; first < batch->couple_count; first += OCTET) {
         size_t left = batch->couple_count - first;
-        fetch_ahead(batch, first);
+        if (batch->body_count >= MANY) fetch_ahead(batch, first);
         take_eight(&c, first, left < OCTET ? (unsigned)left : OCTET);
     }
     settle_waiting(&c);

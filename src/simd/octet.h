@@ -41,10 +41,10 @@ typedef struct octet {
 /// How many columns, from the first one on, `place` has filled.
 enum { OCTET_PLACED = 3 + 3 + 3 + 3 + 3 + 9 + 9 + 3 + 1 };
 
-/// Where the numbers of the eight pairs are. Pose: position xyz, rotation wxyz. Shape: reach, radius, centre xyz,
-/// extent, two others, first vertex xyz.
+/// Where the numbers of the eight pairs are. Body: a number that is not read, position xyz, rotation wxyz. Shape:
+/// reach, radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not read.
 typedef struct octet_places {
-    const double *pose_a[OCTET], *pose_b[OCTET], *shape_a[OCTET], *shape_b[OCTET];
+    const double *body_a[OCTET], *body_b[OCTET], *shape_a[OCTET], *shape_b[OCTET];
 } octet_places;
 
 /// The ellipsoids'. Outer: centre xyz, Q (xx xy xz yy yz zz), inner centre xyz. Inner: W (6), least radius, largest.
@@ -57,13 +57,15 @@ typedef struct octet_ask {
     double far, absolute, relative; ///< answered when lower > far; the tolerance, of the size
     double glance, claim;           ///< FRAME_GLANCE, FRAME_CLAIM
     double hidden, length_most;     ///< OVOID_LENGTH_MIN, OVOID_LENGTH_MAX
+    int keeps_all;                  ///< `place` fills its columns even where all lanes are apart
 } octet_ask;
 
 /// Masks of lanes.
 typedef struct octet_found {
-    unsigned odd;   ///< not computed: for the single query
-    unsigned inner; ///< a common point proves an overlap; lower, upper are its bounds
-    unsigned apart; ///< lower > far
+    unsigned odd;    ///< not computed: for the single query
+    unsigned inner;  ///< a common point proves an overlap; lower, upper are its bounds
+    unsigned apart;  ///< lower > far
+    unsigned narrow; ///< upper - lower is within the tolerance
 } octet_found;
 
 /// Kernels of one instruction set.

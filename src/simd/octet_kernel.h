@@ -26,27 +26,21 @@ LANES_INLINE void put9(octet_column *c, int at, lane9 m) {
     put3(c + 6, at, m.r2);
 }
 
-// The rows' numbers from `from` on, `count` (at most 8) of them, as columns.
+// The rows' numbers from `from` on, `count` (even) of them, as columns.
 #if LANES == 8
+// Two numbers of the even rows beside each other, and of the odd ones: a shuffle each makes columns of them.
+LANES_INLINE __m512d read_two(const double *const rows[OCTET], int first, int from) {
+    __m512 v = _mm512_castpd_ps(_mm512_castpd128_pd512(_mm_loadu_pd(rows[first] + from)));
+    v = _mm512_mask_broadcast_f32x4(v, 0x00f0, _mm_castpd_ps(_mm_loadu_pd(rows[first + 2] + from)));
+    v = _mm512_mask_broadcast_f32x4(v, 0x0f00, _mm_castpd_ps(_mm_loadu_pd(rows[first + 4] + from)));
+    v = _mm512_mask_broadcast_f32x4(v, 0xf000, _mm_castpd_ps(_mm_loadu_pd(rows[first + 6] + from)));
+    return _mm512_castps_pd(v);
+}
 LANES_INLINE void read_columns(const double *const rows[OCTET], int from, int count, octet_column *out) {
-    __mmask8 some = (__mmask8)((1u << count) - 1);
-    __m512d r[8], t[8];
-    for (int i = 0; i < 8; i++) r[i] = _mm512_maskz_loadu_pd(some, rows[i] + from);
-    // A transposition: pairs of numbers, then pairs of pairs, then halves.
-    for (int i = 0; i < 8; i += 2) {
-        t[i] = _mm512_unpacklo_pd(r[i], r[i + 1]);
-        t[i + 1] = _mm512_unpackhi_pd(r[i], r[i + 1]);
-    }
-    for (int i = 0; i < 8; i += 4)
-        for (int k = 0; k < 2; k++) {
-            r[i + k] = _mm512_shuffle_f64x2(t[i + k], t[i + k + 2], 0x88);
-            r[i + k + 2] = _mm512_shuffle_f64x2(t[i + k], t[i + k + 2], 0xdd);
-        }
-    // r[0]: numbers 0 and 4 of rows 0 to 3, and so on.
-    for (int k = 0; k < 4; k++) {
-        int number = (k & 1) + (k & 2);
-        if (number < count) _mm512_storeu_pd(out[number].lane, _mm512_shuffle_f64x2(r[k], r[k + 4], 0x88));
-        if (number + 4 < count) _mm512_storeu_pd(out[number + 4].lane, _mm512_shuffle_f64x2(r[k], r[k + 4], 0xdd));
+    for (int k = 0; k < count; k += 2) {
+        __m512d even = read_two(rows, 0, from + k), odd = read_two(rows, 1, from + k);
+        _mm512_store_pd(out[k].lane, _mm512_unpacklo_pd(even, odd));
+        _mm512_store_pd(out[k + 1].lane, _mm512_unpackhi_pd(even, odd));
     }
 }
 #else
@@ -78,59 +72,70 @@ LANES_INLINE lane_mask is_in_reach(lane3 p, double most) {
 
 // What is read of a body.
 typedef struct body_columns {
-    octet_column pose[7], head[6];
+    octet_column pose[8]; ///< what is before it, position, rotation
+    octet_column head[6];
+    octet_column first[4]; ///< vertex 0, what is behind it
 } body_columns;
 
 // frame_place, glance_at_spheres and the bounds of glance_write.
 LANES_INLINE octet_found place_lanes(const body_columns *a, const body_columns *b, const octet_ask *ask, octet *o,
                                      int at) {
-    lane3 origin = get3(a->pose, at), origin_b = get3(b->pose, at);
+    lane3 origin = get3(a->pose + 1, at), origin_b = get3(b->pose + 1, at);
     lane_mask good = lane_and(is_in_reach(origin, ask->length_most), is_in_reach(origin_b, ask->length_most));
-    lane9 world = make_rotation(a->pose + 3, at, &good), world_b = make_rotation(b->pose + 3, at, &good);
+    lane9 world = make_rotation(a->pose + 4, at, &good), world_b = make_rotation(b->pose + 4, at, &good);
     lane3 offset = lane3_sub(origin_b, origin);
     lane radii = get(a->head + 1, at) + get(b->head + 1, at), reach = get(a->head, at) + get(b->head, at);
     lane size = get(a->head + 5, at) + get(b->head + 5, at) + lane3_norm(offset) + radii;
-    put9(o->world_a, at, world);
-    put9(o->world_b, at, world_b);
-    put3(o->offset, at, offset);
-    put(&o->radii, at, radii);
-    put(&o->reach, at, reach);
-    put(&o->size, at, size);
 
     // The enclosing spheres.
     lane3 center_a = get3(a->head + 2, at), center_b = get3(b->head + 2, at);
-    put3(o->center_a, at, center_a);
-    put3(o->center_b, at, center_b);
     lane3 d = lane3_add(offset, lane3_sub(lane9_mul3(world_b, center_b), lane9_mul3(world, center_a)));
     lane claim = lane_set(ask->glance) * size + lane_set(3 * ask->hidden);
     lane lower = lane3_norm(d) - reach - radii - claim;
-    put(&o->lower, at, lower);
+    lane_mask apart = lane_and(good, lane_greater(lower, lane_set(ask->far)));
 
     // Any two vertices, for the upper bound.
-    lane3 first_a = lane9_mul3(world, get3(o->first_a, at)), first_b = lane9_mul3(world_b, get3(o->first_b, at));
-    lane3 any = lane3_add(offset, lane3_sub(first_b, first_a));
-    put(&o->upper, at, lane3_norm(any) - radii + claim);
-    lane relative = lane_set(ask->relative) * size;
-    put(&o->tolerance, at, lane_max(lane_set(ask->absolute), relative) + lane_set(8 * ask->hidden));
-    return (octet_found){lane_bits(lane_not(good)), 0,
-                         lane_bits(lane_and(good, lane_greater(lower, lane_set(ask->far))))};
+    lane3 first_a = get3(a->first, at), first_b = get3(b->first, at);
+    lane3 any = lane3_add(offset, lane3_sub(lane9_mul3(world_b, first_b), lane9_mul3(world, first_a)));
+    lane upper = lane3_norm(any) - radii + claim;
+    lane tolerance = lane_max(lane_set(ask->absolute), lane_set(ask->relative) * size) + lane_set(8 * ask->hidden);
+    put(&o->lower, at, lower);
+    put(&o->upper, at, upper);
+    octet_found found = {lane_bits(lane_not(good)), 0, lane_bits(apart),
+                         lane_bits(lane_at_most(upper - lower, tolerance))};
+    if (!ask->keeps_all && found.apart == (1u << LANES) - 1) return found;
+
+    // For those who go on.
+    put3(o->center_a, at, center_a);
+    put3(o->center_b, at, center_b);
+    put3(o->first_a, at, first_a);
+    put3(o->first_b, at, first_b);
+    put(&o->reach, at, reach);
+    put(&o->radii, at, radii);
+    put(&o->size, at, size);
+    put9(o->world_a, at, world);
+    put9(o->world_b, at, world_b);
+    put3(o->offset, at, offset);
+    put(&o->tolerance, at, tolerance);
+    return found;
 }
 
 static void add_found(octet_found *all, octet_found some, int at) {
     all->odd |= some.odd << at;
     all->inner |= some.inner << at;
     all->apart |= some.apart << at;
+    all->narrow |= some.narrow << at;
 }
 
 LANES_TARGET static octet_found place(const octet_places *from, const octet_ask *ask, octet *o) {
     body_columns a, b;
-    read_columns(from->pose_a, 0, 7, a.pose);
-    read_columns(from->pose_b, 0, 7, b.pose);
+    read_columns(from->body_a, 0, 8, a.pose);
+    read_columns(from->body_b, 0, 8, b.pose);
     read_columns(from->shape_a, 0, 6, a.head);
     read_columns(from->shape_b, 0, 6, b.head);
-    read_columns(from->shape_a, 8, 3, o->first_a);
-    read_columns(from->shape_b, 8, 3, o->first_b);
-    octet_found all = {0, 0, 0};
+    read_columns(from->shape_a, 8, 4, a.first);
+    read_columns(from->shape_b, 8, 4, b.first);
+    octet_found all = {0, 0, 0, 0};
     for (int at = 0; at < OCTET; at += LANES) add_found(&all, place_lanes(&a, &b, ask, o, at), at);
     return all;
 }
@@ -273,18 +278,17 @@ LANES_INLINE octet_found part_lanes(const ellipsoid_columns *a, const ellipsoid_
     put(&o->upper, at, upper);
     inner = lane_and(inner, good);
     lane_mask apart = lane_and(lane_and(good, lane_not(inner)), lane_greater(lower, lane_set(ask->far)));
-    return (octet_found){lane_bits(lane_not(good)), lane_bits(inner), lane_bits(apart)};
+    return (octet_found){lane_bits(lane_not(good)), lane_bits(inner), lane_bits(apart),
+                         lane_bits(lane_at_most(upper - lower, get(&o->tolerance, at)))};
 }
 
 LANES_TARGET static octet_found part(const octet_ellipsoids *from, const octet_ask *ask, octet *o) {
     ellipsoid_columns a, b;
-    read_columns(from->outer_a, 0, 8, a.outer);
-    read_columns(from->outer_a, 8, 4, a.outer + 8);
-    read_columns(from->outer_b, 0, 8, b.outer);
-    read_columns(from->outer_b, 8, 4, b.outer + 8);
+    read_columns(from->outer_a, 0, 12, a.outer);
+    read_columns(from->outer_b, 0, 12, b.outer);
     read_columns(from->inner_a, 0, 8, a.inner);
     read_columns(from->inner_b, 0, 8, b.inner);
-    octet_found all = {0, 0, 0};
+    octet_found all = {0, 0, 0, 0};
     for (int at = 0; at < OCTET; at += LANES) add_found(&all, part_lanes(&a, &b, ask, o, at), at);
     return all;
 }
