@@ -57,10 +57,15 @@ static inline sym3 sym3_rotate(sym3 s, mat3 r) {
                   vec3_dot(r.r1, b), vec3_dot(r.r2, b), vec3_dot(r.r2, c)};
 }
 
+/// The adjugate: the cofactors.
+static inline sym3 sym3_adjugate(sym3 s) {
+    return (sym3){s.yy * s.zz - s.yz * s.yz, s.xz * s.yz - s.xy * s.zz, s.xy * s.yz - s.xz * s.yy,
+                  s.xx * s.zz - s.xz * s.xz, s.xy * s.xz - s.xx * s.yz, s.xx * s.yy - s.xy * s.xy};
+}
+
 /// The inverse by cofactors; for well-scaled positive definite matrices.
 static inline sym3 sym3_inverse(sym3 s) {
-    sym3 c = {s.yy * s.zz - s.yz * s.yz, s.xz * s.yz - s.xy * s.zz, s.xy * s.yz - s.xz * s.yy,
-              s.xx * s.zz - s.xz * s.xz, s.xy * s.xz - s.xx * s.yz, s.xx * s.yy - s.xy * s.xy};
+    sym3 c = sym3_adjugate(s);
     double det = (s.xx * c.xx + s.xy * c.xy) + s.xz * c.xz;
     return sym3_scale(c, 1 / det);
 }

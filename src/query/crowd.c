@@ -5,7 +5,7 @@
 // scaled, a refused pose) is asked about alone, from the start.
 //
 // Every lane has the bits of the single query, so that nothing depends on which couples come together, and a batch may
-// be cut anywhere. Working memory: two eights on the stack, 14 KB.
+// be cut anywhere. Working memory: five eights on the stack, 26 KB.
 #include "query/crowd.h"
 
 #include "base/error.h"
@@ -29,8 +29,7 @@ _Static_assert(offsetof(ovoid_shape, inner) == offsetof(ovoid_shape, outer) + 9 
 typedef struct eight {
     size_t index[OCTET];
     octet_places at; ///< their bodies and shapes
-    octet lanes;
-    unsigned count; ///< lanes that are meant; the others repeat one of them
+    octet *lanes;
 } eight;
 
 typedef struct crowd {
@@ -39,7 +38,9 @@ typedef struct crowd {
     question ask; ///< without the tolerance, which is each couple's own
     octet_ask numbers;
     int wants_evidence; ///< answers or proofs, not only verdicts
-    eight *waiting;     ///< couples on their way to the ellipsoids
+    eight *waiting;     ///< couples on their way to the ellipsoids, OCTET_GROUP eights of them
+    octet *lanes;       ///< of these
+    unsigned waiting_count;
 } crowd;
 
 // No earlier proof: nothing in it could help.
@@ -82,7 +83,7 @@ static const ovoid_body *get_b(const eight *e, unsigned k) { return (const void 
 
 // The frame of a lane, as frame_place and frame_relate make it; the latter's part is meant after the ellipsoids only.
 static pair_frame get_frame(const eight *e, unsigned k) {
-    const octet *o = &e->lanes;
+    const octet *o = e->lanes;
     double size = o->size.lane[k], hidden = OVOID_LENGTH_MIN;
     return (pair_frame){get_a(e, k)->shape,
                         get_b(e, k)->shape,
@@ -101,13 +102,13 @@ static pair_frame get_frame(const eight *e, unsigned k) {
 
 static question get_ask(const crowd *c, const eight *e, unsigned k) {
     question ask = c->ask;
-    ask.tolerance = e->lanes.tolerance.lane[k];
+    ask.tolerance = e->lanes->tolerance.lane[k];
     return ask;
 }
 
 // The verdict of a stage that answered the question, from the lane's bounds.
 static void write_bounds(const crowd *c, const eight *e, unsigned k, ovoid_stage stage, unsigned narrow) {
-    double lower = e->lanes.lower.lane[k], upper = e->lanes.upper.lane[k];
+    double lower = e->lanes->lower.lane[k], upper = e->lanes->upper.lane[k];
     ovoid_status status = lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
     ovoid_limit wide = lower > c->ask.far ? c->ask.beyond : OVOID_LIMIT_ANSWERED;
     ovoid_limit limit = narrow >> k & 1 ? OVOID_LIMIT_NONE : wide;
@@ -156,9 +157,9 @@ static void end_at_inner(const crowd *c, const eight *e, unsigned k, unsigned na
     }
     pair_frame frame;
     search s = get_search(c, e, k, OVOID_STAGE_INNER, &frame);
-    s.upper = e->lanes.upper.lane[k];
+    s.upper = e->lanes->upper.lane[k];
     s.kind = OVOID_PROOF_INNER;
-    s.inner_a = get3(e->lanes.inner, k);
+    s.inner_a = get3(e->lanes->inner, k);
     end_search(c, e, k, &s);
 }
 
@@ -169,18 +170,18 @@ static void end_at_outer(const crowd *c, const eight *e, unsigned k, unsigned na
     }
     pair_frame frame;
     search s = get_search(c, e, k, OVOID_STAGE_OUTER, &frame);
-    s.lower = e->lanes.lower.lane[k];
-    s.normal = get3(e->lanes.n, k);
+    s.lower = e->lanes->lower.lane[k];
+    s.normal = get3(e->lanes->n, k);
     end_search(c, e, k, &s);
 }
 
 // After the supports: answered, or the exact search goes on from their corner.
 static void end_at_support(const crowd *c, const eight *e, unsigned k, uint32_t a, uint32_t b) {
-    double lower = e->lanes.lower.lane[k], upper = e->lanes.upper.lane[k];
+    double lower = e->lanes->lower.lane[k], upper = e->lanes->upper.lane[k];
     question ask = get_ask(c, e, k);
     int is_answered = question_is_answered(&ask, lower, upper);
     // Where radii overlap the single query looks a second time (stage_support).
-    if (is_answered && ask.wants_bracket && e->lanes.radii.lane[k] > 0) {
+    if (is_answered && ask.wants_bracket && e->lanes->radii.lane[k] > 0) {
         crowd_ask_single(c->batch, e->index[k], c->ask);
         return;
     }
@@ -190,9 +191,9 @@ static void end_at_support(const crowd *c, const eight *e, unsigned k, uint32_t 
     }
     pair_frame frame;
     search s = get_search(c, e, k, OVOID_STAGE_SUPPORT, &frame);
-    simplex start = {.p = {{get3(e->lanes.w, k), a, b}}, .weight = {1}, .count = 1};
+    simplex start = {.p = {{get3(e->lanes->w, k), a, b}}, .weight = {1}, .count = 1};
     s.lower = lower;
-    s.normal = get3(e->lanes.n, k);
+    s.normal = get3(e->lanes->n, k);
     s.upper = upper;
     s.kind = OVOID_PROOF_POINTS;
     s.witness = evidence_make(&start);
@@ -207,7 +208,7 @@ static void end_at_support(const crowd *c, const eight *e, unsigned k, uint32_t 
 
 // The supports along the ellipsoids' direction for the lanes of `open`.
 static void meet(const crowd *c, eight *e, unsigned open) {
-    octet *o = &e->lanes;
+    octet *o = e->lanes;
     uint32_t a[OCTET], b[OCTET];
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = (unsigned)__builtin_ctz(rest);
@@ -227,8 +228,7 @@ static void meet(const crowd *c, eight *e, unsigned open) {
     }
 }
 
-// From the placed lanes of `some` on, to their answers.
-static void settle(const crowd *c, eight *e, unsigned some) {
+static octet_ellipsoids find_ellipsoids(const eight *e) {
     octet_ellipsoids rows;
     for (unsigned k = 0; k < OCTET; k++) {
         const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
@@ -237,49 +237,57 @@ static void settle(const crowd *c, eight *e, unsigned some) {
         rows.inner_a[k] = a->inside.w;
         rows.inner_b[k] = b->inside.w;
     }
-    octet_found found = c->kernels->part(&rows, &c->numbers, &e->lanes);
+    return rows;
+}
+
+// From the ellipsoids to the answers.
+static void end_eight(const crowd *c, eight *e, unsigned some, const octet_found *found) {
     for (unsigned rest = some; rest; rest &= rest - 1) {
         unsigned k = (unsigned)__builtin_ctz(rest);
-        if (found.odd >> k & 1)
+        if (found->odd >> k & 1)
             crowd_ask_single(c->batch, e->index[k], c->ask);
-        else if (found.inner >> k & 1)
-            end_at_inner(c, e, k, found.narrow);
-        else if (found.apart >> k & 1)
-            end_at_outer(c, e, k, found.narrow);
+        else if (found->inner >> k & 1)
+            end_at_inner(c, e, k, found->narrow);
+        else if (found->apart >> k & 1)
+            end_at_outer(c, e, k, found->narrow);
     }
-    unsigned open = some & ~(found.odd | found.inner | found.apart);
+    unsigned open = some & ~(found->odd | found->inner | found->apart);
     if (open) meet(c, e, open);
 }
 
 // The lanes from `count` on repeat lane 0.
-static void fill(eight *e) {
-    octet_column *column = (octet_column *)&e->lanes;
-    for (unsigned k = e->count; k < OCTET; k++) {
+static void fill(eight *e, unsigned count) {
+    octet_column *column = (octet_column *)e->lanes;
+    for (unsigned k = count; k < OCTET; k++) {
         e->at.body_a[k] = e->at.body_a[0];
         e->at.body_b[k] = e->at.body_b[0];
         for (int i = 0; i < OCTET_PLACED; i++) column[i].lane[k] = column[i].lane[0];
     }
 }
 
-static void settle_waiting(const crowd *c) {
-    eight *e = c->waiting;
-    if (!e->count) return;
-    fill(e);
-    settle(c, e, (1u << e->count) - 1);
-    e->count = 0;
+// All that wait go on to their answers.
+static void settle(crowd *c) {
+    unsigned eights = (c->waiting_count + OCTET - 1) / OCTET, last = c->waiting_count % OCTET;
+    octet_ellipsoids rows[OCTET_GROUP];
+    octet_found found[OCTET_GROUP];
+    if (last) fill(&c->waiting[eights - 1], last);
+    for (unsigned i = 0; i < eights; i++) rows[i] = find_ellipsoids(&c->waiting[i]);
+    c->kernels->part(rows, &c->numbers, c->lanes, eights, found);
+    for (unsigned i = 0; i < eights; i++)
+        end_eight(c, &c->waiting[i], i + 1 == eights && last ? (1u << last) - 1 : OCTET_ALL, &found[i]);
+    c->waiting_count = 0;
 }
 
-// Lane k of e joins those that wait.
-static void wait_for_others(const crowd *c, const eight *e, unsigned k) {
-    eight *to = c->waiting;
-    unsigned at = to->count++;
+// Lane k of e joins those that wait; e may be the eight that it goes to.
+static void wait_for_others(crowd *c, const eight *e, unsigned k) {
+    eight *to = &c->waiting[c->waiting_count / OCTET];
+    unsigned at = c->waiting_count++ % OCTET;
     to->index[at] = e->index[k];
     to->at.body_a[at] = e->at.body_a[k];
     to->at.body_b[at] = e->at.body_b[k];
-    const octet_column *from = (const octet_column *)&e->lanes;
-    octet_column *column = (octet_column *)&to->lanes;
+    const octet_column *from = (const octet_column *)e->lanes;
+    octet_column *column = (octet_column *)to->lanes;
     for (int i = 0; i < OCTET_PLACED; i++) column[i].lane[at] = from[i].lane[k];
-    if (to->count == OCTET) settle_waiting(c);
 }
 
 // Couples ahead: first their bodies, later the beginning of their shapes. A batch of many bodies is bound by memory;
@@ -311,7 +319,6 @@ static unsigned is_unusual(const ovoid_batch *batch, size_t i, const ovoid_shape
 static unsigned find_places(const crowd *c, size_t first, unsigned count, eight *e) {
     const ovoid_batch *batch = c->batch;
     unsigned odd = 0;
-    e->count = count;
     for (unsigned k = 0; k < OCTET; k++) {
         size_t i = first + (k < count ? k : 0);
         const ovoid_body *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
@@ -326,26 +333,29 @@ static unsigned find_places(const crowd *c, size_t first, unsigned count, eight 
     return odd;
 }
 
-static void take_eight(const crowd *c, size_t first, unsigned count) {
-    eight e;
-    unsigned odd = find_places(c, first, count, &e), all = (1u << count) - 1;
-    octet_found found = c->kernels->place(&e.at, &c->numbers, &e.lanes);
+// Placed where they would wait, so that an eight that the spheres leave open stays there.
+static void take_eight(crowd *c, size_t first, unsigned count, eight *own) {
+    eight *e = c->waiting_count % OCTET ? own : &c->waiting[c->waiting_count / OCTET];
+    unsigned odd = find_places(c, first, count, e), all = (1u << count) - 1;
+    octet_found found = c->kernels->place(&e->at, &c->numbers, e->lanes);
     odd |= found.odd;
     unsigned apart = found.apart & ~odd & all, open = all & ~(odd | apart);
     for (unsigned rest = odd & all; rest; rest &= rest - 1)
         crowd_ask_single(c->batch, first + (unsigned)__builtin_ctz(rest), c->ask);
     for (unsigned rest = apart; rest; rest &= rest - 1)
-        end_at_spheres(c, &e, (unsigned)__builtin_ctz(rest), found.narrow);
-    if (open == OCTET_ALL && !c->waiting->count) {
-        settle(c, &e, open);
-        return;
-    }
-    for (; open; open &= open - 1) wait_for_others(c, &e, (unsigned)__builtin_ctz(open));
+        end_at_spheres(c, e, (unsigned)__builtin_ctz(rest), found.narrow);
+    if (open == OCTET_ALL && e != own)
+        c->waiting_count += OCTET;
+    else
+        for (; open; open &= open - 1) wait_for_others(c, e, (unsigned)__builtin_ctz(open));
+    // Room for another eight?
+    if (c->waiting_count > OCTET * (OCTET_GROUP - 1)) settle(c);
 }
 
 void crowd_run(const ovoid_batch *batch, question ask, const ovoid_options *options) {
-    eight waiting;
-    waiting.count = 0;
+    octet lanes[OCTET_GROUP + 1];
+    eight eights[OCTET_GROUP + 1];
+    for (unsigned i = 0; i <= OCTET_GROUP; i++) eights[i].lanes = &lanes[i];
     ask.iterations = options->iterations;
     int wants_evidence = batch->answers || batch->proofs;
     crowd c = {batch,
@@ -354,11 +364,13 @@ void crowd_run(const ovoid_batch *batch, question ask, const ovoid_options *opti
                {ask.far, options->absolute_tolerance, options->relative_tolerance, FRAME_GLANCE, FRAME_CLAIM,
                 OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, wants_evidence},
                wants_evidence,
-               &waiting};
+               eights,
+               lanes,
+               0};
     for (size_t first = 0; first < batch->couple_count; first += OCTET) {
         size_t left = batch->couple_count - first;
         if (batch->body_count >= MANY) fetch_ahead(batch, first);
-        take_eight(&c, first, left < OCTET ? (unsigned)left : OCTET);
+        take_eight(&c, first, left < OCTET ? (unsigned)left : OCTET, &eights[OCTET_GROUP]);
     }
-    settle_waiting(&c);
+    if (c.waiting_count) settle(&c);
 }

@@ -51,32 +51,50 @@ double ellipsoid_compute_spread(sym3 q, vec3 n) {
     return max2(sym3_quadratic(q, n), 0) + 256 * 0x1p-53 * sym3_trace(q);
 }
 
+// Lengths whose 14th power neither over- nor underflows.
+static int is_moderate(double trace_a, double trace_b, double square) {
+    double most = max2(max2(trace_a, trace_b), square);
+    return most > 1e-30 && most < 1e30;
+}
+
+// The matrix is scaled by sA sB, and its adjugate taken for its inverse: neither changes the direction, and the
+// division is left out. n of a body without extent, whose s is 0, is decided by the other.
+static vec3 find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
+    vec3 n = vec3_unit(d);
+    for (int round = 0;; round++) {
+        double sa = sqrt(ellipsoid_compute_spread(qa, n)), sb = sqrt(ellipsoid_compute_spread(qb, n));
+        double apart = vec3_dot(n, d) - sa - sb;
+        *gap = apart;
+        if (round == 2 || !(sa + sb > 0)) return n;
+        double ta = sa > 0 ? sa : sb, tb = sb > 0 ? sb : sa;
+        sym3 m = sym3_add(sym3_scale(qa, tb), sym3_scale(qb, ta));
+        // The nearest points' distance is on the diagonal: x_b - x_a = d - m n = distance n. Flat bodies of one plane:
+        // a little thickness keeps the matrix regular, the direction is only a proposal.
+        double thickness = max2(apart * (ta * tb), 1e-9 * sym3_trace(m));
+        m.xx += thickness;
+        m.yy += thickness;
+        m.zz += thickness;
+        vec3 next = vec3_unit(sym3_mul_vec3(sym3_adjugate(m), d));
+        // Rounding may have spoiled a thin matrix: its inverse leads no more from A to B.
+        if (!(vec3_dot(next, d) > 0)) return n;
+        n = next;
+    }
+}
+
 vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
+    double square = vec3_norm_squared(d);
     // Concentric ellipsoids: nothing separates them, any direction will do.
-    if (!(vec3_norm_squared(d) > 0)) {
+    if (!(square > 0)) {
         *gap = -INFINITY;
         return (vec3){1, 0, 0};
     }
-    vec3 n = vec3_unit(d);
-    double sa = 0, sb = 0, apart = 0;
-    for (int round = 0; round < 3; round++) {
-        sa = sqrt(ellipsoid_compute_spread(qa, n));
-        sb = sqrt(ellipsoid_compute_spread(qb, n));
-        apart = vec3_dot(n, d) - sa - sb;
-        if (round == 2 || !(sa + sb > 0)) break;
-        sym3 m = {0, 0, 0, 0, 0, 0};
-        if (sa > 0) m = sym3_add(m, sym3_scale(qa, 1 / sa));
-        if (sb > 0) m = sym3_add(m, sym3_scale(qb, 1 / sb));
-        // The nearest points' distance is on the diagonal: x_b - x_a = d - m n = distance n. Flat bodies of one plane:
-        // a little thickness keeps the matrix regular, the direction is only a proposal.
-        double thickness = max2(apart, 1e-9 * sym3_trace(m));
-        vec3 next;
-        if (!sym3_solve(sym3_add(m, sym3_diagonal(thickness, thickness, thickness)), d, &next)) break;
-        next = vec3_unit(next);
-        if (!vec3_is_finite(next) || !(vec3_norm_squared(next) > 0)) break;
-        n = next;
-    }
-    *gap = apart;
+    if (is_moderate(sym3_trace(qa), sym3_trace(qb), square)) return find_direction(qa, qb, d, gap);
+    // In units of a power of two near the pair's size, which changes no digit.
+    int e = find_unit_exponent(sqrt(max2(max2(sym3_trace(qa), sym3_trace(qb)), square)));
+    double down = ldexp(1, -e);
+    vec3 n = find_direction(sym3_scale(sym3_scale(qa, down), down), sym3_scale(sym3_scale(qb, down), down),
+                            vec3_scale(d, down), gap);
+    *gap = *gap * ldexp(1, e);
     return n;
 }
 

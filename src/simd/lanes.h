@@ -135,9 +135,9 @@ LANES_INLINE lane6 lane6_add(lane6 a, lane6 b) {
 LANES_INLINE lane6 lane6_scale(lane6 a, lane s) {
     return (lane6){a.xx * s, a.xy * s, a.xz * s, a.yy * s, a.yz * s, a.zz * s};
 }
-LANES_INLINE lane6 lane6_select(lane_mask m, lane6 yes, lane6 no) {
-    return (lane6){lane_select(m, yes.xx, no.xx), lane_select(m, yes.xy, no.xy), lane_select(m, yes.xz, no.xz),
-                   lane_select(m, yes.yy, no.yy), lane_select(m, yes.yz, no.yz), lane_select(m, yes.zz, no.zz)};
+LANES_INLINE lane6 lane6_adjugate(lane6 s) {
+    return (lane6){s.yy * s.zz - s.yz * s.yz, s.xz * s.yz - s.xy * s.zz, s.xy * s.yz - s.xz * s.yy,
+                   s.xx * s.zz - s.xz * s.xz, s.xy * s.xz - s.xx * s.yz, s.xx * s.yy - s.xy * s.xy};
 }
 /// R S R'
 LANES_INLINE lane6 lane6_rotate(lane6 s, lane9 r) {

@@ -10,7 +10,7 @@
 
 #include "simd/support.h"
 
-enum { OCTET = 8, OCTET_ALL = 0xff };
+enum { OCTET = 8, OCTET_ALL = 0xff, OCTET_GROUP = 4 };
 
 /// A number of each of the eight pairs.
 typedef struct octet_column {
@@ -72,8 +72,9 @@ typedef struct octet_found {
 typedef struct octet_kernels {
     /// Both bodies in the world, and the enclosing spheres: lower, upper.
     octet_found (*place)(const octet_places *from, const octet_ask *ask, octet *o);
-    /// B in the frame of A, inner and outer ellipsoids: lower, upper of those; the direction of the rest.
-    octet_found (*part)(const octet_ellipsoids *from, const octet_ask *ask, octet *o);
+    /// B in the frame of A, inner and outer ellipsoids: lower, upper of those; the direction of the rest. For `count`
+    /// eights, at most OCTET_GROUP: together they are faster.
+    void (*part)(const octet_ellipsoids *from, const octet_ask *ask, octet *o, unsigned count, octet_found *found);
     /// The bounds of the supports' gap and of their difference w.
     void (*meet)(octet *o);
 } octet_kernels;

@@ -17,6 +17,14 @@ LANES_INLINE void put3(octet_column *c, int at, lane3 v) {
 LANES_INLINE lane6 get6(const octet_column *c, int at) {
     return (lane6){get(c, at), get(c + 1, at), get(c + 2, at), get(c + 3, at), get(c + 4, at), get(c + 5, at)};
 }
+LANES_INLINE void put6(octet_column *c, int at, lane6 v) {
+    put(c, at, v.xx);
+    put(c + 1, at, v.xy);
+    put(c + 2, at, v.xz);
+    put(c + 3, at, v.yy);
+    put(c + 4, at, v.yz);
+    put(c + 5, at, v.zz);
+}
 LANES_INLINE lane9 get9(const octet_column *c, int at) {
     return (lane9){get3(c, at), get3(c + 3, at), get3(c + 6, at)};
 }
@@ -141,11 +149,9 @@ LANES_TARGET static octet_found place(const octet_places *from, const octet_ask 
 }
 
 // ---- ellipsoids
-
-// What is read of a shape: outer centre and Q, inner centre, W and the least and largest radius.
-typedef struct ellipsoid_columns {
-    octet_column outer[12], inner[8];
-} ellipsoid_columns;
+//
+// The steps are long chains of divisions and roots, each waiting for the one before. So each step is done for all
+// eights before the next one begins: while one waits, others go on.
 
 // B in the frame of A.
 typedef struct related {
@@ -154,7 +160,38 @@ typedef struct related {
     lane radii, claim;
 } related;
 
+// What the steps hand on.
+typedef struct part_work {
+    octet_column qa[6], qb[6], d[3], gap; ///< the outer ellipsoids, B's turned into the frame; between their centres
+    octet_column inner_upper;
+    octet_column good;     ///< a mask, 1 or 0: of the ways so far
+    octet_column is_inner; ///< likewise: decided by the inner ellipsoids
+    int is_open;           ///< 1: not all lanes are
+} part_work;
+
+LANES_INLINE related get_related(const octet *o, int at) {
+    return (related){get9(o->rotation, at), get3(o->translation, at), get(&o->radii, at), get(&o->claim, at)};
+}
 LANES_INLINE lane3 get_b(const related *f, lane3 x) { return lane3_add(lane9_mul3(f->rotation, x), f->translation); }
+
+LANES_INLINE lane_mask get_mask(const octet_column *c, int at) { return lane_greater(get(c, at), lane_set(0)); }
+LANES_INLINE void put_mask(octet_column *c, int at, lane_mask m) {
+    put(c, at, lane_select(m, lane_set(1), lane_set(0)));
+}
+
+// frame_relate, and the outer ellipsoids in the frame. columns: outer centre and Q of A, then of B.
+LANES_INLINE void relate(const octet_column *a, const octet_column *b, const octet_ask *ask, octet *o, part_work *w,
+                         int at) {
+    lane9 world = get9(o->world_a, at);
+    related f = {lane9_mul_transposed(world, get9(o->world_b, at)), lane9_mul3_transposed(world, get3(o->offset, at)),
+                 get(&o->radii, at), lane_set(ask->claim) * get(&o->size, at) + lane_set(2 * ask->hidden)};
+    put9(o->rotation, at, f.rotation);
+    put3(o->translation, at, f.translation);
+    put(&o->claim, at, f.claim);
+    put3(w->d, at, lane3_sub(get_b(&f, get3(b, at)), get3(a, at)));
+    put6(w->qa, at, get6(a + 3, at));
+    put6(w->qb, at, lane6_rotate(get6(b + 3, at), f.rotation));
+}
 
 // norm_of in inner.c.
 LANES_INLINE lane norm_of(const octet_column *w, lane3 y, int at) {
@@ -163,25 +200,28 @@ LANES_INLINE lane norm_of(const octet_column *w, lane3 y, int at) {
     return lane3_norm(v);
 }
 
-// norm_in there.
-LANES_INLINE lane norm_in(const ellipsoid_columns *s, lane3 x, lane error, int at) {
-    return norm_of(s->inner, lane3_sub(x, get3(s->outer + 9, at)), at) * lane_set(1 + 1e-6) +
-           error / get(s->inner + 6, at);
+// norm_in there, of a point without an error.
+LANES_INLINE lane norm_in(const octet_column *w, lane3 center, lane3 x, int at) {
+    return norm_of(w, lane3_sub(x, center), at) * lane_set(1 + 1e-6);
 }
 
+// What is read of an inner ellipsoid: its centre; W, the least radius, the largest.
+typedef struct inner_columns {
+    octet_column center[4], w[8];
+} inner_columns;
+
 // inner_find_common and inner_compute_upper: the lanes with a proven common point x; its upper bound.
-LANES_INLINE lane_mask find_common(const ellipsoid_columns *a, const ellipsoid_columns *b, const related *f, int at,
-                                   lane3 *x, lane *upper) {
-    lane zero = lane_set(0);
-    lane least_a = get(a->inner + 6, at), least_b = get(b->inner + 6, at);
-    lane reach = get(a->inner + 7, at) + get(b->inner + 7, at);
-    lane3 center = get3(a->outer + 9, at), d = lane3_sub(get_b(f, get3(b->outer + 9, at)), center);
+LANES_INLINE lane_mask find_common(const inner_columns *a, const inner_columns *b, const related *f, int at, lane3 *x,
+                                   lane *upper) {
+    lane zero = lane_set(0), least_a = get(a->w + 6, at), least_b = get(b->w + 6, at);
+    lane reach = get(a->w + 7, at) + get(b->w + 7, at);
+    lane3 center = get3(a->center, at), center_b = get3(b->center, at), d = lane3_sub(get_b(f, center_b), center);
     lane_mask near = lane_and(lane_greater(least_a, zero), lane_greater(least_b, zero));
     near = lane_and(near, lane_less(lane3_dot(d, d), reach * reach));
     if (!lane_bits(near)) return near;
 
     // The point on the line of centres, or the centre itself.
-    lane ka = norm_of(a->inner, d, at), kb = norm_of(b->inner, lane9_mul3_transposed(f->rotation, d), at);
+    lane ka = norm_of(a->w, d, at), kb = norm_of(b->w, lane9_mul3_transposed(f->rotation, d), at);
     lane_mask between = lane_less(ka * kb, lane_set(0.999) * (ka + kb));
     lane_mask same = lane_not(lane_greater(ka, zero));
     *x = lane3_select(between, lane3_add_scaled(center, d, kb / (ka + kb)), center);
@@ -189,48 +229,10 @@ LANES_INLINE lane_mask find_common(const ellipsoid_columns *a, const ellipsoid_c
     // How far inside both?
     lane3 in_b = lane9_mul3_transposed(f->rotation, lane3_sub(*x, f->translation));
     lane one = lane_set(1), most = lane_set(1 - 1e-5);
-    lane na = norm_in(a, *x, zero, at), nb = norm_in(b, in_b, f->claim, at);
+    lane na = norm_in(a->w, center, *x, at), nb = norm_in(b->w, center_b, in_b, at) + f->claim / least_b;
     *upper = lane_set(-0.999) * ((one - na) * least_a + (one - nb) * least_b) - f->radii;
     lane_mask inside = lane_and(lane_less(na, most), lane_less(nb, most));
     return lane_and(lane_and(near, lane_or(between, same)), lane_and(inside, lane_less(*upper, zero)));
-}
-
-// ellipsoid_compute_spread in stages.c.
-LANES_INLINE lane compute_spread(lane6 q, lane3 n) {
-    return lane_max(lane3_dot(n, lane6_mul3(q, n)), lane_set(0)) + lane_set(256 * 0x1p-53) * lane6_trace(q);
-}
-
-// sym3_solve. *good loses the lanes where a pivot is not positive.
-LANES_INLINE lane3 solve(lane6 s, lane3 b, lane_mask *good) {
-    lane zero = lane_set(0), l10 = s.xy / s.xx, l20 = s.xz / s.xx;
-    lane d1 = s.yy - l10 * s.xy, e = s.yz - l10 * s.xz, l21 = e / d1;
-    lane d2 = s.zz - l20 * s.xz - l21 * e;
-    lane_mask positive = lane_and(lane_greater(s.xx, zero), lane_greater(d1, zero));
-    *good = lane_and(*good, lane_and(positive, lane_greater(d2, zero)));
-    lane y1 = b.y - l10 * b.x, y2 = b.z - l20 * b.x - l21 * y1;
-    lane z = y2 / d2, y = y1 / d1 - l21 * z;
-    return (lane3){b.x / s.xx - l10 * y - l20 * z, y, z};
-}
-
-// ellipsoids_find_direction. *good loses the lanes that leave its loop early.
-LANES_INLINE lane3 find_direction(lane6 qa, lane6 qb, lane3 d, lane *gap, lane_mask *good) {
-    lane zero = lane_set(0), one = lane_set(1);
-    const lane6 nothing = {zero, zero, zero, zero, zero, zero};
-    lane3 n = lane3_unit(d, good);
-    for (int round = 0;; round++) {
-        lane sa = lane_sqrt(compute_spread(qa, n)), sb = lane_sqrt(compute_spread(qb, n));
-        *gap = lane3_dot(n, d) - sa - sb;
-        if (round == 2) return n;
-        // A sum that starts from +0 is never -0, so what the single query leaves out may be added as +0.
-        lane6 m = lane6_select(lane_greater(sa, zero), lane6_scale(qa, one / sa), nothing);
-        m = lane6_add(lane6_add(nothing, m), lane6_select(lane_greater(sb, zero), lane6_scale(qb, one / sb), nothing));
-        *good = lane_and(*good, lane_greater(sa + sb, zero));
-        lane thickness = lane_max(*gap, lane_set(1e-9) * lane6_trace(m));
-        m.xx = m.xx + thickness;
-        m.yy = m.yy + thickness;
-        m.zz = m.zz + thickness;
-        n = lane3_unit(solve(m, d, good), good);
-    }
 }
 
 // The gap of the enclosing spheres along the line of centres (take_spheres in answer.c).
@@ -239,65 +241,108 @@ LANES_INLINE lane compute_spheres(const octet *o, const related *f, int at, lane
     return lane3_dot(lane3_unit(d, good), d) - get(&o->reach, at) - f->radii - f->claim;
 }
 
-LANES_INLINE octet_found part_lanes(const ellipsoid_columns *a, const ellipsoid_columns *b, const octet_ask *ask,
-                                    octet *o, int at) {
-    // frame_relate.
-    lane9 world = get9(o->world_a, at);
-    related f = {lane9_mul_transposed(world, get9(o->world_b, at)), lane9_mul3_transposed(world, get3(o->offset, at)),
-                 get(&o->radii, at), lane_set(ask->claim) * get(&o->size, at) + lane_set(2 * ask->hidden)};
-    put9(o->rotation, at, f.rotation);
-    put3(o->translation, at, f.translation);
-    put(&o->claim, at, f.claim);
-
-    // Inner ellipsoids: a common point; the lower bound is that of the spheres.
-    lane zero = lane_set(0), lower = zero, upper = zero;
+// Inner ellipsoids: a common point; the lower bound is that of the spheres.
+LANES_INLINE unsigned look_inside(const inner_columns *a, const inner_columns *b, octet *o, part_work *w, int at) {
+    related f = get_related(o, at);
+    lane zero = lane_set(0), upper = zero;
     lane3 x = {zero, zero, zero};
     lane_mask good = lane_at_least(zero, zero), inner = find_common(a, b, &f, at, &x, &upper);
     if (lane_bits(inner)) {
-        lane_mask known = good;
-        lower = compute_spheres(o, &f, at, &known);
-        good = lane_or(known, lane_not(inner));
+        put(&o->lower, at, compute_spheres(o, &f, at, &good));
+        put(&w->inner_upper, at, upper);
         put3(o->inner, at, x);
     }
+    put_mask(&w->good, at, lane_or(good, lane_not(inner)));
+    put_mask(&w->is_inner, at, inner);
+    return lane_bits(inner);
+}
 
-    // Outer ellipsoids; the upper bound is that of any two vertices.
-    if (lane_bits(lane_not(inner))) {
-        lane gap;
-        lane_mask solved = good;
-        lane3 d = lane3_sub(get_b(&f, get3(b->outer, at)), get3(a->outer, at));
-        lane3 n =
-            find_direction(get6(a->outer + 3, at), lane6_rotate(get6(b->outer + 3, at), f.rotation), d, &gap, &solved);
-        put3(o->n, at, n);
-        put3(o->low, at, lane3_neg(lane9_mul3_transposed(f.rotation, n)));
-        lane3 any = lane3_sub(get_b(&f, get3(o->first_b, at)), get3(o->first_a, at));
-        lower = lane_select(inner, lower, gap - f.radii - f.claim);
-        upper = lane_select(inner, upper, lane3_norm(any) - f.radii + f.claim);
-        good = lane_and(good, lane_or(inner, solved));
-    }
+// ellipsoid_compute_spread in stages.c.
+LANES_INLINE lane compute_spread(lane6 q, lane3 n) {
+    return lane_max(lane3_dot(n, lane6_mul3(q, n)), lane_set(0)) + lane_set(256 * 0x1p-53) * lane6_trace(q);
+}
+
+// ellipsoids_find_direction, a piece at a time: the line of centres; a round, whose direction is not unit yet. The mask
+// loses the lanes that are scaled there, or leave its loop early.
+LANES_INLINE void start_direction(octet *o, part_work *w, int at) {
+    lane3 d = get3(w->d, at);
+    lane square = lane3_dot(d, d), most = lane_max(lane6_trace(get6(w->qa, at)), lane6_trace(get6(w->qb, at)));
+    most = lane_max(most, square);
+    lane_mask good = lane_and(lane_greater(most, lane_set(1e-30)), lane_less(most, lane_set(1e30)));
+    put3(o->n, at, lane3_unit(d, &good));
+    put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, get_mask(&w->is_inner, at))));
+}
+
+LANES_INLINE void turn_direction(octet *o, part_work *w, int is_last, int at) {
+    lane3 n = get3(o->n, at), d = get3(w->d, at);
+    lane6 qa = get6(w->qa, at), qb = get6(w->qb, at);
+    lane zero = lane_set(0), sa = lane_sqrt(compute_spread(qa, n)), sb = lane_sqrt(compute_spread(qb, n));
+    lane apart = lane3_dot(n, d) - sa - sb;
+    put(&w->gap, at, apart);
+    if (is_last) return;
+    lane_mask good = lane_greater(sa + sb, zero);
+    lane ta = lane_select(lane_greater(sa, zero), sa, sb), tb = lane_select(lane_greater(sb, zero), sb, sa);
+    lane6 m = lane6_add(lane6_scale(qa, tb), lane6_scale(qb, ta));
+    lane thickness = lane_max(apart * (ta * tb), lane_set(1e-9) * lane6_trace(m));
+    m.xx = m.xx + thickness;
+    m.yy = m.yy + thickness;
+    m.zz = m.zz + thickness;
+    n = lane3_unit(lane6_mul3(lane6_adjugate(m), d), &good);
+    good = lane_and(good, lane_greater(lane3_dot(n, d), zero));
+    put3(o->n, at, n);
+    put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, get_mask(&w->is_inner, at))));
+}
+
+// Outer ellipsoids; the upper bound is that of any two vertices.
+LANES_INLINE octet_found end_part(octet *o, const part_work *w, const octet_ask *ask, int at) {
+    related f = get_related(o, at);
+    put3(o->low, at, lane3_neg(lane9_mul3_transposed(f.rotation, get3(o->n, at))));
+    lane3 any = lane3_sub(get_b(&f, get3(o->first_b, at)), get3(o->first_a, at));
+    lane_mask good = get_mask(&w->good, at), inner = lane_and(get_mask(&w->is_inner, at), good);
+    lane lower = lane_select(inner, get(&o->lower, at), get(&w->gap, at) - f.radii - f.claim);
+    lane upper = lane_select(inner, get(&w->inner_upper, at), lane3_norm(any) - f.radii + f.claim);
     put(&o->lower, at, lower);
     put(&o->upper, at, upper);
-    inner = lane_and(inner, good);
     lane_mask apart = lane_and(lane_and(good, lane_not(inner)), lane_greater(lower, lane_set(ask->far)));
     return (octet_found){lane_bits(lane_not(good)), lane_bits(inner), lane_bits(apart),
                          lane_bits(lane_at_most(upper - lower, get(&o->tolerance, at)))};
 }
 
-LANES_TARGET static octet_found part(const octet_ellipsoids *from, const octet_ask *ask, octet *o) {
-    ellipsoid_columns a, b;
-    read_columns(from->outer_a, 0, 12, a.outer);
-    read_columns(from->outer_b, 0, 12, b.outer);
-    read_columns(from->inner_a, 0, 8, a.inner);
-    read_columns(from->inner_b, 0, 8, b.inner);
-    octet_found all = {0, 0, 0, 0};
-    for (int at = 0; at < OCTET; at += LANES) add_found(&all, part_lanes(&a, &b, ask, o, at), at);
-    return all;
+LANES_TARGET static void start_part(const octet_ellipsoids *from, const octet_ask *ask, octet *o, part_work *w) {
+    octet_column outer_a[10], outer_b[10];
+    inner_columns a, b;
+    read_columns(from->outer_a, 0, 10, outer_a);
+    read_columns(from->outer_b, 0, 10, outer_b);
+    for (int at = 0; at < OCTET; at += LANES) relate(outer_a, outer_b, ask, o, w, at);
+    // The tenth number is the first one of the inner centre, which follows.
+    read_columns(from->outer_a, 9, 4, a.center);
+    read_columns(from->outer_b, 9, 4, b.center);
+    read_columns(from->inner_a, 0, 8, a.w);
+    read_columns(from->inner_b, 0, 8, b.w);
+    unsigned inner = 0;
+    for (int at = 0; at < OCTET; at += LANES) inner |= look_inside(&a, &b, o, w, at) << at;
+    w->is_open = inner != OCTET_ALL;
+    for (int at = 0; at < OCTET && w->is_open; at += LANES) start_direction(o, w, at);
+}
+
+LANES_TARGET static void part(const octet_ellipsoids *from, const octet_ask *ask, octet *o, unsigned count,
+                              octet_found *found) {
+    part_work w[OCTET_GROUP];
+    for (unsigned i = 0; i < count; i++) start_part(&from[i], ask, &o[i], &w[i]);
+    for (int round = 0; round < 3; round++)
+        for (unsigned i = 0; i < count; i++)
+            for (int at = 0; at < OCTET && w[i].is_open; at += LANES) turn_direction(&o[i], &w[i], round == 2, at);
+    for (unsigned i = 0; i < count; i++) {
+        found[i] = (octet_found){0, 0, 0, 0};
+        for (int at = 0; at < OCTET; at += LANES) add_found(&found[i], end_part(&o[i], &w[i], ask, at), at);
+    }
 }
 
 // ---- supports
 
 // stage_support: the gap along n, and the length of the difference.
 LANES_INLINE void meet_lanes(octet *o, int at) {
-    related f = {get9(o->rotation, at), get3(o->translation, at), get(&o->radii, at), get(&o->claim, at)};
+    related f = get_related(o, at);
     lane gap = lane3_dot(get3(o->n, at), f.translation) - get(&o->low_value, at) - get(&o->high_value, at);
     lane3 w = lane3_sub(get_b(&f, get3(o->vertex_b, at)), get3(o->vertex_a, at));
     put3(o->w, at, w);
