@@ -1,5 +1,5 @@
 #!/bin/sh
-# bits.sh: the same bits from every build? Builds the core and tests/test_query_bits.c with gcc and clang, each at -O0 to
+# bits.sh: the same bits from every build? Builds the core, tests/test_query_bits.c and tests/test_motion_bits.c with gcc and clang, each at -O0 to
 # -O3, for this machine's own instructions, with fused operations to be had, and linked as one; runs each, and compares
 # what they print. No core may hold a fused multiply-add: contraction is off, but compilers have forgotten. A compiler that
 # is not there is skipped. A line for each build; exit 1 where one differs, with its families. Some minutes on two cores.
@@ -13,7 +13,7 @@ build() {
     name=$1 compiler=$2
     shift 2
     cmake -S . -B $folder/"$name" -DCMAKE_C_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS="$*" -DOVOID_IO=OFF \
-        >$folder/"$name".log 2>&1 && cmake --build $folder/"$name" --target test_query_bits >>$folder/"$name".log 2>&1
+        >$folder/"$name".log 2>&1 && cmake --build $folder/"$name" --target test_query_bits test_motion_bits >>$folder/"$name".log 2>&1
 }
 
 # Functions of the core that hold fused operations.
@@ -26,6 +26,7 @@ check() {
     word=ok
     [ -f $folder/first ] || word=first
     $folder/"$1"/tests/test_query_bits --print >$folder/"$1".txt 2>&1 || word=FAILED
+    $folder/"$1"/tests/test_motion_bits --print >>$folder/"$1".txt 2>&1 || word=FAILED
     find_fused $folder/"$1"/src/libovoid.a >>$folder/"$1".txt 2>/dev/null
     [ $word != first ] || cp $folder/"$1".txt $folder/first
     cmp -s $folder/first $folder/"$1".txt && ! grep -q '^fused' $folder/"$1".txt || word=FAILED

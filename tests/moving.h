@@ -17,26 +17,34 @@ typedef struct moving_case {
     double size; ///< a length about as large as the bodies
 } moving_case;
 
+/// A random pose: C leaves open in which order an expression's calls are made, so each call is a statement.
+static inline ovoid_pose moving_make_pose(uint64_t *s, double scale) {
+    ovoid_vec3 position = bits_vec3(s, scale);
+    ovoid_quat rotation = bits_quat(s);
+    return (ovoid_pose){position, rotation};
+}
+
 static inline ovoid_vec3 moving_scaled(ovoid_vec3 v, double s) { return (ovoid_vec3){v.x * s, v.y * s, v.z * s}; }
 
 /// One body's motion, from about `at`, 2 bodies' sizes about.
 static inline void moving_set_motion(moving_case *c, int which, ovoid_vec3 at, uint64_t *s) {
     ovoid_moving *m = which ? &c->b : &c->a;
-    ovoid_pose start = {at, bits_quat(s)}, end = {bits_vec3(s, 3 * c->size), bits_quat(s)};
+    ovoid_pose start = {at, bits_quat(s)}, end = moving_make_pose(s, 3 * c->size);
+    ovoid_vec3 linear = bits_vec3(s, 4 * c->size), pivot = bits_vec3(s, c->size);
     double spin = moving_spins[random_next(s) % 4];
     switch (random_next(s) % 4) {
     case 0: m->motion = ovoid_motion_make_still(start); break;
     case 1: m->motion = ovoid_motion_make_poses(start, end, 1); break;
     case 2:
-        for (int i = 0; i < 4; i++) c->poses[which][i] = (ovoid_pose){bits_vec3(s, 3 * c->size), bits_quat(s)};
+        for (int i = 0; i < 4; i++) c->poses[which][i] = moving_make_pose(s, 3 * c->size);
         m->motion = ovoid_motion_make_path(c->times, c->poses[which], 4);
         break;
     default:
-        m->motion = ovoid_motion_make_velocity(start, bits_vec3(s, 4 * c->size), bits_vec3(s, spin), 1);
-        if (random_next(s) % 2) m->motion.pivot = bits_vec3(s, c->size);
+        m->motion = ovoid_motion_make_velocity(start, linear, bits_vec3(s, spin), 1);
+        if (random_next(s) % 2) m->motion.pivot = pivot;
         c->spin = fmax(c->spin, spin);
     }
-    if (random_next(s) % 4 == 0) m->part = (ovoid_pose){bits_vec3(s, c->size), bits_quat(s)};
+    if (random_next(s) % 4 == 0) m->part = moving_make_pose(s, c->size);
 }
 
 /// A pair of bodies that move from time 0 to 1.

@@ -15,8 +15,10 @@ static void make(machine *m, uint64_t *s, uint32_t count) {
     ovoid_body parts[PARTS];
     for (int i = 0; i < 3; i++)
         m->shapes[i] = bits_make_shape(i == 0 ? BITS_BALL : i == 1 ? BITS_NEEDLE : BITS_PLAIN, s);
-    for (uint32_t i = 0; i < count; i++)
-        parts[i] = (ovoid_body){m->shapes[random_next(s) % 3], {bits_vec3(s, 3), bits_quat(s)}};
+    for (uint32_t i = 0; i < count; i++) {
+        parts[i].shape = m->shapes[random_next(s) % 3];
+        parts[i].pose = moving_make_pose(s, 3);
+    }
     m->compound = ovoid_compound_create(parts, count, NULL, NULL);
     m->solid = (ovoid_moving_solid){.compound = m->compound};
 }
@@ -28,9 +30,11 @@ static void destroy(machine *m) {
 
 static ovoid_motion make_motion(uint64_t *s, double far) {
     const double spins[4] = {0, 1, 6, 200};
-    ovoid_pose start = {bits_vec3(s, far), bits_quat(s)}, end = {bits_vec3(s, far), bits_quat(s)};
+    ovoid_pose start = moving_make_pose(s, far), end = moving_make_pose(s, far);
     if (random_next(s) % 3 == 0) return ovoid_motion_make_poses(start, end, 1);
-    return ovoid_motion_make_velocity(start, bits_vec3(s, 12), bits_vec3(s, spins[random_next(s) % 4]), 1);
+    ovoid_vec3 linear = bits_vec3(s, 12);
+    double spin = spins[random_next(s) % 4];
+    return ovoid_motion_make_velocity(start, linear, bits_vec3(s, spin), 1);
 }
 
 // The first hit of all pairs of parts, and until when all are free.

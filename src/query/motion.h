@@ -27,14 +27,14 @@ typedef struct motion_piece {
 } motion_piece;
 
 /// ovoid_motion_compute_check for the pieces of [begin, end] only.
-ovoid_code motion_check(const ovoid_motion *motion, double begin, double end, ovoid_error *error);
+ovoid_code motion_check(const ovoid_motion *m, double begin, double end, ovoid_error *error);
 
 /// The times of a motion.
-double motion_get_begin(const ovoid_motion *motion);
-double motion_get_end(const ovoid_motion *motion);
+double motion_get_begin(const ovoid_motion *m);
+double motion_get_end(const ovoid_motion *m);
 
 /// The piece at a time, the later one of two; a time outside belongs to the first or last one. The motion is sound.
-void motion_find_piece(const ovoid_motion *motion, double time, motion_piece *piece);
+void motion_find_piece(const ovoid_motion *m, double time, motion_piece *p);
 
 /// The computed pose at a time of the piece, and what it may be off by.
 typedef struct motion_place {
@@ -42,7 +42,7 @@ typedef struct motion_place {
     double shift; ///< of the position, length
     double turn;  ///< of the rotation, norm
 } motion_place;
-void motion_piece_find_place(const motion_piece *piece, double time, motion_place *place);
+void motion_piece_find_place(const motion_piece *p, double time, motion_place *out);
 
 /// Inside a public function.
 void moving_find_pose(const ovoid_moving *moving, double time, ovoid_pose *pose);
@@ -60,9 +60,9 @@ typedef struct motion_body {
 } motion_body;
 
 /// 0 where `part` has no place.
-int motion_body_make(const ovoid_moving *moving, double time, motion_body *body);
+int motion_body_make(const ovoid_moving *moving, double time, motion_body *b);
 
 /// The shape's computed pose, and by how much the exact motion may have any of its points elsewhere.
-double motion_body_find_pose(const motion_body *body, double time, ovoid_pose *pose);
+double motion_body_find_pose(const motion_body *b, double time, ovoid_pose *pose);
 
 #endif

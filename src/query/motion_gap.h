@@ -35,7 +35,7 @@ typedef struct motion_pair {
 ovoid_limit motion_pair_make(const ovoid_moving *a, const ovoid_moving *b, double time, motion_pair *pair);
 
 /// The pair at a time, by computed poses; the sum of what both may be elsewhere by.
-double motion_pair_find_pair(const motion_pair *pair, double time, ovoid_pair *at);
+double motion_pair_find_pair(const motion_pair *m, double time, ovoid_pair *at);
 
 /// The gap at one time.
 typedef struct motion_gap {
@@ -49,7 +49,7 @@ typedef struct motion_gap {
     double size;          ///< of the pair
 } motion_gap;
 /// n: nearly unit. Nothing is proven (base -infinity) where a pose cannot be used.
-void motion_gap_find(const motion_pair *pair, double time, vec3 n, motion_gap *gap);
+void motion_gap_find(const motion_pair *p, double time, vec3 n, motion_gap *g);
 
 /// The gap of the bodies themselves, from below.
 static inline double motion_gap_get_lower(const motion_gap *g) {
@@ -57,19 +57,19 @@ static inline double motion_gap_get_lower(const motion_gap *g) {
 }
 
 /// The direction n of a step's beginning at a later time; *error: what it may be off by.
-vec3 motion_pair_turn_normal(const motion_pair *pair, ovoid_step_frame frame, double from, double to, vec3 n,
+vec3 motion_pair_turn_normal(const motion_pair *p, ovoid_step_frame frame, double from, double to, vec3 n,
                              double *error);
 
 /// The gap at the end of a step that begins with `from`.
-void motion_gap_find_end(const motion_pair *pair, const motion_gap *from, ovoid_step_frame frame, double until,
+void motion_gap_find_end(const motion_pair *p, const motion_gap *from, ovoid_step_frame frame, double until,
                          motion_gap *to);
 
 /// The least gap over all times between the two gaps of a step, from below: the theorem above, the better of body and
 /// cylinder for each where the direction is fixed.
-double motion_gap_compute_lower(const motion_pair *pair, ovoid_step_frame frame, const motion_gap *from,
+double motion_gap_compute_lower(const motion_pair *p, ovoid_step_frame frame, const motion_gap *from,
                                 const motion_gap *to);
 
 /// A guess at the time until which the gap stays above the level; 0 where nothing turns with that frame.
-double motion_gap_guess_reach(const motion_pair *pair, ovoid_step_frame frame, const motion_gap *from, double level);
+double motion_gap_guess_reach(const motion_pair *p, ovoid_step_frame frame, const motion_gap *g, double level);
 
 #endif

@@ -164,7 +164,7 @@ static ovoid_limit start(descent *d, const ovoid_motion_options *given) {
 
 static ovoid_compound_impact find(const ovoid_moving_solid *a, const ovoid_moving_solid *b, double margin,
                                   const ovoid_motion_options *options) {
-    OVOID_ASSERT(a && b && !a->shape != !a->compound && !b->shape != !b->compound);
+    OVOID_ASSERT(!a->shape != !a->compound && !b->shape != !b->compound);
     ovoid_compound_impact out = {.impact = {.hit_at = INFINITY}};
     ovoid_impact *x = &out.impact;
     descent d = {.a = a, .b = b, .margin = margin, .out = &out, .free_until = INFINITY};
@@ -216,7 +216,7 @@ static ovoid_box compute_box(const ovoid_moving_solid *solid, double begin, doub
         const compound_node *node;
         int depth;
     } stack[2 * BOX_DEPTH + 2];
-    OVOID_ASSERT(solid && !solid->shape != !solid->compound);
+    OVOID_ASSERT(!solid->shape != !solid->compound);
     solid_view view;
     make_view(solid, &view);
     ovoid_box all = find_box(solid, &view, view.nodes, begin, end);
