@@ -144,8 +144,7 @@ static double worst_gradient, worst_hessian;
 
 // Derivatives against differences. A function that bends within 1 / condition of the size is differentiated with steps
 // of a small part of that, which leaves about 1e-11 of first derivatives and 1e-10 condition of second ones.
-static void check_derivatives(const ovoid_smooth_value *v, function f, const void *context) {
-    double h = 2e-3 / v->condition;
+static void check_derivatives(const ovoid_smooth_value *v, function f, const void *context, double h) {
     for (int i = 0; i < 12; i++) {
         double want = (double)differ(f, context, i, h);
         CHECK_NEAR(v->gradient[i], want, 1e-10);
@@ -202,7 +201,7 @@ static void test_solids(void) {
             CHECK_LE(is_inner ? (double)(truth - v->value) : (double)(v->value - truth), 0);
             CHECK_NEAR((double)truth, v->value, v->error);
             CHECK_LE(v->error, gap < 0 ? 1e-8 : 1e-12);
-            check_derivatives(v, case_value, &c);
+            check_derivatives(v, case_value, &c, 2e-3 / v->condition);
         }
         ovoid_shape_destroy(a);
         ovoid_shape_destroy(b);
@@ -248,12 +247,67 @@ static void test_spheres(void) {
             CHECK(v[k]->is_smooth);
             CHECK_NEAR(v[k]->value, (double)truth, v[k]->error);
             CHECK_LE(v[k]->error, 1e-12);
-            check_derivatives(v[k], spheres_value, &c);
+            check_derivatives(v[k], spheres_value, &c, 2e-3 / v[k]->condition);
         }
         CHECK(got.outer.value <= truth && truth <= got.inner.value);
         ovoid_shape_destroy(ball[0]);
         ovoid_shape_destroy(ball[1]);
     }
+}
+
+// Capsules, closed form: the distance of two segments by clamping (C. Ericson, Real-time collision detection, 2005).
+typedef struct capsules {
+    const ovoid_pair *pair;
+    real half_a, half_b, radii;
+    real *rim; // receives how near a nearest point is to an end, in parts of the half length
+} capsules;
+static real capsules_value(const void *context, const real *by) {
+    static const ovoid_ellipsoid none = {{0, 0, 0}, {0, 0, 0, 0, 0, 0}};
+    const capsules *c = context;
+    rbody a = r_body(&none, &c->pair->pose_a, by), b = r_body(&none, &c->pair->pose_b, by + 6);
+    rvec u = r_scale(a.axis[2], c->half_a), v = r_scale(b.axis[2], c->half_b), w = r_add(b.place, a.place, -1);
+    // |w + t v - s u| least over s, t in [-1, 1].
+    real uu = r_dot(u, u), vv = r_dot(v, v), uv = r_dot(u, v), uw = r_dot(u, w), vw = r_dot(v, w);
+    real s = fminl(fmaxl((uw * vv - vw * uv) / (uu * vv - uv * uv), -1), 1), t = (s * uv - vw) / vv;
+    if (fabsl(t) > 1) {
+        t = t > 0 ? 1 : -1;
+        s = fminl(fmaxl((uw + t * uv) / uu, -1), 1);
+    }
+    if (c->rim) *c->rim = fminl(fabsl(1 - fabsl(s)), fabsl(1 - fabsl(t)));
+    rvec x = r_add(r_add(w, v, t), u, -s);
+    return sqrtl(r_dot(x, x)) - c->radii;
+}
+
+static void test_capsules(void) {
+    int count = 0;
+    for (uint64_t seed = 1; seed <= 200; seed++) {
+        uint64_t s = check_seed = seed;
+        ovoid_shape *a = ovoid_shape_create_capsule(1, 0.2, NULL, NULL);
+        ovoid_shape *b = ovoid_shape_create_capsule(0.7, 0.1, NULL, NULL);
+        ovoid_pair pair = {a, b, random_pose(&s, 0.7), random_pose(&s, 0.7)};
+        real rim = 0, zero[12] = {0};
+        capsules c = {&pair, 1, 0.7L, (real)0.2 + (real)0.1, &rim};
+        c.half_b = 0.7;
+        real truth = capsules_value(&c, zero);
+        ovoid_smooth got = ovoid_smooth_compute(&pair, 2);
+        const ovoid_smooth_value *v[2] = {&got.outer, &got.inner};
+        CHECK(got.outer.value <= truth && truth <= got.inner.value);
+        for (int k = 0; k < 2; k++) {
+            CHECK_NEAR(v[k]->value, (double)truth, v[k]->error);
+            CHECK_LE(v[k]->error, 1e-12);
+            // Within the differences' steps of a segment's end the second derivatives jump.
+            if (v[k]->is_smooth && v[k]->condition < 20 && rim > 0.05L) {
+                // The segments' own distance is the length over which crossing ones bend.
+                check_derivatives(v[k], capsules_value, &c, 1e-3 * (double)fminl(1, truth + c.radii) / v[k]->condition);
+                (void)capsules_value(&c, zero);
+                count++;
+            }
+        }
+        ovoid_shape_destroy(a);
+        ovoid_shape_destroy(b);
+    }
+    printf("capsules: %d sides\n", count);
+    CHECK(count > 60);
 }
 
 // Any kind of body: solid, needle, slab, polygon, segment, point, with and without a radius, near the origin or far.
@@ -329,6 +383,7 @@ static void test_bracket(void) {
 int main(void) {
     test_solids();
     test_spheres();
+    test_capsules();
     test_bracket();
     return check_end();
 }

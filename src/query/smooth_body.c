@@ -27,10 +27,19 @@ static double compute_inverse_trace(const root3 *e) {
     return det != 0 ? sum / (det * det) : INFINITY;
 }
 
+// By Cholesky without pivots, which is as good where E^-1 is not large; zero where a pivot is not positive.
+static root3 make_plain_root(sym3 q) {
+    root3 e = {{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+    double a = sqrt(q.xx), b = q.xy / a, c = q.xz / a, dd = q.yy - b * b, d = sqrt(dd), f = (q.yz - b * c) / d;
+    double gg = (q.zz - c * c) - f * f;
+    if (q.xx > 0 && dd > 0 && gg > 0) e = (root3){{{a, b, c}, {0, d, f}, {0, 0, sqrt(gg)}}};
+    return e;
+}
+
 // The root of Q, with its pad; in the units of Q.
 static root3 make_root(sym3 q, double *pad) {
     double trace = sym3_trace(q);
-    root3 e = root3_make(q, 0);
+    root3 e = make_plain_root(q);
     double inverse = compute_inverse_trace(&e);
     if (trace * inverse <= 1024) {
         *pad = 16 * rounding * trace * sqrt(inverse);

@@ -63,11 +63,16 @@ static springs springs_make(const curvature *a, const curvature *b, double g) {
 
 static void put(double *to, vec3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 
-// u' M v added to the matrix for rows u[2][12], v[2][12].
-static void add_form(double h[12][12], double u[2][12], const mat2 *m, double v[2][12]) {
-    for (int i = 0; i < 12; i++) {
+// Which of the twelve numbers a row has.
+typedef struct span {
+    int first, end;
+} span;
+
+// u' M v added to the matrix for rows u[2][12], v[2][12] that are zero outside of their spans.
+static void add_form(double h[12][12], double u[2][12], span in_u, const mat2 *m, double v[2][12], span in_v) {
+    for (int i = in_u.first; i < in_u.end; i++) {
         double x = u[0][i] * m->xx + u[1][i] * m->yx, y = u[0][i] * m->xy + u[1][i] * m->yy;
-        for (int j = 0; j < 12; j++) h[i][j] += x * v[0][j] + y * v[1][j];
+        for (int j = in_v.first; j < in_v.end; j++) h[i][j] += x * v[0][j] + y * v[1][j];
     }
 }
 
@@ -98,12 +103,13 @@ static void fill_hessian(const springs *s, const tangents *plane, vec3 n, const 
     mat2 own_b = {-0.5 * s->own_b.xx, -0.5 * s->own_b.xy, -0.5 * s->own_b.yx, -0.5 * s->own_b.yy};
     mat2 half = {0.5 * s->inverse.xx, 0.5 * s->inverse.xy, 0.5 * s->inverse.yx, 0.5 * s->inverse.yy};
     double g[12][12] = {{0}};
-    add_form(g, t, &half, t);
-    add_form(g, t, &s->by_a, a);
-    add_form(g, t, &s->by_b, b);
-    add_form(g, a, &s->cross, b);
-    add_form(g, a, &own_a, a);
-    add_form(g, b, &own_b, b);
+    const span all = {0, 12}, in_a = {3, 6}, in_b = {9, 12};
+    add_form(g, t, all, &half, t, all);
+    add_form(g, t, all, &s->by_a, a, in_a);
+    add_form(g, t, all, &s->by_b, b, in_b);
+    add_form(g, a, in_a, &s->cross, b, in_b);
+    add_form(g, a, in_a, &own_a, a, in_a);
+    add_form(g, b, in_b, &own_b, b, in_b);
     for (int i = 0; i < 12; i++)
         for (int j = 0; j < 12; j++) h[i][j] = g[i][j] + g[j][i];
     add_turning(h, 3, lever[0], n);
@@ -112,11 +118,11 @@ static void fill_hessian(const springs *s, const tangents *plane, vec3 n, const 
 
 // From units of the pair's size to the caller's: each translation takes one length out, each rotation none.
 static void unscale(double h[12][12], double unit) {
-    for (int i = 0; i < 12; i++)
-        for (int j = 0; j < 12; j++) {
-            int turns = (i / 3) % 2 + (j / 3) % 2;
-            h[i][j] *= turns == 2 ? unit : turns == 0 ? 1 / unit : 1;
-        }
+    double down = 1 / unit;
+    for (int i = 0; i < 12; i++) {
+        double moved = i % 6 < 3 ? down : 1, turned = i % 6 < 3 ? 1 : unit;
+        for (int j = 0; j < 12; j++) h[i][j] *= j % 6 < 3 ? moved : turned;
+    }
 }
 
 void smooth_derive(const smooth_pair *pair, const smooth_state *x, const vec3 levers[2], int order,

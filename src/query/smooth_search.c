@@ -21,14 +21,14 @@ tangents tangents_make(vec3 n) {
     return (tangents){e0, vec3_cross(n, e0)};
 }
 
-static void set_points(const smooth_pair *pair, smooth_state *x) {
+static inline void set_points(const smooth_pair *pair, smooth_state *x) {
     x->xa = root3_map(&pair->a.root, x->p);
     x->xb = root3_map(&pair->b.root, x->q);
     x->w = vec3_sub(vec3_sub(pair->d, x->xa), x->xb);
     x->across = vec3_add_scaled(x->w, x->n, -vec3_dot(x->n, x->w));
 }
 
-void smooth_evaluate(const smooth_pair *pair, vec3 n, smooth_state *x) {
+static inline void evaluate(const smooth_pair *pair, vec3 n, smooth_state *x) {
     x->n = n;
     vec3 p = root3_map_transposed(&pair->a.root, n), q = root3_map_transposed(&pair->b.root, n);
     double sa = vec3_norm(p), sb = vec3_norm(q);
@@ -40,9 +40,11 @@ void smooth_evaluate(const smooth_pair *pair, vec3 n, smooth_state *x) {
     set_points(pair, x);
 }
 
+void smooth_evaluate(const smooth_pair *pair, vec3 n, smooth_state *x) { evaluate(pair, n, x); }
+
 // With F = E' [e0 e1], the matrix is F' (I - p p') F / s, and its determinant by the cross product c of F's columns
 // ((p.c)^2 + (1 - p^2) c^2) / s^2: all sums of squares.
-curvature smooth_compute_curvature(const root3 *root, const tangents *plane, vec3 p, double spread) {
+static inline curvature compute_curvature(const root3 *root, const tangents *plane, vec3 p, double spread) {
     vec3 f0 = root3_map_transposed(root, plane->e0), f1 = root3_map_transposed(root, plane->e1);
     vec3 c = vec3_cross(f0, f1);
     double pp = vec3_norm_squared(p), rest = max2(1 - pp, 0), along = vec3_dot(p, c), down = 1 / spread;
@@ -54,6 +56,10 @@ curvature smooth_compute_curvature(const root3 *root, const tangents *plane, vec
                        .xy = (vec3_dot(g0, g1) + rest * t0 * t1) * down,
                        .yy = (vec3_norm_squared(g1) + rest * t1 * t1) * down,
                        .det = ((along * along) + max2(1 - pp, 0) * vec3_norm_squared(c)) * down * down};
+}
+
+curvature smooth_compute_curvature(const root3 *root, const tangents *plane, vec3 p, double spread) {
+    return compute_curvature(root, plane, p, spread);
 }
 
 curvature curvature_add(const curvature *a, const curvature *b, double gap) {
@@ -71,12 +77,14 @@ double curvature_compute_least(const curvature *k) {
     return most > 0 ? k->det / most : half - root;
 }
 
-// Newton's step from the state, as a tangent vector.
-static vec3 find_step(const smooth_pair *pair, const smooth_state *x) {
+// Newton's step from the state, as a tangent vector, and how large the step after it may be against its square.
+static vec3 find_step(const smooth_pair *pair, const smooth_state *x, double *growth) {
     tangents plane = tangents_make(x->n);
-    curvature a = smooth_compute_curvature(&pair->a.root, &plane, x->p, x->sa);
-    curvature b = smooth_compute_curvature(&pair->b.root, &plane, x->q, x->sb);
+    curvature a = compute_curvature(&pair->a.root, &plane, x->p, x->sa);
+    curvature b = compute_curvature(&pair->b.root, &plane, x->q, x->sb);
     curvature k = curvature_add(&a, &b, x->gap);
+    // The matrix changes over angles of about its least eigenvalue and the spreads, in units of the size.
+    *growth = ((k.xx + k.yy) / k.det + (1 / x->sa + 1 / x->sb)) * pair->size;
     if (x->gap < 0) {
         // Shifted where it is not positive, so that the step points up.
         double least = curvature_compute_least(&k), enough = 0.1 * ((k.xx + k.yy) - 2 * x->gap) + 0x1p-40 * pair->size;
@@ -90,20 +98,22 @@ static vec3 find_step(const smooth_pair *pair, const smooth_state *x) {
 uint32_t smooth_climb(const smooth_pair *pair, vec3 n, smooth_state *best) {
     smooth_evaluate(pair, n, best);
     for (uint32_t step = 1; step <= STEPS; step++) {
-        vec3 by = find_step(pair, best);
+        double growth;
+        vec3 by = find_step(pair, best, &growth);
         double length = vec3_norm(by);
         if (!(length > STEP_MIN) || !isfinite(length)) return step;
         if (length > 1) by = vec3_scale(by, 1 / length);
         smooth_state next;
         int half = 0;
         for (; half < HALVINGS; half++, by = vec3_scale(by, 0.5)) {
-            smooth_evaluate(pair, vec3_unit(vec3_add(best->n, by)), &next);
+            evaluate(pair, vec3_unit(vec3_add(best->n, by)), &next);
             if (next.gap >= best->gap - 0x1p-51 * pair->size) break;
         }
         if (half == HALVINGS) return step;
         // Near the end, where the gap says nothing any more, the points do.
         if (length < 0x1p-24 && vec3_norm_squared(next.across) >= vec3_norm_squared(best->across)) return step;
         *best = next;
+        if (half == 0 && growth > 0 && length * length * growth * growth < STEP_MIN) return step;
     }
     return STEPS;
 }
@@ -114,7 +124,7 @@ static vec3 find_start(const smooth_pair *pair) {
     if (!(vec3_norm_squared(n) > 0.5)) return (vec3){1, 0, 0};
     for (int round = 0; round < 2; round++) {
         smooth_state x;
-        smooth_evaluate(pair, n, &x);
+        evaluate(pair, n, &x);
         double g = max2(x.gap, 0x1p-30 * pair->size);
         sym3 m = sym3_diagonal(g, g, g);
         for (int k = 0; k < 3; k++) {
@@ -147,9 +157,41 @@ static int search_by_multipliers(const smooth_pair *pair, smooth_state *x, uint3
     return 1;
 }
 
+static double clamp(double t) { return max2(-1, min2(t, 1)); }
+
+// Two segments or points, apart: the nearest points by clamping (C. Ericson, Real-time collision detection, 2005). 1 if
+// that is what they are.
+static int search_segments(const smooth_pair *pair, smooth_state *x) {
+    const vec3 *ea = pair->a.root.axis, *eb = pair->b.root.axis;
+    double rest =
+        (vec3_norm_squared(ea[1]) + vec3_norm_squared(ea[2])) + (vec3_norm_squared(eb[1]) + vec3_norm_squared(eb[2]));
+    if (rest > 0) return 0;
+    double aa = vec3_norm_squared(ea[0]), bb = vec3_norm_squared(eb[0]), ab = vec3_dot(ea[0], eb[0]);
+    double ad = vec3_dot(ea[0], pair->d), bd = vec3_dot(eb[0], pair->d),
+           det = vec3_norm_squared(vec3_cross(ea[0], eb[0]));
+    // Points s of a, -t of b: s aa + t ab = ad, s ab + t bb = bd where neither is at an end.
+    double s = det > 0 ? clamp((ad * bb - bd * ab) / det) : aa > 0 ? clamp(ad / aa) : 0;
+    double t = bb > 0 ? (bd - s * ab) / bb : 0;
+    if (fabs(t) > 1) {
+        t = clamp(t);
+        if (aa > 0) s = clamp((ad - t * ab) / aa);
+    }
+    vec3 w = vec3_sub(vec3_add_scaled(pair->d, ea[0], -s), vec3_scale(eb[0], t)), n = vec3_unit(w);
+    if (!(vec3_norm_squared(n) > 0.5)) return 0;
+    evaluate(pair, n, x);
+    x->p = (vec3){s, 0, 0};
+    x->q = (vec3){t, 0, 0};
+    set_points(pair, x);
+    return x->gap > 0;
+}
+
 void smooth_search(const smooth_pair *pair, smooth_state *x, double *upper, uint32_t *steps) {
-    *steps += smooth_climb(pair, find_start(pair), x);
     double good = 0x1p-44 * pair->size;
+    if (search_segments(pair, x) && vec3_norm(x->across) <= good) {
+        *upper = vec3_norm(x->w) + pair->claim;
+        return;
+    }
+    *steps += smooth_climb(pair, find_start(pair), x);
     int is_done = vec3_norm(x->across) <= good;
     if (!is_done && search_by_multipliers(pair, x, steps)) is_done = x->gap > 0;
     *upper = vec3_norm(x->w) + pair->claim;
