@@ -5,11 +5,12 @@
 #include "query/search.h"
 #include "simd/pair.h"
 
-enum { PROBE_POSED = 64 };
+enum { PROBE_POSED = 64, PROBE_ALL = 384 };
 
 typedef struct prober {
     search *s;
     int is_posed;
+    int is_small;                  ///< at most PROBE_ALL vertices each
     simd_points a, b;              ///< in the frame
     double posed[3 * PROBE_POSED]; ///< B's vertices in the frame: all x, all y, all z
 } prober;
