@@ -114,6 +114,11 @@ static int may_overlap(const search *s) {
            vec3_norm_squared(vec3_sub(frame_b(f, f->b->center), f->a->center)) < reach * reach;
 }
 
+static vec3 find_line(const pair_frame *f) {
+    vec3 n = vec3_unit(vec3_sub(frame_b(f, f->b->center), f->a->center));
+    return vec3_norm_squared(n) > 0.5 ? n : (vec3){1, 0, 0};
+}
+
 // The stages before the search; the simplex to start from. A depth goes to EPA at once if the spheres overlap,
 // without one. A distance starts from the earlier proof's simplex; where a direction may be enough, that of the
 // ellipsoids is tried.
@@ -124,7 +129,10 @@ static void run_stages(search *s, const ovoid_proof *earlier, simplex *start) {
     if (search_is_done(s) || (start->count && s->ask.far == INFINITY)) return;
     vec3 n;
     if (s->ask.wants_depth && may_overlap(s)) return;
-    stage_outer(s, &n);
+    if (question_takes_line(&s->ask, s->frame->a, s->frame->b, glance_compute_spheres(s->frame)))
+        n = find_line(s->frame);
+    else
+        stage_outer(s, &n);
     if (search_is_done(s)) return;
     simplex fresh;
     stage_support(s, n, start->count > 1 ? &fresh : start);

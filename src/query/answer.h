@@ -50,4 +50,12 @@ static inline question question_make_depth(const ovoid_options *options) {
     return ask;
 }
 
+/// Does a distance start from the line of centres, without a look at the ellipsoids? No stage closes its bracket, and
+/// of few vertices, or far apart, the ellipsoids' direction saves less than it costs. spheres: glance_compute_spheres.
+enum { LINE_VERTICES = 40 };
+static inline int question_takes_line(const question *ask, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
+    return ask->far == INFINITY &&
+           (a->vertex_count + b->vertex_count <= LINE_VERTICES || spheres > a->reach + b->reach);
+}
+
 #endif
