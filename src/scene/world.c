@@ -66,9 +66,10 @@ void ovoid_world_destroy(ovoid_world *w) {
     if (!w) return;
     pool_destroy(w->host.own, &w->allocator);
     ovoid_shape_destroy(w->point);
-    void *all[] = {w->bodies,     w->places,       w->marks,  w->leaf_of,  w->changed,
-                   w->tree.nodes, w->ignored.keys, w->pairs,  w->kept,     w->witnesses,
-                   w->free_slots, w->keys,         w->chunks, w->contacts, w->contact_witnesses};
+    void *all[] = {w->bodies,  w->places,      w->marks,      w->leaf_of,
+                   w->changed, w->generations, w->tree.nodes, w->ignored.keys,
+                   w->pairs,   w->kept,        w->witnesses,  w->free_slots,
+                   w->keys,    w->chunks,      w->contacts,   w->contact_witnesses};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&w->allocator, all[i]);
     for (uint32_t i = 0; w->gathered && i < w->threads; i++) allocator_release(&w->allocator, w->gathered[i].keys);
     allocator_release(&w->allocator, w->gathered);
