@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check bits mutate bench soak trust fuzz docs install format lint clean
+.PHONY: all help demo check bits mutate bench soak soak-world trust fuzz docs install format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -12,7 +12,7 @@ all: ## the libraries and the tool, in build/release
 	@cmake --build $(BUILD) -j$(JOBS)
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' Makefile | while IFS="$$(printf '\t')" read -r a b; do printf 'make %-8s %s\n' $$a "$$b"; done
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS="$$(printf '\t')" read -r a b; do printf 'make %-8s %s\n' $$a "$$b"; done
 
 # $(call build,WHAT,TARGETS): installs what WHAT needs, then builds only these targets.
 build = scripts/setup.sh $(1) && cmake --preset release >/dev/null && \
@@ -42,6 +42,10 @@ bench: ## nanoseconds per query and time of frames beside other libraries: table
 soak: ## random and hostile pairs before the exact judge, SECONDS=3600; goes on where it stopped
 	@$(call build,build,test_query_trials)
 	@$(BUILD)/tests/test_query_trials --seconds $(SECONDS) --state build/soak.state
+
+soak-world: ## worlds of bodies that come, move and go, beside all pairs one by one, SECONDS=3600
+	@$(call build,build,test_world_soak)
+	@$(BUILD)/tests/test_world_soak --seconds $(SECONDS) --seed $$(date +%s)
 
 trust: ## 10^9 queries checked by proof, 10^6 by the judge, half an hour to an hour; goes on where it stopped
 	@$(call build,build,long_run)

@@ -235,6 +235,70 @@ static void ask_motions(void) {
     ADD(hit.normal);
 }
 
+static void add_hit(const ovoid_world_hit *hit) {
+    ADD(hit->a);
+    ADD(hit->b);
+    ADD(hit->lower);
+    ADD(hit->answer.part_a);
+    if (hit->b) add_answer(&hit->answer.answer);
+}
+
+static void ask_world_between(ovoid_world *w, ovoid_id id) {
+    ovoid_world_hit hit, items[4];
+    ovoid_world_hits hits = {.items = items, .capacity = 4};
+    ovoid_world_body probe = ovoid_world_make_point(w, point);
+    ovoid_world_cast cast;
+    ovoid_world_ray ray = {.ray = {point, turn, 1e3, 0.1}};
+    int code = (int)ovoid_world_find_any(w, NULL, 0, NULL, &hit, NULL);
+    add_hit(&hit);
+    code += (int)ovoid_world_find_nearest(w, id, NULL, &hit, NULL);
+    add_hit(&hit);
+    code += (int)ovoid_world_find_nearest_pair(w, NULL, &hit, NULL);
+    add_hit(&hit);
+    code += (int)ovoid_world_find_nearest_to(w, &probe, NULL, &hit, NULL);
+    add_hit(&hit);
+    code += (int)ovoid_world_find_overlaps(w, &probe, third, &hits, NULL);
+    ADD(hits.count);
+    for (size_t i = 0; i < hits.count && i < 4; i++) add_hit(&items[i]);
+    code += (int)ovoid_world_cast_ray(w, &ray, &cast, NULL);
+    ADD(cast);
+    probe.solid.shape = hull_shape;
+    code += (int)ovoid_world_cast_solid(w, &probe, turn, &cast, NULL);
+    ADD(cast);
+    ADD(code);
+}
+
+static void ask_world(void) {
+    static const double steps[8] = {0.1, 0.11, 0.12, 0.14, 0.16, 0.2, 0.3, 1e-310};
+    ovoid_world *w = ovoid_world_create(NULL, NULL);
+    ovoid_world_body bodies[PAIRS];
+    ovoid_id ids[PAIRS];
+    for (int i = 0; i < PAIRS; i++) bodies[i] = (ovoid_world_body){.solid = {pairs[i].shape_b, NULL, pairs[i].pose_b}};
+    int code = (int)ovoid_world_add_many(w, bodies, PAIRS, ids, NULL);
+    for (int k = 0; k < 8; k++) {
+        ovoid_frame_query q = {.question = (ovoid_question)(k / 2), .margin = k / 2 ? third : 0};
+        ovoid_frame f;
+        code += (int)ovoid_world_compute_frame(w, &q, &f, NULL);
+        add(f.contacts, f.count * sizeof *f.contacts);
+        ovoid_compound_answer x;
+        for (size_t i = 0; i < f.count; i++) {
+            code += (int)ovoid_world_compute_proof(w, &f.contacts[i], NULL, &x, NULL);
+            add_answer(&x.answer);
+        }
+        for (int i = 0; i < PAIRS; i++) {
+            bodies[i].solid.pose.position.z = steps[k];
+            bodies[i].solid.pose.rotation.y = steps[7 - k];
+            code += (int)ovoid_world_move(w, ids[i], &bodies[i].solid.pose, NULL);
+        }
+    }
+    ask_world_between(w, ids[1]);
+    int looked_at = ovoid_world_is_pair(w, ids[0], ids[1]);
+    ADD(looked_at);
+    code += (int)ovoid_world_remove(w, ids[2], NULL);
+    ADD(code);
+    ovoid_world_destroy(w);
+}
+
 static void ask_paper(void) {
     const ovoid_areas *areas[2] = {hull_areas, hull_areas};
     ovoid_pair p = {hull_shape, hull_shape, pairs[0].pose_a, pairs[0].pose_b};
@@ -387,7 +451,8 @@ static const struct {
                  {"fits", ask_fits},
                  {"ellipsoids", ask_ellipsoids},
                  {"areas", ask_areas},
-                 {"exits", ask_exits}};
+                 {"exits", ask_exits},
+                 {"worlds", ask_world}};
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
 // ---- environments

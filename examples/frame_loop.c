@@ -1,0 +1,51 @@
+// A frame loop: boxes that fall into a bowl of boxes, every pair's proof kept from frame to frame.
+#include <ovoid/ovoid.h>
+
+#include <stdio.h>
+
+enum { BODIES = 1000, FRAMES = 60 };
+
+int main(void) {
+    static ovoid_world_body bodies[BODIES];
+    static ovoid_id ids[BODIES];
+    ovoid_error error;
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){0.5, 0.4, 0.3}, NULL, &error);
+    ovoid_world *world = ovoid_world_create(&(ovoid_world_options){.threads = 2}, &error);
+    if (!box || !world) {
+        fprintf(stderr, "%s\n", error.message);
+        return 1;
+    }
+    for (int i = 0; i < BODIES; i++) {
+        bodies[i].solid.shape = box;
+        bodies[i].solid.pose = (ovoid_pose){{i % 10, i / 10 % 10, i / 100}, {1, 0.1 * (i % 7), 0.2, 0}};
+    }
+    if (ovoid_world_add_many(world, bodies, BODIES, ids, &error) != OVOID_OK) return 1;
+
+    size_t aged = 0, queried = 0, wrong = 0;
+    for (int f = 0; f < FRAMES; f++) {
+        ovoid_frame_query query = {.question = OVOID_QUESTION_COLLIDE};
+        ovoid_frame frame;
+        if (ovoid_world_compute_frame(world, &query, &frame, &error) != OVOID_OK) return 1;
+        aged += frame.aged;
+        queried += frame.queried;
+        // The whole answer of a contact, with its proof, where it is wanted.
+        if (frame.count) {
+            ovoid_compound_answer answer;
+            ovoid_world_body a, b;
+            ovoid_world_compute_proof(world, &frame.contacts[0], NULL, &answer, NULL);
+            ovoid_world_get(world, frame.contacts[0].a, &a, NULL);
+            ovoid_world_get(world, frame.contacts[0].b, &b, NULL);
+            ovoid_pair pair = {a.solid.shape, b.solid.shape, a.solid.pose, b.solid.pose};
+            wrong += ovoid_answer_check(&pair, &answer.answer, NULL, NULL) != OVOID_OK;
+        }
+        for (int i = 0; i < BODIES; i++) {
+            ovoid_pose *pose = &bodies[i].solid.pose;
+            pose->position.z -= 0.002 * (i % 5);
+            if (ovoid_world_move(world, ids[i], pose, &error) != OVOID_OK) return 1;
+        }
+    }
+    printf("%d frames: %zu pairs answered by earlier proofs, %zu asked anew\n", FRAMES, aged, queried);
+    ovoid_world_destroy(world);
+    ovoid_shape_destroy(box);
+    return wrong || aged < queried;
+}
