@@ -290,9 +290,8 @@ static void wait_for_others(crowd *c, const eight *e, unsigned k) {
     for (int i = 0; i < OCTET_PLACED; i++) column[i].lane[at] = from[i].lane[k];
 }
 
-// Couples ahead: first their bodies, later the beginning of their shapes. A batch of many bodies is bound by memory;
-// fewer than MANY stay in the cache.
-enum { AHEAD = 16, MANY = 4096 };
+// Couples ahead: first their bodies, later the beginning of their shapes.
+enum { AHEAD = 16 };
 
 static void fetch_ahead(const ovoid_batch *batch, size_t first) {
     const ovoid_couple *couples = batch->couples;
@@ -308,6 +307,13 @@ static void fetch_ahead(const ovoid_batch *batch, size_t first) {
         simd_prefetch(b);
         simd_prefetch(b + 64);
     }
+}
+
+// The ellipsoids of those that go on to them.
+static void fetch_ellipsoids(const ovoid_shape *shape) {
+    const char *from = (const char *)&shape->outer, *to = (const char *)&shape->inside + sizeof shape->inside - 1;
+    for (; from < to; from += 64) simd_prefetch(from);
+    simd_prefetch(to);
 }
 
 // A couple that the lanes are not for.
@@ -349,6 +355,11 @@ static void take_eight(crowd *c, size_t first, unsigned count, eight *own) {
         crowd_ask_single(c->batch, first + (unsigned)__builtin_ctz(rest), c->ask);
     for (unsigned rest = apart; rest; rest &= rest - 1)
         end_at_spheres(c, e, (unsigned)__builtin_ctz(rest), found.narrow);
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = (unsigned)__builtin_ctz(rest);
+        fetch_ellipsoids((const void *)e->at.shape_a[k]);
+        fetch_ellipsoids((const void *)e->at.shape_b[k]);
+    }
     if (open == OCTET_ALL && e != own)
         c->waiting_count += OCTET;
     else
@@ -374,7 +385,7 @@ void crowd_run(const ovoid_batch *batch, question ask, const ovoid_options *opti
                0};
     for (size_t first = 0; first < batch->couple_count; first += OCTET) {
         size_t left = batch->couple_count - first;
-        if (batch->body_count >= MANY) fetch_ahead(batch, first);
+        fetch_ahead(batch, first);
         take_eight(&c, first, left < OCTET ? (unsigned)left : OCTET, &eights[OCTET_GROUP]);
     }
     if (c.waiting_count) settle(&c);

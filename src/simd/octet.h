@@ -4,7 +4,7 @@
 // be scaled, squares that over- or underflow, a matrix that is not positive definite) are reported, not computed: the
 // caller takes them to the single query.
 //
-// Cost, a pair (AVX-512): 8 ns to the spheres, 12 ns more to the ellipsoids.
+// Cost, a pair, one core at 2.8 GHz, AVX-512 (AVX2, scalar): place 10 ns (18, 40), part 31 ns (46, 120), meet 1.3 ns.
 #ifndef OVOID_SIMD_OCTET_H
 #define OVOID_SIMD_OCTET_H
 
