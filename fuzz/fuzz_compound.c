@@ -65,7 +65,8 @@ static int find_truth(const ovoid_solid_pair *pair, double *lower, double *upper
 }
 
 // A shape alone, or a compound of shapes; which is to be destroyed.
-static int take_solid(fuzz_bytes *from, ovoid_shape *const *shapes, int is_wild, ovoid_solid *solid) {
+static int take_solid(fuzz_bytes *from, ovoid_shape *const *shapes, int is_wild, ovoid_solid *solid,
+                      ovoid_compound **made) {
     ovoid_body parts[PARTS];
     size_t count = (size_t)((unsigned)take_byte(from) % (PARTS + 1));
     *solid = (ovoid_solid){.shape = NULL};
@@ -77,7 +78,7 @@ static int take_solid(fuzz_bytes *from, ovoid_shape *const *shapes, int is_wild,
     solid->pose = take_any_pose(from, is_wild);
     if (count == 0) return 1;
     ovoid_error error = {OVOID_OK, -1, ""};
-    solid->compound = ovoid_compound_create(parts, count, NULL, &error);
+    solid->compound = *made = ovoid_compound_create(parts, count, NULL, &error);
     if (!solid->compound) fuzz_require_error(&error);
     return solid->compound != NULL;
 }
@@ -89,7 +90,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int all = 1;
     for (int i = 0; i < SHAPES; i++) all &= (shapes[i] = take_any_shape(&from, is_wild)) != NULL;
     ovoid_solid_pair pair = {{.shape = NULL}, {.shape = NULL}};
-    if (all && take_solid(&from, shapes, is_wild, &pair.a) && take_solid(&from, shapes, is_wild, &pair.b)) {
+    ovoid_compound *made[2] = {NULL, NULL};
+    if (all && take_solid(&from, shapes, is_wild, &pair.a, &made[0]) &&
+        take_solid(&from, shapes, is_wild, &pair.b, &made[1])) {
         double margin = fabs(take_double(&from));
         if (!isfinite(margin)) margin = 0;
         ovoid_options options = {.relative_tolerance = ldexp(1, take_byte(&from) / 4 - 32),
@@ -104,8 +107,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         double lower, upper;
         if (find_truth(&pair, &lower, &upper)) fuzz_require(f.lower <= upper && lower <= f.upper);
     }
-    ovoid_compound_destroy((ovoid_compound *)(uintptr_t)pair.a.compound);
-    ovoid_compound_destroy((ovoid_compound *)(uintptr_t)pair.b.compound);
+    ovoid_compound_destroy(made[0]);
+    ovoid_compound_destroy(made[1]);
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
     return 0;
 }

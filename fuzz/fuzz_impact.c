@@ -99,6 +99,28 @@ static void check_casts(const ovoid_moving *a, const ovoid_moving *b, fuzz_bytes
     if (hit.status == OVOID_IMPACT_HIT) fuzz_require(hit.upper < INFINITY && hit.lower >= 0);
 }
 
+// B with a second part that is A's shape: against the pairs of parts alone.
+static void check_solids(const ovoid_moving *a, const ovoid_moving *b, double margin,
+                         const ovoid_motion_options *options, ovoid_pose second) {
+    ovoid_body parts[2] = {{b->shape, ovoid_pose_make_identity()}, {a->shape, second}};
+    ovoid_compound *compound = ovoid_compound_create(parts, 2, NULL, NULL);
+    if (!compound) return;
+    ovoid_moving_solid solids[2] = {{.shape = a->shape, .motion = a->motion},
+                                    {.compound = compound, .motion = b->motion}};
+    ovoid_compound_impact x = ovoid_compound_impact_find(&solids[0], &solids[1], margin, options);
+    fuzz_require(!(x.impact.free_until > x.impact.hit_at));
+    double least = INFINITY;
+    for (size_t i = 0; i < 2; i++) {
+        ovoid_moving one = ovoid_moving_solid_get_part(&solids[0], 0),
+                     other = ovoid_moving_solid_get_part(&solids[1], i);
+        ovoid_impact alone = ovoid_impact_find(&one, &other, margin, options);
+        fuzz_require(!(x.impact.free_until > alone.hit_at));
+        least = fmin(least, alone.free_until);
+    }
+    if (x.impact.status == OVOID_IMPACT_HIT) fuzz_require(least <= x.impact.hit_at);
+    ovoid_compound_destroy(compound);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_bytes from = {data, size};
     int is_wild = take_byte(&from) > 96;
@@ -118,6 +140,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         check_approach(&a, &b, options);
         if (sound == OVOID_OK && ovoid_motion_compute_check(&b.motion, NULL) == OVOID_OK)
             check_casts(&a, &b, &from, is_wild);
+        check_solids(&a, &b, margin, &options, take_any_pose(&from, is_wild));
     }
     ovoid_shape_destroy(shapes[0]);
     ovoid_shape_destroy(shapes[1]);

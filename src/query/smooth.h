@@ -54,7 +54,7 @@ smooth_body smooth_body_make(const ovoid_ellipsoid *ellipsoid, const mat3 *rotat
 smooth_body smooth_body_make_inner(const ovoid_shape *shape, const mat3 *rotation, double unit);
 
 /// The state of the unit direction n.
-void smooth_evaluate(const smooth_pair *pair, vec3 n, smooth_state *state);
+void smooth_evaluate(const smooth_pair *pair, vec3 n, smooth_state *x);
 /// The second derivative of the support of a body in its tangent plane; by the point p of the unit ball.
 curvature smooth_compute_curvature(const root3 *root, const tangents *plane, vec3 p, double spread);
 tangents tangents_make(vec3 n);
@@ -66,15 +66,15 @@ double curvature_compute_least(const curvature *k);
 uint32_t smooth_climb(const smooth_pair *pair, vec3 n, smooth_state *best);
 /// The direction of the largest gap, and a proven upper bound of the largest gap (scaled, claim included). *steps
 /// counts.
-void smooth_search(const smooth_pair *pair, smooth_state *best, double *upper, uint32_t *steps);
+void smooth_search(const smooth_pair *pair, smooth_state *x, double *upper, uint32_t *steps);
 
 /// An upper bound of the largest gap where it is negative; infinity where there is none. By one enclosed ellipsoid
 /// through the state, or by a hull that grows: then *n is the direction of the largest gap found. smooth_depth.c
-double smooth_compute_bound(const smooth_pair *pair, const smooth_state *state);
+double smooth_compute_bound(const smooth_pair *pair, const smooth_state *x);
 double smooth_grow(const smooth_pair *pair, vec3 *n, uint32_t *steps);
 
 /// The derivatives at the state. levers: from the poses' positions to the two points. smooth_hessian.c
-void smooth_derive(const smooth_pair *pair, const smooth_state *state, const vec3 levers[2], int order,
+void smooth_derive(const smooth_pair *pair, const smooth_state *x, const vec3 levers[2], int order,
                    ovoid_smooth_value *out);
 
 #endif
