@@ -118,6 +118,26 @@ static void check_pair(const simd_points *high, const simd_points *low, const do
     }
 }
 
+/// The difference along n is that of the pair along n and -n; points turned and moved are the scalar twin's.
+static void check_difference(const simd_points *a, const simd_points *b, const double *n) {
+    const double back[3] = {-n[0], -n[1], -n[2]};
+    simd_pair expected = simd_get_pair(SIMD_SCALAR)(a, n, b, back);
+    simd_difference d = simd_find_difference(a, b, n[0], n[1], n[2]);
+    CHECK(d.a == expected.high.index && d.b == expected.low.index);
+    CHECK(bits_of(d.gap) == bits_of(-expected.low.value - expected.high.value));
+    CHECK(d.x == b->x[d.b] - a->x[d.a] && d.y == b->y[d.b] - a->y[d.a] && d.z == b->z[d.b] - a->z[d.a]);
+}
+
+static void check_posed(const simd_points *from, uint64_t *state) {
+    static double one[3][COUNT_MANY], two[3][COUNT_MANY];
+    double rows[9], t[3];
+    for (int i = 0; i < 9; i++) rows[i] = random_normal(state);
+    for (int i = 0; i < 3; i++) t[i] = random_normal(state);
+    simd_pose_points(from, rows, t, one[0], one[1], one[2]);
+    simd_pose_points_scalar(from, rows, t, two[0], two[1], two[2]);
+    for (int k = 0; k < 3; k++) CHECK(memcmp(one[k], two[k], from->padded_count * sizeof(double)) == 0);
+}
+
 /// Both bodies at once, of all lengths, with and without ties: what two calls of the scalar twin give.
 static void test_pairs(void) {
     static const double ties[][3] = {{1, 0, 0}, {0, 0, 0}, {-0.0, 0, -0.0}, {1, -1, 1}};
@@ -126,10 +146,15 @@ static void test_pairs(void) {
             uint64_t state = check_seed = 100 * n + m;
             simd_points high = {x, y, z, n}, low = {x + 100, y + 100, z + 100, m};
             fill_ties(&state, 200);
-            for (size_t k = 0; k < sizeof ties / sizeof ties[0]; k++) check_pair(&high, &low, ties[k]);
+            for (size_t k = 0; k < sizeof ties / sizeof ties[0]; k++) {
+                check_pair(&high, &low, ties[k]);
+                check_difference(&high, &low, ties[k]);
+            }
             fill_random(&state, 200, 1, 0);
             double d[3] = {random_normal(&state), random_normal(&state), random_normal(&state)};
             check_pair(&high, &low, d);
+            check_difference(&high, &low, d);
+            check_posed(&high, &state);
         }
 }
 

@@ -330,7 +330,7 @@ int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
     growth g;
     g.s = s;
     g.cover = cover;
-    prober_make(&g.p, s);
+    prober_make(&g.p, s, 1);
     expansion_clear(&g.e, 16 * 0x1p-53 * s->frame->size);
     g.e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
     if (!start(&g.p, &g.e, x, is_first)) return search_is_done(s);

@@ -9,6 +9,7 @@
 // again from its simplex by robust steps (simplex_reduce), which know slivers and flat simplices.
 #include "query/gjk.h"
 
+#include "query/probe.h"
 #include "simd/corner.h"
 
 // The simplex of the fast run: corners in lanes, those of `valid` are meant.
@@ -170,7 +171,7 @@ static double take_gap(search *s, const heading *to, double scale, double gap, v
 // contact is all but across n: it meets a corner far away on the other side. The corners around the nearest point are
 // met along n tilted by the angle that separates neighbours of a round body with as many corners; two of them, to the
 // sides of the way that w is off, make a triangle with w that the origin often projects into.
-static walk_state fan(search *s, walk *k, heading *to) {
+static walk_state fan(search *s, const prober *by, walk *k, heading *to) {
     const pair_frame *f = s->frame;
     vec3 n = s->normal, w = to->n;
     double h = vec3_dot(w, n), tilt = 1.5 / sqrt((double)f->a->vertex_count + (double)f->b->vertex_count);
@@ -181,7 +182,7 @@ static walk_state fan(search *s, walk *k, heading *to) {
         return WALK_ON;
     vec3 u = vec3_add_scaled(n, off, tilt / length), v = vec3_scale(vec3_cross(n, off), tilt / length), unit;
     heading side[2] = {{vec3_add(u, v), 0, 0}, {vec3_sub(u, v), 0, 0}};
-    frame_support p[2] = {frame_find_support(f, side[0].n), frame_find_support(f, side[1].n)};
+    frame_support p[2] = {probe_measure(by, side[0].n), probe_measure(by, side[1].n)};
     walk_state state = WALK_ON;
     for (int i = 0; i < 2; i++) {
         side[i].square = vec3_norm_squared(side[i].n);
@@ -194,14 +195,14 @@ static walk_state fan(search *s, walk *k, heading *to) {
     return state;
 }
 
-static gjk_end run_fast(search *s, simplex *x) {
+static gjk_end run_fast(search *s, const prober *by, simplex *x) {
     heading to;
     walk k;
     vec3 n;
     if (!start(x, &to)) return end_inside(s, x);
     walk_make(&k, x);
     // An earlier proof's single corner comes without the direction it was met along.
-    walk_state state = x->count == 1 && s->lower > -INFINITY ? fan(s, &k, &to) : WALK_ON;
+    walk_state state = x->count == 1 && s->lower > -INFINITY ? fan(s, by, &k, &to) : WALK_ON;
     if (s->lower > s->ask.far) {
         take_upper(s, x);
         return GJK_ANSWERED;
@@ -210,7 +211,7 @@ static gjk_end run_fast(search *s, simplex *x) {
         double scale = 1 / sqrt(to.square), distance = to.height * scale;
         if (distance <= s->frame->claim) break;
         // From below: the gap along the direction to the nearest point.
-        frame_support p = frame_find_support(s->frame, to.n);
+        frame_support p = probe_measure(by, to.n);
         double lower = take_gap(s, &to, scale, p.gap, &n);
         if (seems_done(s, distance)) {
             walk_end(&k, x);
@@ -229,7 +230,7 @@ static gjk_end run_fast(search *s, simplex *x) {
     return GJK_STALLED;
 }
 
-static gjk_end run_robust(search *s, simplex *x) {
+static gjk_end run_robust(search *s, const prober *by, simplex *x) {
     double last = INFINITY;
     heading to;
     vec3 n;
@@ -239,7 +240,7 @@ static gjk_end run_robust(search *s, simplex *x) {
         if (distance <= s->frame->claim) return GJK_CONTACT;
         if (!(distance < last)) return GJK_STALLED;
         last = distance;
-        frame_support p = frame_find_support(s->frame, to.n);
+        frame_support p = probe_measure(by, to.n);
         double lower = take_gap(s, &to, 1, p.gap, &n);
         if (seems_done(s, distance) && is_answered(s, x, lower, n)) return GJK_ANSWERED;
         if (is_known(x, &p)) return GJK_STALLED;
@@ -250,8 +251,10 @@ static gjk_end run_robust(search *s, simplex *x) {
 }
 
 gjk_end gjk_run(search *s, simplex *x) {
-    gjk_end end = run_fast(s, x);
-    if (end != GJK_ANSWERED && s->kind != OVOID_PROOF_HULL) end = run_robust(s, x);
+    prober by;
+    prober_make(&by, s, 0);
+    gjk_end end = run_fast(s, &by, x);
+    if (end != GJK_ANSWERED && s->kind != OVOID_PROOF_HULL) end = run_robust(s, &by, x);
     if (end == GJK_ANSWERED) return end;
     take_upper(s, x);
     return search_is_done(s) ? GJK_ANSWERED : end;

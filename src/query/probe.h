@@ -1,11 +1,12 @@
-// The supports of EPA: a small B is brought into the frame once, which saves turning each direction and each vertex.
+// The supports of the exact methods: a small B is brought into the frame once, which saves turning each direction and
+// each vertex.
 #ifndef OVOID_QUERY_PROBE_H
 #define OVOID_QUERY_PROBE_H
 
 #include "query/search.h"
 #include "simd/pair.h"
 
-enum { PROBE_POSED = 64, PROBE_ALL = 384 };
+enum { PROBE_POSED = 64, PROBE_POSED_FEW = 32, PROBE_ALL = 384 };
 
 typedef struct prober {
     search *s;
@@ -15,7 +16,11 @@ typedef struct prober {
     double posed[3 * PROBE_POSED]; ///< B's vertices in the frame: all x, all y, all z
 } prober;
 
-void prober_make(prober *p, search *s);
+/// is_steady: for EPA's many supports; GJK's few are worth less.
+void prober_make(prober *p, search *s, int is_steady);
+
+/// The support along n, of any length, from A to B; as frame_find_support.
+frame_support probe_measure(const prober *p, vec3 n);
 
 /// The support along the unit direction n: the difference with the greatest n.w. Its gap, along -n, goes into the
 /// search.

@@ -31,21 +31,27 @@ frame_support search_probe(search *s, vec3 n) {
     return found;
 }
 
+// Only the entries that count are written: the others are most of it.
+static void take_evidence(evidence *e, const simplex *x) {
+    e->count = x->count;
+    for (int i = 0; i < x->count; i++) {
+        e->p[i] = x->p[i];
+        e->weight[i] = x->weight[i];
+    }
+}
+
 void search_take_points(search *s, const simplex *points) {
     const pair_frame *f = s->frame;
     double upper = vec3_norm(simplex_compute_point(points)) - f->radii + f->claim;
     if (!(upper < s->upper)) return;
     s->upper = upper;
     s->kind = OVOID_PROOF_POINTS;
-    s->witness = evidence_make(points);
+    take_evidence(&s->witness, points);
 }
 
 evidence evidence_make(const simplex *x) {
-    evidence e = {.count = x->count};
-    for (int i = 0; i < x->count; i++) {
-        e.p[i] = x->p[i];
-        e.weight[i] = x->weight[i];
-    }
+    evidence e;
+    take_evidence(&e, x);
     return e;
 }
 

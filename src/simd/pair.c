@@ -10,6 +10,21 @@ static simd_pair find_pair_scalar(const simd_points *high, const double h[3], co
                        simd_find_support_scalar(low->x, low->y, low->z, low->padded_count, l[0], l[1], l[2])};
 }
 
+static inline simd_difference difference_of(const simd_points *a, const simd_points *b, support_result high,
+                                            support_result low) {
+    uint32_t i = high.index, k = low.index;
+    return (simd_difference){-low.value - high.value, b->x[k] - a->x[i], b->y[k] - a->y[i], b->z[k] - a->z[i], i, k};
+}
+
+void simd_pose_points_scalar(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
+                             double *z) {
+    double *out[3] = {x, y, z};
+    for (uint32_t i = 0; i < from->padded_count; i++)
+        for (int k = 0; k < 3; k++)
+            out[k][i] =
+                ((rows[3 * k] * from->x[i] + rows[3 * k + 1] * from->y[i]) + rows[3 * k + 2] * from->z[i]) + t[k];
+}
+
 #if defined(__x86_64__) && defined(__GNUC__)
 
 #include <immintrin.h>
@@ -45,6 +60,25 @@ AVX2 static simd_pair find_pair_avx2(const simd_points *high, const double h[3],
     return (simd_pair){find_avx2(high, h[0], h[1], h[2]), find_avx2(low, l[0], l[1], l[2])};
 }
 
+AVX2 static simd_difference find_difference_avx2(const simd_points *a, const simd_points *b, double nx, double ny,
+                                                 double nz) {
+    return difference_of(a, b, find_avx2(a, nx, ny, nz), find_avx2(b, -nx, -ny, -nz));
+}
+
+AVX2 static void pose_points_avx2(const simd_points *from, const double rows[9], const double t[3], double *x,
+                                  double *y, double *z) {
+    double *out[3] = {x, y, z};
+    for (uint32_t i = 0; i < from->padded_count; i += 4) {
+        __m256d px = _mm256_loadu_pd(from->x + i), py = _mm256_loadu_pd(from->y + i), pz = _mm256_loadu_pd(from->z + i);
+        for (int k = 0; k < 3; k++) {
+            __m256d sum = _mm256_add_pd(_mm256_mul_pd(_mm256_set1_pd(rows[3 * k]), px),
+                                        _mm256_mul_pd(_mm256_set1_pd(rows[3 * k + 1]), py));
+            sum = _mm256_add_pd(sum, _mm256_mul_pd(_mm256_set1_pd(rows[3 * k + 2]), pz));
+            _mm256_storeu_pd(out[k] + i, _mm256_add_pd(sum, _mm256_set1_pd(t[k])));
+        }
+    }
+}
+
 #define AVX512 __attribute__((target("avx512f")))
 
 AVX512 static inline __m512d dot8(const simd_points *p, uint32_t i, __m512d ax, __m512d ay, __m512d az) {
@@ -75,6 +109,33 @@ AVX512 static simd_pair find_pair_avx512(const simd_points *high, const double h
     return (simd_pair){find_avx512(high, h[0], h[1], h[2]), find_avx512(low, l[0], l[1], l[2])};
 }
 
+AVX512 static simd_difference find_difference_avx512(const simd_points *a, const simd_points *b, double nx, double ny,
+                                                     double nz) {
+    return difference_of(a, b, find_avx512(a, nx, ny, nz), find_avx512(b, -nx, -ny, -nz));
+}
+
+static simd_difference find_difference_apart(const simd_points *a, const simd_points *b, double nx, double ny,
+                                             double nz) {
+    return difference_of(a, b, simd_find_support(a->x, a->y, a->z, a->padded_count, nx, ny, nz),
+                         simd_find_support(b->x, b->y, b->z, b->padded_count, -nx, -ny, -nz));
+}
+
+simd_difference simd_find_difference(const simd_points *a, const simd_points *b, double nx, double ny, double nz) {
+    if (a->padded_count > MOST || b->padded_count > MOST) return find_difference_apart(a, b, nx, ny, nz);
+    int is_small = a->padded_count <= 16 && b->padded_count <= 16;
+    if (!is_small && __builtin_cpu_supports("avx512f")) return find_difference_avx512(a, b, nx, ny, nz);
+    if (__builtin_cpu_supports("avx2")) return find_difference_avx2(a, b, nx, ny, nz);
+    return find_difference_apart(a, b, nx, ny, nz);
+}
+
+void simd_pose_points(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
+                      double *z) {
+    if (__builtin_cpu_supports("avx2"))
+        pose_points_avx2(from, rows, t, x, y, z);
+    else
+        simd_pose_points_scalar(from, rows, t, x, y, z);
+}
+
 simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]) {
     if (high->padded_count > MOST || low->padded_count > MOST)
         return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, h[0], h[1], h[2]),
@@ -97,6 +158,16 @@ simd_pair_function *simd_get_pair(simd_isa isa) {
 }
 
 #else
+
+simd_difference simd_find_difference(const simd_points *a, const simd_points *b, double nx, double ny, double nz) {
+    return difference_of(a, b, simd_find_support_scalar(a->x, a->y, a->z, a->padded_count, nx, ny, nz),
+                         simd_find_support_scalar(b->x, b->y, b->z, b->padded_count, -nx, -ny, -nz));
+}
+
+void simd_pose_points(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
+                      double *z) {
+    simd_pose_points_scalar(from, rows, t, x, y, z);
+}
 
 simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]) {
     return find_pair_scalar(high, h, low, l);

@@ -19,6 +19,23 @@ typedef struct simd_pair {
 /// first cache, and the index is that of the first one equal to the largest.
 simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]);
 
+/// The difference B minus A that is least along n, of two sets in one frame.
+typedef struct simd_difference {
+    double gap; ///< least of B along n minus greatest of A
+    double x, y, z;
+    uint32_t a, b;
+} simd_difference;
+
+/// The same indices and values as simd_find_pair of A along n and of B along -n: gap = -low - high.
+simd_difference simd_find_difference(const simd_points *a, const simd_points *b, double nx, double ny, double nz);
+
+/// The points turned and moved: rows of a rotation, a translation; from->padded_count numbers each to x, y, z. The same
+/// bits from every instruction set: ((r0 x + r1 y) + r2 z) + t.
+void simd_pose_points(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
+                      double *z);
+void simd_pose_points_scalar(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
+                             double *z);
+
 typedef simd_pair simd_pair_function(const simd_points *high, const double along_high[3], const simd_points *low,
                                      const double along_low[3]);
 
