@@ -345,11 +345,10 @@ static void take_eight(crowd *c, size_t first, unsigned count, eight *own) {
     unsigned odd = find_places(c, first, count, e), all = (1u << count) - 1;
     octet_found found = c->kernels->place(&e->at, &c->numbers, e->lanes);
     odd |= found.odd;
+    // Which of them start from the line of centres.
     for (unsigned k = 0; k < OCTET; k++)
-        odd |=
-            (unsigned)question_takes_line(&c->ask, (const ovoid_shape *)(const void *)e->at.shape_a[k],
-                                          (const ovoid_shape *)(const void *)e->at.shape_b[k], e->lanes->lower.lane[k])
-            << k;
+        e->lanes->line.lane[k] =
+            question_takes_line(&c->ask, get_a(e, k)->shape, get_b(e, k)->shape, e->lanes->lower.lane[k]);
     unsigned apart = found.apart & ~odd & all, open = all & ~(odd | apart);
     for (unsigned rest = odd & all; rest; rest &= rest - 1)
         crowd_ask_single(c->batch, first + (unsigned)__builtin_ctz(rest), c->ask);

@@ -26,6 +26,7 @@ typedef struct octet {
     octet_column world_a[9], world_b[9];   ///< rotations to the world
     octet_column offset[3];                ///< of B's body frame from A's, world
     octet_column tolerance;
+    octet_column line; ///< put in by the caller: 1 where the direction shall be that of the spheres' centres, else 0
     // What `part` finds, and `meet` reads: B in the frame of A, the ellipsoids' direction.
     octet_column rotation[9], translation[3], claim;
     octet_column n[3], low[3]; ///< unit, frame of A, from A to B; minus it in the frame of B
@@ -38,8 +39,8 @@ typedef struct octet {
     octet_column lower, upper;
 } octet;
 
-/// How many columns, from the first one on, `place` has filled.
-enum { OCTET_PLACED = 3 + 3 + 3 + 3 + 3 + 9 + 9 + 3 + 1 };
+/// How many columns, from the first one on, are filled before `part`.
+enum { OCTET_PLACED = 3 + 3 + 3 + 3 + 3 + 9 + 9 + 3 + 1 + 1 };
 
 /// Where the numbers of the eight pairs are. Body: a number that is not read, position xyz, rotation wxyz. Shape:
 /// reach, radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not read.

@@ -166,7 +166,7 @@ typedef struct part_work {
     octet_column inner_upper;
     octet_column good;     ///< a mask, 1 or 0: of the ways so far
     octet_column is_inner; ///< likewise: decided by the inner ellipsoids
-    int is_open;           ///< 1: not all lanes are
+    int turns;             ///< 1: there are lanes that look for the ellipsoids' direction
 } part_work;
 
 LANES_INLINE related get_related(const octet *o, int at) {
@@ -262,14 +262,17 @@ LANES_INLINE lane compute_spread(lane6 q, lane3 n) {
     return lane_max(lane3_dot(n, lane6_mul3(q, n)), lane_set(0)) + lane_set(256 * 0x1p-53) * lane6_trace(q);
 }
 
-// ellipsoids_find_direction, a piece at a time: the line of centres; a round, whose direction is not unit yet. The mask
-// loses the lanes that are scaled there, or leave its loop early.
+// ellipsoids_find_direction, a piece at a time: the line of centres (or find_line in answer.c); a round. The mask loses
+// the lanes that are scaled there, or leave its loop early.
 LANES_INLINE void start_direction(octet *o, part_work *w, int at) {
-    lane3 d = get3(w->d, at);
+    related f = get_related(o, at);
+    lane_mask line = get_mask(&o->line, at);
+    lane3 d = get3(w->d, at), centers = lane3_sub(get_b(&f, get3(o->center_b, at)), get3(o->center_a, at));
     lane square = lane3_dot(d, d), most = lane_max(lane6_trace(get6(w->qa, at)), lane6_trace(get6(w->qb, at)));
     most = lane_max(most, square);
     lane_mask good = lane_and(lane_greater(most, lane_set(1e-30)), lane_less(most, lane_set(1e30)));
-    put3(o->n, at, lane3_unit(d, &good));
+    good = lane_or(good, line);
+    put3(o->n, at, lane3_unit(lane3_select(line, centers, d), &good));
     put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, get_mask(&w->is_inner, at))));
 }
 
@@ -289,8 +292,9 @@ LANES_INLINE void turn_direction(octet *o, part_work *w, int is_last, int at) {
     m.zz = m.zz + thickness;
     n = lane3_unit(lane6_mul3(lane6_adjugate(m), d), &good);
     good = lane_and(good, lane_greater(lane3_dot(n, d), zero));
-    put3(o->n, at, n);
-    put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, get_mask(&w->is_inner, at))));
+    lane_mask line = get_mask(&o->line, at), ready = lane_or(line, get_mask(&w->is_inner, at));
+    put3(o->n, at, lane3_select(line, get3(o->n, at), n));
+    put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, ready)));
 }
 
 // Outer ellipsoids; the upper bound is that of any two vertices.
@@ -319,10 +323,13 @@ LANES_TARGET static void start_part(const octet_ellipsoids *from, const octet_as
     read_columns(from->outer_b, 9, 4, b.center);
     read_columns(from->inner_a, 0, 8, a.w);
     read_columns(from->inner_b, 0, 8, b.w);
-    unsigned inner = 0;
-    for (int at = 0; at < OCTET; at += LANES) inner |= look_inside(&a, &b, o, w, at) << at;
-    w->is_open = inner != OCTET_ALL;
-    for (int at = 0; at < OCTET && w->is_open; at += LANES) start_direction(o, w, at);
+    unsigned inner = 0, line = 0;
+    for (int at = 0; at < OCTET; at += LANES) {
+        inner |= look_inside(&a, &b, o, w, at) << at;
+        line |= lane_bits(get_mask(&o->line, at)) << at;
+    }
+    for (int at = 0; at < OCTET && inner != OCTET_ALL; at += LANES) start_direction(o, w, at);
+    w->turns = (inner | line) != OCTET_ALL;
 }
 
 LANES_TARGET static void part(const octet_ellipsoids *from, const octet_ask *ask, octet *o, unsigned count,
@@ -331,7 +338,7 @@ LANES_TARGET static void part(const octet_ellipsoids *from, const octet_ask *ask
     for (unsigned i = 0; i < count; i++) start_part(&from[i], ask, &o[i], &w[i]);
     for (int round = 0; round < 3; round++)
         for (unsigned i = 0; i < count; i++)
-            for (int at = 0; at < OCTET && w[i].is_open; at += LANES) turn_direction(&o[i], &w[i], round == 2, at);
+            for (int at = 0; at < OCTET && w[i].turns; at += LANES) turn_direction(&o[i], &w[i], round == 2, at);
     for (unsigned i = 0; i < count; i++) {
         found[i] = (octet_found){0, 0, 0, 0};
         for (int at = 0; at < OCTET; at += LANES) add_found(&found[i], end_part(&o[i], &w[i], ask, at), at);
