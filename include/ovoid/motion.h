@@ -208,7 +208,8 @@ typedef struct ovoid_approach {
 
 /**
  * The smallest distance of two moving bodies over a time, and when. The same steps as ovoid_impact_find, above a level
- * that follows the smallest distance seen. Cost: about 10 to 60 queries.
+ * that follows the smallest distance seen. Cost: some tens of queries for a turn
+ * or less, in proportion to the turns where a body spins.
  */
 OVOID_API ovoid_approach ovoid_approach_find(const ovoid_moving *a, const ovoid_moving *b,
                                              const ovoid_motion_options *options);

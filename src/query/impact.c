@@ -131,8 +131,12 @@ static void run(advance *x) {
             out->limit = OVOID_LIMIT_ITERATIONS;
             return;
         }
+        // What is left to the margin takes less than a step is worth.
         double before = s->time;
-        if (sweep_step(s, get_normal(s), x->margin) && (s->time - before > x->shortest || s->time >= s->end)) continue;
+        int is_near = sweep_get_upper(s) - x->margin < 0.25 * x->shortest * s->fall;
+        if (!is_near && sweep_step(s, get_normal(s), x->margin) &&
+            (s->time - before > x->shortest || s->time >= s->end))
+            continue;
         if (look_ahead(x)) return;
     }
 }

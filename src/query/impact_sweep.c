@@ -89,12 +89,14 @@ int sweep_step_to(sweep *s, double until, vec3 n, double level) {
 }
 
 // Of the three frames, the one that promises the longest step is tried; where its step is not proven, it is shortened
-// for the next trial: by a secant where the end is too near, else as the curvature asks.
+// for the next trial: by a secant where the end is too near, else, and where that was not enough, as the curvature
+// asks.
 int sweep_step(sweep *s, vec3 n, double level) {
-    enum { FRAMES = 3, TRIALS = 12 };
+    enum { FRAMES = 3, TRIALS = 16 };
     motion_gap from, to;
     motion_gap_find(&s->pieces, s->time, n, &from);
     double room = motion_gap_get_lower(&from) - level, last = min2(s->pieces.end, s->end), reach[FRAMES];
+    int failed[FRAMES] = {0, 0, 0};
     if (!(room > 0)) return 0;
     for (int f = 0; f < FRAMES; f++)
         reach[f] = min2(motion_gap_guess_reach(&s->pieces, (ovoid_step_frame)f, &from, level), last);
@@ -109,8 +111,8 @@ int sweep_step(sweep *s, vec3 n, double level) {
             take_step(s, step, least);
             return 1;
         }
-        double left = motion_gap_get_lower(&to) - level, share = 0.6;
-        if (left < 0) share = min2(share, 0.999 * room / (room - left));
+        double left = motion_gap_get_lower(&to) - level, share = left < 0 ? 0.999 * room / (room - left) : 0.7;
+        if (failed[f]++) share = min2(share, 0.5);
         reach[f] = s->time + (step.until - s->time) * share;
     }
     return 0;

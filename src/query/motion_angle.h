@@ -18,8 +18,10 @@ typedef struct turn {
     double cosine, sine;
 } turn;
 
+/// 0 <= x <= 1e9.
 static inline turn turn_compute(double x) {
-    double k = floor(x * (1 / HALF_PI) + 0.5);
+    int64_t quadrant = (int64_t)(x * (1 / HALF_PI) + 0.5);
+    double k = (double)quadrant;
     dd whole = two_product(k, HALF_PI);
     double r = ((x - whole.high) - whole.low) - k * HALF_PI_LOW, q = r * r;
     double s = 1.0 / 355687428096000;
@@ -40,7 +42,7 @@ static inline turn turn_compute(double x) {
     c = 1.0 / 24 - q * c;
     c = 0.5 - q * c;
     c = 1 - q * c;
-    switch ((int64_t)k & 3) {
+    switch (quadrant & 3) {
     case 0: return (turn){c, s};
     case 1: return (turn){-s, c};
     case 2: return (turn){-c, -s};
