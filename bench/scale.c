@@ -1,5 +1,5 @@
-// Cost as the work grows: a query over the vertices of its bodies; many pairs, each answered by its own call; the same
-// on several threads; a shape's memory, and its set-up beside Qhull's time for the hull alone.
+// Cost as the work grows: a query over the vertices of its bodies; many pairs, in one batch and each by its own call; a
+// batch on several threads; a shape's memory, and its set-up beside Qhull's time for the hull alone.
 #define _POSIX_C_SOURCE 200809L
 #include "scale.h"
 
@@ -217,6 +217,18 @@ static void *run_share(void *data) {
     return NULL;
 }
 
+/// The same pairs, each by its own query.
+static void *run_singly(void *data) {
+    const share *s = data;
+    for (size_t i = 0; i < s->batch.couple_count; i++) {
+        const ovoid_body *a = &s->batch.bodies[s->batch.couples[i].a], *b = &s->batch.bodies[s->batch.couples[i].b];
+        ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+        ovoid_answer x = ovoid_collide(&pair, NULL, NULL);
+        s->batch.verdicts[i] = (ovoid_verdict){x.status, x.stage, x.limit, x.iterations, x.lower, x.upper};
+    }
+    return NULL;
+}
+
 /// Seconds for all pairs on so many threads; 0 where a thread cannot be started.
 static double time_threads(const crowd *c, uint32_t count, uint32_t threads) {
     pthread_t ids[THREADS_MOST];
@@ -233,14 +245,15 @@ static double time_threads(const crowd *c, uint32_t count, uint32_t threads) {
     return started == threads ? get_seconds() - start : 0;
 }
 
-static row make_pairs_row(const char *chart, const char *x_name, double x, uint32_t count, double *seconds,
-                          uint32_t passes) {
+static row make_pairs_row(row named, uint32_t count, double *seconds, uint32_t passes) {
     for (uint32_t i = 0; i < passes; i++) seconds[i] *= 1e9 / count;
-    return (row){chart, x_name, "ns per pair", "collide", x, timing_make(seconds, passes), 0, 0};
+    named.y_name = "ns per pair";
+    named.y = timing_make(seconds, passes);
+    return named;
 }
 
-/// Batches of more and more pairs.
-static void add_pairs(rows *all, const crowd *c, uint32_t most) {
+/// More and more pairs.
+static void add_pairs(rows *all, const crowd *c, uint32_t most, const char *line, void *(*run)(void *)) {
     double seconds[PASSES];
     for (uint64_t count = 1; count <= most; count *= 10) {
         // Few pairs again and again, so that the clock's own cost does not count.
@@ -248,11 +261,11 @@ static void add_pairs(rows *all, const crowd *c, uint32_t most) {
         share s = share_make(c, most, 0, (uint32_t)count);
         for (uint32_t pass = 0; pass < passes; pass++) {
             double start = get_own_seconds();
-            for (uint32_t k = 0; k < again; k++) (void)run_share(&s);
+            for (uint32_t k = 0; k < again; k++) (void)run(&s);
             seconds[pass] = (get_own_seconds() - start) / again;
         }
-        rows_add(all, make_pairs_row("Pairs of a batch, one thread", "pairs", (double)count, (uint32_t)count, seconds,
-                                     passes));
+        row named = {.chart = "Many pairs, one thread", .x_name = "pairs", .line = line, .x = (double)count};
+        rows_add(all, make_pairs_row(named, (uint32_t)count, seconds, passes));
     }
 }
 
@@ -262,7 +275,8 @@ static void add_threads(rows *all, const crowd *c, uint32_t count) {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     for (uint32_t threads = 1; threads <= 2 * cores && threads <= THREADS_MOST; threads *= 2) {
         for (uint32_t pass = 0; pass < 5; pass++) seconds[pass] = time_threads(c, count, threads);
-        rows_add(all, make_pairs_row("A batch on several threads", "threads", threads, count, seconds, 5));
+        row named = {.chart = "A batch on several threads", .x_name = "threads", .line = "collide", .x = threads};
+        rows_add(all, make_pairs_row(named, count, seconds, 5));
     }
 }
 
@@ -271,8 +285,9 @@ static int visit_pairs(rows *all, uint32_t most) {
     crowd c = {0};
     int good = set.count && crowd_create(&c, &set, most);
     if (good) {
-        add_pairs(all, &c, most);
-        add_threads(all, &c, most < 100000 ? most : 100000);
+        add_pairs(all, &c, most, "in a batch", run_share);
+        add_pairs(all, &c, most, "one by one", run_singly);
+        add_threads(all, &c, most < 1000000 ? most : 1000000);
     }
     crowd_destroy(&c);
     bodies_destroy(&set);

@@ -14,10 +14,13 @@ static size_t find_bad_couple(const ovoid_batch *batch) {
     return i;
 }
 
+enum { FEW = 3 };
+
 static void find_answers(const ovoid_batch *batch, question ask) {
     ovoid_options options;
-    // What is refused is refused for each, and a depth has no cheap stages.
-    if (ask.wants_depth || !options_make(batch->options, &options) || !(ask.far >= 0))
+    // What is refused is refused for each, a depth has no cheap stages, and a few couples do not pay for eight lanes.
+    int is_few = batch->couple_count < FEW;
+    if (is_few || ask.wants_depth || !options_make(batch->options, &options) || !(ask.far >= 0))
         for (size_t i = 0; i < batch->couple_count; i++) crowd_ask_single(batch, i, ask);
     else
         crowd_run(batch, ask, &options);
