@@ -94,10 +94,9 @@ static double measure_vertex(const ovoid_ellipsoid *e, const ovoid_body *part, u
 static void check_bounds(const ovoid_compound *c, uint64_t *s) {
     ovoid_ellipsoid outer = ovoid_compound_get_outer(c), inner = ovoid_compound_get_inner(c);
     size_t count = ovoid_compound_get_part_count(c);
-    double size = sqrt(outer.q.xx + outer.q.yy + outer.q.zz) + vec3_norm(outer.center), rounded = 0;
+    double size = sqrt(outer.q.xx + outer.q.yy + outer.q.zz) + vec3_norm(outer.center);
     for (size_t i = 0; i < count; i++) {
         ovoid_body part = ovoid_compound_get_part(c, i);
-        rounded += ovoid_shape_get_radius(part.shape);
         ovoid_polytope p = ovoid_shape_get_polytope(part.shape);
         // A flat compound's Q is all but singular: directions only.
         for (uint32_t k = 0; k < p.vertex_count && count > 2; k++) CHECK_LE(measure_vertex(&outer, &part, k), 1);
