@@ -135,7 +135,7 @@ static void check_order(const ovoid_compound *c, const ovoid_body *parts) {
         ovoid_body part = ovoid_compound_get_part(c, i);
         CHECK(part.shape == parts[i].shape && memcmp(&part.pose, &parts[i].pose, sizeof part.pose) == 0);
     }
-    CHECK_LE(ovoid_compound_get_size(c), 328 * count + 1024);
+    CHECK_LE(ovoid_compound_get_size(c), 472 * count + 1024);
     free(seen);
 }
 

@@ -28,7 +28,7 @@ typedef struct ovoid_compound ovoid_compound;
  * A compound of count >= 1 parts; the array is copied. Returns NULL with *error filled (may be NULL): EMPTY, LIMIT,
  * ARGUMENT (place: a part without a shape), NOT_FINITE, RANGE, ROTATION (place: the part), MEMORY. The caller destroys
  * it. allocator: NULL for malloc; copied into the compound; it also gives working memory, all of which goes back.
- * Cost: the vertices of all parts times the logarithm of the number of parts.
+ * Cost: the vertices of all parts for each level of the tree; 0.1 ms a part of 32 vertices.
  */
 OVOID_API ovoid_compound *ovoid_compound_create(const ovoid_body *parts, size_t count, const ovoid_allocator *allocator,
                                                 ovoid_error *error);
@@ -45,7 +45,7 @@ OVOID_API const uint32_t *ovoid_compound_get_order(const ovoid_compound *compoun
 OVOID_API ovoid_ellipsoid ovoid_compound_get_outer(const ovoid_compound *compound);
 /** The largest inner ellipsoid of a part: it lies in that part, proven after rounding. Q is 0 if no part is solid. */
 OVOID_API ovoid_ellipsoid ovoid_compound_get_inner(const ovoid_compound *compound);
-/** Size of the block in bytes, without the shapes: about 200 bytes a part. */
+/** Size of the block in bytes, without the shapes: about 472 bytes a part. */
 OVOID_API size_t ovoid_compound_get_size(const ovoid_compound *compound);
 
 /** A posed shape or a posed compound: exactly one of the two pointers is set. Borrowed. A shape is its part 0. */

@@ -10,14 +10,18 @@
 #include "ovoid/compound.h"
 #include "query/answer.h"
 
-/// Bounds of the parts at [first, end) of the order, radii and rounding included: a box along the compound's axes and a
-/// sphere around its centre.
+/// Bounds of the parts at [first, end) of the order, radii and rounding included: a box along the compound's axes, a
+/// sphere around its centre, and an ellipsoid where that is the narrower one.
 typedef struct compound_node {
     vec3 center;
     double radius;
     vec3 half;
     uint32_t first, end;
+    vec3 shift; ///< of the ellipsoid's centre
+    sym3 round; ///< its matrix; zero: there is none
 } compound_node;
+
+static inline int node_is_round(const compound_node *n) { return n->round.xx > 0; }
 
 /// A part in the compound's frame, ready for a first look.
 typedef struct compound_part {
@@ -74,6 +78,10 @@ compound_node node_make_shape(const ovoid_shape *shape);
 
 /// The part, in the frame that its pose is in.
 compound_part part_make(const ovoid_body *body);
+
+/// The ellipsoid that encloses e and a ball of radius r around each of its points, rounding included: also that of
+/// whoever computes its support in doubles.
+ovoid_ellipsoid ellipsoid_enlarge(ovoid_ellipsoid e, double r);
 
 /// Fills the outer and inner ellipsoids; 0 where there is no memory.
 int compound_compute_bounds(ovoid_compound *compound, const ovoid_body *parts, const parts_vertices *all);

@@ -40,11 +40,11 @@ static size_t write_points(const ovoid_body *parts, uint32_t count, const parts_
     return at;
 }
 
-// The ellipsoid that encloses e and a ball of radius r around each point of it, rounding included.
-static ovoid_ellipsoid enlarge(ovoid_ellipsoid e, double r) {
+// A support in doubles is off by 12 u of the trace under its root.
+ovoid_ellipsoid ellipsoid_enlarge(ovoid_ellipsoid e, double r) {
     double s = sqrt(max2(sym3_trace(e.q), 0) / 3), mean = max2(s, r);
     if (!(mean > 0)) return e;
-    double more = r * (r + mean), slack = 16 * 0x1p-53 * (sym3_trace(e.q) + more);
+    double more = r * (r + mean), slack = 64 * 0x1p-53 * (sym3_trace(e.q) + more);
     e.q = sym3_add(sym3_scale(e.q, 1 + r / mean), sym3_diagonal(more + slack, more + slack, more + slack));
     return e;
 }
@@ -58,7 +58,7 @@ static int fit_outer(ovoid_compound *c, const double *points, size_t count, doub
     ovoid_fit fit;
     code = ovoid_ellipsoid_compute_outer(&polytope, 1e-4, &fit, &c->allocator);
     if (code == OVOID_OK) {
-        c->outer = enlarge(fit.ellipsoid, radius);
+        c->outer = ellipsoid_enlarge(fit.ellipsoid, radius);
         c->outer.center = vec3_add(fit.ellipsoid.center, polytope.origin);
     }
     hull_destroy(&h, &c->allocator);

@@ -1,16 +1,16 @@
-// Two nodes: spheres around the boxes' centres, then the boxes, along the axes of a and along those of b. Along the
-// axes of one solid the other's box is enclosed by a box of the same axes; of two such boxes the distance is known in
-// closed form, and so is the direction along which their supports show it. S. Gottschalk, M. C. Lin, D. Manocha,
-// OBBTree: a hierarchical structure for rapid interference detection, 1996, has all 15 axes; the other nine are left
-// out.
+// Two nodes: gaps along a direction known to part others, then along the line of the centres, by spheres, boxes and
+// ellipsoids, whichever reaches least; then the boxes along the axes of either solid. Along these the other's box is
+// enclosed by a box of the same axes; of two such boxes the distance is known in closed form, and so is the direction
+// along which their supports show it. (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: a hierarchical structure for
+// rapid interference detection, 1996, has nine axes more.)
 //
 // Errors (docs/compound.md), u = 2^-53, S = Ea + Eb + |offset|, P = |position of a| + |of b|:
 //   parts in the world, as the rounded product of poses has them      45 u (Ea + Eb) + 2 u P
 //   the centres' difference, the turned half sizes                    100 u S each
-//   sums, squares and root                                            16 u S
+//   sums, squares and roots                                           16 u S
 //   the normal, turned to the world                                   42 u S
-//   the measurement of whoever checks it, along that normal           100 u S
-// Together below 448 u S + 2 u P: a bound is lowered by 512 u S + 8 u P.
+//   the measurement of whoever checks it, along that normal           148 u S
+// Together below 460 u S + 2 u P: a bound is lowered by 512 u S + 8 u P.
 #include "scene/nodes.h"
 
 #include "linear/rotation.h"
@@ -60,6 +60,12 @@ static inline double find_reach(const compound_node *node, vec3 n) {
     return min2((fabs(n.x) * h->x + fabs(n.y) * h->y) + fabs(n.z) * h->z, node->radius);
 }
 
+// The same, or that of its ellipsoid where that is less. The direction counts, as the centres differ.
+static inline double find_round_reach(const compound_node *node, vec3 n, double reach) {
+    if (!node_is_round(node)) return reach;
+    return min2(reach, vec3_dot(n, node->shift) + sqrt(sym3_quadratic(node->round, n)));
+}
+
 // A point of the other in the own frame; as a unit direction of the world; from an own point.
 static inline vec3 turn_point(const nodes_side *s, vec3 other) {
     return vec3_add(mat3_mul_vec3(s->rotation, other), s->translation);
@@ -72,7 +78,9 @@ static vec3 find_world_direction(const mat3 *world, vec3 t) {
 nodes_other nodes_turn(const nodes_frame *f, int side, const compound_node *other) {
     const nodes_side *s = &f->sides[side];
     nodes_other o = {other, turn_point(s, other->center), mat3_mul_vec3(s->sizes, other->half), -INFINITY};
-    if (has_normal(f)) o.along = (s->offset + vec3_dot(s->other, other->center)) - find_reach(other, s->other);
+    if (!has_normal(f)) return o;
+    double reach = find_round_reach(other, vec3_neg(s->other), find_reach(other, s->other));
+    o.along = (s->offset + vec3_dot(s->other, other->center)) - reach;
     return o;
 }
 
@@ -102,7 +110,10 @@ nodes_bound nodes_compute_lower(const nodes_frame *f, int side, const compound_n
     nodes_bound best = {-INFINITY, NODES_NORMAL};
     enough += f->claim;
     if (has_normal(f)) {
-        best.lower = other->along - (vec3_dot(s->own, own->center) + find_reach(own, s->own));
+        double apart = other->along - vec3_dot(s->own, own->center), reach = find_reach(own, s->own);
+        best.lower = apart - reach;
+        if (best.lower > enough) return lowered(best, f);
+        best.lower = apart - find_round_reach(own, s->own, reach);
         if (best.lower > enough) return lowered(best, f);
     }
     // The line of the centres: spheres, then boxes, which show nothing of nodes that lie in each other.
@@ -112,10 +123,14 @@ nodes_bound nodes_compute_lower(const nodes_frame *f, int side, const compound_n
     if (best.lower > enough) return lowered(best, f);
     vec3 back = mat3_mul_transposed_vec3(s->rotation, t);
     if (length > own->radius || length > node->radius) {
-        double scale = 1 / length;
-        double reach = find_reach(own, vec3_scale(t, scale)) + find_reach(node, vec3_scale(back, scale));
-        take(&best, length - reach, NODES_LINE);
+        vec3 n = vec3_scale(t, 1 / length), m = vec3_scale(back, -1 / length);
+        double of_own = find_reach(own, n), of_other = find_reach(node, m);
+        take(&best, length - (of_own + of_other), NODES_LINE);
         if (best.lower > enough) return lowered(best, f);
+        if (node_is_round(own) || node_is_round(node)) {
+            take(&best, length - (find_round_reach(own, n, of_own) + find_round_reach(node, m, of_other)), NODES_LINE);
+            if (best.lower > enough) return lowered(best, f);
+        }
     }
     // The boxes.
     take(&best, measure(find_gaps(t, own->half, other->half)), side ? NODES_BOX_B : NODES_BOX_A);
