@@ -20,15 +20,24 @@ static int is_answered(const ovoid_world *w, world_pair *p) {
     return pair_is_answered(w, p);
 }
 
-// The bodies of a pair, and its proof, are anywhere in memory: they are asked for some pairs ahead.
-enum { AHEAD = 4 };
-static void prefetch(const ovoid_world *w, const world_pair *p) {
+// The bodies of a pair, its proof and then its shapes are anywhere in memory: they are asked for some pairs ahead.
+enum { AHEAD = 6, SHAPES_AHEAD = 2, SHAPE_LINES = 8 };
+
+static void prefetch_bodies(const ovoid_world *w, const world_pair *p) {
     const char *a = (const char *)&w->bodies[p->a], *b = (const char *)&w->bodies[p->b],
                *k = (const char *)&w->kept[p->slot];
     for (int line = 0; line < 2; line++) {
         __builtin_prefetch(a + 64 * line);
         __builtin_prefetch(b + 64 * line);
         __builtin_prefetch(k + 64 * line);
+    }
+}
+
+static void prefetch_shapes(const ovoid_world *w, const world_pair *p) {
+    const char *a = (const char *)w->bodies[p->a].solid.shape, *b = (const char *)w->bodies[p->b].solid.shape;
+    for (int line = 0; a && b && line < SHAPE_LINES; line++) {
+        __builtin_prefetch(a + 64 * line);
+        __builtin_prefetch(b + 64 * line);
     }
 }
 
@@ -39,9 +48,10 @@ static void decide_chunk(ovoid_world *w, world_pair *pairs, uint32_t count, chun
         open[open_count] = (uint16_t)i;
         open_count += !is_answered(w, &pairs[i]);
     }
-    for (uint32_t i = 0; i < open_count && i < AHEAD; i++) prefetch(w, &pairs[open[i]]);
+    for (uint32_t i = 0; i < open_count && i < AHEAD; i++) prefetch_bodies(w, &pairs[open[i]]);
     for (uint32_t i = 0; i < open_count; i++) {
-        if (i + AHEAD < open_count) prefetch(w, &pairs[open[i + AHEAD]]);
+        if (i + AHEAD < open_count) prefetch_bodies(w, &pairs[open[i + AHEAD]]);
+        if (i + SHAPES_AHEAD < open_count) prefetch_shapes(w, &pairs[open[i + SHAPES_AHEAD]]);
         pair_ask(w, &pairs[open[i]]);
     }
     *out = (chunk){0, open_count};

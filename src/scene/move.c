@@ -18,7 +18,7 @@
 #define SLACK (1 + 0x1p-48)
 
 // The room where the world chooses: some steps of the last size, in fractions of the body's size.
-enum { STEPS_AHEAD = 4 };
+enum { STEPS_AHEAD = 7 };
 #define ROOM_LEAST 0.04
 #define ROOM_MOST 0.5
 
@@ -30,7 +30,7 @@ static double compute_room(const ovoid_world *w, const world_body *b) {
 
 box body_compute_box(ovoid_world *w, uint32_t i) {
     world_body *b = &w->bodies[i];
-    solid_ball ball = solid_compute_ball(&b->solid);
+    solid_ball ball = body_get_ball(b);
     b->placed = w->places[i];
     b->room = compute_room(w, b);
     double grow = (b->room + w->margin / 2) * SLACK;
@@ -79,7 +79,7 @@ static void move_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
     world_body *b = &w->bodies[i];
     body_place *p = &w->places[i];
     if (memcmp(&b->solid.pose, pose, sizeof *pose) == 0) return;
-    solid_ball ball = solid_compute_ball(&b->solid);
+    solid_ball ball = body_get_ball(b);
     double blur, chord = compute_chord(b->solid.pose.rotation, pose->rotation);
     vec3 at = solid_compute_center(&ball, pose, &blur), way = vec3_sub(at, p->at);
     double turn = (chord * b->reach + (b->blur + blur)) * SLACK;

@@ -13,6 +13,7 @@
 #include "scene/broad.h"
 #include "scene/ignored.h"
 #include "scene/pool.h"
+#include "scene/solid.h"
 
 /// Where a body is, as the pairs need it: half a cache line.
 typedef struct body_place {
@@ -29,6 +30,7 @@ typedef struct world_body {
     vec3 local;        ///< r in the user's local frame
     double reach;      ///< no point of the body without its radius is farther from r
     double radius;     ///< its rounding radius
+    double size;       ///< bounds all lengths in its local frame
     double blur;       ///< what rounding hides in r at the present pose
     body_place placed; ///< where it was when its box was made,
     double room;       ///< how far it may go from there
@@ -153,6 +155,11 @@ int world_is_pair(const ovoid_world *w, uint32_t a, uint32_t b);
 int world_mend_tree(ovoid_world *w);
 /// The bodies' boxes with another margin.
 void world_set_margin(ovoid_world *w, double margin);
+
+/// What solid_compute_ball says of the body.
+static inline solid_ball body_get_ball(const world_body *b) {
+    return (solid_ball){b->local, b->reach, b->radius, b->size};
+}
 
 // ---- pairs
 

@@ -177,6 +177,7 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
                       .local = ball.local,
                       .reach = ball.reach,
                       .radius = ball.radius,
+                      .size = ball.size,
                       .user = given->user,
                       .group = all ? ~0u : given->group,
                       .mask = all ? ~0u : given->mask,
