@@ -6,14 +6,6 @@
 #include "query/inner.h"
 #include "scene/ask.h"
 
-// A lower bound for a pair that overlaps: what is left of the old one, or what the spheres say.
-static double find_lower(const pair_frame *f, const kept *k, double age) {
-    vec3 d =
-        vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, f->b->center), mat3_mul_vec3(f->world, f->a->center)));
-    return max2(k->lower - age,
-                vec3_norm(d) - (f->a->reach + f->b->reach) - f->radii - FRAME_GLANCE * f->size - 3 * f->hidden);
-}
-
 static double measure_hull(const pair_frame *f, const kept *k) {
     vec3 w[OVOID_PROOF_PAIRS];
     for (uint32_t i = 0; i < k->count; i++) w[i] = frame_difference(f, k->of.entry[i][0], k->of.entry[i][1]);
@@ -21,18 +13,27 @@ static double measure_hull(const pair_frame *f, const kept *k) {
     return depth > 0 ? -depth - f->radii : 0;
 }
 
-static int measure_overlap(pair_frame *f, kept *k, double age) {
+// A common point of the inner ellipsoids: the kept one, which is fixed in A, or the one that is best now.
+static double measure_inner(const pair_frame *f, kept *k) {
+    double upper = inner_compute_upper(f, k->of.inner);
+    vec3 x;
+    double other = inner_find_common(f, &x) ? inner_compute_upper(f, x) : 0;
+    if (!(other < upper)) return upper;
+    k->of.inner = x;
+    return other;
+}
+
+static int measure_overlap(pair_frame *f, kept *k) {
     frame_relate(f);
-    double upper = k->proof == OVOID_PROOF_INNER  ? inner_compute_upper(f, k->of.inner)
-                   : k->proof == OVOID_PROOF_HULL ? measure_hull(f, k)
-                                                  : 0;
+    double upper = 0;
+    if (k->proof == OVOID_PROOF_INNER) upper = measure_inner(f, k);
+    if (k->proof == OVOID_PROOF_HULL) upper = measure_hull(f, k);
     if (!(upper < 0)) return 0;
-    k->lower = find_lower(f, k, age);
     k->upper = upper;
     return 1;
 }
 
-static int measure_gap(const pair_frame *f, kept *k, double margin, double age) {
+static int measure_gap(const pair_frame *f, kept *k, double margin) {
     glance found;
     ovoid_proof earlier;
     if (glance_at_spheres(f, margin, &found)) {
@@ -44,7 +45,6 @@ static int measure_gap(const pair_frame *f, kept *k, double margin, double age) 
     }
     k->normal = found.normal;
     k->lower = found.lower;
-    k->upper += age;
     return 1;
 }
 
@@ -56,8 +56,14 @@ int pair_measure(const ovoid_world *w, const world_pair *p, kept *k) {
     ovoid_pair both = {a->solid.shape, b->solid.shape, a->solid.pose, b->solid.pose};
     pair_frame f;
     if (frame_place(&both, &f) != OVOID_LIMIT_NONE) return 0;
-    double age = pair_compute_age(w, p, k);
-    if (!(is_apart ? measure_gap(&f, k, w->margin, age) : measure_overlap(&f, k, age))) return 0;
+    if (!(is_apart ? measure_gap(&f, k, w->margin) : measure_overlap(&f, k))) return 0;
+    // The other side of the bracket is what the spheres say.
+    double d = vec3_norm(vec3_sub(w->places[p->b].at, w->places[p->a].at)), blur = a->blur + b->blur;
+    double reach = ((a->reach + b->reach) + (a->radius + b->radius)) * (1 + 0x1p-48) + blur;
+    if (is_apart)
+        k->upper = (d + reach) * (1 + 0x1p-48);
+    else
+        k->lower = d * (1 - 0x1p-48) - reach;
     k->limit = OVOID_LIMIT_ANSWERED;
     k->iterations = 0;
     if (is_overlap) k->stage = OVOID_STAGE_PROOF;

@@ -100,6 +100,7 @@ struct ovoid_world {
     uint8_t *marks;
     uint32_t *leaf_of, *changed, *generations;
     uint32_t capacity, used, count, free;
+    int has_vast;           ///< a compound of more than half of OVOID_LENGTH_MAX was added
     uint32_t changed_count; ///< bodies with MARK_BOX or MARK_FRESH: changed[0 ..]
     broad tree;
     ignored ignored;

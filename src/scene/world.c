@@ -183,6 +183,7 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
                       .mask = all ? ~0u : given->mask,
                       .seen = box_make_empty()};
     w->places[i] = (body_place){solid_compute_center(&ball, &b->solid.pose, &b->blur), 0};
+    if (given->solid.compound && given->solid.compound->extent > OVOID_LENGTH_MAX / 2) w->has_vast = 1;
     body_mark_fresh(w, i);
     w->count++;
     return i;
