@@ -156,42 +156,76 @@ void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier
     if (!search_is_done(s)) refine_run(s, pair, earlier);
 }
 
-// The answer goes to *out: returned by value it would be copied once more.
-void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
-                        ovoid_cover *cover, ovoid_answer *out) {
+// How a query begins: refused, answered by the first look, or on its way.
+typedef enum beginning { BEGIN_REFUSED, BEGIN_SEEN, BEGIN_SEARCH } beginning;
+
+static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given, question *ask,
+                              const ovoid_proof *earlier, ovoid_cover *cover, pair_frame *frame, glance *seen,
+                              ovoid_limit *refused) {
     OVOID_ASSERT(pair && pair->shape_a && pair->shape_b);
     ovoid_options options;
-    pair_frame frame;
     if (cover) cover->point_count = cover->triangle_count = 0;
-    ovoid_limit refused = OVOID_LIMIT_OPTIONS;
-    if (options_make(given, &options) && ask.far >= 0) refused = frame_place(pair, &frame);
-    if (refused != OVOID_LIMIT_NONE) {
-        *out = answer_make_refused(refused);
-        return;
-    }
-    ask.tolerance = max2(options.absolute_tolerance, options.relative_tolerance * frame.size) + 8 * frame.hidden;
-    ask.iterations = options.iterations;
-    glance seen;
-    if (take_glance(&frame, &ask, earlier, &seen)) {
-        glance_write(&seen, &frame, &ask, out);
-        return;
-    }
-    frame_relate(&frame);
+    *refused = OVOID_LIMIT_OPTIONS;
+    if (options_make(given, &options) && ask->far >= 0) *refused = frame_place(pair, frame);
+    if (*refused != OVOID_LIMIT_NONE) return BEGIN_REFUSED;
+    ask->tolerance = max2(options.absolute_tolerance, options.relative_tolerance * frame->size) + 8 * frame->hidden;
+    ask->iterations = options.iterations;
+    return take_glance(frame, ask, earlier, seen) ? BEGIN_SEEN : BEGIN_SEARCH;
+}
+
+static void run_search(const ovoid_pair *pair, pair_frame *frame, const question *ask, const ovoid_proof *earlier,
+                       ovoid_cover *cover, ovoid_answer *out) {
+    frame_relate(frame);
     search s;
-    search_make(&s, &frame, &ask);
+    search_make(&s, frame, ask);
     simplex start;
     run_stages(&s, earlier, &start);
     answer_search(&s, pair, earlier, &start, cover);
     answer_write(&s, out);
 }
 
-ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
-                         ovoid_cover *cover) {
+void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
+                        ovoid_cover *cover, ovoid_answer *out) {
+    pair_frame frame;
+    glance seen;
+    ovoid_limit refused;
+    switch (begin(pair, given, &ask, earlier, cover, &frame, &seen, &refused)) {
+    case BEGIN_REFUSED: *out = answer_make_refused(refused); break;
+    case BEGIN_SEEN: *out = glance_make_answer(&seen, &frame, &ask); break;
+    case BEGIN_SEARCH: run_search(pair, &frame, &ask, earlier, cover, out); break;
+    }
+}
+
+// By value, and called, not inlined: what takes no address of its answer makes it in the caller's place, and a first
+// look is done sooner than its answer is copied.
+__attribute__((noinline)) static ovoid_answer search_by_value(const ovoid_pair *pair, pair_frame *frame,
+                                                              const question *ask, const ovoid_proof *earlier,
+                                                              ovoid_cover *cover) {
     ovoid_answer out;
-    environment before = environment_enter();
-    environment_hide(ask);
-    answer_find_inside(pair, given, ask, earlier, cover, &out);
-    environment_hide(out);
-    environment_leave(before);
+    run_search(pair, frame, ask, earlier, cover, &out);
     return out;
+}
+
+__attribute__((noinline)) static ovoid_answer find_by_value(const ovoid_pair *pair, const ovoid_options *given,
+                                                            const question *asked, const ovoid_proof *earlier,
+                                                            ovoid_cover *cover) {
+    question ask = *asked;
+    pair_frame frame;
+    glance seen;
+    ovoid_limit refused;
+    switch (begin(pair, given, &ask, earlier, cover, &frame, &seen, &refused)) {
+    case BEGIN_REFUSED: return answer_make_refused(refused);
+    case BEGIN_SEEN: return glance_make_answer(&seen, &frame, &ask);
+    default: return search_by_value(pair, &frame, &ask, earlier, cover);
+    }
+}
+
+static void leave(const environment *before) { environment_leave(*before); }
+
+// All arithmetic is inside the call, which nothing of it can leave: the answer needs no hiding. It is returned as it
+// comes, and the environment is put back behind that.
+ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, const question *ask,
+                         const ovoid_proof *earlier, ovoid_cover *cover) {
+    __attribute__((cleanup(leave))) environment before = environment_enter();
+    return find_by_value(pair, given, ask, earlier, cover);
 }

@@ -19,8 +19,8 @@ int options_make(const ovoid_options *given, ovoid_options *options);
 ovoid_answer answer_make_refused(ovoid_limit limit);
 
 /// The whole pipeline for one question; cover may be NULL.
-ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,
-                         ovoid_cover *cover);
+ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, const question *ask,
+                         const ovoid_proof *earlier, ovoid_cover *cover);
 
 /// Likewise inside a public function: the floating-point environment is the default one already.
 void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, question ask, const ovoid_proof *earlier,

@@ -2,5 +2,6 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_collide(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
-    return answer_find(pair, options, question_make_collide(), earlier, NULL);
+    const question ask = question_make_collide();
+    return answer_find(pair, options, &ask, earlier, NULL);
 }

@@ -126,7 +126,7 @@ static void end_at_spheres(const crowd *c, const eight *e, unsigned k, unsigned 
     glance seen;
     ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[e->index[k]] : &own;
     (void)glance_at_spheres(&frame, ask.far, &seen);
-    glance_write(&seen, &frame, &ask, out);
+    *out = glance_make_answer(&seen, &frame, &ask);
     crowd_write(c->batch, e->index[k], out);
 }
 

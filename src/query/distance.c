@@ -2,5 +2,6 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
-    return answer_find(pair, options, question_make_distance(options), earlier, NULL);
+    const question ask = question_make_distance(options);
+    return answer_find(pair, options, &ask, earlier, NULL);
 }

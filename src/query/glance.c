@@ -34,23 +34,28 @@ int glance_at_proof(const pair_frame *f, double far, const ovoid_proof *earlier,
     return 1;
 }
 
-void glance_write(const glance *g, const pair_frame *f, const question *ask, ovoid_answer *out) {
+ovoid_answer glance_make_answer(const glance *g, const pair_frame *f, const question *ask) {
     vec3 a = mat3_mul_vec3(f->world, g->a ? vec3_at(shape_vertices(f->a), g->a) : f->a->first);
     vec3 b = mat3_mul_vec3(f->world_b, g->b ? vec3_at(shape_vertices(f->b), g->b) : f->b->first);
     vec3 d = vec3_add(f->offset, vec3_sub(b, a));
     double distance = vec3_norm(d);
-    *out = (ovoid_answer){.status = OVOID_SEPARATED, .stage = g->stage};
-    out->lower = g->lower;
-    out->upper = distance - f->radii + claim(f);
-    out->limit = out->upper - out->lower <= ask->tolerance ? OVOID_LIMIT_NONE : ask->beyond;
-    out->normal = out->proof.normal = g->normal;
-    out->proof.kind = OVOID_PROOF_POINTS;
-    out->proof.count = 1;
-    out->proof.a[0] = g->a;
-    out->proof.b[0] = g->b;
-    out->proof.weight_a[0] = out->proof.weight_b[0] = 1;
+    double upper = distance - f->radii + claim(f);
     // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
     double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
-    out->point_a = vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a));
-    out->point_b = vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b));
+    // One expression, which gcc 12 makes in place; a variable that is returned it would copy.
+    return (ovoid_answer){.status = OVOID_SEPARATED,
+                          .stage = g->stage,
+                          .limit = upper - g->lower <= ask->tolerance ? OVOID_LIMIT_NONE : ask->beyond,
+                          .lower = g->lower,
+                          .upper = upper,
+                          .point_a = vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a)),
+                          .point_b = vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b)),
+                          .normal = g->normal,
+                          .proof = {.normal = g->normal,
+                                    .kind = OVOID_PROOF_POINTS,
+                                    .count = 1,
+                                    .a = {g->a},
+                                    .b = {g->b},
+                                    .weight_a = {1},
+                                    .weight_b = {1}}};
 }

@@ -27,7 +27,8 @@ int glance_at_spheres(const pair_frame *frame, double far, glance *found);
 /// The supports along an earlier proof's normal; 1 where the gap is above `far`. Any numbers are safe.
 int glance_at_proof(const pair_frame *frame, double far, const ovoid_proof *earlier, glance *found);
 
-/// The answer to the question, whose tolerance is set.
-void glance_write(const glance *g, const pair_frame *f, const question *ask, ovoid_answer *out);
+/// The answer to the question, whose tolerance is set. By value: no address of it is taken, so it is made where the
+/// caller of the query wants it.
+ovoid_answer glance_make_answer(const glance *g, const pair_frame *f, const question *ask);
 
 #endif

@@ -4,7 +4,8 @@
 
 ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
                           const ovoid_proof *earlier) {
-    return answer_find(pair, options, question_make_within(margin), earlier, NULL);
+    const question ask = question_make_within(margin);
+    return answer_find(pair, options, &ask, earlier, NULL);
 }
 
 static int is_within(const ovoid_answer *answer, double margin) {
