@@ -147,9 +147,9 @@ static int search_by_multipliers(const smooth_pair *pair, smooth_state *x, uint3
     *steps += found.rounds;
     smooth_state y;
     smooth_evaluate(pair, found.normal, &y);
-    // Across a flat body the normal does not tell the point; elsewhere the point is on the surface.
-    y.p = y.sa > 0x1p-40 * pair->size ? vec3_unit(found.p) : found.p;
-    y.q = y.sb > 0x1p-40 * pair->size ? vec3_unit(found.q) : found.q;
+    // Points that are inside the unit ball belong to bodies that n is across.
+    y.p = vec3_norm_squared(found.p) > 1 - 0x1p-20 ? vec3_unit(found.p) : found.p;
+    y.q = vec3_norm_squared(found.q) > 1 - 0x1p-20 ? vec3_unit(found.q) : found.q;
     set_points(pair, &y);
     if (!(vec3_norm_squared(y.across) < vec3_norm_squared(x->across)) || y.gap < x->gap - 0x1p-40 * pair->size)
         return 0;
