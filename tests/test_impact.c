@@ -152,6 +152,26 @@ static void check_bullets(void) {
     ovoid_shape_destroy(shard);
 }
 
+// The unit of time is the caller's.
+static void check_durations(void) {
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
+    ovoid_pose from = {{3, 0.2, 0.1}, {1, 0.2, 0.1, 0}}, to = {{-3, 0, 0.3}, {1, 0, 0.5, 0.7}};
+    ovoid_moving a = moving(box, at(0, 0, 0), zero, (ovoid_vec3){0.5, 0, 0}), b = {.shape = box};
+    double first = 0;
+    for (int e = -300; e <= 330; e += 30) {
+        double unit = ldexp(1, e);
+        a.motion.duration = unit;
+        a.motion.angular.x = 0.5 / unit;
+        b.motion = ovoid_motion_make_poses(from, to, unit);
+        ovoid_impact x = find(&a, &b, 0);
+        CHECK_EQ(x.status, OVOID_IMPACT_HIT);
+        CHECK_LE((x.hit_at - x.free_until) / unit, 1e-9);
+        if (e == -300) first = x.hit_at / unit;
+        CHECK_NEAR(x.hit_at / unit, first, 1e-9);
+    }
+    ovoid_shape_destroy(box);
+}
+
 // ---- near the margin, at rest
 
 static void check_near(void) {
@@ -333,6 +353,7 @@ int main(void) {
     check_rod();
     check_needle();
     check_bullets();
+    check_durations();
     check_near();
     check_refusals();
     return check_end();

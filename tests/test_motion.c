@@ -74,7 +74,7 @@ static void check_point(const ovoid_motion *m, double time, wide truth, ovoid_ve
     ovoid_pose pose = ovoid_motion_compute_pose(m, time);
     wide x = add(rotate(pose.rotation, widen(local)), widen(pose.position), 1);
     ovoid_vec3 found = {(double)x.x, (double)x.y, (double)x.z};
-    double arm = norm(local) + norm(m->pivot), most = 16 * way + 4 * norm(m->start.position) + 128 * norm(m->pivot);
+    double arm = norm(local) + norm(m->pivot), most = 16 * way + 4 * norm(m->start.position) + 160 * norm(m->pivot);
     most += (160 + 16 * angle) * arm;
     // The found point is rounded to doubles here.
     CHECK_LE(apart(truth, found), U * (most + 4 * (arm + way + norm(m->start.position))));

@@ -59,7 +59,7 @@ OVOID_API ovoid_code ovoid_motion_compute_check(const ovoid_motion *motion, ovoi
 
 /**
  * The pose at a time, rounded; before and after its time a motion rests. Off the exact motion by at most 16 u of the
- * way travelled, 4 u of the starting position, 128 u of the pivot and, in the rotation, 160 u + 16 u of the angle
+ * way travelled, 4 u of the starting position, 160 u of the pivot and, in the rotation, 160 u + 16 u of the angle
  * turned, u = 2^-53; docs/motion.md derives this. The motion must be sound (ovoid_motion_compute_check).
  */
 OVOID_API ovoid_pose ovoid_motion_compute_pose(const ovoid_motion *motion, double time);

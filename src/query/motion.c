@@ -174,7 +174,7 @@ static void set_velocity(motion_piece *p, const ovoid_motion *m) {
     if (p->turn > 0) arm = mat3_mul_vec3(quat_to_mat3(m->start.rotation), m->pivot);
     p->from = vec3_add(m->start.position, arm);
     p->inner.position = vec3_neg(arm);
-    p->fixed = p->turn > 0 ? 128 * ROUNDING * norm_above(m->pivot) : 0;
+    p->fixed = p->turn > 0 ? 160 * ROUNDING * norm_above(m->pivot) : 0;
 }
 
 void motion_find_piece(const ovoid_motion *m, double time, motion_piece *p) {
@@ -255,8 +255,8 @@ ovoid_pose ovoid_moving_compute_pose(const ovoid_moving *moving, double time) {
     ENVIRONMENT_RETURN(ovoid_pose, time, compute_moving_pose(moving, time));
 }
 
-// The cylinder about the axis that holds all vertices. Both the axis and the pivot are rounded: 128 u of all lengths,
-// and the axis' error times the arm.
+// The cylinder about the axis that holds all vertices. The axis and the pivot are rounded, each by two or three
+// rotations of 42 u: 512 u of all lengths, and the axis' error times the arm.
 static void find_cylinder(motion_body *b) {
     const ovoid_shape *shape = b->moving->shape;
     const double *v = shape_vertices(shape);
@@ -268,7 +268,7 @@ static void find_cylinder(motion_body *b) {
         high = max2(high, along);
         wide = max2(wide, vec3_norm_squared(vec3_cross(b->axis, y)));
     }
-    double slack = (128 * ROUNDING + b->axis_error) * b->reach;
+    double slack = (512 * ROUNDING + b->axis_error) * b->reach;
     b->low = low - slack;
     b->high = high + slack;
     b->wide = min2(sqrt(wide) + slack, b->reach);
@@ -292,7 +292,7 @@ int motion_body_make(const ovoid_moving *moving, double time, motion_body *b) {
     b->pivot = vec3_sub(pivot, shape->origin);
     b->reach = (shape->extent + norm_above(shape->origin) + 2 * norm_above(at) + norm_above(p->inner.position)) *
                (1 + 256 * ROUNDING);
-    b->axis_error = p->turn > 0 ? min2(1, 2 * p->turn_error / p->turn + 128 * ROUNDING) : 0;
+    b->axis_error = p->turn > 0 ? min2(1, 2 * p->turn_error / p->turn + 256 * ROUNDING) : 0;
     b->axis = mat3_mul_transposed_vec3(part, mat3_mul_transposed_vec3(first, p->axis));
     b->low = b->high = b->wide = 0;
     if (p->turn > 0) find_cylinder(b);

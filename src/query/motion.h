@@ -3,7 +3,7 @@
 // A piece is x(t) = from + s travel + exp(s turn [axis]) x0, s = (t - begin) / span, where x0 = inner(x) is a point of
 // the body at the piece's begin, seen from the pivot. docs/motion.md derives what rounding does:
 // - the rotation of a computed pose is off by (160 + 16 s turn) u in norm, its position by 16 u |s travel| + 4 u of the
-//   starting position + 128 u of the pivot, and what the rotation's error does to the pivot's arm;
+//   starting position + 160 u of the pivot, and what the rotation's error does to the pivot's arm;
 // - a part adds 16 u to the rotation and 64 u of its position and of the pose's.
 // Poses that are given, at a piece's ends, are exact.
 #ifndef OVOID_QUERY_MOTION_H

@@ -56,7 +56,7 @@ static void take_cylinder(ovoid_box *box, const motion_body *b, double time) {
     const motion_piece *p = &b->piece;
     vec3 at = vec3_add_scaled(p->from, p->travel, (time - p->begin) / p->span);
     double radius = b->moving->shape->radius;
-    double slack = (2 * b->axis_error + 256 * ROUNDING) * b->reach + OVOID_LENGTH_MIN + p->fixed +
+    double slack = (2 * b->axis_error + 512 * ROUNDING) * b->reach + OVOID_LENGTH_MIN + p->fixed +
                    64 * ROUNDING * (vec3_max_abs(at) + vec3_max_abs(p->travel) + radius);
     extent low, high;
     const extent bulge = {0, 0, 0};

@@ -42,7 +42,7 @@ static void set_support(const motion_body *b, vec3 n, vec3 m, support_result fou
     speed[0] += compute_turning(b, m, found.index);
     double along = vec3_dot(n, b->piece.axis), across = vec3_norm(vec3_cross(n, b->piece.axis));
     double cylinder = max2(along * b->low, along * b->high) + across * b->wide;
-    support[1] = vec3_dot(m, b->pivot) + cylinder + (2 * b->axis_error + 128 * ROUNDING) * b->reach;
+    support[1] = vec3_dot(m, b->pivot) + cylinder + (2 * b->axis_error + 512 * ROUNDING) * b->reach;
 }
 
 void motion_gap_find(const motion_pair *p, double time, vec3 n, motion_gap *g) {
