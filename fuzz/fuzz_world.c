@@ -1,6 +1,7 @@
 // A world of up to twelve bodies under any sequence of its functions. Truth: a model of the bodies and their groups,
 // and the query of each pair alone: a frame's contacts are sorted, are pairs, leave none out that is proven within the
-// margin, and each bracket has a point in common with the pair's own; whole answers pass their check.
+// margin, and each bracket has a point in common with the pair's own; whole answers pass their check. What is asked
+// between frames likewise: nothing nearer is left out.
 #include "bodies.h"
 
 enum { SHAPES = 4, BODIES = 12, OPERATIONS = 48 };
@@ -135,6 +136,91 @@ static void ask_frame(model *m, fuzz_bytes *from) {
         }
 }
 
+// The answer about a pair alone.
+static ovoid_answer ask_alone(const ovoid_solid *a, const ovoid_solid *b) {
+    ovoid_solid_pair pair = {*a, *b};
+    return ovoid_compound_depth(&pair, NULL, NULL, NULL).answer;
+}
+
+// No pair that was asked about is nearer than the hit says; body: the one asked about, or -1 for all pairs.
+static void check_nearest(const model *m, const ovoid_world_hit *hit, int body) {
+    int is_overlap = hit->b && hit->answer.answer.lower <= 0;
+    for (int i = 0; i < m->count; i++)
+        for (int j = 0; j < i; j++)
+            if (is_pair(m, i, j) && (body < 0 || i == body || j == body)) {
+                fuzz_require(hit->b != 0);
+                if (!is_overlap) fuzz_require(hit->lower <= ask_alone(&m->bodies[i].solid, &m->bodies[j].solid).upper);
+            }
+    if (!hit->b) return;
+    int i = find_body(m, hit->a), j = find_body(m, hit->b);
+    fuzz_require(i >= 0 && j >= 0 && is_pair(m, i, j));
+    ovoid_answer alone = ask_alone(&m->bodies[i].solid, &m->bodies[j].solid);
+    fuzz_require(hit->answer.answer.lower <= alone.upper && alone.lower <= hit->answer.answer.upper);
+}
+
+static void check_overlaps(const model *m, const ovoid_world_body *probe, double margin) {
+    ovoid_world_hit items[BODIES];
+    ovoid_world_hits hits = {items, BODIES, 0, NULL};
+    ovoid_error error = {OVOID_OK, -1, ""};
+    if (ovoid_world_find_overlaps(m->world, probe, margin, &hits, &error) != OVOID_OK) {
+        fuzz_require_error(&error);
+        return;
+    }
+    fuzz_require(hits.count <= (size_t)m->count);
+    for (size_t k = 1; k < hits.count; k++) fuzz_require(items[k - 1].b < items[k].b);
+    for (int i = 0; i < m->count; i++) {
+        int is_asked = !(probe->group || probe->mask) ||
+                       ((m->bodies[i].group & probe->mask) && (m->bodies[i].mask & probe->group)),
+            is_there = 0;
+        for (size_t k = 0; k < hits.count; k++) is_there |= items[k].b == m->bodies[i].id;
+        ovoid_answer alone = ask_alone(&probe->solid, &m->bodies[i].solid);
+        if (!is_asked) fuzz_require(!is_there);
+        if (is_asked && alone.upper <= margin) fuzz_require(is_there);
+        if (is_asked && alone.lower > margin && isfinite(alone.upper)) fuzz_require(!is_there);
+    }
+}
+
+static void check_casts(const model *m, fuzz_bytes *from, const ovoid_world_body *probe) {
+    ovoid_world_ray ray = {.ray = {take_vector(from, m->is_wild), take_vector(from, m->is_wild), 4, 0}};
+    ray.ray.radius = fabs(take_number(from, 0)) / 8;
+    ovoid_world_cast cast;
+    ovoid_error error = {OVOID_OK, -1, ""};
+    if (ovoid_world_cast_ray(m->world, &ray, &cast, &error) == OVOID_OK) {
+        fuzz_require(!(cast.lower > cast.upper));
+        for (int i = 0; i < m->count; i++) {
+            if (!m->bodies[i].solid.shape || !m->bodies[i].group || !m->bodies[i].mask) continue;
+            ovoid_body body = {m->bodies[i].solid.shape, m->bodies[i].solid.pose};
+            ovoid_ray_hit alone = ovoid_ray_cast(&body, &ray.ray);
+            if (alone.status == OVOID_IMPACT_HIT) fuzz_require(cast.lower <= alone.upper);
+        }
+    } else {
+        fuzz_require_error(&error);
+    }
+    if (ovoid_world_cast_solid(m->world, probe, take_vector(from, m->is_wild), &cast, &error) == OVOID_OK)
+        fuzz_require(!(cast.lower > cast.upper));
+    else
+        fuzz_require_error(&error);
+}
+
+static void ask_between(const model *m, fuzz_bytes *from) {
+    ovoid_world_hit hit;
+    ovoid_error error = {OVOID_OK, -1, ""};
+    fuzz_require_code(ovoid_world_find_nearest_pair(m->world, NULL, &hit, &error), &error);
+    check_nearest(m, &hit, -1);
+    for (int i = 0; i < m->count && i < 2; i++) {
+        fuzz_require_code(ovoid_world_find_nearest(m->world, m->bodies[i].id, NULL, &hit, &error), &error);
+        check_nearest(m, &hit, i);
+    }
+    fuzz_require_code(ovoid_world_find_any(m->world, NULL, 0, NULL, &hit, &error), &error);
+    for (int i = 0; i < m->count && !hit.b; i++)
+        for (int j = 0; j < i; j++)
+            if (is_pair(m, i, j)) fuzz_require(ask_alone(&m->bodies[i].solid, &m->bodies[j].solid).upper > 0);
+    ovoid_world_body probe = {.solid = {.shape = m->shapes[0], .pose = take_any_pose(from, m->is_wild)}};
+    if (take_byte(from) > 64) probe = ovoid_world_make_point(m->world, take_vector(from, m->is_wild));
+    check_overlaps(m, &probe, fabs(take_number(from, m->is_wild)) / 4);
+    check_casts(m, from, &probe);
+}
+
 static void move(model *m, int i, fuzz_bytes *from) {
     ovoid_pose pose = take_any_pose(from, m->is_wild);
     ovoid_error error = {OVOID_OK, -1, ""};
@@ -148,7 +234,10 @@ static void operate(model *m, fuzz_bytes *from) {
     unsigned what = (unsigned)take_byte(from) % 8, one = (unsigned)take_byte(from), other = (unsigned)take_byte(from);
     int i = m->count ? (int)(one % (unsigned)m->count) : 0, j = m->count ? (int)(other % (unsigned)m->count) : 0;
     if (what <= 1 && m->count < BODIES) add(m, from);
-    if (what == 7 || m->count == 0) ask_frame(m, from);
+    if (what == 7 && other % 2)
+        ask_between(m, from);
+    else if (what == 7 || m->count == 0)
+        ask_frame(m, from);
     if (m->count == 0) return;
     ovoid_world_body body;
     switch (what) {
@@ -189,7 +278,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         m.world = ovoid_world_create(&options, &error);
         fuzz_require(m.world != NULL);
         for (int k = 0; k < OPERATIONS && from.size && m.compound; k++) operate(&m, &from);
-        if (m.compound) ask_frame(&m, &from);
+        if (m.compound) {
+            ask_frame(&m, &from);
+            ask_between(&m, &from);
+        }
     }
     ovoid_world_destroy(m.world);
     ovoid_compound_destroy(m.compound);
