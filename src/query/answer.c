@@ -226,6 +226,6 @@ static void leave(const environment *before) { environment_leave(*before); }
 // comes, and the environment is put back behind that.
 ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, const question *ask,
                          const ovoid_proof *earlier, ovoid_cover *cover) {
-    __attribute__((cleanup(leave))) environment before = environment_enter();
+    __attribute__((cleanup(leave), unused)) environment before = environment_enter();
     return find_by_value(pair, given, ask, earlier, cover);
 }
