@@ -30,6 +30,8 @@ awk 'BEGIN { printf "{\"objects\":["
 awk 'BEGIN { srand(1)
     for (i = 0; i < 40000; i++) { x = rand() - 0.5; y = rand() - 0.5; z = rand() - 0.5; r = sqrt(x * x + y * y + z * z)
         printf "v %.9g %.9g %.9g\n", x / r, y / r, z / r } }' >many.obj
+awk 'BEGIN { print "time,body,x,y,z,qw,qx,qy,qz"; for (i = 0; i < 3000; i++) printf "%d,n%d,%d,%g,0,1,0,0,0.1\n", i / 2, i % 1500, i % 12, i / 200 }' >moves.csv
+awk 'BEGIN { print "time,body,x,y,z,qw,qx,qy,qz"; for (i = 0; i < 900; i++) printf "%d,tee,0,0,%g,1,0,0,0\n", i, 1 + i % 3 / 10 }' >long_fall.csv
 "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json -o many.jsonl 2>/dev/null
 
 # clean NAME: no unfinished file, no results under the final names, what was there as it was.
@@ -63,7 +65,8 @@ for ignored in XFSZ ''; do
     for target in new.out old.out; do
         for run in "batch --shapes shapes.txt --pairs many.csv --json -o $target" \
             "batch --shapes shapes.txt --pairs many.csv -o $target" "check many.json --margin 1 --csv -o $target" \
-            "view scene.json -o $target"; do
+            "run many.json --motion moves.csv --margin 0.1 --continuous --json -o $target" \
+            "run moving.json --motion long_fall.csv --query collide --plot $target" "view scene.json -o $target"; do
             (
                 if [ -n "$ignored" ]; then trap '' "$ignored"; fi
                 ulimit -f 8
@@ -105,6 +108,7 @@ fi
 
 for run in "batch --shapes shapes.txt --pairs many.csv --json" "batch --shapes shapes.txt --pairs many.csv --csv" \
     "batch --shapes shapes.txt --pairs many.csv" "check many.json --margin 0.5 --json" "check many.json --margin 0.5" \
+    "run many.json --motion moves.csv --margin 0.5 --json" "run many.json --motion moves.csv --csv" \
     "fit --json $(for i in 1 2 3 4 5 6 7 8; do printf 'cube.off tetra.obj parts.obj square.off ' && : "$i"; done)" \
     "view scene.json" "check --help"; do
     # shellcheck disable=SC2086 # a command line
@@ -144,6 +148,8 @@ if command -v timeout >/dev/null; then
     interrupt 0.4 'verify' many.jsonl "$OVOID_TOOL" verify - --shapes shapes.txt --pairs many.csv
     interrupt 0.2 'check' /dev/null "$OVOID_TOOL" check many.json --json -o new.out
     interrupt 0.2 'check over a file' /dev/null "$OVOID_TOOL" check many.json --json -o old.out
+    interrupt 0.4 'run to a new file' moves.csv "$OVOID_TOOL" run many.json --motion - --margin 0.5 --json -o new.out
+    interrupt 0.4 'run over a file' moves.csv "$OVOID_TOOL" run many.json --motion - --margin 0.5 --continuous -o old.out
     # fit makes one whole file after another.
     mkdir made
     interrupt 0.3 'fit' /dev/null "$OVOID_TOOL" fit --gap 1e-15 -o made/ many.obj many.obj many.obj many.obj many.obj
@@ -181,6 +187,46 @@ for target in new.out old.out; do
     clean "bad line, $target"
 done
 
+# ---- motions: none, cut short, of nonsense
+
+: >none.csv
+for run in "none.csv" "." "many.csv" "missing.csv"; do
+    "$OVOID_TOOL" run scene.json --motion $run --csv -o new.out 2>err
+    code=$?
+    expect "run, $run" 3 "$run:"
+    clean "run, $run"
+done
+(head -n 400 long_fall.csv && printf '999,tee,nan,0,0,1,0,0,0\n') >broken.csv
+for target in new.out old.out; do
+    "$OVOID_TOOL" run moving.json --motion broken.csv --json -o $target 2>err
+    code=$?
+    expect "bad line of a motion, $target" 3 'broken.csv:401: column x is not finite'
+    clean "bad line of a motion, $target"
+done
+"$OVOID_TOOL" run scene.json --motion - --csv <&- >/dev/null 2>err
+code=$?
+expect 'run, standard input closed' 3 'Bad file descriptor'
+# A step so long, a turn so fast that arithmetic does not follow: nothing is claimed.
+printf 'time,body,x,y,z,qw,qx,qy,qz\n-1e308,ball,9,9,9,1,0,0,0\n1e308,ball,9,9,8,1,0,0,0\n' >long.csv
+"$OVOID_TOOL" run scene.json --motion long.csv --margin 0 --continuous >/dev/null 2>err
+code=$?
+expect 'run, a step of no finite length' 4 'not proven: [1-9]'
+printf 'time,body,vx,vy,vz,wx,wy,wz\n0,ball,0,0,0,1e20,0,0\n1,ball,0,0,0,0,0,0\n' >fast.csv
+"$OVOID_TOOL" run scene.json --motion fast.csv >/dev/null 2>err
+code=$?
+expect 'run, a turn too fast' 3 'object "ball"'
+
+# ---- 100 000 objects: little memory, no pair lost. Each box touches the next one of its row of 100, and no other.
+
+awk 'BEGIN { printf "{\"objects\":["
+    for (i = 0; i < 100000; i++) printf "%s{\"name\":\"n%d\",\"box\":[1,1,1],\"pose\":{\"xyz\":[%d,%d,%d]}}", i ? "," : "", i, i % 100, 2 * int(i / 100 % 100), 2 * int(i / 10000)
+    print "]}" }' >huge.json
+"$OVOID_TOOL" check huge.json --margin 0 --csv -o huge.csv 2>err
+code=$?
+expect '100 000 objects' 1 '100000 objects'
+lines=$(wc -l <huge.csv)
+if [ "$lines" -eq 99001 ]; then pass; else fail "100 000 objects: $lines lines, not 99001"; fi
+rm -f huge.json huge.csv
 # ---- streams that are closed or full
 
 "$OVOID_TOOL" verify - scene.json <&- >/dev/null 2>err
