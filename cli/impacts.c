@@ -1,6 +1,6 @@
 // Impacts between two frames: boxes that hold each object over the whole step are swept along x (D. Baraff, Dynamic
-// simulation of non-penetrating rigid bodies, 1992); what is left is asked by ovoid_impact_find, part by part where
-// there are compounds, on several threads. A pair is looked at until it first comes within the margin.
+// simulation of non-penetrating rigid bodies, 1992); what is left is asked by ovoid_compound_impact_find, on several
+// threads. A pair is looked at until it first comes within the margin.
 #include "impacts.h"
 
 #include "message.h"
@@ -18,10 +18,7 @@
 /// An impact that was found, or that none is.
 typedef struct impact {
     ovoid_couple couple;
-    uint32_t part_a, part_b;
-    ovoid_impact_status status;
-    double free_for;
-    ovoid_impact hit; ///< of the deciding parts, where the status is HIT
+    ovoid_impact found;
     ovoid_step *steps;
     int failed; ///< no memory
 } impact;
@@ -80,40 +77,22 @@ int impacts_hold(cli_impacts *x, ovoid_couple couple) {
 
 /* ---- which pairs come near each other */
 
-static size_t count_parts(const cli_impacts *x, size_t object) {
-    const ovoid_compound *compound = ovoid_scene_get(x->scene, object).compound;
-    return compound ? ovoid_compound_get_part_count(compound) : 1;
-}
-
-/// A part of an object, with the motion of the step.
-static ovoid_moving get_moving(const cli_impacts *x, size_t object, size_t part) {
+/// An object, with the motion of the step.
+static ovoid_moving_solid get_moving(const cli_impacts *x, size_t object) {
     ovoid_scene_object o = ovoid_scene_get(x->scene, object);
-    ovoid_moving moving = {.shape = o.shape, .motion = frames_get_motion(x->frames, object)};
-    if (!o.compound) return moving;
-    ovoid_body body = ovoid_compound_get_part(o.compound, part);
-    moving.shape = body.shape;
-    moving.part = body.pose;
-    return moving;
+    return (ovoid_moving_solid){o.shape, o.compound, frames_get_motion(x->frames, object)};
 }
 
 static double get_duration(const cli_impacts *x) { return x->frames->time - x->frames->earlier; }
 
-static ovoid_box join(ovoid_box a, ovoid_box b) {
-    return (ovoid_box){{fmin(a.low.x, b.low.x), fmin(a.low.y, b.low.y), fmin(a.low.z, b.low.z)},
-                       {fmax(a.high.x, b.high.x), fmax(a.high.y, b.high.y), fmax(a.high.z, b.high.z)}};
-}
-
 static void make_box(cli_impacts *x, size_t object) {
     int moves = x->frames->is_moved[object];
     if (!moves && x->is_fresh[object]) return;
-    for (size_t i = 0; i < count_parts(x, object); i++) {
-        ovoid_moving moving = get_moving(x, object, i);
-        ovoid_box box = ovoid_moving_compute_box(&moving, 0, get_duration(x));
-        x->boxes[object] = i ? join(x->boxes[object], box) : box;
-        // A motion that is refused has no box: it is anywhere, and its pairs will say so.
-        if (isnan(box.low.x))
-            x->boxes[object] = (ovoid_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
-    }
+    ovoid_moving_solid moving = get_moving(x, object);
+    ovoid_box *box = &x->boxes[object];
+    *box = ovoid_moving_solid_compute_box(&moving, 0, get_duration(x));
+    // A motion that is refused has no box: it is anywhere, and its pairs will say so.
+    if (isnan(box->low.x)) *box = (ovoid_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
     x->is_fresh[object] = !moves;
 }
 
@@ -170,63 +149,18 @@ static int find_couples(cli_impacts *x) {
 
 /* ---- their impacts */
 
-/// The impact of two parts before a time, with its steps where they are wanted. 0 where memory is out.
-static int find_impact(const cli_impacts *x, const ovoid_moving pair[2], double end, ovoid_impact *found,
-                       ovoid_step **steps) {
-    ovoid_motion_options options = {.end = end};
-    *steps = NULL;
-    if (!results_are_lines(x->results)) {
-        *found = ovoid_impact_find(&pair[0], &pair[1], x->margin, &options);
-        return 1;
-    }
-    options.capacity = STEPS;
+/// The impact of a pair, with its steps where they are wanted.
+static void find_impact(const cli_impacts *x, impact *item) {
+    ovoid_moving_solid a = get_moving(x, item->couple.a), b = get_moving(x, item->couple.b);
+    ovoid_motion_options options = {.capacity = results_are_lines(x->results) ? STEPS : 0};
     for (;;) {
-        ovoid_step *grown = realloc(*steps, options.capacity * sizeof *grown);
-        if (!grown) return free(*steps), *steps = NULL, 0;
-        *steps = options.steps = grown;
-        *found = ovoid_impact_find(&pair[0], &pair[1], x->margin, &options);
-        if (found->step_count <= options.capacity) return 1;
-        options.capacity = found->step_count;
-    }
-}
-
-/// Takes the impact of two parts into that of their objects.
-static void take_parts(impact *item, const ovoid_impact *found, ovoid_step *steps, uint32_t part_a, uint32_t part_b) {
-    item->free_for = fmin(item->free_for, found->free_until);
-    if (found->status == OVOID_IMPACT_HIT) {
-        free(item->steps);
-        item->status = OVOID_IMPACT_HIT;
-        item->hit = *found;
-        item->steps = steps;
-        item->part_a = part_a;
-        item->part_b = part_b;
-        return;
-    }
-    if (found->status == OVOID_IMPACT_UNDECIDED && item->status == OVOID_IMPACT_FREE)
-        item->status = OVOID_IMPACT_UNDECIDED;
-    free(steps);
-}
-
-/// The first impact of any parts: what comes after the first found so far is not looked at.
-static void find_first(const cli_impacts *x, impact *item) {
-    double duration = get_duration(x);
-    size_t count_a = count_parts(x, item->couple.a), count_b = count_parts(x, item->couple.b);
-    item->status = OVOID_IMPACT_FREE;
-    item->free_for = duration;
-    for (size_t i = 0; i < count_a && !item->failed; i++) {
-        ovoid_moving pair[2] = {get_moving(x, item->couple.a, i)};
-        ovoid_box box_a = ovoid_moving_compute_box(&pair[0], 0, duration);
-        if (!is_near(&box_a, &x->boxes[item->couple.b], x->margin)) continue;
-        for (size_t k = 0; k < count_b && !item->failed; k++) {
-            pair[1] = get_moving(x, item->couple.b, k);
-            ovoid_box box_b = ovoid_moving_compute_box(&pair[1], 0, duration);
-            double end = item->status == OVOID_IMPACT_HIT ? item->hit.hit_at : duration;
-            if (!(end > 0) || !is_near(&box_a, &box_b, x->margin)) continue;
-            ovoid_impact found;
-            ovoid_step *steps;
-            item->failed = !find_impact(x, pair, end, &found, &steps);
-            if (!item->failed) take_parts(item, &found, steps, (uint32_t)i, (uint32_t)k);
-        }
+        if (options.capacity) options.steps = realloc(item->steps, options.capacity * sizeof *item->steps);
+        item->failed = options.capacity && !options.steps;
+        if (item->failed) return;
+        item->steps = options.steps;
+        item->found = ovoid_compound_impact_find(&a, &b, x->margin, &options).impact;
+        if (!options.capacity || item->found.step_count <= options.capacity) return;
+        options.capacity = item->found.step_count;
     }
 }
 
@@ -245,7 +179,7 @@ static void work(void *context, void *slot) {
     const chunk *k = slot;
     for (size_t i = k->first; i < k->first + k->count; i++) {
         w->items[i].couple = w->impacts->couples[i];
-        find_first(w->impacts, &w->items[i]);
+        find_impact(w->impacts, &w->items[i]);
     }
 }
 
@@ -263,9 +197,9 @@ static void clear(void *slot) { (void)slot; }
 
 static int compare_impacts(const void *a, const void *b) {
     const impact *p = a, *q = b;
-    int p_hit = p->status == OVOID_IMPACT_HIT, q_hit = q->status == OVOID_IMPACT_HIT;
+    int p_hit = p->found.status == OVOID_IMPACT_HIT, q_hit = q->found.status == OVOID_IMPACT_HIT;
     if (p_hit != q_hit) return q_hit - p_hit;
-    if (p_hit && p->hit.hit_at != q->hit.hit_at) return p->hit.hit_at < q->hit.hit_at ? -1 : 1;
+    if (p_hit && p->found.hit_at != q->found.hit_at) return p->found.hit_at < q->found.hit_at ? -1 : 1;
     return compare_couples(&p->couple, &q->couple);
 }
 
@@ -274,23 +208,23 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     const ovoid_couple c = item->couple;
     *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
                              .b = ovoid_scene_get(x->scene, c.b).name,
-                             .answer = item->hit.hit,
+                             .answer = item->found.hit,
                              .fields = x->fields,
-                             .time = x->frames->earlier + item->hit.hit_at,
+                             .time = x->frames->earlier + item->found.hit_at,
                              .frame = x->frames->earlier,
                              .margin = x->margin,
-                             .free_for = item->free_for,
-                             .hit_after = item->hit.hit_at,
+                             .free_for = item->found.free_until,
+                             .hit_after = item->found.hit_at,
                              .part_a = OVOID_RECORD_NO_PART,
                              .part_b = OVOID_RECORD_NO_PART};
     if (!ovoid_scene_get(x->scene, c.a).compound && !ovoid_scene_get(x->scene, c.b).compound) {
         record->steps = item->steps;
-        record->step_count = item->steps ? item->hit.step_count : 0;
+        record->step_count = item->steps ? item->found.step_count : 0;
         return 1;
     }
     ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
-    ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], item->hit.hit_at),
-                           ovoid_motion_compute_pose(&motions[1], item->hit.hit_at)};
+    ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], item->found.hit_at),
+                           ovoid_motion_compute_pose(&motions[1], item->found.hit_at)};
     ovoid_solid_pair pair = {answers_get_solid(x->scene, c.a, &poses[0]), answers_get_solid(x->scene, c.b, &poses[1])};
     return answers_ask(room, &pair, QUERY_WITHIN, x->margin, 0, results_are_lines(x->results), record);
 }
@@ -300,8 +234,8 @@ static int write_impacts(cli_impacts *x, const impact *items) {
     int code = 0;
     for (size_t i = 0; i < x->couple_count && !code; i++) {
         ovoid_record record;
-        x->not_proven += items[i].status == OVOID_IMPACT_UNDECIDED;
-        if (items[i].status != OVOID_IMPACT_HIT) continue;
+        x->not_proven += items[i].found.status == OVOID_IMPACT_UNDECIDED;
+        if (items[i].found.status != OVOID_IMPACT_HIT) continue;
         x->found++;
         if (!make_record(x, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
         if (!code) code = results_add(x->results, &record);
