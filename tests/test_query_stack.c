@@ -21,6 +21,8 @@ enum { STACK = 256 << 10, PATTERN = 0xa5, PAIRS = 80 };
 
 static _Alignas(65536) unsigned char stack[STACK];
 static ovoid_cover cover;
+static ovoid_smooth smooth;
+static ovoid_gradient gradient;
 
 /// One call of a query.
 typedef struct call {
@@ -31,8 +33,9 @@ typedef struct call {
 static const struct {
     const char *name;
     size_t most; ///< stated, in bytes
-} queries[] = {{"nothing", 16 << 10}, {"collide", 192 << 10}, {"within", 192 << 10}, {"distance", 192 << 10},
-               {"depth", 96 << 10},   {"bounds", 8 << 10},    {"check", 56 << 10}};
+} queries[] = {{"nothing", 16 << 10},   {"collide", 192 << 10}, {"within", 192 << 10},
+               {"distance", 192 << 10}, {"depth", 96 << 10},    {"bounds", 10 << 10},
+               {"check", 56 << 10},     {"smooth", 96 << 10},   {"gradient", 32 << 10}};
 enum { QUERIES = sizeof queries / sizeof *queries };
 
 static void *run(void *argument) {
@@ -44,6 +47,8 @@ static void *run(void *argument) {
     case 4: c->answer = ovoid_depth(&c->pair, NULL, NULL, &cover); break;
     case 5: c->answer = ovoid_bounds(&c->pair); break;
     case 6: CHECK(ovoid_answer_check(&c->pair, &c->answer, &cover, NULL) == OVOID_OK); break;
+    case 7: smooth = ovoid_smooth_compute(&c->pair, 2); break;
+    case 8: gradient = ovoid_answer_compute_gradient(&c->pair, &c->answer, &cover); break;
     default: break;
     }
     return NULL;
@@ -77,7 +82,7 @@ int main(void) {
         for (uint32_t i = 0; i < PAIRS; i++) {
             c.pair = bits_make_pair(shapes, (bits_family)f, i);
             for (c.query = 1; c.query < QUERIES; c.query++) {
-                // The check is of the depth's answer: the query before the bounds.
+                // The check is of the depth's answer: the query before the bounds; the gradient too.
                 if (c.query == 6) c.answer = ovoid_depth(&c.pair, NULL, NULL, &cover);
                 size_t used = measure(&c) - base;
                 if (used > most[c.query]) most[c.query] = used;
