@@ -65,6 +65,22 @@ int main(void) {
         sum += x.lower + ovoid_collide(&p, NULL, &x.proof).upper + ovoid_within(&p, 0.1, NULL, NULL).upper;
         sum += ovoid_distance(&p, NULL, NULL).upper + ovoid_bounds(&p).upper;
         sum += ovoid_answer_check(&p, &x, &cover, NULL);
+        ovoid_moving moving[2] = {{.shape = a, .motion = ovoid_motion_make_poses(p.pose_a, p.pose_b, 1)},
+                                  {.shape = b, .motion = ovoid_motion_make_poses(p.pose_b, p.pose_a, 1)}};
+        ovoid_moving_solid whole[2] = {{.compound = compound, .motion = moving[0].motion},
+                                       {.shape = b, .motion = moving[1].motion}};
+        static ovoid_step steps[100];
+        ovoid_motion_options o = {.steps = steps, .capacity = 100};
+        ovoid_impact hit = ovoid_impact_find(&moving[0], &moving[1], 0, &o);
+        if (hit.step_count <= 100) sum += ovoid_impact_check(&moving[0], &moving[1], 0, &hit, steps, NULL);
+        if (i % 20 == 0) {
+            sum += ovoid_approach_find(&moving[0], &moving[1], NULL).upper;
+            sum += (double)ovoid_compound_impact_find(&whole[0], &whole[1], 0, NULL).tested;
+            sum += ovoid_moving_solid_compute_box(&whole[0], 0, 1).low.x;
+        }
+        ovoid_ray ray = {{9, 1, 0}, {-1, 0.1, 0}, INFINITY, 0};
+        sum += ovoid_ray_cast(&(ovoid_body){a, p.pose_b}, &ray).iterations;
+        sum += ovoid_translation_cast(&p, (ovoid_vec3){1, 2, 3}, 0, NULL).free_until;
         ovoid_solid_pair solids = {{NULL, compound, p.pose_a}, {NULL, compound, p.pose_b}};
         ovoid_compound_answer y = ovoid_compound_depth(&solids, NULL, NULL, &all);
         sum += y.answer.upper + (double)ovoid_compound_answer_check(&solids, &y, &all, NULL);
