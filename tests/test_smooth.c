@@ -209,6 +209,73 @@ static void test_solids(void) {
     printf("solids: gradient off by %.1e, Hessian by %.1e of the condition at most\n", worst_gradient, worst_hessian);
 }
 
+// The gradient in long double, at changed poses: the torque there turns into a derivative by the rotation vector w
+// through the left Jacobian of exp, I + (1/2 - t^2/24) [w] + (1/6 - t^2/120) [w]^2 for small t = |w|.
+static void find_gradient(const smooth_case *c, const real *by, real *out) {
+    (void)oracle(c->a, c->b, c->pair, by, c->n);
+    rvec n = oracle_normal;
+    rbody body[2] = {r_body(c->a, &c->pair->pose_a, by), r_body(c->b, &c->pair->pose_b, by + 6)};
+    for (int k = 0; k < 2; k++) {
+        rvec force = r_scale(n, k ? 1 : -1), x = r_support(&body[k], r_scale(force, -1));
+        rvec torque = r_cross(r_add(x, body[k].place, -1), force);
+        rvec w = {by[6 * k + 3], by[6 * k + 4], by[6 * k + 5]};
+        real tt = r_dot(w, w);
+        // The transposed Jacobian: [w]' = -[w].
+        rvec once = r_cross(torque, w), twice = r_cross(once, w);
+        torque = r_add(r_add(torque, once, 0.5L - tt / 24), twice, 1.0L / 6 - tt / 120);
+        const real all[6] = {force.x, force.y, force.z, torque.x, torque.y, torque.z};
+        memcpy(out + 6 * k, all, sizeof all);
+    }
+}
+
+// Needles and plates down to 1 : 10 000, apart and nearly touching: the gradient against that in long double, the
+// Hessian against its differences of fourth order. The supports bend over angles of about the aspect, over which the
+// step is small: e / h = 1e-19 / 1e-9 is left, times what a gradient's own condition is.
+static void test_thin(void) {
+    static const double aspects[3] = {0.01, 1e-3, 1e-4}, gaps[3] = {1, 0.03, 1e-4};
+    static const real weights[5] = {1, -8, 0, 8, -1};
+    double worst[2] = {0, 0};
+    for (uint64_t seed = 1; seed <= 45; seed++) {
+        uint64_t s = check_seed = seed;
+        double aspect = aspects[seed % 3], gap = gaps[seed / 3 % 3];
+        ovoid_shape *a = random_hull(&s, 40, aspect), *b = random_hull(&s, 30, seed % 2 ? aspect : 1);
+        ovoid_ellipsoid e[2] = {ovoid_shape_get_outer(a).ellipsoid, ovoid_shape_get_outer(b).ellipsoid};
+        ovoid_pair pair = {a, b, random_pose(&s, 1), random_pose(&s, 1)};
+        ovoid_ellipsoid at[2] = {ovoid_ellipsoid_compute_posed(&e[0], &pair.pose_a),
+                                 ovoid_ellipsoid_compute_posed(&e[1], &pair.pose_b)};
+        vec3 n = random_unit(&s), before = at[1].center;
+        place(&at[0], &at[1], n, gap);
+        pair.pose_b.position = vec3_add(pair.pose_b.position, vec3_sub(at[1].center, before));
+        ovoid_smooth_value v = ovoid_smooth_compute(&pair, 2).outer;
+        CHECK(v.is_smooth);
+        smooth_case c = {&e[0], &e[1], &pair, r_from(v.normal), 0};
+        real zero[12] = {0}, first[12], near[12], h = 1e-3L * (real)aspect / v.condition;
+        find_gradient(&c, zero, first);
+        double most = 0;
+        for (int i = 0; i < 144; i++) most = fmax(most, fabs(v.hessian[i / 12][i % 12]));
+        for (int j = 0; j < 12; j++) {
+            CHECK_NEAR(v.gradient[j], (double)first[j], 1e-14 * v.condition + 1e-16 * most);
+            worst[0] = fmax(worst[0], fabs(v.gradient[j] - (double)first[j]) / v.condition);
+            real second[12] = {0};
+            for (int k = -2; k <= 2; k++) {
+                real by[12] = {0};
+                by[j] = k * h;
+                find_gradient(&c, by, near);
+                for (int i = 0; i < 12; i++) second[i] += weights[k + 2] * near[i] / (12 * h);
+            }
+            for (int i = 0; i < 12; i++) {
+                double off = fabs(v.hessian[i][j] - (double)second[i]) / most / v.condition;
+                CHECK_LE(off, 1e-10);
+                worst[1] = fmax(worst[1], off);
+            }
+        }
+        ovoid_shape_destroy(a);
+        ovoid_shape_destroy(b);
+    }
+    printf("thin: gradient off by %.1e of the condition, Hessian by %.1e of its largest entry and the condition\n",
+           worst[0], worst[1]);
+}
+
 // Spheres, closed form: d = |v| - ra - rb with v between the centres, whatever the rotations.
 typedef struct spheres {
     rvec v, arm_a, arm_b; // from the positions to the centres
@@ -382,6 +449,7 @@ static void test_bracket(void) {
 
 int main(void) {
     test_solids();
+    test_thin();
     test_spheres();
     test_capsules();
     test_bracket();
