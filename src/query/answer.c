@@ -101,9 +101,9 @@ int options_make(const ovoid_options *given, ovoid_options *options) {
 // The first look. The spheres come first, as they cost the same for any number of vertices. An overlap's proof has a
 // normal that parted nothing.
 static int take_glance(const pair_frame *f, const question *ask, const ovoid_proof *earlier, glance *found) {
-    if (ask->far == INFINITY) return 0;
     if (glance_at_spheres(f, ask->far, found)) return 1;
-    int was_apart = earlier && (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
+    int was_apart = earlier && ask->far < INFINITY &&
+                    (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
     return was_apart && glance_at_proof(f, ask->far, earlier, found);
 }
 
@@ -122,14 +122,14 @@ static vec3 find_line(const pair_frame *f) {
 // The stages before the search; the simplex to start from. A depth goes to EPA at once if the spheres overlap,
 // without one. A distance starts from the earlier proof's simplex; where a direction may be enough, that of the
 // ellipsoids is tried.
-static void run_stages(search *s, const ovoid_proof *earlier, simplex *start) {
+static void run_stages(search *s, double spheres, const ovoid_proof *earlier, simplex *start) {
     stage_proof(s, earlier, start);
     if (search_is_done(s)) return;
     if (!s->ask.wants_depth) stage_inner(s);
     if (search_is_done(s) || (start->count && s->ask.far == INFINITY)) return;
     vec3 n;
     if (s->ask.wants_depth && may_overlap(s)) return;
-    if (question_takes_line(&s->ask, s->frame->a, s->frame->b, glance_compute_spheres(s->frame)))
+    if (question_takes_line(&s->ask, s->frame->a, s->frame->b, spheres))
         n = find_line(s->frame);
     else
         stage_outer(s, &n);
@@ -173,13 +173,13 @@ static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given
     return take_glance(frame, ask, earlier, seen) ? BEGIN_SEEN : BEGIN_SEARCH;
 }
 
-static void run_search(const ovoid_pair *pair, pair_frame *frame, const question *ask, const ovoid_proof *earlier,
-                       ovoid_cover *cover, ovoid_answer *out) {
+static void run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const question *ask,
+                       const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out) {
     frame_relate(frame);
     search s;
     search_make(&s, frame, ask);
     simplex start;
-    run_stages(&s, earlier, &start);
+    run_stages(&s, spheres, earlier, &start);
     answer_search(&s, pair, earlier, &start, cover);
     answer_write(&s, out);
 }
@@ -192,17 +192,17 @@ void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, ques
     switch (begin(pair, given, &ask, earlier, cover, &frame, &seen, &refused)) {
     case BEGIN_REFUSED: *out = answer_make_refused(refused); break;
     case BEGIN_SEEN: *out = glance_make_answer(&seen, &frame, &ask); break;
-    case BEGIN_SEARCH: run_search(pair, &frame, &ask, earlier, cover, out); break;
+    case BEGIN_SEARCH: run_search(pair, &frame, seen.lower, &ask, earlier, cover, out); break;
     }
 }
 
 // By value, and called, not inlined: what takes no address of its answer makes it in the caller's place, and a first
 // look is done sooner than its answer is copied.
-__attribute__((noinline)) static ovoid_answer search_by_value(const ovoid_pair *pair, pair_frame *frame,
+__attribute__((noinline)) static ovoid_answer search_by_value(const ovoid_pair *pair, pair_frame *frame, double spheres,
                                                               const question *ask, const ovoid_proof *earlier,
                                                               ovoid_cover *cover) {
     ovoid_answer out;
-    run_search(pair, frame, ask, earlier, cover, &out);
+    run_search(pair, frame, spheres, ask, earlier, cover, &out);
     return out;
 }
 
@@ -216,7 +216,7 @@ __attribute__((noinline)) static ovoid_answer find_by_value(const ovoid_pair *pa
     switch (begin(pair, given, &ask, earlier, cover, &frame, &seen, &refused)) {
     case BEGIN_REFUSED: return answer_make_refused(refused);
     case BEGIN_SEEN: return glance_make_answer(&seen, &frame, &ask);
-    default: return search_by_value(pair, &frame, &ask, earlier, cover);
+    default: return search_by_value(pair, &frame, seen.lower, &ask, earlier, cover);
     }
 }
 

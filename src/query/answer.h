@@ -50,12 +50,15 @@ static inline question question_make_depth(const ovoid_options *options) {
     return ask;
 }
 
-/// Does a distance start from the line of centres, without a look at the ellipsoids? No stage closes its bracket, and
-/// of few vertices, or far apart, the ellipsoids' direction saves less than it costs. spheres: glance_compute_spheres.
+/// Does a pair start from the line of centres, without a look at the outer ellipsoids? Far apart it is as good a
+/// direction. Of few vertices a support costs less than the ellipsoids: they are worth it only where the sign is asked
+/// and the spheres overlap so that the line may not part the bodies and another direction may. spheres: the lower bound
+/// of the enclosing spheres (glance.h).
 enum { LINE_VERTICES = 40 };
 static inline int question_takes_line(const question *ask, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
-    return ask->far == INFINITY &&
-           (a->vertex_count + b->vertex_count <= LINE_VERTICES || spheres > a->reach + b->reach);
+    double reach = a->reach + b->reach;
+    if (a->vertex_count + b->vertex_count > LINE_VERTICES) return ask->far == INFINITY && spheres > reach;
+    return ask->far == INFINITY || spheres > -0.3 * reach || spheres < -0.6 * reach;
 }
 
 #endif

@@ -9,14 +9,10 @@ static vec3 find_difference(const pair_frame *f, vec3 a, vec3 b) {
     return vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, b), mat3_mul_vec3(f->world, a)));
 }
 
-double glance_compute_spheres(const pair_frame *f) {
-    vec3 d = find_difference(f, f->a->center, f->b->center);
-    return vec3_norm(d) - (f->a->reach + f->b->reach) - f->radii - claim(f);
-}
-
 int glance_at_spheres(const pair_frame *f, double far, glance *found) {
     vec3 d = find_difference(f, f->a->center, f->b->center);
     double distance = vec3_norm(d), lower = distance - (f->a->reach + f->b->reach) - f->radii - claim(f);
+    found->lower = lower;
     if (!(lower > far)) return 0;
     *found = (glance){lower, vec3_scale(d, 1 / distance), 0, 0, OVOID_STAGE_SPHERE};
     return 1;

@@ -18,10 +18,8 @@ typedef struct glance {
     ovoid_stage stage;
 } glance;
 
-/// The lower bound of the enclosing spheres.
-double glance_compute_spheres(const pair_frame *frame);
-
-/// The enclosing spheres; 1 where they are farther apart than `far`. The frame needs to be placed only.
+/// The enclosing spheres; 1 where they are farther apart than `far`; found->lower is their bound in any case. The frame
+/// needs to be placed only.
 int glance_at_spheres(const pair_frame *frame, double far, glance *found);
 
 /// The supports along an earlier proof's normal; 1 where the gap is above `far`. Any numbers are safe.

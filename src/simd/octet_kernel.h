@@ -307,7 +307,9 @@ LANES_INLINE octet_found end_part(octet *o, const part_work *w, const octet_ask 
     lane upper = lane_select(inner, get(&w->inner_upper, at), lane3_norm(any) - f.radii + f.claim);
     put(&o->lower, at, lower);
     put(&o->upper, at, upper);
-    lane_mask apart = lane_and(lane_and(good, lane_not(inner)), lane_greater(lower, lane_set(ask->far)));
+    // Who took the line of centres has not looked at the outer ellipsoids.
+    lane_mask passed = lane_or(inner, get_mask(&o->line, at));
+    lane_mask apart = lane_and(lane_and(good, lane_not(passed)), lane_greater(lower, lane_set(ask->far)));
     return (octet_found){lane_bits(lane_not(good)), lane_bits(inner), lane_bits(apart),
                          lane_bits(lane_at_most(upper - lower, get(&o->tolerance, at)))};
 }
