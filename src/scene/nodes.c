@@ -96,6 +96,9 @@ static inline double measure(vec3 g) {
     return vec3_norm((vec3){max2(g.x, 0), max2(g.y, 0), max2(g.z, 0)});
 }
 
+static inline int is_inside(vec3 t, vec3 half) {
+    return fabs(t.x) < half.x && fabs(t.y) < half.y && fabs(t.z) < half.z;
+}
 static inline nodes_bound lowered(nodes_bound x, const nodes_frame *f) {
     return (nodes_bound){x.lower - f->claim, x.means};
 }
@@ -121,7 +124,10 @@ nodes_bound nodes_compute_lower(const nodes_frame *f, int side, const compound_n
     double length = vec3_norm(t);
     take(&best, length - (own->radius + node->radius), NODES_LINE);
     if (best.lower > enough) return lowered(best, f);
+    // With the centre of one in the box of the other, the boxes are not apart: what overlap is, only a depth asks.
+    if (enough >= 0 && is_inside(t, own->half)) return lowered(best, f);
     vec3 back = mat3_mul_transposed_vec3(s->rotation, t);
+    if (enough >= 0 && is_inside(back, node->half)) return lowered(best, f);
     if (length > own->radius || length > node->radius) {
         vec3 n = vec3_scale(t, 1 / length), m = vec3_scale(back, -1 / length);
         double of_own = find_reach(own, n), of_other = find_reach(node, m);
