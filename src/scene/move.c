@@ -17,25 +17,53 @@
 // Relative slack of a few sums.
 #define SLACK (1 + 0x1p-48)
 
-// The room where the world chooses: some steps of the last size, in fractions of the body's size.
-enum { STEPS_AHEAD = 7 };
+// The room where the world chooses: some steps like the last one, in fractions of the body's size.
+enum { STEPS_AHEAD = 8 };
 #define ROOM_LEAST 0.04
 #define ROOM_MOST 0.5
 
-static double compute_room(const ovoid_world *w, const world_body *b) {
-    double size = b->reach + b->radius;
-    if (w->enlargement > 0) return w->enlargement * size;
-    return max2(ROOM_LEAST * size, min2(STEPS_AHEAD * b->step, ROOM_MOST * size));
+// A float that is not infinite, whatever the size. What rounding does to it is in the box too.
+static float make_float(double x) { return (float)min2(x, 1e38); }
+
+// Along one axis, to one side, turns included.
+static float compute_room(const world_body *b, double step) {
+    double size = b->reach + b->radius, ahead = max2(step, 0) + (double)b->turn;
+    return make_float(max2(ROOM_LEAST * size, min2(STEPS_AHEAD * ahead, ROOM_MOST * size)));
+}
+
+static void find_room(const ovoid_world *w, world_body *b) {
+    float even = make_float(w->enlargement * (b->reach + b->radius));
+    for (int k = 0; k < 3; k++) {
+        b->low[k] = w->enlargement > 0 ? even : compute_room(b, -(double)b->way[k]);
+        b->high[k] = w->enlargement > 0 ? even : compute_room(b, (double)b->way[k]);
+    }
 }
 
 box body_compute_box(ovoid_world *w, uint32_t i) {
     world_body *b = &w->bodies[i];
     solid_ball ball = body_get_ball(b);
     b->placed = w->places[i];
-    b->room = compute_room(w, b);
-    double grow = (b->room + w->margin / 2) * SLACK;
+    find_room(w, b);
+    double more = w->margin / 2;
+    vec3 low = {((double)b->low[0] + more) * SLACK, ((double)b->low[1] + more) * SLACK,
+                ((double)b->low[2] + more) * SLACK};
+    vec3 high = {((double)b->high[0] + more) * SLACK, ((double)b->high[1] + more) * SLACK,
+                 ((double)b->high[2] + more) * SLACK};
     box x = solid_compute_box(&b->solid, &ball);
-    return (box){{x.min.x - grow, x.min.y - grow, x.min.z - grow}, {x.max.x + grow, x.max.y + grow, x.max.z + grow}};
+    return (box){vec3_sub(x.min, low), vec3_add(x.max, high)};
+}
+
+// No point of the body went farther along an axis than r did, and its turns.
+static int is_along(double way, double turn, float low, float high) {
+    double slack = turn + 0x1p-48 * (fabs(way) + turn);
+    return way + slack <= (double)high && slack - way <= (double)low;
+}
+
+static int is_in_box(const world_body *b, const body_place *p) {
+    vec3 d = vec3_sub(p->at, b->placed.at);
+    double t = p->travel - b->placed.travel;
+    return is_along(d.x, t, b->low[0], b->high[0]) && is_along(d.y, t, b->low[1], b->high[1]) &&
+           is_along(d.z, t, b->low[2], b->high[2]);
 }
 
 void body_mark_fresh(ovoid_world *w, uint32_t i) {
@@ -84,13 +112,15 @@ static void move_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
     vec3 at = solid_compute_center(&ball, pose, &blur), way = vec3_sub(at, p->at);
     double turn = (chord * b->reach + (b->blur + blur)) * SLACK;
     double travel = p->travel + turn;
-    b->step = vec3_norm(way) + turn;
+    b->way[0] = (float)way.x;
+    b->way[1] = (float)way.y;
+    b->way[2] = (float)way.z;
+    b->turn = (float)turn;
     *p = (body_place){at, travel + travel * 0x1p-51};
     b->blur = blur;
     b->solid.pose = *pose;
     w->marks[i] |= MARK_MOVED;
-    double gone = vec3_max_abs(vec3_sub(at, b->placed.at)) + (p->travel - b->placed.travel);
-    if (!(gone * SLACK <= b->room)) body_refresh(w, i);
+    if (!is_in_box(b, p)) body_refresh(w, i);
 }
 
 // A plain pose, near enough for any compound, is known to be good without a look at the body.

@@ -27,15 +27,15 @@ enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8 };
 
 typedef struct world_body {
     ovoid_solid solid;
-    vec3 local;        ///< r in the user's local frame
-    double reach;      ///< no point of the body without its radius is farther from r
-    double radius;     ///< its rounding radius
-    double size;       ///< bounds all lengths in its local frame
-    double blur;       ///< what rounding hides in r at the present pose
-    body_place placed; ///< where it was when its box was made,
-    double room;       ///< how far it may go from there
-    double step;       ///< how far the last move took it
-    box seen;          ///< MARK_BOX: the box that the list of pairs is made of; empty where MARK_FRESH
+    vec3 local;            ///< r in the user's local frame
+    double reach;          ///< no point of the body without its radius is farther from r
+    double radius;         ///< its rounding radius
+    double size;           ///< bounds all lengths in its local frame
+    double blur;           ///< what rounding hides in r at the present pose
+    body_place placed;     ///< where it was when its box was made,
+    float low[3], high[3]; ///< how far it may go from there, against and along each axis
+    float way[3], turn;    ///< how far the last move took it, and by how much it turned it: only a forecast
+    box seen;              ///< MARK_BOX: the box that the list of pairs is made of; empty where MARK_FRESH
     uint64_t user;
     uint32_t group, mask;
     uint32_t next; ///< of a free index: the next one; else the number of its ignored pairs
