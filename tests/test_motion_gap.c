@@ -37,7 +37,7 @@ static void check_interval(const moving_case *c, const motion_pair *p, double be
 }
 
 int main(void) {
-    for (uint64_t seed = 1; seed <= 3000; seed++) {
+    for (uint64_t seed = 1; seed <= 1200; seed++) {
         moving_case c;
         motion_pair p;
         uint64_t s = check_seed = seed;
