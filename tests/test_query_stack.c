@@ -33,10 +33,20 @@ typedef struct call {
 static const struct {
     const char *name;
     size_t most; ///< stated, in bytes
-} queries[] = {{"nothing", 16 << 10},   {"collide", 192 << 10}, {"within", 192 << 10},
-               {"distance", 192 << 10}, {"depth", 96 << 10},    {"bounds", 10 << 10},
-               {"check", 56 << 10},     {"smooth", 96 << 10},   {"gradient", 32 << 10}};
+} queries[] = {{"nothing", 16 << 10},  {"collide", 192 << 10}, {"within", 192 << 10}, {"distance", 192 << 10},
+               {"depth", 96 << 10},    {"bounds", 10 << 10},   {"check", 56 << 10},   {"smooth", 96 << 10},
+               {"gradient", 32 << 10}, {"impact", 208 << 10},  {"ray", 208 << 10}};
 enum { QUERIES = sizeof queries / sizeof *queries };
+
+static ovoid_compound_impact found;
+static ovoid_ray_hit hit;
+
+// Of two shapes as solids that change places: what both trees and a pair of parts take.
+static ovoid_compound_impact find_impact(const ovoid_pair *p) {
+    ovoid_moving_solid a = {.shape = p->shape_a, .motion = ovoid_motion_make_poses(p->pose_a, p->pose_b, 1)};
+    ovoid_moving_solid b = {.shape = p->shape_b, .motion = ovoid_motion_make_poses(p->pose_b, p->pose_a, 1)};
+    return ovoid_compound_impact_find(&a, &b, 0, NULL);
+}
 
 static void *run(void *argument) {
     call *c = argument;
@@ -49,6 +59,11 @@ static void *run(void *argument) {
     case 6: CHECK(ovoid_answer_check(&c->pair, &c->answer, &cover, NULL) == OVOID_OK); break;
     case 7: smooth = ovoid_smooth_compute(&c->pair, 2); break;
     case 8: gradient = ovoid_answer_compute_gradient(&c->pair, &c->answer, &cover); break;
+    case 9: found = find_impact(&c->pair); break;
+    case 10:
+        hit = ovoid_ray_cast(&(ovoid_body){c->pair.shape_a, c->pair.pose_a},
+                             &(ovoid_ray){c->pair.pose_b.position, {1, 2, 3}, INFINITY, 0});
+        break;
     default: break;
     }
     return NULL;
