@@ -16,6 +16,8 @@
 typedef struct hunt {
     solid_view a, b;
     nodes_frame frame;
+    nodes_other turned; ///< a node as the children of a node of `turned_side` see it; of the frame's normal
+    int turned_side;
     ovoid_options options; ///< for pairs of parts
     question asked, ask;   ///< as asked, and what is left of it: once a margin is met, the sign
     double tolerance;
@@ -79,16 +81,21 @@ typedef struct waiting {
 static void look_at_children(hunt *h, int side, const waiting *w, waiting two[2]) {
     const compound_node *node = side ? w->b : w->a;
     const compound_node *children[2] = {node_get_right(node), node_get_left(node)};
-    nodes_other other = nodes_turn(&h->frame, side, side ? w->a : w->b);
+    // Often the one that was turned before, and always where the other solid is a shape.
+    const compound_node *rest = side ? w->a : w->b;
+    if (h->turned.node != rest || h->turned_side != side) {
+        h->turned = nodes_turn(&h->frame, side, rest);
+        h->turned_side = side;
+    }
     double enough = min2(h->ask.far, h->enough);
     nodes_bound bounds[2];
-    for (int i = 0; i < 2; i++) bounds[i] = nodes_compute_lower(&h->frame, side, children[i], &other, enough);
+    for (int i = 0; i < 2; i++) bounds[i] = nodes_compute_lower(&h->frame, side, children[i], &h->turned, enough);
     h->out->visited += 2;
     int turned = bounds[0].lower < bounds[1].lower;
     for (int i = 0; i < 2; i++) {
         const compound_node *child = children[i ^ turned];
-        two[i].a = side ? other.node : child;
-        two[i].b = side ? child : other.node;
+        two[i].a = side ? rest : child;
+        two[i].b = side ? child : rest;
         two[i].bound = bounds[i ^ turned];
         two[i].normal = h->frame.normal;
     }
@@ -159,6 +166,7 @@ static void take_best(hunt *h, uint32_t a, uint32_t b, const ovoid_answer *x) {
     h->place_a = a;
     h->place_b = b;
     nodes_frame_set_normal(&h->frame, x->proof.normal);
+    h->turned.node = NULL;
     tighten(h);
 }
 
@@ -287,6 +295,8 @@ static void hunt_make(hunt *h, const ovoid_options *options, question ask) {
     h->posed_a = h->a.count;
     h->posed_b = h->b.count;
     h->trouble = OVOID_LIMIT_NONE;
+    h->turned.node = NULL;
+    h->turned_side = 0;
 }
 
 void solid_find_inside(const ovoid_solid_pair *pair, const ovoid_options *options, question ask,
