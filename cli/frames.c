@@ -66,8 +66,9 @@ static int is_zero(const ovoid_vec3 v[2]) {
     return v[0].x == 0 && v[0].y == 0 && v[0].z == 0 && v[1].x == 0 && v[1].y == 0 && v[1].z == 0;
 }
 
-ovoid_motion frames_get_motion(const cli_frames *f, size_t i) {
+ovoid_motion frames_get_motion(const cli_frames *f, size_t object) {
     double duration = f->time - f->earlier;
+    size_t i = object;
     if (!f->is_moved[i]) return ovoid_motion_make_still(f->starts[i]);
     if (f->used) return ovoid_motion_make_velocity(f->starts[i], f->used[i][0], f->used[i][1], duration);
     return ovoid_motion_make_poses(f->starts[i], f->poses[i], duration);

@@ -26,16 +26,16 @@ typedef struct cli_impacts {
 } cli_impacts;
 
 /// Gets room for the objects. 0, or EXIT_INPUT after a message. What the caller sets before stays.
-int impacts_open(cli_impacts *impacts);
+int impacts_open(cli_impacts *x);
 
 /// A pair that was within the margin in this frame, or was not proven farther: in ascending order, before the next
 /// frame. 0, or EXIT_INPUT after a message.
-int impacts_hold(cli_impacts *impacts, ovoid_couple couple);
+int impacts_hold(cli_impacts *x, ovoid_couple couple);
 
 /// Finds the impacts from the frame before to this one, of pairs that were not held then, writes them in the order of
 /// their times, and forgets what was held. 0, or an exit code after a message.
-int impacts_find(cli_impacts *impacts);
+int impacts_find(cli_impacts *x);
 
-void impacts_close(cli_impacts *impacts);
+void impacts_close(cli_impacts *x);
 
 #endif

@@ -86,7 +86,7 @@ static ovoid_code set_velocity(const ovoid_motion_reader *r, const csv_line *c, 
 }
 
 static ovoid_code read_line(ovoid_motion_reader *r, csv_line *c, ovoid_motion_line *line) {
-    double v[7];
+    double v[7] = {0};
     int count = column_counts[r->kind];
     *line = (ovoid_motion_line){.pose = ovoid_pose_make_identity()};
     ovoid_code code = csv_read_number(c, &line->time);
