@@ -288,6 +288,40 @@ static void check_rays(double scale) {
     ovoid_shape_destroy(plate);
 }
 
+// Random rays against random polyhedra: the planes of the facets clip the ray. Left out is what meets a facet so flatly
+// that the planes' own rounding (64 u) shows.
+static void check_clipped(uint64_t seed) {
+    static const bits_family families[5] = {BITS_PLAIN, BITS_ROUND, BITS_LARGE, BITS_NEEDLE, BITS_TINY};
+    uint64_t s = check_seed = seed;
+    double scale = bits_scale(families[seed % 5]);
+    ovoid_shape *shape = bits_make_shape(families[seed % 5], &s);
+    ovoid_polytope p = ovoid_shape_get_polytope(shape);
+    ovoid_body body = {shape, moving_make_pose(&s, scale)};
+    for (int i = 0; i < 20 && ovoid_shape_get_radius(shape) == 0; i++) {
+        ovoid_ray ray = {.length = i % 3 ? INFINITY : 1, .origin = bits_vec3(&s, 3 * scale)};
+        ovoid_vec3 aim =
+            ovoid_pose_compute_point(&body.pose, vec3_add(p.origin, vec3_at(p.vertices, (size_t)i % p.vertex_count)));
+        ray.direction = vec3_sub(vec3_add(aim, bits_vec3(&s, 0.1 * scale)), ray.origin);
+        ovoid_vec3 o = vec3_sub(ovoid_pose_compute_local_point(&body.pose, ray.origin), p.origin);
+        ovoid_vec3 tip =
+            vec3_sub(ovoid_pose_compute_local_point(&body.pose, vec3_add(ray.origin, ray.direction)), p.origin);
+        double enter = 0, leave = ray.length, flattest = 1;
+        for (uint32_t f = 0; f < p.facet_count; f++) {
+            double speed = vec3_dot(p.planes[f].normal, vec3_sub(tip, o));
+            double room = p.planes[f].offset - vec3_dot(p.planes[f].normal, o);
+            flattest = fmin(flattest, fabs(speed) / vec3_norm(ray.direction));
+            if (speed < 0) enter = fmax(enter, room / speed);
+            if (speed > 0) leave = fmin(leave, room / speed);
+        }
+        if (flattest < 1e-3 || fabs(leave - enter) < 1e-6) continue;
+        ovoid_ray_hit x = ovoid_ray_cast(&body, &ray);
+        CHECK_EQ(x.status, enter < leave ? OVOID_IMPACT_HIT : OVOID_IMPACT_FREE);
+        if (enter < leave) CHECK(x.lower - 1e-10 <= enter && enter <= x.upper + 1e-10 && x.upper - x.lower <= 1e-10);
+        if (enter < leave && enter > 1e-9) CHECK_LE(vec3_dot(x.normal, ray.direction), 0);
+    }
+    ovoid_shape_destroy(shape);
+}
+
 // ---- refusals
 
 static void check_refused(const ovoid_moving *a, const ovoid_moving *b, double margin, const ovoid_motion_options *o,
@@ -355,6 +389,8 @@ int main(void) {
     check_bullets();
     check_durations();
     check_near();
+    for (uint64_t seed = 1; seed <= 150; seed++) check_clipped(seed);
+    check_seed = 0;
     check_refusals();
     return check_end();
 }
