@@ -1,4 +1,5 @@
-// ovoid as a contestant: a world for frames and for the monitor; for the planner, the parts as one compound.
+// ovoid as a contestant: a world for frames and for the monitor; for the planner one of the parts alone, which the
+// links are put to without being in it.
 #include "many_ours.h"
 
 #include <ovoid/ovoid.h>
@@ -11,13 +12,17 @@ typedef struct self {
     ovoid_id *ids;
     uint32_t moving; ///< bodies 0 .. moving - 1 move
     ovoid_frame_query query;
-    ovoid_compound *parts;
+    // The planner's.
+    ovoid_world *parts;
+    ovoid_couple *couples;
+    uint32_t couple_count;
 } self;
 
 static void destroy(void *state) {
     self *s = state;
     ovoid_world_destroy(s->world);
-    ovoid_compound_destroy(s->parts);
+    ovoid_world_destroy(s->parts);
+    free(s->couples);
     free(s->ids);
     free(s);
 }
@@ -97,13 +102,27 @@ static int add_cell(self *s, const workcell *what, const ovoid_pose *links) {
     return good;
 }
 
-static int add_compound(self *s, const workcell *what) {
-    ovoid_body *list = malloc(sizeof *list * what->part_count);
+/// The planner's world: parts alone.
+static int add_parts(self *s, const workcell *what) {
+    ovoid_world_body *list = calloc(what->part_count, sizeof *list);
     for (uint32_t i = 0; list && i < what->part_count; i++)
-        list[i] = (ovoid_body){what->shapes[what->shape_of[what->link_count + i]].shape, what->parts[i]};
-    if (list) s->parts = ovoid_compound_create(list, what->part_count, NULL, NULL);
+        list[i].solid =
+            (ovoid_solid){.shape = what->shapes[what->shape_of[what->link_count + i]].shape, .pose = what->parts[i]};
+    s->parts = ovoid_world_create(NULL, NULL);
+    int good = list && s->parts && ovoid_world_add_many(s->parts, list, what->part_count, NULL, NULL) == OVOID_OK;
     free(list);
-    return s->parts != NULL;
+    return good;
+}
+
+/// The pairs of links that count.
+static int add_couples(self *s, const workcell *what) {
+    uint32_t count = what->link_count;
+    s->couples = malloc(sizeof *s->couples * count * count);
+    if (!s->couples) return 0;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = i + 1; k < count; k++)
+            if (!what->ignored[i * count + k]) s->couples[s->couple_count++] = (ovoid_couple){i, k};
+    return 1;
 }
 
 static void *create_cell(const workcell *what, const ovoid_pose *links) {
@@ -112,27 +131,32 @@ static void *create_cell(const workcell *what, const ovoid_pose *links) {
     s->cell = what;
     s->moving = what->link_count;
     s->query = (ovoid_frame_query){.question = OVOID_QUESTION_DISTANCE, .margin = what->margin};
-    if (add_compound(s, what)) return s;
+    if (add_parts(s, what) && add_couples(s, what)) return s;
     destroy(s);
     return NULL;
 }
 
-/// Links with links, then each with the compound of all parts.
+/// Links with parts, as probes that are not in the world; then links with links, as a batch.
 static int is_hit(void *state, const ovoid_pose *links) {
     self *s = state;
-    const workcell *what = s->cell;
-    ovoid_solid_pair pair = {.b = {.compound = s->parts, .pose = ovoid_pose_make_identity()}};
-    for (uint32_t i = 0; i < what->link_count; i++) {
-        pair.a = (ovoid_solid){.shape = what->shapes[what->shape_of[i]].shape, .pose = links[i]};
-        if (ovoid_compound_collide(&pair, NULL, NULL, NULL).answer.status != OVOID_SEPARATED) return 1;
+    ovoid_world_body probes[LINKS_MOST];
+    ovoid_body posed[LINKS_MOST];
+    for (uint32_t i = 0; i < s->moving; i++) {
+        const ovoid_shape *shape = s->cell->shapes[s->cell->shape_of[i]].shape;
+        probes[i] = (ovoid_world_body){.solid = {.shape = shape, .pose = links[i]}};
+        posed[i] = (ovoid_body){shape, links[i]};
     }
-    for (uint32_t i = 0; i < what->link_count; i++)
-        for (uint32_t k = i + 1; k < what->link_count; k++) {
-            if (what->ignored[i * what->link_count + k]) continue;
-            ovoid_pair two = {what->shapes[what->shape_of[i]].shape, what->shapes[what->shape_of[k]].shape, links[i],
-                              links[k]};
-            if (ovoid_collide(&two, NULL, NULL).status != OVOID_SEPARATED) return 1;
-        }
+    ovoid_world_hit hit;
+    if (ovoid_world_find_any_to(s->parts, probes, s->moving, &hit, NULL) != OVOID_OK || hit.b) return 1;
+    ovoid_verdict verdicts[LINKS_MOST * LINKS_MOST];
+    ovoid_batch batch = {.bodies = posed,
+                         .body_count = s->moving,
+                         .couples = s->couples,
+                         .couple_count = s->couple_count,
+                         .verdicts = verdicts};
+    if (ovoid_collide_batch(&batch, NULL) != OVOID_OK) return 1;
+    for (uint32_t i = 0; i < s->couple_count; i++)
+        if (verdicts[i].status != OVOID_SEPARATED) return 1;
     return 0;
 }
 

@@ -251,6 +251,8 @@ static void ask_world_between(ovoid_world *w, ovoid_id id) {
     ovoid_world_ray ray = {.ray = {point, turn, 1e3, 0.1}};
     int code = (int)ovoid_world_find_any(w, NULL, 0, NULL, &hit, NULL);
     add_hit(&hit);
+    code += (int)ovoid_world_find_any_to(w, &probe, 1, &hit, NULL);
+    add_hit(&hit);
     code += (int)ovoid_world_find_nearest(w, id, NULL, &hit, NULL);
     add_hit(&hit);
     code += (int)ovoid_world_find_nearest_pair(w, NULL, &hit, NULL);

@@ -116,6 +116,25 @@ static void test_any(scene *x) {
     CHECK_EQ(hit.b != 0, all);
 }
 
+// Several probes at once: the first that find_overlaps finds something for.
+static void check_any_to(scene *x, const ovoid_world_body *probes, size_t count) {
+    ovoid_world_hits hits = {.capacity = 0};
+    size_t first = 0;
+    for (; first < count; first++) {
+        CHECK(ovoid_world_find_overlaps(x->world, &probes[first], 0, &hits, NULL) == OVOID_OK);
+        if (hits.count) break;
+    }
+    ovoid_world_hit hit;
+    CHECK(ovoid_world_find_any_to(x->world, probes, count, &hit, NULL) == OVOID_OK);
+    CHECK_EQ(hit.b != 0, first < count);
+    if (!hit.b) return;
+    CHECK_EQ(hit.a, first);
+    ovoid_world_body b;
+    CHECK(ovoid_world_get(x->world, hit.b, &b, NULL) == OVOID_OK);
+    check_hit(&probes[first].solid, &b.solid, &hit);
+    CHECK(hit.answer.answer.status != OVOID_SEPARATED);
+}
+
 static void check_overlaps(scene *x, const ovoid_world_body *probe, double margin) {
     static ovoid_world_hit items[BODIES];
     ovoid_world_hits hits = {.items = items, .capacity = BODIES};
@@ -143,10 +162,23 @@ static void check_overlaps(scene *x, const ovoid_world_body *probe, double margi
 }
 
 static void test_probes(scene *x) {
+    ovoid_world_body probes[40];
     for (int k = 0; k < 40; k++) {
-        ovoid_world_body probe = make_body(x);
-        if (k % 2) probe = ovoid_world_make_point(x->world, random_place(&x->s, x->side));
-        check_overlaps(x, &probe, k % 3 ? 0 : 0.5);
+        probes[k] = make_body(x);
+        if (k % 2) probes[k] = ovoid_world_make_point(x->world, random_place(&x->s, x->side));
+        check_overlaps(x, &probes[k], k % 3 ? 0 : 0.5);
+    }
+    for (size_t k = 0; k < 40; k++) check_any_to(x, probes + k, 40 - k < 4 ? 40 - k : 4);
+    // A refused one is named; none of those before it touches.
+    ovoid_world_hit hit;
+    ovoid_error error;
+    for (size_t k = 0; k + 1 < 40; k++) {
+        CHECK(ovoid_world_find_any_to(x->world, probes + k, 1, &hit, NULL) == OVOID_OK);
+        if (hit.b) continue;
+        probes[k + 1].solid.pose.rotation = (ovoid_quat){0, 0, 0, 0};
+        CHECK(ovoid_world_find_any_to(x->world, probes + k, 2, &hit, &error) == OVOID_ERROR_ROTATION);
+        CHECK_EQ(error.place, 1);
+        break;
     }
 }
 

@@ -185,7 +185,7 @@ OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const o
 
 /** What was found. */
 typedef struct ovoid_world_hit {
-    ovoid_id a, b; /**< b: the body found; 0: none. a: the body that asked, or 0 for a probe */
+    ovoid_id a, b; /**< b: the body found; 0: none. a: the body that asked; for a probe 0, or its number of several */
     double lower;  /**< nearest: no pair asked about is nearer, unless two overlap, which ends the search; where none
                         was found the cap, or infinity */
     ovoid_compound_answer answer; /**< of the solids of a and b, in that order */
@@ -197,6 +197,15 @@ typedef struct ovoid_world_hit {
  */
 OVOID_API ovoid_code ovoid_world_find_any(const ovoid_world *world, const ovoid_id *ids, size_t count,
                                           const ovoid_options *options, ovoid_world_hit *hit, ovoid_error *error);
+
+/**
+ * Does any of these solids, which are not in the world, touch a body of it? What a planner asks about a state of its
+ * robot, from any number of threads. In the order given, up to the first that is not proven apart: hit->a is its
+ * number, hit->b the body. Probes are not compared with one another. place: the probe that is refused; those before it
+ * are apart. Cost: for each its box, a walk, and the queries of what that box meets.
+ */
+OVOID_API ovoid_code ovoid_world_find_any_to(const ovoid_world *world, const ovoid_world_body *probes, size_t count,
+                                             ovoid_world_hit *hit, ovoid_error *error);
 
 /** The body nearest to a body, within options->cap. Of those that overlap it, one. */
 OVOID_API ovoid_code ovoid_world_find_nearest(const ovoid_world *world, ovoid_id id, const ovoid_options *options,

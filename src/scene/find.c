@@ -3,6 +3,7 @@
 // kept, and any number of threads may ask at once.
 #include "base/environment.h"
 #include "base/error.h"
+#include "query/answer.h"
 #include "scene/compound.h"
 #include "scene/solid.h"
 #include "scene/state.h"
@@ -76,6 +77,14 @@ static int is_asked(const asking *x, uint32_t j) {
 }
 
 static void look(const asking *x, uint32_t j, ovoid_compound_answer *out) {
+    const ovoid_solid *other = &x->w->bodies[j].solid;
+    if (!x->solid.compound && !other->compound) {
+        ovoid_pair two = {x->solid.shape, other->shape, x->solid.pose, other->pose};
+        out->part_a = out->part_b = out->visited = 0;
+        out->tested = 1;
+        answer_find_inside(&two, &x->options, x->ask, NULL, NULL, &out->answer);
+        return;
+    }
     ovoid_solid_pair pair = {x->solid, x->w->bodies[j].solid};
     solid_find_inside(&pair, &x->options, x->ask, NULL, NULL, out);
 }
@@ -100,16 +109,17 @@ static void visit_nearest(void *context, uint32_t j) {
     x->bound = out.answer.upper > 0 ? out.answer.upper : -INFINITY;
 }
 
-static void visit_touching(void *context, uint32_t j) {
+static int touch(void *context, const broad_node *leaf) {
     asking *x = context;
-    if (!is_asked(x, j)) return;
+    uint32_t j = leaf->body;
+    if (!is_asked(x, j)) return 1;
     ovoid_compound_answer out;
     look(x, j, &out);
-    if (out.answer.lower > x->ask.far) return;
+    if (out.answer.lower > 0) return 1;
     x->found = out;
     x->found_a = x->self;
     x->found_b = j;
-    x->bound = -INFINITY;
+    return 0;
 }
 
 static ovoid_id get_id(const ovoid_world *w, uint32_t i) { return i == NONE ? 0 : body_get_id(w, i); }
@@ -194,13 +204,12 @@ static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t cou
         if (world_find_body(w, ids[k]) == NONE) code = world_refuse_id(error, (int64_t)k, ids[k]);
     if (code != OVOID_OK) return code;
     x.ask = question_make_collide();
-    x.bound = 0;
     for (size_t k = 0; k < (ids ? count : w->used) && x.found_b == NONE; k++) {
         uint32_t i = ids ? (uint32_t)(ids[k] >> 32) : (uint32_t)k;
         if (w->leaf_of[i] == NONE) continue;
         take_body(&x, i);
         if (!ids) x.after = i;
-        run(&x, visit_touching);
+        (void)walk_touching(&w->tree, &x.bounds, touch, &x);
     }
     x.bound = 0;
     write_hit(&x, hit);
@@ -210,6 +219,33 @@ static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t cou
 ovoid_code ovoid_world_find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
                                 ovoid_world_hit *hit, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, count, find_any(w, ids, count, options, hit, error));
+}
+
+static ovoid_code find_any_to(const ovoid_world *w, const ovoid_world_body *probes, size_t count, ovoid_world_hit *hit,
+                              ovoid_error *error) {
+    OVOID_ASSERT(w && hit && (probes || !count));
+    asking x;
+    asking_make(&x, w);
+    (void)check_options(NULL, &x.options, NULL);
+    x.ask = question_make_collide();
+    size_t k = 0;
+    for (; k < count; k++) {
+        ovoid_code code = take_probe(&x, &probes[k], error);
+        if (code != OVOID_OK) {
+            if (error) error->place = (int64_t)k;
+            return code;
+        }
+        if (!walk_touching(&w->tree, &x.bounds, touch, &x)) break;
+    }
+    x.bound = 0;
+    write_hit(&x, hit);
+    if (hit->b) hit->a = k;
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_any_to(const ovoid_world *w, const ovoid_world_body *probes, size_t count,
+                                   ovoid_world_hit *hit, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, count, find_any_to(w, probes, count, hit, error));
 }
 
 // ---- overlaps, sorted in place: heap sort (J. W. J. Williams, 1964)

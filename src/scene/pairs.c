@@ -7,6 +7,7 @@
 #include "scene/state.h"
 
 #include "scene/keys.h"
+#include "scene/walk.h"
 
 #include <string.h>
 
@@ -47,45 +48,24 @@ static int is_new(const ovoid_world *w, uint32_t i, uint32_t j, const box *box_j
     return i < j && !box_is_overlapping(&w->bodies[i].seen, &w->bodies[j].seen);
 }
 
-static int take_leaf(const ovoid_world *w, uint32_t i, const broad_node *leaf, gathered *g) {
-    uint32_t j = leaf->body;
-    if (j == i || !is_new(w, i, j, &leaf->bounds) || !world_is_pair(w, i, j)) return 1;
-    return gather(w, g, key_make(i, j));
+// A body that looks for its pairs.
+typedef struct seeker {
+    const ovoid_world *w;
+    uint32_t body;
+    gathered *found;
+} seeker;
+
+static int take_leaf(void *context, const broad_node *leaf) {
+    const seeker *x = context;
+    uint32_t i = x->body, j = leaf->body;
+    if (j == i || !is_new(x->w, i, j, &leaf->bounds) || !world_is_pair(x->w, i, j)) return 1;
+    return gather(x->w, x->found, key_make(i, j));
 }
 
-// Below a node of a tree deeper than the stack: the same without one.
-static int find_pairs_below(const ovoid_world *w, uint32_t i, const box *bounds, uint32_t root, gathered *g) {
-    const broad_node *nodes = w->tree.nodes;
-    uint32_t end = broad_skip(&w->tree, root);
-    for (uint32_t at = root; at != end;) {
-        const broad_node *n = &nodes[at];
-        int is_near = box_is_overlapping(bounds, &n->bounds);
-        if (is_near && !n->child && !take_leaf(w, i, n, g)) return 0;
-        at = is_near && n->child ? n->child : broad_skip(&w->tree, at);
-    }
-    return 1;
-}
-
-// Both children are looked at together and pushed without a branch: which of them overlap cannot be predicted.
 static int find_pairs_of(const ovoid_world *w, uint32_t i, gathered *g) {
-    const broad_node *nodes = w->tree.nodes;
-    box bounds = nodes[w->leaf_of[i]].bounds;
-    uint32_t stack[BROAD_STACK + 2], count = 1;
-    stack[0] = 0;
-    while (count) {
-        const broad_node *n = &nodes[stack[--count]];
-        if (!n->child) {
-            if (!take_leaf(w, i, n, g)) return 0;
-        } else if (count >= BROAD_STACK) {
-            if (!find_pairs_below(w, i, &bounds, (uint32_t)(n - nodes), g)) return 0;
-        } else {
-            stack[count] = n->child;
-            count += (uint32_t)box_is_overlapping(&bounds, &nodes[n->child].bounds);
-            stack[count] = n->child + 1;
-            count += (uint32_t)box_is_overlapping(&bounds, &nodes[n->child + 1].bounds);
-        }
-    }
-    return 1;
+    box bounds = w->tree.nodes[w->leaf_of[i]].bounds;
+    seeker x = {w, i, g};
+    return walk_touching(&w->tree, &bounds, take_leaf, &x);
 }
 
 static void find_pairs(void *work, uint32_t first, uint32_t end, uint32_t worker) {

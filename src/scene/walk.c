@@ -39,3 +39,14 @@ void walk_run(const walk *x) {
         }
     }
 }
+
+int walk_touching_below(const broad *t, const box *bounds, uint32_t root, walk_touch *touch, void *context) {
+    uint32_t end = broad_skip(t, root);
+    for (uint32_t at = root; at != end;) {
+        const broad_node *n = &t->nodes[at];
+        int is_near = box_is_overlapping(bounds, &n->bounds);
+        if (is_near && !n->child && !touch(context, n)) return 0;
+        at = is_near && n->child ? n->child : broad_skip(t, at);
+    }
+    return 1;
+}
