@@ -312,7 +312,9 @@ static ovoid_code check_claim(const verify *v, const claim *item, ovoid_error *e
     // How narrow a bracket around zero must be, is measured by the size of the whole compounds, which come below.
     if (is_compound && answer.status == OVOID_TOUCHING)
         answer.status = OVOID_UNDECIDED, answer.limit = OVOID_LIMIT_PRECISION;
-    int points = !is_compound && has_nearest_points(v->settings->query, &answer);
+    // An impact is asked with its margin, as by ovoid_within.
+    int is_impact = (item->record.fields & OVOID_RECORD_IMPACT) != 0;
+    int points = !is_compound && !is_impact && has_nearest_points(v->settings->query, &answer);
     ovoid_code code = verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
     if (code == OVOID_OK) code = check_compound(item, error);
     return code == OVOID_OK ? check_impact(item, error) : code;

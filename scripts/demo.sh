@@ -1,6 +1,6 @@
 #!/bin/sh
-# demo.sh: six real meshes (Debian's libcgal-demo, CC0) fitted, posed in a scene, every pair answered and proven, the
-# scene drawn. OVOID_TOOL: another tool than build/release/ovoid; OVOID_DEMO: another folder than build/demo.
+# demo.sh: six real meshes (Debian's libcgal-demo, CC0) fitted, posed in a scene, every pair answered and proven, one of
+# them moved through the others, the scene drawn. OVOID_TOOL: another tool than build/release/ovoid; OVOID_DEMO: another folder than build/demo.
 set -eu
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -41,10 +41,17 @@ title "Verify: the proof of every pair, in exact arithmetic, without the search"
 ovoid check --json scene.json >results.jsonl
 ovoid verify results.jsonl scene.json
 
+title "Run: the knot tumbles through the others; first contact and smallest distance, between frames too"
+awk 'BEGIN { print "time,body,vx,vy,vz,wx,wy,wz"
+    for (i = 0; i <= 90; i++) printf "%g,knot,-0.9,-0.75,-0.35,1,2,4\n", i / 60 }' >motion.csv
+ovoid run scene.json --motion motion.csv --margin 0.4 --continuous --json -o motion.jsonl --plot motion.svg
+ovoid verify motion.jsonl scene.json --motion motion.csv
+
 ovoid view scene.json -o scene.svg
 title "Look"
 cat <<END
 the picture           $demo/scene.svg
+the motion's plot     $demo/motion.svg
 the scene             $demo/scene.json (change a pose, then: $tool check $demo/scene.json)
 the proofs            $demo/results.jsonl
 the tool              $tool --help

@@ -32,6 +32,8 @@ rm -rf "$OVOID_DEMO"
 mkdir -p "$OVOID_DEMO"
 check demo "$OVOID_SOURCE_DIR/scripts/demo.sh"
 check proofs grep -q '^proofs: 15, hold: 15, do not: 0; undecided answers: 0' "$OVOID_DEMO/said.log"
+check motion [ "$(grep -c 'do not: 0; undecided answers: 0' "$OVOID_DEMO/said.log")" -eq 2 ]
+check plot grep -q 'nearest 6 of 8 pairs' "$OVOID_DEMO/motion.svg"
 check picture cmp "$OVOID_DEMO/scene.svg" "$OVOID_SOURCE_DIR/docs/demo.svg"
 
 # The README's session.
