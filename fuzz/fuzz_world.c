@@ -169,9 +169,7 @@ static void check_overlaps(const model *m, const ovoid_world_body *probe, double
     fuzz_require(hits.count <= (size_t)m->count);
     for (size_t k = 1; k < hits.count; k++) fuzz_require(items[k - 1].b < items[k].b);
     for (int i = 0; i < m->count; i++) {
-        int is_asked = !(probe->group || probe->mask) ||
-                       ((m->bodies[i].group & probe->mask) && (m->bodies[i].mask & probe->group)),
-            is_there = 0;
+        int is_asked = m->bodies[i].group && m->bodies[i].mask, is_there = 0; // the probe is of all groups
         for (size_t k = 0; k < hits.count; k++) is_there |= items[k].b == m->bodies[i].id;
         ovoid_answer alone = ask_alone(&probe->solid, &m->bodies[i].solid);
         if (!is_asked) fuzz_require(!is_there);

@@ -234,7 +234,7 @@ static void find_gradient(const smooth_case *c, const real *by, real *out) {
 static void test_thin(void) {
     static const double aspects[3] = {0.01, 1e-3, 1e-4}, gaps[3] = {1, 0.03, 1e-4};
     static const real weights[5] = {1, -8, 0, 8, -1};
-    double worst[2] = {0, 0};
+    double worst[2] = {0, 0}, condition = 0;
     for (uint64_t seed = 1; seed <= 45; seed++) {
         uint64_t s = check_seed = seed;
         double aspect = aspects[seed % 3], gap = gaps[seed / 3 % 3];
@@ -248,6 +248,7 @@ static void test_thin(void) {
         pair.pose_b.position = vec3_add(pair.pose_b.position, vec3_sub(at[1].center, before));
         ovoid_smooth_value v = ovoid_smooth_compute(&pair, 2).outer;
         CHECK(v.is_smooth);
+        condition = fmax(condition, v.condition);
         smooth_case c = {&e[0], &e[1], &pair, r_from(v.normal), 0};
         real zero[12] = {0}, first[12], near[12], h = 1e-3L * (real)aspect / v.condition;
         find_gradient(&c, zero, first);
@@ -272,8 +273,8 @@ static void test_thin(void) {
         ovoid_shape_destroy(a);
         ovoid_shape_destroy(b);
     }
-    printf("thin: gradient off by %.1e of the condition, Hessian by %.1e of its largest entry and the condition\n",
-           worst[0], worst[1]);
+    printf("thin: conditions to %.1e, gradient off by %.1e of it, Hessian by %.1e of its largest entry times it\n",
+           condition, worst[0], worst[1]);
 }
 
 // Spheres, closed form: d = |v| - ra - rb with v between the centres, whatever the rotations.
