@@ -1,9 +1,11 @@
 // Compounds that move. Truth: every pair of parts by ovoid_impact_find, with its own proof; distances of the compounds
-// at sampled times; boxes hold the parts' boxes. The deciding pair's steps are checked.
+// at sampled times; boxes hold the parts' boxes. The deciding pair's steps are checked,
+// and the groups of steps of all pairs; what is altered is refused.
 #include "moving.h"
 
-enum { PARTS = 12, CAPACITY = 4000 };
+enum { PARTS = 12, CAPACITY = 20000 };
 static ovoid_step steps[CAPACITY];
+static size_t most_groups;
 
 typedef struct machine {
     ovoid_shape *shapes[3];
@@ -82,6 +84,47 @@ static void check_pair(const ovoid_moving_solid *a, const ovoid_moving_solid *b,
         printf("  %s\n", error.message);
 }
 
+// The proof of all pairs, and that what is altered is refused.
+static void check_proof(const ovoid_moving_solid *a, const ovoid_moving_solid *b, double margin) {
+    static ovoid_step_group groups[CAPACITY];
+    ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY, .groups = groups, .group_capacity = CAPACITY};
+    ovoid_error error;
+    ovoid_compound_impact x = ovoid_compound_impact_find(a, b, margin, &o);
+    ovoid_compound_impact y = ovoid_compound_impact_find(a, b, margin, NULL);
+    CHECK_EQ(x.impact.status, y.impact.status);
+    CHECK_NEAR(fmin(x.impact.hit_at, 2), fmin(y.impact.hit_at, 2), 2e-9);
+    CHECK(x.impact.step_count <= CAPACITY && x.group_count <= CAPACITY);
+    if (!CHECK_EQ(ovoid_compound_impact_check(a, b, margin, &x, steps, groups, &error), OVOID_OK))
+        printf("  group %lld: %s\n", (long long)error.place, error.message);
+    most_groups = x.group_count > most_groups ? x.group_count : most_groups;
+    if (x.impact.free_until <= x.impact.begin) return;
+    y = x;
+    y.group_count--;
+    CHECK(ovoid_compound_impact_check(a, b, margin, &y, steps, groups, NULL) != OVOID_OK);
+    y = x;
+    y.impact.status = x.impact.status == OVOID_IMPACT_FREE ? OVOID_IMPACT_HIT : OVOID_IMPACT_FREE;
+    CHECK(ovoid_compound_impact_check(a, b, margin, &y, steps, groups, NULL) != OVOID_OK);
+    y = x;
+    y.impact.free_until += 1e-3;
+    CHECK(ovoid_compound_impact_check(a, b, margin, &y, steps, groups, NULL) != OVOID_OK);
+    ovoid_step_group kept = groups[0];
+    groups[0].end_a++;
+    CHECK(ovoid_compound_impact_check(a, b, margin, &x, steps, groups, NULL) != OVOID_OK);
+    groups[0] = kept;
+    groups[0].count++;
+    CHECK(ovoid_compound_impact_check(a, b, margin, &x, steps, groups, NULL) != OVOID_OK);
+    groups[0] = kept;
+    if (x.group_count > 1) {
+        groups[0] = groups[1];
+        CHECK(ovoid_compound_impact_check(a, b, margin, &x, steps, groups, NULL) != OVOID_OK);
+        groups[0] = kept;
+    }
+    ovoid_step first = steps[0];
+    steps[0].normal = (ovoid_vec3){-first.normal.x, -first.normal.y, -first.normal.z};
+    CHECK(ovoid_compound_impact_check(a, b, margin, &x, steps, groups, NULL) != OVOID_OK);
+    steps[0] = first;
+}
+
 static void check_box(const ovoid_moving_solid *m, double begin, double end) {
     ovoid_box box = ovoid_moving_solid_compute_box(m, begin, end);
     size_t count = m->compound ? ovoid_compound_get_part_count(m->compound) : 1;
@@ -124,6 +167,7 @@ int main(void) {
         // A shape, too.
         if (seed % 5 == 0) a.solid = (ovoid_moving_solid){.shape = a.shapes[2], .motion = a.solid.motion};
         check_pair(&a.solid, &b.solid, seed % 3 ? 0 : 0.3, &s);
+        check_proof(&a.solid, &b.solid, seed % 3 ? 0 : 0.3);
         ovoid_compound_impact x = ovoid_compound_impact_find(&a.solid, &b.solid, 0, NULL);
         hits += x.impact.status == OVOID_IMPACT_HIT;
         tested += x.tested;
@@ -135,6 +179,7 @@ int main(void) {
         destroy(&b);
     }
     check_seed = 0;
-    printf("%ld of 120 hit; %ld of %ld pairs of parts were looked at\n", hits, tested, pairs);
+    printf("%ld of 120 hit; %ld of %ld pairs of parts were looked at; proofs of at most %zu groups\n", hits, tested,
+           pairs, most_groups);
     return check_end();
 }

@@ -224,6 +224,13 @@ static void ask_motions(void) {
                                     {.shape = box_shape, .motion = b.motion}};
     ovoid_compound_impact z = ovoid_compound_impact_find(&solids[0], &solids[1], 0.01, &o);
     add_impact(&z.impact);
+    static ovoid_step_group groups[8];
+    o.groups = groups;
+    o.group_capacity = 8;
+    z = ovoid_compound_impact_find(&solids[0], &solids[1], 0.01, &o);
+    ADD(z.group_count);
+    code = ovoid_compound_impact_check(&solids[0], &solids[1], 0.01, &z, steps, groups, NULL);
+    ADD(code);
     box = ovoid_moving_solid_compute_box(&solids[1], 0, third);
     ADD(box);
     ovoid_body body = {hull_shape, pairs[0].pose_b};

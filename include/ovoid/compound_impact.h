@@ -27,6 +27,7 @@ typedef struct ovoid_compound_impact {
     uint32_t part_a, part_b; /**< the deciding pair: the first that is hit, or is undecided */
     uint32_t visited;        /**< pairs of nodes looked at */
     uint32_t tested;         /**< pairs of parts looked at */
+    size_t group_count;      /**< groups of steps; more than the capacity: those beyond it were not written */
 } ovoid_compound_impact;
 
 /**
@@ -36,6 +37,17 @@ typedef struct ovoid_compound_impact {
  */
 OVOID_API ovoid_compound_impact ovoid_compound_impact_find(const ovoid_moving_solid *a, const ovoid_moving_solid *b,
                                                            double margin, const ovoid_motion_options *options);
+
+/**
+ * Checks an impact of compounds without a search: that the groups leave out no pair of parts, that the steps of each
+ * reach free_until with a gap above the margin, and that the deciding parts are within the margin at hit_at. steps,
+ * groups: all that the query wrote (options.groups). OVOID_OK, or PROOF with a sentence in *error (may be NULL); place:
+ * the group. Cost: the steps, and the square of the number of groups.
+ */
+OVOID_API ovoid_code ovoid_compound_impact_check(const ovoid_moving_solid *a, const ovoid_moving_solid *b,
+                                                 double margin, const ovoid_compound_impact *impact,
+                                                 const ovoid_step *steps, const ovoid_step_group *groups,
+                                                 ovoid_error *error);
 
 /** Part i of a moving solid, as a moving shape: its pose at a time is that of ovoid_compound's definition. */
 OVOID_API ovoid_moving ovoid_moving_solid_get_part(const ovoid_moving_solid *solid, size_t i);

@@ -113,6 +113,15 @@ typedef struct ovoid_step {
     ovoid_step_frame frame;
 } ovoid_step;
 
+/**
+ * Of compounds: the next `count` steps prove what is said of each part of a that comes in its order at [first_a, end_a)
+ * against each of b at [first_b, end_b): of two single parts by their own gap, else by that of the balls around them.
+ */
+typedef struct ovoid_step_group {
+    uint32_t first_a, end_a, first_b, end_b;
+    size_t count;
+} ovoid_step_group;
+
 /** Options of queries about motions; all zero is the default, and NULL means that. */
 typedef struct ovoid_motion_options {
     double begin, end; /**< the times asked about; both 0: from the later begin to the earlier end of the motions, from
@@ -123,6 +132,9 @@ typedef struct ovoid_motion_options {
     const ovoid_options *query; /**< of the queries at single times; NULL: the default */
     ovoid_step *steps;          /**< receives the proof's steps, up to capacity; NULL where none are wanted */
     size_t capacity;
+    ovoid_step_group *groups; /**< compounds only: receives the steps' groups, up to group_capacity; NULL: the steps are
+                                   those of the deciding pair of parts alone */
+    size_t group_capacity;
 } ovoid_motion_options;
 
 /** When two moving bodies come within a margin of each other. */

@@ -3,13 +3,11 @@
 // 2007): the balls around two nodes are moved with their solids, and the time until which these are free is a lower
 // bound of that of all their parts. The pair of nodes that may meet first is opened first; what is free until the first
 // hit found is left out. Each pair of parts is an ordinary impact (query/impact.c), with its own steps.
-#include "ovoid/compound_impact.h"
+#include "scene/compound_impact.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "query/impact.h"
 #include "query/impact_sweep.h"
-#include "query/point.h"
-#include "scene/compound.h"
 
 enum { BOX_DEPTH = 4 };
 
@@ -28,46 +26,94 @@ typedef struct descent {
     uint32_t place_a, place_b; ///< of the deciding pair
     double window;             ///< the end of times when it was asked
     double free_until;         ///< the least of all pairs
+    size_t step_count;         ///< of all groups
 } descent;
 
 static const ovoid_pose no_part = {{0, 0, 0}, {0, 0, 0, 0}};
 
-static ovoid_moving make_part(const ovoid_moving_solid *solid, const solid_view *view, uint32_t place) {
+void moving_view_make(const ovoid_moving_solid *s, solid_view *view) {
+    const ovoid_pose origin = {{0, 0, 0}, {1, 0, 0, 0}};
+    ovoid_solid solid = {s->shape, s->compound, origin};
+    (void)solid_view_make(&solid, view);
+    view->pose = NULL;
+}
+
+ovoid_moving moving_view_get_part(const ovoid_moving_solid *solid, const solid_view *view, uint32_t place) {
     const compound_part *part = &view->parts[place];
     return (ovoid_moving){part->shape, solid->motion, solid->compound ? part->pose : no_part};
+}
+
+ovoid_moving moving_node_make_ball(const ovoid_moving_solid *solid, const compound_node *node, point_shape *ball) {
+    const ovoid_quat none = {1, 0, 0, 0};
+    point_make(ball, node->radius);
+    return (ovoid_moving){&ball->shape, solid->motion, {node->center, none}};
 }
 
 // The times that matter, and the tolerance in parts of them.
 static ovoid_motion_options make_options(const descent *d, double end, double tolerance) {
     ovoid_motion_options o = d->options;
     o.steps = NULL;
+    o.capacity = 0;
     o.begin = d->begin;
     o.end = end;
     o.tolerance = end > d->begin ? tolerance / (end - d->begin) : 0;
     return o;
 }
 
-// The time until which the balls around two nodes are free; infinity where they are to the end.
-static double find_free(const descent *d, const compound_node *a, const compound_node *b) {
+// ---- the proof
+
+static int is_recording(const descent *d) { return d->options.groups != NULL; }
+
+// Where the next steps are written.
+static void set_steps(const descent *d, ovoid_motion_options *o) {
+    if (!is_recording(d) || !d->options.steps || d->step_count >= d->options.capacity) return;
+    o->steps = d->options.steps + d->step_count;
+    o->capacity = d->options.capacity - d->step_count;
+}
+
+// A group of the steps that were just written.
+static void take_group(descent *d, const compound_node *a, const compound_node *b, size_t count) {
+    if (!is_recording(d)) return;
+    size_t *groups = &d->out->group_count;
+    if (*groups < d->options.group_capacity)
+        d->options.groups[*groups] = (ovoid_step_group){a->first, a->end, b->first, b->end, count};
+    ++*groups;
+    d->step_count += count;
+}
+
+// ---- the search
+
+// The impact of the balls around two nodes, up to the first hit found. 1e-3 is enough for an order.
+static void find_balls(const descent *d, const compound_node *a, const compound_node *b, ovoid_impact *x) {
     point_shape ball_a, ball_b;
-    const ovoid_quat none = {1, 0, 0, 0};
-    ovoid_impact x;
-    point_make(&ball_a, a->radius);
-    point_make(&ball_b, b->radius);
-    ovoid_moving moving_a = {&ball_a.shape, d->a->motion, {a->center, none}};
-    ovoid_moving moving_b = {&ball_b.shape, d->b->motion, {b->center, none}};
+    ovoid_moving moving_a = moving_node_make_ball(d->a, a, &ball_a), moving_b = moving_node_make_ball(d->b, b, &ball_b);
     ovoid_motion_options o = make_options(d, d->end, 1e-3 * (d->end - d->begin));
     o.query = NULL;
-    impact_find(&moving_a, &moving_b, d->margin, &o, 1e-3, &x);
-    return x.status == OVOID_IMPACT_FREE ? INFINITY : x.free_until;
+    set_steps(d, &o);
+    impact_find(&moving_a, &moving_b, d->margin, &o, 1e-3, x);
+}
+
+// 1 if the balls are free up to the first hit found; then that is a group of the proof. Else when they are not any
+// more.
+static int is_left_out(descent *d, const compound_node *a, const compound_node *b, double *after) {
+    ovoid_impact x;
+    find_balls(d, a, b, &x);
+    *after = x.free_until;
+    if (x.status != OVOID_IMPACT_FREE) return 0;
+    take_group(d, a, b, x.step_count);
+    return 1;
 }
 
 // A pair of parts.
-static void take_parts(descent *d, uint32_t a, uint32_t b) {
+static void take_parts(descent *d, const compound_node *leaf_a, const compound_node *leaf_b) {
+    uint32_t a = leaf_a->first, b = leaf_b->first;
     ovoid_impact x, *best = &d->out->impact;
-    ovoid_moving moving_a = make_part(d->a, &d->view_a, a), moving_b = make_part(d->b, &d->view_b, b);
+    ovoid_moving moving_a = moving_view_get_part(d->a, &d->view_a, a),
+                 moving_b = moving_view_get_part(d->b, &d->view_b, b);
     ovoid_motion_options o = make_options(d, d->end, d->tolerance);
+    set_steps(d, &o);
     impact_find(&moving_a, &moving_b, d->margin, &o, 1e-9, &x);
+    take_group(d, leaf_a, leaf_b, x.step_count);
     d->out->tested++;
     uint32_t all = best->iterations + x.iterations;
     // A hit before all others, or what is not decided where there is no hit.
@@ -84,22 +130,29 @@ static void take_parts(descent *d, uint32_t a, uint32_t b) {
     if (x.status == OVOID_IMPACT_HIT) d->end = x.hit_at;
 }
 
-// Pairs of children, the one that may meet first on top of the stack.
-static int open_couple(const descent *d, const couple *c, couple *stack) {
+static int couple_is_parts(const couple *c) { return node_is_leaf(c->a) && node_is_leaf(c->b); }
+
+// Pairs of children, the one that may meet first on top of the stack. Two parts are asked at once.
+static int open_couple(descent *d, const couple *c, couple *stack) {
     int is_a = node_is_split_first(c->a, c->b), count = 0;
     const compound_node *opened = is_a ? c->a : c->b, *halves[2] = {node_get_left(opened), node_get_right(opened)};
     couple found[2];
     for (int i = 0; i < 2; i++) {
         couple half = {is_a ? halves[i] : c->a, is_a ? c->b : halves[i], c->after};
         d->out->visited++;
-        // Two parts are asked at once.
-        if (!(node_is_leaf(half.a) && node_is_leaf(half.b))) half.after = find_free(d, half.a, half.b);
-        if (half.after < d->end || (half.after <= d->end && d->out->impact.status != OVOID_IMPACT_HIT))
-            found[count++] = half;
+        if (couple_is_parts(&half) || !is_left_out(d, half.a, half.b, &half.after)) found[count++] = half;
     }
     int last_first = count == 2 && found[0].after <= found[1].after;
     for (int i = 0; i < count; i++) stack[i] = found[last_first ? count - 1 - i : i];
     return count;
+}
+
+// What waits on the stack may be left out by now: a hit was found before its balls meet. A proof needs its steps too.
+static int is_late(descent *d, couple *c) {
+    if (d->out->impact.status != OVOID_IMPACT_HIT) return 0;
+    if (d->end <= d->begin) return 1;
+    if (c->after < d->end) return 0;
+    return !is_recording(d) || (!couple_is_parts(c) && is_left_out(d, c->a, c->b, &c->after));
 }
 
 static void descend(descent *d) {
@@ -108,29 +161,32 @@ static void descend(descent *d) {
     stack[top++] = (couple){d->view_a.nodes, d->view_b.nodes, d->begin};
     while (top > 0) {
         couple c = stack[--top];
-        int is_hit = d->out->impact.status == OVOID_IMPACT_HIT;
-        if (is_hit && (c.after >= d->end || d->end <= d->begin)) continue;
-        if (node_is_leaf(c.a) && node_is_leaf(c.b))
-            take_parts(d, c.a->first, c.b->first);
+        if (is_late(d, &c)) continue;
+        if (couple_is_parts(&c))
+            take_parts(d, c.a, c.b);
         else
             top += open_couple(d, &c, stack + top);
     }
 }
 
-// The deciding pair again, now with its steps.
+// The deciding pair; again, where its steps alone are wanted.
 static void finish(descent *d) {
     ovoid_compound_impact *out = d->out;
     ovoid_impact *best = &out->impact;
     uint32_t iterations = best->iterations;
+    if (is_recording(d)) best->step_count = d->step_count;
     if (best->status == OVOID_IMPACT_FREE) return;
-    ovoid_moving a = make_part(d->a, &d->view_a, d->place_a), b = make_part(d->b, &d->view_b, d->place_b);
-    ovoid_motion_options o = make_options(d, d->window, d->tolerance);
-    o.steps = d->options.steps;
-    o.capacity = d->options.capacity;
-    impact_find(&a, &b, d->margin, &o, 1e-9, best);
-    best->iterations = iterations;
     out->part_a = solid_view_get_index(&d->view_a, d->place_a);
     out->part_b = solid_view_get_index(&d->view_b, d->place_b);
+    if (!is_recording(d) && d->options.steps) {
+        ovoid_moving a = moving_view_get_part(d->a, &d->view_a, d->place_a);
+        ovoid_moving b = moving_view_get_part(d->b, &d->view_b, d->place_b);
+        ovoid_motion_options o = make_options(d, d->window, d->tolerance);
+        o.steps = d->options.steps;
+        o.capacity = d->options.capacity;
+        impact_find(&a, &b, d->margin, &o, 1e-9, best);
+        best->iterations = iterations;
+    }
     // Another pair may have been free for a shorter time without being hit.
     if (d->free_until < best->free_until) {
         best->free_until = d->free_until;
@@ -138,22 +194,14 @@ static void finish(descent *d) {
     }
 }
 
-static void make_view(const ovoid_moving_solid *s, solid_view *view) {
-    const ovoid_pose origin = {{0, 0, 0}, {1, 0, 0, 0}};
-    ovoid_solid solid = {s->shape, s->compound, origin};
-    // The pose is the motion's; parts are taken in the solid's own frame.
-    (void)solid_view_make(&solid, view);
-    view->pose = NULL;
-}
-
 // The solids as trees, and the times; what is refused is refused as of two parts.
 static ovoid_limit start(descent *d, const ovoid_motion_options *given) {
     static const ovoid_motion_options none = {0};
     sweep s;
     d->options = given ? *given : none;
-    make_view(d->a, &d->view_a);
-    make_view(d->b, &d->view_b);
-    ovoid_moving a = make_part(d->a, &d->view_a, 0), b = make_part(d->b, &d->view_b, 0);
+    moving_view_make(d->a, &d->view_a);
+    moving_view_make(d->b, &d->view_b);
+    ovoid_moving a = moving_view_get_part(d->a, &d->view_a, 0), b = moving_view_get_part(d->b, &d->view_b, 0);
     ovoid_limit limit = sweep_make(&s, &a, &b, &d->options, 1e-9);
     if (limit == OVOID_LIMIT_NONE && !(d->margin >= 0 && d->margin < INFINITY)) limit = OVOID_LIMIT_OPTIONS;
     d->begin = s.begin;
@@ -202,12 +250,9 @@ static void join(ovoid_box *all, ovoid_box box) {
 // The box of a part, or of the ball around a node.
 static ovoid_box find_box(const ovoid_moving_solid *solid, const solid_view *view, const compound_node *n, double begin,
                           double end) {
-    const ovoid_quat none = {1, 0, 0, 0};
-    ovoid_moving m = make_part(solid, view, n->first);
-    if (node_is_leaf(n)) return ovoid_moving_compute_box(&m, begin, end);
     point_shape ball;
-    point_make(&ball, n->radius);
-    m = (ovoid_moving){&ball.shape, solid->motion, {n->center, none}};
+    ovoid_moving m =
+        node_is_leaf(n) ? moving_view_get_part(solid, view, n->first) : moving_node_make_ball(solid, n, &ball);
     return ovoid_moving_compute_box(&m, begin, end);
 }
 
@@ -218,7 +263,7 @@ static ovoid_box compute_box(const ovoid_moving_solid *solid, double begin, doub
     } stack[2 * BOX_DEPTH + 2];
     OVOID_ASSERT(!solid->shape != !solid->compound);
     solid_view view;
-    make_view(solid, &view);
+    moving_view_make(solid, &view);
     ovoid_box all = find_box(solid, &view, view.nodes, begin, end);
     if (isnan(all.low.x) || node_is_leaf(view.nodes)) return all;
     all = (ovoid_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
