@@ -17,7 +17,8 @@ int main(void) {
     }
     for (int i = 0; i < BODIES; i++) {
         bodies[i].solid.shape = box;
-        bodies[i].solid.pose = (ovoid_pose){{i % 10, i / 10 % 10, i / 100}, {1, 0.1 * (i % 7), 0.2, 0}};
+        int x = i % 10, y = i / 10 % 10, z = i / 100;
+        bodies[i].solid.pose = (ovoid_pose){{x, y, z}, {1, 0.1 * (i % 7), 0.2, 0}};
     }
     if (ovoid_world_add_many(world, bodies, BODIES, ids, &error) != OVOID_OK) return 1;
 

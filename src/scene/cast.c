@@ -137,7 +137,7 @@ ovoid_code ovoid_world_cast_ray(const ovoid_world *w, const ovoid_world_ray *ray
 
 static ovoid_code cast_solid(const ovoid_world *w, const ovoid_world_body *probe, vec3 way, ovoid_world_cast *out,
                              ovoid_error *error) {
-    OVOID_ASSERT(w && probe && out);
+    OVOID_ASSERT(w && probe);
     ovoid_code code = world_check_solid(&probe->solid, -1, error);
     if (code != OVOID_OK) return code;
     if (!is_length(way))

@@ -12,8 +12,6 @@
 #include "linear/rotation.h"
 #include "scene/solid.h"
 
-#include <string.h>
-
 // Relative slack of a few sums.
 #define SLACK (1 + 0x1p-48)
 
@@ -94,9 +92,16 @@ static ovoid_quat normalised(ovoid_quat q) {
     return (ovoid_quat){q.w * s, q.x * s, q.y * s, q.z * s};
 }
 
+static int is_same_rotation(ovoid_quat p, ovoid_quat q) { return p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z; }
+
+static int is_same_pose(const ovoid_pose *p, const ovoid_pose *q) {
+    vec3 a = p->position, b = q->position;
+    return a.x == b.x && a.y == b.y && a.z == b.z && is_same_rotation(p->rotation, q->rotation);
+}
+
 // No less than the norm of the difference of the two rotations.
 static double compute_chord(ovoid_quat before, ovoid_quat after) {
-    if (memcmp(&before, &after, sizeof before) == 0) return 0;
+    if (is_same_rotation(before, after)) return 0;
     ovoid_quat p = normalised(before), q = normalised(after);
     double sign = (p.w * q.w + p.x * q.x) + (p.y * q.y + p.z * q.z) < 0 ? -1 : 1;
     ovoid_quat e = {q.w - sign * p.w, q.x - sign * p.x, q.y - sign * p.y, q.z - sign * p.z};
@@ -106,7 +111,7 @@ static double compute_chord(ovoid_quat before, ovoid_quat after) {
 static void move_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
     world_body *b = &w->bodies[i];
     body_place *p = &w->places[i];
-    if (memcmp(&b->solid.pose, pose, sizeof *pose) == 0) return;
+    if (is_same_pose(&b->solid.pose, pose)) return;
     solid_ball ball = body_get_ball(b);
     double blur, chord = compute_chord(b->solid.pose.rotation, pose->rotation);
     vec3 at = solid_compute_center(&ball, pose, &blur), way = vec3_sub(at, p->at);
