@@ -73,7 +73,8 @@ static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t 
     ovoid_error error = {0};
     ovoid_world *w = ovoid_world_create(o, &error);
     if (!CHECK(w != NULL)) printf("  %s\n", error.message);
-    static ovoid_id ids[BODIES];
+    static ovoid_id ids[BODIES + 1];
+    static ovoid_pose poses[BODIES + 1];
     static ovoid_world_body bodies[BODIES];
     hash = 14695981039346656037u;
     for (int i = 0; i < BODIES; i++)
@@ -91,8 +92,13 @@ static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t 
             ovoid_pose *p = &bodies[i].solid.pose;
             p->position = (ovoid_vec3){p->position.x + d.x, p->position.y + d.y, p->position.z + d.z};
             p->rotation.x += random_uniform(&s, -0.01, 0.01);
-            CHECK(ovoid_world_move(w, ids[i], p, NULL) == OVOID_OK);
+            poses[i] = *p;
         }
+        // One by one, all at once, and with one of them twice.
+        ids[BODIES] = ids[17];
+        poses[BODIES] = poses[17];
+        for (int i = 0; i < BODIES && f % 4 == 0; i++) CHECK(ovoid_world_move(w, ids[i], &poses[i], NULL) == OVOID_OK);
+        if (f % 4) CHECK(ovoid_world_move_many(w, ids, poses, BODIES + (f % 4 == 3), NULL) == OVOID_OK);
         for (int i = f; i < BODIES; i += 100) {
             CHECK(ovoid_world_remove(w, ids[i], NULL) == OVOID_OK);
             ids[i] = ovoid_world_add(w, &bodies[i], NULL);

@@ -108,10 +108,11 @@ static double compute_chord(ovoid_quat before, ovoid_quat after) {
     return min2(2 * sqrt(quat_norm_squared(e)) * SLACK + 32 * 0x1p-53, 2);
 }
 
-static void move_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
+// Moves the body, but not its box: 1 if it has left that.
+static int place_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
     world_body *b = &w->bodies[i];
     body_place *p = &w->places[i];
-    if (is_same_pose(&b->solid.pose, pose)) return;
+    if (is_same_pose(&b->solid.pose, pose)) return 0;
     solid_ball ball = body_get_ball(b);
     double blur, chord = compute_chord(b->solid.pose.rotation, pose->rotation);
     vec3 at = solid_compute_center(&ball, pose, &blur), way = vec3_sub(at, p->at);
@@ -125,7 +126,7 @@ static void move_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
     b->blur = blur;
     b->solid.pose = *pose;
     w->marks[i] |= MARK_MOVED;
-    if (!is_in_box(b, p)) body_refresh(w, i);
+    return !is_in_box(b, p);
 }
 
 // A plain pose, near enough for any compound, is known to be good without a look at the body.
@@ -144,6 +145,43 @@ static ovoid_code check_move(const ovoid_world *w, ovoid_id id, const ovoid_pose
     return world_check_solid(&moved, place, error);
 }
 
+// Moves of many bodies, none of them twice, by all workers; then, in order, the boxes that were left.
+typedef struct moves {
+    ovoid_world *w;
+    const ovoid_id *ids;
+    const ovoid_pose *poses;
+} moves;
+
+enum { LEAST = 512 };
+
+static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    const moves *m = work;
+    (void)worker;
+    for (uint32_t k = first; k < end; k++) {
+        uint32_t i = (uint32_t)(m->ids[k] >> 32);
+        if (place_body(m->w, i, &m->poses[k])) m->w->marks[i] |= MARK_LEFT;
+    }
+}
+
+static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, uint32_t count) {
+    moves all = {w, ids, poses};
+    pool_do(&w->host, place_bodies, &all, count, LEAST);
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t i = (uint32_t)(ids[k] >> 32);
+        if (!(w->marks[i] & MARK_LEFT)) continue;
+        w->marks[i] &= (uint8_t)~MARK_LEFT;
+        body_refresh(w, i);
+    }
+}
+
+// 1 if no id comes twice. All of them name bodies.
+static int are_different(ovoid_world *w, const ovoid_id *ids, size_t count) {
+    size_t k = 0;
+    for (; k < count && !(w->marks[ids[k] >> 32] & MARK_NAMED); k++) w->marks[ids[k] >> 32] |= MARK_NAMED;
+    for (size_t j = 0; j < k; j++) w->marks[ids[j] >> 32] &= (uint8_t)~MARK_NAMED;
+    return k == count;
+}
+
 static ovoid_code move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, size_t count,
                             ovoid_error *error) {
     OVOID_ASSERT(w && ((ids && poses) || !count));
@@ -151,7 +189,14 @@ static ovoid_code move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pos
         ovoid_code code = check_move(w, ids[k], &poses[k], (int64_t)k, error);
         if (code != OVOID_OK) return code;
     }
-    for (size_t k = 0; k < count; k++) move_body(w, (uint32_t)(ids[k] >> 32), &poses[k]);
+    if (w->threads > 1 && count > LEAST && are_different(w, ids, count)) {
+        move_by_all(w, ids, poses, (uint32_t)count);
+        return OVOID_OK;
+    }
+    for (size_t k = 0; k < count; k++) {
+        uint32_t i = (uint32_t)(ids[k] >> 32);
+        if (place_body(w, i, &poses[k])) body_refresh(w, i);
+    }
     return OVOID_OK;
 }
 

@@ -22,8 +22,8 @@ typedef struct body_place {
 } body_place;
 
 /// Marks of a body since the last frame: it has another box, all its pairs are to be found afresh, it was moved. NAMED
-/// is used within one call.
-enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8 };
+/// and LEFT, its box, are used within one call.
+enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16 };
 
 typedef struct world_body {
     ovoid_solid solid;
