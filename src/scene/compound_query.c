@@ -16,7 +16,7 @@
 typedef struct hunt {
     solid_view a, b;
     nodes_frame frame;
-    nodes_other turned; ///< a node as the children of a node of `turned_side` see it; of the frame's normal
+    nodes_other turned; ///< a node as the children of a node of `turned_side` see it
     int turned_side;
     ovoid_options options; ///< for pairs of parts
     question asked, ask;   ///< as asked, and what is left of it: once a margin is met, the sign
@@ -74,7 +74,6 @@ static void add_exclusion(hunt *h, const ovoid_exclusion *x) {
 typedef struct waiting {
     const compound_node *a, *b;
     nodes_bound bound;
-    vec3 normal; ///< the frame's at the time
 } waiting;
 
 // Both children of one node with the other node, the nearer one last. side: 0 where the node is of a.
@@ -97,14 +96,13 @@ static void look_at_children(hunt *h, int side, const waiting *w, waiting two[2]
         two[i].a = side ? rest : child;
         two[i].b = side ? child : rest;
         two[i].bound = bounds[i ^ turned];
-        two[i].normal = h->frame.normal;
     }
 }
 
 static waiting look_at_roots(hunt *h, double enough) {
     nodes_other other = nodes_turn(&h->frame, 0, h->b.nodes);
     nodes_bound bound = nodes_compute_lower(&h->frame, 0, h->a.nodes, &other, enough);
-    return (waiting){h->a.nodes, h->b.nodes, bound, h->frame.normal};
+    return (waiting){h->a.nodes, h->b.nodes, bound};
 }
 
 static void exclude_nodes(hunt *h, const waiting *w) {
@@ -112,10 +110,10 @@ static void exclude_nodes(hunt *h, const waiting *w) {
     if (!h->exclusions) return;
     const compound_node *a = w->a, *b = w->b;
     ovoid_exclusion x = {a->first, a->end, b->first, b->end, {0, 0, 0}, {0, 0, 0}, w->bound.lower};
-    if (w->bound.means == NODES_PARTS)
-        x.normal = parts_compute_normal(&h->frame, &h->a.parts[a->first], &h->b.parts[b->first]);
-    else
-        x.normal = nodes_compute_normal(&h->frame, a, b, w->bound.means, w->normal);
+    nodes_means means = w->bound.means;
+    x.normal = means < NODES_PARTS
+                   ? nodes_compute_normal(&h->frame, a, b, means)
+                   : parts_compute_normal(&h->frame, &h->a.parts[a->first], &h->b.parts[b->first], means);
     add_exclusion(h, &x);
 }
 
@@ -166,7 +164,6 @@ static void take_best(hunt *h, uint32_t a, uint32_t b, const ovoid_answer *x) {
     h->place_a = a;
     h->place_b = b;
     nodes_frame_set_normal(&h->frame, x->proof.normal);
-    h->turned.node = NULL;
     tighten(h);
 }
 
@@ -202,7 +199,6 @@ static void visit_leaves(hunt *h, waiting *w) {
     uint32_t a = w->a->first, b = w->b->first;
     if (a == h->warm_a && b == h->warm_b) return;
     w->bound = parts_compute_lower(&h->frame, &h->a.parts[a], &h->b.parts[b], min2(h->ask.far, h->enough));
-    w->normal = h->frame.normal;
     if (is_left_out(h, w->bound.lower))
         exclude_nodes(h, w);
     else

@@ -1,8 +1,8 @@
-// Two nodes: gaps along a direction known to part others, then along the line of the centres, by spheres, boxes and
-// ellipsoids, whichever reaches least; then the boxes along the axes of either solid. Along these the other's box is
-// enclosed by a box of the same axes; of two such boxes the distance is known in closed form, and so is the direction
-// along which their supports show it. (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: a hierarchical structure for
-// rapid interference detection, 1996, has nine axes more.)
+// Two nodes: gaps along the line of the centres, by spheres, boxes and ellipsoids, whichever reaches least; then the
+// boxes along the axes of either solid. Along these the other's box is enclosed by a box of the same axes; of two such
+// boxes the distance is known in closed form, and so is the direction along which their supports show it. (S.
+// Gottschalk, M. C. Lin, D. Manocha, OBBTree: a hierarchical structure for rapid interference detection, 1996, has nine
+// axes more.) Two parts: their spheres, and their vertices along a direction that is known to part others.
 //
 // Errors (docs/compound.md), u = 2^-53, S = Ea + Eb + |offset|, P = |position of a| + |of b|:
 //   parts in the world, as the rounded product of poses has them      45 u (Ea + Eb) + 2 u P
@@ -46,12 +46,9 @@ void nodes_frame_set_normal(nodes_frame *f, vec3 normal) {
     if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){0, 0, 0};
     f->normal = n;
     if (!has_normal(f)) return;
-    nodes_side *of_a = &f->sides[0], *of_b = &f->sides[1];
-    of_a->own = mat3_mul_transposed_vec3(f->world[0], n);
-    of_a->other = mat3_mul_transposed_vec3(f->world[1], n);
-    of_b->own = vec3_neg(of_a->other);
-    of_b->other = vec3_neg(of_a->own);
-    of_a->offset = of_b->offset = vec3_dot(of_a->own, of_a->translation);
+    f->in_a = mat3_mul_transposed_vec3(f->world[0], n);
+    f->in_b = mat3_mul_transposed_vec3(f->world[1], n);
+    f->offset = vec3_dot(f->in_a, f->sides[0].translation);
 }
 
 // How far a node reaches from its centre along a unit direction of its axes.
@@ -77,11 +74,7 @@ static vec3 find_world_direction(const mat3 *world, vec3 t) {
 
 nodes_other nodes_turn(const nodes_frame *f, int side, const compound_node *other) {
     const nodes_side *s = &f->sides[side];
-    nodes_other o = {other, turn_point(s, other->center), mat3_mul_vec3(s->sizes, other->half), -INFINITY};
-    if (!has_normal(f)) return o;
-    double reach = find_round_reach(other, vec3_neg(s->other), find_reach(other, s->other));
-    o.along = (s->offset + vec3_dot(s->other, other->center)) - reach;
-    return o;
+    return (nodes_other){other, turn_point(s, other->center), mat3_mul_vec3(s->sizes, other->half)};
 }
 
 // How far the boxes are apart along each of three common axes, negative where they overlap.
@@ -110,19 +103,11 @@ nodes_bound nodes_compute_lower(const nodes_frame *f, int side, const compound_n
                                 double enough) {
     const nodes_side *s = &f->sides[side];
     const compound_node *node = other->node;
-    nodes_bound best = {-INFINITY, NODES_NORMAL};
     enough += f->claim;
-    if (has_normal(f)) {
-        double apart = other->along - vec3_dot(s->own, own->center), reach = find_reach(own, s->own);
-        best.lower = apart - reach;
-        if (best.lower > enough) return lowered(best, f);
-        best.lower = apart - find_round_reach(own, s->own, reach);
-        if (best.lower > enough) return lowered(best, f);
-    }
-    // The line of the centres: spheres, then boxes, which show nothing of nodes that lie in each other.
+    // The line of the centres: spheres, then the narrower bodies, which show nothing of nodes that lie in each other.
     vec3 t = vec3_sub(other->center, own->center);
     double length = vec3_norm(t);
-    take(&best, length - (own->radius + node->radius), NODES_LINE);
+    nodes_bound best = {length - (own->radius + node->radius), NODES_LINE};
     if (best.lower > enough) return lowered(best, f);
     // With the centre of one in the box of the other, the boxes are not apart: what overlap is, only a depth asks.
     if (enough >= 0 && is_inside(t, own->half)) return lowered(best, f);
@@ -164,10 +149,8 @@ static vec3 find_box_normal(const nodes_frame *f, int side, const compound_node 
     return mat3_mul_vec3(f->world[side], find_direction(gaps, t));
 }
 
-vec3 nodes_compute_normal(const nodes_frame *f, const compound_node *a, const compound_node *b, nodes_means means,
-                          vec3 normal) {
+vec3 nodes_compute_normal(const nodes_frame *f, const compound_node *a, const compound_node *b, nodes_means means) {
     switch (means) {
-    case NODES_NORMAL: return normal;
     case NODES_BOX_A: return find_box_normal(f, 0, a, b);
     case NODES_BOX_B: return vec3_neg(find_box_normal(f, 1, b, a));
     default: return find_world_direction(&f->world[0], vec3_sub(turn_point(&f->sides[0], b->center), a->center));
@@ -180,16 +163,17 @@ nodes_bound parts_compute_lower(const nodes_frame *f, const compound_part *a, co
     nodes_bound best = {vec3_norm(t) - (a->reach + b->reach), NODES_PARTS};
     if (!(best.lower > enough + f->claim) && has_normal(f)) {
         // The parts' own vertices along the normal.
-        vec3 in_a = mat3_mul_transposed_vec3(a->rotation, s->own),
-             in_b = mat3_mul_transposed_vec3(b->rotation, s->other);
+        vec3 in_a = mat3_mul_transposed_vec3(a->rotation, f->in_a);
+        vec3 in_b = mat3_mul_transposed_vec3(b->rotation, f->in_b);
         simd_pair most = shapes_find_pair(a->shape, b->shape, in_a, vec3_neg(in_b));
-        double apart = (s->offset + vec3_dot(s->other, b->at)) - vec3_dot(s->own, a->at);
+        double apart = (f->offset + vec3_dot(f->in_b, b->at)) - vec3_dot(f->in_a, a->at);
         double gap = (apart - (most.high.value + most.low.value)) - (a->shape->radius + b->shape->radius);
         take(&best, gap, NODES_NORMAL);
     }
     return lowered(best, f);
 }
 
-vec3 parts_compute_normal(const nodes_frame *f, const compound_part *a, const compound_part *b) {
+vec3 parts_compute_normal(const nodes_frame *f, const compound_part *a, const compound_part *b, nodes_means means) {
+    if (means == NODES_NORMAL) return f->normal;
     return find_world_direction(&f->world[0], vec3_sub(turn_point(&f->sides[0], b->center), a->center));
 }

@@ -9,8 +9,6 @@ typedef struct nodes_side {
     mat3 rotation;
     mat3 sizes; ///< its entries without their signs
     vec3 translation;
-    vec3 own, other; ///< the frame's normal along the axes of each, from the own to the other
-    double offset;   ///< of the frames' origins along it
 } nodes_side;
 
 /// Two solids.
@@ -20,26 +18,28 @@ typedef struct nodes_frame {
     double size;         ///< S
     double claim;        ///< what a measured bound is lowered by
     double check;        ///< what the measurement of an exclusion may be off by
-    vec3 normal;         ///< a direction that parts some nodes, unit, world; zero: none
+    // A direction that parts some parts, by nodes_frame_set_normal.
+    vec3 normal;     ///< unit, world, from a to b; zero: none
+    vec3 in_a, in_b; ///< along the axes of each
+    double offset;   ///< of the frames' origins along it
 } nodes_frame;
 
 void nodes_frame_make(const solid_view *a, const solid_view *b, nodes_frame *frame);
-/// Another direction to try first; any numbers are safe.
+/// Another direction for parts_compute_lower; any numbers are safe.
 void nodes_frame_set_normal(nodes_frame *frame, vec3 normal);
 
 /// A node of the other solid, along the axes of the own one: what its pairs with several own nodes share.
 typedef struct nodes_other {
     const compound_node *node;
     vec3 center, half;
-    double along; ///< its nearest offset along the normal
 } nodes_other;
 
 /// side: 0 where the own solid is a, 1 where it is b.
 nodes_other nodes_turn(const nodes_frame *frame, int side, const compound_node *other);
 
-/// What a bound was found by: spheres or boxes along the line of the centres, the frame's normal, the boxes along the
-/// axes of a or of b, the spheres of two parts.
-typedef enum nodes_means { NODES_LINE, NODES_NORMAL, NODES_BOX_A, NODES_BOX_B, NODES_PARTS } nodes_means;
+/// What a bound was found by: the line of the centres, the boxes along the axes of a or of b, the spheres of two parts,
+/// their vertices along the frame's normal.
+typedef enum nodes_means { NODES_LINE, NODES_BOX_A, NODES_BOX_B, NODES_PARTS, NODES_NORMAL } nodes_means;
 typedef struct nodes_bound {
     double lower;
     nodes_means means;
@@ -50,16 +50,14 @@ typedef struct nodes_bound {
 nodes_bound nodes_compute_lower(const nodes_frame *frame, int side, const compound_node *own, const nodes_other *other,
                                 double enough);
 
-/// The unit direction, world, that shows the bound; normal: that of the frame at the time.
-vec3 nodes_compute_normal(const nodes_frame *frame, const compound_node *a, const compound_node *b, nodes_means means,
-                          vec3 normal);
+/// The unit direction, world, that shows the bound.
+vec3 nodes_compute_normal(const nodes_frame *frame, const compound_node *a, const compound_node *b, nodes_means means);
 
-/// The same for two parts, by their own spheres (NODES_PARTS) and by their supports along the frame's normal
-/// (NODES_NORMAL).
+/// The same for two parts, by their own spheres and by their supports along the frame's normal.
 nodes_bound parts_compute_lower(const nodes_frame *frame, const compound_part *a, const compound_part *b,
                                 double enough);
 
-/// The unit direction, world, between the spheres.
-vec3 parts_compute_normal(const nodes_frame *frame, const compound_part *a, const compound_part *b);
+/// Likewise.
+vec3 parts_compute_normal(const nodes_frame *frame, const compound_part *a, const compound_part *b, nodes_means means);
 
 #endif
