@@ -83,7 +83,8 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const kept *k) {
     p->kind = PAIR_OPEN;
     p->flags &= (uint16_t)~PAIR_CONTACT;
     if (!(k->lower > margin)) p->flags |= PAIR_CONTACT;
-    if (k->lower > margin && k->stage == OVOID_STAGE_SPHERE) {
+    int are_shapes = !w->bodies[p->a].solid.compound && !w->bodies[p->b].solid.compound;
+    if (k->lower > margin && are_shapes && k->stage == OVOID_STAGE_SPHERE) {
         // Three times the blur of now is above what the positions do not explain of any blur to come.
         const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
         double reach = (a->reach + b->reach) + (a->radius + b->radius);
@@ -91,8 +92,7 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const kept *k) {
         p->c = (reach + margin) * (1 + 0x1p-48) + 3 * (a->blur + b->blur);
         return;
     }
-    int is_plane = !w->bodies[p->a].solid.compound && !w->bodies[p->b].solid.compound;
-    if (k->lower > margin && is_plane && vec3_norm_squared(k->normal) > 0.5) {
+    if (k->lower > margin && are_shapes && vec3_norm_squared(k->normal) > 0.5) {
         p->kind = PAIR_PLANE;
         p->v = k->normal;
         p->c = ((k->lower - margin) - vec3_dot(k->normal, k->between)) + k->travel - slack;
