@@ -34,7 +34,7 @@ static const struct {
     const char *name;
     size_t most; ///< stated, in bytes
 } queries[] = {{"nothing", 16 << 10},  {"collide", 192 << 10}, {"within", 192 << 10}, {"distance", 192 << 10},
-               {"depth", 96 << 10},    {"bounds", 10 << 10},   {"check", 56 << 10},   {"smooth", 96 << 10},
+               {"depth", 96 << 10},    {"bounds", 12 << 10},   {"check", 56 << 10},   {"smooth", 96 << 10},
                {"gradient", 32 << 10}, {"impact", 208 << 10},  {"ray", 208 << 10}};
 enum { QUERIES = sizeof queries / sizeof *queries };
 
