@@ -10,6 +10,9 @@
 /// Most pairs that are kept.
 #define COUPLES_MAX 50000000
 
+/// Most threads of a world.
+#define WORKERS_MAX 256
+
 /// Bodies that are moved at a time.
 #define MOVES 1024
 
@@ -43,8 +46,9 @@ int near_open(cli_near *near, const ovoid_scene *scene, ovoid_question question,
     ovoid_error error;
     *near = (cli_near){.scene = scene, .query = {.question = question, .margin = margin}};
     if (margin < 0) return 0;
+    if (!threads) threads = pipeline_get_processors();
     ovoid_world_options options = {
-        .threads = threads ? threads : pipeline_get_processors(), .filter = is_wanted, .filter_context = near};
+        .threads = threads < WORKERS_MAX ? threads : WORKERS_MAX, .filter = is_wanted, .filter_context = near};
     near->world = ovoid_world_create(&options, &error);
     if (!near->world) return message_error("%s", error.message), EXIT_INPUT;
     int code = add_bodies(near);
