@@ -29,6 +29,7 @@ typedef struct builder {
     uint32_t *order, *scratch;
     double *areas;
     double error; ///< 64 u E, and what underflow can hide
+    int failed;   ///< no memory
 } builder;
 
 double body_compute_extent(const ovoid_body *body) {
@@ -88,7 +89,9 @@ static void fit_ellipsoid(builder *b, compound_node *n) {
     if (rank < 3 || count > UINT32_MAX) return;
     ovoid_polytope points = {.vertices = b->xyz, .vertex_count = (uint32_t)count, .rank = rank};
     ovoid_fit fit;
-    if (ovoid_ellipsoid_compute_outer(&points, 0.02, &fit, &b->compound->allocator) != OVOID_OK) return;
+    ovoid_code code = ovoid_ellipsoid_compute_outer(&points, 0.02, &fit, &b->compound->allocator);
+    if (code == OVOID_ERROR_MEMORY) b->failed = 1; // the tree must not depend on the memory there is
+    if (code != OVOID_OK) return;
     if (!ellipsoid_is_enclosing(&points, &fit.ellipsoid)) return;
     n->round = ellipsoid_enlarge(fit.ellipsoid, radius + b->error).q;
     n->shift = vec3_sub(fit.ellipsoid.center, n->center);
@@ -213,6 +216,7 @@ int tree_build(ovoid_compound *c, const ovoid_body *parts, const parts_vertices 
             b.order[i] = i;
         }
         build(&b);
+        ok = !b.failed;
         for (uint32_t k = 0; k < count; k++) {
             c->parts[k] = part_make(&parts[c->order[k]]);
             c->places[c->order[k]] = k;
