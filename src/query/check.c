@@ -39,7 +39,7 @@ static ovoid_code check_lower(measure *m, double lower, const ovoid_proof *p, ov
     if (lower == -INFINITY) return OVOID_OK;
     vec3 n = vec3_unit(frame_direction_from_world(f, vec3_add(p->normal, p->normal_low)));
     if (!(vec3_norm_squared(n) > 0)) return refuse(error, "lower bound without a normal", lower, 0);
-    double found = frame_find_support(f, n).gap - f->radii - f->check;
+    double found = frame_measure_gap(f, n) - f->radii - f->check;
     if (found < lower && make_fine(m)) found = measure_lower_again(m, p);
     return found >= lower ? OVOID_OK : refuse(error, "lower bound", lower, found);
 }

@@ -110,3 +110,11 @@ frame_support frame_find_support(const pair_frame *f, vec3 n) {
     double gap = (vec3_dot(n, f->translation) - x.low.value) - x.high.value;
     return (frame_support){x.high.index, x.low.index, gap, frame_difference(f, x.high.index, x.low.index)};
 }
+
+double frame_measure_gap(const pair_frame *f, vec3 n) {
+    const ovoid_shape *a = f->a, *b = f->b;
+    vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
+    double high = simd_find_support(shape_x(a), shape_y(a), shape_z(a), a->padded_count, n.x, n.y, n.z).value;
+    double low = simd_find_support(shape_x(b), shape_y(b), shape_z(b), b->padded_count, in_b.x, in_b.y, in_b.z).value;
+    return (vec3_dot(n, f->translation) - low) - high;
+}

@@ -72,6 +72,9 @@ typedef struct frame_support {
 } frame_support;
 frame_support frame_find_support(const pair_frame *f, vec3 n);
 
+/// That gap from all vertices of both, whatever tables the shapes have: for who checks.
+double frame_measure_gap(const pair_frame *f, vec3 n);
+
 /// The supports of A along in_a and of B along in_b, each in its own body frame.
 simd_pair shapes_find_pair(const ovoid_shape *a, const ovoid_shape *b, vec3 in_a, vec3 in_b);
 static inline simd_pair frame_find_pair(const pair_frame *f, vec3 in_a, vec3 in_b) {
