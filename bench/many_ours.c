@@ -104,7 +104,7 @@ static int add_cell(self *s, const workcell *what, const ovoid_pose *links) {
 
 /// The planner's world: parts alone.
 static int add_parts(self *s, const workcell *what) {
-    ovoid_world_body *list = calloc(what->part_count, sizeof *list);
+    ovoid_world_body *list = calloc((size_t)what->part_count + 1, sizeof *list);
     for (uint32_t i = 0; list && i < what->part_count; i++)
         list[i].solid =
             (ovoid_solid){.shape = what->shapes[what->shape_of[what->link_count + i]].shape, .pose = what->parts[i]};
