@@ -272,7 +272,7 @@ static void add_pairs(rows *all, const crowd *c, uint32_t most, const char *line
             for (uint32_t k = 0; k < again; k++) (void)run(&s);
             seconds[pass] = (get_own_seconds() - start) / again;
         }
-        row named = {.chart = "Many pairs, one thread", .x_name = "pairs", .line = line, .x = (double)count};
+        row named = {.chart = "Many pairs on one thread", .x_name = "pairs", .line = line, .x = (double)count};
         rows_add(all, make_pairs_row(named, (uint32_t)count, seconds, passes));
     }
 }
