@@ -20,6 +20,8 @@ typedef struct impact {
     ovoid_couple couple;
     ovoid_impact found;
     ovoid_step *steps;
+    ovoid_step_group *groups; ///< of compounds
+    size_t group_count;
     int failed; ///< no memory
 } impact;
 
@@ -149,18 +151,34 @@ static int find_couples(cli_impacts *x) {
 
 /* ---- their impacts */
 
+/// Room for the steps of a proof and, of compounds, for their groups. 0 where memory is out.
+static int reserve(impact *item, ovoid_motion_options *options) {
+    options->steps = realloc(item->steps, options->capacity * sizeof *item->steps);
+    if (!options->steps) return 0;
+    item->steps = options->steps;
+    if (!options->group_capacity) return 1;
+    options->groups = realloc(item->groups, options->group_capacity * sizeof *item->groups);
+    if (!options->groups) return 0;
+    item->groups = options->groups;
+    return 1;
+}
+
 /// The impact of a pair, with its steps where they are wanted.
 static void find_impact(const cli_impacts *x, impact *item) {
     ovoid_moving_solid a = get_moving(x, item->couple.a), b = get_moving(x, item->couple.b);
-    ovoid_motion_options options = {.capacity = results_are_lines(x->results) ? STEPS : 0};
+    int lines = results_are_lines(x->results), is_compound = a.compound || b.compound;
+    ovoid_motion_options options = {.capacity = lines ? STEPS : 0, .group_capacity = lines && is_compound ? STEPS : 0};
     for (;;) {
-        if (options.capacity) options.steps = realloc(item->steps, options.capacity * sizeof *item->steps);
-        item->failed = options.capacity && !options.steps;
+        item->failed = lines && !reserve(item, &options);
         if (item->failed) return;
-        item->steps = options.steps;
-        item->found = ovoid_compound_impact_find(&a, &b, x->margin, &options).impact;
-        if (!options.capacity || item->found.step_count <= options.capacity) return;
-        options.capacity = item->found.step_count;
+        ovoid_compound_impact found = ovoid_compound_impact_find(&a, &b, x->margin, &options);
+        item->found = found.impact;
+        item->group_count = found.group_count;
+        if (!lines) return;
+        if (!is_compound) item->group_count = 0;
+        if (found.impact.step_count <= options.capacity && item->group_count <= options.group_capacity) return;
+        if (options.capacity < found.impact.step_count) options.capacity = found.impact.step_count;
+        if (options.group_capacity < item->group_count) options.group_capacity = item->group_count;
     }
 }
 
@@ -217,11 +235,11 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
                              .hit_after = item->found.hit_at,
                              .part_a = OVOID_RECORD_NO_PART,
                              .part_b = OVOID_RECORD_NO_PART};
-    if (!ovoid_scene_get(x->scene, c.a).compound && !ovoid_scene_get(x->scene, c.b).compound) {
-        record->steps = item->steps;
-        record->step_count = item->steps ? item->found.step_count : 0;
-        return 1;
-    }
+    record->steps = item->steps;
+    record->step_count = item->steps ? item->found.step_count : 0;
+    record->groups = item->groups;
+    record->group_count = item->groups ? item->group_count : 0;
+    if (!ovoid_scene_get(x->scene, c.a).compound && !ovoid_scene_get(x->scene, c.b).compound) return 1;
     ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
     ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], item->found.hit_at),
                            ovoid_motion_compute_pose(&motions[1], item->found.hit_at)};
@@ -257,7 +275,10 @@ int impacts_find(cli_impacts *x) {
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
     if (!code) qsort(w.items, x->couple_count, sizeof *w.items, compare_impacts);
     if (!code) code = write_impacts(x, w.items);
-    for (size_t i = 0; i < x->couple_count; i++) free(w.items[i].steps);
+    for (size_t i = 0; i < x->couple_count; i++) {
+        free(w.items[i].steps);
+        free(w.items[i].groups);
+    }
     free(w.items);
     return code;
 }

@@ -172,7 +172,9 @@ int main(void) {
     ovoid_record record = {.a = "a", .b = "b"};
     record.exclusions = &exclusion;
     record.steps = &step;
-    record.exclusion_count = record.step_count = 1;
+    ovoid_step_group group = {0, 1, 0, 1, 1};
+    record.groups = &group;
+    record.group_count = record.exclusion_count = record.step_count = 1;
     ovoid_record_write_json(file, &record);
     fclose(file);
     check_operation("results", 1, read_results);

@@ -227,6 +227,12 @@ static void check_same(const ovoid_record *a, const ovoid_record *b) {
     if (a->fields & OVOID_RECORD_IMPACT)
         CHECK(is_same_bits(&a->frame, &b->frame, 8) && is_same_bits(&a->margin, &b->margin, 8) &&
               is_same_bits(&a->free_for, &b->free_for, 8) && is_same_bits(&a->hit_after, &b->hit_after, 8));
+    if (CHECK(a->group_count == b->group_count))
+        for (size_t i = 0; i < a->group_count; i++) {
+            const ovoid_step_group *p = &a->groups[i], *q = &b->groups[i];
+            CHECK(p->first_a == q->first_a && p->end_a == q->end_a && p->first_b == q->first_b && p->end_b == q->end_b);
+            CHECK_EQ(p->count, q->count);
+        }
     if (CHECK(a->exclusion_count == b->exclusion_count && a->step_count == b->step_count)) {
         for (size_t i = 0; i < a->exclusion_count; i++) {
             const ovoid_exclusion *p = &a->exclusions[i], *q = &b->exclusions[i];
@@ -296,6 +302,11 @@ static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
     r.exclusion_count = random_next(s) % 4;
     r.steps = steps;
     r.step_count = random_next(s) % 4;
+    static ovoid_step_group groups[2];
+    for (int i = 0; i < 2; i++)
+        groups[i] = (ovoid_step_group){(uint32_t)random_next(s), 7, 0, (uint32_t)random_next(s), random_next(s) % 1000};
+    r.groups = groups;
+    r.group_count = random_next(s) % 3;
     r.part_a = (uint32_t)random_next(s) % OVOID_RECORD_NO_PART;
     r.part_b = random_next(s) % 2 ? 0 : OVOID_RECORD_NO_PART;
     ovoid_answer *x = &r.answer;
@@ -397,6 +408,9 @@ static const bad_input bad_lines[] = {
      1, "\"exclusions\" must be a list"},
     {"exclusion.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"exclusions\":[{\"a\":[0,1]}]}"),
      OVOID_ERROR_FORMAT, 1, "\"b\" is not that of an exclusion"},
+    {"group.jsonl",
+     WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"groups\":[{\"a\":[0,1],\"b\":[0,1],\"count\":-1}]}"),
+     OVOID_ERROR_FORMAT, 1, "\"count\" must be a whole number"},
     {"range.jsonl",
      WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"exclusions\":[{\"a\":[0,1],\"b\":[0,0.5],\"normal\":[0,0,1],"
                 "\"lower\":0}]}"),

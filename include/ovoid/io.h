@@ -252,6 +252,8 @@ typedef struct ovoid_record {
     size_t exclusion_count;
     const ovoid_step *steps; /**< that prove free_for; NULL: none */
     size_t step_count;
+    const ovoid_step_group *groups; /**< of compounds: which parts the steps are about; NULL: none */
+    size_t group_count;
 } ovoid_record;
 
 /**

@@ -12,6 +12,7 @@ struct ovoid_results_reader {
     ovoid_cover cover; ///< of the last record, as the next two
     ovoid_exclusion *exclusions;
     ovoid_step *steps;
+    ovoid_step_group *groups;
     ovoid_error *error;
 };
 
@@ -253,12 +254,36 @@ static ovoid_code read_steps(ovoid_results_reader *r, const json_t *json, ovoid_
     return code;
 }
 
+static ovoid_code read_groups(ovoid_results_reader *r, const json_t *json, ovoid_record *record) {
+    static const char *const keys[] = {"a", "b", "count"};
+    size_t count = json_array_size(json);
+    if (!count) return fail(r, "groups", "must be a list, not an empty one");
+    ovoid_step_group *items = realloc(r->groups, count * sizeof *items);
+    if (!items) return io_fail_memory(r->error, r->source.path);
+    r->groups = items;
+    record->groups = items;
+    record->group_count = count;
+    for (size_t i = 0; i < count; i++) {
+        json_t *group = json_array_get(json, i);
+        const char *bad = "groups";
+        double steps;
+        if (!json_is_object(group) || !has_keys(group, keys, 3, 3, &bad)) return fail(r, bad, "is not that of a group");
+        if (!read_range(group, "a", &items[i].first_a, &items[i].end_a) ||
+            !read_range(group, "b", &items[i].first_b, &items[i].end_b))
+            return fail(r, "groups", "must have ranges of two whole numbers");
+        if (!read_whole(json_object_get(group, "count"), UINT32_MAX, &steps))
+            return fail(r, "count", "must be a whole number >= 0");
+        items[i].count = (size_t)steps;
+    }
+    return OVOID_OK;
+}
+
 static ovoid_code read_proof(ovoid_results_reader *r, json_t *json, ovoid_record *record) {
-    static const char *const keys[] = {"normal",   "normal_low", "kind",    "a",     "b",          "weight_a",
-                                       "weight_b", "inner_a",    "inner_b", "cover", "exclusions", "steps"};
+    static const char *const keys[] = {"normal",  "normal_low", "kind",  "a",          "b",     "weight_a", "weight_b",
+                                       "inner_a", "inner_b",    "cover", "exclusions", "steps", "groups"};
     ovoid_proof *proof = &record->answer.proof;
     const char *bad = "proof";
-    if (!json_is_object(json) || !has_keys(json, keys, 12, 0, &bad))
+    if (!json_is_object(json) || !has_keys(json, keys, 13, 0, &bad))
         return fail(r, bad, "does not belong into a proof");
     const char *kind = json_string_value(json_object_get(json, "kind"));
     int found = kind ? find_kind(kind) : -1;
@@ -269,9 +294,10 @@ static ovoid_code read_proof(ovoid_results_reader *r, json_t *json, ovoid_record
     if (!code) code = read_points(r, json, proof);
     if (!code) code = read_inner(r, json, proof);
     json_t *cover = json_object_get(json, "cover"), *exclusions = json_object_get(json, "exclusions");
-    json_t *steps = json_object_get(json, "steps");
+    json_t *steps = json_object_get(json, "steps"), *groups = json_object_get(json, "groups");
     if (!code && exclusions) code = read_exclusions(r, exclusions, record);
     if (!code && steps) code = read_steps(r, steps, record);
+    if (!code && groups) code = read_groups(r, groups, record);
     if (code || !cover) return code;
     record->cover = &r->cover;
     return read_cover(r, cover);
@@ -406,5 +432,6 @@ void ovoid_results_reader_destroy(ovoid_results_reader *reader) {
     json_decref(reader->line);
     free(reader->exclusions);
     free(reader->steps);
+    free(reader->groups);
     free(reader);
 }

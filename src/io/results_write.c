@@ -93,6 +93,19 @@ static void write_steps(FILE *file, const char *q, const ovoid_record *record) {
     fputc(']', file);
 }
 
+static void write_groups(FILE *file, const char *q, const ovoid_record *record) {
+    write_key(file, q, ",", "groups");
+    for (size_t i = 0; i < record->group_count; i++) {
+        const ovoid_step_group *g = &record->groups[i];
+        fputc(i ? ',' : '[', file);
+        write_range(file, q, "{", "a", g->first_a, g->end_a);
+        write_range(file, q, ",", "b", g->first_b, g->end_b);
+        write_key(file, q, ",", "count");
+        fprintf(file, "%zu}", g->count);
+    }
+    fputc(']', file);
+}
+
 static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
     const ovoid_proof *proof = &record->answer.proof;
     write_key(file, q, "{", "normal");
@@ -124,6 +137,7 @@ static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
     if (record->cover && record->cover->point_count) write_cover(file, q, record->cover);
     if (record->exclusion_count) write_exclusions(file, q, record);
     if (record->step_count) write_steps(file, q, record);
+    if (record->group_count) write_groups(file, q, record);
     fputc('}', file);
 }
 
