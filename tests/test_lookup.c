@@ -86,7 +86,8 @@ static void check_table(const char *name, uint32_t count, uint64_t *state, int w
     ovoid_allocator allocator = allocator_make(NULL);
     lookup t;
     simd_cell *cells;
-    CHECK_EQ(lookup_create(xyz, count, &allocator, &t, &cells), OVOID_OK);
+    ovoid_code code = lookup_create(xyz, count, &allocator, &t, &cells);
+    CHECK_EQ(code, OVOID_OK);
     CHECK((t.k > 0) == wanted && (cells != NULL) == wanted);
     if (wanted && !t.k) printf("%s: no table of %u vertices\n", name, count);
     CHECK_LE(t.cell_count, 2 * count);
@@ -135,7 +136,8 @@ static void check_lattices(uint64_t *state) {
     simd_cell *cells;
     lookup t;
     ovoid_allocator allocator = allocator_make(NULL);
-    CHECK_EQ(lookup_create(xyz, 512, &allocator, &t, &cells), OVOID_OK);
+    ovoid_code code = lookup_create(xyz, 512, &allocator, &t, &cells);
+    CHECK_EQ(code, OVOID_OK);
     allocator_release(&allocator, cells);
     for (uint32_t i = 0; i < 512; i++) set(i, (vec3){1e-200, 0, 0});
     check_table("too small", 512, state, 0);
