@@ -23,8 +23,8 @@ struct world {
 
     static btDefaultCollisionConstructionInfo make_pools(uint32_t count) {
         btDefaultCollisionConstructionInfo info;
-        info.m_defaultMaxCollisionAlgorithmPoolSize = static_cast<int>(10 * count + 4096);
-        info.m_defaultMaxPersistentManifoldPoolSize = static_cast<int>(10 * count + 4096);
+        info.m_defaultMaxCollisionAlgorithmPoolSize = static_cast<int>(4 * count + 4096);
+        info.m_defaultMaxPersistentManifoldPoolSize = static_cast<int>(4 * count + 4096);
         return info;
     }
     explicit world(uint32_t count)
