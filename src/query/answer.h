@@ -27,7 +27,7 @@ void answer_find_inside(const ovoid_pair *pair, const ovoid_options *given, ques
                         ovoid_cover *cover, ovoid_answer *out);
 
 /// ovoid_answer_check, likewise inside.
-ovoid_code answer_check_inside(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
+ovoid_code answer_check_inside(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
                                ovoid_error *error);
 
 /// Of that, the lower bound alone: does the proof's normal show it?
