@@ -273,6 +273,7 @@ LANES_INLINE void start_direction(octet *o, part_work *w, int at) {
     lane_mask good = lane_and(lane_greater(most, lane_set(1e-30)), lane_less(most, lane_set(1e30)));
     good = lane_or(good, line);
     put3(o->n, at, lane3_unit(lane3_select(line, centers, d), &good));
+    put(&w->gap, at, lane_set(0)); // of an eight that takes no turn it is not asked
     put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, get_mask(&w->is_inner, at))));
 }
 
