@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-many_plan many_plan_make(void) { return (many_plan){{1000, 10000, 100000}, 3, 40, 6, 200, 100000, 4000, NULL, NULL}; }
+many_plan many_plan_make(void) { return (many_plan){{1000, 10000, 100000}, 3, 40, 16, 200, 100000, 4000, NULL, NULL}; }
 
 many_plan many_plan_make_smoke(void) { return (many_plan){{50, 200}, 2, 0, 2, 2, 20, 20, NULL, NULL}; }
 

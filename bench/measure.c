@@ -22,7 +22,9 @@ static int compare_doubles(const void *a, const void *b) {
 timing timing_make(double *samples, uint32_t count) {
     if (count == 0) return (timing){0};
     qsort(samples, count, sizeof *samples, compare_doubles);
-    return (timing){samples[count / 2], samples[count / 4], samples[(3 * count) / 4], samples[0]};
+    double sum = 0;
+    for (uint32_t i = 0; i < count; i++) sum += samples[i];
+    return (timing){samples[count / 2], samples[count / 4], samples[(3 * count) / 4], samples[0], sum / count};
 }
 
 /// One timed pass; nanoseconds per query.

@@ -6,7 +6,7 @@
 
 /// Of the repetitions, nanoseconds per query. median 0: not measured.
 typedef struct timing {
-    double median, low, high, least; ///< low, high: the quartiles
+    double median, low, high, least, mean; ///< low, high: the quartiles
 } timing;
 
 /// A contestant in a cell.

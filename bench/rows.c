@@ -13,8 +13,10 @@ void rows_add(rows *all, row one) {
     if (all->count == ROWS_MOST) return;
     const row *last = all->count ? &all->items[all->count - 1] : NULL;
     if (!last || strcmp(last->chart, one.chart) != 0)
-        printf("\n%s\n%12s  %-24s %14s %14s %14s\n", one.chart, one.x_name, "", one.y_name, "quartile 1", "quartile 3");
-    printf("%12.0f  %-24s %14.6g %14.6g %14.6g", one.x, one.line, one.y.median, one.y.low, one.y.high);
+        printf("\n%s\n%12s  %-24s %12s %12s %12s %12s\n", one.chart, one.x_name, "", one.y_name, "quartile 1",
+               "quartile 3", "mean");
+    printf("%12.0f  %-24s %12.6g %12.6g %12.6g %12.6g", one.x, one.line, one.y.median, one.y.low, one.y.high,
+           one.y.mean);
     if (one.judged > 0) printf("   wrong %.0f of %.0f", one.wrong, one.judged);
     printf("\n");
     (void)fflush(stdout);
@@ -24,12 +26,12 @@ void rows_add(rows *all, row one) {
 int rows_write_csv(const rows *all, const char *path) {
     FILE *file = fopen(path, "w");
     if (!file) return 0;
-    (void)fprintf(file, "# %s\nchart,line,x_name,x,y_name,median,quartile1,quartile3,minimum,judged,wrong\n",
+    (void)fprintf(file, "# %s\nchart,line,x_name,x,y_name,median,quartile1,quartile3,minimum,mean,judged,wrong\n",
                   get_build());
     for (uint32_t i = 0; i < all->count; i++) {
         const row *r = &all->items[i];
-        (void)fprintf(file, "%s,\"%s\",%s,%.0f,%s,%.6g,%.6g,%.6g,%.6g,%.0f,%.0f\n", r->chart, r->line, r->x_name, r->x,
-                      r->y_name, r->y.median, r->y.low, r->y.high, r->y.least, r->judged, r->wrong);
+        (void)fprintf(file, "%s,\"%s\",%s,%.0f,%s,%.6g,%.6g,%.6g,%.6g,%.6g,%.0f,%.0f\n", r->chart, r->line, r->x_name,
+                      r->x, r->y_name, r->y.median, r->y.low, r->y.high, r->y.least, r->y.mean, r->judged, r->wrong);
     }
     return fclose(file) == 0;
 }

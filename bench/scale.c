@@ -137,7 +137,7 @@ static void add_memory(rows *all, const bodies *set) {
                         "KiB",
                         "shape",
                         set->items[0].vertex_count,
-                        {bytes / 1024, bytes / 1024, bytes / 1024, bytes / 1024},
+                        {bytes / 1024, bytes / 1024, bytes / 1024, bytes / 1024, bytes / 1024},
                         0,
                         0});
 }
