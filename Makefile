@@ -4,18 +4,18 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check bits mutate bench soak soak-world trust fuzz docs install format lint clean
+.PHONY: all help demo check bits ports mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
 	@cmake --preset release >/dev/null
-	@cmake --build $(BUILD) -j$(JOBS)
+	@cmake --build $(BUILD) -j$(JOBS) --target libraries ovoid_cli
 
 help: ## this list
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS="$$(printf '\t')" read -r a b; do printf 'make %-8s %s\n' $$a "$$b"; done
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS="$$(printf '\t')" read -r a b; do printf 'make %-12s %s\n' $$a "$$b"; done
 
 # $(call build,WHAT,TARGETS): installs what WHAT needs, then builds only these targets.
-build = scripts/setup.sh $(1) && cmake --preset release >/dev/null && \
+build = scripts/setup.sh $(1) && echo "building: $(2); a minute or two on a fresh copy" && cmake --preset release >/dev/null && \
 	cmake --build $(BUILD) -j$(JOBS) --target $(2) >/dev/null
 
 demo: ## fit real meshes, pose them, prove every pair, draw the picture
@@ -30,7 +30,11 @@ bits: ## the same bits from 14 builds by gcc and clang, some minutes
 	@scripts/setup.sh check
 	@scripts/bits.sh
 
-mutate: ## small faults in a copy of the sources: which test notices each, an hour or two
+ports: ## the same bits and tests on musl, 64-bit ARM, 32-bit x86 and Windows, some minutes
+	@scripts/setup.sh ports
+	@scripts/ports.sh
+
+mutate: ## small faults in a copy of the sources: which test notices each, two to three hours
 	@scripts/setup.sh check
 	@JOBS=$(JOBS) scripts/mutate.sh
 
@@ -62,6 +66,14 @@ docs: ## the manual, in build/docs/html
 
 install: all ## PREFIX=/usr/local DESTDIR=
 	@DESTDIR=$(DESTDIR) cmake --install $(BUILD) --prefix $(PREFIX)
+
+deb: ## Debian packages in build/deb, looked through by lintian
+	@scripts/setup.sh deb
+	@JOBS=$(JOBS) scripts/deb.sh
+
+deb-root: deb ## these packages in a fresh Debian 12: installed, linked against, removed; as root
+	@scripts/setup.sh deb-root
+	@scripts/deb-root.sh
 
 format: ## clang-format over all sources
 	@scripts/lint.sh format-in-place

@@ -11,7 +11,7 @@ typedef struct self {
     ovoid_world *world;
     ovoid_id *ids;
     uint32_t moving; ///< bodies 0 .. moving - 1 move
-    ovoid_frame_query query;
+    ovoid_contact_query query;
     // The planner's.
     ovoid_world *parts;
     ovoid_couple *couples;
@@ -49,7 +49,7 @@ static void *create_swarm(const swarm *what, const ovoid_pose *poses) {
     if (!s) return NULL;
     ovoid_world_body *list = calloc(what->body_count, sizeof *list);
     for (uint32_t i = 0; list && i < what->body_count; i++)
-        list[i].solid = (ovoid_solid){.shape = what->shapes[what->shape_of[i]].shape, .pose = poses[i]};
+        list[i].body = (ovoid_body){.shape = what->shapes[what->shape_of[i]].shape, .pose = poses[i]};
     int good = add_bodies(s, list, what->body_count);
     free(list);
     if (!good) return NULL;
@@ -61,14 +61,14 @@ static uint32_t get_index(ovoid_id id) { return (uint32_t)(id >> 32); }
 
 /// Everything moves, one frame is asked for; `all` receives the contacts whose status says that they count.
 static void run_frame(self *s, const ovoid_pose *poses, meetings *all) {
-    ovoid_frame frame;
+    ovoid_contacts frame;
     if (ovoid_world_move_many(s->world, s->ids, poses, s->moving, NULL) != OVOID_OK ||
-        ovoid_world_compute_frame(s->world, &s->query, &frame, NULL) != OVOID_OK) {
+        ovoid_world_compute_contacts(s->world, &s->query, &frame, NULL) != OVOID_OK) {
         all->failed = 1;
         return;
     }
     for (size_t i = 0; i < frame.count; i++) {
-        const ovoid_contact *c = &frame.contacts[i];
+        const ovoid_contact *c = &frame.items[i];
         if (c->verdict.status == OVOID_SEPARATED && c->verdict.upper > s->query.margin) continue;
         meetings_add(all, get_index(c->a), get_index(c->b), c->verdict.upper);
     }
@@ -89,7 +89,7 @@ static int add_cell(self *s, const workcell *what, const ovoid_pose *links) {
     for (uint32_t i = 0; list && i < count; i++) {
         int is_link = i < what->link_count;
         const ovoid_pose *pose = is_link ? &links[i] : &what->parts[i - what->link_count];
-        list[i] = (ovoid_world_body){.solid = {.shape = what->shapes[what->shape_of[i]].shape, .pose = *pose},
+        list[i] = (ovoid_world_body){.body = {.shape = what->shapes[what->shape_of[i]].shape, .pose = *pose},
                                      .group = is_link ? GROUP_LINK : GROUP_PART,
                                      .mask = is_link ? GROUP_LINK | GROUP_PART : GROUP_LINK};
     }
@@ -106,8 +106,8 @@ static int add_cell(self *s, const workcell *what, const ovoid_pose *links) {
 static int add_parts(self *s, const workcell *what) {
     ovoid_world_body *list = calloc((size_t)what->part_count + 1, sizeof *list);
     for (uint32_t i = 0; list && i < what->part_count; i++)
-        list[i].solid =
-            (ovoid_solid){.shape = what->shapes[what->shape_of[what->link_count + i]].shape, .pose = what->parts[i]};
+        list[i].body =
+            (ovoid_body){.shape = what->shapes[what->shape_of[what->link_count + i]].shape, .pose = what->parts[i]};
     s->parts = ovoid_world_create(NULL, NULL);
     int good = list && s->parts && ovoid_world_add_many(s->parts, list, what->part_count, NULL, NULL) == OVOID_OK;
     free(list);
@@ -130,7 +130,7 @@ static void *create_cell(const workcell *what, const ovoid_pose *links) {
     if (!s || !add_cell(s, what, links)) return NULL;
     s->cell = what;
     s->moving = what->link_count;
-    s->query = (ovoid_frame_query){.question = OVOID_QUESTION_DISTANCE, .margin = what->margin};
+    s->query = (ovoid_contact_query){.kind = OVOID_QUERY_DISTANCE, .margin = what->margin};
     if (add_parts(s, what) && add_couples(s, what)) return s;
     destroy(s);
     return NULL;
@@ -140,11 +140,11 @@ static void *create_cell(const workcell *what, const ovoid_pose *links) {
 static int is_hit(void *state, const ovoid_pose *links) {
     self *s = state;
     ovoid_world_body probes[LINKS_MOST];
-    ovoid_body posed[LINKS_MOST];
+    ovoid_posed_shape posed[LINKS_MOST];
     for (uint32_t i = 0; i < s->moving; i++) {
         const ovoid_shape *shape = s->cell->shapes[s->cell->shape_of[i]].shape;
-        probes[i] = (ovoid_world_body){.solid = {.shape = shape, .pose = links[i]}};
-        posed[i] = (ovoid_body){shape, links[i]};
+        probes[i] = (ovoid_world_body){.body = {.shape = shape, .pose = links[i]}};
+        posed[i] = (ovoid_posed_shape){shape, links[i]};
     }
     ovoid_world_hit hit;
     if (ovoid_world_find_any_to(s->parts, probes, s->moving, &hit, NULL) != OVOID_OK || hit.b) return 1;

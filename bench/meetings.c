@@ -95,7 +95,7 @@ int swarm_compute_truth(const swarm *what, const ovoid_pose *poses, meeting_trut
 
 /// A body of the cell with its enclosing sphere, widened by far more than its rounding.
 typedef struct balled {
-    const body *solid;
+    const body *body;
     ovoid_pose pose;
     ovoid_vec3 middle;
     double radius;
@@ -123,7 +123,7 @@ static int may_meet(const balled *a, const balled *b, double margin) {
 
 /// 1 where the two are sure to meet.
 static int decide_near(const balled balls[2], const uint32_t names[2], double margin, meeting_truth *truth) {
-    ovoid_pair pair = {balls[0].solid->shape, balls[1].solid->shape, balls[0].pose, balls[1].pose};
+    ovoid_pair pair = {balls[0].body->shape, balls[1].body->shape, balls[0].pose, balls[1].pose};
     ovoid_answer answer = margin > 0 ? ovoid_distance(&pair, NULL, NULL) : ovoid_collide(&pair, NULL, NULL);
     if (ovoid_answer_check(&pair, &answer, NULL, NULL) != OVOID_OK) {
         truth->unproven++;

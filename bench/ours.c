@@ -96,7 +96,7 @@ static void *create_batch(const workload *work) {
     size_t count = work->pair_count;
     s->frame = work->tracks ? work->tracks : work->pair_count;
     s->margin = work->pairs[0].margin;
-    ovoid_body *posed = malloc(sizeof *posed * 2 * count);
+    ovoid_posed_shape *posed = malloc(sizeof *posed * 2 * count);
     ovoid_couple *couples = malloc(sizeof *couples * count);
     s->batch = (ovoid_batch){.bodies = posed,
                              .body_count = 2 * count,
@@ -111,8 +111,8 @@ static void *create_batch(const workload *work) {
     }
     for (uint32_t i = 0; i < count; i++) {
         ovoid_pair pair = workload_get_pair(work, i);
-        posed[2 * i] = (ovoid_body){pair.shape_a, pair.pose_a};
-        posed[2 * i + 1] = (ovoid_body){pair.shape_b, pair.pose_b};
+        posed[2 * i] = (ovoid_posed_shape){pair.shape_a, pair.pose_a};
+        posed[2 * i + 1] = (ovoid_posed_shape){pair.shape_b, pair.pose_b};
         couples[i] = (ovoid_couple){2 * i, 2 * i + 1};
     }
     return s;

@@ -2,9 +2,7 @@
 // fcl::distance. Two contestants, one for each of its solvers, its own (fcl) and that over libccd (fcl-ccd, its
 // default). Its own solver gives the depth a minus sign, which is forgiven, and the normal in the frame of A, which is
 // not. Warm start: the cached guess, which its own solver has for collide. Within a margin: its distance, compared.
-#include "peer.h"
-
-#include <fcl/fcl.h>
+#include "peer_fcl.h"
 
 #include <cmath>
 #include <memory>
@@ -20,24 +18,10 @@ struct posed {
 
 struct self {
     fcl::GJKSolverType solver;
-    std::vector<std::unique_ptr<fcl::Convexd>> shapes;
+    std::vector<std::shared_ptr<fcl::Convexd>> shapes;
     std::vector<posed, Eigen::aligned_allocator<posed>> pairs;
     std::vector<fcl::Vector3d> guesses;
 };
-
-std::unique_ptr<fcl::Convexd> make_shape(const body &b) {
-    auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
-    auto faces = std::make_shared<std::vector<int>>();
-    for (uint32_t i = 0; i < b.vertex_count; i++)
-        vertices->emplace_back(b.vertices[3 * i], b.vertices[3 * i + 1], b.vertices[3 * i + 2]);
-    for (uint32_t t = 0; t < b.triangle_count; t++) {
-        faces->push_back(3);
-        for (int k = 0; k < 3; k++) faces->push_back(static_cast<int>(b.triangles[3 * t + k]));
-    }
-    auto shape = std::make_unique<fcl::Convexd>(vertices, static_cast<int>(b.triangle_count), faces);
-    shape->computeLocalAABB();
-    return shape;
-}
 
 fcl::Transform3d make_transform(const ovoid_pose &pose) {
     fcl::Transform3d t = fcl::Transform3d::Identity();
@@ -50,7 +34,7 @@ fcl::Transform3d make_transform(const ovoid_pose &pose) {
 void *create(const workload *work, fcl::GJKSolverType solver) {
     auto *s = new self;
     s->solver = solver;
-    for (uint32_t i = 0; i < work->body_count; i++) s->shapes.push_back(make_shape(work->bodies[i]));
+    for (uint32_t i = 0; i < work->body_count; i++) s->shapes.push_back(make_convex(work->bodies[i]));
     for (uint32_t i = 0; i < work->pair_count; i++) {
         const placed &p = work->pairs[i];
         s->pairs.push_back(

@@ -167,7 +167,7 @@ static int visit_memory(rows *all, const bodies *set) {
 
 /// Pairs as a batch takes them: bodies 2 i and 2 i + 1.
 typedef struct crowd {
-    ovoid_body *bodies;
+    ovoid_posed_shape *bodies;
     ovoid_couple *couples;
     ovoid_verdict *verdicts;
 } crowd;
@@ -189,8 +189,8 @@ static int crowd_create(crowd *c, const bodies *set, uint32_t count) {
         double size = body_get_reach(a) + body_get_reach(b), apart = random_uniform(&state, 0.2, 2) * size;
         ovoid_vec3 u = random_unit(&state);
         ovoid_quat turn_a = random_rotation(&state), turn_b = random_rotation(&state);
-        c->bodies[2 * (size_t)i] = (ovoid_body){a->shape, {{0, 0, 0}, turn_a}};
-        c->bodies[2 * (size_t)i + 1] = (ovoid_body){b->shape, {{u.x * apart, u.y * apart, u.z * apart}, turn_b}};
+        c->bodies[2 * (size_t)i] = (ovoid_posed_shape){a->shape, {{0, 0, 0}, turn_a}};
+        c->bodies[2 * (size_t)i + 1] = (ovoid_posed_shape){b->shape, {{u.x * apart, u.y * apart, u.z * apart}, turn_b}};
         c->couples[i] = (ovoid_couple){2 * i, 2 * i + 1};
     }
     return 1;
@@ -225,7 +225,8 @@ static void *run_share(void *data) {
 static void *run_singly(void *data) {
     const share *s = data;
     for (size_t i = 0; i < s->batch.couple_count; i++) {
-        const ovoid_body *a = &s->batch.bodies[s->batch.couples[i].a], *b = &s->batch.bodies[s->batch.couples[i].b];
+        const ovoid_posed_shape *a = &s->batch.bodies[s->batch.couples[i].a],
+                                *b = &s->batch.bodies[s->batch.couples[i].b];
         ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
         ovoid_answer x = ovoid_collide(&pair, NULL, NULL);
         s->batch.verdicts[i] = (ovoid_verdict){x.status, x.stage, x.limit, x.iterations, x.lower, x.upper};

@@ -1,4 +1,4 @@
-// Pairs in, records out: pieces of the same size for any number of threads, so that the output is the same bytes.
+// The answers of many pairs: chunks of the same size for any number of threads, so that the output is the same bytes.
 #include "answers.h"
 
 #include "message.h"
@@ -7,10 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Pairs of one piece of work.
+/// Pairs of a chunk.
 #define CHUNK 128
 
-/// Exclusions that there is room for at first.
+/// Exclusions for which there is room at first.
 #define ROOM 256
 
 typedef struct chunk {
@@ -29,9 +29,9 @@ typedef struct work_state {
 
 /* ---- one answer */
 
-ovoid_solid answers_get_solid(const ovoid_scene *scene, size_t object, const ovoid_pose *pose) {
+ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid_pose *pose) {
     ovoid_scene_object o = ovoid_scene_get(scene, object);
-    return (ovoid_solid){o.shape, o.compound, *pose};
+    return (ovoid_body){o.shape, o.compound, *pose};
 }
 
 unsigned answers_get_fields(const ovoid_scene *scene) {
@@ -40,15 +40,15 @@ unsigned answers_get_fields(const ovoid_scene *scene) {
     return 0;
 }
 
-static ovoid_compound_answer ask(const ovoid_solid_pair *pair, int query, double margin, const ovoid_options *options,
-                                 ovoid_exclusions *exclusions) {
-    if (query == QUERY_COLLIDE) return ovoid_compound_collide(pair, options, NULL, exclusions);
-    if (query == QUERY_WITHIN) return ovoid_compound_within(pair, margin, options, NULL, exclusions);
-    if (query == QUERY_DISTANCE) return ovoid_compound_distance(pair, options, NULL, exclusions);
-    return ovoid_compound_depth(pair, options, NULL, exclusions);
+static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {
+    ovoid_options options = {.absolute_tolerance = q->tolerance};
+    if (q->query == QUERY_COLLIDE) return ovoid_compound_collide(pair, &options, NULL, exclusions);
+    if (q->query == QUERY_WITHIN) return ovoid_compound_within(pair, q->margin, &options, NULL, exclusions);
+    if (q->query == QUERY_DISTANCE) return ovoid_compound_distance(pair, &options, NULL, exclusions);
+    return ovoid_compound_depth(pair, &options, NULL, exclusions);
 }
 
-/// Room for so many exclusions; 0 where memory is out.
+/// Makes room for that many exclusions; 0 where memory is out.
 static int reserve(answer_room *room, size_t count) {
     if (!room->cover) room->cover = malloc(sizeof *room->cover);
     if (count > room->capacity) {
@@ -60,23 +60,21 @@ static int reserve(answer_room *room, size_t count) {
     return room->cover != NULL;
 }
 
-int answers_ask(answer_room *room, const ovoid_solid_pair *pair, int query, double margin, double tolerance, int proven,
-                ovoid_record *record) {
-    ovoid_options options = {.absolute_tolerance = tolerance};
+int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
     if (!reserve(room, ROOM)) return 0;
-    ovoid_exclusions proof = {room->items, room->capacity, 0, query == QUERY_DEPTH ? room->cover : NULL};
+    ovoid_exclusions proof = {room->items, room->capacity, 0, query->query == QUERY_DEPTH ? room->cover : NULL};
     room->cover->point_count = 0;
-    ovoid_compound_answer found = ask(pair, query, margin, &options, proven ? &proof : NULL);
+    ovoid_compound_answer found = find(pair, query, query->wants_proof ? &proof : NULL);
     if (proof.count > room->capacity) {
         if (!reserve(room, proof.count)) return 0;
         proof.items = room->items;
         proof.capacity = room->capacity;
-        found = ask(pair, query, margin, &options, &proof);
+        found = find(pair, query, &proof);
     }
     record->answer = found.answer;
     record->part_a = pair->a.compound ? found.part_a : OVOID_RECORD_NO_PART;
     record->part_b = pair->b.compound ? found.part_b : OVOID_RECORD_NO_PART;
-    record->cover = proven && room->cover->point_count ? room->cover : NULL;
+    record->cover = query->wants_proof && room->cover->point_count ? room->cover : NULL;
     record->exclusions = proof.items;
     record->exclusion_count = proof.count;
     return 1;
@@ -93,10 +91,7 @@ void answer_room_clear(answer_room *room) {
 static int fill(void *context, void *slot) {
     work_state *w = context;
     chunk *k = slot;
-    size_t left = w->job->count - w->next;
-    k->first = w->next;
-    k->count = left < CHUNK ? left : CHUNK;
-    w->next += k->count;
+    k->count = pipeline_take(&w->next, w->job->count, CHUNK, &k->first);
     return k->count > 0;
 }
 
@@ -105,16 +100,17 @@ static ovoid_couple get_couple(const answers_job *job, size_t i) {
 }
 
 /// Record i of the chunk; 0 where memory is out.
-static int make_record(const answers_job *job, chunk *k, size_t i, int proven) {
+static int make_record(const answers_job *job, chunk *k, size_t i, int wants_proof) {
     ovoid_couple c = get_couple(job, k->first + i);
-    ovoid_solid_pair pair = {answers_get_solid(job->scene, c.a, &job->poses[c.a]),
-                             answers_get_solid(job->scene, c.b, &job->poses[c.b])};
+    ovoid_body_pair pair = {answers_get_body(job->scene, c.a, &job->poses[c.a]),
+                            answers_get_body(job->scene, c.b, &job->poses[c.b])};
     k->records[i] = (ovoid_record){.a = ovoid_scene_get(job->scene, c.a).name,
                                    .b = ovoid_scene_get(job->scene, c.b).name,
                                    .fields = job->fields,
                                    .time = job->time,
                                    .frame = NAN};
-    return answers_ask(&k->room, &pair, job->query, job->margin, job->tolerance, proven, &k->records[i]);
+    const answers_query query = {job->query, job->margin, job->tolerance, wants_proof};
+    return answers_find(&k->room, &pair, &query, &k->records[i]);
 }
 
 static void work(void *context, void *slot) {
@@ -127,7 +123,7 @@ static void work(void *context, void *slot) {
     for (size_t i = 0; i < k->count && !k->failed; i++) {
         k->failed = !make_record(job, k, i, lines);
         if (lines && !k->failed) results_write_line(file, job->results->settings, &k->records[i]);
-        // The room is the next one's.
+        // The room is used again for the next pair.
         k->records[i].cover = NULL;
         k->records[i].exclusions = NULL;
         k->records[i].exclusion_count = 0;
@@ -163,7 +159,7 @@ static void clear(void *slot) {
 int answers_run(const answers_job *job) {
     work_state w = {job, 0};
     cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
-    // A few pairs are answered before a thread has started.
+    // A few pairs are answered sooner than a thread starts.
     unsigned threads = job->threads ? job->threads : pipeline_get_processors();
     int code = job->count ? pipeline_run(&line, job->count <= CHUNK ? 1 : threads) : 0;
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;

@@ -4,6 +4,7 @@
 
 #include "help.h"
 #include "message.h"
+#include "outputs.h"
 
 #include <ovoid/ovoid.h>
 
@@ -14,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Most words that a suggestion is looked for in.
+/// Most words among which a suggestion is searched.
 #define WORDS_MAX 64
 
 int args_complain(const cli_command *command, const char *format, ...) {
@@ -52,7 +53,7 @@ static size_t compute_edits(const char *a, const char *b) {
 const char *args_find_similar(const char *word, const char *const *words, size_t count) {
     const char *found = NULL;
     size_t length = strlen(word), most = length < 4 ? 1 : 2, best = most + 1;
-    // The beginning of a word means that word.
+    // A prefix of a word means that word.
     for (size_t i = 0; i < count && length > 1; i++)
         if (strncmp(words[i], word, length) == 0) return words[i];
     for (size_t i = 0; i < count; i++) {
@@ -80,7 +81,7 @@ static const cli_option *find_by_letter(const cli_command *command, char letter)
     return NULL;
 }
 
-/// Names an unknown option and the known one nearest to it.
+/// Reports an unknown option and the known one nearest to it.
 static int complain_unknown(const cli_command *command, const char *given, const char *name, size_t length) {
     const char *words[WORDS_MAX];
     size_t count = 0;
@@ -94,7 +95,7 @@ static int complain_unknown(const cli_command *command, const char *given, const
     return args_complain(command, "%s: unknown option %s", command->name, given);
 }
 
-/// A number that is the whole of the text; 0 if it is not.
+/// Parses a text that is a number; 0 if it is not.
 static int parse_number(const char *text, double *value) {
     char *end;
     while (isspace((unsigned char)*text)) text++;
@@ -104,7 +105,7 @@ static int parse_number(const char *text, double *value) {
     return !*end;
 }
 
-/// Numbers separated by spaces or commas, at most `most`; their count, or -1 where something else stands or more.
+/// Parses numbers separated by spaces or commas, at most `most`; their count, or -1 where there are more or other text.
 static int parse_numbers(const char *text, double *values, int most) {
     for (int count = 0;; count++) {
         while (isspace((unsigned char)*text) || *text == ',') text++;
@@ -117,7 +118,7 @@ static int parse_numbers(const char *text, double *values, int most) {
     }
 }
 
-/// The place of a word of that length in "one|two|three", or -1.
+/// The index of a word of that length in "one|two|three", or -1.
 static int find_choice(const char *choices, const char *word, size_t length) {
     for (int place = 0; choices; place++) {
         const char *bar = strchr(choices, '|');
@@ -128,14 +129,37 @@ static int find_choice(const char *choices, const char *word, size_t length) {
     return -1;
 }
 
+/// Parses "X Y Z", followed by a quaternion, or by "rpy" or "deg" and three angles; 0 for anything else.
+static int parse_pose(const char *text, ovoid_pose *pose) {
+    static const double degree = 0.017453292519943295;
+    double v[7], angles[3];
+    size_t head = strcspn(text, "rd");
+    if (!text[head]) {
+        int count = parse_numbers(text, v, 7);
+        if (count == 3) v[3] = 1, v[4] = v[5] = v[6] = 0;
+        *pose = (ovoid_pose){{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
+        return count == 3 || count == 7;
+    }
+    char position[256];
+    int is_degrees = strncmp(text + head, "deg", 3) == 0;
+    if (head >= sizeof position || (!is_degrees && strncmp(text + head, "rpy", 3) != 0)) return 0;
+    memcpy(position, text, head);
+    position[head] = 0;
+    if (parse_numbers(position, v, 3) != 3 || parse_numbers(text + head + 3, angles, 3) != 3) return 0;
+    double unit = is_degrees ? degree : 1;
+    *pose = ovoid_pose_make_rpy((ovoid_vec3){v[0], v[1], v[2]},
+                                (ovoid_vec3){unit * angles[0], unit * angles[1], unit * angles[2]});
+    return 1;
+}
+
 static int set_pose(const cli_command *command, const cli_option *o, const char *text, ovoid_pose *pose) {
-    double v[7];
-    if (parse_numbers(text, v, 7) != 7)
-        return args_complain(command,
-                             "%s: --%s needs seven numbers in one argument, like \"0 0 1.5 1 0 0 0\": position x y z, "
-                             "then quaternion w x y z; got \"%s\"",
-                             command->name, o->name, text);
-    *pose = (ovoid_pose){{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
+    if (!parse_pose(text, pose))
+        return args_complain(
+            command,
+            "%s: --%s needs a pose in one argument: \"0 0 1.5\", a position; \"0 0 1.5 1 0 0 0\", with "
+            "a quaternion w x y z; \"0 0 1.5 rpy 0 0 0.5\" or \"0 0 1.5 deg 0 0 30\", with roll, pitch "
+            "and yaw; got \"%s\"",
+            command->name, o->name, text);
     ovoid_code code = ovoid_pose_compute_check(pose);
     if (code == OVOID_OK) return -1;
     char why[80] = "NaN or infinity";
@@ -207,20 +231,21 @@ static int set_value(const cli_command *command, const cli_option *o, const char
     case OPTION_SET: return set_set(command, o, text, place);
     case OPTION_VECTOR: return set_vector(command, o, text, place);
     case OPTION_POSE: return set_pose(command, o, text, place);
-    case OPTION_FILE: break;
+    case OPTION_FILE:
+    case OPTION_OUTPUT: break;
     }
     if (!*text) return args_complain(command, "%s: --%s needs a path, got nothing", command->name, o->name);
     *(const char **)place = text;
     return -1;
 }
 
-/// Where parsing stands.
+/// The position of the parser.
 typedef struct cursor {
     int argc, next;
     char **argv;
 } cursor;
 
-/// Gives an option its value: the text after "=" or the letter, else the next argument.
+/// Stores an option's value: the text after "=" or the letter, else the next argument.
 static int take_value(const cli_command *command, const cli_option *o, const char *attached, cursor *at,
                       void *settings) {
     if (o->kind == OPTION_FLAG) {
@@ -233,7 +258,7 @@ static int take_value(const cli_command *command, const cli_option *o, const cha
     return set_value(command, o, at->argv[at->next++], settings);
 }
 
-/// "--name", "--name=value".
+/// Parses "--name" or "--name=value".
 static int parse_long(const cli_command *command, const char *given, cursor *at, void *settings) {
     const char *name = given + 2, *equals = strchr(name, '=');
     size_t length = equals ? (size_t)(equals - name) : strlen(name);
@@ -243,7 +268,7 @@ static int parse_long(const cli_command *command, const char *given, cursor *at,
     return take_value(command, o, equals ? equals + 1 : NULL, at, settings);
 }
 
-/// "-o value", "-ovalue"; one letter an argument.
+/// Parses "-o value" or "-ovalue"; one letter an argument.
 static int parse_short(const cli_command *command, const char *given, cursor *at, void *settings) {
     if (given[1] == 'h' && !given[2]) return help_print_command(stdout, command);
     const cli_option *o = find_by_letter(command, given[1]);
@@ -251,11 +276,21 @@ static int parse_short(const cli_command *command, const char *given, cursor *at
     return take_value(command, o, given[2] ? given + 2 : NULL, at, settings);
 }
 
-/// Too few operands, too many, or -1.
+/// Reports a missing operand: word `place` of the usage's operands.
+static int complain_missing(const cli_command *command, int place) {
+    int line = (int)strcspn(command->usage, "\n");
+    const char *word = command->usage + strcspn(command->usage, "]") + 1;
+    for (int i = 0; i < place; i++) word += strspn(word, " ") + strcspn(word + strspn(word, " "), " \n");
+    word += strspn(word, " ");
+    int length = (int)strcspn(word, " \n");
+    if (length > 3 && strncmp(word + length - 3, "...", 3) == 0) length -= 3;
+    return args_complain(command, "%s: %.*s is missing. Usage: ovoid %s %.*s", command->name, length, word,
+                         command->name, line, command->usage);
+}
+
+/// Reports too few operands or too many; -1 where their number is right.
 static int check_count(const cli_command *command, const cli_operands *operands) {
-    if (operands->count < command->operands_min)
-        return args_complain(command, "%s: something is missing. Usage: ovoid %s %.*s", command->name, command->name,
-                             (int)strcspn(command->usage, "\n"), command->usage);
+    if (operands->count < command->operands_min) return complain_missing(command, operands->count);
     if (command->operands_max >= 0 && operands->count > command->operands_max)
         return args_complain(command, "%s: one argument too many: %s", command->name,
                              operands->items[command->operands_max]);
@@ -269,7 +304,7 @@ int args_parse(const cli_command *command, int argc, char **argv, void *settings
     while (at.next < argc && code < 0) {
         char *given = argv[at.next++];
         if (ended || given[0] != '-' || !given[1])
-            argv[operands->count++] = given; // an operand; a lone "-" is one
+            argv[operands->count++] = given; // an operand, also a lone "-"
         else if (strcmp(given, "--") == 0)
             ended = 1;
         else if (given[1] == '-')
@@ -277,5 +312,6 @@ int args_parse(const cli_command *command, int argc, char **argv, void *settings
         else
             code = parse_short(command, given, &at, settings);
     }
-    return code < 0 ? check_count(command, operands) : code;
+    if (code < 0) code = check_count(command, operands);
+    return code < 0 ? outputs_check(command, settings, operands) : code;
 }

@@ -6,17 +6,17 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/// How the program ends; the same for every command.
+/// Exit codes, the same for every command.
 typedef enum exit_code {
-    EXIT_APART = 0,      ///< apart; or done, for commands that ask nothing
+    EXIT_APART = 0,      ///< apart; or done, for commands without a query
     EXIT_TOUCH = 1,      ///< touching, overlapping or within the margin
     EXIT_USAGE = 2,      ///< the command line is wrong
     EXIT_INPUT = 3,      ///< bad input, or output that could not be written
     EXIT_NOT_PROVEN = 4, ///< no proof, or a proof that does not hold
-    EXIT_PIPE = 141      ///< the reader of our output went away: what a shell reports for SIGPIPE
+    EXIT_PIPE = 141      ///< the reader of our output has gone: the code that a shell reports for SIGPIPE
 } exit_code;
 
-/// What an option takes, and how it is kept in the command's settings.
+/// The value that an option takes, and its type in the command's settings.
 typedef enum option_kind {
     OPTION_FLAG,     ///< nothing; int 1
     OPTION_LENGTH,   ///< a finite number >= 0; double
@@ -24,9 +24,10 @@ typedef enum option_kind {
     OPTION_COUNT,    ///< a whole number from 1 to 1 000 000 000; unsigned
     OPTION_CHOICE,   ///< one of `choices`; int, its place in the list
     OPTION_SET,      ///< some of `choices`, between commas; unsigned, bit i for the i-th
-    OPTION_FILE,     ///< a path; const char *
+    OPTION_FILE,     ///< a path that is read; const char *
+    OPTION_OUTPUT,   ///< a path that is written, in the formats of `choices`; const char *
     OPTION_VECTOR,   ///< three numbers in one argument; ovoid_vec3
-    OPTION_POSE      ///< seven numbers in one argument; ovoid_pose
+    OPTION_POSE      ///< a position and perhaps a rotation in one argument; ovoid_pose
 } option_kind;
 
 /// One option.
@@ -36,11 +37,11 @@ typedef struct cli_option {
     option_kind kind;
     size_t offset;       ///< of its value in the settings
     const char *value;   ///< name of the value in help, NULL for a flag
-    const char *choices; ///< "one|two|three" for OPTION_CHOICE and OPTION_SET
+    const char *choices; ///< "one|two|three" for OPTION_CHOICE and OPTION_SET; extensions for OPTION_OUTPUT
     const char *help;    ///< what it does, and its default
 } cli_option;
 
-/// What is left of a command line once its options are taken: the operands, in order.
+/// The operands of a command line, in order.
 typedef struct cli_operands {
     const char **items;
     int count;
@@ -60,18 +61,23 @@ typedef struct cli_command {
 } cli_command;
 
 /// Parses argv (without the program's and the command's names) into the settings, which hold the defaults before. argv
-/// is reordered: operands come first. Returns -1 to go on, or the exit code: after --help, or after a mistake was
-/// named.
+/// is reordered: operands come first. Returns -1 to go on, or the exit code: after --help, or after a message about a
+/// mistake.
 int args_parse(const cli_command *command, int argc, char **argv, void *settings, cli_operands *operands);
 
-/// Says on stderr what is wrong with the command line, and where help is; returns EXIT_USAGE. command may be NULL.
+/// The value of a pose option, for options tables.
+#define ARGS_POSE "\"X Y Z [QW QX QY QZ]\""
+#define ARGS_POSE_HELP                                                                                                 \
+    ": position, then a quaternion, or \"rpy R P Y\" in radians or \"deg R P Y\" in degrees, roll first"
+
+/// Writes to stderr what is wrong with the command line, and where help is; returns EXIT_USAGE. command may be NULL.
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 int
 args_complain(const cli_command *command, const char *format, ...);
 
-/// The entry that a mistyped word begins, or else the nearest one (at most two edits), or NULL.
+/// The word that begins with the mistyped one, or else the nearest one (at most two edits), or NULL.
 const char *args_find_similar(const char *word, const char *const *words, size_t count);
 
 #endif

@@ -1,6 +1,7 @@
 // ovoid batch: many pairs of a list of shapes, on several threads, results in the order of the pairs.
 #include "commands.h"
 
+#include "answers.h"
 #include "inputs.h"
 #include "message.h"
 #include "pipeline.h"
@@ -12,10 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Pairs of one piece of work. The same for any number of threads, so that the output is too.
+/// Pairs of a chunk. The same for any number of threads, so that the output is too.
 #define CHUNK 128
-
-enum query { QUERY_COLLIDE, QUERY_WITHIN, QUERY_DISTANCE, QUERY_DEPTH };
 
 typedef struct settings {
     read_settings read;
@@ -31,32 +30,31 @@ static const cli_option options[] = {
      "text file with one mesh or .ovoid path a line, relative to the list's folder (required)"},
     {"pairs", 0, OPTION_FILE, offsetof(settings, pairs), "PAIRS.csv", NULL,
      "the pairs, \"-\" for standard input (required)"},
-    {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", "collide|within|distance|depth",
+    {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
      "collide: do they touch? within: are they within --margin? distance: how far apart? (default) depth: the signed "
      "distance"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "the margin of within; for distance and depth, exit code 1 if a pair is within M"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket is at most T wide (default: 1e-9 of the pair's size)"},
-    {"threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,
-     "work on N threads; the output is the same bytes for any N (default: one for each processor)"},
+    THREADS_OPTION(settings),
     INPUTS_OPTIONS(settings),
     RESULTS_OPTIONS(settings),
     {0},
 };
 
-/// A piece of work: pairs in, lines of text or records out.
+/// A chunk: pairs in, lines of text or records out.
 typedef struct chunk {
     size_t count;
     ovoid_indexed_pair pairs[CHUNK];
     ovoid_answer answers[CHUNK];
-    ovoid_cover *cover; ///< of one answer after another, for depth
-    char *text;         ///< their lines
+    ovoid_cover *cover; ///< for one answer after another, of depth queries
+    char *text;         ///< the lines of its records
     size_t size;
     int failed; ///< no memory
 } chunk;
 
-/// What the whole run shares.
+/// The state of a run.
 typedef struct batch {
     const settings *settings;
     const ovoid_shapes *shapes;
@@ -65,7 +63,7 @@ typedef struct batch {
     size_t done;
     size_t counts[4]; ///< by ovoid_status
     exit_code worst;
-    int refused; ///< a line of the pairs is wrong: *error says how
+    int refused; ///< a line of the pairs is wrong: *error has the message
     ovoid_error error;
 } batch;
 
@@ -82,7 +80,7 @@ static int fill(void *context, void *slot) {
     return c->count > 0;
 }
 
-static ovoid_answer ask(const settings *s, const ovoid_pair *pair, ovoid_cover *cover) {
+static ovoid_answer find_answer(const settings *s, const ovoid_pair *pair, ovoid_cover *cover) {
     ovoid_options query = {.absolute_tolerance = s->tolerance};
     if (s->query == QUERY_COLLIDE) return ovoid_collide(pair, &query, NULL);
     if (s->query == QUERY_WITHIN) return ovoid_within(pair, s->margin, &query, NULL);
@@ -105,7 +103,7 @@ static void work(void *context, void *slot) {
         const ovoid_indexed_pair *p = &c->pairs[i];
         ovoid_pair pair = {ovoid_shapes_get(b->shapes, p->a).shape, ovoid_shapes_get(b->shapes, p->b).shape, p->pose_a,
                            p->pose_b};
-        c->answers[i] = ask(b->settings, &pair, depth ? c->cover : NULL);
+        c->answers[i] = find_answer(b->settings, &pair, depth ? c->cover : NULL);
         ovoid_record record = make_record(p, &c->answers[i], depth ? c->cover : NULL);
         if (lines) results_write_line(file, &b->settings->out, &record);
     }
@@ -140,7 +138,7 @@ static void clear(void *slot) {
     free(c->text);
 }
 
-/// The number of pairs, for the progress bar; 0 where it cannot be known or nobody would see it.
+/// The number of pairs, for the progress bar; 0 where it cannot be known or no bar is drawn.
 static size_t count_pairs(const char *path) {
     char block[1 << 16];
     size_t lines = 0, size;
@@ -171,22 +169,22 @@ static int run_pairs(batch *b) {
     return code;
 }
 
-/// What the options must be together. -1 to go on, or EXIT_USAGE.
-static int check_settings(const cli_command *command, const settings *s) {
+/// Checks the options together. -1 to go on, or EXIT_USAGE.
+static int settle(const cli_command *command, settings *s) {
     if (!s->list) return args_complain(command, "batch: --shapes LIST is missing");
     if (!s->pairs) return args_complain(command, "batch: --pairs PAIRS.csv is missing");
     if (s->query == QUERY_WITHIN && s->margin < 0)
         return args_complain(command, "batch: --query within needs --margin");
     if (s->query == QUERY_COLLIDE && s->margin >= 0)
         return args_complain(command, "batch: --query collide takes no --margin; --query within does");
-    return results_check_settings(command, &s->out);
+    return results_settle(command, &s->out);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.read.unit = INPUTS_NO_UNIT, .query = QUERY_DISTANCE, .margin = -1};
     cli_operands none;
     int code = args_parse(command, argc, argv, &s, &none);
-    if (code < 0) code = check_settings(command, &s);
+    if (code < 0) code = settle(command, &s);
     if (code >= 0) return code;
     batch b = {.settings = &s};
     ovoid_shapes *shapes = inputs_read_list(s.list, &s.read);
@@ -213,8 +211,10 @@ const cli_command command_batch = {
         "Pairs are read, answered and written as they come, in bounded memory. A bad line (an index that LIST does not "
         "have, NaN, a zero quaternion) ends the run with code 3 and the line's number: what stands on standard output "
         "by then are the results of all pairs before it; a file asked for with --output is not made.",
-    .exits = "0 every pair is apart (with --margin: farther than M)\n1 a pair touches or overlaps (or is within M)\n"
-             "2 the command line is wrong\n3 bad input, or output that could not be written\n"
+    .exits = "0 every pair is apart (with --margin: farther than M)\n"
+             "1 a pair touches or overlaps (or is within M)\n"
+             "2 the command line is wrong\n"
+             "3 bad input, or output that could not be written\n"
              "4 for some pair nothing is proven; this comes before 1",
     .examples = "ovoid batch --shapes hulls.txt --pairs pairs.csv --csv -o results.csv\n"
                 "ovoid batch --shapes hulls.txt --pairs pairs.csv --query depth --json |\n"

@@ -1,12 +1,13 @@
 // ovoid check: all pairs of a scene, sorted by distance; with a margin, those that a world does not prove farther.
-// Pairs are kept as small rows; their answers are made twice, once to sort and once to be written, so that millions of
-// pairs and their proofs pass through bounded memory.
+// Pairs are stored as small rows; their answers are found twice, once to sort and once to be written, so that millions
+// of pairs and their proofs take bounded memory.
 #include "commands.h"
 
 #include "answers.h"
 #include "inputs.h"
 #include "message.h"
 #include "near.h"
+#include "pipeline.h"
 #include "progress.h"
 
 #include <stdlib.h>
@@ -22,20 +23,19 @@ static const cli_option options[] = {
      "list only the pairs that are not proven farther apart than M"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket of a pair is at most T wide (default: 1e-9 of the pair's size)"},
-    {"threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,
-     "work on N threads; the output is the same bytes for any N (default: one for each processor)"},
+    THREADS_OPTION(settings),
     RESULTS_OPTIONS(settings),
     {0},
 };
 
-/// One pair: what it is sorted by.
+/// One pair, with its keys for sorting.
 typedef struct row {
     ovoid_couple couple;
     double lower, upper;
     uint8_t code; ///< exit_code
 } row;
 
-/// What the whole run shares.
+/// The state of a run.
 typedef struct check {
     const settings *settings;
     const ovoid_scene *scene;
@@ -45,10 +45,10 @@ typedef struct check {
     cli_results results;
 } check;
 
-/// The rows of all pairs, or of those that are near. 0, or EXIT_INPUT after a message.
+/// Makes the rows of all pairs, or of those that are near. 0, or EXIT_INPUT after a message.
 static int find_rows(check *c) {
     cli_near near;
-    int code = near_open(&near, c->scene, OVOID_QUESTION_WITHIN, c->settings->margin, c->settings->threads);
+    int code = near_open(&near, c->scene, OVOID_QUERY_WITHIN, c->settings->margin, c->settings->threads);
     if (code) return code;
     code = near_find(&near);
     if (!code) {
@@ -91,7 +91,7 @@ static tally count_rows(const check *c) {
     return t;
 }
 
-static void tell_counts(const check *c, const tally *t, double seconds) {
+static void report_counts(const check *c, const tally *t, double seconds) {
     size_t objects = ovoid_scene_get_count(c->scene);
     if (c->settings->margin >= 0)
         message_note("%zu objects in %.2f s; pairs within %g: %zu, not proven: %zu; all others are farther or ignored",
@@ -104,7 +104,7 @@ static void tell_counts(const check *c, const tally *t, double seconds) {
 static int run_check(check *c) {
     const settings *s = c->settings;
     double start = progress_get_seconds();
-    // Which pairs, how far, in which order.
+    // The pairs, their distances and their order.
     int code = find_rows(c);
     if (code) return code;
     answers_job job = {.scene = c->scene,
@@ -123,7 +123,7 @@ static int run_check(check *c) {
     progress_end();
     if (code) return code;
     if (c->row_count) qsort(c->rows, c->row_count, sizeof *c->rows, compare_rows);
-    // Their answers.
+    // Their answers, written.
     if (results_open(&c->results, &s->out, s->margin)) return EXIT_INPUT;
     c->results.fields = job.fields;
     job.results = &c->results;
@@ -132,7 +132,7 @@ static int run_check(check *c) {
     tally t = count_rows(c);
     int worst = t.not_proven ? EXIT_NOT_PROVEN : t.touch ? EXIT_TOUCH : EXIT_APART;
     code = results_close(&c->results, code ? code : worst);
-    if (code == worst) tell_counts(c, &t, progress_get_seconds() - start);
+    if (code == worst) report_counts(c, &t, progress_get_seconds() - start);
     return code;
 }
 
@@ -140,7 +140,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.margin = -1};
     cli_operands paths;
     int code = args_parse(command, argc, argv, &s, &paths);
-    if (code < 0) code = results_check_settings(command, &s.out);
+    if (code < 0) code = results_settle(command, &s.out);
     if (code >= 0) return code;
     ovoid_scene *scene = inputs_read_scene(paths.items[0]);
     if (!scene) return EXIT_INPUT;
@@ -158,19 +158,19 @@ const cli_command command_check = {
     .usage = "[OPTION...] SCENE.json",
     .description =
         "The signed distance of every pair of objects of a scene that the scene does not ignore, the nearest (or "
-        "deepest) first. With --margin, only pairs that are not proven farther than M; that is much faster in scenes "
-        "of "
-        "many objects.\n\n"
+        "deepest) first. With --margin, only pairs that are not proven farther than M; that is much faster in "
+        "scenes of many objects.\n\n"
         "A scene:\n\n"
         "    {\"objects\": [{\"name\": \"arm\", \"mesh\": \"arm.stl\", \"unit\": \"mm\",\n"
         "                  \"pose\": {\"xyz\": [0, 0, 0.3], \"rpy\": [0, 0, 1.57]}},\n"
         "                 {\"name\": \"table\", \"box\": [0.8, 1.2, 0.04]}],\n"
         "     \"ignore\": [[\"arm\", \"table\"]]}\n\n"
         "Bodies: mesh, box, sphere, capsule, cylinder, cone, points; compound, a list of these, or a mesh with "
-        "\"parts\": "
-        "true, whose objects are the parts. Poses: xyz, with rpy or quat_wxyz.",
-    .exits = "0 every pair is apart (with --margin: farther than M)\n1 a pair touches or overlaps (or is within M)\n"
-             "2 the command line is wrong\n3 bad input, or output that could not be written\n"
+        "\"parts\": true, whose objects are the parts. Poses: xyz, with rpy or quat_wxyz.",
+    .exits = "0 every pair is apart (with --margin: farther than M)\n"
+             "1 a pair touches or overlaps (or is within M)\n"
+             "2 the command line is wrong\n"
+             "3 bad input, or output that could not be written\n"
              "4 for some pair nothing is proven; this comes before 1",
     .examples = "ovoid check cell.json\n"
                 "ovoid check cell.json --margin 0.02 --json -o near.jsonl",

@@ -2,7 +2,6 @@
 #include "commands.h"
 
 #include "answers.h"
-#include "finish.h"
 #include "inputs.h"
 #include "message.h"
 #include "results.h"
@@ -20,9 +19,9 @@ typedef struct settings {
 } settings;
 
 static const cli_option options[] = {
-    {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), "\"X Y Z QW QX QY QZ\"", NULL,
-     "pose of A: position, then quaternion, which need not be normalised (default: \"0 0 0 1 0 0 0\")"},
-    {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), "\"X Y Z QW QX QY QZ\"", NULL, "pose of B"},
+    {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), ARGS_POSE, NULL,
+     "pose of A" ARGS_POSE_HELP " (default: \"0 0 0\")"},
+    {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
     {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
      "A and B are compounds: each object of their files is a convex part; the nearest parts are named"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
@@ -52,13 +51,13 @@ static void print_body(FILE *file, const char *title, const char *path, const cl
         fprintf(file, "%-11s %s; parts: %zu\n", title, path, ovoid_shapes_get_count(body->parts));
 }
 
-/// The number of a part, and its name in the file.
+/// Prints the number of a part, and its name in the file.
 static void print_part(FILE *file, const char *title, const cli_body *body, uint32_t part) {
     if (body->shape) return;
     fprintf(file, "%-11s %lu; %s\n", title, (unsigned long)part, ovoid_shapes_get(body->parts, part).name);
 }
 
-/// What is known about the margin, in words.
+/// Prints whether the bodies are within the margin.
 static void print_margin(FILE *file, const ovoid_answer *answer, double margin) {
     int within = ovoid_answer_is_within(answer, margin);
     const char *words = within > 0                          ? "within"
@@ -68,7 +67,7 @@ static void print_margin(FILE *file, const ovoid_answer *answer, double margin) 
     fprintf(file, "%-11s %.9g: %s\n", "margin", margin, words);
 }
 
-/// The report for people: what, then how far, then why.
+/// Prints the report for people: bodies, distance, proof.
 static void print_report(FILE *file, const cli_body bodies[2], const ovoid_record *record, double margin, int holds) {
     const ovoid_answer *x = &record->answer;
     double middle = x->lower + (x->upper - x->lower) / 2;
@@ -90,8 +89,8 @@ static void print_report(FILE *file, const cli_body bodies[2], const ovoid_recor
     fprintf(file, "%s\n", holds ? "checked" : "DOES NOT HOLD");
 }
 
-/// Checks what is written, by its proof alone.
-static int check_record(const ovoid_solid_pair *pair, const ovoid_record *record) {
+/// Checks a record by its proof alone.
+static int check_record(const ovoid_body_pair *pair, const ovoid_record *record) {
     ovoid_error error;
     ovoid_compound_answer answer = {.answer = record->answer,
                                     .part_a = pair->a.compound ? record->part_a : 0,
@@ -103,13 +102,14 @@ static int check_record(const ovoid_solid_pair *pair, const ovoid_record *record
     return 0;
 }
 
-/// Asks, checks the proof, writes. Returns the exit code.
+/// Answers the pair, checks the proof, writes the record. Returns the exit code.
 static int answer_pair(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
-    ovoid_solid_pair pair = {inputs_get_solid(&bodies[0], &s->pose_a), inputs_get_solid(&bodies[1], &s->pose_b)};
+    ovoid_body_pair pair = {inputs_get_body(&bodies[0], &s->pose_a), inputs_get_body(&bodies[1], &s->pose_b)};
+    const answers_query query = {QUERY_DEPTH, 0, s->tolerance, 1};
     answer_room room = {NULL, NULL, 0};
     cli_results results;
     ovoid_record record = {.a = paths[0], .b = paths[1], .fields = s->parts ? OVOID_RECORD_PARTS : 0};
-    if (!answers_ask(&room, &pair, QUERY_DEPTH, 0, s->tolerance, 1, &record)) {
+    if (!answers_find(&room, &pair, &query, &record)) {
         message_error("out of memory");
         answer_room_clear(&room);
         return EXIT_INPUT;
@@ -137,7 +137,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_operands paths;
     cli_body bodies[2];
     int code = args_parse(command, argc, argv, &s, &paths);
-    if (code < 0) code = results_check_settings(command, &s.out);
+    if (code < 0) code = results_settle(command, &s.out);
     if (code >= 0) return code;
     if ((code = inputs_open_pair(paths.items, &s.read, s.parts, bodies)) != 0) return code;
     code = answer_pair(&s, bodies, paths.items);
@@ -151,15 +151,18 @@ const cli_command command_distance = {
     .summary = "the signed distance of two bodies, with its proof",
     .usage = "[OPTION...] A B",
     .description =
-        "The signed distance of two convex bodies: positive where they are apart, minus the depth where they overlap. "
-        "The answer is a bracket, lower <= d <= upper, rounding included, with witness points, a normal from A to B, "
-        "and a proof, which is checked before it is written.\n\n"
-        "A and B are meshes (STL, OBJ, OFF, PLY, COLLADA, glTF), of which the convex hull is meant, or .ovoid files. "
-        "With --parts, they are compounds of convex parts, as CoACD and V-HACD write them: d is then the smallest "
-        "signed "
-        "distance of a part of A and a part of B, and the proof also says why no other two are nearer.",
-    .exits = "0 apart (with --margin: farther than M)\n1 touching or overlapping (with --margin: within M)\n"
-             "2 the command line is wrong\n3 bad input, or output that could not be written\n4 not proven",
+        "The signed distance of two convex bodies: positive where they are apart, minus the depth where they "
+        "overlap. The answer is a bracket, lower <= d <= upper, rounding included, with witness points, a normal "
+        "from A to B, and a proof, which is checked before it is written.\n\n"
+        "A and B are meshes (STL, OBJ, OFF, PLY, COLLADA, glTF), of which the convex hull is meant, or .ovoid "
+        "files. With --parts, they are compounds of convex parts, as CoACD and V-HACD write them: "
+        "d is then the smallest signed distance of a part of A and a part of B, and the proof also says why no "
+        "other two are nearer.",
+    .exits = "0 apart (with --margin: farther than M)\n"
+             "1 touching or overlapping (with --margin: within M)\n"
+             "2 the command line is wrong\n"
+             "3 bad input, or output that could not be written\n"
+             "4 not proven",
     .examples = "ovoid distance a.stl b.obj --pose-b \"0 0 1.5 1 0 0 0\"\n"
                 "ovoid distance a.ovoid b.ovoid --margin 0.05 || echo too near\n"
                 "ovoid distance part.stl tool.stl --unit mm --json\n"

@@ -1,4 +1,4 @@
-// Ends of output, good and bad: flushed, full, unread, interrupted.
+// Ends of output: flushed, full, unread, interrupted.
 #include "finish.h"
 
 #include "args.h"
@@ -13,7 +13,7 @@
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
 #define NUMBER_COUNT (sizeof numbers / sizeof *numbers)
 
-/// The unfinished file; what a signal handler may read.
+/// The path of the unfinished file, as a signal handler may read it.
 static char unfinished[4096];
 static volatile sig_atomic_t has_unfinished;
 
@@ -76,11 +76,11 @@ int finish_output(ovoid_output *output) {
     int unread = finish_is_unread(ovoid_output_get_file(output));
     if (ovoid_output_commit(output, &error) == OVOID_OK) return 0;
     if (unread) return EXIT_PIPE;
-    finish_tell_failure(&error);
+    finish_report_failure(&error);
     return EXIT_INPUT;
 }
 
-void finish_tell_failure(const ovoid_error *error) {
+void finish_report_failure(const ovoid_error *error) {
     int is_stdout = strncmp(error->message, "-:", 2) == 0;
     message_error("%s%s", is_stdout ? "standard output" : "", error->message + is_stdout);
 }

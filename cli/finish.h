@@ -1,28 +1,28 @@
-// How output ends, well or badly: nothing is lost in silence, and nothing half made stays behind.
+// Ends of output: a failure is never silent, and no unfinished file stays behind.
 #ifndef OVOID_CLI_FINISH_H
 #define OVOID_CLI_FINISH_H
 
 #include <ovoid/io.h>
 
-/// From now on, pipes that nobody reads and files at their limit give errors, not signals; SIGINT, SIGTERM and SIGHUP
+/// From now on, pipes without a reader and files at their limit give errors, not signals; SIGINT, SIGTERM and SIGHUP
 /// end the program as they always do, but the unfinished file is removed first.
 void finish_catch_signals(void);
 
-/// Names the unfinished file, NULL for none. One at a time.
+/// Sets the path of the unfinished file, NULL for none. One at a time.
 void finish_set_unfinished(const char *path);
 
-/// Holds these signals back while a short piece of work makes and ends a file of its own, then lets them through.
+/// Blocks these signals while a short piece of work makes and ends a file of its own, then lets them through.
 void finish_hold_signals(void);
 void finish_release_signals(void);
 
 /// Flushes. 0, or after a message EXIT_INPUT (a full disk), or without one EXIT_PIPE (the reader has gone).
 int finish_file(FILE *file);
 
-/// 1 if the stream is a pipe whose reader has gone; errno may be long lost when a buffered stream is looked at.
+/// 1 if the stream is a pipe whose reader has gone; errno may be lost by the time a buffered stream is examined.
 int finish_is_unread(FILE *file);
 
-/// Says why an output file failed; "-" is called by its name.
-void finish_tell_failure(const ovoid_error *error);
+/// Reports why an output file failed; "-" is named as standard output.
+void finish_report_failure(const ovoid_error *error);
 
 /// Commits an output file. 0, or an exit code as above.
 int finish_output(ovoid_output *output);

@@ -21,7 +21,7 @@ typedef struct settings {
 } settings;
 
 static const cli_option options[] = {
-    {"output", 'o', OPTION_FILE, offsetof(settings, output), "PATH", NULL,
+    {"output", 'o', OPTION_OUTPUT, offsetof(settings, output), "PATH", "ovoid",
      "write .ovoid files: PATH is the file for one body; with several meshes or --parts, or where it ends in \"/\" or "
      "is a folder, the folder of NAME.ovoid or NAME-PART.ovoid"},
     {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
@@ -40,13 +40,13 @@ static const cli_option options[] = {
     {0},
 };
 
-/// What the whole run shares.
+/// The state of a run.
 typedef struct fit {
     const settings *settings;
     int is_folder, title_due;
-    int failed;         ///< a mesh was bad
+    int failed;         ///< 1: some mesh was refused
     char **written;     ///< paths of the files made so far
-    size_t write_count; ///< of them
+    size_t write_count; ///< their number
 } fit;
 
 /* ---- where .ovoid files go ---- */
@@ -57,7 +57,7 @@ static int is_folder(const char *path) {
     return (length && path[length - 1] == '/') || (stat(path, &info) == 0 && S_ISDIR(info.st_mode));
 }
 
-/// Appends to a name what a file name may hold; other bytes become "_".
+/// Appends the bytes of a text that a file name may hold; others become "_".
 static void append_safe(char *name, size_t size, const char *text, size_t length) {
     size_t at = strlen(name);
     for (size_t i = 0; i < length && at + 1 < size; i++) {
@@ -75,7 +75,8 @@ static int is_written(const fit *f, const char *path) {
     return 0;
 }
 
-/// "FOLDER/NAME-PART.ovoid", with "-2" and so on where this run has made that already. NULL where memory is out.
+/// The path "FOLDER/NAME-PART.ovoid", with "-2" and so on where this run has written that already. NULL where memory is
+/// out.
 static char *make_path(const fit *f, const char *mesh, const char *part) {
     char name[200] = "";
     const char *folder = f->settings->output, *slash = strrchr(mesh, '/'), *base = slash ? slash + 1 : mesh;
@@ -92,7 +93,7 @@ static char *make_path(const fit *f, const char *mesh, const char *part) {
     return path;
 }
 
-/// Writes the shape and remembers the path in `written`. NULL after a message.
+/// Writes the shape and adds the path to `written`. NULL after a message.
 static const char *write_shape(fit *f, const ovoid_shape *shape, const char *mesh, const char *part) {
     ovoid_error error;
     char **list = realloc(f->written, (f->write_count + 1) * sizeof *list);
@@ -110,7 +111,7 @@ static const char *write_shape(fit *f, const ovoid_shape *shape, const char *mes
     return f->written[f->write_count++] = path;
 }
 
-/// Makes the folder where there must be one. 0, or EXIT_INPUT after a message.
+/// Makes the folder if the output is one. 0, or EXIT_INPUT after a message.
 static int make_folder(const fit *f) {
     const char *path = f->settings->output;
     if (!path || !f->is_folder || mkdir(path, 0777) == 0 || errno == EEXIST) return 0;
@@ -136,7 +137,7 @@ static ovoid_code run_steps(const ovoid_polytope *p, double gap, fitted *out) {
     ovoid_code code = ovoid_ellipsoid_compute_outer(p, gap, &out->steps[FIT_OUTER], NULL);
     out->seconds[FIT_OUTER] = progress_get_seconds() - start;
     if (code != OVOID_OK) return code;
-    // The paper's phases are for solids.
+    // The paper's phases are for bodies of rank 3.
     static ovoid_fit (*const phases[])(const ovoid_polytope *, const ovoid_ellipsoid *) = {
         ovoid_ellipsoid_compute_shrunk, ovoid_ellipsoid_compute_stretched, ovoid_ellipsoid_compute_enlarged};
     for (int i = FIT_SHRUNK; i <= FIT_ENLARGED && p->rank == 3; i++) {
@@ -165,7 +166,7 @@ static void write_findings(fit *f, const fitted *found) {
         fit_write_report(stdout, found);
 }
 
-/// Everything about one shape. 0, or an exit code after a message.
+/// Runs all steps on a shape and writes its report. 0, or an exit code after a message.
 static int fit_shape(fit *f, const ovoid_shape *shape, fitted *found) {
     ovoid_polytope polytope = ovoid_shape_get_polytope(shape);
     found->report = ovoid_shape_get_report(shape);
@@ -188,7 +189,7 @@ static ovoid_shape_options make_options(const settings *s) {
         .radius = s->radius, .gap = s->gap, .inner = s->phases ? OVOID_INNER_PHASES : OVOID_INNER_MAXIMUM};
 }
 
-/// A .ovoid file: looked at as it is.
+/// Reports on a .ovoid file, without fitting it again.
 static int fit_file(fit *f, const char *path) {
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(&f->settings->read);
@@ -203,7 +204,7 @@ static int fit_file(fit *f, const char *path) {
     return code;
 }
 
-/// One part of a mesh. A bad one is named, and the run goes on.
+/// Fits one part of a mesh. A refused one is reported, and the run goes on.
 static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t number, double read_seconds) {
     ovoid_error error;
     ovoid_mesh_part part = ovoid_mesh_get_part(mesh, number);
@@ -225,7 +226,8 @@ static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t num
     return code;
 }
 
-/// One mesh file, or its parts. 0, also after a bad mesh, which is named; or the exit code that ends the run.
+/// Fits one mesh file, or its parts. 0, also after a refused mesh, which is reported; or the exit code that ends the
+/// run.
 static int fit_mesh(fit *f, const char *path) {
     ovoid_error error;
     if (ovoid_path_is_shape(path)) return fit_file(f, path);
@@ -268,14 +270,16 @@ const cli_command command_fit = {
     .summary = "the ellipsoids of meshes, step by step; makes .ovoid files",
     .usage = "[OPTION...] MESH...",
     .description =
-        "For each mesh: what became of its points, the convex hull, and the offline steps with their volumes, radii, "
-        "proven gaps and times: the smallest ellipsoid around it (outer), the three phases of Su, Liu and Chen "
-        "(shrink, "
-        "stretch, enlarge), and the largest ellipsoid inside it (inner). Each body gives a "
-        "report; --table gives a line instead.\n\n"
-        "A .ovoid file keeps the hull and the ellipsoids, so that other commands need not find them again. A bad mesh "
-        "is named, the others are done all the same, and the exit code is 3; every file that is written is whole.",
-    .exits = "0 done\n2 the command line is wrong\n3 bad input, or output that could not be written",
+        "For each mesh: what became of its points, the convex hull, and the offline steps with their volumes, "
+        "radii, proven gaps and times: the smallest ellipsoid around it (outer), the three phases of Su, Liu and "
+        "Chen (shrink, stretch, enlarge), and the largest ellipsoid inside it (inner). Each body gives a report; "
+        "--table gives a line instead.\n\n"
+        "A .ovoid file keeps the hull and the ellipsoids, so that other commands need not find them again. "
+        "A bad mesh is named, the others are done all the same, and the exit code is 3; every file that is written "
+        "is whole.",
+    .exits = "0 done\n"
+             "2 the command line is wrong\n"
+             "3 bad input, or output that could not be written",
     .examples = "ovoid fit bunny.obj\n"
                 "ovoid fit --unit mm -o link3.ovoid link3.stl\n"
                 "ovoid fit --parts -o parts/ decomposed.obj\n"

@@ -1,4 +1,4 @@
-// What ovoid fit finds out about one body, and how it is written.
+// The findings of ovoid fit about one body, and how they are written.
 #ifndef OVOID_CLI_FIT_H
 #define OVOID_CLI_FIT_H
 
@@ -9,7 +9,7 @@
 /// The offline steps, in the order of the report.
 enum fit_step { FIT_OUTER, FIT_SHRUNK, FIT_STRETCHED, FIT_ENLARGED, FIT_INNER, FIT_STEPS };
 
-/// All that is known of a body.
+/// The findings about a body.
 typedef struct fitted {
     const char *file, *name; ///< name: "" for a whole file
     const char *output;      ///< the .ovoid file that was written, or NULL
@@ -18,19 +18,19 @@ typedef struct fitted {
     uint32_t triangles, facets;
     double radius;
     double measure;                    ///< volume, area (one side) or length, by rank; 0 for a point
-    ovoid_fit steps[FIT_STEPS];        ///< of a flat body the phases are left out (volume NaN)
-    double seconds[FIT_STEPS];         ///< of each step, asked for by itself
-    double read_seconds, make_seconds; ///< of the file, shared by its parts; of the shape, all in all
+    ovoid_fit steps[FIT_STEPS];        ///< of a flat body the phases have volume NaN
+    double seconds[FIT_STEPS];         ///< of each step, run by itself
+    double read_seconds, make_seconds; ///< of the file, shared by its parts; of the shape in all
 } fitted;
 
-/// The report of one body for people.
+/// Writes the report of one body for people.
 void fit_write_report(FILE *file, const fitted *fitted);
 
-/// One line a body, for several bodies; the title line first.
+/// Writes a table with one line a body; the title line first.
 void fit_write_table_title(FILE *file);
 void fit_write_table_row(FILE *file, const fitted *fitted);
 
-/// One line of JSON; the same as CSV.
+/// Writes one line of JSON, or the same as CSV.
 void fit_write_json(FILE *file, const fitted *fitted);
 void fit_write_csv_title(FILE *file);
 void fit_write_csv_row(FILE *file, const fitted *fitted);

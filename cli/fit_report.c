@@ -1,5 +1,5 @@
-// The findings of ovoid fit as a report, a table, JSON lines and CSV. Numbers for programs have 17 digits; what is not
-// a number is null in JSON and empty in CSV.
+// The findings of ovoid fit as a report, a table, JSON lines and CSV. Numbers for programs have 17 digits; a number
+// that is not finite is null in JSON and empty in CSV.
 #include "fit.h"
 
 #include <math.h>
@@ -12,12 +12,12 @@ static const char *get_rank_name(uint32_t rank) {
     return rank < 4 ? names[rank] : "?";
 }
 
-/// What the volumes of a body of that rank are.
+/// The name of the measure of a body of that rank.
 static const char *get_measure_name(uint32_t rank) { return rank == 3 ? "volume" : rank == 2 ? "area" : "length"; }
 
 /* ---- for people ---- */
 
-/// One step: its volume, as a share of the body's, its gap, radii and time.
+/// Writes one step: its volume, as a share of the body's, its gap, radii and time.
 static void write_step(FILE *file, const fitted *f, int step) {
     const ovoid_fit *s = &f->steps[step];
     ovoid_vec3 radii = ovoid_ellipsoid_compute_radii(&s->ellipsoid);
@@ -30,7 +30,7 @@ static void write_step(FILE *file, const fitted *f, int step) {
             1e3 * f->seconds[step]);
 }
 
-/// File and part; a name from a file must not end the line or speak to the terminal.
+/// Writes file and part; a name from a file must not end the line or control the terminal.
 static void write_name(FILE *file, const fitted *f) {
     fprintf(file, "%s%s", f->file, *f->name ? ": " : "");
     for (const char *c = f->name; *c; c++) fputc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, file);
@@ -48,8 +48,8 @@ void fit_write_report(FILE *file, const fitted *f) {
             (unsigned)f->triangles);
     if (f->measure > 0) fprintf(file, "  %-8s %.9g\n", get_measure_name(r->rank), f->measure);
     if (r->rank == 3) fprintf(file, "  surface  %.9g\n", m->area);
-    fprintf(file, "  box      %.6g x %.6g x %.6g\n", m->box_max.x - m->box_min.x, m->box_max.y - m->box_min.y,
-            m->box_max.z - m->box_min.z);
+    fprintf(file, "  box      %.6g x %.6g x %.6g\n", m->box.max.x - m->box.min.x, m->box.max.y - m->box.min.y,
+            m->box.max.z - m->box.min.z);
     if (f->radius > 0) fprintf(file, "  rounding radius %.9g (not part of the measures)\n", f->radius);
     fprintf(file, "\n  %-8s %-12s %8s  %-8s %-34s %8s\n", "", get_measure_name(r->rank), "of body", "gap", "radii",
             "time");
@@ -79,7 +79,7 @@ void fit_write_table_row(FILE *file, const fitted *f) {
 
 /* ---- for programs ---- */
 
-/// Text as a JSON string. Bytes above 127 pass as they are: names are UTF-8.
+/// Writes a text as a JSON string. Bytes above 127 pass unchanged: names are UTF-8.
 static void write_string(FILE *file, const char *text) {
     fputc('"', file);
     for (; *text; text++) {
@@ -149,7 +149,7 @@ void fit_write_json(FILE *file, const fitted *f) {
     fputs("}\n", file);
 }
 
-/// Text as a CSV field.
+/// Writes a text as a CSV field.
 static void write_field(FILE *file, const char *text) {
     fputc('"', file);
     for (; *text; text++) fprintf(file, *text == '"' ? "\"\"" : "%c", *text);
@@ -164,7 +164,7 @@ void fit_write_csv_title(FILE *file) {
     fprintf(file, ",read_seconds,make_seconds,output\n");
 }
 
-/// A comma and a number, or nothing after the comma where there is none.
+/// Writes a comma and a number, or nothing after the comma where it is not finite.
 static void write_column(FILE *file, double number) {
     fputc(',', file);
     if (isfinite(number)) fprintf(file, "%.17g", number);

@@ -74,7 +74,7 @@ ovoid_motion frames_get_motion(const cli_frames *f, size_t object) {
     return ovoid_motion_make_poses(f->starts[i], f->poses[i], duration);
 }
 
-/// Moves every object that has a velocity to the time of the frame. 1, or -1 after a message.
+/// Moves every object with a velocity to the time of the frame. 1, or -1 after a message.
 static int integrate(cli_frames *f) {
     size_t count = ovoid_scene_get_count(f->scene);
     for (size_t i = 0; i < count; i++) {
@@ -97,7 +97,7 @@ static int integrate(cli_frames *f) {
 
 int frames_next(cli_frames *f) {
     if (!f->has_line) return 0;
-    // What was now is before.
+    // The present frame becomes the one before.
     for (size_t i = 0; i < f->moved_count; i++) {
         f->starts[f->moved[i]] = f->poses[f->moved[i]];
         f->is_moved[f->moved[i]] = 0;

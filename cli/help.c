@@ -10,7 +10,7 @@
 #define HELP_COLUMN 26
 
 void help_print_wrapped(FILE *file, const char *text, int indent, int column) {
-    int fresh = 1; // nothing stands on this line yet but the indent
+    int fresh = 1; // the line has only its indent so far
     for (; column < indent; column++) fputc(' ', file);
     while (*text) {
         if (*text == '\n') {
@@ -32,7 +32,7 @@ void help_print_wrapped(FILE *file, const char *text, int indent, int column) {
     fputc('\n', file);
 }
 
-/// "  -o, --output FILE", then the explanation, beside it or below.
+/// Prints "  -o, --output FILE", then the explanation, beside it or below.
 static void print_option(FILE *file, char letter, const char *name, const char *value, const char *help) {
     int column = letter ? fprintf(file, "  -%c, --%s", letter, name) : fprintf(file, "      --%s", name);
     if (value) column += fprintf(file, " %s", value);
@@ -43,7 +43,7 @@ static void print_option(FILE *file, char letter, const char *name, const char *
     help_print_wrapped(file, help, HELP_COLUMN, column);
 }
 
-/// Lines of text, each behind two spaces.
+/// Prints lines of text, each after two spaces.
 static void print_lines(FILE *file, const char *title, const char *text) {
     fprintf(file, "\n%s:\n", title);
     while (*text) {
@@ -53,7 +53,7 @@ static void print_lines(FILE *file, const char *title, const char *text) {
     }
 }
 
-/// Each line of the synopsis after "ovoid NAME".
+/// Prints each line of the synopsis after "ovoid NAME".
 static void print_usage(FILE *file, const cli_command *command) {
     const char *text = command->usage, *head = "Usage:";
     while (*text) {
@@ -101,7 +101,8 @@ int help_print_tool(FILE *file, const cli_command *const *commands) {
 static const char *get_kind_name(option_kind kind) {
     switch (kind) {
     case OPTION_FLAG: return "flag";
-    case OPTION_FILE: return "file";
+    case OPTION_FILE:
+    case OPTION_OUTPUT: return "file";
     case OPTION_CHOICE:
     case OPTION_SET: return "choice";
     default: return "value";

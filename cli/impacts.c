@@ -1,6 +1,6 @@
-// Impacts between two frames: boxes that hold each object over the whole step are swept along x (D. Baraff, Dynamic
-// simulation of non-penetrating rigid bodies, 1992); what is left is asked by ovoid_compound_impact_find, on several
-// threads. A pair is looked at until it first comes within the margin.
+// Impacts between two frames: boxes that hold each object over the whole interval are swept along x (D. Baraff, Dynamic
+// simulation of non-penetrating rigid bodies, 1992); the remaining pairs go to ovoid_compound_impact_find, on several
+// threads. A pair is a candidate until it first comes within the margin.
 #include "impacts.h"
 
 #include "message.h"
@@ -9,13 +9,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Pairs of one piece of work.
+/// Pairs of a chunk.
 #define CHUNK 16
 
-/// Steps of a proof that there is room for at first.
+/// Steps of a proof for which there is room at first.
 #define STEPS 64
 
-/// An impact that was found, or that none is.
+/// The result for one pair: an impact, or none.
 typedef struct impact {
     ovoid_couple couple;
     ovoid_impact found;
@@ -35,7 +35,7 @@ typedef struct work_state {
     size_t next;
 } work_state;
 
-/// Where an object's box begins along x.
+/// The beginning of an object's box along x.
 typedef struct cli_span {
     double low;
     uint32_t object;
@@ -79,10 +79,10 @@ int impacts_hold(cli_impacts *x, ovoid_couple couple) {
 
 /* ---- which pairs come near each other */
 
-/// An object, with the motion of the step.
-static ovoid_moving_solid get_moving(const cli_impacts *x, size_t object) {
+/// An object with its motion from the frame before to this one.
+static ovoid_moving_body get_moving(const cli_impacts *x, size_t object) {
     ovoid_scene_object o = ovoid_scene_get(x->scene, object);
-    return (ovoid_moving_solid){o.shape, o.compound, frames_get_motion(x->frames, object)};
+    return (ovoid_moving_body){o.shape, o.compound, frames_get_motion(x->frames, object)};
 }
 
 static double get_duration(const cli_impacts *x) { return x->frames->time - x->frames->earlier; }
@@ -90,18 +90,18 @@ static double get_duration(const cli_impacts *x) { return x->frames->time - x->f
 static void make_box(cli_impacts *x, size_t object) {
     int moves = x->frames->is_moved[object];
     if (!moves && x->is_fresh[object]) return;
-    ovoid_moving_solid moving = get_moving(x, object);
+    ovoid_moving_body moving = get_moving(x, object);
     ovoid_box *box = &x->boxes[object];
-    *box = ovoid_moving_solid_compute_box(&moving, 0, get_duration(x));
-    // A motion that is refused has no box: it is anywhere, and its pairs will say so.
-    if (isnan(box->low.x)) *box = (ovoid_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    *box = ovoid_moving_body_compute_box(&moving, 0, get_duration(x));
+    // A refused motion has no box: an infinite one makes its pairs candidates, whose impacts report it.
+    if (isnan(box->min.x)) *box = (ovoid_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
     x->is_fresh[object] = !moves;
 }
 
-/// Not proven apart by more than the margin.
+/// 1 if two boxes are not proven farther apart than the margin.
 static int is_near(const ovoid_box *a, const ovoid_box *b, double margin) {
-    const double gaps[] = {b->low.x - a->high.x, a->low.x - b->high.x, b->low.y - a->high.y,
-                           a->low.y - b->high.y, b->low.z - a->high.z, a->low.z - b->high.z};
+    const double gaps[] = {b->min.x - a->max.x, a->min.x - b->max.x, b->min.y - a->max.y,
+                           a->min.y - b->max.y, b->min.z - a->max.z, a->min.z - b->max.z};
     for (int i = 0; i < 6; i++)
         if (gaps[i] > margin * (1 + 1e-15)) return 0;
     return 1;
@@ -113,7 +113,7 @@ static int compare_couples(const void *a, const void *b) {
     return p->b < q->b ? -1 : p->b > q->b;
 }
 
-/// A candidate: one of them moves, the scene does not ignore them, they were farther apart.
+/// 1 for a candidate: one of the two moves, the scene does not ignore the pair, and it was farther apart.
 static int is_candidate(const cli_impacts *x, ovoid_couple c) {
     if (!x->frames->is_moved[c.a] && !x->frames->is_moved[c.b]) return 0;
     if (!is_near(&x->boxes[c.a], &x->boxes[c.b], x->margin) || ovoid_scene_is_ignored(x->scene, c.a, c.b)) return 0;
@@ -132,12 +132,12 @@ static int find_couples(cli_impacts *x) {
     x->couple_count = 0;
     for (size_t i = 0; i < count; i++) {
         make_box(x, i);
-        x->spans[i] = (cli_span){x->boxes[i].low.x, (uint32_t)i};
+        x->spans[i] = (cli_span){x->boxes[i].min.x, (uint32_t)i};
     }
     qsort(x->spans, count, sizeof *x->spans, compare_spans);
     for (size_t i = 0; i < count; i++) {
         uint32_t a = x->spans[i].object;
-        double end = x->boxes[a].high.x + x->margin;
+        double end = x->boxes[a].max.x + x->margin;
         end += 1e-15 * fabs(end);
         for (size_t k = i + 1; k < count && !(x->spans[k].low > end) && !code; k++) {
             uint32_t b = x->spans[k].object;
@@ -151,7 +151,7 @@ static int find_couples(cli_impacts *x) {
 
 /* ---- their impacts */
 
-/// Room for the steps of a proof and, of compounds, for their groups. 0 where memory is out.
+/// Makes room for the steps of a proof and, of compounds, for their groups. 0 where memory is out.
 static int reserve(impact *item, ovoid_motion_options *options) {
     options->steps = realloc(item->steps, options->capacity * sizeof *item->steps);
     if (!options->steps) return 0;
@@ -163,9 +163,9 @@ static int reserve(impact *item, ovoid_motion_options *options) {
     return 1;
 }
 
-/// The impact of a pair, with its steps where they are wanted.
+/// Finds the impact of a pair, with its steps where they are wanted.
 static void find_impact(const cli_impacts *x, impact *item) {
-    ovoid_moving_solid a = get_moving(x, item->couple.a), b = get_moving(x, item->couple.b);
+    ovoid_moving_body a = get_moving(x, item->couple.a), b = get_moving(x, item->couple.b);
     int lines = results_are_lines(x->results), is_compound = a.compound || b.compound;
     ovoid_motion_options options = {.capacity = lines ? STEPS : 0, .group_capacity = lines && is_compound ? STEPS : 0};
     for (;;) {
@@ -185,10 +185,7 @@ static void find_impact(const cli_impacts *x, impact *item) {
 static int fill(void *context, void *slot) {
     work_state *w = context;
     chunk *k = slot;
-    size_t left = w->impacts->couple_count - w->next;
-    k->first = w->next;
-    k->count = left < CHUNK ? left : CHUNK;
-    w->next += k->count;
+    k->count = pipeline_take(&w->next, w->impacts->couple_count, CHUNK, &k->first);
     return k->count > 0;
 }
 
@@ -221,7 +218,8 @@ static int compare_impacts(const void *a, const void *b) {
     return compare_couples(&p->couple, &q->couple);
 }
 
-/// The record of an impact. Of compounds the answer is that of the whole bodies there, whose proof is complete.
+/// Makes the record of an impact. Of compounds the answer is that of the whole bodies at that time, whose proof is
+/// complete. 0 where memory is out.
 static int make_record(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
     *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
@@ -243,8 +241,9 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
     ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], item->found.hit_at),
                            ovoid_motion_compute_pose(&motions[1], item->found.hit_at)};
-    ovoid_solid_pair pair = {answers_get_solid(x->scene, c.a, &poses[0]), answers_get_solid(x->scene, c.b, &poses[1])};
-    return answers_ask(room, &pair, QUERY_WITHIN, x->margin, 0, results_are_lines(x->results), record);
+    ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &poses[0]), answers_get_body(x->scene, c.b, &poses[1])};
+    const answers_query query = {QUERY_WITHIN, x->margin, 0, results_are_lines(x->results)};
+    return answers_find(room, &pair, &query, record);
 }
 
 static int write_impacts(cli_impacts *x, const impact *items) {

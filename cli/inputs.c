@@ -46,8 +46,8 @@ int inputs_open_pair(const char *const paths[2], const read_settings *settings, 
     return code;
 }
 
-ovoid_solid inputs_get_solid(const cli_body *body, const ovoid_pose *pose) {
-    return (ovoid_solid){body->shape, body->compound, *pose};
+ovoid_body inputs_get_body(const cli_body *body, const ovoid_pose *pose) {
+    return (ovoid_body){body->shape, body->compound, *pose};
 }
 
 void inputs_close_body(cli_body *body) {

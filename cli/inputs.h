@@ -1,4 +1,4 @@
-// Reading what the commands ask for, with the options that say how.
+// Reading the inputs of the commands, with the options for it.
 #ifndef OVOID_CLI_INPUTS_H
 #define OVOID_CLI_INPUTS_H
 
@@ -8,14 +8,14 @@
 
 /// Options of every command that reads meshes.
 typedef struct read_settings {
-    int unit;     ///< place in INPUTS_UNITS; INPUTS_NO_UNIT: lengths stay as they are
-    double scale; ///< 0: 1
+    int unit;     ///< index in INPUTS_UNITS; INPUTS_NO_UNIT: lengths stay as they are
+    double scale; ///< 0 means 1
 } read_settings;
 
 #define INPUTS_UNITS "m|cm|mm|in|ft"
 #define INPUTS_NO_UNIT (-1)
 
-/// Their rows for an options table; `read` is the member of the settings that holds them.
+/// The rows of these options in a table; `read` is the member of the settings that holds them.
 #define INPUTS_OPTIONS(settings)                                                                                       \
     {"unit",                                                                                                           \
      0,                                                                                                                \
@@ -29,10 +29,10 @@ typedef struct read_settings {
             "multiply the coordinates of meshes by S (default: 1)"                                                     \
     }
 
-/// What the io library wants to know.
+/// The options of the io library.
 ovoid_read_options inputs_make_options(const read_settings *settings);
 
-/// A shape from a mesh or .ovoid file; NULL after a message.
+/// Reads a shape from a mesh or .ovoid file; NULL after a message.
 ovoid_shape *inputs_read_shape(const char *path, const read_settings *settings);
 
 /// A body from a file: its hull, or with parts a compound of its objects.
@@ -42,21 +42,21 @@ typedef struct cli_body {
     ovoid_compound *compound;
 } cli_body;
 
-/// Both bodies of a pair. 0, or EXIT_INPUT after a message, with nothing left behind.
+/// Opens both bodies of a pair. 0, or EXIT_INPUT after a message, with nothing left open.
 int inputs_open_pair(const char *const paths[2], const read_settings *settings, int parts, cli_body bodies[2]);
-ovoid_solid inputs_get_solid(const cli_body *body, const ovoid_pose *pose);
+ovoid_body inputs_get_body(const cli_body *body, const ovoid_pose *pose);
 void inputs_close_body(cli_body *body);
 
-/// A scene; NULL after a message.
+/// Reads a scene; NULL after a message.
 ovoid_scene *inputs_read_scene(const char *path);
 
-/// The poses of its objects, which the caller frees; NULL after a message.
+/// Copies the poses of its objects, which the caller frees; NULL after a message.
 ovoid_pose *inputs_copy_poses(const ovoid_scene *scene);
 
-/// The shapes of a LIST; NULL after a message.
+/// Reads the shapes of a LIST; NULL after a message.
 ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings);
 
-/// 1 if the operand names a scene: it ends in ".json".
+/// 1 if the path is that of a scene: it ends in ".json".
 int inputs_is_scene(const char *path);
 
 #endif

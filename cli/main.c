@@ -1,4 +1,4 @@
-// The tool's front door: finds the command and hands it its arguments.
+// The tool's entry: finds the command and calls it with its arguments.
 #include "commands.h"
 #include "finish.h"
 #include "help.h"
@@ -39,14 +39,14 @@ static int print_version(void) {
     return finish_file(stdout);
 }
 
-/// "help", "help COMMAND"
+/// Runs "help" or "help COMMAND".
 static int run_help(int argc, char **argv) {
     if (argc < 1) return help_print_tool(stdout, commands);
     const cli_command *command = find_command(argv[0]);
     return command ? help_print_command(stdout, command) : complain_unknown(argv[0]);
 }
 
-/// "complete", "complete COMMAND": what shell completion asks for.
+/// Runs "complete" or "complete COMMAND", for shell completion.
 static int run_complete(int argc, char **argv) {
     return help_print_words(stdout, commands, argc > 0 ? find_command(argv[0]) : NULL);
 }

@@ -1,4 +1,4 @@
-// What the tool says to the person in front of it, on stderr: results never go there, and nothing else goes to stdout.
+// Messages to the user, on stderr: results never go there, and nothing else goes to stdout.
 #ifndef OVOID_CLI_MESSAGE_H
 #define OVOID_CLI_MESSAGE_H
 
@@ -10,10 +10,10 @@
 #define MESSAGE_FORMAT
 #endif
 
-/// "ovoid: error: ..." with a line end.
+/// Writes "ovoid: error: ..." and a line end.
 MESSAGE_FORMAT void message_error(const char *format, ...);
 
-/// "ovoid: ..." with a line end: counts, times, hints.
+/// Writes "ovoid: ..." and a line end: counts, times, hints.
 MESSAGE_FORMAT void message_note(const char *format, ...);
 
 /// 1 if the stream is a terminal that understands colours, and NO_COLOR is not set.

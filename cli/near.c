@@ -1,5 +1,5 @@
-// Near pairs come from a world (broad phase and kept proofs, see <ovoid/world.h>); what is said of them later is asked
-// anew, so that it does not depend on what was asked before.
+// Near pairs come from a world (broad phase and cached proofs, see <ovoid/world.h>); their answers are found by new
+// queries, so that they do not depend on earlier ones.
 #include "near.h"
 
 #include "message.h"
@@ -7,13 +7,10 @@
 
 #include <stdlib.h>
 
-/// Most pairs that are kept.
+/// Most pairs.
 #define COUPLES_MAX 50000000
 
-/// Most threads of a world.
-#define WORKERS_MAX 256
-
-/// Bodies that are moved at a time.
+/// Bodies that are moved by one call.
 #define MOVES 1024
 
 /// The object of an id: they were added in order, to an empty world.
@@ -33,7 +30,7 @@ static int add_bodies(cli_near *near) {
     if (bodies && near->ids) {
         for (size_t i = 0; i < count; i++) {
             ovoid_scene_object o = ovoid_scene_get(near->scene, i);
-            bodies[i].solid = (ovoid_solid){o.shape, o.compound, o.pose};
+            bodies[i].body = (ovoid_body){o.shape, o.compound, o.pose};
         }
         done = ovoid_world_add_many(near->world, bodies, count, near->ids, &error) == OVOID_OK;
     }
@@ -42,13 +39,14 @@ static int add_bodies(cli_near *near) {
     return done ? 0 : EXIT_INPUT;
 }
 
-int near_open(cli_near *near, const ovoid_scene *scene, ovoid_question question, double margin, unsigned threads) {
+int near_open(cli_near *near, const ovoid_scene *scene, ovoid_query_kind kind, double margin, unsigned threads) {
     ovoid_error error;
-    *near = (cli_near){.scene = scene, .query = {.question = question, .margin = margin}};
+    *near = (cli_near){.scene = scene, .query = {.kind = kind, .margin = margin}};
     if (margin < 0) return 0;
     if (!threads) threads = pipeline_get_processors();
-    ovoid_world_options options = {
-        .threads = threads < WORKERS_MAX ? threads : WORKERS_MAX, .filter = is_wanted, .filter_context = near};
+    ovoid_world_options options = {.threads = threads < OVOID_WORLD_THREADS_MAX ? threads : OVOID_WORLD_THREADS_MAX,
+                                   .filter = is_wanted,
+                                   .filter_context = near};
     near->world = ovoid_world_create(&options, &error);
     if (!near->world) return message_error("%s", error.message), EXIT_INPUT;
     int code = add_bodies(near);
@@ -113,14 +111,14 @@ static int find_all(cli_near *near) {
 
 int near_find(cli_near *near) {
     ovoid_error error;
-    ovoid_frame frame;
-    // All pairs are always the same.
+    ovoid_contacts frame;
+    // The list of all pairs never changes.
     if (!near->world) return near->count ? 0 : find_all(near);
-    if (ovoid_world_compute_frame(near->world, &near->query, &frame, &error) != OVOID_OK)
+    if (ovoid_world_compute_contacts(near->world, &near->query, &frame, &error) != OVOID_OK)
         return message_error("%s", error.message), EXIT_INPUT;
     if (reserve(near, frame.count)) return EXIT_INPUT;
     for (size_t i = 0; i < frame.count; i++)
-        near->couples[i] = (ovoid_couple){get_object(near, frame.contacts[i].a), get_object(near, frame.contacts[i].b)};
+        near->couples[i] = (ovoid_couple){get_object(near, frame.items[i].a), get_object(near, frame.items[i].b)};
     near->count = frame.count;
     return 0;
 }

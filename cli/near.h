@@ -1,4 +1,5 @@
-// Which pairs of a scene's objects are worth an answer: all, or those that are not proven farther apart than a margin.
+// The pairs of a scene's objects that are worth an answer: all, or those that are not proven farther apart than a
+// margin.
 #ifndef OVOID_CLI_NEAR_H
 #define OVOID_CLI_NEAR_H
 
@@ -7,19 +8,19 @@
 #include <ovoid/io.h>
 #include <ovoid/ovoid.h>
 
-/// The objects of a scene in a world, and the pairs that were found last.
+/// The objects of a scene in a world, and the pairs found last.
 typedef struct cli_near {
     const ovoid_scene *scene;
     ovoid_world *world;    ///< NULL: all pairs are wanted
     ovoid_id *ids;         ///< of the objects
     ovoid_couple *couples; ///< a < b, ascending
     size_t count, capacity;
-    ovoid_frame_query query;
+    ovoid_contact_query query;
 } cli_near;
 
-/// Puts the objects into a world, at the poses of the scene. margin: negative for all pairs. question: collide (margin
-/// 0) or within. 0, or EXIT_INPUT after a message.
-int near_open(cli_near *near, const ovoid_scene *scene, ovoid_question question, double margin, unsigned threads);
+/// Adds the objects to a world, at the poses of the scene. margin: negative for all pairs. kind: collide (margin 0) or
+/// within. 0, or EXIT_INPUT after a message.
+int near_open(cli_near *near, const ovoid_scene *scene, ovoid_query_kind kind, double margin, unsigned threads);
 
 /// Moves some objects; poses are those of all. 0, or EXIT_INPUT after a message.
 int near_move(cli_near *near, const uint32_t *moved, size_t count, const ovoid_pose *poses);

@@ -1,6 +1,5 @@
-// ovoid paper: the paper's experiment, repeated; a folder of numbers and figures and one page that tells the story.
+// ovoid paper: the paper's experiment, repeated; a folder of numbers and figures, and a page of all results.
 #include "commands.h"
-#include "finish.h"
 #include "message.h"
 #include "paper/experiment.h"
 #include "progress.h"
@@ -98,8 +97,10 @@ const cli_command command_paper = {
         "Areas Splitting\" (Su, Liu, Chen): the models, the time of each step, facial areas against checking all "
         "faces, the soundness of its rules, false alarms and misses, the bracket, the three phases, bodies that "
         "are deformed or divided, an arm of links. Writes CSV files, SVG figures and report.html, a page that "
-        "holds all of them. Takes about a minute.",
-    .exits = "0 written\n2 the command line is wrong\n3 the folder or a file could not be written",
+        "holds all of them. Takes ten seconds or two.",
+    .exits = "0 written\n"
+             "2 the command line is wrong\n"
+             "3 the folder or a file could not be written",
     .examples = "ovoid paper --out report\n"
                 "ovoid paper --out report --frames 1000 --seed 7",
     .options = options,

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/// Slots for each thread: enough that none waits for a slow neighbour, few enough to stay small.
+/// Slots for each thread: enough that none waits for a slow one, few enough to stay small.
 #define SLOTS_PER_THREAD 4
 
 typedef struct ring {
@@ -16,8 +16,8 @@ typedef struct ring {
     char *slots;
     unsigned char *done; // of each slot: worked on, not yet drained
     size_t count;
-    uint64_t filled, drained; // slots ever
-    int ended, stopped;       // no more to fill; the caller wants no more
+    uint64_t filled, drained; // slots so far
+    int ended, stopped;       // the input has ended; drain has stopped the run
     pthread_mutex_t filling;  // held by the worker that fills; taken before `lock`
     pthread_mutex_t lock;     // of all numbers above
     pthread_cond_t changed;
@@ -27,7 +27,7 @@ static void *get_slot(const ring *r, uint64_t number) {
     return r->slots + (size_t)(number % r->count) * r->pipeline->slot_size;
 }
 
-/// Waits until the next slot is free. 0 where nothing more is to be filled.
+/// Waits until the next slot is free. 0 where no more slots are to be filled.
 static int wait_for_room(ring *r, uint64_t *number) {
     pthread_mutex_lock(&r->lock);
     while (!r->ended && !r->stopped && r->filled - r->drained == r->count) pthread_cond_wait(&r->changed, &r->lock);
@@ -65,7 +65,7 @@ static void *run_worker(void *argument) {
     return NULL;
 }
 
-/// Drains slots in order until all that were filled are drained, or drain says stop.
+/// Drains slots in order until all filled ones are drained, or drain stops the run.
 static int drain_all(ring *r) {
     int code = 0;
     pthread_mutex_lock(&r->lock);
@@ -85,7 +85,7 @@ static int drain_all(ring *r) {
     return code;
 }
 
-/// One thread: fill, work, drain, one slot after another.
+/// Runs in one thread: fill, work, drain, one slot after another.
 static int run_alone(ring *r) {
     const cli_pipeline *p = r->pipeline;
     int code = 0;
@@ -96,12 +96,24 @@ static int run_alone(ring *r) {
     return code;
 }
 
+/// Bytes of a worker's stack, where the system's own choice may be as little as 128 KB.
+#define WORKER_STACK ((size_t)2 << 20)
+
+static int start_worker(pthread_t *worker, ring *r) {
+    pthread_attr_t attributes;
+    if (pthread_attr_init(&attributes) != 0) return 0;
+    int ok = pthread_attr_setstacksize(&attributes, WORKER_STACK) == 0 &&
+             pthread_create(worker, &attributes, run_worker, r) == 0;
+    pthread_attr_destroy(&attributes);
+    return ok;
+}
+
 static int run_threads(ring *r, unsigned threads) {
     pthread_t *workers = malloc(threads * sizeof *workers);
     unsigned started = 0;
     int code = -1;
     if (!workers) return -1;
-    while (started < threads && pthread_create(&workers[started], NULL, run_worker, r) == 0) started++;
+    while (started < threads && start_worker(&workers[started], r)) started++;
     if (started) code = drain_all(r);
     for (unsigned i = 0; i < started; i++) pthread_join(workers[i], NULL);
     free(workers);
@@ -124,6 +136,13 @@ int pipeline_run(const cli_pipeline *pipeline, unsigned threads) {
     free(r.done);
     free(r.slots);
     return code;
+}
+
+size_t pipeline_take(size_t *next, size_t total, size_t most, size_t *first) {
+    size_t left = total - *next, count = left < most ? left : most;
+    *first = *next;
+    *next += count;
+    return count;
 }
 
 unsigned pipeline_get_processors(void) {

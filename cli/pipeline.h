@@ -5,13 +5,20 @@
 
 #include <stddef.h>
 
-/// What a pipeline does; context is the caller's.
+/// The row of an options table of the commands whose results are written by a pipeline.
+#define THREADS_OPTION(settings)                                                                                       \
+    {                                                                                                                  \
+        "threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,                                            \
+            "work on N threads; the output is the same bytes for any N (default: one for each processor)"              \
+    }
+
+/// The steps of a pipeline; context is the caller's.
 typedef struct cli_pipeline {
     void *context;
     size_t slot_size; ///< bytes of a slot; zeroed once, then reused as it is
     /// In order, one at a time. 1: filled; 0: there is no more (the slot is not used).
     int (*fill)(void *context, void *slot);
-    /// Side by side with others; touches its slot and what is constant in the context.
+    /// Concurrent with others; uses its slot and constants of the context.
     void (*work)(void *context, void *slot);
     /// In order, one at a time, on the thread that called pipeline_run. 0: go on; else pipeline_run stops with it.
     int (*drain)(void *context, void *slot);
@@ -19,8 +26,13 @@ typedef struct cli_pipeline {
     void (*clear)(void *slot);
 } cli_pipeline;
 
-/// Runs it on that many threads (1: none are started). Returns 0, what drain returned, or -1: no memory or no threads.
+/// Runs a pipeline on that many threads (1: none are started). Returns 0, the code with which drain stopped it, or -1:
+/// no memory or no threads.
 int pipeline_run(const cli_pipeline *pipeline, unsigned threads);
+
+/// The next chunk of a list of `total` items for a slot: from *first on, at most `most`. Returns their number; 0: there
+/// are no more.
+size_t pipeline_take(size_t *next, size_t total, size_t most, size_t *first);
 
 /// The number of processors this process may use, at least 1.
 unsigned pipeline_get_processors(void);

@@ -1,16 +1,15 @@
-// The progress bar: done, share, speed and the time that is left, redrawn in place.
+// The progress bar: items done, share, speed and the remaining time, redrawn in place.
 #include "progress.h"
-
-#include "message.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 /// Cells of the bar.
 #define BAR_WIDTH 28
 
-/// The one bar; only the main thread uses it.
+/// The only bar; only the main thread uses it.
 static struct {
     const char *what;
     size_t total;
@@ -28,7 +27,7 @@ void progress_start(const char *what, size_t total) {
     bar.what = what;
     bar.total = total;
     bar.start = bar.drawn = progress_get_seconds();
-    bar.active = message_is_terminal(stderr);
+    bar.active = isatty(fileno(stderr));
 }
 
 static void draw(size_t done, double seconds) {

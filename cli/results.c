@@ -1,9 +1,10 @@
 // Results as a table, as JSON lines or as CSV. A table is written in blocks of many rows, so that any number of results
-// passes through bounded memory.
+// takes bounded memory.
 #include "results.h"
 
 #include "finish.h"
 #include "message.h"
+#include "outputs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,9 +12,17 @@
 /// Rows of one block of a table.
 #define BLOCK_ROWS 20000
 
-int results_check_settings(const cli_command *command, const output_settings *settings) {
+int results_settle(const cli_command *command, output_settings *settings) {
+    const char *path = settings->path ? settings->path : "";
+    int is_csv = outputs_has_extension(path, "csv");
+    int is_json = outputs_has_extension(path, "json") || outputs_has_extension(path, "jsonl");
     if (settings->json && settings->csv)
         return args_complain(command, "%s: --json and --csv exclude each other", command->name);
+    if ((settings->json && is_csv) || (settings->csv && is_json))
+        return args_complain(command, "%s: %s is no name for %s", command->name, path,
+                             settings->json ? "JSON Lines" : "CSV");
+    settings->csv |= is_csv;
+    settings->json |= is_json;
     return -1;
 }
 
@@ -34,7 +43,7 @@ int results_open(cli_results *results, const output_settings *settings, double m
 
 int results_are_lines(const cli_results *results) { return results->settings->json || results->settings->csv; }
 
-/// Writes the rows that wait.
+/// Writes the rows of the block.
 static void write_rows(cli_results *results) {
     ovoid_records_write_table(results->file, results->rows, results->row_count, results->margin);
     results->row_count = 0;
@@ -64,7 +73,8 @@ int results_add(cli_results *results, const ovoid_record *record) {
         return EXIT_INPUT;
     }
     results->rows[results->row_count] = *record;
-    results->rows[results->row_count++].cover = NULL; // a table does not show it, and it does not live that long
+    results->rows[results->row_count++].cover =
+        NULL; // a table does not show the cover, which may be gone when the block is written
     if (results->row_count == BLOCK_ROWS) write_rows(results);
     return ferror(results->file) ? EXIT_INPUT : 0;
 }
@@ -76,7 +86,8 @@ int results_add_text(cli_results *results, const char *text, size_t size) {
 
 int results_close(cli_results *results, int code) {
     int dropped = code == EXIT_INPUT && !ferror(results->file);
-    // What came before a bad line of input is still true: it stays where it cannot be taken back, on a stream.
+    // Results before a bad line of input are still true: on a stream, where they cannot be taken back, they are
+    // completed.
     if (!(dropped && results->settings->path)) {
         write_header(results);
         if (results->row_count) write_rows(results);
@@ -94,7 +105,7 @@ exit_code results_judge(const ovoid_answer *answer, double margin) {
     if (answer->status == OVOID_UNDECIDED) return EXIT_NOT_PROVEN;
     if (!(margin >= 0)) return EXIT_APART;
     int within = ovoid_answer_is_within(answer, margin);
-    // A bracket as narrow as it can be that straddles the margin: at the margin, as touching is at zero.
+    // A bracket that straddles the margin at full precision counts as at the margin, as touching does at zero.
     if (within < 0 && answer->limit != OVOID_LIMIT_NONE) return EXIT_NOT_PROVEN;
     return within ? EXIT_TOUCH : EXIT_APART;
 }

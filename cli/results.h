@@ -1,4 +1,4 @@
-// Where results go: standard output or a file that appears whole or not at all; a table, JSON lines or CSV.
+// The output of results: standard output or a file that appears whole or not at all; a table, JSON lines or CSV.
 #ifndef OVOID_CLI_RESULTS_H
 #define OVOID_CLI_RESULTS_H
 
@@ -12,16 +12,18 @@ typedef struct output_settings {
     const char *path; ///< NULL: standard output
 } output_settings;
 
-/// Their rows for an options table; `out` is the member of the settings that holds them.
+/// The rows of these options in a table; `out` is the member of the settings that holds them.
 #define RESULTS_OPTIONS(settings)                                                                                      \
     {"json", 0, OPTION_FLAG, offsetof(settings, out.json), NULL, NULL, "write JSON Lines, one object a line"},         \
         {"csv", 0, OPTION_FLAG, offsetof(settings, out.csv), NULL, NULL, "write CSV with a header line"}, {            \
-        "output", 'o', OPTION_FILE, offsetof(settings, out.path), "FILE", NULL,                                        \
-            "write to FILE, which appears whole or not at all (default: standard output)"                              \
+        "output", 'o', OPTION_OUTPUT, offsetof(settings, out.path), "FILE", "jsonl|json|csv|txt",                      \
+            "write to FILE, which appears whole or not at all; .jsonl and .csv choose the format (default: standard "  \
+            "output)"                                                                                                  \
     }
 
-/// Refuses --json together with --csv. -1 to go on, or EXIT_USAGE.
-int results_check_settings(const cli_command *command, const output_settings *settings);
+/// Sets the format by the file's extension where no option does; refuses two formats at once. -1 to go on, or
+/// EXIT_USAGE.
+int results_settle(const cli_command *command, output_settings *settings);
 
 /// An open stream of results.
 typedef struct cli_results {
@@ -35,27 +37,27 @@ typedef struct cli_results {
     int header_due; ///< the CSV header is not written yet
 } cli_results;
 
-/// Opens it. 0, or EXIT_INPUT after a message.
+/// Opens a stream of results. 0, or EXIT_INPUT after a message.
 int results_open(cli_results *results, const output_settings *settings, double margin);
 
 /// Writes one answer: a line of JSON or CSV at once, a row of the table later. Names must live until the end. Failures
 /// of the stream are found by results_close.
 int results_add(cli_results *results, const ovoid_record *record);
 
-/// 1 if answers become lines of text that can be made apart from the stream (not a table).
+/// 1 if each answer becomes a line of text by itself (not a table).
 int results_are_lines(const cli_results *results);
 
 /// Writes text made of such lines.
 int results_add_text(cli_results *results, const char *text, size_t size);
 
-/// Ends it: writes what is due and puts the file in its place. code: the exit code so far; if it is EXIT_INPUT, a file
+/// Ends the stream: writes the rest and moves the file to its path. code: the exit code so far; with EXIT_INPUT a file
 /// is dropped. Returns the exit code.
 int results_close(cli_results *results, int code);
 
 /// Writes one answer to a stream in the format of the settings (not a table).
 void results_write_line(FILE *file, const output_settings *settings, const ovoid_record *record);
 
-/// What an answer means for the exit code. margin: negative where none was asked for.
+/// The exit code for an answer. margin: negative where there is none.
 exit_code results_judge(const ovoid_answer *answer, double margin);
 
 /// The more serious of two exit codes: 4 before 1 before 0.

@@ -1,16 +1,16 @@
 // ovoid run: a scene that moves. Frame by frame a world finds the pairs that are not proven farther apart than the
-// margin; each is answered anew, so that a line says the same whatever came before, and can be checked alone. Between
-// frames the times of impact are bracketed where that is asked for. Memory does not grow with the number of frames, but
+// margin; each is answered by a new query, so that its line depends on no earlier frame, and can be checked alone. With
+// --continuous the times of impact between frames are bracketed. Memory does not grow with the number of frames, except
 // for the points of a plot.
 #include "commands.h"
 
 #include "answers.h"
-#include "finish.h"
 #include "frames.h"
 #include "impacts.h"
 #include "inputs.h"
 #include "message.h"
 #include "near.h"
+#include "pipeline.h"
 #include "progress.h"
 #include "track.h"
 
@@ -32,22 +32,20 @@ static const cli_option options[] = {
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "list only the pairs that are not proven farther apart than M; without it, every pair of every frame"},
     {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
-     "collide: which pairs touch? within: which are within --margin? distance: how far apart? depth: the signed "
-     "distance "
-     "(default)"},
+     "collide: which pairs touch? within: which are within --margin? distance: how far apart? depth: "
+     "the signed distance (default)"},
     {"continuous", 0, OPTION_FLAG, offsetof(settings, continuous), NULL, NULL,
      "between frames, also find when pairs come within the margin (without one: touch)"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket of a pair is at most T wide (default: 1e-9 of the pair's size)"},
-    {"plot", 0, OPTION_FILE, offsetof(settings, plot), "FILE", NULL,
+    {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distances of the nearest pairs over time, an SVG file"},
-    {"threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,
-     "work on N threads; the output is the same bytes for any N (default: one for each processor)"},
+    THREADS_OPTION(settings),
     RESULTS_OPTIONS(settings),
     {0},
 };
 
-/// What the whole run shares.
+/// The state of a run.
 typedef struct run_state {
     const settings *settings;
     const ovoid_scene *scene;
@@ -56,12 +54,12 @@ typedef struct run_state {
     cli_impacts impacts;
     cli_track track;
     cli_results results;
-    size_t pairs, counts[4]; ///< records of frames; by ovoid_status
+    size_t pairs, counts[4]; ///< records of frames; their numbers by ovoid_status
     exit_code worst;
-    int code; ///< of what the callbacks could not do
+    int code; ///< the exit code of a failed callback, or 0
 } run_state;
 
-/// The margin of impacts: touching where none was given.
+/// The margin of impacts: 0, touching, where none was given.
 static double get_margin(const settings *s) { return s->margin > 0 ? s->margin : 0; }
 
 /* ---- records, as they come */
@@ -135,7 +133,7 @@ static void write_names(char *text, size_t room, const char *a, uint32_t part_a,
     snprintf(text, room, "%.60s%s, %.60s%s", a, parts[0], b, parts[1]);
 }
 
-static void tell_event(const run_state *r, const char *what, const track_event *event) {
+static void report_event(const run_state *r, const char *what, const track_event *event) {
     char names[200];
     if (!event->is_there) {
         message_note("%s: none", what);
@@ -147,7 +145,7 @@ static void tell_event(const run_state *r, const char *what, const track_event *
         message_note("%s: %s, from the beginning", what, names);
         return;
     }
-    // An impact's bracket is narrow: as many digits as tell its ends apart.
+    // An impact's bracket is narrow: its ends are printed with as many digits as distinguish them.
     char from[40], until[40];
     for (int digits = 9; digits <= 17; digits += 4) {
         snprintf(from, sizeof from, "%.*g", digits, event->from);
@@ -157,7 +155,7 @@ static void tell_event(const run_state *r, const char *what, const track_event *
     message_note("%s: %s, between %s and %s", what, names, from, until);
 }
 
-static void tell_summary(const run_state *r, double seconds) {
+static void report_summary(const run_state *r, double seconds) {
     const settings *s = r->settings;
     char within[48] = "first within the margin", names[200];
     message_note(
@@ -168,9 +166,9 @@ static void tell_summary(const run_state *r, double seconds) {
     if (s->continuous) message_note("impacts: %zu, not proven: %zu", r->impacts.found, r->impacts.not_proven);
     if (s->margin > 0) {
         snprintf(within, sizeof within, "first within %g", s->margin);
-        tell_event(r, within, &r->track.reach);
+        report_event(r, within, &r->track.reach);
     }
-    tell_event(r, "first contact", &r->track.touch);
+    report_event(r, "first contact", &r->track.touch);
     const ovoid_record *least = &r->track.smallest;
     if (s->query < QUERY_DISTANCE) return;
     if (r->track.has_smallest) {
@@ -191,7 +189,7 @@ static int open_all(run_state *r) {
     unsigned parts = answers_get_fields(r->scene);
     int code = frames_open(&r->frames, s->motion, r->scene);
     if (!code)
-        code = near_open(&r->near, r->scene, is_collide ? OVOID_QUESTION_COLLIDE : OVOID_QUESTION_WITHIN,
+        code = near_open(&r->near, r->scene, is_collide ? OVOID_QUERY_COLLIDE : OVOID_QUERY_WITHIN,
                          is_collide ? 0 : s->margin, s->threads);
     if (!code && s->continuous) {
         r->impacts = (cli_impacts){.scene = r->scene,
@@ -214,33 +212,33 @@ static int run_motion(run_state *r) {
     if (code) return code;
     if (results_open(&r->results, &s->out, s->query == QUERY_COLLIDE ? -1 : s->margin)) return EXIT_INPUT;
     r->results.fields = OVOID_RECORD_TIME | answers_get_fields(r->scene) | (s->continuous ? OVOID_RECORD_IMPACT : 0);
-    r->track.keeps = s->plot != NULL;
+    r->track.has_plot = s->plot != NULL;
     code = run_frames(r);
     if (r->impacts.not_proven) r->worst = EXIT_NOT_PROVEN;
     int worst = (int)r->worst;
     code = results_close(&r->results, code ? code : worst);
     if (code != worst) return code;
     if (s->plot && track_write_plot(&r->track, s->plot, r->scene, s->margin)) return EXIT_INPUT;
-    tell_summary(r, progress_get_seconds() - start);
+    report_summary(r, progress_get_seconds() - start);
     return code;
 }
 
-/// What the options must be together. -1 to go on, or EXIT_USAGE.
-static int check_settings(const cli_command *command, const settings *s) {
+/// Checks the options together. -1 to go on, or EXIT_USAGE.
+static int settle(const cli_command *command, settings *s) {
     if (!s->motion) return args_complain(command, "run: --motion MOTION.csv is missing");
     if (s->query == QUERY_WITHIN && s->margin < 0) return args_complain(command, "run: --query within needs --margin");
     if (s->query == QUERY_COLLIDE && s->margin >= 0)
         return args_complain(command, "run: --query collide takes no --margin; --query within does");
     if (s->plot && strcmp(s->plot, "-") == 0)
         return args_complain(command, "run: --plot needs a file; standard output has the results");
-    return results_check_settings(command, &s->out);
+    return results_settle(command, &s->out);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.query = QUERY_DEPTH, .margin = -1};
     cli_operands paths;
     int code = args_parse(command, argc, argv, &s, &paths);
-    if (code < 0) code = check_settings(command, &s);
+    if (code < 0) code = settle(command, &s);
     if (code >= 0) return code;
     ovoid_scene *scene = inputs_read_scene(paths.items[0]);
     if (!scene) return EXIT_INPUT;
@@ -259,27 +257,22 @@ const cli_command command_run = {
     .summary = "a scene that moves: what is near, touches, and when",
     .usage = "[OPTION...] SCENE.json --motion MOTION.csv",
     .description =
-        "The signed distances of the pairs of a scene at each time of a motion: a line for each frame and pair. The "
-        "first "
-        "line of MOTION.csv must be one of\n\n"
+        "The signed distances of the pairs of a scene at each time of a motion: a line for each frame and pair. "
+        "The first line of MOTION.csv must be one of\n\n"
         "    time,body,x,y,z,qw,qx,qy,qz\n"
         "    time,body,vx,vy,vz,wx,wy,wz\n\n"
         "for poses of objects, or velocities from that time on (of the frame's origin, and in radians about axes of "
-        "the "
-        "world). Times never decrease; an object stays, or goes on, until its next line; until its first it is where "
-        "the "
-        "scene has it.\n\n"
+        "the world). Times never decrease; an object stays, or goes on, until its next line; until its first it is "
+        "where the scene has it.\n\n"
         "With --continuous, motion between two frames counts too: from pose to pose the position is linear and the "
         "rotation turns about one axis, the shorter way round; velocities are constant. An impact is a line of its "
-        "own, "
-        "with the time until which the pair is proven farther apart and the time when it is within the margin. No "
-        "motion "
-        "is too fast for it.\n\n"
-        "At the end the first contact and the smallest distance of the frames are told. ovoid verify --motion checks "
-        "the "
-        "lines of --json.",
+        "own, with the time until which the pair is proven farther apart and the time when it is within the margin. "
+        "No motion is too fast for it.\n\n"
+        "At the end the first contact and the smallest distance of the frames are reported. ovoid verify --motion "
+        "checks the lines of --json.",
     .exits = "0 every pair is apart in every frame (with --margin: farther than M)\n"
-             "1 a pair touches or overlaps (or is within M)\n2 the command line is wrong\n"
+             "1 a pair touches or overlaps (or is within M)\n"
+             "2 the command line is wrong\n"
              "3 bad input, or output that could not be written\n"
              "4 for some pair nothing is proven; this comes before 1",
     .examples = "ovoid run cell.json --motion pick.csv --margin 0.1 --plot pick.svg\n"

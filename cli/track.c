@@ -1,5 +1,5 @@
-// What is remembered of a motion, and its plot. Memory: three numbers for each pair and frame within the margin, and
-// only where a plot is wanted.
+// The summary of a motion, and its plot. Memory: three numbers for each pair and frame within the margin, and only
+// where a plot is wanted.
 #include "track.h"
 
 #include "args.h"
@@ -10,18 +10,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Most points that are kept: 24 bytes each.
+/// Most points of a plot: 24 bytes each.
 #define POINTS_MAX 50000000
 
-/// Pairs that are drawn.
+/// Most pairs that are drawn.
 #define DRAWN_MAX 6
 
-/// Points of a line beyond which neighbours are drawn as one.
+/// Most points of a line before neighbours are drawn as one.
 #define LINE_POINTS 1500
 
 /* ---- keeping */
 
-/// Room for one more item; 0 where memory is out.
+/// Makes room for one more item; 0 where memory is out.
 static int reserve(void **items, size_t *capacity, size_t count, size_t size) {
     if (count < *capacity) return 1;
     size_t grown = *capacity ? 2 * *capacity : 16;
@@ -51,7 +51,7 @@ static int grow_slots(cli_track *t) {
     return 1;
 }
 
-/// The pair's memory, made where there is none; NULL where memory is out.
+/// The pair's entry, made where there is none; NULL where memory is out.
 static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     if (!grow_slots(t)) return NULL;
     size_t *slot = find_slot(t, couple.a, couple.b);
@@ -62,7 +62,7 @@ static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     return &t->pairs[t->pair_count - 1];
 }
 
-static int keep_point(cli_track *t, ovoid_couple couple, const ovoid_answer *answer) {
+static int add_point(cli_track *t, ovoid_couple couple, const ovoid_answer *answer) {
     track_pair *pair = t->point_count < POINTS_MAX ? find_pair(t, couple) : NULL;
     if (!pair || !reserve((void **)&pair->points, &pair->capacity, pair->count, sizeof *pair->points)) return 0;
     pair->points[pair->count++] = (track_point){t->frame_count - 1, answer->lower, answer->upper};
@@ -72,7 +72,7 @@ static int keep_point(cli_track *t, ovoid_couple couple, const ovoid_answer *ans
 }
 
 void track_add_frame(cli_track *t, double time) {
-    if (!t->keeps || t->failed) return;
+    if (!t->has_plot || t->failed) return;
     t->failed = !reserve((void **)&t->times, &t->frame_capacity, t->frame_count, sizeof *t->times);
     if (!t->failed) t->times[t->frame_count++] = time;
 }
@@ -89,7 +89,7 @@ void track_add(cli_track *t, ovoid_couple couple, const ovoid_record *record, do
     if (touches || (margin >= 0 && ovoid_answer_is_within(answer, margin) > 0))
         set_event(&t->reach, couple, record, earlier, record->time);
     if (!t->has_smallest || answer->lower < t->smallest.answer.lower) t->smallest = *record, t->has_smallest = 1;
-    if (t->keeps && !t->failed) t->failed = !keep_point(t, couple, answer);
+    if (t->has_plot && !t->failed) t->failed = !add_point(t, couple, answer);
 }
 
 void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *record) {
@@ -103,7 +103,7 @@ void track_clear(cli_track *t) {
     free(t->pairs);
     free(t->times);
     free(t->slots);
-    *t = (cli_track){.keeps = 0};
+    *t = (cli_track){.has_plot = 0};
 }
 
 /* ---- drawing */
@@ -122,7 +122,7 @@ static void add_value(line_room *l, double x, double low, double high) {
     l->y[l->count++] = isfinite(low) && isfinite(high) ? low + (high - low) / 2 : NAN;
 }
 
-/// The pair's distances; a gap where frames are missing, `group` neighbours as one.
+/// Fills the line of a pair's distances; a gap where frames are missing, `group` neighbours as one.
 static int fill_line(const cli_track *t, const track_pair *pair, line_room *l) {
     size_t group = pair->count / LINE_POINTS + 1, room = 2 * pair->count + 2;
     *l = (line_room){.x = malloc(4 * room * sizeof *l->x)};
@@ -160,12 +160,12 @@ static int write_chart(const ovoid_chart *chart, const char *path) {
     ovoid_output *output = ovoid_output_create(path, &error);
     int failed = !output;
     if (output) {
-        (void)ovoid_chart_write_svg(ovoid_output_get_file(output), chart); // commit looks at the stream
+        (void)ovoid_chart_write_svg(ovoid_output_get_file(output), chart); // ovoid_output_commit checks the stream
         failed = ovoid_output_commit(output, &error) != OVOID_OK;
     }
     ovoid_output_destroy(output);
     finish_release_signals();
-    if (failed) finish_tell_failure(&error);
+    if (failed) finish_report_failure(&error);
     return failed ? EXIT_INPUT : 0;
 }
 

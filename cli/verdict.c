@@ -1,5 +1,5 @@
-// One judge for each thread: a judge remembers what it proved of a shape's inner ellipsoid, and works for one thread at
-// a time. Threads take one and give it back.
+// One judge for each thread: a judge caches what it proved of a shape's inner ellipsoid, and works for one thread at a
+// time. Threads take one and give it back.
 #include "verdict.h"
 
 #ifdef OVOID_HAVE_JUDGE

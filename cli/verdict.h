@@ -1,4 +1,4 @@
-// Is one answer proven? By the judge in exact arithmetic where it was built in, else by the library's own check.
+// Checks of single answers: by the judge in exact arithmetic where it was built in, else by the library's own check.
 #ifndef OVOID_CLI_VERDICT_H
 #define OVOID_CLI_VERDICT_H
 
@@ -7,16 +7,16 @@
 /// Working memory for some threads.
 typedef struct verdict verdict;
 
-/// For that many threads at a time; NULL where memory is out.
+/// Makes the memory for that many threads at a time; NULL where memory is out.
 verdict *verdict_create(unsigned threads);
 void verdict_destroy(verdict *verdict);
 
-/// Does everything the answer claims follow from its proof? points: also that the witness points differ by the distance
-/// along the normal. OVOID_OK, or a code with a sentence in *error. Callable from several threads.
+/// Checks that the answer follows from its proof. points: also that the witness points differ by the distance along the
+/// normal. OVOID_OK, or a code with a sentence in *error. Callable from several threads.
 ovoid_code verdict_check(verdict *verdict, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
                          int points, ovoid_error *error);
 
-/// How it is checked, in words.
+/// The name of the arithmetic that checks, in words.
 const char *verdict_get_name(void);
 
 #endif

@@ -1,4 +1,4 @@
-// ovoid verify: are the proofs of a results file true? Each bound is computed again from its proof alone, on the given
+// ovoid verify: checks the proofs of a results file. Each bound is computed again from its proof alone, on the given
 // bodies, without any search: in exact rational arithmetic where the judge was built in, else in floating point with
 // rigorous error bounds.
 #include "commands.h"
@@ -17,11 +17,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Results of one piece of work.
+/// Results of a chunk.
 #define CHUNK 32
 
-/// Failures that are told one by one.
-#define TOLD_MAX 10
+/// Most failures that are reported one by one.
+#define REPORTED_MAX 10
 
 typedef struct settings {
     read_settings read;
@@ -35,12 +35,10 @@ static const cli_option options[] = {
     {"shapes", 0, OPTION_FILE, offsetof(settings, list), "LIST", NULL, "the shapes of ovoid batch"},
     {"pairs", 0, OPTION_FILE, offsetof(settings, pairs), "PAIRS.csv", NULL, "the pairs of ovoid batch"},
     {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
-     "the query of ovoid batch or run; for distance and depth, it is also checked that the witness points differ by "
-     "the "
-     "distance along the normal (default: within; of a scene or of A and B: depth)"},
-    {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), "\"X Y Z QW QX QY QZ\"", NULL,
-     "pose of A, as given to ovoid distance"},
-    {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), "\"X Y Z QW QX QY QZ\"", NULL, "pose of B"},
+     "the query of ovoid batch or run; for distance and depth, it is also checked that the witness points differ "
+     "by the distance along the normal (default: within; of a scene or of A and B: depth)"},
+    {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), ARGS_POSE, NULL, "pose of A, as given to ovoid distance"},
+    {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
     {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
      "A and B are compounds of their files' objects, as given to ovoid distance"},
     {"motion", 0, OPTION_FILE, offsetof(settings, motion), "MOTION.csv", NULL, "the motion of ovoid run"},
@@ -50,7 +48,7 @@ static const cli_option options[] = {
     {0},
 };
 
-/// Where the bodies of a result come from: one of a scene, which may move, a list with pairs, or two bodies.
+/// The source of the bodies of a result: a scene, which may move, a list with pairs, or two bodies.
 typedef struct body_source {
     ovoid_scene *scene;
     cli_frames frames; ///< of a motion; else without poses
@@ -58,18 +56,18 @@ typedef struct body_source {
     ovoid_pairs_reader *pairs;
     cli_body bodies[2];
     const char *paths[2];
-    ovoid_solid_pair pair; ///< of the two bodies
+    ovoid_body_pair pair; ///< of the two bodies
 } body_source;
 
-/// One result, with what became of it.
+/// One result, and the outcome of its check.
 typedef struct claim {
     int64_t line;
-    ovoid_solid_pair pair;
-    ovoid_moving_solid moving[2]; ///< of an impact
-    double duration;              ///< likewise: of the motions
-    ovoid_record record;          ///< with copies of what it points to; the names are gone
+    ovoid_body_pair pair;
+    ovoid_moving_body moving[2]; ///< of an impact
+    double duration;             ///< of an impact: of the motions
+    ovoid_record record;         ///< with copies of the arrays that it points to; its names are not valid
     int holds;
-    char message[256]; ///< where it does not
+    char message[256]; ///< why it does not hold; empty where it does
 } claim;
 
 typedef struct chunk {
@@ -77,7 +75,7 @@ typedef struct chunk {
     claim items[CHUNK];
 } chunk;
 
-/// What the whole run shares.
+/// The state of a run.
 typedef struct verify {
     const settings *settings;
     body_source bodies;
@@ -85,7 +83,7 @@ typedef struct verify {
     ovoid_results_reader *reader;
     verdict *verdict;
     size_t proofs, held, undecided;
-    int refused; ///< *error says why, if it has a message
+    int refused; ///< *error has the reason, if it has a message
     ovoid_error error;
 } verify;
 
@@ -100,8 +98,8 @@ static int refuse(verify *v, const char *message) {
 
 static void disprove(claim *item, const char *message) { snprintf(item->message, sizeof item->message, "%s", message); }
 
-/// Goes on to the frame of the result: the last one that is not after it, or of an impact the one that ends its step. 0
-/// where the motion is refused.
+/// Advances to the frame of the result: the last one that is not after it, or of an impact the one that ends its
+/// interval. 0 where the motion is refused.
 static int go_to_frame(verify *v, const ovoid_record *record, claim *item) {
     cli_frames *f = &v->bodies.frames;
     int is_impact = (record->fields & OVOID_RECORD_IMPACT) != 0, got = 1;
@@ -117,7 +115,7 @@ static int go_to_frame(verify *v, const ovoid_record *record, claim *item) {
     return 1;
 }
 
-/// Where both bodies of an impact are, and how they moved.
+/// Sets both bodies of an impact, and their motions.
 static void set_impact(const verify *v, const ovoid_record *record, size_t a, size_t b, claim *item) {
     const cli_frames *f = &v->bodies.frames;
     ovoid_motion motions[2] = {frames_get_motion(f, a), frames_get_motion(f, b)};
@@ -127,11 +125,11 @@ static void set_impact(const verify *v, const ovoid_record *record, size_t a, si
     if (!(record->hit_after >= 0 && record->hit_after <= item->duration && record->free_for >= 0) ||
         record->time != record->frame + record->hit_after)
         disprove(item, "its times are not those of an impact between two frames");
-    item->moving[0] = (ovoid_moving_solid){item->pair.a.shape, item->pair.a.compound, motions[0]};
-    item->moving[1] = (ovoid_moving_solid){item->pair.b.shape, item->pair.b.compound, motions[1]};
+    item->moving[0] = (ovoid_moving_body){item->pair.a.shape, item->pair.a.compound, motions[0]};
+    item->moving[1] = (ovoid_moving_body){item->pair.b.shape, item->pair.b.compound, motions[1]};
 }
 
-/// The objects of the scene that the result names. 0 where the motion is refused.
+/// Finds the objects of the scene that the result names. 0 where the motion is refused.
 static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
     const ovoid_scene *scene = v->bodies.scene;
     size_t none = (size_t)-1;
@@ -146,20 +144,20 @@ static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
     if (!v->settings->motion && record->fields & OVOID_RECORD_TIME) disprove(item, "it has a time: give the --motion");
     ovoid_pose pose_a = f->poses ? f->poses[a] : ovoid_scene_get(scene, a).pose;
     ovoid_pose pose_b = f->poses ? f->poses[b] : ovoid_scene_get(scene, b).pose;
-    item->pair = (ovoid_solid_pair){answers_get_solid(scene, a, &pose_a), answers_get_solid(scene, b, &pose_b)};
+    item->pair = (ovoid_body_pair){answers_get_body(scene, a, &pose_a), answers_get_body(scene, b, &pose_b)};
     if (record->fields & OVOID_RECORD_IMPACT && !item->message[0]) set_impact(v, record, a, b, item);
     return 1;
 }
 
-/// The next pair of the pairs file, which must be the one that the result names. 0 where there is none.
+/// Reads the next pair of the pairs file, which must be the one that the result names. 0 where there is none.
 static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
     const body_source *bodies = &v->bodies;
     ovoid_indexed_pair pair;
     int got = ovoid_pairs_reader_read(bodies->pairs, &pair, &v->error);
     if (got < 0) return v->refused = 1, 0;
     if (got == 0) return refuse(v, "there are more results than pairs");
-    item->pair = (ovoid_solid_pair){{.shape = ovoid_shapes_get(bodies->list, pair.a).shape, .pose = pair.pose_a},
-                                    {.shape = ovoid_shapes_get(bodies->list, pair.b).shape, .pose = pair.pose_b}};
+    item->pair = (ovoid_body_pair){{.shape = ovoid_shapes_get(bodies->list, pair.a).shape, .pose = pair.pose_a},
+                                   {.shape = ovoid_shapes_get(bodies->list, pair.b).shape, .pose = pair.pose_b}};
     if (record->a || record->b || record->index_a != pair.a || record->index_b != pair.b)
         disprove(item, "a and b are not those of the pair with the same place in the pairs");
     return 1;
@@ -181,19 +179,19 @@ static void *copy(const void *data, size_t size) {
     return made;
 }
 
-/// Keeps the record with copies of what it points to. 0 where memory is out.
-static int keep_record(const ovoid_record *record, claim *item) {
-    ovoid_record *kept = &item->record;
-    *kept = *record;
-    kept->a = kept->b = NULL;
-    kept->cover = NULL;
-    if (record->cover && record->cover->point_count) kept->cover = copy(record->cover, sizeof *record->cover);
-    kept->exclusions = copy(record->exclusions, record->exclusion_count * sizeof *record->exclusions);
-    kept->steps = copy(record->steps, record->step_count * sizeof *record->steps);
-    kept->groups = copy(record->groups, record->group_count * sizeof *record->groups);
-    return !kept->cover == !(record->cover && record->cover->point_count) &&
-           !kept->exclusions == !record->exclusion_count && !kept->steps == !record->step_count &&
-           !kept->groups == !record->group_count;
+/// Stores the record with copies of the arrays that it points to. 0 where memory is out.
+static int store_record(const ovoid_record *record, claim *item) {
+    ovoid_record *stored = &item->record;
+    *stored = *record;
+    stored->a = stored->b = NULL;
+    stored->cover = NULL;
+    if (record->cover && record->cover->point_count) stored->cover = copy(record->cover, sizeof *record->cover);
+    stored->exclusions = copy(record->exclusions, record->exclusion_count * sizeof *record->exclusions);
+    stored->steps = copy(record->steps, record->step_count * sizeof *record->steps);
+    stored->groups = copy(record->groups, record->group_count * sizeof *record->groups);
+    return !stored->cover == !(record->cover && record->cover->point_count) &&
+           !stored->exclusions == !record->exclusion_count && !stored->steps == !record->step_count &&
+           !stored->groups == !record->group_count;
 }
 
 static void drop_record(claim *item) {
@@ -204,7 +202,7 @@ static void drop_record(claim *item) {
     item->record = (ovoid_record){.a = NULL};
 }
 
-/// The next result with its bodies. 0: the end, or refused.
+/// Reads the next result with its bodies. 0: the end, or refused.
 static int read_item(verify *v, claim *item) {
     ovoid_record record;
     int got = ovoid_results_reader_read(v->reader, &record, &v->error);
@@ -218,7 +216,7 @@ static int read_item(verify *v, claim *item) {
     else
         find_given(&v->bodies, &record, item);
     if (got <= 0) return 0;
-    if (keep_record(&record, item)) return 1;
+    if (store_record(&record, item)) return 1;
     drop_record(item);
     return refuse(v, "out of memory");
 }
@@ -231,32 +229,32 @@ static int fill(void *context, void *slot) {
     return c->count > 0;
 }
 
-/// Answers to distance, where the bodies are apart, and to depth promise that point_b - point_a is d times the normal;
+/// 1 if point_b - point_a must be d times the normal: in answers to distance, where the bodies are apart, and to depth;
 /// not where a limit ended the search of a depth and the proof is a common point.
 static int has_nearest_points(int query, const ovoid_answer *answer) {
     if (answer->proof.kind == OVOID_PROOF_HULL || answer->proof.kind == OVOID_PROOF_INNER) return 0;
     return query == QUERY_DEPTH || (query == QUERY_DISTANCE && answer->status != OVOID_OVERLAPPING);
 }
 
-/// The pair of parts that a record is about; 0 where there is none such.
-static int get_parts(const ovoid_solid_pair *solids, const ovoid_record *record, ovoid_pair *pair) {
-    const ovoid_solid *solid[2] = {&solids->a, &solids->b};
+/// Finds the pair of parts of a record; 0 where there is none such.
+static int get_parts(const ovoid_body_pair *bodies, const ovoid_record *record, ovoid_pair *pair) {
+    const ovoid_body *body[2] = {&bodies->a, &bodies->b};
     const uint32_t part[2] = {record->fields & OVOID_RECORD_PARTS ? record->part_a : OVOID_RECORD_NO_PART,
                               record->fields & OVOID_RECORD_PARTS ? record->part_b : OVOID_RECORD_NO_PART};
-    ovoid_body found[2];
+    ovoid_posed_shape found[2];
     for (int i = 0; i < 2; i++) {
-        found[i] = (ovoid_body){solid[i]->shape, solid[i]->pose};
-        if (!solid[i]->compound != (part[i] == OVOID_RECORD_NO_PART)) return 0;
-        if (!solid[i]->compound) continue;
-        if (part[i] >= ovoid_compound_get_part_count(solid[i]->compound)) return 0;
-        found[i] = ovoid_compound_get_part(solid[i]->compound, part[i]);
-        found[i].pose = ovoid_pose_compute_product(&solid[i]->pose, &found[i].pose);
+        found[i] = (ovoid_posed_shape){body[i]->shape, body[i]->pose};
+        if (!body[i]->compound != (part[i] == OVOID_RECORD_NO_PART)) return 0;
+        if (!body[i]->compound) continue;
+        if (part[i] >= ovoid_compound_get_part_count(body[i]->compound)) return 0;
+        found[i] = ovoid_compound_get_part(body[i]->compound, part[i]);
+        found[i].pose = ovoid_pose_compute_product(&body[i]->pose, &found[i].pose);
     }
     *pair = (ovoid_pair){found[0].shape, found[1].shape, found[0].pose, found[1].pose};
     return 1;
 }
 
-/// What is said of a compound: the exclusions hold and leave out no other pair of parts.
+/// Checks the answer of compounds: the exclusions hold and leave out no other pair of parts.
 static ovoid_code check_compound(const claim *item, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     if (!item->pair.a.compound && !item->pair.b.compound) return OVOID_OK;
@@ -268,12 +266,12 @@ static ovoid_code check_compound(const claim *item, ovoid_error *error) {
     return ovoid_compound_answer_check(&item->pair, &answer, &exclusions, error);
 }
 
-/// What is said of an impact: the steps show that the pair was farther than the margin until then, and at the end it is
+/// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is
 /// not.
 static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     if (!(r->fields & OVOID_RECORD_IMPACT)) return OVOID_OK;
-    const ovoid_moving_solid *a = &item->moving[0], *b = &item->moving[1];
+    const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
     ovoid_compound_impact found = {
         .part_a = a->compound ? r->part_a : 0, .part_b = b->compound ? r->part_b : 0, .group_count = r->group_count};
     found.impact = (ovoid_impact){.status = OVOID_IMPACT_HIT,
@@ -284,10 +282,10 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
                                   .hit = *answer};
     if (a->compound || b->compound)
         return ovoid_compound_impact_check(a, b, r->margin, &found, r->steps, r->groups, error);
-    // How near they are when they are free no more, is asked here: it is not what is claimed.
-    ovoid_moving moving[2] = {ovoid_moving_solid_get_part(a, 0), ovoid_moving_solid_get_part(b, 0)};
-    ovoid_pair free = {a->shape, b->shape, ovoid_moving_compute_pose(&moving[0], r->free_for),
-                       ovoid_moving_compute_pose(&moving[1], r->free_for)};
+    // The distance at the end of the free time is not claimed, so it is queried here.
+    ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};
+    ovoid_pair free = {a->shape, b->shape, ovoid_moving_shape_compute_pose(&moving[0], r->free_for),
+                       ovoid_moving_shape_compute_pose(&moving[1], r->free_for)};
     found.impact.free = ovoid_within(&free, r->margin, NULL, NULL);
     return ovoid_impact_check(&moving[0], &moving[1], r->margin, &found.impact, r->steps, error);
 }
@@ -300,10 +298,10 @@ static ovoid_code check_claim(const verify *v, const claim *item, ovoid_error *e
         snprintf(error->message, sizeof error->message, "the parts are not those of the bodies");
         return OVOID_ERROR_PROOF;
     }
-    // How narrow a bracket around zero must be, is measured by the size of the whole compounds, which come below.
+    // A bracket around zero must be narrow relative to the size of the whole compounds, which are checked below.
     if (is_compound && answer.status == OVOID_TOUCHING)
         answer.status = OVOID_UNDECIDED, answer.limit = OVOID_LIMIT_PRECISION;
-    // An impact is asked with its margin, as by ovoid_within.
+    // The answer of an impact is that of ovoid_within at its margin.
     int is_impact = (item->record.fields & OVOID_RECORD_IMPACT) != 0;
     int points = !is_compound && !is_impact && has_nearest_points(v->settings->query, &answer);
     ovoid_code code = verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
@@ -329,7 +327,7 @@ static int drain(void *context, void *slot) {
         size_t failures = v->proofs++ - v->held;
         v->held += (size_t)i->holds;
         v->undecided += i->record.answer.status == OVOID_UNDECIDED;
-        if (!i->holds && failures < TOLD_MAX) message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
+        if (!i->holds && failures < REPORTED_MAX) message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
         drop_record(i);
     }
     progress_set(v->proofs);
@@ -341,8 +339,8 @@ static void clear(void *slot) {
     for (size_t i = 0; i < CHUNK; i++) drop_record(&c->items[i]);
 }
 
-/// Are there pairs that no result speaks of? The results of a batch, and of one pair, are complete or cut off.
-static void look_for_rest(verify *v) {
+/// Reports pairs without a result. The results of a batch, and of one pair, are complete or cut off.
+static void report_missing(verify *v) {
     ovoid_indexed_pair pair;
     size_t rest = 0;
     int got = 1;
@@ -371,7 +369,7 @@ static int run_results(verify *v) {
     progress_end();
     verdict_destroy(v->verdict);
     if (code) return code < 0 ? (message_error("out of memory or threads"), EXIT_INPUT) : code;
-    look_for_rest(v);
+    report_missing(v);
     if (v->refused && v->error.message[0]) message_error("%s", v->error.message);
     if (v->refused) return EXIT_INPUT;
     printf("proofs: %zu, hold: %zu, do not: %zu; undecided answers: %zu; checked in %s\n", v->proofs, v->held,
@@ -383,7 +381,7 @@ static int run_results(verify *v) {
 
 /* ---- the inputs ---- */
 
-/// What the operands and options must be together. -1 to go on, or EXIT_USAGE.
+/// Checks the operands and options together. -1 to go on, or EXIT_USAGE.
 static int check_inputs(const cli_command *command, const settings *s, const cli_operands *paths) {
     int has_list = s->list || s->pairs;
     if (has_list && (!s->list || !s->pairs)) return args_complain(command, "verify: --shapes and --pairs go together");
@@ -409,7 +407,7 @@ static void close_bodies(body_source *bodies) {
     inputs_close_body(&bodies->bodies[1]);
 }
 
-/// The bodies of ovoid batch. 0, or EXIT_INPUT after a message.
+/// Opens the bodies of ovoid batch. 0, or EXIT_INPUT after a message.
 static int open_list(body_source *bodies, const settings *s) {
     ovoid_error error;
     bodies->list = inputs_read_list(s->list, &s->read);
@@ -419,13 +417,13 @@ static int open_list(body_source *bodies, const settings *s) {
     return bodies->pairs ? 0 : EXIT_INPUT;
 }
 
-/// The bodies of ovoid distance. 0, or EXIT_INPUT after a message.
+/// Opens the bodies of ovoid distance. 0, or EXIT_INPUT after a message.
 static int open_pair(body_source *bodies, const settings *s, const cli_operands *paths) {
     bodies->paths[0] = paths->items[1];
     bodies->paths[1] = paths->items[2];
     if (inputs_open_pair(bodies->paths, &s->read, s->parts, bodies->bodies)) return EXIT_INPUT;
-    bodies->pair = (ovoid_solid_pair){inputs_get_solid(&bodies->bodies[0], &s->pose_a),
-                                      inputs_get_solid(&bodies->bodies[1], &s->pose_b)};
+    bodies->pair = (ovoid_body_pair){inputs_get_body(&bodies->bodies[0], &s->pose_a),
+                                     inputs_get_body(&bodies->bodies[1], &s->pose_b)};
     return 0;
 }
 
@@ -470,18 +468,18 @@ const cli_command command_verify = {
              "[OPTION...] RESULTS.jsonl --shapes LIST --pairs PAIRS.csv",
     .description =
         "Checks every result of a file written with --json by check, run, distance or batch, on the same bodies, "
-        "without "
-        "the "
-        "search that found it: each bound is computed again from the proof alone, in exact rational arithmetic where "
-        "ovoid was built with GMP. A result holds if its proof shows lower <= d <= upper and the status, if the normal "
-        "is the one that proves the lower bound, and if the witness points lie on their bodies.\n\n"
+        "without the search that found it: each bound is computed again from the proof alone, in exact rational "
+        "arithmetic where ovoid was built with GMP. A result holds if its proof shows lower <= d <= upper and the "
+        "status, if the normal is the one that proves the lower bound, and if the witness points lie on their "
+        "bodies.\n\n"
         "Of compounds, it is also checked that the exclusions leave out no pair of parts, in floating point with "
-        "rigorous "
-        "error bounds; likewise the steps that show that a pair was free until an impact.\n\n"
-        "RESULTS.jsonl is \"-\" for standard input. The first failures are told with their lines. Of a scene, pairs "
-        "that "
-        "the file does not speak of are not missed (check --margin leaves far ones out); of a batch they are.",
-    .exits = "0 every proof holds\n2 the command line is wrong\n3 bad input\n4 a proof does not hold",
+        "rigorous error bounds; and of impacts, the steps that show that a pair was free until then.\n\n"
+        "RESULTS.jsonl is \"-\" for standard input. The first failures are listed with their lines. "
+        "Of a scene, pairs without a result are not missed (check --margin leaves far ones out); of a batch they are.",
+    .exits = "0 every proof holds\n"
+             "2 the command line is wrong\n"
+             "3 bad input\n"
+             "4 a proof does not hold",
     .examples = "ovoid check cell.json --json | ovoid verify - cell.json\n"
                 "ovoid verify results.jsonl --shapes hulls.txt --pairs pairs.csv",
     .options = options,

@@ -21,11 +21,11 @@ typedef struct settings {
 } settings;
 
 static const cli_option options[] = {
-    {"output", 'o', OPTION_FILE, offsetof(settings, output), "FILE", NULL,
+    {"output", 'o', OPTION_OUTPUT, offsetof(settings, output), "FILE", "svg",
      "the picture, an SVG file (default: standard output)"},
-    {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), "\"X Y Z QW QX QY QZ\"", NULL,
-     "pose of A: position, then quaternion (default: \"0 0 0 1 0 0 0\")"},
-    {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), "\"X Y Z QW QX QY QZ\"", NULL, "pose of B"},
+    {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), ARGS_POSE, NULL,
+     "pose of A" ARGS_POSE_HELP " (default: \"0 0 0\")"},
+    {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "draw the witness points of all pairs within M (default: of each object and the one nearest to it)"},
     {"layers", 0, OPTION_SET, offsetof(settings, layers), "LIST", "outer|inner|areas|witness|names|legend",
@@ -39,30 +39,30 @@ static const cli_option options[] = {
     {0},
 };
 
-/// What goes into the picture.
+/// The contents of the picture.
 typedef struct drawing {
-    ovoid_solid *solids;        ///< the objects
-    size_t *first;              ///< of each object: its first body; of a compound the parts follow
-    ovoid_picture_body *bodies; ///< shapes, and the parts of compounds
+    ovoid_body *bodies; ///< the objects
+    size_t *first;      ///< of each object: the index of its first drawn body; of a compound the other parts follow
+    ovoid_picture_body *drawn; ///< shapes, and the parts of compounds
     ovoid_picture_link *links;
     ovoid_answer *answers; ///< of the links
-    size_t solid_count, body_count, link_count, link_capacity;
+    size_t body_count, drawn_count, link_count, link_capacity;
 } drawing;
 
-/// Room for so many objects and bodies; 0 after a message.
-static int make_drawing(drawing *d, size_t solids, size_t bodies) {
-    *d = (drawing){.solids = calloc(solids + 1, sizeof *d->solids),
-                   .first = calloc(solids + 1, sizeof *d->first),
-                   .bodies = calloc(bodies + 1, sizeof *d->bodies)};
-    if (d->solids && d->first && d->bodies) return 1;
+/// Makes room for that many objects and drawn bodies; 0 after a message.
+static int make_drawing(drawing *d, size_t bodies, size_t drawn) {
+    *d = (drawing){.bodies = calloc(bodies + 1, sizeof *d->bodies),
+                   .first = calloc(bodies + 1, sizeof *d->first),
+                   .drawn = calloc(drawn + 1, sizeof *d->drawn)};
+    if (d->bodies && d->first && d->drawn) return 1;
     message_error("out of memory");
     return 0;
 }
 
 static void clear_drawing(drawing *d) {
-    free(d->solids);
-    free(d->first);
     free(d->bodies);
+    free(d->first);
+    free(d->drawn);
     free(d->links);
     free(d->answers);
 }
@@ -71,18 +71,18 @@ static size_t count_parts(const ovoid_compound *compound) {
     return compound ? ovoid_compound_get_part_count(compound) : 1;
 }
 
-/// Adds an object: a body, or those of its parts, of which the first has the name.
-static void add_solid(drawing *d, const char *name, const ovoid_solid *solid) {
-    d->first[d->solid_count] = d->body_count;
-    d->solids[d->solid_count] = *solid;
-    uint32_t group = (uint32_t)++d->solid_count;
-    for (size_t i = 0; i < count_parts(solid->compound); i++) {
-        ovoid_body part = {solid->shape, solid->pose};
-        if (solid->compound) {
-            part = ovoid_compound_get_part(solid->compound, i);
-            part.pose = ovoid_pose_compute_product(&solid->pose, &part.pose);
+/// Adds an object: a shape, or the parts of a compound, of which the first has the name.
+static void add_body(drawing *d, const char *name, const ovoid_body *body) {
+    d->first[d->body_count] = d->drawn_count;
+    d->bodies[d->body_count] = *body;
+    uint32_t group = (uint32_t)++d->body_count;
+    for (size_t i = 0; i < count_parts(body->compound); i++) {
+        ovoid_posed_shape part = {body->shape, body->pose};
+        if (body->compound) {
+            part = ovoid_compound_get_part(body->compound, i);
+            part.pose = ovoid_pose_compute_product(&body->pose, &part.pose);
         }
-        d->bodies[d->body_count++] = (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group};
+        d->drawn[d->drawn_count++] = (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group};
     }
 }
 
@@ -102,30 +102,30 @@ static int add_link(drawing *d, size_t a, size_t b, const ovoid_compound_answer 
     return 0;
 }
 
-static ovoid_solid_pair make_pair(const drawing *d, size_t a, size_t b) {
-    return (ovoid_solid_pair){d->solids[a], d->solids[b]};
+static ovoid_body_pair make_pair(const drawing *d, size_t a, size_t b) {
+    return (ovoid_body_pair){d->bodies[a], d->bodies[b]};
 }
 
-/// Links each body with the one nearest to it; a pair that is nearest both ways once.
+/// Links each object with the nearest one; a pair that is nearest both ways once.
 static int link_nearest(drawing *d, const ovoid_scene *scene) {
     int code = 0;
-    size_t none = d->solid_count, *nearest = malloc((d->solid_count + 1) * sizeof *nearest);
+    size_t none = d->body_count, *nearest = malloc((d->body_count + 1) * sizeof *nearest);
     if (!nearest) return message_error("out of memory"), EXIT_INPUT;
-    for (size_t a = 0; a < d->solid_count && !code; a++) {
+    for (size_t a = 0; a < d->body_count && !code; a++) {
         ovoid_compound_answer best = {.part_a = 0};
         nearest[a] = none;
-        for (size_t b = 0; b < d->solid_count; b++) {
+        for (size_t b = 0; b < d->body_count; b++) {
             if (b == a || (scene && ovoid_scene_is_ignored(scene, a, b))) continue;
-            // Always the lower index first, so that both ways give the same answer.
-            ovoid_solid_pair pair = make_pair(d, a < b ? a : b, a < b ? b : a);
-            // What is proven farther than the best so far need not be known better.
+            // The lower index comes first, so that both ways give the same answer.
+            ovoid_body_pair pair = make_pair(d, a < b ? a : b, a < b ? b : a);
+            // An object that is proven farther than the best so far needs no better bound.
             ovoid_options query = {.cap = nearest[a] != none && best.answer.upper > 0 ? best.answer.upper : 0};
             ovoid_compound_answer answer = ovoid_compound_depth(&pair, &query, NULL, NULL);
             if (nearest[a] == none || answer.answer.lower < best.answer.lower) best = answer, nearest[a] = b;
         }
         size_t b = nearest[a];
-        int drawn = b < a && nearest[b] == a;
-        if (b != none && !drawn) code = add_link(d, a < b ? a : b, a < b ? b : a, &best);
+        int is_drawn = b < a && nearest[b] == a;
+        if (b != none && !is_drawn) code = add_link(d, a < b ? a : b, a < b ? b : a, &best);
     }
     free(nearest);
     return code;
@@ -134,10 +134,10 @@ static int link_nearest(drawing *d, const ovoid_scene *scene) {
 /// Links all pairs that are not proven farther than the margin.
 static int link_within(drawing *d, const ovoid_scene *scene, double margin) {
     int code = 0;
-    for (size_t a = 0; a < d->solid_count; a++)
-        for (size_t b = a + 1; b < d->solid_count && !code; b++) {
+    for (size_t a = 0; a < d->body_count; a++)
+        for (size_t b = a + 1; b < d->body_count && !code; b++) {
             if (scene && ovoid_scene_is_ignored(scene, a, b)) continue;
-            ovoid_solid_pair pair = make_pair(d, a, b);
+            ovoid_body_pair pair = make_pair(d, a, b);
             ovoid_compound_answer answer = ovoid_compound_within(&pair, margin, NULL, NULL, NULL);
             if (ovoid_answer_is_within(&answer.answer, margin) == 0) continue;
             answer = ovoid_compound_depth(&pair, NULL, NULL, NULL);
@@ -152,8 +152,8 @@ static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
     int code = s->margin >= 0 ? link_within(d, scene, s->margin) : link_nearest(d, scene);
     if (code) return code;
     for (size_t i = 0; i < d->link_count; i++) d->links[i].answer = &d->answers[i];
-    ovoid_picture picture = {.bodies = d->bodies,
-                             .body_count = d->body_count,
+    ovoid_picture picture = {.bodies = d->drawn,
+                             .body_count = d->drawn_count,
                              .links = d->links,
                              .link_count = d->link_count,
                              .unit = s->read.unit == INPUTS_NO_UNIT ? NULL : "m"};
@@ -163,22 +163,22 @@ static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
     finish_release_signals();
     if (written == OVOID_OK) return EXIT_APART;
     if (finish_is_unread(stdout) && !s->output) return EXIT_PIPE;
-    finish_tell_failure(&error);
+    finish_report_failure(&error);
     return EXIT_INPUT;
 }
 
 static int draw_scene(const settings *s, const char *path) {
     ovoid_scene *scene = inputs_read_scene(path);
     if (!scene) return EXIT_INPUT;
-    size_t count = ovoid_scene_get_count(scene), bodies = 0;
-    for (size_t i = 0; i < count; i++) bodies += count_parts(ovoid_scene_get(scene, i).compound);
+    size_t count = ovoid_scene_get_count(scene), drawn = 0;
+    for (size_t i = 0; i < count; i++) drawn += count_parts(ovoid_scene_get(scene, i).compound);
     drawing d;
     int code = EXIT_INPUT;
-    if (make_drawing(&d, count, bodies)) {
+    if (make_drawing(&d, count, drawn)) {
         for (size_t i = 0; i < count; i++) {
             ovoid_scene_object object = ovoid_scene_get(scene, i);
-            ovoid_solid solid = answers_get_solid(scene, i, &object.pose);
-            add_solid(&d, object.name, &solid);
+            ovoid_body body = answers_get_body(scene, i, &object.pose);
+            add_body(&d, object.name, &body);
         }
         code = draw(&d, s, scene);
     }
@@ -193,7 +193,7 @@ static const char *get_base(const char *path) {
     return slash && slash[1] ? slash + 1 : path;
 }
 
-/// One body, or A and B.
+/// Draws one body, or A and B.
 static int draw_bodies(const settings *s, const cli_operands *paths) {
     ovoid_shape *shapes[2] = {NULL, NULL};
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
@@ -201,9 +201,9 @@ static int draw_bodies(const settings *s, const cli_operands *paths) {
     int code = make_drawing(&d, 2, 2) ? 0 : EXIT_INPUT;
     for (int i = 0; i < paths->count && !code; i++) {
         shapes[i] = inputs_read_shape(paths->items[i], &s->read);
-        ovoid_solid solid = {shapes[i], NULL, poses[i]};
+        ovoid_body body = {shapes[i], NULL, poses[i]};
         if (shapes[i])
-            add_solid(&d, get_base(paths->items[i]), &solid);
+            add_body(&d, get_base(paths->items[i]), &body);
         else
             code = EXIT_INPUT;
     }
@@ -235,7 +235,9 @@ const cli_command command_view = {
              "[OPTION...] A [B] -o PICTURE.svg",
     .description = "Draws a scene, a pair or one body as an SVG picture: the polyhedra, the ellipsoid around each and "
                    "the one inside it, the witness points of pairs and the distance between them.",
-    .exits = "0 drawn\n2 the command line is wrong\n3 bad input, or a picture that could not be written",
+    .exits = "0 drawn\n"
+             "2 the command line is wrong\n"
+             "3 bad input, or a picture that could not be written",
     .examples = "ovoid view cell.json -o cell.svg\n"
                 "ovoid view a.stl b.stl --pose-b \"0 0 2 1 0 0 0\" -o pair.svg\n"
                 "ovoid view rock.obj --layers inner,areas -o areas.svg",

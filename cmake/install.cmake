@@ -1,35 +1,45 @@
-# Installation: headers, libraries, tool, CMake package and pkg-config files.
-set(libraries ovoid_shared ovoid_static)
-set(packages ovoid)
-if(TARGET ovoid_io_shared)
-  list(APPEND libraries ovoid_io_shared ovoid_io_static)
-  list(APPEND packages ovoid_io)
+# Installation: headers, libraries, tool, CMake package and pkg-config files. Its components are those of packages: runtime
+# and dev of the core, io and io_dev of libovoid_io, tool.
+
+# install_library(NAME RUNTIME DEV NEEDED): a library in its kinds, its part of the CMake package, its pkg-config file;
+# NEEDED is what its archive needs.
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/ovoid)
+function(install_library name runtime dev needed)
+  set(libraries ${name}_static)
+  set(for_archive " ${needed}")
+  set(for_all "")
+  if(TARGET ${name}_shared)
+    list(APPEND libraries ${name}_shared)
+  else()
+    set(for_all ${for_archive})
+  endif()
+  install(TARGETS ${libraries} EXPORT ${name}-targets
+    RUNTIME COMPONENT ${runtime} LIBRARY COMPONENT ${runtime} NAMELINK_COMPONENT ${dev} ARCHIVE COMPONENT ${dev})
+  install(EXPORT ${name}-targets NAMESPACE ovoid:: DESTINATION ${package_folder} COMPONENT ${dev})
+  # From the folder of the .pc files up to the prefix.
+  file(RELATIVE_PATH up_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+  configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${dev})
+endfunction()
+
+install_library(ovoid runtime dev "-lm -lpthread")
+install(DIRECTORY include/ovoid TYPE INCLUDE COMPONENT dev FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" PATTERN io.h EXCLUDE
+  PATTERN io.hpp EXCLUDE)
+if(TARGET ovoid_io_static)
+  set(needed -ljansson)
+  if(TARGET ovoid_assimp)
+    string(APPEND needed " -lassimp")
+  endif()
+  install_library(ovoid_io io io_dev "${needed}")
+  install(FILES include/ovoid/io.h include/ovoid/io.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ovoid COMPONENT io_dev)
 endif()
-install(TARGETS ${libraries} EXPORT ovoid-targets)
-install(DIRECTORY include/ovoid TYPE INCLUDE FILES_MATCHING PATTERN "*.h")
 if(TARGET ovoid_cli)
-  install(TARGETS ovoid_cli)
-  # The man page and the completion, where the tool has them.
-  if(EXISTS ${PROJECT_SOURCE_DIR}/cli/ovoid.1)
-    install(FILES cli/ovoid.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  endif()
-  if(EXISTS ${PROJECT_SOURCE_DIR}/cli/ovoid.bash)
-    install(FILES cli/ovoid.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ovoid)
-  endif()
+  install(TARGETS ovoid_cli COMPONENT tool)
+  install(FILES cli/ovoid.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
+  install(FILES cli/ovoid.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ovoid COMPONENT tool)
 endif()
 
 include(CMakePackageConfigHelpers)
-set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/ovoid)
-install(EXPORT ovoid-targets NAMESPACE ovoid:: DESTINATION ${package_folder})
-write_basic_package_version_file(ovoid-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES cmake/ovoid-config.cmake ${PROJECT_BINARY_DIR}/ovoid-config-version.cmake DESTINATION ${package_folder})
-
-# From the folder of the .pc files up to the prefix.
-file(RELATIVE_PATH up_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
-if(TARGET ovoid_assimp)
-  set(assimp_flag " -lassimp")
-endif()
-foreach(package ${packages})
-  configure_file(cmake/${package}.pc.in ${package}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/${package}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-endforeach()
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/ovoid-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES cmake/ovoid-config.cmake ${PROJECT_BINARY_DIR}/ovoid-config-version.cmake DESTINATION ${package_folder}
+  COMPONENT dev)

@@ -1,2 +1,39 @@
-# find_package(ovoid): the targets ovoid::ovoid and, where it was built, ovoid::ovoid_io; each also with _static.
+# find_package(ovoid [COMPONENTS io]): the targets ovoid::ovoid and, where it is installed, ovoid::ovoid_io, each also with
+# _static; without it they are the shared libraries, or the static ones where these alone are installed.
 include(${CMAKE_CURRENT_LIST_DIR}/ovoid-targets.cmake)
+
+# What libovoid_io's archive needs, wherever this project finds its packages.
+if(EXISTS ${CMAKE_CURRENT_LIST_DIR}/ovoid_io-targets.cmake)
+  foreach(ovoid_name jansson assimp)
+    if(NOT TARGET ovoid::${ovoid_name})
+      find_library(OVOID_${ovoid_name}_LIBRARY ${ovoid_name})
+      mark_as_advanced(OVOID_${ovoid_name}_LIBRARY)
+      add_library(ovoid::${ovoid_name} INTERFACE IMPORTED)
+      if(OVOID_${ovoid_name}_LIBRARY)
+        target_link_libraries(ovoid::${ovoid_name} INTERFACE ${OVOID_${ovoid_name}_LIBRARY})
+      else()
+        target_link_libraries(ovoid::${ovoid_name} INTERFACE ${ovoid_name})
+      endif()
+    endif()
+  endforeach()
+  include(${CMAKE_CURRENT_LIST_DIR}/ovoid_io-targets.cmake)
+endif()
+
+foreach(ovoid_name ovoid ovoid_io)
+  if(TARGET ovoid::${ovoid_name}_static AND NOT TARGET ovoid::${ovoid_name})
+    add_library(ovoid::${ovoid_name} INTERFACE IMPORTED)
+    target_link_libraries(ovoid::${ovoid_name} INTERFACE ovoid::${ovoid_name}_static)
+  endif()
+endforeach()
+
+set(ovoid_io_FOUND FALSE)
+if(TARGET ovoid::ovoid_io)
+  set(ovoid_io_FOUND TRUE)
+endif()
+foreach(ovoid_name ${ovoid_FIND_COMPONENTS})
+  if(ovoid_FIND_REQUIRED_${ovoid_name} AND NOT ovoid_${ovoid_name}_FOUND)
+    set(ovoid_FOUND FALSE)
+    set(ovoid_NOT_FOUND_MESSAGE "ovoid has no component ${ovoid_name}, or it is not installed (there is one: io)")
+  endif()
+endforeach()
+unset(ovoid_name)

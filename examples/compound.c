@@ -6,11 +6,11 @@
 
 // The mug: nine slabs in a ring and a bottom.
 static ovoid_compound *create_mug(const ovoid_shape *slab, const ovoid_shape *bottom, ovoid_error *error) {
-    ovoid_body parts[10] = {{bottom, {{0, 0, 0.005}, {1, 0, 0, 0}}}};
+    ovoid_posed_shape parts[10] = {{bottom, {{0, 0, 0.005}, {1, 0, 0, 0}}}};
     for (int i = 1; i < 10; i++) {
         double half = i * 3.14159265358979 / 9;
-        parts[i] =
-            (ovoid_body){slab, {{0.04 * cos(2 * half), 0.04 * sin(2 * half), 0.06}, {cos(half), 0, 0, sin(half)}}};
+        parts[i] = (ovoid_posed_shape){
+            slab, {{0.04 * cos(2 * half), 0.04 * sin(2 * half), 0.06}, {cos(half), 0, 0, sin(half)}}};
     }
     return ovoid_compound_create(parts, 10, NULL, error);
 }
@@ -24,14 +24,14 @@ int main(void) {
     if (!top || !leg || !slab || !bottom) return fprintf(stderr, "%s\n", error.message), 1;
 
     const ovoid_quat none = {1, 0, 0, 0};
-    ovoid_body parts[5] = {{top, {{0, 0, 0.72}, none}}};
+    ovoid_posed_shape parts[5] = {{top, {{0, 0, 0.72}, none}}};
     for (int i = 0; i < 4; i++)
-        parts[1 + i] = (ovoid_body){leg, {{i & 1 ? 0.55 : -0.55, i & 2 ? 0.35 : -0.35, 0.35}, none}};
+        parts[1 + i] = (ovoid_posed_shape){leg, {{i & 1 ? 0.55 : -0.55, i & 2 ? 0.35 : -0.35, 0.35}, none}};
     ovoid_compound *table = ovoid_compound_create(parts, 5, NULL, &error), *mug = create_mug(slab, bottom, &error);
     if (!table || !mug) return fprintf(stderr, "%s\n", error.message), 1;
 
     // The mug is lowered onto the table, each query warm from the one before.
-    ovoid_solid_pair pair = {{NULL, table, {{0, 0, 0}, none}}, {NULL, mug, {{0.2, 0.1, 0.9}, none}}};
+    ovoid_body_pair pair = {{NULL, table, {{0, 0, 0}, none}}, {NULL, mug, {{0.2, 0.1, 0.9}, none}}};
     ovoid_exclusion items[200];
     ovoid_exclusions all = {.items = items, .capacity = 200};
     ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);

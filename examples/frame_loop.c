@@ -1,4 +1,4 @@
-// A frame loop: boxes that fall into a bowl of boxes, every pair's proof kept from frame to frame.
+// A frame loop: a block of boxes that sink at different speeds, every pair's proof kept from frame to frame.
 #include <ovoid/ovoid.h>
 
 #include <stdio.h>
@@ -16,31 +16,31 @@ int main(void) {
         return 1;
     }
     for (int i = 0; i < BODIES; i++) {
-        bodies[i].solid.shape = box;
+        bodies[i].body.shape = box;
         int x = i % 10, y = i / 10 % 10, z = i / 100;
-        bodies[i].solid.pose = (ovoid_pose){{x, y, z}, {1, 0.1 * (i % 7), 0.2, 0}};
+        bodies[i].body.pose = (ovoid_pose){{x, y, z}, {1, 0.1 * (i % 7), 0.2, 0}};
     }
     if (ovoid_world_add_many(world, bodies, BODIES, ids, &error) != OVOID_OK) return 1;
 
     size_t aged = 0, queried = 0, wrong = 0;
     for (int f = 0; f < FRAMES; f++) {
-        ovoid_frame_query query = {.question = OVOID_QUESTION_COLLIDE};
-        ovoid_frame frame;
-        if (ovoid_world_compute_frame(world, &query, &frame, &error) != OVOID_OK) return 1;
+        ovoid_contact_query query = {.kind = OVOID_QUERY_COLLIDE};
+        ovoid_contacts frame;
+        if (ovoid_world_compute_contacts(world, &query, &frame, &error) != OVOID_OK) return 1;
         aged += frame.aged;
         queried += frame.queried;
         // The whole answer of a contact, with its proof, where it is wanted.
         if (frame.count) {
             ovoid_compound_answer answer;
             ovoid_world_body a, b;
-            ovoid_world_compute_proof(world, &frame.contacts[0], NULL, &answer, NULL);
-            ovoid_world_get(world, frame.contacts[0].a, &a, NULL);
-            ovoid_world_get(world, frame.contacts[0].b, &b, NULL);
-            ovoid_pair pair = {a.solid.shape, b.solid.shape, a.solid.pose, b.solid.pose};
+            ovoid_world_compute_proof(world, &frame.items[0], NULL, &answer, NULL);
+            ovoid_world_get(world, frame.items[0].a, &a, NULL);
+            ovoid_world_get(world, frame.items[0].b, &b, NULL);
+            ovoid_pair pair = {a.body.shape, b.body.shape, a.body.pose, b.body.pose};
             wrong += ovoid_answer_check(&pair, &answer.answer, NULL, NULL) != OVOID_OK;
         }
         for (int i = 0; i < BODIES; i++) {
-            ovoid_pose *pose = &bodies[i].solid.pose;
+            ovoid_pose *pose = &bodies[i].body.pose;
             pose->position.z -= 0.002 * (i % 5);
             if (ovoid_world_move(world, ids[i], pose, &error) != OVOID_OK) return 1;
         }

@@ -8,7 +8,7 @@
 int main(void) {
     ovoid_error error;
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 0.6, 0.3}, NULL, &error);
-    ovoid_shape *capsule = ovoid_shape_create_capsule(0.8, 0.2, NULL, &error);
+    ovoid_shape *capsule = ovoid_shape_create_capsule(0.2, 0.8, NULL, &error);
     if (!box || !capsule) {
         fprintf(stderr, "%s\n", error.message);
         return 1;

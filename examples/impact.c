@@ -8,7 +8,7 @@ enum { CAPACITY = 1000 };
 int main(void) {
     ovoid_error error;
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
-    ovoid_shape *rod = ovoid_shape_create_capsule(2, 0.05, NULL, &error);
+    ovoid_shape *rod = ovoid_shape_create_capsule(0.05, 2, NULL, &error);
     if (!box || !rod) {
         fprintf(stderr, "%s\n", error.message);
         return 1;
@@ -16,9 +16,9 @@ int main(void) {
 
     // The rod moves 8 along -x and turns 30 radians about y within the second; the box stands still.
     ovoid_pose start = {{6, 0, 0.2}, {1, 0, 0, 0}};
-    ovoid_moving a = {.shape = box, .motion = ovoid_motion_make_still(ovoid_pose_make_identity())};
-    ovoid_moving b = {.shape = rod,
-                      .motion = ovoid_motion_make_velocity(start, (ovoid_vec3){-8, 0, 0}, (ovoid_vec3){0, 30, 0}, 1)};
+    ovoid_moving_shape a = {.shape = box, .motion = ovoid_motion_make_still(ovoid_pose_make_identity())};
+    ovoid_moving_shape b = {
+        .shape = rod, .motion = ovoid_motion_make_velocity(start, (ovoid_vec3){-8, 0, 0}, (ovoid_vec3){0, 30, 0}, 1)};
 
     static ovoid_step steps[CAPACITY];
     ovoid_motion_options options = {.steps = steps, .capacity = CAPACITY};

@@ -1,4 +1,4 @@
-// Two solids of up to six parts each. Truth: the check without search of each answer and its exclusions; brackets of
+// Two bodies of up to six parts each. Truth: the check without search of each answer and its exclusions; brackets of
 // one distance have a point in common, also with the smallest of all pairs of parts, each asked alone.
 #include "ask.h"
 #include "bodies.h"
@@ -6,7 +6,7 @@
 enum { SHAPES = 3, PARTS = 6, ITEMS = 64 };
 
 typedef struct findings {
-    const ovoid_solid_pair *pair;
+    const ovoid_body_pair *pair;
     double lower, upper;
     ovoid_compound_proof last;
 } findings;
@@ -40,21 +40,21 @@ static void ask_all(findings *f, double margin, const ovoid_options *options, co
     check(f, &x, &exclusions);
 }
 
-static ovoid_body get_part(const ovoid_solid *solid, size_t i) {
-    ovoid_body part = {solid->shape, ovoid_pose_make_identity()};
-    if (solid->compound) part = ovoid_compound_get_part(solid->compound, i);
-    return (ovoid_body){part.shape,
-                        solid->compound ? ovoid_pose_compute_product(&solid->pose, &part.pose) : solid->pose};
+static ovoid_posed_shape get_part(const ovoid_body *body, size_t i) {
+    ovoid_posed_shape part = {body->shape, ovoid_pose_make_identity()};
+    if (body->compound) part = ovoid_compound_get_part(body->compound, i);
+    return (ovoid_posed_shape){part.shape,
+                               body->compound ? ovoid_pose_compute_product(&body->pose, &part.pose) : body->pose};
 }
 
 // The smallest distance of all pairs of parts; 0 if one of them is refused.
-static int find_truth(const ovoid_solid_pair *pair, double *lower, double *upper) {
+static int find_truth(const ovoid_body_pair *pair, double *lower, double *upper) {
     size_t count_a = pair->a.compound ? ovoid_compound_get_part_count(pair->a.compound) : 1;
     size_t count_b = pair->b.compound ? ovoid_compound_get_part_count(pair->b.compound) : 1;
     *lower = *upper = INFINITY;
     for (size_t i = 0; i < count_a; i++)
         for (size_t j = 0; j < count_b; j++) {
-            ovoid_body a = get_part(&pair->a, i), b = get_part(&pair->b, j);
+            ovoid_posed_shape a = get_part(&pair->a, i), b = get_part(&pair->b, j);
             ovoid_pair parts = {a.shape, b.shape, a.pose, b.pose};
             ovoid_answer x = ovoid_depth(&parts, NULL, NULL, NULL);
             if (x.stage == OVOID_STAGE_NONE && x.lower == -INFINITY) return 0;
@@ -65,22 +65,22 @@ static int find_truth(const ovoid_solid_pair *pair, double *lower, double *upper
 }
 
 // A shape alone, or a compound of shapes; which is to be destroyed.
-static int take_solid(fuzz_bytes *from, ovoid_shape *const *shapes, int is_wild, ovoid_solid *solid,
+static int take_solid(fuzz_bytes *from, ovoid_shape *const *shapes, int is_wild, ovoid_body *body,
                       ovoid_compound **made) {
-    ovoid_body parts[PARTS];
+    ovoid_posed_shape parts[PARTS];
     size_t count = (size_t)((unsigned)take_byte(from) % (PARTS + 1));
-    *solid = (ovoid_solid){.shape = NULL};
-    if (count == 0) solid->shape = shapes[(unsigned)take_byte(from) % SHAPES];
+    *body = (ovoid_body){.shape = NULL};
+    if (count == 0) body->shape = shapes[(unsigned)take_byte(from) % SHAPES];
     for (size_t i = 0; i < count; i++) {
         parts[i].shape = shapes[(unsigned)take_byte(from) % SHAPES];
         parts[i].pose = take_any_pose(from, is_wild);
     }
-    solid->pose = take_any_pose(from, is_wild);
+    body->pose = take_any_pose(from, is_wild);
     if (count == 0) return 1;
     ovoid_error error = {OVOID_OK, -1, ""};
-    solid->compound = *made = ovoid_compound_create(parts, count, NULL, &error);
-    if (!solid->compound) fuzz_require_error(&error);
-    return solid->compound != NULL;
+    body->compound = *made = ovoid_compound_create(parts, count, NULL, &error);
+    if (!body->compound) fuzz_require_error(&error);
+    return body->compound != NULL;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -89,7 +89,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     ovoid_shape *shapes[SHAPES];
     int all = 1;
     for (int i = 0; i < SHAPES; i++) all &= (shapes[i] = take_any_shape(&from, is_wild)) != NULL;
-    ovoid_solid_pair pair = {{.shape = NULL}, {.shape = NULL}};
+    ovoid_body_pair pair = {{.shape = NULL}, {.shape = NULL}};
     ovoid_compound *made[2] = {NULL, NULL};
     if (all && take_solid(&from, shapes, is_wild, &pair.a, &made[0]) &&
         take_solid(&from, shapes, is_wild, &pair.b, &made[1])) {

@@ -32,22 +32,24 @@ static ovoid_motion take_motion(fuzz_bytes *from, int is_wild, double *times, ov
 }
 
 // The pair's size and the ways of both, for what rounded poses may be off.
-static double find_size(const ovoid_moving *a, const ovoid_moving *b, double begin, double end) {
-    ovoid_box box[2] = {ovoid_moving_compute_box(a, begin, end), ovoid_moving_compute_box(b, begin, end)};
+static double find_size(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double begin, double end) {
+    ovoid_box box[2] = {ovoid_moving_shape_compute_box(a, begin, end), ovoid_moving_shape_compute_box(b, begin, end)};
     double size = 0;
     for (int i = 0; i < 2; i++) {
-        const double side[6] = {box[i].low.x, box[i].low.y, box[i].low.z, box[i].high.x, box[i].high.y, box[i].high.z};
+        const double side[6] = {box[i].min.x, box[i].min.y, box[i].min.z, box[i].max.x, box[i].max.y, box[i].max.z};
         for (int k = 0; k < 6; k++) size = fmax(size, fabs(side[k]));
     }
     return size;
 }
 
-static ovoid_answer ask_at(const ovoid_moving *a, const ovoid_moving *b, double time) {
-    ovoid_pair pair = {a->shape, b->shape, ovoid_moving_compute_pose(a, time), ovoid_moving_compute_pose(b, time)};
+static ovoid_answer ask_at(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double time) {
+    ovoid_pair pair = {a->shape, b->shape, ovoid_moving_shape_compute_pose(a, time),
+                       ovoid_moving_shape_compute_pose(b, time)};
     return ovoid_depth(&pair, NULL, NULL, NULL);
 }
 
-static void check_impact(const ovoid_moving *a, const ovoid_moving *b, double margin, ovoid_motion_options options) {
+static void check_impact(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
+                         ovoid_motion_options options) {
     static ovoid_step steps[STEPS];
     options.steps = steps;
     options.capacity = STEPS;
@@ -69,7 +71,7 @@ static void check_impact(const ovoid_moving *a, const ovoid_moving *b, double ma
     if (x.status == OVOID_IMPACT_HIT) fuzz_require(ask_at(a, b, x.hit_at).lower <= margin + slack);
 }
 
-static void check_approach(const ovoid_moving *a, const ovoid_moving *b, ovoid_motion_options options) {
+static void check_approach(const ovoid_moving_shape *a, const ovoid_moving_shape *b, ovoid_motion_options options) {
     static ovoid_step steps[STEPS];
     options.steps = steps;
     options.capacity = STEPS;
@@ -85,13 +87,14 @@ static void check_approach(const ovoid_moving *a, const ovoid_moving *b, ovoid_m
     }
 }
 
-static void check_casts(const ovoid_moving *a, const ovoid_moving *b, fuzz_bytes *from, int is_wild) {
-    ovoid_pair pair = {a->shape, b->shape, ovoid_moving_compute_pose(a, 0), ovoid_moving_compute_pose(b, 0)};
+static void check_casts(const ovoid_moving_shape *a, const ovoid_moving_shape *b, fuzz_bytes *from, int is_wild) {
+    ovoid_pair pair = {a->shape, b->shape, ovoid_moving_shape_compute_pose(a, 0),
+                       ovoid_moving_shape_compute_pose(b, 0)};
     if (ovoid_pose_compute_check(&pair.pose_a) != OVOID_OK || ovoid_pose_compute_check(&pair.pose_b) != OVOID_OK)
         return;
     ovoid_impact x = ovoid_translation_cast(&pair, take_vector(from, is_wild), fabs(take_number(from, 0)) / 8, NULL);
     fuzz_require(!(x.free_until > x.hit_at));
-    ovoid_body body = {a->shape, pair.pose_a};
+    ovoid_posed_shape body = {a->shape, pair.pose_a};
     ovoid_ray ray = {take_vector(from, is_wild), take_vector(from, is_wild), take_number(from, is_wild), 0};
     ray.radius = fabs(take_number(from, is_wild)) / 8;
     ovoid_ray_hit hit = ovoid_ray_cast(&body, &ray);
@@ -100,19 +103,19 @@ static void check_casts(const ovoid_moving *a, const ovoid_moving *b, fuzz_bytes
 }
 
 // B with a second part that is A's shape: against the pairs of parts alone.
-static void check_solids(const ovoid_moving *a, const ovoid_moving *b, double margin,
+static void check_solids(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
                          const ovoid_motion_options *options, ovoid_pose second) {
-    ovoid_body parts[2] = {{b->shape, ovoid_pose_make_identity()}, {a->shape, second}};
+    ovoid_posed_shape parts[2] = {{b->shape, ovoid_pose_make_identity()}, {a->shape, second}};
     ovoid_compound *compound = ovoid_compound_create(parts, 2, NULL, NULL);
     if (!compound) return;
-    ovoid_moving_solid solids[2] = {{.shape = a->shape, .motion = a->motion},
-                                    {.compound = compound, .motion = b->motion}};
-    ovoid_compound_impact x = ovoid_compound_impact_find(&solids[0], &solids[1], margin, options);
+    ovoid_moving_body bodies[2] = {{.shape = a->shape, .motion = a->motion},
+                                   {.compound = compound, .motion = b->motion}};
+    ovoid_compound_impact x = ovoid_compound_impact_find(&bodies[0], &bodies[1], margin, options);
     fuzz_require(!(x.impact.free_until > x.impact.hit_at));
     double least = INFINITY;
     for (size_t i = 0; i < 2; i++) {
-        ovoid_moving one = ovoid_moving_solid_get_part(&solids[0], 0),
-                     other = ovoid_moving_solid_get_part(&solids[1], i);
+        ovoid_moving_shape one = ovoid_moving_body_get_part(&bodies[0], 0),
+                           other = ovoid_moving_body_get_part(&bodies[1], i);
         ovoid_impact alone = ovoid_impact_find(&one, &other, margin, options);
         fuzz_require(!(x.impact.free_until > alone.hit_at));
         least = fmin(least, alone.free_until);
@@ -125,8 +128,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_bytes from = {data, size};
     int is_wild = take_byte(&from) > 96;
     ovoid_shape *shapes[2] = {take_any_shape(&from, is_wild), take_any_shape(&from, is_wild)};
-    ovoid_moving a = {.shape = shapes[0], .motion = take_motion(&from, is_wild, times_a, poses_a)};
-    ovoid_moving b = {.shape = shapes[1], .motion = take_motion(&from, is_wild, times_b, poses_b)};
+    ovoid_moving_shape a = {.shape = shapes[0], .motion = take_motion(&from, is_wild, times_a, poses_a)};
+    ovoid_moving_shape b = {.shape = shapes[1], .motion = take_motion(&from, is_wild, times_b, poses_b)};
     if (take_byte(&from) > 64) b.part = take_any_pose(&from, is_wild);
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_code sound = ovoid_motion_compute_check(&a.motion, &error);

@@ -1,7 +1,7 @@
 // The records of an importer that is not trusted (io/stream.h), from a memory that it may have broken.
 #include "fuzz.h"
 
-#include <io/stream.h>
+#include <io/mesh/stream.h>
 
 typedef struct bytes_left {
     const uint8_t *data;

@@ -103,7 +103,7 @@ static void change(fuzz_bytes *from, ovoid_answer *x, ovoid_cover *cover) {
     case 7: place = (unsigned)take_byte(from) % 6, p->b[place] = (uint32_t)take_byte(from); break;
     case 8:
         x->status = (ovoid_status)((unsigned)take_byte(from) % 4);
-        x->limit = (ovoid_limit)((unsigned)take_byte(from) % (OVOID_LIMIT_OPTIONS + 1));
+        x->limit = (ovoid_limit)((unsigned)take_byte(from) % (OVOID_LIMIT_SHAPE_B + 1));
         break;
     case 9: change_cover(from, cover); break;
     default: change_number(from, x); break;

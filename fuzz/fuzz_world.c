@@ -12,7 +12,7 @@ typedef struct model {
     ovoid_compound *compound;
     struct {
         ovoid_id id;
-        ovoid_solid solid;
+        ovoid_body body;
         uint32_t group, mask;
     } bodies[BODIES];
     int count;
@@ -42,10 +42,10 @@ static void add(model *m, fuzz_bytes *from) {
     int which = (unsigned)take_byte(from) % (SHAPES + 1);
     ovoid_world_body body = {.user = 7};
     if (which < SHAPES)
-        body.solid.shape = m->shapes[which];
+        body.body.shape = m->shapes[which];
     else
-        body.solid.compound = m->compound;
-    body.solid.pose = take_any_pose(from, m->is_wild);
+        body.body.compound = m->compound;
+    body.body.pose = take_any_pose(from, m->is_wild);
     body.group = (uint32_t)(take_byte(from) & 3);
     body.mask = (uint32_t)(take_byte(from) & 3);
     ovoid_error error = {OVOID_OK, -1, ""};
@@ -56,7 +56,7 @@ static void add(model *m, fuzz_bytes *from) {
     }
     fuzz_require(find_body(m, id) < 0);
     m->bodies[m->count].id = id;
-    m->bodies[m->count].solid = body.solid;
+    m->bodies[m->count].body = body.body;
     int is_all = body.group == 0 && body.mask == 0;
     m->bodies[m->count].group = is_all ? UINT32_MAX : body.group;
     m->bodies[m->count++].mask = is_all ? UINT32_MAX : body.mask;
@@ -93,7 +93,7 @@ static void set_ignored(model *m, int i, int j, int ignored) {
 static void check_contact(const model *m, const ovoid_contact *c, double margin) {
     int i = find_body(m, c->a), j = find_body(m, c->b);
     fuzz_require(c->a < c->b && i >= 0 && j >= 0 && is_pair(m, i, j) && ovoid_world_is_pair(m->world, c->a, c->b));
-    ovoid_solid_pair pair = {m->bodies[i].solid, m->bodies[j].solid};
+    ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
     ovoid_compound_answer alone = ovoid_compound_depth(&pair, NULL, NULL, NULL), whole;
     fuzz_require(c->verdict.lower <= alone.answer.upper && alone.answer.lower <= c->verdict.upper);
     fuzz_require(!(c->verdict.lower > margin));
@@ -106,11 +106,11 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
 }
 
 static void ask_frame(model *m, fuzz_bytes *from) {
-    ovoid_frame_query query = {.question = (ovoid_question)((unsigned)take_byte(from) % 4)};
-    query.margin = query.question == OVOID_QUESTION_COLLIDE ? 0 : fabs(take_number(from, m->is_wild)) / 4;
-    ovoid_frame frame;
+    ovoid_contact_query query = {.kind = (ovoid_query_kind)((unsigned)take_byte(from) % 4)};
+    query.margin = query.kind == OVOID_QUERY_COLLIDE ? 0 : fabs(take_number(from, m->is_wild)) / 4;
+    ovoid_contacts frame;
     ovoid_error error = {OVOID_OK, -1, ""};
-    if (ovoid_world_compute_frame(m->world, &query, &frame, &error) != OVOID_OK) {
+    if (ovoid_world_compute_contacts(m->world, &query, &frame, &error) != OVOID_OK) {
         fuzz_require_error(&error);
         fuzz_require(error.code == OVOID_ERROR_ARGUMENT && m->is_wild);
         return;
@@ -118,7 +118,7 @@ static void ask_frame(model *m, fuzz_bytes *from) {
     fuzz_require(frame.bodies == (size_t)m->count && frame.count <= frame.pairs);
     fuzz_require(frame.aged + frame.queried == frame.pairs);
     for (size_t k = 0; k < frame.count; k++) {
-        const ovoid_contact *c = &frame.contacts[k];
+        const ovoid_contact *c = &frame.items[k];
         if (k) fuzz_require(c[-1].a < c->a || (c[-1].a == c->a && c[-1].b < c->b));
         check_contact(m, c, query.margin);
     }
@@ -126,19 +126,19 @@ static void ask_frame(model *m, fuzz_bytes *from) {
     for (int i = 0; i < m->count; i++)
         for (int j = 0; j < i; j++) {
             if (!is_pair(m, i, j)) continue;
-            ovoid_solid_pair pair = {m->bodies[i].solid, m->bodies[j].solid};
+            ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
             ovoid_compound_answer x = ovoid_compound_within(&pair, query.margin, NULL, NULL, NULL);
             int is_there = 0;
             for (size_t k = 0; k < frame.count; k++)
-                is_there |= (frame.contacts[k].a == m->bodies[i].id && frame.contacts[k].b == m->bodies[j].id) ||
-                            (frame.contacts[k].b == m->bodies[i].id && frame.contacts[k].a == m->bodies[j].id);
+                is_there |= (frame.items[k].a == m->bodies[i].id && frame.items[k].b == m->bodies[j].id) ||
+                            (frame.items[k].b == m->bodies[i].id && frame.items[k].a == m->bodies[j].id);
             if (ovoid_answer_is_within(&x.answer, query.margin) == 1) fuzz_require(is_there);
         }
 }
 
 // The answer about a pair alone.
-static ovoid_answer ask_alone(const ovoid_solid *a, const ovoid_solid *b) {
-    ovoid_solid_pair pair = {*a, *b};
+static ovoid_answer ask_alone(const ovoid_body *a, const ovoid_body *b) {
+    ovoid_body_pair pair = {*a, *b};
     return ovoid_compound_depth(&pair, NULL, NULL, NULL).answer;
 }
 
@@ -149,12 +149,12 @@ static void check_nearest(const model *m, const ovoid_world_hit *hit, int body) 
         for (int j = 0; j < i; j++)
             if (is_pair(m, i, j) && (body < 0 || i == body || j == body)) {
                 fuzz_require(hit->b != 0);
-                if (!is_overlap) fuzz_require(hit->lower <= ask_alone(&m->bodies[i].solid, &m->bodies[j].solid).upper);
+                if (!is_overlap) fuzz_require(hit->lower <= ask_alone(&m->bodies[i].body, &m->bodies[j].body).upper);
             }
     if (!hit->b) return;
     int i = find_body(m, hit->a), j = find_body(m, hit->b);
     fuzz_require(i >= 0 && j >= 0 && is_pair(m, i, j));
-    ovoid_answer alone = ask_alone(&m->bodies[i].solid, &m->bodies[j].solid);
+    ovoid_answer alone = ask_alone(&m->bodies[i].body, &m->bodies[j].body);
     fuzz_require(hit->answer.answer.lower <= alone.upper && alone.lower <= hit->answer.answer.upper);
 }
 
@@ -175,7 +175,7 @@ static void check_overlaps(const model *m, const ovoid_world_body *probe, double
     for (int i = 0; i < m->count; i++) {
         int is_asked = m->bodies[i].group && m->bodies[i].mask, is_there = 0; // the probe is of all groups
         for (size_t k = 0; k < hits.count; k++) is_there |= items[k].b == m->bodies[i].id;
-        ovoid_answer alone = ask_alone(&probe->solid, &m->bodies[i].solid);
+        ovoid_answer alone = ask_alone(&probe->body, &m->bodies[i].body);
         if (!is_asked) fuzz_require(!is_there);
         if (is_asked && alone.upper <= margin) fuzz_require(is_there);
     }
@@ -189,15 +189,15 @@ static void check_casts(const model *m, fuzz_bytes *from, const ovoid_world_body
     if (ovoid_world_cast_ray(m->world, &ray, &cast, &error) == OVOID_OK) {
         fuzz_require(!(cast.lower > cast.upper));
         for (int i = 0; i < m->count; i++) {
-            if (!m->bodies[i].solid.shape || !m->bodies[i].group || !m->bodies[i].mask) continue;
-            ovoid_body body = {m->bodies[i].solid.shape, m->bodies[i].solid.pose};
+            if (!m->bodies[i].body.shape || !m->bodies[i].group || !m->bodies[i].mask) continue;
+            ovoid_posed_shape body = {m->bodies[i].body.shape, m->bodies[i].body.pose};
             ovoid_ray_hit alone = ovoid_ray_cast(&body, &ray.ray);
             if (alone.status == OVOID_IMPACT_HIT) fuzz_require(cast.lower <= alone.upper);
         }
     } else {
         fuzz_require_error(&error);
     }
-    if (ovoid_world_cast_solid(m->world, probe, take_vector(from, m->is_wild), &cast, &error) == OVOID_OK)
+    if (ovoid_world_cast_body(m->world, probe, take_vector(from, m->is_wild), &cast, &error) == OVOID_OK)
         fuzz_require(!(cast.lower > cast.upper));
     else
         fuzz_require_error(&error);
@@ -215,8 +215,8 @@ static void ask_between(const model *m, fuzz_bytes *from) {
     fuzz_require_code(ovoid_world_find_any(m->world, NULL, 0, NULL, &hit, &error), &error);
     for (int i = 0; i < m->count && !hit.b; i++)
         for (int j = 0; j < i; j++)
-            if (is_pair(m, i, j)) fuzz_require(ask_alone(&m->bodies[i].solid, &m->bodies[j].solid).upper > 0);
-    ovoid_world_body probe = {.solid = {.shape = m->shapes[0], .pose = take_any_pose(from, m->is_wild)}};
+            if (is_pair(m, i, j)) fuzz_require(ask_alone(&m->bodies[i].body, &m->bodies[j].body).upper > 0);
+    ovoid_world_body probe = {.body = {.shape = m->shapes[0], .pose = take_any_pose(from, m->is_wild)}};
     if (take_byte(from) > 64) probe = ovoid_world_make_point(m->world, take_vector(from, m->is_wild));
     check_overlaps(m, &probe, fabs(take_number(from, m->is_wild)) / 4);
     check_casts(m, from, &probe);
@@ -226,7 +226,7 @@ static void move(model *m, int i, fuzz_bytes *from) {
     ovoid_pose pose = take_any_pose(from, m->is_wild);
     ovoid_error error = {OVOID_OK, -1, ""};
     if (ovoid_world_move(m->world, m->bodies[i].id, &pose, &error) == OVOID_OK)
-        m->bodies[i].solid.pose = pose;
+        m->bodies[i].body.pose = pose;
     else
         fuzz_require_error(&error);
 }
@@ -273,8 +273,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int all = 1;
     for (int i = 0; i < SHAPES; i++) all &= (m.shapes[i] = take_any_shape(&from, m.is_wild)) != NULL;
     if (all) {
-        ovoid_body parts[3];
-        for (int i = 0; i < 3; i++) parts[i] = (ovoid_body){m.shapes[i], take_any_pose(&from, m.is_wild)};
+        ovoid_posed_shape parts[3];
+        for (int i = 0; i < 3; i++) parts[i] = (ovoid_posed_shape){m.shapes[i], take_any_pose(&from, m.is_wild)};
         m.compound = ovoid_compound_create(parts, 3, NULL, &error);
         m.world = ovoid_world_create(&options, &error);
         fuzz_require(m.world != NULL);

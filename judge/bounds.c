@@ -1,24 +1,9 @@
 // The bounds, each by its theorem (docs/proofs.md), without their radii. Lower: a direction and the supports along it.
 // Upper: points of both bodies; a closed surface of differences around the origin, small (hull) or large (cover).
 #include "parts.h"
+#include "shell.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-
-ovoid_code judge_reject(ovoid_error *error, ovoid_code code, const char *format, ...) {
-    if (error) {
-        va_list arguments;
-        error->code = code;
-        error->place = -1;
-        va_start(arguments, format);
-        vsnprintf(error->message, sizeof error->message, format, arguments);
-        va_end(arguments);
-    }
-    return code;
-}
-
-static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
 
 nvec proof_direction(pool *p, const ovoid_proof *proof) {
     return nvec_add(p, nvec_from(p, proof->normal), nvec_from(p, proof->normal_low));
@@ -80,7 +65,7 @@ static ovoid_code check_points(const claim *c) {
     return check_distance(c, difference, num_mul(s->p, s->k, num_mul(s->p, a.weight, b.weight)));
 }
 
-ovoid_code judge_check_inner_points(const claim *c) {
+static ovoid_code check_inner_points(const claim *c) {
     const posed *s = c->s;
     return check_distance(c, posed_difference(s, inner_point_a(c), inner_point_b(c)), s->k);
 }
@@ -153,8 +138,11 @@ ovoid_code judge_check_upper(const claim *c, const ovoid_cover *cover) {
     switch (c->proof->kind) {
     case OVOID_PROOF_POINTS: return check_points(c);
     case OVOID_PROOF_HULL: return check_hull(c);
-    case OVOID_PROOF_INNER:
-    case OVOID_PROOF_INNER_POINTS: return judge_check_inner(c);
+    case OVOID_PROOF_INNER: return judge_check_inner(c);
+    case OVOID_PROOF_INNER_POINTS: {
+        ovoid_code code = judge_check_inner(c);
+        return code == OVOID_OK ? check_inner_points(c) : code;
+    }
     case OVOID_PROOF_COVER: return check_cover(c, cover);
     case OVOID_PROOF_NONE: break;
     }

@@ -1,12 +1,13 @@
 // What rests on the inner ellipsoids. Theorem. Let a closed surface S of triangles over vertices of C wind around c,
 // and let E be an ellipsoid with centre c whose interior does not meet S. Then E lies in C: the winding number is
 // nonzero on the connected interior of E, and it is zero outside of C. A triangle does not meet the interior of E if
-// its plane does not, or if the quadratic form of E is at least 1 at its least point of the triangle. All of it exact,
-// once a shape.
+// its plane does not, or if the quadratic form of E is at least 1 at its least point of the triangle. All of this is
+// exact, and done once a shape.
 //
 // A point of E with m = (x - c)' Q^-1 (x - c) < 1 has the ball of radius (1 - sqrt m) r around it in E, r the least
 // radius. With Q^-1 = adj Q / det Q nothing is divided.
 #include "parts.h"
+#include "shell.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -195,16 +196,17 @@ nvec inner_point_a(const claim *c) { return body_point(c->s->p, &c->s->a, nvec_f
 
 nvec inner_point_b(const claim *c) { return body_point(c->s->p, &c->s->b, nvec_from(c->s->p, c->proof->inner_b)); }
 
-// m = form / whole of a point that is `factor` times the body-frame point.
+// m = form / whole of a point, and a lower bound of the ellipsoid's least radius.
 typedef struct depth_in {
-    num form, whole;
+    num form, whole, radius;
 } depth_in;
 
+// Of the point that `local` is `factor` times, in the body frame. The radius is left NULL.
 static depth_in compute_depth_in(pool *p, const body *b, nvec local, num factor) {
     inner e = inner_make(p, b->shape);
     nvec center = nvec_from(p, ovoid_shape_get_inner(b->shape).ellipsoid.center);
     nvec y = nvec_sub(p, local, nvec_scale(p, center, factor));
-    return (depth_in){inner_form(p, &e, y, y), num_mul(p, e.det, num_mul(p, factor, factor))};
+    return (depth_in){inner_form(p, &e, y, y), num_mul(p, e.det, num_mul(p, factor, factor)), NULL};
 }
 
 // k times the body-frame point of B that is the world point x / n_a.
@@ -216,12 +218,13 @@ static nvec local_in_b(const posed *s, nvec xa) {
 
 // The depth claimed by a common point: core >= -((1 - sqrt ma) ra + (1 - sqrt mb) rb), with the roots taken from above
 // and the radii from below. whole > 0.
-static int is_depth_proven(const claim *c, depth_in a, depth_in b, num ra, num rb) {
+static int is_depth_proven(const claim *c, depth_in a, depth_in b) {
     pool *p = c->s->p;
     // (1 - sqrt(form / whole)) whole = whole - sqrt(form whole)
     num left_a = num_sub(p, a.whole, num_root_above(p, num_mul(p, a.form, a.whole), ROOT_BITS));
     num left_b = num_sub(p, b.whole, num_root_above(p, num_mul(p, b.form, b.whole), ROOT_BITS));
-    num balls = num_add(p, num_mul(p, num_mul(p, left_a, ra), b.whole), num_mul(p, num_mul(p, left_b, rb), a.whole));
+    num balls = num_add(p, num_mul(p, num_mul(p, left_a, a.radius), b.whole),
+                        num_mul(p, num_mul(p, left_b, b.radius), a.whole));
     return num_sign(num_add(p, num_mul(p, c->core, num_mul(p, a.whole, b.whole)), balls)) >= 0;
 }
 
@@ -234,7 +237,9 @@ static ovoid_code check_common_point(const claim *c, const facts *a, const facts
     if (num_compare(p, in_a.form, in_a.whole) >= 0 || num_compare(p, in_b.form, in_b.whole) >= 0)
         return judge_reject(c->error, OVOID_ERROR_PROOF,
                             "the common point is not strictly inside both inner ellipsoids");
-    if (!is_depth_proven(c, in_a, in_b, &a->radius, &b->radius))
+    in_a.radius = &a->radius;
+    in_b.radius = &b->radius;
+    if (!is_depth_proven(c, in_a, in_b))
         return judge_reject(c->error, OVOID_ERROR_PROOF, "upper is deeper than the inner ellipsoids' balls show");
     return OVOID_OK;
 }
@@ -247,16 +252,14 @@ static ovoid_code check_two_points(const claim *c) {
     depth_in in_b = compute_depth_in(p, &s->b, nvec_from(p, c->proof->inner_b), one);
     if (num_compare(p, in_a.form, in_a.whole) > 0 || num_compare(p, in_b.form, in_b.whole) > 0)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "a point of the proof is outside of its inner ellipsoid");
-    return judge_check_inner_points(c);
+    return OVOID_OK;
 }
-
-static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
 
 ovoid_code judge_check_inner(const claim *c) {
     int common = c->proof->kind == OVOID_PROOF_INNER;
     if (!is_finite(c->proof->inner_a) || (!common && !is_finite(c->proof->inner_b)))
         return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "a point of the proof is not finite");
-    // Values: the second call may move the table.
+    // Copies, since the second call may move the table.
     const facts a = *judge_get_facts(c->context, &c->s->a), b = *judge_get_facts(c->context, &c->s->b);
     if (!a.is_inside || !b.is_inside)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "the inner ellipsoid of %s is not inside its polyhedron",

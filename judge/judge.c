@@ -34,8 +34,6 @@ void judge_destroy(judge *context) {
 
 void judge_set_touching(judge *context, double relative) { context->touching = relative; }
 
-static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
-
 // --- refusals
 
 static ovoid_code check_refusal(const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
@@ -44,12 +42,13 @@ static ovoid_code check_refusal(const ovoid_pair *pair, const ovoid_answer *answ
         return judge_reject(error, OVOID_ERROR_PROOF, "a refused query with an answer");
     if ((answer->limit == OVOID_LIMIT_POSE_A && valid_a) || (answer->limit == OVOID_LIMIT_POSE_B && valid_b))
         return judge_reject(error, OVOID_ERROR_PROOF, "a valid pose was refused");
+    if (answer->limit == OVOID_LIMIT_SHAPE_A || answer->limit == OVOID_LIMIT_SHAPE_B)
+        return judge_reject(error, OVOID_ERROR_PROOF, "a shape was refused that is there");
     return OVOID_OK;
 }
 
 static int is_refusal(const ovoid_answer *answer) {
-    return answer->limit == OVOID_LIMIT_POSE_A || answer->limit == OVOID_LIMIT_POSE_B ||
-           answer->limit == OVOID_LIMIT_OPTIONS;
+    return answer->limit >= OVOID_LIMIT_POSE_A && answer->limit <= OVOID_LIMIT_SHAPE_B;
 }
 
 // --- what can be judged without the bodies
@@ -69,7 +68,7 @@ static ovoid_code check_status(const judge *context, const posed *s, const ovoid
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what lower, %.17g, says", answer->lower);
     if ((answer->status == OVOID_OVERLAPPING) != (answer->upper < 0))
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what upper, %.17g, says", answer->upper);
-    // What pairs of doubles cannot resolve of positions and origins is touching too, however small the bodies.
+    // What double-doubles cannot resolve of positions and origins counts as touching too, however small the bodies.
     double width = answer->upper - answer->lower,
            unresolved = 0x1p-88 * (s->a.reach + s->b.reach) + 16 * OVOID_LENGTH_MIN;
     if (answer->status == OVOID_TOUCHING && width > context->touching * s->size + unresolved)
@@ -78,7 +77,8 @@ static ovoid_code check_status(const judge *context, const posed *s, const ovoid
     return OVOID_OK;
 }
 
-// Unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is asked where there is no lower bound.
+// The normal is unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is required where there is no
+// lower bound.
 static ovoid_code check_normal(pool *p, const ovoid_answer *answer, ovoid_error *error) {
     if (answer->lower == -INFINITY) return OVOID_OK;
     nvec n = nvec_from(p, answer->normal), direction = proof_direction(p, &answer->proof);

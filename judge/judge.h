@@ -19,7 +19,7 @@ void judge_destroy(judge *context);
 void judge_forget(judge *context);
 
 /// How wide, in parts of the pair's size, the bracket of an answer with status "touching" may be: its query's
-/// tolerance. 1e-6 unless set; INFINITY asks nothing.
+/// tolerance. 1e-6 unless set; INFINITY allows any width.
 void judge_set_touching(judge *context, double relative);
 
 /// OVOID_OK if everything the answer claims is proven: lower by proof.normal, upper by proof.kind, the status, the unit
@@ -29,7 +29,7 @@ ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoi
                               const ovoid_cover *cover, ovoid_error *error);
 
 /// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: that point_b - point_a =
-/// d normal, as near as the bracket and the tolerance let it be. OVOID_OK or OVOID_ERROR_PROOF.
+/// d normal, to what the bracket and the tolerance allow. OVOID_OK or OVOID_ERROR_PROOF.
 ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error);
 
 /// The truth about a pair of few vertices, by brute force over all features, independent of any proof.

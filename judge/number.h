@@ -15,14 +15,14 @@ typedef struct number {
 } number;
 typedef const number *num;
 
-/// Where numbers live. pool_get_mark and pool_release: all numbers made in between are gone.
+/// The memory of numbers. pool_release frees all numbers made since pool_get_mark returned the mark.
 typedef struct pool pool;
 pool *number_pool_create(void);
 void number_pool_destroy(pool *p);
 size_t pool_get_mark(const pool *p);
 void pool_release(pool *p, size_t mark);
 
-/// From a finite double, an integer, an integer of GMP; and a copy.
+/// A number from a finite double, from an integer, from m 2^e.
 num number_from(pool *p, double x);
 num number_from_integer(pool *p, long x);
 num number_from_mpz(pool *p, const mpz_t m, long e);

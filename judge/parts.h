@@ -1,11 +1,13 @@
-// What the judge's files share: its state and the questions they answer for one another.
+// What the judge's files share: its state, and the functions they call in one another.
 #ifndef OVOID_JUDGE_PARTS_H
 #define OVOID_JUDGE_PARTS_H
 
+#include "judge.h"
 #include "posed.h"
-#include "shell.h"
 
-/// What was proven, once, of a shape's inner ellipsoid.
+#include <math.h>
+
+/// The facts proven of a shape's inner ellipsoid, computed once.
 typedef struct facts {
     const ovoid_shape *shape; ///< NULL: an empty slot
     int is_inside;            ///< positive definite and inside the polyhedron
@@ -28,6 +30,8 @@ __attribute__((format(printf, 3, 4)))
 ovoid_code
 judge_reject(ovoid_error *error, ovoid_code code, const char *format, ...);
 
+static inline int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
+
 /// A claim on the hulls without their radii, d <= core or d >= core, and what is to prove it.
 typedef struct claim {
     judge *context;
@@ -40,24 +44,24 @@ typedef struct claim {
 /// The direction of the lower bound: the exact sum of its two parts, which must be finite.
 nvec proof_direction(pool *p, const ovoid_proof *proof);
 
+/// The lower bound, by proof.normal and normal_low.
 ovoid_code judge_check_lower(const claim *c);
-/// By proof.kind.
+/// The upper bound, by proof.kind.
 ovoid_code judge_check_upper(const claim *c, const ovoid_cover *cover);
-/// The kinds that rest on the inner ellipsoids.
+/// The upper bounds that rest on the inner ellipsoids.
 ovoid_code judge_check_inner(const claim *c);
-ovoid_code judge_check_inner_points(const claim *c);
 
 /// The witness points lie on their bodies.
 ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer);
 
-/// sum w[i] x(v[i]) times n, of a body's vertices, and the sum of the weights.
+/// The sum of w[i] times vertex v[i] of a body in the world, times the body's n, and the sum of the weights.
 typedef struct weighted {
     nvec point;
     num weight;
 } weighted;
 weighted body_weighted_point(pool *p, const body *b, const uint32_t *v, const double *w, uint32_t count);
 
-/// The inner ellipsoid's facts, from the table or now.
+/// The inner ellipsoid's facts, from the table or computed.
 const facts *judge_get_facts(judge *context, const body *b);
 
 /// The point of a proof of kind INNER or INNER_POINTS: n times the world point.

@@ -4,8 +4,9 @@
 #ifndef OVOID_JUDGE_POSED_H
 #define OVOID_JUDGE_POSED_H
 
-#include "judge.h"
 #include "number.h"
+
+#include "ovoid/query.h"
 
 /// One body. All values exact.
 typedef struct body {

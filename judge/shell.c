@@ -43,7 +43,7 @@ int shell_is_closed(const shell *s) {
 }
 
 // +1 or -1 where the ray along g crosses the triangle, 0 where it misses; *ok = 0 where it meets an edge's line or the
-// origin lies in the triangle's plane, so that the ray cannot tell.
+// origin lies in the triangle's plane, so that the ray decides nothing.
 static int count_crossing(pool *p, nvec g, nvec a, nvec b, nvec c, int *ok) {
     int ab = num_sign(nvec_det(p, g, a, b)), bc = num_sign(nvec_det(p, g, b, c));
     if (ab * bc < 0) return 0;

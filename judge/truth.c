@@ -1,10 +1,10 @@
 // The signed distance of two small bodies by brute force. Theorem. d = max over all unit n of the gap along n,
 // min_B n.x - max_A n.x - radii, whether they are apart or overlap, and the maximum is met at a direction of features:
-// apart, the nearest points lie in the relative interior of two faces, so n is a vertex minus a vertex, or that made
+// apart, the nearest points lie in the relative interior of two faces, so n is a difference of vertices, or that made
 // orthogonal to an edge, or a cross product of two edges of either body; overlapping, n is a face's normal of the
 // Minkowski difference, and its faces are spanned by two edges. All vertex pairs count as edges: more directions do no
-// harm, since no gap exceeds d. If all edges are parallel and nothing separates, d = 0. Cost: (vertices)^5 in all,
-// small numbers only.
+// harm, since no gap exceeds d. If all edges are parallel and nothing separates, d = 0. Cost: (vertices)^5 in all, for
+// small bodies only.
 #include "parts.h"
 
 #include <stdlib.h>
@@ -21,14 +21,20 @@ typedef struct brute {
     slot gap, square; ///< the best so far: gap / sqrt(square), times k; square 0 before the first
 } brute;
 
-// The least and largest n.x of a set.
-static void find_range(pool *p, const nvec *points, uint32_t count, nvec n, num *least, num *largest) {
-    *least = *largest = nvec_dot(p, n, points[0]);
+typedef struct range {
+    num least, largest;
+} range;
+
+// The range of n.x over a set.
+static range find_range(pool *p, const nvec *points, uint32_t count, nvec n) {
+    num first = nvec_dot(p, n, points[0]);
+    range r = {first, first};
     for (uint32_t i = 1; i < count; i++) {
         num value = nvec_dot(p, n, points[i]);
-        if (num_compare(p, value, *least) < 0) *least = value;
-        if (num_compare(p, value, *largest) > 0) *largest = value;
+        if (num_compare(p, value, r.least) < 0) r.least = value;
+        if (num_compare(p, value, r.largest) > 0) r.largest = value;
     }
+    return r;
 }
 
 static void take_gap(brute *t, num gap, num square) {
@@ -40,11 +46,10 @@ static void take_gap(brute *t, num gap, num square) {
 // Measures the gaps along n and -n.
 static void try_direction(brute *t, nvec n) {
     if (nvec_is_zero(n)) return;
-    num least_a, largest_a, least_b, largest_b, square = nvec_norm_squared(t->p, n);
-    find_range(t->p, t->a, t->count_a, n, &least_a, &largest_a);
-    find_range(t->p, t->b, t->count_b, n, &least_b, &largest_b);
-    take_gap(t, num_sub(t->p, least_b, largest_a), square);
-    take_gap(t, num_sub(t->p, least_a, largest_b), square);
+    num square = nvec_norm_squared(t->p, n);
+    range a = find_range(t->p, t->a, t->count_a, n), b = find_range(t->p, t->b, t->count_b, n);
+    take_gap(t, num_sub(t->p, b.least, a.largest), square);
+    take_gap(t, num_sub(t->p, a.least, b.largest), square);
 }
 
 static void collect_edges(brute *t, const nvec *points, uint32_t count) {

@@ -1,7 +1,9 @@
-// The witness points lie on their bodies, to rounding. A body here is what its pose makes of its hull, enlarged by its
-// radius. First the points that the proof itself names, which are in the hull by construction; else every triangle: the
-// point is near one, or the surface winds around it. (A flat body's triangles, a segment, a point: near it.)
+// Whether the witness points lie on their bodies, to rounding. A body here is its hull in its pose, enlarged by its
+// radius. A witness is first compared with the point that the proof names, which is in the hull by construction; else
+// with every triangle: it is near one, or the surface winds around it. (Of a flat body, a segment or a point it must be
+// near.)
 #include "parts.h"
+#include "shell.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,10 +16,17 @@ static double compute_tolerance(const posed *s) {
     return WITNESS_ROUNDING * (s->a.reach + s->b.reach + num_to_double(s->radii)) + OVOID_LENGTH_MIN;
 }
 
-// |x / n - y / m| <= radius + tolerance for two points that carry factors n and m.
-static int is_near(pool *p, nvec x, num n, nvec y, num m, num reach) {
-    nvec d = nvec_sub(p, nvec_scale(p, x, m), nvec_scale(p, y, n));
-    num limit = num_mul(p, reach, num_mul(p, n, m));
+// A point that carries a factor: the point is point / factor. is_known is 0 where the proof names none.
+typedef struct named {
+    nvec point;
+    num factor;
+    int is_known;
+} named;
+
+// 1 if the point x is no farther than `reach` from the named one.
+static int is_near(pool *p, nvec x, const named *n, num reach) {
+    nvec d = nvec_sub(p, nvec_scale(p, x, n->factor), n->point);
+    num limit = num_mul(p, reach, n->factor);
     return num_compare(p, nvec_norm_squared(p, d), num_mul(p, limit, limit)) <= 0;
 }
 
@@ -25,7 +34,7 @@ static int is_near(pool *p, nvec x, num n, nvec y, num m, num reach) {
 
 // Near a triangle, an edge or a vertex of the polytope, seen from the point: corners carry the factor n.
 static int is_near_boundary(pool *p, const ovoid_polytope *polytope, const nvec *corners, num square) {
-    // "Not farther than" is "farther than" a little less; the square is a tolerance, its equality does not matter.
+    // A point at exactly the tolerance counts as farther, which does not matter.
     for (uint32_t t = 0; t < polytope->triangle_count; t++) {
         const uint32_t *v = polytope->triangles + 3 * (size_t)t;
         if (!triangle_is_farther(p, corners[v[0]], corners[v[1]], corners[v[2]], square)) return 1;
@@ -54,12 +63,6 @@ static int is_in_body(pool *p, const body *b, nvec point, num reach) {
 
 // --- the points that a proof names
 
-typedef struct named {
-    nvec point;
-    num factor;
-    int is_known;
-} named;
-
 static int are_weights(const double *w, uint32_t count) {
     double sum = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -84,9 +87,9 @@ static named find_named(const claim *c, int of_b) {
 static int is_witness(const claim *c, int of_b, nvec point, double tolerance) {
     const posed *s = c->s;
     const body *b = of_b ? &s->b : &s->a;
-    num one = number_from_integer(s->p, 1), reach = num_add(s->p, b->radius, number_from(s->p, tolerance));
+    num reach = num_add(s->p, b->radius, number_from(s->p, tolerance));
     named n = find_named(c, of_b);
-    if (n.is_known && is_near(s->p, point, one, n.point, n.factor, reach)) return 1;
+    if (n.is_known && is_near(s->p, point, &n, reach)) return 1;
     return is_in_body(s->p, b, point, reach);
 }
 
@@ -99,13 +102,11 @@ ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
     return OVOID_OK;
 }
 
-static int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
-
 // The default tolerance of the queries, in parts of the pair's size.
-#define ASKED 1e-9
+#define QUERY_TOLERANCE 1e-9
 
 // |point_b - point_a - d n| for d in the bracket: with w = upper - lower the points may differ from the nearest ones by
-// what the bracket leaves open, sqrt(w (w + 2 |d|)) across and w along the normal, and by the tolerance asked for.
+// what the bracket leaves open, sqrt(w (w + 2 |d|)) across and w along the normal, and by the query's tolerance.
 ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
     if (!(isfinite(answer->lower) && isfinite(answer->upper)))
         return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
@@ -115,7 +116,7 @@ ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoi
     size_t mark = pool_get_mark(p);
     posed s = posed_make(p, pair);
     double width = answer->upper - answer->lower, size = fmax(fabs(answer->lower), fabs(answer->upper));
-    double slack = width + sqrt(width * (width + 2 * size)) + ASKED * s.size + 2 * compute_tolerance(&s);
+    double slack = width + sqrt(width * (width + 2 * size)) + QUERY_TOLERANCE * s.size + 2 * compute_tolerance(&s);
     num d = num_scaled(p, num_add(p, number_from(p, answer->lower), number_from(p, answer->upper)), -1);
     nvec along = nvec_scale(p, nvec_from(p, answer->normal), d);
     nvec off = nvec_sub(p, nvec_sub(p, nvec_from(p, answer->point_b), nvec_from(p, answer->point_a)), along);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# bits.sh: the same bits from every build? Builds the core, tests/test_query_bits.c and tests/test_motion_bits.c with gcc and clang, each at -O0 to
+# bits.sh: the same bits from every build? Builds the core, tests/core/test_query_bits.c and tests/core/test_motion_bits.c with gcc and clang, each at -O0 to
 # -O3, for this machine's own instructions, with fused operations to be had, and linked as one; runs each, and compares
 # what they print. No core may hold a fused multiply-add: contraction is off, but compilers have forgotten. A compiler that
 # is not there is skipped. A line for each build; exit 1 where one differs, with its families. Some minutes on two cores.
@@ -27,7 +27,9 @@ check() {
     [ -f $folder/first ] || word=first
     $folder/"$1"/tests/test_query_bits --print >$folder/"$1".txt 2>&1 || word=FAILED
     $folder/"$1"/tests/test_motion_bits --print >>$folder/"$1".txt 2>&1 || word=FAILED
-    find_fused $folder/"$1"/src/libovoid.a >>$folder/"$1".txt 2>/dev/null
+    for file in src/libovoid_internal.a tests/test_query_bits tests/test_motion_bits; do
+        find_fused $folder/"$1"/$file >>$folder/"$1".txt 2>/dev/null
+    done
     [ $word != first ] || cp $folder/"$1".txt $folder/first
     cmp -s $folder/first $folder/"$1".txt && ! grep -q '^fused' $folder/"$1".txt || word=FAILED
     printf '%-18s %-6s %s\n' "$1" $word "$(sed -n 's/^all *//p' $folder/"$1".txt)"

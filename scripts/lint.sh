@@ -4,7 +4,7 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
-sources() { find src include cli judge bench examples fuzz tests \( -name '*.[ch]' -o -name '*.cpp' \) -print; }
+sources() { find src include cli judge bench examples fuzz packaging tests \( -name '*.[ch]' -o -name '*.[ch]pp' \) -print; }
 
 run_step() {
     case $1 in
@@ -13,10 +13,10 @@ run_step() {
     format-in-place) sources | xargs clang-format -i ;;
     shell) find scripts tests cli -name '*.sh' -exec shellcheck scripts/check-floors .ci/run {} + ;;
     tidy)
-        # With the compile commands of the clang build; tests are left to the compilers' own warnings. The paths that led
+        # With the compile commands of the clang build; tests and C++ are left to the compilers' own warnings. The paths that led
         # to a finding stay in the log.
         cmake --preset check >/dev/null &&
-            sed -n 's|^ *"file": "\(.*\)".*|\1|p' build/check/compile_commands.json | grep -v '/\(tests\|build\)/' | sort -u |
+            sed -n 's|^ *"file": "\(.*\)".*|\1|p' build/check/compile_commands.json | grep -v '/\(tests\|build\)/\|\.cpp$' | sort -u |
             xargs -n 4 -P "${JOBS:-2}" clang-tidy --quiet --warnings-as-errors='*' -p build/check >build/tidy.log 2>&1
         tidy=$?
         grep -A 2 ' error: ' build/tidy.log

@@ -1,15 +1,19 @@
 #!/bin/sh
-# mutate.sh [NAME...]: do the tests notice a fault? Copies the sources to build/mutate, makes one mutation of
-# scripts/mutations.txt after another (or those named), builds, and runs tests until one fails. The judge is not mutated:
-# it is what the rest is held against. Tests that compare hashes of bits are left out, since they notice any change.
+# mutate.sh [-g GROUP]... [NAME...]: do the tests notice a fault? Copies the sources to build/mutate, makes one mutation of
+# scripts/mutations/ after another (all, those of the groups, or those named), builds, and runs tests until one fails. The
+# judge is not mutated: it is what the rest is held against. Tests that compare stored hashes of bits are left out, since
+# they notice any change.
 # Prints a row of a Markdown table for each: the mutation, what noticed it, or SURVIVED; docs/mutation.md has the last
-# full run. Exit 1 where a mutation does not apply (its text must be there exactly once) or does not compile. An hour or
-# two on two cores.
+# full run. Exit 1 where a mutation does not apply (its text must be there exactly once) or does not compile. Two to three
+# hours for all on two cores.
+# mutate.sh --check: nothing is built; every mutation has all it needs and applies.
+# mutate.sh --list: the groups, how many mutations each has, and its tests.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
+groups="query exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -23,8 +27,15 @@ tests_of() {
     ellipsoid) echo "test_ellipsoid_contain test_ellipsoid_overlap test_ellipsoid_gap test_ellipsoid_exact test_ellipsoid_nearest test_ellipsoid_outer $query" ;;
     simd) echo "test_simd $query" ;;
     environment) echo "test_environment $query" ;;
-    all) for group in exact hull shape ellipsoid simd environment; do tests_of $group; done | tr ' ' '\n' | sort -u ;;
-    *) echo "mutate: no such group of tests: $1" >&2 && exit 2 ;;
+    world) echo "test_world_tree test_world_margins test_world_rules test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
+    compound) echo "test_compound_create test_compound_bounds test_compound_proofs test_compound test_compound_impact test_judge_compound" ;;
+    motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_judge_impact test_impact_trials test_compound_impact" ;;
+    smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_bounds" ;;
+    paper) echo "test_paper test_area" ;;
+    table) echo "test_lookup test_shape test_simd test_query" ;;
+    lanes) echo "test_simd_octet test_query_batch" ;;
+    io) echo "test_io_numbers test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results" ;;
+    *) return 1 ;;
     esac
 }
 
@@ -32,34 +43,42 @@ tests_of() {
 list() {
     awk 'function flush() { if (name) printf "%s\t%s\t%s\t%s\t%s \t%s\n", name, tests, file, from, to, breaks
                             name = tests = file = from = to = breaks = "" }
-         /^#/ || /^$/ { flush(); next }
+         FNR == 1 || /^#/ || /^$/ { flush() }
+         /^#/ || /^$/ { next }
          { key = $0; sub(/:.*/, "", key); value = substr($0, length(key) + 3) }
          key == "name" { name = value; tests = "query" } key == "tests" { tests = value } key == "file" { file = value }
          key == "from" { from = value } key == "to" { to = value } key == "breaks" { breaks = value }
-         END { flush() }' scripts/mutations.txt
+         END { flush() }' scripts/mutations/*.txt
 }
 
-# apply FILE FROM TO: the one place of the text; 1 if it is not there exactly once.
-apply() {
+# mutated FILE FROM TO: the file with the one place of the text replaced; 1 if it is not there exactly once.
+mutated() {
     FROM=$2 TO=$3 awk '{ text = text $0 "\n" }
-        END { from = ENVIRON["FROM"]; at = index(text, from)
+        END { from = ENVIRON["FROM"]; at = from == "" ? 0 : index(text, from)
               if (!at || index(substr(text, at + 1), from)) exit 1
-              printf "%s%s%s", substr(text, 1, at - 1), ENVIRON["TO"], substr(text, at + length(from)) }' \
-        "$1" >$copy/mutated && cp $copy/mutated "$1"
+              printf "%s%s%s", substr(text, 1, at - 1), ENVIRON["TO"], substr(text, at + length(from)) }' "$1"
 }
 
-# notice GROUP: builds and runs; prints which test noticed, or SURVIVED, or what stopped it.
+# build TEST: 0 built, 1 it does not compile, 2 there is no such test here.
+build() {
+    if cmake --build $copy/build -j "$jobs" --target "$1" >$copy/build.log 2>&1; then return 0; fi
+    if grep -qE 'No rule to make target|unknown target' $copy/build.log; then return 2; fi
+    return 1
+}
+
+# notice GROUP: builds and runs; prints which test noticed, or SURVIVED, or what stopped it. A test that a fault sends round
+# for ever, or through all memory, is stopped by what it has used, not by a clock.
 notice() {
     for entry in $(tests_of "$1"); do
         test=${entry%%:*}
         arguments=$(echo "$entry" | cut -s -d: -f2- | tr : ' ')
-        if ! cmake --build $copy/build -j "$jobs" --target "$test" >$copy/build.log 2>&1; then
-            if grep -qE 'No rule to make target|unknown target' $copy/build.log; then continue; fi
-            echo "does not compile"
-            return
-        fi
-        # shellcheck disable=SC2086 # words of arguments
-        if ! timeout 300 $copy/build/tests/"$test" $arguments >$copy/test.log 2>&1; then
+        build "$test"
+        case $? in
+        1) echo "does not compile" && return ;;
+        2) continue ;;
+        esac
+        # shellcheck disable=SC2086,SC3045 # words of arguments; where ulimit has no -v, there is no limit
+        if ! (ulimit -t 300 && { ulimit -v 8000000 2>/dev/null || :; } && exec $copy/build/tests/"$test" $arguments) >$copy/test.log 2>&1; then
             echo "$test"
             return
         fi
@@ -67,36 +86,76 @@ notice() {
     echo SURVIVED
 }
 
+check_list() {
+    passed=0 failed=0
+    twice=$(cut -f1 $copy.list | sort | uniq -d)
+    while IFS='	' read -r name group file from to breaks <&3; do
+        word=
+        [ -n "$breaks" ] || word="what it breaks is not said"
+        [ "$from " != "$to" ] || word="nothing is changed"
+        tests_of "$group" >/dev/null || word="no such group of tests: $group"
+        mutated "$file" "$from" "$to" >/dev/null 2>&1 || word="its text must be in $file exactly once"
+        if echo "$twice" | grep -qFx -- "$name"; then word="the name is there twice"; fi
+        if [ -z "$word" ]; then passed=$((passed + 1)); else failed=$((failed + 1)) && echo "FAILED mutation \"$name\": $word"; fi
+    done 3<$copy.list
+    echo "$passed passed, $failed failed, 0 skipped"
+    [ $failed -eq 0 ] && [ $passed -gt 0 ]
+}
+
+mkdir -p build
+list >$copy.list
+wanted=
+while [ $# -gt 0 ]; do
+    case $1 in
+    --check) check_list && exit 0 || exit 1 ;;
+    --list)
+        for group in $groups; do echo "$group, $(cut -f2 $copy.list | grep -cFx "$group"): $(tests_of "$group")"; done
+        exit 0
+        ;;
+    -g)
+        tests_of "${2:-}" >/dev/null || { echo "mutate: no such group of tests: ${2:-}; there are: $groups" >&2 && exit 2; }
+        wanted="$wanted $2"
+        shift 2
+        ;;
+    -*) echo "mutate: unknown option $1" >&2 && exit 2 ;;
+    *) break ;;
+    esac
+done
+
+# The lines that are wanted: of the groups, and of the names, where any are given.
+awk -F'\t' -v groups="$wanted" 'BEGIN { n = split(groups, g, " "); for (i = 1; i <= n; i++) in_group[g[i]] = 1
+                                for (i = 1; i < ARGC; i++) if (i > 1) { named[ARGV[i]] = 1; ARGV[i] = ""; names++ } }
+    (n == 0 || $2 in in_group) && (names == 0 || $1 in named)' $copy.list "$@" >$copy.wanted
+[ -s $copy.wanted ] || { echo "mutate: no such mutation" >&2 && exit 2; }
+
 mkdir -p $copy
 rm -rf $tree
 mkdir $tree
 tar -cf - --exclude=./build --exclude='./.git*' . | tar -xf - -C $tree
 generator=$(command -v ninja >/dev/null && echo "-G Ninja")
 # shellcheck disable=SC2086 # none, or two words
-cmake -S $tree -B $copy/build $generator -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DOVOID_IO=OFF >$copy/build.log 2>&1 || {
+cmake -S $tree -B $copy/build $generator -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DOVOID_IO=ON >$copy/build.log 2>&1 || {
     cat $copy/build.log
     exit 1
 }
 # Without a mutation all must pass.
-word=$(notice all)
-if [ "$word" != SURVIVED ]; then
-    echo "without a mutation: $word"
-    tail -n 5 $copy/build.log $copy/test.log
-    exit 1
-fi
+for group in $groups; do
+    cut -f2 $copy.wanted | grep -qFx "$group" || continue
+    word=$(notice "$group")
+    if [ "$word" != SURVIVED ]; then
+        echo "without a mutation: $word"
+        tail -n 5 $copy/build.log $copy/test.log
+        exit 1
+    fi
+done
 
 bad=0
 echo "| mutation | file | what it breaks | noticed by |"
 echo "|---|---|---|---|"
-list >$copy/list
 while IFS='	' read -r name group file from to breaks <&3; do
-    if [ $# -gt 0 ]; then
-        wanted=0
-        for one in "$@"; do [ "$one" != "$name" ] || wanted=1; done
-        [ $wanted -eq 1 ] || continue
-    fi
     cp "$tree/$file" $copy/original
-    if apply "$tree/$file" "$from" "${to% }"; then
+    if mutated "$tree/$file" "$from" "${to% }" >$copy/mutated; then
+        cp $copy/mutated "$tree/$file"
         word=$(notice "$group")
     else
         word="DOES NOT APPLY"
@@ -104,5 +163,5 @@ while IFS='	' read -r name group file from to breaks <&3; do
     cp $copy/original "$tree/$file"
     case $word in "DOES NOT APPLY" | "does not compile") bad=1 ;; esac
     echo "| $name | \`${file#src/}\` | $breaks | $word |"
-done 3<$copy/list
+done 3<$copy.wanted
 exit $bad

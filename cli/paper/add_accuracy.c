@@ -1,5 +1,6 @@
-// The abstract's claim: fewer collision error reports. Each way of saying "they collide" against the exact answer, over
-// the frames of the moving box and all pairs of models: false alarms (said, not so) and misses (so, not said).
+// The abstract's claim: fewer collision error reports. Each collision test against the exact answer, over the frames of
+// the moving box and all pairs of models: false alarms (reported, but apart) and misses (overlapping, but not
+// reported).
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -40,11 +41,11 @@ typedef struct box {
 
 static box make_box(const ovoid_shape *shape, const ovoid_pose *pose) {
     ovoid_measures m = ovoid_shape_get_measures(shape);
-    const ovoid_vec3 middle = {(m.box_min.x + m.box_max.x) / 2, (m.box_min.y + m.box_max.y) / 2,
-                               (m.box_min.z + m.box_max.z) / 2};
+    const ovoid_vec3 middle = {(m.box.min.x + m.box.max.x) / 2, (m.box.min.y + m.box.max.y) / 2,
+                               (m.box.min.z + m.box.max.z) / 2};
     box b = {ovoid_pose_compute_point(pose, middle),
              {{0, 0, 0}},
-             {(m.box_max.x - m.box_min.x) / 2, (m.box_max.y - m.box_min.y) / 2, (m.box_max.z - m.box_min.z) / 2}};
+             {(m.box.max.x - m.box.min.x) / 2, (m.box.max.y - m.box.min.y) / 2, (m.box.max.z - m.box.min.z) / 2}};
     for (int i = 0; i < 3; i++) {
         ovoid_vec3 e = {i == 0, i == 1, i == 2};
         b.axis[i] = vec3_sub(ovoid_pose_compute_point(pose, e), pose->position);
@@ -52,7 +53,7 @@ static box make_box(const ovoid_shape *shape, const ovoid_pose *pose) {
     return b;
 }
 
-/// 1 if the boxes' shadows on the direction are apart.
+/// 1 if the projections of the boxes on the direction are disjoint.
 static int is_axis_apart(const box *a, const box *b, ovoid_vec3 n) {
     double reach = 0;
     for (int i = 0; i < 3; i++)
@@ -107,24 +108,24 @@ static int is_ellipsoid_overlap(const ovoid_pair *p, int inner) {
     return ovoid_ellipsoid_is_overlapping(&ea, &eb, NULL);
 }
 
-/// What each way says: 1 they collide, 0 they do not, -1 it does not know.
-static void ask_all(const paper_model *a, const paper_model *b, const ovoid_pair *p, int says[WAYS]) {
+/// The answer of each test: 1 collision, 0 none, -1 undecided.
+static void run_tests(const paper_model *a, const paper_model *b, const ovoid_pair *p, int found[WAYS]) {
     double size = experiment_get_radius(a) + experiment_get_radius(b);
     box ba = make_box(p->shape_a, &p->pose_a), bb = make_box(p->shape_b, &p->pose_b);
     const ovoid_areas *areas[2] = {a->areas, b->areas};
-    says[BY_SPHERE] = is_sphere_overlap(p);
-    says[BY_AXIS_BOX] = is_axis_box_overlap(p);
-    says[BY_ORIENTED_BOX] = is_oriented_overlap(&ba, &bb);
-    says[BY_OUTER] = is_ellipsoid_overlap(p, 0);
-    says[BY_INNER] = is_ellipsoid_overlap(p, 1);
+    found[BY_SPHERE] = is_sphere_overlap(p);
+    found[BY_AXIS_BOX] = is_axis_box_overlap(p);
+    found[BY_ORIENTED_BOX] = is_oriented_overlap(&ba, &bb);
+    found[BY_OUTER] = is_ellipsoid_overlap(p, 0);
+    found[BY_INNER] = is_ellipsoid_overlap(p, 1);
     for (int i = 0; i < THRESHOLDS; i++)
-        says[BY_CRITERION + i] = ovoid_paper_compute_bounds(p, areas, OVOID_RULE_RAY, thresholds[i] * size).collides;
+        found[BY_CRITERION + i] = ovoid_paper_compute_bounds(p, areas, OVOID_RULE_RAY, thresholds[i] * size).collides;
     ovoid_answer bracket = ovoid_bounds(p), exact = ovoid_collide(p, NULL, NULL);
-    says[BY_BRACKET] = bracket.lower > 0 ? 0 : bracket.upper < 0 ? 1 : -1;
-    says[BY_LIBRARY] = exact.status == OVOID_SEPARATED ? 0 : exact.status == OVOID_OVERLAPPING ? 1 : -1;
+    found[BY_BRACKET] = bracket.lower > 0 ? 0 : bracket.upper < 0 ? 1 : -1;
+    found[BY_LIBRARY] = exact.status == OVOID_SEPARATED ? 0 : exact.status == OVOID_OVERLAPPING ? 1 : -1;
 }
 
-/// Pairs, and what each way said wrong, by the gap.
+/// Pairs, and the wrong answers of each test, by the gap.
 typedef struct counts {
     double pairs[BINS], wrong[WAYS][BINS], open[WAYS][BINS];
 } counts;
@@ -132,15 +133,15 @@ typedef struct counts {
 static void count_pair(const paper_model *a, const paper_model *b, const ovoid_pair *p, counts *c) {
     ovoid_answer exact = ovoid_distance(p, NULL, NULL);
     if (exact.status != OVOID_SEPARATED && exact.status != OVOID_OVERLAPPING) return;
-    int collide = exact.status == OVOID_OVERLAPPING, bin = 0, says[WAYS];
+    int collide = exact.status == OVOID_OVERLAPPING, bin = 0, found[WAYS];
     double gap = exact.upper / (experiment_get_radius(a) + experiment_get_radius(b));
     while (!collide && bin < BINS - 1 && gap > edges[bin]) bin++;
     if (!collide && bin == 0) bin = 1;
-    ask_all(a, b, p, says);
+    run_tests(a, b, p, found);
     c->pairs[bin]++;
     for (int way = 0; way < WAYS; way++) {
-        c->wrong[way][bin] += says[way] >= 0 && says[way] != collide;
-        c->open[way][bin] += says[way] < 0;
+        c->wrong[way][bin] += found[way] >= 0 && found[way] != collide;
+        c->open[way][bin] += found[way] < 0;
     }
 }
 
@@ -172,7 +173,8 @@ static void add_chart(const experiment *e, const counts *c) {
                                     .y_max = 100});
 }
 
-/// How much of each bounding body the polyhedron fills, or the other way round: means of the families.
+/// The share of each bounding body that the polyhedron fills, or of the polyhedron that the inner body fills: means of
+/// the families.
 static void add_volumes(const experiment *e) {
     report_table *t =
         report_begin_table(e->report, "volumes", "family,sphere,own box,enclosing ellipsoid,enclosed ellipsoid");
@@ -184,7 +186,7 @@ static void add_volumes(const experiment *e) {
             ovoid_measures m = ovoid_shape_get_measures(s);
             sum[0] += 4.18879020478639 * pow(m.sphere_radius, 3) / m.volume;
             sum[1] +=
-                (m.box_max.x - m.box_min.x) * (m.box_max.y - m.box_min.y) * (m.box_max.z - m.box_min.z) / m.volume;
+                (m.box.max.x - m.box.min.x) * (m.box.max.y - m.box.min.y) * (m.box.max.z - m.box.min.z) / m.volume;
             sum[2] += ovoid_shape_get_outer(s).volume / m.volume;
             sum[3] += ovoid_shape_get_inner(s).volume / m.volume;
             count++;

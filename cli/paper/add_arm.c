@@ -1,5 +1,5 @@
-// The union of primitives and robot links that the paper's sections 1 and 2 speak of: an arm of four convex links moves
-// past an obstacle; the distance of the whole arm is the least of its links'.
+// The union of primitives and robot links of the paper's sections 1 and 2: an arm of four convex links moves past an
+// obstacle; the distance of the whole arm is the least of its links'.
 #include "paper/experiment.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-// How tight each bound of the distance is, over the distance, for each family: what spheres, ellipsoids, exits and the
-// stages of a query leave open.
+// How tight each bound of the distance is, over the distance, for each family: the brackets of spheres, ellipsoids,
+// exits and the stages of a query.
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -12,16 +12,16 @@ static const char *const names[BOUNDS] = {"lower: spheres",       "lower: enclos
                                           "lower: ovoid_collide", "upper: enclosed ellipsoids",
                                           "upper: exits Q1 Q2",   "upper: ovoid_collide"};
 
-/// Places for each model and gap.
+/// Random poses for each model and gap.
 static uint32_t get_samples(const experiment *e) {
     uint32_t samples = (e->frames + 5) / 6;
     return samples < SAMPLES_MAX ? samples : SAMPLES_MAX;
 }
 
-/// Gaps in sums of the radii: powers of two from 1/64.
+/// The gap of a bin, in sums of the radii: powers of two from 1/64.
 static double get_gap(int bin) { return ldexp(1, bin - 6); }
 
-/// Moves B along the line of the witness points until the distance is the gap; 0 if that failed.
+/// Moves B along the line of the witness points until the distance is the gap; 0 if that fails.
 static int set_gap(ovoid_pair *p, double gap) {
     for (int i = 0; i < 12; i++) {
         ovoid_answer x = ovoid_depth(p, NULL, NULL, NULL);

@@ -1,5 +1,5 @@
-// The paper recomputes its offline steps when an object is deformed or divided: what that takes, started from the last
-// ellipsoids or from nothing, and for the two parts of a divided body.
+// The paper recomputes its offline steps when an object is deformed or divided: the cost of that, started from the last
+// ellipsoids or from scratch, and for the two parts of a divided body.
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@ enum { SIZES = 4, AMOUNTS = 4, REPEATS = 5 };
 static const uint32_t sizes[SIZES] = {16, 102, 1002, 5002};
 static const double amounts[AMOUNTS] = {1e-4, 1e-3, 1e-2, 1e-1};
 
-/// What one change costs.
+/// The cost of one change.
 typedef struct change {
     double again, afresh;         ///< ms: the whole shape
     uint32_t steps, steps_afresh; ///< of the enclosing ellipsoid
@@ -25,7 +25,7 @@ static double *make_points(uint32_t count, uint64_t *state) {
     return xyz;
 }
 
-/// Each vertex moved by up to `amount` of its own coordinates.
+/// Moves each vertex by up to `amount` of its own coordinates.
 static void deform(const ovoid_shape *shape, double amount, uint64_t *state, double *to) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     for (uint32_t i = 0; i < 3 * p.vertex_count; i++)
@@ -53,7 +53,7 @@ static change measure(const ovoid_shape *shape, const double *moved) {
     return c;
 }
 
-/// ms to cut the shape in two by a plane through its middle; *part: the vertices of both parts together.
+/// The ms to cut the shape in two by a plane through its middle; *vertices: of both parts together.
 static double measure_division(const ovoid_shape *shape, uint32_t *vertices) {
     const ovoid_plane plane = {{1, 2, 3}, 0.05};
     double took[REPEATS];
@@ -71,7 +71,7 @@ static double measure_division(const ovoid_shape *shape, uint32_t *vertices) {
     return find_quantile(took, REPEATS, 0.5);
 }
 
-/// ms for the shape of the same vertices.
+/// The ms to create the shape of the same vertices.
 static double measure_creation(const ovoid_shape *shape) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     double took[REPEATS];

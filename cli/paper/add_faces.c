@@ -1,6 +1,6 @@
-// Chart 3: how many facets step (g) looks at, and how long it takes: by full checking, by eight areas under the paper's
-// rule and under the sound one, by the one area that holds the ray, and by 6 k k smaller areas. Then the question that
-// the paper ends with: how far more and smaller areas go.
+// Chart 3: how many facets step (g) of Su, Liu, Chen tests, and how long it takes: by full checking, by eight areas
+// under the paper's rule and under the sound one, by the one area that holds the ray, and by 6 k k smaller areas. Then
+// the question with which the paper ends: the effect of more and smaller areas.
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static const char *const names[WAYS] = {"all facets",       "8 areas by the pape
                                         "96 (k=4)",         "384 (k=8)",
                                         "1536 (k=16)",      "6144 (k=32)"};
 
-/// The rays of one body over all frames, and the tables of the ways to find their exits.
+/// The rays of one body over all frames, and the tables for each way to find their exits.
 typedef struct exits {
     const ovoid_areas *areas[WAYS];
     ovoid_areas *own[CUBES];
@@ -84,10 +84,10 @@ static void exits_add(exits *x, ovoid_vec3 direction, ovoid_vec3 toward) {
     x->toward[x->count++] = toward;
 }
 
-/// What a way costs, summed over rays.
+/// The cost of a way, summed over rays.
 typedef struct cost {
     double touched, wrong, ns, rays;
-    double pieces; ///< of the faces as the three planes cut them, in the octants that the rule keeps
+    double pieces; ///< of the faces as the three planes split them, in the octants that the rule keeps
 } cost;
 
 static void count_exits(const exits *x, cost sums[WAYS]) {
@@ -104,7 +104,7 @@ static void count_exits(const exits *x, cost sums[WAYS]) {
     }
 }
 
-/// Adds the least time of some repetitions of all rays, the ways in turn.
+/// Adds the least time of several repetitions of all rays, alternating between the ways.
 static void time_exits(const exits *x, cost sums[WAYS]) {
     double best[WAYS], sum = 0;
     for (int way = 0; way < WAYS; way++) best[way] = INFINITY;
@@ -118,7 +118,7 @@ static void time_exits(const exits *x, cost sums[WAYS]) {
     for (int way = 0; way < WAYS; way++) sums[way].ns += isnan(sum) ? NAN : best[way];
 }
 
-/// Both bodies of every frame of one model.
+/// Measures both bodies of every frame of one model.
 static int measure_model(const experiment *e, int object, cost sums[WAYS]) {
     exits box, other;
     int good = exits_make(&box, e->models[0].shape, e->models[0].areas, e->frames);
@@ -141,7 +141,7 @@ static int measure_model(const experiment *e, int object, cost sums[WAYS]) {
     return good;
 }
 
-/// One model against every other one, at the places of experiment_get_mutual.
+/// Measures one model against every other one, at the poses of experiment_get_mutual.
 static int measure_mutual(const experiment *e, int model, cost sums[WAYS]) {
     uint32_t places = (e->frames + 15) / 16;
     exits x;
@@ -227,10 +227,10 @@ static void add_finding(const experiment *e, const cost *all) {
     char measured[640];
     snprintf(
         measured, sizeof measured,
-        "Counted in pieces, as the paper does, its rule saves %.1f %% and the rule of signs %.1f %%. In facets it "
-        "looks "
-        "at %.1f %% fewer, and takes %.2f times the time of checking all; it is wrong in %.0f of %.0f exits. The rule "
-        "of signs saves %.1f %% of the facets, the one octant that holds the ray %.1f %%, 1536 small areas %.1f %%.",
+        "Counted in pieces, as the paper does, its rule saves %.1f %% and the rule of signs %.1f %%. "
+        "In facets it looks at %.1f %% fewer, and takes %.2f times the time of checking all; it is wrong in %.0f of "
+        "%.0f exits. The rule of signs saves %.1f %% of the facets, the one octant that holds the ray %.1f %%, 1536 "
+        "small areas %.1f %%.",
         100 * (1 - all[1].pieces / all[0].pieces), 100 * (1 - all[2].pieces / all[0].pieces),
         100 * (1 - all[1].touched / all[0].touched), all[1].ns / all[0].ns, all[1].wrong, all[0].rays,
         100 * (1 - all[2].touched / all[0].touched), 100 * (1 - all[3].touched / all[0].touched),
@@ -254,7 +254,7 @@ static void add_finding(const experiment *e, const cost *all) {
 
 enum { BODIES = 5 };
 
-/// Random points on a sphere: about 2 n facets.
+/// The hull of random points on a sphere: about 2 n facets.
 static ovoid_shape *create_ball(uint32_t vertices, uint64_t *state) {
     double *xyz = calloc(vertices, 3 * sizeof *xyz);
     for (uint32_t i = 0; i < vertices && xyz; i++) {

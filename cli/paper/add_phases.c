@@ -1,12 +1,12 @@
-// Offline: what the three phases reach of the largest enclosed ellipsoid, where phase 2 gets stuck, and what repeating
-// phases 2 and 3 brings.
+// Offline: the volumes of the three phases relative to the largest enclosed ellipsoid, where phase 2 stops early, and
+// the effect of repeating phases 2 and 3.
 #include "paper/experiment.h"
 
 #include <math.h>
 
 enum { ROUNDS = 12 };
 
-/// Volumes over the largest one: after phases 1, 2, 3, and after each further round of phases 2 and 3.
+/// Volumes relative to the largest one: after phases 1, 2, 3, and after each further round of phases 2 and 3.
 typedef struct reached {
     double phase[3], round[ROUNDS];
     double beta;

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/// A point of an ellipsoid that does not meet the unit sphere, and its point nearest to the origin.
+/// Finds a point of an ellipsoid that does not meet the unit sphere, and its point nearest to the origin.
 static int find_pair(uint64_t *state, ovoid_vec3 *inside, ovoid_vec3 *nearest) {
     const ovoid_ellipsoid ball = {{0, 0, 0}, {1, 0, 0, 1, 0, 1}};
     double a = random_uniform(state, 0.1, 5), b = random_uniform(state, 0.1, 5), c = random_uniform(state, 0.1, 5);
@@ -40,15 +40,15 @@ void experiment_add_propositions(const experiment *e) {
     report_add_section(e->report, "Propositions 1 and 2, in three dimensions");
     report_add_text(
         e->report,
-        "Proposition 1. Let A's enclosed ellipsoid be the unit sphere (its sphere space), and let b be any point of a "
-        "convex body B that does not meet it. The point of the sphere nearest to B lies in the half sphere u.b > 0. "
-        "Proof: let y be the point of B nearest to the centre. B is convex, so all of it lies in x.y >= y.y, and b.y > "
-        "0; "
-        "the sphere's nearest point is y / |y|. The paper draws its proof in a plane, for an ellipsoid; neither is "
-        "needed.\n\n"
-        "Proposition 2. Of the eight octants the ones that lie wholly behind, u.d < 0 for all their u, are those whose "
-        "three axes are behind: the octant opposite to d, and no other. As a condition on the dot product with the "
-        "octant's vector alone the limit is -sqrt(2/3) = -0.8165; with -sqrt(2)/2 parts of the front are dropped.");
+        "Proposition 1. Let A's enclosed ellipsoid be the unit sphere (its sphere space), and let b be any point "
+        "of a convex body B that does not meet it. The point of the sphere nearest to B lies in the half sphere "
+        "u.b > 0. Proof: let y be the point of B nearest to the centre. B is convex, so all of it lies in x.y >= "
+        "y.y, and b.y > 0; the sphere's nearest point is y / |y|. The paper draws its proof in a plane, for an "
+        "ellipsoid; neither is needed.\n\n"
+        "Proposition 2. Of the eight octants the ones that lie wholly behind, u.d < 0 for all their u, are those "
+        "whose three axes are behind: the octant opposite to d, and no other. As a condition on the dot product "
+        "with the octant's vector alone the limit is -sqrt(2/3) = -0.8165; with -sqrt(2)/2 parts of the front are "
+        "dropped.");
     report_table *t = report_begin_table(e->report, "propositions", "check,cases,result");
     report_add_row(t, "1: least cosine between a point of B and the nearest point,%.0f,%.5f", checked, least);
     report_add_row(t, "2: nearest point in an octant dropped by signs,%.0f,%.0f", checked, by_signs);

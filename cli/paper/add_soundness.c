@@ -1,5 +1,5 @@
-// Which rule may drop an area, and how often a rule drops one that it needed: over directions alone, over the frames of
-// the experiment, over random rays, and in a case made so that the paper's rule fails.
+// Which rule may drop an area, and how often a rule drops one that it needs: over directions alone, over the frames of
+// the experiment, over random rays, and in a case constructed so that the paper's rule fails.
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -59,8 +59,8 @@ static void count_wrong(const ovoid_areas *areas, ovoid_vec3 u, ovoid_vec3 towar
     w->paper += ovoid_areas_find_exit(areas, u, toward, OVOID_RULE_PAPER).t != truth;
 }
 
-/// Random directions to the other body, random rays into the front half as seen in the ellipsoid's sphere space: the
-/// rule promises nothing for others.
+/// Random directions to the other body, and random rays into the front half as seen in the ellipsoid's sphere space, as
+/// the rule promises nothing for others.
 static void count_random(const ovoid_areas *areas, ovoid_sym3 q, uint32_t count, uint64_t *state, wrong_counts *w) {
     for (uint32_t k = 0; k < count; k++) {
         // n' Q^-1 u >= 0 with toward = Q n: the front half without an inverse.
@@ -152,9 +152,9 @@ static void add_case(const experiment *e) {
         const ovoid_picture_options options = {900, 520, {-0.3, -2, 0.9}, OVOID_PICTURE_AREAS | OVOID_PICTURE_WITNESS};
         report_add_picture(e->report, "unsound", &picture, &options,
                            "An octahedron, its edges bevelled: each face is in one area. The ray (-0.1, -0.1, 1) "
-                           "from its centre leaves by "
-                           "the face (-, -, +). The paper's rule drops it, since B lies toward (1, 1, 0.23), and "
-                           "answers a point outside of the body: the line between the two is what it is wrong by.");
+                           "from its centre leaves by the face (-, -, +). The paper's rule drops it, since B lies "
+                           "toward (1, 1, 0.23), and answers a point outside of the body: the line between the two "
+                           "is what it is wrong by.");
         double dot = (-toward.x - toward.y + toward.z) / sqrt(3 * vec3_dot(toward, toward));
         report_add_text(e->report,
                         "The case: v.d = %.4f is below -0.7071, so the octant (-, -, +) is dropped; yet the ray is in "

@@ -1,4 +1,5 @@
-// Chart 1 and 2: what each step costs. Offline (a) to (d) once a body; online (e) to (g) for each frame of the box.
+// Charts 1 and 2: the cost of each step of Su, Liu, Chen. Offline (a) to (d) once a body; online (e) to (g) for each
+// frame of the box.
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -28,19 +29,19 @@ static double measure_offline(const paper_model *m, int step) {
     return find_quantile(took, REPEATS, 0.5);
 }
 
-/// The gap of two posed ellipsoids along the normal between them: step (f).
+/// Step (f): the gap of two posed ellipsoids along the normal between them.
 static double find_gap(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
     ovoid_vec3 n = ovoid_ellipsoid_compute_nearest_by_sphere(a, b).normal;
     return vec3_dot(n, vec3_sub(b->center, a->center)) - sqrt(sym3_quadratic(a->q, n)) - sqrt(sym3_quadratic(b->q, n));
 }
 
-/// What the online steps of one model work on, frame by frame.
+/// The inputs of the online steps of one model, frame by frame.
 typedef struct online {
     ovoid_pair *pairs;
     exit_rays *rays;
     const ovoid_areas *areas[2];
     uint32_t count;
-    double sum; ///< of results, so that nothing is left out as unused
+    double sum; ///< of results, so that the compiler removes nothing as unused
 } online;
 
 static void run_step(online *o, int step) {
@@ -60,7 +61,7 @@ static void run_step(online *o, int step) {
     }
 }
 
-/// The three online steps of a model, interleaved; ns a frame.
+/// Measures the three online steps of a model, interleaved; ns a frame.
 static int measure_online(const experiment *e, int object, double ns[STEPS]) {
     online o = {.areas = {e->models[0].areas, e->models[object].areas}, .count = e->frames};
     o.pairs = calloc(o.count, sizeof *o.pairs);

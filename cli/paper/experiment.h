@@ -1,4 +1,4 @@
-// The experiment: what every part of it shares, and its parts in the order of the report.
+// The parts of the experiment, in the order of the report, and what they share.
 #ifndef OVOID_CLI_PAPER_EXPERIMENT_H
 #define OVOID_CLI_PAPER_EXPERIMENT_H
 
@@ -14,11 +14,11 @@ typedef struct experiment {
 
 /// Chart 0: the models and their pictures.
 void experiment_add_models(const experiment *e);
-/// Chart 1 and 2: the time of the steps.
+/// Charts 1 and 2: the time of the steps.
 void experiment_add_times(const experiment *e);
-/// Chart 3: faces looked at, by rule and by number of areas.
+/// Chart 3: faces tested, by rule and by number of areas.
 void experiment_add_faces(const experiment *e);
-/// How often a rule drops an area that it needed; the case that fails.
+/// How often a rule drops an area that it needs; the case that fails.
 void experiment_add_soundness(const experiment *e);
 /// Propositions 1 and 2 in three dimensions, checked.
 void experiment_add_propositions(const experiment *e);
@@ -35,17 +35,16 @@ void experiment_add_arm(const experiment *e);
 
 // ---- frames
 
-/// The moving box and model `object` at a frame: one round past it, from touching to a size away, turning all the
-/// while.
+/// The moving box and model `object` at a frame: one round past it, from touching to a size away, turning all the time.
 ovoid_pair experiment_get_frame(const experiment *e, int object, uint32_t frame);
 
-/// Two models at a random place, from deep overlap to two sizes apart; the same for the same seed and number.
+/// Two models at random poses, from deep overlap to two sizes apart; the same for the same seed and number.
 ovoid_pair experiment_get_mutual(const experiment *e, int a, int b, uint32_t number);
 
 /// Radius of the sphere around a model.
 double experiment_get_radius(const paper_model *m);
 
-/// The two rays of step (g), each in its own body's frame: from the inner centre through X* or Y*.
+/// The two rays of step (g) of Su, Liu, Chen, each in its own body's frame: from the inner centre through X* or Y*.
 typedef struct exit_rays {
     ovoid_vec3 direction[2], toward[2];
     int overlap; ///< the inner ellipsoids overlap: there is no ray
@@ -71,7 +70,7 @@ static inline ovoid_vec3 vec3_add_scaled(ovoid_vec3 a, ovoid_vec3 b, double s) {
     return (ovoid_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 static inline double vec3_dot(ovoid_vec3 a, ovoid_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-/// v' Q v
+/// The quadratic form v' Q v.
 static inline double sym3_quadratic(ovoid_sym3 q, ovoid_vec3 v) {
     return q.xx * v.x * v.x + q.yy * v.y * v.y + q.zz * v.z * v.z +
            2 * (q.xy * v.x * v.y + q.xz * v.x * v.z + q.yz * v.y * v.z);
@@ -81,7 +80,7 @@ static inline ovoid_sym3 sym3_mean(ovoid_sym3 a, ovoid_sym3 b) {
     return (ovoid_sym3){(a.xx + b.xx) / 2, (a.xy + b.xy) / 2, (a.xz + b.xz) / 2,
                         (a.yy + b.yy) / 2, (a.yz + b.yz) / 2, (a.zz + b.zz) / 2};
 }
-/// By cofactors.
+/// The inverse, by cofactors.
 static inline ovoid_sym3 sym3_inverse(ovoid_sym3 s) {
     ovoid_sym3 c = {s.yy * s.zz - s.yz * s.yz, s.xz * s.yz - s.xy * s.zz, s.xy * s.yz - s.xz * s.yy,
                     s.xx * s.zz - s.xz * s.xz, s.xy * s.xz - s.xx * s.yz, s.xx * s.yy - s.xy * s.xy};

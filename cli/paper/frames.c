@@ -1,4 +1,4 @@
-// Where the bodies stand, frame by frame, and the rays of step (g).
+// The poses of the bodies, frame by frame, and the rays of step (g) of Su, Liu, Chen.
 #include "paper/experiment.h"
 
 #include <math.h>

@@ -10,14 +10,14 @@
 
 static const double PI = 3.14159265358979323846;
 
-/// Where a ring lies.
+/// The height and radius of a ring.
 typedef struct ring {
     double z, radius;
 } ring;
 
 enum { RINGS_MAX = 10 };
 
-/// South pole, rings from below, north pole.
+/// Fills the mesh: south pole, rings from below, north pole.
 static void fill_rings(paper_model *m, const ring *rings, uint32_t ring_count, uint32_t sides, double reach) {
     uint32_t last = m->vertex_count - 1, *t = m->triangles;
     m->xyz[2] = -reach;

@@ -26,19 +26,22 @@ struct report_table {
 };
 
 static const char head[] =
-    "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>The paper's experiment, repeated</title>\n"
-    "<style>\nbody{font:16px/1.5 Georgia,serif;color:#222;max-width:760px;margin:2em auto;padding:0 1em}\n"
-    "h1,h2,th,td,figcaption{font-family:Helvetica,Arial,sans-serif}\nh1{font-size:1.7em}h2{font-size:1.25em;margin-top:"
-    "2.2em;"
-    "border-bottom:1px solid #ccc}\nfigure{margin:1.2em 0}svg{max-width:100%;height:auto}\n"
-    "table{border-collapse:collapse;font-size:13px;margin:1em 0}td,th{padding:2px 9px;text-align:right;"
-    "border-bottom:1px solid #ddd}td:first-child,th:first-child{text-align:left}\n"
+    "<!DOCTYPE html>\n"
+    "<html lang=\"en\"><head><meta charset=\"utf-8\"><title>The paper's experiment, repeated</title>\n"
+    "<style>\n"
+    "body{font:16px/1.5 Georgia,serif;color:#222;max-width:760px;margin:2em auto;padding:0 1em}\n"
+    "h1,h2,th,td,figcaption{font-family:Helvetica,Arial,sans-serif}\n"
+    "h1{font-size:1.7em}h2{font-size:1.25em;margin-top:2.2em;border-bottom:1px solid #ccc}\n"
+    "figure{margin:1.2em 0}svg{max-width:100%;height:auto}\n"
+    "table{border-collapse:collapse;font-size:13px;margin:1em 0}"
+    "td,th{padding:2px 9px;text-align:right;border-bottom:1px solid "
+    "#ddd}td:first-child,th:first-child{text-align:left}\n"
     "dl{display:grid;grid-template-columns:7em 1fr;gap:.2em 1em;background:#f6f6f2;padding:.7em 1em;font-size:15px}\n"
     "dt{font-weight:bold}dd{margin:0}p.more{font-size:13px;color:#666;margin-top:-.6em}\n"
     "@media print{body{font-size:11px;max-width:none}h2,figure,dl,tr{break-inside:avoid}h2{break-after:avoid}}\n"
     "</style></head><body>\n";
 
-// Keeps the first failure: what, where, why.
+// Records the first failure: what, where, why.
 static void fail(report *r, ovoid_code code, const char *what, const char *why) {
     if (r->code) return;
     r->code = code;
@@ -64,7 +67,7 @@ report *report_create(const char *folder) {
 
 int report_is_good(const report *r) { return !r->code; }
 
-// "FOLDER/NAME.EXTENSION", to be freed; NULL without memory.
+// The path "FOLDER/NAME.EXTENSION", to be freed; NULL without memory.
 static char *make_path(const report *r, const char *name, const char *extension) {
     size_t size = strlen(r->folder) + strlen(name) + strlen(extension) + 3;
     char *path = malloc(size);
@@ -121,7 +124,7 @@ void report_add_finding(report *r, report_finding finding) {
     fputs("</dl>\n", r->page);
 }
 
-// A file of the folder with that text.
+// Writes a file of the folder with that text.
 static void write_file(report *r, const char *name, const char *extension, const char *text, size_t size) {
     char *path = make_path(r, name, extension);
     if (!path) {
@@ -159,7 +162,7 @@ void report_add_chart(report *r, const char *name, const ovoid_chart *chart) {
     free(text);
 }
 
-// What is in an SVG file, without the declaration before the element, which is for files.
+// Appends an SVG element to the page, without the declaration before it, which is for files.
 static void embed(report *r, FILE *file) {
     char block[4096];
     int is_open = 0;
@@ -220,7 +223,7 @@ void report_add_row(report_table *t, const char *format, ...) {
     fputc('\n', t->rows);
 }
 
-// A line of CSV as a row of the page.
+// Appends a line of CSV as a row of a table of the page.
 static const char *add_html_row(FILE *page, const char *line, const char *tag) {
     fputs("<tr>", page);
     for (const char *at = line;; at++) {

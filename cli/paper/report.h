@@ -1,11 +1,11 @@
-// The report of the experiment: a folder of CSV files and SVG figures, and one HTML page that holds all figures and
-// tables in itself, reads in any browser and prints.
+// The report of the experiment: a folder of CSV files and SVG figures, and one HTML page with all figures and tables,
+// which needs no other file and can be printed.
 #ifndef OVOID_CLI_PAPER_REPORT_H
 #define OVOID_CLI_PAPER_REPORT_H
 
 #include <ovoid/io.h>
 
-/// Errors are kept: after the first one nothing is done, and report_finish tells it.
+/// Errors are recorded: after the first one nothing is done, and report_finish returns it.
 typedef struct report report;
 
 /// Makes the folder if it is not there. NULL without memory.
@@ -14,26 +14,26 @@ report *report_create(const char *folder);
 /// 1 until something fails.
 int report_is_good(const report *r);
 
-/// A section's heading.
+/// Adds a section's heading.
 void report_add_section(report *r, const char *title);
 
-/// A paragraph; escaped. Blank lines in it begin new ones.
+/// Adds a paragraph; escaped. Blank lines in it begin new ones.
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 void
 report_add_text(report *r, const char *format, ...);
 
-/// What the paper says, what was measured, and why they differ: one line each under a figure.
+/// The paper's result, the measured one, and why they differ: one line each under a figure.
 typedef struct report_finding {
     const char *paper, *measured, *why;
 } report_finding;
 void report_add_finding(report *r, report_finding finding);
 
-/// NAME.svg, and the same figure in the page.
+/// Adds NAME.svg, and the same figure in the page.
 void report_add_chart(report *r, const char *name, const ovoid_chart *chart);
 
-/// The same for a picture of bodies, with a caption.
+/// Adds a picture of bodies with a caption in the same way.
 void report_add_picture(report *r, const char *name, const ovoid_picture *picture, const ovoid_picture_options *options,
                         const char *caption);
 
@@ -46,7 +46,7 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void
 report_add_row(report_table *t, const char *format, ...);
-/// Writes it. in_page: how many rows of it the page shows, from the first; the file has all.
+/// Writes the table. in_page: how many rows of it the page shows, from the first; the file has all.
 void report_end_table(report_table *t, size_t in_page);
 
 /// Writes FOLDER/report.html and frees everything. *error is filled on failure (may be NULL).

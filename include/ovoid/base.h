@@ -26,10 +26,12 @@ extern "C" {
 #define OVOID_VERSION_PATCH 0
 
 /** Marks what the shared library exports. */
-#if defined(_WIN32)
-#define OVOID_API
-#else
+#if defined(_WIN32) && defined(OVOID_BUILD)
+#define OVOID_API __declspec(dllexport)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define OVOID_API __attribute__((visibility("default")))
+#else
+#define OVOID_API
 #endif
 
 /** What went wrong; OVOID_OK is zero. */
@@ -41,7 +43,7 @@ typedef enum ovoid_code {
     OVOID_ERROR_EMPTY,      /**< no points, no faces, no bytes */
     OVOID_ERROR_RANGE,      /**< a length above OVOID_LENGTH_MAX */
     OVOID_ERROR_RADIUS,     /**< a negative radius */
-    OVOID_ERROR_ROTATION,   /**< a quaternion of four zeros */
+    OVOID_ERROR_ROTATION,   /**< a quaternion of four zeros, an axis of zero, a matrix that is no rotation */
     OVOID_ERROR_INDEX,      /**< an index past the end of what it points into */
     OVOID_ERROR_NOT_CONVEX, /**< the faces given do not bound a convex body */
     OVOID_ERROR_HULL,       /**< the hull does not close: exact signs do not let it happen */
@@ -81,8 +83,8 @@ OVOID_API const char *ovoid_code_get_name(ovoid_code code);
 OVOID_API const char *ovoid_get_version(void);
 
 /**
- * What an assert of the library calls before it aborts: a programmer's error such as a NULL shape. The default writes
- * nothing. Set once, before other threads use the library. Asserts exist in builds without NDEBUG only.
+ * What an assert of the library calls before it aborts: a programmer's error such as a NULL pair or world. The default
+ * writes nothing. Set once, before other threads use the library. Asserts exist in builds without NDEBUG only.
  */
 typedef void (*ovoid_assert_hook)(const char *expression, const char *file, int line);
 /** Sets the hook; NULL takes it away. */

@@ -1,7 +1,8 @@
 /**
  * @file compound.h
  * Compounds: several shapes with poses in one body, and the proximity of shapes and compounds.
- * A compound is immutable: any number of bodies and threads share it. Queries allocate nothing and keep no state.
+ * A compound is immutable: any number of bodies and threads share it. Queries allocate nothing and keep no state; stack
+ * as in <ovoid/query.h>.
  */
 #ifndef OVOID_COMPOUND_H
 #define OVOID_COMPOUND_H
@@ -30,15 +31,15 @@ typedef struct ovoid_compound ovoid_compound;
  * it. allocator: NULL for malloc; copied into the compound; it also gives working memory, all of which goes back.
  * Cost: the vertices of all parts for each level of the tree; 0.1 ms a part of 32 vertices.
  */
-OVOID_API ovoid_compound *ovoid_compound_create(const ovoid_body *parts, size_t count, const ovoid_allocator *allocator,
-                                                ovoid_error *error);
+OVOID_API ovoid_compound *ovoid_compound_create(const ovoid_posed_shape *parts, size_t count,
+                                                const ovoid_allocator *allocator, ovoid_error *error);
 /** Frees it, not its shapes; NULL is allowed. No query may be using it. */
 OVOID_API void ovoid_compound_destroy(ovoid_compound *compound);
 
 /** Number of parts. */
 OVOID_API size_t ovoid_compound_get_part_count(const ovoid_compound *compound);
 /** Part i < part count, with its pose in the compound's frame. */
-OVOID_API ovoid_body ovoid_compound_get_part(const ovoid_compound *compound, size_t i);
+OVOID_API ovoid_posed_shape ovoid_compound_get_part(const ovoid_compound *compound, size_t i);
 /** The parts in the order of the tree: part count indices. Exclusions name ranges of it. A view into the compound. */
 OVOID_API const uint32_t *ovoid_compound_get_order(const ovoid_compound *compound);
 /** An ellipsoid that encloses all parts, radii included, proven after rounding. Compound's frame. */
@@ -49,27 +50,27 @@ OVOID_API ovoid_ellipsoid ovoid_compound_get_inner(const ovoid_compound *compoun
 OVOID_API size_t ovoid_compound_get_size(const ovoid_compound *compound);
 
 /** A posed shape or a posed compound: exactly one of the two pointers is set. Borrowed. A shape is its part 0. */
-typedef struct ovoid_solid {
+typedef struct ovoid_body {
     const ovoid_shape *shape;
     const ovoid_compound *compound;
     ovoid_pose pose;
-} ovoid_solid;
+} ovoid_body;
 
-/** Two solids. */
-typedef struct ovoid_solid_pair {
-    ovoid_solid a, b;
-} ovoid_solid_pair;
+/** Two bodies. */
+typedef struct ovoid_body_pair {
+    ovoid_body a, b;
+} ovoid_body_pair;
 
-/** The warm start of the next query of a pair of solids: what decided the last one. Any numbers are safe. */
+/** The warm start of the next query of a pair of bodies: the parts that decided the last one. Any numbers are safe. */
 typedef struct ovoid_compound_proof {
     uint32_t part_a, part_b;
     ovoid_proof proof;
 } ovoid_compound_proof;
 
 /**
- * Why pairs of parts do not matter: each part of a that comes in its order at [first_a, end_a), against each of b at
- * [first_b, end_b), has a signed distance of at least `lower`, as the normal shows (normal + normal_low as in
- * ovoid_proof; normal_low is zero but for single pairs). Of a shape the range is [0, 1).
+ * Why pairs of parts do not decide: each part of a at [first_a, end_a) of its tree's order has a signed distance of at
+ * least `lower` from each part of b at [first_b, end_b), as the normal shows (normal + normal_low as in ovoid_proof;
+ * normal_low is zero but for single pairs). Of a shape the range is [0, 1).
  */
 typedef struct ovoid_exclusion {
     uint32_t first_a, end_a, first_b, end_b;
@@ -78,8 +79,8 @@ typedef struct ovoid_exclusion {
 } ovoid_exclusion;
 
 /**
- * Where a query writes what proves its answer beside the deciding pair's proof: exclusions, which with the deciding
- * pair cover all pairs of parts, sorted; and for a depth the deciding pair's cover (NULL: none is wanted).
+ * Memory for the proof of a query's answer beside the deciding pair's own proof: sorted exclusions, which with the
+ * deciding pair cover all pairs of parts; and for a depth the deciding pair's cover (NULL: none is wanted).
  */
 typedef struct ovoid_exclusions {
     ovoid_exclusion *items; /**< the caller's, capacity of them; may be NULL where capacity is 0 */
@@ -90,39 +91,40 @@ typedef struct ovoid_exclusions {
 
 /** The answer to a query. */
 typedef struct ovoid_compound_answer {
-    ovoid_answer answer;     /**< of the deciding pair of parts; but lower, status and limit are those of the solids:
+    ovoid_answer answer;     /**< of the deciding pair of parts; but lower, status and limit are those of the bodies:
                                   lower <= d <= upper holds for the smallest signed distance d of all pairs of parts */
     uint32_t part_a, part_b; /**< the deciding pair: 0 for a shape */
-    uint32_t visited;        /**< pairs of nodes looked at */
-    uint32_t tested;         /**< pairs of parts looked at */
+    uint32_t visited;        /**< pairs of nodes visited */
+    uint32_t tested;         /**< pairs of parts queried */
 } ovoid_compound_answer;
 
 /*
  * In all of these d is the smallest signed distance over the pairs of a part of a and a part of b: the distance where
- * the solids are apart, minus the depth of the deepest pair where they overlap. Options as in <ovoid/query.h>; the
- * relative tolerance is of the pair of solids' size: the largest |part position| + vertex norm + radius of both (of a
- * shape vertex norm + radius) and the distance of their frames' origins. Refused as there, and POSE_A or POSE_B where a
- * part would lie beyond OVOID_LENGTH_MAX. earlier: of this pair of solids, or NULL. exclusions: NULL where no proof is
- * wanted. Two shapes get the bits that ovoid_collide and its sisters give. Cost: a walk down both trees.
+ * the bodies are apart, minus the depth of the deepest pair where they overlap. Options as in <ovoid/query.h>; the
+ * relative tolerance is of the pair of bodies' size: the largest |part position| + vertex norm + radius of both (of a
+ * shape vertex norm + radius) and the distance of their frames' origins. Refused as there, SHAPE_A or SHAPE_B where a
+ * body has neither a shape nor a compound or both, and POSE_A or POSE_B where a part would lie beyond OVOID_LENGTH_MAX.
+ * earlier: of this pair of bodies, or NULL. exclusions: NULL where no proof is wanted. Two shapes get the bits that
+ * ovoid_collide and its sisters give. Cost: a traversal of both trees.
  */
 
-/** Do the solids touch? Stops at the first two parts that overlap. */
-OVOID_API ovoid_compound_answer ovoid_compound_collide(const ovoid_solid_pair *pair, const ovoid_options *options,
+/** Do the bodies touch? Stops at the first two parts that overlap. */
+OVOID_API ovoid_compound_answer ovoid_compound_collide(const ovoid_body_pair *pair, const ovoid_options *options,
                                                        const ovoid_compound_proof *earlier,
                                                        ovoid_exclusions *exclusions);
 /**
- * Are the solids within margin (>= 0) of each other? Stops when no two parts are, or when two are and the sign of d is
+ * Are the bodies within margin (>= 0) of each other? Stops when no two parts are, or when two are and the sign of d is
  * known. Read it with ovoid_answer_is_within.
  */
-OVOID_API ovoid_compound_answer ovoid_compound_within(const ovoid_solid_pair *pair, double margin,
+OVOID_API ovoid_compound_answer ovoid_compound_within(const ovoid_body_pair *pair, double margin,
                                                       const ovoid_options *options, const ovoid_compound_proof *earlier,
                                                       ovoid_exclusions *exclusions);
 /** The distance to the tolerance and the nearest parts; where two overlap only that is proven. */
-OVOID_API ovoid_compound_answer ovoid_compound_distance(const ovoid_solid_pair *pair, const ovoid_options *options,
+OVOID_API ovoid_compound_answer ovoid_compound_distance(const ovoid_body_pair *pair, const ovoid_options *options,
                                                         const ovoid_compound_proof *earlier,
                                                         ovoid_exclusions *exclusions);
-/** The signed distance to the tolerance: where the solids overlap, minus the depth of the deepest pair of parts. */
-OVOID_API ovoid_compound_answer ovoid_compound_depth(const ovoid_solid_pair *pair, const ovoid_options *options,
+/** The signed distance to the tolerance: where the bodies overlap, minus the depth of the deepest pair of parts. */
+OVOID_API ovoid_compound_answer ovoid_compound_depth(const ovoid_body_pair *pair, const ovoid_options *options,
                                                      const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions);
 
 /**
@@ -131,7 +133,7 @@ OVOID_API ovoid_compound_answer ovoid_compound_depth(const ovoid_solid_pair *pai
  * with a sentence in *error (may be NULL; place: the exclusion). exclusions: those of the query; NULL is enough for
  * two shapes. Cost: the parts of all exclusions.
  */
-OVOID_API ovoid_code ovoid_compound_answer_check(const ovoid_solid_pair *pair, const ovoid_compound_answer *answer,
+OVOID_API ovoid_code ovoid_compound_answer_check(const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
                                                  const ovoid_exclusions *exclusions, ovoid_error *error);
 
 #ifdef __cplusplus

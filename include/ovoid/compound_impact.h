@@ -13,29 +13,29 @@ extern "C" {
 #endif
 
 /** A shape or a compound that moves: exactly one of the two pointers is set. Borrowed. A shape is its part 0. */
-typedef struct ovoid_moving_solid {
+typedef struct ovoid_moving_body {
     const ovoid_shape *shape;
     const ovoid_compound *compound;
     ovoid_motion motion;
-} ovoid_moving_solid;
+} ovoid_moving_body;
 
-/** When two moving solids come within a margin of each other. */
+/** When two moving bodies come within a margin of each other. */
 typedef struct ovoid_compound_impact {
-    ovoid_impact impact;     /**< status, limit and times of the solids: free_until is the least of all pairs of parts,
-                                  hit_at that of the deciding pair. Its steps and answers are those of the deciding pair;
-                                  none where the solids are free */
+    ovoid_impact impact;     /**< status, limit and times of the bodies: free_until is the least of all pairs of parts,
+                                  hit_at that of the deciding pair. Its steps and answers are those of the deciding
+                                  pair; none where the bodies are free */
     uint32_t part_a, part_b; /**< the deciding pair: the first that is hit, or is undecided */
-    uint32_t visited;        /**< pairs of nodes looked at */
-    uint32_t tested;         /**< pairs of parts looked at */
+    uint32_t visited;        /**< pairs of nodes visited */
+    uint32_t tested;         /**< pairs of parts queried */
     size_t group_count;      /**< groups of steps; more than the capacity: those beyond it were not written */
 } ovoid_compound_impact;
 
 /**
- * When do two moving solids first come within margin (>= 0) of each other? ovoid_impact_find over the pairs of parts,
- * down both trees: the balls around nodes move too, and what these reach later than the first hit found is left out.
- * Options as there; iterations are those of each pair of parts. Allocates nothing.
+ * When do two moving bodies first come within margin (>= 0) of each other? ovoid_impact_find over the pairs of parts,
+ * down both trees: the balls around nodes move too, and nodes that these bring together later than the first hit found
+ * are pruned. Options as in ovoid_impact_find; iterations are those of each pair of parts. Allocates nothing.
  */
-OVOID_API ovoid_compound_impact ovoid_compound_impact_find(const ovoid_moving_solid *a, const ovoid_moving_solid *b,
+OVOID_API ovoid_compound_impact ovoid_compound_impact_find(const ovoid_moving_body *a, const ovoid_moving_body *b,
                                                            double margin, const ovoid_motion_options *options);
 
 /**
@@ -44,19 +44,18 @@ OVOID_API ovoid_compound_impact ovoid_compound_impact_find(const ovoid_moving_so
  * groups: all that the query wrote (options.groups). OVOID_OK, or PROOF with a sentence in *error (may be NULL); place:
  * the group. Cost: the steps, and the square of the number of groups.
  */
-OVOID_API ovoid_code ovoid_compound_impact_check(const ovoid_moving_solid *a, const ovoid_moving_solid *b,
-                                                 double margin, const ovoid_compound_impact *impact,
-                                                 const ovoid_step *steps, const ovoid_step_group *groups,
-                                                 ovoid_error *error);
+OVOID_API ovoid_code ovoid_compound_impact_check(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
+                                                 const ovoid_compound_impact *impact, const ovoid_step *steps,
+                                                 const ovoid_step_group *groups, ovoid_error *error);
 
-/** Part i of a moving solid, as a moving shape: its pose at a time is that of ovoid_compound's definition. */
-OVOID_API ovoid_moving ovoid_moving_solid_get_part(const ovoid_moving_solid *solid, size_t i);
+/** Part i of a moving body, as a moving shape: its pose at a time is that of ovoid_compound's definition. */
+OVOID_API ovoid_moving_shape ovoid_moving_body_get_part(const ovoid_moving_body *body, size_t i);
 
 /**
- * A box that holds the solid at all times of [begin, end], rounding included; of a compound by the balls around at most
- * 16 nodes of its tree. NaN as ovoid_moving_compute_box.
+ * A box that holds the body at all times of [begin, end], rounding included; of a compound by the balls around at most
+ * 16 nodes of its tree. NaN as ovoid_moving_shape_compute_box.
  */
-OVOID_API ovoid_box ovoid_moving_solid_compute_box(const ovoid_moving_solid *solid, double begin, double end);
+OVOID_API ovoid_box ovoid_moving_body_compute_box(const ovoid_moving_body *body, double begin, double end);
 
 #ifdef __cplusplus
 }

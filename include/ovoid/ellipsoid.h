@@ -37,40 +37,40 @@ typedef struct ovoid_fit {
     double gap;          /**< proven relative gap of that volume to the optimum, infinity where none is; NaN for the
                               phases, which have none; flat bodies: true up to their deviation from the plane */
     uint32_t iterations; /**< of the solver or bisection */
-    uint32_t converged;  /**< 1 if the gap asked for was reached; else what is proven is proven all the same */
+    uint32_t converged;  /**< 1 if the requested gap was reached; what is said above is proven in either case */
     double beta;         /**< phase 2 only: the final beta, 0 where the stretch is stuck */
     uint32_t facet;      /**< phase 2 only: the farthest facet that s was taken from (flat: edge or end) */
 } ovoid_fit;
 
 /**
- * (a) The Loewner-John ellipsoid: smallest volume that encloses every vertex, proven to after rounding.
+ * The Loewner-John ellipsoid: the smallest volume that encloses every vertex, proven to enclose after rounding.
  * L. Khachiyan, Rounding of polytopes in the real number model of computation, 1996; P. Kumar and E. A. Yildirim,
  * Minimum-volume enclosing ellipsoids and core sets, 2005 (start); M. J. Todd and E. A. Yildirim, On Khachiyan's
  * algorithm for the computation of minimum-volume enclosing ellipsoids, 2007 (away steps).
- * gap: relative volume gap asked for, 0 means 1e-6. Memory from allocator (NULL: malloc).
+ * gap: relative volume gap to reach, 0 means 1e-6. Memory from allocator (NULL: malloc).
  * Returns OVOID_OK or ARGUMENT, MEMORY. Cost: linear in the vertices per iteration.
  */
 OVOID_API ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
                                                    const ovoid_allocator *allocator);
 
 /**
- * (b) Phase 1 of the paper: shrink the outer ellipsoid isotropically, by bisection from a quarter of its radii, until
- * it touches the first facet. W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on Enclosed
+ * Phase 1 of the paper: shrink the outer ellipsoid isotropically, by bisection from a quarter of its radii, until it
+ * touches the first facet. W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on Enclosed
  * Ellipsoid by Facial Areas Splitting. Proven inside the polyhedron after rounding. Allocates nothing.
  */
 OVOID_API ovoid_fit ovoid_ellipsoid_compute_shrunk(const ovoid_polytope *polytope, const ovoid_ellipsoid *outer);
 
-/** (c) Phase 2 of the paper: move the centre toward the farthest facet and stretch along the way, by bisection. */
+/** Phase 2 of the paper: move the centre toward the farthest facet and stretch in that direction, by bisection. */
 OVOID_API ovoid_fit ovoid_ellipsoid_compute_stretched(const ovoid_polytope *polytope, const ovoid_ellipsoid *shrunk);
 
-/** (d) Phase 3 of the paper: enlarge each radius, one after another, in the ellipsoid's own axes. */
+/** Phase 3 of the paper: enlarge each radius, one after another, in the ellipsoid's own axes. */
 OVOID_API ovoid_fit ovoid_ellipsoid_compute_enlarged(const ovoid_polytope *polytope, const ovoid_ellipsoid *stretched);
 
 /**
  * The maximum-volume inscribed ellipsoid, proven inside after rounding.
  * L. G. Khachiyan and M. J. Todd, On the complexity of approximating the maximal inscribed ellipsoid for a polytope,
  * 1993; Y. Zhang and L. Gao, On numerical solution of the maximum volume ellipsoid problem, 2003.
- * gap: relative volume gap asked for, 0 means 1e-6. Returns OVOID_OK or ARGUMENT, MEMORY.
+ * gap: relative volume gap to reach, 0 means 1e-6. Returns OVOID_OK or ARGUMENT, MEMORY.
  */
 OVOID_API ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
                                                    const ovoid_allocator *allocator);
@@ -98,9 +98,9 @@ typedef struct ovoid_nearest {
 OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, ovoid_vec3 point);
 
 /**
- * (e) The paper's X* and Y*: a is mapped to the unit sphere, the point of the mapped b nearest to its centre and the
- * sphere's point on that line are mapped back. A good direction; not the Euclidean nearest points, and distance is only
- * an upper bound of theirs. Q of a must be positive definite, else the Euclidean result is returned.
+ * The paper's X* and Y*: a is mapped to the unit sphere; the point of the mapped b nearest to the sphere's centre and
+ * the sphere's point on the same line are mapped back. A good direction; not the Euclidean nearest points, and distance
+ * is only an upper bound of theirs. Q of a must be positive definite, else the Euclidean result is returned.
  */
 OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest_by_sphere(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
 

@@ -47,7 +47,7 @@ typedef struct ovoid_mesh_part {
 typedef struct ovoid_read_options {
     double scale; /**< each coordinate is multiplied by it; > 0; 0 means 1 */
     int parts;    /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
-    int trusted;  /**< 0: Assimp's importers run in a child process; 1: in this one, where their crashes are yours */
+    int trusted;  /**< 0: Assimp's importers run in a child process; 1: in this one, which their faults may crash */
 } ovoid_read_options;
 
 /** The metres of a unit, "m", "cm", "mm", "in" or "ft"; 0 for any other word. For ovoid_read_options.scale. */
@@ -60,10 +60,9 @@ OVOID_API double ovoid_unit_get_scale(const char *unit);
  * One part: every point of the file. Several: the points that the object's faces use; of an object without faces those
  * that it declares; objects without points are left out. STL's equal points are merged, nothing else.
  * Assimp's importers are not safe with hostile bytes. They run in a child process (fork) with limits on memory and
- * time, and what it hands over is checked as any file is: its crash is an error here. The host sees a SIGCHLD. Where
- * fork is not to be used, or must not be while other threads run, set options->trusted for files that are.
- * docs/formats.md says more. Errors: FILE, FORMAT, EMPTY (no points), NOT_FINITE, RANGE, INDEX, LIMIT, ARGUMENT
- * (scale), MEMORY.
+ * time, and their output is checked as any file is: a crash there is an error here. The host receives a SIGCHLD. Where
+ * fork must not be used, or not while other threads run, set options->trusted for files that are. docs/formats.md says
+ * more. Errors: FILE, FORMAT, EMPTY (no points), NOT_FINITE, RANGE, INDEX, LIMIT, ARGUMENT (scale), MEMORY.
  */
 OVOID_API ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. */
@@ -82,8 +81,8 @@ OVOID_API int ovoid_io_has_assimp(void);
 OVOID_API int ovoid_path_is_shape(const char *path);
 
 /**
- * A shape from a file: a `.ovoid` file, checked byte by byte, or the hull of a mesh file. A `.ovoid` file is what it
- * is: a scale other than 1 or a radius is refused (ARGUMENT). options->parts is not looked at. The caller destroys it.
+ * A shape from a file: a `.ovoid` file, checked byte by byte, or the hull of a mesh file. For a `.ovoid` file a scale
+ * other than 1 or a radius is refused (ARGUMENT). options->parts is ignored. The caller destroys it.
  */
 OVOID_API ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read,
                                              const ovoid_shape_options *options, ovoid_error *error);
@@ -106,7 +105,7 @@ OVOID_API ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_rea
 
 /**
  * The shapes of a LIST: a text file with one path a line, relative to the list's folder. Empty lines and lines that
- * begin with '#' are skipped and not counted. A path that comes twice is read once. read->parts is not looked at.
+ * begin with '#' are skipped and not counted. A path that comes twice is read once. read->parts is ignored.
  */
 OVOID_API ovoid_shapes *ovoid_shapes_read_list(const char *path, const ovoid_read_options *read,
                                                const ovoid_shape_options *options, ovoid_error *error);
@@ -150,7 +149,7 @@ typedef struct ovoid_scene ovoid_scene;
 typedef struct ovoid_scene_object {
     const char *name;
     const ovoid_shape *shape;       /**< objects of equal geometry share it; NULL for a compound */
-    const ovoid_compound *compound; /**< likewise; NULL for a shape */
+    const ovoid_compound *compound; /**< objects of equal geometry share it; NULL for a shape */
     ovoid_pose pose;
 } ovoid_scene_object;
 
@@ -190,13 +189,13 @@ OVOID_API void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader);
 
 /* ---- motions ---- */
 
-/** What a MOTION.csv gives, by its header. */
+/** The columns of a MOTION.csv, by its header. */
 typedef enum ovoid_motion_columns {
     OVOID_MOTION_COLUMNS_POSE = 0, /**< time,body,x,y,z,qw,qx,qy,qz */
     OVOID_MOTION_COLUMNS_VELOCITY  /**< time,body,vx,vy,vz,wx,wy,wz */
 } ovoid_motion_columns;
 
-/** One line: where a body of the scene is at that time, or how it moves from then on. */
+/** One line: the pose of a body of the scene at a time, or its velocity from then on. */
 typedef struct ovoid_motion_line {
     double time;
     size_t body;                /**< object of the scene */
@@ -214,7 +213,7 @@ typedef struct ovoid_motion_reader ovoid_motion_reader;
 /** Opens the file ("-": standard input) and reads the header. The scene is borrowed: its names are the bodies. */
 OVOID_API ovoid_motion_reader *ovoid_motion_reader_create(const char *path, const ovoid_scene *scene,
                                                           ovoid_error *error);
-/** What its lines give. */
+/** The columns of its lines. */
 OVOID_API ovoid_motion_columns ovoid_motion_reader_get_columns(const ovoid_motion_reader *reader);
 /** The next line. 1: *line is filled; 0: the end; -1: *error is filled. */
 OVOID_API int ovoid_motion_reader_read(ovoid_motion_reader *reader, ovoid_motion_line *line, ovoid_error *error);
@@ -225,10 +224,10 @@ OVOID_API void ovoid_motion_reader_destroy(ovoid_motion_reader *reader);
 
 /* ---- results ---- */
 
-/** What a record may have besides the answer of a pair. */
+/** Optional fields of a record, beside the answer of a pair. */
 typedef enum ovoid_record_field {
     OVOID_RECORD_TIME = 1,  /**< of a frame, or of an impact */
-    OVOID_RECORD_PARTS = 2, /**< the parts of compounds that the answer is about */
+    OVOID_RECORD_PARTS = 2, /**< the parts of compounds to which the answer belongs */
     OVOID_RECORD_IMPACT = 4 /**< that the time is that of an impact, and its bracket */
 } ovoid_record_field;
 
@@ -237,22 +236,22 @@ typedef enum ovoid_record_field {
 
 /** The answer for one pair of bodies, as results files hold it. */
 typedef struct ovoid_record {
-    const char *a, *b;        /**< names; NULL: the indices are meant */
-    size_t index_a, index_b;  /**< of a batch; not looked at where there are names */
-    ovoid_answer answer;      /**< limit survives a file only where the status is undecided */
+    const char *a, *b;        /**< names; NULL: the indices identify the bodies */
+    size_t index_a, index_b;  /**< of a batch; ignored where there are names */
+    ovoid_answer answer;      /**< a file has the limit only where the status is undecided */
     const ovoid_cover *cover; /**< of ovoid_depth; NULL where there is none */
     unsigned fields;          /**< ovoid_record_field bits: which of the following are given; 0: none */
     double time;
-    double frame;     /**< of an impact: the time of the frame before, from which on times count; NaN: none */
-    double margin;    /**< of the next two */
-    double free_for;  /**< so long the pair is proven farther apart than the margin */
-    double hit_after; /**< it is within the margin then, proven by the answer; time is frame + hit_after, rounded */
-    uint32_t part_a, part_b;           /**< 0-based; OVOID_RECORD_NO_PART: the body is no compound */
-    const ovoid_exclusion *exclusions; /**< that prove a compound's answer beside the parts' proof; NULL: none */
+    double frame;            /**< of an impact: the time of the frame before, the origin of the next times; NaN: none */
+    double margin;           /**< of the next two */
+    double free_for;         /**< until frame + free_for the pair is proven farther apart than the margin */
+    double hit_after;        /**< at frame + hit_after, rounded `time`, it is within the margin, proven by the answer */
+    uint32_t part_a, part_b; /**< 0-based; OVOID_RECORD_NO_PART: the body is no compound */
+    const ovoid_exclusion *exclusions; /**< the proof of a compound's answer beside the parts' own; NULL: none */
     size_t exclusion_count;
-    const ovoid_step *steps; /**< that prove free_for; NULL: none */
+    const ovoid_step *steps; /**< the proof of free_for; NULL: none */
     size_t step_count;
-    const ovoid_step_group *groups; /**< of compounds: which parts the steps are about; NULL: none */
+    const ovoid_step_group *groups; /**< of compounds: to which parts the steps belong; NULL: none */
     size_t group_count;
 } ovoid_record;
 
@@ -266,7 +265,7 @@ OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *rec
 
 /** The same columns as CSV: vectors are three columns, the proof is one field of JSON. fields: of all records. */
 OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields);
-/** One line of it, with the columns of its fields; one that is given as nothing is empty. */
+/** Writes one line of CSV, with the columns of the record's fields; a column without a value is empty. */
 OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record);
 
 /**
@@ -294,7 +293,7 @@ typedef struct ovoid_output ovoid_output;
 
 /** Starts one. A path that exists and is no regular file (a device, a pipe) is written to directly; "-": stdout. */
 OVOID_API ovoid_output *ovoid_output_create(const char *path, ovoid_error *error);
-/** Where to write; not to be closed. */
+/** The stream to write to; the caller must not close it. */
 OVOID_API FILE *ovoid_output_get_file(ovoid_output *output);
 /** The path of the unfinished file, for signal handlers that must remove it; NULL where it is written to directly. */
 OVOID_API const char *ovoid_output_get_temporary(const ovoid_output *output);
@@ -309,7 +308,7 @@ OVOID_API void ovoid_output_destroy(ovoid_output *output);
 typedef enum ovoid_picture_layer {
     OVOID_PICTURE_OUTER = 1,   /**< outer ellipsoids: outlines and a few lines on them */
     OVOID_PICTURE_INNER = 2,   /**< inner ellipsoids */
-    OVOID_PICTURE_AREAS = 4,   /**< the 8 areas: faces cut along the inner ellipsoid's octants and tinted by them */
+    OVOID_PICTURE_AREAS = 4,   /**< the 8 areas: faces split along the inner ellipsoid's octants and tinted by them */
     OVOID_PICTURE_WITNESS = 8, /**< witness points, the line between them and its length */
     OVOID_PICTURE_NAMES = 16,  /**< names at the bodies */
     OVOID_PICTURE_LEGEND = 32  /**< legend and scale bar */
@@ -378,7 +377,7 @@ typedef struct ovoid_chart {
     const char *const *categories; /**< labels of x = 0, 1, 2, ...; NULL: a number axis */
     size_t category_count;
     int x_log, y_log;       /**< logarithmic axes */
-    double y_min, y_max;    /**< 0 and 0: as the values are */
+    double y_min, y_max;    /**< 0 and 0: the range of the values */
     uint32_t width, height; /**< pixels; 0 means 720 and 400 */
 } ovoid_chart;
 

@@ -2,7 +2,8 @@
  * @file motion.h
  * Bodies that move: where they are at a time, when they meet, how near they come, casts and rays, and the boxes that
  * they sweep. Every answer is a bracket that holds for all times in between, rounding included; what is proven comes as
- * steps that can be checked without a search. Nothing is allocated, locked or kept; work is bounded.
+ * steps that can be checked without a search. Nothing is allocated, locked or kept; work is bounded;
+ * stack as in <ovoid/query.h>.
  */
 #ifndef OVOID_MOTION_H
 #define OVOID_MOTION_H
@@ -58,43 +59,39 @@ OVOID_API ovoid_motion ovoid_motion_make_path(const double *times, const ovoid_p
 OVOID_API ovoid_code ovoid_motion_compute_check(const ovoid_motion *motion, ovoid_error *error);
 
 /**
- * The pose at a time, rounded; before and after its time a motion rests. Off the exact motion by at most 16 u of the
+ * The pose at a time, rounded; before and after its times a motion rests. Off the exact motion by at most 16 u of the
  * way travelled, 4 u of the starting position, 160 u of the pivot and, in the rotation, 160 u + 16 u of the angle
- * turned, u = 2^-53; docs/motion.md derives this. The motion must be sound (ovoid_motion_compute_check).
+ * turned, u = 2^-53; docs/motion.md derives this. The motion must be valid (ovoid_motion_compute_check).
  */
 OVOID_API ovoid_pose ovoid_motion_compute_pose(const ovoid_motion *motion, double time);
 
 /** A shape that moves. The shape and a path's arrays are borrowed. */
-typedef struct ovoid_moving {
+typedef struct ovoid_moving_shape {
     const ovoid_shape *shape;
     ovoid_motion motion;
-    ovoid_pose part; /**< all zero: none. Else the shape is fixed in what moves, as a part of a compound: its pose is
-                          ovoid_pose_compute_product of the motion's pose and this one */
-} ovoid_moving;
+    ovoid_pose part; /**< all zero: none. Else the shape is fixed to the moving frame, as a part of a compound: its pose
+                        is ovoid_pose_compute_product of the motion's pose and this one */
+} ovoid_moving_shape;
 
 /** The shape's pose at a time, rounded: that of the motion, times `part`. */
-OVOID_API ovoid_pose ovoid_moving_compute_pose(const ovoid_moving *moving, double time);
-
-/** An axis-aligned box. */
-typedef struct ovoid_box {
-    ovoid_vec3 low, high;
-} ovoid_box;
+OVOID_API ovoid_pose ovoid_moving_shape_compute_pose(const ovoid_moving_shape *moving, double time);
 
 /**
- * A box that holds the body at all times of [begin, end], rounding included. Exact but for rounding where it does not
- * turn; else wider by at most a 32nd of the width of the body where it turns less than 4 radians, and the box of all
- * turned positions where it turns more. NaN where the motion is not sound or begin > end. Cost: some supports a piece.
+ * A box that holds the body at all times of [begin, end], rounding included. Exact but for rounding where the body does
+ * not turn; else wider by at most a 32nd of the width of the body where it turns less than 4 radians, and the box of
+ * all turned positions where it turns more. NaN where there is no shape, the motion is invalid or begin > end. Cost:
+ * some supports a piece.
  */
-OVOID_API ovoid_box ovoid_moving_compute_box(const ovoid_moving *moving, double begin, double end);
+OVOID_API ovoid_box ovoid_moving_shape_compute_box(const ovoid_moving_shape *moving, double begin, double end);
 
-/** What is proven about two bodies that move. */
+/** What a query about two moving bodies proves. */
 typedef enum ovoid_impact_status {
     OVOID_IMPACT_UNDECIDED = 0, /**< no impact is proven, nor that there is none; `limit` says why */
     OVOID_IMPACT_FREE,          /**< never within the margin, proven */
     OVOID_IMPACT_HIT            /**< within the margin at hit_at, proven */
 } ovoid_impact_status;
 
-/** What the direction of a step turns with. */
+/** With what a step's direction turns. */
 typedef enum ovoid_step_frame {
     OVOID_STEP_WORLD = 0, /**< nothing: it is fixed in the world */
     OVOID_STEP_A = 1,     /**< the motion of A */
@@ -114,8 +111,8 @@ typedef struct ovoid_step {
 } ovoid_step;
 
 /**
- * Of compounds: the next `count` steps prove what is said of each part of a that comes in its order at [first_a, end_a)
- * against each of b at [first_b, end_b): of two single parts by their own gap, else by that of the balls around them.
+ * Of compounds: the next `count` steps hold for each part of a at [first_a, end_a) of its tree's order against each
+ * part of b at [first_b, end_b): for two single parts by their own gap, else by the gap of the balls around them.
  */
 typedef struct ovoid_step_group {
     uint32_t first_a, end_a, first_b, end_b;
@@ -124,12 +121,12 @@ typedef struct ovoid_step_group {
 
 /** Options of queries about motions; all zero is the default, and NULL means that. */
 typedef struct ovoid_motion_options {
-    double begin, end; /**< the times asked about; both 0: from the later begin to the earlier end of the motions, from
-                          0 to 0 where both stand still */
-    double tolerance;  /**< impact: of hit_at - free_until, in parts of end - begin; 0 means 1e-9, for casts 1e-12.
-                            approach: of upper - lower, in parts of the pair's size; 0 means 1e-6 */
-    uint32_t iterations;        /**< most steps and queries; 0 means 10 000 */
-    const ovoid_options *query; /**< of the queries at single times; NULL: the default */
+    double begin, end;   /**< the times queried; both 0: from the later begin to the earlier end of the motions, from
+                            0 to 0 where both stand still */
+    double tolerance;    /**< impact: of hit_at - free_until, in parts of end - begin; 0 means 1e-9, for casts 1e-12.
+                              approach: of upper - lower, in parts of the pair's size; 0 means 1e-6 */
+    uint32_t iterations; /**< most steps and queries; 0 means 10 000 */
+    const ovoid_options *query; /**< for the queries at single times; NULL: the default */
     ovoid_step *steps;          /**< receives the proof's steps, up to capacity; NULL where none are wanted */
     size_t capacity;
     ovoid_step_group *groups; /**< compounds only: receives the steps' groups, up to group_capacity; NULL: the steps are
@@ -140,17 +137,18 @@ typedef struct ovoid_motion_options {
 /** When two moving bodies come within a margin of each other. */
 typedef struct ovoid_impact {
     ovoid_impact_status status;
-    ovoid_limit limit;   /**< POSE_A, POSE_B: that motion is refused (ovoid_motion_compute_check says why); OPTIONS:
-                              margin, times or options are; ITERATIONS; PRECISION: the gap stays so near the margin that
-                              doubles do not tell */
+    ovoid_limit limit;   /**< SHAPE_A, SHAPE_B: there is no shape; POSE_A, POSE_B: that motion is refused
+                              (ovoid_motion_compute_check says why); OPTIONS:
+                              margin, times or options are refused; ITERATIONS; PRECISION: the gap stays so near the
+                              margin that doubles cannot tell */
     uint32_t iterations; /**< queries at single times */
-    double begin, end;   /**< the times asked about */
+    double begin, end;   /**< the times queried */
     double free_until;   /**< proven: farther apart than the margin at all times before it, from begin on */
     double hit_at;     /**< proven: within the margin at that time; infinity where that is not proven. So the true time
                             of impact is in [free_until, hit_at] */
     size_t step_count; /**< steps that prove free_until; more than the capacity: those beyond it were not written */
-    ovoid_answer free, hit; /**< the answers for the poses (ovoid_moving_compute_pose) at free_until and at hit_at; of
-                                 what is undecided, `hit` is the last that was looked at */
+    ovoid_answer free, hit; /**< the answers for the poses (ovoid_moving_shape_compute_pose) at free_until and at
+                               hit_at; where UNDECIDED, `hit` is the answer of the last query */
 } ovoid_impact;
 
 /**
@@ -160,7 +158,7 @@ typedef struct ovoid_impact {
  * are within the margin at the beginning, hit_at = begin. Cost: a distance query and some supports a step, two to
  * twenty steps for most motions.
  */
-OVOID_API ovoid_impact ovoid_impact_find(const ovoid_moving *a, const ovoid_moving *b, double margin,
+OVOID_API ovoid_impact ovoid_impact_find(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
                                          const ovoid_motion_options *options);
 
 /**
@@ -168,7 +166,7 @@ OVOID_API ovoid_impact ovoid_impact_find(const ovoid_moving *a, const ovoid_movi
  * steps reach free_until, that the bodies are within the margin at hit_at, and that the status follows. steps: all
  * step_count of them. OVOID_OK, or PROOF with a sentence in *error (may be NULL); place: the step.
  */
-OVOID_API ovoid_code ovoid_impact_check(const ovoid_moving *a, const ovoid_moving *b, double margin,
+OVOID_API ovoid_code ovoid_impact_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
                                         const ovoid_impact *impact, const ovoid_step *steps, ovoid_error *error);
 
 /**
@@ -200,10 +198,10 @@ typedef struct ovoid_ray_hit {
 /**
  * Where a ray first meets a body. A body without an inside (a flat polygon or a segment, without a radius) is met by a
  * ray without a radius in one point at most, which no arithmetic of rounded numbers can prove: UNDECIDED, with lower at
- * that point; give the ray a radius. Refused: POSE_B (the body's), OPTIONS (the ray: NaN, infinity, lengths above
- * OVOID_LENGTH_MAX, a direction of zero).
+ * that point; give the ray a radius. Refused: SHAPE_B, POSE_B (the body's), OPTIONS (the ray: NaN, infinity, lengths
+ * above OVOID_LENGTH_MAX, a direction of zero).
  */
-OVOID_API ovoid_ray_hit ovoid_ray_cast(const ovoid_body *body, const ovoid_ray *ray);
+OVOID_API ovoid_ray_hit ovoid_ray_cast(const ovoid_posed_shape *body, const ovoid_ray *ray);
 
 /** How near two moving bodies come. */
 typedef struct ovoid_approach {
@@ -219,19 +217,21 @@ typedef struct ovoid_approach {
 } ovoid_approach;
 
 /**
- * The smallest distance of two moving bodies over a time, and when. The same steps as ovoid_impact_find, above a level
- * that follows the smallest distance seen. Cost: some tens of queries for a turn
- * or less, in proportion to the turns where a body spins.
+ * The smallest distance of two moving bodies over an interval, and when. The same steps as ovoid_impact_find, above a
+ * level that follows the smallest distance found. Cost: some tens of queries for a turn or less, in proportion to the
+ * turns where a body spins.
  */
-OVOID_API ovoid_approach ovoid_approach_find(const ovoid_moving *a, const ovoid_moving *b,
+OVOID_API ovoid_approach ovoid_approach_find(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
                                              const ovoid_motion_options *options);
 
-/** Checks an approach without any search, likewise: the steps prove lower over all of [begin, end], the answer upper.
+/**
+ * Checks an approach without any search: that the steps prove lower over all of [begin, end], and the answer upper.
+ * Arguments and errors as in ovoid_impact_check.
  */
-OVOID_API ovoid_code ovoid_approach_check(const ovoid_moving *a, const ovoid_moving *b, const ovoid_approach *approach,
-                                          const ovoid_step *steps, ovoid_error *error);
+OVOID_API ovoid_code ovoid_approach_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
+                                          const ovoid_approach *approach, const ovoid_step *steps, ovoid_error *error);
 
-/** The word for results, for example "hit"; never NULL. */
+/** The name of a status in results, for example "hit"; never NULL. */
 OVOID_API const char *ovoid_impact_status_get_name(ovoid_impact_status status);
 
 #ifdef __cplusplus

@@ -5,13 +5,13 @@
 #ifndef OVOID_OVOID_H
 #define OVOID_OVOID_H
 
-#include "ovoid/area.h"
 #include "ovoid/base.h"
 #include "ovoid/compound.h"
 #include "ovoid/compound_impact.h"
 #include "ovoid/ellipsoid.h"
 #include "ovoid/linear.h"
 #include "ovoid/motion.h"
+#include "ovoid/paper.h"
 #include "ovoid/polytope.h"
 #include "ovoid/query.h"
 #include "ovoid/shape.h"

@@ -47,7 +47,7 @@ typedef struct ovoid_polytope {
     uint32_t rank;        /**< 0 point, 1 segment, 2 flat, 3 solid */
 } ovoid_polytope;
 
-/** What became of the points given. points = vertices + duplicates + interior. */
+/** What the constructor did with the points given. points = vertices + duplicates + interior. */
 typedef struct ovoid_report {
     uint64_t points;     /**< points given */
     uint64_t vertices;   /**< vertices kept */
@@ -63,8 +63,9 @@ typedef struct ovoid_measures {
     double volume;       /**< 0 where rank < 3 */
     double area;         /**< surface; of a flat polygon both sides */
     ovoid_vec3 centroid; /**< of the volume; of area, length or point where rank < 3 */
-    ovoid_sym3 inertia;  /**< inertia tensor about the centroid; of area, length where rank < 3 (times one side) */
-    ovoid_vec3 box_min, box_max;
+    ovoid_sym3
+        inertia;   /**< inertia tensor about the centroid; of area or length where rank < 3, one side of a polygon */
+    ovoid_box box; /**< of the vertices */
     ovoid_vec3 sphere_center;
     double sphere_radius; /**< of a sphere that encloses every vertex, rounding included; near the smallest */
 } ovoid_measures;

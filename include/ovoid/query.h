@@ -1,7 +1,8 @@
 /**
  * @file query.h
  * Proximity of two posed shapes: do they touch, how far apart, how deep; each answer with its bracket and its proof.
- * Queries allocate nothing, lock nothing, keep no global state and do bounded work.
+ * Queries allocate nothing, lock nothing, keep no global state and do bounded work. In optimised builds each takes at
+ * most 96 KB of stack, so a thread of 128 KB will do; with sanitizers or without optimisation, several times as much.
  */
 #ifndef OVOID_QUERY_H
 #define OVOID_QUERY_H
@@ -42,14 +43,17 @@ typedef enum ovoid_stage {
 /** Why a query stopped before its bracket was narrower than the tolerance. */
 typedef enum ovoid_limit {
     OVOID_LIMIT_NONE = 0,   /**< it did not: answered in full */
-    OVOID_LIMIT_ANSWERED,   /**< the question (collide, within, bounds) was answered; the bracket is true but wide */
+    OVOID_LIMIT_ANSWERED,   /**< the query (collide, within, bounds) is answered; the bracket is true but wide */
     OVOID_LIMIT_CAP,        /**< proven farther than options.cap */
     OVOID_LIMIT_ITERATIONS, /**< options.iterations used up */
     OVOID_LIMIT_PRECISION,  /**< no further progress, in pairs of doubles either */
     OVOID_LIMIT_CAPACITY,   /**< the depth search filled its fixed working memory */
     OVOID_LIMIT_POSE_A,     /**< refused: pose_a has NaN, infinity, a length out of range or a zero quaternion */
-    OVOID_LIMIT_POSE_B,     /**< refused: likewise pose_b */
-    OVOID_LIMIT_OPTIONS     /**< refused: NaN or a negative tolerance in the options */
+    OVOID_LIMIT_POSE_B,     /**< refused: pose_b, for the same reasons */
+    OVOID_LIMIT_OPTIONS,    /**< refused: NaN or a negative tolerance in the options */
+    OVOID_LIMIT_SHAPE_A, /**< refused: there is no shape_a (NULL); a body with neither a shape nor a compound, or both
+                          */
+    OVOID_LIMIT_SHAPE_B  /**< refused: shape_b, for the same reasons */
 } ovoid_limit;
 
 /** What the upper bound rests on. */
@@ -69,19 +73,19 @@ typedef enum ovoid_proof_kind {
 #define OVOID_PROOF_PAIRS 6
 
 /**
- * A proof: plain data that ovoid_proof_check, or anyone with exact arithmetic, can check, and the warm start of the
+ * A proof: plain data that ovoid_answer_check, or anyone with exact arithmetic, can check, and the warm start of the
  * next query of the pair. Indices are vertices of ovoid_polytope. Rounding radii are subtracted from both bounds.
  *
  * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal + normal_low is that n
  * (nearly unit: divide by its norm). Zero where there is no lower bound.
- * Upper bound: as `kind` says. POINTS: sum weight_a[i] x(a[i]) / sum weight_a is the point of A, likewise of B. HULL:
- * four differences are the corners of a tetrahedron; of five or six, 0 and 1 are the tips of a double pyramid over the
- * closed ring 2, 3, ..., with triangles (0, r, next r) and (1, next r, r); upper is minus the origin's distance to that
- * surface, minus the radii; the weights give a common point of the bodies.
+ * Upper bound: as `kind` says. POINTS: sum weight_a[i] x(a[i]) / sum weight_a[i] is the point of A, and the same of B
+ * gives that of B. HULL: four differences are the corners of a tetrahedron; of five or six, 0 and 1 are the tips of a
+ * double pyramid over the closed ring 2, 3, ..., with triangles (0, r, next r) and (1, next r, r); upper is minus the
+ * origin's distance to that surface, minus the radii; the weights give a common point of the bodies.
  */
 typedef struct ovoid_proof {
     ovoid_vec3 normal;     /**< world frame, from A to B */
-    ovoid_vec3 normal_low; /**< what normal leaves of the direction meant, their exact sum; zero but for REFINE */
+    ovoid_vec3 normal_low; /**< the direction is the exact sum normal + normal_low; zero but for stage REFINE */
     ovoid_proof_kind kind;
     uint32_t count; /**< entries used of the arrays */
     uint32_t a[OVOID_PROOF_PAIRS], b[OVOID_PROOF_PAIRS];
@@ -149,17 +153,17 @@ OVOID_API ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *
                                    ovoid_cover *cover);
 
 /** A posed shape. The shape is borrowed. */
-typedef struct ovoid_body {
+typedef struct ovoid_posed_shape {
     const ovoid_shape *shape;
     ovoid_pose pose;
-} ovoid_body;
+} ovoid_posed_shape;
 
 /** Two bodies of a batch, by index. */
 typedef struct ovoid_couple {
     uint32_t a, b;
 } ovoid_couple;
 
-/** The beginning of an answer, for those who ask about many pairs: what it says, without the evidence. */
+/** The beginning of an answer, as batches and worlds give it for many pairs: without points and proof. */
 typedef struct ovoid_verdict {
     ovoid_status status;
     ovoid_stage stage;
@@ -169,32 +173,39 @@ typedef struct ovoid_verdict {
 } ovoid_verdict;
 
 /**
- * One question about many pairs. What is written, of couple i, are the bits that the query of that pair alone would
- * give. To use several threads, give each a part of the couples and of the arrays beside them; bodies may be shared.
+ * One query of many pairs. What is written for couple i has the bits that the query of that pair alone would give. To
+ * use several threads, give each a part of the couples and of the arrays beside them; bodies may be shared.
  */
 typedef struct ovoid_batch {
-    const ovoid_body *bodies;
+    const ovoid_posed_shape *bodies;
     size_t body_count;
     const ovoid_couple *couples;
     size_t couple_count;
-    const ovoid_options *options; /**< of all; NULL: the default */
-    ovoid_proof *proofs;     /**< couple_count, NULL if none are kept: each is the couple's earlier proof (all zero:
-                                  none), and is replaced by that of the new answer */
-    ovoid_verdict *verdicts; /**< couple_count, or NULL */
-    ovoid_answer *answers;   /**< couple_count, or NULL */
+    const ovoid_options *options; /**< of all queries; NULL: the default */
+    ovoid_proof *proofs;          /**< couple_count, or NULL: each is the couple's earlier proof (all zero:
+                                       none), and is replaced by that of the new answer */
+    ovoid_verdict *verdicts;      /**< couple_count, or NULL */
+    ovoid_answer *answers;        /**< couple_count, or NULL */
 } ovoid_batch;
 
 /** ovoid_collide for each couple. OVOID_OK, or INDEX (place: the couple) and nothing is written. */
 OVOID_API ovoid_code ovoid_collide_batch(const ovoid_batch *batch, ovoid_error *error);
-/** ovoid_within for each couple; likewise. */
+/** ovoid_within for each couple; errors as in ovoid_collide_batch. */
 OVOID_API ovoid_code ovoid_within_batch(const ovoid_batch *batch, double margin, ovoid_error *error);
-/** ovoid_distance for each couple; likewise. */
+/** ovoid_distance for each couple; errors as in ovoid_collide_batch. */
 OVOID_API ovoid_code ovoid_distance_batch(const ovoid_batch *batch, ovoid_error *error);
-/** ovoid_depth for each couple, without covers; likewise. */
+/** ovoid_depth for each couple, without covers; errors as in ovoid_collide_batch. */
 OVOID_API ovoid_code ovoid_depth_batch(const ovoid_batch *batch, ovoid_error *error);
 
 /** The bracket from the ellipsoids alone, without a search: smooth in the poses, O(1). */
 OVOID_API ovoid_answer ovoid_bounds(const ovoid_pair *pair);
+
+/**
+ * The signed distance as one number, for those who want no bracket: lower, which is never above the true one and within
+ * the tolerance of it. NaN where the bracket is wider than the tolerance (limit is not NONE), as of an overlap that
+ * ovoid_distance found, whose depth ovoid_depth gives, or of a yes or no.
+ */
+OVOID_API double ovoid_answer_get_distance(const ovoid_answer *answer);
 
 /** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: the bracket straddles it. */
 OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
@@ -206,35 +217,14 @@ OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
 OVOID_API ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
                                         ovoid_error *error);
 
-/** The word for results, for example "separated"; never NULL. */
+/** The name of a status in results, for example "separated"; never NULL. */
 OVOID_API const char *ovoid_status_get_name(ovoid_status status);
-/** Likewise, for example "gjk". */
+/** The name of a stage, for example "gjk". */
 OVOID_API const char *ovoid_stage_get_name(ovoid_stage stage);
-/** Likewise, for example "precision". */
+/** The name of a limit, for example "precision". */
 OVOID_API const char *ovoid_limit_get_name(ovoid_limit limit);
-/** Likewise, for example "points". */
+/** The name of a kind of proof, for example "points". */
 OVOID_API const char *ovoid_proof_kind_get_name(ovoid_proof_kind kind);
-
-/** The online steps of the paper for a pair, each with its cost, for study; not how the library decides. */
-typedef struct ovoid_paper_bounds {
-    ovoid_nearest
-        nearest;       /**< (e) X* and Y* of the inner ellipsoids, world frame; its lower bound is theirs, not d's */
-    double lower;      /**< (f) proven: d >= the gap of the outer ellipsoids along the normal between them */
-    double upper;      /**< (g) |Q1 Q2| less the rounding radii, 0 where the inner ellipsoids overlap: d <= it, to
-                            rounding; under OVOID_RULE_PAPER not even that */
-    ovoid_vec3 q1, q2; /**< where the rays from the inner centres through X* and Y* leave the polyhedra */
-    ovoid_vec3 p1, p2; /**< where the same rays leave the outer ellipsoids */
-    uint32_t faces;    /**< facets touched */
-    int collides;      /**< HEURISTIC, no proof: the paper's criterion says that they collide */
-} ovoid_paper_bounds;
-
-/**
- * Steps (e), (f), (g) of the paper and its criterion: |Q1 Q2| > min(|P1 Q1|, |P2 Q2|, threshold), with Q1 before Q2 on
- * the way, means apart. A heuristic, often wrong. areas: the tables of shape_a and shape_b, made of their inner
- * ellipsoids; NULL for a flat shape, whose Q is then X* or Y* itself. Refused poses: -infinity, infinity.
- */
-OVOID_API ovoid_paper_bounds ovoid_paper_compute_bounds(const ovoid_pair *pair, const ovoid_areas *areas[2],
-                                                        ovoid_area_rule rule, double threshold);
 
 #ifdef __cplusplus
 }

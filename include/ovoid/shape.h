@@ -5,7 +5,7 @@
 #ifndef OVOID_SHAPE_H
 #define OVOID_SHAPE_H
 
-#include "ovoid/area.h"
+#include "ovoid/ellipsoid.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,7 +13,8 @@ extern "C" {
 
 /**
  * A convex body: the convex hull of its vertices, enlarged by a rounding radius >= 0. A point with a radius is a
- * sphere, a segment a capsule, a flat polygon a rounded plate. Holds faces, both ellipsoids, measures and area tables.
+ * sphere, a segment a capsule, a flat polygon a rounded plate. Holds faces, both ellipsoids, measures and a table of
+ * supports.
  */
 typedef struct ovoid_shape ovoid_shape;
 
@@ -23,7 +24,7 @@ typedef enum ovoid_inner_method {
     OVOID_INNER_PHASES = 1   /**< the paper's three phases */
 } ovoid_inner_method;
 
-/** Options of all ovoid_shape_create_* functions; all zero is the default, and NULL means that. */
+/** Options of all ovoid_shape_create_* functions; all zero is the default, as is NULL. */
 typedef struct ovoid_shape_options {
     double radius;                    /**< rounding radius, >= 0, added around the hull */
     double gap;                       /**< relative volume gap of the ellipsoids; 0 means 1e-6 */
@@ -67,8 +68,8 @@ OVOID_API ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape
 /** A sphere around the origin: a point with a radius (added to options->radius). */
 OVOID_API ovoid_shape *ovoid_shape_create_sphere(double radius, const ovoid_shape_options *options, ovoid_error *error);
 
-/** A capsule along z: a segment of length 2 half_length with a radius (added to options->radius). */
-OVOID_API ovoid_shape *ovoid_shape_create_capsule(double half_length, double radius, const ovoid_shape_options *options,
+/** A capsule along z: a segment of length 2 half_length with that radius (added to options->radius). */
+OVOID_API ovoid_shape *ovoid_shape_create_capsule(double radius, double half_length, const ovoid_shape_options *options,
                                                   ovoid_error *error);
 
 /** A prism of n >= 3 sides along z, inscribed in the cylinder of that radius. */
@@ -83,7 +84,7 @@ OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length
  * The shape with its vertices moved: the hull of the new points, its ellipsoids looked for from those of the shape.
  * What comes out is proven like that of ovoid_shape_create_from_points; it only comes sooner where the body changed
  * little. xyz: one point for each vertex of ovoid_polytope, in its order, in the user's local frame. Points that are no
- * longer extreme are dropped. Errors as there.
+ * longer extreme are dropped. Errors as there, and ARGUMENT (no shape).
  */
 OVOID_API ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double *xyz,
                                                    const ovoid_shape_options *options, ovoid_error *error);
@@ -93,13 +94,13 @@ OVOID_API ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, con
  * parts[0] lies where normal . x <= offset, parts[1] where it is >=; NULL where nothing but the plane itself is left.
  * Where an edge is cut, both parts get the same point, which is on the edge to rounding. The polyhedron is cut; the
  * rounding radius is that of the options, as for every new shape. Errors as ovoid_shape_create_from_points, and
- * ARGUMENT (normal), NOT_FINITE; then both parts are NULL. The caller destroys the parts.
+ * ARGUMENT (normal, no shape), NOT_FINITE; then both parts are NULL. The caller destroys the parts.
  */
 OVOID_API ovoid_code ovoid_shape_create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
                                                 const ovoid_shape_options *options, ovoid_shape *parts[2],
                                                 ovoid_error *error);
 
-/** A copy with memory of its own. */
+/** A copy with memory of its own. Errors: ARGUMENT (no shape), MEMORY. */
 OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator,
                                                ovoid_error *error);
 
@@ -110,7 +111,7 @@ OVOID_API void ovoid_shape_destroy(ovoid_shape *shape);
 OVOID_API ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *shape);
 /** The rounding radius. */
 OVOID_API double ovoid_shape_get_radius(const ovoid_shape *shape);
-/** What was done with the points given. */
+/** What the constructor did with the points given. */
 OVOID_API ovoid_report ovoid_shape_get_report(const ovoid_shape *shape);
 /** The outer ellipsoid of the polyhedron (without the radius), with its gap. Body frame. */
 OVOID_API ovoid_fit ovoid_shape_get_outer(const ovoid_shape *shape);

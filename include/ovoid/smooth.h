@@ -26,13 +26,14 @@ typedef struct ovoid_smooth_value {
     uint32_t iterations;         /**< of all searches */
     ovoid_vec3 point_a, point_b; /**< world; the points of the ellipsoids behind value, without the radii */
     ovoid_vec3 normal;           /**< unit, world, from A to B */
-    double gradient[12];         /**< zero where not asked for */
-    double hessian[12][12];      /**< likewise; symmetric */
+    double gradient[12];         /**< zero where `order` is below 1 */
+    double hessian[12][12];      /**< zero where `order` is below 2; symmetric */
 } ovoid_smooth_value;
 
 /** outer.value <= d <= inner.value. */
 typedef struct ovoid_smooth {
-    ovoid_limit limit; /**< NONE; POSE_A, POSE_B: refused, -infinity and infinity, the rest zero; OPTIONS: the order */
+    ovoid_limit limit; /**< NONE; SHAPE_A, SHAPE_B, POSE_A, POSE_B: refused, -infinity and infinity, the rest zero;
+                            OPTIONS: likewise, the order */
     ovoid_smooth_value outer, inner;
 } ovoid_smooth;
 
@@ -40,7 +41,7 @@ typedef struct ovoid_smooth {
  * The signed distances of the outer and of the inner ellipsoids: max over unit n of the gap of their supports along n,
  * which where they overlap is minus their depth. order: 0 values, 1 gradients too, 2 Hessians too. Flat inner
  * ellipsoids are ellipses, segments, points. Cost: O(1), but linear in the corners of a flat polygon. docs/smooth.md
- * derives it all. Bounded work, no allocation; 96 KB of stack where ellipsoids overlap deeply.
+ * derives it all. Bounded work, no allocation; stack as in <ovoid/query.h>.
  */
 OVOID_API ovoid_smooth ovoid_smooth_compute(const ovoid_pair *pair, int order);
 

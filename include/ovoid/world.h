@@ -1,13 +1,15 @@
 /**
  * @file world.h
- * Many bodies that move: which of them touch, which are near, from frame to frame, each pair's proof kept.
+ * Many bodies that move: which of them touch, which are near, from step to step, with each pair's proof cached.
  *
- * A world holds bodies by ids, a tree of enlarged boxes over them, the list of pairs whose enlarged boxes overlap, and
- * of each such pair the last proof. A frame asks one question of all pairs at once. What the frame says is the same,
- * bit for bit, whatever the number of threads. docs/world.md has the mathematics.
+ * A world holds bodies by ids, a dynamic tree of enlarged boxes over them, the list of pairs whose enlarged boxes
+ * overlap, and of each such pair the last proof. A step of the host ends with ovoid_world_compute_contacts: one query
+ * of all pairs at once. Its contacts are the same, bit for bit, whatever the number of threads. docs/world.md has the
+ * mathematics.
  *
- * Functions that take a const world may run at the same time in any number of threads; all others need the world for
- * themselves. Lengths are the caller's unit, poses are in the world frame, quaternions as ovoid_pose has them.
+ * Functions that take a const world may run at the same time in any number of threads; all others need exclusive access
+ * to the world. Stack as in <ovoid/query.h>; the world's own threads have 1 MB. Lengths are the caller's unit, poses
+ * are in the world frame, quaternions as ovoid_pose has them.
  */
 #ifndef OVOID_WORLD_H
 #define OVOID_WORLD_H
@@ -19,7 +21,7 @@
 extern "C" {
 #endif
 
-/** Bodies and all that is kept of them and their pairs. */
+/** Bodies, their pairs, and the cached answers of these. */
 typedef struct ovoid_world ovoid_world;
 
 /**
@@ -27,6 +29,9 @@ typedef struct ovoid_world ovoid_world;
  * generation, so an old id is refused, not taken for another body. Comparing ids compares indices.
  */
 typedef uint64_t ovoid_id;
+
+/** Most threads of a world. */
+#define OVOID_WORLD_THREADS_MAX 256u
 
 /** Most bodies of a world. */
 #define OVOID_WORLD_BODIES 0x7fffff00u
@@ -44,15 +49,16 @@ typedef struct ovoid_tasks {
     void *context;
 } ovoid_tasks;
 
-/** 1: the pair is looked at, 0: it never is. Must depend on the ids alone and may be called by several threads. */
+/** 1: the pair is queried, 0: it never is. Must depend on the ids alone and may be called by several threads. */
 typedef int ovoid_filter(void *context, ovoid_id a, ovoid_id b);
 
 /** Options of a world; all zero is the default, and NULL means that. */
 typedef struct ovoid_world_options {
-    uint32_t threads;   /**< workers, the caller's thread included; 0: 1. At most 256 */
+    uint32_t threads;   /**< workers, the caller's thread included; 0: 1. At most
+                             OVOID_WORLD_THREADS_MAX */
     ovoid_tasks tasks;  /**< who runs them; all zero: threads of the world's own, asleep when there is nothing to do */
     double enlargement; /**< of a body's box to each side, in units of the body's size: how far it may go before the
-                           tree hears of it. 0: chosen by the world. At most 100 */
+                           tree is updated. 0: chosen by the world. At most 100 */
     const ovoid_allocator *allocator; /**< NULL: malloc and free; copied. Called from the workers too */
     ovoid_filter *filter;             /**< NULL: all pairs */
     void *filter_context;             /**< handed to the filter */
@@ -66,9 +72,9 @@ OVOID_API void ovoid_world_destroy(ovoid_world *world);
 
 /** What a body is made with. Two bodies are a pair if a.group & b.mask and b.group & a.mask are both not zero. */
 typedef struct ovoid_world_body {
-    ovoid_solid solid;    /**< what it points to must live as long as the body */
+    ovoid_body body;      /**< what it points to must live as long as the body */
     uint32_t group, mask; /**< both zero: all of both */
-    uint64_t user;        /**< the caller's own; only kept */
+    uint64_t user;        /**< the caller's own; the world only stores it */
 } ovoid_world_body;
 
 /**
@@ -76,15 +82,19 @@ typedef struct ovoid_world_body {
  * MEMORY. Cost: one insertion into the tree.
  */
 OVOID_API ovoid_id ovoid_world_add(ovoid_world *world, const ovoid_world_body *body, ovoid_error *error);
-/** Many at once, all or none (place: the body that is refused); ids (count, may be NULL) receives theirs. Faster than
- * one by one. */
+/**
+ * Many at once, all or none (place: the body that is refused); ids (count, may be NULL) receives theirs. Faster than
+ * one by one.
+ */
 OVOID_API ovoid_code ovoid_world_add_many(ovoid_world *world, const ovoid_world_body *bodies, size_t count,
                                           ovoid_id *ids, ovoid_error *error);
 
 /** Removes a body with its ignored pairs. Errors: INDEX, the id is none of this world's, or no more. */
 OVOID_API ovoid_code ovoid_world_remove(ovoid_world *world, ovoid_id id, ovoid_error *error);
-/** Many at once, all or none: an id that is refused (INDEX, also one that comes twice; place: where) leaves all as it
- * was. */
+/**
+ * Many at once, all or none: an id that is refused (INDEX, also one that comes twice; place: which of ids) leaves the
+ * world as it was.
+ */
 OVOID_API ovoid_code ovoid_world_remove_many(ovoid_world *world, const ovoid_id *ids, size_t count, ovoid_error *error);
 
 /**
@@ -111,98 +121,99 @@ OVOID_API ovoid_code ovoid_world_renew(ovoid_world *world, ovoid_id id, ovoid_er
 /** Leaves a pair out from now on (ignored 1), or takes it back (0). Errors: INDEX, ARGUMENT (a is b), MEMORY. */
 OVOID_API ovoid_code ovoid_world_set_ignored(ovoid_world *world, ovoid_id a, ovoid_id b, int ignored,
                                              ovoid_error *error);
-/** 1 if the two are a pair that is looked at: groups, ignored pairs and filter; 0 if not, or an id is stale. */
+/** 1 if groups, ignored pairs and the filter let the two be queried as a pair; 0 if not, or an id is stale. */
 OVOID_API int ovoid_world_is_pair(const ovoid_world *world, ovoid_id a, ovoid_id b);
 
-/** What a frame asks of each pair. */
-typedef enum ovoid_question {
-    OVOID_QUESTION_COLLIDE = 0, /**< do they touch? (ovoid_collide) margin must be 0 */
-    OVOID_QUESTION_WITHIN,      /**< are they within the margin? (ovoid_within) */
-    OVOID_QUESTION_DISTANCE,    /**< how far apart, if within the margin? (ovoid_distance with the margin as cap) */
-    OVOID_QUESTION_DEPTH        /**< likewise, and how deep where they overlap? (ovoid_depth) */
-} ovoid_question;
+/** What is found of each pair. */
+typedef enum ovoid_query_kind {
+    OVOID_QUERY_COLLIDE = 0, /**< do they touch? (ovoid_collide) margin must be 0 */
+    OVOID_QUERY_WITHIN,      /**< are they within the margin? (ovoid_within) */
+    OVOID_QUERY_DISTANCE,    /**< how far apart, if within the margin? (ovoid_distance with the margin as cap) */
+    OVOID_QUERY_DEPTH        /**< how far apart, or how deep, if within the margin? (ovoid_depth) */
+} ovoid_query_kind;
 
-/** A frame's question. */
-typedef struct ovoid_frame_query {
-    ovoid_question question;
+/** The query of all pairs of a world. */
+typedef struct ovoid_contact_query {
+    ovoid_query_kind kind;
     double margin;                /**< >= 0, finite; boxes are enlarged by half of it, so changing it costs a rebuild */
     const ovoid_options *options; /**< of each query; NULL: the default. cap is not used: it is the margin */
-} ovoid_frame_query;
+} ovoid_contact_query;
 
-/** A pair that is not proven farther than the margin. verdict.lower <= d <= verdict.upper holds at the present poses.
+/**
+ * A pair that is not proven farther than the margin. verdict.lower <= d <= verdict.upper holds at the present poses.
  */
 typedef struct ovoid_contact {
     ovoid_id a, b;           /**< a < b */
     uint32_t part_a, part_b; /**< of compounds: the deciding parts; 0 for a shape */
-    ovoid_verdict verdict;   /**< stage PROOF with 0 iterations: by the aged bounds of an earlier frame's proof */
+    ovoid_verdict verdict;   /**< stage PROOF with 0 iterations: by the aged bounds of an earlier step's proof */
 } ovoid_contact;
 
-/** Where: as in ovoid_answer. */
+/** Witness points and normal of a contact, as in ovoid_answer. */
 typedef struct ovoid_witness {
     ovoid_vec3 point_a, point_b, normal;
 } ovoid_witness;
 
-/** The contacts of a frame. The arrays are the world's, valid until the next call with a world that is not const. */
-typedef struct ovoid_frame {
-    const ovoid_contact *contacts; /**< sorted by a, then b */
+/** The contacts of a step. The arrays are the world's, valid until the next call with a world that is not const. */
+typedef struct ovoid_contacts {
+    const ovoid_contact *items; /**< sorted by a, then b */
     const ovoid_witness
         *witnesses; /**< beside them for DISTANCE and DEPTH; else NULL (ovoid_world_compute_proof has more) */
     size_t count;
     size_t bodies;         /**< in the world */
     size_t pairs;          /**< whose enlarged boxes overlap */
-    size_t aged;           /**< of these, answered by the bounds of an earlier proof, without looking at the bodies */
-    size_t queried;        /**< the others */
-    size_t added, dropped; /**< pairs since the frame before */
-    size_t moved;          /**< bodies that left their enlarged boxes since the frame before, or are new */
+    size_t aged;           /**< of these, answered by the aged bounds of an earlier proof, without any geometry */
+    size_t queried;        /**< the others: proof measured again, or queried */
+    size_t added, dropped; /**< pairs since the step before */
+    size_t moved;          /**< bodies that left their enlarged boxes since the step before, or are new */
     uint32_t rebuilt;      /**< 1: the tree was built anew */
     size_t memory;         /**< bytes that the world holds */
-} ovoid_frame;
+} ovoid_contacts;
 
 /**
  * All pairs that are not proven farther than the margin, with their answers: the statuses are those that the query of
- * each pair alone gives. Errors: ARGUMENT (question, margin), MEMORY; then nothing is lost, and the frame can be asked
- * again. Cost: docs/world.md.
+ * each pair alone gives. Errors: ARGUMENT (query, margin), MEMORY; then nothing is lost, and the call can be repeated.
+ * Cost: docs/world.md.
  */
-OVOID_API ovoid_code ovoid_world_compute_frame(ovoid_world *world, const ovoid_frame_query *query, ovoid_frame *frame,
-                                               ovoid_error *error);
+OVOID_API ovoid_code ovoid_world_compute_contacts(ovoid_world *world, const ovoid_contact_query *query,
+                                                  ovoid_contacts *contacts, ovoid_error *error);
 
 /**
- * The whole answer of a contact at the present poses, with the proof that ovoid_compound_answer_check wants (of two
- * shapes: that ovoid_answer_check wants): the question is that of the last frame, the start is what the frame kept.
- * exclusions: as in ovoid_compound_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT. Cost: one query.
+ * The whole answer of a contact at the present poses, with the proof that ovoid_compound_answer_check takes (of two
+ * shapes: that ovoid_answer_check takes): the query is that of the last step, warm from its cache. exclusions: as in
+ * ovoid_compound_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT. Cost: one query.
  */
 OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const ovoid_contact *contact,
                                                ovoid_exclusions *exclusions, ovoid_compound_answer *answer,
                                                ovoid_error *error);
 
 /*
- * Questions between frames. None of them allocates or changes anything; each looks at the bodies where they are now, in
- * any thread, while no other thread changes the world. Pairs that are not looked at (ovoid_world_is_pair) are left out;
- * of a probe, which is no body of the world, groups and masks count, ignored pairs and the filter do not. Answers are
- * those of <ovoid/compound.h>, cold. Errors of all: ARGUMENT (options, margin), INDEX (an id), and for a probe those of
+ * Queries between steps. None of them allocates or changes anything; each takes the bodies where they are now, in any
+ * thread, while no other thread changes the world. Pairs that are filtered out (ovoid_world_is_pair) are left out; of a
+ * probe, which is no body of the world, groups and masks count, ignored pairs and the filter do not. Answers are those
+ * of <ovoid/compound.h>, cold. Errors of all: ARGUMENT (options, margin), INDEX (an id), and for a probe those of
  * ovoid_world_add.
  */
 
-/** What was found. */
+/** The pair that a query found. */
 typedef struct ovoid_world_hit {
-    ovoid_id a, b; /**< b: the body found; 0: none. a: the body that asked; for a probe 0, or its number of several */
-    double lower;  /**< nearest: no pair asked about is nearer, unless two overlap, which ends the search; where none
-                        was found the cap, or infinity */
-    ovoid_compound_answer answer; /**< of the solids of a and b, in that order */
+    ovoid_id a, b; /**< b: the body found; 0: none. a: the querying body; for a probe 0, or its number of several */
+    double lower;  /**< nearest: no pair queried is nearer, unless two overlap, which ends the search; where none was
+                        found the cap, or infinity */
+    ovoid_compound_answer answer; /**< of the bodies of a and b, in that order */
 } ovoid_world_hit;
 
 /**
  * Does any of these bodies touch another one? ids NULL: any of all. Stops at the first pair that is not proven apart:
- * hit->b is 0 where all are. Cost: a walk for each body, and the queries of what its box meets.
+ * hit->b is 0 where all are. Cost: a traversal of the tree for each body, and the queries of what its box meets.
  */
 OVOID_API ovoid_code ovoid_world_find_any(const ovoid_world *world, const ovoid_id *ids, size_t count,
                                           const ovoid_options *options, ovoid_world_hit *hit, ovoid_error *error);
 
 /**
- * Does any of these solids, which are not in the world, touch a body of it? What a planner asks about a state of its
+ * Does any of these bodies, which are not in the world, touch a body of it? For a planner that checks states of its
  * robot, from any number of threads. In the order given, up to the first that is not proven apart: hit->a is its
  * number, hit->b the body. Probes are not compared with one another. place: the probe that is refused; those before it
- * are apart. Cost: for each its box, a walk, and the queries of what that box meets.
+ * are apart. Cost: for each its box, a traversal, and the queries of what that box meets.
  */
 OVOID_API ovoid_code ovoid_world_find_any_to(const ovoid_world *world, const ovoid_world_body *probes, size_t count,
                                              ovoid_world_hit *hit, ovoid_error *error);
@@ -210,16 +221,18 @@ OVOID_API ovoid_code ovoid_world_find_any_to(const ovoid_world *world, const ovo
 /** The body nearest to a body, within options->cap. Of those that overlap it, one. */
 OVOID_API ovoid_code ovoid_world_find_nearest(const ovoid_world *world, ovoid_id id, const ovoid_options *options,
                                               ovoid_world_hit *hit, ovoid_error *error);
-/** The body nearest to a solid that is not in the world. */
+/** The body nearest to a body that is not in the world. */
 OVOID_API ovoid_code ovoid_world_find_nearest_to(const ovoid_world *world, const ovoid_world_body *probe,
                                                  const ovoid_options *options, ovoid_world_hit *hit,
                                                  ovoid_error *error);
-/** The two nearest of all bodies, within options->cap; two that overlap end the search. Both trees are walked at once.
+/**
+ * The two nearest of all bodies, within options->cap; two that overlap end the search. The tree is traversed against
+ * itself.
  */
 OVOID_API ovoid_code ovoid_world_find_nearest_pair(const ovoid_world *world, const ovoid_options *options,
                                                    ovoid_world_hit *hit, ovoid_error *error);
 
-/** Where hits go. */
+/** Memory for hits. */
 typedef struct ovoid_world_hits {
     ovoid_world_hit *items; /**< the caller's; may be NULL where capacity is 0 */
     size_t capacity;
@@ -227,21 +240,21 @@ typedef struct ovoid_world_hits {
     const ovoid_options *options; /**< of each query; NULL: the default */
 } ovoid_world_hits;
 
-/** All bodies that are not proven farther than margin from a solid, sorted by id. */
+/** All bodies that are not proven farther than margin from a body, sorted by id. */
 OVOID_API ovoid_code ovoid_world_find_overlaps(const ovoid_world *world, const ovoid_world_body *probe, double margin,
                                                ovoid_world_hits *hits, ovoid_error *error);
 
 /** A probe that is a point: for the bodies that contain it, or the one nearest to it. Its shape is the world's. */
 OVOID_API ovoid_world_body ovoid_world_make_point(const ovoid_world *world, ovoid_vec3 point);
 
-/** What a ray or a moved solid meets first. */
+/** The first hit of a ray or of a moved body. */
 typedef struct ovoid_world_cast {
     ovoid_id body;        /**< 0: none */
     uint32_t part, probe; /**< part of the body, and of the probe */
     double lower, upper;  /**< bracket of the first t; where nothing is met the whole length, and infinity */
     ovoid_vec3 point;     /**< of the body, world */
     ovoid_vec3 normal;    /**< unit, out of the body */
-    uint32_t undecided;   /**< casts that ended without a bracket; lower holds with them, upper is of the others */
+    uint32_t undecided;   /**< casts that ended without a bracket; lower holds for them too, upper does not */
 } ovoid_world_cast;
 
 /** A ray that meets the bodies of its groups. */
@@ -250,13 +263,14 @@ typedef struct ovoid_world_ray {
     uint32_t group, mask; /**< as of a body; both zero: all */
 } ovoid_world_ray;
 
-/** What a ray meets first, thick where its radius is above 0; t in lengths of its direction. Errors: ARGUMENT (the
- * ray). */
+/**
+ * The first hit of a ray, thick where its radius is above 0; t in lengths of its direction. Errors: ARGUMENT (the ray).
+ */
 OVOID_API ovoid_code ovoid_world_cast_ray(const ovoid_world *world, const ovoid_world_ray *ray, ovoid_world_cast *cast,
                                           ovoid_error *error);
-/** What a solid meets first on its way along `displacement`, without turning; t from 0 to 1. */
-OVOID_API ovoid_code ovoid_world_cast_solid(const ovoid_world *world, const ovoid_world_body *probe,
-                                            ovoid_vec3 displacement, ovoid_world_cast *cast, ovoid_error *error);
+/** The first hit of a body on its way along `displacement`, without turning; t from 0 to 1. */
+OVOID_API ovoid_code ovoid_world_cast_body(const ovoid_world *world, const ovoid_world_body *probe,
+                                           ovoid_vec3 displacement, ovoid_world_cast *cast, ovoid_error *error);
 
 #ifdef __cplusplus
 }

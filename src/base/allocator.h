@@ -10,7 +10,7 @@ ovoid_allocator allocator_make(const ovoid_allocator *given);
 /// Room for count items of size bytes, 64-byte aligned, not cleared; NULL where there is none or the product overflows.
 void *allocator_allocate(const ovoid_allocator *allocator, size_t count, size_t size);
 
-/// NULL is allowed.
+/// Releases what allocator_allocate returned; NULL is allowed.
 void allocator_release(const ovoid_allocator *allocator, void *memory);
 
 #endif

@@ -2,9 +2,13 @@
 #include "base/allocator.h"
 #include "base/error.h"
 
+#include <fenv.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#if defined(_WIN32)
+#include <malloc.h>
+#endif
 
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)
@@ -22,7 +26,7 @@ const char *ovoid_code_get_name(ovoid_code code) {
     case OVOID_ERROR_EMPTY: return "empty";
     case OVOID_ERROR_RANGE: return "out of range";
     case OVOID_ERROR_RADIUS: return "bad radius";
-    case OVOID_ERROR_ROTATION: return "zero quaternion";
+    case OVOID_ERROR_ROTATION: return "not a rotation";
     case OVOID_ERROR_INDEX: return "bad index";
     case OVOID_ERROR_NOT_CONVEX: return "not convex";
     case OVOID_ERROR_HULL: return "hull failed";
@@ -38,21 +42,34 @@ void error_write(ovoid_error *error, ovoid_code code, int64_t place, const char 
     if (!error) return;
     error->code = code;
     error->place = place;
+    // Some C libraries print numbers by long doubles, which raise flags of the x87's own.
+    fenv_t before;
+    (void)fegetenv(&before);
     va_list arguments;
     va_start(arguments, format);
     (void)vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
+    (void)fesetenv(&before);
 }
 
+// Windows has an aligned_alloc of its own name, whose memory is not for free().
 static void *allocate_aligned(void *context, size_t size) {
     (void)context;
     if (size > SIZE_MAX - 63) return NULL;
+#if defined(_WIN32)
+    return _aligned_malloc((size + 63) / 64 * 64, 64);
+#else
     return aligned_alloc(64, (size + 63) / 64 * 64);
+#endif
 }
 
 static void release_aligned(void *context, void *memory) {
     (void)context;
+#if defined(_WIN32)
+    _aligned_free(memory);
+#else
     free(memory);
+#endif
 }
 
 ovoid_allocator allocator_make(const ovoid_allocator *given) {

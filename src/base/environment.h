@@ -4,13 +4,16 @@
 //
 // On x86-64 all arithmetic is SSE's (nothing here is long double), so one control register holds it all: it is read on
 // entering, written only where the caller's settings differ, read on leaving, written only where a flag was raised that
-// had not been. Elsewhere <fenv.h> does the same, slower.
+// had not been. Windows' sine and cosine are the x87's, so its registers are kept there too. 64-bit ARM has two
+// registers, settings and flags. Elsewhere <fenv.h> does the same, slower.
 //
 // A compiler knows nothing of that register, and may move arithmetic across the reading and writing of it. What the
 // arithmetic starts from and what it ends in is therefore hidden from it (environment_hide): arguments passed by value
 // after entering, the result before leaving. What is read through pointers needs no hiding.
 #ifndef OVOID_BASE_ENVIRONMENT_H
 #define OVOID_BASE_ENVIRONMENT_H
+
+#include "base/arithmetic.h"
 
 /// From here on the compiler knows nothing of the value of a variable; all that made it has been done.
 #define environment_hide(variable) __asm__ volatile("" : "+m"(variable) : : "memory")
@@ -19,12 +22,16 @@
 
 #include <stdint.h>
 
-/// What the caller had: MXCSR.
+/// What the caller had: MXCSR; on Windows the x87's control and status words.
 typedef struct environment {
     uint32_t control;
+#if defined(_WIN32)
+    uint16_t x87_control, x87_status;
+#endif
 } environment;
 
-/// Subnormals as zero, masks, rounding, flush to zero; and their default. Below them are the flags.
+/// The settings in MXCSR (subnormals as zero, masks, rounding, flush to zero) and their default. The bits below are the
+/// exception flags.
 enum { ENVIRONMENT_CONTROL = 0xffc0, ENVIRONMENT_DEFAULT = 0x1f80 };
 
 static inline uint32_t environment_read(void) {
@@ -34,16 +41,73 @@ static inline uint32_t environment_read(void) {
 }
 static inline void environment_write(uint32_t control) { __asm__ volatile("ldmxcsr %0" : : "m"(control) : "memory"); }
 
+#if defined(_WIN32)
+
+enum { X87_DEFAULT = 0x37f, X87_FLAGS = 0x3f };
+
+static inline uint16_t x87_read_status(void) {
+    uint16_t status;
+    __asm__ volatile("fnstsw %0" : "=m"(status) : : "memory");
+    return status;
+}
+static inline void x87_write_control(uint16_t control) { __asm__ volatile("fldcw %0" : : "m"(control) : "memory"); }
+
+static inline void x87_enter(environment *before) {
+    __asm__ volatile("fnstcw %0" : "=m"(before->x87_control) : : "memory");
+    before->x87_status = x87_read_status();
+    if (before->x87_control != X87_DEFAULT) x87_write_control(X87_DEFAULT);
+}
+static inline void x87_leave(const environment *before) {
+    if ((x87_read_status() ^ before->x87_status) & X87_FLAGS) {
+        uint32_t all[7];
+        __asm__ volatile("fnstenv %0" : "=m"(all) : : "memory");
+        all[1] = (all[1] & ~(uint32_t)X87_FLAGS) | (before->x87_status & X87_FLAGS);
+        __asm__ volatile("fldenv %0" : : "m"(all) : "memory");
+    }
+    x87_write_control(before->x87_control);
+}
+
+#endif
+
 /// Makes the environment the default one; what it was. Flags that are set stay.
 static inline environment environment_enter(void) {
-    environment before = {environment_read()};
+    environment before = {.control = environment_read()};
+#if defined(_WIN32)
+    x87_enter(&before);
+#endif
     if ((before.control & ENVIRONMENT_CONTROL) != ENVIRONMENT_DEFAULT)
         environment_write((before.control & ~(uint32_t)ENVIRONMENT_CONTROL) | ENVIRONMENT_DEFAULT);
     return before;
 }
-/// Puts back what was, the flags included.
+/// Restores the environment that environment_enter returned, the flags included.
 static inline void environment_leave(environment before) {
+#if defined(_WIN32)
+    x87_leave(&before);
+#endif
     if (environment_read() != before.control) environment_write(before.control);
+}
+
+#elif defined(__aarch64__) && !defined(OVOID_ENVIRONMENT_PORTABLE)
+
+#include <stdint.h>
+
+/// What the caller had: FPCR, of which zero is the default, and FPSR.
+typedef struct environment {
+    uint64_t control, flags;
+} environment;
+
+static inline environment environment_enter(void) {
+    environment before;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(before.control) : : "memory");
+    __asm__ volatile("mrs %0, fpsr" : "=r"(before.flags) : : "memory");
+    if (before.control) __asm__ volatile("msr fpcr, %0" : : "r"((uint64_t)0) : "memory");
+    return before;
+}
+static inline void environment_leave(environment before) {
+    uint64_t flags;
+    __asm__ volatile("mrs %0, fpsr" : "=r"(flags) : : "memory");
+    if (before.control) __asm__ volatile("msr fpcr, %0" : : "r"(before.control) : "memory");
+    if (flags != before.flags) __asm__ volatile("msr fpsr, %0" : : "r"(before.flags) : "memory");
 }
 
 #else
@@ -64,8 +128,10 @@ static inline void environment_leave(environment before) { (void)fesetenv(&befor
 
 #endif
 
-/// The body of a public function: the value of `call`, computed in the default environment. hidden: an argument to
-/// hide, one that is passed by value if there is any.
+// ---- the bodies of public functions: each computes inside one of these, or in a function that does. hidden: an
+// argument to hide, one that is passed by value if there is any.
+
+/// The value of `call`.
 #define ENVIRONMENT_RETURN(type, hidden, call)                                                                         \
     environment before_ = environment_enter();                                                                         \
     environment_hide(hidden);                                                                                          \
@@ -73,5 +139,28 @@ static inline void environment_leave(environment before) { (void)fesetenv(&befor
     environment_hide(result_);                                                                                         \
     environment_leave(before_);                                                                                        \
     return result_
+
+/// What `call` writes into `name`, declared here: what is too large to be copied.
+#define ENVIRONMENT_RETURN_FILLED(type, name, hidden, call)                                                            \
+    type name;                                                                                                         \
+    environment before_ = environment_enter();                                                                         \
+    environment_hide(hidden);                                                                                          \
+    (call);                                                                                                            \
+    environment_hide(name);                                                                                            \
+    environment_leave(before_);                                                                                        \
+    return name
+
+/// The value of a call of a COMPILER_NOINLINE function: no arithmetic can leave it, so nothing is hidden, and the
+/// answer is made in the caller's place, not copied there.
+#define ENVIRONMENT_RETURN_CALL(call)                                                                                  \
+    __attribute__((cleanup(environment_leave_at), unused)) environment before_ = environment_enter();                  \
+    return call
+static inline void environment_leave_at(const environment *before) { environment_leave(*before); }
+
+/// Nothing.
+#define ENVIRONMENT_RUN(call)                                                                                          \
+    environment before_ = environment_enter();                                                                         \
+    (call);                                                                                                            \
+    environment_leave(before_)
 
 #endif

@@ -1,16 +1,15 @@
-// Filling in ovoid_error.
+// Errors with code, place and sentence, and asserts.
 #ifndef OVOID_BASE_ERROR_H
 #define OVOID_BASE_ERROR_H
 
+#include "base/compiler.h"
 #include "ovoid/base.h"
 
 /// Writes code, place and the formatted sentence to *error (NULL is allowed).
-#if defined(__GNUC__)
-__attribute__((format(printf, 4, 5)))
-#endif
+COMPILER_PRINTF(4, 5)
 void error_write(ovoid_error *error, ovoid_code code, int64_t place, const char *format, ...);
 
-/// The same, with the code as its value: a macro, so that static analysis sees that what is returned is not OVOID_OK.
+/// error_write with the code as its value: a macro, so that static analysis sees that the value is not OVOID_OK.
 #define error_set(error, code, ...) (error_write((error), (code), __VA_ARGS__), (code))
 
 /// An assert that the host can hook: a programmer's error, not bad data.
@@ -19,6 +18,7 @@ void error_write(ovoid_error *error, ovoid_code code, int64_t place, const char 
 #else
 #define OVOID_ASSERT(expression) ((expression) ? (void)0 : assert_fail(#expression, __FILE__, __LINE__))
 #endif
+/// Calls the hook, if one is set, and aborts.
 void assert_fail(const char *expression, const char *file, int line);
 
 #endif

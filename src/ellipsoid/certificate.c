@@ -8,6 +8,8 @@
 // computed in double-double.
 #include "ellipsoid/certificate.h"
 
+#include "linear/exact.h"
+
 // A vector a, not zero, with sum a_j moment_j = 0 over 11 columns of 10, by elimination with full pivoting.
 static void find_dependence(const certificate *c, double a[CERTIFICATE_SIZE]) {
     enum { ROWS = 10, COLUMNS = CERTIFICATE_SIZE };
@@ -43,14 +45,15 @@ static void find_dependence(const certificate *c, double a[CERTIFICATE_SIZE]) {
     }
 }
 
-void certificate_add(certificate *c, uint32_t wall, double weight, vec3 u, double d) {
+void certificate_add(certificate *c, uint32_t halfspace, double weight, vec3 u, double d) {
     double *v = c->moment[c->count];
     const double moment[10] = {u.x * u.x, u.x * u.y, u.x * u.z, u.y * u.y, u.y * u.z, u.z * u.z, u.x, u.y, u.z, d};
     for (int i = 0; i < 10; i++) v[i] = moment[i];
-    c->wall[c->count] = wall;
+    c->halfspace[c->count] = halfspace;
     c->weight[c->count++] = weight;
     if (c->count < CERTIFICATE_SIZE) return;
-    // Along the dependence until a weight is gone. It has entries of both signs, as the squares' sum is positive.
+    // Along the dependence until a weight is zero. It has entries of both signs, since the moments of the squares are
+    // positive.
     double a[CERTIFICATE_SIZE], step = INFINITY;
     int gone = 0;
     find_dependence(c, a);
@@ -58,7 +61,7 @@ void certificate_add(certificate *c, uint32_t wall, double weight, vec3 u, doubl
         if (a[j] > 0 && c->weight[j] < step * a[j]) step = c->weight[j] / a[j], gone = j;
     for (int j = 0; j < c->count && isfinite(step); j++) c->weight[j] = fmax(c->weight[j] - step * a[j], 0);
     c->count--;
-    c->wall[gone] = c->wall[c->count];
+    c->halfspace[gone] = c->halfspace[c->count];
     c->weight[gone] = c->weight[c->count];
     for (int i = 0; i < 10; i++) c->moment[gone][i] = c->moment[c->count][i];
 }

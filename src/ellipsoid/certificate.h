@@ -2,24 +2,24 @@
 #ifndef OVOID_ELLIPSOID_CERTIFICATE_H
 #define OVOID_ELLIPSOID_CERTIFICATE_H
 
-#include "ellipsoid/factor.h"
+#include "linear/mat3.h"
 #include "ovoid/polytope.h"
 
 /// Most directions that the bound rests on.
 #define CERTIFICATE_SIZE 11
 
-/// Directions with weights: in the space where the ellipsoid at hand is the unit ball, unit normals u of walls at
+/// Directions with weights: in the space where the ellipsoid at hand is the unit ball, unit normals u of halfspaces at
 /// distance d from its centre. Weights that sum u u' to the identity and u to zero are optimal (John 1948).
 typedef struct certificate {
     int count;
-    uint32_t wall[CERTIFICATE_SIZE]; ///< the caller's number of it
+    uint32_t halfspace[CERTIFICATE_SIZE]; ///< its index, as given by the caller
     double weight[CERTIFICATE_SIZE];
     double moment[CERTIFICATE_SIZE][10]; ///< u u', u, d
 } certificate;
 
-/// Adds a wall; where there would be too many, weight moves among them, all sums unchanged, until one has none
-/// (C. Caratheodory, 1907).
-void certificate_add(certificate *c, uint32_t wall, double weight, vec3 u, double d);
+/// Adds a halfspace; where there would be too many, weight moves among them, all sums of weight times moment unchanged,
+/// until one has none and is dropped (C. Caratheodory, 1907).
+void certificate_add(certificate *c, uint32_t halfspace, double weight, vec3 u, double d);
 
 /// The body that the bound is about: the vertices, moved by -height to height along `normal`, and the ellipsoid
 /// { center + map u : |u| <= 1 } in it.
@@ -33,8 +33,9 @@ typedef struct inscribed_body {
     double reach; ///< the whole body has |u| <= reach
 } inscribed_body;
 
-/// No ellipsoid in the body has more than this times the volume of the one at hand. directions[i]: of wall i of the
-/// certificate, in the body's frame; any will do, good ones give a good bound. Cost: linear in the vertices.
+/// No ellipsoid in the body has more than this times the volume of the one at hand. directions[i]: of halfspace i of
+/// the certificate, in the body's frame. Any directions give a true bound, good ones a good one. Cost: linear in the
+/// vertices.
 double certificate_compute_bound(const certificate *c, const inscribed_body *body, const vec3 *directions);
 
 #endif

@@ -16,6 +16,7 @@
 #include "ellipsoid/contain.h"
 
 #include "ellipsoid/factor.h"
+#include "polytope/facets.h"
 
 double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     factor f;
@@ -24,7 +25,7 @@ double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const o
     double bound = 0;
     for (uint32_t v = 0; v < polytope->vertex_count; v++) {
         const double *p = polytope->vertices + 3 * (size_t)v;
-        // Along an axis where Q is zero the vertices must have the centre's very coordinate.
+        // Along an axis where Q is zero the vertices must have exactly the centre's coordinate.
         double d[3], sum = 0;
         for (int i = 0, k = 0; i < 3; i++) {
             if (k < f.count && f.axis[k] == i)
@@ -94,14 +95,7 @@ static double bound_factor(const scaled *s, const vec3 corner[3], vec3 n, double
     return least / reach * (1 - 4 * ROUNDING);
 }
 
-vec3 triangle_compute_normal(const vec3 corner[3]) {
-    const vec3 *p = corner;
-    dd ax = two_sum(p[1].x, -p[0].x), ay = two_sum(p[1].y, -p[0].y), az = two_sum(p[1].z, -p[0].z);
-    dd bx = two_sum(p[2].x, -p[0].x), by = two_sum(p[2].y, -p[0].y), bz = two_sum(p[2].z, -p[0].z);
-    vec3 n = {dd_sub(dd_mul(ay, bz), dd_mul(az, by)).high, dd_sub(dd_mul(az, bx), dd_mul(ax, bz)).high,
-              dd_sub(dd_mul(ax, by), dd_mul(ay, bx)).high};
-    return vec3_unit(n);
-}
+vec3 triangle_compute_normal(const vec3 corner[3]) { return vec3_unit(compute_area(corner[0], corner[1], corner[2])); }
 
 double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     scaled s = scale(ellipsoid);
@@ -118,7 +112,7 @@ double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid
         }
         double clear = bound_factor(&s, corner, n, reach);
         if (clear >= bound) continue;
-        // Where that is what holds the ellipsoid back, the triangle's own normal may do better.
+        // Where this triangle limits the factor, its own normal may give a larger one.
         vec3 own = triangle_compute_normal(corner);
         clear = fmax(clear, bound_factor(&s, corner, own, bound_reach(&s, own)));
         if (!(clear >= bound)) bound = clear;
@@ -141,9 +135,7 @@ static int count_crossing(vec3 c, vec3 q, const vec3 corner[3]) {
 
 int polytope_is_winding(const ovoid_polytope *polytope, ovoid_vec3 point) {
     // In units of the body: the orientations underflow for bodies below 1e-90.
-    double top = 0;
-    for (uint32_t v = 0; v < polytope->vertex_count; v++) top = fmax(top, vec3_max_abs(vec3_at(polytope->vertices, v)));
-    double unit = ldexp(1, -find_unit_exponent(top));
+    double unit = ldexp(1, -find_unit_exponent(compute_extent(polytope->vertices, polytope->vertex_count)));
     vec3 c = vec3_scale(point, unit);
     // Rays through points inside a triangle, at weights of no symmetry; another one where a ray meets an edge.
     for (uint32_t attempt = 0; attempt < 8 && polytope->triangle_count > 0; attempt++) {

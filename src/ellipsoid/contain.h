@@ -11,23 +11,23 @@
 int ellipsoid_is_enclosing(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
 /// 1 only if it is proven that the ellipsoid lies in the convex hull of the vertices, and that Q is positive definite
-/// or that the ellipsoid is just a vertex (Q zero). Taken for granted: indices in range, finite vertices, and that the
-/// triangles are a closed surface (each directed edge is matched by its opposite). Planes are not: any will do.
+/// or that the ellipsoid is just a vertex (Q zero). The caller guarantees indices in range, finite vertices, and that
+/// the triangles are a closed surface (each directed edge is matched by its opposite). The planes may be any.
 /// Always 0 where rank < 3: nothing is proven of flat bodies.
 int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
 /// An upper bound of the largest (v - c)' Q^-1 (v - c) over the vertices; INFINITY where Q has no proven factor.
 double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
-/// A factor s such that the ellipsoid with its radii times s, about its centre, meets no triangle of the surface: a
-/// lower bound of the largest such factor. Not above zero where none is proven.
+/// A factor s such that the ellipsoid, scaled by s about its centre, meets no triangle of the surface: a lower bound of
+/// the largest such factor. At most zero where none is proven.
 double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
 /// 1 only if the surface is proven to wind around the point, and not to pass through it.
 int polytope_is_winding(const ovoid_polytope *polytope, ovoid_vec3 point);
 
-/// The unit normal of a triangle, right to a few roundings for any that is not degenerate: in doubles, the normal of a
-/// needle's side leans along the needle. Zero for a degenerate one.
+/// The unit normal of a triangle, right to a few roundings for any that is not degenerate: computed in doubles, the
+/// normal of a needle's side leans along the needle. Zero for a degenerate one.
 ovoid_vec3 triangle_compute_normal(const ovoid_vec3 corner[3]);
 
 #endif

@@ -2,21 +2,20 @@
 //
 // In k dimensions let c and S be the weighted mean and covariance of the points, and v(x) = 1 + (x - c)' S^-1 (x - c)
 // the variance of x: m = k + 1 is its weighted mean. The weights are optimal if and only if no point's variance
-// exceeds m (Kiefer and Wolfowitz 1960). A step takes weight from a point of small variance that carries some and gives
-// it to one of large variance, as much as is best: with weight t moved from l to h the determinant of the moment matrix
-// changes by the factor 1 + t (v_h - v_l) - t^2 (v_h v_l - v_hl^2). Away steps: M. J. Todd and E. A. Yildirim, On
-// Khachiyan's algorithm for the computation of minimum-volume enclosing ellipsoids, 2007; exchanges of pairs: D.
-// Boehning, A vertex-exchange-method in D-optimal design theory, 1986. They converge linearly: S. D. Ahipasaoglu, P.
-// Sun, M. J. Todd, Linear convergence of a modified Frank-Wolfe algorithm for computing minimum-volume enclosing
-// ellipsoids, 2008.
+// exceeds m (Kiefer and Wolfowitz 1960). A step moves weight from a point of small variance that carries some to one of
+// large variance, by the best amount: with weight t moved from l to h the determinant of the moment matrix changes by
+// the factor 1 + t (v_h - v_l) - t^2 (v_h v_l - v_hl^2). Away steps: M. J. Todd and E. A. Yildirim, On Khachiyan's
+// algorithm for the computation of minimum-volume enclosing ellipsoids, 2007; exchanges of pairs: D. Boehning, A
+// vertex-exchange-method in D-optimal design theory, 1986. They converge linearly: S. D. Ahipasaoglu, P. Sun, M. J.
+// Todd, Linear convergence of a modified Frank-Wolfe algorithm for computing minimum-volume enclosing ellipsoids, 2008.
 //
-// Where they crawl, since the optimum is flat in the weights, the weight is moved to ten points of the same covariance,
-// and Newton steps on the weighted points follow.
+// Where they are slow, since the optimum is flat in the weights, the weight is moved to ten points of the same
+// covariance, and Newton steps on the weighted points follow.
 //
-// The steps run on a few points at a time; then all points are evaluated, the worst of each direction join, and points
-// that cannot carry weight at the optimum are dropped for good: R. Harman and L. Pronzato, Improvements on removing
-// nonoptimal support points in D-optimum design algorithms, 2007. Start: P. Kumar and E. A. Yildirim, Minimum-volume
-// enclosing ellipsoids and core sets, 2005.
+// The steps run on a few points at a time; then all points are evaluated, the worst of each cell of directions join,
+// and points that cannot carry weight at the optimum are dropped for good: R. Harman and L. Pronzato, Improvements on
+// removing nonoptimal support points in D-optimum design algorithms, 2007. Start: P. Kumar and E. A. Yildirim,
+// Minimum-volume enclosing ellipsoids and core sets, 2005.
 // Cost: about ten evaluations of all points, and some hundred steps of the cost of a few dozen points each; at most 200
 // and 600 000.
 #include "ellipsoid/design.h"
@@ -27,38 +26,38 @@
 enum { POLISHED = 32 };
 
 // The points with the smallest and the largest n . x.
-static void find_extremes(const double *vertices, uint32_t count, vec3 n, uint32_t extreme[2]) {
+static void find_extremes(const ovoid_polytope *p, vec3 n, uint32_t extreme[2]) {
     double low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < count; i++) {
-        double x = vec3_dot(n, vec3_at(vertices, i));
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        double x = vec3_dot(n, vec3_at(p->vertices, i));
         if (x < low) low = x, extreme[0] = i;
         if (x > high) high = x, extreme[1] = i;
     }
 }
 
-// b less its part along the unit vector a, twice, so that rounding leaves nothing.
+// b less its part along the unit vector a, removed twice, so that rounding leaves nothing of it.
 static vec3 reject(vec3 b, vec3 a) {
     b = vec3_add_scaled(b, a, -vec3_dot(a, b));
     return vec3_add_scaled(b, a, -vec3_dot(a, b));
 }
 
-// The unit direction from the line through p along a to the point that is farthest from it.
-static vec3 find_across(const double *vertices, uint32_t count, vec3 p, vec3 a) {
+// The unit direction from the line through `origin` along a to the vertex that is farthest from it.
+static vec3 find_across(const ovoid_polytope *p, vec3 origin, vec3 a) {
     vec3 best = {0, 0, 0};
     double most = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        vec3 d = reject(vec3_sub(vec3_at(vertices, i), p), a);
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        vec3 d = reject(vec3_sub(vec3_at(p->vertices, i), origin), a);
         double size = vec3_max_abs(d);
         if (size > most) most = size, best = d;
     }
     return most > 0 ? vec3_unit(reject(vec3_unit(best), a)) : vec3_orthogonal(a);
 }
 
-// Half of the extent of the points along a (1 where there is none), and the middle.
-static double measure(const double *vertices, uint32_t count, vec3 origin, vec3 a, double *middle) {
+// Half of the extent of the vertices along a (1 where there is none), and the middle.
+static double measure(const ovoid_polytope *p, vec3 origin, vec3 a, double *middle) {
     double low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < count; i++) {
-        double x = vec3_dot(a, vec3_sub(vec3_at(vertices, i), origin));
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        double x = vec3_dot(a, vec3_sub(vec3_at(p->vertices, i), origin));
         low = fmin(low, x);
         high = fmax(high, x);
     }
@@ -66,33 +65,34 @@ static double measure(const double *vertices, uint32_t count, vec3 origin, vec3 
     return high > low ? (high - low) / 2 : 1;
 }
 
-frame frame_compute(const double *vertices, uint32_t count, uint32_t rank) {
+frame frame_compute(const ovoid_polytope *p, uint32_t rank) {
     frame f = {.rank = rank};
+    const double *vertices = p->vertices;
     // The longest extent along a coordinate gives the first axis.
     double most = -1;
     for (int i = 0; i < 3; i++) {
         uint32_t extreme[2] = {0, 0};
         vec3 n = {i == 0, i == 1, i == 2};
-        find_extremes(vertices, count, n, extreme);
+        find_extremes(p, n, extreme);
         double size = vec3_dot(n, vec3_sub(vec3_at(vertices, extreme[1]), vec3_at(vertices, extreme[0])));
         if (size > most) most = size, f.extreme[0] = extreme[0], f.extreme[1] = extreme[1];
     }
-    vec3 p = vec3_at(vertices, f.extreme[0]), along = vec3_unit(vec3_sub(vec3_at(vertices, f.extreme[1]), p));
-    // Across it, toward the farthest point; then across both differences found.
-    vec3 across = find_across(vertices, count, p, along), normal = vec3_cross(along, across);
+    vec3 end = vec3_at(vertices, f.extreme[0]), along = vec3_unit(vec3_sub(vec3_at(vertices, f.extreme[1]), end));
+    // Across it, toward the farthest vertex; then across both differences found.
+    vec3 across = find_across(p, end, along), normal = vec3_cross(along, across);
     if (rank >= 2) {
-        find_extremes(vertices, count, across, f.extreme + 2);
+        find_extremes(p, across, f.extreme + 2);
         vec3 second = vec3_sub(vec3_at(vertices, f.extreme[3]), vec3_at(vertices, f.extreme[2]));
         normal = vec3_unit(reject(vec3_cross(along, vec3_unit(reject(second, along))), along));
     }
-    if (rank >= 3) find_extremes(vertices, count, normal, f.extreme + 4);
+    if (rank >= 3) find_extremes(p, normal, f.extreme + 4);
     f.axes = (mat3){along, vec3_cross(normal, along), normal};
     // The box.
     vec3 middle = {0, 0, 0};
-    f.half.x = f.half.y = f.half.z = measure(vertices, count, p, f.axes.r0, &middle.x);
-    if (rank >= 2) f.half.y = measure(vertices, count, p, f.axes.r1, &middle.y);
-    if (rank >= 3) f.half.z = measure(vertices, count, p, f.axes.r2, &middle.z);
-    f.origin = vec3_add(p, mat3_mul_transposed_vec3(f.axes, middle));
+    f.half.x = f.half.y = f.half.z = measure(p, end, f.axes.r0, &middle.x);
+    if (rank >= 2) f.half.y = measure(p, end, f.axes.r1, &middle.y);
+    if (rank >= 3) f.half.z = measure(p, end, f.axes.r2, &middle.z);
+    f.origin = vec3_add(end, mat3_mul_transposed_vec3(f.axes, middle));
     return f;
 }
 
@@ -123,7 +123,7 @@ static int evaluate(design *d) {
     return 1;
 }
 
-// Moves weight from the weighted point of least variance to the one of largest variance. 0 and no move where the
+// Moves weight from the weighted point of least variance to the point of largest variance. 0, and no move, where the
 // largest excess is small enough.
 static int exchange(design *d, double excess) {
     uint32_t low = 0, high = 0;
@@ -184,7 +184,7 @@ static void reduce(design *d) {
     for (uint32_t i = 0; i < d->count; i++)
         if (d->weight[i] > 0) certificate_add(&c, i, d->weight[i], vec3_at(d->local, d->point[i]), 1);
     for (uint32_t i = 0; i < d->count; i++) d->weight[i] = 0;
-    for (int i = 0; i < c.count; i++) d->weight[c.wall[i]] = c.weight[i];
+    for (int i = 0; i < c.count; i++) d->weight[c.halfspace[i]] = c.weight[i];
 }
 
 static uint32_t count_weighted(const design *d) {
@@ -194,7 +194,7 @@ static uint32_t count_weighted(const design *d) {
 }
 
 // Newton steps on the weights that are not zero, as long as the determinant grows; where a weight would turn negative
-// the step ends at zero. For optima so flat in the weights that exchanges crawl.
+// the step ends at zero. For optima so flat in the weights that exchanges are slow.
 static int polish(design *d, double excess) {
     for (int iteration = 0; iteration < 20; iteration++) {
         uint32_t index[POLISHED], n = 0, gone = UINT32_MAX;
@@ -219,7 +219,7 @@ static int polish(design *d, double excess) {
     return 1;
 }
 
-// Steps among the points at hand until their excess is small; then those without weight leave.
+// Steps among the design's points until their excess is small; then drops those without weight.
 static int settle(design *d, double excess) {
     int defined = evaluate(d);
     for (int i = 1; i < 3000 && defined && exchange(d, excess); i++) {
@@ -248,7 +248,7 @@ static int is_weighted(const design *d, uint32_t point) {
     return 0;
 }
 
-// The candidate of largest variance in each cell; returns the largest of all. worst: -infinity where a cell has none.
+// The candidate of largest variance in each cell; returns the largest of all. worst is -infinity in cells without any.
 static double find_worst(const design *d, double worst[24], uint32_t which[24]) {
     double top = 0;
     for (int cell = 0; cell < 24; cell++) worst[cell] = -INFINITY;
@@ -290,8 +290,8 @@ static void add_weight(design *d, uint32_t point, double weight) {
     d->weight[d->count++] = weight;
 }
 
-// The points that reach as far as any in the space where `near` is a ball, within a tenth: most that carry weight at
-// the optimum are among them.
+// Of each cell the point farthest out in the space where `near` is a ball, if it is within a tenth of the farthest of
+// all: most points that carry weight at the optimum are among them.
 static void add_near(design *d, const frame *f) {
     const vec3 part = {1 / f->half.x, 1 / f->half.y, 1 / f->half.z};
     mat3 map = {vec3_scale(f->axes.r0, part.x), vec3_scale(f->axes.r1, part.y), vec3_scale(f->axes.r2, part.z)};
@@ -308,11 +308,11 @@ static void add_near(design *d, const frame *f) {
         if (worst[cell] > 0.9 * top) add_weight(d, which[cell], 0.9 / count);
 }
 
-void design_solve(design *d, const frame *f, const double *vertices, uint32_t count, double excess) {
+void design_solve(design *d, const frame *f, const ovoid_polytope *polytope, double excess) {
     d->rank = f->rank;
-    d->candidate_count = count;
-    for (uint32_t i = 0; i < count; i++) {
-        vec3 y = frame_compute_local(f, vec3_at(vertices, i));
+    d->candidate_count = polytope->vertex_count;
+    for (uint32_t i = 0; i < polytope->vertex_count; i++) {
+        vec3 y = frame_compute_local(f, vec3_at(polytope->vertices, i));
         d->candidate[i] = i;
         d->local[3 * (size_t)i] = y.x, d->local[3 * (size_t)i + 1] = y.y, d->local[3 * (size_t)i + 2] = y.z;
     }
@@ -320,10 +320,10 @@ void design_solve(design *d, const frame *f, const double *vertices, uint32_t co
     // Extreme points make the covariance definite, whatever came before.
     double share = d->count ? 0.1 / (2 * d->rank) : 1.0 / (2 * d->rank);
     for (uint32_t i = 0; i < 2 * d->rank; i++) add_weight(d, f->extreme[i], share);
-    // Coordinates across thin axes may be noise below this.
+    // Below this, coordinates along thin axes may be noise.
     double longest = vec3_max_abs(f->half), shortest = fmin(f->half.x, fmin(f->half.y, f->half.z));
     double noise = 32 * 0x1p-53 * (longest + vec3_max_abs(f->origin)) / shortest;
-    // The points at hand are settled more finely than all points are; rounds without progress are the end.
+    // The design's points are settled more finely than all points are; three rounds without progress end the search.
     d->excess = INFINITY;
     for (int round = 0, stalls = 0; round < 200 && stalls < 3; round++) {
         double before = d->excess;

@@ -10,21 +10,21 @@
 /// and the points fill a fair part of it, however thin they are.
 typedef struct frame {
     uint32_t rank;
-    vec3 origin, half;   ///< half: of an axis beyond the rank that of the first
+    vec3 origin, half;   ///< half: half lengths of the box; beyond the rank that of the first axis
     mat3 axes;           ///< rows
-    uint32_t extreme[6]; ///< two points a coordinate, 2 rank of them
+    uint32_t extreme[6]; ///< the two extreme points of each coordinate, 2 rank of them
 } frame;
 
-/// The frame of at least two points that are not all one; rank 1 to 3.
-frame frame_compute(const double *vertices, uint32_t count, uint32_t rank);
-/// Coordinates beyond the rank are 0.
+/// The frame of the vertices, at least two of them; rank 1 to 3.
+frame frame_compute(const ovoid_polytope *polytope, uint32_t rank);
+/// The coordinates y of x; those beyond the rank are 0.
 vec3 frame_compute_local(const frame *f, vec3 x);
 
 /// Most points that carry weight at a time.
 #define DESIGN_SUPPORT 256
 
 typedef struct design {
-    const ovoid_ellipsoid *near; ///< an ellipsoid near the smallest, to start from; NULL: none
+    const ovoid_ellipsoid *near; ///< an ellipsoid near the smallest enclosing one, to start from; NULL: none
     uint32_t rank;
     double *local;       ///< 3 coordinates a point, in the frame
     uint32_t *candidate; ///< points that may still carry weight at the optimum
@@ -39,8 +39,9 @@ typedef struct design {
     uint32_t steps;                  ///< exchanges of weight
 } design;
 
-/// Starts with equal weights on the frame's extreme points, and on those that stick out of `near`, and moves weight
-/// until excess is at most the one asked for, or no progress is left. candidate and local: room for count and 3 count.
-void design_solve(design *d, const frame *f, const double *vertices, uint32_t count, double excess);
+/// Starts with equal weights on the frame's extreme points and on the vertices farthest out in the metric of `near`,
+/// and moves weight until d->excess is at most `excess`, or no progress is left. The caller sets near, candidate and
+/// local (room for one and three numbers a vertex).
+void design_solve(design *d, const frame *f, const ovoid_polytope *polytope, double excess);
 
 #endif

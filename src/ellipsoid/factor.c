@@ -14,27 +14,35 @@ static int half_exponent(double x) {
     return e >= 0 ? (e + 1) / 2 : -(-e / 2);
 }
 
-static dd dd_scale(dd a, int e) { return (dd){ldexp(a.high, e), ldexp(a.low, e)}; }
+// a 2^e
+static dd dd_ldexp(dd a, int e) { return (dd){ldexp(a.high, e), ldexp(a.low, e)}; }
 
-// The axes that are not exactly zero, each with the power of two that brings its diagonal entry to [1/4, 1); the number
-// of them, or -1 where the diagonal alone shows that the matrix is not positive semidefinite.
-static int find_axes(const sym3dd *s, int axis[3], int exponent[3]) {
-    int count = 0;
+// Axes of a matrix in units of their own: lengths along axis[i] are divided by 2^exponent[i].
+typedef struct scaling {
+    int count;
+    int axis[3], exponent[3];
+} scaling;
+
+// The axes that are not exactly zero, each with the power of two that brings its diagonal entry to [1/4, 1). 0 where
+// the diagonal alone shows that the matrix is not positive semidefinite.
+static int find_axes(const sym3dd *s, scaling *u) {
+    u->count = 0;
     for (int i = 0; i < 3; i++) {
         double top = 0;
         for (int j = 0; j < 3; j++) top = fmax(top, fabs(s->m[i][j].high));
         if (top == 0) continue;
-        if (!(s->m[i][i].high > 0) || !isfinite(top)) return -1;
-        axis[count] = i;
-        exponent[count++] = half_exponent(s->m[i][i].high);
+        if (!(s->m[i][i].high > 0) || !isfinite(top)) return 0;
+        u->axis[u->count] = i;
+        u->exponent[u->count++] = half_exponent(s->m[i][i].high);
     }
-    return count;
+    return 1;
 }
 
-// The leading part of the matrix in the scaled axes.
-static void take_scaled(const sym3dd *s, int count, const int axis[3], const int exponent[3], dd a[3][3]) {
-    for (int i = 0; i < count; i++)
-        for (int j = 0; j < count; j++) a[i][j] = dd_scale(s->m[axis[i]][axis[j]], -exponent[i] - exponent[j]);
+// The matrix in the scaled axes.
+static void take_scaled(const sym3dd *s, const scaling *u, dd a[3][3]) {
+    for (int i = 0; i < u->count; i++)
+        for (int j = 0; j < u->count; j++)
+            a[i][j] = dd_ldexp(s->m[u->axis[i]][u->axis[j]], -u->exponent[i] - u->exponent[j]);
 }
 
 // a = l d l' with unit lower triangular l; 0 where a pivot is not above the rounding of double-double.
@@ -87,14 +95,14 @@ static double compute_defect(int count, dd a[3][3], double w[3][3]) {
 
 // Everything but the defect; the scaled matrix in a.
 static int make_unproven(const sym3dd *s, factor *f, dd a[3][3]) {
-    int exponent[3];
-    f->count = find_axes(s, f->axis, exponent);
-    if (f->count < 0) return 0;
+    scaling u;
+    if (!find_axes(s, &u)) return 0;
     dd l[3][3], d[3];
-    take_scaled(s, f->count, f->axis, exponent, a);
-    if (!decompose(f->count, a, l, d)) return 0;
-    invert(f->count, l, d, f->w);
-    for (int i = 0; i < f->count; i++) f->scale[i] = ldexp(1, -exponent[i]);
+    take_scaled(s, &u, a);
+    if (!decompose(u.count, a, l, d)) return 0;
+    invert(u.count, l, d, f->w);
+    f->count = u.count;
+    for (int i = 0; i < u.count; i++) f->axis[i] = u.axis[i], f->scale[i] = ldexp(1, -u.exponent[i]);
     return 1;
 }
 
@@ -112,19 +120,19 @@ int factor_make_unproven(const sym3dd *s, factor *f) {
     return make_unproven(s, f, a);
 }
 
-// All three axes: the pivots of the scaled matrix A. Cholesky is exact for a matrix that differs from A, whose diagonal
-// is below 1, by 2^-99 an entry, and the entries themselves by 2^-92; the determinant's relative change is at most the
-// sum of all that times the trace of A^-1 = W' W. 2^-90 covers it; 2^-49 the roundings at the end.
+// The content of a solid, by the pivots of the scaled matrix A. Cholesky is exact for a matrix that differs from A,
+// whose diagonal is below 1, by 2^-99 an entry, and the entries themselves by 2^-92; the determinant's relative change
+// is at most the sum of all that times the trace of A^-1 = W' W. 2^-90 covers it; 2^-49 the roundings at the end.
 static double compute_solid_content(const sym3dd *s, double *error) {
-    int axis[3], exponent[3];
-    if (find_axes(s, axis, exponent) != 3) return 0;
+    scaling u;
+    if (!find_axes(s, &u) || u.count < 3) return 0;
     dd a[3][3], l[3][3], d[3];
-    take_scaled(s, 3, axis, exponent, a);
+    take_scaled(s, &u, a);
     if (!decompose(3, a, l, d)) return 0;
     double product = 1, trace = 0, w[3][3];
     invert(3, l, d, w);
     for (int i = 0; i < 3; i++) {
-        product *= ldexp(sqrt(d[i].high), exponent[i]);
+        product *= ldexp(sqrt(d[i].high), u.exponent[i]);
         for (int j = 0; j <= i; j++) trace += w[i][j] * w[i][j];
     }
     *error = 0x1p-90 * trace + 0x1p-49;
@@ -141,7 +149,7 @@ double sym3dd_compute_content(const sym3dd *s, int rank, double *error) {
     if (!(top > 0) || !isfinite(top)) return 0;
     int e = half_exponent(top);
     dd sum = dd_from(0), a[3][3];
-    take_scaled(s, 3, (int[3]){0, 1, 2}, (int[3]){e, e, e}, a);
+    take_scaled(s, &(scaling){3, {0, 1, 2}, {e, e, e}}, a);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3;
         dd minor = rank == 1 ? a[i][i] : dd_sub(dd_mul(a[i][i], a[j][j]), dd_mul(a[i][j], a[i][j]));

@@ -2,21 +2,19 @@
 //
 // Let W be any lower triangular matrix of doubles, I + R = W Q W' and |R| <= defect < 1. Then Q is positive definite
 // and Q^-1 = W' (I + R)^-1 W, so that (1 - defect) x' Q^-1 x <= |W x|^2 for every x. W is made from a Cholesky factor
-// in double-double, but nothing is believed of it: the defect is computed from W and Q themselves.
+// in double-double, but need not be trusted: the defect is computed from W and Q themselves.
 #ifndef OVOID_ELLIPSOID_FACTOR_H
 #define OVOID_ELLIPSOID_FACTOR_H
 
 #include "linear/exact.h"
 #include "linear/mat3.h"
 
-/// The unit of rounding of doubles, 2^-53.
-#define ROUNDING 0x1p-53
-
 /// A symmetric matrix in double-double; both halves are stored.
 typedef struct sym3dd {
     dd m[3][3];
 } sym3dd;
 
+/// The matrix in double-double.
 sym3dd sym3dd_from(sym3 s);
 /// Doubles near s, chosen together (round.c): the ellipsoid of the result is as near to that of s, in its own metric,
 /// as doubles allow, though it be a needle or a slab.
@@ -37,7 +35,7 @@ int factor_make(sym3 q, factor *f);
 int factor_make_unproven(const sym3dd *s, factor *f);
 
 /// The square root of the sum of the principal minors of order `rank` (1 to 3): the product of the radii of a solid, of
-/// the two radii of a flat ellipsoid, the one of a segment. 0 where the sum is not positive. *error (may be NULL)
+/// the two radii of a flat ellipsoid, the radius of a segment. 0 where the sum is not positive. *error (may be NULL)
 /// bounds the relative error, for entries that are true to 2^-92 of the diagonal.
 double sym3dd_compute_content(const sym3dd *s, int rank, double *error);
 

@@ -12,8 +12,6 @@
 
 #include "linear/exact.h"
 
-static const double rounding = 0x1p-53;
-
 /// n' Q n in double-double.
 static double quadratic_exact(sym3 q, vec3 n) {
     const double entry[6] = {q.xx, q.yy, q.zz, 2 * q.xy, 2 * q.xz, 2 * q.yz};
@@ -30,9 +28,9 @@ static double spread_above(sym3 q, vec3 n) {
     double form = sym3_quadratic(q, n), terms = sym3_quadratic(p, m);
     if (!(terms <= 16 * form)) {
         form = fmax(0, quadratic_exact(q, n)) + 0x1p-95 * terms;
-        return sqrt(form) * (1 + 4 * rounding);
+        return sqrt(form) * (1 + 4 * ROUNDING);
     }
-    return sqrt(form) * (1 + 64 * rounding);
+    return sqrt(form) * (1 + 64 * ROUNDING);
 }
 
 scaled_pair ellipsoids_make_scaled(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
@@ -50,6 +48,6 @@ double ellipsoids_compute_gap(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b
     double along = vec3_dot(n, p.d), sa = spread_above(p.qa, n), sb = spread_above(p.qb, n);
     double terms = (fabs(n.x * p.d.x) + fabs(n.y * p.d.y)) + fabs(n.z * p.d.z);
     // The last subtractions and the length of n: a few u of the largest quantity.
-    double gap = ((along - sa) - sb) - 16 * rounding * (terms + sa + sb);
+    double gap = ((along - sa) - sb) - 16 * ROUNDING * (terms + sa + sb);
     return gap * p.unit - OVOID_LENGTH_MIN;
 }

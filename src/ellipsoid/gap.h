@@ -9,17 +9,18 @@
 /// so never more than the distance. n must be unit to rounding (or zero: the answer is minus infinity).
 double ellipsoids_compute_gap(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, vec3 n);
 
-/// sqrt(n' Q n), zero where rounding leaves nothing under the root.
+/// sqrt(n' Q n), zero where rounding makes the form negative.
 static inline double sym3_spread(sym3 q, vec3 n) { return sqrt(fmax(0, sym3_quadratic(q, n))); }
 
-/// Two ellipsoids seen from the centre of the first, in units of a power of two near the pair's size: everything is of
-/// order one, so that no product over- or underflows and no constant has a length. d = (cb - ca) / unit.
+/// Two ellipsoids relative to the centre of the first, in units of a power of two near the pair's size: everything is
+/// of order one, so that no product over- or underflows and no constant has a length. d = (cb - ca) / unit.
 typedef struct scaled_pair {
     vec3 d;
     sym3 qa, qb;
     double unit;
 } scaled_pair;
 
+/// Scales a pair.
 scaled_pair ellipsoids_make_scaled(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
 
 /// ovoid_ellipsoid_is_overlapping, for callers that have set up the floating-point environment.

@@ -3,17 +3,18 @@
 // ellipsoid problem, 2003.
 //
 // The body is first mapped so that its outer ellipsoid is about the unit ball: needles and slabs are then as round as
-// anything. There each facet becomes one half-space, with the normal of its largest triangle and the offset of its
-// lowest vertex, so that the half-spaces' intersection holds nothing that the body does not. inscribe.c solves; the
-// result is mapped back, rounded, and shrunk by what its proof needs (seal.c); certificate.c tells how much larger any
-// other could be, which makes the gap reported true. A flat polygon is solved as a prism over it, whose largest
-// ellipsoid is the polygon's, times the height. Cost: some 30 iterations on a few hundred
-// half-spaces, and some 15 passes over facets and vertices.
+// other bodies. There each facet becomes one halfspace, with the normal of its largest triangle and the offset of its
+// lowest vertex, so that the intersection of the halfspaces lies in the body. inscribe.c solves; the result is mapped
+// back, rounded, and shrunk by what its proof needs (shrink_to_fit.c); certificate.c bounds how much larger any other
+// could be, which makes the reported gap true. A flat polygon is solved as a prism over it, whose largest ellipsoid is
+// the polygon's, times the height. Cost: some 30 iterations on a few hundred halfspaces, and some 15 passes over facets
+// and vertices.
 #include "ellipsoid/certificate.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
+#include "ellipsoid/factor.h"
 #include "ellipsoid/refit.h"
-#include "ellipsoid/seal.h"
+#include "ellipsoid/shrink_to_fit.h"
 #include "ellipsoid/working_set.h"
 
 #include "base/allocator.h"
@@ -30,8 +31,7 @@ typedef struct work {
     mat3 map, inverse;
     double height; // of the prism over a flat polygon, to either side
     vec3 normal;   // of the polygon
-    constraint *constraints;
-    uint32_t count;
+    constraint_set set;
 } work;
 
 static mat3 mat3_scale_rows(mat3 m, vec3 s) {
@@ -51,8 +51,8 @@ static mat3 compute_root(sym3 s, mat3 *inverse) {
 static void whiten(work *w) {
     const ovoid_polytope *p = w->polytope;
     design d = {.near = w->start ? &w->start->outer : NULL, .local = w->local, .candidate = w->candidate};
-    frame f = frame_compute(p->vertices, p->vertex_count, p->rank);
-    design_solve(&d, &f, p->vertices, p->vertex_count, 0.02);
+    frame f = frame_compute(p, p->rank);
+    design_solve(&d, &f, p, 0.02);
     // x = f.origin + axes' half (mean + root z).
     mat3 lower, root = compute_root(sym3_scale(sym3_inverse(d.inverse), p->rank), &lower);
     vec3 mean = {d.mean.x * f.half.x, d.mean.y * f.half.y, d.mean.z * f.half.z};
@@ -72,7 +72,7 @@ static void whiten(work *w) {
 // The unit normal in z of a plane with normal n in x.
 static vec3 compute_local_normal(const work *w, vec3 n) { return vec3_unit(mat3_mul_transposed_vec3(w->map, n)); }
 
-// Lowers b and other_b to the corners of triangle t along the two directions.
+// Lowers the offsets b and h to the corners of triangle t along the directions n and w.
 static void lower(const work *w, uint32_t t, constraint *c) {
     for (int k = 0; k < 3; k++) {
         vec3 z = vec3_at(w->local, w->polytope->triangles[3 * (size_t)t + k]);
@@ -81,15 +81,15 @@ static void lower(const work *w, uint32_t t, constraint *c) {
     }
 }
 
-// Of a solid: a half-space for each facet that has a triangle, by the exact normal of its largest triangle; by that of
-// its plane where the former cuts much deeper, as a sliver's may that is folded against its neighbours.
+// The halfspaces of a solid: one for each facet that has a triangle, by the exact normal of its largest triangle; by
+// the normal of its plane where the former cuts much deeper, as that of a sliver folded against its neighbours may.
 static void build_from_facets(work *w) {
     const ovoid_polytope *p = w->polytope;
-    for (uint32_t f = 0; f < p->facet_count; f++) w->constraints[f] = (constraint){.y = 0};
+    for (uint32_t f = 0; f < p->facet_count; f++) w->set.items[f] = (constraint){.y = 0};
     // n: by the largest triangle, whose size is in y; w: by the plane; b and h are their offsets.
     for (uint32_t t = 0; t < p->triangle_count; t++) {
         const uint32_t *i = p->triangles + 3 * (size_t)t;
-        constraint *c = &w->constraints[p->triangle_facets[t]];
+        constraint *c = &w->set.items[p->triangle_facets[t]];
         vec3 a = vec3_at(w->local, i[0]), b = vec3_at(w->local, i[1]), d = vec3_at(w->local, i[2]);
         double size = vec3_norm(vec3_cross(vec3_sub(b, a), vec3_sub(d, a)));
         if (!(size > c->y)) continue;
@@ -98,36 +98,36 @@ static void build_from_facets(work *w) {
         c->n = compute_local_normal(w, triangle_compute_normal(corner));
     }
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        w->constraints[f].w = compute_local_normal(w, p->planes[f].normal);
-        w->constraints[f].b = w->constraints[f].h = INFINITY;
+        w->set.items[f].w = compute_local_normal(w, p->planes[f].normal);
+        w->set.items[f].b = w->set.items[f].h = INFINITY;
     }
-    for (uint32_t t = 0; t < p->triangle_count; t++) lower(w, t, &w->constraints[p->triangle_facets[t]]);
-    w->count = 0;
+    for (uint32_t t = 0; t < p->triangle_count; t++) lower(w, t, &w->set.items[p->triangle_facets[t]]);
+    w->set.count = 0;
     for (uint32_t f = 0; f < p->facet_count; f++) {
-        constraint c = w->constraints[f];
+        constraint c = w->set.items[f];
         if (c.h > 1.01 * c.b) c.b = c.h, c.n = c.w;
-        if (c.y > 0) w->constraints[w->count++] = c;
+        if (c.y > 0) w->set.items[w->set.count++] = c;
     }
 }
 
-// Of a flat polygon: a half-space for each edge, and the two ends of the prism.
+// The halfspaces of the prism over a flat polygon: one for each edge, and the two ends.
 static void build_from_edges(work *w) {
     const ovoid_polytope *p = w->polytope;
-    w->count = 0;
+    w->set.count = 0;
     for (uint32_t v = 0; v < p->vertex_count; v++)
         for (uint32_t k = p->neighbor_starts[v]; k < p->neighbor_starts[v + 1]; k++) {
             vec3 a = vec3_at(w->local, v), b = vec3_at(w->local, p->neighbors[k]), e = vec3_sub(b, a);
             vec3 n = vec3_unit((vec3){e.y, -e.x, 0});
             if (vec3_dot(n, a) < 0) n = vec3_neg(n);
-            if (p->neighbors[k] > v && vec3_max_abs(n) > 0 && w->count < p->vertex_count)
-                w->constraints[w->count++] = (constraint){.n = n, .b = fmin(vec3_dot(n, a), vec3_dot(n, b))};
+            if (p->neighbors[k] > v && vec3_max_abs(n) > 0 && w->set.count < p->vertex_count)
+                w->set.items[w->set.count++] = (constraint){.n = n, .b = fmin(vec3_dot(n, a), vec3_dot(n, b))};
         }
-    w->constraints[w->count++] = (constraint){.n = {0, 0, 1}, .b = 1};
-    w->constraints[w->count++] = (constraint){.n = {0, 0, -1}, .b = 1};
+    w->set.items[w->set.count++] = (constraint){.n = {0, 0, 1}, .b = 1};
+    w->set.items[w->set.count++] = (constraint){.n = {0, 0, -1}, .b = 1};
     w->reach += 1;
 }
 
-// The ellipsoid to look from first: the one to start from, in the coordinates z, or a small ball.
+// The first guess: the inner ellipsoid to start from, in the coordinates z, or a small ball.
 static inscribed guess(const work *w) {
     const inscribed ball = {.e = sym3_diagonal(0.1, 0.1, 0.1)};
     if (!w->start || w->polytope->rank < 3) return ball;
@@ -141,16 +141,16 @@ static inscribed guess(const work *w) {
 // The solver's ellipsoid; a small ball where it failed or could not start.
 static inscribed solve(const work *w, double gap) {
     double least = INFINITY;
-    for (uint32_t i = 0; i < w->count; i++) least = fmin(least, w->constraints[i].b);
+    for (uint32_t i = 0; i < w->set.count; i++) least = fmin(least, w->set.items[i].b);
     inscribed s = {.e = sym3_diagonal(0.1, 0.1, 0.1)};
     if (!(least > 0) || !isfinite(least)) return s;
     inscribed first = guess(w);
-    inscribed solved = working_set_solve(w->constraints, w->count, &first, fmax(0.02 * fmin(gap, 1), 1e-14));
+    inscribed solved = working_set_solve(w->set, &first, fmax(0.02 * fmin(gap, 1), 1e-14));
     vec3 x;
     return vec3_is_finite(solved.x) && sym3_solve(solved.e, (vec3){0, 0, 0}, &x) ? solved : s;
 }
 
-// M M' of the columns that the body has extent along.
+// M M', from the columns along which the body has extent.
 static sym3dd compute_square(const mat3 *m, uint32_t rank) {
     const double full[3][3] = {{m->r0.x, m->r0.y, m->r0.z}, {m->r1.x, m->r1.y, m->r1.z}, {m->r2.x, m->r2.y, m->r2.z}};
     sym3dd q;
@@ -173,20 +173,20 @@ static double compute_volume_factor(const mat3 *m) {
     return fabs(dd_add(sum, dd_mul(x[2], dd_from(m->r0.z))).high) * (1 + ROUNDING) + 0x1p-96;
 }
 
-// How much larger than { center + m u } any ellipsoid in the body can be. Walls of weights far below the gap are left
-// out: the bound holds for any walls, and loses about their sum.
+// How much larger than { center + m u } any ellipsoid in the body can be. Halfspaces of weights far below the gap are
+// left out: the bound holds for any halfspaces, and loses about their sum.
 static double compute_bound(const work *w, const inscribed *s, vec3 center, mat3 m, double gap) {
     certificate c = {0};
     double total = 0;
-    for (uint32_t i = 0; i < w->count; i++) total += w->constraints[i].y * w->constraints[i].h;
-    for (uint32_t i = 0; i < w->count; i++) {
-        const constraint *k = &w->constraints[i];
+    for (uint32_t i = 0; i < w->set.count; i++) total += w->set.items[i].y * w->set.items[i].h;
+    for (uint32_t i = 0; i < w->set.count; i++) {
+        const constraint *k = &w->set.items[i];
         double weight = k->y * k->h;
         if (weight > 1e-3 * gap * total) certificate_add(&c, i, weight, k->w, (k->b - vec3_dot(k->n, s->x)) / k->h);
     }
     vec3 directions[CERTIFICATE_SIZE];
     for (int i = 0; i < c.count; i++)
-        directions[i] = vec3_unit(mat3_mul_transposed_vec3(w->inverse, w->constraints[c.wall[i]].n));
+        directions[i] = vec3_unit(mat3_mul_transposed_vec3(w->inverse, w->set.items[c.halfspace[i]].n));
     // |u| = |E^-1 (z - x)|; a margin for the rounding of z.
     double least = sym3_compute_eigen(s->e).value[0];
     inscribed_body body = {.vertices = w->polytope->vertices,
@@ -199,22 +199,22 @@ static double compute_bound(const work *w, const inscribed *s, vec3 center, mat3
     return certificate_compute_bound(&c, &body, directions);
 }
 
-// Maps the solution back, seals it, and bounds what is missing.
+// Maps the solution back, shrinks it to fit, and bounds the gap to the optimum.
 static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *fit) {
     uint32_t rank = w->polytope->rank;
     mat3 e = {{s->e.xx, s->e.xy, s->e.xz}, {s->e.xy, s->e.yy, s->e.yz}, {s->e.xz, s->e.yz, s->e.zz}};
     mat3 m = mat3_mul(w->map, e);
     vec3 center = vec3_add(w->origin, mat3_mul_vec3(w->map, s->x));
-    // The solution keeps a little distance from the walls: out to where the first is met.
+    // The solution keeps a little distance from the halfspaces: it is enlarged until it meets the first.
     sym3dd q = compute_square(&m, rank);
     ovoid_ellipsoid loose = {center, sym3dd_round(&q)};
     double clear = rank == 3 ? ellipsoid_compute_clear_bound(w->polytope, &loose) : 1, scale = 1;
     if (clear > 1 && clear < 2) scale = clear * clear * (1 - 4 * ROUNDING);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) q.m[i][j] = dd_mul(q.m[i][j], dd_from(scale));
-    *fit = (ovoid_fit){.ellipsoid = ellipsoid_compute_sealed(w->polytope, center, &q), .iterations = s->iterations};
+    *fit = (ovoid_fit){.ellipsoid = ellipsoid_shrink_to_fit(w->polytope, center, &q), .iterations = s->iterations};
     fit->volume = ellipsoid_compute_measure(&fit->ellipsoid, rank);
-    // The bound is about the ellipsoid of m; of a flat polygon's, about the prism's. In units of the body.
+    // The bound is about the ellipsoid of m, for a flat polygon about that of the prism. In units of the body.
     double reach = fmax(vec3_max_abs(m.r0), fmax(vec3_max_abs(m.r1), vec3_max_abs(m.r2)));
     double unit = ldexp(1, -find_unit_exponent(reach));
     mat3 whole = mat3_scale_rows(m, (vec3){unit, unit, unit});
@@ -226,15 +226,17 @@ static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *f
     fit->converged = fit->gap <= gap;
 }
 
-static ovoid_code compute(const ovoid_polytope *p, double gap, const fit_start *start, ovoid_fit *fit,
-                          const ovoid_allocator *memory) {
-    // Walls of a flat polygon: its edges, each from one of its ends, and two.
-    uint32_t walls = p->rank == 3 ? p->facet_count : p->vertex_count + 2;
-    double *local = allocator_allocate(memory, p->vertex_count, 3 * sizeof(double) + sizeof(uint32_t));
-    constraint *constraints = allocator_allocate(memory, walls, sizeof(constraint));
+static ovoid_code compute(const ovoid_polytope *p, const fit_options *options, ovoid_fit *fit) {
+    ovoid_allocator memory = allocator_make(options->allocator);
+    double gap = options->gap > 0 ? options->gap : 1e-6;
+    // Halfspaces of a flat polygon: its edges, each from one of its ends, and two.
+    uint32_t halfspaces = p->rank == 3 ? p->facet_count : p->vertex_count + 2;
+    double *local = allocator_allocate(&memory, p->vertex_count, 3 * sizeof(double) + sizeof(uint32_t));
+    constraint *constraints = allocator_allocate(&memory, halfspaces, sizeof(constraint));
     if (local && constraints) {
         uint32_t *candidate = (uint32_t *)(local + 3 * (size_t)p->vertex_count);
-        work w = {.polytope = p, .start = start, .local = local, .candidate = candidate, .constraints = constraints};
+        work w = {.polytope = p, .start = options->start, .local = local, .candidate = candidate};
+        w.set.items = constraints;
         whiten(&w);
         if (p->rank == 3)
             build_from_facets(&w);
@@ -243,8 +245,8 @@ static ovoid_code compute(const ovoid_polytope *p, double gap, const fit_start *
         inscribed s = solve(&w, gap);
         fill_fit(&w, &s, gap, fit);
     }
-    allocator_release(memory, constraints);
-    allocator_release(memory, local);
+    allocator_release(&memory, constraints);
+    allocator_release(&memory, local);
     return local && constraints ? OVOID_OK : OVOID_ERROR_MEMORY;
 }
 
@@ -256,19 +258,18 @@ static ovoid_fit compute_segment(const ovoid_polytope *p) {
     return (ovoid_fit){.ellipsoid = e, .volume = ellipsoid_compute_measure(&e, p->rank), .converged = 1};
 }
 
-ovoid_code ellipsoid_refit_inner(const ovoid_polytope *polytope, double gap, const fit_start *start, ovoid_fit *fit,
-                                 const ovoid_allocator *allocator) {
-    if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
+ovoid_code ellipsoid_refit_inner(const ovoid_polytope *polytope, const fit_options *options, ovoid_fit *fit) {
+    if (!polytope || !fit || !(options->gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
         return OVOID_ERROR_ARGUMENT;
     if (polytope->rank < 2) {
         *fit = compute_segment(polytope);
         return OVOID_OK;
     }
-    ovoid_allocator memory = allocator_make(allocator);
-    return compute(polytope, gap > 0 ? gap : 1e-6, start, fit, &memory);
+    return compute(polytope, options, fit);
 }
 
 ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
                                          const ovoid_allocator *allocator) {
-    ENVIRONMENT_RETURN(ovoid_code, gap, ellipsoid_refit_inner(polytope, gap, NULL, fit, allocator));
+    fit_options options = {gap, NULL, allocator};
+    ENVIRONMENT_RETURN(ovoid_code, options, ellipsoid_refit_inner(polytope, &options, fit));
 }

@@ -23,7 +23,7 @@ typedef struct step {
     vec3 x;
 } step;
 
-// |E n|, its direction, and how far the slack is from true.
+// |E n|, its direction, and what the slack misses.
 static void evaluate(constraint *c, const inscribed *s) {
     vec3 p = sym3_mul_vec3(s->e, c->n);
     c->h = vec3_norm(p);
@@ -81,11 +81,11 @@ static void add_barrier(newton *m, sym3 e) {
 }
 
 // The system of the Newton step, factored; 0 where it is not positive definite in doubles.
-static int prepare(newton *m, constraint *constraints, uint32_t count, const inscribed *s) {
+static int prepare(newton *m, constraint_set set, const inscribed *s) {
     *m = (newton){0};
     sym3 curvature = {0, 0, 0, 0, 0, 0};
-    for (uint32_t i = 0; i < count; i++) {
-        constraint *c = &constraints[i];
+    for (uint32_t i = 0; i < set.count; i++) {
+        constraint *c = &set.items[i];
         evaluate(c, s);
         double g[UNKNOWNS], bend = c->y / c->h, stiff = c->y / c->z;
         get_gradient(c, g);
@@ -108,12 +108,12 @@ static int prepare(newton *m, constraint *constraints, uint32_t count, const ins
     return 1;
 }
 
-// The step toward y z = center - dy dz, with the products of the step at hand.
-static step solve(const newton *m, const constraint *constraints, uint32_t count, double center, int correct) {
+// The step toward y z = center, less the products dy dz of the predictor where `correct` is set.
+static step solve(const newton *m, constraint_set set, double center, int correct) {
     double r[UNKNOWNS];
     for (int k = 0; k < UNKNOWNS; k++) r[k] = m->gradient[k];
-    for (uint32_t i = 0; i < count; i++) {
-        const constraint *c = &constraints[i];
+    for (uint32_t i = 0; i < set.count; i++) {
+        const constraint *c = &set.items[i];
         double g[UNKNOWNS], goal = center - (correct ? c->dy * c->dz : 0), q = (goal - c->y * c->miss) / c->z;
         get_gradient(c, g);
         for (int k = 0; k < UNKNOWNS; k++) r[k] -= g[k] * q;
@@ -129,11 +129,11 @@ static step solve(const newton *m, const constraint *constraints, uint32_t count
     return (step){{r[0], r[1], r[2], r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
 }
 
-// What the step does to multipliers and slacks; the largest part of it, at most 1, that keeps them positive.
-static double spread(constraint *constraints, uint32_t count, const step *d, double center, int correct) {
+// Computes the step of multipliers and slacks; returns the largest part of it, at most 1, that keeps them positive.
+static double spread(constraint_set set, const step *d, double center, int correct) {
     double part = 1;
-    for (uint32_t i = 0; i < count; i++) {
-        constraint *c = &constraints[i];
+    for (uint32_t i = 0; i < set.count; i++) {
+        constraint *c = &set.items[i];
         double goal = center - (correct ? c->dy * c->dz : 0);
         c->dz = c->miss - vec3_dot(c->w, sym3_mul_vec3(d->e, c->n)) - vec3_dot(c->n, d->x);
         c->dy = (goal - c->y * c->dz) / c->z - c->y;
@@ -143,10 +143,11 @@ static double spread(constraint *constraints, uint32_t count, const step *d, dou
     return part;
 }
 
-static double compute_gap(const constraint *constraints, uint32_t count, double part) {
+// The sum of y z after that part of the step.
+static double compute_gap(constraint_set set, double part) {
     double sum = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const constraint *c = &constraints[i];
+    for (uint32_t i = 0; i < set.count; i++) {
+        const constraint *c = &set.items[i];
         sum += (c->y + part * c->dy) * (c->z + part * c->dz);
     }
     return sum;
@@ -157,8 +158,9 @@ static int is_positive(sym3 e) {
     return sym3_solve(e, (vec3){0, 0, 0}, &x);
 }
 
-// Takes the part of the step; slacks become true again where that does not cut them by much.
-static int move(inscribed *s, constraint *constraints, uint32_t count, const step *d, double part) {
+// Takes that part of the step; slacks are made exact again where that does not cut them by much. 0 where hardly any
+// part leaves E positive definite.
+static int move(inscribed *s, constraint_set set, const step *d, double part) {
     // E must stay positive definite, with something left of it.
     sym3 e;
     do {
@@ -169,8 +171,8 @@ static int move(inscribed *s, constraint *constraints, uint32_t count, const ste
     if (!(part > 1e-9)) return 0;
     s->e = e;
     s->x = vec3_add_scaled(s->x, d->x, part);
-    for (uint32_t i = 0; i < count; i++) {
-        constraint *c = &constraints[i];
+    for (uint32_t i = 0; i < set.count; i++) {
+        constraint *c = &set.items[i];
         c->y += part * c->dy;
         c->z += part * c->dz;
         c->dy = c->dz = 0;
@@ -181,38 +183,38 @@ static int move(inscribed *s, constraint *constraints, uint32_t count, const ste
 }
 
 // A small ball, slacks to match, and multipliers in proportion to their inverses: sum y |E n| = 3 at the optimum.
-static inscribed start(constraint *constraints, uint32_t count) {
+static inscribed start(constraint_set set) {
     double least = INFINITY, sum = 0;
-    for (uint32_t i = 0; i < count; i++) least = fmin(least, constraints[i].b);
+    for (uint32_t i = 0; i < set.count; i++) least = fmin(least, set.items[i].b);
     double r = 0.7 * least;
-    for (uint32_t i = 0; i < count; i++) {
-        constraints[i].z = constraints[i].b - r;
-        sum += 1 / constraints[i].z;
+    for (uint32_t i = 0; i < set.count; i++) {
+        set.items[i].z = set.items[i].b - r;
+        sum += 1 / set.items[i].z;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        constraints[i].y = 3 / (r * sum * constraints[i].z);
-        constraints[i].dy = constraints[i].dz = 0;
+    for (uint32_t i = 0; i < set.count; i++) {
+        set.items[i].y = 3 / (r * sum * set.items[i].z);
+        set.items[i].dy = set.items[i].dz = 0;
     }
     return (inscribed){.e = sym3_diagonal(r, r, r)};
 }
 
-inscribed inscribe_solve(constraint *constraints, uint32_t count, double gap) {
-    inscribed s = start(constraints, count);
-    s.gap = compute_gap(constraints, count, 0);
+inscribed inscribe_solve(constraint_set set, double gap) {
+    inscribed s = start(set);
+    s.gap = compute_gap(set, 0);
     while (s.iterations < 80 && s.gap > gap) {
         newton m;
-        if (!prepare(&m, constraints, count, &s)) break;
+        if (!prepare(&m, set, &s)) break;
         // Predictor: how far it gets says how much centring is wanted.
-        step d = solve(&m, constraints, count, 0, 0);
-        double part = spread(constraints, count, &d, 0, 0);
-        double share = compute_gap(constraints, count, part) / s.gap;
-        double center = share * share * share * s.gap / count;
+        step d = solve(&m, set, 0, 0);
+        double part = spread(set, &d, 0, 0);
+        double share = compute_gap(set, part) / s.gap;
+        double center = share * share * share * s.gap / set.count;
         // Corrector.
-        d = solve(&m, constraints, count, center, 1);
-        part = spread(constraints, count, &d, center, 1);
-        if (!move(&s, constraints, count, &d, fmin(1, 0.95 * part))) break;
+        d = solve(&m, set, center, 1);
+        part = spread(set, &d, center, 1);
+        if (!move(&s, set, &d, fmin(1, 0.95 * part))) break;
         s.iterations++;
-        s.gap = compute_gap(constraints, count, 0);
+        s.gap = compute_gap(set, 0);
         if (!isfinite(s.gap)) break;
     }
     return s;

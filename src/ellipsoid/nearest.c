@@ -29,13 +29,13 @@
 
 enum { ROUNDS_PLAIN = 20, ROUNDS_CAREFUL = 180 };
 
-/// A multiplier falls at most to this part of itself in a step.
+/// The least factor by which a step may lower a multiplier.
 #define LEAST_FACTOR 1e-3
 
-/// And does not grow by more than this: from nothing to something is one step.
+/// The largest relative change of a multiplier in a step, so that one step leads from nearly zero to any size.
 #define LARGEST_CHANGE 1e18
 
-/// Where the bracket is closed, in units of the pair's size.
+/// The width at which the bracket counts as closed, in units of the pair's size.
 #define CLOSED 0x1p-46
 
 /// The pair and the best bracket so far.
@@ -46,7 +46,7 @@ typedef struct search {
     double lower, upper;
     vec3 normal;        ///< of the best lower bound
     vec3 offset_a, way; ///< of the best upper bound: the point of a from its centre, and on to that of b
-    vec3 p, q;          ///< likewise, in the unit balls
+    vec3 p, q;          ///< of the best upper bound: the points in the unit balls
     uint32_t rounds;
 } search;
 
@@ -59,7 +59,7 @@ typedef struct multipliers {
     double aa, ab, ba, bb; ///< Newton's matrix for relative changes of la and lb
 } multipliers;
 
-/// M formed and factored.
+/// The plain way: M is formed and factored.
 static int evaluate_plain(const search *s, multipliers *m) {
     sym3 g = sym3_add(sym3_scale(s->pair->qa, 1 / m->la), sym3_scale(s->pair->qb, 1 / m->lb));
     ldl3 f;
@@ -88,8 +88,8 @@ static void fill_dual_rows(double rows[3][ROWS_WIDTH], const root3 *e, double l)
     }
 }
 
-/// By least squares. The matrix N = [Ea Eb]'[Ea Eb] + diag(la, lb) = R' R of p and q gives Newton's matrix without
-/// cancellation, since d|p|^2 / dla = -2 [p; 0]' N^-1 [p; 0].
+/// The careful way, by least squares. The matrix N = [Ea Eb]'[Ea Eb] + diag(la, lb) = R' R of p and q gives Newton's
+/// matrix without cancellation, since d|p|^2 / dla = -2 [p; 0]' N^-1 [p; 0].
 static void evaluate_careful(const search *s, multipliers *m) {
     double dual[9][ROWS_WIDTH] = {{1, 0, 0, s->pair->d.x}, {0, 1, 0, s->pair->d.y}, {0, 0, 1, s->pair->d.z}};
     fill_dual_rows(dual + 3, &s->a, m->la);
@@ -179,6 +179,11 @@ static int take_bracket(search *s, const multipliers *m) {
     return is_better;
 }
 
+/// A number for each multiplier.
+typedef struct change {
+    double a, b;
+} change;
+
 /// The change of one multiplier where that of the other is given.
 static double solve_one(double own, double cross, double right, double other, double least) {
     double e = (right - cross * other) / own;
@@ -186,36 +191,32 @@ static double solve_one(double own, double cross, double right, double other, do
 }
 
 /// The quadratic that Newton's step is the maximum of.
-static double model_value(const multipliers *m, double ra, double rb, double ea, double eb) {
+static double model_value(const multipliers *m, change right, change e) {
     double wa = m->la * m->ma * m->ma, wb = m->lb * m->mb * m->mb;
-    return wa * ea * (ra - 0.5 * (m->aa * ea + m->ab * eb)) + wb * eb * (rb - 0.5 * (m->ba * ea + m->bb * eb));
+    return wa * e.a * (right.a - 0.5 * (m->aa * e.a + m->ab * e.b)) +
+           wb * e.b * (right.b - 0.5 * (m->ba * e.a + m->bb * e.b));
 }
 
-/// Relative changes for the right-hand side (ra, rb), none that leads below the least multiplier or LEAST_FACTOR of
-/// the present one.
-static void find_changes(const search *s, const multipliers *m, double ra, double rb, double *ea, double *eb) {
+/// Relative changes for a right-hand side, none that leads below the least multiplier or LEAST_FACTOR of the present
+/// one.
+static change find_change(const search *s, const multipliers *m, change right) {
     double least = least_multiplier(s);
     double least_a = fmin(fmax(LEAST_FACTOR, least / m->la), 1) - 1;
     double least_b = fmin(fmax(LEAST_FACTOR, least / m->lb), 1) - 1;
     double det = m->aa * m->bb - m->ab * m->ba;
-    *ea = (ra * m->bb - rb * m->ab) / det;
-    *eb = (rb * m->aa - ra * m->ba) / det;
-    if (!(det > 0) || !isfinite(*ea) || !isfinite(*eb)) {
-        *ea = fmin(fmax(ra, least_a), LARGEST_CHANGE);
-        *eb = fmin(fmax(rb, least_b), LARGEST_CHANGE);
-    } else if (*ea < least_a || *eb < least_b) {
-        // The quadratic's maximum is on one of the two sides.
-        double on_a = solve_one(m->bb, m->ba, rb, least_a, least_b),
-               on_b = solve_one(m->aa, m->ab, ra, least_b, least_a);
-        int is_on_a = *ea < least_a &&
-                      !(*eb < least_b && model_value(m, ra, rb, least_a, on_a) < model_value(m, ra, rb, on_b, least_b));
-        *ea = is_on_a ? least_a : on_b;
-        *eb = is_on_a ? on_a : least_b;
-    }
+    change e = {(right.a * m->bb - right.b * m->ab) / det, (right.b * m->aa - right.a * m->ba) / det};
+    if (!(det > 0) || !isfinite(e.a) || !isfinite(e.b))
+        return (change){fmin(fmax(right.a, least_a), LARGEST_CHANGE), fmin(fmax(right.b, least_b), LARGEST_CHANGE)};
+    if (e.a >= least_a && e.b >= least_b) return e;
+    // The quadratic's maximum is on one of the two sides.
+    change on_a = {least_a, solve_one(m->bb, m->ba, right.b, least_a, least_b)};
+    change on_b = {solve_one(m->aa, m->ab, right.a, least_b, least_a), least_b};
+    if (!(e.a < least_a)) return on_b;
+    return e.b < least_b && model_value(m, right, on_a) < model_value(m, right, on_b) ? on_b : on_a;
 }
 
-/// Is it no worse? The dual function rose, up to its rounding; or near the end, where it is all rounding, the points
-/// came nearer to their surfaces.
+/// 1 if `next` is no worse: the dual function rose, up to its rounding; or near the end, where its change is all
+/// rounding, the points came nearer to their surfaces.
 static int is_better(const multipliers *next, const multipliers *m) {
     double noise = 0x1p-46 * ((vec3_norm_squared(m->w) + m->la * (m->ma * m->ma + 1)) + m->lb * (m->mb * m->mb + 1));
     double before = fabs(m->ma - 1) + fabs(m->mb - 1), after = fabs(next->ma - 1) + fabs(next->mb - 1);
@@ -224,15 +225,14 @@ static int is_better(const multipliers *next, const multipliers *m) {
 
 /// One step up the dual function.
 static multipliers step(const search *s, const multipliers *m) {
-    double ea, eb;
-    find_changes(s, m, m->ma - 1, m->mb - 1, &ea, &eb);
-    multipliers next = evaluate(s, m->la * (1 + ea), m->lb * (1 + eb));
+    change e = find_change(s, m, (change){m->ma - 1, m->mb - 1});
+    multipliers next = evaluate(s, m->la * (1 + e.a), m->lb * (1 + e.b));
     if (is_better(&next, m)) return next;
 
     // Newton's own step for the dual function, which points up, and shorter ones.
-    find_changes(s, m, 0.5 - 0.5 / (m->ma * m->ma), 0.5 - 0.5 / (m->mb * m->mb), &ea, &eb);
-    for (int part = 0; part < 12; part++, ea *= 0.25, eb *= 0.25) {
-        next = evaluate(s, m->la * (1 + ea), m->lb * (1 + eb));
+    e = find_change(s, m, (change){0.5 - 0.5 / (m->ma * m->ma), 0.5 - 0.5 / (m->mb * m->mb)});
+    for (int part = 0; part < 12; part++, e.a *= 0.25, e.b *= 0.25) {
+        next = evaluate(s, m->la * (1 + e.a), m->lb * (1 + e.b));
         if (is_better(&next, m)) break;
     }
     return next;
@@ -278,7 +278,7 @@ static multipliers find_start(const search *s) {
 
 static int is_closed(const search *s) { return s->upper - s->lower <= CLOSED || s->upper <= CLOSED; }
 
-/// From the multipliers *m on; they are the last ones at the end.
+/// Up to `rounds` rounds from the multipliers *m, which are the last ones afterwards.
 static void search_run(search *s, multipliers *m, uint32_t rounds) {
     for (int idle = 0; rounds-- > 0 && idle < 40; idle++) {
         s->rounds++;
@@ -288,7 +288,7 @@ static void search_run(search *s, multipliers *m, uint32_t rounds) {
     }
 }
 
-/// They share a point, but no direction separates them: that of the centres is as good as any.
+/// The result for ellipsoids that share a point: no direction separates them, so that of the centres is as good as any.
 static ovoid_nearest make_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, vec3 point) {
     ovoid_nearest r = {.point_a = point, .point_b = point, .overlap = 1};
     r.normal = vec3_unit(vec3_sub(b->center, a->center));

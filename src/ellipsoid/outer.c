@@ -1,5 +1,5 @@
-// (a) The Loewner-John ellipsoid. Weights come from design.c; what is returned and promised is computed from them and
-// the vertices alone, in double-double:
+// The Loewner-John ellipsoid, step (a) of Su, Liu, Chen. Weights come from design.c; what is returned and promised is
+// computed from them and the vertices alone, in double-double:
 //
 // Let k be the rank, c and S the weighted mean and covariance of the vertices. Any ellipsoid with matrix Q that holds
 // all vertices has, by the inequality of the means, det Q >= det k S: the lower bound of the volume, whatever the
@@ -65,7 +65,7 @@ static moments compute_moments(const design *d, const double *vertices, uint32_t
     return m;
 }
 
-// scale S + thickness on the axes that any vertex moves along, rounded.
+// scale S + thickness on the axes along which the vertices differ, rounded.
 static sym3 combine(const moments *m, double scale, double thickness) {
     sym3dd q;
     for (int i = 0; i < 3; i++)
@@ -95,14 +95,15 @@ static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double ran
     return q;
 }
 
-static void fill_fit(const ovoid_polytope *polytope, const design *d, uint32_t rank, double gap, ovoid_fit *fit) {
+static void fill_fit(const ovoid_polytope *polytope, const design *d, double gap, ovoid_fit *fit) {
+    uint32_t rank = d->rank;
     moments m = compute_moments(d, polytope->vertices, polytope->vertex_count);
     double unit = ldexp(1, m.exponent), measure = ball_get_measure((int)rank), best = INFINITY;
     // Covariances of up to 256 points are true to 2^-92 of the diagonal.
     double least_error, error, least = sym3dd_compute_content(&m.covariance, (int)rank, &least_error);
     least *= sqrt(rank == 3 ? 27 : rank == 2 ? 4 : 1) * (1 - fmin(least_error, 1));
     *fit = (ovoid_fit){.ellipsoid.center = m.center, .iterations = d->steps, .gap = INFINITY};
-    // Thin axes that rounding hurts: a little thickness beforehand may cost less than a larger scale afterwards.
+    // Where rounding hurts thin axes, a little thickness beforehand may cost less than a larger scale afterwards.
     for (int i = 0; i < 5 && !fit->converged; i++) {
         sym3 q = enclose(polytope, &m, rank, i ? ldexp(ROUNDING, i - 2) : 0);
         sym3dd q2 = sym3dd_from(q);
@@ -116,8 +117,8 @@ static void fill_fit(const ovoid_polytope *polytope, const design *d, uint32_t r
     }
 }
 
-ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, double gap, const fit_start *start, ovoid_fit *fit,
-                                 const ovoid_allocator *allocator) {
+ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, const fit_options *options, ovoid_fit *fit) {
+    double gap = options->gap;
     if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
         return OVOID_ERROR_ARGUMENT;
     if (gap == 0) gap = 1e-6;
@@ -126,20 +127,21 @@ ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, double gap, con
         *fit = (ovoid_fit){.ellipsoid.center = vec3_at(polytope->vertices, 0), .converged = 1};
         return OVOID_OK;
     }
-    ovoid_allocator memory = allocator_make(allocator);
+    ovoid_allocator memory = allocator_make(options->allocator);
     double *block = allocator_allocate(&memory, count, 3 * sizeof(double) + sizeof(uint32_t));
     if (!block) return OVOID_ERROR_MEMORY;
-    design d = {
-        .near = start ? &start->outer : NULL, .local = block, .candidate = (uint32_t *)(block + 3 * (size_t)count)};
-    frame f = frame_compute(polytope->vertices, count, rank);
+    design d = {.near = options->start ? &options->start->outer : NULL, .local = block};
+    d.candidate = (uint32_t *)(block + 3 * (size_t)count);
+    frame f = frame_compute(polytope, rank);
     // An excess of x makes a volume of about 1 + x (rank + 1) / 2; rounding and the last trials need the rest.
-    design_solve(&d, &f, polytope->vertices, count, 0.5 * fmin(gap, 1) / (rank + 1));
-    fill_fit(polytope, &d, rank, gap, fit);
+    design_solve(&d, &f, polytope, 0.5 * fmin(gap, 1) / (rank + 1));
+    fill_fit(polytope, &d, gap, fit);
     allocator_release(&memory, block);
     return OVOID_OK;
 }
 
 ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
                                          const ovoid_allocator *allocator) {
-    ENVIRONMENT_RETURN(ovoid_code, gap, ellipsoid_refit_outer(polytope, gap, NULL, fit, allocator));
+    fit_options options = {gap, NULL, allocator};
+    ENVIRONMENT_RETURN(ovoid_code, options, ellipsoid_refit_outer(polytope, &options, fit));
 }

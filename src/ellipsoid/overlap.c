@@ -1,5 +1,5 @@
-// Do two ellipsoids share a point? The pencil (pencil.c) decides in doubles. "Apart" needs no proof here, since 0 also
-// means "not known"; "share a point" does: the rounded point itself is shown to lie strictly inside both.
+// Whether two ellipsoids share a point. The pencil (pencil.c) decides in doubles. "Apart" needs no proof here, since 0
+// also means "not known"; "share a point" does: the rounded point itself is shown to lie strictly inside both.
 //
 // With v and s as they are, rounded, the exact points xa = ca + (1 - s) Qa v and xb = cb - s Qb v have the exact norms
 // ma, mb of the pencil. The point returned differs from them by roundings and by what the solve left over, all of which
@@ -10,8 +10,6 @@
 #include "ellipsoid/gap.h"
 #include "ellipsoid/pencil.h"
 
-static const double rounding = 0x1p-53;
-
 /// At most the least eigenvalue of Q, rounding included; not positive where that is not certain. The trace of Q^-1 =
 /// L'^-1 D^-1 L^-1 bounds its largest eigenvalue; the computed factor belongs to a matrix off by less than 16 u trace.
 static double least_eigenvalue_below(sym3 q) {
@@ -19,40 +17,43 @@ static double least_eigenvalue_below(sym3 q) {
     if (!ldl3_make(q, &f)) return 0;
     double m20 = f.l10 * f.l21 - f.l20;
     double inverse_trace = ((1 + f.l10 * f.l10) + m20 * m20) * f.r0 + (1 + f.l21 * f.l21) * f.r1 + f.r2;
-    return (1 - 64 * rounding) / inverse_trace - 16 * rounding * sym3_trace(q);
+    return (1 - 64 * ROUNDING) / inverse_trace - 16 * ROUNDING * sym3_trace(q);
 }
 
 static double norm_1(vec3 v) { return (fabs(v.x) + fabs(v.y)) + fabs(v.z); }
 
-/// Is the point x strictly inside the ellipsoid (c, Q)? It is known that x = c + t Q v up to `off` (a length), which
+/// 1 if the point x is proven strictly inside the ellipsoid (c, Q), where x = c + t Q v up to `off` (a length), which
 /// makes (x - c)' Q^-1 (x - c) = t^2 v' Q v; the three-term sums of Q v and v' Q v are off by less than 16 u in all.
-static int is_inside(vec3 c, sym3 q, vec3 v, double t, double off) {
+static int is_inside(const ovoid_ellipsoid *e, vec3 v, double t, double off) {
+    vec3 c = e->center;
+    sym3 q = e->q;
     double least = least_eigenvalue_below(q);
     if (!(least > 0)) return 0;
     double length = norm_1(v) * fabs(t), trace = sym3_trace(q);
-    double m = t * t * sym3_quadratic(q, v) + 32 * rounding * trace * length * length;
-    double slip = off + 32 * rounding * (norm_1(c) + trace * length);
+    double m = t * t * sym3_quadratic(q, v) + 32 * ROUNDING * trace * length * length;
+    double slip = off + 32 * ROUNDING * (norm_1(c) + trace * length);
     return sqrt(fmax(m, 0)) + slip / sqrt(least) <= 1 - 1e-12;
 }
 
-/// Is the point of the pencil in both?
+/// 1 if the point of the pencil, in *x, is proven inside both.
 static int is_common(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, const pencil *p, vec3 *x) {
     *x = vec3_add_scaled(a->center, sym3_mul_vec3(a->q, p->v), 1 - p->s);
     vec3 same = vec3_add_scaled(b->center, sym3_mul_vec3(b->q, p->v), -p->s);
-    double mine = 4 * rounding * norm_1(*x), off = norm_1(vec3_sub(*x, same)) + mine;
-    return is_inside(a->center, a->q, p->v, 1 - p->s, mine) && is_inside(b->center, b->q, p->v, -p->s, off);
+    double mine = 4 * ROUNDING * norm_1(*x), off = norm_1(vec3_sub(*x, same)) + mine;
+    return is_inside(a, p->v, 1 - p->s, mine) && is_inside(b, p->v, -p->s, off);
 }
 
-/// Is the centre of b, which is a point of it exactly, inside a?
+/// 1 if the centre of b, which is exactly a point of b, is proven inside a.
 static int is_center_inside(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b) {
     ldl3 f;
     if (!ldl3_make(a->q, &f)) return 0;
     vec3 d = vec3_sub(b->center, a->center), v = ldl3_solve(&f, d);
-    double off = norm_1(vec3_sub(sym3_mul_vec3(a->q, v), d)) + 4 * rounding * norm_1(d);
-    return is_inside((vec3){0, 0, 0}, a->q, v, 1, off);
+    double off = norm_1(vec3_sub(sym3_mul_vec3(a->q, v), d)) + 4 * ROUNDING * norm_1(d);
+    ovoid_ellipsoid around_zero = {{0, 0, 0}, a->q};
+    return is_inside(&around_zero, v, 1, off);
 }
 
-/// Lengths such that no fourth power of one over- or underflows.
+/// ellipsoids_are_overlapping for lengths whose fourth powers neither over- nor underflow.
 static int is_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, vec3 *x) {
     // Apart along the line of centres?
     vec3 d = vec3_sub(b->center, a->center);

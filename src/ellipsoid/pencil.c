@@ -32,7 +32,7 @@ vec3 ldl3_solve(const ldl3 *f, vec3 b) {
 }
 
 pencil pencil_search(sym3 qa, sym3 qb, vec3 d) {
-    // Start where the two radii along the line of centres say.
+    // Start at the ratio of the two radii along the line of centres.
     double sa = sqrt(max2(sym3_quadratic(qa, d), 0)), sb = sqrt(max2(sym3_quadratic(qb, d), 0));
     double low = 0, high = 1, s = sa + sb > 0 ? min2(max2(sa / (sa + sb), 1e-6), 1 - 1e-6) : 0.5;
     pencil r = {s, {0, 0, 0}, 0, 0, PENCIL_TOUCHING};
@@ -48,7 +48,7 @@ pencil pencil_search(sym3 qa, sym3 qb, vec3 d) {
         r.ma = t * t * alpha;
         r.mb = s * s * beta;
         r.state = s * r.ma + t * r.mb > 1 ? PENCIL_APART : r.ma < 1 && r.mb < 1 ? PENCIL_COMMON : PENCIL_TOUCHING;
-        // A point well inside both is easier to prove than one at the rim: go on a little for it.
+        // A point well inside both is easier to prove than one near the surface: a few more rounds look for one.
         if (r.state == PENCIL_APART || max2(r.ma, r.mb) <= 0.999) return r;
 
         // Newton's step for (1 - s) sqrt(alpha) = s sqrt(beta), kept in the bracket.

@@ -9,11 +9,11 @@ typedef struct ldl3 {
     double l10, l20, l21, r0, r1, r2;
 } ldl3;
 
-/// 0 where Q is not positive definite in doubles.
+/// Factors Q; 0 where it is not positive definite in doubles.
 int ldl3_make(sym3 q, ldl3 *f);
 vec3 ldl3_solve(const ldl3 *f, vec3 b);
 
-/// Where the search stopped.
+/// The state at which the search stopped.
 typedef struct pencil {
     double s;      ///< in (0, 1)
     vec3 v;        ///< G(s) v = d
@@ -25,7 +25,8 @@ typedef struct pencil {
     } state;
 } pencil;
 
-/// d = cb - ca; no fourth power of a length may over- or underflow. At most 20 evaluations.
+/// Searches for the maximum of F until the state is decided. d = cb - ca; no fourth power of a length may over- or
+/// underflow. At most 20 evaluations.
 pencil pencil_search(sym3 qa, sym3 qb, vec3 d);
 
 #endif

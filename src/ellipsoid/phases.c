@@ -1,34 +1,37 @@
-// (b) (c) (d) The three phases from the outer ellipsoid to an enclosed one: shrink, stretch, enlarge each radius.
+// The three phases from the outer ellipsoid to an enclosed one: shrink, stretch, enlarge each radius.
 // W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on Enclosed Ellipsoid by Facial Areas
-// Splitting, section 2.3. Each phase is a bisection against the facets' planes, 2^-40 fine; then the result is shrunk
-// by what its proof needs (seal.c). The paper writes M = Q^-1; here its formulas stand in Q, and no square root is
-// needed. A phase never returns less than it was given: where there is no room, it returns its input. Flat bodies:
-// within the plane, against the edges; a segment: against its ends. Nothing is proven of these. Cost: 40 to 250
-// evaluations of all facets a phase.
+// Splitting, section 2.3, steps (b), (c) and (d). Each phase is a bisection against the facets' planes, 2^-40 fine;
+// then the result is shrunk by what its proof needs (shrink_to_fit.c). The paper writes M = Q^-1; here its formulas
+// stand in Q, and no square root is needed. A phase never returns less than it was given: where there is no room, it
+// returns its input. Flat bodies: within the plane, against the edges; a segment: against its ends. Nothing is proven
+// of these. Cost: 40 to 250 evaluations of all facets a phase.
 #include "base/environment.h"
 #include "ellipsoid/contain.h"
-#include "ellipsoid/seal.h"
-#include "ellipsoid/walls.h"
+#include "ellipsoid/halfspaces.h"
+#include "ellipsoid/shrink_to_fit.h"
 
-// Ellipsoids that grow with t.
-typedef ovoid_ellipsoid (*family)(const void *context, double t);
+// A family of ellipsoids that grow with t.
+typedef struct family {
+    ovoid_ellipsoid (*make)(const void *context, double t);
+    const void *context;
+} family;
 
-static int is_inside(const walls *w, const ovoid_ellipsoid *e) {
+static int is_inside(const halfspaces *w, const ovoid_ellipsoid *e) {
     for (uint32_t i = 0; i < w->count; i++) {
-        ovoid_plane plane = walls_get(w, i);
+        ovoid_plane plane = halfspaces_get(w, i);
         if (!(ellipsoid_compute_support(e, plane.normal) <= plane.offset)) return 0;
     }
     return 1;
 }
 
-// The largest t in [low, high] that is inside, by bisection; low is taken to be.
-static double bisect(const walls *w, family make, const void *context, const double range[2], uint32_t *iterations) {
+// The largest t of a range whose ellipsoid is inside, by bisection; the lower end is taken to be inside.
+static double bisect(const halfspaces *w, family f, const double range[2], uint32_t *iterations) {
     double low = range[0], high = range[1];
-    ovoid_ellipsoid e = make(context, high);
+    ovoid_ellipsoid e = f.make(f.context, high);
     if (is_inside(w, &e)) return high;
     for (int i = 0; i < 40; i++, (*iterations)++) {
         double middle = low + (high - low) / 2;
-        e = make(context, middle);
+        e = f.make(f.context, middle);
         if (is_inside(w, &e))
             low = middle;
         else
@@ -38,10 +41,10 @@ static double bisect(const walls *w, family make, const void *context, const dou
 }
 
 // The proven result, or the input where that is larger and proven too.
-static ovoid_fit finish(const walls *w, const ovoid_ellipsoid *e, const ovoid_ellipsoid *input) {
+static ovoid_fit finish(const halfspaces *w, const ovoid_ellipsoid *e, const ovoid_ellipsoid *input) {
     sym3dd q = sym3dd_from(e->q);
     uint32_t rank = w->polytope->rank;
-    ovoid_fit fit = {.ellipsoid = ellipsoid_compute_sealed(w->polytope, e->center, &q), .gap = NAN, .converged = 1};
+    ovoid_fit fit = {.ellipsoid = ellipsoid_shrink_to_fit(w->polytope, e->center, &q), .gap = NAN, .converged = 1};
     fit.volume = ellipsoid_compute_measure(&fit.ellipsoid, rank);
     double before = input ? ellipsoid_compute_measure(input, rank) : 0;
     if (input && before >= fit.volume && (rank < 3 || ellipsoid_is_enclosed(w->polytope, input)))
@@ -55,10 +58,10 @@ static ovoid_ellipsoid make_scaled(const void *context, double t) {
 }
 
 static ovoid_fit compute_shrunk(const ovoid_polytope *polytope, const ovoid_ellipsoid *outer) {
-    walls w = walls_make(polytope);
+    halfspaces w = halfspaces_make(polytope);
     uint32_t iterations = 0;
     // A quarter of the radii lies inside by John's theorem, which promises a third.
-    double t = bisect(&w, make_scaled, outer, (double[2]){0.25, 1}, &iterations);
+    double t = bisect(&w, (family){make_scaled, outer}, (double[2]){0.25, 1}, &iterations);
     ovoid_ellipsoid e = make_scaled(outer, t);
     ovoid_fit fit = finish(&w, &e, NULL);
     fit.iterations = iterations;
@@ -69,8 +72,8 @@ ovoid_fit ovoid_ellipsoid_compute_shrunk(const ovoid_polytope *polytope, const o
     ENVIRONMENT_RETURN(ovoid_fit, outer, compute_shrunk(polytope, outer));
 }
 
-// The mean of a facet's vertices. Each is the start of one edge of the facet; diagonals between its triangles are no
-// edges, so the neighbours tell.
+// The mean of a facet's vertices. Each is the start of one edge of the facet; a diagonal between its triangles is no
+// edge, which the lists of neighbours show.
 static vec3 compute_facet_mean(const ovoid_polytope *p, uint32_t facet) {
     vec3 sum = {0, 0, 0};
     double count = 0;
@@ -85,12 +88,12 @@ static vec3 compute_facet_mean(const ovoid_polytope *p, uint32_t facet) {
     return count > 0 ? vec3_scale(sum, 1 / count) : vec3_at(p->vertices, 0);
 }
 
-// The mean of a wall's vertices: of a facet, an edge, an end.
-static vec3 compute_wall_mean(const walls *w, uint32_t wall) {
+// The mean of the vertices of a facet, an edge or an end.
+static vec3 compute_halfspace_mean(const halfspaces *w, uint32_t halfspace) {
     const ovoid_polytope *p = w->polytope;
-    if (p->rank == 3) return compute_facet_mean(p, wall);
+    if (p->rank == 3) return compute_facet_mean(p, halfspace);
     uint32_t corner[2];
-    walls_get_edge(w, wall, corner);
+    halfspaces_get_edge(w, halfspace, corner);
     vec3 a = vec3_at(p->vertices, corner[0]), b = vec3_at(p->vertices, corner[1]);
     return p->rank == 1 ? a : vec3_scale(vec3_add(a, b), 0.5);
 }
@@ -119,23 +122,23 @@ static double compute_gauge(sym3 q, vec3 d, uint32_t rank) {
 }
 
 static ovoid_fit compute_stretched(const ovoid_polytope *polytope, const ovoid_ellipsoid *shrunk) {
-    walls w = walls_make(polytope);
+    halfspaces w = halfspaces_make(polytope);
     // The facet farthest from the centre, the first of equals.
     uint32_t facet = 0, iterations = 0;
     double farthest = -INFINITY;
     for (uint32_t i = 0; i < w.count; i++) {
-        ovoid_plane plane = walls_get(&w, i);
+        ovoid_plane plane = halfspaces_get(&w, i);
         double distance = plane.offset - vec3_dot(plane.normal, shrunk->center);
         if (distance > farthest) farthest = distance, facet = i;
     }
     // s = c + l (s_m - c) / |s_m - c|.
     stretch s = {*shrunk, {0, 0, 0}, 0};
-    if (w.count > 0) s.d = vec3_scale(vec3_unit(vec3_sub(compute_wall_mean(&w, facet), s.base.center)), farthest);
+    if (w.count > 0) s.d = vec3_scale(vec3_unit(vec3_sub(compute_halfspace_mean(&w, facet), s.base.center)), farthest);
     s.m = compute_gauge(shrunk->q, s.d, polytope->rank);
     double beta = 0;
     ovoid_ellipsoid e = *shrunk;
     if (s.m > 0 && isfinite(s.m)) {
-        beta = bisect(&w, make_stretched, &s, (double[2]){0, 1}, &iterations);
+        beta = bisect(&w, (family){make_stretched, &s}, (double[2]){0, 1}, &iterations);
         e = make_stretched(&s, beta);
     }
     ovoid_fit fit = finish(&w, &e, shrunk);
@@ -163,7 +166,7 @@ static ovoid_ellipsoid make_enlarged(const void *context, double radius) {
 }
 
 static ovoid_fit compute_enlarged(const ovoid_polytope *polytope, const ovoid_ellipsoid *stretched) {
-    walls w = walls_make(polytope);
+    halfspaces w = halfspaces_make(polytope);
     eigen3 axes = sym3_compute_eigen(stretched->q);
     const vec3 axis[3] = {axes.v.r0, axes.v.r1, axes.v.r2};
     ovoid_ellipsoid e = *stretched;
@@ -179,7 +182,7 @@ static ovoid_fit compute_enlarged(const ovoid_polytope *polytope, const ovoid_el
             e = make_enlarged(&g, range[1]);
             iterations++;
         } while (is_inside(&w, &e) && iterations < 1000);
-        e = make_enlarged(&g, bisect(&w, make_enlarged, &g, range, &iterations));
+        e = make_enlarged(&g, bisect(&w, (family){make_enlarged, &g}, range, &iterations));
     }
     ovoid_fit fit = finish(&w, &e, stretched);
     fit.iterations = iterations;

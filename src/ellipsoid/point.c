@@ -38,8 +38,8 @@ static double find_root(const double *square, vec3 y, uint32_t *rounds) {
     return t;
 }
 
-/// The outward direction at a point that is inside: of the level set of y' Q^-1 y through it; across a flat ellipsoid,
-/// and across the thinnest axis from the centre.
+/// The outward direction at a point inside: the normal of the level set of y' Q^-1 y through it. For a flat ellipsoid,
+/// and at the centre, the thinnest axis.
 static vec3 find_outward(const double *square, vec3 y) {
     if (!(square[0] > 0)) return (vec3){1, 0, 0};
     vec3 n = vec3_unit((vec3){y.x, y.y * (square[0] / square[1]), y.z * (square[0] / square[2])});
@@ -71,7 +71,8 @@ static ovoid_nearest compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, 
     r.distance = vec3_norm(vec3_sub(r.point_b, r.point_a));
     r.lower = fmin(ellipsoids_compute_gap(ellipsoid, &b, r.normal), r.distance);
 
-    // Eigenvalues are off by roundings of the largest; where that shows in a thin body, the pair's way needs none.
+    // Eigenvalues are off by roundings of the largest; where that shows in a thin body, the search for two ellipsoids,
+    // which needs none, is used.
     if (!r.overlap && r.distance - r.lower > 1e-12 * p.unit) {
         r = ovoid_ellipsoid_compute_nearest(ellipsoid, &b);
         r.point_b = point;

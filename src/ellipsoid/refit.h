@@ -1,19 +1,23 @@
-// Ellipsoids of a body that is nearly another one, whose ellipsoids are known: deformed, or cut.
+// Ellipsoids of a body, from scratch or from those of a body that differs little: one that was deformed or cut.
 #ifndef OVOID_ELLIPSOID_REFIT_H
 #define OVOID_ELLIPSOID_REFIT_H
 
 #include "ovoid/ellipsoid.h"
 
-/// Where to start: the outer and inner ellipsoid of a body near by, in the body frame of the one that is asked for.
+/// Where to start: the outer and inner ellipsoid of the body that differs little, in the body frame of the one to fit.
 typedef struct fit_start {
     ovoid_ellipsoid outer, inner;
 } fit_start;
 
-/// As ovoid_ellipsoid_compute_outer and _inner, started from there; NULL: from nothing. The same promises hold, and
-/// about the same ellipsoid comes out. The public functions' arguments are checked already.
-ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, double gap, const fit_start *start, ovoid_fit *fit,
-                                 const ovoid_allocator *allocator);
-ovoid_code ellipsoid_refit_inner(const ovoid_polytope *polytope, double gap, const fit_start *start, ovoid_fit *fit,
-                                 const ovoid_allocator *allocator);
+typedef struct fit_options {
+    double gap;                       ///< relative volume gap to reach; 0 means 1e-6
+    const fit_start *start;           ///< NULL: from scratch
+    const ovoid_allocator *allocator; ///< NULL: malloc
+} fit_options;
+
+/// ovoid_ellipsoid_compute_outer and _inner, for callers that have set up the floating-point environment. A start
+/// changes the cost; the same promises hold, and about the same ellipsoid is found.
+ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, const fit_options *options, ovoid_fit *fit);
+ovoid_code ellipsoid_refit_inner(const ovoid_polytope *polytope, const fit_options *options, ovoid_fit *fit);
 
 #endif

@@ -10,7 +10,7 @@ typedef struct root3 {
 } root3;
 
 /// By Cholesky with diagonal pivots, in doubles or in double-double: of a thin body doubles lose the thin axis. Pivots
-/// that are rounding of the largest are taken for zero.
+/// that are rounding errors of the largest are taken for zero.
 root3 root3_make(sym3 q, int is_exact);
 
 /// E p
@@ -30,7 +30,7 @@ typedef struct root3_nearest {
 } root3_nearest;
 
 /// Nearest points from the roots themselves, so that what is flat stays flat; lengths about one. 0 where they are not
-/// apart. nearest.c
+/// apart. Defined in nearest.c.
 int roots_find_nearest(const root3 *a, const root3 *b, vec3 d, root3_nearest *found);
 
 #endif

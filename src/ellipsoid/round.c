@@ -6,8 +6,8 @@
 // itself, is off by about 2^-53 a^(2/3) for a slab, 2^-53 a^(4/3) for a needle. A reduced basis (A. K. Lenstra, H. W.
 // Lenstra, L. Lovasz, Factoring polynomials with rational coefficients, 1982) and the nearest plane (L. Babai, On
 // Lovasz' lattice reduction and the nearest lattice point problem, 1986) find a point nearly as near. All in
-// double-double, as the six basis vectors of a slab are parallel to 1 / a^2. Nothing is promised: the caller checks
-// what it gets.
+// double-double, as the six basis vectors of a slab are parallel to 1 / a^2. Nothing is promised: the caller checks the
+// result.
 #include "ellipsoid/factor.h"
 
 enum { ENTRIES = 6 };
@@ -18,8 +18,8 @@ typedef struct vector6 {
 } vector6;
 
 typedef struct lattice {
-    vector6 b[ENTRIES + 1];          // basis, and what is to be made small
-    int64_t c[ENTRIES + 1][ENTRIES]; // what it is made of: multiples of the units; sums wrap on the way, and end small
+    vector6 b[ENTRIES + 1];          // basis, and the vector to reduce
+    int64_t c[ENTRIES + 1][ENTRIES]; // these as multiples of the units; sums may wrap on the way, and end small
     vector6 star[ENTRIES];           // orthogonalised
     dd size[ENTRIES];                // of these, squared
 } lattice;
@@ -99,8 +99,8 @@ sym3 sym3dd_round(const sym3dd *s) {
     sym3 plain = {entry[0], entry[1], entry[2], entry[3], entry[4], entry[5]};
     factor f;
     if (!factor_make_unproven(s, &f) || f.count < 3) return plain;
-    // The units, none finer than of use and twice as coarse as they could be, so that a sum stays representable; what
-    // is missing of the matrix after rounding to them, and after plain rounding.
+    // The units, none finer than of use and twice as coarse as they could be, so that a sum stays representable; and
+    // the errors of rounding to them and of plain rounding.
     lattice l = {.c = {{0}}};
     vector6 missed = {{{0, 0}}};
     for (int k = 0; k < ENTRIES; k++) {
@@ -115,7 +115,7 @@ sym3 sym3dd_round(const sym3dd *s) {
     }
     double before = dot(&missed, &missed).high;
     if (!(before > 0x1p-84)) return plain;
-    // Down the planes of the reduced basis, as one more row of it.
+    // The nearest plane: the error is reduced by the basis as one more row of it.
     reduce(&l);
     for (int k = ENTRIES - 1; k >= 0; k--) subtract_row(&l, ENTRIES, k, nearbyint(project(&l.b[ENTRIES], &l, k).high));
     if (!(dot(&l.b[ENTRIES], &l.b[ENTRIES]).high < before)) return plain;

@@ -1,5 +1,5 @@
-// Step (e) of the paper: points X* and Y* of two ellipsoids by the map that makes the first the unit sphere. W.-K. Su,
-// J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on Enclosed Ellipsoid by Facial Areas Splitting,
+// Step (e) of the paper: the points X* and Y* of two ellipsoids by the map that makes the first the unit sphere. W.-K.
+// Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on Enclosed Ellipsoid by Facial Areas Splitting,
 // section 3.2.
 //
 // The paper maps x' = M^(1/2) (x - ca), M = Qa^-1. Any other factor, x' = E^-1 (x - ca) with Qa = E E', differs from
@@ -75,7 +75,7 @@ static ovoid_nearest compute_nearest_by_sphere(const ovoid_ellipsoid *a, const o
     r.point_a = vec3_add_scaled(a->center, map_back(&e, x), p.unit);
     r.point_b = r.overlap ? r.point_a : vec3_add_scaled(a->center, map_back(&e, y), p.unit);
 
-    // The separating plane; in the sphere's centre the way to the other's does as well as any.
+    // The separating plane; where y is the sphere's centre, the direction to the other centre is as good as any.
     r.normal = vec3_unit(map_normal_back(&e, length > 0 ? y : mapped.center));
     if (!(vec3_norm_squared(r.normal) > 0)) r.normal = (vec3){1, 0, 0};
     r.distance = vec3_norm(vec3_sub(r.point_b, r.point_a));

@@ -1,4 +1,4 @@
-// CSV as RFC 4180 has it, read strictly: what is not understood is refused with its line and column.
+// CSV as RFC 4180 defines it, read strictly: anything else is refused with its line and column.
 #include "io/csv.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@ static const char *skip(const char *at, const char *end) {
     return at;
 }
 
-// Steps over what follows a column: a comma, or after the last one the line's end. at: behind the column's blanks.
+// Skips the separator after a column: a comma, or after the last column the line's end. at: behind the column's blanks.
 static ovoid_code end_column(csv_line *line, const char *at) {
     int is_last = ++line->column == line->count;
     if ((at == line->end) != is_last)

@@ -1,14 +1,14 @@
-// One line of a CSV file taken apart column by column, strictly: every column there, no other, numbers finite.
+// One line of a CSV file read column by column, strictly: every column present, no other, numbers finite.
 #ifndef OVOID_IO_CSV_H
 #define OVOID_IO_CSV_H
 
 #include "io/text.h"
 
-/// Where reading stands in a line of known columns.
+/// The reading position in a line of known columns.
 typedef struct csv_line {
-    const char *at, *end;       ///< what is not read yet
+    const char *at, *end;       ///< the rest of the line
     const char *const *columns; ///< their names
-    int column, count;          ///< the one that is next; how many there are
+    int column, count;          ///< the next one; their number
     where place;
     ovoid_error *error;
 } csv_line;
@@ -17,7 +17,7 @@ typedef struct csv_line {
 ovoid_code csv_read_number(csv_line *line, double *value);
 
 /// The next column as a text, without the blanks around it, or in quotes ("" stands for a quote). Terminated; FORMAT
-/// where it does not fit into the room.
+/// where it does not fit into `room` bytes.
 ovoid_code csv_read_text(csv_line *line, char *text, size_t room);
 
 /// The first line of a file, which must be one of these: which one, or -1 with the error filled.

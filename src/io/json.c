@@ -1,5 +1,5 @@
-// The line of a JSON value, found by walking the text once more: jansson keeps no places. And texts and numbers written
-// as JSON.
+// The line of a JSON value, found by scanning the text once more, since jansson keeps no positions; and texts and
+// numbers written as JSON.
 #include "io/json.h"
 
 #include <math.h>
@@ -7,48 +7,48 @@
 
 // ---- the line of a value
 
-/// A place in a text that is known to be JSON.
-typedef struct walker {
+/// A position in a text that is known to be JSON.
+typedef struct scanner {
     const char *at, *end;
-} walker;
+} scanner;
 
-static void skip_space(walker *w) {
-    while (w->at < w->end && (*w->at == ' ' || *w->at == '\t' || *w->at == '\r' || *w->at == '\n')) w->at++;
+static void skip_space(scanner *s) {
+    while (s->at < s->end && (*s->at == ' ' || *s->at == '\t' || *s->at == '\r' || *s->at == '\n')) s->at++;
 }
 
-// From the opening quote to behind the closing one.
-static void skip_text(walker *w) {
-    for (w->at++; w->at < w->end && *w->at != '"'; w->at++)
-        if (*w->at == '\\' && w->at + 1 < w->end) w->at++;
-    if (w->at < w->end) w->at++;
+// Skips a text from its opening quote to behind the closing one.
+static void skip_text(scanner *s) {
+    for (s->at++; s->at < s->end && *s->at != '"'; s->at++)
+        if (*s->at == '\\' && s->at + 1 < s->end) s->at++;
+    if (s->at < s->end) s->at++;
 }
 
-// Any value, to behind its end: brackets are counted, so that no nesting is too deep.
-static void skip_value(walker *w) {
+// Skips any value; brackets are counted, so that no nesting is too deep.
+static void skip_value(scanner *s) {
     size_t depth = 0;
-    skip_space(w);
-    while (w->at < w->end) {
-        char c = *w->at;
+    skip_space(s);
+    while (s->at < s->end) {
+        char c = *s->at;
         if (!depth && (c == ',' || c == '}' || c == ']')) return;
         if (c == '"') {
-            skip_text(w);
+            skip_text(s);
         } else {
             if (c == '{' || c == '[') depth++;
             if (c == '}' || c == ']') depth--;
-            w->at++;
+            s->at++;
         }
     }
 }
 
-// 1 if the text in quotes at the walker is the key, written without escapes.
-static int is_key(const walker *w, const char *key) {
+// 1 if the text in quotes at the scanner is the key, written without escapes.
+static int is_key(const scanner *s, const char *key) {
     size_t length = strlen(key);
-    return (size_t)(w->end - w->at) > length + 1 && memcmp(w->at + 1, key, length) == 0 && w->at[length + 1] == '"';
+    return (size_t)(s->end - s->at) > length + 1 && memcmp(s->at + 1, key, length) == 0 && s->at[length + 1] == '"';
 }
 
-// Goes into the object or array at the walker; 0 and no move where the step leads nowhere.
-static int enter(walker *w, json_step step) {
-    walker inside = *w;
+// Enters the object or array at the scanner; 0, without a move, where the step leads nowhere.
+static int enter(scanner *s, json_step step) {
+    scanner inside = *s;
     if (inside.at == inside.end || *inside.at != (step.key ? '{' : '[')) return 0;
     inside.at++;
     for (size_t i = 0;; i++) {
@@ -62,7 +62,7 @@ static int enter(walker *w, json_step step) {
             skip_space(&inside);
         }
         if (found) {
-            *w = inside;
+            *s = inside;
             return 1;
         }
         skip_value(&inside);
@@ -71,11 +71,11 @@ static int enter(walker *w, json_step step) {
 }
 
 int64_t json_find_line(bytes text, const json_step *steps, size_t count) {
-    walker w = {text.data, text.data + text.size};
-    skip_space(&w);
-    for (size_t i = 0; i < count && enter(&w, steps[i]); i++) continue;
+    scanner s = {text.data, text.data + text.size};
+    skip_space(&s);
+    for (size_t i = 0; i < count && enter(&s, steps[i]); i++) continue;
     int64_t line = 1;
-    for (const char *c = text.data; c < w.at; c++) line += *c == '\n';
+    for (const char *c = text.data; c < s.at; c++) line += *c == '\n';
     return line;
 }
 

@@ -16,7 +16,7 @@ typedef struct json_step {
 /// leads nowhere, the line of the value before it. Linear in the text: meant for messages.
 int64_t json_find_line(bytes text, const json_step *steps, size_t count);
 
-/// 1 if jansson failed for want of memory; it does not always say so, but then it says nothing.
+/// 1 if jansson failed for lack of memory. It does not always set that code, but then its message is empty.
 int json_is_memory_error(const json_error_t *why);
 
 /// The length of the UTF-8 sequence at c, of a text that ends with a zero byte; 0 if there is none.

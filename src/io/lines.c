@@ -1,5 +1,5 @@
-// A text read line by line through a buffer of its own: a line is handed out where it lies, without a copy. The buffer
-// grows to the longest line, of which there is a limit: no input can ask for more memory.
+// A text read line by line through a buffer of its own: lines are returned in place, without a copy. The buffer grows
+// to the longest line, whose length is limited, so that no input can claim more memory.
 #include "io/text.h"
 
 #include <errno.h>
@@ -24,9 +24,9 @@ void line_source_close(line_source *source) {
     *source = (line_source){.file = NULL};
 }
 
-// More bytes at the end of the buffer. 1, 0 at the end of the file, -1: failed.
+// Reads more bytes at the end of the buffer. 1, 0 at the end of the file, -1: failed.
 static int read_more(line_source *source, ovoid_error *error) {
-    // Room: first by moving what is left to the front, then by growing.
+    // Room is made by moving the rest to the front, then by growing.
     if (source->begin) {
         memmove(source->buffer, source->buffer + source->begin, source->end - source->begin);
         source->end -= source->begin;
@@ -55,18 +55,18 @@ static int read_more(line_source *source, ovoid_error *error) {
 }
 
 int line_source_next(line_source *source, const char **line, size_t *length, ovoid_error *error) {
-    size_t looked = 0;
+    size_t searched = 0;
     char *end;
     for (;;) {
-        end = memchr(source->buffer + source->begin + looked, '\n', source->end - source->begin - looked);
+        end = memchr(source->buffer + source->begin + searched, '\n', source->end - source->begin - searched);
         if (end) break;
-        looked = source->end - source->begin;
+        searched = source->end - source->begin;
         int more = read_more(source, error);
-        if (more < 0 || (more == 0 && looked == 0)) return more;
-        if (more == 0) break; // the last line has no end
+        if (more < 0 || (more == 0 && searched == 0)) return more;
+        if (more == 0) break; // the last line has no line end
     }
     *line = source->buffer + source->begin;
-    *length = end ? (size_t)(end - *line) : looked;
+    *length = end ? (size_t)(end - *line) : searched;
     source->begin += *length + (end != NULL);
     source->line++;
     if (*length && (*line)[*length - 1] == '\r') --*length;

@@ -1,9 +1,9 @@
-// Decimal numbers, read and written correctly rounded and with a point, whatever the locale.
+// Decimal numbers, read and written correctly rounded and with a point, in any locale.
 //
 // Up to 15 digits and a power of ten up to 22 are exact in doubles, so that one multiplication or division rounds
 // correctly (W. D. Clinger, How to read floating point numbers accurately, 1990). Powers of ten up to 44 are exact in
-// double-double, since 5^44 < 2^106: there, the product or quotient is good to 2^-98, which decides the rounding unless
-// the true value lies within that of a tie. What is left goes to the C library, some ten times slower.
+// double-double, since 5^44 < 2^106: there, the product or quotient is off by at most 2^-98, which decides the rounding
+// unless the true value is that near to a tie. All other numbers go to the C library, some ten times slower.
 #include "io/text.h"
 #include "linear/exact.h"
 
@@ -17,7 +17,7 @@ static const double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  
 
 enum { EXACT_POWER_MAX = 44 };
 
-// 10^k exactly, 0 <= k <= EXACT_POWER_MAX.
+// The exact power 10^k, 0 <= k <= EXACT_POWER_MAX.
 static dd exact_power(int k) {
     return k <= 22 ? dd_from(power_of_ten[k]) : two_product(power_of_ten[22], power_of_ten[k - 22]);
 }
@@ -26,7 +26,7 @@ static dd exact_power(int k) {
 
 static int is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// inf, infinity, nan.
+// Reads inf, infinity or nan.
 static const char *read_special(const char *at, const char *end, double sign, double *value) {
     if (text_begins_with(at, end, "nan")) {
         *value = NAN;
@@ -37,8 +37,8 @@ static const char *read_special(const char *at, const char *end, double sign, do
     return text_begins_with(at, end, "infinity") ? at + 8 : at + 3;
 }
 
-// Whatever the fast path cannot round: strtod, which wants the locale's point and a terminated text. Of a number of
-// more than 800 digits the rest cannot change the rounding of any double that has fewer; it is refused.
+// Reads with strtod the numbers that the fast path cannot round; strtod needs the locale's point and a terminated text.
+// A text that does not fit into `copy` is refused; the exact value of any double does (767 digits and an exponent).
 static const char *read_slow(const char *begin, const char *end, double *value) {
     char copy[1024];
     size_t length = (size_t)(end - begin);
@@ -59,14 +59,14 @@ static const char *read_slow(const char *begin, const char *end, double *value) 
     return end;
 }
 
-// mantissa 10^exponent where double-double decides the rounding; 0 where it does not.
+// Rounds mantissa 10^exponent where double-double decides the rounding; 0 where it does not.
 static int read_exact(uint64_t mantissa, int exponent, double *value) {
     if (exponent < -EXACT_POWER_MAX || exponent > EXACT_POWER_MAX) return 0;
     // Both halves of the mantissa are exact.
     dd m = two_sum((double)(mantissa >> 32) * 0x1p32, (double)(mantissa & 0xffffffffu));
     dd v = exponent < 0 ? dd_div(m, exact_power(-exponent)) : dd_mul(m, exact_power(exponent));
     // Undecided where v is within 2^-90 of half way between two doubles: then |low| is half their distance. Below a
-    // power of two the distance is half of that; such values go the slow way if low is near a quarter, too.
+    // power of two the distance is half of that, so low near a quarter is undecided too.
     double quarter = 0.25 * (nextafter(v.high, INFINITY) - v.high), low = fabs(v.low), slack = 0x1p-90 * v.high;
     if (fabs(low - quarter) <= slack || fabs(low - 2 * quarter) <= slack) return 0;
     *value = v.high;
@@ -78,7 +78,7 @@ const char *number_read(const char *at, const char *end, double *value) {
     double sign = 1;
     if (at < end && (*at == '-' || *at == '+')) sign = *at++ == '-' ? -1 : 1;
     if (at < end && !is_digit(*at) && *at != '.') return read_special(at, end, sign, value);
-    // Digits before and after the point; beyond 19 they no longer fit and only mark the number as slow.
+    // Digits before and after the point; beyond 19 they do not fit and mark the number as slow.
     uint64_t mantissa = 0;
     int digits = 0, used = 0, exponent = 0;
     for (; at < end && is_digit(*at); at++, digits++) {
@@ -151,7 +151,7 @@ static size_t write_digits(char out[32], uint64_t n, int power, int is_negative)
     while (count > 1 && text[count - 1] == '0') count--;
     char *at = out;
     if (is_negative) *at++ = '-';
-    int before = power < -4 ? 1 : power + 1; // digits before the point; none or fewer: zeros after it
+    int before = power < -4 ? 1 : power + 1; // digits before the point; 0 or less: zeros after it
     if (before <= 0) {
         memcpy(at, "0.000", 5);
         at += 2 - before;
@@ -165,7 +165,7 @@ static size_t write_digits(char out[32], uint64_t n, int power, int is_negative)
     return (size_t)(at - out);
 }
 
-// The C library's words, with its locale's point, which may have several bytes, replaced by one.
+// Writes with the C library, and replaces the locale's point, which may have several bytes.
 static size_t write_slow(char out[32], double value, int digits) {
     size_t n = (size_t)snprintf(out, 32, "%.*g", digits, value);
     const char *point = localeconv()->decimal_point;

@@ -1,6 +1,6 @@
-// Output files that appear whole or not at all: written beside their place under a name of their own, flushed to the
-// disk, then renamed over it. A link is followed first, so that it stays a link. Whatever is not a regular file (a
-// terminal, a pipe, /dev/null) is written to directly.
+// Output files that appear whole or not at all: written beside their path under a temporary name, flushed to the disk,
+// then renamed. A link is followed first, so that it stays a link. A path that is no regular file (a terminal, a pipe,
+// /dev/null) is written to directly.
 #define _XOPEN_SOURCE 700 // realpath, fsync
 #include "io/text.h"
 
@@ -12,8 +12,8 @@
 
 struct ovoid_output {
     FILE *file;
-    char *path;      ///< as the caller named it, for messages
-    char *target;    ///< what is renamed over; NULL: written to directly
+    char *path;      ///< the caller's path, for messages
+    char *target;    ///< the file to replace; NULL: written to directly
     char *temporary; ///< the file being written
 };
 
@@ -21,7 +21,7 @@ static ovoid_code fail_output(ovoid_error *error, const char *path, const char *
     return io_fail(error, OVOID_ERROR_FILE, (where){path, 0, -1}, "%s: %s", what, strerror(errno));
 }
 
-// A new file beside the target; mode "x" never opens one that is there.
+// Opens a new file beside the target; mode "x" fails where it exists.
 static ovoid_code open_temporary(ovoid_output *output, ovoid_error *error) {
     size_t length = strlen(output->target);
     char *name = malloc(length + 48);
@@ -40,7 +40,7 @@ static ovoid_code open_temporary(ovoid_output *output, ovoid_error *error) {
     return code;
 }
 
-// Where the path leads: its target, or NULL for what is no regular file.
+// Finds the target of the path; NULL for a path that is no regular file.
 static ovoid_code find_target(ovoid_output *output, ovoid_error *error) {
     struct stat status;
     int exists = strcmp(output->path, "-") != 0 && stat(output->path, &status) == 0;
@@ -75,7 +75,7 @@ FILE *ovoid_output_get_file(ovoid_output *output) { return output->file; }
 
 const char *ovoid_output_get_temporary(const ovoid_output *output) { return output->temporary; }
 
-// Closes the file. 0 if all of it was written; a full disk may show only here.
+// Closes the file. OVOID_OK if all of it was written; a full disk may show only here.
 static ovoid_code close_file(ovoid_output *output, ovoid_error *error) {
     ovoid_code code = OVOID_OK;
     if (ferror(output->file))
@@ -89,7 +89,7 @@ static ovoid_code close_file(ovoid_output *output, ovoid_error *error) {
     return code;
 }
 
-// The new file keeps the rights of the one that it replaces.
+// Gives the new file the permissions of the one that it replaces.
 static void copy_mode(const ovoid_output *output) {
     struct stat status;
     if (stat(output->target, &status) == 0) (void)chmod(output->temporary, status.st_mode & 07777);

@@ -12,7 +12,7 @@
 
 // ---- errors
 
-// The end of a long path, so that the sentence after it has room.
+// The end of a long path, which leaves room for the sentence after it.
 static const char *shorten_path(const char *path) {
     size_t length = strlen(path);
     return length <= 110 ? path : path + length - 110;
@@ -55,7 +55,7 @@ static ovoid_code read_all(int file, size_t size, const char *path, bytes *out, 
             out->data = NULL;
             return io_fail(error, OVOID_ERROR_FILE, (where){path, 0, -1}, "cannot be read: %s", strerror(reason));
         }
-        if (n == 0) break; // the file has become shorter: its reader will say so
+        if (n == 0) break; // the file has become shorter: its reader will find out
         out->size += (size_t)n;
     }
     out->data[out->size] = 0;

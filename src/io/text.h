@@ -1,11 +1,12 @@
-// What every reader stands on: a whole file in memory, errors with path and line, numbers in any locale, arrays that
-// grow. Nothing here knows a format.
+// Shared by all readers: a whole file in memory, errors with path and line, numbers in any locale, arrays that grow.
+// Nothing here knows a format.
 #ifndef OVOID_IO_TEXT_H
 #define OVOID_IO_TEXT_H
 
+#include "base/compiler.h"
 #include "ovoid/io.h"
 
-/// Where something is wrong.
+/// The place of an error.
 typedef struct where {
     const char *path;
     int64_t line;  ///< 1-based; 0: none
@@ -14,12 +15,10 @@ typedef struct where {
 
 /// Fills *error (NULL is allowed): "path:line: sentence" with place = line where there is a line, else "path: sentence"
 /// with the place given. A long path keeps its end.
-#if defined(__GNUC__)
-__attribute__((format(printf, 4, 5)))
-#endif
+COMPILER_PRINTF(4, 5)
 void io_report(ovoid_error *error, ovoid_code code, where at, const char *format, ...);
 
-/// Reports and is the code: a macro, so that compilers see that it is not OVOID_OK.
+/// Reports an error and has the value of its code: a macro, so that compilers know that it is not OVOID_OK.
 #define io_fail(error, code, ...) (io_report(error, code, __VA_ARGS__), (code))
 
 /// The error for memory that malloc did not give.
@@ -38,20 +37,20 @@ typedef struct bytes {
 
 /// Reads a regular file of at most OVOID_FILE_SIZE_MAX bytes. The caller frees out->data.
 ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error);
-/// Likewise one of at most that many bytes.
+/// Reads a regular file of at most `most` bytes. The caller frees out->data.
 ovoid_code bytes_read_at_most(const char *path, size_t most, bytes *out, ovoid_error *error);
 
-/// A growing array: makes room for one more item of size bytes. 0 where there is no memory.
+/// Makes room in a growing array for one more item of size bytes. 0 where there is no memory.
 int array_reserve(void **data, size_t *capacity, size_t count, size_t size);
 
-/// A decimal number, or inf, infinity, nan in any case, with a sign; always with a point. Returns the byte after it, or
-/// NULL where none begins at `at`. Correctly rounded; beyond the range of double it is infinite or zero.
+/// Reads a decimal number, or inf, infinity, nan in any case, with a sign; always with a point. Returns the byte after
+/// it, or NULL where none begins at `at`. Correctly rounded; beyond the range of double it is infinite or zero.
 const char *number_read(const char *at, const char *end, double *value);
 
-/// An optional sign and digits; saturates at the ends of int64. Returns the byte after it, or NULL.
+/// Reads an optional sign and digits; saturates at the ends of int64. Returns the byte after them, or NULL.
 const char *integer_read(const char *at, const char *end, int64_t *value);
 
-/// %.*g with at most 17 digits and a point whatever the locale; not finite: "inf", "-inf", "nan". Returns the length.
+/// Writes %.*g with at most 17 digits and a point in any locale; not finite: "inf", "-inf", "nan". Returns the length.
 size_t number_write(char out[32], double value, int digits);
 
 /// A text that is read line by line, from a file or a pipe of any length.
@@ -59,8 +58,8 @@ typedef struct line_source {
     FILE *file;
     char *path;
     char *buffer;
-    size_t capacity, begin, end; ///< the bytes read and not yet handed out: buffer[begin .. end)
-    int64_t line;                ///< 1-based number of the last line handed out
+    size_t capacity, begin, end; ///< the bytes read and not yet returned: buffer[begin .. end)
+    int64_t line;                ///< 1-based number of the last line returned
 } line_source;
 
 /// Longest line that is read, bytes.
@@ -75,7 +74,7 @@ void line_source_close(line_source *source);
 /// malloc'ed copy of length bytes, terminated; NULL where there is no memory.
 char *text_copy(const char *text, size_t length);
 
-/// A hash of the text.
+/// A 64-bit hash of the text.
 uint64_t text_hash(const char *text);
 
 /// malloc'ed path of `name` relative to the folder of `base`; an absolute name stays.

@@ -76,7 +76,7 @@ static inline dd3 dd3_unit(dd3 a) {
     return (dd3){dd_div(a.x, norm), dd_div(a.y, norm), dd_div(a.z, norm)};
 }
 
-/// m v and m' v for a vector of doubles, and of pairs.
+/// m v for a vector of doubles, m' v for one of double-doubles.
 static inline dd3 dd33_mul_vec3(const dd33 *m, vec3 v) {
     return (dd3){dd3_dot_vec3(m->r0, v), dd3_dot_vec3(m->r1, v), dd3_dot_vec3(m->r2, v)};
 }

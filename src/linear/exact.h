@@ -16,7 +16,7 @@ static inline dd two_sum(double a, double b) {
     double s = a + b, v = s - a;
     return (dd){s, (a - (s - v)) + (b - v)};
 }
-/// Likewise where |a| >= |b|.
+/// a + b = high + low exactly (Dekker), where |a| >= |b|.
 static inline dd quick_two_sum(double a, double b) {
     double s = a + b;
     return (dd){s, b - (s - a)};
@@ -29,7 +29,7 @@ static inline dd two_product(double a, double b) {
     return (dd){p, al * bl - (((p - ah * bh) - al * bh) - ah * bl)};
 }
 
-/// Relative error of each of these at most 2^-102 (of |a| + |b| for the sum).
+/// Sum, difference, product and quotient: relative error at most 2^-102 (of |a| + |b| for sum and difference).
 static inline dd dd_add(dd a, dd b) {
     dd s = two_sum(a.high, b.high), t = two_sum(a.low, b.low);
     s = quick_two_sum(s.high, s.low + t.high);

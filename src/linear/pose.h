@@ -7,9 +7,10 @@
 /// ovoid_pose_compute_check, for callers that have set up the floating-point environment.
 ovoid_code pose_compute_check(const ovoid_pose *pose);
 
-/// ovoid_pose_compute_product, likewise. With u = 2^-53: a component of q p is a sum of four products, off by 4 u times
-/// the sum of their sizes, which is at most |q||p| (Cauchy, Schwarz); so q p is off by 8 u |q||p|, and the rotation by
-/// 16 u. The position: R(q) is off by 36 u, the product of it by 6 u more, the sum by u of the result.
+/// ovoid_pose_compute_product, for callers that have set up the floating-point environment. With u = 2^-53: a component
+/// of q p is a sum of four products, off by 4 u times the sum of their sizes, which is at most |q||p| (Cauchy,
+/// Schwarz); so q p is off by 8 u |q||p|, and the rotation by 16 u. The position: R(q) is off by 36 u, its product with
+/// a point by 6 u more, the sum by u of the result.
 ovoid_pose pose_compute_product(const ovoid_pose *outer, const ovoid_pose *inner);
 
 #endif

@@ -14,8 +14,8 @@ static inline ovoid_quat quat_scaled(ovoid_quat q) {
     return (ovoid_quat){ldexp(q.w, -e), ldexp(q.x, -e), ldexp(q.y, -e), ldexp(q.z, -e)};
 }
 
-/// |q|^2 where no square under- or overflowed to speak of: q needs no scaling, and the products of its components are
-/// those of the scaled one but for a power of two, unless they are below 2^-900.
+/// |q|^2, and whether it shows that q needs no scaling: the products of its components are then those of the scaled
+/// quaternion times a power of two, unless they are below 2^-900.
 static inline double quat_norm_squared(ovoid_quat q) { return (q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z); }
 static inline int quat_is_plain(double norm_squared) { return norm_squared > 0x1p-60 && norm_squared < 0x1p60; }
 

@@ -3,13 +3,17 @@
 #ifndef OVOID_LINEAR_VEC3_H
 #define OVOID_LINEAR_VEC3_H
 
+#include "base/arithmetic.h"
 #include "ovoid/linear.h"
 
 #include <math.h>
 
 typedef ovoid_vec3 vec3;
 
-/// The larger and the smaller of two numbers, in one instruction where fmax is a call; b where one of them is NaN.
+/// The unit roundoff u of doubles, 2^-53.
+#define ROUNDING 0x1p-53
+
+/// The larger and the smaller of two numbers; b where one of them is NaN. One instruction, where fmax is a call.
 static inline double max2(double a, double b) { return a > b ? a : b; }
 static inline double min2(double a, double b) { return a < b ? a : b; }
 
@@ -42,8 +46,8 @@ static inline vec3 vec3_unit(vec3 a) {
     return vec3_scale(a, 1 / vec3_norm(a));
 }
 
-/// The exponent of a power of two that brings lengths of that size to about 1. Below 2^-1000 it stays there, so that
-/// neither the power nor its reciprocal overflows.
+/// The exponent e for which 2^-e brings lengths of that size to about 1; at least -1000, so that neither the power nor
+/// its reciprocal overflows.
 static inline int find_unit_exponent(double size) {
     int e;
     (void)frexp(size, &e);

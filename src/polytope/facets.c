@@ -1,13 +1,14 @@
 // Facets of a triangulated hull.
 //
 // Faces that were flat before their points were rounded come as bundles of triangles whose planes differ in the last
-// bits, some of them slivers whose own normal is noise. They are joined from the largest triangle on: every triangle
-// that is reached over edges, faces the same way and has its three corners within FACET_FLATNESS of the first one's
-// plane. The facet's normal is the sum of its triangles' areas as vectors, so that slivers do not count; its offset is
-// the largest n . v of its corners and of the corners next to them. The triangles stay what the body is; planes are
+// bits, some of them slivers whose own normal is noise. They are joined from the largest triangle on: to it every
+// triangle that is reached over edges, faces the same way and has its three corners within FACET_FLATNESS of its plane.
+// The facet's normal is the sum of its triangles' areas as vectors, so that slivers do not count; its offset is the
+// largest n . v of its corners and of the corners next to them. The triangles remain the body; planes are
 // approximations.
 #include "polytope/facets.h"
 
+#include "base/allocator.h"
 #include "linear/exact.h"
 #include "polytope/sort.h"
 
@@ -15,7 +16,7 @@
 
 #define NOTHING UINT32_MAX
 
-// a b - c d
+// a b - c d, rounded.
 static double compute_minor(dd a, dd b, dd c, dd d) { return dd_sub(dd_mul(a, b), dd_mul(c, d)).high; }
 
 vec3 compute_area(vec3 a, vec3 b, vec3 c) {
@@ -75,7 +76,7 @@ static int compare_areas(const void *context, uint32_t a, uint32_t b) {
     return (area[a] < area[b]) - (area[a] > area[b]);
 }
 
-// How far the corners of a triangle are from a plane.
+// The largest distance of a triangle's corners from a plane.
 static double compute_distance(const joiner *j, uint32_t t, const ovoid_plane *plane) {
     double distance = 0;
     for (size_t i = 0; i < 3; i++) {
@@ -124,7 +125,7 @@ static uint32_t find_host(const joiner *j, uint32_t t) {
 }
 
 static uint32_t join(joiner *j) {
-    uint32_t count = j->s->triangle_count, facets = 0;
+    uint32_t count = j->s->triangle_count, joined = 0;
     for (uint32_t t = 0; t < count; t++) {
         j->area[t] = vec3_norm(get_area(j->s, j->grid, t));
         j->order[t] = t;
@@ -135,9 +136,9 @@ static uint32_t join(joiner *j) {
         uint32_t t = j->order[i];
         if (j->facet_of[t] != NOTHING) continue;
         j->facet_of[t] = find_host(j, t);
-        if (j->facet_of[t] == NOTHING) grow_facet(j, t, facets++);
+        if (j->facet_of[t] == NOTHING) grow_facet(j, t, joined++);
     }
-    return facets;
+    return joined;
 }
 
 // From the planes of first triangles to those of facets: the sum of the areas that face the same way.
@@ -152,43 +153,39 @@ static void compute_normals(const joiner *j, ovoid_plane *planes, uint32_t count
 }
 
 // The corners of each triangle support its own facet and those across its edges.
-static void compute_offsets(const joiner *j, const double *vertices, ovoid_plane *planes) {
-    for (uint32_t t = 0; t < j->s->triangle_count; t++)
+void facets_set_offsets(const surface *s, const double *vertices, facets *f) {
+    for (uint32_t t = 0; t < s->triangle_count; t++)
         for (size_t k = 0; k < 4; k++) {
-            uint32_t beyond = k < 3 ? j->s->across[3 * (size_t)t + k] : t;
-            ovoid_plane *plane = planes + j->facet_of[beyond];
+            uint32_t beyond = k < 3 ? s->across[3 * (size_t)t + k] : t;
+            ovoid_plane *plane = f->planes + f->of[beyond];
             for (size_t i = 0; i < 3; i++) {
-                vec3 corner = vec3_at(vertices, j->s->triangles[3 * (size_t)t + i]);
+                vec3 corner = vec3_at(vertices, s->triangles[3 * (size_t)t + i]);
                 plane->offset = fmax(plane->offset, vec3_dot(plane->normal, corner));
             }
         }
 }
 
-uint32_t facets_create(const surface *s, const double *grid, const double *vertices, uint32_t count, uint32_t *facet_of,
-                       ovoid_plane **planes, const ovoid_allocator *allocator) {
-    joiner j = {.s = s, .grid = grid};
-    j.facet_of = facet_of;
-    j.flatness = FACET_FLATNESS * compute_extent(grid, count);
+int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator) {
+    joiner j = {.s = s, .grid = p->grid, .facet_of = f->of};
+    j.flatness = FACET_FLATNESS * compute_extent(p->grid, p->count);
     j.planes =
         allocator_allocate(allocator, s->triangle_count, sizeof *j.planes + sizeof *j.area + 2 * sizeof *j.order);
     if (!j.planes) return 0;
     j.area = (double *)(j.planes + s->triangle_count);
     j.order = (uint32_t *)(j.area + s->triangle_count);
     j.queue = j.order + s->triangle_count;
-    uint32_t facets = join(&j);
-    *planes = allocator_allocate(allocator, facets, sizeof **planes);
-    if (*planes) {
-        compute_normals(&j, *planes, facets);
-        compute_offsets(&j, vertices, *planes);
-    }
+    f->count = join(&j);
+    f->planes = allocator_allocate(allocator, f->count, sizeof *f->planes);
+    if (f->planes) compute_normals(&j, f->planes, f->count);
     allocator_release(allocator, j.planes);
-    return *planes ? facets : 0;
+    return f->planes != NULL;
 }
 
 // ---- adjacency ----
 
-int neighbors_compute(const surface *s, uint32_t count, uint32_t *starts, uint32_t *neighbors,
-                      const ovoid_allocator *allocator) {
+int neighbors_compute(const surface *s, uint32_t *starts, uint32_t *neighbors, const ovoid_allocator *allocator) {
+    // Euler's formula: a closed surface of 2 n - 4 triangles has n corners.
+    uint32_t count = s->triangle_count / 2 + 2;
     size_t edges = 3 * (size_t)s->triangle_count;
     uint32_t *unsorted = allocator_allocate(allocator, edges + count, sizeof *unsorted);
     if (!unsorted) return 0;
@@ -197,7 +194,7 @@ int neighbors_compute(const surface *s, uint32_t count, uint32_t *starts, uint32
     for (size_t e = 0; e < edges; e++) starts[s->triangles[e] + 1]++;
     for (uint32_t v = 0; v < count; v++) starts[v + 1] += starts[v];
 
-    // Each edge is seen once in each direction. Lists in any order, then their transpose, which is sorted.
+    // Each edge occurs once in each direction. First the lists in any order, then their transpose, which is sorted.
     memcpy(end, starts, count * sizeof *end);
     for (size_t e = 0; e < edges; e++) {
         size_t next = e % 3 == 2 ? e - 2 : e + 1;

@@ -1,8 +1,7 @@
-// What a triangulated hull is seen as: facets with a plane each, and which vertices are joined.
+// Facets of a triangulated hull, each with a plane, and the adjacency of its vertices.
 #ifndef OVOID_POLYTOPE_FACETS_H
 #define OVOID_POLYTOPE_FACETS_H
 
-#include "base/allocator.h"
 #include "ovoid/polytope.h"
 #include "polytope/quickhull.h"
 
@@ -14,26 +13,34 @@
 /// a rounding over its least angle.
 vec3 compute_area(vec3 a, vec3 b, vec3 c);
 
-/// The direction in which the hull is thinnest, if it is thin: unit, and the thickness along it.
+/// How thick a hull is.
 typedef struct thickness {
-    vec3 normal;
-    double width;
+    vec3 normal;  ///< unit; of a thin hull the direction in which it is thinnest
+    double width; ///< along the normal, in units of the grid
 } thickness;
-/// Cost: linear. Lengths in units of the grid.
+/// The thickness of the hull of count points. Cost: linear.
 thickness surface_compute_thickness(const surface *s, const double *grid, uint32_t count);
 
-/// The largest coordinate in size.
+/// The largest absolute value of a coordinate of count points.
 double compute_extent(const double *xyz, uint32_t count);
 
-/// Joins triangles to facets: from the largest triangle not yet taken, over edges, all whose corners lie on its plane
-/// to within FACET_FLATNESS. facet_of: of each triangle; *planes: one a facet, allocated, offset of the vertices'
-/// frame. Returns the number of facets, 0 where there is no memory. Cost: n log n.
-uint32_t facets_create(const surface *s, const double *grid, const double *vertices, uint32_t count, uint32_t *facet_of,
-                       ovoid_plane **planes, const ovoid_allocator *allocator);
+/// The facets of a surface.
+typedef struct facets {
+    uint32_t *of;        ///< the facet of each triangle; room is given
+    ovoid_plane *planes; ///< one a facet, allocated
+    uint32_t count;
+} facets;
 
-/// Who is joined to whom by an edge of a triangle: neighbors of v from starts[v] to starts[v + 1], ascending. Room for
-/// count + 1 and 3 triangle_count. Returns 0 where there is no memory. Cost: linear.
-int neighbors_compute(const surface *s, uint32_t count, uint32_t *starts, uint32_t *neighbors,
-                      const ovoid_allocator *allocator);
+/// Joins triangles to facets: from the largest triangle not yet taken, over edges, all whose corners lie on its plane
+/// to within FACET_FLATNESS. Fills *f but for the planes' offsets. 0 where there is no memory. Cost: n log n.
+int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator);
+
+/// The planes' offsets, in the frame of the vertices. Cost: linear.
+void facets_set_offsets(const surface *s, const double *vertices, facets *f);
+
+/// Adjacency by the edges of the triangles of a surface all of whose points are corners: the neighbors of v are those
+/// from starts[v] to starts[v + 1], ascending. Room for one start more than there are points and 3 triangle_count
+/// neighbors. 0 where there is no memory. Cost: linear.
+int neighbors_compute(const surface *s, uint32_t *starts, uint32_t *neighbors, const ovoid_allocator *allocator);
 
 #endif

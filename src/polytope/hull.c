@@ -1,8 +1,9 @@
-// From points to a polytope: points.h makes them distinct, quickhull.h finds the extreme ones, and once more the hull
-// of these alone, so that triangles, facets and adjacency depend on nothing but the vertices. Bodies whose thickness is
+// From points to a polytope: points.h makes them distinct, quickhull.h finds the extreme ones and then the hull of
+// these alone, so that triangles, facets and adjacency depend on nothing but the vertices. Bodies whose thickness is
 // rounding get a lower rank, but keep every extreme point.
 #include "polytope/hull.h"
 
+#include "base/allocator.h"
 #include "base/error.h"
 #include "polytope/facets.h"
 #include "polytope/points.h"
@@ -11,40 +12,51 @@
 
 #include <string.h>
 
+typedef struct builder {
+    const double *xyz; // as given
+    points p;          // the distinct points; in the end the vertices
+    surface s;         // their hull
+    hull *hull;        // the result
+    ovoid_report report;
+    const ovoid_allocator *allocator;
+    ovoid_error *error;
+} builder;
+
 // ---- which points are extreme ----
 
 // Drops the points that are not extreme and finds the hull of the rest again, until all are.
-static ovoid_code find_solid(points *p, surface *s, const ovoid_allocator *allocator, ovoid_report *report,
-                             ovoid_error *error) {
+static ovoid_code find_solid(builder *b) {
+    points *p = &b->p;
+    surface *s = &b->s;
     for (;;) {
-        ovoid_code code = quickhull_create(p->grid, p->count, allocator, s, error);
+        ovoid_code code = quickhull_create(p, b->allocator, s, b->error);
         if (code || s->rank < 3) return code;
         uint32_t extreme = 0;
         for (uint32_t i = 0; i < p->count; i++) {
-            report->coplanar += s->state[i] == POINT_ON_FACE;
+            b->report.coplanar += s->state[i] == POINT_ON_FACE;
             extreme += s->state[i] == POINT_EXTREME;
             s->state[i] = s->state[i] == POINT_EXTREME;
         }
         if (extreme == p->count) return OVOID_OK;
         points_keep(p, s->state);
-        surface_destroy(s, allocator);
+        surface_destroy(s, b->allocator);
     }
 }
 
 // Keeps the listed points; all others lie on the body's boundary.
-static ovoid_code keep_only(points *p, const uint32_t *list, uint32_t count, const ovoid_allocator *allocator,
-                            ovoid_report *report) {
-    uint8_t *keep = allocator_allocate(allocator, p->count, 1);
+static ovoid_code keep_only(builder *b, const uint32_t *list, uint32_t count) {
+    uint8_t *keep = allocator_allocate(b->allocator, b->p.count, 1);
     if (!keep) return OVOID_ERROR_MEMORY;
-    memset(keep, 0, p->count);
+    memset(keep, 0, b->p.count);
     for (uint32_t i = 0; i < count; i++) keep[list[i]] = 1;
-    report->coplanar += p->count - count;
-    points_keep(p, keep);
-    allocator_release(allocator, keep);
+    b->report.coplanar += b->p.count - count;
+    points_keep(&b->p, keep);
+    allocator_release(b->allocator, keep);
     return OVOID_OK;
 }
 
-// An axis along which the corners of a flat body do not lie on a line: exactly so where they are no line.
+// An axis along which three points are not seen as collinear, by exact signs; of these one along which they span the
+// largest area, to rounding. Where they are collinear any axis does.
 static int find_axis(const points *p, const uint32_t corner[3]) {
     vec3 c[3];
     for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, corner[i]);
@@ -57,29 +69,28 @@ static int find_axis(const points *p, const uint32_t corner[3]) {
 }
 
 // The corners of an exactly flat body.
-static ovoid_code find_flat(points *p, const surface *s, const ovoid_allocator *allocator, ovoid_report *report) {
-    uint32_t *loop = allocator_allocate(allocator, p->count, sizeof *loop);
+static ovoid_code find_flat(builder *b) {
+    uint32_t *loop = allocator_allocate(b->allocator, b->p.count, sizeof *loop);
     if (!loop) return OVOID_ERROR_MEMORY;
-    uint32_t count = polygon_find_loop(p->grid, p->count, find_axis(p, s->corner), loop, allocator);
-    ovoid_code code = count ? keep_only(p, loop, count, allocator, report) : OVOID_ERROR_MEMORY;
-    allocator_release(allocator, loop);
+    uint32_t count = polygon_find_loop(&b->p, find_axis(&b->p, b->s.corner), loop, b->allocator);
+    ovoid_code code = count ? keep_only(b, loop, count) : OVOID_ERROR_MEMORY;
+    allocator_release(b->allocator, loop);
     return code;
 }
 
-// Drops all points that are not extreme; *s is the surface where the rank is 3.
-static ovoid_code find_extreme(points *p, surface *s, const ovoid_allocator *allocator, ovoid_report *report,
-                               ovoid_error *error) {
-    ovoid_code code = find_solid(p, s, allocator, report, error);
-    if (code || s->rank == 3) return code;
-    code = s->rank == 2 ? find_flat(p, s, allocator, report) : keep_only(p, s->corner, s->rank + 1, allocator, report);
-    if (code) return error_set(error, code, -1, "no memory for a flat hull of %u points", p->count);
-    return quickhull_create(p->grid, p->count, allocator, s, error);
+// Drops all points that are not extreme; the surface is that of the rest.
+static ovoid_code find_extreme(builder *b) {
+    ovoid_code code = find_solid(b);
+    if (code || b->s.rank == 3) return code;
+    code = b->s.rank == 2 ? find_flat(b) : keep_only(b, b->s.corner, b->s.rank + 1);
+    if (code) return error_set(b->error, code, -1, "no memory for a flat hull of %u points", b->p.count);
+    return quickhull_create(&b->p, b->allocator, &b->s, b->error);
 }
 
-// ---- what the body is seen as ----
+// ---- rank, facets and adjacency ----
 
-// How far the vertices are from the line through the two that the simplex began with.
-static double compute_straightness(const points *p, const uint32_t end[2]) {
+// The largest distance of a vertex from the line through the first two corners of the simplex.
+static double compute_line_distance(const points *p, const uint32_t end[2]) {
     vec3 a = vec3_at(p->grid, end[0]), n = vec3_unit(vec3_sub(vec3_at(p->grid, end[1]), a));
     double width = 0;
     for (uint32_t i = 0; i < p->count; i++)
@@ -91,7 +102,7 @@ static double compute_straightness(const points *p, const uint32_t end[2]) {
 static uint32_t find_rank(const points *p, const surface *s, vec3 *normal) {
     double flatness = FACET_FLATNESS * compute_extent(p->grid, p->count);
     if (s->rank < 2) return s->rank;
-    if (compute_straightness(p, s->corner) <= flatness) return 1;
+    if (compute_line_distance(p, s->corner) <= flatness) return 1;
     vec3 c[3];
     for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, s->corner[i]);
     *normal = vec3_unit(compute_area(c[0], c[1], c[2]));
@@ -101,16 +112,18 @@ static uint32_t find_rank(const points *p, const surface *s, vec3 *normal) {
     return thin.width <= flatness ? 2 : 3;
 }
 
-static int fill_vertices(hull *h, const points *p, const double *xyz, const ovoid_allocator *allocator) {
+static int fill_vertices(const builder *b) {
+    hull *h = b->hull;
+    const points *p = &b->p;
     h->vertex_count = p->count;
     h->origin = p->origin;
-    h->vertices = allocator_allocate(allocator, p->count, 3 * sizeof *h->vertices);
-    h->neighbor_starts = allocator_allocate(allocator, (size_t)p->count + 1, sizeof *h->neighbor_starts);
+    h->vertices = allocator_allocate(b->allocator, p->count, 3 * sizeof *h->vertices);
+    h->neighbor_starts = allocator_allocate(b->allocator, (size_t)p->count + 1, sizeof *h->neighbor_starts);
     if (!h->vertices || !h->neighbor_starts) return 0;
     memset(h->neighbor_starts, 0, ((size_t)p->count + 1) * sizeof *h->neighbor_starts);
     for (size_t i = 0; i < p->count; i++) {
         // + 0.0 makes every zero a positive one.
-        vec3 v = vec3_sub(vec3_at(xyz, p->source[i]), p->origin);
+        vec3 v = vec3_sub(vec3_at(b->xyz, p->source[i]), p->origin);
         h->vertices[3 * i] = v.x + 0.0;
         h->vertices[3 * i + 1] = v.y + 0.0;
         h->vertices[3 * i + 2] = v.z + 0.0;
@@ -118,14 +131,19 @@ static int fill_vertices(hull *h, const points *p, const double *xyz, const ovoi
     return 1;
 }
 
-static ovoid_code fill_solid(hull *h, const points *p, surface *s, const ovoid_allocator *allocator) {
+static ovoid_code fill_solid(builder *b) {
+    hull *h = b->hull;
+    surface *s = &b->s;
     h->triangle_count = s->triangle_count;
-    h->triangle_facets = allocator_allocate(allocator, h->triangle_count, sizeof *h->triangle_facets);
-    h->neighbors = allocator_allocate(allocator, h->triangle_count, 3 * sizeof *h->neighbors);
+    h->triangle_facets = allocator_allocate(b->allocator, h->triangle_count, sizeof *h->triangle_facets);
+    h->neighbors = allocator_allocate(b->allocator, h->triangle_count, 3 * sizeof *h->neighbors);
     if (!h->triangle_facets || !h->neighbors) return OVOID_ERROR_MEMORY;
-    h->facet_count = facets_create(s, p->grid, h->vertices, p->count, h->triangle_facets, &h->planes, allocator);
-    if (!h->facet_count || !neighbors_compute(s, p->count, h->neighbor_starts, h->neighbors, allocator))
-        return OVOID_ERROR_MEMORY;
+    facets f = {.of = h->triangle_facets};
+    if (!facets_create(s, &b->p, &f, b->allocator)) return OVOID_ERROR_MEMORY;
+    facets_set_offsets(s, h->vertices, &f);
+    h->planes = f.planes;
+    h->facet_count = f.count;
+    if (!neighbors_compute(s, h->neighbor_starts, h->neighbors, b->allocator)) return OVOID_ERROR_MEMORY;
     h->triangles = s->triangles;
     s->triangles = NULL;
     return OVOID_OK;
@@ -144,13 +162,13 @@ static void join_loop(hull *h, const uint32_t *loop, uint32_t count) {
 }
 
 // A fan from the first corner, and the plane on its side.
-static ovoid_code fill_fan(hull *h, const uint32_t *loop, uint32_t count, vec3 normal,
-                           const ovoid_allocator *allocator) {
+static ovoid_code fill_fan(const builder *b, const uint32_t *loop, uint32_t count, vec3 normal) {
+    hull *h = b->hull;
     h->triangle_count = count - 2;
     h->facet_count = 1;
-    h->triangles = allocator_allocate(allocator, h->triangle_count, 3 * sizeof *h->triangles);
-    h->triangle_facets = allocator_allocate(allocator, h->triangle_count, sizeof *h->triangle_facets);
-    h->planes = allocator_allocate(allocator, 1, sizeof *h->planes);
+    h->triangles = allocator_allocate(b->allocator, h->triangle_count, 3 * sizeof *h->triangles);
+    h->triangle_facets = allocator_allocate(b->allocator, h->triangle_count, sizeof *h->triangle_facets);
+    h->planes = allocator_allocate(b->allocator, 1, sizeof *h->planes);
     if (!h->triangles || !h->triangle_facets || !h->planes) return OVOID_ERROR_MEMORY;
     for (uint32_t t = 0; t < h->triangle_count; t++) {
         h->triangles[3 * (size_t)t] = loop[0];
@@ -164,61 +182,59 @@ static ovoid_code fill_fan(hull *h, const uint32_t *loop, uint32_t count, vec3 n
     return OVOID_OK;
 }
 
-// The loop of a flat body is seen along the axis nearest to its normal, and counter-clockwise from that axis' positive
-// end, so the normal is turned there too. Off the loop are vertices of nearly flat bodies only.
-static ovoid_code fill_polygon(hull *h, const points *p, vec3 normal, uint32_t *loop,
-                               const ovoid_allocator *allocator) {
+// The loop of a flat body is seen along the axis nearest to its normal, counter-clockwise from that axis' positive end,
+// so the normal is turned to that end too. Only a nearly flat body has vertices off the loop.
+static ovoid_code fill_polygon(const builder *b, vec3 normal, uint32_t *loop) {
     double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
     int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
     double side = axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z;
-    uint32_t count = polygon_find_loop(p->grid, p->count, axis, loop, allocator);
+    uint32_t count = polygon_find_loop(&b->p, axis, loop, b->allocator);
     if (count < 3) return count ? OVOID_ERROR_HULL : OVOID_ERROR_MEMORY;
-    join_loop(h, loop, count);
-    return fill_fan(h, loop, count, side < 0 ? vec3_neg(normal) : normal, allocator);
+    join_loop(b->hull, loop, count);
+    return fill_fan(b, loop, count, side < 0 ? vec3_neg(normal) : normal);
 }
 
 // Rank 0 to 2.
-static ovoid_code fill_flat(hull *h, const points *p, const surface *s, vec3 normal, const ovoid_allocator *allocator) {
-    uint32_t *loop = allocator_allocate(allocator, p->count, sizeof *loop);
-    h->neighbors = allocator_allocate(allocator, p->count, 2 * sizeof *h->neighbors);
+static ovoid_code fill_flat(const builder *b, vec3 normal) {
+    hull *h = b->hull;
+    uint32_t *loop = allocator_allocate(b->allocator, b->p.count, sizeof *loop);
+    h->neighbors = allocator_allocate(b->allocator, b->p.count, 2 * sizeof *h->neighbors);
     ovoid_code code = loop && h->neighbors ? OVOID_OK : OVOID_ERROR_MEMORY;
-    if (!code && h->rank == 2) code = fill_polygon(h, p, normal, loop, allocator);
-    if (!code && h->rank < 2) join_loop(h, s->corner, h->rank + 1);
-    allocator_release(allocator, loop);
+    if (!code && h->rank == 2) code = fill_polygon(b, normal, loop);
+    if (!code && h->rank < 2) join_loop(h, b->s.corner, h->rank + 1);
+    allocator_release(b->allocator, loop);
     return code;
 }
 
-static ovoid_code fill(hull *h, const points *p, surface *s, const double *xyz, const ovoid_allocator *allocator,
-                       ovoid_error *error) {
+static ovoid_code fill(builder *b) {
     vec3 normal = {0, 0, 0};
-    h->rank = find_rank(p, s, &normal);
+    b->hull->rank = find_rank(&b->p, &b->s, &normal);
     ovoid_code code = OVOID_ERROR_MEMORY;
-    if (fill_vertices(h, p, xyz, allocator))
-        code = h->rank == 3 ? fill_solid(h, p, s, allocator) : fill_flat(h, p, s, normal, allocator);
+    if (fill_vertices(b)) code = b->hull->rank == 3 ? fill_solid(b) : fill_flat(b, normal);
     if (!code) return OVOID_OK;
-    hull_destroy(h, allocator);
+    hull_destroy(b->hull, b->allocator);
     if (code == OVOID_ERROR_HULL)
-        return error_set(error, code, -1, "no polygon is seen of a flat body of %u vertices", p->count);
-    return error_set(error, code, -1, "no memory for a hull of %u vertices", p->count);
+        return error_set(b->error, code, -1, "no polygon is seen of a flat body of %u vertices", b->p.count);
+    return error_set(b->error, code, -1, "no memory for a hull of %u vertices", b->p.count);
 }
 
 ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *h, ovoid_error *error) {
     *h = (hull){0};
-    points p;
-    surface s = {0};
-    ovoid_code code = points_create(xyz, count, allocator, &p, error);
+    builder b = {.xyz = xyz, .hull = h, .allocator = allocator, .error = error};
+    ovoid_code code = points_create(xyz, count, allocator, &b.p, error);
     if (code) return code;
-    ovoid_report report = {.points = count, .duplicates = p.duplicates};
-    code = find_extreme(&p, &s, allocator, &report, error);
-    if (!code) code = fill(h, &p, &s, xyz, allocator, error);
+    b.report.points = count;
+    b.report.duplicates = b.p.duplicates;
+    code = find_extreme(&b);
+    if (!code) code = fill(&b);
     if (!code) {
-        report.vertices = p.count;
-        report.interior = report.points - report.vertices - report.duplicates;
-        report.rank = h->rank;
-        h->report = report;
+        h->report = b.report;
+        h->report.vertices = b.p.count;
+        h->report.interior = count - b.p.count - b.p.duplicates;
+        h->report.rank = h->rank;
     }
-    surface_destroy(&s, allocator);
-    points_destroy(&p, allocator);
+    surface_destroy(&b.s, allocator);
+    points_destroy(&b.p, allocator);
     return code;
 }
 

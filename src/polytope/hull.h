@@ -2,7 +2,6 @@
 #ifndef OVOID_POLYTOPE_HULL_H
 #define OVOID_POLYTOPE_HULL_H
 
-#include "base/allocator.h"
 #include "ovoid/polytope.h"
 
 /// A hull. The arrays belong to it; they are those of ovoid_polytope.
@@ -22,7 +21,7 @@ typedef struct hull {
 ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *h, ovoid_error *error);
 void hull_destroy(hull *h, const ovoid_allocator *allocator);
 
-/// A view of it.
+/// A view of the hull.
 ovoid_polytope hull_get_polytope(const hull *h);
 
 #endif

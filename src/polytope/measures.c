@@ -4,6 +4,7 @@
 // measure / ((d + 1) (d + 2)) (sum of v_i v_i' + s s'). Everything is computed in units of the body's size, a power of
 // two, so that only results can underflow.
 #include "base/environment.h"
+#include "linear/box.h"
 #include "linear/mat3.h"
 #include "ovoid/polytope.h"
 #include "polytope/sphere.h"
@@ -16,7 +17,7 @@ typedef struct moments {
     sym3 second;
 } moments;
 
-// A simplex of that dimension; corners at the origin do not count.
+// Adds a simplex of that dimension; the corners in v that it does not need are zero.
 static void add_simplex(moments *m, double measure, int dimension, const vec3 v[3]) {
     vec3 s = vec3_add(vec3_add(v[0], v[1]), v[2]);
     sym3 sum = sym3_outer(s, 1);
@@ -67,25 +68,13 @@ static void add_segment(moments *m, const frame *f) {
     add_simplex(m, vec3_norm(vec3_sub(v[1], v[0])), 1, v);
 }
 
-static void fill_box(const ovoid_polytope *p, ovoid_measures *m) {
-    vec3 low = vec3_at(p->vertices, 0), high = low;
-    for (uint32_t i = 1; i < p->vertex_count; i++) {
-        vec3 v = vec3_at(p->vertices, i);
-        low = (vec3){fmin(low.x, v.x), fmin(low.y, v.y), fmin(low.z, v.z)};
-        high = (vec3){fmax(high.x, v.x), fmax(high.y, v.y), fmax(high.z, v.z)};
-    }
-    m->box_min = low;
-    m->box_max = high;
-}
-
 static ovoid_measures compute_measures(const ovoid_polytope *polytope) {
-    ovoid_measures result = {0};
-    fill_box(polytope, &result);
+    ovoid_measures result = {.box = box_make_around(polytope->vertices, polytope->vertex_count)};
     sphere s = sphere_compute_smallest(polytope->vertices, polytope->vertex_count);
     result.sphere_center = s.center;
     result.sphere_radius = s.radius;
 
-    double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(result.box_max, result.box_min))));
+    double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(result.box.max, result.box.min))));
     frame f = {polytope, compute_mean(polytope, s.center, unit), unit};
     moments m = {0};
     if (polytope->rank >= 2) add_triangles(&m, &f);

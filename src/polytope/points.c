@@ -3,7 +3,7 @@
 // Body frame. A component of the origin is zero unless the points lie farther than four times their size from zero
 // along it; then it is the centre rounded to a multiple of a power of two near the size. Every coordinate is then a
 // multiple of an ulp that divides the origin too, and the difference is smaller than the coordinate, so it is exact;
-// that is checked for every point, and the component falls back to zero where it should not hold.
+// that is checked for every point, and the component falls back to zero where it does not hold.
 //
 // Grid. Signs of determinants are computed from coordinates scaled by a power of two, so that the largest lies between
 // 2^239 and 2^240, and rounded to multiples of 2^-340. Then no product of three differences can overflow or underflow
@@ -13,6 +13,7 @@
 // Distinct points are found with a hash table of open addresses. Cost: linear; 8 to 16 bytes a point for the table.
 #include "polytope/points.h"
 
+#include "base/allocator.h"
 #include "base/error.h"
 #include "linear/exact.h"
 
@@ -21,9 +22,13 @@
 #define GRID_TOP 240
 #define NOTHING UINT32_MAX
 
-// Finite and in range; the box of the points.
-static ovoid_code check_points(const double *xyz, size_t count, double low[3], double high[3], ovoid_error *error) {
-    for (int c = 0; c < 3; c++) low[c] = INFINITY, high[c] = -INFINITY;
+typedef struct bounds {
+    double low[3], high[3];
+} bounds;
+
+// Checks that all points are finite and in range, and finds their bounds.
+static ovoid_code check_points(const double *xyz, size_t count, bounds *b, ovoid_error *error) {
+    for (int c = 0; c < 3; c++) b->low[c] = INFINITY, b->high[c] = -INFINITY;
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) {
             double v = xyz[3 * i + (size_t)c];
@@ -33,8 +38,8 @@ static ovoid_code check_points(const double *xyz, size_t count, double low[3], d
             if (fabs(v) > OVOID_LENGTH_MAX)
                 return error_set(error, OVOID_ERROR_RANGE, (int64_t)i, "point %zu: %c = %g is beyond %g", i, "xyz"[c],
                                  v, OVOID_LENGTH_MAX);
-            low[c] = fmin(low[c], v);
-            high[c] = fmax(high[c], v);
+            b->low[c] = fmin(b->low[c], v);
+            b->high[c] = fmax(b->high[c], v);
         }
     return OVOID_OK;
 }
@@ -51,7 +56,8 @@ static double choose_origin(double low, double high, double size) {
     return fabs(units) < 0x1p53 ? ldexp(rint(units), e) : center;
 }
 
-static vec3 make_origin(const double *xyz, size_t count, const double low[3], const double high[3]) {
+static vec3 make_origin(const double *xyz, size_t count, const bounds *b) {
+    const double *low = b->low, *high = b->high;
     double size = fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2])), origin[3];
     for (int c = 0; c < 3; c++) origin[c] = choose_origin(low[c], high[c], size);
     if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return (vec3){0, 0, 0};
@@ -61,7 +67,7 @@ static vec3 make_origin(const double *xyz, size_t count, const double low[3], co
     return (vec3){origin[0], origin[1], origin[2]};
 }
 
-// Bits of the point, mixed; -0 counts as 0.
+// A hash of the point's bits; -0 counts as 0.
 static uint64_t compute_hash(const double *p) {
     uint64_t h = 0;
     for (int c = 0; c < 3; c++) {
@@ -94,7 +100,7 @@ int points_find_first(const double *xyz, size_t count, const ovoid_allocator *al
     return 1;
 }
 
-// The points that are the first of their kind, into p->source.
+// Writes to p->source the points that equal no earlier one.
 static int find_distinct(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p) {
     uint32_t *source = allocator_allocate(allocator, count, sizeof *source);
     p->source = source;
@@ -105,8 +111,8 @@ static int find_distinct(const double *xyz, size_t count, const ovoid_allocator 
     return 1;
 }
 
-// A coordinate of the body frame in units of the grid: times 2^e in two steps, as that may not be a double by itself;
-// below 2^-288 doubles are finer than the grid.
+// A coordinate of the body frame in units of the grid: times 2^e in two factors, as 2^e may not be a double; below
+// 2^-288 doubles are finer than the grid.
 static double snap(double v, const double factor[2]) {
     v = v * factor[0] * factor[1];
     return fabs(v) < 0x1p-288 ? rint(v * 0x1p340) * 0x1p-340 : v;
@@ -132,10 +138,10 @@ ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator 
     if (count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "no points");
     if (count > POINTS_MAX)
         return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu points; at most %zu are taken", count, POINTS_MAX);
-    double low[3], high[3];
-    ovoid_code code = check_points(xyz, count, low, high, error);
+    bounds b;
+    ovoid_code code = check_points(xyz, count, &b, error);
     if (code) return code;
-    p->origin = make_origin(xyz, count, low, high);
+    p->origin = make_origin(xyz, count, &b);
 
     if (find_distinct(xyz, count, allocator, p)) p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
     if (!p->grid) {

@@ -2,17 +2,15 @@
 #ifndef OVOID_POLYTOPE_POINTS_H
 #define OVOID_POLYTOPE_POINTS_H
 
-#include "base/allocator.h"
 #include "linear/vec3.h"
 
-/// Most points that a body may be made from: the working memory is below 150 bytes a point and 600 a
-/// vertex.
+/// Most points that a body may be made from: the working memory is below 150 bytes a point and 600 a vertex.
 #define POINTS_MAX ((size_t)1 << 24)
 
 /// The distinct points of a body.
 typedef struct points {
     double *grid;     ///< xyz in units of the grid: only for exact signs and what leads to them
-    uint32_t *source; ///< where each was given first, ascending
+    uint32_t *source; ///< the index at which each was given first, ascending
     uint32_t count;
     uint64_t duplicates; ///< points that equal an earlier one
     vec3 origin;         ///< of the body frame; given - origin is exact for every point

@@ -2,6 +2,7 @@
 // exact signs. A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions, 1979. Cost: n log n.
 #include "polytope/polygon.h"
 
+#include "base/allocator.h"
 #include "polytope/quickhull.h"
 #include "polytope/sort.h"
 
@@ -19,13 +20,19 @@ static int compare_points(const void *context, uint32_t a, uint32_t b) {
     return 0;
 }
 
-// Extends a chain that starts at loop[start]: corners that do not turn left go.
-static uint32_t extend(const projection *p, uint32_t *loop, uint32_t start, uint32_t count, uint32_t next) {
-    while (count >= start + 2 && orient2d_sign(vec3_at(p->grid, loop[count - 2]), vec3_at(p->grid, loop[count - 1]),
-                                               vec3_at(p->grid, next), p->axis) <= 0)
-        count--;
-    loop[count++] = next;
-    return count;
+typedef struct chain {
+    uint32_t *items, count;
+} chain;
+
+// Appends a point to the chain that begins at items[start]; corners that then do not turn left are dropped.
+static void extend(const projection *p, chain *c, uint32_t start, uint32_t next) {
+    vec3 end = vec3_at(p->grid, next);
+    while (c->count >= start + 2) {
+        const uint32_t *last = c->items + c->count - 2;
+        if (orient2d_sign(vec3_at(p->grid, last[0]), vec3_at(p->grid, last[1]), end, p->axis) > 0) break;
+        c->count--;
+    }
+    c->items[c->count++] = next;
 }
 
 static void rotate_to_lowest(uint32_t *loop, uint32_t *scratch, uint32_t count) {
@@ -36,23 +43,21 @@ static void rotate_to_lowest(uint32_t *loop, uint32_t *scratch, uint32_t count) 
     for (uint32_t i = 0; i < count; i++) loop[i] = scratch[i];
 }
 
-uint32_t polygon_find_loop(const double *grid, uint32_t count, int axis, uint32_t *loop,
-                           const ovoid_allocator *allocator) {
+uint32_t polygon_find_loop(const points *from, int axis, uint32_t *loop, const ovoid_allocator *allocator) {
     // The indices, and a chain that may hold every point and its start again.
-    uint32_t *order = allocator_allocate(allocator, 2 * (size_t)count + 2, sizeof *order);
+    uint32_t count = from->count, *order = allocator_allocate(allocator, 2 * (size_t)count + 2, sizeof *order);
     if (!order) return 0;
-    uint32_t *chain = order + count;
-    projection p = {grid, (axis + 1) % 3, (axis + 2) % 3, axis};
+    chain c = {order + count, 0};
+    projection p = {from->grid, (axis + 1) % 3, (axis + 2) % 3, axis};
     for (uint32_t i = 0; i < count; i++) order[i] = i;
-    sort_indices(order, chain, count, compare_points, &p);
+    sort_indices(order, c.items, count, compare_points, &p);
 
     // The lower chain rightward, then the upper one back; the last point is the first one again.
-    uint32_t corners = 0;
-    for (uint32_t i = 0; i < count; i++) corners = extend(&p, chain, 0, corners, order[i]);
-    uint32_t turn = corners - 1;
-    for (uint32_t i = count - 1; i-- > 0;) corners = extend(&p, chain, turn, corners, order[i]);
-    if (corners > 1) corners--;
-    for (uint32_t i = 0; i < corners; i++) loop[i] = chain[i];
+    for (uint32_t i = 0; i < count; i++) extend(&p, &c, 0, order[i]);
+    uint32_t turn = c.count - 1;
+    for (uint32_t i = count - 1; i-- > 0;) extend(&p, &c, turn, order[i]);
+    uint32_t corners = c.count > 1 ? c.count - 1 : c.count;
+    for (uint32_t i = 0; i < corners; i++) loop[i] = c.items[i];
     rotate_to_lowest(loop, order, corners);
     allocator_release(allocator, order);
     return corners;

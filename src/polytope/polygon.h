@@ -1,14 +1,12 @@
-// Convex polygons: the loop of points that lie in a plane, or nearly so.
+// Convex polygons: the loop of corners of points that lie in a plane, or nearly so.
 #ifndef OVOID_POLYTOPE_POLYGON_H
 #define OVOID_POLYTOPE_POLYGON_H
 
-#include "base/allocator.h"
-#include "linear/vec3.h"
+#include "polytope/points.h"
 
 /// The corners of the hull of the points as seen along an axis (0 to 2), counter-clockwise from its positive end, into
-/// loop (room for count); exactly, points on edges are no corners. The loop begins with its lowest index. Returns how
-/// many there are; 0 where there is no memory. Cost: n log n.
-uint32_t polygon_find_loop(const double *grid, uint32_t count, int axis, uint32_t *loop,
-                           const ovoid_allocator *allocator);
+/// loop (room for as many as there are points). By exact signs: points on edges are no corners. The loop begins with
+/// its lowest index. Returns the number of corners; 0 where there is no memory. Cost: n log n.
+uint32_t polygon_find_loop(const points *p, int axis, uint32_t *loop, const ovoid_allocator *allocator);
 
 #endif

@@ -1,26 +1,28 @@
 // Quickhull with exact decisions.
 //
 // C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996: every facet keeps the
-// points above it; the highest one of a facet is added to the hull: the facets that it is above are replaced by a cone
-// over their outline, and their points are shared out among the cone's facets. Here facets are triangles and every
-// "above" is the exact sign of a determinant, so nothing is merged, no tolerance is needed and no point that is above a
-// facet can be lost:
+// points above it; the highest point of a facet is added to the hull: the facets that it is above, the visible ones,
+// are replaced by a cone over their horizon, and their points are shared out among the cone's facets. Here facets are
+// triangles and whether a point is above one is the exact sign of a determinant, so nothing is merged, no tolerance is
+// needed and no point that is above a facet can be lost:
 //
 //   A point q above a replaced facet f that is in the new hull's outside is above a facet of the cone. For the facets
 //   of the old hull that q is strictly above are connected through edges. If q is above a facet g that stays, some edge
-//   on the way from f to g is part of the outline, q is above both of its facets, and the plane of the cone through
+//   on the way from f to g is part of the horizon, q is above both of its facets, and the plane of the cone through
 //   this edge has a normal that is a nonnegative combination of theirs.
 //
 // Heights in doubles choose only which point is next. Triangles may be coplanar; the new point is strictly above a
-// facet at each outline edge, so it is not collinear with the edge and no triangle degenerates. Points exactly on a new
+// facet at each horizon edge, so it is not collinear with the edge and no triangle degenerates. Points exactly on a new
 // triangle are kept with it until it goes. In the end a point of the surface is extreme if at least three of its edges
 // are creases; others are marked as on a face, and the caller runs again without them.
 //
-// An above is first tried with the facet's normal in doubles against a bound of its rounding (Shewchuk 1997), so that
-// the exact determinant is left for points within about 1e-15 of the body's size.
+// The sign is first computed in doubles with the facet's normal, against a bound of its rounding (Shewchuk 1997), so
+// that the exact determinant is left for points within about 1e-15 of the body's size.
 #include "polytope/quickhull.h"
 
+#include "base/allocator.h"
 #include "base/error.h"
+#include "linear/box.h"
 #include "linear/exact.h"
 
 #include <string.h>
@@ -32,13 +34,13 @@ typedef struct facet {
     double bound;       // of the rounding of normal . (q - c), for any point q
     uint32_t vertex[3]; // a, b, c
     uint32_t across[3]; // beyond a b, b c, c a
-    uint32_t points;    // its list: the highest point above it first, where one is; NOTHING where empty
+    uint32_t points;    // its list: the highest point above it first, if there is any; NOTHING where empty
     uint32_t pending;   // the next facet of the queue, NOTHING at its end
-    uint32_t stamp;     // of the last point that saw it
+    uint32_t stamp;     // of the last point for which is_above was computed
     uint8_t is_queued, is_above, is_free;
 } facet;
 
-// An edge of the outline: from a replaced facet to one that stays.
+// An edge of the horizon: from a replaced facet to one that stays.
 typedef struct edge {
     uint32_t from, to, across;
 } edge;
@@ -53,10 +55,10 @@ typedef struct builder {
     const double *grid;
     const ovoid_allocator *allocator;
     uint8_t *state;
-    uint32_t *next;       // of a point in its list; of an outline's corner: the facet that starts there
-    array facets, free;   // facet, uint32_t
-    array seen, outline;  // uint32_t, edge
-    uint32_t first, last; // of the queue of facets with points above
+    uint32_t *next;         // of a point in its list; of a horizon's corner: the facet that starts there
+    array facets, free;     // facet, uint32_t
+    array visible, horizon; // uint32_t, edge
+    uint32_t first, last;   // of the queue of facets with points above
     uint32_t stamp;
     vec3 size; // of the points' box, rounded up
 } builder;
@@ -114,7 +116,8 @@ static void find_ends(const builder *b, uint32_t count, uint32_t end[2]) {
     }
 }
 
-// Two points far apart, `far` to begin with: where all are nearly collinear, ends whatever way the line runs.
+// Two points far apart, beginning with those in `far`: where all points are nearly collinear, the ends of the line
+// whatever its direction.
 static void find_far(const builder *b, uint32_t count, uint32_t far[2]) {
     for (int k = 0; k < 2; k++) {
         vec3 from = get_point(b, far[1 - k]);
@@ -136,7 +139,8 @@ static int is_in_span(const vec3 corner[3], int rank, vec3 p) {
     return rank == 2 ? orient3d_sign(corner[0], corner[1], corner[2], p) == 0 : is_collinear(corner[0], corner[1], p);
 }
 
-// The next corner: the farthest point, if it is exactly out of the span; else any that is. 0 where there is none.
+// The next corner: the farthest point, if it is outside the span of the others by exact signs; else any point that is.
+// 0 where there is none.
 static int find_corner(const builder *b, uint32_t count, int rank, uint32_t corner[4]) {
     vec3 c[3] = {{0, 0, 0}};
     for (int i = 0; i <= rank; i++) c[i] = get_point(b, corner[i]);
@@ -243,8 +247,8 @@ static void list_point(builder *b, uint32_t index, uint32_t p, int side, double 
     if (side > 0) queue_facet(b, index);
 }
 
-// Shares a point out: to the first of the facets that it is above, else to one that it is on, else it is inside. Only
-// a point that was above an earlier facet can be above one now.
+// Assigns a point: to the first of the facets that it is above, else to one that it is on, else it is inside. Only a
+// point that was above a replaced facet can be above a new one.
 static void place_point(builder *b, uint32_t p, const uint32_t *facets, uint32_t count) {
     uint32_t on = NOTHING;
     for (uint32_t i = 0; i < count; i++) {
@@ -287,15 +291,16 @@ static int make_simplex(builder *b, uint32_t count, const uint32_t given[4]) {
 
 // ---- adding a point ----
 
-// The facets that the point is above, from one of them on, into b->seen; the edges around them into b->outline.
-static int find_outline(builder *b, uint32_t start, uint32_t p) {
-    b->seen.count = b->outline.count = 0;
+// Writes the facets that the point is above, starting from one of them, to b->visible, and the edges around them to
+// b->horizon.
+static int find_horizon(builder *b, uint32_t start, uint32_t p) {
+    b->visible.count = b->horizon.count = 0;
     b->stamp++;
     get_facet(b, start)->stamp = b->stamp;
     get_facet(b, start)->is_above = 1;
-    if (!push_index(&b->seen, start, b->allocator)) return 0;
-    for (uint32_t i = 0; i < b->seen.count; i++) {
-        const facet *f = get_facet(b, ((uint32_t *)b->seen.items)[i]);
+    if (!push_index(&b->visible, start, b->allocator)) return 0;
+    for (uint32_t i = 0; i < b->visible.count; i++) {
+        const facet *f = get_facet(b, ((uint32_t *)b->visible.items)[i]);
         for (int k = 0; k < 3; k++) {
             facet *g = get_facet(b, f->across[k]);
             int is_new = g->stamp != b->stamp;
@@ -304,18 +309,18 @@ static int find_outline(builder *b, uint32_t start, uint32_t p) {
                 g->is_above = get_side(b, g, p, get_height(b, g, p)) > 0;
             }
             if (g->is_above) {
-                if (is_new && !push_index(&b->seen, f->across[k], b->allocator)) return 0;
+                if (is_new && !push_index(&b->visible, f->across[k], b->allocator)) return 0;
                 continue;
             }
-            if (b->outline.count == b->outline.capacity && !array_grow(&b->outline, sizeof(edge), b->allocator))
+            if (b->horizon.count == b->horizon.capacity && !array_grow(&b->horizon, sizeof(edge), b->allocator))
                 return 0;
-            ((edge *)b->outline.items)[b->outline.count++] = (edge){f->vertex[k], f->vertex[(k + 1) % 3], f->across[k]};
+            ((edge *)b->horizon.items)[b->horizon.count++] = (edge){f->vertex[k], f->vertex[(k + 1) % 3], f->across[k]};
         }
     }
     return 1;
 }
 
-// Makes `across` look back to the facet over the edge.
+// Links the facet across the edge to the new facet.
 static int join_across(builder *b, const edge *e, uint32_t index) {
     facet *g = get_facet(b, e->across);
     for (int k = 0; k < 3; k++)
@@ -326,11 +331,11 @@ static int join_across(builder *b, const edge *e, uint32_t index) {
     return 0;
 }
 
-// The cone from the point over the outline; the facets' indices replace the edges' `across`. OVOID_ERROR_HULL where the
-// outline is not one closed loop: exact signs do not allow it.
+// The cone from the point over the horizon; the facets' indices replace the edges' `across`. OVOID_ERROR_HULL where the
+// horizon is not one closed loop: exact signs do not allow it.
 static ovoid_code make_cone(builder *b, uint32_t p) {
-    edge *edges = b->outline.items;
-    for (uint32_t i = 0; i < b->outline.count; i++) {
+    edge *edges = b->horizon.items;
+    for (uint32_t i = 0; i < b->horizon.count; i++) {
         uint32_t index = add_facet(b, edges[i].from, edges[i].to, p);
         if (index == NOTHING) return OVOID_ERROR_MEMORY;
         get_facet(b, index)->across[0] = edges[i].across;
@@ -338,7 +343,7 @@ static ovoid_code make_cone(builder *b, uint32_t p) {
         b->next[edges[i].from] = index;
         edges[i].across = index;
     }
-    for (uint32_t i = 0; i < b->outline.count; i++) {
+    for (uint32_t i = 0; i < b->horizon.count; i++) {
         uint32_t index = edges[i].across, after = b->next[edges[i].to];
         if (after >= b->facets.count || get_facet(b, after)->vertex[0] != edges[i].to ||
             get_facet(b, after)->vertex[2] != p || get_facet(b, after)->across[2] != NOTHING)
@@ -351,16 +356,16 @@ static ovoid_code make_cone(builder *b, uint32_t p) {
 
 // Shares out the points of the facets that the point replaces, and frees these.
 static int share_points(builder *b, uint32_t p) {
-    // The edges' first members become a plain list of the new facets.
-    uint32_t *fresh = b->outline.items;
-    const edge *edges = b->outline.items;
-    for (uint32_t i = 0; i < b->outline.count; i++) fresh[i] = edges[i].across;
-    for (uint32_t i = 0; i < b->seen.count; i++) {
-        uint32_t index = ((uint32_t *)b->seen.items)[i];
+    // The edges have served: their memory becomes a plain list of the new facets.
+    uint32_t *fresh = b->horizon.items;
+    const edge *edges = b->horizon.items;
+    for (uint32_t i = 0; i < b->horizon.count; i++) fresh[i] = edges[i].across;
+    for (uint32_t i = 0; i < b->visible.count; i++) {
+        uint32_t index = ((uint32_t *)b->visible.items)[i];
         facet *f = get_facet(b, index);
         for (uint32_t q = f->points, after; q != NOTHING; q = after) {
             after = b->next[q];
-            if (q != p) place_point(b, q, fresh, b->outline.count);
+            if (q != p) place_point(b, q, fresh, b->horizon.count);
         }
         f->points = NOTHING;
         f->is_free = 1;
@@ -371,7 +376,7 @@ static int share_points(builder *b, uint32_t p) {
 
 static ovoid_code add_point(builder *b, uint32_t start) {
     uint32_t p = get_facet(b, start)->points;
-    if (!find_outline(b, start, p)) return OVOID_ERROR_MEMORY;
+    if (!find_horizon(b, start, p)) return OVOID_ERROR_MEMORY;
     ovoid_code code = make_cone(b, p);
     if (code) return code;
     return share_points(b, p) ? OVOID_OK : OVOID_ERROR_MEMORY;
@@ -400,9 +405,9 @@ static uint32_t find_beyond(const surface *s, uint32_t t, uint32_t k) {
     return other[0] == from ? other[1] : other[1] == from ? other[2] : other[0];
 }
 
-// What the points are that were corners of facets at some time: inside if none is left at them, on a face if fewer than
-// three of the edges that are left are creases. (A corner all of whose facets are replaced is strictly inside: the new
-// point is above all of them.)
+// The states of the points that were corners of facets at some time: inside if no facet is left at them, on a face if
+// fewer than three of the edges left are creases. (A corner all of whose facets are replaced is strictly inside: the
+// new point is above all of them.)
 static void mark_corners(builder *b, const surface *s, uint32_t count) {
     uint32_t *creases = b->next;
     memset(creases, 0xff, count * sizeof *creases);
@@ -445,23 +450,18 @@ static int extract(builder *b, uint32_t count, surface *s) {
 }
 
 static vec3 compute_size(const double *grid, uint32_t count) {
-    vec3 low = vec3_at(grid, 0), high = low;
-    for (uint32_t i = 1; i < count; i++) {
-        vec3 p = vec3_at(grid, i);
-        low = (vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
-        high = (vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
-    }
-    return vec3_scale(vec3_sub(high, low), 1 + 0x1p-50);
+    box b = box_make_around(grid, count);
+    return vec3_scale(vec3_sub(b.max, b.min), 1 + 0x1p-50);
 }
 
-ovoid_code quickhull_create(const double *grid, uint32_t count, const ovoid_allocator *allocator, surface *s,
-                            ovoid_error *error) {
-    builder b = {.grid = grid, .allocator = allocator, .first = NOTHING, .last = NOTHING};
+ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, surface *s, ovoid_error *error) {
+    uint32_t count = p->count;
+    builder b = {.grid = p->grid, .allocator = allocator, .first = NOTHING, .last = NOTHING};
     *s = (surface){0};
     find_simplex(&b, count, s);
     if (s->rank < 3) return OVOID_OK;
 
-    b.size = compute_size(grid, count);
+    b.size = compute_size(p->grid, count);
     b.state = s->state = allocator_allocate(allocator, count, 1);
     b.next = allocator_allocate(allocator, count, sizeof *b.next);
     ovoid_code code = s->state && b.next ? build(&b, count, s->corner) : OVOID_ERROR_MEMORY;
@@ -469,8 +469,8 @@ ovoid_code quickhull_create(const double *grid, uint32_t count, const ovoid_allo
     allocator_release(allocator, b.next);
     allocator_release(allocator, b.facets.items);
     allocator_release(allocator, b.free.items);
-    allocator_release(allocator, b.seen.items);
-    allocator_release(allocator, b.outline.items);
+    allocator_release(allocator, b.visible.items);
+    allocator_release(allocator, b.horizon.items);
     if (code) surface_destroy(s, allocator);
     if (code == OVOID_ERROR_MEMORY) return error_set(error, code, -1, "no memory for the hull of %u points", count);
     if (code) return error_set(error, code, -1, "the hull of %u points does not close", count);

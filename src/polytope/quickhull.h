@@ -2,29 +2,27 @@
 #ifndef OVOID_POLYTOPE_QUICKHULL_H
 #define OVOID_POLYTOPE_QUICKHULL_H
 
-#include "base/allocator.h"
-#include "linear/vec3.h"
+#include "polytope/points.h"
 
-/// What a point is to the hull.
+/// Where a point lies with respect to the hull.
 enum { POINT_INSIDE = 0, POINT_ON_FACE = 1, POINT_EXTREME = 2 };
 
-/// The hull. What depends on the rank says so.
+/// The hull. Members marked (rank 3) are empty for lower ranks.
 typedef struct surface {
     uint32_t rank;           ///< dimension of the hull, exactly: 0 to 3
     uint32_t corner[4];      ///< rank + 1 points that span it, the first two far apart; of rank 1 its ends
-    uint8_t *state;          ///< what each point is (rank 3)
+    uint8_t *state;          ///< where each point lies (rank 3)
     uint32_t *triangles;     ///< three points each, counter-clockwise from outside (rank 3)
     uint32_t *across;        ///< at 3 t + i the triangle beyond the edge from corner i to i + 1 of t (rank 3)
     uint32_t triangle_count; ///< 2 corners - 4 (rank 3); the corners are the extreme points where none is on a face
 } surface;
 
-/// The hull of count >= 1 distinct points on the grid of points.h. Errors: MEMORY, HULL. *s needs no destroying then.
-/// Cost: n log n for points as they come, as quickhull.
-ovoid_code quickhull_create(const double *grid, uint32_t count, const ovoid_allocator *allocator, surface *s,
-                            ovoid_error *error);
+/// The hull of at least one point. Errors: MEMORY, HULL. *s needs no destroying then. Cost: n log n for points as they
+/// come, as quickhull.
+ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, surface *s, ovoid_error *error);
 void surface_destroy(surface *s, const ovoid_allocator *allocator);
 
-/// The sign of the exact area of a, b, c seen along an axis (0 to 2): positive where they turn counter-clockwise as
+/// The exact sign of the area of a, b, c as seen along an axis (0 to 2): positive where they turn counter-clockwise as
 /// seen from the axis' positive end.
 int orient2d_sign(vec3 a, vec3 b, vec3 c, int axis);
 

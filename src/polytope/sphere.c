@@ -1,11 +1,12 @@
-// The smallest enclosing sphere is that of at most four of the points. From the sphere of such a few, the farthest
-// point is added, and the smallest sphere of those at most five gives the next few; the radius grows with every step,
-// until no point is outside. E. Welzl, Smallest enclosing disks (balls and ellipsoids), 1991 (what it rests on); B.
-// Gaertner, Fast and robust smallest enclosing balls, 1999 (the farthest point as the next one). Rounding may end the
-// search early; the radius is then computed from the centre and all points and rounded up, so the sphere encloses them
-// whatever the search did.
+// The smallest enclosing sphere is that of at most four of the points. Each step adds the point farthest outside the
+// sphere of the present few, and the smallest sphere of those at most five points gives the next few; the radius grows
+// with every step, until no point is outside. E. Welzl, Smallest enclosing disks (balls and ellipsoids), 1991 (what it
+// rests on); B. Gaertner, Fast and robust smallest enclosing balls, 1999 (the farthest point as the next one). Rounding
+// may end the search early; the radius is then computed from the centre and all points and rounded up, so the sphere
+// encloses them whatever the search did.
 #include "polytope/sphere.h"
 
+#include "linear/box.h"
 #include "linear/mat3.h"
 
 // Points in units of the cloud's size, about its middle.
@@ -21,14 +22,9 @@ static vec3 get_point(const cloud *c, uint32_t i) {
 }
 
 static cloud make_cloud(const double *xyz, uint32_t count) {
-    vec3 low = vec3_at(xyz, 0), high = low;
-    for (uint32_t i = 1; i < count; i++) {
-        vec3 p = vec3_at(xyz, i);
-        low = (vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
-        high = (vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
-    }
-    double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(high, low))));
-    return (cloud){xyz, count, vec3_add(vec3_scale(low, 0.5), vec3_scale(high, 0.5)), unit};
+    box b = box_make_around(xyz, count);
+    double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(b.max, b.min))));
+    return (cloud){xyz, count, vec3_add(vec3_scale(b.min, 0.5), vec3_scale(b.max, 0.5)), unit};
 }
 
 // The sphere through k <= 4 points, with its centre in their span; 0 where there is none in doubles.

@@ -14,7 +14,7 @@ typedef struct sphere {
 /// all but contrived cases, and never more than twice that. At most 100 passes over the points.
 sphere sphere_compute_smallest(const double *xyz, uint32_t count);
 
-/// A bound of |v - center| over the points, rounding included.
+/// An upper bound of |v - center| over the points, rounding included.
 double sphere_compute_radius(const double *xyz, uint32_t count, vec3 center);
 
 #endif

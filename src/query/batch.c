@@ -1,9 +1,9 @@
-// One question about many pairs: arrays in, arrays out. Each couple's answer has the bits of the single query's.
+// One query of many pairs: arrays in, arrays out. Each couple's answer has the bits of the single query's.
 #include "base/environment.h"
 #include "base/error.h"
-#include "query/crowd.h"
+#include "query/batch_simd.h"
 
-// The first couple that names a body past the last; couple_count where there is none. Without a branch for each.
+// The first couple that names a body past the last; couple_count where there is none. No branch for each couple.
 static size_t find_bad_couple(const ovoid_batch *batch) {
     size_t bad = 0;
     for (size_t i = 0; i < batch->couple_count; i++)
@@ -16,41 +16,40 @@ static size_t find_bad_couple(const ovoid_batch *batch) {
 
 enum { FEW = 3 };
 
-static void find_answers(const ovoid_batch *batch, question ask) {
-    ovoid_options options;
-    // What is refused is refused for each, a depth has no cheap stages, and a few couples do not pay for eight lanes.
-    int is_few = batch->couple_count < FEW;
-    if (is_few || ask.wants_depth || !options_make(batch->options, &options) || !(ask.far >= 0))
-        for (size_t i = 0; i < batch->couple_count; i++) crowd_ask_single(batch, i, ask);
-    else
-        crowd_run(batch, ask, &options);
-}
-
-static ovoid_code run(const ovoid_batch *batch, question ask, ovoid_error *error) {
+static ovoid_code find_answers(const ovoid_batch *batch, query_goal goal, ovoid_error *error) {
     OVOID_ASSERT(batch && (batch->couples || !batch->couple_count));
     size_t bad = find_bad_couple(batch);
     if (bad < batch->couple_count)
         return error_set(error, OVOID_ERROR_INDEX, (int64_t)bad, "couple %zu names a body past the last of %zu", bad,
                          batch->body_count);
-    environment before = environment_enter();
-    environment_hide(ask);
-    find_answers(batch, ask);
-    environment_leave(before);
+    ovoid_options options;
+    // Refused options are refused couple by couple, a depth has no cheap stages, and few couples do not pay for the
+    // lanes.
+    int is_few = batch->couple_count < FEW;
+    if (!BATCH_SIMD_IS_BUILT || is_few || goal.wants_depth || !options_make(batch->options, &options) ||
+        !(goal.far >= 0))
+        for (size_t i = 0; i < batch->couple_count; i++) batch_query_single(batch, i, goal);
+    else
+        batch_run(batch, goal, &options);
     return OVOID_OK;
 }
 
+static ovoid_code run(const ovoid_batch *batch, query_goal goal, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, goal, find_answers(batch, goal, error));
+}
+
 ovoid_code ovoid_collide_batch(const ovoid_batch *batch, ovoid_error *error) {
-    return run(batch, question_make_collide(), error);
+    return run(batch, query_goal_make_collide(), error);
 }
 
 ovoid_code ovoid_within_batch(const ovoid_batch *batch, double margin, ovoid_error *error) {
-    return run(batch, question_make_within(margin), error);
+    return run(batch, query_goal_make_within(margin), error);
 }
 
 ovoid_code ovoid_distance_batch(const ovoid_batch *batch, ovoid_error *error) {
-    return run(batch, question_make_distance(batch->options), error);
+    return run(batch, query_goal_make_distance(batch->options), error);
 }
 
 ovoid_code ovoid_depth_batch(const ovoid_batch *batch, ovoid_error *error) {
-    return run(batch, question_make_depth(batch->options), error);
+    return run(batch, query_goal_make_depth(batch->options), error);
 }

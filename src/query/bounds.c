@@ -1,9 +1,9 @@
 // The bracket from the ellipsoids alone: the gap of the outer ones from below, the nearest points of the inner ones
 // from above. Smooth in the poses wherever the nearest points are unique; O(1), whatever the number of vertices.
 #include "base/environment.h"
+#include "pair/inner.h"
+#include "pair/stages.h"
 #include "query/answer.h"
-#include "query/inner.h"
-#include "query/stages.h"
 
 // The gap of the outer ellipsoids along the direction that separates them best.
 static void take_outer(search *s) {
@@ -47,9 +47,9 @@ static ovoid_answer find_bounds(const ovoid_pair *pair) {
     pair_frame frame;
     ovoid_limit refused = frame_make(pair, &frame);
     if (refused != OVOID_LIMIT_NONE) return answer_make_refused(refused);
-    question ask = {.tolerance = 1e-9 * frame.size};
+    query_goal goal = {.tolerance = 1e-9 * frame.size};
     search s;
-    search_make(&s, &frame, &ask);
+    search_make(&s, &frame, &goal);
     take_outer(&s);
     take_inner(&s);
     s.limit = OVOID_LIMIT_ANSWERED;

@@ -3,18 +3,18 @@
 // in exact arithmetic.
 #include "base/environment.h"
 #include "base/error.h"
+#include "pair/cover.h"
+#include "pair/fine.h"
+#include "pair/hull.h"
+#include "pair/inner.h"
+#include "pair/proof.h"
 #include "query/answer.h"
-#include "query/cover.h"
-#include "query/fine.h"
-#include "query/hull.h"
-#include "query/inner.h"
-#include "query/proof.h"
 
-// What is measured: the pair in doubles, and in pairs of doubles once that is needed.
+// The pair in doubles, and in pairs of doubles once these are needed.
 typedef struct measure {
     const ovoid_pair *pair;
     const pair_frame *frame;
-    int has_fine; ///< 0: not tried, -1: it would tell no more
+    int has_fine; ///< 0: not made yet, -1: it cannot be made
     fine_frame fine;
 } measure;
 
@@ -27,7 +27,7 @@ static ovoid_code refuse(ovoid_error *error, const char *what, double claimed, d
     return error_set(error, OVOID_ERROR_PROOF, -1, "%s: claimed %.17g, the proof shows %.17g", what, claimed, found);
 }
 
-// What doubles do not confirm is measured again in pairs of them.
+// A bound that doubles do not confirm is measured again in pairs of doubles.
 static double measure_lower_again(const measure *m, const ovoid_proof *p) {
     dd3 n = dd3_make(p->normal, p->normal_low);
     if (!(fabs(vec3_norm(dd3_high(n)) - 1) <= 1e-6)) return -INFINITY;
@@ -44,7 +44,7 @@ static ovoid_code check_lower(measure *m, double lower, const ovoid_proof *p, ov
     return found >= lower ? OVOID_OK : refuse(error, "lower bound", lower, found);
 }
 
-ovoid_code lower_check_inside(const ovoid_pair *pair, double lower, const ovoid_proof *p, ovoid_error *error) {
+ovoid_code lower_check_internal(const ovoid_pair *pair, double lower, const ovoid_proof *p, ovoid_error *error) {
     pair_frame f;
     if (frame_make(pair, &f) != OVOID_LIMIT_NONE || !vec3_is_finite(p->normal) || !vec3_is_finite(p->normal_low))
         return refuse(error, "lower bound of poses or by a normal that are not numbers", lower, 0);
@@ -108,7 +108,7 @@ static ovoid_code check_upper(measure *m, const ovoid_answer *x, const ovoid_cov
     return found <= x->upper ? OVOID_OK : refuse(error, "upper bound", x->upper, found);
 }
 
-// The points and the normal are those of the proof.
+// The answer's points and normal must be those of the proof.
 static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, ovoid_error *error) {
     vec3 turn = vec3_sub(x->normal, x->proof.normal);
     if (!(vec3_max_abs(turn) <= 0)) return refuse(error, "normal is not the proof's", vec3_norm(x->normal), 1);
@@ -134,9 +134,9 @@ static ovoid_code check_status(const ovoid_answer *x, ovoid_error *error) {
                      ovoid_status_get_name(x->status), x->lower, x->upper);
 }
 
-ovoid_code answer_check_inside(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
-                               ovoid_error *error) {
-    OVOID_ASSERT(pair && pair->shape_a && pair->shape_b && x);
+ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
+                                 ovoid_error *error) {
+    OVOID_ASSERT(pair && x);
     pair_frame f;
     ovoid_limit refused = frame_make(pair, &f);
     if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS) {
@@ -157,5 +157,5 @@ ovoid_code answer_check_inside(const ovoid_pair *pair, const ovoid_answer *x, co
 
 ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
                               ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, pair, answer_check_inside(pair, x, cover, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, answer_check_internal(pair, x, cover, error));
 }

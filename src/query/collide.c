@@ -2,6 +2,6 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_collide(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
-    const question ask = question_make_collide();
-    return answer_find(pair, options, &ask, earlier, NULL);
+    const query_goal goal = query_goal_make_collide();
+    return answer_find(pair, options, &goal, earlier, NULL);
 }

@@ -3,6 +3,6 @@
 
 ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier,
                          ovoid_cover *cover) {
-    const question ask = question_make_depth(options);
-    return answer_find(pair, options, &ask, earlier, cover);
+    const query_goal goal = query_goal_make_depth(options);
+    return answer_find(pair, options, &goal, earlier, cover);
 }

@@ -2,6 +2,10 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
-    const question ask = question_make_distance(options);
-    return answer_find(pair, options, &ask, earlier, NULL);
+    const query_goal goal = query_goal_make_distance(options);
+    return answer_find(pair, options, &goal, earlier, NULL);
+}
+
+double ovoid_answer_get_distance(const ovoid_answer *answer) {
+    return answer->limit == OVOID_LIMIT_NONE ? answer->lower : NAN;
 }

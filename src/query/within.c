@@ -4,8 +4,8 @@
 
 ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
                           const ovoid_proof *earlier) {
-    const question ask = question_make_within(margin);
-    return answer_find(pair, options, &ask, earlier, NULL);
+    const query_goal goal = query_goal_make_within(margin);
+    return answer_find(pair, options, &goal, earlier, NULL);
 }
 
 static int is_within(const ovoid_answer *answer, double margin) {

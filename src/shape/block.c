@@ -1,9 +1,11 @@
-// The block's layout, and what every shape does with it: getters, copies, the end.
+// The block's layout; a shape's getters, its copy and its end.
 #include "shape/block.h"
 
 #include "base/allocator.h"
+#include "base/environment.h"
 #include "base/error.h"
 #include "polytope/sphere.h"
+#include "simd/support.h"
 
 #include <string.h>
 
@@ -77,20 +79,27 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
     shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
 }
 
+static ovoid_shape *copy(const ovoid_shape *shape, const ovoid_allocator *allocator, ovoid_error *error) {
+    if (!shape) {
+        error_write(error, OVOID_ERROR_ARGUMENT, -1, "no shape to copy");
+        return NULL;
+    }
+    ovoid_shape *to = block_create(shape->counts, allocator, error);
+    if (!to) return NULL;
+    ovoid_allocator own = to->allocator;
+    memcpy(to, shape, shape->at.size);
+    to->allocator = own;
+    return to;
+}
+
 ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator, ovoid_error *error) {
-    OVOID_ASSERT(shape);
-    ovoid_shape *copy = block_create(shape->counts, allocator, error);
-    if (!copy) return NULL;
-    ovoid_allocator own = copy->allocator;
-    memcpy(copy, shape, shape->at.size);
-    copy->allocator = own;
-    return copy;
+    ENVIRONMENT_RETURN(ovoid_shape *, shape, copy(shape, allocator, error));
 }
 
 void ovoid_shape_destroy(ovoid_shape *shape) {
     if (!shape) return;
     ovoid_allocator allocator = shape->allocator;
-    allocator_release(&allocator, shape);
+    ENVIRONMENT_RUN(allocator_release(&allocator, shape));
 }
 
 ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *s) {
@@ -110,7 +119,7 @@ ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *s) {
 
 simd_extreme shape_find_extreme(const ovoid_shape *s, ovoid_vec3 n) {
     simd_extreme x;
-    if (s->support.k && lookup_find(&s->support, shape_cells(s), n, &x)) return x;
+    if (s->support.k && support_table_find(&s->support, shape_cells(s), n, &x)) return x;
     support_result r = simd_find_support(shape_x(s), shape_y(s), shape_z(s), s->padded_count, n.x, n.y, n.z);
     ovoid_vec3 v = {shape_x(s)[r.index], shape_y(s)[r.index], shape_z(s)[r.index]};
     return (simd_extreme){r.value, v.x, v.y, v.z, r.index};

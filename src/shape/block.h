@@ -1,10 +1,10 @@
-// The one block of memory that a shape is: a header, then arrays at offsets from the block's start, each aligned to 64
-// bytes. A copy is a memcpy; nothing in the block points anywhere but to the allocator. All lengths in the body frame.
+// The block of memory of a shape: a header, then arrays at offsets from the block's start, each aligned to 64 bytes. A
+// copy is a memcpy; the block holds no pointers but those of the allocator. All lengths in the body frame.
 #ifndef OVOID_SHAPE_BLOCK_H
 #define OVOID_SHAPE_BLOCK_H
 
-#include "area/lookup.h"
 #include "ovoid/shape.h"
+#include "shape/support_table.h"
 
 /// Bytes from the block's start to an array.
 typedef struct block_offsets {
@@ -15,11 +15,11 @@ typedef struct block_offsets {
     uint64_t triangle_facets; ///< uint32, triangle_count
     uint64_t neighbor_starts; ///< uint32, vertex_count + 1
     uint64_t neighbors;       ///< uint32, neighbor_count
-    uint64_t cells;           ///< simd_cell, of `support`; none for bodies of few vertices
+    uint64_t cells;           ///< simd_cell, of the table of supports; none for bodies of few vertices
     uint64_t size;            ///< of the whole block
 } block_offsets;
 
-/// What decides the layout.
+/// The counts that decide the layout.
 typedef struct block_counts {
     uint32_t vertices, triangles, facets, neighbors, cells;
 } block_counts;
@@ -27,12 +27,12 @@ typedef struct block_counts {
 /// The inner ellipsoid as queries use it: |W (x - c)| (1 + 1e-7) is at least the norm in which it is the unit ball.
 typedef struct shape_inner {
     double w[6];  ///< W, lower triangular, by rows
-    double least; ///< its least radius from below; 0 where it is too thin, or flat, for doubles: W is not to be used
-    double reach; ///< its largest radius from above
+    double least; ///< a lower bound of its least radius; 0 where it is too flat for doubles: W must not be used
+    double reach; ///< an upper bound of its largest radius
 } shape_inner;
 
 struct ovoid_shape {
-    // The first look: one cache line, and the beginning of the next.
+    // Read by the first rejections: one cache line, and the beginning of the next.
     double reach;      ///< no vertex is farther than this from `center`, rounding included
     double radius;     ///< rounding radius
     ovoid_vec3 center; ///< of the enclosing sphere of radius reach, body frame
@@ -42,8 +42,8 @@ struct ovoid_shape {
     uint32_t has_origin; ///< origin is not zero
     ovoid_vec3 first;    ///< vertex 0
     block_offsets at;
-    lookup support; ///< the table of supports; k = 0: none
-    // The cheap stages.
+    support_table support; ///< the table of supports; k = 0: none
+    // Read by the cheap stages.
     ovoid_ellipsoid outer, inner;
     shape_inner inside;
     ovoid_vec3 origin; ///< of the body frame, in the user's local frame

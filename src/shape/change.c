@@ -1,5 +1,5 @@
 // Bodies that change: deformed, or divided by a plane. W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection
-// Method Based on Enclosed Ellipsoid by Facial Areas Splitting, name these as the times when the offline steps run
+// Method Based on Enclosed Ellipsoid by Facial Areas Splitting, name these as the cases in which the offline steps run
 // again.
 #include "base/allocator.h"
 #include "base/environment.h"
@@ -9,26 +9,34 @@
 #include "shape/block.h"
 #include "shape/create.h"
 
+static ovoid_shape *create_deformed(const ovoid_shape *shape, const double *xyz, const ovoid_shape_options *options,
+                                    ovoid_error *error) {
+    if (shape) return shape_create_from_points(xyz, shape->vertex_count, options, shape, error);
+    error_write(error, OVOID_ERROR_ARGUMENT, -1, "no shape to deform");
+    return NULL;
+}
+
 ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double *xyz,
                                          const ovoid_shape_options *options, ovoid_error *error) {
-    OVOID_ASSERT(shape);
-    ENVIRONMENT_RETURN(ovoid_shape *, xyz, shape_create_from_points(xyz, shape->vertex_count, options, shape, error));
+    ENVIRONMENT_RETURN(ovoid_shape *, xyz, create_deformed(shape, xyz, options, error));
 }
 
 // ---- division
 
-// An edge that the plane cuts, from the vertex below to the one above, as a triangle sees it.
+// An edge that the plane cuts, from the vertex below to the vertex above, as an edge of one facet.
 typedef struct crossing {
     uint32_t below, above, facet;
 } crossing;
 
-// What the two parts are made of. Of rank 3 each edge comes twice, from the triangles on either side.
+// The state of a division. Of a solid each edge occurs twice, from the triangles on either side.
 typedef struct division {
     const ovoid_shape *shape;
+    const ovoid_shape_options *options;
+    ovoid_error *error;
     double *height;  // of each vertex above the plane, in lengths of the normal
-    double *points;  // of the part at hand, user's frame
-    double *cuts;    // where edges are cut, likewise
-    crossing *edges; // room for all
+    double *points;  // of the part that is made, user's frame
+    double *cuts;    // the points where edges are cut, user's frame
+    crossing *edges; // room for all that there may be
     uint32_t *order; // room for twice as many
     uint32_t edge_count, cut_count;
 } division;
@@ -49,8 +57,8 @@ static int compare_crossings(const void *context, uint32_t a, uint32_t b) {
     return (x->above > y->above) - (x->above < y->above);
 }
 
-// Edges between two triangles of one facet are no edges of the body: a point on them would lie on the new edge to
-// rounding, and make slivers.
+// Edges between two triangles of one facet are left out, as they are no edges of the body: a point on them would lie on
+// the new edge to rounding, and make slivers.
 static void find_cuts(division *d) {
     ovoid_polytope p = ovoid_shape_get_polytope(d->shape);
     for (uint32_t t = 0; t < p.triangle_count && p.rank == 3; t++)
@@ -72,8 +80,7 @@ static void find_cuts(division *d) {
 }
 
 // The part on one side: +1 above, -1 below. *part is NULL where no vertex lies there.
-static ovoid_code create_part(division *d, int side, const ovoid_shape_options *options, ovoid_shape **part,
-                              ovoid_error *error) {
+static ovoid_code create_part(division *d, int side, ovoid_shape **part) {
     size_t count = 0, inside = 0;
     for (uint32_t i = 0; i < d->shape->vertex_count; i++) {
         if (side * d->height[i] < 0) continue;
@@ -85,21 +92,20 @@ static ovoid_code create_part(division *d, int side, const ovoid_shape_options *
     if (!inside) return OVOID_OK;
     for (size_t i = 0; i < 3 * (size_t)d->cut_count; i++) d->points[3 * count + i] = d->cuts[i];
     ovoid_error why = {0};
-    *part = shape_create_from_points(d->points, count + d->cut_count, options, NULL, &why);
-    if (!*part && error) *error = why;
+    *part = shape_create_from_points(d->points, count + d->cut_count, d->options, NULL, &why);
+    if (!*part && d->error) *d->error = why;
     return *part ? OVOID_OK : why.code;
 }
 
-static ovoid_code divide(division *d, const ovoid_plane *plane, const ovoid_shape_options *options,
-                         ovoid_shape *parts[2], ovoid_error *error) {
+static ovoid_code divide(division *d, const ovoid_plane *plane, ovoid_shape *parts[2]) {
     // Heights in units of the normal's largest entry; nothing overflows, lengths are below 1e50.
     vec3 n = vec3_scale(plane->normal, 1 / vec3_max_abs(plane->normal));
     double offset = plane->offset / vec3_max_abs(plane->normal);
     for (uint32_t i = 0; i < d->shape->vertex_count; i++)
         d->height[i] = vec3_dot(n, get_user_vertex(d->shape, i)) - offset;
     find_cuts(d);
-    ovoid_code code = create_part(d, -1, options, &parts[0], error);
-    if (!code) code = create_part(d, 1, options, &parts[1], error);
+    ovoid_code code = create_part(d, -1, &parts[0]);
+    if (!code) code = create_part(d, 1, &parts[1]);
     if (!code) return OVOID_OK;
     ovoid_shape_destroy(parts[0]);
     parts[0] = parts[1] = NULL;
@@ -109,6 +115,7 @@ static ovoid_code divide(division *d, const ovoid_plane *plane, const ovoid_shap
 static ovoid_code create_divided(const ovoid_shape *shape, const ovoid_plane *plane, const ovoid_shape_options *options,
                                  ovoid_shape *parts[2], ovoid_error *error) {
     parts[0] = parts[1] = NULL;
+    if (!shape) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no shape to divide");
     if (!vec3_is_finite(plane->normal) || !isfinite(plane->offset))
         return error_set(error, OVOID_ERROR_NOT_FINITE, -1, "the plane is not finite");
     double size = vec3_max_abs(plane->normal);
@@ -117,17 +124,17 @@ static ovoid_code create_divided(const ovoid_shape *shape, const ovoid_plane *pl
     ovoid_shape_options o;
     ovoid_code code = shape_options_make(options, &o, error);
     if (code) return code;
-    // Every triangle has at most two edges that cross.
+    // Every triangle has at most two edges that the plane cuts.
     size_t vertices = shape->vertex_count, edges = 2 * (size_t)shape->counts.triangles + shape->counts.neighbors;
     ovoid_allocator memory = allocator_make(o.allocator);
     double *doubles = allocator_allocate(&memory, 4 * vertices + 6 * edges, sizeof *doubles);
     crossing *crossings = allocator_allocate(&memory, edges + 1, sizeof *crossings + 2 * sizeof(uint32_t));
-    division d = {.shape = shape, .height = doubles, .edges = crossings};
+    division d = {.shape = shape, .options = options, .error = error, .height = doubles, .edges = crossings};
     if (doubles && crossings) {
         d.cuts = doubles + vertices;
         d.points = d.cuts + 3 * edges;
         d.order = (uint32_t *)(crossings + edges + 1);
-        code = divide(&d, plane, options, parts, error);
+        code = divide(&d, plane, parts);
     } else
         code = error_set(error, OVOID_ERROR_MEMORY, -1, "no memory to divide a shape of %zu vertices", vertices);
     allocator_release(&memory, crossings);
@@ -137,6 +144,6 @@ static ovoid_code create_divided(const ovoid_shape *shape, const ovoid_plane *pl
 
 ovoid_code ovoid_shape_create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
                                       const ovoid_shape_options *options, ovoid_shape *parts[2], ovoid_error *error) {
-    OVOID_ASSERT(shape && plane && parts);
+    OVOID_ASSERT(plane && parts);
     ENVIRONMENT_RETURN(ovoid_code, plane, create_divided(shape, plane, options, parts, error));
 }

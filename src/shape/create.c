@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/factor.h"
+#include "ellipsoid/halfspaces.h"
 #include "ellipsoid/refit.h"
-#include "ellipsoid/walls.h"
 #include "linear/vec3.h"
 #include "polytope/hull.h"
 #include "shape/block.h"
@@ -34,16 +34,16 @@ static ovoid_fit compute_phases(const ovoid_polytope *p, const ovoid_ellipsoid *
     return ovoid_ellipsoid_compute_enlarged(p, &stretched.ellipsoid);
 }
 
-// Flat bodies: nothing rests on their inner ellipsoids, and a tilted one cannot be stored flatter than the root of a
-// rounding, 1e-8 of its size; so these are held to ten times that, at the edges and at the sides of the box.
+// No proof rests on the inner ellipsoid of a flat body, and a tilted one cannot be stored flatter than the root of a
+// rounding, 1e-8 of its size; so it is tested to ten times that, against the edges and the sides of the box.
 static int is_flat_inner(const ovoid_polytope *p, const ovoid_measures *m, const ovoid_ellipsoid *e, double slack) {
-    walls w = walls_make(p);
+    halfspaces w = halfspaces_make(p);
     for (uint32_t i = 0; i < w.count; i++) {
-        ovoid_plane wall = walls_get(&w, i);
-        if (!(ellipsoid_compute_support(e, wall.normal) <= wall.offset + slack)) return 0;
+        ovoid_plane halfspace = halfspaces_get(&w, i);
+        if (!(ellipsoid_compute_support(e, halfspace.normal) <= halfspace.offset + slack)) return 0;
     }
-    const double low[3] = {m->box_min.x, m->box_min.y, m->box_min.z};
-    const double high[3] = {m->box_max.x, m->box_max.y, m->box_max.z};
+    const double low[3] = {m->box.min.x, m->box.min.y, m->box.min.z};
+    const double high[3] = {m->box.max.x, m->box.max.y, m->box.max.z};
     for (int i = 0; i < 3; i++) {
         vec3 axis = {i == 0, i == 1, i == 2};
         if (!(ellipsoid_compute_support(e, axis) <= high[i] + slack) ||
@@ -53,7 +53,8 @@ static int is_flat_inner(const ovoid_polytope *p, const ovoid_measures *m, const
     return 1;
 }
 
-// A vertex, without extent: inside whatever the walls' rounding says (of a ribbon of 1e40 by 1e25 that is nothing).
+// An ellipsoid that is just a vertex lies inside, whatever the rounded halfspaces say (for a ribbon of 1e40 by 1e25
+// they say nothing).
 static int is_vertex(const ovoid_polytope *p, const ovoid_ellipsoid *e) {
     const ovoid_sym3 *q = &e->q;
     if (q->xx != 0 || q->xy != 0 || q->xz != 0 || q->yy != 0 || q->yz != 0 || q->zz != 0) return 0;
@@ -80,23 +81,24 @@ static fit_start make_start(const ovoid_shape *near, const ovoid_shape *shape) {
 static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o, const ovoid_shape *near) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_fit outer, inner;
-    fit_start begin, *start = NULL;
-    if (near) begin = make_start(near, shape), start = &begin;
-    ovoid_code code = ellipsoid_refit_outer(&p, o->gap, start, &outer, &shape->allocator);
+    fit_start start;
+    fit_options options = {o->gap, NULL, &shape->allocator};
+    if (near) start = make_start(near, shape), options.start = &start;
+    ovoid_code code = ellipsoid_refit_outer(&p, &options, &outer);
     if (code != OVOID_OK) return code;
     if (o->inner == OVOID_INNER_MAXIMUM)
-        code = ellipsoid_refit_inner(&p, o->gap, start, &inner, &shape->allocator);
+        code = ellipsoid_refit_inner(&p, &options, &inner);
     else
         inner = compute_phases(&p, &outer.ellipsoid);
     if (code != OVOID_OK) return code;
-    // Ribbons thinner than 1e-8 of their length may have none that can be stored; a vertex is one.
+    // Ribbons thinner than 1e-8 of their length may have no inner ellipsoid that can be stored; a vertex always is one.
     if (!shape_is_inner(shape, &inner.ellipsoid))
         inner = (ovoid_fit){.ellipsoid.center = vec3_at(p.vertices, 0), .gap = INFINITY};
     shape_set_fits(shape, &outer, &inner);
     return OVOID_OK;
 }
 
-// The least radius of the ellipsoid from below, 0 where it is too flat to be safe in doubles: with eigenvalues
+// A lower bound of the least radius of the ellipsoid, 0 where it is too flat to be safe in doubles: with eigenvalues
 // l1 <= l2 <= l3, l1 = det / (l2 l3) >= 4 det / trace^2. Condition below 1e8.
 static double least_radius(sym3 q) {
     double trace = sym3_trace(q);
@@ -128,9 +130,9 @@ void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit 
 ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error) {
     ovoid_polytope p = hull_get_polytope(h);
     ovoid_allocator use = allocator_make(allocator);
-    lookup support;
+    support_table support;
     simd_cell *cells;
-    ovoid_code code = lookup_create(p.vertices, p.vertex_count, &use, &support, &cells);
+    ovoid_code code = support_table_create(p.vertices, p.vertex_count, &use, &support, &cells);
     if (code != OVOID_OK) {
         error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
         return NULL;

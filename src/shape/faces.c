@@ -4,13 +4,14 @@
 // (2) The surface is closed and oriented: every edge is run through once in each direction.
 // (3) Every face supports the body: no vertex is farther above the face's plane than the face's own corners are off it,
 //     or 64 roundings of the largest coordinate where that is more. The plane is Newell's, through the mean corner.
-//     A face lower than that has no plane of its own and is not asked.
+//     A face lower than that has no plane of its own and is not tested.
 //
 // By (3) every face lies on the boundary of the hull, as far as it is flat itself, and a closed oriented surface in
 // that boundary that uses no edge twice covers it once. The shape is then the hull of the vertices, as always.
 //
 // The vertex that is highest above a face is found by climbing from edge to edge of the hull, which is exactly convex.
 // Cost: linear in the faces' corners, times the climb.
+#include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/vec3.h"
@@ -23,7 +24,7 @@
 
 #define NOTHING UINT32_MAX
 
-// Most corners of all faces together: that many directed edges are kept in a hash table.
+// Most corners of all faces together: as many directed edges are held in a hash table.
 #define CORNERS_MAX ((size_t)1 << 28)
 
 typedef struct checker {
@@ -131,10 +132,11 @@ static vec3 get_vertex(const checker *c, uint32_t vertex) {
     return vec3_scale(vec3_at(c->hull->vertices, vertex), c->scale);
 }
 
-// A face as a plane: unit normal, the middle, how far corners are off it, twice the area, and this over the length.
+// The plane of a face.
 typedef struct face_plane {
-    vec3 normal, middle;
-    double flatness, height, area;
+    vec3 normal, middle; // unit; the mean corner
+    double flatness;     // the largest distance of a corner from it
+    double height, area; // twice the area over the face's length; twice the area
 } face_plane;
 
 static face_plane make_plane(const checker *c, const uint32_t *corner, uint32_t count) {
@@ -156,7 +158,7 @@ static face_plane make_plane(const checker *c, const uint32_t *corner, uint32_t 
     return p;
 }
 
-// The vertex of the hull that is highest along n, by climbing from `start`; of a flat body by looking at all.
+// The vertex of the hull that is highest along n, by climbing from `start`; of a flat body by a search of all.
 static uint32_t find_highest(const checker *c, vec3 n, uint32_t start) {
     const hull *h = c->hull;
     uint32_t best = start, from;

@@ -2,10 +2,11 @@
 //
 // A file holds what a shape cannot be made from again: the vertices, the ellipsoids as they were fitted, the radius,
 // and what became of the points given. Faces, adjacency, planes and measures depend on the vertices alone, bit for bit
-// (polytope/hull.h), so they are made anew; nothing in a file is an index, and nothing can be out of step. Reading
-// checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no single wrong byte escapes), the
-// size against the count, every number's range, that all vertices are extreme and in the body frame, that the rank is
-// right, and that the ellipsoids are proven to enclose and to be enclosed.
+// (polytope/hull.h), so they are computed anew; nothing in a file is an index, and nothing can contradict the vertices.
+// Reading checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no single wrong byte
+// escapes), the size against the count, every number's range, that all vertices are extreme and in the body frame, that
+// the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
+#include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "ellipsoid/contain.h"
@@ -129,7 +130,7 @@ static ovoid_fit get_fit(reader *r) {
     return f;
 }
 
-// What a file says.
+// The content of a file.
 typedef struct content {
     uint32_t rank, vertex_count;
     double radius;
@@ -143,8 +144,8 @@ static ovoid_code refuse(const reader *r, size_t place, const char *what) {
     return error_set(r->error, OVOID_ERROR_FORMAT, (int64_t)place, "byte %zu: %s", place, what);
 }
 
-// Magic, version, size and checksum: the file is one, and whole.
-static ovoid_code check_frame(reader *r, size_t size, content *c) {
+// Magic, version, size and checksum show that it is a file of this format, and complete.
+static ovoid_code check_envelope(reader *r, size_t size, content *c) {
     if (size < sizeof magic || memcmp(r->bytes, magic, sizeof magic) != 0) return refuse(r, 0, "not an .ovoid file");
     if (size < HEADER_SIZE + CHECKSUM_SIZE) return refuse(r, size, "the file ends within its header");
     r->at = sizeof magic;
@@ -204,7 +205,7 @@ static ovoid_code read_header(reader *r, content *c) {
     return code;
 }
 
-// Coordinates of the body frame: origin + vertex is a double, exactly, and no zero is negative.
+// Reads coordinates of the body frame: origin + vertex is exactly a double, and no zero is negative.
 static ovoid_code read_vertices(reader *r, content *c) {
     const double origin[3] = {c->origin.x, c->origin.y, c->origin.z};
     for (size_t i = 0; i < 3 * (size_t)c->vertex_count; i++) {
@@ -226,7 +227,7 @@ static ovoid_code check_hull(const reader *r, const content *c, const hull *h) {
     return OVOID_OK;
 }
 
-// A body far below OVOID_LENGTH_MIN: its Q underflows to zero, and a point at its place is all that queries see of it.
+// 1 for a body far below OVOID_LENGTH_MIN: its Q underflows to zero, and queries cannot tell it from a point.
 static int is_point_to_queries(const ovoid_polytope *p, const ovoid_ellipsoid *e) {
     const double least = OVOID_LENGTH_MIN / 16;
     int is_small = p->rank > 0 && vec3_max_abs(e->center) <= least;
@@ -275,7 +276,7 @@ static ovoid_shape *read_bytes(const void *bytes, size_t size, const ovoid_alloc
     }
     reader r = {bytes, 0, error};
     content c = {0};
-    if (check_frame(&r, size, &c)) return NULL;
+    if (check_envelope(&r, size, &c)) return NULL;
     ovoid_allocator allocator = allocator_make(given);
     c.vertices = allocator_allocate(&allocator, c.vertex_count, 3 * sizeof *c.vertices);
     if (!c.vertices) {

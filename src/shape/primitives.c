@@ -6,7 +6,7 @@
 #include "polytope/points.h"
 #include "shape/create.h"
 
-// A length of a primitive: finite and not negative.
+// Checks a length of a primitive: finite and not negative.
 static int is_length(double length, const char *name, ovoid_error *error) {
     if (!isfinite(length))
         error_write(error, OVOID_ERROR_NOT_FINITE, -1, "the %s is not finite", name);
@@ -53,16 +53,16 @@ ovoid_shape *ovoid_shape_create_sphere(double radius, const ovoid_shape_options 
     ENVIRONMENT_RETURN(ovoid_shape *, radius, create_rounded(xyz, 1, radius, options, error));
 }
 
-static ovoid_shape *create_capsule(double half_length, double radius, const ovoid_shape_options *options,
+static ovoid_shape *create_capsule(double radius, double half_length, const ovoid_shape_options *options,
                                    ovoid_error *error) {
     if (!is_length(half_length, "half length", error)) return NULL;
     const double xyz[6] = {0, 0, -half_length, 0, 0, half_length};
     return create_rounded(xyz, 2, radius, options, error);
 }
 
-ovoid_shape *ovoid_shape_create_capsule(double half_length, double radius, const ovoid_shape_options *options,
+ovoid_shape *ovoid_shape_create_capsule(double radius, double half_length, const ovoid_shape_options *options,
                                         ovoid_error *error) {
-    double lengths[2] = {half_length, radius};
+    double lengths[2] = {radius, half_length};
     ENVIRONMENT_RETURN(ovoid_shape *, lengths, create_capsule(lengths[0], lengths[1], options, error));
 }
 
@@ -76,10 +76,15 @@ static void fill_circle(double *xyz, double radius, double z, uint32_t sides) {
     }
 }
 
-// Points of a prism (rings = 2) or a pyramid (rings = 1).
-static ovoid_shape *create_turned(const double lengths[2], uint32_t sides, int rings,
-                                  const ovoid_shape_options *options, ovoid_error *error) {
-    double radius = lengths[0], half_length = lengths[1];
+// A prism (two rings) or a pyramid (one ring) along z.
+typedef struct turned {
+    double radius, half_length;
+    uint32_t sides, rings;
+} turned;
+
+static ovoid_shape *create_turned(const turned *t, const ovoid_shape_options *options, ovoid_error *error) {
+    double radius = t->radius, half_length = t->half_length;
+    uint32_t sides = t->sides, rings = t->rings;
     if (!is_length(radius, "radius", error) || !is_length(half_length, "half length", error)) return NULL;
     if (sides < 3) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "%u sides; at least 3 are needed", sides);
@@ -90,7 +95,7 @@ static ovoid_shape *create_turned(const double lengths[2], uint32_t sides, int r
         return NULL;
     }
     ovoid_allocator allocator = allocator_make(options ? options->allocator : NULL);
-    size_t count = (size_t)sides * (size_t)rings + (rings == 1);
+    size_t count = (size_t)sides * rings + (rings == 1);
     double *xyz = allocator_allocate(&allocator, count, 3 * sizeof *xyz);
     if (!xyz) {
         error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for %u sides", sides);
@@ -111,12 +116,12 @@ static ovoid_shape *create_turned(const double lengths[2], uint32_t sides, int r
 
 ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, uint32_t sides,
                                          const ovoid_shape_options *options, ovoid_error *error) {
-    double lengths[2] = {radius, half_length};
-    ENVIRONMENT_RETURN(ovoid_shape *, lengths, create_turned(lengths, sides, 2, options, error));
+    turned prism = {radius, half_length, sides, 2};
+    ENVIRONMENT_RETURN(ovoid_shape *, prism, create_turned(&prism, options, error));
 }
 
 ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, uint32_t sides,
                                      const ovoid_shape_options *options, ovoid_error *error) {
-    double lengths[2] = {radius, half_length};
-    ENVIRONMENT_RETURN(ovoid_shape *, lengths, create_turned(lengths, sides, 1, options, error));
+    turned pyramid = {radius, half_length, sides, 1};
+    ENVIRONMENT_RETURN(ovoid_shape *, pyramid, create_turned(&pyramid, options, error));
 }

@@ -1,4 +1,4 @@
-// Products are (x dx + y dy) + z dz as in support.c, so that a value is the same bits wherever it is computed, and the
+// Products are (x dx + y dy) + z dz as in support.c, so that a value has the same bits wherever it is computed, and the
 // lowest index among equal values wins: entries are ascending, and a later one has to be greater.
 #include "simd/cell.h"
 

@@ -1,9 +1,9 @@
-// The vector kernels of a table of supports (area/lookup.h): the best of the few vertices that a cell lists, and which
-// of many vertices cannot be the best of a cell.
+// The vector kernels of a table of supports (shape/support_table.h): the best of the few vertices that a cell lists,
+// and which of many vertices cannot be the best of a cell.
 #ifndef OVOID_SIMD_CELL_H
 #define OVOID_SIMD_CELL_H
 
-#include "simd/support.h"
+#include <stdint.h>
 
 enum { SIMD_CELL = 8 };
 
@@ -13,7 +13,7 @@ typedef struct simd_cell {
     double y[SIMD_CELL], z[SIMD_CELL]; ///< entries that are not used repeat the first
     uint32_t index[SIMD_CELL];         ///< ascending, also from block to block
     uint32_t count;                    ///< of the cell's first block: entries of the whole list; 0: divided
-    uint32_t next;                     ///< likewise: the first of the blocks with the rest, or of four smaller cells
+    uint32_t next; ///< of the cell's first block: the first of the blocks with the rest, or of four smaller cells
 } simd_cell;
 
 /// A vertex that is extreme, with its place.
@@ -23,8 +23,8 @@ typedef struct simd_extreme {
     uint32_t index;
 } simd_extreme;
 
-/// The best of a list of `count` vertices, its first block at `first`, the others from `more` on: the same bits as
-/// simd_find_support gives of the vertices listed.
+/// The vertex of a list of `count` that is extreme along a direction. The first block is at `first`, the others from
+/// `more` on. The same bits as simd_find_support over the vertices listed.
 simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, double dx, double dy,
                                double dz);
 simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *more, uint32_t count, double dx,
@@ -32,12 +32,12 @@ simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *m
 
 /// A point is beaten where for one of the limits all four of its products with the corners are smaller.
 typedef struct simd_cull {
-    const double (*corners)[3]; ///< 4
+    const double (*corners)[3]; ///< four of them
     const double (*limits)[4];
     uint32_t limit_count;
 } simd_cull;
 
-/// Of padded_count points (a multiple of 8), as many bits: 1 where the point is not beaten.
+/// Sets one bit for each of padded_count points (a multiple of 8): 1 where the point is not beaten.
 void simd_find_unbeaten(const simd_cull *by, const double *x, const double *y, const double *z, uint32_t padded_count,
                         uint8_t *bits);
 void simd_find_unbeaten_scalar(const simd_cull *by, const double *x, const double *y, const double *z,

@@ -1,7 +1,7 @@
 // After the signed volumes of M. Montanari, N. Petrinic, E. Barbieri, Improving the GJK algorithm for faster and more
-// reliable distance queries between convex objects, 2017, and C. Muratori's reading of the simplex from its newest
-// corner, Implementing GJK, 2006. The nearest point lies on a face, an edge or at the new corner, as it is nearer than
-// any point of the old simplex.
+// reliable distance queries between convex objects, 2017, and C. Muratori, Implementing GJK, 2006, who decides the case
+// from the newest corner. The nearest point lies on a face, an edge or at the new corner, as it is nearer than any
+// point of the old simplex.
 //
 // With a the new corner, e_i the edges from it to the old ones (lane i), c_i = a x e_i, n_i = e_i x e_j where j follows
 // i:

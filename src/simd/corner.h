@@ -1,5 +1,5 @@
-// One step of GJK: a simplex whose nearest point to the origin is known is joined by a new corner; which of its faces
-// with that corner holds the nearest point now?
+// One step of GJK: a new corner joins a simplex whose nearest point to the origin is known. The step finds which of the
+// faces with that corner holds the nearest point of the larger simplex.
 #ifndef OVOID_SIMD_CORNER_H
 #define OVOID_SIMD_CORNER_H
 
@@ -14,12 +14,13 @@ typedef struct corner_lanes {
 typedef struct corner_step {
     double x, y, z; ///< the direction from the origin to the nearest point, of any length
     unsigned kept;  ///< the lanes that stay; the new corner always does
-    int is_inside;  ///< 1: the origin is in the tetrahedron; nothing else is meant then
+    int is_inside;  ///< 1: the origin is in the tetrahedron; the other members then mean nothing
     int is_sliver;  ///< 1: a face whose edges meet at an angle below 0.01, so that its normal is uncertain
 } corner_step;
 
-/// From the corners of the lanes in `valid` (a mask, not 0) and the new corner a. The same bits from every instruction
-/// set. Where rounding spoils a sign, another face than the nearest is found: the caller compares the distance.
+/// The step from the corners of the lanes in `valid` (a mask, not 0) to the new corner a. The same bits from every
+/// instruction set. Where rounding spoils a sign, another face than the nearest is found: the caller compares the
+/// distance.
 corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, double ax, double ay, double az);
 
 /// The scalar twin, for tests and machines without vectors.

@@ -1,5 +1,5 @@
 // Numbers side by side, LANES of them: 8 (AVX-512), 4 (AVX2) or 1 (plain C, the scalar twin). A kernel is written once
-// over these (octet_kernel.h) and compiled for each; every operation is IEEE 754's, lane by lane, so all widths give
+// over these (pair8_kernel.h) and compiled for each; every operation is IEEE 754's, lane by lane, so all widths give
 // the same bits. Sums and products are the operators.
 #ifndef OVOID_SIMD_LANES_H
 #define OVOID_SIMD_LANES_H
@@ -105,7 +105,7 @@ LANES_INLINE lane lane3_norm(lane3 a) { return lane_sqrt(lane3_dot(a, a)); }
 LANES_INLINE lane3 lane3_select(lane_mask m, lane3 yes, lane3 no) {
     return (lane3){lane_select(m, yes.x, no.x), lane_select(m, yes.y, no.y), lane_select(m, yes.z, no.z)};
 }
-/// The larger of two numbers, where no square may over- or underflow: vec3_unit's common case. *good loses the others.
+/// vec3_unit in its common case, where no square over- or underflows. *good loses the other lanes.
 LANES_INLINE lane3 lane3_unit(lane3 a, lane_mask *good) {
     lane square = lane3_dot(a, a);
     *good = lane_and(*good, lane_and(lane_greater(square, lane_set(1e-250)), lane_less(square, lane_set(1e250))));

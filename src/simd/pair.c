@@ -1,5 +1,5 @@
-// The largest value first, by a tree of maxima without indices; then one mask of the values that equal it, whose lowest
-// bit is the index. No branch depends on the values. The two sets' chains run side by side.
+// The largest value is found first, by a tree of maxima without indices; then one mask of the values that equal it,
+// whose lowest bit is the index. No branch depends on the values. The chains of both sets run side by side.
 #include "simd/pair.h"
 
 #include <stddef.h>

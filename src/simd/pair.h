@@ -29,8 +29,8 @@ typedef struct simd_difference {
 /// The same indices and values as simd_find_pair of A along n and of B along -n: gap = -low - high.
 simd_difference simd_find_difference(const simd_points *a, const simd_points *b, double nx, double ny, double nz);
 
-/// The points turned and moved: rows of a rotation, a translation; from->padded_count numbers each to x, y, z. The same
-/// bits from every instruction set: ((r0 x + r1 y) + r2 z) + t.
+/// The points rotated (by rows of a matrix) and translated, from->padded_count numbers each to x, y, z. The same bits
+/// from every instruction set: ((r0 x + r1 y) + r2 z) + t.
 void simd_pose_points(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
                       double *z);
 void simd_pose_points_scalar(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,

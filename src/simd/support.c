@@ -1,13 +1,13 @@
-// The vertex extreme along a direction, by looking at all of them: for hulls up to some hundred vertices nothing beats
-// reading them in order.
+// The vertex extreme along a direction, by a search of all vertices: for hulls up to some hundred vertices nothing is
+// faster than reading them in order.
 //
 // Same bits from every instruction set: each value is (x dx + y dy) + z dz with four roundings and no fused operation,
 // and the answer is the lowest index among the largest values. A lane keeps the first of its own largest values (the
 // comparison is strict), and the last step takes the lowest index among the lanes that reached the maximum. Equal
 // values can differ in bits only as +0 and -0, so every kernel adds +0 to its result, which turns -0 into +0.
 //
-// The set is chosen at each call from what the compiler's runtime read at start (two loads and a test, no state of our
-// own). Two accumulators in each kernel hide the latency of compare and blend.
+// The set is chosen at each call from what the compiler's runtime read at start (two loads and a test, no state of this
+// library). Two accumulators in each kernel hide the latency of compare and blend.
 #include "simd/support.h"
 
 #include <stddef.h>
@@ -84,7 +84,7 @@ static support_result find_support_sse2(const double *x, const double *y, const 
 
 #define AVX2 __attribute__((target("avx2")))
 
-/// Likewise, four points wide.
+/// The largest value and the index of each lane so far, four points wide.
 typedef struct lanes4 {
     __m256d value;
     __m256i index;
@@ -130,7 +130,7 @@ AVX2 static support_result find_support_avx2(const double *x, const double *y, c
 
 #define AVX512 __attribute__((target("avx512f")))
 
-/// Likewise, eight points wide.
+/// The largest value and the index of each lane so far, eight points wide.
 typedef struct lanes8 {
     __m512d value;
     __m512i index;

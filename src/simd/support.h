@@ -10,8 +10,8 @@ typedef struct support_result {
     uint32_t index; ///< lowest index among equal values
 } support_result;
 
-/// Points as structure of arrays, padded_count (a multiple of 8, not 0) finite entries; padding repeats point 0. The
-/// same bits from every instruction set. Cost: padded_count / lanes steps.
+/// The extreme vertex of points as structure of arrays, padded_count (a multiple of 8, not 0) finite entries; padding
+/// repeats point 0. The same bits from every instruction set. Cost: padded_count / lanes steps.
 support_result simd_find_support(const double *x, const double *y, const double *z, uint32_t padded_count, double dx,
                                  double dy, double dz);
 

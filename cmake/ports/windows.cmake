@@ -1,0 +1,12 @@
+# 64-bit Windows by mingw-w64, run by Wine (Debian: gcc-mingw-w64-x86-64-win32, wine64).
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR x86_64)
+set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc)
+find_program(ports_wine NAMES wine64 wine PATHS /usr/lib/wine)
+if(ports_wine)
+  set(CMAKE_CROSSCOMPILING_EMULATOR ${ports_wine})
+endif()
+set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
+set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)

@@ -1,0 +1,170 @@
+/**
+ * @file error.hpp
+ * What all C++ headers stand on: errors as exceptions, owners of handles, arrays as views, options that begin as zero.
+ *
+ * Where exceptions are off (-fno-exceptions) everything compiles, and what would throw calls std::abort: there, create
+ * with the C function, look at its ovoid_error, and let an owner adopt the handle, as in
+ * shape(ovoid_shape_create_box(...)).
+ */
+#ifndef OVOID_CPP_ERROR_HPP
+#define OVOID_CPP_ERROR_HPP
+
+#include "ovoid/base.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <iterator>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+/** The C++ face of ovoid: the C structs, with owners, conversions and exceptions. */
+namespace ovoid {
+
+/** What the C library refused: what() is its sentence, never empty. */
+class error : public std::runtime_error {
+  public:
+    /** From the C error. */
+    explicit error(const ovoid_error &from) : std::runtime_error(from.message), code_(from.code), place_(from.place) {}
+    /** What went wrong; never OVOID_OK. */
+    ovoid_code code() const noexcept { return code_; }
+    /** 0-based vertex, face or item, or 1-based line of a file; -1 where none applies. */
+    std::int64_t place() const noexcept { return place_; }
+
+  private:
+    ovoid_code code_;
+    std::int64_t place_;
+};
+
+/** The name of a code, in words, for example "not finite". */
+inline const char *name(ovoid_code code) noexcept { return ovoid_code_get_name(code); }
+/** The library's version as "major.minor.patch". */
+inline const char *version() noexcept { return ovoid_get_version(); }
+/** Sets what a failed assert of the library calls; nullptr takes it away. The hook must not throw. */
+inline void set_assert_hook(ovoid_assert_hook hook) noexcept { ovoid_set_assert_hook(hook); }
+
+namespace detail {
+
+[[noreturn]] inline void fail(const ovoid_error &e) {
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+    throw error(e);
+#else
+    (void)e;
+    std::abort();
+#endif
+}
+
+/// An error whose sentence is that of a code, or a text of this header's.
+[[noreturn]] inline void fail(ovoid_code code, const char *text = nullptr, std::int64_t place = -1) {
+    ovoid_error e;
+    e.code = code;
+    e.place = place;
+    if (!text) text = ovoid_code_get_name(code);
+    std::size_t i = 0;
+    for (; text[i] && i + 1 < sizeof e.message; i++) e.message[i] = text[i];
+    e.message[i] = 0;
+    fail(e);
+}
+
+inline void require(ovoid_code code, const ovoid_error &e) {
+    if (code != OVOID_OK) fail(e);
+}
+template <class Handle> Handle *require(Handle *handle, const ovoid_error &e) {
+    if (!handle) fail(e);
+    return handle;
+}
+
+/// A pointer without an owner; const where the object that holds it is.
+template <class Handle> class pointer {
+  public:
+    constexpr pointer() noexcept = default;
+    constexpr explicit pointer(Handle *handle) noexcept : handle_(handle) {}
+    /** The C handle, borrowed; nullptr where this is empty. */
+    Handle *get() noexcept { return handle_; }
+    /** The C handle, borrowed; nullptr where this is empty. */
+    const Handle *get() const noexcept { return handle_; }
+    /** False where there is none: after a move, or made by default. */
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+  private:
+    Handle *handle_ = nullptr;
+};
+
+/// Owns what View looks at: moves and never copies, destroys once. An owner that was moved from is empty.
+template <class View, class Handle, void (*Destroy)(Handle *)> class owner : public View {
+  public:
+    owner() noexcept = default;
+    /** Adopts what a C function created; nullptr: empty. */
+    explicit owner(Handle *created) noexcept : View(created) {}
+    owner(owner &&other) noexcept : View(other.release()) {}
+    owner &operator=(owner &&other) noexcept {
+        reset(other.release());
+        return *this;
+    }
+    owner(const owner &) = delete;
+    owner &operator=(const owner &) = delete;
+    ~owner() { Destroy(const_cast<Handle *>(this->get())); }
+    /** Gives the handle up: the caller destroys it. */
+    Handle *release() noexcept {
+        Handle *handle = const_cast<Handle *>(this->get());
+        static_cast<View &>(*this) = View();
+        return handle;
+    }
+    /** Destroys what is owned and adopts another handle, or none. */
+    void reset(Handle *created = nullptr) noexcept {
+        Handle *before = const_cast<Handle *>(this->get());
+        static_cast<View &>(*this) = View(created);
+        Destroy(before);
+    }
+};
+
+} // namespace detail
+
+/** A C struct that begins with every field zero, which in all options of ovoid is the default. */
+template <class C> struct zeroed : C {
+    constexpr zeroed() noexcept : C() {}
+    /** From the C struct. */
+    constexpr zeroed(const C &from) noexcept : C(from) {}
+};
+
+/** A view of an array that someone else owns; converts to std::span where there is one. */
+template <class T> class span {
+  public:
+    /** The type of an item. */
+    using value_type = std::remove_cv_t<T>;
+    constexpr span() noexcept = default;
+    /** Of count items. */
+    constexpr span(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+    /** The first item. */
+    constexpr T *data() const noexcept { return data_; }
+    /** Number of items. */
+    constexpr std::size_t size() const noexcept { return size_; }
+    /** True where there are none. */
+    constexpr bool empty() const noexcept { return size_ == 0; }
+    /** For range-for. */
+    constexpr T *begin() const noexcept { return data_; }
+    /** Past the last item. */
+    constexpr T *end() const noexcept { return data_ + size_; }
+    /** Item i < size. */
+    constexpr T &operator[](std::size_t i) const noexcept { return data_[i]; }
+
+  private:
+    T *data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+namespace detail {
+
+/// The items of a container as a C array of type C: its elements are C, or C with constructors and no more fields.
+template <class C, class Container> span<const C> items_of(const Container &container) {
+    using element = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(container))>>;
+    static_assert(std::is_base_of<C, element>::value || std::is_same<C, element>::value,
+                  "the container must hold the C struct, or the type of <ovoid/ovoid.hpp> that derives from it");
+    static_assert(sizeof(element) == sizeof(C), "an element must have no fields but those of the C struct");
+    return {std::data(container), std::size(container)};
+}
+
+} // namespace detail
+} // namespace ovoid
+
+#endif

@@ -1,0 +1,193 @@
+/**
+ * @file query.hpp
+ * Proximity of two posed shapes, alone and in batches; proofs; smooth brackets; the paper's areas.
+ * Queries never throw, allocate or lock: what is refused stands in the answer's limit, as in C.
+ */
+#ifndef OVOID_CPP_QUERY_HPP
+#define OVOID_CPP_QUERY_HPP
+
+#include "ovoid/cpp/shape.hpp"
+#include "ovoid/paper.h"
+#include "ovoid/query.h"
+#include "ovoid/smooth.h"
+
+namespace ovoid {
+
+/** Options of a query: tolerances, cap, iterations. */
+using options = zeroed<ovoid_options>;
+/** A proof: the warm start of the pair's next query. */
+using proof = zeroed<ovoid_proof>;
+/** What proves a depth from below. */
+using cover = zeroed<ovoid_cover>;
+/** Two bodies of a batch, by index. */
+using couple = ovoid_couple;
+/** The answer to a query. */
+using answer = ovoid_answer;
+/** What an answer says, without the evidence. */
+using verdict = ovoid_verdict;
+/** A smooth bracket of the distance. */
+using smooth = ovoid_smooth;
+/** The gradient of the exact distance. */
+using gradient = ovoid_gradient;
+
+/** Two posed shapes, borrowed. */
+struct pair : ovoid_pair {
+    /** a and b with their poses. */
+    pair(shape_view a, shape_view b, const pose &pose_a_ = {}, const pose &pose_b_ = {}) noexcept
+        : ovoid_pair{a.get(), b.get(), pose_a_, pose_b_} {}
+    /** From the C struct. */
+    template <class T, std::enable_if_t<std::is_same<T, ovoid_pair>::value, int> = 0>
+    pair(const T &from) noexcept : ovoid_pair(from) {}
+};
+
+/** A posed shape, borrowed: of a batch, or a part of a compound. */
+struct posed_shape : ovoid_posed_shape {
+    /** At the origin. */
+    posed_shape(shape_view s, const ovoid::pose &at = {}) noexcept : ovoid_posed_shape{s.get(), at} {}
+    /** From the C struct. */
+    template <class T, std::enable_if_t<std::is_same<T, ovoid_posed_shape>::value, int> = 0>
+    posed_shape(const T &from) noexcept : ovoid_posed_shape(from) {}
+};
+
+/** Do the bodies touch? earlier: a proof of this pair, or nullptr. */
+inline answer collide(const pair &p, const ovoid_options &o = options(),
+                      const ovoid_proof *earlier = nullptr) noexcept {
+    return ovoid_collide(&p, &o, earlier);
+}
+/** Are the bodies within margin (>= 0) of each other? Read it with is_within. */
+inline answer within(const pair &p, double margin, const ovoid_options &o = options(),
+                     const ovoid_proof *earlier = nullptr) noexcept {
+    return ovoid_within(&p, margin, &o, earlier);
+}
+/** The distance to the tolerance where the bodies are apart; where they overlap only that is proven. */
+inline answer distance(const pair &p, const ovoid_options &o = options(),
+                       const ovoid_proof *earlier = nullptr) noexcept {
+    return ovoid_distance(&p, &o, earlier);
+}
+/** The signed distance to the tolerance. received: the cover that proves a depth from below, or nullptr. */
+inline answer depth(const pair &p, const ovoid_options &o = options(), const ovoid_proof *earlier = nullptr,
+                    ovoid_cover *received = nullptr) noexcept {
+    return ovoid_depth(&p, &o, earlier, received);
+}
+/** The bracket from the ellipsoids alone. */
+inline answer bounds(const pair &p) noexcept { return ovoid_bounds(&p); }
+
+/** The signed distance as one number, never above the true one; NaN where the bracket is wider than was asked. */
+inline double distance_of(const ovoid_answer &a) noexcept { return ovoid_answer_get_distance(&a); }
+/** 1: proven within the margin; 0: proven farther; -1: the bracket straddles it. */
+inline int is_within(const ovoid_answer &a, double margin) noexcept { return ovoid_answer_is_within(&a, margin); }
+/** True where the answer's bounds follow from its proof: no search, and nothing trusted. c: that of depth, or nullptr.
+ */
+inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_cover *c = nullptr) noexcept {
+    return ovoid_answer_check(&p, &a, c, nullptr) == OVOID_OK;
+}
+/** Throws PROOF, with a sentence, where is_proven is false. */
+inline void check(const pair &p, const ovoid_answer &a, const ovoid_cover *c = nullptr) {
+    ovoid_error e;
+    detail::require(ovoid_answer_check(&p, &a, c, &e), e);
+}
+
+/** One question about many pairs. Bodies, couples, options and what receives the answers are borrowed. */
+class batch : public ovoid_batch {
+  public:
+    /** Of contiguous containers of posed_shape (or ovoid_posed_shape) and of couple. */
+    template <class Parts, class Couples> batch(const Parts &parts, const Couples &pairs) : ovoid_batch{} {
+        const auto p = detail::items_of<ovoid_posed_shape>(parts);
+        const auto c = detail::items_of<ovoid_couple>(pairs);
+        bodies = p.data(), body_count = p.size(), couples = c.data(), couple_count = c.size();
+    }
+    /** Options of all queries. */
+    batch &with_options(const ovoid_options &o) noexcept { return options = &o, *this; }
+    /** Options must outlive the batch. */
+    batch &with_options(const ovoid_options &&) = delete;
+    /** Earlier proofs (all zero: none), which are replaced by the new ones. Throws ARGUMENT: fewer than couples. */
+    template <class Proofs> batch &with_proofs(Proofs &kept) { return proofs = receive<ovoid_proof>(kept), *this; }
+    /** Receives verdicts. Throws ARGUMENT: fewer than couples. */
+    template <class Verdicts> batch &with_verdicts(Verdicts &into) {
+        return verdicts = receive<ovoid_verdict>(into), *this;
+    }
+    /** Receives answers. Throws ARGUMENT: fewer than couples. */
+    template <class Answers> batch &with_answers(Answers &into) { return answers = receive<ovoid_answer>(into), *this; }
+
+  private:
+    template <class C, class Container> C *receive(Container &into) const {
+        const auto items = detail::items_of<C>(into);
+        if (items.size() < couple_count) detail::fail(OVOID_ERROR_ARGUMENT, "the batch has more couples than places");
+        return std::data(into);
+    }
+};
+
+/** collide for each couple. Throws INDEX (place: the couple); then nothing is written. */
+inline void collide_batch(const ovoid_batch &b) {
+    ovoid_error e;
+    detail::require(ovoid_collide_batch(&b, &e), e);
+}
+/** within for each couple. Throws INDEX. */
+inline void within_batch(const ovoid_batch &b, double margin) {
+    ovoid_error e;
+    detail::require(ovoid_within_batch(&b, margin, &e), e);
+}
+/** distance for each couple. Throws INDEX. */
+inline void distance_batch(const ovoid_batch &b) {
+    ovoid_error e;
+    detail::require(ovoid_distance_batch(&b, &e), e);
+}
+/** depth for each couple, without covers. Throws INDEX. */
+inline void depth_batch(const ovoid_batch &b) {
+    ovoid_error e;
+    detail::require(ovoid_depth_batch(&b, &e), e);
+}
+
+/** The smooth bracket of the signed distance. order: 0 values, 1 gradients too, 2 Hessians too. */
+inline ovoid_smooth compute_smooth(const pair &p, int order) noexcept { return ovoid_smooth_compute(&p, order); }
+/** The gradient of the exact signed distance, as far as an answer shows it. c: the cover of a depth. */
+inline ovoid_gradient compute_gradient(const pair &p, const ovoid_answer &a, const ovoid_cover *c = nullptr) noexcept {
+    return ovoid_answer_compute_gradient(&p, &a, c);
+}
+
+/** The word for results, for example "separated". */
+inline const char *name(ovoid_status status) noexcept { return ovoid_status_get_name(status); }
+/** The word for results, for example "gjk". */
+inline const char *name(ovoid_stage stage) noexcept { return ovoid_stage_get_name(stage); }
+/** The word for results, for example "precision". */
+inline const char *name(ovoid_limit limit) noexcept { return ovoid_limit_get_name(limit); }
+/** The word for results, for example "points". */
+inline const char *name(ovoid_proof_kind kind) noexcept { return ovoid_proof_kind_get_name(kind); }
+
+/** Tables of facial area splitting, owned; they borrow the polytope's shape. */
+class areas : public detail::owner<detail::pointer<ovoid_areas>, ovoid_areas, ovoid_areas_destroy> {
+  public:
+    using owner::owner;
+    /** Of a polyhedron and an ellipsoid inside it. k: cells per cube edge, a power of two from 1 to 64. Throws as the C
+     * function fails. */
+    static areas create(const ovoid_polytope &p, const ovoid_ellipsoid &e, ovoid_split split, std::uint32_t k = 1,
+                        const ovoid_allocator *allocator = nullptr) {
+        ovoid_error error;
+        return areas(detail::require(ovoid_areas_create(&p, &e, split, k, allocator, &error), error));
+    }
+    /** How large the tables are. */
+    ovoid_area_counts counts() const noexcept { return ovoid_areas_get_counts(get()); }
+    /** Where the ray from the ellipsoid's centre leaves. */
+    ovoid_exit find_exit(const vec3 &direction, const vec3 &toward, ovoid_area_rule rule) const noexcept {
+        return ovoid_areas_find_exit(get(), direction, toward, rule);
+    }
+    /** The vertex extreme along a direction. touched (may be nullptr): vertices looked at. */
+    std::uint32_t find_support(const vec3 &direction, std::uint32_t *touched = nullptr) const noexcept {
+        return ovoid_areas_find_support(get(), direction, touched);
+    }
+};
+
+/** Cuts every triangle along the planes of sphere space and counts the pieces. */
+inline ovoid_split_counts compute_split(const ovoid_polytope &p, const ovoid_ellipsoid &e) noexcept {
+    return ovoid_polytope_compute_split(&p, &e);
+}
+/** The online steps of the paper for a pair: a heuristic. a, b: the tables of the shapes, nullptr for a flat one. */
+inline ovoid_paper_bounds compute_paper_bounds(const pair &p, const areas *a, const areas *b, ovoid_area_rule rule,
+                                               double threshold) noexcept {
+    const ovoid_areas *both[2] = {a ? a->get() : nullptr, b ? b->get() : nullptr};
+    return ovoid_paper_compute_bounds(&p, both, rule, threshold);
+}
+
+} // namespace ovoid
+
+#endif

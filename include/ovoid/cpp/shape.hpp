@@ -1,0 +1,227 @@
+/**
+ * @file shape.hpp
+ * Shapes: shape owns one, shape_view looks at one; ellipsoids and measures of what they hold.
+ *
+ * A shape is immutable and is shared by any number of bodies and threads; who borrows it must not outlive it. Where no
+ * single owner fits, std::make_shared<const ovoid::shape>(ovoid::shape::box(...)) does: *pointer is a shape_view.
+ */
+#ifndef OVOID_CPP_SHAPE_HPP
+#define OVOID_CPP_SHAPE_HPP
+
+#include "ovoid/cpp/points.hpp"
+
+namespace ovoid {
+
+class shape;
+
+/** Options of a shape: radius, gap, inner, allocator. */
+using shape_options = zeroed<ovoid_shape_options>;
+/** A view of a convex polyhedron. */
+using polytope = ovoid_polytope;
+/** An ellipsoid. */
+using ellipsoid = ovoid_ellipsoid;
+/** An ellipsoid with its gap. */
+using fit = ovoid_fit;
+/** Volume, area, centroid, inertia, box and sphere. */
+using measures = ovoid_measures;
+
+/** A shape that someone else owns: one pointer, passed by value. Queries take it. */
+class shape_view {
+  public:
+    constexpr shape_view() noexcept = default;
+    /** Of a C shape. */
+    constexpr explicit shape_view(const ovoid_shape *from) noexcept : shape_(from) {}
+    /** The C shape, borrowed; nullptr where this is empty. */
+    constexpr const ovoid_shape *get() const noexcept { return shape_; }
+    /** False where there is none: after a move, or made by default. No other function may then be called. */
+    explicit constexpr operator bool() const noexcept { return shape_ != nullptr; }
+
+    /** The polyhedron. */
+    ovoid_polytope polytope() const noexcept { return ovoid_shape_get_polytope(shape_); }
+    /** The vertices in the body frame: the polyhedron's origin plus a vertex is a point of the user's local frame. */
+    span<const double> vertices() const noexcept {
+        const ovoid_polytope p = polytope();
+        return {p.vertices, std::size_t{3} * p.vertex_count};
+    }
+    /** The triangles: three vertices each. */
+    span<const std::uint32_t> triangles() const noexcept {
+        const ovoid_polytope p = polytope();
+        return {p.triangles, std::size_t{3} * p.triangle_count};
+    }
+    /** The rounding radius. */
+    double radius() const noexcept { return ovoid_shape_get_radius(shape_); }
+    /** What was done with the points given. */
+    ovoid_report report() const noexcept { return ovoid_shape_get_report(shape_); }
+    /** The outer ellipsoid of the polyhedron. */
+    ovoid_fit outer() const noexcept { return ovoid_shape_get_outer(shape_); }
+    /** The inner ellipsoid of the polyhedron. */
+    ovoid_fit inner() const noexcept { return ovoid_shape_get_inner(shape_); }
+    /** Measures of the polyhedron without its radius. */
+    ovoid_measures measures() const noexcept { return ovoid_shape_get_measures(shape_); }
+    /** Size of the block in bytes. */
+    std::size_t size_in_bytes() const noexcept { return ovoid_shape_get_size(shape_); }
+
+    /** A copy with memory of its own. Throws MEMORY. */
+    shape copy(const ovoid_allocator *allocator = nullptr) const;
+    /** The shape with its vertices moved, one point for each. Throws ARGUMENT (their number) and as shape::from_points.
+     */
+    template <class Points>
+    shape deformed(const Points &points, const ovoid_shape_options &options = shape_options()) const;
+    /** The two sides of a plane: first where normal . x <= offset; empty where nothing is left. Throws as the C
+     * function. */
+    std::pair<shape, shape> divided(const ovoid_plane &plane,
+                                    const ovoid_shape_options &options = shape_options()) const;
+    /** The bytes of an .ovoid file. */
+    std::vector<unsigned char> write() const {
+        std::vector<unsigned char> bytes(ovoid_shape_write(shape_, nullptr, 0));
+        ovoid_shape_write(shape_, bytes.data(), bytes.size());
+        return bytes;
+    }
+
+  private:
+    const ovoid_shape *shape_ = nullptr;
+};
+
+/** A shape that is owned: moves, never copies (copy() does), destroyed once. Creation throws ovoid::error. */
+class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy> {
+  public:
+    using owner::owner;
+
+    /** The convex hull of the points of a container. Throws EMPTY, NOT_FINITE (place: the point), RANGE, RADIUS, LIMIT,
+     * HULL, MEMORY, and ARGUMENT as points_of. */
+    template <class Points>
+    static shape from_points(const Points &points, const ovoid_shape_options &options = shape_options()) {
+        const point_array p = points_of(points);
+        return made([&](ovoid_error *e) { return ovoid_shape_create_from_points(p.data(), p.size(), &options, e); });
+    }
+    /** The convex hull of points in braces. */
+    static shape from_points(std::initializer_list<vec3> points, const ovoid_shape_options &options = shape_options()) {
+        const point_array p = points_of(points);
+        return made([&](ovoid_error *e) { return ovoid_shape_create_from_points(p.data(), p.size(), &options, e); });
+    }
+    /** From points and faces, each a container of vertex indices, that claim to be convex: checked. Throws INDEX,
+     * NOT_CONVEX (place: the face) and as from_points. */
+    template <class Points, class Faces>
+    static shape from_faces(const Points &points, const Faces &faces,
+                            const ovoid_shape_options &options = shape_options()) {
+        const point_array p = points_of(points);
+        const face_array f(faces);
+        return from_faces(f.with(p), options);
+    }
+    /** From the C struct. */
+    static shape from_faces(const ovoid_faces &faces, const ovoid_shape_options &options = shape_options()) {
+        return made([&](ovoid_error *e) { return ovoid_shape_create_from_faces(&faces, &options, e); });
+    }
+    /** An axis-aligned box of the given half sizes around the origin. */
+    static shape box(const vec3 &half, const ovoid_shape_options &options = shape_options()) {
+        return made([&](ovoid_error *e) { return ovoid_shape_create_box(half, &options, e); });
+    }
+    /** A sphere around the origin. */
+    static shape sphere(double radius, const ovoid_shape_options &options = shape_options()) {
+        return made([&](ovoid_error *e) { return ovoid_shape_create_sphere(radius, &options, e); });
+    }
+    /** A capsule along z: a segment of length 2 half_length with a radius. */
+    static shape capsule(double radius, double half_length, const ovoid_shape_options &options = shape_options()) {
+        return made([&](ovoid_error *e) { return ovoid_shape_create_capsule(radius, half_length, &options, e); });
+    }
+    /** A prism of n >= 3 sides along z, inscribed in the cylinder. */
+    static shape cylinder(double radius, double half_length, std::uint32_t sides,
+                          const ovoid_shape_options &options = shape_options()) {
+        return made(
+            [&](ovoid_error *e) { return ovoid_shape_create_cylinder(radius, half_length, sides, &options, e); });
+    }
+    /** A pyramid of n >= 3 sides along z, apex at z = +half_length. */
+    static shape cone(double radius, double half_length, std::uint32_t sides,
+                      const ovoid_shape_options &options = shape_options()) {
+        return made([&](ovoid_error *e) { return ovoid_shape_create_cone(radius, half_length, sides, &options, e); });
+    }
+    /** From the bytes of an .ovoid file, each of them checked: anything contiguous. Throws FORMAT (place: the byte),
+     * MEMORY. */
+    template <class Bytes> static shape read(const Bytes &bytes, const ovoid_allocator *allocator = nullptr) {
+        const std::size_t size = std::size(bytes) * sizeof(*std::data(bytes));
+        return made([&](ovoid_error *e) { return ovoid_shape_read(std::data(bytes), size, allocator, e); });
+    }
+
+  private:
+    friend class shape_view;
+    template <class Create> static shape made(const Create &create) {
+        ovoid_error e;
+        return shape(detail::require(create(&e), e));
+    }
+};
+
+inline shape shape_view::copy(const ovoid_allocator *allocator) const {
+    return shape::made([&](ovoid_error *e) { return ovoid_shape_create_copy(shape_, allocator, e); });
+}
+
+template <class Points> shape shape_view::deformed(const Points &points, const ovoid_shape_options &options) const {
+    const point_array p = points_of(points);
+    if (p.size() != polytope().vertex_count)
+        detail::fail(OVOID_ERROR_ARGUMENT, "one point is needed for each vertex of the shape");
+    return shape::made([&](ovoid_error *e) { return ovoid_shape_create_deformed(shape_, p.data(), &options, e); });
+}
+
+inline std::pair<shape, shape> shape_view::divided(const ovoid_plane &plane, const ovoid_shape_options &options) const {
+    ovoid_error e;
+    ovoid_shape *parts[2] = {nullptr, nullptr};
+    detail::require(ovoid_shape_create_divided(shape_, &plane, &options, parts, &e), e);
+    return {shape(parts[0]), shape(parts[1])};
+}
+
+/** Measures of a polyhedron. */
+inline ovoid_measures compute_measures(const ovoid_polytope &p) noexcept { return ovoid_polytope_compute_measures(&p); }
+
+/** The smallest ellipsoid around a polyhedron, to a relative gap of its volume (0: 1e-6). Throws ARGUMENT, MEMORY. */
+inline ovoid_fit compute_outer(const ovoid_polytope &p, double gap = 0, const ovoid_allocator *allocator = nullptr) {
+    ovoid_fit made;
+    const ovoid_code code = ovoid_ellipsoid_compute_outer(&p, gap, &made, allocator);
+    if (code != OVOID_OK) detail::fail(code);
+    return made;
+}
+/** The largest ellipsoid inside a polyhedron, to a relative gap of its volume (0: 1e-6). Throws ARGUMENT, MEMORY. */
+inline ovoid_fit compute_inner(const ovoid_polytope &p, double gap = 0, const ovoid_allocator *allocator = nullptr) {
+    ovoid_fit made;
+    const ovoid_code code = ovoid_ellipsoid_compute_inner(&p, gap, &made, allocator);
+    if (code != OVOID_OK) detail::fail(code);
+    return made;
+}
+/** Phase 1 of the paper: the outer ellipsoid, shrunk until it is inside. */
+inline ovoid_fit compute_shrunk(const ovoid_polytope &p, const ovoid_ellipsoid &outer) noexcept {
+    return ovoid_ellipsoid_compute_shrunk(&p, &outer);
+}
+/** Phase 2 of the paper: stretched toward the farthest facet. */
+inline ovoid_fit compute_stretched(const ovoid_polytope &p, const ovoid_ellipsoid &shrunk) noexcept {
+    return ovoid_ellipsoid_compute_stretched(&p, &shrunk);
+}
+/** Phase 3 of the paper: each radius enlarged. */
+inline ovoid_fit compute_enlarged(const ovoid_polytope &p, const ovoid_ellipsoid &stretched) noexcept {
+    return ovoid_ellipsoid_compute_enlarged(&p, &stretched);
+}
+/** Radii in descending order. */
+inline vec3 compute_radii(const ovoid_ellipsoid &e) noexcept { return ovoid_ellipsoid_compute_radii(&e); }
+/** Volume. */
+inline double compute_volume(const ovoid_ellipsoid &e) noexcept { return ovoid_ellipsoid_compute_volume(&e); }
+/** The ellipsoid under a pose, rounded. */
+inline ovoid_ellipsoid compute_posed(const ovoid_ellipsoid &e, const pose &at) noexcept {
+    return ovoid_ellipsoid_compute_posed(&e, &at);
+}
+/** The point of the ellipsoid nearest to a point. */
+inline ovoid_nearest compute_nearest_to_point(const ovoid_ellipsoid &e, const vec3 &point) noexcept {
+    return ovoid_ellipsoid_compute_nearest_to_point(&e, point);
+}
+/** The paper's X* and Y*: a good direction, not the Euclidean nearest points. */
+inline ovoid_nearest compute_nearest_by_sphere(const ovoid_ellipsoid &a, const ovoid_ellipsoid &b) noexcept {
+    return ovoid_ellipsoid_compute_nearest_by_sphere(&a, &b);
+}
+/** The nearest points of two ellipsoids. */
+inline ovoid_nearest compute_nearest(const ovoid_ellipsoid &a, const ovoid_ellipsoid &b) noexcept {
+    return ovoid_ellipsoid_compute_nearest(&a, &b);
+}
+/** True where the ellipsoids are proven to share a point, which *point (may be nullptr) receives. */
+inline bool is_overlapping(const ovoid_ellipsoid &a, const ovoid_ellipsoid &b, vec3 *point = nullptr) noexcept {
+    return ovoid_ellipsoid_is_overlapping(&a, &b, point) != 0;
+}
+
+} // namespace ovoid
+
+#endif

@@ -1,0 +1,267 @@
+/**
+ * @file world.hpp
+ * Worlds: many bodies that move, and all near pairs of them. Functions that the C library can refuse throw
+ * ovoid::error; then the world is as it was.
+ */
+#ifndef OVOID_CPP_WORLD_HPP
+#define OVOID_CPP_WORLD_HPP
+
+#include "ovoid/cpp/motion.hpp"
+#include "ovoid/world.h"
+
+namespace ovoid {
+
+/** A body of a world; 0 is none. */
+using id = ovoid_id;
+/** A pair that is not proven farther than the margin. */
+using contact = ovoid_contact;
+/** Its points and normal. */
+using witness = ovoid_witness;
+/** What was found between frames. */
+using world_hit = ovoid_world_hit;
+/** What a ray or a moved body meets first. */
+using world_cast = ovoid_world_cast;
+/** Options of a world. Filter and tasks are C functions and must not throw; the allocator may be called from workers.
+ */
+using world_options = zeroed<ovoid_world_options>;
+
+/** What a body is made with. */
+struct world_body : ovoid_world_body {
+    /** group and mask both zero: all of both. */
+    world_body(const ovoid::body &b, std::uint32_t group_ = 0, std::uint32_t mask_ = 0,
+               std::uint64_t user_ = 0) noexcept
+        : ovoid_world_body{b, group_, mask_, user_} {}
+    /** From the C struct. */
+    template <class T, std::enable_if_t<std::is_same<T, ovoid_world_body>::value, int> = 0>
+    world_body(const T &from) noexcept : ovoid_world_body(from) {}
+};
+
+/** What a world is asked of each pair. */
+struct contact_query : ovoid_contact_query {
+    /** Options are borrowed; nullptr: the default. */
+    contact_query(ovoid_query_kind query_ = OVOID_QUERY_COLLIDE, double margin_ = 0,
+                  const ovoid_options *options_ = nullptr) noexcept
+        : ovoid_contact_query{query_, margin_, options_} {}
+    /** From the C struct. */
+    template <class T, std::enable_if_t<std::is_same<T, ovoid_contact_query>::value, int> = 0>
+    contact_query(const T &from) noexcept : ovoid_contact_query(from) {}
+};
+
+/** The contacts of a world, for range-for: sorted by a, then b. Valid until the next call with a world that is not
+ * const. */
+class contacts : public ovoid_contacts {
+  public:
+    /** From the C struct. */
+    explicit contacts(const ovoid_contacts &from) noexcept : ovoid_contacts(from) {}
+    /** The first. */
+    const contact *begin() const noexcept { return items; }
+    /** Past the last. */
+    const contact *end() const noexcept { return items + count; }
+    /** Number of contacts. */
+    std::size_t size() const noexcept { return count; }
+    /** True where there are none. */
+    bool empty() const noexcept { return count == 0; }
+    /** Contact i < size. */
+    const contact &operator[](std::size_t i) const noexcept { return items[i]; }
+    /** True where there are points and normals: of DISTANCE and DEPTH. */
+    bool has_witnesses() const noexcept { return witnesses != nullptr; }
+    /** The points and normal of a contact of this list; has_witnesses must be true. */
+    const ovoid::witness &witness(const contact &c) const noexcept { return witnesses[&c - items]; }
+};
+
+/** A world, owned. What its bodies point to must live as long as they are in it. */
+class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ovoid_world_destroy> {
+  public:
+    using owner::owner;
+
+    /** Without bodies. Throws ARGUMENT, MEMORY, LIMIT. */
+    static world create(const ovoid_world_options &o = world_options()) {
+        ovoid_error e;
+        return world(detail::require(ovoid_world_create(&o, &e), e));
+    }
+
+    /** Adds a body. Throws ARGUMENT, LIMIT, MEMORY and what is wrong with the pose. */
+    id add(const world_body &b) {
+        ovoid_error e;
+        const id made = ovoid_world_add(get(), &b, &e);
+        if (made == 0) detail::fail(e);
+        return made;
+    }
+    /** Adds a body at a pose. */
+    id add(const ovoid::body &b, std::uint32_t group = 0, std::uint32_t mask = 0, std::uint64_t user = 0) {
+        return add(world_body(b, group, mask, user));
+    }
+    /** Adds many, all or none: a contiguous container of world_body. Throws as add (place: the body). */
+    template <class Bodies> std::vector<id> add_many(const Bodies &bodies) {
+        const auto items = detail::items_of<ovoid_world_body>(bodies);
+        std::vector<id> ids(items.size());
+        call(ovoid_world_add_many, items.data(), items.size(), ids.data());
+        return ids;
+    }
+    /** Removes a body. Throws INDEX. */
+    void remove(id b) { call(ovoid_world_remove, b); }
+    /** Removes many, all or none. Throws INDEX (place: where). */
+    template <class Ids> void remove_many(const Ids &ids) {
+        call(ovoid_world_remove_many, std::data(ids), std::size(ids));
+    }
+    /** Moves a body. Throws INDEX and what is wrong with the pose. */
+    void move(id b, const pose &to_) { call(ovoid_world_move, b, &to_); }
+    /** Moves many, all or none. Throws as move (place: the first refused), ARGUMENT where the lengths differ. */
+    template <class Ids, class Poses> void move_many(const Ids &ids, const Poses &poses) {
+        const auto items = detail::items_of<ovoid_pose>(poses);
+        if (std::size(ids) != items.size()) detail::fail(OVOID_ERROR_ARGUMENT, "as many poses as bodies are needed");
+        call(ovoid_world_move_many, std::data(ids), items.data(), items.size());
+    }
+    /** Other groups for a body. Throws INDEX. */
+    void set_groups(id b, std::uint32_t group, std::uint32_t mask) { call(ovoid_world_set_groups, b, group, mask); }
+    /** The filter's answers for this body may have changed. Throws INDEX. */
+    void renew(id b) { call(ovoid_world_renew, b); }
+    /** Leaves a pair out from now on, or takes it back. Throws INDEX, ARGUMENT, MEMORY. */
+    void set_ignored(id a, id b, bool ignored) { call(ovoid_world_set_ignored, a, b, ignored ? 1 : 0); }
+    /** All pairs that are not proven farther than the margin. Throws ARGUMENT, MEMORY. */
+    contacts compute_contacts(const contact_query &query) {
+        ovoid_contacts found;
+        call(ovoid_world_compute_contacts, &query, &found);
+        return contacts(found);
+    }
+
+    /** The body as it is now. Throws INDEX. */
+    world_body at(id b) const {
+        ovoid_world_body found;
+        call(ovoid_world_get, b, &found);
+        return found;
+    }
+    /** Number of bodies. */
+    std::size_t size() const noexcept { return ovoid_world_get_count(get()); }
+    /** The first body after the given one (0: the first of all); 0 when there is none. */
+    id find_next(id after) const noexcept { return ovoid_world_find_next(get(), after); }
+    /** True where the two are a pair that is looked at. */
+    bool is_pair(id a, id b) const noexcept { return ovoid_world_is_pair(get(), a, b) != 0; }
+    /** The whole answer of a contact, with its proof. excluded: receives exclusions, or nullptr. Throws INDEX,
+     * ARGUMENT. */
+    compound_answer compute_proof(const contact &c, ovoid_exclusions *excluded = nullptr) const {
+        ovoid_compound_answer found;
+        call(ovoid_world_compute_proof, &c, excluded, &found);
+        return found;
+    }
+
+    /** Does any body touch another one? Throws ARGUMENT. */
+    world_hit find_any(const ovoid_options &o = options()) const {
+        return find(ovoid_world_find_any, static_cast<const ovoid_id *>(nullptr), std::size_t{0}, &o);
+    }
+    /** Does any of these bodies touch another one? None of no ids. Throws INDEX, ARGUMENT. */
+    template <class Ids, class = decltype(std::size(std::declval<const Ids &>()))>
+    world_hit find_any(const Ids &ids, const ovoid_options &o = options()) const {
+        if (std::size(ids) == 0) return {};
+        return find(ovoid_world_find_any, std::data(ids), std::size(ids), &o);
+    }
+    /** Does any of these probes, a contiguous container of world_body, touch a body of the world? Throws as add. */
+    template <class Probes> world_hit find_any_to(const Probes &probes) const {
+        const auto items = detail::items_of<ovoid_world_body>(probes);
+        return find(ovoid_world_find_any_to, items.data(), items.size());
+    }
+    /** The body nearest to a body. Throws INDEX, ARGUMENT. */
+    world_hit find_nearest(id b, const ovoid_options &o = options()) const {
+        return find(ovoid_world_find_nearest, b, &o);
+    }
+    /** The body nearest to a probe. Throws as add. */
+    world_hit find_nearest_to(const world_body &probe, const ovoid_options &o = options()) const {
+        return find(ovoid_world_find_nearest_to, &probe, &o);
+    }
+    /** The two nearest of all bodies. Throws ARGUMENT. */
+    world_hit find_nearest_pair(const ovoid_options &o = options()) const {
+        return find(ovoid_world_find_nearest_pair, &o);
+    }
+    /** All bodies that are not proven farther than margin from a probe, sorted. Allocates. Throws as add. */
+    std::vector<world_hit> find_overlaps(const world_body &probe, double margin = 0,
+                                         const ovoid_options &o = options()) const {
+        std::vector<world_hit> found;
+        ovoid_world_hits hits = {nullptr, 0, 0, &o};
+        // Twice: how many there are, and then all of them.
+        call(ovoid_world_find_overlaps, &probe, margin, &hits);
+        while (hits.count > hits.capacity) {
+            found.resize(hits.count);
+            hits.items = found.data();
+            hits.capacity = found.size();
+            call(ovoid_world_find_overlaps, &probe, margin, &hits);
+        }
+        return found;
+    }
+    /** Into an array of the caller's; allocates nothing. Throws as add. */
+    void find_overlaps(const world_body &probe, double margin, ovoid_world_hits &hits) const {
+        call(ovoid_world_find_overlaps, &probe, margin, &hits);
+    }
+    /** A probe that is a point. */
+    world_body make_point(const vec3 &point) const noexcept { return ovoid_world_make_point(get(), point); }
+    /** What a ray meets first. Throws ARGUMENT. */
+    world_cast cast_ray(const ray &r, std::uint32_t group = 0, std::uint32_t mask = 0) const {
+        const ovoid_world_ray grouped = {r, group, mask};
+        ovoid_world_cast found;
+        call(ovoid_world_cast_ray, &grouped, &found);
+        return found;
+    }
+    /** What a probe meets first on its way along displacement, without turning. Throws as add. */
+    world_cast cast_body(const world_body &probe, const vec3 &displacement) const {
+        ovoid_world_cast found;
+        call(ovoid_world_cast_body, &probe, displacement, &found);
+        return found;
+    }
+
+    /** Walks the ids of all bodies, in order; bodies may be moved meanwhile. */
+    class iterator {
+      public:
+        /** What std::iterator_traits asks. */
+        using iterator_category = std::input_iterator_tag;
+        /** An id. */
+        using value_type = id;
+        /** Distance. */
+        using difference_type = std::ptrdiff_t;
+        /** None: ids are values. */
+        using pointer = const id *;
+        /** An id. */
+        using reference = id;
+        /** At an id of a world; 0: the end. */
+        iterator(const ovoid_world *w, id at) noexcept : world_(w), at_(at) {}
+        /** The id. */
+        id operator*() const noexcept { return at_; }
+        /** The next. */
+        iterator &operator++() noexcept { return at_ = ovoid_world_find_next(world_, at_), *this; }
+        /** The next; the value before. */
+        iterator operator++(int) noexcept {
+            iterator before = *this;
+            ++*this;
+            return before;
+        }
+        /** At the same id. */
+        friend bool operator==(const iterator &a, const iterator &b) noexcept { return a.at_ == b.at_; }
+        /** Not at the same id. */
+        friend bool operator!=(const iterator &a, const iterator &b) noexcept { return a.at_ != b.at_; }
+
+      private:
+        const ovoid_world *world_;
+        id at_;
+    };
+    /** The first body's id. */
+    iterator begin() const noexcept { return {get(), find_next(0)}; }
+    /** The end. */
+    iterator end() const noexcept { return {get(), 0}; }
+
+  private:
+    template <class Function, class... Arguments> void call(Function function, Arguments... arguments) {
+        ovoid_error e;
+        detail::require(function(get(), arguments..., &e), e);
+    }
+    template <class Function, class... Arguments> void call(Function function, Arguments... arguments) const {
+        ovoid_error e;
+        detail::require(function(get(), arguments..., &e), e);
+    }
+    template <class Function, class... Arguments> world_hit find(Function function, Arguments... arguments) const {
+        world_hit hit;
+        call(function, arguments..., &hit);
+        return hit;
+    }
+};
+
+} // namespace ovoid
+
+#endif

@@ -1,0 +1,190 @@
+/**
+ * @file io.hpp
+ * Files from C++: shapes, meshes, lists, scenes, and the readers of pairs, motions and results. Links libovoid_io.
+ * What cannot be read or written throws ovoid::error: its sentence is "path:line: what is wrong", its place the line.
+ * Records, pictures and charts are plain structs: the functions of <ovoid/io.h> write them.
+ */
+#ifndef OVOID_IO_HPP
+#define OVOID_IO_HPP
+
+#include "ovoid/io.h"
+#include "ovoid/ovoid.hpp"
+
+#include <string>
+
+namespace ovoid {
+
+/** How to read a mesh: scale, parts, trusted. */
+using read_options = zeroed<ovoid_read_options>;
+
+/** A shape from a file: `.ovoid`, or the hull of a mesh. Throws as ovoid_shape_read_file fails. */
+inline shape read_shape(const std::string &path, const ovoid_read_options &how = read_options(),
+                        const ovoid_shape_options &o = shape_options()) {
+    ovoid_error e;
+    return shape(detail::require(ovoid_shape_read_file(path.c_str(), &how, &o, &e), e));
+}
+/** Writes a `.ovoid` file: all of it, or the path is as it was. Throws FILE. */
+inline void write_shape(shape_view s, const std::string &path) {
+    ovoid_error e;
+    detail::require(ovoid_shape_write_file(s.get(), path.c_str(), &e), e);
+}
+
+/** A mesh as a file holds it. */
+class mesh : public detail::owner<detail::pointer<ovoid_mesh>, ovoid_mesh, ovoid_mesh_destroy> {
+  public:
+    using owner::owner;
+    /** Reads one. Throws as ovoid_mesh_read fails. */
+    static mesh read(const std::string &path, const ovoid_read_options &how = read_options()) {
+        ovoid_error e;
+        return mesh(detail::require(ovoid_mesh_read(path.c_str(), &how, &e), e));
+    }
+    /** Number of parts. */
+    std::size_t size() const noexcept { return ovoid_mesh_get_part_count(get()); }
+    /** Part i < size: a view. Its points make a shape: shape::from_points(points_of(part)). */
+    ovoid_mesh_part operator[](std::size_t i) const noexcept { return ovoid_mesh_get_part(get(), i); }
+};
+/** The coordinates of a part's points, x y z x y z ... */
+inline span<const double> points_of(const ovoid_mesh_part &part) noexcept {
+    return {part.faces.vertices, 3 * part.faces.vertex_count};
+}
+
+/** Shapes with names. */
+class shapes : public detail::owner<detail::pointer<ovoid_shapes>, ovoid_shapes, ovoid_shapes_destroy> {
+  public:
+    using owner::owner;
+    /** The shapes of one file. Throws as ovoid_shapes_read_file fails. */
+    static shapes read_file(const std::string &path, const ovoid_read_options &how = read_options(),
+                            const ovoid_shape_options &o = shape_options()) {
+        ovoid_error e;
+        return shapes(detail::require(ovoid_shapes_read_file(path.c_str(), &how, &o, &e), e));
+    }
+    /** The shapes of a list of paths. Throws as ovoid_shapes_read_list fails. */
+    static shapes read_list(const std::string &path, const ovoid_read_options &how = read_options(),
+                            const ovoid_shape_options &o = shape_options()) {
+        ovoid_error e;
+        return shapes(detail::require(ovoid_shapes_read_list(path.c_str(), &how, &o, &e), e));
+    }
+    /** How many there are. */
+    std::size_t size() const noexcept { return ovoid_shapes_get_count(get()); }
+    /** The name of shape i < size. */
+    const char *name(std::size_t i) const noexcept { return ovoid_shapes_get(get(), i).name; }
+    /** Shape i < size. */
+    shape_view operator[](std::size_t i) const noexcept { return shape_view(ovoid_shapes_get(get(), i).shape); }
+    /** The compound of these shapes, which it borrows. Throws as ovoid_compound_create fails. */
+    compound create_compound(const ovoid_allocator *allocator = nullptr) const {
+        ovoid_error e;
+        return compound(detail::require(ovoid_shapes_create_compound(get(), allocator, &e), e));
+    }
+};
+
+/** A scene: named bodies and pairs to ignore. */
+class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ovoid_scene_destroy> {
+  public:
+    using owner::owner;
+    /** Reads one and the meshes it names. Throws as ovoid_scene_read fails. */
+    static scene read(const std::string &path, const ovoid_shape_options &o = shape_options()) {
+        ovoid_error e;
+        return scene(detail::require(ovoid_scene_read(path.c_str(), &o, &e), e));
+    }
+    /** How many objects there are. */
+    std::size_t size() const noexcept { return ovoid_scene_get_count(get()); }
+    /** The name of object i < size. */
+    const char *name(std::size_t i) const noexcept { return ovoid_scene_get(get(), i).name; }
+    /** Object i < size as a body, ready for queries and worlds. */
+    body operator[](std::size_t i) const noexcept {
+        const ovoid_scene_object object = ovoid_scene_get(get(), i);
+        return ovoid_body{object.shape, object.compound, object.pose};
+    }
+    /** The object of that name; size() where there is none. */
+    std::size_t find(const std::string &named) const noexcept {
+        const std::size_t i = ovoid_scene_find(get(), named.c_str());
+        return i < size() ? i : size();
+    }
+    /** True if the scene says to ignore the pair. */
+    bool is_ignored(std::size_t a, std::size_t b) const noexcept { return ovoid_scene_is_ignored(get(), a, b) != 0; }
+};
+
+/** A PAIRS.csv read line by line. */
+class pairs_reader
+    : public detail::owner<detail::pointer<ovoid_pairs_reader>, ovoid_pairs_reader, ovoid_pairs_reader_destroy> {
+  public:
+    using owner::owner;
+    /** Opens the file. Throws FILE, FORMAT. */
+    static pairs_reader create(const std::string &path, std::size_t shape_count) {
+        ovoid_error e;
+        return pairs_reader(detail::require(ovoid_pairs_reader_create(path.c_str(), shape_count, &e), e));
+    }
+    /** The next pair; false at the end. Throws as the file is wrong. */
+    bool read(ovoid_indexed_pair &next) {
+        ovoid_error e;
+        const int found = ovoid_pairs_reader_read(get(), &next, &e);
+        if (found < 0) detail::fail(e);
+        return found > 0;
+    }
+};
+
+/** A MOTION.csv read line by line; it borrows the scene. */
+class motion_reader
+    : public detail::owner<detail::pointer<ovoid_motion_reader>, ovoid_motion_reader, ovoid_motion_reader_destroy> {
+  public:
+    using owner::owner;
+    /** Opens the file. Throws FILE, FORMAT. */
+    static motion_reader create(const std::string &path, const scene &of) {
+        ovoid_error e;
+        return motion_reader(detail::require(ovoid_motion_reader_create(path.c_str(), of.get(), &e), e));
+    }
+    /** What its lines give. */
+    ovoid_motion_columns columns() const noexcept { return ovoid_motion_reader_get_columns(get()); }
+    /** The next line; false at the end. Throws as the file is wrong. */
+    bool read(ovoid_motion_line &next) {
+        ovoid_error e;
+        const int found = ovoid_motion_reader_read(get(), &next, &e);
+        if (found < 0) detail::fail(e);
+        return found > 0;
+    }
+    /** The 1-based line that was read last. */
+    std::int64_t line() const noexcept { return ovoid_motion_reader_get_line(get()); }
+};
+
+/** A results file of JSON lines. */
+class results_reader
+    : public detail::owner<detail::pointer<ovoid_results_reader>, ovoid_results_reader, ovoid_results_reader_destroy> {
+  public:
+    using owner::owner;
+    /** Opens the file. Throws FILE. */
+    static results_reader create(const std::string &path) {
+        ovoid_error e;
+        return results_reader(detail::require(ovoid_results_reader_create(path.c_str(), &e), e));
+    }
+    /** The next record, valid until the next call; false at the end. Throws as the file is wrong. */
+    bool read(ovoid_record &next) {
+        ovoid_error e;
+        const int found = ovoid_results_reader_read(get(), &next, &e);
+        if (found < 0) detail::fail(e);
+        return found > 0;
+    }
+    /** The 1-based line of the last record. */
+    std::int64_t line() const noexcept { return ovoid_results_reader_get_line(get()); }
+};
+
+/** A file that appears whole, by commit, or not at all. */
+class output : public detail::owner<detail::pointer<ovoid_output>, ovoid_output, ovoid_output_destroy> {
+  public:
+    using owner::owner;
+    /** Starts one. Throws FILE. */
+    static output create(const std::string &path) {
+        ovoid_error e;
+        return output(detail::require(ovoid_output_create(path.c_str(), &e), e));
+    }
+    /** Where to write; not to be closed. */
+    std::FILE *file() noexcept { return ovoid_output_get_file(get()); }
+    /** Puts the file in its place. Throws FILE, and the path is as it was. */
+    void commit() {
+        ovoid_error e;
+        detail::require(ovoid_output_commit(get(), &e), e);
+    }
+};
+
+} // namespace ovoid
+
+#endif

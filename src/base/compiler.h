@@ -1,0 +1,30 @@
+// What standard C has no word for: the words of gcc and clang, here only (and in simd, and where the floating-point
+// environment is).
+#ifndef OVOID_BASE_COMPILER_H
+#define OVOID_BASE_COMPILER_H
+
+#include <stdint.h>
+
+#if !defined(__GNUC__)
+#error "ovoid is compiled by gcc or clang; its headers serve any compiler of C17 or C++17"
+#endif
+
+/// A function that is called, not copied into its caller: its part of the stack is gone when it returns.
+#define COMPILER_NOINLINE __attribute__((noinline))
+
+/// A function whose argument number `format_at` is that of printf, for those from `first` on. (mingw has two printfs;
+/// ours is C's.)
+#if defined(__MINGW32__)
+#define COMPILER_PRINTF(format_at, first) __attribute__((format(gnu_printf, format_at, first)))
+#else
+#define COMPILER_PRINTF(format_at, first) __attribute__((format(printf, format_at, first)))
+#endif
+
+/// How many zeros there are below the lowest one, and above the highest; bits is not 0.
+static inline unsigned compiler_count_low_zeros(uint32_t bits) { return (unsigned)__builtin_ctz(bits); }
+static inline unsigned compiler_count_high_zeros(uint32_t bits) { return (unsigned)__builtin_clz(bits); }
+
+/// Asks for the memory there before it is read.
+static inline void compiler_prefetch(const void *at) { __builtin_prefetch(at); }
+
+#endif

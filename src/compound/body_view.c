@@ -1,0 +1,24 @@
+// A posed body as a tree over parts: that of a compound, or one node around a shape.
+#include "compound/compound.h"
+
+int body_view_make(const ovoid_body *body, body_view *v) {
+    if (!body_is_one(body->shape, body->compound)) return 0;
+    if (pose_compute_check(&body->pose) != OVOID_OK) return 0;
+    v->pose = &body->pose;
+    v->compound = body->compound;
+    if (v->compound) {
+        v->nodes = v->compound->nodes;
+        v->parts = v->compound->parts;
+        v->extent = v->compound->extent;
+        v->count = v->compound->count;
+    } else {
+        ovoid_posed_shape own = {body->shape, {{0, 0, 0}, {1, 0, 0, 0}}};
+        v->own_node = node_make_shape(body->shape);
+        v->own_part = part_make(&own);
+        v->nodes = &v->own_node;
+        v->parts = &v->own_part;
+        v->extent = posed_shape_compute_extent(&own);
+        v->count = 1;
+    }
+    return vec3_norm(v->pose->position) + v->extent <= OVOID_LENGTH_MAX;
+}

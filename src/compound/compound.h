@@ -1,0 +1,128 @@
+// A compound's block: a header, then arrays at fixed offsets. The tree is a full binary tree in preorder with one part
+// a leaf: a node over k parts is followed by its left subtree of 2 l - 1 nodes, l its parts, and then by the right one.
+//
+// Errors (docs/compound.md): with u = 2^-53, E_i = |position| + |shape's origin| + extent + radius of part i, a posed
+// vertex as computed here is off by less than 46 u E_i; the bounds of nodes are widened by 64 u E_i for each part.
+#ifndef OVOID_COMPOUND_COMPOUND_H
+#define OVOID_COMPOUND_COMPOUND_H
+
+#include "linear/pose.h"
+#include "ovoid/compound.h"
+#include "query/answer.h"
+
+/// Bounds of the parts at [first, end) of the order, radii and rounding included: a box along the compound's axes, a
+/// sphere around its centre, and an ellipsoid where that is the narrower one.
+typedef struct compound_node {
+    vec3 center;
+    double radius;
+    vec3 half;
+    uint32_t first, end;
+    vec3 shift; ///< of the ellipsoid's centre from the box's
+    sym3 round; ///< the ellipsoid's matrix; zero: there is no ellipsoid
+} compound_node;
+
+static inline int node_is_round(const compound_node *n) { return n->round.xx > 0; }
+
+/// A part in the compound's frame, ready for the first rejections.
+typedef struct compound_part {
+    const ovoid_shape *shape;
+    ovoid_pose pose;
+    mat3 rotation; ///< of the part's pose
+    vec3 at;       ///< where the shape's body frame has its origin
+    vec3 center;   ///< of the sphere around the part
+    double reach;  ///< of that sphere: the rounding radius and all rounding included
+} compound_part;
+
+/// More than the depth of a tree of 2^24 parts, of which each split gives at least a quarter to either side.
+enum { COMPOUND_DEPTH_MAX = 64 };
+
+struct ovoid_compound {
+    uint32_t count;
+    double extent; ///< the largest E_i
+    ovoid_ellipsoid outer, inner;
+    size_t size;
+    ovoid_allocator allocator;
+    // Arrays inside the block.
+    compound_node *nodes; ///< 2 count - 1
+    compound_part *parts; ///< in the order of the tree
+    uint32_t *order;      ///< the caller's index of the part at each place of the tree's order
+    uint32_t *places;     ///< the place of each of the caller's parts
+};
+
+static inline int node_is_leaf(const compound_node *n) { return n->end - n->first == 1; }
+static inline const compound_node *node_get_left(const compound_node *n) { return n + 1; }
+static inline const compound_node *node_get_right(const compound_node *n) {
+    const compound_node *left = n + 1;
+    return n + 2 * (size_t)(left->end - left->first);
+}
+/// 1 if of a pair of nodes, not both leaves, the first is to be split.
+static inline int node_is_split_first(const compound_node *a, const compound_node *b) {
+    return node_is_leaf(b) || (!node_is_leaf(a) && a->radius >= b->radius);
+}
+
+/// The E of a part: an upper bound of all lengths from which its place in the compound's frame is computed.
+double posed_shape_compute_extent(const ovoid_posed_shape *body);
+
+/// The vertices of all parts, in the caller's order, in the compound's frame: those of part i are starts[i] to
+/// starts[i + 1] - 1.
+typedef struct parts_vertices {
+    double *xyz;
+    size_t *starts;
+} parts_vertices;
+
+/// Fills nodes, parts, order and places; 0 where there is no memory.
+int tree_build(ovoid_compound *compound, const ovoid_posed_shape *parts, const parts_vertices *all);
+
+/// The node of a single shape, in the shape's own frame.
+compound_node node_make_shape(const ovoid_shape *shape);
+
+/// The part, in the frame that its pose is in.
+compound_part part_make(const ovoid_posed_shape *body);
+
+/// An ellipsoid that encloses e and a ball of radius r around each of its points, with room for rounding, also for that
+/// of a support computed in doubles.
+ovoid_ellipsoid ellipsoid_enlarge(ovoid_ellipsoid e, double r);
+
+/// Fills the outer and inner ellipsoids; 0 where there is no memory.
+int compound_compute_bounds(ovoid_compound *compound, const ovoid_posed_shape *parts, const parts_vertices *all);
+
+/// A posed body as a tree over parts; a shape is a tree of one node.
+typedef struct body_view {
+    const compound_node *nodes;
+    const compound_part *parts;
+    const ovoid_compound *compound; ///< NULL: a shape
+    const ovoid_pose *pose;
+    double extent;
+    uint32_t count;
+    // The tree of a shape.
+    compound_node own_node;
+    compound_part own_part;
+} body_view;
+
+/// 1 if exactly one of a body's pointers is set.
+static inline int body_is_one(const ovoid_shape *shape, const ovoid_compound *compound) { return !shape != !compound; }
+
+/// 0 where the body or its pose is refused.
+int body_view_make(const ovoid_body *body, body_view *view);
+
+/// The part at a place of the order, with its pose in the world.
+static inline ovoid_posed_shape body_view_get_part(const body_view *v, uint32_t place) {
+    const compound_part *part = &v->parts[place];
+    if (!v->compound) return (ovoid_posed_shape){part->shape, *v->pose};
+    return (ovoid_posed_shape){part->shape, pose_compute_product(v->pose, &part->pose)};
+}
+/// The caller's index of the part at a place.
+static inline uint32_t body_view_get_index(const body_view *v, uint32_t place) {
+    return v->compound ? v->compound->order[place] : 0;
+}
+
+/// The pipeline of all compound queries, for callers inside a public function, which has set the default floating-point
+/// environment already. options, earlier and exclusions may be NULL.
+void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
+                            const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions,
+                            ovoid_compound_answer *out);
+
+/// Sorts exclusions by their ranges.
+void exclusions_sort(ovoid_exclusion *items, size_t count);
+
+#endif

@@ -1,0 +1,373 @@
+// The expanding polytope of G. van den Bergen, Proximity queries and penetration depth computation on 3D game objects,
+// 2001, with these changes:
+// - The polytope is a convex hull that grows, wherever the origin is: a new point replaces the faces visible from it.
+//   So exact touching, where the origin is on the boundary or just outside, needs no case of its own: the face of least
+//   offset then gives a normal along which the gap is 0 to rounding.
+// - Nothing is taken on trust: the lower bound is the gap along a face's normal, by the supports; the upper bound is
+//   the radius that the whole surface keeps from the origin, checked at the end as a proof (cover.c).
+// Working memory is fixed, on the stack, about 80 KB. Cost: for each new point one support and a scan of the faces that
+// may be the nearest.
+#include "exact/epa.h"
+
+#include "base/compiler.h"
+#include "exact/expand.h"
+#include "exact/hull_reduce.h"
+#include "exact/probe.h"
+#include "pair/cover.h"
+
+#include <stddef.h>
+#include <string.h>
+
+typedef expansion_face face;
+
+// A surface of few points, of which an overlap's proof is made, leaves most of the faces' memory unused: the proof's
+// working memory is there.
+typedef union growth_room {
+    expansion_room all;
+    struct {
+        unsigned char used[offsetof(expansion_room, f) + 3 * HULL_POINTS_MAX * sizeof(face)];
+        hull_memory reduced;
+    } few;
+} growth_room;
+
+typedef struct growth {
+    search *s;
+    prober p;
+    expansion e;
+    growth_room room;
+    uint16_t nearest; ///< face
+    double gap;       ///< along its normal, NAN until measured
+    ovoid_cover *cover;
+} growth;
+
+static int has_point(const expansion *e, const frame_support *x) {
+    for (uint32_t i = 0; i < e->points; i++)
+        if (e->a[i] == x->a && e->b[i] == x->b) return 1;
+    return 0;
+}
+
+static void push(expansion *e, frame_support w) { (void)expansion_add_point(e, w.w, w.a, w.b); }
+
+// The farther support of +n and -n from the plane n.x = offset; its distance in *far.
+static frame_support probe_both(const prober *p, vec3 n, double offset, double *far) {
+    frame_support up = probe_find(p, n), down = probe_find(p, vec3_neg(n));
+    double high = vec3_dot(n, up.w) - offset, low = offset - vec3_dot(n, down.w);
+    *far = fmax(high, low);
+    return high >= low ? up : down;
+}
+
+// Four differences that span space; 0 if the difference body is flat, to rounding.
+static int find_tetrahedron(const prober *p, expansion *e) {
+    static const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    e->points = 0;
+    // The widest of three axes.
+    double widest = -1;
+    frame_support ends[2] = {{0}, {0}};
+    for (int i = 0; i < 3; i++) {
+        frame_support up = probe_find(p, axes[i]), down = probe_find(p, vec3_neg(axes[i]));
+        double width = vec3_norm(vec3_sub(up.w, down.w));
+        if (width > widest) widest = width, ends[0] = up, ends[1] = down;
+    }
+    if (!(widest > e->slack)) return 0;
+    push(e, ends[0]);
+    push(e, ends[1]);
+    // The farthest from that line, in two directions across.
+    vec3 e1 = vec3_unit(vec3_sub(e->w[1], e->w[0])), side[2];
+    side[0] = vec3_orthogonal(e1);
+    side[1] = vec3_cross(e1, side[0]);
+    double far[2];
+    frame_support t[2];
+    for (int i = 0; i < 2; i++) t[i] = probe_both(p, side[i], vec3_dot(side[i], e->w[0]), &far[i]);
+    int wide = far[0] >= far[1] ? 0 : 1;
+    if (!(far[wide] > e->slack)) return 0;
+    push(e, t[wide]);
+    // The farthest from that plane.
+    vec3 e2 = vec3_sub(e->w[2], e->w[0]);
+    vec3 n = simplex_compute_normal(e1, e2);
+    frame_support top = probe_both(p, n, vec3_dot(n, e->w[0]), &far[0]);
+    if (!(far[0] > e->slack)) return 0;
+    push(e, top);
+    return 1;
+}
+
+// 1 if the first four points have a volume well above rounding.
+static int is_solid(const expansion *e) {
+    vec3 e1 = vec3_sub(e->w[1], e->w[0]), e2 = vec3_sub(e->w[2], e->w[0]), e3 = vec3_sub(e->w[3], e->w[0]);
+    double volume = vec3_dot(vec3_cross(e1, e2), e3);
+    double edges = vec3_norm_squared(e1) * vec3_norm_squared(e2) * vec3_norm_squared(e3);
+    return volume * volume > 1e-12 * edges;
+}
+
+// Completes the differences to a tetrahedron by supports toward the origin, as GJK would. 0 where that gives no solid
+// one.
+static int complete(const prober *p, expansion *e) {
+    while (e->points < 4) {
+        vec3 w = e->w[0], e1 = vec3_sub(e->w[1], w), n;
+        if (e->points == 1) {
+            n = w;
+        } else if (e->points == 2) {
+            double l = vec3_norm_squared(e1);
+            n = l > 0 ? vec3_add_scaled(w, e1, -vec3_dot(w, e1) / l) : w;
+        } else {
+            n = vec3_cross(e1, vec3_sub(e->w[2], w));
+            if (vec3_dot(n, w) < 0) n = vec3_neg(n);
+        }
+        frame_support x = probe_find(p, vec3_neg(vec3_unit(n)));
+        if (has_point(e, &x)) return 0;
+        push(e, x);
+    }
+    return is_solid(e);
+}
+
+// The first difference: the support along the line of centres.
+static void probe_center(const prober *p, simplex *x) {
+    const pair_frame *f = p->s->frame;
+    vec3 d = vec3_sub(f->a->center, frame_b(f, f->b->center));
+    frame_support w = probe_find(p, vec3_norm_squared(d) > 0 ? vec3_unit(d) : (vec3){1, 0, 0});
+    x->p[0] = (difference){w.w, w.a, w.b};
+    x->weight[0] = 1;
+    x->count = 1;
+}
+
+static int is_apart(const search *s) { return s->lower + s->frame->radii > 0; }
+
+// The differences at hand made a tetrahedron, else one found afresh. 0 where there is none, or none is needed.
+COMPILER_NOINLINE static int start(const prober *p, expansion *e, simplex *x, int is_first) {
+    if (x->count == 0) probe_center(p, x);
+    if (is_first && is_apart(p->s)) return 0;
+    for (int i = 0; i < x->count; i++) (void)expansion_add_point(e, x->p[i].w, x->p[i].a, x->p[i].b);
+    return (complete(p, e) || find_tetrahedron(p, e)) && !(is_first && is_apart(p->s));
+}
+
+// The corners of a face as evidence, weighted to the point nearest to the target; *distance: how near.
+static evidence face_evidence(const expansion *e, const face *f, vec3 target, double *distance) {
+    // In a unit of the face's size, so that no product of four lengths underflows.
+    double unit = ldexp(1, -find_unit_exponent(vec3_max_abs(e->w[f->v[0]])));
+    simplex x = {.count = 3};
+    for (int i = 0; i < 3; i++)
+        x.p[i] = (difference){vec3_scale(vec3_sub(e->w[f->v[i]], target), unit), e->a[f->v[i]], e->b[f->v[i]]};
+    (void)simplex_reduce(&x);
+    *distance = vec3_norm(simplex_compute_point(&x)) / unit;
+    return evidence_make(&x);
+}
+
+// The foot of the origin on a face's plane as evidence, if it lies in the face.
+static int find_foot(const search *s, const expansion *e, const face *f, evidence *x) {
+    vec3 p[3];
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        x->p[i] = (difference){e->w[f->v[i]], e->a[f->v[i]], e->b[f->v[i]]};
+        p[i] = vec3_add_scaled(x->p[i].w, f->n, -f->low);
+    }
+    for (int i = 0; i < 3; i++) {
+        x->weight[i] = vec3_dot(f->n, vec3_cross(p[(i + 1) % 3], p[(i + 2) % 3]));
+        if (!(x->weight[i] > 0)) return 0;
+        sum += x->weight[i];
+    }
+    vec3 off = {0, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        x->weight[i] /= sum;
+        off = vec3_add_scaled(off, p[i], x->weight[i]);
+    }
+    x->count = 3;
+    return vec3_norm(off) <= s->frame->claim;
+}
+
+// The witness of the depth: the surface's point nearest to the foot of the origin on the nearest face's plane. That
+// face may be one of several triangles of a facet, or of a small body's facet on a large one, so all about as near are
+// tried.
+static evidence find_witness(const search *s, const expansion *e, const face *nearest) {
+    vec3 foot = vec3_scale(nearest->n, nearest->low);
+    double least;
+    evidence best;
+    if (find_foot(s, e, nearest, &best)) return best;
+    best = face_evidence(e, nearest, foot, &least);
+    for (uint32_t i = 0; i < e->faces && least > s->frame->claim; i++) {
+        const face *f = &e->f[i];
+        if (!f->alive || f->low > nearest->low + s->goal.tolerance) continue;
+        double distance;
+        evidence x = face_evidence(e, f, foot, &distance);
+        if (distance < least) least = distance, best = x;
+    }
+    return best;
+}
+
+static double measure_face(const expansion *e, const face *f) {
+    double a = vec3_dot(f->n, e->w[f->v[0]]), b = vec3_dot(f->n, e->w[f->v[1]]), c = vec3_dot(f->n, e->w[f->v[2]]);
+    return min2(a, min2(b, c));
+}
+
+// The radius that the surface keeps from the origin, as triangle_compute_clearance finds it: the normal of a face that
+// is outward (and so no sliver) was computed in the same operations, and n.w differs by less than 1100 u s between its
+// corners, which matters for the nearest only. 0 where a face may not be outward; the surface must then be measured
+// (surface_compute_depth).
+static double measure_faces(const search *s, const expansion *e) {
+    double doubt = 1100 * 0x1p-53 * s->frame->size, least = INFINITY;
+    for (uint32_t i = 0; i < e->faces; i++) {
+        const face *f = &e->f[i];
+        if (!f->alive) continue;
+        if (!f->outward) return 0;
+        least = min2(least, f->low);
+    }
+    double depth = least + doubt;
+    for (uint32_t i = 0; i < e->faces; i++) {
+        const face *f = &e->f[i];
+        if (f->alive && f->low < least + 2 * doubt) depth = min2(depth, measure_face(e, f));
+    }
+    return depth - s->frame->claim;
+}
+
+// The upper bound that the surface proves, with its witness.
+static void take_cover(growth *g) {
+    search *s = g->s;
+    expansion *e = &g->e;
+    ovoid_cover *cover = g->cover;
+    surface all = {e->w, (const uint16_t(*)[3])e->triangles, e->points, 0};
+    double depth = measure_faces(s, e);
+    if (cover || !(depth > 0)) all.triangle_count = expansion_pack(e);
+    if (!(depth > 0)) depth = surface_compute_depth(&all, s->frame->claim);
+    double upper = -depth - s->frame->radii;
+    if (!(depth > 0) || !(upper < s->upper || upper - s->lower <= s->goal.tolerance)) return;
+    s->upper = upper;
+    s->stage = OVOID_STAGE_EPA;
+    s->kind = OVOID_PROOF_COVER;
+    s->witness = find_witness(s, e, &e->f[g->nearest]);
+    if (!cover || !(s->upper < -s->goal.deepest)) return;
+    cover->point_count = e->points;
+    cover->triangle_count = all.triangle_count;
+    memcpy(cover->a, e->a, e->points * sizeof *e->a);
+    memcpy(cover->b, e->b, e->points * sizeof *e->b);
+    memcpy(cover->triangles, e->triangles, all.triangle_count * sizeof *e->triangles);
+}
+
+// A tetrahedron that strictly contains the origin: point 0 and a face.
+static int take_tetrahedron(search *s, const expansion *e) {
+    for (uint32_t i = 0; i < e->faces; i++) {
+        const face *f = &e->f[i];
+        if (!f->alive || f->v[0] == 0 || f->v[1] == 0 || f->v[2] == 0) continue;
+        evidence x = {.count = 4, .p = {{e->w[0], e->a[0], e->b[0]}}};
+        for (int k = 0; k < 3; k++) x.p[k + 1] = (difference){e->w[f->v[k]], e->a[f->v[k]], e->b[f->v[k]]};
+        if (!search_take_hull(s, &x)) continue;
+        evidence_set_weights(&s->witness);
+        return 1;
+    }
+    return 0;
+}
+
+// Evidence of an overlap from the surface: a tetrahedron, or where the origin is on a line of two corners, up to six.
+static int take_hull(growth *g) {
+    search *s = g->s;
+    const expansion *e = &g->e;
+    int taken = take_tetrahedron(s, e), kept[OVOID_PROOF_PAIRS];
+    if (!taken && e->points <= HULL_POINTS_MAX && e->faces <= 3 * HULL_POINTS_MAX) {
+        evidence x = {
+            .count = hull_find_reduced(&g->room.few.reduced, e->w, (int)e->points, s->frame->claim, e->slack, kept)};
+        for (int i = 0; i < x.count; i++) x.p[i] = (difference){e->w[kept[i]], e->a[kept[i]], e->b[kept[i]]};
+        evidence_set_weights(&x);
+        taken = x.count > 0 && search_take_hull(s, &x);
+    }
+    if (taken) s->stage = OVOID_STAGE_EPA;
+    return taken;
+}
+
+// The bracket as it would be if the surface were proven now, with the nearest face's own gap: so that the normal is
+// that of the witness points.
+static int is_narrow(const search *s, double low, double high) {
+    double claim = s->frame->claim;
+    return low > claim && high - low + 2 * claim <= s->goal.tolerance;
+}
+
+// Takes the nearest face's own normal for the lower bound, where that costs no more than the tolerance, so that witness
+// and normal agree.
+static void agree(const growth *g) {
+    search *s = g->s;
+    vec3 n = vec3_neg(g->e.f[g->nearest].n);
+    double gap = isnan(g->gap) ? frame_find_support(s->frame, n).gap : g->gap;
+    double lower = gap - s->frame->radii - s->frame->claim;
+    if (s->upper - lower > fmax(s->goal.tolerance, s->upper - s->lower)) return;
+    s->lower = lower;
+    s->normal = n;
+}
+
+// Ends the run: proves what the surface shows.
+COMPILER_NOINLINE static void finish(growth *g) {
+    search *s = g->s;
+    if (g->e.f[g->nearest].low > s->frame->claim && !search_is_done(s)) {
+        if (s->goal.wants_depth)
+            take_cover(g);
+        else
+            (void)take_hull(g);
+    }
+    if (s->kind == OVOID_PROOF_COVER) agree(g);
+}
+
+// A face whose support is a corner already is a sliver with an uncertain plane: the triangle itself is farther from the
+// origin than its plane. 0 if that is not so.
+static int measure_sliver(const expansion *e, face *f) {
+    vec3 n;
+    double clearance = triangle_compute_clearance(e->w[f->v[0]], e->w[f->v[1]], e->w[f->v[2]], INFINITY, &n);
+    if (!(clearance > f->low)) return 0;
+    f->low = clearance;
+    return 1;
+}
+
+// One step: the support of the nearest face. 0 when there is nothing to gain or a limit is met, -1 if the surface
+// became invalid.
+static int grow(growth *g) {
+    search *s = g->s;
+    expansion *e = &g->e;
+    face *f = &e->f[g->nearest];
+    double lower = s->lower;
+    frame_support x = probe_find(&g->p, f->n);
+    double high = vec3_dot(f->n, x.w);
+    g->gap = x.gap;
+    if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
+    e->bound = -(s->lower + s->frame->radii);
+    if (s->goal.wants_depth && is_narrow(s, f->low, high)) return 0;
+    if (high - f->low <= e->slack) return 0;
+    if (high - f->low < 1e-3 * s->frame->size && has_point(e, &x)) return measure_sliver(e, f);
+    if (e->points == EXPANSION_POINTS) {
+        s->limit = OVOID_LIMIT_CAPACITY;
+        return 0;
+    }
+    return expansion_join(e, g->nearest, expansion_add_point(e, x.w, x.a, x.b)) ? 1 : -1;
+}
+
+static void find_next(growth *g) {
+    g->nearest = expansion_find_nearest(&g->e);
+    g->gap = NAN;
+}
+
+// Leaves the nearest face as the simplex for the next method.
+static void leave(growth *g, simplex *x) {
+    const face *f = &g->e.f[g->nearest];
+    x->count = 3;
+    for (int i = 0; i < 3; i++) x->p[i] = (difference){g->e.w[f->v[i]], g->e.a[f->v[i]], g->e.b[f->v[i]]};
+}
+
+int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
+    growth g;
+    g.s = s;
+    g.cover = cover;
+    expansion_room_give(&g.room.all, &g.e);
+    prober_make(&g.p, s, 1);
+    expansion_clear(&g.e, 16 * 0x1p-53 * s->frame->size);
+    g.e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
+    if (!start(&g.p, &g.e, x, is_first)) return search_is_done(s);
+    expansion_make_tetrahedron(&g.e);
+    find_next(&g);
+    uint32_t steps = 0;
+    for (; steps < s->goal.iterations; steps++, s->iterations++) {
+        int grown = grow(&g);
+        if (grown < 0) return 0;
+        if (!grown || search_is_done(s)) break;
+        find_next(&g);
+        if (is_first && is_apart(s)) break;
+        if (!s->goal.wants_depth && g.e.f[g.nearest].low > 2 * s->frame->claim && take_hull(&g)) break;
+    }
+    if (steps == s->goal.iterations) s->limit = OVOID_LIMIT_ITERATIONS;
+    finish(&g);
+    if (search_is_done(s) || s->limit != OVOID_LIMIT_NONE) return 1;
+    leave(&g, x);
+    return 0;
+}

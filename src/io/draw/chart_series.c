@@ -1,0 +1,136 @@
+// Series of a chart: lines with bands and marks, bars with whiskers, stacks. Series differ by colour and by dash or
+// mark, so that a print without colours can be read.
+#include "io/draw/chart_series.h"
+
+#include <math.h>
+
+// Most points of a line with marks.
+enum { MARKS_MAX = 40 };
+
+static const char *get_dash(size_t i) {
+    static const char *const dashes[] = {"", " stroke-dasharray=\"6 3\"", " stroke-dasharray=\"2 3\"",
+                                         " stroke-dasharray=\"8 3 2 3\""};
+    return dashes[i % 4];
+}
+
+static void draw_mark(const canvas *c, size_t i, vec2 at) {
+    const char *fill = chart_get_color(i);
+    switch (i % 4) {
+    case 0: fprintf(c->file, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>", at.x, at.y, fill); break;
+    case 1:
+        fprintf(c->file, "<rect x=\"%.1f\" y=\"%.1f\" width=\"6\" height=\"6\" fill=\"%s\"/>", at.x - 3, at.y - 3,
+                fill);
+        break;
+    case 2: fprintf(c->file, "<path d=\"M%.1f %.1fl4 7h-8z\" fill=\"%s\"/>", at.x, at.y - 4.5, fill); break;
+    default: fprintf(c->file, "<path d=\"M%.1f %.1fl4 4l-4 4l-4-4z\" fill=\"%s\"/>", at.x, at.y - 4, fill); break;
+    }
+    fputc('\n', c->file);
+}
+
+void chart_draw_key(const canvas *c, size_t i, vec2 at) {
+    const ovoid_series *s = &c->chart->series[i];
+    if (s->kind == OVOID_SERIES_BARS || s->kind == OVOID_SERIES_STACK) {
+        fprintf(c->file, "<rect x=\"%.1f\" y=\"%.1f\" width=\"12\" height=\"10\" fill=\"%s\"/>\n", at.x - 6, at.y - 5,
+                chart_get_color(i));
+        return;
+    }
+    if (s->kind == OVOID_SERIES_LINE)
+        fprintf(c->file, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"2\"%s/>\n",
+                at.x - 11, at.y, at.x + 11, at.y, chart_get_color(i), get_dash(i));
+    if (s->kind == OVOID_SERIES_POINTS || s->count <= MARKS_MAX) draw_mark(c, i, at);
+}
+
+static vec2 project(const canvas *c, const ovoid_series *s, size_t k, const double *values) {
+    return (vec2){axis_project(&c->x, series_get_x(s, k)), axis_project(&c->y, values[k])};
+}
+
+static int is_visible(vec2 p) { return isfinite(p.x) && isfinite(p.y); }
+
+// Draws each run of points without a gap.
+static void draw_line(const canvas *c, size_t i) {
+    const ovoid_series *s = &c->chart->series[i];
+    svg_path path = {.file = c->file};
+    fputs("<path d=\"", c->file);
+    for (size_t k = 0, open = 0; k < s->count; k++) {
+        vec2 p = project(c, s, k, s->y);
+        if (is_visible(p)) (open ? svg_line : svg_move)(&path, p);
+        open = is_visible(p);
+    }
+    fprintf(c->file, "\" fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-linejoin=\"round\"%s/>\n",
+            chart_get_color(i), get_dash(i));
+}
+
+// The band from low to high, as one polygon without the points that leave a gap.
+static void draw_band(const canvas *c, size_t i) {
+    const ovoid_series *s = &c->chart->series[i];
+    svg_path path = {.file = c->file};
+    fputs("<path d=\"", c->file);
+    for (size_t k = 0, open = 0; k < 2 * s->count; k++) {
+        vec2 p = k < s->count ? project(c, s, k, s->high) : project(c, s, 2 * s->count - 1 - k, s->low);
+        if (!is_visible(p)) continue;
+        (open ? svg_line : svg_move)(&path, p);
+        open = 1;
+    }
+    fprintf(c->file, "\" fill=\"%s\" fill-opacity=\"0.15\" stroke=\"none\"/>\n", chart_get_color(i));
+}
+
+// The number of columns side by side at a place: all bars, and the stack.
+static size_t count_columns(const ovoid_chart *h, size_t until) {
+    size_t count = 0, stacks = 0;
+    for (size_t i = 0; i < until; i++) {
+        count += h->series[i].kind == OVOID_SERIES_BARS;
+        stacks |= h->series[i].kind == OVOID_SERIES_STACK;
+    }
+    return count + stacks;
+}
+
+// The height of the stack below series i at place k.
+static double get_base(const ovoid_chart *h, size_t i, size_t k) {
+    double sum = 0;
+    for (size_t n = 0; n < i; n++) {
+        const ovoid_series *s = &h->series[n];
+        if (s->kind == OVOID_SERIES_STACK && k < s->count && isfinite(s->y[k])) sum += s->y[k];
+    }
+    return sum;
+}
+
+static void draw_bars(const canvas *c, size_t i) {
+    const ovoid_chart *h = c->chart;
+    const ovoid_series *s = &h->series[i];
+    int stacked = s->kind == OVOID_SERIES_STACK;
+    size_t columns = count_columns(h, h->series_count), column = count_columns(h, stacked ? 0 : i);
+    double room = 0.8 / (double)columns;
+    for (size_t k = 0; k < s->count; k++) {
+        double base = stacked       ? get_base(h, i, k)
+                      : c->y.is_log ? c->y.low
+                                    : 0,
+               top = stacked ? base + s->y[k] : s->y[k];
+        double left = series_get_x(s, k) - 0.4 + room * (double)column;
+        vec2 a = {axis_project(&c->x, left), axis_project(&c->y, base)};
+        vec2 b = {axis_project(&c->x, left + room), axis_project(&c->y, top)};
+        if (!is_visible(a) || !is_visible(b)) continue;
+        fprintf(c->file, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", a.x + 0.5,
+                fmin(a.y, b.y), fmax(b.x - a.x - 1, 0.5), fabs(b.y - a.y), chart_get_color(i));
+        if (!s->low || !s->high) continue;
+        double low = axis_project(&c->y, s->low[k]), high = axis_project(&c->y, s->high[k]), x = (a.x + b.x) / 2;
+        if (isfinite(low) && isfinite(high))
+            fprintf(c->file, "<path d=\"M%.1f %.1fV%.1fm-3 0h6\" fill=\"none\" stroke=\"#333\"/>\n", x, low, high);
+    }
+}
+
+void chart_draw_series(const canvas *c) {
+    for (size_t i = 0; i < c->chart->series_count; i++) {
+        const ovoid_series *s = &c->chart->series[i];
+        if (s->kind == OVOID_SERIES_BARS || s->kind == OVOID_SERIES_STACK) {
+            draw_bars(c, i);
+            continue;
+        }
+        if (s->low && s->high) draw_band(c, i);
+        if (s->kind == OVOID_SERIES_LINE) draw_line(c, i);
+        if (s->kind == OVOID_SERIES_LINE && s->count > MARKS_MAX) continue;
+        for (size_t k = 0; k < s->count; k++) {
+            vec2 p = project(c, s, k, s->y);
+            if (is_visible(p)) draw_mark(c, i, p);
+        }
+    }
+}

@@ -1,0 +1,230 @@
+// Pictures: a scene of convex bodies as SVG, from an orthographic camera that fits all of it. Bodies are painted from
+// far to near (the painter's algorithm). For two that are apart, the plane that separates them says which is nearer:
+// the body on the eye's side of it is painted later, and that is exact; only for bodies that overlap, and where three
+// hide each other in a ring, the depth of their centres decides.
+// Cost: linear in the triangles, quadratic in the bodies whose pictures overlap.
+#include "io/draw/picture_parts.h"
+
+#include "io/locale.h"
+#include "io/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TRIANGLES_MAX = 1000000, BODIES_ORDERED_MAX = 1000 };
+
+// ---- the order of painting
+
+static vec3 get_center(const figure *f) { return f->outer.center; }
+
+// 1 if the boxes of pixels overlap.
+static int is_overlapping(const figure *a, const figure *b) {
+    return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y;
+}
+
+// 1 if a must be painted before b, -1 if after, 0 if the order is free.
+static int compare_figures(const figure *a, const figure *b, const camera *c) {
+    if (!is_overlapping(a, b)) return 0;
+    ovoid_pair pair = {a->body->shape, b->body->shape, a->body->pose, b->body->pose};
+    ovoid_answer answer = ovoid_collide(&pair, NULL, NULL);
+    double toward = vec3_dot(answer.normal, c->eye);
+    if (answer.status != OVOID_SEPARATED || fabs(toward) < 1e-9)
+        toward = camera_get_depth(c, get_center(b)) - camera_get_depth(c, get_center(a));
+    return (toward > 0) - (toward < 0);
+}
+
+// Counts for each figure those not yet painted that must come before it; painted figures have -1.
+static void count_before(const figure *figures, size_t count, const camera *c, int *before, signed char *relation) {
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = i + 1; j < count; j++) {
+            int order = compare_figures(&figures[i], &figures[j], c);
+            relation[i * count + j] = (signed char)order;
+            relation[j * count + i] = (signed char)-order;
+            if (order > 0) before[j]++;
+            if (order < 0) before[i]++;
+        }
+}
+
+// The next figure to paint: of those that none must precede, the farthest.
+static size_t find_next(const figure *figures, size_t count, const camera *c, const int *before) {
+    size_t best = count;
+    double best_depth = 0;
+    int best_is_free = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (before[i] < 0) continue;
+        int is_free = before[i] == 0;
+        double depth = camera_get_depth(c, get_center(&figures[i]));
+        if (best < count && (is_free < best_is_free || (is_free == best_is_free && depth >= best_depth))) continue;
+        best = i;
+        best_depth = depth;
+        best_is_free = is_free;
+    }
+    return best;
+}
+
+// Finds the order of painting: order[k] is the figure to paint as number k. Beyond BODIES_ORDERED_MAX bodies only the
+// depth of centres counts.
+static ovoid_code sort_figures(const figure *figures, size_t count, const camera *c, size_t *order) {
+    int *before = calloc(count + 1, sizeof *before);
+    int is_exact = count <= BODIES_ORDERED_MAX;
+    signed char *relation = calloc(is_exact ? count * count + 1 : 1, 1);
+    ovoid_code code = before && relation ? OVOID_OK : OVOID_ERROR_MEMORY;
+    if (!code && is_exact) count_before(figures, count, c, before, relation);
+    for (size_t k = 0; k < count && !code; k++) {
+        size_t i = order[k] = find_next(figures, count, c, before);
+        before[i] = -1;
+        for (size_t j = 0; j < count && is_exact; j++)
+            if (before[j] > 0 && relation[i * count + j] > 0) before[j]--;
+    }
+    free(before);
+    free(relation);
+    return code;
+}
+
+// ---- the frame
+
+static void widen(vec2 *low, vec2 *high, vec2 a, vec2 b) {
+    *low = (vec2){fmin(low->x, a.x), fmin(low->y, a.y)};
+    *high = (vec2){fmax(high->x, b.x), fmax(high->y, b.y)};
+}
+
+// Chooses scale and origin so that bodies, outer ellipsoids and witness points fill the picture between title and
+// legend.
+static void fit_camera(const ovoid_picture *picture, figure *figures, drawing *d) {
+    camera *c = &d->camera;
+    c->center = get_center(&figures[0]);
+    vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    for (size_t i = 0; i < picture->body_count; i++) {
+        figure_project(&figures[i], c);
+        widen(&low, &high, figures[i].low, figures[i].high);
+        if (!(d->layers & OVOID_PICTURE_OUTER)) continue;
+        vec2 a, b;
+        ellipsoid_get_extent(&figures[i].outer, c, &a, &b);
+        widen(&low, &high, a, b);
+    }
+    double top = picture->title ? 64 : 36, bottom = d->layers & OVOID_PICTURE_LEGEND ? 70 : 36, side = 44;
+    double width = fmax(d->width - 2 * side, 10), height = fmax(d->height - top - bottom, 10);
+    double size = fmax((high.x - low.x) / width, (high.y - low.y) / height);
+    c->scale = size > 0 ? 1 / size : 1;
+    c->origin.x = side + width / 2 - c->scale * (low.x + high.x) / 2;
+    c->origin.y = top + height / 2 - c->scale * (low.y + high.y) / 2;
+    for (size_t i = 0; i < picture->body_count; i++) figure_project(&figures[i], c);
+}
+
+// ---- the document
+
+static void write_head(const ovoid_picture *picture, const drawing *d) {
+    fprintf(d->file,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%lu\" height=\"%lu\" viewBox=\"0 0 %lu %lu\" "
+            "font-family=\"Helvetica,Arial,'DejaVu Sans',sans-serif\">\n",
+            (unsigned long)d->width, (unsigned long)d->height, (unsigned long)d->width, (unsigned long)d->height);
+    // A background of its own: the picture looks the same on light and dark pages.
+    fputs("<linearGradient id=\"ground\" x2=\"0\" y2=\"1\"><stop stop-color=\"#fdfdfe\"/><stop offset=\"1\" "
+          "stop-color=\"#eef1f5\"/></linearGradient>\n<rect width=\"100%\" height=\"100%\" rx=\"10\" "
+          "fill=\"url(#ground)\"/>\n",
+          d->file);
+    if (!picture->title) return;
+    fprintf(d->file, "<text x=\"28\" y=\"40\" font-size=\"20\" font-weight=\"600\" fill=\"#1d2430\">");
+    svg_escape(d->file, picture->title);
+    fputs("</text>\n", d->file);
+}
+
+static ovoid_code draw_figure(const figure *f, const drawing *d, ovoid_error *error) {
+    int has_outer = (d->layers & OVOID_PICTURE_OUTER) && f->has_ellipsoids;
+    int has_inner = (d->layers & OVOID_PICTURE_INNER) && f->has_ellipsoids;
+    fputs("<g>\n", d->file);
+    if (has_outer) figure_draw_outer_back(f, d);
+    ovoid_code code = figure_draw_back(f, d, error);
+    if (!code && has_inner) figure_draw_inner(f, d);
+    if (!code) code = figure_draw_front(f, d, error);
+    if (!code && has_outer) figure_draw_outer_front(f, d);
+    fputs("</g>\n", d->file);
+    return code;
+}
+
+static ovoid_code draw_figures(const ovoid_picture *picture, figure *figures, const drawing *d, ovoid_error *error) {
+    size_t *order = malloc((picture->body_count + 1) * sizeof *order);
+    ovoid_code code = order ? sort_figures(figures, picture->body_count, &d->camera, order) : OVOID_ERROR_MEMORY;
+    if (code) io_fail_memory(error, "picture");
+    for (size_t k = 0; k < picture->body_count && !code; k++) code = draw_figure(&figures[order[k]], d, error);
+    free(order);
+    return code;
+}
+
+static ovoid_code draw_all(const ovoid_picture *picture, figure *figures, drawing *d, ovoid_error *error) {
+    fit_camera(picture, figures, d);
+    write_head(picture, d);
+    ovoid_code code = draw_figures(picture, figures, d, error);
+    labels l = {.count = 0, .frame_low = {8, 8}, .frame_high = {d->width - 8.0, d->height - 8.0}};
+    if (picture->title) labels_block(&l, (vec2){0, 0}, (vec2){40 + text_get_width(picture->title, 20), 54});
+    if (d->layers & OVOID_PICTURE_LEGEND) draw_legend(picture, d, &l);
+    if (d->layers & OVOID_PICTURE_WITNESS) draw_links(picture, d, &l);
+    if (d->layers & OVOID_PICTURE_NAMES) draw_names(figures, picture->body_count, d, &l);
+    fputs("</svg>\n", d->file);
+    return code;
+}
+
+// ---- the picture
+
+// Checks that bodies and links are in range, and that there are not too many triangles.
+static ovoid_code check_picture(const char *path, const ovoid_picture *picture, ovoid_error *error) {
+    where at = {path, 0, -1};
+    if (!picture->body_count) return io_fail(error, OVOID_ERROR_EMPTY, at, "a picture needs at least one body");
+    uint64_t triangles = 0;
+    for (size_t i = 0; i < picture->body_count; i++) {
+        at.place = (int64_t)i;
+        ovoid_code code = ovoid_pose_compute_check(&picture->bodies[i].pose);
+        if (code) return io_fail(error, code, at, "the pose of body %zu: %s", i, ovoid_code_get_name(code));
+        triangles += ovoid_shape_get_polytope(picture->bodies[i].shape).triangle_count;
+    }
+    at.place = -1;
+    if (triangles > TRIANGLES_MAX)
+        return io_fail(error, OVOID_ERROR_LIMIT, at, "%llu triangles; at most %d are drawn",
+                       (unsigned long long)triangles, TRIANGLES_MAX);
+    for (size_t i = 0; i < picture->link_count; i++)
+        if (picture->links[i].a >= picture->body_count || picture->links[i].b >= picture->body_count)
+            return io_fail(error, OVOID_ERROR_INDEX, at, "link %zu joins a body that is not there", i);
+    return OVOID_OK;
+}
+
+static drawing make_drawing(const ovoid_picture_options *options, FILE *file) {
+    static const ovoid_picture_options defaults = {.width = 0};
+    if (!options) options = &defaults;
+    vec3 view = options->view;
+    if (!(vec3_norm(vec3_unit(view)) > 0.5)) view = (vec3){1, -1.6, 0.9};
+    return (drawing){.file = file,
+                     .camera = camera_make(view),
+                     .width = options->width ? options->width : 1200,
+                     .height = options->height ? options->height : 800,
+                     .layers = options->layers ? options->layers
+                                               : OVOID_PICTURE_OUTER | OVOID_PICTURE_INNER | OVOID_PICTURE_WITNESS |
+                                                     OVOID_PICTURE_NAMES | OVOID_PICTURE_LEGEND};
+}
+
+static ovoid_code write_picture(const char *path, const ovoid_picture *picture, drawing *d, ovoid_error *error) {
+    figure *figures = calloc(picture->body_count, sizeof *figures);
+    if (!figures) return io_fail_memory(error, path);
+    ovoid_code code = OVOID_OK;
+    for (size_t i = 0; i < picture->body_count && !code; i++)
+        code = figure_make(&figures[i], &picture->bodies[i], (int)i, path, error);
+    if (!code) code = draw_all(picture, figures, d, error);
+    for (size_t i = 0; i < picture->body_count; i++) figure_clear(&figures[i]);
+    free(figures);
+    return code;
+}
+
+ovoid_code ovoid_picture_write_svg(const char *path, const ovoid_picture *picture, const ovoid_picture_options *options,
+                                   ovoid_error *error) {
+    ovoid_code code = check_picture(path, picture, error);
+    if (code) return code;
+    ovoid_output *output = ovoid_output_create(path, error);
+    if (!output) return OVOID_ERROR_FILE;
+    drawing d = make_drawing(options, ovoid_output_get_file(output));
+    locale_scope locale = locale_enter();
+    code = write_picture(path, picture, &d, error);
+    locale_leave(locale);
+    if (!code) code = ovoid_output_commit(output, error);
+    ovoid_output_destroy(output);
+    return code;
+}

@@ -1,0 +1,46 @@
+// The parts of a picture: faces, ellipsoids, texts; picture.c composes them.
+#ifndef OVOID_IO_DRAW_PICTURE_PARTS_H
+#define OVOID_IO_DRAW_PICTURE_PARTS_H
+
+#include "io/draw/figure.h"
+
+/// Draws the faces that look away from the eye, or toward it; edges and outline with them.
+ovoid_code figure_draw_back(const figure *f, const drawing *d, ovoid_error *error);
+ovoid_code figure_draw_front(const figure *f, const drawing *d, ovoid_error *error);
+
+/// The half of the outer ellipsoid behind its centre: a faint fill and lines; the half before it: lines and outline.
+void figure_draw_outer_back(const figure *f, const drawing *d);
+void figure_draw_outer_front(const figure *f, const drawing *d);
+/// The inner ellipsoid, solid.
+void figure_draw_inner(const figure *f, const drawing *d);
+
+/// The tint of an octant; bit i is set where u_i < 0.
+color octant_get_color(int octant);
+
+/// The smallest box of pixels that holds the outline of an ellipsoid.
+void ellipsoid_get_extent(const solid_ellipsoid *e, const camera *c, vec2 *low, vec2 *high);
+
+/// The boxes that later texts avoid.
+enum { LABELS_MAX = 256 };
+typedef struct labels {
+    vec2 low[LABELS_MAX], high[LABELS_MAX];
+    size_t count;
+    vec2 frame_low, frame_high;
+} labels;
+
+/// Keeps texts out of a box of the picture.
+void labels_block(labels *l, vec2 low, vec2 high);
+/// Finds a place for a text of that size about `gap` from a point, clear of earlier texts where possible; returns its
+/// centre.
+vec2 labels_place(labels *l, vec2 near, vec2 size, double gap);
+/// The approximate width of a text, without font tables.
+double text_get_width(const char *text, double font_size);
+
+/// Draws the names beside the figures.
+void draw_names(const figure *figures, size_t count, const drawing *d, labels *l);
+/// Draws witness points, the lines between them and their lengths.
+void draw_links(const ovoid_picture *picture, const drawing *d, labels *l);
+/// Draws the legend and the scale bar.
+void draw_legend(const ovoid_picture *picture, const drawing *d, labels *l);
+
+#endif

@@ -1,0 +1,106 @@
+// Meshes as their users see them, and which reader a file gets.
+#include "io/mesh/cursor.h"
+#include "io/mesh/readers.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void free_part(mesh_part *part) {
+    free(part->name);
+    free(part->points);
+    free(part->indices);
+    free(part->sizes);
+}
+
+void ovoid_mesh_destroy(ovoid_mesh *mesh) {
+    if (!mesh) return;
+    for (size_t i = 0; i < mesh->part_count; i++) free_part(&mesh->parts[i]);
+    free(mesh->parts);
+    free(mesh);
+}
+
+size_t ovoid_mesh_get_part_count(const ovoid_mesh *mesh) { return mesh->part_count; }
+
+ovoid_mesh_part ovoid_mesh_get_part(const ovoid_mesh *mesh, size_t i) {
+    const mesh_part *p = &mesh->parts[i];
+    return (ovoid_mesh_part){p->name, {p->points, p->point_count, p->indices, p->sizes, p->face_count}};
+}
+
+typedef ovoid_code (*mesh_read_function)(mesh_reader *reader);
+
+// 1 if the text begins with the word, followed by a blank, a line end or nothing.
+static int begins_with_word(bytes file, const char *word) {
+    size_t length = strlen(word);
+    if (file.size < length || memcmp(file.data, word, length) != 0) return 0;
+    return is_blank(file.data[length]) || file.data[length] == '\n' || file.size == length;
+}
+
+// The reader for what the first bytes or else the extension say; NULL for an unknown kind.
+static mesh_read_function find_reader(const char *path, bytes file) {
+    static const char *const off_words[] = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
+    if (begins_with_word(file, "ply")) return mesh_read_ply;
+    for (size_t i = 0; i < sizeof off_words / sizeof *off_words; i++)
+        if (begins_with_word(file, off_words[i])) return mesh_read_off;
+    if (mesh_is_stl(file)) return mesh_read_stl;
+    if (path_has_extension(path, "stl")) return mesh_read_stl;
+    if (path_has_extension(path, "obj")) return mesh_read_obj;
+    if (path_has_extension(path, "off")) return mesh_read_off;
+    if (path_has_extension(path, "ply")) return mesh_read_ply;
+    // Assimp's other importers are not enabled: they have not been tested.
+    static const char *const others[] = {"dae", "gltf", "glb", "3ds", "x3d", "fbx", "3mf"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (path_has_extension(path, others[i])) return mesh_read_assimp;
+    return NULL;
+}
+
+// Drops the parts without points. 0 where none is left.
+static int drop_empty_parts(ovoid_mesh *mesh) {
+    size_t kept = 0;
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        if (mesh->parts[i].point_count)
+            mesh->parts[kept++] = mesh->parts[i];
+        else
+            free_part(&mesh->parts[i]);
+    }
+    mesh->part_count = kept;
+    return kept > 0;
+}
+
+static ovoid_code read_mesh(mesh_reader *reader) {
+    where at = {reader->path, 0, -1};
+    mesh_read_function read = find_reader(reader->path, reader->file);
+    if (!read)
+        return io_fail(reader->error, OVOID_ERROR_FORMAT, at,
+                       "not a mesh that can be read: stl, obj, off, ply, dae, gltf, glb, 3ds, x3d, fbx, 3mf");
+    ovoid_code code = read(reader);
+    if (code) return code;
+    if (!drop_empty_parts(reader->mesh)) return io_fail(reader->error, OVOID_ERROR_EMPTY, at, "the mesh has no points");
+    return OVOID_OK;
+}
+
+ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options, ovoid_error *error) {
+    double scale = options && options->scale != 0 ? options->scale : 1;
+    if (!(scale > 0 && scale <= OVOID_LENGTH_MAX)) {
+        io_report(error, OVOID_ERROR_ARGUMENT, (where){path, 0, -1}, "the scale %g is not a number above 0", scale);
+        return NULL;
+    }
+    mesh_reader reader = {.path = path, .scale = scale, .error = error};
+    if (options) reader.parts = options->parts, reader.trusted = options->trusted;
+    if (bytes_read(path, &reader.file, error)) return NULL;
+    reader.mesh = calloc(1, sizeof *reader.mesh);
+    ovoid_code code = reader.mesh ? read_mesh(&reader) : io_fail_memory(error, path);
+    free(reader.file.data);
+    if (!code) return reader.mesh;
+    ovoid_mesh_destroy(reader.mesh);
+    return NULL;
+}
+
+double ovoid_unit_get_scale(const char *unit) {
+    static const struct {
+        const char *name;
+        double metres;
+    } units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (strcmp(unit, units[i].name) == 0) return units[i].metres;
+    return 0;
+}

@@ -1,0 +1,221 @@
+// Shapes from files and into files, one or a list of them.
+#include "io/mesh/mesh_build.h"
+
+#include "io/mesh/cursor.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int ovoid_path_is_shape(const char *path) { return path_has_extension(path, "ovoid"); }
+
+// ---- one shape
+
+static ovoid_shape *read_shape_bytes(const char *path, const ovoid_read_options *read,
+                                     const ovoid_shape_options *options, ovoid_error *error) {
+    where at = {path, 0, -1};
+    if ((read && read->scale != 0 && read->scale != 1) || (options && options->radius != 0)) {
+        io_report(error, OVOID_ERROR_ARGUMENT, at, "a .ovoid file has its scale and radius already; fit the mesh anew");
+        return NULL;
+    }
+    bytes file;
+    if (bytes_read(path, &file, error)) return NULL;
+    ovoid_shape *shape = ovoid_shape_read(file.data, file.size, options ? options->allocator : NULL, error);
+    free(file.data);
+    if (!shape) io_prefix_path(error, path);
+    return shape;
+}
+
+static ovoid_shape *hull_of_part(const ovoid_mesh *mesh, size_t i, const ovoid_shape_options *options, const char *path,
+                                 ovoid_error *error) {
+    ovoid_faces faces = ovoid_mesh_get_part(mesh, i).faces;
+    ovoid_shape *shape = ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, options, error);
+    if (!shape) io_prefix_path(error, path);
+    return shape;
+}
+
+ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
+                                   ovoid_error *error) {
+    if (ovoid_path_is_shape(path)) return read_shape_bytes(path, read, options, error);
+    ovoid_read_options whole = {.scale = 0};
+    if (read) whole = *read;
+    whole.parts = 0;
+    ovoid_mesh *mesh = ovoid_mesh_read(path, &whole, error);
+    if (!mesh) return NULL;
+    ovoid_shape *shape = hull_of_part(mesh, 0, options, path, error);
+    ovoid_mesh_destroy(mesh);
+    return shape;
+}
+
+ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ovoid_error *error) {
+    size_t size = ovoid_shape_write(shape, NULL, 0);
+    void *buffer = malloc(size);
+    if (!buffer) return io_fail_memory(error, path);
+    ovoid_shape_write(shape, buffer, size);
+    ovoid_output *output = ovoid_output_create(path, error);
+    ovoid_code code = output ? OVOID_OK : OVOID_ERROR_FILE;
+    if (output) {
+        (void)fwrite(buffer, 1, size, ovoid_output_get_file(output)); // ovoid_output_commit checks ferror
+        code = ovoid_output_commit(output, error);
+    }
+    ovoid_output_destroy(output);
+    free(buffer);
+    return code;
+}
+
+// ---- lists
+
+/// A shape and its name; some entries share the shape of an earlier one.
+typedef struct shape_entry {
+    char *name;
+    ovoid_shape *shape;
+    uint64_t hash; ///< of the name
+    int is_shared;
+} shape_entry;
+
+struct ovoid_shapes {
+    shape_entry *entries;
+    size_t count, capacity;
+};
+
+void ovoid_shapes_destroy(ovoid_shapes *shapes) {
+    if (!shapes) return;
+    for (size_t i = 0; i < shapes->count; i++) {
+        free(shapes->entries[i].name);
+        if (!shapes->entries[i].is_shared) ovoid_shape_destroy(shapes->entries[i].shape);
+    }
+    free(shapes->entries);
+    free(shapes);
+}
+
+size_t ovoid_shapes_get_count(const ovoid_shapes *shapes) { return shapes->count; }
+
+ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i) {
+    return (ovoid_named_shape){shapes->entries[i].name, shapes->entries[i].shape};
+}
+
+/// Shapes under construction, and how their files are read.
+typedef struct shapes_reader {
+    ovoid_shapes *shapes;
+    const ovoid_read_options *read;     ///< may be NULL
+    const ovoid_shape_options *options; ///< may be NULL
+    ovoid_error *error;                 ///< may be NULL
+} shapes_reader;
+
+// Adds an entry that owns the shape and copies the name. The shape is destroyed where there is no memory.
+static ovoid_code add_entry(shapes_reader *r, const char *name, ovoid_shape *shape, int is_shared) {
+    ovoid_shapes *shapes = r->shapes;
+    char *copy = text_copy(name, strlen(name));
+    if (!copy || !array_reserve((void **)&shapes->entries, &shapes->capacity, shapes->count, sizeof(shape_entry))) {
+        free(copy);
+        if (!is_shared) ovoid_shape_destroy(shape);
+        return io_fail_memory(r->error, name);
+    }
+    shapes->entries[shapes->count++] = (shape_entry){copy, shape, text_hash(name), is_shared};
+    return OVOID_OK;
+}
+
+static ovoid_code add_parts(shapes_reader *r, const ovoid_mesh *mesh, const char *path) {
+    for (size_t i = 0; i < ovoid_mesh_get_part_count(mesh); i++) {
+        char number[40];
+        snprintf(number, sizeof number, "part %zu", i);
+        const char *name = ovoid_mesh_get_part(mesh, i).name;
+        ovoid_shape *shape = hull_of_part(mesh, i, r->options, path, r->error);
+        ovoid_code code = OVOID_ERROR_HULL;
+        if (shape) code = add_entry(r, name[0] ? name : number, shape, 0);
+        if (code) return code;
+    }
+    return OVOID_OK;
+}
+
+static ovoid_code fill_from_file(shapes_reader *r, const char *path) {
+    if (!r->read || !r->read->parts || ovoid_path_is_shape(path)) {
+        ovoid_shape *shape = ovoid_shape_read_file(path, r->read, r->options, r->error);
+        return shape ? add_entry(r, path, shape, 0) : OVOID_ERROR_FILE;
+    }
+    ovoid_mesh *mesh = ovoid_mesh_read(path, r->read, r->error);
+    if (!mesh) return OVOID_ERROR_FILE;
+    ovoid_code code = add_parts(r, mesh, path);
+    ovoid_mesh_destroy(mesh);
+    return code;
+}
+
+ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_read_options *read,
+                                     const ovoid_shape_options *options, ovoid_error *error) {
+    ovoid_shapes *shapes = calloc(1, sizeof *shapes);
+    if (!shapes) {
+        io_fail_memory(error, path);
+        return NULL;
+    }
+    if (!fill_from_file(&(shapes_reader){shapes, read, options, error}, path)) return shapes;
+    ovoid_shapes_destroy(shapes);
+    return NULL;
+}
+
+ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes, const ovoid_allocator *allocator,
+                                             ovoid_error *error) {
+    ovoid_posed_shape *parts = malloc((shapes->count + 1) * sizeof *parts);
+    if (!parts) {
+        io_fail_memory(error, shapes->count ? shapes->entries[0].name : "compound");
+        return NULL;
+    }
+    for (size_t i = 0; i < shapes->count; i++)
+        parts[i] = (ovoid_posed_shape){shapes->entries[i].shape, ovoid_pose_make_identity()};
+    ovoid_compound *compound = ovoid_compound_create(parts, shapes->count, allocator, error);
+    free(parts);
+    return compound;
+}
+
+// ---- LIST files
+
+// The shape of a line: read, or shared with the first line of the same path.
+static ovoid_code add_line(shapes_reader *r, const char *path) {
+    const ovoid_shapes *shapes = r->shapes;
+    uint64_t hash = text_hash(path);
+    for (size_t i = 0; i < shapes->count; i++)
+        if (shapes->entries[i].hash == hash && strcmp(shapes->entries[i].name, path) == 0)
+            return add_entry(r, path, shapes->entries[i].shape, 1);
+    ovoid_shape *shape = ovoid_shape_read_file(path, r->read, r->options, r->error);
+    return shape ? add_entry(r, path, shape, 0) : OVOID_ERROR_FILE;
+}
+
+// Puts the list's path and line before the error of a file that cannot be opened.
+static ovoid_code name_line(const char *list, int64_t line, ovoid_error *error) {
+    if (!error || error->code != OVOID_ERROR_FILE) return OVOID_ERROR_FILE;
+    ovoid_error inner = *error;
+    return io_fail(error, inner.code, (where){list, line, -1}, "%s", inner.message);
+}
+
+static ovoid_code fill_from_list(shapes_reader *r, const char *list, bytes file) {
+    ovoid_error *error = r->error;
+    cursor c = {file.data, file.data + file.size, 1};
+    for (; skip_to_text(&c, '#'); skip_line(&c)) {
+        // The line without the blanks at its ends.
+        const char *begin = c.at;
+        while (!is_line_end(&c)) c.at++;
+        const char *end = c.at;
+        while (is_blank(end[-1])) end--;
+        if (memchr(begin, 0, (size_t)(end - begin)))
+            return io_fail(error, OVOID_ERROR_FORMAT, (where){list, c.line, -1}, "the path holds a zero byte");
+        char *name = text_copy(begin, (size_t)(end - begin));
+        char *path = name ? path_join(list, name) : NULL;
+        ovoid_code code = path ? add_line(r, path) : io_fail_memory(error, list);
+        free(name);
+        free(path);
+        if (code) return name_line(list, c.line, error);
+    }
+    if (!r->shapes->count) return io_fail(error, OVOID_ERROR_EMPTY, (where){list, 0, -1}, "the list names no files");
+    return OVOID_OK;
+}
+
+ovoid_shapes *ovoid_shapes_read_list(const char *path, const ovoid_read_options *read,
+                                     const ovoid_shape_options *options, ovoid_error *error) {
+    bytes file;
+    if (bytes_read(path, &file, error)) return NULL;
+    ovoid_shapes *shapes = calloc(1, sizeof *shapes);
+    shapes_reader r = {shapes, read, options, error};
+    ovoid_code code = shapes ? fill_from_list(&r, path, file) : io_fail_memory(error, path);
+    free(file.data);
+    if (!code) return shapes;
+    ovoid_shapes_destroy(shapes);
+    return NULL;
+}

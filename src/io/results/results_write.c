@@ -1,0 +1,284 @@
+// Results: JSON lines and CSV for programs. One record is one line; with the shapes and poses it is enough to check the
+// answer again. Numbers have 17 digits, so that they are read as the same doubles.
+#include "io/json.h"
+
+#include <math.h>
+#include <string.h>
+
+static ovoid_code stream_code(FILE *file) { return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK; }
+
+// ---- the proof, in JSON; q is the quote: "\"", or doubled inside a field of CSV
+
+static void write_key(FILE *file, const char *q, const char *comma, const char *key) {
+    fprintf(file, "%s%s%s%s:", comma, q, key, q);
+}
+
+static void write_vector(FILE *file, ovoid_vec3 v) {
+    const double xyz[3] = {v.x, v.y, v.z};
+    for (int k = 0; k < 3; k++) {
+        fputc(k ? ',' : '[', file);
+        json_write_number(file, xyz[k]);
+    }
+    fputc(']', file);
+}
+
+static void write_indices(FILE *file, const uint32_t *indices, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) fprintf(file, "%c%lu", i ? ',' : '[', (unsigned long)indices[i]);
+    fputs(count ? "]" : "[]", file);
+}
+
+static void write_weights(FILE *file, const double *weights, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        fputc(i ? ',' : '[', file);
+        json_write_number(file, weights[i]);
+    }
+    fputs(count ? "]" : "[]", file);
+}
+
+static void write_cover(FILE *file, const char *q, const ovoid_cover *cover) {
+    write_key(file, q, ",", "cover");
+    write_key(file, q, "{", "pairs");
+    for (uint32_t i = 0; i < cover->point_count; i++)
+        fprintf(file, "%s[%lu,%lu]", i ? "," : "[", (unsigned long)cover->a[i], (unsigned long)cover->b[i]);
+    write_key(file, q, "],", "triangles");
+    for (uint32_t i = 0; i < cover->triangle_count; i++) {
+        const uint16_t *t = cover->triangles[i];
+        fprintf(file, "%s[%u,%u,%u]", i ? "," : "[", (unsigned)t[0], (unsigned)t[1], (unsigned)t[2]);
+    }
+    fputs(cover->triangle_count ? "]}" : "[]}", file);
+}
+
+static void write_range(FILE *file, const char *q, const char *comma, const char *key, uint32_t first, uint32_t end) {
+    write_key(file, q, comma, key);
+    fprintf(file, "[%lu,%lu]", (unsigned long)first, (unsigned long)end);
+}
+
+static int is_zero(ovoid_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+static void write_exclusions(FILE *file, const char *q, const ovoid_record *record) {
+    write_key(file, q, ",", "exclusions");
+    for (size_t i = 0; i < record->exclusion_count; i++) {
+        const ovoid_exclusion *x = &record->exclusions[i];
+        fputc(i ? ',' : '[', file);
+        write_range(file, q, "{", "a", x->first_a, x->end_a);
+        write_range(file, q, ",", "b", x->first_b, x->end_b);
+        write_key(file, q, ",", "normal");
+        write_vector(file, x->normal);
+        if (!is_zero(x->normal_low)) {
+            write_key(file, q, ",", "normal_low");
+            write_vector(file, x->normal_low);
+        }
+        write_key(file, q, ",", "lower");
+        json_write_number(file, x->lower);
+        fputc('}', file);
+    }
+    fputc(']', file);
+}
+
+static void write_steps(FILE *file, const char *q, const ovoid_record *record) {
+    write_key(file, q, ",", "steps");
+    for (size_t i = 0; i < record->step_count; i++) {
+        fputc(i ? ',' : '[', file);
+        write_key(file, q, "{", "until");
+        json_write_number(file, record->steps[i].until);
+        write_key(file, q, ",", "normal");
+        write_vector(file, record->steps[i].normal);
+        if (record->steps[i].frame != OVOID_STEP_WORLD) {
+            write_key(file, q, ",", "frame");
+            fprintf(file, "%s%s%s", q, record->steps[i].frame == OVOID_STEP_A ? "a" : "b", q);
+        }
+        fputc('}', file);
+    }
+    fputc(']', file);
+}
+
+static void write_groups(FILE *file, const char *q, const ovoid_record *record) {
+    write_key(file, q, ",", "groups");
+    for (size_t i = 0; i < record->group_count; i++) {
+        const ovoid_step_group *g = &record->groups[i];
+        fputc(i ? ',' : '[', file);
+        write_range(file, q, "{", "a", g->first_a, g->end_a);
+        write_range(file, q, ",", "b", g->first_b, g->end_b);
+        write_key(file, q, ",", "count");
+        fprintf(file, "%zu}", g->count);
+    }
+    fputc(']', file);
+}
+
+static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
+    const ovoid_proof *proof = &record->answer.proof;
+    write_key(file, q, "{", "normal");
+    write_vector(file, proof->normal);
+    if (!is_zero(proof->normal_low)) {
+        write_key(file, q, ",", "normal_low");
+        write_vector(file, proof->normal_low);
+    }
+    write_key(file, q, ",", "kind");
+    fprintf(file, "%s%s%s", q, ovoid_proof_kind_get_name(proof->kind), q);
+    if (proof->count) {
+        write_key(file, q, ",", "a");
+        write_indices(file, proof->a, proof->count);
+        write_key(file, q, ",", "b");
+        write_indices(file, proof->b, proof->count);
+        write_key(file, q, ",", "weight_a");
+        write_weights(file, proof->weight_a, proof->count);
+        write_key(file, q, ",", "weight_b");
+        write_weights(file, proof->weight_b, proof->count);
+    }
+    if (proof->kind == OVOID_PROOF_INNER || proof->kind == OVOID_PROOF_INNER_POINTS) {
+        write_key(file, q, ",", "inner_a");
+        write_vector(file, proof->inner_a);
+    }
+    if (proof->kind == OVOID_PROOF_INNER_POINTS) {
+        write_key(file, q, ",", "inner_b");
+        write_vector(file, proof->inner_b);
+    }
+    if (record->cover && record->cover->point_count) write_cover(file, q, record->cover);
+    if (record->exclusion_count) write_exclusions(file, q, record);
+    if (record->step_count) write_steps(file, q, record);
+    if (record->group_count) write_groups(file, q, record);
+    fputc('}', file);
+}
+
+// "separated", or "undecided: iterations".
+static void write_status(FILE *file, const ovoid_answer *answer) {
+    fputs(ovoid_status_get_name(answer->status), file);
+    if (answer->status == OVOID_UNDECIDED) fprintf(file, ": %s", ovoid_limit_get_name(answer->limit));
+}
+
+// ---- JSON lines
+
+static void write_body(FILE *file, const char *name, size_t index) {
+    if (name)
+        json_write_text(file, name);
+    else
+        fprintf(file, "%zu", index);
+}
+
+static void write_part(FILE *file, const char *key, const ovoid_record *record, uint32_t part) {
+    if (!(record->fields & OVOID_RECORD_PARTS) || part == OVOID_RECORD_NO_PART) return;
+    write_key(file, "\"", ",", key);
+    fprintf(file, "%lu", (unsigned long)part);
+}
+
+// 1 for a record of an impact, 0 for one of a frame.
+static int is_impact(const ovoid_record *record) {
+    return record->fields & OVOID_RECORD_IMPACT && !isnan(record->frame);
+}
+
+// Writes the keys of a motion; returns the separator before the next key.
+static const char *write_times(FILE *file, const ovoid_record *record) {
+    static const char *const keys[] = {"time", "frame", "margin", "free_for", "hit_after"};
+    const double values[] = {record->time, record->frame, record->margin, record->free_for, record->hit_after};
+    int count = is_impact(record) ? 5 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
+    for (int i = 0; i < count; i++) {
+        write_key(file, "\"", i ? "," : "{", keys[i]);
+        json_write_number(file, values[i]);
+    }
+    return count ? "," : "{";
+}
+
+ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
+    const ovoid_answer *answer = &record->answer;
+    const char *q = "\"";
+    write_key(file, q, write_times(file, record), "a");
+    write_body(file, record->a, record->index_a);
+    write_part(file, "part_a", record, record->part_a);
+    write_key(file, q, ",", "b");
+    write_body(file, record->b, record->index_b);
+    write_part(file, "part_b", record, record->part_b);
+    write_key(file, q, ",", "status");
+    fputs(q, file);
+    write_status(file, answer);
+    fputs(q, file);
+    write_key(file, q, ",", "lower");
+    json_write_number(file, answer->lower);
+    write_key(file, q, ",", "upper");
+    json_write_number(file, answer->upper);
+    write_key(file, q, ",", "point_a");
+    write_vector(file, answer->point_a);
+    write_key(file, q, ",", "point_b");
+    write_vector(file, answer->point_b);
+    write_key(file, q, ",", "normal");
+    write_vector(file, answer->normal);
+    write_key(file, q, ",", "stage");
+    fprintf(file, "%s%s%s", q, ovoid_stage_get_name(answer->stage), q);
+    write_key(file, q, ",", "iterations");
+    fprintf(file, "%lu", (unsigned long)answer->iterations);
+    write_key(file, q, ",", "proof");
+    write_proof(file, q, record);
+    fputs("}\n", file);
+    return stream_code(file);
+}
+
+// ---- CSV (RFC 4180, with "\n" line ends)
+
+ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields) {
+    if (fields & OVOID_RECORD_TIME) fputs("time,", file);
+    if (fields & OVOID_RECORD_IMPACT) fputs("frame,margin,free_for,hit_after,", file);
+    fputs(fields & OVOID_RECORD_PARTS ? "a,part_a,b,part_b," : "a,b,", file);
+    fputs("status,lower,upper,point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,normal_x,normal_y,"
+          "normal_z,stage,iterations,proof\n",
+          file);
+    return stream_code(file);
+}
+
+// Writes a name, in quotes where it needs them.
+static void write_csv_body(FILE *file, const char *name, size_t index) {
+    if (!name) {
+        fprintf(file, "%zu", index);
+        return;
+    }
+    if (!name[strcspn(name, ",\"\r\n")]) {
+        fputs(name, file);
+        return;
+    }
+    fputc('"', file);
+    for (; *name; name++) {
+        if (*name == '"') fputc('"', file);
+        fputc(*name, file);
+    }
+    fputc('"', file);
+}
+
+static void write_csv_number(FILE *file, double value) {
+    char digits[32];
+    fwrite(digits, 1, number_write(digits, value, 17), file);
+}
+
+static void write_csv_part(FILE *file, const ovoid_record *record, uint32_t part) {
+    fputc(',', file);
+    if (!(record->fields & OVOID_RECORD_PARTS)) return;
+    if (part != OVOID_RECORD_NO_PART) fprintf(file, "%lu", (unsigned long)part);
+    fputc(',', file);
+}
+
+// Writes the columns of a motion; those of an impact are empty in the line of a frame.
+static void write_csv_times(FILE *file, const ovoid_record *record) {
+    const double values[] = {record->time, record->frame, record->margin, record->free_for, record->hit_after};
+    int count = record->fields & OVOID_RECORD_IMPACT ? 5 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
+    for (int i = 0; i < count; i++) {
+        if (!i || is_impact(record)) write_csv_number(file, values[i]);
+        fputc(',', file);
+    }
+}
+
+ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record) {
+    const ovoid_answer *answer = &record->answer;
+    write_csv_times(file, record);
+    write_csv_body(file, record->a, record->index_a);
+    write_csv_part(file, record, record->part_a);
+    write_csv_body(file, record->b, record->index_b);
+    write_csv_part(file, record, record->part_b);
+    write_status(file, answer);
+    const ovoid_vec3 a = answer->point_a, b = answer->point_b, n = answer->normal;
+    const double numbers[] = {answer->lower, answer->upper, a.x, a.y, a.z, b.x, b.y, b.z, n.x, n.y, n.z};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        fputc(',', file);
+        write_csv_number(file, numbers[i]);
+    }
+    fprintf(file, ",%s,%lu,\"", ovoid_stage_get_name(answer->stage), (unsigned long)answer->iterations);
+    write_proof(file, "\"\"", record);
+    fputs("\"\n", file);
+    return stream_code(file);
+}

@@ -1,0 +1,125 @@
+// Results as a table for people: aligned columns, nine digits. Two passes over the records: widths, then lines.
+#include "io/text.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TIME, A, B, STATUS, LOWER, UPPER, STAGE, STEPS, NOTE, COLUMNS };
+enum { CELL = 96 };
+
+/// One line of the table; texts are cut where they are longer than a cell.
+typedef struct table_row {
+    char cell[COLUMNS][CELL];
+} table_row;
+
+// Sets a cell; a name from a file must not end the line or control the terminal.
+static void set_cell(char cell[CELL], const char *text) {
+    size_t n = 0;
+    for (; text[n] && n < CELL - 1; n++) {
+        unsigned char c = (unsigned char)text[n];
+        cell[n] = c < 0x20 || c == 0x7f ? '?' : text[n];
+    }
+    // No character of several bytes is cut in half.
+    if (text[n])
+        while (n > 0 && ((unsigned char)text[n] & 0xc0) == 0x80) n--;
+    cell[n] = 0;
+}
+
+static void set_number(char cell[CELL], double value) { number_write(cell, value, 9); }
+
+static void set_body(char cell[CELL], const char *name, size_t index, uint32_t part) {
+    if (name)
+        set_cell(cell, name);
+    else
+        snprintf(cell, CELL, "%zu", index);
+    // A compound's part follows its name, which is cut to make room.
+    char number[16];
+    if (part == OVOID_RECORD_NO_PART) return;
+    int width = snprintf(number, sizeof number, "[%lu]", (unsigned long)part);
+    size_t end = strlen(cell);
+    if (end + (size_t)width >= CELL) {
+        end = CELL - 1 - (size_t)width;
+        while (end > 0 && ((unsigned char)cell[end] & 0xc0) == 0x80) end--;
+    }
+    memcpy(cell + end, number, (size_t)width + 1);
+}
+
+// The word for a proof about the margin; empty where there is none.
+static const char *name_within(const ovoid_answer *answer, double margin) {
+    if (!(margin >= 0)) return "";
+    int within = ovoid_answer_is_within(answer, margin);
+    return within > 0 ? "within" : within == 0 ? "" : "not proven";
+}
+
+static const char *name_note(const ovoid_record *record, double margin) {
+    int is_impact = record->fields & OVOID_RECORD_IMPACT && !isnan(record->frame);
+    return is_impact ? "impact" : name_within(&record->answer, margin);
+}
+
+static table_row make_row(const ovoid_record *record, double margin) {
+    const ovoid_answer *answer = &record->answer;
+    table_row row;
+    int has_parts = (record->fields & OVOID_RECORD_PARTS) != 0;
+    row.cell[TIME][0] = 0;
+    if (record->fields & OVOID_RECORD_TIME) set_number(row.cell[TIME], record->time);
+    set_body(row.cell[A], record->a, record->index_a, has_parts ? record->part_a : OVOID_RECORD_NO_PART);
+    set_body(row.cell[B], record->b, record->index_b, has_parts ? record->part_b : OVOID_RECORD_NO_PART);
+    set_cell(row.cell[STATUS], ovoid_status_get_name(answer->status));
+    if (answer->status == OVOID_UNDECIDED)
+        snprintf(row.cell[STATUS], CELL, "%s: %s", ovoid_status_get_name(answer->status),
+                 ovoid_limit_get_name(answer->limit));
+    set_number(row.cell[LOWER], answer->lower);
+    set_number(row.cell[UPPER], answer->upper);
+    set_cell(row.cell[STAGE], ovoid_stage_get_name(answer->stage));
+    snprintf(row.cell[STEPS], CELL, "%lu", (unsigned long)answer->iterations);
+    set_cell(row.cell[NOTE], name_note(record, margin));
+    return row;
+}
+
+static const table_row head = {{"time", "a", "b", "status", "lower", "upper", "stage", "steps", ""}};
+
+// The number of characters of a UTF-8 text.
+static int text_width(const char *text) {
+    int width = 0;
+    for (; *text; text++) width += ((unsigned char)*text & 0xc0) != 0x80;
+    return width;
+}
+
+static void widen(int widths[COLUMNS], const table_row *row) {
+    for (int i = 0; i < COLUMNS; i++) {
+        int width = text_width(row->cell[i]);
+        if (width > widths[i]) widths[i] = width;
+    }
+}
+
+// Writes a row from the column `first` on: TIME where there are times, else A.
+static void write_row(FILE *file, const int widths[COLUMNS], int first, const table_row *row) {
+    int last = NOTE;
+    while (last > first && !row->cell[last][0]) last--;
+    for (int i = first; i <= last; i++) {
+        int is_number = i == TIME || i == LOWER || i == UPPER || i == STEPS;
+        int blanks = widths[i] - text_width(row->cell[i]);
+        if (i > first) fputs("  ", file);
+        // No blanks at the line's end.
+        if (is_number)
+            fprintf(file, "%*s%s", blanks, "", row->cell[i]);
+        else
+            fprintf(file, "%s%*s", row->cell[i], i < last ? blanks : 0, "");
+    }
+    fputc('\n', file);
+}
+
+ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, double margin) {
+    int widths[COLUMNS] = {0}, first = count && records[0].fields & OVOID_RECORD_TIME ? TIME : A;
+    widen(widths, &head);
+    for (size_t i = 0; i < count; i++) {
+        table_row row = make_row(&records[i], margin);
+        widen(widths, &row);
+    }
+    write_row(file, widths, first, &head);
+    for (size_t i = 0; i < count; i++) {
+        table_row row = make_row(&records[i], margin);
+        write_row(file, widths, first, &row);
+    }
+    return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK;
+}

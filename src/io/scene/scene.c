@@ -1,0 +1,202 @@
+// Scenes: JSON of named bodies with poses, and pairs to ignore. Strict: anything unknown is refused with its line, so
+// that no misspelt key is silently without effect. docs/scene.md describes the format. Cost: linear in the file, plus
+// the shapes; n log n for the names.
+#include "io/scene/scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// ---- failing
+
+static ovoid_code read_object(scene_reader *r, json_t *object) {
+    static const char *const words[] = {"name",   "pose",    "radius",   "scale", "unit",   "mesh",     "box", "parts",
+                                        "sphere", "capsule", "cylinder", "cone",  "points", "compound", NULL};
+    scene_entry *entry = &r->scene->entries[r->index];
+    r->name = NULL;
+    if (!json_is_object(object)) return scene_fail(r, OVOID_ERROR_FORMAT, NULL, "must be a JSON object");
+    const char *name = json_string_value(json_object_get(object, "name")), *unknown;
+    if (!name || !name[0]) return scene_fail_member(r, OVOID_ERROR_FORMAT, "name", "must be a text that is not empty");
+    r->name = entry->name = text_copy(name, strlen(name));
+    if (!entry->name) return io_fail_memory(r->error, r->path);
+    if (!scene_has_only(object, words, &unknown))
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, unknown, "is not a key of objects");
+    ovoid_code code = scene_read_pose(r, json_object_get(object, "pose"), &entry->pose);
+    return code ? code : scene_read_body(r, object, &entry->body);
+}
+
+/// A name and its object, for sorting.
+typedef struct name_index {
+    const char *name;
+    size_t index;
+} name_index;
+
+static int compare_names(const void *a, const void *b) {
+    const name_index *m = a, *n = b;
+    int order = strcmp(m->name, n->name);
+    return order ? order : (m->index > n->index) - (m->index < n->index);
+}
+
+// Sorts the names; no two may be equal.
+static ovoid_code sort_names(scene_reader *r) {
+    ovoid_scene *scene = r->scene;
+    name_index *names = malloc((scene->count + 1) * sizeof *names);
+    scene->by_name = malloc((scene->count + 1) * sizeof *scene->by_name);
+    ovoid_code code = names && scene->by_name ? OVOID_OK : io_fail_memory(r->error, r->path);
+    if (!code) {
+        for (size_t i = 0; i < scene->count; i++) names[i] = (name_index){scene->entries[i].name, i};
+        qsort(names, scene->count, sizeof *names, compare_names);
+        for (size_t i = 0; i < scene->count; i++) scene->by_name[i] = names[i].index;
+    }
+    for (size_t i = 1; i < scene->count && !code; i++) {
+        if (strcmp(names[i - 1].name, names[i].name) != 0) continue;
+        r->index = names[i].index;
+        r->name = names[i].name;
+        code = scene_fail_member(r, OVOID_ERROR_FORMAT, "name", "is that of an earlier object too");
+    }
+    free(names);
+    return code;
+}
+
+static ovoid_code read_objects(scene_reader *r, const json_t *objects) {
+    where at = {r->path, 0, -1};
+    if (!json_is_array(objects))
+        return io_fail(r->error, OVOID_ERROR_FORMAT, at, "the scene needs \"objects\", a list");
+    size_t count = json_array_size(objects);
+    if (!count) return io_fail(r->error, OVOID_ERROR_EMPTY, at, "the scene has no objects");
+    if (count > UINT32_MAX) return io_fail(r->error, OVOID_ERROR_LIMIT, at, "too many objects");
+    r->scene->entries = calloc(count, sizeof *r->scene->entries);
+    if (!r->scene->entries) return io_fail_memory(r->error, r->path);
+    for (r->index = 0; r->index < count; r->index++) {
+        r->scene->count = r->index + 1;
+        ovoid_code code = read_object(r, json_array_get(objects, r->index));
+        if (code) return code;
+    }
+    return sort_names(r);
+}
+
+// ---- pairs to ignore
+
+static uint64_t pair_key(size_t a, size_t b) { return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a; }
+
+static int compare_keys(const void *a, const void *b) {
+    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+// Fails with "path:line: ignore: sentence", and the line of the pair.
+static ovoid_code fail_ignored(scene_reader *r, size_t i, const char *sentence) {
+    const json_step steps[] = {{"ignore", 0}, {NULL, i}};
+    where at = {r->path, json_find_line(r->file, steps, 2), -1};
+    return io_fail(r->error, OVOID_ERROR_FORMAT, at, "ignore: %s", sentence);
+}
+
+static ovoid_code read_ignored_pair(scene_reader *r, const json_t *pair, size_t i) {
+    size_t found[2];
+    const char *name[2] = {json_string_value(json_array_get(pair, 0)), json_string_value(json_array_get(pair, 1))};
+    if (json_array_size(pair) != 2 || !name[0] || !name[1]) return fail_ignored(r, i, "a pair must be two names");
+    for (size_t k = 0; k < 2; k++) {
+        found[k] = ovoid_scene_find(r->scene, name[k]);
+        char sentence[120];
+        snprintf(sentence, sizeof sentence, "there is no object \"%.60s\"", name[k]);
+        if (found[k] == (size_t)-1) return fail_ignored(r, i, sentence);
+    }
+    if (found[0] == found[1]) return fail_ignored(r, i, "the pair names one object twice");
+    r->scene->ignored[r->scene->ignored_count++] = pair_key(found[0], found[1]);
+    return OVOID_OK;
+}
+
+static ovoid_code read_ignored(scene_reader *r, const json_t *ignore) {
+    if (!ignore) return OVOID_OK;
+    const json_step steps[] = {{"ignore", 0}};
+    where at = {r->path, json_find_line(r->file, steps, 1), -1};
+    if (!json_is_array(ignore)) return io_fail(r->error, OVOID_ERROR_FORMAT, at, "\"ignore\" must be a list of pairs");
+    size_t count = json_array_size(ignore);
+    r->scene->ignored = malloc((count + 1) * sizeof *r->scene->ignored);
+    if (!r->scene->ignored) return io_fail_memory(r->error, r->path);
+    for (size_t i = 0; i < count; i++) {
+        ovoid_code code = read_ignored_pair(r, json_array_get(ignore, i), i);
+        if (code) return code;
+    }
+    qsort(r->scene->ignored, count, sizeof *r->scene->ignored, compare_keys);
+    return OVOID_OK;
+}
+
+// ---- the scene
+
+static ovoid_code read_root(scene_reader *r, json_t *root) {
+    static const char *const words[] = {"objects", "ignore", NULL};
+    const char *unknown = "";
+    if (!json_is_object(root))
+        return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, 1, -1}, "a scene must be a JSON object");
+    if (!scene_has_only(root, words, &unknown)) {
+        const json_step step = {unknown, 0};
+        where at = {r->path, json_find_line(r->file, &step, 1), -1};
+        return io_fail(r->error, OVOID_ERROR_FORMAT, at, "\"%.60s\" is not a key of scenes", unknown);
+    }
+    ovoid_code code = read_objects(r, json_object_get(root, "objects"));
+    return code ? code : read_ignored(r, json_object_get(root, "ignore"));
+}
+
+static ovoid_code read_scene(scene_reader *r) {
+    if (r->options && r->options->radius != 0)
+        return io_fail(r->error, OVOID_ERROR_ARGUMENT, (where){r->path, 0, -1},
+                       "a scene gives the radius of each object itself");
+    json_error_t why;
+    json_t *root = json_loadb(r->file.data, r->file.size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
+    if (!root && json_is_memory_error(&why)) return io_fail_memory(r->error, r->path);
+    if (!root) return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, why.line, -1}, "JSON: %s", why.text);
+    ovoid_code code = read_root(r, root);
+    json_decref(root);
+    return code;
+}
+
+ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error) {
+    scene_reader r = {.path = path, .options = options, .error = error, .part = NO_PART};
+    if (bytes_read_at_most(path, OVOID_SCENE_SIZE_MAX, &r.file, error)) return NULL;
+    r.scene = calloc(1, sizeof *r.scene);
+    ovoid_code code = r.scene ? read_scene(&r) : io_fail_memory(error, path);
+    free(r.file.data);
+    free(r.slots);
+    if (!code) return r.scene;
+    ovoid_scene_destroy(r.scene);
+    return NULL;
+}
+
+void ovoid_scene_destroy(ovoid_scene *scene) {
+    if (!scene) return;
+    for (size_t i = 0; i < scene->count; i++) free(scene->entries[i].name);
+    // A compound may have parts of earlier bodies, so bodies are destroyed from the last to the first.
+    for (size_t i = scene->body_count; i-- > 0;) scene_body_clear(&scene->bodies[i]);
+    free(scene->bodies);
+    free(scene->entries);
+    free(scene->by_name);
+    free(scene->ignored);
+    free(scene);
+}
+
+size_t ovoid_scene_get_count(const ovoid_scene *scene) { return scene->count; }
+
+ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i) {
+    const scene_entry *entry = &scene->entries[i];
+    const scene_body *body = &scene->bodies[entry->body];
+    return (ovoid_scene_object){entry->name, body->shape, body->compound, entry->pose};
+}
+
+size_t ovoid_scene_find(const ovoid_scene *scene, const char *name) {
+    size_t low = 0, high = scene->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        int order = strcmp(scene->entries[scene->by_name[middle]].name, name);
+        if (order == 0) return scene->by_name[middle];
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return (size_t)-1;
+}
+
+int ovoid_scene_is_ignored(const ovoid_scene *scene, size_t a, size_t b) {
+    uint64_t key = pair_key(a, b);
+    return scene->ignored_count && bsearch(&key, scene->ignored, scene->ignored_count, sizeof key, compare_keys);
+}

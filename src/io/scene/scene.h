@@ -1,0 +1,66 @@
+// Shared by the files of the scene reader: scene.c reads objects, poses and pairs to ignore, scene_bodies.c their
+// geometry, scene_values.c single values.
+#ifndef OVOID_IO_SCENE_SCENE_H
+#define OVOID_IO_SCENE_SCENE_H
+
+#include "io/json.h"
+
+/// A shape or a compound, shared by all objects of equal geometry.
+typedef struct scene_body {
+    uint64_t hash; ///< of the key
+    char *key;     ///< a text of all that the body is made from
+    ovoid_shape *shape;
+    ovoid_compound *compound;
+    ovoid_shapes *parts; ///< of a compound that comes from a mesh; others have parts that are bodies of the scene
+} scene_body;
+
+typedef struct scene_entry {
+    char *name;
+    ovoid_pose pose;
+    size_t body;
+} scene_entry;
+
+struct ovoid_scene {
+    scene_entry *entries;
+    size_t count;
+    size_t *by_name; ///< entries in the order of their names
+    scene_body *bodies;
+    size_t body_count, body_capacity;
+    uint64_t *ignored; ///< pairs as (smaller << 32 | larger), ascending
+    size_t ignored_count;
+};
+
+enum { NO_PART = -1 };
+
+/// The state of reading.
+typedef struct scene_reader {
+    const char *path;
+    bytes file;
+    ovoid_scene *scene;
+    const ovoid_shape_options *options;
+    ovoid_error *error;
+    size_t index;     ///< the present object
+    const char *name; ///< its name; NULL until it is read
+    long part;        ///< of the object's "compound", or NO_PART
+    size_t *slots;    ///< bodies by their hash, as index + 1; a power of two of them
+    size_t slot_count;
+} scene_reader;
+
+/// Fails with "path:line: object "name": sentence", and the line of the object's member `key`, or of the object itself
+/// (NULL).
+ovoid_code scene_fail(scene_reader *r, ovoid_code code, const char *key, const char *sentence);
+/// Fails with "key" what, for a member that is not what it must be.
+ovoid_code scene_fail_member(scene_reader *r, ovoid_code code, const char *key, const char *what);
+
+/// Reads exactly `count` finite numbers; 0 where the value is something else.
+int scene_read_numbers(const json_t *value, double *numbers, size_t count);
+/// 1 if every key of the object is among the words (a list that ends with NULL); else *unknown is the first other one.
+int scene_has_only(json_t *object, const char *const *words, const char **unknown);
+/// Reads the pose of an object or of a part; value NULL: none is given.
+ovoid_code scene_read_pose(scene_reader *r, json_t *value, ovoid_pose *pose);
+
+/// The body of an object, by its geometry and the members beside it: made, or found where an equal one exists.
+ovoid_code scene_read_body(scene_reader *r, json_t *object, size_t *body);
+void scene_body_clear(scene_body *body);
+
+#endif

@@ -1,0 +1,354 @@
+// The geometry of a scene's objects: shapes and compounds. Equal geometries are made once and shared: they are found by
+// a text of all that they are made from, through a hash table. Cost: linear in the file, plus the shapes.
+#include "io/scene/scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Reads the number >= 0 of a key, or the fallback where the key is absent; with a negative fallback the key is
+// required.
+static ovoid_code read_size(scene_reader *r, const json_t *object, const char *kind, const char *key, double fallback,
+                            double *value) {
+    const json_t *item = json_object_get(object, key);
+    *value = fallback;
+    if (!item && fallback >= 0) return OVOID_OK;
+    char what[80];
+    snprintf(what, sizeof what, "needs \"%s\", a number >= 0", key);
+    if (!json_is_number(item) || !(json_number_value(item) >= 0))
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, kind, what);
+    *value = json_number_value(item);
+    return OVOID_OK;
+}
+
+// ---- shapes
+
+/// The geometry of an object: its kind, its value, the rounding radius and scale beside it.
+typedef struct geometry {
+    const char *kind;
+    json_t *value;
+    char *mesh; ///< path; NULL for all but meshes
+    ovoid_shape_options options;
+    ovoid_read_options read;
+} geometry;
+
+// Puts the place of the object before the core's error for its shape. A shape that is not NULL is passed on.
+static ovoid_shape *name_failure(scene_reader *r, const geometry *g, ovoid_shape *shape, const ovoid_error *why) {
+    if (!shape) scene_fail_member(r, why->code, g->kind, why->message);
+    return shape;
+}
+
+static ovoid_shape *make_box(scene_reader *r, const geometry *g) {
+    double size[3];
+    if (!scene_read_numbers(g->value, size, 3) || !(size[0] >= 0 && size[1] >= 0 && size[2] >= 0)) {
+        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind, "must be three sizes >= 0");
+        return NULL;
+    }
+    ovoid_error why = {OVOID_OK, -1, ""};
+    ovoid_vec3 half = {size[0] / 2, size[1] / 2, size[2] / 2};
+    return name_failure(r, g, ovoid_shape_create_box(half, &g->options, &why), &why);
+}
+
+static ovoid_shape *make_sphere(scene_reader *r, const geometry *g) {
+    double radius = json_is_number(g->value) ? json_number_value(g->value) : -1;
+    if (!(radius >= 0)) {
+        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind, "must be a radius >= 0");
+        return NULL;
+    }
+    ovoid_error why = {OVOID_OK, -1, ""};
+    return name_failure(r, g, ovoid_shape_create_sphere(radius, &g->options, &why), &why);
+}
+
+// Makes a capsule, cylinder or cone: {"radius", "length", and "sides" of the last two}.
+static ovoid_shape *make_round(scene_reader *r, const geometry *g) {
+    int is_capsule = strcmp(g->kind, "capsule") == 0;
+    static const char *const capsule_words[] = {"radius", "length", NULL};
+    static const char *const words[] = {"radius", "length", "sides", NULL};
+    const char *unknown;
+    double radius, length, sides;
+    if (!json_is_object(g->value) || !scene_has_only(g->value, is_capsule ? capsule_words : words, &unknown)) {
+        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind,
+                          is_capsule ? "must be {\"radius\", \"length\"}"
+                                     : "must be {\"radius\", \"length\", \"sides\"}");
+        return NULL;
+    }
+    if (read_size(r, g->value, g->kind, "radius", -1, &radius) ||
+        read_size(r, g->value, g->kind, "length", -1, &length) || read_size(r, g->value, g->kind, "sides", 32, &sides))
+        return NULL;
+    ovoid_error why = {OVOID_OK, -1, ""};
+    if (is_capsule) return name_failure(r, g, ovoid_shape_create_capsule(radius, length / 2, &g->options, &why), &why);
+    if (sides < 3 || sides > 4096 || sides != floor(sides)) {
+        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind, "needs a whole number of sides from 3 to 4096");
+        return NULL;
+    }
+    uint32_t n = (uint32_t)sides;
+    ovoid_shape *shape = strcmp(g->kind, "cone") == 0
+                             ? ovoid_shape_create_cone(radius, length / 2, n, &g->options, &why)
+                             : ovoid_shape_create_cylinder(radius, length / 2, n, &g->options, &why);
+    return name_failure(r, g, shape, &why);
+}
+
+static ovoid_shape *make_points(scene_reader *r, const geometry *g) {
+    size_t count = json_array_size(g->value);
+    double *xyz = malloc((3 * count + 1) * sizeof *xyz);
+    if (!xyz) {
+        io_fail_memory(r->error, r->path);
+        return NULL;
+    }
+    int good = json_is_array(g->value) && count > 0;
+    for (size_t i = 0; i < count && good; i++) {
+        good = scene_read_numbers(json_array_get(g->value, i), xyz + 3 * i, 3);
+        for (int k = 0; k < 3; k++) xyz[3 * i + (size_t)k] *= g->read.scale;
+    }
+    ovoid_error why = {OVOID_OK, -1, ""};
+    ovoid_shape *shape = NULL;
+    if (good)
+        shape = name_failure(r, g, ovoid_shape_create_from_points(xyz, count, &g->options, &why), &why);
+    else
+        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind, "must be a list of points [x, y, z], at least one");
+    free(xyz);
+    return shape;
+}
+
+static ovoid_shape *make_shape(scene_reader *r, const geometry *g) {
+    if (strcmp(g->kind, "box") == 0) return make_box(r, g);
+    if (strcmp(g->kind, "sphere") == 0) return make_sphere(r, g);
+    if (strcmp(g->kind, "points") == 0) return make_points(r, g);
+    return make_round(r, g);
+}
+
+// Puts the scene's line before the error of a file that cannot be opened; errors inside it have their own path and
+// line.
+static ovoid_code fail_mesh(scene_reader *r, const ovoid_error *why) {
+    if (why->code == OVOID_ERROR_FILE || why->code == OVOID_ERROR_ARGUMENT)
+        return scene_fail(r, why->code, "mesh", why->message);
+    if (r->error) *r->error = *why;
+    return why->code;
+}
+
+static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body) {
+    ovoid_error why = {OVOID_OK, -1, ""};
+    if (!g->read.parts) {
+        body->shape = ovoid_shape_read_file(g->mesh, &g->read, &g->options, &why);
+        return body->shape ? OVOID_OK : fail_mesh(r, &why);
+    }
+    body->parts = ovoid_shapes_read_file(g->mesh, &g->read, &g->options, &why);
+    if (body->parts) body->compound = ovoid_shapes_create_compound(body->parts, g->options.allocator, &why);
+    return body->compound ? OVOID_OK : fail_mesh(r, &why);
+}
+
+// ---- compounds of a scene's own parts
+
+/// Parts under construction.
+typedef struct part_list {
+    ovoid_posed_shape *items;
+    size_t count, capacity;
+} part_list;
+
+static ovoid_code add_part(scene_reader *r, part_list *list, const ovoid_shape *shape, const ovoid_pose *pose) {
+    if (!array_reserve((void **)&list->items, &list->capacity, list->count, sizeof *list->items))
+        return io_fail_memory(r->error, r->path);
+    list->items[list->count++] = (ovoid_posed_shape){shape, *pose};
+    return OVOID_OK;
+}
+
+// Reads a part: one shape, or all parts of a mesh.
+static ovoid_code read_part(scene_reader *r, json_t *object, part_list *list) {
+    static const char *const words[] = {"pose",   "radius",  "scale",    "unit", "mesh",   "parts", "box",
+                                        "sphere", "capsule", "cylinder", "cone", "points", NULL};
+    const char *unknown;
+    ovoid_pose pose;
+    size_t index;
+    if (!json_is_object(object)) return scene_fail(r, OVOID_ERROR_FORMAT, NULL, "must be a JSON object");
+    if (!scene_has_only(object, words, &unknown))
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, unknown, "is not a key of parts");
+    ovoid_code code = scene_read_pose(r, json_object_get(object, "pose"), &pose);
+    if (!code) code = scene_read_body(r, object, &index);
+    if (code) return code;
+    const scene_body *body = &r->scene->bodies[index];
+    if (body->shape) return add_part(r, list, body->shape, &pose);
+    for (size_t i = 0; i < ovoid_shapes_get_count(body->parts) && !code; i++)
+        code = add_part(r, list, ovoid_shapes_get(body->parts, i).shape, &pose);
+    return code;
+}
+
+static ovoid_code make_compound(scene_reader *r, const geometry *g, scene_body *body) {
+    size_t count = json_array_size(g->value);
+    if (!count) return scene_fail_member(r, OVOID_ERROR_FORMAT, "compound", "must be a list of parts, at least one");
+    part_list list = {NULL, 0, 0};
+    ovoid_code code = OVOID_OK;
+    for (size_t i = 0; i < count && !code; i++) {
+        r->part = (long)i;
+        code = read_part(r, json_array_get(g->value, i), &list);
+    }
+    r->part = NO_PART;
+    ovoid_error why = {OVOID_OK, -1, ""};
+    if (!code) body->compound = ovoid_compound_create(list.items, list.count, g->options.allocator, &why);
+    free(list.items);
+    if (code || body->compound) return code;
+    return scene_fail_member(r, why.code, "compound", why.message);
+}
+
+// ---- members of an object
+
+// Finds the one member that names the geometry.
+static ovoid_code find_geometry(scene_reader *r, json_t *object, geometry *g) {
+    static const char *const kinds[] = {"mesh", "box", "sphere", "capsule", "cylinder", "cone", "points", "compound"};
+    *g = (geometry){.kind = NULL};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        json_t *value = json_object_get(object, kinds[i]);
+        if (value && g->kind) return scene_fail_member(r, OVOID_ERROR_FORMAT, kinds[i], "is a second geometry");
+        if (value) *g = (geometry){.kind = kinds[i], .value = value};
+    }
+    if (g->kind) return OVOID_OK;
+    return scene_fail(r, OVOID_ERROR_FORMAT, NULL,
+                      r->part == NO_PART
+                          ? "no geometry: one of mesh, box, sphere, capsule, cylinder, cone, points, compound"
+                          : "no geometry: one of mesh, box, sphere, capsule, cylinder, cone, points");
+}
+
+// Reads "scale" times "unit", of meshes and points.
+static ovoid_code read_scale(scene_reader *r, const json_t *object, geometry *g) {
+    const json_t *scale = json_object_get(object, "scale"), *unit = json_object_get(object, "unit");
+    g->read.scale = 1;
+    int is_scaled = strcmp(g->kind, "mesh") == 0 || strcmp(g->kind, "points") == 0;
+    if ((scale || unit) && !is_scaled)
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, scale ? "scale" : "unit", "is for meshes and points only");
+    if (scale) {
+        if (!json_is_number(scale) || !(json_number_value(scale) > 0))
+            return scene_fail_member(r, OVOID_ERROR_FORMAT, "scale", "must be a number > 0");
+        g->read.scale = json_number_value(scale);
+    }
+    if (unit) {
+        double metres = json_is_string(unit) ? ovoid_unit_get_scale(json_string_value(unit)) : 0;
+        if (metres == 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "unit", "must be m, cm, mm, in or ft");
+        g->read.scale *= metres;
+    }
+    return OVOID_OK;
+}
+
+static ovoid_code read_radius(scene_reader *r, const json_t *object, geometry *g) {
+    if (r->options) g->options = *r->options;
+    const json_t *radius = json_object_get(object, "radius");
+    g->options.radius = 0;
+    if (!radius) return OVOID_OK;
+    if (strcmp(g->kind, "compound") == 0)
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, "radius", "is for the parts of a compound, each its own");
+    if (!json_is_number(radius) || !(json_number_value(radius) >= 0))
+        return scene_fail_member(r, OVOID_ERROR_RADIUS, "radius", "must be a number >= 0");
+    g->options.radius = json_number_value(radius);
+    return OVOID_OK;
+}
+
+static ovoid_code read_parts(scene_reader *r, const json_t *object, geometry *g) {
+    const json_t *parts = json_object_get(object, "parts");
+    if (!parts) return OVOID_OK;
+    if (strcmp(g->kind, "mesh") != 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "parts", "is for meshes only");
+    if (!json_is_boolean(parts)) return scene_fail_member(r, OVOID_ERROR_FORMAT, "parts", "must be true or false");
+    g->read.parts = json_is_true(parts);
+    return OVOID_OK;
+}
+
+static ovoid_code read_path(scene_reader *r, geometry *g) {
+    if (strcmp(g->kind, "mesh") != 0) return OVOID_OK;
+    const char *name = json_string_value(g->value);
+    if (!name || !name[0]) return scene_fail_member(r, OVOID_ERROR_FORMAT, "mesh", "must be the path of a file");
+    g->mesh = path_join(r->path, name);
+    return g->mesh ? OVOID_OK : io_fail_memory(r->error, r->path);
+}
+
+// ---- bodies by their keys
+
+// The key of a geometry: a text of all that the body is made from; NULL where there is no memory.
+static char *make_key(const geometry *g) {
+    char *value = g->mesh ? NULL : json_dumps(g->value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY);
+    const char *what = g->mesh ? g->mesh : value;
+    size_t room = what ? strlen(what) + 120 : 0;
+    char *key = room ? malloc(room) : NULL;
+    if (key) snprintf(key, room, "%s %a %a %d %s", g->kind, g->options.radius, g->read.scale, g->read.parts, what);
+    free(value);
+    return key;
+}
+
+// The slot of the body with that key, or the free slot where it belongs. There always is a free one.
+static size_t *find_slot(const scene_reader *r, uint64_t hash, const char *key) {
+    for (size_t at = (size_t)hash & (r->slot_count - 1);; at = (at + 1) & (r->slot_count - 1)) {
+        size_t *slot = &r->slots[at];
+        if (!*slot) return slot;
+        const scene_body *body = &r->scene->bodies[*slot - 1];
+        if (body->hash == hash && strcmp(body->key, key) == 0) return slot;
+    }
+}
+
+// Doubles the slots where they are half full.
+static int grow_slots(scene_reader *r) {
+    if (2 * (r->scene->body_count + 1) <= r->slot_count) return 1;
+    size_t count = r->slot_count ? 2 * r->slot_count : 64, *slots = calloc(count, sizeof *slots);
+    if (!slots) return 0;
+    free(r->slots);
+    r->slots = slots;
+    r->slot_count = count;
+    for (size_t i = 0; i < r->scene->body_count; i++)
+        *find_slot(r, r->scene->bodies[i].hash, r->scene->bodies[i].key) = i + 1;
+    return 1;
+}
+
+// Adds a body as the last one. What it owns is freed where there is no memory.
+static ovoid_code add_body(scene_reader *r, scene_body *body) {
+    ovoid_scene *scene = r->scene;
+    if (grow_slots(r) &&
+        array_reserve((void **)&scene->bodies, &scene->body_capacity, scene->body_count, sizeof *body)) {
+        scene->bodies[scene->body_count++] = *body;
+        *find_slot(r, body->hash, body->key) = scene->body_count;
+        return OVOID_OK;
+    }
+    scene_body_clear(body);
+    return io_fail_memory(r->error, r->path);
+}
+
+static ovoid_code make_body(scene_reader *r, const geometry *g, scene_body *body) {
+    if (g->mesh) return read_mesh(r, g, body);
+    if (strcmp(g->kind, "compound") == 0) return make_compound(r, g, body);
+    body->shape = make_shape(r, g);
+    return body->shape ? OVOID_OK : OVOID_ERROR_FORMAT;
+}
+
+static ovoid_code find_or_make_body(scene_reader *r, const geometry *g, size_t *index) {
+    scene_body body = {.key = make_key(g)};
+    if (!body.key) return io_fail_memory(r->error, r->path);
+    body.hash = text_hash(body.key);
+    size_t *slot = r->slot_count ? find_slot(r, body.hash, body.key) : NULL;
+    if (slot && *slot) {
+        *index = *slot - 1;
+        free(body.key);
+        return OVOID_OK;
+    }
+    ovoid_code code = make_body(r, g, &body);
+    if (code) {
+        scene_body_clear(&body);
+        return code;
+    }
+    code = add_body(r, &body);
+    *index = r->scene->body_count - 1;
+    return code;
+}
+
+ovoid_code scene_read_body(scene_reader *r, json_t *object, size_t *body) {
+    geometry g;
+    ovoid_code code = find_geometry(r, object, &g);
+    if (!code) code = read_scale(r, object, &g);
+    if (!code) code = read_parts(r, object, &g);
+    if (!code) code = read_radius(r, object, &g);
+    if (!code) code = read_path(r, &g);
+    if (!code) code = find_or_make_body(r, &g, body);
+    free(g.mesh);
+    return code;
+}
+
+void scene_body_clear(scene_body *body) {
+    ovoid_compound_destroy(body->compound);
+    ovoid_shape_destroy(body->shape);
+    ovoid_shapes_destroy(body->parts);
+    free(body->key);
+    *body = (scene_body){.key = NULL};
+}

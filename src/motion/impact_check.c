@@ -1,0 +1,115 @@
+// Checks of impacts and approaches, without a search: each step's gap is measured at its two ends, the theorem of
+// motion_gap.h bounds it in between, and the answers at single times are checked by their own proofs.
+#include "base/environment.h"
+#include "base/error.h"
+#include "motion/impact.h"
+#include "motion/impact_sweep.h"
+
+ovoid_code impact_check_steps(moving_shapes shapes, const step_claim *claim, ovoid_error *error) {
+    double time = claim->begin, level = claim->level, least;
+    motion_pair pieces;
+    for (size_t i = 0; i < claim->count; i++) {
+        const ovoid_step *step = &claim->steps[i];
+        (void)motion_pair_make(shapes.a, shapes.b, time, &pieces);
+        int sound = step->frame <= OVOID_STEP_B && fabs(vec3_norm_squared(step->normal) - 1) <= 16 * ROUNDING;
+        if (!(step->until > time) || !(step->until <= pieces.end) || !sound)
+            return error_set(error, OVOID_ERROR_PROOF, (int64_t)i,
+                             "step %zu does not go on from %.17g within one piece, or has no unit normal", i, time);
+        if (!motion_pair_is_above(&pieces, step, time, level, &least))
+            return error_set(error, OVOID_ERROR_PROOF, (int64_t)i,
+                             "step %zu, from %.17g to %.17g: claimed above %.17g, its normal shows %.17g", i, time,
+                             step->until, level, least);
+        time = step->until;
+    }
+    if (time >= claim->end) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, (int64_t)claim->count, "the steps end at %.17g, the claim at %.17g",
+                     time, claim->end);
+}
+
+ovoid_code impact_check_answer(moving_shapes shapes, const answer_claim *claim, ovoid_error *error) {
+    motion_pair pieces;
+    ovoid_pair pair;
+    (void)motion_pair_make(shapes.a, shapes.b, claim->time, &pieces);
+    double shift = motion_pair_find_pair(&pieces, claim->time, &pair);
+    ovoid_code code = ovoid_answer_check(&pair, claim->answer, NULL, error);
+    if (code != OVOID_OK) return code;
+    double lower = claim->answer->lower - shift, upper = claim->answer->upper + shift;
+    if (lower > claim->above && upper <= claim->most) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, -1,
+                     "the answer at %.17g proves [%.17g, %.17g], with the motion's rounding; not in (%.17g, %.17g]",
+                     claim->time, lower, upper, claim->above, claim->most);
+}
+
+ovoid_code impact_check_times(moving_shapes shapes, double begin, double end, ovoid_error *error) {
+    sweep s;
+    ovoid_motion_options options = {.begin = begin, .end = end};
+    ovoid_limit limit = sweep_make(&s, shapes, &options, 0);
+    if (limit == OVOID_LIMIT_NONE && s.begin == begin && s.end == end) return OVOID_OK;
+    if (!shapes.a->shape || !shapes.b->shape)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body without a shape");
+    return error_set(error, OVOID_ERROR_PROOF, -1, "the motions have no times from %.17g to %.17g", begin, end);
+}
+
+static int is_refusal(ovoid_limit limit) { return limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B; }
+
+int impact_is_sound(const ovoid_impact *x, double margin) {
+    int is_hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
+    int times = x->free_until >= x->begin && x->free_until <= x->end && x->hit_at >= x->free_until;
+    return times && is_hit == (x->hit_at <= x->end) && !(is_free && x->free_until != x->end) && margin >= 0;
+}
+
+static ovoid_code check_impact(moving_shapes shapes, double margin, const ovoid_impact *x, const ovoid_step *steps,
+                               ovoid_error *error) {
+    OVOID_ASSERT(shapes.a && shapes.b && x && (steps || !x->step_count));
+    // A refusal claims nothing.
+    if (is_refusal(x->limit) && x->status == OVOID_IMPACT_UNDECIDED && x->free_until == 0 && x->step_count == 0)
+        return OVOID_OK;
+    ovoid_code code = impact_check_times(shapes, x->begin, x->end, error);
+    if (code != OVOID_OK) return code;
+    int is_hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
+    if (!impact_is_sound(x, margin))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
+                         ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
+    const step_claim free = {x->begin, x->free_until, margin, steps, x->step_count};
+    const answer_claim at_end = {x->free_until, &x->free, is_free && !x->step_count ? margin : -INFINITY, INFINITY};
+    const answer_claim at_hit = {x->hit_at, &x->hit, -INFINITY, margin};
+    code = impact_check_steps(shapes, &free, error);
+    if (code == OVOID_OK) code = impact_check_answer(shapes, &at_end, error);
+    if (code == OVOID_OK && is_hit) code = impact_check_answer(shapes, &at_hit, error);
+    return code;
+}
+
+ovoid_code ovoid_impact_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
+                              const ovoid_impact *impact, const ovoid_step *steps, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, margin, check_impact((moving_shapes){a, b}, margin, impact, steps, error));
+}
+
+static ovoid_code check_approach(moving_shapes shapes, const ovoid_approach *x, const ovoid_step *steps,
+                                 ovoid_error *error) {
+    OVOID_ASSERT(shapes.a && shapes.b && x && (steps || !x->step_count));
+    if (is_refusal(x->limit) && x->lower == -INFINITY && x->upper == INFINITY) return OVOID_OK;
+    ovoid_code code = impact_check_times(shapes, x->begin, x->end, error);
+    if (code != OVOID_OK) return code;
+    int follows = x->status == OVOID_SEPARATED     ? x->lower > 0
+                  : x->status == OVOID_OVERLAPPING ? x->upper < 0
+                                                   : x->lower <= 0 && x->upper >= 0;
+    if (!follows || !(x->time >= x->begin && x->time <= x->end) || !(x->lower <= x->upper))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from the bracket [%.17g, %.17g]",
+                         ovoid_status_get_name(x->status), x->lower, x->upper);
+    // lower is proven if every step is above the number just below it.
+    double level = nextafter(x->lower, -INFINITY);
+    const step_claim above = {x->begin, x->end, level, steps, x->step_count};
+    const answer_claim alone = {x->begin, &x->answer, level, INFINITY};
+    const answer_claim nearest = {x->time, &x->answer, -INFINITY, x->upper};
+    if (x->lower > -INFINITY && x->begin < x->end)
+        code = impact_check_steps(shapes, &above, error);
+    else if (x->lower > -INFINITY)
+        code = impact_check_answer(shapes, &alone, error);
+    if (code == OVOID_OK) code = impact_check_answer(shapes, &nearest, error);
+    return code;
+}
+
+ovoid_code ovoid_approach_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
+                                const ovoid_approach *approach, const ovoid_step *steps, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, a, check_approach((moving_shapes){a, b}, approach, steps, error));
+}

@@ -1,0 +1,32 @@
+// A closed surface of differences around the origin: the proof of a depth from below.
+#ifndef OVOID_PAIR_COVER_H
+#define OVOID_PAIR_COVER_H
+
+#include "linear/vec3.h"
+
+/// A surface over points, at most 65535 of them.
+typedef struct surface {
+    const vec3 *points;
+    const uint16_t (*triangles)[3];
+    uint32_t point_count, triangle_count;
+} surface;
+
+/// A triangle (a, b, c) has the origin behind it, whatever the corners' rounding, if det(a, b, c)^2 is above this times
+/// the sum |b - a|^2 + |c - a|^2, and det positive. Corners of norm at most `reach`, each off by `error`.
+static inline double triangle_compute_doubt(double reach, double error) {
+    double off = reach * (error + 8 * 0x1p-53 * reach);
+    return 128 * off * off;
+}
+
+/// A lower bound of the distance of the origin to a triangle; negative if none is found. *normal: the unit direction
+/// along which all of the triangle is at least that far. A bound of at least `enough` need not be the best.
+double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *normal);
+
+/// A radius r > 0 such that no point of the surface is nearer to the origin than r and the surface winds around it,
+/// when each coordinate may be off by `error`; 0 if that is not proven. The surface must be closed.
+double surface_compute_depth(const surface *s, double error);
+
+/// 1 if each directed edge is met exactly once and its reverse exactly once, and all indices are in range.
+int surface_is_closed(const surface *s);
+
+#endif

@@ -1,0 +1,115 @@
+// Making the frame of a pair, and supports in it.
+#include "pair/frame.h"
+
+#include "linear/dd3.h"
+#include "linear/pose.h"
+
+// R(q)/|q|^2 v in double-double: v + 2 (w (p x v) + p x (p x v)) / |q|^2 with q = (w, p).
+static dd3 rotate_exactly(ovoid_quat q, vec3 v) {
+    q = quat_scaled(q);
+    dd w = dd_from(q.w), p[3] = {dd_from(q.x), dd_from(q.y), dd_from(q.z)};
+    dd x[3] = {dd_from(v.x), dd_from(v.y), dd_from(v.z)}, c[3], e[3], out[3];
+    dd norm = dd_add(dd_add(dd_mul(w, w), dd_mul(p[0], p[0])), dd_add(dd_mul(p[1], p[1]), dd_mul(p[2], p[2])));
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        c[i] = dd_sub(dd_mul(p[j], x[k]), dd_mul(p[k], x[j]));
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        e[i] = dd_add(dd_mul(w, c[i]), dd_sub(dd_mul(p[j], c[k]), dd_mul(p[k], c[j])));
+    }
+    for (int i = 0; i < 3; i++) out[i] = dd_add(x[i], dd_mul(dd_from(2), dd_div(e[i], norm)));
+    return (dd3){out[0], out[1], out[2]};
+}
+
+// The origin of a body frame in the world, in double-double.
+static dd3 place(const ovoid_shape *shape, const ovoid_pose *pose) {
+    vec3 p = pose->position;
+    if (!shape->has_origin) return (dd3){dd_from(p.x), dd_from(p.y), dd_from(p.z)};
+    dd3 o = rotate_exactly(pose->rotation, shape->origin);
+    return (dd3){dd_add(o.x, dd_from(p.x)), dd_add(o.y, dd_from(p.y)), dd_add(o.z, dd_from(p.z))};
+}
+
+// For shapes with an origin: the difference of the frames' origins is formed before it is rounded to doubles. Returns
+// what this can hide; the plain difference of two positions hides nothing, being off by one rounding of itself.
+static double place_origins(pair_frame *f, const ovoid_pair *pair) {
+    dd3 a = place(f->a, &pair->pose_a), b = place(f->b, &pair->pose_b);
+    f->world_origin = dd3_high(a);
+    f->offset = dd3_high(dd3_sub(b, a));
+    return 0x1p-95 * (vec3_max_abs(f->world_origin) + vec3_max_abs(dd3_high(b)) + vec3_max_abs(f->a->origin) +
+                      vec3_max_abs(f->b->origin));
+}
+
+// pose_compute_check for the common case; NaN fails every comparison.
+static int is_plain(const ovoid_pose *pose) {
+    vec3 p = pose->position;
+    return quat_is_plain(quat_norm_squared(pose->rotation)) && fabs(p.x) <= OVOID_LENGTH_MAX &&
+           fabs(p.y) <= OVOID_LENGTH_MAX && fabs(p.z) <= OVOID_LENGTH_MAX;
+}
+
+ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
+    const ovoid_pose *a = &pair->pose_a, *b = &pair->pose_b;
+    if (!pair->shape_a) return OVOID_LIMIT_SHAPE_A;
+    if (!pair->shape_b) return OVOID_LIMIT_SHAPE_B;
+    if (!is_plain(a) && pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+    if (!is_plain(b) && pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+    f->a = pair->shape_a;
+    f->b = pair->shape_b;
+    f->world = quat_to_mat3(a->rotation);
+    f->world_b = quat_to_mat3(b->rotation);
+    f->world_origin = a->position;
+    f->offset = vec3_sub(b->position, a->position);
+    f->hidden = OVOID_LENGTH_MIN;
+    if (f->a->has_origin || f->b->has_origin) f->hidden += place_origins(f, pair);
+    f->radii = f->a->radius + f->b->radius;
+    f->size = f->a->extent + f->b->extent + vec3_norm(f->offset) + f->radii;
+    f->claim = FRAME_CLAIM * f->size + 2 * f->hidden;
+    f->check = FRAME_CHECK * f->size + f->hidden;
+    return OVOID_LIMIT_NONE;
+}
+
+void frame_relate(pair_frame *f) {
+    f->rotation = mat3_mul_transposed(f->world, f->world_b);
+    f->translation = mat3_mul_transposed_vec3(f->world, f->offset);
+}
+
+ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *f) {
+    ovoid_limit refused = frame_place(pair, f);
+    if (refused == OVOID_LIMIT_NONE) frame_relate(f);
+    return refused;
+}
+
+simd_pair shapes_find_pair(const ovoid_shape *a, const ovoid_shape *b, vec3 in_a, vec3 in_b) {
+    if (a->support.k | b->support.k) {
+        simd_extreme x = shape_find_extreme(a, in_a), y = shape_find_extreme(b, in_b);
+        return (simd_pair){{x.value, x.index}, {y.value, y.index}};
+    }
+    simd_points points_a = {shape_x(a), shape_y(a), shape_z(a), a->padded_count};
+    simd_points points_b = {shape_x(b), shape_y(b), shape_z(b), b->padded_count};
+    double along_a[3] = {in_a.x, in_a.y, in_a.z}, along_b[3] = {in_b.x, in_b.y, in_b.z};
+    return simd_find_pair(&points_a, along_a, &points_b, along_b);
+}
+
+// Where one of the shapes has a table of supports: it gives the vertices with their indices.
+static frame_support find_support_apart(const pair_frame *f, vec3 n, vec3 in_b) {
+    simd_extreme a = shape_find_extreme(f->a, n), b = shape_find_extreme(f->b, in_b);
+    double gap = (vec3_dot(n, f->translation) - b.value) - a.value;
+    vec3 w = vec3_sub(frame_b(f, (vec3){b.x, b.y, b.z}), (vec3){a.x, a.y, a.z});
+    return (frame_support){a.index, b.index, gap, w};
+}
+
+frame_support frame_find_support(const pair_frame *f, vec3 n) {
+    if (f->a->support.k | f->b->support.k)
+        return find_support_apart(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
+    simd_pair x = frame_find_pair(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
+    double gap = (vec3_dot(n, f->translation) - x.low.value) - x.high.value;
+    return (frame_support){x.high.index, x.low.index, gap, frame_difference(f, x.high.index, x.low.index)};
+}
+
+double frame_measure_gap(const pair_frame *f, vec3 n) {
+    const ovoid_shape *a = f->a, *b = f->b;
+    vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
+    double high = simd_find_support(shape_x(a), shape_y(a), shape_z(a), a->padded_count, n.x, n.y, n.z).value;
+    double low = simd_find_support(shape_x(b), shape_y(b), shape_z(b), b->padded_count, in_b.x, in_b.y, in_b.z).value;
+    return (vec3_dot(n, f->translation) - low) - high;
+}

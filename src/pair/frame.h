@@ -1,0 +1,86 @@
+// A pair of posed shapes in one frame: the body frame of A. Everything a query computes is in this frame; the constants
+// below bound what rounding can do, and every bound that is reported is widened by them.
+//
+// With u = 2^-53, ea, eb the shapes' extents, t the position of B's body frame and s = ea + eb + |t| + radii:
+// - a rotation matrix from a quaternion is off by 36 u in norm, B's rotation in A's frame by 82 u;
+// - t is off by 43 u |t| (differences of positions are exact in double-double, far origins are rotated in it);
+// - a difference x_b - x_a is off by 91 u s, a support gap along a unit direction by 100 u s, and by 142 u s if the
+//   direction is given in the world frame; taking a direction to the world frame and back moves a gap by 96 u s.
+// Hence a gap measured along a direction of the world is off by less than FRAME_CHECK, and a claim that is lowered by
+// FRAME_CLAIM holds for the exact gap and is confirmed by any measurement to within FRAME_CHECK. docs/error-analysis.md
+// derives these numbers.
+#ifndef OVOID_PAIR_FRAME_H
+#define OVOID_PAIR_FRAME_H
+
+#include "linear/mat3.h"
+#include "ovoid/query.h"
+#include "shape/block.h"
+#include "simd/pair.h"
+
+#define FRAME_CLAIM (256 * 0x1p-53)
+#define FRAME_CHECK (148 * 0x1p-53)
+
+/// The frame of a pair.
+typedef struct pair_frame {
+    // By frame_place: both bodies in the world.
+    const ovoid_shape *a, *b;
+    mat3 world, world_b; ///< the rotations of A and B to the world
+    vec3 world_origin;   ///< of A's body frame, world
+    vec3 offset;         ///< of B's body frame from A's, world
+    double size;         ///< s
+    double claim;        ///< FRAME_CLAIM s, and what underflow can hide
+    double check;        ///< FRAME_CHECK s, and what underflow can hide
+    double hidden;       ///< what underflow and far origins can hide, whatever the size
+    double radii;        ///< sum of the rounding radii
+    // By frame_relate: B in the frame of A.
+    mat3 rotation;    ///< x_a_frame = rotation x_b + translation
+    vec3 translation; ///< of B's body frame
+} pair_frame;
+
+/// The frame of a pair, or the reason why there is none: SHAPE_A, SHAPE_B, POSE_A, POSE_B.
+ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *frame);
+
+/// frame_make in two steps, for callers that may be done after the first: both bodies in the world; B in the frame of
+/// A.
+ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *frame);
+void frame_relate(pair_frame *frame);
+
+/// A vertex of B in the frame.
+static inline vec3 frame_b(const pair_frame *f, vec3 x) {
+    return vec3_add(mat3_mul_vec3(f->rotation, x), f->translation);
+}
+static inline vec3 frame_vertex_a(const pair_frame *f, uint32_t i) { return vec3_at(shape_vertices(f->a), i); }
+static inline vec3 frame_vertex_b(const pair_frame *f, uint32_t i) {
+    return frame_b(f, vec3_at(shape_vertices(f->b), i));
+}
+/// The difference of two vertices, B minus A.
+static inline vec3 frame_difference(const pair_frame *f, uint32_t a, uint32_t b) {
+    return vec3_sub(frame_vertex_b(f, b), frame_vertex_a(f, a));
+}
+/// A point or direction of the frame in the world, and back.
+static inline vec3 frame_point_to_world(const pair_frame *f, vec3 x) {
+    return vec3_add(f->world_origin, mat3_mul_vec3(f->world, x));
+}
+static inline vec3 frame_direction_to_world(const pair_frame *f, vec3 n) { return mat3_mul_vec3(f->world, n); }
+static inline vec3 frame_direction_from_world(const pair_frame *f, vec3 n) {
+    return mat3_mul_transposed_vec3(f->world, n);
+}
+
+/// Where A and B are extreme toward each other along a unit direction n from A to B.
+typedef struct frame_support {
+    uint32_t a, b;
+    double gap; ///< min over B of n.x - max over A of n.x, off by at most 100 u s
+    vec3 w;     ///< x_b - x_a of the two vertices
+} frame_support;
+frame_support frame_find_support(const pair_frame *f, vec3 n);
+
+/// The same gap by a search of all vertices, without the tables that the shapes have: for checks.
+double frame_measure_gap(const pair_frame *f, vec3 n);
+
+/// The supports of A along in_a and of B along in_b, each in its own body frame.
+simd_pair shapes_find_pair(const ovoid_shape *a, const ovoid_shape *b, vec3 in_a, vec3 in_b);
+static inline simd_pair frame_find_pair(const pair_frame *f, vec3 in_a, vec3 in_b) {
+    return shapes_find_pair(f->a, f->b, in_a, in_b);
+}
+
+#endif

@@ -1,0 +1,56 @@
+// First rejections, by spheres and by the normal of an earlier proof.
+#include "pair/reject.h"
+
+static double claim(const pair_frame *f) { return FRAME_REJECT * f->size + 3 * f->hidden; }
+
+// B's point minus A's, in the world; the points are in their body frames.
+static vec3 find_difference(const pair_frame *f, vec3 a, vec3 b) {
+    return vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, b), mat3_mul_vec3(f->world, a)));
+}
+
+int reject_by_spheres(const pair_frame *f, double far, rejection *found) {
+    vec3 d = find_difference(f, f->a->center, f->b->center);
+    double distance = vec3_norm(d), lower = distance - (f->a->reach + f->b->reach) - f->radii - claim(f);
+    found->lower = lower;
+    if (!(lower > far)) return 0;
+    *found = (rejection){lower, vec3_scale(d, 1 / distance), 0, 0, OVOID_STAGE_SPHERE};
+    return 1;
+}
+
+int reject_by_normal(const pair_frame *f, double far, const ovoid_proof *earlier, rejection *found) {
+    if (!vec3_is_finite(earlier->normal)) return 0;
+    vec3 n = vec3_unit(earlier->normal);
+    simd_pair x =
+        frame_find_pair(f, mat3_mul_transposed_vec3(f->world, n), vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)));
+    double gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value, lower = gap - f->radii - claim(f);
+    // A direction that underflowed to nothing proves nothing.
+    if (!(lower > far) || !(vec3_norm_squared(n) > 0.5)) return 0;
+    *found = (rejection){lower, n, x.high.index, x.low.index, OVOID_STAGE_PROOF};
+    return 1;
+}
+
+ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, const query_goal *goal) {
+    vec3 a = mat3_mul_vec3(f->world, g->a ? vec3_at(shape_vertices(f->a), g->a) : f->a->first);
+    vec3 b = mat3_mul_vec3(f->world_b, g->b ? vec3_at(shape_vertices(f->b), g->b) : f->b->first);
+    vec3 d = vec3_add(f->offset, vec3_sub(b, a));
+    double distance = vec3_norm(d);
+    double upper = distance - f->radii + claim(f);
+    // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
+    double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
+    // One expression, which gcc 12 builds in place; it would copy a variable.
+    return (ovoid_answer){.status = OVOID_SEPARATED,
+                          .stage = g->stage,
+                          .limit = upper - g->lower <= goal->tolerance ? OVOID_LIMIT_NONE : goal->beyond,
+                          .lower = g->lower,
+                          .upper = upper,
+                          .point_a = vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a)),
+                          .point_b = vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b)),
+                          .normal = g->normal,
+                          .proof = {.normal = g->normal,
+                                    .kind = OVOID_PROOF_POINTS,
+                                    .count = 1,
+                                    .a = {g->a},
+                                    .b = {g->b},
+                                    .weight_a = {1},
+                                    .weight_b = {1}}};
+}

@@ -1,0 +1,32 @@
+// First rejections of a pair, in the world, before B is put in the frame of A: most pairs of a scene are far apart, and
+// most of those that are near were apart a moment ago, along a direction that still parts them.
+//
+// Errors (docs/error-analysis.md): what is measured here is off by less than 60 u s. An answer from here is measured
+// again in the frame of A, off by 148 u s, and must hold with 148 u s to spare: hence FRAME_REJECT.
+#ifndef OVOID_PAIR_REJECT_H
+#define OVOID_PAIR_REJECT_H
+
+#include "pair/search.h"
+
+#define FRAME_REJECT (384 * 0x1p-53)
+
+/// A lower bound above the goal's `far`, and what shows it.
+typedef struct rejection {
+    double lower;
+    vec3 normal;   ///< unit, world
+    uint32_t a, b; ///< the vertices behind the upper bound
+    ovoid_stage stage;
+} rejection;
+
+/// By the enclosing spheres: 1 where they are farther apart than `far`; found->lower is their bound in any case. The
+/// frame needs only frame_place.
+int reject_by_spheres(const pair_frame *frame, double far, rejection *found);
+
+/// By the supports along an earlier proof's normal: 1 where the gap is above `far`. The proof may hold any numbers.
+int reject_by_normal(const pair_frame *frame, double far, const ovoid_proof *earlier, rejection *found);
+
+/// The answer to the query, whose goal has its tolerance. By value: its address is not taken, so the compiler can make
+/// it in the place of the caller's result.
+ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, const query_goal *goal);
+
+#endif

@@ -1,0 +1,91 @@
+// Bounds and what proves them.
+#include "pair/search.h"
+
+#include "pair/hull.h"
+
+#include <string.h>
+
+int search_is_sign_known(const search *s) { return s->lower > 0 || s->upper < 0; }
+
+int search_is_done(const search *s) {
+    if (!s->goal.wants_depth) return query_goal_is_met(&s->goal, s->lower, s->upper);
+    if (s->lower > s->goal.far) return 1;
+    if (!search_is_sign_known(s)) return 0;
+    if (s->upper <= s->goal.near) return 1;
+    // A tetrahedron around the origin may bracket a shallow depth well, but its witness is one common point.
+    return s->kind != OVOID_PROOF_HULL && s->goal.wants_bracket && s->upper - s->lower <= s->goal.tolerance;
+}
+
+void search_take_gap(search *s, vec3 n, double gap) {
+    const pair_frame *f = s->frame;
+    double lower = gap - f->radii - f->claim;
+    // A direction that underflowed to nothing proves nothing.
+    if (!(lower > s->lower) || !(vec3_norm_squared(n) > 0.5)) return;
+    s->lower = lower;
+    s->normal = n;
+}
+
+frame_support search_probe(search *s, vec3 n) {
+    frame_support found = frame_find_support(s->frame, n);
+    search_take_gap(s, n, found.gap);
+    return found;
+}
+
+// Writes only the entries that count, a small part of the struct.
+static void take_evidence(evidence *e, const simplex *x) {
+    e->count = x->count;
+    for (int i = 0; i < x->count; i++) {
+        e->p[i] = x->p[i];
+        e->weight[i] = x->weight[i];
+    }
+}
+
+void search_take_points(search *s, const simplex *points) {
+    const pair_frame *f = s->frame;
+    double upper = vec3_norm(simplex_compute_point(points)) - f->radii + f->claim;
+    if (!(upper < s->upper)) return;
+    s->upper = upper;
+    s->kind = OVOID_PROOF_POINTS;
+    take_evidence(&s->witness, points);
+}
+
+evidence evidence_make(const simplex *x) {
+    evidence e;
+    take_evidence(&e, x);
+    return e;
+}
+
+void evidence_set_weights(evidence *x) {
+    double best = INFINITY;
+    for (unsigned some = 0; some < 1u << x->count; some++) {
+        simplex t = {.count = 0};
+        int at[4];
+        for (int i = 0; i < x->count; i++)
+            if (some >> i & 1 && t.count < 4) at[t.count] = i, t.p[t.count++] = x->p[i];
+        if (t.count != 4) continue;
+        simplex all = t;
+        (void)simplex_reduce(&t);
+        double distance = vec3_norm(simplex_compute_point(&t));
+        if (!(distance < best)) continue;
+        best = distance;
+        memset(x->weight, 0, sizeof x->weight);
+        for (int i = 0; i < t.count; i++)
+            for (int k = 0; k < 4; k++)
+                if (all.p[k].a == t.p[i].a && all.p[k].b == t.p[i].b) x->weight[at[k]] = t.weight[i];
+    }
+}
+
+int search_take_hull(search *s, const evidence *hull) {
+    const pair_frame *f = s->frame;
+    vec3 w[OVOID_PROOF_PAIRS];
+    for (int i = 0; i < hull->count; i++) w[i] = hull->p[i].w;
+    double depth = hull_compute_depth(w, hull->count, f->claim);
+    if (!(depth > 0)) return 0;
+    double upper = -depth - f->radii;
+    if (upper < s->upper) {
+        s->upper = upper;
+        s->kind = OVOID_PROOF_HULL;
+        s->witness = *hull;
+    }
+    return 1;
+}

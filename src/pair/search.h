@@ -1,0 +1,92 @@
+// The state of one query: the best bounds so far with what proves them, and the goal that says when to stop.
+#ifndef OVOID_PAIR_SEARCH_H
+#define OVOID_PAIR_SEARCH_H
+
+#include "pair/frame.h"
+#include "pair/simplex.h"
+
+/// The goal of a query. All bounds are of the signed distance, radii subtracted.
+typedef struct query_goal {
+    double far;          ///< answered when lower > far: the margin, the cap
+    double near;         ///< answered when upper <= near and the sign is proven: the margin; -infinity: never
+    double tolerance;    ///< answered when the bracket is this narrow
+    uint32_t iterations; ///< most iterations of each exact method
+    int wants_depth;     ///< a proven overlap does not answer it
+    int wants_bracket;   ///< narrowing the bracket is asked, not only the sign
+    ovoid_limit beyond;  ///< what an answer says that stopped at lower > far
+    double deepest;      ///< of a depth: a cover of no more than this is not written; 0: any is, and none is known
+} query_goal;
+
+/// The differences behind an upper bound, with weights.
+typedef struct evidence {
+    difference p[OVOID_PROOF_PAIRS];
+    double weight[OVOID_PROOF_PAIRS];
+    int count;
+} evidence;
+
+/// The search of one pair.
+typedef struct search {
+    const pair_frame *frame;
+    query_goal goal;
+    double lower, upper; ///< proven; radii subtracted
+    vec3 normal;         ///< unit direction (frame) of the lower bound
+    vec3 world,
+        world_low;    ///< from REFINE: the direction of the lower bound in the world, as a sum; zero: it is `normal`
+    evidence witness; ///< POINTS, HULL; of COVER the nearest face
+    ovoid_proof_kind kind;
+    vec3 inner_a, inner_b; ///< INNER: the common point, A's body frame; INNER_POINTS
+    ovoid_stage stage;     ///< the last one that improved a bound
+    ovoid_limit limit;
+    uint32_t iterations;
+} search;
+
+/// The state before anything is known: the bracket is everything. The witness' entries, the largest part of the struct,
+/// are not set, since nothing reads past its count.
+static inline void search_make(search *s, const pair_frame *frame, const query_goal *goal) {
+    const vec3 zero = {0, 0, 0};
+    s->frame = frame;
+    s->goal = *goal;
+    s->lower = -INFINITY;
+    s->upper = INFINITY;
+    s->normal = s->world = s->world_low = zero;
+    s->witness.count = 0;
+    s->kind = OVOID_PROOF_NONE;
+    s->inner_a = s->inner_b = zero;
+    s->stage = OVOID_STAGE_NONE;
+    s->limit = OVOID_LIMIT_NONE;
+    s->iterations = 0;
+}
+
+/// 1 if bounds answer a query that does not want the depth.
+static inline int query_goal_is_met(const query_goal *goal, double lower, double upper) {
+    if (lower > goal->far) return 1;
+    if (!(lower > 0 || upper < 0)) return 0;
+    return upper <= goal->near || upper < 0 || (goal->wants_bracket && upper - lower <= goal->tolerance);
+}
+
+/// 1 if the bounds answer the query.
+int search_is_done(const search *s);
+
+/// 1 if lower > 0 or upper < 0.
+int search_is_sign_known(const search *s);
+
+/// Takes the gap that was measured along the unit direction n as lower bound if it is the best so far.
+void search_take_gap(search *s, vec3 n, double gap);
+
+/// Measures the gap along the unit direction n and takes it as lower bound if it is the best so far.
+frame_support search_probe(search *s, vec3 n);
+
+/// Takes the simplex's nearest point as upper bound if it is the best so far.
+void search_take_points(search *s, const simplex *points);
+
+/// Takes 4 to 6 differences (hull.h) as proof of an overlap if the origin is strictly inside, rounding included; 1 if
+/// so.
+int search_take_hull(search *s, const evidence *hull);
+
+/// The simplex as evidence.
+evidence evidence_make(const simplex *x);
+
+/// Sets the weights of the point nearest to the origin, by the best of the tetrahedra of four of the differences.
+void evidence_set_weights(evidence *x);
+
+#endif

@@ -1,0 +1,460 @@
+// Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
+// so a lane group of eight couples is taken at once, without a branch. Couples that the spheres leave open are packed
+// into full lane groups before they go on to the ellipsoids, and those that the supports along the ellipsoids'
+// direction leave open go on to the exact search one by one. A couple that is in any way unusual (an earlier proof, a
+// far origin, a quaternion to be scaled, a refused pose) is queried alone, from the start.
+//
+// Every lane has the bits of the single query, so nothing depends on which couples share a group, and a batch may be
+// cut anywhere. Working memory: five lane groups on the stack, 26 KB; they are gone while the couples that they left
+// open are searched, which takes more.
+#include "query/batch_simd.h"
+
+#include "base/compiler.h"
+#include "base/error.h"
+#include "pair/reject.h"
+#include "simd/pair8.h"
+
+// A lane group: eight couples, their bodies and shapes as the kernels read them.
+typedef struct lane_group {
+    size_t index[PAIR8];
+    pair8_places at; ///< their bodies and shapes
+    pair8 *lanes;
+} lane_group;
+
+// A couple that the lanes leave open, with what they found: alone, nothing.
+typedef struct open_couple {
+    size_t index;
+    double tolerance, lower, upper;
+    vec3 n, w; ///< the direction of `lower`; the difference of the vertices a and b
+    uint32_t a, b;
+    int is_alone;
+} open_couple;
+
+// An eight leaves at most eight open, and those that wait are at most PAIR8_GROUPS eights.
+enum { OPEN_MOST = 64, OPEN_FULL = OPEN_MOST - (PAIR8_GROUPS + 1) * PAIR8 };
+
+typedef struct open_list {
+    open_couple items[OPEN_MOST];
+    unsigned count;
+} open_list;
+
+typedef struct batch_state {
+    const ovoid_batch *batch;
+    const pair8_kernels *kernels;
+    query_goal goal; ///< without the tolerance, which is each couple's own
+    pair8_query numbers;
+    int wants_evidence;  ///< answers or proofs, not only verdicts
+    lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
+    pair8 *lanes;        ///< of `waiting`
+    unsigned waiting_count;
+    open_list *open;
+} batch_state;
+
+static void leave_alone(const batch_state *c, size_t index) {
+    open_couple *x = &c->open->items[c->open->count++];
+    x->index = index;
+    x->is_alone = 1;
+}
+
+// 1 if a couple has no earlier proof, or one that holds nothing.
+static int is_blank(const ovoid_proof *p) {
+    return p->kind == OVOID_PROOF_NONE && p->count == 0 && !(p->normal.x != 0 || p->normal.y != 0 || p->normal.z != 0);
+}
+
+void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *x) {
+    if (batch->proofs) batch->proofs[i] = x->proof;
+    if (batch->verdicts)
+        batch->verdicts[i] = (ovoid_verdict){x->status, x->stage, x->limit, x->iterations, x->lower, x->upper};
+    if (batch->answers && x != &batch->answers[i]) batch->answers[i] = *x;
+}
+
+static void write_verdict(const ovoid_batch *batch, size_t i, ovoid_verdict is) {
+    if (batch->verdicts) batch->verdicts[i] = is;
+}
+
+void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal) {
+    const ovoid_posed_shape *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
+    ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+    ovoid_answer own, *out = batch->answers ? &batch->answers[i] : &own;
+    const ovoid_proof *earlier = batch->proofs && !is_blank(&batch->proofs[i]) ? &batch->proofs[i] : NULL;
+    answer_find_internal(&pair, batch->options, goal, earlier, NULL, out);
+    batch_write(batch, i, out);
+}
+
+// ---- one lane
+
+static vec3 get3(const lane_column *c, unsigned k) { return (vec3){c[0].lane[k], c[1].lane[k], c[2].lane[k]}; }
+static void put3(lane_column *c, unsigned k, vec3 v) {
+    c[0].lane[k] = v.x;
+    c[1].lane[k] = v.y;
+    c[2].lane[k] = v.z;
+}
+static mat3 get9(const lane_column *c, unsigned k) { return (mat3){get3(c, k), get3(c + 3, k), get3(c + 6, k)}; }
+
+static const ovoid_posed_shape *get_a(const lane_group *e, unsigned k) { return (const void *)e->at.body_a[k]; }
+static const ovoid_posed_shape *get_b(const lane_group *e, unsigned k) { return (const void *)e->at.body_b[k]; }
+
+// The frame of a lane, as frame_place and frame_relate make it; what frame_relate fills in is valid after the
+// ellipsoids only.
+static pair_frame get_frame(const lane_group *e, unsigned k) {
+    const pair8 *o = e->lanes;
+    double size = o->size.lane[k], hidden = OVOID_LENGTH_MIN;
+    return (pair_frame){get_a(e, k)->shape,
+                        get_b(e, k)->shape,
+                        get9(o->world_a, k),
+                        get9(o->world_b, k),
+                        get_a(e, k)->pose.position,
+                        get3(o->offset, k),
+                        size,
+                        FRAME_CLAIM * size + 2 * hidden,
+                        FRAME_CHECK * size + hidden,
+                        hidden,
+                        o->radii.lane[k],
+                        get9(o->rotation, k),
+                        get3(o->translation, k)};
+}
+
+static query_goal get_goal(const batch_state *c, const lane_group *e, unsigned k) {
+    query_goal goal = c->goal;
+    goal.tolerance = e->lanes->tolerance.lane[k];
+    return goal;
+}
+
+// The verdict of a stage that answered the query, from the lane's bounds.
+static void write_bounds(const batch_state *c, const lane_group *e, unsigned k, ovoid_stage stage, unsigned narrow) {
+    double lower = e->lanes->lower.lane[k], upper = e->lanes->upper.lane[k];
+    ovoid_status status = lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
+    ovoid_limit wide = lower > c->goal.far ? c->goal.beyond : OVOID_LIMIT_ANSWERED;
+    ovoid_limit limit = narrow >> k & 1 ? OVOID_LIMIT_NONE : wide;
+    write_verdict(c->batch, e->index[k], (ovoid_verdict){status, stage, limit, 0, lower, upper});
+}
+
+// Ends a lane that the spheres decided. Its evidence is found by rejecting the pair again, alone.
+static void end_at_spheres(const batch_state *c, const lane_group *e, unsigned k, unsigned narrow) {
+    if (!c->wants_evidence) {
+        write_bounds(c, e, k, OVOID_STAGE_SPHERE, narrow);
+        return;
+    }
+    pair_frame frame = get_frame(e, k);
+    query_goal goal = get_goal(c, e, k);
+    rejection rejected;
+    ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[e->index[k]] : &own;
+    (void)reject_by_spheres(&frame, goal.far, &rejected);
+    *out = rejection_make_answer(&rejected, &frame, &goal);
+    batch_write(c->batch, e->index[k], out);
+}
+
+// The search as the lane's stage leaves it; *frame must outlive the search.
+static search get_search(const batch_state *c, const lane_group *e, unsigned k, ovoid_stage stage, pair_frame *frame) {
+    search s;
+    query_goal goal = get_goal(c, e, k);
+    *frame = get_frame(e, k);
+    search_make(&s, frame, &goal);
+    s.stage = stage;
+    return s;
+}
+
+static void end_search(const ovoid_batch *batch, int wants_evidence, size_t index, search *s) {
+    if (!wants_evidence) {
+        write_verdict(batch, index, answer_make_verdict(s));
+        return;
+    }
+    ovoid_answer own, *out = batch->answers ? &batch->answers[index] : &own;
+    answer_write(s, out);
+    batch_write(batch, index, out);
+}
+
+static void end_at_inner(const batch_state *c, const lane_group *e, unsigned k, unsigned narrow) {
+    if (!c->wants_evidence) {
+        write_bounds(c, e, k, OVOID_STAGE_INNER, narrow);
+        return;
+    }
+    pair_frame frame;
+    search s = get_search(c, e, k, OVOID_STAGE_INNER, &frame);
+    s.upper = e->lanes->upper.lane[k];
+    s.kind = OVOID_PROOF_INNER;
+    s.inner_a = get3(e->lanes->inner, k);
+    end_search(c->batch, c->wants_evidence, e->index[k], &s);
+}
+
+static void end_at_outer(const batch_state *c, const lane_group *e, unsigned k, unsigned narrow) {
+    if (!c->wants_evidence) {
+        write_bounds(c, e, k, OVOID_STAGE_OUTER, narrow);
+        return;
+    }
+    pair_frame frame;
+    search s = get_search(c, e, k, OVOID_STAGE_OUTER, &frame);
+    s.lower = e->lanes->lower.lane[k];
+    s.normal = get3(e->lanes->n, k);
+    end_search(c->batch, c->wants_evidence, e->index[k], &s);
+}
+
+// The supports left it open: the exact search goes on from their corner, later.
+static void leave_open(const batch_state *c, const lane_group *e, unsigned k, uint32_t a, uint32_t b) {
+    const pair8 *o = e->lanes;
+    c->open->items[c->open->count++] = (open_couple){
+        e->index[k], o->tolerance.lane[k], o->lower.lane[k], o->upper.lane[k], get3(o->n, k), get3(o->w, k), a, b, 0};
+}
+
+// What is known after the supports.
+static void take_supports(search *s, const open_couple *x, simplex *start) {
+    *start = (simplex){.p = {{x->w, x->a, x->b}}, .weight = {1}, .count = 1};
+    s->stage = OVOID_STAGE_SUPPORT;
+    s->lower = x->lower;
+    s->normal = x->n;
+    s->upper = x->upper;
+    s->kind = OVOID_PROOF_POINTS;
+    s->witness = evidence_make(start);
+}
+
+// After the supports: answered, or left open.
+static void end_at_support(const batch_state *c, const lane_group *e, unsigned k, uint32_t a, uint32_t b) {
+    double lower = e->lanes->lower.lane[k], upper = e->lanes->upper.lane[k];
+    query_goal goal = get_goal(c, e, k);
+    if (!query_goal_is_met(&goal, lower, upper)) {
+        leave_open(c, e, k, a, b);
+    } else if (goal.wants_bracket && e->lanes->radii.lane[k] > 0) {
+        // Where radii overlap the single query looks a second time (stage_support).
+        leave_alone(c, e->index[k]);
+    } else if (!c->wants_evidence) {
+        write_bounds(c, e, k, OVOID_STAGE_SUPPORT, (unsigned)(upper - lower <= goal.tolerance) << k);
+    } else {
+        pair_frame frame;
+        search s = get_search(c, e, k, OVOID_STAGE_SUPPORT, &frame);
+        open_couple x = {.lower = lower, .upper = upper, .n = get3(e->lanes->n, k), .w = get3(e->lanes->w, k), a, b, 0};
+        simplex start;
+        take_supports(&s, &x, &start);
+        end_search(c->batch, 1, e->index[k], &s);
+    }
+}
+
+// The exact search of a couple that was left open.
+static void search_open(const ovoid_batch *batch, query_goal goal, int wants_evidence, const open_couple *x) {
+    const ovoid_posed_shape *a = &batch->bodies[batch->couples[x->index].a],
+                            *b = &batch->bodies[batch->couples[x->index].b];
+    ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+    pair_frame frame;
+    search s;
+    simplex start;
+    (void)frame_make(&pair, &frame);
+    goal.tolerance = x->tolerance;
+    search_make(&s, &frame, &goal);
+    take_supports(&s, x, &start);
+    answer_search(&s, &pair, NULL, &start, NULL);
+    end_search(batch, wants_evidence, x->index, &s);
+}
+
+COMPILER_NOINLINE static void search_all_open(const ovoid_batch *batch, query_goal goal, int wants_evidence,
+                                              const open_list *open) {
+    for (unsigned i = 0; i < open->count; i++)
+        if (open->items[i].is_alone)
+            batch_query_single(batch, open->items[i].index, goal);
+        else
+            search_open(batch, goal, wants_evidence, &open->items[i]);
+}
+
+// ---- a lane group
+
+// The supports along the ellipsoids' direction for the lanes of `open`.
+static void meet(const batch_state *c, lane_group *e, unsigned open) {
+    pair8 *o = e->lanes;
+    uint32_t a[PAIR8], b[PAIR8];
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        pair_frame f;
+        f.a = get_a(e, k)->shape;
+        f.b = get_b(e, k)->shape;
+        simd_pair x = frame_find_pair(&f, get3(o->n, k), get3(o->low, k));
+        o->high_value.lane[k] = x.high.value;
+        o->low_value.lane[k] = x.low.value;
+        put3(o->vertex_a, k, frame_vertex_a(&f, a[k] = x.high.index));
+        put3(o->vertex_b, k, vec3_at(shape_vertices(f.b), b[k] = x.low.index));
+    }
+    c->kernels->supports(o);
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        end_at_support(c, e, k, a[k], b[k]);
+    }
+}
+
+static pair8_ellipsoids find_ellipsoids(const lane_group *e) {
+    pair8_ellipsoids rows;
+    for (unsigned k = 0; k < PAIR8; k++) {
+        const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
+        rows.outer_a[k] = &a->outer.center.x;
+        rows.outer_b[k] = &b->outer.center.x;
+        rows.inner_a[k] = a->inside.w;
+        rows.inner_b[k] = b->inside.w;
+    }
+    return rows;
+}
+
+// Ends the lanes `some` of a group after the ellipsoids.
+static void end_group(const batch_state *c, lane_group *e, unsigned some, const pair8_found *found) {
+    for (unsigned rest = some; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        if (found->odd >> k & 1)
+            leave_alone(c, e->index[k]);
+        else if (found->inner >> k & 1)
+            end_at_inner(c, e, k, found->narrow);
+        else if (found->apart >> k & 1)
+            end_at_outer(c, e, k, found->narrow);
+    }
+    unsigned open = some & ~(found->odd | found->inner | found->apart);
+    if (open) meet(c, e, open);
+}
+
+// Lanes from `count` on repeat lane 0.
+static void fill(lane_group *e, unsigned count) {
+    lane_column *column = (lane_column *)e->lanes;
+    for (unsigned k = count; k < PAIR8; k++) {
+        e->at.body_a[k] = e->at.body_a[0];
+        e->at.body_b[k] = e->at.body_b[0];
+        for (int i = 0; i < PAIR8_SPHERE_COLUMNS; i++) column[i].lane[k] = column[i].lane[0];
+    }
+}
+
+// Takes all waiting couples through the ellipsoids to their answers.
+static void settle(batch_state *c) {
+    unsigned groups = (c->waiting_count + PAIR8 - 1) / PAIR8, last = c->waiting_count % PAIR8;
+    pair8_ellipsoids rows[PAIR8_GROUPS];
+    pair8_found found[PAIR8_GROUPS];
+    if (last) fill(&c->waiting[groups - 1], last);
+    for (unsigned i = 0; i < groups; i++) rows[i] = find_ellipsoids(&c->waiting[i]);
+    c->kernels->ellipsoids(rows, &c->numbers, c->lanes, groups, found);
+    for (unsigned i = 0; i < groups; i++)
+        end_group(c, &c->waiting[i], i + 1 == groups && last ? (1u << last) - 1 : PAIR8_ALL, &found[i]);
+    c->waiting_count = 0;
+}
+
+// Appends lane k of e to the waiting couples; e may be the group that it goes to.
+static void wait_for_others(batch_state *c, const lane_group *e, unsigned k) {
+    lane_group *to = &c->waiting[c->waiting_count / PAIR8];
+    unsigned at = c->waiting_count++ % PAIR8;
+    to->index[at] = e->index[k];
+    to->at.body_a[at] = e->at.body_a[k];
+    to->at.body_b[at] = e->at.body_b[k];
+    const lane_column *from = (const lane_column *)e->lanes;
+    lane_column *column = (lane_column *)to->lanes;
+    for (int i = 0; i < PAIR8_SPHERE_COLUMNS; i++) column[i].lane[at] = from[i].lane[k];
+}
+
+// How many couples ahead the beginning of shapes is prefetched; bodies twice as many.
+enum { AHEAD = 16 };
+
+static void fetch_first(const ovoid_shape *shape) {
+    if (!shape) return;
+    compiler_prefetch(shape);
+    compiler_prefetch((const char *)shape + 64);
+}
+
+static void fetch_ahead(const ovoid_batch *batch, size_t first) {
+    const ovoid_couple *couples = batch->couples;
+    for (size_t i = first + 2 * AHEAD; i < first + 2 * AHEAD + PAIR8 && i < batch->couple_count; i++) {
+        compiler_prefetch(&batch->bodies[couples[i].a]);
+        compiler_prefetch(&batch->bodies[couples[i].b]);
+    }
+    for (size_t i = first + AHEAD; i < first + AHEAD + PAIR8 && i < batch->couple_count; i++) {
+        fetch_first(batch->bodies[couples[i].a].shape);
+        fetch_first(batch->bodies[couples[i].b].shape);
+    }
+}
+
+// Prefetches the ellipsoids of a couple that goes on to them.
+static void fetch_ellipsoids(const ovoid_shape *shape) {
+    const char *from = (const char *)&shape->outer, *to = (const char *)&shape->inside + sizeof shape->inside - 1;
+    for (; from < to; from += 64) compiler_prefetch(from);
+    compiler_prefetch(to);
+}
+
+// 1 for a couple that must be queried alone.
+static unsigned is_unusual(const ovoid_batch *batch, size_t i, const ovoid_shape *a, const ovoid_shape *b) {
+    return (a->has_origin | b->has_origin) || (batch->proofs && !is_blank(&batch->proofs[i]));
+}
+
+// Stands in the lanes for a body without a shape, whose couple is refused alone.
+static const ovoid_shape no_shape;
+static const ovoid_posed_shape no_body = {&no_shape, {{0, 0, 0}, {1, 0, 0, 0}}};
+
+// Fills a lane group with `count` couples, at most 8, from `first` on; lanes without a couple repeat lane 0. The mask
+// of unusual couples.
+static unsigned find_places(const batch_state *c, size_t first, unsigned count, lane_group *e) {
+    const ovoid_batch *batch = c->batch;
+    unsigned odd = 0;
+    for (unsigned k = 0; k < PAIR8; k++) {
+        size_t i = first + (k < count ? k : 0);
+        const ovoid_posed_shape *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
+        unsigned is_missing = !a->shape || !b->shape;
+        if (is_missing) a = b = &no_body;
+        e->index[k] = i;
+        e->at.body_a[k] = (const void *)a;
+        e->at.body_b[k] = (const void *)b;
+        e->at.shape_a[k] = (const void *)a->shape;
+        e->at.shape_b[k] = (const void *)b->shape;
+        odd |= (is_missing | is_unusual(batch, i, a->shape, b->shape)) << k;
+    }
+    return odd;
+}
+
+// Takes couples through the spheres. They are placed where they would wait, so that a group that the spheres leave open
+// stays there.
+static void take_group(batch_state *c, size_t first, unsigned count, lane_group *own) {
+    lane_group *e = c->waiting_count % PAIR8 ? own : &c->waiting[c->waiting_count / PAIR8];
+    unsigned odd = find_places(c, first, count, e), all = (1u << count) - 1;
+    pair8_found found = c->kernels->spheres(&e->at, &c->numbers, e->lanes);
+    odd |= found.odd;
+    // Lanes that start from the line of centres.
+    for (unsigned k = 0; k < PAIR8; k++)
+        e->lanes->line.lane[k] =
+            query_goal_takes_line(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, e->lanes->lower.lane[k]);
+    unsigned apart = found.apart & ~odd & all, open = all & ~(odd | apart);
+    for (unsigned rest = odd & all; rest; rest &= rest - 1) leave_alone(c, first + compiler_count_low_zeros(rest));
+    for (unsigned rest = apart; rest; rest &= rest - 1)
+        end_at_spheres(c, e, compiler_count_low_zeros(rest), found.narrow);
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        fetch_ellipsoids((const void *)e->at.shape_a[k]);
+        fetch_ellipsoids((const void *)e->at.shape_b[k]);
+    }
+    if (open == PAIR8_ALL && e != own)
+        c->waiting_count += PAIR8;
+    else
+        for (; open; open &= open - 1) wait_for_others(c, e, compiler_count_low_zeros(open));
+    // Without room for another group, the waiting ones go first.
+    if (c->waiting_count > PAIR8 * (PAIR8_GROUPS - 1)) settle(c);
+}
+
+// From couple `first` on, until enough are left open or all couples are through; the next one.
+COMPILER_NOINLINE static size_t run_lanes(const ovoid_batch *batch, query_goal goal, pair8_query numbers, size_t first,
+                                          open_list *open) {
+    pair8 lanes[PAIR8_GROUPS + 1];
+    lane_group groups[PAIR8_GROUPS + 1];
+    for (unsigned i = 0; i <= PAIR8_GROUPS; i++) groups[i].lanes = &lanes[i];
+    batch_state c = {batch, pair8_get_kernels(), goal, numbers, numbers.keeps_all, groups, lanes, 0, open};
+    for (; first < batch->couple_count && open->count <= OPEN_FULL; first += PAIR8) {
+        size_t left = batch->couple_count - first;
+        fetch_ahead(batch, first);
+        take_group(&c, first, left < PAIR8 ? (unsigned)left : PAIR8, &groups[PAIR8_GROUPS]);
+    }
+    if (c.waiting_count) settle(&c);
+    return first;
+}
+
+void batch_run(const ovoid_batch *batch, query_goal goal, const ovoid_options *options) {
+    open_list open;
+    goal.iterations = options->iterations;
+    int wants_evidence = batch->answers || batch->proofs;
+    pair8_query numbers = {goal.far,
+                           options->absolute_tolerance,
+                           options->relative_tolerance,
+                           FRAME_REJECT,
+                           FRAME_CLAIM,
+                           OVOID_LENGTH_MIN,
+                           OVOID_LENGTH_MAX,
+                           wants_evidence};
+    for (size_t next = 0; next < batch->couple_count;) {
+        open.count = 0;
+        next = run_lanes(batch, goal, numbers, next, &open);
+        search_all_open(batch, goal, wants_evidence, &open);
+    }
+}

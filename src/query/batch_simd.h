@@ -1,0 +1,30 @@
+// Couples of a batch, a lane group at a time through the first stages (simd/pair8.h); couples that these leave open go
+// on alone from there. The bits are those of the single query.
+#ifndef OVOID_QUERY_BATCH_SIMD_H
+#define OVOID_QUERY_BATCH_SIMD_H
+
+#include "query/answer.h"
+
+#include <stddef.h>
+
+/// 1 where bodies and shapes lie in memory as the kernels read them, as rows of doubles: a body is a pointer and seven
+/// numbers, aligned to 8 bytes. 32-bit x86 aligns doubles to 4; batches are single queries there.
+enum {
+    BATCH_SIMD_IS_BUILT = sizeof(ovoid_posed_shape) == 8 * sizeof(double) &&
+                          offsetof(ovoid_posed_shape, pose) == sizeof(double) && offsetof(ovoid_shape, radius) == 8 &&
+                          offsetof(ovoid_shape, center) == 16 && offsetof(ovoid_shape, extent) == 40 &&
+                          offsetof(ovoid_shape, first) == 64 &&
+                          offsetof(ovoid_shape, inner) == offsetof(ovoid_shape, outer) + 9 * sizeof(double) &&
+                          sizeof(shape_inner) == 8 * sizeof(double)
+};
+
+/// Writes what the batch wants of the answer x of couple i.
+void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *x);
+
+/// The query of couple i alone.
+void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal);
+
+/// All couples. The goal is no depth, and the options are valid.
+void batch_run(const ovoid_batch *batch, query_goal goal, const ovoid_options *options);
+
+#endif

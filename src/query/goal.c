@@ -1,0 +1,32 @@
+// Options with their defaults, and the limit that ended a query.
+#include "query/goal.h"
+
+#include "base/error.h"
+
+int options_make(const ovoid_options *given, ovoid_options *options) {
+    *options = given ? *given : (ovoid_options){0, 0, 0, 0};
+    if (!(options->absolute_tolerance >= 0 && options->relative_tolerance >= 0 && options->cap >= 0)) return 0;
+    if (options->relative_tolerance == 0) options->relative_tolerance = 1e-9;
+    if (options->cap == 0) options->cap = INFINITY;
+    if (options->iterations == 0) options->iterations = 1000;
+    return 1;
+}
+
+ovoid_code options_check(const ovoid_options *given, ovoid_options *options, ovoid_error *error) {
+    if (options_make(given, options)) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_ARGUMENT, -1, "options: a tolerance or the cap is NaN or negative");
+}
+
+int bracket_is_narrow(const final_bracket *b, const query_goal *goal) {
+    int is_common = goal->wants_depth && b->kind == OVOID_PROOF_HULL && b->lower < -b->tolerance;
+    return b->upper - b->lower <= b->tolerance && !is_common;
+}
+
+ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble) {
+    ovoid_limit wide = trouble != OVOID_LIMIT_NONE ? trouble : OVOID_LIMIT_PRECISION;
+    if (b->status == OVOID_UNDECIDED) return wide;
+    if (b->lower > goal->far) return goal->beyond;
+    // A distance or a depth was the goal, and its bracket is wide.
+    int is_wanted = goal->wants_bracket && (b->status == OVOID_SEPARATED || goal->wants_depth);
+    return is_wanted && b->upper > goal->near ? wide : OVOID_LIMIT_ANSWERED;
+}

@@ -1,0 +1,49 @@
+// The goal and the options of a query, and why the bracket that it ends with is wide.
+#ifndef OVOID_QUERY_GOAL_H
+#define OVOID_QUERY_GOAL_H
+
+#include "pair/search.h"
+
+#include <string.h>
+
+/// 1 if the options' numbers are valid; fills in the defaults. given NULL: all defaults.
+int options_make(const ovoid_options *given, ovoid_options *options);
+
+/// options_make for functions that return a code: ARGUMENT with a sentence where options are invalid.
+ovoid_code options_check(const ovoid_options *given, ovoid_options *options, ovoid_error *error);
+
+/// The goals of the four queries.
+static inline query_goal query_goal_make_collide(void) {
+    return (query_goal){.far = 0, .near = -INFINITY, .beyond = OVOID_LIMIT_ANSWERED};
+}
+static inline query_goal query_goal_make_within(double margin) {
+    return (query_goal){.far = margin, .near = margin, .wants_bracket = 1, .beyond = OVOID_LIMIT_ANSWERED};
+}
+/// Made in the caller's floating-point environment, by no arithmetic: there a subnormal cap might be compared as zero.
+static inline query_goal query_goal_make_distance(const ovoid_options *options) {
+    uint64_t bits = 0;
+    if (options) memcpy(&bits, &options->cap, sizeof bits);
+    double cap = bits << 1 ? options->cap : INFINITY;
+    return (query_goal){.far = cap, .near = -INFINITY, .wants_bracket = 1, .beyond = OVOID_LIMIT_CAP};
+}
+static inline query_goal query_goal_make_depth(const ovoid_options *options) {
+    query_goal goal = query_goal_make_distance(options);
+    goal.wants_depth = 1;
+    return goal;
+}
+
+/// How a bracket stands when its query ends.
+typedef struct final_bracket {
+    double lower, upper, tolerance;
+    ovoid_status status;
+    ovoid_proof_kind kind; ///< what the upper bound rests on
+} final_bracket;
+
+/// 1 if the bracket is as narrow as the tolerance. A common point shows no depth, unless the depth is within the
+/// tolerance.
+int bracket_is_narrow(const final_bracket *b, const query_goal *goal);
+
+/// Why a bracket that is not narrow is wide. trouble: what kept the search from narrowing it, or NONE.
+ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble);
+
+#endif

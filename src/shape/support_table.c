@@ -1,0 +1,326 @@
+// A table of supports: the areas of W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on
+// Enclosed Ellipsoid by Facial Areas Splitting, 3.2-3.3, as a cube map of directions whose cells list the vertices that
+// can be extreme; a cell with too long a list is divided into four, and so on.
+//
+// Directions are mapped by the root of the vertices' second moments, which makes those of a stretched body even. The
+// map is only where the cells are: products are taken in the body frame, so an answer is that of a search of all
+// vertices, bit for bit.
+//
+// Theorem (as in paper/table.c). Let the directions r_1 .. r_4 span a cone and x_i.r_k > x_j.r_k + e for each of them,
+// e above what rounding does to both products of any direction of the cone that is a sum of w_k r_k with sum 1. Then j
+// is never the extreme vertex of a direction of the cone, as computed: i is ahead by more than rounding. So a list may
+// leave out whatever one vertex beats at all four corners, and no search in it can miss the vertex that wins, nor one
+// that equals it.
+//
+// Rounding, u = 2^-53: a product with a direction r of the cone is off by 4 u |x| |r|, and so is one with a corner; 32
+// u X N covers both products twice, X and N the greatest lengths. A mapped direction is off by 8 u of its length times
+// the ratio of the map's radii, at most 1e3, so its place on the cube's face by 1e-12; each cell is taken wider by 1e-7
+// of itself, at least 1e-10.
+//
+// A face of the cube begins with all vertices, each division with the list of the cell around it. The winners at nine
+// directions of a cell beat most vertices; in the short lists that are left, all are tested against all. A vertex that
+// is beaten in each quarter of a cell, by whichever vertices, is beaten. Cost: about 1 us a vertex. Lists of round
+// bodies are 5 long, and take 270 bytes a vertex; where they are long and stay so, as for the rings of a cylinder,
+// cells are coarser and no more than 512 bytes a vertex are used.
+#include "shape/support_table.h"
+
+#include "base/allocator.h"
+#include "base/compiler.h"
+#include "shape/direction_cells.h"
+#include "simd/support.h"
+
+#include <string.h>
+
+enum { SAMPLES = 9, PAIRS_MAX = 96, HALVINGS = 1, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14 };
+
+/// Vertices that may be extreme, padded to a multiple of 8 by the first.
+typedef struct list {
+    double *x, *y, *z;
+    uint32_t *index;
+    uint32_t count;
+} list;
+
+typedef struct builder {
+    const ovoid_allocator *allocator;
+    support_table *table;
+    simd_cell *cells;
+    uint32_t capacity;           ///< most cells
+    uint32_t used, divided_most; ///< cells in use; from divided_most on no cell is divided any more
+    sym3 inverse;
+    double reach;        ///< the length of no vertex is above it
+    list levels[LEVELS]; ///< room for the lists of a cell and of those around it
+    uint8_t *bits;
+} builder;
+
+static uint32_t padded(uint32_t count) { return (count + 7) / 8 * 8; }
+
+static void pad(list *l) {
+    for (uint32_t i = l->count; i < padded(l->count); i++) {
+        l->x[i] = l->x[0], l->y[i] = l->y[0], l->z[i] = l->z[0];
+        l->index[i] = l->index[0];
+    }
+}
+
+/// A square of a cube's face.
+typedef struct square {
+    uint32_t face;
+    double a, b, side; ///< from (a, b) to (a + side, b + side)
+} square;
+
+/// The points that may beat others in the cone of a square, by their products with its corners.
+typedef struct contest {
+    square s;
+    double corners[4][3];
+    double limits[PAIRS_MAX][4];
+    uint32_t count;
+    double margin;
+} contest;
+
+static vec3 direction_at(const builder *b, const square *s, double row, double column) {
+    return sym3_mul_vec3(b->inverse, cube_point(s->face, s->a + row * s->side, s->b + column * s->side));
+}
+
+static void contest_make(const builder *b, const square *s, contest *c) {
+    double widened = 1e-7, longest = 0;
+    for (int k = 0; k < 4; k++) {
+        vec3 v = direction_at(b, s, k & 2 ? 1 + widened : -widened, k & 1 ? 1 + widened : -widened);
+        c->corners[k][0] = v.x, c->corners[k][1] = v.y, c->corners[k][2] = v.z;
+        longest = max2(longest, vec3_norm(v));
+    }
+    c->s = *s;
+    c->count = 0;
+    c->margin = 32 * 0x1p-53 * b->reach * longest;
+}
+
+/// Adds point i of the list to those that may beat others.
+static void enter(contest *c, const list *l, uint32_t i) {
+    for (int k = 0; k < 4; k++)
+        c->limits[c->count][k] =
+            ((l->x[i] * c->corners[k][0] + l->y[i] * c->corners[k][1]) + l->z[i] * c->corners[k][2]) - c->margin;
+    c->count++;
+}
+
+/// Copies the points whose bit is set; *to may be the list itself.
+static void keep(const uint8_t *all, const list *from, list *to) {
+    uint32_t kept = 0;
+    for (uint32_t block = 0; block < padded(from->count) / 8; block++)
+        for (unsigned bits = all[block]; bits; bits &= bits - 1) {
+            uint32_t i = 8 * block + (uint32_t)__builtin_ctz(bits);
+            if (i >= from->count) break;
+            to->x[kept] = from->x[i], to->y[kept] = from->y[i], to->z[kept] = from->z[i];
+            to->index[kept++] = from->index[i];
+        }
+    to->count = kept;
+    pad(to);
+}
+
+/// Copies the points that are not beaten; *to may be the list itself.
+static void cull(const builder *b, const contest *c, const list *from, list *to) {
+    simd_cull by = {(const double(*)[3])c->corners, (const double(*)[4])c->limits, c->count};
+    simd_find_unbeaten(&by, from->x, from->y, from->z, padded(from->count), b->bits);
+    keep(b->bits, from, to);
+}
+
+/// Adds the winner at a direction of the cell, if it is not there yet.
+static void enter_winner(contest *c, const list *from, vec3 n, uint32_t *winners) {
+    uint32_t w = simd_find_support(from->x, from->y, from->z, padded(from->count), n.x, n.y, n.z).index, known = 0;
+    while (known < c->count && winners[known] != w) known++;
+    if (known < c->count) return;
+    winners[known] = w;
+    enter(c, from, w);
+}
+
+/// Adds the winners at the cell's corners and centre, and where `nine` is set at the middles of its sides too.
+static void enter_winners(const builder *b, contest *c, const list *from, int nine) {
+    static const double at[SAMPLES][2] = {{0, 0},   {0, 1},   {1, 0},   {1, 1},  {0.5, 0.5},
+                                          {0, 0.5}, {0.5, 0}, {1, 0.5}, {0.5, 1}};
+    uint32_t winners[SAMPLES];
+    for (int i = 0; i < (nine ? SAMPLES : 5); i++)
+        enter_winner(c, from, direction_at(b, &c->s, at[i][0], at[i][1]), winners);
+}
+
+/// Copies the points that the winners at nine directions of the cell do not beat.
+static void cull_by_samples(const builder *b, contest *c, const list *from, list *to) {
+    enter_winners(b, c, from, 1);
+    cull(b, c, from, to);
+}
+
+/// Drops the points of the list that any other point of it beats.
+static void cull_by_pairs(const builder *b, contest *c, list *l) {
+    c->count = 0;
+    for (uint32_t i = 0; i < l->count; i++) enter(c, l, i);
+    cull(b, c, l, l);
+}
+
+static square quarter(const square *s, uint32_t i) {
+    double side = 0.5 * s->side;
+    return (square){s->face, s->a + (i >> 1) * side, s->b + (i & 1) * side, side};
+}
+
+/// Sets the bits of the list's points that are unbeaten in some part of the cell, the parts being `halvings` times
+/// halved.
+static void find_in_parts(const builder *b, const square *s, const list *l, int halvings, uint8_t *all) {
+    if (halvings) {
+        for (uint32_t i = 0; i < 4; i++) {
+            square inner = quarter(s, i);
+            find_in_parts(b, &inner, l, halvings - 1, all);
+        }
+        return;
+    }
+    contest c;
+    contest_make(b, s, &c);
+    enter_winners(b, &c, l, 0);
+    simd_cull by = {(const double(*)[3])c.corners, (const double(*)[4])c.limits, c.count};
+    simd_find_unbeaten(&by, l->x, l->y, l->z, padded(l->count), b->bits);
+    for (uint32_t i = 0; i < padded(l->count) / 8; i++) all[i] |= b->bits[i];
+}
+
+/// Drops the vertices that are beaten in all parts of the cell, be it by different vertices.
+static void cull_by_parts(const builder *b, const square *s, list *l, int halvings) {
+    uint8_t all[PAIRS_MAX / 8 + 1] = {0};
+    find_in_parts(b, s, l, halvings, all);
+    keep(all, l, l);
+}
+
+/// Reserves consecutive blocks, cleared; 0 where there are too many.
+static int reserve(builder *b, uint32_t blocks, uint32_t *at) {
+    *at = b->used;
+    if (blocks > b->capacity - b->used) return 0;
+    memset(&b->cells[b->used], 0, blocks * sizeof *b->cells); // padding too, so that equal shapes are equal blocks
+    b->used += blocks;
+    return 1;
+}
+
+static void fill_block(simd_cell *cell, const list *l, uint32_t first) {
+    for (uint32_t i = 0; i < SIMD_CELL; i++) {
+        uint32_t k = first + i < l->count ? first + i : first;
+        cell->x[i] = l->x[k], cell->y[i] = l->y[k], cell->z[i] = l->z[k];
+        cell->index[i] = l->index[k];
+    }
+}
+
+static int fill_list(builder *b, uint32_t at, const list *l) {
+    uint32_t more = (l->count + SIMD_CELL - 1) / SIMD_CELL - 1, next = 0;
+    if (more && !reserve(b, more, &next)) return 0;
+    b->cells[at].count = l->count;
+    b->cells[at].next = next;
+    fill_block(&b->cells[at], l, 0);
+    for (uint32_t i = 0; i < more; i++) fill_block(&b->cells[next + i], l, (i + 1) * SIMD_CELL);
+    return 1;
+}
+
+/// Fills the cell at a place of the array from the candidates of the cell around it, which are at `level`. nested: how
+/// often the cell has been divided.
+static int fill_cell(builder *b, const square *s, uint32_t at, int level, int nested) {
+    contest c;
+    list *l = &b->levels[level + 1];
+    contest_make(b, s, &c);
+    cull_by_samples(b, &c, &b->levels[level], l);
+    if (l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_pairs(b, &c, l);
+    if (l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_parts(b, s, l, HALVINGS);
+    if (l->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at, l);
+    uint32_t next;
+    if (!reserve(b, 4, &next)) return 0;
+    b->cells[at].count = 0;
+    b->cells[at].next = next;
+    for (uint32_t i = 0; i < 4; i++) {
+        square inner = quarter(s, i);
+        if (!fill_cell(b, &inner, next + i, level + 1, nested + 1)) return 0;
+    }
+    return 1;
+}
+
+/// Divides a square of a face down to the cells of the grid. row, column: the square's place in the face divided
+/// `level` times.
+static int fill_grid(builder *b, const square *s, uint32_t row, uint32_t column, int level) {
+    uint32_t k = b->table->k;
+    if (1u << level == k) return fill_cell(b, s, cube_cell(s->face, row, column, k), level, 0);
+    contest c;
+    contest_make(b, s, &c);
+    cull_by_samples(b, &c, &b->levels[level], &b->levels[level + 1]);
+    for (uint32_t i = 0; i < 4; i++) {
+        square inner = quarter(s, i);
+        if (!fill_grid(b, &inner, 2 * row + (i >> 1), 2 * column + (i & 1), level + 1)) return 0;
+    }
+    return 1;
+}
+
+/// Fills all cells of a grid of 6 k k; 0 where they take too much memory.
+static int fill_all(builder *b) {
+    uint32_t k = b->table->k, grid;
+    b->used = 0;
+    if (!reserve(b, 6 * k * k, &grid)) return 0;
+    for (uint32_t face = 0; face < 6; face++) {
+        square s = {face, -1, -1, 2};
+        if (!fill_grid(b, &s, 0, 0, 0)) return 0;
+    }
+    return 1;
+}
+
+/// The root of the second moments, with radii of a ratio of at most 1e3, and its inverse.
+static void find_map(const double *xyz, uint32_t count, double size, sym3 *root, sym3 *inverse) {
+    vec3 sum = {0, 0, 0};
+    sym3 q = {0, 0, 0, 0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, vec3_scale(vec3_at(xyz, i), 1 / size));
+    vec3 mean = vec3_scale(sum, 1.0 / count);
+    for (uint32_t i = 0; i < count; i++)
+        q = sym3_add(q, sym3_outer(vec3_sub(vec3_scale(vec3_at(xyz, i), 1 / size), mean), 1));
+    eigen3 e = sym3_compute_eigen(q);
+    double r[3], s[3], unit = sqrt(e.value[2]);
+    for (int i = 0; i < 3; i++) {
+        r[i] = e.value[i] > 1e-6 * e.value[2] ? sqrt(e.value[i]) / unit : 1e-3;
+        s[i] = 1 / r[i];
+    }
+    *root = sym3_from_eigen(r, e.v);
+    *inverse = sym3_from_eigen(s, e.v);
+}
+
+/// Allocates the lists; the first holds all vertices, those below fewer.
+static int make_room(builder *b, const double *xyz, uint32_t count, double **numbers) {
+    size_t each = padded(count);
+    *numbers = allocator_allocate(b->allocator, LEVELS * each, 4 * sizeof **numbers);
+    b->cells = allocator_allocate(b->allocator, b->capacity, sizeof *b->cells);
+    if (!*numbers || !b->cells) return 0;
+    // Four doubles for each vertex and level: three coordinates and the index. The last level is room for the bits.
+    for (int i = 0; i < LEVELS; i++) {
+        double *at = *numbers + 4 * each * (size_t)i;
+        b->levels[i] = (list){at, at + each, at + 2 * each, (uint32_t *)(at + 3 * each), 0};
+    }
+    b->bits = (uint8_t *)(*numbers + 4 * each * (LEVELS - 1));
+    list *all = &b->levels[0];
+    for (uint32_t i = 0; i < count; i++) {
+        all->x[i] = xyz[3 * i], all->y[i] = xyz[3 * i + 1], all->z[i] = xyz[3 * i + 2];
+        all->index[i] = i;
+    }
+    all->count = count;
+    pad(all);
+    return 1;
+}
+
+ovoid_code support_table_create(const double *xyz, uint32_t count, const ovoid_allocator *allocator,
+                                support_table *table, simd_cell **cells) {
+    double size = 0, *numbers = NULL;
+    *table = (support_table){.k = 0};
+    *cells = NULL;
+    for (size_t i = 0; i < 3 * (size_t)count; i++) size = max2(size, fabs(xyz[i]));
+    if (count < SUPPORT_TABLE_LEAST || !(size > 1e-90 && size < 1e90)) return OVOID_OK;
+    builder b = {
+        .allocator = allocator, .table = table, .capacity = 2 * count, .divided_most = count, .reach = 1.75 * size};
+    table->k = K_MOST;
+    while (6 * table->k * table->k > count && table->k > 1) table->k /= 2;
+    ovoid_code code = make_room(&b, xyz, count, &numbers) ? OVOID_OK : OVOID_ERROR_MEMORY;
+    if (code == OVOID_OK) {
+        find_map(xyz, count, size, &table->root, &b.inverse);
+        while (table->k && !fill_all(&b)) table->k /= 2;
+    }
+    allocator_release(allocator, numbers);
+    if (code != OVOID_OK || !table->k) {
+        *table = (support_table){.k = 0};
+        allocator_release(allocator, b.cells);
+        return code;
+    }
+    table->scale = 0.5 * table->k;
+    table->cell_count = b.used;
+    *cells = b.cells;
+    return OVOID_OK;
+}

@@ -1,0 +1,52 @@
+// The support of a body of many vertices: from a direction to the few vertices that can be extreme along it, at a cost
+// that does not depend on their number.
+#ifndef OVOID_SHAPE_SUPPORT_TABLE_H
+#define OVOID_SHAPE_SUPPORT_TABLE_H
+
+#include "linear/mat3.h"
+#include "ovoid/base.h"
+#include "simd/cell.h"
+
+/// The map from a direction n to its cell: root n falls in one of the cube's 6 k k cells. k = 0: there is no table.
+typedef struct support_table {
+    sym3 root;
+    double scale; ///< k / 2
+    uint32_t k;
+    uint32_t cell_count; ///< blocks of the array
+} support_table;
+
+/// Bodies of at least so many vertices get a table; below, a search of all vertices is as fast.
+enum { SUPPORT_TABLE_LEAST = 96 };
+
+/// The table of count vertices and its array of cell_count blocks, which the caller releases. NULL and k = 0 where a
+/// table is of no use or the lengths are unusual. OVOID_OK or MEMORY.
+ovoid_code support_table_create(const double *xyz, uint32_t count, const ovoid_allocator *allocator,
+                                support_table *table, simd_cell **cells);
+
+/// The vertex extreme along n, with the bits of simd_find_support over all vertices; 0, and nothing found, where n is
+/// zero, not finite or of extreme length.
+static inline int support_table_find(const support_table *t, const simd_cell *cells, vec3 n, simd_extreme *found) {
+    vec3 v = sym3_mul_vec3(t->root, n);
+    double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z), m = max2(x, max2(y, z));
+    if (!(m > 1e-90 && m < 1e90)) return 0;
+    // The cube's face, and the two other coordinates in units of its cells.
+    uint32_t axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    double p[3] = {v.x, v.y, v.z}, first = axis == 0 ? v.y : v.x, second = axis == 2 ? v.y : v.z;
+    uint32_t face = 2 * axis + (p[axis] < 0);
+    double r = (first / m + 1) * t->scale, c = (second / m + 1) * t->scale;
+    uint32_t row = (uint32_t)r, column = (uint32_t)c;
+    row = row < t->k ? row : t->k - 1;
+    column = column < t->k ? column : t->k - 1;
+    const simd_cell *cell = &cells[(face * t->k + row) * t->k + column];
+    while (cell->count == 0) {
+        r = 2 * (r - row);
+        c = 2 * (c - column);
+        row = r >= 1;
+        column = c >= 1;
+        cell = &cells[cell->next + 2 * row + column];
+    }
+    *found = simd_find_in_cell(cell, &cells[cell->next], cell->count, n.x, n.y, n.z);
+    return 1;
+}
+
+#endif

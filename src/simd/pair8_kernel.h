@@ -1,0 +1,367 @@
+// The kernels of pair8.h, written once over lanes; pair8_scalar.c, pair8_avx2.c and pair8_avx512.c include this. Every
+// step has the operations of the single query in their order: a change there is a change here, and
+// tests/core/test_query_batch.c sees the difference.
+#include "simd/lanes.h"
+#include "simd/pair8.h"
+
+// ---- columns
+
+LANES_INLINE lane get(const lane_column *c, int at) { return lane_load(c->lane + at); }
+LANES_INLINE void put(lane_column *c, int at, lane v) { lane_store(c->lane + at, v); }
+LANES_INLINE lane3 get3(const lane_column *c, int at) { return (lane3){get(c, at), get(c + 1, at), get(c + 2, at)}; }
+LANES_INLINE void put3(lane_column *c, int at, lane3 v) {
+    put(c, at, v.x);
+    put(c + 1, at, v.y);
+    put(c + 2, at, v.z);
+}
+LANES_INLINE lane6 get6(const lane_column *c, int at) {
+    return (lane6){get(c, at), get(c + 1, at), get(c + 2, at), get(c + 3, at), get(c + 4, at), get(c + 5, at)};
+}
+LANES_INLINE void put6(lane_column *c, int at, lane6 v) {
+    put(c, at, v.xx);
+    put(c + 1, at, v.xy);
+    put(c + 2, at, v.xz);
+    put(c + 3, at, v.yy);
+    put(c + 4, at, v.yz);
+    put(c + 5, at, v.zz);
+}
+LANES_INLINE lane9 get9(const lane_column *c, int at) { return (lane9){get3(c, at), get3(c + 3, at), get3(c + 6, at)}; }
+LANES_INLINE void put9(lane_column *c, int at, lane9 m) {
+    put3(c, at, m.r0);
+    put3(c + 3, at, m.r1);
+    put3(c + 6, at, m.r2);
+}
+
+// The rows' numbers from `from` on, `count` (even) of them, as columns.
+#if LANES == 8
+// Two numbers of the even rows beside each other, and of the odd ones: a shuffle each makes columns of them.
+LANES_INLINE __m512d read_two(const double *const rows[PAIR8], int first, int from) {
+    __m512 v = _mm512_castpd_ps(_mm512_castpd128_pd512(_mm_loadu_pd(rows[first] + from)));
+    v = _mm512_mask_broadcast_f32x4(v, 0x00f0, _mm_castpd_ps(_mm_loadu_pd(rows[first + 2] + from)));
+    v = _mm512_mask_broadcast_f32x4(v, 0x0f00, _mm_castpd_ps(_mm_loadu_pd(rows[first + 4] + from)));
+    v = _mm512_mask_broadcast_f32x4(v, 0xf000, _mm_castpd_ps(_mm_loadu_pd(rows[first + 6] + from)));
+    return _mm512_castps_pd(v);
+}
+LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int count, lane_column *out) {
+    for (int k = 0; k < count; k += 2) {
+        __m512d even = read_two(rows, 0, from + k), odd = read_two(rows, 1, from + k);
+        _mm512_store_pd(out[k].lane, _mm512_unpacklo_pd(even, odd));
+        _mm512_store_pd(out[k + 1].lane, _mm512_unpackhi_pd(even, odd));
+    }
+}
+#else
+LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int count, lane_column *out) {
+    for (int i = 0; i < PAIR8; i++)
+        for (int k = 0; k < count; k++) out[k].lane[i] = rows[i][from + k];
+}
+#endif
+
+// ---- poses and spheres
+
+// quat_to_mat3. *good loses the lanes whose quaternion would be scaled first.
+LANES_INLINE lane9 make_rotation(const lane_column *q, int at, lane_mask *good) {
+    lane w = get(q, at), x = get(q + 1, at), y = get(q + 2, at), z = get(q + 3, at);
+    lane ww = w * w, xx = x * x, yy = y * y, zz = z * z, norm = (ww + xx) + (yy + zz);
+    *good = lane_and(*good, lane_and(lane_greater(norm, lane_set(0x1p-60)), lane_less(norm, lane_set(0x1p60))));
+    lane s = lane_set(2) / norm, one = lane_set(1);
+    lane xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
+    return (lane9){{one - s * (yy + zz), s * (xy - wz), s * (xz + wy)},
+                   {s * (xy + wz), one - s * (xx + zz), s * (yz - wx)},
+                   {s * (xz - wy), s * (yz + wx), one - s * (xx + yy)}};
+}
+
+LANES_INLINE lane_mask is_in_reach(lane3 p, double most) {
+    lane m = lane_set(most);
+    lane_mask x = lane_at_most(lane_abs(p.x), m), y = lane_at_most(lane_abs(p.y), m);
+    return lane_and(lane_and(x, y), lane_at_most(lane_abs(p.z), m));
+}
+
+// What is read of a body.
+typedef struct body_columns {
+    lane_column pose[8]; ///< what is before it, position, rotation
+    lane_column head[6];
+    lane_column first[4]; ///< vertex 0, what is behind it
+} body_columns;
+
+// frame_place, reject_by_spheres and the bounds of rejection_make_answer.
+LANES_INLINE pair8_found compute_spheres(const body_columns *a, const body_columns *b, const pair8_query *query,
+                                         pair8 *o, int at) {
+    lane3 origin = get3(a->pose + 1, at), origin_b = get3(b->pose + 1, at);
+    lane_mask good = lane_and(is_in_reach(origin, query->length_most), is_in_reach(origin_b, query->length_most));
+    lane9 world = make_rotation(a->pose + 4, at, &good), world_b = make_rotation(b->pose + 4, at, &good);
+    lane3 offset = lane3_sub(origin_b, origin);
+    lane radii = get(a->head + 1, at) + get(b->head + 1, at), reach = get(a->head, at) + get(b->head, at);
+    lane size = get(a->head + 5, at) + get(b->head + 5, at) + lane3_norm(offset) + radii;
+
+    // The enclosing spheres.
+    lane3 center_a = get3(a->head + 2, at), center_b = get3(b->head + 2, at);
+    lane3 d = lane3_add(offset, lane3_sub(lane9_mul3(world_b, center_b), lane9_mul3(world, center_a)));
+    lane claim = lane_set(query->reject) * size + lane_set(3 * query->hidden);
+    lane lower = lane3_norm(d) - reach - radii - claim;
+    lane_mask apart = lane_and(good, lane_greater(lower, lane_set(query->far)));
+
+    // Any two vertices, for the upper bound.
+    lane3 first_a = get3(a->first, at), first_b = get3(b->first, at);
+    lane3 any = lane3_add(offset, lane3_sub(lane9_mul3(world_b, first_b), lane9_mul3(world, first_a)));
+    lane upper = lane3_norm(any) - radii + claim;
+    lane tolerance =
+        lane_max(lane_set(query->absolute), lane_set(query->relative) * size) + lane_set(8 * query->hidden);
+    put(&o->lower, at, lower);
+    put(&o->upper, at, upper);
+    pair8_found found = {lane_bits(lane_not(good)), 0, lane_bits(apart),
+                         lane_bits(lane_at_most(upper - lower, tolerance))};
+    if (!query->keeps_all && found.apart == (1u << LANES) - 1) return found;
+
+    // For the lanes that go on to the ellipsoids.
+    put3(o->center_a, at, center_a);
+    put3(o->center_b, at, center_b);
+    put3(o->first_a, at, first_a);
+    put3(o->first_b, at, first_b);
+    put(&o->reach, at, reach);
+    put(&o->radii, at, radii);
+    put(&o->size, at, size);
+    put9(o->world_a, at, world);
+    put9(o->world_b, at, world_b);
+    put3(o->offset, at, offset);
+    put(&o->tolerance, at, tolerance);
+    return found;
+}
+
+static void add_found(pair8_found *all, pair8_found some, int at) {
+    all->odd |= some.odd << at;
+    all->inner |= some.inner << at;
+    all->apart |= some.apart << at;
+    all->narrow |= some.narrow << at;
+}
+
+LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair8_query *query, pair8 *o) {
+    body_columns a, b;
+    read_columns(from->body_a, 0, 8, a.pose);
+    read_columns(from->body_b, 0, 8, b.pose);
+    read_columns(from->shape_a, 0, 6, a.head);
+    read_columns(from->shape_b, 0, 6, b.head);
+    read_columns(from->shape_a, 8, 4, a.first);
+    read_columns(from->shape_b, 8, 4, b.first);
+    pair8_found all = {0, 0, 0, 0};
+    for (int at = 0; at < PAIR8; at += LANES) add_found(&all, compute_spheres(&a, &b, query, o, at), at);
+    return all;
+}
+
+// ---- ellipsoids
+//
+// The steps are long chains of divisions and roots, each waiting for the one before. So each step is done for all
+// groups before the next one begins: while one waits, others go on.
+
+// B in the frame of A.
+typedef struct related {
+    lane9 rotation;
+    lane3 translation;
+    lane radii, claim;
+} related;
+
+// What the steps hand on.
+typedef struct ellipsoid_work {
+    lane_column qa[6], qb[6], d[3], gap; ///< the outer ellipsoids, B's turned into the frame; between their centres
+    lane_column inner_upper;
+    lane_column good;     ///< 1 in lanes that stayed in the common case so far, else 0
+    lane_column is_inner; ///< 1 in lanes decided by the inner ellipsoids, else 0
+    int is_searching;     ///< 1 if any lane searches for the ellipsoids' direction
+} ellipsoid_work;
+
+LANES_INLINE related get_related(const pair8 *o, int at) {
+    return (related){get9(o->rotation, at), get3(o->translation, at), get(&o->radii, at), get(&o->claim, at)};
+}
+LANES_INLINE lane3 get_b(const related *f, lane3 x) { return lane3_add(lane9_mul3(f->rotation, x), f->translation); }
+
+LANES_INLINE lane_mask get_mask(const lane_column *c, int at) { return lane_greater(get(c, at), lane_set(0)); }
+LANES_INLINE void put_mask(lane_column *c, int at, lane_mask m) {
+    put(c, at, lane_select(m, lane_set(1), lane_set(0)));
+}
+
+// frame_relate, and the outer ellipsoids in the frame. columns: outer centre and Q of A, then of B.
+LANES_INLINE void relate(const lane_column *a, const lane_column *b, const pair8_query *query, pair8 *o,
+                         ellipsoid_work *w, int at) {
+    lane9 world = get9(o->world_a, at);
+    related f = {lane9_mul_transposed(world, get9(o->world_b, at)), lane9_mul3_transposed(world, get3(o->offset, at)),
+                 get(&o->radii, at), lane_set(query->claim) * get(&o->size, at) + lane_set(2 * query->hidden)};
+    put9(o->rotation, at, f.rotation);
+    put3(o->translation, at, f.translation);
+    put(&o->claim, at, f.claim);
+    put3(w->d, at, lane3_sub(get_b(&f, get3(b, at)), get3(a, at)));
+    put6(w->qa, at, get6(a + 3, at));
+    put6(w->qb, at, lane6_rotate(get6(b + 3, at), f.rotation));
+}
+
+// norm_of in inner.c.
+LANES_INLINE lane norm_of(const lane_column *w, lane3 y, int at) {
+    lane3 v = {get(w, at) * y.x, get(w + 1, at) * y.x + get(w + 2, at) * y.y,
+               (get(w + 3, at) * y.x + get(w + 4, at) * y.y) + get(w + 5, at) * y.z};
+    return lane3_norm(v);
+}
+
+// norm_in in inner.c, of a point without an error.
+LANES_INLINE lane norm_in(const lane_column *w, lane3 center, lane3 x, int at) {
+    return norm_of(w, lane3_sub(x, center), at) * lane_set(1 + 1e-6);
+}
+
+// What is read of an inner ellipsoid: its centre; W, the least radius, the largest.
+typedef struct inner_columns {
+    lane_column center[4], w[8];
+} inner_columns;
+
+// inner_find_common and inner_compute_upper: the lanes with a proven common point x; its upper bound.
+LANES_INLINE lane_mask find_common(const inner_columns *a, const inner_columns *b, const related *f, int at, lane3 *x,
+                                   lane *upper) {
+    lane zero = lane_set(0), least_a = get(a->w + 6, at), least_b = get(b->w + 6, at);
+    lane reach = get(a->w + 7, at) + get(b->w + 7, at);
+    lane3 center = get3(a->center, at), center_b = get3(b->center, at), d = lane3_sub(get_b(f, center_b), center);
+    lane_mask near = lane_and(lane_greater(least_a, zero), lane_greater(least_b, zero));
+    near = lane_and(near, lane_less(lane3_dot(d, d), reach * reach));
+    if (!lane_bits(near)) return near;
+
+    // The point on the line of centres, or the centre itself.
+    lane ka = norm_of(a->w, d, at), kb = norm_of(b->w, lane9_mul3_transposed(f->rotation, d), at);
+    lane_mask between = lane_less(ka * kb, lane_set(0.999) * (ka + kb));
+    lane_mask same = lane_not(lane_greater(ka, zero));
+    *x = lane3_select(between, lane3_add_scaled(center, d, kb / (ka + kb)), center);
+
+    // How far inside both?
+    lane3 in_b = lane9_mul3_transposed(f->rotation, lane3_sub(*x, f->translation));
+    lane one = lane_set(1), most = lane_set(1 - 1e-5);
+    lane na = norm_in(a->w, center, *x, at), nb = norm_in(b->w, center_b, in_b, at) + f->claim / least_b;
+    *upper = lane_set(-0.999) * ((one - na) * least_a + (one - nb) * least_b) - f->radii;
+    lane_mask inside = lane_and(lane_less(na, most), lane_less(nb, most));
+    return lane_and(lane_and(near, lane_or(between, same)), lane_and(inside, lane_less(*upper, zero)));
+}
+
+// The gap of the enclosing spheres along the line of centres (take_spheres in answer.c).
+LANES_INLINE lane compute_sphere_gap(const pair8 *o, const related *f, int at, lane_mask *good) {
+    lane3 d = lane3_sub(get_b(f, get3(o->center_b, at)), get3(o->center_a, at));
+    return lane3_dot(lane3_unit(d, good), d) - get(&o->reach, at) - f->radii - f->claim;
+}
+
+// Inner ellipsoids: a common point; the lower bound is that of the spheres.
+LANES_INLINE unsigned compute_inner(const inner_columns *a, const inner_columns *b, pair8 *o, ellipsoid_work *w,
+                                    int at) {
+    related f = get_related(o, at);
+    lane zero = lane_set(0), upper = zero;
+    lane3 x = {zero, zero, zero};
+    lane_mask good = lane_at_least(zero, zero), inner = find_common(a, b, &f, at, &x, &upper);
+    if (lane_bits(inner)) {
+        put(&o->lower, at, compute_sphere_gap(o, &f, at, &good));
+        put(&w->inner_upper, at, upper);
+        put3(o->inner, at, x);
+    }
+    put_mask(&w->good, at, lane_or(good, lane_not(inner)));
+    put_mask(&w->is_inner, at, inner);
+    return lane_bits(inner);
+}
+
+// ellipsoid_compute_spread in stages.c.
+LANES_INLINE lane compute_spread(lane6 q, lane3 n) {
+    return lane_max(lane3_dot(n, lane6_mul3(q, n)), lane_set(0)) + lane_set(256 * 0x1p-53) * lane6_trace(q);
+}
+
+// ellipsoids_find_direction in two steps: first the line of centres (or find_line in answer.c), then one round of it
+// (improve_direction). The mask loses the lanes that are scaled there, or leave its loop early.
+LANES_INLINE void start_direction(pair8 *o, ellipsoid_work *w, int at) {
+    related f = get_related(o, at);
+    lane_mask line = get_mask(&o->line, at);
+    lane3 d = get3(w->d, at), centers = lane3_sub(get_b(&f, get3(o->center_b, at)), get3(o->center_a, at));
+    lane square = lane3_dot(d, d), most = lane_max(lane6_trace(get6(w->qa, at)), lane6_trace(get6(w->qb, at)));
+    most = lane_max(most, square);
+    lane_mask good = lane_and(lane_greater(most, lane_set(1e-30)), lane_less(most, lane_set(1e30)));
+    good = lane_or(good, line);
+    put3(o->n, at, lane3_unit(lane3_select(line, centers, d), &good));
+    put(&w->gap, at, lane_set(0)); // not read of a group that takes no round
+    put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, get_mask(&w->is_inner, at))));
+}
+
+LANES_INLINE void improve_direction(pair8 *o, ellipsoid_work *w, int is_last, int at) {
+    lane3 n = get3(o->n, at), d = get3(w->d, at);
+    lane6 qa = get6(w->qa, at), qb = get6(w->qb, at);
+    lane zero = lane_set(0), sa = lane_sqrt(compute_spread(qa, n)), sb = lane_sqrt(compute_spread(qb, n));
+    lane apart = lane3_dot(n, d) - sa - sb;
+    put(&w->gap, at, apart);
+    if (is_last) return;
+    lane_mask good = lane_greater(sa + sb, zero);
+    lane ta = lane_select(lane_greater(sa, zero), sa, sb), tb = lane_select(lane_greater(sb, zero), sb, sa);
+    lane6 m = lane6_add(lane6_scale(qa, tb), lane6_scale(qb, ta));
+    lane thickness = lane_max(apart * (ta * tb), lane_set(1e-9) * lane6_trace(m));
+    m.xx = m.xx + thickness;
+    m.yy = m.yy + thickness;
+    m.zz = m.zz + thickness;
+    n = lane3_unit(lane6_mul3(lane6_adjugate(m), d), &good);
+    good = lane_and(good, lane_greater(lane3_dot(n, d), zero));
+    lane_mask line = get_mask(&o->line, at), ready = lane_or(line, get_mask(&w->is_inner, at));
+    put3(o->n, at, lane3_select(line, get3(o->n, at), n));
+    put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, ready)));
+}
+
+// Outer ellipsoids; the upper bound is that of any two vertices.
+LANES_INLINE pair8_found compute_outer(pair8 *o, const ellipsoid_work *w, const pair8_query *query, int at) {
+    related f = get_related(o, at);
+    put3(o->low, at, lane3_neg(lane9_mul3_transposed(f.rotation, get3(o->n, at))));
+    lane3 any = lane3_sub(get_b(&f, get3(o->first_b, at)), get3(o->first_a, at));
+    lane_mask good = get_mask(&w->good, at), inner = lane_and(get_mask(&w->is_inner, at), good);
+    lane lower = lane_select(inner, get(&o->lower, at), get(&w->gap, at) - f.radii - f.claim);
+    lane upper = lane_select(inner, get(&w->inner_upper, at), lane3_norm(any) - f.radii + f.claim);
+    put(&o->lower, at, lower);
+    put(&o->upper, at, upper);
+    // Lanes that took the line of centres have not measured the outer ellipsoids.
+    lane_mask passed = lane_or(inner, get_mask(&o->line, at));
+    lane_mask apart = lane_and(lane_and(good, lane_not(passed)), lane_greater(lower, lane_set(query->far)));
+    return (pair8_found){lane_bits(lane_not(good)), lane_bits(inner), lane_bits(apart),
+                         lane_bits(lane_at_most(upper - lower, get(&o->tolerance, at)))};
+}
+
+LANES_TARGET static void start_ellipsoids(const pair8_ellipsoids *from, const pair8_query *query, pair8 *o,
+                                          ellipsoid_work *w) {
+    lane_column outer_a[10], outer_b[10];
+    inner_columns a, b;
+    read_columns(from->outer_a, 0, 10, outer_a);
+    read_columns(from->outer_b, 0, 10, outer_b);
+    for (int at = 0; at < PAIR8; at += LANES) relate(outer_a, outer_b, query, o, w, at);
+    // The tenth number is the first one of the inner centre, which follows.
+    read_columns(from->outer_a, 9, 4, a.center);
+    read_columns(from->outer_b, 9, 4, b.center);
+    read_columns(from->inner_a, 0, 8, a.w);
+    read_columns(from->inner_b, 0, 8, b.w);
+    unsigned inner = 0, line = 0;
+    for (int at = 0; at < PAIR8; at += LANES) {
+        inner |= compute_inner(&a, &b, o, w, at) << at;
+        line |= lane_bits(get_mask(&o->line, at)) << at;
+    }
+    for (int at = 0; at < PAIR8 && inner != PAIR8_ALL; at += LANES) start_direction(o, w, at);
+    w->is_searching = (inner | line) != PAIR8_ALL;
+}
+
+LANES_TARGET static void run_ellipsoids(const pair8_ellipsoids *from, const pair8_query *query, pair8 *o,
+                                        unsigned count, pair8_found *found) {
+    ellipsoid_work w[PAIR8_GROUPS];
+    for (unsigned i = 0; i < count; i++) start_ellipsoids(&from[i], query, &o[i], &w[i]);
+    for (int round = 0; round < 3; round++)
+        for (unsigned i = 0; i < count; i++)
+            for (int at = 0; at < PAIR8 && w[i].is_searching; at += LANES)
+                improve_direction(&o[i], &w[i], round == 2, at);
+    for (unsigned i = 0; i < count; i++) {
+        found[i] = (pair8_found){0, 0, 0, 0};
+        for (int at = 0; at < PAIR8; at += LANES) add_found(&found[i], compute_outer(&o[i], &w[i], query, at), at);
+    }
+}
+
+// ---- supports
+
+// stage_support: the gap along n, and the length of the difference.
+LANES_INLINE void compute_supports(pair8 *o, int at) {
+    related f = get_related(o, at);
+    lane gap = lane3_dot(get3(o->n, at), f.translation) - get(&o->low_value, at) - get(&o->high_value, at);
+    lane3 w = lane3_sub(get_b(&f, get3(o->vertex_b, at)), get3(o->vertex_a, at));
+    put3(o->w, at, w);
+    put(&o->lower, at, gap - f.radii - f.claim);
+    put(&o->upper, at, lane3_norm(w) - f.radii + f.claim);
+}
+
+LANES_TARGET static void run_supports(pair8 *o) {
+    for (int at = 0; at < PAIR8; at += LANES) compute_supports(o, at);
+}

@@ -1,0 +1,25 @@
+// Bounds of a body for the broad phase: a sphere that holds it in any pose, and the box of one pose.
+#ifndef OVOID_WORLD_BODY_BOUNDS_H
+#define OVOID_WORLD_BODY_BOUNDS_H
+
+#include "linear/box.h"
+#include "linear/mat3.h"
+#include "ovoid/world.h"
+
+/// The enclosing sphere, with the centre r: no vertex is farther than reach from r, no point farther than reach +
+/// radius.
+typedef struct body_sphere {
+    vec3 local; ///< r in the body's local frame
+    double reach, radius;
+    double size; ///< bounds all lengths in the local frame
+} body_sphere;
+
+body_sphere body_compute_sphere(const ovoid_body *body);
+
+/// The centre r in the world, off by at most *center_error.
+vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double *center_error);
+
+/// A box that holds the body, rounding included.
+box body_compute_box(const ovoid_body *body, const body_sphere *ball);
+
+#endif

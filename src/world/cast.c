@@ -1,0 +1,166 @@
+// Casts into a world: a ray, or a body that is moved without turning. The tree is traversed in the order in which the
+// boxes are met, up to the first hit that is proven; the bodies are queried by the casts of motion.h, part by part.
+//
+// A slab is entered at (low - origin) / direction: one difference and one quotient of given numbers, off by 2 u of
+// itself, which WIDER covers. Boxes are enlarged by half the box of what moves, and by 2^-50 of their coordinates for
+// the rounding of that sum.
+#include "base/environment.h"
+#include "base/error.h"
+#include "compound/compound.h"
+#include "world/body_bounds.h"
+#include "world/dynamic_tree_traverse.h"
+#include "world/state.h"
+
+#define WIDER 0x1p-50
+
+typedef struct casting {
+    const ovoid_world *w;
+    uint32_t group, mask;
+    vec3 origin, direction, grow; ///< of the centre of what moves; half the size of its box
+    double length;
+    const ovoid_ray *ray; ///< of a ray; NULL where a body is cast
+    ovoid_body body;      ///< of a body: the probe
+    double bound;
+    ovoid_world_cast *out;
+} casting;
+
+// Cuts the range of times to those at which the centre is inside the enlarged slab; 0 where none is left.
+static int enter_slab(double low, double high, double from, double way, double range[2]) {
+    if (!(fabs(way) > 0)) return from >= low && from <= high;
+    double a = (low - from) / way, b = (high - from) / way;
+    double first = a < b ? a : b, last = a < b ? b : a;
+    range[0] = max2(range[0], first - WIDER * fabs(first));
+    range[1] = min2(range[1], last + WIDER * fabs(last));
+    return range[0] <= range[1];
+}
+
+static double measure_entry(const void *context, const box *x) {
+    const casting *c = context;
+    double range[2] = {0, c->length};
+    double slack = 4 * WIDER * (vec3_max_abs(x->min) + vec3_max_abs(x->max) + vec3_max_abs(c->grow));
+    vec3 low = vec3_sub(x->min, c->grow), high = vec3_add(x->max, c->grow);
+    int meets = enter_slab(low.x - slack, high.x + slack, c->origin.x, c->direction.x, range) &&
+                enter_slab(low.y - slack, high.y + slack, c->origin.y, c->direction.y, range) &&
+                enter_slab(low.z - slack, high.z + slack, c->origin.z, c->direction.z, range);
+    return meets ? range[0] : INFINITY;
+}
+
+// The hit of one part: bracket of its time; upper is infinity where no hit is proven.
+typedef struct part_hit {
+    uint32_t part, probe; ///< parts of the body and of the probe
+    ovoid_impact_status status;
+    double lower, upper;
+    vec3 point, normal;
+} part_hit;
+
+static void take_hit(casting *c, uint32_t body, const part_hit *hit) {
+    ovoid_world_cast *out = c->out;
+    if (hit->status == OVOID_IMPACT_FREE) return;
+    out->lower = min2(out->lower, hit->lower);
+    if (hit->status == OVOID_IMPACT_UNDECIDED) out->undecided++;
+    if (hit->status != OVOID_IMPACT_HIT || !(hit->upper < out->upper)) return;
+    out->body = body_get_id(c->w, body);
+    out->part = hit->part;
+    out->probe = hit->probe;
+    out->upper = hit->upper;
+    out->point = hit->point;
+    out->normal = hit->normal;
+    c->bound = hit->upper;
+}
+
+static int is_met(const casting *c, uint32_t i) {
+    const world_body *b = &c->w->bodies[i];
+    return (c->group & b->mask) && (b->group & c->mask);
+}
+
+static void visit_ray(void *context, uint32_t i) {
+    casting *c = context;
+    body_view view;
+    if (!is_met(c, i) || !body_view_make(&c->w->bodies[i].body, &view)) return;
+    for (uint32_t k = 0; k < view.count; k++) {
+        ovoid_posed_shape part = body_view_get_part(&view, k);
+        ovoid_ray_hit x = ovoid_ray_cast(&part, c->ray);
+        part_hit hit = {body_view_get_index(&view, k), 0, x.status, x.lower, x.upper, x.point, x.normal};
+        take_hit(c, i, &hit);
+    }
+}
+
+static void visit_body(void *context, uint32_t i) {
+    casting *c = context;
+    body_view view, probe;
+    if (!is_met(c, i) || !body_view_make(&c->w->bodies[i].body, &view) || !body_view_make(&c->body, &probe)) return;
+    for (uint32_t k = 0; k < view.count; k++) {
+        for (uint32_t m = 0; m < probe.count; m++) {
+            ovoid_posed_shape a = body_view_get_part(&view, k), b = body_view_get_part(&probe, m);
+            ovoid_pair pair = {a.shape, b.shape, a.pose, b.pose};
+            ovoid_impact x = ovoid_translation_cast(&pair, c->direction, 0, NULL);
+            part_hit hit = {body_view_get_index(&view, k),
+                            body_view_get_index(&probe, m),
+                            x.status,
+                            x.free_until,
+                            x.hit_at,
+                            x.hit.point_a,
+                            x.hit.normal};
+            take_hit(c, i, &hit);
+        }
+    }
+}
+
+static void run(casting *c, uint32_t group, uint32_t mask, tree_visit *visit) {
+    int all = !group && !mask;
+    c->group = all ? ~0u : group;
+    c->mask = all ? ~0u : mask;
+    c->bound = c->length;
+    *c->out = (ovoid_world_cast){.lower = c->length, .upper = INFINITY};
+    tree_traversal x = {&c->w->tree, measure_entry, visit, c, &c->bound};
+    dynamic_tree_find_nearest(&x);
+}
+
+static int is_length(vec3 v) { return vec3_is_finite(v) && vec3_max_abs(v) <= OVOID_LENGTH_MAX; }
+
+static ovoid_code cast_ray(const ovoid_world *w, const ovoid_world_ray *given, ovoid_world_cast *out,
+                           ovoid_error *error) {
+    OVOID_ASSERT(w && given && out);
+    const ovoid_ray *r = &given->ray;
+    if (!is_length(r->origin) || !is_length(r->direction) || !(vec3_max_abs(r->direction) > 0) || !(r->length >= 0) ||
+        !(r->radius >= 0 && r->radius <= OVOID_LENGTH_MAX))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1,
+                         "the ray is refused: NaN, too large, a direction of zero, or a negative length or radius");
+    casting c = {.w = w,
+                 .origin = r->origin,
+                 .direction = r->direction,
+                 .grow = {r->radius, r->radius, r->radius},
+                 .length = r->length,
+                 .ray = r,
+                 .out = out};
+    run(&c, given->group, given->mask, visit_ray);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_cast_ray(const ovoid_world *w, const ovoid_world_ray *ray, ovoid_world_cast *cast,
+                                ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, cast_ray(w, ray, cast, error));
+}
+
+static ovoid_code cast_body(const ovoid_world *w, const ovoid_world_body *probe, vec3 way, ovoid_world_cast *out,
+                            ovoid_error *error) {
+    OVOID_ASSERT(w && probe);
+    ovoid_code code = world_check_body(&probe->body, -1, error);
+    if (code != OVOID_OK) return code;
+    if (!is_length(way))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the displacement is NaN, infinite or too large");
+    body_sphere ball = body_compute_sphere(&probe->body);
+    box bounds = body_compute_box(&probe->body, &ball);
+    vec3 middle = vec3_scale(vec3_add(bounds.min, bounds.max), 0.5);
+    casting c = {.w = w, .origin = middle, .direction = way, .length = 1, .body = probe->body, .out = out};
+    c.grow = vec3_scale(vec3_sub(bounds.max, bounds.min), 0.5 * (1 + WIDER));
+    double slack = 4 * WIDER * vec3_max_abs(middle);
+    c.grow = vec3_add(c.grow, (vec3){slack, slack, slack});
+    run(&c, probe->group, probe->mask, visit_body);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_cast_body(const ovoid_world *w, const ovoid_world_body *probe, ovoid_vec3 displacement,
+                                 ovoid_world_cast *cast, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, displacement, cast_body(w, probe, displacement, cast, error));
+}

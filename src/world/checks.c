@@ -1,0 +1,35 @@
+// Checks of ids and of bodies that are handed in.
+#include "world/state.h"
+
+#include "base/error.h"
+#include "compound/compound.h"
+#include "linear/pose.h"
+
+uint32_t world_find_body(const ovoid_world *w, ovoid_id id) {
+    uint64_t i = id >> 32;
+    if (i >= w->used || w->leaf_of[i] == NONE || w->generations[i] != (uint32_t)id) return NONE;
+    return (uint32_t)i;
+}
+
+ovoid_code world_refuse_id(ovoid_error *error, int64_t place, ovoid_id id) {
+    return error_set(error, OVOID_ERROR_INDEX, place,
+                     "id %llu (index %u, generation %u) names no body of this world: it was removed, or never added",
+                     (unsigned long long)id, (unsigned)(id >> 32), (unsigned)(uint32_t)id);
+}
+
+static ovoid_code refuse_pose(ovoid_error *error, int64_t place, ovoid_code code) {
+    static const char *const what[] = {"a position or quaternion is NaN or infinite",
+                                       "a position is farther than OVOID_LENGTH_MAX", "the quaternion is zero"};
+    int k = code == OVOID_ERROR_NOT_FINITE ? 0 : code == OVOID_ERROR_RANGE ? 1 : 2;
+    return error_set(error, code, place, "the pose is refused: %s; the body stays where it was", what[k]);
+}
+
+ovoid_code world_check_body(const ovoid_body *body, int64_t place, ovoid_error *error) {
+    if (!body->shape == !body->compound)
+        return error_set(error, OVOID_ERROR_ARGUMENT, place, "a body needs either a shape or a compound");
+    ovoid_code code = pose_compute_check(&body->pose);
+    if (code == OVOID_OK && body->compound &&
+        !(vec3_norm(body->pose.position) + body->compound->extent <= OVOID_LENGTH_MAX))
+        code = OVOID_ERROR_RANGE;
+    return code == OVOID_OK ? code : refuse_pose(error, place, code);
+}

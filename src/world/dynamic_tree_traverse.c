@@ -1,0 +1,54 @@
+// Traversals of the tree with a small stack; below it, in the order of the tree, without one.
+#include "world/dynamic_tree_traverse.h"
+
+typedef struct traversal_entry {
+    uint32_t node;
+    double key;
+} traversal_entry;
+
+// The subtree below a node at the full stack, in the order of the tree.
+static void run_below(const tree_traversal *x, uint32_t root) {
+    uint32_t end = dynamic_tree_skip(x->tree, root);
+    for (uint32_t at = root; at != end;) {
+        const tree_node *n = &x->tree->nodes[at];
+        int is_near = x->measure(x->context, &n->bounds) <= *x->bound;
+        if (is_near && !n->child) x->visit(x->context, n->body);
+        at = is_near && n->child ? n->child : dynamic_tree_skip(x->tree, at);
+    }
+}
+
+void dynamic_tree_find_nearest(const tree_traversal *x) {
+    const tree_node *nodes = x->tree->nodes;
+    traversal_entry stack[TREE_STACK + 2];
+    uint32_t count = 0;
+    if (!x->tree->leaf_count) return;
+    stack[count++] = (traversal_entry){0, x->measure(x->context, &nodes[0].bounds)};
+    while (count) {
+        traversal_entry e = stack[--count];
+        const tree_node *n = &nodes[e.node];
+        if (!(e.key <= *x->bound)) continue;
+        if (!n->child) {
+            x->visit(x->context, n->body);
+        } else if (count >= TREE_STACK) {
+            run_below(x, e.node);
+        } else {
+            traversal_entry left = {n->child, x->measure(x->context, &nodes[n->child].bounds)};
+            traversal_entry right = {n->child + 1, x->measure(x->context, &nodes[n->child + 1].bounds)};
+            int is_right_first = right.key < left.key;
+            stack[count++] = is_right_first ? left : right;
+            stack[count++] = is_right_first ? right : left;
+        }
+    }
+}
+
+int dynamic_tree_find_overlaps_below(const dynamic_tree *t, const box *bounds, uint32_t root, tree_touch *touch,
+                                     void *context) {
+    uint32_t end = dynamic_tree_skip(t, root);
+    for (uint32_t at = root; at != end;) {
+        const tree_node *n = &t->nodes[at];
+        int is_near = box_is_overlapping(bounds, &n->bounds);
+        if (is_near && !n->child && !touch(context, n)) return 0;
+        at = is_near && n->child ? n->child : dynamic_tree_skip(t, at);
+    }
+    return 1;
+}

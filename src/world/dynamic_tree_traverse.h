@@ -1,0 +1,53 @@
+// Traversals of the tree: the nearest leaves first, up to a bound that may fall on the way; and all leaves that overlap
+// a box.
+#ifndef OVOID_WORLD_DYNAMIC_TREE_TRAVERSE_H
+#define OVOID_WORLD_DYNAMIC_TREE_TRAVERSE_H
+
+#include "world/dynamic_tree.h"
+
+/// A lower bound, over all bodies in the box, of the quantity that is minimised; INFINITY: none of them counts.
+typedef double tree_measure(const void *context, const box *bounds);
+/// Called for a leaf.
+typedef void tree_visit(void *context, uint32_t body);
+
+typedef struct tree_traversal {
+    const dynamic_tree *tree;
+    tree_measure *measure;
+    tree_visit *visit;
+    void *context;
+    double *bound; ///< nodes that measure above it are skipped
+} tree_traversal;
+
+void dynamic_tree_find_nearest(const tree_traversal *x);
+
+/// Called for a leaf whose box overlaps; 0 ends the traversal.
+typedef int tree_touch(void *context, const tree_node *leaf);
+
+/// dynamic_tree_find_overlaps below a node of a tree deeper than its stack.
+int dynamic_tree_find_overlaps_below(const dynamic_tree *t, const box *bounds, uint32_t root, tree_touch *touch,
+                                     void *context);
+
+/// All leaves whose boxes overlap the bounds; 0 where a leaf ended the traversal. Inline, so that `touch` is inlined
+/// too. Both children are tested and pushed without a branch, since which of them overlap cannot be predicted.
+static inline int dynamic_tree_find_overlaps(const dynamic_tree *t, const box *bounds, tree_touch *touch,
+                                             void *context) {
+    const tree_node *nodes = t->nodes;
+    uint32_t stack[TREE_STACK + 2], count = t->leaf_count && box_is_overlapping(bounds, &nodes[0].bounds);
+    stack[0] = 0;
+    while (count) {
+        const tree_node *n = &nodes[stack[--count]];
+        if (!n->child) {
+            if (!touch(context, n)) return 0;
+        } else if (count >= TREE_STACK) {
+            if (!dynamic_tree_find_overlaps_below(t, bounds, (uint32_t)(n - nodes), touch, context)) return 0;
+        } else {
+            stack[count] = n->child;
+            count += (uint32_t)box_is_overlapping(bounds, &nodes[n->child].bounds);
+            stack[count] = n->child + 1;
+            count += (uint32_t)box_is_overlapping(bounds, &nodes[n->child + 1].bounds);
+        }
+    }
+    return 1;
+}
+
+#endif

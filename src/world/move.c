@@ -1,0 +1,237 @@
+// Moving a body. Its travel grows by at least the distance that any point of it can have moved by turning; its box
+// stays as long as its motion since the box was made fits into the margin that was left around it.
+//
+// The chord of a rotation: unit quaternions p, q with p.q >= 0 are 2 sin(a / 4) apart, a the angle between the
+// rotations, and the norm of R(p) - R(q) is 2 sin(a / 2) <= 2 |p - q|. Each p, q is off by 4 u when normalised; 32 u is
+// added.
+#include "world/move.h"
+
+#include "base/environment.h"
+#include "base/error.h"
+#include "linear/rotation.h"
+#include "world/body_bounds.h"
+
+// Covers the rounding of a sum of a few terms.
+#define SLACK (1 + 0x1p-48)
+
+// The enlargement where the world chooses it: a number of steps like the last one, between fractions of the body's
+// size.
+enum { STEPS_AHEAD = 8 };
+#define ROOM_LEAST 0.04
+#define ROOM_MOST 0.5
+
+// A finite float, whatever the size. The box is made with this rounded number.
+static float make_float(double x) { return (float)min2(x, 1e38); }
+
+// The enlargement along one axis to one side, turns included.
+static float compute_room(const world_body *b, double step) {
+    double size = b->reach + b->radius, ahead = max2(step, 0) + (double)b->turn;
+    return make_float(max2(ROOM_LEAST * size, min2(STEPS_AHEAD * ahead, ROOM_MOST * size)));
+}
+
+static void find_room(const ovoid_world *w, world_body *b) {
+    float even = make_float(w->enlargement * (b->reach + b->radius));
+    for (int k = 0; k < 3; k++) {
+        b->low[k] = w->enlargement > 0 ? even : compute_room(b, -(double)b->way[k]);
+        b->high[k] = w->enlargement > 0 ? even : compute_room(b, (double)b->way[k]);
+    }
+}
+
+box world_compute_box(ovoid_world *w, uint32_t i) {
+    world_body *b = &w->bodies[i];
+    body_sphere ball = body_get_sphere(b);
+    b->placed = w->places[i];
+    find_room(w, b);
+    double more = w->margin / 2;
+    vec3 low = {((double)b->low[0] + more) * SLACK, ((double)b->low[1] + more) * SLACK,
+                ((double)b->low[2] + more) * SLACK};
+    vec3 high = {((double)b->high[0] + more) * SLACK, ((double)b->high[1] + more) * SLACK,
+                 ((double)b->high[2] + more) * SLACK};
+    box x = body_compute_box(&b->body, &ball);
+    return (box){vec3_sub(x.min, low), vec3_add(x.max, high)};
+}
+
+// 1 if no point of the body left its enlarged box along an axis: none moved farther than r did, and its turns.
+static int is_along(double way, double turn, float low, float high) {
+    double slack = turn + 0x1p-48 * (fabs(way) + turn);
+    return way + slack <= (double)high && slack - way <= (double)low;
+}
+
+static int is_in_box(const world_body *b, const body_place *p) {
+    vec3 d = vec3_sub(p->at, b->placed.at);
+    double t = p->travel - b->placed.travel;
+    return is_along(d.x, t, b->low[0], b->high[0]) && is_along(d.y, t, b->low[1], b->high[1]) &&
+           is_along(d.z, t, b->low[2], b->high[2]);
+}
+
+void body_mark_fresh(ovoid_world *w, uint32_t i) {
+    if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) w->changed[w->changed_count++] = i;
+    w->marks[i] |= MARK_BOX | MARK_FRESH | MARK_MOVED;
+    w->bodies[i].seen = box_make_empty();
+}
+
+void body_refresh(ovoid_world *w, uint32_t i) {
+    uint32_t leaf = w->leaf_of[i];
+    box old = w->tree.nodes[leaf].bounds, now = world_compute_box(w, i);
+    if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) {
+        w->changed[w->changed_count++] = i;
+        w->bodies[i].seen = old;
+        w->marks[i] |= MARK_BOX;
+    }
+    if (box_is_overlapping(&old, &now)) {
+        dynamic_tree_refit(&w->tree, leaf, &now);
+    } else {
+        dynamic_tree_remove(&w->tree, leaf, w->leaf_of);
+        dynamic_tree_add(&w->tree, i, &now, w->leaf_of);
+    }
+}
+
+static ovoid_quat normalised(ovoid_quat q) {
+    if (!quat_is_plain(quat_norm_squared(q))) q = quat_scaled(q);
+    double s = 1 / sqrt(quat_norm_squared(q));
+    return (ovoid_quat){q.w * s, q.x * s, q.y * s, q.z * s};
+}
+
+static int is_same_rotation(ovoid_quat p, ovoid_quat q) { return p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z; }
+
+static int is_same_pose(const ovoid_pose *p, const ovoid_pose *q) {
+    vec3 a = p->position, b = q->position;
+    return a.x == b.x && a.y == b.y && a.z == b.z && is_same_rotation(p->rotation, q->rotation);
+}
+
+// An upper bound of the norm of the difference of the two rotations.
+static double compute_chord(ovoid_quat before, ovoid_quat after) {
+    if (is_same_rotation(before, after)) return 0;
+    ovoid_quat p = normalised(before), q = normalised(after);
+    double sign = (p.w * q.w + p.x * q.x) + (p.y * q.y + p.z * q.z) < 0 ? -1 : 1;
+    ovoid_quat e = {q.w - sign * p.w, q.x - sign * p.x, q.y - sign * p.y, q.z - sign * p.z};
+    return min2(2 * sqrt(quat_norm_squared(e)) * SLACK + 32 * 0x1p-53, 2);
+}
+
+// Moves the body, but not its box: 1 if it has left the box.
+static int place_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
+    world_body *b = &w->bodies[i];
+    body_place *p = &w->places[i];
+    if (is_same_pose(&b->body.pose, pose)) return 0;
+    body_sphere ball = body_get_sphere(b);
+    double center_error, chord = compute_chord(b->body.pose.rotation, pose->rotation);
+    vec3 at = body_compute_center(&ball, pose, &center_error), way = vec3_sub(at, p->at);
+    double turn = (chord * b->reach + (b->center_error + center_error)) * SLACK;
+    double travel = p->travel + turn;
+    b->way[0] = (float)way.x;
+    b->way[1] = (float)way.y;
+    b->way[2] = (float)way.z;
+    b->turn = (float)turn;
+    *p = (body_place){at, travel + travel * 0x1p-51};
+    b->center_error = center_error;
+    b->body.pose = *pose;
+    w->marks[i] |= MARK_MOVED;
+    return !is_in_box(b, p);
+}
+
+// A pose that is valid for any body of the world, unless has_vast is set.
+static int is_plain(const ovoid_pose *pose) {
+    return quat_is_plain(quat_norm_squared(pose->rotation)) && fabs(pose->position.x) <= OVOID_LENGTH_MAX / 4 &&
+           fabs(pose->position.y) <= OVOID_LENGTH_MAX / 4 && fabs(pose->position.z) <= OVOID_LENGTH_MAX / 4;
+}
+
+static ovoid_code check_move(const ovoid_world *w, ovoid_id id, const ovoid_pose *pose, int64_t place,
+                             ovoid_error *error) {
+    uint32_t i = world_find_body(w, id);
+    if (i == NONE) return world_refuse_id(error, place, id);
+    if (is_plain(pose) && !w->has_vast) return OVOID_OK;
+    ovoid_body moved = w->bodies[i].body;
+    moved.pose = *pose;
+    return world_check_body(&moved, place, error);
+}
+
+// A batch of moves, no body twice: all workers move the bodies, then boxes that were left are made anew, in order.
+typedef struct moves {
+    ovoid_world *w;
+    const ovoid_id *ids;
+    const ovoid_pose *poses;
+} moves;
+
+enum { LEAST = 512 };
+
+static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    const moves *m = work;
+    (void)worker;
+    for (uint32_t k = first; k < end; k++) {
+        uint32_t i = (uint32_t)(m->ids[k] >> 32);
+        if (place_body(m->w, i, &m->poses[k])) m->w->marks[i] |= MARK_LEFT;
+    }
+}
+
+static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, uint32_t count) {
+    moves all = {w, ids, poses};
+    task_host_run(&w->host, &(task){place_bodies, &all, count, LEAST});
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t i = (uint32_t)(ids[k] >> 32);
+        if (!(w->marks[i] & MARK_LEFT)) continue;
+        w->marks[i] &= (uint8_t)~MARK_LEFT;
+        body_refresh(w, i);
+    }
+}
+
+// 1 if no id comes twice; all of them must name bodies.
+static int are_different(ovoid_world *w, const ovoid_id *ids, size_t count) {
+    size_t k = 0;
+    for (; k < count && !(w->marks[ids[k] >> 32] & MARK_NAMED); k++) w->marks[ids[k] >> 32] |= MARK_NAMED;
+    for (size_t j = 0; j < k; j++) w->marks[ids[j] >> 32] &= (uint8_t)~MARK_NAMED;
+    return k == count;
+}
+
+static ovoid_code move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, size_t count,
+                            ovoid_error *error) {
+    OVOID_ASSERT(w && ((ids && poses) || !count));
+    for (size_t k = 0; k < count; k++) {
+        ovoid_code code = check_move(w, ids[k], &poses[k], (int64_t)k, error);
+        if (code != OVOID_OK) return code;
+    }
+    if (w->threads > 1 && count > LEAST && are_different(w, ids, count)) {
+        move_by_all(w, ids, poses, (uint32_t)count);
+        return OVOID_OK;
+    }
+    for (size_t k = 0; k < count; k++) {
+        uint32_t i = (uint32_t)(ids[k] >> 32);
+        if (place_body(w, i, &poses[k])) body_refresh(w, i);
+    }
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, size_t count,
+                                 ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, count, move_many(w, ids, poses, count, error));
+}
+
+ovoid_code ovoid_world_move(ovoid_world *w, ovoid_id id, const ovoid_pose *pose, ovoid_error *error) {
+    return ovoid_world_move_many(w, &id, pose, 1, error);
+}
+
+// ---- the tree over the boxes
+
+static int rebuild(ovoid_world *w) {
+    tree_item *items = world_allocate(w, w->count, sizeof *items);
+    if (!items) return 0;
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < w->used; i++)
+        if (w->leaf_of[i] != NONE) items[at++] = (tree_item){w->tree.nodes[w->leaf_of[i]].bounds, i};
+    dynamic_tree_build(&w->tree, items, at, w->leaf_of);
+    world_release(w, items, w->count, sizeof *items);
+    return 1;
+}
+
+int world_mend_tree(ovoid_world *w) {
+    // The tree is worn if half of the leaves have moved in it, or its cost has grown by a third.
+    int worn = w->tree.changes > 64 + w->count / 2;
+    if (!worn && w->steps % 16 == 0) worn = dynamic_tree_compute_cost(&w->tree) > 1.33 * w->tree.built;
+    if (!worn || w->count < 2) return 0;
+    return rebuild(w);
+}
+
+void world_set_margin(ovoid_world *w, double margin) {
+    w->margin = margin;
+    for (uint32_t i = 0; i < w->used; i++)
+        if (w->leaf_of[i] != NONE) body_refresh(w, i);
+}

@@ -1,0 +1,30 @@
+// The query of one pair of a world, its cache, and how long a cached answer holds.
+#ifndef OVOID_WORLD_PAIR_UPDATE_H
+#define OVOID_WORLD_PAIR_UPDATE_H
+
+#include "compound/compound.h"
+#include "world/state.h"
+
+/// The query of two bodies at the present poses, warm from the cache (NULL: cold).
+void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *k, ovoid_exclusions *exclusions,
+                ovoid_compound_answer *out);
+
+/// Sets how long the cached answer answers the world's query: kind, v, c and CONTACT.
+void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k);
+
+/// Answers the pair from its revalidated proof or by a query, caches the answer and sets its age.
+void pair_update(ovoid_world *w, world_pair *p);
+
+/// The most by which the signed distance can have changed since the cached answer, rounding included.
+double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_cache *k);
+
+/// Measures the cached proof at the present poses: 1 if it still answers; the bounds of k are then those of now.
+int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *k);
+
+/// 1 if the cached answer still answers; does no geometry.
+int pair_is_answered(const ovoid_world *w, const world_pair *p);
+
+/// The contact of a pair, with aged bounds.
+ovoid_contact pair_make_contact(const ovoid_world *w, const world_pair *p);
+
+#endif

@@ -1,0 +1,170 @@
+// The parts of a world: bodies, tree, pairs, and the state that ages.
+//
+// A body's reference point r is the centre of its enclosing sphere, in the world. When the body moves, no point of it
+// moves by more than |step of r| + turn, where turn is the chord of the rotation times the sphere's reach. So of any
+// two bodies with d = r_b - r_a and t = turns of both since some moment (docs/world.md):
+//   along a fixed direction n the gap is at least   gap before + n.(d now - d before) - t,
+//   the signed distance is within                   |d now - d before| + t   of what it was.
+// A body's `travel` is the sum of all its turns and of what rounding can hide in r, always rounded up.
+#ifndef OVOID_WORLD_STATE_H
+#define OVOID_WORLD_STATE_H
+
+#include "ovoid/world.h"
+#include "world/body_bounds.h"
+#include "world/dynamic_tree.h"
+#include "world/ignored.h"
+#include "world/thread_pool.h"
+
+/// The place of a body as the pairs read it: half a cache line.
+typedef struct body_place {
+    vec3 at;       ///< r, rounded
+    double travel; ///< sum of turns, rounded up
+} body_place;
+
+/// Marks of a body since the last step: its box changed, all its pairs are to be found afresh, it was moved. NAMED, and
+/// LEFT (its box), are used within one call.
+enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16 };
+
+typedef struct world_body {
+    ovoid_body body;
+    vec3 local;            ///< r in the body's local frame
+    double reach;          ///< no point of the body without its radius is farther from r
+    double radius;         ///< its rounding radius
+    double size;           ///< bounds all lengths in its local frame
+    double center_error;   ///< error of r at the present pose, length
+    body_place placed;     ///< its place when its box was made,
+    float low[3], high[3]; ///< and how far it may go from there, against and along each axis
+    float way[3], turn;    ///< displacement and turn of the last move: only a forecast
+    box seen;              ///< MARK_BOX: the box from which the list of pairs was made; empty where MARK_FRESH
+    uint64_t user;
+    uint32_t group, mask;
+    uint32_t next; ///< of a free index: the next one; else the number of the body's ignored pairs
+} world_body;
+
+/// The part of a pair's state that every step reads. Whether a cached answer still holds is one comparison:
+///   PLANE:  c + v.d - t > 0        v the normal, farther than the margin
+///   BALL:   c - |d - v| - t > 0    v was d, within the margin or overlapping
+///   SPHERE: |d| - c > 0            the enclosing spheres are farther than the margin
+/// with t the sum of both travels.
+typedef enum pair_kind { PAIR_OPEN = 0, PAIR_PLANE, PAIR_BALL, PAIR_SPHERE } pair_kind;
+enum { PAIR_CONTACT = 1, PAIR_STILL = 2, PAIR_KNOWN = 4, PAIR_CHECK = 8 };
+typedef struct world_pair {
+    uint32_t a, b;
+    vec3 v;
+    double c;
+    uint32_t slot; ///< of pair_cache and witnesses
+    uint16_t kind;
+    uint16_t flags; ///< CONTACT: reported; STILL: neither body has moved since the query; KNOWN: it has been queried;
+                    ///< CHECK: kind and c are new in this step, and not yet compared
+} world_pair;
+
+/// The cached answer of a pair's last query.
+typedef struct pair_cache {
+    vec3 between;        ///< d at that time
+    double travel;       ///< t at that time
+    double lower, upper; ///< of the signed distance at that time
+    vec3 normal;         ///< of the lower bound, world; zero: none
+    union {
+        vec3 inner;           ///< INNER: the common point, A's body frame
+        uint16_t entry[6][2]; ///< the proof's vertices of A and B
+    } of;
+    uint32_t part_a, part_b;
+    uint32_t iterations;
+    uint8_t status, stage, limit, proof; ///< ovoid_status, ovoid_stage, ovoid_limit, ovoid_proof_kind
+    uint8_t count;                       ///< entries of the proof
+} pair_cache;
+
+/// The keys of new pairs that one worker finds.
+typedef struct gathered {
+    uint64_t *keys;
+    size_t count, capacity;
+    int failed;
+} gathered;
+
+/// Of CHUNK pairs: contacts, later the contacts before them; pairs that were queried again.
+typedef struct chunk {
+    size_t contacts, queried;
+} chunk;
+
+struct ovoid_world {
+    ovoid_allocator allocator;
+    task_host host;
+    uint32_t threads;
+    double enlargement;
+    ovoid_shape *point;
+    ovoid_filter *filter;
+    void *filter_context;
+    // Bodies, by index. leaf_of is NONE for a free index.
+    world_body *bodies;
+    body_place *places;
+    uint8_t *marks;
+    uint32_t *leaf_of, *changed, *generations;
+    uint32_t capacity, used, count, free;
+    int has_vast;           ///< a compound of more than half of OVOID_LENGTH_MAX was added
+    uint32_t changed_count; ///< bodies with MARK_BOX or MARK_FRESH: changed[0 ..]
+    dynamic_tree tree;
+    ignored ignored;
+    // Pairs, sorted by a, then b.
+    world_pair *pairs;
+    size_t pair_count, pair_capacity;
+    pair_cache *pair_cache;
+    ovoid_witness *witnesses; ///< beside pair_cache, once a distance or depth was queried
+    size_t slot_used, slot_capacity, witness_slots;
+    uint32_t *free_slots;
+    size_t free_slot_count, free_slot_capacity;
+    gathered *gathered; ///< one for each worker
+    uint64_t *keys;     ///< room for 2 key_capacity
+    size_t key_capacity;
+    chunk *chunks;
+    size_t chunk_capacity;
+    // The last step.
+    int has_query;
+    ovoid_query_kind kind;
+    double margin;               ///< of the boxes and of the query
+    ovoid_options query_options; ///< as given; zeros for NULL
+    uint32_t steps;              ///< steps so far
+    ovoid_contact *contacts;
+    ovoid_witness *contact_witnesses;
+    size_t contact_count, contact_capacity, witness_capacity;
+    size_t memory; ///< bytes allocated
+};
+
+// ---- memory, counted
+
+void *world_allocate(ovoid_world *w, size_t count, size_t size);
+void world_release(ovoid_world *w, void *memory, size_t count, size_t size);
+/// Room for `count` items, at least doubling; the first `used` are copied. 0: no memory, and nothing has changed.
+int world_reserve(ovoid_world *w, void **items, size_t *capacity, size_t used, size_t count, size_t size);
+
+/// All bytes that the world holds.
+size_t world_get_memory(const ovoid_world *w);
+
+/// 1 if the query's answers have witness points, which move with the bodies.
+static inline int world_is_measuring(const ovoid_world *w) { return w->kind >= OVOID_QUERY_DISTANCE; }
+
+// ---- bodies
+
+static inline ovoid_id body_get_id(const ovoid_world *w, uint32_t i) { return (uint64_t)i << 32 | w->generations[i]; }
+/// The index of an id; NONE where it names no body.
+uint32_t world_find_body(const ovoid_world *w, ovoid_id id);
+ovoid_code world_refuse_id(ovoid_error *error, int64_t place, ovoid_id id);
+/// OVOID_OK, or what is wrong with a body or its pose.
+ovoid_code world_check_body(const ovoid_body *body, int64_t place, ovoid_error *error);
+/// 1 if groups, ignored pairs and the filter let a pair through.
+int world_is_pair(const ovoid_world *w, uint32_t a, uint32_t b);
+/// Builds a new tree where the old one is worn: 1. 0: it is not worn, or there is no memory; then the old one stays.
+int world_mend_tree(ovoid_world *w);
+/// Makes all boxes anew, for another margin.
+void world_set_margin(ovoid_world *w, double margin);
+
+/// The body's enclosing sphere.
+static inline body_sphere body_get_sphere(const world_body *b) {
+    return (body_sphere){b->local, b->reach, b->radius, b->size};
+}
+
+// ---- pairs
+
+/// Brings the list of pairs up to date with the boxes. 0: no memory, and nothing is lost.
+int world_update_pairs(ovoid_world *w, ovoid_contacts *counts);
+
+#endif

@@ -1,0 +1,83 @@
+// Threads, locks and conditions of the system: all that the core asks of it beside memory. POSIX, or Windows from Vista
+// on.
+#ifndef OVOID_WORLD_THREAD_H
+#define OVOID_WORLD_THREAD_H
+
+#include <stddef.h>
+
+/// Bytes of a thread's stack: a query takes a tenth of it, the host's filter and allocator are called there too. Named,
+/// as the system's own choice may be as little as 128 KB.
+enum { THREAD_STACK = 1 << 20 };
+
+#if defined(_WIN32)
+
+#include <process.h>
+#include <windows.h>
+
+typedef HANDLE thread;
+typedef SRWLOCK thread_lock;
+typedef CONDITION_VARIABLE thread_condition;
+
+/// What a thread runs: THREAD_MAIN(name, context) { ...; return THREAD_END; }
+#define THREAD_MAIN(name, context) static unsigned __stdcall name(void *context)
+#define THREAD_END 0u
+typedef unsigned(__stdcall *thread_main)(void *context);
+
+static inline int thread_start(thread *t, thread_main run, void *context) {
+    *t = (HANDLE)_beginthreadex(NULL, THREAD_STACK, run, context, STACK_SIZE_PARAM_IS_A_RESERVATION, NULL);
+    return *t != NULL;
+}
+static inline void thread_join(thread t) {
+    (void)WaitForSingleObject(t, INFINITE);
+    (void)CloseHandle(t);
+}
+
+static inline void lock_make(thread_lock *l) { InitializeSRWLock(l); }
+static inline void lock_clear(thread_lock *l) { (void)l; }
+static inline void lock_take(thread_lock *l) { AcquireSRWLockExclusive(l); }
+static inline void lock_give(thread_lock *l) { ReleaseSRWLockExclusive(l); }
+
+static inline void condition_make(thread_condition *c) { InitializeConditionVariable(c); }
+static inline void condition_clear(thread_condition *c) { (void)c; }
+static inline void condition_wait(thread_condition *c, thread_lock *l) {
+    (void)SleepConditionVariableSRW(c, l, INFINITE, 0);
+}
+static inline void condition_wake_all(thread_condition *c) { WakeAllConditionVariable(c); }
+
+#else
+
+#include <pthread.h>
+
+typedef pthread_t thread;
+typedef pthread_mutex_t thread_lock;
+typedef pthread_cond_t thread_condition;
+
+/// What a thread runs: THREAD_MAIN(name, context) { ...; return THREAD_END; }
+#define THREAD_MAIN(name, context) static void *name(void *context)
+#define THREAD_END NULL
+typedef void *(*thread_main)(void *context);
+
+/// 1, or 0 where the system starts no more.
+static inline int thread_start(thread *t, thread_main run, void *context) {
+    pthread_attr_t attributes;
+    if (pthread_attr_init(&attributes) != 0) return 0;
+    int ok =
+        pthread_attr_setstacksize(&attributes, THREAD_STACK) == 0 && pthread_create(t, &attributes, run, context) == 0;
+    (void)pthread_attr_destroy(&attributes);
+    return ok;
+}
+static inline void thread_join(thread t) { (void)pthread_join(t, NULL); }
+
+static inline void lock_make(thread_lock *l) { (void)pthread_mutex_init(l, NULL); }
+static inline void lock_clear(thread_lock *l) { (void)pthread_mutex_destroy(l); }
+static inline void lock_take(thread_lock *l) { (void)pthread_mutex_lock(l); }
+static inline void lock_give(thread_lock *l) { (void)pthread_mutex_unlock(l); }
+
+static inline void condition_make(thread_condition *c) { (void)pthread_cond_init(c, NULL); }
+static inline void condition_clear(thread_condition *c) { (void)pthread_cond_destroy(c); }
+static inline void condition_wait(thread_condition *c, thread_lock *l) { (void)pthread_cond_wait(c, l); }
+static inline void condition_wake_all(thread_condition *c) { (void)pthread_cond_broadcast(c); }
+
+#endif
+
+#endif

@@ -1,0 +1,382 @@
+// Queries of a world between its steps: which bodies touch a body or a probe, which is nearest to it, which two of all
+// are nearest. The tree is traversed with the body's own box; the remaining pairs are queried cold, so nothing is
+// changed or cached, and any number of threads may query at once.
+#include "base/environment.h"
+#include "base/error.h"
+#include "compound/compound.h"
+#include "query/answer.h"
+#include "world/body_bounds.h"
+#include "world/dynamic_tree_traverse.h"
+#include "world/state.h"
+
+#include <string.h>
+
+// A search: the querying body, the goal, and the best hit so far.
+typedef struct world_search {
+    const ovoid_world *w;
+    ovoid_body body;
+    uint32_t self, after; ///< the querying body, or NONE for a probe; only bodies with higher indices than `after`
+                          ///< count, NONE: all
+    uint32_t group, mask;
+    box bounds;
+    ovoid_options options;
+    query_goal goal;
+    double bound; ///< of the traversal, length
+    double lower; ///< the least lower bound of all pairs queried
+    ovoid_compound_answer found;
+    uint32_t found_a, found_b;
+    // Overlaps, in the caller's memory.
+    ovoid_world_hit *hits;
+    size_t capacity, count;
+} world_search;
+
+// ---- the search
+
+static void set_box(world_search *x) {
+    body_sphere ball = body_compute_sphere(&x->body);
+    x->bounds = body_compute_box(&x->body, &ball);
+}
+
+static void take_body(world_search *x, uint32_t i) {
+    x->self = i;
+    x->body = x->w->bodies[i].body;
+    set_box(x);
+}
+
+static ovoid_code take_probe(world_search *x, const ovoid_world_body *probe, ovoid_error *error) {
+    ovoid_code code = world_check_body(&probe->body, -1, error);
+    if (code != OVOID_OK) return code;
+    int all = !probe->group && !probe->mask;
+    x->self = NONE;
+    x->body = probe->body;
+    x->group = all ? ~0u : probe->group;
+    x->mask = all ? ~0u : probe->mask;
+    set_box(x);
+    return OVOID_OK;
+}
+
+static void world_search_make(world_search *x, const ovoid_world *w) {
+    x->w = w;
+    x->after = x->found_a = x->found_b = NONE;
+    x->bound = x->lower = INFINITY;
+    x->hits = NULL;
+    x->capacity = x->count = 0;
+}
+
+// ---- leaves
+
+static int is_queried(const world_search *x, uint32_t j) {
+    const world_body *b = &x->w->bodies[j];
+    if (x->self == NONE) return (x->group & b->mask) && (b->group & x->mask);
+    return j != x->self && (x->after == NONE || j > x->after) && world_is_pair(x->w, x->self, j);
+}
+
+static void query_body(const world_search *x, uint32_t j, ovoid_compound_answer *out) {
+    const ovoid_body *other = &x->w->bodies[j].body;
+    if (!x->body.compound && !other->compound) {
+        ovoid_pair two = {x->body.shape, other->shape, x->body.pose, other->pose};
+        out->part_a = out->part_b = out->visited = 0;
+        out->tested = 1;
+        answer_find_internal(&two, &x->options, x->goal, NULL, NULL, &out->answer);
+        return;
+    }
+    ovoid_body_pair pair = {x->body, x->w->bodies[j].body};
+    compound_find_internal(&pair, &x->options, x->goal, NULL, NULL, out);
+}
+
+static double measure_distance(const void *context, const box *bounds) {
+    const world_search *x = context;
+    return box_compute_distance(&x->bounds, bounds);
+}
+
+static void visit_nearest(void *context, uint32_t j) {
+    world_search *x = context;
+    if (!is_queried(x, j)) return;
+    ovoid_compound_answer out;
+    x->goal.far = x->bound;
+    query_body(x, j, &out);
+    x->lower = min2(x->lower, out.answer.lower);
+    if (!(out.answer.upper <= x->bound)) return;
+    x->found = out;
+    x->found_a = x->self;
+    x->found_b = j;
+    // No pair is nearer than one that overlaps.
+    x->bound = out.answer.upper > 0 ? out.answer.upper : -INFINITY;
+}
+
+static int find_touch(void *context, const tree_node *leaf) {
+    world_search *x = context;
+    uint32_t j = leaf->body;
+    if (!is_queried(x, j)) return 1;
+    ovoid_compound_answer out;
+    query_body(x, j, &out);
+    if (out.answer.lower > 0) return 1;
+    x->found = out;
+    x->found_a = x->self;
+    x->found_b = j;
+    return 0;
+}
+
+static ovoid_id get_id(const ovoid_world *w, uint32_t i) { return i == NONE ? 0 : body_get_id(w, i); }
+
+static void visit_overlaps(void *context, uint32_t j) {
+    world_search *x = context;
+    if (!is_queried(x, j)) return;
+    ovoid_compound_answer out;
+    query_body(x, j, &out);
+    if (out.answer.lower > x->goal.far) return;
+    if (x->count < x->capacity)
+        x->hits[x->count] = (ovoid_world_hit){get_id(x->w, x->self), body_get_id(x->w, j), out.answer.lower, out};
+    x->count++;
+}
+
+static void run(world_search *x, tree_visit *visit) {
+    tree_traversal all = {&x->w->tree, measure_distance, visit, x, &x->bound};
+    dynamic_tree_find_nearest(&all);
+}
+
+// ---- queries
+
+static void write_hit(const world_search *x, ovoid_world_hit *hit) {
+    if (x->found_b == NONE) {
+        memset(hit, 0, sizeof *hit);
+        hit->lower = min2(x->lower, x->bound);
+        return;
+    }
+    *hit = (ovoid_world_hit){get_id(x->w, x->found_a), body_get_id(x->w, x->found_b),
+                             min2(x->lower, x->found.answer.lower), x->found};
+}
+
+static ovoid_code find_nearest_of(world_search *x, ovoid_world_hit *hit) {
+    x->bound = x->options.cap;
+    x->goal = query_goal_make_distance(NULL);
+    run(x, visit_nearest);
+    write_hit(x, hit);
+    return OVOID_OK;
+}
+
+static ovoid_code find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_options *options, ovoid_world_hit *hit,
+                               ovoid_error *error) {
+    OVOID_ASSERT(w && hit);
+    world_search x;
+    world_search_make(&x, w);
+    ovoid_code code = options_check(options, &x.options, error);
+    uint32_t i = world_find_body(w, id);
+    if (code == OVOID_OK && i == NONE) code = world_refuse_id(error, -1, id);
+    if (code != OVOID_OK) return code;
+    take_body(&x, i);
+    return find_nearest_of(&x, hit);
+}
+
+ovoid_code ovoid_world_find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_options *options,
+                                    ovoid_world_hit *hit, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, id, find_nearest(w, id, options, hit, error));
+}
+
+static ovoid_code find_nearest_to(const ovoid_world *w, const ovoid_world_body *probe, const ovoid_options *options,
+                                  ovoid_world_hit *hit, ovoid_error *error) {
+    OVOID_ASSERT(w && probe && hit);
+    world_search x;
+    world_search_make(&x, w);
+    ovoid_code code = options_check(options, &x.options, error);
+    if (code == OVOID_OK) code = take_probe(&x, probe, error);
+    return code == OVOID_OK ? find_nearest_of(&x, hit) : code;
+}
+
+ovoid_code ovoid_world_find_nearest_to(const ovoid_world *w, const ovoid_world_body *probe,
+                                       const ovoid_options *options, ovoid_world_hit *hit, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, find_nearest_to(w, probe, options, hit, error));
+}
+
+// For each of the named bodies, or for all, each against those with higher indices.
+static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
+                           ovoid_world_hit *hit, ovoid_error *error) {
+    OVOID_ASSERT(w && hit);
+    world_search x;
+    world_search_make(&x, w);
+    ovoid_code code = options_check(options, &x.options, error);
+    for (size_t k = 0; ids && k < count && code == OVOID_OK; k++)
+        if (world_find_body(w, ids[k]) == NONE) code = world_refuse_id(error, (int64_t)k, ids[k]);
+    if (code != OVOID_OK) return code;
+    x.goal = query_goal_make_collide();
+    for (size_t k = 0; k < (ids ? count : w->used) && x.found_b == NONE; k++) {
+        uint32_t i = ids ? (uint32_t)(ids[k] >> 32) : (uint32_t)k;
+        if (w->leaf_of[i] == NONE) continue;
+        take_body(&x, i);
+        if (!ids) x.after = i;
+        (void)dynamic_tree_find_overlaps(&w->tree, &x.bounds, find_touch, &x);
+    }
+    x.bound = 0;
+    write_hit(&x, hit);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
+                                ovoid_world_hit *hit, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, count, find_any(w, ids, count, options, hit, error));
+}
+
+static ovoid_code find_any_to(const ovoid_world *w, const ovoid_world_body *probes, size_t count, ovoid_world_hit *hit,
+                              ovoid_error *error) {
+    OVOID_ASSERT(w && hit && (probes || !count));
+    world_search x;
+    world_search_make(&x, w);
+    (void)options_make(NULL, &x.options);
+    x.goal = query_goal_make_collide();
+    size_t k = 0;
+    for (; k < count; k++) {
+        ovoid_code code = take_probe(&x, &probes[k], error);
+        if (code != OVOID_OK) {
+            if (error) error->place = (int64_t)k;
+            return code;
+        }
+        if (!dynamic_tree_find_overlaps(&w->tree, &x.bounds, find_touch, &x)) break;
+    }
+    x.bound = 0;
+    write_hit(&x, hit);
+    if (hit->b) hit->a = k;
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_any_to(const ovoid_world *w, const ovoid_world_body *probes, size_t count,
+                                   ovoid_world_hit *hit, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, count, find_any_to(w, probes, count, hit, error));
+}
+
+// ---- overlaps, sorted in place by heap sort (J. W. J. Williams, 1964)
+
+static void sift(ovoid_world_hit *hits, size_t at, size_t count) {
+    for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
+        if (child + 1 < count && hits[child + 1].b > hits[child].b) child++;
+        if (hits[child].b <= hits[at].b) return;
+        ovoid_world_hit swapped = hits[at];
+        hits[at] = hits[child];
+        hits[child] = swapped;
+        at = child;
+    }
+}
+
+static void sort_hits(ovoid_world_hit *hits, size_t count) {
+    for (size_t i = count / 2; i-- > 0;) sift(hits, i, count);
+    while (count > 1) {
+        ovoid_world_hit swapped = hits[0];
+        hits[0] = hits[--count];
+        hits[count] = swapped;
+        sift(hits, 0, count);
+    }
+}
+
+static ovoid_code find_overlaps(const ovoid_world *w, const ovoid_world_body *probe, double margin,
+                                ovoid_world_hits *hits, ovoid_error *error) {
+    OVOID_ASSERT(w && probe && hits);
+    world_search x;
+    world_search_make(&x, w);
+    if (!(margin >= 0 && margin <= OVOID_LENGTH_MAX))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "margin %.17g: it must be finite and not negative", margin);
+    ovoid_code code = options_check(hits->options, &x.options, error);
+    if (code == OVOID_OK) code = take_probe(&x, probe, error);
+    if (code != OVOID_OK) return code;
+    x.hits = hits->items;
+    x.capacity = hits->items ? hits->capacity : 0;
+    x.goal = margin > 0 ? query_goal_make_within(margin) : query_goal_make_collide();
+    x.bound = margin;
+    run(&x, visit_overlaps);
+    hits->count = x.count;
+    sort_hits(x.hits, x.count < x.capacity ? x.count : x.capacity);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_overlaps(const ovoid_world *w, const ovoid_world_body *probe, double margin,
+                                     ovoid_world_hits *hits, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, margin, find_overlaps(w, probe, margin, hits, error));
+}
+
+// ---- the nearest two of all
+
+typedef struct couple_entry {
+    uint32_t a, b;
+    double key;
+} couple_entry;
+
+// Couples that wait: two for each step down, of either tree.
+enum { COUPLES = 192 };
+
+static void visit_pair(world_search *x, uint32_t i, uint32_t j) {
+    take_body(x, i < j ? i : j);
+    visit_nearest(x, i < j ? j : i);
+}
+
+// Two subtrees at the full stack: all leaves of one against the other.
+static void run_pair_below(world_search *x, uint32_t a, uint32_t b) {
+    const dynamic_tree *t = &x->w->tree;
+    uint32_t end_a = dynamic_tree_skip(t, a), end_b = dynamic_tree_skip(t, b);
+    for (uint32_t i = a; i != end_a; i = t->nodes[i].child ? t->nodes[i].child : dynamic_tree_skip(t, i)) {
+        const tree_node *leaf = &t->nodes[i];
+        for (uint32_t j = b; j != end_b && !leaf->child;) {
+            const tree_node *n = &t->nodes[j];
+            int is_near = box_compute_distance(&leaf->bounds, &n->bounds) <= x->bound;
+            if (is_near && !n->child && (a != b || leaf->body < n->body)) visit_pair(x, leaf->body, n->body);
+            j = is_near && n->child ? n->child : dynamic_tree_skip(t, j);
+        }
+    }
+}
+
+static couple_entry make_entry(const world_search *x, uint32_t a, uint32_t b) {
+    const tree_node *nodes = x->w->tree.nodes;
+    return (couple_entry){a, b, a == b ? 0 : box_compute_distance(&nodes[a].bounds, &nodes[b].bounds)};
+}
+
+// Pushes the pairs of children of a pair of nodes, the nearer one on top.
+static uint32_t push_below(const world_search *x, couple_entry e, couple_entry *stack, uint32_t count) {
+    const tree_node *nodes = x->w->tree.nodes, *a = &nodes[e.a], *b = &nodes[e.b];
+    if (e.a == e.b) {
+        if (!a->child) return count;
+        stack[count++] = make_entry(x, a->child, a->child + 1);
+        stack[count++] = make_entry(x, a->child + 1, a->child + 1);
+        stack[count++] = make_entry(x, a->child, a->child);
+        return count;
+    }
+    int splits_a = a->child && (!b->child || box_compute_surface(&a->bounds) >= box_compute_surface(&b->bounds));
+    couple_entry left = splits_a ? make_entry(x, a->child, e.b) : make_entry(x, e.a, b->child);
+    couple_entry right = splits_a ? make_entry(x, a->child + 1, e.b) : make_entry(x, e.a, b->child + 1);
+    int is_right_first = right.key < left.key;
+    stack[count++] = is_right_first ? left : right;
+    stack[count++] = is_right_first ? right : left;
+    return count;
+}
+
+static void run_pairs(world_search *x) {
+    const tree_node *nodes = x->w->tree.nodes;
+    couple_entry stack[COUPLES + 3];
+    uint32_t count = 0;
+    if (x->w->count > 1) stack[count++] = make_entry(x, 0, 0);
+    while (count) {
+        couple_entry e = stack[--count];
+        if (!(e.key <= x->bound)) continue;
+        if (e.a != e.b && !nodes[e.a].child && !nodes[e.b].child)
+            visit_pair(x, nodes[e.a].body, nodes[e.b].body);
+        else if (count >= COUPLES)
+            run_pair_below(x, e.a, e.b);
+        else
+            count = push_below(x, e, stack, count);
+    }
+}
+
+static ovoid_code find_nearest_pair(const ovoid_world *w, const ovoid_options *options, ovoid_world_hit *hit,
+                                    ovoid_error *error) {
+    OVOID_ASSERT(w && hit);
+    world_search x;
+    world_search_make(&x, w);
+    ovoid_code code = options_check(options, &x.options, error);
+    if (code != OVOID_OK) return code;
+    x.bound = x.options.cap;
+    x.goal = query_goal_make_distance(NULL);
+    run_pairs(&x);
+    write_hit(&x, hit);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_nearest_pair(const ovoid_world *w, const ovoid_options *options, ovoid_world_hit *hit,
+                                         ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, find_nearest_pair(w, options, hit, error));
+}

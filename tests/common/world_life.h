@@ -1,0 +1,95 @@
+// A world's life at random: bodies come, move a little or far, and go; pairs are ignored and taken back.
+#ifndef OVOID_TESTS_WORLD_LIFE_H
+#define OVOID_TESTS_WORLD_LIFE_H
+
+#include "worlds.h"
+
+typedef struct life {
+    ovoid_world *world;
+    ovoid_shape **shapes;
+    ovoid_compound *compound;
+    ovoid_id ids[64];
+    size_t count;
+    double side, scale;
+    uint64_t s;
+} life;
+
+static inline ovoid_world_body life_make_body(life *l) {
+    ovoid_world_body b = {.body = {.shape = l->shapes[random_next(&l->s) % WORLD_SHAPES]}};
+    if (random_next(&l->s) % 8 == 0) b.body = (ovoid_body){.compound = l->compound};
+    b.body.pose = (ovoid_pose){random_place(&l->s, l->side), random_quat(&l->s)};
+    if (random_next(&l->s) % 4 == 0) {
+        b.group = 1u << random_next(&l->s) % 3;
+        b.mask = (uint32_t)random_next(&l->s) % 7 + 1;
+    }
+    b.user = random_next(&l->s);
+    return b;
+}
+
+static inline void life_add(life *l) {
+    ovoid_world_body b = life_make_body(l);
+    ovoid_id id = ovoid_world_add(l->world, &b, NULL);
+    CHECK(id != 0);
+    l->ids[l->count++] = id;
+}
+
+static inline void life_move(life *l, ovoid_id id) {
+    ovoid_world_body b;
+    CHECK(ovoid_world_get(l->world, id, &b, NULL) == OVOID_OK);
+    ovoid_pose p = b.body.pose;
+    double step = random_next(&l->s) % 16 == 0 ? l->side : 0.02 * l->scale;
+    ovoid_vec3 d = random_place(&l->s, step);
+    p.position = (ovoid_vec3){p.position.x + d.x, p.position.y + d.y, p.position.z + d.z};
+    if (random_next(&l->s) % 2) p.rotation.w += random_uniform(&l->s, -0.03, 0.03);
+    CHECK(ovoid_world_move(l->world, id, &p, NULL) == OVOID_OK);
+}
+
+static inline void life_step(life *l) {
+    for (size_t k = 0; k < l->count; k++)
+        if (random_next(&l->s) % 3) life_move(l, l->ids[k]);
+    if (l->count < 60 && random_next(&l->s) % 2) life_add(l);
+    if (l->count > 5 && random_next(&l->s) % 3 == 0) {
+        size_t k = random_next(&l->s) % l->count;
+        CHECK(ovoid_world_remove(l->world, l->ids[k], NULL) == OVOID_OK);
+        l->ids[k] = l->ids[--l->count];
+    }
+    if (l->count > 2 && random_next(&l->s) % 4 == 0) {
+        ovoid_id a = l->ids[random_next(&l->s) % l->count], b = l->ids[random_next(&l->s) % l->count];
+        if (a != b) CHECK(ovoid_world_set_ignored(l->world, a, b, random_next(&l->s) % 2, NULL) == OVOID_OK);
+    }
+}
+
+/// Shapes of one scale, or huge and small ones mixed; some bodies on a lattice where they touch exactly.
+static inline void life_begin(life *l, uint64_t seed, double scale, ovoid_shape **shapes) {
+    *l =
+        (life){.world = ovoid_world_create(NULL, NULL), .shapes = shapes, .side = 4 * scale, .scale = scale, .s = seed};
+    world_make_shapes(&l->s, scale, shapes);
+    if (seed % 4 == 3) {
+        ovoid_shape_destroy(shapes[6]);
+        ovoid_shape_destroy(shapes[7]);
+        shapes[6] = world_make_shape(&l->s, 6, 50 * scale);
+        shapes[7] = world_make_shape(&l->s, 7, 1e-3 * scale);
+    }
+    l->compound = world_make_compound(&l->s, shapes, scale);
+    for (int i = 0; i < 40; i++) life_add(l);
+}
+
+static inline void life_end(life *l) {
+    ovoid_world_destroy(l->world);
+    ovoid_compound_destroy(l->compound);
+    world_destroy_shapes(l->shapes);
+}
+
+/// A frame with any question, looked at beside all pairs; the bytes that the world holds.
+static inline size_t life_frame(life *l, ovoid_contact_query *q) {
+    if (random_next(&l->s) % 6 == 0) {
+        q->kind = (ovoid_query_kind)(random_next(&l->s) % 4);
+        q->margin = q->kind ? random_uniform(&l->s, 0, 0.5) * l->scale : 0;
+    }
+    ovoid_contacts frame;
+    CHECK(ovoid_world_compute_contacts(l->world, q, &frame, NULL) == OVOID_OK);
+    world_check_frame(l->world, q, &frame);
+    return frame.memory;
+}
+
+#endif

@@ -1,0 +1,189 @@
+// Batches give what the single queries give. Truth: the single queries, compared byte for byte, each with the earlier
+// proof that the batch was handed; for batches of every length up to two eights and a half, cut anywhere, with every
+// set of outputs, from every vector width of this machine; a refusal of couples that name no body.
+#include "check.h"
+#include "ovoid/ovoid.h"
+
+enum { SHAPES = 12, BODIES = 40, COUPLES = 300, ROUNDS = 4, QUESTIONS = 4, LENGTHS = 21 };
+
+static double scale = 1; // of the bodies and their places
+
+static ovoid_shape *make_shape(uint64_t *s) {
+    double xyz[3 * 30];
+    size_t count = 1 + random_next(s) % 30;
+    for (size_t i = 0; i < 3 * count; i++) xyz[i] = scale * random_uniform(s, -1, 1);
+    ovoid_shape_options o = {.radius = random_next(s) % 4 == 0 ? 0.125 * scale : 0};
+    return ovoid_shape_create_from_points(xyz, count, &o, NULL);
+}
+
+static ovoid_pose make_pose(uint64_t *s) {
+    ovoid_vec3 p = {random_uniform(s, -3, 3), random_uniform(s, -3, 3), random_uniform(s, -3, 3)};
+    ovoid_quat q = {random_uniform(s, -1, 1), random_uniform(s, -1, 1), random_uniform(s, -1, 1), 1};
+    return (ovoid_pose){{scale * p.x, scale * p.y, scale * p.z}, q};
+}
+
+static ovoid_answer ask_single(int question, const ovoid_pair *pair, const ovoid_options *o, const ovoid_proof *p) {
+    switch (question) {
+    case 0: return ovoid_collide(pair, o, p);
+    case 1: return ovoid_within(pair, 0.5, o, p);
+    case 2: return ovoid_distance(pair, o, p);
+    default: return ovoid_depth(pair, o, p, NULL);
+    }
+}
+
+static ovoid_code ask_batch(int question, const ovoid_batch *batch, ovoid_error *error) {
+    switch (question) {
+    case 0: return ovoid_collide_batch(batch, error);
+    case 1: return ovoid_within_batch(batch, 0.5, error);
+    case 2: return ovoid_distance_batch(batch, error);
+    default: return ovoid_depth_batch(batch, error);
+    }
+}
+
+static ovoid_posed_shape bodies[BODIES];
+static ovoid_couple couples[COUPLES];
+static ovoid_proof proofs[COUPLES], before[COUPLES];
+static ovoid_verdict verdicts[COUPLES];
+static ovoid_answer answers[COUPLES];
+
+static void compare(int question, const ovoid_options *o, int has_proofs, int round) {
+    for (int i = 0; i < COUPLES; i++) {
+        const ovoid_posed_shape *a = &bodies[couples[i].a], *b = &bodies[couples[i].b];
+        ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+        ovoid_answer x = ask_single(question, &pair, o, has_proofs && round > 0 ? &before[i] : NULL);
+        check_seed = (uint64_t)i;
+        CHECK(memcmp(&x.proof, &answers[i].proof, sizeof x.proof) == 0);
+        CHECK(x.status == answers[i].status && x.stage == answers[i].stage && x.limit == answers[i].limit);
+        CHECK(memcmp(&x.lower, &answers[i].lower, sizeof x.lower) == 0);
+        CHECK(memcmp(&x.upper, &answers[i].upper, sizeof x.upper) == 0);
+        CHECK(memcmp(&x.point_a, &answers[i].point_a, 3 * sizeof x.point_a) == 0);
+        CHECK(memcmp(&x, &verdicts[i], sizeof verdicts[i]) == 0);
+        if (has_proofs) CHECK(memcmp(&x.proof, &proofs[i], sizeof x.proof) == 0);
+    }
+}
+
+// The answers' bits whatever else is wanted, and however the couples are cut.
+static void check_outputs(int question, const ovoid_options *o) {
+    static ovoid_verdict alone[COUPLES];
+    static ovoid_proof fresh[COUPLES];
+    memset(alone, 0, sizeof alone);
+    memset(fresh, 0, sizeof fresh);
+    ovoid_batch batch = {bodies, BODIES, couples, COUPLES, o, NULL, alone, NULL};
+    CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
+    CHECK(memcmp(alone, verdicts, sizeof alone) == 0);
+    batch.verdicts = NULL;
+    batch.proofs = fresh;
+    CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
+    for (int i = 0; i < COUPLES; i++) CHECK(memcmp(&fresh[i], &answers[i].proof, sizeof fresh[i]) == 0);
+
+    // From every place on, so many; what lies behind is not touched.
+    for (size_t count = 0; count < LENGTHS; count++)
+        for (size_t from = 0; from < 16; from++) {
+            memset(alone, 7, sizeof alone);
+            ovoid_batch part = {bodies, BODIES, couples + from, count, o, NULL, alone, NULL};
+            CHECK(ask_batch(question, &part, NULL) == OVOID_OK);
+            CHECK(memcmp(alone, verdicts + from, count * sizeof *alone) == 0);
+            CHECK(alone[count].iterations == 0x07070707);
+        }
+}
+
+static void check_question(int question, int has_proofs, uint64_t *s) {
+    ovoid_options capped = {.cap = 0.75 * scale};
+    const ovoid_options *o = has_proofs ? NULL : &capped;
+    memset(proofs, 0, sizeof proofs);
+    for (int round = 0; round < ROUNDS; round++) {
+        memcpy(before, proofs, sizeof proofs);
+        ovoid_batch batch = {bodies, BODIES, couples, COUPLES, o, has_proofs ? proofs : NULL, verdicts, answers};
+        CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
+        compare(question, o, has_proofs, round);
+        if (!has_proofs && round == 0) check_outputs(question, o);
+        // Outputs that nobody wants.
+        ovoid_batch blind = {bodies, BODIES, couples, COUPLES, o, NULL, NULL, NULL};
+        CHECK(ask_batch(question, &blind, NULL) == OVOID_OK);
+        for (int i = 0; i < BODIES; i++) bodies[i].pose.position.x += scale * random_uniform(s, -0.02, 0.02);
+    }
+}
+
+static void check_all(void) {
+    uint64_t s = 6;
+    for (int question = 0; question < QUESTIONS; question++)
+        for (int has_proofs = 0; has_proofs < 2; has_proofs++) check_question(question, has_proofs, &s);
+}
+
+// Refused poses, a quaternion that has to be scaled, a shape with its origin far away, lengths without a square,
+// centres in one place, bodies that are far away: what the lanes must leave to the single query.
+static void make_bodies(ovoid_shape *const shapes[SHAPES], uint64_t *s) {
+    for (int i = 0; i < BODIES; i++) bodies[i] = (ovoid_posed_shape){shapes[i % SHAPES], make_pose(s)};
+    bodies[3].pose.rotation = (ovoid_quat){0, 0, 0, 0};
+    bodies[4].pose.position.y = NAN;
+    bodies[5].pose.rotation = (ovoid_quat){1e-30, 2e-30, 0, 0};
+    bodies[6].pose.position.x = 1e60;
+    bodies[7].pose.rotation.w = INFINITY;
+    bodies[8].pose = bodies[9].pose;
+    bodies[8].shape = bodies[9].shape;
+    bodies[10].pose.position.z = 1e6;
+}
+
+// Shapes 0 to 2: a point, a ball, a body whose frame is brought near.
+static int make_shapes(ovoid_shape *shapes[SHAPES], uint64_t *s) {
+    static const double point[3] = {0.5, 0.25, 0}, away[12] = {1e6, 0, 0, 1e6 + 1, 0, 0, 1e6, 1, 0, 1e6, 0, 1};
+    ovoid_shape_options ball = {.radius = 0.5};
+    shapes[0] = ovoid_shape_create_from_points(point, 1, NULL, NULL);
+    shapes[1] = ovoid_shape_create_from_points(point, 1, &ball, NULL);
+    shapes[2] = ovoid_shape_create_from_points(away, 4, NULL, NULL);
+    for (int i = 3; i < SHAPES; i++) shapes[i] = make_shape(s);
+    for (int i = 0; i < SHAPES; i++)
+        if (!CHECK(shapes[i] != NULL)) return 0;
+    return 1;
+}
+
+// A couple that names no body; nothing at all.
+static void check_refusals(void) {
+    couples[7].b = BODIES;
+    ovoid_error error;
+    ovoid_batch batch = {bodies, BODIES, couples, COUPLES, NULL, NULL, verdicts, NULL};
+    memset(verdicts, 7, sizeof verdicts);
+    ovoid_verdict first = verdicts[0];
+    CHECK(ovoid_collide_batch(&batch, &error) == OVOID_ERROR_INDEX);
+    CHECK(error.code == OVOID_ERROR_INDEX && error.place == 7);
+    CHECK(memcmp(&first, &verdicts[0], sizeof first) == 0);
+    ovoid_batch none = {0};
+    CHECK(ovoid_depth_batch(&none, &error) == OVOID_OK);
+}
+
+#if defined(__x86_64__)
+/// As in test_query_bits.c: what the compiler's runtime knows of the processor is made less.
+extern struct cpu_model { unsigned vendor, type, subtype, features[1]; } __cpu_model;
+enum { FEATURE_AVX2 = 10, FEATURE_AVX512F = 15 };
+
+static void check_widths(void) {
+    unsigned all = __cpu_model.features[0];
+    __cpu_model.features[0] = all & ~(1u << FEATURE_AVX512F);
+    check_all();
+    __cpu_model.features[0] = all & ~(1u << FEATURE_AVX512F | 1u << FEATURE_AVX2);
+    check_all();
+    __cpu_model.features[0] = all;
+}
+#else
+static void check_widths(void) {}
+#endif
+
+int main(void) {
+    uint64_t s = 5;
+    ovoid_shape *shapes[SHAPES];
+    if (!make_shapes(shapes, &s)) return check_end();
+    make_bodies(shapes, &s);
+    for (int i = 0; i < COUPLES; i++)
+        couples[i] = (ovoid_couple){(uint32_t)(random_next(&s) % BODIES), (uint32_t)(random_next(&s) % BODIES)};
+    check_all();
+    check_widths();
+    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+    // So small that what underflow can hide is a part of every bound.
+    scale = 1e-115;
+    if (!make_shapes(shapes, &s)) return check_end();
+    make_bodies(shapes, &s);
+    check_all();
+    check_refusals();
+    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+    return check_end();
+}

@@ -1,0 +1,132 @@
+// The same bits from any number of threads, from the world's own and from a host's task system that cuts the work as it
+// likes. Truth: the hash of all that one thread says.
+#include "worlds.h"
+
+#include <pthread.h>
+
+enum { BODIES = 3000, FRAMES = 8 };
+
+// ---- a host: starts a thread for each part, parts of odd sizes, joins them in finish
+
+typedef struct host_part {
+    void (*run)(void *, uint32_t, uint32_t, uint32_t);
+    void *work;
+    uint32_t first, end, worker;
+    pthread_t thread;
+} host_part;
+
+typedef struct host {
+    host_part parts[4];
+    int started;
+    uint32_t least;
+} host;
+
+static void *run_part(void *context) {
+    host_part *p = context;
+    // Pieces of the part, the last ones first.
+    for (uint32_t end = p->end; end > p->first;) {
+        uint32_t first = end - p->first > 7 ? end - 7 : p->first;
+        p->run(p->work, first, end, p->worker);
+        end = first;
+    }
+    return NULL;
+}
+
+static void *host_start(void *context, void (*run)(void *, uint32_t, uint32_t, uint32_t), void *work, uint32_t count,
+                        uint32_t least) {
+    host *h = context;
+    h->least = least;
+    for (uint32_t i = 0; i < 4; i++) {
+        uint32_t first = (uint32_t)((uint64_t)count * i / 4), end = (uint32_t)((uint64_t)count * (i + 1) / 4);
+        h->parts[i] = (host_part){.run = run, .work = work, .first = first, .end = end, .worker = i};
+        CHECK(pthread_create(&h->parts[i].thread, NULL, run_part, &h->parts[i]) == 0);
+    }
+    h->started++;
+    return h;
+}
+
+static void host_finish(void *context, void *handle) {
+    host *h = context;
+    CHECK(handle == h);
+    for (int i = 0; i < 4; i++) pthread_join(h->parts[i].thread, NULL);
+}
+
+// ----
+
+static uint64_t hash;
+
+static void add(const void *data, size_t size) {
+    const unsigned char *bytes = data;
+    for (size_t i = 0; i < size; i++) hash = (hash ^ bytes[i]) * 1099511628211u;
+}
+
+static void add_frame(const ovoid_contacts *f) {
+    for (size_t i = 0; i < f->count; i++) add(&f->items[i], sizeof *f->items);
+    if (f->witnesses) add(f->witnesses, f->count * sizeof *f->witnesses);
+    size_t counts[] = {f->count, f->bodies, f->pairs, f->aged, f->queried, f->added, f->dropped, f->moved, f->rebuilt};
+    add(counts, sizeof counts);
+}
+
+// A life of a few frames, the same for all; its hash.
+static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t *contacts) {
+    uint64_t s = 11;
+    ovoid_error error = {0};
+    ovoid_world *w = ovoid_world_create(o, &error);
+    if (!CHECK(w != NULL)) printf("  %s\n", error.message);
+    static ovoid_id ids[BODIES + 1];
+    static ovoid_pose poses[BODIES + 1];
+    static ovoid_world_body bodies[BODIES];
+    hash = 14695981039346656037u;
+    for (int i = 0; i < BODIES; i++)
+        bodies[i] = (ovoid_world_body){
+            .body = {shapes[random_next(&s) % WORLD_SHAPES], NULL, {random_place(&s, 18), random_quat(&s)}}};
+    CHECK(ovoid_world_add_many(w, bodies, BODIES, ids, NULL) == OVOID_OK);
+    for (int f = 0; f < FRAMES; f++) {
+        ovoid_contact_query q = {.kind = (ovoid_query_kind)(f / 2), .margin = f / 2 ? 0.1 : 0};
+        ovoid_contacts frame;
+        CHECK(ovoid_world_compute_contacts(w, &q, &frame, NULL) == OVOID_OK);
+        add_frame(&frame);
+        *contacts = frame.count;
+        for (int i = 0; i < BODIES; i++) {
+            ovoid_vec3 d = random_place(&s, i % 50 ? 0.02 : 5);
+            ovoid_pose *p = &bodies[i].body.pose;
+            p->position = (ovoid_vec3){p->position.x + d.x, p->position.y + d.y, p->position.z + d.z};
+            p->rotation.x += random_uniform(&s, -0.01, 0.01);
+            poses[i] = *p;
+        }
+        // One by one, all at once, and with one of them twice.
+        ids[BODIES] = ids[17];
+        poses[BODIES] = poses[17];
+        for (int i = 0; i < BODIES && f % 4 == 0; i++) CHECK(ovoid_world_move(w, ids[i], &poses[i], NULL) == OVOID_OK);
+        if (f % 4) CHECK(ovoid_world_move_many(w, ids, poses, BODIES + (f % 4 == 3), NULL) == OVOID_OK);
+        for (int i = f; i < BODIES; i += 100) {
+            CHECK(ovoid_world_remove(w, ids[i], NULL) == OVOID_OK);
+            ids[i] = ovoid_world_add(w, &bodies[i], NULL);
+        }
+    }
+    ovoid_world_destroy(w);
+    return hash;
+}
+
+int main(void) {
+    ovoid_shape *shapes[WORLD_SHAPES];
+    uint64_t s = 2;
+    world_make_shapes(&s, 1, shapes);
+    size_t contacts = 0, others = 0;
+    uint64_t truth = live(shapes, NULL, &contacts);
+    CHECK_LE(500, contacts);
+    for (uint32_t threads = 2; threads <= 8; threads += threads < 4 ? 1 : 2) {
+        ovoid_world_options o = {.threads = threads};
+        check_seed = threads;
+        CHECK(live(shapes, &o, &others) == truth);
+    }
+    host h = {.started = 0};
+    ovoid_world_options o = {.threads = 4, .tasks = {host_start, host_finish, &h}};
+    CHECK(live(shapes, &o, &others) == truth);
+    CHECK_LE(FRAMES, h.started);
+    ovoid_error error = {0};
+    o.tasks.finish = NULL;
+    CHECK(!ovoid_world_create(&o, &error) && error.code == OVOID_ERROR_ARGUMENT);
+    world_destroy_shapes(shapes);
+    return check_end();
+}

@@ -1,0 +1,212 @@
+// The dynamic tree by itself: leaves come, change their boxes and go. Truth: the tree's own definition, looked at in
+// full after every step (each inner node's box is exactly that of its two children, each leaf is where leaf_of says, no
+// node has two parents), and brute force over all boxes for what a traversal must find. The set of ignored pairs beside
+// a table of all pairs; the sort of keys beside its definition.
+#include "check.h"
+#include "world/dynamic_tree_traverse.h"
+#include "world/ignored.h"
+#include "world/radix_sort.h"
+
+enum { BODIES = 60, STEPS = 4000 };
+
+static tree_node nodes[2 * BODIES + 2];
+static uint32_t leaf_of[BODIES];
+static box boxes[BODIES];
+
+static box make_box(uint64_t *s) {
+    // Whole numbers, so that faces meet exactly and boxes are equal now and then.
+    vec3 at = {floor(random_uniform(s, 0, 30)), floor(random_uniform(s, 0, 30)), floor(random_uniform(s, 0, 4))};
+    vec3 wide = {floor(random_uniform(s, 0, 5)), floor(random_uniform(s, 0, 5)), floor(random_uniform(s, 0, 5))};
+    return (box){at, vec3_add(at, wide)};
+}
+
+// How many leaves there are below a node whose parent must be the one given.
+static uint32_t check_node(const dynamic_tree *t, uint32_t at, uint32_t parent) {
+    const tree_node *n = &t->nodes[at];
+    CHECK_EQ(n->parent, parent);
+    if (!n->child) {
+        CHECK(n->body < BODIES && leaf_of[n->body] == at && box_is_same(&n->bounds, &boxes[n->body]));
+        return 1;
+    }
+    box joined = box_join(&t->nodes[n->child].bounds, &t->nodes[n->child + 1].bounds);
+    CHECK(box_is_same(&joined, &n->bounds));
+    return check_node(t, n->child, at) + check_node(t, n->child + 1, at);
+}
+
+typedef struct found {
+    uint32_t count;
+    uint8_t is_in[BODIES];
+    vec3 from;
+    double bound;
+} found;
+
+static int take(void *context, const tree_node *leaf) {
+    found *f = context;
+    f->count++;
+    f->is_in[leaf->body]++;
+    return 1;
+}
+
+static void check_overlaps(const dynamic_tree *t, const box *wanted) {
+    found f = {.count = 0};
+    CHECK(dynamic_tree_find_overlaps(t, wanted, take, &f));
+    uint32_t expected = 0;
+    for (uint32_t i = 0; i < BODIES; i++) {
+        int is_in = leaf_of[i] != NONE && box_is_overlapping(&boxes[i], wanted);
+        CHECK_EQ(f.is_in[i], is_in);
+        expected += (uint32_t)is_in;
+    }
+    CHECK_EQ(f.count, expected);
+}
+
+static double measure(const void *context, const box *b) {
+    const found *f = context;
+    box point = {f->from, f->from};
+    return box_compute_distance(&point, b);
+}
+static void visit(void *context, uint32_t body) {
+    found *f = context;
+    f->is_in[body] = 1;
+    f->bound = min2(f->bound, measure(f, &boxes[body]));
+}
+
+// The nearest box; and every box that is as near as the bound from the start is visited where the bound stays.
+static void check_nearest(const dynamic_tree *t, vec3 from) {
+    found f = {.from = from, .bound = INFINITY};
+    dynamic_tree_find_nearest(&(tree_traversal){t, measure, visit, &f, &f.bound});
+    double least = INFINITY, kept;
+    for (uint32_t i = 0; i < BODIES; i++)
+        if (leaf_of[i] != NONE) least = min2(least, measure(&f, &boxes[i]));
+    CHECK(f.bound == least);
+    found g = {.from = from, .bound = INFINITY};
+    kept = least;
+    dynamic_tree_find_nearest(&(tree_traversal){t, measure, visit, &g, &kept});
+    for (uint32_t i = 0; i < BODIES; i++)
+        if (leaf_of[i] != NONE) CHECK_EQ(g.is_in[i], measure(&g, &boxes[i]) <= least);
+}
+
+static void rebuild(dynamic_tree *t) {
+    static tree_item items[BODIES];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < BODIES; i++)
+        if (leaf_of[i] != NONE) items[count++] = (tree_item){boxes[i], i};
+    dynamic_tree_build(t, items, count, leaf_of);
+}
+
+static void step(dynamic_tree *t, uint64_t *s) {
+    uint32_t i = (uint32_t)(random_next(s) % BODIES);
+    uint64_t what = random_next(s) % 8;
+    if (leaf_of[i] == NONE) {
+        boxes[i] = make_box(s);
+        dynamic_tree_add(t, i, &boxes[i], leaf_of);
+    } else if (what < 3) {
+        dynamic_tree_remove(t, leaf_of[i], leaf_of);
+        leaf_of[i] = NONE;
+    } else {
+        boxes[i] = make_box(s);
+        dynamic_tree_refit(t, leaf_of[i], &boxes[i]);
+    }
+}
+
+static void test_tree(void) {
+    dynamic_tree t;
+    uint64_t s = 7;
+    dynamic_tree_make(&t, nodes, BODIES);
+    for (uint32_t i = 0; i < BODIES; i++) leaf_of[i] = NONE;
+    for (int k = 0; k < STEPS; k++) {
+        check_seed = (uint64_t)k;
+        if (k % 500 == 499) rebuild(&t);
+        step(&t, &s);
+        uint32_t leaves = 0;
+        for (uint32_t i = 0; i < BODIES; i++) leaves += leaf_of[i] != NONE;
+        CHECK_EQ(t.leaf_count, leaves);
+        CHECK_LE(t.used, 2 * BODIES + 2);
+        if (!leaves) continue;
+        CHECK_EQ(check_node(&t, 0, NONE), leaves);
+        box wanted = make_box(&s);
+        check_overlaps(&t, &wanted);
+        check_nearest(&t, wanted.min);
+    }
+    // Empty again.
+    for (uint32_t i = 0; i < BODIES; i++)
+        if (leaf_of[i] != NONE) dynamic_tree_remove(&t, leaf_of[i], leaf_of), leaf_of[i] = NONE;
+    CHECK_EQ(t.leaf_count, 0);
+    check_overlaps(&t, &(box){{0, 0, 0}, {99, 99, 99}});
+}
+
+// The distance of two boxes is below the true one, in exact integers: coordinates below 2^20, so that squares and sums
+// are exact, and the root is compared by its square.
+static void test_distance(void) {
+    uint64_t s = 8;
+    for (int k = 0; k < 100000; k++) {
+        double range = k % 2 ? 1e3 : 0x1p20;
+        vec3 p = {floor(random_uniform(&s, 0, range)), floor(random_uniform(&s, 0, range)),
+                  floor(random_uniform(&s, 0, range))};
+        vec3 q = {-floor(random_uniform(&s, 1, range)), -floor(random_uniform(&s, 1, range)), k % 3 ? p.z : 0};
+        box a = {p, vec3_add(p, (vec3){1, 2, 3})}, b = {vec3_sub(q, (vec3){3, 2, 0}), q};
+        double square = vec3_norm_squared(vec3_sub(p, q)), d = box_compute_distance(&a, &b);
+        // d^2 <= square, without rounding: d^2 = high + low.
+        double high = d * d, low = fma(d, d, -high);
+        CHECK(high < square || (high == square && low <= 0));
+        CHECK_LE(square * (1 - 1e-14), high);
+    }
+}
+
+// All pairs of 40 bodies, ignored and taken back at random, and whole bodies that go.
+static void test_ignored(void) {
+    enum { N = 40, CAPACITY = 1024 };
+    static uint64_t keys[CAPACITY];
+    static uint8_t table[N][N];
+    memset(keys, 0xff, sizeof keys);
+    ignored set = {.keys = keys, .capacity = CAPACITY};
+    uint64_t s = 9;
+    size_t count = 0;
+    for (int k = 0; k < 20000; k++) {
+        uint32_t a = (uint32_t)(random_next(&s) % N), b = (uint32_t)(random_next(&s) % N);
+        if (a == b) continue;
+        uint8_t *is_in = a < b ? &table[a][b] : &table[b][a];
+        if (random_next(&s) % 400 == 0) {
+            ignored_remove_body(&set, a);
+            for (uint32_t i = 0; i < N; i++) {
+                count -= table[a][i] + table[i][a];
+                table[a][i] = table[i][a] = 0;
+            }
+        } else if (count < CAPACITY / 2 && random_next(&s) % 2) {
+            CHECK_EQ(ignored_add(&set, key_make(a, b)), !*is_in);
+            count += !*is_in;
+            *is_in = 1;
+        } else {
+            CHECK_EQ(ignored_remove(&set, key_make(b, a)), *is_in);
+            count -= *is_in;
+            *is_in = 0;
+        }
+        CHECK_EQ(set.count, count);
+        for (int j = 0; j < 8; j++) {
+            uint32_t x = (uint32_t)(random_next(&s) % N), y = (uint32_t)(random_next(&s) % N);
+            if (x != y) CHECK_EQ(ignored_is_in(&set, key_make(x, y)), x < y ? table[x][y] : table[y][x]);
+        }
+    }
+}
+
+static void test_sort(void) {
+    static uint64_t keys[2000], scratch[2000];
+    uint64_t s = 10;
+    for (int k = 0; k < 60; k++) {
+        uint64_t sum = 0, sorted_sum = 0, mask = ~0ull >> k;
+        for (int i = 0; i < 2000; i++) sum += keys[i] = random_next(&s) & mask;
+        radix_sort(keys, scratch, 2000);
+        for (int i = 0; i < 2000; i++) sorted_sum += keys[i];
+        for (int i = 1; i < 2000; i++)
+            if (keys[i - 1] > keys[i]) CHECK(!"sorted");
+        CHECK(sum == sorted_sum);
+    }
+}
+
+int main(void) {
+    test_tree();
+    check_seed = 0;
+    test_distance();
+    test_ignored();
+    test_sort();
+    return check_end();
+}

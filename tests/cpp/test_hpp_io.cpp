@@ -1,0 +1,116 @@
+// Files through <ovoid/io.hpp>: what is written is read back, byte for byte; owners and errors as in the core's header.
+// Truth: the numbers that this test writes into the files.
+#include "same.hpp"
+
+#include <ovoid/io.hpp>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+namespace {
+
+std::string folder;
+
+std::string write_text(const std::string &name, const std::string &text) {
+    std::ofstream(folder + "/" + name) << text;
+    return folder + "/" + name;
+}
+
+const char *const two_parts = "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+                              "o two\nv 5 0 0\nv 7 0 0\nv 5 2 0\nv 5 0 2\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+
+void check_shapes() {
+    const std::string path = write_text("mesh.obj", two_parts);
+    const ovoid::shape hull = ovoid::read_shape(path);
+    CHECK_EQ(hull.report().points, 8);
+    ovoid::write_shape(hull, folder + "/hull.ovoid");
+    CHECK(is_same_shape(ovoid::read_shape(folder + "/hull.ovoid"), hull.get()));
+
+    ovoid::read_options each;
+    each.parts = 1;
+    each.scale = 10;
+    const auto mesh = ovoid::mesh::read(path, each);
+    CHECK(mesh.size() == 2 && std::string(mesh[1].name) == "two");
+    const ovoid::shape second = ovoid::shape::from_points(ovoid::points_of(mesh[1]));
+    CHECK_NEAR(second.measures().volume, 8000.0 / 6, 1e-9);
+    const auto shapes = ovoid::shapes::read_file(path, each);
+    CHECK(shapes.size() == 2 && std::string(shapes.name(0)) == "one" && is_same_shape(shapes[1], second.get()));
+    CHECK_EQ(shapes.create_compound().size(), 2);
+    const auto list = ovoid::shapes::read_list(write_text("list.txt", "# two\nmesh.obj\nhull.ovoid\n"));
+    CHECK(list.size() == 2 && is_same_shape(list[1], hull.get()));
+    CHECK(throws(OVOID_ERROR_FILE, -1, "absent", [] { ovoid::read_shape(folder + "/absent.obj"); }));
+    CHECK(throws(OVOID_ERROR_FORMAT, 2, "bad.obj:2",
+                 [] { ovoid::read_shape(write_text("bad.obj", "v 0 0 0\nv 1 x 0\n")); }));
+}
+
+void check_scenes() {
+    const std::string path = write_text("scene.json", R"({"objects": [
+        {"name": "box", "box": [2, 2, 2]},
+        {"name": "pair", "compound": [{"sphere": 1}, {"sphere": 1, "pose": {"xyz": [4, 0, 0]}}],
+         "pose": {"xyz": [9, 0, 0]}}], "ignore": [["box", "pair"]]})");
+    auto scene = ovoid::scene::read(path);
+    CHECK(scene.size() == 2 && std::string(scene.name(1)) == "pair" && scene.find("pair") == 1);
+    CHECK(scene.find("none") == scene.size() && scene.is_ignored(1, 0));
+    const ovoid::compound_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));
+    CHECK(a.answer.lower <= 7 && a.answer.upper >= 7 && a.part_b == 0);
+    auto world = ovoid::world::create();
+    for (std::size_t i = 0; i < scene.size(); i++) world.add(scene[i]);
+    CHECK_EQ(world.compute_contacts({OVOID_QUERY_WITHIN, 8}).size(), 1);
+
+    auto motion = ovoid::motion_reader::create(
+        write_text("motion.csv", "time,body,x,y,z,qw,qx,qy,qz\n0,box,1,2,3,1,0,0,0\n0.5,nobody,0,0,0,1,0,0,0\n"),
+        scene);
+    ovoid_motion_line line;
+    CHECK(motion.columns() == OVOID_MOTION_COLUMNS_POSE && motion.read(line) && is_vec3(line.pose.position, 1, 2, 3));
+    CHECK_EQ(motion.line(), 2);
+    CHECK(throws(OVOID_ERROR_FORMAT, 3, "nobody", [&] { motion.read(line); }));
+    auto moved = std::move(scene);
+    CHECK(!scene && moved.size() == 2); // NOLINT: moved from is empty
+}
+
+void check_tables() {
+    const std::string header = "a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n";
+    const std::string path = write_text("pairs.csv", header + "0,1,1,2,3,1,0,0,0,4,5,6,1,0,0,0\n");
+    auto pairs = ovoid::pairs_reader::create(path, 2);
+    ovoid_indexed_pair pair;
+    CHECK(pairs.read(pair) && pair.b == 1 && is_vec3(pair.pose_b.position, 4, 5, 6) && !pairs.read(pair));
+    auto few = ovoid::pairs_reader::create(path, 1);
+    CHECK(throws(OVOID_ERROR_INDEX, 2, "pairs.csv:2", [&] { few.read(pair); }));
+
+    const ovoid::shape ball = ovoid::shape::sphere(1);
+    ovoid::zeroed<ovoid_record> record;
+    record.a = "left", record.b = "right";
+    record.answer = ovoid::distance({ball, ball, {}, ovoid::vec3(5, 0, 0)});
+    {
+        auto lost = ovoid::output::create(folder + "/lost.jsonl");
+        ovoid_record_write_json(lost.file(), &record);
+    }
+    CHECK(throws(OVOID_ERROR_FILE, -1, "lost", [] { ovoid::results_reader::create(folder + "/lost.jsonl"); }));
+    auto output = ovoid::output::create(folder + "/results.jsonl");
+    CHECK(ovoid_record_write_json(output.file(), &record) == OVOID_OK);
+    output.commit();
+    auto results = ovoid::results_reader::create(folder + "/results.jsonl");
+    ovoid_record got;
+    CHECK(results.read(got) && std::string(got.b) == "right" && got.answer.lower == record.answer.lower);
+    CHECK_EQ(results.line(), 1);
+    CHECK(!results.read(got));
+}
+
+} // namespace
+
+int main() {
+    char path[] = "/tmp/test_hpp_io.XXXXXX";
+    if (!mkdtemp(path)) return std::perror(path), 1;
+    folder = path;
+    check_shapes();
+    check_scenes();
+    check_tables();
+    for (const char *name :
+         {"mesh.obj", "hull.ovoid", "list.txt", "bad.obj", "scene.json", "motion.csv", "pairs.csv", "results.jsonl"})
+        CHECK(std::remove((folder + "/" + name).c_str()) == 0);
+    CHECK(rmdir(path) == 0);
+    return check_end();
+}

@@ -1,0 +1,267 @@
+// Queries, compounds, motions and worlds through the C++ header against the C functions, bit for bit, and their proofs
+// against the checkers. Truth: what C answers to the same bodies, options and earlier proofs.
+#include "same.hpp"
+
+#include "ovoid/paper.h"
+
+using ovoid::pose;
+using ovoid::shape;
+using ovoid::vec3;
+
+namespace {
+
+struct bodies {
+    shape box = shape::box({1, 2, 3}), pill = shape::capsule(0.5, 1), hull;
+    pose near = pose::rpy({1.2, 0.3, 0.1}, {0.1, 0.7, 0}), far = pose::rpy({4, 0, 0}, {0, 0.7, 0});
+    bodies() {
+        uint64_t s = 5;
+        std::vector<double> points;
+        for (int i = 0; i < 120; i++) points.push_back(random_normal(&s));
+        hull = shape::from_points(points);
+    }
+};
+
+// Each query, cold and warm, with the default and other options, apart and overlapping.
+void check_pairs() {
+    const bodies b;
+    ovoid::options o;
+    o.relative_tolerance = 1e-3;
+    for (const pose &at : {b.near, b.far}) {
+        const ovoid::pair p(b.box, b.hull, {}, at);
+        const ovoid_pair c = {b.box.get(), b.hull.get(), ovoid_pose_make_identity(), at};
+        const ovoid_answer cold = ovoid_depth(&c, nullptr, nullptr, nullptr);
+        CHECK(is_same_answer(ovoid::collide(p), ovoid_collide(&c, nullptr, nullptr)));
+        CHECK(is_same_answer(ovoid::collide(p, o, &cold.proof), ovoid_collide(&c, &o, &cold.proof)));
+        CHECK(is_same_answer(ovoid::within(p, 0.5), ovoid_within(&c, 0.5, nullptr, nullptr)));
+        CHECK(is_same_answer(ovoid::within(p, 0.5, o, &cold.proof), ovoid_within(&c, 0.5, &o, &cold.proof)));
+        CHECK(is_same_answer(ovoid::distance(p), ovoid_distance(&c, nullptr, nullptr)));
+        CHECK(is_same_answer(ovoid::distance(p, o, &cold.proof), ovoid_distance(&c, &o, &cold.proof)));
+        CHECK(is_same_answer(ovoid::bounds(p), ovoid_bounds(&c)));
+        ovoid::cover cover;
+        const ovoid::answer a = ovoid::depth(p, {}, nullptr, &cover);
+        CHECK(is_same_answer(a, cold));
+        CHECK_EQ(ovoid::distance_of(a), a.lower);
+        CHECK_EQ(ovoid::is_within(a, 0.5), ovoid_answer_is_within(&a, 0.5));
+        CHECK(ovoid::is_proven(p, a, &cover));
+        ovoid::check(p, a, &cover);
+        ovoid::answer wrong = a;
+        wrong.lower += 0.1;
+        CHECK(!ovoid::is_proven(p, wrong, &cover));
+        CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, &cover); }));
+        const ovoid_gradient g = ovoid_answer_compute_gradient(&c, &a, &cover);
+        const ovoid_smooth s = ovoid_smooth_compute(&c, 1), t = ovoid::compute_smooth(p, 1);
+        CHECK(is_same_count(ovoid::compute_gradient(p, a, &cover).gradient, g.gradient, 12));
+        CHECK(t.outer.value == s.outer.value && is_same_count(t.outer.gradient, s.outer.gradient, 12));
+    }
+    // What is refused stands in the answer, as in C: so the options arrive, whatever they change.
+    ovoid::options bad;
+    bad.relative_tolerance = -1;
+    const ovoid::pair one(b.box, b.pill, {}, b.far);
+    const ovoid::body_pair two(b.box, {b.pill, b.far});
+    for (const ovoid_limit l : {ovoid::collide(one, bad).limit, ovoid::within(one, 1, bad).limit,
+                                ovoid::distance(one, bad).limit, ovoid::depth(one, bad).limit})
+        CHECK_EQ(l, OVOID_LIMIT_OPTIONS);
+    for (const ovoid::compound_answer &a :
+         {ovoid::collide(two, bad), ovoid::within(two, 1, bad), ovoid::distance(two, bad), ovoid::depth(two, bad)})
+        CHECK_EQ(a.answer.limit, OVOID_LIMIT_OPTIONS);
+    const ovoid::answer refused = ovoid::distance({b.box, b.pill, {}, vec3(NAN, 0, 0)});
+    CHECK(refused.limit == OVOID_LIMIT_POSE_B && std::strcmp(ovoid::name(refused.status), "undecided") == 0);
+    CHECK(std::strcmp(ovoid::name(refused.limit), ovoid_limit_get_name(OVOID_LIMIT_POSE_B)) == 0);
+    CHECK(std::strcmp(ovoid::name(OVOID_STAGE_GJK), "gjk") == 0);
+    CHECK(std::strcmp(ovoid::name(OVOID_PROOF_POINTS), ovoid_proof_kind_get_name(OVOID_PROOF_POINTS)) == 0);
+}
+
+void check_batches() {
+    const bodies b;
+    const std::vector<ovoid::posed_shape> shapes = {{b.box}, {b.pill, b.near}, {b.hull, b.far}};
+    const std::vector<ovoid::couple> couples = {{0, 1}, {1, 2}, {0, 2}};
+    std::vector<ovoid::answer> answers(3);
+    std::vector<ovoid::verdict> verdicts(3);
+    std::vector<ovoid::proof> proofs(3);
+    ovoid::options o;
+    o.relative_tolerance = 1e-4;
+    ovoid::batch batch(shapes, couples);
+    batch.with_options(o).with_answers(answers).with_verdicts(verdicts).with_proofs(proofs);
+    void (*const asked[3])(const ovoid_batch &) = {ovoid::collide_batch, ovoid::distance_batch, ovoid::depth_batch};
+    for (int k = 0; k < 4; k++) {
+        proofs.assign(3, {});
+        if (k < 3)
+            asked[k](batch);
+        else
+            ovoid::within_batch(batch, 0.5);
+        for (std::size_t i = 0; i < 3; i++) {
+            const ovoid_posed_shape &x = shapes[couples[i].a], &y = shapes[couples[i].b];
+            const ovoid_pair p = {x.shape, y.shape, x.pose, y.pose};
+            const ovoid::answer alone[4] = {ovoid::collide(p, o), ovoid::distance(p, o), ovoid::depth(p, o),
+                                            ovoid::within(p, 0.5, o)};
+            CHECK(is_same_answer(answers[i], alone[k]));
+            CHECK(verdicts[i].lower == alone[k].lower && proofs[i].kind == alone[k].proof.kind);
+        }
+    }
+    o.relative_tolerance = -1;
+    ovoid::distance_batch(batch);
+    CHECK_EQ(verdicts[0].limit, OVOID_LIMIT_OPTIONS);
+    const std::vector<ovoid::couple> beyond = {{0, 1}, {0, 3}};
+    CHECK(throws(OVOID_ERROR_INDEX, 1, "", [&] { ovoid::distance_batch(ovoid::batch(shapes, beyond)); }));
+    verdicts.resize(2);
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "couples", [&] { batch.with_verdicts(verdicts); }));
+}
+
+void check_compounds() {
+    const bodies b;
+    const ovoid_posed_shape parts[2] = {{b.box.get(), pose()}, {b.pill.get(), b.far}};
+    const auto arm = ovoid::compound::create({{b.box}, {b.pill, b.far}});
+    const auto same = ovoid::compound::create(parts);
+    CHECK(arm.size() == 2 && arm.part(1).shape == b.pill.get() && is_same<ovoid_pose>(arm.part(1).pose, b.far));
+    CHECK(is_same(arm.outer(), same.outer()) && is_same(arm.inner(), same.inner()));
+    CHECK(arm.order().size() == 2 && arm.size_in_bytes() == ovoid_compound_get_size(arm.get()));
+    const ovoid::body_pair p({arm, vec3(0, 0, 1)}, {b.hull, vec3(7, 1, 0)});
+    const ovoid_body_pair c = {{nullptr, arm.get(), pose(vec3(0, 0, 1))}, {b.hull.get(), nullptr, pose(vec3(7, 1, 0))}};
+    const ovoid_compound_answer truth = ovoid_compound_distance(&c, nullptr, nullptr, nullptr);
+    std::vector<ovoid_exclusion> space(10);
+    ovoid::exclusions e(space);
+    const ovoid::compound_answer found = ovoid::distance(p, {}, nullptr, &e);
+    CHECK(is_same_answer(found.answer, truth.answer) && found.part_a == truth.part_a && found.part_b == truth.part_b);
+    CHECK(e.is_complete() && e.written().size() == e.count && ovoid::is_proven(p, found, &e));
+    ovoid::check(p, found, &e);
+    const ovoid::compound_proof warm = ovoid::proof_of(found);
+    CHECK(is_same_answer(ovoid::collide(p).answer, ovoid_compound_collide(&c, nullptr, nullptr, nullptr).answer));
+    CHECK(is_same_answer(ovoid::collide(p, {}, &warm).answer,
+                         ovoid_compound_collide(&c, nullptr, &warm, nullptr).answer));
+    CHECK(is_same_answer(ovoid::within(p, 3).answer, ovoid_compound_within(&c, 3, nullptr, nullptr, nullptr).answer));
+    CHECK(is_same_answer(ovoid::depth(p).answer, ovoid_compound_depth(&c, nullptr, nullptr, nullptr).answer));
+    ovoid::compound_answer wrong = found;
+    wrong.answer.lower += 1;
+    CHECK(!ovoid::is_proven(p, wrong, &e));
+    CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, &e); }));
+    CHECK(throws(OVOID_ERROR_EMPTY, -1, "", [] { ovoid::compound::create(std::vector<ovoid::posed_shape>()); }));
+    CHECK(throws(OVOID_ERROR_ROTATION, 1, "", [&] {
+        ovoid::compound::create({{b.box}, {b.box, {vec3(), ovoid::quat(0, 0, 0, 0)}}});
+    }));
+
+    // A shared compound keeps its shapes.
+    std::weak_ptr<const shape> watched;
+    std::shared_ptr<const ovoid::compound> shared;
+    {
+        const auto kept = std::make_shared<const shape>(shape::box({1, 2, 3}));
+        watched = kept;
+        shared = ovoid::compound::share({{kept, {}}, {kept, vec3(9, 0, 0)}});
+    }
+    CHECK(!watched.expired() && shared->size() == 2 && shared->part(1).shape == watched.lock()->get());
+    shared.reset();
+    CHECK(watched.expired());
+    CHECK(throws(OVOID_ERROR_ARGUMENT, 0, "", [] { ovoid::compound::share({{nullptr, {}}}); }));
+}
+
+void check_motions() {
+    const bodies b;
+    const pose start(vec3(6, 0, 0.2));
+    const ovoid_motion still = ovoid_motion_make_still(pose());
+    const ovoid_motion spin = ovoid_motion_make_velocity(start, {-8, 0, 0}, {0, 30, 0}, 1);
+    const ovoid_moving_shape ca = {b.box.get(), still, {}}, cb = {b.pill.get(), spin, {}};
+    const ovoid::moving_shape x(b.box, pose()), y(b.pill, ovoid::motion::velocity(start, {-8, 0, 0}, {0, 30, 0}, 1));
+    std::vector<ovoid::step> steps(1000);
+    ovoid::motion_options o;
+    o.with_steps(steps);
+    const ovoid::impact hit = ovoid::find_impact(x, y, 0, o), truth = ovoid_impact_find(&ca, &cb, 0, nullptr);
+    CHECK(hit.status == OVOID_IMPACT_HIT && hit.hit_at == truth.hit_at && hit.free_until == truth.free_until);
+    CHECK(std::strcmp(ovoid::name(hit.status), "hit") == 0);
+    ovoid::check(x, y, 0, hit, steps);
+    ovoid::impact wrong = hit;
+    wrong.free_until += 0.01;
+    CHECK(throws(OVOID_ERROR_PROOF, -1, "does not follow", [&] { ovoid::check(x, y, 0, wrong, steps); }));
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "steps",
+                 [&] { ovoid::check(x, y, 0, hit, ovoid::span<const ovoid_step>()); }));
+    CHECK(is_same<ovoid_pose>(y.at(0.3), ovoid_moving_shape_compute_pose(&cb, 0.3)));
+    CHECK(is_same(y.swept(0, 1), ovoid_moving_shape_compute_box(&cb, 0, 1)));
+    const ovoid::moving_shape fixed(b.pill, ovoid::motion(start), vec3(1, 0, 0));
+    CHECK(is_vec3(fixed.at(0).position, 7, 0, 0.2));
+
+    ovoid::motion_options wide;
+    wide.with_steps(steps);
+    const ovoid::moving_shape past(b.pill, ovoid::motion::between(vec3(6, 0, 4.5), vec3(-6, 0, 4.5), 1));
+    const ovoid::approach nearest = ovoid::find_approach(x, past, wide);
+    const ovoid_approach also = ovoid_approach_find(&ca, &past, nullptr);
+    CHECK(nearest.lower == also.lower && nearest.upper == also.upper && nearest.time == also.time);
+    ovoid::check(x, past, nearest, steps);
+
+    const std::vector<double> times = {0, 1, 2};
+    const std::vector<pose> poses = {vec3(6, 0, 0), vec3(3, 0, 0), vec3(6, 0, 0)};
+    const ovoid::motion path = ovoid::motion::path(times, poses);
+    path.check();
+    CHECK(is_vec3(path.at(1.5).position, 4.5, 0, 0));
+    CHECK(
+        throws(OVOID_ERROR_ARGUMENT, -1, "as many times", [&] { ovoid::motion::path(std::vector<double>{0}, poses); }));
+    CHECK(throws(OVOID_ERROR_ARGUMENT, 1, "", [&] {
+        ovoid::motion::path(std::vector<double>{0, 0, 1}, poses).check();
+    }));
+    CHECK(throws(OVOID_ERROR_NOT_FINITE, -1, "", [] { ovoid::motion(vec3(NAN, 0, 0)).check(); }));
+
+    const ovoid::pair p(b.box, b.hull, {}, b.far);
+    const ovoid::impact cast = ovoid::cast_translation(p, {-10, 0, 0}),
+                        c_cast = ovoid_translation_cast(&p, {-10, 0, 0}, 0, nullptr);
+    CHECK(cast.hit_at == c_cast.hit_at && cast.status == OVOID_IMPACT_HIT);
+    // The box's face is at x = 1: half way of the ray.
+    const ovoid::ray_hit ray = ovoid::cast_ray(b.box, {{2, 0, 0}, {-2, 0, 0}});
+    CHECK(ray.status == OVOID_IMPACT_HIT && ray.lower <= 0.5 && ray.upper >= 0.5);
+
+    const auto arm = ovoid::compound::create({{b.box}, {b.pill, vec3(0, 9, 0)}});
+    const ovoid::moving_body u(arm, pose()), v(b.pill, y.motion);
+    std::vector<ovoid::step_group> groups(100);
+    ovoid::motion_options full;
+    full.with_steps(steps).with_groups(groups);
+    const ovoid::compound_impact met = ovoid::find_impact(u, v, 0, full);
+    const ovoid_compound_impact c_met = ovoid_compound_impact_find(&u, &v, 0, nullptr);
+    CHECK(met.impact.hit_at == c_met.impact.hit_at && met.part_a == 0);
+    ovoid::check(u, v, 0, met, steps, groups);
+    CHECK(u.part(1).shape == b.pill.get() && is_same(v.swept(0, 1), ovoid_moving_body_compute_box(&v, 0, 1)));
+}
+
+void check_ellipsoids() {
+    const bodies b;
+    const ovoid_polytope p = b.hull.polytope();
+    ovoid_fit outer, inner;
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&p, 1e-4, &outer, nullptr), OVOID_OK);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(&p, 1e-4, &inner, nullptr), OVOID_OK);
+    const ovoid_ellipsoid &e = outer.ellipsoid, &f = inner.ellipsoid;
+    CHECK(is_same(ovoid::compute_outer(p, 1e-4).ellipsoid, e) && is_same(ovoid::compute_inner(p, 1e-4).ellipsoid, f));
+    const ovoid_fit shrunk = ovoid::compute_shrunk(p, e), stretched = ovoid::compute_stretched(p, shrunk.ellipsoid);
+    CHECK(is_same(shrunk.ellipsoid, ovoid_ellipsoid_compute_shrunk(&p, &e).ellipsoid));
+    CHECK(stretched.volume >= shrunk.volume &&
+          ovoid::compute_enlarged(p, stretched.ellipsoid).volume >= stretched.volume);
+    CHECK(is_same<ovoid_vec3>(ovoid::compute_radii(e), ovoid_ellipsoid_compute_radii(&e)));
+    CHECK_EQ(ovoid::compute_volume(e), ovoid_ellipsoid_compute_volume(&e));
+    const ovoid_ellipsoid moved = ovoid::compute_posed(f, vec3(20, 0, 0));
+    CHECK_EQ(moved.center.x, f.center.x + 20);
+    CHECK_EQ(ovoid::compute_nearest(e, moved).distance, ovoid_ellipsoid_compute_nearest(&e, &moved).distance);
+    CHECK_EQ(ovoid::compute_nearest_by_sphere(e, moved).distance,
+             ovoid_ellipsoid_compute_nearest_by_sphere(&e, &moved).distance);
+    CHECK_EQ(ovoid::compute_nearest_to_point(e, {9, 0, 0}).distance,
+             ovoid_ellipsoid_compute_nearest_to_point(&e, {9, 0, 0}).distance);
+    vec3 common;
+    CHECK(ovoid::is_overlapping(e, f, &common) && !ovoid::is_overlapping(e, moved));
+    CHECK_EQ(ovoid::compute_measures(p).volume, b.hull.measures().volume);
+
+    const auto areas = ovoid::areas::create(p, f, OVOID_SPLIT_OCTANTS);
+    uint32_t touched = 0;
+    CHECK(areas.counts().cells == 8 && areas.find_support({1, 0, 0}, &touched) < p.vertex_count && touched > 0);
+    CHECK(areas.find_exit({1, 0, 0}, {1, 0, 0}, OVOID_RULE_RAY).t ==
+          areas.find_exit({1, 0, 0}, {1, 0, 0}, OVOID_RULE_ALL).t);
+    CHECK(ovoid::compute_split(p, f).pieces >= p.triangle_count);
+    const ovoid::pair two(b.hull, b.hull, {}, vec3(20, 0, 0));
+    const ovoid_areas *both[2] = {areas.get(), areas.get()};
+    CHECK_EQ(ovoid::compute_paper_bounds(two, &areas, &areas, OVOID_RULE_RAY, 0.1).upper,
+             ovoid_paper_compute_bounds(&two, both, OVOID_RULE_RAY, 0.1).upper);
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "", [&] { ovoid::areas::create(p, f, OVOID_SPLIT_CUBE, 3); }));
+}
+
+} // namespace
+
+int main() {
+    check_pairs();
+    check_batches();
+    check_compounds();
+    check_motions();
+    check_ellipsoids();
+    return check_end();
+}

@@ -1,0 +1,93 @@
+#!/bin/sh
+# Debian packages: built, looked through by lintian, unpacked and configured by dpkg into a root of their own whose list of
+# packages is this machine's, so that each dependency and each clash of files counts; then outside programs find the
+# libraries there by pkg-config and CMake, link and run, and all is removed without a trace. Truth: lintian's and dpkg's
+# exit codes; programs that run. scripts/deb-root.sh does so in a fresh Debian.
+set -u
+passed=0 failed=0
+folder=$OVOID_BUILD_DIR/test_deb
+root=$folder/root
+outside=$OVOID_SOURCE_DIR/tests/house/outside
+cc=${OVOID_CC:-cc}
+for tool in dpkg dpkg-shlibdeps lintian cpack; do
+    if ! command -v $tool >/dev/null; then
+        echo "skipped: $tool is not here"
+        echo "0 passed, 0 failed, 1 skipped"
+        exit 0
+    fi
+done
+
+check() {
+    name=$1
+    shift
+    if output=$("$@" 2>&1); then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        printf 'FAILED %s\n%s\n' "$name" "$output" | tail -n 60
+    fi
+}
+fails() { ! "$@" >/dev/null 2>&1; }
+
+# The version of header and packages is one.
+define() { sed -n "s/^#define OVOID_VERSION_$1 //p" "$OVOID_SOURCE_DIR/include/ovoid/base.h"; }
+version=$(define MAJOR).$(define MINOR).$(define PATCH)
+changelog=$OVOID_SOURCE_DIR/packaging/deb/changelog
+check "version of the changelog" [ "$(dpkg-parsechangelog -l "$changelog" -S Version)" = "$version-1" ]
+
+rm -rf "$root" "$folder"/out_*
+mkdir -p "$folder"
+check "build, with lintian" "$OVOID_SOURCE_DIR/scripts/deb.sh" "$folder/build"
+packages="libovoid0 libovoid-dev libovoid-io0 libovoid-io-dev ovoid"
+for package in $packages; do
+    file=$(find "$folder/build" -maxdepth 1 -name "${package}_$version-1_*.deb")
+    check "package $package" [ -f "$file" ]
+    [ "$package" = libovoid0 ] && core=$file
+done
+
+# The soname is what the package is named after, and the core needs the C library alone.
+check "dependencies of the core" [ "$(dpkg -f "$core" Depends | sed 's/ (>= [0-9.]*)//')" = libc6 ]
+check "shlibs of the core" sh -c "dpkg --ctrl-tarfile '$core' | tar -xO ./shlibs | grep -q '^libovoid 0 libovoid0 (>= $version), libovoid0 (<< '"
+
+# dpkg into a root that has this machine's list of packages.
+mkdir -p "$root/var/lib/dpkg/info" "$root/var/lib/dpkg/updates" "$root/var/lib/dpkg/triggers"
+touch "$root/var/lib/dpkg/triggers/File"
+awk 'BEGIN { RS = ""; ORS = "\n\n" } !/^Package: (lib)?ovoid/' /var/lib/dpkg/status >"$root/var/lib/dpkg/status"
+cp /var/lib/dpkg/info/*.list "$root/var/lib/dpkg/info"
+in_root() { dpkg --root="$root" --force-not-root --force-script-chrootless --no-triggers "$@"; }
+check "the tool's package alone" in_root -i "$(find "$folder/build" -maxdepth 1 -name 'ovoid_*.deb')"
+# It can fail: the files for development without the library are not configured.
+dev=$(find "$folder/build" -maxdepth 1 -name 'libovoid-dev_*.deb')
+check "development without the library" fails in_root -i "$dev"
+check install in_root -i "$folder"/build/*.deb
+
+libraries=$(dirname "$(find "$root/usr/lib" -name 'libovoid.so.0')")
+export LD_LIBRARY_PATH="$libraries" PKG_CONFIG_PATH="$libraries/pkgconfig"
+# compile SOURCE PACKAGE KIND
+compile() {
+    flags=$(pkg-config --cflags --libs "$2")
+    if [ "$3" = static ]; then flags=$(pkg-config --static --cflags --libs "$2" | sed 's/-l\(ovoid[a-z_]*\)/-l:lib\1.a/g'); fi
+    # shellcheck disable=SC2086 # flags
+    "$cc" -o "$folder/out_$2_$3" "$outside/$1" $flags && "$folder/out_$2_$3"
+}
+for kind in shared static; do
+    check "pkg-config, $kind" compile outside.c ovoid $kind
+    check "pkg-config, io, $kind" compile outside_io.c ovoid_io $kind
+done
+check "CMake: configure" cmake -S "$outside" -B "$folder/out_cmake" -DCMAKE_C_COMPILER="$cc" -DCMAKE_PREFIX_PATH="$root/usr" \
+    -DOUTSIDE_COMPONENTS=io
+check "CMake: build" cmake --build "$folder/out_cmake"
+for kind in ovoid ovoid_static ovoid_io ovoid_io_static; do check "CMake: run $kind" "$folder/out_cmake/outside_$kind"; done
+check "the tool runs" "$root/usr/bin/ovoid" --version
+check "the tool says its version" [ "$("$root/usr/bin/ovoid" --version | head -n 1)" = "ovoid $version" ]
+
+# Without libovoid-io-dev the core is still found, and its absence is said.
+in_root -r libovoid-io-dev >/dev/null 2>&1
+check "CMake: the core alone" cmake -S "$outside" -B "$folder/out_core" -DCMAKE_C_COMPILER="$cc" -DCMAKE_PREFIX_PATH="$root/usr"
+check "CMake: a component that is not there" fails cmake -S "$outside" -B "$folder/out_none" -DCMAKE_C_COMPILER="$cc" \
+    -DCMAKE_PREFIX_PATH="$root/usr" -DOUTSIDE_COMPONENTS=io
+# shellcheck disable=SC2086 # a list of packages
+check "remove" in_root -P $packages
+check "nothing is left" [ -z "$(find "$root" -type f -not -path '*/var/*')" ]
+echo "$passed passed, $failed failed, 0 skipped"
+[ "$failed" -eq 0 ]

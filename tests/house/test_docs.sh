@@ -1,0 +1,52 @@
+#!/bin/sh
+# The pages: every relative link in a Markdown file leads to a file, every source file that a page names is there, every
+# public function or type that it names is in a header, and docs/index.md lists every page of docs/.
+set -u
+cd "$OVOID_SOURCE_DIR" || exit 1
+passed=0 failed=0
+for page in *.md docs/*.md; do
+    # Links of the form ](target), without those to other hosts and to places within a page.
+    # shellcheck disable=SC2013 # targets have no spaces
+    for target in $(grep -o ']([^)]*)' "$page" | sed 's/^](//; s/)$//; s/#.*//' | grep -v '^[a-z]*:'); do
+        if [ -e "$(dirname "$page")/$target" ]; then
+            passed=$((passed + 1))
+        else
+            failed=$((failed + 1))
+            echo "FAILED $page: no such file: $target"
+        fi
+    done
+done
+
+# check_known KIND LIST: reads lines "PAGE NAME"; the name, or what ends in it after a slash, must be a line of the list.
+check_known() {
+    while read -r page name; do
+        if grep -qE "(^|/)$name\$" "$2"; then
+            passed=$((passed + 1))
+        else
+            failed=$((failed + 1))
+            echo "FAILED $page: no such $1: $name"
+        fi
+    done
+}
+known=$OVOID_BUILD_DIR/test_docs
+find . -path ./build -prune -o -type f -print >"$known.files"
+grep -rohE '\bOVOID_[A-Z0-9_]+|\bovoid_[a-z0-9_]+' include cmake | sort -u >"$known.names"
+# shellcheck disable=SC2016 # backquotes of Markdown
+grep -HoE '`[A-Za-z0-9_/.-]+\.(c|h|hpp|sh|txt)`' docs/*.md README.md | tr -d '`' | tr : ' ' | grep -vE ' (\.|<)' >"$known.paths"
+check_known "file" "$known.files" <"$known.paths"
+# shellcheck disable=SC2016
+grep -HoE '`ovoid_[a-z0-9_]+[(`]' docs/*.md README.md | tr -d '`(' | tr : ' ' >"$known.used"
+check_known "name" "$known.names" <"$known.used"
+[ -s "$known.paths" ] && [ -s "$known.used" ] && passed=$((passed + 1))
+
+for page in docs/*.md; do
+    name=$(basename "$page")
+    if [ "$name" = index.md ] || grep -q "]($name)" docs/index.md; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED docs/index.md does not list $name"
+    fi
+done
+echo "$passed passed, $failed failed, 0 skipped"
+[ "$failed" -eq 0 ]

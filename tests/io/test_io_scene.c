@@ -1,0 +1,352 @@
+// Scenes, lists of shapes, shape files. Truth: scenes written here; the table of bad ones says of each by name which
+// error it must give and in which line.
+#include "files.h"
+
+#include "ovoid/shape.h"
+
+static const char tetrahedron[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+static const char two_parts[] =
+    "o low\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 4 3 2\no\nv 0 0 5\nv 1 0 5\nv 0 1 5\n"
+    "v 0 0 6\nf 5 6 7\nf 8 7 6\n";
+
+static const char good[] =
+    "{\"objects\": [\n"
+    "  {\"name\": \"arm\", \"mesh\": \"tetra.obj\", \"pose\": {\"xyz\": [1, 2, 3], \"quat_wxyz\": [2, 0, 0, 0]}},\n"
+    "  {\"name\": \"h\\u00e4nd\", \"mesh\": \"tetra.obj\", \"scale\": 2, \"unit\": \"mm\"},\n"
+    "  {\"name\": \"again\", \"mesh\": \"tetra.obj\", \"pose\": {\"rpy\": [0, 0, 1.5707963267948966]}},\n"
+    "  {\"name\": \"padded\", \"mesh\": \"tetra.obj\", \"radius\": 0.25},\n"
+    "  {\"name\": \"box\", \"box\": [2, 4, 6], \"radius\": 0.5},\n"
+    "  {\"name\": \"ball\", \"sphere\": 3},\n"
+    "  {\"name\": \"pill\", \"capsule\": {\"radius\": 0.5, \"length\": 4}},\n"
+    "  {\"name\": \"can\", \"cylinder\": {\"radius\": 1, \"length\": 2, \"sides\": 5}},\n"
+    "  {\"name\": \"hat\", \"cone\": {\"radius\": 1, \"length\": 2}},\n"
+    "  {\"name\": \"cloud\", \"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], \"unit\": \"cm\"}\n"
+    "], \"ignore\": [[\"arm\", \"box\"], [\"pill\", \"ball\"], [\"box\", \"arm\"]]}\n";
+
+// The extent of a shape along an axis, from its vertices.
+static double get_size(const ovoid_shape *shape, int axis) {
+    ovoid_polytope p = ovoid_shape_get_polytope(shape);
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < p.vertex_count; i++) {
+        low = fmin(low, p.vertices[3 * i + (uint32_t)axis]);
+        high = fmax(high, p.vertices[3 * i + (uint32_t)axis]);
+    }
+    return high - low;
+}
+
+static void check_good(void) {
+    file_write_text("tetra.obj", tetrahedron);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(file_write_text("good.json", good), NULL, &error);
+    if (!CHECK(scene != NULL)) {
+        printf("  %s\n", error.message);
+        return;
+    }
+    CHECK_EQ(ovoid_scene_get_count(scene), 10);
+    // Sizes along x, y, z without the radius, the radius, the vertices.
+    static const struct {
+        const char *name;
+        double x, y, z, radius;
+        uint32_t vertices;
+    } truth[] = {{"arm", 1, 1, 1, 0, 4},    {"h\xc3\xa4nd", 0.002, 0.002, 0.002, 0, 4},
+                 {"again", 1, 1, 1, 0, 4},  {"padded", 1, 1, 1, 0.25, 4},
+                 {"box", 2, 4, 6, 0.5, 8},  {"ball", 0, 0, 0, 3, 1},
+                 {"pill", 0, 0, 4, 0.5, 2}, {"can", -1, -1, 2, 0, 10},
+                 {"hat", -1, -1, 2, 0, 33}, {"cloud", 0.01, 0.01, 0.01, 0, 4}};
+    for (size_t i = 0; i < 10; i++) {
+        ovoid_scene_object o = ovoid_scene_get(scene, i);
+        CHECK(strcmp(o.name, truth[i].name) == 0);
+        CHECK_EQ(ovoid_scene_find(scene, truth[i].name), i);
+        // Sums of two rounded coordinates: a few units in the last place.
+        if (truth[i].x >= 0) CHECK_NEAR(get_size(o.shape, 0), truth[i].x, 1e-15);
+        if (truth[i].y >= 0) CHECK_NEAR(get_size(o.shape, 1), truth[i].y, 1e-15);
+        CHECK_NEAR(get_size(o.shape, 2), truth[i].z, 1e-15);
+        CHECK_EQ(ovoid_shape_get_radius(o.shape), truth[i].radius);
+        CHECK_EQ(ovoid_shape_get_polytope(o.shape).vertex_count, truth[i].vertices);
+    }
+    // The same mesh, scale and radius: one shape.
+    CHECK(ovoid_scene_get(scene, 0).shape == ovoid_scene_get(scene, 2).shape);
+    CHECK(ovoid_scene_get(scene, 0).shape != ovoid_scene_get(scene, 1).shape);
+    CHECK(ovoid_scene_get(scene, 0).shape != ovoid_scene_get(scene, 3).shape);
+    // Poses.
+    ovoid_pose pose = ovoid_scene_get(scene, 0).pose;
+    CHECK(pose.position.x == 1 && pose.position.y == 2 && pose.position.z == 3 && pose.rotation.w == 2);
+    pose = ovoid_scene_get(scene, 1).pose;
+    CHECK(pose.position.x == 0 && pose.rotation.w == 1 && pose.rotation.z == 0);
+    pose = ovoid_scene_get(scene, 2).pose;
+    ovoid_vec3 turned = ovoid_pose_compute_point(&pose, (ovoid_vec3){1, 0, 0}); // a quarter turn about z
+    CHECK_NEAR(turned.x, 0, 1e-15);
+    CHECK_NEAR(turned.y, 1, 1e-15);
+    // Pairs to ignore.
+    for (size_t i = 0; i < 10; i++)
+        for (size_t j = 0; j < 10; j++) {
+            int truly = (i == 0 && j == 4) || (i == 4 && j == 0) || (i == 5 && j == 6) || (i == 6 && j == 5);
+            CHECK_EQ(ovoid_scene_is_ignored(scene, i, j), truly);
+        }
+    CHECK(ovoid_scene_find(scene, "nobody") == (size_t)-1);
+    ovoid_scene_destroy(scene);
+}
+
+static const char compounds[] =
+    "{\"objects\": [\n"
+    "  {\"name\": \"file\", \"mesh\": \"parts.obj\", \"parts\": true, \"radius\": 0.5, \"unit\": \"cm\"},\n"
+    "  {\"name\": \"hull\", \"mesh\": \"parts.obj\", \"parts\": false, \"radius\": 0.5, \"unit\": \"cm\"},\n"
+    "  {\"name\": \"again\", \"unit\": \"cm\", \"radius\": 0.5, \"parts\": true, \"mesh\": \"parts.obj\"},\n"
+    "  {\"name\": \"tool\", \"pose\": {\"xyz\": [9, 0, 0]}, \"compound\": [\n"
+    "    {\"box\": [1, 2, 3], \"pose\": {\"xyz\": [1, 0, 0]}},\n"
+    "    {\"sphere\": 2},\n"
+    "    {\"box\": [1, 2, 3], \"pose\": {\"xyz\": [0, 5, 0], \"rpy\": [0, 0, 1]}},\n"
+    "    {\"mesh\": \"parts.obj\", \"parts\": true, \"pose\": {\"xyz\": [0, 0, 7]}}]},\n"
+    "  {\"name\": \"box\", \"box\": [1, 2, 3]}]}\n";
+
+// Compounds: from a mesh's objects and from parts; equal geometries are one body.
+static void check_compounds(void) {
+    file_write_text("parts.obj", two_parts);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(file_write_text("compounds.json", compounds), NULL, &error);
+    if (!CHECK(scene != NULL)) {
+        printf("  %s\n", error.message);
+        return;
+    }
+    ovoid_scene_object file = ovoid_scene_get(scene, 0), hull = ovoid_scene_get(scene, 1);
+    ovoid_scene_object again = ovoid_scene_get(scene, 2), tool = ovoid_scene_get(scene, 3);
+    ovoid_scene_object box = ovoid_scene_get(scene, 4);
+    CHECK(file.compound && !file.shape && hull.shape && !hull.compound && file.compound == again.compound);
+    CHECK_EQ(ovoid_compound_get_part_count(file.compound), 2);
+    for (size_t i = 0; i < 2; i++) {
+        ovoid_posed_shape part = ovoid_compound_get_part(file.compound, i);
+        CHECK(ovoid_shape_get_radius(part.shape) == 0.5 && part.pose.position.z == 0 && part.pose.rotation.w == 1);
+        CHECK_NEAR(get_size(part.shape, 2), 0.01, 1e-17);
+    }
+    // Five parts: the last two are those of the mesh.
+    CHECK(tool.pose.position.x == 9 && tool.compound && ovoid_compound_get_part_count(tool.compound) == 5);
+    ovoid_posed_shape first = ovoid_compound_get_part(tool.compound, 0),
+                      third = ovoid_compound_get_part(tool.compound, 2);
+    CHECK(first.shape == box.shape && third.shape == box.shape);
+    CHECK(first.pose.position.x == 1 && third.pose.position.y == 5 && third.pose.rotation.z > 0.4);
+    CHECK_EQ(ovoid_shape_get_radius(ovoid_compound_get_part(tool.compound, 1).shape), 2);
+    ovoid_posed_shape last = ovoid_compound_get_part(tool.compound, 4);
+    CHECK(last.pose.position.z == 7 && ovoid_shape_get_radius(last.shape) == 0);
+    CHECK_NEAR(get_size(last.shape, 2), 1, 1e-15);
+    ovoid_scene_destroy(scene);
+}
+
+// Many objects: names, geometries that are all different, and all the same.
+static void check_many(void) {
+    enum { COUNT = 3000 };
+    char *text = malloc(COUNT * 100 + 100), *at = text;
+    at += sprintf(at, "{\"objects\": [");
+    for (int i = 0; i < COUNT; i++)
+        at += sprintf(at, "%s{\"name\": \"n%d\", \"sphere\": %d}", i ? "," : "", i, i % 2 ? i : 1);
+    sprintf(at, "]}");
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(file_write_text("many.json", text), NULL, &error);
+    free(text);
+    if (!CHECK(scene != NULL)) return;
+    for (size_t i = 0; i < COUNT; i++) {
+        const ovoid_shape *shape = ovoid_scene_get(scene, i).shape;
+        CHECK_EQ(ovoid_shape_get_radius(shape), i % 2 ? (double)i : 1);
+        CHECK_EQ(shape == ovoid_scene_get(scene, 0).shape, i % 2 == 0 || i == 1);
+    }
+    ovoid_scene_destroy(scene);
+}
+
+#define OBJECT(rest) "{\"objects\": [\n{\"name\": \"a\", \"sphere\": 1},\n{\"name\": \"b\",\n" rest "}]}"
+#define BOX "\"box\": [1, 1, 1],\n"
+
+static const bad_input bad_scenes[] = {
+    {"empty.json", "", OVOID_ERROR_EMPTY, -1, "empty"},
+    {"c_parts.json", OBJECT(BOX "\"parts\": true"), OVOID_ERROR_FORMAT, 5, "object \"b\": \"parts\" is for meshes"},
+    {"c_parts_type.json", OBJECT("\"mesh\": \"tetra.obj\",\n\"parts\": 1"), OVOID_ERROR_FORMAT, 5,
+     "\"parts\" must be true or false"},
+    {"c_none.json", OBJECT("\"compound\": []"), OVOID_ERROR_FORMAT, 4, "\"compound\" must be a list of parts"},
+    {"c_type.json", OBJECT("\"compound\": {}"), OVOID_ERROR_FORMAT, 4, "\"compound\" must be a list of parts"},
+    {"c_number.json", OBJECT("\"compound\": [\n7]"), OVOID_ERROR_FORMAT, 5,
+     "object \"b\": part 0: must be a JSON object"},
+    {"c_radius.json", OBJECT("\"radius\": 1,\n\"compound\": [{\"sphere\": 1}]"), OVOID_ERROR_FORMAT, 4,
+     "\"radius\" is for the parts"},
+    {"c_scale.json", OBJECT("\"compound\": [{\"sphere\": 1}],\n\"scale\": 2"), OVOID_ERROR_FORMAT, 5,
+     "\"scale\" is for meshes and points"},
+    {"c_name.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"sphere\": 1, \"name\": \"x\"}]"), OVOID_ERROR_FORMAT, 5,
+     "object \"b\": part 1: \"name\" is not a key of parts"},
+    {"c_nested.json", OBJECT("\"compound\": [\n{\"compound\": [{\"sphere\": 1}]}]"), OVOID_ERROR_FORMAT, 5,
+     "part 0: \"compound\" is not a key of parts"},
+    {"c_size.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"pose\": {},\n\"sphere\": -1}]"), OVOID_ERROR_FORMAT, 6,
+     "object \"b\": part 1: \"sphere\" must be a radius"},
+    {"c_pose.json", OBJECT("\"compound\": [{\"sphere\": 1,\n\"pose\": 1}]"), OVOID_ERROR_FORMAT, 5,
+     "part 0: \"pose\" must"},
+    {"c_bare.json", OBJECT("\"compound\": [{\"pose\": {}}]"), OVOID_ERROR_FORMAT, 4, "part 0: no geometry"},
+    {"c_absent.json", OBJECT("\"compound\": [{\"mesh\": \"absent.obj\"}]"), OVOID_ERROR_FILE, 4, "part 0: "},
+    {"c_far.json", OBJECT("\"compound\": [{\"sphere\": 1, \"pose\": {\"xyz\": [1e99, 0, 0]}}]"), OVOID_ERROR_RANGE, 4,
+     "part 0: \"pose\" has a number out of range"},
+    {"syntax.json", "{\"objects\": [\n{\"name\": }]}", OVOID_ERROR_FORMAT, 2, "JSON: "},
+    {"array.json", "[]", OVOID_ERROR_FORMAT, 1, "must be a JSON object"},
+    {"twice.json", "{\"objects\": [],\n\"objects\": []}", OVOID_ERROR_FORMAT, 2, "JSON: duplicate"},
+    {"key.json", "{\"objects\": [],\n\"color\": 3}", OVOID_ERROR_FORMAT, 2, "\"color\" is not a key of scenes"},
+    {"no_objects.json", "{\"ignore\": []}", OVOID_ERROR_FORMAT, -1, "needs \"objects\""},
+    {"none.json", "{\"objects\": []}", OVOID_ERROR_EMPTY, -1, "no objects"},
+    {"number.json", "{\"objects\": [\n3]}", OVOID_ERROR_FORMAT, 2, "object 0: must be a JSON object"},
+    {"no_name.json", "{\"objects\": [\n{\"sphere\": 1}]}", OVOID_ERROR_FORMAT, 2, "object 0: \"name\" must be"},
+    {"empty_name.json", "{\"objects\": [{\n\"name\": \"\"}]}", OVOID_ERROR_FORMAT, 2, "object 0: \"name\" must be"},
+    {"object_key.json", OBJECT(BOX "\"colour\": 1"), OVOID_ERROR_FORMAT, 5, "object \"b\": \"colour\" is not a key"},
+    {"no_geometry.json", OBJECT("\"pose\": {}"), OVOID_ERROR_FORMAT, 3, "object \"b\": no geometry"},
+    {"two.json", OBJECT(BOX "\n\"sphere\": 1"), OVOID_ERROR_FORMAT, 6, "\"sphere\" is a second geometry"},
+    {"same_name.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1},\n{\"name\": \"x\", \"sphere\": 2}]}",
+     OVOID_ERROR_FORMAT, 2, "object \"x\": \"name\" is that of an earlier object"},
+    {"box.json", OBJECT("\"box\": [1, 2]"), OVOID_ERROR_FORMAT, 4, "\"box\" must be three sizes"},
+    {"box_sign.json", OBJECT("\"box\": [1, 2, -3]"), OVOID_ERROR_FORMAT, 4, "\"box\" must be three sizes"},
+    {"box_type.json", OBJECT("\"box\": [1, 2, \"3\"]"), OVOID_ERROR_FORMAT, 4, "\"box\" must be three sizes"},
+    {"sphere.json", OBJECT("\"sphere\": -1"), OVOID_ERROR_FORMAT, 4, "\"sphere\" must be a radius"},
+    {"huge.json", OBJECT("\"sphere\": 1e999"), OVOID_ERROR_FORMAT, 4, "JSON: "},
+    {"capsule.json", OBJECT("\"capsule\": {\"radius\": 1}"), OVOID_ERROR_FORMAT, 4, "\"capsule\" needs \"length\""},
+    {"capsule_key.json", OBJECT("\"capsule\": {\"radius\": 1, \"length\": 1, \"sides\": 3}"), OVOID_ERROR_FORMAT, 4,
+     "\"capsule\" must be"},
+    {"sides.json", OBJECT("\"cylinder\": {\"radius\": 1, \"length\": 1, \"sides\": 2}"), OVOID_ERROR_FORMAT, 4,
+     "\"cylinder\" needs a whole number of sides"},
+    {"half_sides.json", OBJECT("\"cone\": {\"radius\": 1, \"length\": 1, \"sides\": 3.5}"), OVOID_ERROR_FORMAT, 4,
+     "\"cone\" needs a whole number of sides"},
+    {"points.json", OBJECT("\"points\": []"), OVOID_ERROR_FORMAT, 4, "\"points\" must be a list"},
+    {"points_type.json", OBJECT("\"points\": [[0, 0, 0], [1, 2]]"), OVOID_ERROR_FORMAT, 4, "\"points\" must be a list"},
+    {"radius.json", OBJECT(BOX "\"radius\": -0.1"), OVOID_ERROR_RADIUS, 5, "\"radius\" must be a number >= 0"},
+    {"scale.json", OBJECT(BOX "\"scale\": 2"), OVOID_ERROR_FORMAT, 5, "\"scale\" is for meshes and points"},
+    {"scale_zero.json", OBJECT("\"points\": [[0, 0, 0]],\n\"scale\": 0"), OVOID_ERROR_FORMAT, 5, "\"scale\" must be"},
+    {"unit.json", OBJECT("\"points\": [[0, 0, 0]],\n\"unit\": \"yd\""), OVOID_ERROR_FORMAT, 5,
+     "\"unit\" must be m, cm"},
+    {"mesh_type.json", OBJECT("\"mesh\": 3"), OVOID_ERROR_FORMAT, 4, "\"mesh\" must be the path"},
+    {"mesh_absent.json", OBJECT("\"mesh\": \"nowhere.stl\""), OVOID_ERROR_FILE, 4, "nowhere.stl: cannot be opened"},
+    {"pose_type.json", OBJECT(BOX "\"pose\": [1, 2, 3]"), OVOID_ERROR_FORMAT, 5, "\"pose\" must be"},
+    {"pose_key.json", OBJECT(BOX "\"pose\": {\"rotation\": 1}"), OVOID_ERROR_FORMAT, 5, "\"pose\" must be"},
+    {"pose_both.json", OBJECT(BOX "\"pose\": {\"rpy\": [0, 0, 0], \"quat_wxyz\": [1, 0, 0, 0]}"), OVOID_ERROR_FORMAT, 5,
+     "has both"},
+    {"xyz.json", OBJECT(BOX "\"pose\": {\"xyz\": [1, 2]}"), OVOID_ERROR_FORMAT, 5, "three numbers in xyz"},
+    {"quat.json", OBJECT(BOX "\"pose\": {\"quat_wxyz\": [1, 2, 3]}"), OVOID_ERROR_FORMAT, 5,
+     "four numbers in quat_wxyz"},
+    {"zero.json", OBJECT(BOX "\"pose\": {\"quat_wxyz\": [0, 0, 0, 0]}"), OVOID_ERROR_ROTATION, 5, "four zeros"},
+    {"far.json", OBJECT(BOX "\"pose\": {\"xyz\": [0, 0, 1e99]}"), OVOID_ERROR_RANGE, 5, "out of range"},
+    {"ignore_type.json", "{\"ignore\": {},\n\"objects\": [{\"name\": \"x\", \"sphere\": 1}]}", OVOID_ERROR_FORMAT, 1,
+     "\"ignore\" must be a list"},
+    {"ignore_pair.json", "{\"ignore\": [\n[\"x\"]],\n\"objects\": [{\"name\": \"x\", \"sphere\": 1}]}",
+     OVOID_ERROR_FORMAT, 2, "must be two names"},
+    {"ignore_name.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1}],\n\"ignore\": [\n\n[\"x\", \"y\"]]}",
+     OVOID_ERROR_FORMAT, 4, "there is no object \"y\""},
+    {"ignore_self.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1}],\n\"ignore\": [[\"x\", \"x\"]]}",
+     OVOID_ERROR_FORMAT, 2, "one object twice"},
+};
+
+static void check_bad(void) {
+    for (size_t i = 0; i < sizeof bad_scenes / sizeof *bad_scenes; i++) {
+        ovoid_error error = {OVOID_OK, -2, ""};
+        ovoid_scene *scene = ovoid_scene_read(file_write_text(bad_scenes[i].name, bad_scenes[i].text), NULL, &error);
+        CHECK(scene == NULL);
+        check_error(&bad_scenes[i], &error);
+        ovoid_scene_destroy(scene);
+    }
+    // What is wrong inside a mesh has the mesh's own path and line.
+    file_write_text("broken.obj", "v 0 0 0\nv 1 0 nan\n");
+    ovoid_error error = {OVOID_OK, -1, ""};
+    const char *path = file_write_text("inside.json", OBJECT("\"mesh\": \"broken.obj\""));
+    CHECK(!ovoid_scene_read(path, NULL, &error) && error.code == OVOID_ERROR_NOT_FINITE && error.place == 2 &&
+          strstr(error.message, "broken.obj:2:"));
+    // The radius is the scene's business.
+    ovoid_shape_options options = {.radius = 1};
+    CHECK(!ovoid_scene_read(file_path("good.json"), &options, &error) && error.code == OVOID_ERROR_ARGUMENT);
+}
+
+// Changed bytes: a scene or an error with a sentence, never a crash or a leak (the sanitizers say).
+static void check_damaged(void) {
+    uint64_t s = 31;
+    size_t length = strlen(good);
+    for (int i = 0; i < 600; i++) {
+        check_seed = s;
+        char text[4096];
+        memcpy(text, good, length);
+        for (int k = 0; k < 3; k++)
+            text[random_next(&s) % length] = "0123456789\"[]{},:.-e \n\xffx"[random_next(&s) % 24];
+        size_t size = i % 4 ? length : random_next(&s) % length;
+        ovoid_error error = {OVOID_OK, -1, ""};
+        ovoid_scene *scene = ovoid_scene_read(file_write("damaged.json", text, size), NULL, &error);
+        CHECK(scene ? ovoid_scene_get_count(scene) > 0 : error.code != OVOID_OK && error.message[0]);
+        ovoid_scene_destroy(scene);
+    }
+    check_seed = 0;
+}
+
+// ---- shapes and lists of them
+
+static void check_shapes(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    const char *path = file_write_text("parts.obj", two_parts);
+    ovoid_read_options parts = {.scale = 2, .parts = 1};
+    ovoid_shapes *shapes = ovoid_shapes_read_file(path, &parts, NULL, &error);
+    if (CHECK(shapes && ovoid_shapes_get_count(shapes) == 2)) {
+        CHECK(strcmp(ovoid_shapes_get(shapes, 0).name, "low") == 0);
+        CHECK(strcmp(ovoid_shapes_get(shapes, 1).name, "part 1") == 0);
+        CHECK_NEAR(get_size(ovoid_shapes_get(shapes, 1).shape, 2), 2, 1e-15);
+    }
+    ovoid_shapes_destroy(shapes);
+    shapes = ovoid_shapes_read_file(path, NULL, NULL, &error);
+    CHECK(shapes && ovoid_shapes_get_count(shapes) == 1 && strcmp(ovoid_shapes_get(shapes, 0).name, path) == 0);
+    if (shapes) CHECK_NEAR(get_size(ovoid_shapes_get(shapes, 0).shape, 2), 6, 1e-15);
+    ovoid_shapes_destroy(shapes);
+}
+
+static void check_list(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    file_write_text("tetra.obj", tetrahedron);
+    file_write_text("parts.obj", two_parts);
+    const char *path = file_write_text("list.txt", "# shapes\n\n tetra.obj \r\nparts.obj\n# again\ntetra.obj");
+    ovoid_shapes *shapes = ovoid_shapes_read_list(path, NULL, NULL, &error);
+    if (CHECK(shapes && ovoid_shapes_get_count(shapes) == 3)) {
+        CHECK(ovoid_shapes_get(shapes, 0).shape == ovoid_shapes_get(shapes, 2).shape);
+        CHECK(strcmp(ovoid_shapes_get(shapes, 1).name, file_path("parts.obj")) == 0);
+    }
+    ovoid_shapes_destroy(shapes);
+    static const bad_input bad[] = {
+        {"none.txt", "# nothing\n\n", OVOID_ERROR_EMPTY, -1, "names no files"},
+        {"absent.txt", "tetra.obj\nno.obj\n", OVOID_ERROR_FILE, 2, "no.obj: cannot be opened"},
+        {"empty.txt", "", OVOID_ERROR_EMPTY, -1, "the file is empty"}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        shapes = ovoid_shapes_read_list(file_write_text(bad[i].name, bad[i].text), NULL, NULL, &error);
+        CHECK(shapes == NULL);
+        check_error(&bad[i], &error);
+        ovoid_shapes_destroy(shapes);
+    }
+}
+
+// A shape written to a file comes back with the same bytes; damaged ones are refused with their path.
+static void check_shape_files(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_shape *shape = ovoid_shape_read_file(file_write_text("tetra.obj", tetrahedron), NULL, NULL, &error);
+    const char *path = file_path("tetra.ovoid");
+    if (!CHECK(shape && ovoid_shape_write_file(shape, path, &error) == OVOID_OK)) return;
+    ovoid_shape *back = ovoid_shape_read_file(path, NULL, NULL, &error);
+    size_t size, again;
+    char *bytes = file_read(path, &size);
+    if (CHECK(back != NULL) && CHECK(ovoid_shape_write_file(back, file_path("again.ovoid"), &error) == OVOID_OK)) {
+        char *other = file_read(file_path("again.ovoid"), &again);
+        CHECK(size == again && memcmp(bytes, other, size) == 0);
+        free(other);
+    }
+    ovoid_shape_destroy(back);
+    ovoid_read_options scaled = {.scale = 2};
+    CHECK(!ovoid_shape_read_file(path, &scaled, NULL, &error) && error.code == OVOID_ERROR_ARGUMENT);
+    ovoid_shape_options rounded = {.radius = 1};
+    CHECK(!ovoid_shape_read_file(path, NULL, &rounded, &error) && error.code == OVOID_ERROR_ARGUMENT);
+    CHECK(!ovoid_shape_read_file(file_write("cut.ovoid", bytes, size - 1), NULL, NULL, &error));
+    CHECK(error.code == OVOID_ERROR_FORMAT && strstr(error.message, "cut.ovoid: "));
+    CHECK(ovoid_shape_write_file(shape, file_path("no_folder/x.ovoid"), &error) == OVOID_ERROR_FILE);
+    free(bytes);
+    ovoid_shape_destroy(shape);
+}
+
+int main(void) {
+    check_good();
+    check_compounds();
+    check_many();
+    check_bad();
+    check_damaged();
+    check_shapes();
+    check_list();
+    check_shape_files();
+    return check_end();
+}
