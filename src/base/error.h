@@ -19,6 +19,6 @@ void error_write(ovoid_error *error, ovoid_code code, int64_t place, const char 
 #define OVOID_ASSERT(expression) ((expression) ? (void)0 : assert_fail(#expression, __FILE__, __LINE__))
 #endif
 /// Calls the hook, if one is set, and aborts.
-void assert_fail(const char *expression, const char *file, int line);
+_Noreturn void assert_fail(const char *expression, const char *file, int line);
 
 #endif

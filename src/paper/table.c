@@ -99,8 +99,8 @@ static uint32_t find_winner(const filler *f, index_list list, vec3 direction) {
     return best;
 }
 
-/// Copies to `room` the points that no winner of a grid of sample directions beats.
-static index_list cull_by_samples(const filler *f, index_list list, const cone *c, int samples, uint32_t *room) {
+/// Appends to `kept`, an empty list with room, the points that no winner of a grid of sample directions beats.
+static index_list cull_by_samples(const filler *f, index_list list, const cone *c, int samples, index_list kept) {
     uint32_t winners[FINE_SAMPLES * FINE_SAMPLES];
     int winner_count = 0;
     for (int s = 0; s < samples; s++)
@@ -111,7 +111,6 @@ static index_list cull_by_samples(const filler *f, index_list list, const cone *
             if (known == winner_count) winners[winner_count++] = w;
         }
     fill_values(f, list, c);
-    index_list kept = {room, 0};
     for (uint32_t j = 0; j < list.count; j++) {
         int w = 0;
         while (w < winner_count && !is_beating(f, winners[w], j)) w++;
@@ -154,7 +153,8 @@ static int append(const filler *f, uint32_t cell, index_list list) {
 
 /// Culls a cell's list, behind which there is room for another, once more and appends it to the table.
 static int finish_cell(const filler *f, uint32_t cell, const cone *c, index_list list) {
-    if (list.count > PAIRS_MAX) list = cull_by_samples(f, list, c, FINE_SAMPLES, list.items + f->points->count);
+    index_list behind = {list.items + f->points->count, 0};
+    if (list.count > PAIRS_MAX) list = cull_by_samples(f, list, c, FINE_SAMPLES, behind);
     if (list.count <= PAIRS_MAX) list = cull_by_pairs(f, list, c);
     return append(f, cell, list);
 }
@@ -171,7 +171,7 @@ static void mark_octant(const filler *f, uint32_t octant, const cone *c, index_l
 /// Fills a cell of the cube from the candidates of the cell around it; room: free lists.
 static int fill_cube(const filler *f, cube_place p, index_list candidates, uint32_t *room) {
     cone c = cone_make_cube(p);
-    index_list kept = cull_by_samples(f, candidates, &c, SAMPLES, room);
+    index_list kept = cull_by_samples(f, candidates, &c, SAMPLES, (index_list){room, 0});
     if (p.k == f->k) return finish_cell(f, cube_cell(p.face, p.row, p.column, p.k), &c, kept);
     if (f->k == 0 && is_piece(p.k, kept.count)) {
         mark_octant(f, octant_of(cone_sample(&c, 0.5, 0.5)), &c, kept);

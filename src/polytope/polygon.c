@@ -43,19 +43,19 @@ static void rotate_to_lowest(uint32_t *loop, uint32_t *scratch, uint32_t count) 
     for (uint32_t i = 0; i < count; i++) loop[i] = scratch[i];
 }
 
-uint32_t polygon_find_loop(const points *from, int axis, uint32_t *loop, const ovoid_allocator *allocator) {
+uint32_t polygon_find_loop(const points *p, int axis, uint32_t *loop, const ovoid_allocator *allocator) {
     // The indices, and a chain that may hold every point and its start again.
-    uint32_t count = from->count, *order = allocator_allocate(allocator, 2 * (size_t)count + 2, sizeof *order);
+    uint32_t count = p->count, *order = allocator_allocate(allocator, 2 * (size_t)count + 2, sizeof *order);
     if (!order) return 0;
     chain c = {order + count, 0};
-    projection p = {from->grid, (axis + 1) % 3, (axis + 2) % 3, axis};
+    projection q = {p->grid, (axis + 1) % 3, (axis + 2) % 3, axis};
     for (uint32_t i = 0; i < count; i++) order[i] = i;
-    sort_indices(order, c.items, count, compare_points, &p);
+    sort_indices(order, c.items, count, compare_points, &q);
 
     // The lower chain rightward, then the upper one back; the last point is the first one again.
-    for (uint32_t i = 0; i < count; i++) extend(&p, &c, 0, order[i]);
+    for (uint32_t i = 0; i < count; i++) extend(&q, &c, 0, order[i]);
     uint32_t turn = c.count - 1;
-    for (uint32_t i = count - 1; i-- > 0;) extend(&p, &c, turn, order[i]);
+    for (uint32_t i = count - 1; i-- > 0;) extend(&q, &c, turn, order[i]);
     uint32_t corners = c.count > 1 ? c.count - 1 : c.count;
     for (uint32_t i = 0; i < corners; i++) loop[i] = c.items[i];
     rotate_to_lowest(loop, order, corners);

@@ -53,7 +53,7 @@ typedef pthread_mutex_t thread_lock;
 typedef pthread_cond_t thread_condition;
 
 /// What a thread runs: THREAD_MAIN(name, context) { ...; return THREAD_END; }
-#define THREAD_MAIN(name, context) static void *name(void *context)
+#define THREAD_MAIN(name, context) static void *name(void *context) // NOLINT(bugprone-macro-parentheses)
 #define THREAD_END NULL
 typedef void *(*thread_main)(void *context);
 
