@@ -17,7 +17,7 @@ typedef struct settings {
     read_settings read;
     const char *output; ///< a file, or a folder; NULL: none
     int parts, json, csv, table, phases;
-    double radius, gap;
+    double radius, outside, inside, gap;
 } settings;
 
 static const cli_option options[] = {
@@ -28,6 +28,10 @@ static const cli_option options[] = {
      "each object of a mesh file is a body of its own (default: the hull of the whole file)"},
     {"radius", 0, OPTION_LENGTH, offsetof(settings, radius), "R", NULL,
      "rounding radius around each body (default: 0)"},
+    {"outside", 0, OPTION_LENGTH, offsetof(settings, outside), "L", NULL,
+     "allowance: the true body stands out of what is fitted by at most L (default: 0)"},
+    {"inside", 0, OPTION_LENGTH, offsetof(settings, inside), "L", NULL,
+     "allowance: what is fitted stands out of the true body by at most L (default: 0)"},
     {"gap", 0, OPTION_POSITIVE, offsetof(settings, gap), "G", NULL,
      "relative volume gap of the outer and the inner ellipsoid (default: 1e-6)"},
     {"phases", 0, OPTION_FLAG, offsetof(settings, phases), NULL, NULL,
@@ -172,6 +176,7 @@ static int fit_shape(fit *f, const ovoid_shape *shape, fitted *found) {
     found->report = ovoid_shape_get_report(shape);
     found->measures = ovoid_shape_get_measures(shape);
     found->radius = ovoid_shape_get_radius(shape);
+    found->allowance = ovoid_shape_get_allowance(shape);
     found->triangles = polytope.triangle_count;
     found->facets = polytope.facet_count;
     found->measure = get_measure(&polytope, &found->measures);
@@ -185,8 +190,10 @@ static int fit_shape(fit *f, const ovoid_shape *shape, fitted *found) {
 }
 
 static ovoid_shape_options make_options(const settings *s) {
-    return (ovoid_shape_options){
-        .radius = s->radius, .gap = s->gap, .inner = s->phases ? OVOID_INNER_PHASES : OVOID_INNER_MAXIMUM};
+    return (ovoid_shape_options){.radius = s->radius,
+                                 .gap = s->gap,
+                                 .inner = s->phases ? OVOID_INNER_PHASES : OVOID_INNER_MAXIMUM,
+                                 .allowance = {s->outside, s->inside}};
 }
 
 /// Reports on a .ovoid file, without fitting it again.

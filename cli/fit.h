@@ -17,6 +17,7 @@ typedef struct fitted {
     ovoid_measures measures;
     uint32_t triangles, facets;
     double radius;
+    ovoid_allowance allowance;
     double measure;                    ///< volume, area (one side) or length, by rank; 0 for a point
     ovoid_fit steps[FIT_STEPS];        ///< of a flat body the phases have volume NaN
     double seconds[FIT_STEPS];         ///< of each step, run by itself

@@ -51,6 +51,8 @@ void fit_write_report(FILE *file, const fitted *f) {
     fprintf(file, "  box      %.6g x %.6g x %.6g\n", m->box.max.x - m->box.min.x, m->box.max.y - m->box.min.y,
             m->box.max.z - m->box.min.z);
     if (f->radius > 0) fprintf(file, "  rounding radius %.9g (not part of the measures)\n", f->radius);
+    if (f->allowance.outside > 0 || f->allowance.inside > 0)
+        fprintf(file, "  allowance %.9g outside, %.9g inside\n", f->allowance.outside, f->allowance.inside);
     fprintf(file, "\n  %-8s %-12s %8s  %-8s %-34s %8s\n", "", get_measure_name(r->rank), "of body", "gap", "radii",
             "time");
     for (int i = 0; i < FIT_STEPS; i++) write_step(file, f, i);
@@ -137,9 +139,11 @@ void fit_write_json(FILE *file, const fitted *f) {
     fprintf(file, ",\"points\":%llu,\"vertices\":%llu,\"duplicates\":%llu,\"interior\":%llu,\"coplanar\":%llu",
             (unsigned long long)r->points, (unsigned long long)r->vertices, (unsigned long long)r->duplicates,
             (unsigned long long)r->interior, (unsigned long long)r->coplanar);
-    fprintf(file, ",\"rank\":%u,\"facets\":%u,\"triangles\":%u,\"radius\":%.17g,\"volume\":%.17g,\"area\":%.17g",
-            (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles, f->radius, f->measures.volume,
-            f->measures.area);
+    fprintf(file,
+            ",\"rank\":%u,\"facets\":%u,\"triangles\":%u,\"radius\":%.17g,\"outside\":%.17g,\"inside\":%.17g,"
+            "\"volume\":%.17g,\"area\":%.17g",
+            (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles, f->radius, f->allowance.outside,
+            f->allowance.inside, f->measures.volume, f->measures.area);
     for (int i = 0; i < FIT_STEPS; i++) write_step_json(file, f, i);
     fprintf(file, ",\"read_seconds\":%.9f,\"make_seconds\":%.9f,\"output\":", f->read_seconds, f->make_seconds);
     if (f->output)
@@ -157,7 +161,8 @@ static void write_field(FILE *file, const char *text) {
 }
 
 void fit_write_csv_title(FILE *file) {
-    fprintf(file, "file,name,points,vertices,duplicates,interior,coplanar,rank,facets,triangles,radius,volume,area");
+    fprintf(file, "file,name,points,vertices,duplicates,interior,coplanar,rank,facets,triangles,radius,outside,inside,"
+                  "volume,area");
     for (int i = 0; i < FIT_STEPS; i++)
         fprintf(file, ",%s_volume,%s_gap,%s_radius1,%s_radius2,%s_radius3,%s_seconds", step_keys[i], step_keys[i],
                 step_keys[i], step_keys[i], step_keys[i], step_keys[i]);
@@ -179,6 +184,8 @@ void fit_write_csv_row(FILE *file, const fitted *f) {
             (unsigned long long)r->duplicates, (unsigned long long)r->interior, (unsigned long long)r->coplanar,
             (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles);
     write_column(file, f->radius);
+    write_column(file, f->allowance.outside);
+    write_column(file, f->allowance.inside);
     write_column(file, f->measures.volume);
     write_column(file, f->measures.area);
     for (int i = 0; i < FIT_STEPS; i++) {

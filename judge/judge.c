@@ -111,11 +111,11 @@ static ovoid_code check_bounds(judge *context, const posed *s, const ovoid_answe
     claim c = {.context = context, .s = s, .proof = &answer->proof, .error = error};
     ovoid_code code = OVOID_OK;
     if (answer->lower != -INFINITY) {
-        c.core = num_add(p, number_from(p, answer->lower), s->radii);
+        c.core = num_add(p, num_add(p, number_from(p, answer->lower), s->radii), s->outside);
         code = judge_check_lower(&c);
     }
     if (code == OVOID_OK && answer->upper != INFINITY) {
-        c.core = num_add(p, number_from(p, answer->upper), s->radii);
+        c.core = num_sub(p, num_add(p, number_from(p, answer->upper), s->radii), s->inside);
         code = judge_check_upper(&c, cover);
         if (code == OVOID_OK) code = judge_check_witness(&c, answer);
     }

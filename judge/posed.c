@@ -45,6 +45,8 @@ static body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose)
     b.position = nvec_from(p, pose->position);
     b.origin = nvec_from(p, b.polytope.origin);
     b.radius = number_from(p, ovoid_shape_get_radius(shape));
+    b.outside = number_from(p, ovoid_shape_get_allowance(shape).outside);
+    b.inside = number_from(p, ovoid_shape_get_allowance(shape).inside);
     b.reach = sum_abs(pose->position) + sum_abs(b.polytope.origin) + find_extent(&b.polytope);
     return b;
 }
@@ -55,6 +57,8 @@ posed posed_make(pool *p, const ovoid_pair *pair) {
     s.b = body_make(p, pair->shape_b, &pair->pose_b);
     s.k = num_mul(p, s.a.n, s.b.n);
     s.radii = num_add(p, s.a.radius, s.b.radius);
+    s.outside = num_add(p, s.a.outside, s.b.outside);
+    s.inside = num_add(p, s.a.inside, s.b.inside);
     // The frames' distance: exact difference, rounded.
     nvec t = posed_difference(&s, body_point(p, &s.a, nvec_zero(p)), body_point(p, &s.b, nvec_zero(p)));
     num square = num_quotient_below(p, nvec_norm_squared(p, t), num_mul(p, s.k, s.k), 60);

@@ -15,16 +15,17 @@ typedef struct body {
     nvec rows[3]; ///< of M
     num n;        ///< |q|^2 > 0
     nvec position, origin;
-    num radius;
+    num radius, outside, inside;
     double reach; ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
 } body;
 
 typedef struct posed {
     pool *p;
     body a, b;
-    num k;       ///< n_a n_b
-    num radii;   ///< sum of the rounding radii
-    double size; ///< about the sum of both bodies' extents and the distance of their frames, in doubles
+    num k;               ///< n_a n_b
+    num radii;           ///< sum of the rounding radii
+    num outside, inside; ///< sums of the allowances
+    double size;         ///< about the sum of both bodies' extents and the distance of their frames, in doubles
 } posed;
 
 /// The pair in exact arithmetic. Both poses must have passed judge_is_pose_valid.

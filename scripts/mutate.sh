@@ -13,13 +13,14 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="query exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io"
+groups="allowance query exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
     query="test_query test_judge_check test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known"
     query="$query test_query_batch test_game_hulls test_query_refine"
     case $1 in
+    allowance) echo "test_allowance test_judge_allowance" ;;
     query) echo "$query" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull test_measures test_shape $query" ;;

@@ -51,9 +51,10 @@ typedef enum ovoid_limit {
     OVOID_LIMIT_POSE_A,     /**< refused: pose_a has NaN, infinity, a length out of range or a zero quaternion */
     OVOID_LIMIT_POSE_B,     /**< refused: pose_b, for the same reasons */
     OVOID_LIMIT_OPTIONS,    /**< refused: NaN or a negative tolerance in the options */
-    OVOID_LIMIT_SHAPE_A, /**< refused: there is no shape_a (NULL); a body with neither a shape nor a compound, or both
-                          */
-    OVOID_LIMIT_SHAPE_B  /**< refused: shape_b, for the same reasons */
+    OVOID_LIMIT_SHAPE_A,  /**< refused: there is no shape_a (NULL); a body with neither a shape nor a compound, or both
+                           */
+    OVOID_LIMIT_SHAPE_B,  /**< refused: shape_b, for the same reasons */
+    OVOID_LIMIT_ALLOWANCE /**< the shapes' allowances leave the sign of d, or the margin, open; no search narrows it */
 } ovoid_limit;
 
 /** What the upper bound rests on. */

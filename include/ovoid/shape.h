@@ -24,11 +24,25 @@ typedef enum ovoid_inner_method {
     OVOID_INNER_PHASES = 1   /**< the paper's three phases */
 } ovoid_inner_method;
 
+/**
+ * What is known of the true body that a shape stands for, where the shape is not exact: two lengths >= 0. Every point
+ * of the true body, which is convex and not empty, is within `outside` of the shape, and every point of the shape,
+ * rounding radius included, is within `inside` of the true body. So lower - outside <= d <= upper + inside for the true
+ * d of two bodies, lower and upper being those of the shapes and both lengths summed over both (docs/allowances.md):
+ * that is the bracket of every answer. Points and normals are those of the shapes. `outside` is no rounding radius,
+ * which is part of the body: it moves lower bounds alone.
+ */
+typedef struct ovoid_allowance {
+    double outside; /**< by how much the true body may stand out of the shape */
+    double inside;  /**< by how much the shape may stand out of the true body */
+} ovoid_allowance;
+
 /** Options of all ovoid_shape_create_* functions; all zero is the default, as is NULL. */
 typedef struct ovoid_shape_options {
     double radius;                    /**< rounding radius, >= 0, added around the hull */
     double gap;                       /**< relative volume gap of the ellipsoids; 0 means 1e-6 */
     ovoid_inner_method inner;         /**< which inner ellipsoid */
+    ovoid_allowance allowance;        /**< what the true body may differ by; zero: the shape is the body */
     const ovoid_allocator *allocator; /**< NULL: malloc and free; copied into the shape */
 } ovoid_shape_options;
 
@@ -72,13 +86,27 @@ OVOID_API ovoid_shape *ovoid_shape_create_sphere(double radius, const ovoid_shap
 OVOID_API ovoid_shape *ovoid_shape_create_capsule(double radius, double half_length, const ovoid_shape_options *options,
                                                   ovoid_error *error);
 
-/** A prism of n >= 3 sides along z, inscribed in the cylinder of that radius. */
-OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, uint32_t sides,
+/**
+ * The cylinder along z, held by an inscribed prism with an allowance: brackets are those of the true cylinder, and at
+ * least as wide as the allowance. tolerance: the most that `outside` may be, a length; 0 means radius / 200 (32 sides).
+ * The fewest sides that meet it are taken; LIMIT where these are more than 2^16. Both lengths are added to those of
+ * options->allowance. Errors: NOT_FINITE, RADIUS, RANGE, ARGUMENT (tolerance), and those of
+ * ovoid_shape_create_from_points.
+ */
+OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, double tolerance,
                                                    const ovoid_shape_options *options, ovoid_error *error);
 
-/** A pyramid of n >= 3 sides along z, apex at z = +half_length, base circle at z = -half_length. */
-OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, uint32_t sides,
+/** The cone, apex at z = +half_length, base circle at z = -half_length: as ovoid_shape_create_cylinder. */
+OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, double tolerance,
                                                const ovoid_shape_options *options, ovoid_error *error);
+
+/** A prism of n >= 3 sides along z, inscribed in the cylinder of that radius: the polyhedron itself. */
+OVOID_API ovoid_shape *ovoid_shape_create_prism(double radius, double half_length, uint32_t sides,
+                                                const ovoid_shape_options *options, ovoid_error *error);
+
+/** A pyramid of n >= 3 sides along z, apex at z = +half_length, base circle at z = -half_length. */
+OVOID_API ovoid_shape *ovoid_shape_create_pyramid(double radius, double half_length, uint32_t sides,
+                                                  const ovoid_shape_options *options, ovoid_error *error);
 
 /**
  * The shape with its vertices moved: the hull of the new points, its ellipsoids looked for from those of the shape.
@@ -111,6 +139,8 @@ OVOID_API void ovoid_shape_destroy(ovoid_shape *shape);
 OVOID_API ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *shape);
 /** The rounding radius. */
 OVOID_API double ovoid_shape_get_radius(const ovoid_shape *shape);
+/** The allowance. */
+OVOID_API ovoid_allowance ovoid_shape_get_allowance(const ovoid_shape *shape);
 /** What the constructor did with the points given. */
 OVOID_API ovoid_report ovoid_shape_get_report(const ovoid_shape *shape);
 /** The outer ellipsoid of the polyhedron (without the radius), with its gap. Body frame. */

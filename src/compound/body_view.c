@@ -10,6 +10,7 @@ int body_view_make(const ovoid_body *body, body_view *v) {
         v->nodes = v->compound->nodes;
         v->parts = v->compound->parts;
         v->extent = v->compound->extent;
+        v->allowance = v->compound->allowance;
         v->count = v->compound->count;
     } else {
         ovoid_posed_shape own = {body->shape, {{0, 0, 0}, {1, 0, 0, 0}}};
@@ -18,6 +19,7 @@ int body_view_make(const ovoid_body *body, body_view *v) {
         v->nodes = &v->own_node;
         v->parts = &v->own_part;
         v->extent = posed_shape_compute_extent(&own);
+        v->allowance = shape_get_width(body->shape);
         v->count = 1;
     }
     return vec3_norm(v->pose->position) + v->extent <= OVOID_LENGTH_MAX;

@@ -77,6 +77,7 @@ static int fill(ovoid_compound *c, const ovoid_posed_shape *parts, const ovoid_a
     for (size_t i = 0; i < c->count; i++) {
         vertices += parts[i].shape->vertex_count;
         c->extent = max2(c->extent, posed_shape_compute_extent(&parts[i]));
+        c->allowance = max2(c->allowance, shape_get_width(parts[i].shape));
     }
     parts_vertices all = {allocator_allocate(memory, 3 * vertices, sizeof(double)),
                           allocator_allocate(memory, (size_t)c->count + 1, sizeof(size_t))};

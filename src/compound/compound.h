@@ -1,8 +1,9 @@
 // A compound's block: a header, then arrays at fixed offsets. The tree is a full binary tree in preorder with one part
 // a leaf: a node over k parts is followed by its left subtree of 2 l - 1 nodes, l its parts, and then by the right one.
 //
-// Errors (docs/compound.md): with u = 2^-53, E_i = |position| + |shape's origin| + extent + radius of part i, a posed
-// vertex as computed here is off by less than 46 u E_i; the bounds of nodes are widened by 64 u E_i for each part.
+// Errors (docs/compound.md): with u = 2^-53, E_i = |position| + |shape's origin| + span + lower_radius (shape/block.h)
+// of part i, a posed vertex as computed here is off by less than 46 u E_i; the bounds of nodes are widened by 64 u E_i
+// for each part.
 #ifndef OVOID_COMPOUND_COMPOUND_H
 #define OVOID_COMPOUND_COMPOUND_H
 
@@ -38,7 +39,8 @@ enum { COMPOUND_DEPTH_MAX = 64 };
 
 struct ovoid_compound {
     uint32_t count;
-    double extent; ///< the largest E_i
+    double extent;    ///< the largest E_i
+    double allowance; ///< the largest width that a part's allowance gives a bracket
     ovoid_ellipsoid outer, inner;
     size_t size;
     ovoid_allocator allocator;
@@ -92,7 +94,7 @@ typedef struct body_view {
     const compound_part *parts;
     const ovoid_compound *compound; ///< NULL: a shape
     const ovoid_pose *pose;
-    double extent;
+    double extent, allowance;
     uint32_t count;
     // The tree of a shape.
     compound_node own_node;

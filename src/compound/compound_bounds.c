@@ -18,7 +18,7 @@ static double find_error(const ovoid_compound *c) { return 64 * 0x1p-53 * c->ext
 
 static double find_least_radius(const ovoid_posed_shape *parts, uint32_t count) {
     double least = INFINITY;
-    for (uint32_t i = 0; i < count; i++) least = min2(least, parts[i].shape->radius);
+    for (uint32_t i = 0; i < count; i++) least = min2(least, parts[i].shape->lower_radius);
     return least;
 }
 
@@ -27,7 +27,7 @@ static size_t write_points(const ovoid_posed_shape *parts, uint32_t count, const
     double least = find_least_radius(parts, count);
     size_t at = 0;
     for (uint32_t i = 0; i < count; i++) {
-        double rest = parts[i].shape->radius - least;
+        double rest = parts[i].shape->lower_radius - least;
         for (size_t k = all->starts[i]; k < all->starts[i + 1]; k++)
             for (int corner = 0; corner < (rest > 0 ? 8 : 1); corner++, at++) {
                 if (!to) continue;

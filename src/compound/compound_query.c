@@ -2,7 +2,6 @@
 //
 // Both trees are traversed at once, from the pair of roots down, the nearer children first (S. Quinlan, Efficient
 // distance computation between non-convex objects, 1994; E. Larsen, S. Gottschalk, M. C. Lin, D. Manocha, Fast distance
-// queries with rectangular swept sphere volumes, 2000). A pair of nodes is left out where its lower bound
 // queries with rectangular swept sphere volumes, 2000). A pair of nodes is pruned where its lower bound (node_bounds.c)
 // is above what the goal needs, or not below the best pair's upper bound. A pair of parts is an ordinary query that may
 // stop beyond the best upper bound. So the answer's bracket is that of the best pair, its lower end lowered to the
@@ -21,7 +20,7 @@ typedef struct traversal {
     int turned_side;
     ovoid_options options;       ///< of the queries of pairs of parts
     query_goal whole_goal, goal; ///< the query's goal, and what is left of it: once a margin is met, the sign
-    double tolerance;
+    double tolerance, allowance; ///< the latter is not in the former
     // The best pair of parts so far, with its answer in *out; place_a is count_a where there is none.
     ovoid_compound_answer *out;
     uint32_t place_a, place_b;
@@ -158,7 +157,8 @@ static void visit_parts(traversal *h, uint32_t a, uint32_t b, const ovoid_proof 
     }
     // The best pair's cover is replaced by that of a deeper one only.
     ovoid_cover *cover = goal.wants_depth && h->exclusions ? h->exclusions->cover : NULL;
-    if (has_best) goal.deepest = max2(-h->out->answer.upper, 0);
+    goal.has_cover = has_best;
+    goal.covered = h->out->answer.upper;
     answer_find_internal(pose_pair(h, a, b), &h->options, goal, earlier, cover, &h->spare);
     h->out->tested++;
     if (has_best && !(h->spare.upper < h->out->answer.upper)) {
@@ -231,6 +231,12 @@ static ovoid_status find_status(const traversal *h, const ovoid_answer *x, doubl
     return is_narrow ? OVOID_TOUCHING : OVOID_UNDECIDED;
 }
 
+static ovoid_limit find_limit(const traversal *h, const final_bracket *b) {
+    if (bracket_is_left_open(b, &h->whole_goal, h->trouble)) return OVOID_LIMIT_ALLOWANCE;
+    if (bracket_is_narrow(b, &h->whole_goal)) return OVOID_LIMIT_NONE;
+    return bracket_find_limit(b, &h->whole_goal, h->trouble);
+}
+
 // Where the traversal ended early: one exclusion of all pairs of parts, by the roots.
 static void exclude_all(traversal *h) {
     if (h->exclusions) h->exclusions->count = 0;
@@ -246,9 +252,8 @@ static void finish(traversal *h) {
     take_trouble(h, x);
     double lower = min2(x->lower, h->lower);
     ovoid_status status = find_status(h, x, lower);
-    final_bracket b = {lower, x->upper, h->tolerance, status, x->proof.kind};
-    x->limit =
-        bracket_is_narrow(&b, &h->whole_goal) ? OVOID_LIMIT_NONE : bracket_find_limit(&b, &h->whole_goal, h->trouble);
+    final_bracket b = {lower, x->upper, h->tolerance + h->allowance, h->allowance, status, x->proof.kind};
+    x->limit = find_limit(h, &b);
     x->status = status;
     x->lower = lower;
     out->part_a = body_view_get_index(&h->a, h->place_a);
@@ -262,6 +267,7 @@ static void traversal_make(traversal *h, query_goal goal) {
     nodes_frame_make(&h->a, &h->b, &h->frame);
     h->tolerance = max2(h->options.absolute_tolerance, h->options.relative_tolerance * h->frame.size);
     h->options.absolute_tolerance = h->tolerance;
+    h->allowance = h->a.allowance + h->b.allowance;
     h->whole_goal = h->goal = goal;
     h->enough = h->lower = INFINITY;
     h->place_a = h->warm_a = h->a.count;

@@ -62,7 +62,7 @@ static double find_top(const cut *c, const ovoid_posed_shape *body, vec3 n) {
     mat3 r = quat_to_mat3(body->pose.rotation);
     vec3 in = mat3_mul_transposed_vec3(r, n);
     vec3 at = vec3_sub(body->pose.position, c->a.pose->position);
-    return (vec3_dot(n, at) + vec3_dot(in, s->origin)) + (shape_find_extreme(s, in).value + s->radius);
+    return (vec3_dot(n, at) + vec3_dot(in, s->origin)) + (shape_find_extreme(s, in).value + s->lower_radius);
 }
 
 static double find_top_of(const cut *c, const body_view *v, uint32_t first, uint32_t end, vec3 n) {

@@ -168,7 +168,7 @@ nodes_bound parts_compute_lower(const nodes_frame *f, const compound_part *a, co
         vec3 in_b = mat3_mul_transposed_vec3(b->rotation, f->in_b);
         simd_pair most = shapes_find_pair(a->shape, b->shape, in_a, vec3_neg(in_b));
         double apart = (f->offset + vec3_dot(f->in_b, b->at)) - vec3_dot(f->in_a, a->at);
-        double gap = (apart - (most.high.value + most.low.value)) - (a->shape->radius + b->shape->radius);
+        double gap = (apart - (most.high.value + most.low.value)) - (a->shape->lower_radius + b->shape->lower_radius);
         take(&best, gap, NODES_NORMAL);
     }
     return lowered(best, f);

@@ -31,7 +31,7 @@ typedef struct builder {
 
 double posed_shape_compute_extent(const ovoid_posed_shape *body) {
     const ovoid_shape *s = body->shape;
-    return (vec3_norm(body->pose.position) + vec3_norm(s->origin)) + (s->extent + s->radius);
+    return (vec3_norm(body->pose.position) + vec3_norm(s->origin)) + (s->span + s->lower_radius);
 }
 
 // The box of a part's vertices, without its radius.
@@ -77,7 +77,7 @@ static void fit_ellipsoid(builder *b, compound_node *n) {
         memcpy(b->xyz + 3 * count, b->all->xyz + 3 * from, 3 * size * sizeof(double));
         count += size;
         rank = b->parts[part].shape->rank > rank ? b->parts[part].shape->rank : rank;
-        radius = max2(radius, b->parts[part].shape->radius);
+        radius = max2(radius, b->parts[part].shape->lower_radius);
     }
     if (rank < 3 || count > UINT32_MAX) return;
     ovoid_polytope points = {.vertices = b->xyz, .vertex_count = (uint32_t)count, .rank = rank};
@@ -101,7 +101,7 @@ static compound_node make_node(builder *b, uint32_t first, uint32_t end) {
         vec3_add(vec3_sub(vec3_scale(all.max, 0.5), vec3_scale(all.min, 0.5)), (vec3){b->error, b->error, b->error});
     for (uint32_t k = first; k < end; k++) {
         uint32_t part = b->order[k];
-        n.radius = max2(n.radius, find_reach(b->all, part, n.center) + b->parts[part].shape->radius);
+        n.radius = max2(n.radius, find_reach(b->all, part, n.center) + b->parts[part].shape->lower_radius);
     }
     n.radius = n.radius * (1 + 16 * 0x1p-53) + b->error;
     fit_ellipsoid(b, &n);
@@ -206,7 +206,7 @@ int tree_build(ovoid_compound *c, const ovoid_posed_shape *parts, const parts_ve
     int ok = b.boxes && b.scratch && b.areas && b.xyz;
     if (ok) {
         for (uint32_t i = 0; i < count; i++) {
-            b.boxes[i] = grow(find_box(all, i), parts[i].shape->radius);
+            b.boxes[i] = grow(find_box(all, i), parts[i].shape->lower_radius);
             b.order[i] = i;
         }
         build(&b);
@@ -225,12 +225,13 @@ int tree_build(ovoid_compound *c, const ovoid_posed_shape *parts, const parts_ve
 
 compound_node node_make_shape(const ovoid_shape *s) {
     vec3 low = s->measures.box.min, high = s->measures.box.max;
-    double error = 64 * 0x1p-53 * (vec3_norm(s->origin) + s->extent + s->radius) + OVOID_LENGTH_MIN,
-           grown = s->radius + error;
+    double error = 64 * 0x1p-53 * (vec3_norm(s->origin) + s->span + s->lower_radius) + OVOID_LENGTH_MIN,
+           grown = s->lower_radius + error;
     vec3 middle = vec3_add(vec3_scale(low, 0.5), vec3_scale(high, 0.5));
     vec3 half = vec3_add(vec3_sub(vec3_scale(high, 0.5), vec3_scale(low, 0.5)), (vec3){grown, grown, grown});
     double reach = vec3_norm(vec3_sub(s->center, middle)) + s->reach;
-    compound_node n = {.half = half, .radius = min2(reach + s->radius, vec3_norm(half)) * (1 + 16 * 0x1p-53) + error};
+    compound_node n = {.half = half,
+                       .radius = min2(reach + s->lower_radius, vec3_norm(half)) * (1 + 16 * 0x1p-53) + error};
     n.center = vec3_add(middle, s->origin);
     n.end = 1;
     if (s->rank < 3) return n;
@@ -245,7 +246,7 @@ compound_part part_make(const ovoid_posed_shape *body) {
     compound_part p = {.shape = s, .pose = body->pose, .rotation = quat_to_mat3(body->pose.rotation)};
     p.at = vec3_add(body->pose.position, mat3_mul_vec3(p.rotation, s->origin));
     p.center = vec3_add(p.at, mat3_mul_vec3(p.rotation, s->center));
-    p.reach =
-        (s->reach + s->radius) * (1 + 4 * 0x1p-53) + 64 * 0x1p-53 * posed_shape_compute_extent(body) + OVOID_LENGTH_MIN;
+    double rounding = 64 * 0x1p-53 * posed_shape_compute_extent(body) + OVOID_LENGTH_MIN;
+    p.reach = (s->reach + s->lower_radius) * (1 + 4 * 0x1p-53) + rounding;
     return p;
 }

@@ -129,7 +129,7 @@ static void probe_center(const prober *p, simplex *x) {
     x->count = 1;
 }
 
-static int is_apart(const search *s) { return s->lower + s->frame->radii > 0; }
+static int is_apart(const search *s) { return s->lower + s->frame->lower_radii > 0; }
 
 // The differences at hand made a tetrahedron, else one found afresh. 0 where there is none, or none is needed.
 COMPILER_NOINLINE static int start(const prober *p, expansion *e, simplex *x, int is_first) {
@@ -184,7 +184,7 @@ static evidence find_witness(const search *s, const expansion *e, const face *ne
     best = face_evidence(e, nearest, foot, &least);
     for (uint32_t i = 0; i < e->faces && least > s->frame->claim; i++) {
         const face *f = &e->f[i];
-        if (!f->alive || f->low > nearest->low + s->goal.tolerance) continue;
+        if (!f->alive || f->low > nearest->low + (s->goal.tolerance - s->goal.allowance)) continue;
         double distance;
         evidence x = face_evidence(e, f, foot, &distance);
         if (distance < least) least = distance, best = x;
@@ -226,13 +226,13 @@ static void take_cover(growth *g) {
     double depth = measure_faces(s, e);
     if (cover || !(depth > 0)) all.triangle_count = expansion_pack(e);
     if (!(depth > 0)) depth = surface_compute_depth(&all, s->frame->claim);
-    double upper = -depth - s->frame->radii;
+    double upper = -depth - s->frame->upper_radii;
     if (!(depth > 0) || !(upper < s->upper || upper - s->lower <= s->goal.tolerance)) return;
     s->upper = upper;
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
     s->witness = find_witness(s, e, &e->f[g->nearest]);
-    if (!cover || !(s->upper < -s->goal.deepest)) return;
+    if (!cover || (s->goal.has_cover && !(s->upper < s->goal.covered))) return;
     cover->point_count = e->points;
     cover->triangle_count = all.triangle_count;
     memcpy(cover->a, e->a, e->points * sizeof *e->a);
@@ -274,7 +274,7 @@ static int take_hull(growth *g) {
 // that of the witness points.
 static int is_narrow(const search *s, double low, double high) {
     double claim = s->frame->claim;
-    return low > claim && high - low + 2 * claim <= s->goal.tolerance;
+    return low > claim && high - low + 2 * claim <= s->goal.tolerance - s->goal.allowance;
 }
 
 // Takes the nearest face's own normal for the lower bound, where that costs no more than the tolerance, so that witness
@@ -283,7 +283,7 @@ static void agree(const growth *g) {
     search *s = g->s;
     vec3 n = vec3_neg(g->e.f[g->nearest].n);
     double gap = isnan(g->gap) ? frame_find_support(s->frame, n).gap : g->gap;
-    double lower = gap - s->frame->radii - s->frame->claim;
+    double lower = gap - s->frame->lower_radii - s->frame->claim;
     if (s->upper - lower > fmax(s->goal.tolerance, s->upper - s->lower)) return;
     s->lower = lower;
     s->normal = n;
@@ -322,7 +322,7 @@ static int grow(growth *g) {
     double high = vec3_dot(f->n, x.w);
     g->gap = x.gap;
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
-    e->bound = -(s->lower + s->frame->radii);
+    e->bound = -(s->lower + s->frame->lower_radii);
     if (s->goal.wants_depth && is_narrow(s, f->low, high)) return 0;
     if (high - f->low <= e->slack) return 0;
     if (high - f->low < 1e-3 * s->frame->size && has_point(e, &x)) return measure_sliver(e, f);

@@ -69,7 +69,7 @@ static gjk_end end_inside(search *s, const simplex *x) {
 // 1 if the bounds would answer the query, with an upper bound from the distance along the direction.
 static int seems_done(const search *s, double distance) {
     const query_goal *goal = &s->goal;
-    double upper = distance - s->frame->radii + s->frame->claim;
+    double upper = distance - s->frame->upper_radii + s->frame->claim;
     if (s->lower > goal->far || (upper < 0 && !goal->wants_depth)) return 1;
     return (upper <= goal->near && s->lower > 0) || (goal->wants_bracket && upper - s->lower <= goal->tolerance);
 }
@@ -159,7 +159,7 @@ static step_result take_step(gjk_state *k, const frame_support *p, double distan
 
 // Takes the gap along the heading as lower bound if it is the best; *n: the unit vector.
 static double take_gap(search *s, const heading *to, double scale, double gap, vec3 *n) {
-    double lower = gap * scale - s->frame->radii - s->frame->claim;
+    double lower = gap * scale - s->frame->lower_radii - s->frame->claim;
     *n = vec3_scale(to->n, scale);
     if (lower > s->lower) {
         take_lower(s, lower, *n);

@@ -84,7 +84,7 @@ static void run(approach *x) {
     (void)query_at(x, s->begin + 0.5 * (s->end - s->begin));
     while (!is_over(x) && s->time < s->end) {
         sample here = query_at(x, s->time);
-        double before = x->out->upper, time = s->time, level = before - lowered * compute_slack(x);
+        double before = x->out->upper, time = s->time, level = before - s->allowance - lowered * compute_slack(x);
         if (is_over(x)) return;
         vec3 n = vec3_unit(s->answer.normal);
         int moved = sweep_step(s, n, level);
@@ -96,7 +96,7 @@ static void run(approach *x) {
         // A short step, and ahead the distance falls below the smallest one found.
         if (here.fall > 0 && s->time - time < 0.01 * (s->end - s->begin)) {
             sweep_query(s, s->time);
-            if (sweep_get_lower(s) < before + x->tolerance && s->fall > 0)
+            if (sweep_get_lower(s) + s->allowance < before + x->tolerance && s->fall > 0)
                 descend(x, (sample){s->time, s->answer.upper, s->fall});
         }
     }
@@ -118,7 +118,10 @@ static void finish(approach *x) {
     else if (out->upper - out->lower <= x->tolerance)
         out->status = OVOID_TOUCHING;
     if (out->status == OVOID_OVERLAPPING || out->limit != OVOID_LIMIT_NONE) return;
-    if (out->upper - out->lower <= 1.001 * x->tolerance) return;
+    if (out->upper - out->lower <= 1.001 * x->tolerance + s->allowance) {
+        if (out->status == OVOID_UNDECIDED) out->limit = OVOID_LIMIT_ALLOWANCE;
+        return;
+    }
     out->limit = s->used >= s->most ? OVOID_LIMIT_ITERATIONS : OVOID_LIMIT_PRECISION;
 }
 

@@ -155,7 +155,11 @@ static void finish(advance *x) {
     if (out->status == OVOID_IMPACT_FREE || out->limit != OVOID_LIMIT_NONE) return;
     double wide = out->status == OVOID_IMPACT_HIT ? out->hit_at - s->time : INFINITY;
     if (wide <= s->tolerance * (s->end - s->begin) || wide <= x->finest) return;
-    out->limit = s->used >= s->most ? OVOID_LIMIT_ITERATIONS : OVOID_LIMIT_PRECISION;
+    // At the end of the free times the bracket of the distance holds the margin: is it the allowances' width?
+    int is_allowed = 2 * s->allowance > out->free.upper - out->free.lower;
+    out->limit = s->used >= s->most ? OVOID_LIMIT_ITERATIONS
+                 : is_allowed       ? OVOID_LIMIT_ALLOWANCE
+                                    : OVOID_LIMIT_PRECISION;
 }
 
 void impact_find(moving_shapes shapes, double margin, const ovoid_motion_options *options, double tolerance,

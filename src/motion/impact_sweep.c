@@ -34,6 +34,7 @@ ovoid_limit sweep_make(sweep *s, moving_shapes shapes, const ovoid_motion_option
     if (!o->steps) s->capacity = 0;
     if (!shapes.a->shape) return OVOID_LIMIT_SHAPE_A;
     if (!shapes.b->shape) return OVOID_LIMIT_SHAPE_B;
+    s->allowance = shape_get_width(shapes.a->shape) + shape_get_width(shapes.b->shape);
     if (!has_times(a)) return OVOID_LIMIT_POSE_A;
     if (!has_times(b)) return OVOID_LIMIT_POSE_B;
     if (!(s->tolerance >= 0 && s->tolerance < INFINITY) || isnan(o->begin) || isnan(o->end)) return OVOID_LIMIT_OPTIONS;

@@ -12,6 +12,7 @@ typedef struct sweep {
     double begin, end, time;
     double least; ///< the least proven gap of all steps so far
     double tolerance;
+    double allowance; ///< the width that the shapes' allowances give every bracket
     // The last query.
     double queried_at;   ///< its time
     ovoid_answer answer; ///< for computed poses

@@ -24,8 +24,8 @@ static void find_extents(const motion_body *b, double time, extent low, extent h
     mat3 r = quat_to_mat3(pose.rotation);
     vec3 at = vec3_add(pose.position, mat3_mul_vec3(r, shape->origin));
     const vec3 rows[3] = {r.r0, r.r1, r.r2};
-    double error = shift + 64 * ROUNDING * (b->reach + shape->radius + 2 * vec3_max_abs(pose.position)) +
-                   OVOID_LENGTH_MIN + shape->radius;
+    double error = shift + 64 * ROUNDING * (b->reach + shape->lower_radius + 2 * vec3_max_abs(pose.position)) +
+                   OVOID_LENGTH_MIN + shape->lower_radius;
     for (int i = 0; i < 3; i++) {
         vec3 m = rows[i];
         support_result up =
@@ -55,7 +55,7 @@ static void take(box *all, const extent low, const extent high, const extent bul
 static void take_cylinder(box *all, const motion_body *b, double time) {
     const motion_piece *p = &b->piece;
     vec3 at = vec3_add_scaled(p->from, p->travel, (time - p->begin) / p->span);
-    double radius = b->moving->shape->radius;
+    double radius = b->moving->shape->lower_radius;
     double slack = (2 * b->axis_error + 512 * ROUNDING) * b->reach + OVOID_LENGTH_MIN + p->fixed +
                    64 * ROUNDING * (vec3_max_abs(at) + vec3_max_abs(p->travel) + radius);
     extent low, high;

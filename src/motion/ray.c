@@ -20,8 +20,8 @@ static double find_end(const ovoid_posed_shape *body, const ovoid_ray *ray) {
     vec3 center = vec3_add(body->shape->center, body->shape->origin);
     vec3 c = vec3_add(body->pose.position, mat3_mul_vec3(quat_to_mat3(body->pose.rotation), center));
     double far = vec3_max_abs(c) + vec3_max_abs(body->shape->origin) + vec3_max_abs(ray->origin);
-    return 1.001 * (vec3_norm(vec3_sub(c, ray->origin)) + body->shape->reach + body->shape->radius + ray->radius) +
-           64 * 0x1p-53 * far + OVOID_LENGTH_MIN;
+    double reach = body->shape->reach + body->shape->lower_radius + ray->radius;
+    return 1.001 * (vec3_norm(vec3_sub(c, ray->origin)) + reach) + 64 * 0x1p-53 * far + OVOID_LENGTH_MIN;
 }
 
 static ovoid_ray_hit refuse(ovoid_limit limit) { return (ovoid_ray_hit){.limit = limit, .upper = INFINITY}; }

@@ -19,13 +19,14 @@ int fine_make(const ovoid_pair *pair, fine_frame *f) {
         apart = dd3_add(apart, origins);
         hidden = 0x1p-95 * (vec3_max_abs(f->a->origin) + vec3_max_abs(f->b->origin));
     }
-    double size = f->a->extent + f->b->extent + f->a->radius + f->b->radius + vec3_norm(dd3_high(apart));
+    double size = f->a->span + f->b->span + f->a->lower_radius + f->b->lower_radius + vec3_norm(dd3_high(apart));
     if (!(hidden + OVOID_LENGTH_MIN <= 0x1p-60 * size)) return 0;
     int exponent;
     (void)frexp(size, &exponent);
     f->unit = ldexp(1, -exponent);
     f->apart = scaled(apart, f->unit);
-    f->radii = dd_scale(two_sum(f->a->radius, f->b->radius), f->unit);
+    f->lower_radii = dd_scale(two_sum(f->a->lower_radius, f->b->lower_radius), f->unit);
+    f->upper_radii = dd_scale(two_sum(f->a->upper_radius, f->b->upper_radius), f->unit);
     f->check = (FINE_CHECK * size + hidden) * f->unit;
     f->claim = 2 * f->check;
     return 1;
@@ -66,11 +67,11 @@ fine_support fine_find_support(const fine_frame *f, dd3 n) {
 }
 
 double fine_compute_lower(const fine_frame *f, dd gap, double error) {
-    return dd_round_down(dd_scale(dd_sub(dd_sub(gap, f->radii), dd_from(error)), 1 / f->unit));
+    return dd_round_down(dd_scale(dd_sub(dd_sub(gap, f->lower_radii), dd_from(error)), 1 / f->unit));
 }
 
 double fine_compute_upper(const fine_frame *f, dd distance, double error) {
-    return dd_round_up(dd_scale(dd_add(dd_sub(distance, f->radii), dd_from(error)), 1 / f->unit));
+    return dd_round_up(dd_scale(dd_add(dd_sub(distance, f->upper_radii), dd_from(error)), 1 / f->unit));
 }
 
 // The weighted point of A, or of B: weights of any size, scaled so that no product leaves the range.

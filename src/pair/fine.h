@@ -20,11 +20,11 @@
 /// Its lengths are in the unit in which the size is about one.
 typedef struct fine_frame {
     const ovoid_shape *a, *b;
-    dd33 world_a, world_b; ///< rotations to the world
-    dd3 apart;             ///< B's body frame's origin minus A's, world
-    dd radii;              ///< sum of the rounding radii
-    double unit;           ///< power of two: 1/2 <= size unit < 1
-    double check, claim;   ///< what a measurement may be off by; by how much a claim is lowered
+    dd33 world_a, world_b;       ///< rotations to the world
+    dd3 apart;                   ///< B's body frame's origin minus A's, world
+    dd lower_radii, upper_radii; ///< sums of both shapes' (block.h)
+    double unit;                 ///< power of two: 1/2 <= size unit < 1
+    double check, claim;         ///< what a measurement may be off by; by how much a claim is lowered
 } fine_frame;
 
 /// The frame of a pair with valid poses, or 0 where it would resolve little more than doubles do: lengths near
@@ -42,7 +42,8 @@ typedef struct fine_support {
 } fine_support;
 fine_support fine_find_support(const fine_frame *f, dd3 n);
 
-/// Bounds of d, radii subtracted, in the lengths of the world, for what may be off by `error`: `check` or `claim`.
+/// Bounds of d, radii and allowances subtracted, in the lengths of the world, for what may be off by `error`: `check`
+/// or `claim`.
 double fine_compute_lower(const fine_frame *f, dd gap, double error);
 double fine_compute_upper(const fine_frame *f, dd distance, double error);
 

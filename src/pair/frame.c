@@ -61,8 +61,9 @@ ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
     f->offset = vec3_sub(b->position, a->position);
     f->hidden = OVOID_LENGTH_MIN;
     if (f->a->has_origin || f->b->has_origin) f->hidden += place_origins(f, pair);
-    f->radii = f->a->radius + f->b->radius;
-    f->size = f->a->extent + f->b->extent + vec3_norm(f->offset) + f->radii;
+    f->lower_radii = f->a->lower_radius + f->b->lower_radius;
+    f->upper_radii = f->a->upper_radius + f->b->upper_radius;
+    f->size = f->a->span + f->b->span + vec3_norm(f->offset) + f->lower_radii;
     f->claim = FRAME_CLAIM * f->size + 2 * f->hidden;
     f->check = FRAME_CHECK * f->size + f->hidden;
     return OVOID_LIMIT_NONE;

@@ -1,7 +1,8 @@
 // A pair of posed shapes in one frame: the body frame of A. Everything a query computes is in this frame; the constants
 // below bound what rounding can do, and every bound that is reported is widened by them.
 //
-// With u = 2^-53, ea, eb the shapes' extents, t the position of B's body frame and s = ea + eb + |t| + radii:
+// With u = 2^-53, ea, eb the shapes' extents (spans, where they have allowances), t the position of B's body frame and
+// s = ea + eb + |t| + radii:
 // - a rotation matrix from a quaternion is off by 36 u in norm, B's rotation in A's frame by 82 u;
 // - t is off by 43 u |t| (differences of positions are exact in double-double, far origins are rotated in it);
 // - a difference x_b - x_a is off by 91 u s, a support gap along a unit direction by 100 u s, and by 142 u s if the
@@ -31,7 +32,8 @@ typedef struct pair_frame {
     double claim;        ///< FRAME_CLAIM s, and what underflow can hide
     double check;        ///< FRAME_CHECK s, and what underflow can hide
     double hidden;       ///< what underflow and far origins can hide, whatever the size
-    double radii;        ///< sum of the rounding radii
+    double lower_radii;  ///< sums of both shapes' radii, what a lower bound and what an upper bound loses: they differ
+    double upper_radii;  ///< by the allowances
     // By frame_relate: B in the frame of A.
     mat3 rotation;    ///< x_a_frame = rotation x_b + translation
     vec3 translation; ///< of B's body frame
@@ -45,6 +47,8 @@ ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *frame);
 ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *frame);
 void frame_relate(pair_frame *frame);
 
+/// The width of the bracket that the shapes' allowances make.
+static inline double frame_get_allowance(const pair_frame *f) { return f->lower_radii - f->upper_radii; }
 /// A vertex of B in the frame.
 static inline vec3 frame_b(const pair_frame *f, vec3 x) {
     return vec3_add(mat3_mul_vec3(f->rotation, x), f->translation);

@@ -2,7 +2,7 @@
 // the shape was made; so a point that is proven inside the ellipsoid is a point of the body.
 //
 // A point x of E with m = (x - c)' Q^-1 (x - c) < 1 has the ball of radius (1 - sqrt m) r around it inside E, where r
-// is the least radius; a common point of two bodies with balls of radii ra and rb around it has d <= -ra - rb.
+// is the least radius; a common point of two bodies with balls of radii ra and rb around it has d <= -ra - rb - radii.
 // A point of the segment between the centres is often common to both: with norms ka and kb of the whole segment, the
 // one at kb / (ka + kb) of it has norm ka kb / (ka + kb) in each.
 #include "pair/inner.h"
@@ -25,13 +25,13 @@ double inner_compute_upper(const pair_frame *f, vec3 x) {
     vec3 in_b = mat3_mul_transposed_vec3(f->rotation, vec3_sub(x, f->translation));
     double a = norm_in(f->a, x, 0), b = norm_in(f->b, in_b, f->claim);
     if (!(a < 1 - 1e-5) || !(b < 1 - 1e-5)) return 0;
-    return -0.999 * ((1 - a) * f->a->inside.least + (1 - b) * f->b->inside.least) - f->radii;
+    return -0.999 * ((1 - a) * f->a->inside.least + (1 - b) * f->b->inside.least) - f->upper_radii;
 }
 
 double inner_points_compute_upper(const pair_frame *f, vec3 a, vec3 b, double error) {
     if (!vec3_is_finite(a) || !vec3_is_finite(b)) return INFINITY;
     if (!(norm_in(f->a, a, 0) <= 1) || !(norm_in(f->b, b, 0) <= 1)) return INFINITY;
-    return vec3_norm(vec3_sub(frame_b(f, b), a)) - f->radii + error;
+    return vec3_norm(vec3_sub(frame_b(f, b), a)) - f->upper_radii + error;
 }
 
 int inner_find_common(const pair_frame *f, vec3 *x) {

@@ -34,7 +34,7 @@ witness_points witness_compute_points(const pair_frame *f, const ovoid_proof *p)
         // difference may have any direction.
         w = proof_compute_points(f, p);
         vec3 d = vec3_sub(w.b, w.a);
-        if (vec3_norm(d) > f->radii) n = vec3_unit(d);
+        if (vec3_norm(d) > f->a->radius + f->b->radius) n = vec3_unit(d);
         break;
     }
     case OVOID_PROOF_INNER_POINTS:

@@ -10,7 +10,7 @@ int search_is_sign_known(const search *s) { return s->lower > 0 || s->upper < 0;
 int search_is_done(const search *s) {
     if (!s->goal.wants_depth) return query_goal_is_met(&s->goal, s->lower, s->upper);
     if (s->lower > s->goal.far) return 1;
-    if (!search_is_sign_known(s)) return 0;
+    if (!search_is_sign_known(s) && !query_goal_is_hopeless(&s->goal, s->lower, s->upper)) return 0;
     if (s->upper <= s->goal.near) return 1;
     // A tetrahedron around the origin may bracket a shallow depth well, but its witness is one common point.
     return s->kind != OVOID_PROOF_HULL && s->goal.wants_bracket && s->upper - s->lower <= s->goal.tolerance;
@@ -18,7 +18,7 @@ int search_is_done(const search *s) {
 
 void search_take_gap(search *s, vec3 n, double gap) {
     const pair_frame *f = s->frame;
-    double lower = gap - f->radii - f->claim;
+    double lower = gap - f->lower_radii - f->claim;
     // A direction that underflowed to nothing proves nothing.
     if (!(lower > s->lower) || !(vec3_norm_squared(n) > 0.5)) return;
     s->lower = lower;
@@ -42,7 +42,7 @@ static void take_evidence(evidence *e, const simplex *x) {
 
 void search_take_points(search *s, const simplex *points) {
     const pair_frame *f = s->frame;
-    double upper = vec3_norm(simplex_compute_point(points)) - f->radii + f->claim;
+    double upper = vec3_norm(simplex_compute_point(points)) - f->upper_radii + f->claim;
     if (!(upper < s->upper)) return;
     s->upper = upper;
     s->kind = OVOID_PROOF_POINTS;
@@ -81,7 +81,7 @@ int search_take_hull(search *s, const evidence *hull) {
     for (int i = 0; i < hull->count; i++) w[i] = hull->p[i].w;
     double depth = hull_compute_depth(w, hull->count, f->claim);
     if (!(depth > 0)) return 0;
-    double upper = -depth - f->radii;
+    double upper = -depth - f->upper_radii;
     if (upper < s->upper) {
         s->upper = upper;
         s->kind = OVOID_PROOF_HULL;

@@ -5,16 +5,18 @@
 #include "pair/frame.h"
 #include "pair/simplex.h"
 
-/// The goal of a query. All bounds are of the signed distance, radii subtracted.
+/// The goal of a query. All bounds are of the signed distance, radii and allowances subtracted.
 typedef struct query_goal {
     double far;          ///< answered when lower > far: the margin, the cap
     double near;         ///< answered when upper <= near and the sign is proven: the margin; -infinity: never
-    double tolerance;    ///< answered when the bracket is this narrow
+    double tolerance;    ///< answered when the bracket is this narrow; `allowance` is in it
+    double allowance;    ///< the width that no search takes away, since the bodies are not known better
     uint32_t iterations; ///< most iterations of each exact method
     int wants_depth;     ///< a proven overlap does not answer it
     int wants_bracket;   ///< narrowing the bracket is asked, not only the sign
     ovoid_limit beyond;  ///< what an answer says that stopped at lower > far
-    double deepest;      ///< of a depth: a cover of no more than this is not written; 0: any is, and none is known
+    int has_cover;       ///< the cover at hand is kept, unless one shows less than `covered`, its upper bound
+    double covered;
 } query_goal;
 
 /// The differences behind an upper bound, with weights.
@@ -28,7 +30,7 @@ typedef struct evidence {
 typedef struct search {
     const pair_frame *frame;
     query_goal goal;
-    double lower, upper; ///< proven; radii subtracted
+    double lower, upper; ///< proven; radii and allowances subtracted
     vec3 normal;         ///< unit direction (frame) of the lower bound
     vec3 world,
         world_low;    ///< from REFINE: the direction of the lower bound in the world, as a sum; zero: it is `normal`
@@ -57,10 +59,18 @@ static inline void search_make(search *s, const pair_frame *frame, const query_g
     s->iterations = 0;
 }
 
+/// 1 if the allowances leave the sign open, however narrow the bracket becomes: only they are left of it, or without
+/// them it is so near to zero that no further search takes the sign out of them.
+static inline int query_goal_is_hopeless(const query_goal *goal, double lower, double upper) {
+    if (!(goal->allowance > 0)) return 0;
+    if (upper - lower <= goal->tolerance) return 1;
+    return !goal->wants_bracket && lower >= -goal->allowance && upper <= goal->allowance;
+}
+
 /// 1 if bounds answer a query that does not want the depth.
 static inline int query_goal_is_met(const query_goal *goal, double lower, double upper) {
     if (lower > goal->far) return 1;
-    if (!(lower > 0 || upper < 0)) return 0;
+    if (!(lower > 0 || upper < 0)) return query_goal_is_hopeless(goal, lower, upper);
     return upper <= goal->near || upper < 0 || (goal->wants_bracket && upper - lower <= goal->tolerance);
 }
 

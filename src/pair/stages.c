@@ -105,7 +105,7 @@ void stage_outer(search *s, vec3 *n) {
     vec3 d = vec3_sub(frame_b(f, b->center), a->center);
     double gap;
     *n = ellipsoids_find_direction(a->q, sym3_rotate(b->q, f->rotation), d, &gap);
-    double lower = gap - f->radii - f->claim;
+    double lower = gap - f->lower_radii - f->claim;
     if (!(lower > s->goal.far)) return;
     s->lower = lower;
     s->normal = *n;
@@ -119,7 +119,7 @@ void stage_support(search *s, vec3 n, simplex *start) {
     start->count = 1;
     search_take_points(s, start);
     s->stage = OVOID_STAGE_SUPPORT;
-    if (!(s->frame->radii > 0) || !s->goal.wants_bracket || !search_is_done(s)) return;
+    if (!(s->frame->lower_radii > 0) || !s->goal.wants_bracket || !search_is_done(s)) return;
     // Where radii overlap the points are on the bodies along the normal: the bracket is taken along the difference's
     // own direction, as gjk.c does, so that points, normal and depth agree.
     s->lower = -INFINITY;

@@ -51,7 +51,7 @@ static double find_lower(const pair_frame *f) {
     ovoid_ellipsoid b = {frame_b(f, f->b->outer.center), sym3_rotate(f->b->outer.q, f->rotation)};
     vec3 n = ovoid_ellipsoid_compute_nearest_by_sphere(a, &b).normal;
     double sa = sqrt(ellipsoid_compute_spread(a->q, n)), sb = sqrt(ellipsoid_compute_spread(b.q, n));
-    return vec3_dot(n, vec3_sub(b.center, a->center)) - sa - sb - f->radii - f->claim;
+    return vec3_dot(n, vec3_sub(b.center, a->center)) - sa - sb - f->lower_radii - f->claim;
 }
 
 /// The arguments of the study: the tables of both bodies, the rule, and the criterion's threshold.
@@ -79,7 +79,7 @@ static void find_upper(ovoid_paper_bounds *r, const pair_frame *f, const ovoid_n
     double gap = vec3_norm(way), p1q1 = vec3_norm(vec3_sub(q1, p1)), p2q2 = vec3_norm(vec3_sub(q2, p2));
     int has_passed = inner->overlap || !(vec3_dot(way, vec3_sub(inner->point_b, inner->point_a)) > 0);
     r->collides = has_passed || !(gap > fmin(fmin(p1q1, p2q2), s->threshold));
-    r->upper = inner->overlap ? 0 : fmax(gap - f->radii, 0);
+    r->upper = fmax((inner->overlap ? 0 : gap) - f->upper_radii, 0);
     r->q1 = frame_point_to_world(f, q1);
     r->q2 = frame_point_to_world(f, q2);
     r->p1 = frame_point_to_world(f, p1);

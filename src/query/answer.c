@@ -34,12 +34,13 @@ static void set_upper_proof(ovoid_proof *p, const search *s) {
 static ovoid_status find_status(const search *s) {
     if (s->lower > 0) return OVOID_SEPARATED;
     if (s->upper < 0) return OVOID_OVERLAPPING;
-    return s->upper - s->lower <= s->goal.tolerance ? OVOID_TOUCHING : OVOID_UNDECIDED;
+    return s->upper - s->lower <= s->goal.tolerance - s->goal.allowance ? OVOID_TOUCHING : OVOID_UNDECIDED;
 }
 
 // Why the bracket is wider than the tolerance, if it is.
 static ovoid_limit find_limit(const search *s, ovoid_status status) {
-    final_bracket b = {s->lower, s->upper, s->goal.tolerance, status, s->kind};
+    final_bracket b = {s->lower, s->upper, s->goal.tolerance, s->goal.allowance, status, s->kind};
+    if (bracket_is_left_open(&b, &s->goal, s->limit)) return OVOID_LIMIT_ALLOWANCE;
     if (bracket_is_narrow(&b, &s->goal)) return OVOID_LIMIT_NONE;
     return s->limit != OVOID_LIMIT_NONE ? s->limit : bracket_find_limit(&b, &s->goal, OVOID_LIMIT_NONE);
 }
@@ -49,7 +50,7 @@ static void take_spheres(search *s) {
     const pair_frame *f = s->frame;
     vec3 d = vec3_sub(frame_b(f, f->b->center), f->a->center), n = vec3_unit(d);
     if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){1, 0, 0};
-    s->lower = vec3_dot(n, d) - (f->a->reach + f->b->reach) - f->radii - f->claim;
+    s->lower = vec3_dot(n, d) - (f->a->reach + f->b->reach) - f->lower_radii - f->claim;
     s->normal = n;
 }
 
@@ -95,7 +96,7 @@ static int try_rejections(const pair_frame *f, const query_goal *goal, const ovo
 static int may_overlap(const search *s) {
     const pair_frame *f = s->frame;
     double reach = f->a->reach + f->b->reach;
-    return s->lower + f->radii <= 0 &&
+    return s->lower + f->lower_radii <= 0 &&
            vec3_norm_squared(vec3_sub(frame_b(f, f->b->center), f->a->center)) < reach * reach;
 }
 
@@ -126,12 +127,12 @@ static void run_stages(search *s, double spheres, const ovoid_proof *earlier, si
 // GJK, then EPA where the cores touch or overlap and GJK cannot narrow the bracket. A depth query tries EPA first,
 // unless the cores are known to be apart.
 static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
-    int cores_apart = s->lower + s->frame->radii > 0;
+    int cores_apart = s->lower + s->frame->lower_radii > 0;
     if (s->goal.wants_depth && !cores_apart && epa_run(s, start, 1, cover)) return;
     gjk_end end = gjk_run(s, start);
     if (end == GJK_ANSWERED) return;
     if (end == GJK_ITERATIONS) s->limit = OVOID_LIMIT_ITERATIONS;
-    cores_apart = s->lower + s->frame->radii > 0;
+    cores_apart = s->lower + s->frame->lower_radii > 0;
     if (cores_apart || end == GJK_ITERATIONS) return;
     if (!epa_run(s, start, 0, cover) && !search_is_done(s)) s->limit = OVOID_LIMIT_PRECISION;
 }
@@ -149,11 +150,13 @@ static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given
                               ovoid_limit *refused) {
     OVOID_ASSERT(pair);
     ovoid_options options;
-    if (cover && !(goal->deepest > 0)) cover->point_count = cover->triangle_count = 0;
+    if (cover && !goal->has_cover) cover->point_count = cover->triangle_count = 0;
     *refused = OVOID_LIMIT_OPTIONS;
     if (options_make(given, &options) && goal->far >= 0) *refused = frame_place(pair, frame);
     if (*refused != OVOID_LIMIT_NONE) return BEGIN_REFUSED;
-    goal->tolerance = max2(options.absolute_tolerance, options.relative_tolerance * frame->size) + 8 * frame->hidden;
+    goal->allowance = frame_get_allowance(frame);
+    goal->tolerance = max2(options.absolute_tolerance, options.relative_tolerance * frame->size) + 8 * frame->hidden +
+                      goal->allowance;
     goal->iterations = options.iterations;
     return try_rejections(frame, goal, earlier, found) ? BEGIN_REJECTED : BEGIN_SEARCH;
 }

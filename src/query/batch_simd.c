@@ -110,6 +110,7 @@ static pair_frame get_frame(const lane_group *e, unsigned k) {
                         FRAME_CHECK * size + hidden,
                         hidden,
                         o->radii.lane[k],
+                        o->radii.lane[k],
                         get9(o->rotation, k),
                         get3(o->translation, k)};
 }
@@ -369,6 +370,7 @@ static void fetch_ellipsoids(const ovoid_shape *shape) {
 
 // 1 for a couple that must be queried alone.
 static unsigned is_unusual(const ovoid_batch *batch, size_t i, const ovoid_shape *a, const ovoid_shape *b) {
+    if (shape_has_allowance(a) || shape_has_allowance(b)) return 1;
     return (a->has_origin | b->has_origin) || (batch->proofs && !is_blank(&batch->proofs[i]));
 }
 

@@ -13,7 +13,7 @@ static void take_outer(search *s) {
     vec3 n = ovoid_ellipsoid_compute_nearest(a, &b).normal;
     if (!(vec3_norm_squared(n) > 0)) n = (vec3){1, 0, 0};
     double sa = sqrt(ellipsoid_compute_spread(a->q, n)), sb = sqrt(ellipsoid_compute_spread(b.q, n));
-    s->lower = vec3_dot(n, vec3_sub(b.center, a->center)) - sa - sb - f->radii - f->claim;
+    s->lower = vec3_dot(n, vec3_sub(b.center, a->center)) - sa - sb - f->lower_radii - f->claim;
     s->normal = n;
     s->stage = OVOID_STAGE_OUTER;
 }
@@ -47,7 +47,8 @@ static ovoid_answer find_bounds(const ovoid_pair *pair) {
     pair_frame frame;
     ovoid_limit refused = frame_make(pair, &frame);
     if (refused != OVOID_LIMIT_NONE) return answer_make_refused(refused);
-    query_goal goal = {.tolerance = 1e-9 * frame.size};
+    query_goal goal = {.allowance = frame_get_allowance(&frame)};
+    goal.tolerance = 1e-9 * frame.size + goal.allowance;
     search s;
     search_make(&s, &frame, &goal);
     take_outer(&s);

@@ -39,7 +39,7 @@ static ovoid_code check_lower(measure *m, double lower, const ovoid_proof *p, ov
     if (lower == -INFINITY) return OVOID_OK;
     vec3 n = vec3_unit(frame_direction_from_world(f, vec3_add(p->normal, p->normal_low)));
     if (!(vec3_norm_squared(n) > 0)) return refuse(error, "lower bound without a normal", lower, 0);
-    double found = frame_measure_gap(f, n) - f->radii - f->check;
+    double found = frame_measure_gap(f, n) - f->lower_radii - f->check;
     if (found < lower && make_fine(m)) found = measure_lower_again(m, p);
     return found >= lower ? OVOID_OK : refuse(error, "lower bound", lower, found);
 }
@@ -54,7 +54,7 @@ ovoid_code lower_check_internal(const ovoid_pair *pair, double lower, const ovoi
 
 static double measure_points(const pair_frame *f, const ovoid_proof *p) {
     witness_points w = proof_compute_points(f, p);
-    return vec3_norm(vec3_sub(w.b, w.a)) - f->radii + f->check;
+    return vec3_norm(vec3_sub(w.b, w.a)) - f->upper_radii + f->check;
 }
 
 static double measure_hull(const pair_frame *f, const ovoid_proof *p) {
@@ -62,7 +62,7 @@ static double measure_hull(const pair_frame *f, const ovoid_proof *p) {
     for (uint32_t i = 0; i < p->count; i++) w[i] = proof_difference(f, p, i).w;
     double depth = hull_compute_depth(w, (int)p->count, f->check);
     depth = fmax(depth, hull_compute_clearance(w, (int)p->count, f->check));
-    return depth > 0 ? -depth - f->radii : INFINITY;
+    return depth > 0 ? -depth - f->upper_radii : INFINITY;
 }
 
 static double measure_upper_again(const measure *m, const ovoid_proof *p) {
@@ -84,7 +84,7 @@ static double measure_cover(const pair_frame *f, const ovoid_cover *cover) {
     }
     surface all = {w, (const uint16_t(*)[3])cover->triangles, cover->point_count, cover->triangle_count};
     double depth = surface_is_closed(&all) ? surface_compute_depth(&all, f->check) : 0;
-    return depth > 0 ? -depth - f->radii : INFINITY;
+    return depth > 0 ? -depth - f->upper_radii : INFINITY;
 }
 
 static ovoid_code check_upper(measure *m, const ovoid_answer *x, const ovoid_cover *cover, ovoid_error *error) {

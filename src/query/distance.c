@@ -7,5 +7,5 @@ ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options
 }
 
 double ovoid_answer_get_distance(const ovoid_answer *answer) {
-    return answer->limit == OVOID_LIMIT_NONE ? answer->lower : NAN;
+    return answer->limit == OVOID_LIMIT_NONE || answer->limit == OVOID_LIMIT_ALLOWANCE ? answer->lower : NAN;
 }

@@ -22,6 +22,11 @@ int bracket_is_narrow(const final_bracket *b, const query_goal *goal) {
     return b->upper - b->lower <= b->tolerance && !is_common;
 }
 
+int bracket_is_left_open(const final_bracket *b, const query_goal *goal, ovoid_limit trouble) {
+    if (!(b->allowance > 0) || trouble == OVOID_LIMIT_ITERATIONS || trouble == OVOID_LIMIT_CAPACITY) return 0;
+    return b->status == OVOID_UNDECIDED || (b->lower <= goal->near && b->upper > goal->near);
+}
+
 ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble) {
     ovoid_limit wide = trouble != OVOID_LIMIT_NONE ? trouble : OVOID_LIMIT_PRECISION;
     if (b->status == OVOID_UNDECIDED) return wide;

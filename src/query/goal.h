@@ -34,7 +34,8 @@ static inline query_goal query_goal_make_depth(const ovoid_options *options) {
 
 /// How a bracket stands when its query ends.
 typedef struct final_bracket {
-    double lower, upper, tolerance;
+    double lower, upper;
+    double tolerance, allowance; ///< as in the goal of a query
     ovoid_status status;
     ovoid_proof_kind kind; ///< what the upper bound rests on
 } final_bracket;
@@ -42,6 +43,10 @@ typedef struct final_bracket {
 /// 1 if the bracket is as narrow as the tolerance. A common point shows no depth, unless the depth is within the
 /// tolerance.
 int bracket_is_narrow(const final_bracket *b, const query_goal *goal);
+
+/// 1 if the sign, or the margin of the goal, is left open by the bodies' allowances. trouble: what else ended the
+/// search.
+int bracket_is_left_open(const final_bracket *b, const query_goal *goal, ovoid_limit trouble);
 
 /// Why a bracket that is not narrow is wide. trouble: what kept the search from narrowing it, or NONE.
 ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble);

@@ -79,6 +79,18 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
     shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
 }
 
+void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) {
+    s->radius = s->lower_radius = s->upper_radius = radius;
+    s->allowance = allowance;
+    s->span = s->extent;
+    if (allowance.outside > 0) s->lower_radius = nextafter(radius + allowance.outside, INFINITY);
+    // No point of the polyhedron is farther from a point of the true body than its own diameter and `outside`.
+    double most = 2 * (s->extent + s->lower_radius), inside = allowance.inside < most ? allowance.inside : most;
+    if (!(inside > 0)) return;
+    s->upper_radius = nextafter(radius - inside, -INFINITY);
+    s->span += 2 * inside;
+}
+
 static ovoid_shape *copy(const ovoid_shape *shape, const ovoid_allocator *allocator, ovoid_error *error) {
     if (!shape) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "no shape to copy");
@@ -126,6 +138,7 @@ simd_extreme shape_find_extreme(const ovoid_shape *s, ovoid_vec3 n) {
 }
 
 double ovoid_shape_get_radius(const ovoid_shape *shape) { return shape->radius; }
+ovoid_allowance ovoid_shape_get_allowance(const ovoid_shape *shape) { return shape->allowance; }
 ovoid_report ovoid_shape_get_report(const ovoid_shape *shape) { return shape->report; }
 ovoid_fit ovoid_shape_get_outer(const ovoid_shape *shape) { return shape->outer_fit; }
 ovoid_fit ovoid_shape_get_inner(const ovoid_shape *shape) { return shape->inner_fit; }

@@ -41,7 +41,12 @@ struct ovoid_shape {
     uint32_t rank;
     uint32_t has_origin; ///< origin is not zero
     ovoid_vec3 first;    ///< vertex 0
+    // With the allowance, rounded outward; without one they are radius, radius and extent.
+    double lower_radius; ///< radius + outside, what a lower bound of the distance loses
+    double upper_radius; ///< radius - inside, what an upper bound loses; inside at most 2 (extent + lower_radius)
+    double span;         ///< extent + 2 inside: with lower_radius above all lengths that a bound is made of
     block_offsets at;
+    ovoid_allowance allowance;
     support_table support; ///< the table of supports; k = 0: none
     // Read by the cheap stages.
     ovoid_ellipsoid outer, inner;
@@ -77,5 +82,12 @@ ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovo
 /// Copies the polytope's arrays into the block, and derives what follows from the vertices: structure of arrays,
 /// padding, sphere, extent, measures. The polytope must have the block's counts.
 void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope);
+
+/// Sets the radius and the allowance of a block that has been filled, and what follows from them.
+void block_set_radius(ovoid_shape *shape, double radius, ovoid_allowance allowance);
+
+/// By how much the allowance widens a bracket.
+static inline double shape_get_width(const ovoid_shape *s) { return s->lower_radius - s->upper_radius; }
+static inline int shape_has_allowance(const ovoid_shape *s) { return s->allowance.outside + s->allowance.inside > 0; }
 
 #endif

@@ -20,6 +20,12 @@ ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_opti
     if (o->radius < 0) return error_set(error, OVOID_ERROR_RADIUS, -1, "the radius %g is negative", o->radius);
     if (o->radius > OVOID_LENGTH_MAX)
         return error_set(error, OVOID_ERROR_RANGE, -1, "the radius %g is above %g", o->radius, OVOID_LENGTH_MAX);
+    const double lengths[2] = {o->allowance.outside, o->allowance.inside};
+    for (int i = 0; i < 2; i++)
+        if (!(lengths[i] >= 0 && lengths[i] <= OVOID_LENGTH_MAX))
+            return error_set(error, isfinite(lengths[i]) ? OVOID_ERROR_RANGE : OVOID_ERROR_NOT_FINITE, -1,
+                             "the allowance %s, %g, is not in [0, %g]", i ? "inside" : "outside", lengths[i],
+                             OVOID_LENGTH_MAX);
     if (!(o->gap >= 0 && o->gap < 1))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the ellipsoids' gap %g is not in [0, 1)", o->gap);
     if (o->inner != OVOID_INNER_MAXIMUM && o->inner != OVOID_INNER_PHASES)
@@ -153,7 +159,7 @@ ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *o,
                                     ovoid_error *error) {
     ovoid_shape *shape = shape_create_block(h, o->allocator, error);
     if (!shape) return NULL;
-    shape->radius = o->radius;
+    block_set_radius(shape, o->radius, o->allowance);
     shape->report = h->report;
     ovoid_code code = fit_ellipsoids(shape, o, near);
     if (code == OVOID_OK) return shape;

@@ -1,11 +1,12 @@
-// The file of a shape (".ovoid"), version 1. docs/polytope.md has the table.
+// The file of a shape (".ovoid"), version 1, or 2 where it has an allowance. docs/polytope.md has
+// the table.
 //
 // A file holds what a shape cannot be made from again: the vertices, the ellipsoids as they were fitted, the radius,
-// and what became of the points given. Faces, adjacency, planes and measures depend on the vertices alone, bit for bit
-// (polytope/hull.h), so they are computed anew; nothing in a file is an index, and nothing can contradict the vertices.
-// Reading checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no single wrong byte
-// escapes), the size against the count, every number's range, that all vertices are extreme and in the body frame, that
-// the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
+// the allowance, and what became of the points given. Faces, adjacency, planes and measures depend on the vertices
+// alone, bit for bit (polytope/hull.h), so they are computed anew; nothing in a file is an index, and nothing can
+// contradict the vertices. Reading checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no
+// single wrong byte escapes), the size against the count, every number's range, that all vertices are extreme and in
+// the body frame, that the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
@@ -18,10 +19,10 @@
 
 #include <string.h>
 
-#define VERSION 1
 #define OUTER_AT 104
 #define INNER_AT 216
 #define HEADER_SIZE 328
+#define ALLOWANCE_SIZE 16
 #define CHECKSUM_SIZE 8
 static const uint8_t magic[8] = {0x89, 'O', 'V', 'O', 'I', 'D', '\n', 0x1a};
 
@@ -30,6 +31,8 @@ static uint64_t compute_checksum(const uint8_t *bytes, size_t size) {
     for (size_t i = 0; i < size; i++) h = (h ^ bytes[i]) * 0x100000001b3u;
     return h;
 }
+
+static size_t get_header_size(int has_allowance) { return HEADER_SIZE + (has_allowance ? ALLOWANCE_SIZE : 0); }
 
 // ---- writing ----
 
@@ -67,12 +70,13 @@ static void put_fit(writer *w, const ovoid_fit *f) {
 
 size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity) {
     OVOID_ASSERT(shape);
-    size_t size = HEADER_SIZE + (size_t)shape->vertex_count * 24 + CHECKSUM_SIZE;
+    int has_allowance = shape_has_allowance(shape);
+    size_t size = get_header_size(has_allowance) + (size_t)shape->vertex_count * 24 + CHECKSUM_SIZE;
     if (!buffer || capacity < size) return size;
     writer w = {buffer};
     memcpy(w.at, magic, sizeof magic);
     w.at += sizeof magic;
-    put_integer(&w, VERSION, 4);
+    put_integer(&w, has_allowance ? 2 : 1, 4);
     put_integer(&w, shape->rank, 4);
     put_integer(&w, size, 8);
     put_integer(&w, shape->vertex_count, 8);
@@ -85,6 +89,10 @@ size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity
     put_integer(&w, shape->report.faces, 8);
     put_fit(&w, &shape->outer_fit);
     put_fit(&w, &shape->inner_fit);
+    if (has_allowance) {
+        put_double(&w, shape->allowance.outside);
+        put_double(&w, shape->allowance.inside);
+    }
     const double *vertices = shape_vertices(shape);
     for (size_t i = 0; i < 3 * (size_t)shape->vertex_count; i++) put_double(&w, vertices[i]);
     put_integer(&w, compute_checksum(buffer, size - CHECKSUM_SIZE), 8);
@@ -132,8 +140,10 @@ static ovoid_fit get_fit(reader *r) {
 
 // The content of a file.
 typedef struct content {
+    int has_allowance;
     uint32_t rank, vertex_count;
     double radius;
+    ovoid_allowance allowance;
     ovoid_vec3 origin;
     ovoid_report report;
     ovoid_fit outer, inner;
@@ -149,11 +159,13 @@ static ovoid_code check_envelope(reader *r, size_t size, content *c) {
     if (size < sizeof magic || memcmp(r->bytes, magic, sizeof magic) != 0) return refuse(r, 0, "not an .ovoid file");
     if (size < HEADER_SIZE + CHECKSUM_SIZE) return refuse(r, size, "the file ends within its header");
     r->at = sizeof magic;
-    if (get_integer(r, 4) != VERSION) return refuse(r, 8, "written by another version of the format");
+    uint64_t version = get_integer(r, 4);
+    c->has_allowance = version == 2;
+    if (version != 1 && version != 2) return refuse(r, 8, "written by another version of the format");
     c->rank = (uint32_t)get_integer(r, 4);
     uint64_t total = get_integer(r, 8), count = get_integer(r, 8);
     if (total != size) return refuse(r, size, total > size ? "the file is truncated" : "bytes after the end");
-    if (count == 0 || count > POINTS_MAX || HEADER_SIZE + count * 24 + CHECKSUM_SIZE != total)
+    if (count == 0 || count > POINTS_MAX || get_header_size(c->has_allowance) + count * 24 + CHECKSUM_SIZE != total)
         return refuse(r, 24, "the number of vertices does not agree with the size");
     c->vertex_count = (uint32_t)count;
     reader end = {r->bytes, size - CHECKSUM_SIZE, r->error};
@@ -194,6 +206,17 @@ static ovoid_code read_report(reader *r, content *c) {
     return OVOID_OK;
 }
 
+static ovoid_code read_allowance(reader *r, content *c) {
+    if (!c->has_allowance) return OVOID_OK;
+    size_t start = r->at;
+    c->allowance.outside = get_double(r);
+    c->allowance.inside = get_double(r);
+    if (!(c->allowance.outside >= 0 && is_length(c->allowance.outside) && c->allowance.inside >= 0 &&
+          is_length(c->allowance.inside) && c->allowance.outside + c->allowance.inside > 0))
+        return refuse(r, start, "the allowance is not two lengths, one above zero");
+    return OVOID_OK;
+}
+
 static ovoid_code read_header(reader *r, content *c) {
     c->radius = get_double(r);
     if (!(c->radius >= 0 && is_length(c->radius))) return refuse(r, 32, "the radius is not a length");
@@ -202,7 +225,7 @@ static ovoid_code read_header(reader *r, content *c) {
     ovoid_code code = read_report(r, c);
     if (!code) code = read_fit(r, &c->outer);
     if (!code) code = read_fit(r, &c->inner);
-    return code;
+    return code ? code : read_allowance(r, c);
 }
 
 // Reads coordinates of the body frame: origin + vertex is exactly a double, and no zero is negative.
@@ -220,9 +243,10 @@ static ovoid_code read_vertices(reader *r, content *c) {
 
 // The hull of the vertices must be these vertices.
 static ovoid_code check_hull(const reader *r, const content *c, const hull *h) {
-    if (h->vertex_count != c->vertex_count) return refuse(r, HEADER_SIZE, "a vertex is not extreme");
+    if (h->vertex_count != c->vertex_count)
+        return refuse(r, get_header_size(c->has_allowance), "a vertex is not extreme");
     if (h->origin.x != 0 || h->origin.y != 0 || h->origin.z != 0)
-        return refuse(r, HEADER_SIZE, "the vertices are not in the body frame");
+        return refuse(r, get_header_size(c->has_allowance), "the vertices are not in the body frame");
     if (h->rank != c->rank) return refuse(r, 12, "the rank is not that of the vertices");
     return OVOID_OK;
 }
@@ -248,7 +272,7 @@ static ovoid_shape *make_shape(const reader *r, const content *c, hull *h, const
     h->origin = c->origin;
     ovoid_shape *shape = shape_create_block(h, allocator, r->error);
     if (!shape) return NULL;
-    shape->radius = c->radius;
+    block_set_radius(shape, c->radius, c->allowance);
     shape->report = c->report;
     shape_set_fits(shape, &c->outer, &c->inner);
     if (!check_ellipsoids(r, c, shape)) return shape;
@@ -261,7 +285,7 @@ static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *all
     hull h;
     ovoid_code code = hull_create(c->vertices, c->vertex_count, allocator, &h, r->error);
     if (code) {
-        if (code != OVOID_ERROR_MEMORY) refuse(r, HEADER_SIZE, "the vertices have no hull");
+        if (code != OVOID_ERROR_MEMORY) refuse(r, get_header_size(c->has_allowance), "the vertices have no hull");
         return NULL;
     }
     ovoid_shape *shape = check_hull(r, c, &h) ? NULL : make_shape(r, c, &h, allocator);

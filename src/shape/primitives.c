@@ -66,6 +66,9 @@ ovoid_shape *ovoid_shape_create_capsule(double radius, double half_length, const
     ENVIRONMENT_RETURN(ovoid_shape *, lengths, create_capsule(lengths[0], lengths[1], options, error));
 }
 
+// Most sides of a cylinder or cone.
+enum { SIDES_MAX = 1 << 16 };
+
 // `sides` points of a circle around z, from *xyz on.
 static void fill_circle(double *xyz, double radius, double z, uint32_t sides) {
     for (uint32_t i = 0; i < sides; i++) {
@@ -114,14 +117,71 @@ static ovoid_shape *create_turned(const turned *t, const ovoid_shape_options *op
     return shape;
 }
 
-ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, uint32_t sides,
+// ---- the round bodies, held by polyhedra
+//
+// With the greatest angle g between neighbours of a circle of radius R, the cylinder's extreme points, those of its two
+// circles, are within R (1 - cos(g / 2)) of the prism; the distance from a convex body is a convex function, so no
+// point of the cylinder is farther. With u = 2^-53, rounding moves a corner along the circle by less than 32 u R and
+// away from it by less than 4 u R: 64 u R and 8 u R pay for both. A cone has the same circle, and its apex is exact.
+
+// By how much the circle of radius 1 stands out of a regular polygon: 1 - cos(pi / n), rounding included.
+static double compute_sagitta(double sides) {
+    double s = sin(1.5707963267948966 / sides);
+    return 2 * (s * s) + 64 * 0x1p-53;
+}
+
+// The fewest sides whose circle stands out by no more than `most`; more than SIDES_MAX where there are none so few.
+static uint32_t find_sides(double most) {
+    // sin x < x, so this is no fewer than are needed, and few more.
+    double sides = ceil(1.5707963267948966 / sqrt(most / 2));
+    if (!(sides <= SIDES_MAX)) return SIDES_MAX + 1;
+    if (sides < 3) sides = 3;
+    while (sides > 3 && compute_sagitta(sides - 1) <= most) sides--;
+    while (sides <= SIDES_MAX && compute_sagitta(sides) > most) sides++;
+    return (uint32_t)sides;
+}
+
+static ovoid_shape *create_round(const turned *t, double tolerance, const ovoid_shape_options *options,
+                                 ovoid_error *error) {
+    turned by = *t;
+    ovoid_shape_options o = {0};
+    if (options) o = *options;
+    if (!is_length(by.radius, "radius", error)) return NULL;
+    if (!(tolerance >= 0)) {
+        error_write(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance %g is not a length >= 0", tolerance);
+        return NULL;
+    }
+    by.sides = by.radius > 0 ? find_sides(tolerance > 0 ? tolerance / by.radius : 0.005) : 3;
+    if (by.sides > SIDES_MAX) {
+        error_write(error, OVOID_ERROR_LIMIT, -1, "a tolerance of %g at a radius of %g takes more than %d sides",
+                    tolerance, by.radius, (int)SIDES_MAX);
+        return NULL;
+    }
+    o.allowance.outside += by.radius * compute_sagitta(by.sides);
+    o.allowance.inside += by.radius * (8 * 0x1p-53);
+    return create_turned(&by, &o, error);
+}
+
+ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, double tolerance,
                                          const ovoid_shape_options *options, ovoid_error *error) {
+    turned prism = {radius, half_length, 0, 2};
+    ENVIRONMENT_RETURN(ovoid_shape *, prism, create_round(&prism, tolerance, options, error));
+}
+
+ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, double tolerance,
+                                     const ovoid_shape_options *options, ovoid_error *error) {
+    turned pyramid = {radius, half_length, 0, 1};
+    ENVIRONMENT_RETURN(ovoid_shape *, pyramid, create_round(&pyramid, tolerance, options, error));
+}
+
+ovoid_shape *ovoid_shape_create_prism(double radius, double half_length, uint32_t sides,
+                                      const ovoid_shape_options *options, ovoid_error *error) {
     turned prism = {radius, half_length, sides, 2};
     ENVIRONMENT_RETURN(ovoid_shape *, prism, create_turned(&prism, options, error));
 }
 
-ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, uint32_t sides,
-                                     const ovoid_shape_options *options, ovoid_error *error) {
+ovoid_shape *ovoid_shape_create_pyramid(double radius, double half_length, uint32_t sides,
+                                        const ovoid_shape_options *options, ovoid_error *error) {
     turned pyramid = {radius, half_length, sides, 1};
     ENVIRONMENT_RETURN(ovoid_shape *, pyramid, create_turned(&pyramid, options, error));
 }

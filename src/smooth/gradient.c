@@ -172,8 +172,8 @@ static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_c
     put(out->gradient, vec3_neg(n));
     put(out->gradient + 6, n);
 
-    // Bounds of the hulls, without radii.
-    double lower = x->lower + f.radii, upper = x->upper + f.radii, off = INFINITY;
+    // Bounds of the hulls, without radii and allowances.
+    double lower = x->lower + f.lower_radii, upper = x->upper + f.upper_radii, off = INFINITY;
     if (lower > 0) {
         out->turn = find_angle_above((upper - lower) / upper);
         out->margin = INFINITY;

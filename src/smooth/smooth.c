@@ -29,7 +29,7 @@ static smooth_pair make_pair(const pair_frame *f, int is_inner, double unit) {
         is_inner ? smooth_body_make_inner(f->b, &f->world_b, unit) : smooth_body_make(&f->b->outer, &f->world_b, unit);
     vec3 offset = vec3_scale(f->offset, 1 / unit);
     s.d = vec3_add(offset, vec3_sub(s.b.center, s.a.center));
-    s.size = ((vec3_norm(offset) + compute_reach(&s.a)) + compute_reach(&s.b)) + f->radii / unit;
+    s.size = ((vec3_norm(offset) + compute_reach(&s.a)) + compute_reach(&s.b)) + f->lower_radii / unit;
     s.claim = CLAIM * s.size + (s.a.pad + s.b.pad) + f->hidden / unit;
     return s;
 }
@@ -47,7 +47,7 @@ static void fill_value(const pair_frame *f, int is_inner, int order, double unit
     smooth_search(&s, &x, &upper, &out->iterations);
     lower = x.gap - s.claim;
     out->error = (upper - lower) * unit;
-    out->value = (is_inner ? upper : lower) * unit - f->radii;
+    out->value = is_inner ? upper * unit - f->upper_radii : lower * unit - f->lower_radii;
     out->normal = x.n;
     vec3 from_a = vec3_add(s.a.center, x.xa), from_b = vec3_sub(s.b.center, x.xb);
     out->point_a = vec3_add_scaled(f->world_origin, from_a, unit);

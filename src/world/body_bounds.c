@@ -19,7 +19,7 @@ body_sphere body_compute_sphere(const ovoid_body *body) {
         return (body_sphere){root->center, root->radius, 0, 4 * body->compound->extent};
     }
     vec3 local = vec3_add(s->origin, s->center);
-    return (body_sphere){local, s->reach, s->radius, vec3_max_abs(s->origin) + s->extent + s->radius};
+    return (body_sphere){local, s->reach, s->lower_radius, vec3_max_abs(s->origin) + s->span + s->lower_radius};
 }
 
 vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double *center_error) {
@@ -53,10 +53,11 @@ static box find_compound_box(const ovoid_compound *c, const body_sphere *ball, m
 box body_compute_box(const ovoid_body *body, const body_sphere *ball) {
     const ovoid_shape *s = body->shape;
     mat3 r = quat_to_mat3(body->pose.rotation);
-    double center_error, pad;
+    double center_error, pad, radius;
     vec3 at = body_compute_center(ball, &body->pose, &center_error);
     if (body->compound) return find_compound_box(body->compound, ball, r, at, center_error);
-    pad = s->radius + center_error + 128 * 0x1p-53 * (s->extent + s->radius) + 4 * 0x1p-53 * vec3_max_abs(at);
+    radius = s->lower_radius;
+    pad = radius + center_error + 128 * 0x1p-53 * (s->extent + radius) + 4 * 0x1p-53 * vec3_max_abs(at);
     vec3 low, high;
     find_extent(s, r.r0, &low.x, &high.x);
     find_extent(s, r.r1, &low.y, &high.y);

@@ -10,7 +10,7 @@ static double measure_hull(const pair_frame *f, const pair_cache *k) {
     vec3 w[OVOID_PROOF_PAIRS];
     for (uint32_t i = 0; i < k->count; i++) w[i] = frame_difference(f, k->of.entry[i][0], k->of.entry[i][1]);
     double depth = k->count ? hull_compute_depth(w, k->count, f->claim) : 0;
-    return depth > 0 ? -depth - f->radii : 0;
+    return depth > 0 ? -depth - f->upper_radii : 0;
 }
 
 // A common point of the inner ellipsoids: the cached one, which is fixed in A, or one for the present poses.

@@ -29,7 +29,7 @@ typedef struct world_body {
     ovoid_body body;
     vec3 local;            ///< r in the body's local frame
     double reach;          ///< no point of the body without its radius is farther from r
-    double radius;         ///< its rounding radius
+    double radius;         ///< its rounding radius, with what its allowance adds
     double size;           ///< bounds all lengths in its local frame
     double center_error;   ///< error of r at the present pose, length
     body_place placed;     ///< its place when its box was made,

@@ -378,8 +378,8 @@ static void ask_primitives(void) {
     add_shape(ovoid_shape_create_box((ovoid_vec3){third, 0.1, 2}, &o, NULL));
     add_shape(ovoid_shape_create_sphere(third, &o, NULL));
     add_shape(ovoid_shape_create_capsule(third, 0.7, &o, NULL));
-    add_shape(ovoid_shape_create_cylinder(third, 0.7, 7, &o, NULL));
-    add_shape(ovoid_shape_create_cone(third, 0.7, 7, &o, NULL));
+    add_shape(ovoid_shape_create_prism(third, 0.7, 7, &o, NULL));
+    add_shape(ovoid_shape_create_pyramid(third, 0.7, 7, &o, NULL));
     // Subnormal lengths are lengths.
     ovoid_error error = {0};
     add_shape(ovoid_shape_create_box((ovoid_vec3){-1e-310, 1, 1}, NULL, &error));

@@ -210,7 +210,7 @@ static void check_kinds(void) {
         ovoid_shape_create_box((vec3){1, 2, 0}, &phases, NULL),
         ovoid_shape_create_box((vec3){1, 2, 3}, &phases, NULL),
         ovoid_shape_create_from_points(cloud, 10, NULL, NULL),
-        ovoid_shape_create_cone(1, 1, 7, NULL, NULL),
+        ovoid_shape_create_pyramid(1, 1, 7, NULL, NULL),
     };
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
         size_t size = check_round_trip(shapes[i]);

@@ -50,6 +50,8 @@ class shape_view {
     }
     /** The rounding radius. */
     double radius() const noexcept { return ovoid_shape_get_radius(shape_); }
+    /** What the true body may differ by. */
+    ovoid_allowance allowance() const noexcept { return ovoid_shape_get_allowance(shape_); }
     /** What was done with the points given. */
     ovoid_report report() const noexcept { return ovoid_shape_get_report(shape_); }
     /** The outer ellipsoid of the polyhedron. */
@@ -124,16 +126,28 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
     static shape capsule(double radius, double half_length, const ovoid_shape_options &options = shape_options()) {
         return made([&](ovoid_error *e) { return ovoid_shape_create_capsule(radius, half_length, &options, e); });
     }
-    /** A prism of n >= 3 sides along z, inscribed in the cylinder. */
-    static shape cylinder(double radius, double half_length, std::uint32_t sides,
+    /** The cylinder along z, held by a prism with an allowance of at most the tolerance, a length; 0: radius / 200. */
+    static shape cylinder(double radius, double half_length, double tolerance = 0,
                           const ovoid_shape_options &options = shape_options()) {
         return made(
-            [&](ovoid_error *e) { return ovoid_shape_create_cylinder(radius, half_length, sides, &options, e); });
+            [&](ovoid_error *e) { return ovoid_shape_create_cylinder(radius, half_length, tolerance, &options, e); });
+    }
+    /** The cone along z, apex at z = +half_length, likewise. */
+    static shape cone(double radius, double half_length, double tolerance = 0,
+                      const ovoid_shape_options &options = shape_options()) {
+        return made(
+            [&](ovoid_error *e) { return ovoid_shape_create_cone(radius, half_length, tolerance, &options, e); });
+    }
+    /** A prism of n >= 3 sides along z, inscribed in the cylinder: the polyhedron itself. */
+    static shape prism(double radius, double half_length, std::uint32_t sides,
+                       const ovoid_shape_options &options = shape_options()) {
+        return made([&](ovoid_error *e) { return ovoid_shape_create_prism(radius, half_length, sides, &options, e); });
     }
     /** A pyramid of n >= 3 sides along z, apex at z = +half_length. */
-    static shape cone(double radius, double half_length, std::uint32_t sides,
-                      const ovoid_shape_options &options = shape_options()) {
-        return made([&](ovoid_error *e) { return ovoid_shape_create_cone(radius, half_length, sides, &options, e); });
+    static shape pyramid(double radius, double half_length, std::uint32_t sides,
+                         const ovoid_shape_options &options = shape_options()) {
+        return made(
+            [&](ovoid_error *e) { return ovoid_shape_create_pyramid(radius, half_length, sides, &options, e); });
     }
     /** From the bytes of an .ovoid file, each of them checked: anything contiguous. Throws FORMAT (place: the byte),
      * MEMORY. */

@@ -13,8 +13,10 @@ int ovoid_path_is_shape(const char *path) { return path_has_extension(path, "ovo
 static ovoid_shape *read_shape_bytes(const char *path, const ovoid_read_options *read,
                                      const ovoid_shape_options *options, ovoid_error *error) {
     where at = {path, 0, -1};
-    if ((read && read->scale != 0 && read->scale != 1) || (options && options->radius != 0)) {
-        io_report(error, OVOID_ERROR_ARGUMENT, at, "a .ovoid file has its scale and radius already; fit the mesh anew");
+    if ((read && read->scale != 0 && read->scale != 1) ||
+        (options && (options->radius != 0 || options->allowance.outside != 0 || options->allowance.inside != 0))) {
+        io_report(error, OVOID_ERROR_ARGUMENT, at,
+                  "a .ovoid file has its scale, radius and allowance already; fit the mesh anew");
         return NULL;
     }
     bytes file;

@@ -75,7 +75,7 @@ static int find_status(const char *text, size_t length) {
 }
 
 static int find_limit(const char *text) {
-    for (int i = OVOID_LIMIT_NONE; i <= OVOID_LIMIT_SHAPE_B; i++)
+    for (int i = OVOID_LIMIT_NONE; i <= OVOID_LIMIT_ALLOWANCE; i++)
         if (strcmp(ovoid_limit_get_name((ovoid_limit)i), text) == 0) return i;
     return -1;
 }

@@ -9,8 +9,8 @@
 // ---- failing
 
 static ovoid_code read_object(scene_reader *r, json_t *object) {
-    static const char *const words[] = {"name",   "pose",    "radius",   "scale", "unit",   "mesh",     "box", "parts",
-                                        "sphere", "capsule", "cylinder", "cone",  "points", "compound", NULL};
+    static const char *const words[] = {"name",  "pose",   "radius",  "allowance", "scale", "unit",   "mesh",     "box",
+                                        "parts", "sphere", "capsule", "cylinder",  "cone",  "points", "compound", NULL};
     scene_entry *entry = &r->scene->entries[r->index];
     r->name = NULL;
     if (!json_is_object(object)) return scene_fail(r, OVOID_ERROR_FORMAT, NULL, "must be a JSON object");

@@ -59,21 +59,29 @@ static ovoid_shape *make_sphere(scene_reader *r, const geometry *g) {
     return name_failure(r, g, ovoid_shape_create_sphere(radius, &g->options, &why), &why);
 }
 
-// Makes a capsule, cylinder or cone: {"radius", "length", and "sides" of the last two}.
+// The tolerance at which a circle is held by so many sides.
+static double compute_tolerance(double radius, double sides) {
+    double s = sin(1.5707963267948966 / sides);
+    return radius * (2 * (s * s) + 65 * 0x1p-53) * (1 + 0x1p-40);
+}
+
+// Makes a capsule, cylinder or cone: {"radius", "length", and "sides" or "tolerance" of the last two}.
 static ovoid_shape *make_round(scene_reader *r, const geometry *g) {
     int is_capsule = strcmp(g->kind, "capsule") == 0;
     static const char *const capsule_words[] = {"radius", "length", NULL};
-    static const char *const words[] = {"radius", "length", "sides", NULL};
+    static const char *const words[] = {"radius", "length", "sides", "tolerance", NULL};
     const char *unknown;
-    double radius, length, sides;
+    double radius, length, sides, tolerance;
     if (!json_is_object(g->value) || !scene_has_only(g->value, is_capsule ? capsule_words : words, &unknown)) {
         scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind,
                           is_capsule ? "must be {\"radius\", \"length\"}"
-                                     : "must be {\"radius\", \"length\", \"sides\"}");
+                                     : "must be {\"radius\", \"length\", and \"sides\" or \"tolerance\"}");
         return NULL;
     }
     if (read_size(r, g->value, g->kind, "radius", -1, &radius) ||
-        read_size(r, g->value, g->kind, "length", -1, &length) || read_size(r, g->value, g->kind, "sides", 32, &sides))
+        read_size(r, g->value, g->kind, "length", -1, &length) ||
+        read_size(r, g->value, g->kind, "sides", 32, &sides) ||
+        read_size(r, g->value, g->kind, "tolerance", 0, &tolerance))
         return NULL;
     ovoid_error why = {OVOID_OK, -1, ""};
     if (is_capsule) return name_failure(r, g, ovoid_shape_create_capsule(radius, length / 2, &g->options, &why), &why);
@@ -81,10 +89,14 @@ static ovoid_shape *make_round(scene_reader *r, const geometry *g) {
         scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind, "needs a whole number of sides from 3 to 4096");
         return NULL;
     }
-    uint32_t n = (uint32_t)sides;
+    if (json_object_get(g->value, "sides") && json_object_get(g->value, "tolerance")) {
+        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind, "has both \"sides\" and \"tolerance\"; one says the other");
+        return NULL;
+    }
+    if (tolerance == 0) tolerance = compute_tolerance(radius, sides);
     ovoid_shape *shape = strcmp(g->kind, "cone") == 0
-                             ? ovoid_shape_create_cone(radius, length / 2, n, &g->options, &why)
-                             : ovoid_shape_create_cylinder(radius, length / 2, n, &g->options, &why);
+                             ? ovoid_shape_create_cone(radius, length / 2, tolerance, &g->options, &why)
+                             : ovoid_shape_create_cylinder(radius, length / 2, tolerance, &g->options, &why);
     return name_failure(r, g, shape, &why);
 }
 
@@ -154,8 +166,8 @@ static ovoid_code add_part(scene_reader *r, part_list *list, const ovoid_shape *
 
 // Reads a part: one shape, or all parts of a mesh.
 static ovoid_code read_part(scene_reader *r, json_t *object, part_list *list) {
-    static const char *const words[] = {"pose",   "radius",  "scale",    "unit", "mesh",   "parts", "box",
-                                        "sphere", "capsule", "cylinder", "cone", "points", NULL};
+    static const char *const words[] = {"pose", "radius", "allowance", "scale",    "unit", "mesh",   "parts",
+                                        "box",  "sphere", "capsule",   "cylinder", "cone", "points", NULL};
     const char *unknown;
     ovoid_pose pose;
     size_t index;
@@ -240,6 +252,21 @@ static ovoid_code read_radius(scene_reader *r, const json_t *object, geometry *g
     return OVOID_OK;
 }
 
+// Reads "allowance": {"outside", "inside"}, each 0 where it is not given.
+static ovoid_code read_allowance(scene_reader *r, const json_t *object, geometry *g) {
+    static const char *const words[] = {"outside", "inside", NULL};
+    const char *unknown;
+    json_t *allowance = json_object_get(object, "allowance");
+    g->options.allowance = (ovoid_allowance){0, 0};
+    if (!allowance) return OVOID_OK;
+    if (strcmp(g->kind, "compound") == 0)
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, "allowance", "is for the parts of a compound, each its own");
+    if (!json_is_object(allowance) || !scene_has_only(allowance, words, &unknown))
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, "allowance", "must be {\"outside\", \"inside\"}, two lengths");
+    ovoid_code code = read_size(r, allowance, "allowance", "outside", 0, &g->options.allowance.outside);
+    return code ? code : read_size(r, allowance, "allowance", "inside", 0, &g->options.allowance.inside);
+}
+
 static ovoid_code read_parts(scene_reader *r, const json_t *object, geometry *g) {
     const json_t *parts = json_object_get(object, "parts");
     if (!parts) return OVOID_OK;
@@ -263,9 +290,11 @@ static ovoid_code read_path(scene_reader *r, geometry *g) {
 static char *make_key(const geometry *g) {
     char *value = g->mesh ? NULL : json_dumps(g->value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY);
     const char *what = g->mesh ? g->mesh : value;
-    size_t room = what ? strlen(what) + 120 : 0;
+    size_t room = what ? strlen(what) + 200 : 0;
     char *key = room ? malloc(room) : NULL;
-    if (key) snprintf(key, room, "%s %a %a %d %s", g->kind, g->options.radius, g->read.scale, g->read.parts, what);
+    if (key)
+        snprintf(key, room, "%s %a %a %a %a %d %s", g->kind, g->options.radius, g->options.allowance.outside,
+                 g->options.allowance.inside, g->read.scale, g->read.parts, what);
     free(value);
     return key;
 }
@@ -339,6 +368,7 @@ ovoid_code scene_read_body(scene_reader *r, json_t *object, size_t *body) {
     if (!code) code = read_scale(r, object, &g);
     if (!code) code = read_parts(r, object, &g);
     if (!code) code = read_radius(r, object, &g);
+    if (!code) code = read_allowance(r, object, &g);
     if (!code) code = read_path(r, &g);
     if (!code) code = find_or_make_body(r, &g, body);
     free(g.mesh);
