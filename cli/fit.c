@@ -130,8 +130,11 @@ static double get_measure(const ovoid_polytope *p, const ovoid_measures *measure
     if (p->rank == 3) return measures->volume;
     if (p->rank == 2) return measures->area / 2;
     if (p->rank == 0) return 0;
-    const double *v = p->vertices;
-    return hypot(hypot(v[3] - v[0], v[4] - v[1]), v[5] - v[2]);
+    // The ends are the two vertices that have a neighbor.
+    const double *end[2] = {p->vertices, p->vertices};
+    for (uint32_t i = 0, k = 0; i < p->vertex_count && k < 2; i++)
+        if (p->neighbor_starts[i + 1] > p->neighbor_starts[i]) end[k++] = p->vertices + 3 * (size_t)i;
+    return hypot(hypot(end[1][0] - end[0][0], end[1][1] - end[0][1]), end[1][2] - end[0][2]);
 }
 
 /// Runs the offline steps on the polytope, timing each. OVOID_OK or MEMORY.

@@ -1,6 +1,8 @@
 // Halfspaces as planes, computed on demand, without memory.
 #include "ellipsoid/halfspaces.h"
 
+#include "polytope/segment.h"
+
 halfspaces halfspaces_make(const ovoid_polytope *polytope) {
     const ovoid_polytope *p = polytope;
     halfspaces w = {p, p->rank == 3 ? p->facet_count : p->rank == 2 ? p->triangle_count + 2 : 2 * p->rank, {0, 0, 0}};
@@ -23,11 +25,10 @@ void halfspaces_get_edge(const halfspaces *w, uint32_t i, uint32_t corner[2]) {
         corner[1] = find_corner(p, i + 1 < w->count ? i + 1 : 0);
         return;
     }
-    // The two vertices of a segment that have a neighbour, each other; a nearly straight body has more vertices.
-    uint32_t end = 0;
-    while (p->neighbor_starts[end + 1] == p->neighbor_starts[end]) end++;
-    corner[i] = end;
-    corner[1 - i] = p->neighbors[p->neighbor_starts[end]];
+    uint32_t end[2];
+    polytope_get_ends(p, end);
+    corner[0] = end[i];
+    corner[1] = end[1 - i];
 }
 
 // The plane through an edge, upright on the polygon.

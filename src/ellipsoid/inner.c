@@ -19,6 +19,7 @@
 
 #include "base/allocator.h"
 #include "base/environment.h"
+#include "polytope/segment.h"
 
 // The body in coordinates z, x = origin + map z, where it is round.
 typedef struct work {
@@ -252,7 +253,9 @@ static ovoid_code compute(const ovoid_polytope *p, const fit_options *options, o
 
 // The middle of a segment, or the point.
 static ovoid_fit compute_segment(const ovoid_polytope *p) {
-    vec3 a = vec3_at(p->vertices, 0), b = vec3_at(p->vertices, p->vertex_count - 1);
+    uint32_t end[2] = {0, 0};
+    if (p->rank == 1) polytope_get_ends(p, end);
+    vec3 a = vec3_at(p->vertices, end[0]), b = vec3_at(p->vertices, end[1]);
     vec3 half = vec3_sub(vec3_scale(b, 0.5), vec3_scale(a, 0.5));
     ovoid_ellipsoid e = {vec3_add_scaled(a, half, 1), sym3_outer(half, 1)};
     return (ovoid_fit){.ellipsoid = e, .volume = ellipsoid_compute_measure(&e, p->rank), .converged = 1};

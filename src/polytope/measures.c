@@ -7,6 +7,7 @@
 #include "linear/box.h"
 #include "linear/mat3.h"
 #include "ovoid/polytope.h"
+#include "polytope/segment.h"
 #include "polytope/sphere.h"
 
 // Sums over simplices.
@@ -59,12 +60,11 @@ static void add_triangles(moments *m, const frame *f) {
     }
 }
 
-// The ends are the two vertices that have a neighbor, each other.
 static void add_segment(moments *m, const frame *f) {
     const ovoid_polytope *p = f->polytope;
-    uint32_t end = 0;
-    while (p->neighbor_starts[end + 1] == 0) end++;
-    vec3 v[3] = {get_corner(f, end), get_corner(f, p->neighbors[0]), {0, 0, 0}};
+    uint32_t end[2];
+    polytope_get_ends(p, end);
+    vec3 v[3] = {get_corner(f, end[0]), get_corner(f, end[1]), {0, 0, 0}};
     add_simplex(m, vec3_norm(vec3_sub(v[1], v[0])), 1, v);
 }
 

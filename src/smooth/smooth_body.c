@@ -12,6 +12,8 @@
 // more than the ellipse and the corners are off the plane. Cost: one pass over the corners.
 #include "smooth/smooth.h"
 
+#include "polytope/segment.h"
+
 static const double rounding = 0x1p-53;
 
 static root3 root3_rotate(const root3 *e, const mat3 *r) {
@@ -60,10 +62,10 @@ smooth_body smooth_body_make(const ovoid_ellipsoid *ellipsoid, const mat3 *rotat
 }
 
 static smooth_body make_segment(const ovoid_shape *shape, const mat3 *rotation, double unit) {
-    const uint32_t *starts = (const uint32_t *)((const char *)shape + shape->at.neighbor_starts);
-    vec3 end[2] = {shape->first, shape->first};
-    for (uint32_t v = 0, k = 0; v < shape->vertex_count && k < 2; v++)
-        if (starts[v + 1] > starts[v]) end[k++] = vec3_at(shape_vertices(shape), v);
+    ovoid_polytope p = ovoid_shape_get_polytope(shape);
+    uint32_t index[2];
+    polytope_get_ends(&p, index);
+    vec3 end[2] = {vec3_at(p.vertices, index[0]), vec3_at(p.vertices, index[1])};
     root3 root = {{vec3_scale(vec3_sub(end[1], end[0]), 0.5 / unit), {0, 0, 0}, {0, 0, 0}}};
     return make_posed(&root, vec3_scale(vec3_add(end[0], end[1]), 0.5), 8 * rounding * shape->extent / unit, rotation,
                       unit);

@@ -381,6 +381,23 @@ static void check_hard(void) {
     check_seed = 0;
 }
 
+// A vertex that is off a segment by less than rounding is kept, whatever its place in the array; the ends are the ends.
+static void check_nearly_straight(void) {
+    const double point[3][3] = {{0, 0, 0}, {1, 1e-20, 0}, {39, 0, 0}};
+    static const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    for (int i = 0; i < 6; i++) {
+        for (int k = 0; k < 3; k++) put((size_t)k, vec3_at(point[order[i][k]], 0));
+        ovoid_shape *s = ovoid_shape_create_from_points(cloud, 3, NULL, NULL);
+        check_shape(s);
+        ovoid_fit inner = ovoid_shape_get_inner(s);
+        ovoid_measures m = ovoid_shape_get_measures(s);
+        CHECK(s->rank == 1 && s->vertex_count == 3);
+        CHECK_NEAR(m.centroid.x, 19.5, 1e-14);
+        CHECK(inner.volume == 39 && inner.ellipsoid.center.x == 19.5 && inner.ellipsoid.q.xx == 19.5 * 19.5);
+        ovoid_shape_destroy(s);
+    }
+}
+
 int main(void) {
     check_box();
     check_round();
@@ -391,5 +408,6 @@ int main(void) {
     check_float_faces();
     check_memory();
     check_hard();
+    check_nearly_straight();
     return check_end();
 }

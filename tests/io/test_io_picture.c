@@ -286,6 +286,26 @@ static void check_bad(void) {
     ovoid_shape_destroy(shape);
 }
 
+// A segment is drawn from end to end, though a vertex off it by less than rounding is the first or the last.
+static void check_nearly_straight(void) {
+    const double ends[6] = {0, 0, 0, 39, 0, 0};
+    const double bent[2][9] = {{0, 0, 0, 39, 0, 0, 1, 1e-20, 0}, {1, 1e-20, 0, 0, 0, 0, 39, 0, 0}};
+    ovoid_shape *straight = ovoid_shape_create_from_points(ends, 2, NULL, NULL);
+    ovoid_picture_body body = make_body("", straight, 0, 0, 0);
+    ovoid_picture picture = {.bodies = &body, .body_count = 1};
+    size_t size;
+    char *wanted = draw(&picture, NULL, &size);
+    for (int i = 0; i < 2; i++) {
+        body.shape = ovoid_shape_create_from_points(bent[i], 3, NULL, NULL);
+        char *text = draw(&picture, NULL, &size);
+        CHECK(strcmp(text, wanted) == 0);
+        free(text);
+        ovoid_shape_destroy((ovoid_shape *)(uintptr_t)body.shape);
+    }
+    free(wanted);
+    ovoid_shape_destroy(straight);
+}
+
 int main(void) {
     check_extents();
     check_order();
@@ -293,5 +313,6 @@ int main(void) {
     check_kinds();
     check_size();
     check_bad();
+    check_nearly_straight();
     return check_end();
 }

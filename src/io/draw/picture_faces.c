@@ -6,6 +6,7 @@
 #include "io/draw/picture_parts.h"
 
 #include "io/text.h"
+#include "polytope/segment.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -262,7 +263,9 @@ static void draw_ball(const figure *f, const drawing *d) {
 static void draw_thin(const figure *f, const drawing *d) {
     char hex[8];
     color_write(f->base, hex);
-    vec2 a = f->pixels[0], b = f->pixels[f->polytope.vertex_count - 1];
+    uint32_t end[2] = {0, 0};
+    if (f->polytope.rank == 1) polytope_get_ends(&f->polytope, end);
+    vec2 a = f->pixels[end[0]], b = f->pixels[end[1]];
     svg_path path = {d->file, 0, 0};
     fprintf(d->file, "<path stroke=\"%s\" stroke-width=\"%s\" stroke-linecap=\"round\" d=\"", hex,
             f->polytope.rank ? "2.5" : "6");
