@@ -126,9 +126,10 @@ typedef struct ovoid_answer {
     uint32_t iterations;         /**< of the exact methods */
     double lower, upper;         /**< bracket of the signed distance; -infinity and infinity where refused */
     ovoid_vec3 point_a, point_b; /**< witness points, world frame: on their bodies to rounding. Distance and depth:
-                                      point_b - point_a = d normal to the tolerance, unless a limit ended the
-                                      search of a depth. Other queries: the points behind upper, a common
-                                      point where an overlap is proven; not the nearest ones. */
+                                      point_b - point_a = d normal to the tolerance; of a depth whose search a limit
+                                      ended, for a d of the bracket where kind is COVER, else a common point.
+                                      Other queries: the points behind upper, a common point where an overlap is
+                                      proven; not the nearest ones. */
     ovoid_vec3 normal;           /**< unit, world frame, from A to B; the direction of the lower bound */
     ovoid_proof proof;
 } ovoid_answer;

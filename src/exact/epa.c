@@ -173,23 +173,47 @@ static int find_foot(const search *s, const expansion *e, const face *f, evidenc
     return vec3_norm(off) <= s->frame->claim;
 }
 
-// The witness of the depth: the surface's point nearest to the foot of the origin on the nearest face's plane. That
-// face may be one of several triangles of a facet, or of a small body's facet on a large one, so all about as near are
-// tried.
-static evidence find_witness(const search *s, const expansion *e, const face *nearest) {
-    vec3 foot = vec3_scale(nearest->n, nearest->low);
+// The surface's point nearest to the target, of the face `first` and those whose planes are no farther than `most`.
+static evidence find_near(const growth *g, const face *first, vec3 target, double most) {
+    const expansion *e = &g->e;
     double least;
-    evidence best;
-    if (find_foot(s, e, nearest, &best)) return best;
-    best = face_evidence(e, nearest, foot, &least);
-    for (uint32_t i = 0; i < e->faces && least > s->frame->claim; i++) {
+    evidence best = face_evidence(e, first, target, &least);
+    for (uint32_t i = 0; i < e->faces && least > g->s->frame->claim; i++) {
         const face *f = &e->f[i];
-        if (!f->alive || f->low > nearest->low + (s->goal.tolerance - s->goal.allowance)) continue;
+        if (!f->alive || f->low > most) continue;
         double distance;
-        evidence x = face_evidence(e, f, foot, &distance);
+        evidence x = face_evidence(e, f, target, &distance);
         if (distance < least) least = distance, best = x;
     }
     return best;
+}
+
+// The witness of the depth: the surface's point nearest to the foot of the origin on the nearest face's plane. That
+// face may be one of several triangles of a facet, or of a small body's facet on a large one, so all about as near are
+// tried.
+static evidence find_witness(const growth *g) {
+    const face *nearest = &g->e.f[g->nearest];
+    evidence foot;
+    if (find_foot(g->s, &g->e, nearest, &foot)) return foot;
+    return find_near(g, nearest, vec3_scale(nearest->n, nearest->low),
+                     nearest->low + (g->s->goal.tolerance - g->s->goal.allowance));
+}
+
+// The surface's point on the ray from the origin along the unit direction n. It is no nearer than the radius that the
+// surface keeps, and no farther than the supports along n: of a bracket [lower, upper] whose lower bound is the gap
+// along -n, it realises a depth.
+static evidence find_exit(const growth *g, vec3 n, double *distance) {
+    const expansion *e = &g->e;
+    const face *exit = &e->f[g->nearest];
+    *distance = INFINITY;
+    for (uint32_t i = 0; i < e->faces; i++) {
+        const face *f = &e->f[i];
+        double rate = vec3_dot(f->n, n);
+        if (!f->alive || !(rate > 0) || !(f->low < *distance * rate)) continue;
+        *distance = f->low / rate;
+        exit = f;
+    }
+    return find_near(g, exit, vec3_scale(n, *distance), INFINITY);
 }
 
 static double measure_face(const expansion *e, const face *f) {
@@ -231,7 +255,7 @@ static void take_cover(growth *g) {
     s->upper = upper;
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
-    s->witness = find_witness(s, e, &e->f[g->nearest]);
+    s->witness = find_witness(g);
     if (!cover || (s->goal.has_cover && !(s->upper < s->goal.covered))) return;
     cover->point_count = e->points;
     cover->triangle_count = all.triangle_count;
@@ -277,14 +301,20 @@ static int is_narrow(const search *s, double low, double high) {
     return low > claim && high - low + 2 * claim <= s->goal.tolerance - s->goal.allowance;
 }
 
-// Takes the nearest face's own normal for the lower bound, where that costs no more than the tolerance, so that witness
-// and normal agree.
+// Makes witness and normal agree: takes the nearest face's own normal for the lower bound, where that costs no more
+// than the tolerance, else the witness along the normal that there is, as where a limit ended the search.
 static void agree(const growth *g) {
     search *s = g->s;
     vec3 n = vec3_neg(g->e.f[g->nearest].n);
     double gap = isnan(g->gap) ? frame_find_support(s->frame, n).gap : g->gap;
     double lower = gap - s->frame->lower_radii - s->frame->claim;
-    if (s->upper - lower > fmax(s->goal.tolerance, s->upper - s->lower)) return;
+    if (s->upper - lower > fmax(s->goal.tolerance, s->upper - s->lower)) {
+        // The surface of a second run may keep less from the origin than that of the first, which was taken.
+        double distance;
+        evidence exit = find_exit(g, vec3_neg(s->normal), &distance);
+        if (-distance - s->frame->upper_radii <= s->upper) s->witness = exit;
+        return;
+    }
     s->lower = lower;
     s->normal = n;
 }

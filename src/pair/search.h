@@ -34,7 +34,7 @@ typedef struct search {
     vec3 normal;         ///< unit direction (frame) of the lower bound
     vec3 world,
         world_low;    ///< from REFINE: the direction of the lower bound in the world, as a sum; zero: it is `normal`
-    evidence witness; ///< POINTS, HULL; of COVER the nearest face
+    evidence witness; ///< POINTS, HULL; of COVER a point of the surface
     ovoid_proof_kind kind;
     vec3 inner_a, inner_b; ///< INNER: the common point, A's body frame; INNER_POINTS
     ovoid_stage stage;     ///< the last one that improved a bound

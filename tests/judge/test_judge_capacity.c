@@ -1,0 +1,85 @@
+// Depths that no surface of the search's memory can narrow to the tolerance: round bodies with nearly one centre, whose
+// Minkowski difference is round and has its centre near the origin. The answer ends by `capacity`; its bracket is true,
+// and its witness points still differ by a d of the bracket along the normal, so that they say the same as the bracket.
+// Truth: the judge.
+#include "check.h"
+#include "linear/rotation.h"
+#include "ovoid/query.h"
+
+#include "judge.h"
+
+static judge *exact;
+static int ended, wide;
+
+/// A ball of points, to rounding on the sphere; none has a partner on the other side.
+static ovoid_shape *make_ball(uint32_t count, double radius) {
+    double *points = malloc(3 * sizeof *points * count);
+    for (uint32_t i = 0; i < count; i++) {
+        double z = (2 * i + 1.0) / count - 1, r = sqrt(1 - z * z), turn = 2.399963229728653 * i;
+        points[3 * i] = r * cos(turn);
+        points[3 * i + 1] = r * sin(turn);
+        points[3 * i + 2] = z;
+    }
+    ovoid_shape_options options = {.radius = radius};
+    ovoid_shape *shape = ovoid_shape_create_from_points(points, count, &options, NULL);
+    free(points);
+    return shape;
+}
+
+static ovoid_pose make_pose(uint64_t *s, double offset) {
+    ovoid_pose pose = ovoid_pose_make_identity();
+    pose.position = (vec3){offset * random_normal(s), offset * random_normal(s), offset * random_normal(s)};
+    pose.rotation = (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
+    return pose;
+}
+
+/// The judge takes the answer and its points; the difference of the points is d normal for a d of the bracket.
+static void check_answer(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover) {
+    ovoid_error error = {.message = ""};
+    if (!CHECK(judge_check_answer(exact, pair, x, cover, &error) == OVOID_OK) ||
+        !CHECK(judge_check_points(exact, pair, x, &error) == OVOID_OK) ||
+        !CHECK(ovoid_answer_check(pair, x, cover, &error) == OVOID_OK))
+        printf("  %s\n", error.message);
+    vec3 difference = vec3_sub(x->point_b, x->point_a);
+    double d = vec3_dot(difference, x->normal), rounding = 1e-9 + 1e-13;
+    CHECK_LE(x->lower - rounding, d);
+    CHECK_LE(d, x->upper + rounding);
+    CHECK_LE(vec3_norm(vec3_sub(difference, vec3_scale(x->normal, d))), 4e-9);
+    ended += x->limit == OVOID_LIMIT_CAPACITY;
+    wide += x->upper - x->lower > 1e-6;
+}
+
+static void check_pair(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose pose_b) {
+    static ovoid_cover cover;
+    ovoid_pair pair = {a, b, ovoid_pose_make_identity(), pose_b};
+    ovoid_answer x = ovoid_depth(&pair, NULL, NULL, &cover);
+    check_answer(&pair, &x, &cover);
+    // The answer's proof is the start of the next query.
+    x = ovoid_depth(&pair, NULL, &x.proof, &cover);
+    check_answer(&pair, &x, &cover);
+}
+
+int main(void) {
+    static const uint32_t counts[] = {162, 642, 2562};
+    static const double offsets[] = {0, 1e-9, 1e-3, 0.1};
+    exact = judge_create();
+    uint64_t s = 17;
+    ovoid_shape *cylinder = ovoid_shape_create_cylinder(1, 5, 256, NULL, NULL);
+    check_pair(cylinder, cylinder, ovoid_pose_make_identity());
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 4; k++) {
+            check_seed = s;
+            ovoid_shape *a = make_ball(counts[i], 0), *b = make_ball(counts[i], k % 2 ? 0.25 : 0);
+            check_pair(a, b, make_pose(&s, offsets[k]));
+            judge_forget(exact);
+            ovoid_shape_destroy(a);
+            ovoid_shape_destroy(b);
+        }
+    // The pairs are hard enough to be worth the test.
+    CHECK_LE(10, ended);
+    CHECK_LE(10, wide);
+    judge_forget(exact);
+    ovoid_shape_destroy(cylinder);
+    judge_destroy(exact);
+    return check_end();
+}
