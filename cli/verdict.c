@@ -58,7 +58,15 @@ ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer 
     return code;
 }
 
-const char *verdict_get_name(void) { return "exact arithmetic"; }
+ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                  const ovoid_exclusions *exclusions, ovoid_error *error) {
+    judge *mine = take(v);
+    ovoid_code code = judge_check_compound(mine, pair, answer, exclusions, error);
+    give_back(v, mine);
+    return code;
+}
+
+int verdict_is_exact(void) { return 1; }
 
 #else
 
@@ -81,6 +89,12 @@ ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer 
     return ovoid_answer_check(pair, answer, cover, error);
 }
 
-const char *verdict_get_name(void) { return "floating point with rigorous error bounds"; }
+ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                  const ovoid_exclusions *exclusions, ovoid_error *error) {
+    (void)v;
+    return ovoid_compound_answer_check(pair, answer, exclusions, error);
+}
+
+int verdict_is_exact(void) { return 0; }
 
 #endif

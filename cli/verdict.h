@@ -16,7 +16,11 @@ void verdict_destroy(verdict *verdict);
 ovoid_code verdict_check(verdict *verdict, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
                          int points, ovoid_error *error);
 
-/// The name of the arithmetic that checks, in words.
-const char *verdict_get_name(void);
+/// The same for the answer of two bodies, of which one at least is a compound, with its exclusions and cover.
+ovoid_code verdict_check_compound(verdict *verdict, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                  const ovoid_exclusions *exclusions, ovoid_error *error);
+
+/// 1 if the checks are in exact arithmetic.
+int verdict_is_exact(void);
 
 #endif

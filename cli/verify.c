@@ -1,6 +1,7 @@
 // ovoid verify: checks the proofs of a results file. Each bound is computed again from its proof alone, on the given
 // bodies, without any search: in exact rational arithmetic where the judge was built in, else in floating point with
-// rigorous error bounds.
+// rigorous error bounds. The steps of impacts, whose bodies turn by angles that no rational pose has, are always
+// checked in floating point; such results are counted apart.
 #include "commands.h"
 
 #include "answers.h"
@@ -10,6 +11,7 @@
 #include "message.h"
 #include "pipeline.h"
 #include "progress.h"
+#include "seen.h"
 #include "verdict.h"
 
 #include <ovoid/ovoid.h>
@@ -26,7 +28,7 @@
 typedef struct settings {
     read_settings read;
     const char *list, *pairs, *motion;
-    int query, parts;
+    int query, parts, json, allow_empty;
     unsigned threads;
     ovoid_pose pose_a, pose_b;
 } settings;
@@ -42,6 +44,9 @@ static const cli_option options[] = {
     {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
      "A and B are compounds of their files' objects, as given to ovoid distance"},
     {"motion", 0, OPTION_FILE, offsetof(settings, motion), "MOTION.csv", NULL, "the motion of ovoid run"},
+    {"allow-empty", 0, OPTION_FLAG, offsetof(settings, allow_empty), NULL, NULL,
+     "a file without results is no error, as of a scene whose pairs are all beyond a margin"},
+    {"json", 0, OPTION_FLAG, offsetof(settings, json), NULL, NULL, "write the counts as one JSON object"},
     {"threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,
      "work on N threads (default: one for each processor)"},
     INPUTS_OPTIONS(settings),
@@ -83,7 +88,10 @@ typedef struct verify {
     ovoid_results_reader *reader;
     verdict *verdict;
     size_t proofs, held, undecided;
-    int refused; ///< *error has the reason, if it has a message
+    size_t impacts;        ///< results whose steps were checked in floating point
+    cli_seen seen;         ///< the scene's pairs that have a result
+    size_t pairs, missing; ///< of a scene, of all frames, and those of them without a result
+    int refused;           ///< *error has the reason, if it has a message
     ovoid_error error;
 } verify;
 
@@ -108,7 +116,10 @@ static int go_to_frame(verify *v, const ovoid_record *record, claim *item) {
         return 1;
     }
     double from = is_impact ? record->frame : record->time;
-    while (got > 0 && !(f->count && (is_impact ? f->time > from : f->time >= from))) got = frames_next(f);
+    while (got > 0 && !(f->count && (is_impact ? f->time > from : f->time >= from))) {
+        got = frames_next(f);
+        seen_begin_frame(&v->seen);
+    }
     if (got < 0) return v->refused = 1, v->error.message[0] = 0, 0;
     if (is_impact ? f->earlier != from || !(f->time > from) : f->time != from)
         disprove(item, is_impact ? "the motion has no such frame" : "the motion has no frame at this time");
@@ -145,8 +156,10 @@ static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
     ovoid_pose pose_a = f->poses ? f->poses[a] : ovoid_scene_get(scene, a).pose;
     ovoid_pose pose_b = f->poses ? f->poses[b] : ovoid_scene_get(scene, b).pose;
     item->pair = (ovoid_body_pair){answers_get_body(scene, a, &pose_a), answers_get_body(scene, b, &pose_b)};
-    if (record->fields & OVOID_RECORD_IMPACT && !item->message[0]) set_impact(v, record, a, b, item);
-    return 1;
+    int is_impact = (record->fields & OVOID_RECORD_IMPACT) != 0;
+    if (is_impact && !item->message[0]) set_impact(v, record, a, b, item);
+    if (is_impact || item->message[0] || seen_add(&v->seen, scene, a, b)) return 1;
+    return refuse(v, "out of memory");
 }
 
 /// Reads the next pair of the pairs file, which must be the one that the result names. 0 where there is none.
@@ -254,16 +267,16 @@ static int get_parts(const ovoid_body_pair *bodies, const ovoid_record *record, 
     return 1;
 }
 
-/// Checks the answer of compounds: the exclusions hold and leave out no other pair of parts.
-static ovoid_code check_compound(const claim *item, ovoid_error *error) {
+/// Checks the answer of compounds: that of the deciding parts, and that the exclusions hold and leave out no other pair
+/// of parts.
+static ovoid_code check_compound(const verify *v, const claim *item, ovoid_error *error) {
     const ovoid_record *r = &item->record;
-    if (!item->pair.a.compound && !item->pair.b.compound) return OVOID_OK;
     ovoid_compound_answer answer = {.answer = r->answer,
                                     .part_a = item->pair.a.compound ? r->part_a : 0,
                                     .part_b = item->pair.b.compound ? r->part_b : 0};
     ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count,
                                    (ovoid_cover *)r->cover};
-    return ovoid_compound_answer_check(&item->pair, &answer, &exclusions, error);
+    return verdict_check_compound(v->verdict, &item->pair, &answer, &exclusions, error);
 }
 
 /// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is
@@ -292,20 +305,17 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
 
 static ovoid_code check_claim(const verify *v, const claim *item, ovoid_error *error) {
     ovoid_pair pair;
-    ovoid_answer answer = item->record.answer;
+    const ovoid_answer answer = item->record.answer;
     int is_compound = item->pair.a.compound || item->pair.b.compound;
     if (!get_parts(&item->pair, &item->record, &pair)) {
         snprintf(error->message, sizeof error->message, "the parts are not those of the bodies");
         return OVOID_ERROR_PROOF;
     }
-    // A bracket around zero must be narrow relative to the size of the whole compounds, which are checked below.
-    if (is_compound && answer.status == OVOID_TOUCHING)
-        answer.status = OVOID_UNDECIDED, answer.limit = OVOID_LIMIT_PRECISION;
     // The answer of an impact is that of ovoid_within at its margin.
     int is_impact = (item->record.fields & OVOID_RECORD_IMPACT) != 0;
-    int points = !is_compound && !is_impact && has_nearest_points(v->settings->query, &answer);
-    ovoid_code code = verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
-    if (code == OVOID_OK) code = check_compound(item, error);
+    int points = !is_impact && has_nearest_points(v->settings->query, &answer);
+    ovoid_code code = is_compound ? check_compound(v, item, error)
+                                  : verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
     return code == OVOID_OK ? check_impact(item, &answer, error) : code;
 }
 
@@ -327,6 +337,7 @@ static int drain(void *context, void *slot) {
         size_t failures = v->proofs++ - v->held;
         v->held += (size_t)i->holds;
         v->undecided += i->record.answer.status == OVOID_UNDECIDED;
+        v->impacts += (i->record.fields & OVOID_RECORD_IMPACT) != 0;
         if (!i->holds && failures < REPORTED_MAX) message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
         drop_record(i);
     }
@@ -339,23 +350,58 @@ static void clear(void *slot) {
     for (size_t i = 0; i < CHUNK; i++) drop_record(&c->items[i]);
 }
 
-/// Reports pairs without a result. The results of a batch, and of one pair, are complete or cut off.
-static void report_missing(verify *v) {
+/// Counts the pairs of a scene, at each of its frames, that have no result: a margin leaves far ones out.
+static void count_missing(verify *v) {
+    cli_frames *f = &v->bodies.frames;
+    int got = 1;
+    while (v->settings->motion && got > 0) got = frames_next(f);
+    if (got < 0) v->refused = 1, v->error.message[0] = 0;
+    v->pairs = ovoid_scene_get_pair_count(v->bodies.scene) * (v->settings->motion ? f->count : 1);
+    v->missing = v->pairs - seen_get_count(&v->seen);
+}
+
+/// Refuses results of a batch that were cut off.
+static void check_rest(verify *v) {
     ovoid_indexed_pair pair;
     size_t rest = 0;
-    int got = 1;
-    if (v->refused || v->bodies.scene) return;
-    if (!v->bodies.pairs) {
-        v->refused = v->proofs == 0;
-        if (v->refused) snprintf(v->error.message, sizeof v->error.message, "%s: there is no result", v->path);
-        return;
-    }
+    int got;
     while ((got = ovoid_pairs_reader_read(v->bodies.pairs, &pair, &v->error)) > 0) rest++;
     v->refused = got < 0 || rest > 0;
-    if (got == 0 && rest) {
+    if (got == 0 && rest)
         snprintf(v->error.message, sizeof v->error.message, "%s: %zu pairs have no result: it was cut off", v->path,
                  rest);
+}
+
+/// Reports pairs without a result, and a file without any.
+static void report_missing(verify *v) {
+    if (!v->refused && v->bodies.pairs) check_rest(v);
+    if (!v->refused && v->bodies.scene) count_missing(v);
+    if (v->refused || v->proofs || v->settings->allow_empty) return;
+    v->refused = 1;
+    snprintf(v->error.message, sizeof v->error.message,
+             "%s: there is no result; where none is wanted, --allow-empty says so", v->path);
+}
+
+/// The counts, and in what arithmetic the proofs were checked.
+static void print_counts(const verify *v) {
+    static const char floating[] = "floating point with rigorous error bounds";
+    size_t exact = verdict_is_exact() ? v->proofs - v->impacts : 0, failed = v->proofs - v->held;
+    if (v->settings->json) {
+        printf("{\"proofs\":%zu,\"hold\":%zu,\"fail\":%zu,\"undecided\":%zu,\"exact\":%zu,\"floating\":%zu,", v->proofs,
+               v->held, failed, v->undecided, exact, v->proofs - exact);
+        printf("\"pairs\":%zu,\"missing\":%zu}\n", v->bodies.scene ? v->pairs : v->proofs, v->missing);
+        return;
     }
+    printf("proofs: %zu, hold: %zu, do not: %zu; undecided answers: %zu; ", v->proofs, v->held, failed, v->undecided);
+    if (v->missing)
+        printf("%s without a result: %zu of %zu; ", v->settings->motion ? "pairs of frames" : "pairs", v->missing,
+               v->pairs);
+    if (!verdict_is_exact())
+        printf("checked in %s\n", floating);
+    else if (!v->impacts)
+        printf("checked in exact arithmetic\n");
+    else
+        printf("checked in exact arithmetic, but for impacts (%zu): their steps in %s\n", v->impacts, floating);
 }
 
 /// Checks every result; returns the exit code.
@@ -372,8 +418,7 @@ static int run_results(verify *v) {
     report_missing(v);
     if (v->refused && v->error.message[0]) message_error("%s", v->error.message);
     if (v->refused) return EXIT_INPUT;
-    printf("proofs: %zu, hold: %zu, do not: %zu; undecided answers: %zu; checked in %s\n", v->proofs, v->held,
-           v->proofs - v->held, v->undecided, verdict_get_name());
+    print_counts(v);
     code = finish_file(stdout);
     if (code) return code;
     return v->held == v->proofs ? EXIT_APART : EXIT_NOT_PROVEN;
@@ -455,6 +500,7 @@ static int run(const cli_command *command, int argc, char **argv) {
             message_error("%s", v.error.message), code = EXIT_INPUT;
     }
     ovoid_results_reader_destroy(v.reader);
+    seen_clear(&v.seen);
     close_bodies(&v.bodies);
     return code;
 }
@@ -472,10 +518,12 @@ const cli_command command_verify = {
         "arithmetic where ovoid was built with GMP. A result holds if its proof shows lower <= d <= upper and the "
         "status, if the normal is the one that proves the lower bound, and if the witness points lie on their "
         "bodies.\n\n"
-        "Of compounds, it is also checked that the exclusions leave out no pair of parts, in floating point with "
-        "rigorous error bounds; and of impacts, the steps that show that a pair was free until then.\n\n"
+        "Of compounds, it is also checked that the exclusions hold and leave out no pair of parts; and of impacts, the "
+        "steps that show that a pair was free until then, these always in floating point with rigorous error bounds. "
+        "Such results are counted apart.\n\n"
         "RESULTS.jsonl is \"-\" for standard input. The first failures are listed with their lines. "
-        "Of a scene, pairs without a result are not missed (check --margin leaves far ones out); of a batch they are.",
+        "Of a scene, pairs without a result are counted (check --margin leaves far ones out); of a batch they are an "
+        "error.",
     .exits = "0 every proof holds\n"
              "2 the command line is wrong\n"
              "3 bad input\n"

@@ -3,6 +3,27 @@
 #include "ask.h"
 #include "bodies.h"
 
+#ifdef OVOID_HAVE_JUDGE
+#include <judge.h>
+
+/// What the library's check accepts, exact arithmetic must accept too.
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_answer *x,
+                             const ovoid_exclusions *exclusions) {
+    static judge *the_judge;
+    if (!the_judge) the_judge = judge_create();
+    fuzz_require(the_judge != NULL);
+    judge_set_touching(the_judge, 1e300);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    fuzz_require_code(judge_check_compound(the_judge, pair, x, exclusions, &error), &error);
+    judge_forget(the_judge);
+}
+#else
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_answer *x,
+                             const ovoid_exclusions *exclusions) {
+    (void)pair, (void)x, (void)exclusions;
+}
+#endif
+
 enum { SHAPES = 3, PARTS = 6, ITEMS = 64 };
 
 typedef struct findings {
@@ -14,8 +35,10 @@ typedef struct findings {
 static void check(findings *f, const ovoid_compound_answer *x, const ovoid_exclusions *exclusions) {
     ovoid_error error = {OVOID_OK, -1, ""};
     // Without all exclusions there is nothing to check it by.
-    if (exclusions->count <= exclusions->capacity)
+    if (exclusions->count <= exclusions->capacity) {
         fuzz_require_code(ovoid_compound_answer_check(f->pair, x, exclusions, &error), &error);
+        put_before_judge(f->pair, x, exclusions);
+    }
     f->lower = fmax(f->lower, x->answer.lower);
     f->upper = fmin(f->upper, x->answer.upper);
     fuzz_require(f->lower <= f->upper);

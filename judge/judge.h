@@ -5,7 +5,7 @@
 #ifndef OVOID_JUDGE_H
 #define OVOID_JUDGE_H
 
-#include "ovoid/query.h"
+#include "ovoid/compound.h"
 
 /// Working numbers, and what was proven of each shape's inner ellipsoid (by address: a shape that was seen must live as
 /// long as the judge, or judge_forget must be called before it is destroyed). One thread at a time.
@@ -27,6 +27,15 @@ void judge_set_touching(judge *context, double relative);
 /// with a sentence in *error (may be NULL). cover: that of ovoid_depth, or NULL.
 ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
                               const ovoid_cover *cover, ovoid_error *error);
+
+/// OVOID_OK if everything is proven that the answer of a query of bodies (ovoid_compound_distance and its sisters)
+/// claims: the deciding pair's answer with the bodies' lower bound, as judge_check_answer judges it; that each
+/// exclusion's pairs of parts are no nearer than it says, and none of them is nearer than the lower bound; and that the
+/// exclusions and the deciding pair leave out no pair of parts. A bracket around zero must be narrow beside the bodies'
+/// size. Codes as above; place: the exclusion, or -1. exclusions: those of the query; NULL is enough for two shapes.
+/// Cost: the parts of all exclusions, some 15 us each. That the tree's order names each part once is checked too.
+ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                const ovoid_exclusions *exclusions, ovoid_error *error);
 
 /// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: that point_b - point_a =
 /// d normal, to what the bracket and the tolerance allow. OVOID_OK or OVOID_ERROR_PROOF.

@@ -129,14 +129,13 @@ num num_trimmed(pool *p, num a) {
 
 int num_sign(num a) { return mpz_sgn(a->m); }
 
-// The exponent of the highest bit, of a number that is not zero.
-static long top(num a) { return a->e + (long)mpz_sizeinbase(a->m, 2); }
+long num_get_exponent(num a) { return a->e + (long)mpz_sizeinbase(a->m, 2); }
 
 int num_compare(pool *p, num a, num b) {
     int sa = num_sign(a), sb = num_sign(b);
     if (sa != sb) return sa > sb ? 1 : -1;
     if (sa == 0) return 0;
-    if (top(a) != top(b)) return top(a) > top(b) ? sa : -sa;
+    if (num_get_exponent(a) != num_get_exponent(b)) return num_get_exponent(a) > num_get_exponent(b) ? sa : -sa;
     size_t mark = pool_get_mark(p);
     int s = num_sign(num_sub(p, a, b));
     pool_release(p, mark);
@@ -186,8 +185,8 @@ num num_quotient_below(pool *p, num a, num b, long bits) {
 
 double num_to_double(num a) {
     if (num_sign(a) == 0) return 0;
-    if (top(a) > 1100) return num_sign(a) * INFINITY;
-    if (top(a) < -1100) return 0;
+    if (num_get_exponent(a) > 1100) return num_sign(a) * INFINITY;
+    if (num_get_exponent(a) < -1100) return 0;
     long e;
     double m = mpz_get_d_2exp(&e, a->m);
     return ldexp(m, (int)(e + a->e));

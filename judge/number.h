@@ -38,6 +38,8 @@ num num_trimmed(pool *p, num a);
 
 /// -1, 0, 1
 int num_sign(num a);
+/// The least k with |a| < 2^k, of a number that is not zero.
+long num_get_exponent(num a);
 /// num_sign(a - b)
 int num_compare(pool *p, num a, num b);
 /// The sign of a sqrt(p) - b sqrt(q) for p, q >= 0: decided by the signs and the squares.

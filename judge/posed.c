@@ -1,6 +1,7 @@
 // Posed shapes in exact arithmetic: the rational pose, its points, supports over every vertex.
 #include "posed.h"
 
+#include <limits.h>
 #include <math.h>
 
 static int is_length(double x) { return isfinite(x) && fabs(x) <= OVOID_LENGTH_MAX; }
@@ -29,8 +30,7 @@ static void set_rotation(pool *p, body *b, ovoid_quat q) {
 
 static double sum_abs(ovoid_vec3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
 
-// The largest |vertex|, in doubles.
-static double find_extent(const ovoid_polytope *polytope) {
+double judge_find_extent(const ovoid_polytope *polytope) {
     double extent = 0;
     for (uint32_t i = 0; i < polytope->vertex_count; i++) {
         const double *v = polytope->vertices + 3 * (size_t)i;
@@ -39,7 +39,7 @@ static double find_extent(const ovoid_polytope *polytope) {
     return extent;
 }
 
-static body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose) {
+body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose) {
     body b = {.shape = shape, .polytope = ovoid_shape_get_polytope(shape)};
     set_rotation(p, &b, pose->rotation);
     b.position = nvec_from(p, pose->position);
@@ -47,7 +47,8 @@ static body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose)
     b.radius = number_from(p, ovoid_shape_get_radius(shape));
     b.outside = number_from(p, ovoid_shape_get_allowance(shape).outside);
     b.inside = number_from(p, ovoid_shape_get_allowance(shape).inside);
-    b.reach = sum_abs(pose->position) + sum_abs(b.polytope.origin) + find_extent(&b.polytope);
+    b.extent = judge_find_extent(&b.polytope);
+    b.reach = sum_abs(pose->position) + sum_abs(b.polytope.origin) + b.extent;
     return b;
 }
 
@@ -62,8 +63,7 @@ posed posed_make(pool *p, const ovoid_pair *pair) {
     // The frames' distance: exact difference, rounded.
     nvec t = posed_difference(&s, body_point(p, &s.a, nvec_zero(p)), body_point(p, &s.b, nvec_zero(p)));
     num square = num_quotient_below(p, nvec_norm_squared(p, t), num_mul(p, s.k, s.k), 60);
-    s.size =
-        sqrt(num_to_double(square)) + find_extent(&s.a.polytope) + find_extent(&s.b.polytope) + num_to_double(s.radii);
+    s.size = sqrt(num_to_double(square)) + s.a.extent + s.b.extent + num_to_double(s.radii);
     return s;
 }
 
@@ -88,14 +88,46 @@ static nvec vertex_at(pool *p, const ovoid_polytope *polytope, uint32_t i) {
 
 nvec body_vertex(pool *p, const body *b, uint32_t i) { return body_point(p, b, vertex_at(p, &b->polytope, i)); }
 
+// A direction in doubles, its largest part about 1, and the factor that brings vertices to at most 1: so that dots of
+// both are off by less than 2^-48 (each part by a rounding of 2^-52, of three products and two sums).
+#define COARSE_ERROR 0x1p-48
+typedef struct coarse {
+    double x, y, z, unit;
+} coarse;
+
+static coarse coarse_make(pool *p, const body *b, nvec direction, int side) {
+    const num parts[3] = {direction.x, direction.y, direction.z};
+    double out[3];
+    long top = LONG_MIN;
+    for (int i = 0; i < 3; i++)
+        if (num_sign(parts[i]) != 0 && num_get_exponent(parts[i]) > top) top = num_get_exponent(parts[i]);
+    for (int i = 0; i < 3; i++) out[i] = num_sign(parts[i]) ? side * num_to_double(num_scaled(p, parts[i], -top)) : 0;
+    int e = 0;
+    (void)frexp(b->extent, &e);
+    // Of a speck all vertices count as about as far.
+    return (coarse){out[0], out[1], out[2], ldexp(1, e > -1000 ? -e : 1000)};
+}
+
+static double coarse_dot(const coarse *c, const double *v) {
+    return c->x * (v[0] * c->unit) + c->y * (v[1] * c->unit) + c->z * (v[2] * c->unit);
+}
+
 num body_support(pool *p, const body *b, nvec direction, int side) {
     slot best = slot_make(p);
-    // In the body frame the direction is M' direction; vertices are compared there.
+    // In the body frame the direction is M' direction; vertices are compared there: first in doubles, and exactly where
+    // these do not show that another one is farther.
     nvec local = body_rotate_back(p, b, direction);
+    const double *vertices = b->polytope.vertices;
+    coarse c = coarse_make(p, b, local, side);
+    double most = -INFINITY;
+    int is_first = 1;
+    for (uint32_t i = 0; i < b->polytope.vertex_count; i++) most = fmax(most, coarse_dot(&c, vertices + 3 * (size_t)i));
     for (uint32_t i = 0; i < b->polytope.vertex_count; i++) {
+        if (coarse_dot(&c, vertices + 3 * (size_t)i) < most - 2 * COARSE_ERROR) continue;
         size_t mark = pool_get_mark(p);
         num value = nvec_dot(p, local, vertex_at(p, &b->polytope, i));
-        if (i == 0 || num_compare(p, value, best) * side > 0) slot_set(best, value);
+        if (is_first || num_compare(p, value, best) * side > 0) slot_set(best, value);
+        is_first = 0;
         pool_release(p, mark);
     }
     num at_position = num_mul(p, nvec_dot(p, direction, b->position), b->n);

@@ -16,7 +16,8 @@ typedef struct body {
     num n;        ///< |q|^2 > 0
     nvec position, origin;
     num radius, outside, inside;
-    double reach; ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
+    double extent; ///< the largest |vertex|, in doubles
+    double reach;  ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
 } body;
 
 typedef struct posed {
@@ -28,11 +29,17 @@ typedef struct posed {
     double size;         ///< about the sum of both bodies' extents and the distance of their frames, in doubles
 } posed;
 
+/// One posed shape. The pose must have passed judge_is_pose_valid.
+body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose);
+
 /// The pair in exact arithmetic. Both poses must have passed judge_is_pose_valid.
 posed posed_make(pool *p, const ovoid_pair *pair);
 
 /// 1 if finite, within OVOID_LENGTH_MAX, and the quaternion not zero.
 int judge_is_pose_valid(const ovoid_pose *pose);
+
+/// The largest |vertex|, in doubles.
+double judge_find_extent(const ovoid_polytope *polytope);
 
 /// M v and M' v.
 nvec body_rotate(pool *p, const body *b, nvec v);

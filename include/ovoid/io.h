@@ -165,6 +165,8 @@ OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i)
 OVOID_API size_t ovoid_scene_find(const ovoid_scene *scene, const char *name);
 /** 1 if "ignore" names the pair, in either order. */
 OVOID_API int ovoid_scene_is_ignored(const ovoid_scene *scene, size_t a, size_t b);
+/** How many pairs of objects there are that "ignore" does not name. */
+OVOID_API size_t ovoid_scene_get_pair_count(const ovoid_scene *scene);
 
 /* ---- pairs ---- */
 

@@ -102,6 +102,7 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
     }
     /** True if the scene says to ignore the pair. */
     bool is_ignored(std::size_t a, std::size_t b) const noexcept { return ovoid_scene_is_ignored(get(), a, b) != 0; }
+    std::size_t pair_count() const noexcept { return ovoid_scene_get_pair_count(get()); }
 };
 
 /** A PAIRS.csv read line by line. */

@@ -54,6 +54,7 @@ void check_scenes() {
     auto scene = ovoid::scene::read(path);
     CHECK(scene.size() == 2 && std::string(scene.name(1)) == "pair" && scene.find("pair") == 1);
     CHECK(scene.find("none") == scene.size() && scene.is_ignored(1, 0));
+    CHECK(scene.pair_count() == ovoid_scene_get_pair_count(scene.get()));
     const ovoid::compound_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));
     CHECK(a.answer.lower <= 7 && a.answer.upper >= 7 && a.part_b == 0);
     auto world = ovoid::world::create();

@@ -83,6 +83,7 @@ static void check_good(void) {
             int truly = (i == 0 && j == 4) || (i == 4 && j == 0) || (i == 5 && j == 6) || (i == 6 && j == 5);
             CHECK_EQ(ovoid_scene_is_ignored(scene, i, j), truly);
         }
+    CHECK_EQ(ovoid_scene_get_pair_count(scene), 10 * 9 / 2 - 2);
     CHECK(ovoid_scene_find(scene, "nobody") == (size_t)-1);
     ovoid_scene_destroy(scene);
 }

@@ -31,10 +31,38 @@ static void judge_excluded(const ovoid_body_pair *pair, const ovoid_exclusion *e
     expect_accepted(&parts, &x, NULL);
 }
 
+static ovoid_code judge_all(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
+    return judge_check_compound(court, pair, x, all, NULL);
+}
+
+// The whole answer is accepted, and refused once an exclusion is taken away or claims more than its normal shows.
+static void judge_whole(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
+    ovoid_error error = {.message = ""};
+    if (!CHECK(judge_check_compound(court, pair, x, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (x->answer.lower == -INFINITY) return;
+    for (size_t i = 0; i < all->count; i++) {
+        ovoid_exclusion kept = all->items[i];
+        // Farther than any two parts here are.
+        all->items[i].lower = 100;
+        CHECK(judge_all(pair, x, all) != OVOID_OK);
+        all->items[i] = kept;
+        all->items[i].lower = nextafter(x->answer.lower, -INFINITY);
+        CHECK(judge_all(pair, x, all) != OVOID_OK);
+        all->items[i] = all->items[all->count - 1];
+        ovoid_exclusions fewer = {all->items, all->capacity, all->count - 1, all->cover};
+        // The deciding pair may have an exclusion too, which is not needed.
+        int is_deciding = kept.end_a - kept.first_a == 1 && get_index(&pair->a, kept.first_a) == x->part_a &&
+                          kept.end_b - kept.first_b == 1 && get_index(&pair->b, kept.first_b) == x->part_b;
+        CHECK((judge_all(pair, x, &fewer) == OVOID_OK) == is_deciding);
+        all->items[i] = kept;
+    }
+}
+
 static void judge_answer(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
     ovoid_pair parts = get_pair(pair, x->part_a, x->part_b);
     expect_accepted(&parts, &x->answer, all->cover);
     if (!CHECK_LE(all->count, all->capacity)) return;
+    judge_whole(pair, x, all);
     for (size_t i = 0; i < all->count; i++)
         for (uint32_t a = all->items[i].first_a; a < all->items[i].end_a; a++)
             for (uint32_t b = all->items[i].first_b; b < all->items[i].end_b; b++)
@@ -94,10 +122,47 @@ static void check_round(int round) {
     for (int i = 0; i < 4; i++) ovoid_shape_destroy(shapes[i]);
 }
 
+// Two rows of cubes, those in their middles rounded and so the nearest, 1.5 apart along x: the exclusion of all pairs
+// is exact to the last double, and what is beyond is refused; so is a hole, and an exclusion of parts that there are
+// not.
+static void check_edges(void) {
+    ovoid_shape *cube = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
+    ovoid_shape_options round = {.radius = 0.25};
+    ovoid_shape *rounded = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, &round, NULL);
+    ovoid_posed_shape parts[3];
+    for (int i = 0; i < 3; i++)
+        parts[i] = (ovoid_posed_shape){i == 1 ? rounded : cube, {{0, 2.0 * i, 0}, {1, 0, 0, 0}}};
+    ovoid_compound *row = ovoid_compound_create(parts, 3, NULL, NULL);
+    ovoid_body_pair pair = {{NULL, row, ovoid_pose_make_identity()}, {NULL, row, ovoid_pose_make_identity()}};
+    pair.b.pose.position.x = 4;
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
+    ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
+    CHECK(judge_all(&pair, &x, &all) == OVOID_OK);
+    // All at once: the deciding pair is among them, which is no fault.
+    items[0] = (ovoid_exclusion){0, 3, 0, 3, {1, 0, 0}, {0, 0, 0}, 1.5};
+    all.count = 1;
+    CHECK(judge_all(&pair, &x, &all) == OVOID_OK);
+    items[0].lower = nextafter(1.5, 2);
+    CHECK(judge_all(&pair, &x, &all) != OVOID_OK);
+    items[0] = (ovoid_exclusion){0, 3, 0, 2, {1, 0, 0}, {0, 0, 0}, 1.5};
+    CHECK(judge_all(&pair, &x, &all) != OVOID_OK);
+    items[0].end_b = 4;
+    CHECK(judge_all(&pair, &x, &all) != OVOID_OK);
+    items[0] = (ovoid_exclusion){0, 3, 0, 3, {NAN, 0, 0}, {0, 0, 0}, 1.5};
+    CHECK(judge_all(&pair, &x, &all) != OVOID_OK);
+    x.part_a = 3;
+    CHECK(judge_all(&pair, &x, &all) != OVOID_OK);
+    judge_forget(court);
+    ovoid_compound_destroy(row);
+    ovoid_shape_destroy(cube);
+    ovoid_shape_destroy(rounded);
+}
+
 int main(void) {
     court = judge_create();
     if (!CHECK(court != NULL)) return check_end();
     for (int i = 0; i < 40; i++) check_round(i);
+    check_edges();
     judge_destroy(court);
     return check_end();
 }

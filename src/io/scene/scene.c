@@ -118,6 +118,11 @@ static ovoid_code read_ignored(scene_reader *r, const json_t *ignore) {
         if (code) return code;
     }
     qsort(r->scene->ignored, count, sizeof *r->scene->ignored, compare_keys);
+    // Each pair once.
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!i || r->scene->ignored[i] != r->scene->ignored[i - 1]) r->scene->ignored[kept++] = r->scene->ignored[i];
+    r->scene->ignored_count = kept;
     return OVOID_OK;
 }
 
@@ -199,4 +204,9 @@ size_t ovoid_scene_find(const ovoid_scene *scene, const char *name) {
 int ovoid_scene_is_ignored(const ovoid_scene *scene, size_t a, size_t b) {
     uint64_t key = pair_key(a, b);
     return scene->ignored_count && bsearch(&key, scene->ignored, scene->ignored_count, sizeof key, compare_keys);
+}
+
+size_t ovoid_scene_get_pair_count(const ovoid_scene *scene) {
+    size_t count = scene->count;
+    return count ? count * (count - 1) / 2 - scene->ignored_count : 0;
 }
