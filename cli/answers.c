@@ -44,7 +44,6 @@ static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_que
     ovoid_options options = {.absolute_tolerance = q->tolerance};
     if (q->query == QUERY_COLLIDE) return ovoid_compound_collide(pair, &options, NULL, exclusions);
     if (q->query == QUERY_WITHIN) return ovoid_compound_within(pair, q->margin, &options, NULL, exclusions);
-    if (q->query == QUERY_DISTANCE) return ovoid_compound_distance(pair, &options, NULL, exclusions);
     return ovoid_compound_depth(pair, &options, NULL, exclusions);
 }
 
@@ -62,7 +61,7 @@ static int reserve(answer_room *room, size_t count) {
 
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
     if (!reserve(room, ROOM)) return 0;
-    ovoid_exclusions proof = {room->items, room->capacity, 0, query->query == QUERY_DEPTH ? room->cover : NULL};
+    ovoid_exclusions proof = {room->items, room->capacity, 0, query->query == QUERY_DISTANCE ? room->cover : NULL};
     room->cover->point_count = 0;
     ovoid_compound_answer found = find(pair, query, query->wants_proof ? &proof : NULL);
     if (proof.count > room->capacity) {

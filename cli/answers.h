@@ -6,9 +6,10 @@
 
 #include <ovoid/ovoid.h>
 
-/// The words of the commands' --query, in their order.
-enum query { QUERY_NONE = -1, QUERY_COLLIDE, QUERY_WITHIN, QUERY_DISTANCE, QUERY_DEPTH };
-#define QUERY_CHOICES "collide|within|distance|depth"
+/// The words of the commands' --query, in their order. A distance is signed: where bodies overlap it is minus the
+/// depth, to the tolerance, as ovoid_depth answers.
+enum query { QUERY_NONE = -1, QUERY_COLLIDE, QUERY_WITHIN, QUERY_DISTANCE };
+#define QUERY_CHOICES "collide|within|distance"
 
 /// Working memory for one answer after another.
 typedef struct answer_room {

@@ -31,10 +31,10 @@ static const cli_option options[] = {
     {"pairs", 0, OPTION_FILE, offsetof(settings, pairs), "PAIRS.csv", NULL,
      "the pairs, \"-\" for standard input (required)"},
     {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
-     "collide: do they touch? within: are they within --margin? distance: how far apart? (default) depth: the signed "
-     "distance"},
+     "collide: do they touch? within: are they within --margin? distance: the signed distance, minus the depth where "
+     "they overlap (default)"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
-     "the margin of within; for distance and depth, exit code 1 if a pair is within M"},
+     "the margin of within; for distance, exit code 1 if a pair is within M"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket is at most T wide (default: 1e-9 of the pair's size)"},
     THREADS_OPTION(settings),
@@ -48,7 +48,7 @@ typedef struct chunk {
     size_t count;
     ovoid_indexed_pair pairs[CHUNK];
     ovoid_answer answers[CHUNK];
-    ovoid_cover *cover; ///< for one answer after another, of depth queries
+    ovoid_cover *cover; ///< for one answer after another, of distance queries
     char *text;         ///< the lines of its records
     size_t size;
     int failed; ///< no memory
@@ -84,7 +84,6 @@ static ovoid_answer find_answer(const settings *s, const ovoid_pair *pair, ovoid
     ovoid_options query = {.absolute_tolerance = s->tolerance};
     if (s->query == QUERY_COLLIDE) return ovoid_collide(pair, &query, NULL);
     if (s->query == QUERY_WITHIN) return ovoid_within(pair, s->margin, &query, NULL);
-    if (s->query == QUERY_DISTANCE) return ovoid_distance(pair, &query, NULL);
     return ovoid_depth(pair, &query, NULL, cover);
 }
 
@@ -95,16 +94,16 @@ static ovoid_record make_record(const ovoid_indexed_pair *pair, const ovoid_answ
 static void work(void *context, void *slot) {
     const batch *b = context;
     chunk *c = slot;
-    int depth = b->settings->query == QUERY_DEPTH, lines = results_are_lines(&b->results);
-    if (depth && !c->cover) c->cover = malloc(sizeof *c->cover);
+    int measures = b->settings->query == QUERY_DISTANCE, lines = results_are_lines(&b->results);
+    if (measures && !c->cover) c->cover = malloc(sizeof *c->cover);
     FILE *file = lines ? open_memstream(&c->text, &c->size) : NULL;
-    c->failed = (depth && !c->cover) || (lines && !file);
+    c->failed = (measures && !c->cover) || (lines && !file);
     for (size_t i = 0; i < c->count && !c->failed; i++) {
         const ovoid_indexed_pair *p = &c->pairs[i];
         ovoid_pair pair = {ovoid_shapes_get(b->shapes, p->a).shape, ovoid_shapes_get(b->shapes, p->b).shape, p->pose_a,
                            p->pose_b};
-        c->answers[i] = find_answer(b->settings, &pair, depth ? c->cover : NULL);
-        ovoid_record record = make_record(p, &c->answers[i], depth ? c->cover : NULL);
+        c->answers[i] = find_answer(b->settings, &pair, measures ? c->cover : NULL);
+        ovoid_record record = make_record(p, &c->answers[i], measures ? c->cover : NULL);
         if (lines) results_write_line(file, &b->settings->out, &record);
     }
     if (file && fclose(file) != 0) c->failed = 1;
@@ -217,7 +216,7 @@ const cli_command command_batch = {
              "3 bad input, or output that could not be written\n"
              "4 for some pair nothing is proven; this comes before 1",
     .examples = "ovoid batch --shapes hulls.txt --pairs pairs.csv --csv -o results.csv\n"
-                "ovoid batch --shapes hulls.txt --pairs pairs.csv --query depth --json |\n"
+                "ovoid batch --shapes hulls.txt --pairs pairs.csv --json |\n"
                 "    ovoid verify - --shapes hulls.txt --pairs pairs.csv",
     .options = options,
     .run = run,

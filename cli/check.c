@@ -109,7 +109,7 @@ static int run_check(check *c) {
     if (code) return code;
     answers_job job = {.scene = c->scene,
                        .poses = c->poses,
-                       .query = QUERY_DEPTH,
+                       .query = QUERY_DISTANCE,
                        .tolerance = s->tolerance,
                        .threads = s->threads,
                        .couples = c->rows,

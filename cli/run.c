@@ -32,8 +32,8 @@ static const cli_option options[] = {
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "list only the pairs that are not proven farther apart than M; without it, every pair of every frame"},
     {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
-     "collide: which pairs touch? within: which are within --margin? distance: how far apart? depth: "
-     "the signed distance (default)"},
+     "collide: which pairs touch? within: which are within --margin? distance: the signed distance, minus the depth "
+     "where they overlap (default)"},
     {"continuous", 0, OPTION_FLAG, offsetof(settings, continuous), NULL, NULL,
      "between frames, also find when pairs come within the margin (without one: touch)"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
@@ -170,7 +170,7 @@ static void report_summary(const run_state *r, double seconds) {
     }
     report_event(r, "first contact", &r->track.touch);
     const ovoid_record *least = &r->track.smallest;
-    if (s->query < QUERY_DISTANCE) return;
+    if (s->query != QUERY_DISTANCE) return;
     if (r->track.has_smallest) {
         write_names(names, sizeof names, least->a,
                     least->fields & OVOID_RECORD_PARTS ? least->part_a : OVOID_RECORD_NO_PART, least->b,
@@ -235,7 +235,7 @@ static int settle(const cli_command *command, settings *s) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    settings s = {.query = QUERY_DEPTH, .margin = -1};
+    settings s = {.query = QUERY_DISTANCE, .margin = -1};
     cli_operands paths;
     int code = args_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = settle(command, &s);

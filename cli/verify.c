@@ -37,8 +37,8 @@ static const cli_option options[] = {
     {"shapes", 0, OPTION_FILE, offsetof(settings, list), "LIST", NULL, "the shapes of ovoid batch"},
     {"pairs", 0, OPTION_FILE, offsetof(settings, pairs), "PAIRS.csv", NULL, "the pairs of ovoid batch"},
     {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
-     "the query of ovoid batch or run; for distance and depth, it is also checked that the witness points differ "
-     "by the distance along the normal (default: within; of a scene or of A and B: depth)"},
+     "the query of ovoid batch or run; for distance, it is also checked that the witness points differ "
+     "by the distance along the normal (default: distance; of a batch: within)"},
     {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), ARGS_POSE, NULL, "pose of A, as given to ovoid distance"},
     {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
     {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
@@ -242,11 +242,11 @@ static int fill(void *context, void *slot) {
     return c->count > 0;
 }
 
-/// 1 if point_b - point_a must be d times the normal: in answers to distance, where the bodies are apart, and to depth;
-/// not where a limit ended the search of a depth and the proof is a common point.
+/// 1 if point_b - point_a must be d times the normal: in answers to distance; not where a limit ended the search of a
+/// depth and the proof is a common point.
 static int has_nearest_points(int query, const ovoid_answer *answer) {
     if (answer->proof.kind == OVOID_PROOF_HULL || answer->proof.kind == OVOID_PROOF_INNER) return 0;
-    return query == QUERY_DEPTH || (query == QUERY_DISTANCE && answer->status != OVOID_OVERLAPPING);
+    return query == QUERY_DISTANCE;
 }
 
 /// Finds the pair of parts of a record; 0 where there is none such.
@@ -489,7 +489,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = args_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = check_inputs(command, &s, &paths);
     if (code >= 0) return code;
-    if (s.query == QUERY_NONE) s.query = s.list ? QUERY_WITHIN : QUERY_DEPTH;
+    if (s.query == QUERY_NONE) s.query = s.list ? QUERY_WITHIN : QUERY_DISTANCE;
     verify v = {.settings = &s, .path = paths.items[0]};
     code = open_bodies(&v.bodies, &s, &paths);
     if (!code) {
