@@ -14,8 +14,8 @@ if [ ! -x "$OVOID_TOOL" ] || [ ! -f "$work/PAIRS.csv" ]; then
 fi
 cd "$work" || exit 1
 passed=0 failed=0
-if [ -n "${OVOID_PAIRS:-}" ]; then set -- collide distance; else set --; fi
-for query in "$@" 'within --margin 0.01' depth; do
+if [ -n "${OVOID_PAIRS:-}" ]; then set -- collide; else set --; fi
+for query in "$@" 'within --margin 0.01' distance; do
     # shellcheck disable=SC2086 # a query and its margin
     "$OVOID_TOOL" batch --shapes LIST --pairs PAIRS.csv --json --query $query -o results.jsonl 2>note
     code=$?

@@ -35,8 +35,8 @@ expect 'distance' help di
 expect '--margin' check --m
 expect '--pose-a --pose-b --parts' distance a.stl --p
 expect '--margin --motion' run --m
-expect 'collide within distance depth' run --query ''
-expect 'collide within distance depth' batch --query ''
+expect 'collide within distance' run --query ''
+expect 'collide within distance' batch --query ''
 expect 'collide' batch --query = c
 expect 'a.stl b.stl folder/' fit ''
 expect 'b.stl' distance a.stl b
