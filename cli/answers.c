@@ -34,12 +34,6 @@ ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid
     return (ovoid_body){o.shape, o.compound, *pose};
 }
 
-unsigned answers_get_fields(const ovoid_scene *scene) {
-    for (size_t i = 0; i < ovoid_scene_get_count(scene); i++)
-        if (ovoid_scene_get(scene, i).compound) return OVOID_RECORD_PARTS;
-    return 0;
-}
-
 static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {
     ovoid_options options = {.absolute_tolerance = q->tolerance};
     if (q->query == QUERY_COLLIDE) return ovoid_compound_collide(pair, &options, NULL, exclusions);
@@ -105,8 +99,9 @@ static int make_record(const answers_job *job, chunk *k, size_t i, int wants_pro
                             answers_get_body(job->scene, c.b, &job->poses[c.b])};
     k->records[i] = (ovoid_record){.a = ovoid_scene_get(job->scene, c.a).name,
                                    .b = ovoid_scene_get(job->scene, c.b).name,
-                                   .fields = job->fields,
+                                   .fields = job->results ? job->results->fields : 0,
                                    .time = job->time,
+                                   .margin = job->margin,
                                    .frame = NAN};
     const answers_query query = {job->query, job->margin, job->tolerance, wants_proof};
     return answers_find(&k->room, &pair, &query, &k->records[i]);
@@ -116,11 +111,12 @@ static void work(void *context, void *slot) {
     const answers_job *job = ((work_state *)context)->job;
     chunk *k = slot;
     int lines = job->results && results_are_lines(job->results);
+    int proofs = job->results && results_have_proofs(job->results);
     if (!k->records) k->records = malloc(CHUNK * sizeof *k->records);
     FILE *file = lines ? open_memstream(&k->text, &k->size) : NULL;
     k->failed = !k->records || (lines && !file);
     for (size_t i = 0; i < k->count && !k->failed; i++) {
-        k->failed = !make_record(job, k, i, lines);
+        k->failed = !make_record(job, k, i, proofs);
         if (lines && !k->failed) results_write_line(file, job->results->settings, &k->records[i]);
         // The room is used again for the next pair.
         k->records[i].cover = NULL;

@@ -33,20 +33,16 @@ void answer_room_clear(answer_room *room);
 /// The object of a scene as a body, at a pose.
 ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid_pose *pose);
 
-/// The fields of the records of a scene's objects: parts where it has compounds.
-unsigned answers_get_fields(const ovoid_scene *scene);
-
 /// A query of many pairs.
 typedef struct answers_job {
     const ovoid_scene *scene;
     const ovoid_pose *poses; ///< of its objects
     int query;
-    double margin, tolerance;
+    double margin, tolerance; ///< margin: that of the records; negative where there is none
     unsigned threads;
     const void *couples; ///< ovoid_couple, `stride` bytes apart
     size_t stride, count;
     double time;
-    unsigned fields;
     cli_results *results; ///< where the records go; NULL: nowhere
     /// Receives each record in order (without cover and exclusions); i: of the couple. May be NULL.
     void (*take)(void *context, size_t i, const ovoid_record *record);

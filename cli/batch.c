@@ -87,23 +87,30 @@ static ovoid_answer find_answer(const settings *s, const ovoid_pair *pair, ovoid
     return ovoid_depth(pair, &query, NULL, cover);
 }
 
-static ovoid_record make_record(const ovoid_indexed_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover) {
-    return (ovoid_record){.index_a = pair->a, .index_b = pair->b, .answer = *answer, .cover = cover};
+static ovoid_record make_record(const batch *b, const ovoid_indexed_pair *pair, const ovoid_answer *answer,
+                                const ovoid_cover *cover) {
+    return (ovoid_record){.index_a = pair->a,
+                          .index_b = pair->b,
+                          .answer = *answer,
+                          .cover = cover,
+                          .fields = b->results.fields,
+                          .margin = b->settings->margin};
 }
 
 static void work(void *context, void *slot) {
     const batch *b = context;
     chunk *c = slot;
-    int measures = b->settings->query == QUERY_DISTANCE, lines = results_are_lines(&b->results);
-    if (measures && !c->cover) c->cover = malloc(sizeof *c->cover);
+    int covers = b->settings->query == QUERY_DISTANCE && results_have_proofs(&b->results);
+    int lines = results_are_lines(&b->results);
+    if (covers && !c->cover) c->cover = malloc(sizeof *c->cover);
     FILE *file = lines ? open_memstream(&c->text, &c->size) : NULL;
-    c->failed = (measures && !c->cover) || (lines && !file);
+    c->failed = (covers && !c->cover) || (lines && !file);
     for (size_t i = 0; i < c->count && !c->failed; i++) {
         const ovoid_indexed_pair *p = &c->pairs[i];
         ovoid_pair pair = {ovoid_shapes_get(b->shapes, p->a).shape, ovoid_shapes_get(b->shapes, p->b).shape, p->pose_a,
                            p->pose_b};
-        c->answers[i] = find_answer(b->settings, &pair, measures ? c->cover : NULL);
-        ovoid_record record = make_record(p, &c->answers[i], measures ? c->cover : NULL);
+        c->answers[i] = find_answer(b->settings, &pair, covers ? c->cover : NULL);
+        ovoid_record record = make_record(b, p, &c->answers[i], covers ? c->cover : NULL);
         if (lines) results_write_line(file, &b->settings->out, &record);
     }
     if (file && fclose(file) != 0) c->failed = 1;
@@ -120,7 +127,7 @@ static int drain(void *context, void *slot) {
     }
     if (lines) code = results_add_text(&b->results, c->text, c->size);
     for (size_t i = 0; i < c->count && !code; i++) {
-        ovoid_record record = make_record(&c->pairs[i], &c->answers[i], NULL);
+        ovoid_record record = make_record(b, &c->pairs[i], &c->answers[i], NULL);
         if (!lines) code = results_add(&b->results, &record);
         b->counts[c->answers[i].status]++;
         b->worst = results_worse(b->worst, results_judge(&c->answers[i], b->settings->margin));
@@ -153,7 +160,7 @@ static size_t count_pairs(const char *path) {
 static int run_pairs(batch *b) {
     const settings *s = b->settings;
     cli_pipeline line = {b, sizeof(chunk), fill, work, drain, clear};
-    if (results_open(&b->results, &s->out, s->query == QUERY_COLLIDE ? -1 : s->margin)) return EXIT_INPUT;
+    if (results_open(&b->results, &s->out, s->margin >= 0 ? OVOID_RECORD_MARGIN : 0)) return EXIT_INPUT;
     double start = progress_get_seconds();
     progress_start("pairs", count_pairs(s->pairs));
     int code = pipeline_run(&line, s->threads ? s->threads : pipeline_get_processors());

@@ -110,12 +110,12 @@ static int run_check(check *c) {
     answers_job job = {.scene = c->scene,
                        .poses = c->poses,
                        .query = QUERY_DISTANCE,
+                       .margin = s->margin,
                        .tolerance = s->tolerance,
                        .threads = s->threads,
                        .couples = c->rows,
                        .stride = sizeof *c->rows,
                        .count = c->row_count,
-                       .fields = answers_get_fields(c->scene),
                        .take = take_bracket,
                        .context = c};
     progress_start("pairs", c->row_count);
@@ -124,8 +124,8 @@ static int run_check(check *c) {
     if (code) return code;
     if (c->row_count) qsort(c->rows, c->row_count, sizeof *c->rows, compare_rows);
     // Their answers, written.
-    if (results_open(&c->results, &s->out, s->margin)) return EXIT_INPUT;
-    c->results.fields = job.fields;
+    unsigned fields = OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+    if (results_open(&c->results, &s->out, fields)) return EXIT_INPUT;
     job.results = &c->results;
     job.take = NULL;
     code = answers_run(&job);

@@ -108,7 +108,7 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     const answers_query query = {QUERY_DISTANCE, 0, s->tolerance, 1};
     answer_room room = {NULL, NULL, 0};
     cli_results results;
-    ovoid_record record = {.a = paths[0], .b = paths[1], .fields = s->parts ? OVOID_RECORD_PARTS : 0};
+    ovoid_record record = {.a = paths[0], .b = paths[1], .margin = s->margin};
     if (!answers_find(&room, &pair, &query, &record)) {
         message_error("out of memory");
         answer_room_clear(&room);
@@ -116,11 +116,12 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     }
     int holds = check_record(&pair, &record);
     int code = holds ? (int)results_judge(&record.answer, s->margin) : EXIT_NOT_PROVEN;
-    if (results_open(&results, &s->out, s->margin)) {
+    unsigned fields = OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+    if (results_open(&results, &s->out, fields)) {
         answer_room_clear(&room);
         return EXIT_INPUT;
     }
-    results.fields = record.fields;
+    record.fields = results.fields;
     if (results_are_lines(&results))
         results_add(&results, &record);
     else

@@ -166,15 +166,16 @@ static int reserve(impact *item, ovoid_motion_options *options) {
 /// Finds the impact of a pair, with its steps where they are wanted.
 static void find_impact(const cli_impacts *x, impact *item) {
     ovoid_moving_body a = get_moving(x, item->couple.a), b = get_moving(x, item->couple.b);
-    int lines = results_are_lines(x->results), is_compound = a.compound || b.compound;
-    ovoid_motion_options options = {.capacity = lines ? STEPS : 0, .group_capacity = lines && is_compound ? STEPS : 0};
+    int proofs = results_have_proofs(x->results), is_compound = a.compound || b.compound;
+    ovoid_motion_options options = {.capacity = proofs ? STEPS : 0,
+                                    .group_capacity = proofs && is_compound ? STEPS : 0};
     for (;;) {
-        item->failed = lines && !reserve(item, &options);
+        item->failed = proofs && !reserve(item, &options);
         if (item->failed) return;
         ovoid_compound_impact found = ovoid_compound_impact_find(&a, &b, x->margin, &options);
         item->found = found.impact;
         item->group_count = found.group_count;
-        if (!lines) return;
+        if (!proofs) return;
         if (!is_compound) item->group_count = 0;
         if (found.impact.step_count <= options.capacity && item->group_count <= options.group_capacity) return;
         if (options.capacity < found.impact.step_count) options.capacity = found.impact.step_count;
@@ -225,7 +226,7 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
                              .b = ovoid_scene_get(x->scene, c.b).name,
                              .answer = item->found.hit,
-                             .fields = x->fields,
+                             .fields = x->results->fields,
                              .time = x->frames->earlier + item->found.hit_at,
                              .frame = x->frames->earlier,
                              .margin = x->margin,
@@ -242,7 +243,7 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], item->found.hit_at),
                            ovoid_motion_compute_pose(&motions[1], item->found.hit_at)};
     ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &poses[0]), answers_get_body(x->scene, c.b, &poses[1])};
-    const answers_query query = {QUERY_WITHIN, x->margin, 0, results_are_lines(x->results)};
+    const answers_query query = {QUERY_WITHIN, x->margin, 0, results_have_proofs(x->results)};
     return answers_find(room, &pair, &query, record);
 }
 

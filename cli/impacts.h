@@ -10,7 +10,7 @@ typedef struct cli_impacts {
     const ovoid_scene *scene;
     const cli_frames *frames;
     double margin; ///< >= 0
-    unsigned threads, fields;
+    unsigned threads;
     cli_results *results;
     ovoid_box *boxes;        ///< of each object, from the frame before to this one
     unsigned char *is_fresh; ///< of each object: its box is that of its present resting place

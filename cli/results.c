@@ -23,12 +23,16 @@ int results_settle(const cli_command *command, output_settings *settings) {
                              settings->json ? "JSON Lines" : "CSV");
     settings->csv |= is_csv;
     settings->json |= is_json;
+    if (settings->proofs && !settings->csv)
+        return args_complain(command, "%s: --proofs goes with CSV; JSON Lines always have the proofs, a table has none",
+                             command->name);
     return -1;
 }
 
-int results_open(cli_results *results, const output_settings *settings, double margin) {
+int results_open(cli_results *results, const output_settings *settings, unsigned fields) {
     ovoid_error error;
-    *results = (cli_results){.settings = settings, .margin = margin, .header_due = settings->csv};
+    *results = (cli_results){.settings = settings, .fields = fields, .header_due = settings->csv};
+    if (settings->proofs) results->fields |= OVOID_RECORD_PROOF;
     finish_hold_signals();
     results->output = ovoid_output_create(settings->path ? settings->path : "-", &error);
     if (results->output) finish_set_unfinished(ovoid_output_get_temporary(results->output));
@@ -43,9 +47,11 @@ int results_open(cli_results *results, const output_settings *settings, double m
 
 int results_are_lines(const cli_results *results) { return results->settings->json || results->settings->csv; }
 
+int results_have_proofs(const cli_results *results) { return results->settings->json || results->settings->proofs; }
+
 /// Writes the rows of the block.
 static void write_rows(cli_results *results) {
-    ovoid_records_write_table(results->file, results->rows, results->row_count, results->margin);
+    ovoid_records_write_table(results->file, results->rows, results->row_count);
     results->row_count = 0;
 }
 

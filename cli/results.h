@@ -9,13 +9,22 @@
 /// Options of every command that writes results.
 typedef struct output_settings {
     int json, csv;
+    int proofs;       ///< CSV with a column of proofs
     const char *path; ///< NULL: standard output
 } output_settings;
 
 /// The rows of these options in a table; `out` is the member of the settings that holds them.
 #define RESULTS_OPTIONS(settings)                                                                                      \
     {"json", 0, OPTION_FLAG, offsetof(settings, out.json), NULL, NULL, "write JSON Lines, one object a line"},         \
-        {"csv", 0, OPTION_FLAG, offsetof(settings, out.csv), NULL, NULL, "write CSV with a header line"}, {            \
+        {"csv", 0, OPTION_FLAG, offsetof(settings, out.csv), NULL, NULL, "write CSV with a header line"},              \
+        {"proofs",                                                                                                     \
+         0,                                                                                                            \
+         OPTION_FLAG,                                                                                                  \
+         offsetof(settings, out.proofs),                                                                               \
+         NULL,                                                                                                         \
+         NULL,                                                                                                         \
+         "with CSV: a last column with the proofs, which JSON Lines always have"},                                     \
+    {                                                                                                                  \
         "output", 'o', OPTION_OUTPUT, offsetof(settings, out.path), "FILE", "jsonl|json|csv|txt",                      \
             "write to FILE, which appears whole or not at all; .jsonl and .csv choose the format (default: standard "  \
             "output)"                                                                                                  \
@@ -30,15 +39,14 @@ typedef struct cli_results {
     ovoid_output *output;
     FILE *file;
     const output_settings *settings;
-    double margin;      ///< of the table's marks; negative: none
-    unsigned fields;    ///< of all records, ovoid_record_field bits: set before the first; 0: none
+    unsigned fields;    ///< of all records, ovoid_record_field bits
     ovoid_record *rows; ///< of the table, until there are enough to be written
     size_t row_count;
     int header_due; ///< the CSV header is not written yet
 } cli_results;
 
-/// Opens a stream of results. 0, or EXIT_INPUT after a message.
-int results_open(cli_results *results, const output_settings *settings, double margin);
+/// Opens a stream of results whose records have these fields. 0, or EXIT_INPUT after a message.
+int results_open(cli_results *results, const output_settings *settings, unsigned fields);
 
 /// Writes one answer: a line of JSON or CSV at once, a row of the table later. Names must live until the end. Failures
 /// of the stream are found by results_close.
@@ -46,6 +54,9 @@ int results_add(cli_results *results, const ovoid_record *record);
 
 /// 1 if each answer becomes a line of text by itself (not a table).
 int results_are_lines(const cli_results *results);
+
+/// 1 if proofs are written.
+int results_have_proofs(const cli_results *results);
 
 /// Writes text made of such lines.
 int results_add_text(cli_results *results, const char *text, size_t size);

@@ -96,7 +96,6 @@ static int answer_frame(run_state *r) {
                        .stride = sizeof *r->near.couples,
                        .count = r->near.count,
                        .time = r->frames.time,
-                       .fields = r->results.fields,
                        .results = &r->results,
                        .take = take_record,
                        .context = r};
@@ -172,9 +171,7 @@ static void report_summary(const run_state *r, double seconds) {
     const ovoid_record *least = &r->track.smallest;
     if (s->query != QUERY_DISTANCE) return;
     if (r->track.has_smallest) {
-        write_names(names, sizeof names, least->a,
-                    least->fields & OVOID_RECORD_PARTS ? least->part_a : OVOID_RECORD_NO_PART, least->b,
-                    least->fields & OVOID_RECORD_PARTS ? least->part_b : OVOID_RECORD_NO_PART);
+        write_names(names, sizeof names, least->a, least->part_a, least->b, least->part_b);
         message_note("smallest distance: %.9g .. %.9g, at %.9g, %s", least->answer.lower, least->answer.upper,
                      least->time, names);
     } else if (s->margin >= 0)
@@ -186,7 +183,6 @@ static void report_summary(const run_state *r, double seconds) {
 static int open_all(run_state *r) {
     const settings *s = r->settings;
     int is_collide = s->query == QUERY_COLLIDE;
-    unsigned parts = answers_get_fields(r->scene);
     int code = frames_open(&r->frames, s->motion, r->scene);
     if (!code)
         code = near_open(&r->near, r->scene, is_collide ? OVOID_QUERY_COLLIDE : OVOID_QUERY_WITHIN,
@@ -196,7 +192,6 @@ static int open_all(run_state *r) {
                                    .frames = &r->frames,
                                    .margin = get_margin(s),
                                    .threads = s->threads,
-                                   .fields = OVOID_RECORD_TIME | OVOID_RECORD_IMPACT | parts,
                                    .results = &r->results,
                                    .take = take_impact,
                                    .context = r};
@@ -210,8 +205,9 @@ static int run_motion(run_state *r) {
     double start = progress_get_seconds();
     int code = open_all(r);
     if (code) return code;
-    if (results_open(&r->results, &s->out, s->query == QUERY_COLLIDE ? -1 : s->margin)) return EXIT_INPUT;
-    r->results.fields = OVOID_RECORD_TIME | answers_get_fields(r->scene) | (s->continuous ? OVOID_RECORD_IMPACT : 0);
+    unsigned fields = OVOID_RECORD_TIME | OVOID_RECORD_PARTS | (s->continuous ? OVOID_RECORD_IMPACT : 0) |
+                      (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+    if (results_open(&r->results, &s->out, fields)) return EXIT_INPUT;
     r->track.has_plot = s->plot != NULL;
     code = run_frames(r);
     if (r->impacts.not_proven) r->worst = EXIT_NOT_PROVEN;

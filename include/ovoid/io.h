@@ -228,9 +228,11 @@ OVOID_API void ovoid_motion_reader_destroy(ovoid_motion_reader *reader);
 
 /** Optional fields of a record, beside the answer of a pair. */
 typedef enum ovoid_record_field {
-    OVOID_RECORD_TIME = 1,  /**< of a frame, or of an impact */
-    OVOID_RECORD_PARTS = 2, /**< the parts of compounds to which the answer belongs */
-    OVOID_RECORD_IMPACT = 4 /**< that the time is that of an impact, and its bracket */
+    OVOID_RECORD_TIME = 1,   /**< of a frame, or of an impact */
+    OVOID_RECORD_PARTS = 2,  /**< the parts of compounds to which the answer belongs */
+    OVOID_RECORD_IMPACT = 4, /**< that the time is that of an impact, and its bracket; also the margin */
+    OVOID_RECORD_MARGIN = 8, /**< the margin that was asked about */
+    OVOID_RECORD_PROOF = 16  /**< of CSV: the proof, as the last column; JSON always has it */
 } ovoid_record_field;
 
 /** The part of a body that is no compound. */
@@ -238,14 +240,14 @@ typedef enum ovoid_record_field {
 
 /** The answer for one pair of bodies, as results files hold it. */
 typedef struct ovoid_record {
-    const char *a, *b;        /**< names; NULL: the indices identify the bodies */
-    size_t index_a, index_b;  /**< of a batch; ignored where there are names */
-    ovoid_answer answer;      /**< a file has the limit only where the status is undecided */
+    const char *a, *b;       /**< names; NULL: the indices identify the bodies */
+    size_t index_a, index_b; /**< of a batch; ignored where there are names */
+    ovoid_answer answer;
     const ovoid_cover *cover; /**< of ovoid_depth; NULL where there is none */
     unsigned fields;          /**< ovoid_record_field bits: which of the following are given; 0: none */
     double time;
     double frame;            /**< of an impact: the time of the frame before, the origin of the next times; NaN: none */
-    double margin;           /**< of the next two */
+    double margin;           /**< what was asked about; of an impact also that of the next two */
     double free_for;         /**< until frame + free_for the pair is proven farther apart than the margin */
     double hit_after;        /**< at frame + hit_after, rounded `time`, it is within the margin, proven by the answer */
     uint32_t part_a, part_b; /**< 0-based; OVOID_RECORD_NO_PART: the body is no compound */
@@ -258,23 +260,28 @@ typedef struct ovoid_record {
 } ovoid_record;
 
 /**
- * One line of JSON with the keys time, frame, margin, free_for, hit_after, a, part_a, b, part_b, status, lower, upper,
- * point_a, point_b, normal, stage, iterations, proof, in this order, the first five and the parts where they are given;
- * numbers with 17 digits; infinity and NaN are null; "undecided" is followed by its limit, as in "undecided:
- * iterations". FILE where the stream failed.
+ * One line of JSON with the keys time, frame, free_for, hit_after, a, part_a, b, part_b, status, limit, margin, within,
+ * lower, upper, point_a, point_b, normal, stage, iterations, proof, in this order, the first four, the parts and the
+ * margin where they are given; numbers with 17 digits; infinity and NaN are null. within is what the bracket says of
+ * the margin: "yes", "no" (farther), "at" (the bracket is as narrow as asked and holds the margin) or "unproven". FILE
+ * where the stream failed.
  */
 OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
 
-/** The same columns as CSV: vectors are three columns, the proof is one field of JSON. fields: of all records. */
+/**
+ * The same columns as CSV: vectors are three columns, the proof, if it is wanted, is one field of JSON. fields: of all
+ * records; TIME, IMPACT and PROOF choose columns, all others are always there.
+ */
 OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields);
-/** Writes one line of CSV, with the columns of the record's fields; a column without a value is empty. */
+/** Writes one line of CSV, with the columns that its fields choose; a column without a value is empty. */
 OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record);
 
 /**
  * A table for people, in the order given, with a column for the time where the first record has one; the part of a
- * compound follows its name, as in "arm[3]". margin: pairs proven within it are marked; negative: none is.
+ * compound follows its name, as in "arm[3]". Behind the numbers stands what a record's margin makes of it, and the
+ * limit that left a bracket wide.
  */
-OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, double margin);
+OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count);
 
 /** A results file of JSON lines, read strictly: the keys above, each once, no other. A record's fields are its keys. */
 typedef struct ovoid_results_reader ovoid_results_reader;

@@ -33,7 +33,7 @@ expect 'verify view' v
 expect '--help' --h
 expect 'distance' help di
 expect '--margin' check --m
-expect '--pose-a --pose-b --parts' distance a.stl --p
+expect '--pose-a --pose-b --parts --proofs' distance a.stl --p
 expect '--margin --motion' run --m
 expect 'collide within distance' run --query ''
 expect 'collide within distance' batch --query ''

@@ -42,14 +42,15 @@ static void check_text(const char *found, const char *truth) {
 
 static const char golden_json[] =
     "{\"a\":\"link "
-    "\\\"1\\\"\",\"b\":\"b\xc3\xa4r,\\u000a\\ufffd\",\"status\":\"separated\",\"lower\":0.10000000000000001,"
+    "\\\"1\\\"\",\"b\":\"b\xc3\xa4r,\\u000a\\ufffd\",\"status\":\"separated\",\"limit\":\"none\",\"lower\":0."
+    "10000000000000001,"
     "\"upper\":0.10000000000000002,\"point_a\":[1,-0,1.0000000000000001e+300],"
     "\"point_b\":[1.1000000000000001,0,4.9406564584124654e-324],\"normal\":[0,0,-1],\"stage\":\"gjk\",\"iterations\":4,"
     "\"proof\":{\"normal\":[0,0.5,-1],\"kind\":\"points\",\"a\":[7,4294967295],\"b\":[0,3],\"weight_a\":[0.25,0.75],"
     "\"weight_b\":[1,0]}}\n";
 
 static const char golden_csv[] =
-    "\"link \"\"1\"\"\",\"b\xc3\xa4r,\n\xff\",separated,0.10000000000000001,0.10000000000000002,1,-0,"
+    "\"link \"\"1\"\"\",,\"b\xc3\xa4r,\n\xff\",,separated,none,,,0.10000000000000001,0.10000000000000002,1,-0,"
     "1.0000000000000001e+300,1.1000000000000001,0,4.9406564584124654e-324,0,0,-1,gjk,4,"
     "\"{\"\"normal\"\":[0,0.5,-1],\"\"kind\"\":\"\"points\"\",\"\"a\"\":[7,4294967295],\"\"b\"\":[0,3],"
     "\"\"weight_a\"\":[0.25,0.75],\"\"weight_b\"\":[1,0]}\"\n";
@@ -77,17 +78,22 @@ static void check_golden_fields(ovoid_record record) {
     static const struct {
         unsigned fields;
         const char *json, *header, *csv;
-    } truth[] = {{0, "{\"a\":\"x\",\"b\":\"y\",\"status\"", "a,b,status,lower,", "x,y,separated,"},
-                 {OVOID_RECORD_TIME, "{\"time\":0.5,\"a\":\"x\",\"b\":\"y\",\"status\"", "time,a,b,status,",
-                  "0.5,x,y,separated,"},
-                 {OVOID_RECORD_PARTS, "{\"a\":\"x\",\"part_a\":7,\"b\":\"y\",\"status\"", "a,part_a,b,part_b,status,",
-                  "x,7,y,,separated,"},
-                 {7,
-                  "{\"time\":0.5,\"frame\":0.25,\"margin\":0.75,\"free_for\":0.125,\"hit_after\":0.25,\"a\":\"x\","
-                  "\"part_a\":7,\"b\":"
-                  "\"y\",\"status\"",
-                  "time,frame,margin,free_for,hit_after,a,part_a,b,part_b,status,",
-                  "0.5,0.25,0.75,0.125,0.25,x,7,y,,separated,"}};
+    } truth[] = {
+        {0, "{\"a\":\"x\",\"b\":\"y\",\"status\":\"separated\",\"limit\":\"none\",\"lower\"",
+         "a,part_a,b,part_b,status,limit,margin,within,lower,", "x,,y,,separated,none,,,0.1"},
+        {OVOID_RECORD_TIME, "{\"time\":0.5,\"a\":\"x\",\"b\":\"y\",\"status\"", "time,a,part_a,b,part_b,status,",
+         "0.5,x,,y,,separated,"},
+        {OVOID_RECORD_PARTS, "{\"a\":\"x\",\"part_a\":7,\"b\":\"y\",\"status\"", "a,part_a,b,part_b,status,",
+         "x,7,y,,separated,"},
+        {OVOID_RECORD_MARGIN,
+         "{\"a\":\"x\",\"b\":\"y\",\"status\":\"separated\",\"limit\":\"none\",\"margin\":0.75,\"within\":\"yes\","
+         "\"lower\"",
+         "a,part_a,b,part_b,status,limit,margin,within,lower,", "x,,y,,separated,none,0.75,yes,0.1"},
+        {7,
+         "{\"time\":0.5,\"frame\":0.25,\"free_for\":0.125,\"hit_after\":0.25,\"a\":\"x\",\"part_a\":7,\"b\":"
+         "\"y\",\"status\":\"separated\",\"limit\":\"none\",\"margin\":0.75,\"within\":\"yes\",",
+         "time,frame,free_for,hit_after,a,part_a,b,part_b,status,",
+         "0.5,0.25,0.125,0.25,x,7,y,,separated,none,0.75,yes,"}};
     for (size_t i = 0; i < sizeof truth / sizeof *truth; i++) {
         record.fields = truth[i].fields;
         char *texts[] = {write_with(ovoid_record_write_json, &record), write_header(record.fields),
@@ -102,9 +108,30 @@ static void check_golden_fields(ovoid_record record) {
     record.fields = OVOID_RECORD_TIME | OVOID_RECORD_IMPACT;
     record.frame = NAN;
     char *json = write_with(ovoid_record_write_json, &record), *csv = write_with(ovoid_record_write_csv, &record);
-    CHECK(!strstr(json, "free_for") && strncmp(csv, "0.5,,,,,x,y,", 12) == 0);
+    CHECK(!strstr(json, "free_for") && strncmp(csv, "0.5,,,,x,,y,,", 13) == 0);
     free(json);
     free(csv);
+}
+
+// The word about a margin: of the bracket 0.1 .. 0.1000...2, and what a limit makes of one that holds the margin.
+static void check_within(void) {
+    static const struct {
+        double margin;
+        ovoid_limit limit;
+        const char *word;
+    } truth[] = {{0.05, OVOID_LIMIT_NONE, ",no,"},
+                 {0.2, OVOID_LIMIT_CAPACITY, ",capacity,0.20000000000000001,yes,"},
+                 {0.1, OVOID_LIMIT_NONE, ",at,"},
+                 {0.1, OVOID_LIMIT_ANSWERED, ",unproven,"}};
+    for (size_t i = 0; i < sizeof truth / sizeof *truth; i++) {
+        ovoid_record record = make_record();
+        record.fields = OVOID_RECORD_MARGIN;
+        record.margin = truth[i].margin;
+        record.answer.limit = truth[i].limit;
+        char *text = write_with(ovoid_record_write_csv, &record);
+        CHECK(strstr(text, truth[i].word) != NULL);
+        free(text);
+    }
 }
 
 static void check_golden(void) {
@@ -112,9 +139,22 @@ static void check_golden(void) {
     char *text = write_with(ovoid_record_write_json, &record);
     check_text(text, golden_json);
     free(text);
+    // CSV has the proof where it is asked for, as its last column.
+    record.fields = OVOID_RECORD_PROOF;
     text = write_with(ovoid_record_write_csv, &record);
     check_text(text, golden_csv);
     free(text);
+    text = write_header(record.fields);
+    CHECK(strstr(text, ",iterations,proof\n") != NULL);
+    free(text);
+    record.fields = 0;
+    text = write_with(ovoid_record_write_csv, &record);
+    CHECK(strstr(text, ",gjk,4\n") != NULL);
+    free(text);
+    text = write_header(0);
+    CHECK(strstr(text, ",iterations\n") != NULL);
+    free(text);
+    check_within();
     check_golden_fields(record);
     // A refused pair of a batch: no bounds, no points.
     ovoid_record refused = {.index_a = 12, .index_b = 0};
@@ -125,7 +165,8 @@ static void check_golden(void) {
     text = write_with(ovoid_record_write_json, &refused);
     char truth[600];
     snprintf(truth, sizeof truth,
-             "{\"a\":12,\"b\":0,\"status\":\"undecided: %s\",\"lower\":null,\"upper\":null,\"point_a\":[null,0,0],"
+             "{\"a\":12,\"b\":0,\"status\":\"undecided\",\"limit\":\"%s\",\"lower\":null,\"upper\":null,\"point_a\":["
+             "null,0,0],"
              "\"point_b\":[0,0,0],\"normal\":[0,0,0],\"stage\":\"%s\",\"iterations\":0,"
              "\"proof\":{\"normal\":[0,0,0],\"kind\":\"none\"}}\n",
              ovoid_limit_get_name(OVOID_LIMIT_POSE_A), ovoid_stage_get_name(OVOID_STAGE_NONE));
@@ -148,16 +189,18 @@ static void check_table(void) {
     records[2].answer.lower = -INFINITY;
     records[2].answer.upper = 1.0 / 3;
     records[2].answer.limit = OVOID_LIMIT_ITERATIONS;
+    records[1].answer.limit = OVOID_LIMIT_CAPACITY;
+    for (int i = 0; i < 3; i++) records[i].fields = OVOID_RECORD_MARGIN, records[i].margin = 0.2;
     const char *path = file_path("table.txt");
     FILE *file = fopen(path, "wb");
-    CHECK(file && ovoid_records_write_table(file, records, 3, 0.2) == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, records, 3) == OVOID_OK);
     fclose(file);
     size_t size;
     char *text = file_read(path, &size);
-    check_text(text, "a     b    status                 lower        upper  stage  steps\n"
-                     "link  bar  separated                0.1          0.1  gjk        4  within\n"
-                     "\xc3\xa4     c    overlapping             -2.5         -2.5  epa       17  within\n"
-                     "x     y    undecided: iterations   -inf  0.333333333  none       0  not proven\n");
+    check_text(text, "a     b    status       lower        upper  stage  steps\n"
+                     "link  bar  separated      0.1          0.1  gjk        4  within\n"
+                     "\xc3\xa4     c    overlapping   -2.5         -2.5  epa       17  within, ended by capacity\n"
+                     "x     y    undecided     -inf  0.333333333  none       0  not proven, ended by iterations\n");
     free(text);
 }
 
@@ -168,7 +211,8 @@ static void check_table_fields(void) {
     name[119] = 0;
     ovoid_record records[2] = {{.a = "arm", .b = "box"}, {.a = name, .b = "box"}};
     for (int i = 0; i < 2; i++) {
-        records[i].fields = 7;
+        records[i].fields = 7 | OVOID_RECORD_MARGIN;
+        records[i].margin = 0.25;
         records[i].time = 0.5 + i;
         records[i].frame = i ? 1.25 : NAN;
         records[i].part_a = 12;
@@ -178,8 +222,8 @@ static void check_table_fields(void) {
     }
     const char *path = file_path("table.txt");
     FILE *file = fopen(path, "wb");
-    CHECK(file && ovoid_records_write_table(file, records, 1, 0.25) == OVOID_OK);
-    CHECK(file && ovoid_records_write_table(file, records + 1, 1, 0.25) == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, records, 1) == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, records + 1, 1) == OVOID_OK);
     fclose(file);
     size_t size;
     char *text = file_read(path, &size);
@@ -202,7 +246,7 @@ static void check_table_names(void) {
     ovoid_record record = {.a = name, .b = "b"};
     const char *path = file_path("table.txt");
     FILE *file = fopen(path, "wb");
-    CHECK(file && ovoid_records_write_table(file, &record, 1, -1) == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, &record, 1) == OVOID_OK);
     fclose(file);
     size_t size;
     char *text = file_read(path, &size);
@@ -226,8 +270,9 @@ static void check_same(const ovoid_record *a, const ovoid_record *b) {
     CHECK_EQ(a->fields, b->fields);
     if (a->fields & OVOID_RECORD_TIME) CHECK(is_same_bits(&a->time, &b->time, 8));
     if (a->fields & OVOID_RECORD_IMPACT)
-        CHECK(is_same_bits(&a->frame, &b->frame, 8) && is_same_bits(&a->margin, &b->margin, 8) &&
-              is_same_bits(&a->free_for, &b->free_for, 8) && is_same_bits(&a->hit_after, &b->hit_after, 8));
+        CHECK(is_same_bits(&a->frame, &b->frame, 8) && is_same_bits(&a->free_for, &b->free_for, 8) &&
+              is_same_bits(&a->hit_after, &b->hit_after, 8));
+    if (a->fields & OVOID_RECORD_MARGIN) CHECK(is_same_bits(&a->margin, &b->margin, 8));
     if (CHECK(a->group_count == b->group_count))
         for (size_t i = 0; i < a->group_count; i++) {
             const ovoid_step_group *p = &a->groups[i], *q = &b->groups[i];
@@ -249,7 +294,7 @@ static void check_same(const ovoid_record *a, const ovoid_record *b) {
     CHECK_EQ(x->status, y->status);
     CHECK_EQ(x->stage, y->stage);
     CHECK_EQ(x->iterations, y->iterations);
-    if (x->status == OVOID_UNDECIDED) CHECK_EQ(x->limit, y->limit);
+    CHECK_EQ(x->limit, y->limit);
     CHECK(is_same_bits(&x->lower, &y->lower, 8) && is_same_bits(&x->upper, &y->upper, 8));
     CHECK(is_same_vector(x->point_a, y->point_a) && is_same_vector(x->point_b, y->point_b));
     CHECK(is_same_vector(x->normal, y->normal) && is_same_vector(x->proof.normal, y->proof.normal));
@@ -282,9 +327,9 @@ static ovoid_vec3 random_vector(uint64_t *s) {
 static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
     ovoid_record r = {.index_a = random_next(s) % 1000000, .index_b = random_next(s) % 10, .cover = NULL};
     if (random_next(s) % 2) r.a = "one", r.b = "two";
-    // An impact has a time; of the parts one may be none.
-    r.fields = (unsigned)random_next(s) % 8;
-    if (r.fields & OVOID_RECORD_IMPACT) r.fields |= OVOID_RECORD_TIME;
+    // An impact has a time and a margin; of the parts one may be none.
+    r.fields = (unsigned)random_next(s) % 16;
+    if (r.fields & OVOID_RECORD_IMPACT) r.fields |= OVOID_RECORD_TIME | OVOID_RECORD_MARGIN;
     r.time = random_double(s);
     r.frame = random_double(s);
     r.margin = random_double(s);
@@ -393,19 +438,31 @@ static void check_locale(void) {
 // ---- bad lines
 
 #define LINE(a, status, lower, point, stage, iterations, proof)                                                        \
-    "{\"a\":" a ",\"b\":1,\"status\":" status ",\"lower\":" lower ",\"upper\":1,\"point_a\":" point                    \
+    "{\"a\":" a ",\"b\":1,\"status\":" status ",\"limit\":\"none\",\"lower\":" lower ",\"upper\":1,\"point_a\":" point \
     ",\"point_b\":[0,0,0],\"normal\":[0,0,1],\"stage\":" stage ",\"iterations\":" iterations ",\"proof\":" proof "}\n"
+#define LINE_LIMIT(limit)                                                                                              \
+    "{\"a\":0,\"b\":1,\"status\":\"undecided\",\"limit\":" limit                                                       \
+    ",\"lower\":0,\"upper\":1,\"point_a\":[0,0,0],\"point_b\":[0,0,0],\"normal\":[0,0,1],\"stage\":\"gjk\","           \
+    "\"iterations\":0,"                                                                                                \
+    "\"proof\":" PROOF "}\n"
 #define PROOF "{\"normal\":[0,0,1],\"kind\":\"none\"}"
 #define WITH_PROOF(proof) LINE("0", "\"separated\"", "0.5", "[0,0,0]", "\"gjk\"", "3", proof)
 #define GOOD WITH_PROOF(PROOF)
 #define GOOD_REST                                                                                                      \
-    "\"a\":0,\"b\":1,\"status\":\"separated\",\"lower\":0,\"upper\":1,\"point_a\":[0,0,0],\"point_b\":[0,0,0],"        \
+    "\"a\":0,\"b\":1,\"status\":\"separated\",\"limit\":\"none\",\"lower\":0,\"upper\":1,\"point_a\":[0,0,0],\"point_" \
+    "b\":[0,0,0],"                                                                                                     \
     "\"normal\":[0,0,1],\"stage\":\"gjk\",\"iterations\":0,\"proof\":" PROOF "}\n"
 
 static const bad_input bad_lines[] = {
     {"time.jsonl", "{\"time\":null," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"time\" must be a number"},
     {"until.jsonl", "{\"free_for\":1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"time\" must be a number, as all"},
-    {"frame.jsonl", "{\"time\":1,\"frame\":1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"margin\" must be a number, as"},
+    {"frame.jsonl", "{\"time\":1,\"frame\":1," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"free_for\" must be a number, as"},
+    {"no_margin.jsonl", "{\"time\":1,\"frame\":1,\"free_for\":0,\"hit_after\":0," GOOD_REST, OVOID_ERROR_FORMAT, 1,
+     "\"margin\" must be a number"},
+    {"margin.jsonl", "{\"within\":\"yes\"," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"margin\" must be a number"},
+    {"no_within.jsonl", "{\"margin\":2," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"within\" is not what"},
+    {"within.jsonl", "{\"margin\":2,\"within\":\"no\"," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"within\" is not what"},
+    {"csv.jsonl", "a,part_a,b,part_b,status\n", OVOID_ERROR_FORMAT, 1, "not as CSV"},
     {"no_exclusions.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"exclusions\":[]}"), OVOID_ERROR_FORMAT,
      1, "\"exclusions\" must be a list"},
     {"exclusion.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"none\",\"exclusions\":[{\"a\":[0,1]}]}"),
@@ -433,12 +490,7 @@ static const bad_input bad_lines[] = {
      "like \"a\""},
     {"status.jsonl", LINE("0", "\"apart\"", "0", "[0,0,0]", "\"gjk\"", "3", PROOF), OVOID_ERROR_FORMAT, 1,
      "\"status\" is not"},
-    {"no_reason.jsonl", LINE("0", "\"undecided\"", "0", "[0,0,0]", "\"gjk\"", "3", PROOF), OVOID_ERROR_FORMAT, 1,
-     "\"status\" is not"},
-    {"bad_reason.jsonl", LINE("0", "\"undecided: moon\"", "0", "[0,0,0]", "\"gjk\"", "3", PROOF), OVOID_ERROR_FORMAT, 1,
-     "\"status\" is not"},
-    {"extra_reason.jsonl", LINE("0", "\"separated: cap\"", "0", "[0,0,0]", "\"gjk\"", "3", PROOF), OVOID_ERROR_FORMAT,
-     1, "\"status\" is not"},
+    {"limit.jsonl", LINE_LIMIT("\"moon\""), OVOID_ERROR_FORMAT, 1, "\"limit\" is not a limit"},
     {"lower.jsonl", LINE("0", "\"separated\"", "\"0\"", "[0,0,0]", "\"gjk\"", "3", PROOF), OVOID_ERROR_FORMAT, 1,
      "\"lower\" must be"},
     {"overflow.jsonl", LINE("0", "\"separated\"", "1e999", "[0,0,0]", "\"gjk\"", "3", PROOF), OVOID_ERROR_FORMAT, 1,

@@ -1,6 +1,7 @@
 // Results files, read strictly, as a file to be checked must be. Each line is a JSON object with the keys that
 // ovoid_record_write_json writes, each once and no other; every number in the range of its field.
 #include "io/json.h"
+#include "io/results/record.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -66,11 +67,9 @@ static ovoid_code read_vector(ovoid_results_reader *r, const json_t *object, con
 
 // ---- names of enums, as the core's naming functions give them
 
-static int find_status(const char *text, size_t length) {
-    for (int i = OVOID_UNDECIDED; i <= OVOID_OVERLAPPING; i++) {
-        const char *name = ovoid_status_get_name((ovoid_status)i);
-        if (strlen(name) == length && memcmp(name, text, length) == 0) return i;
-    }
+static int find_status(const char *text) {
+    for (int i = OVOID_UNDECIDED; i <= OVOID_OVERLAPPING; i++)
+        if (strcmp(ovoid_status_get_name((ovoid_status)i), text) == 0) return i;
     return -1;
 }
 
@@ -92,16 +91,12 @@ static int find_kind(const char *text) {
     return -1;
 }
 
-// "separated", or "undecided: iterations".
-static ovoid_code read_status(ovoid_results_reader *r, const json_t *value, ovoid_answer *answer) {
-    const char *text = json_is_string(value) ? json_string_value(value) : "";
-    size_t length = strcspn(text, ":");
-    int status = find_status(text, length), limit = OVOID_LIMIT_NONE;
-    if (status == OVOID_UNDECIDED)
-        limit = text[length] && text[length + 1] == ' ' ? find_limit(text + length + 2) : -1;
-    else if (text[length])
-        status = -1;
-    if (status < 0 || limit < 0) return fail(r, "status", "is not a status");
+static ovoid_code read_status(ovoid_results_reader *r, const json_t *line, ovoid_answer *answer) {
+    const char *status_name = json_string_value(json_object_get(line, "status"));
+    const char *limit_name = json_string_value(json_object_get(line, "limit"));
+    int status = status_name ? find_status(status_name) : -1, limit = limit_name ? find_limit(limit_name) : -1;
+    if (status < 0) return fail(r, "status", "is not a status");
+    if (limit < 0) return fail(r, "limit", "is not a limit");
     answer->status = (ovoid_status)status;
     answer->limit = (ovoid_limit)limit;
     return OVOID_OK;
@@ -342,13 +337,13 @@ static ovoid_code read_parts(ovoid_results_reader *r, const json_t *line, ovoid_
     return OVOID_OK;
 }
 
-// Reads a time alone, or all five numbers of an impact.
+// Reads a time alone, or all four of an impact.
 static ovoid_code read_times(ovoid_results_reader *r, const json_t *line, ovoid_record *record) {
-    static const char *const keys[] = {"time", "frame", "margin", "free_for", "hit_after"};
-    double *const values[] = {&record->time, &record->frame, &record->margin, &record->free_for, &record->hit_after};
+    static const char *const keys[] = {"time", "frame", "free_for", "hit_after"};
+    double *const values[] = {&record->time, &record->frame, &record->free_for, &record->hit_after};
     int present = 0;
-    for (int i = 1; i < 5; i++) present += json_object_get(line, keys[i]) != NULL;
-    int count = present ? 5 : json_object_get(line, "time") ? 1 : 0;
+    for (int i = 1; i < 4; i++) present += json_object_get(line, keys[i]) != NULL;
+    int count = present ? 4 : json_object_get(line, "time") ? 1 : 0;
     record->frame = NAN;
     for (int i = 0; i < count; i++) {
         const json_t *value = json_object_get(line, keys[i]);
@@ -361,13 +356,26 @@ static ovoid_code read_times(ovoid_results_reader *r, const json_t *line, ovoid_
     return OVOID_OK;
 }
 
+// Reads the margin, which an impact has, and the word about it, which must be that of the bracket.
+static ovoid_code read_margin(ovoid_results_reader *r, const json_t *line, ovoid_record *record) {
+    const json_t *margin = json_object_get(line, "margin"), *within = json_object_get(line, "within");
+    if (!margin && !within && !record_is_impact(record)) return OVOID_OK;
+    if (!json_is_number(margin)) return fail(r, "margin", "must be a number, with \"within\" and of an impact");
+    record->margin = json_number_value(margin);
+    record->fields |= OVOID_RECORD_MARGIN;
+    const char *word = json_string_value(within);
+    if (word && strcmp(word, record_find_within(record)) == 0) return OVOID_OK;
+    return fail(r, "within", "is not what the bracket and the limit say of the margin");
+}
+
 static ovoid_code read_answer(ovoid_results_reader *r, json_t *line, ovoid_record *record) {
     ovoid_answer *answer = &record->answer;
-    ovoid_code code = read_status(r, json_object_get(line, "status"), answer);
+    ovoid_code code = read_status(r, line, answer);
     if (!code && !read_number(json_object_get(line, "lower"), -INFINITY, &answer->lower))
         code = fail(r, "lower", "must be a number");
     if (!code && !read_number(json_object_get(line, "upper"), INFINITY, &answer->upper))
         code = fail(r, "upper", "must be a number");
+    if (!code) code = read_margin(r, line, record);
     if (!code) code = read_vector(r, line, "point_a", &answer->point_a);
     if (!code) code = read_vector(r, line, "point_b", &answer->point_b);
     if (!code) code = read_vector(r, line, "normal", &answer->normal);
@@ -383,21 +391,31 @@ static ovoid_code read_answer(ovoid_results_reader *r, json_t *line, ovoid_recor
     return read_proof(r, json_object_get(line, "proof"), record);
 }
 
+// What is wrong with a key that is there, or is not.
+static const char *find_key_fault(const json_t *line, const char *key) {
+    if (json_object_get(line, key)) return "is not a key of results";
+    return strcmp(key, "proof") == 0 ? "is missing: nothing can be checked without it" : "is missing";
+}
+
 static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t length, ovoid_record *record) {
-    static const char *const keys[] = {"a",       "b",      "status",   "lower",      "upper",  "point_a",
-                                       "point_b", "normal", "stage",    "iterations", "proof",  "time",
-                                       "frame",   "margin", "free_for", "hit_after",  "part_a", "part_b"};
-    enum { ALL = sizeof keys / sizeof *keys, NEEDED = 11 };
+    static const char *const keys[] = {"a",       "b",      "status", "limit",      "lower",    "upper",    "point_a",
+                                       "point_b", "normal", "stage",  "iterations", "proof",    "time",     "frame",
+                                       "margin",  "within", "part_a", "part_b",     "free_for", "hit_after"};
+    enum { ALL = sizeof keys / sizeof *keys, NEEDED = 12 };
     where at = {r->source.path, r->source.line, -1};
     json_error_t why;
     json_decref(r->line);
+    r->line = NULL;
+    size_t begin = 0;
+    while (begin < length && (text[begin] == ' ' || text[begin] == '\t')) begin++;
+    if (begin == length || text[begin] != '{')
+        return io_fail(r->error, OVOID_ERROR_FORMAT, at,
+                       "no JSON object; results are read as JSON Lines, which have proofs, not as CSV or a table");
     r->line = json_loadb(text, length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
     if (!r->line && json_is_memory_error(&why)) return io_fail_memory(r->error, r->source.path);
     if (!r->line) return io_fail(r->error, OVOID_ERROR_FORMAT, at, "JSON, column %d: %s", why.column, why.text);
     const char *bad = "line";
-    if (!json_is_object(r->line)) return fail(r, bad, "must be a JSON object");
-    if (!has_keys(r->line, keys, ALL, NEEDED, &bad))
-        return fail(r, bad, json_object_get(r->line, bad) ? "is not a key of results" : "is missing");
+    if (!has_keys(r->line, keys, ALL, NEEDED, &bad)) return fail(r, bad, find_key_fault(r->line, bad));
     *record = (ovoid_record){.a = NULL};
     ovoid_code code = read_bodies(r, r->line, record);
     if (!code) code = read_parts(r, r->line, record);

@@ -1,9 +1,25 @@
 // Results: JSON lines and CSV for programs. One record is one line; with the shapes and poses it is enough to check the
 // answer again. Numbers have 17 digits, so that they are read as the same doubles.
 #include "io/json.h"
+#include "io/results/record.h"
 
 #include <math.h>
 #include <string.h>
+
+int record_is_impact(const ovoid_record *record) {
+    return record->fields & OVOID_RECORD_IMPACT && !isnan(record->frame);
+}
+
+int record_has_margin(const ovoid_record *record) {
+    return record->fields & OVOID_RECORD_MARGIN || record_is_impact(record);
+}
+
+const char *record_find_within(const ovoid_record *record) {
+    if (!record_has_margin(record)) return "";
+    int within = ovoid_answer_is_within(&record->answer, record->margin);
+    if (within >= 0) return within ? "yes" : "no";
+    return record->answer.limit == OVOID_LIMIT_NONE ? "at" : "unproven";
+}
 
 static ovoid_code stream_code(FILE *file) { return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK; }
 
@@ -140,12 +156,6 @@ static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
     fputc('}', file);
 }
 
-// "separated", or "undecided: iterations".
-static void write_status(FILE *file, const ovoid_answer *answer) {
-    fputs(ovoid_status_get_name(answer->status), file);
-    if (answer->status == OVOID_UNDECIDED) fprintf(file, ": %s", ovoid_limit_get_name(answer->limit));
-}
-
 // ---- JSON lines
 
 static void write_body(FILE *file, const char *name, size_t index) {
@@ -161,21 +171,28 @@ static void write_part(FILE *file, const char *key, const ovoid_record *record, 
     fprintf(file, "%lu", (unsigned long)part);
 }
 
-// 1 for a record of an impact, 0 for one of a frame.
-static int is_impact(const ovoid_record *record) {
-    return record->fields & OVOID_RECORD_IMPACT && !isnan(record->frame);
-}
-
 // Writes the keys of a motion; returns the separator before the next key.
 static const char *write_times(FILE *file, const ovoid_record *record) {
-    static const char *const keys[] = {"time", "frame", "margin", "free_for", "hit_after"};
-    const double values[] = {record->time, record->frame, record->margin, record->free_for, record->hit_after};
-    int count = is_impact(record) ? 5 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
+    static const char *const keys[] = {"time", "frame", "free_for", "hit_after"};
+    const double values[] = {record->time, record->frame, record->free_for, record->hit_after};
+    int count = record_is_impact(record) ? 4 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
     for (int i = 0; i < count; i++) {
         write_key(file, "\"", i ? "," : "{", keys[i]);
         json_write_number(file, values[i]);
     }
     return count ? "," : "{";
+}
+
+static void write_word(FILE *file, const char *key, const char *word) {
+    write_key(file, "\"", ",", key);
+    fprintf(file, "\"%s\"", word);
+}
+
+static void write_margin(FILE *file, const ovoid_record *record) {
+    if (!record_has_margin(record)) return;
+    write_key(file, "\"", ",", "margin");
+    json_write_number(file, record->margin);
+    write_word(file, "within", record_find_within(record));
 }
 
 ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
@@ -187,10 +204,9 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
     write_key(file, q, ",", "b");
     write_body(file, record->b, record->index_b);
     write_part(file, "part_b", record, record->part_b);
-    write_key(file, q, ",", "status");
-    fputs(q, file);
-    write_status(file, answer);
-    fputs(q, file);
+    write_word(file, "status", ovoid_status_get_name(answer->status));
+    write_word(file, "limit", ovoid_limit_get_name(answer->limit));
+    write_margin(file, record);
     write_key(file, q, ",", "lower");
     json_write_number(file, answer->lower);
     write_key(file, q, ",", "upper");
@@ -201,8 +217,7 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
     write_vector(file, answer->point_b);
     write_key(file, q, ",", "normal");
     write_vector(file, answer->normal);
-    write_key(file, q, ",", "stage");
-    fprintf(file, "%s%s%s", q, ovoid_stage_get_name(answer->stage), q);
+    write_word(file, "stage", ovoid_stage_get_name(answer->stage));
     write_key(file, q, ",", "iterations");
     fprintf(file, "%lu", (unsigned long)answer->iterations);
     write_key(file, q, ",", "proof");
@@ -215,11 +230,11 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
 
 ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields) {
     if (fields & OVOID_RECORD_TIME) fputs("time,", file);
-    if (fields & OVOID_RECORD_IMPACT) fputs("frame,margin,free_for,hit_after,", file);
-    fputs(fields & OVOID_RECORD_PARTS ? "a,part_a,b,part_b," : "a,b,", file);
-    fputs("status,lower,upper,point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,normal_x,normal_y,"
-          "normal_z,stage,iterations,proof\n",
+    if (fields & OVOID_RECORD_IMPACT) fputs("frame,free_for,hit_after,", file);
+    fputs("a,part_a,b,part_b,status,limit,margin,within,lower,upper,point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,"
+          "point_b_z,normal_x,normal_y,normal_z,stage,iterations",
           file);
+    fputs(fields & OVOID_RECORD_PROOF ? ",proof\n" : "\n", file);
     return stream_code(file);
 }
 
@@ -247,18 +262,18 @@ static void write_csv_number(FILE *file, double value) {
 }
 
 static void write_csv_part(FILE *file, const ovoid_record *record, uint32_t part) {
+    int has_part = record->fields & OVOID_RECORD_PARTS && part != OVOID_RECORD_NO_PART;
     fputc(',', file);
-    if (!(record->fields & OVOID_RECORD_PARTS)) return;
-    if (part != OVOID_RECORD_NO_PART) fprintf(file, "%lu", (unsigned long)part);
+    if (has_part) fprintf(file, "%lu", (unsigned long)part);
     fputc(',', file);
 }
 
 // Writes the columns of a motion; those of an impact are empty in the line of a frame.
 static void write_csv_times(FILE *file, const ovoid_record *record) {
-    const double values[] = {record->time, record->frame, record->margin, record->free_for, record->hit_after};
-    int count = record->fields & OVOID_RECORD_IMPACT ? 5 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
+    const double values[] = {record->time, record->frame, record->free_for, record->hit_after};
+    int count = record->fields & OVOID_RECORD_IMPACT ? 4 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
     for (int i = 0; i < count; i++) {
-        if (!i || is_impact(record)) write_csv_number(file, values[i]);
+        if (!i || record_is_impact(record)) write_csv_number(file, values[i]);
         fputc(',', file);
     }
 }
@@ -270,15 +285,21 @@ ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record) {
     write_csv_part(file, record, record->part_a);
     write_csv_body(file, record->b, record->index_b);
     write_csv_part(file, record, record->part_b);
-    write_status(file, answer);
+    fprintf(file, "%s,%s,", ovoid_status_get_name(answer->status), ovoid_limit_get_name(answer->limit));
+    if (record_has_margin(record)) write_csv_number(file, record->margin);
+    fprintf(file, ",%s", record_find_within(record));
     const ovoid_vec3 a = answer->point_a, b = answer->point_b, n = answer->normal;
     const double numbers[] = {answer->lower, answer->upper, a.x, a.y, a.z, b.x, b.y, b.z, n.x, n.y, n.z};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         fputc(',', file);
         write_csv_number(file, numbers[i]);
     }
-    fprintf(file, ",%s,%lu,\"", ovoid_stage_get_name(answer->stage), (unsigned long)answer->iterations);
-    write_proof(file, "\"\"", record);
-    fputs("\"\n", file);
+    fprintf(file, ",%s,%lu", ovoid_stage_get_name(answer->stage), (unsigned long)answer->iterations);
+    if (record->fields & OVOID_RECORD_PROOF) {
+        fputs(",\"", file);
+        write_proof(file, "\"\"", record);
+        fputc('"', file);
+    }
+    fputc('\n', file);
     return stream_code(file);
 }

@@ -1,7 +1,7 @@
 // Results as a table for people: aligned columns, nine digits. Two passes over the records: widths, then lines.
+#include "io/results/record.h"
 #include "io/text.h"
 
-#include <math.h>
 #include <string.h>
 
 enum { TIME, A, B, STATUS, LOWER, UPPER, STAGE, STEPS, NOTE, COLUMNS };
@@ -44,19 +44,26 @@ static void set_body(char cell[CELL], const char *name, size_t index, uint32_t p
     memcpy(cell + end, number, (size_t)width + 1);
 }
 
-// The word for a proof about the margin; empty where there is none.
-static const char *name_within(const ovoid_answer *answer, double margin) {
-    if (!(margin >= 0)) return "";
-    int within = ovoid_answer_is_within(answer, margin);
-    return within > 0 ? "within" : within == 0 ? "" : "not proven";
+// The words about the margin; empty where there is none, and where the bodies are farther.
+static const char *name_within(const ovoid_record *record) {
+    switch (*record_find_within(record)) {
+    case 'y': return "within";
+    case 'a': return "at the margin";
+    case 'u': return "not proven";
+    default: return "";
+    }
 }
 
-static const char *name_note(const ovoid_record *record, double margin) {
-    int is_impact = record->fields & OVOID_RECORD_IMPACT && !isnan(record->frame);
-    return is_impact ? "impact" : name_within(&record->answer, margin);
+// What else there is to say: an impact, the margin, and the limit that left the bracket wide.
+static void set_note(char cell[CELL], const ovoid_record *record) {
+    ovoid_limit limit = record->answer.limit;
+    const char *note = record_is_impact(record) ? "impact" : name_within(record);
+    int is_ended = limit != OVOID_LIMIT_NONE && limit != OVOID_LIMIT_ANSWERED;
+    const char *words = is_ended ? "ended by " : "", *name = is_ended ? ovoid_limit_get_name(limit) : "";
+    snprintf(cell, CELL, "%s%s%s%s", note, *note && is_ended ? ", " : "", words, name);
 }
 
-static table_row make_row(const ovoid_record *record, double margin) {
+static table_row make_row(const ovoid_record *record) {
     const ovoid_answer *answer = &record->answer;
     table_row row;
     int has_parts = (record->fields & OVOID_RECORD_PARTS) != 0;
@@ -65,14 +72,11 @@ static table_row make_row(const ovoid_record *record, double margin) {
     set_body(row.cell[A], record->a, record->index_a, has_parts ? record->part_a : OVOID_RECORD_NO_PART);
     set_body(row.cell[B], record->b, record->index_b, has_parts ? record->part_b : OVOID_RECORD_NO_PART);
     set_cell(row.cell[STATUS], ovoid_status_get_name(answer->status));
-    if (answer->status == OVOID_UNDECIDED)
-        snprintf(row.cell[STATUS], CELL, "%s: %s", ovoid_status_get_name(answer->status),
-                 ovoid_limit_get_name(answer->limit));
     set_number(row.cell[LOWER], answer->lower);
     set_number(row.cell[UPPER], answer->upper);
     set_cell(row.cell[STAGE], ovoid_stage_get_name(answer->stage));
     snprintf(row.cell[STEPS], CELL, "%lu", (unsigned long)answer->iterations);
-    set_cell(row.cell[NOTE], name_note(record, margin));
+    set_note(row.cell[NOTE], record);
     return row;
 }
 
@@ -109,16 +113,16 @@ static void write_row(FILE *file, const int widths[COLUMNS], int first, const ta
     fputc('\n', file);
 }
 
-ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, double margin) {
+ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count) {
     int widths[COLUMNS] = {0}, first = count && records[0].fields & OVOID_RECORD_TIME ? TIME : A;
     widen(widths, &head);
     for (size_t i = 0; i < count; i++) {
-        table_row row = make_row(&records[i], margin);
+        table_row row = make_row(&records[i]);
         widen(widths, &row);
     }
     write_row(file, widths, first, &head);
     for (size_t i = 0; i < count; i++) {
-        table_row row = make_row(&records[i], margin);
+        table_row row = make_row(&records[i]);
         write_row(file, widths, first, &row);
     }
     return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK;
