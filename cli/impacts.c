@@ -211,23 +211,39 @@ static void clear(void *slot) { (void)slot; }
 
 /* ---- what is written */
 
+/// The time of an impact: when the pair is within the margin; where that is not proven, until when it is free.
+static double get_time(const impact *item) {
+    return item->found.status == OVOID_IMPACT_HIT ? item->found.hit_at : item->found.free_until;
+}
+
 static int compare_impacts(const void *a, const void *b) {
     const impact *p = a, *q = b;
-    int p_hit = p->found.status == OVOID_IMPACT_HIT, q_hit = q->found.status == OVOID_IMPACT_HIT;
-    if (p_hit != q_hit) return q_hit - p_hit;
-    if (p_hit && p->found.hit_at != q->found.hit_at) return p->found.hit_at < q->found.hit_at ? -1 : 1;
+    double s = get_time(p), t = get_time(q);
+    if (s != t) return s < t ? -1 : 1;
     return compare_couples(&p->couple, &q->couple);
 }
 
+/// The answer of compounds at a time between the frames. 0 where memory is out.
+static int answer_compounds(const cli_impacts *x, ovoid_couple c, double at, answer_room *room, ovoid_record *record) {
+    ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
+    ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], at), ovoid_motion_compute_pose(&motions[1], at)};
+    ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &poses[0]), answers_get_body(x->scene, c.b, &poses[1])};
+    const answers_query query = {QUERY_WITHIN, x->margin, 0, results_have_proofs(x->results)};
+    return answers_find(room, &pair, &query, record);
+}
+
 /// Makes the record of an impact. Of compounds the answer is that of the whole bodies at that time, whose proof is
-/// complete. 0 where memory is out.
+/// complete. Where the impact is not proven, the record says why, and has the answer where the free time ends. 0 where
+/// memory is out.
 static int make_record(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
+    int is_hit = item->found.status == OVOID_IMPACT_HIT;
+    double at = get_time(item);
     *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
                              .b = ovoid_scene_get(x->scene, c.b).name,
-                             .answer = item->found.hit,
+                             .answer = is_hit ? item->found.hit : item->found.free,
                              .fields = x->results->fields,
-                             .time = x->frames->earlier + item->found.hit_at,
+                             .time = x->frames->earlier + at,
                              .frame = x->frames->earlier,
                              .margin = x->margin,
                              .free_for = item->found.free_until,
@@ -238,13 +254,11 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     record->step_count = item->steps ? item->found.step_count : 0;
     record->groups = item->groups;
     record->group_count = item->groups ? item->group_count : 0;
-    if (!ovoid_scene_get(x->scene, c.a).compound && !ovoid_scene_get(x->scene, c.b).compound) return 1;
-    ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
-    ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], item->found.hit_at),
-                           ovoid_motion_compute_pose(&motions[1], item->found.hit_at)};
-    ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &poses[0]), answers_get_body(x->scene, c.b, &poses[1])};
-    const answers_query query = {QUERY_WITHIN, x->margin, 0, results_have_proofs(x->results)};
-    return answers_find(room, &pair, &query, record);
+    int done = 1;
+    if (ovoid_scene_get(x->scene, c.a).compound || ovoid_scene_get(x->scene, c.b).compound)
+        done = answer_compounds(x, c, at, room, record);
+    if (!is_hit) record->answer.limit = item->found.limit;
+    return done;
 }
 
 static int write_impacts(cli_impacts *x, const impact *items) {
@@ -252,9 +266,11 @@ static int write_impacts(cli_impacts *x, const impact *items) {
     int code = 0;
     for (size_t i = 0; i < x->couple_count && !code; i++) {
         ovoid_record record;
-        x->not_proven += items[i].found.status == OVOID_IMPACT_UNDECIDED;
-        if (items[i].found.status != OVOID_IMPACT_HIT) continue;
-        x->found++;
+        if (items[i].found.status == OVOID_IMPACT_FREE) continue;
+        if (items[i].found.status == OVOID_IMPACT_HIT)
+            x->found++;
+        else
+            x->not_proven++;
         if (!make_record(x, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
         if (!code) code = results_add(x->results, &record);
         if (!code) x->take(x->context, items[i].couple, &record);

@@ -20,7 +20,7 @@ typedef struct cli_impacts {
     ovoid_couple *couples; ///< candidates: their boxes are near each other
     size_t couple_count, couple_capacity;
     size_t found, not_proven; ///< impacts, and undecided pairs
-    /// Receives each impact in order.
+    /// Receives each impact in order; one that is not proven has an infinite hit_after.
     void (*take)(void *context, ovoid_couple couple, const ovoid_record *record);
     void *context;
 } cli_impacts;
@@ -33,7 +33,7 @@ int impacts_open(cli_impacts *x);
 int impacts_hold(cli_impacts *x, ovoid_couple couple);
 
 /// Finds the impacts from the frame before to this one, of pairs that were not held then, writes them in the order of
-/// their times, and clears the held pairs. 0, or an exit code after a message.
+/// their times, also those of which nothing is proven, and clears the held pairs. 0, or an exit code after a message.
 int impacts_find(cli_impacts *x);
 
 void impacts_close(cli_impacts *x);

@@ -12,6 +12,7 @@
 #include "near.h"
 #include "pipeline.h"
 #include "progress.h"
+#include "run_report.h"
 #include "track.h"
 
 #include <math.h>
@@ -54,7 +55,7 @@ typedef struct run_state {
     cli_impacts impacts;
     cli_track track;
     cli_results results;
-    size_t pairs, counts[4]; ///< records of frames; their numbers by ovoid_status
+    size_t counts[4]; ///< of the records of frames, by ovoid_status
     exit_code worst;
     int code; ///< the exit code of a failed callback, or 0
 } run_state;
@@ -68,7 +69,6 @@ static void take_record(void *context, size_t i, const ovoid_record *record) {
     run_state *r = context;
     const settings *s = r->settings;
     ovoid_couple couple = r->near.couples[i];
-    r->pairs++;
     r->counts[record->answer.status]++;
     r->worst = results_worse(r->worst, results_judge(&record->answer, s->margin));
     track_add(&r->track, couple, record, s->margin, r->frames.count > 1 ? r->frames.earlier : NAN);
@@ -78,8 +78,8 @@ static void take_record(void *context, size_t i, const ovoid_record *record) {
 
 static void take_impact(void *context, ovoid_couple couple, const ovoid_record *record) {
     run_state *r = context;
-    r->worst = results_worse(r->worst, EXIT_TOUCH);
-    track_add_impact(&r->track, couple, record);
+    r->worst = results_worse(r->worst, isfinite(record->hit_after) ? EXIT_TOUCH : EXIT_NOT_PROVEN);
+    track_add_impact(&r->track, couple, record, r->frames.time);
 }
 
 /* ---- the frames */
@@ -100,6 +100,7 @@ static int answer_frame(run_state *r) {
                        .take = take_record,
                        .context = r};
     int code = answers_run(&job);
+    if (!code && r->track.failed) message_error("out of memory"), code = EXIT_INPUT;
     return code ? code : r->code;
 }
 
@@ -120,62 +121,6 @@ static int run_frames(run_state *r) {
     while (!code && (got = frames_next(&r->frames)) > 0) code = run_frame(r);
     progress_end();
     return code || got >= 0 ? code : EXIT_INPUT;
-}
-
-/* ---- the summary */
-
-/// "arm[3], table", in a text of the given room.
-static void write_names(char *text, size_t room, const char *a, uint32_t part_a, const char *b, uint32_t part_b) {
-    char parts[2][16] = {"", ""};
-    if (part_a != OVOID_RECORD_NO_PART) snprintf(parts[0], 16, "[%lu]", (unsigned long)part_a);
-    if (part_b != OVOID_RECORD_NO_PART) snprintf(parts[1], 16, "[%lu]", (unsigned long)part_b);
-    snprintf(text, room, "%.60s%s, %.60s%s", a, parts[0], b, parts[1]);
-}
-
-static void report_event(const run_state *r, const char *what, const track_event *event) {
-    char names[200];
-    if (!event->is_there) {
-        message_note("%s: none", what);
-        return;
-    }
-    write_names(names, sizeof names, ovoid_scene_get(r->scene, event->a).name, event->part_a,
-                ovoid_scene_get(r->scene, event->b).name, event->part_b);
-    if (isnan(event->from)) {
-        message_note("%s: %s, from the beginning", what, names);
-        return;
-    }
-    // An impact's bracket is narrow: its ends are printed with as many digits as distinguish them.
-    char from[40], until[40];
-    for (int digits = 9; digits <= 17; digits += 4) {
-        snprintf(from, sizeof from, "%.*g", digits, event->from);
-        snprintf(until, sizeof until, "%.*g", digits, event->until);
-        if (strcmp(from, until) != 0) break;
-    }
-    message_note("%s: %s, between %s and %s", what, names, from, until);
-}
-
-static void report_summary(const run_state *r, double seconds) {
-    const settings *s = r->settings;
-    char within[48] = "first within the margin", names[200];
-    message_note(
-        "%zu frames, %zu objects in %.2f s; pairs listed: %zu; separated: %zu, touching: %zu, overlapping: %zu, "
-        "undecided: %zu",
-        r->frames.count, ovoid_scene_get_count(r->scene), seconds, r->pairs, r->counts[OVOID_SEPARATED],
-        r->counts[OVOID_TOUCHING], r->counts[OVOID_OVERLAPPING], r->counts[OVOID_UNDECIDED]);
-    if (s->continuous) message_note("impacts: %zu, not proven: %zu", r->impacts.found, r->impacts.not_proven);
-    if (s->margin > 0) {
-        snprintf(within, sizeof within, "first within %g", s->margin);
-        report_event(r, within, &r->track.reach);
-    }
-    report_event(r, "first contact", &r->track.touch);
-    const ovoid_record *least = &r->track.smallest;
-    if (s->query != QUERY_DISTANCE) return;
-    if (r->track.has_smallest) {
-        write_names(names, sizeof names, least->a, least->part_a, least->b, least->part_b);
-        message_note("smallest distance: %.9g .. %.9g, at %.9g, %s", least->answer.lower, least->answer.upper,
-                     least->time, names);
-    } else if (s->margin >= 0)
-        message_note("smallest distance: above %g, proven", s->margin);
 }
 
 /* ---- the run */
@@ -210,12 +155,18 @@ static int run_motion(run_state *r) {
     if (results_open(&r->results, &s->out, fields)) return EXIT_INPUT;
     r->track.has_plot = s->plot != NULL;
     code = run_frames(r);
-    if (r->impacts.not_proven) r->worst = EXIT_NOT_PROVEN;
     int worst = (int)r->worst;
     code = results_close(&r->results, code ? code : worst);
     if (code != worst) return code;
     if (s->plot && track_write_plot(&r->track, s->plot, r->scene, s->margin)) return EXIT_INPUT;
-    report_summary(r, progress_get_seconds() - start);
+    const run_summary summary = {.scene = r->scene,
+                                 .track = &r->track,
+                                 .frames = r->frames.count,
+                                 .counts = r->counts,
+                                 .impacts = s->continuous ? &r->impacts : NULL,
+                                 .margin = s->margin,
+                                 .measures = s->query == QUERY_DISTANCE};
+    run_report(&summary, progress_get_seconds() - start);
     return code;
 }
 
@@ -262,9 +213,10 @@ const cli_command command_run = {
         "where the scene has it.\n\n"
         "With --continuous, motion between two frames counts too: from pose to pose the position is linear and the "
         "rotation turns about one axis, the shorter way round; velocities are constant. An impact is a line of its "
-        "own, with the time until which the pair is proven farther apart and the time when it is within the margin. "
-        "No motion is too fast for it.\n\n"
-        "At the end the first contact and the smallest distance of the frames are reported. ovoid verify --motion "
+        "own, with the time until which the pair is proven farther apart and the time when it is within the margin, or "
+        "the reason why that is not proven. No motion is too fast for it.\n\n"
+        "At the end are reported: what touches from the beginning; the first contact of other pairs and their first "
+        "impacts; the smallest distance of the frames. ovoid verify --motion "
         "checks the lines of --json.",
     .exits = "0 every pair is apart in every frame (with --margin: farther than M)\n"
              "1 a pair touches or overlaps (or is within M)\n"

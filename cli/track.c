@@ -72,35 +72,93 @@ static int add_point(cli_track *t, ovoid_couple couple, const ovoid_answer *answ
 }
 
 void track_add_frame(cli_track *t, double time) {
-    if (!t->has_plot || t->failed) return;
-    t->failed = !reserve((void **)&t->times, &t->frame_capacity, t->frame_count, sizeof *t->times);
-    if (!t->failed) t->times[t->frame_count++] = time;
+    if (!t->has_plot || t->is_full) return;
+    t->is_full = !reserve((void **)&t->times, &t->frame_capacity, t->frame_count, sizeof *t->times);
+    if (!t->is_full) t->times[t->frame_count++] = time;
 }
 
-static void set_event(track_event *event, ovoid_couple couple, const ovoid_record *record, double from, double until) {
-    if (event->is_there) return;
-    *event = (track_event){1, from, until, couple.a, couple.b, record->part_a, record->part_b};
+/* ---- events */
+
+static int compare_starts(const void *a, const void *b) {
+    const track_start *p = a, *q = b;
+    if (p->couple.a != q->couple.a) return p->couple.a < q->couple.a ? -1 : 1;
+    return p->couple.b < q->couple.b ? -1 : p->couple.b > q->couple.b;
+}
+
+/// The pair's entry among those of the first frame; NULL where it was farther then.
+static const track_start *find_start(const cli_track *t, ovoid_couple couple) {
+    const track_start key = {couple, 0};
+    return t->start_count ? bsearch(&key, t->starts, t->start_count, sizeof key, compare_starts) : NULL;
+}
+
+/// Adds a pair of the first frame; they come in ascending order.
+static void add_start(cli_track *t, ovoid_couple couple, int touches) {
+    t->failed |= !reserve((void **)&t->starts, &t->start_capacity, t->start_count, sizeof *t->starts);
+    if (!t->failed) t->starts[t->start_count++] = (track_start){couple, touches};
+}
+
+size_t track_get_starts(const cli_track *t, int touches, ovoid_couple *first, size_t most) {
+    size_t count = 0;
+    for (size_t i = 0; i < t->start_count; i++) {
+        if (touches && !t->starts[i].touches) continue;
+        if (count < most) first[count] = t->starts[i].couple;
+        count++;
+    }
+    return count;
+}
+
+static track_event make_event(ovoid_couple couple, const ovoid_record *record, double from, double until) {
+    return (track_event){from, until, couple, record->part_a, record->part_b, record->answer.limit};
+}
+
+/// Adds an event while there are fewer than `most`.
+static void add_event(track_events *events, size_t most, track_event event) {
+    if (events->count < most) events->items[events->count++] = event;
+}
+
+static int has_pair(const track_events *events, ovoid_couple couple) {
+    for (size_t i = 0; i < events->count; i++)
+        if (events->items[i].couple.a == couple.a && events->items[i].couple.b == couple.b) return 1;
+    return 0;
 }
 
 void track_add(cli_track *t, ovoid_couple couple, const ovoid_record *record, double margin, double earlier) {
     const ovoid_answer *answer = &record->answer;
     int touches = answer->status == OVOID_TOUCHING || answer->status == OVOID_OVERLAPPING;
-    if (touches) set_event(&t->touch, couple, record, earlier, record->time);
-    if (touches || (margin >= 0 && ovoid_answer_is_within(answer, margin) > 0))
-        set_event(&t->reach, couple, record, earlier, record->time);
+    int is_near = touches || (margin >= 0 && ovoid_answer_is_within(answer, margin) > 0);
+    const track_start *start = find_start(t, couple);
+    track_event event = make_event(couple, record, earlier, record->time);
+    if (isnan(earlier)) {
+        if (is_near || answer->status == OVOID_UNDECIDED)
+            add_start(t, couple, touches || answer->status == OVOID_UNDECIDED);
+    } else {
+        if (touches && !(start && start->touches)) add_event(&t->touch, 1, event);
+        if (is_near && !start) add_event(&t->reach, 1, event);
+    }
     if (!t->has_smallest || answer->lower < t->smallest.answer.lower) t->smallest = *record, t->has_smallest = 1;
-    if (t->has_plot && !t->failed) t->failed = !add_point(t, couple, answer);
+    if (t->has_plot && !t->is_full) t->is_full = !add_point(t, couple, answer);
 }
 
-void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *record) {
+void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *record, double until) {
     double from = record->frame + record->free_for;
-    set_event(&t->reach, couple, record, from, record->time);
-    if (record->margin == 0) set_event(&t->touch, couple, record, from, record->time);
+    if (!isfinite(record->hit_after)) {
+        add_event(&t->unproven, TRACK_LISTED, make_event(couple, record, from, until));
+        return;
+    }
+    track_event event = make_event(couple, record, from, record->time);
+    const track_start *start = find_start(t, couple);
+    if (!start) {
+        add_event(&t->reach, 1, event);
+        if (!has_pair(&t->impacts, couple)) add_event(&t->impacts, TRACK_LISTED, event);
+    }
+    if (record->margin == 0 && !(start && start->touches)) add_event(&t->touch, 1, event);
+    if (!t->has_nearest || record->answer.upper < t->nearest.answer.upper) t->nearest = *record, t->has_nearest = 1;
 }
 
 void track_clear(cli_track *t) {
     for (size_t i = 0; i < t->pair_count; i++) free(t->pairs[i].points);
     free(t->pairs);
+    free(t->starts);
     free(t->times);
     free(t->slots);
     *t = (cli_track){.has_plot = 0};
@@ -170,7 +228,7 @@ static int write_chart(const ovoid_chart *chart, const char *path) {
 }
 
 int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, double margin) {
-    if (t->failed)
+    if (t->is_full)
         return message_error("the plot has too many points for the memory; give a smaller --margin"), EXIT_INPUT;
     line_room lines[DRAWN_MAX];
     ovoid_series series[DRAWN_MAX + 1];

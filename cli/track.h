@@ -20,21 +20,44 @@ typedef struct track_pair {
     double lowest;
 } track_pair;
 
-/// A contact between two frames: after `from`, not later than `until`. from is NaN where the motion begins with it.
+/// A contact, or an impact: after `from`, not later than `until`. Of an impact that is not proven: between both nothing
+/// is, and `limit` says why.
 typedef struct track_event {
-    int is_there;
     double from, until;
-    uint32_t a, b, part_a, part_b;
+    ovoid_couple couple;
+    uint32_t part_a, part_b;
+    ovoid_limit limit;
 } track_event;
 
+/// Most events that are listed.
+#define TRACK_LISTED 10
+
+/// The first events of a kind.
+typedef struct track_events {
+    track_event items[TRACK_LISTED];
+    size_t count; ///< of the items
+} track_events;
+
+/// A pair of the first frame that is within the margin, or not proven farther.
+typedef struct track_start {
+    ovoid_couple couple;
+    int touches; ///< it touches, overlaps, or is not proven apart
+} track_start;
+
 typedef struct cli_track {
-    track_event touch; ///< the first touching or overlapping frame
-    track_event reach; ///< the first time within the margin, by a frame or an impact
-    int has_smallest;
-    ovoid_record smallest; ///< the record of the smallest distance; names and time hold
+    track_start *starts; ///< ascending; no event below is of such a pair
+    size_t start_count, start_capacity;
+    track_events touch;    ///< the first touching or overlapping frame
+    track_events reach;    ///< the first time within the margin, by a frame or an impact
+    track_events impacts;  ///< the first of each pair
+    track_events unproven; ///< impacts that are not proven
+    int has_smallest, has_nearest;
+    ovoid_record smallest; ///< of the frames, the record of the smallest distance; names and time hold
+    ovoid_record nearest;  ///< of the impacts, the record of the smallest distance
+    int failed;            ///< no memory
     // Of the plot; unused where has_plot is 0.
-    int has_plot, failed;
-    double *times; ///< of the frames
+    int has_plot, is_full; ///< is_full: too many points
+    double *times;         ///< of the frames
     size_t frame_count, frame_capacity;
     track_pair *pairs;
     size_t pair_count, pair_capacity;
@@ -46,8 +69,11 @@ typedef struct cli_track {
 void track_add_frame(cli_track *track, double time);
 /// Adds one of its records, of objects a and b. earlier: the time of the frame before, NaN for the first.
 void track_add(cli_track *track, ovoid_couple couple, const ovoid_record *record, double margin, double earlier);
-/// Adds an impact within the margin, from its record.
-void track_add_impact(cli_track *track, ovoid_couple couple, const ovoid_record *record);
+/// Adds an impact within the margin, proven or not, from its record. until: the time of the frame after it.
+void track_add_impact(cli_track *track, ovoid_couple couple, const ovoid_record *record, double until);
+
+/// How many pairs touch from the beginning, or are within the margin; the first of them go to `first`, up to `most`.
+size_t track_get_starts(const cli_track *track, int touches, ovoid_couple *first, size_t most);
 
 /// Draws the distances of the pairs that come nearest, after the last frame. 0, or EXIT_INPUT after a message.
 int track_write_plot(cli_track *track, const char *path, const ovoid_scene *scene, double margin);

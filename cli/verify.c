@@ -16,6 +16,7 @@
 
 #include <ovoid/ovoid.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -130,11 +131,11 @@ static int go_to_frame(verify *v, const ovoid_record *record, claim *item) {
 static void set_impact(const verify *v, const ovoid_record *record, size_t a, size_t b, claim *item) {
     const cli_frames *f = &v->bodies.frames;
     ovoid_motion motions[2] = {frames_get_motion(f, a), frames_get_motion(f, b)};
+    double at = isfinite(record->hit_after) ? record->hit_after : record->free_for;
     item->duration = f->time - f->earlier;
-    item->pair.a.pose = ovoid_motion_compute_pose(&motions[0], record->hit_after);
-    item->pair.b.pose = ovoid_motion_compute_pose(&motions[1], record->hit_after);
-    if (!(record->hit_after >= 0 && record->hit_after <= item->duration && record->free_for >= 0) ||
-        record->time != record->frame + record->hit_after)
+    item->pair.a.pose = ovoid_motion_compute_pose(&motions[0], at);
+    item->pair.b.pose = ovoid_motion_compute_pose(&motions[1], at);
+    if (!(at >= 0 && at <= item->duration && record->free_for >= 0) || record->time != record->frame + at)
         disprove(item, "its times are not those of an impact between two frames");
     item->moving[0] = (ovoid_moving_body){item->pair.a.shape, item->pair.a.compound, motions[0]};
     item->moving[1] = (ovoid_moving_body){item->pair.b.shape, item->pair.b.compound, motions[1]};
@@ -280,14 +281,16 @@ static ovoid_code check_compound(const verify *v, const claim *item, ovoid_error
 }
 
 /// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is
-/// not.
+/// not; of one that is not proven, the steps alone.
 static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     if (!(r->fields & OVOID_RECORD_IMPACT)) return OVOID_OK;
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
     ovoid_compound_impact found = {
         .part_a = a->compound ? r->part_a : 0, .part_b = b->compound ? r->part_b : 0, .group_count = r->group_count};
-    found.impact = (ovoid_impact){.status = OVOID_IMPACT_HIT,
+    int is_hit = isfinite(r->hit_after);
+    found.impact = (ovoid_impact){.status = is_hit ? OVOID_IMPACT_HIT : OVOID_IMPACT_UNDECIDED,
+                                  .limit = is_hit ? OVOID_LIMIT_NONE : r->answer.limit,
                                   .end = item->duration,
                                   .free_until = r->free_for,
                                   .hit_at = r->hit_after,
@@ -330,13 +333,18 @@ static void work(void *context, void *slot) {
     }
 }
 
+/// 1 for an impact that is not proven.
+static int is_open(const ovoid_record *record) {
+    return record->fields & OVOID_RECORD_IMPACT && !isfinite(record->hit_after);
+}
+
 static int drain(void *context, void *slot) {
     verify *v = context;
     chunk *c = slot;
     for (claim *i = c->items; i < c->items + c->count; i++) {
         size_t failures = v->proofs++ - v->held;
         v->held += (size_t)i->holds;
-        v->undecided += i->record.answer.status == OVOID_UNDECIDED;
+        v->undecided += i->record.answer.status == OVOID_UNDECIDED || is_open(&i->record);
         v->impacts += (i->record.fields & OVOID_RECORD_IMPACT) != 0;
         if (!i->holds && failures < REPORTED_MAX) message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
         drop_record(i);

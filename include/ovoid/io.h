@@ -249,7 +249,9 @@ typedef struct ovoid_record {
     double frame;            /**< of an impact: the time of the frame before, the origin of the next times; NaN: none */
     double margin;           /**< what was asked about; of an impact also that of the next two */
     double free_for;         /**< until frame + free_for the pair is proven farther apart than the margin */
-    double hit_after;        /**< at frame + hit_after, rounded `time`, it is within the margin, proven by the answer */
+    double hit_after;        /**< at frame + hit_after, rounded `time`, it is within the margin, proven by the answer.
+                                  Infinite: nothing is proven from frame + free_for, rounded `time`, to the next
+                                  frame; the answer is that at free_for, its limit says why the search ended */
     uint32_t part_a, part_b; /**< 0-based; OVOID_RECORD_NO_PART: the body is no compound */
     const ovoid_exclusion *exclusions; /**< the proof of a compound's answer beside the parts' own; NULL: none */
     size_t exclusion_count;

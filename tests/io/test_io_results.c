@@ -215,6 +215,7 @@ static void check_table_fields(void) {
         records[i].margin = 0.25;
         records[i].time = 0.5 + i;
         records[i].frame = i ? 1.25 : NAN;
+        records[i].hit_after = 0.25;
         records[i].part_a = 12;
         records[i].part_b = OVOID_RECORD_NO_PART;
         records[i].answer.status = OVOID_SEPARATED;
@@ -334,7 +335,7 @@ static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
     r.frame = random_double(s);
     r.margin = random_double(s);
     r.free_for = random_double(s);
-    r.hit_after = random_double(s);
+    r.hit_after = random_next(s) % 4 ? random_double(s) : INFINITY;
     static ovoid_exclusion exclusions[3];
     static ovoid_step steps[3];
     for (int i = 0; i < 3; i++) {

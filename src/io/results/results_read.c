@@ -347,9 +347,10 @@ static ovoid_code read_times(ovoid_results_reader *r, const json_t *line, ovoid_
     record->frame = NAN;
     for (int i = 0; i < count; i++) {
         const json_t *value = json_object_get(line, keys[i]);
-        if (!json_is_number(value))
+        int is_open = i == 3 && json_is_null(value);
+        if (!json_is_number(value) && !is_open)
             return fail(r, keys[i], present ? "must be a number, as all of an impact" : "must be a number");
-        *values[i] = json_number_value(value);
+        *values[i] = is_open ? INFINITY : json_number_value(value);
     }
     if (count) record->fields |= OVOID_RECORD_TIME;
     if (present) record->fields |= OVOID_RECORD_IMPACT;

@@ -2,6 +2,7 @@
 #include "io/results/record.h"
 #include "io/text.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { TIME, A, B, STATUS, LOWER, UPPER, STAGE, STEPS, NOTE, COLUMNS };
@@ -57,7 +58,8 @@ static const char *name_within(const ovoid_record *record) {
 // What else there is to say: an impact, the margin, and the limit that left the bracket wide.
 static void set_note(char cell[CELL], const ovoid_record *record) {
     ovoid_limit limit = record->answer.limit;
-    const char *note = record_is_impact(record) ? "impact" : name_within(record);
+    const char *impact = isfinite(record->hit_after) ? "impact" : "impact not proven";
+    const char *note = record_is_impact(record) ? impact : name_within(record);
     int is_ended = limit != OVOID_LIMIT_NONE && limit != OVOID_LIMIT_ANSWERED;
     const char *words = is_ended ? "ended by " : "", *name = is_ended ? ovoid_limit_get_name(limit) : "";
     snprintf(cell, CELL, "%s%s%s%s", note, *note && is_ended ? ", " : "", words, name);
