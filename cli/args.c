@@ -166,15 +166,20 @@ static int set_pose(const cli_command *command, const cli_option *o, const char 
     if (code == OVOID_ERROR_ROTATION)
         snprintf(why, sizeof why, "the quaternion is zero; that of no rotation is 1 0 0 0");
     if (code == OVOID_ERROR_RANGE) snprintf(why, sizeof why, "a position above %g", OVOID_LENGTH_MAX);
-    message_error("%s: --%s \"%s\": %s", command->name, o->name, text, why);
-    return EXIT_INPUT;
+    return args_complain(command, "%s: --%s \"%s\": %s", command->name, o->name, text, why);
 }
 
 static int set_length(const cli_command *command, const cli_option *o, const char *text, double *value) {
-    if (!parse_number(text, value) || !isfinite(*value) || *value < 0 || (o->kind == OPTION_POSITIVE && *value == 0))
-        return args_complain(command, "%s: --%s needs a finite number %s 0, got \"%s\"", command->name, o->name,
-                             o->kind == OPTION_POSITIVE ? ">" : ">=", text);
-    return -1;
+    int is_share = o->kind == OPTION_SHARE, has_zero = o->kind == OPTION_LENGTH;
+    double most = is_share ? 1 : OVOID_LENGTH_MAX;
+    int is_good = parse_number(text, value) && *value >= 0 && *value <= most && (has_zero || *value > 0);
+    if (is_good && !(is_share && *value == 1)) return -1;
+    return args_complain(command, "%s: --%s needs a number %s 0 %s %g, got \"%s\"", command->name, o->name,
+                         has_zero ? "from" : "above",
+                         is_share   ? "and below"
+                         : has_zero ? "to"
+                                    : "and at most",
+                         most, text);
 }
 
 static int set_count(const cli_command *command, const cli_option *o, const char *text, unsigned *value) {
@@ -225,7 +230,8 @@ static int set_value(const cli_command *command, const cli_option *o, const char
     switch (o->kind) {
     case OPTION_FLAG: *(int *)place = 1; return -1;
     case OPTION_LENGTH:
-    case OPTION_POSITIVE: return set_length(command, o, text, place);
+    case OPTION_POSITIVE:
+    case OPTION_SHARE: return set_length(command, o, text, place);
     case OPTION_COUNT: return set_count(command, o, text, place);
     case OPTION_CHOICE: return set_choice(command, o, text, place);
     case OPTION_SET: return set_set(command, o, text, place);

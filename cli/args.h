@@ -19,8 +19,9 @@ typedef enum exit_code {
 /// The value that an option takes, and its type in the command's settings.
 typedef enum option_kind {
     OPTION_FLAG,     ///< nothing; int 1
-    OPTION_LENGTH,   ///< a finite number >= 0; double
-    OPTION_POSITIVE, ///< a finite number > 0; double
+    OPTION_LENGTH,   ///< a number from 0 to OVOID_LENGTH_MAX; double
+    OPTION_POSITIVE, ///< a number above 0, at most OVOID_LENGTH_MAX; double
+    OPTION_SHARE,    ///< a number above 0 and below 1; double
     OPTION_COUNT,    ///< a whole number from 1 to 1 000 000 000; unsigned
     OPTION_CHOICE,   ///< one of `choices`; int, its place in the list
     OPTION_SET,      ///< some of `choices`, between commas; unsigned, bit i for the i-th

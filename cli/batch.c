@@ -160,7 +160,8 @@ static size_t count_pairs(const char *path) {
 static int run_pairs(batch *b) {
     const settings *s = b->settings;
     cli_pipeline line = {b, sizeof(chunk), fill, work, drain, clear};
-    if (results_open(&b->results, &s->out, s->margin >= 0 ? OVOID_RECORD_MARGIN : 0)) return EXIT_INPUT;
+    if (results_open(&b->results, &s->out, s->margin >= 0 ? OVOID_RECORD_MARGIN : 0, inputs_get_unit(&s->read)))
+        return EXIT_INPUT;
     double start = progress_get_seconds();
     progress_start("pairs", count_pairs(s->pairs));
     int code = pipeline_run(&line, s->threads ? s->threads : pipeline_get_processors());

@@ -93,9 +93,12 @@ static tally count_rows(const check *c) {
 
 static void report_counts(const check *c, const tally *t, double seconds) {
     size_t objects = ovoid_scene_get_count(c->scene);
+    const char *unit = ovoid_scene_get_unit(c->scene);
     if (c->settings->margin >= 0)
-        message_note("%zu objects in %.2f s; pairs within %g: %zu, not proven: %zu; all others are farther or ignored",
-                     objects, seconds, c->settings->margin, t->touch + t->apart, t->not_proven);
+        message_note("%zu objects in %.2f s; pairs within %g%s%s: %zu, not proven: %zu; all others are farther or "
+                     "ignored",
+                     objects, seconds, c->settings->margin, unit[0] ? " " : "", unit, t->touch + t->apart,
+                     t->not_proven);
     else
         message_note("%zu objects, %zu pairs in %.2f s; apart: %zu, touching or overlapping: %zu, not proven: %zu",
                      objects, c->row_count, seconds, t->apart, t->touch, t->not_proven);
@@ -125,7 +128,7 @@ static int run_check(check *c) {
     if (c->row_count) qsort(c->rows, c->row_count, sizeof *c->rows, compare_rows);
     // Their answers, written.
     unsigned fields = OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
-    if (results_open(&c->results, &s->out, fields)) return EXIT_INPUT;
+    if (results_open(&c->results, &s->out, fields, ovoid_scene_get_unit(c->scene))) return EXIT_INPUT;
     job.results = &c->results;
     job.take = NULL;
     code = answers_run(&job);
@@ -161,7 +164,7 @@ const cli_command command_check = {
         "deepest) first. With --margin, only pairs that are not proven farther than M; that is much faster in "
         "scenes of many objects.\n\n"
         "A scene:\n\n"
-        "    {\"objects\": [{\"name\": \"arm\", \"mesh\": \"arm.stl\", \"unit\": \"mm\",\n"
+        "    {\"unit\": \"m\", \"objects\": [{\"name\": \"arm\", \"mesh\": \"arm.stl\", \"unit\": \"mm\",\n"
         "                  \"pose\": {\"xyz\": [0, 0, 0.3], \"rpy\": [0, 0, 1.57]}},\n"
         "                 {\"name\": \"table\", \"box\": [0.8, 1.2, 0.04]}],\n"
         "     \"ignore\": [[\"arm\", \"table\"]]}\n\n"

@@ -33,22 +33,29 @@ static const cli_option options[] = {
     {0},
 };
 
-static void print_vector(FILE *file, const char *title, ovoid_vec3 v) {
-    fprintf(file, "%-11s %.9g %.9g %.9g\n", title, v.x, v.y, v.z);
+/// Where the report goes, and the unit of its lengths, with a blank before it; "" for none.
+typedef struct report {
+    FILE *file;
+    char unit[8];
+} report;
+
+static void print_vector(const report *r, const char *title, ovoid_vec3 v, const char *unit) {
+    fprintf(r->file, "%-11s %.9g %.9g %.9g%s\n", title, v.x, v.y, v.z, unit);
 }
 
-static void print_shape(FILE *file, const char *title, const char *path, const ovoid_shape *shape) {
-    ovoid_report report = ovoid_shape_get_report(shape);
-    fprintf(file, "%-11s %s; vertices: %llu", title, path, (unsigned long long)report.vertices);
-    if (ovoid_shape_get_radius(shape) > 0) fprintf(file, "; radius: %.9g", ovoid_shape_get_radius(shape));
-    fputc('\n', file);
+static void print_shape(const report *r, const char *title, const char *path, const ovoid_shape *shape) {
+    unsigned long long vertices = ovoid_shape_get_report(shape).vertices;
+    double radius = ovoid_shape_get_radius(shape);
+    fprintf(r->file, "%-11s %s; vertices: %llu", title, path, vertices);
+    if (radius > 0) fprintf(r->file, "; radius: %.9g%s", radius, r->unit);
+    fputc('\n', r->file);
 }
 
-static void print_body(FILE *file, const char *title, const char *path, const cli_body *body) {
+static void print_body(const report *r, const char *title, const char *path, const cli_body *body) {
     if (body->shape)
-        print_shape(file, title, path, body->shape);
+        print_shape(r, title, path, body->shape);
     else
-        fprintf(file, "%-11s %s; parts: %zu\n", title, path, ovoid_shapes_get_count(body->parts));
+        fprintf(r->file, "%-11s %s; parts: %zu\n", title, path, ovoid_shapes_get_count(body->parts));
 }
 
 /// Prints the number of a part, and its name in the file.
@@ -58,30 +65,31 @@ static void print_part(FILE *file, const char *title, const cli_body *body, uint
 }
 
 /// Prints whether the bodies are within the margin.
-static void print_margin(FILE *file, const ovoid_answer *answer, double margin) {
+static void print_margin(const report *r, const ovoid_answer *answer, double margin) {
     int within = ovoid_answer_is_within(answer, margin);
     const char *words = within > 0                          ? "within"
                         : within == 0                       ? "farther"
                         : answer->limit == OVOID_LIMIT_NONE ? "exactly there, as far as the bracket tells"
                                                             : "not proven";
-    fprintf(file, "%-11s %.9g: %s\n", "margin", margin, words);
+    fprintf(r->file, "%-11s %.9g%s: %s\n", "margin", margin, r->unit, words);
 }
 
 /// Prints the report for people: bodies, distance, proof.
-static void print_report(FILE *file, const cli_body bodies[2], const ovoid_record *record, double margin, int holds) {
+static void print_report(const report *r, const cli_body bodies[2], const ovoid_record *record, int holds) {
+    FILE *file = r->file;
     const ovoid_answer *x = &record->answer;
     double middle = x->lower + (x->upper - x->lower) / 2;
-    print_body(file, "a", record->a, &bodies[0]);
-    print_body(file, "b", record->b, &bodies[1]);
+    print_body(r, "a", record->a, &bodies[0]);
+    print_body(r, "b", record->b, &bodies[1]);
     fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(x->status));
-    if (isfinite(middle)) fprintf(file, "%-11s %.9g\n", x->upper < 0 ? "depth" : "distance", fabs(middle));
-    fprintf(file, "%-11s %.17g .. %.17g\n", "bracket", x->lower, x->upper);
-    if (margin >= 0) print_margin(file, x, margin);
+    if (isfinite(middle)) fprintf(file, "%-11s %.9g%s\n", x->upper < 0 ? "depth" : "distance", fabs(middle), r->unit);
+    fprintf(file, "%-11s %.17g .. %.17g%s\n", "bracket", x->lower, x->upper, r->unit);
+    if (record->margin >= 0) print_margin(r, x, record->margin);
     print_part(file, "part of a", &bodies[0], record->part_a);
     print_part(file, "part of b", &bodies[1], record->part_b);
-    print_vector(file, "point on a", x->point_a);
-    print_vector(file, "point on b", x->point_b);
-    print_vector(file, "normal", x->normal);
+    print_vector(r, "point on a", x->point_a, r->unit);
+    print_vector(r, "point on b", x->point_b, r->unit);
+    print_vector(r, "normal", x->normal, "");
     fprintf(file, "%-11s %s; iterations: %u", "decided by", ovoid_stage_get_name(x->stage), (unsigned)x->iterations);
     if (x->limit != OVOID_LIMIT_NONE) fprintf(file, "; stopped by: %s", ovoid_limit_get_name(x->limit));
     fprintf(file, "\n%-11s %s; ", "proof", ovoid_proof_kind_get_name(x->proof.kind));
@@ -116,16 +124,19 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     }
     int holds = check_record(&pair, &record);
     int code = holds ? (int)results_judge(&record.answer, s->margin) : EXIT_NOT_PROVEN;
+    const char *unit = inputs_get_unit(&s->read);
     unsigned fields = OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
-    if (results_open(&results, &s->out, fields)) {
+    if (results_open(&results, &s->out, fields, unit)) {
         answer_room_clear(&room);
         return EXIT_INPUT;
     }
     record.fields = results.fields;
+    report text = {.file = results.file};
+    snprintf(text.unit, sizeof text.unit, "%s%s", unit[0] ? " " : "", unit);
     if (results_are_lines(&results))
         results_add(&results, &record);
     else
-        print_report(results.file, bodies, &record, s->margin, holds);
+        print_report(&text, bodies, &record, holds);
     answer_room_clear(&room);
     return results_close(&results, code);
 }

@@ -32,8 +32,8 @@ static const cli_option options[] = {
      "allowance: the true body stands out of what is fitted by at most L (default: 0)"},
     {"inside", 0, OPTION_LENGTH, offsetof(settings, inside), "L", NULL,
      "allowance: what is fitted stands out of the true body by at most L (default: 0)"},
-    {"gap", 0, OPTION_POSITIVE, offsetof(settings, gap), "G", NULL,
-     "relative volume gap of the outer and the inner ellipsoid (default: 1e-6)"},
+    {"gap", 0, OPTION_SHARE, offsetof(settings, gap), "G", NULL,
+     "relative volume gap of the outer and the inner ellipsoid, below 1 (default: 1e-6)"},
     {"phases", 0, OPTION_FLAG, offsetof(settings, phases), NULL, NULL,
      "the files hold the inner ellipsoid of the three phases (default: that of maximum volume)"},
     INPUTS_OPTIONS(settings),
@@ -161,7 +161,7 @@ static ovoid_code run_steps(const ovoid_polytope *p, double gap, fitted *out) {
 static void write_findings(fit *f, const fitted *found) {
     const settings *s = f->settings;
     if (f->title_due && s->csv) fit_write_csv_title(stdout);
-    if (f->title_due && s->table) fit_write_table_title(stdout);
+    if (f->title_due && s->table) fit_write_table_title(stdout, inputs_get_unit(&s->read));
     f->title_due = 0;
     if (s->json)
         fit_write_json(stdout, found);
@@ -204,7 +204,7 @@ static int fit_file(fit *f, const char *path) {
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(&f->settings->read);
     ovoid_shape_options make = make_options(f->settings);
-    fitted found = {.file = path, .name = ""};
+    fitted found = {.file = path, .name = "", .unit = inputs_get_unit(&f->settings->read)};
     double start = progress_get_seconds();
     ovoid_shape *shape = ovoid_shape_read_file(path, &read, &make, &error);
     if (!shape) return message_error("%s", error.message), f->failed = 1, 0;
@@ -222,7 +222,8 @@ static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t num
     char name[200] = "";
     if (f->settings->parts) snprintf(name, sizeof name, "%s", part.name);
     if (f->settings->parts && !*name) snprintf(name, sizeof name, "part %zu", number);
-    fitted found = {.file = path, .name = name, .read_seconds = read_seconds};
+    fitted found = {
+        .file = path, .name = name, .read_seconds = read_seconds, .unit = inputs_get_unit(&f->settings->read)};
     double start = progress_get_seconds();
     ovoid_shape *shape = ovoid_shape_create_from_points(part.faces.vertices, part.faces.vertex_count, &make, &error);
     if (!shape) {
@@ -291,7 +292,7 @@ const cli_command command_fit = {
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written",
     .examples = "ovoid fit bunny.obj\n"
-                "ovoid fit --unit mm -o link3.ovoid link3.stl\n"
+                "ovoid fit --scale 0.001 -o link3.ovoid link3.stl\n"
                 "ovoid fit --parts -o parts/ decomposed.obj\n"
                 "ovoid fit --table *.stl\n"
                 "ovoid fit --csv *.stl > fits.csv",

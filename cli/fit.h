@@ -13,6 +13,7 @@ enum fit_step { FIT_OUTER, FIT_SHRUNK, FIT_STRETCHED, FIT_ENLARGED, FIT_INNER, F
 typedef struct fitted {
     const char *file, *name; ///< name: "" for a whole file
     const char *output;      ///< the .ovoid file that was written, or NULL
+    const char *unit;        ///< of all lengths; "" where none is named
     ovoid_report report;
     ovoid_measures measures;
     uint32_t triangles, facets;
@@ -27,8 +28,8 @@ typedef struct fitted {
 /// Writes the report of one body for people.
 void fit_write_report(FILE *file, const fitted *fitted);
 
-/// Writes a table with one line a body; the title line first.
-void fit_write_table_title(FILE *file);
+/// Writes a table with one line a body; the title line first. unit: of the lengths, "" for none.
+void fit_write_table_title(FILE *file, const char *unit);
 void fit_write_table_row(FILE *file, const fitted *fitted);
 
 /// Writes one line of JSON, or the same as CSV.

@@ -41,6 +41,7 @@ void fit_write_report(FILE *file, const fitted *f) {
     const ovoid_report *r = &f->report;
     const ovoid_measures *m = &f->measures;
     write_name(file, f);
+    if (f->unit[0]) fprintf(file, "  unit     %s\n", f->unit);
     fprintf(file, "  points   %llu given: %llu vertices, %llu duplicates, %llu interior (%llu of them on a face)\n",
             (unsigned long long)r->points, (unsigned long long)r->vertices, (unsigned long long)r->duplicates,
             (unsigned long long)r->interior, (unsigned long long)r->coplanar);
@@ -60,8 +61,10 @@ void fit_write_report(FILE *file, const fitted *f) {
     if (f->output) fprintf(file, "  written to %s\n", f->output);
 }
 
-void fit_write_table_title(FILE *file) {
-    fprintf(file, "%8s %8s %6s  %-9s %-12s", "points", "vertices", "facets", "hull", "volume");
+void fit_write_table_title(FILE *file, const char *unit) {
+    char volume[16];
+    snprintf(volume, sizeof volume, "volume%s%.4s%s", unit[0] ? "/" : "", unit, unit[0] ? "3" : "");
+    fprintf(file, "%8s %8s %6s  %-9s %-12s", "points", "vertices", "facets", "hull", volume);
     for (int i = 0; i < FIT_STEPS; i++) fprintf(file, " %8s", step_titles[i]);
     fprintf(file, " %9s  %s\n", "time/ms", "body");
 }

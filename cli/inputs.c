@@ -6,11 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *inputs_get_unit(const read_settings *settings) {
+    static const char *const units[] = {"m", "cm", "mm", "um", "in", "ft"};
+    return settings->unit == INPUTS_NO_UNIT ? "" : units[settings->unit];
+}
+
 ovoid_read_options inputs_make_options(const read_settings *settings) {
-    static const char *const units[] = {"m", "cm", "mm", "in", "ft"};
-    double scale = settings->scale > 0 ? settings->scale : 1;
-    if (settings->unit != INPUTS_NO_UNIT) scale *= ovoid_unit_get_scale(units[settings->unit]);
-    return (ovoid_read_options){.scale = scale};
+    const char *unit = inputs_get_unit(settings);
+    return (ovoid_read_options){.scale = settings->scale, .unit = unit[0] ? unit : NULL};
 }
 
 ovoid_shape *inputs_read_shape(const char *path, const read_settings *settings) {

@@ -8,11 +8,11 @@
 
 /// Options of every command that reads meshes.
 typedef struct read_settings {
-    int unit;     ///< index in INPUTS_UNITS; INPUTS_NO_UNIT: lengths stay as they are
+    int unit;     ///< index in INPUTS_UNITS; INPUTS_NO_UNIT: none is named
     double scale; ///< 0 means 1
 } read_settings;
 
-#define INPUTS_UNITS "m|cm|mm|in|ft"
+#define INPUTS_UNITS "m|cm|mm|um|in|ft"
 #define INPUTS_NO_UNIT (-1)
 
 /// The rows of these options in a table; `read` is the member of the settings that holds them.
@@ -23,11 +23,16 @@ typedef struct read_settings {
      offsetof(settings, read.unit),                                                                                    \
      "UNIT",                                                                                                           \
      INPUTS_UNITS,                                                                                                     \
-     "unit of the mesh files: m, cm, mm, in or ft; lengths become metres (default: no change)"},                       \
+     "unit of all lengths, those of files, poses and options and those printed: m, cm, mm, um, in or ft (default: "    \
+     "none "                                                                                                           \
+     "is named)"},                                                                                                     \
     {                                                                                                                  \
         "scale", 0, OPTION_POSITIVE, offsetof(settings, read.scale), "S", NULL,                                        \
             "multiply the coordinates of meshes by S (default: 1)"                                                     \
     }
+
+/// The word of the unit; "" where none is named. Nothing is converted by it but files that say their own unit.
+const char *inputs_get_unit(const read_settings *settings);
 
 /// The options of the io library.
 ovoid_read_options inputs_make_options(const read_settings *settings);

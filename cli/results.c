@@ -29,9 +29,9 @@ int results_settle(const cli_command *command, output_settings *settings) {
     return -1;
 }
 
-int results_open(cli_results *results, const output_settings *settings, unsigned fields) {
+int results_open(cli_results *results, const output_settings *settings, unsigned fields, const char *unit) {
     ovoid_error error;
-    *results = (cli_results){.settings = settings, .fields = fields, .header_due = settings->csv};
+    *results = (cli_results){.settings = settings, .unit = unit, .fields = fields, .header_due = settings->csv};
     if (settings->proofs) results->fields |= OVOID_RECORD_PROOF;
     finish_hold_signals();
     results->output = ovoid_output_create(settings->path ? settings->path : "-", &error);
@@ -51,7 +51,7 @@ int results_have_proofs(const cli_results *results) { return results->settings->
 
 /// Writes the rows of the block.
 static void write_rows(cli_results *results) {
-    ovoid_records_write_table(results->file, results->rows, results->row_count);
+    ovoid_records_write_table(results->file, results->rows, results->row_count, results->unit);
     results->row_count = 0;
 }
 

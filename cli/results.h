@@ -39,14 +39,16 @@ typedef struct cli_results {
     ovoid_output *output;
     FILE *file;
     const output_settings *settings;
+    const char *unit;
     unsigned fields;    ///< of all records, ovoid_record_field bits
     ovoid_record *rows; ///< of the table, until there are enough to be written
     size_t row_count;
     int header_due; ///< the CSV header is not written yet
 } cli_results;
 
-/// Opens a stream of results whose records have these fields. 0, or EXIT_INPUT after a message.
-int results_open(cli_results *results, const output_settings *settings, unsigned fields);
+/// Opens a stream of results whose records have these fields; unit: of the table's lengths, "" for none. 0, or
+/// EXIT_INPUT after a message.
+int results_open(cli_results *results, const output_settings *settings, unsigned fields, const char *unit);
 
 /// Writes one answer: a line of JSON or CSV at once, a row of the table later. Names must live until the end. Failures
 /// of the stream are found by results_close.

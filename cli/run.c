@@ -152,7 +152,7 @@ static int run_motion(run_state *r) {
     if (code) return code;
     unsigned fields = OVOID_RECORD_TIME | OVOID_RECORD_PARTS | (s->continuous ? OVOID_RECORD_IMPACT : 0) |
                       (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
-    if (results_open(&r->results, &s->out, fields)) return EXIT_INPUT;
+    if (results_open(&r->results, &s->out, fields, ovoid_scene_get_unit(r->scene))) return EXIT_INPUT;
     r->track.has_plot = s->plot != NULL;
     code = run_frames(r);
     int worst = (int)r->worst;

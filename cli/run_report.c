@@ -95,25 +95,28 @@ static void report_impacts(const run_summary *s) {
 
 static void report_smallest(const run_summary *s) {
     const ovoid_record *least = &s->track->smallest, *nearest = &s->track->nearest;
+    const char *unit = ovoid_scene_get_unit(s->scene), *gap = unit[0] ? " " : "";
     const char *where = s->impacts ? "smallest distance in the frames" : "smallest distance";
     char names[NAMES_ROOM];
     if (!s->measures) return;
     if (s->track->has_smallest) {
         write_names(names, least->a, least->part_a, least->b, least->part_b);
-        message_note("%s: %.9g .. %.9g, at %.9g, %s", where, least->answer.lower, least->answer.upper, least->time,
-                     names);
+        message_note("%s: %.9g .. %.9g%s%s, at %.9g, %s", where, least->answer.lower, least->answer.upper, gap, unit,
+                     least->time, names);
     } else if (s->margin >= 0) {
-        message_note("%s: above %g, proven", where, s->margin);
+        message_note("%s: above %g%s%s, proven", where, s->margin, gap, unit);
     }
     // Between the frames bodies may come nearer than in them.
     if (!s->track->has_nearest || (s->track->has_smallest && nearest->answer.upper >= least->answer.lower)) return;
     write_names(names, nearest->a, nearest->part_a, nearest->b, nearest->part_b);
-    message_note("nearer between the frames: at most %.9g, at %.9g, %s", nearest->answer.upper, nearest->time, names);
+    message_note("nearer between the frames: at most %.9g%s%s, at %.9g, %s", nearest->answer.upper, gap, unit,
+                 nearest->time, names);
 }
 
 void run_report(const run_summary *s, double seconds) {
     const size_t *n = s->counts;
-    char within[48], near[48];
+    const char *unit = ovoid_scene_get_unit(s->scene);
+    char within[48];
     message_note("%zu frames, %zu objects in %.2f s; pairs listed: %zu; separated: %zu, touching: %zu, overlapping: "
                  "%zu, undecided: %zu",
                  s->frames, ovoid_scene_get_count(s->scene), seconds,
@@ -121,9 +124,8 @@ void run_report(const run_summary *s, double seconds) {
                  n[OVOID_TOUCHING], n[OVOID_OVERLAPPING], n[OVOID_UNDECIDED]);
     size_t touching = report_starts(s, "touching", 1), starts = 0;
     if (s->margin > 0) {
-        snprintf(within, sizeof within, "within %g", s->margin);
-        snprintf(near, sizeof near, "within %g", s->margin);
-        if (track_get_starts(s->track, 0, NULL, 0) > touching) (void)report_starts(s, near, 0);
+        snprintf(within, sizeof within, "within %g%s%s", s->margin, unit[0] ? " " : "", unit);
+        if (track_get_starts(s->track, 0, NULL, 0) > touching) (void)report_starts(s, within, 0);
         starts = track_get_starts(s->track, 0, NULL, 0);
         report_first(s, within, starts, &s->track->reach);
     }

@@ -248,11 +248,13 @@ int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, d
     double limits[2] = {margin, margin};
     size_t drawn = count;
     if (margin > 0) series[drawn++] = (ovoid_series){"margin", OVOID_SERIES_LINE, 2, ends, limits, NULL, NULL};
-    char title[80];
+    const char *unit = ovoid_scene_get_unit(scene);
+    char title[80], label[40];
+    snprintf(label, sizeof label, "signed distance%s%s", unit[0] ? ", " : "", unit);
     snprintf(title, sizeof title, "Signed distance over time: the nearest %zu of %zu pairs", count, t->pair_count);
     ovoid_chart chart = {.title = title,
                          .x_label = "time",
-                         .y_label = "signed distance",
+                         .y_label = label,
                          .series = series,
                          .series_count = drawn,
                          .width = 900,

@@ -447,6 +447,10 @@ static int check_inputs(const cli_command *command, const settings *s, const cli
                              paths->items[1]);
     if (s->motion && (has_list || paths->count > 2))
         return args_complain(command, "verify: --motion is that of a scene: give SCENE.json");
+    int is_scene = !has_list && paths->count == 2;
+    if (is_scene && (s->read.unit != INPUTS_NO_UNIT || s->read.scale > 0))
+        return args_complain(command,
+                             "verify: --unit and --scale are for meshes; a scene says its own (\"unit\": \"mm\")");
     if (s->parts && (has_list || paths->count < 3)) return args_complain(command, "verify: --parts goes with A and B");
     return -1;
 }

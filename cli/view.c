@@ -156,7 +156,7 @@ static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
                              .body_count = d->drawn_count,
                              .links = d->links,
                              .link_count = d->link_count,
-                             .unit = s->read.unit == INPUTS_NO_UNIT ? NULL : "m"};
+                             .unit = scene ? ovoid_scene_get_unit(scene) : inputs_get_unit(&s->read)};
     ovoid_picture_options how = {.width = s->width, .height = s->height, .view = s->from, .layers = s->layers};
     finish_hold_signals();
     ovoid_code written = ovoid_picture_write_svg(s->output ? s->output : "-", &picture, &how, &error);
@@ -224,7 +224,11 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code >= 0) return code;
     if (!s.output && message_is_terminal(stdout))
         return args_complain(command, "view: --output FILE is missing, and standard output is a terminal");
-    if (paths.count == 1 && inputs_is_scene(paths.items[0])) return draw_scene(&s, paths.items[0]);
+    int is_scene = paths.count == 1 && inputs_is_scene(paths.items[0]);
+    if (is_scene && (s.read.unit != INPUTS_NO_UNIT || s.read.scale > 0))
+        return args_complain(command,
+                             "view: --unit and --scale are for A and B; a scene says its own (\"unit\": \"mm\")");
+    if (is_scene) return draw_scene(&s, paths.items[0]);
     return draw_bodies(&s, &paths);
 }
 

@@ -5,10 +5,10 @@
 
 #include <stdio.h>
 
-// Millimetres in the files, metres here: ovoid_unit_get_scale("mm") is 0.001.
+// Millimetres in the files, metres here: ovoid_unit_get_scale("mm", "m") is 0.001.
 static ovoid_shape *load(const char *path) {
     ovoid_error error;
-    ovoid_read_options read = {.scale = ovoid_unit_get_scale("mm")};
+    ovoid_read_options read = {.scale = ovoid_unit_get_scale("mm", "m")};
     ovoid_shape *shape = ovoid_shape_read_file(path, &read, NULL, &error);
     if (!shape) fprintf(stderr, "%s\n", error.message); // what, where, what to do
     return shape;

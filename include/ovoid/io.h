@@ -46,12 +46,18 @@ typedef struct ovoid_mesh_part {
 /** How to read a mesh; all zero is the default, and NULL means that. */
 typedef struct ovoid_read_options {
     double scale; /**< each coordinate is multiplied by it; > 0; 0 means 1 */
-    int parts;    /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
-    int trusted;  /**< 0: Assimp's importers run in a child process; 1: in this one, which their faults may crash */
+    const char
+        *unit;   /**< in which coordinates are wanted, a word of ovoid_unit_get_scale: files that say their unit
+                      (COLLADA, which is read in metres) are converted, all others are in it; NULL: no conversion */
+    int parts;   /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
+    int trusted; /**< 0: Assimp's importers run in a child process; 1: in this one, which their faults may crash */
 } ovoid_read_options;
 
-/** The metres of a unit, "m", "cm", "mm", "in" or "ft"; 0 for any other word. For ovoid_read_options.scale. */
-OVOID_API double ovoid_unit_get_scale(const char *unit);
+/**
+ * How many of the unit `to` one of the unit `from` is, one rounding: "m", "cm", "mm", "um", "in", "ft"; 0 for any other
+ * word. ovoid_unit_get_scale("mm", "m") is 0.001, the ovoid_read_options.scale that makes metres of millimetres.
+ */
+OVOID_API double ovoid_unit_get_scale(const char *from, const char *to);
 
 /**
  * Reads a mesh: STL (text, binary), OBJ, OFF, PLY (text, binary) by readers of our own; COLLADA (.dae), glTF (.gltf,
@@ -127,7 +133,8 @@ OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t 
 /* ---- scenes ---- */
 
 /**
- * A scene: {"objects": [...], "ignore": [["a", "b"], ...]}. Each object has a "name" and exactly one of these, along z
+ * A scene: {"unit": "mm", "objects": [...], "ignore": [["a", "b"], ...]}. All lengths are in its unit, if it names one.
+ * Each object has a "name" and exactly one of these, along z
  * and around the origin:
  *
  *     "mesh": path, relative to the scene file
@@ -139,7 +146,8 @@ OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t 
  *     "compound": [part, ...], each like an object, without a name, not itself such a list
  *
  * Optional: "pose": {"xyz", and "quat_wxyz" or "rpy"}; "radius", a rounding radius around the body; for meshes and
- * points "scale" and "unit"; for meshes "parts": true, a compound of the file's objects. Anything else is refused:
+ * points "scale", and "unit", from which they are converted to that of the scene (to metres where it names none); for
+ * meshes "parts": true, a compound of the file's objects. Anything else is refused:
  * unknown keys, unknown names in "ignore", two objects of one name, wrong types, a zero quaternion. docs/scene.md has
  * examples.
  */
@@ -159,6 +167,8 @@ OVOID_API ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_opti
 OVOID_API void ovoid_scene_destroy(ovoid_scene *scene);
 /** How many objects there are. */
 OVOID_API size_t ovoid_scene_get_count(const ovoid_scene *scene);
+/** The unit of all its lengths, a word of ovoid_unit_get_scale; "" where it names none. */
+OVOID_API const char *ovoid_scene_get_unit(const ovoid_scene *scene);
 /** Object i < count. */
 OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i);
 /** The object of that name, or (size_t)-1. */
@@ -280,10 +290,10 @@ OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *reco
 
 /**
  * A table for people, in the order given, with a column for the time where the first record has one; the part of a
- * compound follows its name, as in "arm[3]". Behind the numbers stands what a record's margin makes of it, and the
- * limit that left a bracket wide.
+ * compound follows its name, as in "arm[3]". unit: of the lengths, for the title; NULL or "": none. Behind the numbers
+ * stands what a record's margin makes of it, and the limit that left a bracket wide.
  */
-OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count);
+OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, const char *unit);
 
 /** A results file of JSON lines, read strictly: the keys above, each once, no other. A record's fields are its keys. */
 typedef struct ovoid_results_reader ovoid_results_reader;

@@ -88,6 +88,8 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
     }
     /** How many objects there are. */
     std::size_t size() const noexcept { return ovoid_scene_get_count(get()); }
+    /** The unit of all its lengths, "mm" for example; "" where it names none. */
+    const char *unit() const noexcept { return ovoid_scene_get_unit(get()); }
     /** The name of object i < size. */
     const char *name(std::size_t i) const noexcept { return ovoid_scene_get(get(), i).name; }
     /** Object i < size as a body, ready for queries and worlds. */

@@ -50,7 +50,7 @@ static void write_results(const ovoid_pair *pair) {
         if (!CHECK(file != NULL)) return;
         if (kind == 0) CHECK_EQ(ovoid_record_write_json(file, &record), OVOID_OK);
         if (kind == 1) CHECK_EQ(ovoid_record_write_csv(file, &record), OVOID_OK);
-        if (kind == 2) CHECK_EQ(ovoid_records_write_table(file, &record, 1), OVOID_OK);
+        if (kind == 2) CHECK_EQ(ovoid_records_write_table(file, &record, 1, NULL), OVOID_OK);
         fclose(file);
         keep_file(kind == 0 ? "json" : kind == 1 ? "csv" : "table", path);
     }

@@ -189,6 +189,11 @@ static void check_collada(void) {
     // Assimp computes in floats: a few units in their last place.
     for (size_t i = 0; i < 9 && faces.vertex_count == 3; i++) CHECK_NEAR(faces.vertices[i], truth[i], 1e-6);
     ovoid_mesh_destroy(mesh);
+    // The unit that is wanted: its metres are converted, other files are taken to be in it.
+    ovoid_read_options options = {.scale = 2, .unit = "mm"};
+    mesh = ovoid_mesh_read(file_path("units.dae"), &options, &error);
+    if (CHECK(mesh != NULL)) CHECK_NEAR(ovoid_mesh_get_part(mesh, 0).faces.vertices[3], 2000, 2e-3);
+    ovoid_mesh_destroy(mesh);
 }
 
 // Node transforms: p -> (10, 0, 0) + 2 p, exact in floats.
@@ -460,9 +465,17 @@ static void check_bad_paths(void) {
         ovoid_read_options options = {.scale = scales[i]};
         CHECK(!ovoid_mesh_read(path, &options, &error) && error.code == OVOID_ERROR_ARGUMENT);
     }
+    CHECK(strstr(error.message, "the scale 1e+300 must be above 0 and at most 1e+50") != NULL);
     CHECK(!ovoid_mesh_read(path, &(ovoid_read_options){.scale = -1}, NULL));
-    CHECK_EQ(ovoid_unit_get_scale("in"), 0.0254);
-    CHECK_EQ(ovoid_unit_get_scale("inch"), 0);
+    CHECK(!ovoid_mesh_read(path, &(ovoid_read_options){.unit = "yd"}, &error) && error.code == OVOID_ERROR_ARGUMENT);
+    CHECK(strstr(error.message, "the unit \"yd\" is none of m, cm, mm, um, in, ft") != NULL);
+    CHECK_EQ(ovoid_unit_get_scale("in", "m"), 0.0254);
+    CHECK_EQ(ovoid_unit_get_scale("inch", "m"), 0);
+    CHECK_EQ(ovoid_unit_get_scale("m", "inch"), 0);
+    CHECK_EQ(ovoid_unit_get_scale("in", "mm"), 25.4);
+    CHECK_EQ(ovoid_unit_get_scale("um", "m"), 1e-6);
+    CHECK_EQ(ovoid_unit_get_scale("ft", "in"), 12);
+    CHECK_EQ(ovoid_unit_get_scale("mm", "um"), 1000);
     // A path longer than a message: its end is what is shown.
     char long_path[400];
     memset(long_path, 'x', sizeof long_path);

@@ -193,7 +193,7 @@ static void check_table(void) {
     for (int i = 0; i < 3; i++) records[i].fields = OVOID_RECORD_MARGIN, records[i].margin = 0.2;
     const char *path = file_path("table.txt");
     FILE *file = fopen(path, "wb");
-    CHECK(file && ovoid_records_write_table(file, records, 3) == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, records, 3, NULL) == OVOID_OK);
     fclose(file);
     size_t size;
     char *text = file_read(path, &size);
@@ -223,8 +223,8 @@ static void check_table_fields(void) {
     }
     const char *path = file_path("table.txt");
     FILE *file = fopen(path, "wb");
-    CHECK(file && ovoid_records_write_table(file, records, 1) == OVOID_OK);
-    CHECK(file && ovoid_records_write_table(file, records + 1, 1) == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, records, 1, "") == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, records + 1, 1, NULL) == OVOID_OK);
     fclose(file);
     size_t size;
     char *text = file_read(path, &size);
@@ -247,7 +247,7 @@ static void check_table_names(void) {
     ovoid_record record = {.a = name, .b = "b"};
     const char *path = file_path("table.txt");
     FILE *file = fopen(path, "wb");
-    CHECK(file && ovoid_records_write_table(file, &record, 1) == OVOID_OK);
+    CHECK(file && ovoid_records_write_table(file, &record, 1, NULL) == OVOID_OK);
     fclose(file);
     size_t size;
     char *text = file_read(path, &size);

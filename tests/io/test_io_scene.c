@@ -34,6 +34,26 @@ static double get_size(const ovoid_shape *shape, int axis) {
     return high - low;
 }
 
+// A scene in millimetres: objects of other units are converted, all else is as it stands.
+static void check_unit(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(
+        file_write_text("unit_mm.json",
+                        "{\"unit\": \"mm\", \"objects\": ["
+                        "{\"name\": \"inch\", \"points\": [[0, 0, 0], [2, 0, 0]], \"unit\": \"in\"},"
+                        "{\"name\": \"um\", \"points\": [[0, 0, 0], [2, 0, 0]], \"unit\": \"um\"},"
+                        "{\"name\": \"mm\", \"points\": [[0, 0, 0], [2, 0, 0]], \"pose\": {\"xyz\": [7, "
+                        "0, 0]}}]}"),
+        NULL, &error);
+    if (!CHECK(scene != NULL)) return;
+    CHECK(strcmp(ovoid_scene_get_unit(scene), "mm") == 0);
+    CHECK_EQ(get_size(ovoid_scene_get(scene, 0).shape, 0), 50.8);
+    CHECK_EQ(get_size(ovoid_scene_get(scene, 1).shape, 0), 0.002);
+    CHECK_EQ(get_size(ovoid_scene_get(scene, 2).shape, 0), 2);
+    CHECK_EQ(ovoid_scene_get(scene, 2).pose.position.x, 7);
+    ovoid_scene_destroy(scene);
+}
+
 static void check_good(void) {
     file_write_text("tetra.obj", tetrahedron);
     ovoid_error error = {OVOID_OK, -1, ""};
@@ -43,6 +63,7 @@ static void check_good(void) {
         return;
     }
     CHECK_EQ(ovoid_scene_get_count(scene), 10);
+    CHECK(strcmp(ovoid_scene_get_unit(scene), "") == 0);
     // Sizes along x, y, z without the radius, the radius, the vertices.
     static const struct {
         const char *name;
@@ -213,6 +234,9 @@ static const bad_input bad_scenes[] = {
     {"scale_zero.json", OBJECT("\"points\": [[0, 0, 0]],\n\"scale\": 0"), OVOID_ERROR_FORMAT, 5, "\"scale\" must be"},
     {"unit.json", OBJECT("\"points\": [[0, 0, 0]],\n\"unit\": \"yd\""), OVOID_ERROR_FORMAT, 5,
      "\"unit\" must be m, cm"},
+    {"unit_dae.json", OBJECT("\"mesh\": \"x.dae\",\n\"unit\": \"mm\""), OVOID_ERROR_FORMAT, 5, "is not for COLLADA"},
+    {"scene_unit.json", "{\"objects\": [{\"name\": \"a\", \"sphere\": 1}],\n\"unit\": \"yd\"}", OVOID_ERROR_FORMAT, 2,
+     "\"unit\" must be m, cm, mm, um, in or ft"},
     {"mesh_type.json", OBJECT("\"mesh\": 3"), OVOID_ERROR_FORMAT, 4, "\"mesh\" must be the path"},
     {"mesh_absent.json", OBJECT("\"mesh\": \"nowhere.stl\""), OVOID_ERROR_FILE, 4, "nowhere.stl: cannot be opened"},
     {"pose_type.json", OBJECT(BOX "\"pose\": [1, 2, 3]"), OVOID_ERROR_FORMAT, 5, "\"pose\" must be"},
@@ -341,6 +365,7 @@ static void check_shape_files(void) {
 }
 
 int main(void) {
+    check_unit();
     check_good();
     check_compounds();
     check_many();

@@ -80,10 +80,18 @@ static ovoid_code read_mesh(mesh_reader *reader) {
 
 ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options, ovoid_error *error) {
     double scale = options && options->scale != 0 ? options->scale : 1;
+    double metre = options && options->unit ? ovoid_unit_get_scale("m", options->unit) : 1;
     if (!(scale > 0 && scale <= OVOID_LENGTH_MAX)) {
-        io_report(error, OVOID_ERROR_ARGUMENT, (where){path, 0, -1}, "the scale %g is not a number above 0", scale);
+        io_report(error, OVOID_ERROR_ARGUMENT, (where){path, 0, -1}, "the scale %g must be above 0 and at most %g",
+                  scale, OVOID_LENGTH_MAX);
         return NULL;
     }
+    if (metre == 0) {
+        io_report(error, OVOID_ERROR_ARGUMENT, (where){path, 0, -1},
+                  "the unit \"%.20s\" is none of m, cm, mm, um, in, ft", options->unit);
+        return NULL;
+    }
+    if (path_has_extension(path, "dae")) scale *= metre;
     mesh_reader reader = {.path = path, .scale = scale, .error = error};
     if (options) reader.parts = options->parts, reader.trusted = options->trusted;
     if (bytes_read(path, &reader.file, error)) return NULL;
@@ -95,12 +103,18 @@ ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options,
     return NULL;
 }
 
-double ovoid_unit_get_scale(const char *unit) {
+// The micrometres of a unit, which are whole numbers; 0 for an unknown one.
+static double get_micrometres(const char *unit) {
     static const struct {
         const char *name;
-        double metres;
-    } units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+        double micrometres;
+    } units[] = {{"m", 1e6}, {"cm", 1e4}, {"mm", 1e3}, {"um", 1}, {"in", 25400}, {"ft", 304800}};
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (strcmp(unit, units[i].name) == 0) return units[i].metres;
+        if (strcmp(unit, units[i].name) == 0) return units[i].micrometres;
     return 0;
+}
+
+double ovoid_unit_get_scale(const char *from, const char *to) {
+    double one = get_micrometres(from), other = get_micrometres(to);
+    return one > 0 && other > 0 ? one / other : 0;
 }

@@ -82,7 +82,14 @@ static table_row make_row(const ovoid_record *record) {
     return row;
 }
 
-static const table_row head = {{"time", "a", "b", "status", "lower", "upper", "stage", "steps", ""}};
+// The title, with the unit of the lengths behind the names of the bounds.
+static table_row make_head(const char *unit) {
+    table_row head = {{"time", "a", "b", "status", "lower", "upper", "stage", "steps", ""}};
+    if (!unit || !unit[0]) return head;
+    snprintf(head.cell[LOWER], CELL, "lower/%.20s", unit);
+    snprintf(head.cell[UPPER], CELL, "upper/%.20s", unit);
+    return head;
+}
 
 // The number of characters of a UTF-8 text.
 static int text_width(const char *text) {
@@ -115,8 +122,9 @@ static void write_row(FILE *file, const int widths[COLUMNS], int first, const ta
     fputc('\n', file);
 }
 
-ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count) {
+ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, const char *unit) {
     int widths[COLUMNS] = {0}, first = count && records[0].fields & OVOID_RECORD_TIME ? TIME : A;
+    const table_row head = make_head(unit);
     widen(widths, &head);
     for (size_t i = 0; i < count; i++) {
         table_row row = make_row(&records[i]);

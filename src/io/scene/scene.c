@@ -128,8 +128,21 @@ static ovoid_code read_ignored(scene_reader *r, const json_t *ignore) {
 
 // ---- the scene
 
+// The unit of all lengths, which is a word of at most two letters.
+static ovoid_code read_unit(scene_reader *r, const json_t *unit) {
+    const char *word = json_string_value(unit);
+    if (!unit) return OVOID_OK;
+    if (word && ovoid_unit_get_scale(word, "m") > 0) {
+        memcpy(r->scene->unit, word, strlen(word) + 1);
+        return OVOID_OK;
+    }
+    const json_step step = {"unit", 0};
+    where at = {r->path, json_find_line(r->file, &step, 1), -1};
+    return io_fail(r->error, OVOID_ERROR_FORMAT, at, "\"unit\" must be m, cm, mm, um, in or ft");
+}
+
 static ovoid_code read_root(scene_reader *r, json_t *root) {
-    static const char *const words[] = {"objects", "ignore", NULL};
+    static const char *const words[] = {"unit", "objects", "ignore", NULL};
     const char *unknown = "";
     if (!json_is_object(root))
         return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, 1, -1}, "a scene must be a JSON object");
@@ -138,7 +151,8 @@ static ovoid_code read_root(scene_reader *r, json_t *root) {
         where at = {r->path, json_find_line(r->file, &step, 1), -1};
         return io_fail(r->error, OVOID_ERROR_FORMAT, at, "\"%.60s\" is not a key of scenes", unknown);
     }
-    ovoid_code code = read_objects(r, json_object_get(root, "objects"));
+    ovoid_code code = read_unit(r, json_object_get(root, "unit"));
+    if (!code) code = read_objects(r, json_object_get(root, "objects"));
     return code ? code : read_ignored(r, json_object_get(root, "ignore"));
 }
 
@@ -178,6 +192,8 @@ void ovoid_scene_destroy(ovoid_scene *scene) {
     free(scene->ignored);
     free(scene);
 }
+
+const char *ovoid_scene_get_unit(const ovoid_scene *scene) { return scene->unit; }
 
 size_t ovoid_scene_get_count(const ovoid_scene *scene) { return scene->count; }
 

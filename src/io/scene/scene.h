@@ -21,6 +21,7 @@ typedef struct scene_entry {
 } scene_entry;
 
 struct ovoid_scene {
+    char unit[4]; ///< "" where none is named
     scene_entry *entries;
     size_t count;
     size_t *by_name; ///< entries in the order of their names

@@ -222,7 +222,9 @@ static ovoid_code find_geometry(scene_reader *r, json_t *object, geometry *g) {
 // Reads "scale" times "unit", of meshes and points.
 static ovoid_code read_scale(scene_reader *r, const json_t *object, geometry *g) {
     const json_t *scale = json_object_get(object, "scale"), *unit = json_object_get(object, "unit");
+    const char *to = r->scene->unit[0] ? r->scene->unit : "m";
     g->read.scale = 1;
+    g->read.unit = r->scene->unit[0] ? r->scene->unit : NULL;
     int is_scaled = strcmp(g->kind, "mesh") == 0 || strcmp(g->kind, "points") == 0;
     if ((scale || unit) && !is_scaled)
         return scene_fail_member(r, OVOID_ERROR_FORMAT, scale ? "scale" : "unit", "is for meshes and points only");
@@ -232,9 +234,12 @@ static ovoid_code read_scale(scene_reader *r, const json_t *object, geometry *g)
         g->read.scale = json_number_value(scale);
     }
     if (unit) {
-        double metres = json_is_string(unit) ? ovoid_unit_get_scale(json_string_value(unit)) : 0;
-        if (metres == 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "unit", "must be m, cm, mm, in or ft");
-        g->read.scale *= metres;
+        double factor = json_is_string(unit) ? ovoid_unit_get_scale(json_string_value(unit), to) : 0;
+        if (factor == 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "unit", "must be m, cm, mm, um, in or ft");
+        const char *path = json_string_value(g->value);
+        if (path && path_has_extension(path, "dae"))
+            return scene_fail_member(r, OVOID_ERROR_FORMAT, "unit", "is not for COLLADA, whose files say theirs");
+        g->read.scale *= factor;
     }
     return OVOID_OK;
 }

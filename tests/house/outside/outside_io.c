@@ -5,5 +5,5 @@ int main(void) {
     ovoid_error error = {0};
     ovoid_mesh *mesh = ovoid_mesh_read("there is no such file.off", NULL, &error);
     if (mesh || error.code != OVOID_ERROR_FILE) return 1;
-    return ovoid_unit_get_scale("mm") == 1e-3 ? 0 : 2;
+    return ovoid_unit_get_scale("mm", "m") == 1e-3 ? 0 : 2;
 }
