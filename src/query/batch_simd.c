@@ -370,8 +370,8 @@ static void fetch_ellipsoids(const ovoid_shape *shape) {
 
 // 1 for a couple that must be queried alone.
 static unsigned is_unusual(const ovoid_batch *batch, size_t i, const ovoid_shape *a, const ovoid_shape *b) {
-    if (shape_has_allowance(a) || shape_has_allowance(b)) return 1;
-    return (a->has_origin | b->has_origin) || (batch->proofs && !is_blank(&batch->proofs[i]));
+    return (a->has_origin | b->has_origin | a->has_allowance | b->has_allowance) ||
+           (batch->proofs && !is_blank(&batch->proofs[i]));
 }
 
 // Stands in the lanes for a body without a shape, whose couple is refused alone.

@@ -83,6 +83,7 @@ void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) 
     s->radius = s->lower_radius = s->upper_radius = radius;
     s->allowance = allowance;
     s->span = s->extent;
+    s->has_allowance = allowance.outside + allowance.inside > 0;
     if (allowance.outside > 0) s->lower_radius = nextafter(radius + allowance.outside, INFINITY);
     // No point of the polyhedron is farther from a point of the true body than its own diameter and `outside`.
     double most = 2 * (s->extent + s->lower_radius), inside = allowance.inside < most ? allowance.inside : most;

@@ -39,7 +39,8 @@ struct ovoid_shape {
     double extent;     ///< no vertex is farther than this from the body frame's origin, rounding included
     uint32_t vertex_count, padded_count;
     uint32_t rank;
-    uint32_t has_origin; ///< origin is not zero
+    uint16_t has_origin; ///< origin is not zero
+    uint16_t has_allowance;
     ovoid_vec3 first;    ///< vertex 0
     // With the allowance, rounded outward; without one they are radius, radius and extent.
     double lower_radius; ///< radius + outside, what a lower bound of the distance loses
@@ -88,6 +89,5 @@ void block_set_radius(ovoid_shape *shape, double radius, ovoid_allowance allowan
 
 /// By how much the allowance widens a bracket.
 static inline double shape_get_width(const ovoid_shape *s) { return s->lower_radius - s->upper_radius; }
-static inline int shape_has_allowance(const ovoid_shape *s) { return s->allowance.outside + s->allowance.inside > 0; }
 
 #endif

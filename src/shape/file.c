@@ -70,7 +70,7 @@ static void put_fit(writer *w, const ovoid_fit *f) {
 
 size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity) {
     OVOID_ASSERT(shape);
-    int has_allowance = shape_has_allowance(shape);
+    int has_allowance = shape->has_allowance;
     size_t size = get_header_size(has_allowance) + (size_t)shape->vertex_count * 24 + CHECKSUM_SIZE;
     if (!buffer || capacity < size) return size;
     writer w = {buffer};

@@ -24,10 +24,9 @@ static ovoid_vec3 random_step(uint64_t *s, double length) {
     return vec3_scale(v, length * (1 - 1e-9));
 }
 
-/// Both from up to 24 points in +-1; by: the allowance's length.
-static known make_known(style how, double by, uint64_t *s) {
+/// Both from some points in +-1, at most 24; by: the allowance's length.
+static known make_known_of(int count, style how, double by, uint64_t *s) {
     double given[3 * 24], moved[3 * 24];
-    int count = 1 + (int)(random_next(s) % 24);
     for (int i = 0; i < 3 * count; i++) given[i] = moved[i] = random_uniform(s, -1, 1);
     vec3 middle = {0, 0, 0};
     for (int i = 0; i < count; i++) middle = vec3_add_scaled(middle, vec3_at(given, (size_t)i), 1.0 / count);
@@ -49,6 +48,11 @@ static known make_known(style how, double by, uint64_t *s) {
                ovoid_shape_create_from_points(given, (size_t)count, &of_body, NULL)};
     CHECK(k.shape && k.body);
     return k;
+}
+
+static known make_known(style how, double by, uint64_t *s) {
+    int count = 1 + (int)(random_next(s) % 24);
+    return make_known_of(count, how, by, s);
 }
 
 static void destroy_known(known k) {
@@ -214,6 +218,22 @@ static void destroy_assembly(assembly *c) {
     for (int i = 0; i < PARTS; i++) destroy_known(c->parts[i]);
 }
 
+// A shape beside a compound is a tree of one node.
+static void check_shape_beside(const assembly *b, ovoid_pose to, double by, uint64_t *s) {
+    known one = make_known(ENLARGED, by, s);
+    ovoid_pose at = {random_vec3(s, 5), random_quat(s)};
+    ovoid_body_pair shapes = {{one.shape, NULL, at}, {NULL, b->shape, to}},
+                    bodies = {{one.body, NULL, at}, {NULL, b->body, to}};
+    ovoid_compound_answer truth = ovoid_compound_depth(&bodies, NULL, NULL, NULL),
+                          x = ovoid_compound_depth(&shapes, NULL, NULL, NULL),
+                          y = ovoid_compound_collide(&shapes, NULL, NULL, NULL);
+    CHECK_LE(x.answer.lower, truth.answer.upper);
+    CHECK_LE(truth.answer.lower, x.answer.upper);
+    CHECK_LE(y.answer.lower, truth.answer.upper);
+    CHECK_LE(truth.answer.lower, y.answer.upper);
+    destroy_known(one);
+}
+
 static void test_compounds(void) {
     for (uint64_t seed = 1; seed <= 400; seed++) {
         check_seed = seed;
@@ -241,10 +261,34 @@ static void test_compounds(void) {
         int is_within = ovoid_answer_is_within(&y.answer, 0.5);
         if (is_within == 0) CHECK(truth.answer.upper > 0.5);
         if (is_within == 1) CHECK(truth.answer.lower <= 0.5);
+        for (int i = 0; i < 4; i++) check_shape_beside(&b, to, by, &s);
         destroy_assembly(&a);
         destroy_assembly(&b);
     }
     check_seed = 0;
+}
+
+// Two columns of balls along z, `apart` along x: an exclusion of all of them is taken up to their true bodies' gap.
+static void test_exclusion(void) {
+    const double origin[3] = {0, 0, 0}, apart = 10, radius = 0.5, outside = 0.25;
+    ovoid_shape_options o = {.radius = radius, .allowance = {.outside = outside}};
+    ovoid_shape *ball = ovoid_shape_create_from_points(origin, 1, &o, NULL);
+    ovoid_posed_shape parts[2] = {{ball, {{0, 0, -1}, {1, 0, 0, 0}}}, {ball, {{0, 0, 1}, {1, 0, 0, 0}}}};
+    ovoid_compound *c = ovoid_compound_create(parts, 2, NULL, NULL);
+    ovoid_body_pair pair = {{NULL, c, {{0, 0, 0}, {1, 0, 0, 0}}}, {NULL, c, {{apart, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_exclusion items[8];
+    ovoid_exclusions all = {.items = items, .capacity = 8};
+    ovoid_compound_answer x = ovoid_compound_collide(&pair, NULL, NULL, &all);
+    if (CHECK(x.answer.status == OVOID_SEPARATED && all.count > 0 && all.count <= 8)) {
+        ovoid_exclusion e = {0, 2, 0, 2, {1, 0, 0}, {0, 0, 0}, apart - 2 * (radius + outside) - 1e-12};
+        all.count = 1;
+        items[0] = e;
+        CHECK(ovoid_compound_answer_check(&pair, &x, &all, NULL) == OVOID_OK);
+        items[0].lower += 0.5 * outside;
+        CHECK(ovoid_compound_answer_check(&pair, &x, &all, NULL) == OVOID_ERROR_PROOF);
+    }
+    ovoid_compound_destroy(c);
+    ovoid_shape_destroy(ball);
 }
 
 enum { BODIES = 40, STEPS = 30 };
@@ -267,7 +311,8 @@ static void check_contacts(const ovoid_contacts *found, const known *bodies, con
     CHECK_EQ(at, found->count);
 }
 
-static void run_world(uint64_t seed, ovoid_query_kind kind, double margin) {
+// most: of points of a body; 1 makes them balls.
+static void run_world(uint64_t seed, ovoid_query_kind kind, double margin, int most) {
     uint64_t s = seed;
     known bodies[BODIES];
     ovoid_pose poses[BODIES];
@@ -275,8 +320,9 @@ static void run_world(uint64_t seed, ovoid_query_kind kind, double margin) {
     ovoid_world *w = ovoid_world_create(NULL, NULL);
     if (!CHECK(w != NULL)) return;
     for (int i = 0; i < BODIES; i++) {
-        bodies[i] = make_known((style)(random_next(&s) % STYLES), 0.1 * (i % 3), &s);
-        poses[i] = (ovoid_pose){random_vec3(&s, 5), random_quat(&s)};
+        style how = most > 1 ? (style)(random_next(&s) % STYLES) : ENLARGED;
+        bodies[i] = make_known_of(1 + (int)(random_next(&s) % (uint64_t)most), how, 0.1 * (i % 3), &s);
+        poses[i] = (ovoid_pose){random_vec3(&s, most > 1 ? 5 : 1.5), random_quat(&s)};
         ovoid_world_body b = {.body = {bodies[i].shape, NULL, poses[i]}};
         ids[i] = ovoid_world_add(w, &b, NULL);
     }
@@ -295,10 +341,12 @@ static void run_world(uint64_t seed, ovoid_query_kind kind, double margin) {
 }
 
 static void test_worlds(void) {
-    run_world(1, OVOID_QUERY_COLLIDE, 0);
-    run_world(2, OVOID_QUERY_WITHIN, 0.3);
-    run_world(3, OVOID_QUERY_DISTANCE, 0.2);
-    run_world(4, OVOID_QUERY_DEPTH, 0.2);
+    run_world(1, OVOID_QUERY_COLLIDE, 0, 24);
+    run_world(2, OVOID_QUERY_WITHIN, 0.3, 24);
+    run_world(3, OVOID_QUERY_DISTANCE, 0.2, 24);
+    run_world(4, OVOID_QUERY_DEPTH, 0.2, 24);
+    run_world(5, OVOID_QUERY_COLLIDE, 0, 1);
+    run_world(6, OVOID_QUERY_WITHIN, 0.3, 1);
 }
 
 // ---- motions
@@ -472,6 +520,7 @@ int main(void) {
     test_pairs();
     test_batch();
     test_compounds();
+    test_exclusion();
     test_worlds();
     test_motions();
     test_rounds();
