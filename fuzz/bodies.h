@@ -27,7 +27,10 @@ static inline ovoid_pose take_any_pose(fuzz_bytes *from, int is_wild) {
 static inline ovoid_shape *take_any_shape(fuzz_bytes *from, int is_wild) {
     double xyz[3 * 10];
     size_t count = 1 + (size_t)((unsigned)take_byte(from) % 10);
-    ovoid_shape_options options = {.radius = (take_byte(from) & 3) == 0 ? take_number(from, is_wild) / 8 : 0};
+    uint8_t kind = take_byte(from);
+    ovoid_shape_options options = {.radius = (kind & 3) == 0 ? take_number(from, is_wild) / 8 : 0};
+    if ((kind & 12) == 8) options.allowance.outside = take_number(from, is_wild) / 64;
+    if ((kind & 48) == 32) options.allowance.inside = take_number(from, is_wild) / 64;
     for (size_t i = 0; i < 3 * count; i++) xyz[i] = take_number(from, is_wild) / 2;
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_shape *shape = ovoid_shape_create_from_points(xyz, count, &options, &error);

@@ -13,7 +13,10 @@ static ovoid_shape *take_shape(fuzz_bytes *from) {
     size_t count = 1 + (size_t)(take_byte(from) & 15);
     double scale = ldexp(1, take_byte(from) / 2);
     for (size_t i = 0; i < 3 * count; i++) xyz[i] = scale * take_coordinate(from, 16);
-    ovoid_shape_options options = {.radius = (take_byte(from) & 3) == 0 ? scale * (take_byte(from) & 7) : 0};
+    uint8_t kind = take_byte(from);
+    ovoid_shape_options options = {.radius = (kind & 3) == 0 ? scale * (take_byte(from) & 7) : 0};
+    if ((kind & 12) == 8) options.allowance.outside = scale * (take_byte(from) & 15) / 8;
+    if ((kind & 48) == 32) options.allowance.inside = scale * (take_byte(from) & 15) / 8;
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_shape *shape = ovoid_shape_create_from_points(xyz, count, &options, &error);
     if (!shape) fuzz_require_error(&error);

@@ -34,7 +34,8 @@ typedef enum ovoid_inner_method {
  */
 typedef struct ovoid_allowance {
     double outside; /**< by how much the true body may stand out of the shape */
-    double inside;  /**< by how much the shape may stand out of the true body */
+    double inside;  /**< by how much the shape may stand out of the true body; more than its own diameter and `outside`
+                       says  nothing more, and is stored as about that */
 } ovoid_allowance;
 
 /** Options of all ovoid_shape_create_* functions; all zero is the default, as is NULL. */

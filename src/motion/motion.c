@@ -159,6 +159,9 @@ static void set_poses(motion_piece *p, const ovoid_pose *first, const ovoid_pose
     p->turn_error = 64 * ROUNDING;
 }
 
+// Of a slower turn the reciprocal of its speed may overflow: it is taken as one of this speed, and as much in error.
+#define SLOWEST 0x1p-900
+
 static void set_velocity(motion_piece *p, const ovoid_motion *m) {
     double most = vec3_max_abs(m->angular);
     p->begin = 0;
@@ -167,8 +170,8 @@ static void set_velocity(motion_piece *p, const ovoid_motion *m) {
     p->first = m->start;
     p->travel = m->linear;
     p->axis = vec3_unit(m->angular);
-    if (most > 0) p->turn = most * vec3_norm(vec3_scale(m->angular, 1 / most));
-    p->turn_error = 12 * ROUNDING * p->turn;
+    if (most > 0) p->turn = most >= SLOWEST ? most * vec3_norm(vec3_scale(m->angular, 1 / most)) : SLOWEST;
+    p->turn_error = most > 0 && most < SLOWEST ? SLOWEST : 12 * ROUNDING * p->turn;
     // The body as seen from the pivot.
     vec3 arm = {0, 0, 0};
     if (p->turn > 0) arm = mat3_mul_vec3(quat_to_mat3(m->start.rotation), m->pivot);

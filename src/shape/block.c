@@ -86,7 +86,9 @@ void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) 
     s->has_allowance = allowance.outside + allowance.inside > 0;
     if (allowance.outside > 0) s->lower_radius = nextafter(radius + allowance.outside, INFINITY);
     // No point of the polyhedron is farther from a point of the true body than its own diameter and `outside`.
-    double most = 2 * (s->extent + s->lower_radius), inside = allowance.inside < most ? allowance.inside : most;
+    double most = 2 * (s->extent + s->lower_radius);
+    if (allowance.inside > most) s->allowance.inside = most;
+    double inside = s->allowance.inside;
     if (!(inside > 0)) return;
     s->upper_radius = nextafter(radius - inside, -INFINITY);
     s->span += 2 * inside;

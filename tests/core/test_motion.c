@@ -275,6 +275,29 @@ static void check_boxes(uint64_t seed) {
     ovoid_shape_destroy(shape);
 }
 
+// A turn so slow that the reciprocal of its speed overflows turns by nothing that can be seen.
+static void check_slow(void) {
+    ovoid_shape *shape = ovoid_shape_create_box((ovoid_vec3){1, 2, 3}, NULL, NULL);
+    const ovoid_pose start = {{1, 0, 0}, {1, 0, 0, 0}};
+    const double speeds[] = {5e-324, 1e-310, 1e-300, 1e-280};
+    for (int i = 0; i < 4; i++) {
+        ovoid_moving_shape m = {
+            shape,
+            ovoid_motion_make_velocity(start, (ovoid_vec3){1, 0, 0}, (ovoid_vec3){0, speeds[i], 0}, 2),
+            {{0, 0, 0}, {0, 0, 0, 0}}};
+        ovoid_box box = ovoid_moving_shape_compute_box(&m, 0, 2);
+        CHECK_NEAR(box.min.x, 0, 1e-12);
+        CHECK_NEAR(box.max.x, 4, 1e-12);
+        ovoid_pose end = ovoid_motion_compute_pose(&m.motion, 2);
+        CHECK_NEAR(end.position.x, 3, 1e-15);
+        CHECK_NEAR(end.rotation.y, 0, 1e-15);
+        ovoid_moving_shape still = {shape, ovoid_motion_make_still((ovoid_pose){{4, 0, 0}, {1, 0, 0, 0}}), m.part};
+        ovoid_impact x = ovoid_impact_find(&m, &still, 0, NULL);
+        CHECK(x.status == OVOID_IMPACT_HIT && fabs(x.hit_at - 1) < 1e-6);
+    }
+    ovoid_shape_destroy(shape);
+}
+
 int main(void) {
     check_angles();
     for (uint64_t seed = 1; seed <= 500; seed++) check_velocity(seed);
@@ -283,5 +306,6 @@ int main(void) {
     check_seed = 0;
     check_path();
     check_refusals();
+    check_slow();
     return check_end();
 }
