@@ -19,7 +19,8 @@ typedef struct chunk {
     answer_room room;
     char *text;
     size_t size;
-    int failed; ///< no memory
+    int failed;               ///< no memory
+    const char *long_pair[2]; ///< the names of a pair whose proof is too long for a line; NULL: none
 } chunk;
 
 typedef struct work_state {
@@ -117,7 +118,10 @@ static void work(void *context, void *slot) {
     k->failed = !k->records || (lines && !file);
     for (size_t i = 0; i < k->count && !k->failed; i++) {
         k->failed = !make_record(job, k, i, proofs);
-        if (lines && !k->failed) results_write_line(file, job->results->settings, &k->records[i]);
+        if (lines && !k->failed && !results_write_line(file, job->results->settings, &k->records[i])) {
+            k->long_pair[0] = k->records[i].a;
+            k->long_pair[1] = k->records[i].b;
+        }
         // The room is used again for the next pair.
         k->records[i].cover = NULL;
         k->records[i].exclusions = NULL;
@@ -132,6 +136,10 @@ static int drain(void *context, void *slot) {
     int lines = job->results && results_are_lines(job->results), code = 0;
     if (k->failed) {
         message_error("out of memory");
+        return EXIT_INPUT;
+    }
+    if (k->long_pair[0]) {
+        results_report_long(k->long_pair[0], k->long_pair[1]);
         return EXIT_INPUT;
     }
     if (lines) code = results_add_text(job->results, k->text, k->size);

@@ -134,7 +134,7 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     report text = {.file = results.file};
     snprintf(text.unit, sizeof text.unit, "%s%s", unit[0] ? " " : "", unit);
     if (results_are_lines(&results))
-        results_add(&results, &record);
+        code = results_add(&results, &record) ? EXIT_INPUT : code;
     else
         print_report(&text, bodies, &record, holds);
     answer_room_clear(&room);

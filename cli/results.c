@@ -60,17 +60,23 @@ static void write_header(cli_results *results) {
     results->header_due = 0;
 }
 
-void results_write_line(FILE *file, const output_settings *settings, const ovoid_record *record) {
-    if (settings->csv)
-        ovoid_record_write_csv(file, record);
-    else
-        ovoid_record_write_json(file, record);
+int results_write_line(FILE *file, const output_settings *settings, const ovoid_record *record) {
+    ovoid_code code = settings->csv ? ovoid_record_write_csv(file, record) : ovoid_record_write_json(file, record);
+    return code != OVOID_ERROR_LIMIT;
+}
+
+void results_report_long(const char *a, const char *b) {
+    message_error("%.60s, %.60s: the proof has more than %zu items, the most that a line of JSON holds; use --csv", a,
+                  b, OVOID_RECORD_ITEMS_MAX);
 }
 
 int results_add(cli_results *results, const ovoid_record *record) {
     if (results_are_lines(results)) {
         write_header(results);
-        results_write_line(results->file, results->settings, record);
+        if (!results_write_line(results->file, results->settings, record)) {
+            results_report_long(record->a ? record->a : "a pair", record->b ? record->b : "");
+            return EXIT_INPUT;
+        }
         return ferror(results->file) ? EXIT_INPUT : 0;
     }
     if (!results->rows) results->rows = malloc(BLOCK_ROWS * sizeof *results->rows);

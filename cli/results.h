@@ -67,8 +67,11 @@ int results_add_text(cli_results *results, const char *text, size_t size);
 /// is dropped. Returns the exit code.
 int results_close(cli_results *results, int code);
 
-/// Writes one answer to a stream in the format of the settings (not a table).
-void results_write_line(FILE *file, const output_settings *settings, const ovoid_record *record);
+/// Writes one answer to a stream in the format of the settings (not a table). 0, and nothing is written, where its
+/// proof is too long for a line, which results_report_long says.
+int results_write_line(FILE *file, const output_settings *settings, const ovoid_record *record);
+
+void results_report_long(const char *a, const char *b);
 
 /// The exit code for an answer. margin: negative where there is none.
 exit_code results_judge(const ovoid_answer *answer, double margin);

@@ -4,10 +4,14 @@
 
 #ifdef OVOID_HAVE_JUDGE
 
+#include "args.h"
+#include "message.h"
+
 #include <judge.h>
 
 #include <pthread.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 struct verdict {
     pthread_mutex_t lock;
@@ -15,7 +19,14 @@ struct verdict {
     judge **judges;
 };
 
+/// GMP cannot go on; nothing has been written that is not whole.
+static void end_out_of_memory(void) {
+    message_error("out of memory for exact arithmetic; each thread needs its own: give fewer --threads");
+    _exit(EXIT_INPUT);
+}
+
 verdict *verdict_create(unsigned threads) {
+    judge_set_out_of_memory(end_out_of_memory);
     verdict *v = calloc(1, sizeof *v);
     if (!v) return NULL;
     pthread_mutex_init(&v->lock, NULL);

@@ -9,6 +9,11 @@ nvec proof_direction(pool *p, const ovoid_proof *proof) {
     return nvec_add(p, nvec_from(p, proof->normal), nvec_from(p, proof->normal_low));
 }
 
+// sqrt(a / b) in a double, for messages: the parts alone may be beyond doubles.
+static double compute_ratio(pool *p, num a, num b) {
+    return num_to_double(num_root_below(p, num_quotient_below(p, a, b, 120), 60));
+}
+
 ovoid_code judge_check_lower(const claim *c) {
     const posed *s = c->s;
     pool *p = s->p;
@@ -23,8 +28,9 @@ ovoid_code judge_check_lower(const claim *c) {
     num one = number_from_integer(p, 1);
     if (num_compare_roots(p, num_mul(p, c->core, s->k), nvec_norm_squared(p, normal), gap, one) > 0)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "lower is above the gap along the normal, %.17g, radii aside",
-                            num_to_double(gap) / num_to_double(s->k) /
-                                sqrt(num_to_double(nvec_norm_squared(p, normal))));
+                            num_sign(gap) *
+                                compute_ratio(p, num_mul(p, gap, gap),
+                                              num_mul(p, num_mul(p, s->k, s->k), nvec_norm_squared(p, normal))));
     return OVOID_OK;
 }
 
@@ -45,7 +51,7 @@ static ovoid_code check_distance(const claim *c, nvec difference, num denominato
     if (num_compare_roots(p, one, square, num_mul(p, c->core, denominator), one) > 0)
         return judge_reject(c->error, OVOID_ERROR_PROOF,
                             "upper is below the distance of the two points, %.17g, radii aside",
-                            sqrt(num_to_double(square)) / num_to_double(denominator));
+                            compute_ratio(p, square, num_mul(p, denominator, denominator)));
     return OVOID_OK;
 }
 

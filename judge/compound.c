@@ -1,7 +1,7 @@
 // Answers about bodies of several parts. Theorem. Each exclusion is a rectangle in the table of all pairs of parts,
 // rows and columns in the orders of both trees: along its normal n every part of the one ends before every part of the
-// other begins, by `lower` at least, radii and allowances included. If the rectangles and the deciding pair's own square cover the
-// table, no pair of parts is nearer than the least of their bounds.
+// other begins, by `lower` at least, radii and allowances included. If the rectangles and the deciding pair's own
+// square cover the table, no pair of parts is nearer than the least of their bounds.
 //
 // The cover is found by a sweep along the rows: a tree over the columns holds how many rectangles cover each of them
 // (J. L. Bentley, Algorithms for Klee's rectangle problems, 1977). The library's trees are not used.
@@ -45,8 +45,7 @@ static ovoid_code read_side(const ovoid_body *of, uint32_t part, side *s, uint32
         s->count = (uint32_t)ovoid_compound_get_part_count(of->compound);
     }
     if (part >= s->count) return judge_reject(error, OVOID_ERROR_PROOF, "there is no part %u", part);
-    unsigned char *seen = s->order ? calloc(s->count, 1) : NULL;
-    if (s->order && !seen) return judge_reject(error, OVOID_ERROR_MEMORY, "no memory for %u parts", s->count);
+    unsigned char *seen = s->order ? judge_allocate(s->count, 1) : NULL;
     uint32_t named = 0;
     for (uint32_t i = 0; i < s->count && seen; i++) {
         if (s->order[i] < s->count && !seen[s->order[i]]) seen[s->order[i]] = 1, named++;
@@ -194,15 +193,11 @@ static ovoid_code sweep(const table *t, const event *events, columns *c) {
 static ovoid_code check_cover(const table *t) {
     columns c = {.leaves = 2};
     while (c.leaves < t->b.count) c.leaves *= 2;
-    c.least = calloc(2 * c.leaves, sizeof *c.least);
-    c.own = calloc(2 * c.leaves, sizeof *c.own);
-    event *events = malloc((2 * t->count + 2) * sizeof *events);
-    ovoid_code code = OVOID_ERROR_MEMORY;
-    if (c.least && c.own && events) {
-        fill_events(t, events);
-        code = sweep(t, events, &c);
-    } else
-        code = judge_reject(t->error, code, "no memory for %zu exclusions", t->count);
+    c.least = judge_allocate(2 * c.leaves, sizeof *c.least);
+    c.own = judge_allocate(2 * c.leaves, sizeof *c.own);
+    event *events = judge_allocate(2 * t->count + 2, sizeof *events);
+    fill_events(t, events);
+    ovoid_code code = sweep(t, events, &c);
     free(events);
     free(c.own);
     free(c.least);

@@ -105,11 +105,13 @@ static int triangle_is_outside(pool *p, const inner *e, nvec a, nvec b, nvec c) 
 static shell shell_create(pool *p, const ovoid_polytope *polytope, ovoid_vec3 center, nvec **points) {
     uint32_t count = polytope->vertex_count;
     nvec c = nvec_from(p, center);
-    *points = malloc((count ? count : 1) * sizeof **points);
-    if (!*points) abort();
+    *points = judge_allocate(count, sizeof **points);
     for (uint32_t i = 0; i < count; i++) {
         const double *v = polytope->vertices + 3 * (size_t)i;
-        (*points)[i] = nvec_sub(p, nvec_from(p, (ovoid_vec3){v[0], v[1], v[2]}), c);
+        nvec_slot kept = nvec_slot_make(p);
+        size_t mark = pool_get_mark(p);
+        (*points)[i] = nvec_slot_set(kept, nvec_sub(p, nvec_from(p, (ovoid_vec3){v[0], v[1], v[2]}), c));
+        pool_release(p, mark);
     }
     return (shell){*points, polytope->triangles, count, polytope->triangle_count};
 }
@@ -171,8 +173,7 @@ static size_t find_slot(const facts *table, size_t capacity, const ovoid_shape *
 
 static void grow_table(judge *j) {
     size_t capacity = j->capacity ? 2 * j->capacity : 64;
-    facts *table = calloc(capacity, sizeof *table);
-    if (!table) abort();
+    facts *table = judge_allocate(capacity, sizeof *table);
     for (size_t i = 0; i < j->capacity; i++)
         if (j->table[i].shape) table[find_slot(table, capacity, j->table[i].shape)] = j->table[i];
     free(j->table);

@@ -1,7 +1,8 @@
 // The judge: decides in exact arithmetic (GMP) whether an answer's proof shows what the answer claims. It includes only
 // <ovoid/*.h> and gmp.h, shares no code with the library and never searches: an answer whose proof does not suffice is
 // rejected, even where the answer is true. A body is taken as the hull of the polytope's vertices plus the radius, its
-// pose as the rational map position + R(q) x / |q|^2. docs/proofs.md has the theorems. GMP aborts when memory is out.
+// pose as the rational map position + R(q) x / |q|^2. docs/proofs.md has the theorems. When memory is out the program
+// ends, as GMP knows no other way (judge_set_out_of_memory).
 #ifndef OVOID_JUDGE_H
 #define OVOID_JUDGE_H
 
@@ -14,6 +15,10 @@ typedef struct judge judge;
 /// NULL where memory is out. The caller destroys it.
 judge *judge_create(void);
 void judge_destroy(judge *context);
+
+/// What is to be called where memory is out, by any judge of the process: it must not return, as neither GMP nor the
+/// judge can go on. NULL, and until this is called: abort. Call it before the first judge is made.
+void judge_set_out_of_memory(void (*handler)(void));
 
 /// Forgets all shapes.
 void judge_forget(judge *context);

@@ -30,11 +30,11 @@ void pool_release(pool *p, size_t mark) { p->count = mark; }
 
 // One chunk more; as GMP does, without memory there is no going on.
 static void pool_grow(pool *p) {
-    number **chunks = realloc(p->chunks, (p->chunk_count + 1) * sizeof *chunks);
-    number *chunk = malloc(CHUNK * sizeof *chunk);
-    if (!chunks || !chunk) abort();
+    number **chunks = judge_allocate(p->chunk_count + 1, sizeof *chunks), *chunk = judge_allocate(CHUNK, sizeof *chunk);
+    for (size_t i = 0; i < p->chunk_count; i++) chunks[i] = p->chunks[i];
     for (size_t i = 0; i < CHUNK; i++) mpz_init(chunk[i].m);
     chunks[p->chunk_count++] = chunk;
+    free(p->chunks);
     p->chunks = chunks;
 }
 
@@ -196,8 +196,7 @@ double num_to_double(num a) {
 static double to_double_toward(num a, int direction) {
     double x = num_to_double(a);
     if (isinf(x)) return (x > 0) == (direction > 0) ? x : nextafter(x, 0);
-    pool *p = number_pool_create();
-    if (!p) abort();
+    pool *p = judge_allocate(1, sizeof *p);
     while (isfinite(x) && num_compare(p, number_from(p, x), a) * direction < 0) x = nextafter(x, direction * INFINITY);
     number_pool_destroy(p);
     return x;
@@ -219,6 +218,15 @@ void slot_set(slot s, num a) {
 }
 
 nvec nvec_from(pool *p, ovoid_vec3 v) { return (nvec){number_from(p, v.x), number_from(p, v.y), number_from(p, v.z)}; }
+
+nvec_slot nvec_slot_make(pool *p) { return (nvec_slot){slot_make(p), slot_make(p), slot_make(p)}; }
+
+nvec nvec_slot_set(nvec_slot s, nvec v) {
+    slot_set(s.x, v.x);
+    slot_set(s.y, v.y);
+    slot_set(s.z, v.z);
+    return (nvec){s.x, s.y, s.z};
+}
 
 nvec nvec_zero(pool *p) {
     num zero = number_from_integer(p, 0);

@@ -15,6 +15,9 @@ typedef struct number {
 } number;
 typedef const number *num;
 
+/// Zeroed memory for count items; where there is none the program ends (judge_set_out_of_memory).
+void *judge_allocate(size_t count, size_t size);
+
 /// The memory of numbers. pool_release frees all numbers made since pool_get_mark returned the mark.
 typedef struct pool pool;
 pool *number_pool_create(void);
@@ -66,6 +69,12 @@ typedef struct nvec {
     num x, y, z;
 } nvec;
 nvec nvec_from(pool *p, ovoid_vec3 v);
+/// Room for a vector that outlives a release; writes it, and returns it as a vector.
+typedef struct nvec_slot {
+    slot x, y, z;
+} nvec_slot;
+nvec_slot nvec_slot_make(pool *p);
+nvec nvec_slot_set(nvec_slot s, nvec v);
 nvec nvec_zero(pool *p);
 nvec nvec_add(pool *p, nvec a, nvec b);
 nvec nvec_sub(pool *p, nvec a, nvec b);

@@ -10,11 +10,10 @@ static int compare_keys(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-// The directed edges in ascending order; NULL where an index is out of range or memory is out.
+// The directed edges in ascending order; NULL where an index is out of range.
 static uint64_t *create_sorted_edges(const shell *s) {
     size_t count = 3 * (size_t)s->triangle_count;
-    uint64_t *keys = malloc((count ? count : 1) * sizeof *keys);
-    if (!keys) return NULL;
+    uint64_t *keys = judge_allocate(count, sizeof *keys);
     for (size_t i = 0; i < count; i++) {
         uint32_t from = s->triangles[i], to = s->triangles[i % 3 == 2 ? i - 2 : i + 1];
         if (from >= s->point_count || to >= s->point_count) {

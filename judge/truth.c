@@ -141,8 +141,7 @@ ovoid_code judge_compute_truth(judge *context, const ovoid_pair *pair, judge_tru
     if (t.count_a > MOST_VERTICES || t.count_b > MOST_VERTICES)
         code = judge_reject(error, OVOID_ERROR_LIMIT, "more than %d vertices", MOST_VERTICES);
     if (code == OVOID_OK) {
-        t.edges = malloc(MOST_VERTICES * MOST_VERTICES * sizeof *t.edges);
-        if (!t.edges) abort();
+        t.edges = judge_allocate((size_t)MOST_VERTICES * MOST_VERTICES, sizeof *t.edges);
         run(&t, &s);
         *truth = read_truth(&t, &s);
         free(t.edges);

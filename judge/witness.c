@@ -49,10 +49,13 @@ static int is_near_boundary(pool *p, const ovoid_polytope *polytope, const nvec 
 
 static int is_in_body(pool *p, const body *b, nvec point, num reach) {
     const ovoid_polytope *polytope = &b->polytope;
-    nvec *corners = malloc(polytope->vertex_count * sizeof *corners);
-    if (!corners) abort();
-    nvec at = nvec_scale(p, point, b->n);
-    for (uint32_t i = 0; i < polytope->vertex_count; i++) corners[i] = nvec_sub(p, body_vertex(p, b, i), at);
+    nvec *corners = judge_allocate(polytope->vertex_count, sizeof *corners), at = nvec_scale(p, point, b->n);
+    for (uint32_t i = 0; i < polytope->vertex_count; i++) {
+        nvec_slot kept = nvec_slot_make(p);
+        size_t mark = pool_get_mark(p);
+        corners[i] = nvec_slot_set(kept, nvec_sub(p, body_vertex(p, b, i), at));
+        pool_release(p, mark);
+    }
     num limit = num_mul(p, reach, b->n);
     shell s = {corners, polytope->triangles, polytope->vertex_count, polytope->triangle_count};
     int inside = is_near_boundary(p, polytope, corners, num_mul(p, limit, limit)) ||

@@ -245,6 +245,12 @@ typedef enum ovoid_record_field {
     OVOID_RECORD_PROOF = 16  /**< of CSV: the proof, as the last column; JSON always has it */
 } ovoid_record_field;
 
+/** Most exclusions, steps and groups, all together, of a record in a line of JSON. */
+#define OVOID_RECORD_ITEMS_MAX ((size_t)1 << 17)
+
+/** Longest line of results that is read, bytes: more than a record of OVOID_RECORD_ITEMS_MAX items takes. */
+#define OVOID_RECORD_SIZE_MAX ((size_t)1 << 26)
+
 /** The part of a body that is no compound. */
 #define OVOID_RECORD_NO_PART UINT32_MAX
 
@@ -276,7 +282,7 @@ typedef struct ovoid_record {
  * lower, upper, point_a, point_b, normal, stage, iterations, proof, in this order, the first four, the parts and the
  * margin where they are given; numbers with 17 digits; infinity and NaN are null. within is what the bracket says of
  * the margin: "yes", "no" (farther), "at" (the bracket is as narrow as asked and holds the margin) or "unproven". FILE
- * where the stream failed.
+ * where the stream failed; LIMIT, and nothing is written, where the record has too many items.
  */
 OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 ovoid_code line_source_open(line_source *source, const char *path, ovoid_error *error) {
-    *source = (line_source){.path = text_copy(path, strlen(path)), .capacity = 1 << 16};
+    *source = (line_source){.path = text_copy(path, strlen(path)), .capacity = 1 << 16, .most = LINE_MAX_BYTES};
     source->buffer = malloc(source->capacity);
     ovoid_code code = source->path && source->buffer ? OVOID_OK : io_fail_memory(error, path);
     if (!code) source->file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
@@ -34,7 +34,7 @@ static int read_more(line_source *source, ovoid_error *error) {
     }
     where at = {source->path, source->line + 1, -1};
     if (source->end == source->capacity) {
-        if (source->capacity >= LINE_MAX_BYTES) {
+        if (source->capacity >= source->most) {
             io_report(error, OVOID_ERROR_LIMIT, at, "the line has more than %zu bytes", source->capacity);
             return -1;
         }

@@ -60,9 +60,9 @@ typedef struct line_source {
     char *buffer;
     size_t capacity, begin, end; ///< the bytes read and not yet returned: buffer[begin .. end)
     int64_t line;                ///< 1-based number of the last line returned
+    size_t most;                 ///< longest line that is read, bytes: LINE_MAX_BYTES when opened
 } line_source;
 
-/// Longest line that is read, bytes.
 enum { LINE_MAX_BYTES = 1 << 20 };
 
 /// Opens the path; "-" is standard input.

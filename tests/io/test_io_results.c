@@ -550,10 +550,10 @@ static void check_bad_lines(void) {
     CHECK(!ovoid_results_reader_create(file_path("absent.jsonl"), &error) && error.code == OVOID_ERROR_FILE);
 }
 
-// A line of more than 2^20 bytes is refused, not gathered; one just below is read.
+// A line of more than 2^26 bytes is refused, not gathered; one of 2^22 is read.
 static void check_long_lines(void) {
     for (int is_long = 0; is_long < 2; is_long++) {
-        size_t size = ((size_t)1 << 20) - 1000 + 4000 * (size_t)is_long, n = strlen(GOOD);
+        size_t size = is_long ? OVOID_RECORD_SIZE_MAX + 3000 : (size_t)1 << 22, n = strlen(GOOD);
         char *text = malloc(size);
         memset(text, ' ', size);
         memcpy(text + size - n, GOOD, n);
@@ -566,6 +566,46 @@ static void check_long_lines(void) {
         ovoid_results_reader_destroy(reader);
         free(text);
     }
+}
+
+// The longest exclusion that can be written.
+static ovoid_exclusion make_long(void) {
+    const double x = -0.12345678901234567e-99;
+    return (ovoid_exclusion){1u << 24, 1u << 24, 1u << 24, 1u << 24, {x, x, x}, {x, x, x}, x};
+}
+
+// The proof of compounds of thousands of parts, a line of megabytes, is read as it was written. As many items as a
+// record may have fit into the longest line; more are refused before anything is written.
+static void check_many_exclusions(void) {
+    enum { COUNT = 9000 };
+    static ovoid_cover cover;
+    uint64_t s = 23;
+    ovoid_record record = random_record(&s, &cover);
+    record.cover = NULL;
+    ovoid_exclusion *items = malloc(COUNT * sizeof *items);
+    for (int i = 0; i < COUNT; i++) items[i] = make_long();
+    record.exclusions = items;
+    record.exclusion_count = COUNT;
+    record.step_count = record.group_count = 0;
+    char *text = write_with(ovoid_record_write_json, &record);
+    size_t length = strlen(text);
+    CHECK_LE(2 << 20, length);
+    CHECK_LE(length / COUNT * OVOID_RECORD_ITEMS_MAX, OVOID_RECORD_SIZE_MAX / 4 * 3);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_results_reader *reader = ovoid_results_reader_create(file_write("many.jsonl", text, length), &error);
+    ovoid_record read;
+    if (!CHECK_EQ(ovoid_results_reader_read(reader, &read, &error), 1)) printf("  %s\n", error.message);
+    CHECK(read.exclusion_count == COUNT && memcmp(read.exclusions, items, COUNT * sizeof *items) == 0);
+    ovoid_results_reader_destroy(reader);
+    free(text);
+    record.step_count = OVOID_RECORD_ITEMS_MAX - COUNT + 1;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    CHECK_EQ(ovoid_record_write_json(file, &record), OVOID_ERROR_LIMIT);
+    fclose(file);
+    CHECK_EQ(size, 0);
+    free(text);
+    free(items);
 }
 
 // Cut and changed lines: an answer or an error, never a crash.
@@ -608,6 +648,7 @@ int main(void) {
     check_locale();
     check_bad_lines();
     check_long_lines();
+    check_many_exclusions();
     check_damaged();
     return check_end();
 }

@@ -430,7 +430,10 @@ ovoid_results_reader *ovoid_results_reader_create(const char *path, ovoid_error 
         io_fail_memory(error, path);
         return NULL;
     }
-    if (!line_source_open(&reader->source, path, error)) return reader;
+    if (!line_source_open(&reader->source, path, error)) {
+        reader->source.most = OVOID_RECORD_SIZE_MAX;
+        return reader;
+    }
     free(reader);
     return NULL;
 }

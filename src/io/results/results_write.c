@@ -196,6 +196,8 @@ static void write_margin(FILE *file, const ovoid_record *record) {
 }
 
 ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
+    if (record->exclusion_count + record->step_count + record->group_count > OVOID_RECORD_ITEMS_MAX)
+        return OVOID_ERROR_LIMIT;
     const ovoid_answer *answer = &record->answer;
     const char *q = "\"";
     write_key(file, q, write_times(file, record), "a");
