@@ -303,6 +303,18 @@ static int check_count(const cli_command *command, const cli_operands *operands)
     return -1;
 }
 
+/// Refuses standard input in two places; -1 where it is in one at most.
+static int check_input(const cli_command *command, const void *settings, const cli_operands *operands) {
+    int count = 0;
+    for (int i = 0; i < operands->count; i++) count += strcmp(operands->items[i], "-") == 0;
+    for (const cli_option *o = command->options; o->name; o++) {
+        const char *path = o->kind == OPTION_FILE ? *(const char *const *)((const char *)settings + o->offset) : NULL;
+        count += path && strcmp(path, "-") == 0;
+    }
+    if (count < 2) return -1;
+    return args_complain(command, "%s: standard input, \"-\", can be read once only", command->name);
+}
+
 int args_parse(const cli_command *command, int argc, char **argv, void *settings, cli_operands *operands) {
     cursor at = {argc, 0, argv};
     int ended = 0, code = -1;
@@ -319,5 +331,6 @@ int args_parse(const cli_command *command, int argc, char **argv, void *settings
             code = parse_short(command, given, &at, settings);
     }
     if (code < 0) code = check_count(command, operands);
+    if (code < 0) code = check_input(command, settings, operands);
     return code < 0 ? outputs_check(command, settings, operands) : code;
 }

@@ -442,7 +442,7 @@ static int check_inputs(const cli_command *command, const settings *s, const cli
         return args_complain(command, "verify: --shapes takes the place of %s", paths->items[1]);
     if (!has_list && paths->count < 2)
         return args_complain(command, "verify: on which bodies? Give SCENE.json, or A and B, or --shapes and --pairs");
-    if (!has_list && paths->count == 2 && !inputs_is_scene(paths->items[1]))
+    if (!has_list && paths->count == 2 && !inputs_is_scene(paths->items[1]) && strcmp(paths->items[1], "-") != 0)
         return args_complain(command, "verify: %s is no scene (.json); of two bodies, both must be given",
                              paths->items[1]);
     if (s->motion && (has_list || paths->count > 2))

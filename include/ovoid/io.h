@@ -4,9 +4,11 @@
  * stands on (jansson, Assimp) is not the core's. docs/formats.md and docs/scene.md describe every format.
  *
  * Every function returns a code or NULL and fills *error (which may be NULL); message is "path:line: what is wrong"
- * and place the line of a text file, the vertex or face of a binary one. Nothing prints, exits or leaks, and no file
- * makes a reader allocate more than a small multiple of its own size. Memory comes from malloc. Numbers are read and
- * written with a point whatever the locale. Not for concurrent use of one object; different objects are independent.
+ * and place the line of a text file, the vertex or face of a binary one. Where a path is given to be read, "-" is
+ * standard input, but for .ovoid files; a byte order mark (UTF-8) before a text is passed over. Nothing prints, exits
+ * or leaks, and no file makes a reader allocate more than a small multiple of its own size. Memory comes from malloc.
+ * Numbers are read and written with a point whatever the locale. Not for concurrent use of one object; different
+ * objects are independent.
  */
 #ifndef OVOID_IO_H
 #define OVOID_IO_H
@@ -62,7 +64,7 @@ OVOID_API double ovoid_unit_get_scale(const char *from, const char *to);
 /**
  * Reads a mesh: STL (text, binary), OBJ, OFF, PLY (text, binary) by readers of our own; COLLADA (.dae), glTF (.gltf,
  * .glb), 3DS, X3D, FBX, 3MF through Assimp where it was built in, with the transforms of their nodes applied. What a
- * file is, is decided by its first bytes where they tell, else by its extension.
+ * file is, is decided by its first bytes where they tell, else by its extension; standard input is OBJ else.
  * One part: every point of the file. Several: the points that the object's faces use; of an object without faces those
  * that it declares; objects without points are left out. STL's equal points are merged, nothing else.
  * Assimp's importers are not safe with hostile bytes. They run in a child process (fork) with limits on memory and

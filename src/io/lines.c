@@ -54,6 +54,16 @@ static int read_more(line_source *source, ovoid_error *error) {
     return -1;
 }
 
+// The first line without a byte order mark. 0: the text is none that was meant.
+static int take_first(const line_source *source, const char **line, size_t *length, ovoid_error *error) {
+    bytes text = bytes_skip_mark((bytes){(char *)*line, *length});
+    *line = text.data;
+    *length = text.size;
+    if (!text_is_pointer(*line, *length)) return 1;
+    io_report(error, OVOID_ERROR_FORMAT, (where){source->path, 0, -1}, TEXT_POINTER_SENTENCE);
+    return 0;
+}
+
 int line_source_next(line_source *source, const char **line, size_t *length, ovoid_error *error) {
     size_t searched = 0;
     char *end;
@@ -68,7 +78,7 @@ int line_source_next(line_source *source, const char **line, size_t *length, ovo
     *line = source->buffer + source->begin;
     *length = end ? (size_t)(end - *line) : searched;
     source->begin += *length + (end != NULL);
-    source->line++;
+    if (source->line++ == 0 && !take_first(source, line, length, error)) return -1;
     if (*length && (*line)[*length - 1] == '\r') --*length;
     return 1;
 }

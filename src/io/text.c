@@ -62,11 +62,29 @@ static ovoid_code read_all(int file, size_t size, const char *path, bytes *out, 
     return OVOID_OK;
 }
 
-ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error) {
-    return bytes_read_at_most(path, OVOID_FILE_SIZE_MAX, out, error);
+bytes bytes_skip_mark(bytes text) {
+    if (text.size < 3 || memcmp(text.data, "\xef\xbb\xbf", 3) != 0) return text;
+    return (bytes){text.data + 3, text.size - 3};
 }
 
-ovoid_code bytes_read_at_most(const char *path, size_t most, bytes *out, ovoid_error *error) {
+int text_is_pointer(const char *text, size_t length) {
+    static const char begin[] = "version https://git-lfs.github.com/spec/";
+    return length >= sizeof begin - 1 && memcmp(text, begin, sizeof begin - 1) == 0;
+}
+
+// What no reader wants.
+static ovoid_code check_content(const char *path, bytes *out, ovoid_error *error) {
+    where at = {path, 0, -1};
+    ovoid_code code = OVOID_OK;
+    if (out->size == 0) code = io_fail(error, OVOID_ERROR_EMPTY, at, "the file is empty");
+    if (text_is_pointer(out->data, out->size)) code = io_fail(error, OVOID_ERROR_FORMAT, at, TEXT_POINTER_SENTENCE);
+    if (!code) return OVOID_OK;
+    free(out->data);
+    *out = (bytes){NULL, 0};
+    return code;
+}
+
+static ovoid_code read_file(const char *path, size_t most, bytes *out, ovoid_error *error) {
     *out = (bytes){NULL, 0};
     where at = {path, 0, -1};
     // O_NONBLOCK: a pipe of that name must be refused, not waited for.
@@ -81,12 +99,42 @@ ovoid_code bytes_read_at_most(const char *path, size_t most, bytes *out, ovoid_e
     else if ((uint64_t)status.st_size > most)
         code = io_fail(error, OVOID_ERROR_LIMIT, at, "has %lld bytes; at most %zu are read", (long long)status.st_size,
                        most);
-    else if (status.st_size == 0)
-        code = io_fail(error, OVOID_ERROR_EMPTY, at, "the file is empty");
     else
         code = read_all(file, (size_t)status.st_size, path, out, error);
     close(file);
-    return code;
+    return code ? code : check_content(path, out, error);
+}
+
+// Standard input, of a length that is not known before.
+static ovoid_code read_input(size_t most, bytes *out, ovoid_error *error) {
+    size_t capacity = 1 << 16;
+    where at = {"-", 0, -1};
+    *out = (bytes){malloc(capacity), 0};
+    for (size_t n = 1; out->data && n;) {
+        n = fread(out->data + out->size, 1, capacity - 1 - out->size, stdin);
+        out->size += n;
+        if (out->size > most || ferror(stdin)) {
+            free(out->data);
+            if (out->size > most)
+                return io_fail(error, OVOID_ERROR_LIMIT, at, "has more than %zu bytes, the most that are read", most);
+            return io_fail(error, OVOID_ERROR_FILE, at, "cannot be read: %s", strerror(errno));
+        }
+        if (out->size + 1 < capacity) continue;
+        char *grown = realloc(out->data, capacity *= 2);
+        if (!grown) free(out->data);
+        out->data = grown;
+    }
+    if (!out->data) return io_fail_memory(error, "-");
+    out->data[out->size] = 0;
+    return check_content("-", out, error);
+}
+
+ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error) {
+    return read_file(path, OVOID_FILE_SIZE_MAX, out, error);
+}
+
+ovoid_code bytes_read_input(const char *path, size_t most, bytes *out, ovoid_error *error) {
+    return strcmp(path, "-") == 0 ? read_input(most, out, error) : read_file(path, most, out, error);
 }
 
 int array_reserve(void **data, size_t *capacity, size_t count, size_t size) {
@@ -120,6 +168,7 @@ uint64_t text_hash(const char *text) {
 char *path_join(const char *base, const char *name) {
     const char *slash = strrchr(base, '/');
     size_t folder = slash && name[0] != '/' ? (size_t)(slash - base) + 1 : 0;
+    if (!folder && strcmp(name, "-") == 0) name = "./-";
     size_t length = strlen(name);
     char *joined = malloc(folder + length + 1);
     if (!joined) return NULL;

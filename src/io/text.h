@@ -37,8 +37,15 @@ typedef struct bytes {
 
 /// Reads a regular file of at most OVOID_FILE_SIZE_MAX bytes. The caller frees out->data.
 ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error);
-/// Reads a regular file of at most `most` bytes. The caller frees out->data.
-ovoid_code bytes_read_at_most(const char *path, size_t most, bytes *out, ovoid_error *error);
+/// Reads a regular file, or standard input where the path is "-", of at most `most` bytes. The caller frees out->data.
+ovoid_code bytes_read_input(const char *path, size_t most, bytes *out, ovoid_error *error);
+
+/// The text without a byte order mark (UTF-8) at its beginning: a view.
+bytes bytes_skip_mark(bytes text);
+/// 1 if the text is that of a Git LFS pointer, which stands in the place of a file that was not fetched.
+int text_is_pointer(const char *text, size_t length);
+/// The sentence that says so.
+#define TEXT_POINTER_SENTENCE "is a Git LFS pointer, not the file itself; \"git lfs pull\" fetches that"
 
 /// Makes room in a growing array for one more item of size bytes. 0 where there is no memory.
 int array_reserve(void **data, size_t *capacity, size_t count, size_t size);
@@ -77,7 +84,7 @@ char *text_copy(const char *text, size_t length);
 /// A 64-bit hash of the text.
 uint64_t text_hash(const char *text);
 
-/// malloc'ed path of `name` relative to the folder of `base`; an absolute name stays.
+/// malloc'ed path of `name` relative to the folder of `base`; an absolute name stays. Never "-", which is no file.
 char *path_join(const char *base, const char *name);
 
 /// 1 if the word `name`, given in lower case, stands at `at`, in any case.

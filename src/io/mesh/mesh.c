@@ -35,7 +35,8 @@ static int begins_with_word(bytes file, const char *word) {
     return is_blank(file.data[length]) || file.data[length] == '\n' || file.size == length;
 }
 
-// The reader for what the first bytes or else the extension say; NULL for an unknown kind.
+// The reader for what the first bytes or else the extension say; of standard input OBJ, the only text without a first
+// word. NULL for an unknown kind.
 static mesh_read_function find_reader(const char *path, bytes file) {
     static const char *const off_words[] = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
     if (begins_with_word(file, "ply")) return mesh_read_ply;
@@ -43,7 +44,7 @@ static mesh_read_function find_reader(const char *path, bytes file) {
         if (begins_with_word(file, off_words[i])) return mesh_read_off;
     if (mesh_is_stl(file)) return mesh_read_stl;
     if (path_has_extension(path, "stl")) return mesh_read_stl;
-    if (path_has_extension(path, "obj")) return mesh_read_obj;
+    if (path_has_extension(path, "obj") || strcmp(path, "-") == 0) return mesh_read_obj;
     if (path_has_extension(path, "off")) return mesh_read_off;
     if (path_has_extension(path, "ply")) return mesh_read_ply;
     // Assimp's other importers are not enabled: they have not been tested.
@@ -94,10 +95,12 @@ ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options,
     if (path_has_extension(path, "dae")) scale *= metre;
     mesh_reader reader = {.path = path, .scale = scale, .error = error};
     if (options) reader.parts = options->parts, reader.trusted = options->trusted;
-    if (bytes_read(path, &reader.file, error)) return NULL;
+    bytes file;
+    if (bytes_read_input(path, OVOID_FILE_SIZE_MAX, &file, error)) return NULL;
+    reader.file = mesh_is_stl(file) ? file : bytes_skip_mark(file);
     reader.mesh = calloc(1, sizeof *reader.mesh);
     ovoid_code code = reader.mesh ? read_mesh(&reader) : io_fail_memory(error, path);
-    free(reader.file.data);
+    free(file.data);
     if (!code) return reader.mesh;
     ovoid_mesh_destroy(reader.mesh);
     return NULL;

@@ -212,10 +212,10 @@ static ovoid_code fill_from_list(shapes_reader *r, const char *list, bytes file)
 ovoid_shapes *ovoid_shapes_read_list(const char *path, const ovoid_read_options *read,
                                      const ovoid_shape_options *options, ovoid_error *error) {
     bytes file;
-    if (bytes_read(path, &file, error)) return NULL;
+    if (bytes_read_input(path, OVOID_FILE_SIZE_MAX, &file, error)) return NULL;
     ovoid_shapes *shapes = calloc(1, sizeof *shapes);
     shapes_reader r = {shapes, read, options, error};
-    ovoid_code code = shapes ? fill_from_list(&r, path, file) : io_fail_memory(error, path);
+    ovoid_code code = shapes ? fill_from_list(&r, path, bytes_skip_mark(file)) : io_fail_memory(error, path);
     free(file.data);
     if (!code) return shapes;
     ovoid_shapes_destroy(shapes);

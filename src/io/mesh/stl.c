@@ -18,7 +18,7 @@ static uint32_t read_u32(const char *at) {
 // A file that begins with "solid" is text, unless it has the size a binary file must have or holds a zero byte early
 // on.
 static int is_text(bytes file) {
-    if (file.size < 6 || strncmp(file.data, "solid", 5) != 0) return 0;
+    if (file.size < 6 || !text_begins_with(file.data, file.data + file.size, "solid")) return 0;
     if (!is_blank(file.data[5]) && file.data[5] != '\n') return 0;
     if (file.size >= HEADER && file.size == HEADER + (uint64_t)TRIANGLE * read_u32(file.data + 80)) return 0;
     return memchr(file.data, 0, file.size < 512 ? file.size : 512) == NULL;

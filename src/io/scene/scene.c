@@ -171,10 +171,12 @@ static ovoid_code read_scene(scene_reader *r) {
 
 ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error) {
     scene_reader r = {.path = path, .options = options, .error = error, .part = NO_PART};
-    if (bytes_read_at_most(path, OVOID_SCENE_SIZE_MAX, &r.file, error)) return NULL;
+    bytes file;
+    if (bytes_read_input(path, OVOID_SCENE_SIZE_MAX, &file, error)) return NULL;
+    r.file = bytes_skip_mark(file);
     r.scene = calloc(1, sizeof *r.scene);
     ovoid_code code = r.scene ? read_scene(&r) : io_fail_memory(error, path);
-    free(r.file.data);
+    free(file.data);
     free(r.slots);
     if (!code) return r.scene;
     ovoid_scene_destroy(r.scene);
