@@ -43,10 +43,16 @@ static void print_vector(const report *r, const char *title, ovoid_vec3 v, const
     fprintf(r->file, "%-11s %.9g %.9g %.9g%s\n", title, v.x, v.y, v.z, unit);
 }
 
+static void print_name(FILE *file, const char *title, const char *name) {
+    fprintf(file, "%-11s ", title);
+    message_write_text(file, name);
+}
+
 static void print_shape(const report *r, const char *title, const char *path, const ovoid_shape *shape) {
     unsigned long long vertices = ovoid_shape_get_report(shape).vertices;
     double radius = ovoid_shape_get_radius(shape);
-    fprintf(r->file, "%-11s %s; vertices: %llu", title, path, vertices);
+    print_name(r->file, title, path);
+    fprintf(r->file, "; vertices: %llu", vertices);
     if (radius > 0) fprintf(r->file, "; radius: %.9g%s", radius, r->unit);
     fputc('\n', r->file);
 }
@@ -54,14 +60,18 @@ static void print_shape(const report *r, const char *title, const char *path, co
 static void print_body(const report *r, const char *title, const char *path, const cli_body *body) {
     if (body->shape)
         print_shape(r, title, path, body->shape);
-    else
-        fprintf(r->file, "%-11s %s; parts: %zu\n", title, path, ovoid_shapes_get_count(body->parts));
+    else {
+        print_name(r->file, title, path);
+        fprintf(r->file, "; parts: %zu\n", ovoid_shapes_get_count(body->parts));
+    }
 }
 
 /// Prints the number of a part, and its name in the file.
 static void print_part(FILE *file, const char *title, const cli_body *body, uint32_t part) {
     if (body->shape) return;
-    fprintf(file, "%-11s %lu; %s\n", title, (unsigned long)part, ovoid_shapes_get(body->parts, part).name);
+    fprintf(file, "%-11s %lu; ", title, (unsigned long)part);
+    message_write_text(file, ovoid_shapes_get(body->parts, part).name);
+    fputc('\n', file);
 }
 
 /// Prints whether the bodies are within the margin.

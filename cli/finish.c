@@ -10,8 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
-static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-#define NUMBER_COUNT (sizeof numbers / sizeof *numbers)
+/// What may end the program at any moment, and can wait; and its own faults, which cannot.
+static const int numbers[] = {SIGINT,    SIGTERM, SIGHUP,  SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2,
+                              SIGVTALRM, SIGPROF, SIGABRT, SIGSEGV, SIGBUS,  SIGFPE,  SIGILL};
+enum { NUMBER_COUNT = sizeof numbers / sizeof *numbers, HELD_COUNT = NUMBER_COUNT - 5 };
 
 /// The path of the unfinished file, as a signal handler may read it.
 static char unfinished[4096];
@@ -37,7 +39,7 @@ void finish_catch_signals(void) {
     for (size_t i = 0; i < NUMBER_COUNT; i++) {
         struct sigaction now;
         sigaction(numbers[i], NULL, &now);
-        if (now.sa_handler != SIG_IGN) set_handler(numbers[i], end_by_signal); // nohup stays nohup
+        if (now.sa_handler == SIG_DFL) set_handler(numbers[i], end_by_signal); // nohup stays nohup
     }
 }
 
@@ -51,7 +53,7 @@ void finish_set_unfinished(const char *path) {
 static void change_mask(int how) {
     sigset_t set;
     sigemptyset(&set);
-    for (size_t i = 0; i < NUMBER_COUNT; i++) sigaddset(&set, numbers[i]);
+    for (size_t i = 0; i < HELD_COUNT; i++) sigaddset(&set, numbers[i]);
     sigprocmask(how, &set, NULL);
 }
 

@@ -2,6 +2,8 @@
 // that is not finite is null in JSON and empty in CSV.
 #include "fit.h"
 
+#include "message.h"
+
 #include <math.h>
 
 static const char *const step_titles[FIT_STEPS] = {"outer", "phase 1", "phase 2", "phase 3", "inner"};
@@ -30,10 +32,11 @@ static void write_step(FILE *file, const fitted *f, int step) {
             1e3 * f->seconds[step]);
 }
 
-/// Writes file and part; a name from a file must not end the line or control the terminal.
+/// Writes file and part.
 static void write_name(FILE *file, const fitted *f) {
-    fprintf(file, "%s%s", f->file, *f->name ? ": " : "");
-    for (const char *c = f->name; *c; c++) fputc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, file);
+    message_write_text(file, f->file);
+    if (*f->name) fputs(": ", file);
+    message_write_text(file, f->name);
     fputc('\n', file);
 }
 
@@ -58,7 +61,10 @@ void fit_write_report(FILE *file, const fitted *f) {
             "time");
     for (int i = 0; i < FIT_STEPS; i++) write_step(file, f, i);
     fprintf(file, "\n  read in %.3f ms, made into a shape in %.3f ms\n", 1e3 * f->read_seconds, 1e3 * f->make_seconds);
-    if (f->output) fprintf(file, "  written to %s\n", f->output);
+    if (!f->output) return;
+    fputs("  written to ", file);
+    message_write_text(file, f->output);
+    fputc('\n', file);
 }
 
 void fit_write_table_title(FILE *file, const char *unit) {

@@ -109,6 +109,8 @@ void json_write_text(FILE *file, const char *text) {
             fprintf(file, "\\%c", *c);
         else if (*c < 0x20 || *c == 0x7f)
             fprintf(file, "\\u%04x", *c);
+        else if (*c == 0xc2 && c[1] < 0xa0 && length) // C1, which controls terminals too
+            fprintf(file, "\\u%04x", c[1]);
         else if (length)
             fwrite(c, 1, (size_t)length, file);
         else

@@ -40,6 +40,25 @@ static ovoid_code open_temporary(ovoid_output *output, ovoid_error *error) {
     return code;
 }
 
+// The file that a link to nothing names, through as many links as there are; NULL with errno.
+static char *follow_link(const char *path) {
+    char *at = text_copy(path, strlen(path)), name[4096];
+    struct stat status;
+    for (int links = 0; at && lstat(at, &status) == 0 && S_ISLNK(status.st_mode); links++) {
+        ssize_t length = links < 40 ? readlink(at, name, sizeof name - 1) : -1;
+        char *next = NULL;
+        if (length >= 0) {
+            name[length] = 0;
+            next = path_join(at, name);
+        } else if (links == 40) {
+            errno = ELOOP;
+        }
+        free(at);
+        at = next;
+    }
+    return at;
+}
+
 // Finds the target of the path; NULL for a path that is no regular file.
 static ovoid_code find_target(ovoid_output *output, ovoid_error *error) {
     struct stat status;
@@ -47,7 +66,7 @@ static ovoid_code find_target(ovoid_output *output, ovoid_error *error) {
     if (exists && S_ISDIR(status.st_mode))
         return io_fail(error, OVOID_ERROR_FILE, (where){output->path, 0, -1}, "is a folder");
     if (strcmp(output->path, "-") == 0 || (exists && !S_ISREG(status.st_mode))) return OVOID_OK;
-    output->target = exists ? realpath(output->path, NULL) : text_copy(output->path, strlen(output->path));
+    output->target = exists ? realpath(output->path, NULL) : follow_link(output->path);
     return output->target ? OVOID_OK : fail_output(error, output->path, "cannot be written");
 }
 

@@ -118,14 +118,14 @@ done
 # ---- signals: 128 and their number, nothing left behind. env gives a command of the background the signals of a new
 # program; a shell has some ignored there.
 
-code_of() { case $1 in INT) echo 130 ;; TERM) echo 143 ;; HUP) echo 129 ;; esac }
+code_of() { case $1 in INT) echo 130 ;; TERM) echo 143 ;; HUP) echo 129 ;; QUIT) echo 131 ;; USR1) echo 138 ;; XCPU) echo 152 ;; esac; }
 
-# interrupt NAME INPUT COMMAND...: all three signals while the command waits for more of its standard input: all of it was
+# interrupt NAME INPUT COMMAND...: all of these signals while the command waits for more of its standard input: all of it was
 # read but what a pipe holds, and the end does not come.
 interrupt() {
     name=$1 input=$2
     shift 2
-    for signal in INT TERM HUP; do
+    for signal in INT TERM HUP QUIT USR1 XCPU; do
         env --default-signal "$@" <input.fifo >/dev/null 2>err &
         exec 3>input.fifo
         cat "$input" >&3
@@ -142,12 +142,12 @@ interrupt() {
     done
 }
 
-# interrupt_at PATTERN NAME COMMAND...: all three signals as soon as there is a file of that name; a command that is done
+# interrupt_at PATTERN NAME COMMAND...: all of these signals as soon as there is a file of that name; a command that is done
 # before it hears of them must have done all.
 interrupt_at() {
     pattern=$1 name=$2
     shift 2
-    for signal in INT TERM HUP; do
+    for signal in INT TERM HUP QUIT USR1 XCPU; do
         rm -f pid code
         (
             env --default-signal "$@" </dev/null >/dev/null 2>err &

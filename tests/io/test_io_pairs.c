@@ -160,8 +160,28 @@ static void check_output(void) {
     check_holds(path, "linked");
     struct stat status;
     CHECK(lstat(link_path, &status) == 0 && S_ISLNK(status.st_mode));
+    // Through links to nothing: the last one's target is made, the links stay.
+    const char *second_path = file_path("out/second");
+    remove(path);
+    remove(second_path);
+    CHECK(symlink("link", second_path) == 0);
+    output = ovoid_output_create(second_path, &error);
+    if (output) fputs("made", ovoid_output_get_file(output));
+    CHECK(output && ovoid_output_commit(output, &error) == OVOID_OK);
+    ovoid_output_destroy(output);
+    check_holds(path, "made");
+    CHECK(lstat(link_path, &status) == 0 && S_ISLNK(status.st_mode));
+    CHECK(lstat(second_path, &status) == 0 && S_ISLNK(status.st_mode));
     remove(link_path);
     remove(path);
+    // In a ring, and into a folder that is not there: refused.
+    CHECK(symlink("second", link_path) == 0);
+    CHECK(!ovoid_output_create(second_path, &error) && strstr(error.message, "cannot be written"));
+    remove(link_path);
+    CHECK(symlink("nowhere/a.txt", link_path) == 0);
+    CHECK(!ovoid_output_create(second_path, &error) && strstr(error.message, "cannot be written"));
+    remove(link_path);
+    remove(second_path);
     CHECK_EQ(count_files(folder), before);
 }
 

@@ -17,8 +17,10 @@ typedef struct table_row {
 static void set_cell(char cell[CELL], const char *text) {
     size_t n = 0;
     for (; text[n] && n < CELL - 1; n++) {
-        unsigned char c = (unsigned char)text[n];
+        unsigned char c = (unsigned char)text[n], before = n ? (unsigned char)text[n - 1] : 0;
         cell[n] = c < 0x20 || c == 0x7f ? '?' : text[n];
+        // The controls of C1 are two bytes, c2 and 80 to 9f.
+        if (before == 0xc2 && c >= 0x80 && c < 0xa0) cell[n - 1] = cell[n] = '?';
     }
     // No character of several bytes is cut in half.
     if (text[n])
