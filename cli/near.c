@@ -10,15 +10,32 @@
 /// Most pairs.
 #define COUPLES_MAX 50000000
 
+/// Most pairs that a world may keep, with some 400 bytes for each.
+#define CANDIDATES_MAX 10000000
+
 /// Bodies that are moved by one call.
 #define MOVES 1024
 
 /// The object of an id: they were added in order, to an empty world.
 static uint32_t get_object(const cli_near *near, ovoid_id id) { return (uint32_t)((id >> 32) - (near->ids[0] >> 32)); }
 
+/// Called for each pair that comes near.
 static int is_wanted(void *context, ovoid_id a, ovoid_id b) {
+    cli_near *near = context;
+    if (ovoid_scene_is_ignored(near->scene, get_object(near, a), get_object(near, b))) return 0;
+    atomic_fetch_add(&near->candidates, 1);
+    return 1;
+}
+
+/// Memory for the world; none once there are too many pairs, so that it does not go on to find and answer all of them.
+static void *allocate(void *context, size_t size) {
     const cli_near *near = context;
-    return !ovoid_scene_is_ignored(near->scene, get_object(near, a), get_object(near, b));
+    return near->candidates > CANDIDATES_MAX ? NULL : aligned_alloc(64, (size + 63) / 64 * 64);
+}
+
+static void release(void *context, void *memory) {
+    (void)context;
+    free(memory);
 }
 
 static int add_bodies(cli_near *near) {
@@ -44,7 +61,9 @@ int near_open(cli_near *near, const ovoid_scene *scene, ovoid_query_kind kind, d
     *near = (cli_near){.scene = scene, .query = {.kind = kind, .margin = margin}};
     if (margin < 0) return 0;
     if (!threads) threads = pipeline_get_processors();
+    const ovoid_allocator allocator = {allocate, release, near};
     ovoid_world_options options = {.threads = threads < OVOID_WORLD_THREADS_MAX ? threads : OVOID_WORLD_THREADS_MAX,
+                                   .allocator = &allocator,
                                    .filter = is_wanted,
                                    .filter_context = near};
     near->world = ovoid_world_create(&options, &error);
@@ -114,8 +133,14 @@ int near_find(cli_near *near) {
     ovoid_contacts frame;
     // The list of all pairs never changes.
     if (!near->world) return near->count ? 0 : find_all(near);
-    if (ovoid_world_compute_contacts(near->world, &near->query, &frame, &error) != OVOID_OK)
-        return message_error("%s", error.message), EXIT_INPUT;
+    atomic_store(&near->candidates, near->count);
+    ovoid_code code = ovoid_world_compute_contacts(near->world, &near->query, &frame, &error);
+    if (near->candidates > CANDIDATES_MAX) {
+        message_error("more than %d pairs are near each other; give a smaller --margin%s", CANDIDATES_MAX,
+                      ovoid_scene_get_pair_count(near->scene) <= COUPLES_MAX ? ", or none" : "");
+        return EXIT_INPUT;
+    }
+    if (code) return message_error("%s", error.message), EXIT_INPUT;
     if (reserve(near, frame.count)) return EXIT_INPUT;
     for (size_t i = 0; i < frame.count; i++)
         near->couples[i] = (ovoid_couple){get_object(near, frame.items[i].a), get_object(near, frame.items[i].b)};

@@ -8,6 +8,8 @@
 #include <ovoid/io.h>
 #include <ovoid/ovoid.h>
 
+#include <stdatomic.h>
+
 /// The objects of a scene in a world, and the pairs found last.
 typedef struct cli_near {
     const ovoid_scene *scene;
@@ -16,6 +18,7 @@ typedef struct cli_near {
     ovoid_couple *couples; ///< a < b, ascending
     size_t count, capacity;
     ovoid_contact_query query;
+    atomic_size_t candidates; ///< pairs that the world keeps: those found last, and new ones
 } cli_near;
 
 /// Adds the objects to a world, at the poses of the scene. margin: negative for all pairs. kind: collide (margin 0) or
