@@ -204,7 +204,7 @@ static int fit_file(fit *f, const char *path) {
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(&f->settings->read);
     ovoid_shape_options make = make_options(f->settings);
-    fitted found = {.file = path, .name = "", .unit = inputs_get_unit(&f->settings->read)};
+    fitted found = {.file = path, .name = "", .unit = inputs_get_unit(&f->settings->read), .convexity = {NAN, NAN, 0}};
     double start = progress_get_seconds();
     ovoid_shape *shape = ovoid_shape_read_file(path, &read, &make, &error);
     if (!shape) return message_error("%s", error.message), f->failed = 1, 0;
@@ -232,6 +232,8 @@ static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t num
     }
     found.make_seconds = progress_get_seconds() - start;
     found.report.faces = part.faces.face_count;
+    found.convexity = ovoid_mesh_compute_convexity(mesh, number, shape);
+    inputs_warn_nonconvex(path, name, &found.convexity);
     int code = fit_shape(f, shape, &found);
     ovoid_shape_destroy(shape);
     return code;

@@ -2,6 +2,7 @@
 #ifndef OVOID_CLI_FIT_H
 #define OVOID_CLI_FIT_H
 
+#include <ovoid/io.h>
 #include <ovoid/ovoid.h>
 
 #include <stdio.h>
@@ -15,6 +16,7 @@ typedef struct fitted {
     const char *output;      ///< the .ovoid file that was written, or NULL
     const char *unit;        ///< of all lengths; "" where none is named
     ovoid_report report;
+    ovoid_convexity convexity; ///< of the mesh; volumes NaN for a .ovoid file
     ovoid_measures measures;
     uint32_t triangles, facets;
     double radius;

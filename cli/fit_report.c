@@ -51,6 +51,9 @@ void fit_write_report(FILE *file, const fitted *f) {
     fprintf(file, "  hull     %s, %u facets of %u triangles\n", get_rank_name(r->rank), (unsigned)f->facets,
             (unsigned)f->triangles);
     if (f->measure > 0) fprintf(file, "  %-8s %.9g\n", get_measure_name(r->rank), f->measure);
+    if (f->convexity.mesh_volume >= 0 && r->rank == 3)
+        fprintf(file, "  mesh     %.9g enclosed, %.4g %% of the hull\n", f->convexity.mesh_volume,
+                100 * f->convexity.mesh_volume / m->volume);
     if (r->rank == 3) fprintf(file, "  surface  %.9g\n", m->area);
     fprintf(file, "  box      %.6g x %.6g x %.6g\n", m->box.max.x - m->box.min.x, m->box.max.y - m->box.min.y,
             m->box.max.z - m->box.min.z);
@@ -153,6 +156,8 @@ void fit_write_json(FILE *file, const fitted *f) {
             "\"volume\":%.17g,\"area\":%.17g",
             (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles, f->radius, f->allowance.outside,
             f->allowance.inside, f->measures.volume, f->measures.area);
+    fprintf(file, ",\"mesh_volume\":");
+    write_number(file, f->convexity.mesh_volume);
     for (int i = 0; i < FIT_STEPS; i++) write_step_json(file, f, i);
     fprintf(file, ",\"read_seconds\":%.9f,\"make_seconds\":%.9f,\"output\":", f->read_seconds, f->make_seconds);
     if (f->output)
@@ -171,7 +176,7 @@ static void write_field(FILE *file, const char *text) {
 
 void fit_write_csv_title(FILE *file) {
     fprintf(file, "file,name,points,vertices,duplicates,interior,coplanar,rank,facets,triangles,radius,outside,inside,"
-                  "volume,area");
+                  "volume,area,mesh_volume");
     for (int i = 0; i < FIT_STEPS; i++)
         fprintf(file, ",%s_volume,%s_gap,%s_radius1,%s_radius2,%s_radius3,%s_seconds", step_keys[i], step_keys[i],
                 step_keys[i], step_keys[i], step_keys[i], step_keys[i]);
@@ -197,6 +202,7 @@ void fit_write_csv_row(FILE *file, const fitted *f) {
     write_column(file, f->allowance.inside);
     write_column(file, f->measures.volume);
     write_column(file, f->measures.area);
+    write_column(file, f->convexity.mesh_volume);
     for (int i = 0; i < FIT_STEPS; i++) {
         int none = isnan(f->steps[i].volume);
         ovoid_vec3 radii = ovoid_ellipsoid_compute_radii(&f->steps[i].ellipsoid);

@@ -16,33 +16,62 @@ ovoid_read_options inputs_make_options(const read_settings *settings) {
     return (ovoid_read_options){.scale = settings->scale, .unit = unit[0] ? unit : NULL};
 }
 
-ovoid_shape *inputs_read_shape(const char *path, const read_settings *settings) {
-    ovoid_error error;
-    ovoid_read_options read = inputs_make_options(settings);
-    ovoid_shape *shape = ovoid_shape_read_file(path, &read, NULL, &error);
-    if (!shape) message_error("%s", error.message);
-    return shape;
+void inputs_warn_nonconvex(const char *path, const char *part, const ovoid_convexity *c) {
+    if (!c->is_nonconvex) return;
+    message_warning(
+        "%s%s%s is not convex and counts as its hull: it encloses %.6g, %.3g %% of the hull's %.6g. For the "
+        "mesh itself, decompose it into convex parts (CoACD, V-HACD), and give --parts, or of a scene "
+        "\"parts\": true",
+        path, *part ? ": " : "", part, c->mesh_volume, 100 * c->mesh_volume / c->hull_volume, c->hull_volume);
 }
 
-static int open_body(const char *path, const read_settings *settings, int parts, cli_body *body) {
+/// Most warnings about the meshes of one list or scene.
+#define WARNINGS_MAX 10
+
+/// Warns of the meshes of a list or a scene, each name once.
+static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context, size_t i), const void *context) {
+    const char *named[WARNINGS_MAX];
+    size_t warned = 0, left_out = 0;
+    for (size_t i = 0; i < count; i++) {
+        ovoid_named_shape mesh = get(context, i);
+        size_t k = 0;
+        if (!mesh.convexity.is_nonconvex) continue;
+        while (k < warned && strcmp(named[k], mesh.name) != 0) k++;
+        left_out += k == WARNINGS_MAX;
+        if (k < warned || k == WARNINGS_MAX) continue;
+        named[warned++] = mesh.name;
+        inputs_warn_nonconvex(mesh.name, "", &mesh.convexity);
+    }
+    if (left_out) message_warning("%zu more meshes are not convex and count as their hulls", left_out);
+}
+
+static ovoid_named_shape get_shape(const void *context, size_t i) { return ovoid_shapes_get(context, i); }
+static ovoid_named_shape get_mesh(const void *context, size_t i) { return ovoid_scene_get_mesh(context, i); }
+
+int inputs_open_body(const char *path, const read_settings *settings, int parts, cli_body *body) {
     ovoid_error error;
     *body = (cli_body){NULL, NULL, NULL};
-    if (!parts) {
-        body->shape = inputs_read_shape(path, settings);
-        return body->shape ? 0 : EXIT_INPUT;
-    }
     ovoid_read_options read = inputs_make_options(settings);
-    read.parts = 1;
+    read.parts = parts;
     body->parts = ovoid_shapes_read_file(path, &read, NULL, &error);
-    if (body->parts) body->compound = ovoid_shapes_create_compound(body->parts, NULL, &error);
-    if (!body->compound) message_error("%s", error.message);
-    return body->compound ? 0 : EXIT_INPUT;
+    if (body->parts && parts) body->compound = ovoid_shapes_create_compound(body->parts, NULL, &error);
+    if (body->parts && !parts) body->shape = ovoid_shapes_get(body->parts, 0).shape;
+    if (!body->shape && !body->compound) {
+        message_error("%s", error.message);
+        inputs_close_body(body);
+        return EXIT_INPUT;
+    }
+    for (size_t i = 0; i < ovoid_shapes_get_count(body->parts); i++) {
+        ovoid_named_shape part = ovoid_shapes_get(body->parts, i);
+        inputs_warn_nonconvex(path, parts ? part.name : "", &part.convexity);
+    }
+    return 0;
 }
 
 int inputs_open_pair(const char *const paths[2], const read_settings *settings, int parts, cli_body bodies[2]) {
     bodies[1] = (cli_body){NULL, NULL, NULL};
-    int code = open_body(paths[0], settings, parts, &bodies[0]);
-    if (!code) code = open_body(paths[1], settings, parts, &bodies[1]);
+    int code = inputs_open_body(paths[0], settings, parts, &bodies[0]);
+    if (!code) code = inputs_open_body(paths[1], settings, parts, &bodies[1]);
     if (!code) return 0;
     inputs_close_body(&bodies[0]);
     inputs_close_body(&bodies[1]);
@@ -56,14 +85,16 @@ ovoid_body inputs_get_body(const cli_body *body, const ovoid_pose *pose) {
 void inputs_close_body(cli_body *body) {
     ovoid_compound_destroy(body->compound);
     ovoid_shapes_destroy(body->parts);
-    ovoid_shape_destroy(body->shape);
     *body = (cli_body){NULL, NULL, NULL};
 }
 
 ovoid_scene *inputs_read_scene(const char *path) {
     ovoid_error error;
     ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
-    if (!scene) message_error("%s", error.message);
+    if (scene)
+        warn_all(ovoid_scene_get_mesh_count(scene), get_mesh, scene);
+    else
+        message_error("%s", error.message);
     return scene;
 }
 
@@ -79,7 +110,10 @@ ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings) 
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(settings);
     ovoid_shapes *shapes = ovoid_shapes_read_list(path, &read, NULL, &error);
-    if (!shapes) message_error("%s", error.message);
+    if (shapes)
+        warn_all(ovoid_shapes_get_count(shapes), get_shape, shapes);
+    else
+        message_error("%s", error.message);
     return shapes;
 }
 

@@ -37,16 +37,18 @@ const char *inputs_get_unit(const read_settings *settings);
 /// The options of the io library.
 ovoid_read_options inputs_make_options(const read_settings *settings);
 
-/// Reads a shape from a mesh or .ovoid file; NULL after a message.
-ovoid_shape *inputs_read_shape(const char *path, const read_settings *settings);
+/// Warns where a mesh does not fill its hull, which is what is queried. part: "" for a whole file.
+void inputs_warn_nonconvex(const char *path, const char *part, const ovoid_convexity *convexity);
 
 /// A body from a file: its hull, or with parts a compound of its objects.
 typedef struct cli_body {
-    ovoid_shape *shape;
+    const ovoid_shape *shape; ///< NULL for a compound
     ovoid_shapes *parts;
     ovoid_compound *compound;
 } cli_body;
 
+/// Opens a body. 0, or EXIT_INPUT after a message, with nothing left open.
+int inputs_open_body(const char *path, const read_settings *settings, int parts, cli_body *body);
 /// Opens both bodies of a pair. 0, or EXIT_INPUT after a message, with nothing left open.
 int inputs_open_pair(const char *const paths[2], const read_settings *settings, int parts, cli_body bodies[2]);
 ovoid_body inputs_get_body(const cli_body *body, const ovoid_pose *pose);

@@ -63,6 +63,13 @@ void message_error(const char *format, ...) {
     va_end(list);
 }
 
+void message_warning(const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    say(message_is_colored(stderr) ? "\033[33mwarning:\033[0m " : "warning: ", format, list);
+    va_end(list);
+}
+
 void message_note(const char *format, ...) {
     va_list list;
     va_start(list, format);

@@ -13,6 +13,9 @@
 /// Writes "ovoid: error: ..." and a line end.
 MESSAGE_FORMAT void message_error(const char *format, ...);
 
+/// Writes "ovoid: warning: ..." and a line end.
+MESSAGE_FORMAT void message_warning(const char *format, ...);
+
 /// Writes "ovoid: ..." and a line end: counts, times, hints.
 MESSAGE_FORMAT void message_note(const char *format, ...);
 

@@ -195,22 +195,19 @@ static const char *get_base(const char *path) {
 
 /// Draws one body, or A and B.
 static int draw_bodies(const settings *s, const cli_operands *paths) {
-    ovoid_shape *shapes[2] = {NULL, NULL};
+    cli_body bodies[2] = {{NULL, NULL, NULL}, {NULL, NULL, NULL}};
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
     drawing d;
     int code = make_drawing(&d, 2, 2) ? 0 : EXIT_INPUT;
     for (int i = 0; i < paths->count && !code; i++) {
-        shapes[i] = inputs_read_shape(paths->items[i], &s->read);
-        ovoid_body body = {shapes[i], NULL, poses[i]};
-        if (shapes[i])
-            add_body(&d, get_base(paths->items[i]), &body);
-        else
-            code = EXIT_INPUT;
+        code = inputs_open_body(paths->items[i], &s->read, 0, &bodies[i]);
+        ovoid_body body = inputs_get_body(&bodies[i], &poses[i]);
+        if (!code) add_body(&d, get_base(paths->items[i]), &body);
     }
     if (!code) code = draw(&d, s, NULL);
     clear_drawing(&d);
-    ovoid_shape_destroy(shapes[0]);
-    ovoid_shape_destroy(shapes[1]);
+    inputs_close_body(&bodies[0]);
+    inputs_close_body(&bodies[1]);
     return code;
 }
 

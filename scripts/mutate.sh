@@ -35,7 +35,7 @@ tests_of() {
     paper) echo "test_paper test_area" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_octet test_query_batch" ;;
-    io) echo "test_io_numbers test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results" ;;
+    io) echo "test_io_numbers test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results" ;;
     *) return 1 ;;
     esac
 }

@@ -83,6 +83,20 @@ OVOID_API ovoid_mesh_part ovoid_mesh_get_part(const ovoid_mesh *mesh, size_t i);
 /** 1 where ovoid_mesh_read can use Assimp. */
 OVOID_API int ovoid_io_has_assimp(void);
 
+/** What the faces of a mesh enclose, beside its hull, which is the body that is queried. */
+typedef struct ovoid_convexity {
+    double mesh_volume; /**< NaN where the faces are no closed surface, or there are none; hollows do not count */
+    double hull_volume; /**< of the hull without its rounding radius; 0 where it is not solid; NaN: of no mesh */
+    int is_nonconvex;   /**< 1: the hull has more, beyond rounding and by more than a thousandth: the mesh has dents,
+                             holes, or several objects; 0: it has not, or that is not known */
+} ovoid_convexity;
+
+/**
+ * Does a part of a mesh fill its hull? hull: of its points. By the volume of the closed surface; rounding is what
+ * vertices that are off by 1e-5 of the box's diagonal can change. Equal points count as one. Cost: linear in the faces.
+ */
+OVOID_API ovoid_convexity ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull);
+
 /* ---- shapes ---- */
 
 /** 1 if the path is that of a shape file: it ends in ".ovoid". */
@@ -105,6 +119,7 @@ typedef struct ovoid_shapes ovoid_shapes;
 typedef struct ovoid_named_shape {
     const char *name; /**< of the part, or "part 3" where it has none (counted from 0); of a whole file: its path */
     const ovoid_shape *shape;
+    ovoid_convexity convexity; /**< of the mesh; both volumes NaN for a `.ovoid` file */
 } ovoid_named_shape;
 
 /** The shapes of one file: one, or with read->parts one for each part. */
@@ -173,6 +188,10 @@ OVOID_API size_t ovoid_scene_get_count(const ovoid_scene *scene);
 OVOID_API const char *ovoid_scene_get_unit(const ovoid_scene *scene);
 /** Object i < count. */
 OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i);
+/** How many hulls of meshes there are, each part of a file and each scale by itself. */
+OVOID_API size_t ovoid_scene_get_mesh_count(const ovoid_scene *scene);
+/** Hull i < mesh count, of an object or of a part of a compound, with the name of its part of the file. */
+OVOID_API ovoid_named_shape ovoid_scene_get_mesh(const ovoid_scene *scene, size_t i);
 /** The object of that name, or (size_t)-1. */
 OVOID_API size_t ovoid_scene_find(const ovoid_scene *scene, const char *name);
 /** 1 if "ignore" names the pair, in either order. */

@@ -42,6 +42,10 @@ class mesh : public detail::owner<detail::pointer<ovoid_mesh>, ovoid_mesh, ovoid
     std::size_t size() const noexcept { return ovoid_mesh_get_part_count(get()); }
     /** Part i < size: a view. Its points make a shape: shape::from_points(points_of(part)). */
     ovoid_mesh_part operator[](std::size_t i) const noexcept { return ovoid_mesh_get_part(get(), i); }
+    /** Does part i < size fill its hull? */
+    ovoid_convexity compute_convexity(std::size_t i, const shape_view &hull) const noexcept {
+        return ovoid_mesh_compute_convexity(get(), i, hull.get());
+    }
 };
 /** The coordinates of a part's points, x y z x y z ... */
 inline span<const double> points_of(const ovoid_mesh_part &part) noexcept {
@@ -68,6 +72,8 @@ class shapes : public detail::owner<detail::pointer<ovoid_shapes>, ovoid_shapes,
     std::size_t size() const noexcept { return ovoid_shapes_get_count(get()); }
     /** The name of shape i < size. */
     const char *name(std::size_t i) const noexcept { return ovoid_shapes_get(get(), i).name; }
+    /** Whether the mesh of shape i < size fills it. */
+    ovoid_convexity convexity(std::size_t i) const noexcept { return ovoid_shapes_get(get(), i).convexity; }
     /** Shape i < size. */
     shape_view operator[](std::size_t i) const noexcept { return shape_view(ovoid_shapes_get(get(), i).shape); }
     /** The compound of these shapes, which it borrows. Throws as ovoid_compound_create fails. */
@@ -102,6 +108,10 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
         const std::size_t i = ovoid_scene_find(get(), named.c_str());
         return i < size() ? i : size();
     }
+    /** How many hulls of meshes there are. */
+    std::size_t mesh_count() const noexcept { return ovoid_scene_get_mesh_count(get()); }
+    /** Hull i < mesh_count, with its name and whether its mesh fills it. */
+    ovoid_named_shape mesh(std::size_t i) const noexcept { return ovoid_scene_get_mesh(get(), i); }
     /** True if the scene says to ignore the pair. */
     bool is_ignored(std::size_t a, std::size_t b) const noexcept { return ovoid_scene_is_ignored(get(), a, b) != 0; }
     std::size_t pair_count() const noexcept { return ovoid_scene_get_pair_count(get()); }

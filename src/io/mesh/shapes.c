@@ -3,6 +3,7 @@
 
 #include "io/mesh/cursor.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,25 +28,42 @@ static ovoid_shape *read_shape_bytes(const char *path, const ovoid_read_options 
     return shape;
 }
 
-static ovoid_shape *hull_of_part(const ovoid_mesh *mesh, size_t i, const ovoid_shape_options *options, const char *path,
-                                 ovoid_error *error) {
+static const ovoid_convexity no_mesh = {NAN, NAN, 0};
+
+/// A hull, and whether its mesh fills it.
+typedef struct mesh_hull {
+    ovoid_shape *shape;
+    ovoid_convexity convexity;
+} mesh_hull;
+
+static mesh_hull hull_of_part(const ovoid_mesh *mesh, size_t i, const ovoid_shape_options *options, const char *path,
+                              ovoid_error *error) {
     ovoid_faces faces = ovoid_mesh_get_part(mesh, i).faces;
-    ovoid_shape *shape = ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, options, error);
-    if (!shape) io_prefix_path(error, path);
-    return shape;
+    mesh_hull hull = {ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, options, error), no_mesh};
+    if (hull.shape)
+        hull.convexity = ovoid_mesh_compute_convexity(mesh, i, hull.shape);
+    else
+        io_prefix_path(error, path);
+    return hull;
 }
 
-ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
-                                   ovoid_error *error) {
-    if (ovoid_path_is_shape(path)) return read_shape_bytes(path, read, options, error);
+// The shape of a whole file.
+static mesh_hull read_hull(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
+                           ovoid_error *error) {
+    if (ovoid_path_is_shape(path)) return (mesh_hull){read_shape_bytes(path, read, options, error), no_mesh};
     ovoid_read_options whole = {.scale = 0};
     if (read) whole = *read;
     whole.parts = 0;
     ovoid_mesh *mesh = ovoid_mesh_read(path, &whole, error);
-    if (!mesh) return NULL;
-    ovoid_shape *shape = hull_of_part(mesh, 0, options, path, error);
+    if (!mesh) return (mesh_hull){NULL, no_mesh};
+    mesh_hull hull = hull_of_part(mesh, 0, options, path, error);
     ovoid_mesh_destroy(mesh);
-    return shape;
+    return hull;
+}
+
+ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
+                                   ovoid_error *error) {
+    return read_hull(path, read, options, error).shape;
 }
 
 ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ovoid_error *error) {
@@ -70,6 +88,7 @@ ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ov
 typedef struct shape_entry {
     char *name;
     ovoid_shape *shape;
+    ovoid_convexity convexity;
     uint64_t hash; ///< of the name
     int is_shared;
 } shape_entry;
@@ -92,7 +111,7 @@ void ovoid_shapes_destroy(ovoid_shapes *shapes) {
 size_t ovoid_shapes_get_count(const ovoid_shapes *shapes) { return shapes->count; }
 
 ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i) {
-    return (ovoid_named_shape){shapes->entries[i].name, shapes->entries[i].shape};
+    return (ovoid_named_shape){shapes->entries[i].name, shapes->entries[i].shape, shapes->entries[i].convexity};
 }
 
 /// Shapes under construction, and how their files are read.
@@ -104,15 +123,15 @@ typedef struct shapes_reader {
 } shapes_reader;
 
 // Adds an entry that owns the shape and copies the name. The shape is destroyed where there is no memory.
-static ovoid_code add_entry(shapes_reader *r, const char *name, ovoid_shape *shape, int is_shared) {
+static ovoid_code add_entry(shapes_reader *r, const char *name, mesh_hull hull, int is_shared) {
     ovoid_shapes *shapes = r->shapes;
     char *copy = text_copy(name, strlen(name));
     if (!copy || !array_reserve((void **)&shapes->entries, &shapes->capacity, shapes->count, sizeof(shape_entry))) {
         free(copy);
-        if (!is_shared) ovoid_shape_destroy(shape);
+        if (!is_shared) ovoid_shape_destroy(hull.shape);
         return io_fail_memory(r->error, name);
     }
-    shapes->entries[shapes->count++] = (shape_entry){copy, shape, text_hash(name), is_shared};
+    shapes->entries[shapes->count++] = (shape_entry){copy, hull.shape, hull.convexity, text_hash(name), is_shared};
     return OVOID_OK;
 }
 
@@ -121,9 +140,9 @@ static ovoid_code add_parts(shapes_reader *r, const ovoid_mesh *mesh, const char
         char number[40];
         snprintf(number, sizeof number, "part %zu", i);
         const char *name = ovoid_mesh_get_part(mesh, i).name;
-        ovoid_shape *shape = hull_of_part(mesh, i, r->options, path, r->error);
+        mesh_hull hull = hull_of_part(mesh, i, r->options, path, r->error);
         ovoid_code code = OVOID_ERROR_HULL;
-        if (shape) code = add_entry(r, name[0] ? name : number, shape, 0);
+        if (hull.shape) code = add_entry(r, name[0] ? name : number, hull, 0);
         if (code) return code;
     }
     return OVOID_OK;
@@ -131,8 +150,8 @@ static ovoid_code add_parts(shapes_reader *r, const ovoid_mesh *mesh, const char
 
 static ovoid_code fill_from_file(shapes_reader *r, const char *path) {
     if (!r->read || !r->read->parts || ovoid_path_is_shape(path)) {
-        ovoid_shape *shape = ovoid_shape_read_file(path, r->read, r->options, r->error);
-        return shape ? add_entry(r, path, shape, 0) : OVOID_ERROR_FILE;
+        mesh_hull hull = read_hull(path, r->read, r->options, r->error);
+        return hull.shape ? add_entry(r, path, hull, 0) : OVOID_ERROR_FILE;
     }
     ovoid_mesh *mesh = ovoid_mesh_read(path, r->read, r->error);
     if (!mesh) return OVOID_ERROR_FILE;
@@ -175,9 +194,9 @@ static ovoid_code add_line(shapes_reader *r, const char *path) {
     uint64_t hash = text_hash(path);
     for (size_t i = 0; i < shapes->count; i++)
         if (shapes->entries[i].hash == hash && strcmp(shapes->entries[i].name, path) == 0)
-            return add_entry(r, path, shapes->entries[i].shape, 1);
-    ovoid_shape *shape = ovoid_shape_read_file(path, r->read, r->options, r->error);
-    return shape ? add_entry(r, path, shape, 0) : OVOID_ERROR_FILE;
+            return add_entry(r, path, (mesh_hull){shapes->entries[i].shape, shapes->entries[i].convexity}, 1);
+    mesh_hull hull = read_hull(path, r->read, r->options, r->error);
+    return hull.shape ? add_entry(r, path, hull, 0) : OVOID_ERROR_FILE;
 }
 
 // Puts the list's path and line before the error of a file that cannot be opened.

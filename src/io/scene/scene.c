@@ -195,6 +195,20 @@ void ovoid_scene_destroy(ovoid_scene *scene) {
     free(scene);
 }
 
+size_t ovoid_scene_get_mesh_count(const ovoid_scene *scene) {
+    size_t count = 0;
+    for (size_t i = 0; i < scene->body_count; i++)
+        if (scene->bodies[i].parts) count += ovoid_shapes_get_count(scene->bodies[i].parts);
+    return count;
+}
+
+ovoid_named_shape ovoid_scene_get_mesh(const ovoid_scene *scene, size_t i) {
+    const scene_body *body = scene->bodies;
+    for (; !body->parts || i >= ovoid_shapes_get_count(body->parts); body++)
+        if (body->parts) i -= ovoid_shapes_get_count(body->parts);
+    return ovoid_shapes_get(body->parts, i);
+}
+
 const char *ovoid_scene_get_unit(const ovoid_scene *scene) { return scene->unit; }
 
 size_t ovoid_scene_get_count(const ovoid_scene *scene) { return scene->count; }

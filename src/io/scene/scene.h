@@ -7,11 +7,12 @@
 
 /// A shape or a compound, shared by all objects of equal geometry.
 typedef struct scene_body {
-    uint64_t hash; ///< of the key
-    char *key;     ///< a text of all that the body is made from
-    ovoid_shape *shape;
+    uint64_t hash;            ///< of the key
+    char *key;                ///< a text of all that the body is made from
+    const ovoid_shape *shape; ///< made, or the only part
+    ovoid_shape *made;        ///< of a body that is no mesh
     ovoid_compound *compound;
-    ovoid_shapes *parts; ///< of a compound that comes from a mesh; others have parts that are bodies of the scene
+    ovoid_shapes *parts; ///< the hulls of a mesh; other compounds have parts that are bodies of the scene
 } scene_body;
 
 typedef struct scene_entry {

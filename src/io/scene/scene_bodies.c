@@ -140,12 +140,13 @@ static ovoid_code fail_mesh(scene_reader *r, const ovoid_error *why) {
 
 static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body) {
     ovoid_error why = {OVOID_OK, -1, ""};
-    if (!g->read.parts) {
-        body->shape = ovoid_shape_read_file(g->mesh, &g->read, &g->options, &why);
-        return body->shape ? OVOID_OK : fail_mesh(r, &why);
-    }
     body->parts = ovoid_shapes_read_file(g->mesh, &g->read, &g->options, &why);
-    if (body->parts) body->compound = ovoid_shapes_create_compound(body->parts, g->options.allocator, &why);
+    if (!body->parts) return fail_mesh(r, &why);
+    if (!g->read.parts) {
+        body->shape = ovoid_shapes_get(body->parts, 0).shape;
+        return OVOID_OK;
+    }
+    body->compound = ovoid_shapes_create_compound(body->parts, g->options.allocator, &why);
     return body->compound ? OVOID_OK : fail_mesh(r, &why);
 }
 
@@ -343,7 +344,7 @@ static ovoid_code add_body(scene_reader *r, scene_body *body) {
 static ovoid_code make_body(scene_reader *r, const geometry *g, scene_body *body) {
     if (g->mesh) return read_mesh(r, g, body);
     if (strcmp(g->kind, "compound") == 0) return make_compound(r, g, body);
-    body->shape = make_shape(r, g);
+    body->shape = body->made = make_shape(r, g);
     return body->shape ? OVOID_OK : OVOID_ERROR_FORMAT;
 }
 
@@ -382,7 +383,7 @@ ovoid_code scene_read_body(scene_reader *r, json_t *object, size_t *body) {
 
 void scene_body_clear(scene_body *body) {
     ovoid_compound_destroy(body->compound);
-    ovoid_shape_destroy(body->shape);
+    ovoid_shape_destroy(body->made);
     ovoid_shapes_destroy(body->parts);
     free(body->key);
     *body = (scene_body){.key = NULL};

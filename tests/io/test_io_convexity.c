@@ -1,0 +1,171 @@
+// Does a mesh fill its hull? Truth: volumes of boxes and of what is cut out of them, in closed form.
+#include "files.h"
+
+#include <stdarg.h>
+
+/// A mesh under construction, as OBJ.
+typedef struct text {
+    char data[20000];
+    size_t length;
+    int points;
+} text;
+
+static void add(text *t, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    t->length += (size_t)vsnprintf(t->data + t->length, sizeof t->data - t->length, format, list);
+    va_end(list);
+}
+
+static const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+
+// A box by its corners; turned: seen from inside; left_out: how many of its faces are missing.
+static void add_box(text *t, const double low[3], const double high[3], int turned, int left_out) {
+    for (int i = 0; i < 8; i++)
+        add(t, "v %.17g %.17g %.17g\n", i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]);
+    for (int q = left_out; q < 6; q++) {
+        add(t, "f");
+        for (int k = 0; k < 4; k++) add(t, " %d", t->points + 1 + quads[q][turned ? 3 - k : k]);
+        add(t, "\n");
+    }
+    t->points += 8;
+}
+
+static ovoid_convexity compute(const text *t) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_shapes *shapes = ovoid_shapes_read_file(file_write_text("mesh.obj", t->data), NULL, NULL, &error);
+    if (!CHECK(shapes != NULL)) return (ovoid_convexity){0, 0, -1};
+    ovoid_convexity c = ovoid_shapes_get(shapes, 0).convexity;
+    ovoid_shapes_destroy(shapes);
+    return c;
+}
+
+static void expect(const text *t, double mesh, double hull, int is_nonconvex) {
+    ovoid_convexity c = compute(t);
+    if (isnan(mesh))
+        CHECK(isnan(c.mesh_volume));
+    else
+        CHECK_NEAR(c.mesh_volume, mesh, 1e-12 * hull);
+    CHECK_NEAR(c.hull_volume, hull, 1e-12 * hull);
+    CHECK_EQ(c.is_nonconvex, is_nonconvex);
+}
+
+static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1}, two[3] = {2, 2, 2}, three[3] = {3, 3, 3};
+
+static void check_boxes(void) {
+    // A box, also seen from inside, and far from the origin; with a face missing nothing can be said.
+    for (int turned = 0; turned < 2; turned++) {
+        text t = {.length = 0};
+        add_box(&t, zero, one, turned, 0);
+        expect(&t, 1, 1, 0);
+    }
+    text open = {.length = 0};
+    add_box(&open, zero, one, 0, 1);
+    expect(&open, NAN, 1, 0);
+    const double far_low[3] = {1e6, 1e6, 1e6}, far_high[3] = {1e6 + 1, 1e6 + 1, 1e6 + 1};
+    text far = {.length = 0};
+    add_box(&far, far_low, far_high, 0, 0);
+    expect(&far, 1, 1, 0);
+    // Two boxes at the ends of a diagonal; a box with a hollow; the same box twice.
+    text apart = {.length = 0};
+    add_box(&apart, zero, one, 0, 0);
+    add_box(&apart, two, three, 0, 0);
+    expect(&apart, 2, 7, 1); // the hull is a unit cube moved by (2, 2, 2)
+    text hollow = {.length = 0};
+    add_box(&hollow, zero, three, 0, 0);
+    add_box(&hollow, one, two, 1, 0);
+    expect(&hollow, 26, 27, 1);
+    text twice = {.length = 0};
+    add_box(&twice, zero, one, 0, 0);
+    add_box(&twice, zero, one, 0, 0);
+    expect(&twice, 2, 1, 0);
+    // Points without faces.
+    text cloud = {.length = 0};
+    add_box(&cloud, zero, one, 0, 6);
+    expect(&cloud, NAN, 1, 0);
+}
+
+// A box of triangles that share no point: equal points count as one. One triangle turned: not closed.
+static void check_soup(void) {
+    for (int turned = 0; turned < 2; turned++) {
+        text t = {.length = 0};
+        int count = 0;
+        for (int q = 0; q < 6; q++)
+            for (int half = 0; half < 2; half++) {
+                const int corners[3] = {quads[q][0], quads[q][half ? 2 : 1], quads[q][half ? 3 : 2]};
+                for (int k = 0; k < 3; k++)
+                    add(&t, "v %d %s %d\n", corners[k] & 1, corners[k] & 2 ? "1" : "-0", corners[k] >> 2 & 1);
+                int second = turned && !count ? 3 : 2;
+                add(&t, "f %d %d %d\n", count + 1, count + second, count + 5 - second);
+                count += 3;
+            }
+        ovoid_convexity c = compute(&t);
+        CHECK(turned ? isnan(c.mesh_volume) : fabs(c.mesh_volume - 1) < 1e-15);
+        CHECK_EQ(c.is_nonconvex, 0);
+    }
+}
+
+// A plate of 2 x 2 squares, `thick` high, whose middle of the top is lower by `dent`: a pyramid is missing.
+static ovoid_convexity dent_plate(double thick, double dent) {
+    text t = {.length = 0};
+    for (int i = 0; i < 9; i++) add(&t, "v %d %d %.17g\n", i % 3, i / 3, i == 4 ? thick - dent : thick);
+    for (int i = 0; i < 4; i++) add(&t, "v %d %d 0\n", i % 2 * 2, i / 2 * 2);
+    add(&t, "f 1 2 5\nf 2 3 5\nf 3 6 5\nf 6 9 5\nf 9 8 5\nf 8 7 5\nf 7 4 5\nf 4 1 5\nf 10 12 13 11\n");
+    add(&t, "f 10 11 3 2 1\nf 11 13 9 6 3\nf 13 12 7 8 9\nf 12 10 1 4 7\n");
+    ovoid_convexity c = compute(&t);
+    CHECK_NEAR(c.hull_volume, 4 * thick, 1e-12);
+    CHECK_NEAR(c.mesh_volume, 4 * thick - 4 * dent / 3, 1e-12);
+    return c;
+}
+
+static void check_threshold(void) {
+    // A thousandth of the volume: 4 * dent / 3 = 4e-3.
+    CHECK_EQ(dent_plate(1, 0.0029).is_nonconvex, 0);
+    CHECK_EQ(dent_plate(1, 0.0031).is_nonconvex, 1);
+    // Of a plate as thin as 1e-4, rounding of its points weighs more than a thousandth: 1e-5 of the diagonal, 2.83,
+    // over its surface, 8.
+    CHECK_EQ(dent_plate(1e-4, 1.6e-4 * 0.5).is_nonconvex, 0);
+    CHECK_EQ(dent_plate(0.01, 1.6e-4).is_nonconvex, 0);
+    CHECK_EQ(dent_plate(0.01, 1.8e-4).is_nonconvex, 1);
+}
+
+// Parts one by one, and through a scene, which names each hull of a mesh.
+static void check_lists(void) {
+    text t = {.length = 0};
+    add(&t, "o whole\n");
+    add_box(&t, zero, one, 0, 0);
+    add(&t, "o hollow\n");
+    add_box(&t, zero, three, 0, 0);
+    add_box(&t, one, two, 1, 0);
+    file_write_text("parts.obj", t.data);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(
+        file_write_text("convexity.json", "{\"objects\": [{\"name\": \"a\", \"box\": [1, 1, 1]},"
+                                          "{\"name\": \"b\", \"mesh\": \"parts.obj\", \"parts\": true},"
+                                          "{\"name\": \"c\", \"mesh\": \"parts.obj\"},"
+                                          "{\"name\": \"d\", \"compound\": [{\"mesh\": \"parts.obj\"}]}]}"),
+        NULL, &error);
+    if (!CHECK(scene != NULL)) return;
+    CHECK_EQ(ovoid_scene_get_mesh_count(scene), 3);
+    ovoid_named_shape m[3];
+    for (size_t i = 0; i < 3; i++) m[i] = ovoid_scene_get_mesh(scene, i);
+    CHECK(strcmp(m[0].name, "whole") == 0 && !m[0].convexity.is_nonconvex && m[0].convexity.mesh_volume == 1);
+    CHECK(strcmp(m[1].name, "hollow") == 0 && m[1].convexity.is_nonconvex);
+    CHECK(strstr(m[2].name, "parts.obj") && m[2].shape == ovoid_scene_get(scene, 2).shape);
+    ovoid_scene_destroy(scene);
+    // A shape file has no mesh.
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
+    CHECK(ovoid_shape_write_file(box, file_path("box.ovoid"), &error) == OVOID_OK);
+    ovoid_shape_destroy(box);
+    ovoid_shapes *shapes = ovoid_shapes_read_file(file_path("box.ovoid"), NULL, NULL, &error);
+    CHECK(shapes && isnan(ovoid_shapes_get(shapes, 0).convexity.mesh_volume));
+    ovoid_shapes_destroy(shapes);
+}
+
+int main(void) {
+    check_boxes();
+    check_soup();
+    check_threshold();
+    check_lists();
+    return check_end();
+}
