@@ -186,9 +186,10 @@ static int set_count(const cli_command *command, const cli_option *o, const char
     char *end;
     errno = 0;
     long number = strtol(text, &end, 10);
-    if (end == text || *end || errno || number < 1 || number > 1000000000)
-        return args_complain(command, "%s: --%s needs a whole number from 1 up, got \"%s\"", command->name, o->name,
-                             text);
+    int least = o->kind == OPTION_COUNT;
+    if (end == text || *end || errno || number < least || number > 1000000000)
+        return args_complain(command, "%s: --%s needs a whole number from %d up, got \"%s\"", command->name, o->name,
+                             least, text);
     *value = (unsigned)number;
     return -1;
 }
@@ -232,7 +233,8 @@ static int set_value(const cli_command *command, const cli_option *o, const char
     case OPTION_LENGTH:
     case OPTION_POSITIVE:
     case OPTION_SHARE: return set_length(command, o, text, place);
-    case OPTION_COUNT: return set_count(command, o, text, place);
+    case OPTION_COUNT:
+    case OPTION_AMOUNT: return set_count(command, o, text, place);
     case OPTION_CHOICE: return set_choice(command, o, text, place);
     case OPTION_SET: return set_set(command, o, text, place);
     case OPTION_VECTOR: return set_vector(command, o, text, place);

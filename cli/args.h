@@ -23,6 +23,7 @@ typedef enum option_kind {
     OPTION_POSITIVE, ///< a number above 0, at most OVOID_LENGTH_MAX; double
     OPTION_SHARE,    ///< a number above 0 and below 1; double
     OPTION_COUNT,    ///< a whole number from 1 to 1 000 000 000; unsigned
+    OPTION_AMOUNT,   ///< a whole number from 0 to 1 000 000 000; unsigned
     OPTION_CHOICE,   ///< one of `choices`; int, its place in the list
     OPTION_SET,      ///< some of `choices`, between commas; unsigned, bit i for the i-th
     OPTION_FILE,     ///< a path that is read; const char *

@@ -14,19 +14,25 @@
 
 typedef struct settings {
     output_settings out;
-    unsigned threads;
+    unsigned threads, top;
     double margin, tolerance; ///< margin negative: not given
 } settings;
 
 static const cli_option options[] = {
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "list only the pairs that are not proven farther apart than M"},
+    {"top", 0, OPTION_AMOUNT, offsetof(settings, top), "N", NULL,
+     "list the N nearest pairs, 0: all; all are counted (default: of a table without --margin 20, else all)"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket of a pair is at most T wide (default: 1e-9 of the pair's size)"},
     THREADS_OPTION(settings),
     RESULTS_OPTIONS(settings),
     {0},
 };
+
+/// The default of --top.
+#define TOP_UNSET 0xffffffffu
+#define TOP_TABLE 20
 
 /// One pair, with its keys for sorting.
 typedef struct row {
@@ -104,6 +110,14 @@ static void report_counts(const check *c, const tally *t, double seconds) {
                      objects, c->row_count, seconds, t->apart, t->touch, t->not_proven);
 }
 
+/// How many of the rows are listed.
+static size_t get_listed(const check *c) {
+    unsigned top = c->settings->top;
+    int is_short = top == TOP_UNSET && c->settings->margin < 0 && !results_are_lines(&c->results);
+    size_t most = is_short ? TOP_TABLE : top == TOP_UNSET || top == 0 ? c->row_count : top;
+    return most < c->row_count ? most : c->row_count;
+}
+
 static int run_check(check *c) {
     const settings *s = c->settings;
     double start = progress_get_seconds();
@@ -131,16 +145,19 @@ static int run_check(check *c) {
     if (results_open(&c->results, &s->out, fields, ovoid_scene_get_unit(c->scene))) return EXIT_INPUT;
     job.results = &c->results;
     job.take = NULL;
+    job.count = get_listed(c);
     code = answers_run(&job);
     tally t = count_rows(c);
     int worst = t.not_proven ? EXIT_NOT_PROVEN : t.touch ? EXIT_TOUCH : EXIT_APART;
     code = results_close(&c->results, code ? code : worst);
-    if (code == worst) report_counts(c, &t, progress_get_seconds() - start);
+    if (code != worst) return code;
+    if (job.count < c->row_count) message_note("%zu more pairs: --top 0, or --json", c->row_count - job.count);
+    report_counts(c, &t, progress_get_seconds() - start);
     return code;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    settings s = {.margin = -1};
+    settings s = {.margin = -1, .top = TOP_UNSET};
     cli_operands paths;
     int code = args_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_settle(command, &s.out);

@@ -97,12 +97,12 @@ static void report_smallest(const run_summary *s) {
     const ovoid_record *least = &s->track->smallest, *nearest = &s->track->nearest;
     const char *unit = ovoid_scene_get_unit(s->scene), *gap = unit[0] ? " " : "";
     const char *where = s->impacts ? "smallest distance in the frames" : "smallest distance";
-    char names[NAMES_ROOM];
+    char names[NAMES_ROOM], distance[64];
     if (!s->measures) return;
     if (s->track->has_smallest) {
         write_names(names, least->a, least->part_a, least->b, least->part_b);
-        message_note("%s: %.9g .. %.9g%s%s, at %.9g, %s", where, least->answer.lower, least->answer.upper, gap, unit,
-                     least->time, names);
+        ovoid_answer_write_distance(distance, &least->answer);
+        message_note("%s: %s%s%s, at %.9g, %s", where, distance, gap, unit, least->time, names);
     } else if (s->margin >= 0) {
         message_note("%s: above %g%s%s, proven", where, s->margin, gap, unit);
     }

@@ -17,6 +17,7 @@ typedef struct settings {
     const char *output;
     ovoid_vec3 from;
     unsigned layers, width, height;
+    int parts;
     double margin; ///< negative: not given
 } settings;
 
@@ -26,6 +27,8 @@ static const cli_option options[] = {
     {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), ARGS_POSE, NULL,
      "pose of A" ARGS_POSE_HELP " (default: \"0 0 0\")"},
     {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
+    {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
+     "A and B are compounds of their files' objects, as with ovoid distance (default: their hulls)"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "draw the witness points of all pairs within M (default: of each object and the one nearest to it)"},
     {"layers", 0, OPTION_SET, offsetof(settings, layers), "LIST", "outer|inner|areas|witness|names|legend",
@@ -196,11 +199,16 @@ static const char *get_base(const char *path) {
 /// Draws one body, or A and B.
 static int draw_bodies(const settings *s, const cli_operands *paths) {
     cli_body bodies[2] = {{NULL, NULL, NULL}, {NULL, NULL, NULL}};
+    size_t drawn = 0;
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
     drawing d;
-    int code = make_drawing(&d, 2, 2) ? 0 : EXIT_INPUT;
+    int code = 0;
     for (int i = 0; i < paths->count && !code; i++) {
-        code = inputs_open_body(paths->items[i], &s->read, 0, &bodies[i]);
+        code = inputs_open_body(paths->items[i], &s->read, s->parts, &bodies[i]);
+        drawn += count_parts(bodies[i].compound);
+    }
+    if (!make_drawing(&d, 2, drawn)) code = EXIT_INPUT;
+    for (int i = 0; i < paths->count && !code; i++) {
         ovoid_body body = inputs_get_body(&bodies[i], &poses[i]);
         if (!code) add_body(&d, get_base(paths->items[i]), &body);
     }
@@ -222,6 +230,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!s.output && message_is_terminal(stdout))
         return args_complain(command, "view: --output FILE is missing, and standard output is a terminal");
     int is_scene = paths.count == 1 && inputs_is_scene(paths.items[0]);
+    if (is_scene && s.parts)
+        return args_complain(command, "view: --parts is for A and B; a scene says its own (\"parts\": true)");
     if (is_scene && (s.read.unit != INPUTS_NO_UNIT || s.read.scale > 0))
         return args_complain(command,
                              "view: --unit and --scale are for A and B; a scene says its own (\"unit\": \"mm\")");

@@ -316,9 +316,16 @@ OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields);
 OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record);
 
 /**
+ * The signed distance for people, in at most 63 characters: where it was measured (limit is NONE), the decimal of
+ * fewest digits in the bracket; else both bounds to six digits, "1.26795 .. 3". Returns the length.
+ */
+OVOID_API size_t ovoid_answer_write_distance(char text[64], const ovoid_answer *answer);
+
+/**
  * A table for people, in the order given, with a column for the time where the first record has one; the part of a
- * compound follows its name, as in "arm[3]". unit: of the lengths, for the title; NULL or "": none. Behind the numbers
- * stands what a record's margin makes of it, and the limit that left a bracket wide.
+ * compound follows its name, as in "arm[3]"; of the bracket the distance as above, and its width. unit: of the lengths,
+ * for the title; NULL or "": none. Behind the numbers stands what a record's margin makes of it, and the limit that
+ * left a bracket wide.
  */
 OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, const char *unit);
 

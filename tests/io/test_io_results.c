@@ -197,11 +197,37 @@ static void check_table(void) {
     fclose(file);
     size_t size;
     char *text = file_read(path, &size);
-    check_text(text, "a     b    status       lower        upper  stage  steps\n"
-                     "link  bar  separated      0.1          0.1  gjk        4  within\n"
-                     "\xc3\xa4     c    overlapping   -2.5         -2.5  epa       17  within, ended by capacity\n"
-                     "x     y    undecided     -inf  0.333333333  none       0  not proven, ended by iterations\n");
+    check_text(text,
+               "a     b    status               distance    width  stage  steps\n"
+               "link  bar  separated                 0.1  1.4e-17  gjk        4  within\n"
+               "\xc3\xa4     c    overlapping              -2.5    1e-10  epa       17  within, ended by capacity\n"
+               "x     y    undecided    -inf .. 0.333333      inf  none       0  not proven, ended by iterations\n");
     free(text);
+}
+
+// The digits that a bracket proves: the decimal of fewest digits inside, where it was measured or is narrow.
+static void check_distances(void) {
+    static const struct {
+        double lower, upper;
+        ovoid_limit limit;
+        const char *text;
+    } truth[] = {{0.24999999999984737, 0.2500000000001526, OVOID_LIMIT_NONE, "0.25"},
+                 {1.4524174696259122, 1.4524174696260925, OVOID_LIMIT_NONE, "1.452417469626"},
+                 {9.9999999999, 10.0000000001, OVOID_LIMIT_NONE, "10"},
+                 {-1e-28, 3e-28, OVOID_LIMIT_NONE, "0"},
+                 {1.2, 3.2, OVOID_LIMIT_NONE, "2"},
+                 {1.2, 3.2, OVOID_LIMIT_ANSWERED, "1.2 .. 3.2"},
+                 {0.49999999999997, 0.50000000000003, OVOID_LIMIT_PRECISION, "0.5"},
+                 {-INFINITY, INFINITY, OVOID_LIMIT_POSE_A, "-inf .. inf"},
+                 {0.1, 0.1, OVOID_LIMIT_NONE, "0.1"},
+                 {0.1, 0.10000000000000002, OVOID_LIMIT_NONE, "0.1"},
+                 {1.2345678901234567e49, 1.2345678901234567e49, OVOID_LIMIT_NONE, "1.2345678901234567e+49"}};
+    for (size_t i = 0; i < sizeof truth / sizeof *truth; i++) {
+        char text[64];
+        ovoid_answer answer = {.lower = truth[i].lower, .upper = truth[i].upper, .limit = truth[i].limit};
+        CHECK_EQ(ovoid_answer_write_distance(text, &answer), strlen(truth[i].text));
+        check_text(text, truth[i].text);
+    }
 }
 
 // Times stand first, parts behind the names; a long name makes room for its part.
@@ -228,13 +254,13 @@ static void check_table_fields(void) {
     fclose(file);
     size_t size;
     char *text = file_read(path, &size);
-    static const char truth[] = "time  a        b    status     lower  upper  stage  steps\n"
-                                " 0.5  arm[12]  box  separated  0.125  0.125  none       0  within\n"
+    static const char truth[] = "time  a        b    status     distance  width  stage  steps\n"
+                                " 0.5  arm[12]  box  separated     0.125      0  none       0  within\n"
                                 "time  a";
     CHECK(strncmp(text, truth, strlen(truth)) == 0);
     // 95 bytes: 91 letters and the part.
     CHECK(strstr(text, "\n 1.5  nnnn") &&
-          strstr(text, "nnn[12]  box  separated  0.125  0.125  none       0  impact\n"));
+          strstr(text, "nnn[12]  box  separated     0.125      0  none       0  impact\n"));
     const char *long_name = strstr(text, "nnnn");
     if (long_name) CHECK_EQ(strcspn(long_name, "["), 91);
     free(text);
@@ -642,6 +668,7 @@ static void check_damaged(void) {
 int main(void) {
     check_golden();
     check_table();
+    check_distances();
     check_table_fields();
     check_table_names();
     check_round_trip();

@@ -1,11 +1,12 @@
-// Results as a table for people: aligned columns, nine digits. Two passes over the records: widths, then lines.
+// Results as a table for people: aligned columns; of a distance the digits that its bracket proves. Two passes over the
+// records: widths, then lines.
 #include "io/results/record.h"
 #include "io/text.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { TIME, A, B, STATUS, LOWER, UPPER, STAGE, STEPS, NOTE, COLUMNS };
+enum { TIME, A, B, STATUS, DISTANCE, WIDTH, STAGE, STEPS, NOTE, COLUMNS };
 enum { CELL = 96 };
 
 /// One line of the table; texts are cut where they are longer than a cell.
@@ -47,6 +48,28 @@ static void set_body(char cell[CELL], const char *name, size_t index, uint32_t p
     memcpy(cell + end, number, (size_t)width + 1);
 }
 
+// The decimal of fewest digits in a bracket; of numbers from 1 to 1e9 no fewer than stand before the point.
+static size_t write_shortest(char text[32], double lower, double upper) {
+    double middle = lower + (upper - lower) / 2, value, size = fabs(middle);
+    size_t length = 0;
+    if (lower <= 0 && upper >= 0) middle = 0;
+    for (int digits = size >= 1 && size < 1e9 ? 1 + (int)log10(size) : 1; digits <= 17; digits++) {
+        length = number_write(text, middle, digits);
+        if (number_read(text, text + length, &value) && value >= lower && value <= upper) break;
+    }
+    return length;
+}
+
+size_t ovoid_answer_write_distance(char text[64], const ovoid_answer *answer) {
+    char ends[2][32];
+    number_write(ends[0], answer->lower, 6);
+    number_write(ends[1], answer->upper, 6);
+    int is_wide = !isfinite(answer->upper - answer->lower) || strcmp(ends[0], ends[1]) != 0;
+    if (is_wide && (answer->limit != OVOID_LIMIT_NONE || !isfinite(answer->upper - answer->lower)))
+        return (size_t)snprintf(text, 64, "%s .. %s", ends[0], ends[1]);
+    return write_shortest(text, answer->lower, answer->upper);
+}
+
 // The words about the margin; empty where there is none, and where the bodies are farther.
 static const char *name_within(const ovoid_record *record) {
     switch (*record_find_within(record)) {
@@ -76,20 +99,20 @@ static table_row make_row(const ovoid_record *record) {
     set_body(row.cell[A], record->a, record->index_a, has_parts ? record->part_a : OVOID_RECORD_NO_PART);
     set_body(row.cell[B], record->b, record->index_b, has_parts ? record->part_b : OVOID_RECORD_NO_PART);
     set_cell(row.cell[STATUS], ovoid_status_get_name(answer->status));
-    set_number(row.cell[LOWER], answer->lower);
-    set_number(row.cell[UPPER], answer->upper);
+    ovoid_answer_write_distance(row.cell[DISTANCE], answer);
+    number_write(row.cell[WIDTH], answer->upper - answer->lower, 2);
     set_cell(row.cell[STAGE], ovoid_stage_get_name(answer->stage));
     snprintf(row.cell[STEPS], CELL, "%lu", (unsigned long)answer->iterations);
     set_note(row.cell[NOTE], record);
     return row;
 }
 
-// The title, with the unit of the lengths behind the names of the bounds.
+// The title, with the unit of the lengths behind the names of the columns.
 static table_row make_head(const char *unit) {
-    table_row head = {{"time", "a", "b", "status", "lower", "upper", "stage", "steps", ""}};
+    table_row head = {{"time", "a", "b", "status", "distance", "width", "stage", "steps", ""}};
     if (!unit || !unit[0]) return head;
-    snprintf(head.cell[LOWER], CELL, "lower/%.20s", unit);
-    snprintf(head.cell[UPPER], CELL, "upper/%.20s", unit);
+    snprintf(head.cell[DISTANCE], CELL, "distance/%.20s", unit);
+    snprintf(head.cell[WIDTH], CELL, "width/%.20s", unit);
     return head;
 }
 
@@ -112,7 +135,7 @@ static void write_row(FILE *file, const int widths[COLUMNS], int first, const ta
     int last = NOTE;
     while (last > first && !row->cell[last][0]) last--;
     for (int i = first; i <= last; i++) {
-        int is_number = i == TIME || i == LOWER || i == UPPER || i == STEPS;
+        int is_number = i == TIME || i == DISTANCE || i == WIDTH || i == STEPS;
         int blanks = widths[i] - text_width(row->cell[i]);
         if (i > first) fputs("  ", file);
         // No blanks at the line's end.
