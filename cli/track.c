@@ -64,10 +64,12 @@ static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
 
 static int add_point(cli_track *t, ovoid_couple couple, const ovoid_answer *answer) {
     track_pair *pair = t->point_count < POINTS_MAX ? find_pair(t, couple) : NULL;
+    int is_measured = answer->limit == OVOID_LIMIT_NONE;
     if (!pair || !reserve((void **)&pair->points, &pair->capacity, pair->count, sizeof *pair->points)) return 0;
-    pair->points[pair->count++] = (track_point){t->frame_count - 1, answer->lower, answer->upper};
+    pair->points[pair->count++] = (track_point){t->frame_count - 1, answer->lower, answer->upper, is_measured};
     if (answer->lower < pair->lowest) pair->lowest = answer->lower;
     t->point_count++;
+    t->has_wide |= !is_measured;
     return 1;
 }
 
@@ -173,15 +175,18 @@ typedef struct line_room {
     char name[128];
 } line_room;
 
-static void add_value(line_room *l, double x, double low, double high) {
+/// A bracket that is wide has a band and no line: nothing in it is the distance.
+static void add_value(line_room *l, double x, const track_point *p) {
+    double low = p->lower, high = p->upper;
     l->x[l->count] = x;
     l->low[l->count] = low;
     l->high[l->count] = high;
-    l->y[l->count++] = isfinite(low) && isfinite(high) ? low + (high - low) / 2 : NAN;
+    l->y[l->count++] = p->is_measured ? low + (high - low) / 2 : NAN;
 }
 
 /// Fills the line of a pair's distances; a gap where frames are missing, `group` neighbours as one.
 static int fill_line(const cli_track *t, const track_pair *pair, line_room *l) {
+    static const track_point no_point = {0, NAN, NAN, 0};
     size_t group = pair->count / LINE_POINTS + 1, room = 2 * pair->count + 2;
     *l = (line_room){.x = malloc(4 * room * sizeof *l->x)};
     if (!l->x) return 0;
@@ -190,15 +195,16 @@ static int fill_line(const cli_track *t, const track_pair *pair, line_room *l) {
     l->high = l->low + room;
     for (size_t i = 0; i < pair->count;) {
         const track_point *first = &pair->points[i];
-        if (i && first->frame > pair->points[i - 1].frame + 1) add_value(l, t->times[first->frame], NAN, NAN);
-        double low = first->lower, high = first->upper;
+        if (i && first->frame > pair->points[i - 1].frame + 1) add_value(l, t->times[first->frame], &no_point);
+        track_point all = *first;
         size_t end = i + 1;
         for (; end < pair->count && end < i + group && pair->points[end].frame == pair->points[end - 1].frame + 1;
              end++) {
-            low = fmin(low, pair->points[end].lower);
-            high = fmax(high, pair->points[end].upper);
+            all.lower = fmin(all.lower, pair->points[end].lower);
+            all.upper = fmax(all.upper, pair->points[end].upper);
+            all.is_measured &= pair->points[end].is_measured;
         }
-        add_value(l, t->times[first->frame], low, high);
+        add_value(l, t->times[first->frame], &all);
         i = end;
     }
     return 1;
@@ -231,7 +237,7 @@ int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, d
     if (t->is_full)
         return message_error("the plot has too many points for the memory; give a smaller --margin"), EXIT_INPUT;
     line_room lines[DRAWN_MAX];
-    ovoid_series series[DRAWN_MAX + 1];
+    ovoid_series series[DRAWN_MAX + 2];
     size_t count = 0;
     int code = 0;
     // The nearest pairs first.
@@ -245,13 +251,16 @@ int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, d
         series[count] = (ovoid_series){l->name, OVOID_SERIES_LINE, l->count, l->x, l->y, l->low, l->high};
     }
     double ends[2] = {t->frame_count ? t->times[0] : 0, t->frame_count ? t->times[t->frame_count - 1] : 1};
-    double limits[2] = {margin, margin};
+    double limits[2] = {margin, margin}, nothing[2] = {NAN, NAN};
     size_t drawn = count;
+    // The axis spans the whole motion, wherever there are distances.
+    series[drawn++] = (ovoid_series){NULL, OVOID_SERIES_LINE, 2, ends, nothing, NULL, NULL};
     if (margin > 0) series[drawn++] = (ovoid_series){"margin", OVOID_SERIES_LINE, 2, ends, limits, NULL, NULL};
     const char *unit = ovoid_scene_get_unit(scene);
-    char title[80], label[40];
+    char title[120], label[40];
     snprintf(label, sizeof label, "signed distance%s%s", unit[0] ? ", " : "", unit);
-    snprintf(title, sizeof title, "Signed distance over time: the nearest %zu of %zu pairs", count, t->pair_count);
+    snprintf(title, sizeof title, "Signed distance over time: the nearest %zu of %zu pairs%s", count, t->pair_count,
+             t->has_wide ? "; where a band is wide, it is only known to be inside" : "");
     ovoid_chart chart = {.title = title,
                          .x_label = "time",
                          .y_label = label,

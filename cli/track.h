@@ -10,6 +10,7 @@
 typedef struct track_point {
     size_t frame;
     double lower, upper;
+    int is_measured; ///< 0: the bracket is wide, as of a yes or no
 } track_point;
 
 /// The points of one pair.
@@ -57,6 +58,7 @@ typedef struct cli_track {
     int failed;            ///< no memory
     // Of the plot; unused where has_plot is 0.
     int has_plot, is_full; ///< is_full: too many points
+    int has_wide;          ///< some bracket is wide
     double *times;         ///< of the frames
     size_t frame_count, frame_capacity;
     track_pair *pairs;

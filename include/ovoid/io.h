@@ -421,7 +421,8 @@ typedef struct ovoid_series {
     size_t count;
     const double *x;          /**< NULL: 0, 1, 2, ... */
     const double *y;          /**< count values */
-    const double *low, *high; /**< a band around the line or a whisker on the bar; both or NULL */
+    const double *low, *high; /**< a band around the line, also where y leaves a gap, or a whisker on the bar; both or
+                                   NULL */
 } ovoid_series;
 
 /** A chart; all zero but the series is the default. The arrays and texts are borrowed. */

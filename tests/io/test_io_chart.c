@@ -54,6 +54,22 @@ static void test_places(void) {
     CHECK(strstr(svg, ">10000<") != NULL);
 }
 
+// A band without a line where y leaves a gap, one for each run of points; of a single point a stroke.
+static void test_bands(void) {
+    const double y[] = {NAN, NAN, NAN, NAN, 1}, low[] = {0, 1, NAN, 2, NAN}, high[] = {1, 3, 2, 4, 2};
+    const ovoid_series s = {NULL, OVOID_SERIES_LINE, 5, NULL, y, low, high};
+    ovoid_chart chart = {.series = &s, .series_count = 1};
+    const char *svg = draw(&chart);
+    CHECK_EQ(count(svg, "fill-opacity=\"0.15\""), 1);
+    CHECK_EQ(count(svg, "stroke-opacity=\"0.4\""), 1);
+    CHECK_EQ(count(svg, "<circle"), 1);
+    const ovoid_series bands = {NULL, OVOID_SERIES_LINE, 4, NULL, y, low, high};
+    chart.series = &bands;
+    svg = draw(&chart);
+    CHECK_EQ(count(svg, "<path"), 2);
+    CHECK_EQ(count(svg, "<circle"), 0);
+}
+
 // Nothing that is not a number, and no value out of its axis, whatever comes in.
 static void test_odd_values(void) {
     const double y[] = {NAN, INFINITY, -INFINITY, 0, -1, 1e300, 5};
@@ -115,6 +131,7 @@ static void test_full_disk(void) {
 
 int main(void) {
     test_places();
+    test_bands();
     test_odd_values();
     test_bars();
     test_full_disk();

@@ -50,8 +50,11 @@ static int is_visible(vec2 p) { return isfinite(p.x) && isfinite(p.y); }
 static void draw_line(const canvas *c, size_t i) {
     const ovoid_series *s = &c->chart->series[i];
     svg_path path = {.file = c->file};
+    size_t first = 0;
+    while (first < s->count && !is_visible(project(c, s, first, s->y))) first++;
+    if (first == s->count) return;
     fputs("<path d=\"", c->file);
-    for (size_t k = 0, open = 0; k < s->count; k++) {
+    for (size_t k = first, open = 0; k < s->count; k++) {
         vec2 p = project(c, s, k, s->y);
         if (is_visible(p)) (open ? svg_line : svg_move)(&path, p);
         open = is_visible(p);
@@ -60,18 +63,32 @@ static void draw_line(const canvas *c, size_t i) {
             chart_get_color(i), get_dash(i));
 }
 
-// The band from low to high, as one polygon without the points that leave a gap.
-static void draw_band(const canvas *c, size_t i) {
+static int has_band(const canvas *c, const ovoid_series *s, size_t k) {
+    return is_visible(project(c, s, k, s->low)) && is_visible(project(c, s, k, s->high));
+}
+
+// The band from low to high over the points [begin, end), as one polygon; of one point a stroke.
+static void draw_run(const canvas *c, size_t i, size_t begin, size_t end) {
     const ovoid_series *s = &c->chart->series[i];
     svg_path path = {.file = c->file};
     fputs("<path d=\"", c->file);
-    for (size_t k = 0, open = 0; k < 2 * s->count; k++) {
-        vec2 p = k < s->count ? project(c, s, k, s->high) : project(c, s, 2 * s->count - 1 - k, s->low);
-        if (!is_visible(p)) continue;
-        (open ? svg_line : svg_move)(&path, p);
-        open = 1;
+    svg_move(&path, project(c, s, begin, s->high));
+    for (size_t k = begin + 1; k < end; k++) svg_line(&path, project(c, s, k, s->high));
+    for (size_t k = end; k-- > begin;) svg_line(&path, project(c, s, k, s->low));
+    if (end - begin > 1)
+        fprintf(c->file, "\" fill=\"%s\" fill-opacity=\"0.15\" stroke=\"none\"/>\n", chart_get_color(i));
+    else
+        fprintf(c->file, "\" stroke=\"%s\" stroke-opacity=\"0.4\" stroke-width=\"4\"/>\n", chart_get_color(i));
+}
+
+// The band of each run of points without a gap.
+static void draw_band(const canvas *c, size_t i) {
+    const ovoid_series *s = &c->chart->series[i];
+    for (size_t begin = 0, end; begin < s->count; begin = end + 1) {
+        end = begin;
+        while (end < s->count && has_band(c, s, end)) end++;
+        if (end > begin) draw_run(c, i, begin, end);
     }
-    fprintf(c->file, "\" fill=\"%s\" fill-opacity=\"0.15\" stroke=\"none\"/>\n", chart_get_color(i));
 }
 
 // The number of columns side by side at a place: all bars, and the stack.
