@@ -15,8 +15,7 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS="$$(printf '\t')" read -r a b; do printf 'make %-12s %s\n' $$a "$$b"; done
 
 # $(call build,WHAT,TARGETS): installs what WHAT needs, then builds only these targets.
-build = scripts/setup.sh $(1) && echo "building: $(2); a minute or two on a fresh copy" && cmake --preset release >/dev/null && \
-	cmake --build $(BUILD) -j$(JOBS) --target $(2) >/dev/null
+build = scripts/setup.sh $(1) && JOBS=$(JOBS) scripts/build.sh $(BUILD) $(2)
 
 demo: ## fit real meshes, pose them, prove every pair, draw the picture
 	@$(call build,demo,ovoid_cli)

@@ -196,6 +196,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     batch b = {.settings = &s};
     ovoid_shapes *shapes = inputs_read_list(s.list, &s.read);
     if (!shapes) return EXIT_INPUT;
+    inputs_warn_list(shapes);
     b.shapes = shapes;
     b.reader = ovoid_pairs_reader_create(s.pairs, ovoid_shapes_get_count(shapes), &b.error);
     if (b.reader)

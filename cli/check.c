@@ -164,6 +164,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code >= 0) return code;
     ovoid_scene *scene = inputs_read_scene(paths.items[0]);
     if (!scene) return EXIT_INPUT;
+    inputs_warn_scene(scene);
     check c = {.settings = &s, .scene = scene, .poses = inputs_copy_poses(scene)};
     code = c.poses ? run_check(&c) : EXIT_INPUT;
     free(c.poses);

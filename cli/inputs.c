@@ -18,11 +18,10 @@ ovoid_read_options inputs_make_options(const read_settings *settings) {
 
 void inputs_warn_nonconvex(const char *path, const char *part, const ovoid_convexity *c) {
     if (!c->is_nonconvex) return;
-    message_warning(
-        "%s%s%s is not convex and counts as its hull: it encloses %.6g, %.3g %% of the hull's %.6g. For the "
-        "mesh itself, decompose it into convex parts (CoACD, V-HACD), and give --parts, or of a scene "
-        "\"parts\": true",
-        path, *part ? ": " : "", part, c->mesh_volume, 100 * c->mesh_volume / c->hull_volume, c->hull_volume);
+    message_warning("%s%s%s is not convex and counts as its hull, of which it is %.3g %% (%.6g of %.6g); for the mesh "
+                    "itself decompose it (CoACD, V-HACD), then --parts, or \"parts\": true in a scene",
+                    path, *part ? ": " : "", part, 100 * c->mesh_volume / c->hull_volume, c->mesh_volume,
+                    c->hull_volume);
 }
 
 /// Most warnings about the meshes of one list or scene.
@@ -48,6 +47,16 @@ static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context,
 static ovoid_named_shape get_shape(const void *context, size_t i) { return ovoid_shapes_get(context, i); }
 static ovoid_named_shape get_mesh(const void *context, size_t i) { return ovoid_scene_get_mesh(context, i); }
 
+void inputs_warn_body(const char *path, const cli_body *body) {
+    for (size_t i = 0; i < ovoid_shapes_get_count(body->parts); i++) {
+        ovoid_named_shape part = ovoid_shapes_get(body->parts, i);
+        inputs_warn_nonconvex(path, body->compound ? part.name : "", &part.convexity);
+    }
+}
+
+void inputs_warn_list(const ovoid_shapes *shapes) { warn_all(ovoid_shapes_get_count(shapes), get_shape, shapes); }
+void inputs_warn_scene(const ovoid_scene *scene) { warn_all(ovoid_scene_get_mesh_count(scene), get_mesh, scene); }
+
 int inputs_open_body(const char *path, const read_settings *settings, int parts, cli_body *body) {
     ovoid_error error;
     *body = (cli_body){NULL, NULL, NULL};
@@ -60,10 +69,6 @@ int inputs_open_body(const char *path, const read_settings *settings, int parts,
         message_error("%s", error.message);
         inputs_close_body(body);
         return EXIT_INPUT;
-    }
-    for (size_t i = 0; i < ovoid_shapes_get_count(body->parts); i++) {
-        ovoid_named_shape part = ovoid_shapes_get(body->parts, i);
-        inputs_warn_nonconvex(path, parts ? part.name : "", &part.convexity);
     }
     return 0;
 }
@@ -91,10 +96,7 @@ void inputs_close_body(cli_body *body) {
 ovoid_scene *inputs_read_scene(const char *path) {
     ovoid_error error;
     ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
-    if (scene)
-        warn_all(ovoid_scene_get_mesh_count(scene), get_mesh, scene);
-    else
-        message_error("%s", error.message);
+    if (!scene) message_error("%s", error.message);
     return scene;
 }
 
@@ -110,10 +112,7 @@ ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings) 
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(settings);
     ovoid_shapes *shapes = ovoid_shapes_read_list(path, &read, NULL, &error);
-    if (shapes)
-        warn_all(ovoid_shapes_get_count(shapes), get_shape, shapes);
-    else
-        message_error("%s", error.message);
+    if (!shapes) message_error("%s", error.message);
     return shapes;
 }
 

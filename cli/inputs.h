@@ -37,9 +37,6 @@ const char *inputs_get_unit(const read_settings *settings);
 /// The options of the io library.
 ovoid_read_options inputs_make_options(const read_settings *settings);
 
-/// Warns where a mesh does not fill its hull, which is what is queried. part: "" for a whole file.
-void inputs_warn_nonconvex(const char *path, const char *part, const ovoid_convexity *convexity);
-
 /// A body from a file: its hull, or with parts a compound of its objects.
 typedef struct cli_body {
     const ovoid_shape *shape; ///< NULL for a compound
@@ -62,6 +59,13 @@ ovoid_pose *inputs_copy_poses(const ovoid_scene *scene);
 
 /// Reads the shapes of a LIST; NULL after a message.
 ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings);
+
+/// Warn of meshes that do not fill their hulls, which are what is queried: of one, part "" for a whole file; of a
+/// body's; of those of a list or a scene, each once.
+void inputs_warn_nonconvex(const char *path, const char *part, const ovoid_convexity *convexity);
+void inputs_warn_body(const char *path, const cli_body *body);
+void inputs_warn_list(const ovoid_shapes *shapes);
+void inputs_warn_scene(const ovoid_scene *scene);
 
 /// 1 if the path is that of a scene: it ends in ".json".
 int inputs_is_scene(const char *path);

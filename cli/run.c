@@ -189,6 +189,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code >= 0) return code;
     ovoid_scene *scene = inputs_read_scene(paths.items[0]);
     if (!scene) return EXIT_INPUT;
+    inputs_warn_scene(scene);
     run_state r = {.settings = &s, .scene = scene};
     code = run_motion(&r);
     impacts_close(&r.impacts);

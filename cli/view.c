@@ -210,6 +210,7 @@ static int draw_bodies(const settings *s, const cli_operands *paths) {
     if (!make_drawing(&d, 2, drawn)) code = EXIT_INPUT;
     for (int i = 0; i < paths->count && !code; i++) {
         ovoid_body body = inputs_get_body(&bodies[i], &poses[i]);
+        if (!code) inputs_warn_body(paths->items[i], &bodies[i]);
         if (!code) add_body(&d, get_base(paths->items[i]), &body);
     }
     if (!code) code = draw(&d, s, NULL);

@@ -16,9 +16,11 @@ cd "$demo"
 if [ -f /$archive ]; then
     archive=/$archive
 elif [ ! -f $archive ]; then
+    echo "fetching the meshes: Debian's libcgal-demo"
     { apt-get -qq download libcgal-demo && dpkg-deb -x libcgal-demo_*.deb .; } ||
         { echo "demo: libcgal-demo has no /$archive here and could not be downloaded" >&2 && exit 1; }
 fi
+echo "unpacking the meshes: $meshes"
 files=
 for mesh in $meshes; do
     tar -xOzf $archive "data/meshes/$mesh.off" >"$mesh.off"
@@ -28,26 +30,32 @@ done
 # ovoid ARGUMENT...: the tool; its code 1 says that some pair touches, as some do here.
 case $tool in /*) ;; *) tool_path=$root/$tool ;; esac
 ovoid() { "${tool_path:-$tool}" "$@" || [ $? -eq 1 ]; }
+# Without the warnings about hulls, which the first step has shown.
+warned() { grep -v '^ovoid: warning: .* is not convex'; }
 title() { printf '\n== %s\n\n' "$1"; }
+
+echo "they are not convex: each counts as its hull, as the tool warns at the first step"
 
 title "Fit: the smallest ellipsoid around each mesh's hull and the largest inside"
 # shellcheck disable=SC2086 # a list of names
 ovoid fit --table $files
 
 title "Check: every pair of the scene, nearest first; lower <= d <= upper, and what decided"
-ovoid check scene.json
+ovoid check scene.json 2>&1 | warned
 
 title "Verify: the proof of every pair, in exact arithmetic, without the search"
-ovoid check --json scene.json >results.jsonl
+ovoid check --json scene.json >results.jsonl 2>check.log
 ovoid verify results.jsonl scene.json
 
 title "Run: the knot tumbles through the others; first contact and smallest distance, between frames too"
 awk 'BEGIN { print "time,body,vx,vy,vz,wx,wy,wz"
     for (i = 0; i <= 90; i++) printf "%g,knot,-0.9,-0.75,-0.35,1,2,4\n", i / 60 }' >motion.csv
-ovoid run scene.json --motion motion.csv --margin 0.4 --continuous --json -o motion.jsonl --plot motion.svg
+ovoid run scene.json --motion motion.csv --margin 0.4 --continuous --json -o motion.jsonl --plot motion.svg 2>&1 | warned
 ovoid verify motion.jsonl scene.json --motion motion.csv
 
-ovoid view scene.json -o scene.svg
+title "View: the scene, its ellipsoids and witness points"
+ovoid view scene.json -o scene.svg && echo "scene.svg: $(wc -c <scene.svg) bytes"
+
 title "Look"
 cat <<END
 the picture           $demo/scene.svg

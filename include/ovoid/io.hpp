@@ -114,6 +114,7 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
     ovoid_named_shape mesh(std::size_t i) const noexcept { return ovoid_scene_get_mesh(get(), i); }
     /** True if the scene says to ignore the pair. */
     bool is_ignored(std::size_t a, std::size_t b) const noexcept { return ovoid_scene_is_ignored(get(), a, b) != 0; }
+    /** How many pairs of objects there are, without those to be ignored. */
     std::size_t pair_count() const noexcept { return ovoid_scene_get_pair_count(get()); }
 };
 

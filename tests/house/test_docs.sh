@@ -1,6 +1,7 @@
 #!/bin/sh
 # The pages: every relative link in a Markdown file leads to a file, every source file that a page names is there, every
-# public function or type that it names is in a header, and docs/index.md lists every page of docs/.
+# public function or type that it names is in a header, and docs/index.md lists every page of docs/. The manual made of them
+# has no dead link and no two pages of one title; a page with a dead link, made here, is found.
 set -u
 cd "$OVOID_SOURCE_DIR" || exit 1
 passed=0 failed=0
@@ -48,5 +49,32 @@ for page in docs/*.md; do
         echo "FAILED docs/index.md does not list $name"
     fi
 done
-echo "$passed passed, $failed failed, 0 skipped"
+# ---- the manual
+
+check() {
+    if [ -z "$2" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        printf 'FAILED %s: %s\n' "$1" "$2"
+    fi
+}
+skipped=0
+if command -v doxygen >/dev/null; then
+    check 'the manual' "$(scripts/docs.sh "$known.manual" 2>&1 | grep -v 'index.html$')"
+    check 'two pages of one title' "$(grep -hoE '<li><span class="arrow">[^<]*</span>|<tr[^>]*><td class="entry">.*</td>' "$known.manual/html/pages.html" |
+        sed 's/<[^>]*>//g; s/&#160;//g' | sort | uniq -d)"
+else
+    skipped=1
+    echo "skipped: no doxygen, so the manual is not made"
+fi
+rm -rf "$known.dead" && mkdir -p "$known.dead/below"
+echo '<a href="below/b.html#there">b</a> <a href="below/b.html">b</a> <a href="https://example.org">far</a>' >"$known.dead/a.html"
+echo '<h1 id="there">b</h1> <a href="../a.html">a</a>' >"$known.dead/below/b.html"
+check 'good links' "$(scripts/check-links "$known.dead")"
+for link in c.html below/b.html#here below/../b.html '#a'; do
+    echo "<a href=\"$link\">x</a>" >"$known.dead/c0.html"
+    check "the dead link $link" "$(scripts/check-links "$known.dead" | grep -q "^c0.html: $link leads nowhere\$" || echo 'is not found')"
+done
+echo "$passed passed, $failed failed, $skipped skipped"
 [ "$failed" -eq 0 ]
