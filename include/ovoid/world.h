@@ -148,11 +148,6 @@ typedef struct ovoid_contact {
     ovoid_verdict verdict;   /**< stage PROOF with 0 iterations: by the aged bounds of an earlier step's proof */
 } ovoid_contact;
 
-/** Witness points and normal of a contact, as in ovoid_answer. */
-typedef struct ovoid_witness {
-    ovoid_vec3 point_a, point_b, normal;
-} ovoid_witness;
-
 /** The contacts of a step. The arrays are the world's, valid until the next call with a world that is not const. */
 typedef struct ovoid_contacts {
     const ovoid_contact *items; /**< sorted by a, then b */

@@ -43,7 +43,7 @@ typedef struct batch_state {
     const pair8_kernels *kernels;
     query_goal goal; ///< without the tolerance, which is each couple's own
     pair8_query numbers;
-    int wants_evidence;  ///< answers or proofs, not only verdicts
+    int wants_evidence;  ///< answers, proofs or points, not only verdicts
     lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
     pair8 *lanes;        ///< of `waiting`
     unsigned waiting_count;
@@ -66,6 +66,7 @@ void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *x) {
     if (batch->verdicts)
         batch->verdicts[i] = (ovoid_verdict){x->status, x->stage, x->limit, x->iterations, x->lower, x->upper};
     if (batch->answers && x != &batch->answers[i]) batch->answers[i] = *x;
+    if (batch->witnesses) batch->witnesses[i] = (ovoid_witness){x->point_a, x->point_b, x->normal};
 }
 
 static void write_verdict(const ovoid_batch *batch, size_t i, ovoid_verdict is) {
@@ -445,7 +446,7 @@ COMPILER_NOINLINE static size_t run_lanes(const ovoid_batch *batch, query_goal g
 void batch_run(const ovoid_batch *batch, query_goal goal, const ovoid_options *options) {
     open_list open;
     goal.iterations = options->iterations;
-    int wants_evidence = batch->answers || batch->proofs;
+    int wants_evidence = batch->answers || batch->proofs || batch->witnesses;
     pair8_query numbers = {goal.far,
                            options->absolute_tolerance,
                            options->relative_tolerance,

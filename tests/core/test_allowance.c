@@ -179,7 +179,8 @@ static void test_batch(void) {
         bodies[2 * i + 1] = (ovoid_posed_shape){trials[i].shapes.shape_b, trials[i].shapes.pose_b};
         couples[i] = (ovoid_couple){2 * i, 2 * i + 1};
     }
-    ovoid_batch batch = {bodies, 2 * COUNT, couples, COUNT, NULL, NULL, NULL, answers};
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2 * COUNT, .couples = couples, .couple_count = COUNT, .answers = answers};
     CHECK(ovoid_collide_batch(&batch, NULL) == OVOID_OK);
     for (uint32_t i = 0; i < COUNT; i++) {
         ovoid_answer x = ovoid_collide(&trials[i].shapes, NULL, NULL);

@@ -75,6 +75,12 @@ static void check_outputs(int question, const ovoid_options *o) {
     batch.proofs = fresh;
     CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
     for (int i = 0; i < COUPLES; i++) CHECK(memcmp(&fresh[i], &answers[i].proof, sizeof fresh[i]) == 0);
+    // Points and normals alone: the three vectors lie side by side in an answer.
+    static ovoid_witness points[COUPLES];
+    batch.proofs = NULL;
+    batch.witnesses = points;
+    CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
+    for (int i = 0; i < COUPLES; i++) CHECK(memcmp(&points[i], &answers[i].point_a, sizeof points[i]) == 0);
 
     // From every place on, so many; what lies behind is not touched.
     for (size_t count = 0; count < LENGTHS; count++)

@@ -78,10 +78,11 @@ void check_batches() {
     std::vector<ovoid::answer> answers(3);
     std::vector<ovoid::verdict> verdicts(3);
     std::vector<ovoid::proof> proofs(3);
+    std::vector<ovoid::witness> witnesses(3);
     ovoid::options o;
     o.relative_tolerance = 1e-4;
     ovoid::batch batch(shapes, couples);
-    batch.with_options(o).with_answers(answers).with_verdicts(verdicts).with_proofs(proofs);
+    batch.with_options(o).with_answers(answers).with_verdicts(verdicts).with_proofs(proofs).with_witnesses(witnesses);
     void (*const asked[3])(const ovoid_batch &) = {ovoid::collide_batch, ovoid::distance_batch, ovoid::depth_batch};
     for (int k = 0; k < 4; k++) {
         proofs.assign(3, {});
@@ -95,6 +96,7 @@ void check_batches() {
             const ovoid::answer alone[4] = {ovoid::collide(p, o), ovoid::distance(p, o), ovoid::depth(p, o),
                                             ovoid::within(p, 0.5, o)};
             CHECK(is_same_answer(answers[i], alone[k]));
+            CHECK(witnesses[i].point_b.x == alone[k].point_b.x && witnesses[i].normal.z == alone[k].normal.z);
             CHECK(verdicts[i].lower == alone[k].lower && proofs[i].kind == alone[k].proof.kind);
         }
     }

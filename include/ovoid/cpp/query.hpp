@@ -19,6 +19,8 @@ using options = zeroed<ovoid_options>;
 using proof = zeroed<ovoid_proof>;
 /** What proves a depth from below. */
 using cover = zeroed<ovoid_cover>;
+/** Points and normal of an answer. */
+using witness = ovoid_witness;
 /** Two bodies of a batch, by index. */
 using couple = ovoid_couple;
 /** The answer to a query. */
@@ -108,6 +110,10 @@ class batch : public ovoid_batch {
     }
     /** Receives answers. Throws ARGUMENT: fewer than couples. */
     template <class Answers> batch &with_answers(Answers &into) { return answers = receive<ovoid_answer>(into), *this; }
+    /** Receives points and normals, without the rest of each answer. Throws ARGUMENT: fewer than couples. */
+    template <class Witnesses> batch &with_witnesses(Witnesses &into) {
+        return witnesses = receive<ovoid_witness>(into), *this;
+    }
 
   private:
     template <class C, class Container> C *receive(Container &into) const {

@@ -15,8 +15,6 @@ namespace ovoid {
 using id = ovoid_id;
 /** A pair that is not proven farther than the margin. */
 using contact = ovoid_contact;
-/** Its points and normal. */
-using witness = ovoid_witness;
 /** What was found between frames. */
 using world_hit = ovoid_world_hit;
 /** What a ray or a moved body meets first. */
