@@ -128,7 +128,7 @@ static void ask_batch(void) {
         couples[i] = (ovoid_couple){2 * i, 2 * i + 1};
         proofs[i] = known[i];
     }
-    ovoid_batch batch = {bodies, 2 * PAIRS, couples, PAIRS, NULL, proofs, NULL, answers};
+    ovoid_batch batch = {bodies, 2 * PAIRS, couples, PAIRS, NULL, proofs, NULL, answers, NULL};
     ovoid_code code[4] = {ovoid_collide_batch(&batch, NULL), ovoid_within_batch(&batch, third, NULL),
                           ovoid_distance_batch(&batch, NULL), ovoid_depth_batch(&batch, NULL)};
     ADD(code);

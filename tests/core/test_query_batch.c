@@ -68,7 +68,7 @@ static void check_outputs(int question, const ovoid_options *o) {
     static ovoid_proof fresh[COUPLES];
     memset(alone, 0, sizeof alone);
     memset(fresh, 0, sizeof fresh);
-    ovoid_batch batch = {bodies, BODIES, couples, COUPLES, o, NULL, alone, NULL};
+    ovoid_batch batch = {bodies, BODIES, couples, COUPLES, o, NULL, alone, NULL, NULL};
     CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
     CHECK(memcmp(alone, verdicts, sizeof alone) == 0);
     batch.verdicts = NULL;
@@ -86,7 +86,7 @@ static void check_outputs(int question, const ovoid_options *o) {
     for (size_t count = 0; count < LENGTHS; count++)
         for (size_t from = 0; from < 16; from++) {
             memset(alone, 7, sizeof alone);
-            ovoid_batch part = {bodies, BODIES, couples + from, count, o, NULL, alone, NULL};
+            ovoid_batch part = {bodies, BODIES, couples + from, count, o, NULL, alone, NULL, NULL};
             CHECK(ask_batch(question, &part, NULL) == OVOID_OK);
             CHECK(memcmp(alone, verdicts + from, count * sizeof *alone) == 0);
             CHECK(alone[count].iterations == 0x07070707);
@@ -99,12 +99,12 @@ static void check_question(int question, int has_proofs, uint64_t *s) {
     memset(proofs, 0, sizeof proofs);
     for (int round = 0; round < ROUNDS; round++) {
         memcpy(before, proofs, sizeof proofs);
-        ovoid_batch batch = {bodies, BODIES, couples, COUPLES, o, has_proofs ? proofs : NULL, verdicts, answers};
+        ovoid_batch batch = {bodies, BODIES, couples, COUPLES, o, has_proofs ? proofs : NULL, verdicts, answers, NULL};
         CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
         compare(question, o, has_proofs, round);
         if (!has_proofs && round == 0) check_outputs(question, o);
         // Outputs that nobody wants.
-        ovoid_batch blind = {bodies, BODIES, couples, COUPLES, o, NULL, NULL, NULL};
+        ovoid_batch blind = {bodies, BODIES, couples, COUPLES, o, NULL, NULL, NULL, NULL};
         CHECK(ask_batch(question, &blind, NULL) == OVOID_OK);
         for (int i = 0; i < BODIES; i++) bodies[i].pose.position.x += scale * random_uniform(s, -0.02, 0.02);
     }
@@ -147,7 +147,7 @@ static int make_shapes(ovoid_shape *shapes[SHAPES], uint64_t *s) {
 static void check_refusals(void) {
     couples[7].b = BODIES;
     ovoid_error error;
-    ovoid_batch batch = {bodies, BODIES, couples, COUPLES, NULL, NULL, verdicts, NULL};
+    ovoid_batch batch = {bodies, BODIES, couples, COUPLES, NULL, NULL, verdicts, NULL, NULL};
     memset(verdicts, 7, sizeof verdicts);
     ovoid_verdict first = verdicts[0];
     CHECK(ovoid_collide_batch(&batch, &error) == OVOID_ERROR_INDEX);
