@@ -68,7 +68,9 @@ static void ask_check(void) { CHECK(ovoid_answer_check(&pair, &answer, &cover, N
 static void ask_gradient(void) { gradient = ovoid_answer_compute_gradient(&pair, &answer, &cover); }
 static void ask_smooth(void) { smooth = ovoid_smooth_compute(&pair, 2); }
 
-static ovoid_batch make_batch(void) { return (ovoid_batch){posed, 2, couples, COUPLES, NULL, NULL, NULL, answers}; }
+static ovoid_batch make_batch(void) {
+    return (ovoid_batch){posed, 2, couples, COUPLES, NULL, NULL, NULL, answers, NULL};
+}
 static void ask_collide_batch(void) {
     ovoid_batch batch = make_batch();
     CHECK(ovoid_collide_batch(&batch, NULL) == OVOID_OK);
