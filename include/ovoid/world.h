@@ -8,7 +8,8 @@
  * mathematics.
  *
  * Functions that take a const world may run at the same time in any number of threads; all others need exclusive access
- * to the world. Stack as in <ovoid/query.h>; the world's own threads have 1 MB. Lengths are the caller's unit, poses
+ * to the world. Stack as in <ovoid/query.h>; the world's own threads have 1 MB. In a child made by fork, while no
+ * function was changing the world, it works on in one thread. Lengths are the caller's unit, poses
  * are in the world frame, quaternions as ovoid_pose has them.
  */
 #ifndef OVOID_WORLD_H

@@ -32,6 +32,9 @@ static inline void thread_join(thread t) {
     (void)CloseHandle(t);
 }
 
+/// The number of this process: another one in a child made by fork, where no thread but the caller's is left.
+static inline long process_get_number(void) { return 0; } // there is no fork
+
 static inline void lock_make(thread_lock *l) { InitializeSRWLock(l); }
 static inline void lock_clear(thread_lock *l) { (void)l; }
 static inline void lock_take(thread_lock *l) { AcquireSRWLockExclusive(l); }
@@ -47,6 +50,7 @@ static inline void condition_wake_all(thread_condition *c) { WakeAllConditionVar
 #else
 
 #include <pthread.h>
+#include <unistd.h>
 
 typedef pthread_t thread;
 typedef pthread_mutex_t thread_lock;
@@ -67,6 +71,9 @@ static inline int thread_start(thread *t, thread_main run, void *context) {
     return ok;
 }
 static inline void thread_join(thread t) { (void)pthread_join(t, NULL); }
+
+/// The number of this process: another one in a child made by fork, where no thread but the caller's is left.
+static inline long process_get_number(void) { return (long)getpid(); }
 
 static inline void lock_make(thread_lock *l) { (void)pthread_mutex_init(l, NULL); }
 static inline void lock_clear(thread_lock *l) { (void)pthread_mutex_destroy(l); }

@@ -1,5 +1,6 @@
 // The built-in pool: a task is an array of items, of which each free worker takes the next part. Threads sleep on a
-// condition while there is no task. Results must not depend on which worker computes them, or in what order.
+// condition while there is no task. Results must not depend on which worker computes them, or in what order. In a child
+// made by fork the threads are not there: the caller's works alone, and what the threads waited for is left as it is.
 #include "world/thread_pool.h"
 
 #include "base/allocator.h"
@@ -17,9 +18,12 @@ struct thread_pool {
     task task;             // the present one
     int is_closing;
     atomic_uint next;      // the first item that no worker has taken
+    long process;          // that started the threads
     uint32_t thread_count; // without the caller's
     thread threads[];
 };
+
+static int has_threads(const thread_pool *p) { return p->process == process_get_number(); }
 
 static void run_in_environment(void *work, uint32_t first, uint32_t end, uint32_t worker) {
     const task *t = work;
@@ -77,7 +81,7 @@ thread_pool *thread_pool_create(uint32_t threads, const ovoid_allocator *allocat
         error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for a pool of %u threads", threads);
         return NULL;
     }
-    *p = (thread_pool){.round = 0};
+    *p = (thread_pool){.process = process_get_number()};
     atomic_init(&p->next, 0);
     lock_make(&p->lock);
     condition_make(&p->begun);
@@ -97,6 +101,10 @@ thread_pool *thread_pool_create(uint32_t threads, const ovoid_allocator *allocat
 
 void thread_pool_destroy(thread_pool *p, const ovoid_allocator *allocator) {
     if (!p) return;
+    if (!has_threads(p)) {
+        allocator_release(allocator, p);
+        return;
+    }
     join_all(p);
     release(p, allocator);
 }
@@ -121,7 +129,7 @@ void task_host_run(const task_host *host, const task *t) {
         task own = *t;
         void *handle = host->tasks.start(host->tasks.context, run_in_environment, &own, t->count, t->least);
         host->tasks.finish(host->tasks.context, handle);
-    } else if (host->own && t->count > t->least) {
+    } else if (host->own && t->count > t->least && has_threads(host->own)) {
         run_in_pool(host->own, t);
     } else {
         t->run(t->work, 0, t->count, 0);
