@@ -12,6 +12,9 @@
 /// Pairs of a chunk.
 #define CHUNK 16
 
+/// Part of the time between two frames to which impacts are found: the default of ovoid_motion_options.
+#define TOLERANCE 1e-9
+
 /// Steps of a proof for which there is room at first.
 #define STEPS 64
 
@@ -261,18 +264,36 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     return done;
 }
 
+/// 1 if a pair that is proven free until the frame, but for the tolerance, is not proven beyond the margin there: it
+/// arrives with the frame, whose own line says how near it is. That it meets no later than that, a bracket of the
+/// distance around the margin cannot prove.
+static int is_arrival(const cli_impacts *x, const impact *item) {
+    const cli_frames *f = x->frames;
+    const ovoid_couple c = item->couple;
+    double duration = f->time - f->earlier;
+    if (item->found.status != OVOID_IMPACT_UNDECIDED || !(item->found.free_until >= (1 - TOLERANCE) * duration))
+        return 0;
+    ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &f->poses[c.a]),
+                            answers_get_body(x->scene, c.b, &f->poses[c.b])};
+    ovoid_compound_answer at_end = ovoid_compound_within(&pair, x->margin, NULL, NULL, NULL);
+    int within = ovoid_answer_is_within(&at_end.answer, x->margin);
+    return within > 0 || (within < 0 && at_end.answer.limit == OVOID_LIMIT_NONE);
+}
+
 static int write_impacts(cli_impacts *x, const impact *items) {
     answer_room room = {NULL, NULL, 0};
     int code = 0;
     for (size_t i = 0; i < x->couple_count && !code; i++) {
         ovoid_record record;
         if (items[i].found.status == OVOID_IMPACT_FREE) continue;
-        if (items[i].found.status == OVOID_IMPACT_HIT)
+        int arrives = is_arrival(x, &items[i]);
+        if (items[i].found.status == OVOID_IMPACT_HIT || arrives)
             x->found++;
         else
             x->not_proven++;
         if (!make_record(x, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
-        if (!code) code = results_add(x->results, &record);
+        if (arrives) record.hit_after = x->frames->time - x->frames->earlier, record.time = x->frames->time;
+        if (!code && !arrives) code = results_add(x->results, &record);
         if (!code) x->take(x->context, items[i].couple, &record);
     }
     answer_room_clear(&room);

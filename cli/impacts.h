@@ -20,7 +20,8 @@ typedef struct cli_impacts {
     ovoid_couple *couples; ///< candidates: their boxes are near each other
     size_t couple_count, couple_capacity;
     size_t found, not_proven; ///< impacts, and undecided pairs
-    /// Receives each impact in order; one that is not proven has an infinite hit_after.
+    /// Receives each impact in order; one that is not proven has an infinite hit_after. One that ends with the frame,
+    /// whose own line shows it, is not written, and comes with the answer at the end of the free time.
     void (*take)(void *context, ovoid_couple couple, const ovoid_record *record);
     void *context;
 } cli_impacts;
