@@ -30,10 +30,11 @@ static const cli_option options[] = {
     {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
      "A and B are compounds of their files' objects, as with ovoid distance (default: their hulls)"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
-     "draw the witness points of all pairs within M (default: of each object and the one nearest to it)"},
+     "draw the witness points of all pairs within M (default: of each of at most 12 objects and the one nearest to "
+     "it)"},
     {"layers", 0, OPTION_SET, offsetof(settings, layers), "LIST", "outer|inner|areas|witness|names|legend",
      "what is drawn with the polyhedra, with commas between: outer, inner (ellipsoids), areas (the 8 facial areas), "
-     "witness, names, legend (default: all but areas)"},
+     "witness, names, legend (default: all but areas, and without ellipsoids above 12 bodies or parts)"},
     {"from", 0, OPTION_VECTOR, offsetof(settings, from), "\"X Y Z\"", NULL,
      "direction from the scene to the eye (default: \"1 -1.6 0.9\")"},
     {"width", 0, OPTION_COUNT, offsetof(settings, width), "W", NULL, "pixels (default: 1200)"},
@@ -41,6 +42,9 @@ static const cli_option options[] = {
     INPUTS_OPTIONS(settings),
     {0},
 };
+
+/// Most objects whose nearest pairs are drawn unasked: more would bury the bodies.
+#define OBJECTS_FEW 12
 
 /// The contents of the picture.
 typedef struct drawing {
@@ -152,7 +156,11 @@ static int link_within(drawing *d, const ovoid_scene *scene, double margin) {
 /// Finds the links and writes the picture; returns the exit code.
 static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
     ovoid_error error;
-    int code = s->margin >= 0 ? link_within(d, scene, s->margin) : link_nearest(d, scene);
+    int code = 0;
+    if (s->margin >= 0)
+        code = link_within(d, scene, s->margin);
+    else if (d->body_count <= OBJECTS_FEW || s->layers & OVOID_PICTURE_WITNESS)
+        code = link_nearest(d, scene);
     if (code) return code;
     for (size_t i = 0; i < d->link_count; i++) d->links[i].answer = &d->answers[i];
     ovoid_picture picture = {.bodies = d->drawn,

@@ -11,7 +11,7 @@ run_step() {
     floors) scripts/check-floors ;;
     format) sources | xargs clang-format --dry-run -Werror ;;
     format-in-place) sources | xargs clang-format -i ;;
-    shell) find scripts tests cli -name '*.sh' -exec shellcheck scripts/check-floors .ci/run {} + ;;
+    shell) find scripts tests cli -name '*.sh' -exec shellcheck scripts/check-floors scripts/check-links .ci/run {} + ;;
     tidy)
         # With the compile commands of the clang build; tests and C++ are left to the compilers' own warnings. The paths that led
         # to a finding stay in the log.

@@ -397,7 +397,8 @@ typedef struct ovoid_picture {
 typedef struct ovoid_picture_options {
     uint32_t width, height; /**< pixels; 0 means 1200 and 800 */
     ovoid_vec3 view;        /**< from the scene to the eye; zero means three quarters from above: (1, -1.6, 0.9) */
-    uint32_t layers;        /**< ovoid_picture_layer bits; 0 means all but the areas */
+    uint32_t layers;        /**< ovoid_picture_layer bits; 0 means all but the areas, and of more than 12 bodies without
+                                 ellipsoids; where there are no inner ones, faces hide what is behind them */
 } ovoid_picture_options;
 
 /** Writes an SVG picture through an ovoid_output. At most 1 000 000 triangles in all (LIMIT). */

@@ -234,6 +234,51 @@ static void check_kinds(void) {
 
 // 10 000 triangles stay below 500 kilobytes: three points of at most 14 bytes each, and little else. Far from the
 // origin nothing is lost.
+static size_t count_text(const char *text, const char *what) {
+    size_t found = 0;
+    for (const char *at = strstr(text, what); at; at = strstr(at + 1, what)) found++;
+    return found;
+}
+
+// Many bodies: without ellipsoids unless they are asked for, so that faces hide what is behind them; the names of
+// bodies that others hide are left out, and so are those without room. Eleven of the small boxes are behind the wall.
+static void check_many(void) {
+    enum { COUNT = 14 };
+    static const char *const names[COUNT] = {"wall", "b1", "b2", "b3",  "b4",  "b5",   "b6",
+                                             "b7",   "b8", "b9", "b10", "b11", "left", "right"};
+    ovoid_shape *wall = ovoid_shape_create_box((ovoid_vec3){10, 0.5, 10}, NULL, NULL);
+    ovoid_shape *small = ovoid_shape_create_box((ovoid_vec3){0.5, 0.5, 0.5}, NULL, NULL);
+    ovoid_picture_body bodies[COUNT];
+    bodies[0] = make_body(names[0], wall, 0, -5, 0);
+    for (int i = 1; i < COUNT; i++)
+        bodies[i] = make_body(names[i], small, i < 12 ? 1.5 * (i - 6) : i == 12 ? -15 : 15, 0, 0);
+    ovoid_picture picture = {.bodies = bodies, .body_count = COUNT};
+    ovoid_picture_options options = {.view = {0, -1, 0}};
+    size_t size;
+    char *text = draw(&picture, &options, &size);
+    check_document(text);
+    CHECK(strstr(text, ">wall<") && strstr(text, ">left<") && strstr(text, ">right<") && !strstr(text, ">b1<"));
+    CHECK_EQ(count_text(text, ">b"), 0);
+    CHECK_EQ(count_text(text, "ellipsoid<"), 0);
+    CHECK_EQ(count_text(text, "dasharray"), 0);
+    free(text);
+    // Twelve bodies have ellipsoids; all at one place, there is room for some names only.
+    for (int i = 1; i < 12; i++) bodies[i] = make_body("a long name of a body", small, 0, 0, 0);
+    picture.body_count = 12;
+    text = draw(&picture, &options, &size);
+    CHECK_EQ(count_text(text, "ellipsoid<"), 2);
+    options.layers = OVOID_PICTURE_NAMES;
+    picture.bodies = bodies + 1;
+    picture.body_count = 11;
+    options.width = options.height = 300;
+    free(text);
+    text = draw(&picture, &options, &size);
+    CHECK(count_text(text, "a long name") >= 1 && count_text(text, "a long name") <= 6);
+    free(text);
+    ovoid_shape_destroy(wall);
+    ovoid_shape_destroy(small);
+}
+
 static void check_size(void) {
     enum { COUNT = 5000 };
     double *points = malloc(3 * COUNT * sizeof *points);
@@ -312,6 +357,7 @@ int main(void) {
     check_areas();
     check_kinds();
     check_size();
+    check_many();
     check_bad();
     check_nearly_straight();
     return check_end();

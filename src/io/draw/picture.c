@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TRIANGLES_MAX = 1000000, BODIES_ORDERED_MAX = 1000 };
+enum { TRIANGLES_MAX = 1000000, BODIES_ORDERED_MAX = 1000, BODIES_FEW = 12 };
 
 // ---- the order of painting
 
@@ -143,24 +143,29 @@ static ovoid_code draw_figure(const figure *f, const drawing *d, ovoid_error *er
     return code;
 }
 
-static ovoid_code draw_figures(const ovoid_picture *picture, figure *figures, const drawing *d, ovoid_error *error) {
-    size_t *order = malloc((picture->body_count + 1) * sizeof *order);
-    ovoid_code code = order ? sort_figures(figures, picture->body_count, &d->camera, order) : OVOID_ERROR_MEMORY;
-    if (code) io_fail_memory(error, "picture");
+// Draws all bodies and texts in the order of painting.
+static ovoid_code draw_ordered(const ovoid_picture *picture, const figure *figures, const size_t *order,
+                               const drawing *d, ovoid_error *error) {
+    ovoid_code code = OVOID_OK;
     for (size_t k = 0; k < picture->body_count && !code; k++) code = draw_figure(&figures[order[k]], d, error);
-    free(order);
+    labels l = {.count = 0, .frame_low = {8, 8}, .frame_high = {d->width - 8.0, d->height - 8.0}};
+    if (picture->title) labels_block(&l, (vec2){0, 0}, (vec2){40 + text_get_width(picture->title, 20), 54});
+    if (d->layers & OVOID_PICTURE_LEGEND) draw_legend(picture, d, &l);
+    if (d->layers & OVOID_PICTURE_WITNESS) draw_links(picture, d, &l);
+    if (d->layers & OVOID_PICTURE_NAMES) draw_names(figures, order, picture->body_count, d, &l);
     return code;
 }
 
 static ovoid_code draw_all(const ovoid_picture *picture, figure *figures, drawing *d, ovoid_error *error) {
     fit_camera(picture, figures, d);
     write_head(picture, d);
-    ovoid_code code = draw_figures(picture, figures, d, error);
-    labels l = {.count = 0, .frame_low = {8, 8}, .frame_high = {d->width - 8.0, d->height - 8.0}};
-    if (picture->title) labels_block(&l, (vec2){0, 0}, (vec2){40 + text_get_width(picture->title, 20), 54});
-    if (d->layers & OVOID_PICTURE_LEGEND) draw_legend(picture, d, &l);
-    if (d->layers & OVOID_PICTURE_WITNESS) draw_links(picture, d, &l);
-    if (d->layers & OVOID_PICTURE_NAMES) draw_names(figures, picture->body_count, d, &l);
+    size_t *order = malloc((picture->body_count + 1) * sizeof *order);
+    ovoid_code code = order ? sort_figures(figures, picture->body_count, &d->camera, order) : OVOID_ERROR_MEMORY;
+    if (code)
+        io_fail_memory(error, "picture");
+    else
+        code = draw_ordered(picture, figures, order, d, error);
+    free(order);
     fputs("</svg>\n", d->file);
     return code;
 }
@@ -188,7 +193,13 @@ static ovoid_code check_picture(const char *path, const ovoid_picture *picture, 
     return OVOID_OK;
 }
 
-static drawing make_drawing(const ovoid_picture_options *options, FILE *file) {
+// The layers where none are asked for. Ellipsoids would bury many bodies, and faces that hide nothing confuse.
+static uint32_t get_layers(const ovoid_picture *picture) {
+    uint32_t layers = OVOID_PICTURE_WITNESS | OVOID_PICTURE_NAMES | OVOID_PICTURE_LEGEND;
+    return picture->body_count > BODIES_FEW ? layers : layers | OVOID_PICTURE_OUTER | OVOID_PICTURE_INNER;
+}
+
+static drawing make_drawing(const ovoid_picture *picture, const ovoid_picture_options *options, FILE *file) {
     static const ovoid_picture_options defaults = {.width = 0};
     if (!options) options = &defaults;
     vec3 view = options->view;
@@ -197,9 +208,7 @@ static drawing make_drawing(const ovoid_picture_options *options, FILE *file) {
                      .camera = camera_make(view),
                      .width = options->width ? options->width : 1200,
                      .height = options->height ? options->height : 800,
-                     .layers = options->layers ? options->layers
-                                               : OVOID_PICTURE_OUTER | OVOID_PICTURE_INNER | OVOID_PICTURE_WITNESS |
-                                                     OVOID_PICTURE_NAMES | OVOID_PICTURE_LEGEND};
+                     .layers = options->layers ? options->layers : get_layers(picture)};
 }
 
 static ovoid_code write_picture(const char *path, const ovoid_picture *picture, drawing *d, ovoid_error *error) {
@@ -220,7 +229,7 @@ ovoid_code ovoid_picture_write_svg(const char *path, const ovoid_picture *pictur
     if (code) return code;
     ovoid_output *output = ovoid_output_create(path, error);
     if (!output) return OVOID_ERROR_FILE;
-    drawing d = make_drawing(options, ovoid_output_get_file(output));
+    drawing d = make_drawing(picture, options, ovoid_output_get_file(output));
     locale_scope locale = locale_enter();
     code = write_picture(path, picture, &d, error);
     locale_leave(locale);

@@ -274,8 +274,13 @@ static void draw_thin(const figure *f, const drawing *d) {
     fputs("\"/>\n", d->file);
 }
 
+// 1 where the inner ellipsoid shows through the faces; else they hide all that is behind them.
+static int is_clear(const figure *f, const drawing *d) {
+    return (d->layers & OVOID_PICTURE_INNER) && f->inner.is_solid;
+}
+
 ovoid_code figure_draw_back(const figure *f, const drawing *d, ovoid_error *error) {
-    if (f->polytope.rank < 3) return OVOID_OK;
+    if (f->polytope.rank < 3 || !is_clear(f, d)) return OVOID_OK;
     ovoid_code code = draw_faces(f, d, 0, ".35", error);
     return code ? code : sort_and_draw_edges(f, d, 0, error);
 }
@@ -285,8 +290,10 @@ ovoid_code figure_draw_front(const figure *f, const drawing *d, ovoid_error *err
         (f->ball > 0 ? draw_ball : draw_thin)(f, d);
         return OVOID_OK;
     }
-    // The inner ellipsoid shows through the faces.
-    int is_clear = (d->layers & OVOID_PICTURE_INNER) && f->inner.is_solid;
-    ovoid_code code = draw_faces(f, d, 1, !is_clear ? ".94" : d->layers & OVOID_PICTURE_AREAS ? ".58" : ".5", error);
+    ovoid_code code = draw_faces(f, d, 1,
+                                 !is_clear(f, d)                   ? "1"
+                                 : d->layers & OVOID_PICTURE_AREAS ? ".58"
+                                                                   : ".5",
+                                 error);
     return code ? code : sort_and_draw_edges(f, d, 1, error);
 }

@@ -21,6 +21,9 @@ static double overlap(double low_a, double high_a, double low_b, double high_b) 
     return fmax(0, fmin(high_a, high_b) - fmax(low_a, low_b));
 }
 
+// The share of a text that earlier ones may cover: beyond it there is no room.
+#define COVERED_MAX 0.2
+
 // The area in which a box overlaps earlier ones or leaves the picture.
 static double get_cost(const labels *l, vec2 low, vec2 high) {
     double cost = 0, area = (high.x - low.x) * (high.y - low.y);
@@ -31,23 +34,25 @@ static double get_cost(const labels *l, vec2 low, vec2 high) {
     return cost + 3 * (area - inside);
 }
 
-vec2 labels_place(labels *l, vec2 near, vec2 size, double gap) {
+int labels_place(labels *l, vec2 near, vec2 size, double gap, vec2 *at) {
     // Above, right, left, below, the corners; then the same farther away, which costs a little.
     static const vec2 directions[8] = {{0, -1}, {1, 0}, {-1, 0}, {0, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}};
-    vec2 best = near;
-    double best_cost = INFINITY;
+    double best_cost = INFINITY, best_overlap = INFINITY;
+    *at = near;
     for (int ring = 0; ring < 4; ring++)
         for (int i = 0; i < 8; i++) {
             double away = gap + 16 * ring;
             vec2 p = {near.x + directions[i].x * (size.x / 2 + away), near.y + directions[i].y * (size.y / 2 + away)};
             vec2 low = {p.x - size.x / 2, p.y - size.y / 2}, high = {p.x + size.x / 2, p.y + size.y / 2};
-            double cost = get_cost(l, low, high) + 0.05 * size.x * size.y * (ring + 0.2 * i / 8);
+            double covered = get_cost(l, low, high), cost = covered + 0.05 * size.x * size.y * (ring + 0.2 * i / 8);
             if (cost >= best_cost) continue;
             best_cost = cost;
-            best = p;
+            best_overlap = covered;
+            *at = p;
         }
-    labels_block(l, (vec2){best.x - size.x / 2, best.y - size.y / 2}, (vec2){best.x + size.x / 2, best.y + size.y / 2});
-    return best;
+    if (best_overlap > COVERED_MAX * size.x * size.y || l->count == LABELS_MAX) return 0;
+    labels_block(l, (vec2){at->x - size.x / 2, at->y - size.y / 2}, (vec2){at->x + size.x / 2, at->y + size.y / 2});
+    return 1;
 }
 
 double text_get_width(const char *text, double font_size) {
@@ -80,21 +85,52 @@ static void write_text(FILE *file, vec2 at, const text_style *style, const char 
 
 // ---- names
 
-void draw_names(const figure *figures, size_t count, const drawing *d, labels *l) {
+// 1 if the pixel is inside the picture of a solid or flat figure.
+static int is_inside(const figure *f, vec2 p) {
+    const ovoid_polytope *polytope = &f->polytope;
+    if (p.x <= f->low.x || p.x >= f->high.x || p.y <= f->low.y || p.y >= f->high.y) return 0;
+    if (f->ball > 0) return 1;
+    for (uint32_t t = 0; t < polytope->triangle_count; t++) {
+        double side[3];
+        for (uint32_t k = 0; k < 3; k++) {
+            vec2 a = f->pixels[polytope->triangles[3 * t + k]], b = f->pixels[polytope->triangles[3 * t + (k + 1) % 3]];
+            side[k] = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+        }
+        if ((side[0] > 0 && side[1] > 0 && side[2] > 0) || (side[0] < 0 && side[1] < 0 && side[2] < 0)) return 1;
+    }
+    return 0;
+}
+
+// The topmost vertex of figure order[place] that no later one hides; 0 where all are hidden.
+static int find_top(const figure *figures, const size_t *order, size_t count, size_t place, vec2 *top) {
+    const figure *f = &figures[order[place]];
+    int found = 0;
+    for (uint32_t v = 0; v < f->polytope.vertex_count; v++) {
+        vec2 p = f->pixels[v];
+        int is_hidden = found && p.y >= top->y;
+        for (size_t later = place + 1; later < count && !is_hidden; later++)
+            is_hidden = is_inside(&figures[order[later]], p);
+        if (is_hidden) continue;
+        *top = p;
+        found = 1;
+    }
+    return found;
+}
+
+void draw_names(const figure *figures, const size_t *order, size_t count, const drawing *d, labels *l) {
     enum { SIZE = 14 };
     const color dark = {0.05, 0.07, 0.10};
-    for (size_t i = 0; i < count; i++) {
-        const figure *f = &figures[i];
-        if (!f->body->name || !f->body->name[0]) continue;
-        // The topmost vertex, and the room for a text above it.
-        uint32_t top = 0;
-        for (uint32_t k = 1; k < f->polytope.vertex_count; k++)
-            if (f->pixels[k].y < f->pixels[top].y) top = k;
+    // The nearest bodies first.
+    for (size_t place = count; place-- > 0;) {
+        const figure *f = &figures[order[place]];
+        const char *name = f->body->name;
+        vec2 top, at, size = {name ? text_get_width(name, SIZE) : 0, 1.2 * SIZE};
+        if (!name || !name[0] || !find_top(figures, order, count, place, &top)) continue;
+        top.y -= f->ball * d->camera.scale;
+        if (!labels_place(l, top, size, 6, &at)) continue;
         char hex[8];
         color_write(color_mix(f->base, dark, 0.55), hex);
-        vec2 at = labels_place(l, (vec2){f->pixels[top].x, f->low.y},
-                               (vec2){text_get_width(f->body->name, SIZE), 1.2 * SIZE}, 6);
-        write_text(d->file, (vec2){at.x, at.y + 0.35 * SIZE}, &(text_style){"middle", SIZE, "600", hex}, f->body->name);
+        write_text(d->file, (vec2){at.x, at.y + 0.35 * SIZE}, &(text_style){"middle", SIZE, "600", hex}, name);
     }
 }
 
@@ -155,7 +191,8 @@ void draw_links(const ovoid_picture *picture, const drawing *d, labels *l) {
         char text[128];
         write_length(text, sizeof text, answer, picture->unit);
         vec2 size = {text_get_width(text, SIZE) + 14, 1.5 * SIZE};
-        vec2 at = labels_place(l, (vec2){(a.x + b.x) / 2, (a.y + b.y) / 2}, size, 9);
+        vec2 at;
+        if (!labels_place(l, (vec2){(a.x + b.x) / 2, (a.y + b.y) / 2}, size, 9, &at)) continue;
         fprintf(d->file,
                 "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"%.1f\" fill=\"#fff\" "
                 "fill-opacity=\".93\" stroke=\"%s\" stroke-opacity=\".5\"/>\n"

@@ -21,7 +21,7 @@ color octant_get_color(int octant);
 void ellipsoid_get_extent(const solid_ellipsoid *e, const camera *c, vec2 *low, vec2 *high);
 
 /// The boxes that later texts avoid.
-enum { LABELS_MAX = 256 };
+enum { LABELS_MAX = 2048 };
 typedef struct labels {
     vec2 low[LABELS_MAX], high[LABELS_MAX];
     size_t count;
@@ -30,14 +30,14 @@ typedef struct labels {
 
 /// Keeps texts out of a box of the picture.
 void labels_block(labels *l, vec2 low, vec2 high);
-/// Finds a place for a text of that size about `gap` from a point, clear of earlier texts where possible; returns its
-/// centre.
-vec2 labels_place(labels *l, vec2 near, vec2 size, double gap);
+/// Finds a place for a text of that size about `gap` from a point, clear of earlier texts: its centre. 0 where there is
+/// no room.
+int labels_place(labels *l, vec2 near, vec2 size, double gap, vec2 *at);
 /// The approximate width of a text, without font tables.
 double text_get_width(const char *text, double font_size);
 
-/// Draws the names beside the figures.
-void draw_names(const figure *figures, size_t count, const drawing *d, labels *l);
+/// Draws the names beside the figures, of those that are seen and where there is room. order: of painting.
+void draw_names(const figure *figures, const size_t *order, size_t count, const drawing *d, labels *l);
 /// Draws witness points, the lines between them and their lengths.
 void draw_links(const ovoid_picture *picture, const drawing *d, labels *l);
 /// Draws the legend and the scale bar.
