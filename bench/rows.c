@@ -47,6 +47,8 @@ typedef struct page {
     curve curves[CHARTS][LINES];
     ovoid_series series[CHARTS][LINES];
     ovoid_chart charts[CHARTS];
+    char places[CHARTS][40];
+    const char *categories[CHARTS];
     uint32_t count;
 } page;
 
@@ -92,10 +94,28 @@ static void add_to_page(page *p, const row *r) {
     c->y_max = fmax(c->y_max, high);
 }
 
+/// Of a chart whose lines are points at one place, bars side by side.
+static void make_bars(page *p, uint32_t chart) {
+    ovoid_chart *c = &p->charts[chart];
+    double first = p->curves[chart][0].x[0];
+    for (size_t k = 0; k < c->series_count; k++)
+        for (size_t i = 0; i < p->curves[chart][k].count; i++)
+            if (p->curves[chart][k].x[i] != first) return;
+    for (size_t k = 0; k < c->series_count; k++)
+        p->series[chart][k].kind = OVOID_SERIES_BARS, p->series[chart][k].x = NULL;
+    (void)snprintf(p->places[chart], sizeof p->places[chart], "%g %s", first, c->x_label);
+    p->categories[chart] = p->places[chart];
+    c->categories = &p->categories[chart];
+    c->category_count = 1;
+    c->x_label = NULL;
+    c->x_log = 0;
+}
+
 int rows_write_svg(const rows *all, const char *path) {
     page *p = calloc(1, sizeof *p);
     if (!p) return 0;
     for (uint32_t i = 0; i < all->count; i++) add_to_page(p, &all->items[i]);
+    for (uint32_t i = 0; i < p->count; i++) make_bars(p, i);
     int good = sheet_write(path, p->charts, p->count, 3, get_build());
     free(p);
     return good;

@@ -54,6 +54,18 @@ static void test_places(void) {
     CHECK(strstr(svg, ">10000<") != NULL);
 }
 
+// Labels of the axis stay in the picture, the last one too, and do not run into each other.
+static void test_axis_labels(void) {
+    const double x[] = {1000, 100000}, y[] = {1, 2};
+    const ovoid_series s = {NULL, OVOID_SERIES_LINE, 2, x, y, NULL, NULL};
+    ovoid_chart chart = {.series = &s, .series_count = 1, .x_log = 1, .width = 480, .height = 360};
+    const char *svg = draw(&chart), *last = strstr(svg, ">100000<");
+    if (!CHECK(last != NULL)) return;
+    while (last > svg && strncmp(last, "<text x=\"", 9) != 0) last--;
+    // Six digits of 7 pixels at most, centred.
+    CHECK_LE(atof(last + 9), 480 - 3.5 * 6);
+}
+
 // A band without a line where y leaves a gap, one for each run of points; of a single point a stroke.
 static void test_bands(void) {
     const double y[] = {NAN, NAN, NAN, NAN, 1}, low[] = {0, 1, NAN, 2, NAN}, high[] = {1, 3, 2, 4, 2};
@@ -131,6 +143,7 @@ static void test_full_disk(void) {
 
 int main(void) {
     test_places();
+    test_axis_labels();
     test_bands();
     test_odd_values();
     test_bars();

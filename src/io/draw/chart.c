@@ -132,8 +132,17 @@ static void draw_categories(const canvas *c) {
         write_text(c->file, axis_project(&c->x, (double)i), c->y.from + 17, "middle", "", h->categories[i]);
 }
 
+// A label under its tick; at the ends of the axis it is moved into the picture, and left out where it would run into
+// the one before it, which ends at *end.
+static void write_x_label(const canvas *c, double x, const char *text, double *end) {
+    double half = 3.5 * (double)strlen(text), middle = fmin(x, c->x.to + RIGHT - 2 - half);
+    if (middle - half < *end + 4) return;
+    write_text(c->file, middle, c->y.from + 17, "middle", "", text);
+    *end = middle + half;
+}
+
 static void draw_x_axis(const canvas *c) {
-    double ticks[TICKS_MAX];
+    double ticks[TICKS_MAX], end = 0;
     size_t count = c->chart->categories ? 0 : axis_find_ticks(&c->x, ticks);
     for (size_t i = 0; i < count; i++) {
         double x = axis_project(&c->x, ticks[i]);
@@ -141,7 +150,7 @@ static void draw_x_axis(const canvas *c) {
         format_tick(ticks[i], c->x.is_log, text);
         fprintf(c->file, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#999\"/>\n", x, c->y.from, x,
                 c->y.from + 4);
-        write_text(c->file, x, c->y.from + 17, "middle", "", text);
+        write_x_label(c, x, text, &end);
     }
     if (c->chart->categories) draw_categories(c);
     fprintf(c->file, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#999\"/>\n", c->x.from, c->y.from,
