@@ -36,7 +36,7 @@ static const cli_option options[] = {
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "the margin of within; for distance, exit code 1 if a pair is within M"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
-     "stop when the bracket is at most T wide (default: 1e-9 of the pair's size)"},
+     "stop when the bracket is at most T wide, or 1e-9 of the pair's size (default: the latter alone)"},
     THREADS_OPTION(settings),
     INPUTS_OPTIONS(settings),
     RESULTS_OPTIONS(settings),
@@ -215,7 +215,8 @@ const cli_command command_batch = {
     .description =
         "One result for each pair of PAIRS.csv, in the file's order. Its first line must be\n\n"
         "    a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n\n"
-        "a and b are 0-based lines of LIST; the position and the quaternion of each body follow.\n\n"
+        "a and b are shapes of LIST, counted from 0 without empty lines and comments; the position and the quaternion "
+        "of each body follow.\n\n"
         "Pairs are read, answered and written as they come, in bounded memory. A bad line (an index that LIST does not "
         "have, NaN, a zero quaternion) ends the run with code 3 and the line's number: what stands on standard output "
         "by then are the results of all pairs before it; a file asked for with --output is not made.",

@@ -24,7 +24,7 @@ static const cli_option options[] = {
     {"top", 0, OPTION_AMOUNT, offsetof(settings, top), "N", NULL,
      "list the N nearest pairs, 0: all; all are counted (default: of a table without --margin 20, else all)"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
-     "stop when the bracket of a pair is at most T wide (default: 1e-9 of the pair's size)"},
+     "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
     THREADS_OPTION(settings),
     RESULTS_OPTIONS(settings),
     {0},

@@ -27,7 +27,7 @@ static const cli_option options[] = {
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "also ask whether the bodies are within M of each other: exit code 1 if they are"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
-     "stop when the bracket is at most T wide (default: 1e-9 of the pair's size)"},
+     "stop when the bracket is at most T wide, or 1e-9 of the pair's size (default: the latter alone)"},
     INPUTS_OPTIONS(settings),
     RESULTS_OPTIONS(settings),
     {0},
@@ -177,7 +177,8 @@ const cli_command command_distance = {
         "The signed distance of two convex bodies: positive where they are apart, minus the depth where they "
         "overlap. The answer is a bracket, lower <= d <= upper, rounding included, with witness points, a normal "
         "from A to B, and a proof, which is checked before it is written.\n\n"
-        "A and B are meshes (STL, OBJ, OFF, PLY, COLLADA, glTF), of which the convex hull is meant, or .ovoid "
+        "A and B are meshes (STL, OBJ, OFF, PLY; COLLADA, glTF and more with Assimp), of which the convex hull is "
+        "meant, or .ovoid "
         "files. With --parts, they are compounds of convex parts, as CoACD and V-HACD write them: "
         "d is then the smallest signed distance of a part of A and a part of B, and the proof also says why no "
         "other two are nearer.",

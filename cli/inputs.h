@@ -23,9 +23,8 @@ typedef struct read_settings {
      offsetof(settings, read.unit),                                                                                    \
      "UNIT",                                                                                                           \
      INPUTS_UNITS,                                                                                                     \
-     "unit of all lengths, those of files, poses and options and those printed: m, cm, mm, um, in or ft (default: "    \
-     "none "                                                                                                           \
-     "is named)"},                                                                                                     \
+     "unit of all lengths, those of files, poses and options and those printed: m, cm, mm, um, in or ft; no number "   \
+     "changes by it but those of COLLADA files, which say theirs (default: none is named)"},                           \
     {                                                                                                                  \
         "scale", 0, OPTION_POSITIVE, offsetof(settings, read.scale), "S", NULL,                                        \
             "multiply the coordinates of meshes by S (default: 1)"                                                     \

@@ -31,14 +31,15 @@ static const cli_option options[] = {
     {"motion", 0, OPTION_FILE, offsetof(settings, motion), "MOTION.csv", NULL,
      "times with poses or velocities of objects, \"-\" for standard input (required)"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
-     "list only the pairs that are not proven farther apart than M; without it, every pair of every frame"},
+     "list only the pairs that are not proven farther apart than M; without it, every pair of every frame, or with "
+     "--query collide those that touch"},
     {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
      "collide: which pairs touch? within: which are within --margin? distance: the signed distance, minus the depth "
      "where they overlap (default)"},
     {"continuous", 0, OPTION_FLAG, offsetof(settings, continuous), NULL, NULL,
      "between frames, also find when pairs come within the margin (without one: touch)"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
-     "stop when the bracket of a pair is at most T wide (default: 1e-9 of the pair's size)"},
+     "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distances of the nearest pairs over time, an SVG file"},
     THREADS_OPTION(settings),
