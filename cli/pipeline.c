@@ -3,6 +3,8 @@
 // thread drains. Filling may wait for input while others work and drain.
 #include "pipeline.h"
 
+#include "finish.h"
+
 #include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -102,8 +104,11 @@ static int run_alone(ring *r) {
 static int start_worker(pthread_t *worker, ring *r) {
     pthread_attr_t attributes;
     if (pthread_attr_init(&attributes) != 0) return 0;
+    // Signals that the program holds back for a moment must not come by way of a worker.
+    finish_hold_signals();
     int ok = pthread_attr_setstacksize(&attributes, WORKER_STACK) == 0 &&
              pthread_create(worker, &attributes, run_worker, r) == 0;
+    finish_release_signals();
     pthread_attr_destroy(&attributes);
     return ok;
 }

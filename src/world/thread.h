@@ -50,6 +50,7 @@ static inline void condition_wake_all(thread_condition *c) { WakeAllConditionVar
 #else
 
 #include <pthread.h>
+#include <signal.h>
 #include <unistd.h>
 
 typedef pthread_t thread;
@@ -61,12 +62,25 @@ typedef pthread_cond_t thread_condition;
 #define THREAD_END NULL
 typedef void *(*thread_main)(void *context);
 
-/// 1, or 0 where the system starts no more.
+/// All signals but those of a thread's own faults, which its handlers must hear of there.
+static inline sigset_t thread_find_signals(void) {
+    sigset_t all;
+    (void)sigfillset(&all);
+    static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) (void)sigdelset(&all, faults[i]);
+    return all;
+}
+
+/// 1, or 0 where the system starts no more. Signals go to the host's own threads: one that these hold back must not
+/// come by way of this one.
 static inline int thread_start(thread *t, thread_main run, void *context) {
     pthread_attr_t attributes;
+    sigset_t held = thread_find_signals(), before;
     if (pthread_attr_init(&attributes) != 0) return 0;
+    (void)pthread_sigmask(SIG_BLOCK, &held, &before);
     int ok =
         pthread_attr_setstacksize(&attributes, THREAD_STACK) == 0 && pthread_create(t, &attributes, run, context) == 0;
+    (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
     (void)pthread_attr_destroy(&attributes);
     return ok;
 }

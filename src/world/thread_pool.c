@@ -1,6 +1,7 @@
 // The built-in pool: a task is an array of items, of which each free worker takes the next part. Threads sleep on a
 // condition while there is no task. Results must not depend on which worker computes them, or in what order. In a child
 // made by fork the threads are not there: the caller's works alone, and what the threads waited for is left as it is.
+#define _POSIX_C_SOURCE 200809L // signal sets
 #include "world/thread_pool.h"
 
 #include "base/allocator.h"

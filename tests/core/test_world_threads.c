@@ -1,8 +1,11 @@
 // The same bits from any number of threads, from the world's own and from a host's task system that cuts the work as it
 // likes. Truth: the hash of all that one thread says.
+#define _POSIX_C_SOURCE 200809L // signals
 #include "worlds.h"
 
 #include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
 
 enum { BODIES = 3000, FRAMES = 8 };
 
@@ -108,6 +111,38 @@ static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t 
     return hash;
 }
 
+// ---- signals: one that the host holds back does not come by way of a world's thread
+
+static volatile sig_atomic_t heard;
+static void hear(int number) { heard = number; }
+
+static void test_signals(ovoid_shape **shapes) {
+    sigset_t held;
+    struct sigaction action = {.sa_handler = hear};
+    CHECK(sigaction(SIGUSR1, &action, NULL) == 0);
+    ovoid_world_options o = {.threads = 4};
+    ovoid_world *w = ovoid_world_create(&o, NULL);
+    if (!CHECK(w != NULL)) return;
+    sigemptyset(&held);
+    sigaddset(&held, SIGUSR1);
+    CHECK(pthread_sigmask(SIG_BLOCK, &held, NULL) == 0);
+    uint64_t s = 3;
+    ovoid_contact_query q = {.kind = OVOID_QUERY_COLLIDE};
+    ovoid_contacts found;
+    for (int round = 0; round < 20 && !heard; round++) {
+        if (round == 0) CHECK(kill(getpid(), SIGUSR1) == 0);
+        for (int i = 0; i < 200; i++) {
+            ovoid_world_body b = {.body = {shapes[i % WORLD_SHAPES], NULL, {random_place(&s, 5), random_quat(&s)}}};
+            CHECK(ovoid_world_add(w, &b, NULL) != 0);
+        }
+        CHECK(ovoid_world_compute_contacts(w, &q, &found, NULL) == OVOID_OK);
+    }
+    CHECK(!heard);
+    CHECK(pthread_sigmask(SIG_UNBLOCK, &held, NULL) == 0);
+    CHECK_EQ(heard, SIGUSR1);
+    ovoid_world_destroy(w);
+}
+
 int main(void) {
     ovoid_shape *shapes[WORLD_SHAPES];
     uint64_t s = 2;
@@ -127,6 +162,8 @@ int main(void) {
     ovoid_error error = {0};
     o.tasks.finish = NULL;
     CHECK(!ovoid_world_create(&o, &error) && error.code == OVOID_ERROR_ARGUMENT);
+    check_seed = 0;
+    test_signals(shapes);
     world_destroy_shapes(shapes);
     return check_end();
 }
