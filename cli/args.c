@@ -4,7 +4,6 @@
 
 #include "help.h"
 #include "message.h"
-#include "outputs.h"
 
 #include <ovoid/ovoid.h>
 
@@ -333,6 +332,5 @@ int args_parse(const cli_command *command, int argc, char **argv, void *settings
             code = parse_short(command, given, &at, settings);
     }
     if (code < 0) code = check_count(command, operands);
-    if (code < 0) code = check_input(command, settings, operands);
-    return code < 0 ? outputs_check(command, settings, operands) : code;
+    return code < 0 ? check_input(command, settings, operands) : code;
 }

@@ -4,6 +4,7 @@
 #include "answers.h"
 #include "inputs.h"
 #include "message.h"
+#include "outputs.h"
 #include "pipeline.h"
 #include "progress.h"
 #include "results.h"
@@ -190,7 +191,7 @@ static int settle(const cli_command *command, settings *s) {
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.read.unit = INPUTS_NO_UNIT, .query = QUERY_DISTANCE, .margin = -1};
     cli_operands none;
-    int code = args_parse(command, argc, argv, &s, &none);
+    int code = command_parse(command, argc, argv, &s, &none);
     if (code < 0) code = settle(command, &s);
     if (code >= 0) return code;
     batch b = {.settings = &s};

@@ -7,6 +7,7 @@
 #include "inputs.h"
 #include "message.h"
 #include "near.h"
+#include "outputs.h"
 #include "pipeline.h"
 #include "progress.h"
 
@@ -159,7 +160,7 @@ static int run_check(check *c) {
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.margin = -1, .top = TOP_UNSET};
     cli_operands paths;
-    int code = args_parse(command, argc, argv, &s, &paths);
+    int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_settle(command, &s.out);
     if (code >= 0) return code;
     ovoid_scene *scene = inputs_read_scene(paths.items[0]);

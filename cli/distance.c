@@ -4,6 +4,7 @@
 #include "answers.h"
 #include "inputs.h"
 #include "message.h"
+#include "outputs.h"
 #include "results.h"
 
 #include <ovoid/ovoid.h>
@@ -158,7 +159,7 @@ static int run(const cli_command *command, int argc, char **argv) {
                   .margin = -1};
     cli_operands paths;
     cli_body bodies[2];
-    int code = args_parse(command, argc, argv, &s, &paths);
+    int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_settle(command, &s.out);
     if (code >= 0) return code;
     if ((code = inputs_open_pair(paths.items, &s.read, s.parts, bodies)) != 0) return code;

@@ -5,6 +5,7 @@
 #include "finish.h"
 #include "inputs.h"
 #include "message.h"
+#include "outputs.h"
 #include "progress.h"
 
 #include <errno.h>
@@ -260,7 +261,7 @@ static int fit_mesh(fit *f, const char *path) {
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.read.unit = INPUTS_NO_UNIT};
     cli_operands paths;
-    int code = args_parse(command, argc, argv, &s, &paths);
+    int code = command_parse(command, argc, argv, &s, &paths);
     if (code >= 0) return code;
     if (s.json + s.csv + s.table > 1)
         return args_complain(command, "fit: --json, --csv and --table exclude each other");

@@ -62,9 +62,14 @@ static int check_output(const cli_command *command, const cli_option *o, const v
     return -1;
 }
 
-int outputs_check(const cli_command *command, const void *settings, const cli_operands *operands) {
+static int check_outputs(const cli_command *command, const void *settings, const cli_operands *operands) {
     int code = -1;
     for (const cli_option *o = command->options; o->name && code < 0; o++)
         if (o->kind == OPTION_OUTPUT && get_path(o, settings)) code = check_output(command, o, settings, operands);
     return code;
+}
+
+int command_parse(const cli_command *command, int argc, char **argv, void *settings, cli_operands *operands) {
+    int code = args_parse(command, argc, argv, settings, operands);
+    return code < 0 ? check_outputs(command, settings, operands) : code;
 }

@@ -5,9 +5,9 @@
 
 #include "args.h"
 
-/// Checks every OPTION_OUTPUT of the command line against its formats, the operands and the other paths. -1 to go on,
-/// or EXIT_USAGE after a message.
-int outputs_check(const cli_command *command, const void *settings, const cli_operands *operands);
+/// args_parse, and then every OPTION_OUTPUT against its formats, the operands and the other paths. -1 to go on, or an
+/// exit code.
+int command_parse(const cli_command *command, int argc, char **argv, void *settings, cli_operands *operands);
 
 /// 1 if the path ends in a dot and the word, in any case.
 int outputs_has_extension(const char *path, const char *word);

@@ -1,6 +1,7 @@
 // ovoid paper: the paper's experiment, repeated; a folder of numbers and figures, and a page of all results.
 #include "commands.h"
 #include "message.h"
+#include "outputs.h"
 #include "paper/experiment.h"
 #include "progress.h"
 
@@ -71,7 +72,7 @@ static int run_experiment(experiment *e, const settings *s) {
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.frames = 240, .seed = 1};
     cli_operands none;
-    int code = args_parse(command, argc, argv, &s, &none);
+    int code = command_parse(command, argc, argv, &s, &none);
     if (code >= 0) return code;
     if (!s.output || !*s.output) return args_complain(command, "paper: --out DIR is missing");
     experiment e = {.frames = s.frames, .seed = s.seed, .report = report_create(s.output)};

@@ -10,6 +10,7 @@
 #include "inputs.h"
 #include "message.h"
 #include "near.h"
+#include "outputs.h"
 #include "pipeline.h"
 #include "progress.h"
 #include "run_report.h"
@@ -185,7 +186,7 @@ static int settle(const cli_command *command, settings *s) {
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.query = QUERY_DISTANCE, .margin = -1};
     cli_operands paths;
-    int code = args_parse(command, argc, argv, &s, &paths);
+    int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = settle(command, &s);
     if (code >= 0) return code;
     ovoid_scene *scene = inputs_read_scene(paths.items[0]);

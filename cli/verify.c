@@ -9,6 +9,7 @@
 #include "frames.h"
 #include "inputs.h"
 #include "message.h"
+#include "outputs.h"
 #include "pipeline.h"
 #include "progress.h"
 #include "seen.h"
@@ -498,7 +499,7 @@ static int run(const cli_command *command, int argc, char **argv) {
                   .pose_a = ovoid_pose_make_identity(),
                   .pose_b = ovoid_pose_make_identity()};
     cli_operands paths;
-    int code = args_parse(command, argc, argv, &s, &paths);
+    int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = check_inputs(command, &s, &paths);
     if (code >= 0) return code;
     if (s.query == QUERY_NONE) s.query = s.list ? QUERY_WITHIN : QUERY_DISTANCE;

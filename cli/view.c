@@ -5,6 +5,7 @@
 #include "finish.h"
 #include "inputs.h"
 #include "message.h"
+#include "outputs.h"
 
 #include <ovoid/ovoid.h>
 
@@ -234,7 +235,7 @@ static int run(const cli_command *command, int argc, char **argv) {
                   .pose_b = ovoid_pose_make_identity(),
                   .margin = -1};
     cli_operands paths;
-    int code = args_parse(command, argc, argv, &s, &paths);
+    int code = command_parse(command, argc, argv, &s, &paths);
     if (code >= 0) return code;
     if (!s.output && message_is_terminal(stdout))
         return args_complain(command, "view: --output FILE is missing, and standard output is a terminal");

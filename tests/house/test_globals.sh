@@ -43,8 +43,8 @@ outside=$(echo "$symbols" | awk '/\*UND\*/ { needed[$NF] = 1; next }
 memory='aligned_alloc|free|mem(cpy|move|set|cmp)|str(len|cmp|ncmp)|abort|_*(vsnprintf|mem(cpy|move|set))(_chk)?|__stack_chk_fail'
 mathematics='sqrt|sin|cos|sincos|fm(in|ax)|frexp|ldexp|scalbn|floor|ceil|rint|nearbyint|nextafter|trunc|log2?|exp2?|cbrt|pow|hypot|fabs|fesetenv|fegetenv'
 # The threads of a world: created and joined by it, asleep between its frames; queries know none of them. getpid tells
-# whether this is still their process.
-threads='getpid|pthread_(create|join|mutex_(init|destroy|lock|unlock)|cond_(init|destroy|wait|broadcast)|attr_(init|destroy|setstacksize))'
+# whether this is still their process; signals are kept from them.
+threads='getpid|sig(fill|del)set|pthread_(create|join|sigmask|mutex_(init|destroy|lock|unlock)|cond_(init|destroy|wait|broadcast)|attr_(init|destroy|setstacksize))'
 expect "from outside" "$memory|$mathematics|$threads|__cpu_model|__cpu_indicator_init|_GLOBAL_OFFSET_TABLE_|qsort" "$outside"
 
 # It can fail: a planted counter and a planted lock are found.
