@@ -267,10 +267,10 @@ typedef enum ovoid_record_field {
 } ovoid_record_field;
 
 /** Most exclusions, steps and groups, all together, of a record in a line of JSON. */
-#define OVOID_RECORD_ITEMS_MAX ((size_t)1 << 17)
+#define OVOID_RECORD_ITEMS_MAX ((size_t)1 << 16)
 
 /** Longest line of results that is read, bytes: more than a record of OVOID_RECORD_ITEMS_MAX items takes. */
-#define OVOID_RECORD_SIZE_MAX ((size_t)1 << 26)
+#define OVOID_RECORD_SIZE_MAX ((size_t)1 << 25)
 
 /** The part of a body that is no compound. */
 #define OVOID_RECORD_NO_PART UINT32_MAX

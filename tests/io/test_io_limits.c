@@ -162,7 +162,7 @@ static void check_long(void) {
     expect('c', write_repeated("deep.json", "", "{\"objects\":", 1000000, ""), OVOID_ERROR_FORMAT, "depth");
     expect('c', write_repeated("deep.json", "{\"objects\":[", "[", 1000, ""), OVOID_ERROR_FORMAT, "JSON");
     expect('r', write_repeated("deep.jsonl", "{\"a\":", "[", 900000, ""), OVOID_ERROR_FORMAT, "JSON");
-    expect('r', write_repeated("long.jsonl", "", " ", 70000000, "\n"), OVOID_ERROR_LIMIT, "the line has more than");
+    expect('r', write_repeated("long.jsonl", "", " ", 40000000, "\n"), OVOID_ERROR_LIMIT, "the line has more than");
     expect('r', write_repeated("long.jsonl", "{\"proof\":{\"cover\":{\"pairs\":[", "[0,0],", 150000, "[0,0]]}}}"),
            OVOID_ERROR_FORMAT, "missing");
     expect('v', write_repeated("long.csv", "a,b", ",", 3000000, "\n"), OVOID_ERROR_LIMIT, "the line has more than");

@@ -576,7 +576,7 @@ static void check_bad_lines(void) {
     CHECK(!ovoid_results_reader_create(file_path("absent.jsonl"), &error) && error.code == OVOID_ERROR_FILE);
 }
 
-// A line of more than 2^26 bytes is refused, not gathered; one of 2^22 is read.
+// A line of more than 2^25 bytes is refused, not gathered; one of 2^22 is read.
 static void check_long_lines(void) {
     for (int is_long = 0; is_long < 2; is_long++) {
         size_t size = is_long ? OVOID_RECORD_SIZE_MAX + 3000 : (size_t)1 << 22, n = strlen(GOOD);
