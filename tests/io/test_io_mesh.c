@@ -151,6 +151,18 @@ static void check_formats(void) {
     check_tetrahedron(file_write("solid.STL", b.data, b.size), 1);
     check_tetrahedron(file_write_text("text.stl", text_stl), 0.0254);
     check_tetrahedron(file_write_text("text.obj", text_obj), 1);
+    // A byte order mark before each kind of text; STL in capitals.
+    static const char *const marked[] = {text_obj, text_off, text_ply, text_stl};
+    static const char *const names[] = {"mark.obj", "mark.off", "mark.ply", "mark.stl"};
+    for (int i = 0; i < 4; i++) {
+        char text[2000];
+        snprintf(text, sizeof text, "\xef\xbb\xbf%s", marked[i]);
+        check_tetrahedron(file_write_text(names[i], text), 1);
+    }
+    char capitals[sizeof text_stl];
+    for (size_t i = 0; i < sizeof text_stl; i++)
+        capitals[i] = text_stl[i] >= 'a' && text_stl[i] <= 'z' ? (char)(text_stl[i] - 32) : text_stl[i];
+    check_tetrahedron(file_write_text("capital.stl", capitals), 1);
     check_tetrahedron(file_write_text("text.off", text_off), 100);
     check_tetrahedron(file_write_text("text.ply", text_ply), 1);
     for (int big = 0; big < 2; big++) {
@@ -334,6 +346,9 @@ static void check_numbers(void) {
 static const bad_input bad_inputs[] = {
     {"empty.stl", "", OVOID_ERROR_EMPTY, -1, "empty"},
     {"short.stl", "short", OVOID_ERROR_FORMAT, -1, "5 bytes"},
+    {"pointer.stl", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 9\n", OVOID_ERROR_FORMAT, -1,
+     "is a Git LFS pointer"},
+    {"mark.obj", "\xef\xbb\xbf", OVOID_ERROR_EMPTY, -1, "no points"},
     {"no_facets.stl", "solid a\nendsolid a\n", OVOID_ERROR_EMPTY, -1, "no points"},
     {"cut.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n", OVOID_ERROR_FORMAT, 6,
      "truncated"},

@@ -9,9 +9,9 @@
 #define GOOD "0,2,1,2,3,1,0,0,0,4,5,6,0,1,0,0\n"
 
 static void check_good(void) {
-    const char *path =
-        file_write_text("good.csv", HEADER GOOD "\n 2 , 1 ,-1e-3,+2.5,0,\t0.5,.5,0.5,-0.5,0,0,0,2,0,0,0\r\n\r\n"
-                                                "1,1,0,0,0,1,0,0,0,0,0,0,1,0,0,0.1");
+    const char *path = file_write_text("good.csv", "\xef\xbb\xbf" HEADER GOOD
+                                                   "\n 2 , 1 ,-1e-3,+2.5,0,\t0.5,.5,0.5,-0.5,0,0,0,2,0,0,0\r\n\r\n"
+                                                   "1,1,0,0,0,1,0,0,0,0,0,0,1,0,0,0.1");
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, 3, &error);
     if (!CHECK(reader != NULL)) return;
@@ -31,6 +31,7 @@ static void check_good(void) {
 
 static const bad_input bad_files[] = {
     {"empty.csv", "", OVOID_ERROR_EMPTY, 1, "the file is empty"},
+    {"pointer.csv", "version https://git-lfs.github.com/spec/v1\n", OVOID_ERROR_FORMAT, -1, "is a Git LFS pointer"},
     {"header.csv", "a,b\n", OVOID_ERROR_FORMAT, 1, "the first line must be a,b,ax"},
     {"no_header.csv", GOOD, OVOID_ERROR_FORMAT, 1, "the first line must be"},
     {"few.csv", HEADER GOOD "0,1,2\n", OVOID_ERROR_FORMAT, 3, "fewer than 16 columns"},
