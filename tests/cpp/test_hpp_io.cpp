@@ -36,9 +36,11 @@ void check_shapes() {
     CHECK(mesh.size() == 2 && std::string(mesh[1].name) == "two");
     const ovoid::shape second = ovoid::shape::from_points(ovoid::points_of(mesh[1]));
     CHECK_NEAR(second.measures().volume, 8000.0 / 6, 1e-9);
+    CHECK_NEAR(mesh.compute_convexity(1, second).mesh_volume, 8000.0 / 6, 1e-9);
     const auto shapes = ovoid::shapes::read_file(path, each);
     CHECK(shapes.size() == 2 && std::string(shapes.name(0)) == "one" && is_same_shape(shapes[1], second.get()));
     CHECK_EQ(shapes.create_compound().size(), 2);
+    CHECK(!shapes.convexity(0).is_nonconvex && ovoid::shapes::read_file(path).convexity(0).is_nonconvex);
     const auto list = ovoid::shapes::read_list(write_text("list.txt", "# two\nmesh.obj\nhull.ovoid\n"));
     CHECK(list.size() == 2 && is_same_shape(list[1], hull.get()));
     CHECK(throws(OVOID_ERROR_FILE, -1, "absent", [] { ovoid::read_shape(folder + "/absent.obj"); }));
@@ -47,13 +49,17 @@ void check_shapes() {
 }
 
 void check_scenes() {
-    const std::string path = write_text("scene.json", R"({"objects": [
+    const std::string path = write_text("scene.json", R"({"unit": "mm", "objects": [
         {"name": "box", "box": [2, 2, 2]},
         {"name": "pair", "compound": [{"sphere": 1}, {"sphere": 1, "pose": {"xyz": [4, 0, 0]}}],
          "pose": {"xyz": [9, 0, 0]}}], "ignore": [["box", "pair"]]})");
     auto scene = ovoid::scene::read(path);
     CHECK(scene.size() == 2 && std::string(scene.name(1)) == "pair" && scene.find("pair") == 1);
     CHECK(scene.find("none") == scene.size() && scene.is_ignored(1, 0));
+    CHECK(std::string(scene.unit()) == "mm" && scene.mesh_count() == 0);
+    const auto meshes =
+        ovoid::scene::read(write_text("meshes.json", R"({"objects": [{"name": "a", "mesh": "mesh.obj"}]})"));
+    CHECK(meshes.mesh_count() == 1 && meshes.mesh(0).convexity.is_nonconvex && !*meshes.unit());
     CHECK(scene.pair_count() == ovoid_scene_get_pair_count(scene.get()));
     const ovoid::compound_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));
     CHECK(a.answer.lower <= 7 && a.answer.upper >= 7 && a.part_b == 0);
@@ -109,8 +115,8 @@ int main() {
     check_shapes();
     check_scenes();
     check_tables();
-    for (const char *name :
-         {"mesh.obj", "hull.ovoid", "list.txt", "bad.obj", "scene.json", "motion.csv", "pairs.csv", "results.jsonl"})
+    for (const char *name : {"mesh.obj", "hull.ovoid", "list.txt", "bad.obj", "scene.json", "meshes.json", "motion.csv",
+                             "pairs.csv", "results.jsonl"})
         CHECK(std::remove((folder + "/" + name).c_str()) == 0);
     CHECK(rmdir(path) == 0);
     return check_end();
