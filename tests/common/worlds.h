@@ -58,6 +58,23 @@ static inline ovoid_compound_answer world_ask(const ovoid_world_body *a, const o
     }
 }
 
+/// No less than what a body adds to a pair's size, of which the tolerance is a billionth.
+static inline double world_find_reach(const ovoid_body *body) {
+    if (body->compound) {
+        // The ellipsoid reaches no farther than the root of its trace.
+        ovoid_ellipsoid e = ovoid_compound_get_outer(body->compound);
+        return 2 * (sqrt(e.q.xx + e.q.yy + e.q.zz) + fabs(e.center.x) + fabs(e.center.y) + fabs(e.center.z));
+    }
+    ovoid_measures m = ovoid_shape_get_measures(body->shape);
+    ovoid_vec3 c = m.sphere_center;
+    return m.sphere_radius + fabs(c.x) + fabs(c.y) + fabs(c.z) + ovoid_shape_get_radius(body->shape);
+}
+static inline double world_find_size(const ovoid_body *a, const ovoid_body *b) {
+    ovoid_vec3 p = a->pose.position, q = b->pose.position;
+    double apart = fabs(p.x - q.x) + fabs(p.y - q.y) + fabs(p.z - q.z);
+    return world_find_reach(a) + world_find_reach(b) + apart;
+}
+
 /// One contact beside the truth: an exact bracket of the signed distance, and the proof that is made of it.
 static inline void world_check_contact(const ovoid_world *w, const ovoid_contact *c, const ovoid_world_body *a,
                                        const ovoid_world_body *b, const ovoid_contact_query *q) {
@@ -78,7 +95,8 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     if (!CHECK(ovoid_compound_answer_check(&pair, &proven, &exclusions, &error) == OVOID_OK))
         printf("  %s\n", error.message);
     CHECK_EQ(proven.answer.status, alone.status);
-    double near = 1e-8 * (1 + fabs(truth.upper));
+    // Two brackets of one distance, each as wide as the tolerance.
+    double near = 2e-9 * world_find_size(&a->body, &b->body);
     if (q->kind == OVOID_QUERY_DEPTH) CHECK_NEAR(c->verdict.upper, truth.upper, near);
     if (q->kind == OVOID_QUERY_DISTANCE && alone.status == OVOID_SEPARATED)
         CHECK_NEAR(c->verdict.lower, truth.lower, near);
