@@ -33,9 +33,10 @@ static const cli_option options[] = {
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "draw the witness points of all pairs within M (default: of each of at most 12 objects and the one nearest to "
      "it)"},
-    {"layers", 0, OPTION_SET, offsetof(settings, layers), "LIST", "outer|inner|areas|witness|names|legend",
+    {"layers", 0, OPTION_SET, offsetof(settings, layers), "LIST", "outer|inner|areas|witness|names|legend|meshes",
      "what is drawn with the polyhedra, with commas between: outer, inner (ellipsoids), areas (the 8 facial areas), "
-     "witness, names, legend (default: all but areas, and without ellipsoids above 12 bodies or parts)"},
+     "witness, names, legend, meshes (in the place of their hulls) (default: all but areas and meshes; above 12 bodies "
+     "or parts meshes and no ellipsoids)"},
     {"from", 0, OPTION_VECTOR, offsetof(settings, from), "\"X Y Z\"", NULL,
      "direction from the scene to the eye (default: \"1 -1.6 0.9\")"},
     {"width", 0, OPTION_COUNT, offsetof(settings, width), "W", NULL, "pixels (default: 1200)"},
@@ -54,6 +55,8 @@ typedef struct drawing {
     ovoid_picture_body *drawn; ///< shapes, and the parts of compounds
     ovoid_picture_link *links;
     ovoid_answer *answers; ///< of the links
+    ovoid_mesh **meshes;   ///< of the objects, where they are drawn
+    ovoid_faces *faces;    ///< of the drawn bodies that have a mesh
     size_t body_count, drawn_count, link_count, link_capacity;
 } drawing;
 
@@ -61,13 +64,18 @@ typedef struct drawing {
 static int make_drawing(drawing *d, size_t bodies, size_t drawn) {
     *d = (drawing){.bodies = calloc(bodies + 1, sizeof *d->bodies),
                    .first = calloc(bodies + 1, sizeof *d->first),
-                   .drawn = calloc(drawn + 1, sizeof *d->drawn)};
-    if (d->bodies && d->first && d->drawn) return 1;
+                   .drawn = calloc(drawn + 1, sizeof *d->drawn),
+                   .meshes = calloc(bodies + 1, sizeof(ovoid_mesh *)),
+                   .faces = calloc(drawn + 1, sizeof *d->faces)};
+    if (d->bodies && d->first && d->drawn && d->meshes && d->faces) return 1;
     message_error("out of memory");
     return 0;
 }
 
 static void clear_drawing(drawing *d) {
+    for (size_t i = 0; d->meshes && i < d->body_count; i++) ovoid_mesh_destroy(d->meshes[i]);
+    free(d->meshes);
+    free(d->faces);
     free(d->bodies);
     free(d->first);
     free(d->drawn);
@@ -90,8 +98,27 @@ static void add_body(drawing *d, const char *name, const ovoid_body *body) {
             part = ovoid_compound_get_part(body->compound, i);
             part.pose = ovoid_pose_compute_product(&body->pose, &part.pose);
         }
-        d->drawn[d->drawn_count++] = (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group};
+        d->drawn[d->drawn_count++] = (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group, NULL};
     }
+}
+
+/// Most bodies and parts that are drawn as polyhedra unasked; more are drawn as their meshes.
+#define POLYHEDRA_MOST 12
+
+/// Reads the mesh of the object that was added last, where it has one that is to be drawn. 0, or EXIT_INPUT after a
+/// message.
+static int add_mesh(drawing *d, unsigned layers, size_t drawn, const ovoid_scene_object *object) {
+    int is_wanted = layers ? (layers & OVOID_PICTURE_MESHES) != 0 : drawn > POLYHEDRA_MOST;
+    size_t number = d->body_count - 1, first = d->first[number];
+    if (!is_wanted || !object->mesh || ovoid_path_is_shape(object->mesh) || strcmp(object->mesh, "-") == 0) return 0;
+    ovoid_error error;
+    ovoid_mesh *mesh = d->meshes[number] = ovoid_mesh_read(object->mesh, &object->read, &error);
+    if (!mesh) return message_error("%s", error.message), EXIT_INPUT;
+    for (size_t i = first; i < d->drawn_count && i - first < ovoid_mesh_get_part_count(mesh); i++) {
+        d->faces[i] = ovoid_mesh_get_part(mesh, i - first).faces;
+        d->drawn[i].mesh = &d->faces[i];
+    }
+    return 0;
 }
 
 static int add_link(drawing *d, size_t a, size_t b, const ovoid_compound_answer *answer) {
@@ -185,15 +212,14 @@ static int draw_scene(const settings *s, const char *path) {
     size_t count = ovoid_scene_get_count(scene), drawn = 0;
     for (size_t i = 0; i < count; i++) drawn += count_parts(ovoid_scene_get(scene, i).compound);
     drawing d;
-    int code = EXIT_INPUT;
-    if (make_drawing(&d, count, drawn)) {
-        for (size_t i = 0; i < count; i++) {
-            ovoid_scene_object object = ovoid_scene_get(scene, i);
-            ovoid_body body = answers_get_body(scene, i, &object.pose);
-            add_body(&d, object.name, &body);
-        }
-        code = draw(&d, s, scene);
+    int code = make_drawing(&d, count, drawn) ? 0 : EXIT_INPUT;
+    for (size_t i = 0; i < count && !code; i++) {
+        ovoid_scene_object object = ovoid_scene_get(scene, i);
+        ovoid_body body = answers_get_body(scene, i, &object.pose);
+        add_body(&d, object.name, &body);
+        code = add_mesh(&d, s->layers, drawn, &object);
     }
+    if (!code) code = draw(&d, s, scene);
     clear_drawing(&d);
     ovoid_scene_destroy(scene);
     return code;
@@ -219,8 +245,11 @@ static int draw_bodies(const settings *s, const cli_operands *paths) {
     if (!make_drawing(&d, 2, drawn)) code = EXIT_INPUT;
     for (int i = 0; i < paths->count && !code; i++) {
         ovoid_body body = inputs_get_body(&bodies[i], &poses[i]);
-        if (!code) inputs_warn_body(paths->items[i], &bodies[i]);
-        if (!code) add_body(&d, get_base(paths->items[i]), &body);
+        inputs_warn_body(paths->items[i], &bodies[i]);
+        ovoid_scene_object object = {.mesh = paths->items[i], .read = inputs_make_options(&s->read)};
+        object.read.parts = s->parts;
+        add_body(&d, get_base(paths->items[i]), &body);
+        code = add_mesh(&d, s->layers, drawn, &object);
     }
     if (!code) code = draw(&d, s, NULL);
     clear_drawing(&d);

@@ -176,6 +176,8 @@ typedef struct ovoid_scene_object {
     const ovoid_shape *shape;       /**< objects of equal geometry share it; NULL for a compound */
     const ovoid_compound *compound; /**< objects of equal geometry share it; NULL for a shape */
     ovoid_pose pose;
+    const char *mesh;        /**< the path of its mesh or `.ovoid` file; NULL: it has none of its own */
+    ovoid_read_options read; /**< how that was read */
 } ovoid_scene_object;
 
 /** Reads a scene and the meshes it names. options: of all shapes; their radius must be 0. The caller destroys it. */
@@ -366,7 +368,8 @@ typedef enum ovoid_picture_layer {
     OVOID_PICTURE_AREAS = 4,   /**< the 8 areas: faces split along the inner ellipsoid's octants and tinted by them */
     OVOID_PICTURE_WITNESS = 8, /**< witness points, the line between them and its length */
     OVOID_PICTURE_NAMES = 16,  /**< names at the bodies */
-    OVOID_PICTURE_LEGEND = 32  /**< legend and scale bar */
+    OVOID_PICTURE_LEGEND = 32, /**< legend and scale bar */
+    OVOID_PICTURE_MESHES = 64  /**< the bodies' meshes, where they have one, in the place of polyhedra */
 } ovoid_picture_layer;
 
 /** A body of a picture. */
@@ -375,6 +378,8 @@ typedef struct ovoid_picture_body {
     const ovoid_shape *shape;
     ovoid_pose pose;
     uint32_t group; /**< bodies of one group, as the parts of a compound, have one colour; 0: a colour of its own */
+    const ovoid_faces *mesh; /**< of which the shape is the hull, in the frame that the pose moves; NULL: none; not
+                                  drawn of a shape with a rounding radius */
 } ovoid_picture_body;
 
 /** A pair of a picture: its witness points are drawn. */
@@ -397,8 +402,8 @@ typedef struct ovoid_picture {
 typedef struct ovoid_picture_options {
     uint32_t width, height; /**< pixels; 0 means 1200 and 800 */
     ovoid_vec3 view;        /**< from the scene to the eye; zero means three quarters from above: (1, -1.6, 0.9) */
-    uint32_t layers;        /**< ovoid_picture_layer bits; 0 means all but the areas, and of more than 12 bodies without
-                                 ellipsoids; where there are no inner ones, faces hide what is behind them */
+    uint32_t layers; /**< ovoid_picture_layer bits; 0 means all but the areas and meshes, and of more than 12 bodies
+                          meshes and no ellipsoids; where there are no inner ones, faces hide what is behind them */
 } ovoid_picture_options;
 
 /** Writes an SVG picture through an ovoid_output. At most 1 000 000 triangles in all (LIMIT). */

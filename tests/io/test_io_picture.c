@@ -6,7 +6,7 @@
 
 static ovoid_picture_body make_body(const char *name, ovoid_shape *shape, double x, double y, double z) {
     CHECK(shape != NULL);
-    ovoid_picture_body body = {name, shape, ovoid_pose_make_identity(), 0};
+    ovoid_picture_body body = {name, shape, ovoid_pose_make_identity(), 0, NULL};
     body.pose.position = (ovoid_vec3){x, y, z};
     return body;
 }
@@ -279,6 +279,52 @@ static void check_many(void) {
     ovoid_shape_destroy(small);
 }
 
+// A mesh in the place of its hull: one path a face, those that look away first, whichever way the faces are turned; an
+// octahedron has eight, four of them toward an eye above.
+static void check_mesh(void) {
+    static const double xyz[] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+    static const uint32_t sizes[8] = {3, 3, 3, 3, 3, 3, 3, 3};
+    uint32_t indices[24];
+    for (uint32_t i = 0; i < 8; i++) {
+        const uint32_t corner[3] = {i & 1, 2 + (i >> 1 & 1), 4 + (i >> 2)};
+        int is_odd = (i & 1) ^ (i >> 1 & 1) ^ (i >> 2);
+        for (uint32_t k = 0; k < 3; k++) indices[3 * i + k] = corner[is_odd ? 2 - k : k];
+    }
+    ovoid_shape *hull = ovoid_shape_create_from_points(xyz, 6, NULL, NULL);
+    ovoid_picture_body body = make_body("mesh", hull, 3, 2, 1);
+    const ovoid_faces faces = {xyz, 6, indices, sizes, 8};
+    body.mesh = &faces;
+    ovoid_picture picture = {.bodies = &body, .body_count = 1};
+    ovoid_picture_options options = {.view = {0, 0, 1}, .layers = OVOID_PICTURE_MESHES | OVOID_PICTURE_LEGEND};
+    size_t size;
+    char *first = NULL;
+    for (int turned = 0; turned < 2; turned++) {
+        for (uint32_t i = 0; i < 8 && turned; i++) {
+            uint32_t swap = indices[3 * i];
+            indices[3 * i] = indices[3 * i + 2];
+            indices[3 * i + 2] = swap;
+        }
+        char *text = draw(&picture, &options, &size);
+        check_document(text);
+        CHECK(strstr(text, ">mesh<") && !strstr(text, ">polyhedron<"));
+        const char *group = strstr(text, "stroke-width=\".6\"");
+        if (CHECK(group != NULL)) {
+            char *end = strstr(group, "</g>");
+            *end = 0;
+            CHECK_EQ(count_text(group, "<path"), 8);
+        }
+        if (turned) free(text);
+        if (!turned) first = text;
+    }
+    free(first);
+    // Without the layer, and without faces, the polyhedron.
+    options.layers = OVOID_PICTURE_LEGEND;
+    char *text = draw(&picture, &options, &size);
+    CHECK(strstr(text, ">polyhedron<") && !strstr(text, "stroke-width=\".6\""));
+    free(text);
+    ovoid_shape_destroy(hull);
+}
+
 static void check_size(void) {
     enum { COUNT = 5000 };
     double *points = malloc(3 * COUNT * sizeof *points);
@@ -358,6 +404,7 @@ int main(void) {
     check_kinds();
     check_size();
     check_many();
+    check_mesh();
     check_bad();
     check_nearly_straight();
     return check_end();

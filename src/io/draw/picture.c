@@ -133,11 +133,13 @@ static void write_head(const ovoid_picture *picture, const drawing *d) {
 static ovoid_code draw_figure(const figure *f, const drawing *d, ovoid_error *error) {
     int has_outer = (d->layers & OVOID_PICTURE_OUTER) && f->has_ellipsoids;
     int has_inner = (d->layers & OVOID_PICTURE_INNER) && f->has_ellipsoids;
+    const ovoid_faces *mesh = f->rounded ? NULL : f->body->mesh;
+    int has_mesh = (d->layers & OVOID_PICTURE_MESHES) && mesh && mesh->face_count;
     fputs("<g>\n", d->file);
     if (has_outer) figure_draw_outer_back(f, d);
-    ovoid_code code = figure_draw_back(f, d, error);
-    if (!code && has_inner) figure_draw_inner(f, d);
-    if (!code) code = figure_draw_front(f, d, error);
+    ovoid_code code = has_mesh ? figure_draw_mesh(f, d, error) : figure_draw_back(f, d, error);
+    if (!code && has_inner && !has_mesh) figure_draw_inner(f, d);
+    if (!code && !has_mesh) code = figure_draw_front(f, d, error);
     if (!code && has_outer) figure_draw_outer_front(f, d);
     fputs("</g>\n", d->file);
     return code;
@@ -181,7 +183,8 @@ static ovoid_code check_picture(const char *path, const ovoid_picture *picture, 
         at.place = (int64_t)i;
         ovoid_code code = ovoid_pose_compute_check(&picture->bodies[i].pose);
         if (code) return io_fail(error, code, at, "the pose of body %zu: %s", i, ovoid_code_get_name(code));
-        triangles += ovoid_shape_get_polytope(picture->bodies[i].shape).triangle_count;
+        const ovoid_faces *mesh = picture->bodies[i].mesh;
+        triangles += ovoid_shape_get_polytope(picture->bodies[i].shape).triangle_count + (mesh ? mesh->face_count : 0);
     }
     at.place = -1;
     if (triangles > TRIANGLES_MAX)
@@ -196,7 +199,8 @@ static ovoid_code check_picture(const char *path, const ovoid_picture *picture, 
 // The layers where none are asked for. Ellipsoids would bury many bodies, and faces that hide nothing confuse.
 static uint32_t get_layers(const ovoid_picture *picture) {
     uint32_t layers = OVOID_PICTURE_WITNESS | OVOID_PICTURE_NAMES | OVOID_PICTURE_LEGEND;
-    return picture->body_count > BODIES_FEW ? layers : layers | OVOID_PICTURE_OUTER | OVOID_PICTURE_INNER;
+    return picture->body_count > BODIES_FEW ? layers | OVOID_PICTURE_MESHES
+                                            : layers | OVOID_PICTURE_OUTER | OVOID_PICTURE_INNER;
 }
 
 static drawing make_drawing(const ovoid_picture *picture, const ovoid_picture_options *options, FILE *file) {

@@ -44,6 +44,8 @@ static color shade(color base, double light) {
     return light < 0.6 ? color_mix(deep, base, light / 0.6) : color_mix(base, bright, (light - 0.6) / 0.4);
 }
 
+color facet_get_color(color base, vec3 normal, const camera *c) { return shade(base, get_light(normal, c)); }
+
 color octant_get_color(int octant) {
     static const color tints[8] = {{0.36, 0.55, 0.80}, {0.94, 0.69, 0.36}, {0.47, 0.72, 0.50}, {0.85, 0.50, 0.55},
                                    {0.65, 0.53, 0.78}, {0.38, 0.71, 0.74}, {0.88, 0.80, 0.42}, {0.62, 0.64, 0.68}};

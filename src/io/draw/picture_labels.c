@@ -271,6 +271,12 @@ static void draw_sign(const drawing *d, uint32_t layer, double x, double y) {
                 accent, x + 4, y, x + 4, y, accent, x + 22, y, accent);
 }
 
+static int has_meshes(const ovoid_picture *picture, const drawing *d) {
+    for (size_t i = 0; i < picture->body_count && d->layers & OVOID_PICTURE_MESHES; i++)
+        if (picture->bodies[i].mesh) return 1;
+    return 0;
+}
+
 void draw_legend(const ovoid_picture *picture, const drawing *d, labels *l) {
     enum { SIZE = 13, LINE = 24 };
     draw_scale_bar(d, picture->unit);
@@ -280,8 +286,9 @@ void draw_legend(const ovoid_picture *picture, const drawing *d, labels *l) {
         const legend_item *item = &legend_items[i];
         if (item->layer && !(d->layers & item->layer)) continue;
         if (item->layer == OVOID_PICTURE_WITNESS && !picture->link_count) continue;
-        double width = text_get_width(item->text, SIZE);
-        write_text(d->file, (vec2){x - width, y + 0.35 * SIZE}, &(text_style){"start", SIZE, "400", ink}, item->text);
+        const char *text = item->layer || !has_meshes(picture, d) ? item->text : "mesh";
+        double width = text_get_width(text, SIZE);
+        write_text(d->file, (vec2){x - width, y + 0.35 * SIZE}, &(text_style){"start", SIZE, "400", ink}, text);
         draw_sign(d, item->layer, x - width - 34, y);
         x -= width + 34 + 26;
     }

@@ -8,6 +8,11 @@
 ovoid_code figure_draw_back(const figure *f, const drawing *d, ovoid_error *error);
 ovoid_code figure_draw_front(const figure *f, const drawing *d, ovoid_error *error);
 
+/// Draws the body's mesh, which must have faces, in the place of its polyhedron.
+ovoid_code figure_draw_mesh(const figure *f, const drawing *d, ovoid_error *error);
+/// The shade of a facet of a body of that colour; normal: unit, toward the eye.
+color facet_get_color(color base, vec3 normal, const camera *c);
+
 /// The half of the outer ellipsoid behind its centre: a faint fill and lines; the half before it: lines and outline.
 void figure_draw_outer_back(const figure *f, const drawing *d);
 void figure_draw_outer_front(const figure *f, const drawing *d);

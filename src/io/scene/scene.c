@@ -216,7 +216,7 @@ size_t ovoid_scene_get_count(const ovoid_scene *scene) { return scene->count; }
 ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i) {
     const scene_entry *entry = &scene->entries[i];
     const scene_body *body = &scene->bodies[entry->body];
-    return (ovoid_scene_object){entry->name, body->shape, body->compound, entry->pose};
+    return (ovoid_scene_object){entry->name, body->shape, body->compound, entry->pose, body->mesh, body->read};
 }
 
 size_t ovoid_scene_find(const ovoid_scene *scene, const char *name) {

@@ -12,6 +12,8 @@ typedef struct scene_body {
     const ovoid_shape *shape; ///< made, or the only part
     ovoid_shape *made;        ///< of a body that is no mesh
     ovoid_compound *compound;
+    char *mesh; ///< its path, NULL for none
+    ovoid_read_options read;
     ovoid_shapes *parts; ///< the hulls of a mesh; other compounds have parts that are bodies of the scene
 } scene_body;
 

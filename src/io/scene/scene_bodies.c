@@ -140,6 +140,9 @@ static ovoid_code fail_mesh(scene_reader *r, const ovoid_error *why) {
 
 static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body) {
     ovoid_error why = {OVOID_OK, -1, ""};
+    body->mesh = text_copy(g->mesh, strlen(g->mesh));
+    body->read = g->read;
+    if (!body->mesh) return io_fail_memory(r->error, r->path);
     body->parts = ovoid_shapes_read_file(g->mesh, &g->read, &g->options, &why);
     if (!body->parts) return fail_mesh(r, &why);
     if (!g->read.parts) {
@@ -385,6 +388,7 @@ void scene_body_clear(scene_body *body) {
     ovoid_compound_destroy(body->compound);
     ovoid_shape_destroy(body->made);
     ovoid_shapes_destroy(body->parts);
+    free(body->mesh);
     free(body->key);
     *body = (scene_body){.key = NULL};
 }
