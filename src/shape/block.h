@@ -41,7 +41,7 @@ struct ovoid_shape {
     uint32_t rank;
     uint16_t has_origin; ///< origin is not zero
     uint16_t has_allowance;
-    ovoid_vec3 first;    ///< vertex 0
+    ovoid_vec3 first; ///< vertex 0
     // With the allowance, rounded outward; without one they are radius, radius and extent.
     double lower_radius; ///< radius + outside, what a lower bound of the distance loses
     double upper_radius; ///< radius - inside, what an upper bound loses; inside at most 2 (extent + lower_radius)
