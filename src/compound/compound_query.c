@@ -158,7 +158,7 @@ static void visit_parts(traversal *h, uint32_t a, uint32_t b, const ovoid_proof 
     // The best pair's cover is replaced by that of a deeper one only.
     ovoid_cover *cover = goal.wants_depth && h->exclusions ? h->exclusions->cover : NULL;
     goal.has_cover = has_best;
-    goal.covered = h->out->answer.upper;
+    if (has_best) goal.covered = h->out->answer.upper;
     answer_find_internal(pose_pair(h, a, b), &h->options, goal, earlier, cover, &h->spare);
     h->out->tested++;
     if (has_best && !(h->spare.upper < h->out->answer.upper)) {
