@@ -188,7 +188,7 @@ const cli_command command_distance = {
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written\n"
              "4 not proven",
-    .examples = "ovoid distance a.stl b.obj --pose-b \"0 0 1.5 1 0 0 0\"\n"
+    .examples = "ovoid distance a.stl b.obj --pose-b \"0 0 1.5\"\n"
                 "ovoid distance a.ovoid b.ovoid --margin 0.05 || echo too near\n"
                 "ovoid distance part.stl tool.stl --unit mm --json\n"
                 "ovoid distance chair.obj lamp.obj --parts --pose-b \"0.4 0 0 1 0 0 0\"",

@@ -42,7 +42,7 @@ typedef enum ovoid_stage {
 
 /** Why a query stopped before its bracket was narrower than the tolerance. */
 typedef enum ovoid_limit {
-    OVOID_LIMIT_NONE = 0,   /**< it did not: answered in full */
+    OVOID_LIMIT_NONE = 0,   /**< it did not: answered in full, the bodies' allowances aside */
     OVOID_LIMIT_ANSWERED,   /**< the query (collide, within, bounds) is answered; the bracket is true but wide */
     OVOID_LIMIT_CAP,        /**< proven farther than options.cap */
     OVOID_LIMIT_ITERATIONS, /**< options.iterations used up */
@@ -215,8 +215,8 @@ OVOID_API ovoid_answer ovoid_bounds(const ovoid_pair *pair);
 
 /**
  * The signed distance as one number, for those who want no bracket: lower, which is never above the true one and within
- * the tolerance of it. NaN where the bracket is wider than the tolerance (limit is not NONE), as of an overlap that
- * ovoid_distance found, whose depth ovoid_depth gives, or of a yes or no.
+ * the tolerance (and the bodies' allowances) of it. NaN where the bracket is wider (limit is neither NONE nor
+ * ALLOWANCE), as of an overlap that ovoid_distance found, whose depth ovoid_depth gives, or of a yes or no.
  */
 OVOID_API double ovoid_answer_get_distance(const ovoid_answer *answer);
 
