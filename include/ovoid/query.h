@@ -46,7 +46,8 @@ typedef enum ovoid_limit {
     OVOID_LIMIT_ANSWERED,   /**< the query (collide, within, bounds) is answered; the bracket is true but wide */
     OVOID_LIMIT_CAP,        /**< proven farther than options.cap */
     OVOID_LIMIT_ITERATIONS, /**< options.iterations used up */
-    OVOID_LIMIT_PRECISION,  /**< no further progress, in pairs of doubles either */
+    OVOID_LIMIT_PRECISION,  /**< no further progress, in pairs of doubles either; of bodies with allowances also an
+                               overlap  that the few pairs of a proof do not show, and ovoid_depth may */
     OVOID_LIMIT_CAPACITY,   /**< the depth search filled its fixed working memory */
     OVOID_LIMIT_POSE_A,     /**< refused: pose_a has NaN, infinity, a length out of range or a zero quaternion */
     OVOID_LIMIT_POSE_B,     /**< refused: pose_b, for the same reasons */

@@ -133,7 +133,11 @@ static const ovoid_pair *pose_pair(traversal *h, uint32_t a, uint32_t b) {
 // Lowers the bound from which on pairs are pruned.
 static void tighten(traversal *h) {
     const ovoid_answer *best = &h->out->answer;
-    if (h->goal.wants_bracket) h->enough = min2(best->lower, best->upper - h->tolerance);
+    if (h->goal.wants_bracket) {
+        // Parts known to within less may have a lower upper bound, whatever their lower one.
+        double near = best->upper - h->tolerance;
+        h->enough = h->allowance > 0 ? near : min2(best->lower, near);
+    }
     // The margin is met: only the sign is left to find.
     if (best->upper <= h->goal.near) h->goal = query_goal_make_collide();
 }
@@ -232,7 +236,7 @@ static ovoid_status find_status(const traversal *h, const ovoid_answer *x, doubl
 }
 
 static ovoid_limit find_limit(const traversal *h, const final_bracket *b) {
-    if (bracket_is_left_open(b, &h->whole_goal, h->trouble)) return OVOID_LIMIT_ALLOWANCE;
+    if (bracket_is_left_open(b, &h->whole_goal)) return OVOID_LIMIT_ALLOWANCE;
     if (bracket_is_narrow(b, &h->whole_goal)) return OVOID_LIMIT_NONE;
     return bracket_find_limit(b, &h->whole_goal, h->trouble);
 }

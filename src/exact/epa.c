@@ -266,6 +266,7 @@ static void take_cover(growth *g) {
 
 // A tetrahedron that strictly contains the origin: point 0 and a face.
 static int take_tetrahedron(search *s, const expansion *e) {
+    int taken = 0;
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
         if (!f->alive || f->v[0] == 0 || f->v[1] == 0 || f->v[2] == 0) continue;
@@ -273,9 +274,10 @@ static int take_tetrahedron(search *s, const expansion *e) {
         for (int k = 0; k < 3; k++) x.p[k + 1] = (difference){e->w[f->v[k]], e->a[f->v[k]], e->b[f->v[k]]};
         if (!search_take_hull(s, &x)) continue;
         evidence_set_weights(&s->witness);
-        return 1;
+        taken = 1;
+        if (search_is_done(s)) return 1;
     }
-    return 0;
+    return taken;
 }
 
 // Evidence of an overlap from the surface: a tetrahedron, or where the origin is on a line of two corners, up to six.
@@ -283,12 +285,12 @@ static int take_hull(growth *g) {
     search *s = g->s;
     const expansion *e = &g->e;
     int taken = take_tetrahedron(s, e), kept[OVOID_PROOF_PAIRS];
-    if (!taken && e->points <= HULL_POINTS_MAX && e->faces <= 3 * HULL_POINTS_MAX) {
+    if (!(taken && search_is_done(s)) && e->points <= HULL_POINTS_MAX && e->faces <= 3 * HULL_POINTS_MAX) {
         evidence x = {
             .count = hull_find_reduced(&g->room.few.reduced, e->w, (int)e->points, s->frame->claim, e->slack, kept)};
         for (int i = 0; i < x.count; i++) x.p[i] = (difference){e->w[kept[i]], e->a[kept[i]], e->b[kept[i]]};
         evidence_set_weights(&x);
-        taken = x.count > 0 && search_take_hull(s, &x);
+        if (x.count > 0) taken |= search_take_hull(s, &x);
     }
     if (taken) s->stage = OVOID_STAGE_EPA;
     return taken;
@@ -375,6 +377,10 @@ static void leave(growth *g, simplex *x) {
     for (int i = 0; i < 3; i++) x->p[i] = (difference){g->e.w[f->v[i]], g->e.a[f->v[i]], g->e.b[f->v[i]]};
 }
 
+// 1 where a proven overlap of the shapes ends the run: where it is one of the bodies too, that is, or no allowance asks
+// for more.
+static int is_shown(const search *s) { return !(s->goal.allowance > 0) || search_is_done(s); }
+
 int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
     growth g;
     g.s = s;
@@ -393,7 +399,7 @@ int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
         if (!grown || search_is_done(s)) break;
         find_next(&g);
         if (is_first && is_apart(s)) break;
-        if (!s->goal.wants_depth && g.e.f[g.nearest].low > 2 * s->frame->claim && take_hull(&g)) break;
+        if (!s->goal.wants_depth && g.e.f[g.nearest].low > 2 * s->frame->claim && take_hull(&g) && is_shown(s)) break;
     }
     if (steps == s->goal.iterations) s->limit = OVOID_LIMIT_ITERATIONS;
     finish(&g);

@@ -40,7 +40,7 @@ static ovoid_status find_status(const search *s) {
 // Why the bracket is wider than the tolerance, if it is.
 static ovoid_limit find_limit(const search *s, ovoid_status status) {
     final_bracket b = {s->lower, s->upper, s->goal.tolerance, s->goal.allowance, status, s->kind};
-    if (bracket_is_left_open(&b, &s->goal, s->limit)) return OVOID_LIMIT_ALLOWANCE;
+    if (bracket_is_left_open(&b, &s->goal)) return OVOID_LIMIT_ALLOWANCE;
     if (bracket_is_narrow(&b, &s->goal)) return OVOID_LIMIT_NONE;
     return s->limit != OVOID_LIMIT_NONE ? s->limit : bracket_find_limit(&b, &s->goal, OVOID_LIMIT_NONE);
 }
@@ -165,10 +165,14 @@ static void run_search(const ovoid_pair *pair, pair_frame *frame, double spheres
                        const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out) {
     frame_relate(frame);
     search s;
-    search_make(&s, frame, goal);
-    simplex start;
-    run_stages(&s, spheres, earlier, &start);
-    answer_search(&s, pair, earlier, &start, cover);
+    // An earlier proof of an overlap may be too shallow for the allowances: then the pair is queried afresh.
+    for (const ovoid_proof *known = earlier;; known = NULL) {
+        search_make(&s, frame, goal);
+        simplex start;
+        run_stages(&s, spheres, known, &start);
+        answer_search(&s, pair, known, &start, cover);
+        if (!known || !(goal->allowance > 0) || search_is_done(&s)) break;
+    }
     answer_write(&s, out);
 }
 

@@ -22,9 +22,13 @@ int bracket_is_narrow(const final_bracket *b, const query_goal *goal) {
     return b->upper - b->lower <= b->tolerance && !is_common;
 }
 
-int bracket_is_left_open(const final_bracket *b, const query_goal *goal, ovoid_limit trouble) {
-    if (!(b->allowance > 0) || trouble == OVOID_LIMIT_ITERATIONS || trouble == OVOID_LIMIT_CAPACITY) return 0;
-    return b->status == OVOID_UNDECIDED || (b->lower <= goal->near && b->upper > goal->near);
+int bracket_is_left_open(const final_bracket *b, const query_goal *goal) {
+    if (!(b->allowance > 0)) return 0;
+    if (b->status == OVOID_UNDECIDED)
+        return query_goal_is_hopeless(
+            &(query_goal){.tolerance = b->tolerance, .allowance = b->allowance, .wants_bracket = goal->wants_bracket},
+            b->lower, b->upper);
+    return b->lower <= goal->near && b->upper > goal->near && b->upper - b->lower <= b->tolerance;
 }
 
 ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble) {

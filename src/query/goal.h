@@ -44,9 +44,8 @@ typedef struct final_bracket {
 /// tolerance.
 int bracket_is_narrow(const final_bracket *b, const query_goal *goal);
 
-/// 1 if the sign, or the margin of the goal, is left open by the bodies' allowances. trouble: what else ended the
-/// search.
-int bracket_is_left_open(const final_bracket *b, const query_goal *goal, ovoid_limit trouble);
+/// 1 if the sign, or the margin of the goal, is left open by the bodies' allowances: no search would find it.
+int bracket_is_left_open(const final_bracket *b, const query_goal *goal);
 
 /// Why a bracket that is not narrow is wide. trouble: what kept the search from narrowing it, or NONE.
 ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble);
