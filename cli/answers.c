@@ -54,6 +54,27 @@ static int reserve(answer_room *room, size_t count) {
     return room->cover != NULL;
 }
 
+/// The width that a shape's allowance gives a bracket.
+static double get_width(const ovoid_shape *shape) {
+    ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
+    return allowance.outside + allowance.inside;
+}
+
+/// The largest width that the allowance of the body, or of one of its parts, gives a bracket.
+static double find_width(const ovoid_body *body) {
+    double width = body->shape ? get_width(body->shape) : 0;
+    for (size_t i = 0; body->compound && i < ovoid_compound_get_part_count(body->compound); i++)
+        width = fmax(width, get_width(ovoid_compound_get_part(body->compound, i).shape));
+    return width;
+}
+
+void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, double margin, double tolerance) {
+    double width = answer->upper - answer->lower;
+    if (!(margin >= 0) || answer->limit != OVOID_LIMIT_NONE || answer->status == OVOID_TOUCHING) return;
+    if (ovoid_answer_is_within(answer, margin) >= 0 || width <= tolerance) return;
+    if (2 * (find_width(&pair->a) + find_width(&pair->b)) > width) answer->limit = OVOID_LIMIT_ALLOWANCE;
+}
+
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
     if (!reserve(room, ROOM)) return 0;
     ovoid_exclusions proof = {room->items, room->capacity, 0, query->query == QUERY_DISTANCE ? room->cover : NULL};
@@ -66,6 +87,7 @@ int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_q
         found = find(pair, query, &proof);
     }
     record->answer = found.answer;
+    if (query->query == QUERY_DISTANCE) answers_settle_limit(&record->answer, pair, query->margin, query->tolerance);
     record->part_a = pair->a.compound ? found.part_a : OVOID_RECORD_NO_PART;
     record->part_b = pair->b.compound ? found.part_b : OVOID_RECORD_NO_PART;
     record->cover = query->wants_proof && room->cover->point_count ? room->cover : NULL;

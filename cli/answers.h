@@ -30,6 +30,10 @@ typedef struct answers_query {
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record);
 void answer_room_clear(answer_room *room);
 
+/// Sets the limit of an answer whose bracket holds the margin and is no wider than its query made it: ALLOWANCE where
+/// the bodies' allowances make most of its width, as ovoid_within does. tolerance: an absolute one, that was asked for.
+void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, double margin, double tolerance);
+
 /// The object of a scene as a body, at a pose.
 ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid_pose *pose);
 

@@ -85,7 +85,10 @@ static ovoid_answer find_answer(const settings *s, const ovoid_pair *pair, ovoid
     ovoid_options query = {.absolute_tolerance = s->tolerance};
     if (s->query == QUERY_COLLIDE) return ovoid_collide(pair, &query, NULL);
     if (s->query == QUERY_WITHIN) return ovoid_within(pair, s->margin, &query, NULL);
-    return ovoid_depth(pair, &query, NULL, cover);
+    ovoid_answer answer = ovoid_depth(pair, &query, NULL, cover);
+    const ovoid_body_pair bodies = {{pair->shape_a, NULL, pair->pose_a}, {pair->shape_b, NULL, pair->pose_b}};
+    answers_settle_limit(&answer, &bodies, s->margin, s->tolerance);
+    return answer;
 }
 
 static ovoid_record make_record(const batch *b, const ovoid_indexed_pair *pair, const ovoid_answer *answer,

@@ -104,8 +104,7 @@ static void report_counts(const check *c, const tally *t, double seconds) {
     if (c->settings->margin >= 0)
         message_note("%zu objects in %.2f s; pairs within %g%s%s: %zu, not proven: %zu; all others are farther or "
                      "ignored",
-                     objects, seconds, c->settings->margin, unit[0] ? " " : "", unit, t->touch + t->apart,
-                     t->not_proven);
+                     objects, seconds, c->settings->margin, unit[0] ? " " : "", unit, t->touch, t->not_proven);
     else
         message_note("%zu objects, %zu pairs in %.2f s; apart: %zu, touching or overlapping: %zu, not proven: %zu",
                      objects, c->row_count, seconds, t->apart, t->touch, t->not_proven);

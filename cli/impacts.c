@@ -60,6 +60,7 @@ void impacts_close(cli_impacts *x) {
     free(x->is_fresh);
     free(x->spans);
     free(x->held);
+    free(x->open);
     free(x->couples);
     *x = (cli_impacts){.scene = NULL};
 }
@@ -78,6 +79,10 @@ static int add_couple(ovoid_couple **couples, size_t *count, size_t *capacity, o
 
 int impacts_hold(cli_impacts *x, ovoid_couple couple) {
     return add_couple(&x->held, &x->held_count, &x->held_capacity, couple);
+}
+
+int impacts_leave_open(cli_impacts *x, ovoid_couple couple) {
+    return add_couple(&x->open, &x->open_count, &x->open_capacity, couple);
 }
 
 /* ---- which pairs come near each other */
@@ -116,11 +121,17 @@ static int compare_couples(const void *a, const void *b) {
     return p->b < q->b ? -1 : p->b > q->b;
 }
 
-/// 1 for a candidate: one of the two moves, the scene does not ignore the pair, and it was farther apart.
+/// 1 if the pair is among these, which ascend.
+static int has_couple(const ovoid_couple *couples, size_t count, ovoid_couple c) {
+    return count && bsearch(&c, couples, count, sizeof c, compare_couples);
+}
+
+/// 1 for a candidate: one of the two moves, the scene does not ignore the pair, and it was not proven within the
+/// margin.
 static int is_candidate(const cli_impacts *x, ovoid_couple c) {
     if (!x->frames->is_moved[c.a] && !x->frames->is_moved[c.b]) return 0;
     if (!is_near(&x->boxes[c.a], &x->boxes[c.b], x->margin) || ovoid_scene_is_ignored(x->scene, c.a, c.b)) return 0;
-    return !x->held_count || !bsearch(&c, x->held, x->held_count, sizeof c, compare_couples);
+    return !has_couple(x->held, x->held_count, c);
 }
 
 static int compare_spans(const void *a, const void *b) {
@@ -286,6 +297,8 @@ static int write_impacts(cli_impacts *x, const impact *items) {
     for (size_t i = 0; i < x->couple_count && !code; i++) {
         ovoid_record record;
         if (items[i].found.status == OVOID_IMPACT_FREE) continue;
+        // That an open pair stays open is in the lines of the frames.
+        if (items[i].found.status != OVOID_IMPACT_HIT && has_couple(x->open, x->open_count, items[i].couple)) continue;
         int arrives = is_arrival(x, &items[i]);
         if (items[i].found.status == OVOID_IMPACT_HIT || arrives)
             x->found++;
@@ -300,11 +313,10 @@ static int write_impacts(cli_impacts *x, const impact *items) {
     return code;
 }
 
-int impacts_find(cli_impacts *x) {
-    int code = find_couples(x);
-    x->held_count = 0;
-    if (code || !x->couple_count) return code;
+/// Finds the impacts of the candidates and writes them.
+static int find_impacts(cli_impacts *x) {
     work_state w = {x, calloc(x->couple_count, sizeof(impact)), 0};
+    int code = 0;
     if (!w.items) return message_error("out of memory"), EXIT_INPUT;
     cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
     unsigned threads = x->threads ? x->threads : pipeline_get_processors();
@@ -317,5 +329,12 @@ int impacts_find(cli_impacts *x) {
         free(w.items[i].groups);
     }
     free(w.items);
+    return code;
+}
+
+int impacts_find(cli_impacts *x) {
+    int code = find_couples(x);
+    if (!code && x->couple_count) code = find_impacts(x);
+    x->held_count = x->open_count = 0;
     return code;
 }

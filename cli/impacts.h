@@ -17,6 +17,8 @@ typedef struct cli_impacts {
     struct cli_span *spans;  ///< the objects' boxes along x
     ovoid_couple *held;      ///< within the margin in the frame before, ascending
     size_t held_count, held_capacity;
+    ovoid_couple *open; ///< not proven within the margin in the frame before, nor farther, ascending
+    size_t open_count, open_capacity;
     ovoid_couple *couples; ///< candidates: their boxes are near each other
     size_t couple_count, couple_capacity;
     size_t found, not_proven; ///< impacts, and undecided pairs
@@ -29,9 +31,12 @@ typedef struct cli_impacts {
 /// Makes room for the objects. 0, or EXIT_INPUT after a message. Members that the caller has set stay.
 int impacts_open(cli_impacts *x);
 
-/// Notes a pair that is within the margin in this frame, or not proven farther: in ascending order, before the next
-/// frame. 0, or EXIT_INPUT after a message.
+/// Notes a pair that is within or at the margin in this frame: in ascending order, before the next frame. 0, or
+/// EXIT_INPUT after a message.
 int impacts_hold(cli_impacts *x, ovoid_couple couple);
+
+/// The same for a pair that is not proven on either side of the margin: only a proven impact of it is written.
+int impacts_leave_open(cli_impacts *x, ovoid_couple couple);
 
 /// Finds the impacts from the frame before to this one, of pairs that were not held then, writes them in the order of
 /// their times, also those of which nothing is proven, and clears the held pairs. 0, or an exit code after a message.

@@ -114,12 +114,11 @@ int results_close(cli_results *results, int code) {
 
 exit_code results_judge(const ovoid_answer *answer, double margin) {
     if (answer->status == OVOID_TOUCHING || answer->status == OVOID_OVERLAPPING) return EXIT_TOUCH;
-    if (answer->status == OVOID_UNDECIDED) return EXIT_NOT_PROVEN;
-    if (!(margin >= 0)) return EXIT_APART;
-    int within = ovoid_answer_is_within(answer, margin);
+    int within = margin >= 0 ? ovoid_answer_is_within(answer, margin) : answer->status == OVOID_UNDECIDED ? -1 : 0;
+    if (within >= 0) return within ? EXIT_TOUCH : EXIT_APART;
     // A bracket that straddles the margin at full precision counts as at the margin, as touching does at zero.
-    if (within < 0 && answer->limit != OVOID_LIMIT_NONE) return EXIT_NOT_PROVEN;
-    return within ? EXIT_TOUCH : EXIT_APART;
+    int is_at = answer->status != OVOID_UNDECIDED && answer->limit == OVOID_LIMIT_NONE;
+    return is_at ? EXIT_TOUCH : EXIT_NOT_PROVEN;
 }
 
 exit_code results_worse(exit_code a, exit_code b) {

@@ -73,7 +73,8 @@ int results_write_line(FILE *file, const output_settings *settings, const ovoid_
 
 void results_report_long(const char *a, const char *b);
 
-/// The exit code for an answer. margin: negative where there is none.
+/// The exit code for an answer to what was asked: the side of the margin, or, where it is negative and there is none,
+/// the sign.
 exit_code results_judge(const ovoid_answer *answer, double margin);
 
 /// The more serious of two exit codes: 4 before 1 before 0.

@@ -74,8 +74,9 @@ static void take_record(void *context, size_t i, const ovoid_record *record) {
     r->counts[record->answer.status]++;
     r->worst = results_worse(r->worst, results_judge(&record->answer, s->margin));
     track_add(&r->track, couple, record, s->margin, r->frames.count > 1 ? r->frames.earlier : NAN);
-    if (s->continuous && ovoid_answer_is_within(&record->answer, get_margin(s)) != 0 && !r->code)
-        r->code = impacts_hold(&r->impacts, couple);
+    if (!s->continuous || r->code || ovoid_answer_is_within(&record->answer, get_margin(s)) == 0) return;
+    int is_open = results_judge(&record->answer, get_margin(s)) == EXIT_NOT_PROVEN;
+    r->code = is_open ? impacts_leave_open(&r->impacts, couple) : impacts_hold(&r->impacts, couple);
 }
 
 static void take_impact(void *context, ovoid_couple couple, const ovoid_record *record) {
@@ -218,7 +219,9 @@ const cli_command command_run = {
         "rotation turns about one axis, the shorter way round; velocities are constant. An impact is a line of its "
         "own, with the time until which the pair is proven farther apart and the time when it is within the margin, or "
         "the reason why that is not proven. No motion is too fast for it.\n\n"
-        "At the end are reported: what touches from the beginning; the first contact of other pairs and their first "
+        "At the end are reported: what touches, or is not proven apart, from the beginning; the first contact of pairs "
+        "that "
+        "did not touch then, and their first "
         "impacts; the smallest distance of the frames. ovoid verify --motion "
         "checks the lines of --json.",
     .exits = "0 every pair is apart in every frame (with --margin: farther than M)\n"

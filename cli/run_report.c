@@ -46,10 +46,10 @@ static void report_event(const run_summary *s, const char *what, const track_eve
 }
 
 /// "touching from the beginning: 2 pairs: floor, crate; crate, rod".
-static size_t report_starts(const run_summary *s, const char *what, int touches) {
+static size_t report_starts(const run_summary *s, const char *what, enum track_state state) {
     ovoid_couple first[NAMED_MAX];
     char list[NAMED_MAX * NAMES_ROOM] = "";
-    size_t count = track_get_starts(s->track, touches, first, NAMED_MAX);
+    size_t count = track_get_starts(s->track, state, first, NAMED_MAX);
     if (!count) return 0;
     for (size_t i = 0; i < count && i < NAMED_MAX; i++) {
         char names[NAMES_ROOM];
@@ -116,17 +116,20 @@ static void report_smallest(const run_summary *s) {
 void run_report(const run_summary *s, double seconds) {
     const size_t *n = s->counts;
     const char *unit = ovoid_scene_get_unit(s->scene);
-    char within[48];
+    char within[48], farther[80];
     message_note("%zu frames, %zu objects in %.2f s; pairs listed: %zu; separated: %zu, touching: %zu, overlapping: "
                  "%zu, undecided: %zu",
                  s->frames, ovoid_scene_get_count(s->scene), seconds,
                  n[OVOID_UNDECIDED] + n[OVOID_SEPARATED] + n[OVOID_TOUCHING] + n[OVOID_OVERLAPPING], n[OVOID_SEPARATED],
                  n[OVOID_TOUCHING], n[OVOID_OVERLAPPING], n[OVOID_UNDECIDED]);
-    size_t touching = report_starts(s, "touching", 1), starts = 0;
+    size_t touching = report_starts(s, "touching", TRACK_TOUCHES);
+    (void)report_starts(s, "not proven apart", TRACK_SIGN);
     if (s->margin > 0) {
         snprintf(within, sizeof within, "within %g%s%s", s->margin, unit[0] ? " " : "", unit);
-        if (track_get_starts(s->track, 0, NULL, 0) > touching) (void)report_starts(s, within, 0);
-        starts = track_get_starts(s->track, 0, NULL, 0);
+        snprintf(farther, sizeof farther, "not proven on either side of %s", within + strlen("within "));
+        size_t starts = track_get_starts(s->track, TRACK_WITHIN, NULL, 0);
+        if (starts > touching) (void)report_starts(s, within, TRACK_WITHIN);
+        (void)report_starts(s, farther, TRACK_MARGIN);
         report_first(s, within, starts, &s->track->reach);
     }
     report_first(s, "contact", touching, &s->track->touch);

@@ -5,6 +5,7 @@
 #include "args.h"
 #include "finish.h"
 #include "message.h"
+#include "results.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,22 +88,24 @@ static int compare_starts(const void *a, const void *b) {
     return p->couple.b < q->couple.b ? -1 : p->couple.b > q->couple.b;
 }
 
-/// The pair's entry among those of the first frame; NULL where it was farther then.
-static const track_start *find_start(const cli_track *t, ovoid_couple couple) {
+/// The pair's states in the first frame; 0 where it was farther then.
+static unsigned find_states(const cli_track *t, ovoid_couple couple) {
     const track_start key = {couple, 0};
-    return t->start_count ? bsearch(&key, t->starts, t->start_count, sizeof key, compare_starts) : NULL;
+    if (!t->start_count) return 0;
+    const track_start *found = bsearch(&key, t->starts, t->start_count, sizeof key, compare_starts);
+    return found ? found->states : 0;
 }
 
 /// Adds a pair of the first frame; they come in ascending order.
-static void add_start(cli_track *t, ovoid_couple couple, int touches) {
+static void add_start(cli_track *t, ovoid_couple couple, unsigned states) {
     t->failed |= !reserve((void **)&t->starts, &t->start_capacity, t->start_count, sizeof *t->starts);
-    if (!t->failed) t->starts[t->start_count++] = (track_start){couple, touches};
+    if (!t->failed) t->starts[t->start_count++] = (track_start){couple, states};
 }
 
-size_t track_get_starts(const cli_track *t, int touches, ovoid_couple *first, size_t most) {
+size_t track_get_starts(const cli_track *t, enum track_state state, ovoid_couple *first, size_t most) {
     size_t count = 0;
     for (size_t i = 0; i < t->start_count; i++) {
-        if (touches && !t->starts[i].touches) continue;
+        if (!(t->starts[i].states & state)) continue;
         if (count < most) first[count] = t->starts[i].couple;
         count++;
     }
@@ -124,18 +127,25 @@ static int has_pair(const track_events *events, ovoid_couple couple) {
     return 0;
 }
 
+/// The states of an answer; margin negative: there is none.
+static unsigned find_answer_states(const ovoid_answer *answer, double margin) {
+    if (answer->status == OVOID_TOUCHING || answer->status == OVOID_OVERLAPPING) return TRACK_TOUCHES | TRACK_WITHIN;
+    unsigned sign = answer->status == OVOID_UNDECIDED ? TRACK_SIGN : 0;
+    int within = margin >= 0 ? ovoid_answer_is_within(answer, margin) : 0;
+    if (within > 0) return sign | TRACK_WITHIN;
+    int is_open = within < 0 && results_judge(answer, margin) == EXIT_NOT_PROVEN;
+    return sign | (is_open ? TRACK_MARGIN : 0);
+}
+
 void track_add(cli_track *t, ovoid_couple couple, const ovoid_record *record, double margin, double earlier) {
     const ovoid_answer *answer = &record->answer;
-    int touches = answer->status == OVOID_TOUCHING || answer->status == OVOID_OVERLAPPING;
-    int is_near = touches || (margin >= 0 && ovoid_answer_is_within(answer, margin) > 0);
-    const track_start *start = find_start(t, couple);
+    unsigned states = find_answer_states(answer, margin), starts = find_states(t, couple);
     track_event event = make_event(couple, record, earlier, record->time);
     if (isnan(earlier)) {
-        if (is_near || answer->status == OVOID_UNDECIDED)
-            add_start(t, couple, touches || answer->status == OVOID_UNDECIDED);
+        if (states) add_start(t, couple, states);
     } else {
-        if (touches && !(start && start->touches)) add_event(&t->touch, 1, event);
-        if (is_near && !start) add_event(&t->reach, 1, event);
+        if (states & ~starts & TRACK_TOUCHES) add_event(&t->touch, 1, event);
+        if (states & ~starts & TRACK_WITHIN) add_event(&t->reach, 1, event);
     }
     if (!t->has_smallest || answer->lower < t->smallest.answer.lower) t->smallest = *record, t->has_smallest = 1;
     if (t->has_plot && !t->is_full) t->is_full = !add_point(t, couple, answer);
@@ -148,12 +158,12 @@ void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *rec
         return;
     }
     track_event event = make_event(couple, record, from, record->time);
-    const track_start *start = find_start(t, couple);
-    if (!start) {
+    unsigned starts = find_states(t, couple);
+    if (!(starts & TRACK_WITHIN)) {
         add_event(&t->reach, 1, event);
         if (!has_pair(&t->impacts, couple)) add_event(&t->impacts, TRACK_LISTED, event);
     }
-    if (record->margin == 0 && !(start && start->touches)) add_event(&t->touch, 1, event);
+    if (record->margin == 0 && !(starts & TRACK_TOUCHES)) add_event(&t->touch, 1, event);
     if (!t->has_nearest || record->answer.upper < t->nearest.answer.upper) t->nearest = *record, t->has_nearest = 1;
 }
 

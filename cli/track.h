@@ -39,14 +39,22 @@ typedef struct track_events {
     size_t count; ///< of the items
 } track_events;
 
-/// A pair of the first frame that is within the margin, or not proven farther.
+/// What is proven, or left open, of a pair in the first frame; bits.
+enum track_state {
+    TRACK_TOUCHES = 1, ///< it touches or overlaps
+    TRACK_WITHIN = 2,  ///< it is within the margin, or touches
+    TRACK_SIGN = 4,    ///< neither that it is apart is proven, nor that it touches
+    TRACK_MARGIN = 8   ///< on which side of the margin it is is not proven
+};
+
+/// A pair of the first frame that has such a state.
 typedef struct track_start {
     ovoid_couple couple;
-    int touches; ///< it touches, overlaps, or is not proven apart
+    unsigned states; ///< of enum track_state
 } track_start;
 
 typedef struct cli_track {
-    track_start *starts; ///< ascending; no event below is of such a pair
+    track_start *starts; ///< ascending; no event below is of a pair that begins with it, proven
     size_t start_count, start_capacity;
     track_events touch;    ///< the first touching or overlapping frame
     track_events reach;    ///< the first time within the margin, by a frame or an impact
@@ -74,8 +82,8 @@ void track_add(cli_track *track, ovoid_couple couple, const ovoid_record *record
 /// Adds an impact within the margin, proven or not, from its record. until: the time of the frame after it.
 void track_add_impact(cli_track *track, ovoid_couple couple, const ovoid_record *record, double until);
 
-/// How many pairs touch from the beginning, or are within the margin; the first of them go to `first`, up to `most`.
-size_t track_get_starts(const cli_track *track, int touches, ovoid_couple *first, size_t most);
+/// How many pairs begin in the state; the first of them go to `first`, up to `most`.
+size_t track_get_starts(const cli_track *track, enum track_state state, ovoid_couple *first, size_t most);
 
 /// Draws the distances of the pairs that come nearest, after the last frame. 0, or EXIT_INPUT after a message.
 int track_write_plot(cli_track *track, const char *path, const ovoid_scene *scene, double margin);
