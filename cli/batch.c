@@ -62,7 +62,8 @@ typedef struct batch {
     ovoid_pairs_reader *reader;
     cli_results results;
     size_t done;
-    size_t counts[4]; ///< by ovoid_status
+    size_t counts[4];                  ///< by ovoid_status
+    size_t sides[EXIT_NOT_PROVEN + 1]; ///< of the margin, by exit_code
     exit_code worst;
     int refused; ///< a line of the pairs is wrong: *error has the message
     ovoid_error error;
@@ -134,7 +135,9 @@ static int drain(void *context, void *slot) {
         ovoid_record record = make_record(b, &c->pairs[i], &c->answers[i], NULL);
         if (!lines) code = results_add(&b->results, &record);
         b->counts[c->answers[i].status]++;
-        b->worst = results_worse(b->worst, results_judge(&c->answers[i], b->settings->margin));
+        exit_code side = results_judge(&c->answers[i], b->settings->margin);
+        b->sides[side]++;
+        b->worst = results_worse(b->worst, side);
     }
     free(c->text);
     c->text = NULL;
@@ -160,6 +163,19 @@ static size_t count_pairs(const char *path) {
     return lines > 1 ? lines - 1 : 0;
 }
 
+/// Says how many pairs there are of each kind that was asked for: sides of the margin, or signs.
+static void report_counts(const batch *b, double seconds) {
+    const char *unit = inputs_get_unit(&b->settings->read);
+    if (b->settings->margin >= 0)
+        message_note("%zu pairs in %.2f s; within %g%s%s: %zu, farther: %zu, not proven: %zu", b->done, seconds,
+                     b->settings->margin, unit[0] ? " " : "", unit, b->sides[EXIT_TOUCH], b->sides[EXIT_APART],
+                     b->sides[EXIT_NOT_PROVEN]);
+    else
+        message_note("%zu pairs in %.2f s; separated: %zu, touching: %zu, overlapping: %zu, undecided: %zu", b->done,
+                     seconds, b->counts[OVOID_SEPARATED], b->counts[OVOID_TOUCHING], b->counts[OVOID_OVERLAPPING],
+                     b->counts[OVOID_UNDECIDED]);
+}
+
 /// Runs all pairs through the pipeline; returns the exit code.
 static int run_pairs(batch *b) {
     const settings *s = b->settings;
@@ -173,10 +189,7 @@ static int run_pairs(batch *b) {
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
     if (!code && b->refused) message_error("%s", b->error.message), code = EXIT_INPUT;
     code = results_close(&b->results, code ? code : (int)b->worst);
-    if (code != EXIT_INPUT && code != EXIT_PIPE)
-        message_note("%zu pairs in %.2f s; separated: %zu, touching: %zu, overlapping: %zu, undecided: %zu", b->done,
-                     progress_get_seconds() - start, b->counts[OVOID_SEPARATED], b->counts[OVOID_TOUCHING],
-                     b->counts[OVOID_OVERLAPPING], b->counts[OVOID_UNDECIDED]);
+    if (code != EXIT_INPUT && code != EXIT_PIPE) report_counts(b, progress_get_seconds() - start);
     return code;
 }
 
@@ -228,7 +241,7 @@ const cli_command command_batch = {
              "1 a pair touches or overlaps (or is within M)\n"
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written\n"
-             "4 for some pair nothing is proven; this comes before 1",
+             "4 for some pair the sign (with --margin: the side of M) is not proven; this comes before 1",
     .examples = "ovoid batch --shapes hulls.txt --pairs pairs.csv --csv -o results.csv\n"
                 "ovoid batch --shapes hulls.txt --pairs pairs.csv --json |\n"
                 "    ovoid verify - --shapes hulls.txt --pairs pairs.csv",

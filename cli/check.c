@@ -192,7 +192,7 @@ const cli_command command_check = {
              "1 a pair touches or overlaps (or is within M)\n"
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written\n"
-             "4 for some pair nothing is proven; this comes before 1",
+             "4 for some pair the sign (with --margin: the side of M) is not proven; this comes before 1",
     .examples = "ovoid check cell.json\n"
                 "ovoid check cell.json --margin 0.02 --json -o near.jsonl",
     .options = options,

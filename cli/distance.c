@@ -10,6 +10,7 @@
 #include <ovoid/ovoid.h>
 
 #include <math.h>
+#include <string.h>
 
 typedef struct settings {
     read_settings read;
@@ -49,12 +50,31 @@ static void print_name(FILE *file, const char *title, const char *name) {
     message_write_text(file, name);
 }
 
+static void print_allowance(const report *r, const char *title, const ovoid_allowance *allowance) {
+    if (allowance->outside > 0 || allowance->inside > 0)
+        fprintf(r->file, "; %s: %.9g%s outside, %.9g%s inside", title, allowance->outside, r->unit, allowance->inside,
+                r->unit);
+}
+
+/// The largest allowances of the parts of a file.
+static ovoid_allowance find_allowance(const ovoid_shapes *parts) {
+    ovoid_allowance most = {0, 0};
+    for (size_t i = 0; i < ovoid_shapes_get_count(parts); i++) {
+        ovoid_allowance one = ovoid_shape_get_allowance(ovoid_shapes_get(parts, i).shape);
+        most.outside = fmax(most.outside, one.outside);
+        most.inside = fmax(most.inside, one.inside);
+    }
+    return most;
+}
+
 static void print_shape(const report *r, const char *title, const char *path, const ovoid_shape *shape) {
     unsigned long long vertices = ovoid_shape_get_report(shape).vertices;
     double radius = ovoid_shape_get_radius(shape);
     print_name(r->file, title, path);
     fprintf(r->file, "; vertices: %llu", vertices);
+    ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
     if (radius > 0) fprintf(r->file, "; radius: %.9g%s", radius, r->unit);
+    print_allowance(r, "allowance", &allowance);
     fputc('\n', r->file);
 }
 
@@ -63,7 +83,10 @@ static void print_body(const report *r, const char *title, const char *path, con
         print_shape(r, title, path, body->shape);
     else {
         print_name(r->file, title, path);
-        fprintf(r->file, "; parts: %zu\n", ovoid_shapes_get_count(body->parts));
+        fprintf(r->file, "; parts: %zu", ovoid_shapes_get_count(body->parts));
+        ovoid_allowance most = find_allowance(body->parts);
+        print_allowance(r, "allowance up to", &most);
+        fputc('\n', r->file);
     }
 }
 
@@ -85,15 +108,26 @@ static void print_margin(const report *r, const ovoid_answer *answer, double mar
     fprintf(r->file, "%-11s %.9g%s: %s\n", "margin", margin, r->unit, words);
 }
 
+/// Prints the distance or the depth; of a bracket that is wide both ends.
+static void print_distance(const report *r, const ovoid_answer *x) {
+    char text[64];
+    int is_depth = x->upper < 0;
+    ovoid_answer shown = *x;
+    if (is_depth) shown.lower = -x->upper, shown.upper = -x->lower;
+    (void)ovoid_answer_write_distance(text, &shown);
+    double middle = shown.lower + (shown.upper - shown.lower) / 2;
+    if (!strstr(text, " .. ")) snprintf(text, sizeof text, "%.9g", fabs(middle));
+    if (isfinite(middle)) fprintf(r->file, "%-11s %s%s\n", is_depth ? "depth" : "distance", text, r->unit);
+}
+
 /// Prints the report for people: bodies, distance, proof.
 static void print_report(const report *r, const cli_body bodies[2], const ovoid_record *record, int holds) {
     FILE *file = r->file;
     const ovoid_answer *x = &record->answer;
-    double middle = x->lower + (x->upper - x->lower) / 2;
     print_body(r, "a", record->a, &bodies[0]);
     print_body(r, "b", record->b, &bodies[1]);
     fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(x->status));
-    if (isfinite(middle)) fprintf(file, "%-11s %.9g%s\n", x->upper < 0 ? "depth" : "distance", fabs(middle), r->unit);
+    print_distance(r, x);
     fprintf(file, "%-11s %.17g .. %.17g%s\n", "bracket", x->lower, x->upper, r->unit);
     if (record->margin >= 0) print_margin(r, x, record->margin);
     print_part(file, "part of a", &bodies[0], record->part_a);
@@ -187,7 +221,7 @@ const cli_command command_distance = {
              "1 touching or overlapping (with --margin: within M)\n"
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written\n"
-             "4 not proven",
+             "4 the sign (with --margin: the side of M) is not proven",
     .examples = "ovoid distance a.stl b.obj --pose-b \"0 0 1.5\"\n"
                 "ovoid distance a.ovoid b.ovoid --margin 0.05 || echo too near\n"
                 "ovoid distance part.stl tool.stl --unit mm --json\n"

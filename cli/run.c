@@ -228,7 +228,7 @@ const cli_command command_run = {
              "1 a pair touches or overlaps (or is within M)\n"
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written\n"
-             "4 for some pair nothing is proven; this comes before 1",
+             "4 for some pair the sign (with --margin: the side of M) is not proven; this comes before 1",
     .examples = "ovoid run cell.json --motion pick.csv --margin 0.1 --plot pick.svg\n"
                 "ovoid run cell.json --motion pick.csv --continuous --query collide\n"
                 "ovoid run cell.json --motion pick.csv --margin 0.05 --json -o near.jsonl",

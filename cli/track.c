@@ -185,13 +185,13 @@ typedef struct line_room {
     char name[128];
 } line_room;
 
-/// A bracket that is wide has a band and no line: nothing in it is the distance.
+/// The line is the lower bound. The bracket of a yes or no has a band and no line.
 static void add_value(line_room *l, double x, const track_point *p) {
     double low = p->lower, high = p->upper;
     l->x[l->count] = x;
     l->low[l->count] = low;
     l->high[l->count] = high;
-    l->y[l->count++] = p->is_measured ? low + (high - low) / 2 : NAN;
+    l->y[l->count++] = p->is_measured ? low : NAN;
 }
 
 /// Fills the line of a pair's distances; a gap where frames are missing, `group` neighbours as one.

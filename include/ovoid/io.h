@@ -318,8 +318,8 @@ OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields);
 OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record);
 
 /**
- * The signed distance for people, in at most 63 characters: where it was measured (limit is NONE), the decimal of
- * fewest digits in the bracket; else both bounds to six digits, "1.26795 .. 3". Returns the length.
+ * The signed distance for people, in at most 63 characters: the decimal of fewest digits in the bracket; where it is
+ * wider than 1e-6 of its larger end, or undecided, both ends to six digits, "1.26795 .. 3". Returns the length.
  */
 OVOID_API size_t ovoid_answer_write_distance(char text[64], const ovoid_answer *answer);
 

@@ -22,7 +22,7 @@ for query in "$@" 'within --margin 0.01' distance; do
     "$OVOID_TOOL" verify results.jsonl --shapes LIST --pairs PAIRS.csv --query "${query%% *}" >verdict 2>&1
     holds=$?
     echo "$query: $(cat note verdict | tr '\n' ' ')"
-    if [ $code -eq 1 ] && [ $holds -eq 0 ] && grep -q 'undecided: 0$' note; then
+    if [ $code -eq 1 ] && [ $holds -eq 0 ] && grep -Eq '(undecided|not proven): 0$' note; then
         passed=$((passed + 1))
     else
         failed=$((failed + 1))

@@ -205,26 +205,31 @@ static void check_table(void) {
     free(text);
 }
 
-// The digits that a bracket proves: the decimal of fewest digits inside, where it was measured or is narrow.
+// The digits that a bracket proves: the decimal of fewest digits inside, and both ends of what is wide or undecided.
 static void check_distances(void) {
     static const struct {
         double lower, upper;
-        ovoid_limit limit;
+        ovoid_status status;
         const char *text;
-    } truth[] = {{0.24999999999984737, 0.2500000000001526, OVOID_LIMIT_NONE, "0.25"},
-                 {1.4524174696259122, 1.4524174696260925, OVOID_LIMIT_NONE, "1.452417469626"},
-                 {9.9999999999, 10.0000000001, OVOID_LIMIT_NONE, "10"},
-                 {-1e-28, 3e-28, OVOID_LIMIT_NONE, "0"},
-                 {1.2, 3.2, OVOID_LIMIT_NONE, "2"},
-                 {1.2, 3.2, OVOID_LIMIT_ANSWERED, "1.2 .. 3.2"},
-                 {0.49999999999997, 0.50000000000003, OVOID_LIMIT_PRECISION, "0.5"},
-                 {-INFINITY, INFINITY, OVOID_LIMIT_POSE_A, "-inf .. inf"},
-                 {0.1, 0.1, OVOID_LIMIT_NONE, "0.1"},
-                 {0.1, 0.10000000000000002, OVOID_LIMIT_NONE, "0.1"},
-                 {1.2345678901234567e49, 1.2345678901234567e49, OVOID_LIMIT_NONE, "1.2345678901234567e+49"}};
+    } truth[] = {{0.24999999999984737, 0.2500000000001526, OVOID_SEPARATED, "0.25"},
+                 {1.4524174696259122, 1.4524174696260925, OVOID_SEPARATED, "1.452417469626"},
+                 {9.9999999999, 10.0000000001, OVOID_SEPARATED, "10"},
+                 {-1e-28, 3e-28, OVOID_TOUCHING, "0"},
+                 {-1e-28, 3e-28, OVOID_UNDECIDED, "-1e-28 .. 3e-28"},
+                 {-0.324, 0.476, OVOID_UNDECIDED, "-0.324 .. 0.476"},
+                 {1.2, 3.2, OVOID_SEPARATED, "1.2 .. 3.2"},
+                 {4.593, 5.138, OVOID_SEPARATED, "4.593 .. 5.138"},
+                 {-3.2, -1.2, OVOID_OVERLAPPING, "-3.2 .. -1.2"},
+                 {4.999998, 5.000002, OVOID_SEPARATED, "5"},
+                 {5.000001, 5.000009, OVOID_SEPARATED, "5 .. 5.00001"},
+                 {0.49999999999997, 0.50000000000003, OVOID_SEPARATED, "0.5"},
+                 {-INFINITY, INFINITY, OVOID_UNDECIDED, "-inf .. inf"},
+                 {0.1, 0.1, OVOID_SEPARATED, "0.1"},
+                 {0.1, 0.10000000000000002, OVOID_SEPARATED, "0.1"},
+                 {1.2345678901234567e49, 1.2345678901234567e49, OVOID_SEPARATED, "1.2345678901234567e+49"}};
     for (size_t i = 0; i < sizeof truth / sizeof *truth; i++) {
         char text[64];
-        ovoid_answer answer = {.lower = truth[i].lower, .upper = truth[i].upper, .limit = truth[i].limit};
+        ovoid_answer answer = {.lower = truth[i].lower, .upper = truth[i].upper, .status = truth[i].status};
         CHECK_EQ(ovoid_answer_write_distance(text, &answer), strlen(truth[i].text));
         check_text(text, truth[i].text);
     }

@@ -60,14 +60,27 @@ static size_t write_shortest(char text[32], double lower, double upper) {
     return length;
 }
 
+// 1 where one number would hide what the bracket leaves open: it is wider than the digits of a table show, or holds 0
+// and the bodies are not proven to touch.
+static int is_wide(const ovoid_answer *answer) {
+    double larger = fmax(fabs(answer->lower), fabs(answer->upper)), width = answer->upper - answer->lower;
+    if (answer->status == OVOID_UNDECIDED || !isfinite(width)) return 1;
+    return answer->status != OVOID_TOUCHING && width > 1e-6 * larger;
+}
+
+// Both ends, with as many digits as tell them apart.
+static size_t write_ends(char text[64], const ovoid_answer *answer) {
+    char low[32], high[32];
+    for (int digits = 6; digits <= 17; digits += 11) {
+        number_write(low, answer->lower, digits);
+        number_write(high, answer->upper, digits);
+        if (strcmp(low, high) != 0) break;
+    }
+    return (size_t)snprintf(text, 64, "%s .. %s", low, high);
+}
+
 size_t ovoid_answer_write_distance(char text[64], const ovoid_answer *answer) {
-    char ends[2][32];
-    number_write(ends[0], answer->lower, 6);
-    number_write(ends[1], answer->upper, 6);
-    int is_wide = !isfinite(answer->upper - answer->lower) || strcmp(ends[0], ends[1]) != 0;
-    if (is_wide && (answer->limit != OVOID_LIMIT_NONE || !isfinite(answer->upper - answer->lower)))
-        return (size_t)snprintf(text, 64, "%s .. %s", ends[0], ends[1]);
-    return write_shortest(text, answer->lower, answer->upper);
+    return is_wide(answer) ? write_ends(text, answer) : write_shortest(text, answer->lower, answer->upper);
 }
 
 // The words about the margin; empty where there is none, and where the bodies are farther.
