@@ -197,7 +197,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code < 0) code = results_settle(command, &s.out);
     if (code >= 0) return code;
     if ((code = inputs_open_pair(paths.items, &s.read, s.parts, bodies)) != 0) return code;
-    for (int i = 0; i < 2; i++) inputs_warn_body(paths.items[i], &bodies[i]);
+    inputs_warn_bodies(paths.items, bodies, 2, &s.read);
     code = answer_pair(&s, bodies, paths.items);
     inputs_close_body(&bodies[0]);
     inputs_close_body(&bodies[1]);

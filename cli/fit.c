@@ -234,7 +234,10 @@ static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t num
     found.make_seconds = progress_get_seconds() - start;
     found.report.faces = part.faces.face_count;
     found.convexity = ovoid_mesh_compute_convexity(mesh, number, shape);
-    inputs_warn_nonconvex(path, name, &found.convexity);
+    if (f->settings->parts)
+        inputs_warn_part(path, name, &found.convexity);
+    else
+        inputs_warn_file(path, &f->settings->read, &found.convexity);
     int code = fit_shape(f, shape, &found);
     ovoid_shape_destroy(shape);
     return code;

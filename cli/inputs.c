@@ -3,6 +3,7 @@
 
 #include "message.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,12 +17,38 @@ ovoid_read_options inputs_make_options(const read_settings *settings) {
     return (ovoid_read_options){.scale = settings->scale, .unit = unit[0] ? unit : NULL};
 }
 
-void inputs_warn_nonconvex(const char *path, const char *part, const ovoid_convexity *c) {
-    if (!c->is_nonconvex) return;
-    message_warning("%s%s%s is not convex and counts as its hull, of which it is %.3g %% (%.6g of %.6g); for the mesh "
-                    "itself decompose it (CoACD, V-HACD), then --parts, or \"parts\": true in a scene",
+/// How many parts a mesh file has, where there are several and each is known to fill its hull; else 0.
+static size_t count_convex_parts(const char *path, const read_settings *settings) {
+    ovoid_error error;
+    ovoid_read_options read = inputs_make_options(settings);
+    read.parts = 1;
+    ovoid_shapes *parts = ovoid_shapes_read_file(path, &read, NULL, &error);
+    size_t count = ovoid_shapes_get_count(parts), convex = 0;
+    for (size_t i = 0; i < count; i++) {
+        ovoid_convexity c = ovoid_shapes_get(parts, i).convexity;
+        convex += !c.is_nonconvex && c.mesh_volume > 0;
+    }
+    ovoid_shapes_destroy(parts);
+    return count > 1 && convex == count ? count : 0;
+}
+
+/// Warns of a mesh; convex_parts: how many parts it has that fill their hulls, 0: not known.
+static void warn_nonconvex(const char *path, const char *part, const ovoid_convexity *c, size_t convex_parts) {
+    char advice[120] = "for the mesh itself decompose it (CoACD, V-HACD), then --parts";
+    if (convex_parts)
+        snprintf(advice, sizeof advice, "each of its %zu parts fills its hull: use --parts", convex_parts);
+    message_warning("%s%s%s is not convex and counts as its hull, of which it is %.3g %% (%.6g of %.6g); %s, or "
+                    "\"parts\": true in a scene",
                     path, *part ? ": " : "", part, 100 * c->mesh_volume / c->hull_volume, c->mesh_volume,
-                    c->hull_volume);
+                    c->hull_volume, advice);
+}
+
+void inputs_warn_part(const char *path, const char *part, const ovoid_convexity *c) {
+    if (c->is_nonconvex) warn_nonconvex(path, part, c, 0);
+}
+
+void inputs_warn_file(const char *path, const read_settings *settings, const ovoid_convexity *c) {
+    if (c->is_nonconvex) warn_nonconvex(path, "", c, count_convex_parts(path, settings));
 }
 
 /// Most warnings about the meshes of one list or scene.
@@ -39,7 +66,7 @@ static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context,
         left_out += k == WARNINGS_MAX;
         if (k < warned || k == WARNINGS_MAX) continue;
         named[warned++] = mesh.name;
-        inputs_warn_nonconvex(mesh.name, "", &mesh.convexity);
+        inputs_warn_part(mesh.name, "", &mesh.convexity);
     }
     if (left_out) message_warning("%zu more meshes are not convex and count as their hulls", left_out);
 }
@@ -47,11 +74,19 @@ static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context,
 static ovoid_named_shape get_shape(const void *context, size_t i) { return ovoid_shapes_get(context, i); }
 static ovoid_named_shape get_mesh(const void *context, size_t i) { return ovoid_scene_get_mesh(context, i); }
 
-void inputs_warn_body(const char *path, const cli_body *body) {
+static void warn_body(const char *path, const cli_body *body, const read_settings *settings) {
     for (size_t i = 0; i < ovoid_shapes_get_count(body->parts); i++) {
         ovoid_named_shape part = ovoid_shapes_get(body->parts, i);
-        inputs_warn_nonconvex(path, body->compound ? part.name : "", &part.convexity);
+        if (body->compound)
+            inputs_warn_part(path, part.name, &part.convexity);
+        else
+            inputs_warn_file(path, settings, &part.convexity);
     }
+}
+
+void inputs_warn_bodies(const char *const *paths, const cli_body *bodies, size_t count, const read_settings *settings) {
+    for (size_t i = 0; i < count; i++)
+        if (!i || strcmp(paths[i], paths[i - 1]) != 0) warn_body(paths[i], &bodies[i], settings);
 }
 
 void inputs_warn_list(const ovoid_shapes *shapes) { warn_all(ovoid_shapes_get_count(shapes), get_shape, shapes); }

@@ -59,10 +59,12 @@ ovoid_pose *inputs_copy_poses(const ovoid_scene *scene);
 /// Reads the shapes of a LIST; NULL after a message.
 ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings);
 
-/// Warn of meshes that do not fill their hulls, which are what is queried: of one, part "" for a whole file; of a
-/// body's; of those of a list or a scene, each once.
-void inputs_warn_nonconvex(const char *path, const char *part, const ovoid_convexity *convexity);
-void inputs_warn_body(const char *path, const cli_body *body);
+/// Warn of meshes that do not fill their hulls, which are what is queried: of a part of a file; of a file without
+/// --parts, with that advice where each of its parts fills its hull; of the files of one or two bodies, of the same
+/// file once; of the meshes of a list or a scene, each once.
+void inputs_warn_part(const char *path, const char *part, const ovoid_convexity *convexity);
+void inputs_warn_file(const char *path, const read_settings *settings, const ovoid_convexity *convexity);
+void inputs_warn_bodies(const char *const *paths, const cli_body *bodies, size_t count, const read_settings *settings);
 void inputs_warn_list(const ovoid_shapes *shapes);
 void inputs_warn_scene(const ovoid_scene *scene);
 

@@ -243,9 +243,9 @@ static int draw_bodies(const settings *s, const cli_operands *paths) {
         drawn += count_parts(bodies[i].compound);
     }
     if (!make_drawing(&d, 2, drawn)) code = EXIT_INPUT;
+    if (!code) inputs_warn_bodies(paths->items, bodies, (size_t)paths->count, &s->read);
     for (int i = 0; i < paths->count && !code; i++) {
         ovoid_body body = inputs_get_body(&bodies[i], &poses[i]);
-        inputs_warn_body(paths->items[i], &bodies[i]);
         ovoid_scene_object object = {.mesh = paths->items[i], .read = inputs_make_options(&s->read)};
         object.read.parts = s->parts;
         add_body(&d, get_base(paths->items[i]), &body);

@@ -160,6 +160,9 @@ static ovoid_code read_scene(scene_reader *r) {
     if (r->options && r->options->radius != 0)
         return io_fail(r->error, OVOID_ERROR_ARGUMENT, (where){r->path, 0, -1},
                        "a scene gives the radius of each object itself");
+    if (r->file.size >= 6 && memcmp(r->file.data, "\x89OVOID", 6) == 0)
+        return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, 0, -1},
+                       "a file of a shape (.ovoid), not a scene, which is JSON and may name it as a \"mesh\"");
     json_error_t why;
     json_t *root = json_loadb(r->file.data, r->file.size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
     if (!root && json_is_memory_error(&why)) return io_fail_memory(r->error, r->path);
