@@ -155,6 +155,35 @@ static void check_order(void) {
     ovoid_shape_destroy(cube);
 }
 
+// What rests on a plate is painted after it, seen from above, and before it, seen from below: also where the two touch
+// or a rounding error overlaps them, and though the centre of the plate is nearer to the eye.
+static void check_resting(void) {
+    ovoid_shape *plate = ovoid_shape_create_box((ovoid_vec3){400, 300, 10}, NULL, NULL);
+    ovoid_shape *crate = ovoid_shape_create_box((ovoid_vec3){50, 50, 50}, NULL, NULL);
+    static const double heights[] = {50, 50 - 1e-12, 49.9, 50.1};
+    for (int i = 0; i < 8; i++) {
+        ovoid_picture_body bodies[2] = {make_body(NULL, plate, 0, 0, -10),
+                                        make_body(NULL, crate, 0, 0, heights[i / 2])};
+        double side = i % 2 ? -1 : 1;
+        bodies[1].pose.position.x = -200 * side;
+        ovoid_picture picture = {.bodies = bodies, .body_count = 2};
+        ovoid_picture_options options = {.view = {1, -1.6, 0.9 * side}, .layers = OVOID_PICTURE_INNER};
+        for (int swap = 0; swap < 2; swap++) {
+            size_t size;
+            char *text = draw(&picture, &options, &size);
+            const char *first = strstr(text, swap ? "url(#g1)" : "url(#g0)");
+            const char *second = strstr(text, swap ? "url(#g0)" : "url(#g1)");
+            CHECK(first && second && (side > 0 ? first < second : second < first));
+            free(text);
+            ovoid_picture_body moved = bodies[0];
+            bodies[0] = bodies[1];
+            bodies[1] = moved;
+        }
+    }
+    ovoid_shape_destroy(plate);
+    ovoid_shape_destroy(crate);
+}
+
 // The pieces of faces that areas give, counted in pictures from opposite sides: each face is seen in one of them. The
 // truth is the core's own count, made independently of pictures.
 static void check_areas(void) {
@@ -400,6 +429,7 @@ static void check_nearly_straight(void) {
 int main(void) {
     check_extents();
     check_order();
+    check_resting();
     check_areas();
     check_kinds();
     check_size();

@@ -1,7 +1,8 @@
 // Pictures: a scene of convex bodies as SVG, from an orthographic camera that fits all of it. Bodies are painted from
 // far to near (the painter's algorithm). For two that are apart, the plane that separates them says which is nearer:
-// the body on the eye's side of it is painted later, and that is exact; only for bodies that overlap, and where three
-// hide each other in a ring, the depth of their centres decides.
+// the body on the eye's side of it is painted later, and that is exact. For bodies that touch, or overlap by less than
+// can be seen, it is the plane of least overlap. Only for bodies that overlap by more, and where three hide each other
+// in a ring, the depth of their centres decides.
 // Cost: linear in the triangles, quadratic in the bodies whose pictures overlap.
 #include "io/draw/picture_parts.h"
 
@@ -14,6 +15,9 @@
 
 enum { TRIANGLES_MAX = 1000000, BODIES_ORDERED_MAX = 1000, BODIES_FEW = 12 };
 
+// Pixels of overlap that are not seen.
+#define OVERLAP_UNSEEN 1.0
+
 // ---- the order of painting
 
 static vec3 get_center(const figure *f) { return f->outer.center; }
@@ -23,14 +27,20 @@ static int is_overlapping(const figure *a, const figure *b) {
     return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y;
 }
 
+// How far the normal of the plane between a and b, from a to b, points toward the eye; 0 where they overlap too far to
+// have one.
+static double find_plane(const figure *a, const figure *b, const camera *c) {
+    ovoid_pair pair = {a->body->shape, b->body->shape, a->body->pose, b->body->pose};
+    ovoid_answer answer = ovoid_collide(&pair, NULL, NULL);
+    if (answer.status != OVOID_SEPARATED) answer = ovoid_depth(&pair, NULL, &answer.proof, NULL);
+    return answer.lower * c->scale >= -OVERLAP_UNSEEN ? vec3_dot(answer.normal, c->eye) : 0;
+}
+
 // 1 if a must be painted before b, -1 if after, 0 if the order is free.
 static int compare_figures(const figure *a, const figure *b, const camera *c) {
     if (!is_overlapping(a, b)) return 0;
-    ovoid_pair pair = {a->body->shape, b->body->shape, a->body->pose, b->body->pose};
-    ovoid_answer answer = ovoid_collide(&pair, NULL, NULL);
-    double toward = vec3_dot(answer.normal, c->eye);
-    if (answer.status != OVOID_SEPARATED || fabs(toward) < 1e-9)
-        toward = camera_get_depth(c, get_center(b)) - camera_get_depth(c, get_center(a));
+    double toward = find_plane(a, b, c);
+    if (fabs(toward) < 1e-9) toward = camera_get_depth(c, get_center(b)) - camera_get_depth(c, get_center(a));
     return (toward > 0) - (toward < 0);
 }
 
