@@ -261,6 +261,35 @@ static void check_kinds(void) {
     for (int i = 0; i < COUNT; i++) ovoid_shape_destroy(shapes[i]);
 }
 
+// The label of a witness: one number where the bracket is narrow, else its ends with the decimals of the larger; a pair
+// that touches is called so.
+static void check_lengths(void) {
+    static const struct {
+        ovoid_status status;
+        double lower, upper;
+        const char *text;
+    } cases[] = {{OVOID_TOUCHING, -2.309e-26, 2.309e-26, ">touching<"},
+                 {OVOID_UNDECIDED, -0.1445, 2.371e-11, ">-0.1445 \xe2\x80\xa6 0 mm<"},
+                 {OVOID_UNDECIDED, -1e-9, 12.3456, ">0 \xe2\x80\xa6 12.35 mm<"},
+                 {OVOID_SEPARATED, 0.01234567, 1.5, ">0.012 \xe2\x80\xa6 1.5 mm<"},
+                 {OVOID_SEPARATED, 2.00001, 2.00002, ">2 mm<"},
+                 {OVOID_OVERLAPPING, -3, -0.00011, ">depth 0 \xe2\x80\xa6 3 mm<"},
+                 {OVOID_SEPARATED, 1e-30, 1e-30, ">1e-30 mm<"},
+                 {OVOID_UNDECIDED, 0, 0, ">0 mm<"}};
+    ovoid_shape *shape = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
+    ovoid_picture_body bodies[2] = {make_body(NULL, shape, 0, 0, 0), make_body(NULL, shape, 3, 0, 0)};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ovoid_answer answer = {.status = cases[i].status, .lower = cases[i].lower, .upper = cases[i].upper};
+        ovoid_picture_link link = {0, 1, &answer};
+        ovoid_picture picture = {bodies, 2, &link, 1, NULL, "mm"};
+        size_t size;
+        char *text = draw(&picture, NULL, &size);
+        if (!CHECK(strstr(text, cases[i].text))) printf("  %s\n", cases[i].text);
+        free(text);
+    }
+    ovoid_shape_destroy(shape);
+}
+
 // 10 000 triangles stay below 500 kilobytes: three points of at most 14 bytes each, and little else. Far from the
 // origin nothing is lost.
 static size_t count_text(const char *text, const char *what) {
@@ -432,6 +461,7 @@ int main(void) {
     check_resting();
     check_areas();
     check_kinds();
+    check_lengths();
     check_size();
     check_many();
     check_mesh();

@@ -136,14 +136,26 @@ void draw_names(const figure *figures, const size_t *order, size_t count, const 
 
 // ---- witness points
 
-static void write_number(char out[32], double value, int digits) { number_write(out, value, digits); }
+// A value to the last of four digits of `largest`, which is no smaller: of the ends of a bracket the smaller one has no
+// more decimals than the larger.
+static void write_number(char out[32], double value, double largest) {
+    enum { DIGITS = 4 };
+    double step = pow(10, floor(log10(largest)) - (DIGITS - 1));
+    // Adding zero makes -0 positive.
+    if (step > 0 && isfinite(value / step)) value = step * round(value / step) + 0.0;
+    number_write(out, value, DIGITS);
+}
 
 // The distance or the depth, as one number where four digits of the bracket agree, else as its ends.
 static void write_length(char *out, size_t size, const ovoid_answer *answer, const char *unit) {
+    if (answer->status == OVOID_TOUCHING) {
+        snprintf(out, size, "touching");
+        return;
+    }
     char low[32], high[32];
-    double sign = answer->upper < 0 ? -1 : 1;
-    write_number(low, sign > 0 ? answer->lower : -answer->upper, 4);
-    write_number(high, sign > 0 ? answer->upper : -answer->lower, 4);
+    double sign = answer->upper < 0 ? -1 : 1, largest = fmax(fabs(answer->lower), fabs(answer->upper));
+    write_number(low, sign > 0 ? answer->lower : -answer->upper, largest);
+    write_number(high, sign > 0 ? answer->upper : -answer->lower, largest);
     const char *blank = unit && unit[0] ? " " : "";
     if (!unit) unit = "";
     const char *what = sign < 0 ? "depth " : "";
