@@ -1,5 +1,5 @@
-// The summary of a motion, and its plot. Memory: three numbers for each pair and frame within the margin, and only
-// where a plot is wanted.
+// The summary of a motion, and its plot. Memory: a point for each pair and frame within the margin and each impact,
+// only where a plot is wanted.
 #include "track.h"
 
 #include "args.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Most points of a plot: 24 bytes each.
+/// Most points of a plot: 40 bytes each.
 #define POINTS_MAX 50000000
 
 /// Most pairs that are drawn.
@@ -63,11 +63,18 @@ static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     return &t->pairs[t->pair_count - 1];
 }
 
-static int add_point(cli_track *t, ovoid_couple couple, const ovoid_answer *answer) {
+/// Adds a point of the frame that was begun last.
+static int add_point(cli_track *t, ovoid_couple couple, const ovoid_record *record, int is_impact) {
+    const ovoid_answer *answer = &record->answer;
     track_pair *pair = t->point_count < POINTS_MAX ? find_pair(t, couple) : NULL;
     int is_measured = answer->limit == OVOID_LIMIT_NONE;
     if (!pair || !reserve((void **)&pair->points, &pair->capacity, pair->count, sizeof *pair->points)) return 0;
-    pair->points[pair->count++] = (track_point){t->frame_count - 1, answer->lower, answer->upper, is_measured};
+    pair->points[pair->count++] = (track_point){.frame = t->frame_count - 1,
+                                                .time = record->time,
+                                                .lower = answer->lower,
+                                                .upper = answer->upper,
+                                                .is_measured = is_measured,
+                                                .is_impact = is_impact};
     if (answer->lower < pair->lowest) pair->lowest = answer->lower;
     t->point_count++;
     t->has_wide |= !is_measured;
@@ -75,9 +82,8 @@ static int add_point(cli_track *t, ovoid_couple couple, const ovoid_answer *answ
 }
 
 void track_add_frame(cli_track *t, double time) {
-    if (!t->has_plot || t->is_full) return;
-    t->is_full = !reserve((void **)&t->times, &t->frame_capacity, t->frame_count, sizeof *t->times);
-    if (!t->is_full) t->times[t->frame_count++] = time;
+    if (!t->frame_count++) t->first = time;
+    t->last = time;
 }
 
 /* ---- events */
@@ -148,7 +154,7 @@ void track_add(cli_track *t, ovoid_couple couple, const ovoid_record *record, do
         if (states & ~starts & TRACK_WITHIN) add_event(&t->reach, 1, event);
     }
     if (!t->has_smallest || answer->lower < t->smallest.answer.lower) t->smallest = *record, t->has_smallest = 1;
-    if (t->has_plot && !t->is_full) t->is_full = !add_point(t, couple, answer);
+    if (t->has_plot && !t->is_full) t->is_full = !add_point(t, couple, record, 0);
 }
 
 void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *record, double until) {
@@ -157,6 +163,7 @@ void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *rec
         add_event(&t->unproven, TRACK_LISTED, make_event(couple, record, from, until));
         return;
     }
+    if (t->has_plot && !t->is_full) t->is_full = !add_point(t, couple, record, 1);
     track_event event = make_event(couple, record, from, record->time);
     unsigned starts = find_states(t, couple);
     if (!(starts & TRACK_WITHIN)) {
@@ -171,7 +178,6 @@ void track_clear(cli_track *t) {
     for (size_t i = 0; i < t->pair_count; i++) free(t->pairs[i].points);
     free(t->pairs);
     free(t->starts);
-    free(t->times);
     free(t->slots);
     *t = (cli_track){.has_plot = 0};
 }
@@ -194,9 +200,12 @@ static void add_value(line_room *l, double x, const track_point *p) {
     l->y[l->count++] = p->is_measured ? low : NAN;
 }
 
+/// 1 where the pair was farther than the margin between two of its points.
+static int is_gap(const track_point *p, const track_point *next) { return next->frame > p->frame + !next->is_impact; }
+
 /// Fills the line of a pair's distances; a gap where frames are missing, `group` neighbours as one.
-static int fill_line(const cli_track *t, const track_pair *pair, line_room *l) {
-    static const track_point no_point = {0, NAN, NAN, 0};
+static int fill_line(const track_pair *pair, line_room *l) {
+    static const track_point no_point = {.lower = NAN, .upper = NAN};
     size_t group = pair->count / LINE_POINTS + 1, room = 2 * pair->count + 2;
     *l = (line_room){.x = malloc(4 * room * sizeof *l->x)};
     if (!l->x) return 0;
@@ -205,18 +214,33 @@ static int fill_line(const cli_track *t, const track_pair *pair, line_room *l) {
     l->high = l->low + room;
     for (size_t i = 0; i < pair->count;) {
         const track_point *first = &pair->points[i];
-        if (i && first->frame > pair->points[i - 1].frame + 1) add_value(l, t->times[first->frame], &no_point);
+        if (i && is_gap(first - 1, first)) add_value(l, first->time, &no_point);
         track_point all = *first;
         size_t end = i + 1;
-        for (; end < pair->count && end < i + group && pair->points[end].frame == pair->points[end - 1].frame + 1;
-             end++) {
+        for (; end < pair->count && end < i + group && !is_gap(&pair->points[end - 1], &pair->points[end]); end++) {
             all.lower = fmin(all.lower, pair->points[end].lower);
             all.upper = fmax(all.upper, pair->points[end].upper);
             all.is_measured &= pair->points[end].is_measured;
         }
-        add_value(l, t->times[first->frame], &all);
+        add_value(l, first->time, &all);
         i = end;
     }
+    return 1;
+}
+
+/// Fills the places of the impacts of pairs; `high` ends of brackets, which are proven to be within the margin.
+static int fill_impacts(const track_pair *pairs, size_t count, line_room *l) {
+    size_t room = 1;
+    for (size_t i = 0; i < count; i++) room += pairs[i].count;
+    *l = (line_room){.x = malloc(2 * room * sizeof *l->x)};
+    if (!l->x) return 0;
+    l->y = l->x + room;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < pairs[i].count; k++) {
+            if (!pairs[i].points[k].is_impact) continue;
+            l->x[l->count] = pairs[i].points[k].time;
+            l->y[l->count++] = pairs[i].points[k].upper;
+        }
     return 1;
 }
 
@@ -246,8 +270,8 @@ static int write_chart(const ovoid_chart *chart, const char *path) {
 int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, double margin) {
     if (t->is_full)
         return message_error("the plot has too many points for the memory; give a smaller --margin"), EXIT_INPUT;
-    line_room lines[DRAWN_MAX];
-    ovoid_series series[DRAWN_MAX + 2];
+    line_room lines[DRAWN_MAX], impacts;
+    ovoid_series series[DRAWN_MAX + 3];
     size_t count = 0;
     int code = 0;
     // The nearest pairs first.
@@ -255,22 +279,25 @@ int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, d
     for (; count < t->pair_count && count < DRAWN_MAX && !code; count++) {
         const track_pair *pair = &t->pairs[count];
         line_room *l = &lines[count];
-        if (!fill_line(t, pair, l)) return message_error("out of memory"), EXIT_INPUT;
+        if (!fill_line(pair, l)) return message_error("out of memory"), EXIT_INPUT;
         snprintf(l->name, sizeof l->name, "%.50s, %.50s", ovoid_scene_get(scene, pair->a).name,
                  ovoid_scene_get(scene, pair->b).name);
         series[count] = (ovoid_series){l->name, OVOID_SERIES_LINE, l->count, l->x, l->y, l->low, l->high};
     }
-    double ends[2] = {t->frame_count ? t->times[0] : 0, t->frame_count ? t->times[t->frame_count - 1] : 1};
+    if (!fill_impacts(t->pairs, count, &impacts)) return message_error("out of memory"), EXIT_INPUT;
+    double ends[2] = {t->frame_count ? t->first : 0, t->frame_count ? t->last : 1};
     double limits[2] = {margin, margin}, nothing[2] = {NAN, NAN};
     size_t drawn = count;
     // The axis spans the whole motion, wherever there are distances.
     series[drawn++] = (ovoid_series){NULL, OVOID_SERIES_LINE, 2, ends, nothing, NULL, NULL};
     if (margin > 0) series[drawn++] = (ovoid_series){"margin", OVOID_SERIES_LINE, 2, ends, limits, NULL, NULL};
+    if (impacts.count)
+        series[drawn++] = (ovoid_series){"impact", OVOID_SERIES_TICKS, impacts.count, impacts.x, impacts.y, NULL, NULL};
     const char *unit = ovoid_scene_get_unit(scene);
     char title[120], label[40];
     snprintf(label, sizeof label, "signed distance%s%s", unit[0] ? ", " : "", unit);
     snprintf(title, sizeof title, "Signed distance over time: the nearest %zu of %zu pairs%s", count, t->pair_count,
-             t->has_wide ? "; where a band is wide, it is only known to be inside" : "");
+             t->has_wide ? "; a band is where the distance is proven to be" : "");
     ovoid_chart chart = {.title = title,
                          .x_label = "time",
                          .y_label = label,
@@ -280,5 +307,6 @@ int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, d
                          .height = 480};
     code = write_chart(&chart, path);
     for (size_t i = 0; i < count; i++) free(lines[i].x);
+    free(impacts.x);
     return code;
 }

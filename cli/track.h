@@ -6,11 +6,12 @@
 #include <ovoid/io.h>
 #include <ovoid/ovoid.h>
 
-/// A value at a frame.
+/// A value at a frame, or at an impact between it and the next.
 typedef struct track_point {
     size_t frame;
-    double lower, upper;
+    double time, lower, upper;
     int is_measured; ///< 0: the bracket is wide, as of a yes or no
+    int is_impact;
 } track_point;
 
 /// The points of one pair.
@@ -67,8 +68,8 @@ typedef struct cli_track {
     // Of the plot; unused where has_plot is 0.
     int has_plot, is_full; ///< is_full: too many points
     int has_wide;          ///< some bracket is wide
-    double *times;         ///< of the frames
-    size_t frame_count, frame_capacity;
+    double first, last;    ///< times of the frames
+    size_t frame_count;
     track_pair *pairs;
     size_t pair_count, pair_capacity;
     size_t *slots; ///< pairs by their objects, as index + 1

@@ -417,7 +417,8 @@ typedef enum ovoid_series_kind {
     OVOID_SERIES_LINE = 0, /**< points joined by lines, with marks where they are few */
     OVOID_SERIES_POINTS,   /**< marks only */
     OVOID_SERIES_BARS,     /**< bars from zero, side by side */
-    OVOID_SERIES_STACK     /**< bars on top of each other, in the order of the series */
+    OVOID_SERIES_STACK,    /**< bars on top of each other, in the order of the series */
+    OVOID_SERIES_TICKS     /**< upright ticks */
 } ovoid_series_kind;
 
 /** One row of values. Values that are not finite, or not positive on a logarithmic axis, leave a gap. */

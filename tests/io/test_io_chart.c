@@ -73,6 +73,7 @@ static void test_bands(void) {
     ovoid_chart chart = {.series = &s, .series_count = 1};
     const char *svg = draw(&chart);
     CHECK_EQ(count(svg, "fill-opacity=\"0.15\""), 1);
+    CHECK_EQ(count(svg, "stroke-opacity=\"0.5\""), 1);
     CHECK_EQ(count(svg, "stroke-opacity=\"0.4\""), 1);
     CHECK_EQ(count(svg, "<circle"), 1);
     const ovoid_series bands = {NULL, OVOID_SERIES_LINE, 4, NULL, y, low, high};
@@ -82,10 +83,35 @@ static void test_bands(void) {
     CHECK_EQ(count(svg, "<circle"), 0);
 }
 
+// A tick is upright about its place, and is the key of its series.
+static void test_ticks(void) {
+    const double x[] = {0, 1, 2}, y[] = {1, NAN, 3};
+    const ovoid_series s = {"event", OVOID_SERIES_TICKS, 3, x, y, NULL, NULL};
+    const ovoid_chart chart = {.series = &s, .series_count = 1, .width = 720, .height = 400};
+    const char *svg = draw(&chart);
+    CHECK_EQ(count(svg, "v16\" stroke="), 3);
+    CHECK_EQ(count(svg, "<circle"), 0);
+    // The last one is at the right end, 18 pixels from the edge, and at the top, below one line of the legend.
+    CHECK(strstr(svg, "M702.0 32.0v16") != NULL);
+}
+
+// Names of wide letters have room in the legend: an m is as wide as the type is high, in some fonts.
+static void test_legend(void) {
+    const double y[] = {1, 2};
+    const ovoid_series s[] = {{"mmmmmmmmmm", OVOID_SERIES_LINE, 2, NULL, y, NULL, NULL},
+                              {"next", OVOID_SERIES_LINE, 2, NULL, y, NULL, NULL}};
+    const ovoid_chart chart = {.series = s, .series_count = 2};
+    const char *svg = draw(&chart), *next = strstr(svg, ">next<");
+    if (!CHECK(next != NULL)) return;
+    while (next > svg && strncmp(next, "<text x=\"", 9) != 0) next--;
+    // Before it the first name, from 66 + 26 on, and its own key of 26.
+    CHECK_LE(66 + 26 + 12 * 10 + 26, atof(next + 9));
+}
+
 // Nothing that is not a number, and no value out of its axis, whatever comes in.
 static void test_odd_values(void) {
     const double y[] = {NAN, INFINITY, -INFINITY, 0, -1, 1e300, 5};
-    for (int kind = 0; kind < 4; kind++)
+    for (int kind = 0; kind <= OVOID_SERIES_TICKS; kind++)
         for (int logs = 0; logs < 4; logs++) {
             const ovoid_series s = {"odd", (ovoid_series_kind)kind, 7, NULL, y, y, y};
             const ovoid_chart chart = {.series = &s, .series_count = 1, .x_log = logs & 1, .y_log = logs >> 1};
@@ -145,6 +171,8 @@ int main(void) {
     test_places();
     test_axis_labels();
     test_bands();
+    test_ticks();
+    test_legend();
     test_odd_values();
     test_bars();
     test_full_disk();

@@ -161,8 +161,8 @@ static void draw_x_axis(const canvas *c) {
 
 // ---- the legend: above the area, in as many lines as it needs
 
-// Pixels that an entry takes.
-static double get_entry_width(const char *name) { return 34 + 6.9 * (double)strlen(name); }
+// Pixels that an entry takes: its key, its name and the room to the next.
+static double get_entry_width(const char *name) { return 26 + text_get_width(name, 12) + 10; }
 
 static double draw_legend(const canvas *c, double top, double width, int is_drawn) {
     double x = LEFT, y = top;

@@ -27,11 +27,20 @@ static void draw_mark(const canvas *c, size_t i, vec2 at) {
     fputc('\n', c->file);
 }
 
+static void draw_tick(const canvas *c, size_t i, vec2 at) {
+    fprintf(c->file, "<path d=\"M%.1f %.1fv16\" stroke=\"%s\" stroke-width=\"2.5\"/>\n", at.x, at.y - 8,
+            chart_get_color(i));
+}
+
 void chart_draw_key(const canvas *c, size_t i, vec2 at) {
     const ovoid_series *s = &c->chart->series[i];
     if (s->kind == OVOID_SERIES_BARS || s->kind == OVOID_SERIES_STACK) {
         fprintf(c->file, "<rect x=\"%.1f\" y=\"%.1f\" width=\"12\" height=\"10\" fill=\"%s\"/>\n", at.x - 6, at.y - 5,
                 chart_get_color(i));
+        return;
+    }
+    if (s->kind == OVOID_SERIES_TICKS) {
+        draw_tick(c, i, at);
         return;
     }
     if (s->kind == OVOID_SERIES_LINE)
@@ -76,7 +85,9 @@ static void draw_run(const canvas *c, size_t i, size_t begin, size_t end) {
     for (size_t k = begin + 1; k < end; k++) svg_line(&path, project(c, s, k, s->high));
     for (size_t k = end; k-- > begin;) svg_line(&path, project(c, s, k, s->low));
     if (end - begin > 1)
-        fprintf(c->file, "\" fill=\"%s\" fill-opacity=\"0.15\" stroke=\"none\"/>\n", chart_get_color(i));
+        // The rim keeps a band visible that is thinner than a pixel.
+        fprintf(c->file, "\" fill=\"%s\" fill-opacity=\"0.15\" stroke=\"%s\" stroke-opacity=\"0.5\"/>\n",
+                chart_get_color(i), chart_get_color(i));
     else
         fprintf(c->file, "\" stroke=\"%s\" stroke-opacity=\"0.4\" stroke-width=\"4\"/>\n", chart_get_color(i));
 }
@@ -147,7 +158,7 @@ void chart_draw_series(const canvas *c) {
         if (s->kind == OVOID_SERIES_LINE && s->count > MARKS_MAX) continue;
         for (size_t k = 0; k < s->count; k++) {
             vec2 p = project(c, s, k, s->y);
-            if (is_visible(p)) draw_mark(c, i, p);
+            if (is_visible(p)) (s->kind == OVOID_SERIES_TICKS ? draw_tick : draw_mark)(c, i, p);
         }
     }
 }

@@ -55,17 +55,6 @@ int labels_place(labels *l, vec2 near, vec2 size, double gap, vec2 *at) {
     return 1;
 }
 
-double text_get_width(const char *text, double font_size) {
-    double width = 0;
-    for (; *text; text++) {
-        if (((unsigned char)*text & 0xc0) == 0x80) continue;
-        width += strchr("iljtfI.,:;|!'() ", *text)                        ? 0.38
-                 : strchr("mwMW@", *text) || (unsigned char)*text >= 0x80 ? 1.0
-                                                                          : 0.69;
-    }
-    return width * font_size;
-}
-
 /// How a text is drawn, in SVG's words; size in pixels.
 typedef struct text_style {
     const char *anchor;

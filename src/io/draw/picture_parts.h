@@ -38,8 +38,6 @@ void labels_block(labels *l, vec2 low, vec2 high);
 /// Finds a place for a text of that size about `gap` from a point, clear of earlier texts: its centre. 0 where there is
 /// no room.
 int labels_place(labels *l, vec2 near, vec2 size, double gap, vec2 *at);
-/// The approximate width of a text, without font tables.
-double text_get_width(const char *text, double font_size);
 
 /// Draws the names beside the figures, of those that are seen and where there is room. order: of painting.
 void draw_names(const figure *figures, const size_t *order, size_t count, const drawing *d, labels *l);

@@ -4,6 +4,7 @@
 #include "io/json.h"
 
 #include <math.h>
+#include <string.h>
 
 color color_mix(color a, color b, double t) {
     return (color){a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
@@ -77,6 +78,17 @@ void svg_arc(svg_path *path, vec2 center, vec2 u, vec2 v, double from, double to
         svg_curve(path, arc_point(center, u, v, c0 - k * s0, s0 + k * c0),
                   arc_point(center, u, v, c1 + k * s1, s1 - k * c1), arc_point(center, u, v, c1, s1));
     }
+}
+
+double text_get_width(const char *text, double font_size) {
+    double width = 0;
+    for (; *text; text++) {
+        if (((unsigned char)*text & 0xc0) == 0x80) continue;
+        width += strchr("iljtfI.,:;|!'() ", *text)                        ? 0.38
+                 : strchr("mwMW@", *text) || (unsigned char)*text >= 0x80 ? 1.0
+                                                                          : 0.69;
+    }
+    return width * font_size;
 }
 
 void svg_escape(FILE *file, const char *text) {

@@ -38,6 +38,9 @@ void svg_polygon(svg_path *path, const vec2 *points, size_t count);
 /// of the size). Starts a new line of the path.
 void svg_arc(svg_path *path, vec2 center, vec2 u, vec2 v, double from, double to);
 
+/// The approximate width of a text in pixels, without font tables; of common fonts none is wider by much.
+double text_get_width(const char *text, double font_size);
+
 /// A text as XML: escaped, control characters left out, bytes that are not UTF-8 replaced.
 void svg_escape(FILE *file, const char *text);
 
