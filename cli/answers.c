@@ -37,9 +37,9 @@ ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid
 
 static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {
     ovoid_options options = {.absolute_tolerance = q->tolerance};
-    if (q->query == QUERY_COLLIDE) return ovoid_compound_collide(pair, &options, NULL, exclusions);
-    if (q->query == QUERY_WITHIN) return ovoid_compound_within(pair, q->margin, &options, NULL, exclusions);
-    return ovoid_compound_depth(pair, &options, NULL, exclusions);
+    if (q->query == QUERY_COLLIDE) return ovoid_compound_collide(pair, &options, q->earlier, exclusions);
+    if (q->query == QUERY_WITHIN) return ovoid_compound_within(pair, q->margin, &options, q->earlier, exclusions);
+    return ovoid_compound_depth(pair, &options, q->earlier, exclusions);
 }
 
 /// Makes room for that many exclusions; 0 where memory is out.
@@ -126,7 +126,7 @@ static int make_record(const answers_job *job, chunk *k, size_t i, int wants_pro
                                    .time = job->time,
                                    .margin = job->margin,
                                    .frame = NAN};
-    const answers_query query = {job->query, job->margin, job->tolerance, wants_proof};
+    const answers_query query = {job->query, job->margin, job->tolerance, wants_proof, NULL};
     return answers_find(&k->room, &pair, &query, &k->records[i]);
 }
 

@@ -22,7 +22,8 @@ typedef struct answer_room {
 typedef struct answers_query {
     int query; ///< of enum query
     double margin, tolerance;
-    int wants_proof; ///< 1: with cover and exclusions
+    int wants_proof;                     ///< 1: with cover and exclusions
+    const ovoid_compound_proof *earlier; ///< of this pair, or NULL
 } answers_query;
 
 /// Answers one query: the record's answer and parts, and with a proof its cover and exclusions, which live in the room

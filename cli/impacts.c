@@ -22,6 +22,7 @@
 typedef struct impact {
     ovoid_couple couple;
     ovoid_impact found;
+    uint32_t parts[2]; ///< of compounds: those that meet
     ovoid_step *steps;
     ovoid_step_group *groups; ///< of compounds
     size_t group_count;
@@ -188,6 +189,8 @@ static void find_impact(const cli_impacts *x, impact *item) {
         if (item->failed) return;
         ovoid_compound_impact found = ovoid_compound_impact_find(&a, &b, x->margin, &options);
         item->found = found.impact;
+        item->parts[0] = found.part_a;
+        item->parts[1] = found.part_b;
         item->group_count = found.group_count;
         if (!proofs) return;
         if (!is_compound) item->group_count = 0;
@@ -237,12 +240,20 @@ static int compare_impacts(const void *a, const void *b) {
     return compare_couples(&p->couple, &q->couple);
 }
 
-/// The answer of compounds at a time between the frames. 0 where memory is out.
-static int answer_compounds(const cli_impacts *x, ovoid_couple c, double at, answer_room *room, ovoid_record *record) {
+/// The answer of compounds at a time between the frames, at which a hit is within the margin. 0 where memory is out.
+static int answer_compounds(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
+    const ovoid_couple c = item->couple;
+    double at = get_time(item);
+    int is_hit = item->found.status == OVOID_IMPACT_HIT;
     ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
     ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], at), ovoid_motion_compute_pose(&motions[1], at)};
     ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &poses[0]), answers_get_body(x->scene, c.b, &poses[1])};
-    const answers_query query = {QUERY_WITHIN, x->margin, 0, results_have_proofs(x->results)};
+    answers_query query = {QUERY_WITHIN, x->margin, 0, results_have_proofs(x->results), NULL};
+    int done = answers_find(room, &pair, &query, record);
+    if (!done || !is_hit || record->answer.upper <= x->margin) return done;
+    // Of bodies with allowances the few pairs of one proof may show less than those of the hit.
+    ovoid_compound_proof earlier = {item->parts[0], item->parts[1], item->found.hit.proof};
+    query.earlier = &earlier;
     return answers_find(room, &pair, &query, record);
 }
 
@@ -270,7 +281,7 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     record->group_count = item->groups ? item->group_count : 0;
     int done = 1;
     if (ovoid_scene_get(x->scene, c.a).compound || ovoid_scene_get(x->scene, c.b).compound)
-        done = answer_compounds(x, c, at, room, record);
+        done = answer_compounds(x, item, room, record);
     if (!is_hit) record->answer.limit = item->found.limit;
     return done;
 }

@@ -131,12 +131,15 @@ static void check_pair(const trial *t) {
     // Not wider than it says: the sign is open only where the allowances' width reaches it.
     if (x.limit == OVOID_LIMIT_ALLOWANCE) CHECK_LE(fabs(truth.lower), t->width + slack);
 
-    ovoid_answer cold = ovoid_collide(&t->shapes, NULL, NULL), warm = ovoid_collide(&t->shapes, NULL, &cold.proof);
+    ovoid_answer cold = ovoid_collide(&t->shapes, NULL, NULL), warm = ovoid_collide(&t->shapes, NULL, &cold.proof),
+                 deep = ovoid_collide(&t->shapes, NULL, &x.proof);
     check_answer(t, &cold, &truth, 0);
     check_answer(t, &warm, &truth, 0);
     CHECK(ovoid_answer_check(&t->shapes, &cold, NULL, NULL) == OVOID_OK);
     check_decided(&cold, &truth);
+    // No earlier proof leaves open what a cold query proves.
     CHECK(warm.status == cold.status || cold.status == OVOID_UNDECIDED);
+    CHECK(deep.status == cold.status || cold.status == OVOID_UNDECIDED);
 
     x = ovoid_distance(&t->shapes, NULL, &cold.proof);
     check_answer(t, &x, &truth, 0);
