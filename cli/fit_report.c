@@ -51,7 +51,7 @@ void fit_write_report(FILE *file, const fitted *f) {
     fprintf(file, "  hull     %s, %u facets of %u triangles\n", get_rank_name(r->rank), (unsigned)f->facets,
             (unsigned)f->triangles);
     if (f->measure > 0) fprintf(file, "  %-8s %.9g\n", get_measure_name(r->rank), f->measure);
-    if (f->convexity.mesh_volume >= 0 && r->rank == 3)
+    if (f->convexity.mesh_volume >= 0 && r->rank == 3 && m->volume > 0)
         fprintf(file, "  mesh     %.9g enclosed, %.4g %% of the hull\n", f->convexity.mesh_volume,
                 100 * f->convexity.mesh_volume / m->volume);
     if (r->rank == 3) fprintf(file, "  surface  %.9g\n", m->area);

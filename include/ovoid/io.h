@@ -85,7 +85,8 @@ OVOID_API int ovoid_io_has_assimp(void);
 
 /** What the faces of a mesh enclose, beside its hull, which is the body that is queried. */
 typedef struct ovoid_convexity {
-    double mesh_volume; /**< NaN where the faces are no closed surface, or there are none; hollows do not count */
+    double mesh_volume; /**< NaN where the faces are no closed surface (open, or there twice), or there are none;
+                           hollows do not count */
     double hull_volume; /**< of the hull without its rounding radius; 0 where it is not solid; NaN: of no mesh */
     int is_nonconvex;   /**< 1: the hull has more, beyond rounding and by more than a thousandth: the mesh has dents,
                              holes, or several objects; 0: it has not, or that is not known */

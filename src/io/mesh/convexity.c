@@ -80,6 +80,8 @@ ovoid_convexity ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part
     double diagonal = hypot(hypot(m.box.max.x - m.box.min.x, m.box.max.y - m.box.min.y), m.box.max.z - m.box.min.z);
     // Points that are off by d take from a convex body, or give to it, no more than a layer d thick on its surface.
     double allowed = fmax(SHARE * m.volume, ROUNDING * diagonal * m.area);
+    // No surface encloses more than its hull: faces that are there twice are none.
+    if (c.mesh_volume - m.volume > allowed) c.mesh_volume = NAN;
     c.is_nonconvex = m.volume - c.mesh_volume > allowed;
     return c;
 }
