@@ -228,10 +228,10 @@ static void clear(void *slot) { (void)slot; }
 
 /* ---- what is written */
 
+static int is_hit(const impact *item) { return item->found.status == OVOID_IMPACT_HIT; }
+
 /// The time of an impact: when the pair is within the margin; where that is not proven, until when it is free.
-static double get_time(const impact *item) {
-    return item->found.status == OVOID_IMPACT_HIT ? item->found.hit_at : item->found.free_until;
-}
+static double get_time(const impact *item) { return is_hit(item) ? item->found.hit_at : item->found.free_until; }
 
 static int compare_impacts(const void *a, const void *b) {
     const impact *p = a, *q = b;
@@ -244,13 +244,12 @@ static int compare_impacts(const void *a, const void *b) {
 static int answer_compounds(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
     double at = get_time(item);
-    int is_hit = item->found.status == OVOID_IMPACT_HIT;
     ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
     ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], at), ovoid_motion_compute_pose(&motions[1], at)};
     ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &poses[0]), answers_get_body(x->scene, c.b, &poses[1])};
     answers_query query = {QUERY_WITHIN, x->margin, 0, results_have_proofs(x->results), NULL};
     int done = answers_find(room, &pair, &query, record);
-    if (!done || !is_hit || record->answer.upper <= x->margin) return done;
+    if (!done || !is_hit(item) || record->answer.upper <= x->margin) return done;
     // Of bodies with allowances the few pairs of one proof may show less than those of the hit.
     ovoid_compound_proof earlier = {item->parts[0], item->parts[1], item->found.hit.proof};
     query.earlier = &earlier;
@@ -262,11 +261,10 @@ static int answer_compounds(const cli_impacts *x, const impact *item, answer_roo
 /// memory is out.
 static int make_record(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
-    int is_hit = item->found.status == OVOID_IMPACT_HIT;
     double at = get_time(item);
     *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
                              .b = ovoid_scene_get(x->scene, c.b).name,
-                             .answer = is_hit ? item->found.hit : item->found.free,
+                             .answer = is_hit(item) ? item->found.hit : item->found.free,
                              .fields = x->results->fields,
                              .time = x->frames->earlier + at,
                              .frame = x->frames->earlier,
@@ -282,7 +280,7 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     int done = 1;
     if (ovoid_scene_get(x->scene, c.a).compound || ovoid_scene_get(x->scene, c.b).compound)
         done = answer_compounds(x, item, room, record);
-    if (!is_hit) record->answer.limit = item->found.limit;
+    if (!is_hit(item)) record->answer.limit = item->found.limit;
     return done;
 }
 
@@ -309,9 +307,9 @@ static int write_impacts(cli_impacts *x, const impact *items) {
         ovoid_record record;
         if (items[i].found.status == OVOID_IMPACT_FREE) continue;
         // That an open pair stays open is in the lines of the frames.
-        if (items[i].found.status != OVOID_IMPACT_HIT && has_couple(x->open, x->open_count, items[i].couple)) continue;
+        if (!is_hit(&items[i]) && has_couple(x->open, x->open_count, items[i].couple)) continue;
         int arrives = is_arrival(x, &items[i]);
-        if (items[i].found.status == OVOID_IMPACT_HIT || arrives)
+        if (is_hit(&items[i]) || arrives)
             x->found++;
         else
             x->not_proven++;

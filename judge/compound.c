@@ -91,12 +91,12 @@ static ovoid_code find_reach(pool *p, const side *s, const uint32_t range[2], nv
         ovoid_posed_shape part = get_part(s->body, get_index(s, place));
         if (!judge_is_pose_valid(&part.pose)) return OVOID_ERROR_PROOF;
         body b = body_make(p, part.shape, &part.pose);
-        num support = body_support(p, &b, n, way);
+        num support = body_support(p, &b, n, way), radius = num_add(p, b.radius, b.outside);
         if (way < 0) support = num_neg(p, support);
-        if (!r->has_part || is_farther(p, r, support, b.n, num_add(p, b.radius, b.outside), square)) {
+        if (!r->has_part || is_farther(p, r, support, b.n, radius, square)) {
             slot_set(r->support, support);
             slot_set(r->n, b.n);
-            slot_set(r->radius, num_add(p, b.radius, b.outside));
+            slot_set(r->radius, radius);
             r->has_part = 1;
         }
         pool_release(p, mark);
