@@ -9,7 +9,7 @@ static void test_life(uint64_t seed, double scale, int frames) {
     life_begin(&l, seed, scale, shapes);
     ovoid_contact_query q = {.kind = (ovoid_query_kind)(seed % 4), .margin = seed % 4 ? 0.3 * scale : 0};
     for (int f = 0; f < frames; f++) {
-        (void)life_frame(&l, &q);
+        life_frame(&l, &q);
         life_step(&l);
     }
     life_end(&l);

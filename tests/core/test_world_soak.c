@@ -1,6 +1,6 @@
 // Worlds at random: test_world_soak [--lives N] [--seed S] [--seconds T]. 3 lives where nothing is said, so that what
 // is checked does not depend on the machine; --seconds: as many as that takes. Every frame is compared with all pairs
-// asked one by one (worlds.h), and the memory of a world that has lived for a while must not grow any more.
+// asked one by one (worlds.h), and the world's memory with what its bodies and pairs may take (world_life.h).
 #include "world_life.h"
 
 #include <time.h>
@@ -19,12 +19,8 @@ static void run(uint64_t seed) {
     life l;
     life_begin(&l, seed, scales[seed % 4], shapes);
     ovoid_contact_query q = {.kind = OVOID_QUERY_COLLIDE};
-    // All pairs of the most bodies there may be, and twice the room for each: no life needs more.
-    size_t least = 0;
     for (int f = 0; f < FRAMES && !is_over(); f++) {
-        size_t memory = life_frame(&l, &q);
-        if (f == FRAMES / 4) least = memory;
-        if (f > FRAMES / 4) CHECK_LE(memory, 3 * least);
+        life_frame(&l, &q);
         life_step(&l);
     }
     life_end(&l);
