@@ -61,6 +61,10 @@ static inline vec3 frame_vertex_b(const pair_frame *f, uint32_t i) {
 static inline vec3 frame_difference(const pair_frame *f, uint32_t a, uint32_t b) {
     return vec3_sub(frame_vertex_b(f, b), frame_vertex_a(f, a));
 }
+/// B's point minus A's in the world's axes; the points are in their body frames, and frame_place is enough.
+static inline vec3 frame_world_difference(const pair_frame *f, vec3 a, vec3 b) {
+    return vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, b), mat3_mul_vec3(f->world, a)));
+}
 /// A point or direction of the frame in the world, and back.
 static inline vec3 frame_point_to_world(const pair_frame *f, vec3 x) {
     return vec3_add(f->world_origin, mat3_mul_vec3(f->world, x));

@@ -20,12 +20,16 @@ static double norm_in(const ovoid_shape *s, vec3 x, double error) {
     return norm_of(in, vec3_sub(x, s->inner.center)) * (1 + 1e-6) + error / in->least;
 }
 
+// The bound by a point whose norms are a and b.
+static double upper_of(const pair_frame *f, double a, double b) {
+    if (!(a < 1 - 1e-5) || !(b < 1 - 1e-5)) return 0;
+    return -0.999 * ((1 - a) * f->a->inside.least + (1 - b) * f->b->inside.least) - f->upper_radii;
+}
+
 double inner_compute_upper(const pair_frame *f, vec3 x) {
     if (!vec3_is_finite(x)) return 0;
     vec3 in_b = mat3_mul_transposed_vec3(f->rotation, vec3_sub(x, f->translation));
-    double a = norm_in(f->a, x, 0), b = norm_in(f->b, in_b, f->claim);
-    if (!(a < 1 - 1e-5) || !(b < 1 - 1e-5)) return 0;
-    return -0.999 * ((1 - a) * f->a->inside.least + (1 - b) * f->b->inside.least) - f->upper_radii;
+    return upper_of(f, norm_in(f->a, x, 0), norm_in(f->b, in_b, f->claim));
 }
 
 double inner_points_compute_upper(const pair_frame *f, vec3 a, vec3 b, double error) {
@@ -34,18 +38,41 @@ double inner_points_compute_upper(const pair_frame *f, vec3 a, vec3 b, double er
     return vec3_norm(vec3_sub(frame_b(f, b), a)) - f->upper_radii + error;
 }
 
+// The share of the way from A's centre to B's at which a point of it is common, if any is; ka, kb: the norms of the
+// way. 0 where none is; *is_common.
+static double find_share(double ka, double kb, int *is_common) {
+    *is_common = ka * kb < 0.999 * (ka + kb);
+    return kb / (ka + kb);
+}
+
+double inner_compute_upper_in_world(const pair_frame *f, vec3 *x) {
+    const shape_inner *a = &f->a->inside, *b = &f->b->inside;
+    vec3 c = f->a->inner.center, d = frame_world_difference(f, c, f->b->inner.center);
+    double reach = a->reach + b->reach;
+    if (!(a->least > 0) || !(b->least > 0) || !(vec3_norm_squared(d) < reach * reach)) return 0;
+    vec3 way = mat3_mul_transposed_vec3(f->world, d);
+    int is_common;
+    double share = find_share(norm_of(a, way), norm_of(b, mat3_mul_transposed_vec3(f->world_b, d)), &is_common);
+    if (!is_common) return 0;
+    *x = vec3_add_scaled(c, way, share);
+    vec3 in_b = mat3_mul_transposed_vec3(f->world_b, vec3_sub(mat3_mul_vec3(f->world, *x), f->offset));
+    return upper_of(f, norm_in(f->a, *x, 0), norm_in(f->b, in_b, 2 * f->claim));
+}
+
 int inner_find_common(const pair_frame *f, vec3 *x) {
     const shape_inner *a = &f->a->inside, *b = &f->b->inside;
     vec3 d = vec3_sub(frame_b(f, f->b->inner.center), f->a->inner.center);
     double reach = a->reach + b->reach;
     if (!(a->least > 0) || !(b->least > 0) || !(vec3_norm_squared(d) < reach * reach)) return 0;
     double ka = norm_of(a, d), kb = norm_of(b, mat3_mul_transposed_vec3(f->rotation, d));
-    if (!(ka * kb < 0.999 * (ka + kb))) {
+    int is_common;
+    double share = find_share(ka, kb, &is_common);
+    if (!is_common) {
         // Concentric ellipsoids have their centre in common.
         if (ka > 0) return 0;
         *x = f->a->inner.center;
         return 1;
     }
-    *x = vec3_add_scaled(f->a->inner.center, d, kb / (ka + kb));
+    *x = vec3_add_scaled(f->a->inner.center, d, share);
     return 1;
 }

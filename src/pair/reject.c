@@ -1,16 +1,10 @@
 // First rejections, by spheres and by the normal of an earlier proof.
 #include "pair/reject.h"
 
-static double claim(const pair_frame *f) { return FRAME_REJECT * f->size + 3 * f->hidden; }
-
-// B's point minus A's, in the world; the points are in their body frames.
-static vec3 find_difference(const pair_frame *f, vec3 a, vec3 b) {
-    return vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, b), mat3_mul_vec3(f->world, a)));
-}
-
 int reject_by_spheres(const pair_frame *f, double far, rejection *found) {
-    vec3 d = find_difference(f, f->a->center, f->b->center);
-    double distance = vec3_norm(d), lower = distance - (f->a->reach + f->b->reach) - f->lower_radii - claim(f);
+    vec3 d = frame_world_difference(f, f->a->center, f->b->center);
+    double distance = vec3_norm(d),
+           lower = distance - (f->a->reach + f->b->reach) - f->lower_radii - reject_get_claim(f);
     found->lower = lower;
     if (!(lower > far)) return 0;
     *found = (rejection){lower, vec3_scale(d, 1 / distance), 0, 0, OVOID_STAGE_SPHERE};
@@ -22,7 +16,8 @@ int reject_by_normal(const pair_frame *f, double far, const ovoid_proof *earlier
     vec3 n = vec3_unit(earlier->normal);
     simd_pair x =
         frame_find_pair(f, mat3_mul_transposed_vec3(f->world, n), vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)));
-    double gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value, lower = gap - f->lower_radii - claim(f);
+    double gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value,
+           lower = gap - f->lower_radii - reject_get_claim(f);
     // A direction that underflowed to nothing proves nothing.
     if (!(lower > far) || !(vec3_norm_squared(n) > 0.5)) return 0;
     *found = (rejection){lower, n, x.high.index, x.low.index, OVOID_STAGE_PROOF};
@@ -34,7 +29,7 @@ ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, cons
     vec3 b = mat3_mul_vec3(f->world_b, g->b ? vec3_at(shape_vertices(f->b), g->b) : f->b->first);
     vec3 d = vec3_add(f->offset, vec3_sub(b, a));
     double distance = vec3_norm(d);
-    double upper = distance - f->upper_radii + claim(f);
+    double upper = distance - f->upper_radii + reject_get_claim(f);
     // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
     double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
     // One expression, which gcc 12 builds in place; it would copy a variable.

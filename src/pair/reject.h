@@ -10,6 +10,9 @@
 
 #define FRAME_REJECT (384 * 0x1p-53)
 
+/// What a bound that was measured in the world is widened by.
+static inline double reject_get_claim(const pair_frame *f) { return FRAME_REJECT * f->size + 3 * f->hidden; }
+
 /// A lower bound above the goal's `far`, and what shows it.
 typedef struct rejection {
     double lower;

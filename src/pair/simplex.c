@@ -143,10 +143,15 @@ void simplex_compute_weights(simplex *s) {
 }
 
 void simplex_compute_inside_weights(simplex *s) {
-    double sum = 0;
+    double sum = 0, reach = 0;
+    vec3 w[4];
+    for (int i = 0; i < 4; i++) reach = max2(reach, vec3_max_abs(s->p[i].w));
+    // Volumes of lengths below 1e-100 would underflow.
+    double unit = reach < 1e-90 ? ldexp(1, -find_unit_exponent(reach)) : 1;
+    for (int i = 0; i < 4; i++) w[i] = vec3_scale(s->p[i].w, unit);
     for (int i = 0; i < 4; i++) {
         const int *v = faces[i];
-        s->weight[i] = fabs(vec3_dot(s->p[v[0]].w, vec3_cross(s->p[v[1]].w, s->p[v[2]].w)));
+        s->weight[i] = fabs(vec3_dot(w[v[0]], vec3_cross(w[v[1]], w[v[2]])));
         sum += s->weight[i];
     }
     for (int i = 0; i < 4; i++) s->weight[i] /= sum;

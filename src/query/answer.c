@@ -31,10 +31,10 @@ static void set_upper_proof(ovoid_proof *p, const search *s) {
     }
 }
 
-static ovoid_status find_status(const search *s) {
-    if (s->lower > 0) return OVOID_SEPARATED;
-    if (s->upper < 0) return OVOID_OVERLAPPING;
-    return s->upper - s->lower <= s->goal.tolerance - s->goal.allowance ? OVOID_TOUCHING : OVOID_UNDECIDED;
+static ovoid_status find_status(double lower, double upper, const query_goal *goal) {
+    if (lower > 0) return OVOID_SEPARATED;
+    if (upper < 0) return OVOID_OVERLAPPING;
+    return upper - lower <= goal->tolerance - goal->allowance ? OVOID_TOUCHING : OVOID_UNDECIDED;
 }
 
 // Why the bracket is wider than the tolerance, if it is.
@@ -65,7 +65,7 @@ static void complete(search *s) {
 
 ovoid_verdict answer_make_verdict(search *s) {
     complete(s);
-    ovoid_status status = find_status(s);
+    ovoid_status status = find_status(s->lower, s->upper, &s->goal);
     return (ovoid_verdict){status, s->stage, find_limit(s, status), s->iterations, s->lower, s->upper};
 }
 
@@ -82,6 +82,52 @@ void answer_write(search *s, ovoid_answer *out) {
     witness_points w = witness_compute_points(f, &out->proof);
     out->point_a = frame_point_to_world(f, w.a);
     out->point_b = frame_point_to_world(f, w.b);
+}
+
+ovoid_verdict answer_make_small_verdict(const small_end *x, const query_goal *goal) {
+    ovoid_status status = find_status(x->lower, x->upper, goal);
+    final_bracket b = {x->lower, x->upper, goal->tolerance, 0, status, x->kind};
+    ovoid_limit limit = bracket_is_narrow(&b, goal) ? OVOID_LIMIT_NONE : bracket_find_limit(&b, goal, OVOID_LIMIT_NONE);
+    return (ovoid_verdict){status, x->stage, limit, x->iterations, x->lower, x->upper};
+}
+
+ovoid_answer answer_make_small(const small_end *x, const pair_frame *f, const query_goal *goal) {
+    ovoid_verdict is = answer_make_small_verdict(x, goal);
+    ovoid_answer out = {.status = is.status,
+                        .stage = is.stage,
+                        .limit = is.limit,
+                        .iterations = is.iterations,
+                        .lower = is.lower,
+                        .upper = is.upper,
+                        .normal = x->normal,
+                        .proof = {.normal = x->normal, .kind = x->kind, .count = (uint32_t)x->points.count}};
+    vec3 a = {0, 0, 0}, b = a;
+    for (int i = 0; i < x->points.count; i++) {
+        difference p = x->points.p[i];
+        double weight = x->points.weight[i];
+        out.proof.a[i] = p.a;
+        out.proof.b[i] = p.b;
+        out.proof.weight_a[i] = out.proof.weight_b[i] = weight;
+        a = vec3_add_scaled(a, vec3_at(shape_vertices(f->a), p.a), weight);
+        b = vec3_add_scaled(b, vec3_at(shape_vertices(f->b), p.b), weight);
+    }
+    if (x->kind == OVOID_PROOF_INNER) {
+        out.proof.inner_a = x->inner;
+        out.point_a = out.point_b = vec3_add(f->world_origin, mat3_mul_vec3(f->world, x->inner));
+        return out;
+    }
+    a = mat3_mul_vec3(f->world, a);
+    b = vec3_add(f->offset, mat3_mul_vec3(f->world_b, b));
+    double radii = f->a->radius + f->b->radius;
+    if (radii > 0 && x->kind == OVOID_PROOF_POINTS) {
+        // As in witness_compute_points: along the difference, or where the radii overlap along the normal.
+        vec3 d = vec3_sub(b, a), n = vec3_norm(d) > radii ? vec3_unit(d) : x->normal;
+        a = vec3_add_scaled(a, n, f->a->radius);
+        b = vec3_add_scaled(b, n, -f->b->radius);
+    }
+    out.point_a = vec3_add(f->world_origin, a);
+    out.point_b = vec3_add(f->world_origin, b);
+    return out;
 }
 
 // The first rejections. The spheres come first, as they cost the same for any number of vertices. The normal of an
@@ -142,8 +188,8 @@ void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier
     if (!search_is_done(s)) refine_run(s, pair, earlier);
 }
 
-// How a query begins: refused, rejected, or passed on to the search.
-typedef enum beginning { BEGIN_REFUSED, BEGIN_REJECTED, BEGIN_SEARCH } beginning;
+// How a query begins: refused, rejected, a pair of small bodies, or passed on to the search.
+typedef enum beginning { BEGIN_REFUSED, BEGIN_REJECTED, BEGIN_SMALL, BEGIN_SEARCH } beginning;
 
 static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given, query_goal *goal,
                               const ovoid_proof *earlier, ovoid_cover *cover, pair_frame *frame, rejection *found,
@@ -158,7 +204,8 @@ static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given
     goal->tolerance = max2(options.absolute_tolerance, options.relative_tolerance * frame->size) + 8 * frame->hidden +
                       goal->allowance;
     goal->iterations = options.iterations;
-    return try_rejections(frame, goal, earlier, found) ? BEGIN_REJECTED : BEGIN_SEARCH;
+    if (try_rejections(frame, goal, earlier, found)) return BEGIN_REJECTED;
+    return !earlier && small_takes(goal, frame->a, frame->b, found->lower) ? BEGIN_SMALL : BEGIN_SEARCH;
 }
 
 static void run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const query_goal *goal,
@@ -180,10 +227,16 @@ void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, qu
                           const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out) {
     pair_frame frame;
     rejection found;
+    small_end end;
     ovoid_limit refused;
     switch (begin(pair, given, &goal, earlier, cover, &frame, &found, &refused)) {
     case BEGIN_REFUSED: *out = answer_make_refused(refused); break;
     case BEGIN_REJECTED: *out = rejection_make_answer(&found, &frame, &goal); break;
+    case BEGIN_SMALL:
+        if (small_run(&frame, &goal, found.lower, &end)) {
+            *out = answer_make_small(&end, &frame, &goal);
+            break;
+        } // fall through
     case BEGIN_SEARCH: run_search(pair, &frame, found.lower, &goal, earlier, cover, out); break;
     }
 }
@@ -204,10 +257,14 @@ COMPILER_NOINLINE static ovoid_answer find_by_value(const ovoid_pair *pair, cons
     query_goal goal = *wanted;
     pair_frame frame;
     rejection found;
+    small_end end;
     ovoid_limit refused;
     switch (begin(pair, given, &goal, earlier, cover, &frame, &found, &refused)) {
     case BEGIN_REFUSED: return answer_make_refused(refused);
     case BEGIN_REJECTED: return rejection_make_answer(&found, &frame, &goal);
+    case BEGIN_SMALL:
+        if (small_run(&frame, &goal, found.lower, &end)) return answer_make_small(&end, &frame, &goal);
+        // fall through
     default: return search_by_value(pair, &frame, found.lower, &goal, earlier, cover);
     }
 }

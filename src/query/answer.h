@@ -2,12 +2,17 @@
 #ifndef OVOID_QUERY_ANSWER_H
 #define OVOID_QUERY_ANSWER_H
 
+#include "exact/small.h"
 #include "query/goal.h"
 
 /// Writes the answer of a search that has ended.
 void answer_write(search *s, ovoid_answer *out);
 /// The answer of a search that has ended, without points and proof.
 ovoid_verdict answer_make_verdict(search *s);
+
+/// The answer of a search of small bodies, with points and proof or without. Its frame needs only frame_place.
+ovoid_answer answer_make_small(const small_end *end, const pair_frame *frame, const query_goal *goal);
+ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal);
 
 /// The exact methods, from the bounds and the simplex that the stages before them left, until the query is answered or
 /// no method makes progress. earlier and cover may be NULL.

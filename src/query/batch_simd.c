@@ -230,6 +230,18 @@ static void end_at_support(const batch_state *c, const lane_group *e, unsigned k
     }
 }
 
+// Ends a couple of small bodies.
+static void end_small(const ovoid_batch *batch, int wants_evidence, size_t index, const pair_frame *frame,
+                      const query_goal *goal, const small_end *end) {
+    if (!wants_evidence) {
+        write_verdict(batch, index, answer_make_small_verdict(end, goal));
+        return;
+    }
+    ovoid_answer own, *out = batch->answers ? &batch->answers[index] : &own;
+    *out = answer_make_small(end, frame, goal);
+    batch_write(batch, index, out);
+}
+
 // The exact search of a couple that was left open.
 static void search_open(const ovoid_batch *batch, query_goal goal, int wants_evidence, const open_couple *x) {
     const ovoid_posed_shape *a = &batch->bodies[batch->couples[x->index].a],
@@ -399,6 +411,25 @@ static unsigned find_places(const batch_state *c, size_t first, unsigned count, 
     return odd;
 }
 
+// Searches those of the lanes `open` that are small and start from the line of centres. The mask of these.
+static unsigned end_lines(const batch_state *c, const lane_group *e, unsigned open) {
+    unsigned lines = 0;
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        double spheres = e->lanes->lower.lane[k];
+        if (!small_takes(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, spheres)) continue;
+        lines |= 1u << k;
+        pair_frame frame = get_frame(e, k);
+        query_goal goal = get_goal(c, e, k);
+        small_end end;
+        if (small_run(&frame, &goal, spheres, &end))
+            end_small(c->batch, c->wants_evidence, e->index[k], &frame, &goal, &end);
+        else
+            leave_alone(c, e->index[k]);
+    }
+    return lines;
+}
+
 // Takes couples through the spheres. They are placed where they would wait, so that a group that the spheres leave open
 // stays there.
 static void take_group(batch_state *c, size_t first, unsigned count, lane_group *own) {
@@ -419,6 +450,7 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
         fetch_ellipsoids((const void *)e->at.shape_b[k]);
     }
+    open &= ~end_lines(c, e, open);
     if (open == PAIR8_ALL && e != own)
         c->waiting_count += PAIR8;
     else

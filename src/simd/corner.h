@@ -13,6 +13,7 @@ typedef struct corner_lanes {
 /// What the step finds.
 typedef struct corner_step {
     double x, y, z; ///< the direction from the origin to the nearest point, of any length
+    double square;  ///< of that length
     unsigned kept;  ///< the lanes that stay; the new corner always does
     int is_inside;  ///< 1: the origin is in the tetrahedron; the other members then mean nothing
     int is_sliver;  ///< 1: a face whose edges meet at an angle below 0.01, so that its normal is uncertain

@@ -82,8 +82,8 @@ static inline void life_end(life *l) {
 }
 
 /// A frame with any question, looked at beside all pairs, and at the bytes that the world holds: arrays double, so an
-/// item's 330 bytes of a body with its leaf, and 390 of a pair with its cached answer and its contact, take at most twice
-/// that of the most there have been.
+/// item's 330 bytes of a body with its leaf, and 390 of a pair with its cached answer and its contact, take at most
+/// twice that of the most there have been.
 static inline void life_frame(life *l, ovoid_contact_query *q) {
     if (random_next(&l->s) % 6 == 0) {
         q->kind = (ovoid_query_kind)(random_next(&l->s) % 4);

@@ -5,7 +5,7 @@
 // any step's arithmetic changes the number; then take the one printed, after a look at the other tests.
 #include "bits.h"
 
-#define STORED 0xadd4ac1a9a9e3504u
+#define STORED 0x5a7a26ecbb384534u
 
 enum { PAIRS = 250 };
 

@@ -52,8 +52,8 @@ static point random_point(uint64_t *s) {
 
 static int same_bits(const corner_step *a, const corner_step *b) {
     double d[6] = {a->x, a->y, a->z, b->x, b->y, b->z};
-    return memcmp(d, d + 3, sizeof(double) * 3) == 0 && a->kept == b->kept && a->is_inside == b->is_inside &&
-           a->is_sliver == b->is_sliver;
+    return memcmp(d, d + 3, sizeof(double) * 3) == 0 && (a->square == b->square || isnan(a->square)) &&
+           a->kept == b->kept && a->is_inside == b->is_inside && a->is_sliver == b->is_sliver;
 }
 
 static corner_step step(const corner_lanes *old, unsigned valid, point a) {

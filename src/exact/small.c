@@ -1,0 +1,88 @@
+// From a pair in the world to the kernel of small bodies, and from its corners to bounds.
+#include "exact/small.h"
+
+#include "pair/hull.h"
+#include "pair/inner.h"
+#include "pair/reject.h"
+#include "simd/small_gjk.h"
+
+static simd_points get_points(const ovoid_shape *s) {
+    return (simd_points){shape_x(s), shape_y(s), shape_z(s), s->padded_count};
+}
+
+static void get_corners(const small_gjk_result *r, simplex *x) {
+    x->count = 0;
+    for (int i = 0; i < 4; i++)
+        if (r->valid >> i & 1) x->p[x->count++] = (difference){{r->at.x[i], r->at.y[i], r->at.z[i]}, r->a[i], r->b[i]};
+}
+
+// The upper bound: of the nearest point, or of the hull around the origin; infinity where the origin is not proven
+// inside.
+static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, small_end *end) {
+    simplex *x = &end->points;
+    if (kind != SMALL_GJK_INSIDE) {
+        end->kind = OVOID_PROOF_POINTS;
+        simplex_compute_weights(x);
+        return vec3_norm(simplex_compute_point(x)) - f->upper_radii + claim;
+    }
+    vec3 w[4] = {x->p[0].w, x->p[1].w, x->p[2].w, x->p[3].w};
+    double depth = hull_compute_depth(w, 4, claim);
+    if (!(depth > 0)) return INFINITY;
+    end->kind = OVOID_PROOF_HULL;
+    simplex_compute_inside_weights(x);
+    return -depth - f->upper_radii;
+}
+
+// How deep the spheres overlap, of the sum of their radii, where the inner ellipsoids are likely to overlap too.
+#define INNER_DEPTH 0.4
+
+// A common point of the inner ellipsoids: 1 if it proves an overlap. The lower bound is that of the spheres.
+static int run_inner(const pair_frame *f, double spheres, vec3 d, small_end *end) {
+    double upper = inner_compute_upper_in_world(f, &end->inner);
+    if (!(upper < 0)) return 0;
+    end->lower = spheres;
+    end->upper = upper;
+    end->normal = vec3_unit(d);
+    end->points.count = 0;
+    end->kind = OVOID_PROOF_INNER;
+    end->stage = OVOID_STAGE_INNER;
+    end->iterations = 0;
+    return 1;
+}
+
+static int run_gjk(const pair_frame *f, const query_goal *goal, vec3 n, small_end *end) {
+    double claim = reject_get_claim(f);
+    small_gjk_query q = {get_points(f->a),
+                         get_points(f->b),
+                         &f->world.r0.x,
+                         &f->world_b.r0.x,
+                         {f->offset.x, f->offset.y, f->offset.z},
+                         {n.x, n.y, n.z},
+                         f->lower_radii,
+                         f->upper_radii,
+                         claim,
+                         goal->far,
+                         goal->near,
+                         goal->tolerance,
+                         goal->wants_bracket,
+                         goal->iterations};
+    small_gjk_result r;
+    simd_run_small_gjk(&q, &r);
+    if (r.end == SMALL_GJK_OPEN) return 0;
+    double scale = 1 / sqrt(r.square);
+    // No zero of a direction is negative.
+    end->normal = (vec3){r.n[0] * scale + 0.0, r.n[1] * scale + 0.0, r.n[2] * scale + 0.0};
+    end->lower = r.gap * scale - f->lower_radii - claim;
+    end->iterations = r.iterations;
+    end->stage = r.iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
+    get_corners(&r, &end->points);
+    end->upper = find_upper(f, r.end, claim, end);
+    return query_goal_is_met(goal, end->lower, end->upper);
+}
+
+int small_run(const pair_frame *f, const query_goal *goal, double spheres, small_end *end) {
+    vec3 d = frame_world_difference(f, f->a->center, f->b->center);
+    if (!(vec3_norm_squared(d) > 1e-150)) return 0;
+    if (spheres < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, spheres, d, end)) return 1;
+    return run_gjk(f, goal, d, end);
+}

@@ -1,0 +1,41 @@
+// The exact search of small bodies: after the spheres, before any ellipsoid. With few vertices a support costs less
+// than the ellipsoids' direction, and most of a query's time is what goes on around the search; so it works in the
+// world's axes, where the bodies are when the spheres are done, in one kernel (simd/small_gjk.h), and its answer is
+// made from the kernel's corners at once.
+//
+// Errors (docs/error-analysis.md): as in reject.h, FRAME_REJECT.
+#ifndef OVOID_EXACT_SMALL_H
+#define OVOID_EXACT_SMALL_H
+
+#include "pair/search.h"
+
+/// Most vertices of a body.
+enum { SMALL_POINTS = 32 };
+
+/// What the search found: bounds that answer the query, and what proves them.
+typedef struct small_end {
+    double lower, upper;
+    vec3 normal;    ///< of the lower bound: unit, world
+    simplex points; ///< differences in the world's axes with weights: of the nearest point, or of the origin inside
+    vec3 inner;     ///< INNER: the common point, A's body frame
+    ovoid_proof_kind kind; ///< POINTS, HULL or INNER
+    ovoid_stage stage;
+    uint32_t iterations;
+} small_end;
+
+/// 1 if the pair is one for small_run: few vertices, no allowance. For a distance the line of centres is as good a
+/// start as any. For a yes or no of more vertices the outer ellipsoids are asked: alone they cost what they save, in
+/// lanes a quarter of it. spheres: the lower bound of reject_by_spheres; depths are not measured here.
+enum { SMALL_LINE_VERTICES = 40 };
+static inline int small_takes(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
+    int is_small =
+        (a->padded_count <= SMALL_POINTS) & (b->padded_count <= SMALL_POINTS) & !(a->has_allowance | b->has_allowance);
+    int is_line = (goal->far == INFINITY) | (a->vertex_count + b->vertex_count <= SMALL_LINE_VERTICES);
+    return is_small & is_line & (!goal->wants_depth | (spheres > 0));
+}
+
+/// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much. 1: answered; 0:
+/// unusual, and nothing is known. The frame needs only frame_place.
+int small_run(const pair_frame *frame, const query_goal *goal, double spheres, small_end *end);
+
+#endif

@@ -1,0 +1,60 @@
+// GJK of two small bodies in one function: both are brought into the world's axes once, and supports, steps and tests
+// run without a call. For bodies of few points most of a query's time is the latency of one direction after another:
+// direction, values, largest value, its index, its point, the step's candidates, the next direction. Nothing but that
+// chain is waited for; bounds are computed beside it, and only branches read them.
+//
+// E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A fast procedure for computing the distance between complex objects in
+// three-dimensional space, 1988. What is unusual (contact to rounding, slivers, no progress) ends the search as OPEN,
+// for exact/gjk.c to decide.
+#ifndef OVOID_SIMD_SMALL_GJK_H
+#define OVOID_SIMD_SMALL_GJK_H
+
+#include "simd/corner.h"
+#include "simd/pair.h"
+
+enum { SMALL_GJK_POINTS = 32 };
+
+/// The pair, and when its search ends.
+typedef struct small_gjk_query {
+    simd_points a, b;              ///< body frames, at most SMALL_GJK_POINTS each, padded
+    const double *rows_a, *rows_b; ///< rotations to the world, by rows
+    double offset[3];              ///< of B's body frame from A's, world
+    double start[3];               ///< the first direction, from A to B, of any length
+    double lower_radii, upper_radii, claim;
+    double far, near, tolerance; ///< as in the goal of a query (pair/search.h)
+    int wants_bracket;
+    uint32_t iterations;
+} small_gjk_query;
+
+typedef enum small_gjk_end {
+    SMALL_GJK_OPEN,  ///< undecided here
+    SMALL_GJK_APART, ///< the gap along n and the support there answer the query: one corner
+    SMALL_GJK_NEAR,  ///< the gap along n and the nearest point of the corners answer the query: 1 to 3 corners
+    SMALL_GJK_INSIDE ///< the origin seems to be in the tetrahedron of four corners; n is the first direction
+} small_gjk_end;
+
+typedef struct small_gjk_result {
+    small_gjk_end end;
+    uint32_t iterations; ///< steps of the simplex
+    double n[3];         ///< a direction of any length, world, and
+    double square, gap;  ///< |n|^2, the gap along it times |n|
+    corner_lanes at;     ///< differences B minus A in the world,
+    uint32_t a[4], b[4]; ///< of these points,
+    unsigned valid;      ///< in the lanes of this mask
+} small_gjk_result;
+
+/// Runs the search. The same bits from every instruction set. Every number that comes back but OPEN's is finite; none
+/// is a proof: the caller makes the bounds from them.
+void simd_run_small_gjk(const small_gjk_query *query, small_gjk_result *result);
+
+typedef void small_gjk_function(const small_gjk_query *query, small_gjk_result *result);
+
+/// The function of one instruction set; NULL where this machine or build lacks it.
+small_gjk_function *simd_get_small_gjk(simd_isa isa);
+
+#if defined(__x86_64__) && defined(__GNUC__)
+/// The function for AVX2, compiled in a file of its own.
+small_gjk_function small_gjk_run_avx2;
+#endif
+
+#endif

@@ -1,0 +1,160 @@
+// The loop of small_gjk.h. Who includes it has defined
+//   SMALL_GJK_INLINE         the attributes of its functions
+//   posed                    a body's points in the world
+//   pose_points(p, from, rows, t, blocks), measure(m, a, b, blocks, x, y, z)
+//   met                      a support: gap, point indices a and b, and the difference as the step takes it
+//   met_get(m, w)            that difference as numbers
+//   corners                  up to four such differences
+//   corners_fill(c, m), corners_put(c, i, m), corners_store(c, at), corners_step(c, valid, m)
+// with `blocks`, the number of eights of points, known to the compiler.
+#include "simd/small_gjk.h"
+
+#include <math.h>
+
+// The state of the search: corners in lanes, those whose bit in `valid` is set, and the heading: the nearest point's
+// direction, of any length, and its height along it times that length.
+typedef struct walk {
+    corners at;
+    uint32_t a[4], b[4];
+    unsigned valid;
+    double x, y, z, height, square;
+} walk;
+
+SMALL_GJK_INLINE void put_corner(walk *k, unsigned i, const met *m) {
+    corners_put(&k->at, i, m);
+    k->a[i] = m->a;
+    k->b[i] = m->b;
+}
+
+SMALL_GJK_INLINE int is_known(const walk *k, const met *m) {
+    int known = 0;
+    for (int i = 0; i < 3; i++) known |= (k->a[i] == m->a) & (k->b[i] == m->b) & (int)(k->valid >> i);
+    return known & 1;
+}
+
+// 1 if the bounds answer the query, as query_goal_is_met of pair/search.h says of pairs without allowances.
+SMALL_GJK_INLINE int is_answered(const small_gjk_query *q, double lower, double upper) {
+    return (lower > 0 || upper < 0) &&
+           (upper <= q->near || upper < 0 || (q->wants_bracket && upper - lower <= q->tolerance));
+}
+
+// The step to the new corner: ON with the next heading, or how the search ends.
+typedef enum step_end { STEP_ON, STEP_INSIDE, STEP_OPEN } step_end;
+
+SMALL_GJK_INLINE step_end take_step(walk *k, const met *m) {
+    double w[3];
+    corner_step next = corners_step(&k->at, k->valid, m);
+    met_get(m, w);
+    double height = (next.x * w[0] + next.y * w[1]) + next.z * w[2];
+    double square = (next.x * next.x + next.y * next.y) + next.z * next.z;
+    int gains = height * height * k->square < k->height * k->height * square && square > 1e-150 && square < 1e150;
+    if (next.is_inside) {
+        put_corner(k, 3, m);
+        k->valid = 15;
+        return STEP_INSIDE;
+    }
+    if (!gains || next.is_sliver) return STEP_OPEN;
+    unsigned place = (unsigned)__builtin_ctz(~next.kept);
+    put_corner(k, place, m);
+    k->valid = next.kept | 1u << place;
+    k->x = next.x;
+    k->y = next.y;
+    k->z = next.z;
+    k->height = height;
+    k->square = square;
+    return STEP_ON;
+}
+
+SMALL_GJK_INLINE void write_direction(small_gjk_result *r, double x, double y, double z, double square, double gap) {
+    r->n[0] = x;
+    r->n[1] = y;
+    r->n[2] = z;
+    r->square = square;
+    r->gap = gap;
+}
+
+SMALL_GJK_INLINE void write_walk(small_gjk_result *r, const walk *k) {
+    corners_store(&k->at, &r->at);
+    for (int i = 0; i < 4; i++) r->a[i] = k->a[i], r->b[i] = k->b[i];
+    r->valid = k->valid;
+}
+
+// Ends with the support as the only corner.
+SMALL_GJK_INLINE void end_at_support(small_gjk_result *r, const met *m) {
+    double w[3];
+    met_get(m, w);
+    r->at.x[0] = w[0];
+    r->at.y[0] = w[1];
+    r->at.z[0] = w[2];
+    r->a[0] = m->a;
+    r->b[0] = m->b;
+    r->valid = 1;
+    r->end = SMALL_GJK_APART;
+}
+
+SMALL_GJK_INLINE small_gjk_end search(const small_gjk_query *q, const posed *a, const posed *b, uint32_t blocks,
+                                      walk *k, met *m, small_gjk_result *r) {
+    for (r->iterations = 0;; r->iterations++) {
+        double scale = 1 / sqrt(k->square), height = k->height * scale;
+        if (!(height > q->claim) || r->iterations >= q->iterations) return SMALL_GJK_OPEN;
+        measure(m, a, b, blocks, k->x, k->y, k->z);
+        double lower = m->gap * scale - q->lower_radii - q->claim, upper = height - q->upper_radii + q->claim;
+        int is_apart = lower > q->far;
+        if (is_apart || is_answered(q, lower, upper)) {
+            write_direction(r, k->x, k->y, k->z, k->square, m->gap);
+            return is_apart ? SMALL_GJK_APART : SMALL_GJK_NEAR;
+        }
+        if (is_known(k, m)) return SMALL_GJK_OPEN;
+        step_end end = take_step(k, m);
+        if (end != STEP_ON) return end == STEP_INSIDE ? SMALL_GJK_INSIDE : SMALL_GJK_OPEN;
+    }
+}
+
+SMALL_GJK_INLINE void run(const small_gjk_query *q, uint32_t blocks, small_gjk_result *r) {
+    static const double nowhere[3] = {0, 0, 0};
+    posed a, b;
+    met m;
+    walk k;
+    pose_points(&a, &q->a, q->rows_a, nowhere, blocks);
+    pose_points(&b, &q->b, q->rows_b, q->offset, blocks);
+    double x = q->start[0], y = q->start[1], z = q->start[2], square = (x * x + y * y) + z * z, w[3];
+    measure(&m, &a, &b, blocks, x, y, z);
+    met_get(&m, w);
+    k.x = w[0];
+    k.y = w[1];
+    k.z = w[2];
+    k.height = k.square = (w[0] * w[0] + w[1] * w[1]) + w[2] * w[2];
+    // The points of rounded bodies lie along their difference's own direction, which is measured next.
+    double gap = m.gap, lower = gap / sqrt(square) - q->lower_radii - q->claim;
+    int is_apart = lower > q->far, is_round = q->lower_radii > 0;
+    if (is_apart || (!is_round && is_answered(q, lower, sqrt(k.square) - q->upper_radii + q->claim))) {
+        write_direction(r, x, y, z, square, gap);
+        r->iterations = 0;
+        end_at_support(r, &m);
+        return;
+    }
+    r->end = SMALL_GJK_OPEN;
+    if (!(k.square > 1e-150 && k.square < 1e150)) return;
+    corners_fill(&k.at, &m);
+    for (int i = 0; i < 4; i++) k.a[i] = m.a, k.b[i] = m.b;
+    k.valid = 1;
+    r->end = search(q, &a, &b, blocks, &k, &m, r);
+    if (r->end == SMALL_GJK_APART) {
+        end_at_support(r, &m);
+        return;
+    }
+    write_walk(r, &k);
+    if (r->end == SMALL_GJK_INSIDE) write_direction(r, x, y, z, square, gap);
+}
+
+SMALL_GJK_INLINE void run_class(const small_gjk_query *q, small_gjk_result *r) {
+    uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
+    if (count <= 8)
+        run(q, 1, r);
+    else if (count <= 16)
+        run(q, 2, r);
+    else if (count <= 24)
+        run(q, 3, r);
+    else
+        run(q, 4, r);
+}
