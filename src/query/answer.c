@@ -91,6 +91,21 @@ ovoid_verdict answer_make_small_verdict(const small_end *x, const query_goal *go
     return (ovoid_verdict){status, x->stage, limit, x->iterations, x->lower, x->upper};
 }
 
+// The witness points of weighted vertices, a and b in their body frames, into the answer.
+static void place_small_points(const small_end *x, const pair_frame *f, vec3 a, vec3 b, ovoid_answer *out) {
+    a = mat3_mul_vec3(f->world, a);
+    b = vec3_add(f->offset, mat3_mul_vec3(f->world_b, b));
+    double radii = f->a->radius + f->b->radius;
+    if (radii > 0 && x->kind == OVOID_PROOF_POINTS) {
+        // As in witness_compute_points: along the difference, or where the radii overlap along the normal.
+        vec3 d = vec3_sub(b, a), n = vec3_norm(d) > radii ? vec3_unit(d) : x->normal;
+        a = vec3_add_scaled(a, n, f->a->radius);
+        b = vec3_add_scaled(b, n, -f->b->radius);
+    }
+    out->point_a = vec3_add(f->world_origin, a);
+    out->point_b = vec3_add(f->world_origin, b);
+}
+
 ovoid_answer answer_make_small(const small_end *x, const pair_frame *f, const query_goal *goal) {
     ovoid_verdict is = answer_make_small_verdict(x, goal);
     ovoid_answer out = {.status = is.status,
@@ -101,6 +116,11 @@ ovoid_answer answer_make_small(const small_end *x, const pair_frame *f, const qu
                         .upper = is.upper,
                         .normal = x->normal,
                         .proof = {.normal = x->normal, .kind = x->kind, .count = (uint32_t)x->points.count}};
+    if (x->kind == OVOID_PROOF_INNER) {
+        out.proof.inner_a = x->inner;
+        out.point_a = out.point_b = frame_point_to_world(f, x->inner);
+        return out;
+    }
     vec3 a = {0, 0, 0}, b = a;
     for (int i = 0; i < x->points.count; i++) {
         difference p = x->points.p[i];
@@ -111,22 +131,7 @@ ovoid_answer answer_make_small(const small_end *x, const pair_frame *f, const qu
         a = vec3_add_scaled(a, vec3_at(shape_vertices(f->a), p.a), weight);
         b = vec3_add_scaled(b, vec3_at(shape_vertices(f->b), p.b), weight);
     }
-    if (x->kind == OVOID_PROOF_INNER) {
-        out.proof.inner_a = x->inner;
-        out.point_a = out.point_b = vec3_add(f->world_origin, mat3_mul_vec3(f->world, x->inner));
-        return out;
-    }
-    a = mat3_mul_vec3(f->world, a);
-    b = vec3_add(f->offset, mat3_mul_vec3(f->world_b, b));
-    double radii = f->a->radius + f->b->radius;
-    if (radii > 0 && x->kind == OVOID_PROOF_POINTS) {
-        // As in witness_compute_points: along the difference, or where the radii overlap along the normal.
-        vec3 d = vec3_sub(b, a), n = vec3_norm(d) > radii ? vec3_unit(d) : x->normal;
-        a = vec3_add_scaled(a, n, f->a->radius);
-        b = vec3_add_scaled(b, n, -f->b->radius);
-    }
-    out.point_a = vec3_add(f->world_origin, a);
-    out.point_b = vec3_add(f->world_origin, b);
+    place_small_points(x, f, a, b, &out);
     return out;
 }
 

@@ -11,8 +11,8 @@ void answer_write(search *s, ovoid_answer *out);
 ovoid_verdict answer_make_verdict(search *s);
 
 /// The answer of a search of small bodies, with points and proof or without. Its frame needs only frame_place.
-ovoid_answer answer_make_small(const small_end *end, const pair_frame *frame, const query_goal *goal);
-ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal);
+ovoid_answer answer_make_small(const small_end *x, const pair_frame *frame, const query_goal *goal);
+ovoid_verdict answer_make_small_verdict(const small_end *x, const query_goal *goal);
 
 /// The exact methods, from the bounds and the simplex that the stages before them left, until the query is answered or
 /// no method makes progress. earlier and cover may be NULL.

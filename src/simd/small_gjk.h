@@ -34,13 +34,13 @@ typedef enum small_gjk_end {
 } small_gjk_end;
 
 typedef struct small_gjk_result {
-    small_gjk_end end;
-    uint32_t iterations; ///< steps of the simplex
-    double n[3];         ///< a direction of any length, world, and
-    double square, gap;  ///< |n|^2, the gap along it times |n|
     corner_lanes at;     ///< differences B minus A in the world,
     uint32_t a[4], b[4]; ///< of these points,
     unsigned valid;      ///< in the lanes of this mask
+    small_gjk_end end;
+    double n[3];         ///< a direction of any length, world, and
+    double square, gap;  ///< |n|^2, the gap along it times |n|
+    uint32_t iterations; ///< steps of the simplex
 } small_gjk_result;
 
 /// Runs the search. The same bits from every instruction set. Every number that comes back but OPEN's is finite; none
