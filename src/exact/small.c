@@ -4,7 +4,6 @@
 #include "pair/hull.h"
 #include "pair/inner.h"
 #include "pair/reject.h"
-#include "simd/small_gjk.h"
 
 static simd_points get_points(const ovoid_shape *s) {
     return (simd_points){shape_x(s), shape_y(s), shape_z(s), s->padded_count};
@@ -50,39 +49,45 @@ static int run_inner(const pair_frame *f, double spheres, vec3 d, small_end *end
     return 1;
 }
 
-static int run_gjk(const pair_frame *f, const query_goal *goal, vec3 n, small_end *end) {
-    double claim = reject_get_claim(f);
-    small_gjk_query q = {get_points(f->a),
-                         get_points(f->b),
-                         &f->world.r0.x,
-                         &f->world_b.r0.x,
-                         {f->offset.x, f->offset.y, f->offset.z},
-                         {n.x, n.y, n.z},
-                         f->lower_radii,
-                         f->upper_radii,
-                         claim,
-                         goal->far,
-                         goal->near,
-                         goal->tolerance,
-                         goal->wants_bracket,
-                         goal->iterations};
-    small_gjk_result r;
-    simd_run_small_gjk(&q, &r);
-    if (r.end == SMALL_GJK_OPEN) return 0;
-    double scale = 1 / sqrt(r.square);
+int small_begin(const pair_frame *f, const query_goal *goal, double spheres, small_gjk_query *q, small_end *end) {
+    vec3 d = frame_world_difference(f, f->a->center, f->b->center);
+    if (!(vec3_norm_squared(d) > 1e-150)) return 0;
+    if (spheres < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, spheres, d, end)) return 1;
+    *q = (small_gjk_query){get_points(f->a),
+                           get_points(f->b),
+                           &f->world.r0.x,
+                           &f->world_b.r0.x,
+                           {f->offset.x, f->offset.y, f->offset.z},
+                           {d.x, d.y, d.z},
+                           f->lower_radii,
+                           f->upper_radii,
+                           reject_get_claim(f),
+                           goal->far,
+                           goal->near,
+                           goal->tolerance,
+                           goal->wants_bracket,
+                           goal->iterations};
+    return -1;
+}
+
+int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_result *r, small_end *end) {
+    if (r->end == SMALL_GJK_OPEN) return 0;
+    double claim = reject_get_claim(f), scale = 1 / sqrt(r->square);
     // No zero of a direction is negative.
-    end->normal = (vec3){r.n[0] * scale + 0.0, r.n[1] * scale + 0.0, r.n[2] * scale + 0.0};
-    end->lower = r.gap * scale - f->lower_radii - claim;
-    end->iterations = r.iterations;
-    end->stage = r.iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
-    get_corners(&r, &end->points);
-    end->upper = find_upper(f, r.end, claim, end);
+    end->normal = (vec3){r->n[0] * scale + 0.0, r->n[1] * scale + 0.0, r->n[2] * scale + 0.0};
+    end->lower = r->gap * scale - f->lower_radii - claim;
+    end->iterations = r->iterations;
+    end->stage = r->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
+    get_corners(r, &end->points);
+    end->upper = find_upper(f, r->end, claim, end);
     return query_goal_is_met(goal, end->lower, end->upper);
 }
 
 int small_run(const pair_frame *f, const query_goal *goal, double spheres, small_end *end) {
-    vec3 d = frame_world_difference(f, f->a->center, f->b->center);
-    if (!(vec3_norm_squared(d) > 1e-150)) return 0;
-    if (spheres < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, spheres, d, end)) return 1;
-    return run_gjk(f, goal, d, end);
+    small_gjk_query q;
+    small_gjk_result r;
+    int is_over = small_begin(f, goal, spheres, &q, end);
+    if (is_over >= 0) return is_over;
+    simd_run_small_gjk(&q, &r);
+    return small_finish(f, goal, &r, end);
 }

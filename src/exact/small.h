@@ -8,6 +8,7 @@
 #define OVOID_EXACT_SMALL_H
 
 #include "pair/search.h"
+#include "simd/small_gjk.h"
 
 /// Most vertices of a body.
 enum { SMALL_POINTS = 32 };
@@ -37,5 +38,12 @@ static inline int small_takes(const query_goal *goal, const ovoid_shape *a, cons
 /// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much. 1: answered; 0:
 /// unusual, and nothing is known. The frame needs only frame_place.
 int small_run(const pair_frame *frame, const query_goal *goal, double spheres, small_end *end);
+
+/// small_run in parts, for searches in lanes. Before the kernel's search: 1: answered, 0: unusual, -1: *query is to be
+/// searched; it refers to the frame. After it: 1: answered, 0: unusual. Of the frame small_finish reads the size, what
+/// is hidden and the radii.
+int small_begin(const pair_frame *frame, const query_goal *goal, double spheres, small_gjk_query *query,
+                small_end *end);
+int small_finish(const pair_frame *frame, const query_goal *goal, const small_gjk_result *result, small_end *end);
 
 #endif

@@ -12,7 +12,7 @@
 #include "base/compiler.h"
 #include "base/error.h"
 #include "pair/reject.h"
-#include "simd/pair8.h"
+#include "query/batch_small.h"
 
 // A lane group: eight couples, their bodies and shapes as the kernels read them.
 typedef struct lane_group {
@@ -30,8 +30,9 @@ typedef struct open_couple {
     int is_alone;
 } open_couple;
 
-// An eight leaves at most eight open, and those that wait are at most PAIR8_GROUPS eights.
-enum { OPEN_MOST = 64, OPEN_FULL = OPEN_MOST - (PAIR8_GROUPS + 1) * PAIR8 };
+// An eight leaves at most eight open, those that wait are at most PAIR8_GROUPS eights, and so many small ones are on
+// their way.
+enum { OPEN_MOST = 80, OPEN_FULL = OPEN_MOST - (PAIR8_GROUPS + 1) * PAIR8 - SMALL_POOL_PLACES };
 
 typedef struct open_list {
     open_couple items[OPEN_MOST];
@@ -47,6 +48,7 @@ typedef struct batch_state {
     lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
     pair8 *lanes;        ///< of `waiting`
     unsigned waiting_count;
+    small_pool *small; ///< couples of small bodies
     open_list *open;
 } batch_state;
 
@@ -73,9 +75,13 @@ static void write_verdict(const ovoid_batch *batch, size_t i, ovoid_verdict is) 
     if (batch->verdicts) batch->verdicts[i] = is;
 }
 
-void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal) {
+static ovoid_pair get_pair(const ovoid_batch *batch, size_t i) {
     const ovoid_posed_shape *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
-    ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+    return (ovoid_pair){a->shape, b->shape, a->pose, b->pose};
+}
+
+void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal) {
+    ovoid_pair pair = get_pair(batch, i);
     ovoid_answer own, *out = batch->answers ? &batch->answers[i] : &own;
     const ovoid_proof *earlier = batch->proofs && !is_blank(&batch->proofs[i]) ? &batch->proofs[i] : NULL;
     answer_find_internal(&pair, batch->options, goal, earlier, NULL, out);
@@ -230,23 +236,9 @@ static void end_at_support(const batch_state *c, const lane_group *e, unsigned k
     }
 }
 
-// Ends a couple of small bodies.
-static void end_small(const ovoid_batch *batch, int wants_evidence, size_t index, const pair_frame *frame,
-                      const query_goal *goal, const small_end *end) {
-    if (!wants_evidence) {
-        write_verdict(batch, index, answer_make_small_verdict(end, goal));
-        return;
-    }
-    ovoid_answer own, *out = batch->answers ? &batch->answers[index] : &own;
-    *out = answer_make_small(end, frame, goal);
-    batch_write(batch, index, out);
-}
-
 // The exact search of a couple that was left open.
 static void search_open(const ovoid_batch *batch, query_goal goal, int wants_evidence, const open_couple *x) {
-    const ovoid_posed_shape *a = &batch->bodies[batch->couples[x->index].a],
-                            *b = &batch->bodies[batch->couples[x->index].b];
-    ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+    ovoid_pair pair = get_pair(batch, x->index);
     pair_frame frame;
     search s;
     simplex start;
@@ -411,23 +403,38 @@ static unsigned find_places(const batch_state *c, size_t first, unsigned count, 
     return odd;
 }
 
-// Searches those of the lanes `open` that are small and start from the line of centres. The mask of these.
-static unsigned end_lines(const batch_state *c, const lane_group *e, unsigned open) {
-    unsigned lines = 0;
+// Ends a couple of small bodies (small_owner).
+static void end_small(void *self, size_t index, const query_goal *goal, const small_end *end) {
+    const batch_state *c = self;
+    if (!end) {
+        leave_alone(c, index);
+        return;
+    }
+    if (!c->wants_evidence) {
+        write_verdict(c->batch, index, answer_make_small_verdict(end, goal));
+        return;
+    }
+    ovoid_pair pair = get_pair(c->batch, index);
+    pair_frame frame;
+    (void)frame_place(&pair, &frame);
+    ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[index] : &own;
+    *out = answer_make_small(end, &frame, goal);
+    batch_write(c->batch, index, out);
+}
+
+// Searches those of the lanes `open` that are small. The mask of these.
+static unsigned add_small(const batch_state *c, const lane_group *e, unsigned open) {
+    unsigned small = 0;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         double spheres = e->lanes->lower.lane[k];
         if (!small_takes(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, spheres)) continue;
-        lines |= 1u << k;
+        small |= 1u << k;
         pair_frame frame = get_frame(e, k);
         query_goal goal = get_goal(c, e, k);
-        small_end end;
-        if (small_run(&frame, &goal, spheres, &end))
-            end_small(c->batch, c->wants_evidence, e->index[k], &frame, &goal, &end);
-        else
-            leave_alone(c, e->index[k]);
+        small_pool_add(c->small, e->index[k], &frame, &goal, spheres);
     }
-    return lines;
+    return small;
 }
 
 // Takes couples through the spheres. They are placed where they would wait, so that a group that the spheres leave open
@@ -450,7 +457,7 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
         fetch_ellipsoids((const void *)e->at.shape_b[k]);
     }
-    open &= ~end_lines(c, e, open);
+    open &= ~add_small(c, e, open);
     if (open == PAIR8_ALL && e != own)
         c->waiting_count += PAIR8;
     else
@@ -465,13 +472,16 @@ COMPILER_NOINLINE static size_t run_lanes(const ovoid_batch *batch, query_goal g
     pair8 lanes[PAIR8_GROUPS + 1];
     lane_group groups[PAIR8_GROUPS + 1];
     for (unsigned i = 0; i <= PAIR8_GROUPS; i++) groups[i].lanes = &lanes[i];
-    batch_state c = {batch, pair8_get_kernels(), goal, numbers, numbers.keeps_all, groups, lanes, 0, open};
+    small_pool small;
+    batch_state c = {batch, pair8_get_kernels(), goal, numbers, numbers.keeps_all, groups, lanes, 0, &small, open};
+    small_pool_make(&small, &c.goal, (small_owner){end_small, &c});
     for (; first < batch->couple_count && open->count <= OPEN_FULL; first += PAIR8) {
         size_t left = batch->couple_count - first;
         fetch_ahead(batch, first);
         take_group(&c, first, left < PAIR8 ? (unsigned)left : PAIR8, &groups[PAIR8_GROUPS]);
     }
     if (c.waiting_count) settle(&c);
+    small_pool_finish(&small);
     return first;
 }
 

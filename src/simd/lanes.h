@@ -1,6 +1,6 @@
 // Numbers side by side, LANES of them: 8 (AVX-512), 4 (AVX2) or 1 (plain C, the scalar twin). A kernel is written once
 // over these (pair8_kernel.h) and compiled for each; every operation is IEEE 754's, lane by lane, so all widths give
-// the same bits. Sums and products are the operators.
+// the same bits. Sums and products are the operators. lane_sign is 1 of -0 too; of NaN it is anything.
 #ifndef OVOID_SIMD_LANES_H
 #define OVOID_SIMD_LANES_H
 
@@ -28,6 +28,10 @@ LANES_INLINE lane_mask lane_and(lane_mask a, lane_mask b) { return (lane_mask)(a
 LANES_INLINE lane_mask lane_or(lane_mask a, lane_mask b) { return (lane_mask)(a | b); }
 LANES_INLINE lane_mask lane_not(lane_mask m) { return (lane_mask)~m; }
 LANES_INLINE unsigned lane_bits(lane_mask m) { return m; }
+LANES_INLINE lane_mask lane_none(void) { return 0; }
+LANES_INLINE lane_mask lane_sign(lane v) {
+    return _mm512_test_epi64_mask(_mm512_castpd_si512(v), _mm512_castpd_si512(_mm512_set1_pd(-0.0)));
+}
 
 #elif LANES == 4
 
@@ -51,6 +55,9 @@ LANES_INLINE lane_mask lane_and(lane_mask a, lane_mask b) { return _mm256_and_pd
 LANES_INLINE lane_mask lane_or(lane_mask a, lane_mask b) { return _mm256_or_pd(a, b); }
 LANES_INLINE lane_mask lane_not(lane_mask m) { return _mm256_xor_pd(m, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))); }
 LANES_INLINE unsigned lane_bits(lane_mask m) { return (unsigned)_mm256_movemask_pd(m); }
+LANES_INLINE lane_mask lane_none(void) { return _mm256_setzero_pd(); }
+// Of a mask only the sign bits are read.
+LANES_INLINE lane_mask lane_sign(lane v) { return v; }
 
 #else
 
@@ -72,6 +79,8 @@ LANES_INLINE lane_mask lane_and(lane_mask a, lane_mask b) { return a & b; }
 LANES_INLINE lane_mask lane_or(lane_mask a, lane_mask b) { return a | b; }
 LANES_INLINE lane_mask lane_not(lane_mask m) { return !m; }
 LANES_INLINE unsigned lane_bits(lane_mask m) { return (unsigned)m; }
+LANES_INLINE lane_mask lane_none(void) { return 0; }
+LANES_INLINE lane_mask lane_sign(lane v) { return signbit(v) != 0; }
 
 #endif
 

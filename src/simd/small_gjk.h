@@ -14,6 +14,13 @@
 
 enum { SMALL_GJK_POINTS = 32 };
 
+/// A body's points in the world.
+typedef struct small_gjk_body {
+    _Alignas(64) double x[SMALL_GJK_POINTS];
+    double y[SMALL_GJK_POINTS], z[SMALL_GJK_POINTS];
+    uint32_t count; ///< in the scalar twin
+} small_gjk_body;
+
 /// The pair, and when its search ends.
 typedef struct small_gjk_query {
     simd_points a, b;              ///< body frames, at most SMALL_GJK_POINTS each, padded

@@ -1,6 +1,5 @@
 // The loop of small_gjk.h. Who includes it has defined
 //   SMALL_GJK_INLINE         the attributes of its functions
-//   posed                    a body's points in the world
 //   pose_points(p, from, rows, t, blocks), measure(m, a, b, blocks, x, y, z)
 //   met                      a support: gap, point indices a and b, and the difference as the step takes it
 //   met_get(m, w)            that difference as numbers
@@ -92,8 +91,8 @@ SMALL_GJK_INLINE void end_at_support(small_gjk_result *r, const met *m) {
     r->end = SMALL_GJK_APART;
 }
 
-SMALL_GJK_INLINE small_gjk_end search(const small_gjk_query *q, const posed *a, const posed *b, uint32_t blocks,
-                                      walk *k, met *m, small_gjk_result *r) {
+SMALL_GJK_INLINE small_gjk_end search(const small_gjk_query *q, const small_gjk_body *a, const small_gjk_body *b,
+                                      uint32_t blocks, walk *k, met *m, small_gjk_result *r) {
     for (r->iterations = 0;; r->iterations++) {
         double scale = 1 / sqrt(k->square), height = k->height * scale;
         if (!(height > q->claim) || r->iterations >= q->iterations) return SMALL_GJK_OPEN;
@@ -110,41 +109,45 @@ SMALL_GJK_INLINE small_gjk_end search(const small_gjk_query *q, const posed *a, 
     }
 }
 
-SMALL_GJK_INLINE void run(const small_gjk_query *q, uint32_t blocks, small_gjk_result *r) {
+// Poses the bodies, and measures along the first direction. 1: the search has ended.
+SMALL_GJK_INLINE int begin(const small_gjk_query *q, small_gjk_body *a, small_gjk_body *b, uint32_t blocks, walk *k,
+                           met *m, small_gjk_result *r) {
     static const double nowhere[3] = {0, 0, 0};
-    posed a, b;
-    met m;
-    walk k;
-    pose_points(&a, &q->a, q->rows_a, nowhere, blocks);
-    pose_points(&b, &q->b, q->rows_b, q->offset, blocks);
+    pose_points(a, &q->a, q->rows_a, nowhere, blocks);
+    pose_points(b, &q->b, q->rows_b, q->offset, blocks);
     double x = q->start[0], y = q->start[1], z = q->start[2], square = (x * x + y * y) + z * z, w[3];
-    measure(&m, &a, &b, blocks, x, y, z);
-    met_get(&m, w);
-    k.x = w[0];
-    k.y = w[1];
-    k.z = w[2];
-    k.height = k.square = (w[0] * w[0] + w[1] * w[1]) + w[2] * w[2];
+    measure(m, a, b, blocks, x, y, z);
+    write_direction(r, x, y, z, square, m->gap);
+    r->iterations = 0;
+    met_get(m, w);
+    k->x = w[0];
+    k->y = w[1];
+    k->z = w[2];
+    k->height = k->square = (w[0] * w[0] + w[1] * w[1]) + w[2] * w[2];
     // The points of rounded bodies lie along their difference's own direction, which is measured next.
-    double gap = m.gap, lower = gap / sqrt(square) - q->lower_radii - q->claim;
+    double lower = m->gap / sqrt(square) - q->lower_radii - q->claim;
     int is_apart = lower > q->far, is_round = q->lower_radii > 0;
-    if (is_apart || (!is_round && is_answered(q, lower, sqrt(k.square) - q->upper_radii + q->claim))) {
-        write_direction(r, x, y, z, square, gap);
-        r->iterations = 0;
-        end_at_support(r, &m);
-        return;
+    if (is_apart || (!is_round && is_answered(q, lower, sqrt(k->square) - q->upper_radii + q->claim))) {
+        end_at_support(r, m);
+        return 1;
     }
     r->end = SMALL_GJK_OPEN;
-    if (!(k.square > 1e-150 && k.square < 1e150)) return;
+    return !(k->square > 1e-150 && k->square < 1e150);
+}
+
+SMALL_GJK_INLINE void run(const small_gjk_query *q, uint32_t blocks, small_gjk_result *r) {
+    small_gjk_body a, b;
+    met m;
+    walk k;
+    if (begin(q, &a, &b, blocks, &k, &m, r)) return;
     corners_fill(&k.at, &m);
     for (int i = 0; i < 4; i++) k.a[i] = m.a, k.b[i] = m.b;
     k.valid = 1;
     r->end = search(q, &a, &b, blocks, &k, &m, r);
-    if (r->end == SMALL_GJK_APART) {
+    if (r->end == SMALL_GJK_APART)
         end_at_support(r, &m);
-        return;
-    }
-    write_walk(r, &k);
-    if (r->end == SMALL_GJK_INSIDE) write_direction(r, x, y, z, square, gap);
+    else
+        write_walk(r, &k);
 }
 
 SMALL_GJK_INLINE void run_class(const small_gjk_query *q, small_gjk_result *r) {

@@ -1,72 +1,8 @@
-// GJK of two small bodies: the vector kernel against its scalar twin, bit for bit, no tolerance; random bodies of 1 to
-// 32 vertices, boxes on a lattice where values tie and zeros have signs, every kind of goal. What the answers made from
-// it are worth is for the judge (test_query_trials) to say.
-#include "check.h"
-#include "compounds.h"
-#include "ovoid/ovoid.h"
-#include "shape/block.h"
-#include "simd/small_gjk.h"
+// GJK of two small bodies: the vector kernel against its scalar twin, bit for bit, no tolerance. What the answers made
+// from it are worth is for the judge (test_query_trials) to say.
+#include "small_searches.h"
 
-enum { BODIES = 40, ROUNDS = 40000 };
-static ovoid_shape *shapes[BODIES];
-
-static int make_bodies(uint64_t *s) {
-    for (int i = 0; i < BODIES; i++) {
-        double xyz[3 * 32];
-        size_t count = 1 + random_next(s) % 32;
-        for (size_t k = 0; k < 3 * count; k++) xyz[k] = random_uniform(s, -1, 1);
-        ovoid_vec3 half = {1, 0.5 * (double)(i % 3), 0.25};
-        shapes[i] =
-            i % 4 ? ovoid_shape_create_from_points(xyz, count, NULL, NULL) : ovoid_shape_create_box(half, NULL, NULL);
-        if (!CHECK(shapes[i] != NULL)) return 0;
-    }
-    return 1;
-}
-
-static simd_points get_points(const ovoid_shape *s) {
-    return (simd_points){shape_x(s), shape_y(s), shape_z(s), s->padded_count};
-}
-
-static void fill(uint64_t *s, small_gjk_query *q, double rows[2][9]) {
-    int is_even = random_next(s) % 3 == 0;
-    for (int i = 0; i < 2; i++) {
-        static const ovoid_quat quarters[4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 0, -1}, {0, 0, 1, 0}};
-        ovoid_pose p = {{0, 0, 0}, random_quat(s)};
-        if (is_even) p.rotation = quarters[random_next(s) % 4];
-        ovoid_pose_compute_matrix(&p, rows[i]);
-    }
-    q->a = get_points(shapes[random_next(s) % BODIES]);
-    q->b = get_points(shapes[random_next(s) % BODIES]);
-    q->rows_a = rows[0];
-    q->rows_b = rows[1];
-    for (int i = 0; i < 3; i++) {
-        q->offset[i] = is_even ? 0.25 * (double)(random_next(s) % 9) - 1 : random_uniform(s, -2, 2);
-        q->start[i] = q->offset[i];
-    }
-    if (q->start[0] == 0 && q->start[1] == 0 && q->start[2] == 0) q->start[random_next(s) % 3] = -1;
-    q->lower_radii = q->upper_radii = random_next(s) % 4 ? 0 : random_uniform(s, 0, 1);
-    q->claim = 1e-13;
-    q->wants_bracket = random_next(s) % 2;
-    q->far = q->wants_bracket ? INFINITY : random_uniform(s, 0, 0.5);
-    q->near = random_next(s) % 2 ? q->far : -INFINITY;
-    q->tolerance = 1e-9;
-    q->iterations = random_next(s) % 8 ? 1000 : (uint32_t)(random_next(s) % 5);
-}
-
-// Of an open end nothing but that is said; of the others, what counts of the corners.
-static int same_bits(const small_gjk_result *x, const small_gjk_result *y) {
-    if (x->end != y->end) return 0;
-    if (x->end == SMALL_GJK_OPEN) return 1;
-    if (memcmp(x->n, y->n, sizeof x->n) || memcmp(&x->square, &y->square, sizeof x->square)) return 0;
-    if (x->gap != y->gap || x->iterations != y->iterations || x->valid != y->valid) return 0;
-    for (int i = 0; i < 4; i++) {
-        if (!(x->valid >> i & 1)) continue;
-        if (x->a[i] != y->a[i] || x->b[i] != y->b[i] || x->at.x[i] != y->at.x[i] || x->at.y[i] != y->at.y[i] ||
-            x->at.z[i] != y->at.z[i])
-            return 0;
-    }
-    return 1;
-}
+enum { ROUNDS = 40000 };
 
 int main(void) {
     uint64_t s = 11;
@@ -75,21 +11,21 @@ int main(void) {
         check_skip("this machine or build has no AVX2");
         return check_end();
     }
-    if (!make_bodies(&s)) return 1;
+    if (!make_bodies()) return 1;
     long ends[4] = {0, 0, 0, 0};
     for (int i = 0; i < ROUNDS; i++) {
         double rows[2][9];
         small_gjk_query q;
         small_gjk_result x, y, z;
-        fill(&s, &q, rows);
+        fill_search(&s, &q, rows);
         twin(&q, &x);
         vector(&q, &y);
         simd_run_small_gjk(&q, &z);
-        CHECK(same_bits(&x, &y));
-        CHECK(same_bits(&x, &z));
+        CHECK(same_search(&x, &y));
+        CHECK(same_search(&x, &z));
         ends[x.end]++;
     }
     for (int i = 0; i < 4; i++) CHECK_LE(ROUNDS / 100, ends[i]);
-    for (int i = 0; i < BODIES; i++) ovoid_shape_destroy(shapes[i]);
+    destroy_bodies();
     return check_end();
 }

@@ -1,0 +1,73 @@
+// The pool of searches in lanes. While there is a place, a couple begins there; when there is none, all groups go on by
+// a step at a time until some couple ends.
+#include "query/batch_small.h"
+
+#include "base/compiler.h"
+
+void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner) {
+    pool->kernels = gjk8_get_kernels();
+    pool->goal = goal;
+    pool->owner = owner;
+    for (int i = 0; i < SMALL_POOL_GROUPS; i++) pool->groups[i].active = 0;
+}
+
+static void end_result(const small_pool *p, size_t index, const pair_frame *f, const query_goal *goal,
+                       const small_gjk_result *r) {
+    small_end end;
+    p->owner.finish(p->owner.self, index, goal, small_finish(f, goal, r, &end) ? &end : NULL);
+}
+
+// Ends the lanes of a mask.
+static void end_lanes(const small_pool *p, unsigned group, unsigned lanes, small_gjk_end how) {
+    const gjk8 *g = &p->groups[group];
+    for (; lanes; lanes &= lanes - 1) {
+        unsigned k = compiler_count_low_zeros(lanes);
+        const small_couple *c = &p->couples[PAIR8 * group + k];
+        query_goal goal = *p->goal;
+        goal.tolerance = c->tolerance;
+        pair_frame f;
+        f.size = c->size;
+        f.hidden = OVOID_LENGTH_MIN;
+        f.lower_radii = g->lower_radii.lane[k];
+        f.upper_radii = g->upper_radii.lane[k];
+        small_gjk_result r = {.end = how};
+        if (how != SMALL_GJK_OPEN) gjk8_get_result(g, k, how, &r);
+        end_result(p, c->index, &f, &goal, &r);
+    }
+}
+
+static void advance(small_pool *p, unsigned group) {
+    gjk8_ends e = p->kernels->advance(&p->groups[group]);
+    end_lanes(p, group, e.apart, SMALL_GJK_APART);
+    end_lanes(p, group, e.near, SMALL_GJK_NEAR);
+    end_lanes(p, group, e.inside, SMALL_GJK_INSIDE);
+    end_lanes(p, group, e.open, SMALL_GJK_OPEN);
+}
+
+// A group with a place.
+static unsigned find_group(small_pool *p) {
+    for (;;) {
+        for (unsigned i = 0; i < SMALL_POOL_GROUPS; i++)
+            if (p->groups[i].active != PAIR8_ALL) return i;
+        for (unsigned i = 0; i < SMALL_POOL_GROUPS; i++) advance(p, i);
+    }
+}
+
+void small_pool_add(small_pool *p, size_t index, const pair_frame *f, const query_goal *goal, double spheres) {
+    small_gjk_query q;
+    small_end end;
+    int is_over = small_begin(f, goal, spheres, &q, &end);
+    if (is_over >= 0) {
+        p->owner.finish(p->owner.self, index, goal, is_over ? &end : NULL);
+        return;
+    }
+    unsigned group = find_group(p), k = compiler_count_low_zeros(~p->groups[group].active);
+    p->couples[PAIR8 * group + k] = (small_couple){index, f->size, goal->tolerance};
+    small_gjk_result r;
+    if (p->kernels->begin(&p->groups[group], k, &q, &r)) end_result(p, index, f, goal, &r);
+}
+
+void small_pool_finish(small_pool *p) {
+    for (unsigned i = 0; i < SMALL_POOL_GROUPS; i++)
+        while (p->groups[i].active) advance(p, i);
+}

@@ -1,0 +1,42 @@
+// The couples of a batch whose bodies are small: searched by GJK in lanes (simd/gjk8.h), whose places are filled again
+// as couples end. Each couple has the bits of its single query.
+#ifndef OVOID_QUERY_BATCH_SMALL_H
+#define OVOID_QUERY_BATCH_SMALL_H
+
+#include "query/answer.h"
+#include "simd/gjk8.h"
+
+enum { SMALL_POOL_GROUPS = 2, SMALL_POOL_PLACES = SMALL_POOL_GROUPS * PAIR8 };
+
+/// A couple on its way.
+typedef struct small_couple {
+    size_t index;
+    double size, tolerance;
+} small_couple;
+
+/// What is done with a couple that ends. goal, end: its answer; end NULL: it is unusual, and has to be queried
+/// alone.
+typedef struct small_owner {
+    void (*finish)(void *self, size_t index, const query_goal *goal, const small_end *end);
+    void *self;
+} small_owner;
+
+/// The searches of a batch: all couples have its goal, but for the tolerance.
+typedef struct small_pool {
+    const gjk8_kernels *kernels;
+    const query_goal *goal;
+    small_owner owner;
+    small_couple couples[SMALL_POOL_PLACES];
+    gjk8 groups[SMALL_POOL_GROUPS];
+} small_pool;
+
+void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner);
+
+/// Begins the search of a couple for which small_takes is 1; others may end meanwhile. The frame is that of
+/// frame_place.
+void small_pool_add(small_pool *pool, size_t index, const pair_frame *frame, const query_goal *goal, double spheres);
+
+/// Goes on until all have ended.
+void small_pool_finish(small_pool *pool);
+
+#endif

@@ -1,0 +1,210 @@
+// The kernels of gjk8.h, written once over lanes; gjk8_scalar.c, gjk8_avx2.c and gjk8_avx512.c include this after the
+// parts of small_gjk_kernel.h. Every step has the operations of small_gjk_kernel.h and corner.c in their order: a
+// change there is a change here, and tests/core/test_simd_gjk8.c sees the difference.
+#include "simd/gjk8.h"
+#include "simd/lanes.h"
+#include "simd/small_gjk_kernel.h"
+
+// ---- columns
+
+LANES_INLINE lane get(const lane_column *c, int at) { return lane_load(c->lane + at); }
+LANES_INLINE void put(lane_column *c, int at, lane v) { lane_store(c->lane + at, v); }
+LANES_INLINE lane3 get3(const lane_column *c, int at) { return (lane3){get(c, at), get(c + 1, at), get(c + 2, at)}; }
+LANES_INLINE void put_some(lane_column *c, int at, lane_mask some, lane v) {
+    put(c, at, lane_select(some, v, get(c, at)));
+}
+LANES_INLINE lane_mask get_truth(const lane_column *c, int at) { return lane_greater(get(c, at), lane_set(0.5)); }
+
+// ---- a lane alone: its support, its beginning
+
+SMALL_GJK_INLINE void put_support(gjk8 *g, unsigned k, const met *m) {
+    double w[3];
+    met_get(m, w);
+    g->fresh.x.lane[k] = w[0];
+    g->fresh.y.lane[k] = w[1];
+    g->fresh.z.lane[k] = w[2];
+    g->fresh.id.lane[k] = m->a + SMALL_GJK_POINTS * m->b;
+    g->gap.lane[k] = m->gap;
+}
+
+LANES_TARGET static void measure_lane(gjk8 *g, unsigned k) {
+    const small_gjk_body *a = &g->a[k], *b = &g->b[k];
+    double x = g->n[0].lane[k], y = g->n[1].lane[k], z = g->n[2].lane[k];
+    met m;
+    switch (g->blocks[k]) {
+    case 1: measure(&m, a, b, 1, x, y, z); break;
+    case 2: measure(&m, a, b, 2, x, y, z); break;
+    case 3: measure(&m, a, b, 3, x, y, z); break;
+    default: measure(&m, a, b, 4, x, y, z); break;
+    }
+    put_support(g, k, &m);
+}
+
+SMALL_GJK_INLINE int begin_lane(gjk8 *g, unsigned k, const small_gjk_query *q, uint32_t blocks, small_gjk_result *r) {
+    met m;
+    walk w;
+    if (begin(q, &g->a[k], &g->b[k], blocks, &w, &m, r)) return 1;
+    put_support(g, k, &m);
+    g->n[0].lane[k] = w.x;
+    g->n[1].lane[k] = w.y;
+    g->n[2].lane[k] = w.z;
+    g->height.lane[k] = w.height;
+    g->square.lane[k] = w.square;
+    for (int i = 0; i < 3; i++) {
+        gjk8_corner *c = &g->old[i];
+        c->x.lane[k] = w.x;
+        c->y.lane[k] = w.y;
+        c->z.lane[k] = w.z;
+        c->id.lane[k] = g->fresh.id.lane[k];
+        g->is_valid[i].lane[k] = i == 0;
+        g->start[i].lane[k] = r->n[i];
+    }
+    g->start_square.lane[k] = r->square;
+    g->start_gap.lane[k] = r->gap;
+    return 0;
+}
+
+LANES_TARGET static int run_begin(gjk8 *g, unsigned k, const small_gjk_query *q, small_gjk_result *r) {
+    uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
+    uint32_t blocks = g->blocks[k] = count / 8;
+    int is_over = blocks == 1   ? begin_lane(g, k, q, 1, r)
+                  : blocks == 2 ? begin_lane(g, k, q, 2, r)
+                  : blocks == 3 ? begin_lane(g, k, q, 3, r)
+                                : begin_lane(g, k, q, 4, r);
+    if (is_over) return 1;
+    g->steps.lane[k] = 0;
+    g->most.lane[k] = q->iterations;
+    g->claim.lane[k] = q->claim;
+    g->lower_radii.lane[k] = q->lower_radii;
+    g->upper_radii.lane[k] = q->upper_radii;
+    g->tolerance.lane[k] = q->tolerance;
+    g->far = q->far;
+    g->near = q->near;
+    g->wants_bracket = q->wants_bracket;
+    g->active |= 1u << k;
+    return 0;
+}
+
+// ---- all lanes: the tests, and the step of the simplex
+
+LANES_INLINE lane3 lane3_cross(lane3 a, lane3 b) {
+    return (lane3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+LANES_INLINE lane_mask is_answered_at(const gjk8 *g, int at, lane lower, lane upper) {
+    lane zero = lane_set(0);
+    lane_mask is_overlap = lane_less(upper, zero);
+    lane_mask enough = lane_or(lane_at_most(upper, lane_set(g->near)), is_overlap);
+    if (g->wants_bracket) enough = lane_or(enough, lane_at_most(upper - lower, get(&g->tolerance, at)));
+    return lane_and(lane_or(lane_greater(lower, zero), is_overlap), enough);
+}
+
+// What the step finds: the next heading, which old corners stay, and the least |n|^2 of a face that is no sliver.
+typedef struct lane_step {
+    lane3 n;
+    lane least;
+    lane_mask keeps[3], inside;
+} lane_step;
+
+LANES_INLINE lane_step step_lanes(const gjk8 *g, int at, const lane_mask valid[3], lane3 w) {
+    lane3 e[3], c[3], n[3];
+    lane_mask behind[3], first[3], next[3], before[3], flip[3], face[3], edge[3];
+    for (int i = 0; i < 3; i++) {
+        e[i] = lane3_sub(get3(&g->old[i].x, at), w);
+        c[i] = lane3_cross(w, e[i]);
+        before[i] = lane_and(lane_sign(lane3_dot(w, e[i])), valid[i]);
+    }
+    lane_mask all = lane_and(lane_and(valid[0], valid[1]), valid[2]);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3;
+        lane_mask both = lane_and(valid[i], valid[j]);
+        n[i] = lane3_cross(e[i], e[j]);
+        flip[i] = lane_sign(lane3_dot(n[i], w));
+        lane_mask side = lane_sign(lane3_dot(n[i], e[(i + 2) % 3]));
+        behind[i] = lane_and(all, lane_or(lane_and(flip[i], lane_not(side)), lane_and(side, lane_not(flip[i]))));
+        first[i] = lane_and(both, lane_not(lane_sign(lane3_dot(n[i], c[i]))));
+        next[i] = lane_and(both, lane_sign(lane3_dot(n[i], c[j])));
+        face[i] = lane_and(lane_and(first[i], next[i]), lane_not(behind[i]));
+    }
+    lane_step s = {
+        w, lane_set(-1), {lane_none(), lane_none(), lane_none()}, lane_and(lane_and(behind[0], behind[1]), behind[2])};
+    // One of them, the first of the faces, else of the edges, else the new corner: the last one written.
+    for (int i = 2; i >= 0; i--) {
+        edge[i] = lane_and(before[i], lane_not(lane_or(first[i], next[(i + 2) % 3])));
+        s.n = lane3_select(edge[i], lane3_cross(e[i], c[i]), s.n);
+        for (int j = 0; j < 3; j++) s.keeps[j] = lane_and(s.keeps[j], lane_not(edge[i]));
+        s.keeps[i] = lane_or(s.keeps[i], edge[i]);
+    }
+    for (int i = 2; i >= 0; i--) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        s.n = lane3_select(face[i], lane3_select(flip[i], lane3_neg(n[i]), n[i]), s.n);
+        s.least = lane_select(face[i], lane_set(1e-4) * (lane3_dot(e[i], e[i]) * lane3_dot(e[j], e[j])), s.least);
+        s.keeps[i] = lane_or(s.keeps[i], face[i]);
+        s.keeps[j] = lane_or(s.keeps[j], face[i]);
+        s.keeps[k] = lane_and(s.keeps[k], lane_not(face[i]));
+    }
+    return s;
+}
+
+// The new corner takes the place of the first that does not stay.
+LANES_INLINE void replace_corner(gjk8 *g, int at, const lane_step *s, lane_mask some, lane3 w, lane id) {
+    lane_mask taken = lane_not(some);
+    for (int i = 0; i < 3; i++) {
+        lane_mask here = lane_and(lane_not(taken), lane_not(s->keeps[i]));
+        taken = lane_or(taken, here);
+        put_some(&g->old[i].x, at, here, w.x);
+        put_some(&g->old[i].y, at, here, w.y);
+        put_some(&g->old[i].z, at, here, w.z);
+        put_some(&g->old[i].id, at, here, id);
+        lane_mask stays = lane_or(here, s->keeps[i]);
+        put_some(&g->is_valid[i], at, some, lane_select(stays, lane_set(1), lane_set(0)));
+    }
+}
+
+LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
+    lane square = get(&g->square, at), height = get(&g->height, at), gap = get(&g->gap, at), one = lane_set(1);
+    lane claim = get(&g->claim, at), scale = one / lane_sqrt(square), length = height * scale;
+    lane_mask goes = lane_and(lane_greater(length, claim), lane_less(get(&g->steps, at), get(&g->most, at)));
+    lane lower = gap * scale - get(&g->lower_radii, at) - claim, upper = length - get(&g->upper_radii, at) + claim;
+    lane_mask apart = lane_and(goes, lane_greater(lower, lane_set(g->far)));
+    lane_mask near = lane_and(lane_and(goes, is_answered_at(g, at, lower, upper)), lane_not(apart));
+    goes = lane_and(goes, lane_not(lane_or(apart, near)));
+    lane3 w = get3(&g->fresh.x, at);
+    lane id = get(&g->fresh.id, at);
+    lane_mask valid[3], known = lane_none();
+    for (int i = 0; i < 3; i++) {
+        valid[i] = get_truth(&g->is_valid[i], at);
+        lane other = get(&g->old[i].id, at);
+        known = lane_or(known, lane_and(valid[i], lane_and(lane_at_least(id, other), lane_at_most(id, other))));
+    }
+    goes = lane_and(goes, lane_not(known));
+    lane_step s = step_lanes(g, at, valid, w);
+    lane_mask inside = lane_and(goes, s.inside);
+    lane high = lane3_dot(s.n, w), norm = lane3_dot(s.n, s.n);
+    lane_mask gains = lane_less(high * high * square, height * height * norm);
+    gains = lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-150)), lane_less(norm, lane_set(1e150))));
+    goes = lane_and(lane_and(goes, lane_not(inside)), lane_and(gains, lane_greater(norm, s.least)));
+    replace_corner(g, at, &s, goes, w, id);
+    put_some(&g->n[0], at, goes, s.n.x);
+    put_some(&g->n[1], at, goes, s.n.y);
+    put_some(&g->n[2], at, goes, s.n.z);
+    put_some(&g->height, at, goes, high);
+    put_some(&g->square, at, goes, norm);
+    put_some(&g->steps, at, goes, get(&g->steps, at) + one);
+    unsigned a = lane_bits(apart), n = lane_bits(near), i = lane_bits(inside), on = lane_bits(goes);
+    return (gjk8_ends){a << at, n << at, i << at, (~(a | n | i | on) & ((1u << LANES) - 1)) << at};
+}
+
+LANES_TARGET static gjk8_ends run_advance(gjk8 *g) {
+    gjk8_ends all = {0, 0, 0, 0};
+    for (unsigned rest = g->active; rest; rest &= rest - 1) measure_lane(g, (unsigned)__builtin_ctz(rest));
+    for (int at = 0; at < PAIR8; at += LANES) {
+        gjk8_ends some = advance_lanes(g, at);
+        all.apart |= some.apart & g->active;
+        all.near |= some.near & g->active;
+        all.inside |= some.inside & g->active;
+        all.open |= some.open & g->active;
+    }
+    g->active &= ~(all.apart | all.near | all.inside | all.open);
+    return all;
+}

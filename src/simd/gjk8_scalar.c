@@ -1,0 +1,56 @@
+// The scalar twin of the kernels of gjk8.h, the choice among them, and what a lane ended with.
+#include "simd/small_gjk_scalar.h"
+
+#define LANES 1
+#include "simd/gjk8_kernel.h"
+
+#include <stddef.h>
+
+static const gjk8_kernels scalar = {run_begin, run_advance};
+
+const gjk8_kernels *gjk8_get_kernels_of(simd_isa isa) {
+    switch (isa) {
+    case SIMD_SCALAR: return &scalar;
+#if defined(__x86_64__) && defined(__GNUC__)
+    case SIMD_AVX2: return __builtin_cpu_supports("avx2") ? &gjk8_avx2 : NULL;
+    case SIMD_AVX512: return __builtin_cpu_supports("avx512f") ? &gjk8_avx512 : NULL;
+#endif
+    default: return NULL;
+    }
+}
+
+const gjk8_kernels *gjk8_get_kernels(void) {
+    for (int isa = SIMD_ISA_COUNT - 1; isa > SIMD_SCALAR; isa--) {
+        const gjk8_kernels *best = gjk8_get_kernels_of((simd_isa)isa);
+        if (best) return best;
+    }
+    return &scalar;
+}
+
+static void take_corner(const gjk8_corner *c, unsigned k, int i, small_gjk_result *r) {
+    uint32_t id = (uint32_t)c->id.lane[k];
+    r->at.x[i] = c->x.lane[k];
+    r->at.y[i] = c->y.lane[k];
+    r->at.z[i] = c->z.lane[k];
+    r->a[i] = id % SMALL_GJK_POINTS;
+    r->b[i] = id / SMALL_GJK_POINTS;
+    r->valid |= 1u << i;
+}
+
+void gjk8_get_result(const gjk8 *g, unsigned k, small_gjk_end end, small_gjk_result *r) {
+    int is_inside = end == SMALL_GJK_INSIDE;
+    const lane_column *n = is_inside ? g->start : g->n;
+    r->end = end;
+    r->valid = 0;
+    for (int i = 0; i < 3; i++) r->n[i] = n[i].lane[k];
+    r->square = (is_inside ? &g->start_square : &g->square)->lane[k];
+    r->gap = (is_inside ? &g->start_gap : &g->gap)->lane[k];
+    r->iterations = (uint32_t)g->steps.lane[k];
+    if (end == SMALL_GJK_APART) {
+        take_corner(&g->fresh, k, 0, r);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        if (g->is_valid[i].lane[k] > 0) take_corner(&g->old[i], k, i, r);
+    if (is_inside) take_corner(&g->fresh, k, 3, r);
+}

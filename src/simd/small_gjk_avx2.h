@@ -1,0 +1,101 @@
+// What the kernels of small_gjk_kernel.h are made of, for AVX2: a point's coordinate in each of four lanes.
+#ifndef OVOID_SIMD_SMALL_GJK_AVX2_H
+#define OVOID_SIMD_SMALL_GJK_AVX2_H
+
+#include "simd/corner_avx2.h"
+#include "simd/small_gjk.h"
+
+#define SMALL_GJK_INLINE CORNER_AVX2
+
+// The difference in all lanes.
+typedef struct met {
+    lanes3 w;
+    double gap;
+    uint32_t a, b;
+} met;
+
+SMALL_GJK_INLINE void met_get(const met *m, double w[3]) {
+    w[0] = _mm256_cvtsd_f64(m->w.x);
+    w[1] = _mm256_cvtsd_f64(m->w.y);
+    w[2] = _mm256_cvtsd_f64(m->w.z);
+}
+
+SMALL_GJK_INLINE __m256d turn(const double row[3], lanes3 p, double t) {
+    __m256d sum = _mm256_add_pd(_mm256_mul_pd(_mm256_set1_pd(row[0]), p.x), _mm256_mul_pd(_mm256_set1_pd(row[1]), p.y));
+    sum = _mm256_add_pd(sum, _mm256_mul_pd(_mm256_set1_pd(row[2]), p.z));
+    return _mm256_add_pd(sum, _mm256_set1_pd(t));
+}
+
+// The smaller body of a pair repeats its first points: the lowest index among equals is the same.
+SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, const double rows[9], const double t[3],
+                                  uint32_t blocks) {
+    for (uint32_t i = 0; i < 8 * blocks; i += 4) {
+        uint32_t at = i < from->padded_count ? i : i & 4;
+        lanes3 v = {_mm256_loadu_pd(from->x + at), _mm256_loadu_pd(from->y + at), _mm256_loadu_pd(from->z + at)};
+        _mm256_store_pd(p->x + i, turn(rows, v, t[0]));
+        _mm256_store_pd(p->y + i, turn(rows + 3, v, t[1]));
+        _mm256_store_pd(p->z + i, turn(rows + 6, v, t[2]));
+    }
+}
+
+SMALL_GJK_INLINE __m256d better(__m256d a, __m256d b, int is_least) {
+    return is_least ? _mm256_min_pd(a, b) : _mm256_max_pd(a, b);
+}
+
+// The lowest index among the points that are extreme along n, and their value.
+SMALL_GJK_INLINE uint32_t find_extreme(const small_gjk_body *p, lanes3 n, uint32_t blocks, int is_least,
+                                       double *value) {
+    __m256d v[SMALL_GJK_POINTS / 4], m[SMALL_GJK_POINTS / 4];
+    uint32_t count = 2 * blocks;
+    for (uint32_t i = 0; i < count; i++)
+        m[i] = v[i] =
+            dot4((lanes3){_mm256_load_pd(p->x + 4 * i), _mm256_load_pd(p->y + 4 * i), _mm256_load_pd(p->z + 4 * i)}, n);
+    for (uint32_t i = 0; i < blocks; i++) m[i] = better(m[i], m[i + blocks], is_least);
+    if (blocks > 2) m[0] = better(m[0], m[2], is_least);
+    if (blocks > 3) m[1] = better(m[1], m[3], is_least);
+    __m256d best = blocks > 1 ? better(m[0], m[1], is_least) : m[0];
+    best = better(best, _mm256_permute2f128_pd(best, best, 1), is_least);
+    best = better(best, _mm256_permute_pd(best, 5), is_least);
+    *value = _mm256_cvtsd_f64(best);
+    uint32_t equal = 0;
+    for (uint32_t i = 0; i < count; i++) equal |= mask4(_mm256_cmp_pd(v[i], best, _CMP_EQ_OQ)) << 4 * i;
+    return equal ? (uint32_t)__builtin_ctz(equal) : 0;
+}
+
+SMALL_GJK_INLINE void measure(met *m, const small_gjk_body *a, const small_gjk_body *b, uint32_t blocks, double x,
+                              double y, double z) {
+    lanes3 n = {_mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)};
+    double high, low;
+    uint32_t i = find_extreme(a, n, blocks, 0, &high), k = find_extreme(b, n, blocks, 1, &low);
+    m->a = i;
+    m->b = k;
+    m->gap = low - high;
+    m->w.x = _mm256_sub_pd(_mm256_set1_pd(b->x[k]), _mm256_set1_pd(a->x[i]));
+    m->w.y = _mm256_sub_pd(_mm256_set1_pd(b->y[k]), _mm256_set1_pd(a->y[i]));
+    m->w.z = _mm256_sub_pd(_mm256_set1_pd(b->z[k]), _mm256_set1_pd(a->z[i]));
+}
+
+typedef lanes3 corners;
+
+SMALL_GJK_INLINE void corners_fill(corners *c, const met *m) { *c = m->w; }
+
+// In registers: a load of four lanes just after the store of one would wait for it.
+SMALL_GJK_INLINE void corners_put(corners *c, unsigned i, const met *m) {
+    static const _Alignas(32) int64_t place[4][4] = {{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, -1}};
+    __m256d lane = _mm256_castsi256_pd(_mm256_load_si256((const __m256i *)place[i]));
+    c->x = _mm256_blendv_pd(c->x, m->w.x, lane);
+    c->y = _mm256_blendv_pd(c->y, m->w.y, lane);
+    c->z = _mm256_blendv_pd(c->z, m->w.z, lane);
+}
+
+SMALL_GJK_INLINE void corners_store(const corners *c, corner_lanes *at) {
+    _mm256_store_pd(at->x, c->x);
+    _mm256_store_pd(at->y, c->y);
+    _mm256_store_pd(at->z, c->z);
+}
+
+SMALL_GJK_INLINE corner_step corners_step(const corners *c, unsigned valid, const met *m) {
+    return corner_step_avx2(*c, valid, m->w);
+}
+
+#endif

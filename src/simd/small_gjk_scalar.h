@@ -1,0 +1,55 @@
+// What the kernels of small_gjk_kernel.h are made of, in plain C: the scalar twin.
+#ifndef OVOID_SIMD_SMALL_GJK_SCALAR_H
+#define OVOID_SIMD_SMALL_GJK_SCALAR_H
+
+#include "simd/small_gjk.h"
+
+#define SMALL_GJK_INLINE static inline
+
+typedef struct met {
+    double w[3], gap;
+    uint32_t a, b;
+} met;
+
+SMALL_GJK_INLINE void met_get(const met *m, double w[3]) {
+    for (int i = 0; i < 3; i++) w[i] = m->w[i];
+}
+
+SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, const double rows[9], const double t[3],
+                                  uint32_t blocks) {
+    (void)blocks;
+    p->count = from->padded_count;
+    simd_pose_points_scalar(from, rows, t, p->x, p->y, p->z);
+}
+
+SMALL_GJK_INLINE void measure(met *m, const small_gjk_body *a, const small_gjk_body *b, uint32_t blocks, double x,
+                              double y, double z) {
+    (void)blocks;
+    support_result high = simd_find_support_scalar(a->x, a->y, a->z, a->count, x, y, z);
+    support_result low = simd_find_support_scalar(b->x, b->y, b->z, b->count, -x, -y, -z);
+    uint32_t i = m->a = high.index, k = m->b = low.index;
+    m->gap = -low.value - high.value;
+    m->w[0] = b->x[k] - a->x[i];
+    m->w[1] = b->y[k] - a->y[i];
+    m->w[2] = b->z[k] - a->z[i];
+}
+
+typedef corner_lanes corners;
+
+SMALL_GJK_INLINE void corners_put(corners *c, unsigned i, const met *m) {
+    c->x[i] = m->w[0];
+    c->y[i] = m->w[1];
+    c->z[i] = m->w[2];
+}
+
+SMALL_GJK_INLINE void corners_fill(corners *c, const met *m) {
+    for (unsigned i = 0; i < 4; i++) corners_put(c, i, m);
+}
+
+SMALL_GJK_INLINE void corners_store(const corners *c, corner_lanes *at) { *at = *c; }
+
+SMALL_GJK_INLINE corner_step corners_step(const corners *c, unsigned valid, const met *m) {
+    return simd_step_from_corner_scalar(c, valid, m->w[0], m->w[1], m->w[2]);
+}
+
+#endif
