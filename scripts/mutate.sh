@@ -34,7 +34,7 @@ tests_of() {
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_bounds" ;;
     paper) echo "test_paper test_area" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;
-    lanes) echo "test_simd_octet test_query_batch" ;;
+    lanes) echo "test_simd_octet test_simd_gjk8 test_query_batch" ;;
     io) echo "test_io_numbers test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results" ;;
     *) return 1 ;;
     esac

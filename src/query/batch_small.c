@@ -11,12 +11,6 @@ void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner
     for (int i = 0; i < SMALL_POOL_GROUPS; i++) pool->groups[i].active = 0;
 }
 
-static void end_result(const small_pool *p, size_t index, const pair_frame *f, const query_goal *goal,
-                       const small_gjk_result *r) {
-    small_end end;
-    p->owner.finish(p->owner.self, index, goal, small_finish(f, goal, r, &end) ? &end : NULL);
-}
-
 // Ends the lanes of a mask.
 static void end_lanes(const small_pool *p, unsigned group, unsigned lanes, small_gjk_end how) {
     const gjk8 *g = &p->groups[group];
@@ -31,8 +25,9 @@ static void end_lanes(const small_pool *p, unsigned group, unsigned lanes, small
         f.lower_radii = g->lower_radii.lane[k];
         f.upper_radii = g->upper_radii.lane[k];
         small_gjk_result r = {.end = how};
+        small_end end;
         if (how != SMALL_GJK_OPEN) gjk8_get_result(g, k, how, &r);
-        end_result(p, c->index, &f, &goal, &r);
+        p->owner.finish(p->owner.self, c->index, &goal, small_finish(&f, &goal, &r, &end) ? &end : NULL);
     }
 }
 
@@ -63,8 +58,7 @@ void small_pool_add(small_pool *p, size_t index, const pair_frame *f, const quer
     }
     unsigned group = find_group(p), k = compiler_count_low_zeros(~p->groups[group].active);
     p->couples[PAIR8 * group + k] = (small_couple){index, f->size, goal->tolerance};
-    small_gjk_result r;
-    if (p->kernels->begin(&p->groups[group], k, &q, &r)) end_result(p, index, f, goal, &r);
+    p->kernels->begin(&p->groups[group], k, &q);
 }
 
 void small_pool_finish(small_pool *p) {

@@ -18,7 +18,7 @@ typedef struct gjk8 {
     lane_column is_valid[3];   ///< of the old corners
     lane_column n[3];          ///< the heading,
     lane_column height, square, gap;
-    lane_column steps;
+    lane_column is_first, steps;                                  ///< is_first: nothing has been measured yet
     lane_column start[3], start_square, start_gap;                ///< the first direction
     lane_column claim, lower_radii, upper_radii, tolerance, most; ///< of the query; most: its iterations
     double far, near;
@@ -35,8 +35,8 @@ typedef struct gjk8_ends {
 
 /// Kernels of one instruction set.
 typedef struct gjk8_kernels {
-    /// Begins a search in a lane that is not at work. 1: it ended with the first support, as *result says.
-    int (*begin)(gjk8 *g, unsigned k, const small_gjk_query *query, small_gjk_result *result);
+    /// Begins a search in a lane that is not at work.
+    void (*begin)(gjk8 *g, unsigned k, const small_gjk_query *query);
     /// A support and a step of all lanes at work. Lanes that end are at work no more; until a search is begun there
     /// gjk8_get_result finds theirs.
     gjk8_ends (*advance)(gjk8 *g);

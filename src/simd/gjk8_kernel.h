@@ -40,38 +40,29 @@ LANES_TARGET static void measure_lane(gjk8 *g, unsigned k) {
     put_support(g, k, &m);
 }
 
-SMALL_GJK_INLINE int begin_lane(gjk8 *g, unsigned k, const small_gjk_query *q, uint32_t blocks, small_gjk_result *r) {
-    met m;
-    walk w;
-    if (begin(q, &g->a[k], &g->b[k], blocks, &w, &m, r)) return 1;
-    put_support(g, k, &m);
-    g->n[0].lane[k] = w.x;
-    g->n[1].lane[k] = w.y;
-    g->n[2].lane[k] = w.z;
-    g->height.lane[k] = w.height;
-    g->square.lane[k] = w.square;
-    for (int i = 0; i < 3; i++) {
-        gjk8_corner *c = &g->old[i];
-        c->x.lane[k] = w.x;
-        c->y.lane[k] = w.y;
-        c->z.lane[k] = w.z;
-        c->id.lane[k] = g->fresh.id.lane[k];
-        g->is_valid[i].lane[k] = i == 0;
-        g->start[i].lane[k] = r->n[i];
-    }
-    g->start_square.lane[k] = r->square;
-    g->start_gap.lane[k] = r->gap;
-    return 0;
+SMALL_GJK_INLINE void pose_lane(gjk8 *g, unsigned k, const small_gjk_query *q, uint32_t blocks) {
+    static const double nowhere[3] = {0, 0, 0};
+    g->blocks[k] = blocks;
+    pose_points(&g->a[k], &q->a, q->rows_a, nowhere, blocks);
+    pose_points(&g->b[k], &q->b, q->rows_b, q->offset, blocks);
 }
 
-LANES_TARGET static int run_begin(gjk8 *g, unsigned k, const small_gjk_query *q, small_gjk_result *r) {
+LANES_TARGET static void run_begin(gjk8 *g, unsigned k, const small_gjk_query *q) {
     uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
-    uint32_t blocks = g->blocks[k] = count / 8;
-    int is_over = blocks == 1   ? begin_lane(g, k, q, 1, r)
-                  : blocks == 2 ? begin_lane(g, k, q, 2, r)
-                  : blocks == 3 ? begin_lane(g, k, q, 3, r)
-                                : begin_lane(g, k, q, 4, r);
-    if (is_over) return 1;
+    switch (count / 8) {
+    case 1: pose_lane(g, k, q, 1); break;
+    case 2: pose_lane(g, k, q, 2); break;
+    case 3: pose_lane(g, k, q, 3); break;
+    default: pose_lane(g, k, q, 4); break;
+    }
+    double x = q->start[0], y = q->start[1], z = q->start[2];
+    g->start[0].lane[k] = g->n[0].lane[k] = x;
+    g->start[1].lane[k] = g->n[1].lane[k] = y;
+    g->start[2].lane[k] = g->n[2].lane[k] = z;
+    g->start_square.lane[k] = g->square.lane[k] = (x * x + y * y) + z * z;
+    g->height.lane[k] = 0;
+    for (int i = 0; i < 3; i++) g->is_valid[i].lane[k] = 0;
+    g->is_first.lane[k] = 1;
     g->steps.lane[k] = 0;
     g->most.lane[k] = q->iterations;
     g->claim.lane[k] = q->claim;
@@ -82,7 +73,6 @@ LANES_TARGET static int run_begin(gjk8 *g, unsigned k, const small_gjk_query *q,
     g->near = q->near;
     g->wants_bracket = q->wants_bracket;
     g->active |= 1u << k;
-    return 0;
 }
 
 // ---- all lanes: the tests, and the step of the simplex
@@ -161,27 +151,44 @@ LANES_INLINE void replace_corner(gjk8 *g, int at, const lane_step *s, lane_mask 
     }
 }
 
-LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
-    lane square = get(&g->square, at), height = get(&g->height, at), gap = get(&g->gap, at), one = lane_set(1);
-    lane claim = get(&g->claim, at), scale = one / lane_sqrt(square), length = height * scale;
-    lane_mask goes = lane_and(lane_greater(length, claim), lane_less(get(&g->steps, at), get(&g->most, at)));
-    lane lower = gap * scale - get(&g->lower_radii, at) - claim, upper = length - get(&g->upper_radii, at) + claim;
+// How the tests before the step leave the lanes.
+typedef struct lane_tests {
+    lane_mask apart, near, goes;
+} lane_tests;
+
+// The bounds, and whether they answer the query. Of a first support the upper bound is its own length, and what it
+// answers it answers alone.
+LANES_INLINE lane_tests test_lanes(gjk8 *g, int at, lane_mask first, lane length_of_w) {
+    lane claim = get(&g->claim, at), gap = get(&g->gap, at), lower_radii = get(&g->lower_radii, at);
+    lane scale = lane_set(1) / lane_sqrt(get(&g->square, at)), length = get(&g->height, at) * scale;
+    lane_mask in_time = lane_less(get(&g->steps, at), get(&g->most, at));
+    lane_mask goes = lane_or(first, lane_and(lane_greater(length, claim), in_time));
+    lane lower = gap * scale - lower_radii - claim;
+    lane upper = lane_select(first, length_of_w, length) - get(&g->upper_radii, at) + claim;
     lane_mask apart = lane_and(goes, lane_greater(lower, lane_set(g->far)));
-    lane_mask near = lane_and(lane_and(goes, is_answered_at(g, at, lower, upper)), lane_not(apart));
+    lane_mask is_round = lane_greater(lower_radii, lane_set(0));
+    lane_mask near = lane_and(goes, is_answered_at(g, at, lower, upper));
+    near = lane_and(near, lane_not(lane_or(apart, lane_and(first, is_round))));
+    put_some(&g->start_gap, at, first, gap);
     goes = lane_and(goes, lane_not(lane_or(apart, near)));
+    return (lane_tests){lane_or(apart, lane_and(near, first)), lane_and(near, lane_not(first)), goes};
+}
+
+LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
     lane3 w = get3(&g->fresh.x, at);
-    lane id = get(&g->fresh.id, at);
+    lane id = get(&g->fresh.id, at), square = get(&g->square, at), height = get(&g->height, at);
+    lane_mask first = get_truth(&g->is_first, at);
+    lane_tests t = test_lanes(g, at, first, lane3_norm(w));
     lane_mask valid[3], known = lane_none();
     for (int i = 0; i < 3; i++) {
         valid[i] = get_truth(&g->is_valid[i], at);
         lane other = get(&g->old[i].id, at);
         known = lane_or(known, lane_and(valid[i], lane_and(lane_at_least(id, other), lane_at_most(id, other))));
     }
-    goes = lane_and(goes, lane_not(known));
     lane_step s = step_lanes(g, at, valid, w);
-    lane_mask inside = lane_and(goes, s.inside);
+    lane_mask goes = lane_and(t.goes, lane_not(known)), inside = lane_and(goes, s.inside);
     lane high = lane3_dot(s.n, w), norm = lane3_dot(s.n, s.n);
-    lane_mask gains = lane_less(high * high * square, height * height * norm);
+    lane_mask gains = lane_or(first, lane_less(high * high * square, height * height * norm));
     gains = lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-150)), lane_less(norm, lane_set(1e150))));
     goes = lane_and(lane_and(goes, lane_not(inside)), lane_and(gains, lane_greater(norm, s.least)));
     replace_corner(g, at, &s, goes, w, id);
@@ -190,8 +197,9 @@ LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
     put_some(&g->n[2], at, goes, s.n.z);
     put_some(&g->height, at, goes, high);
     put_some(&g->square, at, goes, norm);
-    put_some(&g->steps, at, goes, get(&g->steps, at) + one);
-    unsigned a = lane_bits(apart), n = lane_bits(near), i = lane_bits(inside), on = lane_bits(goes);
+    put(&g->steps, at, get(&g->steps, at) + lane_select(lane_and(goes, lane_not(first)), lane_set(1), lane_set(0)));
+    put(&g->is_first, at, lane_set(0));
+    unsigned a = lane_bits(t.apart), n = lane_bits(t.near), i = lane_bits(inside), on = lane_bits(goes);
     return (gjk8_ends){a << at, n << at, i << at, (~(a | n | i | on) & ((1u << LANES) - 1)) << at};
 }
 

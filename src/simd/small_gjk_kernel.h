@@ -125,7 +125,7 @@ SMALL_GJK_INLINE int begin(const small_gjk_query *q, small_gjk_body *a, small_gj
     k->z = w[2];
     k->height = k->square = (w[0] * w[0] + w[1] * w[1]) + w[2] * w[2];
     // The points of rounded bodies lie along their difference's own direction, which is measured next.
-    double lower = m->gap / sqrt(square) - q->lower_radii - q->claim;
+    double lower = m->gap * (1 / sqrt(square)) - q->lower_radii - q->claim;
     int is_apart = lower > q->far, is_round = q->lower_radii > 0;
     if (is_apart || (!is_round && is_answered(q, lower, sqrt(k->square) - q->upper_radii + q->claim))) {
         end_at_support(r, m);

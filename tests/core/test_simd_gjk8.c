@@ -42,9 +42,8 @@ static void run_goal(uint64_t *s) {
             c->query.near = goal.near;
             c->query.wants_bracket = goal.wants_bracket;
             simd_run_small_gjk(&c->query, &c->alone);
-            small_gjk_result x;
             i++;
-            if (kernels->begin(&g, k, &c->query, &x)) CHECK(same_search(&x, &c->alone));
+            kernels->begin(&g, k, &c->query);
         }
         if (!g.active) continue;
         gjk8_ends e = kernels->advance(&g);
