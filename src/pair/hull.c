@@ -17,7 +17,7 @@ static double compact_tetrahedron_depth(const vec3 w[4], double reach, double er
         above += det > slack;
         below += det < -slack;
         double area = vec3_norm(vec3_cross(vec3_sub(b, a), vec3_sub(c, a))) + 8 * reach * (error + 4 * 0x1p-53 * reach);
-        depth = fmin(depth, (fabs(det) - slack) / area * (1 - 0x1p-50));
+        depth = min2(depth, (fabs(det) - slack) / area * (1 - 0x1p-50));
     }
     if (above > 0 && below > 0) return -1;
     return above == 4 || below == 4 ? depth : 0;
@@ -26,7 +26,8 @@ static double compact_tetrahedron_depth(const vec3 w[4], double reach, double er
 // compact_tetrahedron_depth in units of the corners' size.
 static double tetrahedron_depth(const vec3 w[4], double error) {
     double reach = 0;
-    for (int i = 0; i < 4; i++) reach = fmax(reach, vec3_max_abs(w[i]));
+    for (int i = 0; i < 4; i++) reach = max2(reach, vec3_max_abs(w[i]));
+    if (reach > 1e-60 && reach < 1e60) return compact_tetrahedron_depth(w, 2 * reach, error);
     double unit = ldexp(1, -find_unit_exponent(reach));
     vec3 compact[4];
     for (int i = 0; i < 4; i++) compact[i] = vec3_scale(w[i], unit);

@@ -5,7 +5,7 @@
 // any step's arithmetic changes the number; then take the one printed, after a look at the other tests.
 #include "bits.h"
 
-#define STORED 0x5a7a26ecbb384534u
+#define STORED 0xe59f8cfa54206f80u
 
 enum { PAIRS = 250 };
 
