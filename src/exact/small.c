@@ -50,7 +50,7 @@ static int run_inner(const pair_frame *f, double spheres, vec3 d, small_end *end
 }
 
 int small_begin(const pair_frame *f, const query_goal *goal, double spheres, small_gjk_query *q, small_end *end) {
-    vec3 d = frame_world_difference(f, f->a->center, f->b->center);
+    vec3 d = f->between;
     if (!(vec3_norm_squared(d) > 1e-150)) return 0;
     if (spheres < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, spheres, d, end)) return 1;
     *q = (small_gjk_query){get_points(f->a),

@@ -40,27 +40,62 @@ static double place_origins(pair_frame *f, const ovoid_pair *pair) {
                       vec3_max_abs(f->b->origin));
 }
 
-// pose_compute_check for the common case; NaN fails every comparison.
-static int is_plain(const ovoid_pose *pose) {
-    vec3 p = pose->position;
-    return quat_is_plain(quat_norm_squared(pose->rotation)) && fabs(p.x) <= OVOID_LENGTH_MAX &&
-           fabs(p.y) <= OVOID_LENGTH_MAX && fabs(p.z) <= OVOID_LENGTH_MAX;
+// pose_compute_check for a position; NaN fails every comparison.
+static int is_place(vec3 p) {
+    return (fabs(p.x) <= OVOID_LENGTH_MAX) & (fabs(p.y) <= OVOID_LENGTH_MAX) & (fabs(p.z) <= OVOID_LENGTH_MAX);
+}
+
+// A number of A and one of B, side by side.
+typedef double both __attribute__((vector_size(16)));
+
+static inline both both_make(double a, double b) { return (both){a, b}; }
+
+// Sets both rotations to the world, with the operations of quat_to_mat3, and the difference of the spheres' centres. 0:
+// a quaternion has to be looked at, and nothing is set.
+static int place_plain(pair_frame *f, ovoid_quat a, ovoid_quat b) {
+    both w = both_make(a.w, b.w), x = both_make(a.x, b.x), y = both_make(a.y, b.y), z = both_make(a.z, b.z);
+    both ww = w * w, xx = x * x, yy = y * y, zz = z * z, norm = (ww + xx) + (yy + zz);
+    if (!quat_is_plain(norm[0]) || !quat_is_plain(norm[1])) return 0;
+    both one = both_make(1, 1), s = both_make(2, 2) / norm;
+    both xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
+    both r[9] = {one - s * (yy + zz), s * (xy - wz), s * (xz + wy), s * (xy + wz),      one - s * (xx + zz),
+                 s * (yz - wx),       s * (xz - wy), s * (yz + wx), one - s * (xx + yy)};
+    f->world = (mat3){{r[0][0], r[1][0], r[2][0]}, {r[3][0], r[4][0], r[5][0]}, {r[6][0], r[7][0], r[8][0]}};
+    f->world_b = (mat3){{r[0][1], r[1][1], r[2][1]}, {r[3][1], r[4][1], r[5][1]}, {r[6][1], r[7][1], r[8][1]}};
+    vec3 p = f->a->center, q = f->b->center;
+    both cx = both_make(p.x, q.x), cy = both_make(p.y, q.y), cz = both_make(p.z, q.z), d[3];
+    for (int i = 0; i < 3; i++) d[i] = (r[3 * i] * cx + r[3 * i + 1] * cy) + r[3 * i + 2] * cz;
+    f->between = vec3_add(f->offset, (vec3){d[0][1] - d[0][0], d[1][1] - d[1][0], d[2][1] - d[2][0]});
+    return 1;
+}
+
+// The same of any quaternions but zero.
+static void place_scaled(pair_frame *f, ovoid_quat a, ovoid_quat b) {
+    f->world = quat_to_mat3(a);
+    f->world_b = quat_to_mat3(b);
+    f->between = frame_world_difference(f, f->a->center, f->b->center);
 }
 
 ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
     const ovoid_pose *a = &pair->pose_a, *b = &pair->pose_b;
     if (!pair->shape_a) return OVOID_LIMIT_SHAPE_A;
     if (!pair->shape_b) return OVOID_LIMIT_SHAPE_B;
-    if (!is_plain(a) && pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
-    if (!is_plain(b) && pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
     f->a = pair->shape_a;
     f->b = pair->shape_b;
-    f->world = quat_to_mat3(a->rotation);
-    f->world_b = quat_to_mat3(b->rotation);
     f->world_origin = a->position;
     f->offset = vec3_sub(b->position, a->position);
     f->hidden = OVOID_LENGTH_MIN;
-    if (f->a->has_origin || f->b->has_origin) f->hidden += place_origins(f, pair);
+    int is_plain = is_place(a->position) & is_place(b->position);
+    if (f->a->has_origin | f->b->has_origin) {
+        if (pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+        if (pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+        f->hidden += place_origins(f, pair);
+    }
+    if (!is_plain || !place_plain(f, a->rotation, b->rotation)) {
+        if (pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+        if (pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+        place_scaled(f, a->rotation, b->rotation);
+    }
     f->lower_radii = f->a->lower_radius + f->b->lower_radius;
     f->upper_radii = f->a->upper_radius + f->b->upper_radius;
     f->size = f->a->span + f->b->span + vec3_norm(f->offset) + f->lower_radii;

@@ -28,6 +28,7 @@ typedef struct pair_frame {
     mat3 world, world_b; ///< the rotations of A and B to the world
     vec3 world_origin;   ///< of A's body frame, world
     vec3 offset;         ///< of B's body frame from A's, world
+    vec3 between;        ///< of B's enclosing sphere's centre from A's, world
     double size;         ///< s
     double claim;        ///< FRAME_CLAIM s, and what underflow can hide
     double check;        ///< FRAME_CHECK s, and what underflow can hide

@@ -2,7 +2,7 @@
 #include "pair/reject.h"
 
 int reject_by_spheres(const pair_frame *f, double far, rejection *found) {
-    vec3 d = frame_world_difference(f, f->a->center, f->b->center);
+    vec3 d = f->between;
     double distance = vec3_norm(d),
            lower = distance - (f->a->reach + f->b->reach) - f->lower_radii - reject_get_claim(f);
     found->lower = lower;

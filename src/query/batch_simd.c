@@ -112,6 +112,7 @@ static pair_frame get_frame(const lane_group *e, unsigned k) {
                         get9(o->world_b, k),
                         get_a(e, k)->pose.position,
                         get3(o->offset, k),
+                        get3(o->between, k),
                         size,
                         FRAME_CLAIM * size + 2 * hidden,
                         FRAME_CHECK * size + hidden,

@@ -25,7 +25,7 @@ typedef struct pair8 {
     lane_column first_a[3], first_b[3];   ///< vertex 0, body frames
     lane_column reach, radii, size;       ///< of the pair: sums of both radii; frame.h's s
     lane_column world_a[9], world_b[9];   ///< rotations to the world
-    lane_column offset[3];                ///< of B's body frame from A's, world
+    lane_column offset[3], between[3];    ///< of B's body frame from A's, of the spheres' centres, world
     lane_column tolerance;
     lane_column line; ///< set by the caller: 1 to take the direction of the spheres' centres, 0 for the ellipsoids'
     // Written by `ellipsoids`, read by `supports`: B in the frame of A, the ellipsoids' direction.
@@ -41,7 +41,7 @@ typedef struct pair8 {
 } pair8;
 
 /// How many columns, from the first one on, are written before `ellipsoids`.
-enum { PAIR8_SPHERE_COLUMNS = 3 + 3 + 3 + 3 + 3 + 9 + 9 + 3 + 1 + 1 };
+enum { PAIR8_SPHERE_COLUMNS = 3 + 3 + 3 + 3 + 3 + 9 + 9 + 3 + 3 + 1 + 1 };
 
 /// Where the numbers of a lane group's bodies and shapes are. Body: a number that is not read, position xyz, rotation
 /// wxyz. Shape: reach, radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not read.

@@ -123,6 +123,7 @@ LANES_INLINE pair8_found compute_spheres(const body_columns *a, const body_colum
     put9(o->world_a, at, world);
     put9(o->world_b, at, world_b);
     put3(o->offset, at, offset);
+    put3(o->between, at, d);
     put(&o->tolerance, at, tolerance);
     return found;
 }
