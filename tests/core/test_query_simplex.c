@@ -74,7 +74,20 @@ static void check_normal(uint64_t *s) {
     CHECK_LE(fabs(vec3_dot(n, e2)), (16 * 0x1p-53 + 16 * lost * lost + (sine > 0.01 ? 4 * lost : 0)) * vec3_norm(e2));
 }
 
+/// The origin's weights in a tetrahedron around it, of any size: those of the regular one are equal.
+static void check_inside_weights(double size) {
+    simplex x = {.p = {{{size, size, size}, 0, 0},
+                       {{-size, -size, size}, 0, 0},
+                       {{-size, size, -size}, 0, 0},
+                       {{size, -size, -size}, 0, 0}},
+                 .count = 4};
+    simplex_compute_inside_weights(&x);
+    for (int i = 0; i < 4; i++) CHECK_NEAR(x.weight[i], 0.25, 1e-15);
+}
+
 int main(void) {
+    const double sizes[] = {1, 1e-50, 1e-123, 1e-300, 1e50};
+    for (int i = 0; i < 5; i++) check_inside_weights(sizes[i]);
     for (uint64_t seed = 0; seed < 20000; seed++) {
         uint64_t s = check_seed = seed;
         for (int count = 1; count <= 4; count++) check_simplex(&s, count);
