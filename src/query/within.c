@@ -1,6 +1,7 @@
 // Are the bodies within a margin of each other?
-#include "base/environment.h"
 #include "query/answer.h"
+
+#include <string.h>
 
 ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
                           const ovoid_proof *earlier) {
@@ -8,10 +9,17 @@ ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_opt
     return answer_find(pair, options, &goal, earlier, NULL);
 }
 
-static int is_within(const ovoid_answer *answer, double margin) {
-    return answer->upper <= margin ? 1 : answer->lower > margin ? 0 : -1;
+// The order of doubles as that of integers, both zeros alike. It needs no floating-point environment, in which the
+// caller may have subnormals compared as zero.
+static int64_t get_order(double x) {
+    int64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits >= 0 ? bits : INT64_MIN - bits;
 }
 
 int ovoid_answer_is_within(const ovoid_answer *answer, double margin) {
-    ENVIRONMENT_RETURN(int, margin, is_within(answer, margin));
+    int64_t least = get_order(-INFINITY), most = get_order(INFINITY);
+    int64_t at = get_order(margin), lower = get_order(answer->lower), upper = get_order(answer->upper);
+    if (at < least || at > most || lower < least || lower > most || upper < least || upper > most) return -1;
+    return upper <= at ? 1 : lower > at ? 0 : -1;
 }

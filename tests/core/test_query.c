@@ -308,7 +308,23 @@ static void check_altered(void) {
     ovoid_shape_destroy(a);
 }
 
+/// The reading of a bracket against a margin, at the ends of the doubles.
+static void check_reading(void) {
+    static const double values[] = {-INFINITY, -1e300, -1, -5e-324, -0.0, 0.0, 5e-324, 1e-310, 1, 2, 1e300, INFINITY};
+    enum { VALUES = sizeof values / sizeof *values };
+    for (int i = 0; i < VALUES; i++)
+        for (int k = i; k < VALUES; k++)
+            for (int m = 0; m < VALUES; m++) {
+                ovoid_answer x = {.lower = values[i], .upper = values[k]};
+                int is = values[k] <= values[m] ? 1 : values[i] > values[m] ? 0 : -1;
+                CHECK_EQ(ovoid_answer_is_within(&x, values[m]), is);
+            }
+    CHECK_EQ(ovoid_answer_is_within(&(ovoid_answer){.lower = 1, .upper = 2}, NAN), -1);
+    CHECK_EQ(ovoid_answer_is_within(&(ovoid_answer){.lower = 1, .upper = NAN}, 3), -1);
+}
+
 int main(void) {
+    check_reading();
     check_boxes();
     check_round();
     check_flat();
