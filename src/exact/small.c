@@ -9,10 +9,14 @@ static simd_points get_points(const ovoid_shape *s) {
     return (simd_points){shape_x(s), shape_y(s), shape_z(s), s->padded_count};
 }
 
+static difference get_corner(const small_gjk_result *r, int i) {
+    return (difference){{r->at.x[i], r->at.y[i], r->at.z[i]}, r->a[i], r->b[i]};
+}
+
 static void get_corners(const small_gjk_result *r, simplex *x) {
     x->count = 0;
     for (int i = 0; i < 4; i++)
-        if (r->valid >> i & 1) x->p[x->count++] = (difference){{r->at.x[i], r->at.y[i], r->at.z[i]}, r->a[i], r->b[i]};
+        if (r->valid >> i & 1) x->p[x->count++] = get_corner(r, i);
 }
 
 // The upper bound: of the nearest point, or of the hull around the origin; infinity where the origin is not proven
@@ -78,8 +82,16 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     end->lower = r->gap * scale - f->lower_radii - claim;
     end->iterations = r->iterations;
     end->stage = r->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
-    get_corners(r, &end->points);
-    end->upper = find_upper(f, r->end, claim, end);
+    if (r->end == SMALL_GJK_APART) {
+        end->points.p[0] = get_corner(r, 0);
+        end->points.weight[0] = 1;
+        end->points.count = 1;
+        end->kind = OVOID_PROOF_POINTS;
+        end->upper = vec3_norm(end->points.p[0].w) - f->upper_radii + claim;
+    } else {
+        get_corners(r, &end->points);
+        end->upper = find_upper(f, r->end, claim, end);
+    }
     return query_goal_is_met(goal, end->lower, end->upper);
 }
 
