@@ -154,14 +154,16 @@ OVOID_API ovoid_measures ovoid_shape_get_measures(const ovoid_shape *shape);
 OVOID_API size_t ovoid_shape_get_size(const ovoid_shape *shape);
 
 /**
- * The shape as bytes of a versioned, little-endian file (".ovoid") with a checksum. Writes at most capacity bytes to
- * buffer and returns the number of bytes needed; nothing is written where capacity is too small.
+ * The shape as bytes of a versioned, little-endian file (".ovoid") with a checksum; of solids of 512 vertices or more
+ * the hull's triangles are in it. Writes at most capacity bytes to buffer and returns the number of bytes needed;
+ * nothing is written where capacity is too small.
  */
 OVOID_API size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity);
 
 /**
- * A shape from such bytes, each of them checked: magic, version, sizes, checksum, indices, finiteness, and that the
- * ellipsoids enclose and are enclosed. Errors: FORMAT (place: byte offset), MEMORY.
+ * A shape from such bytes, of any version, each of them checked: magic, version, sizes, checksum, indices, finiteness,
+ * that the triangles are the hull, and that the ellipsoids enclose and are enclosed. It is the shape that was written,
+ * bit for bit. Errors: FORMAT (place: byte offset), MEMORY.
  */
 OVOID_API ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *allocator,
                                         ovoid_error *error);

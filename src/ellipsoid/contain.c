@@ -17,6 +17,7 @@
 
 #include "ellipsoid/factor.h"
 #include "polytope/facets.h"
+#include "polytope/winding.h"
 
 double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     factor f;
@@ -121,44 +122,6 @@ double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid
     return polytope->triangle_count ? bound : -INFINITY;
 }
 
-// The signed crossing of the ray from c through q with a triangle: 1, 0 or -1, or 2 where the ray meets its border.
-static int count_crossing(vec3 c, vec3 q, const vec3 corner[3]) {
-    int s0 = orient3d_sign(c, q, corner[0], corner[1]), s1 = orient3d_sign(c, q, corner[1], corner[2]);
-    if (s0 * s1 < 0) return 0;
-    int s2 = orient3d_sign(c, q, corner[2], corner[0]);
-    if (s0 * s2 < 0 || s1 * s2 < 0) return 0;
-    if (s0 == 0 || s1 == 0 || s2 == 0) return 2;
-    // The line crosses; the triangle lies ahead of c if its plane separates c from the line's far end.
-    int side = orient3d_sign(corner[0], corner[1], corner[2], c);
-    return side == 0 ? 2 : side == -s0 ? side : 0;
-}
-
-int polytope_is_winding(const ovoid_polytope *polytope, ovoid_vec3 point) {
-    // In units of the body: the orientations underflow for bodies below 1e-90.
-    double unit = ldexp(1, -find_unit_exponent(compute_extent(polytope->vertices, polytope->vertex_count)));
-    vec3 c = vec3_scale(point, unit);
-    // Rays through points inside a triangle, at weights of no symmetry; another one where a ray meets an edge.
-    for (uint32_t attempt = 0; attempt < 8 && polytope->triangle_count > 0; attempt++) {
-        const uint32_t *aim = polytope->triangles + 3 * (size_t)(polytope->triangle_count * (uint64_t)attempt / 8);
-        double wa = 0.371 + 0.02 * attempt, wb = 0.297 - 0.013 * attempt, wc = 1 - wa - wb;
-        vec3 q = vec3_scale(vec3_at(polytope->vertices, aim[0]), wa);
-        q = vec3_add_scaled(q, vec3_at(polytope->vertices, aim[1]), wb);
-        q = vec3_scale(vec3_add_scaled(q, vec3_at(polytope->vertices, aim[2]), wc), unit);
-        int64_t winding = 0;
-        int met = 0;
-        for (uint32_t t = 0; t < polytope->triangle_count && !met; t++) {
-            vec3 corner[3];
-            for (int i = 0; i < 3; i++)
-                corner[i] = vec3_scale(vec3_at(polytope->vertices, polytope->triangles[3 * (size_t)t + i]), unit);
-            int crossing = count_crossing(c, q, corner);
-            met = crossing == 2;
-            winding += met ? 0 : crossing;
-        }
-        if (!met) return winding != 0;
-    }
-    return 0;
-}
-
 int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     factor f;
     if (polytope->rank < 3 || !vec3_is_finite(ellipsoid->center) || !factor_make(ellipsoid->q, &f)) return 0;
@@ -170,5 +133,5 @@ int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid 
         return 0;
     }
     return f.count == 3 && ellipsoid_compute_clear_bound(polytope, ellipsoid) >= 1 &&
-           polytope_is_winding(polytope, ellipsoid->center);
+           polytope_compute_winding(polytope, ellipsoid->center) != 0;
 }

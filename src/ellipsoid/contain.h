@@ -23,9 +23,6 @@ double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const o
 /// the largest such factor. At most zero where none is proven.
 double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
-/// 1 only if the surface is proven to wind around the point, and not to pass through it.
-int polytope_is_winding(const ovoid_polytope *polytope, ovoid_vec3 point);
-
 /// The unit normal of a triangle, right to a few roundings for any that is not degenerate: computed in doubles, the
 /// normal of a needle's side leans along the needle. Zero for a degenerate one.
 ovoid_vec3 triangle_compute_normal(const ovoid_vec3 corner[3]);

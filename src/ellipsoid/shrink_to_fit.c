@@ -2,6 +2,7 @@
 #include "ellipsoid/shrink_to_fit.h"
 
 #include "ellipsoid/contain.h"
+#include "polytope/winding.h"
 
 double ellipsoid_compute_measure(const ovoid_ellipsoid *ellipsoid, uint32_t rank) {
     if (rank == 0) return 0;
@@ -53,7 +54,7 @@ static int shorten(const ovoid_polytope *polytope, ovoid_ellipsoid *e) {
 ovoid_ellipsoid ellipsoid_shrink_to_fit(const ovoid_polytope *polytope, ovoid_vec3 center, const sym3dd *q) {
     ovoid_ellipsoid e = {center, sym3dd_round(q)};
     if (polytope->rank < 3) return e;
-    if (polytope_is_winding(polytope, center)) {
+    if (polytope_compute_winding(polytope, center) != 0) {
         if (shrink(polytope, q, &e)) return e;
         e.q = sym3dd_round(q);
         if (shorten(polytope, &e)) return e;

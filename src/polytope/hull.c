@@ -9,6 +9,7 @@
 #include "polytope/points.h"
 #include "polytope/polygon.h"
 #include "polytope/quickhull.h"
+#include "polytope/surface_proof.h"
 
 #include <string.h>
 
@@ -218,24 +219,38 @@ static ovoid_code fill(builder *b) {
     return error_set(b->error, code, -1, "no memory for a hull of %u vertices", b->p.count);
 }
 
+// The hull from the points left and their surface, unless finding these failed; both are destroyed.
+static ovoid_code finish(builder *b, size_t count, ovoid_code code) {
+    hull *h = b->hull;
+    if (!code) code = fill(b);
+    if (!code) {
+        h->report = b->report;
+        h->report.points = count;
+        h->report.duplicates = b->p.duplicates;
+        h->report.vertices = b->p.count;
+        h->report.interior = count - b->p.count - b->p.duplicates;
+        h->report.rank = h->rank;
+    }
+    surface_destroy(&b->s, b->allocator);
+    points_destroy(&b->p, b->allocator);
+    return code;
+}
+
 ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *h, ovoid_error *error) {
     *h = (hull){0};
     builder b = {.xyz = xyz, .hull = h, .allocator = allocator, .error = error};
     ovoid_code code = points_create(xyz, count, allocator, &b.p, error);
-    if (code) return code;
-    b.report.points = count;
-    b.report.duplicates = b.p.duplicates;
-    code = find_extreme(&b);
-    if (!code) code = fill(&b);
-    if (!code) {
-        h->report = b.report;
-        h->report.vertices = b.p.count;
-        h->report.interior = count - b.p.count - b.p.duplicates;
-        h->report.rank = h->rank;
-    }
-    surface_destroy(&b.s, allocator);
-    points_destroy(&b.p, allocator);
-    return code;
+    return code ? code : finish(&b, count, find_extreme(&b));
+}
+
+ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator *allocator, hull *h,
+                              surface_flaw *flaw) {
+    *h = (hull){0};
+    *flaw = (surface_flaw){"the vertices have no hull", 0, 1};
+    builder b = {.xyz = claim->xyz, .hull = h, .allocator = allocator};
+    ovoid_code code = points_create_distinct(claim->xyz, claim->count, allocator, &b.p, NULL);
+    if (code) return code == OVOID_ERROR_MEMORY ? code : OVOID_ERROR_HULL;
+    return finish(&b, claim->count, surface_create_proven(claim, &b.p, allocator, &b.s, flaw));
 }
 
 void hull_destroy(hull *h, const ovoid_allocator *allocator) {

@@ -3,6 +3,7 @@
 #define OVOID_POLYTOPE_HULL_H
 
 #include "ovoid/polytope.h"
+#include "polytope/surface_claim.h"
 
 /// A hull. The arrays belong to it; they are those of ovoid_polytope.
 typedef struct hull {
@@ -19,6 +20,13 @@ typedef struct hull {
 /// Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY, HULL; *h needs no destroying then.
 /// Cost: n log n for points as they come.
 ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *h, ovoid_error *error);
+
+/// The hull of vertices whose surface is claimed: the proof of the claim, then facets, planes and adjacency from it.
+/// With the triangles of hull_create and its vertices this is that hull, bit for bit, and costs a fraction; with others
+/// that hold, it is the same body, and they are its triangles. A rank below 3, to rounding, is no error; the triangles
+/// are then not the claim's. Errors: MEMORY; HULL, with *flaw filled. *h needs no destroying then. Cost: linear.
+ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator *allocator, hull *h,
+                              surface_flaw *flaw);
 void hull_destroy(hull *h, const ovoid_allocator *allocator);
 
 /// A view of the hull.

@@ -100,14 +100,14 @@ int points_find_first(const double *xyz, size_t count, const ovoid_allocator *al
     return 1;
 }
 
-// Writes to p->source the points that equal no earlier one.
-static int find_distinct(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p) {
-    uint32_t *source = allocator_allocate(allocator, count, sizeof *source);
-    p->source = source;
-    if (!source || !points_find_first(xyz, count, allocator, source)) return 0;
-    for (size_t i = 0; i < count; i++)
-        if (source[i] == i) source[p->count++] = (uint32_t)i;
-    p->duplicates = count - p->count;
+// Leaves in p->source the points that equal no earlier one.
+static int drop_duplicates(const double *xyz, const ovoid_allocator *allocator, points *p) {
+    uint32_t *source = p->source, count = p->count, kept = 0;
+    if (!points_find_first(xyz, count, allocator, source)) return 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (source[i] == i) source[kept++] = i;
+    p->duplicates = count - kept;
+    p->count = kept;
     return 1;
 }
 
@@ -126,13 +126,18 @@ static void fill_grid(const double *xyz, points *p) {
     int e = 0;
     (void)frexp(top, &e);
     e = GRID_TOP - e;
-    double factor[2] = {ldexp(1, e / 2), ldexp(1, e - e / 2)};
+    p->factor[0] = ldexp(1, e / 2);
+    p->factor[1] = ldexp(1, e - e / 2);
     for (uint32_t i = 0; i < p->count; i++)
         for (size_t c = 0; c < 3; c++)
-            p->grid[3 * (size_t)i + c] = snap(xyz[3 * (size_t)p->source[i] + c] - origin[c], factor);
+            p->grid[3 * (size_t)i + c] = snap(xyz[3 * (size_t)p->source[i] + c] - origin[c], p->factor);
 }
 
-ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
+vec3 points_to_grid(const points *p, vec3 v) {
+    return (vec3){snap(v.x, p->factor), snap(v.y, p->factor), snap(v.z, p->factor)};
+}
+
+static ovoid_code create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
                          ovoid_error *error) {
     *p = (points){0};
     if (count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "no points");
@@ -142,14 +147,35 @@ ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator 
     ovoid_code code = check_points(xyz, count, &b, error);
     if (code) return code;
     p->origin = make_origin(xyz, count, &b);
+    p->source = allocator_allocate(allocator, count, sizeof *p->source);
+    if (!p->source) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu points", count);
+    p->count = (uint32_t)count;
+    for (uint32_t i = 0; i < p->count; i++) p->source[i] = i;
+    return OVOID_OK;
+}
 
-    if (find_distinct(xyz, count, allocator, p)) p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
+// The grid of the points in p->source; `good`: these could be found.
+static ovoid_code finish(const double *xyz, int good, const ovoid_allocator *allocator, points *p, ovoid_error *error) {
+    if (good) p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
     if (!p->grid) {
+        uint32_t count = p->count;
         points_destroy(p, allocator);
-        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu points", count);
+        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %u points", count);
     }
     fill_grid(xyz, p);
     return OVOID_OK;
+}
+
+ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
+                         ovoid_error *error) {
+    ovoid_code code = create(xyz, count, allocator, p, error);
+    return code ? code : finish(xyz, drop_duplicates(xyz, allocator, p), allocator, p, error);
+}
+
+ovoid_code points_create_distinct(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
+                                  ovoid_error *error) {
+    ovoid_code code = create(xyz, count, allocator, p, error);
+    return code ? code : finish(xyz, 1, allocator, p, error);
 }
 
 void points_destroy(points *p, const ovoid_allocator *allocator) {

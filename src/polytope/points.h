@@ -14,12 +14,18 @@ typedef struct points {
     uint32_t count;
     uint64_t duplicates; ///< points that equal an earlier one
     vec3 origin;         ///< of the body frame; given - origin is exact for every point
+    double factor[2];    ///< from lengths to units of the grid, a power of two in two factors
 } points;
 
 /// Fills *p. Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY; *p needs no destroying then.
 /// Cost: linear.
 ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
                          ovoid_error *error);
+/// points_create for points that are known to be distinct.
+ovoid_code points_create_distinct(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
+                                  ovoid_error *error);
+/// A point of the body frame in units of the grid.
+vec3 points_to_grid(const points *p, vec3 v);
 void points_destroy(points *p, const ovoid_allocator *allocator);
 
 /// The first point that equals each one, 0 and -0 being the same; count at most POINTS_MAX. 0 where there is no memory.

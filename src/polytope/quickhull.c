@@ -179,6 +179,11 @@ static void find_simplex(const builder *b, uint32_t count, surface *s) {
     s->rank = 3;
 }
 
+void simplex_find(const points *p, surface *s) {
+    builder b = {.grid = p->grid};
+    find_simplex(&b, p->count, s);
+}
+
 // ---- facets ----
 
 // A free facet, with nothing across yet. NOTHING where there is no memory.
@@ -398,10 +403,9 @@ static ovoid_code build(builder *b, uint32_t count, const uint32_t corner[4]) {
 
 // ---- the result ----
 
-// The corner beyond edge k of a triangle, in the triangle across.
-static uint32_t find_beyond(const surface *s, uint32_t t, uint32_t k) {
-    const uint32_t *other = s->triangles + 3 * (size_t)s->across[3 * (size_t)t + k];
-    uint32_t from = s->triangles[3 * (size_t)t + k];
+uint32_t surface_get_beyond(const surface *s, uint32_t triangle, uint32_t k) {
+    const uint32_t *other = s->triangles + 3 * (size_t)s->across[3 * (size_t)triangle + k];
+    uint32_t from = s->triangles[3 * (size_t)triangle + k];
     return other[0] == from ? other[1] : other[1] == from ? other[2] : other[0];
 }
 
@@ -416,7 +420,7 @@ static void mark_corners(builder *b, const surface *s, uint32_t count) {
         const uint32_t *corner = s->triangles + 3 * (size_t)t;
         vec3 p[3] = {get_point(b, corner[0]), get_point(b, corner[1]), get_point(b, corner[2])};
         for (uint32_t k = 0; k < 3; k++)
-            if (orient3d_sign(p[0], p[1], p[2], get_point(b, find_beyond(s, t, k)))) creases[corner[k]]++;
+            if (orient3d_sign(p[0], p[1], p[2], get_point(b, surface_get_beyond(s, t, k)))) creases[corner[k]]++;
     }
     for (uint32_t i = 0; i < count; i++) {
         if (b->state[i] != POINT_EXTREME) continue;

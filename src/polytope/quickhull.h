@@ -20,6 +20,12 @@ typedef struct surface {
 /// The hull of at least one point. Errors: MEMORY, HULL. *s needs no destroying then. Cost: n log n for points as they
 /// come, as quickhull.
 ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, surface *s, ovoid_error *error);
+/// Sets the rank and the corners of the surface, as quickhull_create does, and nothing else. Cost: linear.
+void simplex_find(const points *p, surface *s);
+
+/// The corner beyond edge k of a triangle, in the triangle across.
+uint32_t surface_get_beyond(const surface *s, uint32_t triangle, uint32_t k);
+
 void surface_destroy(surface *s, const ovoid_allocator *allocator);
 
 /// The exact sign of the area of a, b, c as seen along an axis (0 to 2): positive where they turn counter-clockwise as

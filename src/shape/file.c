@@ -1,12 +1,16 @@
-// The file of a shape (".ovoid"), version 1, or 2 where it has an allowance. docs/polytope.md has
-// the table.
+// The file of a shape (".ovoid"): version 1; 2 where it has an allowance; 3 with the triangles of its hull, for solids
+// of many vertices. docs/polytope.md has the table.
 //
 // A file holds what a shape cannot be made from again: the vertices, the ellipsoids as they were fitted, the radius,
-// the allowance, and what became of the points given. Faces, adjacency, planes and measures depend on the vertices
-// alone, bit for bit (polytope/hull.h), so they are computed anew; nothing in a file is an index, and nothing can
-// contradict the vertices. Reading checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no
-// single wrong byte escapes), the size against the count, every number's range, that all vertices are extreme and in
-// the body frame, that the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
+// the allowance, and what became of the points given. Facets, adjacency, planes and measures depend on the vertices and
+// the triangles alone, and the triangles on the vertices alone, bit for bit (polytope/hull.h). They are computed anew,
+// but for the triangles where a file holds them: these are proven to be the hull (polytope/surface_proof.h), which
+// takes a fraction of the time of finding them. So nothing in a file can contradict the vertices.
+//
+// Reading checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no single wrong byte
+// escapes), the size against the count, every number's range, that all vertices are extreme and in the body frame, that
+// the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
+#include "shape/file.h"
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
@@ -32,7 +36,21 @@ static uint64_t compute_checksum(const uint8_t *bytes, size_t size) {
     return h;
 }
 
-static size_t get_header_size(int has_allowance) { return HEADER_SIZE + (has_allowance ? ALLOWANCE_SIZE : 0); }
+// The parts of a file that differ between versions.
+typedef struct layout {
+    uint32_t version;
+    size_t vertices_at, triangles_at, size; // bytes
+    uint32_t triangle_count;                // that it holds
+} layout;
+
+// By Euler's formula a solid of n vertices has 2 n - 4 triangles.
+static layout make_layout(uint32_t version, uint32_t vertex_count) {
+    layout l = {.version = version, .vertices_at = HEADER_SIZE + (version > 1 ? ALLOWANCE_SIZE : 0)};
+    l.triangles_at = l.vertices_at + (size_t)vertex_count * 24;
+    l.triangle_count = version == 3 && vertex_count > 3 ? 2 * vertex_count - 4 : 0;
+    l.size = l.triangles_at + (size_t)l.triangle_count * 12 + CHECKSUM_SIZE;
+    return l;
+}
 
 // ---- writing ----
 
@@ -68,17 +86,15 @@ static void put_fit(writer *w, const ovoid_fit *f) {
     put_integer(w, 0, 4);
 }
 
-size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity) {
-    OVOID_ASSERT(shape);
-    int has_allowance = shape->has_allowance;
-    size_t size = get_header_size(has_allowance) + (size_t)shape->vertex_count * 24 + CHECKSUM_SIZE;
-    if (!buffer || capacity < size) return size;
+size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buffer, size_t capacity) {
+    layout l = make_layout(version, shape->vertex_count);
+    if (!buffer || capacity < l.size) return l.size;
     writer w = {buffer};
     memcpy(w.at, magic, sizeof magic);
     w.at += sizeof magic;
-    put_integer(&w, has_allowance ? 2 : 1, 4);
+    put_integer(&w, version, 4);
     put_integer(&w, shape->rank, 4);
-    put_integer(&w, size, 8);
+    put_integer(&w, l.size, 8);
     put_integer(&w, shape->vertex_count, 8);
     put_double(&w, shape->radius);
     put_vec3(&w, shape->origin);
@@ -89,14 +105,27 @@ size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity
     put_integer(&w, shape->report.faces, 8);
     put_fit(&w, &shape->outer_fit);
     put_fit(&w, &shape->inner_fit);
-    if (has_allowance) {
+    if (version > 1) {
         put_double(&w, shape->allowance.outside);
         put_double(&w, shape->allowance.inside);
     }
     const double *vertices = shape_vertices(shape);
     for (size_t i = 0; i < 3 * (size_t)shape->vertex_count; i++) put_double(&w, vertices[i]);
-    put_integer(&w, compute_checksum(buffer, size - CHECKSUM_SIZE), 8);
-    return size;
+    const uint32_t *triangles = ovoid_shape_get_polytope(shape).triangles;
+    for (size_t i = 0; i < 3 * (size_t)l.triangle_count; i++) put_integer(&w, triangles[i], 4);
+    put_integer(&w, compute_checksum(buffer, l.size - CHECKSUM_SIZE), 8);
+    return l.size;
+}
+
+// The proof of the triangles wants a point inside: the centre of an inner ellipsoid that is more than a point.
+static uint32_t choose_version(const ovoid_shape *s) {
+    if (s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0) return 3;
+    return s->has_allowance ? 2 : 1;
+}
+
+size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity) {
+    OVOID_ASSERT(shape);
+    return shape_write_version(shape, choose_version(shape), buffer, capacity);
 }
 
 // ---- reading ----
@@ -140,7 +169,7 @@ static ovoid_fit get_fit(reader *r) {
 
 // The content of a file.
 typedef struct content {
-    int has_allowance;
+    layout at;
     uint32_t rank, vertex_count;
     double radius;
     ovoid_allowance allowance;
@@ -148,6 +177,7 @@ typedef struct content {
     ovoid_report report;
     ovoid_fit outer, inner;
     double *vertices;
+    uint32_t *triangles; // NULL where the file holds none
 } content;
 
 static ovoid_code refuse(const reader *r, size_t place, const char *what) {
@@ -160,13 +190,13 @@ static ovoid_code check_envelope(reader *r, size_t size, content *c) {
     if (size < HEADER_SIZE + CHECKSUM_SIZE) return refuse(r, size, "the file ends within its header");
     r->at = sizeof magic;
     uint64_t version = get_integer(r, 4);
-    c->has_allowance = version == 2;
-    if (version != 1 && version != 2) return refuse(r, 8, "written by another version of the format");
+    if (version < 1 || version > 3) return refuse(r, 8, "written by another version of the format");
     c->rank = (uint32_t)get_integer(r, 4);
+    if (version == 3 && c->rank != 3) return refuse(r, 12, "only the file of a solid holds triangles");
     uint64_t total = get_integer(r, 8), count = get_integer(r, 8);
     if (total != size) return refuse(r, size, total > size ? "the file is truncated" : "bytes after the end");
-    if (count == 0 || count > POINTS_MAX || get_header_size(c->has_allowance) + count * 24 + CHECKSUM_SIZE != total)
-        return refuse(r, 24, "the number of vertices does not agree with the size");
+    if (count > 0 && count <= POINTS_MAX) c->at = make_layout((uint32_t)version, (uint32_t)count);
+    if (c->at.size != total) return refuse(r, 24, "the number of vertices does not agree with the size");
     c->vertex_count = (uint32_t)count;
     reader end = {r->bytes, size - CHECKSUM_SIZE, r->error};
     if (get_integer(&end, 8) != compute_checksum(r->bytes, size - CHECKSUM_SIZE))
@@ -207,12 +237,13 @@ static ovoid_code read_report(reader *r, content *c) {
 }
 
 static ovoid_code read_allowance(reader *r, content *c) {
-    if (!c->has_allowance) return OVOID_OK;
+    if (c->at.version == 1) return OVOID_OK;
     size_t start = r->at;
     c->allowance.outside = get_double(r);
     c->allowance.inside = get_double(r);
     if (!(c->allowance.outside >= 0 && is_length(c->allowance.outside) && c->allowance.inside >= 0 &&
-          is_length(c->allowance.inside) && c->allowance.outside + c->allowance.inside > 0))
+          is_length(c->allowance.inside)) ||
+        (c->at.version == 2 && c->allowance.outside + c->allowance.inside == 0))
         return refuse(r, start, "the allowance is not two lengths, one above zero");
     return OVOID_OK;
 }
@@ -241,12 +272,16 @@ static ovoid_code read_vertices(reader *r, content *c) {
     return OVOID_OK;
 }
 
+// Reads the triangles; that their corners are vertices belongs to the proof.
+static void read_triangles(reader *r, content *c) {
+    for (size_t i = 0; i < 3 * (size_t)c->at.triangle_count; i++) c->triangles[i] = (uint32_t)get_integer(r, 4);
+}
+
 // The hull of the vertices must be these vertices.
 static ovoid_code check_hull(const reader *r, const content *c, const hull *h) {
-    if (h->vertex_count != c->vertex_count)
-        return refuse(r, get_header_size(c->has_allowance), "a vertex is not extreme");
+    if (h->vertex_count != c->vertex_count) return refuse(r, c->at.vertices_at, "a vertex is not extreme");
     if (h->origin.x != 0 || h->origin.y != 0 || h->origin.z != 0)
-        return refuse(r, get_header_size(c->has_allowance), "the vertices are not in the body frame");
+        return refuse(r, c->at.vertices_at, "the vertices are not in the body frame");
     if (h->rank != c->rank) return refuse(r, 12, "the rank is not that of the vertices");
     return OVOID_OK;
 }
@@ -280,14 +315,30 @@ static ovoid_shape *make_shape(const reader *r, const content *c, hull *h, const
     return NULL;
 }
 
+// The hull from the vertices alone.
+static ovoid_code find_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *h) {
+    ovoid_code code = hull_create(c->vertices, c->vertex_count, allocator, h, r->error);
+    if (code == OVOID_OK || code == OVOID_ERROR_MEMORY) return code;
+    return refuse(r, c->at.vertices_at, "the vertices have no hull");
+}
+
+// The hull from vertices and triangles.
+static ovoid_code prove_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *h) {
+    surface_claim claim = {c->vertices, c->vertex_count, c->triangles, c->at.triangle_count, c->inner.ellipsoid.center};
+    surface_flaw flaw;
+    ovoid_code code = hull_create_proven(&claim, allocator, h, &flaw);
+    if (code == OVOID_OK) return code;
+    if (code == OVOID_ERROR_MEMORY)
+        return error_set(r->error, code, -1, "no memory for a hull of %u vertices", c->vertex_count);
+    size_t each = flaw.is_vertex ? 24 : 12, start = flaw.is_vertex ? c->at.vertices_at : c->at.triangles_at;
+    return refuse(r, start + each * flaw.index, flaw.what);
+}
+
 static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *allocator) {
     if (read_header(r, c) || read_vertices(r, c)) return NULL;
+    read_triangles(r, c);
     hull h;
-    ovoid_code code = hull_create(c->vertices, c->vertex_count, allocator, &h, r->error);
-    if (code) {
-        if (code != OVOID_ERROR_MEMORY) refuse(r, get_header_size(c->has_allowance), "the vertices have no hull");
-        return NULL;
-    }
+    if (c->at.triangle_count ? prove_hull(r, c, allocator, &h) : find_hull(r, c, allocator, &h)) return NULL;
     ovoid_shape *shape = check_hull(r, c, &h) ? NULL : make_shape(r, c, &h, allocator);
     hull_destroy(&h, allocator);
     return shape;
@@ -302,11 +353,13 @@ static ovoid_shape *read_bytes(const void *bytes, size_t size, const ovoid_alloc
     content c = {0};
     if (check_envelope(&r, size, &c)) return NULL;
     ovoid_allocator allocator = allocator_make(given);
-    c.vertices = allocator_allocate(&allocator, c.vertex_count, 3 * sizeof *c.vertices);
+    // Vertices, then triangles.
+    c.vertices = allocator_allocate(&allocator, c.at.size, 1);
     if (!c.vertices) {
         error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for %u vertices", c.vertex_count);
         return NULL;
     }
+    if (c.at.triangle_count) c.triangles = (uint32_t *)(c.vertices + 3 * (size_t)c.vertex_count);
     ovoid_shape *shape = read_shape(&r, &c, &allocator);
     allocator_release(&allocator, c.vertices);
     return shape;

@@ -1,6 +1,7 @@
 // The checks of containment at ellipsoids of known size: radii one rounding margin on either side of touching.
 #include "ellipsoid/contain.h"
 #include "ellipsoid/factor.h"
+#include "polytope/winding.h"
 #include "polytopes.h"
 
 static ovoid_ellipsoid ball(double radius) {
@@ -42,11 +43,11 @@ static void check_winding(void) {
     made bodies[] = {made_box(1, 2, 3), made_simplex(), made_prism(7),
                      made_prism(31),    made_sphere(6), made_random(40, 1, &s)};
     for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++) {
-        CHECK(polytope_is_winding(&bodies[i].p, vec3_make(0, 0, 0)));
-        CHECK(polytope_is_winding(&bodies[i].p, vec3_make(0.01, -0.02, 0.015)));
-        CHECK(!polytope_is_winding(&bodies[i].p, vec3_make(3, 3, 3.5)));
-        CHECK(!polytope_is_winding(&bodies[i].p, vec3_make(-4, 0, 0)));
-        CHECK(!polytope_is_winding(&bodies[i].p, vec3_at(bodies[i].vertices, 0)));
+        CHECK_EQ(polytope_compute_winding(&bodies[i].p, vec3_make(0, 0, 0)), 1);
+        CHECK_EQ(polytope_compute_winding(&bodies[i].p, vec3_make(0.01, -0.02, 0.015)), 1);
+        CHECK_EQ(polytope_compute_winding(&bodies[i].p, vec3_make(3, 3, 3.5)), 0);
+        CHECK_EQ(polytope_compute_winding(&bodies[i].p, vec3_make(-4, 0, 0)), 0);
+        CHECK_EQ(polytope_compute_winding(&bodies[i].p, vec3_at(bodies[i].vertices, 0)), 0);
         made_destroy(&bodies[i]);
     }
 }

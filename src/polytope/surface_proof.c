@@ -1,0 +1,179 @@
+// The proof that triangles are the boundary of a hull, by looking at each of them and at each edge once.
+//
+// Theorem. Let triangles be given in which each directed edge occurs once, and once in the opposite direction, and a
+// point c, such that
+//   (1) c is strictly below the plane of each triangle, as seen from its counter-clockwise side;
+//   (2) the surface winds around c once;
+//   (3) at each edge the far corner of either triangle is not above the plane of the other.
+// Then the triangles are the boundary of the hull of their corners, each part of it covered once.
+//
+// Proof. Seen from c, by (1), every triangle covers a spherical triangle, all with one orientation, and the two at an
+// edge lie on either side of it: a point that moves over the sphere and crosses an edge leaves one triangle and enters
+// one. So all directions but those of edges are covered equally often, and by (2) once: the triangles bound a body that
+// is star-shaped about c. Take two points in its interior such that the plane through them and c meets no vertex; the
+// others are limits of these. The plane cuts the body in a polygon, star-shaped about c, whose corners lie on edges, so
+// that none of its angles is above 180 degrees, by (3). Such a polygon is convex, and the segment between the points
+// lies in it. A body that is convex is the hull of its corners.
+//
+// (4) A vertex of it is extreme if and only if at least three of its edges are creases, at which the triangles are not
+// coplanar: with none it lies inside a face, with two inside an edge, one or a reversal there cannot be.
+//
+// By (2) points that are equal are refused too: the map to the sphere is one-to-one.
+//
+// The conditions are those of K. Mehlhorn, S. Naeher, M. Seel, R. Seidel, T. Schilz, S. Schirra, C. Uhrig, Checking
+// geometric programs or verification of geometric structures, 1999, section 2, with faces that are cut into coplanar
+// triangles; that local convexity is enough goes back to H. Tietze, Ueber Konvexheit im kleinen und im grossen, 1928.
+// Without (2) the great icosahedron would pass: 12 vertices and 20 triangles, as the icosahedron has, convex at each
+// edge, but wound seven times around its centre. Signs are exact (linear/exact.h).
+//
+// Cost: linear; per triangle one sign for (1), one and a half for (3).
+#include "polytope/surface_proof.h"
+
+#include "base/allocator.h"
+#include "linear/exact.h"
+#include "polytope/winding.h"
+
+#include <string.h>
+
+typedef struct prover {
+    const surface_claim *claim;
+    const points *p;
+    surface *s;
+    surface_flaw *flaw;
+    vec3 inside;      // in units of the grid
+    uint32_t *starts; // of each vertex: its first edge in the lists below; one more at the end
+    uint32_t *end;    // of each vertex: the end of its list as it grows; later its edges that are no creases
+    uint32_t *edges, *coming, *going;
+} prover;
+
+static ovoid_code refuse(const prover *w, uint32_t triangle, const char *what) {
+    *w->flaw = (surface_flaw){what, triangle, 0};
+    return OVOID_ERROR_HULL;
+}
+
+static ovoid_code refuse_vertex(const prover *w, uint32_t vertex, const char *what) {
+    *w->flaw = (surface_flaw){what, vertex, 1};
+    return OVOID_ERROR_HULL;
+}
+
+// ---- edges ----
+
+// Edge 3 t + i goes from corner i of triangle t to the next one.
+static uint32_t get_from(const prover *w, size_t e) { return w->s->triangles[e]; }
+static uint32_t get_to(const prover *w, size_t e) { return w->s->triangles[e % 3 == 2 ? e - 2 : e + 1]; }
+
+static ovoid_code count_edges(const prover *w) {
+    uint32_t count = w->p->count;
+    size_t edges = 3 * (size_t)w->s->triangle_count;
+    memset(w->starts, 0, ((size_t)count + 1) * sizeof *w->starts);
+    for (size_t e = 0; e < edges; e++) {
+        uint32_t v = w->claim->triangles[e];
+        if (v >= count) return refuse(w, (uint32_t)(e / 3), "a corner of a triangle is no vertex");
+        w->starts[v + 1]++;
+    }
+    for (uint32_t v = 0; v < count; v++) {
+        if (w->starts[v + 1] == 0) return refuse_vertex(w, v, "a vertex is on no triangle");
+        w->starts[v + 1] += w->starts[v];
+    }
+    return OVOID_OK;
+}
+
+// A list of edges grouped by a vertex becomes one that is grouped by their other vertex; within a group the first
+// vertices ascend.
+static void regroup(const prover *w, const uint32_t *list, uint32_t *grouped, uint32_t (*get)(const prover *, size_t)) {
+    size_t edges = 3 * (size_t)w->s->triangle_count;
+    memcpy(w->end, w->starts, w->p->count * sizeof *w->end);
+    for (size_t i = 0; i < edges; i++) {
+        uint32_t e = list ? list[i] : (uint32_t)i;
+        grouped[w->end[get(w, e)]++] = e;
+    }
+}
+
+// Finds the triangle across each edge: the edges that go out of a vertex and those that come in, sorted by their other
+// ends, must be the same ones. (Each corner has one edge of either kind.)
+static ovoid_code find_across(const prover *w) {
+    size_t edges = 3 * (size_t)w->s->triangle_count;
+    regroup(w, NULL, w->edges, get_from);
+    regroup(w, w->edges, w->coming, get_to);
+    regroup(w, w->coming, w->going, get_from);
+    for (size_t i = 0; i < edges; i++) {
+        uint32_t in = w->coming[i], out = w->going[i], v = get_from(w, out);
+        if (i > w->starts[v] && get_to(w, out) == get_to(w, w->going[i - 1]))
+            return refuse(w, out / 3, "two triangles run through an edge in the same direction");
+        if (get_from(w, in) != get_to(w, out))
+            return refuse(w, out / 3, "the surface is open: no triangle is beyond an edge");
+        w->s->across[out] = in / 3;
+    }
+    return OVOID_OK;
+}
+
+// ---- convexity ----
+
+// (1) and (3): each edge is looked at from the triangle with the smaller number.
+static ovoid_code check_triangle(const prover *w, uint32_t t) {
+    const surface *s = w->s;
+    const uint32_t *corner = s->triangles + 3 * (size_t)t;
+    vec3 a = vec3_at(w->p->grid, corner[0]), b = vec3_at(w->p->grid, corner[1]), c = vec3_at(w->p->grid, corner[2]);
+    if (orient3d_sign(a, b, c, w->inside) <= 0) return refuse(w, t, "a triangle does not face outward");
+    for (uint32_t k = 0; k < 3; k++) {
+        if (s->across[3 * (size_t)t + k] < t) continue;
+        int sign = orient3d_sign(a, b, c, vec3_at(w->p->grid, surface_get_beyond(s, t, k)));
+        if (sign < 0) return refuse(w, t, "the surface is not convex at an edge");
+        if (sign > 0) continue;
+        w->end[corner[k]]++;
+        w->end[corner[(k + 1) % 3]]++;
+    }
+    return OVOID_OK;
+}
+
+static ovoid_code check_convex(const prover *w) {
+    memset(w->end, 0, w->p->count * sizeof *w->end);
+    for (uint32_t t = 0; t < w->s->triangle_count; t++) {
+        ovoid_code code = check_triangle(w, t);
+        if (code) return code;
+    }
+    ovoid_polytope p = {.vertices = w->claim->xyz,
+                        .triangles = w->s->triangles,
+                        .vertex_count = w->p->count,
+                        .triangle_count = w->s->triangle_count};
+    if (polytope_compute_winding(&p, w->claim->inside) != 1)
+        return refuse(w, 0, "the surface does not wind once around its inside");
+    for (uint32_t v = 0; v < w->p->count; v++)
+        if (w->starts[v + 1] - w->starts[v] - w->end[v] < 3) return refuse_vertex(w, v, "a vertex is not extreme");
+    return OVOID_OK;
+}
+
+// ----
+
+static ovoid_code prove(prover *w) {
+    simplex_find(w->p, w->s);
+    if (w->s->rank < 3) return refuse_vertex(w, 0, "the vertices lie in a plane");
+    // The vertices are below 2^240 there; much farther out, signs would overflow.
+    if (!(vec3_max_abs(w->inside) <= 0x1p241)) return refuse(w, 0, "the surface does not wind once around its inside");
+    ovoid_code code = count_edges(w);
+    if (code) return code;
+    memcpy(w->s->triangles, w->claim->triangles, 3 * (size_t)w->s->triangle_count * sizeof *w->s->triangles);
+    code = find_across(w);
+    return code ? code : check_convex(w);
+}
+
+ovoid_code surface_create_proven(const surface_claim *claim, const points *p, const ovoid_allocator *allocator,
+                                 surface *s, surface_flaw *flaw) {
+    *s = (surface){.triangle_count = claim->triangle_count};
+    prover w = {.claim = claim, .p = p, .s = s, .flaw = flaw, .inside = points_to_grid(p, claim->inside)};
+    size_t edges = 3 * (size_t)claim->triangle_count, count = p->count;
+    s->triangles = allocator_allocate(allocator, edges, sizeof *s->triangles);
+    s->across = allocator_allocate(allocator, edges, sizeof *s->across);
+    w.starts = allocator_allocate(allocator, 2 * count + 1 + 3 * edges, sizeof *w.starts);
+    ovoid_code code = OVOID_ERROR_MEMORY;
+    if (s->triangles && s->across && w.starts) {
+        w.end = w.starts + count + 1;
+        w.edges = w.end + count;
+        w.coming = w.edges + edges;
+        w.going = w.coming + edges;
+        code = prove(&w);
+    }
+    allocator_release(allocator, w.starts);
+    if (code) surface_destroy(s, allocator);
+    return code;
+}

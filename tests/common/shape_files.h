@@ -1,0 +1,31 @@
+// Files of shapes, for tests that change their bytes.
+#ifndef OVOID_TESTS_SHAPE_FILES_H
+#define OVOID_TESTS_SHAPE_FILES_H
+
+#include "check.h"
+#include "shape/block.h"
+
+/// The checksum as docs/polytope.md says: FNV-1a of 64 bits over all bytes before it, little-endian.
+static inline void shape_files_mend(uint8_t *bytes, size_t size) {
+    uint64_t h = 0xcbf29ce484222325u;
+    for (size_t i = 0; i + 8 < size; i++) h = (h ^ bytes[i]) * 0x100000001b3u;
+    for (int i = 0; i < 8; i++) bytes[size - 8 + (size_t)i] = (uint8_t)(h >> 8 * i);
+}
+
+/// Two shapes are the same to the last bit: members one by one, as padding between them is nobody's; fits and report
+/// are compared as written.
+static inline void shape_files_check_same(const ovoid_shape *a, const ovoid_shape *b) {
+    if (!CHECK(a && b) || !CHECK_EQ(a->at.size, b->at.size)) return;
+    size_t front = offsetof(ovoid_shape, outer_fit), arrays = (sizeof(ovoid_shape) + 63) / 64 * 64;
+    CHECK(!memcmp(a, b, front));
+    CHECK(!memcmp(&a->measures, &b->measures, sizeof a->measures));
+    CHECK(!memcmp((const char *)a + arrays, (const char *)b + arrays, a->at.size - arrays));
+    size_t size = ovoid_shape_write(a, NULL, 0);
+    uint8_t *bytes = malloc(2 * size);
+    ovoid_shape_write(a, bytes, size);
+    ovoid_shape_write(b, bytes + size, size);
+    CHECK(!memcmp(bytes, bytes + size, size));
+    free(bytes);
+}
+
+#endif
