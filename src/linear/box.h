@@ -15,8 +15,8 @@ static inline box box_make_around(const double *xyz, uint32_t count) {
     vec3 low = vec3_at(xyz, 0), high = low;
     for (uint32_t i = 1; i < count; i++) {
         vec3 p = vec3_at(xyz, i);
-        low = (vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
-        high = (vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
+        low = (vec3){min2(low.x, p.x), min2(low.y, p.y), min2(low.z, p.z)};
+        high = (vec3){max2(high.x, p.x), max2(high.y, p.y), max2(high.z, p.z)};
     }
     return (box){low, high};
 }

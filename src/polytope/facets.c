@@ -16,6 +16,9 @@
 
 #define NOTHING UINT32_MAX
 
+// From so many triangles on a radix sort is faster.
+#define RADIX_LEAST 256
+
 // a b - c d, rounded.
 static double compute_minor(dd a, dd b, dd c, dd d) { return dd_sub(dd_mul(a, b), dd_mul(c, d)).high; }
 
@@ -25,14 +28,18 @@ vec3 compute_area(vec3 a, vec3 b, vec3 c) {
     return (vec3){compute_minor(py, qz, pz, qy), compute_minor(pz, qx, px, qz), compute_minor(px, qy, py, qx)};
 }
 
-static vec3 get_area(const surface *s, const double *grid, uint32_t t) {
-    const uint32_t *corner = s->triangles + 3 * (size_t)t;
-    return compute_area(vec3_at(grid, corner[0]), vec3_at(grid, corner[1]), vec3_at(grid, corner[2]));
+int surface_compute_areas(surface *s, const double *grid, const ovoid_allocator *allocator) {
+    s->areas = allocator_allocate(allocator, s->triangle_count, sizeof *s->areas);
+    for (uint32_t t = 0; t < s->triangle_count && s->areas; t++) {
+        const uint32_t *corner = s->triangles + 3 * (size_t)t;
+        s->areas[t] = compute_area(vec3_at(grid, corner[0]), vec3_at(grid, corner[1]), vec3_at(grid, corner[2]));
+    }
+    return s->areas != NULL;
 }
 
 double compute_extent(const double *xyz, uint32_t count) {
     double extent = 0;
-    for (uint32_t i = 0; i < count; i++) extent = fmax(extent, vec3_max_abs(vec3_at(xyz, i)));
+    for (uint32_t i = 0; i < count; i++) extent = max2(extent, vec3_max_abs(vec3_at(xyz, i)));
     return extent;
 }
 
@@ -40,34 +47,39 @@ thickness surface_compute_thickness(const surface *s, const double *grid, uint32
     // The largest triangle, then the mean normal of its side of the surface.
     vec3 largest = {0, 0, 0}, sum = {0, 0, 0};
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        vec3 area = get_area(s, grid, t);
+        vec3 area = s->areas[t];
         if (vec3_norm_squared(area) > vec3_norm_squared(largest)) largest = area;
     }
     largest = vec3_unit(largest);
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        vec3 area = get_area(s, grid, t);
+        vec3 area = s->areas[t];
         if (vec3_dot(area, largest) > 0) sum = vec3_add(sum, area);
     }
     vec3 n = vec3_unit(sum);
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < count; i++) {
         double d = vec3_dot(n, vec3_at(grid, i));
-        low = fmin(low, d);
-        high = fmax(high, d);
+        low = min2(low, d);
+        high = max2(high, d);
     }
     return (thickness){n, high - low};
 }
 
 // ---- joining triangles ----
 
+// What is known of a triangle before any is joined.
+enum { TRIANGLE_PLAIN = 0, TRIANGLE_NEAR = 1, TRIANGLE_SLIVER = 2 };
+
 typedef struct joiner {
     const surface *s;
     const double *grid;
-    double *area;    // of each triangle, twice
-    uint32_t *order; // triangles, the largest first
-    uint32_t *queue; // of the facet that grows
+    ovoid_plane *planes; // of each triangle
+    double *area;        // of each triangle, twice
+    uint32_t *order;     // triangles, the largest first
+    uint32_t *queue;     // of the facet that grows
+    uint32_t *seeds;     // of each facet its first triangle
     uint32_t *facet_of;
-    ovoid_plane *planes; // of each facet's first triangle
+    uint8_t *kinds;
     double flatness;
 } joiner;
 
@@ -76,107 +88,171 @@ static int compare_areas(const void *context, uint32_t a, uint32_t b) {
     return (area[a] < area[b]) - (area[a] > area[b]);
 }
 
+static double compute_height(const joiner *j, uint32_t corner, const ovoid_plane *plane) {
+    return fabs(vec3_dot(plane->normal, vec3_at(j->grid, corner)) - plane->offset);
+}
+
 // The largest distance of a triangle's corners from a plane.
 static double compute_distance(const joiner *j, uint32_t t, const ovoid_plane *plane) {
-    double distance = 0;
-    for (size_t i = 0; i < 3; i++) {
-        vec3 corner = vec3_at(j->grid, j->s->triangles[3 * (size_t)t + i]);
-        distance = fmax(distance, fabs(vec3_dot(plane->normal, corner) - plane->offset));
-    }
-    return distance;
+    const uint32_t *corner = j->s->triangles + 3 * (size_t)t;
+    double a = compute_height(j, corner[0], plane), b = compute_height(j, corner[1], plane);
+    return max2(max2(a, b), compute_height(j, corner[2], plane));
 }
 
 // A triangle that faces the other way is the back of something thin, however near it is.
-static int is_joining(const joiner *j, uint32_t t, const ovoid_plane *plane) {
-    return j->facet_of[t] == NOTHING && compute_distance(j, t, plane) <= j->flatness &&
-           vec3_dot(get_area(j->s, j->grid, t), plane->normal) > 0;
+static int is_in_plane(const joiner *j, uint32_t t, const ovoid_plane *plane) {
+    return compute_distance(j, t, plane) <= j->flatness && vec3_dot(j->s->areas[t], plane->normal) > 0;
 }
 
 static void grow_facet(joiner *j, uint32_t seed, uint32_t facet) {
-    ovoid_plane *plane = j->planes + facet;
-    plane->normal = vec3_unit(get_area(j->s, j->grid, seed));
-    plane->offset = vec3_dot(plane->normal, vec3_at(j->grid, j->s->triangles[3 * (size_t)seed]));
+    const ovoid_plane *plane = j->planes + seed;
     uint32_t count = 1;
     j->queue[0] = seed;
-    j->facet_of[seed] = facet;
     for (uint32_t i = 0; i < count; i++)
         for (size_t k = 0; k < 3; k++) {
             uint32_t t = j->s->across[3 * (size_t)j->queue[i] + k];
-            if (!is_joining(j, t, plane)) continue;
+            if (j->facet_of[t] != NOTHING || !is_in_plane(j, t, plane)) continue;
             j->facet_of[t] = facet;
             j->queue[count++] = t;
         }
 }
 
 // A triangle lower than the flatness has no plane of its own: it goes with the neighbor whose facet it is nearest to.
-// NOTHING for a proper triangle.
+// NOTHING where none is near.
 static uint32_t find_host(const joiner *j, uint32_t t) {
-    const uint32_t *corner = j->s->triangles + 3 * (size_t)t;
-    double longest = 0, nearest = 4 * j->flatness;
+    double nearest = 4 * j->flatness;
     uint32_t host = NOTHING;
-    for (int k = 0; k < 3; k++) {
-        vec3 edge = vec3_sub(vec3_at(j->grid, corner[(k + 1) % 3]), vec3_at(j->grid, corner[k]));
-        longest = fmax(longest, vec3_norm(edge));
-        uint32_t facet = j->facet_of[j->s->across[3 * (size_t)t + (size_t)k]];
-        double distance = facet == NOTHING ? INFINITY : compute_distance(j, t, j->planes + facet);
+    for (size_t k = 0; k < 3; k++) {
+        uint32_t facet = j->facet_of[j->s->across[3 * (size_t)t + k]];
+        double distance = facet == NOTHING ? INFINITY : compute_distance(j, t, j->planes + j->seeds[facet]);
         if (distance <= nearest) host = facet, nearest = distance;
     }
-    return j->area[t] <= longest * j->flatness ? host : NOTHING;
+    return host;
+}
+
+// Planes, areas and kinds, in the order of the triangles, while their corners are at hand. A triangle is near where one
+// across an edge may join it: the corner beyond is looked at first, as it decides mostly.
+static void prepare(joiner *j) {
+    const surface *s = j->s;
+    for (uint32_t t = 0; t < s->triangle_count; t++) {
+        const uint32_t *corner = s->triangles + 3 * (size_t)t;
+        vec3 c[3] = {vec3_at(j->grid, corner[0]), vec3_at(j->grid, corner[1]), vec3_at(j->grid, corner[2])};
+        vec3 normal = vec3_unit(s->areas[t]);
+        ovoid_plane *plane = j->planes + t;
+        *plane = (ovoid_plane){normal, vec3_dot(normal, c[0])};
+        j->area[t] = vec3_norm(s->areas[t]);
+        double longest = 0;
+        for (int k = 0; k < 3; k++) longest = max2(longest, vec3_norm(vec3_sub(c[(k + 1) % 3], c[k])));
+        j->kinds[t] = j->area[t] <= longest * j->flatness ? TRIANGLE_SLIVER : TRIANGLE_PLAIN;
+        for (uint32_t k = 0; k < 3; k++)
+            if (compute_height(j, surface_get_beyond(s, t, k), plane) <= j->flatness &&
+                is_in_plane(j, s->across[3 * (size_t)t + k], plane))
+                j->kinds[t] |= TRIANGLE_NEAR;
+        j->facet_of[t] = NOTHING;
+    }
+}
+
+// Larger triangles first, equal ones in their order. 0 where there is no memory.
+static int order_triangles(joiner *j, const ovoid_allocator *allocator) {
+    uint32_t count = j->s->triangle_count;
+    if (count < RADIX_LEAST) {
+        for (uint32_t t = 0; t < count; t++) j->order[t] = t;
+        sort_indices(j->order, j->queue, count, compare_areas, j->area);
+        return 1;
+    }
+    sort_entry *entries = allocator_allocate(allocator, 2 * (size_t)count, sizeof *entries);
+    for (uint32_t t = 0; t < count && entries; t++) {
+        // The bits of doubles that are not negative ascend as they do.
+        uint64_t bits;
+        memcpy(&bits, &j->area[t], sizeof bits);
+        entries[t] = (sort_entry){~bits, t};
+    }
+    if (entries) sort_entries(entries, entries + count, count);
+    for (uint32_t i = 0; i < count && entries; i++) j->order[i] = entries[i].index;
+    allocator_release(allocator, entries);
+    return entries != NULL;
 }
 
 static uint32_t join(joiner *j) {
-    uint32_t count = j->s->triangle_count, joined = 0;
-    for (uint32_t t = 0; t < count; t++) {
-        j->area[t] = vec3_norm(get_area(j->s, j->grid, t));
-        j->order[t] = t;
-        j->facet_of[t] = NOTHING;
-    }
-    sort_indices(j->order, j->queue, count, compare_areas, j->area);
-    for (uint32_t i = 0; i < count; i++) {
+    uint32_t joined = 0;
+    for (uint32_t i = 0; i < j->s->triangle_count; i++) {
         uint32_t t = j->order[i];
         if (j->facet_of[t] != NOTHING) continue;
-        j->facet_of[t] = find_host(j, t);
-        if (j->facet_of[t] == NOTHING) grow_facet(j, t, joined++);
+        if (j->kinds[t] & TRIANGLE_SLIVER) j->facet_of[t] = find_host(j, t);
+        if (j->facet_of[t] != NOTHING) continue;
+        j->seeds[joined] = t;
+        j->facet_of[t] = joined;
+        if (j->kinds[t] & TRIANGLE_NEAR) grow_facet(j, t, joined);
+        joined++;
     }
     return joined;
 }
 
-// From the planes of first triangles to those of facets: the sum of the areas that face the same way.
-static void compute_normals(const joiner *j, ovoid_plane *planes, uint32_t count) {
+// Adds a number to a sum and what rounding took from it to the rest.
+static void add_compensated(double *sum, double *rest, double value) {
+    dd s = two_sum(*sum, value);
+    *sum = s.high;
+    *rest += s.low;
+}
+
+// From the planes of first triangles to those of facets: the sum of the areas that face the same way. Thousands of
+// slivers of a round face would turn a plain sum by their roundings. rests: cleared, one a facet.
+static void compute_normals(const joiner *j, ovoid_plane *planes, vec3 *rests, uint32_t count) {
     for (uint32_t f = 0; f < count; f++) planes[f] = (ovoid_plane){{0, 0, 0}, -INFINITY};
     for (uint32_t t = 0; t < j->s->triangle_count; t++) {
         uint32_t f = j->facet_of[t];
-        vec3 area = get_area(j->s, j->grid, t);
-        if (vec3_dot(area, j->planes[f].normal) > 0) planes[f].normal = vec3_add(planes[f].normal, area);
+        vec3 area = j->s->areas[t];
+        if (!(vec3_dot(area, j->planes[j->seeds[f]].normal) > 0)) continue;
+        add_compensated(&planes[f].normal.x, &rests[f].x, area.x);
+        add_compensated(&planes[f].normal.y, &rests[f].y, area.y);
+        add_compensated(&planes[f].normal.z, &rests[f].z, area.z);
     }
-    for (uint32_t f = 0; f < count; f++) planes[f].normal = vec3_unit(planes[f].normal);
+    for (uint32_t f = 0; f < count; f++) planes[f].normal = vec3_unit(vec3_add(planes[f].normal, rests[f]));
 }
 
-// The corners of each triangle support its own facet and those across its edges.
+static double get_support(const ovoid_plane *plane, const double *vertices, uint32_t corner) {
+    return vec3_dot(plane->normal, vec3_at(vertices, corner));
+}
+
+// A facet is supported by the corners of its triangles and those beyond their edges. + 0.0 makes a zero a positive one,
+// whichever corner it comes from.
 void facets_set_offsets(const surface *s, const double *vertices, facets *f) {
-    for (uint32_t t = 0; t < s->triangle_count; t++)
-        for (size_t k = 0; k < 4; k++) {
-            uint32_t beyond = k < 3 ? s->across[3 * (size_t)t + k] : t;
-            ovoid_plane *plane = f->planes + f->of[beyond];
-            for (size_t i = 0; i < 3; i++) {
-                vec3 corner = vec3_at(vertices, s->triangles[3 * (size_t)t + i]);
-                plane->offset = fmax(plane->offset, vec3_dot(plane->normal, corner));
-            }
+    for (uint32_t t = 0; t < s->triangle_count; t++) {
+        ovoid_plane *plane = f->planes + f->of[t];
+        for (uint32_t k = 0; k < 3; k++) {
+            double own = get_support(plane, vertices, s->triangles[3 * (size_t)t + k]);
+            double beyond = get_support(plane, vertices, surface_get_beyond(s, t, k));
+            plane->offset = max2(plane->offset, max2(own, beyond) + 0.0);
         }
+    }
 }
 
 int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator) {
     joiner j = {.s = s, .grid = p->grid, .facet_of = f->of};
     j.flatness = FACET_FLATNESS * compute_extent(p->grid, p->count);
-    j.planes =
-        allocator_allocate(allocator, s->triangle_count, sizeof *j.planes + sizeof *j.area + 2 * sizeof *j.order);
+    size_t count = s->triangle_count;
+    j.planes = allocator_allocate(allocator, count, sizeof *j.planes + sizeof *j.area + 3 * sizeof *j.order + 1);
     if (!j.planes) return 0;
-    j.area = (double *)(j.planes + s->triangle_count);
-    j.order = (uint32_t *)(j.area + s->triangle_count);
-    j.queue = j.order + s->triangle_count;
-    f->count = join(&j);
-    f->planes = allocator_allocate(allocator, f->count, sizeof *f->planes);
-    if (f->planes) compute_normals(&j, f->planes, f->count);
+    j.area = (double *)(j.planes + count);
+    j.order = (uint32_t *)(j.area + count);
+    j.queue = j.order + count;
+    j.seeds = j.queue + count;
+    j.kinds = (uint8_t *)(j.seeds + count);
+    prepare(&j);
+    vec3 *rests = NULL;
+    if (order_triangles(&j, allocator)) {
+        f->count = join(&j);
+        f->planes = allocator_allocate(allocator, f->count, sizeof *f->planes);
+        rests = allocator_allocate(allocator, f->count, sizeof *rests);
+    }
+    if (f->planes && rests) {
+        memset(rests, 0, f->count * sizeof *rests);
+        compute_normals(&j, f->planes, rests, f->count);
+    } else {
+        allocator_release(allocator, f->planes);
+        f->planes = NULL;
+    }
+    allocator_release(allocator, rests);
     allocator_release(allocator, j.planes);
     return f->planes != NULL;
 }

@@ -13,12 +13,15 @@
 /// a rounding over its least angle.
 vec3 compute_area(vec3 a, vec3 b, vec3 c);
 
+/// Fills s->areas: twice the area of each triangle. 0 where there is no memory. Cost: linear.
+int surface_compute_areas(surface *s, const double *grid, const ovoid_allocator *allocator);
+
 /// How thick a hull is.
 typedef struct thickness {
     vec3 normal;  ///< unit; of a thin hull the direction in which it is thinnest
     double width; ///< along the normal, in units of the grid
 } thickness;
-/// The thickness of the hull of count points. Cost: linear.
+/// The thickness of the hull of count points; the areas must be there. Cost: linear.
 thickness surface_compute_thickness(const surface *s, const double *grid, uint32_t count);
 
 /// The largest absolute value of a coordinate of count points.
@@ -32,7 +35,8 @@ typedef struct facets {
 } facets;
 
 /// Joins triangles to facets: from the largest triangle not yet taken, over edges, all whose corners lie on its plane
-/// to within FACET_FLATNESS. Fills *f but for the planes' offsets. 0 where there is no memory. Cost: n log n.
+/// to within FACET_FLATNESS. Fills *f but for the planes' offsets. The areas must be there. 0 where there is no
+/// memory. Cost: linear.
 int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator);
 
 /// The planes' offsets, in the frame of the vertices. Cost: linear.

@@ -95,7 +95,7 @@ static double compute_line_distance(const points *p, const uint32_t end[2]) {
     vec3 a = vec3_at(p->grid, end[0]), n = vec3_unit(vec3_sub(vec3_at(p->grid, end[1]), a));
     double width = 0;
     for (uint32_t i = 0; i < p->count; i++)
-        width = fmax(width, vec3_norm(vec3_cross(n, vec3_sub(vec3_at(p->grid, i), a))));
+        width = max2(width, vec3_norm(vec3_cross(n, vec3_sub(vec3_at(p->grid, i), a))));
     return width;
 }
 
@@ -209,9 +209,10 @@ static ovoid_code fill_flat(const builder *b, vec3 normal) {
 
 static ovoid_code fill(builder *b) {
     vec3 normal = {0, 0, 0};
-    b->hull->rank = find_rank(&b->p, &b->s, &normal);
     ovoid_code code = OVOID_ERROR_MEMORY;
-    if (fill_vertices(b)) code = b->hull->rank == 3 ? fill_solid(b) : fill_flat(b, normal);
+    int good = b->s.rank < 3 || surface_compute_areas(&b->s, b->p.grid, b->allocator);
+    if (good) b->hull->rank = find_rank(&b->p, &b->s, &normal);
+    if (good && fill_vertices(b)) code = b->hull->rank == 3 ? fill_solid(b) : fill_flat(b, normal);
     if (!code) return OVOID_OK;
     hull_destroy(b->hull, b->allocator);
     if (code == OVOID_ERROR_HULL)

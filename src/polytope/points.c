@@ -122,7 +122,7 @@ static void fill_grid(const double *xyz, points *p) {
     const double origin[3] = {p->origin.x, p->origin.y, p->origin.z};
     double top = 0;
     for (uint32_t i = 0; i < p->count; i++)
-        for (size_t c = 0; c < 3; c++) top = fmax(top, fabs(xyz[3 * (size_t)p->source[i] + c] - origin[c]));
+        for (size_t c = 0; c < 3; c++) top = max2(top, fabs(xyz[3 * (size_t)p->source[i] + c] - origin[c]));
     int e = 0;
     (void)frexp(top, &e);
     e = GRID_TOP - e;

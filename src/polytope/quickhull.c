@@ -403,12 +403,6 @@ static ovoid_code build(builder *b, uint32_t count, const uint32_t corner[4]) {
 
 // ---- the result ----
 
-uint32_t surface_get_beyond(const surface *s, uint32_t triangle, uint32_t k) {
-    const uint32_t *other = s->triangles + 3 * (size_t)s->across[3 * (size_t)triangle + k];
-    uint32_t from = s->triangles[3 * (size_t)triangle + k];
-    return other[0] == from ? other[1] : other[1] == from ? other[2] : other[0];
-}
-
 // The states of the points that were corners of facets at some time: inside if no facet is left at them, on a face if
 // fewer than three of the edges left are creases. (A corner all of whose facets are replaced is strictly inside: the
 // new point is above all of them.)
@@ -431,6 +425,40 @@ static void mark_corners(builder *b, const surface *s, uint32_t count) {
     }
 }
 
+// From so many triangles on the surface does not stay in the nearest cache.
+#define WALK_LEAST 1020
+
+// Numbers the triangles anew in the order in which a walk over edges from the first one meets them, breadth first: who
+// goes through them then finds the corners of one at hand from the one before. 0 where there is no memory.
+static int order_by_walk(surface *s, const ovoid_allocator *allocator) {
+    uint32_t count = s->triangle_count;
+    if (count < WALK_LEAST) return 1;
+    // The walk is its own queue.
+    uint32_t *walk = allocator_allocate(allocator, 2 * (size_t)count, sizeof *walk), *place = walk + count, met = 1;
+    uint32_t *triangles = allocator_allocate(allocator, count, 3 * sizeof *triangles);
+    uint32_t *across = allocator_allocate(allocator, count, 3 * sizeof *across);
+    int good = walk && triangles && across;
+    if (good) {
+        memset(place, 0xff, count * sizeof *place);
+        walk[0] = place[0] = 0;
+    }
+    for (uint32_t i = 0; good && i < met; i++)
+        for (size_t k = 0; k < 3; k++) {
+            uint32_t t = s->across[3 * (size_t)walk[i] + k];
+            if (place[t] == NOTHING) place[t] = met, walk[met++] = t;
+        }
+    for (size_t i = 0; good && i < 3 * (size_t)count; i++) {
+        size_t from = 3 * (size_t)walk[i / 3] + i % 3;
+        triangles[i] = s->triangles[from];
+        across[i] = place[s->across[from]];
+    }
+    allocator_release(allocator, walk);
+    allocator_release(allocator, good ? s->triangles : triangles);
+    allocator_release(allocator, good ? s->across : across);
+    if (good) s->triangles = triangles, s->across = across;
+    return good;
+}
+
 // The facets in use as plain arrays.
 static int extract(builder *b, uint32_t count, surface *s) {
     uint32_t used = b->facets.count - b->free.count;
@@ -449,6 +477,7 @@ static int extract(builder *b, uint32_t count, surface *s) {
             s->across[t++] = get_facet(b, f->across[k])->stamp;
         }
     }
+    if (!order_by_walk(s, b->allocator)) return 0;
     mark_corners(b, s, count);
     return 1;
 }
@@ -485,5 +514,6 @@ void surface_destroy(surface *s, const ovoid_allocator *allocator) {
     allocator_release(allocator, s->state);
     allocator_release(allocator, s->triangles);
     allocator_release(allocator, s->across);
+    allocator_release(allocator, s->areas);
     *s = (surface){0};
 }

@@ -14,6 +14,7 @@ typedef struct surface {
     uint8_t *state;          ///< where each point lies (rank 3)
     uint32_t *triangles;     ///< three points each, counter-clockwise from outside (rank 3)
     uint32_t *across;        ///< at 3 t + i the triangle beyond the edge from corner i to i + 1 of t (rank 3)
+    vec3 *areas;             ///< of the triangles, twice; NULL until surface_compute_areas (polytope/facets.h)
     uint32_t triangle_count; ///< 2 corners - 4 (rank 3); the corners are the extreme points where none is on a face
 } surface;
 
@@ -24,7 +25,11 @@ ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, s
 void simplex_find(const points *p, surface *s);
 
 /// The corner beyond edge k of a triangle, in the triangle across.
-uint32_t surface_get_beyond(const surface *s, uint32_t triangle, uint32_t k);
+static inline uint32_t surface_get_beyond(const surface *s, uint32_t triangle, uint32_t k) {
+    const uint32_t *other = s->triangles + 3 * (size_t)s->across[3 * (size_t)triangle + k];
+    uint32_t from = s->triangles[3 * (size_t)triangle + k];
+    return other[0] == from ? other[1] : other[1] == from ? other[2] : other[0];
+}
 
 void surface_destroy(surface *s, const ovoid_allocator *allocator);
 

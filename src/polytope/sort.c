@@ -1,4 +1,6 @@
 // Merge sort from the bottom up: runs of 1, 2, 4, ... are merged until one is left. Stable, n log n, no recursion.
+// Radix sort from the lowest byte (H. H. Seward, Information sorting in the application of electronic digital computers
+// to business operations, 1954); bytes that are the same in all keys are passed over.
 #include "polytope/sort.h"
 
 #include <string.h>
@@ -20,4 +22,27 @@ void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_orde
         }
         memcpy(index, scratch, count * sizeof *index);
     }
+}
+
+enum { BYTES = 8, VALUES = 256 };
+
+void sort_entries(sort_entry *entries, sort_entry *scratch, uint32_t count) {
+    uint32_t places[BYTES][VALUES] = {{0}};
+    for (uint32_t i = 0; i < count; i++)
+        for (int byte = 0; byte < BYTES; byte++) places[byte][entries[i].key >> 8 * byte & (VALUES - 1)]++;
+    sort_entry *from = entries, *to = scratch;
+    for (int byte = 0; byte < BYTES; byte++) {
+        uint32_t *place = places[byte], at = 0;
+        if (count == 0 || place[from[0].key >> 8 * byte & (VALUES - 1)] == count) continue;
+        for (int v = 0; v < VALUES; v++) {
+            uint32_t here = place[v];
+            place[v] = at;
+            at += here;
+        }
+        for (uint32_t i = 0; i < count; i++) to[place[from[i].key >> 8 * byte & (VALUES - 1)]++] = from[i];
+        sort_entry *swapped = from;
+        from = to;
+        to = swapped;
+    }
+    if (from != entries) memcpy(entries, from, count * sizeof *entries);
 }

@@ -84,11 +84,11 @@ sphere sphere_compute_smallest(const double *xyz, uint32_t count) {
 
 double sphere_compute_radius(const double *xyz, uint32_t count, vec3 center) {
     double size = 0, farthest = 0;
-    for (uint32_t i = 0; i < count; i++) size = fmax(size, vec3_max_abs(vec3_sub(vec3_at(xyz, i), center)));
+    for (uint32_t i = 0; i < count; i++) size = max2(size, vec3_max_abs(vec3_sub(vec3_at(xyz, i), center)));
     if (size == 0) return 0;
     double unit = ldexp(1, find_unit_exponent(size));
     for (uint32_t i = 0; i < count; i++)
-        farthest = fmax(farthest, vec3_norm_squared(vec3_scale(vec3_sub(vec3_at(xyz, i), center), 1 / unit)));
+        farthest = max2(farthest, vec3_norm_squared(vec3_scale(vec3_sub(vec3_at(xyz, i), center), 1 / unit)));
     // Differences, squares and sums are within 5 roundings of the square, so 2.5 of the root; its own rounding and
     // those of this line make 6. What underflows is below the last term.
     return sqrt(farthest) * (1 + 8 * 0x1p-53) * unit + 0x1p-1074;

@@ -158,6 +158,29 @@ static void check_hard(void) {
     hull_destroy(&h, &allocator);
 }
 
+// The base of a turned cone: 5000 corners of one plane, rounded, in a few thousand slivers. The plane of their summed
+// areas is off by what the corners are, a rounding, and not by thousands of roundings of the sum.
+static void check_round_face(void) {
+    uint64_t s = 91;
+    for (int i = 0; i < 12; i++) {
+        check_seed = s;
+        for (int k = 0; k < 5000; k++) put((size_t)k, (vec3){cos(k * 1e-3), sin(k * 1e-3), 0});
+        put(5000, (vec3){0, 0, 2});
+        rotate_cloud(5001, random_rotation(&s));
+        hull h;
+        if (!CHECK_EQ(hull_create(cloud, 5001, &allocator, &h, NULL), OVOID_OK)) continue;
+        double off = 0, flatness = FLATNESS * compute_extent_of(&h);
+        for (uint32_t t = 0; t < h.triangle_count; t++)
+            for (int k = 0; k < 3; k++) {
+                ovoid_plane plane = h.planes[h.triangle_facets[t]];
+                off = fmax(off, plane.offset - vec3_dot(plane.normal, vec3_at(h.vertices, h.triangles[3 * t + k])));
+            }
+        CHECK_LE(off, flatness / 8);
+        hull_destroy(&h, &allocator);
+    }
+    check_seed = 0;
+}
+
 // Exactly flat bodies, whose corners are known, and nearly flat ones, which keep every extreme point.
 static void check_flat(void) {
     size_t n = 0;
@@ -319,6 +342,7 @@ int main(void) {
     check_scales();
     check_far();
     check_hard();
+    check_round_face();
     check_flat();
     check_tiny_differences();
     check_lattices();
