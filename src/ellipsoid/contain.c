@@ -46,7 +46,7 @@ double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const o
             sum += t * t;
         }
         if (isnan(sum)) return INFINITY;
-        bound = fmax(bound, sum);
+        bound = max2(bound, sum);
     }
     return bound * ((1 + 16 * ROUNDING) / (1 - f.defect));
 }
@@ -83,6 +83,17 @@ static double bound_reach(const scaled *s, vec3 direction) {
     return sqrt(fmax(sum.high, 0) + 0x1p-96 * size + 0x1p-900) * (1 + 4 * ROUNDING);
 }
 
+// An upper bound of bound_reach in doubles: products and sums are within 10 roundings of the sum of sizes, so that 32
+// are above what pairs of doubles leave too.
+static double bound_reach_roughly(const scaled *s, vec3 n) {
+    double xx = n.x * n.x * s->q.m[0][0].high, yy = n.y * n.y * s->q.m[1][1].high, zz = n.z * n.z * s->q.m[2][2].high;
+    double xy = 2 * n.x * n.y * s->q.m[0][1].high, xz = 2 * n.x * n.z * s->q.m[0][2].high;
+    double yz = 2 * n.y * n.z * s->q.m[1][2].high;
+    double size = ((fabs(xx) + fabs(yy)) + fabs(zz)) + ((fabs(xy) + fabs(xz)) + fabs(yz));
+    double sum = ((xx + yy) + zz) + ((xy + xz) + yz);
+    return sqrt(max2(sum, 0) + 32 * ROUNDING * size + 0x1p-899) * (1 + 8 * ROUNDING);
+}
+
 // The largest factor proven along n: the least of n . (v - c) over the triangle, less its rounding (difference,
 // product, two sums: 4 roundings a term, 6 with the bound's own), over the reach.
 static double bound_factor(const scaled *s, const vec3 corner[3], vec3 n, double reach) {
@@ -100,18 +111,16 @@ vec3 triangle_compute_normal(const vec3 corner[3]) { return vec3_unit(compute_ar
 
 double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     scaled s = scale(ellipsoid);
-    double bound = INFINITY, reach = 0;
-    vec3 n = {0, 0, 0};
+    double bound = INFINITY;
     for (uint32_t t = 0; t < polytope->triangle_count; t++) {
         const uint32_t *index = polytope->triangles + 3 * (size_t)t;
         vec3 corner[3];
         for (int i = 0; i < 3; i++) corner[i] = vec3_at(polytope->vertices, index[i]);
-        // The facet's plane; triangles of a facet mostly follow one another.
-        if (t == 0 || polytope->triangle_facets[t] != polytope->triangle_facets[t - 1]) {
-            n = polytope->planes[polytope->triangle_facets[t]].normal;
-            reach = bound_reach(&s, n);
-        }
-        double clear = bound_factor(&s, corner, n, reach);
+        // The facet's plane. Most triangles do not limit the factor, and a reach that is too large shows it.
+        vec3 n = polytope->planes[polytope->triangle_facets[t]].normal;
+        double clear = bound_factor(&s, corner, n, bound_reach_roughly(&s, n));
+        if (clear >= bound && clear >= 0) continue;
+        clear = bound_factor(&s, corner, n, bound_reach(&s, n));
         if (clear >= bound) continue;
         // Where this triangle limits the factor, its own normal may give a larger one.
         vec3 own = triangle_compute_normal(corner);
