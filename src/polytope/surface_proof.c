@@ -43,7 +43,8 @@ typedef struct prover {
     vec3 inside;      // in units of the grid
     uint32_t *starts; // of each vertex: its first edge in the lists below; one more at the end
     uint32_t *end;    // of each vertex: the end of its list as it grows; later its edges that are no creases
-    uint32_t *edges, *coming, *going;
+    uint32_t *edges;  // the lists
+    uint64_t steps;   // along lists
 } prover;
 
 static ovoid_code refuse(const prover *w, uint32_t triangle, const char *what) {
@@ -59,15 +60,16 @@ static ovoid_code refuse_vertex(const prover *w, uint32_t vertex, const char *wh
 // ---- edges ----
 
 // Edge 3 t + i goes from corner i of triangle t to the next one.
-static uint32_t get_from(const prover *w, size_t e) { return w->s->triangles[e]; }
-static uint32_t get_to(const prover *w, size_t e) { return w->s->triangles[e % 3 == 2 ? e - 2 : e + 1]; }
+static size_t get_next(size_t e) { return e % 3 == 2 ? e - 2 : e + 1; }
+static size_t get_previous(size_t e) { return e % 3 == 0 ? e + 2 : e - 1; }
 
-static ovoid_code count_edges(const prover *w) {
+// Lists the edges that go out of each vertex.
+static ovoid_code list_edges(const prover *w) {
     uint32_t count = w->p->count;
     size_t edges = 3 * (size_t)w->s->triangle_count;
     memset(w->starts, 0, ((size_t)count + 1) * sizeof *w->starts);
     for (size_t e = 0; e < edges; e++) {
-        uint32_t v = w->claim->triangles[e];
+        uint32_t v = w->s->triangles[e];
         if (v >= count) return refuse(w, (uint32_t)(e / 3), "a corner of a triangle is no vertex");
         w->starts[v + 1]++;
     }
@@ -75,34 +77,39 @@ static ovoid_code count_edges(const prover *w) {
         if (w->starts[v + 1] == 0) return refuse_vertex(w, v, "a vertex is on no triangle");
         w->starts[v + 1] += w->starts[v];
     }
+    memcpy(w->end, w->starts, count * sizeof *w->end);
+    for (size_t e = 0; e < edges; e++) w->edges[w->end[w->s->triangles[e]]++] = (uint32_t)e;
     return OVOID_OK;
 }
 
-// A list of edges grouped by a vertex becomes one that is grouped by their other vertex; within a group the first
-// vertices ascend.
-static void regroup(const prover *w, const uint32_t *list, uint32_t *grouped, uint32_t (*get)(const prover *, size_t)) {
-    size_t edges = 3 * (size_t)w->s->triangle_count;
-    memcpy(w->end, w->starts, w->p->count * sizeof *w->end);
-    for (size_t i = 0; i < edges; i++) {
-        uint32_t e = list ? list[i] : (uint32_t)i;
-        grouped[w->end[get(w, e)]++] = e;
+static uint32_t get_degree(const prover *w, uint32_t v) { return w->starts[v + 1] - w->starts[v]; }
+
+// The edges from `to` to `from`, counted; one of them is written. They are sought at the vertex that has fewer edges:
+// each triangle there has one edge that goes out and one that comes in.
+static uint32_t count_opposite(prover *w, uint32_t from, uint32_t to, size_t *found) {
+    int at_from = get_degree(w, from) < get_degree(w, to);
+    uint32_t at = at_from ? from : to, count = 0;
+    for (uint32_t i = w->starts[at]; i < w->starts[at + 1]; i++) {
+        size_t out = w->edges[i], opposite = at_from ? get_previous(out) : out;
+        uint32_t other = w->s->triangles[at_from ? opposite : get_next(out)];
+        if (other == (at_from ? to : from)) *found = opposite, count++;
     }
+    w->steps += w->starts[at + 1] - w->starts[at];
+    return count;
 }
 
-// Finds the triangle across each edge: the edges that go out of a vertex and those that come in, sorted by their other
-// ends, must be the same ones. (Each corner has one edge of either kind.)
-static ovoid_code find_across(const prover *w) {
+// Finds the triangle across each edge. The edges of a hull are a planar graph, whose edges have smaller degrees of sum
+// at most 6 times their number (N. Chiba, T. Nishizeki, Arboricity and subgraph listing algorithms, 1985); here each is
+// passed in both directions. So a surface that takes longer is no hull, and the cost is linear whatever is claimed.
+static ovoid_code find_across(prover *w) {
     size_t edges = 3 * (size_t)w->s->triangle_count;
-    regroup(w, NULL, w->edges, get_from);
-    regroup(w, w->edges, w->coming, get_to);
-    regroup(w, w->coming, w->going, get_from);
-    for (size_t i = 0; i < edges; i++) {
-        uint32_t in = w->coming[i], out = w->going[i], v = get_from(w, out);
-        if (i > w->starts[v] && get_to(w, out) == get_to(w, w->going[i - 1]))
-            return refuse(w, out / 3, "two triangles run through an edge in the same direction");
-        if (get_from(w, in) != get_to(w, out))
-            return refuse(w, out / 3, "the surface is open: no triangle is beyond an edge");
-        w->s->across[out] = in / 3;
+    for (size_t e = 0; e < edges; e++) {
+        size_t opposite = 0;
+        uint32_t count = count_opposite(w, w->s->triangles[e], w->s->triangles[get_next(e)], &opposite);
+        if (count == 0) return refuse(w, (uint32_t)(e / 3), "the surface is open: no triangle is beyond an edge");
+        if (count > 1) return refuse(w, (uint32_t)(e / 3), "two triangles run through an edge in the same direction");
+        if (w->steps > 6 * (uint64_t)edges) return refuse(w, (uint32_t)(e / 3), "the edges are not those of a hull");
+        w->s->across[e] = (uint32_t)(opposite / 3);
     }
     return OVOID_OK;
 }
@@ -150,10 +157,9 @@ static ovoid_code prove(prover *w) {
     if (w->s->rank < 3) return refuse_vertex(w, 0, "the vertices lie in a plane");
     // The vertices are below 2^240 there; much farther out, signs would overflow.
     if (!(vec3_max_abs(w->inside) <= 0x1p241)) return refuse(w, 0, "the surface does not wind once around its inside");
-    ovoid_code code = count_edges(w);
-    if (code) return code;
     memcpy(w->s->triangles, w->claim->triangles, 3 * (size_t)w->s->triangle_count * sizeof *w->s->triangles);
-    code = find_across(w);
+    ovoid_code code = list_edges(w);
+    if (!code) code = find_across(w);
     return code ? code : check_convex(w);
 }
 
@@ -164,13 +170,11 @@ ovoid_code surface_create_proven(const surface_claim *claim, const points *p, co
     size_t edges = 3 * (size_t)claim->triangle_count, count = p->count;
     s->triangles = allocator_allocate(allocator, edges, sizeof *s->triangles);
     s->across = allocator_allocate(allocator, edges, sizeof *s->across);
-    w.starts = allocator_allocate(allocator, 2 * count + 1 + 3 * edges, sizeof *w.starts);
+    w.starts = allocator_allocate(allocator, 2 * count + 1 + edges, sizeof *w.starts);
     ovoid_code code = OVOID_ERROR_MEMORY;
     if (s->triangles && s->across && w.starts) {
         w.end = w.starts + count + 1;
         w.edges = w.end + count;
-        w.coming = w.edges + edges;
-        w.going = w.coming + edges;
         code = prove(&w);
     }
     allocator_release(allocator, w.starts);
