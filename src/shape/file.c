@@ -26,6 +26,7 @@
 #define OUTER_AT 104
 #define INNER_AT 216
 #define HEADER_SIZE 328
+#define ALLOWANCE_AT HEADER_SIZE
 #define ALLOWANCE_SIZE 16
 #define CHECKSUM_SIZE 8
 static const uint8_t magic[8] = {0x89, 'O', 'V', 'O', 'I', 'D', '\n', 0x1a};
@@ -303,14 +304,21 @@ static ovoid_code check_ellipsoids(const reader *r, const content *c, const ovoi
     return OVOID_OK;
 }
 
+// Sets radius and allowance. What a body of this size cannot have inside, block_set_radius takes away, so that no file
+// that was written holds it.
+static ovoid_code set_radius(const reader *r, const content *c, ovoid_shape *shape) {
+    block_set_radius(shape, c->radius, c->allowance);
+    if (shape->allowance.inside == c->allowance.inside) return OVOID_OK;
+    return refuse(r, ALLOWANCE_AT + 8, "the allowance inside is larger than the body");
+}
+
 static ovoid_shape *make_shape(const reader *r, const content *c, hull *h, const ovoid_allocator *allocator) {
     h->origin = c->origin;
     ovoid_shape *shape = shape_create_block(h, allocator, r->error);
     if (!shape) return NULL;
-    block_set_radius(shape, c->radius, c->allowance);
     shape->report = c->report;
     shape_set_fits(shape, &c->outer, &c->inner);
-    if (!check_ellipsoids(r, c, shape)) return shape;
+    if (!set_radius(r, c, shape) && !check_ellipsoids(r, c, shape)) return shape;
     ovoid_shape_destroy(shape);
     return NULL;
 }
