@@ -18,10 +18,9 @@
 // of itself, at least 1e-10.
 //
 // A face of the cube begins with all vertices, each division with the list of the cell around it. The winners at nine
-// directions of a cell beat most vertices; in the short lists that are left, all are tested against all. A vertex that
-// is beaten in each quarter of a cell, by whichever vertices, is beaten. Cost: about 1 us a vertex. Lists of round
-// bodies are 5 long, and take 270 bytes a vertex; where they are long and stay so, as for the rings of a cylinder,
-// cells are coarser and no more than 512 bytes a vertex are used.
+// directions of a cell beat most vertices; in lists that are short, all are tested against all. Cost: about half a us a
+// vertex. Lists of round bodies are 5 long, and take 270 bytes a vertex; where they are long and stay so, as for the
+// rings of a cylinder, cells are coarser and no more than 512 bytes a vertex are used.
 #include "shape/support_table.h"
 
 #include "base/allocator.h"
@@ -31,7 +30,7 @@
 
 #include <string.h>
 
-enum { SAMPLES = 9, PAIRS_MAX = 96, HALVINGS = 1, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14 };
+enum { SAMPLES = 9, SHORT = 32, PAIRS_MAX = 96, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14 };
 
 /// Vertices that may be extreme, padded to a multiple of 8 by the first.
 typedef struct list {
@@ -85,11 +84,11 @@ static void contest_make(const builder *b, const square *s, contest *c) {
     for (int k = 0; k < 4; k++) {
         vec3 v = direction_at(b, s, k & 2 ? 1 + widened : -widened, k & 1 ? 1 + widened : -widened);
         c->corners[k][0] = v.x, c->corners[k][1] = v.y, c->corners[k][2] = v.z;
-        longest = max2(longest, vec3_norm(v));
+        longest = max2(longest, vec3_norm_squared(v));
     }
     c->s = *s;
     c->count = 0;
-    c->margin = 32 * 0x1p-53 * b->reach * longest;
+    c->margin = 32 * 0x1p-53 * b->reach * sqrt(longest);
 }
 
 /// Adds point i of the list to those that may beat others.
@@ -130,56 +129,34 @@ static void enter_winner(contest *c, const list *from, vec3 n, uint32_t *winners
     enter(c, from, w);
 }
 
-/// Adds the winners at the cell's corners and centre, and where `nine` is set at the middles of its sides too.
-static void enter_winners(const builder *b, contest *c, const list *from, int nine) {
+/// Adds the winners at the cell's corners, its centre and the middles of its sides.
+static void enter_winners(const builder *b, contest *c, const list *from) {
     static const double at[SAMPLES][2] = {{0, 0},   {0, 1},   {1, 0},   {1, 1},  {0.5, 0.5},
                                           {0, 0.5}, {0.5, 0}, {1, 0.5}, {0.5, 1}};
     uint32_t winners[SAMPLES];
-    for (int i = 0; i < (nine ? SAMPLES : 5); i++)
-        enter_winner(c, from, direction_at(b, &c->s, at[i][0], at[i][1]), winners);
+    for (int i = 0; i < SAMPLES; i++) enter_winner(c, from, direction_at(b, &c->s, at[i][0], at[i][1]), winners);
 }
 
-/// Copies the points that the winners at nine directions of the cell do not beat.
-static void cull_by_samples(const builder *b, contest *c, const list *from, list *to) {
-    enter_winners(b, c, from, 1);
+/// Copies the points that no other one of the list beats.
+static void cull_by_pairs(const builder *b, contest *c, const list *from, list *to) {
+    c->count = 0;
+    for (uint32_t i = 0; i < from->count; i++) enter(c, from, i);
     cull(b, c, from, to);
 }
 
-/// Drops the points of the list that any other point of it beats.
-static void cull_by_pairs(const builder *b, contest *c, list *l) {
-    c->count = 0;
-    for (uint32_t i = 0; i < l->count; i++) enter(c, l, i);
-    cull(b, c, l, l);
+/// Copies the points that the winners at nine directions of the cell do not beat; in a short list all are tested.
+static void cull_by_samples(const builder *b, contest *c, const list *from, list *to) {
+    if (from->count <= SHORT) {
+        cull_by_pairs(b, c, from, to);
+        return;
+    }
+    enter_winners(b, c, from);
+    cull(b, c, from, to);
 }
 
 static square quarter(const square *s, uint32_t i) {
     double side = 0.5 * s->side;
     return (square){s->face, s->a + (i >> 1) * side, s->b + (i & 1) * side, side};
-}
-
-/// Sets the bits of the list's points that are unbeaten in some part of the cell, the parts being `halvings` times
-/// halved.
-static void find_in_parts(const builder *b, const square *s, const list *l, int halvings, uint8_t *all) {
-    if (halvings) {
-        for (uint32_t i = 0; i < 4; i++) {
-            square inner = quarter(s, i);
-            find_in_parts(b, &inner, l, halvings - 1, all);
-        }
-        return;
-    }
-    contest c;
-    contest_make(b, s, &c);
-    enter_winners(b, &c, l, 0);
-    simd_cull by = {(const double(*)[3])c.corners, (const double(*)[4])c.limits, c.count};
-    simd_find_unbeaten(&by, l->x, l->y, l->z, padded(l->count), b->bits);
-    for (uint32_t i = 0; i < padded(l->count) / 8; i++) all[i] |= b->bits[i];
-}
-
-/// Drops the vertices that are beaten in all parts of the cell, be it by different vertices.
-static void cull_by_parts(const builder *b, const square *s, list *l, int halvings) {
-    uint8_t all[PAIRS_MAX / 8 + 1] = {0};
-    find_in_parts(b, s, l, halvings, all);
-    keep(all, l, l);
 }
 
 /// Reserves consecutive blocks, cleared; 0 where there are too many.
@@ -216,8 +193,7 @@ static int fill_cell(builder *b, const square *s, uint32_t at, int level, int ne
     list *l = &b->levels[level + 1];
     contest_make(b, s, &c);
     cull_by_samples(b, &c, &b->levels[level], l);
-    if (l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_pairs(b, &c, l);
-    if (l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_parts(b, s, l, HALVINGS);
+    if (b->levels[level].count > SHORT && l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_pairs(b, &c, l, l);
     if (l->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at, l);
     uint32_t next;
     if (!reserve(b, 4, &next)) return 0;
