@@ -1,5 +1,5 @@
 // Cost as the work grows: a query over the vertices of its bodies; many pairs, in one batch and each by its own call; a
-// batch on several threads; a shape's memory, and its set-up beside Qhull's time for the hull alone.
+// batch on several threads; a shape's memory, and its set-up beside its file's and Qhull's time for the hull alone.
 #define _POSIX_C_SOURCE 200809L
 #include "scale.h"
 
@@ -83,9 +83,20 @@ static int run_qhull(const double *points, uint32_t count) {
 #endif
 
 /// The steps of a set-up; those inside ovoid_shape_create_from_points are run again, alone.
-typedef enum setup { SETUP_SHAPE, SETUP_OUTER, SETUP_INNER, SETUP_TABLES, SETUP_QHULL, SETUP_COUNT } setup;
-static const char *const setup_names[SETUP_COUNT] = {"whole shape", "outer ellipsoid", "inner ellipsoid",
-                                                     "ovoid_areas, k = 8", "Qhull's hull"};
+typedef enum setup { SETUP_SHAPE, SETUP_FILE, SETUP_OUTER, SETUP_INNER, SETUP_TABLES, SETUP_QHULL, SETUP_COUNT } setup;
+static const char *const setup_names[SETUP_COUNT] = {"whole shape",     "file written and read", "outer ellipsoid",
+                                                     "inner ellipsoid", "ovoid_areas, k = 8",    "Qhull's hull"};
+
+static int write_and_read(const ovoid_shape *shape) {
+    size_t size = ovoid_shape_write(shape, NULL, 0);
+    void *bytes = malloc(size);
+    if (!bytes) return 0;
+    (void)ovoid_shape_write(shape, bytes, size);
+    ovoid_shape *read = ovoid_shape_read(bytes, size, NULL, NULL);
+    ovoid_shape_destroy(read);
+    free(bytes);
+    return read != NULL;
+}
 
 /// 0: it failed, or is not there.
 static int run_setup(const body *b, setup step) {
@@ -97,6 +108,7 @@ static int run_setup(const body *b, setup step) {
         ovoid_shape_destroy(shape);
         return shape != NULL;
     }
+    case SETUP_FILE: return write_and_read(b->shape);
     case SETUP_OUTER: return ovoid_ellipsoid_compute_outer(&p, 0, &fit, NULL) == OVOID_OK;
     case SETUP_INNER: return ovoid_ellipsoid_compute_inner(&p, 0, &fit, NULL) == OVOID_OK;
     case SETUP_TABLES: {

@@ -24,7 +24,7 @@ tests_of() {
     query) echo "$query" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull test_measures test_shape $query" ;;
-    shape) echo "test_measures test_shape test_shape_file $query" ;;
+    shape) echo "test_measures test_shape test_shape_triangles test_shape_file $query" ;;
     ellipsoid) echo "test_ellipsoid_contain test_ellipsoid_overlap test_ellipsoid_gap test_ellipsoid_exact test_ellipsoid_nearest test_ellipsoid_outer $query" ;;
     simd) echo "test_simd $query" ;;
     environment) echo "test_environment $query" ;;

@@ -16,7 +16,7 @@
 
 #define NOTHING UINT32_MAX
 
-// From so many triangles on a radix sort is faster.
+// From so many triangles on a radix sort is faster than one by merging.
 #define RADIX_LEAST 256
 
 // a b - c d, rounded.

@@ -146,7 +146,7 @@ static ovoid_code check_convex(const prover *w) {
     if (polytope_compute_winding(&p, w->claim->inside) != 1)
         return refuse(w, 0, "the surface does not wind once around its inside");
     for (uint32_t v = 0; v < w->p->count; v++)
-        if (w->starts[v + 1] - w->starts[v] - w->end[v] < 3) return refuse_vertex(w, v, "a vertex is not extreme");
+        if (get_degree(w, v) - w->end[v] < 3) return refuse_vertex(w, v, "a vertex is not extreme");
     return OVOID_OK;
 }
 

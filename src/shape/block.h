@@ -77,8 +77,8 @@ simd_extreme shape_find_extreme(const ovoid_shape *shape, ovoid_vec3 n);
 /// The layout of a block with these counts. All counts are 32-bit, so no sum overflows 64 bits.
 block_offsets block_compute_offsets(block_counts counts);
 
-/// A block with room for the counts, cleared but for its arrays, with counts, layout and allocator set. NULL with *error
-/// filled.
+/// A block with room for the counts, cleared but for its arrays, with counts, layout and allocator set. NULL with
+/// *error filled.
 ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error);
 
 /// Copies the polytope's arrays into the block, and derives what follows from the vertices: structure of arrays,

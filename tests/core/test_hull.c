@@ -181,6 +181,27 @@ static void check_round_face(void) {
     check_seed = 0;
 }
 
+// Facets are numbered by their largest triangles, the largest first: of few triangles and of many, which are sorted in
+// different ways.
+static void check_order(void) {
+    uint64_t s = 57;
+    for (int n = 20; n <= 2000; n *= 10) {
+        hull h = check_hull(cloud, put_sphere(&s, (size_t)n, 1));
+        double *largest = calloc(h.facet_count, sizeof *largest);
+        for (uint32_t t = 0; t < h.triangle_count; t++) {
+            const uint32_t *c = h.triangles + 3 * t;
+            vec3 a = vec3_at(h.vertices, c[0]), b = vec3_at(h.vertices, c[1]), d = vec3_at(h.vertices, c[2]);
+            double area = vec3_norm(vec3_cross(vec3_sub(b, a), vec3_sub(d, a)));
+            largest[h.triangle_facets[t]] = fmax(largest[h.triangle_facets[t]], area);
+        }
+        int descending = 1;
+        for (uint32_t f = 1; f < h.facet_count; f++) descending &= largest[f] <= largest[f - 1] * (1 + 1e-12) + 1e-15;
+        CHECK(descending);
+        free(largest);
+        hull_destroy(&h, &allocator);
+    }
+}
+
 // Exactly flat bodies, whose corners are known, and nearly flat ones, which keep every extreme point.
 static void check_flat(void) {
     size_t n = 0;
@@ -343,6 +364,7 @@ int main(void) {
     check_far();
     check_hard();
     check_round_face();
+    check_order();
     check_flat();
     check_tiny_differences();
     check_lattices();
