@@ -22,6 +22,7 @@
 
 /// How many zeros there are below the lowest one, and above the highest; bits is not 0.
 static inline unsigned compiler_count_low_zeros(uint32_t bits) { return (unsigned)__builtin_ctz(bits); }
+static inline unsigned compiler_count_low_zeros_64(uint64_t bits) { return (unsigned)__builtin_ctzll(bits); }
 static inline unsigned compiler_count_high_zeros(uint32_t bits) { return (unsigned)__builtin_clz(bits); }
 
 /// Asks for the memory there before it is read.

@@ -10,6 +10,7 @@
 #include "exact/epa.h"
 
 #include "base/compiler.h"
+#include "exact/epa_lanes.h"
 #include "exact/expand.h"
 #include "exact/hull_reduce.h"
 #include "exact/probe.h"
@@ -20,13 +21,16 @@
 
 typedef expansion_face face;
 
-// A surface of few points, of which an overlap's proof is made, leaves most of the faces' memory unused: the proof's
-// working memory is there.
+// A surface of few points leaves most of the faces' memory unused: the working memory of an overlap's proof is there,
+// and the surface that grows in lanes.
 typedef union growth_room {
     expansion_room all;
     struct {
         unsigned char used[offsetof(expansion_room, f) + 3 * HULL_POINTS_MAX * sizeof(face)];
-        hull_memory reduced;
+        union {
+            hull_memory reduced;
+            epa8 lanes;
+        };
     } few;
 } growth_room;
 
@@ -36,6 +40,7 @@ typedef struct growth {
     expansion e;
     growth_room room;
     uint16_t nearest; ///< face
+    int is_grown;     ///< as near as is wanted
     double gap;       ///< along its normal, NAN until measured
     ovoid_cover *cover;
 } growth;
@@ -133,8 +138,6 @@ static int is_apart(const search *s) { return s->lower + s->frame->lower_radii >
 
 // The differences at hand made a tetrahedron, else one found afresh. 0 where there is none, or none is needed.
 COMPILER_NOINLINE static int start(const prober *p, expansion *e, simplex *x, int is_first) {
-    if (x->count == 0) probe_center(p, x);
-    if (is_first && is_apart(p->s)) return 0;
     for (int i = 0; i < x->count; i++) (void)expansion_add_point(e, x->p[i].w, x->p[i].a, x->p[i].b);
     return (complete(p, e) || find_tetrahedron(p, e)) && !(is_first && is_apart(p->s));
 }
@@ -151,26 +154,13 @@ static evidence face_evidence(const expansion *e, const face *f, vec3 target, do
     return evidence_make(&x);
 }
 
-// The foot of the origin on a face's plane as evidence, if it lies in the face.
-static int find_foot(const search *s, const expansion *e, const face *f, evidence *x) {
-    vec3 p[3];
-    double sum = 0;
-    for (int i = 0; i < 3; i++) {
-        x->p[i] = (difference){e->w[f->v[i]], e->a[f->v[i]], e->b[f->v[i]]};
-        p[i] = vec3_add_scaled(x->p[i].w, f->n, -f->low);
-    }
-    for (int i = 0; i < 3; i++) {
-        x->weight[i] = vec3_dot(f->n, vec3_cross(p[(i + 1) % 3], p[(i + 2) % 3]));
-        if (!(x->weight[i] > 0)) return 0;
-        sum += x->weight[i];
-    }
-    vec3 off = {0, 0, 0};
-    for (int i = 0; i < 3; i++) {
-        x->weight[i] /= sum;
-        off = vec3_add_scaled(off, p[i], x->weight[i]);
-    }
-    x->count = 3;
-    return vec3_norm(off) <= s->frame->claim;
+// The foot of the origin on the nearest face's plane as evidence, if it lies in the face f.
+static int find_foot(const growth *g, const face *f, evidence *x) {
+    const expansion *e = &g->e;
+    const face *nearest = &e->f[g->nearest];
+    difference corner[3];
+    for (int i = 0; i < 3; i++) corner[i] = (difference){e->w[f->v[i]], e->a[f->v[i]], e->b[f->v[i]]};
+    return epa_find_foot(g->s, corner, nearest->n, nearest->low, x);
 }
 
 // The surface's point nearest to the target, of the face `first` and those whose planes are no farther than `most`.
@@ -192,9 +182,13 @@ static evidence find_near(const growth *g, const face *first, vec3 target, doubl
 // face may be one of several triangles of a facet, or of a small body's facet on a large one, so all about as near are
 // tried.
 static evidence find_witness(const growth *g) {
-    const face *nearest = &g->e.f[g->nearest];
+    const expansion *e = &g->e;
+    const face *nearest = &e->f[g->nearest];
+    double same = nearest->low + 2 * epa_get_face_doubt(g->s);
     evidence foot;
-    if (find_foot(g->s, &g->e, nearest, &foot)) return foot;
+    if (find_foot(g, nearest, &foot)) return foot;
+    for (uint32_t i = 0; i < e->faces; i++)
+        if (e->f[i].alive && e->f[i].low <= same && find_foot(g, &e->f[i], &foot)) return foot;
     return find_near(g, nearest, vec3_scale(nearest->n, nearest->low),
                      nearest->low + (g->s->goal.tolerance - g->s->goal.allowance));
 }
@@ -226,7 +220,7 @@ static double measure_face(const expansion *e, const face *f) {
 // corners, which matters for the nearest only. 0 where a face may not be outward; the surface must then be measured
 // (surface_compute_depth).
 static double measure_faces(const search *s, const expansion *e) {
-    double doubt = 1100 * 0x1p-53 * s->frame->size, least = INFINITY;
+    double doubt = epa_get_face_doubt(s), least = INFINITY;
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
         if (!f->alive) continue;
@@ -236,7 +230,7 @@ static double measure_faces(const search *s, const expansion *e) {
     double depth = least + doubt;
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
-        if (f->alive && f->low < least + 2 * doubt) depth = min2(depth, measure_face(e, f));
+        if (f->alive && f->low <= least + 2 * doubt) depth = min2(depth, measure_face(e, f));
     }
     return depth - s->frame->claim;
 }
@@ -370,6 +364,18 @@ static void find_next(growth *g) {
     g->gap = NAN;
 }
 
+// Grows in lanes. 1 if that answered the query; else the surface, if there is one, is to be continued.
+static int grow_in_lanes(growth *g, const simplex *x) {
+    epa8 *lanes = &g->room.few.lanes;
+    epa8_end end = epa_lanes_grow(lanes, &g->p, x, g->e.slack, g->e.doubt);
+    if (end == EPA8_FLAT) return 0;
+    if (end == EPA8_NARROW && !g->cover && epa_lanes_take_depth(g->s, lanes)) return 1;
+    g->nearest = expansion_take(&g->e, lanes);
+    g->gap = end == EPA8_NARROW ? lanes->gap : NAN;
+    g->is_grown = end == EPA8_NARROW;
+    return 0;
+}
+
 // Leaves the nearest face as the simplex for the next method.
 static void leave(growth *g, simplex *x) {
     const face *f = &g->e.f[g->nearest];
@@ -381,27 +387,47 @@ static void leave(growth *g, simplex *x) {
 // for more.
 static int is_shown(const search *s) { return !(s->goal.allowance > 0) || search_is_done(s); }
 
+// The first surface: in lanes, or a tetrahedron. 0 where there is none, or the query is answered.
+static int begin(growth *g, simplex *x, int is_first) {
+    search *s = g->s;
+    if (x->count == 0) probe_center(&g->p, x);
+    if (is_first && is_apart(s)) return 0;
+    if (is_first && s->goal.wants_depth && epa_lanes_serve(&g->p)) {
+        if (grow_in_lanes(g, x)) return 0;
+        if (g->e.points) {
+            if (!g->is_grown) find_next(g);
+            return 1;
+        }
+    }
+    if (!start(&g->p, &g->e, x, is_first)) return 0;
+    expansion_make_tetrahedron(&g->e);
+    find_next(g);
+    return 1;
+}
+
 int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
     growth g;
     g.s = s;
     g.cover = cover;
+    g.is_grown = 0;
     expansion_room_give(&g.room.all, &g.e);
     prober_make(&g.p, s, 1);
     expansion_clear(&g.e, 16 * 0x1p-53 * s->frame->size);
     g.e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
-    if (!start(&g.p, &g.e, x, is_first)) return search_is_done(s);
-    expansion_make_tetrahedron(&g.e);
-    find_next(&g);
-    uint32_t steps = 0;
-    for (; steps < s->goal.iterations; steps++, s->iterations++) {
+    uint32_t before = s->iterations;
+    if (!begin(&g, x, is_first)) return search_is_done(s);
+    for (; !g.is_grown; s->iterations++) {
+        if (s->iterations - before >= s->goal.iterations) {
+            s->limit = OVOID_LIMIT_ITERATIONS;
+            break;
+        }
+        if (is_first && is_apart(s)) break;
         int grown = grow(&g);
         if (grown < 0) return 0;
         if (!grown || search_is_done(s)) break;
         find_next(&g);
-        if (is_first && is_apart(s)) break;
         if (!s->goal.wants_depth && g.e.f[g.nearest].low > 2 * s->frame->claim && take_hull(&g) && is_shown(s)) break;
     }
-    if (steps == s->goal.iterations) s->limit = OVOID_LIMIT_ITERATIONS;
     finish(&g);
     if (search_is_done(s) || s->limit != OVOID_LIMIT_NONE) return 1;
     leave(&g, x);

@@ -102,6 +102,43 @@ void expansion_make_tetrahedron(expansion *p) {
     set_ring(p, 3);
 }
 
+// The faces' numbers: those in lanes, without the empty ones.
+static uint32_t number_faces(const epa8 *from, uint8_t number[EPA8_FACES]) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < EPA8 * from->groups; i++)
+        if (from->alive[i / 64] >> i % 64 & 1) number[i] = (uint8_t)count++;
+    return count;
+}
+
+// The face across the edge from corner i to corner k, with its edge there.
+static uint16_t find_across(const epa8 *from, const uint8_t number[EPA8_FACES], uint8_t i, uint8_t k) {
+    uint8_t outer = from->left[k][i];
+    const uint8_t *v = from->v[outer];
+    return (uint16_t)(4 * number[outer] + (v[0] == k ? 0 : v[1] == k ? 1 : 2));
+}
+
+uint16_t expansion_take(expansion *p, const epa8 *from) {
+    uint8_t number[EPA8_FACES];
+    p->points = 0;
+    p->faces = number_faces(from, number);
+    for (uint32_t i = 0; i < from->points; i++)
+        (void)expansion_add_point(p, (vec3){from->w[0][i], from->w[1][i], from->w[2][i]}, from->a[i], from->b[i]);
+    for (uint32_t i = 0; i < EPA8 * from->groups; i++) {
+        if (!(from->alive[i / 64] >> i % 64 & 1)) continue;
+        face *f = &p->f[number[i]];
+        const uint8_t *v = from->v[i];
+        f->n = (vec3){from->n[0][i], from->n[1][i], from->n[2][i]};
+        f->low = from->low[i];
+        f->outward = !(from->inward[i / 64] >> i % 64 & 1);
+        for (int e = 0; e < 3; e++) {
+            f->v[e] = v[e];
+            f->twin[e] = find_across(from, number, v[e], v[e == 2 ? 0 : e + 1]);
+        }
+        open_face(p, number[i]);
+    }
+    return number[from->nearest];
+}
+
 static uint16_t find_least(const expansion *p) {
     uint16_t best = NONE;
     for (uint32_t i = 0; i < p->faces; i++)

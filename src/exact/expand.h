@@ -5,6 +5,7 @@
 
 #include "linear/vec3.h"
 #include "ovoid/query.h"
+#include "simd/epa8.h"
 #include "simd/planes.h"
 
 enum { EXPANSION_POINTS = OVOID_COVER_POINTS, EXPANSION_FACES = 2 * EXPANSION_POINTS, EXPANSION_NONE = 0xffff };
@@ -73,6 +74,9 @@ uint16_t expansion_add_point(expansion *p, vec3 w, uint32_t a, uint32_t b);
 
 /// The surface of the first four points, which must span space.
 void expansion_make_tetrahedron(expansion *p);
+
+/// The surface that was grown in lanes, to go on from; the number of its nearest face. There must be room.
+uint16_t expansion_take(expansion *p, const epa8 *from);
 
 /// Joins a point to the surface: it replaces the faces visible from it, `first` among them. 0 if rounding or memory
 /// make that impossible; the surface is then invalid.

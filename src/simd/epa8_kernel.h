@@ -1,0 +1,393 @@
+// The kernels of epa8.h, written once over lanes; epa8_scalar.c, epa8_avx2.c and epa8_avx512.c include this. Every
+// number is computed lane by lane, minima and maxima do not depend on an order, ties go to the lowest index: so all
+// widths give the same bits.
+#include "linear/vec3.h"
+#include "simd/epa8.h"
+#include "simd/lanes.h"
+#include "simd/planes.h"
+
+enum { MOST = 64, RIM = 3 * EPA8_FACES + EPA8, EPA8_ROW = 4 };
+
+#if LANES == 8
+/// The greatest and the least of the lanes, in all lanes.
+LANES_INLINE lane lane_top(lane a, lane b) { return _mm512_max_pd(a, b); }
+LANES_INLINE lane lane_find_max(lane m) {
+    m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0x4e));
+    m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0xb1));
+    return _mm512_max_pd(m, _mm512_permute_pd(m, 0x55));
+}
+LANES_INLINE lane lane_min(lane a, lane b) { return _mm512_min_pd(a, b); }
+LANES_INLINE double lane_first(lane v) { return _mm512_cvtsd_f64(v); }
+LANES_INLINE lane_mask lane_mask_of(uint64_t bits) { return (lane_mask)bits; }
+/// The numbers of an array of EPA8_POINTS at LANES places, a byte each; is_few: all below 16.
+LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
+    __m512i index = _mm512_cvtepu8_epi64(_mm_cvtsi64_si128((long long)at));
+    __m512d low = _mm512_permutex2var_pd(_mm512_load_pd(p), index, _mm512_load_pd(p + 8));
+    if (is_few) return low;
+    __m512d high = _mm512_permutex2var_pd(_mm512_load_pd(p + 16), index, _mm512_load_pd(p + 24));
+    return _mm512_mask_blend_pd(_mm512_test_epi64_mask(index, _mm512_set1_epi64(16)), low, high);
+}
+/// Four numbers as the first of LANES.
+LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
+    _mm512_store_pd(to, _mm512_setr_pd(a, b, c, d, 0, 0, 0, 0));
+}
+#elif LANES == 4
+LANES_INLINE lane lane_top(lane a, lane b) { return _mm256_max_pd(a, b); }
+LANES_INLINE lane lane_find_max(lane m) {
+    m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
+    return _mm256_max_pd(m, _mm256_permute_pd(m, 5));
+}
+LANES_INLINE lane lane_min(lane a, lane b) { return _mm256_min_pd(a, b); }
+LANES_INLINE double lane_first(lane v) { return _mm256_cvtsd_f64(v); }
+LANES_INLINE lane_mask lane_mask_of(uint64_t bits) {
+    __m256i each = _mm256_setr_epi64x(1, 2, 4, 8), all = _mm256_set1_epi64x((long long)bits);
+    return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(all, each), each));
+}
+LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
+    (void)is_few;
+    return _mm256_setr_pd(p[at & 0xff], p[at >> 8 & 0xff], p[at >> 16 & 0xff], p[at >> 24 & 0xff]);
+}
+LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
+    _mm256_store_pd(to, _mm256_setr_pd(a, b, c, d));
+}
+#else
+LANES_INLINE lane lane_top(lane a, lane b) { return a > b ? a : b; }
+LANES_INLINE lane lane_find_max(lane m) { return m; }
+LANES_INLINE lane lane_min(lane a, lane b) { return a < b ? a : b; }
+LANES_INLINE double lane_first(lane v) { return v; }
+LANES_INLINE lane_mask lane_mask_of(uint64_t bits) { return (lane_mask)(bits & 1); }
+LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
+    (void)is_few;
+    return p[at & 0xff];
+}
+LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
+    to[0] = a, to[1] = b, to[2] = c, to[3] = d;
+}
+#endif
+
+LANES_INLINE lane lane_find_min(lane m) { return -lane_find_max(-m); }
+
+// ---- supports
+
+LANES_INLINE lane3 point_lanes(const simd_points *p, uint32_t at) {
+    return (lane3){lane_load(p->x + at), lane_load(p->y + at), lane_load(p->z + at)};
+}
+
+// The greatest of `count` points along n, of several the first; count is a constant, so that all values stay in
+// registers.
+LANES_INLINE support_result find_among(const simd_points *p, lane3 n, uint32_t count) {
+    lane value[MOST / LANES], most = value[0] = lane3_dot(point_lanes(p, 0), n);
+    for (uint32_t i = 1; i < count / LANES; i++) {
+        value[i] = lane3_dot(point_lanes(p, LANES * i), n);
+        most = lane_top(most, value[i]);
+    }
+    most = lane_find_max(most);
+    uint64_t equal = lane_bits(lane_at_least(value[0], most));
+    for (uint32_t i = 1; i < count / LANES; i++)
+        equal |= (uint64_t)lane_bits(lane_at_least(value[i], most)) << LANES * i;
+    return (support_result){lane_first(most) + 0.0, (uint32_t)__builtin_ctzll(equal)};
+}
+
+LANES_INLINE support_result find_one(const simd_points *p, lane3 n) {
+    if (p->padded_count == 8) return find_among(p, n, 8);
+    if (p->padded_count == 16) return find_among(p, n, 16);
+    if (p->padded_count == 24) return find_among(p, n, 24);
+    if (p->padded_count == 32) return find_among(p, n, 32);
+    return find_among(p, n, p->padded_count);
+}
+
+LANES_INLINE simd_difference find_difference(const epa8_query *q, double x, double y, double z) {
+    support_result b = find_one(&q->b, (lane3){lane_set(x), lane_set(y), lane_set(z)});
+    support_result a = find_one(&q->a, (lane3){lane_set(-x), lane_set(-y), lane_set(-z)});
+    uint32_t i = a.index, k = b.index;
+    return (simd_difference){
+        -b.value - a.value, q->b.x[k] - q->a.x[i], q->b.y[k] - q->a.y[i], q->b.z[k] - q->a.z[i], i, k};
+}
+
+// ---- faces
+
+// The groups are looked at in rows of four, so that no loop's end depends on how many there are; those without faces
+// are masked.
+#define EACH_ROW(s, row) for (uint32_t row = 0; row < (s)->groups; row += EPA8_ROW)
+
+/// The bits of one row of four groups.
+LANES_INLINE uint64_t get_row(const uint64_t bits[2], uint32_t row) { return bits[row / 8] >> row % 8 * 8; }
+
+LANES_INLINE void add_row(uint64_t bits[2], uint32_t row, uint64_t found) { bits[row / 8] |= found << row % 8 * 8; }
+
+// The faces that are at most that far, as bits.
+LANES_INLINE void find_below(const epa8 *s, lane most, uint64_t below[2]) {
+    below[0] = below[1] = 0;
+    EACH_ROW(s, row) {
+        uint64_t bits = 0;
+        for (uint32_t i = 0; i < EPA8 * EPA8_ROW; i += LANES)
+            bits |= (uint64_t)lane_bits(lane_at_most(lane_load(s->low + EPA8 * row + i), most)) << i;
+        add_row(below, row, bits);
+    }
+    below[0] &= s->alive[0];
+    below[1] &= s->alive[1];
+}
+
+// The face of least offset; of several the first.
+LANES_INLINE uint32_t find_nearest(const epa8 *s) {
+    lane least = lane_set(INFINITY);
+    EACH_ROW(s, row) {
+        uint64_t alive = get_row(s->alive, row);
+        for (uint32_t i = 0; i < EPA8 * EPA8_ROW; i += LANES) {
+            lane low = lane_load(s->low + EPA8 * row + i);
+            least = lane_min(lane_select(lane_mask_of(alive >> i), low, lane_set(INFINITY)), least);
+        }
+    }
+    uint64_t below[2];
+    find_below(s, lane_find_min(least), below);
+    return below[0] ? (uint32_t)__builtin_ctzll(below[0]) : 64 + (uint32_t)__builtin_ctzll(below[1]);
+}
+
+// The faces that see a point, as bits.
+LANES_INLINE uint64_t find_seen(const epa8 *s, const epa8_query *q, const simd_difference *x, uint64_t seen[2]) {
+    lane3 w = {lane_set(x->x), lane_set(x->y), lane_set(x->z)};
+    seen[0] = seen[1] = 0;
+    EACH_ROW(s, row) {
+        uint64_t bits = 0;
+        for (uint32_t i = 0; i < EPA8 * EPA8_ROW; i += LANES) {
+            uint32_t at = EPA8 * row + i;
+            lane3 n = {lane_load(s->n[0] + at), lane_load(s->n[1] + at), lane_load(s->n[2] + at)};
+            lane above = lane3_dot(n, w) - lane_load(s->low + at);
+            bits |= (uint64_t)lane_bits(lane_greater(above, lane_set(q->slack))) << i;
+        }
+        add_row(seen, row, bits);
+    }
+    seen[0] &= s->alive[0];
+    seen[1] &= s->alive[1];
+    return seen[0] | seen[1];
+}
+
+/// The edges between faces that see a point and faces that do not, counter-clockwise around the former: the corners
+/// where they begin and end, a byte each.
+typedef struct rim {
+    uint32_t count;
+    uint64_t from[EPA8_POINTS / EPA8], to[EPA8_POINTS / EPA8];
+} rim;
+
+LANES_INLINE uint32_t get_byte(const uint64_t *bytes, uint32_t i) { return bytes[i / 8] >> i % 8 * 8 & 0xff; }
+
+// 0 if the rim passes a corner twice, or is none.
+LANES_INLINE int find_rim(const epa8 *s, const uint64_t seen[2], rim *r) {
+    uint64_t low = seen[0], high = seen[1], first = 0, last = 0;
+    uint32_t count = 0, begun = 0, twice = 0;
+    for (uint64_t rest = low, at = 0; rest || (at == 0 && high); rest &= rest - 1) {
+        if (!rest) rest = high, at = 64;
+        uint32_t corners;
+        __builtin_memcpy(&corners, s->v[at + (uint32_t)__builtin_ctzll(rest)], sizeof corners);
+        uint32_t v[4] = {corners & 0xff, corners >> 8 & 0xff, corners >> 16 & 0xff, corners & 0xff};
+        for (int e = 0; e < 3; e++) {
+            uint32_t i = v[e], k = v[e + 1], outer = s->left[k][i];
+            uint64_t is_rim = ~((outer & 64 ? high : low) >> (outer & 63)) & 1;
+            // A word is kept when eight bytes are in it.
+            first |= (i & -is_rim) << (count & 7) * 8;
+            last |= (k & -is_rim) << (count & 7) * 8;
+            twice |= begun & (uint32_t)is_rim << i;
+            begun |= (uint32_t)is_rim << i;
+            count += (uint32_t)is_rim;
+            if (__builtin_expect(is_rim && (count & 7) == 0, 0)) {
+                if (count > EPA8_POINTS) return 0;
+                r->from[count / 8 - 1] = first, r->to[count / 8 - 1] = last;
+                first = last = 0;
+            }
+        }
+    }
+    if (count < EPA8_POINTS) r->from[count / 8] = first, r->to[count / 8] = last;
+    r->count = count;
+    return count >= 3 && count <= EPA8_POINTS && !twice;
+}
+
+LANES_INLINE lane3 pick_points(const epa8 *s, uint64_t at) {
+    int is_few = s->points <= 16;
+    return (lane3){lane_pick(s->w[0], at, is_few), lane_pick(s->w[1], at, is_few), lane_pick(s->w[2], at, is_few)};
+}
+
+// The planes of LANES faces between apexes c and edges from u to v, at a place. Returns the bits of the plain ones, no
+// slivers; *inward: of those that may not have the origin behind them. The operations are those of simd/planes.c.
+LANES_INLINE unsigned set_planes(epa8 *s, const epa8_query *q, uint32_t at, lane3 c, lane3 u, lane3 v,
+                                 unsigned *inward) {
+    u = lane3_sub(u, c), v = lane3_sub(v, c);
+    lane3 n = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+    lane area = lane3_dot(n, n), uu = lane3_dot(u, u), vv = lane3_dot(v, v);
+    lane_mask is_wide = lane_greater(area, lane_set(SIMD_AREA_MIN));
+    n = lane3_scale(n, lane_set(1) / lane_sqrt(lane_select(is_wide, area, lane_set(1))));
+    lane low = lane3_dot(n, c), square = area * low * low;
+    lane_store(s->n[0] + at, n.x);
+    lane_store(s->n[1] + at, n.y);
+    lane_store(s->n[2] + at, n.z);
+    lane_store(s->low + at, low);
+    *inward = lane_bits(
+        lane_not(lane_and(lane_greater(low, lane_set(0)), lane_greater(square, lane_set(q->doubt) * (uu + vv)))));
+    return lane_bits(lane_and(lane_greater(area, lane_set(1e-4) * (uu * vv)), is_wide));
+}
+
+// A group of faces between an apex and edges; *inward: as above. 0 if one is a sliver.
+LANES_INLINE int set_group(epa8 *s, const epa8_query *q, uint32_t g, vec3 apex, uint64_t from, uint64_t to,
+                           unsigned all, unsigned *inward) {
+    lane3 c = {lane_set(apex.x), lane_set(apex.y), lane_set(apex.z)};
+    unsigned plain = 0, doubtful = 0;
+    for (uint32_t i = 0; i < EPA8; i += LANES) {
+        unsigned some;
+        lane3 u = pick_points(s, from >> 8 * i), v = pick_points(s, to >> 8 * i);
+        plain |= set_planes(s, q, EPA8 * g + i, c, u, v, &some) << i;
+        doubtful |= some << i;
+    }
+    *inward = doubtful & all;
+    return !(~plain & all);
+}
+
+// The lowest group without a face; EPA8_GROUPS if there is none.
+LANES_INLINE uint32_t find_empty(const uint64_t alive[2]) {
+    for (uint32_t half = 0; half < 2; half++) {
+        uint64_t some = alive[half] | alive[half] >> 4;
+        some |= some >> 2;
+        some |= some >> 1;
+        uint64_t none = ~some & 0x0101010101010101u;
+        if (none) return EPA8 * half + (uint32_t)__builtin_ctzll(none) / 8;
+    }
+    return EPA8_GROUPS;
+}
+
+LANES_INLINE void set_corners(epa8 *s, uint32_t face, uint32_t i, uint32_t j, uint32_t k) {
+    uint32_t corners = i | j << 8 | k << 16;
+    __builtin_memcpy(s->v[face], &corners, sizeof corners);
+    s->left[i][j] = s->left[j][k] = s->left[k][i] = (uint8_t)face;
+}
+
+// A cone of faces over a rim, in groups that are empty. 0 if one is a sliver or there is no group left: then nothing is
+// changed.
+LANES_INLINE int add_cone(epa8 *s, const epa8_query *q, uint32_t apex, vec3 w, const rim *r) {
+    uint64_t alive[2] = {s->alive[0], s->alive[1]}, doubtful[2] = {0, 0};
+    uint32_t group[EPA8_POINTS / EPA8], groups = s->groups;
+    for (uint32_t i = 0; i < r->count; i += EPA8) {
+        uint32_t g = find_empty(alive), rest = r->count - i;
+        if (g == EPA8_GROUPS) return 0;
+        unsigned all = rest < EPA8 ? (1u << rest) - 1 : 0xff, inward;
+        if (!set_group(s, q, g, w, r->from[i / EPA8], r->to[i / EPA8], all, &inward)) return 0;
+        alive[g / 8] |= (uint64_t)all << g % 8 * 8;
+        doubtful[g / 8] |= (uint64_t)inward << g % 8 * 8;
+        group[i / EPA8] = g;
+        if (g >= groups) groups = g + 1;
+    }
+    // A whole group each, the last one first: what is no face is overwritten where it is in the way.
+    for (uint32_t i = (r->count + EPA8 - 1) / EPA8; i-- > 0;) {
+        uint64_t from = r->from[i], to = r->to[i];
+        for (int k = EPA8 - 1; k >= 0; k--)
+            set_corners(s, EPA8 * group[i] + (uint32_t)k, apex, from >> 8 * k & 0xff, to >> 8 * k & 0xff);
+    }
+    s->groups = groups;
+    for (int i = 0; i < 2; i++) s->alive[i] = alive[i], s->inward[i] |= doubtful[i];
+    return 1;
+}
+
+// ---- growth
+
+LANES_INLINE void set_point(epa8 *s, uint32_t i, const simd_difference *x) {
+    s->w[0][i] = x->x, s->w[1][i] = x->y, s->w[2][i] = x->z;
+    s->a[i] = x->a, s->b[i] = x->b;
+}
+LANES_INLINE vec3 get_point(const epa8 *s, uint32_t i) { return (vec3){s->w[0][i], s->w[1][i], s->w[2][i]}; }
+
+LANES_INLINE int has_point(const epa8 *s, const simd_difference *x) {
+    int found = 0;
+    for (uint32_t i = 0; i < s->points; i++) found |= s->a[i] == x->a && s->b[i] == x->b;
+    return found;
+}
+
+// The next of the first four points: the support toward the origin of the point, line or plane that there is, as GJK
+// would take it. The direction has the length that it comes with: no gap is taken from it.
+LANES_INLINE vec3 find_toward(const epa8 *s) {
+    vec3 w = get_point(s, 0);
+    if (s->points == 1) return vec3_neg(w);
+    vec3 e1 = vec3_sub(get_point(s, 1), w);
+    if (s->points == 2) return vec3_add_scaled(vec3_neg(w), e1, vec3_dot(w, e1) / vec3_norm_squared(e1));
+    vec3 n = vec3_cross(e1, vec3_sub(get_point(s, 2), w));
+    return vec3_dot(n, w) < 0 ? n : vec3_neg(n);
+}
+
+// Four points by supports toward the origin; then the sign of their volume, 0 where they are near a plane.
+LANES_INLINE int complete(epa8 *s, const epa8_query *q) {
+    while (s->points < EPA8_START) {
+        vec3 n = find_toward(s);
+        simd_difference x = find_difference(q, n.x, n.y, n.z);
+        if (has_point(s, &x)) return 0;
+        set_point(s, s->points++, &x);
+    }
+    vec3 w = get_point(s, 0), e1 = vec3_sub(get_point(s, 1), w), e2 = vec3_sub(get_point(s, 2), w);
+    vec3 e3 = vec3_sub(get_point(s, 3), w);
+    double volume = vec3_dot(vec3_cross(e1, e2), e3);
+    double edges = vec3_norm_squared(e1) * vec3_norm_squared(e2) * vec3_norm_squared(e3);
+    return volume * volume > 1e-12 * edges ? volume < 0 ? -1 : 1 : 0;
+}
+
+// The surface of the first four points, counter-clockwise from outside by the sign. 0 if a face is a sliver.
+LANES_INLINE int make_tetrahedron(epa8 *s, const epa8_query *q, int sign) {
+    static const uint8_t corners[2][3][EPA8_START] = {{{3, 3, 3, 0}, {0, 1, 2, 2}, {1, 2, 0, 1}},
+                                                      {{3, 3, 3, 0}, {1, 2, 0, 1}, {0, 1, 2, 2}}};
+    const uint8_t(*v)[EPA8_START] = corners[sign < 0];
+    // Stored again at full width, which is how they are read.
+    for (int k = 0; k < 3; k++) lane_store_four(s->w[k], s->w[k][0], s->w[k][1], s->w[k][2], s->w[k][3]);
+    s->groups = 1;
+    s->alive[0] = 0xf;
+    s->alive[1] = s->inward[0] = s->inward[1] = 0;
+    for (uint32_t i = 0; i < EPA8_START; i += LANES) {
+        uint32_t at[3] = {0, 0, 0};
+        for (uint32_t j = EPA8_START; j-- > i;)
+            for (int k = 0; k < 3; k++) at[k] = at[k] << 8 | v[k][j];
+        unsigned inward, all = ((1u << LANES) - 1) & (0xfu >> i);
+        lane3 c = pick_points(s, at[0]), from = pick_points(s, at[1]), to = pick_points(s, at[2]);
+        if (~set_planes(s, q, i, c, from, to, &inward) & all) return 0;
+        s->inward[0] |= (inward & all) << i;
+    }
+    for (uint32_t i = 0; i < EPA8_START; i++) set_corners(s, i, v[0][i], v[1][i], v[2][i]);
+    return 1;
+}
+
+// Joins a point to the surface. 0 if no face sees it, or that is not for here: then nothing is changed.
+LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *x) {
+    uint64_t seen[2];
+    rim r;
+    if (s->points == EPA8_POINTS || !find_seen(s, q, x, seen) || !find_rim(s, seen, &r)) return 0;
+    if (!add_cone(s, q, s->points, (vec3){x->x, x->y, x->z}, &r)) return 0;
+    // Only now: the planes' wide loads of the points would wait for a narrow store among them.
+    set_point(s, s->points, x);
+    for (int i = 0; i < 2; i++) s->alive[i] &= ~seen[i], s->inward[i] &= ~seen[i];
+    s->points++;
+    return 1;
+}
+
+// The support of the nearest face, and what it says of the gap.
+LANES_INLINE simd_difference measure(epa8 *s, const epa8_query *q) {
+    uint32_t f = s->nearest = find_nearest(s);
+    double n[3] = {s->n[0][f], s->n[1][f], s->n[2][f]};
+    simd_difference x = find_difference(q, n[0], n[1], n[2]);
+    s->supports++;
+    if (x.gap > s->best_gap) {
+        s->best_gap = x.gap;
+        for (int k = 0; k < 3; k++) s->best_n[k] = n[k];
+    }
+    return x;
+}
+
+LANES_INLINE epa8_end run_grow(epa8 *s, const epa8_query *q) {
+    s->supports = 0;
+    s->best_gap = -INFINITY;
+    int sign = complete(s, q);
+    if (!sign || !make_tetrahedron(s, q, sign)) return EPA8_FLAT;
+    while (s->supports < q->most) {
+        simd_difference x = measure(s, q);
+        double low = s->low[s->nearest], high = -x.gap;
+        if (x.gap > q->claim) return EPA8_APART;
+        if (low > q->claim && high - low <= q->narrow) {
+            s->gap = x.gap;
+            find_below(s, lane_set(low + q->near), s->near);
+            return EPA8_NARROW;
+        }
+        if (high - low <= q->slack || !join(s, q, &x)) return EPA8_LEFT;
+    }
+    return EPA8_LEFT;
+}
