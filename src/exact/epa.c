@@ -337,8 +337,8 @@ static int measure_sliver(const expansion *e, face *f) {
     return 1;
 }
 
-// One step: the support of the nearest face. 0 when there is nothing to gain or a limit is met, -1 if the surface
-// became invalid.
+// One step: the support of the nearest face. 0 when there is nothing to gain or a limit is met, -1 if rounding keeps it
+// from being joined.
 static int grow(growth *g) {
     search *s = g->s;
     expansion *e = &g->e;
@@ -356,7 +356,9 @@ static int grow(growth *g) {
         s->limit = OVOID_LIMIT_CAPACITY;
         return 0;
     }
-    return expansion_join(e, g->nearest, expansion_add_point(e, x.w, x.a, x.b)) ? 1 : -1;
+    if (expansion_join(e, g->nearest, expansion_add_point(e, x.w, x.a, x.b))) return 1;
+    e->points--;
+    return -1;
 }
 
 static void find_next(growth *g) {
@@ -392,7 +394,7 @@ static int begin(growth *g, simplex *x, int is_first) {
     search *s = g->s;
     if (x->count == 0) probe_center(&g->p, x);
     if (is_first && is_apart(s)) return 0;
-    if (is_first && s->goal.wants_depth && epa_lanes_serve(&g->p)) {
+    if (is_first && s->goal.wants_depth && epa_lanes_serve(s)) {
         if (grow_in_lanes(g, x)) return 0;
         if (g->e.points) {
             if (!g->is_grown) find_next(g);
@@ -423,8 +425,8 @@ int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
         }
         if (is_first && is_apart(s)) break;
         int grown = grow(&g);
-        if (grown < 0) return 0;
-        if (!grown || search_is_done(s)) break;
+        if (grown < 0 && !s->goal.wants_depth) return 0;
+        if (grown <= 0 || search_is_done(s)) break;
         find_next(&g);
         if (!s->goal.wants_depth && g.e.f[g.nearest].low > 2 * s->frame->claim && take_hull(&g) && is_shown(s)) break;
     }

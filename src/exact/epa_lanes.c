@@ -1,19 +1,25 @@
-// What EPA (epa.c) does where both bodies are small: the surface grows in lanes (simd/epa8.h), and in the common case
-// the depth is taken from it as it is. The numbers are those that epa.c finds for the same surface; where this ends
-// early, epa.c goes on from the points and faces that there are.
+// What EPA (epa.c) does first for a depth: the surface grows in lanes (simd/epa8.h), and in the common case the depth
+// is taken from it as it is. The numbers are those that epa.c finds for the same surface; where this ends early, epa.c
+// goes on from the points and faces that there are.
 #include "exact/epa_lanes.h"
 
 #include "base/compiler.h"
 
-int epa_lanes_serve(const prober *p) {
-    double size = p->s->frame->size;
-    return p->is_posed && size > 0x1p-100 && size < 0x1p100;
+int epa_lanes_serve(const search *s) {
+    double size = s->frame->size;
+    return size > 0x1p-100 && size < 0x1p100;
+}
+
+static simd_difference find(const void *bodies, double x, double y, double z) {
+    frame_support w = probe_measure(bodies, (vec3){-x, -y, -z});
+    return (simd_difference){w.gap, w.w.x, w.w.y, w.w.z, w.a, w.b};
 }
 
 epa8_end epa_lanes_grow(epa8 *lanes, const prober *p, const simplex *x, double slack, double doubt) {
     search *s = p->s;
     double claim = s->frame->claim, narrow = s->goal.tolerance - s->goal.allowance - 2 * claim;
-    epa8_query query = {p->a, p->b, claim, narrow, 2 * epa_get_face_doubt(s), slack, doubt, s->goal.iterations};
+    epa8_query query = {p->a,  p->b,  p->is_posed ? NULL : find, p, claim, narrow, 2 * epa_get_face_doubt(s),
+                        slack, doubt, s->goal.iterations};
     lanes->points = (uint32_t)x->count;
     for (int i = 0; i < x->count; i++) {
         lanes->w[0][i] = x->p[i].w.x, lanes->w[1][i] = x->p[i].w.y, lanes->w[2][i] = x->p[i].w.z;

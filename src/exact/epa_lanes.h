@@ -1,12 +1,12 @@
-// EPA of small bodies: grown in lanes (simd/epa8.h) as far as the common case goes.
+// EPA of a depth: grown in lanes (simd/epa8.h) as far as the common case goes.
 #ifndef OVOID_EXACT_EPA_LANES_H
 #define OVOID_EXACT_EPA_LANES_H
 
 #include "exact/probe.h"
 #include "simd/epa8.h"
 
-/// 1 if the bodies of the search are few vertices, of a size that no power of it over- or underflows.
-int epa_lanes_serve(const prober *p);
+/// 1 if no power of the pair's size that the growth takes over- or underflows.
+int epa_lanes_serve(const search *s);
 
 /// Grows from the differences of the simplex, one at least, until the depth is known or the case is not common; what is
 /// found on the way goes into the search. slack, doubt: as in expand.h.

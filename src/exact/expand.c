@@ -189,15 +189,15 @@ static void free_faces(expansion *p, uint16_t *seen, uint32_t count) {
     p->free_count += count;
 }
 
-// Replaces the faces that the point sees, connected to the first, by new faces on the edges of their horizon.
-static int replace_visible(expansion *p, uint16_t first, uint16_t apex) {
+// Replaces the faces that the point sees, connected to the first, by new faces on the edges of their horizon. The faces
+// seen, the first at the end of *seen and the others below it: there is room, as no face is both free and seen.
+static int replace_visible(expansion *p, uint16_t first, uint16_t apex, uint16_t **seen) {
     vec3 w = p->w[apex];
-    // The first at the end, the others below it: there is room, as no face is both free and seen.
-    uint16_t *end = p->free + p->most_faces, *seen = end;
-    *--seen = first;
+    uint16_t *end = *seen;
+    *--*seen = first;
     p->f[first].alive = 0;
     p->ring_count = 0;
-    for (uint16_t *at = end; at-- > seen;) {
+    for (uint16_t *at = end; at-- > *seen;) {
         const face *old = &p->f[*at];
         for (int e = 0; e < 3; e++) {
             uint16_t g = old->twin[e] / 4;
@@ -205,14 +205,22 @@ static int replace_visible(expansion *p, uint16_t first, uint16_t apex) {
             if (!f->alive) continue;
             if (vec3_dot(f->n, w) - f->low > p->slack) {
                 f->alive = 0;
-                *--seen = g;
+                *--*seen = g;
             } else if (!add_on_edge(p, old, e, apex)) {
                 return 0;
             }
         }
     }
-    free_faces(p, seen, (uint32_t)(end - seen));
     return p->ring_count >= 3;
+}
+
+// The faces that were seen stand again, and those around them look at them again.
+static void restore_faces(expansion *p, const uint16_t *seen, const uint16_t *end) {
+    for (; seen < end; seen++) {
+        face *f = &p->f[*seen];
+        f->alive = 1;
+        for (int e = 0; e < 3; e++) p->f[f->twin[e] / 4].twin[f->twin[e] % 4] = (uint16_t)(4 * *seen + e);
+    }
 }
 
 // Around the loop: each new face's edge (to, apex) meets the one that leaves `to`. 0 if it is not one simple loop.
@@ -231,7 +239,15 @@ static int close_ring(expansion *p, uint16_t apex) {
 }
 
 int expansion_join(expansion *p, uint16_t first, uint16_t apex) {
-    if (!replace_visible(p, first, apex) || !close_ring(p, apex)) return 0;
+    uint32_t faces = p->faces, free_count = p->free_count;
+    uint16_t *end = p->free + p->most_faces, *seen = end;
+    if (!replace_visible(p, first, apex, &seen) || !close_ring(p, apex)) {
+        restore_faces(p, seen, end);
+        p->faces = faces;
+        p->free_count = free_count;
+        return 0;
+    }
+    free_faces(p, seen, (uint32_t)(end - seen));
     set_ring(p, apex);
     return 1;
 }

@@ -79,7 +79,7 @@ void expansion_make_tetrahedron(expansion *p);
 uint16_t expansion_take(expansion *p, const epa8 *from);
 
 /// Joins a point to the surface: it replaces the faces visible from it, `first` among them. 0 if rounding or memory
-/// make that impossible; the surface is then invalid.
+/// make that impossible; the surface is then as it was, and no point can be joined to it any more.
 int expansion_join(expansion *p, uint16_t first, uint16_t apex);
 
 /// The face of least offset.

@@ -1,7 +1,7 @@
-// A growing polytope of few points with its faces in lanes, eight of them a group: the inner loop of EPA for small
-// bodies (exact/epa.c). The nearest face is a vector minimum, what a point sees one comparison a group, the horizon the
-// edges of seen faces whose reverse is not seen, the new faces one group. Nothing is a list, and no step waits for more
-// than one support.
+// A growing polytope of few points with its faces in lanes, eight of them a group: the inner loop of EPA (exact/epa.c),
+// with supports in lanes too where the bodies are small. The nearest face is a vector minimum, what a point sees one
+// comparison a group, the horizon the edges of seen faces whose reverse is not seen, the new faces one group. Nothing
+// is a list, and no step waits for more than one support.
 //
 // It ends where the common case does: at a sliver, a horizon that is no simple loop, a point or a group too many. The
 // surface is then the one before that step, and whoever asked goes on from it.
@@ -12,9 +12,13 @@
 
 enum { EPA8 = 8, EPA8_GROUPS = 16, EPA8_FACES = EPA8 * EPA8_GROUPS, EPA8_POINTS = 32, EPA8_START = 4 };
 
-/// What is asked: the bodies in one frame, at most 64 points each, and when to stop.
+/// What is asked: the bodies in one frame and when to stop.
 typedef struct epa8_query {
-    simd_points a, b;
+    simd_points a, b; ///< at most 64 points each
+    /// Where it is not NULL, it finds the supports in their place: the difference B minus A that is greatest along a
+    /// direction of any length, and the gap along its reverse.
+    simd_difference (*find)(const void *bodies, double x, double y, double z);
+    const void *bodies;
     double claim;  ///< what rounding does to a gap: one above it proves the bodies apart; also the least depth
     double narrow; ///< how far above the nearest face its support may be for the depth to be known
     double near;   ///< faces that much farther than the nearest may yet be the nearest, for rounding

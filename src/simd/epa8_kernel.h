@@ -85,7 +85,7 @@ LANES_INLINE support_result find_among(const simd_points *p, lane3 n, uint32_t c
     uint64_t equal = lane_bits(lane_at_least(value[0], most));
     for (uint32_t i = 1; i < count / LANES; i++)
         equal |= (uint64_t)lane_bits(lane_at_least(value[i], most)) << LANES * i;
-    return (support_result){lane_first(most) + 0.0, (uint32_t)__builtin_ctzll(equal)};
+    return (support_result){lane_first(most) + 0.0, equal ? (uint32_t)__builtin_ctzll(equal) : 0};
 }
 
 LANES_INLINE support_result find_one(const simd_points *p, lane3 n) {
@@ -96,7 +96,9 @@ LANES_INLINE support_result find_one(const simd_points *p, lane3 n) {
     return find_among(p, n, p->padded_count);
 }
 
-LANES_INLINE simd_difference find_difference(const epa8_query *q, double x, double y, double z) {
+// is_own: a constant, so that neither loop has the other's way in it.
+LANES_INLINE simd_difference find_difference(const epa8_query *q, int is_own, double x, double y, double z) {
+    if (is_own) return q->find(q->bodies, x, y, z);
     support_result b = find_one(&q->b, (lane3){lane_set(x), lane_set(y), lane_set(z)});
     support_result a = find_one(&q->a, (lane3){lane_set(-x), lane_set(-y), lane_set(-z)});
     uint32_t i = a.index, k = b.index;
@@ -304,16 +306,19 @@ LANES_INLINE vec3 find_toward(const epa8 *s) {
     vec3 w = get_point(s, 0);
     if (s->points == 1) return vec3_neg(w);
     vec3 e1 = vec3_sub(get_point(s, 1), w);
-    if (s->points == 2) return vec3_add_scaled(vec3_neg(w), e1, vec3_dot(w, e1) / vec3_norm_squared(e1));
+    if (s->points == 2) {
+        double square = vec3_norm_squared(e1);
+        return square > 0 ? vec3_add_scaled(vec3_neg(w), e1, vec3_dot(w, e1) / square) : vec3_neg(w);
+    }
     vec3 n = vec3_cross(e1, vec3_sub(get_point(s, 2), w));
     return vec3_dot(n, w) < 0 ? n : vec3_neg(n);
 }
 
 // Four points by supports toward the origin; then the sign of their volume, 0 where they are near a plane.
-LANES_INLINE int complete(epa8 *s, const epa8_query *q) {
+LANES_INLINE int complete(epa8 *s, const epa8_query *q, int is_own) {
     while (s->points < EPA8_START) {
         vec3 n = find_toward(s);
-        simd_difference x = find_difference(q, n.x, n.y, n.z);
+        simd_difference x = find_difference(q, is_own, n.x, n.y, n.z);
         if (has_point(s, &x)) return 0;
         set_point(s, s->points++, &x);
     }
@@ -361,10 +366,10 @@ LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *x) {
 }
 
 // The support of the nearest face, and what it says of the gap.
-LANES_INLINE simd_difference measure(epa8 *s, const epa8_query *q) {
+LANES_INLINE simd_difference measure(epa8 *s, const epa8_query *q, int is_own) {
     uint32_t f = s->nearest = find_nearest(s);
     double n[3] = {s->n[0][f], s->n[1][f], s->n[2][f]};
-    simd_difference x = find_difference(q, n[0], n[1], n[2]);
+    simd_difference x = find_difference(q, is_own, n[0], n[1], n[2]);
     s->supports++;
     if (x.gap > s->best_gap) {
         s->best_gap = x.gap;
@@ -373,13 +378,13 @@ LANES_INLINE simd_difference measure(epa8 *s, const epa8_query *q) {
     return x;
 }
 
-LANES_INLINE epa8_end run_grow(epa8 *s, const epa8_query *q) {
+LANES_INLINE epa8_end run(epa8 *s, const epa8_query *q, int is_own) {
     s->supports = 0;
     s->best_gap = -INFINITY;
-    int sign = complete(s, q);
+    int sign = complete(s, q, is_own);
     if (!sign || !make_tetrahedron(s, q, sign)) return EPA8_FLAT;
     while (s->supports < q->most) {
-        simd_difference x = measure(s, q);
+        simd_difference x = measure(s, q, is_own);
         double low = s->low[s->nearest], high = -x.gap;
         if (x.gap > q->claim) return EPA8_APART;
         if (low > q->claim && high - low <= q->narrow) {
@@ -391,3 +396,7 @@ LANES_INLINE epa8_end run_grow(epa8 *s, const epa8_query *q) {
     }
     return EPA8_LEFT;
 }
+
+LANES_TARGET static __attribute__((noinline)) epa8_end run_own(epa8 *s, const epa8_query *q) { return run(s, q, 1); }
+
+LANES_INLINE epa8_end run_grow(epa8 *s, const epa8_query *q) { return q->find ? run_own(s, q) : run(s, q, 0); }

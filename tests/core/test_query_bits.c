@@ -5,7 +5,7 @@
 // any step's arithmetic changes the number; then take the one printed, after a look at the other tests.
 #include "bits.h"
 
-#define STORED 0xe59f8cfa54206f80u
+#define STORED 0xd31363d870478f76u
 
 enum { PAIRS = 250 };
 

@@ -47,7 +47,7 @@ static epa8_query make_query(bodies *o, uint64_t *s) {
     simd_points b = {o->b[0], o->b[1], o->b[2], (o->count_b + 7) / 8 * 8};
     double narrow = random_next(s) % 4 == 0 ? 1e-15 : 1e-9;
     uint32_t most = random_next(s) % 8 == 0 ? 1 + (uint32_t)(random_next(s) % 6) : 1000;
-    return (epa8_query){a, b, 1e-14, narrow, 1e-13, 4e-15, 1e-28, most};
+    return (epa8_query){a, b, NULL, NULL, 1e-14, narrow, 1e-13, 4e-15, 1e-28, most};
 }
 
 /// One difference to begin with, or two.

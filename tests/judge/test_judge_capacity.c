@@ -59,6 +59,36 @@ static void check_pair(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose po
     check_answer(&pair, &x, &cover);
 }
 
+/// A surface that is full, or that rounding keeps from growing, still proves what it shows: of d, 2 less the balls'
+/// sagittas, half a per cent is open, not half of it.
+static void check_widths(void) {
+    uint64_t s = 5;
+    ovoid_shape *a = make_ball(512, 0);
+    for (int i = 0; i < 60; i++) {
+        check_seed = s;
+        ovoid_pair pair = {a, a, ovoid_pose_make_identity(), make_pose(&s, 0)};
+        ovoid_answer x = ovoid_depth(&pair, NULL, NULL, NULL);
+        CHECK_LE(x.upper - x.lower, 0.02);
+        CHECK_LE(x.upper, -1.97);
+    }
+    ovoid_shape_destroy(a);
+}
+
+/// The triangles of any surface around the origin that keeps r from it, with corners no farther than R: each is seen
+/// from the origin within a cap of half-angle acos(r / R), where the largest triangle is the regular one. That many are
+/// needed for a ball of 2562 points: why its depth is left open (docs/query.md).
+static void check_need(void) {
+    uint64_t s = 7;
+    ovoid_shape *a = make_ball(2562, 0);
+    ovoid_pair pair = {a, a, ovoid_pose_make_identity(), make_pose(&s, 0)};
+    ovoid_answer x = ovoid_depth(&pair, NULL, NULL, NULL);
+    double r = -x.lower, half = acos(r / 2), side = sin(half) * sqrt(3), chord = 2 * asin(side / 2);
+    // The regular spherical triangle: cos A = tan(c / 2) / tan c.
+    double angle = acos(tan(chord / 2) / tan(chord)), area = 3 * angle - 3.141592653589793;
+    CHECK_LE(2.0 * OVOID_COVER_POINTS, 4 * 3.141592653589793 / area);
+    ovoid_shape_destroy(a);
+}
+
 int main(void) {
     static const uint32_t counts[] = {162, 642, 2562};
     static const double offsets[] = {0, 1e-9, 1e-3, 0.1};
@@ -75,6 +105,8 @@ int main(void) {
             ovoid_shape_destroy(a);
             ovoid_shape_destroy(b);
         }
+    check_widths();
+    check_need();
     // The pairs are hard enough to be worth the test.
     CHECK_LE(10, ended);
     CHECK_LE(10, wide);
