@@ -31,7 +31,8 @@ epa8_end epa_lanes_grow(epa8 *lanes, const prober *p, const simplex *x, double s
     const double *n = lanes->best_n;
     search_take_gap(s, (vec3){-n[0], -n[1], -n[2]}, lanes->best_gap);
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
-    s->iterations += lanes->supports;
+    // As in epa.c, the support that ends the growth is not counted.
+    s->iterations += lanes->points - EPA8_START;
     return end;
 }
 
