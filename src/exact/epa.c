@@ -5,6 +5,7 @@
 //   offset then gives a normal along which the gap is 0 to rounding.
 // - Nothing is taken on trust: the lower bound is the gap along a face's normal, by the supports; the upper bound is
 //   the radius that the whole surface keeps from the origin, checked at the end as a proof (cover.c).
+// - A depth's first points are joined in lanes (epa_lanes.c); this goes on from there where it must.
 // Working memory is fixed, on the stack, about 80 KB. Cost: for each new point one support and a scan of the faces that
 // may be the nearest.
 #include "exact/epa.h"
