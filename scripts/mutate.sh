@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io"
+groups="allowance query growth exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -22,6 +22,7 @@ tests_of() {
     case $1 in
     allowance) echo "test_allowance test_judge_allowance" ;;
     query) echo "$query" ;;
+    growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull test_measures test_shape $query" ;;
     shape) echo "test_measures test_shape test_shape_triangles test_shape_file $query" ;;

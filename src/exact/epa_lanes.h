@@ -5,7 +5,7 @@
 #include "exact/probe.h"
 #include "simd/epa8.h"
 
-/// 1 if no power of the pair's size that the growth takes over- or underflows.
+/// 1 if the pair's size is such that no direction of the growth, which has the length that it comes with, overflows.
 int epa_lanes_serve(const search *s);
 
 /// Grows from the differences of the simplex, one at least, until the depth is known or the case is not common; what is

@@ -9,6 +9,11 @@
 typedef long double real;
 
 enum { MOST = 64 };
+#define SLACK 4e-15
+
+typedef struct point3 {
+    real x, y, z;
+} point3;
 
 /// Two bodies in one frame.
 typedef struct bodies {
@@ -46,8 +51,10 @@ static epa8_query make_query(bodies *o, uint64_t *s) {
     simd_points a = {o->a[0], o->a[1], o->a[2], (o->count_a + 7) / 8 * 8};
     simd_points b = {o->b[0], o->b[1], o->b[2], (o->count_b + 7) / 8 * 8};
     double narrow = random_next(s) % 4 == 0 ? 1e-15 : 1e-9;
+    // With much slack the faces that a point sees need not be connected, nor have one simple rim.
+    double slack = random_next(s) % 4 == 0 ? random_uniform(s, 0.01, 0.1) : SLACK;
     uint32_t most = random_next(s) % 8 == 0 ? 1 + (uint32_t)(random_next(s) % 6) : 1000;
-    return (epa8_query){a, b, NULL, NULL, 1e-14, narrow, 1e-13, 4e-15, 1e-28, most};
+    return (epa8_query){a, b, NULL, NULL, 1e-14, narrow, 1e-13, slack, 1e-28, most};
 }
 
 /// One difference to begin with, or two.
@@ -101,15 +108,30 @@ static void check_closed(const epa8 *o) {
         for (uint32_t k = 0; k < o->points; k++) CHECK(met[i][k] == met[k][i] && met[i][k] <= 1);
 }
 
-/// Planes, convexity, the nearest.
-static void check_faces(const epa8 *o) {
+static point3 get_edge(const epa8 *o, uint32_t from, uint32_t to) {
+    return (point3){(real)o->w[0][to] - o->w[0][from], (real)o->w[1][to] - o->w[1][from],
+                    (real)o->w[2][to] - o->w[2][from]};
+}
+
+static real dot(point3 a, point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// The sine between a face's edges is above 0.01.
+static int is_plain(const epa8 *o, uint32_t f) {
+    point3 u = get_edge(o, o->v[f][0], o->v[f][1]), v = get_edge(o, o->v[f][0], o->v[f][2]);
+    return dot(u, u) * dot(v, v) * (1 - 0.999e-4L) > dot(u, v) * dot(u, v);
+}
+
+/// Planes, convexity, what is told of the origin.
+static void check_faces(const epa8 *o, const epa8_query *q) {
     for (uint32_t f = 0; f < EPA8 * o->groups; f++) {
         if (!is_alive(o, f)) continue;
         CHECK_NEAR(
             (double)((real)o->n[0][f] * o->n[0][f] + (real)o->n[1][f] * o->n[1][f] + (real)o->n[2][f] * o->n[2][f]), 1,
             1e-14);
         for (int e = 0; e < 3; e++) CHECK_NEAR((double)along(o, f, o->v[f][e]), o->low[f], 1e-13);
-        for (uint32_t i = 0; i < o->points; i++) CHECK_LE((double)along(o, f, i), o->low[f] + 1e-12);
+        CHECK(is_plain(o, f));
+        for (uint32_t i = 0; i < o->points && q->slack <= SLACK; i++)
+            CHECK_LE((double)along(o, f, i), o->low[f] + 1e-12);
         if (!(o->low[f] > 0)) CHECK(o->inward[f / 64] >> f % 64 & 1);
     }
     CHECK((o->inward[0] & ~o->alive[0]) == 0 && (o->inward[1] & ~o->alive[1]) == 0);
@@ -141,6 +163,22 @@ static void check_result(const epa8 *o, const epa8_query *q, const bodies *of, e
     }
 }
 
+/// The greatest gap of more supports is no less.
+static void check_steps(const epa8_query *q, uint64_t s) {
+    static epa8 o;
+    double best = -INFINITY;
+    for (uint32_t most = 1; most < 8; most++) {
+        epa8_query few = *q;
+        uint64_t again = s;
+        few.most = most;
+        start(&o, &few, &again);
+        if (epa8_grow(&o, &few) == EPA8_FLAT) return;
+        CHECK_LE(best, o.best_gap);
+        CHECK_LE(o.supports, most);
+        best = o.best_gap;
+    }
+}
+
 static void check_query(uint64_t seed) {
     static epa8 truth, other;
     bodies of;
@@ -161,8 +199,9 @@ static void check_query(uint64_t seed) {
     }
     if (end == EPA8_FLAT) return;
     check_closed(&truth);
-    check_faces(&truth);
+    check_faces(&truth, &q);
     check_result(&truth, &q, &of, end);
+    if (seed % 10 == 0) check_steps(&q, again);
     if (truth.points > points_most) points_most = truth.points;
 }
 

@@ -62,14 +62,16 @@ static void check_pair(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose po
 /// A surface that is full, or that rounding keeps from growing, still proves what it shows: of d, 2 less the balls'
 /// sagittas, half a per cent is open, not half of it.
 static void check_widths(void) {
+    static ovoid_cover cover;
     uint64_t s = 5;
     ovoid_shape *a = make_ball(512, 0);
     for (int i = 0; i < 60; i++) {
         check_seed = s;
         ovoid_pair pair = {a, a, ovoid_pose_make_identity(), make_pose(&s, 0)};
-        ovoid_answer x = ovoid_depth(&pair, NULL, NULL, NULL);
+        ovoid_answer x = ovoid_depth(&pair, NULL, NULL, &cover);
         CHECK_LE(x.upper - x.lower, 0.02);
         CHECK_LE(x.upper, -1.97);
+        CHECK(ovoid_answer_check(&pair, &x, &cover, NULL) == OVOID_OK);
     }
     ovoid_shape_destroy(a);
 }
