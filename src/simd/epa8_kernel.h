@@ -110,8 +110,6 @@ LANES_INLINE simd_difference find_difference(const epa8_query *q, int is_own, do
 
 // The groups are looked at in rows of four, so that no loop's end depends on how many there are; those without faces
 // are masked.
-#define EACH_ROW(s, row) for (uint32_t row = 0; row < (s)->groups; row += EPA8_ROW)
-
 /// The bits of one row of four groups.
 LANES_INLINE uint64_t get_row(const uint64_t bits[2], uint32_t row) { return bits[row / 8] >> row % 8 * 8; }
 
@@ -120,7 +118,7 @@ LANES_INLINE void add_row(uint64_t bits[2], uint32_t row, uint64_t found) { bits
 // The faces that are at most that far, as bits.
 LANES_INLINE void find_below(const epa8 *s, lane most, uint64_t below[2]) {
     below[0] = below[1] = 0;
-    EACH_ROW(s, row) {
+    for (uint32_t row = 0; row < s->groups; row += EPA8_ROW) {
         uint64_t bits = 0;
         for (uint32_t i = 0; i < EPA8 * EPA8_ROW; i += LANES)
             bits |= (uint64_t)lane_bits(lane_at_most(lane_load(s->low + EPA8 * row + i), most)) << i;
@@ -133,7 +131,7 @@ LANES_INLINE void find_below(const epa8 *s, lane most, uint64_t below[2]) {
 // The face of least offset; of several the first.
 LANES_INLINE uint32_t find_nearest(const epa8 *s) {
     lane least = lane_set(INFINITY);
-    EACH_ROW(s, row) {
+    for (uint32_t row = 0; row < s->groups; row += EPA8_ROW) {
         uint64_t alive = get_row(s->alive, row);
         for (uint32_t i = 0; i < EPA8 * EPA8_ROW; i += LANES) {
             lane low = lane_load(s->low + EPA8 * row + i);
@@ -149,7 +147,7 @@ LANES_INLINE uint32_t find_nearest(const epa8 *s) {
 LANES_INLINE uint64_t find_seen(const epa8 *s, const epa8_query *q, const simd_difference *x, uint64_t seen[2]) {
     lane3 w = {lane_set(x->x), lane_set(x->y), lane_set(x->z)};
     seen[0] = seen[1] = 0;
-    EACH_ROW(s, row) {
+    for (uint32_t row = 0; row < s->groups; row += EPA8_ROW) {
         uint64_t bits = 0;
         for (uint32_t i = 0; i < EPA8 * EPA8_ROW; i += LANES) {
             uint32_t at = EPA8 * row + i;
