@@ -69,6 +69,11 @@ LANES_INLINE lane lane_find_min(lane m) { return -lane_find_max(-m); }
 
 // ---- supports
 
+#if LANES == 1
+LANES_INLINE support_result find_one(const simd_points *p, lane3 n) {
+    return simd_find_support(p->x, p->y, p->z, p->padded_count, n.x, n.y, n.z);
+}
+#else
 LANES_INLINE lane3 point_lanes(const simd_points *p, uint32_t at) {
     return (lane3){lane_load(p->x + at), lane_load(p->y + at), lane_load(p->z + at)};
 }
@@ -95,6 +100,7 @@ LANES_INLINE support_result find_one(const simd_points *p, lane3 n) {
     if (p->padded_count == 32) return find_among(p, n, 32);
     return find_among(p, n, p->padded_count);
 }
+#endif
 
 // is_own: a constant, so that neither loop has the other's way in it.
 LANES_INLINE simd_difference find_difference(const epa8_query *q, int is_own, double x, double y, double z) {
@@ -108,8 +114,52 @@ LANES_INLINE simd_difference find_difference(const epa8_query *q, int is_own, do
 
 // ---- faces
 
+#if LANES == 1
+
+// One by one, only the faces that there are; the wider lanes look at places without one too.
+
+// The faces that are at most that far, as bits.
+LANES_INLINE void find_below(const epa8 *s, lane most, uint64_t below[2]) {
+    for (uint32_t half = 0; half < 2; half++) {
+        uint64_t bits = 0;
+        for (uint64_t rest = s->alive[half]; rest; rest &= rest - 1)
+            if (s->low[64 * half + (uint32_t)__builtin_ctzll(rest)] <= most) bits |= rest & -rest;
+        below[half] = bits;
+    }
+}
+
+// The face of least offset; of several the first.
+LANES_INLINE uint32_t find_nearest(const epa8 *s) {
+    uint32_t nearest = 0;
+    double least = INFINITY;
+    for (uint32_t half = 0; half < 2; half++)
+        for (uint64_t rest = s->alive[half]; rest; rest &= rest - 1) {
+            uint32_t at = 64 * half + (uint32_t)__builtin_ctzll(rest);
+            nearest = s->low[at] < least ? at : nearest;
+            least = s->low[at] < least ? s->low[at] : least;
+        }
+    return nearest;
+}
+
+// The faces that see a point, as bits.
+LANES_INLINE uint64_t find_seen(const epa8 *s, const epa8_query *q, const simd_difference *x, uint64_t seen[2]) {
+    for (uint32_t half = 0; half < 2; half++) {
+        uint64_t bits = 0;
+        for (uint64_t rest = s->alive[half]; rest; rest &= rest - 1) {
+            uint32_t at = 64 * half + (uint32_t)__builtin_ctzll(rest);
+            double along = (s->n[0][at] * x->x + s->n[1][at] * x->y) + s->n[2][at] * x->z;
+            bits |= along - s->low[at] > q->slack ? rest & -rest : 0;
+        }
+        seen[half] = bits;
+    }
+    return seen[0] | seen[1];
+}
+
+#else
+
 // The groups are looked at in rows of four, so that no loop's end depends on how many there are; those without faces
 // are masked.
+
 /// The bits of one row of four groups.
 LANES_INLINE uint64_t get_row(const uint64_t bits[2], uint32_t row) { return bits[row / 8] >> row % 8 * 8; }
 
@@ -161,6 +211,8 @@ LANES_INLINE uint64_t find_seen(const epa8 *s, const epa8_query *q, const simd_d
     seen[1] &= s->alive[1];
     return seen[0] | seen[1];
 }
+
+#endif
 
 /// The edges between faces that see a point and faces that do not, counter-clockwise around the former: the corners
 /// where they begin and end, a byte each.
@@ -232,6 +284,7 @@ LANES_INLINE int set_group(epa8 *s, const epa8_query *q, uint32_t g, vec3 apex, 
     unsigned plain = 0, doubtful = 0;
     for (uint32_t i = 0; i < EPA8; i += LANES) {
         unsigned some;
+        if (LANES < EPA8 && !(all >> i)) break;
         lane3 u = pick_points(s, from >> 8 * i), v = pick_points(s, to >> 8 * i);
         plain |= set_planes(s, q, EPA8 * g + i, c, u, v, &some) << i;
         doubtful |= some << i;
