@@ -3,6 +3,7 @@
 
 #include "pair/hull.h"
 #include "pair/inner.h"
+#include "pair/proof.h"
 #include "pair/reject.h"
 
 static simd_points get_points(const ovoid_shape *s) {
@@ -39,38 +40,50 @@ static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, 
 // How deep the spheres overlap, of the sum of their radii, where the inner ellipsoids are likely to overlap too.
 #define INNER_DEPTH 0.4
 
-// A common point of the inner ellipsoids: 1 if it proves an overlap. The lower bound is that of the spheres.
-static int run_inner(const pair_frame *f, double spheres, vec3 d, small_end *end) {
-    double upper = inner_compute_upper_in_world(f, &end->inner);
-    if (!(upper < 0)) return 0;
+// An overlap that `upper` proves, without a search. The lower bound is that of the spheres, along the line of centres.
+static void end_at_overlap(double spheres, vec3 line, double upper, ovoid_proof_kind kind, ovoid_stage stage,
+                           small_end *end) {
     end->lower = spheres;
     end->upper = upper;
-    end->normal = vec3_unit(d);
-    end->points.count = 0;
-    end->kind = OVOID_PROOF_INNER;
-    end->stage = OVOID_STAGE_INNER;
+    end->normal = vec3_unit(line);
+    end->kind = kind;
+    end->stage = stage;
     end->iterations = 0;
+}
+
+// A common point of the inner ellipsoids: 1 if it proves an overlap.
+static int run_inner(const pair_frame *f, double spheres, vec3 line, small_end *end) {
+    double upper = inner_compute_upper_in_world(f, &end->inner);
+    if (!(upper < 0)) return 0;
+    end->points.count = 0;
+    end_at_overlap(spheres, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_INNER, end);
     return 1;
+}
+
+// A search from the line of centres.
+static small_gjk_query make_query(const pair_frame *f, const query_goal *goal) {
+    vec3 n = f->between;
+    return (small_gjk_query){get_points(f->a),
+                             get_points(f->b),
+                             &f->world.r0.x,
+                             &f->world_b.r0.x,
+                             {f->offset.x, f->offset.y, f->offset.z},
+                             {n.x, n.y, n.z},
+                             f->lower_radii,
+                             f->upper_radii,
+                             reject_get_claim(f),
+                             goal->far,
+                             goal->near,
+                             goal->tolerance,
+                             goal->wants_bracket,
+                             goal->iterations};
 }
 
 int small_begin(const pair_frame *f, const query_goal *goal, double spheres, small_gjk_query *q, small_end *end) {
     vec3 d = f->between;
     if (!(vec3_norm_squared(d) > 1e-150)) return 0;
     if (spheres < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, spheres, d, end)) return 1;
-    *q = (small_gjk_query){get_points(f->a),
-                           get_points(f->b),
-                           &f->world.r0.x,
-                           &f->world_b.r0.x,
-                           {f->offset.x, f->offset.y, f->offset.z},
-                           {d.x, d.y, d.z},
-                           f->lower_radii,
-                           f->upper_radii,
-                           reject_get_claim(f),
-                           goal->far,
-                           goal->near,
-                           goal->tolerance,
-                           goal->wants_bracket,
-                           goal->iterations};
+    *q = make_query(f, goal);
     return -1;
 }
 
@@ -102,4 +115,76 @@ int small_run(const pair_frame *f, const query_goal *goal, double spheres, small
     if (is_over >= 0) return is_over;
     simd_run_small_gjk(&q, &r);
     return small_finish(f, goal, &r, end);
+}
+
+// ---- from an earlier proof
+
+// The hull of four differences that was around the origin: 1 if it still is.
+static int run_kept_hull(const pair_frame *f, const ovoid_proof *p, double spheres, vec3 line, small_end *end) {
+    vec3 w[4];
+    for (int i = 0; i < 4; i++) {
+        w[i] =
+            frame_world_difference(f, vec3_at(shape_vertices(f->a), p->a[i]), vec3_at(shape_vertices(f->b), p->b[i]));
+        end->points.p[i] = (difference){w[i], p->a[i], p->b[i]};
+    }
+    double depth = hull_compute_depth(w, 4, reject_get_claim(f));
+    if (!(depth > 0)) return 0;
+    end->points.count = 4;
+    simplex_compute_inside_weights(&end->points);
+    end_at_overlap(spheres, line, -depth - f->upper_radii, OVOID_PROOF_HULL, OVOID_STAGE_PROOF, end);
+    return 1;
+}
+
+// The common point of the inner ellipsoids as it was, fixed in A, or another one.
+static int run_kept_inner(const pair_frame *f, const ovoid_proof *p, double spheres, vec3 line, small_end *end) {
+    double upper = inner_compute_upper_at(f, p->inner_a);
+    if (!(upper < 0)) return run_inner(f, spheres, line, end);
+    end->inner = p->inner_a;
+    end->points.count = 0;
+    end_at_overlap(spheres, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_PROOF, end);
+    return 1;
+}
+
+static small_outcome run_kept_overlap(const pair_frame *f, const ovoid_proof *p, double spheres, small_end *end) {
+    vec3 line = f->between;
+    int is_proven = 0;
+    if (!(vec3_norm_squared(line) > 1e-150) || !proof_is_sound(f, p)) return SMALL_UNKNOWN;
+    if (p->kind == OVOID_PROOF_INNER) is_proven = run_kept_inner(f, p, spheres, line, end);
+    if (p->kind == OVOID_PROOF_HULL && p->count == 4) is_proven = run_kept_hull(f, p, spheres, line, end);
+    return is_proven ? SMALL_ANSWERED : SMALL_UNKNOWN;
+}
+
+// 1 if the search goes on from the proof's differences, 0 if from its normal. A single difference may be no more than
+// what the supports met along a normal that parted the bodies; it is near if it is within the margin.
+static int is_simplex(const pair_frame *f, const query_goal *goal, const ovoid_proof *p) {
+    if (p->kind != OVOID_PROOF_POINTS || p->count == 0 || p->count > 3 || !proof_is_sound(f, p)) return 0;
+    if (p->count > 1 || goal->far == INFINITY) return 1;
+    vec3 w = frame_world_difference(f, vec3_at(shape_vertices(f->a), p->a[0]), vec3_at(shape_vertices(f->b), p->b[0]));
+    return vec3_norm(w) - f->upper_radii <= goal->near;
+}
+
+static small_outcome run_kept(const pair_frame *f, const query_goal *goal, const small_gjk_kept *kept, small_end *end) {
+    small_gjk_query q = make_query(f, goal);
+    small_gjk_result r;
+    simd_run_small_gjk_kept(&q, kept, &r);
+    if (!small_finish(f, goal, &r, end)) return SMALL_OPEN;
+    if (r.iterations == 0) end->stage = OVOID_STAGE_PROOF;
+    return SMALL_ANSWERED;
+}
+
+small_outcome small_run_earlier(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier,
+                                rejection *found, small_end *end) {
+    int was_apart = earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS;
+    if (!was_apart) return run_kept_overlap(f, earlier, found->lower, end);
+    if (is_simplex(f, goal, earlier)) {
+        small_gjk_kept kept = {.count = earlier->count};
+        for (uint32_t i = 0; i < earlier->count; i++) kept.a[i] = earlier->a[i], kept.b[i] = earlier->b[i];
+        return run_kept(f, goal, &kept, end);
+    }
+    if (goal->far == INFINITY) return SMALL_UNKNOWN;
+    if (reject_by_normal(f, goal->far, earlier, found)) return SMALL_REJECTED;
+    // More differences: it touched, and the stages of all pairs say more of that.
+    if (earlier->count > 3) return SMALL_OPEN;
+    small_gjk_kept met = {1, {found->a}, {found->b}};
+    return run_kept(f, goal, &met, end);
 }

@@ -7,7 +7,7 @@
 #ifndef OVOID_EXACT_SMALL_H
 #define OVOID_EXACT_SMALL_H
 
-#include "pair/search.h"
+#include "pair/reject.h"
 #include "simd/small_gjk.h"
 
 /// Most vertices of a body.
@@ -24,15 +24,20 @@ typedef struct small_end {
     uint32_t iterations;
 } small_end;
 
-/// 1 if the pair is one for small_run: few vertices, no allowance. For a distance the line of centres is as good a
-/// start as any. For a yes or no of more vertices the outer ellipsoids are asked: alone they cost what they save, in
-/// lanes a quarter of it. spheres: the lower bound of reject_by_spheres; depths are not measured here.
-enum { SMALL_LINE_VERTICES = 40 };
-static inline int small_takes(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
+/// 1 if both bodies have few vertices and no allowance, and no depth is asked for. spheres: the lower bound of
+/// reject_by_spheres.
+static inline int small_fits(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
     int is_small =
         (a->padded_count <= SMALL_POINTS) & (b->padded_count <= SMALL_POINTS) & !(a->has_allowance | b->has_allowance);
+    return is_small & (!goal->wants_depth | (spheres > 0));
+}
+
+/// 1 if the pair is one for small_run. For a distance the line of centres is as good a start as any. For a yes or no of
+/// more vertices the outer ellipsoids are asked: alone they cost what they save, in lanes a quarter of it.
+enum { SMALL_LINE_VERTICES = 40 };
+static inline int small_takes(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
     int is_line = (goal->far == INFINITY) | (a->vertex_count + b->vertex_count <= SMALL_LINE_VERTICES);
-    return is_small & is_line & (!goal->wants_depth | (spheres > 0));
+    return is_line & small_fits(goal, a, b, spheres);
 }
 
 /// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much. 1: answered; 0:
@@ -45,5 +50,17 @@ int small_run(const pair_frame *frame, const query_goal *goal, double spheres, s
 int small_begin(const pair_frame *frame, const query_goal *goal, double spheres, small_gjk_query *query,
                 small_end *end);
 int small_finish(const pair_frame *frame, const query_goal *goal, const small_gjk_result *result, small_end *end);
+
+typedef enum small_outcome {
+    SMALL_ANSWERED,
+    SMALL_REJECTED, ///< along the earlier proof's normal
+    SMALL_OPEN,     ///< searched, unusual: as small_run's 0
+    SMALL_UNKNOWN   ///< the earlier proof says nothing of the pair as it is now; nothing was searched
+} small_outcome;
+
+/// Of a pair that fits: what an earlier proof shows of it now, and of bodies that were apart a search that goes on from
+/// there. The proof may hold any bytes. found: as reject_by_spheres left it; of REJECTED the rejection.
+small_outcome small_run_earlier(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
+                                rejection *found, small_end *end);
 
 #endif

@@ -45,6 +45,12 @@ static double find_share(double ka, double kb, int *is_common) {
     return kb / (ka + kb);
 }
 
+double inner_compute_upper_at(const pair_frame *f, vec3 x) {
+    if (!vec3_is_finite(x)) return 0;
+    vec3 in_b = mat3_mul_transposed_vec3(f->world_b, vec3_sub(mat3_mul_vec3(f->world, x), f->offset));
+    return upper_of(f, norm_in(f->a, x, 0), norm_in(f->b, in_b, 2 * f->claim));
+}
+
 double inner_compute_upper_in_world(const pair_frame *f, vec3 *x) {
     const shape_inner *a = &f->a->inside, *b = &f->b->inside;
     vec3 c = f->a->inner.center, d = frame_world_difference(f, c, f->b->inner.center);
@@ -55,8 +61,7 @@ double inner_compute_upper_in_world(const pair_frame *f, vec3 *x) {
     double share = find_share(norm_of(a, way), norm_of(b, mat3_mul_transposed_vec3(f->world_b, d)), &is_common);
     if (!is_common) return 0;
     *x = vec3_add_scaled(c, way, share);
-    vec3 in_b = mat3_mul_transposed_vec3(f->world_b, vec3_sub(mat3_mul_vec3(f->world, *x), f->offset));
-    return upper_of(f, norm_in(f->a, *x, 0), norm_in(f->b, in_b, 2 * f->claim));
+    return inner_compute_upper_at(f, *x);
 }
 
 int inner_find_common(const pair_frame *f, vec3 *x) {

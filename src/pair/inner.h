@@ -16,8 +16,11 @@ int inner_find_common(const pair_frame *frame, vec3 *x);
 /// what may be added to the distance of the points.
 double inner_points_compute_upper(const pair_frame *frame, vec3 a, vec3 b, double error);
 
-/// The same before the pair has its frame: by a point of the way between the centres, *x in A's body frame. Above what
-/// inner_compute_upper says of that point, rounding included; 0 where no point of the way is proven common.
+/// inner_compute_upper before the pair has its frame (frame_place is enough); above what that says of the point,
+/// rounding included.
+double inner_compute_upper_at(const pair_frame *frame, vec3 x);
+
+/// The same of a point of the way between the centres, *x in A's body frame; 0 where no such point is proven common.
 double inner_compute_upper_in_world(const pair_frame *frame, vec3 *x);
 
 #endif

@@ -12,12 +12,15 @@ int reject_by_spheres(const pair_frame *f, double far, rejection *found) {
 }
 
 int reject_by_normal(const pair_frame *f, double far, const ovoid_proof *earlier, rejection *found) {
+    found->a = found->b = 0;
     if (!vec3_is_finite(earlier->normal)) return 0;
     vec3 n = vec3_unit(earlier->normal);
     simd_pair x =
         frame_find_pair(f, mat3_mul_transposed_vec3(f->world, n), vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)));
     double gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value,
            lower = gap - f->lower_radii - reject_get_claim(f);
+    found->a = x.high.index;
+    found->b = x.low.index;
     // A direction that underflowed to nothing proves nothing.
     if (!(lower > far) || !(vec3_norm_squared(n) > 0.5)) return 0;
     *found = (rejection){lower, n, x.high.index, x.low.index, OVOID_STAGE_PROOF};

@@ -26,6 +26,7 @@ typedef struct rejection {
 int reject_by_spheres(const pair_frame *frame, double far, rejection *found);
 
 /// By the supports along an earlier proof's normal: 1 where the gap is above `far`. The proof may hold any numbers.
+/// found->a and b are vertices in any case, those that the supports met; else *found is as it was.
 int reject_by_normal(const pair_frame *frame, double far, const ovoid_proof *earlier, rejection *found);
 
 /// The answer to the query, whose goal has its tolerance. By value: its address is not taken, so the compiler can make

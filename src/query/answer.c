@@ -135,10 +135,9 @@ ovoid_answer answer_make_small(const small_end *x, const pair_frame *f, const qu
     return out;
 }
 
-// The first rejections. The spheres come first, as they cost the same for any number of vertices. The normal of an
-// earlier proof of overlap separated nothing, so it is not tried.
-static int try_rejections(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier, rejection *found) {
-    if (reject_by_spheres(f, goal->far, found)) return 1;
+// The rejection along an earlier proof's normal. That of a proof of overlap separated nothing, so it is not tried.
+static int reject_by_earlier(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier,
+                             rejection *found) {
     int was_apart = earlier && goal->far < INFINITY &&
                     (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
     return was_apart && reject_by_normal(f, goal->far, earlier, found);
@@ -193,12 +192,24 @@ void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier
     if (!search_is_done(s)) refine_run(s, pair, earlier);
 }
 
-// How a query begins: refused, rejected, a pair of small bodies, or passed on to the search.
+// How a query begins: refused, rejected, answered as a pair of small bodies, or passed on to the search.
 typedef enum beginning { BEGIN_REFUSED, BEGIN_REJECTED, BEGIN_SMALL, BEGIN_SEARCH } beginning;
 
+// The kernel of small bodies, from the earlier proof where that says something.
+static inline small_outcome run_small(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
+                                      rejection *found, small_end *end) {
+    small_outcome outcome = SMALL_UNKNOWN;
+    if (earlier && small_fits(goal, frame->a, frame->b, found->lower))
+        outcome = small_run_earlier(frame, goal, earlier, found, end);
+    if (outcome == SMALL_UNKNOWN && small_takes(goal, frame->a, frame->b, found->lower))
+        outcome = small_run(frame, goal, found->lower, end) ? SMALL_ANSWERED : SMALL_OPEN;
+    return outcome;
+}
+
+// The spheres come first, as they cost the same for any number of vertices.
 static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given, query_goal *goal,
                               const ovoid_proof *earlier, ovoid_cover *cover, pair_frame *frame, rejection *found,
-                              ovoid_limit *refused) {
+                              small_end *end, ovoid_limit *refused) {
     OVOID_ASSERT(pair);
     ovoid_options options;
     if (cover && !goal->has_cover) cover->point_count = cover->triangle_count = 0;
@@ -209,8 +220,13 @@ static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given
     goal->tolerance = max2(options.absolute_tolerance, options.relative_tolerance * frame->size) + 8 * frame->hidden +
                       goal->allowance;
     goal->iterations = options.iterations;
-    if (try_rejections(frame, goal, earlier, found)) return BEGIN_REJECTED;
-    return !earlier && small_takes(goal, frame->a, frame->b, found->lower) ? BEGIN_SMALL : BEGIN_SEARCH;
+    if (reject_by_spheres(frame, goal->far, found)) return BEGIN_REJECTED;
+    switch (run_small(frame, goal, earlier, found, end)) {
+    case SMALL_ANSWERED: return BEGIN_SMALL;
+    case SMALL_REJECTED: return BEGIN_REJECTED;
+    case SMALL_OPEN: return BEGIN_SEARCH;
+    default: return reject_by_earlier(frame, goal, earlier, found) ? BEGIN_REJECTED : BEGIN_SEARCH;
+    }
 }
 
 static void run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const query_goal *goal,
@@ -234,14 +250,10 @@ void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, qu
     rejection found;
     small_end end;
     ovoid_limit refused;
-    switch (begin(pair, given, &goal, earlier, cover, &frame, &found, &refused)) {
+    switch (begin(pair, given, &goal, earlier, cover, &frame, &found, &end, &refused)) {
     case BEGIN_REFUSED: *out = answer_make_refused(refused); break;
     case BEGIN_REJECTED: *out = rejection_make_answer(&found, &frame, &goal); break;
-    case BEGIN_SMALL:
-        if (small_run(&frame, &goal, found.lower, &end)) {
-            *out = answer_make_small(&end, &frame, &goal);
-            break;
-        } // fall through
+    case BEGIN_SMALL: *out = answer_make_small(&end, &frame, &goal); break;
     case BEGIN_SEARCH: run_search(pair, &frame, found.lower, &goal, earlier, cover, out); break;
     }
 }
@@ -264,12 +276,10 @@ COMPILER_NOINLINE static ovoid_answer find_by_value(const ovoid_pair *pair, cons
     rejection found;
     small_end end;
     ovoid_limit refused;
-    switch (begin(pair, given, &goal, earlier, cover, &frame, &found, &refused)) {
+    switch (begin(pair, given, &goal, earlier, cover, &frame, &found, &end, &refused)) {
     case BEGIN_REFUSED: return answer_make_refused(refused);
     case BEGIN_REJECTED: return rejection_make_answer(&found, &frame, &goal);
-    case BEGIN_SMALL:
-        if (small_run(&frame, &goal, found.lower, &end)) return answer_make_small(&end, &frame, &goal);
-        // fall through
+    case BEGIN_SMALL: return answer_make_small(&end, &frame, &goal);
     default: return search_by_value(pair, &frame, found.lower, &goal, earlier, cover);
     }
 }

@@ -54,14 +54,27 @@ typedef struct small_gjk_result {
 /// is a proof: the caller makes the bounds from them.
 void simd_run_small_gjk(const small_gjk_query *query, small_gjk_result *result);
 
+/// Where a search ended a moment ago: the points of one to three differences, whose indices the bodies have.
+typedef struct small_gjk_kept {
+    uint32_t count, a[3], b[3];
+} small_gjk_kept;
+
+/// The same, from these differences; query->start is not read. The first support is measured before the bodies are
+/// posed, since it is mostly the last.
+void simd_run_small_gjk_kept(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result);
+
 typedef void small_gjk_function(const small_gjk_query *query, small_gjk_result *result);
+typedef void small_gjk_kept_function(const small_gjk_query *query, const small_gjk_kept *kept,
+                                     small_gjk_result *result);
 
 /// The function of one instruction set; NULL where this machine or build lacks it.
 small_gjk_function *simd_get_small_gjk(simd_isa isa);
+small_gjk_kept_function *simd_get_small_gjk_kept(simd_isa isa);
 
 #if defined(__x86_64__) && defined(__GNUC__)
-/// The function for AVX2, compiled in a file of its own.
+/// The functions for AVX2, compiled in a file of their own.
 small_gjk_function small_gjk_run_avx2;
+small_gjk_kept_function small_gjk_run_kept_avx2;
 #endif
 
 #endif

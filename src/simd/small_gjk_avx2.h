@@ -20,18 +20,26 @@ SMALL_GJK_INLINE void met_get(const met *m, double w[3]) {
     w[2] = _mm256_cvtsd_f64(m->w.z);
 }
 
+SMALL_GJK_INLINE void met_set(met *m, const double w[3]) {
+    m->w = (lanes3){_mm256_set1_pd(w[0]), _mm256_set1_pd(w[1]), _mm256_set1_pd(w[2])};
+}
+
 SMALL_GJK_INLINE __m256d turn(const double row[3], lanes3 p, double t) {
     __m256d sum = _mm256_add_pd(_mm256_mul_pd(_mm256_set1_pd(row[0]), p.x), _mm256_mul_pd(_mm256_set1_pd(row[1]), p.y));
     sum = _mm256_add_pd(sum, _mm256_mul_pd(_mm256_set1_pd(row[2]), p.z));
     return _mm256_add_pd(sum, _mm256_set1_pd(t));
 }
 
-// The smaller body of a pair repeats its first points: the lowest index among equals is the same.
+// Four points; the smaller body of a pair repeats its first ones: the lowest index among equals is the same.
+SMALL_GJK_INLINE lanes3 load_points(const simd_points *from, uint32_t i) {
+    uint32_t at = i < from->padded_count ? i : i & 4;
+    return (lanes3){_mm256_loadu_pd(from->x + at), _mm256_loadu_pd(from->y + at), _mm256_loadu_pd(from->z + at)};
+}
+
 SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, const double rows[9], const double t[3],
                                   uint32_t blocks) {
     for (uint32_t i = 0; i < 8 * blocks; i += 4) {
-        uint32_t at = i < from->padded_count ? i : i & 4;
-        lanes3 v = {_mm256_loadu_pd(from->x + at), _mm256_loadu_pd(from->y + at), _mm256_loadu_pd(from->z + at)};
+        lanes3 v = load_points(from, i);
         _mm256_store_pd(p->x + i, turn(rows, v, t[0]));
         _mm256_store_pd(p->y + i, turn(rows + 3, v, t[1]));
         _mm256_store_pd(p->z + i, turn(rows + 6, v, t[2]));
@@ -42,14 +50,11 @@ SMALL_GJK_INLINE __m256d better(__m256d a, __m256d b, int is_least) {
     return is_least ? _mm256_min_pd(a, b) : _mm256_max_pd(a, b);
 }
 
-// The lowest index among the points that are extreme along n, and their value.
-SMALL_GJK_INLINE uint32_t find_extreme(const small_gjk_body *p, lanes3 n, uint32_t blocks, int is_least,
-                                       double *value) {
-    __m256d v[SMALL_GJK_POINTS / 4], m[SMALL_GJK_POINTS / 4];
+// The lowest index among the largest, or least, of the values of 8 blocks points, and that value.
+SMALL_GJK_INLINE uint32_t find_best(const __m256d *v, uint32_t blocks, int is_least, double *value) {
+    __m256d m[SMALL_GJK_POINTS / 4];
     uint32_t count = 2 * blocks;
-    for (uint32_t i = 0; i < count; i++)
-        m[i] = v[i] =
-            dot4((lanes3){_mm256_load_pd(p->x + 4 * i), _mm256_load_pd(p->y + 4 * i), _mm256_load_pd(p->z + 4 * i)}, n);
+    for (uint32_t i = 0; i < count; i++) m[i] = v[i];
     for (uint32_t i = 0; i < blocks; i++) m[i] = better(m[i], m[i + blocks], is_least);
     if (blocks > 2) m[0] = better(m[0], m[2], is_least);
     if (blocks > 3) m[1] = better(m[1], m[3], is_least);
@@ -60,6 +65,25 @@ SMALL_GJK_INLINE uint32_t find_extreme(const small_gjk_body *p, lanes3 n, uint32
     uint32_t equal = 0;
     for (uint32_t i = 0; i < count; i++) equal |= mask4(_mm256_cmp_pd(v[i], best, _CMP_EQ_OQ)) << 4 * i;
     return equal ? (uint32_t)__builtin_ctz(equal) : 0;
+}
+
+// The lowest index among the points that are extreme along n, and their value.
+SMALL_GJK_INLINE uint32_t find_extreme(const small_gjk_body *p, lanes3 n, uint32_t blocks, int is_least,
+                                       double *value) {
+    __m256d v[SMALL_GJK_POINTS / 4];
+    for (uint32_t i = 0; i < 2 * blocks; i++)
+        v[i] =
+            dot4((lanes3){_mm256_load_pd(p->x + 4 * i), _mm256_load_pd(p->y + 4 * i), _mm256_load_pd(p->z + 4 * i)}, n);
+    return find_best(v, blocks, is_least, value);
+}
+
+// The same of a body in its own frame.
+SMALL_GJK_INLINE uint32_t find_extreme_point(const simd_points *p, const double n[3], uint32_t blocks, int is_least,
+                                             double *value) {
+    lanes3 along = {_mm256_set1_pd(n[0]), _mm256_set1_pd(n[1]), _mm256_set1_pd(n[2])};
+    __m256d v[SMALL_GJK_POINTS / 4];
+    for (uint32_t i = 0; i < 2 * blocks; i++) v[i] = dot4(load_points(p, 4 * i), along);
+    return find_best(v, blocks, is_least, value);
 }
 
 SMALL_GJK_INLINE void measure(met *m, const small_gjk_body *a, const small_gjk_body *b, uint32_t blocks, double x,

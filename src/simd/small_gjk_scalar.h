@@ -15,11 +15,25 @@ SMALL_GJK_INLINE void met_get(const met *m, double w[3]) {
     for (int i = 0; i < 3; i++) w[i] = m->w[i];
 }
 
+SMALL_GJK_INLINE void met_set(met *m, const double w[3]) {
+    for (int i = 0; i < 3; i++) m->w[i] = w[i];
+}
+
 SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, const double rows[9], const double t[3],
                                   uint32_t blocks) {
     (void)blocks;
     p->count = from->padded_count;
     simd_pose_points_scalar(from, rows, t, p->x, p->y, p->z);
+}
+
+SMALL_GJK_INLINE uint32_t find_extreme_point(const simd_points *p, const double n[3], uint32_t blocks, int is_least,
+                                             double *value) {
+    (void)blocks;
+    double sign = is_least ? -1 : 1;
+    support_result best =
+        simd_find_support_scalar(p->x, p->y, p->z, p->padded_count, sign * n[0], sign * n[1], sign * n[2]);
+    *value = sign * best.value;
+    return best.index;
 }
 
 SMALL_GJK_INLINE void measure(met *m, const small_gjk_body *a, const small_gjk_body *b, uint32_t blocks, double x,

@@ -1,0 +1,113 @@
+// The search of small_gjk.h from what an earlier one left. Who includes it has included small_gjk_kernel.h and defined
+//   met_set(m, w)            the difference of a support, from numbers
+//   find_extreme_point(p, n, blocks, is_least, value)   the point of a body that is extreme along n, in its own frame
+#include "simd/small_gjk_kernel.h"
+
+SMALL_GJK_INLINE double turn_row(const double row[3], const simd_points *p, uint32_t i) {
+    return (row[0] * p->x[i] + row[1] * p->y[i]) + row[2] * p->z[i];
+}
+
+// The difference of point k of B and point i of A, in the world.
+SMALL_GJK_INLINE void meet_points(const small_gjk_query *q, uint32_t i, uint32_t k, met *m) {
+    double w[3];
+    for (int c = 0; c < 3; c++)
+        w[c] = (turn_row(q->rows_b + 3 * c, &q->b, k) + q->offset[c]) - turn_row(q->rows_a + 3 * c, &q->a, i);
+    met_set(m, w);
+    m->a = i;
+    m->b = k;
+}
+
+SMALL_GJK_INLINE double met_get_square(const met *m) {
+    double w[3];
+    met_get(m, w);
+    return (w[0] * w[0] + w[1] * w[1]) + w[2] * w[2];
+}
+
+// The support along a direction before the bodies are posed: the direction is turned into their frames.
+SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t blocks, double x, double y, double z) {
+    const double *ra = q->rows_a, *rb = q->rows_b, *o = q->offset;
+    double in_a[3], in_b[3], high, low;
+    for (int c = 0; c < 3; c++) {
+        in_a[c] = (ra[c] * x + ra[3 + c] * y) + ra[6 + c] * z;
+        in_b[c] = (rb[c] * x + rb[3 + c] * y) + rb[6 + c] * z;
+    }
+    uint32_t i = find_extreme_point(&q->a, in_a, blocks, 0, &high),
+             k = find_extreme_point(&q->b, in_b, blocks, 1, &low);
+    m->gap = (((o[0] * x + o[1] * y) + o[2] * z) + low) - high;
+    meet_points(q, i, k, m);
+}
+
+// The walk at the nearest point of the kept corners, posed anew; 0 where there is no certain one. The step is told that
+// the nearest corner is the new one: nearly always it is one of those that hold the nearest point.
+SMALL_GJK_INLINE int begin_at_kept(const small_gjk_query *q, const small_gjk_kept *kept, walk *k) {
+    met m, nearest;
+    unsigned at = 0;
+    meet_points(q, kept->a[0], kept->b[0], &nearest);
+    double least = met_get_square(&nearest);
+    corners_fill(&k->at, &nearest);
+    for (unsigned i = 0; i < 4; i++) k->a[i] = nearest.a, k->b[i] = nearest.b;
+    for (unsigned i = 1; i < kept->count; i++) {
+        meet_points(q, kept->a[i], kept->b[i], &m);
+        put_corner(k, i, &m);
+        double square = met_get_square(&m);
+        if (!(square < least)) continue;
+        least = square;
+        nearest = m;
+        at = i;
+    }
+    k->valid = ((1u << kept->count) - 1) & ~(1u << at);
+    // Any height is a gain.
+    k->height = 1e150;
+    k->square = 1;
+    return take_step(k, &nearest) == STEP_ON;
+}
+
+// What the first support, along the walk's heading, says, and the step to it: 1 where that ends the search.
+SMALL_GJK_INLINE int look_first(const small_gjk_query *q, walk *k, const met *m, double scale, small_gjk_result *r) {
+    write_direction(r, k->x, k->y, k->z, k->square, m->gap);
+    double lower = m->gap * scale - q->lower_radii - q->claim, upper = k->height * scale - q->upper_radii + q->claim;
+    int is_apart = lower > q->far;
+    r->end = is_apart ? SMALL_GJK_APART : SMALL_GJK_NEAR;
+    if (is_apart || is_answered(q, lower, upper)) return 1;
+    r->end = SMALL_GJK_OPEN;
+    if (is_known(k, m)) return 1;
+    step_end end = take_step(k, m);
+    if (end == STEP_INSIDE) r->end = SMALL_GJK_INSIDE;
+    return end != STEP_ON;
+}
+
+SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *kept, uint32_t blocks,
+                               small_gjk_result *r) {
+    static const double nowhere[3] = {0, 0, 0};
+    small_gjk_body a, b;
+    met m;
+    walk k;
+    r->iterations = 0;
+    r->end = SMALL_GJK_OPEN;
+    if (!begin_at_kept(q, kept, &k)) return;
+    double scale = 1 / sqrt(k.square);
+    if (!(k.height * scale > q->claim)) return;
+    measure_unposed(&m, q, blocks, k.x, k.y, k.z);
+    if (!look_first(q, &k, &m, scale, r)) {
+        pose_points(&a, &q->a, q->rows_a, nowhere, blocks);
+        pose_points(&b, &q->b, q->rows_b, q->offset, blocks);
+        r->end = search(q, &a, &b, blocks, &k, &m, r);
+        r->iterations++;
+    }
+    if (r->end == SMALL_GJK_APART)
+        end_at_support(r, &m);
+    else
+        write_walk(r, &k);
+}
+
+SMALL_GJK_INLINE void run_kept_class(const small_gjk_query *q, const small_gjk_kept *kept, small_gjk_result *r) {
+    uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
+    if (count <= 8)
+        run_kept(q, kept, 1, r);
+    else if (count <= 16)
+        run_kept(q, kept, 2, r);
+    else if (count <= 24)
+        run_kept(q, kept, 3, r);
+    else
+        run_kept(q, kept, 4, r);
+}
