@@ -112,6 +112,19 @@ SMALL_GJK_INLINE void corners_put(corners *c, unsigned i, const met *m) {
     c->z = _mm256_blendv_pd(c->z, m->w.z, lane);
 }
 
+SMALL_GJK_INLINE lanes3 gather_points(const simd_points *p, const uint32_t at[4]) {
+    return (lanes3){_mm256_setr_pd(p->x[at[0]], p->x[at[1]], p->x[at[2]], p->x[at[3]]),
+                    _mm256_setr_pd(p->y[at[0]], p->y[at[1]], p->y[at[2]], p->y[at[3]]),
+                    _mm256_setr_pd(p->z[at[0]], p->z[at[1]], p->z[at[2]], p->z[at[3]])};
+}
+
+SMALL_GJK_INLINE void corners_meet(corners *c, const small_gjk_query *q, const uint32_t a[4], const uint32_t b[4]) {
+    lanes3 in_a = gather_points(&q->a, a), in_b = gather_points(&q->b, b);
+    c->x = _mm256_sub_pd(turn(q->rows_b, in_b, q->offset[0]), turn(q->rows_a, in_a, 0));
+    c->y = _mm256_sub_pd(turn(q->rows_b + 3, in_b, q->offset[1]), turn(q->rows_a + 3, in_a, 0));
+    c->z = _mm256_sub_pd(turn(q->rows_b + 6, in_b, q->offset[2]), turn(q->rows_a + 6, in_a, 0));
+}
+
 SMALL_GJK_INLINE void corners_store(const corners *c, corner_lanes *at) {
     _mm256_store_pd(at->x, c->x);
     _mm256_store_pd(at->y, c->y);

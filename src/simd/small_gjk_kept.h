@@ -1,5 +1,6 @@
 // The search of small_gjk.h from what an earlier one left. Who includes it has included small_gjk_kernel.h and defined
 //   met_set(m, w)            the difference of a support, from numbers
+//   corners_meet(c, q, a, b) the differences of four points b and a, posed
 //   find_extreme_point(p, n, blocks, is_least, value)   the point of a body that is extreme along n, in its own frame
 #include "simd/small_gjk_kernel.h"
 
@@ -17,12 +18,6 @@ SMALL_GJK_INLINE void meet_points(const small_gjk_query *q, uint32_t i, uint32_t
     m->b = k;
 }
 
-SMALL_GJK_INLINE double met_get_square(const met *m) {
-    double w[3];
-    met_get(m, w);
-    return (w[0] * w[0] + w[1] * w[1]) + w[2] * w[2];
-}
-
 // The support along a direction before the bodies are posed: the direction is turned into their frames.
 SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t blocks, double x, double y, double z) {
     const double *ra = q->rows_a, *rb = q->rows_b, *o = q->offset;
@@ -37,29 +32,41 @@ SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t
     meet_points(q, i, k, m);
 }
 
+// The lane of the nearest corner of three, and its difference. Which one it is no branch could foresee.
+SMALL_GJK_INLINE unsigned find_nearest(const corners *c, double w[3]) {
+    corner_lanes at;
+    double square[3];
+    corners_store(c, &at);
+    for (int i = 0; i < 3; i++) square[i] = (at.x[i] * at.x[i] + at.y[i] * at.y[i]) + at.z[i] * at.z[i];
+    unsigned nearest = square[1] < square[0];
+    double least = nearest ? square[1] : square[0];
+    nearest = square[2] < least ? 2 : nearest;
+    w[0] = at.x[nearest];
+    w[1] = at.y[nearest];
+    w[2] = at.z[nearest];
+    return nearest;
+}
+
 // The walk at the nearest point of the kept corners, posed anew; 0 where there is no certain one. The step is told that
 // the nearest corner is the new one: nearly always it is one of those that hold the nearest point.
 SMALL_GJK_INLINE int begin_at_kept(const small_gjk_query *q, const small_gjk_kept *kept, walk *k) {
-    met m, nearest;
-    unsigned at = 0;
-    meet_points(q, kept->a[0], kept->b[0], &nearest);
-    double least = met_get_square(&nearest);
-    corners_fill(&k->at, &nearest);
-    for (unsigned i = 0; i < 4; i++) k->a[i] = nearest.a, k->b[i] = nearest.b;
-    for (unsigned i = 1; i < kept->count; i++) {
-        meet_points(q, kept->a[i], kept->b[i], &m);
-        put_corner(k, i, &m);
-        double square = met_get_square(&m);
-        if (!(square < least)) continue;
-        least = square;
-        nearest = m;
-        at = i;
+    met m;
+    double w[3];
+    for (unsigned i = 0; i < 4; i++) {
+        unsigned at = i < kept->count ? i : 0;
+        k->a[i] = kept->a[at];
+        k->b[i] = kept->b[at];
     }
-    k->valid = ((1u << kept->count) - 1) & ~(1u << at);
+    corners_meet(&k->at, q, k->a, k->b);
+    unsigned nearest = find_nearest(&k->at, w);
+    met_set(&m, w);
+    m.a = k->a[nearest];
+    m.b = k->b[nearest];
+    k->valid = ((1u << kept->count) - 1) & ~(1u << nearest);
     // Any height is a gain.
     k->height = 1e150;
     k->square = 1;
-    return take_step(k, &nearest) == STEP_ON;
+    return take_step(k, &m) == STEP_ON;
 }
 
 // What the first support, along the walk's heading, says, and the step to it: 1 where that ends the search.

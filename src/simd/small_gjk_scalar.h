@@ -60,6 +60,20 @@ SMALL_GJK_INLINE void corners_fill(corners *c, const met *m) {
     for (unsigned i = 0; i < 4; i++) corners_put(c, i, m);
 }
 
+SMALL_GJK_INLINE void corners_meet(corners *c, const small_gjk_query *q, const uint32_t a[4], const uint32_t b[4]) {
+    double *axes[3] = {c->x, c->y, c->z};
+    for (int i = 0; i < 4; i++) {
+        double in_a[3] = {q->a.x[a[i]], q->a.y[a[i]], q->a.z[a[i]]};
+        double in_b[3] = {q->b.x[b[i]], q->b.y[b[i]], q->b.z[b[i]]};
+        for (int k = 0; k < 3; k++) {
+            const double *u = q->rows_a + 3 * k, *v = q->rows_b + 3 * k;
+            double at_a = ((u[0] * in_a[0] + u[1] * in_a[1]) + u[2] * in_a[2]) + 0;
+            double at_b = ((v[0] * in_b[0] + v[1] * in_b[1]) + v[2] * in_b[2]) + q->offset[k];
+            axes[k][i] = at_b - at_a;
+        }
+    }
+}
+
 SMALL_GJK_INLINE void corners_store(const corners *c, corner_lanes *at) { *at = *c; }
 
 SMALL_GJK_INLINE corner_step corners_step(const corners *c, unsigned valid, const met *m) {
