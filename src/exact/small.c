@@ -157,10 +157,13 @@ static small_outcome run_kept_overlap(const pair_frame *f, const ovoid_proof *p,
 // 1 if the search goes on from the proof's differences, 0 if from its normal. A single difference may be no more than
 // what the supports met along a normal that parted the bodies; it is near if it is within the margin.
 static int is_simplex(const pair_frame *f, const query_goal *goal, const ovoid_proof *p) {
-    if (p->kind != OVOID_PROOF_POINTS || p->count == 0 || p->count > 3 || !proof_is_sound(f, p)) return 0;
-    if (p->count > 1 || goal->far == INFINITY) return 1;
+    int is_single = p->count == 1 && goal->far < INFINITY;
+    if (p->kind != OVOID_PROOF_POINTS || p->count == 0 || p->count > 3) return 0;
+    if ((is_single && !(goal->near > 0)) || !proof_is_sound(f, p)) return 0;
+    if (!is_single) return 1;
     vec3 w = frame_world_difference(f, vec3_at(shape_vertices(f->a), p->a[0]), vec3_at(shape_vertices(f->b), p->b[0]));
-    return vec3_norm(w) - f->upper_radii <= goal->near;
+    double reach = goal->near + f->upper_radii;
+    return vec3_norm_squared(w) <= reach * reach;
 }
 
 static small_outcome run_kept(const pair_frame *f, const query_goal *goal, const small_gjk_kept *kept, small_end *end) {
