@@ -375,9 +375,8 @@ static void fetch_ellipsoids(const ovoid_shape *shape) {
 }
 
 // 1 for a couple that must be queried alone.
-static unsigned is_unusual(const ovoid_batch *batch, size_t i, const ovoid_shape *a, const ovoid_shape *b) {
-    return (a->has_origin | b->has_origin | a->has_allowance | b->has_allowance) ||
-           (batch->proofs && !is_blank(&batch->proofs[i]));
+static unsigned is_unusual(const ovoid_shape *a, const ovoid_shape *b) {
+    return a->has_origin | b->has_origin | a->has_allowance | b->has_allowance;
 }
 
 // Stands in the lanes for a body without a shape, whose couple is refused alone.
@@ -399,9 +398,20 @@ static unsigned find_places(const batch_state *c, size_t first, unsigned count, 
         e->at.body_b[k] = (const void *)b;
         e->at.shape_a[k] = (const void *)a->shape;
         e->at.shape_b[k] = (const void *)b->shape;
-        odd |= (is_missing | is_unusual(batch, i, a->shape, b->shape)) << k;
+        odd |= (is_missing | is_unusual(a->shape, b->shape)) << k;
     }
     return odd;
+}
+
+// The lanes of `open` that have an earlier proof: after the spheres their queries go another way than the lanes. A proof
+// is not read where the spheres part the bodies.
+COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane_group *e, unsigned open) {
+    unsigned warm = 0;
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        warm |= (unsigned)!is_blank(&batch->proofs[e->index[k]]) << k;
+    }
+    return warm;
 }
 
 // Ends a couple of small bodies (small_owner).
@@ -450,7 +460,10 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
         e->lanes->line.lane[k] =
             query_goal_takes_line(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, e->lanes->lower.lane[k]);
     unsigned apart = found.apart & ~odd & all, open = all & ~(odd | apart);
-    for (unsigned rest = odd & all; rest; rest &= rest - 1) leave_alone(c, first + compiler_count_low_zeros(rest));
+    unsigned warm = c->batch->proofs ? find_warm(c->batch, e, open) : 0;
+    open &= ~warm;
+    for (unsigned rest = (odd & all) | warm; rest; rest &= rest - 1)
+        leave_alone(c, first + compiler_count_low_zeros(rest));
     for (unsigned rest = apart; rest; rest &= rest - 1)
         end_at_spheres(c, e, compiler_count_low_zeros(rest), found.narrow);
     for (unsigned rest = open; rest; rest &= rest - 1) {
