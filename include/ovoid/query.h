@@ -186,8 +186,9 @@ typedef struct ovoid_witness {
 /**
  * One query of many pairs. What is written for couple i has the bits that the query of that pair alone would give. To
  * use several threads, give each a part of the couples and of the arrays beside them; bodies may be shared.
- * Earlier proofs pay for couples near each other. For yes or no of couples that are mostly far apart leave them out:
- * what spheres and ellipsoids decide takes lanes a quarter of the time that reading and writing a proof does.
+ * Earlier proofs pay for couples near each other, and cost nothing beside the proofs that are written. For yes or no of
+ * couples that are mostly far apart leave them out: what the spheres decide takes lanes a quarter of the time that
+ * writing a proof does.
  */
 typedef struct ovoid_batch {
     const ovoid_posed_shape *bodies;

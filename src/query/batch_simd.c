@@ -1,8 +1,9 @@
 // Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
 // so a lane group of eight couples is taken at once, without a branch. Couples that the spheres leave open are packed
 // into full lane groups before they go on to the ellipsoids, and those that the supports along the ellipsoids'
-// direction leave open go on to the exact search one by one. A couple that is in any way unusual (an earlier proof, a
-// far origin, a quaternion to be scaled, a refused pose) is queried alone, from the start.
+// direction leave open go on to the exact search one by one. A couple that is in any way unusual (a far
+// origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one with an earlier proof
+// that the spheres leave open.
 //
 // Every lane has the bits of the single query, so nothing depends on which couples share a group, and a batch may be
 // cut anywhere. Working memory: five lane groups on the stack, 26 KB; they are gone while the couples that they left
@@ -403,8 +404,8 @@ static unsigned find_places(const batch_state *c, size_t first, unsigned count, 
     return odd;
 }
 
-// The lanes of `open` that have an earlier proof: after the spheres their queries go another way than the lanes. A proof
-// is not read where the spheres part the bodies.
+// The lanes of `open` that have an earlier proof: after the spheres their queries go another way than the lanes. A
+// proof is not read where the spheres part the bodies.
 COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane_group *e, unsigned open) {
     unsigned warm = 0;
     for (unsigned rest = open; rest; rest &= rest - 1) {
