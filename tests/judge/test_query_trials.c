@@ -226,6 +226,14 @@ static void print_table(const soak *s) {
     check_failed += (long)all.wrong;
 }
 
+static void run_named(const char *name, uint64_t seed) {
+    for (size_t i = 0; i < family_count; i++)
+        if (strcmp(name, families[i].counts.name) == 0) run_trial(&families[i], seed);
+}
+
+/// Trials that failed once: a common point of an overlap of 1e-14, in a tetrahedron that is a needle.
+static void run_once_failed(void) { run_named("near-coplanar", 9537145888130744208u); }
+
 int main(int count, char **arguments) {
     soak s = {.seed = 1};
     uint64_t one = 0, rounds = ROUNDS;
@@ -250,12 +258,13 @@ int main(int count, char **arguments) {
     test_refusals();
     fill_foreign();
     if (one && s.only) {
-        for (size_t i = 0; i < family_count; i++)
-            if (strcmp(s.only, families[i].counts.name) == 0) run_trial(&families[i], one);
-    } else if (read_state(&s))
+        run_named(s.only, one);
+    } else if (read_state(&s)) {
+        if (!s.only && !s.state) run_once_failed();
         run_all(&s, rounds);
-    else
+    } else {
         return 2;
+    }
     judge_destroy(trial_judge);
     families_forget_data();
     print_table(&s);
