@@ -17,7 +17,7 @@ groups="allowance query growth exact hull shape ellipsoid simd environment world
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
-    query="test_query test_query_warm test_judge_check test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known"
+    query="test_query test_query_warm test_judge_check test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
     query="$query test_query_batch test_judge_capacity test_game_hulls test_query_refine"
     case $1 in
     allowance) echo "test_allowance test_judge_allowance" ;;

@@ -260,7 +260,7 @@ int main(int count, char **arguments) {
     if (one && s.only) {
         run_named(s.only, one);
     } else if (read_state(&s)) {
-        if (!s.only && !s.state) run_once_failed();
+        if (count == 1) run_once_failed();
         run_all(&s, rounds);
     } else {
         return 2;
