@@ -88,7 +88,7 @@ static void take_points(refinement *r, const fine_simplex *x) {
 // doubles do not know where it is. 0: none holds it for certain.
 static int set_inside_weights(const dd3 *w, unsigned some, evidence *hull) {
     static const int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    int at[4], count = 0;
+    int at[4] = {0, 0, 0, 0}, count = 0;
     for (int i = 0; i < hull->count; i++)
         if (some >> i & 1 && count < 4) at[count++] = i;
     double volume[4], sum = 0;
