@@ -9,8 +9,8 @@ void prober_make(prober *p, search *s, int is_steady) {
     p->s = s;
     p->is_posed = count <= most && a->padded_count <= PROBE_POSED;
     p->is_small = is_steady && a->padded_count <= PROBE_ALL && count <= PROBE_ALL;
-    p->a = (simd_points){shape_x(a), shape_y(a), shape_z(a), a->padded_count};
-    p->b = (simd_points){shape_x(b), shape_y(b), shape_z(b), count};
+    p->a = shape_get_points(a);
+    p->b = shape_get_points(b);
     if (!p->is_posed) return;
     mat3 r = f->rotation;
     vec3 t = f->translation;

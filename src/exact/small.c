@@ -6,10 +6,6 @@
 #include "pair/proof.h"
 #include "pair/reject.h"
 
-static simd_points get_points(const ovoid_shape *s) {
-    return (simd_points){shape_x(s), shape_y(s), shape_z(s), s->padded_count};
-}
-
 static difference get_corner(const small_gjk_result *r, int i) {
     return (difference){{r->at.x[i], r->at.y[i], r->at.z[i]}, r->a[i], r->b[i]};
 }
@@ -63,8 +59,8 @@ static int run_inner(const pair_frame *f, double spheres, vec3 line, small_end *
 // A search from the line of centres.
 static small_gjk_query make_query(const pair_frame *f, const query_goal *goal) {
     vec3 n = f->between;
-    return (small_gjk_query){get_points(f->a),
-                             get_points(f->b),
+    return (small_gjk_query){shape_get_points(f->a),
+                             shape_get_points(f->b),
                              &f->world.r0.x,
                              &f->world_b.r0.x,
                              {f->offset.x, f->offset.y, f->offset.z},
@@ -119,13 +115,18 @@ int small_run(const pair_frame *f, const query_goal *goal, double spheres, small
 
 // ---- from an earlier proof
 
+// The difference of a proof's entry, in the world's axes. Its indices must be in range.
+static difference get_kept(const pair_frame *f, const ovoid_proof *p, int i) {
+    vec3 a = vec3_at(shape_vertices(f->a), p->a[i]), b = vec3_at(shape_vertices(f->b), p->b[i]);
+    return (difference){frame_world_difference(f, a, b), p->a[i], p->b[i]};
+}
+
 // The hull of four differences that was around the origin: 1 if it still is.
 static int run_kept_hull(const pair_frame *f, const ovoid_proof *p, double spheres, vec3 line, small_end *end) {
     vec3 w[4];
     for (int i = 0; i < 4; i++) {
-        w[i] =
-            frame_world_difference(f, vec3_at(shape_vertices(f->a), p->a[i]), vec3_at(shape_vertices(f->b), p->b[i]));
-        end->points.p[i] = (difference){w[i], p->a[i], p->b[i]};
+        end->points.p[i] = get_kept(f, p, i);
+        w[i] = end->points.p[i].w;
     }
     double depth = hull_compute_depth(w, 4, reject_get_claim(f));
     if (!(depth > 0)) return 0;
@@ -161,7 +162,7 @@ static int is_simplex(const pair_frame *f, const query_goal *goal, const ovoid_p
     if (p->kind != OVOID_PROOF_POINTS || p->count == 0 || p->count > 3) return 0;
     if ((is_single && !(goal->near > 0)) || !proof_is_sound(f, p)) return 0;
     if (!is_single) return 1;
-    vec3 w = frame_world_difference(f, vec3_at(shape_vertices(f->a), p->a[0]), vec3_at(shape_vertices(f->b), p->b[0]));
+    vec3 w = get_kept(f, p, 0).w;
     double reach = goal->near + f->upper_radii;
     return vec3_norm_squared(w) <= reach * reach;
 }

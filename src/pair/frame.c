@@ -120,8 +120,7 @@ simd_pair shapes_find_pair(const ovoid_shape *a, const ovoid_shape *b, vec3 in_a
         simd_extreme x = shape_find_extreme(a, in_a), y = shape_find_extreme(b, in_b);
         return (simd_pair){{x.value, x.index}, {y.value, y.index}};
     }
-    simd_points points_a = {shape_x(a), shape_y(a), shape_z(a), a->padded_count};
-    simd_points points_b = {shape_x(b), shape_y(b), shape_z(b), b->padded_count};
+    simd_points points_a = shape_get_points(a), points_b = shape_get_points(b);
     double along_a[3] = {in_a.x, in_a.y, in_a.z}, along_b[3] = {in_b.x, in_b.y, in_b.z};
     return simd_find_pair(&points_a, along_a, &points_b, along_b);
 }

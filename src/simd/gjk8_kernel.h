@@ -2,14 +2,11 @@
 // parts of small_gjk_kernel.h. Every step has the operations of small_gjk_kernel.h and corner.c in their order: a
 // change there is a change here, and tests/core/test_simd_gjk8.c sees the difference.
 #include "simd/gjk8.h"
-#include "simd/lanes.h"
+#include "simd/lane_columns.h"
 #include "simd/small_gjk_kernel.h"
 
 // ---- columns
 
-LANES_INLINE lane get(const lane_column *c, int at) { return lane_load(c->lane + at); }
-LANES_INLINE void put(lane_column *c, int at, lane v) { lane_store(c->lane + at, v); }
-LANES_INLINE lane3 get3(const lane_column *c, int at) { return (lane3){get(c, at), get(c + 1, at), get(c + 2, at)}; }
 LANES_INLINE void put_some(lane_column *c, int at, lane_mask some, lane v) {
     put(c, at, lane_select(some, v, get(c, at)));
 }
@@ -40,20 +37,13 @@ LANES_TARGET static void measure_lane(gjk8 *g, unsigned k) {
     put_support(g, k, &m);
 }
 
-SMALL_GJK_INLINE void pose_lane(gjk8 *g, unsigned k, const small_gjk_query *q, uint32_t blocks) {
-    static const double nowhere[3] = {0, 0, 0};
-    g->blocks[k] = blocks;
-    pose_points(&g->a[k], &q->a, q->rows_a, nowhere, blocks);
-    pose_points(&g->b[k], &q->b, q->rows_b, q->offset, blocks);
-}
-
 LANES_TARGET static void run_begin(gjk8 *g, unsigned k, const small_gjk_query *q) {
-    uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
-    switch (count / 8) {
-    case 1: pose_lane(g, k, q, 1); break;
-    case 2: pose_lane(g, k, q, 2); break;
-    case 3: pose_lane(g, k, q, 3); break;
-    default: pose_lane(g, k, q, 4); break;
+    small_gjk_body *a = &g->a[k], *b = &g->b[k];
+    switch (g->blocks[k] = find_blocks(q)) {
+    case 1: pose_bodies(q, a, b, 1); break;
+    case 2: pose_bodies(q, a, b, 2); break;
+    case 3: pose_bodies(q, a, b, 3); break;
+    default: pose_bodies(q, a, b, 4); break;
     }
     double x = q->start[0], y = q->start[1], z = q->start[2];
     g->start[0].lane[k] = g->n[0].lane[k] = x;
@@ -76,10 +66,6 @@ LANES_TARGET static void run_begin(gjk8 *g, unsigned k, const small_gjk_query *q
 }
 
 // ---- all lanes: the tests, and the step of the simplex
-
-LANES_INLINE lane3 lane3_cross(lane3 a, lane3 b) {
-    return (lane3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 LANES_INLINE lane_mask is_answered_at(const gjk8 *g, int at, lane lower, lane upper) {
     lane zero = lane_set(0);

@@ -110,6 +110,9 @@ LANES_INLINE lane3 lane3_add_scaled(lane3 a, lane3 b, lane s) {
 }
 LANES_INLINE lane3 lane3_neg(lane3 a) { return (lane3){-a.x, -a.y, -a.z}; }
 LANES_INLINE lane lane3_dot(lane3 a, lane3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+LANES_INLINE lane3 lane3_cross(lane3 a, lane3 b) {
+    return (lane3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 LANES_INLINE lane lane3_norm(lane3 a) { return lane_sqrt(lane3_dot(a, a)); }
 LANES_INLINE lane3 lane3_select(lane_mask m, lane3 yes, lane3 no) {
     return (lane3){lane_select(m, yes.x, no.x), lane_select(m, yes.y, no.y), lane_select(m, yes.z, no.z)};

@@ -1,19 +1,10 @@
 // The kernels of pair8.h, written once over lanes; pair8_scalar.c, pair8_avx2.c and pair8_avx512.c include this. Every
 // step has the operations of the single query in their order: a change there is a change here, and
 // tests/core/test_query_batch.c sees the difference.
-#include "simd/lanes.h"
-#include "simd/pair8.h"
+#include "simd/lane_columns.h"
 
 // ---- columns
 
-LANES_INLINE lane get(const lane_column *c, int at) { return lane_load(c->lane + at); }
-LANES_INLINE void put(lane_column *c, int at, lane v) { lane_store(c->lane + at, v); }
-LANES_INLINE lane3 get3(const lane_column *c, int at) { return (lane3){get(c, at), get(c + 1, at), get(c + 2, at)}; }
-LANES_INLINE void put3(lane_column *c, int at, lane3 v) {
-    put(c, at, v.x);
-    put(c + 1, at, v.y);
-    put(c + 2, at, v.z);
-}
 LANES_INLINE lane6 get6(const lane_column *c, int at) {
     return (lane6){get(c, at), get(c + 1, at), get(c + 2, at), get(c + 3, at), get(c + 4, at), get(c + 5, at)};
 }

@@ -69,23 +69,8 @@ SMALL_GJK_INLINE int begin_at_kept(const small_gjk_query *q, const small_gjk_kep
     return take_step(k, &m) == STEP_ON;
 }
 
-// What the first support, along the walk's heading, says, and the step to it: 1 where that ends the search.
-SMALL_GJK_INLINE int look_first(const small_gjk_query *q, walk *k, const met *m, double scale, small_gjk_result *r) {
-    write_direction(r, k->x, k->y, k->z, k->square, m->gap);
-    double lower = m->gap * scale - q->lower_radii - q->claim, upper = k->height * scale - q->upper_radii + q->claim;
-    int is_apart = lower > q->far;
-    r->end = is_apart ? SMALL_GJK_APART : SMALL_GJK_NEAR;
-    if (is_apart || is_answered(q, lower, upper)) return 1;
-    r->end = SMALL_GJK_OPEN;
-    if (is_known(k, m)) return 1;
-    step_end end = take_step(k, m);
-    if (end == STEP_INSIDE) r->end = SMALL_GJK_INSIDE;
-    return end != STEP_ON;
-}
-
 SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *kept, uint32_t blocks,
                                small_gjk_result *r) {
-    static const double nowhere[3] = {0, 0, 0};
     small_gjk_body a, b;
     met m;
     walk k;
@@ -95,10 +80,10 @@ SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *k
     double scale = 1 / sqrt(k.square);
     if (!(k.height * scale > q->claim)) return;
     measure_unposed(&m, q, blocks, k.x, k.y, k.z);
-    if (!look_first(q, &k, &m, scale, r)) {
-        pose_points(&a, &q->a, q->rows_a, nowhere, blocks);
-        pose_points(&b, &q->b, q->rows_b, q->offset, blocks);
-        r->end = search(q, &a, &b, blocks, &k, &m, r);
+    write_direction(r, k.x, k.y, k.z, k.square, m.gap);
+    if (!look(q, &k, &m, scale, r)) {
+        pose_bodies(q, &a, &b, blocks);
+        search(q, &a, &b, blocks, &k, &m, r);
         r->iterations++;
     }
     if (r->end == SMALL_GJK_APART)
@@ -108,13 +93,10 @@ SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *k
 }
 
 SMALL_GJK_INLINE void run_kept_class(const small_gjk_query *q, const small_gjk_kept *kept, small_gjk_result *r) {
-    uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
-    if (count <= 8)
-        run_kept(q, kept, 1, r);
-    else if (count <= 16)
-        run_kept(q, kept, 2, r);
-    else if (count <= 24)
-        run_kept(q, kept, 3, r);
-    else
-        run_kept(q, kept, 4, r);
+    switch (find_blocks(q)) {
+    case 1: run_kept(q, kept, 1, r); break;
+    case 2: run_kept(q, kept, 2, r); break;
+    case 3: run_kept(q, kept, 3, r); break;
+    default: run_kept(q, kept, 4, r); break;
+    }
 }

@@ -45,8 +45,8 @@ SMALL_GJK_INLINE step_end take_step(walk *k, const met *m) {
     corner_step next = corners_step(&k->at, k->valid, m);
     met_get(m, w);
     double height = (next.x * w[0] + next.y * w[1]) + next.z * w[2];
-    double square = (next.x * next.x + next.y * next.y) + next.z * next.z;
-    int gains = height * height * k->square < k->height * k->height * square && square > 1e-150 && square < 1e150;
+    int gains = height * height * k->square < k->height * k->height * next.square && next.square > 1e-150 &&
+                next.square < 1e150;
     if (next.is_inside) {
         put_corner(k, 3, m);
         k->valid = 15;
@@ -60,7 +60,7 @@ SMALL_GJK_INLINE step_end take_step(walk *k, const met *m) {
     k->y = next.y;
     k->z = next.z;
     k->height = height;
-    k->square = square;
+    k->square = next.square;
     return STEP_ON;
 }
 
@@ -91,30 +91,50 @@ SMALL_GJK_INLINE void end_at_support(small_gjk_result *r, const met *m) {
     r->end = SMALL_GJK_APART;
 }
 
-SMALL_GJK_INLINE small_gjk_end search(const small_gjk_query *q, const small_gjk_body *a, const small_gjk_body *b,
-                                      uint32_t blocks, walk *k, met *m, small_gjk_result *r) {
-    for (r->iterations = 0;; r->iterations++) {
-        double scale = 1 / sqrt(k->square), height = k->height * scale;
-        if (!(height > q->claim) || r->iterations >= q->iterations) return SMALL_GJK_OPEN;
-        measure(m, a, b, blocks, k->x, k->y, k->z);
-        double lower = m->gap * scale - q->lower_radii - q->claim, upper = height - q->upper_radii + q->claim;
-        int is_apart = lower > q->far;
-        if (is_apart || is_answered(q, lower, upper)) {
-            write_direction(r, k->x, k->y, k->z, k->square, m->gap);
-            return is_apart ? SMALL_GJK_APART : SMALL_GJK_NEAR;
-        }
-        if (is_known(k, m)) return SMALL_GJK_OPEN;
-        step_end end = take_step(k, m);
-        if (end != STEP_ON) return end == STEP_INSIDE ? SMALL_GJK_INSIDE : SMALL_GJK_OPEN;
+// What a support along the walk's heading says, and the step to it: 1 where that ends the search. scale: 1 over the
+// heading's length.
+SMALL_GJK_INLINE int look(const small_gjk_query *q, walk *k, const met *m, double scale, small_gjk_result *r) {
+    double lower = m->gap * scale - q->lower_radii - q->claim, upper = k->height * scale - q->upper_radii + q->claim;
+    int is_apart = lower > q->far;
+    if (is_apart || is_answered(q, lower, upper)) {
+        write_direction(r, k->x, k->y, k->z, k->square, m->gap);
+        r->end = is_apart ? SMALL_GJK_APART : SMALL_GJK_NEAR;
+        return 1;
     }
+    r->end = SMALL_GJK_OPEN;
+    if (is_known(k, m)) return 1;
+    step_end end = take_step(k, m);
+    if (end == STEP_INSIDE) r->end = SMALL_GJK_INSIDE;
+    return end != STEP_ON;
+}
+
+SMALL_GJK_INLINE void search(const small_gjk_query *q, const small_gjk_body *a, const small_gjk_body *b,
+                             uint32_t blocks, walk *k, met *m, small_gjk_result *r) {
+    r->end = SMALL_GJK_OPEN;
+    for (r->iterations = 0;; r->iterations++) {
+        double scale = 1 / sqrt(k->square);
+        if (!(k->height * scale > q->claim) || r->iterations >= q->iterations) return;
+        measure(m, a, b, blocks, k->x, k->y, k->z);
+        if (look(q, k, m, scale, r)) return;
+    }
+}
+
+SMALL_GJK_INLINE void pose_bodies(const small_gjk_query *q, small_gjk_body *a, small_gjk_body *b, uint32_t blocks) {
+    static const double nowhere[3] = {0, 0, 0};
+    pose_points(a, &q->a, q->rows_a, nowhere, blocks);
+    pose_points(b, &q->b, q->rows_b, q->offset, blocks);
+}
+
+// Points of the larger body, in eights: 1 to 4.
+SMALL_GJK_INLINE uint32_t find_blocks(const small_gjk_query *q) {
+    uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
+    return count / 8;
 }
 
 // Poses the bodies, and measures along the first direction. 1: the search has ended.
 SMALL_GJK_INLINE int begin(const small_gjk_query *q, small_gjk_body *a, small_gjk_body *b, uint32_t blocks, walk *k,
                            met *m, small_gjk_result *r) {
-    static const double nowhere[3] = {0, 0, 0};
-    pose_points(a, &q->a, q->rows_a, nowhere, blocks);
-    pose_points(b, &q->b, q->rows_b, q->offset, blocks);
+    pose_bodies(q, a, b, blocks);
     double x = q->start[0], y = q->start[1], z = q->start[2], square = (x * x + y * y) + z * z, w[3];
     measure(m, a, b, blocks, x, y, z);
     write_direction(r, x, y, z, square, m->gap);
@@ -143,7 +163,7 @@ SMALL_GJK_INLINE void run(const small_gjk_query *q, uint32_t blocks, small_gjk_r
     corners_fill(&k.at, &m);
     for (int i = 0; i < 4; i++) k.a[i] = m.a, k.b[i] = m.b;
     k.valid = 1;
-    r->end = search(q, &a, &b, blocks, &k, &m, r);
+    search(q, &a, &b, blocks, &k, &m, r);
     if (r->end == SMALL_GJK_APART)
         end_at_support(r, &m);
     else
@@ -151,13 +171,10 @@ SMALL_GJK_INLINE void run(const small_gjk_query *q, uint32_t blocks, small_gjk_r
 }
 
 SMALL_GJK_INLINE void run_class(const small_gjk_query *q, small_gjk_result *r) {
-    uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
-    if (count <= 8)
-        run(q, 1, r);
-    else if (count <= 16)
-        run(q, 2, r);
-    else if (count <= 24)
-        run(q, 3, r);
-    else
-        run(q, 4, r);
+    switch (find_blocks(q)) {
+    case 1: run(q, 1, r); break;
+    case 2: run(q, 2, r); break;
+    case 3: run(q, 3, r); break;
+    default: run(q, 4, r); break;
+    }
 }

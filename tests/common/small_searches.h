@@ -6,7 +6,7 @@
 #include "check.h"
 #include "compounds.h"
 #include "ovoid/ovoid.h"
-#include "shape/block.h"
+#include "pair/frame.h"
 #include "simd/small_gjk.h"
 
 enum { BODIES = 40 };
@@ -26,10 +26,6 @@ static inline int make_bodies(void) {
     return 1;
 }
 
-static inline simd_points get_points(const ovoid_shape *s) {
-    return (simd_points){shape_x(s), shape_y(s), shape_z(s), s->padded_count};
-}
-
 static inline void fill_search(uint64_t *s, small_gjk_query *q, double rows[2][9]) {
     int is_even = random_next(s) % 3 == 0;
     for (int i = 0; i < 2; i++) {
@@ -38,8 +34,8 @@ static inline void fill_search(uint64_t *s, small_gjk_query *q, double rows[2][9
         if (is_even) p.rotation = quarters[random_next(s) % 4];
         ovoid_pose_compute_matrix(&p, rows[i]);
     }
-    q->a = get_points(shapes[random_next(s) % BODIES]);
-    q->b = get_points(shapes[random_next(s) % BODIES]);
+    q->a = shape_get_points(shapes[random_next(s) % BODIES]);
+    q->b = shape_get_points(shapes[random_next(s) % BODIES]);
     q->rows_a = rows[0];
     q->rows_b = rows[1];
     for (int i = 0; i < 3; i++) {
