@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check bits ports mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
+.PHONY: all help demo check python bits ports mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -24,6 +24,10 @@ demo: ## fit real meshes, pose them, prove every pair, draw the picture
 check: ## lint, then build and test: gcc, clang, sanitizers
 	@scripts/setup.sh check
 	@JOBS=$(JOBS) scripts/check.sh
+
+python: ## the Python package in build/release/python, and its tests
+	@$(call build,python,ovoid_python)
+	@ctest --test-dir $(BUILD) -R '^test_python' --output-on-failure --no-tests=error
 
 bits: ## the same bits from 14 builds by gcc and clang, some minutes
 	@scripts/setup.sh check

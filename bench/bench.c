@@ -7,6 +7,7 @@
 #include "plan.h"
 #include "scale.h"
 #include "stages.h"
+#include "standing.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -101,6 +102,7 @@ static int run_table(const settings *how) {
     printf("ovoid %s, nanoseconds per query, one thread\n%s\n", ovoid_get_version(), get_build());
     int good = plan_visit(&how->what, measure_workload, &t);
     if (good) cells_print_faults(&t.results);
+    if (good && !how->alone) standing_print(&t.results);
     uint32_t unproven = 0;
     for (uint32_t i = 0; i < t.results.count; i++) unproven += t.results.items[i].unproven;
     if (how->csv && !cells_write_csv(&t.results, how->csv)) good = 0;

@@ -30,8 +30,8 @@ typedef const peer *const *(*get_peers)(void);
 int field_load(field *all, const char *path) {
     get_peers get = (get_peers)module_load(path, "bench_get_peers");
     if (!get) return 0;
-    // Two more entrants are ovoid's.
-    for (const peer *const *p = get(); *p && all->count < ENTRANTS_MOST - 2; p++) all->members[all->count++] = *p;
+    // Four more entrants are ovoid's.
+    for (const peer *const *p = get(); *p && all->count < ENTRANTS_MOST - 4; p++) all->members[all->count++] = *p;
     return 1;
 }
 
@@ -49,6 +49,9 @@ uint32_t field_enter(const field *all, const workload *work, entrant *entrants) 
     uint32_t count = 0;
     entrants[count++] = (entrant){.who = &ours, .self = ours.create(work)};
     entrants[count++] = (entrant){.who = &ours, .warm = 1, .self = work->tracks ? ours.create(work) : NULL};
+    entrants[count++] = (entrant){.who = &ours_prepared, .self = ours_prepared.create(work)};
+    entrants[count++] =
+        (entrant){.who = &ours_prepared, .warm = 1, .self = work->tracks ? ours_prepared.create(work) : NULL};
     entrants[count++] =
         (entrant){.who = &ours_in_batches, .warm = work->tracks > 0, .self = ours_in_batches.create(work)};
     for (uint32_t i = 1; i < all->count; i++)

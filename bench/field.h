@@ -21,7 +21,7 @@ int field_load(field *all, const char *path);
 /// Adds the modules that were built beside the program; a line for each that was not, its package being absent.
 void field_load_built(field *all);
 
-enum { FIELD_OWN = 3 }; ///< ovoid's entrants: cold, warm, in batches
+enum { FIELD_OWN = 5 }; ///< ovoid's entrants: cold, warm, in batches
 
 /// The entrants, ovoid's first; warm ones take part where there are frames. `self` is filled. Returns their number.
 uint32_t field_enter(const field *all, const workload *work, entrant *entrants);

@@ -136,28 +136,16 @@ static void *create_cell(const workcell *what, const ovoid_pose *links) {
     return NULL;
 }
 
-/// Links with parts, as probes that are not in the world; then links with links, as a batch.
+/// Links as probes that are not in the world: with the parts, then with one another.
 static int is_hit(void *state, const ovoid_pose *links) {
     self *s = state;
     ovoid_world_body probes[LINKS_MOST];
-    ovoid_posed_shape posed[LINKS_MOST];
-    for (uint32_t i = 0; i < s->moving; i++) {
-        const ovoid_shape *shape = s->cell->shapes[s->cell->shape_of[i]].shape;
-        probes[i] = (ovoid_world_body){.body = {.shape = shape, .pose = links[i]}};
-        posed[i] = (ovoid_posed_shape){shape, links[i]};
-    }
+    for (uint32_t i = 0; i < s->moving; i++)
+        probes[i] =
+            (ovoid_world_body){.body = {.shape = s->cell->shapes[s->cell->shape_of[i]].shape, .pose = links[i]}};
+    ovoid_world_probes all = {probes, s->moving, s->couples, s->couple_count};
     ovoid_world_hit hit;
-    if (ovoid_world_find_any_to(s->parts, probes, s->moving, &hit, NULL) != OVOID_OK || hit.b) return 1;
-    ovoid_verdict verdicts[LINKS_MOST * LINKS_MOST];
-    ovoid_batch batch = {.bodies = posed,
-                         .body_count = s->moving,
-                         .couples = s->couples,
-                         .couple_count = s->couple_count,
-                         .verdicts = verdicts};
-    if (ovoid_collide_batch(&batch, NULL) != OVOID_OK) return 1;
-    for (uint32_t i = 0; i < s->couple_count; i++)
-        if (verdicts[i].status != OVOID_SEPARATED) return 1;
-    return 0;
+    return ovoid_world_find_any_of(s->parts, &all, &hit, NULL) != OVOID_OK || hit.b;
 }
 
 static void measure(void *state, const ovoid_pose *links, meetings *near) { run_frame(state, links, near); }

@@ -71,6 +71,79 @@ static void run(void *state, question what, int warm, found *answers) {
 
 const peer ours = {"ovoid", (1u << QUESTION_COUNT) - 1, (1u << QUESTION_COUNT) - 1, 0, create, run, destroy};
 
+// --- prepared at their poses
+
+typedef struct prepared_self {
+    ovoid_prepared_shape *bodies; ///< two of each pair
+    double *margins;
+    ovoid_proof *proofs; ///< of each track's last frame
+    uint32_t count, tracks;
+} prepared_self;
+
+static void destroy_prepared(void *state) {
+    prepared_self *s = state;
+    if (!s) return;
+    free(s->bodies);
+    free(s->margins);
+    free(s->proofs);
+    free(s);
+}
+
+static void *create_prepared(const workload *work) {
+    prepared_self *s = calloc(1, sizeof *s);
+    if (!s) return NULL;
+    s->count = work->pair_count;
+    s->tracks = work->tracks ? work->tracks : work->pair_count;
+    s->bodies = malloc(sizeof *s->bodies * 2 * s->count);
+    s->margins = malloc(sizeof *s->margins * s->count);
+    s->proofs = malloc(sizeof *s->proofs * s->tracks);
+    if (!s->bodies || !s->margins || !s->proofs) {
+        destroy_prepared(s);
+        return NULL;
+    }
+    for (uint32_t i = 0; i < s->count; i++) {
+        ovoid_pair pair = workload_get_pair(work, i);
+        ovoid_prepared_shape_make(&(ovoid_posed_shape){pair.shape_a, pair.pose_a}, &s->bodies[2 * i]);
+        ovoid_prepared_shape_make(&(ovoid_posed_shape){pair.shape_b, pair.pose_b}, &s->bodies[2 * i + 1]);
+        s->margins[i] = work->pairs[i].margin;
+    }
+    return s;
+}
+
+static ovoid_verdict ask_prepared(const prepared_self *s, uint32_t i, question what, const ovoid_evidence *evidence) {
+    const ovoid_prepared_shape *a = &s->bodies[2 * i], *b = a + 1;
+    switch (what) {
+    case QUESTION_COLLIDE: return ovoid_prepared_collide(a, b, NULL, evidence);
+    case QUESTION_WITHIN: return ovoid_prepared_within(a, b, s->margins[i], NULL, evidence);
+    case QUESTION_DISTANCE: return ovoid_prepared_distance(a, b, NULL, evidence);
+    default: return ovoid_prepared_depth(a, b, NULL, evidence);
+    }
+}
+
+/// Yes or no: verdicts alone are asked for, else points and normal too.
+static void run_prepared(void *state, question what, int warm, found *answers) {
+    prepared_self *s = state;
+    int yes_or_no = what == QUESTION_COLLIDE || what == QUESTION_WITHIN;
+    if (warm) memset(s->proofs, 0, sizeof *s->proofs * s->tracks);
+    for (uint32_t i = 0; i < s->count; i++) {
+        ovoid_witness points;
+        ovoid_evidence evidence = {.proof = warm ? &s->proofs[i % s->tracks] : NULL,
+                                   .witness = yes_or_no ? NULL : &points};
+        ovoid_verdict v = ask_prepared(s, i, what, warm || !yes_or_no ? &evidence : NULL);
+        ovoid_answer answer = {.status = v.status, .lower = v.lower, .upper = v.upper};
+        answers[i].yes = read_verdict(&answer, what, s->margins[i]);
+        if (yes_or_no) continue;
+        answers[i].distance = what == QUESTION_DEPTH ? -v.upper : v.upper;
+        answers[i].point_a = points.point_a;
+        answers[i].point_b = points.point_b;
+        answers[i].normal = points.normal;
+    }
+}
+
+const peer ours_prepared = {
+    "prepared",      (1u << QUESTION_COUNT) - 1, (1u << QUESTION_COUNT) - 1, 0, create_prepared, run_prepared,
+    destroy_prepared};
+
 // --- in batches
 
 typedef struct batch_self {
@@ -86,7 +159,7 @@ static void destroy_batch(void *state) {
     free((void *)s->batch.couples);
     free(s->batch.proofs);
     free(s->batch.verdicts);
-    free(s->batch.answers);
+    free(s->batch.witnesses);
     free(s);
 }
 
@@ -104,8 +177,8 @@ static void *create_batch(const workload *work) {
                              .couple_count = s->frame,
                              .proofs = calloc(s->frame, sizeof(ovoid_proof)),
                              .verdicts = malloc(sizeof(ovoid_verdict) * s->frame),
-                             .answers = malloc(sizeof(ovoid_answer) * s->frame)};
-    if (!posed || !couples || !s->batch.proofs || !s->batch.verdicts || !s->batch.answers) {
+                             .witnesses = malloc(sizeof(ovoid_witness) * s->frame)};
+    if (!posed || !couples || !s->batch.proofs || !s->batch.verdicts || !s->batch.witnesses) {
         destroy_batch(s);
         return NULL;
     }
@@ -135,23 +208,23 @@ static void read_verdicts(const batch_self *s, question what, found *answers) {
     }
 }
 
-static void read_answers(const batch_self *s, question what, found *answers) {
+static void read_witnesses(const batch_self *s, question what, found *answers) {
     for (uint32_t i = 0; i < s->frame; i++) {
-        const ovoid_answer *a = &s->batch.answers[i];
-        answers[i] = (found){read_verdict(a, what, s->margin), what == QUESTION_DEPTH ? -a->upper : a->upper,
-                             a->point_a, a->point_b, a->normal};
+        const ovoid_witness *w = &s->batch.witnesses[i];
+        answers[i].distance = what == QUESTION_DEPTH ? -s->batch.verdicts[i].upper : s->batch.verdicts[i].upper;
+        answers[i].point_a = w->point_a;
+        answers[i].point_b = w->point_b;
+        answers[i].normal = w->normal;
     }
 }
 
-/// Yes or no: verdicts are asked for, else answers. A frame is a batch, and its proofs go into the next one's.
+/// Yes or no: verdicts alone are asked for, else points and normal too. A frame is a batch, and its proofs go into the
+/// next one's.
 static void run_batch(void *state, question what, int warm, found *answers) {
     batch_self *s = state;
     int yes_or_no = what == QUESTION_COLLIDE || what == QUESTION_WITHIN;
     ovoid_batch batch = s->batch;
-    if (yes_or_no)
-        batch.answers = NULL;
-    else
-        batch.verdicts = NULL;
+    if (yes_or_no) batch.witnesses = NULL;
     if (warm)
         memset(batch.proofs, 0, sizeof *batch.proofs * s->frame);
     else
@@ -159,12 +232,11 @@ static void run_batch(void *state, question what, int warm, found *answers) {
     for (size_t at = 0; at < batch.body_count / 2; at += s->frame) {
         batch.couples = s->batch.couples + at;
         int good = ask_batch(&batch, what, s->margin) == OVOID_OK;
-        if (!good)
-            for (uint32_t i = 0; i < s->frame; i++) answers[at + i] = (found){.yes = VERDICT_NONE};
-        else if (yes_or_no)
+        if (good)
             read_verdicts(s, what, answers + at);
         else
-            read_answers(s, what, answers + at);
+            for (uint32_t i = 0; i < s->frame; i++) answers[at + i] = (found){.yes = VERDICT_NONE};
+        if (good && !yes_or_no) read_witnesses(s, what, answers + at);
     }
 }
 

@@ -6,6 +6,8 @@
 
 /// One query at a time; warm: with the proof of the last frame.
 extern const peer ours;
+/// Of shapes that were prepared at their poses; verdicts alone where they are all that is asked for.
+extern const peer ours_prepared;
 /// All still pairs, or a frame of the moving ones, in one call; warm: with the proofs of the last frame.
 extern const peer ours_in_batches;
 

@@ -31,6 +31,17 @@ class posed_convex : public fcl::CollisionObjectd {
         aabb.max_ = high + t.translation();
     }
 
+    /// Another box than that of the vertices.
+    void set_box(const fcl::AABBd &box) { aabb = box; }
+
+    /// The most that a vertex reaches along a direction of the world, from where the body is.
+    double find_extreme(const fcl::Vector3d &direction) const {
+        fcl::Vector3d own = t.linear().transpose() * direction;
+        double most = -INFINITY;
+        for (const auto &v : convex->getVertices()) most = std::max(most, own.dot(v));
+        return most;
+    }
+
     const uint32_t index;
 
   private:

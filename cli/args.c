@@ -214,6 +214,13 @@ static int set_set(const cli_command *command, const cli_option *o, const char *
     }
 }
 
+static int add_to_list(const cli_command *command, const cli_option *o, const char *text, args_list *list) {
+    if (list->count == ARGS_LIST_MAX)
+        return args_complain(command, "%s: --%s is there more than %d times", command->name, o->name, ARGS_LIST_MAX);
+    list->items[list->count++] = text;
+    return -1;
+}
+
 static int set_vector(const cli_command *command, const cli_option *o, const char *text, ovoid_vec3 *value) {
     double v[3];
     int finite = parse_numbers(text, v, 3) == 3 && isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
@@ -238,6 +245,7 @@ static int set_value(const cli_command *command, const cli_option *o, const char
     case OPTION_SET: return set_set(command, o, text, place);
     case OPTION_VECTOR: return set_vector(command, o, text, place);
     case OPTION_POSE: return set_pose(command, o, text, place);
+    case OPTION_LIST: return add_to_list(command, o, text, place);
     case OPTION_FILE:
     case OPTION_OUTPUT: break;
     }
@@ -333,4 +341,15 @@ int args_parse(const cli_command *command, int argc, char **argv, void *settings
     }
     if (code < 0) code = check_count(command, operands);
     return code < 0 ? check_input(command, settings, operands) : code;
+}
+
+const char *args_get_last_word(const cli_command *command) {
+    const char *blank = strrchr(command->name, ' ');
+    return blank ? blank + 1 : command->name;
+}
+
+const cli_command *args_find_subcommand(const cli_command *command, const char *name) {
+    for (const cli_command *const *c = command->subcommands; c && *c; c++)
+        if (strcmp(args_get_last_word(*c), name) == 0) return *c;
+    return NULL;
 }

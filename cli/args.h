@@ -29,8 +29,16 @@ typedef enum option_kind {
     OPTION_FILE,     ///< a path that is read; const char *
     OPTION_OUTPUT,   ///< a path that is written, in the formats of `choices`; const char *
     OPTION_VECTOR,   ///< three numbers in one argument; ovoid_vec3
-    OPTION_POSE      ///< a position and perhaps a rotation in one argument; ovoid_pose
+    OPTION_POSE,     ///< a position and perhaps a rotation in one argument; ovoid_pose
+    OPTION_LIST      ///< a text, and the option may be there several times; args_list
 } option_kind;
+
+/// The texts of an option that was there several times.
+enum { ARGS_LIST_MAX = 64 };
+typedef struct args_list {
+    const char *items[ARGS_LIST_MAX];
+    int count;
+} args_list;
 
 /// One option.
 typedef struct cli_option {
@@ -58,7 +66,9 @@ typedef struct cli_command {
     const char *exits;       ///< what the exit codes mean, lines "CODE text"
     const char *examples;    ///< lines
     const cli_option *options;
-    int operands_min, operands_max; ///< -1: no limit
+    int operands_min, operands_max;               ///< -1: no limit
+    const struct cli_command *const *subcommands; ///< a list that ends with NULL, of what the first argument may be;
+                                                  ///< their names begin with this one's. NULL: there are none
     int (*run)(const struct cli_command *command, int argc, char **argv);
 } cli_command;
 
@@ -78,6 +88,12 @@ __attribute__((format(printf, 2, 3)))
 #endif
 int
 args_complain(const cli_command *command, const char *format, ...);
+
+/// The subcommand of that name, without this one's, or NULL.
+const cli_command *args_find_subcommand(const cli_command *command, const char *name);
+
+/// The name of a subcommand without that of its command.
+const char *args_get_last_word(const cli_command *command);
 
 /// The word that begins with the mistyped one, or else the nearest one (at most two edits), or NULL.
 const char *args_find_similar(const char *word, const char *const *words, size_t count);

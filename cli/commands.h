@@ -5,6 +5,6 @@
 #include "args.h"
 
 extern const cli_command command_fit, command_distance, command_batch, command_check, command_run, command_verify,
-    command_view, command_paper;
+    command_view, command_paper, command_robot;
 
 #endif

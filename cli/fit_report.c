@@ -2,6 +2,7 @@
 // that is not finite is null in JSON and empty in CSV.
 #include "fit.h"
 
+#include "json.h"
 #include "message.h"
 
 #include <math.h>
@@ -93,35 +94,13 @@ void fit_write_table_row(FILE *file, const fitted *f) {
 
 /* ---- for programs ---- */
 
-/// Writes a text as a JSON string. Bytes above 127 pass unchanged: names are UTF-8.
-static void write_string(FILE *file, const char *text) {
-    fputc('"', file);
-    for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\')
-            fprintf(file, "\\%c", c);
-        else if (c < 0x20)
-            fprintf(file, "\\u%04x", c);
-        else
-            fputc(c, file);
-    }
-    fputc('"', file);
-}
-
-static void write_number(FILE *file, double number) {
-    if (isfinite(number))
-        fprintf(file, "%.17g", number);
-    else
-        fputs("null", file);
-}
-
 static void write_vector(FILE *file, ovoid_vec3 v) {
     fputc('[', file);
-    write_number(file, v.x);
+    json_write_number(file, v.x);
     fputc(',', file);
-    write_number(file, v.y);
+    json_write_number(file, v.y);
     fputc(',', file);
-    write_number(file, v.z);
+    json_write_number(file, v.z);
     fputc(']', file);
 }
 
@@ -132,9 +111,9 @@ static void write_step_json(FILE *file, const fitted *f, int step) {
         return;
     }
     fprintf(file, ",\"%s\":{\"volume\":", step_keys[step]);
-    write_number(file, s->volume);
+    json_write_number(file, s->volume);
     fprintf(file, ",\"gap\":");
-    write_number(file, s->gap);
+    json_write_number(file, s->gap);
     fprintf(file, ",\"center\":");
     write_vector(file, s->ellipsoid.center);
     fprintf(file, ",\"radii\":");
@@ -145,9 +124,9 @@ static void write_step_json(FILE *file, const fitted *f, int step) {
 void fit_write_json(FILE *file, const fitted *f) {
     const ovoid_report *r = &f->report;
     fprintf(file, "{\"file\":");
-    write_string(file, f->file);
+    json_write_text(file, f->file);
     fprintf(file, ",\"name\":");
-    write_string(file, f->name);
+    json_write_text(file, f->name);
     fprintf(file, ",\"points\":%llu,\"vertices\":%llu,\"duplicates\":%llu,\"interior\":%llu,\"coplanar\":%llu",
             (unsigned long long)r->points, (unsigned long long)r->vertices, (unsigned long long)r->duplicates,
             (unsigned long long)r->interior, (unsigned long long)r->coplanar);
@@ -157,11 +136,11 @@ void fit_write_json(FILE *file, const fitted *f) {
             (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles, f->radius, f->allowance.outside,
             f->allowance.inside, f->measures.volume, f->measures.area);
     fprintf(file, ",\"mesh_volume\":");
-    write_number(file, f->convexity.mesh_volume);
+    json_write_number(file, f->convexity.mesh_volume);
     for (int i = 0; i < FIT_STEPS; i++) write_step_json(file, f, i);
     fprintf(file, ",\"read_seconds\":%.9f,\"make_seconds\":%.9f,\"output\":", f->read_seconds, f->make_seconds);
     if (f->output)
-        write_string(file, f->output);
+        json_write_text(file, f->output);
     else
         fputs("null", file);
     fputs("}\n", file);

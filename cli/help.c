@@ -64,10 +64,20 @@ static void print_usage(FILE *file, const cli_command *command) {
     }
 }
 
+/// Prints the list of commands, each by its last word.
+static void print_commands(FILE *file, const cli_command *const *commands) {
+    fprintf(file, "\nCommands:\n");
+    for (; *commands; commands++) {
+        int column = fprintf(file, "  %s", args_get_last_word(*commands));
+        help_print_wrapped(file, (*commands)->summary, 12, column);
+    }
+}
+
 int help_print_command(FILE *file, const cli_command *command) {
     print_usage(file, command);
     fputc('\n', file);
     help_print_wrapped(file, command->description, 0, 0);
+    if (command->subcommands) print_commands(file, command->subcommands);
     fprintf(file, "\nOptions:\n");
     for (const cli_option *o = command->options; o->name; o++)
         print_option(file, o->letter, o->name, o->value, o->help);
@@ -83,11 +93,7 @@ int help_print_tool(FILE *file, const cli_command *const *commands) {
                        "How far apart are convex bodies, and how deep do they overlap: every answer is a bracket, "
                        "lower <= d <= upper, with a proof that anyone can check.",
                        0, 0);
-    fprintf(file, "\nCommands:\n");
-    for (; *commands; commands++) {
-        int column = fprintf(file, "  %s", (*commands)->name);
-        help_print_wrapped(file, (*commands)->summary, 12, column);
-    }
+    print_commands(file, commands);
     fprintf(file, "\nOptions:\n");
     print_option(file, 'h', "help", NULL, "this text; after a command, that command's");
     print_option(file, 0, "version", NULL, "the version, and what it was built with");
@@ -114,6 +120,8 @@ int help_print_words(FILE *file, const cli_command *const *commands, const cli_c
         for (; *commands; commands++) fprintf(file, "%s\n", (*commands)->name);
         return finish_file(file);
     }
+    for (const cli_command *const *c = command->subcommands; c && *c; c++)
+        fprintf(file, "%s\tcommand\t\n", args_get_last_word(*c));
     for (const cli_option *o = command->options; o->name; o++) {
         fprintf(file, "--%s\t%s\t%s\n", o->name, get_kind_name(o->kind), o->choices ? o->choices : "");
         if (o->letter) fprintf(file, "-%c\t%s\t\n", o->letter, get_kind_name(o->kind));

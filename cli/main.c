@@ -9,9 +9,18 @@
 #include <stdio.h>
 #include <string.h>
 
-static const cli_command *const commands[] = {&command_fit,   &command_distance, &command_batch,
-                                              &command_check, &command_run,      &command_verify,
-                                              &command_view,  &command_paper,    NULL};
+static const cli_command *const commands[] = {&command_fit,
+                                              &command_distance,
+                                              &command_batch,
+                                              &command_check,
+                                              &command_run,
+                                              &command_verify,
+                                              &command_view,
+                                              &command_paper,
+#ifdef OVOID_HAVE_ROBOT
+                                              &command_robot,
+#endif
+                                              NULL};
 #define COMMAND_COUNT (sizeof commands / sizeof *commands - 1)
 
 static const cli_command *find_command(const char *name) {
@@ -39,17 +48,23 @@ static int print_version(void) {
     return finish_file(stdout);
 }
 
+/// The command of one word, or of two where the first one has subcommands; the command itself where the second word is
+/// none of these.
+static const cli_command *find_whole(int argc, char **argv) {
+    const cli_command *command = argc > 0 ? find_command(argv[0]) : NULL;
+    const cli_command *sub = command && argc > 1 ? args_find_subcommand(command, argv[1]) : NULL;
+    return sub ? sub : command;
+}
+
 /// Runs "help" or "help COMMAND".
 static int run_help(int argc, char **argv) {
     if (argc < 1) return help_print_tool(stdout, commands);
-    const cli_command *command = find_command(argv[0]);
+    const cli_command *command = find_whole(argc, argv);
     return command ? help_print_command(stdout, command) : complain_unknown(argv[0]);
 }
 
 /// Runs "complete" or "complete COMMAND", for shell completion.
-static int run_complete(int argc, char **argv) {
-    return help_print_words(stdout, commands, argc > 0 ? find_command(argv[0]) : NULL);
-}
+static int run_complete(int argc, char **argv) { return help_print_words(stdout, commands, find_whole(argc, argv)); }
 
 int main(int argc, char **argv) {
     finish_catch_signals();

@@ -32,11 +32,22 @@ _ovoid() {
         _ovoid_match "$current" < <("$tool" complete 2>/dev/null)
         return
     fi
+    # The commands of a command.
+    local words
+    words=$("$tool" complete "$command" 2>/dev/null | grep -E "^[a-z]+${tab}command$tab" | cut -f 1)
+    if [[ -n $words ]]; then
+        if ((COMP_CWORD == 2)); then
+            _ovoid_match "$current" < <(printf '%s\n' "$words" --help)
+            return
+        fi
+        command="$command ${COMP_WORDS[2]}"
+    fi
     # The shell breaks --name=value into three words.
     if [[ $current == "=" ]]; then current=; fi
     if [[ $previous == "=" ]]; then previous=${COMP_WORDS[COMP_CWORD - 2]}; fi
     # The value of the option before.
-    line=$("$tool" complete "$command" 2>/dev/null | grep -m 1 -F -e "$previous$tab")
+    # shellcheck disable=SC2086 # one word, or two
+    line=$("$tool" complete $command 2>/dev/null | grep -m 1 -F -e "$previous$tab")
     if [[ $previous == -* && $line == "$previous$tab"* ]]; then
         IFS=$tab read -r _ kind choices <<<"$line"
         case $kind in
@@ -48,7 +59,8 @@ _ovoid() {
     fi
     # An option, or a file.
     if [[ $current == -* ]]; then
-        _ovoid_match "$current" < <("$tool" complete "$command" 2>/dev/null | cut -f 1)
+        # shellcheck disable=SC2086
+        _ovoid_match "$current" < <("$tool" complete $command 2>/dev/null | cut -f 1)
     else
         _ovoid_files "$current"
     fi

@@ -1,5 +1,5 @@
 # Installation: headers, libraries, tool, CMake package and pkg-config files. Its components are those of packages: runtime
-# and dev of the core, io and io_dev of libovoid_io, tool.
+# and dev of the core, io and io_dev of libovoid_io, robot and robot_dev of libovoid_robot, tool.
 
 # install_library(NAME RUNTIME DEV NEEDED): a library in its kinds, its part of the CMake package, its pkg-config file;
 # NEEDED is what its archive needs.
@@ -24,7 +24,7 @@ endfunction()
 
 install_library(ovoid runtime dev "-lm -lpthread")
 install(DIRECTORY include/ovoid TYPE INCLUDE COMPONENT dev FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" PATTERN io.h EXCLUDE
-  PATTERN io.hpp EXCLUDE)
+  PATTERN io.hpp EXCLUDE PATTERN "robot*" EXCLUDE)
 if(TARGET ovoid_io_static)
   set(needed -ljansson)
   if(TARGET ovoid_assimp)
@@ -32,6 +32,19 @@ if(TARGET ovoid_io_static)
   endif()
   install_library(ovoid_io io io_dev "${needed}")
   install(FILES include/ovoid/io.h include/ovoid/io.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ovoid COMPONENT io_dev)
+endif()
+if(TARGET ovoid_robot_static)
+  set(below ovoid)
+  set(needed "-lm -lpthread")
+  set(unread PATTERN "robot_io.h*" EXCLUDE)
+  if(TARGET ovoid_io_static)
+    set(below ovoid_io)
+    string(APPEND needed " -lexpat -lyaml")
+    set(unread "")
+  endif()
+  install_library(ovoid_robot robot robot_dev "${needed}")
+  install(DIRECTORY include/ovoid TYPE INCLUDE COMPONENT robot_dev FILES_MATCHING ${unread} PATTERN "robot*.h"
+    PATTERN "robot*.hpp")
 endif()
 if(TARGET ovoid_cli)
   install(TARGETS ovoid_cli COMPONENT tool)

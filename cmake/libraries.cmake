@@ -1,4 +1,4 @@
-# What ovoid stands on. The core: libm. libovoid_io: jansson and Assimp. The exact judge: GMP. One test: Qhull, as a peer.
+# What ovoid stands on. The core: libm. libovoid_io: jansson and Assimp. libovoid_robot, where it reads: expat and libyaml. The exact judge: GMP. One test: Qhull, as a peer.
 
 # ovoid_find(NAME header library package): an interface target ovoid_NAME, or a sentence that names what is missing.
 function(ovoid_find name header library package required)
@@ -24,6 +24,10 @@ if(OVOID_IO)
   if(OVOID_ASSIMP)
     ovoid_find(assimp assimp/cimport.h assimp libassimp-dev FALSE)
   endif()
+endif()
+if(OVOID_IO AND OVOID_ROBOT)
+  ovoid_find(expat expat.h expat libexpat1-dev TRUE)
+  ovoid_find(yaml yaml.h yaml libyaml-dev TRUE)
 endif()
 if(OVOID_JUDGE)
   ovoid_find(gmp gmp.h gmp libgmp-dev FALSE)

@@ -4,6 +4,8 @@ set(package_ovoid_assimp "libassimp-dev (Assimp)")
 set(package_ovoid_qhull "libqhull-dev (Qhull)")
 set(package_ovoid_io_static "libovoid_io (OVOID_IO, libjansson-dev)")
 set(package_ovoid_io_internal "${package_ovoid_io_static}")
+set(package_ovoid_robot_read "libovoid_robot and libovoid_io (OVOID_ROBOT, OVOID_IO)")
+set(package_ovoid_robot_internal "libovoid_robot (OVOID_ROBOT)")
 function(add_skipped name count library)
   add_test(NAME ${name} COMMAND sh -c
     "echo 'skipped: ${name} needs ${package_${library}}' && echo '0 passed, 0 failed, ${count} skipped'")

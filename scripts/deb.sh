@@ -16,7 +16,7 @@ rm -f "$folder"/*.deb
 said() { "$@" >"$folder/said.log" 2>&1 || { cat "$folder/said.log" >&2 && return 1; }; }
 said cmake -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_C_FLAGS="$flags" \
     -DCMAKE_EXE_LINKER_FLAGS="$link" -DCMAKE_SHARED_LINKER_FLAGS="$link" \
-    -DOVOID_TESTS=OFF -DOVOID_BENCH=OFF -DOVOID_EXAMPLES=OFF
+    -DOVOID_TESTS=OFF -DOVOID_BENCH=OFF -DOVOID_EXAMPLES=OFF -DOVOID_PYTHON=OFF
 said cmake --build "$folder" -j "${JOBS:-2}"
 said cpack -G DEB --config "$folder/CPackConfig.cmake" -B "$folder"
 if command -v lintian >/dev/null; then

@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query growth exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io"
+groups="allowance query prepared growth exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io robot robot_read robot_spheres robot_cli python"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -22,6 +22,7 @@ tests_of() {
     case $1 in
     allowance) echo "test_allowance test_judge_allowance" ;;
     query) echo "$query" ;;
+    prepared) echo "test_prepared test_environment" ;;
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull test_measures test_shape $query" ;;
@@ -29,14 +30,19 @@ tests_of() {
     ellipsoid) echo "test_ellipsoid_contain test_ellipsoid_overlap test_ellipsoid_gap test_ellipsoid_exact test_ellipsoid_nearest test_ellipsoid_outer $query" ;;
     simd) echo "test_simd $query" ;;
     environment) echo "test_environment $query" ;;
-    world) echo "test_world_tree test_world_margins test_world_rules test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
-    compound) echo "test_compound_create test_compound_bounds test_compound_proofs test_compound test_compound_impact test_judge_compound" ;;
+    world) echo "test_world_tree test_world_margins test_world_rules test_world_even test_world_states test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
+    compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_judge_compound" ;;
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_bounds" ;;
     paper) echo "test_paper test_area" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_octet test_simd_gjk8 test_query_batch" ;;
+    robot) echo "test_robot_model test_robot_poses test_robot_check test_robot_matrix test_robot_path test_robot_motion" ;;
     io) echo "test_io_numbers test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results" ;;
+    robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_known" ;;
+    robot_cli) echo "test_cli.sh:robot_check:robot_path" ;;
+    robot_spheres) echo "test_robot_spheres" ;;
+    python) echo "test_python_pair test_python_batch test_python_world test_python_motion" ;;
     *) return 1 ;;
     esac
 }
@@ -61,7 +67,7 @@ mutated() {
               printf "%s%s%s", substr(text, 1, at - 1), ENVIRON["TO"], substr(text, at + length(from)) }' "$1"
 }
 
-# build TEST: 0 built, 1 it does not compile, 2 there is no such test here.
+# build TARGET: 0 built, 1 it does not compile, 2 there is no such target here.
 build() {
     if cmake --build $copy/build -j "$jobs" --target "$1" >$copy/build.log 2>&1; then return 0; fi
     if grep -qE 'No rule to make target|unknown target' $copy/build.log; then return 2; fi
@@ -74,13 +80,15 @@ notice() {
     for entry in $(tests_of "$1"); do
         test=${entry%%:*}
         arguments=$(echo "$entry" | cut -s -d: -f2- | tr : ' ')
-        build "$test"
+        program=$copy/build/tests/$test target=$test
+        case $test in *.sh) program="sh $tree/tests/cli/$test" target=ovoid_cli ;; esac
+        build "$target"
         case $? in
         1) echo "does not compile" && return ;;
         2) continue ;;
         esac
-        # shellcheck disable=SC2086,SC3045 # words of arguments; where ulimit has no -v, there is no limit
-        if ! (ulimit -t 300 && { ulimit -v 8000000 2>/dev/null || :; } && exec $copy/build/tests/"$test" $arguments) >$copy/test.log 2>&1; then
+        # shellcheck disable=SC2086,SC3045 # words of the program and its arguments; where ulimit has no -v, there is no limit
+        if ! (ulimit -t 300 && { ulimit -v 8000000 2>/dev/null || :; } && exec $program $arguments) >$copy/test.log 2>&1; then
             echo "$test"
             return
         fi
@@ -130,6 +138,8 @@ awk -F'\t' -v groups="$wanted" 'BEGIN { n = split(groups, g, " "); for (i = 1; i
     (n == 0 || $2 in in_group) && (names == 0 || $1 in named)' $copy.list "$@" >$copy.wanted
 [ -s $copy.wanted ] || { echo "mutate: no such mutation" >&2 && exit 2; }
 
+# Where the tests of the tool, which are scripts, find it and their files.
+export OVOID_SOURCE_DIR="$PWD/$tree" OVOID_BUILD_DIR="$PWD/$copy/build" OVOID_TOOL="$PWD/$copy/build/ovoid"
 mkdir -p $copy
 rm -rf $tree
 mkdir $tree

@@ -3,10 +3,11 @@
  * Version, errors and memory: what every other header stands on.
  *
  * Floating-point environment: every function of the core library computes in the default one (round to nearest,
- * subnormals kept, no exception trapped) and returns with the caller's as it was: rounding mode, masks, flush-to-zero
- * and exception flags. So the caller may have set anything; the answers have the same bits. An allocator or assert hook
- * is called in the default environment. Cost: about a nanosecond a call, about 0.1 microseconds where a flag that the
- * caller had not raised has to be taken back (in most programs "inexact" is raised for good by their first division).
+ * subnormals kept, no exception trapped) and returns with the caller's settings as they were: rounding mode, masks,
+ * flush-to-zero. So the caller may have set anything; the answers have the same bits. Exception flags that are raised
+ * stay raised, and others may be, as by the functions of libm; who tests them puts calls between feholdexcept and
+ * fesetenv. An allocator or assert hook is called in the default environment. Cost: some nanoseconds a call, 0.1
+ * microseconds where the settings differ.
  */
 #ifndef OVOID_BASE_H
 #define OVOID_BASE_H

@@ -13,6 +13,7 @@
 #include "ovoid/motion.h"
 #include "ovoid/paper.h"
 #include "ovoid/polytope.h"
+#include "ovoid/prepared.h"
 #include "ovoid/query.h"
 #include "ovoid/shape.h"
 #include "ovoid/smooth.h"

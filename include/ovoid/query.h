@@ -212,6 +212,13 @@ OVOID_API ovoid_code ovoid_distance_batch(const ovoid_batch *batch, ovoid_error 
 /** ovoid_depth for each couple, without covers; errors as in ovoid_collide_batch. */
 OVOID_API ovoid_code ovoid_depth_batch(const ovoid_batch *batch, ovoid_error *error);
 
+/**
+ * The gap along a direction from A to B (world, any length but zero): min over B of n.x - max over A of n.x - radii, n
+ * the unit vector along it. A proven lower bound of the signed distance, rounding and allowances counted; -infinity
+ * where a body, a pose or the direction is refused. Cost: a support of each body.
+ */
+OVOID_API double ovoid_pair_compute_gap(const ovoid_pair *pair, ovoid_vec3 direction);
+
 /** The bracket from the ellipsoids alone, without a search: smooth in the poses, O(1). */
 OVOID_API ovoid_answer ovoid_bounds(const ovoid_pair *pair);
 

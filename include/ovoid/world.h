@@ -214,6 +214,26 @@ OVOID_API ovoid_code ovoid_world_find_any(const ovoid_world *world, const ovoid_
 OVOID_API ovoid_code ovoid_world_find_any_to(const ovoid_world *world, const ovoid_world_body *probes, size_t count,
                                              ovoid_world_hit *hit, ovoid_error *error);
 
+/** Bodies that are not in the world, and which of them are asked about with one another: a state of a machine. */
+typedef struct ovoid_world_probes {
+    const ovoid_world_body *items;
+    size_t count;
+    const ovoid_couple *couples; /**< of items, by number; groups and masks do not count here */
+    size_t couple_count;
+} ovoid_world_probes;
+
+/** The mark of a probe's number where an id of a body might stand. */
+#define OVOID_WORLD_PROBE ((ovoid_id)1 << 63)
+
+/**
+ * Does a state of a machine touch anything? ovoid_world_find_any_to, and then the couples of probes in the order given,
+ * each probe placed once: of a couple that is not proven apart hit->a is the number of one probe, hit->b
+ * OVOID_WORLD_PROBE | that of the other. Errors: of probes as ovoid_world_find_any_to; INDEX, a couple that names no
+ * probe (place: which of couples), before anything is asked.
+ */
+OVOID_API ovoid_code ovoid_world_find_any_of(const ovoid_world *world, const ovoid_world_probes *probes,
+                                             ovoid_world_hit *hit, ovoid_error *error);
+
 /** The body nearest to a body, within options->cap. Of those that overlap it, one. */
 OVOID_API ovoid_code ovoid_world_find_nearest(const ovoid_world *world, ovoid_id id, const ovoid_options *options,
                                               ovoid_world_hit *hit, ovoid_error *error);

@@ -61,10 +61,12 @@ class OvoidConan(ConanFile):
             "OVOID_IO": bool(self.options.io),
             "OVOID_CLI": bool(self.options.tool),
             "OVOID_JUDGE": bool(self.options.tool),
+            "OVOID_ROBOT": False,
             "OVOID_ASSIMP": False,
             "OVOID_TESTS": False,
             "OVOID_BENCH": False,
             "OVOID_EXAMPLES": False,
+            "OVOID_PYTHON": False,
         })
         toolchain.generate()
         CMakeDeps(self).generate()

@@ -5,7 +5,7 @@
 # The names: Debian Policy 8.1 names a package of a shared library after its soname. It is libovoid.so.0 until version 1.0,
 # hence libovoid0; libovoid1 will come with libovoid.so.1. Before 1.0 a minor version may change anything, and the soname does
 # not tell: so the shlibs ask for the very minor version (>= 0.1.0, << 0.2~). libovoid_io has packages of its own, since it
-# needs jansson and Assimp, and the core must not bring these along. The tool holds both libraries statically: its
+# needs jansson and Assimp, and the core must not bring these along; libovoid_robot too. The tool holds both libraries statically: its
 # answers are those of the build that was tested, whatever else is installed.
 set(CPACK_OVOID_SOURCE_DIR ${PROJECT_SOURCE_DIR})
 set(CPACK_OVOID_LIBDIR ${CMAKE_INSTALL_LIBDIR})
@@ -13,6 +13,7 @@ math(EXPR next_minor "${PROJECT_VERSION_MINOR} + 1")
 set(CPACK_OVOID_NEXT ${PROJECT_VERSION_MAJOR}.${next_minor})
 set(CPACK_OVOID_LIBRARY_RUNTIME libovoid)
 set(CPACK_OVOID_LIBRARY_IO libovoid_io)
+set(CPACK_OVOID_LIBRARY_ROBOT libovoid_robot)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME ovoid)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
@@ -61,6 +62,19 @@ writes results and pictures.")
   ovoid_deb(io_dev libovoid-io-dev libdevel "${depends}" "meshes, scenes and results for ovoid (development)
 ${about}This package has the header, the static library and the pkg-config file of
 the library that reads meshes and scenes and writes results and pictures.")
+endif()
+if(TARGET ovoid_robot_shared)
+  ovoid_deb(robot libovoid-robot${so} libs "" "robots for ovoid
+${about}This package has the shared library of robots: where their links are and
+what these touch.")
+  set(depends "libovoid-dev (= ${full}), libovoid-robot${so} (= ${full})")
+  if(OVOID_IO)
+    string(APPEND depends ", libovoid-io-dev (= ${full}), libexpat1-dev, libyaml-dev")
+  endif()
+  ovoid_deb(robot_dev libovoid-robot-dev libdevel "${depends}"
+    "robots for ovoid (development)
+${about}This package has the header, the static library and the pkg-config file of
+the library of robots.")
 endif()
 if(TARGET ovoid_cli)
   ovoid_deb(tool ovoid science "" "proximity of meshes from the command line, with proofs

@@ -10,6 +10,7 @@
 // The traversal's stack is as deep as both trees together; nothing is allocated. At worst every pair of parts is
 // queried.
 #include "base/environment.h"
+#include "compound/first_look.h"
 #include "compound/node_bounds.h"
 #include "query/answer.h"
 
@@ -312,6 +313,7 @@ void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *op
         out->tested = 1;
         return;
     }
+    if (goal.far < INFINITY && first_look(&h.a, &h.b, &h.options, &goal, exclusions, out)) return;
     traversal_make(&h, goal);
     h.out = out;
     h.exclusions = exclusions;

@@ -21,6 +21,15 @@ static mat3 find_sizes(const mat3 *m) {
                   {fabs(m->r2.x), fabs(m->r2.y), fabs(m->r2.z)}};
 }
 
+double nodes_compute_size(const body_view *a, const body_view *b, vec3 offset) {
+    return a->extent + b->extent + vec3_norm(offset);
+}
+
+double nodes_compute_claim(const body_view *a, const body_view *b, double size) {
+    double positions = vec3_norm(a->pose->position) + vec3_norm(b->pose->position);
+    return 512 * 0x1p-53 * size + 8 * 0x1p-53 * positions + 4 * OVOID_LENGTH_MIN;
+}
+
 void nodes_frame_make(const body_view *a, const body_view *b, nodes_frame *f) {
     f->world[0] = quat_to_mat3(a->pose->rotation);
     f->world[1] = quat_to_mat3(b->pose->rotation);
@@ -32,9 +41,8 @@ void nodes_frame_make(const body_view *a, const body_view *b, nodes_frame *f) {
     of_b->rotation = mat3_transpose(of_a->rotation);
     of_b->sizes = mat3_transpose(of_a->sizes);
     of_b->translation = vec3_neg(mat3_mul_transposed_vec3(f->world[1], offset));
-    f->size = a->extent + b->extent + vec3_norm(offset);
-    double positions = vec3_norm(a->pose->position) + vec3_norm(b->pose->position);
-    f->claim = 512 * 0x1p-53 * f->size + 8 * 0x1p-53 * positions + 4 * OVOID_LENGTH_MIN;
+    f->size = nodes_compute_size(a, b, offset);
+    f->claim = nodes_compute_claim(a, b, f->size);
     f->check = 100 * 0x1p-53 * f->size + OVOID_LENGTH_MIN;
     nodes_frame_set_normal(f, (vec3){0, 0, 0});
 }

@@ -24,6 +24,10 @@ typedef struct nodes_frame {
     double offset;   ///< of the frames' origins along it
 } nodes_frame;
 
+/// The size and the claim of a frame, for bodies whose origins are `offset` apart.
+double nodes_compute_size(const body_view *a, const body_view *b, vec3 offset);
+double nodes_compute_claim(const body_view *a, const body_view *b, double size);
+
 void nodes_frame_make(const body_view *a, const body_view *b, nodes_frame *frame);
 /// Sets the direction for parts_compute_lower; any numbers are safe.
 void nodes_frame_set_normal(nodes_frame *frame, vec3 normal);

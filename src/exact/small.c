@@ -63,6 +63,8 @@ static small_gjk_query make_query(const pair_frame *f, const query_goal *goal) {
                              shape_get_points(f->b),
                              &f->world.r0.x,
                              &f->world_b.r0.x,
+                             f->turned_a,
+                             f->turned_b,
                              {f->offset.x, f->offset.y, f->offset.z},
                              {n.x, n.y, n.z},
                              f->lower_radii,

@@ -84,6 +84,7 @@ ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
     f->b = pair->shape_b;
     f->world_origin = a->position;
     f->offset = vec3_sub(b->position, a->position);
+    f->turned_a = f->turned_b = NULL;
     f->hidden = OVOID_LENGTH_MIN;
     int is_plain = is_place(a->position) & is_place(b->position);
     if (f->a->has_origin | f->b->has_origin) {
@@ -96,12 +97,20 @@ ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
         if (pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
         place_scaled(f, a->rotation, b->rotation);
     }
-    f->lower_radii = f->a->lower_radius + f->b->lower_radius;
-    f->upper_radii = f->a->upper_radius + f->b->upper_radius;
-    f->size = f->a->span + f->b->span + vec3_norm(f->offset) + f->lower_radii;
-    f->claim = FRAME_CLAIM * f->size + 2 * f->hidden;
-    f->check = FRAME_CHECK * f->size + f->hidden;
+    frame_set_lengths(f);
     return OVOID_LIMIT_NONE;
+}
+
+static mat3 get_rotation(const ovoid_prepared_shape *x) {
+    const double *r = x->rotation;
+    return (mat3){{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
+}
+
+void frame_place_rotations(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b, pair_frame *f) {
+    f->world = get_rotation(a);
+    f->world_b = get_rotation(b);
+    f->turned_a = a->turned_count ? a->turned : NULL;
+    f->turned_b = b->turned_count ? b->turned : NULL;
 }
 
 void frame_relate(pair_frame *f) {

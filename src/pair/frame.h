@@ -14,7 +14,7 @@
 #define OVOID_PAIR_FRAME_H
 
 #include "linear/mat3.h"
-#include "ovoid/query.h"
+#include "ovoid/prepared.h"
 #include "shape/block.h"
 #include "simd/pair.h"
 
@@ -25,16 +25,17 @@
 typedef struct pair_frame {
     // By frame_place: both bodies in the world.
     const ovoid_shape *a, *b;
-    mat3 world, world_b; ///< the rotations of A and B to the world
-    vec3 world_origin;   ///< of A's body frame, world
-    vec3 offset;         ///< of B's body frame from A's, world
-    vec3 between;        ///< of B's enclosing sphere's centre from A's, world
-    double size;         ///< s
-    double claim;        ///< FRAME_CLAIM s, and what underflow can hide
-    double check;        ///< FRAME_CHECK s, and what underflow can hide
-    double hidden;       ///< what underflow and far origins can hide, whatever the size
-    double lower_radii;  ///< sums of both shapes' radii, what a lower bound and what an upper bound loses: they differ
-    double upper_radii;  ///< by the allowances
+    mat3 world, world_b;               ///< the rotations of A and B to the world
+    vec3 world_origin;                 ///< of A's body frame, world
+    vec3 offset;                       ///< of B's body frame from A's, world
+    vec3 between;                      ///< of B's enclosing sphere's centre from A's, world
+    const double *turned_a, *turned_b; ///< vertices of small bodies turned into the world's axes; NULL: not prepared
+    double size;                       ///< s
+    double claim;                      ///< FRAME_CLAIM s, and what underflow can hide
+    double check;                      ///< FRAME_CHECK s, and what underflow can hide
+    double hidden;                     ///< what underflow and far origins can hide, whatever the size
+    double lower_radii; ///< sums of both shapes' radii, what a lower bound and what an upper bound loses: they differ
+    double upper_radii; ///< by the allowances
     // By frame_relate: B in the frame of A.
     mat3 rotation;    ///< x_a_frame = rotation x_b + translation
     vec3 translation; ///< of B's body frame
@@ -47,6 +48,28 @@ ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *frame);
 /// A.
 ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *frame);
 void frame_relate(pair_frame *frame);
+
+/// The lengths that bounds are widened by.
+static inline void frame_set_lengths(pair_frame *f) {
+    f->lower_radii = f->a->lower_radius + f->b->lower_radius;
+    f->upper_radii = f->a->upper_radius + f->b->upper_radius;
+    f->size = f->a->span + f->b->span + vec3_norm(f->offset) + f->lower_radii;
+    f->claim = FRAME_CLAIM * f->size + 2 * f->hidden;
+    f->check = FRAME_CHECK * f->size + f->hidden;
+}
+
+/// frame_place of prepared shapes, both of which must be ready, in two steps: all but the rotations; these.
+static inline void frame_place_prepared(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b, pair_frame *f) {
+    f->a = a->body.shape;
+    f->b = b->body.shape;
+    f->world_origin = a->body.pose.position;
+    f->offset = vec3_sub(b->body.pose.position, a->body.pose.position);
+    f->between = vec3_add(f->offset, vec3_sub(b->center, a->center));
+    f->hidden = OVOID_LENGTH_MIN;
+    frame_set_lengths(f);
+}
+
+void frame_place_rotations(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b, pair_frame *frame);
 
 /// The width of the bracket that the shapes' allowances make.
 static inline double frame_get_allowance(const pair_frame *f) { return f->lower_radii - f->upper_radii; }

@@ -1,15 +1,5 @@
-// First rejections, by spheres and by the normal of an earlier proof.
+// The rejection by the normal of an earlier proof.
 #include "pair/reject.h"
-
-int reject_by_spheres(const pair_frame *f, double far, rejection *found) {
-    vec3 d = f->between;
-    double distance = vec3_norm(d),
-           lower = distance - (f->a->reach + f->b->reach) - f->lower_radii - reject_get_claim(f);
-    found->lower = lower;
-    if (!(lower > far)) return 0;
-    *found = (rejection){lower, vec3_scale(d, 1 / distance), 0, 0, OVOID_STAGE_SPHERE};
-    return 1;
-}
 
 int reject_by_normal(const pair_frame *f, double far, const ovoid_proof *earlier, rejection *found) {
     found->a = found->b = 0;

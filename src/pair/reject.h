@@ -23,7 +23,15 @@ typedef struct rejection {
 
 /// By the enclosing spheres: 1 where they are farther apart than `far`; found->lower is their bound in any case. The
 /// frame needs only frame_place.
-int reject_by_spheres(const pair_frame *frame, double far, rejection *found);
+static inline int reject_by_spheres(const pair_frame *f, double far, rejection *found) {
+    vec3 d = f->between;
+    double distance = vec3_norm(d),
+           lower = distance - (f->a->reach + f->b->reach) - f->lower_radii - reject_get_claim(f);
+    found->lower = lower;
+    if (!(lower > far)) return 0;
+    *found = (rejection){lower, vec3_scale(d, 1 / distance), 0, 0, OVOID_STAGE_SPHERE};
+    return 1;
+}
 
 /// By the supports along an earlier proof's normal: 1 where the gap is above `far`. The proof may hold any numbers.
 /// found->a and b are vertices in any case, those that the supports met; else *found is as it was.

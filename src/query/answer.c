@@ -10,6 +10,7 @@
 #include "pair/proof.h"
 #include "pair/reject.h"
 #include "pair/stages.h"
+#include "query/begin.h"
 
 ovoid_answer answer_make_refused(ovoid_limit limit) {
     return (ovoid_answer){.limit = limit, .lower = -INFINITY, .upper = INFINITY};
@@ -91,56 +92,76 @@ ovoid_verdict answer_make_small_verdict(const small_end *x, const query_goal *go
     return (ovoid_verdict){status, x->stage, limit, x->iterations, x->lower, x->upper};
 }
 
-// The witness points of weighted vertices, a and b in their body frames, into the answer.
-static void place_small_points(const small_end *x, const pair_frame *f, vec3 a, vec3 b, ovoid_answer *out) {
+// The witness points of a pair of small bodies, world.
+typedef struct small_points {
+    vec3 a, b;
+} small_points;
+
+// Rounding radii move the witness points along their difference, or where the radii overlap along the normal, as in
+// witness_compute_points.
+static inline void add_radii(const small_end *x, const pair_frame *f, vec3 *a, vec3 *b) {
+    double radii = f->a->radius + f->b->radius;
+    if (!(radii > 0) || x->kind != OVOID_PROOF_POINTS) return;
+    vec3 d = vec3_sub(*b, *a), n = vec3_norm(d) > radii ? vec3_unit(d) : x->normal;
+    *a = vec3_add_scaled(*a, n, f->a->radius);
+    *b = vec3_add_scaled(*b, n, -f->b->radius);
+}
+
+// By value, into the place of what is written: nothing is copied.
+static inline small_points find_small_points(const small_end *x, const pair_frame *f) {
+    if (x->kind == OVOID_PROOF_INNER) {
+        vec3 p = frame_point_to_world(f, x->inner);
+        return (small_points){p, p};
+    }
+    vec3 a = {0, 0, 0}, b = a;
+    for (int i = 0; i < x->points.count; i++) {
+        a = vec3_add_scaled(a, vec3_at(shape_vertices(f->a), x->points.p[i].a), x->points.weight[i]);
+        b = vec3_add_scaled(b, vec3_at(shape_vertices(f->b), x->points.p[i].b), x->points.weight[i]);
+    }
     a = mat3_mul_vec3(f->world, a);
     b = vec3_add(f->offset, mat3_mul_vec3(f->world_b, b));
-    double radii = f->a->radius + f->b->radius;
-    if (radii > 0 && x->kind == OVOID_PROOF_POINTS) {
-        // As in witness_compute_points: along the difference, or where the radii overlap along the normal.
-        vec3 d = vec3_sub(b, a), n = vec3_norm(d) > radii ? vec3_unit(d) : x->normal;
-        a = vec3_add_scaled(a, n, f->a->radius);
-        b = vec3_add_scaled(b, n, -f->b->radius);
+    add_radii(x, f, &a, &b);
+    return (small_points){vec3_add(f->world_origin, a), vec3_add(f->world_origin, b)};
+}
+
+ovoid_witness answer_make_small_witness(const small_end *x, const pair_frame *f) {
+    small_points p = find_small_points(x, f);
+    return (ovoid_witness){p.a, p.b, x->normal};
+}
+
+static inline void set_small_proof(const small_end *x, ovoid_proof *p) {
+    if (x->kind == OVOID_PROOF_INNER) {
+        p->inner_a = x->inner;
+        return;
     }
-    out->point_a = vec3_add(f->world_origin, a);
-    out->point_b = vec3_add(f->world_origin, b);
+    for (int i = 0; i < x->points.count; i++) {
+        p->a[i] = x->points.p[i].a;
+        p->b[i] = x->points.p[i].b;
+        p->weight_a[i] = p->weight_b[i] = x->points.weight[i];
+    }
+}
+
+ovoid_proof answer_make_small_proof(const small_end *x) {
+    ovoid_proof p = {.normal = x->normal, .kind = x->kind, .count = (uint32_t)x->points.count};
+    set_small_proof(x, &p);
+    return p;
 }
 
 ovoid_answer answer_make_small(const small_end *x, const pair_frame *f, const query_goal *goal) {
     ovoid_verdict is = answer_make_small_verdict(x, goal);
+    small_points p = find_small_points(x, f);
     ovoid_answer out = {.status = is.status,
                         .stage = is.stage,
                         .limit = is.limit,
                         .iterations = is.iterations,
                         .lower = is.lower,
                         .upper = is.upper,
+                        .point_a = p.a,
+                        .point_b = p.b,
                         .normal = x->normal,
                         .proof = {.normal = x->normal, .kind = x->kind, .count = (uint32_t)x->points.count}};
-    if (x->kind == OVOID_PROOF_INNER) {
-        out.proof.inner_a = x->inner;
-        out.point_a = out.point_b = frame_point_to_world(f, x->inner);
-        return out;
-    }
-    vec3 a = {0, 0, 0}, b = a;
-    for (int i = 0; i < x->points.count; i++) {
-        difference p = x->points.p[i];
-        double weight = x->points.weight[i];
-        out.proof.a[i] = p.a;
-        out.proof.b[i] = p.b;
-        out.proof.weight_a[i] = out.proof.weight_b[i] = weight;
-        a = vec3_add_scaled(a, vec3_at(shape_vertices(f->a), p.a), weight);
-        b = vec3_add_scaled(b, vec3_at(shape_vertices(f->b), p.b), weight);
-    }
-    place_small_points(x, f, a, b, &out);
+    set_small_proof(x, &out.proof);
     return out;
-}
-
-// The rejection along an earlier proof's normal. That of a proof of overlap separated nothing, so it is not tried.
-static int reject_by_earlier(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier,
-                             rejection *found) {
-    int was_apart = earlier && goal->far < INFINITY &&
-                    (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
-    return was_apart && reject_by_normal(f, goal->far, earlier, found);
 }
 
 static int may_overlap(const search *s) {
@@ -192,21 +213,7 @@ void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier
     if (!search_is_done(s)) refine_run(s, pair, earlier);
 }
 
-// How a query begins: refused, rejected, answered as a pair of small bodies, or passed on to the search.
-typedef enum beginning { BEGIN_REFUSED, BEGIN_REJECTED, BEGIN_SMALL, BEGIN_SEARCH } beginning;
-
-// The kernel of small bodies, from the earlier proof where that says something.
-static inline small_outcome run_small(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
-                                      rejection *found, small_end *end) {
-    small_outcome outcome = SMALL_UNKNOWN;
-    if (earlier && small_fits(goal, frame->a, frame->b, found->lower))
-        outcome = small_run_earlier(frame, goal, earlier, found, end);
-    if (outcome == SMALL_UNKNOWN && small_takes(goal, frame->a, frame->b, found->lower))
-        outcome = small_run(frame, goal, found->lower, end) ? SMALL_ANSWERED : SMALL_OPEN;
-    return outcome;
-}
-
-// The spheres come first, as they cost the same for any number of vertices.
+// A query from its arguments on.
 static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given, query_goal *goal,
                               const ovoid_proof *earlier, ovoid_cover *cover, pair_frame *frame, rejection *found,
                               small_end *end, ovoid_limit *refused) {
@@ -216,20 +223,12 @@ static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given
     *refused = OVOID_LIMIT_OPTIONS;
     if (options_make(given, &options) && goal->far >= 0) *refused = frame_place(pair, frame);
     if (*refused != OVOID_LIMIT_NONE) return BEGIN_REFUSED;
-    goal->allowance = frame_get_allowance(frame);
-    goal->tolerance = max2(options.absolute_tolerance, options.relative_tolerance * frame->size) + 8 * frame->hidden +
-                      goal->allowance;
-    goal->iterations = options.iterations;
+    set_numbers(goal, &options, frame);
     if (reject_by_spheres(frame, goal->far, found)) return BEGIN_REJECTED;
-    switch (run_small(frame, goal, earlier, found, end)) {
-    case SMALL_ANSWERED: return BEGIN_SMALL;
-    case SMALL_REJECTED: return BEGIN_REJECTED;
-    case SMALL_OPEN: return BEGIN_SEARCH;
-    default: return reject_by_earlier(frame, goal, earlier, found) ? BEGIN_REJECTED : BEGIN_SEARCH;
-    }
+    return begin_after_spheres(frame, goal, earlier, found, end);
 }
 
-static void run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const query_goal *goal,
+void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const query_goal *goal,
                        const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out) {
     frame_relate(frame);
     search s;
@@ -254,7 +253,7 @@ void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, qu
     case BEGIN_REFUSED: *out = answer_make_refused(refused); break;
     case BEGIN_REJECTED: *out = rejection_make_answer(&found, &frame, &goal); break;
     case BEGIN_SMALL: *out = answer_make_small(&end, &frame, &goal); break;
-    case BEGIN_SEARCH: run_search(pair, &frame, found.lower, &goal, earlier, cover, out); break;
+    case BEGIN_SEARCH: answer_run_search(pair, &frame, found.lower, &goal, earlier, cover, out); break;
     }
 }
 
@@ -264,7 +263,7 @@ COMPILER_NOINLINE static ovoid_answer search_by_value(const ovoid_pair *pair, pa
                                                       const query_goal *goal, const ovoid_proof *earlier,
                                                       ovoid_cover *cover) {
     ovoid_answer out;
-    run_search(pair, frame, spheres, goal, earlier, cover, &out);
+    answer_run_search(pair, frame, spheres, goal, earlier, cover, &out);
     return out;
 }
 

@@ -12,11 +12,18 @@ ovoid_verdict answer_make_verdict(search *s);
 
 /// The answer of a search of small bodies, with points and proof or without. Its frame needs only frame_place.
 ovoid_answer answer_make_small(const small_end *x, const pair_frame *frame, const query_goal *goal);
+ovoid_witness answer_make_small_witness(const small_end *x, const pair_frame *frame);
+ovoid_proof answer_make_small_proof(const small_end *x);
 ovoid_verdict answer_make_small_verdict(const small_end *x, const query_goal *goal);
 
 /// The exact methods, from the bounds and the simplex that the stages before them left, until the query is answered or
 /// no method makes progress. earlier and cover may be NULL.
 void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier, simplex *start, ovoid_cover *cover);
+
+/// The beginning of an answer.
+static inline ovoid_verdict answer_get_verdict(const ovoid_answer *x) {
+    return (ovoid_verdict){x->status, x->stage, x->limit, x->iterations, x->lower, x->upper};
+}
 
 /// The answer of a query that was refused: no bracket.
 ovoid_answer answer_make_refused(ovoid_limit limit);
@@ -24,6 +31,10 @@ ovoid_answer answer_make_refused(ovoid_limit limit);
 /// The whole pipeline for one query; earlier and cover may be NULL.
 ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, const query_goal *goal,
                          const ovoid_proof *earlier, ovoid_cover *cover);
+
+/// Of a pair whose beginning left it to the search: the rest of the pipeline. The frame needs only frame_place.
+void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const query_goal *goal,
+                       const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out);
 
 /// answer_find for callers inside a public function, which has set the default floating-point environment already.
 void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, query_goal goal,

@@ -66,8 +66,7 @@ static int is_blank(const ovoid_proof *p) {
 
 void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *x) {
     if (batch->proofs) batch->proofs[i] = x->proof;
-    if (batch->verdicts)
-        batch->verdicts[i] = (ovoid_verdict){x->status, x->stage, x->limit, x->iterations, x->lower, x->upper};
+    if (batch->verdicts) batch->verdicts[i] = answer_get_verdict(x);
     if (batch->answers && x != &batch->answers[i]) batch->answers[i] = *x;
     if (batch->witnesses) batch->witnesses[i] = (ovoid_witness){x->point_a, x->point_b, x->normal};
 }
@@ -114,6 +113,8 @@ static pair_frame get_frame(const lane_group *e, unsigned k) {
                         get_a(e, k)->pose.position,
                         get3(o->offset, k),
                         get3(o->between, k),
+                        NULL,
+                        NULL,
                         size,
                         FRAME_CLAIM * size + 2 * hidden,
                         FRAME_CHECK * size + hidden,
@@ -416,22 +417,17 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
 }
 
 // Ends a couple of small bodies (small_owner).
-static void end_small(void *self, size_t index, const query_goal *goal, const small_end *end) {
+static void end_small(void *self, size_t index, const query_goal *goal, const pair_frame *frame, const small_end *end) {
     const batch_state *c = self;
+    const ovoid_batch *to = c->batch;
     if (!end) {
         leave_alone(c, index);
         return;
     }
-    if (!c->wants_evidence) {
-        write_verdict(c->batch, index, answer_make_small_verdict(end, goal));
-        return;
-    }
-    ovoid_pair pair = get_pair(c->batch, index);
-    pair_frame frame;
-    (void)frame_place(&pair, &frame);
-    ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[index] : &own;
-    *out = answer_make_small(end, &frame, goal);
-    batch_write(c->batch, index, out);
+    write_verdict(to, index, answer_make_small_verdict(end, goal));
+    if (to->proofs) to->proofs[index] = answer_make_small_proof(end);
+    if (to->witnesses) to->witnesses[index] = answer_make_small_witness(end, frame);
+    if (to->answers) to->answers[index] = answer_make_small(end, frame, goal);
 }
 
 // Searches those of the lanes `open` that are small. The mask of these.
@@ -489,7 +485,7 @@ COMPILER_NOINLINE static size_t run_lanes(const ovoid_batch *batch, query_goal g
     for (unsigned i = 0; i <= PAIR8_GROUPS; i++) groups[i].lanes = &lanes[i];
     small_pool small;
     batch_state c = {batch, pair8_get_kernels(), goal, numbers, numbers.keeps_all, groups, lanes, 0, &small, open};
-    small_pool_make(&small, &c.goal, (small_owner){end_small, &c});
+    small_pool_make(&small, &c.goal, (small_owner){end_small, &c, c.wants_evidence});
     for (; first < batch->couple_count && open->count <= OPEN_FULL; first += PAIR8) {
         size_t left = batch->couple_count - first;
         fetch_ahead(batch, first);

@@ -27,7 +27,7 @@ static void end_lanes(const small_pool *p, unsigned group, unsigned lanes, small
         small_gjk_result r = {.end = how};
         small_end end;
         if (how != SMALL_GJK_OPEN) gjk8_get_result(g, k, how, &r);
-        p->owner.finish(p->owner.self, c->index, &goal, small_finish(&f, &goal, &r, &end) ? &end : NULL);
+        p->owner.finish(p->owner.self, c->index, &goal, &c->frame, small_finish(&f, &goal, &r, &end) ? &end : NULL);
     }
 }
 
@@ -53,11 +53,22 @@ void small_pool_add(small_pool *p, size_t index, const pair_frame *f, const quer
     small_end end;
     int is_over = small_begin(f, goal, spheres, &q, &end);
     if (is_over >= 0) {
-        p->owner.finish(p->owner.self, index, goal, is_over ? &end : NULL);
+        p->owner.finish(p->owner.self, index, goal, f, is_over ? &end : NULL);
+        return;
+    }
+    // Far apart the first support ends most searches, and a place in the lanes costs more than it saves.
+    if (spheres > f->a->reach + f->b->reach) {
+        small_gjk_result r;
+        simd_run_small_gjk(&q, &r);
+        p->owner.finish(p->owner.self, index, goal, f, small_finish(f, goal, &r, &end) ? &end : NULL);
         return;
     }
     unsigned group = find_group(p), k = compiler_count_low_zeros(~p->groups[group].active);
-    p->couples[PAIR8 * group + k] = (small_couple){index, f->size, goal->tolerance};
+    small_couple *c = &p->couples[PAIR8 * group + k];
+    c->index = index;
+    c->size = f->size;
+    c->tolerance = goal->tolerance;
+    if (p->owner.keeps_frames) c->frame = *f;
     p->kernels->begin(&p->groups[group], k, &q);
 }
 

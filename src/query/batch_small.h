@@ -12,13 +12,15 @@ enum { SMALL_POOL_GROUPS = 2, SMALL_POOL_PLACES = SMALL_POOL_GROUPS * PAIR8 };
 typedef struct small_couple {
     size_t index;
     double size, tolerance;
+    pair_frame frame; ///< where the pool keeps frames
 } small_couple;
 
 /// What is done with a couple that ends. goal, end: its answer; end NULL: it is unusual, and has to be queried
-/// alone.
+/// alone. frame: as frame_place made it, where frames are kept.
 typedef struct small_owner {
-    void (*finish)(void *self, size_t index, const query_goal *goal, const small_end *end);
+    void (*finish)(void *self, size_t index, const query_goal *goal, const pair_frame *frame, const small_end *end);
     void *self;
+    int keeps_frames;
 } small_owner;
 
 /// The searches of a batch: all couples have its goal, but for the tolerance.

@@ -3,15 +3,6 @@
 
 #include "base/error.h"
 
-int options_make(const ovoid_options *given, ovoid_options *options) {
-    *options = given ? *given : (ovoid_options){0, 0, 0, 0};
-    if (!(options->absolute_tolerance >= 0 && options->relative_tolerance >= 0 && options->cap >= 0)) return 0;
-    if (options->relative_tolerance == 0) options->relative_tolerance = 1e-9;
-    if (options->cap == 0) options->cap = INFINITY;
-    if (options->iterations == 0) options->iterations = 1000;
-    return 1;
-}
-
 ovoid_code options_check(const ovoid_options *given, ovoid_options *options, ovoid_error *error) {
     if (options_make(given, options)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_ARGUMENT, -1, "options: a tolerance or the cap is NaN or negative");

@@ -7,7 +7,14 @@
 #include <string.h>
 
 /// 1 if the options' numbers are valid; fills in the defaults. given NULL: all defaults.
-int options_make(const ovoid_options *given, ovoid_options *options);
+static inline int options_make(const ovoid_options *given, ovoid_options *options) {
+    *options = given ? *given : (ovoid_options){0, 0, 0, 0};
+    if (!(options->absolute_tolerance >= 0 && options->relative_tolerance >= 0 && options->cap >= 0)) return 0;
+    if (options->relative_tolerance == 0) options->relative_tolerance = 1e-9;
+    if (options->cap == 0) options->cap = INFINITY;
+    if (options->iterations == 0) options->iterations = 1000;
+    return 1;
+}
 
 /// options_make for functions that return a code: ARGUMENT with a sentence where options are invalid.
 ovoid_code options_check(const ovoid_options *given, ovoid_options *options, ovoid_error *error);

@@ -1,6 +1,8 @@
 // Are the bodies within a margin of each other?
 #include "query/answer.h"
 
+#include "ovoid/prepared.h"
+
 #include <string.h>
 
 ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
@@ -17,9 +19,17 @@ static int64_t get_order(double x) {
     return bits >= 0 ? bits : INT64_MIN - bits;
 }
 
-int ovoid_answer_is_within(const ovoid_answer *answer, double margin) {
+static int is_within(double lower_bound, double upper_bound, double margin) {
     int64_t least = get_order(-INFINITY), most = get_order(INFINITY);
-    int64_t at = get_order(margin), lower = get_order(answer->lower), upper = get_order(answer->upper);
+    int64_t at = get_order(margin), lower = get_order(lower_bound), upper = get_order(upper_bound);
     if (at < least || at > most || lower < least || lower > most || upper < least || upper > most) return -1;
     return upper <= at ? 1 : lower > at ? 0 : -1;
+}
+
+int ovoid_answer_is_within(const ovoid_answer *answer, double margin) {
+    return is_within(answer->lower, answer->upper, margin);
+}
+
+int ovoid_verdict_is_within(const ovoid_verdict *verdict, double margin) {
+    return is_within(verdict->lower, verdict->upper, margin);
 }

@@ -21,6 +21,7 @@ LANES_INLINE lane lane_load(const double *x) { return _mm512_loadu_pd(x); }
 LANES_INLINE void lane_store(double *x, lane v) { _mm512_storeu_pd(x, v); }
 LANES_INLINE lane lane_sqrt(lane v) { return _mm512_sqrt_pd(v); }
 LANES_INLINE lane lane_abs(lane v) { return _mm512_abs_pd(v); }
+LANES_INLINE lane lane_floor(lane v) { return _mm512_roundscale_pd(v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC); }
 LANES_INLINE lane_mask lane_greater(lane a, lane b) { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }
 LANES_INLINE lane_mask lane_at_least(lane a, lane b) { return _mm512_cmp_pd_mask(a, b, _CMP_GE_OQ); }
 LANES_INLINE lane lane_select(lane_mask m, lane yes, lane no) { return _mm512_mask_blend_pd(m, no, yes); }
@@ -48,6 +49,7 @@ LANES_INLINE lane lane_load(const double *x) { return _mm256_loadu_pd(x); }
 LANES_INLINE void lane_store(double *x, lane v) { _mm256_storeu_pd(x, v); }
 LANES_INLINE lane lane_sqrt(lane v) { return _mm256_sqrt_pd(v); }
 LANES_INLINE lane lane_abs(lane v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
+LANES_INLINE lane lane_floor(lane v) { return _mm256_floor_pd(v); }
 LANES_INLINE lane_mask lane_greater(lane a, lane b) { return _mm256_cmp_pd(a, b, _CMP_GT_OQ); }
 LANES_INLINE lane_mask lane_at_least(lane a, lane b) { return _mm256_cmp_pd(a, b, _CMP_GE_OQ); }
 LANES_INLINE lane lane_select(lane_mask m, lane yes, lane no) { return _mm256_blendv_pd(no, yes, m); }
@@ -72,6 +74,7 @@ LANES_INLINE lane lane_load(const double *x) { return *x; }
 LANES_INLINE void lane_store(double *x, lane v) { *x = v; }
 LANES_INLINE lane lane_sqrt(lane v) { return sqrt(v); }
 LANES_INLINE lane lane_abs(lane v) { return fabs(v); }
+LANES_INLINE lane lane_floor(lane v) { return floor(v); }
 LANES_INLINE lane_mask lane_greater(lane a, lane b) { return a > b; }
 LANES_INLINE lane_mask lane_at_least(lane a, lane b) { return a >= b; }
 LANES_INLINE lane lane_select(lane_mask m, lane yes, lane no) { return m ? yes : no; }

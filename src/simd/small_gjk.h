@@ -25,8 +25,10 @@ typedef struct small_gjk_body {
 typedef struct small_gjk_query {
     simd_points a, b;              ///< body frames, at most SMALL_GJK_POINTS each, padded
     const double *rows_a, *rows_b; ///< rotations to the world, by rows
-    double offset[3];              ///< of B's body frame from A's, world
-    double start[3];               ///< the first direction, from A to B, of any length
+    /// The same points turned by them, padded_count of x, then of y, then of z, without a place; NULL: to be turned.
+    const double *turned_a, *turned_b;
+    double offset[3]; ///< of B's body frame from A's, world
+    double start[3];  ///< the first direction, from A to B, of any length
     double lower_radii, upper_radii, claim;
     double far, near, tolerance; ///< as in the goal of a query (pair/search.h)
     int wants_bracket;

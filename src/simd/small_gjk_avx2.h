@@ -46,6 +46,17 @@ SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, co
     }
 }
 
+// Of points that are turned already; the same bits.
+SMALL_GJK_INLINE void move_points(small_gjk_body *p, const simd_points *from, const double t[3], uint32_t blocks) {
+    lanes3 by = {_mm256_set1_pd(t[0]), _mm256_set1_pd(t[1]), _mm256_set1_pd(t[2])};
+    for (uint32_t i = 0; i < 8 * blocks; i += 4) {
+        lanes3 v = load_points(from, i);
+        _mm256_store_pd(p->x + i, _mm256_add_pd(v.x, by.x));
+        _mm256_store_pd(p->y + i, _mm256_add_pd(v.y, by.y));
+        _mm256_store_pd(p->z + i, _mm256_add_pd(v.z, by.z));
+    }
+}
+
 SMALL_GJK_INLINE __m256d better(__m256d a, __m256d b, int is_least) {
     return is_least ? _mm256_min_pd(a, b) : _mm256_max_pd(a, b);
 }

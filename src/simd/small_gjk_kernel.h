@@ -1,6 +1,6 @@
 // The loop of small_gjk.h. Who includes it has defined
 //   SMALL_GJK_INLINE         the attributes of its functions
-//   pose_points(p, from, rows, t, blocks), measure(m, a, b, blocks, x, y, z)
+//   pose_points(p, from, rows, t, blocks), move_points(p, from, t, blocks), measure(m, a, b, blocks, x, y, z)
 //   met                      a support: gap, point indices a and b, and the difference as the step takes it
 //   met_get(m, w)            that difference as numbers
 //   corners                  up to four such differences
@@ -9,6 +9,7 @@
 #include "simd/small_gjk.h"
 
 #include <math.h>
+#include <stddef.h>
 
 // The state of the search: corners in lanes, those whose bit in `valid` is set, and the heading: the nearest point's
 // direction, of any length, and its height along it times that length.
@@ -119,10 +120,21 @@ SMALL_GJK_INLINE void search(const small_gjk_query *q, const small_gjk_body *a, 
     }
 }
 
+SMALL_GJK_INLINE void pose_body(small_gjk_body *p, const simd_points *from, const double *turned, const double rows[9],
+                                const double t[3], uint32_t blocks) {
+    if (!turned) {
+        pose_points(p, from, rows, t, blocks);
+        return;
+    }
+    uint32_t count = from->padded_count;
+    simd_points at = {turned, turned + count, turned + 2 * (size_t)count, count};
+    move_points(p, &at, t, blocks);
+}
+
 SMALL_GJK_INLINE void pose_bodies(const small_gjk_query *q, small_gjk_body *a, small_gjk_body *b, uint32_t blocks) {
     static const double nowhere[3] = {0, 0, 0};
-    pose_points(a, &q->a, q->rows_a, nowhere, blocks);
-    pose_points(b, &q->b, q->rows_b, q->offset, blocks);
+    pose_body(a, &q->a, q->turned_a, q->rows_a, nowhere, blocks);
+    pose_body(b, &q->b, q->turned_b, q->rows_b, q->offset, blocks);
 }
 
 // Points of the larger body, in eights: 1 to 4.

@@ -26,6 +26,17 @@ SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, co
     simd_pose_points_scalar(from, rows, t, p->x, p->y, p->z);
 }
 
+// Of points that are turned already; the same bits.
+SMALL_GJK_INLINE void move_points(small_gjk_body *p, const simd_points *from, const double t[3], uint32_t blocks) {
+    (void)blocks;
+    p->count = from->padded_count;
+    for (uint32_t i = 0; i < p->count; i++) {
+        p->x[i] = from->x[i] + t[0];
+        p->y[i] = from->y[i] + t[1];
+        p->z[i] = from->z[i] + t[2];
+    }
+}
+
 SMALL_GJK_INLINE uint32_t find_extreme_point(const simd_points *p, const double n[3], uint32_t blocks, int is_least,
                                              double *value) {
     (void)blocks;

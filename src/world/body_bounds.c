@@ -22,8 +22,12 @@ body_sphere body_compute_sphere(const ovoid_body *body) {
     return (body_sphere){local, s->reach, s->lower_radius, vec3_max_abs(s->origin) + s->span + s->lower_radius};
 }
 
+static double find_center_error(const body_sphere *ball, const ovoid_pose *pose) {
+    return CENTER_ERROR * (vec3_max_abs(pose->position) + ball->size) + OVOID_LENGTH_MIN;
+}
+
 vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double *center_error) {
-    *center_error = CENTER_ERROR * (vec3_max_abs(pose->position) + ball->size) + OVOID_LENGTH_MIN;
+    *center_error = find_center_error(ball, pose);
     return vec3_add(pose->position, mat3_mul_vec3(quat_to_mat3(pose->rotation), ball->local));
 }
 
@@ -64,4 +68,38 @@ box body_compute_box(const ovoid_body *body, const body_sphere *ball) {
     find_extent(s, r.r2, &low.z, &high.z);
     return (box){{at.x + low.x - pad, at.y + low.y - pad, at.z + low.z - pad},
                  {at.x + high.x + pad, at.y + high.y + pad, at.z + high.z + pad}};
+}
+
+static vec3 least(vec3 a, vec3 b) { return (vec3){min2(a.x, b.x), min2(a.y, b.y), min2(a.z, b.z)}; }
+static vec3 most(vec3 a, vec3 b) { return (vec3){max2(a.x, b.x), max2(a.y, b.y), max2(a.z, b.z)}; }
+static vec3 make_even(double x) { return (vec3){x, x, x}; }
+
+// The box of the shape's vertices, with the middle m and half sizes h, turned: along a row of R it reaches to row.m +
+// |row|.h. Entries of R are off by 12 u, the numbers of m and h below the extent: 36 u of it, and 12 u for the sums. m
+// is at most as far from the frame's origin as the centre may be, so its place in the world is no worse.
+static box find_turned_box(const ovoid_shape *s, mat3 r, vec3 position, double center_error) {
+    const box *own = &s->measures.box;
+    vec3 m = vec3_add(s->origin, vec3_scale(vec3_add(own->min, own->max), 0.5));
+    vec3 h = vec3_scale(vec3_sub(own->max, own->min), 0.5), at = vec3_add(position, mat3_mul_vec3(r, m));
+    double pad =
+        s->lower_radius + center_error + 128 * 0x1p-53 * (s->extent + s->lower_radius) + 4 * 0x1p-53 * vec3_max_abs(at);
+    vec3 e = {vec3_dot(absolute(r.r0), h) + pad, vec3_dot(absolute(r.r1), h) + pad, vec3_dot(absolute(r.r2), h) + pad};
+    return (box){vec3_sub(at, e), vec3_add(at, e)};
+}
+
+body_outline body_compute_outline(const ovoid_body *body, const body_sphere *ball) {
+    mat3 r = quat_to_mat3(body->pose.rotation);
+    double center_error = find_center_error(ball, &body->pose);
+    vec3 at = vec3_add(body->pose.position, mat3_mul_vec3(r, ball->local));
+    body_outline x = {.at = at, .reach = (ball->reach + ball->radius) * (1 + 0x1p-48) + center_error};
+    if (body->compound) {
+        x.bounds = find_compound_box(body->compound, ball, r, at, center_error);
+        x.is_tight = 1;
+        return x;
+    }
+    box turned = find_turned_box(body->shape, r, body->pose.position, center_error);
+    double around = x.reach + 4 * 0x1p-53 * vec3_max_abs(at);
+    x.bounds.min = most(turned.min, vec3_sub(at, make_even(around)));
+    x.bounds.max = least(turned.max, vec3_add(at, make_even(around)));
+    return x;
 }

@@ -22,4 +22,15 @@ vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double
 /// A box that holds the body, rounding included.
 box body_compute_box(const ovoid_body *body, const body_sphere *ball);
 
+/// Where a body is, by its pose alone: no vertex is looked at.
+typedef struct body_outline {
+    vec3 at;      ///< the centre r in the world, rounded
+    double reach; ///< no point of the body is farther than this from `at`, rounding included
+    box bounds;   ///< holds the body, rounding included
+    int is_tight; ///< the bounds are those of body_compute_box
+} body_outline;
+
+/// The body's sphere, and the box around its own box, turned, no larger than the sphere's.
+body_outline body_compute_outline(const ovoid_body *body, const body_sphere *ball);
+
 #endif

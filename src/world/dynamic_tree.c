@@ -1,5 +1,5 @@
 // Single steps of the dynamic tree: adding, removing and refitting a leaf, and the tree's cost.
-#include "world/dynamic_tree.h"
+#include "world/wide_tree.h"
 
 void dynamic_tree_make(dynamic_tree *t, tree_node *nodes, uint32_t capacity) {
     *t = (dynamic_tree){.nodes = nodes, .capacity = capacity, .used = 2};
@@ -9,7 +9,7 @@ void dynamic_tree_make(dynamic_tree *t, tree_node *nodes, uint32_t capacity) {
 static uint32_t take_couple(dynamic_tree *t) {
     uint32_t at = t->free;
     if (at) {
-        t->free = t->nodes[at].next;
+        t->free = t->nodes[at].link;
         return at;
     }
     at = t->used;
@@ -18,7 +18,7 @@ static uint32_t take_couple(dynamic_tree *t) {
 }
 
 static void release_couple(dynamic_tree *t, uint32_t at) {
-    t->nodes[at].next = t->free;
+    t->nodes[at].link = t->free;
     t->free = at;
 }
 
@@ -34,13 +34,17 @@ static void put_node(dynamic_tree *t, uint32_t at, const tree_node *n, uint32_t 
     }
 }
 
-// Recomputes the bounds of inner nodes from `at` upward, until one does not change.
+// Recomputes the bounds of inner nodes from `at` upward, until one does not change. A parent's children are known from
+// the one that changed, so that the other one is fetched beside the parent, not after it.
 static void refit_up(dynamic_tree *t, uint32_t at) {
+    uint32_t couple = at == NONE ? 0 : t->nodes[at].child;
     while (at != NONE) {
         tree_node *n = &t->nodes[at];
-        box joined = box_join(&t->nodes[n->child].bounds, &t->nodes[n->child + 1].bounds);
+        box joined = box_join(&t->nodes[couple].bounds, &t->nodes[couple + 1].bounds);
         if (box_is_same(&joined, &n->bounds)) return;
         n->bounds = joined;
+        wide_tree_set_box(t, n);
+        couple = at & ~1u;
         at = n->parent;
     }
 }
@@ -70,6 +74,7 @@ static uint32_t find_sibling(const dynamic_tree *t, const box *bounds) {
 void dynamic_tree_add(dynamic_tree *t, uint32_t body, const box *bounds, uint32_t *leaf_of) {
     tree_node leaf = {.bounds = *bounds, .body = body};
     t->changes++;
+    t->wide_count = 0;
     if (t->leaf_count++ == 0) {
         put_node(t, 0, &leaf, NONE, leaf_of);
         return;
@@ -85,6 +90,7 @@ void dynamic_tree_add(dynamic_tree *t, uint32_t body, const box *bounds, uint32_
 
 void dynamic_tree_remove(dynamic_tree *t, uint32_t leaf, uint32_t *leaf_of) {
     t->changes++;
+    t->wide_count = 0;
     if (--t->leaf_count == 0) {
         t->nodes[0].body = NONE;
         t->nodes[0].bounds = box_make_empty();
@@ -100,6 +106,7 @@ void dynamic_tree_remove(dynamic_tree *t, uint32_t leaf, uint32_t *leaf_of) {
 
 void dynamic_tree_refit(dynamic_tree *t, uint32_t leaf, const box *bounds) {
     t->nodes[leaf].bounds = *bounds;
+    wide_tree_set_box(t, &t->nodes[leaf]);
     refit_up(t, t->nodes[leaf].parent);
 }
 

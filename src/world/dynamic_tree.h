@@ -10,6 +10,7 @@
 
 #include "base/allocator.h"
 #include "linear/box.h"
+#include "simd/box8.h"
 
 #define NONE 0xffffffffu
 
@@ -18,7 +19,7 @@ typedef struct tree_node {
     uint32_t parent;
     uint32_t child; ///< the first of two children; 0: a leaf (empty where body is NONE)
     uint32_t body;  ///< of a leaf: its body
-    uint32_t next;  ///< of a free couple of nodes: the next free couple
+    uint32_t link;  ///< of a free couple of nodes: the next free couple; else its lane among the wide nodes, or NONE
 } tree_node;
 
 /// Node 0 is the root, node 1 is not used; couples (2 k, 2 k + 1) follow.
@@ -28,9 +29,11 @@ typedef struct dynamic_tree {
     uint32_t used, free;           ///< nodes ever used; the first free couple, or 0
     uint32_t changes;              ///< leaves added, removed or moved to another sibling since it was built
     double built;                  ///< the cost when it was built
+    box8 *wide;                    ///< the owner's memory for the wide nodes (wide_tree.h)
+    uint32_t wide_count;           ///< 0: there are none
 } dynamic_tree;
 
-/// An empty tree in memory for `capacity` leaves, or the same tree in larger memory. The caller owns the nodes.
+/// An empty tree in memory for `capacity` leaves. The caller owns the nodes.
 void dynamic_tree_make(dynamic_tree *t, tree_node *nodes, uint32_t capacity);
 
 /// Adds a leaf; leaf_of[body] receives its node, and is kept up to date for leaves that move in memory.

@@ -107,7 +107,9 @@ static box join_all(const tree_item *items, range r) {
 }
 
 void dynamic_tree_build(dynamic_tree *t, tree_item *items, uint32_t count, uint32_t *leaf_of) {
+    box8 *wide = t->wide;
     dynamic_tree_make(t, t->nodes, t->capacity);
+    t->wide = wide;
     t->leaf_count = count;
     if (!count) return;
     range stack[STACK];

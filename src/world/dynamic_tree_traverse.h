@@ -27,10 +27,25 @@ typedef int tree_touch(void *context, const tree_node *leaf);
 int dynamic_tree_find_overlaps_below(const dynamic_tree *t, const box *bounds, uint32_t root, tree_touch *touch,
                                      void *context);
 
-/// All leaves whose boxes overlap the bounds; 0 where a leaf ended the traversal. Inline, so that `touch` is inlined
-/// too. Both children are tested and pushed without a branch, since which of them overlap cannot be predicted.
-static inline int dynamic_tree_find_overlaps(const dynamic_tree *t, const box *bounds, tree_touch *touch,
-                                             void *context) {
+/// How many leaves the wide nodes give at once.
+enum { TREE_LEAVES = 64 };
+
+/// dynamic_tree_find_overlaps by the wide nodes. Their boxes are larger by a rounding: each leaf's own is compared too.
+static inline int dynamic_tree_find_wide(const dynamic_tree *t, const box *bounds, tree_touch *touch, void *context) {
+    box8_walk walk;
+    uint32_t leaves[TREE_LEAVES], count;
+    box8_begin(&walk, t->wide, &bounds->min.x);
+    while ((count = box8_find_leaves(&walk, leaves, TREE_LEAVES)) > 0)
+        for (uint32_t i = 0; i < count; i++) {
+            const tree_node *leaf = &t->nodes[leaves[i]];
+            if (box_is_overlapping(bounds, &leaf->bounds) && !touch(context, leaf)) return 0;
+        }
+    return 1;
+}
+
+/// The same by the binary tree. Both children are tested and pushed without a branch, since which of them overlap
+/// cannot be predicted.
+static inline int dynamic_tree_find_narrow(const dynamic_tree *t, const box *bounds, tree_touch *touch, void *context) {
     const tree_node *nodes = t->nodes;
     uint32_t stack[TREE_STACK + 2], count = t->leaf_count && box_is_overlapping(bounds, &nodes[0].bounds);
     stack[0] = 0;
@@ -48,6 +63,14 @@ static inline int dynamic_tree_find_overlaps(const dynamic_tree *t, const box *b
         }
     }
     return 1;
+}
+
+/// All leaves whose boxes overlap the bounds; 0 where a leaf ended the traversal. `touch` may make the bounds smaller.
+/// Inline, so that `touch` is inlined too.
+static inline int dynamic_tree_find_overlaps(const dynamic_tree *t, const box *bounds, tree_touch *touch,
+                                             void *context) {
+    return t->wide_count ? dynamic_tree_find_wide(t, bounds, touch, context)
+                         : dynamic_tree_find_narrow(t, bounds, touch, context);
 }
 
 #endif

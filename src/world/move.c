@@ -3,37 +3,53 @@
 //
 // The chord of a rotation: unit quaternions p, q with p.q >= 0 are 2 sin(a / 4) apart, a the angle between the
 // rotations, and the norm of R(p) - R(q) is 2 sin(a / 2) <= 2 |p - q|. Each p, q is off by 4 u when normalised; 32 u is
-// added.
+// added. Of one whose square is within 2^-40 of 1 the length is off by less than that: it is taken as it is, and twice
+// that is added.
 #include "world/move.h"
 
+#include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/rotation.h"
 #include "world/body_bounds.h"
+#include "world/wide_tree.h"
 
 // Covers the rounding of a sum of a few terms.
 #define SLACK (1 + 0x1p-48)
 
 // The enlargement where the world chooses it: a number of steps like the last one, between fractions of the body's
-// size.
-enum { STEPS_AHEAD = 8 };
+// size. The number differs from body to body and from box to box, and most where the motion has just begun: bodies
+// that set out together would all leave their boxes in the same frame, time and again.
+#define STEPS_LEAST 9.0
+#define STEPS_BEGIN 2.0
+#define STEPS_MOST 15.0
 #define ROOM_LEAST 0.04
 #define ROOM_MOST 0.5
 
 // A finite float, whatever the size. The box is made with this rounded number.
 static float make_float(double x) { return (float)min2(x, 1e38); }
 
-// The enlargement along one axis to one side, turns included.
-static float compute_room(const world_body *b, double step) {
-    double size = b->reach + b->radius, ahead = max2(step, 0) + (double)b->turn;
-    return make_float(max2(ROOM_LEAST * size, min2(STEPS_AHEAD * ahead, ROOM_MOST * size)));
+// For how many steps a body's next box is to last: evenly spread numbers, by a hash of the body and the box.
+static double find_steps(uint32_t body, uint32_t boxes) {
+    uint32_t h = body * 0x9e3779b9u + boxes * 0x85ebca6bu;
+    h = (h ^ h >> 16) * 0xc2b2ae35u;
+    double least = boxes > 1 ? STEPS_LEAST : STEPS_BEGIN;
+    return least + (STEPS_MOST - least) * ((h ^ h >> 16) * 0x1p-32);
 }
 
-static void find_room(const ovoid_world *w, world_body *b) {
+// The enlargement along one axis to one side, turns included.
+static float compute_room(const world_body *b, double step, double steps) {
+    double size = b->reach + b->radius, ahead = max2(step, 0) + (double)b->turn;
+    return make_float(max2(ROOM_LEAST * size, min2(steps * ahead, ROOM_MOST * size)));
+}
+
+static void find_room(const ovoid_world *w, uint32_t i) {
+    world_body *b = &w->bodies[i];
     float even = make_float(w->enlargement * (b->reach + b->radius));
+    double steps = find_steps(i, b->boxes++);
     for (int k = 0; k < 3; k++) {
-        b->low[k] = w->enlargement > 0 ? even : compute_room(b, -(double)b->way[k]);
-        b->high[k] = w->enlargement > 0 ? even : compute_room(b, (double)b->way[k]);
+        b->low[k] = w->enlargement > 0 ? even : compute_room(b, -(double)b->way[k], steps);
+        b->high[k] = w->enlargement > 0 ? even : compute_room(b, (double)b->way[k], steps);
     }
 }
 
@@ -41,7 +57,7 @@ box world_compute_box(ovoid_world *w, uint32_t i) {
     world_body *b = &w->bodies[i];
     body_sphere ball = body_get_sphere(b);
     b->placed = w->places[i];
-    find_room(w, b);
+    find_room(w, i);
     double more = w->margin / 2;
     vec3 low = {((double)b->low[0] + more) * SLACK, ((double)b->low[1] + more) * SLACK,
                 ((double)b->low[2] + more) * SLACK};
@@ -86,6 +102,9 @@ void body_refresh(ovoid_world *w, uint32_t i) {
     }
 }
 
+// How far a quaternion may be from unit length to be taken as it is: mostly one is given that was normalised.
+#define NEARLY_UNIT 0x1p-40
+
 static ovoid_quat normalised(ovoid_quat q) {
     if (!quat_is_plain(quat_norm_squared(q))) q = quat_scaled(q);
     double s = 1 / sqrt(quat_norm_squared(q));
@@ -102,10 +121,16 @@ static int is_same_pose(const ovoid_pose *p, const ovoid_pose *q) {
 // An upper bound of the norm of the difference of the two rotations.
 static double compute_chord(ovoid_quat before, ovoid_quat after) {
     if (is_same_rotation(before, after)) return 0;
-    ovoid_quat p = normalised(before), q = normalised(after);
+    ovoid_quat p = before, q = after;
+    double error = 2 * NEARLY_UNIT;
+    if (!(fabs(quat_norm_squared(p) - 1) < NEARLY_UNIT && fabs(quat_norm_squared(q) - 1) < NEARLY_UNIT)) {
+        p = normalised(p);
+        q = normalised(q);
+        error = 32 * 0x1p-53;
+    }
     double sign = (p.w * q.w + p.x * q.x) + (p.y * q.y + p.z * q.z) < 0 ? -1 : 1;
     ovoid_quat e = {q.w - sign * p.w, q.x - sign * p.x, q.y - sign * p.y, q.z - sign * p.z};
-    return min2(2 * sqrt(quat_norm_squared(e)) * SLACK + 32 * 0x1p-53, 2);
+    return min2(2 * sqrt(quat_norm_squared(e)) * SLACK + error, 2);
 }
 
 // Moves the body, but not its box: 1 if it has left the box.
@@ -152,7 +177,8 @@ typedef struct moves {
     const ovoid_pose *poses;
 } moves;
 
-enum { LEAST = 512 };
+// MANY: from here on one worker does so, too, as the tree no longer fits into the near caches.
+enum { LEAST = 512, MANY = 8192 };
 
 static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t worker) {
     const moves *m = work;
@@ -163,10 +189,21 @@ static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t work
     }
 }
 
+// Leaves and their siblings are anywhere in the tree: they are prefetched some bodies ahead.
+enum { AHEAD = 24 };
+
+static void fetch_leaf(const ovoid_world *w, uint32_t i) {
+    if (!(w->marks[i] & MARK_LEFT)) return;
+    const tree_node *couple = &w->tree.nodes[w->leaf_of[i] & ~1u];
+    compiler_prefetch(couple);
+    compiler_prefetch(couple + 1);
+}
+
 static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, uint32_t count) {
     moves all = {w, ids, poses};
     task_host_run(&w->host, &(task){place_bodies, &all, count, LEAST});
     for (uint32_t k = 0; k < count; k++) {
+        if (k + AHEAD < count) fetch_leaf(w, (uint32_t)(ids[k + AHEAD] >> 32));
         uint32_t i = (uint32_t)(ids[k] >> 32);
         if (!(w->marks[i] & MARK_LEFT)) continue;
         w->marks[i] &= (uint8_t)~MARK_LEFT;
@@ -189,7 +226,7 @@ static ovoid_code move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pos
         ovoid_code code = check_move(w, ids[k], &poses[k], (int64_t)k, error);
         if (code != OVOID_OK) return code;
     }
-    if (w->threads > 1 && count > LEAST && are_different(w, ids, count)) {
+    if (count > (w->threads > 1 ? LEAST : MANY) && are_different(w, ids, count)) {
         move_by_all(w, ids, poses, (uint32_t)count);
         return OVOID_OK;
     }
@@ -220,6 +257,13 @@ static int rebuild(ovoid_world *w) {
     dynamic_tree_build(&w->tree, items, at, w->leaf_of);
     world_release(w, items, w->count, sizeof *items);
     return 1;
+}
+
+void world_widen_tree(ovoid_world *w) {
+    size_t room = wide_tree_get_capacity(w->tree.leaf_count);
+    if (w->tree.wide_count || w->tree.leaf_count < 2) return;
+    if (world_reserve(w, (void **)&w->tree.wide, &w->wide_capacity, 0, room, sizeof *w->tree.wide))
+        wide_tree_build(&w->tree);
 }
 
 int world_mend_tree(ovoid_world *w) {

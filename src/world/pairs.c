@@ -87,9 +87,13 @@ static int sort_changed(ovoid_world *w) {
     return 1;
 }
 
+// Making the wide nodes costs as much as they save in so many searches, as a part of all bodies.
+enum { WIDEN = 16 };
+
 // Finds all new pairs, sorted, in w->keys; 0 without memory.
 static int find_new(ovoid_world *w, size_t *count) {
     if (!sort_changed(w)) return 0;
+    if ((uint64_t)w->changed_count * WIDEN > w->count) world_widen_tree(w);
     for (uint32_t k = 0; k < w->threads; k++) w->gathered[k].count = 0, w->gathered[k].failed = 0;
     task_host_run(&w->host, &(task){find_pairs, w, w->changed_count, LEAST});
     *count = 0;

@@ -38,7 +38,8 @@ typedef struct world_body {
     box seen;              ///< MARK_BOX: the box from which the list of pairs was made; empty where MARK_FRESH
     uint64_t user;
     uint32_t group, mask;
-    uint32_t next; ///< of a free index: the next one; else the number of the body's ignored pairs
+    uint32_t next;  ///< of a free index: the next one; else the number of the body's ignored pairs
+    uint32_t boxes; ///< how many were made since it was added
 } world_body;
 
 /// The part of a pair's state that every step reads. Whether a cached answer still holds is one comparison:
@@ -103,6 +104,7 @@ struct ovoid_world {
     int has_vast;           ///< a compound of more than half of OVOID_LENGTH_MAX was added
     uint32_t changed_count; ///< bodies with MARK_BOX or MARK_FRESH: changed[0 ..]
     dynamic_tree tree;
+    size_t wide_capacity;
     ignored ignored;
     // Pairs, sorted by a, then b.
     world_pair *pairs;
@@ -154,6 +156,8 @@ ovoid_code world_check_body(const ovoid_body *body, int64_t place, ovoid_error *
 int world_is_pair(const ovoid_world *w, uint32_t a, uint32_t b);
 /// Builds a new tree where the old one is worn: 1. 0: it is not worn, or there is no memory; then the old one stays.
 int world_mend_tree(ovoid_world *w);
+/// Makes the tree's wide nodes, if it has none; without memory it goes on without.
+void world_widen_tree(ovoid_world *w);
 /// Makes all boxes anew, for another margin.
 void world_set_margin(ovoid_world *w, double margin);
 

@@ -65,9 +65,9 @@ ovoid_world *ovoid_world_create(const ovoid_world_options *options, ovoid_error 
 static void destroy(ovoid_world *w) {
     thread_pool_destroy(w->host.own, &w->allocator);
     ovoid_shape_destroy(w->point);
-    void *all[] = {w->bodies,     w->places,       w->marks,    w->leaf_of,          w->changed,   w->generations,
-                   w->tree.nodes, w->ignored.keys, w->pairs,    w->pair_cache,       w->witnesses, w->free_slots,
-                   w->keys,       w->chunks,       w->contacts, w->contact_witnesses};
+    void *all[] = {w->bodies,     w->places,       w->marks,    w->leaf_of,           w->changed,   w->generations,
+                   w->tree.nodes, w->ignored.keys, w->pairs,    w->pair_cache,        w->witnesses, w->free_slots,
+                   w->keys,       w->chunks,       w->contacts, w->contact_witnesses, w->tree.wide};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&w->allocator, all[i]);
     for (uint32_t i = 0; w->gathered && i < w->threads; i++) allocator_release(&w->allocator, w->gathered[i].keys);
     allocator_release(&w->allocator, w->gathered);
@@ -181,6 +181,7 @@ static int add_by_building(ovoid_world *w, const ovoid_world_body *bodies, uint3
     }
     dynamic_tree_build(&w->tree, items, (uint32_t)total, w->leaf_of);
     world_release(w, items, total, sizeof *items);
+    world_widen_tree(w);
     return 1;
 }
 

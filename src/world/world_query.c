@@ -4,7 +4,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "compound/compound.h"
-#include "query/answer.h"
+#include "world/bodies_query.h"
 #include "world/body_bounds.h"
 #include "world/dynamic_tree_traverse.h"
 #include "world/state.h"
@@ -72,16 +72,7 @@ static int is_queried(const world_search *x, uint32_t j) {
 }
 
 static void query_body(const world_search *x, uint32_t j, ovoid_compound_answer *out) {
-    const ovoid_body *other = &x->w->bodies[j].body;
-    if (!x->body.compound && !other->compound) {
-        ovoid_pair two = {x->body.shape, other->shape, x->body.pose, other->pose};
-        out->part_a = out->part_b = out->visited = 0;
-        out->tested = 1;
-        answer_find_internal(&two, &x->options, x->goal, NULL, NULL, &out->answer);
-        return;
-    }
-    ovoid_body_pair pair = {x->body, x->w->bodies[j].body};
-    compound_find_internal(&pair, &x->options, x->goal, NULL, NULL, out);
+    bodies_query(&x->body, &x->w->bodies[j].body, &x->options, x->goal, out);
 }
 
 static double measure_distance(const void *context, const box *bounds) {
@@ -214,33 +205,6 @@ static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t cou
 ovoid_code ovoid_world_find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
                                 ovoid_world_hit *hit, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, count, find_any(w, ids, count, options, hit, error));
-}
-
-static ovoid_code find_any_to(const ovoid_world *w, const ovoid_world_body *probes, size_t count, ovoid_world_hit *hit,
-                              ovoid_error *error) {
-    OVOID_ASSERT(w && hit && (probes || !count));
-    world_search x;
-    world_search_make(&x, w);
-    (void)options_make(NULL, &x.options);
-    x.goal = query_goal_make_collide();
-    size_t k = 0;
-    for (; k < count; k++) {
-        ovoid_code code = take_probe(&x, &probes[k], error);
-        if (code != OVOID_OK) {
-            if (error) error->place = (int64_t)k;
-            return code;
-        }
-        if (!dynamic_tree_find_overlaps(&w->tree, &x.bounds, find_touch, &x)) break;
-    }
-    x.bound = 0;
-    write_hit(&x, hit);
-    if (hit->b) hit->a = k;
-    return OVOID_OK;
-}
-
-ovoid_code ovoid_world_find_any_to(const ovoid_world *w, const ovoid_world_body *probes, size_t count,
-                                   ovoid_world_hit *hit, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, count, find_any_to(w, probes, count, hit, error));
 }
 
 // ---- overlaps, sorted in place by heap sort (J. W. J. Williams, 1964)

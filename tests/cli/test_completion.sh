@@ -28,7 +28,7 @@ expect() {
     fi
 }
 
-expect 'fit distance batch check run verify view paper help --help --version' ''
+expect 'fit distance batch check run verify view paper robot help --help --version' ''
 expect 'verify view' v
 expect '--help' --h
 expect 'distance' help di
@@ -43,6 +43,15 @@ expect 'b.stl' distance a.stl b
 expect 'a.stl' batch --shapes a
 expect '' check --margin ''
 expect 'a.stl b.stl folder/' check --json ''
+expect 'info check path matrix --help' robot ''
+expect 'check' robot c
+expect '--proofs --plot --package --parts' robot path --p
+expect '--states --state --scene --srdf' robot check --s
+expect 'a.stl b.stl folder/' robot check --states ''
+expect 'info' robot i
+expect '--package --parts' robot info --pa
+expect '' robot info --package ''
+expect 'a.stl b.stl folder/' robot info --srdf ''
 expect '' nothing --x
 echo "$passed passed, $failed failed, 0 skipped"
 [ $failed -eq 0 ]

@@ -28,6 +28,10 @@ check lint "$(mandoc -Tlint "$page" 2>&1)"
 for command in $("$OVOID_TOOL" complete); do
     check "command $command" "$(grep -q "^\.Ss $command\$" "$page" || echo absent)"
     "$OVOID_TOOL" complete "$command" | cut -f 1 | grep '^--' >>"$work/tool"
+    for sub in $("$OVOID_TOOL" complete "$command" | awk -F '\t' '$2 == "command" { print $1 }'); do
+        check "command $command $sub" "$(grep -q "^\.Ss $command $sub\$" "$page" || echo absent)"
+        "$OVOID_TOOL" complete "$command" "$sub" | cut -f 1 | grep '^--' >>"$work/tool"
+    done
 done
 mandoc -Tascii "$page" | sed "s/.$(printf '\b')//g" | grep -oE -- '--[a-z-]+' | sort -u >"$work/page"
 echo --version >>"$work/tool"

@@ -8,13 +8,18 @@
 
 #include <sys/stat.h>
 
+/// The folder of the build; a test whose files have names that others use has one of its own.
+#ifndef FILES_FOLDER
+#define FILES_FOLDER "test_files"
+#endif
+
 /// The path of a file in the tests' folder; valid until the eighth next call.
 static inline const char *file_path(const char *name) {
     static char paths[8][512];
     static int turn;
     char *path = paths[turn++ % 8];
-    mkdir(OVOID_BUILD_DIR "/test_files", 0777);
-    snprintf(path, 512, "%s/%s", OVOID_BUILD_DIR "/test_files", name);
+    mkdir(OVOID_BUILD_DIR "/" FILES_FOLDER, 0777);
+    snprintf(path, 512, "%s/%s", OVOID_BUILD_DIR "/" FILES_FOLDER, name);
     return path;
 }
 

@@ -38,6 +38,7 @@ static inline void fill_search(uint64_t *s, small_gjk_query *q, double rows[2][9
     q->b = shape_get_points(shapes[random_next(s) % BODIES]);
     q->rows_a = rows[0];
     q->rows_b = rows[1];
+    q->turned_a = q->turned_b = NULL;
     for (int i = 0; i < 3; i++) {
         q->offset[i] = is_even ? 0.25 * (double)(random_next(s) % 9) - 1 : random_uniform(s, -2, 2);
         q->start[i] = q->offset[i];

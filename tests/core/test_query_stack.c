@@ -124,6 +124,12 @@ static void ask_compound_box(void) { box = ovoid_moving_body_compute_box(&moving
 
 static void ask_find_any(void) { CHECK(ovoid_world_find_any(world, NULL, 0, NULL, &hit, NULL) == OVOID_OK); }
 static void ask_find_any_to(void) { CHECK(ovoid_world_find_any_to(world, &probe, 1, &hit, NULL) == OVOID_OK); }
+static void ask_find_any_of(void) {
+    const ovoid_world_body both[2] = {probe, probe};
+    const ovoid_couple couple = {0, 1};
+    const ovoid_world_probes all = {both, 2, &couple, 1};
+    CHECK(ovoid_world_find_any_of(world, &all, &hit, NULL) == OVOID_OK);
+}
 static void ask_find_nearest(void) { CHECK(ovoid_world_find_nearest(world, ids[0], NULL, &hit, NULL) == OVOID_OK); }
 static void ask_find_nearest_to(void) {
     CHECK(ovoid_world_find_nearest_to(world, &probe, NULL, &hit, NULL) == OVOID_OK);
@@ -185,6 +191,7 @@ static const struct {
                {"compound_box", ask_compound_box, 12 << 10},
                {"find_any", ask_find_any, STATED},
                {"find_any_to", ask_find_any_to, STATED},
+               {"find_any_of", ask_find_any_of, STATED},
                {"find_nearest", ask_find_nearest, STATED},
                {"find_nearest_to", ask_find_nearest_to, STATED},
                {"find_nearest_pair", ask_find_nearest_pair, STATED},

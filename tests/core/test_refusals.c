@@ -185,6 +185,10 @@ static void ask_world(fault is, int both) {
         EXPECT_ERROR(ovoid_world_move_many(w, &id, &zero, 1, &error) == code, code);
     }
     EXPECT_ERROR(ovoid_world_find_any_to(w, &bad, 1, &hit, &error) == code, code);
+    ovoid_couple past = {0, 1};
+    ovoid_world_probes state = {&bad, 1, NULL, 0}, few = {&sound, 1, &past, 1};
+    EXPECT_ERROR(ovoid_world_find_any_of(w, &state, &hit, &error) == code, code);
+    EXPECT_ERROR(ovoid_world_find_any_of(w, &few, &hit, &error) == OVOID_ERROR_INDEX, OVOID_ERROR_INDEX);
     EXPECT_ERROR(ovoid_world_find_nearest_to(w, &bad, NULL, &hit, &error) == code, code);
     EXPECT_ERROR(ovoid_world_find_overlaps(w, &bad, 1, &hits, &error) == code, code);
     EXPECT_ERROR(ovoid_world_cast_body(w, &bad, (ovoid_vec3){1, 0, 0}, &cast, &error) == code, code);

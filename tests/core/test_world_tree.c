@@ -6,12 +6,14 @@
 #include "world/dynamic_tree_traverse.h"
 #include "world/ignored.h"
 #include "world/radix_sort.h"
+#include "world/wide_tree.h"
 
 enum { BODIES = 60, STEPS = 4000 };
 
 static tree_node nodes[2 * BODIES + 2];
 static uint32_t leaf_of[BODIES];
 static box boxes[BODIES];
+static box8 wide_nodes[BODIES * 4 / 7 + 2];
 
 static box make_box(uint64_t *s) {
     // Whole numbers, so that faces meet exactly and boxes are equal now and then.
@@ -47,6 +49,12 @@ static int take(void *context, const tree_node *leaf) {
     return 1;
 }
 
+static int count_leaf(void *context, const tree_node *leaf) {
+    (void)leaf;
+    ((found *)context)->count++;
+    return 1;
+}
+
 static void check_overlaps(const dynamic_tree *t, const box *wanted) {
     found f = {.count = 0};
     CHECK(dynamic_tree_find_overlaps(t, wanted, take, &f));
@@ -57,6 +65,43 @@ static void check_overlaps(const dynamic_tree *t, const box *wanted) {
         expected += (uint32_t)is_in;
     }
     CHECK_EQ(f.count, expected);
+}
+
+// All instruction sets find the same leaves in the same order, however little room they are given.
+static void check_kernels(const dynamic_tree *t, const box *wanted) {
+    uint32_t first[BODIES + BOX8], count = 0;
+    for (int isa = SIMD_SCALAR; t->wide_count && isa < SIMD_ISA_COUNT; isa++) {
+        box8_function *find = box8_get((simd_isa)isa);
+        if (!find) continue;
+        box8_walk walk;
+        uint32_t leaves[BODIES + BOX8], here, all = 0;
+        box8_begin(&walk, t->wide, &wanted->min.x);
+        while ((here = find(&walk, leaves + all, isa == SIMD_SCALAR ? BODIES + BOX8 - all : BOX8)) > 0) all += here;
+        if (isa == SIMD_SCALAR) {
+            count = all;
+            memcpy(first, leaves, sizeof first);
+        }
+        CHECK(all == count && !memcmp(first, leaves, all * sizeof *leaves));
+    }
+}
+
+// Boxes of the wide nodes hold those of the leaves, and are larger by less than 1e-6 of the numbers.
+static void check_wide(const dynamic_tree *t) {
+    uint32_t leaves = 0;
+    for (uint32_t at = 0; at < t->wide_count; at++)
+        for (uint32_t i = 0; i < BOX8; i++) {
+            if (!(t->wide[at].leaves >> i & 1)) continue;
+            const tree_node *n = &t->nodes[t->wide[at].child[i]];
+            const double *low = &n->bounds.min.x, *high = &n->bounds.max.x;
+            leaves++;
+            for (int k = 0; k < 3; k++) {
+                double down = t->wide[at].low[k][i], up = t->wide[at].high[k][i];
+                CHECK(down <= low[k] && high[k] <= up);
+                CHECK_LE(low[k] - down, 1e-6 * fabs(low[k]) + 1e-40);
+                CHECK_LE(up - high[k], 1e-6 * fabs(high[k]) + 1e-40);
+            }
+        }
+    if (t->wide_count) CHECK_EQ(leaves, t->leaf_count);
 }
 
 static double measure(const void *context, const box *b) {
@@ -112,6 +157,7 @@ static void test_tree(void) {
     dynamic_tree t;
     uint64_t s = 7;
     dynamic_tree_make(&t, nodes, BODIES);
+    t.wide = wide_nodes;
     for (uint32_t i = 0; i < BODIES; i++) leaf_of[i] = NONE;
     for (int k = 0; k < STEPS; k++) {
         check_seed = (uint64_t)k;
@@ -125,6 +171,16 @@ static void test_tree(void) {
         CHECK_EQ(check_node(&t, 0, NONE), leaves);
         box wanted = make_box(&s);
         check_overlaps(&t, &wanted);
+        if (!t.wide_count && k % 4) {
+            wide_tree_build(&t);
+            CHECK(t.wide_count > 0 && t.wide_count <= wide_tree_get_capacity(leaves));
+            check_overlaps(&t, &wanted);
+        }
+        // Boxes that met are now apart by less than single precision tells.
+        box less = {vec3_add(wanted.min, (vec3){1e-9, 1e-9, 1e-9}), vec3_sub(wanted.max, (vec3){1e-9, 1e-9, 1e-9})};
+        check_overlaps(&t, &less);
+        check_wide(&t);
+        check_kernels(&t, &wanted);
         check_nearest(&t, wanted.min);
     }
     // Empty again.
@@ -132,6 +188,36 @@ static void test_tree(void) {
         if (leaf_of[i] != NONE) dynamic_tree_remove(&t, leaf_of[i], leaf_of), leaf_of[i] = NONE;
     CHECK_EQ(t.leaf_count, 0);
     check_overlaps(&t, &(box){{0, 0, 0}, {99, 99, 99}});
+}
+
+// Numbers as far apart as a world's: each is at most rounded outward, and what is beyond all floats is found.
+static void test_rounding(void) {
+    uint64_t s = 11;
+    for (int k = 0; k < 100000; k++) {
+        double x = ldexp(random_uniform(&s, -1, 1), (int)(random_next(&s) % 340) - 170);
+        double down = box8_round_down(x), up = box8_round_up(x);
+        CHECK(down <= x && x <= up);
+        if (fabs(x) < 1e38) CHECK(x - down <= 1e-6 * fabs(x) + 1e-40 && up - x <= 1e-6 * fabs(x) + 1e-40);
+    }
+    CHECK(box8_round_down(0) <= 0 && box8_round_up(0) >= 0);
+}
+
+// Boxes at powers of 1.5, added one after another, make a chain. It has wide nodes as long as no path is too long.
+static void test_chain(uint32_t count) {
+    static tree_node chain[2 * 1200 + 2];
+    static uint32_t leaf[1200];
+    static box8 of_chain[1200 * 4 / 7 + 2];
+    dynamic_tree t;
+    dynamic_tree_make(&t, chain, 1200);
+    t.wide = of_chain;
+    double x = 1e50;
+    for (uint32_t i = 0; i < count; i++, x /= 1.5) dynamic_tree_add(&t, i, &(box){{x, -x, -x}, {1.2 * x, x, x}}, leaf);
+    wide_tree_build(&t);
+    CHECK_EQ(t.wide_count > 0, count < 430);
+    box all = {{-1e50, -1e50, -1e50}, {1e50, 1e50, 1e50}};
+    found f = {.count = 0};
+    CHECK(dynamic_tree_find_overlaps(&t, &all, count_leaf, &f));
+    CHECK_EQ(f.count, count);
 }
 
 // The distance of two boxes is below the true one, in exact integers: coordinates below 2^20, so that squares and sums
@@ -204,6 +290,11 @@ static void test_sort(void) {
 
 int main(void) {
     test_tree();
+    test_rounding();
+    test_chain(6);
+    test_chain(400);
+    test_chain(600);
+    test_chain(1150);
     check_seed = 0;
     test_distance();
     test_ignored();

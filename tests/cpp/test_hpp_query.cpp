@@ -48,6 +48,16 @@ void check_pairs() {
         wrong.lower += 0.1;
         CHECK(!ovoid::is_proven(p, wrong, &cover));
         CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, &cover); }));
+        const ovoid::prepared_shape ready_a(ovoid::posed_shape(b.box)), ready_b(ovoid::posed_shape(b.hull, at));
+        ovoid::answer whole;
+        ovoid::evidence into;
+        into.answer = &whole;
+        const ovoid::verdict v = ovoid::depth(ready_a, ready_b, {}, &into);
+        CHECK(is_same_answer(whole, ovoid::depth(p)));
+        CHECK_EQ(ovoid::is_within(v, 0.5), ovoid::is_within(a, 0.5));
+        CHECK_EQ(ovoid::collide(ready_a, ready_b).lower, ovoid::collide(p).lower);
+        CHECK_EQ(ovoid::within(ready_a, ready_b, 0.5).upper, ovoid::within(p, 0.5).upper);
+        CHECK_EQ(ovoid::distance(ready_a, ready_b).lower, ovoid::distance(p).lower);
         const ovoid_gradient g = ovoid_answer_compute_gradient(&c, &a, &cover);
         const ovoid_smooth s = ovoid_smooth_compute(&c, 1), t = ovoid::compute_smooth(p, 1);
         CHECK(is_same_count(ovoid::compute_gradient(p, a, &cover).gradient, g.gradient, 12));

@@ -116,6 +116,11 @@ void check_finds(worlds &w) {
     const std::vector<ovoid::world_body> probes = {{{w.ball, vec3(50, 0, 0)}}, {{w.ball, vec3(0, 0, 0)}}};
     ovoid_world_find_any_to(c, probes.data(), 2, &hit, nullptr);
     CHECK(is_same_hit(w.ours.find_any_to(probes), hit) && hit.a == 1 && hit.b != 0);
+    const std::vector<ovoid::world_body> aside = {{{w.ball, vec3(50, 0, 0)}}, {{w.ball, vec3(50.5, 0, 0)}}};
+    const std::vector<ovoid::couple> couples = {{0, 1}};
+    const ovoid_world_probes state = {aside.data(), 2, couples.data(), 1};
+    ovoid_world_find_any_of(c, &state, &hit, nullptr);
+    CHECK(is_same_hit(w.ours.find_any_of(aside, couples), hit) && hit.a == 0 && hit.b == (OVOID_WORLD_PROBE | 1));
     ovoid_world_find_nearest(c, w.ids[0], nullptr, &hit, nullptr);
     CHECK(is_same_hit(w.ours.find_nearest(w.ids[0]), hit));
     ovoid_world_find_nearest_to(c, &probes[0], nullptr, &hit, nullptr);

@@ -38,7 +38,7 @@ check "version of the changelog" [ "$(dpkg-parsechangelog -l "$changelog" -S Ver
 rm -rf "$root" "$folder"/out_*
 mkdir -p "$folder"
 check "build, with lintian" "$OVOID_SOURCE_DIR/scripts/deb.sh" "$folder/build"
-packages="libovoid0 libovoid-dev libovoid-io0 libovoid-io-dev ovoid"
+packages="libovoid0 libovoid-dev libovoid-io0 libovoid-io-dev libovoid-robot0 libovoid-robot-dev ovoid"
 for package in $packages; do
     file=$(find "$folder/build" -maxdepth 1 -name "${package}_$version-1_*.deb")
     check "package $package" [ -f "$file" ]
@@ -73,16 +73,17 @@ compile() {
 for kind in shared static; do
     check "pkg-config, $kind" compile outside.c ovoid $kind
     check "pkg-config, io, $kind" compile outside_io.c ovoid_io $kind
+    check "pkg-config, robot, $kind" compile outside_robot.c ovoid_robot $kind
 done
 check "CMake: configure" cmake -S "$outside" -B "$folder/out_cmake" -DCMAKE_C_COMPILER="$cc" -DCMAKE_PREFIX_PATH="$root/usr" \
     -DOUTSIDE_COMPONENTS=io
 check "CMake: build" cmake --build "$folder/out_cmake"
-for kind in ovoid ovoid_static ovoid_io ovoid_io_static; do check "CMake: run $kind" "$folder/out_cmake/outside_$kind"; done
+for kind in ovoid ovoid_static ovoid_io ovoid_io_static ovoid_robot ovoid_robot_static; do check "CMake: run $kind" "$folder/out_cmake/outside_$kind"; done
 check "the tool runs" "$root/usr/bin/ovoid" --version
 check "the tool says its version" [ "$("$root/usr/bin/ovoid" --version | head -n 1)" = "ovoid $version" ]
 
-# Without libovoid-io-dev the core is still found, and its absence is said.
-in_root -r libovoid-io-dev >/dev/null 2>&1
+# Without libovoid-io-dev, and libovoid-robot-dev, which needs it, the core is still found, and its absence is said.
+in_root -r libovoid-robot-dev libovoid-io-dev >/dev/null 2>&1
 check "CMake: the core alone" cmake -S "$outside" -B "$folder/out_core" -DCMAKE_C_COMPILER="$cc" -DCMAKE_PREFIX_PATH="$root/usr"
 check "CMake: a component that is not there" fails cmake -S "$outside" -B "$folder/out_none" -DCMAKE_C_COMPILER="$cc" \
     -DCMAKE_PREFIX_PATH="$root/usr" -DOUTSIDE_COMPONENTS=io

@@ -3,8 +3,8 @@
 set -u
 cd "$OVOID_SOURCE_DIR" || exit 1
 passed=0 failed=0
-# io.h is a library of its own, whose records and pictures are written through C.
-names=$(find include/ovoid -name '*.h' ! -name io.h -exec cat {} + | tr '\n' ' ' |
+# io.h is a library of its own, whose records and pictures are written through C; robot_*.h read files.
+names=$(find include/ovoid -name '*.h' ! -name io.h ! -name 'robot_*.h' -exec cat {} + | tr '\n' ' ' |
     grep -oE 'OVOID_API [^;{(]*[ *]ovoid_[a-z0-9_]+\(' | grep -oE 'ovoid_[a-z0-9_]+\($' | tr -d '(' | sort -u)
 for name in $names; do
     if grep -qw "$name" include/ovoid/*.hpp include/ovoid/cpp/*.hpp; then

@@ -40,6 +40,7 @@ compile() {
 }
 for kind in shared static; do
     check "pkg-config $kind" compile outside.c ovoid $kind
+    if [ -f "$libraries/pkgconfig/ovoid_robot.pc" ]; then check "pkg-config robot $kind" compile outside_robot.c ovoid_robot $kind; fi
     if [ -f "$libraries/pkgconfig/ovoid_io.pc" ]; then check "pkg-config io $kind" compile outside_io.c ovoid_io $kind; fi
 done
 
@@ -67,6 +68,7 @@ for library in "$libraries"/lib*.so; do
 done
 headers=$(ls "$prefix"/include/ovoid/*.h)
 [ -f "$libraries/libovoid_io.so" ] || headers=$(echo "$headers" | grep -v '/io\.h$')
+[ -f "$libraries/libovoid_robot.so" ] || headers=$(echo "$headers" | grep -v '/robot[a-z_]*\.h$')
 check declared all_declared "$headers"
 
 # Where the tool was built it runs from its new place, with its manual.

@@ -6,7 +6,7 @@ set -u
 work=$OVOID_BUILD_DIR/test_mutations
 rm -rf "$work" && mkdir -p "$work" || exit 1
 # A copy, since a listing is written beside the sources.
-cp -R "$OVOID_SOURCE_DIR/scripts" "$OVOID_SOURCE_DIR/src" "$work" && cd "$work" || exit 1
+cp -R "$OVOID_SOURCE_DIR/scripts" "$OVOID_SOURCE_DIR/src" "$OVOID_SOURCE_DIR/python" "$OVOID_SOURCE_DIR/cli" "$work" && cd "$work" || exit 1
 passed=0 failed=0
 check() { # NAME RESULT
     if [ "$2" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)) && echo "FAILED $1"; fi
@@ -16,7 +16,8 @@ scripts/mutate.sh --check >said
 check "every mutation applies: $(grep FAILED said | head -n 5)" $?
 passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' said)))
 for test in $(scripts/mutate.sh --list | sed 's/^[^:]*://' | tr ' ' '\n' | sed 's/:.*//' | sort -u); do
-    [ -n "$(find "$OVOID_SOURCE_DIR/tests" -name "$test.c")" ]
+    # A test of Python, test_python_NAME, is python/tests/test_NAME.py; those of the tool are scripts.
+    [ -n "$(find "$OVOID_SOURCE_DIR/tests" -name "$test.c" -o -name "$test")" ] || [ -f "$OVOID_SOURCE_DIR/python/tests/$(echo "$test.py" | sed 's/_python//')" ]
     check "there is no $test" $?
 done
 for group in $(scripts/mutate.sh --list | cut -d, -f1); do
@@ -31,7 +32,7 @@ sed -i 's/from: no such text/from: double/; s/^tests: world$/tests: world/' scri
 scripts/mutate.sh --check >/dev/null
 [ $? -eq 1 ]
 check "a text that is there often" $?
-sed -i 's/from: double$/from: enum { STEPS_AHEAD = 8 };/; /^name: planted/,$s/tests: world/tests: none/' scripts/mutations/world.txt
+sed -i 's/from: double$/from: #define ROOM_LEAST 0.04/; /^name: planted/,$s/tests: world/tests: none/' scripts/mutations/world.txt
 scripts/mutate.sh --check | grep -q 'no such group'
 check "a group that is none" $?
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# No test vanishes in silence: a build that lacks GMP, Qhull, Assimp or libovoid_io has every test of this one, or one that
+# No test vanishes in silence: a build that lacks GMP, Qhull, Assimp, Python or libovoid_io has every test of this one, or one that
 # counts it as skipped and says what is missing. Truth: each test counts one, and a placeholder what it says it stands for.
 set -u
 passed=0 failed=0
@@ -7,7 +7,7 @@ work=$OVOID_BUILD_DIR/test_skipped
 
 # count FOLDER: the tests of a build folder, with those that placeholders stand for.
 count() {
-    for part in bench examples fuzz tests; do
+    for part in bench examples fuzz python tests; do
         [ -f "$1/$part/CTestTestfile.cmake" ] && cat "$1/$part/CTestTestfile.cmake"
     done | awk '/^add_test\(/ { n = 1; if (match($0, /0 failed, [0-9]+ skipped/)) n = substr($0, RSTART + 10) + 0; sum += n } END { print sum + 0 }'
 }
@@ -36,6 +36,7 @@ expect 'without GMP' -DOVOID_JUDGE=OFF
 expect 'without Assimp' -DOVOID_ASSIMP=OFF
 expect 'without Qhull' -DOVOID_QHULL_LIBRARY=
 expect 'without libovoid_io' -DOVOID_IO=OFF
+expect 'without Python' -DOVOID_PYTHON_INTERPRETER=/bin/false
 expect 'without any' -DOVOID_IO=OFF -DOVOID_JUDGE=OFF -DOVOID_QHULL_LIBRARY=
 rm -rf "$work"
 echo "$passed passed, $failed failed, 0 skipped"

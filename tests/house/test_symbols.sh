@@ -33,7 +33,7 @@ list_foreign() { nm -g --defined-only "$1" | awk 'NF >= 3 && $NF !~ /^ovoid_/ { 
 has_no_foreign() { ! list_foreign "$1" | grep .; }
 fails() { ! "$@" >/dev/null 2>&1; }
 
-for archive in "$archives/libovoid.a" "$archives/libovoid_io.a"; do
+for archive in "$archives/libovoid.a" "$archives/libovoid_io.a" "$archives/libovoid_robot.a"; do
     [ -f "$archive" ] || continue
     expect "names of $archive" has_no_foreign "$archive"
     expect "public names of $archive" sh -c "nm -g --defined-only '$archive' | grep -q ' T ovoid_'"
@@ -45,6 +45,21 @@ printf '__attribute__((visibility("hidden"))) int sort_indices;\n__attribute__((
 expect "compile what is planted" "$cc" -c "$folder/planted.c" -o "$folder/planted.o"
 expect "plant" ar q "$folder/planted.a" "$folder/planted.o"
 expect "planted names are found" [ "$(list_foreign "$folder/planted.a" | tr '\n' ' ')" = "keys shared sort_indices " ]
+
+# A name that two libraries have is that of one source, which both were made of: in a test, which links their internal
+# archives, one would else be called for the other. Truth: the objects' names.
+list_shared() {
+    nm -A -g --defined-only "$@" 2>/dev/null | awk 'NF >= 3 && $NF !~ /^ovoid_/ {
+        object = $1; sub(/:[0-9a-f]*$/, "", object); sub(/.*:/, "", object)
+        if ($NF in first && first[$NF] != object) print $NF
+        first[$NF] = object }' | sort -u
+}
+# shellcheck disable=SC2317 # called through expect
+has_no_shared() { ! list_shared "$@" | grep .; }
+expect "names of several libraries" has_no_shared "$archives"/libovoid*_internal.a
+printf 'int sort_indices(void);\nint sort_indices(void) { return 0; }\n' >"$folder/shared.c"
+expect "compile a shared name" "$cc" -c "$folder/shared.c" -o "$folder/shared.o"
+expect "a shared name is found" [ "$(list_shared "$archives/libovoid_internal.a" "$folder/shared.o")" = sort_indices ]
 
 # The program, alone and with a function of its own for each internal name.
 source=$OVOID_SOURCE_DIR/tests/house/outside/namesake.c

@@ -1,34 +1,10 @@
 // Failing memory: for every k, the k-th allocation of each operation fails. Truth: then the operation says MEMORY, and
-// nothing leaks (the leak checker of the sanitizers says so at the end); with enough memory it succeeds. The linker
-// puts the functions below before those of the C library; jansson is told of them.
+// nothing leaks (the leak checker of the sanitizers says so at the end); with enough memory it succeeds. jansson is
+// told of the functions that fail.
+#include "failing.h"
 #include "files.h"
 
 #include <jansson.h>
-
-static long countdown; // allocations until one fails; 0: none fails
-static long failures;
-
-static int must_fail(void) {
-    if (countdown == 0 || --countdown > 0) return 0;
-    failures++;
-    return 1;
-}
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *memory, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
-
-void *__wrap_malloc(size_t size) { return must_fail() ? NULL : __real_malloc(size); }
-void *__wrap_calloc(size_t count, size_t size) { return must_fail() ? NULL : __real_calloc(count, size); }
-void *__wrap_realloc(void *memory, size_t size) { return must_fail() ? NULL : __real_realloc(memory, size); }
-void *__wrap_aligned_alloc(size_t alignment, size_t size) {
-    return must_fail() ? NULL : __real_aligned_alloc(alignment, size);
-}
 
 // ---- the operations: each returns 1 where it succeeded
 
@@ -104,32 +80,6 @@ static int write_picture(ovoid_error *error) {
     ovoid_picture picture = {.bodies = bodies, .body_count = 2, .title = "t"};
     ovoid_picture_options options = {.layers = 63};
     return ovoid_picture_write_svg(file_path("memory.svg"), &picture, &options, error) == OVOID_OK;
-}
-
-// Runs with the first, second, ... allocation failing, until none is left to fail.
-static void check_operation(const char *name, int uses_json, int (*run)(ovoid_error *error)) {
-    ovoid_error error = {OVOID_OK, -1, ""};
-    countdown = 0;
-    if (!CHECK(run(&error))) printf("  %s: %s\n", name, error.message);
-    for (long k = 1; k < 100000; k++) {
-        error = (ovoid_error){OVOID_OK, -1, ""};
-        failures = 0;
-        countdown = k;
-        int succeeded = run(&error);
-        countdown = 0;
-        if (!failures) {
-            CHECK(succeeded && k > 1);
-            return;
-        }
-        // jansson takes a text that it has no memory for as a shorter one or a syntax error: only that it is refused,
-        // or that the missing memory was of no consequence, can be asked of what it reads.
-        int is_said = uses_json ? succeeded || error.code != OVOID_OK : !succeeded && error.code == OVOID_ERROR_MEMORY;
-        if (!CHECK(is_said && (succeeded || error.message[0]))) {
-            printf("  %s, allocation %ld: code %d, \"%s\"\n", name, k, (int)error.code, error.message);
-            return;
-        }
-    }
-    CHECK(0 && "an end");
 }
 
 static const char obj[] = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\no b\nv 5 0 0\nv 6 0 0\nv 5 1 0\n"

@@ -8,6 +8,7 @@
 
 #include "ovoid/cpp/shape.hpp"
 #include "ovoid/paper.h"
+#include "ovoid/prepared.h"
 #include "ovoid/query.h"
 #include "ovoid/smooth.h"
 
@@ -71,6 +72,10 @@ inline answer depth(const pair &p, const ovoid_options &o = options(), const ovo
                     ovoid_cover *received = nullptr) noexcept {
     return ovoid_depth(&p, &o, earlier, received);
 }
+/** The gap along a direction: a proven lower bound of the signed distance. */
+inline double compute_gap(const pair &p, const ovoid_vec3 &direction) noexcept {
+    return ovoid_pair_compute_gap(&p, direction);
+}
 /** The bracket from the ellipsoids alone. */
 inline answer bounds(const pair &p) noexcept { return ovoid_bounds(&p); }
 
@@ -88,6 +93,38 @@ inline void check(const pair &p, const ovoid_answer &a, const ovoid_cover *c = n
     ovoid_error e;
     detail::require(ovoid_answer_check(&p, &a, c, &e), e);
 }
+
+/** What a query of prepared shapes writes beside its verdict. */
+using evidence = zeroed<ovoid_evidence>;
+
+/** A posed shape, prepared for many queries. The shape is borrowed. */
+struct prepared_shape : ovoid_prepared_shape {
+    /** Prepares it; a bad pose is refused by the queries. */
+    explicit prepared_shape(const ovoid_posed_shape &of) noexcept { ovoid_prepared_shape_make(&of, this); }
+};
+
+/** collide of prepared shapes. */
+inline verdict collide(const ovoid_prepared_shape &a, const ovoid_prepared_shape &b, const ovoid_options &o = options(),
+                       const ovoid_evidence *e = nullptr) noexcept {
+    return ovoid_prepared_collide(&a, &b, &o, e);
+}
+/** within of prepared shapes. */
+inline verdict within(const ovoid_prepared_shape &a, const ovoid_prepared_shape &b, double margin,
+                      const ovoid_options &o = options(), const ovoid_evidence *e = nullptr) noexcept {
+    return ovoid_prepared_within(&a, &b, margin, &o, e);
+}
+/** distance of prepared shapes. */
+inline verdict distance(const ovoid_prepared_shape &a, const ovoid_prepared_shape &b,
+                        const ovoid_options &o = options(), const ovoid_evidence *e = nullptr) noexcept {
+    return ovoid_prepared_distance(&a, &b, &o, e);
+}
+/** depth of prepared shapes, without a cover. */
+inline verdict depth(const ovoid_prepared_shape &a, const ovoid_prepared_shape &b, const ovoid_options &o = options(),
+                     const ovoid_evidence *e = nullptr) noexcept {
+    return ovoid_prepared_depth(&a, &b, &o, e);
+}
+/** is_within of a verdict. */
+inline int is_within(const ovoid_verdict &v, double margin) noexcept { return ovoid_verdict_is_within(&v, margin); }
 
 /** One question about many pairs. Bodies, couples, options and what receives the answers are borrowed. */
 class batch : public ovoid_batch {

@@ -158,6 +158,16 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
         const auto items = detail::items_of<ovoid_world_body>(probes);
         return find(ovoid_world_find_any_to, items.data(), items.size());
     }
+    /**
+     * The same, and does one of the couples of probes, a contiguous container of couple, touch? Throws as add, INDEX
+     * (place: the couple that names no probe).
+     */
+    template <class Probes, class Couples> world_hit find_any_of(const Probes &probes, const Couples &couples) const {
+        const auto items = detail::items_of<ovoid_world_body>(probes);
+        const auto pairs = detail::items_of<ovoid_couple>(couples);
+        const ovoid_world_probes all = {items.data(), items.size(), pairs.data(), pairs.size()};
+        return find(ovoid_world_find_any_of, &all);
+    }
     /** The body nearest to a body. Throws INDEX, ARGUMENT. */
     world_hit find_nearest(id b, const ovoid_options &o = options()) const {
         return find(ovoid_world_find_nearest, b, &o);

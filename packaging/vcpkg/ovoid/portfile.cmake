@@ -13,10 +13,12 @@ vcpkg_cmake_configure(
   OPTIONS
     ${FEATURE_OPTIONS}
     -DOVOID_SHARED=${shared}
+    -DOVOID_ROBOT=OFF
     -DOVOID_ASSIMP=OFF
     -DOVOID_TESTS=OFF
     -DOVOID_BENCH=OFF
-    -DOVOID_EXAMPLES=OFF)
+    -DOVOID_EXAMPLES=OFF
+    -DOVOID_PYTHON=OFF)
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/ovoid)
 vcpkg_fixup_pkgconfig()

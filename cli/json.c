@@ -1,0 +1,24 @@
+#include "json.h"
+
+#include <math.h>
+
+void json_write_text(FILE *file, const char *text) {
+    fputc('"', file);
+    for (; *text; text++) {
+        unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\')
+            fprintf(file, "\\%c", c);
+        else if (c < 0x20)
+            fprintf(file, "\\u%04x", c);
+        else
+            fputc(c, file);
+    }
+    fputc('"', file);
+}
+
+void json_write_number(FILE *file, double number) {
+    if (isfinite(number))
+        fprintf(file, "%.17g", number);
+    else
+        fputs("null", file);
+}

@@ -1,0 +1,191 @@
+// Cells from files, and names for what is in them.
+#include "robot/cell.h"
+
+#include "json.h"
+#include "message.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int compare_ids(const void *a, const void *b) {
+    const cell_id *p = a, *q = b;
+    return p->id < q->id ? -1 : p->id > q->id;
+}
+
+/// Reads the scene and adds its obstacles. 0, or an exit code after a message.
+static int add_obstacles(cli_cell *cell, const cell_settings *settings) {
+    ovoid_error error;
+    ovoid_robot_read_options options = {
+        .tolerance = settings->robot->tolerance, .note = robot_warn, .context = &cell->robot};
+    if (!settings->scene) return 0;
+    cell->obstacles = ovoid_obstacles_read(settings->scene, &options, &error);
+    if (!cell->obstacles) return message_error("%s", error.message), EXIT_INPUT;
+    size_t count = ovoid_obstacles_get_count(cell->obstacles);
+    cell->ids = malloc((count + 1) * sizeof *cell->ids);
+    if (!cell->ids) return message_error("out of memory"), EXIT_INPUT;
+    for (; cell->id_count < count; cell->id_count++) {
+        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, cell->id_count);
+        const ovoid_body body = {.shape = o.shape, .pose = o.pose};
+        ovoid_id id = ovoid_robot_cell_add(cell->cell, &body, &error);
+        if (!id) return message_error("%s: %s: %s", settings->scene, o.name, error.message), EXIT_INPUT;
+        cell->ids[cell->id_count] = (cell_id){id, cell->id_count};
+    }
+    qsort(cell->ids, count, sizeof *cell->ids, compare_ids);
+    return 0;
+}
+
+int cell_open(const cli_command *command, const char *urdf, const cell_settings *settings, cli_cell *cell) {
+    ovoid_error error;
+    *cell = (cli_cell){.cell = NULL};
+    int code = robot_open(command, urdf, settings->robot, &cell->robot);
+    if (code) return code;
+    cell->description = ovoid_robot_get_description(cell->robot.robot);
+    cell->cell = ovoid_robot_cell_create(cell->robot.robot, NULL, &error);
+    if (!cell->cell) message_error("%s: %s", urdf, error.message), code = EXIT_INPUT;
+    if (!code) code = add_obstacles(cell, settings);
+    if (code) cell_close(cell);
+    return code;
+}
+
+void cell_close(cli_cell *cell) {
+    ovoid_robot_cell_destroy(cell->cell);
+    ovoid_obstacles_destroy(cell->obstacles);
+    free(cell->ids);
+    robot_close(&cell->robot);
+    *cell = (cli_cell){.cell = NULL};
+}
+
+ovoid_robot_check_options cell_make_options(const cell_settings *settings) {
+    return (ovoid_robot_check_options){.margin = settings->margin, .limit_slack = settings->slack};
+}
+
+// ---- names
+
+/// The place of an obstacle among those of its name, which follow one another.
+static cell_side get_obstacle(const cli_cell *cell, ovoid_id id) {
+    const cell_id key = {id, 0};
+    const cell_id *found = bsearch(&key, cell->ids, cell->id_count, sizeof key, compare_ids);
+    if (!found) return (cell_side){.obstacle = "?", .is_alone = 1};
+    size_t i = found->obstacle, first = i;
+    const char *name = ovoid_obstacles_get(cell->obstacles, i).name;
+    while (first && strcmp(ovoid_obstacles_get(cell->obstacles, first - 1).name, name) == 0) first--;
+    int is_last = i + 1 == cell->id_count || strcmp(ovoid_obstacles_get(cell->obstacles, i + 1).name, name) != 0;
+    return (cell_side){.obstacle = name, .number = i - first, .is_alone = first == i && is_last};
+}
+
+cell_side cell_get_side(const cli_cell *cell, const ovoid_robot_side *side) {
+    const ovoid_robot_description *d = &cell->description;
+    if (side->link == OVOID_ROBOT_NONE) return get_obstacle(cell, side->body);
+    cell_side s = {.link = d->links[side->link].name, .is_alone = 1};
+    for (uint32_t i = 0; i < d->element_count; i++) {
+        if (d->elements[i].link != side->link || i == side->element) continue;
+        s.is_alone = 0;
+        s.number += i < side->element;
+    }
+    if (side->element != OVOID_ROBOT_NONE) s.element = d->elements[side->element].name;
+    return s;
+}
+
+int cell_format_side(char text[CELL_SIDE_ROOM], const cli_cell *cell, const ovoid_robot_side *side) {
+    cell_side s = cell_get_side(cell, side);
+    const char *name = s.link ? s.link : s.obstacle;
+    if (s.is_alone) return snprintf(text, CELL_SIDE_ROOM, "%.60s", name);
+    if (s.element) return snprintf(text, CELL_SIDE_ROOM, "%.60s[%.60s]", name, s.element);
+    return snprintf(text, CELL_SIDE_ROOM, "%.60s[%zu]", name, s.number);
+}
+
+void cell_write_side_json(FILE *file, const cli_cell *cell, const ovoid_robot_side *side) {
+    cell_side s = cell_get_side(cell, side);
+    fputs(s.link ? "{\"link\":" : "{\"obstacle\":", file);
+    json_write_text(file, s.link ? s.link : s.obstacle);
+    fprintf(file, ",\"%s\":%zu", s.link ? "element" : "part", s.number);
+    if (s.element) {
+        fputs(",\"name\":", file);
+        json_write_text(file, s.element);
+    }
+    fputc('}', file);
+}
+
+void cell_write_field(FILE *file, const char *text) {
+    if (!text) return;
+    if (!strpbrk(text, ",\"\r\n")) {
+        fputs(text, file);
+        return;
+    }
+    fputc('"', file);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', file);
+        fputc(*text, file);
+    }
+    fputc('"', file);
+}
+
+/// Link and element, both empty for an obstacle.
+static void write_link(FILE *file, const cell_side *s) {
+    cell_write_field(file, s->link);
+    fputc(',', file);
+    if (s->link && s->element)
+        cell_write_field(file, s->element);
+    else if (s->link)
+        fprintf(file, "%zu", s->number);
+}
+
+void cell_write_pair_csv(FILE *file, const cli_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b) {
+    if (!a) {
+        fputs(",,,,,", file);
+        return;
+    }
+    cell_side first = cell_get_side(cell, a), second = cell_get_side(cell, b);
+    write_link(file, &first);
+    fputc(',', file);
+    write_link(file, &second);
+    fputc(',', file);
+    cell_write_field(file, second.obstacle);
+    fputc(',', file);
+    if (!second.link) fprintf(file, "%zu", second.number);
+}
+
+static void format_variable(char text[CELL_SIDE_ROOM], const cli_cell *cell, size_t variable) {
+    ovoid_robot_variable v = ovoid_robot_get_variable(cell->robot.robot, variable);
+    const ovoid_robot_joint *joint = &cell->description.joints[v.joint];
+    snprintf(text, CELL_SIDE_ROOM, "%.100s%s", joint->name, robot_get_component(joint, v.component));
+}
+
+void cell_write_variable_name(FILE *file, const cli_cell *cell, size_t variable) {
+    char name[CELL_SIDE_ROOM];
+    format_variable(name, cell, variable);
+    message_write_text(file, name);
+}
+
+void cell_write_variable_json(FILE *file, const cli_cell *cell, size_t variable) {
+    char name[CELL_SIDE_ROOM];
+    format_variable(name, cell, variable);
+    json_write_text(file, name);
+}
+
+const char *cell_get_status_name(ovoid_robot_status status) {
+    static const char *const names[] = {"undecided", "free", "hit", "refused"};
+    return names[status];
+}
+
+int cell_get_exit(ovoid_robot_status status) {
+    if (status == OVOID_ROBOT_FREE) return EXIT_APART;
+    return status == OVOID_ROBOT_HIT ? EXIT_TOUCH : EXIT_NOT_PROVEN;
+}
+
+void cell_format_bracket(char text[64], double lower, double upper) {
+    ovoid_answer answer = {.lower = lower, .upper = upper};
+    answer.status = lower > 0 ? OVOID_SEPARATED : upper < 0 ? OVOID_OVERLAPPING : OVOID_UNDECIDED;
+    (void)ovoid_answer_write_distance(text, &answer);
+}
+
+void cell_write_refusal(FILE *file, const cli_cell *cell, const ovoid_robot_answer *answer, const double *q) {
+    ovoid_robot_variable v = ovoid_robot_get_variable(cell->robot.robot, answer->variable);
+    cell_write_variable_name(file, cell, answer->variable);
+    double value = q[answer->variable];
+    if (value < v.lower || value > v.upper)
+        fprintf(file, ": %.9g is outside its limits, %.9g .. %.9g", value, v.lower, v.upper);
+    else
+        fprintf(file, ": %s", ovoid_code_get_name(answer->code));
+}

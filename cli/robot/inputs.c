@@ -1,0 +1,112 @@
+// Reading a robot: options become those of the library, notes become warnings.
+#include "robot/inputs.h"
+
+#include "message.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/// Most notes that are shown.
+#define NOTES_MAX 50
+
+/// The packages of the options: NAME=DIR, cut at the sign.
+typedef struct package_list {
+    ovoid_robot_package items[ARGS_LIST_MAX];
+    char *texts[ARGS_LIST_MAX];
+    int count;
+} package_list;
+
+static void free_packages(package_list *list) {
+    for (int i = 0; i < list->count; i++) free(list->texts[i]);
+}
+
+/// 0, or an exit code after a message.
+static int split_packages(const cli_command *command, const args_list *given, package_list *list) {
+    list->count = 0;
+    for (int i = 0; i < given->count; i++) {
+        const char *equals = strchr(given->items[i], '=');
+        if (!equals || equals == given->items[i] || !equals[1])
+            return args_complain(command, "%s: --package needs NAME=DIR, got \"%s\"", command->name, given->items[i]);
+        size_t size = strlen(given->items[i]) + 1;
+        char *text = malloc(size);
+        if (!text) {
+            message_error("out of memory");
+            return EXIT_INPUT;
+        }
+        memcpy(text, given->items[i], size);
+        text[equals - given->items[i]] = 0;
+        list->texts[list->count] = text;
+        list->items[list->count++] = (ovoid_robot_package){text, text + (equals - given->items[i]) + 1};
+    }
+    return 0;
+}
+
+void robot_warn(void *context, const ovoid_robot_note *note) {
+    cli_robot *robot = context;
+    if (robot->note_count++ >= NOTES_MAX) return;
+    if (note->line)
+        message_warning("%s:%lld: %s", note->path, (long long)note->line, note->text);
+    else
+        message_warning("%s: %s", note->path, note->text);
+}
+
+static int read_file(const char *urdf, const robot_settings *s, const package_list *packages, cli_robot *robot) {
+    ovoid_error error;
+    ovoid_robot_read_options options = {.packages = packages->items,
+                                        .package_count = (size_t)packages->count,
+                                        .parts = s->parts,
+                                        .visual = s->visual,
+                                        .fixed_base = s->fixed_base,
+                                        .tolerance = s->tolerance,
+                                        .note = robot_warn,
+                                        .context = robot};
+    robot->file = ovoid_robot_file_read(urdf, s->srdf, &options, &error);
+    if (robot->note_count > NOTES_MAX) message_warning("and %zu more", robot->note_count - NOTES_MAX);
+    if (robot->file) {
+        ovoid_robot_description description = ovoid_robot_file_get_description(robot->file);
+        robot->robot = ovoid_robot_create(&description, NULL, &error);
+        if (!robot->robot) message_error("%s: %s", urdf, error.message);
+    } else {
+        message_error("%s", error.message);
+    }
+    if (robot->robot) return 0;
+    robot_close(robot);
+    return EXIT_INPUT;
+}
+
+/// Warns of the meshes that do not fill their hulls.
+static void warn_nonconvex(const cli_robot *robot, int parts) {
+    for (size_t i = 0; i < ovoid_robot_file_get_mesh_count(robot->file); i++) {
+        ovoid_robot_mesh m = ovoid_robot_file_get_mesh(robot->file, i);
+        if (!m.convexity.is_nonconvex) continue;
+        double share = m.convexity.mesh_volume / m.convexity.hull_volume;
+        message_warning(
+            "the mesh %s is not convex and counts as its hull%s, which adds %.3g m3 (%.3g %%); decompose it (CoACD, "
+            "V-HACD)%s",
+            m.address, m.part_count > 1 ? "s" : "", m.convexity.hull_volume - m.convexity.mesh_volume,
+            100 * (1 - share), parts ? "" : ", then --parts");
+    }
+}
+
+int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
+    package_list packages;
+    *robot = (cli_robot){NULL, NULL, 0};
+    int code = split_packages(command, &settings->packages, &packages);
+    if (!code) code = read_file(urdf, settings, &packages, robot);
+    free_packages(&packages);
+    if (!code) warn_nonconvex(robot, settings->parts);
+    return code;
+}
+
+void robot_close(cli_robot *robot) {
+    ovoid_robot_destroy(robot->robot);
+    ovoid_robot_file_destroy(robot->file);
+    *robot = (cli_robot){NULL, NULL, 0};
+}
+
+const char *robot_get_component(const ovoid_robot_joint *joint, uint32_t component) {
+    static const char *const planar[] = {" x", " y", " angle"};
+    static const char *const floating[] = {" x", " y", " z", " qw", " qx", " qy", " qz"};
+    if (joint->type == OVOID_JOINT_PLANAR) return planar[component];
+    return joint->type == OVOID_JOINT_FLOATING ? floating[component] : "";
+}

@@ -1,0 +1,78 @@
+// Reading robots, with the options for it.
+#ifndef OVOID_CLI_ROBOT_INPUTS_H
+#define OVOID_CLI_ROBOT_INPUTS_H
+
+#include "args.h"
+
+#include <ovoid/robot_io.h>
+
+/// Options of every command that reads a robot.
+typedef struct robot_settings {
+    const char *srdf;   ///< NULL: none
+    args_list packages; ///< NAME=DIR
+    int parts, visual, fixed_base;
+    double tolerance; ///< of cylinders; 0: radius/200
+} robot_settings;
+
+/// The rows of these options in a table; `robot` is the member of the settings that holds them.
+#define ROBOT_OPTIONS(settings)                                                                                        \
+    {"srdf",                                                                                                           \
+     0,                                                                                                                \
+     OPTION_FILE,                                                                                                      \
+     offsetof(settings, robot.srdf),                                                                                   \
+     "FILE",                                                                                                           \
+     NULL,                                                                                                             \
+     "the SRDF: disabled pairs, groups, named states, a base that moves"},                                             \
+        {"package",                                                                                                    \
+         'p',                                                                                                          \
+         OPTION_LIST,                                                                                                  \
+         offsetof(settings, robot.packages),                                                                           \
+         "NAME=DIR",                                                                                                   \
+         NULL,                                                                                                         \
+         "the folder of a package, for package://NAME/...; may be given several times (default: ROS_PACKAGE_PATH, "    \
+         "AMENT_PREFIX_PATH, and the folders above the URDF)"},                                                        \
+        {"parts",                                                                                                      \
+         0,                                                                                                            \
+         OPTION_FLAG,                                                                                                  \
+         offsetof(settings, robot.parts),                                                                              \
+         NULL,                                                                                                         \
+         NULL,                                                                                                         \
+         "each object of a mesh file is a convex part, where else the mesh counts as its hull"},                       \
+        {"visual",                                                                                                     \
+         0,                                                                                                            \
+         OPTION_FLAG,                                                                                                  \
+         offsetof(settings, robot.visual),                                                                             \
+         NULL,                                                                                                         \
+         NULL,                                                                                                         \
+         "links without collision geometry take their visual one"},                                                    \
+        {"fixed-base",                                                                                                 \
+         0,                                                                                                            \
+         OPTION_FLAG,                                                                                                  \
+         offsetof(settings, robot.fixed_base),                                                                         \
+         NULL,                                                                                                         \
+         NULL,                                                                                                         \
+         "the virtual joint of the SRDF adds nothing: the root link does not move"},                                   \
+    {                                                                                                                  \
+        "cylinder-tolerance", 0, OPTION_POSITIVE, offsetof(settings, robot.tolerance), "T", NULL,                      \
+            "the most by which the prism that holds a cylinder may be inside it, in metres (default: 1/200 of its "    \
+            "radius)"                                                                                                  \
+    }
+
+/// A robot and its files.
+typedef struct cli_robot {
+    ovoid_robot_file *file;
+    ovoid_robot *robot;
+    size_t note_count; ///< how many notes there were
+} cli_robot;
+
+/// Reads a robot; notes are warnings. 0, or an exit code after a message, with nothing left open.
+int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot);
+void robot_close(cli_robot *robot);
+
+/// A note of the library as a warning; context: the robot, whose notes are counted.
+void robot_warn(void *context, const ovoid_robot_note *note);
+
+/// What stands behind the joint's name in the name of a variable where it has several, as in "floor x"; else "".
+const char *robot_get_component(const ovoid_robot_joint *joint, uint32_t component);
+
+#endif

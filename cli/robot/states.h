@@ -1,0 +1,45 @@
+// States of a robot: from a CSV file with a header, by the SRDF's names, or written on the command line.
+#ifndef OVOID_CLI_ROBOT_STATES_H
+#define OVOID_CLI_ROBOT_STATES_H
+
+#include "robot/cell.h"
+
+/// Options of every command that takes states.
+typedef struct states_settings {
+    const char *path; ///< NULL: not given
+    args_list texts;  ///< names and assignments
+} states_settings;
+
+/// The rows of these options; `states` is the member of the settings that holds them.
+#define STATES_OPTIONS(settings)                                                                                       \
+    {"states",                                                                                                         \
+     0,                                                                                                                \
+     OPTION_FILE,                                                                                                      \
+     offsetof(settings, states.path),                                                                                  \
+     "Q.csv",                                                                                                          \
+     NULL,                                                                                                             \
+     "states, one a line, below a header of joints' or variables' names in any order; \"-\": standard input"},         \
+    {                                                                                                                  \
+        "state", 0, OPTION_LIST, offsetof(settings, states.texts), "STATE", NULL,                                      \
+            "a state: a name of the SRDF's, \"joint=number,...\", or \"\", all at their default; may be given "        \
+            "several times"                                                                                            \
+    }
+
+/// The states. Variables that are not given have MoveIt's default: 0, or the middle of the limits where 0 is outside.
+typedef struct cli_states {
+    double *q; ///< state i from i * variable_count on
+    size_t count, variable_count, capacity;
+    const args_list *texts; ///< of the states, NULL where they come from a file
+} cli_states;
+
+/// Refuses a command line without states, or with both kinds. -1 to go on, or EXIT_USAGE.
+int states_settle(const cli_command *command, const states_settings *settings);
+
+/// Reads the states. 0, or an exit code after a message, with nothing left open.
+int states_open(const cli_command *command, const states_settings *settings, const cli_cell *cell, cli_states *states);
+void states_close(cli_states *states);
+
+/// What the command line calls state i; NULL for those of a file.
+const char *states_get_name(const cli_states *states, size_t i);
+
+#endif

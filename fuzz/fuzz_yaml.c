@@ -1,0 +1,33 @@
+// MoveIt's scenes and requests.
+#include "robot.h"
+
+#include <math.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    size_t notes = 0, count;
+    ovoid_robot_read_options options = {.note = fuzz_count_note, .context = &notes};
+    const char *path = fuzz_write_file("scene.yaml", data, size);
+    ovoid_obstacles *o = ovoid_obstacles_read(path, &options, &error);
+    if (!o) fuzz_require_error(&error);
+    for (size_t i = 0; o && i < ovoid_obstacles_get_count(o); i++) {
+        ovoid_obstacle obstacle = ovoid_obstacles_get(o, i);
+        fuzz_require(obstacle.name[0] != 0 && obstacle.shape != NULL);
+        fuzz_require(ovoid_pose_compute_check(&obstacle.pose) == OVOID_OK);
+    }
+    ovoid_obstacles_destroy(o);
+    error = (ovoid_error){OVOID_OK, -1, ""};
+    ovoid_motion_request *r = ovoid_motion_request_read(path, &options, &error);
+    if (!r) {
+        fuzz_require_error(&error);
+        return 0;
+    }
+    const ovoid_joint_position *start = ovoid_motion_request_get_start(r, &count);
+    for (size_t i = 0; i < count; i++) fuzz_require(start[i].joint != NULL && isfinite(start[i].position));
+    for (size_t i = 0; i < ovoid_motion_request_get_goal_count(r); i++) {
+        const ovoid_joint_position *goal = ovoid_motion_request_get_goal(r, i, &count);
+        for (size_t k = 0; k < count; k++) fuzz_require(goal[k].joint != NULL && isfinite(goal[k].position));
+    }
+    ovoid_motion_request_destroy(r);
+    return 0;
+}

@@ -1,0 +1,235 @@
+/**
+ * @file robot.hpp
+ * Robots from C++: owners of robots, cells and checkers. Links libovoid_robot. Descriptions, answers and near pairs are
+ * the C structs of <ovoid/robot.h>. What the C library refuses throws ovoid::error.
+ */
+#ifndef OVOID_ROBOT_HPP
+#define OVOID_ROBOT_HPP
+
+#include "ovoid/ovoid.hpp"
+#include "ovoid/robot.h"
+#include "ovoid/robot_path.h"
+
+#include <vector>
+
+namespace ovoid {
+
+/** Options of a robot. */
+using robot_options = zeroed<ovoid_robot_options>;
+/** How a state is checked. */
+using robot_check_options = zeroed<ovoid_robot_check_options>;
+/** How a motion is checked. */
+using robot_path_options = zeroed<ovoid_robot_path_options>;
+/** The answer to a state. */
+using robot_answer = ovoid_robot_answer;
+
+/** Near pairs of a state, nearest first, with their gradients. */
+struct robot_nears {
+    /** The pairs. */
+    std::vector<ovoid_robot_near> items;
+    /** d(distance)/d(variables) of item i from i * variable count on. */
+    std::vector<double> gradients;
+};
+
+/** A robot, owned. Its shapes must outlive it, unless they became its own. */
+class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ovoid_robot_destroy> {
+  public:
+    using owner::owner;
+    /** From a description. Throws as ovoid_robot_create fails. */
+    static robot create(const ovoid_robot_description &d, const ovoid_robot_options &o = robot_options()) {
+        ovoid_error e;
+        return robot(detail::require(ovoid_robot_create(&d, &o, &e), e));
+    }
+    /** The description as compiled: a view. */
+    ovoid_robot_description description() const noexcept { return ovoid_robot_get_description(get()); }
+    /** Number of links. */
+    std::size_t link_count() const noexcept { return description().link_count; }
+    /** The link of that name, or OVOID_ROBOT_NONE. */
+    std::uint32_t find_link(const char *name) const noexcept { return ovoid_robot_find_link(get(), name); }
+    /** The joint of that name, or OVOID_ROBOT_NONE. */
+    std::uint32_t find_joint(const char *name) const noexcept { return ovoid_robot_find_joint(get(), name); }
+    /** The link that hangs on no joint. */
+    std::uint32_t root() const noexcept { return ovoid_robot_get_root(get()); }
+    /** The joint above a link; OVOID_ROBOT_NONE for the root. */
+    std::uint32_t parent_joint(std::uint32_t link) const noexcept { return ovoid_robot_get_parent_joint(get(), link); }
+    /** How many numbers a state has. */
+    std::size_t variable_count() const noexcept { return ovoid_robot_get_variable_count(get()); }
+    /** Variable i of a state. */
+    ovoid_robot_variable variable(std::size_t i) const noexcept { return ovoid_robot_get_variable(get(), i); }
+    /** The first variable that moves a joint. */
+    std::uint32_t joint_variable(std::uint32_t joint) const noexcept {
+        return ovoid_robot_get_joint_variable(get(), joint);
+    }
+    /** True where only fixed joints are between two links. */
+    bool is_rigid_pair(std::uint32_t a, std::uint32_t b) const noexcept {
+        return ovoid_robot_is_rigid_pair(get(), a, b) != 0;
+    }
+    /** The poses of all links; errors: receives as many, or nullptr. Throws as ovoid_robot_compute_poses fails. */
+    std::vector<ovoid_pose> compute_poses(span<const double> q,
+                                          std::vector<ovoid_robot_pose_error> *errors = nullptr) const {
+        std::vector<ovoid_pose> poses(link_count());
+        if (q.size() != variable_count())
+            detail::fail(OVOID_ERROR_ARGUMENT, "a state has as many numbers as variables");
+        if (errors) errors->resize(link_count());
+        ovoid_error e;
+        detail::require(ovoid_robot_compute_poses(get(), q.data(), poses.data(), errors ? errors->data() : nullptr, &e),
+                        e);
+        return poses;
+    }
+    /** The poses of many states, one after another. */
+    std::vector<ovoid_pose> compute_poses_batch(span<const double> q) const {
+        const std::size_t count = variable_count() ? q.size() / variable_count() : 0;
+        std::vector<ovoid_pose> poses(count * link_count());
+        ovoid_error e;
+        detail::require(ovoid_robot_compute_poses_batch(get(), q.data(), count, poses.data(), &e), e);
+        return poses;
+    }
+    /** Throws RANGE or NOT_FINITE where a variable is outside its limits by more than slack. */
+    void check_limits(span<const double> q, double slack = 0) const {
+        ovoid_error e;
+        detail::require(ovoid_robot_check_limits(get(), q.data(), slack, &e), e);
+    }
+};
+
+/** A robot among obstacles, owned. Borrows the robot and the bodies' shapes. */
+class robot_cell : public detail::owner<detail::pointer<ovoid_robot_cell>, ovoid_robot_cell, ovoid_robot_cell_destroy> {
+  public:
+    using owner::owner;
+    /** Without obstacles. Throws MEMORY, LIMIT. */
+    static robot_cell create(const robot &r) {
+        ovoid_error e;
+        return robot_cell(detail::require(ovoid_robot_cell_create(r.get(), nullptr, &e), e));
+    }
+    /** Adds an obstacle. Throws as ovoid_robot_cell_add fails. */
+    id add(const body &b) {
+        ovoid_error e;
+        const id made = ovoid_robot_cell_add(get(), &b, &e);
+        if (made == 0) detail::fail(e);
+        return made;
+    }
+    /** Attaches a body to a link. Throws as ovoid_robot_cell_attach fails. */
+    id attach(std::uint32_t link, const body &b, span<const std::uint32_t> touching = {}) {
+        ovoid_error e;
+        const id made = ovoid_robot_cell_attach(get(), link, &b, touching.data(), touching.size(), &e);
+        if (made == 0) detail::fail(e);
+        return made;
+    }
+    /** Removes an obstacle or an attached body. Throws INDEX. */
+    void remove(id b) { call(ovoid_robot_cell_remove, b); }
+    /** Moves one. Throws INDEX and what is wrong with the pose. */
+    void move(id b, const pose &to) { call(ovoid_robot_cell_move, b, &to); }
+    /** Lets two links touch, or takes that back. Throws INDEX, ARGUMENT, MEMORY. */
+    void set_allowed(std::uint32_t a, std::uint32_t b, bool allowed) {
+        call(ovoid_robot_cell_set_allowed, a, b, allowed ? 1 : 0);
+    }
+    /** The same of a body and a link. */
+    void set_body_allowed(id b, std::uint32_t link, bool allowed) {
+        call(ovoid_robot_cell_set_body_allowed, b, link, allowed ? 1 : 0);
+    }
+    /** Enlarges a link against obstacles. Throws INDEX, RADIUS. */
+    void set_padding(std::uint32_t link, double padding) { call(ovoid_robot_cell_set_padding, link, padding); }
+
+  private:
+    template <class Function, class... Arguments> void call(Function function, Arguments... arguments) {
+        ovoid_error e;
+        detail::require(function(get(), arguments..., &e), e);
+    }
+};
+
+/** What one thread needs to query states of a cell, owned. Borrows the cell. */
+class robot_checker
+    : public detail::owner<detail::pointer<ovoid_robot_checker>, ovoid_robot_checker, ovoid_robot_checker_destroy> {
+  public:
+    using owner::owner;
+    /** Of a cell. Throws MEMORY. */
+    static robot_checker create(const robot_cell &c) {
+        ovoid_error e;
+        return robot_checker(detail::require(ovoid_robot_checker_create(c.get(), nullptr, &e), e));
+    }
+    /** Forgets the last state. */
+    void reset() noexcept { ovoid_robot_checker_reset(get()); }
+    /** Is a state free? Throws ARGUMENT, MEMORY. */
+    robot_answer check(span<const double> q, const ovoid_robot_check_options &o = robot_check_options()) {
+        robot_answer found;
+        call(ovoid_robot_check, q.data(), &o, &found);
+        return found;
+    }
+    /** Many states, one after another; count: how many. Throws ARGUMENT, MEMORY. */
+    std::vector<robot_answer> check_batch(span<const double> q, std::size_t count,
+                                          const ovoid_robot_check_options &o = robot_check_options()) {
+        std::vector<robot_answer> answers(count);
+        const ovoid_robot_batch batch = {q.data(), count, &o, answers.data()};
+        ovoid_robot_checker *self = get();
+        ovoid_error e;
+        detail::require(ovoid_robot_check_batch(&self, 1, &batch, &e), e);
+        return answers;
+    }
+    /** Is a path of `count` states free for all times in between? Steps are written where options say. Throws ARGUMENT,
+     * MEMORY. */
+    ovoid_robot_path_answer check_path(span<const double> states, std::size_t count,
+                                       const ovoid_robot_path_options &o = robot_path_options()) {
+        const ovoid_robot_path path = {states.data(), count};
+        ovoid_robot_path_answer found;
+        call(ovoid_robot_check_path, &path, &o, &found);
+        return found;
+    }
+    /** All near pairs with gradients by `variables` numbers. Throws as ovoid_robot_find_near fails. */
+    robot_nears find_near(span<const double> q, const ovoid_robot_check_options &o) {
+        robot_nears found;
+        ovoid_robot_nears nears = {nullptr, nullptr, 0, 0};
+        call(ovoid_robot_find_near, q.data(), &o, &nears);
+        while (nears.count > nears.capacity) {
+            found.items.resize(nears.count);
+            found.gradients.resize(nears.count * q.size());
+            nears = {found.items.data(), found.gradients.data(), nears.count, 0};
+            call(ovoid_robot_find_near, q.data(), &o, &nears);
+        }
+        return found;
+    }
+    /** The nearest pair, or none. Throws as ovoid_robot_find_nearest fails. */
+    robot_nears find_nearest(span<const double> q, const ovoid_robot_check_options &o) {
+        robot_nears found;
+        found.items.resize(1);
+        found.gradients.resize(q.size());
+        ovoid_robot_nears nears = {found.items.data(), found.gradients.data(), 1, 0};
+        call(ovoid_robot_find_nearest, q.data(), &o, &nears);
+        found.items.resize(nears.count);
+        found.gradients.resize(nears.count * q.size());
+        return found;
+    }
+
+  private:
+    template <class Function, class... Arguments> void call(Function function, Arguments... arguments) {
+        ovoid_error e;
+        detail::require(function(get(), arguments..., &e), e);
+    }
+};
+
+/** Throws PROOF, with a sentence, where the steps do not prove the answer. */
+inline void check_robot_path(const robot_cell &cell, span<const double> states, std::size_t count,
+                             const ovoid_robot_path_options &o, const ovoid_robot_path_answer &found,
+                             span<const ovoid_robot_step> steps) {
+    const ovoid_robot_path path = {states.data(), count};
+    ovoid_error e;
+    detail::require(ovoid_robot_path_check(cell.get(), &path, &o, &found, steps.data(), &e), e);
+}
+/** How many pairs a cell has. */
+inline std::size_t pair_count(const robot_cell &cell) noexcept { return ovoid_robot_cell_get_pair_count(cell.get()); }
+/** The two sides of a pair. Throws INDEX. */
+inline std::pair<ovoid_robot_side, ovoid_robot_side> pair_sides(const robot_cell &cell, std::size_t pair) {
+    std::pair<ovoid_robot_side, ovoid_robot_side> found;
+    ovoid_error e;
+    detail::require(ovoid_robot_cell_get_pair(cell.get(), pair, &found.first, &found.second, &e), e);
+    return found;
+}
+
+/** The name of a type of joint, as URDF has it. */
+inline const char *name(ovoid_joint_type type) noexcept { return ovoid_joint_type_get_name(type); }
+/** How many variables a joint of a type has. */
+inline std::uint32_t variable_count(ovoid_joint_type type) noexcept {
+    return ovoid_joint_type_get_variable_count(type);
+}
+
+} // namespace ovoid
+
+#endif

@@ -1,0 +1,231 @@
+/**
+ * @file robot_io.h
+ * Robots from files: URDF and SRDF, scenes of obstacles (MoveIt's YAML, ovoid's JSON) and planning problems. A part of
+ * libovoid_robot, which stands on libovoid_io, expat and libyaml. docs/robot.md says what each format means here.
+ *
+ * Every function returns a code or NULL and fills *error (which may be NULL); message is "path:line: what is wrong,
+ * what to do", place the line. What is no error but should be known is a note: see ovoid_robot_note. Nothing prints,
+ * exits or leaks; memory and time are bounded by a small multiple of the sizes of the files. Memory comes from malloc,
+ * but that of shapes. Not for concurrent use of one object while it is read; what was read is immutable.
+ */
+#ifndef OVOID_ROBOT_IO_H
+#define OVOID_ROBOT_IO_H
+
+#include "ovoid/io.h"
+#include "ovoid/robot.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Where a package lies, for addresses of the form package://NAME/PATH. */
+typedef struct ovoid_robot_package {
+    const char *name; /**< what stands behind package://; may hold more than one folder: "robots/panda_description" */
+    const char *folder;
+} ovoid_robot_package;
+
+/**
+ * Something to be told that is no error by itself, in the order of the files: an unknown name of an SRDF, an element
+ * without effect, each of several meshes that are absent. Valid during the call only.
+ */
+typedef struct ovoid_robot_note {
+    const char *path; /**< of the file */
+    int64_t line;     /**< 0: none */
+    const char *text; /**< a sentence of any length */
+} ovoid_robot_note;
+
+/** How to read a robot; all zero is the default, and NULL means that. */
+typedef struct ovoid_robot_read_options {
+    const ovoid_robot_package *packages; /**< looked at before all other places; the longest name that fits is taken */
+    size_t package_count;
+    const char *ros_package_path;  /**< folders with colons between; NULL: the environment's ROS_PACKAGE_PATH */
+    const char *ament_prefix_path; /**< the same; NULL: the environment's AMENT_PREFIX_PATH */
+    int parts;                     /**< 0: a mesh counts as its hull; 1: as the hulls of its objects (OBJ `o`, nodes) */
+    int visual;                    /**< 1: a link without collision geometry takes its visual one */
+    int fixed_base;                /**< 1: the SRDF's virtual joint adds nothing: the root link is the base */
+    int trusted;                   /**< as in ovoid_read_options */
+    double tolerance; /**< of cylinders: the most that `outside` of their allowance may be; 0: radius/200 */
+    const ovoid_shape_options *shape; /**< of all shapes; their radius must be 0; NULL: the default */
+    void (*note)(void *context, const ovoid_robot_note *note); /**< NULL: notes are dropped */
+    void *context;
+} ovoid_robot_read_options;
+
+/** A URDF, perhaps with an SRDF: names, numbers and shapes. Owned by the caller. */
+typedef struct ovoid_robot_file ovoid_robot_file;
+
+/**
+ * Reads a URDF, the meshes of its collision geometry and, where srdf is not NULL, an SRDF. Meshes are what
+ * ovoid_mesh_read reads; one of the same file and scale is read once and its shapes shared. Boxes, spheres, capsules
+ * are exact, cylinders have an allowance. All lengths are metres, as URDF has it.
+ *
+ * Errors: FILE (also: absent meshes, each a note with the places that were looked at), FORMAT (what does not follow the
+ * format; a loop, a link without a joint, two roots, a name twice, a mimic of itself or in a ring, limits upside down),
+ * NOT_FINITE, RANGE, ROTATION (an axis of zero), RADIUS, LIMIT, MEMORY and those of ovoid_mesh_read. xacro files are
+ * refused with the command that expands them. Cost: n log n in the links, plus the shapes.
+ */
+OVOID_API ovoid_robot_file *ovoid_robot_file_read(const char *urdf, const char *srdf,
+                                                  const ovoid_robot_read_options *options, ovoid_error *error);
+/** Frees it and its shapes; NULL is allowed. */
+OVOID_API void ovoid_robot_file_destroy(ovoid_robot_file *file);
+/**
+ * What ovoid_robot_create takes: a view. Links and joints in the order of the file. An SRDF's virtual joint, unless it
+ * is fixed_base, adds a link, its parent frame, which is then the root, and a joint, each after those of the URDF.
+ */
+OVOID_API ovoid_robot_description ovoid_robot_file_get_description(const ovoid_robot_file *file);
+
+/** One mesh file, at one scale: a view. */
+typedef struct ovoid_robot_mesh {
+    const char *path;    /**< where it was found */
+    const char *address; /**< what the URDF says */
+    ovoid_vec3 scale;    /**< negative factors mirror */
+    size_t part_count;   /**< hulls: 1, or with options->parts the objects */
+    size_t use_count;    /**< collision elements that share them */
+    ovoid_convexity
+        convexity; /**< summed over the parts; is_nonconvex: of any; mesh_volume NaN where one is not known */
+} ovoid_robot_mesh;
+
+/** How many meshes there are. */
+OVOID_API size_t ovoid_robot_file_get_mesh_count(const ovoid_robot_file *file);
+/** Mesh i < mesh count, in the order of their paths. */
+OVOID_API ovoid_robot_mesh ovoid_robot_file_get_mesh(const ovoid_robot_file *file, size_t i);
+
+/**
+ * Elements that were not read, by where they stand, "link/inertial", "robot/transmission", "robot/end_effector"; and
+ * attributes without effect of elements that were, "limit@uper".
+ */
+typedef struct ovoid_robot_ignored {
+    const char *name;
+    size_t count;
+} ovoid_robot_ignored;
+
+/** How many kinds of ignored elements there are. */
+OVOID_API size_t ovoid_robot_file_get_ignored_count(const ovoid_robot_file *file);
+/** Kind i < that count, in the order of their names. */
+OVOID_API ovoid_robot_ignored ovoid_robot_file_get_ignored(const ovoid_robot_file *file, size_t i);
+
+/** Mimics on fixed joints, which some public files have: they mean nothing and are dropped. */
+OVOID_API size_t ovoid_robot_file_get_fixed_mimic_count(const ovoid_robot_file *file);
+
+/** A group of an SRDF, its subgroups and chains resolved: indices of the description, ascending. A view. */
+typedef struct ovoid_robot_group {
+    const char *name;
+    const uint32_t *joints;
+    size_t joint_count;
+    const uint32_t *links;
+    size_t link_count;
+} ovoid_robot_group;
+
+/** How many groups there are. */
+OVOID_API size_t ovoid_robot_file_get_group_count(const ovoid_robot_file *file);
+/** Group i < group count, in the order of the file. */
+OVOID_API ovoid_robot_group ovoid_robot_file_get_group(const ovoid_robot_file *file, size_t i);
+
+/** The numbers of one joint in a state. */
+typedef struct ovoid_robot_value {
+    uint32_t joint;
+    uint32_t count;       /**< of variables: 1, or 3 and 7 for planar and floating joints */
+    const double *values; /**< floating: x, y, z, quaternion w x y z */
+} ovoid_robot_value;
+
+/** A named state of an SRDF: some joints' numbers. A view. */
+typedef struct ovoid_robot_state {
+    const char *name, *group; /**< group: "" where none is named */
+    const ovoid_robot_value *values;
+    size_t value_count;
+} ovoid_robot_state;
+
+/** How many named states there are. */
+OVOID_API size_t ovoid_robot_file_get_state_count(const ovoid_robot_file *file);
+/** State i < state count, in the order of the file. */
+OVOID_API ovoid_robot_state ovoid_robot_file_get_state(const ovoid_robot_file *file, size_t i);
+
+/** A sphere of an SRDF's link_sphere_approximation, in the link's frame. */
+typedef struct ovoid_robot_sphere {
+    uint32_t link;
+    ovoid_vec3 center;
+    double radius;
+} ovoid_robot_sphere;
+
+/** The spheres; *count of them. A view. */
+OVOID_API const ovoid_robot_sphere *ovoid_robot_file_get_spheres(const ovoid_robot_file *file, size_t *count);
+/** The passive joints; *count of them. A view. */
+OVOID_API const uint32_t *ovoid_robot_file_get_passive(const ovoid_robot_file *file, size_t *count);
+
+/* ---- obstacles ---- */
+
+/** Convex obstacles, from a scene. Owned by the caller. */
+typedef struct ovoid_obstacles ovoid_obstacles;
+
+/** One of them: a view. An object of several parts is several obstacles of one name. */
+typedef struct ovoid_obstacle {
+    const char *name;
+    const ovoid_shape *shape;
+    ovoid_pose pose; /**< of an object with a pose and parts with poses: ovoid_pose_compute_product, by definition */
+} ovoid_obstacle;
+
+/**
+ * Reads a scene: MoveIt's planning scene (.yaml, .yml; world: collision_objects: with primitives box, sphere, cylinder
+ * and cone, and meshes, which count as their hulls) or ovoid's own (.json: ovoid_scene_read). Equal primitives share a
+ * shape. options: tolerance, shape, note. Errors as those of ovoid_robot_file_read; planes and other types are refused.
+ */
+OVOID_API ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_options *options,
+                                                ovoid_error *error);
+/** Frees them and their shapes; NULL is allowed. */
+OVOID_API void ovoid_obstacles_destroy(ovoid_obstacles *obstacles);
+/** How many there are; there may be none. */
+OVOID_API size_t ovoid_obstacles_get_count(const ovoid_obstacles *obstacles);
+/** Obstacle i < count, in the order of the file. */
+OVOID_API ovoid_obstacle ovoid_obstacles_get(const ovoid_obstacles *obstacles, size_t i);
+
+/* ---- planning problems ---- */
+
+/** The number of one joint, by its name. */
+typedef struct ovoid_joint_position {
+    const char *joint;
+    double position;
+} ovoid_joint_position;
+
+/** A motion planning request of MoveIt: a start, and goals of which one is to be reached. Owned by the caller. */
+typedef struct ovoid_motion_request ovoid_motion_request;
+
+/** Reads a request (YAML): start_state: joint_state, goal_constraints: joint_constraints, group_name. */
+OVOID_API ovoid_motion_request *ovoid_motion_request_read(const char *path, const ovoid_robot_read_options *options,
+                                                          ovoid_error *error);
+/** Frees it; NULL is allowed. */
+OVOID_API void ovoid_motion_request_destroy(ovoid_motion_request *request);
+/** Its group_name; "" where it has none. */
+OVOID_API const char *ovoid_motion_request_get_group(const ovoid_motion_request *request);
+/** The joints' numbers at the start; *count of them. A view. */
+OVOID_API const ovoid_joint_position *ovoid_motion_request_get_start(const ovoid_motion_request *request,
+                                                                     size_t *count);
+/** How many goals there are. */
+OVOID_API size_t ovoid_motion_request_get_goal_count(const ovoid_motion_request *request);
+/** The joints' numbers at goal i < goal count; *count of them. A view. */
+OVOID_API const ovoid_joint_position *ovoid_motion_request_get_goal(const ovoid_motion_request *request, size_t i,
+                                                                    size_t *count);
+
+/** The planning problems of a folder: pairs of a scene and a request. Owned by the caller. */
+typedef struct ovoid_problems ovoid_problems;
+
+/** One of them: paths, to be read by ovoid_obstacles_read and ovoid_motion_request_read. A view. */
+typedef struct ovoid_problem {
+    const char *name; /**< "box_panda/0001": the folder below the one given, and what the file names share */
+    const char *scene, *request;
+} ovoid_problem;
+
+/**
+ * Finds the problems of a folder and the folders in it, three deep, in the order of their names: files sceneX.yaml and
+ * requestX.yaml (or .yml) beside each other. A request without a scene is an error (FILE); EMPTY where there are none.
+ */
+OVOID_API ovoid_problems *ovoid_problems_find(const char *folder, ovoid_error *error);
+/** Frees them; NULL is allowed. */
+OVOID_API void ovoid_problems_destroy(ovoid_problems *problems);
+/** How many there are, at least 1. */
+OVOID_API size_t ovoid_problems_get_count(const ovoid_problems *problems);
+/** Problem i < count. */
+OVOID_API ovoid_problem ovoid_problems_get(const ovoid_problems *problems, size_t i);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

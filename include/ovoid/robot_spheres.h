@@ -1,0 +1,86 @@
+/**
+ * @file robot_spheres.h
+ * Spheres that stand for a link: how far a list of them is from covering it, proven, and lists that are proven to cover
+ * it. Robots are often approximated by spheres that are called conservative; whether they are is a question with an
+ * answer. docs/robot_spheres.md has the mathematics.
+ */
+#ifndef OVOID_ROBOT_SPHERES_H
+#define OVOID_ROBOT_SPHERES_H
+
+#include "ovoid/robot.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A ball in its link's frame. */
+typedef struct ovoid_robot_sphere {
+    ovoid_vec3 center;
+    double radius; /**< >= 0 */
+} ovoid_robot_sphere;
+
+/** Options of an audit; all zero is the default, and NULL means that. */
+typedef struct ovoid_robot_audit_options {
+    double tolerance;    /**< a length: the depth's bracket need not be narrower; 0: 1e-5 of the link's size */
+    size_t depth_cells;  /**< most cells held in the search for the deepest point, at least 64; 0: 2^16, 12 MB */
+    size_t volume_cells; /**< the same for the volumes; 0: 2^16 */
+    int without_volumes; /**< 1: the volumes are left out, and are [0, infinity] */
+    const ovoid_allocator *allocator; /**< of the working memory; NULL: malloc and free */
+} ovoid_robot_audit_options;
+
+/** Two numbers that a true one lies between. */
+typedef struct ovoid_robot_bracket {
+    double lower, upper;
+} ovoid_robot_bracket;
+
+/**
+ * What is proven of spheres and a link: the union of the true bodies of its elements, those that shapes with allowances
+ * stand for. depth is the greatest value, over the points x of the link, of the least, over the spheres, of
+ * |x - center| - radius: how far the deepest uncovered point is from all spheres.
+ */
+typedef struct ovoid_robot_sphere_audit {
+    ovoid_robot_bracket depth;     /**< upper <= 0: every point is covered; lower > 0: not */
+    ovoid_vec3 point;              /**< shows depth.lower: in the link's frame, on the element's shape, to rounding */
+    uint32_t element;              /**< of the description: whose point that is */
+    uint32_t sphere;               /**< the one nearest to it */
+    ovoid_robot_bracket uncovered; /**< volume of the link outside all spheres */
+    ovoid_robot_bracket excess;    /**< volume of the spheres' union outside the link */
+    ovoid_robot_bracket link;      /**< volume of the link */
+    ovoid_robot_bracket spheres;   /**< volume of the spheres' union */
+    size_t cells;                  /**< looked at */
+} ovoid_robot_sphere_audit;
+
+/**
+ * Audits count spheres against a link. Every bracket is true, rounding included, also where cells ran out; then it is
+ * wider. Errors: ARGUMENT (NULL, options), INDEX (no such link), EMPTY (no spheres; a link without elements),
+ * and with the sphere as place NOT_FINITE, RADIUS (negative), RANGE; LIMIT (more than 2^20 spheres), MEMORY.
+ */
+OVOID_API ovoid_code ovoid_robot_compute_sphere_audit(const ovoid_robot *robot, uint32_t link,
+                                                      const ovoid_robot_sphere *spheres, size_t count,
+                                                      const ovoid_robot_audit_options *options,
+                                                      ovoid_robot_sphere_audit *audit, ovoid_error *error);
+
+/** Options of a cover; all zero is the default, and NULL means that. */
+typedef struct ovoid_robot_cover_options {
+    double excess; /**< a length: the fewest spheres are looked for of which none stands out of the link by more;
+                        0: as many spheres as there is room for */
+    size_t rounds; /**< how long to look for spheres of little excess volume; 0: 8000 moves of a sphere */
+    uint64_t seed; /**< of the search; the same seed gives the same bits everywhere */
+    const ovoid_allocator *allocator; /**< of the working memory; NULL: malloc and free */
+} ovoid_robot_cover_options;
+
+/**
+ * Finds spheres that are proven to cover a link, with little volume outside it. *count: room in `spheres`, 1 to 4096;
+ * then how many were written. *depth (may be NULL) is the bracket of an audit of what was written; its upper end is at
+ * most 0. Errors: those of an audit; ARGUMENT (*count, options); LIMIT: no cover within `excess` was found with as
+ * many.
+ */
+OVOID_API ovoid_code ovoid_robot_compute_sphere_cover(const ovoid_robot *robot, uint32_t link,
+                                                      const ovoid_robot_cover_options *options,
+                                                      ovoid_robot_sphere *spheres, size_t *count,
+                                                      ovoid_robot_bracket *depth, ovoid_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,33 @@
+"""Proximity of convex bodies, with proofs.
+
+Do two bodies touch, how far apart are they, how deep do they overlap, when do they meet. Every answer is a bracket that
+is true, rounding included, and carries a proof that check() checks.
+
+    >>> import ovoid
+    >>> box = ovoid.Shape.box((1, 2, 3))
+    >>> pill = ovoid.Shape.capsule(0.5, 1)
+    >>> answer = ovoid.distance(box, pill, None, ovoid.Pose.from_rpy((4, 0, 0), (0, 0.7, 0)))
+    >>> str(answer.status), answer.lower <= 1.8557823127 + 1e-9
+    ('separated', True)
+    >>> ovoid.check(answer)
+
+Lengths are in the caller's unit, the same everywhere; angles are radians; poses are in the world frame. Results are NumPy
+arrays where NumPy can be imported.
+"""
+
+from ._enums import Code, Error, ImpactStatus, Limit, ProofKind, Stage, Status
+from ._ovoid import *  # noqa: F403
+from ._ovoid import __version__, has_io
+from ._values import Cast, Contacts, Hit
+
+
+def load(path, **options):
+    """A Shape from an .ovoid file, or the convex hull of a mesh file: Shape.load."""
+    from . import _ovoid
+
+    if not has_io:
+        raise Error("this build of ovoid reads no files: it was built without libovoid_io", Code.FILE)
+    return _ovoid.Shape.load(path, **options)
+
+
+__all__ = [name for name in dir() if not name.startswith("_")]

@@ -1,0 +1,104 @@
+"""The enumerations and the exception of ovoid; their numbers are those of the C library."""
+
+import enum
+
+
+class Named(enum.IntEnum):
+    """Numbers as in arrays of results; str() is the library's word."""
+
+    def __str__(self):
+        return self.name.lower()
+
+
+class Status(Named):
+    """What is proven of the signed distance d."""
+
+    UNDECIDED = 0  #: the sign of d is not proven; limit says why
+    SEPARATED = 1  #: lower > 0
+    TOUCHING = 2  #: lower <= 0 <= upper, and the bracket is narrower than the tolerance
+    OVERLAPPING = 3  #: upper < 0
+
+
+class Stage(Named):
+    """What decided."""
+
+    NONE = 0
+    PROOF = 1  #: the earlier proof handed in
+    SPHERE = 2  #: bounding spheres
+    OUTER = 3  #: outer ellipsoids
+    SUPPORT = 4  #: the polyhedra's supports along the ellipsoids' direction
+    INNER = 5  #: inner ellipsoids
+    GJK = 6  #: exact
+    EPA = 7  #: exact
+    REFINE = 8  #: in pairs of doubles
+
+
+class Limit(Named):
+    """Why a query stopped before its bracket was narrower than the tolerance."""
+
+    NONE = 0  #: it did not
+    ANSWERED = 1  #: the query is answered; the bracket is true but wide
+    CAP = 2  #: proven farther than cap
+    ITERATIONS = 3  #: iterations used up
+    PRECISION = 4  #: no further progress
+    CAPACITY = 5  #: the depth search filled its working memory
+    POSE_A = 6
+    POSE_B = 7
+    OPTIONS = 8
+    SHAPE_A = 9
+    SHAPE_B = 10
+    ALLOWANCE = 11  #: the shapes' allowances leave it open; no search narrows it
+
+
+class Code(Named):
+    """What an Error says went wrong."""
+
+    OK = 0
+    MEMORY = 1
+    ARGUMENT = 2
+    NOT_FINITE = 3
+    EMPTY = 4
+    RANGE = 5
+    RADIUS = 6
+    ROTATION = 7
+    INDEX = 8
+    NOT_CONVEX = 9
+    HULL = 10
+    FORMAT = 11
+    FILE = 12
+    LIMIT = 13
+    PROOF = 14
+
+
+class ProofKind(Named):
+    """What an upper bound rests on."""
+
+    NONE = 0
+    POINTS = 1
+    HULL = 2
+    INNER = 3
+    INNER_POINTS = 4
+    COVER = 5
+
+
+class ImpactStatus(Named):
+    """What a query about two moving bodies proves."""
+
+    UNDECIDED = 0
+    FREE = 1  #: never within the margin, proven
+    HIT = 2  #: within the margin at hit_at, proven
+
+
+class Error(ValueError):
+    """What the library refused: its sentence, with code (a Code) and place.
+
+    place: the 0-based vertex, face or item, or the 1-based line of a file; -1 where none applies.
+    """
+
+    def __init__(self, sentence, code=Code.ARGUMENT, place=-1):
+        super().__init__(sentence)
+        self.code = code
+        self.place = place
+
+    def __reduce__(self):
+        return Error, (self.args[0], self.code, self.place)

@@ -1,0 +1,204 @@
+"""CollisionManager: the methods of trimesh.collision.CollisionManager, answered by ovoid; trimesh need not be installed.
+
+Objects are anything with .vertices (a trimesh.Trimesh), of which the convex hull is meant, or a Shape or Compound, or a list
+of convex parts. trimesh's own manager takes meshes as surfaces, through FCL. So:
+
+- a mesh that says is_convex is False draws a warning, unless `parts` splits it: a function of the mesh that returns convex
+  meshes, for example `trimesh.Trimesh.convex_decomposition`;
+- one body inside another is a collision, and every pair that is not proven apart counts as one;
+- of bodies that overlap the distance is minus the depth of the deepest pair, where FCL says -1;
+- a pair has one contact, the deepest;
+- faces have no index here: ContactData.index and DistanceData.index raise NotImplementedError.
+"""
+
+import warnings
+
+from . import Compound, Pose, Shape, Status, World, depth
+
+__all__ = ["CollisionManager", "ContactData", "DistanceData"]
+
+_EXTERNAL = "__external"
+
+
+class _PairData:
+    def __init__(self, names, answer):
+        self._names = tuple(names)
+        self.answer = answer  #: the Answer, which ovoid.check takes
+
+    @property
+    def names(self):
+        """The names of the two objects; of one that is in no manager "__external"."""
+        return set(self._names)
+
+    def index(self, name):
+        raise NotImplementedError("ovoid's bodies are hulls: they have no face of the mesh to name")
+
+
+class ContactData(_PairData):
+    """Two objects that are not proven apart: names, normal, point, depth."""
+
+    @property
+    def normal(self):
+        """Unit normal from the first object to the second, world frame."""
+        return self.answer.normal
+
+    @property
+    def point(self):
+        """A point between the two witness points, world frame."""
+        return tuple((a + b) / 2 for a, b in zip(self.answer.point_a, self.answer.point_b))
+
+    @property
+    def depth(self):
+        """The penetration depth, at least 0; never below the true one."""
+        return max(0.0, -self.answer.lower)
+
+
+class DistanceData(_PairData):
+    """The nearest two objects: names, distance, point."""
+
+    @property
+    def distance(self):
+        """The signed distance, never above the true one."""
+        return self.answer.lower
+
+    def point(self, name):
+        """The nearest point of an object, world frame."""
+        return self.answer.point_a if name == self._names[0] else self.answer.point_b
+
+
+class CollisionManager:
+    """Objects by name; whether, where and how far they and others collide."""
+
+    def __init__(self, parts=None, threads=1):
+        self._world = World(threads=threads)
+        self._ids = {}
+        self._names = {}
+        self._parts = parts
+
+    def add_object(self, name, mesh, transform=None):
+        """Adds an object, or replaces that of this name. transform: 4x4, rigid."""
+        body, pose = self._make_body(mesh), Pose(transform)
+        if name in self._ids:
+            self.remove_object(name)
+        key = self._world.add(body, pose)
+        self._ids[name] = key
+        self._names[key] = name
+        return key
+
+    def remove_object(self, name):
+        """Removes an object."""
+        key = self._find(name)
+        self._world.remove(key)
+        del self._ids[name], self._names[key]
+
+    def set_transform(self, name, transform):
+        """Moves an object to a rigid 4x4 transform."""
+        self._world.move(self._find(name), Pose(transform))
+
+    def in_collision_single(self, mesh, transform=None, return_names=False, return_data=False):
+        """Does a mesh collide with any object? Also the set of names, and the list of ContactData, where asked for."""
+        contacts = self._find_contacts(self._make_body(mesh), Pose(transform), _EXTERNAL)
+        names = {name for contact in contacts for name in contact.names - {_EXTERNAL}}
+        return _select(bool(contacts), return_names, names, return_data, contacts)
+
+    def in_collision_internal(self, return_names=False, return_data=False):
+        """Do any two objects collide? Names are sorted pairs."""
+        if not return_names and not return_data:
+            return self._world.find_any() is not None
+        contacts = []
+        for row in self._world.contacts("collide").items.tolist():
+            a, b = (row["a"], row["b"]) if isinstance(row, dict) else row[:2]
+            contacts.append(ContactData((self._names[a], self._names[b]), self._get_depth(a, b)))
+        names = {tuple(sorted(contact.names)) for contact in contacts}
+        return _select(bool(contacts), return_names, names, return_data, contacts)
+
+    def in_collision_other(self, other_manager, return_names=False, return_data=False):
+        """Does any object collide with one of another manager? Names are pairs (own, other's)."""
+        contacts = []
+        for key, name in other_manager._names.items():
+            contacts += self._find_contacts(other_manager._world.body(key), other_manager._world.pose(key), name)
+        names = {contact._names[::-1] for contact in contacts}
+        return _select(bool(contacts), return_names, names, return_data, contacts)
+
+    def min_distance_single(self, mesh, transform=None, return_name=False, return_data=False):
+        """The smallest signed distance of a mesh to the objects; the nearest one's name, and DistanceData."""
+        data = self._find_nearest(self._make_body(mesh), Pose(transform), _EXTERNAL)
+        name = data._names[1] if data else None
+        return _select(data.distance if data else float("inf"), return_name, name, return_data, data)
+
+    def min_distance_internal(self, name=None, return_names=False, return_data=False):
+        """The smallest signed distance of any two objects, or of the named one to the others."""
+        keys = list(self._names) if name is None else [self._find(name)]
+        found = None
+        for key in keys:
+            data = self._find_nearest(self._world.body(key), self._world.pose(key), self._names[key], key)
+            if data and (found is None or data.distance < found.distance):
+                found = data
+        names = tuple(sorted(found.names)) if found else None
+        return _select(found.distance if found else float("inf"), return_names, names, return_data, found)
+
+    def min_distance_other(self, other_manager, return_names=False, return_data=False):
+        """The smallest signed distance to another manager's objects; names are a pair (own, other's)."""
+        found = None
+        for key, name in other_manager._names.items():
+            data = self._find_nearest(other_manager._world.body(key), other_manager._world.pose(key), name)
+            if data and (found is None or data.distance < found.distance):
+                found = data
+        names = found._names[::-1] if found else None
+        return _select(found.distance if found else float("inf"), return_names, names, return_data, found)
+
+    # ---- inside
+
+    def _find(self, name):
+        if name not in self._ids:
+            raise ValueError(f"{name} is no object of this manager")
+        return self._ids[name]
+
+    def _make_body(self, mesh):
+        if isinstance(mesh, (Shape, Compound)):
+            return mesh
+        if isinstance(mesh, (list, tuple)):
+            return Compound([self._make_hull(part) for part in mesh])
+        is_convex = getattr(mesh, "is_convex", None)
+        if self._parts is not None and not is_convex:
+            return Compound([self._make_hull(part) for part in self._parts(mesh)])
+        if is_convex is not None and not is_convex:
+            warnings.warn("the mesh is not convex: its convex hull is taken; CollisionManager(parts=...) splits it", stacklevel=3)
+        return self._make_hull(mesh)
+
+    @staticmethod
+    def _make_hull(mesh):
+        return mesh if isinstance(mesh, Shape) else Shape.hull_of(mesh)
+
+    def _find_contacts(self, body, pose, name):
+        """The contacts of a body that is not in the world; the body is a."""
+        contacts = []
+        for hit in self._world.overlaps(body, pose):
+            answer = depth(body, hit.answer.b, pose, hit.answer.pose_b)
+            contacts.append(ContactData((name, self._names[hit.b]), answer))
+        return contacts
+
+    def _get_depth(self, a, b):
+        world = self._world
+        return depth(world.body(a), world.body(b), world.pose(a), world.pose(b))
+
+    def _find_nearest(self, body, pose, name, key=None):
+        """The nearest object to a body, or where some overlap the deepest; key: the body's own id, left out."""
+        hit = self._world.nearest_to(body, pose) if key is None else self._world.nearest(key)
+        if hit is None:
+            return None
+        if hit.answer.status == Status.SEPARATED:
+            return DistanceData((name, self._names[hit.b]), hit.answer)
+        deepest = [
+            DistanceData((name, self._names[other.b]), depth(body, other.answer.b, pose, other.answer.pose_b))
+            for other in self._world.overlaps(body, pose)
+            if other.b != key
+        ]
+        return min(deepest, key=lambda data: data.distance)
+
+
+def _select(first, has_second, second, has_third, third):
+    """What a caller asked for: alone, or as a tuple."""
+    if not has_second and not has_third:
+        return first
+    return (first, *([second] if has_second else []), *([third] if has_third else []))

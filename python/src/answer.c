@@ -1,0 +1,187 @@
+// Answer: what a query proved of two bodies, with its proof and what it takes to check it.
+#include "src/module.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const ovoid_pose *pose_a,
+                           const ovoid_pose *pose_b) {
+    answer_object *self = object_make(state->answer);
+    if (!self) return NULL;
+    self->a = Py_NewRef(a);
+    self->b = Py_NewRef(b);
+    self->pose_a = *pose_a;
+    self->pose_b = *pose_b;
+    return self;
+}
+
+int answer_keep_cover(answer_object *to, const ovoid_cover *cover) {
+    if (!cover->point_count) return 0;
+    to->cover = malloc(sizeof *to->cover);
+    if (!to->cover) {
+        PyErr_NoMemory();
+        return -1;
+    }
+    to->cover->point_count = cover->point_count;
+    to->cover->triangle_count = cover->triangle_count;
+    memcpy(to->cover->a, cover->a, cover->point_count * sizeof *cover->a);
+    memcpy(to->cover->b, cover->b, cover->point_count * sizeof *cover->b);
+    memcpy(to->cover->triangles, cover->triangles, cover->triangle_count * sizeof *cover->triangles);
+    return 0;
+}
+
+int limit_check(module_state *state, ovoid_limit limit) {
+    const char *what = limit == OVOID_LIMIT_POSE_A   ? "pose_a: the body would lie beyond the range of lengths, 1e50"
+                       : limit == OVOID_LIMIT_POSE_B ? "pose_b: the body would lie beyond the range of lengths, 1e50"
+                       : limit == OVOID_LIMIT_OPTIONS
+                           ? "a margin, tolerance, cap, time or ray is negative, NaN or out of range"
+                           : NULL;
+    if (!what) return 0;
+    raise_code(state, limit == OVOID_LIMIT_OPTIONS ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_RANGE, -1, "%s", what);
+    return -1;
+}
+
+// ---- checking
+
+static ovoid_body make_body(module_state *state, PyObject *from, ovoid_pose pose) {
+    if (Py_TYPE(from) == state->shape) return (ovoid_body){((shape_object *)from)->shape, NULL, pose};
+    return (ovoid_body){NULL, ((compound_object *)from)->compound, pose};
+}
+
+ovoid_code answer_check(const answer_object *self, ovoid_error *error) {
+    module_state *state = state_of((PyObject *)self);
+    ovoid_body_pair bodies = {make_body(state, self->a, self->pose_a), make_body(state, self->b, self->pose_b)};
+    if (bodies.a.shape && bodies.b.shape) {
+        ovoid_pair pair = {bodies.a.shape, bodies.b.shape, self->pose_a, self->pose_b};
+        return ovoid_answer_check(&pair, &self->of.answer, self->cover, error);
+    }
+    ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count, self->cover};
+    return ovoid_compound_answer_check(&bodies, &self->of, &exclusions, error);
+}
+
+static ovoid_code check_any(module_state *state, PyObject *what, ovoid_error *error) {
+    if (Py_TYPE(what) == state->answer) return answer_check((const answer_object *)what, error);
+    return impact_check(state, what, error);
+}
+
+static int is_checkable(module_state *state, PyObject *what) {
+    if (Py_TYPE(what) == state->answer || Py_TYPE(what) == state->impact || Py_TYPE(what) == state->approach) return 1;
+    PyErr_Format(PyExc_TypeError, "an Answer, Impact or Approach is wanted, not %R", (PyObject *)Py_TYPE(what));
+    return 0;
+}
+
+static PyObject *check(PyObject *module, PyObject *what) {
+    module_state *state = state_of_module(module);
+    ovoid_error error;
+    if (!is_checkable(state, what)) return NULL;
+    if (check_any(state, what, &error) != OVOID_OK) return raise_error(state, &error);
+    Py_RETURN_NONE;
+}
+
+static PyObject *is_proven(PyObject *module, PyObject *what) {
+    module_state *state = state_of_module(module);
+    if (!is_checkable(state, what)) return NULL;
+    return PyBool_FromLong(check_any(state, what, NULL) == OVOID_OK);
+}
+
+static PyMethodDef check_methods[] = {
+    {"check", check, METH_O,
+     "check(answer)\n--\n\nChecks an Answer, Impact or Approach by its proof alone, without any search; raises Error "
+     "where "
+     "the proof does\nnot hold."},
+    {"is_proven", is_proven, METH_O, "is_proven(answer)\n--\n\nTrue where check(answer) finds nothing wrong."},
+    {NULL, NULL, 0, NULL}};
+
+// ---- what it is
+
+static PyObject *get_distance(PyObject *self, void *closure) {
+    (void)closure;
+    return PyFloat_FromDouble(ovoid_answer_get_distance(&((answer_object *)self)->of.answer));
+}
+
+static PyObject *get_proof(PyObject *self, void *closure) {
+    (void)closure;
+    const ovoid_proof *proof = &((answer_object *)self)->of.answer.proof;
+    return array_copy(state_of(self), RECORD_PROOF, 1, (Py_ssize_t[]){1}, proof);
+}
+
+static PyObject *get_body(PyObject *self, void *closure) {
+    answer_object *answer = (answer_object *)self;
+    return Py_NewRef(closure ? answer->b : answer->a);
+}
+
+static PyObject *get_pose(PyObject *self, void *closure) {
+    answer_object *answer = (answer_object *)self;
+    return pose_wrap(state_of(self), closure ? answer->pose_b : answer->pose_a);
+}
+
+static PyObject *is_within(PyObject *self, PyObject *margin) {
+    double wanted = PyFloat_AsDouble(margin);
+    if (wanted == -1 && PyErr_Occurred()) return NULL;
+    int within = ovoid_answer_is_within(&((answer_object *)self)->of.answer, wanted);
+    if (within < 0) Py_RETURN_NONE;
+    return PyBool_FromLong(within);
+}
+
+static PyObject *repr(PyObject *self) {
+    const ovoid_answer *x = &((answer_object *)self)->of.answer;
+    char text[160];
+    PyOS_snprintf(text, sizeof text, "<ovoid.Answer: %s, %.17g <= d <= %.17g, by %s>", ovoid_status_get_name(x->status),
+                  x->lower, x->upper, ovoid_stage_get_name(x->stage));
+    return PyUnicode_FromString(text);
+}
+
+static void answer_dealloc(PyObject *object) {
+    answer_object *self = (answer_object *)object;
+    Py_XDECREF(self->a);
+    Py_XDECREF(self->b);
+    free(self->cover);
+    free(self->exclusions);
+    object_free(object);
+}
+
+static PyGetSetDef fields[] = {
+    FIELD(answer_object, FIELD_ENUM + ENUM_STATUS, "status", of.answer.status,
+          "What is proven of the signed distance d: a Status."),
+    FIELD(answer_object, FIELD_DOUBLE, "lower", of.answer.lower, "Proven: lower <= d, rounding included."),
+    FIELD(answer_object, FIELD_DOUBLE, "upper", of.answer.upper, "Proven: d <= upper, rounding included."),
+    FIELD(answer_object, FIELD_VEC3, "point_a", of.answer.point_a,
+          "Witness point of a, world frame. Of distance and depth: point_b - point_a = d normal."),
+    FIELD(answer_object, FIELD_VEC3, "point_b", of.answer.point_b, "Witness point of b, world frame."),
+    FIELD(answer_object, FIELD_VEC3, "normal", of.answer.normal, "Unit normal from a to b, world frame."),
+    FIELD(answer_object, FIELD_ENUM + ENUM_LIMIT, "limit", of.answer.limit,
+          "Why the bracket is not narrower: a Limit."),
+    FIELD(answer_object, FIELD_ENUM + ENUM_STAGE, "stage", of.answer.stage, "What decided: a Stage."),
+    FIELD(answer_object, FIELD_UINT, "iterations", of.answer.iterations, "Iterations of the exact methods."),
+    FIELD(answer_object, FIELD_UINT, "part_a", of.part_a, "The deciding part of a compound a; 0 of a shape."),
+    FIELD(answer_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of a compound b; 0 of a shape."),
+    {"distance", get_distance, NULL,
+     "The signed distance as one number, never above the true one; NaN where the bracket is wider than the tolerance.",
+     NULL},
+    {"proof", get_proof, NULL, "The proof of the deciding shapes, an array of one record: earlier= takes it.", NULL},
+    {"a", get_body, NULL, "The first body.", NULL},
+    {"b", get_body, NULL, "The second body.", ""},
+    {"pose_a", get_pose, NULL, "The pose of a.", NULL},
+    {"pose_b", get_pose, NULL, "The pose of b.", ""},
+    {NULL, NULL, NULL, NULL, NULL}};
+
+static PyMethodDef methods[] = {
+    {"is_within", is_within, METH_O,
+     "is_within(margin)\n--\n\nTrue: proven within the margin; False: proven farther; None: the bracket straddles it."},
+    {NULL, NULL, 0, NULL}};
+
+static PyType_Slot slots[] = {
+    {Py_tp_doc,
+     "The answer to a query of two bodies: lower <= d <= upper, where d is the signed distance, positive apart,\n"
+     "minus the depth where they overlap. ovoid.check(answer) checks its proof."},
+    {Py_tp_dealloc, answer_dealloc},
+    {Py_tp_repr, repr},
+    {Py_tp_getset, fields},
+    {Py_tp_methods, methods},
+    {0, NULL}};
+static PyType_Spec spec = {"ovoid.Answer", sizeof(answer_object), 0,
+                           Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
+
+int answer_add(PyObject *module) {
+    return type_add(module, &spec, &state_of_module(module)->answer) || PyModule_AddFunctions(module, check_methods);
+}

@@ -1,0 +1,219 @@
+// What the files of the extension share: the module's state, its types, and the doors between Python's objects and C's.
+//
+// The limited API of CPython 3.11, so one build serves every later version. NumPy is not needed to build: arrays come
+// in through the buffer protocol and go out as `Array`, which NumPy, where it can be imported, is asked to wrap.
+//
+// Functions that return an object return NULL, and those that return int return -1, with an exception set.
+#ifndef OVOID_PYTHON_MODULE_H
+#define OVOID_PYTHON_MODULE_H
+
+#define PY_SSIZE_T_CLEAN
+#include <Python.h>
+
+#include <ovoid/ovoid.h>
+
+// Slots of types are functions behind void pointers, which ISO C does not know; POSIX and Python do.
+#pragma GCC diagnostic ignored "-Wpedantic"
+
+/// The enumerations of ovoid/enums.py, each a tuple of its members by their numbers.
+typedef enum enum_kind {
+    ENUM_STATUS,
+    ENUM_STAGE,
+    ENUM_LIMIT,
+    ENUM_CODE,
+    ENUM_PROOF_KIND,
+    ENUM_IMPACT_STATUS,
+    ENUM_COUNT
+} enum_kind;
+
+/// What an array holds (array.c).
+typedef enum record_kind {
+    RECORD_DOUBLE,
+    RECORD_UINT32,
+    RECORD_UINT64,
+    RECORD_VERDICT,
+    RECORD_WITNESS,
+    RECORD_PROOF,
+    RECORD_CONTACT,
+    RECORD_STEP,
+    RECORD_COUNT
+} record_kind;
+
+/// The types that hold C values; names as in Python, in lower case.
+typedef struct module_state {
+    PyTypeObject *array, *shape, *pose, *compound, *answer, *bodies, *world, *motion, *impact, *approach, *ray_hit,
+        *smooth, *smooth_value, *gradient, *fit;
+    PyObject *error;                 ///< ovoid.Error
+    PyObject *contacts, *hit, *cast; ///< named tuples of ovoid/_values.py
+    PyObject *enums[ENUM_COUNT];     ///< tuples
+    PyObject *numpy_array;           ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried
+    PyObject *numpy_types[RECORD_COUNT];
+    char *numpy_formats[RECORD_COUNT]; ///< how NumPy writes the format of a record; NULL: not yet asked
+} module_state;
+
+/// The state, from an object of one of the types, from one of the types, or from the module.
+module_state *state_of(PyObject *self);
+module_state *state_of_type(PyObject *type);
+module_state *state_of_module(PyObject *module);
+
+// ---- errors.c
+
+/// Raises ovoid.Error with the library's sentence (MemoryError for MEMORY); returns NULL.
+void *raise_error(module_state *state, const ovoid_error *error);
+/// Raises ovoid.Error with a sentence as of PyUnicode_FromFormat; returns NULL.
+void *raise_code(module_state *state, ovoid_code code, Py_ssize_t place, const char *format, ...);
+/// Member `value` of an enumeration, a new reference.
+PyObject *enum_get(module_state *state, enum_kind kind, uint32_t value);
+
+// ---- buffers.c
+
+/// An array that was read: its items are a copy, double or int64_t as asked.
+typedef struct items {
+    void *data;
+    Py_ssize_t shape[3];
+} items;
+
+/// Reads numbers from a buffer of any strides, from what has `__array__`, or from nested sequences. what: how messages
+/// name it. wanted: `axes` lengths, -1 where any will do. type: 'd' or 'q' (integers only). The caller frees to->data.
+int items_read(module_state *state, PyObject *from, const char *what, int axes, const Py_ssize_t *wanted, char type,
+               items *to);
+/// The same into memory of the caller, of exactly that shape.
+int doubles_read(module_state *state, PyObject *from, const char *what, int axes, const Py_ssize_t *wanted, void *to);
+int vec3_read(module_state *state, PyObject *from, const char *what, ovoid_vec3 *to);
+/// The kind of a buffer's items: 'd', 'f', 'i' (signed), 'u' (unsigned); 0: none that is read here.
+char buffer_kind(const Py_buffer *view);
+/// A view of an array of `count` records (-1: any number), contiguous, of that kind; writable where asked.
+int records_view(module_state *state, PyObject *from, const char *what, record_kind kind, Py_ssize_t count,
+                 int writable, Py_buffer *view);
+
+// ---- array.c
+
+/// A new zeroed array of `axes` lengths; *data (may be NULL) receives its memory.
+PyObject *array_make(module_state *state, record_kind kind, int axes, const Py_ssize_t *shape, void *data);
+/// The array as NumPy's where there is NumPy, else itself. Takes over the reference; NULL is passed on.
+PyObject *array_wrap(module_state *state, PyObject *array);
+/// A wrapped copy of items.
+PyObject *array_copy(module_state *state, record_kind kind, int axes, const Py_ssize_t *shape, const void *from);
+/// How an array of that kind is written, and how NumPy writes it ("" where there is no NumPy); NULL: an exception.
+const char *record_format(record_kind kind);
+const char *record_numpy_format(module_state *state, record_kind kind);
+Py_ssize_t record_size(record_kind kind);
+
+// ---- fields.c
+
+/// How a field of a C value is shown.
+typedef enum field_kind {
+    FIELD_DOUBLE,
+    FIELD_UINT,
+    FIELD_SIZE,
+    FIELD_BOOL,
+    FIELD_VEC3,
+    FIELD_SYM3,
+    FIELD_DOUBLES_12,
+    FIELD_DOUBLES_12_12,
+    FIELD_ENUM ///< plus enum_kind
+} field_kind;
+typedef struct field {
+    int kind;
+    size_t offset; ///< in the object
+} field;
+/// The getter of all fields; closure: a field.
+PyObject *field_get(PyObject *self, void *closure);
+#define FIELD(object, kind, name, member, doc)                                                                         \
+    {                                                                                                                  \
+        name, field_get, NULL, doc, &(field) { kind, offsetof(object, member) }                                        \
+    }
+
+PyObject *vec3_make(ovoid_vec3 v);
+/// A matrix of an ellipsoid as a (3, 3) array.
+PyObject *sym3_make(module_state *state, const ovoid_sym3 *m);
+
+// ---- the objects
+
+typedef struct shape_object {
+    PyObject_HEAD ovoid_shape *shape;
+} shape_object;
+
+typedef struct compound_object {
+    PyObject_HEAD ovoid_compound *compound;
+    PyObject *shapes; ///< a tuple: keeps them
+} compound_object;
+
+typedef struct pose_object {
+    PyObject_HEAD ovoid_pose pose;
+} pose_object;
+
+/// The answer to a query, with what it takes to check it.
+typedef struct answer_object {
+    PyObject_HEAD ovoid_compound_answer of;
+    PyObject *a, *b; ///< shapes or compounds
+    ovoid_pose pose_a, pose_b;
+    ovoid_cover *cover;          ///< of a depth; NULL: none
+    ovoid_exclusion *exclusions; ///< of compounds
+    size_t exclusion_count;
+} answer_object;
+
+/// A Shape or Compound as a body. what: how messages name the argument.
+int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body);
+/// A new Shape around a C shape, which it takes over; where that is NULL, raises the error.
+PyObject *shape_wrap(module_state *state, ovoid_shape *shape, const ovoid_error *error);
+
+/// Anything that is a pose: None, Pose, a 4x4 array, (xyz, a rotation with as_quat).
+int pose_read(module_state *state, PyObject *from, const char *what, ovoid_pose *pose);
+PyObject *pose_wrap(module_state *state, ovoid_pose pose);
+/// An array of poses: (n, 4, 4), (n, 7) in the order named ("wxyz" or "xyzw"; NULL: none was), or a sequence of poses.
+/// The caller frees *poses.
+int poses_read(module_state *state, PyObject *from, const char *order, ovoid_pose **poses, Py_ssize_t *count);
+
+/// The options that every query takes, as arguments of PyArg_ParseTupleAndKeywords.
+typedef struct query_keywords {
+    ovoid_options options;
+    unsigned long long iterations;
+} query_keywords;
+#define QUERY_FORMAT "dddK"
+#define QUERY_NAMES "absolute_tolerance", "relative_tolerance", "cap", "iterations"
+#define QUERY_TARGETS(k)                                                                                               \
+    &(k).options.absolute_tolerance, &(k).options.relative_tolerance, &(k).options.cap, &(k).iterations
+/// Checks them; options.iterations is filled.
+int query_keywords_check(module_state *state, query_keywords *k);
+
+/// An empty answer of two bodies at their poses.
+answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const ovoid_pose *pose_a,
+                           const ovoid_pose *pose_b);
+/// Keeps of a depth's cover what is used of it.
+int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
+/// Raises where an answer was refused; -1 then.
+int limit_check(module_state *state, ovoid_limit limit);
+/// Checks an answer by its proof: OVOID_OK, or what ovoid_answer_check says.
+ovoid_code answer_check(const answer_object *self, ovoid_error *error);
+/// Checks an impact or an approach likewise.
+ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *error);
+
+// ---- what each file adds to the module
+
+int array_add(PyObject *module);
+int pose_add(PyObject *module);
+int shape_add(PyObject *module);
+int compound_add(PyObject *module);
+int answer_add(PyObject *module);
+int bodies_add(PyObject *module);
+int world_add(PyObject *module);
+int motion_add(PyObject *module);
+int impact_add(PyObject *module);
+int smooth_add(PyObject *module);
+
+extern PyMethodDef query_methods[], batch_methods[], impact_methods[], smooth_methods[], array_methods[];
+extern PyMethodDef shape_constructors[], world_queries[];
+
+/// Joins two tables of methods in `all`, which the type keeps, and enters it in the slots.
+void slots_set_methods(PyType_Slot *slots, PyMethodDef *all, const PyMethodDef *first, const PyMethodDef *second);
+/// Makes a type of the module from its spec and adds it by its name.
+int type_add(PyObject *module, PyType_Spec *spec, PyTypeObject **type);
+/// A new object of a type without arguments, zeroed.
+void *object_make(PyTypeObject *type);
+/// Ends an object of a heap type.
+void object_free(PyObject *self);
+
+#define METHOD_KEYWORDS(function) ((PyCFunction)(void (*)(void))(function))
+
+#endif

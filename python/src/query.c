@@ -1,0 +1,242 @@
+// collide, within, distance, depth of two bodies at their poses: one answer each.
+//
+// The arguments are read by hand (METH_FASTCALL): a call should cost little more than the query. Two shapes keep the
+// interpreter's lock, since a query of them takes microseconds; compounds give it up.
+#include "src/module.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum query_name { COLLIDE, WITHIN, DISTANCE, DEPTH } query_name;
+static const char *const query_names[] = {"collide", "within", "distance", "depth"};
+
+enum { BODY_A, BODY_B, PLACE_A, PLACE_B, MARGIN, ABSOLUTE, RELATIVE, CAP, ITERATIONS, EARLIER, ARGUMENT_COUNT };
+static const char *const argument_names[ARGUMENT_COUNT] = {
+    "a", "b", "pose_a", "pose_b", "margin", "absolute_tolerance", "relative_tolerance", "cap", "iterations", "earlier"};
+
+typedef struct query_input {
+    query_name name;
+    PyObject *a, *b;
+    ovoid_body_pair pair;
+    double margin;
+    ovoid_options options;
+    ovoid_compound_proof earlier;
+    int has_earlier;
+} query_input;
+
+// ---- arguments
+
+static int find_argument(const char *function, PyObject *name) {
+    for (int i = 0; i < ARGUMENT_COUNT; i++)
+        if (PyUnicode_CompareWithASCIIString(name, argument_names[i]) == 0) return i;
+    PyErr_Format(PyExc_TypeError, "%s() has no argument '%U'", function, name);
+    return -1;
+}
+
+static int sort_arguments(query_name which, PyObject *const *given, Py_ssize_t count, PyObject *names,
+                          PyObject *sorted[ARGUMENT_COUNT]) {
+    const char *function = query_names[which];
+    if (count > MARGIN) {
+        PyErr_Format(PyExc_TypeError, "%s() takes (a, b, pose_a, pose_b) by place, all else by name", function);
+        return -1;
+    }
+    for (Py_ssize_t i = 0; i < count; i++) sorted[i] = given[i];
+    Py_ssize_t named = names ? PyTuple_Size(names) : 0;
+    for (Py_ssize_t i = 0; i < named; i++) {
+        int place = find_argument(function, PyTuple_GetItem(names, i));
+        if (place < 0) return -1;
+        if (sorted[place] || (place == MARGIN && which != WITHIN)) {
+            PyErr_Format(PyExc_TypeError, sorted[place] ? "%s() has '%s' twice" : "%s() has no argument '%s'", function,
+                         argument_names[place]);
+            return -1;
+        }
+        sorted[place] = given[count + i];
+    }
+    if (sorted[BODY_A] && sorted[BODY_B] && (which != WITHIN || sorted[MARGIN])) return 0;
+    PyErr_Format(PyExc_TypeError, which == WITHIN ? "%s() needs two bodies and margin=" : "%s() needs two bodies",
+                 function);
+    return -1;
+}
+
+static int read_double(PyObject *from, const char *name, double *to) {
+    if (!from) return 0;
+    *to = PyFloat_AsDouble(from);
+    if (*to != -1 || !PyErr_Occurred()) return 0;
+    if (PyErr_ExceptionMatches(PyExc_TypeError))
+        PyErr_Format(PyExc_TypeError, "%s: a number is wanted, not %R", name, (PyObject *)Py_TYPE(from));
+    return -1;
+}
+
+static int read_iterations(module_state *state, PyObject *from, uint32_t *to) {
+    if (!from) return 0;
+    long long wanted = PyLong_AsLongLong(from);
+    if (wanted == -1 && PyErr_Occurred()) return -1;
+    *to = (uint32_t)wanted;
+    if (wanted >= 0 && wanted <= UINT32_MAX) return 0;
+    raise_code(state, OVOID_ERROR_ARGUMENT, -1, "iterations: 0 to 2^32 - 1 are wanted");
+    return -1;
+}
+
+int query_keywords_check(module_state *state, query_keywords *k) {
+    k->options.iterations = (uint32_t)k->iterations;
+    if (k->iterations <= UINT32_MAX) return 0;
+    raise_code(state, OVOID_ERROR_ARGUMENT, -1, "iterations: 0 to 2^32 - 1 are wanted");
+    return -1;
+}
+
+int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body) {
+    body->shape = NULL;
+    body->compound = NULL;
+    if (Py_TYPE(from) == state->shape)
+        body->shape = ((shape_object *)from)->shape;
+    else if (Py_TYPE(from) == state->compound)
+        body->compound = ((compound_object *)from)->compound;
+    else {
+        PyErr_Format(PyExc_TypeError, "%s: a Shape or Compound is wanted, not %R", what, (PyObject *)Py_TYPE(from));
+        return -1;
+    }
+    return 0;
+}
+
+static int read_earlier(module_state *state, PyObject *from, query_input *in) {
+    if (!from || from == Py_None) return 0;
+    in->has_earlier = 1;
+    if (Py_TYPE(from) == state->answer) {
+        const ovoid_compound_answer *of = &((const answer_object *)from)->of;
+        in->earlier = (ovoid_compound_proof){of->part_a, of->part_b, of->answer.proof};
+        return 0;
+    }
+    Py_buffer view;
+    if (records_view(state, from, "earlier", RECORD_PROOF, 1, 0, &view)) return -1;
+    in->earlier = (ovoid_compound_proof){.part_a = 0};
+    memcpy(&in->earlier.proof, view.buf, sizeof in->earlier.proof);
+    PyBuffer_Release(&view);
+    return 0;
+}
+
+static int read_input(module_state *state, PyObject *const x[ARGUMENT_COUNT], query_input *in) {
+    in->a = x[BODY_A];
+    in->b = x[BODY_B];
+    in->margin = 0;
+    in->has_earlier = 0;
+    in->options = (ovoid_options){0};
+    if (body_read(state, in->a, "a", &in->pair.a) || body_read(state, in->b, "b", &in->pair.b) ||
+        pose_read(state, x[PLACE_A], "pose_a", &in->pair.a.pose) ||
+        pose_read(state, x[PLACE_B], "pose_b", &in->pair.b.pose))
+        return -1;
+    if (read_double(x[MARGIN], "margin", &in->margin) ||
+        read_double(x[ABSOLUTE], "absolute_tolerance", &in->options.absolute_tolerance) ||
+        read_double(x[RELATIVE], "relative_tolerance", &in->options.relative_tolerance) ||
+        read_double(x[CAP], "cap", &in->options.cap) || read_iterations(state, x[ITERATIONS], &in->options.iterations))
+        return -1;
+    return read_earlier(state, x[EARLIER], in);
+}
+
+// ---- two shapes
+
+static int query_shapes(const query_input *in, answer_object *to) {
+    ovoid_pair pair = {in->pair.a.shape, in->pair.b.shape, in->pair.a.pose, in->pair.b.pose};
+    const ovoid_proof *earlier = in->has_earlier ? &in->earlier.proof : NULL;
+    if (in->name == COLLIDE)
+        to->of.answer = ovoid_collide(&pair, &in->options, earlier);
+    else if (in->name == WITHIN)
+        to->of.answer = ovoid_within(&pair, in->margin, &in->options, earlier);
+    else if (in->name == DISTANCE)
+        to->of.answer = ovoid_distance(&pair, &in->options, earlier);
+    else {
+        ovoid_cover cover;
+        cover.point_count = 0;
+        to->of.answer = ovoid_depth(&pair, &in->options, earlier, &cover);
+        return answer_keep_cover(to, &cover);
+    }
+    return 0;
+}
+
+// ---- compounds
+
+static ovoid_compound_answer query_once(const query_input *in, ovoid_exclusions *exclusions) {
+    const ovoid_compound_proof *earlier = in->has_earlier ? &in->earlier : NULL;
+    switch (in->name) {
+    case COLLIDE: return ovoid_compound_collide(&in->pair, &in->options, earlier, exclusions);
+    case WITHIN: return ovoid_compound_within(&in->pair, in->margin, &in->options, earlier, exclusions);
+    case DISTANCE: return ovoid_compound_distance(&in->pair, &in->options, earlier, exclusions);
+    default: return ovoid_compound_depth(&in->pair, &in->options, earlier, exclusions);
+    }
+}
+
+// Asks again with more memory where the exclusions were more than there was room for.
+static int query_compounds(const query_input *in, answer_object *to) {
+    ovoid_cover cover;
+    size_t capacity = 64;
+    for (;;) {
+        ovoid_exclusion *grown = realloc(to->exclusions, capacity * sizeof *grown);
+        if (!grown) {
+            PyErr_NoMemory();
+            return -1;
+        }
+        to->exclusions = grown;
+        cover.point_count = 0;
+        ovoid_exclusions exclusions = {grown, capacity, 0, in->name == DEPTH ? &cover : NULL};
+        Py_BEGIN_ALLOW_THREADS;
+        to->of = query_once(in, &exclusions);
+        Py_END_ALLOW_THREADS;
+        to->exclusion_count = exclusions.count;
+        if (exclusions.count <= capacity) return answer_keep_cover(to, &cover);
+        capacity = exclusions.count;
+    }
+}
+
+// ---- what is called
+
+static PyObject *query(PyObject *module, query_name name, PyObject *const *given, Py_ssize_t count, PyObject *names) {
+    module_state *state = PyModule_GetState(module);
+    PyObject *sorted[ARGUMENT_COUNT] = {NULL};
+    query_input in;
+    in.name = name;
+    if (sort_arguments(name, given, count, names, sorted) || read_input(state, sorted, &in)) return NULL;
+    answer_object *to = answer_make(state, in.a, in.b, &in.pair.a.pose, &in.pair.b.pose);
+    if (!to) return NULL;
+    int failed = in.pair.a.shape && in.pair.b.shape ? query_shapes(&in, to) : query_compounds(&in, to);
+    if (failed || limit_check(state, to->of.answer.limit)) {
+        Py_DECREF(to);
+        return NULL;
+    }
+    return (PyObject *)to;
+}
+
+static PyObject *collide(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
+    return query(module, COLLIDE, given, count, names);
+}
+static PyObject *within(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
+    return query(module, WITHIN, given, count, names);
+}
+static PyObject *distance(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
+    return query(module, DISTANCE, given, count, names);
+}
+static PyObject *depth(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
+    return query(module, DEPTH, given, count, names);
+}
+
+#define QUERY_SIGNATURE "absolute_tolerance=0, relative_tolerance=0, cap=0, iterations=0, earlier=None)\n--\n\n"
+#define QUERY_DOC                                                                                                      \
+    "\n\na, b: a Shape or a Compound. pose_a, pose_b: None (the identity), a Pose, a 4x4 array, or (xyz, SciPy "       \
+    "Rotation);\n"                                                                                                     \
+    "lengths in the shapes' unit, world frame. It stops where upper - lower is at most absolute_tolerance or\n"        \
+    "relative_tolerance (0: 1e-9) of the pair's size, or d is proven above cap (0: none). earlier: the Answer or "     \
+    "proof\n"                                                                                                          \
+    "of an earlier query of this pair, a warm start that is never trusted. Returns an Answer."
+
+PyMethodDef query_methods[] = {
+    {"collide", METHOD_KEYWORDS(collide), METH_FASTCALL | METH_KEYWORDS,
+     "collide(a, b, pose_a=None, pose_b=None, *, " QUERY_SIGNATURE
+     "Do the bodies touch? Stops as soon as the sign of the signed distance is proven." QUERY_DOC},
+    {"within", METHOD_KEYWORDS(within), METH_FASTCALL | METH_KEYWORDS,
+     "within(a, b, pose_a=None, pose_b=None, *, margin, " QUERY_SIGNATURE
+     "Are the bodies within margin >= 0 of each other? Ask answer.is_within(margin)." QUERY_DOC},
+    {"distance", METHOD_KEYWORDS(distance), METH_FASTCALL | METH_KEYWORDS,
+     "distance(a, b, pose_a=None, pose_b=None, *, " QUERY_SIGNATURE
+     "The distance to the tolerance, where the bodies are apart; where they overlap only that is proven." QUERY_DOC},
+    {"depth", METHOD_KEYWORDS(depth), METH_FASTCALL | METH_KEYWORDS,
+     "depth(a, b, pose_a=None, pose_b=None, *, " QUERY_SIGNATURE
+     "The signed distance to the tolerance: where the bodies overlap, minus the penetration depth." QUERY_DOC},
+    {NULL, NULL, 0, NULL}};

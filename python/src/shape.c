@@ -1,0 +1,256 @@
+// Shape: an immutable convex body; what it holds, and new shapes made of it. Its constructors are in shape_create.c.
+#include "src/module.h"
+
+#ifdef OVOID_PYTHON_IO
+#include <ovoid/io.h>
+#endif
+
+#include <stdlib.h>
+#include <string.h>
+
+static const ovoid_shape *get(PyObject *self) { return ((shape_object *)self)->shape; }
+
+// ---- arrays
+
+static PyObject *get_vertices(PyObject *self, void *closure) {
+    (void)closure;
+    ovoid_polytope p = ovoid_shape_get_polytope(get(self));
+    module_state *state = state_of(self);
+    double *to;
+    PyObject *array = array_make(state, RECORD_DOUBLE, 2, (Py_ssize_t[]){(Py_ssize_t)p.vertex_count, 3}, &to);
+    for (size_t i = 0; array && i < p.vertex_count; i++) {
+        to[3 * i] = p.origin.x + p.vertices[3 * i];
+        to[3 * i + 1] = p.origin.y + p.vertices[3 * i + 1];
+        to[3 * i + 2] = p.origin.z + p.vertices[3 * i + 2];
+    }
+    return array_wrap(state, array);
+}
+
+static PyObject *get_faces(PyObject *self, void *closure) {
+    (void)closure;
+    ovoid_polytope p = ovoid_shape_get_polytope(get(self));
+    return array_copy(state_of(self), RECORD_UINT32, 2, (Py_ssize_t[]){(Py_ssize_t)p.triangle_count, 3}, p.triangles);
+}
+
+// ---- measures and ellipsoids
+
+static PyObject *get_measure(PyObject *self, void *closure) {
+    ovoid_measures m = ovoid_shape_get_measures(get(self));
+    ovoid_vec3 o = ovoid_shape_get_polytope(get(self)).origin;
+    switch (*(const char *)closure) {
+    case 'v': return PyFloat_FromDouble(m.volume);
+    case 'a': return PyFloat_FromDouble(m.area);
+    case 'c': return vec3_make((ovoid_vec3){m.centroid.x + o.x, m.centroid.y + o.y, m.centroid.z + o.z});
+    case 'i': return sym3_make(state_of(self), &m.inertia);
+    default:
+        return Py_BuildValue("((ddd)(ddd))", m.box.min.x + o.x, m.box.min.y + o.y, m.box.min.z + o.z, m.box.max.x + o.x,
+                             m.box.max.y + o.y, m.box.max.z + o.z);
+    }
+}
+
+typedef struct fit_object {
+    PyObject_HEAD ovoid_fit fit;
+} fit_object;
+
+// The ellipsoid in the user's local frame.
+static PyObject *get_fit(PyObject *self, void *closure) {
+    fit_object *made = object_make(state_of(self)->fit);
+    if (!made) return NULL;
+    made->fit = closure ? ovoid_shape_get_inner(get(self)) : ovoid_shape_get_outer(get(self));
+    ovoid_vec3 o = ovoid_shape_get_polytope(get(self)).origin;
+    ovoid_vec3 *center = &made->fit.ellipsoid.center;
+    *center = (ovoid_vec3){center->x + o.x, center->y + o.y, center->z + o.z};
+    return (PyObject *)made;
+}
+
+static PyObject *get_radii(PyObject *self, void *closure) {
+    (void)closure;
+    return vec3_make(ovoid_ellipsoid_compute_radii(&((fit_object *)self)->fit.ellipsoid));
+}
+
+static PyGetSetDef fit_fields[] = {
+    FIELD(fit_object, FIELD_VEC3, "center", fit.ellipsoid.center, "The centre, local frame."),
+    FIELD(fit_object, FIELD_SYM3, "matrix", fit.ellipsoid.q,
+          "Q, (3, 3): the x with (x - center)' Q^-1 (x - center) <= 1."),
+    FIELD(fit_object, FIELD_DOUBLE, "volume", fit.volume, "Its volume; area or length of a flat one."),
+    FIELD(fit_object, FIELD_DOUBLE, "gap", fit.gap, "The proven relative gap of the volume to the optimum."),
+    {"radii", get_radii, NULL, "The radii, in descending order.", NULL},
+    {NULL, NULL, NULL, NULL, NULL}};
+static PyType_Slot fit_slots[] = {{Py_tp_doc, "An ellipsoid around or inside a shape."},
+                                  {Py_tp_dealloc, object_free},
+                                  {Py_tp_getset, fit_fields},
+                                  {0, NULL}};
+static PyType_Spec fit_spec = {"ovoid.Ellipsoid", sizeof(fit_object), 0,
+                               Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, fit_slots};
+
+static PyObject *get_radius(PyObject *self, void *closure) {
+    (void)closure;
+    return PyFloat_FromDouble(ovoid_shape_get_radius(get(self)));
+}
+
+static PyObject *get_allowance(PyObject *self, void *closure) {
+    (void)closure;
+    ovoid_allowance a = ovoid_shape_get_allowance(get(self));
+    return Py_BuildValue("(dd)", a.outside, a.inside);
+}
+
+static PyObject *get_rank(PyObject *self, void *closure) {
+    (void)closure;
+    return PyLong_FromUnsignedLong(ovoid_shape_get_polytope(get(self)).rank);
+}
+
+static PyObject *get_report(PyObject *self, void *closure) {
+    (void)closure;
+    ovoid_report r = ovoid_shape_get_report(get(self));
+    return Py_BuildValue("{sKsKsKsKsKsKsI}", "points", r.points, "vertices", r.vertices, "duplicates", r.duplicates,
+                         "interior", r.interior, "coplanar", r.coplanar, "faces", r.faces, "rank", r.rank);
+}
+
+// ---- bytes and files
+
+static PyObject *to_bytes(PyObject *self, PyObject *ignored) {
+    (void)ignored;
+    size_t size = ovoid_shape_write(get(self), NULL, 0);
+    PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)size);
+    if (bytes) ovoid_shape_write(get(self), PyBytes_AsString(bytes), size);
+    return bytes;
+}
+
+static PyObject *reduce(PyObject *self, PyObject *ignored) {
+    PyObject *bytes = to_bytes(self, ignored);
+    PyObject *reader = bytes ? PyObject_GetAttrString((PyObject *)Py_TYPE(self), "from_bytes") : NULL;
+    if (!reader) {
+        Py_XDECREF(bytes);
+        return NULL;
+    }
+    return Py_BuildValue("N(N)", reader, bytes);
+}
+
+#ifdef OVOID_PYTHON_IO
+static PyObject *save(PyObject *self, PyObject *arguments) {
+    PyObject *path = NULL;
+    ovoid_error error;
+    if (!PyArg_ParseTuple(arguments, "O&:save", PyUnicode_FSConverter, &path)) return NULL;
+    ovoid_code code = ovoid_shape_write_file(get(self), PyBytes_AsString(path), &error);
+    Py_DECREF(path);
+    if (code != OVOID_OK) return raise_error(state_of(self), &error);
+    Py_RETURN_NONE;
+}
+#endif
+
+// ---- new shapes
+
+static PyObject *divided(PyObject *self, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"normal", "offset", "rounding", NULL};
+    PyObject *direction;
+    ovoid_plane plane;
+    ovoid_shape_options options = {0};
+    ovoid_shape *parts[2];
+    ovoid_error error;
+    module_state *state = state_of(self);
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "Od|$d:divided", names, &direction, &plane.offset,
+                                     &options.radius) ||
+        vec3_read(state, direction, "normal", &plane.normal))
+        return NULL;
+    if (ovoid_shape_create_divided(get(self), &plane, &options, parts, &error) != OVOID_OK)
+        return raise_error(state, &error);
+    PyObject *below = parts[0] ? shape_wrap(state, parts[0], &error) : Py_NewRef(Py_None);
+    PyObject *above = parts[1] ? shape_wrap(state, parts[1], &error) : Py_NewRef(Py_None);
+    if (below && above) return Py_BuildValue("NN", below, above);
+    Py_XDECREF(below);
+    Py_XDECREF(above);
+    return NULL;
+}
+
+static PyObject *deformed(PyObject *self, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"points", "rounding", NULL};
+    PyObject *points;
+    items given;
+    ovoid_shape_options options = {0};
+    ovoid_error error;
+    module_state *state = state_of(self);
+    Py_ssize_t count = (Py_ssize_t)ovoid_shape_get_polytope(get(self)).vertex_count;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$d:deformed", names, &points, &options.radius) ||
+        items_read(state, points, "points", 2, (Py_ssize_t[]){count, 3}, 'd', &given))
+        return NULL;
+    ovoid_shape *shape;
+    Py_BEGIN_ALLOW_THREADS;
+    shape = ovoid_shape_create_deformed(get(self), given.data, &options, &error);
+    Py_END_ALLOW_THREADS;
+    free(given.data);
+    return shape_wrap(state, shape, &error);
+}
+
+static PyObject *copy(PyObject *self, PyObject *ignored) {
+    (void)ignored;
+    return Py_NewRef(self);
+}
+
+static PyObject *repr(PyObject *self) {
+    ovoid_polytope p = ovoid_shape_get_polytope(get(self));
+    PyObject *radius = get_radius(self, NULL);
+    PyObject *text = radius ? PyUnicode_FromFormat("<ovoid.Shape: %u vertices, %u faces, radius %S>", p.vertex_count,
+                                                   p.triangle_count, radius)
+                            : NULL;
+    Py_XDECREF(radius);
+    return text;
+}
+
+static void shape_dealloc(PyObject *self) {
+    ovoid_shape_destroy(((shape_object *)self)->shape);
+    object_free(self);
+}
+
+static PyMethodDef methods[] = {
+    {"to_bytes", to_bytes, METH_NOARGS, "to_bytes()\n--\n\nThe bytes of an .ovoid file; pickle uses them too."},
+#ifdef OVOID_PYTHON_IO
+    {"save", save, METH_VARARGS, "save(path)\n--\n\nWrites an .ovoid file: all of it, or the path is as it was."},
+#endif
+    {"divided", METHOD_KEYWORDS(divided), METH_VARARGS | METH_KEYWORDS,
+     "divided(normal, offset, *, rounding=0)\n--\n\nThe shape cut by the plane normal . x = offset (local frame): the "
+     "part "
+     "below and the part above; None where\nnothing is left."},
+    {"deformed", METHOD_KEYWORDS(deformed), METH_VARARGS | METH_KEYWORDS,
+     "deformed(points, *, rounding=0)\n--\n\nThe shape with its vertices moved: one point (n, 3) for each of "
+     ".vertices, in "
+     "their order."},
+    {"__reduce__", reduce, METH_NOARGS, NULL},
+    {"__copy__", copy, METH_NOARGS, NULL},
+    {"__deepcopy__", copy, METH_O, NULL},
+    {NULL, NULL, 0, NULL}};
+
+static PyGetSetDef fields[] = {
+    {"vertices", get_vertices, NULL, "The extreme points, (n, 3), local frame.", NULL},
+    {"faces", get_faces, NULL, "Triangles, (m, 3) indices of vertices, counter-clockwise from outside.", NULL},
+    {"volume", get_measure, NULL, "Volume of the polyhedron, without the rounding radius.", "v"},
+    {"area", get_measure, NULL, "Surface of the polyhedron; of a flat polygon both sides.", "a"},
+    {"centroid", get_measure, NULL, "Centroid, local frame.", "c"},
+    {"inertia", get_measure, NULL, "Inertia tensor about the centroid, (3, 3), unit density.", "i"},
+    {"bounds", get_measure, NULL, "The box of the vertices: ((x, y, z) of its least corner, of its greatest).", "b"},
+    {"outer", get_fit, NULL, "The smallest ellipsoid around the polyhedron.", NULL},
+    {"inner", get_fit, NULL, "The largest ellipsoid inside the polyhedron.", ""},
+    {"radius", get_radius, NULL, "The rounding radius, part of the body.", NULL},
+    {"allowance", get_allowance, NULL, "(outside, inside): what the true body may differ by.", NULL},
+    {"rank", get_rank, NULL, "0 a point, 1 a segment, 2 flat, 3 solid.", NULL},
+    {"report", get_report, NULL, "What the constructor did with the points given, a dict.", NULL},
+    {NULL, NULL, NULL, NULL, NULL}};
+
+static PyType_Slot slots[] = {
+    {Py_tp_doc,
+     "An immutable convex body, shared by any number of poses and threads.\n\nMade by Shape.from_points, hull_of, "
+     "from_faces, box, sphere, capsule, cylinder, cone, prism, pyramid, load and\nfrom_bytes. The unit of "
+     "length is the caller's and the same everywhere."},
+    {Py_tp_dealloc, shape_dealloc},
+    {Py_tp_repr, repr},
+    {Py_tp_methods, NULL},
+    {Py_tp_getset, fields},
+    {0, NULL}};
+static PyType_Spec spec = {"ovoid.Shape", sizeof(shape_object), 0,
+                           Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
+
+int shape_add(PyObject *module) {
+    static PyMethodDef all[40];
+    slots_set_methods(slots, all, shape_constructors, methods);
+    return type_add(module, &fit_spec, &state_of_module(module)->fit) ||
+           type_add(module, &spec, &state_of_module(module)->shape);
+}

@@ -1,0 +1,365 @@
+// The constructors of Shape: from points, faces, sizes, files, bytes, and from other shapes.
+//
+// What they read of Python is copied first; the building itself runs without the interpreter's lock.
+#include "src/module.h"
+
+#ifdef OVOID_PYTHON_IO
+#include <ovoid/io.h>
+#endif
+
+#include <stdlib.h>
+#include <string.h>
+
+// ---- the options of all shapes
+
+typedef struct shape_keywords {
+    double rounding, gap, outside, inside;
+    const char *inner;
+} shape_keywords;
+#define SHAPE_FORMAT "$ddz(dd)"
+#define SHAPE_NAMES "rounding", "gap", "inner", "allowance"
+#define SHAPE_TARGETS(k) &(k).rounding, &(k).gap, &(k).inner, &(k).outside, &(k).inside
+#define SHAPE_DOC                                                                                                      \
+    "\n\nrounding: a radius >= 0 added around the hull. gap: the relative volume gap of the ellipsoids, 0 for 1e-6.\n" \
+    "inner: 'maximum' or 'phases', which inner ellipsoid. allowance: (outside, inside), by how much the true body "    \
+    "may\n"                                                                                                            \
+    "stand out of the shape, and the shape out of the true body."
+#define SHAPE_SIGNATURE "*, rounding=0, gap=0, inner='maximum', allowance=(0, 0)"
+
+static int make_options(module_state *state, const shape_keywords *k, ovoid_shape_options *options) {
+    *options = (ovoid_shape_options){.radius = k->rounding, .gap = k->gap, .allowance = {k->outside, k->inside}};
+    if (!k->inner || !strcmp(k->inner, "maximum")) return 0;
+    options->inner = OVOID_INNER_PHASES;
+    if (!strcmp(k->inner, "phases")) return 0;
+    raise_code(state, OVOID_ERROR_ARGUMENT, -1, "inner: 'maximum' or 'phases' is wanted, not '%s'", k->inner);
+    return -1;
+}
+
+PyObject *shape_wrap(module_state *state, ovoid_shape *shape, const ovoid_error *error) {
+    if (!shape) return raise_error(state, error);
+    shape_object *self = object_make(state->shape);
+    if (self)
+        self->shape = shape;
+    else
+        ovoid_shape_destroy(shape);
+    return (PyObject *)self;
+}
+
+// ---- from points and faces
+
+static PyObject *make_from_points(module_state *state, PyObject *points, const shape_keywords *k) {
+    ovoid_shape_options options;
+    items given;
+    ovoid_error error;
+    if (make_options(state, k, &options) || items_read(state, points, "points", 2, (Py_ssize_t[]){-1, 3}, 'd', &given))
+        return NULL;
+    ovoid_shape *shape;
+    Py_BEGIN_ALLOW_THREADS;
+    shape = ovoid_shape_create_from_points(given.data, (size_t)given.shape[0], &options, &error);
+    Py_END_ALLOW_THREADS;
+    free(given.data);
+    return shape_wrap(state, shape, &error);
+}
+
+static PyObject *from_points(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"points", SHAPE_NAMES, NULL};
+    PyObject *points;
+    shape_keywords k = {0};
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|" SHAPE_FORMAT ":from_points", names, &points,
+                                     SHAPE_TARGETS(k)))
+        return NULL;
+    return make_from_points(state_of_type(type), points, &k);
+}
+
+static PyObject *hull_of(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"mesh", SHAPE_NAMES, NULL};
+    PyObject *mesh;
+    shape_keywords k = {0};
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|" SHAPE_FORMAT ":hull_of", names, &mesh, SHAPE_TARGETS(k)))
+        return NULL;
+    PyObject *points = PyObject_GetAttrString(mesh, "vertices");
+    PyObject *made = points ? make_from_points(state_of_type(type), points, &k) : NULL;
+    Py_XDECREF(points);
+    return made;
+}
+
+// Faces as runs of indices: of an array (m, k), or of a sequence of sequences of any lengths.
+typedef struct face_runs {
+    uint32_t *indices, *counts;
+    size_t face_count, index_count;
+} face_runs;
+
+static int append_face(module_state *state, const int64_t *face, size_t count, face_runs *to) {
+    Py_ssize_t place = (Py_ssize_t)to->face_count;
+    uint32_t *grown = realloc(to->indices, (to->index_count + count + 1) * sizeof *grown);
+    if (!grown) {
+        PyErr_NoMemory();
+        return -1;
+    }
+    to->indices = grown;
+    for (size_t i = 0; i < count; i++) {
+        if (face[i] < 0 || face[i] > UINT32_MAX) {
+            raise_code(state, OVOID_ERROR_INDEX, place, "face %zd: there is no vertex %lld", place, (long long)face[i]);
+            return -1;
+        }
+        to->indices[to->index_count++] = (uint32_t)face[i];
+    }
+    to->counts[to->face_count++] = (uint32_t)count;
+    return 0;
+}
+
+// Of a sequence, face by face.
+static int read_face_list(module_state *state, PyObject *faces, face_runs *to) {
+    PyObject *list = PySequence_Tuple(faces);
+    if (!list) return -1;
+    Py_ssize_t count = PyTuple_Size(list);
+    to->counts = calloc((size_t)count + 1, sizeof *to->counts);
+    int result = to->counts ? 0 : -1;
+    if (result) PyErr_NoMemory();
+    for (Py_ssize_t i = 0; !result && i < count; i++) {
+        items face;
+        result = items_read(state, PyTuple_GetItem(list, i), "faces", 1, (Py_ssize_t[]){-1}, 'q', &face);
+        if (!result) result = append_face(state, face.data, (size_t)face.shape[0], to);
+        free(face.data);
+    }
+    Py_DECREF(list);
+    return result;
+}
+
+static int read_faces(module_state *state, PyObject *faces, face_runs *to) {
+    *to = (face_runs){NULL, NULL, 0, 0};
+    if (!PyObject_CheckBuffer(faces)) return read_face_list(state, faces, to);
+    items given;
+    if (items_read(state, faces, "faces", 2, (Py_ssize_t[]){-1, -1}, 'q', &given)) return -1;
+    to->counts = calloc((size_t)given.shape[0] + 1, sizeof *to->counts);
+    int result = to->counts ? 0 : -1;
+    if (result) PyErr_NoMemory();
+    for (Py_ssize_t i = 0; !result && i < given.shape[0]; i++)
+        result = append_face(state, (const int64_t *)given.data + i * given.shape[1], (size_t)given.shape[1], to);
+    free(given.data);
+    return result;
+}
+
+static PyObject *from_faces(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"vertices", "faces", SHAPE_NAMES, NULL};
+    PyObject *points, *list;
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    module_state *state = state_of_type(type);
+    items given = {NULL, {0, 0, 0}};
+    face_runs runs = {NULL, NULL, 0, 0};
+    ovoid_shape *shape = NULL;
+    ovoid_error error;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|" SHAPE_FORMAT ":from_faces", names, &points, &list,
+                                     SHAPE_TARGETS(k)) ||
+        make_options(state, &k, &options))
+        return NULL;
+    int is_read = !items_read(state, points, "vertices", 2, (Py_ssize_t[]){-1, 3}, 'd', &given) &&
+                  !read_faces(state, list, &runs);
+    if (is_read) {
+        ovoid_faces faces = {given.data, (size_t)given.shape[0], runs.indices, runs.counts, runs.face_count};
+        Py_BEGIN_ALLOW_THREADS;
+        shape = ovoid_shape_create_from_faces(&faces, &options, &error);
+        Py_END_ALLOW_THREADS;
+    }
+    free(given.data);
+    free(runs.indices);
+    free(runs.counts);
+    return is_read ? shape_wrap(state, shape, &error) : NULL;
+}
+
+// ---- from sizes
+
+static PyObject *box(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"half_sizes", SHAPE_NAMES, NULL};
+    PyObject *sizes;
+    ovoid_vec3 half;
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    ovoid_error error;
+    module_state *state = state_of_type(type);
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|" SHAPE_FORMAT ":box", names, &sizes, SHAPE_TARGETS(k)) ||
+        make_options(state, &k, &options) || vec3_read(state, sizes, "half_sizes", &half))
+        return NULL;
+    return shape_wrap(state, ovoid_shape_create_box(half, &options, &error), &error);
+}
+
+static PyObject *sphere(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"radius", SHAPE_NAMES, NULL};
+    double radius;
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    ovoid_error error;
+    module_state *state = state_of_type(type);
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "d|" SHAPE_FORMAT ":sphere", names, &radius,
+                                     SHAPE_TARGETS(k)) ||
+        make_options(state, &k, &options))
+        return NULL;
+    return shape_wrap(state, ovoid_shape_create_sphere(radius, &options, &error), &error);
+}
+
+static PyObject *capsule(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"radius", "half_length", SHAPE_NAMES, NULL};
+    double radius, half_length;
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    ovoid_error error;
+    module_state *state = state_of_type(type);
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "dd|" SHAPE_FORMAT ":capsule", names, &radius, &half_length,
+                                     SHAPE_TARGETS(k)) ||
+        make_options(state, &k, &options))
+        return NULL;
+    return shape_wrap(state, ovoid_shape_create_capsule(radius, half_length, &options, &error), &error);
+}
+
+typedef ovoid_shape *create_round(double radius, double half_length, double tolerance,
+                                  const ovoid_shape_options *options, ovoid_error *error);
+
+// The true cylinder or cone, held by a polyhedron with an allowance.
+static PyObject *make_round(PyObject *type, PyObject *arguments, PyObject *keywords, create_round *create) {
+    static char *names[] = {"radius", "half_length", "tolerance", SHAPE_NAMES, NULL};
+    double radius, half_length, tolerance = 0;
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    ovoid_error error;
+    module_state *state = state_of_type(type);
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "dd|d" SHAPE_FORMAT, names, &radius, &half_length, &tolerance,
+                                     SHAPE_TARGETS(k)) ||
+        make_options(state, &k, &options))
+        return NULL;
+    ovoid_shape *shape;
+    Py_BEGIN_ALLOW_THREADS;
+    shape = create(radius, half_length, tolerance, &options, &error);
+    Py_END_ALLOW_THREADS;
+    return shape_wrap(state, shape, &error);
+}
+
+static PyObject *cylinder(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    return make_round(type, arguments, keywords, ovoid_shape_create_cylinder);
+}
+static PyObject *cone(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    return make_round(type, arguments, keywords, ovoid_shape_create_cone);
+}
+
+typedef ovoid_shape *create_sided(double radius, double half_length, uint32_t sides, const ovoid_shape_options *options,
+                                  ovoid_error *error);
+
+static PyObject *make_sided(PyObject *type, PyObject *arguments, PyObject *keywords, create_sided *create) {
+    static char *names[] = {"radius", "half_length", "sides", SHAPE_NAMES, NULL};
+    double radius, half_length;
+    long sides;
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    ovoid_error error;
+    module_state *state = state_of_type(type);
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "ddl|" SHAPE_FORMAT, names, &radius, &half_length, &sides,
+                                     SHAPE_TARGETS(k)) ||
+        make_options(state, &k, &options))
+        return NULL;
+    if (sides < 3 || sides > 1 << 24)
+        return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "sides: 3 to %d are wanted, not %ld", 1 << 24, sides);
+    ovoid_shape *shape;
+    Py_BEGIN_ALLOW_THREADS;
+    shape = create(radius, half_length, (uint32_t)sides, &options, &error);
+    Py_END_ALLOW_THREADS;
+    return shape_wrap(state, shape, &error);
+}
+
+static PyObject *prism(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    return make_sided(type, arguments, keywords, ovoid_shape_create_prism);
+}
+static PyObject *pyramid(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    return make_sided(type, arguments, keywords, ovoid_shape_create_pyramid);
+}
+
+// ---- from bytes and files
+
+static PyObject *from_bytes(PyObject *type, PyObject *bytes) {
+    module_state *state = state_of_type(type);
+    Py_buffer view;
+    ovoid_error error;
+    if (PyObject_GetBuffer(bytes, &view, PyBUF_SIMPLE)) return NULL;
+    // The reader checks first and builds then; a copy cannot be changed in between.
+    void *copy = malloc(view.len ? (size_t)view.len : 1);
+    size_t size = (size_t)view.len;
+    if (copy) memcpy(copy, view.buf, size);
+    PyBuffer_Release(&view);
+    if (!copy) return PyErr_NoMemory();
+    ovoid_shape *shape;
+    Py_BEGIN_ALLOW_THREADS;
+    shape = ovoid_shape_read(copy, size, NULL, &error);
+    Py_END_ALLOW_THREADS;
+    free(copy);
+    return shape_wrap(state, shape, &error);
+}
+
+#ifdef OVOID_PYTHON_IO
+static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"path", "scale", "unit", SHAPE_NAMES, NULL};
+    PyObject *path = NULL;
+    double scale = 0;
+    const char *unit = NULL;
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    ovoid_error error;
+    module_state *state = state_of_type(type);
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|dz" SHAPE_FORMAT ":load", names, PyUnicode_FSConverter,
+                                     &path, &scale, &unit, SHAPE_TARGETS(k)))
+        return NULL;
+    if (make_options(state, &k, &options)) {
+        Py_DECREF(path);
+        return NULL;
+    }
+    ovoid_read_options read = {.scale = scale, .unit = unit};
+    ovoid_shape *shape;
+    const char *name = PyBytes_AsString(path);
+    Py_BEGIN_ALLOW_THREADS;
+    shape = ovoid_shape_read_file(name, &read, &options, &error);
+    Py_END_ALLOW_THREADS;
+    Py_DECREF(path);
+    return shape_wrap(state, shape, &error);
+}
+#endif
+
+PyMethodDef shape_constructors[] = {
+    {"from_points", METHOD_KEYWORDS(from_points), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "from_points(points, " SHAPE_SIGNATURE
+     ")\n--\n\nThe convex hull of points (n, 3), in any unit of length." SHAPE_DOC},
+    {"hull_of", METHOD_KEYWORDS(hull_of), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "hull_of(mesh, " SHAPE_SIGNATURE ")\n--\n\nThe convex hull of anything with .vertices (n, 3), as a "
+     "trimesh.Trimesh." SHAPE_DOC},
+    {"from_faces", METHOD_KEYWORDS(from_faces), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "from_faces(vertices, faces, " SHAPE_SIGNATURE ")\n--\n\nFrom vertices (n, 3) and faces that claim to be convex, "
+     "counter-clockwise from outside: an array (m, k) of\nindices or a sequence of sequences. Checked, never "
+     "trusted." SHAPE_DOC},
+    {"box", METHOD_KEYWORDS(box), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "box(half_sizes, " SHAPE_SIGNATURE ")\n--\n\nAn axis-aligned box around the origin, of the given half sizes "
+     "(x, y, z)." SHAPE_DOC},
+    {"sphere", METHOD_KEYWORDS(sphere), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "sphere(radius, " SHAPE_SIGNATURE ")\n--\n\nA sphere around the origin; exact." SHAPE_DOC},
+    {"capsule", METHOD_KEYWORDS(capsule), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "capsule(radius, half_length, " SHAPE_SIGNATURE ")\n--\n\nA capsule along z: a segment of length 2 half_length "
+     "with a radius; exact." SHAPE_DOC},
+    {"cylinder", METHOD_KEYWORDS(cylinder), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "cylinder(radius, half_length, tolerance=0, " SHAPE_SIGNATURE ")\n--\n\nThe cylinder along z, held by a prism "
+     "with an allowance of at most the tolerance, a length; 0: radius / 200." SHAPE_DOC},
+    {"cone", METHOD_KEYWORDS(cone), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "cone(radius, half_length, tolerance=0, " SHAPE_SIGNATURE ")\n--\n\nThe cone, apex at z = +half_length; as "
+     "cylinder." SHAPE_DOC},
+    {"prism", METHOD_KEYWORDS(prism), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "prism(radius, half_length, sides, " SHAPE_SIGNATURE
+     ")\n--\n\nA prism along z, inscribed in the cylinder." SHAPE_DOC},
+    {"pyramid", METHOD_KEYWORDS(pyramid), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "pyramid(radius, half_length, sides, " SHAPE_SIGNATURE
+     ")\n--\n\nA pyramid along z, apex at z = +half_length." SHAPE_DOC},
+    {"from_bytes", from_bytes, METH_O | METH_CLASS,
+     "from_bytes(data)\n--\n\nA shape from the bytes of an .ovoid file, each of them checked; bit for bit the one that "
+     "was "
+     "written."},
+#ifdef OVOID_PYTHON_IO
+    {"load", METHOD_KEYWORDS(load), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "load(path, scale=1, unit=None, " SHAPE_SIGNATURE
+     ")\n--\n\nA shape from an .ovoid file, or the hull of a mesh file "
+     "(STL, OBJ, OFF, PLY, ...)." SHAPE_DOC},
+#endif
+    {NULL, NULL, 0, NULL}};

@@ -1,0 +1,322 @@
+// Queries of a world between steps: nearest, any, overlaps, casts. They change nothing, and run without the
+// interpreter's lock.
+#include "src/world.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// ---- hits
+
+static answer_object *answer_of(world_object *self, const ovoid_world_hit *hit, PyObject *probes,
+                                const ovoid_world_body *posed) {
+    if (!probes) return world_answer(self, hit->a, hit->b);
+    // The probe is a; its own pose is what was asked with.
+    ovoid_world_body found;
+    ovoid_error error;
+    if (ovoid_world_get(self->world, hit->b, &found, &error) != OVOID_OK)
+        return raise_error(state_of((PyObject *)self), &error);
+    PyObject *key = PyLong_FromUnsignedLongLong(hit->b);
+    PyObject *body = key ? PyObject_GetItem(self->kept, key) : NULL;
+    Py_XDECREF(key);
+    if (!body) return NULL;
+    answer_object *made = answer_make(state_of((PyObject *)self), PyTuple_GetItem(probes, (Py_ssize_t)hit->a), body,
+                                      &posed[hit->a].body.pose, &found.body.pose);
+    Py_DECREF(body);
+    return made;
+}
+
+PyObject *hit_make(world_object *self, const ovoid_world_hit *hit, PyObject *probes, const ovoid_world_body *posed) {
+    if (!hit->b) Py_RETURN_NONE;
+    answer_object *answer = answer_of(self, hit, probes, posed);
+    if (!answer) return NULL;
+    answer->of = hit->answer;
+    return PyObject_CallFunction(state_of((PyObject *)self)->hit, "KKdN", hit->a, hit->b, hit->lower, answer);
+}
+
+// ---- nearest
+
+static PyObject *nearest(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"id", QUERY_NAMES, NULL};
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    query_keywords k = {0};
+    ovoid_id id;
+    ovoid_world_hit hit;
+    ovoid_error error;
+    ovoid_code code;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|$" QUERY_FORMAT ":nearest", names, id_read, &id,
+                                     QUERY_TARGETS(k)) ||
+        query_keywords_check(state, &k) || world_enter(self, 0))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_world_find_nearest(self->world, id, &k.options, &hit, &error);
+    Py_END_ALLOW_THREADS;
+    PyObject *made = code == OVOID_OK ? hit_make(self, &hit, NULL, NULL) : raise_error(state, &error);
+    world_leave(self, 0);
+    return made;
+}
+
+static PyObject *nearest_to(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"body", "pose", "group", "mask", QUERY_NAMES, NULL};
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    query_keywords k = {0};
+    PyObject *body, *pose = NULL;
+    ovoid_world_body probe = {0};
+    ovoid_world_hit hit;
+    ovoid_error error;
+    ovoid_code code;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$II" QUERY_FORMAT ":nearest_to", names, &body, &pose,
+                                     &probe.group, &probe.mask, QUERY_TARGETS(k)) ||
+        probe_read(state, body, pose, &probe) || query_keywords_check(state, &k) || world_enter(self, 0))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_world_find_nearest_to(self->world, &probe, &k.options, &hit, &error);
+    Py_END_ALLOW_THREADS;
+    PyObject *probes = PyTuple_Pack(1, body), *made = NULL;
+    if (code != OVOID_OK)
+        raise_error(state, &error);
+    else if (probes)
+        made = hit_make(self, &hit, probes, &probe);
+    Py_XDECREF(probes);
+    world_leave(self, 0);
+    return made;
+}
+
+static PyObject *nearest_pair(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {QUERY_NAMES, NULL};
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    query_keywords k = {0};
+    ovoid_world_hit hit;
+    ovoid_error error;
+    ovoid_code code;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|$" QUERY_FORMAT ":nearest_pair", names, QUERY_TARGETS(k)) ||
+        query_keywords_check(state, &k) || world_enter(self, 0))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_world_find_nearest_pair(self->world, &k.options, &hit, &error);
+    Py_END_ALLOW_THREADS;
+    PyObject *made = code == OVOID_OK ? hit_make(self, &hit, NULL, NULL) : raise_error(state, &error);
+    world_leave(self, 0);
+    return made;
+}
+
+// ---- any
+
+static PyObject *find_any(PyObject *object, PyObject *arguments) {
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    PyObject *given = Py_None;
+    items ids = {NULL, {0, 0, 0}};
+    ovoid_world_hit hit;
+    ovoid_error error;
+    ovoid_code code;
+    if (!PyArg_ParseTuple(arguments, "|O:find_any", &given)) return NULL;
+    if (given != Py_None && items_read(state, given, "ids", 1, (Py_ssize_t[]){-1}, 'q', &ids)) return NULL;
+    if (world_enter(self, 0)) {
+        free(ids.data);
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_world_find_any(self->world, ids.data, (size_t)ids.shape[0], NULL, &hit, &error);
+    Py_END_ALLOW_THREADS;
+    PyObject *made = code == OVOID_OK ? hit_make(self, &hit, NULL, NULL) : raise_error(state, &error);
+    world_leave(self, 0);
+    free(ids.data);
+    return made;
+}
+
+static PyObject *find_any_among(world_object *self, PyObject *bodies, const ovoid_pose *poses) {
+    module_state *state = state_of((PyObject *)self);
+    Py_ssize_t count = PyTuple_Size(bodies);
+    ovoid_world_body *probes = calloc((size_t)count + 1, sizeof *probes);
+    if (!probes) return PyErr_NoMemory();
+    int failed = 0;
+    for (Py_ssize_t i = 0; !failed && i < count; i++) {
+        failed = body_read(state, PyTuple_GetItem(bodies, i), "bodies", &probes[i].body);
+        probes[i].body.pose = poses[i];
+    }
+    PyObject *made = NULL;
+    if (!failed && !world_enter(self, 0)) {
+        ovoid_world_hit hit;
+        ovoid_error error;
+        ovoid_code code;
+        Py_BEGIN_ALLOW_THREADS;
+        code = ovoid_world_find_any_to(self->world, probes, (size_t)count, &hit, &error);
+        Py_END_ALLOW_THREADS;
+        made = code == OVOID_OK ? hit_make(self, &hit, bodies, probes) : raise_error(state, &error);
+        world_leave(self, 0);
+    }
+    free(probes);
+    return made;
+}
+
+static PyObject *find_any_to(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"bodies", "poses", "order", NULL};
+    module_state *state = state_of(object);
+    PyObject *given, *given_poses, *made = NULL;
+    const char *order = NULL;
+    ovoid_pose *poses;
+    Py_ssize_t count;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$z:find_any_to", names, &given, &given_poses, &order) ||
+        poses_read(state, given_poses, order, &poses, &count))
+        return NULL;
+    PyObject *bodies = PySequence_Tuple(given);
+    if (bodies && PyTuple_Size(bodies) == count)
+        made = find_any_among((world_object *)object, bodies, poses);
+    else if (bodies)
+        raise_code(state, OVOID_ERROR_ARGUMENT, -1, "poses: %zd bodies need as many, not %zd", PyTuple_Size(bodies),
+                   count);
+    Py_XDECREF(bodies);
+    free(poses);
+    return made;
+}
+
+// ---- all within a margin
+
+static PyObject *make_hits(world_object *self, const ovoid_world_hits *hits, PyObject *body,
+                           const ovoid_world_body *probe) {
+    PyObject *probes = PyTuple_Pack(1, body);
+    PyObject *list = probes ? PyList_New(0) : NULL;
+    for (size_t i = 0; list && i < hits->count; i++) {
+        PyObject *hit = hit_make(self, &hits->items[i], probes, probe);
+        if (!hit || PyList_Append(list, hit)) Py_CLEAR(list);
+        Py_XDECREF(hit);
+    }
+    Py_XDECREF(probes);
+    return list;
+}
+
+static PyObject *find_overlaps(world_object *self, PyObject *body, const ovoid_world_body *probe, double margin,
+                               const ovoid_options *options) {
+    module_state *state = state_of((PyObject *)self);
+    ovoid_world_hits hits = {.capacity = 16, .options = options};
+    PyObject *made = NULL;
+    for (;;) {
+        ovoid_world_hit *grown = realloc(hits.items, hits.capacity * sizeof *grown);
+        if (!grown) {
+            PyErr_NoMemory();
+            break;
+        }
+        hits.items = grown;
+        ovoid_error error;
+        ovoid_code code;
+        Py_BEGIN_ALLOW_THREADS;
+        code = ovoid_world_find_overlaps(self->world, probe, margin, &hits, &error);
+        Py_END_ALLOW_THREADS;
+        if (code != OVOID_OK) {
+            raise_error(state, &error);
+            break;
+        }
+        if (hits.count <= hits.capacity) {
+            made = make_hits(self, &hits, body, probe);
+            break;
+        }
+        hits.capacity = hits.count;
+    }
+    free(hits.items);
+    return made;
+}
+
+static PyObject *overlaps(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"body", "pose", "margin", "group", "mask", QUERY_NAMES, NULL};
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    query_keywords k = {0};
+    PyObject *body, *pose = NULL;
+    double margin = 0;
+    ovoid_world_body probe = {0};
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$dII" QUERY_FORMAT ":overlaps", names, &body, &pose,
+                                     &margin, &probe.group, &probe.mask, QUERY_TARGETS(k)) ||
+        probe_read(state, body, pose, &probe) || query_keywords_check(state, &k) || world_enter(self, 0))
+        return NULL;
+    PyObject *made = find_overlaps(self, body, &probe, margin, &k.options);
+    world_leave(self, 0);
+    return made;
+}
+
+// ---- casts
+
+static PyObject *make_cast(module_state *state, const ovoid_world_cast *c) {
+    PyObject *point = vec3_make(c->point), *normal = vec3_make(c->normal);
+    if (point && normal)
+        return PyObject_CallFunction(state->cast, "KIIddNNI", c->body, c->part, c->probe, c->lower, c->upper, point,
+                                     normal, c->undecided);
+    Py_XDECREF(point);
+    Py_XDECREF(normal);
+    return NULL;
+}
+
+static PyObject *cast_ray(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"origin", "direction", "length", "radius", "group", "mask", NULL};
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    PyObject *origin, *direction;
+    ovoid_world_ray ray = {.ray = {.length = INFINITY}};
+    ovoid_world_cast cast;
+    ovoid_error error;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|d$dII:cast_ray", names, &origin, &direction,
+                                     &ray.ray.length, &ray.ray.radius, &ray.group, &ray.mask) ||
+        vec3_read(state, origin, "origin", &ray.ray.origin) ||
+        vec3_read(state, direction, "direction", &ray.ray.direction) || world_enter(self, 0))
+        return NULL;
+    ovoid_code code = ovoid_world_cast_ray(self->world, &ray, &cast, &error);
+    world_leave(self, 0);
+    return code == OVOID_OK ? make_cast(state, &cast) : raise_error(state, &error);
+}
+
+static PyObject *cast_body(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"body", "pose", "displacement", "group", "mask", NULL};
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    PyObject *body, *pose, *way;
+    ovoid_vec3 displacement;
+    ovoid_world_body probe = {0};
+    ovoid_world_cast cast;
+    ovoid_error error;
+    ovoid_code code;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$II:cast_body", names, &body, &pose, &way, &probe.group,
+                                     &probe.mask) ||
+        probe_read(state, body, pose, &probe) || vec3_read(state, way, "displacement", &displacement) ||
+        world_enter(self, 0))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_world_cast_body(self->world, &probe, displacement, &cast, &error);
+    Py_END_ALLOW_THREADS;
+    world_leave(self, 0);
+    return code == OVOID_OK ? make_cast(state, &cast) : raise_error(state, &error);
+}
+
+#define OPTIONS_SIGNATURE "absolute_tolerance=0, relative_tolerance=0, cap=0, iterations=0)\n--\n\n"
+PyMethodDef world_queries[] = {
+    {"nearest", METHOD_KEYWORDS(nearest), METH_VARARGS | METH_KEYWORDS,
+     "nearest(id, *, " OPTIONS_SIGNATURE
+     "The body nearest to a body, within cap (0: any): a Hit, or None. Of those that "
+     "overlap it, one."},
+    {"nearest_to", METHOD_KEYWORDS(nearest_to), METH_VARARGS | METH_KEYWORDS,
+     "nearest_to(body, pose=None, *, group=0, mask=0, " OPTIONS_SIGNATURE
+     "The body nearest to a Shape or Compound that is not in the world: a Hit, or None."},
+    {"nearest_pair", METHOD_KEYWORDS(nearest_pair), METH_VARARGS | METH_KEYWORDS,
+     "nearest_pair(*, " OPTIONS_SIGNATURE
+     "The two nearest of all bodies: a Hit, or None. Two that overlap end the search."},
+    {"find_any", find_any, METH_VARARGS,
+     "find_any(ids=None)\n--\n\nDoes any of these bodies (None: of all) touch another? The first Hit that is not "
+     "proven "
+     "apart, or None."},
+    {"find_any_to", METHOD_KEYWORDS(find_any_to), METH_VARARGS | METH_KEYWORDS,
+     "find_any_to(bodies, poses, *, order=None)\n--\n\nDoes any of these bodies, which are not in the world, touch one "
+     "of "
+     "it? The Hit whose a is its number, or None."},
+    {"overlaps", METHOD_KEYWORDS(overlaps), METH_VARARGS | METH_KEYWORDS,
+     "overlaps(body, pose=None, *, margin=0, group=0, mask=0, " OPTIONS_SIGNATURE
+     "All bodies that are not proven farther than margin from a Shape or Compound: Hits, sorted by id."},
+    {"cast_ray", METHOD_KEYWORDS(cast_ray), METH_VARARGS | METH_KEYWORDS,
+     "cast_ray(origin, direction, length=1e999, *, radius=0, group=0, mask=0)\n--\n\nThe first hit of a ray, thick "
+     "where "
+     "its "
+     "radius is above 0: a Cast, whose body is 0 where there is none; t and length\nin lengths of direction."},
+    {"cast_body", METHOD_KEYWORDS(cast_body), METH_VARARGS | METH_KEYWORDS,
+     "cast_body(body, pose, displacement, *, group=0, mask=0)\n--\n\nThe first hit of a body moved along displacement "
+     "without turning: a Cast, t from 0 to 1."},
+    {NULL, NULL, 0, NULL}};

@@ -1,0 +1,43 @@
+"""What the tests share: the last line that the house's tests end with, and numbers without NumPy."""
+
+import os
+import sys
+import unittest
+
+# As on a machine that has none.
+if os.environ.get("OVOID_TEST_WITHOUT_NUMPY"):
+    sys.modules["numpy"] = None
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+try:
+    import hypothesis
+except ImportError:
+    hypothesis = None
+
+needs_numpy = unittest.skipUnless(numpy, "needs python3-numpy")
+needs_hypothesis = unittest.skipUnless(hypothesis, "needs python3-hypothesis")
+
+
+class Result(unittest.TextTestResult):
+    """Counts what passed: testsRun has skipped tests in some versions of Python and not in others."""
+
+    passed = 0
+
+    def addSuccess(self, test):
+        super().addSuccess(test)
+        self.passed += 1
+
+
+def main():
+    """Runs the tests of the calling file and ends with "N passed, N failed, N skipped"."""
+    runner = unittest.TextTestRunner(resultclass=Result)
+    result = unittest.main(module="__main__", exit=False, testRunner=runner).result
+    failed = len(result.failures) + len(result.errors) + len(result.unexpectedSuccesses)
+    for test, reason in result.skipped:
+        print(f"skipped: {test}: {reason}")
+    print(f"{result.passed} passed, {failed} failed, {len(result.skipped)} skipped", flush=True)
+    sys.exit(1 if failed else 0)

@@ -1,0 +1,86 @@
+"""The words around the code. Truth: what inspect finds is what the stubs and the page say; the examples run."""
+
+import ast
+import doctest
+import inspect
+import os
+import re
+import unittest
+
+import common
+import ovoid
+
+SOURCE = os.environ.get("OVOID_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", ".."))
+
+
+def read(path):
+    with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def get_arguments(function):
+    """Names of the arguments by a stub's node, without self and cls."""
+    names = [argument.arg for argument in function.args.posonlyargs + function.args.args + function.args.kwonlyargs]
+    return [name for name in names if name not in ("self", "cls")]
+
+
+class Stubs(unittest.TestCase):
+    def setUp(self):
+        self.tree = ast.parse(read("python/ovoid/__init__.pyi"))
+
+    def check_function(self, stub, function, where):
+        try:
+            signature = inspect.signature(function)
+        except ValueError:
+            self.fail(f"{where} has no signature in its docstring")
+        names = [name for name in signature.parameters if name not in ("self", "cls")]
+        self.assertEqual(names, get_arguments(stub), where)
+
+    def test_functions(self):
+        stubs = {node.name: node for node in self.tree.body if isinstance(node, ast.FunctionDef)}
+        functions = {name for name in ovoid.__all__ if inspect.isroutine(getattr(ovoid, name))}
+        self.assertEqual(set(stubs), functions)
+        for name in functions - {"load"}:
+            self.check_function(stubs[name], getattr(ovoid, name), name)
+
+    def test_classes(self):
+        stubs = {node.name: node for node in self.tree.body if isinstance(node, ast.ClassDef) and node.name[0] != "_"}
+        classes = {name for name in ovoid.__all__ if inspect.isclass(getattr(ovoid, name))}
+        imported = {alias.asname for node in self.tree.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+        self.assertEqual(set(stubs), classes - imported)
+        for name, stub in stubs.items():
+            kind = getattr(ovoid, name)
+            if issubclass(kind, tuple):
+                continue
+            said = {node.name: node for node in stub.body}
+            there = {key for key in vars(kind) if not key.startswith("_")}
+            if not ovoid.has_io:
+                there |= {"load", "save"} & set(said)
+            self.assertEqual({key for key in said if not key.startswith("_")}, there, name)
+            for key in there:
+                if inspect.isroutine(getattr(kind, key, None)) and key != "tolist":
+                    self.check_function(said[key], getattr(kind, key), f"{name}.{key}")
+                self.assertTrue(getattr(kind, key, ovoid.load).__doc__, f"{name}.{key}")
+
+
+class Words(unittest.TestCase):
+    def test_page(self):
+        for block in re.findall(r"```python\n(.*?)```", read("docs/python.md"), re.S):
+            exec(compile(block, "docs/python.md", "exec"), {"__name__": "page"})
+
+    def test_page_prints_what_it_says(self):
+        import contextlib
+        import io
+
+        first = re.search(r"```python\n(.*?)```\n+It prints\n+```text\n(.*?)```", read("docs/python.md"), re.S)
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            exec(first[1], {})
+        self.assertEqual(said.getvalue(), first[2])
+
+    def test_docstring(self):
+        self.assertEqual(doctest.testmod(ovoid).failed, 0)
+
+
+if __name__ == "__main__":
+    common.main()

@@ -1,0 +1,51 @@
+"""Builds the extension of the Python package with CMake, and packs it with python/ovoid; pyproject.toml has the rest.
+
+OVOID_CMAKE_ARGS: more arguments for CMake, for example -DOVOID_ASSIMP=ON, for COLLADA, glTF and others.
+"""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = Path(__file__).resolve().parent
+OFF = ("SHARED", "CLI", "JUDGE", "TESTS", "BENCH", "EXAMPLES", "INSTALL", "ASSIMP", "ROBOT")
+
+
+def read_version():
+    """The version stands in include/ovoid/base.h, once."""
+    text = (ROOT / "include/ovoid/base.h").read_text()
+    return ".".join(re.findall(r"#define OVOID_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", text))
+
+
+class CMakeBuild(build_ext):
+    """The extension, built by CMake in a folder of its own."""
+
+    def build_extension(self, extension):
+        folder = Path(self.build_temp).resolve()
+        folder.mkdir(parents=True, exist_ok=True)
+        configure = ["cmake", "-S", str(ROOT), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", "-DOVOID_PYTHON=ON",
+                     f"-DOVOID_PYTHON_INTERPRETER={sys.executable}", *(f"-DOVOID_{name}=OFF" for name in OFF)]
+        more = shlex.split(os.environ.get("OVOID_CMAKE_ARGS", ""))
+        # Files are read through libovoid_io, which wants jansson; without it all else is there.
+        if subprocess.run([*configure, "-DOVOID_IO=ON", *more], check=False).returncode:
+            print("ovoid: without libovoid_io (jansson is missing): Shape.load reads no files", file=sys.stderr)
+            subprocess.run([*configure, "-DOVOID_IO=OFF", *more], check=True)
+        subprocess.run(["cmake", "--build", str(folder), "--target", "ovoid_python", f"-j{os.cpu_count()}"], check=True)
+        self.copy_file(folder / "python/ovoid/_ovoid.abi3.so", self.get_ext_fullpath(extension.name))
+
+
+setup(
+    version=read_version(),
+    packages=["ovoid"],
+    package_dir={"": "python"},
+    package_data={"ovoid": ["*.pyi", "py.typed"]},
+    ext_modules=[Extension("ovoid._ovoid", [], py_limited_api=True)],
+    cmdclass={"build_ext": CMakeBuild},
+    options={"bdist_wheel": {"py_limited_api": "cp311"}},
+)

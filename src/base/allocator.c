@@ -1,0 +1,41 @@
+// The default allocator, and memory through any.
+#include "base/allocator.h"
+
+#include <stdlib.h>
+#if defined(_WIN32)
+#include <malloc.h>
+#endif
+
+// Windows has an aligned_alloc of its own name, whose memory is not for free().
+static void *allocate_aligned(void *context, size_t size) {
+    (void)context;
+    if (size > SIZE_MAX - 63) return NULL;
+#if defined(_WIN32)
+    return _aligned_malloc((size + 63) / 64 * 64, 64);
+#else
+    return aligned_alloc(64, (size + 63) / 64 * 64);
+#endif
+}
+
+static void release_aligned(void *context, void *memory) {
+    (void)context;
+#if defined(_WIN32)
+    _aligned_free(memory);
+#else
+    free(memory);
+#endif
+}
+
+ovoid_allocator allocator_make(const ovoid_allocator *given) {
+    return given ? *given : (ovoid_allocator){allocate_aligned, release_aligned, NULL};
+}
+
+void *allocator_allocate(const ovoid_allocator *allocator, size_t count, size_t size) {
+    if (size && count > SIZE_MAX / size) return NULL;
+    size_t bytes = count * size;
+    return allocator->allocate(allocator->context, bytes ? bytes : 1);
+}
+
+void allocator_release(const ovoid_allocator *allocator, void *memory) {
+    if (memory) allocator->release(allocator->context, memory);
+}

@@ -1,0 +1,62 @@
+// Most pairs of bodies in a scene are far apart, and all that a yes or no, or a question within a margin, needs of them
+// is the line of the roots' centres. It proves the lower bound for all pairs of parts at once; the upper one is the
+// distance of a vertex of each. So no part is posed and no frame of either body is made.
+//
+// Errors: all is measured in the world, where rotations are off by 36 u, not by 82 u as in the frame of the other body
+// (node_bounds.c): its claim covers them, for the bounds and for whoever checks them in the world poses of the parts.
+#include "compound/first_look.h"
+
+#include "compound/node_bounds.h"
+#include "linear/rotation.h"
+
+// The deciding parts are the first of the trees' order; one vertex of each, from its body's origin, in the world's
+// axes.
+static vec3 find_vertex(const body_view *v, mat3 r) {
+    const compound_part *part = &v->parts[0];
+    return mat3_mul_vec3(r, vec3_add(part->at, mat3_mul_vec3(part->rotation, part->shape->first)));
+}
+
+static ovoid_limit find_limit(double lower, double upper, double tolerance, double allowance, const query_goal *goal) {
+    final_bracket b = {lower, upper, tolerance + allowance, allowance, OVOID_SEPARATED, OVOID_PROOF_POINTS};
+    return bracket_is_narrow(&b, goal) ? OVOID_LIMIT_NONE : bracket_find_limit(&b, goal, OVOID_LIMIT_NONE);
+}
+
+static void exclude_all(const body_view *a, const body_view *b, vec3 normal, double lower, ovoid_exclusions *all) {
+    if (!all) return;
+    if (all->capacity) all->items[0] = (ovoid_exclusion){0, a->count, 0, b->count, normal, {0, 0, 0}, lower};
+    all->count = 1;
+}
+
+int first_look(const body_view *a, const body_view *b, const ovoid_options *options, const query_goal *goal,
+               ovoid_exclusions *exclusions, ovoid_compound_answer *out) {
+    mat3 ra = quat_to_mat3(a->pose->rotation), rb = quat_to_mat3(b->pose->rotation);
+    vec3 offset = vec3_sub(b->pose->position, a->pose->position);
+    vec3 between =
+        vec3_add(offset, vec3_sub(mat3_mul_vec3(rb, b->nodes[0].center), mat3_mul_vec3(ra, a->nodes[0].center)));
+    double length = vec3_norm(between), size = nodes_compute_size(a, b, offset),
+           claim = nodes_compute_claim(a, b, size);
+    double lower = length - (a->nodes[0].radius + b->nodes[0].radius) - claim;
+    if (!(lower > goal->far)) return 0;
+    // A vertex of each; the radii go along their difference, which is longer than both.
+    vec3 from = find_vertex(a, ra), d = vec3_add(offset, vec3_sub(find_vertex(b, rb), from));
+    const ovoid_shape *shape_a = a->parts[0].shape, *shape_b = b->parts[0].shape;
+    double distance = vec3_norm(d), upper = distance - (shape_a->upper_radius + shape_b->upper_radius) + claim;
+    vec3 point = vec3_add(a->pose->position, from), normal = vec3_scale(between, 1 / length);
+    double tolerance = max2(options->absolute_tolerance, options->relative_tolerance * size);
+    out->part_a = body_view_get_index(a, 0);
+    out->part_b = body_view_get_index(b, 0);
+    out->visited = 1;
+    out->tested = 0;
+    out->answer = (ovoid_answer){
+        .status = OVOID_SEPARATED,
+        .stage = OVOID_STAGE_SPHERE,
+        .limit = find_limit(lower, upper, tolerance, a->allowance + b->allowance, goal),
+        .lower = lower,
+        .upper = upper,
+        .point_a = vec3_add_scaled(point, d, shape_a->radius / distance),
+        .point_b = vec3_add_scaled(vec3_add(point, d), d, -(shape_b->radius / distance)),
+        .normal = normal,
+        .proof = {.normal = normal, .kind = OVOID_PROOF_POINTS, .count = 1, .weight_a = {1}, .weight_b = {1}}};
+    exclude_all(a, b, normal, lower, exclusions);
+    return 1;
+}

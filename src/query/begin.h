@@ -1,0 +1,50 @@
+// How a query begins, of bodies that are placed in the world: what the spheres, an earlier proof and the kernel of
+// small bodies say, before B is put in the frame of A.
+#ifndef OVOID_QUERY_BEGIN_H
+#define OVOID_QUERY_BEGIN_H
+
+#include "exact/small.h"
+#include "query/goal.h"
+
+/// The rejection along an earlier proof's normal. That of a proof of overlap separated nothing, so it is not tried.
+static inline int reject_by_earlier(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier,
+                                    rejection *found) {
+    int was_apart = earlier && goal->far < INFINITY &&
+                    (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
+    return was_apart && reject_by_normal(f, goal->far, earlier, found);
+}
+
+/// How a query begins: refused, rejected, answered as a pair of small bodies, or passed on to the search.
+typedef enum beginning { BEGIN_REFUSED, BEGIN_REJECTED, BEGIN_SMALL, BEGIN_SEARCH } beginning;
+
+/// The kernel of small bodies, from the earlier proof where that says something.
+static inline small_outcome run_small(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
+                                      rejection *found, small_end *end) {
+    small_outcome outcome = SMALL_UNKNOWN;
+    if (earlier && small_fits(goal, frame->a, frame->b, found->lower))
+        outcome = small_run_earlier(frame, goal, earlier, found, end);
+    if (outcome == SMALL_UNKNOWN && small_takes(goal, frame->a, frame->b, found->lower))
+        outcome = small_run(frame, goal, found->lower, end) ? SMALL_ANSWERED : SMALL_OPEN;
+    return outcome;
+}
+
+/// The goal's numbers that are the pair's own.
+static inline void set_numbers(query_goal *goal, const ovoid_options *options, const pair_frame *frame) {
+    goal->allowance = frame_get_allowance(frame);
+    goal->tolerance = max2(options->absolute_tolerance, options->relative_tolerance * frame->size) + 8 * frame->hidden +
+                      goal->allowance;
+    goal->iterations = options->iterations;
+}
+
+/// After the spheres, which come first, as they cost the same for any number of vertices: found has their bound.
+static inline beginning begin_after_spheres(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
+                                            rejection *found, small_end *end) {
+    switch (run_small(frame, goal, earlier, found, end)) {
+    case SMALL_ANSWERED: return BEGIN_SMALL;
+    case SMALL_REJECTED: return BEGIN_REJECTED;
+    case SMALL_OPEN: return BEGIN_SEARCH;
+    default: return reject_by_earlier(frame, goal, earlier, found) ? BEGIN_REJECTED : BEGIN_SEARCH;
+    }
+}
+
+#endif

@@ -1,0 +1,15 @@
+// The gap of a pair along a direction that the caller gives.
+#include "base/environment.h"
+#include "pair/frame.h"
+
+static double compute_gap(const ovoid_pair *pair, vec3 direction) {
+    pair_frame f;
+    vec3 n = vec3_unit(direction);
+    if (!vec3_is_finite(direction) || !(vec3_norm_squared(n) > 0.5)) return -INFINITY;
+    if (frame_make(pair, &f) != OVOID_LIMIT_NONE) return -INFINITY;
+    return frame_find_support(&f, frame_direction_from_world(&f, n)).gap - f.lower_radii - f.claim;
+}
+
+double ovoid_pair_compute_gap(const ovoid_pair *pair, ovoid_vec3 direction) {
+    ENVIRONMENT_RETURN(double, direction, compute_gap(pair, direction));
+}

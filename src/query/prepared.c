@@ -1,0 +1,162 @@
+// Queries of prepared shapes: what a pose alone decides was computed when they were made.
+#include "base/compiler.h"
+#include "base/environment.h"
+#include "linear/pose.h"
+#include "linear/rotation.h"
+#include "query/answer.h"
+#include "query/begin.h"
+
+#include <string.h>
+
+static void set_ready(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
+    const ovoid_shape *shape = body->shape;
+    mat3 r = quat_to_mat3(body->pose.rotation);
+    memcpy(to->rotation, &r, sizeof to->rotation);
+    to->center = mat3_mul_vec3(r, shape->center);
+    to->first = mat3_mul_vec3(r, shape->first);
+    if (shape->padded_count > OVOID_PREPARED_VERTICES) return;
+    uint32_t count = to->turned_count = shape->padded_count;
+    simd_points points = shape_get_points(shape);
+    static const double nowhere[3] = {0, 0, 0};
+    simd_pose_points(&points, to->rotation, nowhere, to->turned, to->turned + count, to->turned + 2 * (size_t)count);
+}
+
+static void make(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
+    to->body = *body;
+    to->turned_count = 0;
+    // The place of a far origin is found for a pair.
+    to->is_ready = body->shape && !body->shape->has_origin && pose_compute_check(&body->pose) == OVOID_OK;
+    if (to->is_ready) set_ready(body, to);
+}
+
+void ovoid_prepared_shape_make(const ovoid_posed_shape *body, ovoid_prepared_shape *prepared) {
+    ENVIRONMENT_RUN(make(body, prepared));
+}
+
+// ---- queries
+
+typedef struct prepared_pair {
+    const ovoid_prepared_shape *a, *b;
+} prepared_pair;
+
+static void write_evidence(const ovoid_evidence *to, const ovoid_answer *x) {
+    if (to->proof) *to->proof = x->proof;
+    if (to->witness) *to->witness = (ovoid_witness){x->point_a, x->point_b, x->normal};
+    if (to->answer) *to->answer = *x;
+}
+
+static ovoid_pair get_pair(prepared_pair x) {
+    return (ovoid_pair){x.a->body.shape, x.b->body.shape, x.a->body.pose, x.b->body.pose};
+}
+
+// As one that was not prepared.
+COMPILER_NOINLINE static ovoid_verdict find_afresh(prepared_pair x, const ovoid_options *given, const query_goal *goal,
+                                                   const ovoid_proof *earlier, const ovoid_evidence *out) {
+    ovoid_pair pair = get_pair(x);
+    ovoid_answer answer;
+    answer_find_internal(&pair, given, *goal, earlier, NULL, &answer);
+    if (out) write_evidence(out, &answer);
+    return answer_get_verdict(&answer);
+}
+
+COMPILER_NOINLINE static ovoid_verdict search_on(prepared_pair x, pair_frame *frame, double spheres,
+                                                 const query_goal *goal, const ovoid_proof *earlier,
+                                                 const ovoid_evidence *out) {
+    ovoid_pair pair = get_pair(x);
+    ovoid_answer answer;
+    answer_run_search(&pair, frame, spheres, goal, earlier, NULL, &answer);
+    if (out) write_evidence(out, &answer);
+    return answer_get_verdict(&answer);
+}
+
+// A rejection by the spheres; rejection_make_answer, without evidence.
+static inline ovoid_verdict end_at_spheres(prepared_pair x, const pair_frame *f, const rejection *found,
+                                           const query_goal *goal) {
+    vec3 d = vec3_add(f->offset, vec3_sub(x.b->first, x.a->first));
+    double upper = vec3_norm(d) - f->upper_radii + reject_get_claim(f);
+    ovoid_limit limit = upper - found->lower <= goal->tolerance ? OVOID_LIMIT_NONE : goal->beyond;
+    return (ovoid_verdict){OVOID_SEPARATED, found->stage, limit, 0, found->lower, upper};
+}
+
+static ovoid_verdict end_at_rejection(const pair_frame *f, const rejection *found, const query_goal *goal,
+                                      const ovoid_evidence *out) {
+    ovoid_answer answer = rejection_make_answer(found, f, goal);
+    if (out) write_evidence(out, &answer);
+    return answer_get_verdict(&answer);
+}
+
+static ovoid_verdict end_at_small(const pair_frame *f, const small_end *end, const query_goal *goal,
+                                  const ovoid_evidence *out) {
+    if (out) {
+        if (out->proof) *out->proof = answer_make_small_proof(end);
+        if (out->witness) *out->witness = answer_make_small_witness(end, f);
+        if (out->answer) *out->answer = answer_make_small(end, f, goal);
+    }
+    return answer_make_small_verdict(end, goal);
+}
+
+// Of bodies that the spheres do not part, or with evidence.
+COMPILER_NOINLINE static ovoid_verdict find_near(prepared_pair x, const ovoid_options *given, const query_goal *wanted,
+                                                 const ovoid_evidence *out) {
+    const ovoid_proof *earlier = out ? out->proof : NULL;
+    ovoid_options options;
+    query_goal goal = *wanted;
+    if (!(x.a->is_ready & x.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
+        return find_afresh(x, given, wanted, earlier, out);
+    pair_frame frame;
+    rejection found;
+    small_end end;
+    frame_place_prepared(x.a, x.b, &frame);
+    frame_place_rotations(x.a, x.b, &frame);
+    set_numbers(&goal, &options, &frame);
+    if (reject_by_spheres(&frame, goal.far, &found)) return end_at_rejection(&frame, &found, &goal, out);
+    switch (begin_after_spheres(&frame, &goal, earlier, &found, &end)) {
+    case BEGIN_REJECTED: return end_at_rejection(&frame, &found, &goal, out);
+    case BEGIN_SMALL: return end_at_small(&frame, &end, &goal, out);
+    default: return search_on(x, &frame, found.lower, &goal, earlier, out);
+    }
+}
+
+// What it computes for the spheres stays in registers: no function but inline ones sees the frame.
+COMPILER_NOINLINE static ovoid_verdict find(prepared_pair x, const ovoid_options *given, const query_goal *wanted,
+                                            const ovoid_evidence *out) {
+    ovoid_options options;
+    query_goal goal = *wanted;
+    pair_frame frame;
+    rejection found;
+    if (out || !(x.a->is_ready & x.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
+        return find_near(x, given, wanted, out);
+    frame_place_prepared(x.a, x.b, &frame);
+    set_numbers(&goal, &options, &frame);
+    if (!reject_by_spheres(&frame, goal.far, &found)) return find_near(x, given, wanted, NULL);
+    return end_at_spheres(x, &frame, &found, &goal);
+}
+
+static ovoid_verdict run(prepared_pair x, const ovoid_options *given, const query_goal *goal,
+                         const ovoid_evidence *out) {
+    ENVIRONMENT_RETURN_CALL(find(x, given, goal, out));
+}
+
+ovoid_verdict ovoid_prepared_collide(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
+                                     const ovoid_options *options, const ovoid_evidence *out) {
+    const query_goal goal = query_goal_make_collide();
+    return run((prepared_pair){a, b}, options, &goal, out);
+}
+
+ovoid_verdict ovoid_prepared_within(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b, double margin,
+                                    const ovoid_options *options, const ovoid_evidence *out) {
+    const query_goal goal = query_goal_make_within(margin);
+    return run((prepared_pair){a, b}, options, &goal, out);
+}
+
+ovoid_verdict ovoid_prepared_distance(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
+                                      const ovoid_options *options, const ovoid_evidence *out) {
+    const query_goal goal = query_goal_make_distance(options);
+    return run((prepared_pair){a, b}, options, &goal, out);
+}
+
+ovoid_verdict ovoid_prepared_depth(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
+                                   const ovoid_options *options, const ovoid_evidence *out) {
+    const query_goal goal = query_goal_make_depth(options);
+    return run((prepared_pair){a, b}, options, &goal, out);
+}

@@ -1,0 +1,102 @@
+// Is a state free? Each pair that enclosing bodies leave is asked whether it is within the margin, beginning with the
+// pair that ended the last state: neighbouring states hit the same things.
+#include "base/environment.h"
+#include "base/error.h"
+#include "robot/checker.h"
+
+// What the check of one state found.
+typedef struct state_check {
+    ovoid_robot_checker *checker;
+    double margin;
+    ovoid_robot_answer *answer;
+} state_check;
+
+static void take_pair(state_check *s, const checker_pair *p, ovoid_robot_status status, double lower, double upper) {
+    ovoid_robot_answer *a = s->answer;
+    a->status = status;
+    a->a = *p->a, a->b = *p->b;
+    a->lower = lower, a->upper = upper;
+}
+
+// Asks one pair; 0 where it is proven within the margin. Of pairs that stay open the first is kept.
+static int ask_pair(void *context, const checker_pair *p, pair_name name) {
+    state_check *s = context;
+    double margin = add_up(s->margin, p->padding, p->error);
+    ovoid_answer is = ovoid_within(&p->pair, margin, NULL, pair_get_earlier(s->checker, p));
+    pair_remember(s->checker, p, &is.proof);
+    if (is.lower > margin) return 1;
+    double lower = lower_outward(p, is.lower), upper = upper_outward(p, is.upper);
+    int is_hit = upper <= s->margin;
+    if (is_hit || s->answer->status == OVOID_ROBOT_FREE)
+        take_pair(s, p, is_hit ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED, lower, upper);
+    if (is_hit) s->checker->last = name;
+    return !is_hit;
+}
+
+// The pair that ended the last state; 1 where it does not end this one.
+static int ask_last(state_check *s, const ovoid_robot_check_options *options) {
+    ovoid_robot_checker *x = s->checker;
+    pair_name last = x->last;
+    int is_self = last.item == OVOID_ROBOT_NONE;
+    if (last.index == OVOID_ROBOT_NONE || (is_self ? options->without_self : options->without_obstacles)) return 1;
+    if (is_self ? checker_is_pair_far(x, last.index, s->margin)
+                : checker_is_part_far(x, last.item, last.index, s->margin))
+        return 1;
+    checker_pair p = is_self ? checker_make_item_pair(x, last.index) : checker_make_part_pair(x, last.item, last.index);
+    return ask_pair(s, &p, last);
+}
+
+static const ovoid_robot_check_options no_options = {0, 0, 0, 0};
+
+static void refuse(ovoid_robot_answer *answer, ovoid_code code, uint32_t variable) {
+    *answer = (ovoid_robot_answer){
+        .status = OVOID_ROBOT_REFUSED, .code = code, .variable = variable, .lower = -INFINITY, .upper = INFINITY};
+}
+
+// The answer to the state that is placed.
+static void decide(ovoid_robot_checker *x, const ovoid_robot_check_options *options, ovoid_robot_answer *answer) {
+    *answer = (ovoid_robot_answer){.status = OVOID_ROBOT_FREE, .lower = options->margin, .upper = INFINITY};
+    state_check s = {x, options->margin, answer};
+    if (!ask_last(&s, options)) return;
+    checker_search search = {x, options, &s.margin, ask_pair, &s};
+    checker_find_pairs(&search);
+}
+
+static ovoid_code check(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
+                        ovoid_robot_answer *answer, ovoid_error *error) {
+    if (!options) options = &no_options;
+    *answer = (ovoid_robot_answer){.lower = -INFINITY, .upper = INFINITY};
+    ovoid_code code = check_options_check(options, error);
+    if (code == OVOID_OK) code = checker_renew(x, error);
+    if (code != OVOID_OK) return code;
+    ovoid_error refused;
+    code = checker_place(x, q, options->limit_slack, &refused);
+    if (code == OVOID_OK)
+        decide(x, options, answer);
+    else
+        refuse(answer, code, (uint32_t)refused.place);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_robot_check(ovoid_robot_checker *checker, const double *q, const ovoid_robot_check_options *options,
+                             ovoid_robot_answer *answer, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checker, check(checker, q, options, answer, error));
+}
+
+void check_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end) {
+    const ovoid_robot_check_options *options = batch->options ? batch->options : &no_options;
+    ovoid_robot_checker_reset(x);
+    for (size_t i = first; i < end; i += ROBOT8) {
+        lane_state states[ROBOT8];
+        size_t count = end - i < ROBOT8 ? end - i : ROBOT8;
+        checker_place_lanes(x, batch->q + i * x->cell->robot->variable_count, count, options->limit_slack, states);
+        for (uint32_t k = 0; k < count; k++) {
+            if (states[k].code != OVOID_OK) {
+                refuse(&batch->answers[i + k], states[k].code, states[k].variable);
+                continue;
+            }
+            checker_take_lane(x, k, &states[k]);
+            decide(x, options, &batch->answers[i + k]);
+        }
+    }
+}

@@ -1,0 +1,360 @@
+// Checkers: their memory, where a state puts things, and which pairs of these are near by their enclosing bodies.
+#include "robot/checker.h"
+
+#include "base/compiler.h"
+#include "base/environment.h"
+#include "base/error.h"
+
+#include <string.h>
+
+// ---- memory
+
+static void release_all(ovoid_robot_checker *x) {
+    void *all[] = {x->frames,     x->stamps,  x->frame_errors, x->values,      x->cosines,     x->sines,
+                   x->places,     x->errors,  x->group_errors, x->part_proofs, x->pair_proofs, x->part_marks,
+                   x->pair_marks, x->values8, x->frames8,      x->centers8};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&x->allocator, all[i]);
+    *x = (ovoid_robot_checker){.cell = x->cell, .allocator = x->allocator, .kernels = x->kernels};
+}
+
+// Cleared memory that is the checker's; *is_there becomes 0 where there is none.
+static void *take(const ovoid_robot_checker *x, size_t count, size_t size, int *is_there) {
+    void *memory = allocator_allocate(&x->allocator, count, size);
+    *is_there = *is_there && memory;
+    return memory ? memset(memory, 0, count * size) : NULL;
+}
+
+static void forget(ovoid_robot_checker *x) {
+    x->last = (pair_name){OVOID_ROBOT_NONE, OVOID_ROBOT_NONE};
+    if (++x->generation) return;
+    // All numbers have been used.
+    memset(x->part_marks, 0, x->cell->items.count * x->cell->parts.count * sizeof *x->part_marks);
+    memset(x->pair_marks, 0, x->cell->pairs.count * sizeof *x->pair_marks);
+    x->generation = 1;
+}
+
+static void set_world(frame8 *f) {
+    memset(f, 0, sizeof *f);
+    static const int ones[] = {FRAME8_QUATERNION, FRAME8_ROTATION, FRAME8_ROTATION + 4, FRAME8_ROTATION + 8};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < ROBOT8; k++) f->column[ones[i]][k] = 1;
+}
+
+ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error) {
+    const ovoid_robot_cell *c = x->cell;
+    if (!c->is_whole)
+        return error_set(error, OVOID_ERROR_MEMORY, -1, "the cell's last change found no memory: change it again");
+    if (x->version == c->version) return OVOID_OK;
+    release_all(x);
+    int ok = 1;
+    size_t frames = c->frame_count, groups = c->groups.count, proofs = c->items.count * c->parts.count;
+    size_t values = (c->robot->value_count + ROBOT8 - 1) / ROBOT8 * ROBOT8;
+    x->frames = take(x, frames, sizeof *x->frames, &ok);
+    x->stamps = take(x, frames, sizeof *x->stamps, &ok);
+    x->frame_errors = take(x, frames, sizeof *x->frame_errors, &ok);
+    x->values = take(x, values, sizeof *x->values, &ok);
+    x->cosines = take(x, values, sizeof *x->cosines, &ok);
+    x->sines = take(x, values, sizeof *x->sines, &ok);
+    x->places = take(x, groups, sizeof *x->places, &ok);
+    x->errors = take(x, c->items.count, sizeof *x->errors, &ok);
+    x->group_errors = take(x, groups, sizeof *x->group_errors, &ok);
+    x->part_proofs = take(x, proofs, sizeof *x->part_proofs, &ok);
+    x->pair_proofs = take(x, c->pairs.count, sizeof *x->pair_proofs, &ok);
+    x->part_marks = take(x, proofs, sizeof *x->part_marks, &ok);
+    x->pair_marks = take(x, c->pairs.count, sizeof *x->pair_marks, &ok);
+    x->values8 = take(x, values, sizeof *x->values8, &ok);
+    x->frames8 = take(x, c->robot->link_count, sizeof *x->frames8, &ok);
+    x->centers8 = take(x, groups, sizeof *x->centers8, &ok);
+    if (!ok) {
+        release_all(x);
+        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a checker");
+    }
+    x->version = c->version;
+    x->level = x->lane = -1;
+    x->frames[c->robot->root] = frame_make_world();
+    set_world(&x->frames8[c->robot->root]);
+    forget(x);
+    return OVOID_OK;
+}
+
+static ovoid_robot_checker *create(const ovoid_robot_cell *cell, const ovoid_allocator *allocator, ovoid_error *error) {
+    if (!cell) {
+        error_write(error, OVOID_ERROR_ARGUMENT, -1, "a checker needs a cell");
+        return NULL;
+    }
+    ovoid_allocator memory = allocator_make(allocator);
+    ovoid_robot_checker *x = allocator_allocate(&memory, 1, sizeof *x);
+    if (!x) {
+        error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for a checker");
+        return NULL;
+    }
+    *x = (ovoid_robot_checker){.cell = cell, .allocator = memory, .kernels = robot8_get_kernels()};
+    if (checker_renew(x, error) == OVOID_OK) return x;
+    allocator_release(&memory, x);
+    return NULL;
+}
+
+ovoid_robot_checker *ovoid_robot_checker_create(const ovoid_robot_cell *cell, const ovoid_allocator *allocator,
+                                                ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_robot_checker *, cell, create(cell, allocator, error));
+}
+
+static void destroy(ovoid_robot_checker *x) {
+    ovoid_allocator memory = x->allocator;
+    release_all(x);
+    allocator_release(&memory, x);
+}
+
+void ovoid_robot_checker_destroy(ovoid_robot_checker *checker) {
+    if (!checker) return;
+    ENVIRONMENT_RUN(destroy(checker));
+}
+
+void ovoid_robot_checker_reset(ovoid_robot_checker *checker) {
+    if (checker->version == checker->cell->version) forget(checker);
+}
+
+ovoid_code check_options_check(const ovoid_robot_check_options *o, ovoid_error *error) {
+    if (o->margin >= 0 && o->limit_slack >= 0) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_ARGUMENT, -1,
+                     "the margin and the slack of the limits are lengths of at least 0");
+}
+
+// ---- where a state puts things
+
+static void find_errors(ovoid_robot_checker *x, double level) {
+    const ovoid_robot_cell *c = x->cell;
+    step_list links = {c->robot, c->steps.items, c->step_joints.items, c->steps.count};
+    step_list own = {c->robot, c->own.items, NULL, c->own.count};
+    x->frame_errors[c->robot->root] = (frame_error){0, 0, 0};
+    steps_compute_errors(&links, level, x->frame_errors);
+    steps_compute_errors(&own, level, x->frame_errors);
+    for (size_t i = 0; i < c->groups.count; i++) {
+        const cell_group *g = &cell_groups(c)[i];
+        x->group_errors[i] = frame_error_at(&x->frame_errors[g->link], g->far);
+        for (uint32_t k = g->first; k < g->end; k++) {
+            const cell_item *item = &cell_items(c)[k];
+            x->errors[k] = frame_error_at(&x->frame_errors[item->frame], item->far);
+            x->group_errors[i] = max2(x->group_errors[i], x->errors[k]);
+        }
+    }
+    x->level = level;
+}
+
+// The frames of the links.
+static void compute_frames(ovoid_robot_checker *x) {
+    const ovoid_robot_cell *c = x->cell;
+    uint32_t padded = (c->robot->value_count + ROBOT8 - 1) / ROBOT8 * ROBOT8;
+    x->kernels->half_turns(x->values, padded, x->cosines, x->sines);
+    steps_compute_frames(c->steps.items, c->steps.count, c->robot->root, x->values, x->cosines, x->sines, x->frames);
+}
+
+static void place_groups(ovoid_robot_checker *x) {
+    for (size_t i = 0; i < x->cell->groups.count; i++) {
+        const cell_group *g = &cell_groups(x->cell)[i];
+        const link_frame *f = &x->frames[g->link];
+        vec3 center = vec3_add(f->position, mat3_mul_vec3(f->matrix, g->center));
+        x->places[i] = (sphere_place){{center.x, center.y, center.z}, g->reach + x->group_errors[i]};
+    }
+}
+
+ovoid_code checker_place(ovoid_robot_checker *x, const double *q, double limit_slack, ovoid_error *error) {
+    const ovoid_robot *r = x->cell->robot;
+    double magnitude;
+    if (limit_slack < INFINITY && !state_is_within_limits(r, q, limit_slack))
+        return ovoid_robot_check_limits(r, q, limit_slack, error);
+    ovoid_code code = robot_compute_values(r, q, x->values, 1, &magnitude, error);
+    if (code != OVOID_OK) return code;
+    double level = robot_compute_level(r, magnitude);
+    if (level != x->level) find_errors(x, level);
+    x->state++;
+    x->lane = -1;
+    compute_frames(x);
+    place_groups(x);
+    return OVOID_OK;
+}
+
+// ---- eight states
+
+static void load_frame(const frame8 *from, int k, link_frame *f) {
+    const double(*c)[ROBOT8] = from->column;
+    *f = (link_frame){{c[0][k], c[1][k], c[2][k]},
+                      {c[3][k], c[4][k], c[5][k], c[6][k]},
+                      {{c[7][k], c[8][k], c[9][k]}, {c[10][k], c[11][k], c[12][k]}, {c[13][k], c[14][k], c[15][k]}}};
+}
+
+static void place_values(ovoid_robot_checker *x, const double *q, double slack, uint32_t k, lane_state *state) {
+    const ovoid_robot *r = x->cell->robot;
+    ovoid_error refused;
+    state->code = OVOID_OK;
+    if (slack < INFINITY && !state_is_within_limits(r, q, slack))
+        state->code = ovoid_robot_check_limits(r, q, slack, &refused);
+    if (state->code == OVOID_OK)
+        state->code = robot_compute_values(r, q, x->values8[0] + k, ROBOT8, &state->magnitude, &refused);
+    if (state->code != OVOID_OK) state->variable = (uint32_t)refused.place;
+}
+
+void checker_place_lanes(ovoid_robot_checker *x, const double *q, size_t count, double limit_slack,
+                         lane_state states[ROBOT8]) {
+    const ovoid_robot_cell *c = x->cell;
+    for (uint32_t k = 0; k < count; k++) place_values(x, q + k * c->robot->variable_count, limit_slack, k, &states[k]);
+    x->kernels->chain(c->steps.items, (uint32_t)c->steps.count, (const double(*)[ROBOT8])x->values8, x->frames8);
+    for (size_t i = 0; i < c->groups.count; i++) {
+        const cell_group *g = &cell_groups(c)[i];
+        const double center[3] = {g->center.x, g->center.y, g->center.z};
+        x->kernels->place(&x->frames8[g->link], center, x->centers8[i]);
+    }
+}
+
+void checker_take_lane(ovoid_robot_checker *x, uint32_t which, const lane_state *state) {
+    double level = robot_compute_level(x->cell->robot, state->magnitude);
+    if (level != x->level) find_errors(x, level);
+    x->state++;
+    x->lane = (int)which;
+    for (size_t i = 0; i < x->cell->groups.count; i++) {
+        double(*center)[ROBOT8] = x->centers8[i];
+        x->places[i] = (sphere_place){{center[0][which], center[1][which], center[2][which]},
+                                      cell_groups(x->cell)[i].reach + x->group_errors[i]};
+    }
+}
+
+// ---- items
+
+// A frame, computed where it is first asked for: those fixed to links; of states in lanes, those of links too.
+static const link_frame *get_frame(ovoid_robot_checker *x, uint32_t which) {
+    uint32_t links = x->cell->robot->link_count;
+    if (x->stamps[which] == x->state || (which < links && x->lane < 0)) return &x->frames[which];
+    x->stamps[which] = x->state;
+    if (which < links) {
+        load_frame(&x->frames8[which], x->lane, &x->frames[which]);
+        return &x->frames[which];
+    }
+    const chain_step *s = (const chain_step *)x->cell->own.items + (which - links);
+    const link_frame *parent = get_frame(x, s->parent == OVOID_ROBOT_NONE ? x->cell->robot->root : s->parent);
+    step_apply(s, parent, x->values, (turn){1, 0}, &x->frames[which]);
+    return &x->frames[which];
+}
+
+static ovoid_pose get_pose(ovoid_robot_checker *x, const cell_item *item) {
+    const link_frame *f = get_frame(x, item->frame);
+    return (ovoid_pose){f->position, f->rotation};
+}
+
+static oriented_box place_box(ovoid_robot_checker *x, uint32_t item) {
+    const cell_item *it = &cell_items(x->cell)[item];
+    return item_place_box(it, get_frame(x, it->frame), x->errors[item]);
+}
+
+// The box of a group.
+static oriented_box place_group_box(ovoid_robot_checker *x, uint32_t group) {
+    const cell_group *g = &cell_groups(x->cell)[group];
+    const link_frame *f = get_frame(x, g->link);
+    vec3 center = vec3_add(f->position, mat3_mul_vec3(f->matrix, g->middle));
+    return (oriented_box){f->matrix, center, g->half, g->radius + x->group_errors[group]};
+}
+
+int checker_is_part_far(ovoid_robot_checker *x, uint32_t item, uint32_t part, double margin) {
+    oriented_box box = place_box(x, item);
+    double padding = x->cell->padding[cell_items(x->cell)[item].side.link];
+    return oriented_boxes_are_far(&box, &cell_parts(x->cell)[part].box, add_up(margin, padding, 0));
+}
+
+int checker_is_pair_far(ovoid_robot_checker *x, uint32_t pair, double margin) {
+    item_pair p = cell_pairs(x->cell)[pair];
+    oriented_box a = place_box(x, p.a), b = place_box(x, p.b);
+    return oriented_boxes_are_far(&a, &b, margin);
+}
+
+// ---- pairs
+
+checker_pair checker_make_part_pair(ovoid_robot_checker *x, uint32_t item, uint32_t part) {
+    const ovoid_robot_cell *c = x->cell;
+    const cell_item *a = &cell_items(c)[item];
+    const cell_part *b = &cell_parts(c)[part];
+    size_t at = item * c->parts.count + part;
+    checker_pair p = {.a = &a->side, .b = &b->side, .proof = &x->part_proofs[at], .mark = &x->part_marks[at]};
+    p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), b->pose};
+    p.error = x->errors[item];
+    p.padding = c->padding[a->side.link];
+    return p;
+}
+
+checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair) {
+    const ovoid_robot_cell *c = x->cell;
+    item_pair both = cell_pairs(c)[pair];
+    const cell_item *a = &cell_items(c)[both.a], *b = &cell_items(c)[both.b];
+    checker_pair p = {.a = &a->side, .b = &b->side, .proof = &x->pair_proofs[pair], .mark = &x->pair_marks[pair]};
+    p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), get_pose(x, b)};
+    p.rotation = &get_frame(x, a->frame)->matrix;
+    p.error = x->errors[both.a] + x->errors[both.b];
+    return p;
+}
+
+// The boxes of a lane group that a sphere is near.
+static unsigned find_near_boxes(const checker_search *s, const sphere_place *sphere, double padding, uint32_t group) {
+    const ovoid_robot_cell *c = s->checker->cell;
+    const double *c8 = sphere->center;
+    double size = CELL_SLACK * ((fabs(c8[0]) + fabs(c8[1])) + fabs(c8[2]));
+    double reach = add_up(sphere->reach + size, *s->margin, padding);
+    unsigned near = s->checker->kernels->near_boxes(&cell_boxes(c)[group], sphere->center, reach);
+    return group + 1 < c->boxes.count ? near : near & ((1u << (c->parts.count - group * ROBOT8)) - 1);
+}
+
+static int visit_part(const checker_search *s, uint32_t item, uint32_t part) {
+    checker_pair p = checker_make_part_pair(s->checker, item, part);
+    return s->visit(s->context, &p, (pair_name){item, part});
+}
+
+// Each item of a group against a part that the group is near.
+static int visit_items(const checker_search *s, const cell_group *g, uint32_t part) {
+    const ovoid_robot_cell *c = s->checker->cell;
+    if (cell_is_allowed(c, &cell_items(c)[g->first].side, &cell_parts(c)[part].side)) return 1;
+    if (g->is_box_of_item) return visit_part(s, g->first, part);
+    for (uint32_t item = g->first; item < g->end; item++)
+        if (!checker_is_part_far(s->checker, item, part, *s->margin) && !visit_part(s, item, part)) return 0;
+    return 1;
+}
+
+static int visit_parts(const checker_search *s) {
+    const ovoid_robot_cell *c = s->checker->cell;
+    for (uint32_t i = 0; i < c->groups.count; i++) {
+        const cell_group *g = &cell_groups(c)[i];
+        for (uint32_t group = 0; group < c->boxes.count; group++) {
+            unsigned near = find_near_boxes(s, &s->checker->places[i], c->padding[g->link], group);
+            if (!near) continue;
+            oriented_box box = place_group_box(s->checker, i);
+            for (; near; near &= near - 1) {
+                uint32_t part = group * ROBOT8 + compiler_count_low_zeros(near);
+                double margin = add_up(*s->margin, c->padding[g->link], 0);
+                if (oriented_boxes_are_far(&box, &cell_parts(c)[part].box, margin)) continue;
+                if (!visit_items(s, g, part)) return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+static int visit_group_pair(const checker_search *s, const group_pair *both) {
+    ovoid_robot_checker *x = s->checker;
+    oriented_box a = place_group_box(x, both->a), b = place_group_box(x, both->b);
+    if (oriented_boxes_are_far(&a, &b, *s->margin)) return 1;
+    int are_boxes_of_items =
+        cell_groups(x->cell)[both->a].is_box_of_item && cell_groups(x->cell)[both->b].is_box_of_item;
+    for (uint32_t i = both->first; i < both->end; i++) {
+        if (!are_boxes_of_items && checker_is_pair_far(x, i, *s->margin)) continue;
+        checker_pair p = checker_make_item_pair(x, i);
+        if (!s->visit(s->context, &p, (pair_name){OVOID_ROBOT_NONE, i})) return 0;
+    }
+    return 1;
+}
+
+void checker_find_pairs(const checker_search *s) {
+    const ovoid_robot_checker *x = s->checker;
+    if (!s->options->without_obstacles && !visit_parts(s)) return;
+    if (s->options->without_self) return;
+    for (uint32_t i = 0; i < x->cell->group_pairs.count; i++) {
+        const group_pair *both = &cell_group_pairs(x->cell)[i];
+        if (spheres_are_far(&x->places[both->a], &x->places[both->b], *s->margin)) continue;
+        if (!visit_group_pair(s, both)) return;
+    }
+}

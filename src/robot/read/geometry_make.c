@@ -1,0 +1,153 @@
+// The shapes of the geometry: sorted, so that equal ones are neighbours and are made once, and a mesh file is read once
+// for all its scales.
+#include "robot/read/geometry.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int compare_geometries(const geometry *a, const geometry *b) {
+    int order = strcmp(a->path, b->path);
+    return order ? order : primitive_compare(&a->what, &b->what);
+}
+
+static int compare_made(const void *a, const void *b) {
+    const geometry *m = *(geometry *const *)a, *n = *(geometry *const *)b;
+    int order = compare_geometries(m, n);
+    return order ? order : (m->index > n->index) - (m->index < n->index);
+}
+
+static ovoid_code keep_shape(robot_reader *r, const geometry *g, ovoid_shape *shape, const ovoid_error *why) {
+    ovoid_robot_file *file = r->file;
+    if (!shape) return robot_fail(r, g->at, why->code, "%s", why->message);
+    if (!array_reserve((void **)&file->shapes, &file->shape_capacity, file->shape_count, sizeof *file->shapes)) {
+        ovoid_shape_destroy(shape);
+        return robot_fail_memory(r);
+    }
+    file->shapes[file->shape_count++] = shape;
+    return OVOID_OK;
+}
+
+static ovoid_code make_primitive(robot_reader *r, geometry *g) {
+    ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
+    g->shape = r->file->shape_count;
+    g->shape_count = 1;
+    return keep_shape(r, g, primitive_create(&g->what, r->options, &why), &why);
+}
+
+/// A mesh file that is open, for its scales.
+typedef struct open_mesh {
+    const char *path; ///< "": none
+    ovoid_mesh *mesh;
+    int is_measured;
+    ovoid_convexity convexity; ///< unscaled, summed over the parts
+    const char **names;        ///< of the parts; NULL: one part without a name
+} open_mesh;
+
+// The hull of a part with each coordinate multiplied by its factor, NULL for none; mirrored or not, points are points.
+static ovoid_shape *create_hull(const robot_reader *r, const open_mesh *open, size_t part, const double *scale,
+                                ovoid_error *why) {
+    ovoid_faces faces = ovoid_mesh_get_part(open->mesh, part).faces;
+    if (!scale) return ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, r->options->shape, why);
+    double *xyz = malloc(3 * faces.vertex_count * sizeof *xyz);
+    if (!xyz) {
+        (void)io_fail_memory(why, open->path);
+        return NULL;
+    }
+    for (size_t i = 0; i < 3 * faces.vertex_count; i++) xyz[i] = scale[i % 3] * faces.vertices[i];
+    ovoid_shape *shape = ovoid_shape_create_from_points(xyz, faces.vertex_count, r->options->shape, why);
+    free(xyz);
+    return shape;
+}
+
+static int is_unscaled(const geometry *g) {
+    const double *s = g->what.size;
+    return s[0] == 1 && s[1] == 1 && s[2] == 1;
+}
+
+// What the hulls of the parts add to the mesh, of its file's own size: once for all scales.
+static ovoid_code measure(robot_reader *r, const geometry *g, open_mesh *open) {
+    ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
+    if (open->is_measured) return OVOID_OK;
+    for (size_t i = 0; i < g->shape_count; i++) {
+        ovoid_shape *own = is_unscaled(g) ? NULL : create_hull(r, open, i, NULL, &why);
+        if (!own && !is_unscaled(g)) return robot_fail(r, g->at, why.code, "%s: %s", g->path, why.message);
+        ovoid_convexity c = ovoid_mesh_compute_convexity(open->mesh, i, own ? own : r->file->shapes[g->shape + i]);
+        open->convexity.mesh_volume += c.mesh_volume;
+        open->convexity.hull_volume += c.hull_volume;
+        open->convexity.is_nonconvex |= c.is_nonconvex;
+        ovoid_shape_destroy(own);
+    }
+    open->is_measured = 1;
+    return OVOID_OK;
+}
+
+static ovoid_code keep_part_names(robot_reader *r, open_mesh *open) {
+    size_t count = ovoid_mesh_get_part_count(open->mesh);
+    if (!r->options->parts) return OVOID_OK;
+    open->names = pool_get(&r->scratch, count, sizeof *open->names);
+    if (!open->names) return robot_fail_memory(r);
+    for (size_t i = 0; i < count; i++) {
+        const char *name = ovoid_mesh_get_part(open->mesh, i).name;
+        if (name[0] && !(open->names[i] = pool_copy(&r->file->memory, name, strlen(name)))) return robot_fail_memory(r);
+    }
+    return OVOID_OK;
+}
+
+static ovoid_code open_file(robot_reader *r, const geometry *g, open_mesh *open) {
+    ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
+    ovoid_read_options read = {.parts = r->options->parts, .trusted = r->options->trusted};
+    ovoid_mesh_destroy(open->mesh);
+    *open = (open_mesh){.path = g->path, .mesh = ovoid_mesh_read(g->path, &read, &why)};
+    if (!open->mesh) return robot_fail(r, g->at, why.code, "%s", why.message);
+    return keep_part_names(r, open);
+}
+
+static ovoid_code add_mesh(robot_reader *r, const geometry *g, const open_mesh *open) {
+    ovoid_robot_file *file = r->file;
+    const double *s = g->what.size;
+    double volume = fabs(s[0] * s[1] * s[2]);
+    ovoid_robot_mesh mesh = {.path = pool_copy(&file->memory, g->path, strlen(g->path)),
+                             .address = pool_copy(&file->memory, g->address, strlen(g->address)),
+                             .scale = {s[0], s[1], s[2]},
+                             .part_count = g->shape_count,
+                             .convexity = open->convexity};
+    mesh.convexity.mesh_volume *= volume;
+    mesh.convexity.hull_volume *= volume;
+    if (!mesh.path || !mesh.address) return robot_fail_memory(r);
+    file->meshes[file->mesh_count++] = mesh;
+    return OVOID_OK;
+}
+
+static ovoid_code make_mesh(robot_reader *r, geometry *g, open_mesh *open) {
+    ovoid_code code = strcmp(open->path, g->path) == 0 ? OVOID_OK : open_file(r, g, open);
+    if (code) return code;
+    g->shape = r->file->shape_count;
+    g->shape_count = ovoid_mesh_get_part_count(open->mesh);
+    g->part_names = open->names;
+    for (size_t i = 0; i < g->shape_count && !code; i++) {
+        ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
+        code = keep_shape(r, g, create_hull(r, open, i, is_unscaled(g) ? NULL : g->what.size, &why), &why);
+    }
+    if (!code) code = measure(r, g, open);
+    return code ? code : add_mesh(r, g, open);
+}
+
+ovoid_code geometry_make(robot_reader *r, geometry_list *list) {
+    open_mesh open = {.path = ""};
+    ovoid_robot_file *file = r->file;
+    ovoid_code code = OVOID_OK;
+    geometry_sort(list, compare_made);
+    file->meshes = pool_get(&file->memory, list->count, sizeof *file->meshes);
+    if (!file->meshes) return robot_fail_memory(r);
+    for (size_t i = 0; i < list->count && !code; i++) {
+        geometry *g = list->order[i], *before = i ? list->order[i - 1] : NULL;
+        if (before && compare_geometries(before, g) == 0)
+            g->shape = before->shape, g->shape_count = before->shape_count, g->part_names = before->part_names;
+        else
+            code = *g->path ? make_mesh(r, g, &open) : make_primitive(r, g);
+        if (!code && *g->path) file->meshes[file->mesh_count - 1].use_count++;
+    }
+    ovoid_mesh_destroy(open.mesh);
+    return code;
+}

@@ -1,0 +1,363 @@
+// Obstacles from a scene: MoveIt's planning scene in YAML (moveit_msgs/PlanningScene, of which world: collision_objects
+// is read), or ovoid's own scenes. An object is its parts, each convex; where an object and its parts have poses, the
+// pose of a part is their product by definition. Cost: n log n, plus the shapes.
+#include "robot/read/message.h"
+#include "robot/read/primitive.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// An obstacle that is being made.
+typedef struct obstacle_entry {
+    const char *name;
+    ovoid_pose pose;
+    primitive what;
+    ovoid_shape *made; ///< of a mesh: its own; NULL: of the primitive
+    const ovoid_shape *shape;
+    const yaml_value *at;
+    size_t index;
+} obstacle_entry;
+
+struct ovoid_obstacles {
+    pool memory;
+    ovoid_scene *scene; ///< whose shapes these are; NULL: the shapes are ours
+    obstacle_entry *entries;
+    size_t count, capacity;
+    ovoid_shape **shapes;
+    size_t shape_count, shape_capacity;
+};
+
+static const ovoid_robot_read_options no_options;
+
+static ovoid_code add_entry(ovoid_obstacles *o, const message_reader *r, const obstacle_entry *entry) {
+    if (!array_reserve((void **)&o->entries, &o->capacity, o->count, sizeof *o->entries))
+        return io_fail_memory(r->error, r->path);
+    o->entries[o->count] = *entry;
+    o->entries[o->count].index = o->count;
+    o->count++;
+    return OVOID_OK;
+}
+
+static ovoid_code keep_shape(ovoid_obstacles *o, const message_reader *r, ovoid_shape *shape) {
+    if (!array_reserve((void **)&o->shapes, &o->shape_capacity, o->shape_count, sizeof *o->shapes)) {
+        ovoid_shape_destroy(shape);
+        return io_fail_memory(r->error, r->path);
+    }
+    o->shapes[o->shape_count++] = shape;
+    return OVOID_OK;
+}
+
+// ---- primitives
+
+// A type by its word, or by its number in shape_msgs/SolidPrimitive.
+static int find_type(const char *word) {
+    static const struct {
+        const char *word, *number;
+        primitive_kind kind;
+    } types[] = {{"box", "1", PRIMITIVE_BOX},
+                 {"sphere", "2", PRIMITIVE_SPHERE},
+                 {"cylinder", "3", PRIMITIVE_CYLINDER},
+                 {"cone", "4", PRIMITIVE_CONE}};
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (strcmp(types[i].word, word) == 0 || strcmp(types[i].number, word) == 0) return (int)types[i].kind;
+    return -1;
+}
+
+static ovoid_code read_primitive(const message_reader *r, const yaml_value *value, primitive *out) {
+    static const char *const keys[] = {"x", "y", "z"};
+    const yaml_value *type, *sizes;
+    ovoid_code code = message_find_kind(r, value, "type", YAML_TEXT, &type);
+    if (!code) code = message_find_kind(r, value, "dimensions", YAML_LIST, &sizes);
+    if (code) return code;
+    if (!type || !sizes) return message_fail(r, value, OVOID_ERROR_FORMAT, "a primitive needs type and dimensions");
+    int kind = find_type(type->text);
+    if (kind < 0)
+        return message_fail(r, type, OVOID_ERROR_FORMAT, "its type is \"%.40s\", not box, sphere, cylinder or cone",
+                            type->text);
+    *out = (primitive){.kind = (primitive_kind)kind};
+    double *size = out->size;
+    code = message_read_numbers(r, sizes, keys, primitive_get_size_count(out->kind), size);
+    for (int k = 0; k < 3 && !code; k++)
+        if (size[k] < 0) code = message_fail(r, sizes, OVOID_ERROR_RADIUS, "a dimension is below zero: %g", size[k]);
+    // ROS gives the height of cylinders and cones before the radius.
+    if (kind == PRIMITIVE_CYLINDER || kind == PRIMITIVE_CONE) {
+        double height = size[0];
+        size[0] = size[1];
+        size[1] = height;
+    }
+    return code;
+}
+
+// ---- meshes
+
+/// The numbers of a mesh.
+typedef struct mesh_numbers {
+    double *xyz;
+    uint32_t *indices;
+    size_t point_count, triangle_count;
+} mesh_numbers;
+
+static ovoid_code read_vertices(message_reader *r, const yaml_value *list, mesh_numbers *m) {
+    static const char *const keys[] = {"x", "y", "z"};
+    m->xyz = pool_get(&r->scratch, 3 * list->count, sizeof *m->xyz);
+    if (!m->xyz) return io_fail_memory(r->error, r->path);
+    for (const yaml_value *v = list->first; v; v = v->next) {
+        ovoid_code code = message_read_numbers(r, v, keys, 3, m->xyz + 3 * m->point_count);
+        if (code) return code;
+        m->point_count++;
+    }
+    return OVOID_OK;
+}
+
+// {vertex_indices: [a, b, c]}, or the list itself.
+static ovoid_code read_triangles(message_reader *r, const yaml_value *list, mesh_numbers *m) {
+    static const char *const keys[] = {"a", "b", "c"};
+    m->indices = pool_get(&r->scratch, 3 * list->count, sizeof *m->indices);
+    if (!m->indices) return io_fail_memory(r->error, r->path);
+    for (const yaml_value *v = list->first; v; v = v->next) {
+        const yaml_value *corners = v;
+        double index[3];
+        ovoid_code code = v->kind == YAML_MAP ? message_find(r, v, "vertex_indices", &corners) : OVOID_OK;
+        if (!code && !corners) code = message_fail(r, v, OVOID_ERROR_FORMAT, "a triangle needs vertex_indices");
+        if (!code) code = message_read_numbers(r, corners, keys, 3, index);
+        for (int k = 0; k < 3 && !code; k++) {
+            if (!(index[k] >= 0 && index[k] < (double)m->point_count) || index[k] != floor(index[k]))
+                code = message_fail(r, corners, OVOID_ERROR_INDEX, "a triangle names the vertex %g of %zu", index[k],
+                                    m->point_count);
+            else
+                m->indices[3 * m->triangle_count + (size_t)k] = (uint32_t)index[k];
+        }
+        if (code) return code;
+        m->triangle_count++;
+    }
+    return OVOID_OK;
+}
+
+// Six times the signed volume of the tetrahedron of a triangle and the first vertex.
+static double compute_determinant(const double *o, const double *a, const double *b, const double *c) {
+    double u[3], v[3], w[3];
+    for (int k = 0; k < 3; k++) u[k] = a[k] - o[k], v[k] = b[k] - o[k], w[k] = c[k] - o[k];
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+// Tells of a mesh that its hull is larger than what the triangles enclose, if they are closed, by a thousandth or more.
+static void note_hull(const message_reader *r, const yaml_value *at, const mesh_numbers *m, const ovoid_shape *hull) {
+    double sum = 0, whole = ovoid_shape_get_measures(hull).volume;
+    for (size_t i = 0; i < m->triangle_count; i++) {
+        const uint32_t *t = m->indices + 3 * i;
+        sum += compute_determinant(m->xyz, m->xyz + 3 * (size_t)t[0], m->xyz + 3 * (size_t)t[1],
+                                   m->xyz + 3 * (size_t)t[2]);
+    }
+    double enclosed = fabs(sum) / 6;
+    if (whole - enclosed > 1e-3 * whole)
+        message_note(r, at, "a mesh of the object %.100s counts as its hull, of which it is %.3g %%", r->object,
+                     100 * enclosed / whole);
+}
+
+static ovoid_code read_mesh(message_reader *r, ovoid_obstacles *o, const yaml_value *value, obstacle_entry *entry) {
+    const yaml_value *vertices, *triangles;
+    mesh_numbers m = {NULL, NULL, 0, 0};
+    ovoid_error why;
+    ovoid_code code = message_find_kind(r, value, "vertices", YAML_LIST, &vertices);
+    if (!code) code = message_find_kind(r, value, "triangles", YAML_LIST, &triangles);
+    if (!code && !vertices) code = message_fail(r, value, OVOID_ERROR_EMPTY, "a mesh needs vertices");
+    if (!code) code = read_vertices(r, vertices, &m);
+    if (!code && triangles) code = read_triangles(r, triangles, &m);
+    if (code) return code;
+    entry->what.kind = PRIMITIVE_MESH;
+    entry->made = ovoid_shape_create_from_points(m.xyz, m.point_count, r->options->shape, &why);
+    if (!entry->made) return message_fail(r, vertices, why.code, "%s", why.message);
+    if (triangles) note_hull(r, value, &m, entry->made);
+    return keep_shape(o, r, entry->made);
+}
+
+// ---- objects
+
+/// A list of parts and that of their poses.
+typedef struct part_lists {
+    const yaml_value *parts, *poses;
+} part_lists;
+
+static ovoid_code find_lists(const message_reader *r, const yaml_value *object, const char *const keys[2],
+                             part_lists *lists) {
+    ovoid_code code = message_find_kind(r, object, keys[0], YAML_LIST, &lists->parts);
+    if (!code) code = message_find_kind(r, object, keys[1], YAML_LIST, &lists->poses);
+    if (code || !lists->parts) return code;
+    // One part alone may have the object's pose only.
+    size_t poses = lists->poses ? lists->poses->count : 0;
+    if (poses == lists->parts->count || (poses == 0 && lists->parts->count == 1)) return OVOID_OK;
+    return message_fail(r, lists->parts, OVOID_ERROR_FORMAT, "there are %zu %s but %zu %s", lists->parts->count,
+                        keys[0], poses, keys[1]);
+}
+
+static ovoid_code read_parts(message_reader *r, ovoid_obstacles *o, const yaml_value *object, const char *const keys[2],
+                             const ovoid_pose *outer) {
+    part_lists lists;
+    ovoid_code code = find_lists(r, object, keys, &lists);
+    if (code || !lists.parts) return code;
+    const yaml_value *pose = lists.poses ? lists.poses->first : NULL;
+    for (const yaml_value *v = lists.parts->first; v && !code; v = v->next) {
+        obstacle_entry entry = {.name = r->object, .at = v};
+        ovoid_pose inner;
+        code = message_read_pose(r, pose, &inner);
+        if (!code) code = keys[0][0] == 'm' ? read_mesh(r, o, v, &entry) : read_primitive(r, v, &entry.what);
+        entry.pose = ovoid_pose_compute_product(outer, &inner);
+        if (!code && ovoid_pose_compute_check(&entry.pose))
+            code = message_fail(r, v, OVOID_ERROR_RANGE, "its pose has a number above %g", OVOID_LENGTH_MAX);
+        if (!code) code = add_entry(o, r, &entry);
+        if (pose) pose = pose->next;
+    }
+    return code;
+}
+
+// What would be an obstacle and is none here must not be passed over.
+static ovoid_code refuse_others(const message_reader *r, const yaml_value *object) {
+    const yaml_value *planes, *operation;
+    ovoid_code code = message_find(r, object, "planes", &planes);
+    if (!code) code = message_find(r, object, "operation", &operation);
+    if (code) return code;
+    if (planes && planes->count)
+        return message_fail(r, planes, OVOID_ERROR_FORMAT, "planes are not read; put a box in the plane's place");
+    if (operation && strcmp(operation->text, "0") != 0 && strcmp(operation->text, "add") != 0)
+        return message_fail(r, operation, OVOID_ERROR_FORMAT, "its operation is \"%.20s\"; only 0, to add, is read",
+                            operation->text);
+    message_note_others(
+        r, object, "id|header|pose|primitives|primitive_poses|meshes|mesh_poses|planes|plane_poses|operation|type");
+    return OVOID_OK;
+}
+
+// All objects are taken to be in one frame; where they say that they are not, the caller is told.
+static ovoid_code read_frame(message_reader *r, const yaml_value *object) {
+    const yaml_value *header, *frame = NULL;
+    ovoid_code code = message_find_kind(r, object, "header", YAML_MAP, &header);
+    if (!code && header) code = message_find_kind(r, header, "frame_id", YAML_TEXT, &frame);
+    const char *name = frame ? frame->text : "";
+    if (!code && r->frame && strcmp(r->frame, name) != 0)
+        message_note(r, object,
+                     "the object %.100s is in the frame \"%.60s\", one before it in \"%.60s\": frames are not read",
+                     r->object, name, r->frame);
+    r->frame = name;
+    return code;
+}
+
+static ovoid_code read_object(message_reader *r, ovoid_obstacles *o, const yaml_value *object) {
+    static const char *const primitives[2] = {"primitives", "primitive_poses"}, *const meshes[2] = {"meshes",
+                                                                                                    "mesh_poses"};
+    const yaml_value *value;
+    const char *name;
+    ovoid_pose pose;
+    r->object = NULL;
+    ovoid_code code = message_read_text(r, object, "id", &name);
+    if (code) return code;
+    if (!name[0]) return message_fail(r, object, OVOID_ERROR_FORMAT, "an object needs an id");
+    r->object = name;
+    code = refuse_others(r, object);
+    if (!code) code = read_frame(r, object);
+    if (!code) code = message_find_kind(r, object, "pose", YAML_MAP, &value);
+    if (!code) code = message_read_pose(r, value, &pose);
+    if (!code) code = read_parts(r, o, object, primitives, &pose);
+    return code ? code : read_parts(r, o, object, meshes, &pose);
+}
+
+// ---- shapes of primitives
+
+static int compare_entries(const void *a, const void *b) {
+    const obstacle_entry *m = *(obstacle_entry *const *)a, *n = *(obstacle_entry *const *)b;
+    int order = primitive_compare(&m->what, &n->what);
+    return order ? order : (m->index > n->index) - (m->index < n->index);
+}
+
+// Equal primitives are neighbours when they are sorted, and are made once.
+static ovoid_code make_shapes(message_reader *r, ovoid_obstacles *o) {
+    obstacle_entry **order = pool_get(&r->scratch, o->count, sizeof *order);
+    if (!order) return io_fail_memory(r->error, r->path);
+    for (size_t i = 0; i < o->count; i++) order[i] = &o->entries[i];
+    if (o->count) qsort(order, o->count, sizeof *order, compare_entries);
+    for (size_t i = 0; i < o->count; i++) {
+        obstacle_entry *e = order[i];
+        ovoid_error why;
+        if (e->made) e->shape = e->made;
+        if (!e->shape && i && primitive_compare(&order[i - 1]->what, &e->what) == 0) e->shape = order[i - 1]->shape;
+        if (e->shape) continue;
+        ovoid_shape *shape = primitive_create(&e->what, r->options, &why);
+        r->object = e->name;
+        if (!shape) return message_fail(r, e->at, why.code, "%s", why.message);
+        ovoid_code code = keep_shape(o, r, shape);
+        if (code) return code;
+        e->shape = shape;
+    }
+    return OVOID_OK;
+}
+
+// ---- scenes
+
+static ovoid_code read_world(message_reader *r, ovoid_obstacles *o, const yaml_value *root) {
+    const yaml_value *world, *objects = NULL;
+    ovoid_code code = message_find_kind(r, root, "world", YAML_MAP, &world);
+    if (!code && world) code = message_find_kind(r, world, "collision_objects", YAML_LIST, &objects);
+    if (code) return code;
+    if (!world)
+        return message_fail(r, root, OVOID_ERROR_FORMAT, "a planning scene needs world: collision_objects: [...]");
+    message_note_others(r, world, "collision_objects");
+    message_note_others(r, root, "name|world|robot_model_name|robot_state|fixed_frame_transforms|is_diff");
+    for (const yaml_value *v = objects ? objects->first : NULL; v && !code; v = v->next) code = read_object(r, o, v);
+    return code ? code : make_shapes(r, o);
+}
+
+static ovoid_code read_planning_scene(message_reader *r, ovoid_obstacles *o) {
+    yaml_value *root;
+    ovoid_code code = yaml_read(r->path, &r->scratch, &root, r->error);
+    if (!code) code = read_world(r, o, root);
+    pool_clear(&r->scratch);
+    return code;
+}
+
+// Compounds are their parts.
+static ovoid_code read_own_scene(const message_reader *r, ovoid_obstacles *o) {
+    o->scene = ovoid_scene_read(r->path, r->options->shape, r->error);
+    if (!o->scene) return OVOID_ERROR_FILE;
+    ovoid_code code = OVOID_OK;
+    for (size_t i = 0; i < ovoid_scene_get_count(o->scene) && !code; i++) {
+        ovoid_scene_object object = ovoid_scene_get(o->scene, i);
+        obstacle_entry entry = {.name = object.name, .pose = object.pose, .shape = object.shape};
+        size_t parts = object.compound ? ovoid_compound_get_part_count(object.compound) : 0;
+        if (!parts) code = add_entry(o, r, &entry);
+        for (size_t k = 0; k < parts && !code; k++) {
+            ovoid_posed_shape part = ovoid_compound_get_part(object.compound, k);
+            entry.shape = part.shape;
+            entry.pose = ovoid_pose_compute_product(&object.pose, &part.pose);
+            code = add_entry(o, r, &entry);
+        }
+    }
+    return code;
+}
+
+ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_options *options, ovoid_error *error) {
+    ovoid_obstacles *o = calloc(1, sizeof *o);
+    if (!o) {
+        (void)io_fail_memory(error, path);
+        return NULL;
+    }
+    message_reader r = {.path = path, .options = options ? options : &no_options, .error = error, .memory = &o->memory};
+    ovoid_code code = path_has_extension(path, "json") ? read_own_scene(&r, o) : read_planning_scene(&r, o);
+    if (!code) return o;
+    ovoid_obstacles_destroy(o);
+    return NULL;
+}
+
+void ovoid_obstacles_destroy(ovoid_obstacles *o) {
+    if (!o) return;
+    for (size_t i = 0; i < o->shape_count; i++) ovoid_shape_destroy(o->shapes[i]);
+    ovoid_scene_destroy(o->scene);
+    free(o->shapes);
+    free(o->entries);
+    pool_clear(&o->memory);
+    free(o);
+}
+
+size_t ovoid_obstacles_get_count(const ovoid_obstacles *o) { return o->count; }
+
+ovoid_obstacle ovoid_obstacles_get(const ovoid_obstacles *o, size_t i) {
+    return (ovoid_obstacle){o->entries[i].name, o->entries[i].shape, o->entries[i].pose};
+}

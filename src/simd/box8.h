@@ -1,0 +1,48 @@
+// A tree of boxes, eight to a node, in single precision, rounded outward: which leaves may overlap a box? All eight are
+// compared at once (I. Wald, C. Benthin, S. Boulos, Getting rid of packets: efficient SIMD single-ray traversal using
+// multi-branching BVHs, 2008). Comparisons only, so every instruction set finds the same leaves in the same order.
+#ifndef OVOID_SIMD_BOX8_H
+#define OVOID_SIMD_BOX8_H
+
+#include "simd/support.h"
+
+enum { BOX8 = 8 };
+
+/// A node: four cache lines. Lanes that are not used hold a box that overlaps none.
+typedef struct box8 {
+    _Alignas(64) float low[3][BOX8];
+    float high[3][BOX8];
+    uint32_t child[BOX8]; ///< a node, or the caller's number of a leaf
+    uint32_t leaves;      ///< the lanes that are leaves
+} box8;
+
+/// Numbers rounded down and up to single precision: off by a rounding of the product, of the sum and of the conversion,
+/// together below 2^-23 |x| + 2^-140. Beyond the largest float a lower end stays there, and an upper one likewise.
+static inline float box8_round_down(double x) {
+    double low = x - ((x < 0 ? -x : x) * 0x1p-22 + 0x1p-140);
+    return (float)(low < 0x1p127 ? low : 0x1p127);
+}
+static inline float box8_round_up(double x) { return -box8_round_down(-x); }
+
+/// No path is longer.
+enum { BOX8_DEPTH = 64 };
+
+/// A traversal: nodes that wait.
+typedef struct box8_walk {
+    const box8 *nodes;
+    float low[3], high[3]; ///< of the box, rounded outward
+    uint32_t count;
+    uint32_t stack[BOX8_DEPTH * (BOX8 - 1) + 1];
+} box8_walk;
+
+/// Begins at node 0. The box: x, y, z of its lower, then of its upper ends.
+void box8_begin(box8_walk *walk, const box8 *nodes, const double *ends);
+
+/// Goes on until there is no room for eight leaves more, or nothing waits any more; how many leaves were written.
+typedef uint32_t box8_function(box8_walk *walk, uint32_t *leaves, uint32_t room);
+uint32_t box8_find_leaves(box8_walk *walk, uint32_t *leaves, uint32_t room);
+
+/// That of one instruction set, for tests; NULL where this machine or build lacks it, or has no use for it.
+box8_function *box8_get(simd_isa isa);
+
+#endif

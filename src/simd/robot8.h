@@ -1,0 +1,60 @@
+// Kernels of robots: eight states side by side, each a lane. A state in a lane gets the bits that it gets alone
+// (robot/kinematics.h has the twin of the chain). Compiled into libovoid_robot.
+#ifndef OVOID_SIMD_ROBOT8_H
+#define OVOID_SIMD_ROBOT8_H
+
+#include "linear/rotation.h"
+#include "simd/support.h"
+
+enum { ROBOT8 = 8 };
+
+/// What a step of the chain does.
+typedef enum step_kind { STEP_FIXED, STEP_TURN, STEP_SLIDE, STEP_PLANE, STEP_FREE } step_kind;
+
+/// A joint, or an element that is not where its link is: the frame `child` from the frame `parent`. With o the origin's
+/// rotation, a the axis: turn by the quaternion cos o + sin (o a) of half the angle, and moved by origin + along value.
+typedef struct chain_step {
+    step_kind kind;
+    uint32_t parent, child; ///< frames; parent NONE: the world
+    uint32_t value;         ///< the first of its values
+    ovoid_quat rest;        ///< o, unit
+    ovoid_quat turned;      ///< o a
+    vec3 origin;            ///< in the parent's frame
+    vec3 along[3];          ///< of the lengths among its values, in the parent's frame
+} chain_step;
+
+/// The columns of a frame of eight states: position, quaternion, rotation by rows.
+enum { FRAME8_POSITION = 0, FRAME8_QUATERNION = 3, FRAME8_ROTATION = 7, FRAME8_COLUMNS = 16 };
+typedef struct frame8 {
+    _Alignas(64) double column[FRAME8_COLUMNS][ROBOT8];
+} frame8;
+
+/// Eight boxes in the world, each enlarged by a radius: centre, rotation by rows, half sizes, radius.
+enum { BOX8_CENTER = 0, BOX8_ROTATION = 3, BOX8_HALF = 12, BOX8_RADIUS = 15, BOX8_COLUMNS = 16 };
+typedef struct box8 {
+    _Alignas(64) double column[BOX8_COLUMNS][ROBOT8];
+} box8;
+
+/// Kernels of one instruction set.
+typedef struct robot8_kernels {
+    /// All frames, from values[value][lane].
+    void (*chain)(const chain_step *steps, uint32_t count, const double (*values)[ROBOT8], frame8 *frames);
+    /// A point of a frame in the world, for eight states: x, y, z.
+    void (*place)(const frame8 *frame, const double point[3], double (*places)[ROBOT8]);
+    /// Cosines and sines of the halves of angles; count: a multiple of 8. What is no angle gets some numbers.
+    void (*half_turns)(const double *angles, uint32_t count, double *cosines, double *sines);
+    /// One bit for each box that is not proven farther than reach from a point. Reach and radii count what rounding
+    /// does to the lengths that point and centres are made of.
+    unsigned (*near_boxes)(const box8 *boxes, const double point[3], double reach);
+} robot8_kernels;
+
+/// The kernels of the widest instruction set of this machine.
+const robot8_kernels *robot8_get_kernels(void);
+/// The kernels of one instruction set, for tests; NULL where this machine or build lacks them.
+const robot8_kernels *robot8_get_kernels_of(simd_isa isa);
+
+#if defined(__x86_64__) && defined(__GNUC__)
+extern const robot8_kernels robot8_avx2, robot8_avx512;
+#endif
+
+#endif

@@ -1,0 +1,9 @@
+// The kernels of robot8.h for AVX-512.
+#if defined(__x86_64__) && defined(__GNUC__)
+#define LANES 8
+#include "simd/robot8_kernel.h"
+
+const robot8_kernels robot8_avx512 = {run_chain, run_place, run_half_turns, run_near_boxes};
+#else
+#include "simd/robot8.h"
+#endif

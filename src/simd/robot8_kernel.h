@@ -1,0 +1,172 @@
+// The kernels of robot8.h, written once over lanes. Every step has the operations of robot/kinematics.h in their order.
+#include "simd/lanes.h"
+#include "simd/robot8.h"
+
+#define HALF_PI 0x1.921fb54442d18p+0
+#define HALF_PI_LOW 0x1.1a62633145c07p-54
+
+typedef struct lane4 {
+    lane w, x, y, z;
+} lane4;
+
+LANES_INLINE lane get(const double *column, int at) { return lane_load(column + at); }
+LANES_INLINE lane3 spread3(vec3 v) { return (lane3){lane_set(v.x), lane_set(v.y), lane_set(v.z)}; }
+LANES_INLINE lane4 spread4(ovoid_quat q) { return (lane4){lane_set(q.w), lane_set(q.x), lane_set(q.y), lane_set(q.z)}; }
+
+// The low word of a b - p, as two_product.
+LANES_INLINE lane find_product_error(lane a, lane b, lane p) {
+    lane split = lane_set(134217729.0), ta = split * a, tb = split * b;
+    lane ah = ta - (ta - a), al = a - ah, bh = tb - (tb - b), bl = b - bh;
+    return al * bl - (((p - ah * bh) - al * bh) - ah * bl);
+}
+
+// turn_compute of |x|, the sine with the sign of x.
+LANES_INLINE void compute_turn(lane x, lane *cosine, lane *sine) {
+    lane zero = lane_set(0), one = lane_set(1), size = lane_abs(x);
+    lane k = lane_floor(size * lane_set(1 / HALF_PI) + lane_set(0.5));
+    lane high = k * lane_set(HALF_PI), low = find_product_error(k, lane_set(HALF_PI), high);
+    lane r = ((size - high) - low) - k * lane_set(HALF_PI_LOW), q = r * r;
+    lane s = lane_set(1.0 / 355687428096000);
+    s = lane_set(1.0 / 1307674368000) - q * s;
+    s = lane_set(1.0 / 6227020800) - q * s;
+    s = lane_set(1.0 / 39916800) - q * s;
+    s = lane_set(1.0 / 362880) - q * s;
+    s = lane_set(1.0 / 5040) - q * s;
+    s = lane_set(1.0 / 120) - q * s;
+    s = lane_set(1.0 / 6) - q * s;
+    s = r - r * (q * s);
+    lane c = lane_set(1.0 / 20922789888000);
+    c = lane_set(1.0 / 87178291200) - q * c;
+    c = lane_set(1.0 / 479001600) - q * c;
+    c = lane_set(1.0 / 3628800) - q * c;
+    c = lane_set(1.0 / 40320) - q * c;
+    c = lane_set(1.0 / 720) - q * c;
+    c = lane_set(1.0 / 24) - q * c;
+    c = lane_set(0.5) - q * c;
+    c = one - q * c;
+    // Quadrants 0 c s, 1 -s c, 2 -c -s, 3 s -c.
+    lane quadrant = k - lane_set(4) * lane_floor(k * lane_set(0.25));
+    lane_mask upper = lane_greater(quadrant, lane_set(1.5));
+    lane_mask odd = lane_greater(quadrant - lane_select(upper, lane_set(2), zero), lane_set(0.5));
+    lane cosine_size = lane_select(odd, -s, c), sine_size = lane_select(odd, c, s);
+    *cosine = lane_select(upper, -cosine_size, cosine_size);
+    sine_size = lane_select(upper, -sine_size, sine_size);
+    *sine = lane_select(lane_less(x, zero), -sine_size, sine_size);
+}
+
+LANES_INLINE lane4 multiply(lane4 a, lane4 b) {
+    return (lane4){(a.w * b.w - a.x * b.x) - (a.y * b.y + a.z * b.z), (a.w * b.x + a.x * b.w) + (a.y * b.z - a.z * b.y),
+                   (a.w * b.y - a.x * b.z) + (a.y * b.w + a.z * b.x),
+                   (a.w * b.z + a.x * b.y) + (a.z * b.w - a.y * b.x)};
+}
+
+LANES_INLINE lane9 make_rotation(lane4 q) {
+    lane ww = q.w * q.w, xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
+    lane s = lane_set(2) / ((ww + xx) + (yy + zz)), one = lane_set(1);
+    lane xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+    return (lane9){{one - s * (yy + zz), s * (xy - wz), s * (xz + wy)},
+                   {s * (xy + wz), one - s * (xx + zz), s * (yz - wx)},
+                   {s * (xz - wy), s * (yz + wx), one - s * (xx + yy)}};
+}
+
+LANES_INLINE void put_frame(frame8 *f, int at, lane3 p, lane4 q, lane9 r) {
+    const lane all[FRAME8_COLUMNS] = {p.x,    p.y,    p.z,    q.w,    q.x,    q.y,    q.z,    r.r0.x,
+                                      r.r0.y, r.r0.z, r.r1.x, r.r1.y, r.r1.z, r.r2.x, r.r2.y, r.r2.z};
+    for (int i = 0; i < FRAME8_COLUMNS; i++) lane_store(f->column[i] + at, all[i]);
+}
+
+// The rotation and the place of the step's own, in its parent.
+LANES_INLINE void compute_local(const chain_step *s, const double (*values)[ROBOT8], int at, lane4 *rotation,
+                                lane3 *place) {
+    *rotation = spread4(s->rest);
+    *place = spread3(s->origin);
+    uint32_t lengths = s->kind == STEP_SLIDE ? 1 : s->kind == STEP_PLANE ? 2 : s->kind == STEP_FREE ? 3 : 0;
+    for (uint32_t i = 0; i < lengths; i++)
+        *place = lane3_add_scaled(*place, spread3(s->along[i]), get(values[s->value + i], at));
+    if (s->kind == STEP_TURN || s->kind == STEP_PLANE) {
+        lane c, h, angle = get(values[s->value + lengths], at);
+        compute_turn(lane_set(0.5) * angle, &c, &h);
+        lane4 o = *rotation, t = spread4(s->turned);
+        *rotation = (lane4){c * o.w + h * t.w, c * o.x + h * t.x, c * o.y + h * t.y, c * o.z + h * t.z};
+    } else if (s->kind == STEP_FREE) {
+        const double(*v)[ROBOT8] = values + s->value + 3;
+        lane4 q = {get(v[0], at), get(v[1], at), get(v[2], at), get(v[3], at)};
+        lane scale = lane_set(1) / lane_sqrt((q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z));
+        *rotation = multiply(*rotation, (lane4){q.w * scale, q.x * scale, q.y * scale, q.z * scale});
+    }
+}
+
+LANES_TARGET static void run_chain(const chain_step *steps, uint32_t count, const double (*values)[ROBOT8],
+                                   frame8 *frames) {
+    for (uint32_t i = 0; i < count; i++) {
+        const chain_step *s = &steps[i];
+        for (int at = 0; at < ROBOT8; at += LANES) {
+            lane4 q;
+            lane3 p;
+            compute_local(s, values, at, &q, &p);
+            if (s->parent != UINT32_MAX) {
+                const frame8 *parent = &frames[s->parent];
+                const double(*c)[ROBOT8] = parent->column;
+                lane9 r = {{get(c[7], at), get(c[8], at), get(c[9], at)},
+                           {get(c[10], at), get(c[11], at), get(c[12], at)},
+                           {get(c[13], at), get(c[14], at), get(c[15], at)}};
+                p = lane3_add((lane3){get(c[0], at), get(c[1], at), get(c[2], at)}, lane9_mul3(r, p));
+                q = multiply((lane4){get(c[3], at), get(c[4], at), get(c[5], at), get(c[6], at)}, q);
+            }
+            put_frame(&frames[s->child], at, p, q, make_rotation(q));
+        }
+    }
+}
+
+LANES_TARGET static void run_place(const frame8 *frame, const double point[3], double (*places)[ROBOT8]) {
+    const double(*c)[ROBOT8] = frame->column;
+    lane3 local = {lane_set(point[0]), lane_set(point[1]), lane_set(point[2])};
+    for (int at = 0; at < ROBOT8; at += LANES) {
+        lane9 r = {{get(c[7], at), get(c[8], at), get(c[9], at)},
+                   {get(c[10], at), get(c[11], at), get(c[12], at)},
+                   {get(c[13], at), get(c[14], at), get(c[15], at)}};
+        lane3 p = lane3_add((lane3){get(c[0], at), get(c[1], at), get(c[2], at)}, lane9_mul3(r, local));
+        lane_store(places[0] + at, p.x);
+        lane_store(places[1] + at, p.y);
+        lane_store(places[2] + at, p.z);
+    }
+}
+
+LANES_TARGET static void run_half_turns(const double *angles, uint32_t count, double *cosines, double *sines) {
+    for (uint32_t i = 0; i < count; i += LANES) {
+        lane c, s;
+        compute_turn(lane_set(0.5) * lane_load(angles + i), &c, &s);
+        lane_store(cosines + i, c);
+        lane_store(sines + i, s);
+    }
+}
+
+// The square of the distance of a point to a box, from the vector between the centres.
+LANES_INLINE lane compute_box_square(lane9 rotation, lane3 half, lane3 d) {
+    lane3 local = lane9_mul3_transposed(rotation, d);
+    lane zero = lane_set(0);
+    lane3 out = {lane_max(lane_abs(local.x) - half.x, zero), lane_max(lane_abs(local.y) - half.y, zero),
+                 lane_max(lane_abs(local.z) - half.z, zero)};
+    return lane3_dot(out, out);
+}
+
+LANES_INLINE lane_mask is_far(lane square, lane reach) {
+    return lane_greater(square * lane_set(1 - 0x1p-40), reach * reach);
+}
+
+LANES_TARGET static unsigned run_near_boxes(const box8 *boxes, const double point[3], double reach) {
+    lane3 p = {lane_set(point[0]), lane_set(point[1]), lane_set(point[2])};
+    const double(*c)[ROBOT8] = boxes->column;
+    unsigned bits = 0;
+    for (int at = 0; at < ROBOT8; at += LANES) {
+        lane3 center = {get(c[0], at), get(c[1], at), get(c[2], at)},
+              half = {get(c[12], at), get(c[13], at), get(c[14], at)};
+        lane9 r = {{get(c[3], at), get(c[4], at), get(c[5], at)},
+                   {get(c[6], at), get(c[7], at), get(c[8], at)},
+                   {get(c[9], at), get(c[10], at), get(c[11], at)}};
+        lane square = compute_box_square(r, half, lane3_sub(p, center));
+        lane limit = lane_set(reach) + get(c[15], at);
+        bits |= lane_bits(lane_not(is_far(square, limit))) << at;
+    }
+    return bits & ((1u << ROBOT8) - 1);
+}

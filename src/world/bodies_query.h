@@ -1,0 +1,22 @@
+// The cold query of two bodies, for questions between frames.
+#ifndef OVOID_WORLD_BODIES_QUERY_H
+#define OVOID_WORLD_BODIES_QUERY_H
+
+#include "compound/compound.h"
+#include "query/answer.h"
+
+/// Two shapes are asked directly, without a compound's traversal.
+static inline void bodies_query(const ovoid_body *a, const ovoid_body *b, const ovoid_options *options, query_goal goal,
+                                ovoid_compound_answer *out) {
+    if (!a->compound && !b->compound) {
+        ovoid_pair two = {a->shape, b->shape, a->pose, b->pose};
+        out->part_a = out->part_b = out->visited = 0;
+        out->tested = 1;
+        answer_find_internal(&two, options, goal, NULL, NULL, &out->answer);
+        return;
+    }
+    ovoid_body_pair pair = {*a, *b};
+    compound_find_internal(&pair, options, goal, NULL, NULL, out);
+}
+
+#endif

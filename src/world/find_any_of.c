@@ -1,0 +1,175 @@
+// Does a state of a machine touch anything? Its bodies are probes, which are not in the world; some of them are asked
+// about with one another.
+//
+// A probe is placed once, by its pose alone: its sphere, and the box around its own box, turned (body_bounds.h). With
+// that box the tree is traversed. The box of its vertices, which costs as much as all of the rest, is made where a leaf
+// is met for the first time; from then on the traversal goes on with it. What spheres and boxes leave open is queried,
+// cold. Nothing is allocated: of many probes those past the first are placed again for each couple that names them.
+#include "base/environment.h"
+#include "base/error.h"
+#include "linear/rotation.h"
+#include "world/bodies_query.h"
+#include "world/dynamic_tree_traverse.h"
+#include "world/state.h"
+
+#include <string.h>
+
+// A probe at its place.
+typedef struct placed_probe {
+    const ovoid_body *body;
+    body_outline at;
+} placed_probe;
+
+/// Probes whose places are kept for the couples.
+enum { KEPT = 24 };
+
+typedef struct state_search {
+    const ovoid_world *w;
+    const ovoid_world_probes *probes;
+    ovoid_options options;
+    query_goal goal;
+    placed_probe *probe; ///< the one that traverses the tree
+    uint32_t group, mask;
+    ovoid_compound_answer found;
+    uint32_t body; ///< the one that was found, or NONE
+} state_search;
+
+// ---- a probe
+
+static placed_probe place_probe(const ovoid_body *body) {
+    body_sphere ball = body_compute_sphere(body);
+    return (placed_probe){body, body_compute_outline(body, &ball)};
+}
+
+static void tighten(placed_probe *p) {
+    if (p->at.is_tight) return;
+    body_sphere ball = body_compute_sphere(p->body);
+    p->at.bounds = body_compute_box(p->body, &ball);
+    p->at.is_tight = 1;
+}
+
+// 1 if balls around two centres are proven to be apart: squares are off by 5 u, sums by 2 u.
+static int are_apart(vec3 a, vec3 b, double reach) {
+    double most = reach * (1 + 0x1p-48);
+    return vec3_norm_squared(vec3_sub(b, a)) > most * most * (1 + 0x1p-48);
+}
+
+// What pose_compute_check asks, by comparisons alone, for most poses of shapes.
+static int is_plain(const ovoid_body *body) {
+    const ovoid_pose *p = &body->pose;
+    return !body->compound && body->shape && quat_is_plain(quat_norm_squared(p->rotation)) &&
+           vec3_max_abs(p->position) <= OVOID_LENGTH_MAX && vec3_is_finite(p->position);
+}
+
+static ovoid_code check_probe(const ovoid_body *body, size_t number, ovoid_error *error) {
+    return is_plain(body) ? OVOID_OK : world_check_body(body, (int64_t)number, error);
+}
+
+// ---- a probe and the world
+
+static int find_touch(void *context, const tree_node *leaf) {
+    state_search *x = context;
+    const world_body *b = &x->w->bodies[leaf->body];
+    placed_probe *p = x->probe;
+    if (!(x->group & b->mask) || !(b->group & x->mask)) return 1;
+    if (are_apart(p->at.at, x->w->places[leaf->body].at, p->at.reach + (b->reach + b->radius + b->center_error)))
+        return 1;
+    tighten(p);
+    if (!box_is_overlapping(&p->at.bounds, &leaf->bounds)) return 1;
+    bodies_query(p->body, &b->body, &x->options, x->goal, &x->found);
+    if (x->found.answer.lower > 0) return 1;
+    x->body = leaf->body;
+    return 0;
+}
+
+// 1 if the probe touches a body of the world.
+static int meets_world(state_search *x, placed_probe *p, const ovoid_world_body *given) {
+    int all = !given->group && !given->mask;
+    x->group = all ? ~0u : given->group;
+    x->mask = all ? ~0u : given->mask;
+    x->probe = p;
+    return !dynamic_tree_find_overlaps(&x->w->tree, &p->at.bounds, find_touch, x);
+}
+
+// ---- two probes
+
+static placed_probe *get_probe(const state_search *x, uint32_t number, placed_probe *kept, placed_probe *spare) {
+    if (number < KEPT) return &kept[number];
+    *spare = place_probe(&x->probes->items[number].body);
+    return spare;
+}
+
+static int do_touch(state_search *x, placed_probe *a, placed_probe *b) {
+    if (are_apart(a->at.at, b->at.at, a->at.reach + b->at.reach)) return 0;
+    if (!box_is_overlapping(&a->at.bounds, &b->at.bounds)) return 0;
+    tighten(a);
+    tighten(b);
+    if (!box_is_overlapping(&a->at.bounds, &b->at.bounds)) return 0;
+    bodies_query(a->body, b->body, &x->options, x->goal, &x->found);
+    return !(x->found.answer.lower > 0);
+}
+
+// The number of the first couple that is not proven apart; couple_count where all are.
+static size_t find_couple(state_search *x, placed_probe *kept) {
+    const ovoid_world_probes *all = x->probes;
+    placed_probe spare[2];
+    size_t k = 0;
+    for (; k < all->couple_count; k++) {
+        ovoid_couple c = all->couples[k];
+        if (do_touch(x, get_probe(x, c.a, kept, &spare[0]), get_probe(x, c.b, kept, &spare[1]))) break;
+    }
+    return k;
+}
+
+// ---- the query
+
+static ovoid_code check_couples(const ovoid_world_probes *all, ovoid_error *error) {
+    for (size_t k = 0; k < all->couple_count; k++)
+        if (all->couples[k].a >= all->count || all->couples[k].b >= all->count)
+            return error_set(error, OVOID_ERROR_INDEX, (int64_t)k, "couple %zu names a probe past the last of %zu", k,
+                             all->count);
+    return OVOID_OK;
+}
+
+static void write_none(ovoid_world_hit *hit) { memset(hit, 0, sizeof *hit); }
+
+static void write_hit(const state_search *x, size_t a, ovoid_id b, ovoid_world_hit *hit) {
+    *hit = (ovoid_world_hit){a, b, x->found.answer.lower, x->found};
+}
+
+static ovoid_code find_any_of(const ovoid_world *w, const ovoid_world_probes *all, ovoid_world_hit *hit,
+                              ovoid_error *error) {
+    OVOID_ASSERT(w && hit && all && (all->items || !all->count) && (all->couples || !all->couple_count));
+    ovoid_code code = check_couples(all, error);
+    if (code != OVOID_OK) return code;
+    state_search x = {.w = w, .probes = all, .goal = query_goal_make_collide(), .body = NONE};
+    (void)options_make(NULL, &x.options);
+    placed_probe kept[KEPT], spare;
+    for (size_t k = 0; k < all->count; k++) {
+        const ovoid_world_body *given = &all->items[k];
+        code = check_probe(&given->body, k, error);
+        if (code != OVOID_OK) return code;
+        placed_probe *p = k < KEPT ? &kept[k] : &spare;
+        *p = place_probe(&given->body);
+        if (!meets_world(&x, p, given)) continue;
+        write_hit(&x, k, body_get_id(w, x.body), hit);
+        return OVOID_OK;
+    }
+    size_t couple = find_couple(&x, kept);
+    if (couple < all->couple_count)
+        write_hit(&x, all->couples[couple].a, OVOID_WORLD_PROBE | all->couples[couple].b, hit);
+    else
+        write_none(hit);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_find_any_of(const ovoid_world *w, const ovoid_world_probes *probes, ovoid_world_hit *hit,
+                                   ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, probes, find_any_of(w, probes, hit, error));
+}
+
+ovoid_code ovoid_world_find_any_to(const ovoid_world *w, const ovoid_world_body *probes, size_t count,
+                                   ovoid_world_hit *hit, ovoid_error *error) {
+    ovoid_world_probes all = {.items = probes, .count = count};
+    ENVIRONMENT_RETURN(ovoid_code, count, find_any_of(w, &all, hit, error));
+}

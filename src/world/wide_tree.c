@@ -1,0 +1,91 @@
+// A wide node stands for a node of the binary tree. Its children are found below that: of the children so far the one
+// with the largest surface gives way to its own two, until there are eight or all of them are leaves.
+#include "world/wide_tree.h"
+
+// Of wide nodes whose places in a node's link would not fit.
+enum { WIDE_MOST = (1u << 31) / BOX8 - 1 };
+
+// A node of the binary tree whose wide node is still to be made, and the lane that is to name it.
+typedef struct waiting {
+    uint32_t node, depth, link;
+} waiting;
+
+// Node numbers of the children.
+typedef struct family {
+    uint32_t node[BOX8];
+    double surface[BOX8]; // of leaves -1
+    uint32_t count;
+} family;
+
+static void put(const dynamic_tree *t, family *f, uint32_t i, uint32_t node) {
+    const tree_node *n = &t->nodes[node];
+    f->node[i] = node;
+    f->surface[i] = n->child ? box_compute_surface(&n->bounds) : -1;
+}
+
+static family find_children(dynamic_tree *t, uint32_t root) {
+    family f = {.count = 0};
+    if (t->nodes[root].child) {
+        put(t, &f, 0, t->nodes[root].child);
+        put(t, &f, 1, t->nodes[root].child + 1);
+        f.count = 2;
+    } else {
+        put(t, &f, 0, root);
+        f.count = 1;
+    }
+    while (f.count < BOX8) {
+        uint32_t largest = 0;
+        for (uint32_t i = 1; i < f.count; i++)
+            if (f.surface[i] > f.surface[largest]) largest = i;
+        tree_node *n = &t->nodes[f.node[largest]];
+        if (!n->child) break;
+        n->link = NONE;
+        put(t, &f, largest, n->child);
+        put(t, &f, f.count++, n->child + 1);
+    }
+    return f;
+}
+
+// Not a number overlaps nothing; an empty box would overlap one whose ends are beyond all floats.
+static void clear(box8 *wide) {
+    *wide = (box8){.leaves = 0};
+    for (int i = 0; i < BOX8; i++) wide->low[0][i] = NAN;
+}
+
+// Makes a wide node; those of its children wait. How many are waiting then.
+static uint32_t make_node(dynamic_tree *t, uint32_t own, const waiting *x, waiting *stack, uint32_t waits) {
+    family f = find_children(t, x->node);
+    box8 *wide = &t->wide[own];
+    clear(wide);
+    for (uint32_t i = 0; i < f.count; i++) {
+        tree_node *n = &t->nodes[f.node[i]];
+        n->link = own * BOX8 + i;
+        wide_tree_set_box(t, n);
+        if (n->child) {
+            stack[waits++] = (waiting){f.node[i], x->depth + 1, n->link};
+        } else {
+            wide->leaves |= 1u << i;
+            wide->child[i] = f.node[i];
+        }
+    }
+    return waits;
+}
+
+void wide_tree_build(dynamic_tree *t) {
+    waiting stack[BOX8_DEPTH * (BOX8 - 1) + 1];
+    uint32_t waits = 0, made = 0;
+    t->wide_count = 0;
+    if (!t->leaf_count || wide_tree_get_capacity(t->leaf_count) > WIDE_MOST) return;
+    t->nodes[0].link = NONE;
+    stack[waits++] = (waiting){0, 1, NONE};
+    while (waits) {
+        waiting x = stack[--waits];
+        if (x.depth > BOX8_DEPTH) {
+            t->wide_count = 0;
+            return;
+        }
+        t->wide_count = made + 1;
+        if (x.link != NONE) t->wide[x.link / BOX8].child[x.link % BOX8] = made;
+        waits = make_node(t, made++, &x, stack, waits);
+    }
+}

@@ -1,0 +1,89 @@
+// Failing memory: for every k, the k-th allocation of reading a robot, a scene and a request fails. Truth: then it says
+// MEMORY, and nothing leaks (the leak checker of the sanitizers says so at the end); with enough memory it succeeds.
+// expat and libyaml have memory of their own, which does not fail.
+#define FILES_FOLDER "test_robot_memory"
+#include "failing.h"
+#include "files.h"
+
+#include "ovoid/robot_io.h"
+
+static void drop_note(void *context, const ovoid_robot_note *note) {
+    (void)note;
+    ++*(size_t *)context;
+}
+
+static size_t notes;
+
+static int read_robot(ovoid_error *error) {
+    static const ovoid_robot_package package = {"p", "/nowhere"};
+    ovoid_robot_read_options options = {.packages = &package,
+                                        .package_count = 1,
+                                        .ros_package_path = "",
+                                        .ament_prefix_path = "/nowhere",
+                                        .parts = 1,
+                                        .note = drop_note,
+                                        .context = &notes};
+    ovoid_robot_file *file =
+        ovoid_robot_file_read(file_path("deep/robot.urdf"), file_path("robot.srdf"), &options, error);
+    ovoid_robot_file_destroy(file);
+    return file != NULL;
+}
+
+static int read_scene(ovoid_error *error) {
+    ovoid_obstacles *o = ovoid_obstacles_read(file_path("scene.yaml"), NULL, error);
+    ovoid_obstacles_destroy(o);
+    return o != NULL;
+}
+
+static int read_request(ovoid_error *error) {
+    ovoid_motion_request *r = ovoid_motion_request_read(file_path("problems/request1.yaml"), NULL, error);
+    ovoid_motion_request_destroy(r);
+    return r != NULL;
+}
+
+static int find_problems(ovoid_error *error) {
+    ovoid_problems *p = ovoid_problems_find(file_path("."), error);
+    ovoid_problems_destroy(p);
+    return p != NULL;
+}
+
+static const char urdf[] =
+    "<robot name=\"r\"><material/>\n<link name=\"a\"><inertial/><collision name=\"x\"><geometry><box size=\"1 2 "
+    "3\"/></geometry>"
+    "</collision><collision><geometry><mesh filename=\"package://q/two.obj\" scale=\"1 -1 "
+    "2\"/></geometry></collision></link>\n"
+    "<link name=\"b\"><collision><geometry><mesh filename=\"two.obj\"/></geometry></collision></link>\n"
+    "<joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/></joint></robot>\n";
+static const char srdf[] =
+    "<robot name=\"r\"><virtual_joint name=\"v\" type=\"planar\" parent_frame=\"w\" child_link=\"a\"/><group "
+    "name=\"h\">"
+    "<group name=\"g\"/></group><group name=\"g\"><chain base_link=\"a\" tip_link=\"b\"/><joint name=\"x\"/></group>"
+    "<group_state name=\"s\" group=\"g\"><joint name=\"j\" value=\"1\"/></group_state><passive_joint name=\"j\"/>"
+    "<disable_collisions link1=\"a\" link2=\"b\" reason=\"Adjacent\"/><link_sphere_approximation link=\"b\">"
+    "<sphere radius=\"1\"/></link_sphere_approximation><end_effector/></robot>";
+static const char obj[] = "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+                          "o two\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
+static const char scene[] =
+    "world:\n  collision_objects:\n    - id: o\n      primitives: [{type: box, dimensions: [1, 1, 1]}]\n"
+    "      meshes: [{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}]\n";
+static const char request[] = "start_state: {joint_state: {name: [a], position: [1]}}\ngroup_name: g\n"
+                              "goal_constraints: [{joint_constraints: [{joint_name: a, position: 2}]}]\n";
+
+int main(void) {
+    mkdir(file_path("."), 0777);
+    mkdir(file_path("deep"), 0777);
+    mkdir(file_path("problems"), 0777);
+    file_write_text("deep/package.xml", "<package><name>q</name></package>");
+    file_write_text("deep/two.obj", obj);
+    file_write_text("deep/robot.urdf", urdf);
+    file_write_text("robot.srdf", srdf);
+    file_write_text("scene.yaml", scene);
+    file_write_text("problems/scene1.yaml", scene);
+    file_write_text("problems/request1.yaml", request);
+    check_operation("robot", 0, read_robot);
+    CHECK(notes > 0);
+    check_operation("scene", 0, read_scene);
+    check_operation("request", 0, read_request);
+    check_operation("problems", 0, find_problems);
+    return check_end();
+}

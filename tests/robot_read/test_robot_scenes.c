@@ -1,0 +1,310 @@
+// Scenes, requests and planning problems: what is read, what is refused. Truth: files written here; the number of the
+// known problems' files.
+#define FILES_FOLDER "test_scenes"
+#include "robot_files.h"
+
+#include "ovoid/ovoid.h"
+
+static ovoid_obstacles *read_scene(const char *name, const char *text, const ovoid_robot_read_options *options) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_obstacles *o = ovoid_obstacles_read(file_write_text(name, text), options, &error);
+    if (!o) printf("  %s\n", error.message);
+    return o;
+}
+
+static ovoid_box get_box(const ovoid_obstacles *o, size_t i) {
+    return ovoid_shape_get_measures(ovoid_obstacles_get(o, i).shape).box;
+}
+
+static void test_primitives(void) {
+    static const char text[] =
+        "world:\n"
+        "  collision_objects:\n"
+        "    - id: table\n"
+        "      pose: {position: [0, 0, 10], orientation: [0, 0, 1, 0]}\n"
+        "      primitives:\n"
+        "        - {type: box, dimensions: [2, 4, 6]}\n"
+        "        - {type: 3, dimensions: [5, 0.5]}\n"
+        "      primitive_poses:\n"
+        "        - {position: [1, 0, 0], orientation: [0, 0, 0, 1]}\n"
+        "        - {position: {x: 0, y: 2, z: 0}, orientation: {x: 0, y: 0, z: 0, w: 1}}\n"
+        "    - id: 'ball'\n"
+        "      primitives: [{type: sphere, dimensions: [0.25]}, {type: cone, dimensions: [2, 1]}]\n"
+        "      primitive_poses: [{position: [3, 0, 0]}, {position: [4, 0, 0]}]\n"
+        "    - id: second\n"
+        "      pose: {position: [7, 0, 0]}\n"
+        "      primitives: [{type: box, dimensions: [2, 4, 6]}]\n";
+    ovoid_robot_read_options options = make_read_options();
+    options.tolerance = 0.01;
+    ovoid_obstacles *o = read_scene("primitives.yaml", text, &options);
+    if (!CHECK(o)) return;
+    CHECK_EQ(notes.count, 0);
+    if (CHECK_EQ(ovoid_obstacles_get_count(o), 5)) {
+        ovoid_obstacle box = ovoid_obstacles_get(o, 0), pillar = ovoid_obstacles_get(o, 1);
+        CHECK(strcmp(box.name, "table") == 0 && strcmp(pillar.name, "table") == 0);
+        // Turned by a half turn about z and raised by 10.
+        CHECK_EQ(box.pose.position.x, -1);
+        CHECK_EQ(box.pose.position.z, 10);
+        CHECK_EQ(pillar.pose.position.y, -2);
+        CHECK_EQ(get_box(o, 0).max.z, 3);
+        CHECK_EQ(get_box(o, 1).max.z, 2.5); // the height comes first
+        CHECK_NEAR(get_box(o, 1).max.x, 0.5, 0.01);
+        ovoid_allowance allowance = ovoid_shape_get_allowance(pillar.shape);
+        CHECK(allowance.outside > 0 && allowance.outside <= 0.01);
+        CHECK_EQ(ovoid_shape_get_radius(ovoid_obstacles_get(o, 2).shape), 0.25);
+        CHECK_EQ(get_box(o, 3).max.z, 1);
+        CHECK_EQ(ovoid_obstacles_get(o, 4).pose.position.x, 7);
+        CHECK(ovoid_obstacles_get(o, 4).shape == box.shape); // made once
+    }
+    ovoid_obstacles_destroy(o);
+}
+
+static void test_meshes(void) {
+    static const char text[] =
+        "world:\n  collision_objects:\n    - id: l\n      meshes:\n        - vertices: [[0, 0, 0], [1, 0, 0], [0, 1, "
+        "0], "
+        "{x: 0, y: 0, z: 1}]\n          triangles: [{vertex_indices: [0, 2, 1]}, [0, 1, 3], [1, 2, 3], [2, 0, 3]]\n"
+        "        - vertices: [[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3], [0.5, 0.5, 0.5]]\n"
+        "          triangles: [[0, 2, 1], [0, 1, 3], [2, 0, 3], [1, 2, 4], [2, 3, 4], [3, 1, 4]]\n"
+        "      mesh_poses: [{position: [1, 0, 0]}, {position: [2, 0, 0]}]\n";
+    ovoid_robot_read_options options = make_read_options();
+    ovoid_obstacles *o = read_scene("meshes.yaml", text, &options);
+    if (!CHECK(o)) return;
+    if (CHECK_EQ(ovoid_obstacles_get_count(o), 2)) {
+        CHECK_EQ(get_box(o, 0).max.z, 1);
+        CHECK_EQ(get_box(o, 1).max.z, 3);
+        CHECK_EQ(ovoid_obstacles_get(o, 1).pose.position.x, 2);
+    }
+    // The tip pushed in to (1/2, 1/2, 1/2) leaves half of the volume.
+    CHECK_EQ(notes.count, 1);
+    CHECK(has_note("meshes.yaml:7: a mesh of the object l counts as its hull, of which it is 50 %"));
+    ovoid_obstacles_destroy(o);
+}
+
+static void test_own_scene(void) {
+    static const char text[] = "{\"objects\": [{\"name\": \"a\", \"box\": [1, 1, 1]}, {\"name\": \"b\", \"compound\": ["
+                               "{\"sphere\": 1, \"pose\": {\"xyz\": [1, 0, 0]}}, {\"sphere\": 2}], "
+                               "\"pose\": {\"xyz\": [0, 5, 0]}}]}";
+    ovoid_obstacles *o = read_scene("own.json", text, NULL);
+    if (!CHECK(o)) return;
+    if (CHECK_EQ(ovoid_obstacles_get_count(o), 3)) {
+        CHECK(strcmp(ovoid_obstacles_get(o, 2).name, "b") == 0);
+        CHECK_EQ(ovoid_obstacles_get(o, 1).pose.position.x, 1);
+        CHECK_EQ(ovoid_obstacles_get(o, 1).pose.position.y, 5);
+        CHECK_EQ(ovoid_shape_get_radius(ovoid_obstacles_get(o, 2).shape), 2);
+    }
+    ovoid_obstacles_destroy(o);
+}
+
+static void test_notes(void) {
+    static const char text[] =
+        "name: s\nallowed_collision_matrix: {entry_names: []}\nrobot_state: {}\nworld:\n"
+        "  octomap: {data: []}\n  collision_objects:\n    - id: a\n      header: {frame_id: base}\n"
+        "    - id: b\n      header: {frame_id: tool}\n      colour: red\n";
+    ovoid_robot_read_options options = make_read_options();
+    ovoid_obstacles *o = read_scene("notes.yaml", text, &options);
+    if (!CHECK(o)) return;
+    CHECK_EQ(ovoid_obstacles_get_count(o), 0);
+    CHECK_EQ(notes.count, 4);
+    CHECK(has_note("notes.yaml:2: \"allowed_collision_matrix\" is not read"));
+    CHECK(has_note("notes.yaml:5: \"octomap\" is not read"));
+    CHECK(has_note("notes.yaml:11: \"colour\" is not read"));
+    CHECK(has_note("the object b is in the frame \"tool\", one before it in \"base\""));
+    ovoid_obstacles_destroy(o);
+}
+
+// ---- refusals
+
+#define OBJECT(members) "world:\n  collision_objects:\n    - id: o\n" members
+#define PART(part) OBJECT("      primitives: [" part "]\n      primitive_poses: [{position: [0, 0, 0]}]\n")
+#define MESH(mesh) OBJECT("      meshes: [" mesh "]\n")
+
+#define TAG4 "%TAG !x! y\n%TAG !x! y\n%TAG !x! y\n%TAG !x! y\n"
+
+static const bad_input scenes[] = {
+    {"empty.yaml", "", OVOID_ERROR_EMPTY, -1, "empty"},
+    {"blank.yaml", "# nothing\n", OVOID_ERROR_FORMAT, 1, "needs world: collision_objects"},
+    {"list.yaml", "- 1\n", OVOID_ERROR_FORMAT, 1, "there must be a map with \"world\""},
+    {"cut.yaml", "world: {collision_objects: [\n", OVOID_ERROR_FORMAT, 2, "YAML: "},
+    {"alias.yaml", "a: &x [1, 2]\nworld: *x\n", OVOID_ERROR_FORMAT, 2, "aliases are not read"},
+    {"key.yaml", "{[1, 2]: 3}\n", OVOID_ERROR_FORMAT, 1, "a key must be a text"},
+    {"two.yaml", "a: 1\n---\nb: 2\n", OVOID_ERROR_FORMAT, 2, "a second document"},
+    {"tags.yaml", TAG4 TAG4 TAG4 TAG4 "%TAG !x! y\n---\na: 1\n", OVOID_ERROR_LIMIT, -1, "there are 17 %TAG directives"},
+    {"wide.yaml",
+     "\xff\xfe"
+     "a\0:",
+     OVOID_ERROR_FORMAT, 1, "YAML: "},
+    {"zero.yaml", "a: \"x\\0y\"\n", OVOID_ERROR_FORMAT, 1, "zero byte"},
+    {"twice.yaml", "world: {}\nworld: {}\n", OVOID_ERROR_FORMAT, 2, "\"world\" is there twice"},
+    {"world.yaml", "world: 7\n", OVOID_ERROR_FORMAT, 1, "\"world\" must be a map"},
+    {"objects.yaml", "world: {collision_objects: 7}\n", OVOID_ERROR_FORMAT, 1, "\"collision_objects\" must be a list"},
+    {"nameless.yaml", "world:\n  collision_objects:\n    - primitives: []\n", OVOID_ERROR_FORMAT, 3,
+     "an object needs an id"},
+    {"deep.yaml",
+     "a: "
+     "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["
+     "[",
+     OVOID_ERROR_LIMIT, 1, "nested more than 64 deep"},
+    {"type.yaml", PART("{type: prism, dimensions: [1]}"), OVOID_ERROR_FORMAT, 4,
+     "object \"o\": its type is \"prism\", not box, sphere, cylinder or cone"},
+    {"sizes.yaml", PART("{type: box, dimensions: [1, 2]}"), OVOID_ERROR_FORMAT, 4, "there must be 3 numbers"},
+    {"words.yaml", PART("{type: box, dimensions: [1, 2, x]}"), OVOID_ERROR_FORMAT, 4, "\"x\" must be a finite number"},
+    {"nan.yaml", PART("{type: sphere, dimensions: [nan]}"), OVOID_ERROR_NOT_FINITE, 4, "\"nan\" is not finite"},
+    {"dot_inf.yaml", PART("{type: sphere, dimensions: [.inf]}"), OVOID_ERROR_FORMAT, 4, "must be a finite number"},
+    {"negative.yaml", PART("{type: sphere, dimensions: [-1]}"), OVOID_ERROR_RADIUS, 4, "below zero"},
+    {"bare.yaml", PART("{type: sphere}"), OVOID_ERROR_FORMAT, 4, "needs type and dimensions"},
+    {"huge.yaml", PART("{type: sphere, dimensions: [1e60]}"), OVOID_ERROR_RANGE, 4, "object \"o\""},
+    {"poses.yaml", OBJECT("      primitives: [{type: sphere, dimensions: [1]}, {type: sphere, dimensions: [1]}]\n"),
+     OVOID_ERROR_FORMAT, 4, "there are 2 primitives but 0 primitive_poses"},
+    {"turn.yaml", OBJECT("      pose: {orientation: [0, 0, 0, 0]}\n"), OVOID_ERROR_ROTATION, 4, "four zeros"},
+    {"far.yaml", OBJECT("      pose: {position: [1e51, 0, 0]}\n"), OVOID_ERROR_RANGE, 4, "above 1e+50"},
+    {"missing.yaml", OBJECT("      pose: {position: {x: 1, y: 2, w: 3}}\n"), OVOID_ERROR_FORMAT, 4, "\"z\" is missing"},
+    {"plane.yaml", OBJECT("      planes: [{coef: [0, 0, 1, 0]}]\n"), OVOID_ERROR_FORMAT, 4, "planes are not read"},
+    {"operation.yaml", OBJECT("      operation: 1\n"), OVOID_ERROR_FORMAT, 4, "only 0, to add, is read"},
+    {"no_mesh.yaml", MESH("{triangles: []}"), OVOID_ERROR_EMPTY, 4, "a mesh needs vertices"},
+    {"index.yaml", MESH("{vertices: [[0, 0, 0]], triangles: [[0, 0, 1]]}"), OVOID_ERROR_INDEX, 4,
+     "names the vertex 1 of 1"},
+    {"half.yaml", MESH("{vertices: [[0, 0, 0]], triangles: [[0, 0, 0.5]]}"), OVOID_ERROR_INDEX, 4,
+     "names the vertex 0.5"},
+    {"own.json", "{}", OVOID_ERROR_FORMAT, -1, "needs \"objects\""},
+};
+
+static void test_scene_refusals(void) {
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        ovoid_error error = {OVOID_OK, -1, ""};
+        ovoid_obstacles *o = ovoid_obstacles_read(file_write_text(scenes[i].name, scenes[i].text), NULL, &error);
+        if (!CHECK(!o)) printf("  %s was read\n", scenes[i].name);
+        check_error(&scenes[i], &error);
+        ovoid_obstacles_destroy(o);
+    }
+}
+
+// ---- requests
+
+#define START "start_state: {joint_state: {name: [a, b], position: [1, -2.5e-1]}}\n"
+
+static void test_request(void) {
+    static const char text[] = START "group_name: arm\ngoal_constraints:\n  - joint_constraints:\n"
+                                     "      - {joint_name: b, position: 3}\n  - joint_constraints: []\n"
+                                     "    position_constraints: []\n";
+    ovoid_robot_read_options options = make_read_options();
+    ovoid_motion_request *r = ovoid_motion_request_read(file_write_text("good.yaml", text), &options, NULL);
+    size_t count;
+    if (!CHECK(r)) return;
+    const ovoid_joint_position *start = ovoid_motion_request_get_start(r, &count);
+    CHECK(count == 2 && strcmp(start[1].joint, "b") == 0 && start[1].position == -0.25);
+    CHECK(strcmp(ovoid_motion_request_get_group(r), "arm") == 0);
+    CHECK_EQ(ovoid_motion_request_get_goal_count(r), 2);
+    const ovoid_joint_position *goal = ovoid_motion_request_get_goal(r, 0, &count);
+    CHECK(count == 1 && strcmp(goal[0].joint, "b") == 0 && goal[0].position == 3);
+    (void)ovoid_motion_request_get_goal(r, 1, &count);
+    CHECK_EQ(count, 0);
+    CHECK(notes.count == 1 && has_note("good.yaml:7: \"position_constraints\" is not read"));
+    ovoid_motion_request_destroy(r);
+}
+
+static const bad_input requests[] = {
+    {"no_start.yaml", "group_name: a\n", OVOID_ERROR_FORMAT, 1, "needs start_state: joint_state: name and position"},
+    {"lengths.yaml", "start_state: {joint_state: {name: [a, b], position: [1]}}\n", OVOID_ERROR_FORMAT, 1,
+     "there are 2 names but 1 positions"},
+    {"name.yaml", "start_state: {joint_state: {name: [[a]], position: [1]}}\n", OVOID_ERROR_FORMAT, 1,
+     "must be a text"},
+    {"goal.yaml", START "goal_constraints: [{joint_constraints: [{joint_name: a}]}]\n", OVOID_ERROR_FORMAT, 2,
+     "needs joint_name and position"},
+    {"goals.yaml", START "goal_constraints: 5\n", OVOID_ERROR_FORMAT, 2, "must be a list"},
+    {"group.yaml", "group_name: [a]\n" START, OVOID_ERROR_FORMAT, 1, "\"group_name\" must be a text"},
+};
+
+static void test_request_refusals(void) {
+    for (size_t i = 0; i < sizeof requests / sizeof *requests; i++) {
+        ovoid_error error = {OVOID_OK, -1, ""};
+        const char *path = file_write_text(requests[i].name, requests[i].text);
+        ovoid_motion_request *r = ovoid_motion_request_read(path, NULL, &error);
+        if (!CHECK(!r)) printf("  %s was read\n", requests[i].name);
+        check_error(&requests[i], &error);
+        ovoid_motion_request_destroy(r);
+    }
+}
+
+// ---- problems
+
+static void test_problems(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    static const char *const folders[] = {"all", "all/b", "all/a", "all/a/deep", "none", "lone"};
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) mkdir(file_path(folders[i]), 0777);
+    static const char *const files[] = {"all/b/scene2.yaml",    "all/b/request2.yaml", "all/a/deep/request.yml",
+                                        "all/a/deep/scene.yml", "all/request1.yaml",   "all/scene1.yaml",
+                                        "all/other.yaml",       "all/request.txt",     "lone/request1.yaml"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) file_write_text(files[i], "x: 1\n");
+    ovoid_problems *p = ovoid_problems_find(file_path("all"), &error);
+    if (CHECK(p) && CHECK_EQ(ovoid_problems_get_count(p), 3)) {
+        CHECK(strcmp(ovoid_problems_get(p, 0).name, "1") == 0);
+        CHECK(strcmp(ovoid_problems_get(p, 1).name, "a/deep/") == 0);
+        CHECK(strcmp(ovoid_problems_get(p, 2).name, "b/2") == 0);
+        CHECK(strcmp(ovoid_problems_get(p, 2).scene, file_path("all/b/scene2.yaml")) == 0);
+        CHECK(strcmp(ovoid_problems_get(p, 1).request, file_path("all/a/deep/request.yml")) == 0);
+    }
+    ovoid_problems_destroy(p);
+    CHECK(!ovoid_problems_find(file_path("none"), &error) && error.code == OVOID_ERROR_EMPTY);
+    CHECK(!ovoid_problems_find(file_path("lone"), &error) && error.code == OVOID_ERROR_FILE);
+    CHECK(strstr(error.message, "there is no scene1.yaml beside it"));
+    CHECK(!ovoid_problems_find(file_path("is_not_there"), &error) && error.code == OVOID_ERROR_FILE);
+    CHECK(!ovoid_problems_find(file_path("all/scene1.yaml"), &error) && error.code == OVOID_ERROR_FILE);
+}
+
+// The problems of MotionBenchMaker: 7 kinds of 100 for each of two robots, unpacked beside the build.
+static void read_known(const char *data, const char *archive, const char *into) {
+    char command[1200], path[600];
+    snprintf(path, sizeof path, "%s/robots/%s", data, archive);
+    FILE *there = fopen(path, "rb");
+    if (!there) {
+        check_skip("the planning problems are absent");
+        return;
+    }
+    fclose(there);
+    mkdir(file_path(into), 0777);
+    snprintf(command, sizeof command, "tar -xjf '%s' -C '%s'", path, file_path(into));
+    if (system(command) != 0) {
+        check_skip("tar cannot unpack the planning problems");
+        return;
+    }
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_problems *p = ovoid_problems_find(file_path(into), &error);
+    if (!CHECK(p)) return;
+    CHECK_EQ(ovoid_problems_get_count(p), 700);
+    size_t bad = 0, obstacles = 0;
+    for (size_t i = 0; i < ovoid_problems_get_count(p); i++) {
+        ovoid_problem problem = ovoid_problems_get(p, i);
+        ovoid_obstacles *o = ovoid_obstacles_read(problem.scene, NULL, &error);
+        ovoid_motion_request *r = ovoid_motion_request_read(problem.request, NULL, &error);
+        if (!o || !r || !ovoid_motion_request_get_goal_count(r)) {
+            if (!bad++) printf("  %s\n", error.message);
+        }
+        obstacles += o ? ovoid_obstacles_get_count(o) : 0;
+        ovoid_obstacles_destroy(o);
+        ovoid_motion_request_destroy(r);
+    }
+    CHECK_EQ(bad, 0);
+    printf("%s: %zu problems, %zu obstacles\n", archive, ovoid_problems_get_count(p), obstacles);
+    ovoid_problems_destroy(p);
+}
+
+int main(void) {
+    file_write_text("x", "");
+    test_primitives();
+    test_meshes();
+    test_own_scene();
+    test_notes();
+    test_scene_refusals();
+    test_request();
+    test_request_refusals();
+    test_problems();
+    const char *data = check_data_folder();
+    if (data) {
+        read_known(data, "panda/mbm_problems.tar.bz2", "panda");
+        read_known(data, "fetch_mbm/problems.tar.bz2", "fetch");
+    } else {
+        check_skip("OVOID_DATA is absent");
+    }
+    return check_end();
+}
