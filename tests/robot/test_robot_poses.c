@@ -4,101 +4,11 @@
 #include "bits.h"
 #include "check.h"
 #include "countdown.h"
+#include "exact_robot.h"
 #include "robots.h"
 #include "simd/robot8.h"
 
 #include "robot/kinematics.h"
-
-#include <float.h>
-
-typedef long double real;
-typedef struct exact_frame {
-    real r[3][3], p[3];
-} exact_frame;
-
-// The rotation of a normalised quaternion.
-static void exact_rotation(ovoid_quat q, real r[3][3]) {
-    real w = q.w, x = q.x, y = q.y, z = q.z, s = 2 / (w * w + x * x + y * y + z * z);
-    real m[3][3] = {{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
-                    {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
-                    {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}};
-    memcpy(r, m, sizeof m);
-}
-
-static void multiply(real a[3][3], real b[3][3], real out[3][3]) {
-    real m[3][3];
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) m[i][k] = a[i][0] * b[0][k] + a[i][1] * b[1][k] + a[i][2] * b[2][k];
-    memcpy(out, m, sizeof m);
-}
-
-static void unit_axis(ovoid_vec3 a, real n[3]) {
-    real x = a.x, y = a.y, z = a.z, norm = sqrtl(x * x + y * y + z * z);
-    n[0] = x / norm, n[1] = y / norm, n[2] = z / norm;
-}
-
-// Rodrigues: I + sin K + (1 - cos) K K.
-static void axis_rotation(const real n[3], real angle, real r[3][3]) {
-    real k[3][3] = {{0, -n[2], n[1]}, {n[2], 0, -n[0]}, {-n[1], n[0], 0}}, kk[3][3];
-    multiply(k, k, kk);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) r[i][j] = (i == j) + sinl(angle) * k[i][j] + (1 - cosl(angle)) * kk[i][j];
-}
-
-// The x of the plane of a planar joint, as the header has it for z and -z; else the formula of its source.
-static void plane_axes(const real n[3], real x[3], real y[3]) {
-    real sign = n[2] < 0 ? -1 : 1, a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
-    x[0] = 1 + sign * n[0] * n[0] * a, x[1] = sign * b, x[2] = -sign * n[0];
-    y[0] = b, y[1] = sign + n[1] * n[1] * a, y[2] = -n[1];
-}
-
-// The value of a joint of one variable.
-static real find_value(const ovoid_robot_description *d, const ovoid_robot *r, uint32_t i, const double *q) {
-    const ovoid_robot_joint *j = &d->joints[i];
-    if (j->mimic == OVOID_ROBOT_NONE) return q[ovoid_robot_get_joint_variable(r, i)];
-    return j->multiplier * find_value(d, r, j->mimic, q) + j->offset;
-}
-
-static void exact_joint(const ovoid_robot_description *d, const ovoid_robot *r, uint32_t i, const double *q,
-                        exact_frame *local) {
-    const ovoid_robot_joint *j = &d->joints[i];
-    real n[3] = {0, 0, 1}, x[3], y[3], t[3] = {0, 0, 0}, spin[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, o[3][3];
-    const double *v = q + (j->type == OVOID_JOINT_FIXED ? 0 : ovoid_robot_get_joint_variable(r, i));
-    if (j->type != OVOID_JOINT_FIXED && j->type != OVOID_JOINT_FLOATING) unit_axis(j->axis, n);
-    exact_rotation(j->origin.rotation, o);
-    if (j->type == OVOID_JOINT_REVOLUTE || j->type == OVOID_JOINT_CONTINUOUS)
-        axis_rotation(n, find_value(d, r, i, q), spin);
-    if (j->type == OVOID_JOINT_PRISMATIC)
-        for (int k = 0; k < 3; k++) t[k] = n[k] * find_value(d, r, i, q);
-    if (j->type == OVOID_JOINT_PLANAR) {
-        plane_axes(n, x, y);
-        for (int k = 0; k < 3; k++) t[k] = v[0] * x[k] + v[1] * y[k];
-        axis_rotation(n, v[2], spin);
-    }
-    if (j->type == OVOID_JOINT_FLOATING) {
-        for (int k = 0; k < 3; k++) t[k] = v[k];
-        exact_rotation((ovoid_quat){v[3], v[4], v[5], v[6]}, spin);
-    }
-    const double p[3] = {j->origin.position.x, j->origin.position.y, j->origin.position.z};
-    for (int k = 0; k < 3; k++) local->p[k] = p[k] + o[k][0] * t[0] + o[k][1] * t[1] + o[k][2] * t[2];
-    multiply(o, spin, local->r);
-}
-
-static void exact_poses(const ovoid_robot *r, const double *q, exact_frame *frames) {
-    ovoid_robot_description d = ovoid_robot_get_description(r);
-    exact_frame world = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
-    frames[ovoid_robot_get_root(r)] = world;
-    // The tests' joints come with parents before children.
-    for (uint32_t i = 0; i < d.joint_count; i++) {
-        const exact_frame *up = &frames[d.joints[i].parent];
-        exact_frame local, f;
-        exact_joint(&d, r, i, q, &local);
-        multiply((real(*)[3])(uintptr_t)up->r, local.r, f.r);
-        for (int k = 0; k < 3; k++)
-            f.p[k] = up->p[k] + up->r[k][0] * local.p[0] + up->r[k][1] * local.p[1] + up->r[k][2] * local.p[2];
-        frames[d.joints[i].child] = f;
-    }
-}
 
 static double worst_position, worst_rotation, worst_bound;
 
