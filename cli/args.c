@@ -94,8 +94,7 @@ static int complain_unknown(const cli_command *command, const char *given, const
     return args_complain(command, "%s: unknown option %s", command->name, given);
 }
 
-/// Parses a text that is a number; 0 if it is not.
-static int parse_number(const char *text, double *value) {
+int args_parse_number(const char *text, double *value) {
     char *end;
     while (isspace((unsigned char)*text)) text++;
     if (!*text) return 0;
@@ -171,7 +170,7 @@ static int set_pose(const cli_command *command, const cli_option *o, const char 
 static int set_length(const cli_command *command, const cli_option *o, const char *text, double *value) {
     int is_share = o->kind == OPTION_SHARE, has_zero = o->kind == OPTION_LENGTH;
     double most = is_share ? 1 : OVOID_LENGTH_MAX;
-    int is_good = parse_number(text, value) && *value >= 0 && *value <= most && (has_zero || *value > 0);
+    int is_good = args_parse_number(text, value) && *value >= 0 && *value <= most && (has_zero || *value > 0);
     if (is_good && !(is_share && *value == 1)) return -1;
     return args_complain(command, "%s: --%s needs a number %s 0 %s %g, got \"%s\"", command->name, o->name,
                          has_zero ? "from" : "above",

@@ -89,6 +89,9 @@ __attribute__((format(printf, 2, 3)))
 int
 args_complain(const cli_command *command, const char *format, ...);
 
+/// Parses a text that is one number, infinity and NaN among them; 0 if it is not.
+int args_parse_number(const char *text, double *value);
+
 /// The subcommand of that name, without this one's, or NULL.
 const cli_command *args_find_subcommand(const cli_command *command, const char *name);
 

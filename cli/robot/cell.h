@@ -11,6 +11,7 @@ typedef struct cell_settings {
     const robot_settings *robot; ///< set by the command
     const char *scene;           ///< NULL: no obstacles
     double margin, slack;        ///< slack: of the joints' limits
+    args_list paddings;          ///< LINK=P or P
 } cell_settings;
 
 /// The rows of these options; `cell` is the member of the settings that holds them.
@@ -22,6 +23,14 @@ typedef struct cell_settings {
      "FILE",                                                                                                           \
      NULL,                                                                                                             \
      "obstacles, in the root link's frame: a planning scene of MoveIt (.yaml) or a scene of ovoid (.json)"},           \
+        {"padding",                                                                                                    \
+         0,                                                                                                            \
+         OPTION_LIST,                                                                                                  \
+         offsetof(settings, cell.paddings),                                                                            \
+         "[LINK=]P",                                                                                                   \
+         NULL,                                                                                                         \
+         "enlarges a link, or all links that have no other padding, by P against obstacles; may be given several "     \
+         "times"},                                                                                                     \
         {"margin",                                                                                                     \
          0,                                                                                                            \
          OPTION_LENGTH,                                                                                                \

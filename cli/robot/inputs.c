@@ -41,6 +41,35 @@ static int split_packages(const cli_command *command, const args_list *given, pa
     return 0;
 }
 
+int robot_split_value(const cli_command *command, const char *option, const char *text, link_value *is) {
+    const char *equals = strrchr(text, '='), *number = equals ? equals + 1 : text;
+    size_t length = equals ? (size_t)(equals - text) : 0;
+    if (!args_parse_number(number, &is->value) || equals == text || length >= sizeof is->link)
+        return args_complain(command, "%s: --%s needs LINK=NUMBER or a NUMBER for all links, got \"%s\"", command->name,
+                             option, text);
+    memcpy(is->link, text, length);
+    is->link[length] = 0;
+    return 0;
+}
+
+/// The factors of links as the library takes them.
+typedef struct scale_list {
+    ovoid_robot_link_scale items[ARGS_LIST_MAX];
+    link_value values[ARGS_LIST_MAX];
+    size_t count;
+} scale_list;
+
+/// 0, or an exit code after a message.
+static int split_scales(const cli_command *command, const args_list *given, scale_list *list) {
+    for (list->count = 0; list->count < (size_t)given->count; list->count++) {
+        link_value *v = &list->values[list->count];
+        int code = robot_split_value(command, "scale", given->items[list->count], v);
+        if (code) return code;
+        list->items[list->count] = (ovoid_robot_link_scale){*v->link ? v->link : NULL, v->value};
+    }
+    return 0;
+}
+
 void robot_warn(void *context, const ovoid_robot_note *note) {
     cli_robot *robot = context;
     if (robot->note_count++ >= NOTES_MAX) return;
@@ -50,11 +79,14 @@ void robot_warn(void *context, const ovoid_robot_note *note) {
         message_warning("%s: %s", note->path, note->text);
 }
 
-static int read_file(const char *urdf, const robot_settings *s, const package_list *packages, cli_robot *robot) {
+static int read_file(const char *urdf, const robot_settings *s, const package_list *packages, const scale_list *scales,
+                     cli_robot *robot) {
     ovoid_error error;
     ovoid_robot_read_options options = {.packages = packages->items,
                                         .package_count = (size_t)packages->count,
                                         .parts = s->parts,
+                                        .scales = scales->items,
+                                        .scale_count = scales->count,
                                         .visual = s->visual,
                                         .fixed_base = s->fixed_base,
                                         .tolerance = s->tolerance,
@@ -90,9 +122,11 @@ static void warn_nonconvex(const cli_robot *robot, int parts) {
 
 int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
     package_list packages;
+    scale_list scales;
     *robot = (cli_robot){NULL, NULL, 0};
     int code = split_packages(command, &settings->packages, &packages);
-    if (!code) code = read_file(urdf, settings, &packages, robot);
+    if (!code) code = split_scales(command, &settings->scales, &scales);
+    if (!code) code = read_file(urdf, settings, &packages, &scales, robot);
     free_packages(&packages);
     if (!code) warn_nonconvex(robot, settings->parts);
     return code;

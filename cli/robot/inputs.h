@@ -10,6 +10,7 @@
 typedef struct robot_settings {
     const char *srdf;   ///< NULL: none
     args_list packages; ///< NAME=DIR
+    args_list scales;   ///< LINK=F or F
     int parts, visual, fixed_base;
     double tolerance; ///< of cylinders; 0: radius/200
 } robot_settings;
@@ -31,6 +32,14 @@ typedef struct robot_settings {
          NULL,                                                                                                         \
          "the folder of a package, for package://NAME/...; may be given several times (default: ROS_PACKAGE_PATH, "    \
          "AMENT_PREFIX_PATH, and the folders above the URDF)"},                                                        \
+        {"scale",                                                                                                      \
+         0,                                                                                                            \
+         OPTION_LIST,                                                                                                  \
+         offsetof(settings, robot.scales),                                                                             \
+         "[LINK=]F",                                                                                                   \
+         NULL,                                                                                                         \
+         "the shapes of a link, or of all links that have no other factor, F times as large, each about its own "      \
+         "origin; may be given several times"},                                                                        \
         {"parts",                                                                                                      \
          0,                                                                                                            \
          OPTION_FLAG,                                                                                                  \
@@ -68,6 +77,15 @@ typedef struct cli_robot {
 /// Reads a robot; notes are warnings. 0, or an exit code after a message, with nothing left open.
 int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot);
 void robot_close(cli_robot *robot);
+
+/// The value of a link, from "LINK=X", or of all links, "X": then link is empty.
+typedef struct link_value {
+    char link[256];
+    double value;
+} link_value;
+
+/// Splits such a text; 0, or an exit code after a message that names the option.
+int robot_split_value(const cli_command *command, const char *option, const char *text, link_value *is);
 
 /// A note of the library as a warning; context: the robot, whose notes are counted.
 void robot_warn(void *context, const ovoid_robot_note *note);

@@ -24,6 +24,12 @@ typedef struct ovoid_robot_package {
     const char *folder;
 } ovoid_robot_package;
 
+/** Enlarges or shrinks a link's geometry. */
+typedef struct ovoid_robot_link_scale {
+    const char *link; /**< NULL: every link that no other item names */
+    double factor;    /**< > 0: of each shape's size, about the origin of its element; of meshes on top of their scale */
+} ovoid_robot_link_scale;
+
 /**
  * Something to be told that is no error by itself, in the order of the files: an unknown name of an SRDF, an element
  * without effect, each of several meshes that are absent. Valid during the call only.
@@ -45,6 +51,8 @@ typedef struct ovoid_robot_read_options {
     int fixed_base;                /**< 1: the SRDF's virtual joint adds nothing: the root link is the base */
     int trusted;                   /**< as in ovoid_read_options */
     double tolerance; /**< of cylinders: the most that `outside` of their allowance may be; 0: radius/200 */
+    const ovoid_robot_link_scale *scales; /**< NULL: every factor is 1; a link comes once at most */
+    size_t scale_count;
     const ovoid_shape_options *shape; /**< of all shapes; their radius must be 0; NULL: the default */
     void (*note)(void *context, const ovoid_robot_note *note); /**< NULL: notes are dropped */
     void *context;
@@ -60,7 +68,8 @@ typedef struct ovoid_robot_file ovoid_robot_file;
  *
  * Errors: FILE (also: absent meshes, each a note with the places that were looked at), FORMAT (what does not follow the
  * format; a loop, a link without a joint, two roots, a name twice, a mimic of itself or in a ring, limits upside down),
- * NOT_FINITE, RANGE, ROTATION (an axis of zero), RADIUS, LIMIT, MEMORY and those of ovoid_mesh_read. xacro files are
+ * NOT_FINITE, RANGE, ROTATION (an axis of zero), RADIUS, ARGUMENT (an option; a scale of a link that there is not),
+ * LIMIT, MEMORY and those of ovoid_mesh_read. xacro files are
  * refused with the command that expands them. Cost: n log n in the links, plus the shapes.
  */
 OVOID_API ovoid_robot_file *ovoid_robot_file_read(const char *urdf, const char *srdf,

@@ -331,6 +331,46 @@ static void test_no_limits_given(void) {
     ovoid_robot_file_destroy(file);
 }
 
+// ---- scales
+
+static void test_scales(void) {
+    static const char text[] = "<robot name=\"s\"><link name=\"a\">" COLLISION("<box size=\"2 4 6\"/>") COLLISION(
+        "<mesh filename=\"l.obj\" scale=\"1 -2 0.5\"/>") "</link><link name=\"b\">"
+                                                         "<collision><origin xyz=\"1 0 0\"/><geometry><capsule "
+                                                         "radius=\"0.5\" length=\"4\"/></geometry></collision>"
+                                                         "</link><joint name=\"j\" type=\"fixed\"><parent "
+                                                         "link=\"a\"/><child link=\"b\"/></joint></robot>";
+    file_write_text("l.obj", l_shape);
+    ovoid_robot_link_scale scales[] = {{"a", 1.5}, {NULL, 2}, {"c", 1}};
+    ovoid_robot_read_options options = make_read_options();
+    options.scales = scales, options.scale_count = 2;
+    ovoid_robot_file *file = read_urdf(text, &options, NULL);
+    if (!CHECK(file)) return;
+    const ovoid_robot_element *e = ovoid_robot_file_get_description(file).elements;
+    CHECK_EQ(get_box(e[0].shape).max.x, 1.5);
+    CHECK_EQ(get_box(e[0].shape).max.z, 4.5);
+    CHECK_EQ(get_box(e[1].shape).min.y, -6);
+    CHECK_EQ(get_box(e[1].shape).max.z, 0.75);
+    CHECK_EQ(ovoid_robot_file_get_mesh(file, 0).scale.y, -3);
+    CHECK_EQ(ovoid_shape_get_radius(e[2].shape), 1);
+    CHECK_EQ(get_box(e[2].shape).max.z, 4);
+    CHECK_EQ(e[2].pose.position.x, 1); // about the element's origin
+    ovoid_robot_file_destroy(file);
+    ovoid_error error;
+    options.scale_count = 3;
+    CHECK(!read_urdf(text, &options, &error) && error.code == OVOID_ERROR_ARGUMENT);
+    CHECK(strstr(error.message, "there is no link \"c\" to scale"));
+    scales[2].link = "a";
+    CHECK(!read_urdf(text, &options, &error) && strstr(error.message, "there are two scales of link a"));
+    scales[2].link = NULL;
+    CHECK(!read_urdf(text, &options, &error) && strstr(error.message, "there are two scales of all links"));
+    static const double wrong[] = {0, -1, INFINITY, NAN};
+    for (int i = 0; i < 4; i++) {
+        scales[1].factor = wrong[i], options.scale_count = 2;
+        CHECK(!read_urdf(text, &options, &error) && error.code == OVOID_ERROR_ARGUMENT);
+    }
+}
+
 // An attribute without effect, here one that is misspelt, is counted.
 static void test_attributes(void) {
     ovoid_robot_read_options options = make_read_options();
@@ -386,6 +426,7 @@ int main(void) {
     test_options();
     test_expanded_xacro();
     test_no_limits_given();
+    test_scales();
     test_attributes();
     test_long_chain();
     return check_end();

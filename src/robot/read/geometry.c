@@ -69,6 +69,35 @@ static ovoid_code read_geometry(robot_reader *r, const xml_element *e, geometry 
     return read_shape(r, g->at, g);
 }
 
+// ---- scales
+
+// The factor of a link: its own, or that of all that have none.
+static double find_factor(const ovoid_robot_read_options *o, const char *link) {
+    double factor = 1;
+    for (size_t i = 0; i < o->scale_count; i++) {
+        if (o->scales[i].link && strcmp(o->scales[i].link, link) == 0) return o->scales[i].factor;
+        if (!o->scales[i].link) factor = o->scales[i].factor;
+    }
+    return factor;
+}
+
+static ovoid_code check_scales(const robot_reader *r) {
+    const ovoid_robot_read_options *o = r->options;
+    where at = {r->path, 0, -1};
+    for (size_t i = 0; i < o->scale_count; i++) {
+        const char *link = o->scales[i].link;
+        if (link && name_index_find(&r->link_names, link) == UINT32_MAX)
+            return io_fail(r->error, OVOID_ERROR_ARGUMENT, at, "there is no link \"%.60s\" to scale", link);
+        for (size_t k = 0; k < i; k++)
+            if (link == o->scales[k].link || (link && o->scales[k].link && strcmp(link, o->scales[k].link) == 0))
+                return io_fail(r->error, OVOID_ERROR_ARGUMENT, at, "there are two scales of %s%.60s",
+                               link ? "link " : "all links", link ? link : "");
+    }
+    return OVOID_OK;
+}
+
+// ---- links
+
 // The word of the elements that are a link's geometry.
 static const char *choose(const robot_reader *r, const xml_element *link) {
     return r->options->visual && !xml_find(link, "collision") ? "visual" : "collision";
@@ -77,12 +106,14 @@ static const char *choose(const robot_reader *r, const xml_element *link) {
 static ovoid_code read_link(robot_reader *r, const xml_element *link, uint32_t index, geometry_list *list) {
     const char *word = choose(r, link);
     ovoid_code code = robot_ignore_others(r, link, word);
+    double factor = find_factor(r->options, r->file->description.links[index].name);
     for (const xml_element *e = link->first; e && !code; e = e->next) {
         if (!xml_is(e, word)) continue;
         geometry *g = &list->items[list->count];
         g->link = index;
         g->index = (uint32_t)list->count++;
         code = read_geometry(r, e, g);
+        for (int k = 0; k < 3; k++) g->what.size[k] *= factor;
     }
     return code;
 }
@@ -126,7 +157,8 @@ static ovoid_code make_elements(robot_reader *r, const geometry_list *list) {
 
 ovoid_code geometry_read(robot_reader *r, const xml_element *const *links) {
     geometry_list list = {NULL, NULL, 0};
-    ovoid_code code = read_all(r, links, &list);
+    ovoid_code code = check_scales(r);
+    if (!code) code = read_all(r, links, &list);
     if (!code) code = geometry_find(r, &list);
     if (!code) code = geometry_make(r, &list);
     return code ? code : make_elements(r, &list);

@@ -17,6 +17,10 @@ static ovoid_code check_options(const robot_reader *r) {
     for (size_t i = 0; i < o->package_count; i++)
         if (!o->packages[i].name || !o->packages[i].name[0] || !o->packages[i].folder)
             return io_fail(r->error, OVOID_ERROR_ARGUMENT, at, "package %zu has no name or no folder", i);
+    for (size_t i = 0; i < o->scale_count; i++)
+        if (!(o->scales[i].factor > 0 && o->scales[i].factor <= OVOID_LENGTH_MAX))
+            return io_fail(r->error, OVOID_ERROR_ARGUMENT, at, "scale %zu has the factor %g; it must be above zero", i,
+                           o->scales[i].factor);
     return OVOID_OK;
 }
 
