@@ -27,7 +27,7 @@ typedef struct ovoid_robot_package {
 /** Enlarges or shrinks a link's geometry. */
 typedef struct ovoid_robot_link_scale {
     const char *link; /**< NULL: every link that no other item names */
-    double factor;    /**< > 0: of each shape's size, about the origin of its element; of meshes on top of their scale */
+    double factor; /**< > 0: of each shape's size, about the origin of its element; of meshes on top of their scale */
 } ovoid_robot_link_scale;
 
 /**
