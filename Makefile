@@ -33,7 +33,7 @@ bits: ## the same bits from 14 builds by gcc and clang, some minutes
 	@scripts/setup.sh check
 	@scripts/bits.sh
 
-ports: ## the same bits and tests on musl, 64-bit ARM, 32-bit x86 and Windows, some minutes
+ports: ## the same bits and tests on musl, 64-bit ARM, 32-bit x86, Windows and WebAssembly, some minutes
 	@scripts/setup.sh ports
 	@scripts/ports.sh
 

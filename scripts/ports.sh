@@ -1,15 +1,20 @@
 #!/bin/sh
-# ports.sh [quick]: the same bits elsewhere? Builds the core for other C libraries, processors and systems with the tools of
+# ports.sh [quick | PORT]: the same bits elsewhere? Builds the core for other C libraries, processors and systems with the tools of
 # cmake/ports, runs tests/core/test_query_bits.c and test_motion_bits.c there and compares what they print with this
 # machine's release build; then other tests of the core. A port whose tools are absent, or that nothing here can run, is
-# skipped with a line. quick: musl and 64-bit ARM only, the first pairs only, for make check. A line for each port; exit 1
+# skipped with a line. quick: musl and 64-bit ARM only, the first pairs only, for make check; PORT: that one. A line for each port; exit 1
 # where one differs or a test fails. docs/ports.md says what was run where.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 folder=$PWD/build/ports
 mkdir -p "$folder"
 passed=0 failed=0 skipped=0
-quick=${1:-}
+ports="musl aarch64 i686 windows wasm32" quick=
+case ${1:-} in
+'') ;;
+quick) ports="musl aarch64" quick=quick ;;
+*) ports=$1 ;;
+esac
 bits="test_query_bits test_motion_bits"
 export WINEPREFIX="$folder/wine" WINEDEBUG=-all
 
@@ -21,6 +26,8 @@ tests_of() {
     quick*) echo test_smooth_bits test_refusals ;;
     musl) echo "$tests" test_query_threads test_query_stack ;;
     aarch64) echo test_smooth_bits test_ellipsoid_bits test_refusals test_environment test_query test_world_threads ;;
+    # no floating-point environment to change, and no threads, which test_world and test_world_threads start
+    wasm32) echo "$tests" | tr -s ' ' '\n' | grep -v -e 'test_world$' -e test_world_threads -e test_environment ;;
     *) echo "$tests" ;;
     esac
 }
@@ -32,6 +39,7 @@ tools_of() {
     aarch64) echo aarch64-linux-gnu-gcc qemu-aarch64 ;;
     i686) echo i686-linux-gnu-gcc env ;;
     windows) echo x86_64-w64-mingw32-gcc wine64 ;;
+    wasm32) echo wasm-ld node ;;
     esac
 }
 find_tool() { PATH=$PATH:/usr/lib/wine command -v "$1"; }
@@ -43,6 +51,7 @@ run() {
     case $port in
     aarch64) qemu-aarch64 -L /usr/aarch64-linux-gnu "$program" "$@" ;;
     windows) "$(find_tool wine64)" "$program.exe" "$@" 2>/dev/null | tr -d '\r' ;;
+    wasm32) node --no-warnings --experimental-wasi-unstable-preview1 scripts/wasm-run.mjs "$program" "$@" ;;
     *) "$program" "$@" ;;
     esac
 }
@@ -66,7 +75,7 @@ run_host() {
 build() {
     # shellcheck disable=SC2046,SC2086 # lists of targets
     cmake -S . -B "$folder/$1" -DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/ports/$1.cmake" -DCMAKE_BUILD_TYPE=Release -DOVOID_IO=OFF \
-        -DOVOID_WERROR=ON && cmake --build "$folder/$1" -j2 --target ovoid_shared $bits $(tests_of "$1")
+        -DOVOID_WERROR=ON && cmake --build "$folder/$1" -j2 --target ovoid_static $bits $(tests_of "$1")
 }
 
 # end PORT WORD TEXT: its line.
@@ -93,7 +102,7 @@ check() {
         return
     fi
     case $port-$(uname -m) in
-    musl-x86_64 | i686-x86_64 | aarch64-* | windows-*) runner=$(find_tool "$2") ;;
+    musl-x86_64 | i686-x86_64 | aarch64-* | windows-* | wasm32-*) runner=$(find_tool "$2") ;;
     *) runner= ;;
     esac
     if [ -z "$runner" ]; then
@@ -119,7 +128,6 @@ check() {
 cmake --preset release >/dev/null && cmake --build build/release -j2 --target $bits >/dev/null || exit 1
 print_bits run_host >"$folder/host.txt"
 printf '%-9s %-8s %s\n' host first "$(sed -n 's/^all *//p' "$folder/host.txt")"
-if [ "$quick" = quick ]; then ports="musl aarch64"; else ports="musl aarch64 i686 windows"; fi
 for port in $ports; do check "$port"; done
 echo "$passed passed, $failed failed, $skipped skipped"
 [ $failed -eq 0 ]

@@ -1,5 +1,5 @@
 // Threads, locks and conditions of the system: all that the core asks of it beside memory. POSIX, or Windows from Vista
-// on.
+// on; WebAssembly has none of them, and a pool there is the caller's thread alone.
 #ifndef OVOID_WORLD_THREAD_H
 #define OVOID_WORLD_THREAD_H
 
@@ -46,6 +46,37 @@ static inline void condition_wait(thread_condition *c, thread_lock *l) {
     (void)SleepConditionVariableSRW(c, l, INFINITE, 0);
 }
 static inline void condition_wake_all(thread_condition *c) { WakeAllConditionVariable(c); }
+
+#elif defined(__wasm__)
+
+typedef int thread;
+typedef int thread_lock;
+typedef int thread_condition;
+
+/// What a thread runs: THREAD_MAIN(name, context) { ...; return THREAD_END; }
+#define THREAD_MAIN(name, context) static int name(void *context)
+#define THREAD_END 0
+typedef int (*thread_main)(void *context);
+
+static inline int thread_start(thread *t, thread_main run, void *context) {
+    (void)run, (void)context;
+    *t = 0;
+    return 0;
+}
+static inline void thread_join(thread t) { (void)t; }
+
+/// The number of this process: another one in a child made by fork, where no thread but the caller's is left.
+static inline long process_get_number(void) { return 0; } // there is no fork
+
+static inline void lock_make(thread_lock *l) { *l = 0; }
+static inline void lock_clear(thread_lock *l) { (void)l; }
+static inline void lock_take(thread_lock *l) { (void)l; }
+static inline void lock_give(thread_lock *l) { (void)l; }
+
+static inline void condition_make(thread_condition *c) { *c = 0; }
+static inline void condition_clear(thread_condition *c) { (void)c; }
+static inline void condition_wait(thread_condition *c, thread_lock *l) { (void)c, (void)l; }
+static inline void condition_wake_all(thread_condition *c) { (void)c; }
 
 #else
 

@@ -1,0 +1,10 @@
+# WebAssembly by clang, run by Node.js (Debian: clang, lld, wasi-libc, libclang-rt-14-dev-wasm32, nodejs).
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR wasm32)
+set(CMAKE_C_COMPILER clang)
+set(CMAKE_C_COMPILER_TARGET wasm32-wasi)
+set(CMAKE_SYSROOT /usr)
+set(CMAKE_EXE_LINKER_FLAGS_INIT -Wl,-z,stack-size=1048576)
+set(CMAKE_FIND_ROOT_PATH /nowhere)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
