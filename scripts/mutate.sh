@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io robot robot_read robot_spheres robot_cli python"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io robot robot_read robot_spheres robot_cli python"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -24,6 +24,7 @@ tests_of() {
     query) echo "$query" ;;
     prepared) echo "test_prepared test_environment" ;;
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
+    boxes) echo "test_simd_box_axes test_query_boxes $query" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull test_measures test_shape $query" ;;
     shape) echo "test_measures test_shape test_shape_triangles test_shape_file $query" ;;

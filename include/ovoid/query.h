@@ -36,7 +36,7 @@ typedef enum ovoid_stage {
     OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction */
     OVOID_STAGE_INNER,   /**< inner ellipsoids */
     OVOID_STAGE_GJK,     /**< exact: Gilbert, Johnson, Keerthi 1988 */
-    OVOID_STAGE_EPA,     /**< exact: expanding polytope, van den Bergen 2001 */
+    OVOID_STAGE_EPA,     /**< exact: expanding polytope, van den Bergen 2001; of two boxes all faces at once */
     OVOID_STAGE_REFINE   /**< in pairs of doubles, where doubles cannot tell the sign or reach the tolerance */
 } ovoid_stage;
 

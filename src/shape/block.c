@@ -87,6 +87,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
     shape->reach = shape->measures.sphere_radius;
     shape->first = (ovoid_vec3){p->vertices[0], p->vertices[1], p->vertices[2]};
     shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
+    shape->box = parallelepiped_find(p->vertices, p->rank == 3 ? p->vertex_count : 0, shape->extent);
 }
 
 void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) {

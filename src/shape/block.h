@@ -4,6 +4,7 @@
 #define OVOID_SHAPE_BLOCK_H
 
 #include "ovoid/shape.h"
+#include "shape/parallelepiped.h"
 #include "shape/support_table.h"
 
 /// Bytes from the block's start to an array.
@@ -53,6 +54,7 @@ struct ovoid_shape {
     ovoid_ellipsoid outer, inner;
     shape_inner inside;
     ovoid_vec3 origin; ///< of the body frame, in the user's local frame
+    parallelepiped box;
     // The rest.
     block_counts counts;
     ovoid_fit outer_fit, inner_fit;

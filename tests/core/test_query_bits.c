@@ -5,7 +5,7 @@
 // any step's arithmetic changes the number; then take the one printed, after a look at the other tests.
 #include "bits.h"
 
-#define STORED 0xa02a3c88f5b0ee9au
+#define STORED 0x557911cabd870424u
 
 enum { PAIRS = 250 };
 

@@ -202,6 +202,30 @@ static trial eight_corners(uint64_t *r) {
     close_in_a_little(&t, r);
     return t;
 }
+// A box or a slanted one, to 1:1000, some of them rounded; half of the pairs nearly of the same axes.
+static ovoid_shape *make_parallelepiped(uint64_t *r) {
+    double xyz[24], radius = random_next(r) % 4 ? 0 : log_uniform(r, 1e-3, 1);
+    double y = log_uniform(r, 1e-3, 1), z = log_uniform(r, 1e-3, 1);
+    if (random_next(r) % 2) return make_box(1, y, z, radius);
+    ovoid_vec3 axis[3] = {random_vec3(r, 1), random_vec3(r, y), random_vec3(r, z)}, c = random_vec3(r, 1);
+    for (int i = 0; i < 8; i++) {
+        double s[3] = {i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1};
+        xyz[3 * i] = c.x + s[0] * axis[0].x + s[1] * axis[1].x + s[2] * axis[2].x;
+        xyz[3 * i + 1] = c.y + s[0] * axis[0].y + s[1] * axis[1].y + s[2] * axis[2].y;
+        xyz[3 * i + 2] = c.z + s[0] * axis[0].z + s[1] * axis[1].z + s[2] * axis[2].z;
+    }
+    return make_points(xyz, 8, radius);
+}
+static trial parallelepipeds(uint64_t *r) {
+    trial t = place_two(r, make_parallelepiped, make_parallelepiped);
+    if (random_next(r) % 2) {
+        double turn = log_uniform(r, 1e-17, 0.3);
+        ovoid_quat *a = &t.pose_a.rotation, *b = &t.pose_b.rotation;
+        *b = (ovoid_quat){a->w + turn * random_normal(r), a->x + turn * random_normal(r), a->y, a->z};
+    }
+    close_in_a_little(&t, r);
+    return t;
+}
 // Points, segments, triangles, tetrahedra of any axes, some of them rounded.
 static ovoid_shape *make_simplex(uint64_t *r) {
     double xyz[12], radius = random_next(r) % 4 ? 0 : log_uniform(r, 1e-3, 1);
@@ -257,5 +281,6 @@ family families[] = {
     {.counts.name = "another pair's proof", .make = mixed, .frames = 3, .earlier = EARLIER_FOREIGN},
     {.counts.name = "real hulls", .make = make_real_hulls, .each = 3},
     {.counts.name = "parts of real compounds", .make = make_compound_parts, .each = 2},
+    {.counts.name = "parallelepipeds, brute force", .make = parallelepipeds, .each = 3, .judged = 1},
 };
 const size_t family_count = sizeof families / sizeof *families;

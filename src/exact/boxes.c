@@ -1,0 +1,195 @@
+// Theorem. The difference B - A of two parallelepipeds is the set Z of all c + sum t_k g_k, |t_k| <= 1, of six segments
+// g_k, three of each body: a zonotope (P. McMullen, On zonotopes, 1971). Each face of Z holds two segments that are not
+// parallel, so its normal is that of a pair, g_i x g_j; and along any unit n, Z reaches from n.c - sum |n.g_k| to n.c +
+// sum |n.g_k|. Hence the origin's depth in Z is the least of sum |n.g_k| - |n.c| over the normals of the 15 pairs,
+// where none of these is negative. (For boxes these are the 15 axes of S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: a
+// hierarchical structure for rapid interference detection, 1996, who ask for a separating one.)
+//
+// Where no segment but its own two lies in a pair's plane, each face is a parallelogram, whose other four segments are
+// at the ends that their signs say. Then the nearest face's foot has two unknown weights, and the faces make a closed
+// surface of 32 differences and 60 triangles: the cover. Whoever checks that asks besides that each triangle has the
+// origin behind it beyond rounding (pair/cover.h). That is asked here whether a cover is wanted or not, so that the
+// answer is the same: of half a parallelogram of edges 2 u, 2 v the determinant is 4 |u x v| height, and the squares of
+// its two edges are at most 12 (|u|^2 + |v|^2) together; with twice that for rounding 16 |u x v|^2 height^2 must be
+// above 24 (|u|^2 + |v|^2) times the doubt.
+//
+// Errors, in parts of the pair's s (pair/frame.h), sum |g_k| + |c| <= 3 s: a posed corner is off by 91 u s, and the
+// corners from centre and axes by less than 32 u s more: together half a claim. A normal is off by 7 u / sin of its
+// pair's angle, which moves a height by less than 26 u s / sin, and heights are summed to 27 u s: 64 u s / sin in all
+// (simd/box_axes.h). Both bounds are lowered by two claims on top of that, so that a measurement of the corners alone,
+// as that of who checks, confirms them.
+#include "exact/boxes.h"
+
+#include "pair/cover.h"
+#include "simd/box_axes.h"
+
+#include <string.h>
+
+enum { COVER_POINTS = 32, COVER_TRIANGLES = 60, PATTERNS = 64 };
+
+static const double sign_of[2] = {-1, 1};
+
+static vec3 get_segment(const box_axes_query *q, uint32_t k) {
+    return (vec3){q->segment[0][k], q->segment[1][k], q->segment[2][k]};
+}
+
+static void set_segment(box_axes_query *q, uint32_t k, vec3 g) {
+    q->segment[0][k] = g.x;
+    q->segment[1][k] = g.y;
+    q->segment[2][k] = g.z;
+}
+
+static void make_query(const pair_frame *f, box_axes_query *q) {
+    const parallelepiped *a = &f->a->box, *b = &f->b->box;
+    for (uint32_t k = 0; k < 3; k++) {
+        set_segment(q, k, a->axis[k]);
+        set_segment(q, 3 + k, mat3_mul_vec3(f->rotation, b->axis[k]));
+        q->segment[k][6] = q->segment[k][7] = 0;
+    }
+    vec3 c = vec3_sub(frame_b(f, b->center), a->center);
+    q->center[0] = c.x;
+    q->center[1] = c.y;
+    q->center[2] = c.z;
+    q->error = 64 * 0x1p-53 * f->size;
+    q->doubt = 1.5 * triangle_compute_doubt(f->size, f->claim);
+}
+
+// The pair of the least height, lowered by its error; of several the first.
+static uint32_t find_nearest(const box_axes *x) {
+    uint32_t nearest = 0;
+    for (uint32_t i = 1; i < BOX_AXES_PAIRS; i++)
+        if (x->height[i] - x->error[i] < x->height[nearest] - x->error[nearest]) nearest = i;
+    return nearest;
+}
+
+// The ends of the segments, as bits, of the face of a pair that looks along its normal (side 1) or against it (0);
+// those of its own segments are 0.
+static uint32_t find_face(const box_axes *x, uint32_t pair, int side) {
+    uint32_t ends = 0;
+    for (uint32_t k = 0; k < BOX_AXES_SEGMENTS; k++)
+        if ((int)(x->positive[k] >> pair & 1) == side) ends |= 1u << k;
+    return ends & ~(1u << box_axes_first[pair] | 1u << box_axes_second[pair]);
+}
+
+// A corner of Z by its ends. A's segments are turned: where theirs are at +1, A is at the end of -1.
+static difference get_corner(const pair_frame *f, const box_axes_query *q, uint32_t ends) {
+    vec3 w = {q->center[0], q->center[1], q->center[2]};
+    for (uint32_t k = 0; k < BOX_AXES_SEGMENTS; k++) w = vec3_add_scaled(w, get_segment(q, k), sign_of[ends >> k & 1]);
+    return (difference){w, f->a->box.corner[~ends & 7], f->b->box.corner[ends >> 3]};
+}
+
+// The foot of the origin on the nearest face, which looks toward `outward`, as three of the face's corners. 0 if it is
+// not in the face, to rounding.
+static int find_foot(const pair_frame *f, const box_axes_query *q, uint32_t pair, uint32_t face, vec3 foot,
+                     evidence *x) {
+    uint32_t i = box_axes_first[pair], j = box_axes_second[pair];
+    vec3 u = get_segment(q, i), v = get_segment(q, j), n = vec3_cross(u, v);
+    vec3 low = get_corner(f, q, face).w, to = vec3_sub(foot, vec3_add(low, vec3_add(u, v)));
+    double scale = 1 / vec3_norm_squared(n);
+    // The foot is the face's middle + s u + t v.
+    double s = vec3_dot(vec3_cross(to, v), n) * scale, t = vec3_dot(vec3_cross(u, to), n) * scale;
+    if (!(fabs(s) <= 1 && fabs(t) <= 1)) return 0;
+    // By the half of the face that it is in: that of the corner low or of the one opposite.
+    int is_high = s + t > 0;
+    uint32_t from = is_high ? face | 1u << i | 1u << j : face;
+    double along_u = (is_high ? 1 - s : 1 + s) / 2, along_v = (is_high ? 1 - t : 1 + t) / 2;
+    x->p[0] = get_corner(f, q, from);
+    x->p[1] = get_corner(f, q, from ^ 1u << i);
+    x->p[2] = get_corner(f, q, from ^ 1u << j);
+    x->weight[0] = max2(0, 1 - along_u - along_v);
+    x->weight[1] = along_u;
+    x->weight[2] = along_v;
+    x->count = 3;
+    vec3 off = vec3_neg(foot);
+    for (int k = 0; k < 3; k++) off = vec3_add_scaled(off, x->p[k].w, x->weight[k]);
+    return vec3_norm(off) <= f->claim;
+}
+
+// ---- the cover
+
+typedef struct builder {
+    const pair_frame *frame;
+    const box_axes_query *query;
+    ovoid_cover *cover;
+    vec3 w[COVER_POINTS];
+    uint8_t point_of[PATTERNS]; ///< 1 + the point; 0: none yet
+} builder;
+
+// The index of a corner; COVER_POINTS if there are too many.
+static uint32_t add_point(builder *b, uint32_t ends) {
+    ovoid_cover *c = b->cover;
+    if (b->point_of[ends]) return b->point_of[ends] - 1u;
+    if (c->point_count == COVER_POINTS) return COVER_POINTS;
+    uint32_t at = c->point_count++;
+    difference x = get_corner(b->frame, b->query, ends);
+    b->w[at] = frame_difference(b->frame, x.a, x.b);
+    c->a[at] = x.a;
+    c->b[at] = x.b;
+    b->point_of[ends] = (uint8_t)(at + 1);
+    return at;
+}
+
+// Two triangles, counter-clockwise from outside.
+static int add_face(builder *b, const box_axes *x, uint32_t pair, int side) {
+    uint32_t i = 1u << box_axes_first[pair], j = 1u << box_axes_second[pair], face = find_face(x, pair, side);
+    uint32_t ring[4] = {face, face | (side ? i : j), face | i | j, face | (side ? j : i)}, v[4];
+    for (int k = 0; k < 4; k++)
+        if ((v[k] = add_point(b, ring[k])) == COVER_POINTS) return 0;
+    for (int k = 1; k < 3; k++) {
+        uint16_t *triangle = b->cover->triangles[b->cover->triangle_count++];
+        triangle[0] = (uint16_t)v[0];
+        triangle[1] = (uint16_t)v[k];
+        triangle[2] = (uint16_t)v[k + 1];
+    }
+    return 1;
+}
+
+// All faces, the nearest pair's first. 0 if they do not show the depth.
+static int build_cover(const pair_frame *f, const box_axes_query *q, const box_axes *x, uint32_t nearest, double depth,
+                       ovoid_cover *cover) {
+    builder b = {.frame = f, .query = q, .cover = cover};
+    cover->point_count = cover->triangle_count = 0;
+    for (uint32_t i = 0; i < BOX_AXES_PAIRS; i++) {
+        uint32_t pair = (nearest + i) % BOX_AXES_PAIRS;
+        int near = !(x->along[pair] >= 0);
+        if (!add_face(&b, x, pair, near) || !add_face(&b, x, pair, !near)) return 0;
+    }
+    surface all = {b.w, (const uint16_t(*)[3])cover->triangles, cover->point_count, cover->triangle_count};
+    return surface_is_closed(&all) && surface_compute_depth(&all, f->claim) >= depth;
+}
+
+// ---- the depth
+
+static int is_for_here(const search *s) {
+    const pair_frame *f = s->frame;
+    return f->a->box.is_present && f->b->box.is_present && f->size > 0x1p-100 && f->size < 0x1p100;
+}
+
+int boxes_take_depth(search *s, ovoid_cover *cover) {
+    const pair_frame *f = s->frame;
+    box_axes_query q;
+    box_axes x;
+    if (!is_for_here(s)) return 0;
+    make_query(f, &q);
+    if (!box_axes_find(&q, &x)) return 0;
+    uint32_t pair = find_nearest(&x);
+    double slack = x.error[pair] + 2 * f->claim, depth = x.height[pair] - slack;
+    double upper = -depth - f->upper_radii, lower = -x.height[pair] - slack - f->lower_radii;
+    if (!(depth > 0 && upper < s->upper && upper - lower <= s->goal.tolerance)) return 0;
+    // From A to B, along which Z is nearest behind the origin.
+    int is_along = x.along[pair] >= 0;
+    vec3 n = {x.n[0][pair], x.n[1][pair], x.n[2][pair]}, normal = is_along ? n : vec3_neg(n);
+    evidence foot;
+    if (!find_foot(f, &q, pair, find_face(&x, pair, !is_along), vec3_scale(normal, -x.height[pair]), &foot)) return 0;
+    if (cover && !(s->goal.has_cover && !(upper < s->goal.covered)) && !build_cover(f, &q, &x, pair, depth, cover)) {
+        cover->point_count = cover->triangle_count = 0;
+        return 0;
+    }
+    s->upper = upper;
+    s->lower = lower;
+    s->normal = normal;
+    s->stage = OVOID_STAGE_EPA;
+    s->kind = OVOID_PROOF_COVER;
+    s->witness = foot;
+    return 1;
+}

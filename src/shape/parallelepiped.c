@@ -1,0 +1,70 @@
+// Eight points are the corners of a parallelepiped if from the first of them three edges lead to three others, and
+// their sums to the rest. Only one triple of points can be the ends of those edges, so all 35 are tried. Centre and
+// axes are means over all eight, so that each takes its share of the rounding of a body that was rotated before.
+#include "shape/parallelepiped.h"
+
+#include "linear/vec3.h"
+
+enum { CORNERS = 8 };
+
+// How much a coordinate of a corner may differ, in parts of the extent: two roundings of a rotation.
+#define CORNER_FLATNESS (4 * 0x1p-53)
+
+// The vertex nearest to x by coordinates; CORNERS where none is within `most`.
+static uint32_t find_vertex(const double *vertices, vec3 x, double most) {
+    for (uint32_t i = 0; i < CORNERS; i++)
+        if (vec3_max_abs(vec3_sub(vec3_at(vertices, i), x)) <= most) return i;
+    return CORNERS;
+}
+
+// Sets p->corner if the edges from vertex 0 to three others span the body. 1 if all eight corners are different
+// vertices.
+static int find_corners(const double *vertices, const uint32_t ends[3], double most, parallelepiped *p) {
+    vec3 first = vec3_at(vertices, 0);
+    unsigned met = 0;
+    for (unsigned bits = 0; bits < CORNERS; bits++) {
+        vec3 x = first;
+        for (int k = 0; k < 3; k++)
+            if (bits >> k & 1) x = vec3_add(x, vec3_sub(vec3_at(vertices, ends[k]), first));
+        uint32_t found = find_vertex(vertices, x, most);
+        if (found == CORNERS) return 0;
+        p->corner[bits] = (uint8_t)found;
+        met |= 1u << found;
+    }
+    return met == 0xff;
+}
+
+// The mean of the corners, each with the sign of its coefficient; axis 3: without signs.
+static vec3 compute_mean(const double *vertices, const parallelepiped *p, int axis) {
+    vec3 sum = {0, 0, 0};
+    for (unsigned bits = 0; bits < CORNERS; bits++) {
+        vec3 v = vec3_scale(vec3_at(vertices, p->corner[bits]), 0.125);
+        sum = axis == 3 || bits >> axis & 1 ? vec3_add(sum, v) : vec3_sub(sum, v);
+    }
+    return sum;
+}
+
+static int is_exact(const double *vertices, const parallelepiped *p, double most) {
+    for (unsigned bits = 0; bits < CORNERS; bits++) {
+        vec3 x = p->center;
+        for (int k = 0; k < 3; k++) x = vec3_add_scaled(x, p->axis[k], bits >> k & 1 ? 1 : -1);
+        if (!(vec3_max_abs(vec3_sub(x, vec3_at(vertices, p->corner[bits]))) <= most)) return 0;
+    }
+    return 1;
+}
+
+parallelepiped parallelepiped_find(const double *vertices, uint32_t count, double extent) {
+    const parallelepiped none = {.is_present = 0};
+    if (count != CORNERS) return none;
+    parallelepiped p = {.is_present = 1};
+    for (uint32_t i = 1; i < CORNERS; i++)
+        for (uint32_t j = i + 1; j < CORNERS; j++)
+            for (uint32_t k = j + 1; k < CORNERS; k++) {
+                // An edge and its ends are off by as much each.
+                if (!find_corners(vertices, (uint32_t[]){i, j, k}, 8 * CORNER_FLATNESS * extent, &p)) continue;
+                p.center = compute_mean(vertices, &p, 3);
+                for (int axis = 0; axis < 3; axis++) p.axis[axis] = compute_mean(vertices, &p, axis);
+                return is_exact(vertices, &p, CORNER_FLATNESS * extent) ? p : none;
+            }
+    return none;
+}

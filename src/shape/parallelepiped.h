@@ -1,0 +1,19 @@
+// Bodies that are parallelepipeds: boxes, however they came to be.
+#ifndef OVOID_SHAPE_PARALLELEPIPED_H
+#define OVOID_SHAPE_PARALLELEPIPED_H
+
+#include "ovoid/polytope.h"
+
+/// Corners are center +- axis[0] +- axis[1] +- axis[2], each to within 11 u of the body's extent. Body frame.
+typedef struct parallelepiped {
+    ovoid_vec3 center;
+    ovoid_vec3 axis[3];  ///< half edges, right-handed or left-handed
+    uint8_t corner[8];   ///< the vertex whose coefficient of axis[k] is positive where bit k is set
+    uint32_t is_present; ///< 0: the body is none; then all the rest is zero
+} parallelepiped;
+
+/// The parallelepiped whose corners the vertices are. extent: no vertex is farther from the frame's origin. Cost: of
+/// other numbers of vertices than 8, none.
+parallelepiped parallelepiped_find(const double *vertices, uint32_t count, double extent);
+
+#endif

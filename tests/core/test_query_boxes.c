@@ -1,0 +1,169 @@
+// The depth of two parallelepipeds by all planes of their difference (exact/boxes.c). Truth: every plane through three
+// of the 64 differences of corners that has all others behind it, in long double, shares nothing with the planes of
+// pairs of edges; tolerance 1e-12 of a size of about 5, some thousand roundings. Covers are put before
+// ovoid_answer_check. What is not for this way is answered by EPA, which takes iterations.
+#include "ovoid/ovoid.h"
+#include "shape/parallelepiped.h"
+
+#include "check.h"
+
+typedef long double real;
+typedef struct point {
+    real x, y, z;
+} point;
+
+static point sub(point a, point b) { return (point){a.x - b.x, a.y - b.y, a.z - b.z}; }
+static real dot(point a, point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static point cross(point a, point b) {
+    return (point){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static void get_corners(const ovoid_shape *s, const ovoid_pose *pose, point w[8]) {
+    ovoid_polytope p = ovoid_shape_get_polytope(s);
+    ovoid_quat q = pose->rotation;
+    real norm = (real)q.w * q.w + (real)q.x * q.x + (real)q.y * q.y + (real)q.z * q.z;
+    point axis = {q.x, q.y, q.z};
+    for (int i = 0; i < 8; i++) {
+        const double *v = p.vertices + 3 * i;
+        point x = {(real)v[0] + p.origin.x, (real)v[1] + p.origin.y, (real)v[2] + p.origin.z}, t = cross(axis, x);
+        point t2 = cross(axis, t);
+        real k = 2 / norm, c = (real)q.w * k;
+        w[i] = (point){x.x + c * t.x + k * t2.x + pose->position.x, x.y + c * t.y + k * t2.y + pose->position.y,
+                       x.z + c * t.z + k * t2.z + pose->position.z};
+    }
+}
+
+/// The distance of the origin to the plane if all points are behind it, else infinity.
+static real measure_plane(const point d[64], int i, int j, int k) {
+    point n = cross(sub(d[j], d[i]), sub(d[k], d[i]));
+    real norm = sqrtl(dot(n, n));
+    if (!(norm > 1e-9L)) return INFINITY;
+    n = (point){n.x / norm, n.y / norm, n.z / norm};
+    real low = 0, high = 0;
+    for (int m = 0; m < 64; m++) {
+        real above = dot(n, sub(d[m], d[i]));
+        low = fminl(low, above);
+        high = fmaxl(high, above);
+        if (low < -1e-15L && high > 1e-15L) return INFINITY;
+    }
+    return high > 1e-15L ? -dot(n, d[i]) : dot(n, d[i]);
+}
+
+static real find_depth(const ovoid_pair *p) {
+    point a[8], b[8], d[64];
+    get_corners(p->shape_a, &p->pose_a, a);
+    get_corners(p->shape_b, &p->pose_b, b);
+    for (int i = 0; i < 64; i++) d[i] = sub(b[i / 8], a[i % 8]);
+    real least = INFINITY;
+    for (int i = 0; i < 64; i++)
+        for (int j = i + 1; j < 64; j++)
+            for (int k = j + 1; k < 64; k++) least = fminl(least, measure_plane(d, i, j, k));
+    return least;
+}
+
+static ovoid_quat random_turn(uint64_t *s) {
+    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
+}
+
+static ovoid_shape *make_slanted(const ovoid_vec3 axis[3], ovoid_vec3 c, double off) {
+    double xyz[24];
+    for (int i = 0; i < 8; i++) {
+        double t[3] = {i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1};
+        xyz[3 * i] = c.x + t[0] * axis[0].x + t[1] * axis[1].x + t[2] * axis[2].x;
+        xyz[3 * i + 1] = c.y + t[0] * axis[0].y + t[1] * axis[1].y + t[2] * axis[2].y;
+        xyz[3 * i + 2] = c.z + t[0] * axis[0].z + t[1] * axis[1].z + t[2] * axis[2].z;
+    }
+    xyz[0] += off;
+    return ovoid_shape_create_from_points(xyz, 8, NULL, NULL);
+}
+
+static ovoid_shape *make_random(uint64_t *s, double off) {
+    ovoid_vec3 axis[3], zero = {0, 0, 0};
+    for (int i = 0; i < 3; i++) axis[i] = (ovoid_vec3){random_normal(s), random_normal(s), random_normal(s)};
+    if (off == 0 && random_next(s) % 2)
+        return ovoid_shape_create_box((ovoid_vec3){random_uniform(s, 0.2, 1), random_uniform(s, 0.2, 1), 1}, NULL,
+                                      NULL);
+    return make_slanted(axis, zero, off);
+}
+
+/// 1 if it was answered without a search.
+static int check_depth(const ovoid_pair *p) {
+    static ovoid_cover cover;
+    ovoid_answer x = ovoid_depth(p, NULL, NULL, &cover), same = ovoid_depth(p, NULL, NULL, NULL);
+    ovoid_error error;
+    CHECK(ovoid_answer_check(p, &x, &cover, &error) == OVOID_OK);
+    CHECK(memcmp(&x, &same, sizeof x) == 0);
+    int is_here = x.proof.kind == OVOID_PROOF_COVER && x.iterations == 0;
+    if (is_here) {
+        CHECK(cover.point_count == 32);
+        CHECK(cover.triangle_count == 60);
+        CHECK(x.limit == OVOID_LIMIT_NONE);
+    }
+    return is_here;
+}
+
+static void test_random(void) {
+    uint64_t s = 5;
+    int here = 0, over = 0;
+    for (int i = 0; i < 400; i++) {
+        ovoid_shape *a = make_random(&s, 0), *b = make_random(&s, 0);
+        ovoid_pose at_a = {{random_normal(&s), 0, 0}, random_turn(&s)};
+        ovoid_pose at_b = {{at_a.position.x, 0.5 * random_normal(&s), 0.5 * random_normal(&s)}, random_turn(&s)};
+        ovoid_pair p = {a, b, at_a, at_b};
+        int is_here = check_depth(&p);
+        ovoid_answer x = ovoid_depth(&p, NULL, NULL, NULL);
+        here += is_here;
+        over += x.status == OVOID_OVERLAPPING;
+        if (i < 12 && x.status == OVOID_OVERLAPPING) {
+            real d = -find_depth(&p);
+            CHECK(x.lower <= (double)d + 1e-12);
+            CHECK(x.upper >= (double)d - 1e-12);
+        }
+        ovoid_shape_destroy(a);
+        ovoid_shape_destroy(b);
+    }
+    CHECK(over > 200);
+    CHECK(here > over * 9 / 10);
+}
+
+/// Common axes: faces of the difference are no parallelograms of two edges; the depth is the least overlap.
+static void test_aligned(void) {
+    ovoid_shape *a = ovoid_shape_create_box((ovoid_vec3){1, 2, 3}, NULL, NULL);
+    ovoid_pair p = {a, a, {{0, 0, 0}, {1, 0, 0, 0}}, {{1.25, 1, 1}, {1, 0, 0, 0}}};
+    CHECK(!check_depth(&p));
+    ovoid_answer x = ovoid_depth(&p, NULL, NULL, NULL);
+    CHECK(x.lower <= -0.75);
+    CHECK(x.upper >= -0.75);
+    CHECK(x.upper - x.lower <= 1e-8);
+    ovoid_shape_destroy(a);
+}
+
+/// What is a parallelepiped to rounding, and what is none.
+static void test_shapes(void) {
+    uint64_t s = 9;
+    int found = 0;
+    for (int i = 0; i < 200; i++) {
+        ovoid_shape *b = make_random(&s, 0), *c = make_random(&s, 1e-12);
+        ovoid_polytope p = ovoid_shape_get_polytope(b), q = ovoid_shape_get_polytope(c);
+        double extent = ovoid_shape_get_measures(b).sphere_radius;
+        parallelepiped x = parallelepiped_find(p.vertices, p.vertex_count, extent);
+        found += (int)x.is_present;
+        for (unsigned k = 0; k < 8 && x.is_present; k++) {
+            double t[3] = {k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1};
+            double at = x.center.x + t[0] * x.axis[0].x + t[1] * x.axis[1].x + t[2] * x.axis[2].x;
+            CHECK(fabs(at - p.vertices[3 * x.corner[k]]) <= 1e-14);
+        }
+        CHECK(!parallelepiped_find(q.vertices, q.vertex_count, 3).is_present);
+        CHECK(!parallelepiped_find(p.vertices, 7, extent).is_present);
+        ovoid_shape_destroy(b);
+        ovoid_shape_destroy(c);
+    }
+    CHECK(found > 190);
+}
+
+int main(void) {
+    test_random();
+    test_aligned();
+    test_shapes();
+    return check_end();
+}
