@@ -12,7 +12,7 @@
 #define OVOID_ROBOT_IO_H
 
 #include "ovoid/io.h"
-#include "ovoid/robot.h"
+#include "ovoid/robot_spheres.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -148,15 +148,8 @@ OVOID_API size_t ovoid_robot_file_get_state_count(const ovoid_robot_file *file);
 /** State i < state count, in the order of the file. */
 OVOID_API ovoid_robot_state ovoid_robot_file_get_state(const ovoid_robot_file *file, size_t i);
 
-/** A sphere of an SRDF's link_sphere_approximation, in the link's frame. */
-typedef struct ovoid_robot_sphere {
-    uint32_t link;
-    ovoid_vec3 center;
-    double radius;
-} ovoid_robot_sphere;
-
-/** The spheres; *count of them. A view. */
-OVOID_API const ovoid_robot_sphere *ovoid_robot_file_get_spheres(const ovoid_robot_file *file, size_t *count);
+/** The spheres of an SRDF's link_sphere_approximation; *count of them. A view. */
+OVOID_API const ovoid_robot_link_sphere *ovoid_robot_file_get_spheres(const ovoid_robot_file *file, size_t *count);
 /** The passive joints; *count of them. A view. */
 OVOID_API const uint32_t *ovoid_robot_file_get_passive(const ovoid_robot_file *file, size_t *count);
 

@@ -19,6 +19,12 @@ typedef struct ovoid_robot_sphere {
     double radius; /**< >= 0 */
 } ovoid_robot_sphere;
 
+/** A ball and whose it is. */
+typedef struct ovoid_robot_link_sphere {
+    uint32_t link;
+    ovoid_robot_sphere ball; /**< in the link's frame */
+} ovoid_robot_link_sphere;
+
 /** Options of an audit; all zero is the default, and NULL means that. */
 typedef struct ovoid_robot_audit_options {
     double tolerance;    /**< a length: the depth's bracket need not be narrower; 0: 1e-5 of the link's size */
@@ -79,6 +85,16 @@ OVOID_API ovoid_code ovoid_robot_compute_sphere_cover(const ovoid_robot *robot, 
                                                       const ovoid_robot_cover_options *options,
                                                       ovoid_robot_sphere *spheres, size_t *count,
                                                       ovoid_robot_bracket *depth, ovoid_error *error);
+
+/**
+ * The robot with spheres in the place of its elements: the same links, joints, variables and disabled pairs, and an
+ * element for each sphere, in their order. It owns its shapes and borrows nothing. NULL on failure: ARGUMENT (no
+ * robot), and with the sphere as place INDEX (no such link), NOT_FINITE, RADIUS, RANGE; LIMIT, MEMORY. A link that no
+ * sphere is of has no elements.
+ */
+OVOID_API ovoid_robot *ovoid_robot_create_from_spheres(const ovoid_robot *robot, const ovoid_robot_link_sphere *spheres,
+                                                       size_t count, const ovoid_allocator *allocator,
+                                                       ovoid_error *error);
 
 #ifdef __cplusplus
 }

@@ -103,8 +103,8 @@ static void test_base(void) {
         CHECK(v[2] == 3 && v[3] == 0.9 && v[4] == 0.1 && v[5] == 0.2 && v[6] == 0.3);
     }
     size_t count;
-    const ovoid_robot_sphere *spheres = ovoid_robot_file_get_spheres(file, &count);
-    CHECK(count == 1 && spheres[0].link == C && spheres[0].center.y == 2 && spheres[0].radius == 0.5);
+    const ovoid_robot_link_sphere *spheres = ovoid_robot_file_get_spheres(file, &count);
+    CHECK(count == 1 && spheres[0].link == C && spheres[0].ball.center.y == 2 && spheres[0].ball.radius == 0.5);
     const uint32_t *passive = ovoid_robot_file_get_passive(file, &count);
     CHECK(count == 1 && passive[0] == 2);
     CHECK_EQ(count_ignored(file, "robot/end_effector"), 1);

@@ -21,7 +21,7 @@ struct ovoid_robot_file {
     size_t group_count;
     ovoid_robot_state *states;
     size_t state_count;
-    ovoid_robot_sphere *spheres;
+    ovoid_robot_link_sphere *spheres;
     size_t sphere_count;
     uint32_t *passive;
     size_t passive_count;

@@ -72,7 +72,7 @@ ovoid_robot_group ovoid_robot_file_get_group(const ovoid_robot_file *file, size_
 size_t ovoid_robot_file_get_state_count(const ovoid_robot_file *file) { return file->state_count; }
 ovoid_robot_state ovoid_robot_file_get_state(const ovoid_robot_file *file, size_t i) { return file->states[i]; }
 
-const ovoid_robot_sphere *ovoid_robot_file_get_spheres(const ovoid_robot_file *file, size_t *count) {
+const ovoid_robot_link_sphere *ovoid_robot_file_get_spheres(const ovoid_robot_file *file, size_t *count) {
     *count = file->sphere_count;
     return file->spheres;
 }

@@ -142,7 +142,7 @@ static ovoid_code read_sphere(robot_reader *r, const xml_element *e, uint32_t li
     // Radius zero says that the link has no spheres.
     if (radius > 0)
         r->file->spheres[r->file->sphere_count++] =
-            (ovoid_robot_sphere){link, {center[0], center[1], center[2]}, radius};
+            (ovoid_robot_link_sphere){link, {{center[0], center[1], center[2]}, radius}};
     return OVOID_OK;
 }
 

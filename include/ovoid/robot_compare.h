@@ -1,0 +1,62 @@
+/**
+ * @file robot_compare.h
+ * A robot beside a model of it, such as one of spheres: in which states do the two disagree? A planner that asks the
+ * model alone passes through what it misses, and goes around what it invents. docs/robot-spheres.md tells how far real
+ * models are from their robots.
+ */
+#ifndef OVOID_ROBOT_COMPARE_H
+#define OVOID_ROBOT_COMPARE_H
+
+#include "ovoid/robot.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What a robot and its model say of a state. */
+typedef enum ovoid_robot_agreement {
+    OVOID_ROBOT_COMPARED_OPEN = 0,  /**< one of the two is undecided, or refuses the state */
+    OVOID_ROBOT_COMPARED_BOTH_FREE, /**< both are free, proven */
+    OVOID_ROBOT_COMPARED_BOTH_HIT,  /**< both are hits, proven */
+    OVOID_ROBOT_COMPARED_MISSED,    /**< proven: the robot hits, and its model is free */
+    OVOID_ROBOT_COMPARED_INVENTED   /**< proven: the robot is free, and its model hits */
+} ovoid_robot_agreement;
+
+/** How many agreements there are. */
+#define OVOID_ROBOT_AGREEMENTS 5
+
+/** "open", "both free", "both hit", "missed", "invented"; never NULL. */
+OVOID_API const char *ovoid_robot_agreement_get_name(ovoid_robot_agreement agreement);
+
+/** States to compare. */
+typedef struct ovoid_robot_comparison_batch {
+    ovoid_robot_checker *robot, *model; /**< of cells that have the same variables; both are reset */
+    const double *q;                    /**< state i from i * variable count on */
+    size_t count;
+    const ovoid_robot_check_options *options; /**< of both; NULL: the default. Pairs of links or obstacles may be left
+                                                   out, so that the two are told apart by two calls */
+    ovoid_robot_agreement *agreements;        /**< count, or NULL: only counts are wanted */
+} ovoid_robot_comparison_batch;
+
+/** How two robots agree over states. All zero is the beginning. */
+typedef struct ovoid_robot_comparison {
+    size_t states;                         /**< how many were compared */
+    size_t counts[OVOID_ROBOT_AGREEMENTS]; /**< of these, by agreement */
+    size_t deepest_state;                  /**< of the missed ones that with the deepest overlap, counted from the
+                                                first state of the first batch. Where none was missed: 0 */
+    ovoid_robot_near deepest;              /**< its pair, which is of the robot: -upper is proven missed */
+} ovoid_robot_comparison;
+
+/**
+ * Compares states and adds them to *comparison: checks each with the robot and with the model, and of those missed
+ * finds the pair that overlaps most. The same states in the same batches give the same bits. Errors: ARGUMENT (NULL,
+ * options, numbers of variables that differ), MEMORY; then *comparison is as it was. Cost: two checks a state, and a
+ * search of the nearest pair for one that is missed.
+ */
+OVOID_API ovoid_code ovoid_robot_compare_states(const ovoid_robot_comparison_batch *batch,
+                                                ovoid_robot_comparison *comparison, ovoid_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
