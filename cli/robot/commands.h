@@ -4,6 +4,7 @@
 
 #include "args.h"
 
-extern const cli_command command_robot_info, command_robot_check, command_robot_path, command_robot_matrix;
+extern const cli_command command_robot_info, command_robot_check, command_robot_path, command_robot_matrix,
+    command_robot_spheres;
 
 #endif

@@ -120,7 +120,7 @@ static void warn_nonconvex(const cli_robot *robot, int parts) {
     }
 }
 
-int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
+int robot_open_beside(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
     package_list packages;
     scale_list scales;
     *robot = (cli_robot){NULL, NULL, 0};
@@ -128,6 +128,11 @@ int robot_open(const cli_command *command, const char *urdf, const robot_setting
     if (!code) code = split_scales(command, &settings->scales, &scales);
     if (!code) code = read_file(urdf, settings, &packages, &scales, robot);
     free_packages(&packages);
+    return code;
+}
+
+int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
+    int code = robot_open_beside(command, urdf, settings, robot);
     if (!code) warn_nonconvex(robot, settings->parts);
     return code;
 }

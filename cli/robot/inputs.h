@@ -76,6 +76,8 @@ typedef struct cli_robot {
 
 /// Reads a robot; notes are warnings. 0, or an exit code after a message, with nothing left open.
 int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot);
+/// The same without the warnings of meshes that are not convex: of a file beside the robot.
+int robot_open_beside(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot);
 void robot_close(cli_robot *robot);
 
 /// The value of a link, from "LINK=X", or of all links, "X": then link is empty.

@@ -11,7 +11,7 @@ typedef struct settings {
     robot_settings robot;
     unsigned samples, budget, seed;
     int json, sampled;
-    const char *output;
+    const char *output, *pictures;
 } settings;
 
 static const cli_option options[] = {
@@ -24,6 +24,10 @@ static const cli_option options[] = {
      "the SRDF leaves out, too, what is sampled and not proven"},
     {"output", 'o', OPTION_OUTPUT, offsetof(settings, output), "FILE", "srdf",
      "write the pairs that may be left out, as an SRDF of its own"},
+    {"pictures", 0, OPTION_FILE, offsetof(settings, pictures), "DIR", NULL,
+     "with --srdf: a picture of each pair that is disabled wrongly, both links in the state that shows it, as SVG "
+     "files "
+     "in a folder"},
     {"json", 0, OPTION_FLAG, offsetof(settings, json), NULL, NULL,
      "write lines of JSON: a pair each, with the states that prove it"},
     {.name = NULL},
@@ -39,6 +43,7 @@ static int write_srdf(const char *path, const matrix_view *v, int with_sampled) 
     finish_set_unfinished(ovoid_output_get_temporary(output));
     matrix_write_srdf(ovoid_output_get_file(output), v, with_sampled);
     int code = finish_output(output);
+    ovoid_output_destroy(output);
     finish_set_unfinished(NULL);
     return code;
 }
@@ -47,6 +52,7 @@ static int report(const settings *s, const matrix_view *v) {
     (s->json ? matrix_write_json : matrix_write_text)(stdout, v);
     int code = finish_file(stdout);
     if (!code && s->output) code = write_srdf(s->output, v, s->sampled);
+    if (!code && s->pictures) code = matrix_write_pictures(s->pictures, v);
     return code;
 }
 
@@ -55,6 +61,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_operands operands;
     cli_robot robot;
     int code = command_parse(command, argc, argv, &s, &operands);
+    if (code < 0 && s.pictures && !s.robot.srdf)
+        code = args_complain(command, "%s: --pictures are of pairs that --srdf FILE disables", command->name);
     if (code >= 0) return code;
     code = robot_open(command, operands.items[0], &s.robot, &robot);
     if (code) return code;
@@ -89,6 +97,7 @@ const cli_command command_robot_matrix = {
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written",
     .examples = "ovoid robot matrix panda.urdf --srdf panda.srdf\n"
+                "ovoid robot matrix panda.urdf --srdf panda.srdf --pictures wrong\n"
                 "ovoid robot matrix arm.urdf --budget 100000 -o arm.srdf\n"
                 "ovoid robot matrix arm.urdf --json > matrix.jsonl",
     .options = options,

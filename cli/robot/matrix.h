@@ -32,4 +32,8 @@ void matrix_write_text(FILE *file, const matrix_view *v);
 void matrix_write_json(FILE *file, const matrix_view *v);
 void matrix_write_srdf(FILE *file, const matrix_view *v, int with_sampled);
 
+/// Writes an SVG of each pair that the file disables wrongly into a folder, which is made where it is not there. 0, or
+/// an exit code after a message.
+int matrix_write_pictures(const char *folder, const matrix_view *v);
+
 #endif

@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-static const cli_command *const subcommands[] = {&command_robot_info, &command_robot_check, &command_robot_path,
-                                                 &command_robot_matrix, NULL};
+static const cli_command *const subcommands[] = {&command_robot_info,   &command_robot_check,   &command_robot_path,
+                                                 &command_robot_matrix, &command_robot_spheres, NULL};
 #define SUBCOMMAND_COUNT (sizeof subcommands / sizeof *subcommands - 1)
 
 static int complain_unknown(const cli_command *command, const char *name) {

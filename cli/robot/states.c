@@ -115,7 +115,7 @@ static int check_quaternions(reader *r) {
     return 1;
 }
 
-static double get_default(const cli_cell *cell, size_t variable) {
+double states_get_default(const cli_cell *cell, size_t variable) {
     ovoid_robot_variable v = ovoid_robot_get_variable(cell->robot.robot, variable);
     if (cell->description.joints[v.joint].type == OVOID_JOINT_FLOATING && v.component == 3) return 1;
     return v.lower <= 0 && v.upper >= 0 ? 0 : v.lower + (v.upper - v.lower) / 2;
@@ -333,7 +333,7 @@ int states_open(const cli_command *command, const states_settings *settings, con
     *states = (cli_states){.variable_count = n, .texts = settings->path ? NULL : &settings->texts};
     double *defaults = calloc(n + 1, sizeof *defaults);
     reader r = {.cell = cell, .states = states, .defaults = defaults, .given = calloc(n + 1, 1)};
-    for (size_t i = 0; i < n && defaults; i++) defaults[i] = get_default(cell, i);
+    for (size_t i = 0; i < n && defaults; i++) defaults[i] = states_get_default(cell, i);
     int code = EXIT_INPUT;
     if (!defaults || !r.given)
         message_error("out of memory");

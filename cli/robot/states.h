@@ -39,6 +39,9 @@ int states_settle(const cli_command *command, const states_settings *settings);
 int states_open(const cli_command *command, const states_settings *settings, const cli_cell *cell, cli_states *states);
 void states_close(cli_states *states);
 
+/// The number of a variable that is not given.
+double states_get_default(const cli_cell *cell, size_t variable);
+
 /// What the command line calls state i; NULL for those of a file.
 const char *states_get_name(const cli_states *states, size_t i);
 

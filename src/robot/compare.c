@@ -65,8 +65,7 @@ ovoid_code ovoid_robot_compare_states(const ovoid_robot_comparison_batch *batch,
                                       ovoid_error *error) {
     if (!batch || !comparison || !batch->robot || !batch->model || (batch->count && !batch->q))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no checkers, no states, or no room (NULL)");
-    size_t variables = batch->robot->cell->robot->variable_count,
-           of_model = batch->model->cell->robot->variable_count;
+    size_t variables = batch->robot->cell->robot->variable_count, of_model = batch->model->cell->robot->variable_count;
     if (variables != of_model)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the robot has %zu variables and its model %zu", variables,
                          of_model);

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "robot/spheres_search.h"
 
-enum { MOVES = 8000, STARTS = 8, PHASES = 10, HOT = 5, EXCHANGES = 400, EXCHANGES_EARLY = 100, CELLS = 1 << 14 };
+enum { MOVES = 8000, STARTS = 8, PHASES = 10, PHASES_SHORT = 4, EXCHANGES = 400, EXCHANGES_EARLY = 100, CELLS = 1 << 14 };
 
 #define HEAT 0.25
 
@@ -79,13 +79,19 @@ static vec3 draw_point(const spheres_link *link, const spheres_part *part, uint6
     return a.status == OVOID_SEPARATED ? vec3_scale(a.point_a, 1 / link->unit) : x;
 }
 
+// How many points a search is worth: a short one not many.
+static uint32_t choose_count(const making *m, uint32_t most) {
+    return m->moves < most / 2 - 1000 ? 2000 + 2 * (uint32_t)m->moves : most;
+}
+
 // Points of all parts: of the vertices as many as there is room for at even steps, then random ones.
 static void draw_points(making *m) {
     spheres_samples *s = &m->now;
+    uint32_t most = choose_count(m, SAMPLES);
     s->point_count = 0;
     for (uint32_t i = 0; i < m->link->part_count; i++) {
         const spheres_part *part = &m->link->parts[i];
-        uint32_t end = (uint32_t)((uint64_t)SAMPLES * (i + 1) / m->link->part_count);
+        uint32_t end = (uint32_t)((uint64_t)most * (i + 1) / m->link->part_count);
         uint32_t room = (end - s->point_count) / 2, step = room ? part->point_count / room + 1 : 1;
         for (uint32_t k = 0; room && k < part->point_count; k += step) s->points[s->point_count++] = part->points[k];
         while (s->point_count < end) s->points[s->point_count++] = draw_point(m->link, part, &s->random);
@@ -114,9 +120,7 @@ static void draw_outside(making *m) {
     }
     s->region = b;
     s->outside_count = 0;
-    // A short search is not worth many.
-    uint32_t most = m->moves < OUTSIDE / 4 ? 2000 + 2 * (uint32_t)m->moves : OUTSIDE, tries = 0;
-    if (most > OUTSIDE) most = OUTSIDE;
+    uint32_t most = choose_count(m, OUTSIDE), tries = 0;
     for (; tries < 2 * most && s->outside_count < most; tries++) {
         vec3 x = draw_in(&s->random, &b);
         if (is_outside(m->link, x)) s->outside[s->outside_count++] = x;
@@ -189,14 +193,16 @@ static void make_start(making *m, uint32_t count) {
 static ovoid_code make_cover(making *m, uint32_t count, spheres_depth *depth, ovoid_error *error) {
     double tolerance = 3e-4 * spheres_link_get_size(m->link);
     ovoid_code code = OVOID_OK;
+    // Each phase ends with audits, which a short search does not pay for.
+    int phases = m->moves < 1000 ? PHASES_SHORT : PHASES, warm = phases / 2;
     m->now.random = m->seed;
     draw_points(m);
     make_start(m, count);
-    for (int phase = 0; code == OVOID_OK && phase < PHASES; phase++) {
-        double hot = phase < HOT ? HEAT * (1 - (double)phase / HOT) : 0, cold = max2(hot - HEAT / HOT, 0);
+    for (int phase = 0; code == OVOID_OK && phase < phases; phase++) {
+        double hot = phase < warm ? HEAT * (1 - (double)phase / warm) : 0, cold = max2(hot - HEAT / warm, 0);
         draw_outside(m);
-        spheres_samples_improve(&m->now, &m->scratch, 3 * m->moves / (4 * PHASES), hot, cold);
-        code = exchange(m, phase + 1 < PHASES ? EXCHANGES_EARLY : EXCHANGES, tolerance, error);
+        spheres_samples_improve(&m->now, &m->scratch, 3 * m->moves / (4 * (size_t)phases), hot, cold);
+        code = exchange(m, phase + 1 < phases ? EXCHANGES_EARLY : EXCHANGES, tolerance, error);
     }
     return code == OVOID_OK ? finish(m, tolerance, depth, error) : code;
 }

@@ -18,8 +18,8 @@ typedef struct stage {
 
 static const ovoid_robot_link links[2] = {{"rail"}, {"cart"}};
 
-// The rail has a post, a box of half size 0.1 at 0; the cart is such a box at its place, from -10 to 10; the wall is one
-// at 5. In the model the cart is a ball of the radius given.
+// The rail has a post, a box of half size 0.1 at 0; the cart is such a box at its place, from -10 to 10; the wall is
+// one at 5. In the model the cart is a ball of the radius given.
 static void open_stage(stage *s, double radius) {
     ovoid_pose home = ovoid_pose_make_identity();
     ovoid_robot_joint slide = {.name = "slide",
@@ -59,8 +59,8 @@ static void close_stage(stage *s) {
 
 enum { STATES = 1000 };
 
-// Places from -4.995 to 4.995 in steps of 0.01: the post is hit below 0.2, the wall beyond 4.8; by the model of radius r
-// below 0.1 + r and beyond 4.9 - r.
+// Places from -4.995 to 4.995 in steps of 0.01: the post is hit below 0.2, the wall beyond 4.8; by the model of radius
+// r below 0.1 + r and beyond 4.9 - r.
 static void make_states(double *q) {
     for (int i = 0; i < STATES; i++) q[i] = 0.01 * i - 4.995;
 }
@@ -152,8 +152,7 @@ static void test_refused(void) {
     batch.options = NULL, batch.model = NULL;
     CHECK_EQ(ovoid_robot_compare_states(&batch, &c, &error), OVOID_ERROR_ARGUMENT);
     ovoid_robot_link one = {"alone"};
-    ovoid_robot *still =
-        ovoid_robot_create(&(ovoid_robot_description){.links = &one, .link_count = 1}, NULL, &error);
+    ovoid_robot *still = ovoid_robot_create(&(ovoid_robot_description){.links = &one, .link_count = 1}, NULL, &error);
     ovoid_robot_cell *cell = ovoid_robot_cell_create(still, NULL, &error);
     batch.model = ovoid_robot_checker_create(cell, NULL, &error);
     CHECK_EQ(ovoid_robot_compare_states(&batch, &c, &error), OVOID_ERROR_ARGUMENT);
