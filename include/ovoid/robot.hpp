@@ -1,14 +1,18 @@
 /**
  * @file robot.hpp
- * Robots from C++: owners of robots, cells and checkers. Links libovoid_robot. Descriptions, answers and near pairs are
- * the C structs of <ovoid/robot.h>. What the C library refuses throws ovoid::error.
+ * Robots from C++: owners of robots, cells, checkers and collision matrices; audits and covers by spheres. Links
+ * libovoid_robot. Descriptions, answers, pairs and spheres are the C structs of <ovoid/robot.h> and its neighbours.
+ * What the C library refuses throws ovoid::error.
  */
 #ifndef OVOID_ROBOT_HPP
 #define OVOID_ROBOT_HPP
 
 #include "ovoid/ovoid.hpp"
 #include "ovoid/robot.h"
+#include "ovoid/robot_compare.h"
+#include "ovoid/robot_matrix.h"
 #include "ovoid/robot_path.h"
+#include "ovoid/robot_spheres.h"
 
 #include <vector>
 
@@ -222,6 +226,85 @@ inline std::pair<ovoid_robot_side, ovoid_robot_side> pair_sides(const robot_cell
     detail::require(ovoid_robot_cell_get_pair(cell.get(), pair, &found.first, &found.second, &e), e);
     return found;
 }
+
+// ---- the collision matrix
+
+/** How a matrix is made. */
+using robot_matrix_options = zeroed<ovoid_robot_matrix_options>;
+
+/** Which pairs of a robot's links can touch, owned. The robot is read while it is made only. */
+class robot_matrix
+    : public detail::owner<detail::pointer<ovoid_robot_matrix>, ovoid_robot_matrix, ovoid_robot_matrix_destroy> {
+  public:
+    using owner::owner;
+    /** Of a robot. Throws MEMORY, LIMIT. */
+    static robot_matrix create(const robot &r, const ovoid_robot_matrix_options &o = robot_matrix_options()) {
+        ovoid_error e;
+        return robot_matrix(detail::require(ovoid_robot_matrix_create(r.get(), &o, nullptr, &e), e));
+    }
+    /** Number of pairs. */
+    std::size_t size() const noexcept { return ovoid_robot_matrix_get_count(get()); }
+    /** Pair i < size: its states are views. */
+    ovoid_robot_matrix_pair operator[](std::size_t i) const noexcept { return ovoid_robot_matrix_get_pair(get(), i); }
+    /** The pair of two links, or nullptr: one of them has no element, or they are one. */
+    const ovoid_robot_matrix_pair *find(std::uint32_t a, std::uint32_t b) const noexcept {
+        return ovoid_robot_matrix_find_pair(get(), a, b);
+    }
+};
+
+/** Why a pair may be left out, in MoveIt's words, or nullptr. */
+inline const char *reason(const ovoid_robot_matrix_pair &pair, bool with_sampled = false) noexcept {
+    return ovoid_robot_matrix_pair_get_reason(&pair, with_sampled ? 1 : 0);
+}
+/** "never", "sometimes" and so on. */
+inline const char *name(ovoid_robot_touch touch) noexcept { return ovoid_robot_touch_get_name(touch); }
+
+// ---- spheres
+
+/** Options of an audit. */
+using robot_audit_options = zeroed<ovoid_robot_audit_options>;
+/** Options of a cover. */
+using robot_cover_options = zeroed<ovoid_robot_cover_options>;
+
+/** What is proven of spheres and a link. Throws as ovoid_robot_compute_sphere_audit fails. */
+inline ovoid_robot_sphere_audit compute_sphere_audit(const robot &r, std::uint32_t link,
+                                                     span<const ovoid_robot_sphere> spheres,
+                                                     const ovoid_robot_audit_options &o = robot_audit_options()) {
+    ovoid_robot_sphere_audit found;
+    ovoid_error e;
+    detail::require(ovoid_robot_compute_sphere_audit(r.get(), link, spheres.data(), spheres.size(), &o, &found, &e), e);
+    return found;
+}
+/** Spheres that are proven to cover a link: `most`, or with o.excess as few as are found; depth: receives the bracket
+ * of their audit, or nullptr. Throws as ovoid_robot_compute_sphere_cover fails. */
+inline std::vector<ovoid_robot_sphere> compute_sphere_cover(const robot &r, std::uint32_t link, std::size_t most,
+                                                            const ovoid_robot_cover_options &o = robot_cover_options(),
+                                                            ovoid_robot_bracket *depth = nullptr) {
+    std::vector<ovoid_robot_sphere> found(most);
+    ovoid_error e;
+    detail::require(ovoid_robot_compute_sphere_cover(r.get(), link, &o, found.data(), &most, depth, &e), e);
+    found.resize(most);
+    return found;
+}
+/** The robot with spheres in the place of its elements. Throws as ovoid_robot_create_from_spheres fails. */
+inline robot create_from_spheres(const robot &r, span<const ovoid_robot_link_sphere> spheres) {
+    ovoid_error e;
+    return robot(
+        detail::require(ovoid_robot_create_from_spheres(r.get(), spheres.data(), spheres.size(), nullptr, &e), e));
+}
+/** Adds states, `count` of them, to a comparison of a robot with its model; agreements: receives one a state, or
+ * nullptr. Throws ARGUMENT, MEMORY. */
+inline void compare_states(robot_checker &of_robot, robot_checker &of_model, span<const double> q, std::size_t count,
+                           ovoid_robot_comparison &sum, const ovoid_robot_check_options &o = robot_check_options(),
+                           std::vector<ovoid_robot_agreement> *agreements = nullptr) {
+    if (agreements) agreements->resize(count);
+    const ovoid_robot_comparison_batch batch = {
+        of_robot.get(), of_model.get(), q.data(), count, &o, agreements ? agreements->data() : nullptr};
+    ovoid_error e;
+    detail::require(ovoid_robot_compare_states(&batch, &sum, &e), e);
+}
+/** "missed", "invented" and so on. */
+inline const char *name(ovoid_robot_agreement agreement) noexcept { return ovoid_robot_agreement_get_name(agreement); }
 
 /** The name of a type of joint, as URDF has it. */
 inline const char *name(ovoid_joint_type type) noexcept { return ovoid_joint_type_get_name(type); }

@@ -5,6 +5,7 @@
 #include <ovoid/robot.hpp>
 
 #include <array>
+#include <cmath>
 #include <string>
 
 int main() {
@@ -66,6 +67,33 @@ int main() {
     cell.remove(held);
     checker.reset();
 
+    const auto matrix = ovoid::robot_matrix::create(robot);
+    CHECK(matrix.size() == 0 && matrix.find(0, 1) == nullptr);
+    ovoid_robot_bracket depth = {0, 1};
+    ovoid::robot_cover_options search;
+    search.rounds = 10;
+    const auto cover = ovoid::compute_sphere_cover(robot, 1, 1, search, &depth);
+    CHECK(cover.size() == 1 && depth.upper <= 0);
+    CHECK_NEAR(cover[0].radius, 0.1 * std::sqrt(3.0), 1e-9);
+    ovoid::robot_audit_options brief;
+    brief.without_volumes = 1;
+    CHECK(ovoid::compute_sphere_audit(robot, 1, {cover.data(), 1}, brief).depth.upper <= 0);
+    const ovoid_robot_link_sphere small = {1, {{0, 0, 0}, 0.05}};
+    const auto model = ovoid::create_from_spheres(robot, {&small, 1});
+    auto model_cell = ovoid::robot_cell::create(model), plain = ovoid::robot_cell::create(robot);
+    const ovoid::body post(box, ovoid::pose({5, 0, 0}));
+    model_cell.add(post), plain.add(post);
+    auto first = ovoid::robot_checker::create(plain), second = ovoid::robot_checker::create(model_cell);
+    ovoid_robot_comparison sum = {};
+    std::vector<ovoid_robot_agreement> agreements;
+    const std::array<double, 2> near_post = {{4.7, 4.83}};
+    ovoid::compare_states(first, second, {near_post.data(), 2}, 2, sum, ovoid::robot_check_options(), &agreements);
+    CHECK(sum.states == 2 && agreements[0] == OVOID_ROBOT_COMPARED_BOTH_FREE);
+    CHECK(std::string(ovoid::name(agreements[1])) == "missed" && sum.deepest_state == 1);
+    ovoid_robot_matrix_pair never = {};
+    never.touch = OVOID_ROBOT_TOUCH_NEVER;
+    CHECK(std::string(ovoid::reason(never)) == "Never" && std::string(ovoid::name(never.touch)) == "never");
+
     int thrown = 0;
     try {
         cell.remove(held);
@@ -83,6 +111,11 @@ int main() {
     } catch (const ovoid::error &e) {
         thrown += e.code() == OVOID_ERROR_EMPTY;
     }
-    CHECK_EQ(thrown, 3);
+    try {
+        (void)ovoid::compute_sphere_cover(robot, 0, 1, search);
+    } catch (const ovoid::error &e) {
+        thrown += e.code() == OVOID_ERROR_EMPTY;
+    }
+    CHECK_EQ(thrown, 4);
     return check_end();
 }
