@@ -18,7 +18,7 @@ typedef struct settings {
     const char *given, *output;
     args_list counts;
     double excess;
-    unsigned samples, rounds, seed;
+    unsigned samples, rounds, seed, cells;
     int json;
 } settings;
 
@@ -35,6 +35,9 @@ static const cli_option options[] = {
      "JSON"},
     {"rounds", 0, OPTION_COUNT, offsetof(settings, rounds), "N", NULL,
      "moves of a sphere in the search for little volume outside (default: 8000)"},
+    {"cells", 0, OPTION_COUNT, offsetof(settings, cells), "N", NULL,
+     "into how many cells at most a link's space is divided to measure volumes; more cells narrow them (default: "
+     "65536)"},
     {"seed", 0, OPTION_AMOUNT, offsetof(settings, seed), "S", NULL, "of the search and of random states (default: 0)"},
     {"samples", 0, OPTION_COUNT, offsetof(settings, samples), "N", NULL,
      "compare N random states: which do the spheres miss, which do they invent"},
@@ -86,7 +89,7 @@ static ovoid_robot_sphere *copy_balls(const sphere_list *list, uint32_t link, si
 }
 
 /// Audits each link that has geometry. 0, or EXIT_INPUT after a message.
-static int audit(const cli_cell *cell, sphere_set *set) {
+static int audit(const cli_cell *cell, const ovoid_robot_audit_options *how, sphere_set *set) {
     ovoid_error error;
     size_t links = count_links(cell);
     int good = 1;
@@ -99,7 +102,7 @@ static int audit(const cli_cell *cell, sphere_set *set) {
         ovoid_robot_sphere *balls = copy_balls(&set->list, i, &row->count);
         good = balls != NULL;
         if (good && row->count)
-            good = ovoid_robot_compute_sphere_audit(cell->robot.robot, i, balls, row->count, NULL, &row->audit,
+            good = ovoid_robot_compute_sphere_audit(cell->robot.robot, i, balls, row->count, how, &row->audit,
                                                     &error) == OVOID_OK;
         if (!good && balls) message_error("link %s: %s", cell->description.links[i].name, error.message);
         free(balls);
@@ -116,7 +119,7 @@ static size_t get_count(const run_state *r, uint32_t link) {
     size_t given = 0;
     if (r->of_link[link]) return r->of_link[link];
     if (r->of_all) return r->of_all;
-    if (r->settings->excess > 0) return COUNT_EXCESS;
+    if (r->settings->excess > 0 && !r->settings->counts.count) return COUNT_EXCESS;
     if (r->set_count && strcmp(r->sets[0].name, "given") == 0) (void)sphere_list_find(&r->sets[0].list, link, &given);
     return given;
 }
@@ -229,10 +232,11 @@ static int get_samples(const cli_command *command, run_state *r) {
 static int work(const cli_command *command, run_state *r, const char *urdf) {
     const settings *s = r->settings;
     int has_states = s->samples || s->states.path || s->states.texts.count;
+    const ovoid_robot_audit_options how = {.volume_cells = s->cells};
     int code = has_states ? get_samples(command, r) : 0;
     if (!code) code = get_sets(command, r, urdf);
     for (int i = 0; i < r->set_count && !code; i++) {
-        code = audit(&r->cell, &r->sets[i]);
+        code = audit(&r->cell, &how, &r->sets[i]);
         if (!code && has_states) code = spheres_compare(&r->cell, &s->cell, &r->samples, &r->sets[i]);
     }
     if (code) return code;
@@ -288,7 +292,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 
 const cli_command command_robot_spheres = {
     .name = "robot spheres",
-    .summary = "spheres of links: do they cover, what do they miss; and ones that cover",
+    .summary = "spheres of links: do they cover, what do they miss",
     .usage = "[OPTION...] ROBOT.urdf --given SPHERES.urdf\n[OPTION...] ROBOT.urdf --count N -o OUT.urdf",
     .description =
         "Planners put spheres in the place of a robot's links. For each link: how far the deepest point that is in no "
@@ -300,14 +304,14 @@ const cli_command command_robot_spheres = {
         "not convex are not meant to cover its hull.\n\n"
         "With -o, --count or --excess spheres are found that are proven to cover, with as little volume outside as "
         "the search can do with so many, and both lists are told of.",
-    .exits = "0 every link is covered, and no state is missed; of found spheres where some were asked for\n"
+    .exits = "0 every link is covered, and no state is missed; of spheres found if any\n"
              "1 a link is not covered, or a state is missed\n"
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written\n"
              "4 a cover is not proven",
     .examples = "ovoid robot spheres panda.urdf --given panda_spherized.urdf\n"
-                "ovoid robot spheres panda.urdf --srdf panda.srdf -g panda_spherized.urdf --samples 10000\n"
-                "ovoid robot spheres panda.urdf --given panda_spherized.urdf -o panda_covered.urdf\n"
+                "ovoid robot spheres panda.urdf --srdf panda.srdf -g balls.urdf --samples 9999\n"
+                "ovoid robot spheres panda.urdf --given balls.urdf -o covering.urdf\n"
                 "ovoid robot spheres arm.urdf --count 8 --count hand=20 -o arm.srdf",
     .options = options,
     .operands_min = 1,

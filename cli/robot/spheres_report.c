@@ -68,11 +68,13 @@ static sphere_row sum_rows(const sphere_set *set) {
 }
 
 static void write_row(FILE *file, const sphere_row *row, const char *depth) {
-    char uncovered[CELL_ROOM] = "", excess[CELL_ROOM] = "";
-    if (row->count) {
-        format_share(uncovered, row->audit.uncovered, row->audit.link);
-        format_share(excess, row->audit.excess, row->audit.link);
+    char uncovered[CELL_ROOM], excess[CELL_ROOM];
+    if (!row->count) {
+        fprintf(file, "      0  %s\n", depth);
+        return;
     }
+    format_share(uncovered, row->audit.uncovered, row->audit.link);
+    format_share(excess, row->audit.excess, row->audit.link);
     fprintf(file, "%7zu  %-19s  %-15s  %s\n", row->count, depth, uncovered, excess);
 }
 

@@ -2,7 +2,7 @@
  * @file robot_spheres.h
  * Spheres that stand for a link: how far a list of them is from covering it, proven, and lists that are proven to cover
  * it. Robots are often approximated by spheres that are called conservative; whether they are is a question with an
- * answer. docs/robot_spheres.md has the mathematics.
+ * answer. docs/robot-spheres.md has the mathematics.
  */
 #ifndef OVOID_ROBOT_SPHERES_H
 #define OVOID_ROBOT_SPHERES_H

@@ -5,7 +5,17 @@
 #include "base/error.h"
 #include "robot/spheres_search.h"
 
-enum { MOVES = 8000, STARTS = 8, PHASES = 10, PHASES_SHORT = 4, EXCHANGES = 400, EXCHANGES_EARLY = 100, CELLS = 1 << 14 };
+enum {
+    MOVES = 8000,
+    SHORT = 1000,
+    STARTS = 8,
+    STARTS_SHORT = 2,
+    PHASES = 10,
+    PHASES_SHORT = 2,
+    EXCHANGES = 400,
+    EXCHANGES_EARLY = 100,
+    CELLS = 1 << 14
+};
 
 #define HEAT 0.25
 
@@ -175,11 +185,12 @@ static ovoid_code finish(making *m, double tolerance, spheres_depth *depth, ovoi
 static void make_start(making *m, uint32_t count) {
     spheres_samples *s = &m->now;
     double least = INFINITY;
-    for (int start = 0; start < (count > 1 ? STARTS : 1); start++) {
+    int starts = count == 1 ? 1 : m->moves < SHORT ? STARTS_SHORT : STARTS;
+    for (int start = 0; start < starts; start++) {
         s->outside_count = 0;
         spheres_samples_begin(s, count);
         draw_outside(m);
-        spheres_samples_improve(s, &m->scratch, m->moves / (4 * STARTS), 0.7, 0);
+        spheres_samples_improve(s, &m->scratch, m->moves / (4 * (size_t)starts), 0.7, 0);
 
         double excess = s->weight * (double)s->excess;
         if (!(excess < least)) continue;
@@ -194,7 +205,7 @@ static ovoid_code make_cover(making *m, uint32_t count, spheres_depth *depth, ov
     double tolerance = 3e-4 * spheres_link_get_size(m->link);
     ovoid_code code = OVOID_OK;
     // Each phase ends with audits, which a short search does not pay for.
-    int phases = m->moves < 1000 ? PHASES_SHORT : PHASES, warm = phases / 2;
+    int phases = m->moves < SHORT ? PHASES_SHORT : PHASES, warm = phases / 2;
     m->now.random = m->seed;
     draw_points(m);
     make_start(m, count);

@@ -43,7 +43,9 @@ expect 'b.stl' distance a.stl b
 expect 'a.stl' batch --shapes a
 expect '' check --margin ''
 expect 'a.stl b.stl folder/' check --json ''
-expect 'info check path matrix --help' robot ''
+expect 'info check path matrix spheres --help' robot ''
+expect '--samples --states --state --scene --srdf --seed' robot spheres --s
+expect 'a.stl b.stl folder/' robot spheres --given ''
 expect 'check' robot c
 expect '--proofs --plot --package --parts' robot path --p
 expect '--states --state --scene --srdf' robot check --s

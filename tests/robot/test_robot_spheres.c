@@ -459,7 +459,7 @@ static void test_cover_bodies(void) {
         ovoid_robot *r = make_from_cloud(&c, ovoid_pose_make_identity());
         ovoid_robot_sphere s[6];
         size_t count = 1 + seed % 6;
-        ovoid_robot_cover_options o = {.rounds = 60, .seed = seed};
+        ovoid_robot_cover_options o = {.rounds = 20, .seed = seed};
         CHECK_EQ(ovoid_robot_compute_sphere_cover(r, 0, &o, s, &count, NULL, &error), OVOID_OK);
         double worst = -INFINITY;
         for (int i = 0; i < 10000; i++) worst = fmax(worst, compute_value(s, count, draw_point(&c, &random)));
