@@ -133,11 +133,42 @@ static void test_sums(void) {
     CHECK_EQ(ovoid_robot_compare_states(&batch, &c, &error), OVOID_OK);
     check_counts(&c, 45, 15, 0);
     CHECK(c.deepest_state == 484 || c.deepest_state == 515 || c.deepest_state == 984);
+    // Of the last batch alone: places from 4.005 on are numbered behind the 400 that miss nothing.
+    ovoid_robot_comparison late = {.states = 0};
+    batch.q = q, batch.count = 400;
+    CHECK_EQ(ovoid_robot_compare_states(&batch, &late, &error), OVOID_OK);
+    batch.q = q + 900, batch.count = 100;
+    CHECK_EQ(ovoid_robot_compare_states(&batch, &late, &error), OVOID_OK);
+    CHECK_EQ(late.deepest_state, (size_t)484);
     double outside[2] = {11, NAN};
     batch.q = outside, batch.count = 2;
     CHECK_EQ(ovoid_robot_compare_states(&batch, &c, &error), OVOID_OK);
     CHECK_EQ(c.counts[OVOID_ROBOT_COMPARED_OPEN], (size_t)2);
     CHECK_EQ(c.states, (size_t)1002);
+    close_stage(&s);
+}
+
+// A state that the model alone refuses is open, and so is one that the robot alone refuses.
+static void test_limits(void) {
+    stage s;
+    open_stage(&s, 0.05);
+    ovoid_robot_joint slide = ovoid_robot_get_description(s.robots[0]).joints[0];
+    slide.upper = 1;
+    ovoid_robot_description d = {NULL, links, 2, &slide, 1, NULL, 0, NULL, 0};
+    ovoid_robot *narrow = ovoid_robot_create(&d, NULL, &error);
+    ovoid_robot_cell *cell = ovoid_robot_cell_create(narrow, NULL, &error);
+    ovoid_robot_checker *checker = ovoid_robot_checker_create(cell, NULL, &error);
+    const double q[2] = {4.9, 2};
+    for (int i = 0; i < 2; i++) {
+        ovoid_robot_comparison c = {.states = 0};
+        ovoid_robot_comparison_batch batch = {
+            i ? checker : s.checkers[0], i ? s.checkers[0] : checker, q, 2, NULL, NULL};
+        CHECK_EQ(ovoid_robot_compare_states(&batch, &c, &error), OVOID_OK);
+        CHECK_EQ(c.counts[OVOID_ROBOT_COMPARED_OPEN], (size_t)2);
+    }
+    ovoid_robot_checker_destroy(checker);
+    ovoid_robot_cell_destroy(cell);
+    ovoid_robot_destroy(narrow);
     close_stage(&s);
 }
 
@@ -210,6 +241,7 @@ int main(void) {
     test_small();
     test_large();
     test_sums();
+    test_limits();
     test_refused();
     test_robot_of_spheres();
     return check_end();
