@@ -35,8 +35,8 @@ static int add_obstacles(cli_cell *cell, const cell_settings *settings) {
     return 0;
 }
 
-/// 0, or an exit code after a message: those of all links first, then each link's own.
-static int set_paddings(const cli_command *command, cli_cell *cell, const args_list *given) {
+int cell_set_paddings(const cli_command *command, const cli_cell *cell, ovoid_robot_cell *padded,
+                      const args_list *given) {
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < given->count; i++) {
             ovoid_error error;
@@ -50,7 +50,7 @@ static int set_paddings(const cli_command *command, cli_cell *cell, const args_l
                                      given->items[i]);
             size_t end = is_of_all ? cell->description.link_count : link + 1;
             for (; link < end; link++)
-                if (ovoid_robot_cell_set_padding(cell->cell, link, v.value, &error) != OVOID_OK)
+                if (ovoid_robot_cell_set_padding(padded, link, v.value, &error) != OVOID_OK)
                     return args_complain(command, "%s: --padding \"%s\": %s", command->name, given->items[i],
                                          error.message);
         }
@@ -65,7 +65,7 @@ int cell_open(const cli_command *command, const char *urdf, const cell_settings 
     cell->description = ovoid_robot_get_description(cell->robot.robot);
     cell->cell = ovoid_robot_cell_create(cell->robot.robot, NULL, &error);
     if (!cell->cell) message_error("%s: %s", urdf, error.message), code = EXIT_INPUT;
-    if (!code) code = set_paddings(command, cell, &settings->paddings);
+    if (!code) code = cell_set_paddings(command, cell, cell->cell, &settings->paddings);
     if (!code) code = add_obstacles(cell, settings);
     if (code) cell_close(cell);
     return code;

@@ -63,6 +63,11 @@ typedef struct cli_cell {
 int cell_open(const cli_command *command, const char *urdf, const cell_settings *settings, cli_cell *cell);
 void cell_close(cli_cell *cell);
 
+/// Sets the paddings of the options in the cell of a robot that has the same links: those of all links first, then each
+/// link's own. 0, or an exit code after a message.
+int cell_set_paddings(const cli_command *command, const cli_cell *cell, ovoid_robot_cell *padded,
+                      const args_list *given);
+
 /// The options of a check by the settings.
 ovoid_robot_check_options cell_make_options(const cell_settings *settings);
 

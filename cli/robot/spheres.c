@@ -269,8 +269,9 @@ static int settle(const cli_command *command, const settings *s) {
     if (s->samples && has_states)
         return args_complain(command, "%s: --samples and given states exclude each other", command->name);
     if (has_states) return states_settle(command, &s->states);
-    if (!s->samples && (s->cell.scene || s->cell.margin > 0 || s->cell.slack > 0))
-        return args_complain(command, "%s: --scene, --margin and --limit-slack go with --samples N or --states Q.csv",
+    if (!s->samples && (s->cell.scene || s->cell.margin > 0 || s->cell.slack > 0 || s->cell.paddings.count))
+        return args_complain(command,
+                             "%s: --scene, --padding, --margin and --limit-slack go with --samples N or --states Q.csv",
                              command->name);
     return -1;
 }

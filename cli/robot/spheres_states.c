@@ -68,7 +68,7 @@ static void close_model(model *m) {
     ovoid_robot_destroy(m->robot);
 }
 
-static int open_model(model *m, const cli_cell *cell, const sphere_list *list) {
+static int open_model(model *m, const cli_cell *cell, const cell_settings *settings, const sphere_list *list) {
     ovoid_error error;
     *m = (model){.robot = ovoid_robot_create_from_spheres(cell->robot.robot, list->items, list->count, NULL, &error)};
     if (m->robot) m->cell = ovoid_robot_cell_create(m->robot, NULL, &error);
@@ -77,6 +77,8 @@ static int open_model(model *m, const cli_cell *cell, const sphere_list *list) {
         ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
         good = ovoid_robot_cell_add(m->cell, &(ovoid_body){.shape = o.shape, .pose = o.pose}, &error) != 0;
     }
+    // The options' paddings are in the robot's cell already, so they are right.
+    if (good) good = cell_set_paddings(NULL, cell, m->cell, &settings->paddings) == 0;
     if (good) m->checkers[0] = ovoid_robot_checker_create(cell->cell, NULL, &error);
     if (m->checkers[0]) m->checkers[1] = ovoid_robot_checker_create(m->cell, NULL, &error);
     if (m->checkers[1]) return 1;
@@ -108,7 +110,7 @@ int spheres_compare(const cli_cell *cell, const cell_settings *settings, const s
                     sphere_set *set) {
     static const char *const names[] = {"links", "obstacles"};
     model m;
-    if (!open_model(&m, cell, &set->list)) return EXIT_INPUT;
+    if (!open_model(&m, cell, settings, &set->list)) return EXIT_INPUT;
     int good = 1, kinds = cell->obstacles ? 2 : 1;
     for (set->states_count = 0; set->states_count < kinds && good; set->states_count++) {
         ovoid_robot_check_options o = cell_make_options(settings);

@@ -44,11 +44,11 @@ expect 'a.stl' batch --shapes a
 expect '' check --margin ''
 expect 'a.stl b.stl folder/' check --json ''
 expect 'info check path matrix spheres --help' robot ''
-expect '--samples --states --state --scene --srdf --seed' robot spheres --s
+expect '--samples --states --state --scene --srdf --scale --seed' robot spheres --s
 expect 'a.stl b.stl folder/' robot spheres --given ''
 expect 'check' robot c
-expect '--proofs --plot --package --parts' robot path --p
-expect '--states --state --scene --srdf' robot check --s
+expect '--proofs --plot --padding --package --parts' robot path --p
+expect '--states --state --scene --srdf --scale' robot check --s
 expect 'a.stl b.stl folder/' robot check --states ''
 expect 'info' robot i
 expect '--package --parts' robot info --pa
