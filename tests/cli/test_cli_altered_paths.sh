@@ -146,6 +146,9 @@ for kind in free hit; do
     alter 3 "$kind: more" '2s/\}$/,"more":1}/' $kind.jsonl
     alter 3 "$kind: form" 's/"path_proofs":1/"path_proofs":2/' $kind.jsonl
 done
+# Steps that hold of states nearby prove nothing of those that were asked.
+alter 4 "free: states nearby" '2s/"q":\[\[0,1.5,/"q":[[0,1.5000001,/' free.jsonl --states arm/path.csv
+alter 0 "free: states nearby, not asked" '2s/"q":\[\[0,1.5,/"q":[[0,1.5000001,/' free.jsonl
 alter 4 "free: less" '2s/"free_until":2/"free_until":1.5/' free.jsonl
 alter 4 "free: more" '2s/"free_until":2/"free_until":2.5/' free.jsonl
 alter 4 "hit: free" "2s/\"status\":\"hit\"(.*\"free_until\":$number,\"free_until_time\":$number),\"hit_at\".*,\"looked/\"status\":\"free\"\\1,\"looked/" hit.jsonl

@@ -125,6 +125,12 @@ static void test_hinge(void) {
         before = is.states;
     }
     ovoid_robot_clearance is;
+    // Nearer, the ball's middle comes to 0.05 from the wall's face.
+    CHECK_EQ(ovoid_robot_cell_move(cell, id, &(ovoid_pose){{1.15, 0, 0}, {1, 0, 0, 0}}, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_clearance(x, &path, &(ovoid_robot_clearance_options){.tolerance = 1e-5}, &is, &error),
+             OVOID_OK);
+    CHECK(is.lower <= -0.05 && is.upper >= -0.05 && is.upper - is.lower <= 1.001e-5 && is.status == OVOID_ROBOT_HIT);
+    CHECK_EQ(ovoid_robot_cell_move(cell, id, &wall.pose, &error), OVOID_OK);
     ovoid_robot_clearance_options o = {.check = {.margin = 0.9}};
     CHECK_EQ(ovoid_robot_compute_clearance(x, &path, &o, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
