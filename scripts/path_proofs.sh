@@ -1,6 +1,6 @@
 #!/bin/sh
 # path_proofs.sh [EDGES [SEED]]: proofs of random edges, written by `ovoid robot path --edges --proofs` and checked by
-# `ovoid verify` (make proofs). The robots and scenes are those of OVOID_DATA or ../shared/data: the Panda and the Fetch in
+# `ovoid verify`. The robots and scenes are those of OVOID_DATA or ../shared/data: the Panda and the Fetch in
 # scenes of MotionBenchMaker, others without obstacles. Each robot gets EDGES edges (default 5000) whose both ends are free;
 # joints move by at most 0.3 of their range. Exit 1 where a proof does not hold.
 set -eu
@@ -40,6 +40,7 @@ make_edges() {
         }' "$work/info"
 }
 
+# shellcheck disable=SC2086 # $options is a list of words
 # run_scene NAME EDGES URDF [OPTION...]: until that many edges are checked, or four tries are over.
 run_scene() {
     name=$1 most=$2

@@ -130,7 +130,7 @@ for kind in free hit; do
     alter 4 "$kind: states" '2s/"q":\[\[-?[0-9]/&1/' $kind.jsonl --states $states
     alter 3 "$kind: states' count" '2s/"states":[0-9]+/"states":9/' $kind.jsonl
     alter 3 "$kind: steps' count" '2s/"steps":([0-9]+)/"steps":1\1/' $kind.jsonl
-    alter 3 "$kind: cut off" '$d' $kind.jsonl
+    alter 3 "$kind: cut off" "\$d" $kind.jsonl
     alter 3 "$kind: no step" '3d' $kind.jsonl
     alter 3 "$kind: path" '2s/"path":0/"path":1/' $kind.jsonl
     alter 3 "$kind: paths" 's/"paths":1/"paths":2/' $kind.jsonl
