@@ -14,6 +14,9 @@
 #include "progress.h"
 #include "seen.h"
 #include "verdict.h"
+#ifdef OVOID_HAVE_ROBOT
+#include "robot/path_verify.h"
+#endif
 
 #include <ovoid/ovoid.h>
 
@@ -33,6 +36,9 @@ typedef struct settings {
     int query, parts, json, allow_empty;
     unsigned threads;
     ovoid_pose pose_a, pose_b;
+#ifdef OVOID_HAVE_ROBOT
+    path_verify_settings paths;
+#endif
 } settings;
 
 static const cli_option options[] = {
@@ -52,6 +58,9 @@ static const cli_option options[] = {
     {"threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,
      "work on N threads (default: one for each processor)"},
     INPUTS_OPTIONS(settings),
+#ifdef OVOID_HAVE_ROBOT
+    PATH_VERIFY_OPTIONS(settings),
+#endif
     {0},
 };
 
@@ -493,6 +502,27 @@ static int open_bodies(body_source *bodies, const settings *s, const cli_operand
     return s->motion ? frames_open(&bodies->frames, s->motion, bodies->scene) : 0;
 }
 
+/// 1 where the operands are those of path proofs: the file alone, or with a URDF.
+static int has_path_proofs(const settings *s, const cli_operands *paths) {
+    if (s->list || s->pairs || s->motion) return 0;
+    return paths->count == 1 || (paths->count == 2 && outputs_has_extension(paths->items[1], "urdf"));
+}
+
+#ifdef OVOID_HAVE_ROBOT
+static int verify_paths(const cli_command *command, settings *s, const cli_operands *paths) {
+    s->paths.json = s->json;
+    s->paths.allow_empty = s->allow_empty;
+    return path_verify(command, &s->paths, paths->items[0], paths->count > 1 ? paths->items[1] : NULL);
+}
+#else
+static int verify_paths(const cli_command *command, settings *s, const cli_operands *paths) {
+    (void)s;
+    if (paths->count == 1)
+        return args_complain(command, "verify: on which bodies? Give SCENE.json, or A and B, or --shapes and --pairs");
+    return args_complain(command, "verify: path proofs need libovoid_robot, without which this ovoid was built");
+}
+#endif
+
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.read.unit = INPUTS_NO_UNIT,
                   .query = QUERY_NONE,
@@ -500,6 +530,7 @@ static int run(const cli_command *command, int argc, char **argv) {
                   .pose_b = ovoid_pose_make_identity()};
     cli_operands paths;
     int code = command_parse(command, argc, argv, &s, &paths);
+    if (code < 0 && has_path_proofs(&s, &paths)) return verify_paths(command, &s, &paths);
     if (code < 0) code = check_inputs(command, &s, &paths);
     if (code >= 0) return code;
     if (s.query == QUERY_NONE) s.query = s.list ? QUERY_WITHIN : QUERY_DISTANCE;
@@ -524,7 +555,8 @@ const cli_command command_verify = {
     .usage = "[OPTION...] RESULTS.jsonl SCENE.json\n"
              "[OPTION...] RESULTS.jsonl SCENE.json --motion MOTION.csv\n"
              "[OPTION...] RESULTS.jsonl A B\n"
-             "[OPTION...] RESULTS.jsonl --shapes LIST --pairs PAIRS.csv",
+             "[OPTION...] RESULTS.jsonl --shapes LIST --pairs PAIRS.csv\n"
+             "[OPTION...] PROOFS.jsonl [ROBOT.urdf]",
     .description =
         "Checks every result of a file written with --json by check, run, distance or batch, on the same bodies, "
         "without the search that found it: each bound is computed again from the proof alone, in exact rational "
@@ -534,6 +566,11 @@ const cli_command command_verify = {
         "Of compounds, it is also checked that the exclusions hold and leave out no pair of parts; and of impacts, the "
         "steps that show that a pair was free until then, these always in floating point with rigorous error bounds. "
         "Such results are counted apart.\n\n"
+        "PROOFS.jsonl is of \"ovoid robot path --proofs\". It names its robot and its obstacles, which must be the "
+        "same "
+        "still: a digest says so. Each step is measured again, without a search, and for each pair the steps must "
+        "reach "
+        "from the beginning to the end of what is said to be free.\n\n"
         "RESULTS.jsonl is \"-\" for standard input. The first failures are listed with their lines. "
         "Of a scene, pairs without a result are counted (check --margin leaves far ones out); of a batch they are an "
         "error.",
@@ -542,7 +579,8 @@ const cli_command command_verify = {
              "3 bad input\n"
              "4 a proof does not hold",
     .examples = "ovoid check cell.json --json | ovoid verify - cell.json\n"
-                "ovoid verify results.jsonl --shapes hulls.txt --pairs pairs.csv",
+                "ovoid verify results.jsonl --shapes hulls.txt --pairs pairs.csv\n"
+                "ovoid verify proof.jsonl",
     .options = options,
     .operands_min = 1,
     .operands_max = 3,

@@ -169,7 +169,7 @@ void cell_write_pair_csv(FILE *file, const cli_cell *cell, const ovoid_robot_sid
     if (!second.link) fprintf(file, "%zu", second.number);
 }
 
-static void format_variable(char text[CELL_SIDE_ROOM], const cli_cell *cell, size_t variable) {
+void cell_format_variable(char text[CELL_SIDE_ROOM], const cli_cell *cell, size_t variable) {
     ovoid_robot_variable v = ovoid_robot_get_variable(cell->robot.robot, variable);
     const ovoid_robot_joint *joint = &cell->description.joints[v.joint];
     snprintf(text, CELL_SIDE_ROOM, "%.100s%s", joint->name, robot_get_component(joint, v.component));
@@ -177,13 +177,13 @@ static void format_variable(char text[CELL_SIDE_ROOM], const cli_cell *cell, siz
 
 void cell_write_variable_name(FILE *file, const cli_cell *cell, size_t variable) {
     char name[CELL_SIDE_ROOM];
-    format_variable(name, cell, variable);
+    cell_format_variable(name, cell, variable);
     message_write_text(file, name);
 }
 
 void cell_write_variable_json(FILE *file, const cli_cell *cell, size_t variable) {
     char name[CELL_SIDE_ROOM];
-    format_variable(name, cell, variable);
+    cell_format_variable(name, cell, variable);
     json_write_text(file, name);
 }
 

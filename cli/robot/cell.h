@@ -100,6 +100,9 @@ void cell_write_pair_csv(FILE *file, const cli_cell *cell, const ovoid_robot_sid
 /// Writes a text as a field of CSV, in quotes where it needs them; NULL: empty.
 void cell_write_field(FILE *file, const char *text);
 
+/// The name of a variable into a text.
+void cell_format_variable(char text[CELL_SIDE_ROOM], const cli_cell *cell, size_t variable);
+
 /// The name of a variable, "floor x", as it is, and as a string of JSON.
 void cell_write_variable_name(FILE *file, const cli_cell *cell, size_t variable);
 void cell_write_variable_json(FILE *file, const cli_cell *cell, size_t variable);

@@ -6,7 +6,9 @@
 #include "outputs.h"
 #include "progress.h"
 #include "robot/commands.h"
+#include "robot/proof.h"
 #include "robot/report.h"
+#include "robot/speed.h"
 
 #include <stdlib.h>
 
@@ -16,8 +18,8 @@ typedef struct settings {
     states_settings states;
     output_settings out;
     const char *plot;
-    double tolerance;
-    int proofs;
+    double tolerance, clearance_tolerance;
+    int proofs, edges, clearance, speed;
     unsigned most;
 } settings;
 
@@ -25,7 +27,16 @@ static const cli_option options[] = {
     STATES_OPTIONS(settings),
     CELL_OPTIONS(settings),
     {"proofs", 0, OPTION_FLAG, offsetof(settings, proofs), NULL, NULL,
-     "write JSON Lines, the answer and then each step of its proof, and check all of them"},
+     "write JSON Lines, the robot, the answer and then each step of its proof, for ovoid verify, and check all of "
+     "them"},
+    {"edges", 0, OPTION_FLAG, offsetof(settings, edges), NULL, NULL,
+     "each two states are a path by itself: the first and the second, the third and the fourth, ..."},
+    {"clearance", 0, OPTION_FLAG, offsetof(settings, clearance), NULL, NULL,
+     "the smallest distance of any pair at any time, as a proven bracket"},
+    {"clearance-tol", 0, OPTION_POSITIVE, offsetof(settings, clearance_tolerance), "T", NULL,
+     "narrow that bracket to T (default: 1/1000 of the radius of the robot's largest part)"},
+    {"check-speed", 0, OPTION_FLAG, offsetof(settings, speed), NULL, NULL,
+     "with a column \"time\": report joints that are faster than the URDF's limit"},
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distance of the nearest pair over the path, sampled"},
     {"tol", 0, OPTION_SHARE, offsetof(settings, tolerance), "T", NULL,
@@ -63,39 +74,138 @@ static int find_answer(path_report *r, ovoid_robot_checker *checker, const ovoid
 static int check_proofs(const path_report *r, const ovoid_robot_path *path, const ovoid_robot_path_options *o) {
     ovoid_error error;
     size_t count = r->answer.step_count;
-    if (r->answer.status == OVOID_ROBOT_REFUSED) return message_note("nothing is proven of a path that is refused"), 0;
+    if (r->answer.status == OVOID_ROBOT_REFUSED) {
+        if (!r->is_edge) message_note("nothing is proven of a path that is refused");
+        return 0;
+    }
     if (ovoid_robot_path_check(r->cell->cell, path, o, &r->answer, r->steps, &error) != OVOID_OK) {
-        message_error("of %zu proofs not all hold: %s", count, error.message);
+        message_error("path %zu: of %zu proofs not all hold: %s", r->number, count, error.message);
         return EXIT_NOT_PROVEN;
     }
     const char *until = r->answer.status == OVOID_ROBOT_FREE ? "free up to" : "free before";
+    if (r->is_edge) return 0;
     message_note("%zu of %zu proofs hold: %s s %.9g%s", count, count, until, r->answer.free_until,
                  r->answer.status == OVOID_ROBOT_HIT ? ", and the hit" : "");
     return 0;
 }
 
-static int write_answer(const path_report *r, const output_settings *out, int code) {
-    cli_results results;
-    if (results_open(&results, out, 0, "")) return EXIT_INPUT;
-    results.header_due = 0;
-    (out->json ? path_write_json : out->csv ? path_write_csv : path_write_text)(results.file, r);
-    return results_close(&results, code);
+/// The smallest clearance. 0, or EXIT_INPUT after a message.
+static int find_clearance(const settings *s, path_report *r, ovoid_robot_checker *checker, const ovoid_robot_path *path,
+                          ovoid_robot_clearance *clearance) {
+    ovoid_error error;
+    const ovoid_robot_clearance_options o = {
+        .check = cell_make_options(&s->cell), .tolerance = s->clearance_tolerance, .states = s->most};
+    ovoid_robot_checker_reset(checker);
+    if (ovoid_robot_compute_clearance(checker, path, &o, clearance, &error) != OVOID_OK)
+        return message_error("%s", error.message), EXIT_INPUT;
+    r->clearance = clearance;
+    return 0;
 }
 
-static int run_path(const settings *s, path_report *r, ovoid_robot_checker *checker) {
+static void write_answer(const path_report *r, const cli_results *results) {
+    const output_settings *out = results->settings;
+    (out->json ? path_write_json : out->csv ? path_write_csv : path_write_text)(results->file, r);
+}
+
+/// What was found of all paths.
+typedef struct path_counts {
+    size_t statuses[4], steps, looked_at;
+    int proven; ///< EXIT_NOT_PROVEN: a proof does not hold
+} path_counts;
+
+static void add_counts(path_counts *c, const path_report *r) {
+    c->statuses[r->answer.status]++;
+    c->steps += r->answer.step_count;
+    c->looked_at += r->answer.states;
+}
+
+/// One path: its answer, checked and written. 0, or an exit code after a message.
+static int run_one(const settings *s, path_report *r, ovoid_robot_checker *checker, const cli_results *results,
+                   path_counts *counts) {
     const ovoid_robot_path path = {r->states->q, r->states->count};
     ovoid_robot_path_options o = {.check = cell_make_options(&s->cell), .tolerance = s->tolerance, .states = s->most};
-    double start = progress_get_seconds();
+    ovoid_robot_clearance clearance;
     int code = find_answer(r, checker, &path, &o);
+    if (!code && s->clearance) code = find_clearance(s, r, checker, &path, &clearance);
     if (code) return code;
+    if (s->proofs && check_proofs(r, &path, &o)) counts->proven = EXIT_NOT_PROVEN;
+    write_answer(r, results);
+    r->clearance = NULL;
+    add_counts(counts, r);
+    return 0;
+}
+
+/// Path i of many: the states are two of all.
+static cli_states get_edge(const cli_states *all, size_t i) {
+    cli_states edge = *all;
+    edge.q += 2 * i * all->variable_count;
+    if (edge.times) edge.times += 2 * i;
+    edge.count = 2;
+    return edge;
+}
+
+static int get_exit(const path_counts *c) {
+    if (c->proven) return c->proven;
+    if (c->statuses[OVOID_ROBOT_UNDECIDED] || c->statuses[OVOID_ROBOT_REFUSED]) return EXIT_NOT_PROVEN;
+    return c->statuses[OVOID_ROBOT_HIT] ? EXIT_TOUCH : EXIT_APART;
+}
+
+static void report_counts(const settings *s, const path_counts *c, const cli_states *states, double seconds) {
+    const size_t *n = c->statuses;
+    if (s->edges)
+        message_note("%zu edges in %.3f s; free: %zu, hit: %zu, undecided: %zu, refused: %zu; looked at: %zu, steps: "
+                     "%zu",
+                     states->count / 2, seconds, n[OVOID_ROBOT_FREE], n[OVOID_ROBOT_HIT], n[OVOID_ROBOT_UNDECIDED],
+                     n[OVOID_ROBOT_REFUSED], c->looked_at, c->steps);
+    else
+        message_note("%zu state%s in %.3f s; looked at: %zu, steps: %zu", states->count, states->count == 1 ? "" : "s",
+                     seconds, c->looked_at, c->steps);
+}
+
+/// All paths: one through all states, or one for each two of them.
+static int run_paths(const settings *s, const char *urdf, path_report *r, ovoid_robot_checker *checker) {
+    const cli_states *states = r->states;
+    size_t count = s->edges ? states->count / 2 : 1;
+    cli_results results;
+    path_counts counts = {.steps = 0};
+    if (results_open(&results, &s->out, 0, "")) return EXIT_INPUT;
+    results.header_due = 0;
+    if (s->proofs) proof_write_source(results.file, &(const proof_source){urdf, &s->cell, r->cell, count});
+    if (s->out.csv) path_write_csv_header(results.file);
+    double start = progress_get_seconds();
+    int code = 0;
+    if (s->edges) progress_start("edges", count);
+    for (r->number = 0; r->number < count && !code; r->number++) {
+        cli_states edge = s->edges ? get_edge(states, r->number) : *states;
+        r->states = &edge;
+        code = run_one(s, r, checker, &results, &counts);
+        if (s->edges) progress_set(r->number + 1);
+    }
+    if (s->edges) progress_end();
+    r->states = states;
     double seconds = progress_get_seconds() - start;
-    int proven = s->proofs ? check_proofs(r, &path, &o) : 0;
-    code = write_answer(r, &s->out, proven ? proven : cell_get_exit(r->answer.status));
+    code = results_close(&results, code ? code : get_exit(&counts));
     if (code == EXIT_INPUT || code == EXIT_PIPE) return code;
-    int drawn = s->plot ? path_plot(s->plot, r, checker, &o.check) : 0;
-    message_note("%zu state%s in %.3f s; looked at: %u, steps: %zu", path.count, path.count == 1 ? "" : "s", seconds,
-                 (unsigned)r->answer.states, r->answer.step_count);
+    const ovoid_robot_check_options o = cell_make_options(&s->cell);
+    int drawn = s->plot ? path_plot(s->plot, r, checker, &o) : 0;
+    report_counts(s, &counts, states, seconds);
     return drawn ? drawn : code;
+}
+
+/// Times must rise, and joints may be told to keep to their speeds. 0, or an exit code after a message.
+static int check_times(const settings *s, const cli_cell *cell, const cli_states *states, int *is_too_fast) {
+    size_t step = s->edges ? 2 : 1;
+    *is_too_fast = 0;
+    if (s->speed && !states->times)
+        return message_error("--check-speed: the states have no times: a column \"time\", in seconds"), EXIT_INPUT;
+    for (size_t i = 0; i + 1 < states->count && states->times; i += step) {
+        if (states->times[i + 1] > states->times[i]) continue;
+        message_error("state %zu: its time, %.9g s, is not after that of the state before, %.9g s", i + 1,
+                      states->times[i + 1], states->times[i]);
+        return EXIT_INPUT;
+    }
+    for (size_t i = 0; i + 1 < states->count && s->speed; i += step) *is_too_fast |= speed_report(cell, states, i);
+    return 0;
 }
 
 /// Settles the command line. -1 to go on, or an exit code.
@@ -104,6 +214,12 @@ static int settle(const cli_command *command, settings *s) {
     if (code < 0) code = states_settle(command, &s->states);
     if (code < 0 && s->proofs && s->out.csv)
         code = args_complain(command, "%s: --proofs goes with JSON Lines, not with CSV", command->name);
+    if (code < 0 && s->edges && s->plot)
+        code = args_complain(command, "%s: --plot is of one path, not of --edges", command->name);
+    if (code < 0 && s->clearance_tolerance > 0 && !s->clearance)
+        code = args_complain(command, "%s: --clearance-tol goes with --clearance", command->name);
+    if (code < 0 && s->proofs && s->clearance)
+        code = args_complain(command, "%s: --clearance is not part of --proofs: ask for one of them", command->name);
     if (s->proofs) s->out.json = 1;
     return code;
 }
@@ -121,18 +237,23 @@ static int run(const cli_command *command, int argc, char **argv) {
     code = cell_open(command, operands.items[0], &s.cell, &cell);
     if (code) return code;
     code = states_open(command, &s.states, &cell, &states);
+    int is_too_fast = 0;
+    if (!code && s.edges && states.count % 2)
+        message_error("--edges: an even number of states is wanted, not %zu", states.count), code = EXIT_INPUT;
+    if (!code) code = check_times(&s, &cell, &states, &is_too_fast);
     if (!code) {
-        path_report r = {.cell = &cell, .states = &states, .margin = s.cell.margin};
+        path_report r = {.cell = &cell, .states = &states, .margin = s.cell.margin, .is_edge = s.edges};
         ovoid_robot_checker *checker = ovoid_robot_checker_create(cell.cell, NULL, &error);
         if (checker && s.proofs) r.steps = malloc(STEPS_ROOM * sizeof *r.steps);
         if (!checker || (s.proofs && !r.steps))
             message_error("out of memory"), code = EXIT_INPUT;
         else
-            code = run_path(&s, &r, checker);
+            code = run_paths(&s, operands.items[0], &r, checker);
+        if (is_too_fast && (code == EXIT_APART || code == EXIT_TOUCH)) code = EXIT_NOT_PROVEN;
         ovoid_robot_checker_destroy(checker);
         free(r.steps);
-        states_close(&states);
     }
+    states_close(&states);
     cell_close(&cell);
     return code;
 }
@@ -148,15 +269,18 @@ const cli_command command_robot_path = {
         "another, a narrow bracket, and the pair is named. Undecided: a pair stays within rounding of the margin, or "
         "--max-states were looked at. A continuous joint is not turned the shorter way round, and a floating joint "
         "must not turn within a segment.\n\n"
-        "States are given as to \"ovoid robot check\".",
+        "States are given as to \"ovoid robot check\". A column \"time\" has the seconds of each state: answers then "
+        "say when, too. \"ovoid verify\" checks a file of proofs again.",
     .exits = "0 free at all times\n"
              "1 hit\n"
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written\n"
-             "4 undecided or refused, or a proof does not hold",
+             "4 undecided, refused, a proof that does not hold, or too fast (--check-speed)",
     .examples = "ovoid robot path panda.urdf --scene cell.yaml --states q.csv\n"
                 "ovoid robot path arm.urdf --srdf arm.srdf --state home --state up\n"
                 "ovoid robot path arm.urdf --states q.csv --proofs -o proof.jsonl\n"
+                "ovoid robot path arm.urdf --states edges.csv --edges --csv\n"
+                "ovoid robot path arm.urdf --states q.csv --clearance\n"
                 "ovoid robot path arm.urdf --states q.csv --plot clearance.svg",
     .options = options,
     .operands_min = 1,

@@ -14,12 +14,22 @@ typedef struct path_report {
     ovoid_robot_path_answer answer;
     ovoid_robot_step *steps; ///< answer.step_count; NULL: not asked for
     double margin;
+    size_t number;                          ///< of the path, from 0
+    int is_edge;                            ///< 1: one of many
+    const ovoid_robot_clearance *clearance; ///< NULL: not asked for
 } path_report;
+
+/// The time at s, linear between those of the states; NaN where they have none.
+double path_compute_time(const cli_states *states, double s);
+
+/// The segment in which the free part ends.
+size_t path_get_segment(const ovoid_robot_path_answer *answer, size_t count);
 
 /// The state at s, linear between its neighbours, for the answer's pictures and reports.
 void path_compute_state(const cli_states *states, double s, double *q);
 
 void path_write_text(FILE *file, const path_report *report);
+void path_write_csv_header(FILE *file);
 void path_write_csv(FILE *file, const path_report *report);
 
 /// The answer as a line, and each step as one.

@@ -2,6 +2,7 @@
 #include "json.h"
 #include "message.h"
 #include "robot/path.h"
+#include "robot/proof.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,16 +15,24 @@ void path_compute_state(const cli_states *states, double s, double *q) {
     for (size_t k = 0; k < n; k++) q[k] = q0[k] + (s - (double)i) * (q1[k] - q0[k]);
 }
 
-/// 1 if a pair is named.
-static int has_pair(const ovoid_robot_path_answer *a) {
-    return a->status == OVOID_ROBOT_HIT || a->status == OVOID_ROBOT_UNDECIDED;
+double path_compute_time(const cli_states *states, double s) {
+    if (!states->times) return NAN;
+    size_t last = states->count - 1, i = s > 0 ? (size_t)s : 0;
+    if (i >= last) return states->times[last];
+    return states->times[i] + (s - (double)i) * (states->times[i + 1] - states->times[i]);
 }
 
-/// The segment in which the free part ends.
-static size_t get_segment(const path_report *r) {
-    size_t i = r->answer.free_until > 0 ? (size_t)r->answer.free_until : 0;
-    return r->states->count > 1 && i > r->states->count - 2 ? r->states->count - 2 : i;
+/// 1 if a pair is named: that of a hit, or one that was measured.
+static int has_pair(const ovoid_robot_path_answer *a) {
+    return a->status == OVOID_ROBOT_HIT || (a->status == OVOID_ROBOT_UNDECIDED && a->hit.upper < INFINITY);
 }
+
+size_t path_get_segment(const ovoid_robot_path_answer *answer, size_t count) {
+    size_t i = answer->free_until > 0 ? (size_t)answer->free_until : 0;
+    return count > 1 && i > count - 2 ? count - 2 : i;
+}
+
+static size_t get_segment(const path_report *r) { return path_get_segment(&r->answer, r->states->count); }
 
 /// 1 if the state's number of the refused variable is out of its range by itself.
 static int is_out_of_range(const path_report *r, size_t state) {
@@ -50,6 +59,20 @@ static void write_times(FILE *file, double from, double until) {
         if (ends[0][0] && strtod(ends[0], NULL) < strtod(ends[1], NULL)) break;
     }
     fprintf(file, "%s and %s", ends[0], ends[1]);
+}
+
+/// The same of the times there, where the states have some.
+static void write_seconds(FILE *file, const path_report *r) {
+    const ovoid_robot_path_answer *a = &r->answer;
+    if (!r->states->times) return;
+    double from = path_compute_time(r->states, a->free_until), until = path_compute_time(r->states, a->hit_at);
+    if (a->status == OVOID_ROBOT_HIT && until > from) {
+        fputs("time        between ", file);
+        write_times(file, from, until);
+        fputs(" s\n", file);
+    } else if (a->status == OVOID_ROBOT_HIT || a->status == OVOID_ROBOT_UNDECIDED) {
+        fprintf(file, "time        %.9g s\n", from);
+    }
 }
 
 static void write_state(FILE *file, const path_report *r, double s) {
@@ -106,6 +129,26 @@ static void write_hit(FILE *file, const path_report *r) {
     }
 }
 
+/// The smallest clearance, and where.
+static void write_clearance(FILE *file, const path_report *r) {
+    const ovoid_robot_clearance *c = r->clearance;
+    char a[CELL_SIDE_ROOM], b[CELL_SIDE_ROOM];
+    if (!c || c->status == OVOID_ROBOT_REFUSED) return;
+    if (!(c->upper < INFINITY)) {
+        fputs("clearance   there is no pair\n", file);
+        return;
+    }
+    (void)cell_format_side(a, r->cell, &c->a);
+    (void)cell_format_side(b, r->cell, &c->b);
+    fprintf(file, "clearance   %.9g .. %.9g, at s %.9g", c->lower, c->upper, c->at);
+    if (r->states->times) fprintf(file, ", %.9g s", path_compute_time(r->states, c->at));
+    fputs(": ", file);
+    message_write_text(file, a);
+    fputs(", ", file);
+    message_write_text(file, b);
+    fputc('\n', file);
+}
+
 void path_write_text(FILE *file, const path_report *r) {
     const ovoid_robot_path_answer *a = &r->answer;
     size_t last = r->states->count - 1;
@@ -117,8 +160,10 @@ void path_write_text(FILE *file, const path_report *r) {
     else if (a->free_until > 0)
         fprintf(file, "free        before s %.9g\n", a->free_until);
     if (a->status == OVOID_ROBOT_HIT) write_hit(file, r);
+    write_seconds(file, r);
     if (has_pair(a)) write_pair(file, r);
     if (a->status == OVOID_ROBOT_HIT) write_state(file, r, a->hit_at);
+    write_clearance(file, r);
 }
 
 // ---- CSV
@@ -128,19 +173,32 @@ static void write_number(FILE *file, double number, int is_there) {
     if (is_there && isfinite(number)) fprintf(file, "%.17g", number);
 }
 
+void path_write_csv_header(FILE *file) {
+    fputs("path,status,free_until,hit_at,free_until_time,hit_at_time,segment," CELL_PAIR_COLUMNS ",lower,upper"
+          ",clearance_lower,clearance_upper,clearance_at\n",
+          file);
+}
+
 void path_write_csv(FILE *file, const path_report *r) {
     const ovoid_robot_path_answer *a = &r->answer;
-    int named = has_pair(a);
-    fputs("status,free_until,hit_at,segment," CELL_PAIR_COLUMNS ",lower,upper\n", file);
+    int named = has_pair(a), has_times = r->states->times != NULL;
+    fprintf(file, "%zu,", r->number);
     fputs(cell_get_status_name(a->status), file);
     write_number(file, a->free_until, a->status != OVOID_ROBOT_REFUSED);
     write_number(file, a->hit_at, a->status == OVOID_ROBOT_HIT);
+    write_number(file, path_compute_time(r->states, a->free_until), has_times && a->status != OVOID_ROBOT_REFUSED);
+    write_number(file, path_compute_time(r->states, a->hit_at), has_times && a->status == OVOID_ROBOT_HIT);
     fputc(',', file);
     if (named) fprintf(file, "%zu", get_segment(r));
     fputc(',', file);
     cell_write_pair_csv(file, r->cell, named ? &a->hit.a : NULL, &a->hit.b);
     write_number(file, a->hit.lower, named);
     write_number(file, a->hit.upper, named);
+    const ovoid_robot_clearance *c = r->clearance;
+    int has_clearance = c && c->status != OVOID_ROBOT_REFUSED && c->upper < INFINITY;
+    write_number(file, has_clearance ? c->lower : NAN, has_clearance);
+    write_number(file, has_clearance ? c->upper : NAN, has_clearance);
+    write_number(file, has_clearance ? c->at : NAN, has_clearance);
     fputc('\n', file);
 }
 
@@ -158,7 +216,7 @@ static void write_sides(FILE *file, const path_report *r, const ovoid_robot_side
     cell_write_side_json(file, r->cell, b);
 }
 
-static void write_step(FILE *file, const path_report *r, const ovoid_robot_step *step) {
+static void write_step(FILE *file, const ovoid_robot_step *step) {
     static const char *const kinds[] = {"", "outer", "middle", "ends"};
     const char *before = "";
     fprintf(file, "{\"step\":\"%s\"", kinds[step->kind & 3]);
@@ -175,21 +233,52 @@ static void write_step(FILE *file, const path_report *r, const ovoid_robot_step 
     }
     fputs(",\"pairs\":[", file);
     for (uint32_t i = 0; i < 8; i++) {
-        ovoid_robot_side a, b;
-        if (!(step->mask >> i & 1) ||
-            ovoid_robot_cell_get_pair(r->cell->cell, step->pair + i, &a, &b, NULL) != OVOID_OK)
-            continue;
-        fprintf(file, "%s{\"pair\":%lu,", before, (unsigned long)step->pair + i);
-        write_sides(file, r, &a, &b);
-        fputc('}', file);
+        if (!(step->mask >> i & 1)) continue;
+        fprintf(file, "%s%lu", before, (unsigned long)step->pair + i);
         before = ",";
     }
     fputs("]}\n", file);
 }
 
+/// The states of the path, and their times.
+static void write_states(FILE *file, const cli_states *states) {
+    size_t n = states->variable_count;
+    fputs(",\"q\":[", file);
+    for (size_t i = 0; i < states->count; i++) {
+        fputs(i ? ",[" : "[", file);
+        for (size_t k = 0; k < n; k++) {
+            if (k) fputc(',', file);
+            json_write_number(file, states->q[i * n + k]);
+        }
+        fputc(']', file);
+    }
+    fputc(']', file);
+    for (size_t i = 0; i < states->count && states->times; i++) {
+        fputs(i ? "," : ",\"times\":[", file);
+        json_write_number(file, states->times[i]);
+    }
+    if (states->times) fputc(']', file);
+}
+
+static void write_clearance_json(FILE *file, const path_report *r) {
+    const ovoid_robot_clearance *c = r->clearance;
+    fputs(",\"clearance\":{\"lower\":", file);
+    json_write_number(file, c->lower);
+    write_value(file, "upper", c->upper);
+    if (c->upper < INFINITY) {
+        write_value(file, "at", c->at);
+        if (r->states->times) write_value(file, "time", path_compute_time(r->states, c->at));
+        fputc(',', file);
+        write_sides(file, r, &c->a, &c->b);
+    }
+    fprintf(file, ",\"looked_at\":%lu}", (unsigned long)c->states);
+}
+
 void path_write_json(FILE *file, const path_report *r) {
     const ovoid_robot_path_answer *a = &r->answer;
-    fprintf(file, "{\"status\":\"%s\",\"states\":%zu", cell_get_status_name(a->status), r->states->count);
+    fputc('{', file);
+    if (r->is_edge || r->steps) fprintf(file, "\"path\":%zu,", r->number);
+    fprintf(file, "\"status\":\"%s\",\"states\":%zu", cell_get_status_name(a->status), r->states->count);
     write_value(file, "margin", r->margin);
     if (a->status == OVOID_ROBOT_REFUSED) {
         fprintf(file, ",\"refused\":%zu,\"code\":\"%s\",\"variable\":", get_refused(r),
@@ -197,14 +286,22 @@ void path_write_json(FILE *file, const path_report *r) {
         cell_write_variable_json(file, r->cell, a->hit.variable);
     } else {
         write_value(file, "free_until", a->free_until);
+        if (r->states->times) write_value(file, "free_until_time", path_compute_time(r->states, a->free_until));
     }
-    if (a->status == OVOID_ROBOT_HIT) write_value(file, "hit_at", a->hit_at);
+    if (a->status == OVOID_ROBOT_HIT) {
+        write_value(file, "hit_at", a->hit_at);
+        if (r->states->times) write_value(file, "hit_at_time", path_compute_time(r->states, a->hit_at));
+    }
     if (has_pair(a)) {
         fprintf(file, ",\"segment\":%zu,", get_segment(r));
+        if (r->steps) fprintf(file, "\"pair\":%lu,", (unsigned long)proof_find_pair(r->cell, &a->hit.a, &a->hit.b));
         write_sides(file, r, &a->hit.a, &a->hit.b);
         write_value(file, "lower", a->hit.lower);
         write_value(file, "upper", a->hit.upper);
     }
-    fprintf(file, ",\"looked_at\":%lu,\"steps\":%zu}\n", (unsigned long)a->states, a->step_count);
-    for (size_t i = 0; i < a->step_count && r->steps; i++) write_step(file, r, &r->steps[i]);
+    fprintf(file, ",\"looked_at\":%lu,\"steps\":%zu", (unsigned long)a->states, a->step_count);
+    if (r->steps) write_states(file, r->states);
+    if (r->clearance && r->clearance->status != OVOID_ROBOT_REFUSED) write_clearance_json(file, r);
+    fputs("}\n", file);
+    for (size_t i = 0; i < a->step_count && r->steps; i++) write_step(file, &r->steps[i]);
 }

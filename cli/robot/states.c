@@ -13,6 +13,9 @@
 /// The column of a joint that follows another one: it is not read.
 #define COLUMN_FOLLOWS 0xfffffffeu
 
+/// The column "time", unless a joint has that name.
+#define COLUMN_TIME 0xfffffffdu
+
 /// Room for a sentence about what is wrong.
 enum { WHY_ROOM = 400, WORDS_MAX = 256, MISSING_MAX = 8 };
 
@@ -24,6 +27,7 @@ typedef struct reader {
     unsigned char *given; ///< 1: the variable has a column
     uint32_t *columns;    ///< variables
     size_t column_count;
+    int has_time;
     char why[WHY_ROOM];
 } reader;
 
@@ -146,6 +150,9 @@ static double *add_state(reader *r) {
         double *q = realloc(s->q, capacity * (n ? n : 1) * sizeof *q);
         if (!q) return message_error("out of memory for %zu states", capacity), NULL;
         s->q = q;
+        double *times = r->has_time ? realloc(s->times, capacity * sizeof *times) : NULL;
+        if (r->has_time && !times) return message_error("out of memory for %zu states", capacity), NULL;
+        s->times = times;
         s->capacity = capacity;
     }
     double *state = s->q + s->count++ * n;
@@ -181,6 +188,15 @@ static int read_number(reader *r, const char *text, double *value) {
 
 // ---- files
 
+/// The column of that name; NONE with r->why filled.
+static uint32_t take_column(reader *r, const char *name) {
+    if (strcmp(name, "time") != 0 || ovoid_robot_find_joint(r->cell->robot.robot, name) != OVOID_ROBOT_NONE)
+        return take_variable(r, name);
+    if (!r->has_time++) return COLUMN_TIME;
+    snprintf(r->why, WHY_ROOM, "\"time\" is there twice");
+    return OVOID_ROBOT_NONE;
+}
+
 static int read_header(reader *r, char *line) {
     size_t most = 1;
     double number;
@@ -193,7 +209,7 @@ static int read_header(reader *r, char *line) {
             snprintf(r->why, WHY_ROOM, "the first line names the joints, \"shoulder,elbow,...\"; this one has numbers");
             return 0;
         }
-        uint32_t variable = take_variable(r, name);
+        uint32_t variable = take_column(r, name);
         if (variable == OVOID_ROBOT_NONE) return 0;
         r->columns[r->column_count++] = variable;
     }
@@ -210,7 +226,8 @@ static int read_state(reader *r, char *line, double *state) {
     }
     for (char *at = line; at; i++) {
         if (!read_number(r, take_field(&at), &value)) return 0;
-        if (r->columns[i] != COLUMN_FOLLOWS) state[r->columns[i]] = value;
+        if (r->columns[i] == COLUMN_TIME) r->states->times[r->states->count - 1] = value;
+        if (r->columns[i] < COLUMN_TIME) state[r->columns[i]] = value;
     }
     return 1;
 }
@@ -348,6 +365,7 @@ int states_open(const cli_command *command, const states_settings *settings, con
 
 void states_close(cli_states *states) {
     free(states->q);
+    free(states->times);
     *states = (cli_states){.q = NULL};
 }
 

@@ -29,6 +29,7 @@ typedef struct states_settings {
 typedef struct cli_states {
     double *q; ///< state i from i * variable_count on
     size_t count, variable_count, capacity;
+    double *times;          ///< of each state, in seconds: the column "time" of a file; NULL: there is none
     const args_list *texts; ///< of the states, NULL where they come from a file
 } cli_states;
 

@@ -24,6 +24,8 @@ using robot_options = zeroed<ovoid_robot_options>;
 using robot_check_options = zeroed<ovoid_robot_check_options>;
 /** How a motion is checked. */
 using robot_path_options = zeroed<ovoid_robot_path_options>;
+/** How a clearance is computed. */
+using robot_clearance_options = zeroed<ovoid_robot_clearance_options>;
 /** The answer to a state. */
 using robot_answer = ovoid_robot_answer;
 
@@ -175,6 +177,14 @@ class robot_checker
         const ovoid_robot_path path = {states.data(), count};
         ovoid_robot_path_answer found;
         call(ovoid_robot_check_path, &path, &o, &found);
+        return found;
+    }
+    /** The smallest clearance of a path of `count` states, as a bracket. Throws ARGUMENT, MEMORY. */
+    ovoid_robot_clearance compute_clearance(span<const double> states, std::size_t count,
+                                            const ovoid_robot_clearance_options &o = robot_clearance_options()) {
+        const ovoid_robot_path path = {states.data(), count};
+        ovoid_robot_clearance found;
+        call(ovoid_robot_compute_clearance, &path, &o, &found);
         return found;
     }
     /** All near pairs with gradients by `variables` numbers. Throws as ovoid_robot_find_near fails. */

@@ -91,6 +91,37 @@ OVOID_API ovoid_code ovoid_robot_path_check(const ovoid_robot_cell *cell, const 
                                             const ovoid_robot_path_answer *answer, const ovoid_robot_step *steps,
                                             ovoid_error *error);
 
+/** How a clearance is computed; all zero is the default, and NULL means that. */
+typedef struct ovoid_robot_clearance_options {
+    ovoid_robot_check_options check; /**< limits, which pairs; margin: of the status */
+    double tolerance; /**< of the bracket, a length; 0 means 1/1024 of the radius of the robot's largest element */
+    uint32_t states;  /**< most states that are looked at; 0 means 100 000 and 100 for each segment */
+} ovoid_robot_clearance_options;
+
+/** The smallest clearance of a path: the least signed distance of any queried pair at any real s. */
+typedef struct ovoid_robot_clearance {
+    ovoid_robot_status status; /**< FREE: lower is above the margin; HIT: upper is not; UNDECIDED; REFUSED */
+    double lower, upper;       /**< the least distance is proven to be in here, padding counted; both infinite where no
+                                    pair is queried. Wider than the tolerance where options.states were used up, or an
+                                    allowance is wider */
+    double at;                 /**< s where a pair is no farther apart than `upper` */
+    ovoid_robot_side a, b;     /**< that pair; of a finite upper */
+    size_t refused;            /**< REFUSED: the state, or that at whose beginning a segment is */
+    ovoid_code code;           /**< REFUSED: why */
+    uint32_t variable;         /**< REFUSED: which */
+    uint32_t states;           /**< looked at */
+} ovoid_robot_clearance;
+
+/**
+ * The smallest clearance of a path, by branch and bound with the bounds of ovoid_robot_check_path: what is proven to be
+ * no nearer than the nearest that was found, less the tolerance, is not looked at again. Errors: ARGUMENT (options, no
+ * states, too many), MEMORY; then the bracket is all numbers. Cost: some tens of states a segment; more the smaller the
+ * tolerance, about as 1/sqrt(tolerance).
+ */
+OVOID_API ovoid_code ovoid_robot_compute_clearance(ovoid_robot_checker *checker, const ovoid_robot_path *path,
+                                                   const ovoid_robot_clearance_options *options,
+                                                   ovoid_robot_clearance *clearance, ovoid_error *error);
+
 /** How many pairs a cell has, queried or left out; their numbers begin at 0. */
 OVOID_API size_t ovoid_robot_cell_get_pair_count(const ovoid_robot_cell *cell);
 /** The two sides of a pair. Errors: INDEX. */

@@ -175,10 +175,15 @@ static ovoid_code check_hit(path_checker *x, const ovoid_robot_path_answer *answ
     size_t pairs = ovoid_robot_cell_get_pair_count(c);
     for (uint64_t i = 0; i < pairs; i++) {
         path_pair p = path_make_pair(&x->w, (uint32_t)i, x->states[1].frames);
-        if (!is_side(p.a, &answer->hit.a) || !is_side(p.b, &answer->hit.b)) continue;
+        if (!is_side(p.a, &answer->hit.a) || !is_side(p.b, &answer->hit.b) || !is_queried(x, (uint32_t)i)) continue;
         checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
         ovoid_answer is = ovoid_depth(&p.pair, NULL, NULL, NULL);
-        if (upper_outward(&outward, is.upper) <= x->options->check.margin) return OVOID_OK;
+        if (!(upper_outward(&outward, is.upper) <= x->options->check.margin)) break;
+        // The bracket that is claimed has something in common with the one found here.
+        if (answer->hit.lower <= upper_outward(&outward, is.upper) &&
+            answer->hit.upper >= lower_outward(&outward, is.lower) && answer->hit.upper <= x->options->check.margin)
+            return OVOID_OK;
+        return error_set(error, OVOID_ERROR_PROOF, -1, "the bracket of the hit is not that of its pair there");
     }
     return error_set(error, OVOID_ERROR_PROOF, -1, "the pair of the hit is not within the margin there");
 }

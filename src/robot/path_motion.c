@@ -229,8 +229,10 @@ void path_compute_state(path_work *w, const double *q0, const double *q1, double
 
 // ---- an interval
 
-// From the item up: each step moves what the steps before it have moved already. A point's distance from a joint's axis
-// changes by these alone.
+// From the item up. With T and S the motions of a step up to s and up to the middle, |T1 T2 x - S1 S2 x| <= |T2 x - S2
+// x|
+// + |T1 y - S1 y|, y = S2 x: to the first order each step moves the item from where it is in the middle. A point's
+// distance from a joint's axis at any s is that in the middle and what the steps before it move.
 //
 // The second derivative of a point by the values of joints i above j is a_i x (a_j x (x - o_j)), no longer than the
 // distance from axis j; for a j that slides, a_i x a_j; for an i that slides, zero.
@@ -247,9 +249,9 @@ static void set_motion(path_work *w, const link_frame *frames, uint32_t item, do
             vec3 d = vec3_sub(center, f->position), axis = mat3_mul_vec3(f->matrix, w->axes[link->step]);
             double far = vec3_norm(d), error = frame_error_at(&w->frame_errors[w->steps[link->step].child], far);
             double size = far + vec3_norm(center) + vec3_norm(f->position);
-            double radius =
-                ((vec3_norm(vec3_cross(axis, d)) + CELL_SLACK * size) + 2 * error + place->reach + moved) * UP;
-            moved = (moved + (half * v->turn + v->turn_slack) * radius) * UP;
+            double in_middle = ((vec3_norm(vec3_cross(axis, d)) + CELL_SLACK * size) + 2 * error + place->reach) * UP;
+            double radius = (in_middle + moved) * UP;
+            moved = (moved + (half * v->turn + v->turn_slack) * in_middle) * UP;
             curved = (curved + v->turn * (v->turn * radius + 2 * below)) * UP;
             rounded = (rounded + v->turn_slack * radius) * UP;
             below = (below + v->turn * radius) * UP;

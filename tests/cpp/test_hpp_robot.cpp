@@ -57,6 +57,8 @@ int main() {
     const auto path = checker.check_path({q.data(), 2}, 2, wanted);
     CHECK(path.status == OVOID_ROBOT_FREE && path.free_until == 1 && path.step_count > 0 && path.step_count <= 64);
     ovoid::check_robot_path(cell, {q.data(), 2}, 2, wanted, path, {steps, path.step_count});
+    const auto clearance = checker.compute_clearance({q.data(), 2}, 2);
+    CHECK(clearance.status == OVOID_ROBOT_FREE && clearance.lower > 0 && clearance.lower <= clearance.upper);
     cell.set_padding(1, 2);
     CHECK_EQ(checker.check({q.data(), 1}, options).status, OVOID_ROBOT_HIT);
     cell.set_body_allowed(wall, 1, true);

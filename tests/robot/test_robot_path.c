@@ -188,6 +188,14 @@ static void test_wrist(double turns, double at, double radius) {
     } else
         CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     CHECK_EQ(ovoid_robot_path_check(cell, &path, &o, &is, steps, &error), OVOID_OK);
+    // A hit is that of a pair which is queried, and its bracket is.
+    if (is.status == OVOID_ROBOT_HIT) {
+        ovoid_robot_path_answer other = is;
+        other.hit.lower = is.hit.upper + 1e-6, other.hit.upper = is.hit.upper + 2e-6;
+        CHECK_EQ(ovoid_robot_path_check(cell, &path, &o, &other, steps, &error), OVOID_ERROR_PROOF);
+        o.check.without_obstacles = 1;
+        CHECK_EQ(ovoid_robot_path_check(cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
+    }
     ovoid_robot_checker_destroy(x);
     ovoid_robot_cell_destroy(cell);
     ovoid_robot_destroy(r);

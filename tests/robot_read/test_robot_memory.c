@@ -6,6 +6,7 @@
 #include "files.h"
 
 #include "ovoid/robot_io.h"
+#include "ovoid/robot_proof.h"
 
 static void drop_note(void *context, const ovoid_robot_note *note) {
     (void)note;
@@ -47,6 +48,16 @@ static int find_problems(ovoid_error *error) {
     return p != NULL;
 }
 
+static int read_proofs(ovoid_error *error) {
+    ovoid_robot_proofs *proofs = ovoid_robot_proofs_create(file_path("proofs.jsonl"), error);
+    ovoid_robot_proof p;
+    int got = proofs ? ovoid_robot_proofs_read(proofs, &p, error) : -1;
+    CHECK(got != 0 &&
+          (got < 0 || (p.count == 2 && p.times[1] == 3 && p.steps[0].mask == 5 && p.steps[1].normal.x == 1)));
+    ovoid_robot_proofs_destroy(proofs);
+    return got > 0;
+}
+
 static const char urdf[] =
     "<robot name=\"r\"><material/>\n<link name=\"a\"><inertial/><collision name=\"x\"><geometry><box size=\"1 2 "
     "3\"/></geometry>"
@@ -69,6 +80,21 @@ static const char scene[] =
 static const char request[] = "start_state: {joint_state: {name: [a], position: [1]}}\ngroup_name: g\n"
                               "goal_constraints: [{joint_constraints: [{joint_name: a, position: 2}]}]\n";
 
+static const char proofs[] =
+    "{\"path_proofs\":1,\"robot\":\"r\",\"srdf\":null,\"scene\":\"s\",\"packages\":[\"a=b\"],\"scales\":[\"x=2\"],"
+    "\"paddings\":[],\"parts\":true,\"visual\":"
+    "false,"
+    "\"fixed_base\":false,\"cylinder_tolerance\":0,\"margin\":0,\"limit_slack\":0,\"paths\":1,"
+    "\"digest\":\"0123456789abcdef\",\"variables\":[\"x\",\"y\"],\"pairs\":[[{\"link\":\"a\",\"element\":0,\"name\":"
+    "\"n\"},"
+    "{\"obstacle\":\"o\",\"part\":1}]]}\n"
+    "{\"path\":0,\"status\":\"hit\",\"states\":2,\"margin\":0,\"free_until\":0,\"free_until_time\":1,\"hit_at\":0.5,"
+    "\"hit_at_time\":2,\"segment\":0,\"pair\":0,\"a\":{\"link\":\"a\",\"element\":0,\"name\":\"n\"},\"b\":{"
+    "\"obstacle\":\"o\","
+    "\"part\":1},\"lower\":null,\"upper\":0,\"looked_at\":1,\"steps\":2,\"q\":[[1,2],[3,4]],\"times\":[1,3]}\n"
+    "{\"step\":\"outer\",\"begin\":0,\"end\":1,\"pairs\":[4,6]}\n"
+    "{\"step\":\"ends\",\"begin\":0,\"end\":1,\"normal\":[1,0,0],\"pairs\":[0]}\n";
+
 int main(void) {
     mkdir(file_path("."), 0777);
     mkdir(file_path("deep"), 0777);
@@ -84,6 +110,8 @@ int main(void) {
     CHECK(notes > 0);
     check_operation("scene", 0, read_scene);
     check_operation("request", 0, read_request);
+    file_write_text("proofs.jsonl", proofs);
     check_operation("problems", 0, find_problems);
+    check_operation("proofs", 0, read_proofs);
     return check_end();
 }
