@@ -224,8 +224,7 @@ int main(int argc, char **argv) {
     if (how.stages) return !stages_run(&how.what);
     if (how.scale) return !scale_run(how.csv, how.svg, how.pairs, how.what.smoke);
     if (how.many) return !many_run(&how.crowd, how.csv, how.svg, how.alone);
-    if (how.robot)
-        return !robots_run_all(&how.robots, how.modules, how.module_count, how.csv, how.svg, how.alone);
+    if (how.robot) return !robots_run_all(&how.robots, how.modules, how.module_count, how.csv, how.svg, how.alone);
     for (uint32_t i = 0; i < how.module_count; i++)
         if (!field_load(&how.all, how.modules[i])) return 2;
     if (!how.alone) field_load_built(&how.all);

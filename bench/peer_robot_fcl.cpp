@@ -127,8 +127,7 @@ int is_hit(void *state, const double *, const ovoid_pose *links) {
     question q = {s, false, 0};
     place(s, links);
     s->own.collide(&q, collide_pair);
-    for (uint32_t i = 0; !q.is_hit && i < s->links.size(); i++)
-        s->around.collide(s->links[i].get(), &q, collide_pair);
+    for (uint32_t i = 0; !q.is_hit && i < s->links.size(); i++) s->around.collide(s->links[i].get(), &q, collide_pair);
     return q.is_hit;
 }
 

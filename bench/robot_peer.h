@@ -41,8 +41,8 @@ typedef struct robot_peer {
     int has_kinematics;                       ///< 1: it takes q and no poses
     void *(*create)(const robot_scene *what); ///< NULL: it does not know the robot, or cannot
     int (*is_hit)(void *self, const double *q, const ovoid_pose *links);
-    /// The segment from q0 to q1 at `count` states, evenly spaced, ends included, in the order that it likes best. NULL:
-    /// the benchmark asks is_hit from q0 on.
+    /// The segment from q0 to q1 at `count` states, evenly spaced, ends included, in the order that it likes best.
+    /// NULL: the benchmark asks is_hit from q0 on.
     int (*is_edge_hit)(void *self, const double *q0, const double *q1, uint32_t count);
     /// How many pairs are within the margin, each with its distance. NULL: it does not measure.
     uint32_t (*measure)(void *self, const double *q, const ovoid_pose *links);

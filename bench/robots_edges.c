@@ -69,8 +69,7 @@ static void prove(robots_run *run, robots_scene *s, edge *e, tally *to[2]) {
 
 static void place_sample(const machine *m, const edge *e, uint32_t i, double *q) {
     double t = (double)i / (e->samples - 1);
-    for (uint32_t k = 0; k < m->variable_count; k++)
-        q[k] = e->q[k] + t * (e->q[m->variable_count + k] - e->q[k]);
+    for (uint32_t k = 0; k < m->variable_count; k++) q[k] = e->q[k] + t * (e->q[m->variable_count + k] - e->q[k]);
 }
 
 /// How deep the hit is that samples may miss, in the states at the resolution times 8; and whether any truth speaks

@@ -124,8 +124,7 @@ static void print_tally(tally *t) {
     // timing_make has sorted the samples.
     double nine = t->samples[t->count * 9 / 10], last = t->samples[t->count * 99 / 100];
     printf("%38s 90 %%: %.4g, 99 %%: %.4g, most %.4g", "", nine, last, t->samples[t->count - 1]);
-    if (t->judged > 0)
-        printf("; of %.0f: missed %.0f, false alarms %.0f", t->judged, t->missed, t->false_alarms);
+    if (t->judged > 0) printf("; of %.0f: missed %.0f, false alarms %.0f", t->judged, t->missed, t->false_alarms);
     if (t->depth_count) {
         qsort(t->depths, t->depth_count, sizeof *t->depths, compare_numbers);
         printf("; missed by %.2g mm in the middle, at most %.2g mm", 1e3 * t->depths[t->depth_count / 2],

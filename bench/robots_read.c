@@ -300,8 +300,15 @@ int machine_make_pair(machine *m, const machine *one) {
     ovoid_robot_description d = ovoid_robot_get_description(one->robot);
     twins t = {0};
     if (twins_fill(&t, &d, ovoid_robot_get_root(one->robot))) {
-        ovoid_robot_description both = {m->name,    t.links,    2 * d.link_count + 1, t.joints,   2 * d.joint_count + 2,
-                                        t.elements, 2 * d.element_count, t.disabled, 2 * d.disabled_count};
+        ovoid_robot_description both = {m->name,
+                                        t.links,
+                                        2 * d.link_count + 1,
+                                        t.joints,
+                                        2 * d.joint_count + 2,
+                                        t.elements,
+                                        2 * d.element_count,
+                                        t.disabled,
+                                        2 * d.disabled_count};
         m->robot = ovoid_robot_create(&both, NULL, NULL);
     }
     free(t.links);
@@ -386,7 +393,8 @@ void robots_scene_destroy(robots_scene *s, machine *m) {
     for (uint32_t i = 0; i < s->made_count; i++) ovoid_shape_destroy(s->made[i]);
     // Solids of the scene go; those of the robot, which come first, stay.
     uint32_t own = 0;
-    for (uint32_t i = 0; i < m->element_count; i++) own = m->elements[i].solid + 1 > own ? m->elements[i].solid + 1 : own;
+    for (uint32_t i = 0; i < m->element_count; i++)
+        own = m->elements[i].solid + 1 > own ? m->elements[i].solid + 1 : own;
     drop_solids(m, own);
     *s = (robots_scene){0};
 }
