@@ -140,6 +140,9 @@ void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t 
     double *q = malloc(sizeof *q * 3 * (m->variable_count + 1));
     ovoid_pose *links = malloc(sizeof *links * m->link_count);
     edge e = {.q = q};
+    // The first search makes the checker's memory for paths.
+    if (q && links && draw_edge(run, s, &e, 0.1))
+        (void)ovoid_robot_check_path(s->checker, &(ovoid_robot_path){q, 2}, NULL, &e.is, NULL);
     for (uint32_t i = 0; q && links && i < 3 * run->plan->edges; i++) {
         uint32_t length = i % 3;
         if (!draw_edge(run, s, &e, lengths[length])) break;
