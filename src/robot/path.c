@@ -110,7 +110,8 @@ static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t nu
     path_pair p = path_make_pair(s->w, number, i->middle->frames);
     checker_pair known = get_checker_pair(s, number, &p);
     const ovoid_proof *earlier = pair_get_earlier(s->checker, &known);
-    if (earlier && is_proven_earlier(s, i, number, &p, earlier->normal)) return PAIR_APART;
+    int is_known = *known.mark == s->checker->generation;
+    if (is_known && is_proven_earlier(s, i, number, &p, known.proof->normal)) return PAIR_APART;
     // A normal need not be better than the motion lets it count.
     const ovoid_options capped = {.cap = add_up(add_up(s->margin, p.padding, p.error), p.motion.moved, 0),
                                   .absolute_tolerance = 0.05 * p.motion.moved};
