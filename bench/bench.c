@@ -5,6 +5,7 @@
 #include "many.h"
 #include "ours.h"
 #include "plan.h"
+#include "robots.h"
 #include "scale.h"
 #include "stages.h"
 #include "standing.h"
@@ -24,13 +25,15 @@ static const char help[] =
     "  --csv FILE       all numbers\n"
     "  --svg FILE       a plot of them\n"
     "  --data FOLDER    where pieces/game_hulls.bin is (OVOID_DATA, else ../shared/data)\n"
-    "  --peer FILE      a module with one more peer (bench/peer.h); may be repeated\n"
+    "  --peer FILE      a module with one more peer (bench/peer.h; with --robot bench/robot_peer.h); may be repeated\n"
     "  --alone          without the peers built beside it\n"
     "  --stages         instead: which stage decides how many pairs, at what cost; spheres and boxes beside "
     "ellipsoids\n"
     "  --scale          instead: cost over vertices, pairs and threads; memory and set-up of a shape\n"
     "  --many           instead: frames of many moving bodies; a robot among parts, for a planner and a monitor\n"
     "  --bodies N,...   with --many: numbers of bodies (1000,10000,100000)\n"
+    "  --robot          instead: robots of the data folder among obstacles: states, edges, monitor, matrix\n"
+    "  --scenes N       with --robot: most scenes of a robot (700)\n"
     "  --pairs N        with --scale: most pairs of a batch (1000000)\n"
     "  --help           this\n"
     "\n"
@@ -42,7 +45,10 @@ typedef struct settings {
     effort much;
     field all;
     const char *csv, *svg;
-    int alone, stages, scale, many;
+    int alone, stages, scale, many, robot;
+    const char *modules[ROBOT_PEERS_MOST];
+    uint32_t module_count;
+    robots_plan robots;
     uint32_t pairs;
     many_plan crowd;
 } settings;
@@ -131,11 +137,18 @@ static int read_count(const char *text, uint32_t *count) {
     return *text && !*end && n >= 2 && n <= 100000000;
 }
 
+/// A module is loaded once it is known what it is asked.
+static int add_module(settings *how, const char *path) {
+    if (how->module_count == ROBOT_PEERS_MOST) return 0;
+    how->modules[how->module_count++] = path;
+    return 1;
+}
+
 /// An option with its value; 0 where it is none.
 static int read_valued(settings *how, const char *name, const char *value) {
     if (!value) return 0;
     if (!strcmp(name, "--workload"))
-        how->crowd.only = how->what.only = value;
+        how->robots.only = how->crowd.only = how->what.only = value;
     else if (!strcmp(name, "--sizes"))
         return read_list(value, how->what.sizes, SIZES_MOST, &how->what.size_count);
     else if (!strcmp(name, "--bodies"))
@@ -149,9 +162,11 @@ static int read_valued(settings *how, const char *name, const char *value) {
     else if (!strcmp(name, "--svg"))
         how->svg = value;
     else if (!strcmp(name, "--data"))
-        how->crowd.data = how->what.data = value;
+        how->robots.data = how->crowd.data = how->what.data = value;
     else if (!strcmp(name, "--peer"))
-        return field_load(&how->all, value);
+        return add_module(how, value);
+    else if (!strcmp(name, "--scenes"))
+        return read_count(value, &how->robots.scenes);
     else if (!strcmp(name, "--pairs"))
         return read_count(value, &how->pairs);
     else
@@ -169,6 +184,8 @@ static int read_switch(settings *how, const char *name) {
         how->scale = 1;
     else if (!strcmp(name, "--many"))
         how->many = 1;
+    else if (!strcmp(name, "--robot"))
+        how->robot = 1;
     else if (!strcmp(name, "--smoke")) {
         how->what.smoke = 1;
         how->what.count = 10;
@@ -176,6 +193,7 @@ static int read_switch(settings *how, const char *name) {
         how->much = (effort){0, 1};
         how->pairs = 100;
         how->crowd = many_plan_make_smoke();
+        how->robots = robots_plan_make_smoke();
     } else
         return 0;
     return 1;
@@ -187,8 +205,9 @@ int main(int argc, char **argv) {
                     .much = {1.5, 5},
                     .all = field_make(),
                     .pairs = 1000000,
-                    .crowd = many_plan_make()};
-    how.crowd.data = how.what.data;
+                    .crowd = many_plan_make(),
+                    .robots = robots_plan_make()};
+    how.robots.data = how.crowd.data = how.what.data;
     for (int i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {
             (void)fputs(help, stdout);
@@ -205,6 +224,9 @@ int main(int argc, char **argv) {
     if (how.stages) return !stages_run(&how.what);
     if (how.scale) return !scale_run(how.csv, how.svg, how.pairs, how.what.smoke);
     if (how.many) return !many_run(&how.crowd, how.csv, how.svg, how.alone);
+    if (how.robot) return !robots_run_all(&how.robots, how.modules, how.module_count, how.csv, how.svg, how.alone);
+    for (uint32_t i = 0; i < how.module_count; i++)
+        if (!field_load(&how.all, how.modules[i])) return 2;
     if (!how.alone) field_load_built(&how.all);
     return !run_table(&how);
 }

@@ -75,7 +75,8 @@ typedef struct ovoid_robot_path_answer {
  * of robot paths, 2002, bound how far bodies move; here each bound counts the joints between the two bodies alone,
  * holds with rounding, and has a second order along one normal. A segment along which a floating joint turns is refused
  * (ARGUMENT), as a quaternion's numbers are no motion. Errors: ARGUMENT (options, no states, too many), MEMORY; then
- * *answer is UNDECIDED. Cost: some tens of states a segment.
+ * *answer is UNDECIDED. The checker keeps the search's memory: only the first path after a change of the
+ * cell allocates. Cost: some tens of states a segment.
  */
 OVOID_API ovoid_code ovoid_robot_check_path(ovoid_robot_checker *checker, const ovoid_robot_path *path,
                                             const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,

@@ -132,8 +132,8 @@ static ovoid_code check_body(const ovoid_body *body, ovoid_error *error) {
 // A free slot; it is used only once the body has its place.
 static ovoid_code find_slot(ovoid_robot_cell *c, uint32_t *slot) {
     cell_body *bodies = c->bodies.items;
-    for (uint32_t i = 0; i < c->bodies.count; i++)
-        if (!bodies[i].is_used) return *slot = i, OVOID_OK;
+    for (; c->used < c->bodies.count; c->used++)
+        if (!bodies[c->used].is_used) return *slot = c->used, OVOID_OK;
     if (!cell_reserve(&c->allocator, &c->bodies, c->bodies.count + 1, sizeof(cell_body))) return OVOID_ERROR_MEMORY;
     *slot = (uint32_t)c->bodies.count++;
     ((cell_body *)c->bodies.items)[*slot] = (cell_body){.generation = 0};
@@ -163,7 +163,7 @@ static ovoid_id add(ovoid_robot_cell *c, uint32_t link, const ovoid_body *body, 
         for (size_t i = 0; code == OVOID_OK && i < count; i++)
             code = keys_set(&c->allocator, &c->allowed_bodies, cell_make_key(slot, touching[i]), 1);
         if (code == OVOID_OK) {
-            code = cell_compile(c, error);
+            code = link == OVOID_ROBOT_NONE ? cell_append_obstacle(c, slot, error) : cell_compile(c, error);
             if (code == OVOID_OK) return cell_make_id(slot, b->generation);
         }
         ((cell_body *)c->bodies.items)[slot].is_used = 0;
@@ -201,8 +201,10 @@ static cell_body *find_body(ovoid_robot_cell *c, ovoid_id id, ovoid_error *error
 static ovoid_code remove_body(ovoid_robot_cell *c, ovoid_id id, ovoid_error *error) {
     cell_body *b = find_body(c, id, error);
     if (!b) return OVOID_ERROR_INDEX;
+    uint32_t slot = (uint32_t)(id >> 32);
     b->is_used = 0;
-    forget_allowed(c, (uint32_t)(id >> 32));
+    c->used = slot < c->used ? slot : c->used;
+    forget_allowed(c, slot);
     return cell_compile(c, error);
 }
 
@@ -249,10 +251,14 @@ ovoid_code ovoid_robot_cell_set_allowed(ovoid_robot_cell *cell, uint32_t a, uint
 static ovoid_code set_body_allowed(ovoid_robot_cell *c, ovoid_id id, uint32_t link, int allowed, ovoid_error *error) {
     ovoid_code code = check_link(c, link, error);
     if (code != OVOID_OK) return code;
-    if (!find_body(c, id, error)) return OVOID_ERROR_INDEX;
+    const cell_body *b = find_body(c, id, error);
+    if (!b) return OVOID_ERROR_INDEX;
     code = keys_set(&c->allocator, &c->allowed_bodies, cell_make_key((uint32_t)(id >> 32), link), allowed);
     if (code != OVOID_OK) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a pair");
-    return cell_compile(c, error);
+    if (b->link != OVOID_ROBOT_NONE || !c->is_whole) return cell_compile(c, error);
+    // Of an obstacle the arrays stay as they are.
+    c->version++;
+    return OVOID_OK;
 }
 
 ovoid_code ovoid_robot_cell_set_body_allowed(ovoid_robot_cell *cell, ovoid_id id, uint32_t link, int allowed,

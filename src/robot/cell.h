@@ -69,6 +69,7 @@ struct ovoid_robot_cell {
     ovoid_allocator allocator;
     uint64_t version;          ///< changes with everything that checkers keep memory for
     uint64_t moved;            ///< changes where an obstacle moves
+    uint32_t used;             ///< all slots before this one are used
     int is_whole;              ///< 0: memory ended while the arrays were made; nothing is said of a state
     cell_array bodies;         ///< cell_body
     cell_array allowed_links;  ///< keys of two links, sorted
@@ -102,6 +103,9 @@ ovoid_code keys_set(const ovoid_allocator *memory, cell_array *keys, uint64_t ke
 
 /// Compiles items, parts, boxes, pairs and steps anew. MEMORY, LIMIT: they are not to be used.
 ovoid_code cell_compile(ovoid_robot_cell *cell, ovoid_error *error);
+/// Appends the parts of the obstacle in a slot that is new; where it is the last slot that costs as much as its parts.
+/// The codes of cell_compile.
+ovoid_code cell_append_obstacle(ovoid_robot_cell *cell, uint32_t slot, ovoid_error *error);
 /// Makes the boxes of all parts anew, from where they are.
 void cell_place_parts(ovoid_robot_cell *cell);
 

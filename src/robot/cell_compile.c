@@ -175,19 +175,23 @@ static void add_steps(compiler *x) {
 
 // ---- parts of obstacles
 
+static void add_parts_of(compiler *x, uint32_t slot) {
+    const cell_body *b = &cell_bodies(x->cell)[slot];
+    ovoid_robot_side side = {OVOID_ROBOT_NONE, OVOID_ROBOT_NONE, cell_make_id(slot, b->generation), 0};
+    size_t count = b->body.shape ? 1 : ovoid_compound_get_part_count(b->body.compound);
+    for (size_t i = 0; i < count; i++) {
+        ovoid_posed_shape posed = {b->body.shape, b->body.pose};
+        if (!b->body.shape) posed = ovoid_compound_get_part(b->body.compound, i);
+        side.part = (uint32_t)i;
+        cell_part part = {.shape = posed.shape, .pose = posed.pose, .side = side};
+        append(x, &x->cell->parts, &part, sizeof part);
+    }
+}
+
 static void add_parts(compiler *x) {
     for (uint32_t slot = 0; x->has_memory && slot < x->cell->bodies.count; slot++) {
         const cell_body *b = &cell_bodies(x->cell)[slot];
-        if (!b->is_used || b->link != OVOID_ROBOT_NONE) continue;
-        ovoid_robot_side side = {OVOID_ROBOT_NONE, OVOID_ROBOT_NONE, cell_make_id(slot, b->generation), 0};
-        size_t count = b->body.shape ? 1 : ovoid_compound_get_part_count(b->body.compound);
-        for (size_t i = 0; i < count; i++) {
-            ovoid_posed_shape posed = {b->body.shape, b->body.pose};
-            if (!b->body.shape) posed = ovoid_compound_get_part(b->body.compound, i);
-            side.part = (uint32_t)i;
-            cell_part part = {.shape = posed.shape, .pose = posed.pose, .side = side};
-            append(x, &x->cell->parts, &part, sizeof part);
-        }
+        if (b->is_used && b->link == OVOID_ROBOT_NONE) add_parts_of(x, slot);
     }
 }
 
@@ -209,10 +213,10 @@ static void put_box(box8 *group, uint32_t lane, const oriented_box *b) {
     group->column[BOX8_RADIUS][lane] += CELL_SLACK * vec3_sum_abs(b->center);
 }
 
-void cell_place_parts(ovoid_robot_cell *c) {
+static void place_parts(ovoid_robot_cell *c, uint32_t first) {
     cell_part *parts = c->parts.items;
     box8 *boxes = c->boxes.items;
-    for (uint32_t i = 0; i < c->parts.count; i++) {
+    for (uint32_t i = first; i < c->parts.count; i++) {
         const cell_body *b = &cell_bodies(c)[parts[i].side.body >> 32];
         parts[i].pose = b->body.pose;
         if (b->body.compound) {
@@ -224,13 +228,17 @@ void cell_place_parts(ovoid_robot_cell *c) {
     }
 }
 
-static ovoid_code place_all_parts(ovoid_robot_cell *c) {
+void cell_place_parts(ovoid_robot_cell *c) { place_parts(c, 0); }
+
+// The boxes of the parts from `first` on, to which those before have theirs.
+static ovoid_code place_new_parts(ovoid_robot_cell *c, uint32_t first) {
     size_t groups = (c->parts.count + ROBOT8 - 1) / ROBOT8;
     if (!cell_reserve(&c->allocator, &c->boxes, groups, sizeof(box8))) return OVOID_ERROR_MEMORY;
-    c->boxes.count = groups;
     box8 *boxes = c->boxes.items;
-    if (groups) boxes[groups - 1] = (box8){0}; // its places beyond the last part are not looked at
-    cell_place_parts(c);
+    // The places beyond the last part are not looked at.
+    for (size_t i = c->boxes.count; i < groups; i++) boxes[i] = (box8){0};
+    c->boxes.count = groups;
+    place_parts(c, first);
     return OVOID_OK;
 }
 
@@ -307,11 +315,24 @@ ovoid_code cell_compile(ovoid_robot_cell *c, ovoid_error *error) {
     add_groups(&x);
     add_steps(&x);
     add_parts(&x);
-    ovoid_code code = x.has_memory ? place_all_parts(c) : OVOID_ERROR_MEMORY;
+    ovoid_code code = x.has_memory ? place_new_parts(c, 0) : OVOID_ERROR_MEMORY;
     if (code == OVOID_OK) code = find_pairs(&x);
     if (code == OVOID_ERROR_LIMIT)
         return error_set(error, code, -1, "more than %d pairs of elements are to be queried", (int)PAIRS_MOST);
     if (!x.has_memory || code != OVOID_OK)
+        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the bodies of the cell");
+    c->is_whole = 1;
+    return OVOID_OK;
+}
+
+ovoid_code cell_append_obstacle(ovoid_robot_cell *c, uint32_t slot, ovoid_error *error) {
+    if (!c->is_whole || slot + 1 != c->bodies.count) return cell_compile(c, error);
+    c->version++;
+    c->is_whole = 0;
+    compiler x = {c, 1};
+    uint32_t first = (uint32_t)c->parts.count;
+    add_parts_of(&x, slot);
+    if (!x.has_memory || place_new_parts(c, first) != OVOID_OK)
         return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the bodies of the cell");
     c->is_whole = 1;
     return OVOID_OK;

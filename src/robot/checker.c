@@ -14,6 +14,7 @@ static void release_all(ovoid_robot_checker *x) {
                    x->places,     x->errors,  x->group_errors, x->part_proofs, x->pair_proofs, x->part_marks,
                    x->pair_marks, x->values8, x->frames8,      x->centers8};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&x->allocator, all[i]);
+    path_memory_destroy(x->path);
     *x = (ovoid_robot_checker){.cell = x->cell, .allocator = x->allocator, .kernels = x->kernels};
 }
 

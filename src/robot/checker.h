@@ -32,6 +32,10 @@ typedef struct pair_name {
     uint32_t index; ///< the part, or the pair of items; NONE: there is none
 } pair_name;
 
+/// What the checker's searches of paths work with; made by the first of them.
+typedef struct path_memory path_memory;
+void path_memory_destroy(path_memory *memory);
+
 struct ovoid_robot_checker {
     const ovoid_robot_cell *cell;
     ovoid_allocator allocator;
@@ -56,6 +60,7 @@ struct ovoid_robot_checker {
     double *group_errors;             ///< the same of each group's
     ovoid_proof *part_proofs;         ///< of item i and part k at i part_count + k
     ovoid_proof *pair_proofs;         ///< of each pair of items
+    path_memory *path;                ///< NULL: no path was searched since the cell has changed
 };
 
 /// Makes the checker's memory fit its cell; all is forgotten where that has changed.

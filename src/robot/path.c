@@ -13,18 +13,25 @@
 enum { LEVELS = 31 }; // so begin, end and middle of an interval are exact numbers
 
 // What is between the bits of the masks: eights of parts for each item, then eights of pairs of items.
-typedef struct path_search {
+struct path_memory {
     path_work w;
+    uint32_t groups;
+    size_t mask_count, state_size;
+    uint8_t *masks;   // of each level
+    uint8_t *is_open; // of each item: it has open pairs
+    char *states;     // the middle's of each level, then those of the segment's ends, and of a state ahead
+};
+
+typedef struct path_search {
+    path_work *w;
+    const path_memory *memory;
     ovoid_robot_checker *checker;
     const ovoid_robot_path_options *options;
     ovoid_robot_path_answer *answer;
     const double *q0, *q1;
     double segment, margin, tolerance;
-    uint32_t states_most, groups;
-    size_t mask_count, state_size;
-    uint8_t *masks; // of each level
-    char *states;   // the middle's of each level, then those of the segment's ends, and of a state ahead
-    int is_still;   // the segment's states are one
+    uint32_t states_most;
+    int is_still; // the segment's states are one
 } path_search;
 
 // ---- steps
@@ -46,7 +53,7 @@ static void take_answer(path_search *s, const path_pair *p, ovoid_robot_status s
 
 static checker_pair get_checker_pair(const path_search *s, uint32_t number, const path_pair *p) {
     ovoid_robot_checker *x = s->checker;
-    pair_parts of = pair_take_apart(s->w.cell, number);
+    pair_parts of = pair_take_apart(s->w->cell, number);
     int is_part = of.part != OVOID_ROBOT_NONE;
     ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
     uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
@@ -56,17 +63,17 @@ static checker_pair get_checker_pair(const path_search *s, uint32_t number, cons
 
 // 1 where the interval's ends and the second order prove it along the normal.
 static int is_free_by_ends(path_search *s, const path_span *i, uint32_t number, const path_pair *p, vec3 normal) {
-    path_pair at_begin = path_make_pair(&s->w, number, i->at_begin->frames),
-              at_end = path_make_pair(&s->w, number, i->at_end->frames);
-    double begin = path_measure(&s->w, &at_begin, i->at_begin->frames, normal) - p->motion.rounded;
+    path_pair at_begin = path_make_pair(s->w, number, i->at_begin->frames),
+              at_end = path_make_pair(s->w, number, i->at_end->frames);
+    double begin = path_measure(s->w, &at_begin, i->at_begin->frames, normal) - p->motion.rounded;
     if (!(begin > s->margin)) return 0;
-    double end = path_measure(&s->w, &at_end, i->at_end->frames, normal) - p->motion.rounded;
+    double end = path_measure(s->w, &at_end, i->at_end->frames, normal) - p->motion.rounded;
     return path_is_free_between(begin, end, s->margin, p->motion.curved, i->end - i->begin);
 }
 
 // 1 where the gap along the normal in the middle proves the interval.
 static int is_free_by_middle(const path_search *s, const path_span *i, const path_pair *p, vec3 normal) {
-    return path_is_above(path_measure(&s->w, p, i->middle->frames, normal), s->margin, p->motion.moved);
+    return path_is_above(path_measure(s->w, p, i->middle->frames, normal), s->margin, p->motion.moved);
 }
 
 // What the ends may give: less than the second order takes away in between, and there is no use in measuring them.
@@ -88,14 +95,27 @@ static int is_proven(path_search *s, const path_span *i, uint32_t number, const 
     return 1;
 }
 
+// Along what parted the pair in an earlier interval.
+static int is_proven_earlier(path_search *s, const path_span *i, uint32_t number, const path_pair *p, vec3 world) {
+    vec3 normal = path_turn_back(p, i->middle->frames, world);
+    if (!is_free_by_ends(s, i, number, p, normal)) return 0;
+    add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal);
+    return 1;
+}
+
 typedef enum pair_outcome { PAIR_APART, PAIR_LEFT, PAIR_HIT } pair_outcome;
 
 // In the middle: apart by more than the motion, or along one normal at both ends, or left open, or a hit.
 static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t number) {
-    path_pair p = path_make_pair(&s->w, number, i->middle->frames);
+    path_pair p = path_make_pair(s->w, number, i->middle->frames);
     checker_pair known = get_checker_pair(s, number, &p);
-    const ovoid_options capped = {.cap = add_up(add_up(s->margin, p.padding, p.error), p.motion.moved, 0)};
-    ovoid_answer is = ovoid_distance(&p.pair, &capped, pair_get_earlier(s->checker, &known));
+    const ovoid_proof *earlier = pair_get_earlier(s->checker, &known);
+    int is_known = *known.mark == s->checker->generation;
+    if (is_known && is_proven_earlier(s, i, number, &p, known.proof->normal)) return PAIR_APART;
+    // A normal need not be better than the motion lets it count.
+    const ovoid_options capped = {.cap = add_up(add_up(s->margin, p.padding, p.error), p.motion.moved, 0),
+                                  .absolute_tolerance = 0.05 * p.motion.moved};
+    ovoid_answer is = ovoid_distance(&p.pair, &capped, earlier);
     pair_remember(s->checker, &known, &is.proof);
     if (is_proven(s, i, number, &p, &is)) return PAIR_APART;
     double upper = upper_outward(&known, is.upper);
@@ -110,11 +130,12 @@ static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t nu
 }
 
 static pair_outcome test_pair(path_search *s, const path_span *i, uint32_t number) {
-    // The bodies hold their spheres' centres, or nearly: no query can show more than these are apart.
-    pair_parts of = pair_take_apart(s->w.cell, number);
-    if (path_get_center_distance(&s->w, &of) < path_get_motion(&s->w, &of).moved) return PAIR_LEFT;
+    // The bodies hold their spheres' centres, or nearly: no query can show more than these are apart. Where that is not
+    // well above the motion, half the interval is the cheaper question.
+    pair_parts of = pair_take_apart(s->w->cell, number);
+    if (path_get_center_distance(s->w, &of) < 2 * path_get_motion(s->w, &of).moved) return PAIR_LEFT;
     vec3 normal = {0, 0, 0};
-    switch (path_test_boxes(&s->w, number, i, s->margin, &normal)) {
+    switch (path_test_boxes(s->w, number, i, s->margin, &normal)) {
     case PATH_BOXES_FAR: add_step(s, i, number, OVOID_ROBOT_STEP_OUTER, 1, (vec3){0, 0, 0}); return PAIR_APART;
     case PATH_BOXES_PART: add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal); return PAIR_APART;
     default: return test_exactly(s, i, number);
@@ -141,7 +162,7 @@ static unsigned find_far_pairs(const path_search *s, uint32_t first, unsigned ma
     unsigned far = 0;
     for (unsigned rest = mask; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        far |= (unsigned)path_is_far_pair(&s->w, first + k, s->margin) << k;
+        far |= (unsigned)path_is_far_pair(s->w, first + k, s->margin) << k;
     }
     return far;
 }
@@ -152,17 +173,18 @@ typedef struct open_count {
 } open_count;
 
 static open_count test_all(path_search *s, const path_span *i, uint8_t *masks) {
-    const ovoid_robot_cell *c = s->w.cell;
+    const ovoid_robot_cell *c = s->w->cell;
     open_count is = {0, 0};
     uint32_t parts = (uint32_t)(c->items.count * c->parts.count);
-    for (uint32_t k = 0; !is.is_hit && k < s->mask_count; k++) {
+    for (uint32_t k = 0; !is.is_hit && k < s->memory->mask_count; k++) {
         if (!masks[k]) continue;
-        uint32_t item = k / (s->groups ? s->groups : 1), group = s->groups ? k % s->groups : 0;
-        if (item < c->items.count && s->groups) {
-            unsigned far = path_find_far_parts(&s->w, item, group, s->margin);
+        uint32_t item = k / (s->memory->groups ? s->memory->groups : 1),
+                 group = s->memory->groups ? k % s->memory->groups : 0;
+        if (item < c->items.count && s->memory->groups) {
+            unsigned far = path_find_far_parts(s->w, item, group, s->margin);
             is.is_hit = test_mask(s, i, &masks[k], item * (uint32_t)c->parts.count + group * ROBOT8, far);
         } else {
-            uint32_t first = ROBOT8 * (k - (uint32_t)c->items.count * s->groups);
+            uint32_t first = ROBOT8 * (k - (uint32_t)c->items.count * s->memory->groups);
             is.is_hit = test_mask(s, i, &masks[k], parts + first, find_far_pairs(s, first, masks[k]));
         }
         is.left |= masks[k];
@@ -173,9 +195,11 @@ static open_count test_all(path_search *s, const path_span *i, uint8_t *masks) {
 // ---- intervals
 
 static path_state get_state(const path_search *s, uint32_t level) {
-    return path_place_state(s->w.cell, s->states + level * s->state_size);
+    return path_place_state(s->w->cell, s->memory->states + level * s->memory->state_size);
 }
-static uint8_t *get_masks(const path_search *s, uint32_t level) { return s->masks + level * s->mask_count; }
+static uint8_t *get_masks(const path_search *s, uint32_t level) {
+    return s->memory->masks + level * s->memory->mask_count;
+}
 
 // Is the state at t a hit? Its pair is then the answer's.
 static int is_hit_at(path_search *s, double t, const path_state *state) {
@@ -184,9 +208,11 @@ static int is_hit_at(path_search *s, double t, const path_state *state) {
     at.answer = &answer;
     at.options = &(const ovoid_robot_path_options){.check = s->options->check};
     path_span i = {t, t, state, state, state};
-    path_set_interval(&s->w, state, 0);
+    // Only the boxes of items with open pairs have been placed.
+    for (uint32_t k = 0; k < s->w->cell->items.count; k++) path_place_item(s->w, state, k);
+    path_set_interval(s->w, state, 0);
     uint8_t *masks = get_masks(s, LEVELS);
-    memcpy(masks, get_masks(s, 0), s->mask_count);
+    memcpy(masks, get_masks(s, 0), s->memory->mask_count);
     if (!test_all(&at, &i, masks).is_hit) return 0;
     s->answer->hit = answer.hit;
     return 1;
@@ -197,7 +223,7 @@ static void look_ahead(path_search *s, double from) {
     path_state state = get_state(s, LEVELS + 2);
     for (double by = s->tolerance; by <= AHEAD && from + by <= 1; by *= 2) {
         s->answer->states++;
-        path_compute_state(&s->w, s->q0, s->q1, from + by, &state);
+        path_compute_state(s->w, s->q0, s->q1, from + by, &state);
         if (!is_hit_at(s, from + by, &state)) continue;
         s->answer->hit_at = s->segment + (from + by);
         return;
@@ -221,6 +247,27 @@ static void end_at(path_search *s, const path_span *i, int is_hit) {
     if (a->status == OVOID_ROBOT_HIT) a->hit.status = OVOID_ROBOT_HIT;
 }
 
+// Where the items are that have open pairs, and how they move.
+static void place_open(path_search *s, const uint8_t *masks, const path_state *state, double half) {
+    const ovoid_robot_cell *c = s->w->cell;
+    uint32_t items = (uint32_t)c->items.count, first = items * s->memory->groups;
+    for (uint32_t i = 0; i < items; i++) {
+        uint8_t any = 0;
+        for (uint32_t k = 0; k < s->memory->groups; k++) any |= masks[i * s->memory->groups + k];
+        s->memory->is_open[i] = any != 0;
+    }
+    for (uint32_t k = first; k < s->memory->mask_count; k++)
+        for (unsigned rest = masks[k]; rest; rest &= rest - 1) {
+            item_pair p = cell_pairs(c)[ROBOT8 * (k - first) + compiler_count_low_zeros(rest)];
+            s->memory->is_open[p.a] = s->memory->is_open[p.b] = 1;
+        }
+    for (uint32_t i = 0; i < items; i++) {
+        if (!s->memory->is_open[i]) continue;
+        path_place_item(s->w, state, i);
+        path_set_item(s->w, state, i, half);
+    }
+}
+
 // 1 where all pairs that are open at the level are proven apart in the interval; 0: the search has ended.
 static int visit(path_search *s, uint32_t level, double begin, double end, const path_state *at_begin,
                  const path_state *at_end) {
@@ -234,9 +281,9 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
         return 0;
     }
     a->states++;
-    path_compute_state(&s->w, s->q0, s->q1, middle, &state);
-    path_set_interval(&s->w, &state, 0.5 * (end - begin));
+    path_compute_frames(s->w, s->q0, s->q1, middle, &state);
     uint8_t *masks = get_masks(s, level);
+    place_open(s, masks, &state, 0.5 * (end - begin));
     ovoid_robot_answer known = a->hit;
     open_count is = test_all(s, &i, masks);
     if (!is.is_hit && !is.left) {
@@ -252,9 +299,9 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
         end_at(s, &i, is.is_hit);
         return 0;
     }
-    memcpy(get_masks(s, level + 1), masks, s->mask_count);
+    memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
     if (!visit(s, level + 1, begin, middle, at_begin, &state) || is.is_hit) return 0;
-    memcpy(get_masks(s, level + 1), masks, s->mask_count);
+    memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
     return visit(s, level + 1, middle, end, &state, at_end);
 }
 
@@ -262,24 +309,25 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
 
 // All pairs that are queried, at level 0.
 static void open_all(path_search *s) {
-    const ovoid_robot_cell *c = s->w.cell;
+    const ovoid_robot_cell *c = s->w->cell;
     const ovoid_robot_check_options *o = &s->options->check;
     uint8_t *masks = get_masks(s, 0);
-    memset(masks, 0, s->mask_count);
+    memset(masks, 0, s->memory->mask_count);
     for (uint32_t item = 0; !o->without_obstacles && item < c->items.count; item++)
         for (uint32_t part = 0; part < c->parts.count; part++)
-            masks[item * s->groups + part / ROBOT8] |= (uint8_t)(path_is_queried(&s->w, item, part) << part % ROBOT8);
+            masks[item * s->memory->groups + part / ROBOT8] |=
+                (uint8_t)(path_is_queried(s->w, item, part) << part % ROBOT8);
     for (uint32_t k = 0; !o->without_self && k < c->pairs.count; k++)
-        masks[c->items.count * s->groups + k / ROBOT8] |= (uint8_t)(1u << k % ROBOT8);
+        masks[c->items.count * s->memory->groups + k / ROBOT8] |= (uint8_t)(1u << k % ROBOT8);
 }
 
 static int run_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
-    size_t count = s->w.cell->robot->variable_count;
+    size_t count = s->w->cell->robot->variable_count;
     ovoid_robot_path_answer *a = s->answer;
     s->q0 = path->states + index * count;
     s->q1 = index + 1 < path->count ? s->q0 + count : s->q0;
     s->segment = (double)index;
-    ovoid_code code = path_set_segment(&s->w, s->q0, s->q1, s->options->check.limit_slack, refused);
+    ovoid_code code = path_set_segment(s->w, s->q0, s->q1, s->options->check.limit_slack, refused);
     if (code != OVOID_OK) {
         a->status = OVOID_ROBOT_REFUSED;
         a->hit.status = OVOID_ROBOT_REFUSED;
@@ -288,10 +336,10 @@ static int run_segment(path_search *s, size_t index, const ovoid_robot_path *pat
         a->refused = index;
         return 0;
     }
-    s->is_still = path_is_still(&s->w);
+    s->is_still = path_is_still(s->w);
     path_state begin = get_state(s, LEVELS), end = get_state(s, LEVELS + 1);
-    path_compute_state(&s->w, s->q0, s->q1, 0, &begin);
-    path_compute_state(&s->w, s->q0, s->q1, 1, &end);
+    path_compute_state(s->w, s->q0, s->q1, 0, &begin);
+    path_compute_state(s->w, s->q0, s->q1, 1, &end);
     open_all(s);
     if (!visit(s, 0, 0, 1, &begin, &end)) return 0;
     a->free_until = index + 1 < path->count ? s->segment + 1 : s->segment;
@@ -308,15 +356,44 @@ static ovoid_code check_options(const ovoid_robot_path *path, const ovoid_robot_
     return OVOID_OK;
 }
 
-static ovoid_code allocate(path_search *s, ovoid_error *error) {
-    const ovoid_robot_cell *c = s->w.cell;
-    s->groups = (uint32_t)c->boxes.count;
-    s->mask_count = c->items.count * s->groups + (c->pairs.count + ROBOT8 - 1) / ROBOT8;
-    s->state_size = path_get_state_size(c);
-    s->masks = allocator_allocate(&s->w.allocator, s->mask_count * (LEVELS + 1) + 1, 1);
-    s->states = allocator_allocate(&s->w.allocator, LEVELS + 3, s->state_size);
-    if (!s->masks || !s->states) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
-    return OVOID_OK;
+// ---- memory
+
+void path_memory_destroy(path_memory *m) {
+    if (!m) return;
+    ovoid_allocator memory = m->w.allocator;
+    allocator_release(&memory, m->masks);
+    allocator_release(&memory, m->states);
+    path_work_destroy(&m->w);
+    allocator_release(&memory, m);
+}
+
+static int allocate(path_memory *m, const ovoid_robot_cell *c) {
+    m->groups = (uint32_t)c->boxes.count;
+    m->mask_count = c->items.count * m->groups + (c->pairs.count + ROBOT8 - 1) / ROBOT8;
+    m->state_size = path_get_state_size(c);
+    m->masks = allocator_allocate(&m->w.allocator, m->mask_count * (LEVELS + 1) + c->items.count + 1, 1);
+    m->states = allocator_allocate(&m->w.allocator, LEVELS + 3, m->state_size);
+    m->is_open = m->masks ? m->masks + m->mask_count * (LEVELS + 1) : NULL;
+    return m->masks && m->states;
+}
+
+// The checker's memory, made where there is none for the cell as it is.
+static ovoid_code get_memory(ovoid_robot_checker *x, ovoid_error *error) {
+    if (x->path) return OVOID_OK;
+    path_memory *m = allocator_allocate(&x->allocator, 1, sizeof *m);
+    if (!m) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
+    *m = (path_memory){.groups = 0};
+    ovoid_code code = path_work_create(&m->w, x->cell, &x->allocator, error);
+    if (code != OVOID_OK) {
+        allocator_release(&x->allocator, m);
+        return code;
+    }
+    if (allocate(m, x->cell)) {
+        x->path = m;
+        return OVOID_OK;
+    }
+    path_memory_destroy(m);
+    return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
 }
 
 static void run(path_search *s, const ovoid_robot_path *path) {
@@ -335,21 +412,18 @@ static ovoid_code check_path(ovoid_robot_checker *x, const ovoid_robot_path *pat
     *answer = (ovoid_robot_path_answer){.hit_at = INFINITY, .hit = {.lower = -INFINITY, .upper = INFINITY}};
     ovoid_code code = check_options(path, options, error);
     if (code == OVOID_OK) code = checker_renew(x, error);
+    if (code == OVOID_OK) code = get_memory(x, error);
     if (code != OVOID_OK) return code;
-    path_search s = {.checker = x,
+    path_search s = {.w = &x->path->w,
+                     .memory = x->path,
+                     .checker = x,
                      .options = options,
                      .answer = answer,
                      .margin = options->check.margin,
                      .tolerance = options->tolerance > 0 ? options->tolerance : 0x1p-20,
                      .states_most = options->states ? options->states : 100000};
-    code = path_work_create(&s.w, x->cell, &x->allocator, error);
-    if (code != OVOID_OK) return code;
-    code = allocate(&s, error);
-    if (code == OVOID_OK) run(&s, path);
-    allocator_release(&x->allocator, s.masks);
-    allocator_release(&x->allocator, s.states);
-    path_work_destroy(&s.w);
-    return code;
+    run(&s, path);
+    return OVOID_OK;
 }
 
 ovoid_code ovoid_robot_check_path(ovoid_robot_checker *checker, const ovoid_robot_path *path,

@@ -69,16 +69,19 @@ void path_work_destroy(path_work *w);
 /// The segment from q0 to q1: speeds and errors. The codes of a refused state, and ARGUMENT: a floating joint moves.
 ovoid_code path_set_segment(path_work *w, const double *q0, const double *q1, double limit_slack, ovoid_error *error);
 
-/// Where everything is at one t: all frames, and a box around each item.
+/// Where everything is at one t: all frames, the axes of the steps that turn along the segment, a box around each item.
 typedef struct path_state {
     link_frame *frames;
+    vec3 *axes;
     oriented_box *boxes;
 } path_state;
 /// Bytes of one, and one in memory of so many.
 size_t path_get_state_size(const ovoid_robot_cell *cell);
 path_state path_place_state(const ovoid_robot_cell *cell, void *memory);
-/// The state at t of the segment, 0 to 1.
+/// The state at t of the segment, 0 to 1; its frames alone, to which the boxes of single items may be added.
 void path_compute_state(path_work *w, const double *q0, const double *q1, double t, const path_state *at);
+void path_compute_frames(path_work *w, const double *q0, const double *q1, double t, const path_state *at);
+void path_place_item(const path_work *w, const path_state *at, uint32_t which);
 
 /// Places and motions of all items for the interval of half width `half` around the frames' t, and of one item. The
 /// first order holds joint by joint, so for t = 1/2 and half = 1/2 it is that of the whole box between the two states.

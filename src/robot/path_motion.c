@@ -210,6 +210,16 @@ int path_is_still(const path_work *w) {
 }
 
 void path_compute_state(path_work *w, const double *q0, const double *q1, double t, const path_state *at) {
+    path_compute_frames(w, q0, q1, t, at);
+    for (uint32_t i = 0; i < w->cell->items.count; i++) path_place_item(w, at, i);
+}
+
+void path_place_item(const path_work *w, const path_state *at, uint32_t which) {
+    const cell_item *item = &cell_items(w->cell)[which];
+    at->boxes[which] = item_place_box(item, &at->frames[item->frame], w->errors[which]);
+}
+
+void path_compute_frames(path_work *w, const double *q0, const double *q1, double t, const path_state *at) {
     link_frame *frames = at->frames;
     const ovoid_robot_cell *c = w->cell;
     const double *q = t == 0 ? q0 : t == 1 ? q1 : w->state;
@@ -221,10 +231,8 @@ void path_compute_state(path_work *w, const double *q0, const double *q1, double
     frames[c->robot->root] = frame_make_world();
     robot8_get_kernels()->half_turns(w->values, w->padded, w->cosines, w->sines);
     steps_compute_frames(w->steps, w->step_count, c->robot->root, w->values, w->cosines, w->sines, frames);
-    for (uint32_t i = 0; i < c->items.count; i++) {
-        const cell_item *item = &cell_items(c)[i];
-        at->boxes[i] = item_place_box(item, &frames[item->frame], w->errors[i]);
-    }
+    for (uint32_t i = 0; i < w->step_count; i++)
+        if (w->speeds[i].turn > 0) at->axes[i] = mat3_mul_vec3(frames[w->steps[i].child].matrix, w->axes[i]);
 }
 
 // ---- an interval
@@ -236,7 +244,7 @@ void path_compute_state(path_work *w, const double *q0, const double *q1, double
 //
 // The second derivative of a point by the values of joints i above j is a_i x (a_j x (x - o_j)), no longer than the
 // distance from axis j; for a j that slides, a_i x a_j; for an i that slides, zero.
-static void set_motion(path_work *w, const link_frame *frames, uint32_t item, double half) {
+static void set_motion(path_work *w, const path_state *middle, uint32_t item, double half) {
     const sphere_place *place = &w->places[item];
     vec3 center = {place->center[0], place->center[1], place->center[2]};
     double moved = 0, curved = 0, rounded = 0,
@@ -244,12 +252,14 @@ static void set_motion(path_work *w, const link_frame *frames, uint32_t item, do
     for (uint32_t i = w->first[item]; i < w->first[item + 1]; i++) {
         item_link *link = &w->links[i];
         const step_speed *v = &w->speeds[link->step];
-        const link_frame *f = &frames[w->steps[link->step].child];
         if (v->turn > 0) {
-            vec3 d = vec3_sub(center, f->position), axis = mat3_mul_vec3(f->matrix, w->axes[link->step]);
-            double far = vec3_norm(d), error = frame_error_at(&w->frame_errors[w->steps[link->step].child], far);
-            double size = far + vec3_norm(center) + vec3_norm(f->position);
-            double in_middle = ((vec3_norm(vec3_cross(axis, d)) + CELL_SLACK * size) + 2 * error + place->reach) * UP;
+            uint32_t child = w->steps[link->step].child;
+            vec3 from = middle->frames[child].position, d = vec3_sub(center, from);
+            // Norms that only errors grow with are bounded by sums.
+            double far = vec3_sum_abs(d), error = frame_error_at(&w->frame_errors[child], far);
+            double size = far + (vec3_sum_abs(center) + vec3_sum_abs(from));
+            double distance = vec3_norm(vec3_cross(middle->axes[link->step], d));
+            double in_middle = ((distance + CELL_SLACK * size) + 2 * error + place->reach) * UP;
             double radius = (in_middle + moved) * UP;
             moved = (moved + (half * v->turn + v->turn_slack) * in_middle) * UP;
             curved = (curved + v->turn * (v->turn * radius + 2 * below)) * UP;
@@ -270,7 +280,7 @@ void path_set_item(path_work *w, const path_state *middle, uint32_t which, doubl
     const link_frame *f = &middle->frames[item->side.link];
     vec3 center = vec3_add(f->position, mat3_mul_vec3(f->matrix, item->center));
     w->places[which] = (sphere_place){{center.x, center.y, center.z}, (item->reach + w->errors[which]) * UP};
-    set_motion(w, middle->frames, which, half);
+    set_motion(w, middle, which, half);
 }
 
 void path_set_interval(path_work *w, const path_state *middle, double half) {
@@ -421,10 +431,12 @@ path_boxes path_test_boxes(const path_work *w, uint32_t number, const path_span 
 }
 
 size_t path_get_state_size(const ovoid_robot_cell *c) {
-    return c->frame_count * sizeof(link_frame) + c->items.count * sizeof(oriented_box);
+    return c->frame_count * sizeof(link_frame) + (c->steps.count + c->own.count) * sizeof(vec3) +
+           c->items.count * sizeof(oriented_box);
 }
 
 path_state path_place_state(const ovoid_robot_cell *c, void *memory) {
     link_frame *frames = memory;
-    return (path_state){frames, (oriented_box *)(frames + c->frame_count)};
+    vec3 *axes = (vec3 *)(frames + c->frame_count);
+    return (path_state){frames, axes, (oriented_box *)(axes + c->steps.count + c->own.count)};
 }

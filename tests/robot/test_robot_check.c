@@ -568,6 +568,47 @@ static void test_memory(void) {
     destroy_scene(&c);
 }
 
+// Obstacles that were appended one by one stand where a cell puts them that is compiled at once: the answers have the
+// same bits. Truth: test_truth, of a cell whose last change compiles all of it.
+static void test_appended(void) {
+    uint64_t s = 12;
+    for (int round = 0; round < 20; round++) {
+        scene c;
+        make_scene(&s, &c);
+        uint32_t links = (uint32_t)c.a.d.link_count;
+        ovoid_robot_cell *cell = ovoid_robot_cell_create(c.r, NULL, &error);
+        ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
+        for (int i = 0; i < OBSTACLES; i++) {
+            ovoid_id id = ovoid_robot_cell_add(cell, &c.obstacles[i], &error);
+            if (!CHECK(id)) break;
+            if (i == 3) CHECK_EQ(ovoid_robot_cell_set_body_allowed(cell, id, links - 1, 1, &error), OVOID_OK);
+            // One that is taken out leaves its slot to the next.
+            if (i == 5) CHECK_EQ(ovoid_robot_cell_remove(cell, id, &error), OVOID_OK);
+        }
+        enum { ROOM = 64 };
+        double q[7 * ROBOT_LINKS];
+        ovoid_robot_near items[2][ROOM];
+        ovoid_robot_nears nears[2] = {{items[0], NULL, ROOM, 0}, {items[1], NULL, ROOM, 0}};
+        ovoid_robot_check_options options = {.margin = 0.5, .limit_slack = INFINITY};
+        make_random_state(&s, c.r, q);
+        for (int k = 0; k < 2; k++) {
+            CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears[k], &error), OVOID_OK);
+            // Any change of links compiles all.
+            CHECK_EQ(ovoid_robot_cell_set_allowed(cell, 0, links - 1, 0, &error), OVOID_OK);
+        }
+        CHECK_EQ(nears[0].count, nears[1].count);
+        for (size_t i = 0; i < nears[0].count && i < ROOM; i++) {
+            const ovoid_robot_near *a = &items[0][i], *b = &items[1][i];
+            CHECK(a->a.element == b->a.element && a->b.body == b->b.body && a->b.part == b->b.part);
+            CHECK(a->lower == b->lower && a->upper == b->upper);
+            CHECK(a->normal.x == b->normal.x && a->normal.y == b->normal.y && a->normal.z == b->normal.z);
+        }
+        ovoid_robot_checker_destroy(x);
+        ovoid_robot_cell_destroy(cell);
+        destroy_scene(&c);
+    }
+}
+
 int main(void) {
     make_shapes();
     test_by_hand();
@@ -577,6 +618,7 @@ int main(void) {
     test_refusals();
     test_memory();
     test_half_changes();
+    test_appended();
     printf("%ld states free, %ld hit, %ld derivatives\n", free_count, hit_count, gradients_compared);
     ovoid_compound_destroy(compound);
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);

@@ -290,8 +290,51 @@ static void test_refusals(void) {
     ovoid_shape_destroy(rod);
 }
 
+// Every allocation that a first path may make fails once: it says so and leaks nothing. A second path allocates nothing
+// and gets the same answer; after a change of the cell the memory is made anew.
+static void test_memory(void) {
+    ovoid_shape *rod = ovoid_shape_create_box((ovoid_vec3){0.4, 0.001, 0.001}, NULL, &error);
+    ovoid_robot *r = make_wrist(rod, 1);
+    ovoid_robot_cell *cell = ovoid_robot_cell_create(r, NULL, &error);
+    ovoid_body body = {shapes[0], NULL, {{0, 0.5, 0}, {1, 0, 0, 0}}};
+    CHECK(ovoid_robot_cell_add(cell, &body, &error) != 0);
+    double q[2] = {0, 0.9};
+    ovoid_robot_path path = {q, 2};
+    ovoid_robot_path_answer first, second;
+    long failures = 0;
+    for (int is_done = 0; !is_done; failures += !is_done) {
+        countdown left = {.left = 1 << 20};
+        ovoid_allocator allocator = countdown_make_allocator(&left);
+        ovoid_robot_checker *x = ovoid_robot_checker_create(cell, &allocator, &error);
+        left.left = failures;
+        ovoid_code code = ovoid_robot_check_path(x, &path, NULL, &first, &error);
+        is_done = code == OVOID_OK;
+        if (!is_done) CHECK_EQ(code, OVOID_ERROR_MEMORY);
+        if (is_done) {
+            left.left = 0;
+            ovoid_robot_checker_reset(x);
+            CHECK_EQ(ovoid_robot_check_path(x, &path, NULL, &second, &error), OVOID_OK);
+            CHECK(second.status == first.status && second.free_until == first.free_until);
+            CHECK_EQ(second.states, first.states);
+            ovoid_id id = ovoid_robot_cell_add(cell, &body, &error);
+            CHECK_EQ(ovoid_robot_check_path(x, &path, NULL, &second, &error), OVOID_ERROR_MEMORY);
+            left.left = 1 << 20;
+            CHECK_EQ(ovoid_robot_check_path(x, &path, NULL, &second, &error), OVOID_OK);
+            CHECK(second.status == first.status && second.free_until == first.free_until);
+            CHECK(id != 0);
+        }
+        ovoid_robot_checker_destroy(x);
+        CHECK_EQ(left.held, 0);
+    }
+    CHECK(failures > 3);
+    ovoid_robot_cell_destroy(cell);
+    ovoid_robot_destroy(r);
+    ovoid_shape_destroy(rod);
+}
+
 int main(void) {
     make_shapes();
+    test_memory();
     test_wrist(1, 0.7, 0.6);
     test_wrist(30, 2.1, 0.85);
     test_wrist(3, 0.7, 0.99);
