@@ -35,6 +35,7 @@ shard_digest shard_digest_make(void) {
 
 void shard_digest_add(shard_digest *d, const void *bytes, size_t size) {
     const unsigned char *at = bytes;
+    if (!size) return;
     d->size += size;
     // The step that was begun, whole steps, and what is left.
     if (d->rest_size) {

@@ -237,12 +237,12 @@ const cli_command command_merge = {
     .exits = "0 everything is apart (with --margin: farther than M)\n"
              "1 something touches, overlaps, is within M, or hits\n"
              "2 the command line is wrong\n"
-             "3 a shard is missing, there twice, of another run, not finished or damaged; or output could not be "
-             "written\n"
+             "3 a shard is missing, there twice, of another run, not finished or damaged\n"
+             "  (or output could not be written)\n"
              "4 for something that is not proven; this comes before 1",
     .examples = "for i in 1 2 3 4; do\n"
-                "    ovoid batch --shapes hulls.txt --pairs pairs.csv --csv --shard $i/4 -o $i.shard &\n"
-                "done; wait; ovoid merge ?.shard -o results.csv",
+                "    ovoid check cell.json --json --shard $i/4 -o $i.shard &\n"
+                "done; wait; ovoid merge ?.shard -o results.jsonl",
     .options = options,
     .operands_min = 1,
     .operands_max = -1,

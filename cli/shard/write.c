@@ -162,7 +162,7 @@ static int write_block(shard_writer *w, int is_last) {
     shard_block_encode(head, &b, w->number, w->texts);
     errno = 0;
     if (fwrite(head, 1, sizeof head, w->file) != sizeof head ||
-        fwrite(w->texts, 1, (size_t)b.bytes, w->file) != b.bytes || fflush(w->file) != 0)
+        (b.bytes && fwrite(w->texts, 1, (size_t)b.bytes, w->file) != b.bytes) || fflush(w->file) != 0)
         return complain_system(w, "could not be written in full; make room, then run it again: it goes on");
     w->number++;
     w->done += b.units;

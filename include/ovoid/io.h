@@ -227,7 +227,7 @@ OVOID_API int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_
  */
 OVOID_API ovoid_code ovoid_pairs_reader_set_part(ovoid_pairs_reader *reader, size_t part, size_t parts,
                                                  ovoid_error *error);
-/** Leaves that many pairs out, or what there is of them, unread but for the ends of their lines. Errors: FILE, LIMIT. */
+/** Leaves that many pairs out, or what there is of them, without looking into their lines. Errors: FILE, LIMIT. */
 OVOID_API ovoid_code ovoid_pairs_reader_skip(ovoid_pairs_reader *reader, uint64_t count, ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader);
