@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io robot robot_read robot_spheres robot_cli python"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound motion smooth paper table lanes io robot robot_read robot_spheres robot_cli shard python"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -42,6 +42,7 @@ tests_of() {
     io) echo "test_io_numbers test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_known" ;;
     robot_cli) echo "test_cli.sh:robot_check:robot_path" ;;
+    shard) echo "test_io_pairs test_cli_shard.sh" ;;
     robot_spheres) echo "test_robot_spheres" ;;
     python) echo "test_python_pair test_python_batch test_python_world test_python_motion" ;;
     *) return 1 ;;
