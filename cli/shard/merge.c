@@ -204,21 +204,30 @@ static int write_output(merge *m, const char *path) {
     return shard_tally_get_exit(&all);
 }
 
+/// Merges shards, with room for all of them. The exit code.
+static int merge_shards(const cli_command *command, merge *m, const cli_operands *paths, const char *path) {
+    int code = open_shards(m, paths);
+    if (!code) code = check_shards(m);
+    if (!code) code = check_missing(m);
+    if (!code) code = check_format(command, m, path);
+    if (code < 0) code = write_output(m, path);
+    for (size_t i = 0; i < m->count; i++) shard_reader_close(&m->readers[i]);
+    return code;
+}
+
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {NULL};
     cli_operands paths;
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code >= 0) return code;
     raise_limit();
-    merge m = {.readers = calloc((size_t)paths.count, sizeof *m.readers),
-               .heap = calloc((size_t)paths.count, sizeof *m.heap)};
-    code = m.readers && m.heap ? open_shards(&m, &paths) : EXIT_INPUT;
-    if (!m.readers || !m.heap) message_error("out of memory");
-    if (!code) code = check_shards(&m);
-    if (!code) code = check_missing(&m);
-    if (!code) code = check_format(command, &m, s.path);
-    if (code < 0) code = write_output(&m, s.path);
-    for (size_t i = 0; i < m.count; i++) shard_reader_close(&m.readers[i]);
+    const size_t count = (size_t)paths.count;
+    merge m = {.readers = calloc(count + 1, sizeof *m.readers), .heap = calloc(count + 1, sizeof *m.heap)};
+    code = EXIT_INPUT;
+    if (m.readers && m.heap)
+        code = merge_shards(command, &m, &paths, s.path);
+    else
+        message_error("out of memory");
     free(m.readers);
     free(m.heap);
     return code;

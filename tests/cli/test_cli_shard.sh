@@ -111,6 +111,7 @@ again() {
     shift
     rm -f whole.shard part.shard
     "$OVOID_TOOL" "$@" --shard 2/2 -o whole.shard 2>/dev/null
+    code=$?
     size=$(wc -c <whole.shard)
     for step in 0 1 90 400 620 950 999; do
         cut=$((size * step / 1000))
@@ -118,12 +119,17 @@ again() {
         "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>/dev/null
         check "$name: cut at $cut of $size bytes" cmp whole.shard part.shard
     done
-    # A torn end of other bytes, as after a loss of power.
-    { head -c $((size / 2)) whole.shard && head -c 5000 /dev/zero; } >part.shard
+    # A torn end of other bytes, as after a loss of power, longer than what is to come; and one byte within.
+    { head -c $((size / 2)) whole.shard && head -c "$size" /dev/zero; } >part.shard
     "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>said
     check "$name: a torn end" cmp whole.shard part.shard
+    { head -c $((size / 2)) whole.shard && printf '\377' && tail -c +$((size / 2 + 2)) whole.shard; } >part.shard
+    "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>said
+    check "$name: a byte within" cmp whole.shard part.shard
     "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>/dev/null
+    got=$?
     check "$name: a whole shard stays" cmp whole.shard part.shard
+    check "$name: the exit code of a whole shard, $got for $code" [ $got -eq $code ]
 }
 again batch batch --shapes shapes.txt --pairs pairs.csv --json
 again check check scene.json --json
