@@ -45,8 +45,8 @@ expect '' check --margin ''
 expect 'a.stl b.stl folder/' check --json ''
 expect 'info check path matrix --help' robot ''
 expect 'check' robot c
-expect '--proofs --plot --package --parts' robot path --p
-expect '--states --state --scene --srdf' robot check --s
+expect '--proofs --plot --package --padding --parts' robot path --p
+expect '--states --state --scene --scale --shard --srdf' robot check --s
 expect 'a.stl b.stl folder/' robot check --states ''
 expect 'info' robot i
 expect '--package --parts' robot info --pa
