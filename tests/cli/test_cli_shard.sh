@@ -16,13 +16,13 @@ data=$OVOID_SOURCE_DIR/tests/cli/data
 
 # check NAME COMMAND...
 check() {
-    name=$1
+    what=$1
     shift
     if "$@"; then
         passed=$((passed + 1))
     else
         failed=$((failed + 1))
-        echo "FAILED $name"
+        echo "FAILED $what"
     fi
 }
 
