@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check python bits ports mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
+.PHONY: all help demo check python cluster bits ports mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -28,6 +28,10 @@ check: ## lint, then build and test: gcc, clang, sanitizers
 python: ## the Python package in build/release/python, and its tests
 	@$(call build,python,ovoid_python)
 	@ctest --test-dir $(BUILD) -R '^test_python' --output-on-failure --no-tests=error
+
+cluster: ## the examples for clusters: GNU parallel, Slurm on one node, Dask, MPI
+	@$(call build,cluster,ovoid_cli ovoid_python)
+	@ctest --test-dir $(BUILD) -R '^test_cluster' --output-on-failure --no-tests=error --verbose
 
 bits: ## the same bits from 14 builds by gcc and clang, some minutes
 	@scripts/setup.sh check

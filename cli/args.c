@@ -230,6 +230,19 @@ static int set_vector(const cli_command *command, const cli_option *o, const cha
     return -1;
 }
 
+static int set_part(const cli_command *command, const cli_option *o, const char *text, shard_part *part) {
+    char *slash, *end;
+    long long index = strtoll(text, &slash, 10);
+    long long count = *slash == '/' ? strtoll(slash + 1, &end, 10) : 0;
+    int is_good = *slash == '/' && end > slash + 1 && !*end && isdigit((unsigned char)slash[1]) && index >= 1;
+    if (!is_good || index > count || count > SHARD_PARTS_MAX)
+        return args_complain(command,
+                             "%s: --%s needs I/N, part I of N, with I from 1 to N and N at most %d; got \"%s\"",
+                             command->name, o->name, SHARD_PARTS_MAX, text);
+    *part = (shard_part){(unsigned)index, (unsigned)count};
+    return -1;
+}
+
 /// Stores one option's value. -1 to go on, or an exit code.
 static int set_value(const cli_command *command, const cli_option *o, const char *text, void *settings) {
     void *place = (char *)settings + o->offset;
@@ -244,6 +257,7 @@ static int set_value(const cli_command *command, const cli_option *o, const char
     case OPTION_SET: return set_set(command, o, text, place);
     case OPTION_VECTOR: return set_vector(command, o, text, place);
     case OPTION_POSE: return set_pose(command, o, text, place);
+    case OPTION_PART: return set_part(command, o, text, place);
     case OPTION_LIST: return add_to_list(command, o, text, place);
     case OPTION_FILE:
     case OPTION_OUTPUT: break;

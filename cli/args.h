@@ -3,6 +3,8 @@
 #ifndef OVOID_CLI_ARGS_H
 #define OVOID_CLI_ARGS_H
 
+#include "shard/part.h"
+
 #include <stddef.h>
 #include <stdio.h>
 
@@ -30,6 +32,7 @@ typedef enum option_kind {
     OPTION_OUTPUT,   ///< a path that is written, in the formats of `choices`; const char *
     OPTION_VECTOR,   ///< three numbers in one argument; ovoid_vec3
     OPTION_POSE,     ///< a position and perhaps a rotation in one argument; ovoid_pose
+    OPTION_PART,     ///< "I/N", part I of N; shard_part
     OPTION_LIST      ///< a text, and the option may be there several times; args_list
 } option_kind;
 

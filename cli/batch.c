@@ -24,6 +24,7 @@ typedef struct settings {
     int query;
     unsigned threads; ///< 0: as many as there are processors
     double margin, tolerance;
+    shard_part part;
 } settings;
 
 static const cli_option options[] = {
@@ -39,6 +40,7 @@ static const cli_option options[] = {
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket is at most T wide, or 1e-9 of the pair's size (default: the latter alone)"},
     THREADS_OPTION(settings),
+    SHARD_OPTION(settings),
     INPUTS_OPTIONS(settings),
     RESULTS_OPTIONS(settings),
     {0},
@@ -130,19 +132,22 @@ static int drain(void *context, void *slot) {
         message_error("out of memory");
         return EXIT_INPUT;
     }
-    if (lines) code = results_add_text(&b->results, c->text, c->size);
+    // The parts of a file come one after another.
+    const shard_key key = {{b->settings->part.index, b->done}};
+    if (lines) code = results_add_keyed(&b->results, &key, c->text, c->size);
     for (size_t i = 0; i < c->count && !code; i++) {
         ovoid_record record = make_record(b, &c->pairs[i], &c->answers[i], NULL);
         if (!lines) code = results_add(&b->results, &record);
         b->counts[c->answers[i].status]++;
         exit_code side = results_judge(&c->answers[i], b->settings->margin);
         b->sides[side]++;
+        results_count(&b->results, side);
         b->worst = results_worse(b->worst, side);
     }
     free(c->text);
     c->text = NULL;
     progress_set(b->done += c->count);
-    return code;
+    return code ? code : results_end_units(&b->results, c->count);
 }
 
 static void clear(void *slot) {
@@ -176,20 +181,34 @@ static void report_counts(const batch *b, double seconds) {
                      b->counts[OVOID_UNDECIDED]);
 }
 
+/// Opens the output; of a shard, with what an earlier run has done left out. 0, or an exit code after a message.
+static int open_output(batch *b, shard_job *job) {
+    const settings *s = b->settings;
+    unsigned fields = s->margin >= 0 ? OVOID_RECORD_MARGIN : 0;
+    if (!s->part.count) return results_open(&b->results, &s->out, fields, inputs_get_unit(&s->read));
+    shard_digest_add_shapes(&job->seen, b->shapes);
+    int code = results_open_shard(&b->results, &s->out, fields, job);
+    if (code) return code;
+    uint64_t done = results_get_done(&b->results);
+    code = ovoid_pairs_reader_set_part(b->reader, s->part.index - 1, s->part.count, &b->error);
+    if (!code) code = ovoid_pairs_reader_skip(b->reader, done, &b->error);
+    if (!code) b->done = done;
+    return code ? (message_error("%s", b->error.message), results_close(&b->results, EXIT_INPUT)) : 0;
+}
+
 /// Runs all pairs through the pipeline; returns the exit code.
-static int run_pairs(batch *b) {
+static int run_pairs(batch *b, shard_job *job) {
     const settings *s = b->settings;
     cli_pipeline line = {b, sizeof(chunk), fill, work, drain, clear};
-    if (results_open(&b->results, &s->out, s->margin >= 0 ? OVOID_RECORD_MARGIN : 0, inputs_get_unit(&s->read)))
-        return EXIT_INPUT;
+    if (open_output(b, job)) return EXIT_INPUT;
     double start = progress_get_seconds();
-    progress_start("pairs", count_pairs(s->pairs));
+    progress_start("pairs", s->part.count ? 0 : count_pairs(s->pairs));
     int code = pipeline_run(&line, s->threads ? s->threads : pipeline_get_processors());
     progress_end();
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
     if (!code && b->refused) message_error("%s", b->error.message), code = EXIT_INPUT;
     code = results_close(&b->results, code ? code : (int)b->worst);
-    if (code != EXIT_INPUT && code != EXIT_PIPE) report_counts(b, progress_get_seconds() - start);
+    if (code != EXIT_INPUT && code != EXIT_PIPE && !s->part.count) report_counts(b, progress_get_seconds() - start);
     return code;
 }
 
@@ -201,7 +220,7 @@ static int settle(const cli_command *command, settings *s) {
         return args_complain(command, "batch: --query within needs --margin");
     if (s->query == QUERY_COLLIDE && s->margin >= 0)
         return args_complain(command, "batch: --query collide takes no --margin; --query within does");
-    return results_settle(command, &s->out);
+    return results_settle_part(command, &s->out, s->part);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -216,8 +235,9 @@ static int run(const cli_command *command, int argc, char **argv) {
     inputs_warn_list(shapes);
     b.shapes = shapes;
     b.reader = ovoid_pairs_reader_create(s.pairs, ovoid_shapes_get_count(shapes), &b.error);
+    shard_job job = {command, &s, &none, s.part, .seen = shard_digest_make(), .units = "pairs"};
     if (b.reader)
-        code = run_pairs(&b);
+        code = run_pairs(&b, &job);
     else
         message_error("%s", b.error.message), code = EXIT_INPUT;
     ovoid_pairs_reader_destroy(b.reader);

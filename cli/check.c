@@ -17,6 +17,7 @@ typedef struct settings {
     output_settings out;
     unsigned threads, top;
     double margin, tolerance; ///< margin negative: not given
+    shard_part part;
 } settings;
 
 static const cli_option options[] = {
@@ -27,6 +28,7 @@ static const cli_option options[] = {
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
     THREADS_OPTION(settings),
+    SHARD_OPTION(settings),
     RESULTS_OPTIONS(settings),
     {0},
 };
@@ -50,12 +52,14 @@ typedef struct check {
     row *rows;
     size_t row_count;
     cli_results results;
+    size_t kept; ///< rows of a shard that an earlier run has written
 } check;
 
 /// Makes the rows of all pairs, or of those that are near. 0, or EXIT_INPUT after a message.
 static int find_rows(check *c) {
     cli_near near;
-    int code = near_open(&near, c->scene, OVOID_QUERY_WITHIN, c->settings->margin, c->settings->threads);
+    const ovoid_contact_query query = {.kind = OVOID_QUERY_WITHIN, .margin = c->settings->margin};
+    int code = near_open(&near, c->scene, &query, c->settings->part, c->settings->threads);
     if (code) return code;
     code = near_find(&near);
     if (!code) {
@@ -118,33 +122,90 @@ static size_t get_listed(const check *c) {
     return most < c->row_count ? most : c->row_count;
 }
 
-static int run_check(check *c) {
+static answers_job make_job(check *c) {
     const settings *s = c->settings;
-    double start = progress_get_seconds();
-    // The pairs, their distances and their order.
+    return (answers_job){.scene = c->scene,
+                         .poses = c->poses,
+                         .query = QUERY_DISTANCE,
+                         .margin = s->margin,
+                         .tolerance = s->tolerance,
+                         .threads = s->threads,
+                         .couples = c->rows,
+                         .stride = sizeof *c->rows,
+                         .count = c->row_count,
+                         .context = c};
+}
+
+/// The pairs, their distances and their order. 0, or an exit code after a message.
+static int sort_rows(check *c) {
     int code = find_rows(c);
     if (code) return code;
-    answers_job job = {.scene = c->scene,
-                       .poses = c->poses,
-                       .query = QUERY_DISTANCE,
-                       .margin = s->margin,
-                       .tolerance = s->tolerance,
-                       .threads = s->threads,
-                       .couples = c->rows,
-                       .stride = sizeof *c->rows,
-                       .count = c->row_count,
-                       .take = take_bracket,
-                       .context = c};
+    answers_job job = make_job(c);
+    job.take = take_bracket;
     progress_start("pairs", c->row_count);
     code = answers_run(&job);
     progress_end();
-    if (code) return code;
-    if (c->row_count) qsort(c->rows, c->row_count, sizeof *c->rows, compare_rows);
-    // Their answers, written.
-    unsigned fields = OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
-    if (results_open(&c->results, &s->out, fields, ovoid_scene_get_unit(c->scene))) return EXIT_INPUT;
+    if (!code && c->row_count) qsort(c->rows, c->row_count, sizeof *c->rows, compare_rows);
+    return code;
+}
+
+static unsigned get_fields(const check *c) {
+    return OVOID_RECORD_PARTS | (c->settings->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+}
+
+/* ---- a shard */
+
+/// Lines of all shards are in the order of their rows.
+static shard_key make_key(void *context, size_t i) {
+    const check *c = context;
+    const row *r = &c->rows[c->kept + i];
+    return (shard_key){
+        {shard_key_from_number(r->lower), shard_key_from_number(r->upper), (uint64_t)r->couple.a << 32 | r->couple.b}};
+}
+
+static void end_row(void *context, size_t i, const ovoid_record *record) {
+    check *c = context;
+    (void)i, (void)record;
+    (void)results_end_units(&c->results, 1); // a failure is kept, and found with the next line
+}
+
+/// Counts all rows, also those that are not listed.
+static void count_sides(check *c) {
+    for (size_t i = 0; i < c->row_count; i++) results_count(&c->results, c->rows[i].code);
+}
+
+/// Answers the pairs of a shard and writes them in their order, behind those that an earlier run has written.
+static int run_shard(check *c, const cli_command *command, const cli_operands *paths) {
+    const settings *s = c->settings;
+    shard_job shard = {
+        command,         s, paths, s->part, .most = s->top == TOP_UNSET ? 0 : s->top, .seen = shard_digest_make(),
+        .units = "pairs"};
+    shard_digest_add_scene(&shard.seen, c->scene);
+    if (results_open_shard(&c->results, &s->out, get_fields(c), &shard)) return EXIT_INPUT;
+    uint64_t done = results_get_done(&c->results);
+    int code = done == UINT64_MAX ? 0 : sort_rows(c);
+    answers_job job = make_job(c);
+    job.count = get_listed(c);
+    c->kept = done < job.count ? (size_t)done : job.count;
+    job.couples = c->rows + c->kept;
+    job.count -= c->kept;
     job.results = &c->results;
-    job.take = NULL;
+    job.make_key = make_key;
+    job.take = end_row;
+    if (!code) code = answers_run(&job);
+    if (!code && done != UINT64_MAX) count_sides(c);
+    return results_close(&c->results, code);
+}
+
+static int run_check(check *c) {
+    const settings *s = c->settings;
+    double start = progress_get_seconds();
+    int code = sort_rows(c);
+    if (code) return code;
+    // Their answers, written.
+    if (results_open(&c->results, &s->out, get_fields(c), ovoid_scene_get_unit(c->scene))) return EXIT_INPUT;
+    answers_job job = make_job(c);
+    job.results = &c->results;
     job.count = get_listed(c);
     code = answers_run(&job);
     tally t = count_rows(c);
@@ -160,13 +221,13 @@ static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.margin = -1, .top = TOP_UNSET};
     cli_operands paths;
     int code = command_parse(command, argc, argv, &s, &paths);
-    if (code < 0) code = results_settle(command, &s.out);
+    if (code < 0) code = results_settle_part(command, &s.out, s.part);
     if (code >= 0) return code;
     ovoid_scene *scene = inputs_read_scene(paths.items[0]);
     if (!scene) return EXIT_INPUT;
     inputs_warn_scene(scene);
     check c = {.settings = &s, .scene = scene, .poses = inputs_copy_poses(scene)};
-    code = c.poses ? run_check(&c) : EXIT_INPUT;
+    code = !c.poses ? EXIT_INPUT : s.part.count ? run_shard(&c, command, &paths) : run_check(&c);
     free(c.poses);
     free(c.rows);
     ovoid_scene_destroy(scene);

@@ -131,6 +131,7 @@ static int has_couple(const ovoid_couple *couples, size_t count, ovoid_couple c)
 /// margin.
 static int is_candidate(const cli_impacts *x, ovoid_couple c) {
     if (!x->frames->is_moved[c.a] && !x->frames->is_moved[c.b]) return 0;
+    if (!shard_part_has_pair(x->part, c.a, c.b)) return 0;
     if (!is_near(&x->boxes[c.a], &x->boxes[c.b], x->margin) || ovoid_scene_is_ignored(x->scene, c.a, c.b)) return 0;
     return !has_couple(x->held, x->held_count, c);
 }
@@ -300,6 +301,14 @@ static int is_arrival(const cli_impacts *x, const impact *item) {
     return within > 0 || (within < 0 && at_end.answer.limit == OVOID_LIMIT_NONE);
 }
 
+/// Writes the line of an impact. Those of a frame come before its own lines, in the order of compare_impacts.
+static int write_impact(cli_impacts *x, const impact *item, const ovoid_record *record) {
+    if (!x->results->shard) return results_add(x->results, record);
+    const shard_key key = {{2 * (uint64_t)x->frames->count, shard_key_from_number(get_time(item)),
+                            (uint64_t)item->couple.a << 32 | item->couple.b}};
+    return results_add_record(x->results, &key, record);
+}
+
 static int write_impacts(cli_impacts *x, const impact *items) {
     answer_room room = {NULL, NULL, 0};
     int code = 0;
@@ -315,7 +324,7 @@ static int write_impacts(cli_impacts *x, const impact *items) {
             x->not_proven++;
         if (!make_record(x, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
         if (arrives) record.hit_after = x->frames->time - x->frames->earlier, record.time = x->frames->time;
-        if (!code && !arrives) code = results_add(x->results, &record);
+        if (!code && !arrives) code = write_impact(x, &items[i], &record);
         if (!code) x->take(x->context, items[i].couple, &record);
     }
     answer_room_clear(&room);

@@ -12,6 +12,7 @@ typedef struct cli_impacts {
     double margin; ///< >= 0
     unsigned threads;
     cli_results *results;
+    shard_part part;         ///< of the pairs
     ovoid_box *boxes;        ///< of each object, from the frame before to this one
     unsigned char *is_fresh; ///< of each object: its box is that of its present resting place
     struct cli_span *spans;  ///< the objects' boxes along x

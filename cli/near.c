@@ -22,7 +22,9 @@ static uint32_t get_object(const cli_near *near, ovoid_id id) { return (uint32_t
 /// Called for each pair that comes near.
 static int is_wanted(void *context, ovoid_id a, ovoid_id b) {
     cli_near *near = context;
-    if (ovoid_scene_is_ignored(near->scene, get_object(near, a), get_object(near, b))) return 0;
+    uint32_t p = get_object(near, a), q = get_object(near, b);
+    if (!shard_part_has_pair(near->part, p < q ? p : q, p < q ? q : p)) return 0;
+    if (ovoid_scene_is_ignored(near->scene, p, q)) return 0;
     atomic_fetch_add(&near->candidates, 1);
     return 1;
 }
@@ -56,10 +58,11 @@ static int add_bodies(cli_near *near) {
     return done ? 0 : EXIT_INPUT;
 }
 
-int near_open(cli_near *near, const ovoid_scene *scene, ovoid_query_kind kind, double margin, unsigned threads) {
+int near_open(cli_near *near, const ovoid_scene *scene, const ovoid_contact_query *query, shard_part part,
+              unsigned threads) {
     ovoid_error error;
-    *near = (cli_near){.scene = scene, .query = {.kind = kind, .margin = margin}};
-    if (margin < 0) return 0;
+    *near = (cli_near){.scene = scene, .query = *query, .part = part};
+    if (query->margin < 0) return 0;
     if (!threads) threads = pipeline_get_processors();
     const ovoid_allocator allocator = {allocate, release, near};
     ovoid_world_options options = {.threads = threads < OVOID_WORLD_THREADS_MAX ? threads : OVOID_WORLD_THREADS_MAX,
@@ -112,19 +115,23 @@ static int reserve(cli_near *near, size_t count) {
         message_error("out of memory for %zu pairs", capacity);
     else
         message_error("too many pairs: above %d; %s", COUPLES_MAX,
-                      near->world ? "give a smaller --margin" : "give --margin to leave out far pairs");
+                      near->world ? "give a smaller --margin" : "give --margin to leave out far pairs, or --shard");
     return EXIT_INPUT;
 }
 
 static int find_all(cli_near *near) {
     size_t count = ovoid_scene_get_count(near->scene);
     near->count = 0;
-    for (size_t a = 0; a < count; a++) {
-        if (reserve(near, near->count + count - a)) return EXIT_INPUT;
-        for (size_t b = a + 1; b < count; b++)
-            if (!ovoid_scene_is_ignored(near->scene, a, b))
-                near->couples[near->count++] = (ovoid_couple){(uint32_t)a, (uint32_t)b};
-    }
+    for (size_t a = 0; a < count; a++)
+        for (size_t b = a + 1, end; b < count; b = end) {
+            // The row's next pairs that go to one shard.
+            end = b / SHARD_ROW * SHARD_ROW + SHARD_ROW < count ? b / SHARD_ROW * SHARD_ROW + SHARD_ROW : count;
+            if (!shard_part_has_pair(near->part, (uint32_t)a, (uint32_t)b)) continue;
+            if (reserve(near, near->count + end - b)) return EXIT_INPUT;
+            for (size_t i = b; i < end; i++)
+                if (!ovoid_scene_is_ignored(near->scene, a, i))
+                    near->couples[near->count++] = (ovoid_couple){(uint32_t)a, (uint32_t)i};
+        }
     return 0;
 }
 

@@ -18,12 +18,14 @@ typedef struct cli_near {
     ovoid_couple *couples; ///< a < b, ascending
     size_t count, capacity;
     ovoid_contact_query query;
+    shard_part part;          ///< of the pairs
     atomic_size_t candidates; ///< pairs that the world keeps: those found last, and new ones
 } cli_near;
 
-/// Adds the objects to a world, at the poses of the scene. margin: negative for all pairs. kind: collide (margin 0) or
-/// within. 0, or EXIT_INPUT after a message.
-int near_open(cli_near *near, const ovoid_scene *scene, ovoid_query_kind kind, double margin, unsigned threads);
+/// Adds the objects to a world, at the poses of the scene. query: collide, or within a margin, which is negative for
+/// all pairs. part: only pairs of that shard are found. 0, or EXIT_INPUT after a message.
+int near_open(cli_near *near, const ovoid_scene *scene, const ovoid_contact_query *query, shard_part part,
+              unsigned threads);
 
 /// Moves some objects; poses are those of all. 0, or EXIT_INPUT after a message.
 int near_move(cli_near *near, const uint32_t *moved, size_t count, const ovoid_pose *poses);

@@ -29,6 +29,23 @@ int results_settle(const cli_command *command, output_settings *settings) {
     return -1;
 }
 
+int results_settle_part(const cli_command *command, output_settings *settings, shard_part part) {
+    int code = results_settle(command, settings);
+    const char *path = settings->path;
+    if (code >= 0 || !part.count) return code;
+    if (!path || strcmp(path, "-") == 0)
+        return args_complain(command, "%s: --shard writes a file: --output, for example %u.shard", command->name,
+                             part.index);
+    if (outputs_has_extension(path, "csv") || outputs_has_extension(path, "json") ||
+        outputs_has_extension(path, "jsonl") || outputs_has_extension(path, "txt"))
+        return args_complain(command, "%s: --output %s: a shard has a format of its own; choose a name as %u.shard",
+                             command->name, path, part.index);
+    if (!settings->csv && !settings->json)
+        return args_complain(command, "%s: --shard needs --csv or --json: a table is laid out by all of its rows",
+                             command->name);
+    return -1;
+}
+
 int results_open(cli_results *results, const output_settings *settings, unsigned fields, const char *unit) {
     ovoid_error error;
     *results = (cli_results){.settings = settings, .unit = unit, .fields = fields, .header_due = settings->csv};
@@ -43,6 +60,41 @@ int results_open(cli_results *results, const output_settings *settings, unsigned
     }
     results->file = ovoid_output_get_file(results->output);
     return 0;
+}
+
+int results_open_shard_with(cli_results *results, const output_settings *settings, shard_job *job, const char *head,
+                            size_t head_size) {
+    *results = (cli_results){.settings = settings, .fields = settings->proofs ? OVOID_RECORD_PROOF : 0};
+    job->path = settings->path;
+    job->is_json = settings->json;
+    results->shard = malloc(sizeof *results->shard);
+    if (!results->shard) return message_error("out of memory"), EXIT_INPUT;
+    int code = shard_writer_open(results->shard, job, head, head_size);
+    if (!code) return 0;
+    free(results->shard);
+    results->shard = NULL;
+    return code;
+}
+
+int results_open_shard(cli_results *results, const output_settings *settings, unsigned fields, shard_job *job) {
+    char *head = NULL;
+    size_t size = 0;
+    if (settings->proofs) fields |= OVOID_RECORD_PROOF;
+    FILE *file = open_memstream(&head, &size);
+    if (file && settings->csv) ovoid_record_write_csv_header(file, fields);
+    int code = EXIT_INPUT;
+    if (file && fclose(file) == 0)
+        code = results_open_shard_with(results, settings, job, head, size);
+    else
+        message_error("out of memory");
+    results->fields = fields;
+    free(head);
+    return code;
+}
+
+uint64_t results_get_done(const cli_results *results) {
+    if (!results->shard) return 0;
+    return results->shard->is_whole ? UINT64_MAX : results->shard->kept;
 }
 
 int results_are_lines(const cli_results *results) { return results->settings->json || results->settings->csv; }
@@ -96,7 +148,41 @@ int results_add_text(cli_results *results, const char *text, size_t size) {
     return fwrite(text, 1, size, results->file) == size ? 0 : EXIT_INPUT;
 }
 
+int results_add_keyed(cli_results *results, const shard_key *key, const char *text, size_t size) {
+    return results->shard ? shard_writer_add(results->shard, key, text, size) : results_add_text(results, text, size);
+}
+
+int results_add_record(cli_results *results, const shard_key *key, const ovoid_record *record) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    int written = file && results_write_line(file, results->settings, record);
+    int code = EXIT_INPUT;
+    if (!file || fclose(file) != 0)
+        message_error("out of memory");
+    else if (!written)
+        results_report_long(record->a ? record->a : "a pair", record->b ? record->b : "");
+    else
+        code = results_add_keyed(results, key, text, size);
+    free(text);
+    return code;
+}
+
+void results_count(cli_results *results, exit_code side) {
+    if (results->shard) shard_writer_count(results->shard, side);
+}
+
+int results_end_units(cli_results *results, uint64_t units) {
+    return results->shard ? shard_writer_end_units(results->shard, units) : 0;
+}
+
 int results_close(cli_results *results, int code) {
+    if (results->shard) {
+        code = shard_writer_close(results->shard, code);
+        free(results->shard);
+        results->shard = NULL;
+        return code;
+    }
     int dropped = code == EXIT_INPUT && !ferror(results->file);
     // Results before a bad line of input are still true: on a stream, where they cannot be taken back, they are
     // completed.

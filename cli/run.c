@@ -26,6 +26,7 @@ typedef struct settings {
     int query, continuous;
     unsigned threads;
     double margin, tolerance; ///< margin negative: not given
+    shard_part part;
 } settings;
 
 static const cli_option options[] = {
@@ -44,6 +45,7 @@ static const cli_option options[] = {
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distances of the nearest pairs over time, an SVG file"},
     THREADS_OPTION(settings),
+    SHARD_OPTION(settings),
     RESULTS_OPTIONS(settings),
     {0},
 };
@@ -59,7 +61,8 @@ typedef struct run_state {
     cli_results results;
     size_t counts[4]; ///< of the records of frames, by ovoid_status
     exit_code worst;
-    int code; ///< the exit code of a failed callback, or 0
+    int code;      ///< the exit code of a failed callback, or 0
+    uint64_t kept; ///< frames of a shard that an earlier run has written
 } run_state;
 
 /// The margin of impacts: 0, touching, where none was given.
@@ -67,27 +70,49 @@ static double get_margin(const settings *s) { return s->margin > 0 ? s->margin :
 
 /* ---- records, as they come */
 
-static void take_record(void *context, size_t i, const ovoid_record *record) {
+/// Notes a pair for the impacts until the next frame.
+static void take_held(void *context, size_t i, const ovoid_record *record) {
     run_state *r = context;
     const settings *s = r->settings;
     ovoid_couple couple = r->near.couples[i];
-    r->counts[record->answer.status]++;
-    r->worst = results_worse(r->worst, results_judge(&record->answer, s->margin));
-    track_add(&r->track, couple, record, s->margin, r->frames.count > 1 ? r->frames.earlier : NAN);
     if (!s->continuous || r->code || ovoid_answer_is_within(&record->answer, get_margin(s)) == 0) return;
     int is_open = results_judge(&record->answer, get_margin(s)) == EXIT_NOT_PROVEN;
     r->code = is_open ? impacts_leave_open(&r->impacts, couple) : impacts_hold(&r->impacts, couple);
 }
 
+/// Counts an answer by the exit code that it would give.
+static void take_side(run_state *r, exit_code side) {
+    r->worst = results_worse(r->worst, side);
+    results_count(&r->results, side);
+}
+
+static void take_record(void *context, size_t i, const ovoid_record *record) {
+    run_state *r = context;
+    const settings *s = r->settings;
+    r->counts[record->answer.status]++;
+    take_side(r, results_judge(&record->answer, s->margin));
+    if (!s->part.count)
+        track_add(&r->track, r->near.couples[i], record, s->margin, r->frames.count > 1 ? r->frames.earlier : NAN);
+    take_held(r, i, record);
+}
+
+/// The lines of a frame are in the order of their pairs, behind the impacts before it.
+static shard_key make_key(void *context, size_t i) {
+    const run_state *r = context;
+    const ovoid_couple couple = r->near.couples[i];
+    return (shard_key){{2 * (uint64_t)r->frames.count + 1, 0, (uint64_t)couple.a << 32 | couple.b}};
+}
+
 static void take_impact(void *context, ovoid_couple couple, const ovoid_record *record) {
     run_state *r = context;
-    r->worst = results_worse(r->worst, isfinite(record->hit_after) ? EXIT_TOUCH : EXIT_NOT_PROVEN);
-    track_add_impact(&r->track, couple, record, r->frames.time);
+    take_side(r, isfinite(record->hit_after) ? EXIT_TOUCH : EXIT_NOT_PROVEN);
+    if (!r->settings->part.count) track_add_impact(&r->track, couple, record, r->frames.time);
 }
 
 /* ---- the frames */
 
-static int answer_frame(run_state *r) {
+/// Answers the pairs of a frame. is_kept: their lines are in the shard, and only what the next frame needs is noted.
+static int answer_frame(run_state *r, int is_kept) {
     const settings *s = r->settings;
     answers_job job = {.scene = r->scene,
                        .poses = r->frames.poses,
@@ -99,8 +124,9 @@ static int answer_frame(run_state *r) {
                        .stride = sizeof *r->near.couples,
                        .count = r->near.count,
                        .time = r->frames.time,
-                       .results = &r->results,
-                       .take = take_record,
+                       .results = is_kept ? NULL : &r->results,
+                       .make_key = make_key,
+                       .take = is_kept ? take_held : take_record,
                        .context = r};
     int code = answers_run(&job);
     if (!code && r->track.failed) message_error("out of memory"), code = EXIT_INPUT;
@@ -108,12 +134,15 @@ static int answer_frame(run_state *r) {
 }
 
 static int run_frame(run_state *r) {
-    int code = 0;
-    if (r->settings->continuous && r->frames.count > 1) code = impacts_find(&r->impacts);
+    int code = 0, is_kept = r->frames.count <= r->kept;
+    if (r->settings->continuous && r->frames.count > 1 && !is_kept) code = impacts_find(&r->impacts);
+    // The world goes through all frames: what it remembers of a pair it has from them.
     if (!code) code = near_move(&r->near, r->frames.moved, r->frames.moved_count, r->frames.poses);
     if (!code) code = near_find(&r->near);
     track_add_frame(&r->track, r->frames.time);
-    if (!code) code = answer_frame(r);
+    if (!code && !is_kept) code = answer_frame(r, 0);
+    if (!code && r->settings->continuous && r->frames.count == r->kept) code = answer_frame(r, 1);
+    if (!code && !is_kept) code = results_end_units(&r->results, 1);
     progress_set(r->frames.count);
     return code;
 }
@@ -131,16 +160,17 @@ static int run_frames(run_state *r) {
 static int open_all(run_state *r) {
     const settings *s = r->settings;
     int is_collide = s->query == QUERY_COLLIDE;
+    const ovoid_contact_query query = {.kind = is_collide ? OVOID_QUERY_COLLIDE : OVOID_QUERY_WITHIN,
+                                       .margin = is_collide ? 0 : s->margin};
     int code = frames_open(&r->frames, s->motion, r->scene);
-    if (!code)
-        code = near_open(&r->near, r->scene, is_collide ? OVOID_QUERY_COLLIDE : OVOID_QUERY_WITHIN,
-                         is_collide ? 0 : s->margin, s->threads);
+    if (!code) code = near_open(&r->near, r->scene, &query, s->part, s->threads);
     if (!code && s->continuous) {
         r->impacts = (cli_impacts){.scene = r->scene,
                                    .frames = &r->frames,
                                    .margin = get_margin(s),
                                    .threads = s->threads,
                                    .results = &r->results,
+                                   .part = s->part,
                                    .take = take_impact,
                                    .context = r};
         code = impacts_open(&r->impacts);
@@ -148,13 +178,31 @@ static int open_all(run_state *r) {
     return code;
 }
 
+static unsigned get_fields(const settings *s) {
+    return OVOID_RECORD_TIME | OVOID_RECORD_PARTS | (s->continuous ? OVOID_RECORD_IMPACT : 0) |
+           (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+}
+
+/// The motion of a shard's pairs: frames cannot be cut, since what a world remembers of a pair goes from one to the
+/// next, but of each pair it remembers nothing from others.
+static int run_shard(run_state *r, const cli_command *command, const cli_operands *paths) {
+    const settings *s = r->settings;
+    shard_job job = {command, s, paths, s->part, .seen = shard_digest_make(), .units = "frames"};
+    shard_digest_add_scene(&job.seen, r->scene);
+    int code = results_open_shard(&r->results, &s->out, get_fields(s), &job);
+    if (code) return code;
+    r->kept = results_get_done(&r->results);
+    if (r->kept != UINT64_MAX) code = open_all(r);
+    if (!code && r->kept != UINT64_MAX) code = run_frames(r);
+    return results_close(&r->results, code);
+}
+
 static int run_motion(run_state *r) {
     const settings *s = r->settings;
     double start = progress_get_seconds();
     int code = open_all(r);
     if (code) return code;
-    unsigned fields = OVOID_RECORD_TIME | OVOID_RECORD_PARTS | (s->continuous ? OVOID_RECORD_IMPACT : 0) |
-                      (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+    const unsigned fields = get_fields(s);
     if (results_open(&r->results, &s->out, fields, ovoid_scene_get_unit(r->scene))) return EXIT_INPUT;
     r->track.has_plot = s->plot != NULL;
     code = run_frames(r);
@@ -181,7 +229,9 @@ static int settle(const cli_command *command, settings *s) {
         return args_complain(command, "run: --query collide takes no --margin; --query within does");
     if (s->plot && strcmp(s->plot, "-") == 0)
         return args_complain(command, "run: --plot needs a file; standard output has the results");
-    return results_settle(command, &s->out);
+    if (s->plot && s->part.count)
+        return args_complain(command, "run: --plot is of all pairs, --shard of a part of them");
+    return results_settle_part(command, &s->out, s->part);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -194,7 +244,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!scene) return EXIT_INPUT;
     inputs_warn_scene(scene);
     run_state r = {.settings = &s, .scene = scene};
-    code = run_motion(&r);
+    code = s.part.count ? run_shard(&r, command, &paths) : run_motion(&r);
     impacts_close(&r.impacts);
     track_clear(&r.track);
     near_close(&r.near);

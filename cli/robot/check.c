@@ -21,6 +21,7 @@ typedef struct settings {
     double near;
     int gradient;
     unsigned threads, top;
+    shard_part part;
 } settings;
 
 static const cli_option options[] = {
@@ -33,6 +34,7 @@ static const cli_option options[] = {
     {"top", 0, OPTION_AMOUNT, offsetof(settings, top), "N", NULL,
      "list N states, 0: all; all are counted (default: of a table 20, else all)"},
     THREADS_OPTION(settings),
+    SHARD_OPTION(settings),
     ROBOT_OPTIONS(settings),
     REPORT_OPTIONS(settings),
     {.name = NULL},
@@ -97,7 +99,13 @@ static int reserve(near_list *list, size_t more, size_t variables) {
 static int fill(void *context, void *slot) {
     check *c = context;
     block *k = slot;
+    const shard_part part = c->settings->part;
     k->count = pipeline_take(&c->next, c->form.states->count, OVOID_ROBOT_BLOCK, &k->first);
+    // The blocks of other shards are left out.
+    for (unsigned i = 1; i < part.count && k->count; i++) {
+        size_t first;
+        (void)pipeline_take(&c->next, c->form.states->count, OVOID_ROBOT_BLOCK, &first);
+    }
     return k->count > 0;
 }
 
@@ -115,7 +123,7 @@ static ovoid_code find_near(const check *c, block *k, size_t i) {
         }
         double *gradients = c->form.has_gradient ? k->near.gradients + k->near.count * n : NULL;
         ovoid_robot_nears nears = {k->near.items + k->near.count, gradients, room, 0};
-        const double *q = c->form.states->q + (k->first + i) * n;
+        const double *q = states_get(c->form.states, k->first) + i * n;
         ovoid_code code = ovoid_robot_find_near(k->checker, q, &c->near_options, &nears, &k->error);
         if (code != OVOID_OK) return code;
         if (nears.count > nears.capacity) {
@@ -154,8 +162,7 @@ static void work(void *context, void *slot) {
     if (!k->checker) k->checker = ovoid_robot_checker_create(c->form.cell->cell, NULL, &k->error);
     k->failed = !k->checker;
     if (k->failed) return;
-    const ovoid_robot_batch batch = {c->form.states->q + k->first * c->form.states->variable_count, k->count,
-                                     &c->options, k->answers};
+    const ovoid_robot_batch batch = {states_get(c->form.states, k->first), k->count, &c->options, k->answers};
     k->failed = ovoid_robot_check_batch(&k->checker, 1, &batch, &k->error) != OVOID_OK;
     // The near pairs begin with the proofs of the batch, which begins with none.
     k->near.count = 0;
@@ -187,17 +194,19 @@ static int drain(void *context, void *slot) {
     int code = 0;
     size_t near = 0;
     if (k->failed) return message_error("%s", k->error.message), EXIT_INPUT;
-    if (results_are_lines(&c->results)) code = results_add_text(&c->results, k->text, k->size);
+    const shard_key key = {{k->first}};
+    if (results_are_lines(&c->results)) code = results_add_keyed(&c->results, &key, k->text, k->size);
     free(k->text);
     k->text = NULL;
     for (size_t i = 0; i < k->count && !code; i++) {
         int good = tally_add(&c->tally, &k->answers[i]);
+        results_count(&c->results, (exit_code)cell_get_exit(k->answers[i].status));
         if (c->rows && k->first + i < c->listed) good &= keep(c, k, i, near);
         if (!good) return message_error("out of memory"), EXIT_INPUT;
         near += k->counts[i];
     }
     progress_set(k->first + k->count);
-    return code;
+    return code ? code : results_end_units(&c->results, k->count);
 }
 
 static void clear(void *slot) {
@@ -220,6 +229,61 @@ static void write_table(check *c) {
     report_write_table(c->results.file, &c->form, c->rows, c->listed);
 }
 
+/// Checks the states from c->next on. 0, or an exit code after a message.
+static int check_states(check *c) {
+    size_t count = c->form.states->count;
+    // A few states are checked sooner than a thread starts.
+    cli_pipeline line = {c, sizeof(block), fill, work, drain, clear};
+    unsigned threads = c->settings->threads ? c->settings->threads : pipeline_get_processors();
+    progress_start("states", count);
+    int code = pipeline_run(&line, count <= OVOID_ROBOT_BLOCK ? 1 : threads);
+    progress_end();
+    if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
+    return code;
+}
+
+/// Adds the shapes of the links and of the obstacles.
+static void add_shapes(shard_digest *digest, const cli_cell *cell) {
+    size_t obstacles = cell->obstacles ? ovoid_obstacles_get_count(cell->obstacles) : 0;
+    for (size_t i = 0; i < cell->description.element_count; i++)
+        shard_digest_add_shape(digest, cell->description.elements[i].shape);
+    for (size_t i = 0; i < obstacles; i++)
+        shard_digest_add_shape(digest, ovoid_obstacles_get(cell->obstacles, i).shape);
+}
+
+/// Opens the file of a shard. 0, or EXIT_INPUT after a message.
+static int open_shard(check *c, shard_job *job) {
+    const output_settings *out = &c->settings->out;
+    char *head = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&head, &size);
+    if (file && out->csv) report_write_csv_header(file, &c->form);
+    int code = EXIT_INPUT;
+    if (file && fclose(file) == 0)
+        code = results_open_shard_with(&c->results, out, job, head, size);
+    else
+        message_error("out of memory");
+    free(head);
+    return code;
+}
+
+/// The states of a shard, behind those that an earlier run has written.
+static int run_shard(check *c, const cli_command *command, const cli_operands *operands) {
+    const settings *s = c->settings;
+    size_t count = c->form.states->count;
+    c->listed = s->top != TOP_UNSET && s->top && s->top < count ? s->top : count;
+    shard_job job = {command, s, operands, s->part, .seen = shard_digest_make(), .units = "states"};
+    add_shapes(&job.seen, c->form.cell);
+    int code = open_shard(c, &job);
+    if (code) return code;
+    // Whole blocks were written, but for the last one of all.
+    uint64_t done = results_get_done(&c->results), blocks = done / OVOID_ROBOT_BLOCK + (done % OVOID_ROBOT_BLOCK > 0);
+    size_t first = done < count ? ((size_t)blocks * s->part.count + s->part.index - 1) * OVOID_ROBOT_BLOCK : count;
+    c->next = first < count ? first : count;
+    code = check_states(c);
+    return results_close(&c->results, code);
+}
+
 static int run_check(check *c) {
     const settings *s = c->settings;
     double start = progress_get_seconds();
@@ -232,13 +296,7 @@ static int run_check(check *c) {
     if (results_open(&c->results, &s->out, 0, "")) return EXIT_INPUT;
     c->results.header_due = 0;
     if (s->out.csv) report_write_csv_header(c->results.file, &c->form);
-    // A few states are checked sooner than a thread starts.
-    cli_pipeline line = {c, sizeof(block), fill, work, drain, clear};
-    unsigned threads = s->threads ? s->threads : pipeline_get_processors();
-    progress_start("states", count);
-    int code = pipeline_run(&line, count <= OVOID_ROBOT_BLOCK ? 1 : threads);
-    progress_end();
-    if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
+    int code = check_states(c);
     if (!code && is_table) write_table(c);
     int worst = tally_get_exit(&c->tally);
     code = results_close(&c->results, code ? code : worst);
@@ -252,23 +310,26 @@ static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.top = TOP_UNSET};
     cli_operands operands;
     cli_cell cell;
-    cli_states states;
+    cli_states states = {.part = {0, 0}};
     int code = command_parse(command, argc, argv, &s, &operands);
-    if (code < 0) code = results_settle(command, &s.out);
+    if (code < 0) code = results_settle_part(command, &s.out, s.part);
     if (code < 0) code = states_settle(command, &s.states);
+    if (code < 0 && s.part.count && !s.states.path)
+        code = args_complain(command, "%s: --shard goes with --states Q.csv", command->name);
     if (code < 0 && s.gradient && s.near == 0)
         code = args_complain(command, "%s: --gradient goes with --near D", command->name);
     if (code >= 0) return code;
     s.cell.robot = &s.robot;
     code = cell_open(command, operands.items[0], &s.cell, &cell);
     if (code) return code;
+    states.part = s.part;
     code = states_open(command, &s.states, &cell, &states);
     if (!code) {
         check c = {
             .settings = &s, .form = {&cell, &states, s.near > 0, s.gradient}, .options = cell_make_options(&s.cell)};
         c.near_options = c.options;
         c.near_options.margin = s.near;
-        code = run_check(&c);
+        code = s.part.count ? run_shard(&c, command, &operands) : run_check(&c);
         tally_clear(&c.tally);
         free_list(&c.kept);
         free(c.rows);

@@ -228,7 +228,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.tolerance = 0};
     cli_operands operands;
     cli_cell cell;
-    cli_states states;
+    cli_states states = {.part = {0, 0}};
     ovoid_error error;
     int code = command_parse(command, argc, argv, &s, &operands);
     if (code < 0) code = settle(command, &s);

@@ -145,7 +145,7 @@ static void report_missing(const reader *r, const char *place) {
 static double *add_state(reader *r) {
     cli_states *s = r->states;
     size_t n = s->variable_count;
-    if (s->count == s->capacity) {
+    if (s->stored == s->capacity) {
         size_t capacity = 2 * s->capacity + 16;
         double *q = realloc(s->q, capacity * (n ? n : 1) * sizeof *q);
         if (!q) return message_error("out of memory for %zu states", capacity), NULL;
@@ -155,7 +155,8 @@ static double *add_state(reader *r) {
         s->times = times;
         s->capacity = capacity;
     }
-    double *state = s->q + s->count++ * n;
+    double *state = s->q + s->stored++ * n;
+    s->count++;
     if (n) memcpy(state, r->defaults, n * sizeof *state);
     return state;
 }
@@ -226,7 +227,7 @@ static int read_state(reader *r, char *line, double *state) {
     }
     for (char *at = line; at; i++) {
         if (!read_number(r, take_field(&at), &value)) return 0;
-        if (r->columns[i] == COLUMN_TIME) r->states->times[r->states->count - 1] = value;
+        if (r->columns[i] == COLUMN_TIME) r->states->times[r->states->stored - 1] = value;
         if (r->columns[i] < COLUMN_TIME) state[r->columns[i]] = value;
     }
     return 1;
@@ -245,6 +246,9 @@ static int take_line(reader *r, const char *path, size_t number, char *line, siz
         return 0;
     else if (!r->columns) {
         if (read_header(r, line)) return report_missing(r, path), 0;
+    } else if (!shard_part_has(r->states->part, r->states->count / OVOID_ROBOT_BLOCK)) {
+        r->states->count++;
+        return 0;
     } else {
         double *state = add_state(r);
         if (!state) return EXIT_INPUT;
@@ -347,7 +351,8 @@ int states_settle(const cli_command *command, const states_settings *settings) {
 
 int states_open(const cli_command *command, const states_settings *settings, const cli_cell *cell, cli_states *states) {
     size_t n = ovoid_robot_get_variable_count(cell->robot.robot);
-    *states = (cli_states){.variable_count = n, .texts = settings->path ? NULL : &settings->texts};
+    *states =
+        (cli_states){.variable_count = n, .part = states->part, .texts = settings->path ? NULL : &settings->texts};
     double *defaults = calloc(n + 1, sizeof *defaults);
     reader r = {.cell = cell, .states = states, .defaults = defaults, .given = calloc(n + 1, 1)};
     for (size_t i = 0; i < n && defaults; i++) defaults[i] = states_get_default(cell, i);
@@ -361,6 +366,11 @@ int states_open(const cli_command *command, const states_settings *settings, con
     free(r.columns);
     if (code) states_close(states);
     return code;
+}
+
+const double *states_get(const cli_states *s, size_t i) {
+    size_t block = i / OVOID_ROBOT_BLOCK, before = s->part.count ? block / s->part.count : block;
+    return s->q + (before * OVOID_ROBOT_BLOCK + i % OVOID_ROBOT_BLOCK) * s->variable_count;
 }
 
 void states_close(cli_states *states) {

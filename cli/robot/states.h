@@ -27,17 +27,23 @@ typedef struct states_settings {
 
 /// The states. Variables that are not given have MoveIt's default: 0, or the middle of the limits where 0 is outside.
 typedef struct cli_states {
-    double *q; ///< state i from i * variable_count on
-    size_t count, variable_count, capacity;
-    double *times;          ///< of each state, in seconds: the column "time" of a file; NULL: there is none
+    double *q; ///< one state after another; of a part only its own
+    size_t count, variable_count;
+    size_t stored, capacity;
+    double *times;          ///< of each state that is stored, in seconds: the column "time" of a file; NULL: there is none
+    shard_part part;        ///< of the blocks of OVOID_ROBOT_BLOCK states, dealt out in turn
     const args_list *texts; ///< of the states, NULL where they come from a file
 } cli_states;
 
 /// Refuses a command line without states, or with both kinds. -1 to go on, or EXIT_USAGE.
 int states_settle(const cli_command *command, const states_settings *settings);
 
-/// Reads the states. 0, or an exit code after a message, with nothing left open.
+/// Reads the states; of a file those of states->part alone are looked at, all others are only counted. 0, or an exit
+/// code after a message, with nothing left open.
 int states_open(const cli_command *command, const states_settings *settings, const cli_cell *cell, cli_states *states);
+
+/// The variables of state i, which is one of the part; those of the states behind it in its block follow.
+const double *states_get(const cli_states *states, size_t i);
 void states_close(cli_states *states);
 
 /// The number of a variable that is not given.

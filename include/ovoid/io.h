@@ -220,6 +220,15 @@ typedef struct ovoid_indexed_pair {
 OVOID_API ovoid_pairs_reader *ovoid_pairs_reader_create(const char *path, size_t shape_count, ovoid_error *error);
 /** The next pair. 1: *pair is filled; 0: the end; -1: *error is filled. */
 OVOID_API int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_pair *pair, ovoid_error *error);
+/**
+ * Before the first pair is read: only part `part`, from 0 on, of `parts`: the lines that begin in an equal share of the
+ * file's bytes. All parts together have each line once. What is before the part is not read. Errors: ARGUMENT (no such
+ * part, no regular file), FILE.
+ */
+OVOID_API ovoid_code ovoid_pairs_reader_set_part(ovoid_pairs_reader *reader, size_t part, size_t parts,
+                                                 ovoid_error *error);
+/** Leaves that many pairs out, or what there is of them, without looking into their lines. Errors: FILE, LIMIT. */
+OVOID_API ovoid_code ovoid_pairs_reader_skip(ovoid_pairs_reader *reader, uint64_t count, ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader);
 

@@ -128,6 +128,16 @@ class pairs_reader
         ovoid_error e;
         return pairs_reader(detail::require(ovoid_pairs_reader_create(path.c_str(), shape_count, &e), e));
     }
+    /** Before the first pair: only part `part`, from 0 on, of `parts` by the file's bytes. Throws ARGUMENT, FILE. */
+    void set_part(std::size_t part, std::size_t parts) {
+        ovoid_error e;
+        if (ovoid_pairs_reader_set_part(get(), part, parts, &e) != OVOID_OK) detail::fail(e);
+    }
+    /** Leaves that many pairs out, or what there is of them. Throws FILE, LIMIT. */
+    void skip(std::uint64_t count) {
+        ovoid_error e;
+        if (ovoid_pairs_reader_skip(get(), count, &e) != OVOID_OK) detail::fail(e);
+    }
     /** The next pair; false at the end. Throws as the file is wrong. */
     bool read(ovoid_indexed_pair &next) {
         ovoid_error e;

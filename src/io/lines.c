@@ -78,6 +78,7 @@ int line_source_next(line_source *source, const char **line, size_t *length, ovo
     *line = source->buffer + source->begin;
     *length = end ? (size_t)(end - *line) : searched;
     source->begin += *length + (end != NULL);
+    source->taken += *length + (end != NULL);
     if (source->line++ == 0 && !take_first(source, line, length, error)) return -1;
     if (*length && (*line)[*length - 1] == '\r') --*length;
     return 1;

@@ -67,6 +67,7 @@ typedef struct line_source {
     char *buffer;
     size_t capacity, begin, end; ///< the bytes read and not yet returned: buffer[begin .. end)
     int64_t line;                ///< 1-based number of the last line returned
+    uint64_t taken;              ///< bytes of all lines returned, with their ends
     size_t most;                 ///< longest line that is read, bytes: LINE_MAX_BYTES when opened
 } line_source;
 

@@ -28,7 +28,7 @@ expect() {
     fi
 }
 
-expect 'fit distance batch check run verify view paper robot help --help --version' ''
+expect 'fit distance batch check run merge verify view paper robot help --help --version' ''
 expect 'verify view' v
 expect '--help' --h
 expect 'distance' help di
@@ -48,7 +48,7 @@ expect '--samples --states --state --scene --srdf --scale --seed' robot spheres 
 expect 'a.stl b.stl folder/' robot spheres --given ''
 expect 'check' robot c
 expect '--proofs --plot --padding --package --parts' robot path --p
-expect '--states --state --scene --srdf --scale' robot check --s
+expect '--states --state --scene --shard --srdf --scale' robot check --s
 expect 'a.stl b.stl folder/' robot check --states ''
 expect 'info' robot i
 expect '--package --parts' robot info --pa

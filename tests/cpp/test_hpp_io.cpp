@@ -84,6 +84,11 @@ void check_tables() {
     auto pairs = ovoid::pairs_reader::create(path, 2);
     ovoid_indexed_pair pair;
     CHECK(pairs.read(pair) && pair.b == 1 && is_vec3(pair.pose_b.position, 4, 5, 6) && !pairs.read(pair));
+    auto half = ovoid::pairs_reader::create(path, 2);
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "no part 2", [&] { half.set_part(2, 2); }));
+    half.set_part(0, 2);
+    half.skip(1);
+    CHECK(!half.read(pair));
     auto few = ovoid::pairs_reader::create(path, 1);
     CHECK(throws(OVOID_ERROR_INDEX, 2, "pairs.csv:2", [&] { few.read(pair); }));
 

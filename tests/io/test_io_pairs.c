@@ -212,8 +212,81 @@ static void check_bad_output(void) {
     }
 }
 
+/* ---- parts: all of them together are the whole file, line by line */
+
+/// Reads a part behind the first `skipped` of its pairs, which are numbered by ax: the numbers are appended.
+static int read_part(const char *path, const size_t part[2], uint64_t skipped, double *numbers, size_t *count,
+                     ovoid_error *error) {
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, 3, error);
+    if (!CHECK(reader != NULL)) return -1;
+    ovoid_code code = ovoid_pairs_reader_set_part(reader, part[0], part[1], error);
+    if (!code) code = ovoid_pairs_reader_skip(reader, skipped, error);
+    int got = code ? -1 : 1;
+    ovoid_indexed_pair p;
+    while (got == 1) {
+        got = ovoid_pairs_reader_read(reader, &p, error);
+        if (got == 1) numbers[(*count)++] = p.pose_a.position.x;
+    }
+    ovoid_pairs_reader_destroy(reader);
+    return got;
+}
+
+/// A file of so many numbered pairs, with blank lines, blanks and both line ends; the last one has none.
+static const char *write_numbered(int count) {
+    static char text[20000];
+    size_t size = (size_t)snprintf(text, sizeof text, "%s", HEADER);
+    for (int i = 0; i < count; i++)
+        size += (size_t)snprintf(text + size, sizeof text - size, "%s0,2,%d,%*d,3,1,0,0,0,4,5,6,0,1,0,0%s",
+                                 i % 4 == 1 ? "\n  \n\n" : "", i, 1 + i * 7 % 19, 2,
+                                 i == count - 1 ? ""
+                                 : i % 3        ? "\n"
+                                                : "\r\n");
+    return file_write_text("numbered.csv", text);
+}
+
+static void check_parts(void) {
+    double numbers[128];
+    ovoid_error error;
+    for (int lines = 0; lines < 60; lines += 1 + lines / 4) {
+        const char *path = write_numbered(lines);
+        for (size_t parts = 1; parts < 80; parts += 1 + parts / 3) {
+            size_t count = 0;
+            for (size_t i = 0; i < parts; i++)
+                CHECK_EQ(read_part(path, (size_t[]){i, parts}, 0, numbers, &count, &error), 0);
+            CHECK_EQ((int)count, lines);
+            for (int i = 0; i < (int)count; i++) CHECK(numbers[i] == i);
+        }
+        // Pairs that are left out, also more than there are.
+        for (uint64_t skipped = 0; skipped < 20; skipped += 3) {
+            size_t all = 0, rest = 0;
+            CHECK_EQ(read_part(path, (size_t[]){1, 2}, 0, numbers, &all, &error), 0);
+            double last = all ? numbers[all - 1] : 0;
+            CHECK_EQ(read_part(path, (size_t[]){1, 2}, skipped, numbers, &rest, &error), 0);
+            CHECK_EQ(rest, skipped < all ? all - (size_t)skipped : 0);
+            CHECK(!rest || numbers[rest - 1] == last);
+        }
+    }
+}
+
+static void check_bad_parts(void) {
+    double numbers[8];
+    size_t count = 0;
+    ovoid_error error;
+    const char *path = file_write_text("parts.csv", HEADER GOOD "\n" GOOD GOOD "0,9,1,2,3,1,0,0,0,4,5,6,0,1,0,0\n");
+    for (size_t parts = 1; parts < 5; parts++) {
+        CHECK_EQ(read_part(path, (size_t[]){parts - 1, parts}, 0, numbers, &count, &error), -1);
+        CHECK(error.code == OVOID_ERROR_INDEX && error.place == 6);
+        CHECK(strstr(error.message, "parts.csv:6: column b") != NULL);
+        count = 0;
+    }
+    CHECK_EQ(read_part(path, (size_t[]){2, 2}, 0, numbers, &count, &error), -1);
+    CHECK(error.code == OVOID_ERROR_ARGUMENT && strstr(error.message, "there is no part 2 of 2"));
+}
+
 int main(void) {
     check_good();
+    check_parts();
+    check_bad_parts();
     check_bad();
     check_many();
     check_output();

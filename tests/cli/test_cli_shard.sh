@@ -1,0 +1,238 @@
+#!/bin/sh
+# Shards and ovoid merge: for every N from 1 to 7 the merged bytes and the exit code are those of one run, of batch, check,
+# run and robot check, in CSV and JSON Lines, with proofs. A shard that is cut at any place, killed, or that met a full
+# disk goes on and becomes the same file. What is missing, there twice, of another run, not finished or damaged is refused
+# by name.
+# Truth: the run without --shard.
+set -u
+# shellcheck source=tests/cli/need_tool.sh
+. "$(dirname "$0")/need_tool.sh"
+work=$OVOID_BUILD_DIR/test_cli_shard
+rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
+passed=0 failed=0
+LC_ALL=C
+export LC_ALL
+data=$OVOID_SOURCE_DIR/tests/cli/data
+
+# check NAME COMMAND...
+check() {
+    what=$1
+    shift
+    if "$@"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED $what"
+    fi
+}
+
+# ---- inputs: pairs with blank lines and CRLF, a scene with a floor that meets all, its motion, states of a robot
+
+awk 'BEGIN { srand(3); n = 60
+    print "a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz" >"pairs.csv"
+    for (i = 0; i < 700; i++) {
+        printf "%d,%d,0,0,0,1,0,0,0,%.9f,%.9f,%.9f,1,%.6f,0,0%s\n", i % 2, i % 3 % 2, 2 * rand(), 2 * rand(), rand(), rand(), i % 5 ? "" : "\r" >"pairs.csv"
+        if (i % 50 == 0) print "" >"pairs.csv"
+    }
+    split("\"box\":[1,0.4,0.7]|\"cone\":{\"radius\":0.5,\"length\":1,\"sides\":7}|\"compound\":[{\"box\":[1,0.2,0.2]},{\"sphere\":0.3,\"pose\":{\"xyz\":[0.7,0,0]}}]", kind, "|")
+    for (i = 0; i < n; i++) for (k = 0; k < 4; k++) p[i, k] = 4 * rand()
+    print "time,body,x,y,z,qw,qx,qy,qz" >"moves.csv"
+    for (f = 0; f < 5; f++)
+        for (i = 0; i < n; i++) {
+            if (i % 3 || !f) for (k = 0; k < 4; k++) p[i, k] += (rand() - 0.5) * 0.6
+            if (i % 3) printf "%g,n%d,%.6f,%.6f,%.6f,1,%.6f,0.3,0\n", f / 4, i, p[i, 0], p[i, 1], p[i, 2], p[i, 3] >"moves.csv"
+        }
+    printf "{\"objects\":[{\"name\":\"floor\",\"box\":[9,9,1]}" >"scene.json"
+    for (i = 0; i < n; i++)
+        printf ",{\"name\":\"n%d\",%s,\"pose\":{\"xyz\":[%.6f,%.6f,%.6f],\"quat_wxyz\":[1,%.6f,0.3,0]}}", i, kind[i % 3 + 1], p[i, 0], p[i, 1], p[i, 2], p[i, 3] >"scene.json"
+    print "],\"ignore\":[[\"n0\",\"n1\"],[\"n5\",\"n3\"]]}" >"scene.json"
+    print "shoulder,wrist" >"states.csv"
+    for (i = 0; i < 1900; i++) printf "%.6f,%.6f\n", 4.2 * rand() - 1.6, rand() >"states.csv" }'
+printf '%s/cube.off\n%s/tetra.obj\n' "$data" "$data" >shapes.txt
+
+robot="robot check $data/arm/arm.urdf --srdf $data/arm/arm.srdf --fixed-base --parts --scene $data/arm/cell.yaml --states states.csv"
+has_robot=1
+"$OVOID_TOOL" robot --help >/dev/null 2>&1 || has_robot=0
+
+# all NUMBERS NAME WORDS...: N shards of a command, merged, are one run of it, for each of these N. The words have no blanks.
+all() {
+    numbers=$1 name=$2
+    shift 2
+    "$OVOID_TOOL" "$@" >one 2>/dev/null
+    code=$?
+    check "$name: one run" [ -s one ]
+    for n in $numbers; do
+        rm -f -- *.shard
+        i=1
+        while [ $i -le $n ]; do
+            "$OVOID_TOOL" "$@" --shard $i/$n -o $i.shard --threads $((i % 3 + 1)) 2>/dev/null
+            i=$((i + 1))
+        done
+        # In any order.
+        # shellcheck disable=SC2046 # numbers
+        "$OVOID_TOOL" merge $(printf '%s\n' *.shard | sort -r) >merged 2>said
+        got=$?
+        check "$name: the bytes of $n shards" cmp one merged
+        check "$name: the exit code of $n shards, $got for $code" [ $got -eq $code ]
+    done
+}
+every='1 2 3 4 5 6 7'
+all 3 'batch, CSV' batch --shapes shapes.txt --pairs pairs.csv --csv
+all "$every" 'batch, proofs' batch --shapes shapes.txt --pairs pairs.csv --csv --proofs --margin 0.5
+all 3 'batch, JSON' batch --shapes shapes.txt --pairs pairs.csv --json --query collide
+all 3 'check' check scene.json --csv --proofs
+all "$every" 'check, margin' check scene.json --margin 0.3 --json
+all 4 'check, top' check scene.json --top 50 --csv
+all 3 'run' run scene.json --motion moves.csv --margin 0.2 --json
+all "$every" 'run, continuous' run scene.json --motion moves.csv --query collide --continuous --csv --proofs
+# shellcheck disable=SC2086 # words without blanks
+if [ $has_robot -eq 1 ]; then
+    all 3 'robot check' $robot --csv
+    all "$every" 'robot check, near' $robot --json --near 0.3 --gradient --top 1000
+fi
+printf 'a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n0,1,0,0,0,1,0,0,0,3,0,0,1,0,0,0' >few.csv
+all 5 'one pair, no line end' batch --shapes shapes.txt --pairs few.csv --csv
+head -1 few.csv >none.csv
+all 2 'no pair' batch --shapes shapes.txt --pairs none.csv --csv
+
+# ---- proofs are kept
+
+rm -f -- *.shard
+for i in 1 2 3; do "$OVOID_TOOL" run scene.json --motion moves.csv --margin 0.2 --continuous --json --shard $i/3 -o $i.shard 2>/dev/null; done
+"$OVOID_TOOL" merge ./*.shard -o merged.jsonl 2>/dev/null
+"$OVOID_TOOL" verify merged.jsonl scene.json --motion moves.csv >/dev/null 2>&1
+check 'the proofs of merged lines' [ $? -eq 0 ]
+
+# ---- interrupted: cut at many places, between and within blocks, and a byte altered behind them
+
+# again NAME WORDS...: shard 2/2 goes on from what is there and is whole again.
+again() {
+    name=$1
+    shift
+    rm -f whole.shard part.shard
+    "$OVOID_TOOL" "$@" --shard 2/2 -o whole.shard 2>/dev/null
+    code=$?
+    size=$(wc -c <whole.shard)
+    for step in 0 1 90 400 620 950 999; do
+        cut=$((size * step / 1000))
+        head -c $cut whole.shard >part.shard
+        "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>/dev/null
+        check "$name: cut at $cut of $size bytes" cmp whole.shard part.shard
+    done
+    # A torn end of other bytes, as after a loss of power, longer than what is to come; and one byte within.
+    { head -c $((size / 2)) whole.shard && head -c "$size" /dev/zero; } >part.shard
+    "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>said
+    check "$name: a torn end" cmp whole.shard part.shard
+    { head -c $((size / 2)) whole.shard && printf '\377' && tail -c +$((size / 2 + 2)) whole.shard; } >part.shard
+    "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>said
+    check "$name: a byte within" cmp whole.shard part.shard
+    "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>/dev/null
+    got=$?
+    check "$name: a whole shard stays" cmp whole.shard part.shard
+    check "$name: the exit code of a whole shard, $got for $code" [ $got -eq $code ]
+}
+again batch batch --shapes shapes.txt --pairs pairs.csv --json
+again check check scene.json --json
+again run run scene.json --motion moves.csv --json
+again 'run, continuous' run scene.json --motion moves.csv --json --continuous --margin 0.1
+# shellcheck disable=SC2086 # words without blanks
+[ $has_robot -eq 0 ] || again 'robot check' $robot --json --near 0.3
+
+# kill -9 at whatever place the run has come to.
+rm -f whole.shard part.shard
+for i in 1 2 3 4 5 6 7 8 9; do tail -n +2 pairs.csv | grep ,; done >>pairs.csv.body
+{ head -1 pairs.csv && cat pairs.csv.body; } >many.csv
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o whole.shard 2>/dev/null
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o part.shard >/dev/null 2>&1 &
+while [ ! -s part.shard ] && kill -0 $! 2>/dev/null; do :; done
+kill -9 $! 2>/dev/null
+wait $! 2>/dev/null
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o part.shard 2>/dev/null
+check 'killed' cmp whole.shard part.shard
+
+# A full disk: a limit of 100 blocks of 512 or 1024 bytes.
+rm -f part.shard
+(ulimit -f 100 && "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o part.shard) >/dev/null 2>said
+check 'a full disk: the code' [ $? -eq 3 ]
+check 'a full disk: what is said' grep -q 'part.shard: could not be written in full' said
+check 'a full disk: what is there stays' [ -s part.shard ]
+"$OVOID_TOOL" merge part.shard >merged 2>said
+check 'not finished' grep -q 'part 1/1 is not finished' said
+check 'not finished: nothing is written' [ ! -s merged ]
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o part.shard 2>/dev/null
+check 'a full disk: goes on' cmp whole.shard part.shard
+(ulimit -f 100 && "$OVOID_TOOL" merge whole.shard -o merged.jsonl2) >/dev/null 2>&1
+check 'a full disk of merge' [ $? -eq 3 ]
+check 'a full disk of merge: no file' [ ! -e merged.jsonl2 ]
+
+# ---- refused, by name
+
+# refuse WORDS TEXT...: merge of the shards says the text, with code 3, and writes nothing.
+refuse() {
+    text=$1
+    shift
+    "$OVOID_TOOL" merge "$@" >merged 2>said
+    got=$?
+    check "refused: $text; got $(cat said)" grep -q -- "$text" said
+    check "refused: $text: the code" [ $got -eq 3 ]
+}
+shard() { "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv "$@" 2>/dev/null; }
+rm -f -- *.shard
+for i in 1 2 3; do shard --shard $i/3 -o $i.shard; done
+cp 2.shard twin.shard
+shard --shard 1/4 -o four.shard
+shard --shard 1/3 --margin 0.25 -o margin.shard
+shard --shard 1/3 --proofs -o proofs.shard
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --json --shard 1/3 -o json.shard 2>/dev/null
+"$OVOID_TOOL" check scene.json --csv --shard 1/3 -o check.shard 2>/dev/null
+sed 's/^0,0,/0,1,/' pairs.csv >pairs2.csv
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs2.csv --csv --shard 1/3 -o pairs.shard 2>/dev/null
+# The list stays the same, and a mesh that it names does not.
+printf '%s/cube.off\nmesh.obj\n' "$data" >shapes3.txt
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n' >mesh.obj
+"$OVOID_TOOL" batch --shapes shapes3.txt --pairs pairs.csv --csv --shard 1/3 -o mesh1.shard 2>/dev/null
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 2\n' >mesh.obj
+"$OVOID_TOOL" batch --shapes shapes3.txt --pairs pairs.csv --csv --shard 2/3 -o mesh2.shard 2>/dev/null
+refuse 'a shard is missing: part 2/3' 1.shard 3.shard
+refuse 'shards are missing: parts 1/3, 3/3' 2.shard
+refuse '2.shard and twin.shard are both part 2/3' 1.shard twin.shard 2.shard 3.shard
+refuse 'four.shard: is part 1/4, and 3.shard part 3/3' 3.shard 2.shard four.shard
+refuse 'margin.shard: is with the options --margin=0.25, and 2.shard --margin=-1' 2.shard margin.shard 3.shard
+refuse 'proofs.shard: is with the options --proofs=1, and 2.shard --proofs=0' 2.shard proofs.shard 3.shard
+refuse 'json.shard: is in the format json, and 2.shard csv' 2.shard json.shard 3.shard
+refuse 'check.shard: is of the command check, and 2.shard batch' 2.shard check.shard 3.shard
+refuse 'pairs.shard: is of inputs with the digest .*, and 2.shard' 2.shard pairs.shard 3.shard
+refuse 'mesh2.shard: is of inputs with the digest .*, and mesh1.shard' mesh1.shard mesh2.shard
+refuse 'pairs.csv: is no shard' 1.shard pairs.csv
+refuse 'nowhere.shard: cannot be opened' nowhere.shard
+# Altered bytes, in the header and in all blocks.
+size=$(wc -c <2.shard)
+at=40
+while [ $at -lt "$size" ]; do
+    { head -c $at 2.shard && printf '\377' && tail -c +$((at + 2)) 2.shard; } >altered.shard
+    "$OVOID_TOOL" merge 1.shard altered.shard 3.shard >merged 2>said
+    check "altered at byte $at" [ $? -eq 3 ]
+    check "altered at byte $at: its name" grep -q altered.shard said
+    at=$((at + size / 11))
+done
+{ cat 2.shard && printf x; } >altered.shard
+refuse 'altered.shard: part 2/3 is not finished, or damaged' 1.shard altered.shard 3.shard
+# What is at the place of a shard and is none, or another one, stays.
+shard --shard 2/3 -o pairs3.csv
+cp pairs.csv plain && "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv --shard 2/3 -o plain 2>said
+check 'no shard is overwritten' cmp plain pairs.csv
+check 'no shard is overwritten: said' grep -q 'plain: is there and is no shard' said
+cp 2.shard other.shard && "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv --shard 3/3 -o other.shard 2>said
+check 'another part stays' cmp 2.shard other.shard
+check 'another part stays: said' grep -q 'other.shard: is part 2/3, not 3/3' said
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv --margin 1 --shard 2/3 -o other.shard 2>said
+check 'other options stay: said' grep -q 'other.shard: is with the options --margin=-1, and this run --margin=1' said
+# A bad line has its number in the whole file.
+{ cat pairs.csv && echo '0,9,0,0,0,1,0,0,0,3,0,0,1,0,0,0'; } >bad.csv
+lines=$(wc -l <bad.csv)
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs bad.csv --csv --shard 3/3 -o bad.shard 2>said
+check 'a bad line' [ $? -eq 3 ]
+check "a bad line: number $lines" grep -q "bad.csv:$lines: column b" said
+
+echo "$passed passed, $failed failed, 0 skipped"
+[ $failed -eq 0 ]
