@@ -1,5 +1,8 @@
 // Answer: what a query proved of two bodies, with its proof and what it takes to check it.
 #include "src/module.h"
+#ifdef OVOID_PYTHON_ROBOT
+#include "src/robot.h"
+#endif
 
 #include <stdlib.h>
 #include <string.h>
@@ -61,12 +64,18 @@ ovoid_code answer_check(const answer_object *self, ovoid_error *error) {
 
 static ovoid_code check_any(module_state *state, PyObject *what, ovoid_error *error) {
     if (Py_TYPE(what) == state->answer) return answer_check((const answer_object *)what, error);
+#ifdef OVOID_PYTHON_ROBOT
+    if (Py_TYPE(what) == state->robot_path) return path_check(what, error);
+#endif
     return impact_check(state, what, error);
 }
 
 static int is_checkable(module_state *state, PyObject *what) {
-    if (Py_TYPE(what) == state->answer || Py_TYPE(what) == state->impact || Py_TYPE(what) == state->approach) return 1;
-    PyErr_Format(PyExc_TypeError, "an Answer, Impact or Approach is wanted, not %R", (PyObject *)Py_TYPE(what));
+    if (Py_TYPE(what) == state->answer || Py_TYPE(what) == state->impact || Py_TYPE(what) == state->approach ||
+        (state->robot_path && Py_TYPE(what) == state->robot_path))
+        return 1;
+    PyErr_Format(PyExc_TypeError, "an Answer, Impact, Approach or RobotPath is wanted, not %R",
+                 (PyObject *)Py_TYPE(what));
     return 0;
 }
 
@@ -86,7 +95,8 @@ static PyObject *is_proven(PyObject *module, PyObject *what) {
 
 static PyMethodDef check_methods[] = {
     {"check", check, METH_O,
-     "check(answer)\n--\n\nChecks an Answer, Impact or Approach by its proof alone, without any search; raises Error "
+     "check(answer)\n--\n\nChecks an Answer, Impact, Approach or RobotPath by its proof alone, without any search; "
+     "raises Error "
      "where "
      "the proof does\nnot hold."},
     {"is_proven", is_proven, METH_O, "is_proven(answer)\n--\n\nTrue where check(answer) finds nothing wrong."},

@@ -281,6 +281,28 @@ int vec3_read(module_state *state, PyObject *from, const char *what, ovoid_vec3 
     return 0;
 }
 
+int buffer_axes(PyObject *from) {
+    Py_buffer view;
+    if (!PyObject_CheckBuffer(from)) return 0;
+    if (PyObject_GetBuffer(from, &view, PyBUF_FULL_RO)) {
+        PyErr_Clear();
+        return 0;
+    }
+    int axes = view.ndim;
+    PyBuffer_Release(&view);
+    return axes;
+}
+
+int array_axes(PyObject *from) {
+    int axes = buffer_axes(from);
+    if (axes || !PySequence_Check(from)) return axes == 1 ? 1 : 2;
+    PyObject *first = PySequence_GetItem(from, 0);
+    axes = first && PyNumber_Check(first) && !PySequence_Check(first) ? 1 : 2;
+    if (!first) PyErr_Clear();
+    Py_XDECREF(first);
+    return axes;
+}
+
 // 1 if the buffer's format is that of a kind of records, as this module or NumPy writes it.
 static int is_record(module_state *state, const Py_buffer *view, record_kind kind) {
     if (!view->format || view->itemsize != record_size(kind)) return 0;

@@ -197,7 +197,11 @@ static PyObject *repr(PyObject *self) {
 }
 
 static void shape_dealloc(PyObject *self) {
-    ovoid_shape_destroy(((shape_object *)self)->shape);
+    PyObject *owner = ((shape_object *)self)->owner;
+    if (owner)
+        Py_DECREF(owner);
+    else
+        ovoid_shape_destroy(((shape_object *)self)->shape);
     object_free(self);
 }
 

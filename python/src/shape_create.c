@@ -35,6 +35,14 @@ static int make_options(module_state *state, const shape_keywords *k, ovoid_shap
     return -1;
 }
 
+PyObject *shape_borrow(module_state *state, const ovoid_shape *shape, PyObject *owner) {
+    shape_object *self = object_make(state->shape);
+    if (!self) return NULL;
+    self->shape = (ovoid_shape *)shape;
+    self->owner = Py_NewRef(owner);
+    return (PyObject *)self;
+}
+
 PyObject *shape_wrap(module_state *state, ovoid_shape *shape, const ovoid_error *error) {
     if (!shape) return raise_error(state, error);
     shape_object *self = object_make(state->shape);
