@@ -106,8 +106,12 @@ static int execute(PyObject *module) {
                                                 robot_add,   cell_add,  robot_path_add,
 #endif
                                                 prepared_add};
-    PyMethodDef *const functions[] = {own_methods,    query_methods,  batch_methods,
-                                      impact_methods, smooth_methods, array_methods};
+    PyMethodDef *const functions[] = {
+        own_methods,        query_methods, batch_methods, impact_methods, smooth_methods, array_methods, bounds_methods,
+#ifdef OVOID_PYTHON_IO
+        shape_file_methods,
+#endif
+    };
     if (import_python(state_of_module(module))) return -1;
     for (size_t i = 0; i < sizeof adders / sizeof *adders; i++)
         if (adders[i](module)) return -1;

@@ -169,6 +169,8 @@ typedef struct answer_object {
 int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body);
 /// A new Shape around a C shape, which it takes over; where that is NULL, raises the error.
 PyObject *shape_wrap(module_state *state, ovoid_shape *shape, const ovoid_error *error);
+/// An Ellipsoid.
+PyObject *fit_wrap(module_state *state, const ovoid_fit *fit);
 /// A new Shape around a C shape that belongs to `owner`, which it keeps.
 PyObject *shape_borrow(module_state *state, const ovoid_shape *shape, PyObject *owner);
 
@@ -223,7 +225,8 @@ int robot_add(PyObject *module);
 int cell_add(PyObject *module);
 int robot_path_add(PyObject *module);
 
-extern PyMethodDef query_methods[], batch_methods[], impact_methods[], smooth_methods[], array_methods[];
+extern PyMethodDef query_methods[], batch_methods[], impact_methods[], smooth_methods[], array_methods[],
+    bounds_methods[], shape_file_methods[];
 extern PyMethodDef shape_constructors[], world_queries[];
 
 /// Joins two tables of methods in `all`, which the type keeps, and enters it in the slots.

@@ -53,6 +53,12 @@ typedef struct fit_object {
 } fit_object;
 
 // The ellipsoid in the user's local frame.
+PyObject *fit_wrap(module_state *state, const ovoid_fit *fit) {
+    fit_object *made = object_make(state->fit);
+    if (made) made->fit = *fit;
+    return (PyObject *)made;
+}
+
 static PyObject *get_fit(PyObject *self, void *closure) {
     fit_object *made = object_make(state_of(self)->fit);
     if (!made) return NULL;

@@ -1,5 +1,10 @@
-"""Prepared shapes and the couples of a world's probes. Truth: the same queries of shapes, bit for bit, and all pairs."""
+"""Prepared shapes, bounds without a search, parts of files, couples of a world's probes.
 
+Truth: the same queries of shapes, bit for bit; brackets that have to hold the distance; all pairs.
+"""
+
+import math
+import os
 import random
 import unittest
 
@@ -40,6 +45,49 @@ class Prepared(unittest.TestCase):
                 call()
 
 
+class Bounds(unittest.TestCase):
+    def test_hold(self):
+        for i, a in enumerate(ROCKS):
+            for j, b in enumerate(ROCKS):
+                answer = ovoid.depth(a, b, POSES[i], POSES[j])
+                wide = ovoid.bounds(a, b, POSES[i], POSES[j])
+                self.assertTrue(wide.lower <= answer.upper and answer.lower <= wide.upper)
+                for direction in (answer.normal, (0, 0, 3), wide.normal):
+                    gap = ovoid.gap(a, b, POSES[i], POSES[j], direction=direction)
+                    self.assertLessEqual(gap, answer.upper)
+                if i != j and any(answer.normal):
+                    self.assertAlmostEqual(ovoid.gap(a, b, POSES[i], POSES[j], direction=answer.normal), answer.lower, delta=1e-9)
+        self.assertEqual(ovoid.gap(ROCKS[3], ROCKS[4], direction=(0, 0, 0)), -math.inf)
+        for call in (lambda: ovoid.bounds(ROCKS[3], None), lambda: ovoid.gap(ROCKS[3], ROCKS[4]), lambda: ovoid.gap(1, 2, direction=(1, 0, 0)),
+                     lambda: ovoid.bounds(ovoid.Compound(ROCKS), ROCKS[3])):
+            with self.assertRaises(TypeError):
+                call()
+
+    def test_compound(self):
+        rocks = ovoid.Compound(ROCKS, POSES)
+        self.assertEqual(sorted(rocks.order.tolist()), list(range(6)))
+        self.assertGreater(rocks.outer.volume, rocks.inner.volume)
+        self.assertTrue(math.isnan(rocks.outer.gap))
+        # Each vertex is within the outer ellipsoid: (x - c)' Q^-1 (x - c) <= 1 where it is a ball, by its radii at least.
+        reach = max(rocks.outer.radii)
+        for rock, pose in zip(ROCKS, POSES):
+            for vertex in pose.apply(rock.vertices).tolist():
+                self.assertLessEqual(math.dist(vertex, rocks.outer.center), reach * (1 + 1e-9))
+
+    @unittest.skipUnless(ovoid.has_io, "built without libovoid_io")
+    def test_parts(self):
+        source = os.environ.get("OVOID_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", ".."))
+        path = os.path.join(source, "tests", "cli", "data", "parts.obj")
+        parts = ovoid.load_parts(path)
+        self.assertEqual([name for name, _ in parts], ["left part", "right/part"])
+        whole = ovoid.Shape.load(path)
+        self.assertLess(sum(shape.volume for _, shape in parts), whole.volume)
+        big = ovoid.load_parts(path, 2, rounding=0.5)
+        self.assertAlmostEqual(big[0][1].radius, 0.5, delta=0)
+        with self.assertRaises(ovoid.Error):
+            ovoid.load_parts("absent.obj")
+
+
 class Couples(unittest.TestCase):
     def test_any_of(self):
         world = ovoid.World()
@@ -56,6 +104,12 @@ class Couples(unittest.TestCase):
         apart = [pair for pair in couples if pair not in touching]
         self.assertIsNone(world.find_any_of(ROCKS, POSES, apart))
         self.assertIsNone(world.find_any_of(ROCKS, POSES, []))
+        more = world.add_many([ROCKS[0]] * 3, [far] * 3)
+        with self.assertRaises(ovoid.Error):
+            world.remove_many([more[0], more[0]])
+        self.assertEqual(len(world), 4)
+        world.remove_many(more)
+        self.assertEqual(len(world), 1)
         # Bodies of the world come first.
         self.assertEqual(world.find_any_of(ROCKS, POSES[:5] + [far], couples).b, block)
         for bad in ([(0, 6)], [(0, -1)], [(0, 2**40)], [0, 1], "x"):
