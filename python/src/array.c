@@ -103,6 +103,20 @@ static PyObject *get_numpy_type(module_state *state, record_kind kind) {
     return state->numpy_types[kind];
 }
 
+int array_is_own(module_state *state, PyObject *from, record_kind kind) {
+    PyTypeObject *type = Py_TYPE(from);
+    // Asked first by who hands in arrays but has got none yet: its type is that of NumPy, if it has one of this name.
+    if (!state->numpy_array && type != &PyTuple_Type && type != &PyList_Type &&
+        PyObject_HasAttr(from, state->dtype_name) && get_numpy(state) != Py_None && !get_numpy_type(state, kind))
+        PyErr_Clear();
+    if (!state->numpy_types[kind] || (PyObject *)type != state->numpy_array) return 0;
+    PyObject *found = PyObject_GetAttr(from, state->dtype_name);
+    int is_own = found == state->numpy_types[kind];
+    if (!found) PyErr_Clear();
+    Py_XDECREF(found);
+    return is_own;
+}
+
 const char *record_numpy_format(module_state *state, record_kind kind) {
     if (state->numpy_formats[kind]) return state->numpy_formats[kind];
     PyObject *numpy = get_numpy(state);

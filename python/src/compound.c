@@ -122,7 +122,9 @@ static void compound_dealloc(PyObject *object) {
 
 static PyGetSetDef fields[] = {{"shapes", get_shapes, NULL, "The shapes of its parts, a tuple.", NULL},
                                {"poses", get_poses, NULL, "The poses of its parts in its frame, a tuple.", NULL},
-                               {"outer", get_ellipsoid, NULL, "An ellipsoid that encloses all parts; its gap is NaN, as it is not the smallest.", NULL},
+                               {"outer", get_ellipsoid, NULL,
+                                "An ellipsoid that encloses all parts; its gap is NaN, as it is not the smallest.",
+                                NULL},
                                {"inner", get_ellipsoid, NULL, "The largest of the parts' inner ellipsoids.", ""},
                                {"order", get_order, NULL, "The parts in the order of the tree's leaves.", NULL},
                                {NULL, NULL, NULL, NULL, NULL}};

@@ -41,7 +41,8 @@ static int import_enum(PyObject *enums, const char *name, PyObject **to) {
 static int import_python(module_state *state) {
     static const char *const names[ENUM_COUNT] = {"Status",    "Stage",        "Limit",       "Code",
                                                   "ProofKind", "ImpactStatus", "RobotStatus", "Touch"};
-    PyObject *enums = PyImport_ImportModule("ovoid._enums");
+    state->dtype_name = PyUnicode_InternFromString("dtype");
+    PyObject *enums = state->dtype_name ? PyImport_ImportModule("ovoid._enums") : NULL;
     if (!enums) return -1;
     state->error = PyObject_GetAttrString(enums, "Error");
     int failed = !state->error;
@@ -141,9 +142,9 @@ static PyObject **get_object(module_state *s, size_t i) {
     i -= ENUM_COUNT;
     if (i < RECORD_COUNT) return &s->numpy_types[i];
     i -= RECORD_COUNT;
-    PyObject **others[] = {&s->error,       &s->numpy_array,  &s->contacts, &s->hit,           &s->cast,
-                           &s->joint,       &s->variable,     &s->element,  &s->side,          &s->state_answer,
-                           &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request};
+    PyObject **others[] = {&s->dtype_name,   &s->error,       &s->numpy_array,  &s->contacts, &s->hit,
+                           &s->cast,         &s->joint,       &s->variable,     &s->element,  &s->side,
+                           &s->state_answer, &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request};
     return i < sizeof others / sizeof *others ? others[i] : NULL;
 }
 

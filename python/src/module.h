@@ -53,6 +53,7 @@ typedef struct module_state {
     PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
         *obstacle, *motion_request;
     PyObject *enums[ENUM_COUNT]; ///< tuples
+    PyObject *dtype_name;        ///< "dtype"
     PyObject *numpy_array;       ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried
     PyObject *numpy_types[RECORD_COUNT];
     char *numpy_formats[RECORD_COUNT]; ///< how NumPy writes the format of a record; NULL: not yet asked
@@ -103,6 +104,9 @@ int records_view(module_state *state, PyObject *from, const char *what, record_k
 PyObject *array_make(module_state *state, record_kind kind, int axes, const Py_ssize_t *shape, void *data);
 /// The array as NumPy's where there is NumPy, else itself. Takes over the reference; NULL is passed on.
 PyObject *array_wrap(module_state *state, PyObject *array);
+/// 1 if it is a NumPy array of the very type that this kind has: then its format, which NumPy writes anew at each call,
+/// is known.
+int array_is_own(module_state *state, PyObject *from, record_kind kind);
 /// A wrapped copy of items.
 PyObject *array_copy(module_state *state, record_kind kind, int axes, const Py_ssize_t *shape, const void *from);
 /// How an array of that kind is written, and how NumPy writes it ("" where there is no NumPy); NULL: an exception.
@@ -155,12 +159,18 @@ typedef struct pose_object {
     PyObject_HEAD ovoid_pose pose;
 } pose_object;
 
+/// What is used of an ovoid_cover, in a block as small as that: a of all points, then b, then the triangles.
+typedef struct kept_cover {
+    uint32_t point_count, triangle_count;
+    char data[];
+} kept_cover;
+
 /// The answer to a query, with what it takes to check it.
 typedef struct answer_object {
     PyObject_HEAD ovoid_compound_answer of;
     PyObject *a, *b; ///< shapes or compounds
     ovoid_pose pose_a, pose_b;
-    ovoid_cover *cover;          ///< of a depth; NULL: none
+    kept_cover *cover;           ///< of a depth; NULL: none
     ovoid_exclusion *exclusions; ///< of compounds
     size_t exclusion_count;
 } answer_object;
@@ -201,6 +211,8 @@ answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const 
                            const ovoid_pose *pose_b);
 /// Keeps of a depth's cover what is used of it.
 int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
+/// What was kept as the library reads it, in *to; NULL where there is none.
+const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.
 int limit_check(module_state *state, ovoid_limit limit);
 /// Checks an answer by its proof: OVOID_OK, or what ovoid_answer_check says.
