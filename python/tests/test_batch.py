@@ -153,6 +153,8 @@ class Long(unittest.TestCase):
         self.couples = numpy.array(couples, numpy.uint32) if numpy else couples
 
     def test_ctrl_c(self):
+        # A shell's background jobs ignore the signal, and so would Python.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         # Seconds of work; the signal is sent once it has begun, however busy the machine is.
         count = 2000000
         couples = memoryview(array("I", [0, 1]) * count).cast("B").cast("I", (count, 2))
