@@ -195,6 +195,9 @@ class Cells(unittest.TestCase):
             single, gradient = self.cell.nearest(q)
             self.assertEqual(list(map(str, row.values())), list(map(str, rows(single)[0].values())))
             self.assertEqual(slope, gradient.tolist()[0])
+        # A block begins as if nothing was asked before.
+        tail = self.cell.nearest_batch(states[256:])[0]
+        self.assertEqual([list(map(str, row.values())) for row in rows(tail)], [list(map(str, row.values())) for row in rows(many)[256:]])
         far = rows(self.cell.nearest_batch([(2, 0)], margin=0.01)[0])[0]
         self.assertEqual((far["lower"], far["upper"], far["link_a"], far["status"]), (0.01, math.inf, 2**32 - 1, 1))
         with self.assertRaises(ovoid.Error) as raised:
@@ -272,8 +275,9 @@ class Cells(unittest.TestCase):
         refused = self.cell.check_path([[1, 0], [9, 0]])
         self.assertEqual((refused.status, refused.refused), (ovoid.RobotStatus.REFUSED, 0))
         self.cell.move(self.ball, at(9))
-        with self.assertRaises(ovoid.Error):
-            ovoid.check(hit)
+        for path in (hit, free):
+            with self.assertRaisesRegex(ovoid.Error, "the cell has changed"):
+                ovoid.check(path)
         for bad in ([], [[1]], [1, 2], "x"):
             with self.assertRaises((TypeError, ovoid.Error)):
                 self.cell.check_path(bad)
