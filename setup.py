@@ -14,7 +14,7 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 ROOT = Path(__file__).resolve().parent
-OFF = ("SHARED", "CLI", "JUDGE", "TESTS", "BENCH", "EXAMPLES", "INSTALL", "ASSIMP", "ROBOT")
+OFF = ("SHARED", "CLI", "JUDGE", "TESTS", "BENCH", "EXAMPLES", "INSTALL", "ASSIMP")
 
 
 def read_version():
@@ -32,10 +32,13 @@ class CMakeBuild(build_ext):
         configure = ["cmake", "-S", str(ROOT), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", "-DOVOID_PYTHON=ON",
                      f"-DOVOID_PYTHON_INTERPRETER={sys.executable}", *(f"-DOVOID_{name}=OFF" for name in OFF)]
         more = shlex.split(os.environ.get("OVOID_CMAKE_ARGS", ""))
-        # Files are read through libovoid_io, which wants jansson; without it all else is there.
-        if subprocess.run([*configure, "-DOVOID_IO=ON", *more], check=False).returncode:
-            print("ovoid: without libovoid_io (jansson is missing): Shape.load reads no files", file=sys.stderr)
-            subprocess.run([*configure, "-DOVOID_IO=OFF", *more], check=True)
+        # Files are read through libovoid_io, which wants jansson, and robots' too, which want expat and libyaml.
+        tries = (("IO=ON", "ROBOT=ON"), ("IO=ON", "ROBOT=OFF"), ("IO=OFF", "ROBOT=ON"))
+        for parts in tries:
+            last = parts == tries[-1]
+            if not subprocess.run([*configure, *(f"-DOVOID_{part}" for part in parts), *more], check=last).returncode:
+                break
+            print(f"ovoid: not with {' '.join(parts)}: jansson, or expat or libyaml, is missing", file=sys.stderr)
         subprocess.run(["cmake", "--build", str(folder), "--target", "ovoid_python", f"-j{os.cpu_count()}"], check=True)
         self.copy_file(folder / "python/ovoid/_ovoid.abi3.so", self.get_ext_fullpath(extension.name))
 

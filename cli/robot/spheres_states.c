@@ -48,7 +48,7 @@ int sphere_samples_draw(sphere_samples *samples, const cli_cell *cell, unsigned 
     if (!q) return message_error("out of memory for %u states", count), EXIT_INPUT;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < n; k++) q[i * n + k] = draw_value(cell, k, &random);
-    samples->states = (cli_states){.q = q, .count = count, .variable_count = n, .capacity = count};
+    samples->states = (cli_states){.q = q, .count = count, .variable_count = n, .stored = count, .capacity = count};
     return 0;
 }
 

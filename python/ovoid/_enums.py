@@ -89,6 +89,30 @@ class ImpactStatus(Named):
     HIT = 2  #: within the margin at hit_at, proven
 
 
+class RobotStatus(Named):
+    """What is proven of a state or a path of a robot."""
+
+    UNDECIDED = 0  #: treat it as a hit
+    FREE = 1  #: every pair is farther apart than the margin, proven
+    HIT = 2  #: a pair is within the margin, proven
+    REFUSED = 3  #: it is no state
+
+
+class Touch(Named):
+    """What is known of two links over all states within the limits."""
+
+    OPEN = 0
+    NEVER = 1  #: proven
+    SAMPLED_NEVER = 2
+    ALWAYS = 3  #: proven
+    SAMPLED_ALWAYS = 4
+    SOMETIMES = 5  #: proven
+    RIGID = 6  #: nothing but fixed joints between them
+
+    def __str__(self):
+        return self.name.lower().replace("_", " ")
+
+
 class Error(ValueError):
     """What the library refused: its sentence, with code (a Code) and place.
 

@@ -16,3 +16,40 @@ distance(..., earlier=answer)."""
 
 Cast = namedtuple("Cast", "body part probe lower upper point normal undecided")
 Cast.__doc__ = """The first hit of a ray or of a moved body: the id, lower <= t <= upper, the body's point and its normal."""
+
+Joint = namedtuple("Joint", "name type parent child origin axis lower upper velocity mimic multiplier offset",
+                   defaults=(None, (1, 0, 0), 0, 0, 0, None, 1, 0))
+Joint.__doc__ = """A joint: child frame = parent frame, then origin, then what the joint does along or about its axis. URDF's words.
+
+type: fixed, revolute, continuous, prismatic, planar or floating. parent, child: links' names. lower, upper: of revolute and
+prismatic ones, radians or lengths. velocity: most, a second; 0: not given. mimic: the joint it follows, as multiplier * q +
+offset, or None."""
+
+Variable = namedtuple("Variable", "name joint component lower upper velocity")
+Variable.__doc__ = """One number of a state: its name ("elbow", "base/x"), its joint, which of its numbers, and the limits."""
+
+Element = namedtuple("Element", "link shape pose name", defaults=(None, None))
+Element.__doc__ = """A convex part of a link's collision geometry; pose in the link's frame."""
+
+Side = namedtuple("Side", "link element body part")
+Side.__doc__ = """One side of a pair: the link's index (None: an obstacle), the element's (None: a body), the body's id (0: an
+element) and its part."""
+
+StateAnswer = namedtuple("StateAnswer", "status a b lower upper code variable")
+StateAnswer.__doc__ = """What is proven of a state: a RobotStatus; of HIT and UNDECIDED the Sides of the pair and the bracket of its
+signed distance; of REFUSED the Code and the variable."""
+
+MatrixPair = namedtuple("MatrixPair", "a b touch is_neighbour samples hits frees cells hit free reason sampled_reason")
+MatrixPair.__doc__ = """What is known of two links: a Touch, how many samples were hits and free, a state of each or None; why the pair may be
+left out ("Adjacent", "Never", "Always") by what is proven, and by what was sampled too, or None."""
+
+SphereAudit = namedtuple("SphereAudit", "depth point element sphere uncovered excess link spheres cells")
+SphereAudit.__doc__ = """Spheres against a link: brackets (lower, upper) of the deepest uncovered point's depth (upper <= 0: all is covered),
+of the uncovered volume, of the spheres' volume outside the link, of the link's and of the spheres' volume. point: shows
+depth's lower end, of that element, nearest to that sphere."""
+
+Obstacle = namedtuple("Obstacle", "name shape pose")
+Obstacle.__doc__ = """A convex obstacle of a scene."""
+
+MotionRequest = namedtuple("MotionRequest", "group start goals")
+MotionRequest.__doc__ = """A planning request: the group's name, and joints' numbers by their names at the start and at each goal."""

@@ -1,5 +1,8 @@
 // Answer: what a query proved of two bodies, with its proof and what it takes to check it.
 #include "src/module.h"
+#ifdef OVOID_PYTHON_ROBOT
+#include "src/robot.h"
+#endif
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,17 +20,31 @@ answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const 
 
 int answer_keep_cover(answer_object *to, const ovoid_cover *cover) {
     if (!cover->point_count) return 0;
-    to->cover = malloc(sizeof *to->cover);
+    size_t points = cover->point_count * sizeof *cover->a, triangles = cover->triangle_count * sizeof *cover->triangles;
+    to->cover = malloc(sizeof *to->cover + 2 * points + triangles);
     if (!to->cover) {
         PyErr_NoMemory();
         return -1;
     }
     to->cover->point_count = cover->point_count;
     to->cover->triangle_count = cover->triangle_count;
-    memcpy(to->cover->a, cover->a, cover->point_count * sizeof *cover->a);
-    memcpy(to->cover->b, cover->b, cover->point_count * sizeof *cover->b);
-    memcpy(to->cover->triangles, cover->triangles, cover->triangle_count * sizeof *cover->triangles);
+    char *data = to->cover->data;
+    memcpy(data, cover->a, points);
+    memcpy(data + points, cover->b, points);
+    memcpy(data + 2 * points, cover->triangles, triangles);
     return 0;
+}
+
+const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to) {
+    if (!self->cover) return NULL;
+    to->point_count = self->cover->point_count;
+    to->triangle_count = self->cover->triangle_count;
+    size_t points = to->point_count * sizeof *to->a;
+    const char *data = self->cover->data;
+    memcpy(to->a, data, points);
+    memcpy(to->b, data + points, points);
+    memcpy(to->triangles, data + 2 * points, to->triangle_count * sizeof *to->triangles);
+    return to;
 }
 
 int limit_check(module_state *state, ovoid_limit limit) {
@@ -50,23 +67,32 @@ static ovoid_body make_body(module_state *state, PyObject *from, ovoid_pose pose
 
 ovoid_code answer_check(const answer_object *self, ovoid_error *error) {
     module_state *state = state_of((PyObject *)self);
+    ovoid_cover unpacked;
+    const ovoid_cover *cover = answer_unpack_cover(self, &unpacked);
     ovoid_body_pair bodies = {make_body(state, self->a, self->pose_a), make_body(state, self->b, self->pose_b)};
     if (bodies.a.shape && bodies.b.shape) {
         ovoid_pair pair = {bodies.a.shape, bodies.b.shape, self->pose_a, self->pose_b};
-        return ovoid_answer_check(&pair, &self->of.answer, self->cover, error);
+        return ovoid_answer_check(&pair, &self->of.answer, cover, error);
     }
-    ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count, self->cover};
+    ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count,
+                                   self->cover ? &unpacked : NULL};
     return ovoid_compound_answer_check(&bodies, &self->of, &exclusions, error);
 }
 
 static ovoid_code check_any(module_state *state, PyObject *what, ovoid_error *error) {
     if (Py_TYPE(what) == state->answer) return answer_check((const answer_object *)what, error);
+#ifdef OVOID_PYTHON_ROBOT
+    if (Py_TYPE(what) == state->robot_path) return path_check(what, error);
+#endif
     return impact_check(state, what, error);
 }
 
 static int is_checkable(module_state *state, PyObject *what) {
-    if (Py_TYPE(what) == state->answer || Py_TYPE(what) == state->impact || Py_TYPE(what) == state->approach) return 1;
-    PyErr_Format(PyExc_TypeError, "an Answer, Impact or Approach is wanted, not %R", (PyObject *)Py_TYPE(what));
+    if (Py_TYPE(what) == state->answer || Py_TYPE(what) == state->impact || Py_TYPE(what) == state->approach ||
+        (state->robot_path && Py_TYPE(what) == state->robot_path))
+        return 1;
+    PyErr_Format(PyExc_TypeError, "an Answer, Impact, Approach or RobotPath is wanted, not %R",
+                 (PyObject *)Py_TYPE(what));
     return 0;
 }
 
@@ -86,7 +112,8 @@ static PyObject *is_proven(PyObject *module, PyObject *what) {
 
 static PyMethodDef check_methods[] = {
     {"check", check, METH_O,
-     "check(answer)\n--\n\nChecks an Answer, Impact or Approach by its proof alone, without any search; raises Error "
+     "check(answer)\n--\n\nChecks an Answer, Impact, Approach or RobotPath by its proof alone, without any search; "
+     "raises Error "
      "where "
      "the proof does\nnot hold."},
     {"is_proven", is_proven, METH_O, "is_proven(answer)\n--\n\nTrue where check(answer) finds nothing wrong."},

@@ -9,7 +9,7 @@
 
 typedef struct array_object {
     PyObject_HEAD void *data;
-    Py_ssize_t shape[3], strides[3], size;
+    Py_ssize_t shape[4], strides[4], size;
     int axes;
     record_kind kind;
 } array_object;
@@ -20,6 +20,9 @@ typedef struct record {
 } record;
 
 #define VERDICT_FIELDS "I:status:I:stage:I:limit:I:iterations:d:lower:d:upper:"
+#define SIDE_FIELDS(which) "I:link_" which ":I:element_" which ":Q:body_" which ":I:part_" which ":4x"
+// Robots may be left out of a build; robot_check.c and robot_path.c say that these are the sizes.
+enum { STATE_SIZE = 80, NEAR_SIZE = 152, ROBOT_STEP_SIZE = 48 };
 static const record records[RECORD_COUNT] = {
     [RECORD_DOUBLE] = {"d", sizeof(double)},
     [RECORD_UINT32] = {"I", sizeof(uint32_t)},
@@ -31,6 +34,12 @@ static const record records[RECORD_COUNT] = {
                       sizeof(ovoid_proof)},
     [RECORD_CONTACT] = {"T{Q:a:Q:b:I:part_a:I:part_b:" VERDICT_FIELDS "}", sizeof(ovoid_contact)},
     [RECORD_STEP] = {"T{d:until:(3)d:normal:I:frame:4x}", sizeof(ovoid_step)},
+    [RECORD_STATE] = {"T{I:status:I:code:I:variable:4x" SIDE_FIELDS("a") SIDE_FIELDS("b") "d:lower:d:upper:}",
+                      STATE_SIZE},
+    [RECORD_NEAR] = {"T{" SIDE_FIELDS("a") SIDE_FIELDS("b") "I:status:4xd:lower:d:upper:"
+                                                            "(3)d:point_a:(3)d:point_b:(3)d:normal:I:has_gradient:4x}",
+                     NEAR_SIZE},
+    [RECORD_ROBOT_STEP] = {"T{d:begin:d:end:I:pair:H:kind:H:mask:(3)d:normal:}", ROBOT_STEP_SIZE},
 };
 _Static_assert(sizeof(unsigned) == 4 && sizeof(ovoid_status) == 4, "a format names enumerations by I");
 _Static_assert(sizeof(ovoid_verdict) == 32 && sizeof(ovoid_witness) == 72 && sizeof(ovoid_proof) == 248 &&
@@ -92,6 +101,20 @@ static PyObject *get_numpy_type(module_state *state, record_kind kind) {
     Py_XDECREF(one);
     Py_XDECREF(numpy);
     return state->numpy_types[kind];
+}
+
+int array_is_own(module_state *state, PyObject *from, record_kind kind) {
+    PyTypeObject *type = Py_TYPE(from);
+    // Asked first by who hands in arrays but has got none yet: its type is that of NumPy, if it has one of this name.
+    if (!state->numpy_array && type != &PyTuple_Type && type != &PyList_Type &&
+        PyObject_HasAttr(from, state->dtype_name) && get_numpy(state) != Py_None && !get_numpy_type(state, kind))
+        PyErr_Clear();
+    if (!state->numpy_types[kind] || (PyObject *)type != state->numpy_array) return 0;
+    PyObject *found = PyObject_GetAttr(from, state->dtype_name);
+    int is_own = found == state->numpy_types[kind];
+    if (!found) PyErr_Clear();
+    Py_XDECREF(found);
+    return is_own;
 }
 
 const char *record_numpy_format(module_state *state, record_kind kind) {
@@ -198,8 +221,10 @@ int array_add(PyObject *module) { return type_add(module, &spec, &state_of_modul
 
 // ---- zeros(kind, count)
 
-static const char *const made_by_name[RECORD_COUNT] = {
-    [RECORD_VERDICT] = "verdicts", [RECORD_WITNESS] = "witnesses", [RECORD_PROOF] = "proofs"};
+static const char *const made_by_name[RECORD_COUNT] = {[RECORD_VERDICT] = "verdicts",
+                                                       [RECORD_WITNESS] = "witnesses",
+                                                       [RECORD_PROOF] = "proofs",
+                                                       [RECORD_STATE] = "states"};
 
 static PyObject *zeros(PyObject *module, PyObject *arguments) {
     const char *name;
@@ -211,12 +236,12 @@ static PyObject *zeros(PyObject *module, PyObject *arguments) {
     for (int kind = 0; kind < RECORD_COUNT; kind++)
         if (made_by_name[kind] && !strcmp(name, made_by_name[kind]))
             return array_wrap(state, array_make(state, (record_kind)kind, 1, &count, NULL));
-    return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "zeros: 'verdicts', 'witnesses' or 'proofs' is wanted, not '%s'",
-                      name);
+    return raise_code(state, OVOID_ERROR_ARGUMENT, -1,
+                      "zeros: 'verdicts', 'witnesses', 'proofs' or 'states' is wanted, not '%s'", name);
 }
 
 PyMethodDef array_methods[] = {
     {"zeros", zeros, METH_VARARGS,
-     "zeros(kind, count)\n--\n\nAn array of zeros for the results of batches: kind is 'verdicts', 'witnesses' or "
-     "'proofs'.\nProofs of zeros say nothing, so they begin a series of batches."},
+     "zeros(kind, count)\n--\n\nAn array of zeros for the results of batches: kind is 'verdicts', 'witnesses', "
+     "'proofs' or,\nof a Cell's, 'states'. Proofs of zeros say nothing, so they begin a series of batches."},
     {NULL, NULL, 0, NULL}};

@@ -133,6 +133,21 @@ static int copy_buffer(module_state *state, const char *what, const Py_buffer *v
     return 0;
 }
 
+// What is given again and again, a 4x4 array of doubles, is asked for without its format.
+static int read_own_doubles(module_state *state, PyObject *from, int axes, const Py_ssize_t *wanted, void *to) {
+    Py_buffer view;
+    if (!array_is_own(state, from, RECORD_DOUBLE)) return 0;
+    if (PyObject_GetBuffer(from, &view, PyBUF_ND)) {
+        PyErr_Clear();
+        return 0;
+    }
+    int is_right = view.ndim == axes;
+    for (int i = 0; is_right && i < axes; i++) is_right = view.shape[i] == wanted[i];
+    if (is_right) memcpy(to, view.buf, (size_t)view.len);
+    PyBuffer_Release(&view);
+    return is_right;
+}
+
 static int is_wanted_kind(const Py_buffer *view, char type) {
     char kind = buffer_kind(view);
     return kind && !view->suboffsets && (type == 'd' || kind == 'i' || kind == 'u');
@@ -270,6 +285,7 @@ int items_read(module_state *state, PyObject *from, const char *what, int axes, 
 }
 
 int doubles_read(module_state *state, PyObject *from, const char *what, int axes, const Py_ssize_t *wanted, void *to) {
+    if (read_own_doubles(state, from, axes, wanted, to)) return 0;
     items into = {to, {0, 0, 0}};
     return read_any(state, from, what, axes, wanted, 'd', &into);
 }
@@ -281,6 +297,28 @@ int vec3_read(module_state *state, PyObject *from, const char *what, ovoid_vec3 
     return 0;
 }
 
+int buffer_axes(PyObject *from) {
+    Py_buffer view;
+    if (!PyObject_CheckBuffer(from)) return 0;
+    if (PyObject_GetBuffer(from, &view, PyBUF_FULL_RO)) {
+        PyErr_Clear();
+        return 0;
+    }
+    int axes = view.ndim;
+    PyBuffer_Release(&view);
+    return axes;
+}
+
+int array_axes(PyObject *from) {
+    int axes = buffer_axes(from);
+    if (axes || !PySequence_Check(from)) return axes == 1 ? 1 : 2;
+    PyObject *first = PySequence_GetItem(from, 0);
+    axes = first && PyNumber_Check(first) && !PySequence_Check(first) ? 1 : 2;
+    if (!first) PyErr_Clear();
+    Py_XDECREF(first);
+    return axes;
+}
+
 // 1 if the buffer's format is that of a kind of records, as this module or NumPy writes it.
 static int is_record(module_state *state, const Py_buffer *view, record_kind kind) {
     if (!view->format || view->itemsize != record_size(kind)) return 0;
@@ -290,20 +328,9 @@ static int is_record(module_state *state, const Py_buffer *view, record_kind kin
     return numpy && !strcmp(view->format, numpy);
 }
 
-// 1 if it is a NumPy array of the very type of ovoid.zeros: then its format, which NumPy writes anew at each call, is
-// known.
-static int is_own_type(module_state *state, PyObject *from, record_kind kind) {
-    if (!state->numpy_types[kind] || (PyObject *)Py_TYPE(from) != state->numpy_array) return 0;
-    PyObject *type = PyObject_GetAttrString(from, "dtype");
-    int is_own = type == state->numpy_types[kind];
-    if (!type) PyErr_Clear();
-    Py_XDECREF(type);
-    return is_own;
-}
-
 int records_view(module_state *state, PyObject *from, const char *what, record_kind kind, Py_ssize_t count,
                  int writable, Py_buffer *view) {
-    int is_own = is_own_type(state, from, kind);
+    int is_own = array_is_own(state, from, kind);
     int flags = (writable ? PyBUF_FULL : PyBUF_FULL_RO) & ~(is_own ? PyBUF_FORMAT : 0);
     if (PyObject_GetBuffer(from, view, flags)) {
         PyErr_Clear();

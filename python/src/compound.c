@@ -1,6 +1,7 @@
 // Compound: several shapes with poses in one body. It keeps its shapes.
 #include "src/module.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static const ovoid_compound *get(PyObject *self) { return ((compound_object *)self)->compound; }
@@ -91,6 +92,19 @@ static PyObject *get_poses(PyObject *self, void *closure) {
     return poses;
 }
 
+static PyObject *get_ellipsoid(PyObject *self, void *closure) {
+    ovoid_ellipsoid e = closure ? ovoid_compound_get_inner(get(self)) : ovoid_compound_get_outer(get(self));
+    ovoid_fit fit = {.ellipsoid = e, .volume = ovoid_ellipsoid_compute_volume(&e), .gap = NAN};
+    return fit_wrap(state_of(self), &fit);
+}
+
+static PyObject *get_order(PyObject *self, void *closure) {
+    (void)closure;
+    const uint32_t *order = ovoid_compound_get_order(get(self));
+    return array_copy(state_of(self), RECORD_UINT32, 1,
+                      (Py_ssize_t[]){(Py_ssize_t)ovoid_compound_get_part_count(get(self))}, order);
+}
+
 static PyObject *reduce(PyObject *self, PyObject *ignored) {
     (void)ignored;
     PyObject *poses = get_poses(self, NULL);
@@ -108,6 +122,11 @@ static void compound_dealloc(PyObject *object) {
 
 static PyGetSetDef fields[] = {{"shapes", get_shapes, NULL, "The shapes of its parts, a tuple.", NULL},
                                {"poses", get_poses, NULL, "The poses of its parts in its frame, a tuple.", NULL},
+                               {"outer", get_ellipsoid, NULL,
+                                "An ellipsoid that encloses all parts; its gap is NaN, as it is not the smallest.",
+                                NULL},
+                               {"inner", get_ellipsoid, NULL, "The largest of the parts' inner ellipsoids.", ""},
+                               {"order", get_order, NULL, "The parts in the order of the tree's leaves.", NULL},
                                {NULL, NULL, NULL, NULL, NULL}};
 static PyMethodDef methods[] = {{"__reduce__", reduce, METH_NOARGS, NULL}, {NULL, NULL, 0, NULL}};
 static PyType_Slot slots[] = {

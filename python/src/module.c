@@ -39,8 +39,10 @@ static int import_enum(PyObject *enums, const char *name, PyObject **to) {
 }
 
 static int import_python(module_state *state) {
-    static const char *const names[ENUM_COUNT] = {"Status", "Stage", "Limit", "Code", "ProofKind", "ImpactStatus"};
-    PyObject *enums = PyImport_ImportModule("ovoid._enums");
+    static const char *const names[ENUM_COUNT] = {"Status",    "Stage",        "Limit",       "Code",
+                                                  "ProofKind", "ImpactStatus", "RobotStatus", "Touch"};
+    state->dtype_name = PyUnicode_InternFromString("dtype");
+    PyObject *enums = state->dtype_name ? PyImport_ImportModule("ovoid._enums") : NULL;
     if (!enums) return -1;
     state->error = PyObject_GetAttrString(enums, "Error");
     int failed = !state->error;
@@ -48,11 +50,25 @@ static int import_python(module_state *state) {
     Py_DECREF(enums);
     PyObject *values = failed ? NULL : PyImport_ImportModule("ovoid._values");
     if (!values) return -1;
-    state->contacts = PyObject_GetAttrString(values, "Contacts");
-    state->hit = PyObject_GetAttrString(values, "Hit");
-    state->cast = PyObject_GetAttrString(values, "Cast");
+    const struct {
+        PyObject **to;
+        const char *name;
+    } tuples[] = {{&state->contacts, "Contacts"},
+                  {&state->hit, "Hit"},
+                  {&state->cast, "Cast"},
+                  {&state->joint, "Joint"},
+                  {&state->variable, "Variable"},
+                  {&state->element, "Element"},
+                  {&state->side, "Side"},
+                  {&state->state_answer, "StateAnswer"},
+                  {&state->matrix_pair, "MatrixPair"},
+                  {&state->sphere_audit, "SphereAudit"},
+                  {&state->obstacle, "Obstacle"},
+                  {&state->motion_request, "MotionRequest"}};
+    for (size_t i = 0; !failed && i < sizeof tuples / sizeof *tuples; i++)
+        failed = !(*tuples[i].to = PyObject_GetAttrString(values, tuples[i].name));
     Py_DECREF(values);
-    return state->contacts && state->hit && state->cast ? 0 : -1;
+    return failed ? -1 : 0;
 }
 
 static PyObject *get_names(PyObject *module, PyObject *ignored) {
@@ -85,27 +101,40 @@ static PyMethodDef own_methods[] = {
 // ---- the module
 
 static int execute(PyObject *module) {
-    static int (*const adders[])(PyObject *) = {array_add,  pose_add,  shape_add,  compound_add, answer_add,
-                                                bodies_add, world_add, motion_add, impact_add,   smooth_add};
-    PyMethodDef *const functions[] = {own_methods,    query_methods,  batch_methods,
-                                      impact_methods, smooth_methods, array_methods};
+    static int (*const adders[])(PyObject *) = {array_add,   pose_add,  shape_add,      compound_add, answer_add,
+                                                bodies_add,  world_add, motion_add,     impact_add,   smooth_add,
+#ifdef OVOID_PYTHON_ROBOT
+                                                robot_add,   cell_add,  robot_path_add,
+#endif
+                                                prepared_add};
+    PyMethodDef *const functions[] = {
+        own_methods,        query_methods, batch_methods, impact_methods, smooth_methods, array_methods, bounds_methods,
+#ifdef OVOID_PYTHON_IO
+        shape_file_methods,
+#endif
+    };
     if (import_python(state_of_module(module))) return -1;
     for (size_t i = 0; i < sizeof adders / sizeof *adders; i++)
         if (adders[i](module)) return -1;
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         if (PyModule_AddFunctions(module, functions[i])) return -1;
+    int has_io = 0, has_robot = 0;
 #ifdef OVOID_PYTHON_IO
-    if (PyModule_AddIntConstant(module, "has_io", 1)) return -1;
-#else
-    if (PyModule_AddIntConstant(module, "has_io", 0)) return -1;
+    has_io = 1;
 #endif
+#ifdef OVOID_PYTHON_ROBOT
+    has_robot = 1;
+#endif
+    if (PyModule_AddIntConstant(module, "has_io", has_io) || PyModule_AddIntConstant(module, "has_robot", has_robot))
+        return -1;
     return PyModule_AddStringConstant(module, "__version__", ovoid_get_version());
 }
 
 static PyObject **get_object(module_state *s, size_t i) {
-    PyTypeObject **types[] = {&s->array,   &s->shape,  &s->pose,         &s->compound, &s->answer,
-                              &s->bodies,  &s->world,  &s->motion,       &s->impact,   &s->approach,
-                              &s->ray_hit, &s->smooth, &s->smooth_value, &s->gradient, &s->fit};
+    PyTypeObject **types[] = {&s->array,    &s->shape,  &s->pose,         &s->compound,  &s->answer,
+                              &s->bodies,   &s->world,  &s->motion,       &s->impact,    &s->approach,
+                              &s->ray_hit,  &s->smooth, &s->smooth_value, &s->gradient,  &s->fit,
+                              &s->prepared, &s->robot,  &s->cell,         &s->robot_path};
     size_t type_count = sizeof types / sizeof *types;
     if (i < type_count) return (PyObject **)types[i];
     i -= type_count;
@@ -113,7 +142,9 @@ static PyObject **get_object(module_state *s, size_t i) {
     i -= ENUM_COUNT;
     if (i < RECORD_COUNT) return &s->numpy_types[i];
     i -= RECORD_COUNT;
-    PyObject **others[] = {&s->error, &s->numpy_array, &s->contacts, &s->hit, &s->cast};
+    PyObject **others[] = {&s->dtype_name,   &s->error,       &s->numpy_array,  &s->contacts, &s->hit,
+                           &s->cast,         &s->joint,       &s->variable,     &s->element,  &s->side,
+                           &s->state_answer, &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request};
     return i < sizeof others / sizeof *others ? others[i] : NULL;
 }
 

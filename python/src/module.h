@@ -23,6 +23,8 @@ typedef enum enum_kind {
     ENUM_CODE,
     ENUM_PROOF_KIND,
     ENUM_IMPACT_STATUS,
+    ENUM_ROBOT_STATUS,
+    ENUM_ROBOT_TOUCH,
     ENUM_COUNT
 } enum_kind;
 
@@ -36,17 +38,23 @@ typedef enum record_kind {
     RECORD_PROOF,
     RECORD_CONTACT,
     RECORD_STEP,
+    RECORD_STATE,      ///< ovoid_robot_answer
+    RECORD_NEAR,       ///< ovoid_robot_near
+    RECORD_ROBOT_STEP, ///< ovoid_robot_step
     RECORD_COUNT
 } record_kind;
 
 /// The types that hold C values; names as in Python, in lower case.
 typedef struct module_state {
     PyTypeObject *array, *shape, *pose, *compound, *answer, *bodies, *world, *motion, *impact, *approach, *ray_hit,
-        *smooth, *smooth_value, *gradient, *fit;
-    PyObject *error;                 ///< ovoid.Error
-    PyObject *contacts, *hit, *cast; ///< named tuples of ovoid/_values.py
-    PyObject *enums[ENUM_COUNT];     ///< tuples
-    PyObject *numpy_array;           ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried
+        *smooth, *smooth_value, *gradient, *fit, *prepared, *robot, *cell, *robot_path;
+    PyObject *error; ///< ovoid.Error
+    /// Named tuples of ovoid/_values.py.
+    PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
+        *obstacle, *motion_request;
+    PyObject *enums[ENUM_COUNT]; ///< tuples
+    PyObject *dtype_name;        ///< "dtype"
+    PyObject *numpy_array;       ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried
     PyObject *numpy_types[RECORD_COUNT];
     char *numpy_formats[RECORD_COUNT]; ///< how NumPy writes the format of a record; NULL: not yet asked
 } module_state;
@@ -80,6 +88,10 @@ int items_read(module_state *state, PyObject *from, const char *what, int axes, 
 /// The same into memory of the caller, of exactly that shape.
 int doubles_read(module_state *state, PyObject *from, const char *what, int axes, const Py_ssize_t *wanted, void *to);
 int vec3_read(module_state *state, PyObject *from, const char *what, ovoid_vec3 *to);
+/// How many axes are meant of what may have one or two: 1 of a buffer of one axis or a sequence of numbers, else 2.
+int array_axes(PyObject *from);
+/// The axes of a buffer, or 0.
+int buffer_axes(PyObject *from);
 /// The kind of a buffer's items: 'd', 'f', 'i' (signed), 'u' (unsigned); 0: none that is read here.
 char buffer_kind(const Py_buffer *view);
 /// A view of an array of `count` records (-1: any number), contiguous, of that kind; writable where asked.
@@ -88,10 +100,13 @@ int records_view(module_state *state, PyObject *from, const char *what, record_k
 
 // ---- array.c
 
-/// A new zeroed array of `axes` lengths; *data (may be NULL) receives its memory.
+/// A new zeroed array of `axes` lengths, at most 4; *data (may be NULL) receives its memory.
 PyObject *array_make(module_state *state, record_kind kind, int axes, const Py_ssize_t *shape, void *data);
 /// The array as NumPy's where there is NumPy, else itself. Takes over the reference; NULL is passed on.
 PyObject *array_wrap(module_state *state, PyObject *array);
+/// 1 if it is a NumPy array of the very type that this kind has: then its format, which NumPy writes anew at each call,
+/// is known.
+int array_is_own(module_state *state, PyObject *from, record_kind kind);
 /// A wrapped copy of items.
 PyObject *array_copy(module_state *state, record_kind kind, int axes, const Py_ssize_t *shape, const void *from);
 /// How an array of that kind is written, and how NumPy writes it ("" where there is no NumPy); NULL: an exception.
@@ -132,6 +147,7 @@ PyObject *sym3_make(module_state *state, const ovoid_sym3 *m);
 
 typedef struct shape_object {
     PyObject_HEAD ovoid_shape *shape;
+    PyObject *owner; ///< what the shape belongs to; NULL: this object
 } shape_object;
 
 typedef struct compound_object {
@@ -143,12 +159,18 @@ typedef struct pose_object {
     PyObject_HEAD ovoid_pose pose;
 } pose_object;
 
+/// What is used of an ovoid_cover, in a block as small as that: a of all points, then b, then the triangles.
+typedef struct kept_cover {
+    uint32_t point_count, triangle_count;
+    char data[];
+} kept_cover;
+
 /// The answer to a query, with what it takes to check it.
 typedef struct answer_object {
     PyObject_HEAD ovoid_compound_answer of;
     PyObject *a, *b; ///< shapes or compounds
     ovoid_pose pose_a, pose_b;
-    ovoid_cover *cover;          ///< of a depth; NULL: none
+    kept_cover *cover;           ///< of a depth; NULL: none
     ovoid_exclusion *exclusions; ///< of compounds
     size_t exclusion_count;
 } answer_object;
@@ -157,6 +179,10 @@ typedef struct answer_object {
 int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body);
 /// A new Shape around a C shape, which it takes over; where that is NULL, raises the error.
 PyObject *shape_wrap(module_state *state, ovoid_shape *shape, const ovoid_error *error);
+/// An Ellipsoid.
+PyObject *fit_wrap(module_state *state, const ovoid_fit *fit);
+/// A new Shape around a C shape that belongs to `owner`, which it keeps.
+PyObject *shape_borrow(module_state *state, const ovoid_shape *shape, PyObject *owner);
 
 /// Anything that is a pose: None, Pose, a 4x4 array, (xyz, a rotation with as_quat).
 int pose_read(module_state *state, PyObject *from, const char *what, ovoid_pose *pose);
@@ -177,11 +203,16 @@ typedef struct query_keywords {
 /// Checks them; options.iterations is filled.
 int query_keywords_check(module_state *state, query_keywords *k);
 
+/// An id of Python's as the library's, as a converter of PyArg_ParseTuple.
+int id_read(PyObject *from, void *to);
+
 /// An empty answer of two bodies at their poses.
 answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const ovoid_pose *pose_a,
                            const ovoid_pose *pose_b);
 /// Keeps of a depth's cover what is used of it.
 int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
+/// What was kept as the library reads it, in *to; NULL where there is none.
+const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.
 int limit_check(module_state *state, ovoid_limit limit);
 /// Checks an answer by its proof: OVOID_OK, or what ovoid_answer_check says.
@@ -201,8 +232,13 @@ int world_add(PyObject *module);
 int motion_add(PyObject *module);
 int impact_add(PyObject *module);
 int smooth_add(PyObject *module);
+int prepared_add(PyObject *module);
+int robot_add(PyObject *module);
+int cell_add(PyObject *module);
+int robot_path_add(PyObject *module);
 
-extern PyMethodDef query_methods[], batch_methods[], impact_methods[], smooth_methods[], array_methods[];
+extern PyMethodDef query_methods[], batch_methods[], impact_methods[], smooth_methods[], array_methods[],
+    bounds_methods[], shape_file_methods[];
 extern PyMethodDef shape_constructors[], world_queries[];
 
 /// Joins two tables of methods in `all`, which the type keeps, and enters it in the slots.

@@ -113,22 +113,9 @@ static int fill_objects(module_state *state, PyObject *from, Py_ssize_t count, o
     return 0;
 }
 
-// The axes of a buffer, or 0.
-static int count_axes(PyObject *from) {
-    Py_buffer view;
-    if (!PyObject_CheckBuffer(from)) return 0;
-    if (PyObject_GetBuffer(from, &view, PyBUF_FULL_RO)) {
-        PyErr_Clear();
-        return 0;
-    }
-    int axes = view.ndim;
-    PyBuffer_Release(&view);
-    return axes;
-}
-
 static int read_pose_array(module_state *state, PyObject *from, const char *order, ovoid_pose **poses,
                            Py_ssize_t *count) {
-    int is_matrix = count_axes(from) != 2, is_xyzw = 0, result;
+    int is_matrix = buffer_axes(from) != 2, is_xyzw = 0, result;
     if (!is_matrix && (is_xyzw = read_order(state, order)) < 0) return -1;
     items numbers;
     const Py_ssize_t *wanted = is_matrix ? (Py_ssize_t[]){-1, 4, 4} : (Py_ssize_t[]){-1, 7};
@@ -283,21 +270,10 @@ static PyObject *multiply(PyObject *left, PyObject *right) {
     return check_pose(state, "product", -1, &product) ? NULL : pose_wrap(state, product);
 }
 
-// 1: one point; 2: an array of them.
-static int count_point_axes(PyObject *points) {
-    int axes = count_axes(points);
-    if (axes || !PySequence_Check(points)) return axes == 1 ? 1 : 2;
-    PyObject *first = PySequence_GetItem(points, 0);
-    axes = first && PyNumber_Check(first) && !PySequence_Check(first) ? 1 : 2;
-    if (!first) PyErr_Clear();
-    Py_XDECREF(first);
-    return axes;
-}
-
 static PyObject *move_points(PyObject *self, PyObject *points, ovoid_vec3 (*move)(const ovoid_pose *, ovoid_vec3)) {
     module_state *state = state_of(self);
     items given;
-    int axes = count_point_axes(points);
+    int axes = array_axes(points);
     const Py_ssize_t *wanted = axes == 1 ? (Py_ssize_t[]){3} : (Py_ssize_t[]){-1, 3};
     if (items_read(state, points, "points", axes, wanted, 'd', &given)) return NULL;
     Py_ssize_t count = axes == 1 ? 1 : given.shape[0];

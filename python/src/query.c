@@ -2,7 +2,7 @@
 //
 // The arguments are read by hand (METH_FASTCALL): a call should cost little more than the query. Two shapes keep the
 // interpreter's lock, since a query of them takes microseconds; compounds give it up.
-#include "src/module.h"
+#include "src/prepared.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +18,7 @@ typedef struct query_input {
     query_name name;
     PyObject *a, *b;
     ovoid_body_pair pair;
+    const ovoid_prepared_shape *prepared_a, *prepared_b; ///< both or none
     double margin;
     ovoid_options options;
     ovoid_compound_proof earlier;
@@ -114,16 +115,43 @@ static int read_earlier(module_state *state, PyObject *from, query_input *in) {
     return 0;
 }
 
-static int read_input(module_state *state, PyObject *const x[ARGUMENT_COUNT], query_input *in) {
+// Two Prepared ones, which bring their poses.
+static int read_prepared(module_state *state, PyObject *const x[ARGUMENT_COUNT], query_input *in) {
+    if (Py_TYPE(in->a) != state->prepared || Py_TYPE(in->b) != state->prepared) {
+        PyErr_SetString(PyExc_TypeError, "a Prepared is asked with another Prepared: a and b are both, or none is");
+        return -1;
+    }
+    for (int i = PLACE_A; i <= PLACE_B; i++)
+        if (x[i] && x[i] != Py_None) {
+            PyErr_Format(PyExc_TypeError, "%s: a Prepared has its pose", argument_names[i]);
+            return -1;
+        }
+    const prepared_object *a = (const prepared_object *)in->a, *b = (const prepared_object *)in->b;
+    in->prepared_a = &a->of;
+    in->prepared_b = &b->of;
+    in->pair.a = (ovoid_body){a->of.body.shape, NULL, a->of.body.pose};
+    in->pair.b = (ovoid_body){b->of.body.shape, NULL, b->of.body.pose};
+    in->a = a->shape;
+    in->b = b->shape;
+    return 0;
+}
+
+static int read_bodies(module_state *state, PyObject *const x[ARGUMENT_COUNT], query_input *in) {
     in->a = x[BODY_A];
     in->b = x[BODY_B];
+    in->prepared_a = NULL;
+    if (Py_TYPE(in->a) == state->prepared || Py_TYPE(in->b) == state->prepared) return read_prepared(state, x, in);
+    if (body_read(state, in->a, "a", &in->pair.a) || body_read(state, in->b, "b", &in->pair.b) ||
+        pose_read(state, x[PLACE_A], "pose_a", &in->pair.a.pose))
+        return -1;
+    return pose_read(state, x[PLACE_B], "pose_b", &in->pair.b.pose);
+}
+
+static int read_input(module_state *state, PyObject *const x[ARGUMENT_COUNT], query_input *in) {
     in->margin = 0;
     in->has_earlier = 0;
     in->options = (ovoid_options){0};
-    if (body_read(state, in->a, "a", &in->pair.a) || body_read(state, in->b, "b", &in->pair.b) ||
-        pose_read(state, x[PLACE_A], "pose_a", &in->pair.a.pose) ||
-        pose_read(state, x[PLACE_B], "pose_b", &in->pair.b.pose))
-        return -1;
+    if (read_bodies(state, x, in)) return -1;
     if (read_double(x[MARGIN], "margin", &in->margin) ||
         read_double(x[ABSOLUTE], "absolute_tolerance", &in->options.absolute_tolerance) ||
         read_double(x[RELATIVE], "relative_tolerance", &in->options.relative_tolerance) ||
@@ -134,10 +162,25 @@ static int read_input(module_state *state, PyObject *const x[ARGUMENT_COUNT], qu
 
 // ---- two shapes
 
+// Depths are asked as of shapes: their proof is a cover, which prepared queries do not give.
+static void query_prepared(const query_input *in, answer_object *to) {
+    ovoid_proof proof = {.count = 0};
+    if (in->has_earlier) proof = in->earlier.proof;
+    ovoid_evidence evidence = {.proof = in->has_earlier ? &proof : NULL, .answer = &to->of.answer};
+    if (in->name == COLLIDE)
+        ovoid_prepared_collide(in->prepared_a, in->prepared_b, &in->options, &evidence);
+    else if (in->name == WITHIN)
+        ovoid_prepared_within(in->prepared_a, in->prepared_b, in->margin, &in->options, &evidence);
+    else
+        ovoid_prepared_distance(in->prepared_a, in->prepared_b, &in->options, &evidence);
+}
+
 static int query_shapes(const query_input *in, answer_object *to) {
     ovoid_pair pair = {in->pair.a.shape, in->pair.b.shape, in->pair.a.pose, in->pair.b.pose};
     const ovoid_proof *earlier = in->has_earlier ? &in->earlier.proof : NULL;
-    if (in->name == COLLIDE)
+    if (in->prepared_a && in->name != DEPTH)
+        query_prepared(in, to);
+    else if (in->name == COLLIDE)
         to->of.answer = ovoid_collide(&pair, &in->options, earlier);
     else if (in->name == WITHIN)
         to->of.answer = ovoid_within(&pair, in->margin, &in->options, earlier);
@@ -219,7 +262,8 @@ static PyObject *depth(PyObject *module, PyObject *const *given, Py_ssize_t coun
 
 #define QUERY_SIGNATURE "absolute_tolerance=0, relative_tolerance=0, cap=0, iterations=0, earlier=None)\n--\n\n"
 #define QUERY_DOC                                                                                                      \
-    "\n\na, b: a Shape or a Compound. pose_a, pose_b: None (the identity), a Pose, a 4x4 array, or (xyz, SciPy "       \
+    "\n\na, b: Shapes or Compounds, or two Prepared without poses. pose_a, pose_b: None (the identity), a Pose, a "    \
+    "4x4 array, or (xyz, SciPy "                                                                                       \
     "Rotation);\n"                                                                                                     \
     "lengths in the shapes' unit, world frame. It stops where upper - lower is at most absolute_tolerance or\n"        \
     "relative_tolerance (0: 1e-9) of the pair's size, or d is proven above cap (0: none). earlier: the Answer or "     \

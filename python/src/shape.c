@@ -53,6 +53,12 @@ typedef struct fit_object {
 } fit_object;
 
 // The ellipsoid in the user's local frame.
+PyObject *fit_wrap(module_state *state, const ovoid_fit *fit) {
+    fit_object *made = object_make(state->fit);
+    if (made) made->fit = *fit;
+    return (PyObject *)made;
+}
+
 static PyObject *get_fit(PyObject *self, void *closure) {
     fit_object *made = object_make(state_of(self)->fit);
     if (!made) return NULL;
@@ -197,7 +203,11 @@ static PyObject *repr(PyObject *self) {
 }
 
 static void shape_dealloc(PyObject *self) {
-    ovoid_shape_destroy(((shape_object *)self)->shape);
+    PyObject *owner = ((shape_object *)self)->owner;
+    if (owner)
+        Py_DECREF(owner);
+    else
+        ovoid_shape_destroy(((shape_object *)self)->shape);
     object_free(self);
 }
 

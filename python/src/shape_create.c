@@ -35,6 +35,14 @@ static int make_options(module_state *state, const shape_keywords *k, ovoid_shap
     return -1;
 }
 
+PyObject *shape_borrow(module_state *state, const ovoid_shape *shape, PyObject *owner) {
+    shape_object *self = object_make(state->shape);
+    if (!self) return NULL;
+    self->shape = (ovoid_shape *)shape;
+    self->owner = Py_NewRef(owner);
+    return (PyObject *)self;
+}
+
 PyObject *shape_wrap(module_state *state, ovoid_shape *shape, const ovoid_error *error) {
     if (!shape) return raise_error(state, error);
     shape_object *self = object_make(state->shape);
@@ -319,6 +327,55 @@ static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
     Py_DECREF(path);
     return shape_wrap(state, shape, &error);
 }
+
+static void destroy_shapes(PyObject *owner) { ovoid_shapes_destroy(PyCapsule_GetPointer(owner, "shapes")); }
+
+// The shapes of a file as a list of (name, Shape), which keep it.
+static PyObject *make_named(module_state *state, ovoid_shapes *shapes) {
+    PyObject *owner = PyCapsule_New(shapes, "shapes", destroy_shapes), *list = owner ? PyList_New(0) : NULL;
+    if (!owner) ovoid_shapes_destroy(shapes);
+    for (size_t i = 0; list && i < ovoid_shapes_get_count(shapes); i++) {
+        ovoid_named_shape one = ovoid_shapes_get(shapes, i);
+        PyObject *pair =
+            Py_BuildValue("NN", PyUnicode_DecodeFSDefault(one.name), shape_borrow(state, one.shape, owner));
+        if (!pair || PyList_Append(list, pair)) Py_CLEAR(list);
+        Py_XDECREF(pair);
+    }
+    Py_XDECREF(owner);
+    return list;
+}
+
+static PyObject *load_parts(PyObject *module, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"path", "scale", "unit", SHAPE_NAMES, NULL};
+    PyObject *path = NULL;
+    ovoid_read_options read = {.parts = 1};
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    ovoid_error error;
+    module_state *state = state_of_module(module);
+    ovoid_shapes *shapes = NULL;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|dz" SHAPE_FORMAT ":load_parts", names,
+                                     PyUnicode_FSConverter, &path, &read.scale, &read.unit, SHAPE_TARGETS(k)))
+        return NULL;
+    int failed = make_options(state, &k, &options);
+    if (!failed) {
+        const char *name = PyBytes_AsString(path);
+        Py_BEGIN_ALLOW_THREADS;
+        shapes = ovoid_shapes_read_file(name, &read, &options, &error);
+        Py_END_ALLOW_THREADS;
+        if (!shapes) raise_error(state, &error);
+    }
+    Py_DECREF(path);
+    return shapes ? make_named(state, shapes) : NULL;
+}
+
+PyMethodDef shape_file_methods[] = {
+    {"load_parts", METHOD_KEYWORDS(load_parts), METH_VARARGS | METH_KEYWORDS,
+     "load_parts(path, scale=1, unit=None, " SHAPE_SIGNATURE
+     ")\n--\n\nThe objects of a mesh file, each as its convex hull: a list of (name, Shape), each where the file has "
+     "it; "
+     "Compound([shape\nfor name, shape in ...]) is the body of them all. Arguments as of Shape.load." SHAPE_DOC},
+    {NULL, NULL, 0, NULL}};
 #endif
 
 PyMethodDef shape_constructors[] = {

@@ -56,7 +56,8 @@ static PyObject *gradient(PyObject *module, PyObject *given) {
                        answer->pose_b};
     gradient_object *made = object_make(state->gradient);
     if (!made) return NULL;
-    made->gradient = ovoid_answer_compute_gradient(&pair, &answer->of.answer, answer->cover);
+    ovoid_cover cover;
+    made->gradient = ovoid_answer_compute_gradient(&pair, &answer->of.answer, answer_unpack_cover(answer, &cover));
     return (PyObject *)made;
 }
 

@@ -183,6 +183,24 @@ static PyObject *remove_one(PyObject *object, PyObject *given) {
     Py_RETURN_NONE;
 }
 
+static PyObject *remove_many(PyObject *object, PyObject *given) {
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    items ids;
+    ovoid_error error;
+    if (items_read(state, given, "ids", 1, (Py_ssize_t[]){-1}, 'q', &ids)) return NULL;
+    ovoid_code code = OVOID_ERROR_ARGUMENT;
+    int is_entered = !world_enter(self, 1);
+    if (is_entered) {
+        code = ovoid_world_remove_many(self->world, ids.data, (size_t)ids.shape[0], &error);
+        world_leave(self, 1);
+        if (code != OVOID_OK) raise_error(state, &error);
+    }
+    for (Py_ssize_t i = 0; code == OVOID_OK && i < ids.shape[0]; i++) forget(self, ((ovoid_id *)ids.data)[i]);
+    free(ids.data);
+    return code == OVOID_OK ? Py_NewRef(Py_None) : NULL;
+}
+
 // ---- moving
 
 static PyObject *move(PyObject *object, PyObject *arguments) {
@@ -435,6 +453,7 @@ static PyMethodDef methods[] = {
      "ids. "
      "poses and order as in Bodies."},
     {"remove", remove_one, METH_O, "remove(id)\n--\n\nRemoves a body."},
+    {"remove_many", remove_many, METH_O, "remove_many(ids, /)\n--\n\nRemoves many bodies, all or none."},
     {"move", move, METH_VARARGS, "move(id, pose)\n--\n\nMoves a body to a pose."},
     {"move_many", METHOD_KEYWORDS(move_many), METH_VARARGS | METH_KEYWORDS,
      "move_many(ids, poses, *, order=None)\n--\n\nMoves many, all or none. poses and order as in Bodies."},

@@ -16,8 +16,6 @@ void world_leave(world_object *self, int is_writing);
 
 /// A Shape or Compound at a pose as a body of a world.
 int probe_read(module_state *state, PyObject *body, PyObject *pose, ovoid_world_body *to);
-/// An id of Python's as the library's.
-int id_read(PyObject *from, void *to);
 /// The Hit of a query; probes: the tuple of querying bodies that are not in the world, and how they are posed; NULL:
 /// none.
 PyObject *hit_make(world_object *self, const ovoid_world_hit *hit, PyObject *probes, const ovoid_world_body *posed);

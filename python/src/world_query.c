@@ -10,6 +10,11 @@
 static answer_object *answer_of(world_object *self, const ovoid_world_hit *hit, PyObject *probes,
                                 const ovoid_world_body *posed) {
     if (!probes) return world_answer(self, hit->a, hit->b);
+    if (hit->b & OVOID_WORLD_PROBE) {
+        Py_ssize_t a = (Py_ssize_t)hit->a, b = (Py_ssize_t)(hit->b & ~OVOID_WORLD_PROBE);
+        return answer_make(state_of((PyObject *)self), PyTuple_GetItem(probes, a), PyTuple_GetItem(probes, b),
+                           &posed[a].body.pose, &posed[b].body.pose);
+    }
     // The probe is a; its own pose is what was asked with.
     ovoid_world_body found;
     ovoid_error error;
@@ -127,7 +132,21 @@ static PyObject *find_any(PyObject *object, PyObject *arguments) {
     return made;
 }
 
-static PyObject *find_any_among(world_object *self, PyObject *bodies, const ovoid_pose *poses) {
+// Couples of numbers of probes as the library's, which the caller frees; what names no probe stays too large.
+static ovoid_couple *read_couples(module_state *state, PyObject *from, size_t *count) {
+    items given;
+    if (items_read(state, from, "couples", 2, (Py_ssize_t[]){-1, 2}, 'q', &given)) return NULL;
+    *count = (size_t)given.shape[0];
+    ovoid_couple *made = malloc((*count + 1) * sizeof *made);
+    const int64_t *from_items = given.data;
+    for (size_t i = 0; made && i < 2 * *count; i++)
+        *(i % 2 ? &made[i / 2].b : &made[i / 2].a) =
+            from_items[i] >= 0 && from_items[i] < UINT32_MAX ? (uint32_t)from_items[i] : UINT32_MAX;
+    free(given.data);
+    return made ? made : (ovoid_couple *)PyErr_NoMemory();
+}
+
+static PyObject *find_any_among(world_object *self, PyObject *bodies, const ovoid_pose *poses, ovoid_world_probes *of) {
     module_state *state = state_of((PyObject *)self);
     Py_ssize_t count = PyTuple_Size(bodies);
     ovoid_world_body *probes = calloc((size_t)count + 1, sizeof *probes);
@@ -138,12 +157,15 @@ static PyObject *find_any_among(world_object *self, PyObject *bodies, const ovoi
         probes[i].body.pose = poses[i];
     }
     PyObject *made = NULL;
+    of->items = probes;
+    of->count = (size_t)count;
     if (!failed && !world_enter(self, 0)) {
         ovoid_world_hit hit;
         ovoid_error error;
         ovoid_code code;
         Py_BEGIN_ALLOW_THREADS;
-        code = ovoid_world_find_any_to(self->world, probes, (size_t)count, &hit, &error);
+        code = of->couples ? ovoid_world_find_any_of(self->world, of, &hit, &error)
+                           : ovoid_world_find_any_to(self->world, probes, (size_t)count, &hit, &error);
         Py_END_ALLOW_THREADS;
         made = code == OVOID_OK ? hit_make(self, &hit, bodies, probes) : raise_error(state, &error);
         world_leave(self, 0);
@@ -152,25 +174,47 @@ static PyObject *find_any_among(world_object *self, PyObject *bodies, const ovoi
     return made;
 }
 
-static PyObject *find_any_to(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"bodies", "poses", "order", NULL};
+static PyObject *find_any_with(PyObject *object, PyObject *given, PyObject *given_poses, const char *order,
+                               PyObject *couples) {
     module_state *state = state_of(object);
-    PyObject *given, *given_poses, *made = NULL;
-    const char *order = NULL;
+    ovoid_world_probes of = {.couple_count = 0};
+    ovoid_couple *made_couples = NULL;
     ovoid_pose *poses;
     Py_ssize_t count;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$z:find_any_to", names, &given, &given_poses, &order) ||
-        poses_read(state, given_poses, order, &poses, &count))
-        return NULL;
+    PyObject *made = NULL;
+    if (poses_read(state, given_poses, order, &poses, &count)) return NULL;
     PyObject *bodies = PySequence_Tuple(given);
-    if (bodies && PyTuple_Size(bodies) == count)
-        made = find_any_among((world_object *)object, bodies, poses);
-    else if (bodies)
+    if (bodies && couples) of.couples = made_couples = read_couples(state, couples, &of.couple_count);
+    if (!bodies || (couples && !made_couples))
+        made = NULL;
+    else if (PyTuple_Size(bodies) == count)
+        made = find_any_among((world_object *)object, bodies, poses, &of);
+    else
         raise_code(state, OVOID_ERROR_ARGUMENT, -1, "poses: %zd bodies need as many, not %zd", PyTuple_Size(bodies),
                    count);
     Py_XDECREF(bodies);
+    free(made_couples);
     free(poses);
     return made;
+}
+
+static PyObject *find_any_to(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"bodies", "poses", "order", NULL};
+    PyObject *given, *poses;
+    const char *order = NULL;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$z:find_any_to", names, &given, &poses, &order))
+        return NULL;
+    return find_any_with(object, given, poses, order, NULL);
+}
+
+static PyObject *find_any_of(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"bodies", "poses", "couples", "order", NULL};
+    PyObject *given, *poses, *couples;
+    const char *order = NULL;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$z:find_any_of", names, &given, &poses, &couples,
+                                     &order))
+        return NULL;
+    return find_any_with(object, given, poses, order, couples);
 }
 
 // ---- all within a margin
@@ -308,6 +352,10 @@ PyMethodDef world_queries[] = {
      "find_any_to(bodies, poses, *, order=None)\n--\n\nDoes any of these bodies, which are not in the world, touch one "
      "of "
      "it? The Hit whose a is its number, or None."},
+    {"find_any_of", METHOD_KEYWORDS(find_any_of), METH_VARARGS | METH_KEYWORDS,
+     "find_any_of(bodies, poses, couples, *, order=None)\n--\n\nfind_any_to, and then whether two of these bodies "
+     "touch: couples (m, 2), numbers of bodies, in the order given. Of\nsuch a couple the Hit's b is 2**63 plus the "
+     "number of the other."},
     {"overlaps", METHOD_KEYWORDS(overlaps), METH_VARARGS | METH_KEYWORDS,
      "overlaps(body, pose=None, *, margin=0, group=0, mask=0, " OPTIONS_SIGNATURE
      "All bodies that are not proven farther than margin from a Shape or Compound: Hits, sorted by id."},

@@ -1,0 +1,70 @@
+// Robots and their cells, and what the files about them share. Compiled where there is libovoid_robot.
+#ifndef OVOID_PYTHON_ROBOT_H
+#define OVOID_PYTHON_ROBOT_H
+
+#include "src/module.h"
+
+#include <ovoid/robot.h>
+#include <ovoid/robot_path.h>
+
+/// A robot. Immutable, so that any number of threads and cells share it.
+typedef struct robot_object {
+    PyObject_HEAD ovoid_robot *robot;
+    PyObject *shapes; ///< a tuple: keeps those of the elements
+    PyObject *facts;  ///< a dict: what its files say beside the description; empty where there is no file
+} robot_object;
+
+/// A robot among obstacles, with the checkers that no call is using.
+typedef struct cell_object {
+    PyObject_HEAD ovoid_robot_cell *cell;
+    robot_object *robot;
+    PyObject *kept; ///< a dict: the Shape or Compound of each id
+    ovoid_robot_checker **idle;
+    size_t idle_count, idle_capacity;
+    size_t version; ///< grows with every change
+    int readers;    ///< calls that run without the interpreter's lock
+} cell_object;
+
+// ---- robot.c
+
+/// A new Robot around a C robot, which it takes over, as it does the two references. NULL robot: raises the error.
+PyObject *robot_wrap(PyTypeObject *type, ovoid_robot *robot, PyObject *shapes, PyObject *facts,
+                     const ovoid_error *error);
+/// A Robot by a named argument.
+int robot_read(module_state *state, PyObject *from, const char *what, robot_object **to);
+/// A link by its name or index.
+int link_read(const robot_object *self, PyObject *from, uint32_t *to);
+/// States (n, variables), or one (variables,): then axes is 1. The caller frees states->data.
+int states_read(const robot_object *self, PyObject *from, const char *what, int *axes, items *states);
+/// One state into memory of its own, which the caller frees; NULL: an exception.
+double *state_read(const robot_object *self, PyObject *from);
+size_t robot_variable_count(const robot_object *self);
+
+// ---- robot_cell.c
+
+/// Every query of a cell is between these: count checkers, from the idle ones or new.
+int checkers_borrow(cell_object *self, ovoid_robot_checker **checkers, size_t count);
+void checkers_return(cell_object *self, ovoid_robot_checker *const *checkers, size_t count);
+/// An obstacle or attached body that the library took is kept alive.
+int cell_keep(cell_object *self, ovoid_id id, PyObject *body);
+
+// ---- robot_check.c
+
+/// The options that every query of a cell takes, as arguments of PyArg_ParseTupleAndKeywords.
+#define CHECK_FORMAT "ddpp"
+#define CHECK_NAMES "margin", "limit_slack", "without_self", "without_obstacles"
+#define CHECK_TARGETS(o) &(o).margin, &(o).limit_slack, &(o).without_self, &(o).without_obstacles
+/// The StateAnswer and the Side of Python.
+PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answer);
+PyObject *side_make(module_state *state, const ovoid_robot_side *side);
+/// Refuses options that C would read in another order, or not at all.
+int check_options_check(module_state *state, const ovoid_robot_check_options *o);
+
+// ---- tables of methods, and what each file adds
+
+extern PyMethodDef robot_constructors[], robot_spheres_methods[], robot_matrix_methods[], robot_file_functions[];
+extern PyMethodDef cell_queries[], cell_scenes[];
+/// Checks a proven path by its steps.
+ovoid_code path_check(PyObject *object, ovoid_error *error);
+
+#endif

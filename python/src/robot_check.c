@@ -1,0 +1,351 @@
+// Which states of a cell are free, what they hit, what they are near: one state, or arrays of them without the
+// interpreter's lock.
+//
+// A batch goes in chunks of whole blocks of OVOID_ROBOT_BLOCK states, each of which the library begins as if its
+// checker were new; so neither the chunks nor the threads change a bit. Between chunks, of some hundredths of a second,
+// the caller looks for signals (Ctrl-C) and calls `progress`.
+#include "src/robot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { THREADS_MOST = 256 };
+// As the formats of array.c say.
+_Static_assert(sizeof(ovoid_robot_side) == 24 && sizeof(ovoid_robot_answer) == 80 && sizeof(ovoid_robot_near) == 152,
+               "the formats name every byte");
+
+// ---- answers
+
+PyObject *side_make(module_state *state, const ovoid_robot_side *side) {
+    PyObject *link = side->link == OVOID_ROBOT_NONE ? Py_NewRef(Py_None) : PyLong_FromUnsignedLong(side->link);
+    PyObject *element = side->element == OVOID_ROBOT_NONE ? Py_NewRef(Py_None) : PyLong_FromUnsignedLong(side->element);
+    return PyObject_CallFunction(state->side, "NNKI", link, element, side->body, side->part);
+}
+
+PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answer) {
+    int is_refused = answer->status == OVOID_ROBOT_REFUSED;
+    int has_pair = answer->status == OVOID_ROBOT_HIT || answer->status == OVOID_ROBOT_UNDECIDED;
+    PyObject *a = has_pair ? side_make(state, &answer->a) : Py_NewRef(Py_None);
+    PyObject *b = has_pair ? side_make(state, &answer->b) : Py_NewRef(Py_None);
+    PyObject *code = is_refused ? enum_get(state, ENUM_CODE, answer->code) : Py_NewRef(Py_None);
+    PyObject *variable = is_refused ? PyLong_FromUnsignedLong(answer->variable) : Py_NewRef(Py_None);
+    return PyObject_CallFunction(state->state_answer, "NNNddNN", enum_get(state, ENUM_ROBOT_STATUS, answer->status), a,
+                                 b, has_pair ? answer->lower : NAN, has_pair ? answer->upper : NAN, code, variable);
+}
+
+int check_options_check(module_state *state, const ovoid_robot_check_options *o) {
+    if (o->margin >= 0 && o->limit_slack >= 0) return 0;
+    raise_code(state, OVOID_ERROR_ARGUMENT, -1, "margin and limit_slack are numbers >= 0");
+    return -1;
+}
+
+// ---- one state
+
+static PyObject *check(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"q", CHECK_NAMES, NULL};
+    cell_object *self = (cell_object *)object;
+    module_state *state = state_of(object);
+    PyObject *given;
+    ovoid_robot_check_options o = {0};
+    ovoid_robot_checker *checker;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT ":check", names, &given,
+                                     CHECK_TARGETS(o)) ||
+        check_options_check(state, &o))
+        return NULL;
+    double *q = state_read(self->robot, given);
+    if (!q || checkers_borrow(self, &checker, 1)) {
+        free(q);
+        return NULL;
+    }
+    ovoid_robot_answer answer;
+    ovoid_error error;
+    ovoid_code code;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_robot_check(checker, q, &o, &answer, &error);
+    Py_END_ALLOW_THREADS;
+    checkers_return(self, &checker, 1);
+    free(q);
+    return code == OVOID_OK ? state_answer_make(state, &answer) : raise_error(state, &error);
+}
+
+// ---- near pairs
+
+typedef struct near_query {
+    const double *q;
+    ovoid_robot_check_options options;
+    int is_nearest;
+} near_query;
+
+// Asks again with more memory where the pairs were more than there was room for.
+static ovoid_code find_near(ovoid_robot_checker *checker, const near_query *query, size_t variables,
+                            ovoid_robot_nears *nears, ovoid_error *error) {
+    for (nears->capacity = query->is_nearest ? 1 : 32;; nears->capacity = nears->count) {
+        ovoid_robot_near *pairs = realloc(nears->items, nears->capacity * sizeof *pairs);
+        if (pairs) nears->items = pairs;
+        double *gradients = realloc(nears->gradients, nears->capacity * (variables + 1) * sizeof *gradients);
+        if (gradients) nears->gradients = gradients;
+        if (!pairs || !gradients) {
+            error->code = OVOID_ERROR_MEMORY;
+            return OVOID_ERROR_MEMORY;
+        }
+        ovoid_code code = query->is_nearest ? ovoid_robot_find_nearest(checker, query->q, &query->options, nears, error)
+                                            : ovoid_robot_find_near(checker, query->q, &query->options, nears, error);
+        if (code != OVOID_OK || nears->count <= nears->capacity) return code;
+    }
+}
+
+static PyObject *near_or_nearest(PyObject *object, PyObject *arguments, PyObject *keywords, int is_nearest) {
+    static char *names[] = {"q", CHECK_NAMES, NULL};
+    cell_object *self = (cell_object *)object;
+    module_state *state = state_of(object);
+    PyObject *given;
+    near_query query = {.options.margin = is_nearest ? INFINITY : 0, .is_nearest = is_nearest};
+    ovoid_robot_checker *checker;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, is_nearest ? "O|$" CHECK_FORMAT ":nearest" : "Od|$dpp:near",
+                                     names, &given, CHECK_TARGETS(query.options)) ||
+        check_options_check(state, &query.options))
+        return NULL;
+    double *q = state_read(self->robot, given);
+    if (!q || checkers_borrow(self, &checker, 1)) {
+        free(q);
+        return NULL;
+    }
+    query.q = q;
+    ovoid_robot_nears nears = {NULL, NULL, 0, 0};
+    size_t variables = robot_variable_count(self->robot);
+    ovoid_error error;
+    ovoid_code code;
+    Py_BEGIN_ALLOW_THREADS;
+    code = find_near(checker, &query, variables, &nears, &error);
+    Py_END_ALLOW_THREADS;
+    checkers_return(self, &checker, 1);
+    PyObject *made = NULL;
+    if (code != OVOID_OK) {
+        raise_error(state, &error);
+    } else {
+        Py_ssize_t shape[] = {(Py_ssize_t)nears.count, (Py_ssize_t)variables};
+        PyObject *pairs = array_copy(state, RECORD_NEAR, 1, shape, nears.items);
+        PyObject *gradients = pairs ? array_copy(state, RECORD_DOUBLE, 2, shape, nears.gradients) : NULL;
+        if (gradients)
+            made = Py_BuildValue("NN", pairs, gradients);
+        else
+            Py_XDECREF(pairs);
+    }
+    free(nears.items);
+    free(nears.gradients);
+    free(q);
+    return made;
+}
+
+static PyObject *near(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    return near_or_nearest(object, arguments, keywords, 0);
+}
+static PyObject *nearest(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    return near_or_nearest(object, arguments, keywords, 1);
+}
+
+// ---- many states
+
+/// States in work: of check_batch the answers, of nearest_batch the nearest pairs and their gradients.
+typedef struct job {
+    ovoid_robot_checker *checkers[THREADS_MOST];
+    size_t checker_count, variables, count, done;
+    const double *q;
+    ovoid_robot_check_options options;
+    ovoid_robot_answer *answers;
+    ovoid_robot_near *nears;
+    double *gradients;
+    ovoid_error error;
+} job;
+
+static double get_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+// The nearest pair of some states, by one checker, blocks as a batch has them.
+static ovoid_code find_nearest_of(job *j, size_t count) {
+    for (size_t i = j->done; i < j->done + count; i++) {
+        if (i % OVOID_ROBOT_BLOCK == 0) ovoid_robot_checker_reset(j->checkers[0]);
+        ovoid_robot_nears one = {&j->nears[i], j->gradients + i * j->variables, 1, 0};
+        const double *q = j->q + i * j->variables;
+        ovoid_code code = ovoid_robot_find_nearest(j->checkers[0], q, &j->options, &one, &j->error);
+        if (code != OVOID_OK) {
+            if (code != OVOID_ERROR_MEMORY) j->error.place = (int64_t)i;
+            return code;
+        }
+        if (one.count) continue;
+        j->nears[i] = (ovoid_robot_near){.a = {OVOID_ROBOT_NONE, OVOID_ROBOT_NONE, 0, 0},
+                                         .b = {OVOID_ROBOT_NONE, OVOID_ROBOT_NONE, 0, 0},
+                                         .status = OVOID_SEPARATED,
+                                         .lower = j->options.margin,
+                                         .upper = INFINITY};
+        for (size_t k = 0; k < j->variables; k++) one.gradients[k] = 0;
+    }
+    return OVOID_OK;
+}
+
+static ovoid_code run_chunk(job *j, size_t count) {
+    if (j->nears) return find_nearest_of(j, count);
+    ovoid_robot_batch batch = {j->q + j->done * j->variables, count, &j->options, j->answers + j->done};
+    ovoid_code code = ovoid_robot_check_batch(j->checkers, j->checker_count, &batch, &j->error);
+    return code == OVOID_ERROR_LIMIT ? OVOID_OK : code; // fewer threads could be started; the others did the work
+}
+
+// Under the interpreter's lock: -1 where a signal's handler or the callback raised.
+static int look_around(const job *j, PyObject *progress) {
+    if (PyErr_CheckSignals()) return -1;
+    if (!progress || progress == Py_None) return 0;
+    PyObject *said = PyObject_CallFunction(progress, "nn", (Py_ssize_t)j->done, (Py_ssize_t)j->count);
+    Py_XDECREF(said);
+    return said ? 0 : -1;
+}
+
+static int run_job(module_state *state, job *j, PyObject *progress) {
+    size_t chunk = OVOID_ROBOT_BLOCK * j->checker_count;
+    while (j->done < j->count) {
+        size_t count = j->count - j->done < chunk ? j->count - j->done : chunk;
+        double begun = get_seconds();
+        ovoid_code code;
+        Py_BEGIN_ALLOW_THREADS;
+        code = run_chunk(j, count);
+        Py_END_ALLOW_THREADS;
+        if (code != OVOID_OK) {
+            raise_error(state, &j->error);
+            return -1;
+        }
+        j->done += count;
+        if (look_around(j, progress)) return -1;
+        if (get_seconds() - begun < 0.02 && chunk < ((size_t)1 << 24)) chunk *= 2;
+    }
+    return 0;
+}
+
+typedef struct states_input {
+    PyObject *q, *out, *progress;
+    int threads;
+    items states;
+} states_input;
+
+static int read_input(cell_object *self, states_input *in, job *j) {
+    module_state *state = state_of((PyObject *)self);
+    j->variables = robot_variable_count(self->robot);
+    if (check_options_check(state, &j->options)) return -1;
+    if (in->threads < 1 || in->threads > THREADS_MOST) {
+        raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, in->threads);
+        return -1;
+    }
+    if (in->progress && in->progress != Py_None && !PyCallable_Check(in->progress)) {
+        PyErr_SetString(PyExc_TypeError, "progress: a function of (done, total) is wanted");
+        return -1;
+    }
+    if (items_read(state, in->q, "q", 2, (Py_ssize_t[]){-1, (Py_ssize_t)j->variables}, 'd', &in->states)) return -1;
+    j->q = in->states.data;
+    j->count = (size_t)in->states.shape[0];
+    j->checker_count = (size_t)in->threads;
+    return 0;
+}
+
+// Runs the job into arrays that are there.
+static int borrow_and_run(cell_object *self, job *j, PyObject *progress) {
+    if (checkers_borrow(self, j->checkers, j->checker_count)) return -1;
+    int failed = run_job(state_of((PyObject *)self), j, progress);
+    checkers_return(self, j->checkers, j->checker_count);
+    return failed;
+}
+
+static PyObject *check_batch(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"q", CHECK_NAMES, "threads", "out", "progress", NULL};
+    cell_object *self = (cell_object *)object;
+    module_state *state = state_of(object);
+    states_input in = {.threads = 1};
+    job j = {.done = 0};
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "iOO:check_batch", names, &in.q,
+                                     CHECK_TARGETS(j.options), &in.threads, &in.out, &in.progress) ||
+        read_input(self, &in, &j))
+        return NULL;
+    Py_buffer view = {.obj = NULL};
+    Py_ssize_t count = (Py_ssize_t)j.count;
+    PyObject *array = NULL;
+    if (!in.out || in.out == Py_None) {
+        array = array_make(state, RECORD_STATE, 1, &count, &j.answers);
+    } else if (!records_view(state, in.out, "out", RECORD_STATE, count, 1, &view)) {
+        array = Py_NewRef(in.out);
+        j.answers = view.buf;
+    }
+    if (array && borrow_and_run(self, &j, in.progress)) Py_CLEAR(array);
+    free(in.states.data);
+    if (!view.obj) return array_wrap(state, array);
+    PyBuffer_Release(&view);
+    return array;
+}
+
+static PyObject *nearest_batch(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"q", CHECK_NAMES, "progress", NULL};
+    cell_object *self = (cell_object *)object;
+    module_state *state = state_of(object);
+    states_input in = {.threads = 1};
+    job j = {.options.margin = INFINITY};
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "O:nearest_batch", names, &in.q,
+                                     CHECK_TARGETS(j.options), &in.progress) ||
+        read_input(self, &in, &j))
+        return NULL;
+    Py_ssize_t shape[] = {(Py_ssize_t)j.count, (Py_ssize_t)j.variables};
+    PyObject *pairs = array_make(state, RECORD_NEAR, 1, shape, &j.nears);
+    PyObject *gradients = pairs ? array_make(state, RECORD_DOUBLE, 2, shape, &j.gradients) : NULL;
+    int failed = !gradients || borrow_and_run(self, &j, in.progress);
+    free(in.states.data);
+    if (failed) {
+        Py_XDECREF(pairs);
+        Py_XDECREF(gradients);
+        return NULL;
+    }
+    pairs = array_wrap(state, pairs);
+    gradients = array_wrap(state, gradients);
+    if (pairs && gradients) return Py_BuildValue("NN", pairs, gradients);
+    Py_XDECREF(pairs);
+    Py_XDECREF(gradients);
+    return NULL;
+}
+
+// ---- proven paths: robot_path.c
+
+PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords);
+
+#define CHECK_SIGNATURE "margin=0, limit_slack=0, without_self=False, without_obstacles=False"
+#define NEAREST_SIGNATURE "margin=1e999, limit_slack=0, without_self=False, without_obstacles=False"
+#define NEAR_DOC                                                                                                       \
+    "records link_a, element_a, body_a, part_a,\nlink_b, ..., status, lower, upper, point_a, point_b, normal (root "   \
+    "link's frame), has_gradient; and the gradients\nd distance / d q, "
+PyMethodDef cell_queries[] = {
+    {"check", METHOD_KEYWORDS(check), METH_VARARGS | METH_KEYWORDS,
+     "check(q, *, " CHECK_SIGNATURE
+     ")\n--\n\nIs a state, an array (variables,), free? A StateAnswer: its status is FREE (all pairs proven farther "
+     "apart than\nmargin), HIT (a pair proven within it), UNDECIDED (treat it as a hit) or REFUSED (outside its limits "
+     "by more than\nlimit_slack). Begins with the pair that ended the state before."},
+    {"check_batch", METHOD_KEYWORDS(check_batch), METH_VARARGS | METH_KEYWORDS,
+     "check_batch(q, *, " CHECK_SIGNATURE
+     ", threads=1, out=None, progress=None)\n--\n\nMany states, (n, variables): an array of n records status "
+     "(RobotStatus by number), code, variable, link_a, element_a,\nbody_a, part_a, link_b, ..., lower, upper; 2**32 - "
+     "1 is no link, no element. The same bits on any number of threads.\nout: an array of zeros('states', n). "
+     "progress(done, total) is called now and then; Ctrl-C ends it."},
+    {"near", METHOD_KEYWORDS(near), METH_VARARGS | METH_KEYWORDS,
+     "near(q, margin, *, limit_slack=0, without_self=False, without_obstacles=False)\n--\n\nAll pairs that are not "
+     "proven farther apart than margin, nearest first: " NEAR_DOC "(m, variables)."},
+    {"nearest", METHOD_KEYWORDS(nearest), METH_VARARGS | METH_KEYWORDS,
+     "nearest(q, *, " NEAREST_SIGNATURE ")\n--\n\nThe nearest pair, where one is not proven farther apart than margin: "
+     "one record or none, as of near, and "
+     "its gradient."},
+    {"nearest_batch", METHOD_KEYWORDS(nearest_batch), METH_VARARGS | METH_KEYWORDS,
+     "nearest_batch(q, *, " NEAREST_SIGNATURE
+     ", progress=None)\n--\n\nThe nearest pair of many states, (n, variables): n " NEAR_DOC
+     "(n, variables). Where none is within margin, lower is margin\nand upper inf. A state that is refused raises "
+     "Error, place its number."},
+    {"check_path", METHOD_KEYWORDS(check_path), METH_VARARGS | METH_KEYWORDS,
+     "check_path(states, *, " CHECK_SIGNATURE
+     ", tolerance=0, most_states=0)\n--\n\nIs the path through states (n, variables), linear in between, free at all "
+     "times? A RobotPath with its proof,\nwhich check() checks. tolerance: of hit_at - free_until, 0: 2**-20; "
+     "most_states: looked at, 0: 100 000."},
+    {NULL, NULL, 0, NULL}};

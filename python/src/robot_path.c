@@ -1,0 +1,184 @@
+// RobotPath: whether a path of a cell is free for all times in between, with the steps that prove it.
+#include "src/robot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+_Static_assert(sizeof(ovoid_robot_step) == 48, "the format of array.c names every byte");
+
+/// The answer to a path and what it takes to check it again.
+typedef struct path_object {
+    PyObject_HEAD ovoid_robot_path_answer of;
+    ovoid_robot_path_options options; ///< of the question; its steps are these
+    cell_object *cell;
+    size_t version; ///< of the cell when it was asked
+    double *states;
+    size_t state_count;
+    ovoid_robot_step *steps;
+} path_object;
+
+static path_object *make_object(cell_object *cell, const ovoid_robot_path_options *o, items *states) {
+    path_object *self = object_make(state_of((PyObject *)cell)->robot_path);
+    if (!self) {
+        free(states->data);
+        return NULL;
+    }
+    self->cell = (cell_object *)Py_NewRef((PyObject *)cell);
+    self->version = cell->version;
+    self->options = *o;
+    self->states = states->data;
+    self->state_count = (size_t)states->shape[0];
+    return self;
+}
+
+static void path_dealloc(PyObject *object) {
+    path_object *self = (path_object *)object;
+    Py_XDECREF((PyObject *)self->cell);
+    free(self->states);
+    free(self->steps);
+    object_free(object);
+}
+
+// Asks again with more memory where the steps were more than there was room for.
+static ovoid_code find_steps(path_object *self, ovoid_robot_checker *checker, ovoid_error *error) {
+    ovoid_robot_path path = {self->states, self->state_count};
+    ovoid_robot_path_options o = self->options;
+    for (o.capacity = 256;; o.capacity = self->of.step_count) {
+        o.steps = realloc(self->steps, o.capacity * sizeof *o.steps);
+        if (!o.steps) {
+            error->code = OVOID_ERROR_MEMORY;
+            return OVOID_ERROR_MEMORY;
+        }
+        self->steps = o.steps;
+        // From the same memory of earlier states, so that the second time has as many steps.
+        ovoid_robot_checker_reset(checker);
+        ovoid_code code = ovoid_robot_check_path(checker, &path, &o, &self->of, error);
+        if (code != OVOID_OK || self->of.step_count <= o.capacity) return code;
+    }
+}
+
+PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords);
+PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"states", CHECK_NAMES, "tolerance", "most_states", NULL};
+    cell_object *cell = (cell_object *)object;
+    module_state *state = state_of(object);
+    PyObject *given;
+    ovoid_robot_path_options o = {.tolerance = 0};
+    unsigned long long most = 0;
+    items states;
+    ovoid_robot_checker *checker;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "dK:check_path", names, &given,
+                                     CHECK_TARGETS(o.check), &o.tolerance, &most) ||
+        check_options_check(state, &o.check))
+        return NULL;
+    if (most > UINT32_MAX) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "most_states: 0 to 2^32 - 1 are wanted");
+    o.states = (uint32_t)most;
+    Py_ssize_t variables = (Py_ssize_t)robot_variable_count(cell->robot);
+    if (items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &states)) return NULL;
+    path_object *self = make_object(cell, &o, &states);
+    if (!self || checkers_borrow(cell, &checker, 1)) {
+        Py_XDECREF((PyObject *)self);
+        return NULL;
+    }
+    ovoid_error error;
+    ovoid_code code;
+    Py_BEGIN_ALLOW_THREADS;
+    code = find_steps(self, checker, &error);
+    Py_END_ALLOW_THREADS;
+    checkers_return(cell, &checker, 1);
+    if (code == OVOID_OK) return (PyObject *)self;
+    Py_DECREF((PyObject *)self);
+    return raise_error(state, &error);
+}
+
+ovoid_code path_check(PyObject *object, ovoid_error *error) {
+    path_object *self = (path_object *)object;
+    ovoid_error unused, *to = error ? error : &unused;
+    if (self->version != self->cell->version) {
+        *to = (ovoid_error){.code = OVOID_ERROR_ARGUMENT, .place = -1};
+        strcpy(to->message, "the cell has changed since this path was asked: ask again");
+        return to->code;
+    }
+    ovoid_robot_path path = {self->states, self->state_count};
+    ovoid_code code;
+    self->cell->readers++;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_robot_path_check(self->cell->cell, &path, &self->options, &self->of, self->steps, to);
+    Py_END_ALLOW_THREADS;
+    self->cell->readers--;
+    return code;
+}
+
+// ---- what it is
+
+static PyObject *get_hit(PyObject *self, void *closure) {
+    (void)closure;
+    const path_object *path = (path_object *)self;
+    if (path->of.status == OVOID_ROBOT_FREE) Py_RETURN_NONE;
+    return state_answer_make(state_of(self), &path->of.hit);
+}
+
+static PyObject *get_refused(PyObject *self, void *closure) {
+    (void)closure;
+    const path_object *path = (path_object *)self;
+    if (path->of.status != OVOID_ROBOT_REFUSED) Py_RETURN_NONE;
+    return PyLong_FromSize_t(path->of.refused);
+}
+
+static PyObject *get_steps(PyObject *self, void *closure) {
+    (void)closure;
+    const path_object *path = (path_object *)self;
+    return array_copy(state_of(self), RECORD_ROBOT_STEP, 1, (Py_ssize_t[]){(Py_ssize_t)path->of.step_count},
+                      path->steps);
+}
+
+static PyObject *get_states(PyObject *self, void *closure) {
+    (void)closure;
+    const path_object *path = (path_object *)self;
+    Py_ssize_t shape[] = {(Py_ssize_t)path->state_count, (Py_ssize_t)robot_variable_count(path->cell->robot)};
+    return array_copy(state_of(self), RECORD_DOUBLE, 2, shape, path->states);
+}
+
+static PyObject *get_cell(PyObject *self, void *closure) {
+    (void)closure;
+    return Py_NewRef((PyObject *)((path_object *)self)->cell);
+}
+
+static PyObject *repr(PyObject *self) {
+    static const char *const words[] = {"undecided", "free", "hit", "refused"};
+    const ovoid_robot_path_answer *x = &((path_object *)self)->of;
+    char text[160];
+    PyOS_snprintf(text, sizeof text, "<ovoid.RobotPath: %s, free before %.17g, %zu steps>", words[x->status],
+                  x->free_until, x->step_count);
+    return PyUnicode_FromString(text);
+}
+
+static PyGetSetDef fields[] = {
+    FIELD(path_object, FIELD_ENUM + ENUM_ROBOT_STATUS, "status", of.status,
+          "What is proven of the path: a RobotStatus."),
+    FIELD(path_object, FIELD_DOUBLE, "free_until", of.free_until,
+          "Proven: free at all s before it; s is i at state i, linear in between."),
+    FIELD(path_object, FIELD_DOUBLE, "hit_at", of.hit_at, "Where it is proven to be a hit; inf where it is not one."),
+    FIELD(path_object, FIELD_UINT, "looked_at", of.states, "How many states were looked at."),
+    {"hit", get_hit, NULL, "The StateAnswer at hit_at, or of what is undecided or refused; None where it is free.",
+     NULL},
+    {"refused", get_refused, NULL, "The state that is refused, or at whose beginning a segment is; else None.", NULL},
+    {"steps", get_steps, NULL,
+     "The proof: an array of records begin, end, pair, kind (1 outer, 2 middle, 3 ends), mask, normal.", NULL},
+    {"states", get_states, NULL, "The states of the path, (n, variables).", NULL},
+    {"cell", get_cell, NULL, "The Cell that was asked.", NULL},
+    {NULL, NULL, NULL, NULL, NULL}};
+
+static PyType_Slot slots[] = {{Py_tp_doc,
+                               "Whether a path of a Cell is free for all times in between. ovoid.check(path) measures "
+                               "its steps again, without a\n"
+                               "search, and raises Error where they prove less, or where the cell has changed since."},
+                              {Py_tp_dealloc, path_dealloc},
+                              {Py_tp_repr, repr},
+                              {Py_tp_getset, fields},
+                              {0, NULL}};
+static PyType_Spec spec = {"ovoid.RobotPath", sizeof(path_object), 0,
+                           Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
+
+int robot_path_add(PyObject *module) { return type_add(module, &spec, &state_of_module(module)->robot_path); }

@@ -1,0 +1,87 @@
+// Spheres that stand for a link: how far they are from covering it, and spheres that are proven to.
+//
+// A sphere is four numbers, its centre in the link's frame and its radius; the library's struct is those.
+#include "src/robot.h"
+
+#include <ovoid/robot_spheres.h>
+
+#include <stdlib.h>
+
+static PyObject *make_bracket(ovoid_robot_bracket b) { return Py_BuildValue("(dd)", b.lower, b.upper); }
+
+static PyObject *audit_spheres(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"link", "spheres", "tolerance", "depth_cells", "volume_cells", "without_volumes", NULL};
+    robot_object *self = (robot_object *)object;
+    module_state *state = state_of(object);
+    PyObject *link_given, *given;
+    ovoid_robot_audit_options o = {0};
+    Py_ssize_t depth_cells = 0, volume_cells = 0;
+    uint32_t link;
+    items spheres;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$dnnp:audit_spheres", names, &link_given, &given,
+                                     &o.tolerance, &depth_cells, &volume_cells, &o.without_volumes) ||
+        link_read(self, link_given, &link))
+        return NULL;
+    if (depth_cells < 0 || volume_cells < 0)
+        return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "numbers of cells are >= 0");
+    if (items_read(state, given, "spheres", 2, (Py_ssize_t[]){-1, 4}, 'd', &spheres)) return NULL;
+    o.depth_cells = (size_t)depth_cells;
+    o.volume_cells = (size_t)volume_cells;
+    ovoid_robot_sphere_audit audit;
+    ovoid_error error;
+    ovoid_code code;
+    Py_BEGIN_ALLOW_THREADS;
+    code =
+        ovoid_robot_compute_sphere_audit(self->robot, link, spheres.data, (size_t)spheres.shape[0], &o, &audit, &error);
+    Py_END_ALLOW_THREADS;
+    free(spheres.data);
+    if (code != OVOID_OK) return raise_error(state, &error);
+    return PyObject_CallFunction(state->sphere_audit, "NNIINNNNn", make_bracket(audit.depth), vec3_make(audit.point),
+                                 audit.element, audit.sphere, make_bracket(audit.uncovered), make_bracket(audit.excess),
+                                 make_bracket(audit.link), make_bracket(audit.spheres), (Py_ssize_t)audit.cells);
+}
+
+static PyObject *cover_spheres(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"link", "count", "excess", "rounds", "seed", NULL};
+    robot_object *self = (robot_object *)object;
+    module_state *state = state_of(object);
+    PyObject *link_given;
+    Py_ssize_t count, rounds = 0;
+    unsigned long long seed = 0;
+    ovoid_robot_cover_options o = {0};
+    uint32_t link;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "On|$dnK:cover_spheres", names, &link_given, &count,
+                                     &o.excess, &rounds, &seed) ||
+        link_read(self, link_given, &link))
+        return NULL;
+    if (count < 1 || count > 4096 || rounds < 0)
+        return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "count: 1 to 4096 are wanted; rounds >= 0");
+    o.rounds = (size_t)rounds;
+    o.seed = seed;
+    void *spheres = calloc((size_t)count, 4 * sizeof(double));
+    if (!spheres) return PyErr_NoMemory();
+    size_t written = (size_t)count;
+    ovoid_robot_bracket depth;
+    ovoid_error error;
+    ovoid_code code;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_robot_compute_sphere_cover(self->robot, link, &o, spheres, &written, &depth, &error);
+    Py_END_ALLOW_THREADS;
+    PyObject *array = code == OVOID_OK
+                          ? array_copy(state, RECORD_DOUBLE, 2, (Py_ssize_t[]){(Py_ssize_t)written, 4}, spheres)
+                          : raise_error(state, &error);
+    free(spheres);
+    return array ? Py_BuildValue("N(dd)", array, depth.lower, depth.upper) : NULL;
+}
+
+PyMethodDef robot_spheres_methods[] = {
+    {"audit_spheres", METHOD_KEYWORDS(audit_spheres), METH_VARARGS | METH_KEYWORDS,
+     "audit_spheres(link, spheres, *, tolerance=0, depth_cells=0, volume_cells=0, without_volumes=False)\n--\n\nHow "
+     "far "
+     "spheres, (n, 4) of centre (link's frame) and radius, are from covering a link: a SphereAudit of brackets."},
+    {"cover_spheres", METHOD_KEYWORDS(cover_spheres), METH_VARARGS | METH_KEYWORDS,
+     "cover_spheres(link, count, *, excess=0, rounds=0, seed=0)\n--\n\nAt most count spheres that are proven to cover "
+     "a "
+     "link: an array (n, 4), and the bracket of the deepest uncovered\npoint's depth, whose upper end is at most 0. "
+     "excess > 0: the fewest spheres of which none stands out by more."},
+    {NULL, NULL, 0, NULL}};
