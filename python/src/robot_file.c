@@ -154,8 +154,8 @@ static PyObject *make_mesh(const ovoid_robot_file *file, const ovoid_robot_descr
 static PyObject *make_sphere(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
     size_t count;
     return Py_BuildValue("sNd", link_name(d, ovoid_robot_file_get_spheres(file, &count)[i].link),
-                         vec3_make(ovoid_robot_file_get_spheres(file, &count)[i].center),
-                         ovoid_robot_file_get_spheres(file, &count)[i].radius);
+                         vec3_make(ovoid_robot_file_get_spheres(file, &count)[i].ball.center),
+                         ovoid_robot_file_get_spheres(file, &count)[i].ball.radius);
 }
 
 static PyObject *make_ignored(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
