@@ -14,6 +14,8 @@ typedef struct solid8_other {
     vec3 half;     ///< its own half sizes, along its own axes
     mat3 rotation; ///< from the node's frame to its own
     mat3 absolute; ///< the sizes of the rotation's entries
+    vec3 normal;   ///< a unit direction from the node to it, in the node's frame
+    double reach;  ///< how far it reaches from its centre along that
     double unit;   ///< of the node's boxes
 } solid8_other;
 
@@ -27,19 +29,21 @@ typedef struct solid8_triangle {
     vec3 corner[3];
     mat3 rotation; ///< of the others' frame to this one
     vec3 translation;
+    vec3 normal;   ///< a unit direction to the others, in its own frame
+    double enough; ///< a gap above this needs no nearest points
 } solid8_triangle;
 
 /// What is measured of eight pairs of triangles.
 typedef struct solid8_gaps {
     _Alignas(64) double lower[BOX8]; ///< the gap along the normal
-    double upper[BOX8];              ///< the distance of two points of them
+    double upper[BOX8];              ///< the distance of two points of them; infinity where not looked for
     double normal[3][BOX8];          ///< from the one to the eight, in the frame of the one; zero: none was found
 } solid8_gaps;
 
 /// Kernels of one instruction set; all give the same bits.
 typedef struct solid8_kernels {
-    /// For each box of the node: the largest gap along a direction, among the six axes and, where the boxes are apart,
-    /// the lines between the nearest points of boxes along either's axes.
+    /// For each box of the node: the largest gap along a direction, among the six axes, the lines between the nearest
+    /// points of boxes along either's axes, the line of the centres, and the normal given.
     void (*boxes)(const box8 *node, const solid8_other *other, double lower[BOX8]);
     void (*triangles)(const solid8_triangle *one, const solid8_triangles *eight, solid8_gaps *out);
 } solid8_kernels;

@@ -25,7 +25,8 @@ LANES_INLINE lane join_gaps(lane3 gap) {
 LANES_TARGET static void run_boxes(const box8 *node, const solid8_other *other, double lower[BOX8]) {
     lane9 rotation = spread9(&other->rotation), absolute = spread9(&other->absolute);
     lane3 center = spread(other->center), turned = spread(other->turned), own = spread(other->half);
-    lane unit = lane_set(0.5 * other->unit);
+    lane3 normal = spread(other->normal), sizes = lane3_abs(normal);
+    lane unit = lane_set(0.5 * other->unit), reach = lane_set(other->reach), tiny = lane_set(TINY);
     for (int at = 0; at < BOX8; at += LANES) {
         lane3 low = {lane_load_floats(node->low[0] + at), lane_load_floats(node->low[1] + at),
                      lane_load_floats(node->low[2] + at)};
@@ -35,8 +36,13 @@ LANES_TARGET static void run_boxes(const box8 *node, const solid8_other *other, 
         lane3 d = lane3_sub(center, lane3_scale(lane3_add(high, low), unit));
         lane3 gap = lane3_sub(lane3_sub(lane3_abs(d), half), turned);
         lane first = join_gaps(gap);
-        gap = lane3_sub(lane3_sub(lane3_abs(lane9_mul3(rotation, d)), lane9_mul3(absolute, half)), own);
-        lane_store(lower + at, lane_max(first, join_gaps(gap)));
+        lane3 turned_d = lane3_abs(lane9_mul3(rotation, d));
+        gap = lane3_sub(lane3_sub(turned_d, lane9_mul3(absolute, half)), own);
+        first = lane_max(first, join_gaps(gap));
+        lane along = lane3_dot(normal, d) - lane3_dot(sizes, half) - reach;
+        lane square = lane3_dot(d, d), both = lane3_dot(lane3_abs(d), half) + lane3_dot(turned_d, own);
+        lane line = lane_select(lane_greater(square, tiny), (square - both) / lane_sqrt(square), along);
+        lane_store(lower + at, lane_max(lane_max(first, along), line));
     }
 }
 
@@ -96,6 +102,29 @@ LANES_INLINE lane find_bottom(const lane3 corner[3], lane3 n) {
     return least(least(lane3_dot(corner[0], n), lane3_dot(corner[1], n)), lane3_dot(corner[2], n));
 }
 
+// Gaps along the normal given and along the line of the middles: 1 if all are enough, and written.
+LANES_INLINE int run_directions(const solid8_triangle *one, const lane3 p[3], const lane3 q[3], int at,
+                                solid8_gaps *out) {
+    lane third = lane_set(1.0 / 3);
+    lane3 n = spread(one->normal);
+    lane gap = find_bottom(q, n) - find_top(p, n);
+    lane3 d =
+        lane3_scale(lane3_sub(lane3_add(lane3_add(q[0], q[1]), q[2]), lane3_add(lane3_add(p[0], p[1]), p[2])), third);
+    lane_mask good = always();
+    lane3 line = lane3_unit(d, &good);
+    lane along = find_bottom(q, line) - find_top(p, line);
+    lane_mask better = lane_and(good, lane_greater(along, gap));
+    gap = lane_select(better, along, gap);
+    if (lane_bits(lane_at_most(gap, lane_set(one->enough)))) return 0;
+    n = lane3_select(better, line, n);
+    lane_store(out->lower + at, gap);
+    lane_store(out->upper + at, lane_set(INFINITY));
+    lane_store(out->normal[0] + at, n.x);
+    lane_store(out->normal[1] + at, n.y);
+    lane_store(out->normal[2] + at, n.z);
+    return 1;
+}
+
 LANES_TARGET static void run_triangles(const solid8_triangle *one, const solid8_triangles *eight, solid8_gaps *out) {
     lane3 p[3], q[3];
     edge a[3], b[3];
@@ -110,6 +139,7 @@ LANES_TARGET static void run_triangles(const solid8_triangle *one, const solid8_
                          lane_load(eight->corner[i][2] + at)};
             q[i] = lane3_add(lane9_mul3(rotation, own), translation);
         }
+        if (run_directions(one, p, q, at, out)) continue;
         for (int i = 0; i < 3; i++) b[i] = make_edge(q[i], q[(i + 1) % 3]);
         lane3 normal_b = lane3_cross(b[0].along, b[1].along);
         nearest best = {lane_set(INFINITY), {lane_set(0), lane_set(0), lane_set(0)}};

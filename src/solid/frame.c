@@ -71,34 +71,47 @@ static box_gap find_axis_gap(vec3 d, vec3 half) {
     return (box_gap){norm > 0 ? norm : most, n};
 }
 
-box_gap solid_frame_find_gap(const solid_frame *f, const tree_box *a, const tree_box *b) {
+static double find_reach(vec3 half, vec3 n) { return vec3_dot(half, absolute(n)); }
+
+// The gap along a unit direction of a's frame.
+static box_gap find_gap_along(const solid_frame *f, const tree_box *a, const tree_box *b, vec3 d, vec3 n) {
+    return (box_gap){vec3_dot(n, d) - find_reach(a->half, n) - find_reach(b->half, mat3_mul_vec3(f->to_b, n)), n};
+}
+
+box_gap solid_frame_find_gap(const solid_frame *f, const tree_box *a, const tree_box *b, vec3 normal) {
     vec3 d = vec3_sub(vec3_add(f->between, mat3_mul_vec3(f->to_a, b->center)), a->center);
-    box_gap along_a = find_axis_gap(d, vec3_add(a->half, mat3_mul_vec3(f->absolute_a, b->half)));
-    box_gap along_b =
-        find_axis_gap(mat3_mul_vec3(f->to_b, d), vec3_add(b->half, mat3_mul_vec3(f->absolute_b, a->half)));
-    if (along_a.lower >= along_b.lower) return along_a;
-    along_b.normal = mat3_mul_vec3(f->to_a, along_b.normal);
-    return along_b;
+    box_gap best = find_axis_gap(d, vec3_add(a->half, mat3_mul_vec3(f->absolute_a, b->half)));
+    box_gap next = find_axis_gap(mat3_mul_vec3(f->to_b, d), vec3_add(b->half, mat3_mul_vec3(f->absolute_b, a->half)));
+    next.normal = mat3_mul_vec3(f->to_a, next.normal);
+    if (next.lower > best.lower) best = next;
+    next = find_gap_along(f, a, b, d, normal);
+    if (next.lower > best.lower) best = next;
+    vec3 line = vec3_unit(d);
+    if (!(vec3_norm_squared(line) > 0.5)) return best;
+    next = find_gap_along(f, a, b, d, line);
+    return next.lower > best.lower ? next : best;
 }
 
 box_gap solid_frame_find_parting(const solid_frame *f, const solid_view *a, const solid_view *b) {
     tree_box box_a = solid_view_get_box(a, solid_view_get_root(a)),
              box_b = solid_view_get_box(b, solid_view_get_root(b));
-    box_gap gap = solid_frame_find_gap(f, &box_a, &box_b);
+    box_gap gap = solid_frame_find_gap(f, &box_a, &box_b, (vec3){1, 0, 0});
     gap.lower -= f->claim;
     gap.normal = mat3_mul_vec3(f->world, gap.normal);
     return gap;
 }
 
-void solid_frame_turn(const solid_frame *f, int side, const tree_box *rest, double unit, solid8_other *o) {
-    // A box of b beside nodes of a, or the other way round.
+void solid_frame_turn(const solid_frame *f, int side, const tree_box *rest, vec3 normal, solid8_other *o) {
+    // A box of b beside nodes of a, or the other way round; the normal goes from a to b.
     o->center = side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->center, f->between))
                      : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->center));
     o->rotation = side ? f->to_a : f->to_b;
     o->absolute = side ? f->absolute_a : f->absolute_b;
     o->turned = mat3_mul_vec3(side ? f->absolute_b : f->absolute_a, rest->half);
     o->half = rest->half;
-    o->unit = unit;
+    vec3 in_b = mat3_mul_vec3(f->to_b, normal);
+    o->normal = side ? vec3_neg(in_b) : normal;
+    o->reach = find_reach(rest->half, side ? normal : in_b);
 }
 
 // ---- triangles

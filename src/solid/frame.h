@@ -57,15 +57,17 @@ typedef struct solid_frame {
 
 void solid_frame_make(const solid_view *a, const solid_view *b, solid_frame *frame);
 
-/// The bound of two boxes, and a unit direction in a's frame that shows it.
+/// The bound of two boxes, and a unit direction in a's frame that shows it: as the kernel's. normal: one to try, in a's
+/// frame.
 typedef struct box_gap {
     double lower;
     vec3 normal;
 } box_gap;
-box_gap solid_frame_find_gap(const solid_frame *f, const tree_box *a, const tree_box *b);
+box_gap solid_frame_find_gap(const solid_frame *f, const tree_box *a, const tree_box *b, vec3 normal);
 
-/// A box of b (side 0) or of a (side 1) as the kernel wants it beside nodes of the other.
-void solid_frame_turn(const solid_frame *f, int side, const tree_box *rest, double unit, solid8_other *other);
+/// A box of b (side 0) or of a (side 1) as the kernel wants it beside nodes of the other; the
+/// unit of these is left to the caller.
+void solid_frame_turn(const solid_frame *f, int side, const tree_box *rest, vec3 normal, solid8_other *other);
 
 /// The rule by which a pair that is not two triangles is split: 1 where the first is.
 static inline int pair_is_split_first(solid_ref a, const tree_box *box_a, solid_ref b, const tree_box *box_b) {

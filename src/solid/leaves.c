@@ -35,7 +35,7 @@ void search_exclude_boxes(solid_search *h, const waiting_pair *w) {
     if (!h->exclusions) return;
     tree_box a = solid_view_get_box(&h->a, w->a), b = solid_view_get_box(&h->b, w->b);
     ovoid_exclusion x = {.lower = w->lower};
-    x.normal = mat3_mul_vec3(h->frame.world, solid_frame_find_gap(&h->frame, &a, &b).normal);
+    x.normal = mat3_mul_vec3(h->frame.world, solid_frame_find_gap(&h->frame, &a, &b, h->normals[w->normal]).normal);
     set_range(&h->a, w->a, &x.first_a, &x.end_a);
     set_range(&h->b, w->b, &x.first_b, &x.end_b);
     add(h, &x);
@@ -54,8 +54,11 @@ static void tighten(solid_search *h) {
     }
 }
 
-// The direction of the best pair, for triangles beside a shape.
+// The direction of the best pair, for boxes, and for triangles beside a shape.
 static void set_filter(solid_search *h) {
+    if (!(vec3_norm_squared(h->best.normal) > 0.5)) return;
+    if (h->normal_count < SEARCH_NORMALS)
+        h->normals[h->normal_count++] = vec3_unit(mat3_mul_transposed_vec3(h->frame.world, h->best.normal));
     if (h->a.solid && h->b.solid) return;
     int side = h->a.solid != NULL;
     const solid_view *shape = side ? &h->b : &h->a;
@@ -71,7 +74,7 @@ static void set_filter(solid_search *h) {
 }
 
 int search_is_filtered(solid_search *h, int side, uint32_t place) {
-    if (!h->has_best) return 0;
+    if (!h->has_best || h->filter_support == -INFINITY) return 0;
     const ovoid_solid *s = side ? h->b.solid : h->a.solid;
     double most = -INFINITY;
     for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(h->filter, solid_get_corner(s, place, i)));
@@ -141,10 +144,13 @@ static void gather(const ovoid_solid *s, const uint32_t *places, uint32_t count,
 void search_visit_triangles(solid_search *h, int side, uint32_t one, const uint32_t *places, uint32_t count) {
     const solid_frame *f = &h->frame;
     const ovoid_solid *own = side ? h->b.solid : h->a.solid, *other = side ? h->a.solid : h->b.solid;
+    vec3 normal = search_get_normal(h);
     solid8_triangle t = {
-        {solid_get_corner(other, one, 0), solid_get_corner(other, one, 1), solid_get_corner(other, one, 2)},
-        side ? f->to_a : f->to_b,
-        side ? f->translation : vec3_neg(mat3_mul_vec3(f->to_b, f->translation))};
+        .corner = {solid_get_corner(other, one, 0), solid_get_corner(other, one, 1), solid_get_corner(other, one, 2)},
+        .rotation = side ? f->to_a : f->to_b,
+        .translation = side ? f->translation : vec3_neg(mat3_mul_vec3(f->to_b, f->translation)),
+        .normal = side ? normal : vec3_neg(mat3_mul_vec3(f->to_b, normal)),
+        .enough = min2(h->far, h->enough) + f->claim};
     solid8_triangles eight;
     solid8_gaps gaps;
     gather(own, places, count, &eight);

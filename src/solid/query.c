@@ -16,10 +16,7 @@ static ovoid_status find_status(double lower, double upper, double tolerance) {
 // Where the traversal ended early: one exclusion of all pairs, by the roots.
 static void exclude_all(solid_search *h) {
     if (h->exclusions) h->exclusions->count = 0;
-    tree_box a = solid_view_get_box(&h->a, solid_view_get_root(&h->a));
-    tree_box b = solid_view_get_box(&h->b, solid_view_get_root(&h->b));
-    waiting_pair all = {solid_view_get_root(&h->a), solid_view_get_root(&h->b),
-                        solid_frame_find_gap(&h->frame, &a, &b).lower - h->frame.claim};
+    waiting_pair all = search_make_roots(h);
     search_exclude_boxes(h, &all);
 }
 
@@ -115,6 +112,9 @@ static ovoid_limit begin(solid_search *h, const ovoid_solid_pair *pair, const ov
     h->enough = h->lower = INFINITY;
     h->trouble = OVOID_LIMIT_NONE;
     h->has_best = h->is_answered = 0;
+    h->filter_support = -INFINITY;
+    h->normals[0] = (vec3){1, 0, 0};
+    h->normal_count = 1;
     h->kernels = solid8_get_kernels();
     if (h->a.solid) triangle_begin(&h->room_a);
     if (h->b.solid) triangle_begin(&h->room_b);

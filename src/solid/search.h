@@ -12,6 +12,9 @@ typedef struct solid_candidate {
     vec3 normal, normal_low;
 } solid_candidate;
 
+/// Most normals that are tried one after another; later best pairs leave the last one.
+enum { SEARCH_NORMALS = 64 };
+
 typedef struct solid_search {
     solid_view a, b;
     solid_frame frame;
@@ -27,6 +30,10 @@ typedef struct solid_search {
     ovoid_solid_answer *out; ///< its `surfaces` are of the best pair where is_answered
     solid_candidate best;
     int has_best, is_answered;
+    // Normals of best pairs, in a's frame; the last one is tried on all boxes. A pair that waits knows which one its
+    // bound may rest on.
+    vec3 normals[SEARCH_NORMALS];
+    uint32_t normal_count;
     uint32_t warm_a, warm_b; ///< the pair of the earlier answer, or count_a
     // Of a solid and a shape: the direction of the best pair, from the solid to the shape in the solid's frame, and the
     // shape's least extent along it.
@@ -40,6 +47,7 @@ typedef struct solid_search {
 typedef struct waiting_pair {
     solid_ref a, b;
     double lower;
+    uint32_t normal; ///< the normal that was tried on it
 } waiting_pair;
 
 static inline int search_is_left_out(const solid_search *h, double lower) {
@@ -61,6 +69,9 @@ void search_visit_triangles(solid_search *h, int side, uint32_t one, const uint3
 /// 1 where a triangle and a shape are left out by the normal of the best pair.
 int search_is_filtered(solid_search *h, int side, uint32_t place);
 
+static inline vec3 search_get_normal(const solid_search *h) { return h->normals[h->normal_count - 1]; }
+/// The pair of roots, with its bound.
+waiting_pair search_make_roots(const solid_search *h);
 /// From the roots down.
 void search_traverse(solid_search *h);
 

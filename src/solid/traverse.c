@@ -22,14 +22,15 @@ static void bound_children(solid_search *h, const waiting_pair *w, int side, con
     solid8_other other;
     double lower[BOX8];
     // side 0: nodes of a beside a box of b.
-    solid_frame_turn(&h->frame, side, rest, s->unit, &other);
+    solid_frame_turn(&h->frame, side, rest, search_get_normal(h), &other);
+    other.unit = s->unit;
     h->kernels->boxes(&s->boxes[node], &other, lower);
     uint32_t count = s->nodes[node].children;
     h->out->visited += count;
     found->count = 0;
     for (uint32_t i = 0; i < count; i++) {
         solid_ref child = solid_get_child(s, node, i);
-        waiting_pair next = {side ? w->a : child, side ? child : w->b, lower[i] - h->frame.claim};
+        waiting_pair next = {side ? w->a : child, side ? child : w->b, lower[i] - h->frame.claim, h->normal_count - 1};
         if (search_is_left_out(h, next.lower))
             search_exclude_boxes(h, &next);
         else
@@ -72,11 +73,17 @@ static uint32_t pass_on(solid_search *h, int side, const children *found, waitin
     return waiting;
 }
 
+waiting_pair search_make_roots(const solid_search *h) {
+    waiting_pair w = {solid_view_get_root(&h->a), solid_view_get_root(&h->b), 0, h->normal_count - 1};
+    tree_box a = solid_view_get_box(&h->a, w.a), b = solid_view_get_box(&h->b, w.b);
+    w.lower = solid_frame_find_gap(&h->frame, &a, &b, search_get_normal(h)).lower - h->frame.claim;
+    return w;
+}
+
 void search_traverse(solid_search *h) {
     waiting_pair stack[2 * SOLID_DEPTH_MAX * BOX8];
-    solid_ref root_a = solid_view_get_root(&h->a), root_b = solid_view_get_root(&h->b);
-    tree_box a = solid_view_get_box(&h->a, root_a), b = solid_view_get_box(&h->b, root_b);
-    stack[0] = (waiting_pair){root_a, root_b, solid_frame_find_gap(&h->frame, &a, &b).lower - h->frame.claim};
+    tree_box a, b;
+    stack[0] = search_make_roots(h);
     h->out->visited++;
     for (uint32_t count = 1; count > 0 && !search_is_decided(h);) {
         waiting_pair w = stack[--count];
