@@ -4,6 +4,8 @@
 // tolerance, is left out. The stack is as deep as both trees together; nothing is allocated.
 #include "solid/search.h"
 
+enum { HEAP_ROOM = 1024 };
+
 // The children of a node that are not left out, farthest first.
 typedef struct children {
     waiting_pair pair[BOX8];
@@ -58,19 +60,49 @@ static void visit_triangles(solid_search *h, int side, const children *found) {
     search_visit_triangles(h, side, one, places, found->count);
 }
 
+// Pairs that wait: of boxes that overlap the last one first, since each has to be opened; then the nearest, from a heap
+// (J. W. J. Williams, Algorithm 232: heapsort, 1964), so that none is opened whose bound is above the answer. A heap
+// that is full leaves its place to the stack.
+typedef struct waiting {
+    waiting_pair stack[2 * SOLID_DEPTH_MAX * BOX8];
+    waiting_pair heap[HEAP_ROOM];
+    uint32_t stacked, heaped;
+} waiting;
+
+static void push_heap(waiting *q, const waiting_pair *w) {
+    uint32_t at = q->heaped++;
+    for (uint32_t parent; at > 0 && q->heap[parent = (at - 1) / 2].lower > w->lower; at = parent)
+        q->heap[at] = q->heap[parent];
+    q->heap[at] = *w;
+}
+
+static waiting_pair pop_heap(waiting *q) {
+    waiting_pair top = q->heap[0], last = q->heap[--q->heaped];
+    uint32_t at = 0;
+    for (uint32_t child; (child = 2 * at + 1) < q->heaped; at = child) {
+        if (child + 1 < q->heaped && q->heap[child + 1].lower < q->heap[child].lower) child++;
+        if (q->heap[child].lower >= last.lower) break;
+        q->heap[at] = q->heap[child];
+    }
+    q->heap[at] = last;
+    return top;
+}
+
+static waiting_pair pop(waiting *q) { return q->stacked ? q->stack[--q->stacked] : pop_heap(q); }
+
 // Children wait; triangles beside a triangle are visited at once.
-static uint32_t pass_on(solid_search *h, int side, const children *found, waiting_pair *stack) {
+static void pass_on(solid_search *h, int side, const children *found, waiting *q) {
     children leaves = {.count = 0};
-    uint32_t waiting = 0;
     for (uint32_t i = 0; i < found->count; i++) {
         const waiting_pair *w = &found->pair[i];
         if (ref_is_triangle(w->a) && ref_is_triangle(w->b) && h->a.solid && h->b.solid)
             leaves.pair[leaves.count++] = *w;
+        else if (w->lower > 0 && q->heaped < HEAP_ROOM)
+            push_heap(q, w);
         else
-            stack[waiting++] = *w;
+            q->stack[q->stacked++] = *w;
     }
     if (leaves.count) visit_triangles(h, side, &leaves);
-    return waiting;
 }
 
 waiting_pair search_make_roots(const solid_search *h) {
@@ -81,12 +113,12 @@ waiting_pair search_make_roots(const solid_search *h) {
 }
 
 void search_traverse(solid_search *h) {
-    waiting_pair stack[2 * SOLID_DEPTH_MAX * BOX8];
-    tree_box a, b;
-    stack[0] = search_make_roots(h);
+    waiting q;
+    q.stacked = q.heaped = 0;
+    q.stack[q.stacked++] = search_make_roots(h);
     h->out->visited++;
-    for (uint32_t count = 1; count > 0 && !search_is_decided(h);) {
-        waiting_pair w = stack[--count];
+    while (q.stacked + q.heaped > 0 && !search_is_decided(h)) {
+        waiting_pair w = pop(&q);
         if (search_is_left_out(h, w.lower)) {
             search_exclude_boxes(h, &w);
             continue;
@@ -95,11 +127,10 @@ void search_traverse(solid_search *h) {
             visit_pair(h, &w);
             continue;
         }
-        a = solid_view_get_box(&h->a, w.a);
-        b = solid_view_get_box(&h->b, w.b);
+        tree_box a = solid_view_get_box(&h->a, w.a), b = solid_view_get_box(&h->b, w.b);
         int side = !pair_is_split_first(w.a, &a, w.b, &b);
         children found;
         bound_children(h, &w, side, side ? &a : &b, &found);
-        count += pass_on(h, side, &found, stack + count);
+        pass_on(h, side, &found, &q);
     }
 }
