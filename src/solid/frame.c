@@ -24,22 +24,29 @@ int solid_view_make(const ovoid_solid_body *body, solid_view *v) {
     return vec3_norm(v->pose->position) + v->extent <= OVOID_LENGTH_MAX;
 }
 
+// The triangle's box as its node has it: rounded to single precision, so that both have the same centre.
+static void set_triangle_box(const ovoid_solid *s, uint32_t place, float low[3], float high[3]) {
+    box b = solid_make_bounds(s, &s->triangles[place]);
+    const double least[3] = {b.min.x, b.min.y, b.min.z}, most[3] = {b.max.x, b.max.y, b.max.z};
+    for (int k = 0; k < 3; k++) {
+        low[k] = box8_round_down(least[k]);
+        high[k] = box8_round_up(most[k]);
+    }
+}
+
 tree_box solid_view_get_box(const solid_view *v, solid_ref ref) {
     if (!v->solid) return (tree_box){{0, 0, 0}, v->half};
-    box b = box_make_empty();
+    float own[2][3];
+    const float *low = own[0], *high = own[1];
     if (ref_is_triangle(ref)) {
-        for (int i = 0; i < 3; i++) {
-            vec3 p = vec3_sub(solid_get_corner(v->solid, ref_get_place(ref), i), v->center);
-            box at = {p, p};
-            b = box_join(&b, &at);
-        }
+        set_triangle_box(v->solid, ref_get_place(ref), own[0], own[1]);
     } else {
-        const solid_node *n = &v->solid->nodes[ref];
-        double unit = v->solid->unit;
-        b = (box){{n->low[0] * unit, n->low[1] * unit, n->low[2] * unit},
-                  {n->high[0] * unit, n->high[1] * unit, n->high[2] * unit}};
+        low = v->solid->nodes[ref].low;
+        high = v->solid->nodes[ref].high;
     }
-    return (tree_box){vec3_scale(vec3_add(b.min, b.max), 0.5), vec3_scale(vec3_sub(b.max, b.min), 0.5)};
+    vec3 from = {low[0], low[1], low[2]}, to = {high[0], high[1], high[2]};
+    double half = 0.5 * v->solid->unit;
+    return (tree_box){vec3_scale(vec3_add(to, from), half), vec3_scale(vec3_sub(to, from), half)};
 }
 
 static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }

@@ -69,6 +69,8 @@ typedef struct solid_parts {
 uint32_t solid_compute_report(const solid_parts *parts, const ovoid_allocator *allocator, uint32_t *components,
                               ovoid_solid_report *report);
 
+/// A triangle's box in the tree's frame and unit.
+box solid_make_bounds(const ovoid_solid *solid, const solid_triangle *triangle);
 /// At most so many nodes are made of so many triangles.
 uint32_t tree_get_most_nodes(uint32_t triangles);
 /// Fills boxes, nodes, order and node_count; center and unit must be set. triangles: in the caller's order. 0 where

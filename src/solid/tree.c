@@ -200,7 +200,7 @@ static uint32_t make_node(const builder *b, const range *whole, uint32_t node, r
     return waiting;
 }
 
-static box make_bounds(const ovoid_solid *s, const solid_triangle *t) {
+box solid_make_bounds(const ovoid_solid *s, const solid_triangle *t) {
     box all = box_make_empty();
     for (int i = 0; i < 3; i++) {
         vec3 p = vec3_scale(vec3_sub(vec3_at(s->points, t->point[i]), s->center), 1 / s->unit);
@@ -214,7 +214,7 @@ int solid_build_tree(ovoid_solid *s, const solid_triangle *triangles) {
     builder b = {s, triangles, allocator_allocate(&s->allocator, s->triangle_count, sizeof(box))};
     if (!b.bounds) return 0;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        b.bounds[t] = make_bounds(s, &triangles[t]);
+        b.bounds[t] = solid_make_bounds(s, &triangles[t]);
         s->order[t] = t;
     }
     range stack[SOLID_DEPTH_MAX * BOX8] = {make_range(&b, 0, s->triangle_count)};
