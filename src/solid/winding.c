@@ -4,7 +4,7 @@
 // (0, e, e^2) for an e below any number, so that it meets none (H. Edelsbrunner, E. P. Muecke, Simulation of
 // simplicity, 1990): seen along x, a point is left or right of each edge that has two different ends there, and an edge
 // that has not bounds no area. The side of an edge is found with its ends in the order of their indices, so both
-// triangles of an edge agree. What is left open is a point in a triangle's plane: on the surface.
+// triangles of an edge agree. What is left open is a point on a triangle.
 #include "base/environment.h"
 #include "linear/exact.h"
 #include "solid/solid.h"
@@ -28,11 +28,28 @@ static int find_side_of_edge(vec3 p, vec3 ahead, const vec3 corner[3], const uin
 static double max3(double a, double b, double c) { return max2(a, max2(b, c)); }
 static double min3(double a, double b, double c) { return min2(a, min2(b, c)); }
 
+// 1 if the point, which is in the triangle's box, is on it: in its plane, and seen along no axis beside it.
+static int is_on(vec3 p, const vec3 c[3]) {
+    if (orient3d_sign(c[0], c[1], c[2], p) != 0) return 0;
+    for (int axis = 0; axis < 3; axis++) {
+        vec3 ahead = {p.x + 4 * (axis == 0), p.y + 4 * (axis == 1), p.z + 4 * (axis == 2)};
+        int left = 0, right = 0;
+        for (int i = 0; i < 3; i++) {
+            int side = orient3d_sign(p, ahead, c[i], c[(i + 1) % 3]);
+            left |= side > 0;
+            right |= side < 0;
+        }
+        if (left && right) return 0;
+    }
+    return 1;
+}
+
 int ray_count_crossing(vec3 p, const vec3 c[3], const uint32_t index[3]) {
     if (min3(c[0].y, c[1].y, c[2].y) > p.y || max3(c[0].y, c[1].y, c[2].y) < p.y) return 0;
     if (min3(c[0].z, c[1].z, c[2].z) > p.z || max3(c[0].z, c[1].z, c[2].z) < p.z) return 0;
     double far = max3(c[0].x, c[1].x, c[2].x), near = min3(c[0].x, c[1].x, c[2].x);
     if (far < p.x) return 0;
+    if (near <= p.x && is_on(p, c)) return 2;
     vec3 ahead = {p.x + 4, p.y, p.z};
     int s0 = find_side_of_edge(p, ahead, c, index, 0), s1 = find_side_of_edge(p, ahead, c, index, 1);
     if (s0 != s1 || s0 == 0) return 0;
