@@ -1,8 +1,8 @@
 /**
  * @file solid.h
  * Solids of triangles, convex or not, and their proximity to each other and to shapes.
- * A solid is immutable: any number of bodies and threads share it. Queries allocate nothing and keep no state; stack as
- * in <ovoid/query.h>.
+ * A solid is immutable: any number of bodies and threads share it. Queries allocate nothing and keep no state; stack 64
+ * KB beside what <ovoid/query.h> says.
  */
 #ifndef OVOID_SOLID_H
 #define OVOID_SOLID_H
