@@ -79,7 +79,7 @@ static inline int pair_is_split_first(solid_ref a, const tree_box *box_a, solid_
 typedef struct triangle_shape {
     ovoid_shape shape;
     _Alignas(64) double lanes[3][8];
-    double vertices[9];
+    double vertices[16]; ///< nine, and what makes its size a multiple of its alignment
 } triangle_shape;
 
 /// What does not depend on the corners.

@@ -16,6 +16,7 @@ typedef struct solid_candidate {
 enum { SEARCH_NORMALS = 64 };
 
 typedef struct solid_search {
+    triangle_shape room_a, room_b;
     solid_view a, b;
     solid_frame frame;
     const solid8_kernels *kernels;
@@ -25,22 +26,21 @@ typedef struct solid_search {
     double far;    ///< bounds above this are left out; at least the claim, so that containment can be decided
     double enough; ///< and bounds from here on: at least the best pair's upper bound
     double lower;  ///< the least of what was left out
-    ovoid_limit trouble;
     ovoid_exclusions *exclusions;
     ovoid_solid_answer *out; ///< its `surfaces` are of the best pair where is_answered
     solid_candidate best;
-    int has_best, is_answered;
     // Normals of best pairs, in a's frame; the last one is tried on all boxes. A pair that waits knows which one its
     // bound may rest on.
     vec3 normals[SEARCH_NORMALS];
     uint32_t normal_count;
+    int has_best, is_answered;
+    ovoid_limit trouble;
     uint32_t warm_a, warm_b; ///< the pair of the earlier answer, or count_a
     // Of a solid and a shape: the direction of the best pair, from the solid to the shape in the solid's frame, and the
     // shape's least extent along it.
     vec3 filter;
     double filter_support;
     ovoid_answer spare;
-    triangle_shape room_a, room_b;
 } solid_search;
 
 /// A pair of nodes or triangles that waits, with its bound.

@@ -46,11 +46,25 @@ typedef struct merger {
     uint32_t mask, count;
 } merger;
 
-static uint64_t hash(const double p[3]) {
-    uint64_t bits[3], h = 0;
-    memcpy(bits, p, sizeof bits);
+// Coordinates as they are stored.
+typedef struct point_bits {
+    uint64_t bits[3];
+} point_bits;
+
+static point_bits get_bits(const double p[3]) {
+    point_bits b;
+    memcpy(&b, p, sizeof b);
+    return b;
+}
+
+static int is_same(point_bits a, point_bits b) {
+    return a.bits[0] == b.bits[0] && a.bits[1] == b.bits[1] && a.bits[2] == b.bits[2];
+}
+
+static uint64_t hash(point_bits p) {
+    uint64_t h = 0;
     for (int k = 0; k < 3; k++) {
-        h = (h ^ bits[k]) * 0x9e3779b97f4a7c15u;
+        h = (h ^ p.bits[k]) * 0x9e3779b97f4a7c15u;
         h ^= h >> 32;
     }
     return h;
@@ -59,9 +73,10 @@ static uint64_t hash(const double p[3]) {
 static uint32_t merge_point(merger *m, const double *xyz) {
     // Zeros of both signs are one.
     const double p[3] = {xyz[0] + 0.0, xyz[1] + 0.0, xyz[2] + 0.0};
-    uint32_t at = (uint32_t)hash(p) & m->mask;
+    point_bits bits = get_bits(p);
+    uint32_t at = (uint32_t)hash(bits) & m->mask;
     for (; m->table[at] != UINT32_MAX; at = (at + 1) & m->mask)
-        if (memcmp(m->points + 3 * (size_t)m->table[at], p, sizeof p) == 0) return m->table[at];
+        if (is_same(get_bits(m->points + 3 * (size_t)m->table[at]), bits)) return m->table[at];
     memcpy(m->points + 3 * (size_t)m->count, p, sizeof p);
     return m->table[at] = m->count++;
 }
@@ -189,8 +204,10 @@ static ovoid_solid *create(const double *xyz, size_t points, const uint32_t *ind
         set_header(&made, &m, (uint32_t)count);
         uint32_t *components = allocator_allocate(&made.allocator, m.count, sizeof *components);
         solid_parts parts = {m.points, m.triangles, m.count, (uint32_t)count};
-        if (components) made.component_count = solid_compute_report(&parts, &made.allocator, components, &made.report);
-        if (made.component_count) s = assemble(&made, &m, components);
+        if (components) {
+            made.component_count = solid_compute_report(&parts, &made.allocator, components, &made.report);
+            if (made.component_count) s = assemble(&made, &m, components);
+        }
         allocator_release(&made.allocator, components);
         merger_destroy(&m, &made.allocator);
     }
