@@ -38,6 +38,16 @@ static void check_reports(void) {
     CHECK_EQ(ovoid_solid_compute_winding(s, (ovoid_vec3){0.4, 0.5, 0.6}, &winding), 0);
     ovoid_solid_destroy(s);
 
+    // One triangle turned over: each edge has two triangles, but three are run through twice the same way.
+    uint32_t one_turned[36];
+    memcpy(one_turned, cube, sizeof cube);
+    one_turned[0] = cube[1], one_turned[1] = cube[0];
+    s = ovoid_solid_create_from_triangles(corners, 8, one_turned, 12, NULL, NULL);
+    CHECK_EQ(ovoid_solid_get_report(s).is_closed, 0);
+    CHECK_EQ(ovoid_solid_get_report(s).edges_unmatched, 3);
+    CHECK_EQ(ovoid_solid_get_report(s).edges_crowded, 0);
+    ovoid_solid_destroy(s);
+
     // Twice the same, each triangle with corners of its own, one copy turned in its order: copies that coincide.
     double soup[2 * 36 * 3];
     uint32_t indices[2 * 36];
