@@ -266,6 +266,7 @@ static void check_altered(void) {
     y = x, y.lower += 1e-12;
     CHECK_EQ(ovoid_solid_answer_check(&pair, &y, &all, NULL), OVOID_ERROR_PROOF);
     y = x, y.status = OVOID_OVERLAPPING, y.upper = -x.lower, y.lower = -9, y.inside = OVOID_SOLID_A_INSIDE;
+    y.parting = x.surfaces.normal;
     CHECK_EQ(ovoid_solid_answer_check(&pair, &y, &all, NULL), OVOID_ERROR_PROOF);
     y = x, y.triangle_a = 12;
     CHECK_EQ(ovoid_solid_answer_check(&pair, &y, &all, NULL), OVOID_ERROR_PROOF);
