@@ -6,6 +6,7 @@
 #include "message.h"
 #include "outputs.h"
 #include "results.h"
+#include "solids.h"
 
 #include <ovoid/ovoid.h>
 
@@ -17,7 +18,7 @@ typedef struct settings {
     output_settings out;
     ovoid_pose pose_a, pose_b;
     double margin, tolerance; ///< margin negative: not given
-    int parts;
+    int parts, solid, hull;
 } settings;
 
 static const cli_option options[] = {
@@ -26,6 +27,10 @@ static const cli_option options[] = {
     {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
     {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
      "A and B are compounds: each object of their files is a convex part; the nearest parts are named"},
+    {"solid", 0, OPTION_FLAG, offsetof(settings, solid), NULL, NULL,
+     "each mesh is the solid that its triangles enclose, or where they are not closed their surface (default: of a "
+     "closed mesh that does not fill its hull)"},
+    {"hull", 0, OPTION_FLAG, offsetof(settings, hull), NULL, NULL, "each mesh is its convex hull"},
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "also ask whether the bodies are within M of each other: exit code 1 if they are"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
@@ -186,6 +191,59 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     return results_close(&results, code);
 }
 
+/// Of the words that say what a mesh is at most one: -1 to go on, or EXIT_USAGE.
+static int settle_kind(const cli_command *command, const settings *s) {
+    if (s->parts + s->solid + s->hull <= 1) return -1;
+    return args_complain(command, "%s: --parts, --solid and --hull exclude each other", command->name);
+}
+
+static ovoid_convexity get_convexity(const cli_body *body) { return ovoid_shapes_get(body->parts, 0).convexity; }
+
+/// The solid of a body that is to be one, where *solid is not NULL then; 0 after a message where it cannot be read.
+static int open_solid(const settings *s, const char *path, const cli_body *body, ovoid_solid **solid) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_convexity c = get_convexity(body);
+    int is_default = c.is_nonconvex && isfinite(c.mesh_volume);
+    *solid = NULL;
+    if (ovoid_path_is_shape(path) || !(s->solid || is_default)) return 1;
+    *solid = solids_read(path, &s->read, &error);
+    if (*solid) {
+        ovoid_solid_report r = ovoid_solid_get_report(*solid);
+        if (!r.is_closed)
+            message_warning(
+                "%s is not closed, %llu of its edges are not matched: it counts as its surface, which has no "
+                "inside",
+                path, (unsigned long long)r.edges_unmatched);
+        return 1;
+    }
+    if (s->solid) message_error("%s", error.message);
+    return !s->solid;
+}
+
+/// Answers as solids where one of the bodies is one: the exit code, or -1 where none is.
+static int answer_solids(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
+    ovoid_solid *solids[2] = {NULL, NULL};
+    int code = -1;
+    if (!open_solid(s, paths[0], &bodies[0], &solids[0]) || !open_solid(s, paths[1], &bodies[1], &solids[1]))
+        code = EXIT_INPUT;
+    else if (solids[0] || solids[1]) {
+        solids_query query = {.paths = paths,
+                              .pair = {{solids[0] ? NULL : bodies[0].shape, solids[0], s->pose_a},
+                                       {solids[1] ? NULL : bodies[1].shape, solids[1], s->pose_b}},
+                              .convexity = {get_convexity(&bodies[0]), get_convexity(&bodies[1])},
+                              .margin = s->margin,
+                              .tolerance = s->tolerance,
+                              .unit = inputs_get_unit(&s->read)};
+        // What is taken by its hull all the same says so.
+        for (int i = 0; i < 2; i++)
+            if (!solids[i]) inputs_warn_bodies(&paths[i], &bodies[i], 1, &s->read);
+        code = solids_answer(&query, &s->out);
+    }
+    ovoid_solid_destroy(solids[0]);
+    ovoid_solid_destroy(solids[1]);
+    return code;
+}
+
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.read.unit = INPUTS_NO_UNIT,
                   .pose_a = ovoid_pose_make_identity(),
@@ -195,10 +253,14 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_body bodies[2];
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_settle(command, &s.out);
+    if (code < 0) code = settle_kind(command, &s);
     if (code >= 0) return code;
     if ((code = inputs_open_pair(paths.items, &s.read, s.parts, bodies)) != 0) return code;
-    inputs_warn_bodies(paths.items, bodies, 2, &s.read);
-    code = answer_pair(&s, bodies, paths.items);
+    code = s.parts || s.hull ? -1 : answer_solids(&s, bodies, paths.items);
+    if (code < 0) {
+        inputs_warn_bodies(paths.items, bodies, 2, &s.read);
+        code = answer_pair(&s, bodies, paths.items);
+    }
     inputs_close_body(&bodies[0]);
     inputs_close_body(&bodies[1]);
     return code;
@@ -209,12 +271,13 @@ const cli_command command_distance = {
     .summary = "the signed distance of two bodies, with its proof",
     .usage = "[OPTION...] A B",
     .description =
-        "The signed distance of two convex bodies: positive where they are apart, minus the depth where they "
+        "The signed distance of two bodies: positive where they are apart, minus the depth where they "
         "overlap. The answer is a bracket, lower <= d <= upper, rounding included, with witness points, a normal "
         "from A to B, and a proof, which is checked before it is written.\n\n"
-        "A and B are meshes (STL, OBJ, OFF, PLY; COLLADA, glTF and more with Assimp), of which the convex hull is "
-        "meant, or .ovoid "
-        "files. With --parts, they are compounds of convex parts, as CoACD and V-HACD write them: "
+        "A and B are meshes (STL, OBJ, OFF, PLY; COLLADA, glTF and more with Assimp), or .ovoid files. A closed "
+        "mesh that does not fill its convex hull is the solid that its triangles enclose, any other is its hull; "
+        "--solid and --hull choose. The depth of overlapping solids is a bracket that is true, but wide. With --parts, "
+        "they are compounds of convex parts, as CoACD and V-HACD write them: "
         "d is then the smallest signed distance of a part of A and a part of B, and the proof also says why no "
         "other two are nearer.",
     .exits = "0 apart (with --margin: farther than M)\n"
@@ -224,6 +287,7 @@ const cli_command command_distance = {
              "4 the sign (with --margin: the side of M) is not proven",
     .examples = "ovoid distance a.stl b.obj --pose-b \"0 0 1.5\"\n"
                 "ovoid distance a.ovoid b.ovoid --margin 0.05 || echo too near\n"
+                "ovoid distance peg.stl ring.stl --unit mm\n"
                 "ovoid distance part.stl tool.stl --unit mm --json\n"
                 "ovoid distance chair.obj lamp.obj --parts --pose-b \"0.4 0 0 1 0 0 0\"",
     .options = options,

@@ -17,6 +17,7 @@
 #include "ovoid/query.h"
 #include "ovoid/shape.h"
 #include "ovoid/smooth.h"
+#include "ovoid/solid.h"
 #include "ovoid/world.h"
 
 #endif

@@ -23,6 +23,7 @@
 #include "ovoid/cpp/points.hpp"
 #include "ovoid/cpp/query.hpp"
 #include "ovoid/cpp/shape.hpp"
+#include "ovoid/cpp/solid.hpp"
 #include "ovoid/cpp/world.hpp"
 #include "ovoid/ovoid.h"
 

@@ -18,6 +18,7 @@ typedef __mmask8 lane_mask;
 
 LANES_INLINE lane lane_set(double x) { return _mm512_set1_pd(x); }
 LANES_INLINE lane lane_load(const double *x) { return _mm512_loadu_pd(x); }
+LANES_INLINE lane lane_load_floats(const float *x) { return _mm512_cvtps_pd(_mm256_loadu_ps(x)); }
 LANES_INLINE void lane_store(double *x, lane v) { _mm512_storeu_pd(x, v); }
 LANES_INLINE lane lane_sqrt(lane v) { return _mm512_sqrt_pd(v); }
 LANES_INLINE lane lane_abs(lane v) { return _mm512_abs_pd(v); }
@@ -46,6 +47,7 @@ typedef __m256d lane_mask;
 
 LANES_INLINE lane lane_set(double x) { return _mm256_set1_pd(x); }
 LANES_INLINE lane lane_load(const double *x) { return _mm256_loadu_pd(x); }
+LANES_INLINE lane lane_load_floats(const float *x) { return _mm256_cvtps_pd(_mm_loadu_ps(x)); }
 LANES_INLINE void lane_store(double *x, lane v) { _mm256_storeu_pd(x, v); }
 LANES_INLINE lane lane_sqrt(lane v) { return _mm256_sqrt_pd(v); }
 LANES_INLINE lane lane_abs(lane v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
@@ -71,6 +73,7 @@ typedef int lane_mask;
 
 LANES_INLINE lane lane_set(double x) { return x; }
 LANES_INLINE lane lane_load(const double *x) { return *x; }
+LANES_INLINE lane lane_load_floats(const float *x) { return *x; }
 LANES_INLINE void lane_store(double *x, lane v) { *x = v; }
 LANES_INLINE lane lane_sqrt(lane v) { return sqrt(v); }
 LANES_INLINE lane lane_abs(lane v) { return fabs(v); }

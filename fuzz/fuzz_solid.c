@@ -1,0 +1,89 @@
+// Two bodies, solids of up to 24 triangles over up to 12 points or a shape. Truth: the check without search of each
+// answer; brackets of one distance have a point in common; a winding number is the same again, and none is given of
+// what is not closed.
+#include "ask.h"
+#include "bodies.h"
+
+enum { POINTS = 12, TRIANGLES = 24, ITEMS = 2048 };
+
+static ovoid_solid *take_triangles(fuzz_bytes *from) {
+    double xyz[3 * POINTS];
+    uint32_t indices[3 * TRIANGLES];
+    size_t points = 1 + (size_t)(take_byte(from) & 0xff) % POINTS,
+           count = (size_t)(take_byte(from) & 0xff) % (TRIANGLES + 1);
+    for (size_t i = 0; i < 3 * points; i++) xyz[i] = take_double(from);
+    for (size_t i = 0; i < 3 * count; i++)
+        indices[i] = (uint32_t)(take_byte(from) & 0xff) % (uint32_t)(points + (i == 71));
+    // The other side of each, so that it is closed.
+    int is_doubled = take_byte(from) & 1;
+    for (size_t i = 0; is_doubled && i < count / 2; i++) {
+        const uint32_t *t = indices + 3 * i;
+        uint32_t *back = indices + 3 * (count / 2 + i);
+        back[0] = t[0], back[1] = t[2], back[2] = t[1];
+    }
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_solid *s =
+        ovoid_solid_create_from_triangles(xyz, points, indices, is_doubled ? count / 2 * 2 : count, NULL, &error);
+    if (!s) fuzz_require_error(&error);
+    if (!s) return NULL;
+    ovoid_solid_report r = ovoid_solid_get_report(s);
+    int64_t winding = 0, again = 0;
+    ovoid_vec3 p = {take_double(from), take_double(from), take_double(from)};
+    int found = ovoid_solid_compute_winding(s, p, &winding);
+    fuzz_require(!found || r.is_closed);
+    fuzz_require(found == ovoid_solid_compute_winding(s, p, &again) && winding == again);
+    fuzz_require(r.components >= 1 && r.components <= r.points);
+    return s;
+}
+
+typedef struct findings {
+    const ovoid_solid_pair *pair;
+    double lower, upper;
+} findings;
+
+static void check(findings *f, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    if (all->count <= all->capacity) fuzz_require_code(ovoid_solid_answer_check(f->pair, x, all, &error), &error);
+    f->lower = fmax(f->lower, x->lower);
+    f->upper = fmin(f->upper, x->upper);
+    fuzz_require(f->lower <= f->upper);
+}
+
+static void ask(findings *f, double margin, const ovoid_compound_proof *earlier, size_t capacity) {
+    static ovoid_exclusion items[ITEMS];
+    ovoid_exclusions all = {items, capacity, 0, NULL};
+    ovoid_solid_answer x = ovoid_solid_collide(f->pair, NULL, earlier, &all);
+    check(f, &x, &all);
+    x = ovoid_solid_within(f->pair, margin, NULL, earlier, &all);
+    check(f, &x, &all);
+    x = ovoid_solid_distance(f->pair, NULL, earlier, &all);
+    check(f, &x, &all);
+    ovoid_compound_proof known = {x.triangle_a, x.triangle_b, x.surfaces.proof};
+    x = ovoid_solid_distance(f->pair, NULL, &known, &all);
+    check(f, &x, &all);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    fuzz_bytes from = {data, size};
+    int is_wild = take_byte(&from) > 96;
+    ovoid_solid *a = take_triangles(&from), *b = NULL;
+    ovoid_shape *shape = NULL;
+    if (take_byte(&from) & 1)
+        shape = take_any_shape(&from, is_wild);
+    else
+        b = take_triangles(&from);
+    if (a && (b || shape)) {
+        ovoid_solid_pair pair = {{NULL, a, take_any_pose(&from, is_wild)}, {shape, b, take_any_pose(&from, is_wild)}};
+        double margin = fabs(take_double(&from));
+        if (!isfinite(margin)) margin = 0;
+        ovoid_compound_proof earlier = {(uint32_t)take_byte(&from) & 31, (uint32_t)take_byte(&from) & 31,
+                                        fuzz_take_proof(&from)};
+        findings f = {&pair, -INFINITY, INFINITY};
+        ask(&f, margin, NULL, ITEMS);
+        ask(&f, margin, &earlier, (size_t)(take_byte(&from) & 3));
+    }
+    ovoid_solid_destroy(a);
+    ovoid_solid_destroy(b);
+    ovoid_shape_destroy(shape);
+    return 0;
+}

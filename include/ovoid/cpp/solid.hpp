@@ -1,0 +1,99 @@
+/**
+ * @file solid.hpp
+ * Solids of triangles, and their proximity to each other and to shapes.
+ */
+#ifndef OVOID_CPP_SOLID_HPP
+#define OVOID_CPP_SOLID_HPP
+
+#include "ovoid/cpp/compound.hpp"
+#include "ovoid/solid.h"
+
+namespace ovoid {
+
+/** The answer to a query about solids. */
+using solid_answer = ovoid_solid_answer;
+
+/** A solid that someone else owns: one pointer, passed by value. */
+class solid_view {
+  public:
+    constexpr solid_view() noexcept = default;
+    /** Of a C solid. */
+    constexpr explicit solid_view(const ovoid_solid *from) noexcept : solid_(from) {}
+    /** The C solid, borrowed; nullptr where this is empty. */
+    constexpr const ovoid_solid *get() const noexcept { return solid_; }
+    /** False where there is none. No other function may then be called. */
+    explicit constexpr operator bool() const noexcept { return solid_ != nullptr; }
+
+    /** What was found of the triangles. */
+    ovoid_solid_report report() const noexcept { return ovoid_solid_get_report(solid_); }
+    /** The triangles in the order of the tree. */
+    span<const std::uint32_t> order() const noexcept {
+        return {ovoid_solid_get_order(solid_), static_cast<std::size_t>(report().triangles)};
+    }
+    /** How often it winds around a point, exactly: true where *winding is written. */
+    bool winding(const ovoid_vec3 &point, std::int64_t *winding) const noexcept {
+        return ovoid_solid_compute_winding(solid_, point, winding) != 0;
+    }
+    /** Size of the block in bytes. */
+    std::size_t size_in_bytes() const noexcept { return ovoid_solid_get_size(solid_); }
+
+  private:
+    const ovoid_solid *solid_ = nullptr;
+};
+
+/** A solid that is owned. */
+class solid : public detail::owner<solid_view, ovoid_solid, ovoid_solid_destroy> {
+  public:
+    using owner::owner;
+
+    /** Of point_count points, xyz of point i at 3 i, and count triangles, three indices each; copied. Throws ARGUMENT,
+     * EMPTY, LIMIT, NOT_FINITE (place: the point), RANGE, INDEX (place: the triangle), MEMORY. */
+    static solid from_triangles(const double *xyz, std::size_t point_count, const std::uint32_t *indices,
+                                std::size_t count, const ovoid_allocator *allocator = nullptr) {
+        ovoid_error e;
+        return solid(
+            detail::require(ovoid_solid_create_from_triangles(xyz, point_count, indices, count, allocator, &e), e));
+    }
+};
+
+/** A posed shape or a posed solid, borrowed. */
+struct solid_body : ovoid_solid_body {
+    /** A shape at a pose. */
+    solid_body(shape_view s, const ovoid::pose &at = {}) noexcept : ovoid_solid_body{s.get(), nullptr, at} {}
+    /** A solid at a pose. */
+    solid_body(solid_view s, const ovoid::pose &at = {}) noexcept : ovoid_solid_body{nullptr, s.get(), at} {}
+};
+
+/** Two bodies. */
+struct solid_pair : ovoid_solid_pair {
+    /** a and b. */
+    solid_pair(const solid_body &a_, const solid_body &b_) noexcept : ovoid_solid_pair{a_, b_} {}
+};
+
+/** Do the bodies touch? e: receives what proves it, or nullptr. */
+inline solid_answer collide(const solid_pair &p, const ovoid_options &o = options(),
+                            const ovoid_compound_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
+    return ovoid_solid_collide(&p, &o, earlier, e);
+}
+/** Are the bodies within margin (>= 0) of each other? */
+inline solid_answer within(const solid_pair &p, double margin, const ovoid_options &o = options(),
+                           const ovoid_compound_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
+    return ovoid_solid_within(&p, margin, &o, earlier, e);
+}
+/** The distance to the tolerance and the nearest triangles. */
+inline solid_answer distance(const solid_pair &p, const ovoid_options &o = options(),
+                             const ovoid_compound_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
+    return ovoid_solid_distance(&p, &o, earlier, e);
+}
+/** The warm start of the pair's next query. */
+inline compound_proof proof_of(const ovoid_solid_answer &a) noexcept {
+    return ovoid_compound_proof{a.triangle_a, a.triangle_b, a.surfaces.proof};
+}
+/** True where the answer follows from its proof and the exclusions. */
+inline bool is_proven(const solid_pair &p, const ovoid_solid_answer &a, const ovoid_exclusions *e) noexcept {
+    return ovoid_solid_answer_check(&p, &a, e, nullptr) == OVOID_OK;
+}
+
+} // namespace ovoid
+
+#endif

@@ -1,0 +1,152 @@
+/**
+ * @file solid.h
+ * Solids of triangles, convex or not, and their proximity to each other and to shapes.
+ * A solid is immutable: any number of bodies and threads share it. Queries allocate nothing and keep no state; stack 64
+ * KB beside what <ovoid/query.h> says.
+ */
+#ifndef OVOID_SOLID_H
+#define OVOID_SOLID_H
+
+#include "ovoid/compound.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Most triangles of a solid. */
+#define OVOID_SOLID_TRIANGLES_MAX ((size_t)1 << 26)
+
+/**
+ * Triangles and a tree of boxes over them, in one block of memory.
+ *
+ * If the triangles are closed (each edge is run through as often in one direction as in the other, equal points
+ * counting as one), the body is all points of them and all points around which they wind: how they are oriented does
+ * not matter, nor that some are there twice. If they are not, the body is the surface itself, which has no inside.
+ */
+typedef struct ovoid_solid ovoid_solid;
+
+/** What was found of the triangles. */
+typedef struct ovoid_solid_report {
+    uint64_t points;          /**< points that triangles use; equal ones count once */
+    uint64_t triangles;       /**< as given */
+    uint64_t components;      /**< sets of triangles that share points */
+    uint64_t edges_unmatched; /**< edges not run through as often in each direction; 0: the surface is closed */
+    uint64_t edges_crowded;   /**< edges of more than two triangles */
+    uint64_t degenerate;      /**< triangles without area, as far as pairs of doubles tell: two corners that are the
+                                   same, or three on a line */
+    uint64_t duplicates;      /**< triangles with the three points of an earlier one, in any order */
+    int is_closed;            /**< 1: a solid; 0: a surface */
+    double volume;            /**< with its sign: below 0 where inside out; of a closed one, rounded; else 0 */
+    double area;              /**< rounded */
+    ovoid_box box;            /**< of the points; solid's frame */
+} ovoid_solid_report;
+
+/**
+ * A solid of count >= 1 triangles. xyz: point_count points, xyz of point i at 3 i; indices: three points of triangle t
+ * at 3 t, counter-clockwise from outside. Both are copied. Every triangle is kept, also what has no area. Returns NULL
+ * with *error filled (may be NULL): ARGUMENT, EMPTY, LIMIT, NOT_FINITE (place: the point), RANGE, INDEX (place: the
+ * triangle), MEMORY. The caller destroys it. allocator: NULL for malloc; copied into the solid; it also gives working
+ * memory, all of which goes back. Cost: n log n.
+ */
+OVOID_API ovoid_solid *ovoid_solid_create_from_triangles(const double *xyz, size_t point_count, const uint32_t *indices,
+                                                         size_t count, const ovoid_allocator *allocator,
+                                                         ovoid_error *error);
+/** Frees it; NULL is allowed. No query may be using it. */
+OVOID_API void ovoid_solid_destroy(ovoid_solid *solid);
+
+/** What was found of the triangles. */
+OVOID_API ovoid_solid_report ovoid_solid_get_report(const ovoid_solid *solid);
+/** The points: xyz of point i at 3 i, report.points of them. A view into the solid. */
+OVOID_API const double *ovoid_solid_get_points(const ovoid_solid *solid);
+/** The points of triangle i < report.triangles, in the order given. */
+OVOID_API void ovoid_solid_get_triangle(const ovoid_solid *solid, size_t i, uint32_t points[3]);
+/** The triangles in the order of the tree. Exclusions name ranges of it. A view into the solid. */
+OVOID_API const uint32_t *ovoid_solid_get_order(const ovoid_solid *solid);
+/** Size of the block in bytes. */
+OVOID_API size_t ovoid_solid_get_size(const ovoid_solid *solid);
+
+/**
+ * How often a closed solid winds around a point of its frame, exactly: 0 outside, 1 inside one that is oriented as it
+ * should be, -1 inside one that is inside out. 1 where *winding is written; 0 where the solid is not closed, the point
+ * is on its surface (to within the underflow of exact signs) or not finite. Coordinates above OVOID_LENGTH_MAX count as
+ * outside. Cost: the boxes along a ray.
+ */
+OVOID_API int ovoid_solid_compute_winding(const ovoid_solid *solid, ovoid_vec3 point, int64_t *winding);
+
+/** A posed shape or a posed solid: exactly one of the two pointers is set. Borrowed. A shape is its triangle 0. */
+typedef struct ovoid_solid_body {
+    const ovoid_shape *shape;
+    const ovoid_solid *solid;
+    ovoid_pose pose;
+} ovoid_solid_body;
+
+/** Two bodies. */
+typedef struct ovoid_solid_pair {
+    ovoid_solid_body a, b;
+} ovoid_solid_pair;
+
+/** Which body has a point of the other inside, if that is what proves an overlap. */
+typedef enum ovoid_solid_inside {
+    OVOID_SOLID_INSIDE_NONE = 0,
+    OVOID_SOLID_A_INSIDE, /**< a component of a is inside b */
+    OVOID_SOLID_B_INSIDE  /**< a component of b is inside a */
+} ovoid_solid_inside;
+
+/**
+ * The answer to a query: lower <= d <= upper, d positive apart, else minus the least translation that parts the bodies.
+ *
+ * `surfaces` is the answer of the deciding pair of triangles (of a shape: the whole of it), with its points, normal and
+ * proof; but its lower end holds for all pairs. SEPARATED: that bracket is d's. OVERLAPPING: surfaces.upper < 0, two
+ * triangles cross (or one reaches into a shape); or `inside` says which body has a component in the other, at least
+ * surfaces.lower away from its surface. TOUCHING and UNDECIDED: the surfaces are so near each other that rounding
+ * leaves open whether they cross; upper is theirs, lower what parts the boxes.
+ */
+typedef struct ovoid_solid_answer {
+    ovoid_status status;
+    ovoid_limit limit;   /**< as in ovoid_answer; of an overlap NONE though its depth is not searched for */
+    double lower, upper; /**< of d; -infinity and infinity where refused */
+    ovoid_vec3 parting;  /**< unit, world frame: along it the boxes show `lower`, where that is below 0 */
+    ovoid_solid_inside inside;
+    uint32_t component;              /**< the component that is inside */
+    uint32_t triangle_a, triangle_b; /**< the deciding pair; 0 for a shape */
+    uint32_t visited;                /**< pairs of nodes and triangles whose bounds were looked at */
+    uint32_t tested;                 /**< pairs queried */
+    ovoid_answer surfaces;
+} ovoid_solid_answer;
+
+/*
+ * Options as in <ovoid/query.h>; the relative tolerance is of the pair of bodies' size: the largest point norms in
+ * their frames, radii, and the distance of the frames' origins. Refused as there, SHAPE_A or SHAPE_B where a body has
+ * neither a shape nor a solid or both, POSE_A or POSE_B where it would lie beyond OVOID_LENGTH_MAX. earlier: of this
+ * pair of bodies, or NULL: its parts are the triangles that decided. exclusions: NULL where no proof is wanted; its
+ * items' ranges are of the trees' orders; its cover is not used.
+ */
+
+/** Do the bodies touch? Stops at the first two triangles that cross. */
+OVOID_API ovoid_solid_answer ovoid_solid_collide(const ovoid_solid_pair *pair, const ovoid_options *options,
+                                                 const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions);
+/** Are the bodies within margin (>= 0) of each other? Read it with ovoid_solid_answer_is_within. */
+OVOID_API ovoid_solid_answer ovoid_solid_within(const ovoid_solid_pair *pair, double margin,
+                                                const ovoid_options *options, const ovoid_compound_proof *earlier,
+                                                ovoid_exclusions *exclusions);
+/** The distance to the tolerance and the nearest triangles; where the bodies overlap that is proven, with a depth. */
+OVOID_API ovoid_solid_answer ovoid_solid_distance(const ovoid_solid_pair *pair, const ovoid_options *options,
+                                                  const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions);
+
+/** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: the bracket straddles it. */
+OVOID_API int ovoid_solid_answer_is_within(const ovoid_solid_answer *answer, double margin);
+
+/**
+ * Checks an answer without any search: the deciding pair as ovoid_answer_check does, each exclusion by all its
+ * triangles' points along its normal, that with the deciding pair they leave out no pair of triangles, what is inside
+ * by the winding numbers of all components, and the depth by all points along `parting`. OVOID_OK, or PROOF with a
+ * sentence in *error (may be NULL; place: the exclusion). exclusions: those of the query. Cost: the triangles of all
+ * exclusions, and for each component that is not outside of the other's box all triangles.
+ */
+OVOID_API ovoid_code ovoid_solid_answer_check(const ovoid_solid_pair *pair, const ovoid_solid_answer *answer,
+                                              const ovoid_exclusions *exclusions, ovoid_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,216 @@
+// Checking an answer by its proof alone.
+//
+// The deciding pair is an ordinary one (query/check.c). Each exclusion is measured again along its normal, over the
+// points of all its triangles. The cut is followed from the pair of roots down by the rule that queries split by
+// (frame.h): each pair is the deciding one, or named by an exclusion, or split, so no two triangles are left out. What
+// lies inside is counted over all triangles, without the tree.
+//
+// Errors, u = 2^-53, S as in frame.h: a point in the world 45 u, its product with a unit normal and the difference of
+// two 10 u, the normal's length 4 u: below 148 u S.
+#include "base/environment.h"
+#include "base/error.h"
+#include "compound/compound.h"
+#include "solid/frame.h"
+
+typedef struct cut {
+    const ovoid_solid_answer *x;
+    const ovoid_exclusions *all;
+    solid_view a, b;
+    solid_frame frame;
+    uint32_t place_a, place_b;
+    triangle_shape room_a, room_b;
+} cut;
+
+static ovoid_code refuse(ovoid_error *error, size_t place, const char *what) {
+    return error_set(error, OVOID_ERROR_PROOF, (int64_t)place, "exclusion %zu %s", place, what);
+}
+static ovoid_code refuse_all(ovoid_error *error, const char *what) {
+    return error_set(error, OVOID_ERROR_PROOF, -1, "%s", what);
+}
+
+// The largest n.x over the triangles at [first, end), from the origin of the body's frame, n in that frame.
+static double find_top(const solid_view *v, uint32_t first, uint32_t end, vec3 n) {
+    if (!v->solid)
+        return vec3_dot(n, v->shape->origin) + (shape_find_extreme(v->shape, n).value + v->shape->lower_radius);
+    double most = -INFINITY;
+    for (uint32_t place = first; place < end; place++)
+        for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(n, solid_get_corner(v->solid, place, i)));
+    return most;
+}
+
+// The gap of two ranges along a direction of the world, lowered by what the measurement may be off.
+static double measure_gap(const cut *c, const ovoid_exclusion *e) {
+    vec3 n = vec3_unit(e->normal);
+    if (!vec3_is_finite(e->normal) || !(vec3_norm_squared(n) > 0.5)) return -INFINITY;
+    vec3 in_a = mat3_mul_transposed_vec3(c->frame.world, n), in_b = mat3_mul_transposed_vec3(c->frame.world_b, n);
+    double top = find_top(&c->a, e->first_a, e->end_a, in_a);
+    double bottom = vec3_dot(n, c->frame.offset) - find_top(&c->b, e->first_b, e->end_b, vec3_neg(in_b));
+    return (bottom - top) - c->frame.check;
+}
+
+static ovoid_pair get_pair(cut *c, uint32_t a, uint32_t b) {
+    return (ovoid_pair){solid_view_get_leaf(&c->a, a, &c->room_a), solid_view_get_leaf(&c->b, b, &c->room_b),
+                        *c->a.pose, *c->b.pose};
+}
+
+static ovoid_code check_bound(cut *c, size_t i, ovoid_error *error) {
+    const ovoid_exclusion *e = &c->all->items[i];
+    int is_in_range =
+        e->first_a < e->end_a && e->end_a <= c->a.count && e->first_b < e->end_b && e->end_b <= c->b.count;
+    if (!is_in_range) return refuse(error, i, "names triangles that there are not");
+    if (!(e->lower >= c->x->surfaces.lower)) return refuse(error, i, "is below the answer's lower bound");
+    if (measure_gap(c, e) >= e->lower) return OVOID_OK;
+    if (e->end_a - e->first_a == 1 && e->end_b - e->first_b == 1) {
+        ovoid_pair pair = get_pair(c, e->first_a, e->first_b);
+        ovoid_proof proof = {.normal = e->normal, .normal_low = e->normal_low};
+        if (lower_check_internal(&pair, e->lower, &proof, NULL) == OVOID_OK) return OVOID_OK;
+    }
+    return refuse(error, i, "is not shown by its normal");
+}
+
+static int compare(const ovoid_exclusion *a, const ovoid_exclusion *b) {
+    if (a->first_a != b->first_a) return a->first_a < b->first_a ? -1 : 1;
+    if (a->end_a != b->end_a) return a->end_a < b->end_a ? -1 : 1;
+    if (a->first_b != b->first_b) return a->first_b < b->first_b ? -1 : 1;
+    return a->end_b < b->end_b ? -1 : a->end_b > b->end_b;
+}
+
+static void set_range(const solid_view *v, solid_ref ref, uint32_t *first, uint32_t *end) {
+    *first = ref_is_triangle(ref) ? ref_get_place(ref) : v->solid->nodes[ref].first;
+    *end = ref_is_triangle(ref) ? *first + 1 : v->solid->nodes[ref].end;
+}
+
+static int is_excluded(const cut *c, solid_ref a, solid_ref b) {
+    ovoid_exclusion wanted;
+    set_range(&c->a, a, &wanted.first_a, &wanted.end_a);
+    set_range(&c->b, b, &wanted.first_b, &wanted.end_b);
+    size_t low = 0, high = c->all->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        int order = compare(&c->all->items[middle], &wanted);
+        if (order == 0) return 1;
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return 0;
+}
+
+// OVOID_OK if the cut leaves out no pair of triangles.
+static ovoid_code check_cut(const cut *c, ovoid_error *error) {
+    struct {
+        solid_ref a, b;
+    } stack[2 * SOLID_DEPTH_MAX * BOX8] = {{solid_view_get_root(&c->a), solid_view_get_root(&c->b)}};
+    for (uint32_t count = 1; count > 0;) {
+        solid_ref a = stack[--count].a, b = stack[count].b;
+        if (is_excluded(c, a, b)) continue;
+        if (ref_is_triangle(a) && ref_is_triangle(b)) {
+            if (ref_get_place(a) == c->place_a && ref_get_place(b) == c->place_b) continue;
+            return error_set(error, OVOID_ERROR_PROOF, -1, "nothing excludes triangle %u of a and triangle %u of b",
+                             solid_view_get_index(&c->a, ref_get_place(a)),
+                             solid_view_get_index(&c->b, ref_get_place(b)));
+        }
+        tree_box box_a = solid_view_get_box(&c->a, a), box_b = solid_view_get_box(&c->b, b);
+        int is_first = pair_is_split_first(a, &box_a, b, &box_b);
+        const ovoid_solid *s = is_first ? c->a.solid : c->b.solid;
+        solid_ref node = is_first ? a : b;
+        for (uint32_t i = 0; i < s->nodes[node].children; i++, count++) {
+            stack[count].a = is_first ? solid_get_child(s, node, i) : a;
+            stack[count].b = is_first ? b : solid_get_child(s, node, i);
+        }
+    }
+    return OVOID_OK;
+}
+
+static ovoid_code check_exclusions(cut *c, ovoid_error *error) {
+    if (c->all->count > c->all->capacity)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "%zu exclusions, but there was room for %zu", c->all->count,
+                         c->all->capacity);
+    for (size_t i = 0; i < c->all->count; i++) {
+        ovoid_code code = check_bound(c, i, error);
+        if (code != OVOID_OK) return code;
+    }
+    return check_cut(c, error);
+}
+
+// ---- the bodies
+
+static ovoid_code check_depth(const cut *c, ovoid_error *error) {
+    const ovoid_solid_answer *x = c->x;
+    if (x->lower == -INFINITY) return OVOID_OK;
+    ovoid_exclusion all = {0, c->a.count, 0, c->b.count, x->parting, {0, 0, 0}, x->lower};
+    return measure_gap(c, &all) >= x->lower ? OVOID_OK : refuse_all(error, "the depth is not shown by its direction");
+}
+
+static ovoid_code check_inside(const cut *c, ovoid_error *error) {
+    const ovoid_solid_answer *x = c->x;
+    const solid_view *own = x->inside == OVOID_SOLID_A_INSIDE ? &c->a : &c->b, *other = own == &c->a ? &c->b : &c->a;
+    if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
+        return refuse_all(error, "an overlap without a reason");
+    if (x->component >= (own->solid ? own->solid->component_count : 1))
+        return refuse_all(error, "there is no such component");
+    if (!(x->surfaces.lower > c->frame.claim / 2) || !(x->upper >= -x->surfaces.lower))
+        return refuse_all(error, "the surfaces are nearer than is claimed of what is inside");
+    return solid_is_inside(own, other, x->component, 1) == 1 ? OVOID_OK
+                                                             : refuse_all(error, "what is said to be inside is not");
+}
+
+static int is_closed(const solid_view *v) { return v->solid && v->solid->report.is_closed; }
+
+static ovoid_code check_apart(const cut *c, ovoid_error *error) {
+    const ovoid_solid_answer *x = c->x;
+    ovoid_solid_inside inside;
+    uint32_t component;
+    if (!(x->surfaces.lower > 0) || !(x->lower <= x->surfaces.lower) || !(x->upper >= x->surfaces.upper))
+        return refuse_all(error, "the distance is not that of the surfaces");
+    if (!is_closed(&c->a) && !is_closed(&c->b)) return OVOID_OK;
+    if (!(x->surfaces.lower > c->frame.claim / 2) || solid_find_inside(&c->a, &c->b, 1, &inside, &component) != 0)
+        return refuse_all(error, "one body is inside of the other, or so near that it could be");
+    return OVOID_OK;
+}
+
+static ovoid_code check_bodies(const cut *c, ovoid_error *error) {
+    const ovoid_solid_answer *x = c->x;
+    int ok = x->lower <= x->upper;
+    switch (x->status) {
+    case OVOID_SEPARATED: return ok ? check_apart(c, error) : refuse_all(error, "the bracket is empty");
+    case OVOID_OVERLAPPING: ok = ok && x->upper < 0; break;
+    case OVOID_TOUCHING:
+    case OVOID_UNDECIDED: ok = ok && x->lower <= 0 && x->upper >= x->surfaces.upper; break;
+    }
+    if (!ok) return refuse_all(error, "the status does not follow from the bracket");
+    if (x->status == OVOID_OVERLAPPING && !(x->surfaces.upper < 0 && x->upper >= x->surfaces.upper)) {
+        ovoid_code code = check_inside(c, error);
+        if (code != OVOID_OK) return code;
+    }
+    return check_depth(c, error);
+}
+
+static ovoid_code check(const ovoid_solid_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all,
+                        ovoid_error *error) {
+    static const ovoid_exclusions none = {NULL, 0, 0, NULL};
+    cut c = {.x = x, .all = all ? all : &none};
+    if (!solid_view_make(&pair->a, &c.a) || !solid_view_make(&pair->b, &c.b) || x->limit == OVOID_LIMIT_OPTIONS) {
+        int claims = x->status != OVOID_UNDECIDED || x->lower != -INFINITY || x->upper != INFINITY;
+        return claims ? refuse_all(error, "a query that must be refused has an answer") : OVOID_OK;
+    }
+    if (x->triangle_a >= c.a.count || x->triangle_b >= c.b.count)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "triangles %u and %u are not both there", x->triangle_a,
+                         x->triangle_b);
+    c.place_a = solid_view_get_place(&c.a, x->triangle_a);
+    c.place_b = solid_view_get_place(&c.b, x->triangle_b);
+    solid_frame_make(&c.a, &c.b, &c.frame);
+    if (c.a.solid) triangle_begin(&c.room_a);
+    if (c.b.solid) triangle_begin(&c.room_b);
+    ovoid_pair leaves = get_pair(&c, c.place_a, c.place_b);
+    ovoid_code code = answer_check_internal(&leaves, &x->surfaces, NULL, error);
+    if (code == OVOID_OK) code = check_exclusions(&c, error);
+    return code == OVOID_OK ? check_bodies(&c, error) : code;
+}
+
+ovoid_code ovoid_solid_answer_check(const ovoid_solid_pair *pair, const ovoid_solid_answer *answer,
+                                    const ovoid_exclusions *exclusions, ovoid_error *error) {
+    OVOID_ASSERT(pair && answer);
+    ENVIRONMENT_RETURN(ovoid_code, pair, check(pair, answer, exclusions, error));
+}

@@ -1,0 +1,167 @@
+// Proximity of solids and shapes: which pair of triangles decides, what of the others is left out, and what lies inside
+// what.
+#include "base/compiler.h"
+#include "base/environment.h"
+#include "base/error.h"
+#include "solid/search.h"
+
+// ---- the end of a query
+
+static ovoid_status find_status(double lower, double upper, double tolerance) {
+    if (lower > 0) return OVOID_SEPARATED;
+    if (upper < 0) return OVOID_OVERLAPPING;
+    return upper - lower <= tolerance ? OVOID_TOUCHING : OVOID_UNDECIDED;
+}
+
+// Where the traversal ended early: one exclusion of all pairs, by the roots.
+static void exclude_all(solid_search *h) {
+    if (h->exclusions) h->exclusions->count = 0;
+    waiting_pair all = search_make_roots(h);
+    search_exclude_boxes(h, &all);
+}
+
+// The bracket of the surfaces, with the answer of the pair that decides it.
+static void finish_surfaces(solid_search *h) {
+    ovoid_solid_answer *out = h->out;
+    if (!h->has_best) {
+        search_visit_leaves(h, 0, 0, NULL);
+    } else if (!h->is_answered) {
+        // Known by the kernel only.
+        ovoid_pair pair = {solid_view_get_leaf(&h->a, h->best.place_a, &h->room_a),
+                           solid_view_get_leaf(&h->b, h->best.place_b, &h->room_b), *h->a.pose, *h->b.pose};
+        query_goal goal = h->whole_goal;
+        goal.far = max2(goal.far, h->frame.claim);
+        answer_find_internal(&pair, &h->options, goal, NULL, NULL, &out->surfaces);
+        out->tested++;
+    }
+    if (search_is_decided(h)) exclude_all(h);
+    ovoid_answer *x = &out->surfaces;
+    x->lower = min2(x->lower, h->lower);
+    x->status = find_status(x->lower, x->upper, h->tolerance + h->allowance);
+    final_bracket b = {x->lower, x->upper, h->tolerance + h->allowance, h->allowance, x->status, x->proof.kind};
+    x->limit = bracket_is_left_open(&b, &h->whole_goal) ? OVOID_LIMIT_ALLOWANCE
+               : bracket_is_narrow(&b, &h->whole_goal)  ? OVOID_LIMIT_NONE
+                                                        : bracket_find_limit(&b, &h->whole_goal, h->trouble);
+    out->triangle_a = solid_view_get_index(&h->a, h->best.place_a);
+    out->triangle_b = solid_view_get_index(&h->b, h->best.place_b);
+    ovoid_exclusions *all = h->exclusions;
+    if (all && all->count <= all->capacity) exclusions_sort(all->items, all->count);
+}
+
+static int may_be_inside(const solid_view *v) { return v->solid && v->solid->report.is_closed; }
+
+// 1, 0, or -1 where it is open: nearer than half the claim the point's rounding may cross a surface.
+static int find_inside(solid_search *h) {
+    if (!may_be_inside(&h->a) && !may_be_inside(&h->b)) return 0;
+    if (!(h->out->surfaces.lower > h->frame.claim / 2)) return -1;
+    return solid_find_inside(&h->a, &h->b, 0, &h->out->inside, &h->out->component);
+}
+
+// From the surfaces to the bodies: what is inside what, and how deep an overlap may be.
+static void finish(solid_search *h) {
+    ovoid_solid_answer *out = h->out;
+    finish_surfaces(h);
+    const ovoid_answer *x = &out->surfaces;
+    out->status = x->status;
+    out->limit = x->limit;
+    out->lower = x->lower;
+    out->upper = x->upper;
+    if (x->lower > 0) {
+        int is = find_inside(h);
+        if (is == 0) return;
+        out->status = is > 0 ? OVOID_OVERLAPPING : OVOID_UNDECIDED;
+        out->limit = is > 0 ? OVOID_LIMIT_NONE : OVOID_LIMIT_PRECISION;
+        if (is > 0) out->upper = -x->lower;
+    } else if (out->status == OVOID_OVERLAPPING) {
+        out->limit = OVOID_LIMIT_NONE;
+    }
+    box_gap gap = solid_frame_find_parting(&h->frame, &h->a, &h->b);
+    out->lower = min2(gap.lower, min2(out->upper, 0));
+    out->parting = gap.normal;
+}
+
+// ---- the beginning
+
+static void visit_earlier(solid_search *h, const ovoid_compound_proof *earlier) {
+    uint32_t count_a = h->a.solid ? h->a.count : 1, count_b = h->b.solid ? h->b.count : 1;
+    h->warm_a = h->a.count;
+    h->warm_b = h->b.count;
+    if (!earlier || earlier->part_a >= count_a || earlier->part_b >= count_b) return;
+    uint32_t a = solid_view_get_place(&h->a, earlier->part_a), b = solid_view_get_place(&h->b, earlier->part_b);
+    search_visit_leaves(h, a, b, &earlier->proof);
+    h->warm_a = a;
+    h->warm_b = b;
+}
+
+static ovoid_limit begin(solid_search *h, const ovoid_solid_pair *pair, const ovoid_options *options,
+                         const query_goal *goal) {
+    if (!options_make(options, &h->options) || !(goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
+    if (!pair->a.shape == !pair->a.solid) return OVOID_LIMIT_SHAPE_A;
+    if (!pair->b.shape == !pair->b.solid) return OVOID_LIMIT_SHAPE_B;
+    if (!solid_view_make(&pair->a, &h->a)) return OVOID_LIMIT_POSE_A;
+    if (!solid_view_make(&pair->b, &h->b)) return OVOID_LIMIT_POSE_B;
+    solid_frame_make(&h->a, &h->b, &h->frame);
+    double hidden = 8 * OVOID_LENGTH_MIN;
+    h->tolerance = max2(h->options.absolute_tolerance, h->options.relative_tolerance * h->frame.size) + hidden;
+    // Half for a pair, half for what is left out beside it.
+    h->options.absolute_tolerance = h->tolerance / 2;
+    h->options.relative_tolerance = OVOID_LENGTH_MIN;
+    h->allowance = (h->a.shape ? shape_get_width(h->a.shape) : 0) + (h->b.shape ? shape_get_width(h->b.shape) : 0);
+    h->whole_goal = h->goal = *goal;
+    h->far = max2(goal->far, h->frame.claim);
+    h->enough = h->lower = INFINITY;
+    h->trouble = OVOID_LIMIT_NONE;
+    h->has_best = h->is_answered = 0;
+    h->filter_support = -INFINITY;
+    h->normals[0] = (vec3){1, 0, 0};
+    h->normal_count = 1;
+    h->kernels = solid8_get_kernels();
+    if (h->a.solid) triangle_begin(&h->room_a);
+    if (h->b.solid) triangle_begin(&h->room_b);
+    return OVOID_LIMIT_NONE;
+}
+
+COMPILER_NOINLINE static void find_internal(const ovoid_solid_pair *pair, const ovoid_options *options,
+                                            const query_goal *goal, const ovoid_compound_proof *earlier,
+                                            ovoid_exclusions *exclusions, ovoid_solid_answer *out) {
+    solid_search h;
+    *out = (ovoid_solid_answer){.status = OVOID_UNDECIDED};
+    if (exclusions) exclusions->count = 0;
+    ovoid_limit refused = begin(&h, pair, options, goal);
+    if (refused != OVOID_LIMIT_NONE) {
+        out->surfaces = answer_make_refused(refused);
+        out->limit = refused;
+        out->lower = -INFINITY;
+        out->upper = INFINITY;
+        return;
+    }
+    h.out = out;
+    h.exclusions = exclusions;
+    visit_earlier(&h, earlier);
+    search_traverse(&h);
+    finish(&h);
+}
+
+static ovoid_solid_answer find(const ovoid_solid_pair *pair, const ovoid_options *options, query_goal goal,
+                               const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
+    OVOID_ASSERT(pair);
+    ENVIRONMENT_RETURN_FILLED(ovoid_solid_answer, out, goal,
+                              find_internal(pair, options, &goal, earlier, exclusions, &out));
+}
+
+ovoid_solid_answer ovoid_solid_collide(const ovoid_solid_pair *pair, const ovoid_options *options,
+                                       const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
+    return find(pair, options, query_goal_make_collide(), earlier, exclusions);
+}
+ovoid_solid_answer ovoid_solid_within(const ovoid_solid_pair *pair, double margin, const ovoid_options *options,
+                                      const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
+    return find(pair, options, query_goal_make_within(margin), earlier, exclusions);
+}
+ovoid_solid_answer ovoid_solid_distance(const ovoid_solid_pair *pair, const ovoid_options *options,
+                                        const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
+    return find(pair, options, query_goal_make_distance(options), earlier, exclusions);
+}
+
+int ovoid_solid_answer_is_within(const ovoid_solid_answer *x, double margin) {
+    return x->upper <= margin ? 1 : x->lower > margin ? 0 : -1;
+}

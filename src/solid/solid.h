@@ -1,0 +1,89 @@
+// A solid's block: a header, then arrays at fixed offsets. The tree has eight children to a node, each a node or one
+// triangle; the triangles of a node are a range of the tree's order. Its boxes are in the tree's frame, the solid's
+// frame moved to `center`, in units of a power of two, `unit`: so single precision serves solids of any size and place.
+#ifndef OVOID_SOLID_SOLID_H
+#define OVOID_SOLID_SOLID_H
+
+#include "linear/box.h"
+#include "linear/pose.h"
+#include "ovoid/solid.h"
+#include "simd/solid8.h"
+
+/// A node beside its box8: its own box, in the tree's frame and unit, and the places of its triangles.
+typedef struct solid_node {
+    float low[3], high[3];
+    uint32_t first, end;
+    uint32_t children;
+} solid_node;
+
+/// Three points, by index.
+typedef struct solid_triangle {
+    uint32_t point[3];
+} solid_triangle;
+
+struct ovoid_solid {
+    uint32_t point_count, triangle_count, node_count, component_count;
+    vec3 center;   ///< of the box of all points
+    double unit;   ///< a power of two, at least the largest size of a coordinate from `center`
+    double extent; ///< no point is farther than this from the frame's origin, rounding included
+    ovoid_solid_report report;
+    size_t size;
+    ovoid_allocator allocator;
+    // Arrays inside the block.
+    double *points;
+    solid_triangle *triangles; ///< in the order of the tree
+    uint32_t *order;           ///< the caller's index of the triangle at each place
+    uint32_t *places;          ///< the place of each of the caller's triangles
+    box8 *boxes;
+    solid_node *nodes;
+    uint32_t *components; ///< a point of each
+};
+
+static inline vec3 solid_get_corner(const ovoid_solid *s, uint32_t place, int corner) {
+    return vec3_at(s->points, s->triangles[place].point[corner]);
+}
+
+/// A node of the tree, or the triangle at a place.
+typedef uint32_t solid_ref;
+#define SOLID_TRIANGLE 0x80000000u
+static inline int ref_is_triangle(solid_ref r) { return (r & SOLID_TRIANGLE) != 0; }
+static inline uint32_t ref_get_place(solid_ref r) { return r & ~SOLID_TRIANGLE; }
+/// Child i < nodes[node].children of a node.
+static inline solid_ref solid_get_child(const ovoid_solid *s, uint32_t node, uint32_t i) {
+    const box8 *b = &s->boxes[node];
+    return b->child[i] | (b->leaves >> i & 1 ? SOLID_TRIANGLE : 0);
+}
+
+/// Steps down a tree of 2^26 triangles: each child of more than eight has at most three quarters of its parent's.
+enum { SOLID_DEPTH_MAX = BOX8_DEPTH };
+
+/// What is made of a solid's triangles before the block is.
+typedef struct solid_parts {
+    const double *points;
+    const solid_triangle *triangles; ///< in the caller's order
+    uint32_t point_count, triangle_count;
+} solid_parts;
+
+/// The report but for the box, and a point of each component in points' own room (at least point_count): how many there
+/// are, or 0 where memory is out.
+uint32_t solid_compute_report(const solid_parts *parts, const ovoid_allocator *allocator, uint32_t *components,
+                              ovoid_solid_report *report);
+
+/// A triangle's box in the tree's frame and unit.
+box solid_make_bounds(const ovoid_solid *solid, const solid_triangle *triangle);
+/// At most so many nodes are made of so many triangles.
+uint32_t tree_get_most_nodes(uint32_t triangles);
+/// Fills boxes, nodes, order and node_count; center and unit must be set. triangles: in the caller's order. 0 where
+/// there is no memory.
+int solid_build_tree(ovoid_solid *solid, const solid_triangle *triangles);
+
+/// The signed crossing of the ray from p toward +x with a triangle, p moved by less than any number: 1, 0 or -1; 2
+/// where p is on the triangle, as far as exact signs tell. Coordinates in units of the body. corner: by index, for what
+/// edges have in common.
+int ray_count_crossing(vec3 p, const vec3 corner[3], const uint32_t index[3]);
+
+/// ovoid_solid_compute_winding for callers inside a public function. linear: all triangles are looked at, without the
+/// tree.
+int solid_find_winding(const ovoid_solid *solid, vec3 point, int linear, int64_t *winding);
+
+#endif

@@ -1,0 +1,136 @@
+// The traversal of both trees from the pair of roots down (S. Quinlan, Efficient distance computation between
+// non-convex objects, 1994): the larger node of a pair is replaced by its children, eight bounds at a time, the nearest
+// visited first. A pair whose bound is beyond what the goal needs, or not below the best pair's upper bound less the
+// tolerance, is left out. The stack is as deep as both trees together; nothing is allocated.
+#include "solid/search.h"
+
+enum { HEAP_ROOM = 1024 };
+
+// The children of a node that are not left out, farthest first.
+typedef struct children {
+    waiting_pair pair[BOX8];
+    uint32_t count;
+} children;
+
+static void insert(children *c, const waiting_pair *w) {
+    uint32_t at = c->count++;
+    for (; at > 0 && c->pair[at - 1].lower < w->lower; at--) c->pair[at] = c->pair[at - 1];
+    c->pair[at] = *w;
+}
+
+static void bound_children(solid_search *h, const waiting_pair *w, int side, const tree_box *rest, children *found) {
+    const ovoid_solid *s = side ? h->b.solid : h->a.solid;
+    solid_ref node = side ? w->b : w->a;
+    solid8_other other;
+    double lower[BOX8];
+    // side 0: nodes of a beside a box of b.
+    solid_frame_turn(&h->frame, side, rest, search_get_normal(h), &other);
+    other.unit = s->unit;
+    h->kernels->boxes(&s->boxes[node], &other, lower);
+    uint32_t count = s->nodes[node].children;
+    h->out->visited += count;
+    found->count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        solid_ref child = solid_get_child(s, node, i);
+        waiting_pair next = {side ? w->a : child, side ? child : w->b, lower[i] - h->frame.claim, h->normal_count - 1};
+        if (search_is_left_out(h, next.lower))
+            search_exclude_boxes(h, &next);
+        else
+            insert(found, &next);
+    }
+}
+
+// Two leaves, of which at least one is a shape.
+static void visit_pair(solid_search *h, const waiting_pair *w) {
+    uint32_t a = ref_get_place(w->a), b = ref_get_place(w->b);
+    if (a == h->warm_a && b == h->warm_b) return;
+    if (h->a.solid && search_is_filtered(h, 0, a)) return;
+    if (h->b.solid && search_is_filtered(h, 1, b)) return;
+    search_visit_leaves(h, a, b, NULL);
+}
+
+// Children that are triangles, of a node beside a triangle: in lanes.
+static void visit_triangles(solid_search *h, int side, const children *found) {
+    uint32_t places[BOX8], one = ref_get_place(side ? found->pair[0].a : found->pair[0].b);
+    for (uint32_t i = 0; i < found->count; i++) {
+        // The nearest first.
+        const waiting_pair *w = &found->pair[found->count - 1 - i];
+        places[i] = ref_get_place(side ? w->b : w->a);
+    }
+    search_visit_triangles(h, side, one, places, found->count);
+}
+
+// Pairs that wait: of boxes that overlap the last one first, since each has to be opened; then the nearest, from a heap
+// (J. W. J. Williams, Algorithm 232: heapsort, 1964), so that none is opened whose bound is above the answer. A heap
+// that is full leaves its place to the stack.
+typedef struct waiting {
+    waiting_pair stack[2 * SOLID_DEPTH_MAX * BOX8];
+    waiting_pair heap[HEAP_ROOM];
+    uint32_t stacked, heaped;
+} waiting;
+
+static void push_heap(waiting *q, const waiting_pair *w) {
+    uint32_t at = q->heaped++;
+    for (uint32_t parent; at > 0 && q->heap[parent = (at - 1) / 2].lower > w->lower; at = parent)
+        q->heap[at] = q->heap[parent];
+    q->heap[at] = *w;
+}
+
+static waiting_pair pop_heap(waiting *q) {
+    waiting_pair top = q->heap[0], last = q->heap[--q->heaped];
+    uint32_t at = 0;
+    for (uint32_t child; (child = 2 * at + 1) < q->heaped; at = child) {
+        if (child + 1 < q->heaped && q->heap[child + 1].lower < q->heap[child].lower) child++;
+        if (q->heap[child].lower >= last.lower) break;
+        q->heap[at] = q->heap[child];
+    }
+    q->heap[at] = last;
+    return top;
+}
+
+static waiting_pair pop(waiting *q) { return q->stacked ? q->stack[--q->stacked] : pop_heap(q); }
+
+// Children wait; triangles beside a triangle are visited at once.
+static void pass_on(solid_search *h, int side, const children *found, waiting *q) {
+    children leaves = {.count = 0};
+    for (uint32_t i = 0; i < found->count; i++) {
+        const waiting_pair *w = &found->pair[i];
+        if (ref_is_triangle(w->a) && ref_is_triangle(w->b) && h->a.solid && h->b.solid)
+            leaves.pair[leaves.count++] = *w;
+        else if (w->lower > 0 && q->heaped < HEAP_ROOM)
+            push_heap(q, w);
+        else
+            q->stack[q->stacked++] = *w;
+    }
+    if (leaves.count) visit_triangles(h, side, &leaves);
+}
+
+waiting_pair search_make_roots(const solid_search *h) {
+    waiting_pair w = {solid_view_get_root(&h->a), solid_view_get_root(&h->b), 0, h->normal_count - 1};
+    tree_box a = solid_view_get_box(&h->a, w.a), b = solid_view_get_box(&h->b, w.b);
+    w.lower = solid_frame_find_gap(&h->frame, &a, &b, search_get_normal(h)).lower - h->frame.claim;
+    return w;
+}
+
+void search_traverse(solid_search *h) {
+    waiting q;
+    q.stacked = q.heaped = 0;
+    q.stack[q.stacked++] = search_make_roots(h);
+    h->out->visited++;
+    while (q.stacked + q.heaped > 0 && !search_is_decided(h)) {
+        waiting_pair w = pop(&q);
+        if (search_is_left_out(h, w.lower)) {
+            search_exclude_boxes(h, &w);
+            continue;
+        }
+        if (ref_is_triangle(w.a) && ref_is_triangle(w.b)) {
+            visit_pair(h, &w);
+            continue;
+        }
+        tree_box a = solid_view_get_box(&h->a, w.a), b = solid_view_get_box(&h->b, w.b);
+        int side = !pair_is_split_first(w.a, &a, w.b, &b);
+        children found;
+        bound_children(h, &w, side, side ? &a : &b, &found);
+        pass_on(h, side, &found, &q);
+    }
+}

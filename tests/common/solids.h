@@ -1,0 +1,224 @@
+// Random solids that are not convex, and their distance by brute force over all triangles in extended precision.
+#ifndef OVOID_TESTS_SOLIDS_H
+#define OVOID_TESTS_SOLIDS_H
+
+#include "check.h"
+#include <ovoid/ovoid.h>
+
+static inline ovoid_quat random_quat(uint64_t *s) {
+    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
+}
+static inline ovoid_vec3 random_vec3(uint64_t *s, double reach) {
+    double x = random_uniform(s, -reach, reach), y = random_uniform(s, -reach, reach);
+    return (ovoid_vec3){x, y, random_uniform(s, -reach, reach)};
+}
+
+/// A mesh on its way to a solid.
+typedef struct mesh {
+    double *xyz;
+    uint32_t *indices;
+    size_t points, triangles, point_room, triangle_room;
+} mesh;
+
+static inline uint32_t mesh_add_point(mesh *m, double x, double y, double z) {
+    if (m->points == m->point_room) {
+        m->point_room = 2 * m->point_room + 16;
+        m->xyz = realloc(m->xyz, m->point_room * 3 * sizeof(double));
+    }
+    double *p = m->xyz + 3 * m->points;
+    p[0] = x, p[1] = y, p[2] = z;
+    return (uint32_t)m->points++;
+}
+static inline void mesh_add_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c) {
+    if (m->triangles == m->triangle_room) {
+        m->triangle_room = 2 * m->triangle_room + 16;
+        m->indices = realloc(m->indices, m->triangle_room * 3 * sizeof(uint32_t));
+    }
+    uint32_t *t = m->indices + 3 * m->triangles++;
+    t[0] = a, t[1] = b, t[2] = c;
+}
+static inline void mesh_clear(mesh *m) {
+    free(m->xyz);
+    free(m->indices);
+    *m = (mesh){NULL, NULL, 0, 0, 0, 0};
+}
+static inline ovoid_solid *mesh_make_solid(const mesh *m) {
+    ovoid_error error = {.message = ""};
+    ovoid_solid *s = ovoid_solid_create_from_triangles(m->xyz, m->points, m->indices, m->triangles, NULL, &error);
+    if (!s) printf("  %s\n", error.message);
+    return s;
+}
+
+/// A grid of u by v quadrangles, closed in both directions: a ring of that radius with a tube of another. bumps: by how
+/// much of it each point of the tube is moved.
+static inline void mesh_add_ring(mesh *m, double radius, double tube, uint32_t u, uint32_t v, double bumps,
+                                 uint64_t *seed) {
+    uint32_t first = (uint32_t)m->points;
+    for (uint32_t i = 0; i < u; i++)
+        for (uint32_t j = 0; j < v; j++) {
+            double a = 6.283185307179586 * i / u, b = 6.283185307179586 * j / v;
+            double t = tube * (bumps > 0 ? random_uniform(seed, 1 - bumps, 1 + bumps) : 1), r = radius + t * cos(b);
+            mesh_add_point(m, r * cos(a), r * sin(a), t * sin(b));
+        }
+    for (uint32_t i = 0; i < u; i++)
+        for (uint32_t j = 0; j < v; j++) {
+            uint32_t i1 = (i + 1) % u, j1 = (j + 1) % v;
+            uint32_t p = first + i * v + j, q = first + i1 * v + j, r = first + i1 * v + j1, s = first + i * v + j1;
+            mesh_add_triangle(m, p, q, r);
+            mesh_add_triangle(m, p, r, s);
+        }
+}
+
+/// A sphere of rings and segments around a point, each of its points at a random share of the radius: a star.
+static inline void mesh_add_star(mesh *m, ovoid_vec3 at, double radius, uint32_t rings, uint32_t segments, double bumps,
+                                 uint64_t *seed) {
+    uint32_t north = mesh_add_point(m, at.x, at.y, at.z + radius), first = north + 1;
+    for (uint32_t i = 1; i < rings; i++)
+        for (uint32_t j = 0; j < segments; j++) {
+            double a = 3.141592653589793 * i / rings, b = 6.283185307179586 * j / segments;
+            double r = radius * (bumps > 0 ? random_uniform(seed, 1 - bumps, 1) : 1);
+            mesh_add_point(m, at.x + r * sin(a) * cos(b), at.y + r * sin(a) * sin(b), at.z + r * cos(a));
+        }
+    uint32_t south = mesh_add_point(m, at.x, at.y, at.z - radius), last = first + (rings - 2) * segments;
+    for (uint32_t j = 0; j < segments; j++) {
+        uint32_t k = (j + 1) % segments;
+        mesh_add_triangle(m, north, first + j, first + k);
+        mesh_add_triangle(m, south, last + k, last + j);
+        for (uint32_t i = 0; i + 2 < rings; i++) {
+            uint32_t p = first + i * segments, q = p + segments;
+            mesh_add_triangle(m, p + j, q + j, q + k);
+            mesh_add_triangle(m, p + j, q + k, p + k);
+        }
+    }
+}
+
+/// The prism of height 2 h over an L of the given lengths and width.
+static inline void mesh_add_angle(mesh *m, double length, double width, double h) {
+    const double c[6][2] = {{0, 0}, {length, 0}, {length, width}, {width, width}, {width, length}, {0, length}};
+    static const uint8_t cap[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
+    uint32_t first = (uint32_t)m->points;
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < 6; i++) mesh_add_point(m, c[i][0], c[i][1], side ? h : -h);
+    for (int i = 0; i < 4; i++) {
+        mesh_add_triangle(m, first + cap[i][0], first + cap[i][2], first + cap[i][1]);
+        mesh_add_triangle(m, first + 6 + cap[i][0], first + 6 + cap[i][1], first + 6 + cap[i][2]);
+    }
+    for (uint32_t i = 0; i < 6; i++) {
+        uint32_t j = (i + 1) % 6;
+        mesh_add_triangle(m, first + i, first + j, first + 6 + j);
+        mesh_add_triangle(m, first + i, first + 6 + j, first + 6 + i);
+    }
+}
+
+/// One of the kinds, of a size of about `scale`.
+static inline void mesh_add_random(mesh *m, double scale, uint64_t *seed) {
+    switch (random_next(seed) % 4) {
+    case 0:
+        mesh_add_angle(m, scale, scale * random_uniform(seed, 0.1, 0.5), scale * random_uniform(seed, 0.05, 1));
+        break;
+    case 1:
+        mesh_add_ring(m, scale, scale * random_uniform(seed, 0.1, 0.6), 5 + (uint32_t)(random_next(seed) % 8),
+                      3 + (uint32_t)(random_next(seed) % 6), 0.3, seed);
+        break;
+    case 2:
+        mesh_add_star(m, (ovoid_vec3){0, 0, 0}, scale, 3 + (uint32_t)(random_next(seed) % 5),
+                      3 + (uint32_t)(random_next(seed) % 7), 0.7, seed);
+        break;
+    default:
+        // Two components, which may overlap, touch or be apart.
+        mesh_add_star(m, (ovoid_vec3){random_uniform(seed, -scale, scale), 0, 0}, 0.5 * scale, 4, 5, 0.5, seed);
+        mesh_add_ring(m, scale, scale * 0.2, 6, 4, 0, seed);
+    }
+}
+
+// ---- brute force
+
+typedef struct long3 {
+    long double x, y, z;
+} long3;
+static inline long3 long3_sub(long3 a, long3 b) { return (long3){a.x - b.x, a.y - b.y, a.z - b.z}; }
+static inline long3 long3_add_scaled(long3 a, long3 b, long double s) {
+    return (long3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+static inline long double long3_dot(long3 a, long3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline long3 long3_cross(long3 a, long3 b) {
+    return (long3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static inline long double long3_norm(long3 a) { return sqrtl(long3_dot(a, a)); }
+
+static inline long3 long3_place(const ovoid_pose *pose, const double *p) {
+    long double w = pose->rotation.w, x = pose->rotation.x, y = pose->rotation.y, z = pose->rotation.z;
+    long double s = 2 / (w * w + x * x + y * y + z * z);
+    long3 v = {p[0], p[1], p[2]}, q = {x, y, z}, c = long3_cross(q, v), d = long3_cross(q, c);
+    return (long3){pose->position.x + v.x + s * (w * c.x + d.x), pose->position.y + v.y + s * (w * c.y + d.y),
+                   pose->position.z + v.z + s * (w * c.z + d.z)};
+}
+
+static inline long double clamp01(long double x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
+
+static inline long double long_edges_distance(long3 p, long3 p1, long3 q, long3 q1) {
+    long3 u = long3_sub(p1, p), v = long3_sub(q1, q), r = long3_sub(p, q);
+    long double a = long3_dot(u, u), e = long3_dot(v, v), f = long3_dot(v, r), c = long3_dot(u, r), b = long3_dot(u, v);
+    long double best = INFINITY, denominator = a * e - b * b;
+    // The inside of both, and each end above the other edge: the least of five is the distance, with no case to choose.
+    long double s[5] = {denominator > 0 ? clamp01((b * f - c * e) / denominator) : 0, 0, 1, a > 0 ? clamp01(-c / a) : 0,
+                        a > 0 ? clamp01((b - c) / a) : 0};
+    for (int i = 0; i < 5; i++) {
+        long double t = i == 3 ? 0 : i == 4 ? 1 : e > 0 ? clamp01((b * s[i] + f) / e) : 0;
+        long double d = long3_norm(long3_sub(long3_add_scaled(p, u, s[i]), long3_add_scaled(q, v, t)));
+        best = d < best ? d : best;
+    }
+    return best;
+}
+
+static inline long double long_point_distance(long3 p, const long3 t[3]) {
+    long3 n = long3_cross(long3_sub(t[1], t[0]), long3_sub(t[2], t[0]));
+    for (int i = 0; i < 3; i++)
+        if (long3_dot(long3_cross(n, long3_sub(t[(i + 1) % 3], t[i])), long3_sub(p, t[i])) < 0) return INFINITY;
+    long double norm = long3_norm(n);
+    return norm > 0 ? fabsl(long3_dot(n, long3_sub(p, t[0]))) / norm : INFINITY;
+}
+
+// 1 if the edge goes through the inside of the triangle.
+static inline int long_is_crossing(long3 p, long3 q, const long3 t[3]) {
+    long3 n = long3_cross(long3_sub(t[1], t[0]), long3_sub(t[2], t[0]));
+    long double a = long3_dot(n, long3_sub(p, t[0])), b = long3_dot(n, long3_sub(q, t[0]));
+    if (!(a * b < 0)) return 0;
+    long3 x = long3_add_scaled(p, long3_sub(q, p), a / (a - b));
+    for (int i = 0; i < 3; i++)
+        if (!(long3_dot(long3_cross(n, long3_sub(t[(i + 1) % 3], t[i])), long3_sub(x, t[i])) > 0)) return 0;
+    return 1;
+}
+
+/// The distance of two triangles; 0 where an edge of one goes through the other.
+static inline long double long_triangles_distance(const long3 a[3], const long3 b[3]) {
+    long double best = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        if (long_is_crossing(a[i], a[(i + 1) % 3], b) || long_is_crossing(b[i], b[(i + 1) % 3], a)) return 0;
+        best = fminl(best, fminl(long_point_distance(a[i], b), long_point_distance(b[i], a)));
+        for (int j = 0; j < 3; j++) best = fminl(best, long_edges_distance(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]));
+    }
+    return best;
+}
+
+/// The triangles of a mesh in the world; free them.
+static inline long3 *long_place_mesh(const mesh *m, const ovoid_pose *pose) {
+    long3 *all = malloc(3 * m->triangles * sizeof *all);
+    for (size_t i = 0; i < 3 * m->triangles; i++) all[i] = long3_place(pose, m->xyz + 3 * (size_t)m->indices[i]);
+    return all;
+}
+
+/// How often closed triangles wind around a point: their solid angles (A. van Oosterom, J. Strackee, The solid angle of
+/// a plane triangle, 1983) over 4 pi.
+static inline long double long_winding(const long3 *t, size_t count, long3 p) {
+    long double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        long3 a = long3_sub(t[3 * i], p), b = long3_sub(t[3 * i + 1], p), c = long3_sub(t[3 * i + 2], p);
+        long double x = long3_norm(a), y = long3_norm(b), z = long3_norm(c);
+        sum += atan2l(long3_dot(a, long3_cross(b, c)),
+                      x * y * z + long3_dot(a, b) * z + long3_dot(b, c) * x + long3_dot(c, a) * y);
+    }
+    return sum / 6.28318530717958647692528676655900577L;
+}
+
+#endif

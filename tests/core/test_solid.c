@@ -1,0 +1,190 @@
+// Solids against brute force over all pairs of triangles in extended precision, and every answer through its own check.
+// What is inside is decided there by solid angles, which share nothing with the exact crossings of a ray. Long double
+// has 11 bits more than double, so its distances are trusted to 1e-16 of the size; answers are claimed to 1e-9 of it.
+#include "solids.h"
+
+enum { CAPACITY = 60000 };
+static ovoid_exclusion items[CAPACITY];
+
+/// What brute force says: the distance of the surfaces, and whether the bodies have a point in common.
+typedef struct truth {
+    double surfaces;
+    int is_common;
+} truth;
+
+static truth find_truth(const mesh *a, const ovoid_pose *pose_a, const mesh *b, const ovoid_pose *pose_b) {
+    long3 *p = long_place_mesh(a, pose_a), *q = long_place_mesh(b, pose_b);
+    long double best = INFINITY;
+    for (size_t i = 0; i < a->triangles; i++)
+        for (size_t j = 0; j < b->triangles; j++) best = fminl(best, long_triangles_distance(p + 3 * i, q + 3 * j));
+    // Any corner inside decides, where no surfaces meet.
+    int is_common = best <= 0;
+    for (size_t i = 0; i < 3 * a->triangles && !is_common; i++)
+        is_common = fabsl(long_winding(q, b->triangles, p[i])) > 0.5L;
+    for (size_t i = 0; i < 3 * b->triangles && !is_common; i++)
+        is_common = fabsl(long_winding(p, a->triangles, q[i])) > 0.5L;
+    free(p);
+    free(q);
+    return (truth){(double)best, is_common};
+}
+
+static void check_answer(const ovoid_solid_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+    ovoid_error error = {.message = ""};
+    CHECK(all->count <= all->capacity);
+    if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, all, &error), OVOID_OK)) printf("  %s\n", error.message);
+}
+
+static void check_sign(const ovoid_solid_answer *x, truth t, double slack) {
+    if (t.is_common) CHECK(x->status == OVOID_OVERLAPPING || t.surfaces <= slack);
+    if (t.is_common) CHECK(x->status != OVOID_SEPARATED);
+    if (!t.is_common) CHECK(x->status == OVOID_SEPARATED || t.surfaces <= slack);
+    if (!t.is_common) CHECK(x->status != OVOID_OVERLAPPING);
+    if (!t.is_common) CHECK_LE(x->lower, t.surfaces + slack);
+    if (!t.is_common) CHECK_LE(t.surfaces, x->upper + slack);
+}
+
+static void check_pair(const ovoid_solid_pair *pair, truth t, double size, uint64_t *s) {
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
+    double slack = 1e-12 * size, tolerance = 1.01e-9 * size;
+    ovoid_solid_answer distance = ovoid_solid_distance(pair, NULL, NULL, &all);
+    check_answer(pair, &distance, &all);
+    check_sign(&distance, t, slack);
+    if (distance.status == OVOID_SEPARATED) CHECK_LE(distance.upper - distance.lower, tolerance);
+    if (distance.status == OVOID_SEPARATED) CHECK_EQ(distance.limit, OVOID_LIMIT_NONE);
+
+    ovoid_solid_answer collide = ovoid_solid_collide(pair, NULL, NULL, &all);
+    check_answer(pair, &collide, &all);
+    check_sign(&collide, t, slack);
+
+    double margin = t.surfaces * random_uniform(s, 0.5, 2);
+    ovoid_solid_answer within = ovoid_solid_within(pair, margin, NULL, NULL, &all);
+    check_answer(pair, &within, &all);
+    int is = ovoid_solid_answer_is_within(&within, margin);
+    if (!t.is_common && t.surfaces > margin + tolerance) CHECK_EQ(is, 0);
+    if (t.is_common || t.surfaces < margin - tolerance) CHECK(is == 1 || t.surfaces <= slack);
+
+    // From the last answer, and from nonsense: the same truth.
+    ovoid_compound_proof earlier = {distance.triangle_a, distance.triangle_b, distance.surfaces.proof};
+    ovoid_solid_answer again = ovoid_solid_distance(pair, NULL, &earlier, &all);
+    check_answer(pair, &again, &all);
+    check_sign(&again, t, slack);
+    earlier.part_a = (uint32_t)(random_next(s) % 200), earlier.part_b = (uint32_t)(random_next(s) % 200);
+    again = ovoid_solid_collide(pair, NULL, &earlier, &all);
+    check_answer(pair, &again, &all);
+    check_sign(&again, t, slack);
+
+    // A cap below the distance: proven farther.
+    ovoid_options options = {.cap = 0.5 * t.surfaces};
+    if (t.is_common || t.surfaces <= tolerance) return;
+    again = ovoid_solid_distance(pair, &options, NULL, &all);
+    check_answer(pair, &again, &all);
+    CHECK_LE(options.cap, again.lower);
+}
+
+static void check_random(int rounds, double scale, uint64_t seed) {
+    int common = 0, inside = 0;
+    for (int i = 0; i < rounds; i++) {
+        uint64_t s = check_seed = seed + (uint64_t)i;
+        mesh a = {NULL, NULL, 0, 0, 0, 0}, b = a;
+        mesh_add_random(&a, scale, &s);
+        mesh_add_random(&b, scale * (i % 5 == 0 ? 0.05 : random_uniform(&s, 0.3, 1.5)), &s);
+        ovoid_solid *sa = mesh_make_solid(&a), *sb = mesh_make_solid(&b);
+        if (CHECK(sa && sb)) {
+            double apart = scale * random_uniform(&s, 0, i % 5 == 0 ? 0.5 : 2.5);
+            ovoid_solid_pair pair = {{NULL, sa, {random_vec3(&s, scale), random_quat(&s)}},
+                                     {NULL, sb, ovoid_pose_make_identity()}};
+            pair.b.pose = (ovoid_pose){random_vec3(&s, apart), random_quat(&s)};
+            ovoid_vec3 at = pair.a.pose.position;
+            pair.b.pose.position.x += at.x, pair.b.pose.position.y += at.y, pair.b.pose.position.z += at.z;
+            truth t = find_truth(&a, &pair.a.pose, &b, &pair.b.pose);
+            common += t.is_common;
+            inside += t.is_common && t.surfaces > 0;
+            check_pair(&pair, t, 6 * scale, &s);
+        }
+        ovoid_solid_destroy(sa);
+        ovoid_solid_destroy(sb);
+        mesh_clear(&a);
+        mesh_clear(&b);
+    }
+    check_seed = 0;
+    printf("%d pairs of scale %g: %d have points in common, %d by containment\n", rounds, scale, common, inside);
+    CHECK(common > 0 && common < rounds && (inside > 0 || scale != 1));
+}
+
+// A solid and a shape, which is a solid of its own hull's triangles to brute force.
+static void check_shapes(int rounds, uint64_t seed) {
+    for (int i = 0; i < rounds; i++) {
+        uint64_t s = check_seed = seed + (uint64_t)i;
+        mesh a = {NULL, NULL, 0, 0, 0, 0}, b = a;
+        mesh_add_random(&a, 1, &s);
+        double points[30];
+        size_t count = 4 + random_next(&s) % 7;
+        double size = i % 3 ? 1 : 0.05;
+        for (size_t k = 0; k < 3 * count; k++) points[k] = random_uniform(&s, -size, size) + (i % 4 == 3 ? 1000 : 0);
+        ovoid_shape *shape = ovoid_shape_create_from_points(points, count, NULL, NULL);
+        ovoid_solid *solid = mesh_make_solid(&a);
+        if (CHECK(shape && solid)) {
+            ovoid_polytope p = ovoid_shape_get_polytope(shape);
+            for (uint32_t k = 0; k < p.vertex_count; k++)
+                mesh_add_point(&b, p.vertices[3 * k] + p.origin.x, p.vertices[3 * k + 1] + p.origin.y,
+                               p.vertices[3 * k + 2] + p.origin.z);
+            for (uint32_t k = 0; k < p.triangle_count; k++)
+                mesh_add_triangle(&b, p.triangles[3 * k], p.triangles[3 * k + 1], p.triangles[3 * k + 2]);
+            double far = i % 4 == 3 ? -1000 : 0;
+            ovoid_solid_pair pair = {{NULL, solid, {{0, 0, 0}, random_quat(&s)}},
+                                     {shape, NULL, ovoid_pose_make_identity()}};
+            pair.b.pose.position = random_vec3(&s, 1.5);
+            pair.b.pose.position.x += far, pair.b.pose.position.y += far, pair.b.pose.position.z += far;
+            truth t = find_truth(&a, &pair.a.pose, &b, &pair.b.pose);
+            check_pair(&pair, t, far < 0 ? 4000 : 9, &s);
+            ovoid_solid_pair turned = {pair.b, pair.a};
+            check_pair(&turned, t, far < 0 ? 4000 : 9, &s);
+        }
+        ovoid_solid_destroy(solid);
+        ovoid_shape_destroy(shape);
+        mesh_clear(&a);
+        mesh_clear(&b);
+    }
+    check_seed = 0;
+}
+
+// A ring of 40 mm whose tube is 10 mm thick, and a peg of 10 mm in its hole, as meshes of many sides. The hole's radius
+// is 15 - 5 = 10 at its narrowest, the peg's 5: apart by 5 but for what flat sides take away, of which the cosine of
+// half a side's angle is the share.
+static void check_peg(void) {
+    mesh m = {NULL, NULL, 0, 0, 0, 0};
+    uint64_t s = 1;
+    mesh_add_ring(&m, 15, 5, 360, 60, 0, &s);
+    ovoid_solid *ring = mesh_make_solid(&m);
+    ovoid_shape *peg = ovoid_shape_create_prism(5, 20, 72, NULL, NULL);
+    if (CHECK(ring && peg)) {
+        ovoid_solid_report r = ovoid_solid_get_report(ring);
+        CHECK_EQ(r.edges_unmatched, 0);
+        CHECK_EQ(r.is_closed, 1);
+        CHECK_NEAR(r.volume, 2 * 9.8696044 * 15 * 25, 0.01 * r.volume);
+        ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
+        ovoid_solid_pair pair = {{NULL, ring, ovoid_pose_make_identity()}, {peg, NULL, ovoid_pose_make_identity()}};
+        ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, &all);
+        check_answer(&pair, &x, &all);
+        CHECK_EQ(x.status, OVOID_SEPARATED);
+        CHECK_NEAR(x.lower, 5, 0.01);
+        CHECK_LE(x.upper - x.lower, 1e-7);
+        // Moved by its clearance and more it touches, then overlaps.
+        pair.b.pose.position.x = 4.9;
+        CHECK_EQ(ovoid_solid_collide(&pair, NULL, NULL, &all).status, OVOID_SEPARATED);
+        pair.b.pose.position.x = 5.1;
+        CHECK_EQ(ovoid_solid_collide(&pair, NULL, NULL, &all).status, OVOID_OVERLAPPING);
+    }
+    ovoid_solid_destroy(ring);
+    ovoid_shape_destroy(peg);
+    mesh_clear(&m);
+}
+
+int main(void) {
+    check_peg();
+    check_random(60, 1, 1000);
+    check_random(30, 1e-20, 2000);
+    check_random(30, 1e20, 3000);
+    check_shapes(40, 4000);
+    return check_end();
+}
