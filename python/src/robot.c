@@ -265,6 +265,7 @@ int link_read(const robot_object *self, PyObject *from, uint32_t *to) {
         return -1;
     }
     Py_ssize_t index = PyNumber_AsSsize_t(from, NULL);
+    if (index == -1 && PyErr_Occurred()) return -1;
     *to = (uint32_t)index;
     if (index >= 0 && (size_t)index < count) return 0;
     raise_code(state, OVOID_ERROR_INDEX, -1, "link %R: the robot has %zu", from, count);
