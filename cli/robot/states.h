@@ -30,8 +30,8 @@ typedef struct cli_states {
     double *q; ///< one state after another; of a part only its own
     size_t count, variable_count;
     size_t stored, capacity;
-    double *times;          ///< of each state that is stored, in seconds: the column "time" of a file; NULL: there is none
-    shard_part part;        ///< of the blocks of OVOID_ROBOT_BLOCK states, dealt out in turn
+    double *times;   ///< of each state that is stored, in seconds: the column "time" of a file; NULL: there is none
+    shard_part part; ///< of the blocks of OVOID_ROBOT_BLOCK states, dealt out in turn
     const args_list *texts; ///< of the states, NULL where they come from a file
 } cli_states;
 

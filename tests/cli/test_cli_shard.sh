@@ -64,8 +64,8 @@ all() {
     for n in $numbers; do
         rm -f -- *.shard
         i=1
-        while [ $i -le $n ]; do
-            "$OVOID_TOOL" "$@" --shard $i/$n -o $i.shard --threads $((i % 3 + 1)) 2>/dev/null
+        while [ $i -le "$n" ]; do
+            "$OVOID_TOOL" "$@" --shard "$i/$n" -o $i.shard --threads $((i % 3 + 1)) 2>/dev/null
             i=$((i + 1))
         done
         # In any order.
