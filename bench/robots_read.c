@@ -211,10 +211,11 @@ int machine_make_snake(machine *m, uint32_t links) {
     enum { MOST = 256 };
     static char names[2][MOST][16];
     static ovoid_robot_link link[MOST];
-    static ovoid_robot_joint joint[MOST];
     static ovoid_robot_element element[MOST];
     static ovoid_robot_pair pair[MOST];
     *m = (machine){0};
+    ovoid_robot_joint *joint = calloc(links + 1, sizeof *joint);
+    if (!joint || links > MOST) return free(joint), 0;
     (void)snprintf(m->name, sizeof m->name, "snake of %u", links);
     ovoid_pose middle = {{0.05, 0, 0}, {0.7071067811865476, 0, 0.7071067811865476, 0}}; // z to x
     for (uint32_t i = 0; i < links; i++) {
@@ -238,6 +239,7 @@ int machine_make_snake(machine *m, uint32_t links) {
     ovoid_robot_description d = {m->name, link, links, joint, links - 1, element, links, pair, links - 1};
     m->robot = ovoid_robot_create(&d, &(ovoid_robot_options){.takes_shapes = 1}, NULL);
     for (uint32_t i = 0; !m->robot && i < links; i++) ovoid_shape_destroy((ovoid_shape *)element[i].shape);
+    free(joint);
     if (finish(m)) return 1;
     machine_destroy(m);
     return 0;

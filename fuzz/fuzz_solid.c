@@ -8,7 +8,7 @@ enum { POINTS = 12, TRIANGLES = 24, ITEMS = 2048 };
 
 static ovoid_solid *take_triangles(fuzz_bytes *from) {
     double xyz[3 * POINTS];
-    uint32_t indices[3 * TRIANGLES];
+    uint32_t indices[3 * TRIANGLES] = {0};
     size_t points = 1 + (size_t)(take_byte(from) & 0xff) % POINTS,
            count = (size_t)(take_byte(from) & 0xff) % (TRIANGLES + 1);
     for (size_t i = 0; i < 3 * points; i++) xyz[i] = take_double(from);

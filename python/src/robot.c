@@ -300,7 +300,10 @@ static ovoid_code compute_poses(const ovoid_robot *robot, const items *q, Py_ssi
 static PyObject *make_pose_array(module_state *state, const ovoid_pose *poses, int axes, const Py_ssize_t *lengths,
                                  const char *order) {
     Py_ssize_t shape[4], count = 1;
-    for (int i = 0; i < axes; i++) count *= shape[i] = lengths[i];
+    for (int i = 0; i < axes; i++) {
+        shape[i] = lengths[i];
+        count *= lengths[i];
+    }
     shape[axes] = order ? 7 : 4;
     shape[axes + 1] = 4;
     double *to = NULL;
@@ -327,7 +330,7 @@ static PyObject *poses(PyObject *object, PyObject *arguments, PyObject *keywords
     items q;
     int axes;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$z:poses", names, &given, &order)) return NULL;
-    if (order && strcmp(order, "wxyz") && strcmp(order, "xyzw"))
+    if (order && strcmp(order, "wxyz") != 0 && strcmp(order, "xyzw") != 0)
         return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "poses: order is None (4x4), 'wxyz' or 'xyzw'");
     if (states_read(self, given, "q", &axes, &q)) return NULL;
     Py_ssize_t count = axes == 1 ? 1 : q.shape[0],

@@ -207,8 +207,7 @@ static int compare_shapes(const void *x, const void *y) {
     return ((uintptr_t)a->shape > (uintptr_t)b->shape) - ((uintptr_t)a->shape < (uintptr_t)b->shape);
 }
 
-// The element borrows its shape, and says const; here it is the robot's own.
-static void destroy_shape(const ovoid_robot_element *element) {
+void element_destroy_shape(const ovoid_robot_element *element) {
     ovoid_shape *shape;
     memcpy(&shape, &element->shape, sizeof shape);
     ovoid_shape_destroy(shape);
@@ -220,7 +219,7 @@ void ovoid_robot_destroy(ovoid_robot *robot) {
     if (robot->takes_shapes) {
         qsort(robot->elements, robot->element_count, sizeof *robot->elements, compare_shapes);
         for (uint32_t i = 0; i < robot->element_count; i++)
-            if (i == 0 || robot->elements[i].shape != robot->elements[i - 1].shape) destroy_shape(&robot->elements[i]);
+            if (i == 0 || robot->elements[i].shape != robot->elements[i - 1].shape) element_destroy_shape(&robot->elements[i]);
     }
     ENVIRONMENT_RUN(allocator_release(&memory, robot));
 }

@@ -74,4 +74,7 @@ void chain_compile(ovoid_robot *r);
 /// Sets variables and joint_variable. OVOID_OK, or ARGUMENT: a ring of mimics, or one of a joint without one variable.
 ovoid_code variables_find(ovoid_robot *r, ovoid_error *error);
 
+/// Destroys an element's shape: it is borrowed, and const; here it is the robot's own.
+void element_destroy_shape(const ovoid_robot_element *element);
+
 #endif

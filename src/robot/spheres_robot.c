@@ -1,6 +1,7 @@
 // A robot of spheres: the links, joints and disabled pairs of another one, whose elements are spheres. Each sphere is a
 // point with a radius at its centre's pose, so it is the ball that is meant, exactly.
 #include "base/error.h"
+#include "robot/robot.h"
 #include "robot/spheres.h"
 
 // Makes the elements; 0 or more shapes are made where a code says what is wrong, *made of them.
@@ -19,7 +20,7 @@ static ovoid_code make_elements(ovoid_robot_element *elements, const ovoid_robot
 }
 
 static void destroy_shapes(const ovoid_robot_element *elements, size_t count) {
-    for (size_t i = 0; i < count; i++) ovoid_shape_destroy((ovoid_shape *)(uintptr_t)elements[i].shape);
+    for (size_t i = 0; i < count; i++) element_destroy_shape(&elements[i]);
 }
 
 static ovoid_code check_spheres(const ovoid_robot_link_sphere *spheres, size_t count, size_t links,

@@ -30,6 +30,14 @@ class solid_view {
     span<const std::uint32_t> order() const noexcept {
         return {ovoid_solid_get_order(solid_), static_cast<std::size_t>(report().triangles)};
     }
+    /** The points, xyz of point i at 3 i. */
+    span<const double> points() const noexcept {
+        return {ovoid_solid_get_points(solid_), 3 * static_cast<std::size_t>(report().points)};
+    }
+    /** The points of triangle i < report().triangles. */
+    void triangle(std::size_t i, std::uint32_t points[3]) const noexcept {
+        ovoid_solid_get_triangle(solid_, i, points);
+    }
     /** How often it winds around a point, exactly: true where *winding is written. */
     bool winding(const ovoid_vec3 &point, std::int64_t *winding) const noexcept {
         return ovoid_solid_compute_winding(solid_, point, winding) != 0;
@@ -85,6 +93,8 @@ inline solid_answer distance(const solid_pair &p, const ovoid_options &o = optio
                              const ovoid_compound_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
     return ovoid_solid_distance(&p, &o, earlier, e);
 }
+/** 1: proven within the margin; 0: proven farther; -1: the bracket straddles it. */
+inline int is_within(const solid_answer &a, double margin) noexcept { return ovoid_solid_answer_is_within(&a, margin); }
 /** The warm start of the pair's next query. */
 inline compound_proof proof_of(const ovoid_solid_answer &a) noexcept {
     return ovoid_compound_proof{a.triangle_a, a.triangle_b, a.surfaces.proof};
