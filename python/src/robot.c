@@ -296,18 +296,13 @@ static ovoid_code compute_poses(const ovoid_robot *robot, const items *q, Py_ssi
     return code;
 }
 
-// Poses as 4x4 matrices, or as seven numbers: order as in poses_read, NULL for matrices.
-static PyObject *make_pose_array(module_state *state, const ovoid_pose *poses, int axes, const Py_ssize_t *lengths,
-                                 const char *order) {
-    Py_ssize_t shape[4], count = 1;
-    for (int i = 0; i < axes; i++) {
-        shape[i] = lengths[i];
-        count *= lengths[i];
-    }
-    shape[axes] = order ? 7 : 4;
-    shape[axes + 1] = 4;
+// Poses as 4x4 matrices, or as seven numbers: order as in poses_read, NULL for matrices. Of states (axes 2), or of one.
+static PyObject *make_pose_array(module_state *state, const ovoid_pose *poses, int axes, Py_ssize_t states,
+                                 Py_ssize_t links, const char *order) {
+    Py_ssize_t shape[] = {states, links, order ? 7 : 4, 4}, count = states * links;
     double *to = NULL;
-    PyObject *array = array_make(state, RECORD_DOUBLE, axes + (order ? 1 : 2), shape, &to);
+    int skipped = axes == 1;
+    PyObject *array = array_make(state, RECORD_DOUBLE, axes + (order ? 1 : 2), shape + skipped, &to);
     for (Py_ssize_t i = 0; array && i < count; i++, to += order ? 7 : 16) {
         ovoid_vec3 x = poses[i].position;
         ovoid_quat r = poses[i].rotation;
@@ -344,7 +339,7 @@ static PyObject *poses(PyObject *object, PyObject *arguments, PyObject *keywords
     else if (compute_poses(self->robot, &q, count, found, &error) != OVOID_OK)
         raise_error(state, &error);
     else
-        made = make_pose_array(state, found, axes, axes == 1 ? &links : (Py_ssize_t[]){count, links}, order);
+        made = make_pose_array(state, found, axes, count, links, order);
     free(found);
     free(q.data);
     return made;

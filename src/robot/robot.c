@@ -219,7 +219,8 @@ void ovoid_robot_destroy(ovoid_robot *robot) {
     if (robot->takes_shapes) {
         qsort(robot->elements, robot->element_count, sizeof *robot->elements, compare_shapes);
         for (uint32_t i = 0; i < robot->element_count; i++)
-            if (i == 0 || robot->elements[i].shape != robot->elements[i - 1].shape) element_destroy_shape(&robot->elements[i]);
+            if (i == 0 || robot->elements[i].shape != robot->elements[i - 1].shape)
+                element_destroy_shape(&robot->elements[i]);
     }
     ENVIRONMENT_RUN(allocator_release(&memory, robot));
 }
