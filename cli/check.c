@@ -187,7 +187,7 @@ static int run_shard(check *c, const cli_command *command, const cli_operands *p
     answers_job job = make_job(c);
     job.count = get_listed(c);
     c->kept = done < job.count ? (size_t)done : job.count;
-    job.couples = c->rows + c->kept;
+    job.couples = c->kept ? c->rows + c->kept : c->rows;
     job.count -= c->kept;
     job.results = &c->results;
     job.make_key = make_key;

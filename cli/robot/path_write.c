@@ -17,8 +17,9 @@ void path_compute_state(const cli_states *states, double s, double *q) {
 
 double path_compute_time(const cli_states *states, double s) {
     if (!states->times) return NAN;
-    size_t last = states->count - 1, i = s > 0 ? (size_t)s : 0;
-    if (i >= last) return states->times[last];
+    size_t last = states->count - 1;
+    if (!(s < (double)last)) return states->times[last];
+    size_t i = s > 0 ? (size_t)s : 0;
     return states->times[i] + (s - (double)i) * (states->times[i + 1] - states->times[i]);
 }
 
