@@ -1,5 +1,6 @@
 // The matrix as JSON and as an SRDF, and how it compares with the pairs of a given SRDF.
 #include "robot/matrix.h"
+#include "robot/xml_text.h"
 
 #include "json.h"
 
@@ -73,34 +74,19 @@ void matrix_write_json(FILE *file, const matrix_view *v) {
 
 // ---- SRDF
 
-// A text as the value of an attribute.
-static void write_attribute(FILE *file, const char *key, const char *text) {
-    static const char special[] = "&<>\"\t\n\r";
-    static const char *const escapes[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#9;", "&#10;", "&#13;"};
-    fprintf(file, " %s=\"", key);
-    for (const char *c = text; *c; c++) {
-        const char *at = strchr(special, *c);
-        if (at)
-            fputs(escapes[at - special], file);
-        else
-            fputc(*c, file);
-    }
-    fputc('"', file);
-}
-
 void matrix_write_srdf(FILE *file, const matrix_view *v, int with_sampled) {
     const ovoid_robot_link *links = v->description.links;
     fputs("<?xml version=\"1.0\"?>\n<robot", file);
-    write_attribute(file, "name", v->description.name ? v->description.name : "");
+    xml_write_attribute(file, "name", v->description.name ? v->description.name : "");
     fputs(">\n", file);
     for (size_t i = 0; i < ovoid_robot_matrix_get_count(v->matrix); i++) {
         ovoid_robot_matrix_pair p = ovoid_robot_matrix_get_pair(v->matrix, i);
         const char *reason = ovoid_robot_matrix_pair_get_reason(&p, with_sampled);
         if (!reason) continue;
         fputs("  <disable_collisions", file);
-        write_attribute(file, "link1", links[p.a].name);
-        write_attribute(file, "link2", links[p.b].name);
-        write_attribute(file, "reason", reason);
+        xml_write_attribute(file, "link1", links[p.a].name);
+        xml_write_attribute(file, "link2", links[p.b].name);
+        xml_write_attribute(file, "reason", reason);
         fputs("/>\n", file);
     }
     fputs("</robot>\n", file);

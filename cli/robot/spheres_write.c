@@ -40,20 +40,6 @@ static int read_source(source *s) {
     return good;
 }
 
-static void write_attribute(FILE *file, const char *key, const char *text) {
-    static const char special[] = "&<>\"\t\n\r";
-    static const char *const escapes[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#9;", "&#10;", "&#13;"};
-    fprintf(file, " %s=\"", key);
-    for (const char *c = text; *c; c++) {
-        const char *at = strchr(special, *c);
-        if (at)
-            fputs(escapes[at - special], file);
-        else
-            fputc(*c, file);
-    }
-    fputc('"', file);
-}
-
 /// Writes a text up to `end`, without the blanks before that.
 static void write_until(FILE *file, const char *text, const char *end) {
     while (end > text && strchr(" \t\r\n", end[-1])) end--;
@@ -117,7 +103,7 @@ static void write_approximations(FILE *file, const cli_cell *cell, const sphere_
         const ovoid_robot_link_sphere *s = &list->items[i];
         if (i == 0 || s[-1].link != s->link) {
             fputs("\n  <link_sphere_approximation", file);
-            write_attribute(file, "link", cell->description.links[s->link].name);
+            xml_write_attribute(file, "link", cell->description.links[s->link].name);
             fputc('>', file);
         }
         fprintf(file, "\n    <sphere center=\"%.17g %.17g %.17g\" radius=\"%.17g\"/>", s->ball.center.x,
@@ -128,7 +114,7 @@ static void write_approximations(FILE *file, const cli_cell *cell, const sphere_
 
 static void write_new_srdf(FILE *file, const cli_cell *cell, const sphere_list *list) {
     fputs("<?xml version=\"1.0\"?>\n<robot", file);
-    write_attribute(file, "name", cell->description.name ? cell->description.name : "");
+    xml_write_attribute(file, "name", cell->description.name ? cell->description.name : "");
     fputc('>', file);
     write_approximations(file, cell, list);
     fputs("\n</robot>\n", file);

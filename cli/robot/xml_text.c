@@ -96,3 +96,17 @@ int xml_tag_read_attribute(const xml_tag *tag, const char *key, char *value, siz
     }
     return 0;
 }
+
+void xml_write_attribute(FILE *file, const char *key, const char *text) {
+    static const char special[] = "&<>\"\t\n\r";
+    static const char *const escapes[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#9;", "&#10;", "&#13;"};
+    fprintf(file, " %s=\"", key);
+    for (const char *c = text; *c; c++) {
+        const char *at = strchr(special, *c);
+        if (at)
+            fputs(escapes[at - special], file);
+        else
+            fputc(*c, file);
+    }
+    fputc('"', file);
+}

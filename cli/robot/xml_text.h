@@ -4,6 +4,7 @@
 #define OVOID_CLI_ROBOT_XML_TEXT_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 /// A tag.
 typedef struct xml_tag {
@@ -23,5 +24,8 @@ int xml_tag_is(const xml_tag *tag, const char *name);
 
 /// Copies an attribute's value, the five entities of XML resolved. 0 where it has none, or it does not fit.
 int xml_tag_read_attribute(const xml_tag *tag, const char *key, char *value, size_t room);
+
+/// Writes a text as an attribute, a blank before it.
+void xml_write_attribute(FILE *file, const char *key, const char *text);
 
 #endif

@@ -126,5 +126,7 @@ void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *op
 
 /// Sorts exclusions by their ranges.
 void exclusions_sort(ovoid_exclusion *items, size_t count);
+/// 1 if one of the sorted exclusions has the ranges of `wanted`.
+int exclusions_have(const ovoid_exclusions *all, const ovoid_exclusion *wanted);
 
 #endif

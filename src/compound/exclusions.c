@@ -1,4 +1,4 @@
-// Exclusions: sorting them, and checking a compound's answer by them.
+// Exclusions: sorting and finding them, and checking a compound's answer by them.
 //
 // The check is a traversal of both trees from the pair of roots. Each pair of nodes is the deciding pair of parts, or
 // one that an exclusion names, or is split and both halves are visited; a pair of leaves that is neither is a hole. So
@@ -39,6 +39,20 @@ void exclusions_sort(ovoid_exclusion *items, size_t count) {
         items[0] = last;
         sink(items, 0, end);
     }
+}
+
+int exclusions_have(const ovoid_exclusions *all, const ovoid_exclusion *wanted) {
+    size_t low = 0, high = all->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        int order = compare(&all->items[middle], wanted);
+        if (order == 0) return 1;
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return 0;
 }
 
 // ---- the check
@@ -97,18 +111,8 @@ static ovoid_code check_bound(const cut *c, size_t i, ovoid_error *error) {
 }
 
 static int is_excluded(const cut *c, const compound_node *a, const compound_node *b) {
-    ovoid_exclusion wanted = {.first_a = a->first, .end_a = a->end, .first_b = b->first, .end_b = b->end};
-    size_t low = 0, high = c->all->count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        int order = compare(&c->all->items[middle], &wanted);
-        if (order == 0) return 1;
-        if (order < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return 0;
+    const ovoid_exclusion wanted = {.first_a = a->first, .end_a = a->end, .first_b = b->first, .end_b = b->end};
+    return exclusions_have(c->all, &wanted);
 }
 
 // OVOID_OK if the cut leaves out no pair of parts.

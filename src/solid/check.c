@@ -68,13 +68,6 @@ static ovoid_code check_bound(cut *c, size_t i, ovoid_error *error) {
     return refuse(error, i, "is not shown by its normal");
 }
 
-static int compare(const ovoid_exclusion *a, const ovoid_exclusion *b) {
-    if (a->first_a != b->first_a) return a->first_a < b->first_a ? -1 : 1;
-    if (a->end_a != b->end_a) return a->end_a < b->end_a ? -1 : 1;
-    if (a->first_b != b->first_b) return a->first_b < b->first_b ? -1 : 1;
-    return a->end_b < b->end_b ? -1 : a->end_b > b->end_b;
-}
-
 static void set_range(const solid_view *v, solid_ref ref, uint32_t *first, uint32_t *end) {
     *first = ref_is_triangle(ref) ? ref_get_place(ref) : v->solid->nodes[ref].first;
     *end = ref_is_triangle(ref) ? *first + 1 : v->solid->nodes[ref].end;
@@ -84,17 +77,7 @@ static int is_excluded(const cut *c, solid_ref a, solid_ref b) {
     ovoid_exclusion wanted;
     set_range(&c->a, a, &wanted.first_a, &wanted.end_a);
     set_range(&c->b, b, &wanted.first_b, &wanted.end_b);
-    size_t low = 0, high = c->all->count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        int order = compare(&c->all->items[middle], &wanted);
-        if (order == 0) return 1;
-        if (order < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return 0;
+    return exclusions_have(c->all, &wanted);
 }
 
 // OVOID_OK if the cut leaves out no pair of triangles.
