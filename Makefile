@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check python cluster bits ports mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
+.PHONY: all help demo check python cluster bits ports wasm mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -40,6 +40,10 @@ bits: ## the same bits from 14 builds by gcc and clang, some minutes
 ports: ## the same bits and tests on musl, 64-bit ARM, 32-bit x86, Windows and WebAssembly, some minutes
 	@scripts/setup.sh ports
 	@scripts/ports.sh
+
+wasm: ## the package for JavaScript in build/wasm, and its tests under Node.js
+	@$(call build,wasm,ovoid_cli)
+	@JOBS=$(JOBS) scripts/wasm.sh
 
 mutate: ## small faults in a copy of the sources: which test notices each, two to three hours
 	@scripts/setup.sh check
