@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check python cluster bits ports wasm mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
+.PHONY: all help demo check python cluster bits ports wasm page mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -44,6 +44,10 @@ ports: ## the same bits and tests on musl, 64-bit ARM, 32-bit x86, Windows and W
 wasm: ## the package for JavaScript in build/wasm, and its tests under Node.js
 	@$(call build,wasm,ovoid_cli)
 	@JOBS=$(JOBS) scripts/wasm.sh
+
+page: ## the template of the page that --html writes, and its tests in Chromium
+	@$(call build,page,ovoid_cli)
+	@JOBS=$(JOBS) scripts/page.sh
 
 mutate: ## small faults in a copy of the sources: which test notices each, two to three hours
 	@scripts/setup.sh check
