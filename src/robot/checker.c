@@ -12,7 +12,7 @@
 static void release_all(ovoid_robot_checker *x) {
     void *all[] = {x->frames,     x->stamps,  x->frame_errors, x->values,      x->cosines,     x->sines,
                    x->places,     x->errors,  x->group_errors, x->part_proofs, x->pair_proofs, x->part_marks,
-                   x->pair_marks, x->values8, x->frames8,      x->centers8};
+                   x->pair_marks, x->values8, x->frames8,      x->centers8,    x->near_keys};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&x->allocator, all[i]);
     path_memory_destroy(x->path);
     *x = (ovoid_robot_checker){.cell = x->cell, .allocator = x->allocator, .kernels = x->kernels};
@@ -63,6 +63,7 @@ ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error) {
     x->pair_proofs = take(x, c->pairs.count, sizeof *x->pair_proofs, &ok);
     x->part_marks = take(x, proofs, sizeof *x->part_marks, &ok);
     x->pair_marks = take(x, c->pairs.count, sizeof *x->pair_marks, &ok);
+    x->near_keys = take(x, 2 * checker_count_pairs(x), sizeof *x->near_keys, &ok);
     x->values8 = take(x, values, sizeof *x->values8, &ok);
     x->frames8 = take(x, c->robot->link_count, sizeof *x->frames8, &ok);
     x->centers8 = take(x, groups, sizeof *x->centers8, &ok);

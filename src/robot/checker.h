@@ -3,6 +3,7 @@
 #define OVOID_ROBOT_CHECKER_H
 
 #include "robot/cell.h"
+#include "robot/near_list.h"
 
 /// Where a sphere around items is.
 typedef struct sphere_place {
@@ -60,8 +61,14 @@ struct ovoid_robot_checker {
     double *group_errors;             ///< the same of each group's
     ovoid_proof *part_proofs;         ///< of item i and part k at i part_count + k
     ovoid_proof *pair_proofs;         ///< of each pair of items
+    near_key *near_keys;              ///< two of each pair that there is
     path_memory *path;                ///< NULL: no path was searched since the cell has changed
 };
+
+/// How many pairs there are to find.
+static inline size_t checker_count_pairs(const ovoid_robot_checker *x) {
+    return x->cell->items.count * x->cell->parts.count + x->cell->pairs.count;
+}
 
 /// Makes the checker's memory fit its cell; all is forgotten where that has changed.
 ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error);

@@ -21,6 +21,7 @@ typedef struct chain_step {
     ovoid_quat turned;      ///< o a
     vec3 origin;            ///< in the parent's frame
     vec3 along[3];          ///< of the lengths among its values, in the parent's frame
+    vec3 axis;              ///< that it turns about, unit, in the child's frame
 } chain_step;
 
 /// The columns of a frame of eight states: position, quaternion, rotation by rows.
