@@ -315,6 +315,9 @@ static void test_batches(void) {
         size_t n = ovoid_robot_get_variable_count(c.r);
         for (size_t i = 0; i < COUNT; i++) make_random_state(&s, c.r, q + i * n);
         if (n) q[5 * n] = NAN, q[9 * n + n - 1] = 1e60;
+        // Lengths whose errors are larger than their neighbours'.
+        for (size_t i = 11; n && i < COUNT; i += 13)
+            for (size_t v = 0; v < n; v++) q[i * n + v] *= 64;
         ovoid_robot_checker *x[3];
         for (int i = 0; i < 3; i++) x[i] = ovoid_robot_checker_create(c.cell, NULL, &error);
         ovoid_robot_check_options options = {.margin = round % 2 ? 0.05 : 0, .limit_slack = round % 3 ? 0 : INFINITY};
