@@ -5,7 +5,8 @@
 
 #include <stddef.h>
 
-static const robot8_kernels scalar = {run_chain, run_place, run_half_turns, run_near_boxes};
+static const robot8_kernels scalar = {run_chain,       run_place,        run_half_turns,       run_near_boxes,
+                                      run_near_boxes8, run_near_spheres, run_near_linked_boxes};
 
 const robot8_kernels *robot8_get_kernels_of(simd_isa isa) {
     switch (isa) {
