@@ -42,6 +42,10 @@ class solid_view {
     bool winding(const ovoid_vec3 &point, std::int64_t *winding) const noexcept {
         return ovoid_solid_compute_winding(solid_, point, winding) != 0;
     }
+    /** The pairs of triangles that meet other than in common corners and edges, up to `most`. */
+    ovoid_solid_crossings crossings(std::uint64_t most = UINT64_MAX) const noexcept {
+        return ovoid_solid_compute_crossings(solid_, most);
+    }
     /** Size of the block in bytes. */
     std::size_t size_in_bytes() const noexcept { return ovoid_solid_get_size(solid_); }
 
