@@ -206,7 +206,8 @@ static int open_solid(const settings *s, const char *path, const cli_body *body,
     int is_default = c.is_nonconvex && isfinite(c.mesh_volume);
     *solid = NULL;
     if (ovoid_path_is_shape(path) || !(s->solid || is_default)) return 1;
-    *solid = solids_read(path, &s->read, &error);
+    ovoid_read_options read = inputs_make_options(&s->read);
+    *solid = ovoid_solid_read_file(path, &read, &error);
     if (*solid) {
         ovoid_solid_report r = ovoid_solid_get_report(*solid);
         if (!r.is_closed)

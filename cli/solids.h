@@ -7,10 +7,6 @@
 
 #include <ovoid/ovoid.h>
 
-/// Reads a mesh file as one solid, its polygons cut into triangles. NULL with *error filled. A mesh that is not closed
-/// becomes a surface.
-ovoid_solid *solids_read(const char *path, const read_settings *settings, ovoid_error *error);
-
 /// What a pair of bodies is asked.
 typedef struct solids_query {
     const char *const *paths;
