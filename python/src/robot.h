@@ -40,6 +40,12 @@ int states_read(const robot_object *self, PyObject *from, const char *what, int 
 double *state_read(const robot_object *self, PyObject *from);
 size_t robot_variable_count(const robot_object *self);
 
+// ---- robot_create.c, robot_facts.c
+
+PyObject *robot_new(PyTypeObject *type, PyObject *arguments, PyObject *keywords);
+/// A name as a string, which need not be UTF-8; NULL: None.
+PyObject *robot_name_make(const char *name);
+
 // ---- robot_cell.c
 
 /// Every query of a cell is between these: count checkers, from the idle ones or new.
@@ -64,6 +70,7 @@ int check_options_check(module_state *state, const ovoid_robot_check_options *o)
 
 extern PyMethodDef robot_constructors[], robot_spheres_methods[], robot_matrix_methods[], robot_file_functions[];
 extern PyMethodDef cell_queries[], cell_scenes[];
+extern PyGetSetDef robot_fields[];
 /// Checks a proven path by its steps.
 ovoid_code path_check(PyObject *object, ovoid_error *error);
 
