@@ -113,6 +113,14 @@ class Touch(Named):
         return self.name.lower().replace("_", " ")
 
 
+class Inside(Named):
+    """Which body has a component inside the other, where that is what proves that two solids overlap."""
+
+    NONE = 0
+    A = 1  #: a component of a is inside b
+    B = 2  #: a component of b is inside a
+
+
 class Error(ValueError):
     """What the library refused: its sentence, with code (a Code) and place.
 

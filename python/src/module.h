@@ -25,6 +25,7 @@ typedef enum enum_kind {
     ENUM_IMPACT_STATUS,
     ENUM_ROBOT_STATUS,
     ENUM_ROBOT_TOUCH,
+    ENUM_INSIDE,
     ENUM_COUNT
 } enum_kind;
 
@@ -47,7 +48,7 @@ typedef enum record_kind {
 /// The types that hold C values; names as in Python, in lower case.
 typedef struct module_state {
     PyTypeObject *array, *shape, *pose, *compound, *answer, *bodies, *world, *motion, *impact, *approach, *ray_hit,
-        *smooth, *smooth_value, *gradient, *fit, *prepared, *robot, *cell, *robot_path;
+        *smooth, *smooth_value, *gradient, *fit, *prepared, *solid, *solid_answer, *robot, *cell, *robot_path;
     PyObject *error; ///< ovoid.Error
     /// Named tuples of ovoid/_values.py.
     PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
@@ -233,6 +234,8 @@ int motion_add(PyObject *module);
 int impact_add(PyObject *module);
 int smooth_add(PyObject *module);
 int prepared_add(PyObject *module);
+int solid_add(PyObject *module);
+int solid_answer_add(PyObject *module);
 int robot_add(PyObject *module);
 int cell_add(PyObject *module);
 int robot_path_add(PyObject *module);
