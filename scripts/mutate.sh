@@ -43,6 +43,7 @@ tests_of() {
     io) echo "test_io_numbers test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_known" ;;
     robot_compare) echo "test_robot_compare" ;;
+    robot_watch) echo "test_robot_watch" ;;
     robot_cli) echo "test_cli.sh:robot_check:robot_path test_cli_altered_paths.sh" ;;
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;
     shard) echo "test_io_pairs test_cli_shard.sh" ;;
