@@ -48,7 +48,7 @@ tests_of() {
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;
     shard) echo "test_io_pairs test_cli_shard.sh" ;;
     robot_spheres) echo "test_robot_spheres" ;;
-    python) echo "test_python_pair test_python_batch test_python_world test_python_motion test_python_robot test_python_prepared test_python_solid" ;;
+    python) echo "test_python_pair test_python_batch test_python_world test_python_motion test_python_robot test_python_prepared test_python_solid test_python_robot_paths" ;;
     *) return 1 ;;
     esac
 }

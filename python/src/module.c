@@ -39,8 +39,8 @@ static int import_enum(PyObject *enums, const char *name, PyObject **to) {
 }
 
 static int import_python(module_state *state) {
-    static const char *const names[ENUM_COUNT] = {"Status",       "Stage",       "Limit", "Code",  "ProofKind",
-                                                  "ImpactStatus", "RobotStatus", "Touch", "Inside"};
+    static const char *const names[ENUM_COUNT] = {"Status",       "Stage",       "Limit", "Code",   "ProofKind",
+                                                  "ImpactStatus", "RobotStatus", "Touch", "Inside", "Agreement"};
     state->dtype_name = PyUnicode_InternFromString("dtype");
     PyObject *enums = state->dtype_name ? PyImport_ImportModule("ovoid._enums") : NULL;
     if (!enums) return -1;
@@ -64,7 +64,9 @@ static int import_python(module_state *state) {
                   {&state->matrix_pair, "MatrixPair"},
                   {&state->sphere_audit, "SphereAudit"},
                   {&state->obstacle, "Obstacle"},
-                  {&state->motion_request, "MotionRequest"}};
+                  {&state->motion_request, "MotionRequest"},
+                  {&state->clearance, "Clearance"},
+                  {&state->comparison, "Comparison"}};
     for (size_t i = 0; !failed && i < sizeof tuples / sizeof *tuples; i++)
         failed = !(*tuples[i].to = PyObject_GetAttrString(values, tuples[i].name));
     Py_DECREF(values);
@@ -144,7 +146,8 @@ static PyObject **get_object(module_state *s, size_t i) {
     i -= RECORD_COUNT;
     PyObject **others[] = {&s->dtype_name,   &s->error,       &s->numpy_array,  &s->contacts, &s->hit,
                            &s->cast,         &s->joint,       &s->variable,     &s->element,  &s->side,
-                           &s->state_answer, &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request};
+                           &s->state_answer, &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request,
+                           &s->clearance,    &s->comparison};
     return i < sizeof others / sizeof *others ? others[i] : NULL;
 }
 

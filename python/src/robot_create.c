@@ -187,6 +187,30 @@ static int read_disabled(parts *p, PyObject *given) {
     return failed ? -1 : 0;
 }
 
+// ---- shapes that belong to something else
+
+PyObject *robot_shapes_make(module_state *state, const ovoid_robot_description *d, PyObject *owner) {
+    PyObject *shapes = PyTuple_New((Py_ssize_t)d->element_count), *made = PyDict_New();
+    for (size_t i = 0; shapes && made && i < d->element_count; i++) {
+        PyObject *key = PyLong_FromVoidPtr((void *)d->elements[i].shape);
+        PyObject *shape = key ? Py_XNewRef(PyDict_GetItemWithError(made, key)) : NULL;
+        if (key && !shape && !PyErr_Occurred()) {
+            shape = shape_borrow(state, d->elements[i].shape, owner);
+            if (shape && PyDict_SetItem(made, key, shape)) Py_CLEAR(shape);
+        }
+        Py_XDECREF(key);
+        if (!shape)
+            Py_CLEAR(shapes);
+        else
+            PyTuple_SetItem(shapes, (Py_ssize_t)i, shape);
+    }
+    if (!made) Py_CLEAR(shapes);
+    Py_XDECREF(made);
+    return shapes;
+}
+
+// ---- the constructor
+
 PyObject *robot_new(PyTypeObject *type, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"links", "joints", "elements", "disabled", "name", NULL};
     module_state *state = state_of_type((PyObject *)type);

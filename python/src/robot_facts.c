@@ -61,6 +61,11 @@ static PyObject *make_variable_name(const ovoid_robot_joint *joint, uint32_t com
     return made;
 }
 
+PyObject *robot_variable_name_make(const robot_object *self, size_t i) {
+    ovoid_robot_variable v = ovoid_robot_get_variable(self->robot, i);
+    return make_variable_name(&ovoid_robot_get_description(self->robot).joints[v.joint], v.component);
+}
+
 static PyObject *make_variable(PyObject *self, size_t i) {
     ovoid_robot_variable v = ovoid_robot_get_variable(get(self), i);
     const ovoid_robot_joint *joint = &ovoid_robot_get_description(get(self)).joints[v.joint];

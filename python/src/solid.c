@@ -159,6 +159,18 @@ static PyObject *winding(PyObject *self, PyObject *given) {
     return PyLong_FromLongLong(times);
 }
 
+static PyObject *crossings(PyObject *self, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"most", NULL};
+    unsigned long long most = UINT64_MAX;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|K:crossings", names, &most)) return NULL;
+    ovoid_solid_crossings found;
+    Py_BEGIN_ALLOW_THREADS;
+    found = ovoid_solid_compute_crossings(get(self), most);
+    Py_END_ALLOW_THREADS;
+    PyObject *pair = found.pairs ? Py_BuildValue("(II)", found.triangle_a, found.triangle_b) : Py_NewRef(Py_None);
+    return Py_BuildValue("KNN", (unsigned long long)found.pairs, PyBool_FromLong(found.is_complete), pair);
+}
+
 static PyObject *reduce(PyObject *self, PyObject *ignored) {
     (void)ignored;
     PyObject *helper = PyImport_ImportModule("ovoid._records");
@@ -197,6 +209,12 @@ static PyMethodDef methods[] = {
      "winding(point, /)\n--\n\nHow often a closed solid winds around a point (x, y, z) of its frame, exactly: 0 "
      "outside, "
      "1 inside, -1 inside one that\nis inside out. None where it is not closed, or the point is on its surface."},
+    {"crossings", METHOD_KEYWORDS(crossings), METH_VARARGS | METH_KEYWORDS,
+     "crossings(most=18446744073709551615)\n--\n\nWhere the surface meets itself: (pairs, is_complete, pair), how many "
+     "pairs of "
+     "triangles have a point in common that is\nno corner or edge of both, by exact signs; False where the search "
+     "ended at "
+     "most of them; the first pair, or None."},
     {"__reduce__", reduce, METH_NOARGS, NULL},
     {"__copy__", copy, METH_NOARGS, NULL},
     {"__deepcopy__", copy, METH_O, NULL},

@@ -85,6 +85,17 @@ class Making(unittest.TestCase):
         self.assertEqual(sorted(L.order.tolist()), list(range(20)))
         self.assertEqual([L.winding(point) for point in ((0.5, 1.5, 0.5), (1.5, 1.5, 0.5), (1.5, 0.5, 0.5), (0, 0, 0))], [1, 0, 1, None])
 
+    def test_crossings(self):
+        self.assertEqual(L.crossings(), (0, True, None))
+        # A needle through the wall at x = 0, and again with its point outside.
+        needle = POINTS + [(-1, 0.4, 0.5), (-1, 0.5, 0.4), (-1, 0.5, 0.6), (0.5, 0.45, 0.5)]
+        sides = [(12, 13, 15), (13, 14, 15), (14, 12, 15), (12, 14, 13)]
+        pairs, is_complete, pair = ovoid.Solid.from_triangles(needle, FACES + sides).crossings()
+        self.assertTrue(pairs >= 3 and is_complete and min(pair) < 20 <= max(pair), (pairs, pair))
+        self.assertEqual(ovoid.Solid.from_triangles(needle, FACES + sides).crossings(most=1)[:2], (1, False))
+        needle[-1] = (-0.5, 0.45, 0.5)
+        self.assertEqual(ovoid.Solid.from_triangles(needle, FACES + sides).crossings()[0], 0)
+
     def test_copies(self):
         for made in (pickle.loads(pickle.dumps(L)), copy.deepcopy(L)):
             self.assertEqual((made.vertices.tolist(), made.faces.tolist(), made.order.tolist()),
