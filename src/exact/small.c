@@ -44,10 +44,9 @@ static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, 
         return vec3_norm(simplex_compute_point(x)) - f->upper_radii + claim;
     }
     vec3 w[4] = {x->p[0].w, x->p[1].w, x->p[2].w, x->p[3].w};
-    double depth = hull_compute_depth(w, 4, claim);
+    double depth = hull_find_weights(w, claim, x->weight);
     if (!(depth > 0)) return INFINITY;
     end->kind = OVOID_PROOF_HULL;
-    simplex_compute_inside_weights(x);
     return -depth - f->upper_radii;
 }
 
@@ -147,11 +146,10 @@ static int run_kept_hull(const pair_frame *f, const ovoid_proof *p, double spher
         end->points.p[i] = kept_get_difference(f, p, i);
         w[i] = end->points.p[i].w;
     }
-    double depth = hull_compute_depth(w, 4, reject_get_claim(f));
+    double depth = hull_find_weights(w, reject_get_claim(f), end->points.weight);
     if (!(depth > 0)) return 0;
     end->points.count = 4;
     end->inner = (vec3){0, 0, 0};
-    simplex_compute_inside_weights(&end->points);
     end_at_overlap(spheres, line, -depth - f->upper_radii, OVOID_PROOF_HULL, OVOID_STAGE_PROOF, end);
     return 1;
 }
