@@ -119,20 +119,6 @@ static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
     return refuse(v, "out of memory");
 }
 
-/// Reads the next pair of the pairs file, which must be the one that the result names. 0 where there is none.
-static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
-    const body_source *bodies = &v->bodies;
-    ovoid_indexed_pair pair;
-    int got = ovoid_pairs_reader_read(bodies->pairs, &pair, &v->error);
-    if (got < 0) return v->refused = 1, 0;
-    if (got == 0) return refuse(v, "there are more results than pairs");
-    item->pair = (ovoid_body_pair){{.shape = ovoid_shapes_get(bodies->list, pair.a).shape, .pose = pair.pose_a},
-                                   {.shape = ovoid_shapes_get(bodies->list, pair.b).shape, .pose = pair.pose_b}};
-    if (record->a || record->b || record->index_a != pair.a || record->index_b != pair.b)
-        disprove(item, "a and b are not those of the pair with the same place in the pairs");
-    return 1;
-}
-
 static int is_same_volume(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
 static int is_same_mesh(const ovoid_convexity *a, const ovoid_convexity *b) {
@@ -146,6 +132,23 @@ static void check_meshes(const ovoid_record *record, const ovoid_record *meshes,
         disprove(item, "kind_a and kind_b are not what the bodies are taken as: --solid, --parts and --hull choose");
     else if (!is_same_mesh(&record->mesh_a, &meshes->mesh_a) || !is_same_mesh(&record->mesh_b, &meshes->mesh_b))
         disprove(item, "the volumes are not those of the meshes and their hulls");
+}
+
+/// Reads the next pair of the pairs file, which must be the one that the result names. 0 where there is none.
+static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
+    const body_source *bodies = &v->bodies;
+    ovoid_indexed_pair pair;
+    int got = ovoid_pairs_reader_read(bodies->pairs, &pair, &v->error);
+    if (got < 0) return v->refused = 1, 0;
+    if (got == 0) return refuse(v, "there are more results than pairs");
+    item->pair = (ovoid_body_pair){{.shape = ovoid_shapes_get(bodies->list, pair.a).shape, .pose = pair.pose_a},
+                                   {.shape = ovoid_shapes_get(bodies->list, pair.b).shape, .pose = pair.pose_b}};
+    if (record->a || record->b || record->index_a != pair.a || record->index_b != pair.b)
+        disprove(item, "a and b are not those of the pair with the same place in the pairs");
+    ovoid_record meshes = {.mesh_a = ovoid_shapes_get(bodies->list, pair.a).convexity,
+                           .mesh_b = ovoid_shapes_get(bodies->list, pair.b).convexity};
+    check_meshes(record, &meshes, item);
+    return 1;
 }
 
 static void find_given(const body_source *bodies, const ovoid_record *record, claim *item) {
