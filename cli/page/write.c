@@ -24,9 +24,9 @@ void page_copy_json(FILE *file, const char *json, size_t size) {
         size_t length = get_length(c, size);
         if (*c == '<')
             fputs("\\u003c", file);
-        else if (length)
+        else if (length && *c != '\n')
             fwrite(c, 1, length, file);
-        else
+        else if (!length)
             fputs("\\ufffd", file);
         length += !length;
         c += length;
