@@ -6,7 +6,6 @@
 #include "page/write.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /// Most bodies and pairs of a page.
 enum { BODIES_MOST = 10000, PAIRS_MOST = 20000 };
@@ -84,8 +83,9 @@ static int add_shapes(cli_page *page, page_shapes *shapes, const page_body *bodi
 }
 
 static int is_identity(const ovoid_pose *pose) {
-    const ovoid_pose identity = ovoid_pose_make_identity();
-    return memcmp(pose, &identity, sizeof identity) == 0;
+    const ovoid_vec3 p = pose->position;
+    const ovoid_quat q = pose->rotation;
+    return p.x == 0 && p.y == 0 && p.z == 0 && q.w == 1 && q.x == 0 && q.y == 0 && q.z == 0;
 }
 
 /// Writes one part. 0 where memory is out.
