@@ -22,7 +22,7 @@ typedef struct near_list {
     int is_heap;              ///< the keys are: the farthest on top
 } near_list;
 
-enum { NEAR_LIST_FULL = UINT32_MAX };
+#define NEAR_LIST_FULL UINT32_MAX
 
 /// The slot of a pair that was found; FULL: as many are at least as near, and it falls out. Cost: O(log n).
 uint32_t near_list_find_slot(near_list *list, double lower);

@@ -240,7 +240,7 @@ export class View {
       this.camera.updateProjectionMatrix();
       this.controls.update();
       this.draw();
-      if (t < 1) this.flight = requestAnimationFrame(step);
+      this.flight = t < 1 ? requestAnimationFrame(step) : null;
     };
     step(start);
   }

@@ -51,6 +51,9 @@ const scene = {
   ],
 };
 
+/** Until the camera is where it flies to, however busy the machine is. */
+const land = (page) => page.waitForFunction(() => !window.ovoidPage.view.flight && !window.ovoidPage.view.isDue);
+
 const readRows = (page) => page.$$eval('#pairs tr', (rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent)));
 
 test('the list is that of ovoid check, good proofs hold, altered ones do not', { skip }, async () => {
@@ -97,7 +100,7 @@ test('a body that is dragged has the brackets that the tool gives for its pose',
   const { page, errors } = await open('scene.html');
   await page.evaluate(() => window.ovoidPage.chooseBody(window.ovoidPage.model.bodies[2]));
   await page.click('#move');
-  await page.waitForTimeout(200);
+  await land(page);
   const [x, y] = await page.evaluate(() => {
     const { view } = window.ovoidPage, at = view.handle.position.clone().project(view.camera), box = view.canvas.getBoundingClientRect();
     return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
@@ -147,7 +150,7 @@ test('layers, keys, themes and exports', { skip }, async () => {
   await page.keyboard.press('m');
   await page.keyboard.press('o');
   await page.click('#pairs tr:nth-child(3)');
-  await page.waitForTimeout(600);
+  await land(page);
   const both = await count();
   await page.keyboard.press('x');
   assert.ok((await count()) < both, 'fewer bodies are left');
