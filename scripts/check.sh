@@ -53,7 +53,7 @@ for preset in release check check-gcc; do
     step "$preset: build" configure_and_build $preset && run_tests $preset
 done
 step "ports: musl, 64-bit ARM" scripts/ports.sh quick
-step "wasm: package and its tests" scripts/wasm.sh
+step "wasm and the page, with their tests" scripts/page.sh --check
 step "lint: tidy" scripts/lint.sh tidy
 step "docs" scripts/docs.sh
 

@@ -46,6 +46,13 @@ class Page {
   choosePair(pair) {
     this.view.hold(null);
     this.chosenBody = null;
+    this.panel.show(null);
+    // Of a motion the answer is that of the frame where the two are nearest.
+    if (this.timeline && pair?.frame !== undefined) {
+      pair.answer = pair.given;
+      pair.isLive = false;
+      this.timeline.set(pair.frame);
+    }
     this.panel.show(pair);
     this.view.choose(this.#chosen(), this.isIsolated);
     this.view.showAnswer(pair?.answer);

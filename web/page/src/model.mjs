@@ -61,7 +61,7 @@ export class Model {
     this.unit = data.unit ?? '';
     this.shapes = makeShapes(ovoid, data.shapes);
     this.bodies = data.bodies.map((body, i) => new Body(this, body, i));
-    this.pairs = data.pairs.map(({ a, b, answer }) => ({ a: this.bodies[a], b: this.bodies[b], answer, given: answer, isLive: false }));
+    this.pairs = data.pairs.map(({ a, b, answer, frame }) => ({ a: this.bodies[a], b: this.bodies[b], answer, given: answer, frame, isLive: false }));
     this.byBody = new Map(this.bodies.map((body) => [body, []]));
     for (const pair of this.pairs) for (const body of [pair.a, pair.b]) this.byBody.get(body).push(pair);
   }
@@ -128,12 +128,11 @@ export class Model {
     }
   }
 
-  /** null: the proof holds; a sentence: it does not; undefined with a reason: it cannot be checked here. */
+  /** Whether the proof of a pair's answer holds, in words; isChecked false: that cannot be checked here. */
   check(pair) {
     const { a, b, answer } = pair;
     if (a.solid || b.solid || !answer.proof) return { isChecked: false, text: 'Proofs of solids are checked by ovoid verify.' };
-    if (a.parts.length > 1 || b.parts.length > 1)
-      if (answer.exclusions) return { isChecked: false, text: 'Proofs of compounds are checked by ovoid verify.' };
+    if (a.parts.length > 1 || b.parts.length > 1) return { isChecked: false, text: 'Proofs of compounds are checked by ovoid verify.' };
     const [p, q] = [a.parts[answer.part_a ?? 0], b.parts[answer.part_b ?? 0]];
     const error = this.ovoid.check(p.shape.shape, compose(a.pose, p.pose), q.shape.shape, compose(b.pose, q.pose), answer);
     return { isChecked: true, holds: error === null, text: error ? error.message : 'The proof holds.' };

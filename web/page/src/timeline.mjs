@@ -54,7 +54,10 @@ export class Timeline {
   /** The distance of a pair over time; margin and events marked. */
   show(pair) {
     const { times, margin, events = [] } = this.motion, last = times.length - 1;
-    if (!pair || last < 1) return this.plot.replaceChildren();
+    if (!pair || last < 1) {
+      this.cursor = null;
+      return this.plot.replaceChildren();
+    }
     const { a, b } = pair, kept = [a.pose, b.pose], values = [];
     for (let i = 0; i <= Math.min(SAMPLES, last); i++) {
       const frame = Math.round((i / Math.min(SAMPLES, last)) * last);

@@ -5,18 +5,18 @@ import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { after, test } from 'node:test';
 
 const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
-const skip = existsSync(browserPath) ? false : `${browserPath} is not here`;
 const folder = mkdtempSync(join(tmpdir(), 'ovoid-page-'));
-let browser;
-
-before(async () => {
-  if (skip) return;
+let browser, skip = existsSync(browserPath) ? false : `${browserPath} is not here`;
+if (!skip) {
   const { chromium } = await import(process.env.PLAYWRIGHT);
-  browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
-});
+  const args = ['--no-sandbox', '--disable-dev-shm-usage', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+  browser = await chromium.launch({ executablePath: browserPath, args }).catch((error) => {
+    skip = `${browserPath} does not start here: ${error.message.split('\n')[0]}`;
+  });
+}
 after(async () => {
   await browser?.close();
   rmSync(folder, { recursive: true });
@@ -179,4 +179,45 @@ test('data that are none are refused with a sentence', { skip }, async () => {
     assert.match(await page.textContent('#said'), said);
     await page.close();
   }
+});
+
+test('a motion: the slider moves the bodies, the chosen pair follows', { skip }, async () => {
+  const objects = [{ name: 'wall', box: [0.2, 4, 4] }, { name: 'ball', sphere: 0.5, pose: { xyz: [4, 0, 0] } }];
+  writeFileSync(join(folder, 'motion.json'), JSON.stringify({ objects }));
+  writeFileSync(join(folder, 'go.csv'), 'time,body,x,y,z,qw,qx,qy,qz\n0,ball,4,0,0,1,0,0,0\n1,ball,3,0,0,1,0,0,0\n2,ball,1,0,0,1,0,0,0\n3,ball,5,0,0,1,0,0,0\n');
+  run('run', 'motion.json', '--motion', 'go.csv', '--html', 'motion.html', '-o', 'motion.csv');
+  const { page, errors } = await open('motion.html');
+  await page.click('#pairs tr');
+  assert.equal(await page.evaluate(() => window.ovoidPage.timeline.frame), 2);
+  assert.match(await page.textContent('#lower'), /^0\.3999|^0\.4/);
+  await page.click('#check');
+  assert.equal(await page.textContent('#proof'), 'The proof holds.');
+  await page.evaluate(() => window.ovoidPage.timeline.set(1));
+  assert.equal(parseFloat(await page.textContent('#lower')).toFixed(6), '2.400000');
+  await page.click('#check');
+  assert.equal(await page.textContent('#proof'), 'The proof holds.');
+  assert.equal(await page.$$eval('.curve', (curves) => curves.length), 1);
+  assert.deepEqual(errors, []);
+  await page.close();
+});
+
+test("a robot: joints' sliders move it, the near pairs are those of the tool", { skip }, async () => {
+  const capsule = (name) => `<link name="${name}"><collision><origin xyz="0.5 0 0" rpy="0 1.5707963267948966 0"/><geometry><cylinder radius="0.1" length="1"/></geometry></collision></link>`;
+  writeFileSync(join(folder, 'arm.urdf'), `<robot name="arm"><link name="base"/>${capsule('upper')}${capsule('lower')}
+    <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+    <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="1.3 0 0"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint></robot>`);
+  writeFileSync(join(folder, 'cell.json'), JSON.stringify({ objects: [{ name: 'post', box: [0.2, 0.2, 2], pose: { xyz: [0, 2, 0] } }] }));
+  run('robot', 'check', 'arm.urdf', '--scene', 'cell.json', '--state', 'shoulder=0,elbow=0', '--html', 'arm.html');
+  const { page, errors } = await open('arm.html');
+  assert.equal(await page.textContent('#verdict').then((text) => text.split(';')[0]), 'free');
+  const before = await page.evaluate(() => window.ovoidPage.model.bodies.find((body) => body.name === 'lower').pose.xyz[1]);
+  await page.$eval('#joints input[aria-label="shoulder"]', (input) => {
+    input.value = 1.5707963267948966;
+    input.dispatchEvent(new Event('input'));
+  });
+  assert.equal(await page.textContent('#verdict'), 'hit');
+  assert.ok((await page.evaluate(() => window.ovoidPage.model.bodies.find((body) => body.name === 'lower').pose.xyz[1])) > before + 1);
+  assert.ok((await readRows(page)).some(([names]) => names === 'lower – post'));
+  assert.deepEqual(errors, []);
+  await page.close();
 });
