@@ -181,6 +181,46 @@ static void check_round_face(void) {
     check_seed = 0;
 }
 
+// The surface of the cloud beside its points: every extreme one, none inside, and the simplex that simplex_find names.
+static void check_states(size_t count, size_t extreme) {
+    points p;
+    surface s, first = {0};
+    if (!CHECK_EQ(points_create(cloud, count, &allocator, &p, NULL), OVOID_OK)) return;
+    if (CHECK_EQ(quickhull_create(&p, &allocator, &s, NULL), OVOID_OK)) {
+        size_t found = 0;
+        for (uint32_t i = 0; i < p.count; i++) found += s.state[i] == POINT_EXTREME && p.source[i] % 3 != 0;
+        CHECK_EQ(found, extreme);
+        simplex_find(&p, &first);
+        CHECK_EQ(memcmp(first.corner, s.corner, sizeof s.corner), 0);
+        for (size_t i = 0; i < 3 * (size_t)s.triangle_count; i++) CHECK(s.state[s.triangles[i]] == POINT_EXTREME);
+        surface_destroy(&s, &allocator);
+    }
+    points_destroy(&p, &allocator);
+}
+
+// So many points that they are put along a curve: they come out in the order given, and what was asked of few is so of
+// them. Every third is inside.
+static void check_many(void) {
+    uint64_t s = 77;
+    size_t n = put_sphere(&s, 4500, 1), at = 0;
+    for (size_t k = 0; k < n; k += 3) put(k, vec3_scale(vec3_at(cloud, k), 0.5));
+    hull h = check_hull(cloud, n);
+    CHECK_EQ(h.vertex_count, 3000);
+    for (uint32_t i = 0; i < h.vertex_count; i++) {
+        at += at % 3 == 0;
+        CHECK_EQ(memcmp(h.vertices + 3 * (size_t)i, cloud + 3 * at++, 3 * sizeof *cloud), 0);
+    }
+    hull_destroy(&h, &allocator);
+    check_states(n, 3000);
+
+    n = put_grid_box((vec3){2, 3, 5}, 21);
+    h = check_hull(cloud, n);
+    CHECK_EQ(h.vertex_count, 8);
+    CHECK_EQ(h.facet_count, 6);
+    CHECK_EQ(h.report.coplanar, n - 8);
+    hull_destroy(&h, &allocator);
+}
+
 // Facets are numbered by their largest triangles, the largest first: of few triangles and of many, which are sorted in
 // different ways.
 static void check_order(void) {
@@ -310,13 +350,14 @@ static void check_lattices(void) {
 
 // ---- trouble ----
 
+// A solid, a flat one, the same turned, a line; a solid of many points.
 static void check_memory(void) {
     uint64_t s = 6;
-    for (int kind = 0; kind < 4; kind++) {
-        size_t n = put_sphere(&s, 400, 1);
+    for (int kind = 0; kind < 5; kind++) {
+        size_t n = put_sphere(&s, kind < 4 ? 400 : 2100, 1);
         for (size_t i = 0; i < n; i++) {
             vec3 v = vec3_at(cloud, i);
-            put(i, vec3_scale((vec3){v.x, kind < 3 ? v.y : 0, kind == 0 ? v.z : 0}, i % 2 ? 1 : 0.3));
+            put(i, vec3_scale((vec3){v.x, kind != 3 ? v.y : 0, kind % 4 == 0 ? v.z : 0}, i % 2 ? 1 : 0.3));
         }
         if (kind == 2) rotate_cloud(n, random_rotation(&s));
         ovoid_code code = OVOID_ERROR_MEMORY;
@@ -364,6 +405,7 @@ int main(void) {
     check_far();
     check_hard();
     check_round_face();
+    check_many();
     check_order();
     check_flat();
     check_tiny_differences();

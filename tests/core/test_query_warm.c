@@ -1,7 +1,6 @@
-// Small bodies that move a little from query to query, each asked with its last proof. Truth: the query without one,
-// whose bracket must meet that with it, with the same sign; and the checker. Nine of ten
-// answers come without a step of the search. Proofs of other pairs, cut off, or with any numbers
-// change nothing but the way.
+// Bodies that move a little from query to query, small and larger ones, each asked with its last proof. Truth: the query
+// without one, whose bracket must meet that with it, with the same sign; and the checker. 17 of 20 answers come without a
+// step of the search. Proofs of other pairs, cut off, or with any numbers change nothing but the way.
 #include "check.h"
 #include "ovoid/ovoid.h"
 
@@ -16,8 +15,8 @@ static ovoid_quat random_turn(uint64_t *s) {
 
 static int make_shapes(uint64_t *s) {
     for (int i = 0; i < SHAPES; i++) {
-        double xyz[3 * 32];
-        size_t count = 4 + random_next(s) % 29;
+        double xyz[3 * 300];
+        size_t count = i % 6 == 5 ? 100 + random_next(s) % 201 : 4 + random_next(s) % 29;
         for (size_t k = 0; k < 3 * count; k++) xyz[k] = random_uniform(s, -1, 1);
         ovoid_shape_options o = {.radius = i % 4 == 3 ? 0.1 : 0};
         shapes[i] = ovoid_shape_create_from_points(xyz, count, &o, NULL);
@@ -93,7 +92,7 @@ int main(void) {
         for (int question = 0; question < QUESTIONS; question++) {
             printf("at %g, question %d: %ld of %d at once\n", places[place], question, at_once[question],
                    PAIRS * FRAMES);
-            CHECK_LE(0.9 * PAIRS * FRAMES, at_once[question]);
+            CHECK_LE(0.85 * PAIRS * FRAMES, at_once[question]);
         }
     }
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
