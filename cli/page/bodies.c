@@ -16,7 +16,10 @@ page_body *page_bodies_list(const ovoid_scene *scene) {
     if (!bodies) message_error("out of memory");
     for (size_t i = 0; i < count && bodies; i++) {
         ovoid_scene_object o = ovoid_scene_get(scene, i);
-        bodies[i] = (page_body){o.name, {o.shape, o.compound, o.pose}, o.mesh, o.read};
+        bodies[i] = (page_body){.name = o.name,
+                                .body = {.shape = o.shape, .compound = o.compound, .pose = o.pose},
+                                .mesh = o.mesh,
+                                .read = o.read};
     }
     return bodies;
 }

@@ -162,7 +162,7 @@ def check_many():
     rows = [{"name": f"n{len(str(i))}-{i}", "sphere": 0.3, "pose": {"xyz": [x + random.uniform(-0.04, 0.04) for x in (i % 22, i // 22 % 22, i // 484)]}}
             for i in range(10164)]
     write("many.json", {"objects": rows})
-    text, said = run("check", "many.json", "--margin", "0.46", "--json", "--html", "many.html")
+    text, said = run("check", "many.json", "--margin", "0.425", "--json", "--html", "many.html")
     results, data, chosen, wanted = [json.loads(line) for line in text.splitlines()], read("many.html"), set(), []
     for line in results:
         couple = {line["a"], line["b"]}
