@@ -47,7 +47,7 @@ static int write_pair(page_pairs *list, const page_bodies_source *source) {
                            .fields = OVOID_RECORD_PARTS | (source->margin >= 0 ? OVOID_RECORD_MARGIN : 0),
                            .margin = source->margin,
                            .frame = NAN};
-    answer_room room = {NULL, NULL, 0};
+    answer_room room = {.cover = NULL};
     int code = EXIT_INPUT;
     if (answers_find(&room, &pair, &query, &record))
         code = page_pairs_add_record(list, (ovoid_couple){0, 1}, &record);
