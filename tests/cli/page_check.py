@@ -262,6 +262,17 @@ def check_robot():
     check("edges", data["robot"]["path"] == {"edges": edges} and [edge["status"] for edge in edges] == ["hit", "free"])
 
 
+def check_rigid():
+    # c moves, a and b never against each other; d has nothing to collide with.
+    link = '<link name="{}"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>'
+    joint = '<joint name="to {1}" type="{2}"><parent link="{0}"/><child link="{1}"/><limit lower="-1" upper="1"/></joint>'
+    with open("rigid.urdf", "w") as file:
+        file.write('<robot name="r">' + "".join(map(link.format, "abc")) + '<link name="d"/>' + joint.format("a", "d", "fixed")
+                   + joint.format("d", "b", "fixed") + joint.format("b", "c", "revolute") + "</robot>")
+    run("robot", "check", "rigid.urdf", "--state", "", "--html", "rigid.html")
+    check("rigid pairs", read("rigid.html")["robot"]["disabled"] == [["a", "b"]])
+
+
 def check_many_states():
     arm = os.path.join(sys.argv[2], "arm")
     with open("states.csv", "w") as file:
@@ -279,7 +290,7 @@ def check_many_states():
 
 tests = [check_scene, check_areas, check_many, check_meshes, check_motion]
 if "robot" in run("complete")[0].split():
-    tests += [check_robot, check_many_states]
+    tests += [check_robot, check_rigid, check_many_states]
 for each in tests:
     each()
 print(f"{counts['passed']} passed, {counts['failed']} failed, 0 skipped")
