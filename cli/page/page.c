@@ -137,7 +137,7 @@ static void list_left_out(const page_left_out *left, left_item items[LEFT_ITEMS]
     memcpy(items, all, sizeof all);
 }
 
-/// Writes the counts that are not 0, as JSON or, where `text` is given, as a sentence. Returns how many there are.
+/// Writes the counts that are not 0, and returns how many there are.
 static int write_left_out(FILE *file, const page_left_out *left) {
     left_item items[LEFT_ITEMS];
     int count = 0;

@@ -9,7 +9,7 @@
 
 // ---- at rest
 
-/// Head, bodies and what `write` adds. 0, or an exit code after a message.
+/// Begins the file with the head and the bodies. 0, or an exit code after a message.
 static int begin(cli_page *page, const page_head *head, const page_body *bodies, const page_choice *choice) {
     int code = page_begin(page, head);
     return code ? code : page_write_bodies(page, bodies, choice);

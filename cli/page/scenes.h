@@ -9,15 +9,16 @@
 /// proof. title: the scene's path. 0, or an exit code after a message. Nothing where no page is wanted.
 int page_write_scene(cli_page *page, const char *title, const answers_job *job);
 
-/// Writes the page of one body or two that are no scene. paths: their files; margin: negative where none was given;
-/// unit:
-/// "" for none. The same otherwise.
+/// One body or two that are no scene.
 typedef struct page_bodies_source {
-    const page_body *bodies;
+    const page_body *bodies; ///< mesh: the path of the file
     size_t count;
-    const char *unit;
-    double margin;
+    const char *unit; ///< "" for none
+    double margin;    ///< negative: none was given
 } page_bodies_source;
+
+/// Writes the page of one body, or of two with the answer of their pair. 0, or EXIT_INPUT after a message. Nothing
+/// where no page is wanted.
 int page_write_files(cli_page *page, const page_bodies_source *source);
 
 /// What was seen of a motion.
