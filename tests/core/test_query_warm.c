@@ -1,6 +1,6 @@
-// Bodies that move a little from query to query, small and larger ones, each asked with its last proof. Truth: the query
-// without one, whose bracket must meet that with it, with the same sign; and the checker. 17 of 20 answers come without a
-// step of the search. Proofs of other pairs, cut off, or with any numbers change nothing but the way.
+// Bodies that move a little from query to query, small and larger ones, each asked with its last proof. Truth: the
+// query without one, whose bracket must meet that with it, with the same sign; and the checker. 17 of 20 answers come
+// without a step of the search. Proofs of other pairs, cut off, or with any numbers change nothing but the way.
 #include "check.h"
 #include "ovoid/ovoid.h"
 
