@@ -10,7 +10,8 @@ static int is_near(const pair_frame *f, const query_goal *goal, const ovoid_proo
     return vec3_norm_squared(w) <= reach * reach;
 }
 
-small_gjk_kept kept_get_simplex(const pair_frame *f, const query_goal *goal, const ovoid_proof *p) {
+small_gjk_kept kept_get_simplex(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier) {
+    const ovoid_proof *p = earlier;
     small_gjk_kept kept = {.count = p->kind == OVOID_PROOF_POINTS && p->count <= 3 ? p->count : 0};
     uint32_t most_a = 0, most_b = 0;
     for (uint32_t i = 0; i < 4; i++) {

@@ -465,7 +465,8 @@ static int order_by_walk(surface *s, const ovoid_allocator *allocator) {
     uint32_t count = s->triangle_count;
     if (count < WALK_LEAST) return 1;
     // The walk is its own queue.
-    uint32_t *walk = allocator_allocate(allocator, 2 * (size_t)count, sizeof *walk), *place = walk + count, met = 1;
+    uint32_t *walk = allocator_allocate(allocator, 2 * (size_t)count, sizeof *walk), met = 1;
+    uint32_t *place = walk ? walk + count : NULL;
     uint32_t *triangles = allocator_allocate(allocator, count, 3 * sizeof *triangles);
     uint32_t *across = allocator_allocate(allocator, count, 3 * sizeof *across);
     int good = walk && triangles && across;
