@@ -250,13 +250,6 @@ static inner_body place_inner(ovoid_robot_checker *x, uint32_t item) {
                         .size = it->inner.size + vec3_sum_abs(f->position)};
 }
 
-// At least the distance of the balls around two boxes.
-static double find_lower(const oriented_box *a, const oriented_box *b) {
-    double apart = vec3_norm(vec3_sub(b->center, a->center)), size = vec3_sum_abs(a->center) + vec3_sum_abs(b->center);
-    double reach = (vec3_norm(a->half) + a->radius) + (vec3_norm(b->half) + b->radius);
-    return apart - reach - CELL_SLACK * (size + reach);
-}
-
 int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper) {
     const cell_item *items = cell_items(x->cell);
     const cell_part *part = name.item == OVOID_ROBOT_NONE ? NULL : &cell_parts(x->cell)[name.index];
@@ -272,7 +265,7 @@ int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower,
     *upper = inner_bodies_compute_upper(&a, &b);
     if (!(*upper < 0)) return 0;
     oriented_box box_a = place_box(x, both.a), box_b = part ? part->box : place_box(x, both.b);
-    *lower = find_lower(&box_a, &box_b);
+    *lower = oriented_boxes_compute_lower(&box_a, &box_b);
     return 1;
 }
 

@@ -70,6 +70,17 @@ static inline int oriented_boxes_are_far(const oriented_box *a, const oriented_b
     return oriented_boxes_part(a, b, margin, &normal);
 }
 
+/// A lower bound of the signed distance of what two boxes hold: the largest gap along the axes of their faces.
+static inline double oriented_boxes_compute_lower(const oriented_box *a, const oriented_box *b) {
+    vec3 d = vec3_sub(b->center, a->center);
+    vec3 in_a = vec3_abs(mat3_mul_transposed_vec3(a->rotation, d)),
+         in_b = vec3_abs(mat3_mul_transposed_vec3(b->rotation, d));
+    double size = (vec3_sum_abs(a->center) + vec3_sum_abs(b->center)) + (vec3_sum_abs(a->half) + vec3_sum_abs(b->half));
+    int axis;
+    double most = oriented_boxes_find_gap(a, b, in_a, in_b, &axis), radii = a->radius + b->radius;
+    return most - radii - BOX_SLACK * (size + radii);
+}
+
 /// The gap along a unit direction, rounded.
 static inline double oriented_boxes_measure_gap(const oriented_box *a, const oriented_box *b, vec3 n) {
     vec3 in_a = vec3_abs(mat3_mul_transposed_vec3(a->rotation, n)),
