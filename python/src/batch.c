@@ -13,7 +13,8 @@
 #include <time.h>
 
 typedef enum batch_name { COLLIDE, WITHIN, DISTANCE, DEPTH } batch_name;
-enum { CHUNK_MOST = 16384, CHUNK_DEPTH = 512, CHUNK_LEAST = 64, THREADS_MOST = 256 };
+// Most couples of a chunk: its copy stays in the nearest cache, and in memory that malloc keeps.
+enum { CHUNK_MOST = 2048, CHUNK_DEPTH = 512, CHUNK_LEAST = 64, THREADS_MOST = 256 };
 
 /// The couples as they were given: pairs of integers of 4 or 8 bytes, in a buffer or in memory of our own.
 typedef struct couples {
