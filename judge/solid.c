@@ -214,7 +214,11 @@ static int count_crossing(pool *p, nvec g, const nvec c[3], int *ok) {
     for (int i = 0; i < 3; i++) s[i] = num_sign(nvec_det(p, g, c[i], c[(i + 1) % 3]));
     if (s[0] * s[1] < 0 || s[1] * s[2] < 0 || s[2] * s[0] < 0) return 0;
     int facing = num_sign(nvec_det(p, c[0], c[1], c[2]));
-    *ok &= s[0] && s[1] && s[2] && facing;
+    if (!(s[0] && s[1] && s[2] && facing)) {
+        // Without area it bounds nothing, whatever the ray.
+        *ok &= nvec_is_zero(nvec_cross(p, nvec_sub(p, c[1], c[0]), nvec_sub(p, c[2], c[0])));
+        return 0;
+    }
     return facing == s[0] ? facing : 0;
 }
 

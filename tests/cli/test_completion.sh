@@ -28,7 +28,7 @@ expect() {
     fi
 }
 
-expect 'fit distance batch check run merge verify view paper robot help --help --version' ''
+expect 'fit info distance batch check run merge verify view paper robot help --help --version' ''
 expect 'verify view' v
 expect '--help' --h
 expect 'distance' help di

@@ -6,7 +6,8 @@
 #include <ovoid/ovoid.h>
 
 static inline ovoid_quat random_quat(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
+    double w = random_normal(s), x = random_normal(s), y = random_normal(s);
+    return (ovoid_quat){w, x, y, random_normal(s)};
 }
 static inline ovoid_vec3 random_vec3(uint64_t *s, double reach) {
     double x = random_uniform(s, -reach, reach), y = random_uniform(s, -reach, reach);

@@ -27,9 +27,9 @@ void record_write_surfaces(FILE *file, const char *q, const ovoid_record *record
 void record_write_solid_header(FILE *file, unsigned fields);
 void record_write_solid_columns(FILE *file, const ovoid_record *record);
 
-/// Reads all of these from a line whose other keys are in the record; *solid becomes the record's where it has one.
+/// Reads all of these from a line whose other keys are in the record; *x becomes the record's where it has one.
 /// NULL, or what is wrong with *key.
-const char *record_read_solid(const json_t *line, ovoid_record *record, ovoid_solid_answer *solid, const char **key);
+const char *record_read_solid(const json_t *line, ovoid_record *record, ovoid_solid_answer *x, const char **key);
 
 // Of the reader: numbers and names.
 
