@@ -33,7 +33,7 @@ typedef struct work_state {
 
 ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid_pose *pose) {
     ovoid_scene_object o = ovoid_scene_get(scene, object);
-    return (ovoid_body){o.shape, o.compound, *pose};
+    return (ovoid_body){.shape = o.shape, .compound = o.compound, .pose = *pose};
 }
 
 static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {

@@ -227,13 +227,14 @@ static int answer_solids(const settings *s, const cli_body bodies[2], const char
     if (!open_solid(s, paths[0], &bodies[0], &solids[0]) || !open_solid(s, paths[1], &bodies[1], &solids[1]))
         code = EXIT_INPUT;
     else if (solids[0] || solids[1]) {
-        solids_query query = {.paths = paths,
-                              .pair = {{solids[0] ? NULL : bodies[0].shape, solids[0], s->pose_a},
-                                       {solids[1] ? NULL : bodies[1].shape, solids[1], s->pose_b}},
-                              .convexity = {get_convexity(&bodies[0]), get_convexity(&bodies[1])},
-                              .margin = s->margin,
-                              .tolerance = s->tolerance,
-                              .unit = inputs_get_unit(&s->read)};
+        solids_query query = {
+            .paths = paths,
+            .pair = {{.shape = solids[0] ? NULL : bodies[0].shape, .pose = s->pose_a, .solid = solids[0]},
+                     {.shape = solids[1] ? NULL : bodies[1].shape, .pose = s->pose_b, .solid = solids[1]}},
+            .convexity = {get_convexity(&bodies[0]), get_convexity(&bodies[1])},
+            .margin = s->margin,
+            .tolerance = s->tolerance,
+            .unit = inputs_get_unit(&s->read)};
         // What is taken by its hull all the same says so.
         for (int i = 0; i < 2; i++)
             if (!solids[i]) inputs_warn_bodies(&paths[i], &bodies[i], 1, &s->read);

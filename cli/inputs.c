@@ -119,7 +119,7 @@ int inputs_open_pair(const char *const paths[2], const read_settings *settings, 
 }
 
 ovoid_body inputs_get_body(const cli_body *body, const ovoid_pose *pose) {
-    return (ovoid_body){body->shape, body->compound, *pose};
+    return (ovoid_body){.shape = body->shape, .compound = body->compound, .pose = *pose};
 }
 
 void inputs_close_body(cli_body *body) {

@@ -2,6 +2,8 @@
 // queries, so that they do not depend on earlier ones.
 #include "near.h"
 
+#include "answers.h"
+
 #include "message.h"
 #include "pipeline.h"
 
@@ -49,7 +51,7 @@ static int add_bodies(cli_near *near) {
     if (bodies && near->ids) {
         for (size_t i = 0; i < count; i++) {
             ovoid_scene_object o = ovoid_scene_get(near->scene, i);
-            bodies[i].body = (ovoid_body){o.shape, o.compound, o.pose};
+            bodies[i].body = answers_get_body(near->scene, i, &o.pose);
         }
         done = ovoid_world_add_many(near->world, bodies, count, near->ids, &error) == OVOID_OK;
     }

@@ -135,7 +135,7 @@ static const char *get_inside(const ovoid_solid_answer *x) {
 // ---- for people
 
 static void print_body(FILE *file, const char *title, const solids_query *q, int side) {
-    const ovoid_solid_body *body = side ? &q->pair.b : &q->pair.a;
+    const ovoid_body *body = side ? &q->pair.b : &q->pair.a;
     fprintf(file, "%-11s ", title);
     message_write_text(file, q->paths[side]);
     if (body->solid) {
@@ -196,7 +196,7 @@ static void write_number(FILE *file, const char *key, double number) {
 }
 
 static void write_json_body(FILE *file, const char *key, const solids_query *q, int side) {
-    const ovoid_solid_body *body = side ? &q->pair.b : &q->pair.a;
+    const ovoid_body *body = side ? &q->pair.b : &q->pair.a;
     const char *kind = !body->solid ? "hull" : ovoid_solid_get_report(body->solid).is_closed ? "solid" : "surface";
     fprintf(file, "\"%s\":", key);
     json_write_text(file, q->paths[side]);

@@ -14,7 +14,7 @@ ovoid_solid *solids_read(const char *path, const read_settings *settings, ovoid_
 /// What a pair of bodies is asked.
 typedef struct solids_query {
     const char *const *paths;
-    ovoid_solid_pair pair;
+    ovoid_body_pair pair;
     ovoid_convexity convexity[2]; ///< of the meshes; volumes NaN where there is none
     double margin, tolerance;     ///< margin negative: not given
     const char *unit;

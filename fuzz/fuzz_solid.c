@@ -1,6 +1,6 @@
-// Two bodies, solids of up to 24 triangles over up to 12 points or a shape. Truth: the check without search of each
-// answer; brackets of one distance have a point in common; a winding number is the same again, and none is given of
-// what is not closed.
+// Two bodies, a solid of up to 24 triangles over up to 12 points, and another, a shape or a compound of it. Truth: the
+// check without search of each answer; brackets of one distance have a point in common; a winding number is the same
+// again, and none is given of what is not closed.
 #include "ask.h"
 #include "bodies.h"
 
@@ -36,8 +36,19 @@ static ovoid_solid *take_triangles(fuzz_bytes *from) {
     return s;
 }
 
+// One to four of the shape; NULL where it is refused.
+static ovoid_compound *take_compound(fuzz_bytes *from, const ovoid_shape *shape, int is_wild) {
+    ovoid_posed_shape parts[4];
+    size_t count = 1 + (size_t)((unsigned)take_byte(from) & 3);
+    for (size_t i = 0; i < count; i++) parts[i] = (ovoid_posed_shape){shape, take_any_pose(from, is_wild)};
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_compound *made = ovoid_compound_create(parts, count, NULL, &error);
+    if (!made) fuzz_require_error(&error);
+    return made;
+}
+
 typedef struct findings {
-    const ovoid_solid_pair *pair;
+    const ovoid_body_pair *pair;
     double lower, upper;
 } findings;
 
@@ -68,12 +79,19 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int is_wild = take_byte(&from) > 96;
     ovoid_solid *a = take_triangles(&from), *b = NULL;
     ovoid_shape *shape = NULL;
-    if (take_byte(&from) & 1)
+    ovoid_compound *compound = NULL;
+    unsigned kind = (unsigned)take_byte(&from) & 3;
+    if (kind)
         shape = take_any_shape(&from, is_wild);
     else
         b = take_triangles(&from);
-    if (a && (b || shape)) {
-        ovoid_solid_pair pair = {{NULL, a, take_any_pose(&from, is_wild)}, {shape, b, take_any_pose(&from, is_wild)}};
+    if (kind == 2 && shape) compound = take_compound(&from, shape, is_wild);
+    if (a && (b || compound || (shape && kind != 2))) {
+        ovoid_body_pair pair = {{.solid = a, .pose = take_any_pose(&from, is_wild)},
+                                {.shape = compound ? NULL : shape,
+                                 .compound = compound,
+                                 .solid = b,
+                                 .pose = take_any_pose(&from, is_wild)}};
         double margin = fabs(take_double(&from));
         if (!isfinite(margin)) margin = 0;
         ovoid_compound_proof earlier = {(uint32_t)take_byte(&from) & 31, (uint32_t)take_byte(&from) & 31,
@@ -84,6 +102,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
     ovoid_solid_destroy(a);
     ovoid_solid_destroy(b);
+    ovoid_compound_destroy(compound);
     ovoid_shape_destroy(shape);
     return 0;
 }

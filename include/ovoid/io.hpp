@@ -101,7 +101,7 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
     /** Object i < size as a body, ready for queries and worlds. */
     body operator[](std::size_t i) const noexcept {
         const ovoid_scene_object object = ovoid_scene_get(get(), i);
-        return ovoid_body{object.shape, object.compound, object.pose};
+        return ovoid_body{object.shape, object.compound, object.pose, nullptr};
     }
     /** The object of that name; size() where there is none. */
     std::size_t find(const std::string &named) const noexcept {

@@ -35,7 +35,7 @@ static const ovoid_pose no_part = {{0, 0, 0}, {0, 0, 0, 0}};
 
 int moving_view_make(const ovoid_moving_body *body, body_view *view) {
     const ovoid_pose origin = {{0, 0, 0}, {1, 0, 0, 0}};
-    ovoid_body own = {body->shape, body->compound, origin};
+    ovoid_body own = {.shape = body->shape, .compound = body->compound, .pose = origin};
     int ok = body_view_make(&own, view);
     view->pose = NULL;
     return ok;

@@ -191,7 +191,8 @@ static void ask_compounds(void) {
     static ovoid_exclusion items[256];
     for (int i = 0; i < 3; i++) {
         ovoid_exclusions all = {.items = items, .capacity = 256};
-        ovoid_body_pair p = {{NULL, compound, pairs[i].pose_b}, {NULL, compound, {{2.5 * i, third, 0}, {1, 0, 0, 1}}}};
+        ovoid_body_pair p = {{.compound = compound, .pose = pairs[i].pose_b},
+                             {.compound = compound, .pose = {{2.5 * i, third, 0}, {1, 0, 0, 1}}}};
         ovoid_compound_answer x[4] = {
             ovoid_compound_collide(&p, NULL, NULL, NULL), ovoid_compound_within(&p, third, NULL, NULL, NULL),
             ovoid_compound_distance(&p, NULL, NULL, NULL), ovoid_compound_depth(&p, NULL, NULL, &all)};

@@ -129,7 +129,7 @@ static void ask_motions(wrong w) {
 
 static void ask_solids(wrong w, int both) {
     ovoid_pair p = make_pair(w);
-    ovoid_body_pair s = {{NULL, compound, p.pose_a}, {shape, NULL, p.pose_b}};
+    ovoid_body_pair s = {{.compound = compound, .pose = p.pose_a}, {.shape = shape, .pose = p.pose_b}};
     ovoid_body *bad = w.b ? &s.b : &s.a;
     if (w.is == NO_SHAPE) bad->shape = both ? shape : NULL, bad->compound = both ? compound : NULL;
     ovoid_compound_answer x[4] = {

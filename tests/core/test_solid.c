@@ -28,7 +28,7 @@ static truth find_truth(const mesh *a, const ovoid_pose *pose_a, const mesh *b, 
     return (truth){(double)best, is_common};
 }
 
-static void check_answer(const ovoid_solid_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+static void check_answer(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     CHECK(all->count <= all->capacity);
     if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, all, &error), OVOID_OK)) printf("  %s\n", error.message);
@@ -43,7 +43,7 @@ static void check_sign(const ovoid_solid_answer *x, truth t, double slack) {
     if (!t.is_common) CHECK_LE(t.surfaces, x->upper + slack);
 }
 
-static void check_pair(const ovoid_solid_pair *pair, truth t, double size, uint64_t *s) {
+static void check_pair(const ovoid_body_pair *pair, truth t, double size, uint64_t *s) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     double slack = 1e-12 * size, tolerance = 1.01e-9 * size;
     ovoid_solid_answer distance = ovoid_solid_distance(pair, NULL, NULL, &all);
@@ -91,8 +91,8 @@ static void check_random(int rounds, double scale, uint64_t seed) {
         ovoid_solid *sa = mesh_make_solid(&a), *sb = mesh_make_solid(&b);
         if (CHECK(sa && sb)) {
             double apart = scale * random_uniform(&s, 0, i % 5 == 0 ? 0.5 : 2.5);
-            ovoid_solid_pair pair = {{NULL, sa, {random_vec3(&s, scale), random_quat(&s)}},
-                                     {NULL, sb, ovoid_pose_make_identity()}};
+            ovoid_body_pair pair = {{.solid = sa, .pose = {random_vec3(&s, scale), random_quat(&s)}},
+                                    {.solid = sb, .pose = ovoid_pose_make_identity()}};
             pair.b.pose = (ovoid_pose){random_vec3(&s, apart), random_quat(&s)};
             ovoid_vec3 at = pair.a.pose.position;
             pair.b.pose.position.x += at.x, pair.b.pose.position.y += at.y, pair.b.pose.position.z += at.z;
@@ -131,13 +131,13 @@ static void check_shapes(int rounds, uint64_t seed) {
             for (uint32_t k = 0; k < p.triangle_count; k++)
                 mesh_add_triangle(&b, p.triangles[3 * k], p.triangles[3 * k + 1], p.triangles[3 * k + 2]);
             double far = i % 4 == 3 ? -1000 : 0;
-            ovoid_solid_pair pair = {{NULL, solid, {{0, 0, 0}, random_quat(&s)}},
-                                     {shape, NULL, ovoid_pose_make_identity()}};
+            ovoid_body_pair pair = {{.solid = solid, .pose = {{0, 0, 0}, random_quat(&s)}},
+                                    {.shape = shape, .pose = ovoid_pose_make_identity()}};
             pair.b.pose.position = random_vec3(&s, 1.5);
             pair.b.pose.position.x += far, pair.b.pose.position.y += far, pair.b.pose.position.z += far;
             truth t = find_truth(&a, &pair.a.pose, &b, &pair.b.pose);
             check_pair(&pair, t, far < 0 ? 4000 : 9, &s);
-            ovoid_solid_pair turned = {pair.b, pair.a};
+            ovoid_body_pair turned = {pair.b, pair.a};
             check_pair(&turned, t, far < 0 ? 4000 : 9, &s);
         }
         ovoid_solid_destroy(solid);
@@ -163,7 +163,8 @@ static void check_peg(void) {
         CHECK_EQ(r.is_closed, 1);
         CHECK_NEAR(r.volume, 2 * 9.8696044 * 15 * 25, 0.01 * r.volume);
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-        ovoid_solid_pair pair = {{NULL, ring, ovoid_pose_make_identity()}, {peg, NULL, ovoid_pose_make_identity()}};
+        ovoid_body_pair pair = {{.solid = ring, .pose = ovoid_pose_make_identity()},
+                                {.shape = peg, .pose = ovoid_pose_make_identity()}};
         ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, &all);
         check_answer(&pair, &x, &all);
         CHECK_EQ(x.status, OVOID_SEPARATED);

@@ -78,7 +78,7 @@ static void test_many(void) {
     for (int i = 0; i < MANY; i++) {
         // In an order that is not that of the line.
         poses[i] = (ovoid_pose){{(double)((uint64_t)i * 7919 % MANY), 0, 0}, {1, 0, 0, 0}};
-        bodies[i].body = (ovoid_body){ball, NULL, poses[i]};
+        bodies[i].body = (ovoid_body){.shape = ball, .pose = poses[i]};
     }
     CHECK(ovoid_world_add_many(w, bodies, MANY, ids, NULL) == OVOID_OK);
     ovoid_contacts f;
