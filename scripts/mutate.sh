@@ -32,7 +32,7 @@ tests_of() {
     simd) echo "test_simd $query" ;;
     environment) echo "test_environment $query" ;;
     world) echo "test_world_tree test_world_margins test_world_rules test_world_even test_world_states test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
-    solid) echo "test_solid_create test_solid" ;;
+    solid) echo "test_solid_create test_solid test_solid_compound" ;;
     compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_judge_compound" ;;
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_bounds" ;;

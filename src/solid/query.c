@@ -3,6 +3,7 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "solid/body_find.h"
 #include "solid/search.h"
 
 // ---- the end of a query
@@ -117,9 +118,9 @@ static ovoid_limit begin(solid_search *h, const ovoid_body_pair *pair, const ovo
     return OVOID_LIMIT_NONE;
 }
 
-COMPILER_NOINLINE static void find_internal(const ovoid_body_pair *pair, const ovoid_options *options,
-                                            const query_goal *goal, const ovoid_compound_proof *earlier,
-                                            ovoid_exclusions *exclusions, ovoid_solid_answer *out) {
+COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *options,
+                                           const query_goal *goal, const ovoid_compound_proof *earlier,
+                                           ovoid_exclusions *exclusions, ovoid_solid_answer *out) {
     solid_search h;
     *out = (ovoid_solid_answer){.status = OVOID_UNDECIDED};
     if (exclusions) exclusions->count = 0;
@@ -138,11 +139,35 @@ COMPILER_NOINLINE static void find_internal(const ovoid_body_pair *pair, const o
     finish(&h);
 }
 
+// The same, with the compound's answer as its own.
+COMPILER_NOINLINE static void find_as_compound(const ovoid_body_pair *pair, const ovoid_options *options,
+                                               const query_goal *goal, const ovoid_compound_proof *earlier,
+                                               ovoid_exclusions *exclusions, ovoid_compound_answer *out) {
+    ovoid_solid_answer x;
+    solid_find_internal(pair, options, goal, earlier, exclusions, &x);
+    *out = (ovoid_compound_answer){
+        .answer = x.surfaces, .part_a = x.triangle_a, .part_b = x.triangle_b, .visited = x.visited, .tested = x.tested};
+    out->answer.status = x.status;
+    out->answer.limit = x.limit;
+    out->answer.lower = x.lower;
+    out->answer.upper = x.upper;
+}
+
+void body_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
+                        const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions, ovoid_compound_answer *out) {
+    if (!body_pair_has_solid(pair)) {
+        compound_find_internal(pair, options, goal, earlier, exclusions, out);
+        return;
+    }
+    goal.wants_depth = 0;
+    find_as_compound(pair, options, &goal, earlier, exclusions, out);
+}
+
 static ovoid_solid_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                                const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
     OVOID_ASSERT(pair);
     ENVIRONMENT_RETURN_FILLED(ovoid_solid_answer, out, goal,
-                              find_internal(pair, options, &goal, earlier, exclusions, &out));
+                              solid_find_internal(pair, options, &goal, earlier, exclusions, &out));
 }
 
 ovoid_solid_answer ovoid_solid_collide(const ovoid_body_pair *pair, const ovoid_options *options,

@@ -155,7 +155,7 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
                       .mask = all ? ~0u : given->mask,
                       .seen = box_make_empty()};
     w->places[i] = (body_place){body_compute_center(&ball, &b->body.pose, &b->center_error), 0};
-    if (given->body.compound && given->body.compound->extent > OVOID_LENGTH_MAX / 2) w->has_vast = 1;
+    if (world_get_extent(&given->body) > OVOID_LENGTH_MAX / 2) w->has_vast = 1;
     body_mark_fresh(w, i);
     w->count++;
     return i;
