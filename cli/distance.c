@@ -18,19 +18,15 @@ typedef struct settings {
     output_settings out;
     ovoid_pose pose_a, pose_b;
     double margin, tolerance; ///< margin negative: not given
-    int parts, solid, hull;
+    solids_choice choice;
 } settings;
 
 static const cli_option options[] = {
     {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), ARGS_POSE, NULL,
      "pose of A" ARGS_POSE_HELP " (default: \"0 0 0\")"},
     {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
-    {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
-     "A and B are compounds: each object of their files is a convex part; the nearest parts are named"},
-    {"solid", 0, OPTION_FLAG, offsetof(settings, solid), NULL, NULL,
-     "each mesh is the solid that its triangles enclose, or where they are not closed their surface (default: of a "
-     "closed mesh that does not fill its hull)"},
-    {"hull", 0, OPTION_FLAG, offsetof(settings, hull), NULL, NULL, "each mesh is its convex hull"},
+    SOLIDS_OPTIONS(settings,
+                   "A and B are compounds: each object of their files is a convex part; the nearest parts are named"),
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "also ask whether the bodies are within M of each other: exit code 1 if they are"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
@@ -175,7 +171,8 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     int holds = check_record(&pair, &record);
     int code = holds ? (int)results_judge(&record.answer, s->margin) : EXIT_NOT_PROVEN;
     const char *unit = inputs_get_unit(&s->read);
-    unsigned fields = OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+    solids_describe_bodies(bodies, &record);
+    unsigned fields = record.fields | OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
     if (results_open(&results, &s->out, fields, unit)) {
         answer_room_clear(&room);
         return EXIT_INPUT;
@@ -191,57 +188,15 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     return results_close(&results, code);
 }
 
-/// Of the words that say what a mesh is at most one: -1 to go on, or EXIT_USAGE.
-static int settle_kind(const cli_command *command, const settings *s) {
-    if (s->parts + s->solid + s->hull <= 1) return -1;
-    return args_complain(command, "%s: --parts, --solid and --hull exclude each other", command->name);
-}
-
-static ovoid_convexity get_convexity(const cli_body *body) { return ovoid_shapes_get(body->parts, 0).convexity; }
-
-/// The solid of a body that is to be one, where *solid is not NULL then; 0 after a message where it cannot be read.
-static int open_solid(const settings *s, const char *path, const cli_body *body, ovoid_solid **solid) {
-    ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_convexity c = get_convexity(body);
-    int is_default = c.is_nonconvex && isfinite(c.mesh_volume);
-    *solid = NULL;
-    if (ovoid_path_is_shape(path) || !(s->solid || is_default)) return 1;
-    *solid = solids_read(path, &s->read, &error);
-    if (*solid) {
-        ovoid_solid_report r = ovoid_solid_get_report(*solid);
-        if (!r.is_closed)
-            message_warning(
-                "%s is not closed, %llu of its edges are not matched: it counts as its surface, which has no "
-                "inside",
-                path, (unsigned long long)r.edges_unmatched);
-        return 1;
-    }
-    if (s->solid) message_error("%s", error.message);
-    return !s->solid;
-}
-
 /// Answers as solids where one of the bodies is one: the exit code, or -1 where none is.
 static int answer_solids(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
-    ovoid_solid *solids[2] = {NULL, NULL};
-    int code = -1;
-    if (!open_solid(s, paths[0], &bodies[0], &solids[0]) || !open_solid(s, paths[1], &bodies[1], &solids[1]))
-        code = EXIT_INPUT;
-    else if (solids[0] || solids[1]) {
-        solids_query query = {
-            .paths = paths,
-            .pair = {{.shape = solids[0] ? NULL : bodies[0].shape, .pose = s->pose_a, .solid = solids[0]},
-                     {.shape = solids[1] ? NULL : bodies[1].shape, .pose = s->pose_b, .solid = solids[1]}},
-            .convexity = {get_convexity(&bodies[0]), get_convexity(&bodies[1])},
-            .margin = s->margin,
-            .tolerance = s->tolerance,
-            .unit = inputs_get_unit(&s->read)};
-        // What is taken by its hull all the same says so.
-        for (int i = 0; i < 2; i++)
-            if (!solids[i]) inputs_warn_bodies(&paths[i], &bodies[i], 1, &s->read);
-        code = solids_answer(&query, &s->out);
-    }
-    ovoid_solid_destroy(solids[0]);
-    ovoid_solid_destroy(solids[1]);
+    const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
+    solids_query query = {s->margin, s->tolerance, inputs_get_unit(&s->read)};
+    solids_pair pair;
+    int found = solids_open_pair(paths, bodies, poses, &s->read, &s->choice, &pair);
+    if (found <= 0) return found < 0 ? EXIT_INPUT : -1;
+    int code = solids_answer(&pair, &query, &s->out);
+    solids_close_pair(&pair);
     return code;
 }
 
@@ -254,10 +209,10 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_body bodies[2];
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_settle(command, &s.out);
-    if (code < 0) code = settle_kind(command, &s);
+    if (code < 0) code = solids_settle(command, &s.choice);
     if (code >= 0) return code;
-    if ((code = inputs_open_pair(paths.items, &s.read, s.parts, bodies)) != 0) return code;
-    code = s.parts || s.hull ? -1 : answer_solids(&s, bodies, paths.items);
+    if ((code = inputs_open_pair(paths.items, &s.read, s.choice.parts, bodies)) != 0) return code;
+    code = answer_solids(&s, bodies, paths.items);
     if (code < 0) {
         inputs_warn_bodies(paths.items, bodies, 2, &s.read);
         code = answer_pair(&s, bodies, paths.items);

@@ -1,7 +1,6 @@
 // Pairs of which one body at least is a solid: reading it, the answer and its report.
 #include "solids.h"
 
-#include "json.h"
 #include "message.h"
 
 #include <math.h>
@@ -88,6 +87,95 @@ ovoid_solid *solids_read(const char *path, const read_settings *settings, ovoid_
     return solid;
 }
 
+// ---- pairs
+
+int solids_settle(const cli_command *command, const solids_choice *choice) {
+    if (choice->parts + choice->solid + choice->hull <= 1) return -1;
+    return args_complain(command, "%s: --parts, --solid and --hull exclude each other", command->name);
+}
+
+static ovoid_convexity get_convexity(const cli_body *body) { return ovoid_shapes_get(body->parts, 0).convexity; }
+
+/// The solid of a body that is to be one, where *solid is not NULL then; 0 after a message where it cannot be read.
+static int open_solid(const char *path, const cli_body *body, const read_settings *read, int is_wanted,
+                      ovoid_solid **solid) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_convexity c = get_convexity(body);
+    int is_default = c.is_nonconvex && isfinite(c.mesh_volume);
+    *solid = NULL;
+    if (ovoid_path_is_shape(path) || !(is_wanted || is_default)) return 1;
+    *solid = solids_read(path, read, &error);
+    if (!*solid) {
+        if (is_wanted) message_error("%s", error.message);
+        return !is_wanted;
+    }
+    ovoid_solid_report r = ovoid_solid_get_report(*solid);
+    if (!r.is_closed)
+        message_warning("%s is not closed, %llu of its edges are not matched: it counts as its surface, which has no "
+                        "inside",
+                        path, (unsigned long long)r.edges_unmatched);
+    return 1;
+}
+
+int solids_open_pair(const char *const *paths, const cli_body bodies[2], const ovoid_pose poses[2],
+                     const read_settings *read, const solids_choice *choice, solids_pair *p) {
+    *p = (solids_pair){.paths = paths};
+    if (choice->parts || choice->hull) return 0;
+    ovoid_body *own[2] = {&p->pair.a, &p->pair.b};
+    for (int i = 0; i < 2; i++) {
+        if (!open_solid(paths[i], &bodies[i], read, choice->solid, &p->solids[i])) {
+            solids_close_pair(p);
+            return -1;
+        }
+        *own[i] = (ovoid_body){.shape = p->solids[i] ? NULL : bodies[i].shape, .pose = poses[i], .solid = p->solids[i]};
+        p->convexity[i] = get_convexity(&bodies[i]);
+    }
+    int count = (p->solids[0] != NULL) + (p->solids[1] != NULL);
+    for (int i = 0; i < 2 && count; i++)
+        if (!p->solids[i]) inputs_warn_bodies(&paths[i], &bodies[i], 1, read);
+    return count;
+}
+
+void solids_close_pair(solids_pair *p) {
+    for (int i = 0; i < 2; i++) {
+        ovoid_solid_destroy(p->solids[i]);
+        p->solids[i] = NULL;
+    }
+}
+
+static ovoid_mesh_kind get_kind(const ovoid_solid *solid) {
+    if (!solid) return OVOID_MESH_HULL;
+    return ovoid_solid_get_report(solid).is_closed ? OVOID_MESH_SOLID : OVOID_MESH_SURFACE;
+}
+
+void solids_describe(const solids_pair *p, ovoid_record *record) {
+    record->fields |= OVOID_RECORD_MESHES;
+    record->kind_a = get_kind(p->solids[0]);
+    record->kind_b = get_kind(p->solids[1]);
+    record->mesh_a = p->convexity[0];
+    record->mesh_b = p->convexity[1];
+}
+
+/// The volumes of all parts of a file.
+static ovoid_convexity sum_convexity(const cli_body *body) {
+    ovoid_convexity sum = get_convexity(body);
+    for (size_t i = 1; i < ovoid_shapes_get_count(body->parts); i++) {
+        ovoid_convexity c = ovoid_shapes_get(body->parts, i).convexity;
+        sum.mesh_volume += c.mesh_volume;
+        sum.hull_volume += c.hull_volume;
+        sum.is_nonconvex |= c.is_nonconvex;
+    }
+    return sum;
+}
+
+void solids_describe_bodies(const cli_body bodies[2], ovoid_record *record) {
+    record->mesh_a = sum_convexity(&bodies[0]);
+    record->mesh_b = sum_convexity(&bodies[1]);
+    record->kind_a = bodies[0].compound ? OVOID_MESH_PARTS : OVOID_MESH_HULL;
+    record->kind_b = bodies[1].compound ? OVOID_MESH_PARTS : OVOID_MESH_HULL;
+    if (record->mesh_a.is_nonconvex || record->mesh_b.is_nonconvex) record->fields |= OVOID_RECORD_MESHES;
+}
+
 // ---- the answer
 
 /// An answer with its proof, and whether that holds.
@@ -97,47 +185,36 @@ typedef struct solids_result {
     int holds;
 } solids_result;
 
-static int find_answer(const solids_query *q, solids_result *r) {
+static int find_answer(const solids_pair *p, const solids_query *q, solids_result *r) {
     ovoid_options options = {.absolute_tolerance = q->tolerance};
     ovoid_error error;
     for (size_t room = 4096;; room = r->exclusions.count) {
         free(r->exclusions.items);
         r->exclusions = (ovoid_exclusions){malloc(room * sizeof(ovoid_exclusion)), room, 0, NULL};
         if (!r->exclusions.items) return 0;
-        r->answer = ovoid_solid_distance(&q->pair, &options, NULL, &r->exclusions);
+        r->answer = ovoid_solid_distance(&p->pair, &options, NULL, &r->exclusions);
         if (r->exclusions.count <= room) break;
     }
-    r->holds = ovoid_solid_answer_check(&q->pair, &r->answer, &r->exclusions, &error) == OVOID_OK;
+    r->holds = ovoid_solid_answer_check(&p->pair, &r->answer, &r->exclusions, &error) == OVOID_OK;
     if (!r->holds) message_error("the proof does not hold: %s", error.message);
     return 1;
 }
 
-static exit_code judge(const solids_query *q, const solids_result *r) {
-    const ovoid_solid_answer *x = &r->answer;
-    if (!r->holds) return EXIT_NOT_PROVEN;
-    ovoid_answer like = x->surfaces;
-    like.status = x->status;
-    like.limit = x->limit;
-    like.lower = x->lower;
-    like.upper = x->upper;
-    return results_judge(&like, q->margin);
-}
-
-static const char *get_within(const solids_query *q, const ovoid_solid_answer *x) {
-    int within = ovoid_solid_answer_is_within(x, q->margin);
-    return within > 0 ? "yes" : within == 0 ? "no" : x->limit == OVOID_LIMIT_NONE ? "at" : "unproven";
-}
-
-static const char *get_inside(const ovoid_solid_answer *x) {
-    return x->inside == OVOID_SOLID_A_INSIDE ? "a in b" : x->inside == OVOID_SOLID_B_INSIDE ? "b in a" : "";
+static ovoid_record make_record(const solids_pair *p, const solids_query *q, const solids_result *r) {
+    ovoid_record record = {.a = p->paths[0], .b = p->paths[1], .margin = q->margin};
+    ovoid_record_set_solid(&record, &r->answer);
+    solids_describe(p, &record);
+    record.exclusions = r->exclusions.items;
+    record.exclusion_count = r->exclusions.count;
+    return record;
 }
 
 // ---- for people
 
-static void print_body(FILE *file, const char *title, const solids_query *q, int side) {
-    const ovoid_body *body = side ? &q->pair.b : &q->pair.a;
+static void print_body(FILE *file, const char *title, const solids_pair *p, int side) {
+    const ovoid_body *body = side ? &p->pair.b : &p->pair.a;
     fprintf(file, "%-11s ", title);
-    message_write_text(file, q->paths[side]);
+    message_write_text(file, p->paths[side]);
     if (body->solid) {
         ovoid_solid_report r = ovoid_solid_get_report(body->solid);
         fprintf(file, "; %s, triangles: %llu; components: %llu", r.is_closed ? "solid" : "surface",
@@ -153,12 +230,18 @@ static void print_vector(FILE *file, const char *title, ovoid_vec3 v, const char
     fprintf(file, "%-11s %.9g %.9g %.9g%s\n", title, v.x, v.y, v.z, unit);
 }
 
-static void print_report(FILE *file, const solids_query *q, const solids_result *r) {
+static void print_margin(FILE *file, const solids_query *q, const ovoid_solid_answer *x, const char *unit) {
+    int within = ovoid_solid_answer_is_within(x, q->margin);
+    const char *word = within > 0 ? "yes" : within == 0 ? "no" : x->limit == OVOID_LIMIT_NONE ? "at" : "unproven";
+    fprintf(file, "%-11s %.9g%s: within: %s\n", "margin", q->margin, unit, word);
+}
+
+static void print_report(FILE *file, const solids_pair *p, const solids_query *q, const solids_result *r) {
     const ovoid_solid_answer *x = &r->answer;
     char unit[8], text[64];
     snprintf(unit, sizeof unit, "%s%s", q->unit[0] ? " " : "", q->unit);
-    print_body(file, "a", q, 0);
-    print_body(file, "b", q, 1);
+    print_body(file, "a", p, 0);
+    print_body(file, "b", p, 1);
     fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(x->status));
     ovoid_answer shown = {.status = x->status, .lower = x->lower, .upper = x->upper};
     int is_depth = x->upper < 0;
@@ -166,10 +249,10 @@ static void print_report(FILE *file, const solids_query *q, const solids_result 
     (void)ovoid_answer_write_distance(text, &shown);
     fprintf(file, "%-11s %s%s\n", is_depth ? "depth" : "distance", text, unit);
     fprintf(file, "%-11s %.17g .. %.17g%s\n", "bracket", x->lower, x->upper, unit);
-    if (q->margin >= 0) fprintf(file, "%-11s %.9g%s: within: %s\n", "margin", q->margin, unit, get_within(q, x));
-    if (q->pair.a.solid) fprintf(file, "%-11s %u of a\n", "triangle", (unsigned)x->triangle_a);
-    if (q->pair.b.solid) fprintf(file, "%-11s %u of b\n", "triangle", (unsigned)x->triangle_b);
-    if (x->inside) fprintf(file, "%-11s %s\n", "inside", get_inside(x));
+    if (q->margin >= 0) print_margin(file, q, x, unit);
+    if (p->solids[0]) fprintf(file, "%-11s %u of a\n", "triangle", (unsigned)x->triangle_a);
+    if (p->solids[1]) fprintf(file, "%-11s %u of b\n", "triangle", (unsigned)x->triangle_b);
+    if (x->inside) fprintf(file, "%-11s %s\n", "inside", x->inside == OVOID_SOLID_A_INSIDE ? "a in b" : "b in a");
     print_vector(file, "point on a", x->surfaces.point_a, unit);
     print_vector(file, "point on b", x->surfaces.point_b, unit);
     print_vector(file, "normal", x->surfaces.normal, "");
@@ -178,101 +261,25 @@ static void print_report(FILE *file, const solids_query *q, const solids_result 
             r->exclusions.count, r->holds ? "checked" : "DOES NOT HOLD");
 }
 
-// ---- for programs
-
-static void write_numbers(FILE *file, const char *key, ovoid_vec3 v) {
-    fprintf(file, ",\"%s\":[", key);
-    json_write_number(file, v.x);
-    fputc(',', file);
-    json_write_number(file, v.y);
-    fputc(',', file);
-    json_write_number(file, v.z);
-    fputc(']', file);
-}
-
-static void write_number(FILE *file, const char *key, double number) {
-    fprintf(file, ",\"%s\":", key);
-    json_write_number(file, number);
-}
-
-static void write_json_body(FILE *file, const char *key, const solids_query *q, int side) {
-    const ovoid_body *body = side ? &q->pair.b : &q->pair.a;
-    const char *kind = !body->solid ? "hull" : ovoid_solid_get_report(body->solid).is_closed ? "solid" : "surface";
-    fprintf(file, "\"%s\":", key);
-    json_write_text(file, q->paths[side]);
-    fprintf(file, ",\"kind_%s\":\"%s\"", key, kind);
-    fprintf(file, ",\"mesh_volume_%s\":", key);
-    json_write_number(file, q->convexity[side].mesh_volume);
-    fprintf(file, ",\"hull_volume_%s\":", key);
-    json_write_number(file, q->convexity[side].hull_volume);
-}
-
-static void write_json(FILE *file, const solids_query *q, const solids_result *r) {
-    const ovoid_solid_answer *x = &r->answer;
-    fputc('{', file);
-    write_json_body(file, "a", q, 0);
-    fputc(',', file);
-    write_json_body(file, "b", q, 1);
-    fprintf(file, ",\"status\":\"%s\",\"limit\":\"%s\"", ovoid_status_get_name(x->status),
-            ovoid_limit_get_name(x->limit));
-    if (q->margin >= 0) {
-        write_number(file, "margin", q->margin);
-        fprintf(file, ",\"within\":\"%s\"", get_within(q, x));
-    }
-    write_number(file, "lower", x->lower);
-    write_number(file, "upper", x->upper);
-    write_numbers(file, "point_a", x->surfaces.point_a);
-    write_numbers(file, "point_b", x->surfaces.point_b);
-    write_numbers(file, "normal", x->surfaces.normal);
-    fprintf(file, ",\"triangle_a\":%u,\"triangle_b\":%u,\"inside\":\"%s\"", (unsigned)x->triangle_a,
-            (unsigned)x->triangle_b, get_inside(x));
-    fprintf(file, ",\"checked\":%s}\n", r->holds ? "true" : "false");
-}
-
-static void write_csv_text(FILE *file, const char *text) {
-    fputc('"', file);
-    for (; *text; text++) fprintf(file, *text == '"' ? "\"%c" : "%c", *text);
-    fputc('"', file);
-}
-
-static void write_csv(FILE *file, const solids_query *q, const solids_result *r) {
-    const ovoid_solid_answer *x = &r->answer;
-    const ovoid_answer *s = &x->surfaces;
-    fputs("a,kind_a,b,kind_b,status,limit,lower,upper,ax,ay,az,bx,by,bz,nx,ny,nz,triangle_a,triangle_b,inside\n", file);
-    for (int side = 0; side < 2; side++) {
-        const ovoid_solid *solid = side ? q->pair.b.solid : q->pair.a.solid;
-        write_csv_text(file, q->paths[side]);
-        fprintf(file, ",%s,", !solid ? "hull" : ovoid_solid_get_report(solid).is_closed ? "solid" : "surface");
-    }
-    fprintf(file, "%s,%s,%.17g,%.17g", ovoid_status_get_name(x->status), ovoid_limit_get_name(x->limit), x->lower,
-            x->upper);
-    const ovoid_vec3 all[3] = {s->point_a, s->point_b, s->normal};
-    for (int i = 0; i < 3; i++) fprintf(file, ",%.17g,%.17g,%.17g", all[i].x, all[i].y, all[i].z);
-    fprintf(file, ",%u,%u,%s\n", (unsigned)x->triangle_a, (unsigned)x->triangle_b, get_inside(x));
-}
-
-int solids_answer(const solids_query *q, const output_settings *out) {
+int solids_answer(const solids_pair *p, const solids_query *q, const output_settings *out) {
     solids_result r = {.exclusions.items = NULL};
     cli_results results;
-    if (!find_answer(q, &r)) {
+    if (!find_answer(p, q, &r)) {
         message_error("out of memory");
         return EXIT_INPUT;
     }
-    // The header and the line are ours.
-    output_settings settings = *out;
-    settings.csv = settings.proofs = 0;
-    int code = (int)judge(q, &r);
-    if (!results_open(&results, &settings, 0, q->unit)) {
-        if (out->json)
-            write_json(results.file, q, &r);
-        else if (out->csv)
-            write_csv(results.file, q, &r);
-        else
-            print_report(results.file, q, &r);
-        code = results_close(&results, code);
-    } else {
-        code = EXIT_INPUT;
+    ovoid_record record = make_record(p, q, &r);
+    unsigned fields = OVOID_RECORD_MESHES | OVOID_RECORD_SOLIDS | (q->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+    int code = r.holds ? (int)results_judge(&record.answer, q->margin) : EXIT_NOT_PROVEN;
+    if (results_open(&results, out, fields, q->unit)) {
+        free(r.exclusions.items);
+        return EXIT_INPUT;
     }
+    record.fields = results.fields;
+    if (results_are_lines(&results))
+        code = results_add(&results, &record) ? EXIT_INPUT : code;
+    else
+        print_report(results.file, p, q, &r);
     free(r.exclusions.items);
-    return code;
+    return results_close(&results, code);
 }

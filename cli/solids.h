@@ -7,20 +7,61 @@
 
 #include <ovoid/ovoid.h>
 
+/// What the options make of meshes: each a solid, its hull, or what the mesh itself suggests.
+typedef struct solids_choice {
+    int solid, parts, hull;
+} solids_choice;
+
+/// The rows of these options in a table; `choice` is the member of the settings that holds them. parts_help: of
+/// --parts.
+#define SOLIDS_OPTIONS(settings, parts_help)                                                                           \
+    {"parts", 0, OPTION_FLAG, offsetof(settings, choice.parts), NULL, NULL, parts_help},                               \
+        {"solid",                                                                                                      \
+         0,                                                                                                            \
+         OPTION_FLAG,                                                                                                  \
+         offsetof(settings, choice.solid),                                                                             \
+         NULL,                                                                                                         \
+         NULL,                                                                                                         \
+         "each mesh is the solid that its triangles enclose, or where they are not closed their surface (default: of " \
+         "a closed mesh that does not fill its hull)"},                                                                \
+    {                                                                                                                  \
+        "hull", 0, OPTION_FLAG, offsetof(settings, choice.hull), NULL, NULL, "each mesh is its convex hull"            \
+    }
+
+/// At most one of them: -1 to go on, or EXIT_USAGE.
+int solids_settle(const cli_command *command, const solids_choice *choice);
+
 /// Reads a mesh file as one solid, its polygons cut into triangles. NULL with *error filled. A mesh that is not closed
 /// becomes a surface.
 ovoid_solid *solids_read(const char *path, const read_settings *settings, ovoid_error *error);
 
-/// What a pair of bodies is asked.
-typedef struct solids_query {
+/// Two files' bodies, of which each may be a solid.
+typedef struct solids_pair {
     const char *const *paths;
+    ovoid_solid *solids[2]; ///< NULL: the body's hull
     ovoid_body_pair pair;
     ovoid_convexity convexity[2]; ///< of the meshes; volumes NaN where there is none
-    double margin, tolerance;     ///< margin negative: not given
+} solids_pair;
+
+/// Opens as solids what is to be one of two bodies that are open, and warns of what is taken by its hull all the same.
+/// Returns how many are solids, or -1 after a message, with nothing left open.
+int solids_open_pair(const char *const *paths, const cli_body bodies[2], const ovoid_pose poses[2],
+                     const read_settings *read, const solids_choice *choice, solids_pair *pair);
+void solids_close_pair(solids_pair *pair);
+
+/// Sets a record's kinds and volumes from two bodies, and the field that says so where one of their meshes does not
+/// fill its hull.
+void solids_describe_bodies(const cli_body bodies[2], ovoid_record *record);
+/// The same where one at least is a solid.
+void solids_describe(const solids_pair *pair, ovoid_record *record);
+
+/// What a pair of bodies is asked.
+typedef struct solids_query {
+    double margin, tolerance; ///< margin negative: not given
     const char *unit;
 } solids_query;
 
 /// Answers, checks the proof, writes the answer as text, JSON or CSV. Returns the exit code.
-int solids_answer(const solids_query *query, const output_settings *out);
+int solids_answer(const solids_pair *pair, const solids_query *query, const output_settings *out);
 
 #endif

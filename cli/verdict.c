@@ -77,6 +77,14 @@ ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const
     return code;
 }
 
+ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                               const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
+    judge *mine = take(v);
+    ovoid_code code = judge_check_solid(mine, pair, answer, exclusions, points, error);
+    give_back(v, mine);
+    return code;
+}
+
 int verdict_is_exact(void) { return 1; }
 
 #else
@@ -104,6 +112,12 @@ ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const
                                   const ovoid_exclusions *exclusions, ovoid_error *error) {
     (void)v;
     return ovoid_compound_answer_check(pair, answer, exclusions, error);
+}
+
+ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                               const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
+    (void)v, (void)points;
+    return ovoid_solid_answer_check(pair, answer, exclusions, error);
 }
 
 int verdict_is_exact(void) { return 0; }

@@ -20,6 +20,10 @@ ovoid_code verdict_check(verdict *verdict, const ovoid_pair *pair, const ovoid_a
 ovoid_code verdict_check_compound(verdict *verdict, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
                                   const ovoid_exclusions *exclusions, ovoid_error *error);
 
+/// The same for the answer of two bodies, of which one at least is a solid. points: of the deciding triangles.
+ovoid_code verdict_check_solid(verdict *verdict, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                               const ovoid_exclusions *exclusions, int points, ovoid_error *error);
+
 /// 1 if the checks are in exact arithmetic.
 int verdict_is_exact(void);
 

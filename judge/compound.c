@@ -1,10 +1,8 @@
 // Answers about bodies of several parts. Theorem. Each exclusion is a rectangle in the table of all pairs of parts,
 // rows and columns in the orders of both trees: along its normal n every part of the one ends before every part of the
 // other begins, by `lower` at least, radii and allowances included. If the rectangles and the deciding pair's own
-// square cover the table, no pair of parts is nearer than the least of their bounds.
-//
-// The cover is found by a sweep along the rows: a tree over the columns holds how many rectangles cover each of them
-// (J. L. Bentley, Algorithms for Klee's rectangle problems, 1977). The library's trees are not used.
+// square cover the table (cover.c), no pair of parts is nearer than the least of their bounds. The library's trees are
+// not used.
 #include "parts.h"
 
 #include <stdlib.h>
@@ -45,14 +43,7 @@ static ovoid_code read_side(const ovoid_body *of, uint32_t part, side *s, uint32
         s->count = (uint32_t)ovoid_compound_get_part_count(of->compound);
     }
     if (part >= s->count) return judge_reject(error, OVOID_ERROR_PROOF, "there is no part %u", part);
-    unsigned char *seen = s->order ? judge_allocate(s->count, 1) : NULL;
-    uint32_t named = 0;
-    for (uint32_t i = 0; i < s->count && seen; i++) {
-        if (s->order[i] < s->count && !seen[s->order[i]]) seen[s->order[i]] = 1, named++;
-        if (s->order[i] == part) *place = i;
-    }
-    free(seen);
-    if (s->order && named != s->count)
+    if (s->order && !judge_is_order(s->order, s->count, part, place))
         return judge_reject(error, OVOID_ERROR_PROOF, "the order does not name each part once");
     return OVOID_OK;
 }
@@ -126,82 +117,12 @@ static ovoid_code check_bound(const table *t, size_t i) {
     return is_bound(p, &a, &b, n, e->lower) ? OVOID_OK : reject_item(t, i, "is not shown by its normal");
 }
 
-// --- the cover
-
-/// Where a rectangle begins (delta 1) or ends (-1).
-typedef struct event {
-    uint32_t row, first, end;
-    int delta;
-} event;
-
-static int compare_events(const void *a, const void *b) {
-    const event *x = a, *y = b;
-    return x->row != y->row ? (x->row < y->row ? -1 : 1) : 0;
-}
-
-/// How often the columns are covered: of a node the least of its columns, without what `own` of the nodes above adds.
-typedef struct columns {
-    int *least, *own;
-    size_t leaves; ///< a power of two
-} columns;
-
-static void columns_add(columns *c, size_t first, size_t end, int delta) {
-    size_t low = first + c->leaves, high = end + c->leaves;
-    for (; low < high; low /= 2, high /= 2) {
-        if (low & 1) c->least[low] += delta, c->own[low] += delta, low++;
-        if (high & 1) --high, c->least[high] += delta, c->own[high] += delta;
-    }
-    const size_t ends[2] = {first + c->leaves, end - 1 + c->leaves};
-    for (int i = 0; i < 2; i++)
-        for (size_t node = ends[i] / 2; node > 0; node /= 2) {
-            int left = c->least[2 * node], right = c->least[2 * node + 1];
-            c->least[node] = c->own[node] + (left < right ? left : right);
-        }
-}
-
-static uint32_t columns_find_least(const columns *c) {
-    size_t node = 1;
-    while (node < c->leaves) node = 2 * node + (c->least[2 * node + 1] < c->least[2 * node]);
-    return (uint32_t)(node - c->leaves);
-}
-
-static void fill_events(const table *t, event *events) {
-    for (size_t i = 0; i < t->count; i++) {
-        const ovoid_exclusion *e = &t->items[i];
-        events[2 * i] = (event){e->first_a, e->first_b, e->end_b, 1};
-        events[2 * i + 1] = (event){e->end_a, e->first_b, e->end_b, -1};
-    }
-    events[2 * t->count] = (event){t->place_a, t->place_b, t->place_b + 1, 1};
-    events[2 * t->count + 1] = (event){t->place_a + 1, t->place_b, t->place_b + 1, -1};
-    qsort(events, 2 * t->count + 2, sizeof *events, compare_events);
-}
-
-static ovoid_code sweep(const table *t, const event *events, columns *c) {
-    size_t count = 2 * t->count + 2, next = 0;
-    // Columns that are none are covered.
-    if (t->b.count < c->leaves) columns_add(c, t->b.count, c->leaves, 1);
-    for (uint32_t row = 0; row < t->a.count; row = events[next].row) {
-        for (; next < count && events[next].row == row; next++)
-            columns_add(c, events[next].first, events[next].end, events[next].delta);
-        if (c->least[1] <= 0)
-            return judge_reject(t->error, OVOID_ERROR_PROOF, "nothing excludes part %u of a and part %u of b",
-                                get_index(&t->a, row), get_index(&t->b, columns_find_least(c)));
-    }
-    return OVOID_OK;
-}
-
 static ovoid_code check_cover(const table *t) {
-    columns c = {.leaves = 2};
-    while (c.leaves < t->b.count) c.leaves *= 2;
-    c.least = judge_allocate(2 * c.leaves, sizeof *c.least);
-    c.own = judge_allocate(2 * c.leaves, sizeof *c.own);
-    event *events = judge_allocate(2 * t->count + 2, sizeof *events);
-    fill_events(t, events);
-    ovoid_code code = sweep(t, events, &c);
-    free(events);
-    free(c.own);
-    free(c.least);
-    return code;
+    pair_table all = {t->a.count, t->b.count, t->place_a, t->place_b, t->items, t->count};
+    uint32_t row, column;
+    if (judge_is_covered(&all, &row, &column)) return OVOID_OK;
+    return judge_reject(t->error, OVOID_ERROR_PROOF, "nothing excludes part %u of a and part %u of b",
+                        get_index(&t->a, row), get_index(&t->b, column));
 }
 
 static ovoid_code check_exclusions(const table *t) {

@@ -261,6 +261,9 @@ ovoid_code judge_check_inner(const claim *c) {
     if (!is_finite(c->proof->inner_a) || (!common && !is_finite(c->proof->inner_b)))
         return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "a point of the proof is not finite");
     // Copies, since the second call may move the table.
+    // A triangle of a solid has none.
+    if (!c->s->a.shape || !c->s->b.shape)
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "a triangle has no inner ellipsoid");
     const facts a = *judge_get_facts(c->context, &c->s->a), b = *judge_get_facts(c->context, &c->s->b);
     if (!a.is_inside || !b.is_inside)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "the inner ellipsoid of %s is not inside its polyhedron",

@@ -122,14 +122,12 @@ static ovoid_code check_bounds(judge *context, const posed *s, const ovoid_answe
     return code;
 }
 
-static ovoid_code check_pair(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
-                             const ovoid_cover *cover, ovoid_error *error) {
-    if (!judge_is_pose_valid(&pair->pose_a) || !judge_is_pose_valid(&pair->pose_b))
-        return judge_reject(error, OVOID_ERROR_PROOF, "an answer for a pose that is none");
-    posed s = posed_make(context->p, pair);
-    ovoid_code code = check_indices(&s, &answer->proof, error);
-    if (code == OVOID_OK) code = check_bounds(context, &s, answer, cover, error);
-    if (code == OVOID_OK) code = check_status(context, &s, answer, error);
+ovoid_code judge_check_posed(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
+                             ovoid_error *error) {
+    ovoid_code code = check_data(answer, error);
+    if (code == OVOID_OK) code = check_indices(s, &answer->proof, error);
+    if (code == OVOID_OK) code = check_bounds(context, s, answer, cover, error);
+    if (code == OVOID_OK) code = check_status(context, s, answer, error);
     if (code == OVOID_OK) code = check_normal(context->p, answer, error);
     return code;
 }
@@ -139,10 +137,11 @@ ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoi
     if (!context || !pair || !pair->shape_a || !pair->shape_b || !answer)
         return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
     if (is_refusal(answer)) return check_refusal(pair, answer, error);
-    ovoid_code code = check_data(answer, error);
-    if (code != OVOID_OK) return code;
+    if (!judge_is_pose_valid(&pair->pose_a) || !judge_is_pose_valid(&pair->pose_b))
+        return judge_reject(error, OVOID_ERROR_PROOF, "an answer for a pose that is none");
     size_t mark = pool_get_mark(context->p);
-    code = check_pair(context, pair, answer, cover, error);
+    posed s = posed_make(context->p, pair);
+    ovoid_code code = judge_check_posed(context, &s, answer, cover, error);
     pool_release(context->p, mark);
     return code;
 }

@@ -6,7 +6,7 @@
 #ifndef OVOID_JUDGE_H
 #define OVOID_JUDGE_H
 
-#include "ovoid/compound.h"
+#include "ovoid/solid.h"
 
 /// Working numbers, and what was proven of each shape's inner ellipsoid (by address: a shape that was seen must live as
 /// long as the judge, or judge_forget must be called before it is destroyed). One thread at a time.
@@ -41,6 +41,13 @@ ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoi
 /// Cost: the parts of all exclusions, some 15 us each. That the tree's order names each part once is checked too.
 ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
                                 const ovoid_exclusions *exclusions, ovoid_error *error);
+
+/// The same for two bodies of which one at least is a solid: the deciding pair of triangles, each exclusion by all
+/// points of its triangles, that they leave out no pair of triangles, what is inside by exact winding numbers of all
+/// components, and a depth by all points along its direction. points: the deciding pair's as judge_check_points does.
+/// Cost: the triangles of all exclusions, some microseconds each, and for each component all triangles of the other.
+ovoid_code judge_check_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                             const ovoid_exclusions *exclusions, int points, ovoid_error *error);
 
 /// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: that point_b - point_a =
 /// d normal, to what the bracket and the tolerance allow. OVOID_OK or OVOID_ERROR_PROOF.

@@ -54,6 +54,26 @@ ovoid_code judge_check_inner(const claim *c);
 /// The witness points lie on their bodies.
 ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer);
 
+/// judge_check_answer of a pair that is made already, and no refusal; judge_check_points.
+ovoid_code judge_check_posed(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
+                             ovoid_error *error);
+ovoid_code judge_check_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error);
+
+/// A table of all pairs of parts or triangles, rows and columns in the orders of both trees.
+typedef struct pair_table {
+    uint32_t rows, columns;
+    uint32_t row, column; ///< of the deciding pair
+    const ovoid_exclusion *items;
+    size_t count;
+} pair_table;
+
+/// 1 if the rectangles of the exclusions, whose ranges must be in the table, and the deciding pair's own square cover
+/// the table; 0 with a pair that they do not.
+int judge_is_covered(const pair_table *table, uint32_t *row, uint32_t *column);
+
+/// 1 if the order names each of count things once, with the place of one of them.
+int judge_is_order(const uint32_t *order, uint32_t count, uint32_t of, uint32_t *place);
+
 /// The sum of w[i] times vertex v[i] of a body in the world, times the body's n, and the sum of the weights.
 typedef struct weighted {
     nvec point;

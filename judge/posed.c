@@ -39,23 +39,33 @@ double judge_find_extent(const ovoid_polytope *polytope) {
     return extent;
 }
 
-body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose) {
-    body b = {.shape = shape, .polytope = ovoid_shape_get_polytope(shape)};
+body body_make_hull(pool *p, const ovoid_polytope *polytope, const ovoid_pose *pose) {
+    body b = {.shape = NULL, .polytope = *polytope};
     set_rotation(p, &b, pose->rotation);
     b.position = nvec_from(p, pose->position);
     b.origin = nvec_from(p, b.polytope.origin);
-    b.radius = number_from(p, ovoid_shape_get_radius(shape));
-    b.outside = number_from(p, ovoid_shape_get_allowance(shape).outside);
-    b.inside = number_from(p, ovoid_shape_get_allowance(shape).inside);
+    b.radius = b.outside = b.inside = number_from_integer(p, 0);
     b.extent = judge_find_extent(&b.polytope);
     b.reach = sum_abs(pose->position) + sum_abs(b.polytope.origin) + b.extent;
     return b;
 }
 
+body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose) {
+    ovoid_polytope polytope = ovoid_shape_get_polytope(shape);
+    body b = body_make_hull(p, &polytope, pose);
+    b.shape = shape;
+    b.radius = number_from(p, ovoid_shape_get_radius(shape));
+    b.outside = number_from(p, ovoid_shape_get_allowance(shape).outside);
+    b.inside = number_from(p, ovoid_shape_get_allowance(shape).inside);
+    return b;
+}
+
 posed posed_make(pool *p, const ovoid_pair *pair) {
-    posed s = {.p = p};
-    s.a = body_make(p, pair->shape_a, &pair->pose_a);
-    s.b = body_make(p, pair->shape_b, &pair->pose_b);
+    return posed_join(p, body_make(p, pair->shape_a, &pair->pose_a), body_make(p, pair->shape_b, &pair->pose_b));
+}
+
+posed posed_join(pool *p, body a, body b) {
+    posed s = {.p = p, .a = a, .b = b};
     s.k = num_mul(p, s.a.n, s.b.n);
     s.radii = num_add(p, s.a.radius, s.b.radius);
     s.outside = num_add(p, s.a.outside, s.b.outside);

@@ -10,7 +10,7 @@
 
 /// One body. All values exact.
 typedef struct body {
-    const ovoid_shape *shape;
+    const ovoid_shape *shape; ///< NULL: a triangle of a solid
     ovoid_polytope polytope;
     nvec rows[3]; ///< of M
     num n;        ///< |q|^2 > 0
@@ -31,6 +31,12 @@ typedef struct posed {
 
 /// One posed shape. The pose must have passed judge_is_pose_valid.
 body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose);
+
+/// The same of a polytope alone, without a radius.
+body body_make_hull(pool *p, const ovoid_polytope *polytope, const ovoid_pose *pose);
+
+/// Two bodies as a pair.
+posed posed_join(pool *p, body a, body b);
 
 /// The pair in exact arithmetic. Both poses must have passed judge_is_pose_valid.
 posed posed_make(pool *p, const ovoid_pair *pair);

@@ -110,16 +110,15 @@ ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
 
 // |point_b - point_a - d n| for d in the bracket: with w = upper - lower the points may differ from the nearest ones by
 // what the bracket leaves open, sqrt(w (w + 2 |d|)) across and w along the normal, and by the query's tolerance.
-ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
+ovoid_code judge_check_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error) {
     if (!(isfinite(answer->lower) && isfinite(answer->upper)))
         return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
     if (!is_finite(answer->point_a) || !is_finite(answer->point_b) || !is_finite(answer->normal))
         return judge_reject(error, OVOID_ERROR_NOT_FINITE, "a witness point or the normal is not finite");
-    pool *p = context->p;
+    pool *p = s->p;
     size_t mark = pool_get_mark(p);
-    posed s = posed_make(p, pair);
     double width = answer->upper - answer->lower, size = fmax(fabs(answer->lower), fabs(answer->upper));
-    double slack = width + sqrt(width * (width + 2 * size)) + QUERY_TOLERANCE * s.size + 2 * compute_tolerance(&s);
+    double slack = width + sqrt(width * (width + 2 * size)) + QUERY_TOLERANCE * s->size + 2 * compute_tolerance(s);
     num d = num_scaled(p, num_add(p, number_from(p, answer->lower), number_from(p, answer->upper)), -1);
     nvec along = nvec_scale(p, nvec_from(p, answer->normal), d);
     nvec off = nvec_sub(p, nvec_sub(p, nvec_from(p, answer->point_b), nvec_from(p, answer->point_a)), along);
@@ -128,4 +127,12 @@ ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoi
     if (found <= slack) return OVOID_OK;
     return judge_reject(error, OVOID_ERROR_PROOF, "point_b - point_a is off d normal by %.3g, more than %.3g", found,
                         slack);
+}
+
+ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
+    size_t mark = pool_get_mark(context->p);
+    posed s = posed_make(context->p, pair);
+    ovoid_code code = judge_check_points_posed(&s, answer, error);
+    pool_release(context->p, mark);
+    return code;
 }

@@ -15,6 +15,7 @@
 
 #include "ovoid/compound.h"
 #include "ovoid/motion.h"
+#include "ovoid/solid.h"
 
 #include <stdio.h>
 
@@ -271,12 +272,24 @@ OVOID_API void ovoid_motion_reader_destroy(ovoid_motion_reader *reader);
 
 /** Optional fields of a record, beside the answer of a pair. */
 typedef enum ovoid_record_field {
-    OVOID_RECORD_TIME = 1,   /**< of a frame, or of an impact */
-    OVOID_RECORD_PARTS = 2,  /**< the parts of compounds to which the answer belongs */
-    OVOID_RECORD_IMPACT = 4, /**< that the time is that of an impact, and its bracket; also the margin */
-    OVOID_RECORD_MARGIN = 8, /**< the margin that was asked about */
-    OVOID_RECORD_PROOF = 16  /**< of CSV: the proof, as the last column; JSON always has it */
+    OVOID_RECORD_TIME = 1,    /**< of a frame, or of an impact */
+    OVOID_RECORD_PARTS = 2,   /**< the parts of compounds to which the answer belongs */
+    OVOID_RECORD_IMPACT = 4,  /**< that the time is that of an impact, and its bracket; also the margin */
+    OVOID_RECORD_MARGIN = 8,  /**< the margin that was asked about */
+    OVOID_RECORD_PROOF = 16,  /**< of CSV: the proof, as the last column; JSON always has it */
+    OVOID_RECORD_MESHES = 32, /**< what the bodies' meshes are taken as, and the volumes of mesh and hull */
+    OVOID_RECORD_SOLIDS = 64  /**< of CSV: the triangles that decide, and what is inside; JSON has them with `solid` */
 } ovoid_record_field;
+
+/** What a mesh is taken as. */
+typedef enum ovoid_mesh_kind {
+    OVOID_MESH_HULL = 0, /**< its convex hull; a shape of any other origin, too */
+    OVOID_MESH_PARTS,    /**< a compound of its parts' hulls */
+    OVOID_MESH_SOLID,    /**< what its triangles enclose */
+    OVOID_MESH_SURFACE   /**< its triangles, which enclose nothing */
+} ovoid_mesh_kind;
+/** "hull", "parts", "solid" or "surface". */
+OVOID_API const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind);
 
 /** Most exclusions, steps and groups, all together, of a record in a line of JSON. */
 #define OVOID_RECORD_ITEMS_MAX ((size_t)1 << 16)
@@ -308,20 +321,31 @@ typedef struct ovoid_record {
     size_t step_count;
     const ovoid_step_group *groups; /**< of compounds: to which parts the steps belong; NULL: none */
     size_t group_count;
+    ovoid_mesh_kind kind_a, kind_b;
+    ovoid_convexity mesh_a, mesh_b;  /**< volumes NaN where there is no mesh, or it has none */
+    const ovoid_solid_answer *solid; /**< the answer of solids, beside `answer`; NULL: there is none */
 } ovoid_record;
+
+/**
+ * Makes a record that of solids: `solid` is the answer, which must live as long, and `answer` that of the deciding pair
+ * with the bracket, status and limit of the bodies. The meshes' kinds and the exclusions are left to the caller.
+ */
+OVOID_API void ovoid_record_set_solid(ovoid_record *record, const ovoid_solid_answer *answer);
 
 /**
  * One line of JSON with the keys time, frame, free_for, hit_after, a, part_a, b, part_b, status, limit, margin, within,
  * lower, upper, point_a, point_b, normal, stage, iterations, proof, in this order, the first four, the parts and the
- * margin where they are given; numbers with 17 digits; infinity and NaN are null. within is what the bracket says of
- * the margin: "yes", "no" (farther), "at" (the bracket is as narrow as asked and holds the margin) or "unproven". FILE
- * where the stream failed; LIMIT, and nothing is written, where the record has too many items.
+ * margin where they are given; numbers with 17 digits; infinity and NaN are null. Behind a and b stand, where they are
+ * given, kind_a, mesh_volume_a, hull_volume_a and of a solid triangle_a, and the same of b; behind within, where one
+ * solid has a component in the other, inside and component; docs/formats.md has them. within is what the bracket says
+ * of the margin: "yes", "no" (farther), "at" (the bracket is as narrow as asked and holds the margin) or "unproven".
+ * FILE where the stream failed; LIMIT, and nothing is written, where the record has too many items.
  */
 OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
 
 /**
  * The same columns as CSV: vectors are three columns, the proof, if it is wanted, is one field of JSON. fields: of all
- * records; TIME, IMPACT and PROOF choose columns, all others are always there.
+ * records; TIME, IMPACT, MESHES, SOLIDS and PROOF choose columns, all others are always there.
  */
 OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields);
 /** Writes one line of CSV, with the columns that its fields choose; a column without a value is empty. */

@@ -19,7 +19,8 @@ LANES_INLINE lane3 lane3_abs(lane3 v) { return (lane3){lane_abs(v.x), lane_abs(v
 LANES_INLINE lane join_gaps(lane3 gap) {
     lane zero = lane_set(0), most = lane_max(lane_max(gap.x, gap.y), gap.z);
     lane3 out = {lane_max(gap.x, zero), lane_max(gap.y, zero), lane_max(gap.z, zero)};
-    return lane_max(lane3_norm(out), most);
+    lane norm = lane3_norm(out);
+    return lane_select(lane_greater(norm, zero), norm, most);
 }
 
 LANES_TARGET static void run_boxes(const box8 *node, const solid8_other *other, double lower[BOX8]) {

@@ -221,4 +221,53 @@ static inline long double long_winding(const long3 *t, size_t count, long3 p) {
     return sum / 6.28318530717958647692528676655900577L;
 }
 
+/// What brute force says: the distance of the surfaces, and whether the bodies have a point in common.
+typedef struct solid_truth {
+    double surfaces;
+    int is_common;
+} solid_truth;
+
+/// A ball around a triangle.
+typedef struct long_ball {
+    long3 center;
+    long double radius;
+} long_ball;
+
+static inline long_ball *long_make_balls(const long3 *t, size_t count) {
+    long_ball *balls = malloc(count * sizeof *balls);
+    for (size_t i = 0; i < count; i++) {
+        balls[i].center =
+            long3_add_scaled(long3_sub(t[3 * i], long3_sub((long3){0, 0, 0}, t[3 * i + 1])), t[3 * i + 2], 1);
+        balls[i].center = long3_add_scaled((long3){0, 0, 0}, balls[i].center, 1.0L / 3);
+        balls[i].radius = 0;
+        for (int k = 0; k < 3; k++)
+            balls[i].radius = fmaxl(balls[i].radius, long3_norm(long3_sub(t[3 * i + k], balls[i].center)) * 1.000001L);
+    }
+    return balls;
+}
+
+/// Over all pairs of triangles, but those whose balls are farther apart than the nearest so far. Where no surfaces
+/// meet, any corner inside decides: of closed ones, as the meshes here are.
+static inline solid_truth find_solid_truth(const mesh *a, const ovoid_pose *pose_a, const mesh *b,
+                                           const ovoid_pose *pose_b) {
+    long3 *p = long_place_mesh(a, pose_a), *q = long_place_mesh(b, pose_b);
+    long_ball *in_a = long_make_balls(p, a->triangles), *in_b = long_make_balls(q, b->triangles);
+    long double best = INFINITY;
+    for (size_t i = 0; i < a->triangles; i++)
+        for (size_t j = 0; j < b->triangles; j++) {
+            long double apart = long3_norm(long3_sub(in_a[i].center, in_b[j].center)) - in_a[i].radius - in_b[j].radius;
+            if (apart < best) best = fminl(best, long_triangles_distance(p + 3 * i, q + 3 * j));
+        }
+    int is_common = best <= 0;
+    for (size_t i = 0; i < 3 * a->triangles && !is_common; i++)
+        is_common = fabsl(long_winding(q, b->triangles, p[i])) > 0.5L;
+    for (size_t i = 0; i < 3 * b->triangles && !is_common; i++)
+        is_common = fabsl(long_winding(p, a->triangles, q[i])) > 0.5L;
+    free(p);
+    free(q);
+    free(in_a);
+    free(in_b);
+    return (solid_truth){(double)best, is_common};
+}
+
 #endif

@@ -6,35 +6,13 @@
 enum { CAPACITY = 60000 };
 static ovoid_exclusion items[CAPACITY];
 
-/// What brute force says: the distance of the surfaces, and whether the bodies have a point in common.
-typedef struct truth {
-    double surfaces;
-    int is_common;
-} truth;
-
-static truth find_truth(const mesh *a, const ovoid_pose *pose_a, const mesh *b, const ovoid_pose *pose_b) {
-    long3 *p = long_place_mesh(a, pose_a), *q = long_place_mesh(b, pose_b);
-    long double best = INFINITY;
-    for (size_t i = 0; i < a->triangles; i++)
-        for (size_t j = 0; j < b->triangles; j++) best = fminl(best, long_triangles_distance(p + 3 * i, q + 3 * j));
-    // Any corner inside decides, where no surfaces meet.
-    int is_common = best <= 0;
-    for (size_t i = 0; i < 3 * a->triangles && !is_common; i++)
-        is_common = fabsl(long_winding(q, b->triangles, p[i])) > 0.5L;
-    for (size_t i = 0; i < 3 * b->triangles && !is_common; i++)
-        is_common = fabsl(long_winding(p, a->triangles, q[i])) > 0.5L;
-    free(p);
-    free(q);
-    return (truth){(double)best, is_common};
-}
-
 static void check_answer(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     CHECK(all->count <= all->capacity);
     if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, all, &error), OVOID_OK)) printf("  %s\n", error.message);
 }
 
-static void check_sign(const ovoid_solid_answer *x, truth t, double slack) {
+static void check_sign(const ovoid_solid_answer *x, solid_truth t, double slack) {
     if (t.is_common) CHECK(x->status == OVOID_OVERLAPPING || t.surfaces <= slack);
     if (t.is_common) CHECK(x->status != OVOID_SEPARATED);
     if (!t.is_common) CHECK(x->status == OVOID_SEPARATED || t.surfaces <= slack);
@@ -43,7 +21,7 @@ static void check_sign(const ovoid_solid_answer *x, truth t, double slack) {
     if (!t.is_common) CHECK_LE(t.surfaces, x->upper + slack);
 }
 
-static void check_pair(const ovoid_body_pair *pair, truth t, double size, uint64_t *s) {
+static void check_pair(const ovoid_body_pair *pair, solid_truth t, double size, uint64_t *s) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     double slack = 1e-12 * size, tolerance = 1.01e-9 * size;
     ovoid_solid_answer distance = ovoid_solid_distance(pair, NULL, NULL, &all);
@@ -96,7 +74,7 @@ static void check_random(int rounds, double scale, uint64_t seed) {
             pair.b.pose = (ovoid_pose){random_vec3(&s, apart), random_quat(&s)};
             ovoid_vec3 at = pair.a.pose.position;
             pair.b.pose.position.x += at.x, pair.b.pose.position.y += at.y, pair.b.pose.position.z += at.z;
-            truth t = find_truth(&a, &pair.a.pose, &b, &pair.b.pose);
+            solid_truth t = find_solid_truth(&a, &pair.a.pose, &b, &pair.b.pose);
             common += t.is_common;
             inside += t.is_common && t.surfaces > 0;
             check_pair(&pair, t, 6 * scale, &s);
@@ -135,7 +113,7 @@ static void check_shapes(int rounds, uint64_t seed) {
                                     {.shape = shape, .pose = ovoid_pose_make_identity()}};
             pair.b.pose.position = random_vec3(&s, 1.5);
             pair.b.pose.position.x += far, pair.b.pose.position.y += far, pair.b.pose.position.z += far;
-            truth t = find_truth(&a, &pair.a.pose, &b, &pair.b.pose);
+            solid_truth t = find_solid_truth(&a, &pair.a.pose, &b, &pair.b.pose);
             check_pair(&pair, t, far < 0 ? 4000 : 9, &s);
             ovoid_body_pair turned = {pair.b, pair.a};
             check_pair(&turned, t, far < 0 ? 4000 : 9, &s);

@@ -14,6 +14,7 @@ struct ovoid_results_reader {
     ovoid_exclusion *exclusions;
     ovoid_step *steps;
     ovoid_step_group *groups;
+    ovoid_solid_answer solid;
     ovoid_error *error;
 };
 
@@ -42,38 +43,38 @@ static int has_keys(json_t *object, const char *const *keys, size_t count, size_
     return 1;
 }
 
-// A whole number from 0 to top.
-static int read_whole(const json_t *value, double top, double *whole) {
+int record_read_whole(const json_t *value, double top, double *whole) {
     if (!json_is_number(value)) return 0;
     *whole = json_number_value(value);
     return *whole >= 0 && *whole <= top && *whole == floor(*whole);
 }
 
-// A number, or null for what is not finite.
-static int read_number(const json_t *value, double if_null, double *number) {
+int record_read_number(const json_t *value, double if_null, double *number) {
     *number = json_is_null(value) ? if_null : json_number_value(value);
     return json_is_number(value) || json_is_null(value);
 }
 
-static ovoid_code read_vector(ovoid_results_reader *r, const json_t *object, const char *key, ovoid_vec3 *v) {
-    const json_t *value = json_object_get(object, key);
+int record_read_vector(const json_t *value, ovoid_vec3 *v) {
     double xyz[3];
     int good = json_is_array(value) && json_array_size(value) == 3;
-    for (size_t k = 0; k < 3 && good; k++) good = read_number(json_array_get(value, k), NAN, &xyz[k]);
-    if (!good) return fail(r, key, "must be three numbers");
-    *v = (ovoid_vec3){xyz[0], xyz[1], xyz[2]};
-    return OVOID_OK;
+    for (size_t k = 0; k < 3 && good; k++) good = record_read_number(json_array_get(value, k), NAN, &xyz[k]);
+    if (good) *v = (ovoid_vec3){xyz[0], xyz[1], xyz[2]};
+    return good;
+}
+
+static ovoid_code read_vector(ovoid_results_reader *r, const json_t *object, const char *key, ovoid_vec3 *v) {
+    return record_read_vector(json_object_get(object, key), v) ? OVOID_OK : fail(r, key, "must be three numbers");
 }
 
 // ---- names of enums, as the core's naming functions give them
 
-static int find_status(const char *text) {
+int record_find_status(const char *text) {
     for (int i = OVOID_UNDECIDED; i <= OVOID_OVERLAPPING; i++)
         if (strcmp(ovoid_status_get_name((ovoid_status)i), text) == 0) return i;
     return -1;
 }
 
-static int find_limit(const char *text) {
+int record_find_limit(const char *text) {
     for (int i = OVOID_LIMIT_NONE; i <= OVOID_LIMIT_ALLOWANCE; i++)
         if (strcmp(ovoid_limit_get_name((ovoid_limit)i), text) == 0) return i;
     return -1;
@@ -94,7 +95,8 @@ static int find_kind(const char *text) {
 static ovoid_code read_status(ovoid_results_reader *r, const json_t *line, ovoid_answer *answer) {
     const char *status_name = json_string_value(json_object_get(line, "status"));
     const char *limit_name = json_string_value(json_object_get(line, "limit"));
-    int status = status_name ? find_status(status_name) : -1, limit = limit_name ? find_limit(limit_name) : -1;
+    int status = status_name ? record_find_status(status_name) : -1,
+        limit = limit_name ? record_find_limit(limit_name) : -1;
     if (status < 0) return fail(r, "status", "is not a status");
     if (limit < 0) return fail(r, "limit", "is not a limit");
     answer->status = (ovoid_status)status;
@@ -110,7 +112,8 @@ static ovoid_code read_indices(ovoid_results_reader *r, const json_t *proof, con
     if (json_array_size(value) != count) return fail(r, key, "must have as many items as \"a\"");
     for (uint32_t i = 0; i < count; i++) {
         double whole;
-        if (!read_whole(json_array_get(value, i), UINT32_MAX, &whole)) return fail(r, key, "must be vertex indices");
+        if (!record_read_whole(json_array_get(value, i), UINT32_MAX, &whole))
+            return fail(r, key, "must be vertex indices");
         indices[i] = (uint32_t)whole;
     }
     return OVOID_OK;
@@ -121,7 +124,7 @@ static ovoid_code read_weights(ovoid_results_reader *r, const json_t *proof, con
     const json_t *value = json_object_get(proof, key);
     if (json_array_size(value) != count) return fail(r, key, "must have as many items as \"a\"");
     for (uint32_t i = 0; i < count; i++)
-        if (!read_number(json_array_get(value, i), NAN, &weights[i])) return fail(r, key, "must be weights");
+        if (!record_read_number(json_array_get(value, i), NAN, &weights[i])) return fail(r, key, "must be weights");
     return OVOID_OK;
 }
 
@@ -154,7 +157,7 @@ static ovoid_code read_inner(ovoid_results_reader *r, const json_t *json, ovoid_
 static int read_item(const json_t *item, size_t width, double top, double *numbers) {
     if (!json_is_array(item) || json_array_size(item) != width) return 0;
     for (size_t k = 0; k < width; k++)
-        if (!read_whole(json_array_get(item, k), top, &numbers[k])) return 0;
+        if (!record_read_whole(json_array_get(item, k), top, &numbers[k])) return 0;
     return 1;
 }
 
@@ -201,7 +204,8 @@ static ovoid_code read_exclusion(ovoid_results_reader *r, json_t *json, ovoid_ex
     if (!json_is_object(json) || !has_keys(json, keys, 5, 4, &bad)) return fail(r, bad, "is not that of an exclusion");
     if (!read_range(json, "a", &x->first_a, &x->end_a) || !read_range(json, "b", &x->first_b, &x->end_b))
         return fail(r, bad, "must have ranges of two whole numbers");
-    if (!read_number(json_object_get(json, "lower"), -INFINITY, &x->lower)) return fail(r, "lower", "must be a number");
+    if (!record_read_number(json_object_get(json, "lower"), -INFINITY, &x->lower))
+        return fail(r, "lower", "must be a number");
     ovoid_code code = read_vector(r, json, "normal", &x->normal);
     return code || !json_object_get(json, "normal_low") ? code : read_vector(r, json, "normal_low", &x->normal_low);
 }
@@ -242,7 +246,7 @@ static ovoid_code read_steps(ovoid_results_reader *r, const json_t *json, ovoid_
         json_t *step = json_array_get(json, i);
         const char *bad = "steps";
         if (!json_is_object(step) || !has_keys(step, keys, 3, 2, &bad)) return fail(r, bad, "is not that of a step");
-        if (!read_number(json_object_get(step, "until"), NAN, &items[i].until))
+        if (!record_read_number(json_object_get(step, "until"), NAN, &items[i].until))
             return fail(r, "until", "must be a number");
         code = read_vector(r, step, "normal", &items[i].normal);
         if (!code) code = read_frame(r, json_object_get(step, "frame"), &items[i].frame);
@@ -267,7 +271,7 @@ static ovoid_code read_groups(ovoid_results_reader *r, const json_t *json, ovoid
         if (!read_range(group, "a", &items[i].first_a, &items[i].end_a) ||
             !read_range(group, "b", &items[i].first_b, &items[i].end_b))
             return fail(r, "groups", "must have ranges of two whole numbers");
-        if (!read_whole(json_object_get(group, "count"), UINT32_MAX, &steps))
+        if (!record_read_whole(json_object_get(group, "count"), UINT32_MAX, &steps))
             return fail(r, "count", "must be a whole number >= 0");
         items[i].count = (size_t)steps;
     }
@@ -275,11 +279,12 @@ static ovoid_code read_groups(ovoid_results_reader *r, const json_t *json, ovoid
 }
 
 static ovoid_code read_proof(ovoid_results_reader *r, json_t *json, ovoid_record *record) {
-    static const char *const keys[] = {"normal",  "normal_low", "kind",  "a",          "b",     "weight_a", "weight_b",
-                                       "inner_a", "inner_b",    "cover", "exclusions", "steps", "groups"};
+    static const char *const keys[] = {"normal",     "normal_low", "kind",    "a",        "b",
+                                       "weight_a",   "weight_b",   "inner_a", "inner_b",  "cover",
+                                       "exclusions", "steps",      "groups",  "surfaces", "parting"};
     ovoid_proof *proof = &record->answer.proof;
     const char *bad = "proof";
-    if (!json_is_object(json) || !has_keys(json, keys, 13, 0, &bad))
+    if (!json_is_object(json) || !has_keys(json, keys, 15, 0, &bad))
         return fail(r, bad, "does not belong into a proof");
     const char *kind = json_string_value(json_object_get(json, "kind"));
     int found = kind ? find_kind(kind) : -1;
@@ -305,7 +310,7 @@ static ovoid_code read_proof(ovoid_results_reader *r, json_t *json, ovoid_record
 static int read_body(const json_t *value, const char **name, size_t *index) {
     double whole = 0;
     *name = json_string_value(value);
-    if (!*name && !read_whole(value, 9007199254740992.0, &whole)) return 0;
+    if (!*name && !record_read_whole(value, 9007199254740992.0, &whole)) return 0;
     *index = (size_t)whole;
     return 1;
 }
@@ -323,7 +328,7 @@ static int read_part(const json_t *value, ovoid_record *record, uint32_t *part) 
     double whole;
     *part = OVOID_RECORD_NO_PART;
     if (!value) return 1;
-    if (!read_whole(value, OVOID_RECORD_NO_PART - 1, &whole)) return 0;
+    if (!record_read_whole(value, OVOID_RECORD_NO_PART - 1, &whole)) return 0;
     *part = (uint32_t)whole;
     record->fields |= OVOID_RECORD_PARTS;
     return 1;
@@ -372,9 +377,9 @@ static ovoid_code read_margin(ovoid_results_reader *r, const json_t *line, ovoid
 static ovoid_code read_answer(ovoid_results_reader *r, json_t *line, ovoid_record *record) {
     ovoid_answer *answer = &record->answer;
     ovoid_code code = read_status(r, line, answer);
-    if (!code && !read_number(json_object_get(line, "lower"), -INFINITY, &answer->lower))
+    if (!code && !record_read_number(json_object_get(line, "lower"), -INFINITY, &answer->lower))
         code = fail(r, "lower", "must be a number");
-    if (!code && !read_number(json_object_get(line, "upper"), INFINITY, &answer->upper))
+    if (!code && !record_read_number(json_object_get(line, "upper"), INFINITY, &answer->upper))
         code = fail(r, "upper", "must be a number");
     if (!code) code = read_margin(r, line, record);
     if (!code) code = read_vector(r, line, "point_a", &answer->point_a);
@@ -386,7 +391,7 @@ static ovoid_code read_answer(ovoid_results_reader *r, json_t *line, ovoid_recor
     if (stage < 0) return fail(r, "stage", "is not a stage");
     answer->stage = (ovoid_stage)stage;
     double iterations;
-    if (!read_whole(json_object_get(line, "iterations"), UINT32_MAX, &iterations))
+    if (!record_read_whole(json_object_get(line, "iterations"), UINT32_MAX, &iterations))
         return fail(r, "iterations", "must be a whole number >= 0");
     answer->iterations = (uint32_t)iterations;
     return read_proof(r, json_object_get(line, "proof"), record);
@@ -399,9 +404,36 @@ static const char *find_key_fault(const json_t *line, const char *key) {
 }
 
 static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t length, ovoid_record *record) {
-    static const char *const keys[] = {"a",       "b",      "status", "limit",      "lower",    "upper",    "point_a",
-                                       "point_b", "normal", "stage",  "iterations", "proof",    "time",     "frame",
-                                       "margin",  "within", "part_a", "part_b",     "free_for", "hit_after"};
+    static const char *const keys[] = {"a",
+                                       "b",
+                                       "status",
+                                       "limit",
+                                       "lower",
+                                       "upper",
+                                       "point_a",
+                                       "point_b",
+                                       "normal",
+                                       "stage",
+                                       "iterations",
+                                       "proof",
+                                       "time",
+                                       "frame",
+                                       "margin",
+                                       "within",
+                                       "part_a",
+                                       "part_b",
+                                       "free_for",
+                                       "hit_after",
+                                       "kind_a",
+                                       "kind_b",
+                                       "mesh_volume_a",
+                                       "mesh_volume_b",
+                                       "hull_volume_a",
+                                       "hull_volume_b",
+                                       "triangle_a",
+                                       "triangle_b",
+                                       "inside",
+                                       "component"};
     enum { ALL = sizeof keys / sizeof *keys, NEEDED = 12 };
     where at = {r->source.path, r->source.line, -1};
     json_error_t why;
@@ -421,7 +453,9 @@ static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t 
     ovoid_code code = read_bodies(r, r->line, record);
     if (!code) code = read_parts(r, r->line, record);
     if (!code) code = read_times(r, r->line, record);
-    return code ? code : read_answer(r, r->line, record);
+    if (!code) code = read_answer(r, r->line, record);
+    const char *wrong = code ? NULL : record_read_solid(r->line, record, &r->solid, &bad);
+    return wrong ? fail(r, bad, wrong) : code;
 }
 
 ovoid_results_reader *ovoid_results_reader_create(const char *path, ovoid_error *error) {

@@ -153,6 +153,7 @@ static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
     if (record->exclusion_count) write_exclusions(file, q, record);
     if (record->step_count) write_steps(file, q, record);
     if (record->group_count) write_groups(file, q, record);
+    record_write_surfaces(file, q, record);
     fputc('}', file);
 }
 
@@ -203,12 +204,15 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
     write_key(file, q, write_times(file, record), "a");
     write_body(file, record->a, record->index_a);
     write_part(file, "part_a", record, record->part_a);
+    record_write_kind(file, record, 0);
     write_key(file, q, ",", "b");
     write_body(file, record->b, record->index_b);
     write_part(file, "part_b", record, record->part_b);
+    record_write_kind(file, record, 1);
     write_word(file, "status", ovoid_status_get_name(answer->status));
     write_word(file, "limit", ovoid_limit_get_name(answer->limit));
     write_margin(file, record);
+    record_write_inside(file, record);
     write_key(file, q, ",", "lower");
     json_write_number(file, answer->lower);
     write_key(file, q, ",", "upper");
@@ -236,6 +240,7 @@ ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields) {
     fputs("a,part_a,b,part_b,status,limit,margin,within,lower,upper,point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,"
           "point_b_z,normal_x,normal_y,normal_z,stage,iterations",
           file);
+    record_write_solid_header(file, fields);
     fputs(fields & OVOID_RECORD_PROOF ? ",proof\n" : "\n", file);
     return stream_code(file);
 }
@@ -258,7 +263,7 @@ static void write_csv_body(FILE *file, const char *name, size_t index) {
     fputc('"', file);
 }
 
-static void write_csv_number(FILE *file, double value) {
+void record_write_column(FILE *file, double value) {
     char digits[32];
     fwrite(digits, 1, number_write(digits, value, 17), file);
 }
@@ -275,7 +280,7 @@ static void write_csv_times(FILE *file, const ovoid_record *record) {
     const double values[] = {record->time, record->frame, record->free_for, record->hit_after};
     int count = record->fields & OVOID_RECORD_IMPACT ? 4 : record->fields & OVOID_RECORD_TIME ? 1 : 0;
     for (int i = 0; i < count; i++) {
-        if (!i || record_is_impact(record)) write_csv_number(file, values[i]);
+        if (!i || record_is_impact(record)) record_write_column(file, values[i]);
         fputc(',', file);
     }
 }
@@ -288,15 +293,16 @@ ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record) {
     write_csv_body(file, record->b, record->index_b);
     write_csv_part(file, record, record->part_b);
     fprintf(file, "%s,%s,", ovoid_status_get_name(answer->status), ovoid_limit_get_name(answer->limit));
-    if (record_has_margin(record)) write_csv_number(file, record->margin);
+    if (record_has_margin(record)) record_write_column(file, record->margin);
     fprintf(file, ",%s", record_find_within(record));
     const ovoid_vec3 a = answer->point_a, b = answer->point_b, n = answer->normal;
     const double numbers[] = {answer->lower, answer->upper, a.x, a.y, a.z, b.x, b.y, b.z, n.x, n.y, n.z};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         fputc(',', file);
-        write_csv_number(file, numbers[i]);
+        record_write_column(file, numbers[i]);
     }
     fprintf(file, ",%s,%lu", ovoid_stage_get_name(answer->stage), (unsigned long)answer->iterations);
+    record_write_solid_columns(file, record);
     if (record->fields & OVOID_RECORD_PROOF) {
         fputs(",\"", file);
         write_proof(file, "\"\"", record);

@@ -1,0 +1,214 @@
+// The results that ovoid verify reads, and the bodies that each of them names: of a scene, which may move, of a list
+// with pairs, or two.
+#include "verify.h"
+
+#include "answers.h"
+#include "message.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void verify_close_bodies(body_source *bodies) {
+    frames_close(&bodies->frames);
+    ovoid_scene_destroy(bodies->scene);
+    ovoid_pairs_reader_destroy(bodies->pairs);
+    ovoid_shapes_destroy(bodies->list);
+    inputs_close_body(&bodies->bodies[0]);
+    inputs_close_body(&bodies->bodies[1]);
+    solids_close_pair(&bodies->solids);
+}
+
+/// Opens the bodies of ovoid batch. 0, or EXIT_INPUT after a message.
+static int open_list(body_source *bodies, const verify_settings *s) {
+    ovoid_error error;
+    bodies->list = inputs_read_list(s->list, &s->read);
+    if (!bodies->list) return EXIT_INPUT;
+    bodies->pairs = ovoid_pairs_reader_create(s->pairs, ovoid_shapes_get_count(bodies->list), &error);
+    if (!bodies->pairs) message_error("%s", error.message);
+    return bodies->pairs ? 0 : EXIT_INPUT;
+}
+
+/// Opens the bodies of ovoid distance. 0, or EXIT_INPUT after a message.
+static int open_pair(body_source *bodies, const verify_settings *s, const cli_operands *paths) {
+    bodies->paths[0] = paths->items[1];
+    bodies->paths[1] = paths->items[2];
+    const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
+    if (inputs_open_pair(bodies->paths, &s->read, s->choice.parts, bodies->bodies)) return EXIT_INPUT;
+    int solids = solids_open_pair(bodies->paths, bodies->bodies, poses, &s->read, &s->choice, &bodies->solids);
+    if (solids < 0) return EXIT_INPUT;
+    if (solids)
+        solids_describe(&bodies->solids, &bodies->meshes);
+    else
+        solids_describe_bodies(bodies->bodies, &bodies->meshes);
+    bodies->pair = (ovoid_body_pair){inputs_get_body(&bodies->bodies[0], &s->pose_a),
+                                     inputs_get_body(&bodies->bodies[1], &s->pose_b)};
+    return 0;
+}
+
+int verify_open_bodies(body_source *bodies, const verify_settings *s, const cli_operands *paths) {
+    if (s->list) return open_list(bodies, s);
+    if (paths->count == 3) return open_pair(bodies, s, paths);
+    bodies->scene = inputs_read_scene(paths->items[1]);
+    if (!bodies->scene) return EXIT_INPUT;
+    return s->motion ? frames_open(&bodies->frames, s->motion, bodies->scene) : 0;
+}
+
+static int refuse(verify *v, const char *message) {
+    v->refused = 1;
+    snprintf(v->error.message, sizeof v->error.message, "%s:%lld: %s", v->path,
+             (long long)ovoid_results_reader_get_line(v->reader), message);
+    return 0;
+}
+
+static void disprove(claim *item, const char *message) { snprintf(item->message, sizeof item->message, "%s", message); }
+
+/// Advances to the frame of the result: the last one that is not after it, or of an impact the one that ends its
+/// interval. 0 where the motion is refused.
+static int go_to_frame(verify *v, const ovoid_record *record, claim *item) {
+    cli_frames *f = &v->bodies.frames;
+    int is_impact = (record->fields & OVOID_RECORD_IMPACT) != 0, got = 1;
+    if (!(record->fields & OVOID_RECORD_TIME)) {
+        disprove(item, "it has no time, which the results of a motion have");
+        return 1;
+    }
+    double from = is_impact ? record->frame : record->time;
+    while (got > 0 && !(f->count && (is_impact ? f->time > from : f->time >= from))) {
+        got = frames_next(f);
+        seen_begin_frame(&v->seen);
+    }
+    if (got < 0) return v->refused = 1, v->error.message[0] = 0, 0;
+    if (is_impact ? f->earlier != from || !(f->time > from) : f->time != from)
+        disprove(item, is_impact ? "the motion has no such frame" : "the motion has no frame at this time");
+    return 1;
+}
+
+/// Sets both bodies of an impact, and their motions.
+static void set_impact(const verify *v, const ovoid_record *record, size_t a, size_t b, claim *item) {
+    const cli_frames *f = &v->bodies.frames;
+    ovoid_motion motions[2] = {frames_get_motion(f, a), frames_get_motion(f, b)};
+    double at = isfinite(record->hit_after) ? record->hit_after : record->free_for;
+    item->duration = f->time - f->earlier;
+    item->pair.a.pose = ovoid_motion_compute_pose(&motions[0], at);
+    item->pair.b.pose = ovoid_motion_compute_pose(&motions[1], at);
+    if (!(at >= 0 && at <= item->duration && record->free_for >= 0) || record->time != record->frame + at)
+        disprove(item, "its times are not those of an impact between two frames");
+    item->moving[0] = (ovoid_moving_body){item->pair.a.shape, item->pair.a.compound, motions[0]};
+    item->moving[1] = (ovoid_moving_body){item->pair.b.shape, item->pair.b.compound, motions[1]};
+}
+
+/// Finds the objects of the scene that the result names. 0 where the motion is refused.
+static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
+    const ovoid_scene *scene = v->bodies.scene;
+    size_t none = (size_t)-1;
+    size_t a = record->a ? ovoid_scene_find(scene, record->a) : none;
+    size_t b = record->b ? ovoid_scene_find(scene, record->b) : none;
+    if (a == none || b == none) {
+        disprove(item, "the scene has no object of that name");
+        return 1;
+    }
+    const cli_frames *f = &v->bodies.frames;
+    if (v->settings->motion && !go_to_frame(v, record, item)) return 0;
+    if (!v->settings->motion && record->fields & OVOID_RECORD_TIME) disprove(item, "it has a time: give the --motion");
+    ovoid_pose pose_a = f->poses ? f->poses[a] : ovoid_scene_get(scene, a).pose;
+    ovoid_pose pose_b = f->poses ? f->poses[b] : ovoid_scene_get(scene, b).pose;
+    item->pair = (ovoid_body_pair){answers_get_body(scene, a, &pose_a), answers_get_body(scene, b, &pose_b)};
+    int is_impact = (record->fields & OVOID_RECORD_IMPACT) != 0;
+    if (is_impact && !item->message[0]) set_impact(v, record, a, b, item);
+    if (is_impact || item->message[0] || seen_add(&v->seen, scene, a, b)) return 1;
+    return refuse(v, "out of memory");
+}
+
+/// Reads the next pair of the pairs file, which must be the one that the result names. 0 where there is none.
+static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
+    const body_source *bodies = &v->bodies;
+    ovoid_indexed_pair pair;
+    int got = ovoid_pairs_reader_read(bodies->pairs, &pair, &v->error);
+    if (got < 0) return v->refused = 1, 0;
+    if (got == 0) return refuse(v, "there are more results than pairs");
+    item->pair = (ovoid_body_pair){{.shape = ovoid_shapes_get(bodies->list, pair.a).shape, .pose = pair.pose_a},
+                                   {.shape = ovoid_shapes_get(bodies->list, pair.b).shape, .pose = pair.pose_b}};
+    if (record->a || record->b || record->index_a != pair.a || record->index_b != pair.b)
+        disprove(item, "a and b are not those of the pair with the same place in the pairs");
+    return 1;
+}
+
+static int is_same_volume(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+
+static int is_same_mesh(const ovoid_convexity *a, const ovoid_convexity *b) {
+    return is_same_volume(a->mesh_volume, b->mesh_volume) && is_same_volume(a->hull_volume, b->hull_volume);
+}
+
+/// What a result says of its meshes must be so.
+static void check_meshes(const ovoid_record *record, const ovoid_record *meshes, claim *item) {
+    if (!(record->fields & OVOID_RECORD_MESHES) || item->message[0]) return;
+    if (record->kind_a != meshes->kind_a || record->kind_b != meshes->kind_b)
+        disprove(item, "kind_a and kind_b are not what the bodies are taken as: --solid, --parts and --hull choose");
+    else if (!is_same_mesh(&record->mesh_a, &meshes->mesh_a) || !is_same_mesh(&record->mesh_b, &meshes->mesh_b))
+        disprove(item, "the volumes are not those of the meshes and their hulls");
+}
+
+static void find_given(const body_source *bodies, const ovoid_record *record, claim *item) {
+    int are_solids = bodies->solids.solids[0] || bodies->solids.solids[1];
+    item->pair = bodies->pair;
+    item->solids = bodies->solids.pair;
+    if (!record->a || !record->b || strcmp(record->a, bodies->paths[0]) != 0 ||
+        strcmp(record->b, bodies->paths[1]) != 0)
+        disprove(item, "a and b are not the two bodies given");
+    else if (record->solid && !are_solids)
+        disprove(item, "it is an answer about solids, which the bodies are not: give --solid, or no --hull");
+    else if (!record->solid && are_solids)
+        disprove(item, "it is an answer about hulls or parts, and a body is a solid: give --hull or --parts");
+    check_meshes(record, &bodies->meshes, item);
+}
+
+/// A copy of `size` bytes; NULL for none, and where memory is out.
+static void *copy(const void *data, size_t size) {
+    void *made = size ? malloc(size) : NULL;
+    if (made) memcpy(made, data, size);
+    return made;
+}
+
+/// Stores the record with copies of the arrays that it points to. 0 where memory is out.
+static int store_record(const ovoid_record *record, claim *item) {
+    ovoid_record *stored = &item->record;
+    *stored = *record;
+    stored->a = stored->b = NULL;
+    stored->solid = copy(record->solid, record->solid ? sizeof *record->solid : 0);
+    stored->cover = NULL;
+    if (record->cover && record->cover->point_count) stored->cover = copy(record->cover, sizeof *record->cover);
+    stored->exclusions = copy(record->exclusions, record->exclusion_count * sizeof *record->exclusions);
+    stored->steps = copy(record->steps, record->step_count * sizeof *record->steps);
+    stored->groups = copy(record->groups, record->group_count * sizeof *record->groups);
+    return !stored->cover == !(record->cover && record->cover->point_count) &&
+           !stored->exclusions == !record->exclusion_count && !stored->steps == !record->step_count &&
+           !stored->groups == !record->group_count && !stored->solid == !record->solid;
+}
+
+void verify_drop(claim *item) {
+    free((void *)item->record.cover);
+    free((void *)item->record.exclusions);
+    free((void *)item->record.steps);
+    free((void *)item->record.groups);
+    free((void *)item->record.solid);
+    item->record = (ovoid_record){.a = NULL};
+}
+
+/// Reads the next result with its bodies. 0: the end, or refused.
+int verify_read(verify *v, claim *item) {
+    ovoid_record record;
+    int got = ovoid_results_reader_read(v->reader, &record, &v->error);
+    if (got < 0) v->refused = 1;
+    if (got <= 0) return 0;
+    *item = (claim){.line = ovoid_results_reader_get_line(v->reader)};
+    if (v->bodies.scene)
+        got = find_in_scene(v, &record, item);
+    else if (v->bodies.list)
+        got = find_in_list(v, &record, item);
+    else
+        find_given(&v->bodies, &record, item);
+    if (got <= 0) return 0;
+    if (store_record(&record, item)) return 1;
+    verify_drop(item);
+    return refuse(v, "out of memory");
+}

@@ -1,0 +1,99 @@
+// Checking a result by its proof alone, on its bodies, without any search.
+#include "verify.h"
+
+#include "answers.h"
+
+#include <math.h>
+#include <string.h>
+
+/// 1 if point_b - point_a must be d times the normal: in answers to distance; not where a limit ended the search of a
+/// depth and the proof is a common point.
+static int has_nearest_points(int query, const ovoid_answer *answer) {
+    if (answer->proof.kind == OVOID_PROOF_HULL || answer->proof.kind == OVOID_PROOF_INNER) return 0;
+    return query == QUERY_DISTANCE;
+}
+
+/// Finds the pair of parts of a record; 0 where there is none such.
+static int get_parts(const ovoid_body_pair *bodies, const ovoid_record *record, ovoid_pair *pair) {
+    const ovoid_body *body[2] = {&bodies->a, &bodies->b};
+    const uint32_t part[2] = {record->fields & OVOID_RECORD_PARTS ? record->part_a : OVOID_RECORD_NO_PART,
+                              record->fields & OVOID_RECORD_PARTS ? record->part_b : OVOID_RECORD_NO_PART};
+    ovoid_posed_shape found[2];
+    for (int i = 0; i < 2; i++) {
+        found[i] = (ovoid_posed_shape){body[i]->shape, body[i]->pose};
+        if (!body[i]->compound != (part[i] == OVOID_RECORD_NO_PART)) return 0;
+        if (!body[i]->compound) continue;
+        if (part[i] >= ovoid_compound_get_part_count(body[i]->compound)) return 0;
+        found[i] = ovoid_compound_get_part(body[i]->compound, part[i]);
+        found[i].pose = ovoid_pose_compute_product(&body[i]->pose, &found[i].pose);
+    }
+    *pair = (ovoid_pair){found[0].shape, found[1].shape, found[0].pose, found[1].pose};
+    return 1;
+}
+
+/// Checks the answer of compounds: that of the deciding parts, and that the exclusions hold and leave out no other pair
+/// of parts.
+static ovoid_code check_compound(const verify *v, const claim *item, ovoid_error *error) {
+    const ovoid_record *r = &item->record;
+    ovoid_compound_answer answer = {.answer = r->answer,
+                                    .part_a = item->pair.a.compound ? r->part_a : 0,
+                                    .part_b = item->pair.b.compound ? r->part_b : 0};
+    ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count,
+                                   (ovoid_cover *)r->cover};
+    return verdict_check_compound(v->verdict, &item->pair, &answer, &exclusions, error);
+}
+
+/// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is
+/// not; of one that is not proven, the steps alone.
+static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ovoid_error *error) {
+    const ovoid_record *r = &item->record;
+    if (!(r->fields & OVOID_RECORD_IMPACT)) return OVOID_OK;
+    const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
+    ovoid_compound_impact found = {
+        .part_a = a->compound ? r->part_a : 0, .part_b = b->compound ? r->part_b : 0, .group_count = r->group_count};
+    int is_hit = isfinite(r->hit_after);
+    found.impact = (ovoid_impact){.status = is_hit ? OVOID_IMPACT_HIT : OVOID_IMPACT_UNDECIDED,
+                                  .limit = is_hit ? OVOID_LIMIT_NONE : r->answer.limit,
+                                  .end = item->duration,
+                                  .free_until = r->free_for,
+                                  .hit_at = r->hit_after,
+                                  .step_count = r->step_count,
+                                  .hit = *answer};
+    if (a->compound || b->compound)
+        return ovoid_compound_impact_check(a, b, r->margin, &found, r->steps, r->groups, error);
+    // The distance at the end of the free time is not claimed, so it is queried here.
+    ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};
+    ovoid_pair free = {a->shape, b->shape, ovoid_moving_shape_compute_pose(&moving[0], r->free_for),
+                       ovoid_moving_shape_compute_pose(&moving[1], r->free_for)};
+    found.impact.free = ovoid_within(&free, r->margin, NULL, NULL);
+    return ovoid_impact_check(&moving[0], &moving[1], r->margin, &found.impact, r->steps, error);
+}
+
+/// The answer of solids is that of their surfaces, of which the points are, and what follows from it.
+static ovoid_code check_solids(const verify *v, const claim *item, ovoid_error *error) {
+    const ovoid_record *r = &item->record;
+    ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count, NULL};
+    if (!item->solids.a.solid && !item->solids.b.solid) {
+        snprintf(error->message, sizeof error->message, "it is an answer about solids, which the bodies are not");
+        return OVOID_ERROR_PROOF;
+    }
+    int points = has_nearest_points(v->settings->query, &r->solid->surfaces);
+    return verdict_check_solid(v->verdict, &item->solids, r->solid, &exclusions, points, error);
+}
+
+ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) {
+    if (item->record.solid) return check_solids(v, item, error);
+    ovoid_pair pair;
+    const ovoid_answer answer = item->record.answer;
+    int is_compound = item->pair.a.compound || item->pair.b.compound;
+    if (!get_parts(&item->pair, &item->record, &pair)) {
+        snprintf(error->message, sizeof error->message, "the parts are not those of the bodies");
+        return OVOID_ERROR_PROOF;
+    }
+    // The answer of an impact is that of ovoid_within at its margin.
+    int is_impact = (item->record.fields & OVOID_RECORD_IMPACT) != 0;
+    int points = !is_impact && has_nearest_points(v->settings->query, &answer);
+    ovoid_code code = is_compound ? check_compound(v, item, error)
+                                  : verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
+    return code == OVOID_OK ? check_impact(item, &answer, error) : code;
+}

@@ -1,0 +1,362 @@
+// Answers about solids. Theorem. The surfaces: each exclusion is a rectangle in the table of all pairs of triangles;
+// along its normal the ones end before the others begin, by `lower` at least; with the deciding pair the rectangles
+// cover the table, so no two triangles are nearer than the least bound. The bodies: where the surfaces are apart, each
+// component of either lies in the other body or outside of it, whole, so a point of each decides, by how often the
+// other surface winds around it. What is d or above moves none of this: an overlap is as deep as its two triangles
+// cross, or as far as the component is from the other surface, and no deeper than what parts all points of both along
+// one direction.
+//
+// A ray from the point toward +x, in the frame of the body around it; where it meets an edge, one of no symmetry.
+#include "parts.h"
+
+#include <stdlib.h>
+
+/// One body: triangles, or a shape as triangle 0.
+typedef struct side {
+    const ovoid_body *of;
+    const uint32_t *order; ///< NULL: a shape
+    uint32_t count, place;
+    uint32_t *corners; ///< three points of each triangle, in the caller's order; NULL: a shape
+    const double *points;
+    uint32_t point_count;
+    body posed; ///< of the shape; of a solid with all points
+    int is_closed;
+} side;
+
+typedef struct trial {
+    pool *p;
+    side a, b;
+    const ovoid_solid_answer *x;
+    const ovoid_exclusion *items;
+    size_t count;
+    ovoid_error *error;
+} trial;
+
+static ovoid_code reject(const trial *t, const char *why) {
+    return judge_reject(t->error, OVOID_ERROR_PROOF, "%s", why);
+}
+
+static ovoid_code reject_item(const trial *t, size_t i, const char *why) {
+    (void)judge_reject(t->error, OVOID_ERROR_PROOF, "exclusion %zu %s", i, why);
+    if (t->error) t->error->place = (int64_t)i;
+    return OVOID_ERROR_PROOF;
+}
+
+// --- the sides
+
+static int compare_edges(const void *a, const void *b) {
+    const uint64_t *x = a, *y = b;
+    return x[0] != y[0] ? (x[0] < y[0] ? -1 : 1) : x[1] < y[1] ? -1 : x[1] > y[1];
+}
+
+/// 1 if each edge is run through as often in one direction as in the other, and there is one.
+static int is_closed(const side *s) {
+    uint64_t(*edges)[2] = judge_allocate(3 * (size_t)s->count, sizeof *edges);
+    size_t count = 0;
+    for (size_t i = 0; i < 3 * (size_t)s->count; i++) {
+        uint64_t a = s->corners[i], b = s->corners[i % 3 == 2 ? i - 2 : i + 1];
+        if (a == b) continue;
+        edges[count][0] = a < b ? a << 32 | b : b << 32 | a;
+        edges[count++][1] = a < b;
+    }
+    qsort(edges, count, sizeof *edges, compare_edges);
+    int closed = count > 0;
+    for (size_t i = 0, end; i < count && closed; i = end) {
+        uint64_t forward = 0;
+        for (end = i; end < count && edges[end][0] == edges[i][0]; end++) forward += edges[end][1];
+        closed = 2 * forward == end - i;
+    }
+    free(edges);
+    return closed;
+}
+
+static ovoid_code read_side(pool *p, const ovoid_body *of, uint32_t triangle, side *s, ovoid_error *error) {
+    *s = (side){.of = of, .count = 1};
+    if (!of->shape == !of->solid)
+        return judge_reject(error, OVOID_ERROR_ARGUMENT, "a body has neither a shape nor a solid, or both");
+    if (!judge_is_pose_valid(&of->pose))
+        return judge_reject(error, OVOID_ERROR_PROOF, "an answer for a pose that is none");
+    if (of->shape) {
+        s->posed = body_make(p, of->shape, &of->pose);
+    } else {
+        ovoid_solid_report r = ovoid_solid_get_report(of->solid);
+        s->order = ovoid_solid_get_order(of->solid);
+        s->count = (uint32_t)r.triangles;
+        s->points = ovoid_solid_get_points(of->solid);
+        s->point_count = (uint32_t)r.points;
+        ovoid_polytope all = {.vertex_count = s->point_count, .vertices = s->points};
+        s->posed = body_make_hull(p, &all, &of->pose);
+        s->corners = judge_allocate(3 * (size_t)s->count, sizeof *s->corners);
+        for (uint32_t i = 0; i < s->count; i++) ovoid_solid_get_triangle(of->solid, i, s->corners + 3 * (size_t)i);
+        s->is_closed = is_closed(s);
+    }
+    if (triangle >= s->count) return judge_reject(error, OVOID_ERROR_PROOF, "there is no triangle %u", triangle);
+    if (s->order && !judge_is_order(s->order, s->count, triangle, &s->place))
+        return judge_reject(error, OVOID_ERROR_PROOF, "the order does not name each triangle once");
+    return OVOID_OK;
+}
+
+static ovoid_vec3 get_point(const side *s, uint32_t i) {
+    const double *v = s->points + 3 * (size_t)i;
+    return (ovoid_vec3){v[0], v[1], v[2]};
+}
+
+// --- the deciding pair
+
+/// A triangle as a body, its corners in `room`.
+static body make_leaf(pool *p, const side *s, uint32_t triangle, double room[9]) {
+    static const uint32_t corners[3] = {0, 1, 2};
+    if (!s->corners) return s->posed;
+    for (int i = 0; i < 9; i++) room[i] = s->points[3 * (size_t)s->corners[3 * (size_t)triangle + i / 3] + i % 3];
+    ovoid_polytope one = {.rank = 2, .vertex_count = 3, .vertices = room, .triangle_count = 1, .triangles = corners};
+    return body_make_hull(p, &one, &s->of->pose);
+}
+
+static ovoid_code check_leaves(judge *context, const trial *t, int points) {
+    double room[2][9];
+    posed s = posed_join(t->p, make_leaf(t->p, &t->a, t->x->triangle_a, room[0]),
+                         make_leaf(t->p, &t->b, t->x->triangle_b, room[1]));
+    ovoid_answer own = t->x->surfaces;
+    // How narrow the bracket of touching must be is a question to the bodies, whose triangles may be small.
+    if (own.status == OVOID_TOUCHING) own.status = OVOID_UNDECIDED, own.limit = OVOID_LIMIT_PRECISION;
+    ovoid_code code = judge_check_posed(context, &s, &own, NULL, t->error);
+    if (code != OVOID_OK || !points || t->x->surfaces.status == OVOID_UNDECIDED) return code;
+    return judge_check_points_posed(&s, &t->x->surfaces, t->error);
+}
+
+static ovoid_code check_touching(const judge *context, const trial *t) {
+    const ovoid_answer *x = &t->x->surfaces;
+    ovoid_vec3 a = t->a.of->pose.position, b = t->b.of->pose.position;
+    double radii = num_to_double(num_add(t->p, t->a.posed.radius, t->b.posed.radius));
+    double size = t->a.posed.extent + t->b.posed.extent + radii + hypot(hypot(b.x - a.x, b.y - a.y), b.z - a.z);
+    double unresolved = 0x1p-88 * (t->a.posed.reach + t->b.posed.reach) + 16 * OVOID_LENGTH_MIN;
+    if (!(x->lower <= 0 && x->upper >= 0)) return reject(t, "the status is not what the bracket of the surfaces says");
+    if (!(x->upper - x->lower > context->touching * size + unresolved)) return OVOID_OK;
+    return judge_reject(t->error, OVOID_ERROR_PROOF, "touching within %.3g is wide for bodies of size %.3g",
+                        x->upper - x->lower, size);
+}
+
+// --- directions
+
+/// The farthest of the triangles at [first, end) along the direction (way 1) or against it (-1), times the body's n.
+static num find_reach(pool *p, const side *s, uint32_t first, uint32_t end, nvec n, int way) {
+    if (!s->corners) return body_support(p, &s->posed, n, way);
+    double *points = judge_allocate(9 * (size_t)(end - first), sizeof *points);
+    body range = s->posed;
+    range.polytope.vertices = points;
+    range.polytope.vertex_count = 0;
+    for (uint32_t place = first; place < end; place++)
+        for (int i = 0; i < 3; i++) {
+            ovoid_vec3 v = get_point(s, s->corners[3 * (size_t)s->order[place] + i]);
+            double *to = points + 3 * (size_t)range.polytope.vertex_count++;
+            to[0] = v.x, to[1] = v.y, to[2] = v.z;
+        }
+    num support = body_support(p, &range, n, way);
+    free(points);
+    return support;
+}
+
+/// 1 if the ranges of the exclusion are `lower` apart along its normal: k gap >= (lower + radii) k |n|.
+static int is_shown(const trial *t, const ovoid_exclusion *e) {
+    pool *p = t->p;
+    if (!is_finite(e->normal) || !is_finite(e->normal_low) || !isfinite(e->lower)) return 0;
+    nvec n = nvec_add(p, nvec_from(p, e->normal), nvec_from(p, e->normal_low));
+    if (nvec_is_zero(n)) return 0;
+    const body *a = &t->a.posed, *b = &t->b.posed;
+    num top = find_reach(p, &t->a, e->first_a, e->end_a, n, 1),
+        bottom = find_reach(p, &t->b, e->first_b, e->end_b, n, -1);
+    num gap = num_sub(p, num_mul(p, bottom, a->n), num_mul(p, top, b->n)), one = number_from_integer(p, 1);
+    num grown = num_add(p, num_add(p, a->radius, a->outside), num_add(p, b->radius, b->outside));
+    num claimed = num_mul(p, num_add(p, number_from(p, e->lower), grown), num_mul(p, a->n, b->n));
+    return num_compare_roots(p, claimed, nvec_norm_squared(p, n), gap, one) <= 0;
+}
+
+static ovoid_code check_exclusions(const trial *t) {
+    pair_table all = {t->a.count, t->b.count, t->a.place, t->b.place, t->items, t->count};
+    uint32_t row, column;
+    for (size_t i = 0; i < t->count; i++) {
+        const ovoid_exclusion *e = &t->items[i];
+        if (!(e->first_a < e->end_a && e->end_a <= t->a.count && e->first_b < e->end_b && e->end_b <= t->b.count))
+            return reject_item(t, i, "names triangles that there are not");
+        if (!(e->lower >= t->x->surfaces.lower)) return reject_item(t, i, "is below the answer's lower bound");
+    }
+    if (!judge_is_covered(&all, &row, &column))
+        return judge_reject(t->error, OVOID_ERROR_PROOF, "nothing excludes triangle %u of a and triangle %u of b",
+                            t->a.order ? t->a.order[row] : row, t->b.order ? t->b.order[column] : column);
+    for (size_t i = 0; i < t->count; i++) {
+        size_t mark = pool_get_mark(t->p);
+        int is = is_shown(t, &t->items[i]);
+        pool_release(t->p, mark);
+        if (!is) return reject_item(t, i, "is not shown by its normal");
+    }
+    return OVOID_OK;
+}
+
+// --- what is inside
+
+/// The point x of a frame, `factor` times.
+typedef struct scaled {
+    nvec x;
+    num factor;
+} scaled;
+
+/// A point of a body's component in the other body's frame: M'(n x - n position), M of the other, x in the world.
+static scaled find_point(pool *p, const side *own, const side *other, ovoid_vec3 local) {
+    nvec x = body_point(p, &own->posed, nvec_from(p, local));
+    nvec from = nvec_scale(p, other->posed.position, own->posed.n);
+    return (scaled){body_rotate_back(p, &other->posed, nvec_sub(p, x, from)), num_mul(p, own->posed.n, other->posed.n)};
+}
+
+/// The signed crossing of a ray with a triangle, corners from the ray's origin: 1, -1, 0; *ok = 0 where it meets an
+/// edge's line or the origin is in the triangle's plane.
+static int count_crossing(pool *p, nvec g, const nvec c[3], int *ok) {
+    int s[3];
+    for (int i = 0; i < 3; i++) s[i] = num_sign(nvec_det(p, g, c[i], c[(i + 1) % 3]));
+    if (s[0] * s[1] < 0 || s[1] * s[2] < 0 || s[2] * s[0] < 0) return 0;
+    int facing = num_sign(nvec_det(p, c[0], c[1], c[2]));
+    *ok &= s[0] && s[1] && s[2] && facing;
+    return facing == s[0] ? facing : 0;
+}
+
+/// 1 if all three have the sign, which is not 0.
+static int are_beyond(num a, num b, num c) {
+    int sign = num_sign(a);
+    return sign != 0 && num_sign(b) == sign && num_sign(c) == sign;
+}
+
+/// How often the solid winds around the point, by one ray; is_axis: that ray is +x, and the most part misses it.
+static long count_winding(pool *p, const side *s, const scaled *at, ovoid_vec3 ray, int is_axis, int *ok) {
+    nvec g = nvec_from(p, ray);
+    long winding = 0;
+    *ok = 1;
+    for (uint32_t t = 0; t < s->count && *ok; t++) {
+        size_t mark = pool_get_mark(p);
+        nvec c[3];
+        for (int i = 0; i < 3; i++) {
+            nvec corner = nvec_from(p, get_point(s, s->corners[3 * (size_t)t + i]));
+            c[i] = nvec_sub(p, nvec_scale(p, corner, at->factor), at->x);
+        }
+        int misses = is_axis && (are_beyond(c[0].y, c[1].y, c[2].y) || are_beyond(c[0].z, c[1].z, c[2].z));
+        if (!misses) winding += count_crossing(p, g, c, ok);
+        pool_release(p, mark);
+    }
+    return winding;
+}
+
+/// 1 if the other body winds around the point, 0 if not, -1 where that is open: on its surface.
+static int is_inside(const trial *t, const side *own, const side *other, ovoid_vec3 local) {
+    static const ovoid_vec3 rays[] = {{1, 0, 0},         {1009, 2003, -3001}, {-4001, 907, 1301},
+                                      {577, -2741, 991}, {-1511, -3307, 271}, {89, 233, 4657}};
+    size_t mark = pool_get_mark(t->p);
+    scaled at = find_point(t->p, own, other, local);
+    int is = -1;
+    for (size_t i = 0; i < sizeof rays / sizeof *rays && is < 0; i++) {
+        int ok;
+        long winding = count_winding(t->p, other, &at, rays[i], i == 0, &ok);
+        if (ok) is = winding != 0;
+    }
+    pool_release(t->p, mark);
+    return is;
+}
+
+static uint32_t find_root(uint32_t *parent, uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+/// A point of each component, in the order of the least point of each; how many there are. Freed by the caller.
+static uint32_t find_components(const side *s, uint32_t **points) {
+    uint32_t *parent = judge_allocate((size_t)s->point_count + 1, sizeof *parent), count = 0;
+    for (uint32_t i = 0; i < s->point_count; i++) parent[i] = i;
+    for (size_t i = 0; i < 3 * (size_t)s->count; i++) {
+        uint32_t a = find_root(parent, s->corners[i]), b = find_root(parent, s->corners[i - i % 3]);
+        parent[a > b ? a : b] = a > b ? b : a;
+    }
+    for (uint32_t i = 0; i < s->point_count; i++)
+        if (parent[i] == i) parent[count++] = i;
+    *points = parent;
+    return count;
+}
+
+/// 1 if component `only` (or of all, where it is UINT32_MAX, any) of own is inside the other, 0 if none, -1 open; -2:
+/// there is no such component.
+static int has_inside(const trial *t, const side *own, const side *other, uint32_t only) {
+    if (!other->is_closed) return 0;
+    if (!own->corners) {
+        const double *v = own->posed.polytope.vertices;
+        if (only && only != UINT32_MAX) return -2;
+        return is_inside(t, own, other, (ovoid_vec3){v[0], v[1], v[2]});
+    }
+    uint32_t *points, count = find_components(own, &points);
+    int is = only != UINT32_MAX && only >= count ? -2 : 0;
+    for (uint32_t i = 0; i < count && !is; i++)
+        if (only == UINT32_MAX || only == i) is = is_inside(t, own, other, get_point(own, points[i]));
+    free(points);
+    return is;
+}
+
+// --- the bodies
+
+static ovoid_code check_apart(const trial *t) {
+    const ovoid_solid_answer *x = t->x;
+    if (!(x->surfaces.lower > 0 && x->lower <= x->surfaces.lower && x->upper >= x->surfaces.upper) || x->inside)
+        return reject(t, "the distance is not that of the surfaces");
+    if (has_inside(t, &t->a, &t->b, UINT32_MAX) || has_inside(t, &t->b, &t->a, UINT32_MAX))
+        return reject(t, "one body is inside of the other");
+    return OVOID_OK;
+}
+
+static ovoid_code check_overlap(const trial *t) {
+    const ovoid_solid_answer *x = t->x;
+    if (!(x->upper < 0)) return reject(t, "an overlap whose bracket reaches 0");
+    if (!x->inside)
+        return x->surfaces.upper < 0 && x->upper >= x->surfaces.upper ? OVOID_OK
+                                                                      : reject(t, "an overlap without a reason");
+    if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
+        return reject(t, "an overlap without a reason");
+    if (!(x->surfaces.lower > 0 && x->upper >= -x->surfaces.lower))
+        return reject(t, "the surfaces are nearer than is claimed of what is inside");
+    const side *own = x->inside == OVOID_SOLID_A_INSIDE ? &t->a : &t->b, *other = own == &t->a ? &t->b : &t->a;
+    return has_inside(t, own, other, x->component) == 1 ? OVOID_OK : reject(t, "what is said to be inside is not");
+}
+
+static ovoid_code check_depth(const trial *t) {
+    ovoid_exclusion all = {0, t->a.count, 0, t->b.count, t->x->parting, {0, 0, 0}, t->x->lower};
+    if (t->x->lower == -INFINITY) return OVOID_OK;
+    return is_shown(t, &all) ? OVOID_OK : reject(t, "the depth is not shown by its direction");
+}
+
+static ovoid_code check_bodies(const judge *context, const trial *t) {
+    const ovoid_solid_answer *x = t->x;
+    if (!(x->lower <= x->upper)) return reject(t, "the bracket is empty");
+    if (x->status == OVOID_SEPARATED) return check_apart(t);
+    ovoid_code code = OVOID_OK;
+    if (x->status == OVOID_OVERLAPPING)
+        code = check_overlap(t);
+    else if (x->inside || !(x->lower <= 0 && x->upper >= 0 && x->upper >= x->surfaces.upper))
+        code = reject(t, "the status does not follow from the bracket");
+    if (code == OVOID_OK && x->status == OVOID_TOUCHING) code = check_touching(context, t);
+    return code == OVOID_OK ? check_depth(t) : code;
+}
+
+ovoid_code judge_check_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                             const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
+    if (!context || !pair || !answer) return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
+    // A refusal claims nothing.
+    if (answer->status == OVOID_UNDECIDED && answer->lower == -INFINITY && answer->upper == INFINITY) return OVOID_OK;
+    if (exclusions && exclusions->count > exclusions->capacity)
+        return judge_reject(error, OVOID_ERROR_PROOF, "%zu exclusions, but there was room for %zu", exclusions->count,
+                            exclusions->capacity);
+    size_t mark = pool_get_mark(context->p);
+    trial t = {.p = context->p, .x = answer, .error = error};
+    if (exclusions) t.items = exclusions->items, t.count = exclusions->count;
+    ovoid_code code = read_side(t.p, &pair->a, answer->triangle_a, &t.a, error);
+    if (code == OVOID_OK) code = read_side(t.p, &pair->b, answer->triangle_b, &t.b, error);
+    if (code == OVOID_OK) code = check_leaves(context, &t, points);
+    if (code == OVOID_OK) code = check_exclusions(&t);
+    if (code == OVOID_OK) code = check_bodies(context, &t);
+    free(t.a.corners);
+    free(t.b.corners);
+    pool_release(context->p, mark);
+    return code;
+}

@@ -1,0 +1,203 @@
+// What a record of solids has beside the answer of the deciding pair, and what meshes are taken as: written and read.
+//
+// "status", "limit", "lower" and "upper" are those of the bodies; the proof's "surfaces" are those of the two surfaces,
+// and its "parting" the direction along which the bodies' boxes show `lower`, where that is 0 or below.
+#include "io/json.h"
+#include "io/results/record.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const kinds[] = {"hull", "parts", "solid", "surface"};
+
+const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind) {
+    return (unsigned)kind < sizeof kinds / sizeof *kinds ? kinds[kind] : "unknown";
+}
+
+void ovoid_record_set_solid(ovoid_record *record, const ovoid_solid_answer *answer) {
+    record->solid = answer;
+    record->answer = answer->surfaces;
+    record->answer.status = answer->status;
+    record->answer.limit = answer->limit;
+    record->answer.lower = answer->lower;
+    record->answer.upper = answer->upper;
+}
+
+static int has_triangles(ovoid_mesh_kind kind) { return kind == OVOID_MESH_SOLID || kind == OVOID_MESH_SURFACE; }
+
+static const char *find_inside(const ovoid_solid_answer *x) {
+    return x->inside == OVOID_SOLID_A_INSIDE ? "a in b" : x->inside == OVOID_SOLID_B_INSIDE ? "b in a" : "";
+}
+
+/// 1 where the lower bound of the bodies is that of a direction.
+static int has_parting(const ovoid_answer *bodies) { return bodies->lower <= 0 && bodies->lower != -INFINITY; }
+
+// ---- written
+
+static void write_volume(FILE *file, const char *key, int side, double volume) {
+    fprintf(file, ",\"%s_%c\":", key, side ? 'b' : 'a');
+    json_write_number(file, volume);
+}
+
+void record_write_kind(FILE *file, const ovoid_record *record, int side) {
+    ovoid_mesh_kind kind = side ? record->kind_b : record->kind_a;
+    const ovoid_convexity *mesh = side ? &record->mesh_b : &record->mesh_a;
+    if (!(record->fields & OVOID_RECORD_MESHES)) return;
+    fprintf(file, ",\"kind_%c\":\"%s\"", side ? 'b' : 'a', ovoid_mesh_kind_get_name(kind));
+    write_volume(file, "mesh_volume", side, mesh->mesh_volume);
+    write_volume(file, "hull_volume", side, mesh->hull_volume);
+    if (record->solid && has_triangles(kind))
+        fprintf(file, ",\"triangle_%c\":%lu", side ? 'b' : 'a',
+                (unsigned long)(side ? record->solid->triangle_b : record->solid->triangle_a));
+}
+
+void record_write_inside(FILE *file, const ovoid_record *record) {
+    const ovoid_solid_answer *x = record->solid;
+    if (x && x->inside)
+        fprintf(file, ",\"inside\":\"%s\",\"component\":%lu", find_inside(x), (unsigned long)x->component);
+}
+
+void record_write_surfaces(FILE *file, const char *q, const ovoid_record *record) {
+    const ovoid_solid_answer *x = record->solid;
+    if (!x) return;
+    fprintf(file, ",%ssurfaces%s:{%sstatus%s:%s%s%s,%slimit%s:%s%s%s,%slower%s:", q, q, q, q, q,
+            ovoid_status_get_name(x->surfaces.status), q, q, q, q, ovoid_limit_get_name(x->surfaces.limit), q, q, q);
+    json_write_number(file, x->surfaces.lower);
+    fprintf(file, ",%supper%s:", q, q);
+    json_write_number(file, x->surfaces.upper);
+    fputc('}', file);
+    if (!has_parting(&record->answer)) return;
+    fprintf(file, ",%sparting%s:[", q, q);
+    const double n[3] = {x->parting.x, x->parting.y, x->parting.z};
+    for (int k = 0; k < 3; k++) {
+        if (k) fputc(',', file);
+        json_write_number(file, n[k]);
+    }
+    fputc(']', file);
+}
+
+void record_write_solid_header(FILE *file, unsigned fields) {
+    if (fields & OVOID_RECORD_MESHES)
+        fputs(",kind_a,mesh_volume_a,hull_volume_a,kind_b,mesh_volume_b,hull_volume_b", file);
+    if (fields & OVOID_RECORD_SOLIDS) fputs(",triangle_a,triangle_b,inside", file);
+}
+
+void record_write_solid_columns(FILE *file, const ovoid_record *record) {
+    const ovoid_solid_answer *x = record->solid;
+    for (int side = 0; side < 2 && record->fields & OVOID_RECORD_MESHES; side++) {
+        const ovoid_convexity *mesh = side ? &record->mesh_b : &record->mesh_a;
+        fprintf(file, ",%s,", ovoid_mesh_kind_get_name(side ? record->kind_b : record->kind_a));
+        if (isfinite(mesh->mesh_volume)) record_write_column(file, mesh->mesh_volume);
+        fputc(',', file);
+        if (isfinite(mesh->hull_volume)) record_write_column(file, mesh->hull_volume);
+    }
+    if (!(record->fields & OVOID_RECORD_SOLIDS)) return;
+    fputc(',', file);
+    if (x && has_triangles(record->kind_a)) fprintf(file, "%lu", (unsigned long)x->triangle_a);
+    fputc(',', file);
+    if (x && has_triangles(record->kind_b)) fprintf(file, "%lu", (unsigned long)x->triangle_b);
+    fprintf(file, ",%s", x ? find_inside(x) : "");
+}
+
+// ---- read
+
+static int find_kind(const char *text) {
+    for (int i = 0; i < (int)(sizeof kinds / sizeof *kinds); i++)
+        if (text && strcmp(kinds[i], text) == 0) return i;
+    return -1;
+}
+
+// Both bodies have all three keys, or neither has one.
+static const char *read_meshes(const json_t *line, ovoid_record *record, const char **key) {
+    static const char *const keys[] = {"kind_a",        "kind_b",        "mesh_volume_a",
+                                       "mesh_volume_b", "hull_volume_a", "hull_volume_b"};
+    double *const volumes[] = {&record->mesh_a.mesh_volume, &record->mesh_b.mesh_volume, &record->mesh_a.hull_volume,
+                               &record->mesh_b.hull_volume};
+    int present = 0, kind[2];
+    for (int i = 0; i < 6; i++) present += json_object_get(line, keys[i]) != NULL;
+    if (!present) return NULL;
+    for (int i = 0; i < 6; i++) {
+        *key = keys[i];
+        const json_t *value = json_object_get(line, keys[i]);
+        if (!value) return "is missing: kinds and volumes come together";
+        if (i < 2 && (kind[i] = find_kind(json_string_value(value))) < 0) return "is not a kind of mesh";
+        if (i >= 2 && !record_read_number(value, NAN, volumes[i - 2])) return "must be a number or null";
+    }
+    record->kind_a = (ovoid_mesh_kind)kind[0];
+    record->kind_b = (ovoid_mesh_kind)kind[1];
+    record->fields |= OVOID_RECORD_MESHES;
+    return NULL;
+}
+
+static const char *read_triangle(const json_t *line, ovoid_mesh_kind kind, const char *name, uint32_t *triangle,
+                                 const char **key) {
+    const json_t *value = json_object_get(line, name);
+    double whole = 0;
+    *key = name;
+    if (!value != !has_triangles(kind)) return "goes with a solid or a surface";
+    if (value && !record_read_whole(value, UINT32_MAX, &whole)) return "must be a whole number >= 0";
+    *triangle = (uint32_t)whole;
+    return NULL;
+}
+
+static const char *read_inside(const json_t *line, ovoid_solid_answer *x, const char **key) {
+    const json_t *component = json_object_get(line, "component");
+    const char *inside = json_string_value(json_object_get(line, "inside"));
+    double whole;
+    *key = "inside";
+    if (!json_object_get(line, "inside") && !component) return NULL;
+    if (!inside || (strcmp(inside, "a in b") != 0 && strcmp(inside, "b in a") != 0))
+        return "must be \"a in b\" or \"b in a\", with a component";
+    x->inside = inside[0] == 'a' ? OVOID_SOLID_A_INSIDE : OVOID_SOLID_B_INSIDE;
+    *key = "component";
+    if (!record_read_whole(component, UINT32_MAX, &whole)) return "must be a whole number >= 0";
+    x->component = (uint32_t)whole;
+    return NULL;
+}
+
+static const char *read_surfaces(const json_t *json, ovoid_answer *x, const char **key) {
+    const char *status = json_string_value(json_object_get(json, "status"));
+    const char *limit = json_string_value(json_object_get(json, "limit"));
+    int found = status ? record_find_status(status) : -1, stopped = limit ? record_find_limit(limit) : -1;
+    *key = "surfaces";
+    if (!json_is_object(json) || json_object_size(json) != 4 || found < 0 || stopped < 0 ||
+        !record_read_number(json_object_get(json, "lower"), -INFINITY, &x->lower) ||
+        !record_read_number(json_object_get(json, "upper"), INFINITY, &x->upper))
+        return "must have a status, a limit, lower and upper";
+    x->status = (ovoid_status)found;
+    x->limit = (ovoid_limit)stopped;
+    return NULL;
+}
+
+const char *record_read_solid(const json_t *line, ovoid_record *record, ovoid_solid_answer *x, const char **key) {
+    const json_t *proof = json_object_get(line, "proof");
+    const json_t *surfaces = json_object_get(proof, "surfaces"), *parting = json_object_get(proof, "parting");
+    static const char *const own[] = {"triangle_a", "triangle_b", "inside", "component"};
+    const char *wrong = read_meshes(line, record, key);
+    if (wrong) return wrong;
+    if (!surfaces) {
+        for (int i = 0; i < 4; i++)
+            if (json_object_get(line, *key = own[i])) return "goes with a proof that has \"surfaces\"";
+        *key = "parting";
+        return parting ? "goes with \"surfaces\"" : NULL;
+    }
+    *key = "kind_a";
+    if (!(record->fields & OVOID_RECORD_MESHES) || !(has_triangles(record->kind_a) || has_triangles(record->kind_b)))
+        return "must say what is a solid or a surface, where a proof has \"surfaces\"";
+    const ovoid_answer *answer = &record->answer;
+    *x = (ovoid_solid_answer){.status = answer->status,
+                              .limit = answer->limit,
+                              .lower = answer->lower,
+                              .upper = answer->upper,
+                              .surfaces = *answer};
+    wrong = read_triangle(line, record->kind_a, "triangle_a", &x->triangle_a, key);
+    if (!wrong) wrong = read_triangle(line, record->kind_b, "triangle_b", &x->triangle_b, key);
+    if (!wrong) wrong = read_inside(line, x, key);
+    if (!wrong) wrong = read_surfaces(surfaces, &x->surfaces, key);
+    if (wrong) return wrong;
+    *key = "parting";
+    if (!parting != !has_parting(answer)) return "goes with a lower bound of at most 0";
+    if (parting && !record_read_vector(parting, &x->parting)) return "must be three numbers";
+    record->solid = x;
+    return NULL;
+}
