@@ -7,86 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-// ---- polygons
-
-typedef struct vector {
-    double x, y, z;
-} vector;
-
-static vector get_difference(const double *a, const double *b) {
-    return (vector){a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-static vector get_normal(const double *xyz, uint32_t a, uint32_t b, uint32_t c) {
-    vector u = get_difference(xyz + 3 * (size_t)b, xyz + 3 * (size_t)a);
-    vector v = get_difference(xyz + 3 * (size_t)c, xyz + 3 * (size_t)a);
-    return (vector){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-}
-
-/// The corner from which a polygon is cut into triangles that all face the same way; size where there is none.
-static uint32_t find_apex(const double *xyz, const uint32_t *face, uint32_t size) {
-    vector n = {0, 0, 0};
-    for (uint32_t i = 1; i + 1 < size; i++) {
-        vector t = get_normal(xyz, face[0], face[i], face[i + 1]);
-        n = (vector){n.x + t.x, n.y + t.y, n.z + t.z};
-    }
-    double least = -1e-12 * (n.x * n.x + n.y * n.y + n.z * n.z);
-    for (uint32_t apex = 0; apex < size; apex++) {
-        uint32_t i = 1;
-        for (; i + 1 < size; i++) {
-            vector t = get_normal(xyz, face[apex], face[(apex + i) % size], face[(apex + i + 1) % size]);
-            if (!(t.x * n.x + t.y * n.y + t.z * n.z >= least)) break;
-        }
-        if (i + 1 >= size) return apex;
-    }
-    return size;
-}
-
-static uint32_t *cut_polygons(const char *path, const ovoid_faces *faces, size_t *count, ovoid_error *error) {
-    size_t room = 0;
-    for (size_t f = 0; f < faces->face_count; f++) room += faces->sizes[f] - 2;
-    uint32_t *triangles = malloc((3 * room + 1) * sizeof *triangles);
-    *count = 0;
-    if (!triangles) snprintf(error->message, sizeof error->message, "out of memory");
-    const uint32_t *face = faces->indices;
-    for (size_t f = 0; f < faces->face_count && triangles; face += faces->sizes[f++]) {
-        uint32_t size = faces->sizes[f], apex = find_apex(faces->vertices, face, size);
-        if (apex == size) {
-            snprintf(error->message, sizeof error->message,
-                     "%.150s: face %zu cannot be cut into triangles from one of its corners: triangulate the mesh",
-                     path, f);
-            free(triangles);
-            return NULL;
-        }
-        for (uint32_t i = 1; i + 1 < size; i++) {
-            uint32_t *t = triangles + 3 * (*count)++;
-            t[0] = face[apex];
-            t[1] = face[(apex + i) % size];
-            t[2] = face[(apex + i + 1) % size];
-        }
-    }
-    return triangles;
-}
-
-ovoid_solid *solids_read(const char *path, const read_settings *settings, ovoid_error *error) {
-    ovoid_read_options read = inputs_make_options(settings);
-    ovoid_mesh *mesh = ovoid_mesh_read(path, &read, error);
-    if (!mesh) return NULL;
-    ovoid_faces faces = ovoid_mesh_get_part(mesh, 0).faces;
-    ovoid_solid *solid = NULL;
-    size_t count;
-    if (faces.face_count == 0) {
-        snprintf(error->message, sizeof error->message, "%.200s has no faces: points alone are no solid", path);
-    } else {
-        uint32_t *triangles = cut_polygons(path, &faces, &count, error);
-        if (triangles)
-            solid =
-                ovoid_solid_create_from_triangles(faces.vertices, faces.vertex_count, triangles, count, NULL, error);
-        free(triangles);
-    }
-    ovoid_mesh_destroy(mesh);
-    return solid;
-}
-
 // ---- pairs
 
 int solids_settle(const cli_command *command, const solids_choice *choice) {
@@ -104,7 +24,7 @@ static int open_solid(const char *path, const cli_body *body, const read_setting
     int is_default = c.is_nonconvex && isfinite(c.mesh_volume);
     *solid = NULL;
     if (ovoid_path_is_shape(path) || !(is_wanted || is_default)) return 1;
-    *solid = solids_read(path, read, &error);
+    *solid = ovoid_solid_read_file(path, read, &error);
     if (!*solid) {
         if (is_wanted) message_error("%s", error.message);
         return !is_wanted;

@@ -31,10 +31,6 @@ typedef struct solids_choice {
 /// At most one of them: -1 to go on, or EXIT_USAGE.
 int solids_settle(const cli_command *command, const solids_choice *choice);
 
-/// Reads a mesh file as one solid, its polygons cut into triangles. NULL with *error filled. A mesh that is not closed
-/// becomes a surface.
-ovoid_solid *solids_read(const char *path, const read_settings *settings, ovoid_error *error);
-
 /// Two files' bodies, of which each may be a solid.
 typedef struct solids_pair {
     const char *const *paths;

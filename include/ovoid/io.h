@@ -99,6 +99,14 @@ typedef struct ovoid_convexity {
  */
 OVOID_API ovoid_convexity ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull);
 
+/**
+ * The triangles of a mesh file as one solid; one that is not closed becomes a surface, as its report says. A polygon is
+ * cut into triangles from its first corner from which all of them face as the polygon does. options->parts is ignored.
+ * Errors: those of ovoid_mesh_read and of ovoid_solid_create_from_triangles; EMPTY (no faces), FORMAT (place: a face
+ * that no corner cuts so). The caller destroys it.
+ */
+OVOID_API ovoid_solid *ovoid_solid_read_file(const char *path, const ovoid_read_options *options, ovoid_error *error);
+
 /* ---- shapes ---- */
 
 /** 1 if the path is that of a shape file: it ends in ".ovoid". */

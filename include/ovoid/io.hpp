@@ -29,6 +29,12 @@ inline void write_shape(shape_view s, const std::string &path) {
     detail::require(ovoid_shape_write_file(s.get(), path.c_str(), &e), e);
 }
 
+/** The triangles of a mesh file as one solid. Throws as ovoid_solid_read_file fails. */
+inline solid read_solid(const std::string &path, const ovoid_read_options &how = read_options()) {
+    ovoid_error e;
+    return solid(detail::require(ovoid_solid_read_file(path.c_str(), &how, &e), e));
+}
+
 /** A mesh as a file holds it. */
 class mesh : public detail::owner<detail::pointer<ovoid_mesh>, ovoid_mesh, ovoid_mesh_destroy> {
   public:

@@ -43,6 +43,10 @@ void check_shapes() {
     CHECK(!shapes.convexity(0).is_nonconvex && ovoid::shapes::read_file(path).convexity(0).is_nonconvex);
     const auto list = ovoid::shapes::read_list(write_text("list.txt", "# two\nmesh.obj\nhull.ovoid\n"));
     CHECK(list.size() == 2 && is_same_shape(list[1], hull.get()));
+    const ovoid::solid triangles = ovoid::read_solid(path, each);
+    CHECK(triangles.report().components == 2);
+    CHECK_NEAR(triangles.report().volume, 9000.0 / 6, 1e-9);
+    CHECK(throws(OVOID_ERROR_FILE, -1, "absent", [] { ovoid::read_solid(folder + "/absent.obj"); }));
     CHECK(throws(OVOID_ERROR_FILE, -1, "absent", [] { ovoid::read_shape(folder + "/absent.obj"); }));
     CHECK(throws(OVOID_ERROR_FORMAT, 2, "bad.obj:2",
                  [] { ovoid::read_shape(write_text("bad.obj", "v 0 0 0\nv 1 x 0\n")); }));
