@@ -310,7 +310,7 @@ static int write_impact(cli_impacts *x, const impact *item, const ovoid_record *
 }
 
 static int write_impacts(cli_impacts *x, const impact *items) {
-    answer_room room = {NULL, NULL, 0};
+    answer_room room = {.cover = NULL};
     int code = 0;
     for (size_t i = 0; i < x->couple_count && !code; i++) {
         ovoid_record record;

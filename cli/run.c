@@ -23,7 +23,7 @@
 typedef struct settings {
     output_settings out;
     const char *motion, *plot;
-    int query, continuous;
+    int query, continuous, hull;
     unsigned threads;
     double margin, tolerance; ///< margin negative: not given
     shard_part part;
@@ -44,6 +44,7 @@ static const cli_option options[] = {
      "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distances of the nearest pairs over time, an SVG file"},
+    INPUTS_HULL_OPTION(settings),
     THREADS_OPTION(settings),
     SHARD_OPTION(settings),
     RESULTS_OPTIONS(settings),
@@ -178,9 +179,10 @@ static int open_all(run_state *r) {
     return code;
 }
 
-static unsigned get_fields(const settings *s) {
-    return OVOID_RECORD_TIME | OVOID_RECORD_PARTS | (s->continuous ? OVOID_RECORD_IMPACT : 0) |
-           (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+static unsigned get_fields(const run_state *r) {
+    const settings *s = r->settings;
+    return inputs_get_fields(r->scene) | OVOID_RECORD_TIME | OVOID_RECORD_PARTS |
+           (s->continuous ? OVOID_RECORD_IMPACT : 0) | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
 }
 
 /// The motion of a shard's pairs: frames cannot be cut, since what a world remembers of a pair goes from one to the
@@ -189,7 +191,7 @@ static int run_shard(run_state *r, const cli_command *command, const cli_operand
     const settings *s = r->settings;
     shard_job job = {command, s, paths, s->part, .seen = shard_digest_make(), .units = "frames"};
     shard_digest_add_scene(&job.seen, r->scene);
-    int code = results_open_shard(&r->results, &s->out, get_fields(s), &job);
+    int code = results_open_shard(&r->results, &s->out, get_fields(r), &job);
     if (code) return code;
     r->kept = results_get_done(&r->results);
     if (r->kept != UINT64_MAX) code = open_all(r);
@@ -202,7 +204,7 @@ static int run_motion(run_state *r) {
     double start = progress_get_seconds();
     int code = open_all(r);
     if (code) return code;
-    const unsigned fields = get_fields(s);
+    const unsigned fields = get_fields(r);
     if (results_open(&r->results, &s->out, fields, ovoid_scene_get_unit(r->scene))) return EXIT_INPUT;
     r->track.has_plot = s->plot != NULL;
     code = run_frames(r);
@@ -240,9 +242,14 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = settle(command, &s);
     if (code >= 0) return code;
-    ovoid_scene *scene = inputs_read_scene(paths.items[0]);
+    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
     if (!scene) return EXIT_INPUT;
     inputs_warn_scene(scene);
+    if (s.continuous && inputs_get_fields(scene)) {
+        message_error("%s: --continuous does not take solids; --hull takes meshes by their hulls", paths.items[0]);
+        ovoid_scene_destroy(scene);
+        return EXIT_INPUT;
+    }
     run_state r = {.settings = &s, .scene = scene};
     code = s.part.count ? run_shard(&r, command, &paths) : run_motion(&r);
     impacts_close(&r.impacts);

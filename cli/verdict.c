@@ -79,6 +79,7 @@ ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const
 
 ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                                const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
+    if (pair->a.compound || pair->b.compound) return ovoid_solid_answer_check(pair, answer, exclusions, error);
     judge *mine = take(v);
     ovoid_code code = judge_check_solid(mine, pair, answer, exclusions, points, error);
     give_back(v, mine);

@@ -73,12 +73,12 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
 static ovoid_code check_solids(const verify *v, const claim *item, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count, NULL};
-    if (!item->solids.a.solid && !item->solids.b.solid) {
+    if (!item->pair.a.solid && !item->pair.b.solid) {
         snprintf(error->message, sizeof error->message, "it is an answer about solids, which the bodies are not");
         return OVOID_ERROR_PROOF;
     }
     int points = has_nearest_points(v->settings->query, &r->solid->surfaces);
-    return verdict_check_solid(v->verdict, &item->solids, r->solid, &exclusions, points, error);
+    return verdict_check_solid(v->verdict, &item->pair, r->solid, &exclusions, points, error);
 }
 
 ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) {

@@ -207,7 +207,7 @@ static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
 }
 
 static int draw_scene(const settings *s, const char *path) {
-    ovoid_scene *scene = inputs_read_scene(path);
+    ovoid_scene *scene = inputs_read_scene(path, 0);
     if (!scene) return EXIT_INPUT;
     size_t count = ovoid_scene_get_count(scene), drawn = 0;
     for (size_t i = 0; i < count; i++) drawn += count_parts(ovoid_scene_get(scene, i).compound);
@@ -215,7 +215,7 @@ static int draw_scene(const settings *s, const char *path) {
     int code = make_drawing(&d, count, drawn) ? 0 : EXIT_INPUT;
     for (size_t i = 0; i < count && !code; i++) {
         ovoid_scene_object object = ovoid_scene_get(scene, i);
-        ovoid_body body = answers_get_body(scene, i, &object.pose);
+        ovoid_body body = {.shape = object.shape, .compound = object.compound, .pose = object.pose};
         add_body(&d, object.name, &body);
         code = add_mesh(&d, s->layers, drawn, &object);
     }
