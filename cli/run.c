@@ -245,11 +245,6 @@ static int run(const cli_command *command, int argc, char **argv) {
     ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
     if (!scene) return EXIT_INPUT;
     inputs_warn_scene(scene);
-    if (s.continuous && inputs_get_fields(scene)) {
-        message_error("%s: --continuous does not take solids; --hull takes meshes by their hulls", paths.items[0]);
-        ovoid_scene_destroy(scene);
-        return EXIT_INPUT;
-    }
     run_state r = {.settings = &s, .scene = scene};
     code = s.part.count ? run_shard(&r, command, &paths) : run_motion(&r);
     impacts_close(&r.impacts);

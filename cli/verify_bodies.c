@@ -93,8 +93,12 @@ static void set_impact(const verify *v, const ovoid_record *record, size_t a, si
     item->pair.b.pose = ovoid_motion_compute_pose(&motions[1], at);
     if (!(at >= 0 && at <= item->duration && record->free_for >= 0) || record->time != record->frame + at)
         disprove(item, "its times are not those of an impact between two frames");
-    item->moving[0] = (ovoid_moving_body){item->pair.a.shape, item->pair.a.compound, motions[0]};
-    item->moving[1] = (ovoid_moving_body){item->pair.b.shape, item->pair.b.compound, motions[1]};
+    const ovoid_body *bodies[2] = {&item->pair.a, &item->pair.b};
+    for (int i = 0; i < 2; i++)
+        item->moving[i] = (ovoid_moving_body){.shape = bodies[i]->shape,
+                                              .compound = bodies[i]->compound,
+                                              .motion = motions[i],
+                                              .solid = bodies[i]->solid};
 }
 
 static int is_same_volume(double a, double b) { return a == b || (isnan(a) && isnan(b)); }

@@ -303,9 +303,9 @@ static ovoid_code read_is_solid(scene_reader *r, const json_t *object, geometry 
     const json_t *solid = json_object_get(object, "solid");
     const ovoid_allowance *allowance = &g->options.allowance;
     int is_plain = !(g->options.radius > 0) && !(allowance->outside > 0) && !(allowance->inside > 0);
-    g->solid = r->part == NO_PART && is_plain ? -1 : 0;
+    const char *path = strcmp(g->kind, "mesh") == 0 ? json_string_value(g->value) : NULL;
+    g->solid = r->part == NO_PART && is_plain && path && !g->read.parts && !ovoid_path_is_shape(path) ? -1 : 0;
     if (!solid) return OVOID_OK;
-    const char *path = json_string_value(g->value);
     if (strcmp(g->kind, "mesh") != 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "is for meshes only");
     if (!json_is_boolean(solid)) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "must be true or false");
     g->solid = json_is_true(solid);
