@@ -269,7 +269,7 @@ OVOID_API ovoid_world_body ovoid_world_make_point(const ovoid_world *world, ovoi
 /** The first hit of a ray or of a moved body. */
 typedef struct ovoid_world_cast {
     ovoid_id body;        /**< 0: none */
-    uint32_t part, probe; /**< part of the body, and of the probe */
+    uint32_t part, probe; /**< part of the body, and of the probe; of solids the triangles */
     double lower, upper;  /**< bracket of the first t; where nothing is met the whole length, and infinity */
     ovoid_vec3 point;     /**< of the body, world */
     ovoid_vec3 normal;    /**< unit, out of the body */
@@ -283,7 +283,9 @@ typedef struct ovoid_world_ray {
 } ovoid_world_ray;
 
 /**
- * The first hit of a ray, thick where its radius is above 0; t in lengths of its direction. Errors: ARGUMENT (the ray).
+ * The first hit of a ray, thick where its radius is above 0; t in lengths of its direction. A ray without a radius that
+ * enters a closed solid is proven by a point inside, a millionth of a millionth of the size further or more; where it
+ * only grazes one, or meets a surface without an inside, it is undecided. Errors: ARGUMENT (the ray).
  */
 OVOID_API ovoid_code ovoid_world_cast_ray(const ovoid_world *world, const ovoid_world_ray *ray, ovoid_world_cast *cast,
                                           ovoid_error *error);

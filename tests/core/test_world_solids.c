@@ -13,7 +13,7 @@ typedef struct stage {
     ovoid_world *w;
     ovoid_id ids[BODIES];
     ovoid_pose poses[BODIES];
-    size_t aged;
+    size_t aged, rays, casts;
 } stage;
 
 static ovoid_body make_body(stage *x, int k, ovoid_pose pose) {
@@ -158,6 +158,65 @@ static void check_between(stage *x) {
     CHECK_EQ(hit.b != 0, any);
 }
 
+// A ray against the triangles of each body alone, as thick as the ray; and what it enters.
+static void check_rays(stage *x) {
+    for (int i = 0; i < 12; i++) {
+        ovoid_vec3 from = random_vec3(&x->s, 6), to = random_vec3(&x->s, 2);
+        ovoid_world_ray r = {.ray = {from, {to.x - from.x, to.y - from.y, to.z - from.z}, i % 3 ? 2 : INFINITY, 0}};
+        r.ray.radius = i % 2 ? 0.05 : 0;
+        ovoid_world_cast cast;
+        CHECK_EQ(ovoid_world_cast_ray(x->w, &r, &cast, NULL), OVOID_OK);
+        // Before the hit the ray's ball is in no body; at its upper end it is in the one that was hit.
+        ovoid_shape *ball = ovoid_shape_create_sphere(r.ray.radius, NULL, NULL);
+        double until = cast.body ? cast.upper : 2;
+        int is_in = 0;
+        for (int k = 0; k < 40; k++) {
+            double t = k ? until * random_uniform(&x->s, 0, 1) : cast.upper;
+            if (!(t < INFINITY)) continue;
+            ovoid_pose at = {
+                {from.x + t * r.ray.direction.x, from.y + t * r.ray.direction.y, from.z + t * r.ray.direction.z},
+                {1, 0, 0, 0}};
+            for (int j = 0; j < BODIES; j++) {
+                const ovoid_body_pair pair = {make_body(x, j, x->poses[j]), {.shape = ball, .pose = at}};
+                ovoid_solid_answer y = ovoid_solid_collide(&pair, NULL, NULL, NULL);
+                if (t < cast.lower - 1e-9) CHECK(y.status != OVOID_OVERLAPPING);
+                is_in |= !k && x->ids[j] == cast.body && y.upper <= 1e-9;
+            }
+        }
+        if (cast.body) CHECK(is_in);
+        if (cast.body && !cast.undecided) CHECK_LE(cast.upper - cast.lower, 1e-8 * (1 + cast.upper));
+        x->rays += cast.body != 0;
+        ovoid_shape_destroy(ball);
+    }
+}
+
+// A body on its way: apart from all before the hit, and touching at it.
+static void check_cast(stage *x) {
+    for (int i = 0; i < 3; i++) {
+        ovoid_world_body probe = {
+            .body = make_body(x, i == 1 ? 1 : i, (ovoid_pose){random_vec3(&x->s, 7), random_quat(&x->s)})};
+        ovoid_vec3 to = random_vec3(&x->s, 2), from = probe.body.pose.position;
+        ovoid_vec3 way = {to.x - from.x, to.y - from.y, to.z - from.z};
+        ovoid_world_cast cast;
+        CHECK_EQ(ovoid_world_cast_body(x->w, &probe, way, &cast, NULL), OVOID_OK);
+        double until = fmin(cast.upper, 1);
+        int is_in = 0;
+        for (int k = 0; k < 12; k++) {
+            double t = k ? until * random_uniform(&x->s, 0, 1) : until;
+            ovoid_body at = probe.body;
+            at.pose.position.x += t * way.x, at.pose.position.y += t * way.y, at.pose.position.z += t * way.z;
+            for (int j = 0; j < BODIES; j++) {
+                const ovoid_body_pair pair = {make_body(x, j, x->poses[j]), at};
+                ovoid_solid_answer y = ovoid_solid_distance(&pair, NULL, NULL, NULL);
+                if (t < cast.lower - 1e-9) CHECK(y.status != OVOID_OVERLAPPING);
+                is_in |= !k && x->ids[j] == cast.body && y.lower <= 1e-8;
+            }
+        }
+        if (cast.body) CHECK(is_in);
+        x->casts += cast.body != 0;
+    }
+}
+
 static void check_refused(stage *x) {
     ovoid_error error = {.message = ""};
     ovoid_world_body both = {.body = {.shape = x->shapes[0], .solid = x->solids[0]}};
@@ -173,7 +232,7 @@ static void check_refused(stage *x) {
 }
 
 int main(void) {
-    size_t aged = 0;
+    size_t aged = 0, rays = 0, casts = 0;
     for (uint64_t seed = 1; seed <= 8; seed++) {
         check_seed = seed;
         stage x;
@@ -182,14 +241,18 @@ int main(void) {
         for (int f = 0; f < 8; f++) {
             check_frame(&x, &q);
             if (f % 3 == 0) check_between(&x);
+            if (f == 2) check_rays(&x);
+            if (f == 5) check_cast(&x);
             move_all(&x, f % 4 == 3 ? 1 : 0.02);
         }
         check_refused(&x);
         aged += x.aged;
+        rays += x.rays;
+        casts += x.casts;
         end(&x);
     }
     check_seed = 0;
-    printf("%zu pairs were answered without a query\n", aged);
-    CHECK(aged > 100);
+    printf("%zu pairs were answered without a query; %zu rays and %zu bodies hit\n", aged, rays, casts);
+    CHECK(aged > 100 && rays > 10 && casts > 4);
     return check_end();
 }
