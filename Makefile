@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 SECONDS ?= 3600
 BUILD := build/release
 
-.PHONY: all help demo check python cluster bits ports mutate bench soak soak-world trust fuzz docs install deb deb-root format lint clean
+.PHONY: all help demo check python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -41,6 +41,14 @@ ports: ## the same bits and tests on musl, 64-bit ARM, 32-bit x86, Windows and W
 	@scripts/setup.sh ports
 	@scripts/ports.sh
 
+wasm: ## the package for JavaScript in build/wasm, and its tests under Node.js
+	@$(call build,wasm,ovoid_cli)
+	@JOBS=$(JOBS) scripts/wasm.sh
+
+page: ## the template of the page that --html writes, and its tests in Chromium
+	@$(call build,page,ovoid_cli)
+	@JOBS=$(JOBS) scripts/page.sh
+
 mutate: ## small faults in a copy of the sources: which test notices each, two to three hours
 	@scripts/setup.sh check
 	@JOBS=$(JOBS) scripts/mutate.sh
@@ -57,6 +65,10 @@ soak: ## random and hostile pairs before the exact judge, SECONDS=3600; goes on 
 soak-world: ## worlds of bodies that come, move and go, beside all pairs one by one, SECONDS=3600
 	@$(call build,build,test_world_soak)
 	@$(BUILD)/tests/test_world_soak --seconds $(SECONDS) --seed $$(date +%s)
+
+soak-solid: ## solids before the exact judge and beside brute force, a million answers, half an hour
+	@$(call build,build,test_judge_solid)
+	@$(BUILD)/tests/test_judge_solid --answers 1e6 --seed $$(date +%s)
 
 trust: ## 10^9 queries checked by proof, 10^6 by the judge, half an hour to an hour; goes on where it stopped
 	@$(call build,build,long_run)

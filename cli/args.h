@@ -11,7 +11,7 @@
 /// Exit codes, the same for every command.
 typedef enum exit_code {
     EXIT_APART = 0,      ///< apart; or done, for commands without a query
-    EXIT_TOUCH = 1,      ///< touching, overlapping or within the margin
+    EXIT_TOUCH = 1,      ///< touching, overlapping or within the margin; of a mesh, a fault
     EXIT_USAGE = 2,      ///< the command line is wrong
     EXIT_INPUT = 3,      ///< bad input, or output that could not be written
     EXIT_NOT_PROVEN = 4, ///< no proof, or a proof that does not hold

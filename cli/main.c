@@ -10,6 +10,7 @@
 #include <string.h>
 
 static const cli_command *const commands[] = {&command_fit,
+                                              &command_info,
                                               &command_distance,
                                               &command_batch,
                                               &command_check,

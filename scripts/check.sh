@@ -1,6 +1,6 @@
 #!/bin/sh
 # check.sh: all that must hold before a change lands. Lint; then three builds, warnings as errors, each with all tests:
-# gcc optimised, clang and gcc with ASan and UBSan; and the same bits from musl and 64-bit ARM. Goes on after a failure; the last line sums all, exit 1 if any failed.
+# gcc optimised, clang and gcc with ASan and UBSan; and the same bits from musl, 64-bit ARM and WebAssembly. Goes on after a failure; the last line sums all, exit 1 if any failed.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
@@ -53,6 +53,7 @@ for preset in release check check-gcc; do
     step "$preset: build" configure_and_build $preset && run_tests $preset
 done
 step "ports: musl, 64-bit ARM" scripts/ports.sh quick
+step "wasm: package and its tests" scripts/wasm.sh
 step "lint: tidy" scripts/lint.sh tidy
 step "docs" scripts/docs.sh
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, deb, deb-root, demo, bench, fuzz, ports, python, cluster or docs.
+# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, deb, deb-root, demo, bench, fuzz, ports, wasm, page, python, cluster or docs.
 # Nothing missing: nothing is called. Nowhere to install from or no right to: a sentence that names the packages.
 set -eu
 
@@ -8,13 +8,15 @@ packages_of() {
     for job in "$@"; do
         case $job in
         build) echo build-essential cmake pkgconf libjansson-dev libassimp-dev libexpat1-dev libyaml-dev libgmp-dev ;;
-        check) packages_of build deb python && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel ;;
+        check) packages_of build deb python wasm && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel ;;
         deb) packages_of build && echo dpkg-dev lintian ;;
         deb-root) packages_of deb && echo debootstrap ;;
         demo) packages_of build && echo libcgal-demo ;;
         bench) packages_of build && echo libccd-dev libfcl-dev libbullet-dev libode-dev libqhull-dev ;;
         fuzz) packages_of build && echo clang libclang-rt-14-dev assimp-testmodels ;;
-        ports) packages_of check && echo gcc-i686-linux-gnu libc6-dev-i386-cross gcc-mingw-w64-x86-64-win32 wine64 lld wasi-libc libclang-rt-14-dev-wasm32 && { command -v node >/dev/null || echo nodejs; } ;;
+        ports) packages_of check && echo gcc-i686-linux-gnu libc6-dev-i386-cross gcc-mingw-w64-x86-64-win32 wine64 ;;
+        wasm) packages_of build && echo clang lld wasi-libc libclang-rt-14-dev-wasm32 && { command -v node >/dev/null || echo nodejs; } ;;
+        page) packages_of wasm && echo chromium && { command -v npm >/dev/null || echo npm; } ;;
         python) packages_of build && echo python3 python3-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-hypothesis python3-matplotlib python3-nbconvert python3-ipykernel ;;
         cluster) packages_of python && echo parallel slurmctld slurmd slurm-client munge python3-distributed python3-mpi4py openmpi-bin ;;
         docs) echo cmake build-essential doxygen ;;

@@ -73,6 +73,20 @@ OVOID_API size_t ovoid_solid_get_size(const ovoid_solid *solid);
  */
 OVOID_API int ovoid_solid_compute_winding(const ovoid_solid *solid, ovoid_vec3 point, int64_t *winding);
 
+/** Where a surface meets itself. */
+typedef struct ovoid_solid_crossings {
+    uint64_t pairs;                  /**< of triangles */
+    int is_complete;                 /**< 0: there may be more, the search ended at as many as were wanted */
+    uint32_t triangle_a, triangle_b; /**< the first pair found, in the tree's order; 0 where there is none */
+} ovoid_solid_crossings;
+
+/**
+ * The pairs of triangles that have a point in common which is not a corner or an edge of both, by exact signs: what
+ * crosses, touches or is folded onto itself. Triangles without area, and those with the three corners of another, are
+ * not counted. Stops at `most` pairs. Cost: for each triangle those whose boxes meet its own, some microseconds.
+ */
+OVOID_API ovoid_solid_crossings ovoid_solid_compute_crossings(const ovoid_solid *solid, uint64_t most);
+
 /** Which body has a point of the other inside, if that is what proves an overlap. */
 typedef enum ovoid_solid_inside {
     OVOID_SOLID_INSIDE_NONE = 0,

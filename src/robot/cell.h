@@ -9,7 +9,7 @@
 #include "shape/block.h"
 
 /// 256 u: what rounding may do to a centre and a distance, in parts of the lengths that they are made of.
-#define CELL_SLACK 0x1p-45
+#define CELL_SLACK ROBOT8_SLACK
 
 /// Something that moves with a link.
 typedef struct cell_item {

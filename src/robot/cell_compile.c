@@ -209,8 +209,10 @@ static void put_box(box8 *group, uint32_t lane, const oriented_box *b) {
     mat3 r = b->rotation;
     const double all[] = {b->center.x, b->center.y, b->center.z, r.r0.x, r.r0.y,    r.r0.z,    r.r1.x,    r.r1.y,
                           r.r1.z,      r.r2.x,      r.r2.y,      r.r2.z, b->half.x, b->half.y, b->half.z, b->radius};
-    for (int k = 0; k < BOX8_COLUMNS; k++) group->column[k][lane] = all[k];
-    group->column[BOX8_RADIUS][lane] += CELL_SLACK * vec3_sum_abs(b->center);
+    for (int k = 0; k < BOX8_BALL; k++) group->column[k][lane] = all[k];
+    double radius = b->radius + CELL_SLACK * vec3_sum_abs(b->center);
+    group->column[BOX8_RADIUS][lane] = radius;
+    group->column[BOX8_BALL][lane] = (norm_of(b->half) + radius) * (1 + CELL_SLACK);
 }
 
 static void place_parts(ovoid_robot_cell *c, uint32_t first) {

@@ -59,9 +59,9 @@ static chain_step make_step(const ovoid_robot *r, uint32_t joint) {
                     .rest = quat_unit(j->origin.rotation),
                     .origin = j->origin.position};
     if (s.kind == STEP_FIXED) return s;
-    vec3 axis = s.kind == STEP_FREE ? (vec3){0, 0, 1} : vec3_unit(j->axis);
-    s.turned = quat_multiply(s.rest, (ovoid_quat){0, axis.x, axis.y, axis.z});
-    set_directions(&s, axis, &origin);
+    s.axis = s.kind == STEP_FREE ? (vec3){0, 0, 1} : vec3_unit(j->axis);
+    s.turned = quat_multiply(s.rest, (ovoid_quat){0, s.axis.x, s.axis.y, s.axis.z});
+    set_directions(&s, s.axis, &origin);
     return s;
 }
 

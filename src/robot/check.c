@@ -90,6 +90,7 @@ void check_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t 
         lane_state states[ROBOT8];
         size_t count = end - i < ROBOT8 ? end - i : ROBOT8;
         checker_place_lanes(x, batch->q + i * x->cell->robot->variable_count, count, options->limit_slack, states);
+        checker_filter_lanes(x, options);
         for (uint32_t k = 0; k < count; k++) {
             if (states[k].code != OVOID_OK) {
                 refuse(&batch->answers[i + k], states[k].code, states[k].variable);

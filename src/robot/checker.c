@@ -10,9 +10,10 @@
 // ---- memory
 
 static void release_all(ovoid_robot_checker *x) {
-    void *all[] = {x->frames,     x->stamps,  x->frame_errors, x->values,      x->cosines,     x->sines,
-                   x->places,     x->errors,  x->group_errors, x->part_proofs, x->pair_proofs, x->part_marks,
-                   x->pair_marks, x->values8, x->frames8,      x->centers8};
+    void *all[] = {x->frames,      x->stamps,     x->frame_errors, x->values,       x->cosines,
+                   x->sines,       x->places,     x->errors,       x->group_errors, x->part_proofs,
+                   x->pair_proofs, x->part_marks, x->pair_marks,   x->values8,      x->frames8,
+                   x->spheres8,    x->near_keys,  x->filter.parts, x->filter.pairs};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&x->allocator, all[i]);
     path_memory_destroy(x->path);
     *x = (ovoid_robot_checker){.cell = x->cell, .allocator = x->allocator, .kernels = x->kernels};
@@ -63,9 +64,12 @@ ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error) {
     x->pair_proofs = take(x, c->pairs.count, sizeof *x->pair_proofs, &ok);
     x->part_marks = take(x, proofs, sizeof *x->part_marks, &ok);
     x->pair_marks = take(x, c->pairs.count, sizeof *x->pair_marks, &ok);
+    x->near_keys = take(x, 2 * checker_count_pairs(x), sizeof *x->near_keys, &ok);
     x->values8 = take(x, values, sizeof *x->values8, &ok);
     x->frames8 = take(x, c->robot->link_count, sizeof *x->frames8, &ok);
-    x->centers8 = take(x, groups, sizeof *x->centers8, &ok);
+    x->spheres8 = take(x, groups, sizeof *x->spheres8, &ok);
+    x->filter.parts = take(x, groups * c->parts.count, sizeof *x->filter.parts, &ok);
+    x->filter.pairs = take(x, c->group_pairs.count, sizeof *x->filter.pairs, &ok);
     if (!ok) {
         release_all(x);
         return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a checker");
@@ -123,7 +127,9 @@ ovoid_code check_options_check(const ovoid_robot_check_options *o, ovoid_error *
 
 // ---- where a state puts things
 
-static void find_errors(ovoid_robot_checker *x, double level) {
+void checker_set_level(ovoid_robot_checker *x, double magnitude) {
+    double level = robot_compute_level(x->cell->robot, magnitude);
+    if (level == x->level) return;
     const ovoid_robot_cell *c = x->cell;
     step_list links = {c->robot, c->steps.items, c->step_joints.items, c->steps.count};
     step_list own = {c->robot, c->own.items, NULL, c->own.count};
@@ -155,7 +161,7 @@ static void place_groups(ovoid_robot_checker *x) {
         const cell_group *g = &cell_groups(x->cell)[i];
         const link_frame *f = &x->frames[g->link];
         vec3 center = vec3_add(f->position, mat3_mul_vec3(f->matrix, g->center));
-        x->places[i] = (sphere_place){{center.x, center.y, center.z}, g->reach + x->group_errors[i]};
+        x->places[i] = sphere_place_make(center, g->reach + x->group_errors[i]);
     }
 }
 
@@ -166,57 +172,20 @@ ovoid_code checker_place(ovoid_robot_checker *x, const double *q, double limit_s
         return ovoid_robot_check_limits(r, q, limit_slack, error);
     ovoid_code code = robot_compute_values(r, q, x->values, 1, &magnitude, error);
     if (code != OVOID_OK) return code;
-    double level = robot_compute_level(r, magnitude);
-    if (level != x->level) find_errors(x, level);
+    checker_set_level(x, magnitude);
     x->state++;
     x->lane = -1;
+    x->filter.is_on = 0;
     compute_frames(x);
     place_groups(x);
     return OVOID_OK;
 }
-
-// ---- eight states
 
 static void load_frame(const frame8 *from, int k, link_frame *f) {
     const double(*c)[ROBOT8] = from->column;
     *f = (link_frame){{c[0][k], c[1][k], c[2][k]},
                       {c[3][k], c[4][k], c[5][k], c[6][k]},
                       {{c[7][k], c[8][k], c[9][k]}, {c[10][k], c[11][k], c[12][k]}, {c[13][k], c[14][k], c[15][k]}}};
-}
-
-static void place_values(ovoid_robot_checker *x, const double *q, double slack, uint32_t k, lane_state *state) {
-    const ovoid_robot *r = x->cell->robot;
-    ovoid_error refused;
-    state->code = OVOID_OK;
-    if (slack < INFINITY && !state_is_within_limits(r, q, slack))
-        state->code = ovoid_robot_check_limits(r, q, slack, &refused);
-    if (state->code == OVOID_OK)
-        state->code = robot_compute_values(r, q, x->values8[0] + k, ROBOT8, &state->magnitude, &refused);
-    if (state->code != OVOID_OK) state->variable = (uint32_t)refused.place;
-}
-
-void checker_place_lanes(ovoid_robot_checker *x, const double *q, size_t count, double limit_slack,
-                         lane_state states[ROBOT8]) {
-    const ovoid_robot_cell *c = x->cell;
-    for (uint32_t k = 0; k < count; k++) place_values(x, q + k * c->robot->variable_count, limit_slack, k, &states[k]);
-    x->kernels->chain(c->steps.items, (uint32_t)c->steps.count, (const double(*)[ROBOT8])x->values8, x->frames8);
-    for (size_t i = 0; i < c->groups.count; i++) {
-        const cell_group *g = &cell_groups(c)[i];
-        const double center[3] = {g->center.x, g->center.y, g->center.z};
-        x->kernels->place(&x->frames8[g->link], center, x->centers8[i]);
-    }
-}
-
-void checker_take_lane(ovoid_robot_checker *x, uint32_t which, const lane_state *state) {
-    double level = robot_compute_level(x->cell->robot, state->magnitude);
-    if (level != x->level) find_errors(x, level);
-    x->state++;
-    x->lane = (int)which;
-    for (size_t i = 0; i < x->cell->groups.count; i++) {
-        double(*center)[ROBOT8] = x->centers8[i];
-        x->places[i] = (sphere_place){{center[0][which], center[1][which], center[2][which]},
-                                      cell_groups(x->cell)[i].reach + x->group_errors[i]};
-    }
 }
 
 // ---- items
@@ -291,13 +260,13 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair) {
     return p;
 }
 
-// The boxes of a lane group that a sphere is near.
-static unsigned find_near_boxes(const checker_search *s, const sphere_place *sphere, double padding, uint32_t group) {
-    const ovoid_robot_cell *c = s->checker->cell;
-    const double *c8 = sphere->center;
-    double size = CELL_SLACK * ((fabs(c8[0]) + fabs(c8[1])) + fabs(c8[2]));
-    double reach = add_up(sphere->reach + size, *s->margin, padding);
-    unsigned near = s->checker->kernels->near_boxes(&cell_boxes(c)[group], sphere->center, reach);
+// The boxes of a lane group that a group of items is near, by its sphere.
+static unsigned find_near_boxes(const checker_search *s, uint32_t items, uint32_t group) {
+    const ovoid_robot_checker *x = s->checker;
+    const ovoid_robot_cell *c = x->cell;
+    const sphere_place *sphere = &x->places[items];
+    double reach = add_up(sphere->reach, *s->margin, c->padding[cell_groups(c)[items].link]);
+    unsigned near = x->kernels->near_boxes(&cell_boxes(c)[group], sphere->center, reach);
     return group + 1 < c->boxes.count ? near : near & ((1u << (c->parts.count - group * ROBOT8)) - 1);
 }
 
@@ -316,20 +285,23 @@ static int visit_items(const checker_search *s, const cell_group *g, uint32_t pa
     return 1;
 }
 
+// A part that the sphere of a group is near.
+static int visit_near_part(const checker_search *s, const cell_group *g, const oriented_box *box, uint32_t part) {
+    const ovoid_robot_cell *c = s->checker->cell;
+    double margin = add_up(*s->margin, c->padding[g->link], 0);
+    return oriented_boxes_are_far(box, &cell_parts(c)[part].box, margin) || visit_items(s, g, part);
+}
+
 static int visit_parts(const checker_search *s) {
     const ovoid_robot_cell *c = s->checker->cell;
     for (uint32_t i = 0; i < c->groups.count; i++) {
         const cell_group *g = &cell_groups(c)[i];
         for (uint32_t group = 0; group < c->boxes.count; group++) {
-            unsigned near = find_near_boxes(s, &s->checker->places[i], c->padding[g->link], group);
+            unsigned near = find_near_boxes(s, i, group);
             if (!near) continue;
             oriented_box box = place_group_box(s->checker, i);
-            for (; near; near &= near - 1) {
-                uint32_t part = group * ROBOT8 + compiler_count_low_zeros(near);
-                double margin = add_up(*s->margin, c->padding[g->link], 0);
-                if (oriented_boxes_are_far(&box, &cell_parts(c)[part].box, margin)) continue;
-                if (!visit_items(s, g, part)) return 0;
-            }
+            for (; near; near &= near - 1)
+                if (!visit_near_part(s, g, &box, group * ROBOT8 + compiler_count_low_zeros(near))) return 0;
         }
     }
     return 1;
@@ -337,8 +309,6 @@ static int visit_parts(const checker_search *s) {
 
 static int visit_group_pair(const checker_search *s, const group_pair *both) {
     ovoid_robot_checker *x = s->checker;
-    oriented_box a = place_group_box(x, both->a), b = place_group_box(x, both->b);
-    if (oriented_boxes_are_far(&a, &b, *s->margin)) return 1;
     int are_boxes_of_items =
         cell_groups(x->cell)[both->a].is_box_of_item && cell_groups(x->cell)[both->b].is_box_of_item;
     for (uint32_t i = both->first; i < both->end; i++) {
@@ -349,13 +319,43 @@ static int visit_group_pair(const checker_search *s, const group_pair *both) {
     return 1;
 }
 
-void checker_find_pairs(const checker_search *s) {
-    const ovoid_robot_checker *x = s->checker;
-    if (!s->options->without_obstacles && !visit_parts(s)) return;
-    if (s->options->without_self) return;
+// What the filter leaves of the state, in the order of the search.
+static int visit_filtered_parts(const checker_search *s) {
+    ovoid_robot_checker *x = s->checker;
+    uint32_t state = 1u << x->lane;
+    const near_lanes *end = x->filter.parts + x->filter.part_count;
+    for (const near_lanes *near = x->filter.parts; near < end; near++) {
+        if (!(near->states & state)) continue;
+        oriented_box box = place_group_box(x, near->group);
+        if (!visit_near_part(s, &cell_groups(x->cell)[near->group], &box, near->index)) return 0;
+    }
+    return 1;
+}
+
+static void visit_filtered_pairs(const checker_search *s) {
+    ovoid_robot_checker *x = s->checker;
+    uint32_t state = 1u << x->lane;
+    const near_lanes *end = x->filter.pairs + x->filter.pair_count;
+    for (const near_lanes *near = x->filter.pairs; near < end; near++)
+        if ((near->states & state) && !visit_group_pair(s, &cell_group_pairs(x->cell)[near->index])) return;
+}
+
+static void visit_pairs(const checker_search *s) {
+    ovoid_robot_checker *x = s->checker;
     for (uint32_t i = 0; i < x->cell->group_pairs.count; i++) {
         const group_pair *both = &cell_group_pairs(x->cell)[i];
         if (spheres_are_far(&x->places[both->a], &x->places[both->b], *s->margin)) continue;
-        if (!visit_group_pair(s, both)) return;
+        oriented_box a = place_group_box(x, both->a), b = place_group_box(x, both->b);
+        if (!oriented_boxes_are_far(&a, &b, *s->margin) && !visit_group_pair(s, both)) return;
     }
+}
+
+void checker_find_pairs(const checker_search *s) {
+    int is_filtered = s->checker->filter.is_on;
+    if (!s->options->without_obstacles && !(is_filtered ? visit_filtered_parts(s) : visit_parts(s))) return;
+    if (s->options->without_self) return;
+    if (is_filtered)
+        visit_filtered_pairs(s);
+    else
+        visit_pairs(s);
 }

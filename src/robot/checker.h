@@ -3,20 +3,23 @@
 #define OVOID_ROBOT_CHECKER_H
 
 #include "robot/cell.h"
+#include "robot/near_list.h"
 
 /// Where a sphere around items is.
 typedef struct sphere_place {
     double center[3]; ///< world
-    double reach;     ///< its radius, and by how much the items may be elsewhere
+    double reach;     ///< its radius, by how much the items may be elsewhere, and what rounding does to the centre
 } sphere_place;
 
-/// 1 where two spheres are proven farther apart than the margin. Both reaches count what rounding does to
-/// lengths in the items' frames, `size` what it does to the centres.
+/// From its centre, and its reach without what rounding does to that.
+static inline sphere_place sphere_place_make(vec3 center, double reach) {
+    return (sphere_place){{center.x, center.y, center.z}, reach + CELL_SLACK * vec3_sum_abs(center)};
+}
+
+/// 1 where two spheres are proven farther apart than the margin.
 static inline int spheres_are_far(const sphere_place *a, const sphere_place *b, double margin) {
     double x = b->center[0] - a->center[0], y = b->center[1] - a->center[1], z = b->center[2] - a->center[2];
-    double size = (fabs(a->center[0]) + fabs(a->center[1]) + fabs(a->center[2])) +
-                  (fabs(b->center[0]) + fabs(b->center[1]) + fabs(b->center[2]));
-    double reach = ((a->reach + b->reach) + margin) + CELL_SLACK * size, square = (x * x + y * y) + z * z;
+    double reach = (a->reach + b->reach) + margin, square = (x * x + y * y) + z * z;
     return square * (1 - 0x1p-40) > reach * reach;
 }
 
@@ -36,6 +39,21 @@ typedef struct pair_name {
 typedef struct path_memory path_memory;
 void path_memory_destroy(path_memory *memory);
 
+/// What is near in some of eight states: a group and a part, or a pair of groups.
+typedef struct near_lanes {
+    uint32_t group;
+    uint32_t index;  ///< of the part, or of the pair
+    uint32_t states; ///< a bit for each
+} near_lanes;
+
+/// What spheres and boxes leave of eight states.
+typedef struct lane_filter {
+    int is_made, is_on; ///< for these states; for the one that was taken
+    double level;       ///< of the errors that are counted in
+    near_lanes *parts, *pairs;
+    size_t part_count, pair_count;
+} lane_filter;
+
 struct ovoid_robot_checker {
     const ovoid_robot_cell *cell;
     ovoid_allocator allocator;
@@ -45,10 +63,11 @@ struct ovoid_robot_checker {
     const robot8_kernels *kernels;
     uint32_t generation; ///< of what is remembered: a proof is of use where its mark is this
     uint32_t *part_marks, *pair_marks;
-    /// Eight states side by side. Their values, their links' frames, their groups' centres.
+    /// Eight states side by side. Their values, their links' frames, their groups' spheres.
     double (*values8)[ROBOT8];
     frame8 *frames8;
-    double (*centers8)[3][ROBOT8];
+    sphere8 *spheres8;
+    lane_filter filter;
     int lane;           ///< of the state that is placed; below zero: it was placed alone
     link_frame *frames; ///< of links; of others where `stamps` say so
     uint64_t *stamps;   ///< of each frame: the state that it was computed for
@@ -60,14 +79,23 @@ struct ovoid_robot_checker {
     double *group_errors;             ///< the same of each group's
     ovoid_proof *part_proofs;         ///< of item i and part k at i part_count + k
     ovoid_proof *pair_proofs;         ///< of each pair of items
+    near_key *near_keys;              ///< two of each pair that there is
     path_memory *path;                ///< NULL: no path was searched since the cell has changed
 };
+
+/// How many pairs there are to find.
+static inline size_t checker_count_pairs(const ovoid_robot_checker *x) {
+    return x->cell->items.count * x->cell->parts.count + x->cell->pairs.count;
+}
 
 /// Makes the checker's memory fit its cell; all is forgotten where that has changed.
 ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error);
 
 /// Whether the options are ones.
 ovoid_code check_options_check(const ovoid_robot_check_options *options, ovoid_error *error);
+
+/// Makes errors those of states of that magnitude.
+void checker_set_level(ovoid_robot_checker *x, double magnitude);
 
 /// Frames, places and errors of a state; options: the limits. The codes of a refused state, with its variable as
 /// place.
@@ -83,6 +111,9 @@ typedef struct lane_state {
 /// Frames and places of up to eight states, side by side; those that are refused have none.
 void checker_place_lanes(ovoid_robot_checker *x, const double *q, size_t count, double limit_slack,
                          lane_state states[ROBOT8]);
+/// Finds what spheres and boxes leave of the states that were placed; the search of each is then to have these options
+/// and their margin.
+void checker_filter_lanes(ovoid_robot_checker *x, const ovoid_robot_check_options *options);
 /// Makes one of them the state that is placed.
 void checker_take_lane(ovoid_robot_checker *x, uint32_t which, const lane_state *state);
 

@@ -1,5 +1,6 @@
 // From the gradient by a body's pose to that by the robot's variables: each joint between the root and the body moves
-// it (D. E. Whitney, Resolved motion rate control of manipulators and human prostheses, 1969).
+// it (D. E. Whitney, Resolved motion rate control of manipulators and human prostheses, 1969). Joints that move both
+// bodies leave their distance as it is, so those above both are not looked at.
 #include "robot/checker.h"
 
 // What a small motion of a frame adds to the distance: along t, and about a point by a rotation vector w.
@@ -35,7 +36,7 @@ static void add_joint(const ovoid_robot_checker *x, uint32_t joint, const motion
     for (uint32_t i = 0; i < lengths; i++)
         row[i] += r->leads[joint].factor * vec3_dot(g->by_translation, mat3_mul_vec3(parent->matrix, s->along[i]));
     if (s->kind == STEP_TURN || s->kind == STEP_PLANE) {
-        vec3 axis = mat3_mul_vec3(child->matrix, vec3_unit(r->joints[joint].axis));
+        vec3 axis = mat3_mul_vec3(child->matrix, s->axis);
         row[lengths] += r->leads[joint].factor * find_turn(g, axis, child->position);
     } else if (s->kind == STEP_FREE) {
         mat3 matrix = mat3_mul(parent->matrix, quat_to_mat3(s->rest));
@@ -43,20 +44,26 @@ static void add_joint(const ovoid_robot_checker *x, uint32_t joint, const motion
     }
 }
 
-static void add_side(const ovoid_robot_checker *x, const ovoid_robot_side *side, const motion_gradient *g,
-                     const double *q, double *row) {
-    const ovoid_robot *r = x->cell->robot;
-    if (side->link == OVOID_ROBOT_NONE) return;
-    for (uint32_t j = r->parent_joint[side->link]; j != OVOID_ROBOT_NONE; j = r->parent_joint[r->joints[j].parent])
-        add_joint(x, j, g, q, row);
+// The joint above a link, and where it is in the order of joints: below zero, there is none.
+static int64_t find_place_above(const ovoid_robot *r, uint32_t link) {
+    uint32_t joint = link == OVOID_ROBOT_NONE ? OVOID_ROBOT_NONE : r->parent_joint[link];
+    return joint == OVOID_ROBOT_NONE ? -1 : (int64_t)r->step_of[joint];
 }
 
 void checker_compute_gradient(const ovoid_robot_checker *x, const checker_pair *p, const double gradient[12],
                               const double *q, double *row) {
+    const ovoid_robot *r = x->cell->robot;
     const double *g = gradient;
-    for (uint32_t i = 0; i < x->cell->robot->variable_count; i++) row[i] = 0;
-    motion_gradient a = {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}, p->pair.pose_a.position};
-    motion_gradient b = {{g[6], g[7], g[8]}, {g[9], g[10], g[11]}, p->pair.pose_b.position};
-    add_side(x, p->a, &a, q, row);
-    add_side(x, p->b, &b, q, row);
+    for (uint32_t i = 0; i < r->variable_count; i++) row[i] = 0;
+    motion_gradient of_a = {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}, p->pair.pose_a.position};
+    motion_gradient of_b = {{g[6], g[7], g[8]}, {g[9], g[10], g[11]}, p->pair.pose_b.position};
+    // Up both chains, the later of two joints first, as parents come before children: where the chains meet no joint is
+    // left that moves one body alone.
+    int64_t a = find_place_above(r, p->a->link), b = find_place_above(r, p->b->link);
+    while (a != b) {
+        int64_t *later = a > b ? &a : &b;
+        uint32_t joint = r->order[*later];
+        add_joint(x, joint, a > b ? &of_a : &of_b, q, row);
+        *later = find_place_above(r, r->joints[joint].parent);
+    }
 }

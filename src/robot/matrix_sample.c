@@ -98,10 +98,10 @@ static void count_frees(const sampler *s) {
     }
 }
 
+static const ovoid_robot_check_options links_alone = {.margin = 0, .without_obstacles = 1};
+
 static void look_at_state(sampler *s) {
-    static const ovoid_robot_check_options options = {.without_obstacles = 1};
-    static const double margin = 0;
-    checker_search search = {s->checker, &options, &margin, ask_pair, s};
+    checker_search search = {s->checker, &links_alone, &links_alone.margin, ask_pair, s};
     s->state++;
     checker_find_pairs(&search);
     keep_frees(s);
@@ -114,6 +114,7 @@ static void look_at_all(sampler *s) {
         size_t count = samples - i < ROBOT8 ? samples - i : ROBOT8;
         for (size_t k = 0; k < count; k++) draw_state(s, s->q + k * variables);
         checker_place_lanes(s->checker, s->q, count, INFINITY, states);
+        checker_filter_lanes(s->checker, &links_alone);
         for (uint32_t k = 0; k < count && s->code == OVOID_OK; k++) {
             if (states[k].code != OVOID_OK) continue; // a mimic that goes beyond all lengths
             checker_take_lane(s->checker, k, &states[k]);

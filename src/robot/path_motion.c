@@ -366,7 +366,10 @@ unsigned path_find_far_parts(const path_work *w, uint32_t item, uint32_t group, 
 int path_is_far_pair(const path_work *w, uint32_t pair, double margin) {
     item_pair p = cell_pairs(w->cell)[pair];
     const pair_parts of = {p.a, p.b, OVOID_ROBOT_NONE, pair};
-    return spheres_are_far(&w->places[p.a], &w->places[p.b], (margin + path_get_motion(w, &of).moved) * UP);
+    const double *a = w->places[p.a].center, *b = w->places[p.b].center;
+    double size = ((fabs(a[0]) + fabs(a[1])) + fabs(a[2])) + ((fabs(b[0]) + fabs(b[1])) + fabs(b[2]));
+    double moved = (margin + path_get_motion(w, &of).moved) * UP;
+    return spheres_are_far(&w->places[p.a], &w->places[p.b], moved + CELL_SLACK * size);
 }
 
 double path_get_center_distance(const path_work *w, const pair_parts *of) {

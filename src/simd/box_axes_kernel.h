@@ -22,6 +22,11 @@ LANES_INLINE lane_mask lane_mask_of(unsigned bits) {
     __m256i each = _mm256_setr_epi64x(1, 2, 4, 8), all = _mm256_set1_epi64x((long long)bits);
     return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(all, each), each));
 }
+#elif LANES == 2
+LANES_INLINE lane lane_take(const double p[8], const uint8_t *at) { return (lane){p[at[0]], p[at[1]]}; }
+LANES_INLINE lane_mask lane_mask_of(unsigned bits) {
+    return (lane_mask){-(long long)(bits & 1), -(long long)(bits >> 1 & 1)};
+}
 #else
 LANES_INLINE lane lane_take(const double p[8], const uint8_t *at) { return p[*at]; }
 LANES_INLINE lane_mask lane_mask_of(unsigned bits) { return (lane_mask)(bits & 1); }

@@ -1,5 +1,6 @@
 // The scalar twin of the kernel of box_axes.h, and the choice among them.
-#define LANES 1
+#include "simd/narrowest.h"
+
 #include "simd/box_axes_kernel.h"
 
 #include <stddef.h>

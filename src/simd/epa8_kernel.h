@@ -50,6 +50,22 @@ LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
 LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
     _mm256_store_pd(to, _mm256_setr_pd(a, b, c, d));
 }
+#elif LANES == 2
+LANES_INLINE lane lane_top(lane a, lane b) { return lane_max(a, b); }
+LANES_INLINE lane lane_find_max(lane m) { return lane_max(m, (lane){m[1], m[0]}); }
+LANES_INLINE lane lane_min(lane a, lane b) { return lane_select(lane_less(a, b), a, b); }
+LANES_INLINE double lane_first(lane v) { return v[0]; }
+LANES_INLINE lane_mask lane_mask_of(uint64_t bits) {
+    return (lane_mask){-(long long)(bits & 1), -(long long)(bits >> 1 & 1)};
+}
+LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
+    (void)is_few;
+    return (lane){p[at & 0xff], p[at >> 8 & 0xff]};
+}
+LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
+    lane_store(to, (lane){a, b});
+    lane_store(to + 2, (lane){c, d});
+}
 #else
 LANES_INLINE lane lane_top(lane a, lane b) { return a > b ? a : b; }
 LANES_INLINE lane lane_find_max(lane m) { return m; }

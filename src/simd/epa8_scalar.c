@@ -1,5 +1,6 @@
 // The scalar twin of the kernel of epa8.h, and the choice among them.
-#define LANES 1
+#include "simd/narrowest.h"
+
 #include "simd/epa8_kernel.h"
 
 #include <stddef.h>

@@ -1,7 +1,8 @@
 // The scalar twin of the kernels of gjk8.h, the choice among them, and what a lane ended with.
 #include "simd/small_gjk_scalar.h"
 
-#define LANES 1
+#include "simd/narrowest.h"
+
 #include "simd/gjk8_kernel.h"
 
 #include <stddef.h>

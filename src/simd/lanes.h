@@ -1,6 +1,7 @@
-// Numbers side by side, LANES of them: 8 (AVX-512), 4 (AVX2) or 1 (plain C, the scalar twin). A kernel is written once
-// over these (pair8_kernel.h) and compiled for each; every operation is IEEE 754's, lane by lane, so all widths give
-// the same bits. Sums and products are the operators. lane_sign is 1 of -0 too; of NaN it is anything.
+// Numbers side by side, LANES of them: 8 (AVX-512), 4 (AVX2), 2 (WebAssembly's SIMD128) or 1 (plain C, the scalar
+// twin). A kernel is written once over these (pair8_kernel.h) and compiled for each; every operation is IEEE 754's,
+// lane by lane, so all widths give the same bits. Sums and products are the operators. lane_sign is 1 of -0 too; of NaN
+// it is anything.
 #ifndef OVOID_SIMD_LANES_H
 #define OVOID_SIMD_LANES_H
 
@@ -62,6 +63,35 @@ LANES_INLINE unsigned lane_bits(lane_mask m) { return (unsigned)_mm256_movemask_
 LANES_INLINE lane_mask lane_none(void) { return _mm256_setzero_pd(); }
 // Of a mask only the sign bits are read.
 LANES_INLINE lane_mask lane_sign(lane v) { return v; }
+
+#elif LANES == 2
+
+#include <wasm_simd128.h>
+
+#define LANES_TARGET
+#define LANES_INLINE static inline __attribute__((always_inline))
+
+typedef double lane __attribute__((vector_size(16)));
+typedef long long lane_mask __attribute__((vector_size(16)));
+
+LANES_INLINE lane lane_set(double x) { return (lane){x, x}; }
+LANES_INLINE lane lane_load(const double *x) { return (lane)wasm_v128_load(x); }
+LANES_INLINE lane lane_load_floats(const float *x) { return (lane){x[0], x[1]}; }
+LANES_INLINE void lane_store(double *x, lane v) { wasm_v128_store(x, (v128_t)v); }
+LANES_INLINE lane lane_sqrt(lane v) { return (lane)wasm_f64x2_sqrt((v128_t)v); }
+LANES_INLINE lane lane_abs(lane v) { return (lane)wasm_f64x2_abs((v128_t)v); }
+LANES_INLINE lane lane_floor(lane v) { return (lane)wasm_f64x2_floor((v128_t)v); }
+LANES_INLINE lane_mask lane_greater(lane a, lane b) { return (lane_mask)(a > b); }
+LANES_INLINE lane_mask lane_at_least(lane a, lane b) { return (lane_mask)(a >= b); }
+LANES_INLINE lane lane_select(lane_mask m, lane yes, lane no) {
+    return (lane)wasm_v128_bitselect((v128_t)yes, (v128_t)no, (v128_t)m);
+}
+LANES_INLINE lane_mask lane_and(lane_mask a, lane_mask b) { return a & b; }
+LANES_INLINE lane_mask lane_or(lane_mask a, lane_mask b) { return a | b; }
+LANES_INLINE lane_mask lane_not(lane_mask m) { return ~m; }
+LANES_INLINE unsigned lane_bits(lane_mask m) { return wasm_i64x2_bitmask((v128_t)m); }
+LANES_INLINE lane_mask lane_none(void) { return (lane_mask){0, 0}; }
+LANES_INLINE lane_mask lane_sign(lane v) { return (lane_mask)v >> 63; }
 
 #else
 

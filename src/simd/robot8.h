@@ -21,6 +21,7 @@ typedef struct chain_step {
     ovoid_quat turned;      ///< o a
     vec3 origin;            ///< in the parent's frame
     vec3 along[3];          ///< of the lengths among its values, in the parent's frame
+    vec3 axis;              ///< that it turns about, unit, in the child's frame
 } chain_step;
 
 /// The columns of a frame of eight states: position, quaternion, rotation by rows.
@@ -29,23 +30,48 @@ typedef struct frame8 {
     _Alignas(64) double column[FRAME8_COLUMNS][ROBOT8];
 } frame8;
 
-/// Eight boxes in the world, each enlarged by a radius: centre, rotation by rows, half sizes, radius.
-enum { BOX8_CENTER = 0, BOX8_ROTATION = 3, BOX8_HALF = 12, BOX8_RADIUS = 15, BOX8_COLUMNS = 16 };
+/// Eight boxes in the world, each enlarged by a radius: centre, rotation by rows, half sizes, radius; and the radius of
+/// a ball around that.
+enum { BOX8_CENTER = 0, BOX8_ROTATION = 3, BOX8_HALF = 12, BOX8_RADIUS = 15, BOX8_BALL = 16, BOX8_COLUMNS = 17 };
 typedef struct box8 {
     _Alignas(64) double column[BOX8_COLUMNS][ROBOT8];
 } box8;
+
+/// 256 u: what rounding may do to a centre and a distance, in parts of the lengths that they are made of.
+#define ROBOT8_SLACK 0x1p-45
+
+/// A sphere of eight states: its centre, and its radius with what rounding may do to the centre.
+enum { SPHERE8_CENTER = 0, SPHERE8_REACH = 3, SPHERE8_COLUMNS = 4 };
+typedef struct sphere8 {
+    _Alignas(64) double column[SPHERE8_COLUMNS][ROBOT8];
+} sphere8;
+
+/// A box in the frame of a link, of eight states: its axes are the frame's.
+typedef struct linked_box8 {
+    const frame8 *frame;
+    vec3 middle, half;
+    double radius;
+} linked_box8;
 
 /// Kernels of one instruction set.
 typedef struct robot8_kernels {
     /// All frames, from values[value][lane].
     void (*chain)(const chain_step *steps, uint32_t count, const double (*values)[ROBOT8], frame8 *frames);
-    /// A point of a frame in the world, for eight states: x, y, z.
-    void (*place)(const frame8 *frame, const double point[3], double (*places)[ROBOT8]);
+    /// A sphere of a frame in the world.
+    void (*place)(const frame8 *frame, const double center[3], double reach, sphere8 *sphere);
     /// Cosines and sines of the halves of angles; count: a multiple of 8. What is no angle gets some numbers.
     void (*half_turns)(const double *angles, uint32_t count, double *cosines, double *sines);
     /// One bit for each box that is not proven farther than reach from a point. Reach and radii count what rounding
     /// does to the lengths that point and centres are made of.
     unsigned (*near_boxes)(const box8 *boxes, const double point[3], double reach);
+    /// Of each of `count` boxes one bit for each state in which a sphere is near it, as near_boxes has it; both numbers
+    /// of `more` come to its reach.
+    void (*near_boxes8)(const box8 *boxes, uint32_t count, const sphere8 *sphere, const double more[2],
+                        unsigned char near[ROBOT8]);
+    /// One bit for each state in which two spheres are not proven farther apart than the margin.
+    unsigned (*near_spheres)(const sphere8 *a, const sphere8 *b, double margin);
+    /// The same of two boxes: robot/oriented_box.h has the twin.
+    unsigned (*near_linked_boxes)(const linked_box8 *a, const linked_box8 *b, double margin);
 } robot8_kernels;
 
 /// The kernels of the widest instruction set of this machine.

@@ -96,6 +96,17 @@ LANES_INLINE void compute_local(const chain_step *s, const double (*values)[ROBO
     }
 }
 
+LANES_INLINE lane9 get_rotation(const frame8 *f, int at) {
+    const double(*c)[ROBOT8] = f->column;
+    return (lane9){{get(c[7], at), get(c[8], at), get(c[9], at)},
+                   {get(c[10], at), get(c[11], at), get(c[12], at)},
+                   {get(c[13], at), get(c[14], at), get(c[15], at)}};
+}
+LANES_INLINE lane3 get3(const double (*column)[ROBOT8], int at) {
+    return (lane3){get(column[0], at), get(column[1], at), get(column[2], at)};
+}
+LANES_INLINE lane sum_abs(lane3 v) { return (lane_abs(v.x) + lane_abs(v.y)) + lane_abs(v.z); }
+
 LANES_TARGET static void run_chain(const chain_step *steps, uint32_t count, const double (*values)[ROBOT8],
                                    frame8 *frames) {
     for (uint32_t i = 0; i < count; i++) {
@@ -107,10 +118,7 @@ LANES_TARGET static void run_chain(const chain_step *steps, uint32_t count, cons
             if (s->parent != UINT32_MAX) {
                 const frame8 *parent = &frames[s->parent];
                 const double(*c)[ROBOT8] = parent->column;
-                lane9 r = {{get(c[7], at), get(c[8], at), get(c[9], at)},
-                           {get(c[10], at), get(c[11], at), get(c[12], at)},
-                           {get(c[13], at), get(c[14], at), get(c[15], at)}};
-                p = lane3_add((lane3){get(c[0], at), get(c[1], at), get(c[2], at)}, lane9_mul3(r, p));
+                p = lane3_add(get3(c, at), lane9_mul3(get_rotation(parent, at), p));
                 q = multiply((lane4){get(c[3], at), get(c[4], at), get(c[5], at), get(c[6], at)}, q);
             }
             put_frame(&frames[s->child], at, p, q, make_rotation(q));
@@ -118,17 +126,14 @@ LANES_TARGET static void run_chain(const chain_step *steps, uint32_t count, cons
     }
 }
 
-LANES_TARGET static void run_place(const frame8 *frame, const double point[3], double (*places)[ROBOT8]) {
-    const double(*c)[ROBOT8] = frame->column;
-    lane3 local = {lane_set(point[0]), lane_set(point[1]), lane_set(point[2])};
+LANES_TARGET static void run_place(const frame8 *frame, const double center[3], double reach, sphere8 *sphere) {
+    lane3 local = {lane_set(center[0]), lane_set(center[1]), lane_set(center[2])};
     for (int at = 0; at < ROBOT8; at += LANES) {
-        lane9 r = {{get(c[7], at), get(c[8], at), get(c[9], at)},
-                   {get(c[10], at), get(c[11], at), get(c[12], at)},
-                   {get(c[13], at), get(c[14], at), get(c[15], at)}};
-        lane3 p = lane3_add((lane3){get(c[0], at), get(c[1], at), get(c[2], at)}, lane9_mul3(r, local));
-        lane_store(places[0] + at, p.x);
-        lane_store(places[1] + at, p.y);
-        lane_store(places[2] + at, p.z);
+        lane3 p = lane3_add(get3(frame->column, at), lane9_mul3(get_rotation(frame, at), local));
+        lane_store(sphere->column[0] + at, p.x);
+        lane_store(sphere->column[1] + at, p.y);
+        lane_store(sphere->column[2] + at, p.z);
+        lane_store(sphere->column[SPHERE8_REACH] + at, lane_set(reach) + lane_set(ROBOT8_SLACK) * sum_abs(p));
     }
 }
 
@@ -154,19 +159,99 @@ LANES_INLINE lane_mask is_far(lane square, lane reach) {
     return lane_greater(square * lane_set(1 - 0x1p-40), reach * reach);
 }
 
-LANES_TARGET static unsigned run_near_boxes(const box8 *boxes, const double point[3], double reach) {
-    lane3 p = {lane_set(point[0]), lane_set(point[1]), lane_set(point[2])};
+// Most boxes are parted by the balls around them.
+LANES_INLINE unsigned find_near_boxes(const box8 *boxes, lane3 p, double reach) {
     const double(*c)[ROBOT8] = boxes->column;
     unsigned bits = 0;
     for (int at = 0; at < ROBOT8; at += LANES) {
-        lane3 center = {get(c[0], at), get(c[1], at), get(c[2], at)},
-              half = {get(c[12], at), get(c[13], at), get(c[14], at)};
-        lane9 r = {{get(c[3], at), get(c[4], at), get(c[5], at)},
-                   {get(c[6], at), get(c[7], at), get(c[8], at)},
-                   {get(c[9], at), get(c[10], at), get(c[11], at)}};
-        lane square = compute_box_square(r, half, lane3_sub(p, center));
-        lane limit = lane_set(reach) + get(c[15], at);
-        bits |= lane_bits(lane_not(is_far(square, limit))) << at;
+        lane3 d = lane3_sub(p, get3(c, at));
+        lane_mask near = lane_not(is_far(lane3_dot(d, d), lane_set(reach) + get(c[BOX8_BALL], at)));
+        if (lane_bits(near) == 0) continue;
+        lane9 r = {get3(c + 3, at), get3(c + 6, at), get3(c + 9, at)};
+        lane square = compute_box_square(r, get3(c + BOX8_HALF, at), d);
+        lane limit = lane_set(reach) + get(c[BOX8_RADIUS], at);
+        bits |= lane_bits(lane_and(near, lane_not(is_far(square, limit)))) << at;
+    }
+    return bits & ((1u << ROBOT8) - 1);
+}
+
+LANES_TARGET static unsigned run_near_boxes(const box8 *boxes, const double point[3], double reach) {
+    return find_near_boxes(boxes, (lane3){lane_set(point[0]), lane_set(point[1]), lane_set(point[2])}, reach);
+}
+
+LANES_INLINE lane3 set3(const double (*column)[ROBOT8], uint32_t k) {
+    return (lane3){lane_set(column[0][k]), lane_set(column[1][k]), lane_set(column[2][k])};
+}
+
+// The states in LANES of which a sphere is near one box.
+LANES_INLINE unsigned find_near_states(const box8 *box, uint32_t k, lane3 center, lane reach) {
+    const double(*c)[ROBOT8] = box->column;
+    lane3 d = lane3_sub(center, set3(c, k));
+    lane_mask near = lane_not(is_far(lane3_dot(d, d), reach + lane_set(c[BOX8_BALL][k])));
+    if (lane_bits(near) == 0) return 0;
+    lane square =
+        compute_box_square((lane9){set3(c + 3, k), set3(c + 6, k), set3(c + 9, k)}, set3(c + BOX8_HALF, k), d);
+    return lane_bits(lane_and(near, lane_not(is_far(square, reach + lane_set(c[BOX8_RADIUS][k])))));
+}
+
+LANES_TARGET static void run_near_boxes8(const box8 *boxes, uint32_t count, const sphere8 *sphere, const double more[2],
+                                         unsigned char near[ROBOT8]) {
+    const double(*c)[ROBOT8] = sphere->column;
+    for (uint32_t k = 0; k < ROBOT8; k++) near[k] = 0;
+    for (int at = 0; at < ROBOT8; at += LANES) {
+        lane reach = (get(c[SPHERE8_REACH], at) + lane_set(more[0])) + lane_set(more[1]);
+        lane3 center = get3(c, at);
+        for (uint32_t k = 0; k < count; k++)
+            near[k] |= (unsigned char)(find_near_states(boxes, k, center, reach * lane_set(1 + 0x1p-50)) << at);
+    }
+}
+
+LANES_TARGET static unsigned run_near_spheres(const sphere8 *a, const sphere8 *b, double margin) {
+    unsigned bits = 0;
+    for (int at = 0; at < ROBOT8; at += LANES) {
+        lane3 d = lane3_sub(get3(b->column, at), get3(a->column, at));
+        lane reach = (get(a->column[SPHERE8_REACH], at) + get(b->column[SPHERE8_REACH], at)) + lane_set(margin);
+        bits |= lane_bits(lane_not(is_far(lane3_dot(d, d), reach))) << at;
+    }
+    return bits & ((1u << ROBOT8) - 1);
+}
+
+LANES_INLINE lane3 abs3(lane3 v) { return (lane3){lane_abs(v.x), lane_abs(v.y), lane_abs(v.z)}; }
+LANES_INLINE lane3 place_middle(const linked_box8 *b, lane9 rotation, int at) {
+    return lane3_add(get3(b->frame->column, at), lane9_mul3(rotation, spread3(b->middle)));
+}
+
+// oriented_boxes_find_gap.
+LANES_INLINE lane find_gap(lane9 ra, lane9 rb, lane3 h, lane3 k, lane3 in_a, lane3 in_b) {
+    lane9 m = lane9_mul_transposed(ra, rb);
+    lane3 r0 = abs3(m.r0), r1 = abs3(m.r1), r2 = abs3(m.r2);
+    const lane gaps[6] = {in_a.x - h.x - lane3_dot(r0, k),
+                          in_a.y - h.y - lane3_dot(r1, k),
+                          in_a.z - h.z - lane3_dot(r2, k),
+                          in_b.x - k.x - ((h.x * r0.x + h.y * r1.x) + h.z * r2.x),
+                          in_b.y - k.y - ((h.x * r0.y + h.y * r1.y) + h.z * r2.y),
+                          in_b.z - k.z - ((h.x * r0.z + h.y * r1.z) + h.z * r2.z)};
+    lane most = gaps[0];
+    for (int i = 1; i < 6; i++) most = lane_max(gaps[i], most);
+    return most;
+}
+
+LANES_TARGET static unsigned run_near_linked_boxes(const linked_box8 *a, const linked_box8 *b, double margin) {
+    unsigned bits = 0;
+    lane3 h = spread3(a->half), k = spread3(b->half);
+    lane halves = sum_abs(h) + sum_abs(k);
+    for (int at = 0; at < ROBOT8; at += LANES) {
+        lane9 ra = get_rotation(a->frame, at), rb = get_rotation(b->frame, at);
+        lane3 ca = place_middle(a, ra, at), cb = place_middle(b, rb, at), d = lane3_sub(cb, ca);
+        lane size = (sum_abs(ca) + sum_abs(cb)) + halves;
+        lane reach = ((lane_set(a->radius) + lane_set(b->radius)) + lane_set(margin)) + lane_set(ROBOT8_SLACK) * size;
+        lane3 in_a = abs3(lane9_mul3_transposed(ra, d)), in_b = abs3(lane9_mul3_transposed(rb, d));
+        lane_mask far = lane_greater(find_gap(ra, rb, h, k, in_a, in_b), reach);
+        // Along the line of centres, times its length.
+        lane square = lane3_dot(d, d), along = square - lane3_dot(h, in_a) - lane3_dot(k, in_b);
+        lane_mask is_parted = lane_greater(along * along * lane_set(1 - 0x1p-40), reach * reach * square);
+        far = lane_or(far, lane_and(lane_greater(along, lane_set(0)), is_parted));
+        bits |= lane_bits(lane_not(far)) << at;
     }
     return bits & ((1u << ROBOT8) - 1);
 }

@@ -1,10 +1,12 @@
 // The scalar twin of the kernels of robot8.h, and the choice among them.
-#define LANES 1
+#include "simd/narrowest.h"
+
 #include "simd/robot8_kernel.h"
 
 #include <stddef.h>
 
-static const robot8_kernels scalar = {run_chain, run_place, run_half_turns, run_near_boxes};
+static const robot8_kernels scalar = {run_chain,       run_place,        run_half_turns,       run_near_boxes,
+                                      run_near_boxes8, run_near_spheres, run_near_linked_boxes};
 
 const robot8_kernels *robot8_get_kernels_of(simd_isa isa) {
     switch (isa) {

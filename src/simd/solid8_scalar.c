@@ -1,5 +1,6 @@
 // The scalar twin of the kernels of solid8.h, and the choice among them.
-#define LANES 1
+#include "simd/narrowest.h"
+
 #include "simd/solid8_kernel.h"
 
 #include <stddef.h>

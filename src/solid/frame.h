@@ -118,5 +118,7 @@ int solid_is_inside(const solid_view *own, const solid_view *other, uint32_t com
 
 /// The bound by the boxes of both roots, lowered by the claim, and its direction in the world: what parts the bodies.
 box_gap solid_frame_find_parting(const solid_frame *f, const solid_view *a, const solid_view *b);
+/// The same by all points, along the best of some directions (parting.c). normal: one to try, world frame.
+box_gap solid_find_parting(const solid_frame *f, const solid_view *a, const solid_view *b, vec3 normal);
 
 #endif

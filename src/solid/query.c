@@ -73,7 +73,10 @@ static void finish(solid_search *h) {
     } else if (out->status == OVOID_OVERLAPPING) {
         out->limit = OVOID_LIMIT_NONE;
     }
-    box_gap gap = solid_frame_find_parting(&h->frame, &h->a, &h->b);
+    // Of a distance, which is asked for its bracket, by all points.
+    int is_distance = h->whole_goal.wants_bracket && h->whole_goal.near == -INFINITY;
+    box_gap gap = is_distance ? solid_find_parting(&h->frame, &h->a, &h->b, x->normal)
+                              : solid_frame_find_parting(&h->frame, &h->a, &h->b);
     out->lower = min2(gap.lower, min2(out->upper, 0));
     out->parting = gap.normal;
 }

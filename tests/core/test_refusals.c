@@ -145,8 +145,8 @@ static void ask_solids(wrong w, int both) {
         EXPECT(ovoid_compound_answer_check(&s, &x[i], NULL, NULL) == OVOID_ERROR_PROOF);
     }
     asked = "compound_impact";
-    ovoid_moving_body a = {s.a.shape, s.a.compound, ovoid_motion_make_still(s.a.pose)};
-    ovoid_moving_body b = {s.b.shape, s.b.compound, ovoid_motion_make_still(s.b.pose)};
+    ovoid_moving_body a = {.shape = s.a.shape, .compound = s.a.compound, .motion = ovoid_motion_make_still(s.a.pose)};
+    ovoid_moving_body b = {.shape = s.b.shape, .compound = s.b.compound, .motion = ovoid_motion_make_still(s.b.pose)};
     ovoid_compound_impact hit = ovoid_compound_impact_find(&a, &b, 0, NULL);
     EXPECT(hit.impact.limit == get_limit(w) && hit.impact.status == OVOID_IMPACT_UNDECIDED);
     EXPECT(ovoid_compound_impact_check(&a, &b, 0, &hit, NULL, NULL, NULL) == OVOID_OK);

@@ -184,7 +184,7 @@ static const true_pair *find_true_pair(const true_pair *pairs, size_t count, con
 
 // ---- comparisons
 
-static long free_count, hit_count;
+static long free_count, hit_count, row_count;
 
 static void compare_check(const scene *c, ovoid_robot_checker *x, const double *q, const true_pair *pairs,
                           size_t count) {
@@ -217,8 +217,11 @@ static void compare_near(const scene *c, ovoid_robot_checker *x, const double *q
                          size_t count) {
     enum { MOST = 1000 };
     static ovoid_robot_near items[MOST];
+    static double rows[MOST * 7 * ROBOT_LINKS];
+    size_t variables = ovoid_robot_get_variable_count(c->r);
     ovoid_robot_check_options options = {.margin = 0.3};
-    ovoid_robot_nears nears = {.items = items, .capacity = MOST};
+    ovoid_robot_nears nears = {.items = items, .gradients = rows, .capacity = MOST};
+    CHECK_LE(variables, 7 * ROBOT_LINKS);
     CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears, &error), OVOID_OK);
     size_t expected = 0;
     double least = INFINITY;
@@ -239,17 +242,28 @@ static void compare_near(const scene *c, ovoid_robot_checker *x, const double *q
         double x_ = n->point_b.x - n->point_a.x, y = n->point_b.y - n->point_a.y, z = n->point_b.z - n->point_a.z;
         CHECK_NEAR(x_ * n->normal.x + y * n->normal.y + z * n->normal.z, n->upper, 1e-7);
     }
-    // With little room, the nearest.
-    ovoid_robot_near few[3];
-    ovoid_robot_nears some = {.items = few, .capacity = 3};
+    // With little room, the nearest, and their own rows.
+    enum { FEW = 5 };
+    ovoid_robot_near few[FEW];
+    double own[FEW * 7 * ROBOT_LINKS];
+    ovoid_robot_nears some = {.items = few, .gradients = own, .capacity = FEW};
     CHECK_EQ(ovoid_robot_find_near(x, q, &options, &some, &error), OVOID_OK);
     CHECK_EQ(some.count, expected);
-    for (size_t i = 0; i < 3 && i < expected; i++) CHECK_NEAR(few[i].lower, items[i].lower, 1e-8);
+    for (size_t i = 0; i < FEW && i < expected; i++) {
+        CHECK_NEAR(few[i].lower, items[i].lower, 1e-8);
+        int is_same = same_side(&few[i].a, &items[i].a) && same_side(&few[i].b, &items[i].b);
+        if (!is_same || !few[i].has_gradient || !items[i].has_gradient) continue;
+        for (size_t v = 0; v < variables; v++) CHECK_NEAR(own[i * variables + v], rows[i * variables + v], 1e-5);
+        row_count++;
+    }
+    some.capacity = 0;
+    CHECK_EQ(ovoid_robot_find_near(x, q, &options, &some, &error), OVOID_OK);
+    CHECK_EQ(some.count, expected);
+    some.capacity = FEW;
     options.margin = INFINITY;
     CHECK_EQ(ovoid_robot_find_nearest(x, q, &options, &some, &error), OVOID_OK);
     CHECK_EQ(some.count, count > 0);
     if (count) CHECK_LE(few[0].lower, least + near_enough);
-    (void)c;
 }
 
 static void test_truth(void) {
@@ -277,6 +291,7 @@ static void test_truth(void) {
     check_seed = 0;
     CHECK_LE(200, free_count);
     CHECK_LE(200, hit_count);
+    CHECK_LE(200, row_count);
 }
 
 // ---- batches
@@ -300,6 +315,9 @@ static void test_batches(void) {
         size_t n = ovoid_robot_get_variable_count(c.r);
         for (size_t i = 0; i < COUNT; i++) make_random_state(&s, c.r, q + i * n);
         if (n) q[5 * n] = NAN, q[9 * n + n - 1] = 1e60;
+        // Lengths whose errors are larger than their neighbours'.
+        for (size_t i = 11; n && i < COUNT; i += 13)
+            for (size_t v = 0; v < n; v++) q[i * n + v] *= 64;
         ovoid_robot_checker *x[3];
         for (int i = 0; i < 3; i++) x[i] = ovoid_robot_checker_create(c.cell, NULL, &error);
         ovoid_robot_check_options options = {.margin = round % 2 ? 0.05 : 0, .limit_slack = round % 3 ? 0 : INFINITY};

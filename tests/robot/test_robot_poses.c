@@ -5,8 +5,8 @@
 #include "check.h"
 #include "countdown.h"
 #include "exact_robot.h"
+#include "robot/checker.h"
 #include "robots.h"
-#include "simd/robot8.h"
 
 #include "robot/kinematics.h"
 
@@ -142,6 +142,117 @@ static void test_kernels(void) {
     }
 }
 
+// ---- what is near, in lanes
+
+static box8 make_boxes(uint64_t *s, oriented_box *boxes) {
+    box8 all = {{{0}}};
+    for (int k = 0; k < ROBOT8; k++) {
+        ovoid_pose pose = random_pose(s, 2);
+        oriented_box *b = &boxes[k];
+        *b = (oriented_box){quat_to_mat3(pose.rotation), pose.position, random_vec3(s, 1), random_uniform(s, 0, 0.1)};
+        b->half = vec3_abs(b->half);
+        const double numbers[] = {b->center.x,
+                                  b->center.y,
+                                  b->center.z,
+                                  b->rotation.r0.x,
+                                  b->rotation.r0.y,
+                                  b->rotation.r0.z,
+                                  b->rotation.r1.x,
+                                  b->rotation.r1.y,
+                                  b->rotation.r1.z,
+                                  b->rotation.r2.x,
+                                  b->rotation.r2.y,
+                                  b->rotation.r2.z,
+                                  b->half.x,
+                                  b->half.y,
+                                  b->half.z,
+                                  b->radius,
+                                  1.001 * (vec3_norm(b->half) + b->radius)};
+        for (int i = 0; i < BOX8_COLUMNS; i++) all.column[i][k] = numbers[i];
+    }
+    return all;
+}
+
+static oriented_box place_linked_box(const linked_box8 *b, int k) {
+    const double(*c)[ROBOT8] = b->frame->column;
+    mat3 r = {{c[7][k], c[8][k], c[9][k]}, {c[10][k], c[11][k], c[12][k]}, {c[13][k], c[14][k], c[15][k]}};
+    vec3 center = vec3_add((vec3){c[0][k], c[1][k], c[2][k]}, mat3_mul_vec3(r, b->middle));
+    return (oriented_box){r, center, b->half, b->radius};
+}
+
+// The distance of a point from a box.
+static double measure_box(const oriented_box *b, vec3 point) {
+    vec3 d = vec3_abs(mat3_mul_transposed_vec3(b->rotation, vec3_sub(point, b->center)));
+    vec3 out = {max2(d.x - b->half.x, 0), max2(d.y - b->half.y, 0), max2(d.z - b->half.z, 0)};
+    return vec3_norm(out) - b->radius;
+}
+
+static long near_count, far_count;
+
+// In each lane what the functions of one state say, and what is true of points and boxes.
+static void compare_near(const robot8_kernels *kernels, const frame8 frames[2], uint64_t *s) {
+    oriented_box boxes[ROBOT8];
+    box8 all = make_boxes(s, boxes);
+    sphere8 spheres[2];
+    linked_box8 linked[2];
+    unsigned char near[ROBOT8];
+    const double more[2] = {random_uniform(s, 0, 0.5), 0.02};
+    for (int i = 0; i < 2; i++) {
+        vec3 c = random_vec3(s, 0.5);
+        const double center[3] = {c.x, c.y, c.z};
+        kernels->place(&frames[i], center, random_uniform(s, 0.1, 1), &spheres[i]);
+        linked[i] = (linked_box8){&frames[i], random_vec3(s, 0.3), vec3_abs(random_vec3(s, 0.6)), 0.01};
+    }
+    unsigned near_spheres = kernels->near_spheres(&spheres[0], &spheres[1], more[0]);
+    unsigned near_linked = kernels->near_linked_boxes(&linked[0], &linked[1], more[0]);
+    kernels->near_boxes8(&all, 5, &spheres[0], more, near);
+    for (int k = 0; k < ROBOT8; k++) {
+        sphere_place places[2];
+        for (int i = 0; i < 2; i++) {
+            const double(*c)[ROBOT8] = (const double(*)[ROBOT8])spheres[i].column;
+            places[i] = (sphere_place){{c[0][k], c[1][k], c[2][k]}, c[SPHERE8_REACH][k]};
+        }
+        oriented_box a = place_linked_box(&linked[0], k), b = place_linked_box(&linked[1], k);
+        CHECK_EQ(near_spheres >> k & 1, !spheres_are_far(&places[0], &places[1], more[0]));
+        CHECK_EQ(near_linked >> k & 1, !oriented_boxes_are_far(&a, &b, more[0]));
+        unsigned bits = kernels->near_boxes(&all, places[0].center, add_up(places[0].reach, more[0], more[1]));
+        for (unsigned i = 0; i < ROBOT8; i++) {
+            vec3 point = {places[0].center[0], places[0].center[1], places[0].center[2]};
+            double apart = measure_box(&boxes[i], point) - places[0].reach - more[0] - more[1];
+            CHECK_EQ(near[i] >> k & 1, i < 5 ? bits >> i & 1 : 0);
+            if (fabs(apart) > 1e-9) CHECK_EQ(bits >> i & 1, apart < 0);
+            *(apart < 0 ? &near_count : &far_count) += 1;
+        }
+    }
+}
+
+static void test_near(void) {
+    static double values[7 * ROBOT_LINKS][ROBOT8];
+    static frame8 frames[ROBOT_LINKS];
+    for (int isa = SIMD_SCALAR; isa < SIMD_ISA_COUNT; isa++) {
+        const robot8_kernels *kernels = robot8_get_kernels_of((simd_isa)isa);
+        uint64_t s = 14;
+        for (int round = 0; kernels && round < 100; round++) {
+            random_robot a;
+            double q[7 * ROBOT_LINKS], magnitude;
+            do make_random_robot(&s, &a);
+            while (a.d.link_count < 3);
+            ovoid_robot *r = ovoid_robot_create(&a.d, NULL, NULL);
+            if (!r) exit(1);
+            for (size_t k = 0; k < ROBOT8; k++) {
+                make_random_state(&s, r, q);
+                CHECK_EQ(robot_compute_values(r, q, values[0] + k, ROBOT8, &magnitude, NULL), OVOID_OK);
+            }
+            kernels->chain(r->steps, r->joint_count, (const double(*)[ROBOT8])values, frames);
+            const frame8 two[2] = {frames[r->steps[0].child], frames[r->steps[1].child]};
+            compare_near(kernels, two, &s);
+            ovoid_robot_destroy(r);
+        }
+    }
+    CHECK_LE(500, near_count);
+    CHECK_LE(500, far_count);
+}
+
 // The same bits from every compiler, level and machine: a chain of all six types, whose input no mathematics library
 // makes.
 static void test_bits(void) {
@@ -264,6 +375,7 @@ int main(void) {
         check_skip("long double is no longer than double here");
     test_lanes();
     test_kernels();
+    test_near();
     test_bits();
     test_refusals();
     test_memory();

@@ -5,7 +5,7 @@
 #ifndef OVOID_CPP_SOLID_HPP
 #define OVOID_CPP_SOLID_HPP
 
-#include "ovoid/cpp/compound.hpp"
+#include "ovoid/cpp/motion.hpp"
 #include "ovoid/solid.h"
 
 namespace ovoid {
@@ -42,6 +42,10 @@ class solid_view {
     bool winding(const ovoid_vec3 &point, std::int64_t *winding) const noexcept {
         return ovoid_solid_compute_winding(solid_, point, winding) != 0;
     }
+    /** The pairs of triangles that meet other than in common corners and edges, up to `most`. */
+    ovoid_solid_crossings crossings(std::uint64_t most = UINT64_MAX) const noexcept {
+        return ovoid_solid_compute_crossings(solid_, most);
+    }
     /** Size of the block in bytes. */
     std::size_t size_in_bytes() const noexcept { return ovoid_solid_get_size(solid_); }
 
@@ -65,6 +69,9 @@ class solid : public detail::owner<solid_view, ovoid_solid, ovoid_solid_destroy>
 };
 
 inline body::body(solid_view s, const ovoid::pose &at) noexcept : ovoid_body{nullptr, nullptr, at, s.get()} {}
+
+inline moving_body::moving_body(solid_view s, const ovoid::motion &m) noexcept
+    : ovoid_moving_body{nullptr, nullptr, m, s.get()} {}
 
 /** Two bodies, of which one may be a solid: answers about them are solid_answer. */
 struct solid_pair : body_pair {

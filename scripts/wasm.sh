@@ -1,0 +1,31 @@
+#!/bin/sh
+# wasm.sh: the package for JavaScript, in build/wasm/package and packed as build/wasm/ovoid-VERSION.tgz, at most 300 kB; its
+# tests under Node.js, which compare it with build/release/ovoid bit by bit. Exit 1 where something is missing or wrong.
+set -eu
+cd "$(dirname "$0")/.."
+jobs=${JOBS:-2} most=300000
+out=build/wasm
+
+for tool in clang wasm-ld node; do
+    command -v $tool >/dev/null || { echo "wasm: $tool is not here: scripts/setup.sh wasm" >&2 && exit 1; }
+done
+build() {
+    cmake -S . -B $out/cmake -DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/ports/wasm32.cmake" -DCMAKE_BUILD_TYPE=MinSizeRel -DOVOID_WEB=ON \
+        -DOVOID_SHARED=OFF -DOVOID_IO=OFF -DOVOID_CLI=OFF -DOVOID_JUDGE=OFF -DOVOID_TESTS=OFF -DOVOID_BENCH=OFF -DOVOID_EXAMPLES=OFF \
+        -DOVOID_PYTHON=OFF -DOVOID_INSTALL=OFF -DOVOID_ONE_OBJECT=OFF -DOVOID_WERROR=ON && cmake --build $out/cmake -j"$jobs" --target ovoid_wasm
+}
+mkdir -p $out
+build >$out/build.log 2>&1 || { cat $out/build.log >&2 && exit 1; }
+
+rm -rf $out/package
+mkdir -p $out/package
+cp web/package/* $out/cmake/web/ovoid.wasm LICENSE README.md $out/package/
+version=$(sed -n 's/^ *"version": "\(.*\)",$/\1/p' web/package/package.json)
+[ "$version" = "$(build/release/ovoid --version | sed 's/^ovoid //;q')" ] || { echo "wasm: package.json says $version, the tool another version" >&2 && exit 1; }
+tar -C $out --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --use-compress-program='gzip -9n' -cf "$out/ovoid-$version.tgz" package
+size=$(stat -c %s "$out/ovoid-$version.tgz")
+printf '%s: %s bytes, ovoid.wasm in it %s\n' "$out/ovoid-$version.tgz" "$size" "$(stat -c %s $out/package/ovoid.wasm)"
+[ "$size" -le $most ] || { echo "wasm: more than $most bytes" >&2 && exit 1; }
+
+OVOID=$PWD/build/release/ovoid node --test web/test >$out/test.log 2>&1 || { cat $out/test.log >&2 && exit 1; }
+grep -E '^# (pass|fail|skipped) ' $out/test.log | awk '{ n[$2] = $3 } END { printf "%d passed, %d failed, %d skipped\n", n["pass"], n["fail"], n["skipped"] }'

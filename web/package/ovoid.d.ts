@@ -1,0 +1,192 @@
+// ovoid: proximity of convex bodies and triangle solids, with proofs.
+// Lengths have one unit, the caller's; angles are radians. Poses map a body's frame to the world's. Every bracket is true,
+// rounding included: lower <= signed distance <= upper. What is wrong with an argument is thrown: OvoidError by the
+// library, TypeError for what is not of the shape that is written here.
+
+export type Vector = readonly [number, number, number] | Float64Array | readonly number[];
+/** At xyz (the origin), turned by one of the three (not turned): quaternions of any length but zero, or roll, pitch, yaw. */
+export interface Pose { xyz?: Vector; quat_wxyz?: readonly number[]; quat_xyzw?: readonly number[]; rpy?: Vector }
+
+export declare class OvoidError extends Error {
+  /** The number of ovoid_code. */
+  code: number;
+  /** Vertex, face, item or byte, from 0; -1 where none applies. */
+  place: number;
+}
+
+export interface ShapeOptions {
+  /** Rounding radius >= 0, added around the hull. */
+  radius?: number;
+  /** Relative volume gap of the ellipsoids, 1e-6. */
+  gap?: number;
+  inner?: 'maximum' | 'phases';
+  /** What the true body may differ by: brackets are of the true body. */
+  allowance?: { outside?: number; inside?: number };
+}
+/** { x : (x - center)' Q^-1 (x - center) <= 1 }, q the upper triangle of Q: xx xy xz yy yz zz. */
+export interface Ellipsoid { center: number[]; q: number[]; volume: number; gap: number }
+export interface Description {
+  vertexCount: number; triangleCount: number;
+  /** 0 point, 1 segment, 2 flat, 3 solid. */
+  rank: number;
+  radius: number; allowance: { outside: number; inside: number };
+  volume: number; area: number; centroid: number[]; inertia: number[];
+  box: { min: number[]; max: number[] };
+  /** Of the body frame, which vertices and ellipsoids are in, in the frame of the points given. */
+  origin: number[];
+  outer: Ellipsoid; inner: Ellipsoid;
+}
+
+/** A convex body: immutable, shared by any number of poses. Memory goes back by free(), or when nobody holds it. */
+export declare class Shape {
+  private constructor();
+  /** The convex hull of points: n arrays of three, or 3 n numbers. */
+  static fromPoints(points: ArrayLike<number> | readonly Vector[], options?: ShapeOptions): Shape;
+  static box(half: Vector, options?: ShapeOptions): Shape;
+  static sphere(radius: number, options?: ShapeOptions): Shape;
+  /** Along z, as are all of the following. */
+  static capsule(radius: number, halfLength: number, options?: ShapeOptions): Shape;
+  /** The true cylinder, its bracket wider by `tolerance` at most (radius / 200). */
+  static cylinder(radius: number, halfLength: number, options?: ShapeOptions & { tolerance?: number }): Shape;
+  static cone(radius: number, halfLength: number, options?: ShapeOptions & { tolerance?: number }): Shape;
+  static prism(radius: number, halfLength: number, sides: number, options?: ShapeOptions): Shape;
+  static pyramid(radius: number, halfLength: number, sides: number, options?: ShapeOptions): Shape;
+  /** From the bytes of an .ovoid file, all of them checked. */
+  static fromBytes(bytes: Uint8Array): Shape;
+  toBytes(): Uint8Array;
+  readonly description: Description;
+  /** 3 numbers each, body frame: copies. */
+  readonly vertices: Float64Array;
+  readonly triangles: Uint32Array;
+  readonly volume: number; readonly outer: Ellipsoid; readonly inner: Ellipsoid;
+  free(): void;
+}
+
+export type Status = 'undecided' | 'separated' | 'touching' | 'overlapping';
+export type Stage = 'none' | 'proof' | 'sphere' | 'outer' | 'support' | 'inner' | 'gjk' | 'epa' | 'refine';
+export interface Proof {
+  normal: number[]; normal_low?: number[];
+  kind: 'none' | 'points' | 'hull' | 'inner' | 'inner_points' | 'cover';
+  a: number[]; b: number[]; weight_a: number[]; weight_b: number[];
+  inner_a?: number[]; inner_b?: number[];
+  cover?: { pairs: number[][]; triangles: number[][] };
+}
+/** As a line of the tool's JSON: `ovoid check --json` writes what `check` takes. */
+export interface Answer {
+  status: Status; limit: string; lower: number; upper: number;
+  /** World frame; the normal is from a to b. */
+  point_a: number[]; point_b: number[]; normal: number[];
+  stage: Stage; iterations: number; proof: Proof;
+}
+export interface Options {
+  absoluteTolerance?: number;
+  /** Of the pair's size: 1e-9. */
+  relativeTolerance?: number;
+  /** Stop when proven farther than this. */
+  cap?: number;
+  iterations?: number;
+  /** A proof of this pair a moment ago: where the search begins. */
+  earlier?: Proof;
+}
+export interface Body { shape: Shape; pose?: Pose }
+/** A column of each; status, stage and limit are numbers of names. */
+export interface Batch { lower: Float64Array; upper: Float64Array; status: Uint8Array; stage: Uint8Array; limit: Uint8Array }
+
+export interface SmoothValue {
+  value: number; error: number; condition: number; isSmooth: boolean; point_a: number[]; point_b: number[]; normal: number[];
+  /** By translation of a (3), rotation of a (3), of b (6). */
+  gradient: number[]; hessian?: number[][];
+}
+export interface Moving { shape: Shape; start: Pose; end?: Pose }
+export interface MotionOptions { duration?: number; margin?: number; tolerance?: number }
+export type BareAnswer = Omit<Answer, 'proof'>;
+export interface Impact {
+  status: 'undecided' | 'free' | 'hit'; limit: string; iterations: number; begin: number; end: number;
+  /** The time of impact is in [free_until, hit_at]; Infinity: none is proven. */
+  free_until: number; hit_at: number; steps: number; free: BareAnswer; hit: BareAnswer;
+}
+export interface Approach {
+  status: Status; limit: string; iterations: number; begin: number; end: number; lower: number; upper: number; time: number; answer: BareAnswer;
+}
+
+export interface SolidReport {
+  points: number; triangles: number; components: number; edgesUnmatched: number; edgesCrowded: number; degenerate: number; duplicates: number;
+  isClosed: boolean; volume: number; area: number; box: { min: number[]; max: number[] };
+}
+/** Closed triangles: the body they wind around; open ones: the surface. */
+export declare class Solid {
+  private constructor();
+  static fromTriangles(points: ArrayLike<number> | readonly Vector[], triangles: ArrayLike<number> | readonly (readonly number[])[]): Solid;
+  readonly report: SolidReport;
+  free(): void;
+}
+export interface SolidAnswer {
+  status: Status; limit: string; lower: number; upper: number; parting: number[]; inside: 'a' | 'b' | null; component: number;
+  triangle_a: number; triangle_b: number; surfaces: Answer;
+  /** With { proof: true }. */
+  exclusions?: Uint8Array;
+}
+export type SolidOptions = { absoluteTolerance?: number; relativeTolerance?: number; cap?: number; proof?: boolean };
+
+export interface Joint {
+  name: string; type: 'fixed' | 'revolute' | 'continuous' | 'prismatic' | 'planar' | 'floating'; parent: string; child: string;
+  origin?: Pose; axis?: Vector; lower?: number; upper?: number; velocity?: number; mimic?: { joint: string; multiplier?: number; offset?: number };
+}
+export interface RobotDescription {
+  links: string[]; joints: Joint[];
+  /** Shapes are borrowed: do not free them before the robot. */
+  elements?: { link: string; shape: Shape; pose?: Pose }[];
+  disabled?: [string, string][];
+}
+export interface Side { link: string | null; element: number | null; obstacle: number | null }
+export interface StateAnswer { status: 'undecided' | 'free' | 'hit' | 'refused'; variable?: number; a?: Side; b?: Side; lower?: number; upper?: number }
+export interface NearPair { a: Side; b: Side; status: Status; lower: number; upper: number; point_a: number[]; point_b: number[]; normal: number[] }
+export declare class Robot {
+  constructor(description: RobotDescription);
+  readonly description: RobotDescription;
+  readonly variableCount: number;
+  poses(q: ArrayLike<number>): { xyz: number[]; quat_wxyz: number[] }[];
+  add(shape: Shape, pose?: Pose): number;
+  move(id: number, pose: Pose): void;
+  remove(id: number): void;
+  check(q: ArrayLike<number>, margin?: number): StateAnswer;
+  near(q: ArrayLike<number>, margin: number, most?: number): NearPair[];
+  free(): void;
+}
+
+type Ask<Options, Answer> = (a: Shape, poseA: Pose | null | undefined, b: Shape, poseB?: Pose | null, options?: Options) => Answer;
+type AskWithin<Options, Answer> = (a: Shape, poseA: Pose | null | undefined, b: Shape, poseB: Pose | null | undefined, margin: number, options?: Options) => Answer;
+type Either = Shape | Solid;
+
+export interface Ovoid {
+  version: string;
+  /** What the module has of memory; it grows and never shrinks. */
+  readonly memoryBytes: number;
+  names: { status: Status[]; stage: Stage[]; limit: string[]; kind: string[] };
+  Shape: typeof Shape; Solid: typeof Solid; Robot: typeof Robot; OvoidError: typeof OvoidError;
+  /** Do they touch? Ends as soon as the sign is proven. */
+  collide: Ask<Options, Answer>;
+  within: AskWithin<Options, Answer>;
+  distance: Ask<Options, Answer>;
+  /** The signed distance: minus the penetration depth where they overlap. */
+  depth: Ask<Options, Answer>;
+  /** Checks an answer by its proof alone. null: it holds; else what does not. */
+  check(a: Shape, poseA: Pose | null | undefined, b: Shape, poseB: Pose | null | undefined, answer: Answer): OvoidError | null;
+  /** Many couples [a, b] of bodies at once, eight in lanes; the bits of single queries. */
+  batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Options & { margin?: number }): Batch;
+  /** The signed distances of both ellipsoids: outer.value <= d <= inner.value. order 1: gradients, 2: Hessians too. */
+  smooth(a: Shape, poseA: Pose | null | undefined, b: Shape, poseB: Pose | null | undefined, order?: 0 | 1 | 2): { limit: string; outer: SmoothValue; inner: SmoothValue };
+  /** When two bodies that move from start to end (screw motions, time 0 to duration) first come within the margin. */
+  impact(a: Moving, b: Moving, options?: MotionOptions): Impact;
+  /** How near they come, and when. */
+  approach(a: Moving, b: Moving, options?: MotionOptions): Approach;
+  solids: {
+    collide(a: Either, poseA: Pose | null | undefined, b: Either, poseB?: Pose | null, options?: SolidOptions): SolidAnswer;
+    within(a: Either, poseA: Pose | null | undefined, b: Either, poseB: Pose | null | undefined, margin: number, options?: SolidOptions): SolidAnswer;
+    distance(a: Either, poseA: Pose | null | undefined, b: Either, poseB?: Pose | null, options?: SolidOptions): SolidAnswer;
+    check(a: Either, poseA: Pose | null | undefined, b: Either, poseB: Pose | null | undefined, answer: SolidAnswer): OvoidError | null;
+  };
+}
+
+/** Loads the module, from beside this file, an address, bytes or a compiled module. */
+export declare function load(source?: URL | string | BufferSource | Response | WebAssembly.Module): Promise<Ovoid>;

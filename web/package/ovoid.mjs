@@ -1,0 +1,275 @@
+// ovoid: proximity of convex bodies, with proofs. See ovoid.d.ts for what each function takes and gives.
+import { instantiate, Memory, OvoidError } from './memory.mjs';
+import { Answer, ANSWER, fromAnswer, fromProof, Names, PROOF, putPose, toPose, toVector } from './values.mjs';
+import { bindRobots } from './robots.mjs';
+import { bindSolids } from './solids.mjs';
+
+export { OvoidError };
+
+const QUERIES = ['collide', 'within', 'distance', 'depth'];
+const COVER_POINTS = 512;
+const COVER_BYTES = 8 + 8 * COVER_POINTS + 12 * COVER_POINTS;
+
+/** Loads the module: everything else is a field of what this gives. */
+export async function load(source) {
+  const memory = new Memory(await instantiate(source));
+  const core = { memory, calls: memory.exports, names: new Names(memory) };
+  // What nobody holds any more is given back; free() does it at once.
+  const collected = new FinalizationRegistry(({ destroy, address }) => destroy(address));
+  core.hold = (object, destroy, address) => collected.register(object, { destroy, address }, object);
+  core.drop = (object) => collected.unregister(object);
+  const Shape = bindShapes(core);
+  core.Shape = Shape;
+  return {
+    get memoryBytes() {
+      return core.calls.memory.buffer.byteLength;
+    },
+    Shape, OvoidError, version: memory.text(core.calls.get_version()), names: core.names,
+    ...bindQueries(core), ...bindMotions(core), ...bindSolids(core), ...bindRobots(core),
+  };
+}
+
+// ---- shapes
+
+function toNumbers(points) {
+  if (ArrayBuffer.isView(points)) return points instanceof Float64Array ? points : Float64Array.from(points);
+  return Float64Array.from(Array.isArray(points[0]) || ArrayBuffer.isView(points[0]) ? points.flatMap((p) => [...p]) : points);
+}
+
+const KINDS = ['box', 'sphere', 'capsule', 'cylinder', 'cone', 'prism', 'pyramid'];
+
+function bindShapes(core) {
+  const { memory, calls } = core;
+  const secret = Symbol('shape');
+
+  class Shape {
+    #address;
+
+    constructor(given, address) {
+      if (given !== secret) throw new TypeError('a shape is made by Shape.fromPoints, Shape.box and their like');
+      this.#address = address;
+      core.hold(this, calls.shape_destroy, address);
+    }
+
+    static #make(options, numbers, call) {
+      const { radius = 0, gap = 0, inner = 'maximum', allowance = {} } = options ?? {};
+      if (inner !== 'maximum' && inner !== 'phases') throw new TypeError(`inner: maximum or phases, not ${inner}`);
+      memory.set([radius, gap, inner === 'phases' ? 1 : 0, allowance.outside ?? 0, allowance.inside ?? 0, ...numbers]);
+      const address = call();
+      if (!address) throw memory.error();
+      return new Shape(secret, address);
+    }
+
+    static fromPoints(points, options) {
+      const xyz = toNumbers(points);
+      if (xyz.length % 3) throw new TypeError(`points: ${xyz.length} numbers are no number of points, which take three each`);
+      return Shape.#make(options, [], () => memory.with([xyz], (address) => calls.shape_from_points(address, xyz.length / 3)));
+    }
+
+    static #create(kind, options, ...numbers) {
+      for (const x of numbers) if (typeof x !== 'number') throw new TypeError(`${kind}: numbers are needed`);
+      return Shape.#make(options, [...numbers, 0, 0].slice(0, 3), () => calls.shape_create(KINDS.indexOf(kind)));
+    }
+
+    static box(half, options) {
+      return Shape.#create('box', options, ...toVector(half, 'half'));
+    }
+    static sphere(radius, options) {
+      return Shape.#create('sphere', options, radius);
+    }
+    static capsule(radius, halfLength, options) {
+      return Shape.#create('capsule', options, radius, halfLength);
+    }
+    static cylinder(radius, halfLength, options) {
+      return Shape.#create('cylinder', options, radius, halfLength, options?.tolerance ?? 0);
+    }
+    static cone(radius, halfLength, options) {
+      return Shape.#create('cone', options, radius, halfLength, options?.tolerance ?? 0);
+    }
+    static prism(radius, halfLength, sides, options) {
+      return Shape.#create('prism', options, radius, halfLength, sides);
+    }
+    static pyramid(radius, halfLength, sides, options) {
+      return Shape.#create('pyramid', options, radius, halfLength, sides);
+    }
+
+    static fromBytes(bytes) {
+      const address = memory.with([bytes], (at) => calls.shape_read(at, bytes.byteLength));
+      if (!address) throw memory.error();
+      return new Shape(secret, address);
+    }
+
+    toBytes() {
+      const size = calls.shape_write(this.address, 0, 0), at = calls.allocate(size);
+      if (!at) throw new OvoidError(1, -1, 'out of memory');
+      calls.shape_write(this.address, at, size);
+      const bytes = memory.take(Uint8Array, at, size);
+      calls.release(at);
+      return bytes;
+    }
+
+    get address() {
+      if (!this.#address) throw new TypeError('the shape was freed');
+      return this.#address;
+    }
+
+    free() {
+      if (!this.#address) return;
+      core.drop(this);
+      calls.shape_destroy(this.#address);
+      this.#address = 0;
+    }
+
+    get description() {
+      calls.shape_describe(this.address);
+      const n = memory.get(48), fit = (at) => ({ center: n.slice(at, at + 3), q: n.slice(at + 3, at + 9), volume: n[at + 9], gap: n[at + 10] });
+      return {
+        vertexCount: n[0], triangleCount: n[1], rank: n[2], radius: n[3], allowance: { outside: n[4], inside: n[5] },
+        volume: n[6], area: n[7], centroid: n.slice(8, 11), inertia: n.slice(11, 17),
+        box: { min: n.slice(17, 20), max: n.slice(20, 23) }, origin: n.slice(23, 26), outer: fit(26), inner: fit(37),
+      };
+    }
+    get vertices() {
+      const { vertexCount } = this.description;
+      return memory.take(Float64Array, calls.shape_get_vertices(this.address), 3 * vertexCount);
+    }
+    get triangles() {
+      const { triangleCount } = this.description;
+      return triangleCount ? memory.take(Uint32Array, calls.shape_get_triangles(this.address), 3 * triangleCount) : new Uint32Array(0);
+    }
+    get volume() {
+      return this.description.volume;
+    }
+    get outer() {
+      return this.description.outer;
+    }
+    get inner() {
+      return this.description.inner;
+    }
+  }
+  return Shape;
+}
+
+// ---- queries
+
+function readCover(core) {
+  const { memory, calls } = core, at = calls.get_cover(), buffer = memory.exports.memory.buffer;
+  const [points, triangles] = new Uint32Array(buffer, at, 2);
+  if (!points) return undefined;
+  const ends = new Uint32Array(buffer, at + 8, 2 * COVER_POINTS), corners = new Uint16Array(buffer, at + 8 + 8 * COVER_POINTS, 3 * triangles);
+  return {
+    pairs: Array.from({ length: points }, (_, i) => [ends[i], ends[COVER_POINTS + i]]),
+    triangles: Array.from({ length: triangles }, (_, i) => [...corners.subarray(3 * i, 3 * i + 3)]),
+  };
+}
+
+function writeCover(core, cover) {
+  const { memory, calls } = core, bytes = new Uint8Array(memory.exports.memory.buffer, calls.get_cover(), COVER_BYTES);
+  bytes.fill(0);
+  if (!cover) return;
+  const { pairs, triangles } = cover;
+  if (pairs.length > COVER_POINTS || triangles.length > 2 * COVER_POINTS)
+    throw new OvoidError(14, -1, `the cover has ${pairs.length} points and ${triangles.length} triangles; there are at most ${COVER_POINTS} and ${2 * COVER_POINTS}`);
+  const words = new Uint32Array(bytes.buffer, bytes.byteOffset, 2 + 2 * COVER_POINTS);
+  words[0] = pairs.length;
+  words[1] = triangles.length;
+  pairs.forEach(([a, b], i) => ((words[2 + i] = a), (words[2 + COVER_POINTS + i] = b)));
+  new Uint16Array(bytes.buffer, bytes.byteOffset + 8 + 8 * COVER_POINTS, 3 * triangles.length).set(triangles.flat());
+}
+
+const settings = (o) => [o?.absoluteTolerance ?? 0, o?.relativeTolerance ?? 0, o?.cap ?? 0, o?.iterations ?? 0];
+
+function bindQueries(core) {
+  const { memory, calls, names } = core;
+
+  function query(kind, a, poseA, b, poseB, margin, options) {
+    const earlier = options?.earlier;
+    const { doubles, place } = memory;
+    putPose(doubles, place, poseA, 'poseA');
+    putPose(doubles, place + 7, poseB, 'poseB');
+    doubles[place + 14] = margin;
+    doubles[place + 15] = options?.absoluteTolerance ?? 0;
+    doubles[place + 16] = options?.relativeTolerance ?? 0;
+    doubles[place + 17] = options?.cap ?? 0;
+    doubles[place + 18] = options?.iterations ?? 0;
+    if (earlier) memory.set(fromProof(earlier, names), 19);
+    calls.query(kind, a.address, b.address, earlier ? 1 : 0);
+    return new Answer(memory.get(ANSWER + PROOF), names, kind === 3 ? readCover(core) : undefined);
+  }
+
+  function check(a, poseA, b, poseB, answer) {
+    memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB'), ...fromAnswer(answer, names)]);
+    writeCover(core, answer.proof.cover);
+    return calls.check(a.address, b.address) ? memory.error() : null;
+  }
+
+  function batch(kind, bodies, couples, options) {
+    const index = QUERIES.indexOf(kind);
+    if (index < 0) throw new TypeError(`${kind}: no query; there are ${QUERIES.join(', ')}`);
+    const shapes = Uint32Array.from(bodies, (b) => b.shape.address), poses = Float64Array.from(bodies.flatMap((b) => toPose(b.pose)));
+    const pairs = couples instanceof Uint32Array ? couples : Uint32Array.from(couples.flat());
+    if (pairs.length % 2) throw new TypeError('couples: two indices each are needed');
+    const count = pairs.length / 2, room = [new Float64Array(2 * count), new Uint8Array(3 * count)];
+    return memory.with([shapes, poses, pairs, ...room], (s, p, c, bounds, codes) => {
+      memory.set([options?.margin ?? 0, ...settings(options)]);
+      if (calls.batch(index, s, p, bodies.length, c, count, bounds, codes)) throw memory.error();
+      const column = (i) => memory.take(Uint8Array, codes + i * count, count);
+      return {
+        lower: memory.take(Float64Array, bounds, count), upper: memory.take(Float64Array, bounds + 8 * count, count),
+        status: column(0), stage: column(1), limit: column(2),
+      };
+    });
+  }
+
+  function smooth(a, poseA, b, poseB, order = 0) {
+    memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB')]);
+    calls.smooth(a.address, b.address, order);
+    const size = 4 + 9 + 12 + (order === 2 ? 144 : 0), n = memory.get(1 + 2 * size);
+    const side = (m) => ({
+      value: m[0], error: m[1], condition: m[2], isSmooth: m[3] === 1, point_a: m.slice(4, 7), point_b: m.slice(7, 10), normal: m.slice(10, 13),
+      gradient: m.slice(13, 25), hessian: order === 2 ? Array.from({ length: 12 }, (_, i) => m.slice(25 + 12 * i, 37 + 12 * i)) : undefined,
+    });
+    return { limit: names.limit[n[0]], outer: side(n.slice(1, 1 + size)), inner: side(n.slice(1 + size)) };
+  }
+
+  return {
+    collide: (a, poseA, b, poseB, options) => query(0, a, poseA, b, poseB, 0, options),
+    within: (a, poseA, b, poseB, margin, options) => query(1, a, poseA, b, poseB, margin, options),
+    distance: (a, poseA, b, poseB, options) => query(2, a, poseA, b, poseB, 0, options),
+    depth: (a, poseA, b, poseB, options) => query(3, a, poseA, b, poseB, 0, options),
+    check, batch, smooth,
+  };
+}
+
+// ---- motions
+
+function bindMotions(core) {
+  const { memory, calls, names } = core, statuses = ['undecided', 'free', 'hit'];
+
+  function ask(call, a, b, options) {
+    const { duration = 1, margin = 0, tolerance = 0 } = options ?? {};
+    memory.set([duration, margin, tolerance, ...[a, b].flatMap((m) => [...toPose(m.start, 'start'), ...toPose(m.end ?? m.start, 'end')])]);
+    call(a.shape.address, b.shape.address);
+    return memory.get(8 + 2 * ANSWER);
+  }
+
+  // An answer without its proof, which lies in the steps.
+  const answerAt = (n, at) => ({ ...new Answer(n.slice(at, at + ANSWER), names) });
+
+  return {
+    impact(a, b, options) {
+      const n = ask(calls.impact, a, b, options);
+      return {
+        status: statuses[n[0]], limit: names.limit[n[1]], iterations: n[2], begin: n[3], end: n[4], free_until: n[5], hit_at: n[6],
+        steps: n[7], free: answerAt(n, 8), hit: answerAt(n, 8 + ANSWER),
+      };
+    },
+    approach(a, b, options) {
+      const n = ask(calls.approach, a, b, options);
+      return {
+        status: names.status[n[0]], limit: names.limit[n[1]], iterations: n[2], begin: n[3], end: n[4], lower: n[5], upper: n[6],
+        time: n[7], answer: answerAt(n, 8),
+      };
+    },
+  };
+}

@@ -1,0 +1,132 @@
+// Robots: a model from links, joints and shapes, where its links are, what is near.
+import { toPose, toVector } from './values.mjs';
+
+const TYPES = ['fixed', 'revolute', 'continuous', 'prismatic', 'planar', 'floating'];
+const STATES = ['undecided', 'free', 'hit', 'refused'];
+const NEAR = 18;
+
+function toModel(description) {
+  const { links, joints, elements = [], disabled = [] } = description;
+  const index = new Map(links.map((name, i) => [name, i])), places = new Map(joints.map((j, i) => [j.name, i]));
+  const link = (name) => {
+    if (!index.has(name)) throw new TypeError(`no such link: ${name}`);
+    return index.get(name);
+  };
+  const rows = joints.flatMap((j) => {
+    const type = TYPES.indexOf(j.type);
+    if (type < 0) throw new TypeError(`joint ${j.name}: no such type: ${j.type}; there are ${TYPES.join(', ')}`);
+    if (j.mimic && !places.has(j.mimic.joint)) throw new TypeError(`joint ${j.name}: no such joint to mimic: ${j.mimic.joint}`);
+    return [
+      type, link(j.parent), link(j.child), ...toPose(j.origin, `joint ${j.name}`), ...toVector(j.axis ?? [1, 0, 0], `joint ${j.name}: axis`),
+      j.lower ?? 0, j.upper ?? 0, j.velocity ?? 0, j.mimic ? places.get(j.mimic.joint) : -1, j.mimic?.multiplier ?? 1, j.mimic?.offset ?? 0,
+    ];
+  });
+  return {
+    counts: Uint32Array.of(links.length, joints.length, elements.length, disabled.length),
+    names: new TextEncoder().encode([...links, ...joints.map((j) => j.name)].map((name) => `${name}\0`).join('')),
+    joints: Float64Array.from(rows),
+    elements: Float64Array.from(elements.flatMap((e) => [link(e.link), ...toPose(e.pose, `an element of ${e.link}`)])),
+    shapes: Uint32Array.from(elements, (e) => e.shape.address),
+    disabled: Uint32Array.from(disabled.flatMap(([a, b]) => [link(a), link(b)])),
+  };
+}
+
+export function bindRobots(core) {
+  const { memory, calls, names } = core;
+
+  /** A robot among obstacles. */
+  class Robot {
+    #robot;
+    #cell;
+    #checker;
+
+    constructor(description) {
+      const m = toModel(description);
+      this.description = description;
+      this.#robot = memory.with([m.counts, m.names, m.joints, m.elements, m.shapes, m.disabled], calls.robot_create);
+      if (!this.#robot) throw memory.error();
+      this.#cell = calls.cell_create(this.#robot);
+      this.#checker = this.#cell && calls.checker_create(this.#cell);
+      this.variableCount = calls.robot_get_variable_count(this.#robot);
+      this.obstacles = new Map();
+      if (!this.#checker) {
+        const error = memory.error();
+        this.free();
+        throw error;
+      }
+    }
+
+    free() {
+      if (this.#checker) calls.checker_destroy(this.#checker);
+      if (this.#cell) calls.cell_destroy(this.#cell);
+      if (this.#robot) calls.robot_destroy(this.#robot);
+      this.#checker = this.#cell = this.#robot = 0;
+    }
+
+    #state(q) {
+      if (!this.#robot) throw new TypeError('the robot was freed');
+      if (q.length !== this.variableCount) throw new TypeError(`q: ${this.variableCount} numbers are needed, not ${q.length}`);
+      return Float64Array.from(q);
+    }
+
+    /** A pose { xyz, quat_wxyz } of each link, in the root link's frame. */
+    poses(q) {
+      const state = this.#state(q), out = new Float64Array(7 * this.description.links.length);
+      return memory.with([state, out], (s, o) => {
+        if (calls.robot_compute_poses(this.#robot, s, o)) throw memory.error();
+        const n = memory.take(Float64Array, o, out.length);
+        return this.description.links.map((_, i) => ({ xyz: [...n.slice(7 * i, 7 * i + 3)], quat_wxyz: [...n.slice(7 * i + 3, 7 * i + 7)] }));
+      });
+    }
+
+    /** Adds an obstacle; its number. */
+    add(shape, pose) {
+      this.#state(new Array(this.variableCount).fill(0));
+      memory.set(toPose(pose));
+      const id = calls.cell_add(this.#cell, shape.address);
+      if (!id) throw memory.error();
+      this.obstacles.set(id, shape);
+      return id;
+    }
+    move(id, pose) {
+      memory.set(toPose(pose));
+      if (calls.cell_move(this.#cell, id)) throw memory.error();
+    }
+    remove(id) {
+      if (calls.cell_remove(this.#cell, id)) throw memory.error();
+      this.obstacles.delete(id);
+    }
+
+    #side(n) {
+      return { link: n[0] < 0 ? null : this.description.links[n[0]], element: n[1] < 0 ? null : n[1], obstacle: n[2] || null };
+    }
+
+    /** Is the state free by a margin? */
+    check(q, margin = 0) {
+      return memory.with([this.#state(q)], (s) => {
+        memory.set([margin]);
+        if (calls.checker_check(this.#checker, s)) throw memory.error();
+        const n = memory.get(11), status = STATES[n[0]];
+        if (status !== 'hit' && status !== 'undecided') return { status, variable: status === 'refused' ? n[2] : undefined };
+        return { status, a: this.#side(n.slice(3, 6)), b: this.#side(n.slice(6, 9)), lower: n[9], upper: n[10] };
+      });
+    }
+
+    /** The pairs that are not proven farther apart than the margin, nearest first. */
+    near(q, margin, most = 1000) {
+      return memory.with([this.#state(q), new Float64Array(NEAR * most)], (s, o) => {
+        memory.set([margin]);
+        if (calls.checker_find_near(this.#checker, s, o, most)) throw memory.error();
+        const count = memory.get(1)[0], n = memory.take(Float64Array, o, NEAR * Math.min(count, most));
+        return Array.from({ length: Math.min(count, most) }, (_, i) => {
+          const x = [...n.slice(NEAR * i, NEAR * (i + 1))];
+          return {
+            a: this.#side(x.slice(0, 3)), b: this.#side(x.slice(3, 6)), status: names.status[x[6]], lower: x[7], upper: x[8],
+            point_a: x.slice(9, 12), point_b: x.slice(12, 15), normal: x.slice(15, 18),
+          };
+        });
+      });
+    }
+  }
+  return { Robot };
+}

@@ -1,0 +1,211 @@
+// The page of one scene: everything it needs is in it.
+import { load } from '../../package/ovoid.mjs';
+import { readData, unpack } from './data.mjs';
+import { Joints } from './joints.mjs';
+import { Model } from './model.mjs';
+import { element, Panel } from './panel.mjs';
+import { saveModel, savePicture } from './save.mjs';
+import { Timeline } from './timeline.mjs';
+import { View } from './view.mjs';
+
+const $ = (id) => document.getElementById(id);
+
+function say(text) {
+  $('said').textContent = text;
+  $('said').hidden = !text;
+}
+
+class Page {
+  constructor(model) {
+    this.model = model;
+    this.chosenBody = null;
+    this.view = new View(model, $('canvas'), (body) => this.chooseBody(body), (body) => this.moved(body));
+    this.panel = new Panel(document, model, {
+      choosePair: (pair) => this.choosePair(pair),
+      isolate: () => this.isolate(),
+      fly: () => this.fly(),
+      hold: (mode) => this.hold(mode),
+    });
+    if (model.data.motion) this.timeline = new Timeline($('timeline'), model, () => this.atTime());
+    if (model.data.robot) this.joints = new Joints($('joints'), model, () => this.atJoints());
+    this.#layers();
+    this.#buttons();
+    document.addEventListener('keydown', (event) => this.#key(event));
+    this.#hover();
+  }
+
+  get isIsolated() {
+    return this.view.only !== null;
+  }
+
+  #chosen() {
+    const { chosen } = this.panel;
+    return chosen ? [chosen.a, chosen.b] : this.chosenBody ? [this.chosenBody] : [];
+  }
+
+  choosePair(pair) {
+    this.view.hold(null);
+    this.chosenBody = null;
+    this.panel.show(pair);
+    this.view.choose(this.#chosen(), this.isIsolated);
+    this.view.showAnswer(pair?.answer);
+    this.timeline?.show(pair);
+    if (pair) this.fly();
+  }
+
+  chooseBody(body) {
+    if (body === this.view.held && body) return;
+    this.view.hold(null);
+    this.panel.show(null);
+    this.chosenBody = body;
+    this.view.showAnswer(null);
+    this.view.choose(this.#chosen(), this.isIsolated && body !== null);
+    if (body) this.panel.showBody(body);
+  }
+
+  /** The camera to the witness points, across the normal. */
+  fly() {
+    const { chosen } = this.panel;
+    if (!chosen?.answer.point_a) return this.chosenBody && this.view.fit({ center: this.chosenBody.pose.xyz, radius: this.chosenBody.radius });
+    const { point_a: p, point_b: q, upper } = chosen.answer, least = Math.min(chosen.a.radius, chosen.b.radius);
+    this.view.fit({ center: p.map((x, k) => (x + q[k]) / 2), radius: Math.max(0.6 * least, 1.2 * Math.abs(upper)) });
+  }
+
+  isolate() {
+    this.view.choose(this.#chosen(), !this.isIsolated);
+  }
+
+  hold(mode) {
+    const body = this.chosenBody;
+    if (!body || this.timeline || body.link !== undefined) return say(body ? 'This body is moved by its motion or its joints.' : 'Choose a body first.');
+    this.view.hold(body, mode);
+  }
+
+  moved(body) {
+    this.model.refresh(body);
+    this.panel.update(this.model.byBody.get(body));
+    this.panel.updateBody(body);
+  }
+
+  #again() {
+    this.view.placeAll();
+    if (this.panel.chosen) {
+      const { chosen } = this.panel;
+      chosen.answer = this.model.ask(chosen.a, chosen.b);
+      chosen.isLive = true;
+      this.panel.update([chosen]);
+      this.view.showAnswer(chosen.answer);
+    }
+  }
+  atTime() {
+    if (this.panel) this.#again();
+  }
+  atJoints() {
+    const { chosen } = this.panel, same = chosen && this.model.pairs.find((p) => p.a === chosen.a && p.b === chosen.b);
+    this.view.placeAll();
+    this.panel.fill();
+    if (same) {
+      this.panel.show(same);
+      this.view.showAnswer(same.answer);
+    } else this.view.showAnswer(this.model.pairs[0]?.answer);
+  }
+
+  reset() {
+    this.view.hold(null);
+    this.model.reset();
+    this.panel.fill();
+    this.choosePair(null);
+    this.view.placeAll();
+  }
+
+  #layers() {
+    const labels = { meshes: 'Meshes', hulls: 'Hulls', outer: 'Outer ellipsoids', inner: 'Inner ellipsoids', areas: 'Areas', witness: 'Witness points' };
+    const keys = { meshes: 'm', hulls: 'h', outer: 'o', inner: 'i', areas: 'a', witness: 'w' };
+    const has = (name) => name === 'witness' || this.view.layers[name].children.length > 0;
+    this.boxes = {};
+    for (const [name, text] of Object.entries(labels)) {
+      if (!has(name)) continue;
+      const box = element('input', { type: 'checkbox', checked: this.view.shown[name], id: `layer-${name}`, onchange: () => this.view.show({ [name]: box.checked }) });
+      this.boxes[keys[name]] = box;
+      $('layers').append(element('label', { title: `key ${keys[name].toUpperCase()}` }, box, ` ${text}`));
+    }
+    const glass = element('input', { type: 'range', min: 0.1, max: 1, step: 0.05, value: 1, 'aria-label': 'opacity', oninput: () => {
+      this.view.opacity = Number(glass.value);
+      this.view.show({});
+    } });
+    $('layers').append(element('label', {}, 'Opacity ', glass));
+  }
+
+  #buttons() {
+    const name = (this.model.data.title ?? 'scene').replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_');
+    $('fit').onclick = () => this.view.fit();
+    $('reset').onclick = () => this.reset();
+    $('png').onclick = () => savePicture(this.view, name);
+    $('glb').onclick = () => saveModel(this.view, name).catch((error) => say(error.message));
+    $('theme').onclick = () => this.#theme();
+    $('help').onclick = () => $('keys').showModal();
+  }
+
+  #theme() {
+    const isDark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+    document.documentElement.dataset.theme = isDark ? 'light' : 'dark';
+    this.view.draw();
+  }
+
+  #key(event) {
+    if (event.target.matches('input:not([type=range],[type=checkbox])') || event.ctrlKey || event.metaKey || event.altKey) return;
+    const key = event.key.toLowerCase(), box = this.boxes[key];
+    const actions = {
+      f: () => this.view.fit(), g: () => this.hold('translate'), r: () => this.hold('rotate'), x: () => this.isolate(), t: () => this.#theme(),
+      p: () => document.getElementById('check')?.click(), escape: () => this.choosePair(null), '?': () => $('keys').showModal(),
+      arrowdown: () => this.#next(1), arrowup: () => this.#next(-1), ' ': () => this.timeline?.toggle(),
+    };
+    if (box) box.click();
+    else if (actions[key] && !(key.startsWith('arrow') && event.target.matches('input'))) {
+      actions[key]();
+      event.preventDefault();
+    }
+  }
+
+  #next(step) {
+    const pairs = [...this.panel.rows.keys()], at = pairs.indexOf(this.panel.chosen);
+    const next = pairs[Math.max(0, Math.min(pairs.length - 1, at < 0 ? 0 : at + step))];
+    if (next) this.choosePair(next);
+    this.panel.rows.get(next)?.scrollIntoView({ block: 'nearest' });
+  }
+
+  #hover() {
+    let due = false;
+    $('canvas').addEventListener('pointermove', (event) => {
+      if (due || event.buttons) return;
+      due = true;
+      setTimeout(() => {
+        due = false;
+        const body = this.view.bodyAt(event.clientX, event.clientY);
+        $('name').hidden = !body;
+        $('name').textContent = body?.name ?? '';
+        $('name').style.translate = `${event.clientX + 12}px ${event.clientY + 8}px`;
+      }, 40);
+    });
+  }
+}
+
+async function start() {
+  const data = readData($('ovoid-data')?.textContent ?? 'null');
+  document.title = `${data.title ?? 'scene'} – ovoid`;
+  $('title').textContent = data.title ?? 'scene';
+  $('command').textContent = data.command ?? '';
+  if (data.left_out) say(`Left out, as there are so many: ${Object.entries(data.left_out).filter(([, n]) => n).map(([what, n]) => `${n} ${what}`).join(', ')}.`);
+  const ovoid = await load(await unpack($('ovoid-module').textContent));
+  window.ovoidPage = new Page(new Model(ovoid, data));
+  document.body.dataset.ready = 'yes';
+}
+
+start().catch((error) => {
+  const needs = document.createElement('canvas').getContext('webgl2') ? '' : ' This browser draws no 3-D (WebGL 2).';
+  say(`${error.message}${needs}`);
+  const picture = $('ovoid-picture');
+  if (picture) picture.hidden = false;
+  document.body.dataset.ready = 'failed';
+  throw error;
+});

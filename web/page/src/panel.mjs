@@ -1,0 +1,155 @@
+// The list of pairs, what is known of the chosen one, and the bodies.
+
+const MOST_ROWS = 400;
+
+export function element(tag, properties = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [key, value] of Object.entries(properties)) {
+    if (key.startsWith('on')) node.addEventListener(key.slice(2), value);
+    else if (key in node) node[key] = value;
+    else node.setAttribute(key, value);
+  }
+  node.append(...children);
+  return node;
+}
+
+/** A length with the digits that are known, and its unit. */
+export function formatLength(x, unit, digits = 6) {
+  if (!Number.isFinite(x)) return x > 0 ? '∞' : '-∞';
+  const text = x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e6) ? String(Number(x.toPrecision(digits))) : x.toExponential(digits - 2);
+  return unit ? `${text} ${unit}` : text;
+}
+
+const words = { separated: 'apart', touching: 'touching', overlapping: 'overlapping', undecided: 'not proven' };
+
+export class Panel {
+  constructor(root, model, actions) {
+    this.model = model;
+    this.actions = actions;
+    this.filter = '';
+    this.margin = Infinity;
+    this.rows = new Map();
+    this.summary = root.querySelector('#summary');
+    this.list = root.querySelector('#pairs');
+    this.more = root.querySelector('#more');
+    this.details = root.querySelector('#details');
+    root.querySelector('#filter').addEventListener('input', (event) => {
+      this.filter = event.target.value.toLowerCase();
+      this.fill();
+    });
+    root.querySelector('#margin').addEventListener('input', (event) => {
+      const value = parseFloat(event.target.value);
+      this.margin = Number.isNaN(value) ? Infinity : value;
+      this.fill();
+    });
+    this.fill();
+  }
+
+  matching() {
+    const { filter, margin } = this;
+    return this.model.pairs
+      .filter(({ a, b, answer }) => answer.lower <= margin && (!filter || `${a.name} ${b.name}`.toLowerCase().includes(filter)))
+      .sort((x, y) => x.answer.lower - y.answer.lower);
+  }
+
+  fill() {
+    const pairs = this.matching();
+    this.rows.clear();
+    this.list.replaceChildren(
+      ...pairs.slice(0, MOST_ROWS).map((pair) => {
+        const row = element('tr', { tabIndex: 0, onclick: () => this.actions.choosePair(pair), onkeydown: (event) => event.key === 'Enter' && this.actions.choosePair(pair) });
+        this.rows.set(pair, row);
+        this.#write(pair, row);
+        return row;
+      }),
+    );
+    const all = this.model.pairs.length, hits = this.model.pairs.filter((p) => p.answer.status !== 'separated').length;
+    this.summary.textContent = `${this.model.bodies.length} bodies, ${all} pairs; ${hits} not apart`;
+    this.more.textContent = pairs.length > MOST_ROWS ? `${pairs.length - MOST_ROWS} more: narrow the filter` : pairs.length < all ? `${pairs.length} of ${all}` : '';
+  }
+
+  #write(pair, row) {
+    const { a, b, answer } = pair;
+    row.className = `${answer.status}${pair === this.chosen ? ' chosen' : ''}${pair.isLive ? ' live' : ''}`;
+    row.replaceChildren(
+      element('td', { textContent: `${a.name} – ${b.name}` }),
+      element('td', { className: 'number', textContent: formatLength(answer.lower, this.model.unit), title: `${answer.lower} to ${answer.upper}` }),
+    );
+  }
+
+  /** Writes the rows of pairs anew whose answers changed. */
+  update(pairs) {
+    for (const pair of pairs) if (this.rows.has(pair)) this.#write(pair, this.rows.get(pair));
+    if (this.chosen && pairs.includes(this.chosen)) this.show(this.chosen);
+  }
+
+  /** What is known of a pair; null: nothing is chosen. */
+  show(pair) {
+    const before = this.chosen;
+    this.chosen = pair;
+    for (const p of [before, pair]) if (p && this.rows.has(p)) this.#write(p, this.rows.get(p));
+    if (!pair) return this.details.replaceChildren();
+    const { a, b, answer } = pair, unit = this.model.unit, vector = (v) => v?.map((x) => Number(x.toPrecision(9))).join(', ') ?? '';
+    const fact = (name, value, id) => [element('dt', { textContent: name }), element('dd', { textContent: value, ...(id ? { id } : {}) })];
+    const said = element('p', { id: 'proof', className: 'proof', role: 'status' });
+    const check = element('button', {
+      id: 'check', textContent: 'Check the proof here', title: 'by the library in this page, without any search (P)',
+      onclick: () => {
+        const { isChecked, holds, text } = this.model.check(pair);
+        said.textContent = text;
+        said.className = `proof ${isChecked ? (holds ? 'holds' : 'fails') : ''}`;
+      },
+    });
+    this.details.replaceChildren(
+      element('h2', { textContent: `${a.name} – ${b.name}` }),
+      element('dl', {},
+        ...fact('is', `${words[answer.status] ?? answer.status}${pair.isLive ? ', asked just now' : ''}`, 'status'),
+        ...fact('between', formatLength(answer.lower, unit, 10), 'lower'),
+        ...fact('and', formatLength(answer.upper, unit, 10), 'upper'),
+        ...fact('width', formatLength(answer.upper - answer.lower, unit, 3)),
+        ...fact('point of the first', vector(answer.point_a)),
+        ...fact('of the second', vector(answer.point_b)),
+        ...fact('normal', vector(answer.normal)),
+        ...fact('decided by', answer.stage ?? ''),
+      ),
+      element('p', {}, check, ' ', element('button', { id: 'isolate', textContent: 'Only these two', title: 'show nothing else (X)', onclick: () => this.actions.isolate() }), ' ',
+        element('button', { textContent: 'Fly there', title: 'Enter', onclick: () => this.actions.fly() })),
+      said,
+    );
+  }
+
+  /** What is known of a body. */
+  showBody(body) {
+    const text = (p) => `${p.xyz.map((x) => Number(x.toPrecision(12))).join(' ')} ${p.quat_wxyz.map((x) => Number(x.toPrecision(12))).join(' ')}`;
+    const pose = element('output', { id: 'pose', textContent: text(body.pose) });
+    this.poseText = { body, node: pose, text };
+    this.details.replaceChildren(
+      element('h2', { textContent: body.name }),
+      element('p', {},
+        element('button', { id: 'move', textContent: 'Move', title: 'drag its arrows (G)', onclick: () => this.actions.hold('translate') }), ' ',
+        element('button', { id: 'turn', textContent: 'Turn', title: 'drag its rings (R)', onclick: () => this.actions.hold('rotate') }), ' ',
+        element('button', { textContent: 'Only this', title: 'show nothing else (X)', onclick: () => this.actions.isolate() })),
+      element('dl', {},
+        element('dt', { textContent: 'pose (x y z, w x y z)' }), element('dd', {}, pose),
+        element('dt', { textContent: 'parts' }), element('dd', { textContent: body.solid ? `a solid of ${body.mesh.triangles.length / 3} triangles` : String(body.parts.length) }),
+      ),
+      element('h3', { textContent: 'Its pairs' }),
+      element('ul', { id: 'own' }, ...this.#ownPairs(body)),
+    );
+  }
+
+  #ownPairs(body) {
+    const own = [...this.model.byBody.get(body)].sort((x, y) => x.answer.lower - y.answer.lower).slice(0, 12);
+    return own.map((pair) => {
+      const other = pair.a === body ? pair.b : pair.a;
+      return element('li', { className: pair.answer.status, onclick: () => this.actions.choosePair(pair), textContent: `${other.name}: ${formatLength(pair.answer.lower, this.model.unit)}` });
+    });
+  }
+
+  /** The body's pose and pairs while it is dragged. */
+  updateBody(body) {
+    if (this.poseText?.body !== body || !this.poseText.node.isConnected) return;
+    this.poseText.node.textContent = this.poseText.text(body.pose);
+    this.details.querySelector('#own').replaceChildren(...this.#ownPairs(body));
+  }
+}

@@ -1,0 +1,79 @@
+// A motion: a slider over its times, and the distance of the chosen pair over them, asked live.
+import { element, formatLength } from './panel.mjs';
+
+const SAMPLES = 240;
+const NS = 'http://www.w3.org/2000/svg';
+const svg = (tag, attributes) => {
+  const node = document.createElementNS(NS, tag);
+  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  return node;
+};
+
+export class Timeline {
+  constructor(root, model, onTime) {
+    this.model = model;
+    this.motion = model.data.motion;
+    this.onTime = onTime;
+    root.hidden = false;
+    this.slider = element('input', { type: 'range', id: 'time', min: 0, max: this.motion.times.length - 1, step: 1, value: 0, 'aria-label': 'time', oninput: () => this.set(Number(this.slider.value)) });
+    this.label = element('output', { id: 'now' });
+    this.play = element('button', { id: 'play', textContent: '▶', title: 'play (space)', onclick: () => this.toggle() });
+    this.plot = svg('svg', { viewBox: '0 0 600 90', preserveAspectRatio: 'none', class: 'plot' });
+    root.replaceChildren(element('div', { className: 'row' }, this.play, this.slider, this.label), this.plot);
+    this.set(0);
+  }
+
+  poseAt(body, frame) {
+    const at = 7 * (frame * this.model.bodies.length + body.index), p = this.motion.poses;
+    return { xyz: [p[at], p[at + 1], p[at + 2]], quat_wxyz: [p[at + 3], p[at + 4], p[at + 5], p[at + 6]] };
+  }
+
+  set(frame) {
+    this.frame = frame;
+    this.slider.value = frame;
+    this.label.textContent = `t = ${formatLength(this.motion.times[frame], '')}`;
+    for (const body of this.model.bodies) body.pose = this.poseAt(body, frame);
+    this.cursor?.setAttribute('transform', `translate(${(600 * frame) / Math.max(1, this.motion.times.length - 1)} 0)`);
+    this.onTime();
+  }
+
+  toggle() {
+    this.isPlaying = !this.isPlaying;
+    this.play.textContent = this.isPlaying ? '⏸' : '▶';
+    const begin = performance.now(), from = this.frame, { times } = this.motion, last = times.length - 1;
+    const seconds = Math.min(12, Math.max(2, last / 30));
+    const step = (now) => {
+      if (!this.isPlaying) return;
+      const frame = (from + Math.round(((now - begin) / 1000 / seconds) * last)) % (last + 1);
+      if (frame !== this.frame) this.set(frame);
+      requestAnimationFrame(step);
+    };
+    requestAnimationFrame(step);
+  }
+
+  /** The distance of a pair over time; margin and events marked. */
+  show(pair) {
+    const { times, margin, events = [] } = this.motion, last = times.length - 1;
+    if (!pair || last < 1) return this.plot.replaceChildren();
+    const { a, b } = pair, kept = [a.pose, b.pose], values = [];
+    for (let i = 0; i <= Math.min(SAMPLES, last); i++) {
+      const frame = Math.round((i / Math.min(SAMPLES, last)) * last);
+      a.pose = this.poseAt(a, frame);
+      b.pose = this.poseAt(b, frame);
+      const { lower, upper } = this.model.ask(a, b);
+      values.push([frame, (lower + upper) / 2]);
+    }
+    [a.pose, b.pose] = kept;
+    const low = Math.min(0, ...values.map((v) => v[1])), high = Math.max(margin ?? 0, 1e-12, ...values.map((v) => v[1]));
+    const x = (frame) => (600 * frame) / last, y = (value) => 84 - (78 * (value - low)) / (high - low);
+    const line = (value, kind) => svg('line', { x1: 0, x2: 600, y1: y(value), y2: y(value), class: kind });
+    this.cursor = svg('line', { x1: 0, x2: 0, y1: 0, y2: 90, class: 'cursor', transform: `translate(${x(this.frame)} 0)` });
+    this.plot.replaceChildren(
+      line(0, 'zero'), ...(margin ? [line(margin, 'margin')] : []),
+      svg('polyline', { points: values.map(([frame, value]) => `${x(frame)},${y(value)}`).join(' '), class: 'curve' }),
+      ...events.filter((e) => [e.a, e.b].includes(a.index) && [e.a, e.b].includes(b.index))
+        .map((e) => svg('line', { x1: (600 * (e.time - times[0])) / (times[last] - times[0]), x2: (600 * (e.time - times[0])) / (times[last] - times[0]), y1: 0, y2: 90, class: 'event' })),
+      this.cursor,
+    );
+  }
+}

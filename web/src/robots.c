@@ -1,0 +1,148 @@
+// Robots: made from flat arrays, where their links are, what is near.
+#include "exchange.h"
+#include "ovoid/robot.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// Numbers of a joint: type, parent, child, origin, axis, lower, upper, velocity, mimicked joint (-1: none),
+/// multiplier, offset.
+enum { JOINT = 19 };
+/// Numbers of an element beside its shape: the link, the pose.
+enum { ELEMENT = 8 };
+
+static void read_joint(const double *from, const char *name, ovoid_robot_joint *j) {
+    *j = (ovoid_robot_joint){.name = name, .type = (ovoid_joint_type)(int)from[0]};
+    j->parent = read_index(from[1]);
+    j->child = read_index(from[2]);
+    from = read_vec3(read_pose(from + 3, &j->origin), &j->axis);
+    j->lower = from[0], j->upper = from[1], j->velocity = from[2];
+    j->mimic = from[3] < 0 ? OVOID_ROBOT_NONE : read_index(from[3]);
+    j->multiplier = from[4], j->offset = from[5];
+}
+
+// The next of the names, which end with a zero each.
+static const char *take_name(const char **names) {
+    const char *name = *names;
+    while (**names) ++*names;
+    ++*names;
+    return name;
+}
+
+typedef struct model {
+    ovoid_robot_link *links;
+    ovoid_robot_joint *joints;
+    ovoid_robot_element *elements;
+    ovoid_robot_pair *disabled;
+} model;
+
+/// counts: links, joints, elements, disabled pairs. names: of all links, then of all joints.
+ovoid_robot *EXPORT(robot_create)(const uint32_t counts[4], const char *names, const double *joints,
+                                  const double *elements, ovoid_shape *const *shapes, const uint32_t *disabled) {
+    model m = {calloc(counts[0] + 1, sizeof *m.links), calloc(counts[1] + 1, sizeof *m.joints),
+               calloc(counts[2] + 1, sizeof *m.elements), calloc(counts[3] + 1, sizeof *m.disabled)};
+    ovoid_robot *robot = NULL;
+    if (m.links && m.joints && m.elements && m.disabled) {
+        for (uint32_t i = 0; i < counts[0]; i++) m.links[i].name = take_name(&names);
+        for (uint32_t i = 0; i < counts[1]; i++) read_joint(joints + JOINT * i, take_name(&names), &m.joints[i]);
+        for (uint32_t i = 0; i < counts[2]; i++) {
+            m.elements[i] = (ovoid_robot_element){.link = read_index(elements[ELEMENT * i]), .shape = shapes[i]};
+            read_pose(elements + ELEMENT * i + 1, &m.elements[i].pose);
+        }
+        for (uint32_t i = 0; i < counts[3]; i++)
+            m.disabled[i] = (ovoid_robot_pair){.a = disabled[2 * i], .b = disabled[2 * i + 1]};
+        ovoid_robot_description d = {.links = m.links,
+                                     .link_count = counts[0],
+                                     .joints = m.joints,
+                                     .joint_count = counts[1],
+                                     .elements = m.elements,
+                                     .element_count = counts[2],
+                                     .disabled = m.disabled,
+                                     .disabled_count = counts[3]};
+        robot = ovoid_robot_create(&d, NULL, &exchange_error);
+    } else
+        exchange_error = (ovoid_error){OVOID_ERROR_MEMORY, -1, "out of memory"};
+    free(m.links);
+    free(m.joints);
+    free(m.elements);
+    free(m.disabled);
+    return robot;
+}
+void EXPORT(robot_destroy)(ovoid_robot *robot) { ovoid_robot_destroy(robot); }
+size_t EXPORT(robot_get_variable_count)(const ovoid_robot *robot) { return ovoid_robot_get_variable_count(robot); }
+
+/// Seven numbers a link. 0, or the error's code.
+int EXPORT(robot_compute_poses)(const ovoid_robot *robot, const double *q, double *out) {
+    size_t count = ovoid_robot_get_description(robot).link_count;
+    ovoid_pose *poses = calloc(count, sizeof *poses);
+    if (!poses) return OVOID_ERROR_MEMORY;
+    int code = (int)ovoid_robot_compute_poses(robot, q, poses, NULL, &exchange_error);
+    for (size_t i = 0; !code && i < count; i++) out = write_pose(out, &poses[i]);
+    free(poses);
+    return code;
+}
+
+// ---- cells
+
+ovoid_robot_cell *EXPORT(cell_create)(const ovoid_robot *robot) {
+    return ovoid_robot_cell_create(robot, NULL, &exchange_error);
+}
+void EXPORT(cell_destroy)(ovoid_robot_cell *cell) { ovoid_robot_cell_destroy(cell); }
+
+/// Reads the pose. The obstacle's id, 0 on failure.
+double EXPORT(cell_add)(ovoid_robot_cell *cell, const ovoid_shape *shape) {
+    ovoid_body body = {.shape = shape};
+    read_pose(exchange, &body.pose);
+    return (double)ovoid_robot_cell_add(cell, &body, &exchange_error);
+}
+int EXPORT(cell_move)(ovoid_robot_cell *cell, double id) {
+    ovoid_pose pose;
+    read_pose(exchange, &pose);
+    return (int)ovoid_robot_cell_move(cell, (ovoid_id)id, &pose, &exchange_error);
+}
+int EXPORT(cell_remove)(ovoid_robot_cell *cell, double id) {
+    return (int)ovoid_robot_cell_remove(cell, (ovoid_id)id, &exchange_error);
+}
+
+ovoid_robot_checker *EXPORT(checker_create)(const ovoid_robot_cell *cell) {
+    return ovoid_robot_checker_create(cell, NULL, &exchange_error);
+}
+void EXPORT(checker_destroy)(ovoid_robot_checker *checker) { ovoid_robot_checker_destroy(checker); }
+
+// Links and obstacles as numbers; -1: none.
+static double *write_side(double *to, const ovoid_robot_side *s) {
+    *to++ = s->link == OVOID_ROBOT_NONE ? -1 : (double)s->link;
+    *to++ = s->element == OVOID_ROBOT_NONE ? -1 : (double)s->element;
+    *to++ = (double)s->body;
+    return to;
+}
+
+/// Reads the margin. Writes status, code, variable, both sides, lower, upper. 0, or the error's code.
+int EXPORT(checker_check)(ovoid_robot_checker *checker, const double *q) {
+    ovoid_robot_check_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
+    ovoid_robot_answer a;
+    int code = (int)ovoid_robot_check(checker, q, &options, &a, &exchange_error);
+    double *to = exchange;
+    *to++ = a.status, *to++ = a.code, *to++ = a.variable;
+    to = write_side(write_side(to, &a.a), &a.b);
+    *to++ = a.lower, *to++ = a.upper;
+    return code;
+}
+
+/// Near pairs, 18 numbers each: both sides, status, lower, upper, points, normal; nearest first. Reads the margin;
+/// writes how many there are. 0, or the error's code.
+int EXPORT(checker_find_near)(ovoid_robot_checker *checker, const double *q, double *out, size_t capacity) {
+    ovoid_robot_check_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
+    ovoid_robot_nears nears = {.items = calloc(capacity + 1, sizeof(ovoid_robot_near)), .capacity = capacity};
+    if (!nears.items) return OVOID_ERROR_MEMORY;
+    int code = (int)ovoid_robot_find_near(checker, q, &options, &nears, &exchange_error);
+    exchange[0] = code ? 0 : (double)nears.count;
+    for (size_t i = 0; !code && i < nears.count && i < capacity; i++) {
+        const ovoid_robot_near *n = &nears.items[i];
+        out = write_side(write_side(out, &n->a), &n->b);
+        *out++ = n->status, *out++ = n->lower, *out++ = n->upper;
+        out = write_vec3(write_vec3(write_vec3(out, n->point_a), n->point_b), n->normal);
+    }
+    free(nears.items);
+    return code;
+}

@@ -1,0 +1,201 @@
+// The package against known answers, against the tool's bits, and against what it must refuse.
+// OVOID names the tool. Run by scripts/wasm.sh.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { load } from '../../build/wasm/package/ovoid.mjs';
+
+const ovoid = await load();
+const { Shape, Solid, Robot } = ovoid;
+
+// xorshift32: the same numbers everywhere.
+let state = 2463534242;
+function random() {
+  state ^= state << 13;
+  state ^= state >>> 17;
+  state ^= state << 5;
+  return (state >>> 0) / 4294967296;
+}
+const between = (a, b) => a + (b - a) * random();
+
+function makeScene(count) {
+  return Array.from({ length: count }, (_, i) => ({
+    name: `body ${i}`,
+    points: Array.from({ length: 4 + Math.floor(40 * random()) }, () => [between(-1, 1), between(-1, 1), between(-1, 1)]),
+    pose: { xyz: [between(-3, 3), between(-3, 3), between(-3, 3)], quat_wxyz: [between(0.1, 1), between(-1, 1), between(-1, 1), between(-1, 1)] },
+  }));
+}
+
+test("a scene's pairs have the bits of the tool, proofs included, and every proof holds", () => {
+  const folder = mkdtempSync(join(tmpdir(), 'ovoid-'));
+  try {
+    const objects = makeScene(40), file = join(folder, 'scene.json');
+    writeFileSync(file, JSON.stringify({ objects }));
+    let text;
+    try {
+      text = execFileSync(process.env.OVOID, ['check', file, '--json'], { encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'ignore'] });
+    } catch (error) {
+      assert.equal(error.status, 1, 'bodies overlap');
+      text = error.stdout;
+    }
+    const shapes = new Map(objects.map((o) => [o.name, Shape.fromPoints(o.points)])), poses = new Map(objects.map((o) => [o.name, o.pose]));
+    const lines = text.trim().split('\n').map((line) => JSON.parse(line)), seen = { separated: 0, overlapping: 0 };
+    assert.equal(lines.length, (40 * 39) / 2);
+    for (const { a, b, ...line } of lines) {
+      const pair = [shapes.get(a), poses.get(a), shapes.get(b), poses.get(b)];
+      const answer = ovoid.depth(...pair);
+      assert.deepEqual(JSON.parse(JSON.stringify(answer)), line);
+      assert.equal(ovoid.check(...pair, line), null);
+      assert.match(ovoid.check(...pair, { ...line, lower: line.lower + 1e-6, upper: line.upper + 1e-6 }).message, /lower bound/);
+      assert.match(ovoid.check(...pair, { ...line, lower: line.lower - 1e-6, upper: line.upper - 1e-6 }).message, /upper bound/);
+      seen[answer.status]++;
+    }
+    assert.ok(seen.separated > 100 && seen.overlapping > 20, JSON.stringify(seen));
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
+
+test('batches have the bits of single queries', () => {
+  const bodies = makeScene(24).map((o) => ({ shape: Shape.fromPoints(o.points), pose: o.pose })), couples = [];
+  for (let i = 0; i < 24; i++) for (let k = 0; k < i; k++) couples.push([k, i]);
+  for (const kind of ['collide', 'distance', 'depth']) {
+    const all = ovoid.batch(kind, bodies, couples);
+    couples.forEach(([a, b], i) => {
+      const one = ovoid[kind](bodies[a].shape, bodies[a].pose, bodies[b].shape, bodies[b].pose);
+      assert.deepEqual([ovoid.names.status[all.status[i]], ovoid.names.stage[all.stage[i]], all.lower[i], all.upper[i]], [one.status, one.stage, one.lower, one.upper]);
+    });
+  }
+  assert.throws(() => ovoid.batch('distance', bodies, [[0, 24]]), { name: 'OvoidError', place: 0 });
+  assert.throws(() => ovoid.batch('near', bodies, [[0, 1]]), /no query/);
+});
+
+test('known shapes', () => {
+  const box = Shape.box([1, 2, 3]), d = box.description;
+  assert.equal(d.volume, 48);
+  assert.equal(d.vertexCount, 8);
+  assert.deepEqual(d.box, { min: [-1, -2, -3], max: [1, 2, 3] });
+  assert.ok(Math.abs(d.outer.volume / (4 * Math.PI * Math.sqrt(3) * 6) - 1) < 1e-5);
+  assert.ok(Math.abs(d.inner.volume / (8 * Math.PI) - 1) < 1e-5);
+  assert.equal(box.triangles.length, 36);
+  assert.equal(box.vertices.length, 24);
+  assert.deepEqual(Shape.fromBytes(box.toBytes()).toBytes(), box.toBytes());
+  for (const [shape, rank] of [[Shape.sphere(1), 0], [Shape.capsule(1, 2), 1], [Shape.cylinder(1, 2), 3], [Shape.cone(1, 2), 3], [Shape.prism(1, 2, 5), 3], [Shape.pyramid(1, 2, 5), 3]])
+    assert.equal(shape.description.rank, rank);
+  assert.equal(Shape.fromPoints(new Float64Array([0, 0, 0, 1, 0, 0, 0, 1, 0])).description.rank, 2);
+});
+
+test('known distances; a warm start', () => {
+  const box = Shape.box([1, 1, 1]), ball = Shape.sphere(0.5), at = { xyz: [3, 0.2, 0.1] };
+  const far = ovoid.distance(box, null, ball, at);
+  assert.equal(far.status, 'separated');
+  assert.ok(far.lower <= 1.5 && far.upper >= 1.5 && far.upper - far.lower < 1e-8);
+  assert.equal(ovoid.distance(box, null, ball, { xyz: [3.001, 0.2, 0.1] }, { earlier: far.proof }).status, 'separated');
+  assert.equal(ovoid.within(box, null, ball, at, 1.6).upper <= 1.6, true);
+  assert.equal(ovoid.within(box, null, ball, at, 1.4).lower > 1.4, true);
+  assert.equal(ovoid.collide(box, null, ball, { xyz: [1.2, 0, 0] }).status, 'overlapping');
+  const turned = [{ rpy: [0, 0, Math.PI / 4] }, { quat_wxyz: [Math.cos(Math.PI / 8), 0, 0, Math.sin(Math.PI / 8)] }, { quat_xyzw: [0, 0, Math.sin(Math.PI / 8), Math.cos(Math.PI / 8)] }];
+  for (const turn of turned) {
+    const d = ovoid.distance(box, { xyz: [0, 0, 0], ...turn }, ball, { xyz: [3, 0, 0] });
+    assert.ok(Math.abs(d.lower - (2.5 - Math.SQRT2)) < 1e-9);
+  }
+  const s = ovoid.smooth(box, null, ball, at, 2);
+  assert.ok(s.outer.value <= 1.5 && s.inner.value >= 1.5 && s.outer.hessian.length === 12);
+  assert.ok(Math.abs(s.outer.gradient[6] + s.outer.gradient[0]) < 1e-12);
+});
+
+test('motions', () => {
+  const box = Shape.box([1, 1, 1]), ball = Shape.sphere(0.5), flight = { shape: ball, start: { xyz: [5, 0, 0] }, end: { xyz: [-5, 0, 0] } };
+  const hit = ovoid.impact({ shape: box, start: {} }, flight, { duration: 2 });
+  assert.equal(hit.status, 'hit');
+  assert.ok(hit.free_until <= 0.7 && hit.hit_at >= 0.7 && hit.hit_at - hit.free_until < 1e-8);
+  const past = { shape: ball, start: { xyz: [5, 2, 0] }, end: { xyz: [-5, 2, 0] } };
+  assert.equal(ovoid.impact({ shape: box, start: {} }, past).status, 'free');
+  const near = ovoid.approach({ shape: box, start: {} }, past);
+  assert.ok(near.lower <= 0.5 && near.upper >= 0.5 && near.upper - near.lower < 1e-4);
+});
+
+test('solids, and their proofs', () => {
+  // An L of three cubes: its corner's distance is not its hull's.
+  const outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], points = [0, 1].flatMap((z) => outline.map(([x, y]) => [x, y, z]));
+  const caps = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
+  const sides = outline.flatMap((_, i) => [[i, (i + 1) % 6, 6 + ((i + 1) % 6)], [i, 6 + ((i + 1) % 6), 6 + i]]);
+  const triangles = [...caps.map(([a, b, c]) => [a, c, b]), ...caps.map((t) => t.map((x) => x + 6)), ...sides];
+  const solid = Solid.fromTriangles(points, triangles), ball = Shape.sphere(0.1), pose = { xyz: [1.5, 1.5, 0.5] };
+  assert.equal(solid.report.isClosed, true);
+  assert.ok(Math.abs(solid.report.volume - 3) < 1e-12);
+  const d = ovoid.solids.distance(solid, null, ball, pose, { proof: true });
+  assert.ok(d.lower <= 0.4 && d.upper >= 0.4 && d.upper - d.lower < 1e-8);
+  assert.equal(ovoid.solids.check(solid, null, ball, pose, d), null);
+  assert.ok(ovoid.solids.check(solid, null, ball, pose, { ...d, lower: d.lower + 1e-3, upper: d.upper + 1e-3 }));
+  const bytes = d.exclusions.slice();
+  bytes[0] ^= 1;
+  assert.ok(ovoid.solids.check(solid, null, ball, pose, { ...d, exclusions: bytes }));
+  assert.equal(ovoid.solids.collide(solid, null, Shape.fromPoints([[0.5, 0.5, 0.5]]), {}).status, 'overlapping');
+  assert.equal(ovoid.solids.within(ball, pose, solid, null, 0.3).lower > 0.3, true);
+  assert.throws(() => Solid.fromTriangles([[0, 0, 0]], [[0, 0, 9]]), { name: 'OvoidError' });
+});
+
+test('robots', () => {
+  const rod = Shape.capsule(0.1, 0.5), along = { xyz: [0.5, 0, 0], rpy: [0, Math.PI / 2, 0] };
+  const robot = new Robot({
+    links: ['base', 'upper', 'lower'],
+    joints: [
+      { name: 'shoulder', type: 'revolute', parent: 'base', child: 'upper', axis: [0, 0, 1], lower: -3, upper: 3 },
+      { name: 'elbow', type: 'continuous', parent: 'upper', child: 'lower', origin: { xyz: [1, 0, 0] }, axis: [0, 0, 1] },
+    ],
+    elements: [{ link: 'upper', shape: rod, pose: along }, { link: 'lower', shape: rod, pose: along }],
+    disabled: [['upper', 'lower']],
+  });
+  assert.equal(robot.variableCount, 2);
+  const [, , lower] = robot.poses([Math.PI / 2, 0]);
+  assert.ok(Math.abs(lower.xyz[1] - 1) < 1e-12);
+  const id = robot.add(Shape.box([0.5, 0.5, 0.5]), { xyz: [0, 2.2, 0] });
+  assert.equal(robot.check([0, 0]).status, 'free');
+  const hit = robot.check([Math.PI / 2, 0]);
+  assert.deepEqual([hit.status, hit.a.link, hit.b.obstacle], ['hit', 'lower', id]);
+  const near = robot.near([Math.PI / 2, Math.PI], 5);
+  assert.equal(near.length, 2);
+  assert.ok(near[0].lower <= near[1].lower && near[0].upper >= 0.6 && near[0].lower <= 0.6);
+  robot.move(id, { xyz: [0, 9, 0] });
+  assert.equal(robot.check([Math.PI / 2, 0]).status, 'free');
+  robot.remove(id);
+  assert.throws(() => robot.remove(id), { name: 'OvoidError' });
+  assert.throws(() => robot.poses([1]), /2 numbers/);
+  assert.throws(() => new Robot({ links: ['a', 'a'], joints: [] }), { name: 'OvoidError' });
+  robot.free();
+  assert.throws(() => robot.check([0, 0]), /freed/);
+});
+
+test('what is wrong is refused, and nothing is lost', () => {
+  assert.throws(() => Shape.fromPoints([[0, 0, 0], [1, NaN, 0]]), { name: 'OvoidError', place: 1, message: /not a number/ });
+  assert.throws(() => Shape.fromPoints([]), { name: 'OvoidError' });
+  assert.throws(() => Shape.fromPoints([1, 2]), /three each/);
+  assert.throws(() => Shape.sphere(-1), { name: 'OvoidError' });
+  assert.throws(() => Shape.sphere('1'), TypeError);
+  assert.throws(() => Shape.box([1, 1]), TypeError);
+  assert.throws(() => new Shape(), TypeError);
+  assert.throws(() => Shape.fromBytes(new Uint8Array(100)), { name: 'OvoidError' });
+  const box = Shape.box([1, 1, 1]);
+  assert.throws(() => ovoid.distance(box, { position: [0, 0, 0] }, box), /no such field: position/);
+  assert.throws(() => ovoid.distance(box, { rpy: [0, 0, 0], quat_wxyz: [1, 0, 0, 0] }, box), /one of/);
+  assert.equal(ovoid.distance(box, { xyz: [NaN, 0, 0] }, box).limit, 'pose_a');
+  assert.equal(ovoid.distance(box, {}, box, { quat_wxyz: [0, 0, 0, 0] }).limit, 'pose_b');
+  const good = ovoid.distance(box, {}, box, { xyz: [3, 0, 0] });
+  for (const bad of [{ kind: 'cover' }, { kind: 'nonsense' }, { a: [99, 99, 99] }, { normal: [NaN, 0, 0] }, { weight_a: [-1, -1, -1] }, { a: new Array(9).fill(0) }])
+    assert.ok(ovoid.check(box, {}, box, { xyz: [3, 0, 0] }, { ...good.toJSON(), proof: { ...good.proof, ...bad } }), JSON.stringify(bad));
+  box.free();
+  box.free();
+  assert.throws(() => box.vertices, /freed/);
+});
+
+test('memory goes back', () => {
+  const points = Array.from({ length: 300 }, () => [random(), random(), random()]);
+  for (let i = 0; i < 20; i++) Shape.fromPoints(points).free();
+  const before = ovoid.memoryBytes;
+  for (let i = 0; i < 2000; i++) Shape.fromPoints(points).free();
+  assert.equal(ovoid.memoryBytes, before);
+});
