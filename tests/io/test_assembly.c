@@ -81,7 +81,7 @@ static void check_grid(const assembly *a, double cell) {
     }
     CHECK(f.count > 100 && open == 0 && (overlaps > 50) == (cell < 1));
     printf("cells of %g: %zu pairs within 0.05, %zu of them overlap\n", cell, f.count, overlaps);
-    // Where nothing moves nothing is asked again, but overlaps and clearances, whose points move with the bodies.
+    // Where nothing moves nothing is asked again.
     CHECK_EQ(ovoid_world_compute_contacts(w, &q, &f, &error), OVOID_OK);
     CHECK_EQ(f.queried, 0);
     ovoid_world_destroy(w);

@@ -287,8 +287,9 @@ static void try_pair(size_t f, uint64_t seed) {
     ovoid_solid *a = mesh_make_solid(&x.a), *b = x.is_hull ? NULL : mesh_make_solid(&x.b);
     if (CHECK(a && (b || shape))) {
         double far = fabs(x.pose_a.position.x) + fabs(x.pose_a.position.y) + fabs(x.pose_a.position.z);
-        inquiry q = {
-            .pair = {{NULL, a, x.pose_a}, {shape, b, x.pose_b}}, .t = &tallies[f], .slack = 1e-15 * (x.size + far)};
+        inquiry q = {.pair = {{.solid = a, .pose = x.pose_a}, {.shape = shape, .pose = x.pose_b, .solid = b}},
+                     .t = &tallies[f],
+                     .slack = 1e-15 * (x.size + far)};
         q.tolerance = 1.01e-9 * (x.size + 1e-3 * far);
         q.all = (ovoid_exclusions){.items = items, .capacity = CAPACITY};
         q.truth = find_solid_truth(&x.a, &x.pose_a, &x.b, &x.pose_b);
