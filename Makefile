@@ -2,6 +2,8 @@
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SECONDS ?= 3600
+PYTHON_FOLDER ?= build/python
+PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 BUILD := build/release
 
 .PHONY: all help demo check python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs install deb deb-root format lint clean
@@ -25,9 +27,12 @@ check: ## lint, then build and test: gcc, clang, sanitizers
 	@scripts/setup.sh check
 	@JOBS=$(JOBS) scripts/check.sh
 
-python: ## the Python package in build/release/python, and its tests
+python: ## the Python package, its tests and gallery, installed into PYTHON_FOLDER=build/python
 	@$(call build,python,ovoid_python)
 	@ctest --test-dir $(BUILD) -R '^test_python' --output-on-failure --no-tests=error
+	@cmake --install $(BUILD) --component python --prefix $(PYTHON_FOLDER) >/dev/null
+	@cd /tmp && PYTHONPATH=$(abspath $(PYTHON_FOLDER)) OVOID_SOURCE_DIR=$(CURDIR) $(PYTHON) $(CURDIR)/python/tests/test_pair.py
+	@echo "installed: PYTHONPATH=$(abspath $(PYTHON_FOLDER)) python3 -c 'import ovoid'"
 
 cluster: ## the examples for clusters: GNU parallel, Slurm on one node, Dask, MPI
 	@$(call build,cluster,ovoid_cli ovoid_python)

@@ -55,7 +55,7 @@ static int read_mesh(const char *path, const settings *s, info *x) {
         message_error("%s is a shape, not a mesh: ovoid fit tells about it", path);
         return 0;
     }
-    const ovoid_read_options read = inputs_make_options(&s->read);
+    ovoid_read_options read = inputs_make_options(&s->read);
     ovoid_solid *solid = ovoid_solid_read_file(path, &read, &error);
     if (!solid) return message_error("%s", error.message), 0;
     int found = !inputs_open_body(path, &s->read, 0, &body);

@@ -24,7 +24,7 @@ static int open_solid(const char *path, const cli_body *body, const read_setting
     int is_default = c.is_nonconvex && isfinite(c.mesh_volume);
     *solid = NULL;
     if (ovoid_path_is_shape(path) || !(is_wanted || is_default)) return 1;
-    const ovoid_read_options options = inputs_make_options(read);
+    ovoid_read_options options = inputs_make_options(read);
     *solid = ovoid_solid_read_file(path, &options, &error);
     if (!*solid) {
         if (is_wanted) message_error("%s", error.message);

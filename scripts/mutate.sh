@@ -41,14 +41,15 @@ tests_of() {
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_octet test_simd_gjk8 test_query_batch" ;;
     robot) echo "test_robot_model test_robot_poses test_robot_check test_robot_matrix test_robot_path test_robot_path_bounds test_robot_clearance test_robot_motion" ;;
-    io) echo "test_io_numbers test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results" ;;
+    io) echo "test_io_numbers test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_known" ;;
     robot_compare) echo "test_robot_compare" ;;
+    robot_watch) echo "test_robot_watch" ;;
     robot_cli) echo "test_cli.sh:robot_check:robot_path test_cli_altered_paths.sh" ;;
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;
     shard) echo "test_io_pairs test_cli_shard.sh" ;;
     robot_spheres) echo "test_robot_spheres" ;;
-    python) echo "test_python_pair test_python_batch test_python_world test_python_motion test_python_robot test_python_prepared" ;;
+    python) echo "test_python_pair test_python_batch test_python_world test_python_motion test_python_robot test_python_prepared test_python_solid test_python_robot_paths" ;;
     *) return 1 ;;
     esac
 }

@@ -77,6 +77,16 @@ typedef struct ovoid_allocator {
     void *context;
 } ovoid_allocator;
 
+/**
+ * A host's question to a call that may run long: may it go on? is_stopped(context) is called in the calling thread,
+ * many times a second; 1 ends the call, and is then to be said again until it returns. What it gives is true: as though
+ * the most it may look at were used up. The floating-point environment is the default one. All zero: nobody asks.
+ */
+typedef struct ovoid_watch {
+    int (*is_stopped)(void *context);
+    void *context;
+} ovoid_watch;
+
 /** The name of a code, in words, for example "not finite". Never NULL. */
 OVOID_API const char *ovoid_code_get_name(ovoid_code code);
 

@@ -120,6 +120,8 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
     std::size_t mesh_count() const noexcept { return ovoid_scene_get_mesh_count(get()); }
     /** Hull i < mesh_count, with its name and whether its mesh fills it. */
     ovoid_named_shape mesh(std::size_t i) const noexcept { return ovoid_scene_get_mesh(get(), i); }
+    /** The solid that counts in the place of that hull; empty: the hull does. */
+    solid_view mesh_solid(std::size_t i) const noexcept { return solid_view(ovoid_scene_get_mesh_solid(get(), i)); }
     /** True if the scene says to ignore the pair. */
     bool is_ignored(std::size_t a, std::size_t b) const noexcept { return ovoid_scene_is_ignored(get(), a, b) != 0; }
     /** How many pairs of objects there are, without those to be ignored. */

@@ -30,9 +30,10 @@ OVOID_API const char *ovoid_robot_touch_get_name(ovoid_robot_touch touch);
 
 /** How a matrix is made; all zero is the default, and NULL means that. */
 typedef struct ovoid_robot_matrix_options {
-    size_t samples; /**< random states, for all pairs; 0: 10 000 */
-    size_t budget;  /**< most cells of joint space that a pair's proof looks at; 0: 100 000 */
-    uint64_t seed;  /**< of the states: the same seed gives the same matrix */
+    size_t samples;    /**< random states, for all pairs; 0: 10 000 */
+    size_t budget;     /**< most cells of joint space that a pair's proof looks at; 0: 100 000 */
+    uint64_t seed;     /**< of the states: the same seed gives the same matrix */
+    ovoid_watch watch; /**< asked before each eight states and each cell; stopped: as though those so far were all */
 } ovoid_robot_matrix_options;
 
 /** Two links that both have elements, a < b. */

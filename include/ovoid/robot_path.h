@@ -55,6 +55,7 @@ typedef struct ovoid_robot_path_options {
     uint32_t states;  /**< most states that are looked at; 0 means 100 000 */
     ovoid_robot_step *steps; /**< receives the proof's steps, up to capacity; NULL: none are wanted */
     size_t capacity;
+    ovoid_watch watch; /**< asked before each state; stopped: as though `states` were used up */
 } ovoid_robot_path_options;
 
 /** The answer to a path. */
@@ -95,8 +96,9 @@ OVOID_API ovoid_code ovoid_robot_path_check(const ovoid_robot_cell *cell, const 
 /** How a clearance is computed; all zero is the default, and NULL means that. */
 typedef struct ovoid_robot_clearance_options {
     ovoid_robot_check_options check; /**< limits, which pairs; margin: of the status */
-    double tolerance; /**< of the bracket, a length; 0 means 1/1024 of the radius of the robot's largest element */
-    uint32_t states;  /**< most states that are looked at; 0 means 100 000 and 100 for each segment */
+    double tolerance;  /**< of the bracket, a length; 0 means 1/1024 of the radius of the robot's largest element */
+    uint32_t states;   /**< most states that are looked at; 0 means 100 000 and 100 for each segment */
+    ovoid_watch watch; /**< asked before each state; stopped: as though `states` were used up */
 } ovoid_robot_clearance_options;
 
 /** The smallest clearance of a path: the least signed distance of any queried pair at any real s. */

@@ -32,6 +32,7 @@ typedef struct ovoid_robot_audit_options {
     size_t volume_cells; /**< the same for the volumes; 0: 2^16 */
     int without_volumes; /**< 1: the volumes are left out, and are [0, infinity] */
     const ovoid_allocator *allocator; /**< of the working memory; NULL: malloc and free */
+    ovoid_watch watch;                /**< asked before each cell; stopped: as though the cells were used up */
 } ovoid_robot_audit_options;
 
 /** Two numbers that a true one lies between. */
@@ -73,6 +74,8 @@ typedef struct ovoid_robot_cover_options {
     size_t rounds; /**< how long to look for spheres of little excess volume; 0: 8000 moves of a sphere */
     uint64_t seed; /**< of the search; the same seed gives the same bits everywhere */
     const ovoid_allocator *allocator; /**< of the working memory; NULL: malloc and free */
+    ovoid_watch watch; /**< asked before each move and each cell of an audit; stopped: what there is grows until it is
+                            proven to cover the link, or LIMIT where that stands out by more than the excess */
 } ovoid_robot_cover_options;
 
 /**

@@ -15,11 +15,11 @@ Lengths are in the caller's unit, the same everywhere; angles are radians; poses
 arrays where NumPy can be imported.
 """
 
-from ._enums import Code, Error, ImpactStatus, Limit, ProofKind, RobotStatus, Stage, Status, Touch
+from ._enums import Agreement, Code, Error, ImpactStatus, Inside, Limit, ProofKind, RobotStatus, Stage, Status, Touch
 from ._ovoid import *  # noqa: F403
 from ._ovoid import __version__, has_io, has_robot
-from ._values import (Cast, Contacts, Element, Hit, Joint, MatrixPair, MotionRequest, Obstacle, Side, SphereAudit,
-                      StateAnswer, Variable)
+from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint, MatrixPair, MotionRequest, Obstacle,
+                      Side, SphereAudit, StateAnswer, Variable)
 
 
 def load(path, **options):

@@ -113,6 +113,27 @@ class Touch(Named):
         return self.name.lower().replace("_", " ")
 
 
+class Inside(Named):
+    """Which body has a component inside the other, where that is what proves that two solids overlap."""
+
+    NONE = 0
+    A = 1  #: a component of a is inside b
+    B = 2  #: a component of b is inside a
+
+
+class Agreement(Named):
+    """What a robot and a model of it say of a state."""
+
+    OPEN = 0  #: one of the two is undecided, or refuses it
+    BOTH_FREE = 1
+    BOTH_HIT = 2
+    MISSED = 3  #: proven: the robot hits, and its model is free
+    INVENTED = 4  #: proven: the robot is free, and its model hits
+
+    def __str__(self):
+        return self.name.lower().replace("_", " ")
+
+
 class Error(ValueError):
     """What the library refused: its sentence, with code (a Code) and place.
 

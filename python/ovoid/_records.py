@@ -1,7 +1,8 @@
-"""Records of results without NumPy: the bytes of an Array as lists and dicts."""
+"""The bytes of arrays without NumPy: records of results as lists and dicts, solids as pickles."""
 
 import re
 import struct
+import sys
 
 _FIELD = re.compile(r"(?:\((\d+)\))?([A-Za-z]):(\w+):|(\d+)x")
 
@@ -25,3 +26,18 @@ def _make_record(fields, row):
         name, count = field
         made[name] = [next(numbers) for _ in range(count)] if count else next(numbers)
     return made
+
+
+def reduce_solid(solid):
+    """How pickle makes a Solid again: of the bytes of its points and triangles."""
+    return make_solid, (sys.byteorder, bytes(memoryview(solid.vertices).cast("B")), bytes(memoryview(solid.faces).cast("B")))
+
+
+def make_solid(order, vertices, faces):
+    """The Solid of these bytes: doubles and 32-bit indices in that order of bytes."""
+    from ._ovoid import Solid
+
+    if order != sys.byteorder:
+        raise ValueError(f"a Solid pickled on a {order}-endian machine is not read on a {sys.byteorder}-endian one")
+    return Solid.from_triangles(*(memoryview(data).cast(kind, [len(data) // (3 * struct.calcsize(kind)), 3])
+                                  for data, kind in ((vertices, "d"), (faces, "I"))))

@@ -53,3 +53,12 @@ Obstacle.__doc__ = """A convex obstacle of a scene."""
 
 MotionRequest = namedtuple("MotionRequest", "group start goals")
 MotionRequest.__doc__ = """A planning request: the group's name, and joints' numbers by their names at the start and at each goal."""
+
+Clearance = namedtuple("Clearance", "status lower upper at a b refused code variable looked_at")
+Clearance.__doc__ = """The smallest clearance of a path: lower <= the least signed distance <= upper, proven. at: where a pair, of Sides a and b,
+is no farther apart than upper, or None. status: a RobotStatus against the margin; of REFUSED which state, Code and variable.
+looked_at: states."""
+
+Comparison = namedtuple("Comparison", "counts agreements deepest_state deepest")
+Comparison.__doc__ = """States of a robot beside a model: counts by Agreement, the Agreement of each state (an array, by number), and of the missed
+states that where the robot overlaps most, with its pair, a record as of Cell.near; None where none is missed."""

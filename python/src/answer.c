@@ -1,5 +1,5 @@
 // Answer: what a query proved of two bodies, with its proof and what it takes to check it.
-#include "src/module.h"
+#include "src/query.h"
 #ifdef OVOID_PYTHON_ROBOT
 #include "src/robot.h"
 #endif
@@ -81,6 +81,7 @@ ovoid_code answer_check(const answer_object *self, ovoid_error *error) {
 
 static ovoid_code check_any(module_state *state, PyObject *what, ovoid_error *error) {
     if (Py_TYPE(what) == state->answer) return answer_check((const answer_object *)what, error);
+    if (Py_TYPE(what) == state->solid_answer) return solid_answer_check(what, error);
 #ifdef OVOID_PYTHON_ROBOT
     if (Py_TYPE(what) == state->robot_path) return path_check(what, error);
 #endif
@@ -88,10 +89,11 @@ static ovoid_code check_any(module_state *state, PyObject *what, ovoid_error *er
 }
 
 static int is_checkable(module_state *state, PyObject *what) {
-    if (Py_TYPE(what) == state->answer || Py_TYPE(what) == state->impact || Py_TYPE(what) == state->approach ||
-        (state->robot_path && Py_TYPE(what) == state->robot_path))
-        return 1;
-    PyErr_Format(PyExc_TypeError, "an Answer, Impact, Approach or RobotPath is wanted, not %R",
+    PyTypeObject *const types[] = {state->answer, state->solid_answer, state->impact, state->approach,
+                                   state->robot_path};
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (Py_TYPE(what) == types[i]) return 1;
+    PyErr_Format(PyExc_TypeError, "an Answer, SolidAnswer, Impact, Approach or RobotPath is wanted, not %R",
                  (PyObject *)Py_TYPE(what));
     return 0;
 }
@@ -112,10 +114,9 @@ static PyObject *is_proven(PyObject *module, PyObject *what) {
 
 static PyMethodDef check_methods[] = {
     {"check", check, METH_O,
-     "check(answer)\n--\n\nChecks an Answer, Impact, Approach or RobotPath by its proof alone, without any search; "
-     "raises Error "
-     "where "
-     "the proof does\nnot hold."},
+     "check(answer)\n--\n\nChecks an Answer, SolidAnswer, Impact, Approach or RobotPath by its proof alone, without "
+     "any "
+     "search; raises Error where\nthe proof does not hold."},
     {"is_proven", is_proven, METH_O, "is_proven(answer)\n--\n\nTrue where check(answer) finds nothing wrong."},
     {NULL, NULL, 0, NULL}};
 

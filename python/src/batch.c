@@ -294,10 +294,7 @@ static int check_input(module_state *state, const batch_input *in, const job *j)
         raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, in->threads);
         return -1;
     }
-    if (in->progress && in->progress != Py_None && !PyCallable_Check(in->progress)) {
-        PyErr_SetString(PyExc_TypeError, "progress: a function of (done, total) is wanted");
-        return -1;
-    }
+    if (progress_check(in->progress)) return -1;
     const ovoid_options *o = &j->options;
     if (o->absolute_tolerance >= 0 && o->relative_tolerance >= 0 && o->cap >= 0 && j->margin >= 0) return 0;
     return limit_check(state, OVOID_LIMIT_OPTIONS);

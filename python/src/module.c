@@ -39,8 +39,8 @@ static int import_enum(PyObject *enums, const char *name, PyObject **to) {
 }
 
 static int import_python(module_state *state) {
-    static const char *const names[ENUM_COUNT] = {"Status",    "Stage",        "Limit",       "Code",
-                                                  "ProofKind", "ImpactStatus", "RobotStatus", "Touch"};
+    static const char *const names[ENUM_COUNT] = {"Status",       "Stage",       "Limit", "Code",   "ProofKind",
+                                                  "ImpactStatus", "RobotStatus", "Touch", "Inside", "Agreement"};
     state->dtype_name = PyUnicode_InternFromString("dtype");
     PyObject *enums = state->dtype_name ? PyImport_ImportModule("ovoid._enums") : NULL;
     if (!enums) return -1;
@@ -64,7 +64,9 @@ static int import_python(module_state *state) {
                   {&state->matrix_pair, "MatrixPair"},
                   {&state->sphere_audit, "SphereAudit"},
                   {&state->obstacle, "Obstacle"},
-                  {&state->motion_request, "MotionRequest"}};
+                  {&state->motion_request, "MotionRequest"},
+                  {&state->clearance, "Clearance"},
+                  {&state->comparison, "Comparison"}};
     for (size_t i = 0; !failed && i < sizeof tuples / sizeof *tuples; i++)
         failed = !(*tuples[i].to = PyObject_GetAttrString(values, tuples[i].name));
     Py_DECREF(values);
@@ -101,12 +103,12 @@ static PyMethodDef own_methods[] = {
 // ---- the module
 
 static int execute(PyObject *module) {
-    static int (*const adders[])(PyObject *) = {array_add,   pose_add,  shape_add,      compound_add, answer_add,
-                                                bodies_add,  world_add, motion_add,     impact_add,   smooth_add,
+    static int (*const adders[])(PyObject *) = {array_add,    pose_add,  shape_add,       compound_add, answer_add,
+                                                bodies_add,   world_add, motion_add,      impact_add,   smooth_add,
 #ifdef OVOID_PYTHON_ROBOT
-                                                robot_add,   cell_add,  robot_path_add,
+                                                robot_add,    cell_add,  robot_path_add,
 #endif
-                                                prepared_add};
+                                                prepared_add, solid_add, solid_answer_add};
     PyMethodDef *const functions[] = {
         own_methods,        query_methods, batch_methods, impact_methods, smooth_methods, array_methods, bounds_methods,
 #ifdef OVOID_PYTHON_IO
@@ -131,10 +133,10 @@ static int execute(PyObject *module) {
 }
 
 static PyObject **get_object(module_state *s, size_t i) {
-    PyTypeObject **types[] = {&s->array,    &s->shape,  &s->pose,         &s->compound,  &s->answer,
-                              &s->bodies,   &s->world,  &s->motion,       &s->impact,    &s->approach,
-                              &s->ray_hit,  &s->smooth, &s->smooth_value, &s->gradient,  &s->fit,
-                              &s->prepared, &s->robot,  &s->cell,         &s->robot_path};
+    PyTypeObject **types[] = {
+        &s->array,  &s->shape,    &s->pose,     &s->compound,     &s->answer, &s->bodies,       &s->world,
+        &s->motion, &s->impact,   &s->approach, &s->ray_hit,      &s->smooth, &s->smooth_value, &s->gradient,
+        &s->fit,    &s->prepared, &s->solid,    &s->solid_answer, &s->robot,  &s->cell,         &s->robot_path};
     size_t type_count = sizeof types / sizeof *types;
     if (i < type_count) return (PyObject **)types[i];
     i -= type_count;
@@ -144,7 +146,8 @@ static PyObject **get_object(module_state *s, size_t i) {
     i -= RECORD_COUNT;
     PyObject **others[] = {&s->dtype_name,   &s->error,       &s->numpy_array,  &s->contacts, &s->hit,
                            &s->cast,         &s->joint,       &s->variable,     &s->element,  &s->side,
-                           &s->state_answer, &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request};
+                           &s->state_answer, &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request,
+                           &s->clearance,    &s->comparison};
     return i < sizeof others / sizeof *others ? others[i] : NULL;
 }
 

@@ -25,6 +25,8 @@ typedef enum enum_kind {
     ENUM_IMPACT_STATUS,
     ENUM_ROBOT_STATUS,
     ENUM_ROBOT_TOUCH,
+    ENUM_INSIDE,
+    ENUM_AGREEMENT,
     ENUM_COUNT
 } enum_kind;
 
@@ -47,11 +49,11 @@ typedef enum record_kind {
 /// The types that hold C values; names as in Python, in lower case.
 typedef struct module_state {
     PyTypeObject *array, *shape, *pose, *compound, *answer, *bodies, *world, *motion, *impact, *approach, *ray_hit,
-        *smooth, *smooth_value, *gradient, *fit, *prepared, *robot, *cell, *robot_path;
+        *smooth, *smooth_value, *gradient, *fit, *prepared, *solid, *solid_answer, *robot, *cell, *robot_path;
     PyObject *error; ///< ovoid.Error
     /// Named tuples of ovoid/_values.py.
     PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
-        *obstacle, *motion_request;
+        *obstacle, *motion_request, *clearance, *comparison;
     PyObject *enums[ENUM_COUNT]; ///< tuples
     PyObject *dtype_name;        ///< "dtype"
     PyObject *numpy_array;       ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried
@@ -72,6 +74,33 @@ void *raise_error(module_state *state, const ovoid_error *error);
 void *raise_code(module_state *state, ovoid_code code, Py_ssize_t place, const char *format, ...);
 /// Member `value` of an enumeration, a new reference.
 PyObject *enum_get(module_state *state, enum_kind kind, uint32_t value);
+
+// ---- interrupt.c
+
+/// A call of the library that runs without the interpreter's lock, and that a signal's handler may end.
+typedef struct interrupt {
+    PyThreadState *thread;
+    double looked; ///< seconds of the monotonic clock
+    unsigned calls;
+    int is_raised;
+} interrupt;
+
+/// Gives up the lock; the watch goes to the library's options.
+ovoid_watch interrupt_begin(interrupt *signals);
+/// Takes the lock back; -1 where a handler raised: then the answer is one of a call that was ended.
+int interrupt_end(interrupt *signals);
+
+/// Work on many items that goes by pieces, of some hundredths of a second, each a multiple of `least` but the last.
+typedef struct pieces {
+    size_t total, least;
+    ovoid_code (*run)(void *context, size_t first, size_t count, ovoid_error *error); ///< without the lock
+    void *context;
+    PyObject *progress; ///< called with (done, total) after each; NULL or None: none
+} pieces;
+/// Runs them all, with a look for signals after each; -1: an exception.
+int pieces_run(module_state *state, const pieces *work);
+/// Refuses what is no function; -1 then.
+int progress_check(PyObject *progress);
 
 // ---- buffers.c
 
@@ -233,6 +262,8 @@ int motion_add(PyObject *module);
 int impact_add(PyObject *module);
 int smooth_add(PyObject *module);
 int prepared_add(PyObject *module);
+int solid_add(PyObject *module);
+int solid_answer_add(PyObject *module);
 int robot_add(PyObject *module);
 int cell_add(PyObject *module);
 int robot_path_add(PyObject *module);

@@ -1,29 +1,18 @@
 // collide, within, distance, depth of two bodies at their poses: one answer each.
 //
 // The arguments are read by hand (METH_FASTCALL): a call should cost little more than the query. Two shapes keep the
-// interpreter's lock, since a query of them takes microseconds; compounds give it up.
+// interpreter's lock, since a query of them takes microseconds; compounds and solids (solid_answer.c) give it up.
+#include "src/query.h"
 #include "src/prepared.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum query_name { COLLIDE, WITHIN, DISTANCE, DEPTH } query_name;
 static const char *const query_names[] = {"collide", "within", "distance", "depth"};
 
 enum { BODY_A, BODY_B, PLACE_A, PLACE_B, MARGIN, ABSOLUTE, RELATIVE, CAP, ITERATIONS, EARLIER, ARGUMENT_COUNT };
 static const char *const argument_names[ARGUMENT_COUNT] = {
     "a", "b", "pose_a", "pose_b", "margin", "absolute_tolerance", "relative_tolerance", "cap", "iterations", "earlier"};
-
-typedef struct query_input {
-    query_name name;
-    PyObject *a, *b;
-    ovoid_body_pair pair;
-    const ovoid_prepared_shape *prepared_a, *prepared_b; ///< both or none
-    double margin;
-    ovoid_options options;
-    ovoid_compound_proof earlier;
-    int has_earlier;
-} query_input;
 
 // ---- arguments
 
@@ -46,15 +35,15 @@ static int sort_arguments(query_name which, PyObject *const *given, Py_ssize_t c
     for (Py_ssize_t i = 0; i < named; i++) {
         int place = find_argument(function, PyTuple_GetItem(names, i));
         if (place < 0) return -1;
-        if (sorted[place] || (place == MARGIN && which != WITHIN)) {
+        if (sorted[place] || (place == MARGIN && which != QUERY_WITHIN)) {
             PyErr_Format(PyExc_TypeError, sorted[place] ? "%s() has '%s' twice" : "%s() has no argument '%s'", function,
                          argument_names[place]);
             return -1;
         }
         sorted[place] = given[count + i];
     }
-    if (sorted[BODY_A] && sorted[BODY_B] && (which != WITHIN || sorted[MARGIN])) return 0;
-    PyErr_Format(PyExc_TypeError, which == WITHIN ? "%s() needs two bodies and margin=" : "%s() needs two bodies",
+    if (sorted[BODY_A] && sorted[BODY_B] && (which != QUERY_WITHIN || sorted[MARGIN])) return 0;
+    PyErr_Format(PyExc_TypeError, which == QUERY_WITHIN ? "%s() needs two bodies and margin=" : "%s() needs two bodies",
                  function);
     return -1;
 }
@@ -107,6 +96,10 @@ static int read_earlier(module_state *state, PyObject *from, query_input *in) {
         in->earlier = (ovoid_compound_proof){of->part_a, of->part_b, of->answer.proof};
         return 0;
     }
+    if (Py_TYPE(from) == state->solid_answer) {
+        in->earlier = solid_answer_get_proof(from);
+        return 0;
+    }
     Py_buffer view;
     if (records_view(state, from, "earlier", RECORD_PROOF, 1, 0, &view)) return -1;
     in->earlier = (ovoid_compound_proof){.part_a = 0};
@@ -136,12 +129,24 @@ static int read_prepared(module_state *state, PyObject *const x[ARGUMENT_COUNT],
     return 0;
 }
 
+// A Solid, or what body_read takes.
+static int read_any_body(module_state *state, PyObject *from, const char *what, ovoid_body *body,
+                         const ovoid_solid **solid) {
+    *solid = NULL;
+    if (Py_TYPE(from) != state->solid) return body_read(state, from, what, body);
+    *body = (ovoid_body){.shape = NULL};
+    *solid = ((solid_object *)from)->solid;
+    return 0;
+}
+
 static int read_bodies(module_state *state, PyObject *const x[ARGUMENT_COUNT], query_input *in) {
     in->a = x[BODY_A];
     in->b = x[BODY_B];
     in->prepared_a = NULL;
+    in->solid_a = in->solid_b = NULL;
     if (Py_TYPE(in->a) == state->prepared || Py_TYPE(in->b) == state->prepared) return read_prepared(state, x, in);
-    if (body_read(state, in->a, "a", &in->pair.a) || body_read(state, in->b, "b", &in->pair.b) ||
+    if (read_any_body(state, in->a, "a", &in->pair.a, &in->solid_a) ||
+        read_any_body(state, in->b, "b", &in->pair.b, &in->solid_b) ||
         pose_read(state, x[PLACE_A], "pose_a", &in->pair.a.pose))
         return -1;
     return pose_read(state, x[PLACE_B], "pose_b", &in->pair.b.pose);
@@ -167,9 +172,9 @@ static void query_prepared(const query_input *in, answer_object *to) {
     ovoid_proof proof = {.count = 0};
     if (in->has_earlier) proof = in->earlier.proof;
     ovoid_evidence evidence = {.proof = in->has_earlier ? &proof : NULL, .answer = &to->of.answer};
-    if (in->name == COLLIDE)
+    if (in->name == QUERY_COLLIDE)
         ovoid_prepared_collide(in->prepared_a, in->prepared_b, &in->options, &evidence);
-    else if (in->name == WITHIN)
+    else if (in->name == QUERY_WITHIN)
         ovoid_prepared_within(in->prepared_a, in->prepared_b, in->margin, &in->options, &evidence);
     else
         ovoid_prepared_distance(in->prepared_a, in->prepared_b, &in->options, &evidence);
@@ -178,13 +183,13 @@ static void query_prepared(const query_input *in, answer_object *to) {
 static int query_shapes(const query_input *in, answer_object *to) {
     ovoid_pair pair = {in->pair.a.shape, in->pair.b.shape, in->pair.a.pose, in->pair.b.pose};
     const ovoid_proof *earlier = in->has_earlier ? &in->earlier.proof : NULL;
-    if (in->prepared_a && in->name != DEPTH)
+    if (in->prepared_a && in->name != QUERY_DEPTH)
         query_prepared(in, to);
-    else if (in->name == COLLIDE)
+    else if (in->name == QUERY_COLLIDE)
         to->of.answer = ovoid_collide(&pair, &in->options, earlier);
-    else if (in->name == WITHIN)
+    else if (in->name == QUERY_WITHIN)
         to->of.answer = ovoid_within(&pair, in->margin, &in->options, earlier);
-    else if (in->name == DISTANCE)
+    else if (in->name == QUERY_DISTANCE)
         to->of.answer = ovoid_distance(&pair, &in->options, earlier);
     else {
         ovoid_cover cover;
@@ -200,9 +205,9 @@ static int query_shapes(const query_input *in, answer_object *to) {
 static ovoid_compound_answer query_once(const query_input *in, ovoid_exclusions *exclusions) {
     const ovoid_compound_proof *earlier = in->has_earlier ? &in->earlier : NULL;
     switch (in->name) {
-    case COLLIDE: return ovoid_compound_collide(&in->pair, &in->options, earlier, exclusions);
-    case WITHIN: return ovoid_compound_within(&in->pair, in->margin, &in->options, earlier, exclusions);
-    case DISTANCE: return ovoid_compound_distance(&in->pair, &in->options, earlier, exclusions);
+    case QUERY_COLLIDE: return ovoid_compound_collide(&in->pair, &in->options, earlier, exclusions);
+    case QUERY_WITHIN: return ovoid_compound_within(&in->pair, in->margin, &in->options, earlier, exclusions);
+    case QUERY_DISTANCE: return ovoid_compound_distance(&in->pair, &in->options, earlier, exclusions);
     default: return ovoid_compound_depth(&in->pair, &in->options, earlier, exclusions);
     }
 }
@@ -219,7 +224,7 @@ static int query_compounds(const query_input *in, answer_object *to) {
         }
         to->exclusions = grown;
         cover.point_count = 0;
-        ovoid_exclusions exclusions = {grown, capacity, 0, in->name == DEPTH ? &cover : NULL};
+        ovoid_exclusions exclusions = {grown, capacity, 0, in->name == QUERY_DEPTH ? &cover : NULL};
         Py_BEGIN_ALLOW_THREADS;
         to->of = query_once(in, &exclusions);
         Py_END_ALLOW_THREADS;
@@ -237,6 +242,7 @@ static PyObject *query(PyObject *module, query_name name, PyObject *const *given
     query_input in;
     in.name = name;
     if (sort_arguments(name, given, count, names, sorted) || read_input(state, sorted, &in)) return NULL;
+    if (in.solid_a || in.solid_b) return solid_query(state, &in);
     answer_object *to = answer_make(state, in.a, in.b, &in.pair.a.pose, &in.pair.b.pose);
     if (!to) return NULL;
     int failed = in.pair.a.shape && in.pair.b.shape ? query_shapes(&in, to) : query_compounds(&in, to);
@@ -248,27 +254,29 @@ static PyObject *query(PyObject *module, query_name name, PyObject *const *given
 }
 
 static PyObject *collide(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
-    return query(module, COLLIDE, given, count, names);
+    return query(module, QUERY_COLLIDE, given, count, names);
 }
 static PyObject *within(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
-    return query(module, WITHIN, given, count, names);
+    return query(module, QUERY_WITHIN, given, count, names);
 }
 static PyObject *distance(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
-    return query(module, DISTANCE, given, count, names);
+    return query(module, QUERY_DISTANCE, given, count, names);
 }
 static PyObject *depth(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
-    return query(module, DEPTH, given, count, names);
+    return query(module, QUERY_DEPTH, given, count, names);
 }
 
 #define QUERY_SIGNATURE "absolute_tolerance=0, relative_tolerance=0, cap=0, iterations=0, earlier=None)\n--\n\n"
 #define QUERY_DOC                                                                                                      \
-    "\n\na, b: Shapes or Compounds, or two Prepared without poses. pose_a, pose_b: None (the identity), a Pose, a "    \
+    "\n\na, b: Shapes or Compounds, a Solid and a Shape or Solid, or two Prepared without poses. pose_a, pose_b: "     \
+    "None (the identity), a Pose, a "                                                                                  \
     "4x4 array, or (xyz, SciPy "                                                                                       \
     "Rotation);\n"                                                                                                     \
     "lengths in the shapes' unit, world frame. It stops where upper - lower is at most absolute_tolerance or\n"        \
     "relative_tolerance (0: 1e-9) of the pair's size, or d is proven above cap (0: none). earlier: the Answer or "     \
     "proof\n"                                                                                                          \
-    "of an earlier query of this pair, a warm start that is never trusted. Returns an Answer."
+    "of an earlier query of this pair, a warm start that is never trusted. Returns an Answer; of Solids a "            \
+    "SolidAnswer."
 
 PyMethodDef query_methods[] = {
     {"collide", METHOD_KEYWORDS(collide), METH_FASTCALL | METH_KEYWORDS,

@@ -40,6 +40,16 @@ int states_read(const robot_object *self, PyObject *from, const char *what, int 
 double *state_read(const robot_object *self, PyObject *from);
 size_t robot_variable_count(const robot_object *self);
 
+// ---- robot_create.c, robot_facts.c
+
+PyObject *robot_new(PyTypeObject *type, PyObject *arguments, PyObject *keywords);
+/// A name as a string, which need not be UTF-8; NULL: None.
+PyObject *robot_name_make(const char *name);
+/// "shoulder", or of a joint of several variables "floor/x".
+PyObject *robot_variable_name_make(const robot_object *self, size_t variable);
+/// A Shape for each element of a robot whose shapes `owner` keeps; equal ones are one object.
+PyObject *robot_shapes_make(module_state *state, const ovoid_robot_description *d, PyObject *owner);
+
 // ---- robot_cell.c
 
 /// Every query of a cell is between these: count checkers, from the idle ones or new.
@@ -52,6 +62,7 @@ int cell_keep(cell_object *self, ovoid_id id, PyObject *body);
 
 /// The options that every query of a cell takes, as arguments of PyArg_ParseTupleAndKeywords.
 #define CHECK_FORMAT "ddpp"
+#define CHECK_SIGNATURE "margin=0, limit_slack=0, without_self=False, without_obstacles=False"
 #define CHECK_NAMES "margin", "limit_slack", "without_self", "without_obstacles"
 #define CHECK_TARGETS(o) &(o).margin, &(o).limit_slack, &(o).without_self, &(o).without_obstacles
 /// The StateAnswer and the Side of Python.
@@ -63,8 +74,16 @@ int check_options_check(module_state *state, const ovoid_robot_check_options *o)
 // ---- tables of methods, and what each file adds
 
 extern PyMethodDef robot_constructors[], robot_spheres_methods[], robot_matrix_methods[], robot_file_functions[];
-extern PyMethodDef cell_queries[], cell_scenes[];
+extern PyMethodDef cell_queries[], cell_clearances[], cell_scenes[], cell_proofs[], robot_functions[];
+extern PyGetSetDef robot_fields[];
+extern PyMethodDef robot_proof_functions[];
+
+// ---- robot_path.c
+
 /// Checks a proven path by its steps.
 ovoid_code path_check(PyObject *object, ovoid_error *error);
+/// A RobotPath of what a file claims of a path of this cell.
+struct ovoid_robot_proof;
+PyObject *path_claim(cell_object *cell, const struct ovoid_robot_proof *proof, double limit_slack);
 
 #endif

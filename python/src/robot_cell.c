@@ -297,11 +297,15 @@ static PyType_Slot slots[] = {
 static PyType_Spec spec = {"ovoid.Cell", sizeof(cell_object), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_IMMUTABLETYPE, slots};
 
 int cell_add(PyObject *module) {
-    static PyMethodDef all[24];
-    slots_set_methods(slots, all, own_methods, cell_queries);
+    static PyMethodDef queries[24], all[24];
+    slots_set_methods(slots, queries, cell_queries, cell_clearances);
+    slots_set_methods(slots, all, own_methods, queries);
 #ifdef OVOID_PYTHON_ROBOT_READ
-    static PyMethodDef with_files[24];
-    slots_set_methods(slots, with_files, all, cell_scenes);
+    static PyMethodDef files[8], with_files[32];
+    slots_set_methods(slots, files, cell_scenes, cell_proofs);
+    slots_set_methods(slots, with_files, all, files);
+    if (PyModule_AddFunctions(module, robot_proof_functions)) return -1;
 #endif
+    if (PyModule_AddFunctions(module, robot_functions)) return -1;
     return type_add(module, &spec, &state_of_module(module)->cell);
 }

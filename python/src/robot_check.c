@@ -2,13 +2,12 @@
 // interpreter's lock.
 //
 // A batch goes in chunks of whole blocks of OVOID_ROBOT_BLOCK states, each of which the library begins as if its
-// checker were new; so neither the chunks nor the threads change a bit. Between chunks, of some hundredths of a second,
-// the caller looks for signals (Ctrl-C) and calls `progress`.
+// checker were new; so neither the chunks nor the threads change a bit. Between chunks the caller looks for signals
+// (Ctrl-C) and calls `progress` (interrupt.c).
 #include "src/robot.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
 enum { THREADS_MOST = 256 };
 // As the formats of array.c say.
@@ -150,30 +149,23 @@ static PyObject *nearest(PyObject *object, PyObject *arguments, PyObject *keywor
 /// States in work: of check_batch the answers, of nearest_batch the nearest pairs and their gradients.
 typedef struct job {
     ovoid_robot_checker *checkers[THREADS_MOST];
-    size_t checker_count, variables, count, done;
+    size_t checker_count, variables, count;
     const double *q;
     ovoid_robot_check_options options;
     ovoid_robot_answer *answers;
     ovoid_robot_near *nears;
     double *gradients;
-    ovoid_error error;
 } job;
 
-static double get_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 // The nearest pair of some states, by one checker, blocks as a batch has them.
-static ovoid_code find_nearest_of(job *j, size_t count) {
-    for (size_t i = j->done; i < j->done + count; i++) {
+static ovoid_code find_nearest_of(const job *j, size_t first, size_t count, ovoid_error *error) {
+    for (size_t i = first; i < first + count; i++) {
         if (i % OVOID_ROBOT_BLOCK == 0) ovoid_robot_checker_reset(j->checkers[0]);
         ovoid_robot_nears one = {&j->nears[i], j->gradients + i * j->variables, 1, 0};
         const double *q = j->q + i * j->variables;
-        ovoid_code code = ovoid_robot_find_nearest(j->checkers[0], q, &j->options, &one, &j->error);
+        ovoid_code code = ovoid_robot_find_nearest(j->checkers[0], q, &j->options, &one, error);
         if (code != OVOID_OK) {
-            if (code != OVOID_ERROR_MEMORY) j->error.place = (int64_t)i;
+            if (code != OVOID_ERROR_MEMORY) error->place = (int64_t)i;
             return code;
         }
         if (one.count) continue;
@@ -187,40 +179,12 @@ static ovoid_code find_nearest_of(job *j, size_t count) {
     return OVOID_OK;
 }
 
-static ovoid_code run_chunk(job *j, size_t count) {
-    if (j->nears) return find_nearest_of(j, count);
-    ovoid_robot_batch batch = {j->q + j->done * j->variables, count, &j->options, j->answers + j->done};
-    ovoid_code code = ovoid_robot_check_batch(j->checkers, j->checker_count, &batch, &j->error);
+static ovoid_code run_piece(void *context, size_t first, size_t count, ovoid_error *error) {
+    const job *j = context;
+    if (j->nears) return find_nearest_of(j, first, count, error);
+    ovoid_robot_batch batch = {j->q + first * j->variables, count, &j->options, j->answers + first};
+    ovoid_code code = ovoid_robot_check_batch(j->checkers, j->checker_count, &batch, error);
     return code == OVOID_ERROR_LIMIT ? OVOID_OK : code; // fewer threads could be started; the others did the work
-}
-
-// Under the interpreter's lock: -1 where a signal's handler or the callback raised.
-static int look_around(const job *j, PyObject *progress) {
-    if (PyErr_CheckSignals()) return -1;
-    if (!progress || progress == Py_None) return 0;
-    PyObject *said = PyObject_CallFunction(progress, "nn", (Py_ssize_t)j->done, (Py_ssize_t)j->count);
-    Py_XDECREF(said);
-    return said ? 0 : -1;
-}
-
-static int run_job(module_state *state, job *j, PyObject *progress) {
-    size_t chunk = OVOID_ROBOT_BLOCK * j->checker_count;
-    while (j->done < j->count) {
-        size_t count = j->count - j->done < chunk ? j->count - j->done : chunk;
-        double begun = get_seconds();
-        ovoid_code code;
-        Py_BEGIN_ALLOW_THREADS;
-        code = run_chunk(j, count);
-        Py_END_ALLOW_THREADS;
-        if (code != OVOID_OK) {
-            raise_error(state, &j->error);
-            return -1;
-        }
-        j->done += count;
-        if (look_around(j, progress)) return -1;
-        if (get_seconds() - begun < 0.02 && chunk < ((size_t)1 << 24)) chunk *= 2;
-    }
-    return 0;
 }
 
 typedef struct states_input {
@@ -237,10 +201,7 @@ static int read_input(cell_object *self, states_input *in, job *j) {
         raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, in->threads);
         return -1;
     }
-    if (in->progress && in->progress != Py_None && !PyCallable_Check(in->progress)) {
-        PyErr_SetString(PyExc_TypeError, "progress: a function of (done, total) is wanted");
-        return -1;
-    }
+    if (progress_check(in->progress)) return -1;
     if (items_read(state, in->q, "q", 2, (Py_ssize_t[]){-1, (Py_ssize_t)j->variables}, 'd', &in->states)) return -1;
     j->q = in->states.data;
     j->count = (size_t)in->states.shape[0];
@@ -251,7 +212,8 @@ static int read_input(cell_object *self, states_input *in, job *j) {
 // Runs the job into arrays that are there.
 static int borrow_and_run(cell_object *self, job *j, PyObject *progress) {
     if (checkers_borrow(self, j->checkers, j->checker_count)) return -1;
-    int failed = run_job(state_of((PyObject *)self), j, progress);
+    const pieces work = {j->count, OVOID_ROBOT_BLOCK * j->checker_count, run_piece, j, progress};
+    int failed = pieces_run(state_of((PyObject *)self), &work);
     checkers_return(self, j->checkers, j->checker_count);
     return failed;
 }
@@ -261,7 +223,7 @@ static PyObject *check_batch(PyObject *object, PyObject *arguments, PyObject *ke
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
     states_input in = {.threads = 1};
-    job j = {.done = 0};
+    job j = {.count = 0};
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "iOO:check_batch", names, &in.q,
                                      CHECK_TARGETS(j.options), &in.threads, &in.out, &in.progress) ||
         read_input(self, &in, &j))
@@ -314,7 +276,6 @@ static PyObject *nearest_batch(PyObject *object, PyObject *arguments, PyObject *
 
 PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords);
 
-#define CHECK_SIGNATURE "margin=0, limit_slack=0, without_self=False, without_obstacles=False"
 #define NEAREST_SIGNATURE "margin=1e999, limit_slack=0, without_self=False, without_obstacles=False"
 #define NEAR_DOC                                                                                                       \
     "records link_a, element_a, body_a, part_a,\nlink_b, ..., status, lower, upper, point_a, point_b, normal (root "   \

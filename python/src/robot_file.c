@@ -207,27 +207,6 @@ static PyObject *make_facts(const ovoid_robot_file *file) {
 static void destroy_file(PyObject *owner) { ovoid_robot_file_destroy(PyCapsule_GetPointer(owner, "robot file")); }
 static void destroy_obstacles(PyObject *owner) { ovoid_obstacles_destroy(PyCapsule_GetPointer(owner, "obstacles")); }
 
-// A Shape for each element; equal ones are one object. The owner keeps them.
-static PyObject *make_shapes(module_state *state, const ovoid_robot_description *d, PyObject *owner) {
-    PyObject *shapes = PyTuple_New((Py_ssize_t)d->element_count), *made = PyDict_New();
-    for (size_t i = 0; shapes && made && i < d->element_count; i++) {
-        PyObject *key = PyLong_FromVoidPtr((void *)d->elements[i].shape);
-        PyObject *shape = key ? Py_XNewRef(PyDict_GetItemWithError(made, key)) : NULL;
-        if (key && !shape && !PyErr_Occurred()) {
-            shape = shape_borrow(state, d->elements[i].shape, owner);
-            if (shape && PyDict_SetItem(made, key, shape)) Py_CLEAR(shape);
-        }
-        Py_XDECREF(key);
-        if (!shape)
-            Py_CLEAR(shapes);
-        else
-            PyTuple_SetItem(shapes, (Py_ssize_t)i, shape);
-    }
-    if (!made) Py_CLEAR(shapes);
-    Py_XDECREF(made);
-    return shapes;
-}
-
 static PyObject *make_robot(PyTypeObject *type, ovoid_robot_file *file) {
     PyObject *owner = PyCapsule_New(file, "robot file", destroy_file);
     if (!owner) {
@@ -236,7 +215,7 @@ static PyObject *make_robot(PyTypeObject *type, ovoid_robot_file *file) {
     }
     module_state *state = state_of_type((PyObject *)type);
     ovoid_robot_description d = ovoid_robot_file_get_description(file);
-    PyObject *shapes = make_shapes(state, &d, owner), *facts = shapes ? make_facts(file) : NULL;
+    PyObject *shapes = robot_shapes_make(state, &d, owner), *facts = shapes ? make_facts(file) : NULL;
     ovoid_error error;
     PyObject *made = NULL;
     if (facts)

@@ -44,13 +44,13 @@ static PyObject *compute_matrix(PyObject *object, PyObject *arguments, PyObject 
         return NULL;
     if (samples < 0 || budget < 0)
         return raise_code(state_of(object), OVOID_ERROR_ARGUMENT, -1, "samples and budget are numbers >= 0");
-    ovoid_robot_matrix_options o = {(size_t)samples, (size_t)budget, seed};
-    ovoid_robot_matrix *matrix;
-    Py_BEGIN_ALLOW_THREADS;
-    matrix = ovoid_robot_matrix_create(self->robot, &o, NULL, &error);
-    Py_END_ALLOW_THREADS;
-    if (!matrix) return raise_error(state_of(object), &error);
-    PyObject *made = make_pairs(self, matrix);
+    interrupt signals;
+    ovoid_robot_matrix_options o = {
+        .samples = (size_t)samples, .budget = (size_t)budget, .seed = seed, .watch = interrupt_begin(&signals)};
+    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(self->robot, &o, NULL, &error);
+    int is_raised = interrupt_end(&signals);
+    if (!matrix && !is_raised) return raise_error(state_of(object), &error);
+    PyObject *made = is_raised ? NULL : make_pairs(self, matrix);
     ovoid_robot_matrix_destroy(matrix);
     return made;
 }
@@ -59,5 +59,5 @@ PyMethodDef robot_matrix_methods[] = {
     {"compute_matrix", METHOD_KEYWORDS(compute_matrix), METH_VARARGS | METH_KEYWORDS,
      "compute_matrix(*, samples=0, budget=0, seed=0)\n--\n\nWhich pairs of links never touch, always do, or sometimes "
      "do, within the limits: MatrixPair tuples. samples: random\nstates, 0: 10 000; budget: cells of joint space a "
-     "proof looks at, 0: 100 000. Takes seconds; Ctrl-C waits for it."},
+     "proof looks at, 0: 100 000. Takes seconds; Ctrl-C ends it."},
     {NULL, NULL, 0, NULL}};

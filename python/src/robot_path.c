@@ -1,6 +1,10 @@
 // RobotPath: whether a path of a cell is free for all times in between, with the steps that prove it.
 #include "src/robot.h"
 
+#ifdef OVOID_PYTHON_ROBOT_READ
+#include <ovoid/robot_proof.h>
+#endif
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,13 +87,15 @@ PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords) 
     }
     ovoid_error error;
     ovoid_code code;
-    Py_BEGIN_ALLOW_THREADS;
+    interrupt signals;
+    self->options.watch = interrupt_begin(&signals);
     code = find_steps(self, checker, &error);
-    Py_END_ALLOW_THREADS;
+    int is_raised = interrupt_end(&signals);
+    self->options.watch = (ovoid_watch){NULL, NULL};
     checkers_return(cell, &checker, 1);
-    if (code == OVOID_OK) return (PyObject *)self;
+    if (code == OVOID_OK && !is_raised) return (PyObject *)self;
     Py_DECREF((PyObject *)self);
-    return raise_error(state, &error);
+    return is_raised ? NULL : raise_error(state, &error);
 }
 
 ovoid_code path_check(PyObject *object, ovoid_error *error) {
@@ -110,19 +116,45 @@ ovoid_code path_check(PyObject *object, ovoid_error *error) {
     return code;
 }
 
+#ifdef OVOID_PYTHON_ROBOT_READ
+PyObject *path_claim(cell_object *cell, const ovoid_robot_proof *proof, double limit_slack) {
+    size_t variables = robot_variable_count(cell->robot), size = proof->count * variables * sizeof(double);
+    const ovoid_robot_path_options o = {.check = {.margin = proof->margin, .limit_slack = limit_slack}};
+    items states = {malloc(size + 1), {(Py_ssize_t)proof->count, 0, 0}};
+    size_t steps = proof->answer.step_count * sizeof *proof->steps;
+    path_object *self = states.data ? make_object(cell, &o, &states) : NULL;
+    if (!states.data) PyErr_NoMemory();
+    if (!self) return NULL;
+    memcpy(self->states, proof->states, size);
+    self->of = proof->answer;
+    self->of.refused = SIZE_MAX; // not told
+    if (proof->has_pair)
+        (void)ovoid_robot_cell_get_pair(cell->cell, proof->pair, &self->of.hit.a, &self->of.hit.b, NULL);
+    self->steps = malloc(steps + 1);
+    if (!self->steps) {
+        Py_DECREF((PyObject *)self);
+        return PyErr_NoMemory();
+    }
+    if (steps) memcpy(self->steps, proof->steps, steps);
+    return (PyObject *)self;
+}
+#endif
+
 // ---- what it is
 
+// Of a file's path that is refused nothing more is told.
 static PyObject *get_hit(PyObject *self, void *closure) {
     (void)closure;
     const path_object *path = (path_object *)self;
-    if (path->of.status == OVOID_ROBOT_FREE) Py_RETURN_NONE;
+    if (path->of.status == OVOID_ROBOT_FREE || (path->of.status == OVOID_ROBOT_REFUSED && path->of.refused == SIZE_MAX))
+        Py_RETURN_NONE;
     return state_answer_make(state_of(self), &path->of.hit);
 }
 
 static PyObject *get_refused(PyObject *self, void *closure) {
     (void)closure;
     const path_object *path = (path_object *)self;
-    if (path->of.status != OVOID_ROBOT_REFUSED) Py_RETURN_NONE;
+    if (path->of.status != OVOID_ROBOT_REFUSED || path->of.refused == SIZE_MAX) Py_RETURN_NONE;
     return PyLong_FromSize_t(path->of.refused);
 }
 
@@ -161,7 +193,8 @@ static PyGetSetDef fields[] = {
           "Proven: free at all s before it; s is i at state i, linear in between."),
     FIELD(path_object, FIELD_DOUBLE, "hit_at", of.hit_at, "Where it is proven to be a hit; inf where it is not one."),
     FIELD(path_object, FIELD_UINT, "looked_at", of.states, "How many states were looked at."),
-    {"hit", get_hit, NULL, "The StateAnswer at hit_at, or of what is undecided or refused; None where it is free.",
+    {"hit", get_hit, NULL,
+     "The StateAnswer at hit_at, or of what is undecided or refused; None where it is free, or a file does not tell.",
      NULL},
     {"refused", get_refused, NULL, "The state that is refused, or at whose beginning a segment is; else None.", NULL},
     {"steps", get_steps, NULL,

@@ -29,12 +29,13 @@ static PyObject *audit_spheres(PyObject *object, PyObject *arguments, PyObject *
     o.volume_cells = (size_t)volume_cells;
     ovoid_robot_sphere_audit audit;
     ovoid_error error;
-    ovoid_code code;
-    Py_BEGIN_ALLOW_THREADS;
-    code =
+    interrupt signals;
+    o.watch = interrupt_begin(&signals);
+    ovoid_code code =
         ovoid_robot_compute_sphere_audit(self->robot, link, spheres.data, (size_t)spheres.shape[0], &o, &audit, &error);
-    Py_END_ALLOW_THREADS;
+    int is_raised = interrupt_end(&signals);
     free(spheres.data);
+    if (is_raised) return NULL;
     if (code != OVOID_OK) return raise_error(state, &error);
     return PyObject_CallFunction(state->sphere_audit, "NNIINNNNn", make_bracket(audit.depth), vec3_make(audit.point),
                                  audit.element, audit.sphere, make_bracket(audit.uncovered), make_bracket(audit.excess),
@@ -63,18 +64,75 @@ static PyObject *cover_spheres(PyObject *object, PyObject *arguments, PyObject *
     size_t written = (size_t)count;
     ovoid_robot_bracket depth;
     ovoid_error error;
-    ovoid_code code;
-    Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_robot_compute_sphere_cover(self->robot, link, &o, spheres, &written, &depth, &error);
-    Py_END_ALLOW_THREADS;
-    PyObject *array = code == OVOID_OK
-                          ? array_copy(state, RECORD_DOUBLE, 2, (Py_ssize_t[]){(Py_ssize_t)written, 4}, spheres)
-                          : raise_error(state, &error);
+    interrupt signals;
+    o.watch = interrupt_begin(&signals);
+    ovoid_code code = ovoid_robot_compute_sphere_cover(self->robot, link, &o, spheres, &written, &depth, &error);
+    PyObject *array = NULL;
+    if (!interrupt_end(&signals))
+        array = code == OVOID_OK ? array_copy(state, RECORD_DOUBLE, 2, (Py_ssize_t[]){(Py_ssize_t)written, 4}, spheres)
+                                 : raise_error(state, &error);
     free(spheres);
     return array ? Py_BuildValue("N(dd)", array, depth.lower, depth.upper) : NULL;
 }
 
+// ---- a robot of spheres
+
+// (link, (x, y, z), radius), as robot.spheres has them.
+static int read_sphere(robot_object *self, PyObject *from, ovoid_robot_link_sphere *to) {
+    PyObject *link, *center;
+    if (!PyTuple_Check(from)) {
+        PyErr_Format(PyExc_TypeError, "spheres: tuples (link, (x, y, z), radius) are wanted, not %R",
+                     (PyObject *)Py_TYPE(from));
+        return -1;
+    }
+    if (!PyArg_ParseTuple(from, "OOd;spheres: (link, (x, y, z), radius) is wanted", &link, &center, &to->ball.radius) ||
+        link_read(self, link, &to->link))
+        return -1;
+    return vec3_read(state_of((PyObject *)self), center, "centre of a sphere", &to->ball.center);
+}
+
+static void destroy_robot(PyObject *owner) { ovoid_robot_destroy(PyCapsule_GetPointer(owner, "robot")); }
+
+// The robot that owns its shapes is kept by them; the Robot borrows them from it.
+static PyObject *wrap_owner(PyTypeObject *type, ovoid_robot *made, const ovoid_error *why) {
+    if (!made) return raise_error(state_of_type((PyObject *)type), why);
+    PyObject *owner = PyCapsule_New(made, "robot", destroy_robot);
+    if (!owner) {
+        ovoid_robot_destroy(made);
+        return NULL;
+    }
+    ovoid_error error;
+    ovoid_robot_description d = ovoid_robot_get_description(made);
+    PyObject *shapes = robot_shapes_make(state_of_type((PyObject *)type), &d, owner);
+    PyObject *robot =
+        shapes ? robot_wrap(type, ovoid_robot_create(&d, NULL, &error), shapes, PyDict_New(), &error) : NULL;
+    Py_DECREF(owner);
+    return robot;
+}
+
+static PyObject *with_spheres(PyObject *object, PyObject *given) {
+    robot_object *self = (robot_object *)object;
+    PyObject *list = PySequence_Tuple(given), *made = NULL;
+    if (!list) return NULL;
+    Py_ssize_t count = PyTuple_Size(list), read = 0;
+    ovoid_robot_link_sphere *spheres = malloc((size_t)(count + 1) * sizeof *spheres);
+    if (!spheres) PyErr_NoMemory();
+    while (spheres && read < count && !read_sphere(self, PyTuple_GetItem(list, read), &spheres[read])) read++;
+    if (spheres && read == count) {
+        ovoid_error error;
+        ovoid_robot *robot = ovoid_robot_create_from_spheres(self->robot, spheres, (size_t)count, NULL, &error);
+        made = wrap_owner(Py_TYPE(object), robot, &error);
+    }
+    free(spheres);
+    Py_DECREF(list);
+    return made;
+}
+
 PyMethodDef robot_spheres_methods[] = {
+    {"with_spheres", with_spheres, METH_O,
+     "with_spheres(spheres, /)\n--\n\nThe Robot with spheres in the place of its elements: (link, (x, y, z), radius) "
+     "each, "
+     "centre in the link's frame, as\n.spheres has them. A link that no sphere is of has no elements."},
     {"audit_spheres", METHOD_KEYWORDS(audit_spheres), METH_VARARGS | METH_KEYWORDS,
      "audit_spheres(link, spheres, *, tolerance=0, depth_cells=0, volume_cells=0, without_volumes=False)\n--\n\nHow "
      "far "

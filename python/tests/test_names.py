@@ -25,8 +25,8 @@ def get_arguments(function):
 
 
 # What a build without libovoid_robot, or without readers of files, lacks.
-OF_ROBOTS = {"Robot", "Cell", "RobotPath"}
-OF_FILES = {"load_obstacles", "load_motion_request", "find_problems"}
+OF_ROBOTS = {"Robot", "Cell", "RobotPath", "compare_states"}
+OF_FILES = {"load_obstacles", "load_motion_request", "find_problems", "load_path_sources"}
 
 
 class Stubs(unittest.TestCase):
@@ -64,7 +64,7 @@ class Stubs(unittest.TestCase):
             said = {node.name: node for node in stub.body}
             there = {key for key in vars(kind) if not key.startswith("_")}
             if not ovoid.has_io:
-                there |= {"load", "save"} & set(said)
+                there |= {"load", "load_paths", "save"} & set(said)
             self.assertEqual({key for key in said if not key.startswith("_")}, there, name)
             for key in there:
                 if inspect.isroutine(getattr(kind, key, None)) and key != "tolist":

@@ -198,6 +198,17 @@ class Cells(unittest.TestCase):
         # A block begins as if nothing was asked before.
         tail = self.cell.nearest_batch(states[256:])[0]
         self.assertEqual([list(map(str, row.values())) for row in rows(tail)], [list(map(str, row.values())) for row in rows(many)[256:]])
+        # Of two balls as near as each other the one is named that a new cell names, whatever the block before ended with.
+        cell = ovoid.Cell(self.arm)
+        for y in (0.8, -0.8):
+            cell.add(BALL, at(0.5, y))
+        for before in (0.5, -0.5):
+            cell.reset()
+            pairs = rows(cell.nearest_batch([(before, 0)] * 256 + [(0, 0)] * 3)[0])
+            cell.reset()
+            self.assertEqual([list(map(str, row.values())) for row in pairs[256:]],
+                             [list(map(str, row.values())) for row in rows(cell.nearest_batch([(0, 0)] * 3)[0])])
+            self.assertNotEqual(pairs[0]["body_b"], 0)
         far = rows(self.cell.nearest_batch([(2, 0)], margin=0.01)[0])[0]
         self.assertEqual((far["lower"], far["upper"], far["link_a"], far["status"]), (0.01, math.inf, 2**32 - 1, 1))
         with self.assertRaises(ovoid.Error) as raised:

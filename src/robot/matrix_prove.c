@@ -8,6 +8,7 @@
 // 1960; the motion bound after F. Schwarzer, M. Saha, J.-C. Latombe, Adaptive dynamic collision checking for single and
 // multiple articulated robots, 2005.
 #include "base/error.h"
+#include "base/watch.h"
 #include "robot/matrix.h"
 #include "robot/path.h"
 
@@ -154,7 +155,7 @@ static uint32_t go_on(prover *p, uint32_t depth) {
 // Depth first, so that the memory is that of one way down.
 static cell_verdict search(prover *p, int wants_contact, size_t *cells) {
     uint32_t depth = 0;
-    while (*cells < p->work->options.budget) {
+    while (*cells < p->work->options.budget && !watch_is_stopped(&p->work->options.watch)) {
         ++*cells;
         cell_verdict verdict = look(p, wants_contact);
         if (verdict == CELL_REFUTED) return verdict;

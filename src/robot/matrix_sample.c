@@ -1,6 +1,7 @@
 // Random states of a matrix: for each, which pairs are hit and which are proven apart. States are a function of seed
 // and number alone: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators, 2014.
 #include "base/error.h"
+#include "base/watch.h"
 #include "robot/checker.h"
 #include "robot/matrix.h"
 
@@ -109,7 +110,8 @@ static void look_at_state(sampler *s) {
 
 static void look_at_all(sampler *s) {
     size_t variables = s->work->cell->robot->variable_count, samples = s->work->options.samples;
-    for (size_t i = 0; i < samples && s->code == OVOID_OK; i += ROBOT8) {
+    const ovoid_watch *watch = &s->work->options.watch;
+    for (size_t i = 0; i < samples && s->code == OVOID_OK && !watch_is_stopped(watch); i += ROBOT8) {
         lane_state states[ROBOT8];
         size_t count = samples - i < ROBOT8 ? samples - i : ROBOT8;
         for (size_t k = 0; k < count; k++) draw_state(s, s->q + k * variables);

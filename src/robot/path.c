@@ -6,6 +6,7 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "base/watch.h"
 
 #include <string.h>
 
@@ -275,7 +276,7 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
     double middle = 0.5 * (begin + end);
     path_state state = get_state(s, level);
     path_span i = {begin, end, at_begin, at_end, &state};
-    if (a->states >= s->states_most) {
+    if (a->states >= s->states_most || watch_is_stopped(&s->options->watch)) {
         a->free_until = s->segment + begin;
         a->status = a->hit_at < INFINITY ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED;
         return 0;

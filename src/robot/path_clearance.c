@@ -7,6 +7,7 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "robot/path.h"
 
 #include <string.h>
@@ -21,6 +22,7 @@ typedef struct clearance_search {
     const double *q0, *q1;
     double segment, tolerance;
     uint32_t states_most, groups;
+    const ovoid_watch *watch;
     size_t mask_count, state_size;
     uint8_t *masks; // of each level: the pairs that are open
     char *states;   // the middle's of each level, then those of the segment's ends
@@ -131,10 +133,16 @@ static void keep_least(clearance_search *s, double least) {
     if (least < s->out->lower) s->out->lower = least;
 }
 
+// 1 where no more states may be looked at.
+static int is_used_up(clearance_search *s) {
+    if (s->out->states < s->states_most && watch_is_stopped(s->watch)) s->states_most = 0;
+    return s->out->states >= s->states_most;
+}
+
 // An interval of `span`, whose middle is not looked at yet; known: what no pair is nearer than in it.
 static void visit(clearance_search *s, uint32_t level, const path_span *span, double known) {
     double begin = span->begin, end = span->end, middle = 0.5 * (begin + end);
-    if (s->out->states >= s->states_most) {
+    if (is_used_up(s)) {
         keep_least(s, known);
         return;
     }
@@ -193,7 +201,7 @@ static int set_segment(clearance_search *s, const ovoid_robot_path *path, size_t
 static void look_at_some(clearance_search *s) {
     path_state state = get_state(s, 0);
     int count = path_is_still(&s->w) ? 1 : SEEDS + 1;
-    for (int k = 0; k < count && s->out->states < s->states_most; k++) {
+    for (int k = 0; k < count && !is_used_up(s); k++) {
         double t = (double)k / SEEDS;
         s->out->states++;
         path_compute_state(&s->w, s->q0, s->q1, t, &state);
@@ -221,7 +229,11 @@ static void run(clearance_search *s, const ovoid_robot_path *path) {
     }
     for (size_t i = 0; i < segments; i++) {
         if (segments > 1 && !set_segment(s, path, i)) return;
-        run_segment(s);
+        // Stopped: nothing is known of it.
+        if (s->states_most == 0)
+            keep_least(s, -INFINITY);
+        else
+            run_segment(s);
     }
     // What was dismissed is above the least that was found then, less the tolerance, by comparisons that round.
     if (out->upper < INFINITY) {
@@ -274,7 +286,8 @@ static ovoid_code compute(ovoid_robot_checker *x, const ovoid_robot_path *path, 
                           .options = &o->check,
                           .out = out,
                           .tolerance = find_tolerance(x->cell, o->tolerance),
-                          .states_most = o->states ? o->states : 100000 + 100 * (uint32_t)path->count};
+                          .states_most = o->states ? o->states : 100000 + 100 * (uint32_t)path->count,
+                          .watch = &o->watch};
     code = path_work_create(&s.w, x->cell, &x->allocator, error);
     if (code != OVOID_OK) return code;
     code = allocate(&s, error);

@@ -4,6 +4,7 @@
 #define OVOID_ROBOT_SPHERES_INTERNAL_H
 
 #include "base/allocator.h"
+#include "base/watch.h"
 #include "linear/box.h"
 #include "ovoid/robot_spheres.h"
 
@@ -105,6 +106,7 @@ ovoid_robot_bracket spheres_tree_find_share(const spheres_tree *tree, const sphe
 typedef struct spheres_heap {
     spheres_cell *cells;
     size_t count, capacity;
+    const ovoid_watch *watch; ///< asked before each cell; NULL: nobody
 } spheres_heap;
 
 /// Room for that many cells and the first ones of the search for the deepest point; MEMORY. The caller releases cells.

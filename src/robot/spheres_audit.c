@@ -16,7 +16,7 @@ static size_t count_roots(const spheres_link *link) {
 
 ovoid_code spheres_heap_open(spheres_heap *heap, const spheres_link *link, size_t cells, ovoid_error *error) {
     cells += count_roots(link);
-    *heap = (spheres_heap){allocator_allocate(&link->memory, cells, sizeof *heap->cells), 0, cells};
+    *heap = (spheres_heap){allocator_allocate(&link->memory, cells, sizeof *heap->cells), 0, cells, NULL};
     return heap->cells ? OVOID_OK : error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu cells", cells);
 }
 
@@ -42,6 +42,7 @@ static ovoid_code audit_link(const spheres_link *link, const spheres_tree *tree,
     ovoid_code code = spheres_heap_open(&heap, link, depth_cells > volume_cells ? depth_cells : volume_cells, error);
     if (code != OVOID_OK) return code;
     heap.capacity = depth_cells + count_roots(link);
+    heap.watch = &o->watch;
     double tolerance = o->tolerance > 0 ? o->tolerance / link->unit : 1e-5 * spheres_link_get_size(link);
     spheres_depth d = spheres_find_depth(link, tree, tolerance, &heap);
     *audit = (ovoid_robot_sphere_audit){.depth = {-scale_up(-d.lower, link->unit), scale_up(d.upper, link->unit)},

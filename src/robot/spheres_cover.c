@@ -240,6 +240,7 @@ static ovoid_code make_fewest(making *m, size_t room, double excess, spheres_dep
         double reached = find_excess(m);
         if (reached <= excess) return OVOID_OK;
         best = min2(best, reached);
+        if (watch_is_stopped(m->now.watch)) break;
     }
     return error_set(error, OVOID_ERROR_LIMIT, (int64_t)room,
                      "no cover of at most %zu spheres stands out by %g or less; the best by %g: give more spheres",
@@ -251,6 +252,7 @@ static ovoid_code cover_link(const spheres_link *link, const ovoid_robot_cover_o
     making m = {.moves = o->rounds ? o->rounds : MOVES, .seed = o->seed};
     ovoid_code code = open_making(&m, link, *count, error);
     if (code != OVOID_OK) return code;
+    m.now.watch = m.heap.watch = &o->watch;
     spheres_depth depth;
     code = o->excess > 0 ? make_fewest(&m, *count, o->excess, &depth, error)
                          : make_cover(&m, (uint32_t)*count, &depth, error);

@@ -145,7 +145,7 @@ spheres_depth spheres_find_depth(const spheres_link *link, const spheres_tree *t
     for (uint32_t i = 0; i < link->part_count; i++) add_part(&s, i);
     size_t most = LOOKS * heap->capacity;
     while (heap->count && heap->count + 2 <= heap->capacity && s.found.cells < most &&
-           heap->cells[0].key - s.found.lower > tolerance)
+           heap->cells[0].key - s.found.lower > tolerance && !watch_is_stopped(heap->watch))
         divide(&s);
     s.found.upper = max2(s.settled, s.found.lower);
     if (heap->count) s.found.upper = max2(s.found.upper, heap->cells[0].key);

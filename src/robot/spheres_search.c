@@ -315,7 +315,7 @@ void spheres_samples_improve(spheres_samples *s, spheres_samples *scratch, size_
     scratch->ball_count = s->ball_count, scratch->point_count = s->point_count,
     scratch->outside_count = s->outside_count;
     copy_state(scratch, s);
-    for (size_t k = 0; k < moves; k++) {
+    for (size_t k = 0; k < moves && !watch_is_stopped(s->watch); k++) {
         double heat = hot + (cold - hot) * ((double)k / (double)moves);
         move(s, heat);
         long worse = s->excess - scratch->excess;

@@ -22,6 +22,7 @@ typedef struct spheres_samples {
     uint32_t own_count;
     box region;                       ///< the points outside are of it, and no ball leaves it
     box *point_boxes, *outside_boxes; ///< of each block of points
+    const ovoid_watch *watch;         ///< asked before each move
 } spheres_samples;
 
 /// Uniform in [0, 1): SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators,

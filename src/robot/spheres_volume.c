@@ -96,7 +96,8 @@ spheres_volumes spheres_find_volumes(const spheres_link *link, const spheres_tre
         spheres_heap_push(heap, &root[i]);
     }
     size_t looks = 6;
-    while (heap->count && heap->count + 2 <= heap->capacity && looks < LOOKS * heap->capacity) {
+    while (heap->count && heap->count + 2 <= heap->capacity && looks < LOOKS * heap->capacity &&
+           !watch_is_stopped(heap->watch)) {
         spheres_cell cell = spheres_heap_pop(heap), half[2];
         (void)spheres_cell_halve(&cell, half);
         if (!(cell.key > root[0].volume * 0x1p-40) || cell.level >= LEVELS) {

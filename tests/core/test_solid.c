@@ -159,7 +159,62 @@ static void check_peg(void) {
     mesh_clear(&m);
 }
 
+// An L of blocks and a box on one grid: boxes that meet flush overlap those of the tree's nodes, whose triangles are
+// left out for what a direction shows, and for nothing else. Truth: intervals of the blocks.
+static int is_common_block(const double *low, const double *high, ovoid_vec3 at, ovoid_vec3 size, int is_closed) {
+    const double first[3] = {at.x, at.y, at.z}, last[3] = {at.x + size.x, at.y + size.y, at.z + size.z};
+    for (int k = 0; k < 3; k++)
+        if (is_closed ? first[k] > high[k] || last[k] < low[k] : first[k] >= high[k] || last[k] <= low[k]) return 0;
+    return 1;
+}
+
+static ovoid_solid *make_corner(void) {
+    static const double outline[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    static const uint32_t cap[4][3] = {{3, 4, 5}, {3, 5, 0}, {3, 0, 1}, {3, 1, 2}};
+    mesh m = {NULL, NULL, 0, 0, 0, 0};
+    for (int i = 0; i < 12; i++) (void)mesh_add_point(&m, outline[i % 6][0], outline[i % 6][1], i / 6);
+    for (int i = 0; i < 4; i++) mesh_add_triangle(&m, cap[i][0], cap[i][2], cap[i][1]);
+    for (int i = 0; i < 4; i++) mesh_add_triangle(&m, cap[i][0] + 6, cap[i][1] + 6, cap[i][2] + 6);
+    for (uint32_t i = 0; i < 6; i++) {
+        uint32_t k = (i + 1) % 6;
+        mesh_add_triangle(&m, i, k, k + 6);
+        mesh_add_triangle(&m, i, k + 6, i + 6);
+    }
+    ovoid_solid *made = mesh_make_solid(&m);
+    mesh_clear(&m);
+    return made;
+}
+
+static void check_flush(void) {
+    static const double low[3] = {0, 0, 0}, high[2][3] = {{2, 1, 1}, {1, 2, 1}};
+    ovoid_solid *corner = make_corner();
+    ovoid_vec3 size = {2, 1, 1};
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 0.5, 0.5}, NULL, NULL);
+    for (int i = 0; corner && box && i < 11 * 9 * 3; i++) {
+        ovoid_vec3 at = {0.5 * (i % 11) - 2.5, 0.5 * (i / 11 % 9) - 1.5, 0.5 * (i / 99) - 0.5};
+        ovoid_pose here = ovoid_pose_make_identity(), there = here;
+        there.position = (ovoid_vec3){at.x + 1, at.y + 0.5, at.z + 0.5};
+        int meet[2];
+        for (int is_closed = 0; is_closed < 2; is_closed++)
+            meet[is_closed] = is_common_block(low, high[0], at, size, is_closed) ||
+                              is_common_block(low, high[1], at, size, is_closed);
+        ovoid_body_pair pair = {{.solid = corner, .pose = here}, {.shape = box, .pose = there}};
+        ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
+        for (int which = 0; which < 3; which++) {
+            ovoid_solid_answer x = which == 0   ? ovoid_solid_distance(&pair, NULL, NULL, &all)
+                                   : which == 1 ? ovoid_solid_collide(&pair, NULL, NULL, &all)
+                                                : ovoid_solid_within(&pair, 0.25, NULL, NULL, &all);
+            check_answer(&pair, &x, &all);
+            CHECK_EQ(x.status == OVOID_SEPARATED, !meet[1]);
+            CHECK(x.status != OVOID_OVERLAPPING || meet[0]);
+        }
+    }
+    ovoid_shape_destroy(box);
+    ovoid_solid_destroy(corner);
+}
+
 int main(void) {
+    check_flush();
     check_peg();
     check_random(60, 1, 1000);
     check_random(30, 1e-20, 2000);

@@ -328,17 +328,66 @@ static ovoid_code read_path(scene_reader *r, geometry *g) {
 
 // ---- bodies by their keys
 
+/// A key under construction; data NULL after there was no memory.
+typedef struct key_text {
+    char *data;
+    size_t length, capacity;
+} key_text;
+
+static void add_text(key_text *k, const char *text, size_t length) {
+    if (!k->data) return;
+    if (k->capacity - k->length <= length) {
+        size_t capacity = 2 * k->capacity + length;
+        char *grown = realloc(k->data, capacity);
+        if (!grown) free(k->data);
+        k->data = grown;
+        k->capacity = capacity;
+        if (!grown) return;
+    }
+    memcpy(k->data + k->length, text, length);
+    k->length += length;
+    k->data[k->length] = 0;
+}
+
+// All bits of a number: printing it would take most of the time that a box of a scene of a million takes.
+static void add_number(key_text *k, double number) {
+    static const char digits[] = "0123456789abcdef";
+    char text[17] = " ";
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    for (int i = 0; i < 16; i++) text[16 - i] = digits[bits >> 4 * i & 15];
+    add_text(k, text, sizeof text);
+}
+
+// Numbers and lists of them by their bits, all else as JSON.
+static void add_value(key_text *k, const json_t *value) {
+    if (json_is_number(value)) {
+        add_number(k, json_number_value(value));
+    } else if (json_is_array(value)) {
+        add_text(k, "[", 1);
+        for (size_t i = 0; i < json_array_size(value); i++) add_value(k, json_array_get(value, i));
+        add_text(k, "]", 1);
+    } else {
+        char *text = json_dumps(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY);
+        if (text) add_text(k, text, strlen(text));
+        if (!text) free(k->data), k->data = NULL;
+        free(text);
+    }
+}
+
 // The key of a geometry: a text of all that the body is made from; NULL where there is no memory.
 static char *make_key(const geometry *g) {
-    char *value = g->mesh ? NULL : json_dumps(g->value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY);
-    const char *what = g->mesh ? g->mesh : value;
-    size_t room = what ? strlen(what) + 200 : 0;
-    char *key = room ? malloc(room) : NULL;
-    if (key)
-        snprintf(key, room, "%s %a %a %a %a %d %d %s", g->kind, g->options.radius, g->options.allowance.outside,
-                 g->options.allowance.inside, g->read.scale, g->read.parts, g->solid, what);
-    free(value);
-    return key;
+    key_text k = {malloc(160), 0, 160};
+    add_text(&k, g->kind, strlen(g->kind));
+    const double numbers[] = {
+        g->options.radius, g->options.allowance.outside, g->options.allowance.inside, g->read.scale, g->read.parts,
+        g->solid};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) add_number(&k, numbers[i]);
+    if (g->mesh)
+        add_text(&k, g->mesh, strlen(g->mesh));
+    else
+        add_value(&k, g->value);
+    return k.data;
 }
 
 // The slot of the body with that key, or the free slot where it belongs. There always is a free one.

@@ -1,0 +1,36 @@
+// A query of two bodies as it was asked: what query.c reads of the arguments, for shapes, compounds and solids.
+#ifndef OVOID_PYTHON_QUERY_H
+#define OVOID_PYTHON_QUERY_H
+
+#include "src/module.h"
+
+typedef enum query_name { QUERY_COLLIDE, QUERY_WITHIN, QUERY_DISTANCE, QUERY_DEPTH } query_name;
+
+typedef struct query_input {
+    query_name name;
+    PyObject *a, *b;
+    ovoid_body_pair pair;
+    const ovoid_prepared_shape *prepared_a, *prepared_b; ///< both or none
+    const ovoid_solid *solid_a, *solid_b;                ///< in the place of the pair's shape; NULL: it is none
+    double margin;
+    ovoid_options options;
+    ovoid_compound_proof earlier;
+    int has_earlier;
+} query_input;
+
+// ---- solid.c
+
+typedef struct solid_object {
+    PyObject_HEAD ovoid_solid *solid;
+} solid_object;
+
+// ---- solid_answer.c
+
+/// The SolidAnswer to a query of which one body at least is a solid.
+PyObject *solid_query(module_state *state, const query_input *in);
+/// Its parts and proof as a warm start.
+ovoid_compound_proof solid_answer_get_proof(PyObject *answer);
+/// Checks a SolidAnswer by its proof: OVOID_OK, or what ovoid_solid_answer_check says.
+ovoid_code solid_answer_check(PyObject *answer, ovoid_error *error);
+
+#endif

@@ -1,0 +1,61 @@
+// The smallest clearance of a path of a cell.
+#include "src/robot.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// What is not known is None.
+static PyObject *make_clearance(module_state *state, const ovoid_robot_clearance *c) {
+    int is_refused = c->status == OVOID_ROBOT_REFUSED, has_pair = !is_refused && c->upper < INFINITY;
+    PyObject *a = has_pair ? side_make(state, &c->a) : Py_NewRef(Py_None);
+    PyObject *b = has_pair ? side_make(state, &c->b) : Py_NewRef(Py_None);
+    PyObject *at = has_pair ? PyFloat_FromDouble(c->at) : Py_NewRef(Py_None);
+    PyObject *refused = is_refused ? PyLong_FromSize_t(c->refused) : Py_NewRef(Py_None);
+    PyObject *code = is_refused ? enum_get(state, ENUM_CODE, c->code) : Py_NewRef(Py_None);
+    PyObject *variable = is_refused ? PyLong_FromUnsignedLong(c->variable) : Py_NewRef(Py_None);
+    return PyObject_CallFunction(state->clearance, "NddNNNNNNI", enum_get(state, ENUM_ROBOT_STATUS, c->status),
+                                 c->lower, c->upper, at, a, b, refused, code, variable, c->states);
+}
+
+static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"states", CHECK_NAMES, "tolerance", "most_states", NULL};
+    cell_object *self = (cell_object *)object;
+    module_state *state = state_of(object);
+    PyObject *given;
+    ovoid_robot_clearance_options o = {.tolerance = 0};
+    unsigned long long most = 0;
+    items states;
+    ovoid_robot_checker *checker;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "dK:clearance", names, &given,
+                                     CHECK_TARGETS(o.check), &o.tolerance, &most) ||
+        check_options_check(state, &o.check))
+        return NULL;
+    if (most > UINT32_MAX) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "most_states: 0 to 2^32 - 1 are wanted");
+    o.states = (uint32_t)most;
+    Py_ssize_t variables = (Py_ssize_t)robot_variable_count(self->robot);
+    if (items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &states)) return NULL;
+    if (checkers_borrow(self, &checker, 1)) {
+        free(states.data);
+        return NULL;
+    }
+    const ovoid_robot_path path = {states.data, (size_t)states.shape[0]};
+    ovoid_robot_clearance found;
+    ovoid_error error;
+    interrupt signals;
+    o.watch = interrupt_begin(&signals);
+    ovoid_code code = ovoid_robot_compute_clearance(checker, &path, &o, &found, &error);
+    int is_raised = interrupt_end(&signals);
+    checkers_return(self, &checker, 1);
+    free(states.data);
+    if (is_raised) return NULL;
+    return code == OVOID_OK ? make_clearance(state, &found) : raise_error(state, &error);
+}
+
+PyMethodDef cell_clearances[] = {
+    {"clearance", METHOD_KEYWORDS(clearance), METH_VARARGS | METH_KEYWORDS,
+     "clearance(states, *, " CHECK_SIGNATURE
+     ", tolerance=0, most_states=0)\n--\n\nThe least signed distance of any pair "
+     "at any time of the path through states (n, variables), linear in between: a\nClearance, whose bracket is proven. "
+     "margin: of its status. tolerance: of the bracket, a length, 0: 1/1024 of the\nradius of the largest element; "
+     "most_states: looked at, 0: 100 000 and 100 a segment. Ctrl-C ends it."},
+    {NULL, NULL, 0, NULL}};

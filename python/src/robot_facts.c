@@ -1,0 +1,150 @@
+// What a Robot is made of, as attributes: names, joints, variables, elements, limits, and what its files said beside.
+#include "src/robot.h"
+
+#include <string.h>
+
+static const ovoid_robot *get(PyObject *self) { return ((robot_object *)self)->robot; }
+
+// Names need not be UTF-8.
+PyObject *robot_name_make(const char *name) {
+    if (!name) return Py_NewRef(Py_None);
+    return PyUnicode_DecodeUTF8(name, (Py_ssize_t)strlen(name), "replace");
+}
+
+static PyObject *get_name(PyObject *self, void *closure) {
+    (void)closure;
+    return robot_name_make(ovoid_robot_get_description(get(self)).name);
+}
+
+static PyObject *get_root(PyObject *self, void *closure) {
+    (void)closure;
+    return robot_name_make(ovoid_robot_get_description(get(self)).links[ovoid_robot_get_root(get(self))].name);
+}
+
+// A tuple of count objects, each made by make(self, i).
+static PyObject *make_tuple(PyObject *self, size_t count, PyObject *(*make)(PyObject *self, size_t i)) {
+    PyObject *made = PyTuple_New((Py_ssize_t)count);
+    for (size_t i = 0; made && i < count; i++) {
+        PyObject *one = make(self, i);
+        if (!one)
+            Py_CLEAR(made);
+        else
+            PyTuple_SetItem(made, (Py_ssize_t)i, one);
+    }
+    return made;
+}
+
+static PyObject *make_link(PyObject *self, size_t i) {
+    return robot_name_make(ovoid_robot_get_description(get(self)).links[i].name);
+}
+
+static PyObject *make_joint(PyObject *self, size_t i) {
+    module_state *state = state_of(self);
+    ovoid_robot_description d = ovoid_robot_get_description(get(self));
+    const ovoid_robot_joint *j = &d.joints[i];
+    return PyObject_CallFunction(
+        state->joint, "NsNNNNdddNdd", robot_name_make(j->name), ovoid_joint_type_get_name(j->type),
+        make_link(self, j->parent), make_link(self, j->child), pose_wrap(state, j->origin), vec3_make(j->axis),
+        j->lower, j->upper, j->velocity, robot_name_make(j->mimic == OVOID_ROBOT_NONE ? NULL : d.joints[j->mimic].name),
+        j->multiplier, j->offset);
+}
+
+// "shoulder", or of a joint of several variables "floor/x".
+static PyObject *make_variable_name(const ovoid_robot_joint *joint, uint32_t component) {
+    static const char *const planar[] = {"x", "y", "angle"}, *const floating[] = {"x",  "y",  "z", "qw",
+                                                                                  "qx", "qy", "qz"};
+    PyObject *name = robot_name_make(joint->name);
+    if (!name || ovoid_joint_type_get_variable_count(joint->type) == 1) return name;
+    PyObject *made = PyUnicode_FromFormat("%U/%s", name,
+                                          joint->type == OVOID_JOINT_PLANAR ? planar[component] : floating[component]);
+    Py_DECREF(name);
+    return made;
+}
+
+PyObject *robot_variable_name_make(const robot_object *self, size_t i) {
+    ovoid_robot_variable v = ovoid_robot_get_variable(self->robot, i);
+    return make_variable_name(&ovoid_robot_get_description(self->robot).joints[v.joint], v.component);
+}
+
+static PyObject *make_variable(PyObject *self, size_t i) {
+    ovoid_robot_variable v = ovoid_robot_get_variable(get(self), i);
+    const ovoid_robot_joint *joint = &ovoid_robot_get_description(get(self)).joints[v.joint];
+    return PyObject_CallFunction(state_of(self)->variable, "NNIddd", make_variable_name(joint, v.component),
+                                 robot_name_make(joint->name), v.component, v.lower, v.upper, v.velocity);
+}
+
+static PyObject *make_element(PyObject *self, size_t i) {
+    const ovoid_robot_element *e = &ovoid_robot_get_description(get(self)).elements[i];
+    PyObject *shape = PyTuple_GetItem(((robot_object *)self)->shapes, (Py_ssize_t)i);
+    return PyObject_CallFunction(state_of(self)->element, "NONN", make_link(self, e->link), shape,
+                                 pose_wrap(state_of(self), e->pose), robot_name_make(e->name));
+}
+
+static PyObject *make_disabled(PyObject *self, size_t i) {
+    ovoid_robot_pair pair = ovoid_robot_get_description(get(self)).disabled[i];
+    return Py_BuildValue("NNN", make_link(self, pair.a), make_link(self, pair.b), robot_name_make(pair.reason));
+}
+
+static PyObject *get_links(PyObject *self, void *closure) {
+    (void)closure;
+    return make_tuple(self, ovoid_robot_get_description(get(self)).link_count, make_link);
+}
+static PyObject *get_joints(PyObject *self, void *closure) {
+    (void)closure;
+    return make_tuple(self, ovoid_robot_get_description(get(self)).joint_count, make_joint);
+}
+static PyObject *get_variables(PyObject *self, void *closure) {
+    (void)closure;
+    return make_tuple(self, ovoid_robot_get_variable_count(get(self)), make_variable);
+}
+static PyObject *get_elements(PyObject *self, void *closure) {
+    (void)closure;
+    return make_tuple(self, ovoid_robot_get_description(get(self)).element_count, make_element);
+}
+static PyObject *get_disabled(PyObject *self, void *closure) {
+    (void)closure;
+    return make_tuple(self, ovoid_robot_get_description(get(self)).disabled_count, make_disabled);
+}
+
+// The lower limits of all variables, or with a closure the upper ones.
+static PyObject *get_limits(PyObject *self, void *closure) {
+    Py_ssize_t count = (Py_ssize_t)ovoid_robot_get_variable_count(get(self));
+    double *to = NULL;
+    PyObject *array = array_make(state_of(self), RECORD_DOUBLE, 1, &count, &to);
+    for (Py_ssize_t i = 0; array && i < count; i++) {
+        ovoid_robot_variable v = ovoid_robot_get_variable(get(self), (size_t)i);
+        to[i] = closure ? v.upper : v.lower;
+    }
+    return array_wrap(state_of(self), array);
+}
+
+static PyObject *get_fact(PyObject *self, void *closure) {
+    PyObject *found = PyDict_GetItemString(((robot_object *)self)->facts, closure);
+    return found ? Py_NewRef(found) : PyTuple_New(0);
+}
+
+static PyObject *get_fixed_mimics(PyObject *self, void *closure) {
+    (void)closure;
+    PyObject *found = PyDict_GetItemString(((robot_object *)self)->facts, "fixed_mimics");
+    return found ? Py_NewRef(found) : PyLong_FromLong(0);
+}
+
+PyGetSetDef robot_fields[] = {
+    {"name", get_name, NULL, "The robot's name, or None.", NULL},
+    {"root", get_root, NULL, "The name of the link that is no joint's child.", NULL},
+    {"links", get_links, NULL, "The links' names.", NULL},
+    {"joints", get_joints, NULL, "The joints: Joint tuples.", NULL},
+    {"variables", get_variables, NULL, "What the numbers of a state are: Variable tuples.", NULL},
+    {"elements", get_elements, NULL, "The convex parts of the links: Element tuples.", NULL},
+    {"disabled", get_disabled, NULL, "Pairs of links that are never queried: (a, b, reason), sorted.", NULL},
+    {"lower", get_limits, NULL, "The variables' lower limits, an array; -inf where there is none.", NULL},
+    {"upper", get_limits, NULL, "The variables' upper limits, an array; inf where there is none.", ""},
+    {"groups", get_fact, NULL, "Of an SRDF: (name, joints, links) of each group, names.", "groups"},
+    {"states", get_fact, NULL, "Of an SRDF: (name, group, {joint: numbers}) of each named state.", "states"},
+    {"spheres", get_fact, NULL, "Of an SRDF: (link, (x, y, z), radius), in the link's frame.", "spheres"},
+    {"passive", get_fact, NULL, "Of an SRDF: the passive joints' names.", "passive"},
+    {"meshes", get_fact, NULL, "Of a URDF: a dict for each mesh file at each scale.", "meshes"},
+    {"ignored", get_fact, NULL, "Of the files: (where, how often) of what had no effect.", "ignored"},
+    {"fixed_mimics", get_fixed_mimics, NULL, "Of a URDF: how many mimics stood on fixed joints and were dropped.",
+     NULL},
+    {NULL, NULL, NULL, NULL, NULL}};
