@@ -52,7 +52,8 @@ OVOID_API ovoid_code ovoid_compound_impact_check(const ovoid_moving_body *a, con
                                                  const ovoid_compound_impact *impact, const ovoid_step *steps,
                                                  const ovoid_step_group *groups, ovoid_error *error);
 
-/** Part i of a moving shape or compound, as a moving shape: its pose at a time is that of ovoid_compound's definition. */
+/** Part i of a moving shape or compound, as a moving shape: its pose at a time is that of ovoid_compound's definition.
+ */
 OVOID_API ovoid_moving_shape ovoid_moving_body_get_part(const ovoid_moving_body *body, size_t i);
 
 /**

@@ -18,8 +18,8 @@ extern "C" {
  * are within the margin at the beginning, or one is inside the other, hit_at = begin, and `hit` is the answer of the
  * surfaces there with the bracket of the bodies; later nothing gets inside that did not touch before. Flat faces that
  * meet flush are proven to touch once they cross: the bracket of the time is as wide as that takes. Options as in
- * ovoid_impact_find. Allocates nothing; stack 32 KB beside what <ovoid/motion.h> says. Cost: a query at the beginning, and a sweep of two
- * balls or triangles for each pair that comes near: some thousands for surfaces that touch.
+ * ovoid_impact_find. Allocates nothing; stack 32 KB beside what <ovoid/motion.h> says. Cost: a query at the beginning,
+ * and a sweep of two balls or triangles for each pair that comes near: some thousands for surfaces that touch.
  */
 OVOID_API ovoid_compound_impact ovoid_solid_impact_find(const ovoid_moving_body *a, const ovoid_moving_body *b,
                                                         double margin, const ovoid_motion_options *options);

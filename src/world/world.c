@@ -269,7 +269,7 @@ ovoid_code ovoid_world_remove(ovoid_world *w, ovoid_id id, ovoid_error *error) {
 // ---- accessors
 
 ovoid_world_body ovoid_world_make_point(const ovoid_world *w, ovoid_vec3 point) {
-    return (ovoid_world_body){.body = {w->point, NULL, {point, {1, 0, 0, 0}}}};
+    return (ovoid_world_body){.body = {.shape = w->point, .pose = {point, {1, 0, 0, 0}}}};
 }
 
 ovoid_code ovoid_world_get(const ovoid_world *w, ovoid_id id, ovoid_world_body *out, ovoid_error *error) {

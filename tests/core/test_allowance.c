@@ -364,7 +364,7 @@ static void run_world(uint64_t seed, ovoid_query_kind kind, double margin, int m
         style how = most > 1 ? (style)(random_next(&s) % STYLES) : ENLARGED;
         bodies[i] = make_known_of(1 + (int)(random_next(&s) % (uint64_t)most), how, 0.1 * (i % 3), &s);
         poses[i] = (ovoid_pose){random_vec3(&s, most > 1 ? 5 : 1.5), random_quat(&s)};
-        ovoid_world_body b = {.body = {bodies[i].shape, NULL, poses[i]}};
+        ovoid_world_body b = {.body = {.shape = bodies[i].shape, .pose = poses[i]}};
         ids[i] = ovoid_world_add(w, &b, NULL);
     }
     ovoid_contact_query query = {kind, margin, NULL};

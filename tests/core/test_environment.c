@@ -312,7 +312,8 @@ static void ask_world(void) {
     ovoid_world *w = ovoid_world_create(NULL, NULL);
     ovoid_world_body bodies[PAIRS];
     ovoid_id ids[PAIRS];
-    for (int i = 0; i < PAIRS; i++) bodies[i] = (ovoid_world_body){.body = {pairs[i].shape_b, NULL, pairs[i].pose_b}};
+    for (int i = 0; i < PAIRS; i++)
+        bodies[i] = (ovoid_world_body){.body = {.shape = pairs[i].shape_b, .pose = pairs[i].pose_b}};
     int code = (int)ovoid_world_add_many(w, bodies, PAIRS, ids, NULL);
     for (int k = 0; k < 8; k++) {
         ovoid_contact_query q = {.kind = (ovoid_query_kind)(k / 2), .margin = k / 2 ? third : 0};

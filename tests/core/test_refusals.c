@@ -170,7 +170,7 @@ static void ask_solids(wrong w, int both) {
 static void ask_world(fault is, int both) {
     ovoid_code code = is == NO_SHAPE ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_ROTATION;
     ovoid_world *w = ovoid_world_create(NULL, NULL);
-    ovoid_world_body sound = {.body = {shape, NULL, identity}}, bad = sound;
+    ovoid_world_body sound = {.body = {.shape = shape, .pose = identity}}, bad = sound;
     if (is == NO_SHAPE) bad.body.shape = both ? shape : NULL, bad.body.compound = both ? compound : NULL;
     if (is == ZERO_POSE) bad.body.pose = zero;
     ovoid_id id = ovoid_world_add(w, &sound, NULL);
