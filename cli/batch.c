@@ -102,7 +102,9 @@ static ovoid_record make_record(const batch *b, const ovoid_indexed_pair *pair, 
                           .answer = *answer,
                           .cover = cover,
                           .fields = b->results.fields,
-                          .margin = b->settings->margin};
+                          .margin = b->settings->margin,
+                          .mesh_a = ovoid_shapes_get(b->shapes, pair->a).convexity,
+                          .mesh_b = ovoid_shapes_get(b->shapes, pair->b).convexity};
 }
 
 static void work(void *context, void *slot) {
@@ -182,10 +184,17 @@ static void report_counts(const batch *b, double seconds) {
                      b->counts[OVOID_UNDECIDED]);
 }
 
+/// 1 if a mesh of the list does not fill its hull, which is what is queried.
+static int has_nonconvex(const ovoid_shapes *shapes) {
+    size_t i = 0, count = ovoid_shapes_get_count(shapes);
+    while (i < count && !ovoid_shapes_get(shapes, i).convexity.is_nonconvex) i++;
+    return i < count;
+}
+
 /// Opens the output; of a shard, with what an earlier run has done left out. 0, or an exit code after a message.
 static int open_output(batch *b, shard_job *job) {
     const settings *s = b->settings;
-    unsigned fields = s->margin >= 0 ? OVOID_RECORD_MARGIN : 0;
+    unsigned fields = (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0) | (has_nonconvex(b->shapes) ? OVOID_RECORD_MESHES : 0);
     if (!s->part.count) return results_open(&b->results, &s->out, fields, inputs_get_unit(&s->read));
     shard_digest_add_shapes(&job->seen, b->shapes);
     int code = results_open_shard(&b->results, &s->out, fields, job);

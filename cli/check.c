@@ -8,6 +8,7 @@
 #include "message.h"
 #include "near.h"
 #include "outputs.h"
+#include "page/scenes.h"
 #include "pipeline.h"
 #include "progress.h"
 
@@ -19,6 +20,7 @@ typedef struct settings {
     int hull;
     double margin, tolerance; ///< margin negative: not given
     shard_part part;
+    const char *html;
 } settings;
 
 static const cli_option options[] = {
@@ -31,6 +33,7 @@ static const cli_option options[] = {
     INPUTS_HULL_OPTION(settings),
     THREADS_OPTION(settings),
     SHARD_OPTION(settings),
+    PAGE_OPTION(settings),
     RESULTS_OPTIONS(settings),
     {0},
 };
@@ -54,7 +57,9 @@ typedef struct check {
     row *rows;
     size_t row_count;
     cli_results results;
-    size_t kept; ///< rows of a shard that an earlier run has written
+    cli_page page;
+    const char *path; ///< of the scene
+    size_t kept;      ///< rows of a shard that an earlier run has written
 } check;
 
 /// Makes the rows of all pairs, or of those that are near. 0, or EXIT_INPUT after a message.
@@ -216,7 +221,8 @@ static int run_check(check *c) {
     if (code != worst) return code;
     if (job.count < c->row_count) message_note("%zu more pairs: --top 0, or --json", c->row_count - job.count);
     report_counts(c, &t, progress_get_seconds() - start);
-    return code;
+    job = make_job(c);
+    return page_write_scene(&c->page, c->path, &job) ? EXIT_INPUT : code;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -224,14 +230,25 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_operands paths;
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_settle_part(command, &s.out, s.part);
+    if (code < 0) code = page_settle(command, s.html, s.part);
     if (code >= 0) return code;
-    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
-    if (!scene) return EXIT_INPUT;
+    check c = {.settings = &s, .path = paths.items[0]};
+    if (page_open(&c.page, s.html)) return EXIT_INPUT;
+    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull || s.html);
+    if (!scene) return page_close(&c.page), EXIT_INPUT;
+    if (s.html && inputs_get_fields(scene)) {
+        message_error("%s: a page shows no solids: leave \"solid\": true out", paths.items[0]);
+        page_close(&c.page);
+        ovoid_scene_destroy(scene);
+        return EXIT_INPUT;
+    }
     inputs_warn_scene(scene);
-    check c = {.settings = &s, .scene = scene, .poses = inputs_copy_poses(scene)};
+    c.scene = scene;
+    c.poses = inputs_copy_poses(scene);
     code = !c.poses ? EXIT_INPUT : s.part.count ? run_shard(&c, command, &paths) : run_check(&c);
     free(c.poses);
     free(c.rows);
+    page_close(&c.page);
     ovoid_scene_destroy(scene);
     return code;
 }

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "finish.h"
 #include "help.h"
+#include "page/page.h"
 
 #include <ovoid/io.h>
 #include <ovoid/ovoid.h>
@@ -70,6 +71,7 @@ static int run_complete(int argc, char **argv) { return help_print_words(stdout,
 
 int main(int argc, char **argv) {
     finish_catch_signals();
+    page_keep_words(argc, argv);
     if (argc < 2) {
         help_print_tool(stderr, commands);
         return EXIT_USAGE;

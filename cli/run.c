@@ -11,6 +11,7 @@
 #include "message.h"
 #include "near.h"
 #include "outputs.h"
+#include "page/scenes.h"
 #include "pipeline.h"
 #include "progress.h"
 #include "run_report.h"
@@ -22,7 +23,7 @@
 
 typedef struct settings {
     output_settings out;
-    const char *motion, *plot;
+    const char *motion, *plot, *html;
     int query, continuous, hull;
     unsigned threads;
     double margin, tolerance; ///< margin negative: not given
@@ -45,6 +46,7 @@ static const cli_option options[] = {
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distances of the nearest pairs over time, an SVG file"},
     INPUTS_HULL_OPTION(settings),
+    PAGE_OPTION(settings),
     THREADS_OPTION(settings),
     SHARD_OPTION(settings),
     RESULTS_OPTIONS(settings),
@@ -60,7 +62,9 @@ typedef struct run_state {
     cli_impacts impacts;
     cli_track track;
     cli_results results;
-    size_t counts[4]; ///< of the records of frames, by ovoid_status
+    cli_page page;
+    page_motion motion; ///< of the page
+    size_t counts[4];   ///< of the records of frames, by ovoid_status
     exit_code worst;
     int code;      ///< the exit code of a failed callback, or 0
     uint64_t kept; ///< frames of a shard that an earlier run has written
@@ -108,6 +112,7 @@ static void take_impact(void *context, ovoid_couple couple, const ovoid_record *
     run_state *r = context;
     take_side(r, isfinite(record->hit_after) ? EXIT_TOUCH : EXIT_NOT_PROVEN);
     if (!r->settings->part.count) track_add_impact(&r->track, couple, record, r->frames.time);
+    if (r->page.path) page_motion_add_impact(&r->motion, couple, record, r->frames.time);
 }
 
 /* ---- the frames */
@@ -141,6 +146,7 @@ static int run_frame(run_state *r) {
     if (!code) code = near_move(&r->near, r->frames.moved, r->frames.moved_count, r->frames.poses);
     if (!code) code = near_find(&r->near);
     track_add_frame(&r->track, r->frames.time);
+    if (r->page.path) page_motion_add_frame(&r->motion, r->frames.time, r->frames.poses);
     if (!code && !is_kept) code = answer_frame(r, 0);
     if (!code && r->settings->continuous && r->frames.count == r->kept) code = answer_frame(r, 1);
     if (!code && !is_kept) code = results_end_units(&r->results, 1);
@@ -199,14 +205,28 @@ static int run_shard(run_state *r, const cli_command *command, const cli_operand
     return results_close(&r->results, code);
 }
 
-static int run_motion(run_state *r) {
+/// Writes the page. 0, or an exit code after a message; nothing where none is wanted.
+static int write_page(run_state *r, const char *title) {
+    const settings *s = r->settings;
+    const answers_job job = {.scene = r->scene,
+                             .query = QUERY_DISTANCE,
+                             .margin = s->margin,
+                             .tolerance = s->tolerance,
+                             .threads = s->threads};
+    const page_run run = {&r->motion, &r->track, s->continuous ? get_margin(s) : s->margin};
+    return page_write_run(&r->page, title, &job, &run);
+}
+
+static int run_motion(run_state *r, const char *title) {
     const settings *s = r->settings;
     double start = progress_get_seconds();
     int code = open_all(r);
+    if (!code && s->html) code = page_motion_open(&r->motion, ovoid_scene_get_count(r->scene));
     if (code) return code;
     const unsigned fields = get_fields(r);
     if (results_open(&r->results, &s->out, fields, ovoid_scene_get_unit(r->scene))) return EXIT_INPUT;
     r->track.has_plot = s->plot != NULL;
+    r->track.has_pairs = s->html != NULL;
     code = run_frames(r);
     int worst = (int)r->worst;
     code = results_close(&r->results, code ? code : worst);
@@ -220,7 +240,7 @@ static int run_motion(run_state *r) {
                                  .margin = s->margin,
                                  .measures = s->query == QUERY_DISTANCE};
     run_report(&summary, progress_get_seconds() - start);
-    return code;
+    return write_page(r, title) ? EXIT_INPUT : code;
 }
 
 /// Checks the options together. -1 to go on, or EXIT_USAGE.
@@ -233,7 +253,8 @@ static int settle(const cli_command *command, settings *s) {
         return args_complain(command, "run: --plot needs a file; standard output has the results");
     if (s->plot && s->part.count)
         return args_complain(command, "run: --plot is of all pairs, --shard of a part of them");
-    return results_settle_part(command, &s->out, s->part);
+    int code = page_settle(command, s->html, s->part);
+    return code < 0 ? results_settle_part(command, &s->out, s->part) : code;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -242,15 +263,25 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = settle(command, &s);
     if (code >= 0) return code;
-    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
-    if (!scene) return EXIT_INPUT;
+    run_state r = {.settings = &s};
+    if (page_open(&r.page, s.html)) return EXIT_INPUT;
+    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull || s.html);
+    if (!scene) return page_close(&r.page), EXIT_INPUT;
+    if (s.html && inputs_get_fields(scene)) {
+        message_error("%s: a page shows no solids: leave \"solid\": true out", paths.items[0]);
+        page_close(&r.page);
+        ovoid_scene_destroy(scene);
+        return EXIT_INPUT;
+    }
     inputs_warn_scene(scene);
-    run_state r = {.settings = &s, .scene = scene};
-    code = s.part.count ? run_shard(&r, command, &paths) : run_motion(&r);
+    r.scene = scene;
+    code = s.part.count ? run_shard(&r, command, &paths) : run_motion(&r, paths.items[0]);
     impacts_close(&r.impacts);
     track_clear(&r.track);
     near_close(&r.near);
     frames_close(&r.frames);
+    page_motion_close(&r.motion);
+    page_close(&r.page);
     ovoid_scene_destroy(scene);
     return code;
 }

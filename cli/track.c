@@ -63,22 +63,29 @@ static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     return &t->pairs[t->pair_count - 1];
 }
 
-/// Adds a point of the frame that was begun last.
+/// Adds a point of the frame that was begun last, and keeps the lowest; 0 where there is no more room.
 static int add_point(cli_track *t, ovoid_couple couple, const ovoid_record *record, int is_impact) {
     const ovoid_answer *answer = &record->answer;
     track_pair *pair = t->point_count < POINTS_MAX ? find_pair(t, couple) : NULL;
     int is_measured = answer->limit == OVOID_LIMIT_NONE;
-    if (!pair || !reserve((void **)&pair->points, &pair->capacity, pair->count, sizeof *pair->points)) return 0;
+    if (!pair) return 0;
+    if (answer->lower < pair->lowest) pair->lowest = answer->lower, pair->lowest_frame = t->frame_count - 1;
+    if (!t->has_plot) return 1;
+    if (!reserve((void **)&pair->points, &pair->capacity, pair->count, sizeof *pair->points)) return 0;
     pair->points[pair->count++] = (track_point){.frame = t->frame_count - 1,
                                                 .time = record->time,
                                                 .lower = answer->lower,
                                                 .upper = answer->upper,
                                                 .is_measured = is_measured,
                                                 .is_impact = is_impact};
-    if (answer->lower < pair->lowest) pair->lowest = answer->lower;
     t->point_count++;
     t->has_wide |= !is_measured;
     return 1;
+}
+
+/// Adds a point where a plot or the pairs are wanted, until there are too many.
+static void keep_point(cli_track *t, ovoid_couple couple, const ovoid_record *record, int is_impact) {
+    if ((t->has_plot || t->has_pairs) && !t->is_full) t->is_full = !add_point(t, couple, record, is_impact);
 }
 
 void track_add_frame(cli_track *t, double time) {
@@ -154,7 +161,7 @@ void track_add(cli_track *t, ovoid_couple couple, const ovoid_record *record, do
         if (states & ~starts & TRACK_WITHIN) add_event(&t->reach, 1, event);
     }
     if (!t->has_smallest || answer->lower < t->smallest.answer.lower) t->smallest = *record, t->has_smallest = 1;
-    if (t->has_plot && !t->is_full) t->is_full = !add_point(t, couple, record, 0);
+    keep_point(t, couple, record, 0);
 }
 
 void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *record, double until) {
@@ -163,7 +170,7 @@ void track_add_impact(cli_track *t, ovoid_couple couple, const ovoid_record *rec
         add_event(&t->unproven, TRACK_LISTED, make_event(couple, record, from, until));
         return;
     }
-    if (t->has_plot && !t->is_full) t->is_full = !add_point(t, couple, record, 1);
+    keep_point(t, couple, record, 1);
     track_event event = make_event(couple, record, from, record->time);
     unsigned starts = find_states(t, couple);
     if (!(starts & TRACK_WITHIN)) {

@@ -20,6 +20,7 @@ typedef struct track_pair {
     track_point *points;
     size_t count, capacity;
     double lowest;
+    size_t lowest_frame; ///< where it is, or before it where that is an impact
 } track_pair;
 
 /// A contact, or an impact: after `from`, not later than `until`. Of an impact that is not proven: between both nothing
@@ -65,10 +66,11 @@ typedef struct cli_track {
     ovoid_record smallest; ///< of the frames, the record of the smallest distance; names and time hold
     ovoid_record nearest;  ///< of the impacts, the record of the smallest distance
     int failed;            ///< no memory
-    // Of the plot; unused where has_plot is 0.
-    int has_plot, is_full; ///< is_full: too many points
-    int has_wide;          ///< some bracket is wide
-    double first, last;    ///< times of the frames
+    // Of a plot or a page; unused where neither is wanted.
+    int has_plot, has_pairs; ///< has_pairs: the pairs are kept, without their points
+    int is_full;             ///< too many points
+    int has_wide;            ///< some bracket is wide
+    double first, last;      ///< times of the frames
     size_t frame_count;
     track_pair *pairs;
     size_t pair_count, pair_capacity;

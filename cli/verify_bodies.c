@@ -161,6 +161,9 @@ static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
                                    {.shape = ovoid_shapes_get(bodies->list, pair.b).shape, .pose = pair.pose_b}};
     if (record->a || record->b || record->index_a != pair.a || record->index_b != pair.b)
         disprove(item, "a and b are not those of the pair with the same place in the pairs");
+    ovoid_record meshes = {.mesh_a = ovoid_shapes_get(bodies->list, pair.a).convexity,
+                           .mesh_b = ovoid_shapes_get(bodies->list, pair.b).convexity};
+    check_meshes(record, &meshes, item);
     return 1;
 }
 

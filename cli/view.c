@@ -1,4 +1,5 @@
-// ovoid view: a scene, a pair or one body as an SVG picture: polyhedra, ellipsoids, areas, witness points.
+// ovoid view: a scene, a pair or one body as an SVG picture, or as a page for the browser: polyhedra, ellipsoids,
+// areas, witness points.
 #include "commands.h"
 
 #include "answers.h"
@@ -6,6 +7,7 @@
 #include "inputs.h"
 #include "message.h"
 #include "outputs.h"
+#include "page/scenes.h"
 
 #include <ovoid/ovoid.h>
 
@@ -15,7 +17,7 @@
 typedef struct settings {
     read_settings read;
     ovoid_pose pose_a, pose_b;
-    const char *output;
+    const char *output, *html;
     ovoid_vec3 from;
     unsigned layers, width, height;
     int parts;
@@ -24,7 +26,8 @@ typedef struct settings {
 
 static const cli_option options[] = {
     {"output", 'o', OPTION_OUTPUT, offsetof(settings, output), "FILE", "svg",
-     "the picture, an SVG file (default: standard output)"},
+     "the picture, an SVG file (default: standard output, unless there is --html)"},
+    PAGE_OPTION(settings),
     {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), ARGS_POSE, NULL,
      "pose of A" ARGS_POSE_HELP " (default: \"0 0 0\")"},
     {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
@@ -48,15 +51,22 @@ static const cli_option options[] = {
 /// Most objects whose nearest pairs are drawn unasked: more would bury the bodies.
 #define OBJECTS_FEW 12
 
+/// The objects of a link.
+typedef struct linked_couple {
+    ovoid_couple couple;
+    double lower;
+} linked_couple;
+
 /// The contents of the picture.
 typedef struct drawing {
     ovoid_body *bodies; ///< the objects
     size_t *first;      ///< of each object: the index of its first drawn body; of a compound the other parts follow
     ovoid_picture_body *drawn; ///< shapes, and the parts of compounds
     ovoid_picture_link *links;
-    ovoid_answer *answers; ///< of the links
-    ovoid_mesh **meshes;   ///< of the objects, where they are drawn
-    ovoid_faces *faces;    ///< of the drawn bodies that have a mesh
+    ovoid_answer *answers;  ///< of the links
+    linked_couple *couples; ///< of the links
+    ovoid_mesh **meshes;    ///< of the objects, where they are drawn
+    ovoid_faces *faces;     ///< of the drawn bodies that have a mesh
     size_t body_count, drawn_count, link_count, link_capacity;
 } drawing;
 
@@ -81,6 +91,7 @@ static void clear_drawing(drawing *d) {
     free(d->drawn);
     free(d->links);
     free(d->answers);
+    free(d->couples);
 }
 
 static size_t count_parts(const ovoid_compound *compound) {
@@ -128,11 +139,14 @@ static int add_link(drawing *d, size_t a, size_t b, const ovoid_compound_answer 
         if (links) d->links = links;
         ovoid_answer *answers = realloc(d->answers, capacity * sizeof *answers);
         if (answers) d->answers = answers;
-        if (!links || !answers) return message_error("out of memory"), EXIT_INPUT;
+        linked_couple *couples = realloc(d->couples, capacity * sizeof *couples);
+        if (couples) d->couples = couples;
+        if (!links || !answers || !couples) return message_error("out of memory"), EXIT_INPUT;
         d->link_capacity = capacity;
     }
     d->links[d->link_count] =
         (ovoid_picture_link){.a = d->first[a] + answer->part_a, .b = d->first[b] + answer->part_b};
+    d->couples[d->link_count] = (linked_couple){{(uint32_t)a, (uint32_t)b}, answer->answer.lower};
     d->answers[d->link_count++] = answer->answer;
     return 0;
 }
@@ -181,15 +195,12 @@ static int link_within(drawing *d, const ovoid_scene *scene, double margin) {
     return code;
 }
 
-/// Finds the links and writes the picture; returns the exit code.
-static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
+/// 1 if there is to be an SVG picture.
+static int is_drawn(const settings *s) { return s->output || !s->html; }
+
+/// Writes the picture; returns the exit code.
+static int write_picture(drawing *d, const settings *s, const ovoid_scene *scene) {
     ovoid_error error;
-    int code = 0;
-    if (s->margin >= 0)
-        code = link_within(d, scene, s->margin);
-    else if (d->body_count <= OBJECTS_FEW || s->layers & OVOID_PICTURE_WITNESS)
-        code = link_nearest(d, scene);
-    if (code) return code;
     for (size_t i = 0; i < d->link_count; i++) d->links[i].answer = &d->answers[i];
     ovoid_picture picture = {.bodies = d->drawn,
                              .body_count = d->drawn_count,
@@ -206,8 +217,43 @@ static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
     return EXIT_INPUT;
 }
 
-static int draw_scene(const settings *s, const char *path) {
-    ovoid_scene *scene = inputs_read_scene(path, 0);
+/// Finds the links and writes the picture, where one is wanted; returns the exit code.
+static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
+    int code = 0;
+    if (s->margin >= 0)
+        code = link_within(d, scene, s->margin);
+    else if (d->body_count <= OBJECTS_FEW || s->layers & OVOID_PICTURE_WITNESS)
+        code = link_nearest(d, scene);
+    return code || !is_drawn(s) ? code : write_picture(d, s, scene);
+}
+
+static int compare_couples(const void *a, const void *b) {
+    const linked_couple *p = a, *q = b;
+    if (p->lower != q->lower) return p->lower < q->lower ? -1 : 1;
+    if (p->couple.a != q->couple.a) return p->couple.a < q->couple.a ? -1 : 1;
+    return p->couple.b < q->couple.b ? -1 : p->couple.b > q->couple.b;
+}
+
+/// Writes the page of a scene, with its links. 0, or an exit code after a message.
+static int write_page(cli_page *page, drawing *d, const settings *s, const ovoid_scene *scene, const char *path) {
+    if (!page->path) return 0;
+    ovoid_pose *poses = inputs_copy_poses(scene);
+    if (!poses) return EXIT_INPUT;
+    if (d->link_count) qsort(d->couples, d->link_count, sizeof *d->couples, compare_couples);
+    const answers_job job = {.scene = scene,
+                             .poses = poses,
+                             .query = QUERY_DISTANCE,
+                             .margin = s->margin,
+                             .couples = d->couples,
+                             .stride = sizeof *d->couples,
+                             .count = d->link_count};
+    int code = page_write_scene(page, path, &job);
+    free(poses);
+    return code;
+}
+
+static int draw_scene(const settings *s, const char *path, cli_page *page) {
+    ovoid_scene *scene = inputs_read_scene(path, 1);
     if (!scene) return EXIT_INPUT;
     size_t count = ovoid_scene_get_count(scene), drawn = 0;
     for (size_t i = 0; i < count; i++) drawn += count_parts(ovoid_scene_get(scene, i).compound);
@@ -217,9 +263,10 @@ static int draw_scene(const settings *s, const char *path) {
         ovoid_scene_object object = ovoid_scene_get(scene, i);
         ovoid_body body = {.shape = object.shape, .compound = object.compound, .pose = object.pose};
         add_body(&d, object.name, &body);
-        code = add_mesh(&d, s->layers, drawn, &object);
+        if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &object);
     }
     if (!code) code = draw(&d, s, scene);
+    if (!code) code = write_page(page, &d, s, scene, path);
     clear_drawing(&d);
     ovoid_scene_destroy(scene);
     return code;
@@ -232,7 +279,8 @@ static const char *get_base(const char *path) {
 }
 
 /// Draws one body, or A and B.
-static int draw_bodies(const settings *s, const cli_operands *paths) {
+static int draw_bodies(const settings *s, const cli_operands *paths, cli_page *page) {
+    page_body listed[2];
     cli_body bodies[2] = {{NULL, NULL, NULL}, {NULL, NULL, NULL}};
     size_t drawn = 0;
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
@@ -249,9 +297,12 @@ static int draw_bodies(const settings *s, const cli_operands *paths) {
         ovoid_scene_object object = {.mesh = paths->items[i], .read = inputs_make_options(&s->read)};
         object.read.parts = s->parts;
         add_body(&d, get_base(paths->items[i]), &body);
-        code = add_mesh(&d, s->layers, drawn, &object);
+        listed[i] = (page_body){get_base(paths->items[i]), body, paths->items[i], object.read};
+        if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &object);
     }
     if (!code) code = draw(&d, s, NULL);
+    const page_bodies_source source = {listed, (size_t)paths->count, inputs_get_unit(&s->read), s->margin};
+    if (!code) code = page_write_files(page, &source);
     clear_drawing(&d);
     inputs_close_body(&bodies[0]);
     inputs_close_body(&bodies[1]);
@@ -265,8 +316,9 @@ static int run(const cli_command *command, int argc, char **argv) {
                   .margin = -1};
     cli_operands paths;
     int code = command_parse(command, argc, argv, &s, &paths);
+    if (code < 0) code = page_settle(command, s.html, (shard_part){0, 0});
     if (code >= 0) return code;
-    if (!s.output && message_is_terminal(stdout))
+    if (is_drawn(&s) && !s.output && message_is_terminal(stdout))
         return args_complain(command, "view: --output FILE is missing, and standard output is a terminal");
     int is_scene = paths.count == 1 && inputs_is_scene(paths.items[0]);
     if (is_scene && s.parts)
@@ -274,22 +326,28 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (is_scene && (s.read.unit != INPUTS_NO_UNIT || s.read.scale > 0))
         return args_complain(command,
                              "view: --unit and --scale are for A and B; a scene says its own (\"unit\": \"mm\")");
-    if (is_scene) return draw_scene(&s, paths.items[0]);
-    return draw_bodies(&s, &paths);
+    cli_page page;
+    if (page_open(&page, s.html)) return EXIT_INPUT;
+    code = is_scene ? draw_scene(&s, paths.items[0], &page) : draw_bodies(&s, &paths, &page);
+    page_close(&page);
+    return code;
 }
 
 const cli_command command_view = {
     .name = "view",
     .summary = "a picture of a scene or of bodies",
     .usage = "[OPTION...] SCENE.json -o PICTURE.svg\n"
-             "[OPTION...] A [B] -o PICTURE.svg",
+             "[OPTION...] A [B] -o PICTURE.svg\n"
+             "[OPTION...] SCENE.json --html PAGE.html",
     .description = "Draws a scene, a pair or one body as an SVG picture: the polyhedra, the ellipsoid around each and "
-                   "the one inside it, the witness points of pairs and the distance between them.",
+                   "the one inside it, the witness points of pairs and the distance between them. With --html, "
+                   "writes a page for the browser that shows the same and checks the proofs of these pairs.",
     .exits = "0 drawn\n"
              "2 the command line is wrong\n"
-             "3 bad input, or a picture that could not be written",
+             "3 bad input, or a picture or a page that could not be written",
     .examples = "ovoid view cell.json -o cell.svg\n"
                 "ovoid view a.stl b.stl --pose-b \"0 0 2 1 0 0 0\" -o pair.svg\n"
+                "ovoid view cell.json --html cell.html\n"
                 "ovoid view rock.obj --layers inner,areas -o areas.svg",
     .options = options,
     .operands_min = 1,

@@ -50,6 +50,8 @@ if(TARGET ovoid_cli)
   install(TARGETS ovoid_cli COMPONENT tool)
   install(FILES cli/ovoid.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
   install(FILES cli/ovoid.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ovoid COMPONENT tool)
+  # The template of pages, where `make page` has built it.
+  install(FILES ${PROJECT_BINARY_DIR}/page.html DESTINATION ${CMAKE_INSTALL_DATADIR}/ovoid COMPONENT tool OPTIONAL)
 endif()
 
 include(CMakePackageConfigHelpers)

@@ -1,8 +1,28 @@
 // Two bodies, a solid of up to 24 triangles over up to 12 points, and another, a shape or a compound of it. Truth: the
-// check without search of each answer; brackets of one distance have a point in common; a winding number is the same
-// again, and none is given of what is not closed.
+// exact judge (not of compounds), and the check without search, of each answer; brackets of one distance have a point
+// in common; a winding number is the same again, and none is given of what is not closed; where a surface meets itself
+// does not depend on how much is asked for.
 #include "ask.h"
 #include "bodies.h"
+
+#ifdef OVOID_HAVE_JUDGE
+#include <judge.h>
+
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+    static judge *the_judge;
+    if (!the_judge) the_judge = judge_create();
+    fuzz_require(the_judge != NULL);
+    judge_set_touching(the_judge, INFINITY);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    if (pair->a.compound || pair->b.compound) return;
+    fuzz_require_code(judge_check_solid(the_judge, pair, x, all, 0, &error), &error);
+    judge_forget(the_judge);
+}
+#else
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+    (void)pair, (void)x, (void)all;
+}
+#endif
 
 enum { POINTS = 12, TRIANGLES = 24, ITEMS = 2048 };
 
@@ -32,6 +52,10 @@ static ovoid_solid *take_triangles(fuzz_bytes *from) {
     int found = ovoid_solid_compute_winding(s, p, &winding);
     fuzz_require(!found || r.is_closed);
     fuzz_require(found == ovoid_solid_compute_winding(s, p, &again) && winding == again);
+    ovoid_solid_crossings all = ovoid_solid_compute_crossings(s, UINT64_MAX),
+                          some = ovoid_solid_compute_crossings(s, 2);
+    fuzz_require(all.is_complete && some.pairs == (all.pairs < 2 ? all.pairs : 2));
+    fuzz_require(some.triangle_a == all.triangle_a && some.triangle_b == all.triangle_b);
     fuzz_require(r.components >= 1 && r.components <= r.points);
     return s;
 }
@@ -54,7 +78,10 @@ typedef struct findings {
 
 static void check(findings *f, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    if (all->count <= all->capacity) fuzz_require_code(ovoid_solid_answer_check(f->pair, x, all, &error), &error);
+    if (all->count <= all->capacity) {
+        fuzz_require_code(ovoid_solid_answer_check(f->pair, x, all, &error), &error);
+        put_before_judge(f->pair, x, all);
+    }
     f->lower = fmax(f->lower, x->lower);
     f->upper = fmin(f->upper, x->upper);
     fuzz_require(f->lower <= f->upper);

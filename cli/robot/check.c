@@ -7,6 +7,7 @@
 #include "outputs.h"
 #include "pipeline.h"
 #include "progress.h"
+#include "robot/page.h"
 #include "robot/report.h"
 #include "robot/tally.h"
 
@@ -22,6 +23,7 @@ typedef struct settings {
     int gradient;
     unsigned threads, top;
     shard_part part;
+    const char *html;
 } settings;
 
 static const cli_option options[] = {
@@ -35,6 +37,7 @@ static const cli_option options[] = {
      "list N states, 0: all; all are counted (default: of a table 20, else all)"},
     THREADS_OPTION(settings),
     SHARD_OPTION(settings),
+    PAGE_OPTION(settings),
     ROBOT_OPTIONS(settings),
     REPORT_OPTIONS(settings),
     {.name = NULL},
@@ -61,6 +64,8 @@ typedef struct check {
     tally tally;
     report_state *rows; ///< of the table
     near_list kept;     ///< their near pairs
+    robot_page *page;
+    const char *urdf;
 } check;
 
 /// States of a pipeline's slot.
@@ -203,6 +208,8 @@ static int drain(void *context, void *slot) {
         results_count(&c->results, (exit_code)cell_get_exit(k->answers[i].status));
         if (c->rows && k->first + i < c->listed) good &= keep(c, k, i, near);
         if (!good) return message_error("out of memory"), EXIT_INPUT;
+        const report_state state = get_state(c, k, i, near);
+        robot_page_add_state(c->page, &c->form, &state);
         near += k->counts[i];
     }
     progress_set(k->first + k->count);
@@ -303,7 +310,8 @@ static int run_check(check *c) {
     if (code != worst) return code;
     if (c->listed < count) message_note("%zu more states%s", count - c->listed, is_table ? ": --top 0, or --json" : "");
     tally_report(&c->tally, c->form.cell, progress_get_seconds() - start);
-    return code;
+    const robot_page_source source = {c->urdf, &s->cell, c->form.cell, c->form.states, NULL, 0};
+    return robot_page_write(c->page, &source) ? EXIT_INPUT : code;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -313,6 +321,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_states states = {.part = {0, 0}};
     int code = command_parse(command, argc, argv, &s, &operands);
     if (code < 0) code = results_settle_part(command, &s.out, s.part);
+    if (code < 0) code = page_settle(command, s.html, s.part);
     if (code < 0) code = states_settle(command, &s.states);
     if (code < 0 && s.part.count && !s.states.path)
         code = args_complain(command, "%s: --shard goes with --states Q.csv", command->name);
@@ -320,13 +329,18 @@ static int run(const cli_command *command, int argc, char **argv) {
         code = args_complain(command, "%s: --gradient goes with --near D", command->name);
     if (code >= 0) return code;
     s.cell.robot = &s.robot;
+    robot_page page;
+    if (robot_page_open(&page, s.html)) return EXIT_INPUT;
     code = cell_open(command, operands.items[0], &s.cell, &cell);
-    if (code) return code;
+    if (code) return robot_page_close(&page), code;
     states.part = s.part;
     code = states_open(command, &s.states, &cell, &states);
     if (!code) {
-        check c = {
-            .settings = &s, .form = {&cell, &states, s.near > 0, s.gradient}, .options = cell_make_options(&s.cell)};
+        check c = {.settings = &s,
+                   .form = {&cell, &states, s.near > 0, s.gradient},
+                   .options = cell_make_options(&s.cell),
+                   .page = &page,
+                   .urdf = operands.items[0]};
         c.near_options = c.options;
         c.near_options.margin = s.near;
         code = s.part.count ? run_shard(&c, command, &operands) : run_check(&c);
@@ -335,6 +349,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         free(c.rows);
         states_close(&states);
     }
+    robot_page_close(&page);
     cell_close(&cell);
     return code;
 }

@@ -6,6 +6,7 @@
 #include "outputs.h"
 #include "progress.h"
 #include "robot/commands.h"
+#include "robot/page.h"
 #include "robot/proof.h"
 #include "robot/report.h"
 #include "robot/speed.h"
@@ -17,7 +18,7 @@ typedef struct settings {
     robot_settings robot;
     states_settings states;
     output_settings out;
-    const char *plot;
+    const char *plot, *html;
     double tolerance, clearance_tolerance;
     int proofs, edges, clearance, speed;
     unsigned most;
@@ -39,6 +40,7 @@ static const cli_option options[] = {
      "with a column \"time\": report joints that are faster than the URDF's limit"},
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distance of the nearest pair over the path, sampled"},
+    PAGE_OPTION(settings),
     {"tol", 0, OPTION_SHARE, offsetof(settings, tolerance), "T", NULL,
      "end when the first hit is known to within T of a segment (default: 1e-6)"},
     {"max-states", 0, OPTION_COUNT, offsetof(settings, most), "N", NULL,
@@ -107,6 +109,14 @@ static void write_answer(const path_report *r, const cli_results *results) {
     (out->json ? path_write_json : out->csv ? path_write_csv : path_write_text)(results->file, r);
 }
 
+/// A run: the path that is asked about, and what lasts from one to the next.
+typedef struct path_run {
+    path_report report;
+    ovoid_robot_checker *checker;
+    robot_page page;
+    const char *urdf;
+} path_run;
+
 /// What was found of all paths.
 typedef struct path_counts {
     size_t statuses[4], steps, looked_at;
@@ -120,8 +130,9 @@ static void add_counts(path_counts *c, const path_report *r) {
 }
 
 /// One path: its answer, checked and written. 0, or an exit code after a message.
-static int run_one(const settings *s, path_report *r, ovoid_robot_checker *checker, const cli_results *results,
-                   path_counts *counts) {
+static int run_one(const settings *s, path_run *run, const cli_results *results, path_counts *counts) {
+    path_report *r = &run->report;
+    ovoid_robot_checker *checker = run->checker;
     const ovoid_robot_path path = {r->states->q, r->states->count};
     ovoid_robot_path_options o = {.check = cell_make_options(&s->cell), .tolerance = s->tolerance, .states = s->most};
     ovoid_robot_clearance clearance;
@@ -130,6 +141,7 @@ static int run_one(const settings *s, path_report *r, ovoid_robot_checker *check
     if (code) return code;
     if (s->proofs && check_proofs(r, &path, &o)) counts->proven = EXIT_NOT_PROVEN;
     write_answer(r, results);
+    robot_page_add_path(&run->page, r);
     r->clearance = NULL;
     add_counts(counts, r);
     return 0;
@@ -162,15 +174,26 @@ static void report_counts(const settings *s, const path_counts *c, const cli_sta
                      seconds, c->looked_at, c->steps);
 }
 
+/// Draws the plot and writes the page, those that are wanted. 0, or an exit code after a message.
+static int draw(const settings *s, path_run *run) {
+    const path_report *r = &run->report;
+    const ovoid_robot_check_options o = cell_make_options(&s->cell);
+    int code = s->plot ? path_plot(s->plot, r, run->checker, &o) : 0;
+    int has_clearance = !s->edges && r->answer.status != OVOID_ROBOT_REFUSED;
+    const robot_page_source source = {run->urdf, &s->cell, r->cell, r->states, run->checker, has_clearance};
+    return code ? code : robot_page_write(&run->page, &source);
+}
+
 /// All paths: one through all states, or one for each two of them.
-static int run_paths(const settings *s, const char *urdf, path_report *r, ovoid_robot_checker *checker) {
+static int run_paths(const settings *s, path_run *run) {
+    path_report *r = &run->report;
     const cli_states *states = r->states;
     size_t count = s->edges ? states->count / 2 : 1;
     cli_results results;
     path_counts counts = {.steps = 0};
     if (results_open(&results, &s->out, 0, "")) return EXIT_INPUT;
     results.header_due = 0;
-    if (s->proofs) proof_write_source(results.file, &(const proof_source){urdf, &s->cell, r->cell, count});
+    if (s->proofs) proof_write_source(results.file, &(const proof_source){run->urdf, &s->cell, r->cell, count});
     if (s->out.csv) path_write_csv_header(results.file);
     double start = progress_get_seconds();
     int code = 0;
@@ -178,7 +201,7 @@ static int run_paths(const settings *s, const char *urdf, path_report *r, ovoid_
     for (r->number = 0; r->number < count && !code; r->number++) {
         cli_states edge = s->edges ? get_edge(states, r->number) : *states;
         r->states = &edge;
-        code = run_one(s, r, checker, &results, &counts);
+        code = run_one(s, run, &results, &counts);
         if (s->edges) progress_set(r->number + 1);
     }
     if (s->edges) progress_end();
@@ -186,8 +209,7 @@ static int run_paths(const settings *s, const char *urdf, path_report *r, ovoid_
     double seconds = progress_get_seconds() - start;
     code = results_close(&results, code ? code : get_exit(&counts));
     if (code == EXIT_INPUT || code == EXIT_PIPE) return code;
-    const ovoid_robot_check_options o = cell_make_options(&s->cell);
-    int drawn = s->plot ? path_plot(s->plot, r, checker, &o) : 0;
+    int drawn = draw(s, run);
     report_counts(s, &counts, states, seconds);
     return drawn ? drawn : code;
 }
@@ -232,27 +254,32 @@ static int run(const cli_command *command, int argc, char **argv) {
     ovoid_error error;
     int code = command_parse(command, argc, argv, &s, &operands);
     if (code < 0) code = settle(command, &s);
+    if (code < 0) code = page_settle(command, s.html, (shard_part){0, 0});
     if (code >= 0) return code;
     s.cell.robot = &s.robot;
+    path_run run = {.urdf = operands.items[0]};
+    if (robot_page_open(&run.page, s.html)) return EXIT_INPUT;
     code = cell_open(command, operands.items[0], &s.cell, &cell);
-    if (code) return code;
+    if (code) return robot_page_close(&run.page), code;
     code = states_open(command, &s.states, &cell, &states);
     int is_too_fast = 0;
     if (!code && s.edges && states.count % 2)
         message_error("--edges: an even number of states is wanted, not %zu", states.count), code = EXIT_INPUT;
     if (!code) code = check_times(&s, &cell, &states, &is_too_fast);
     if (!code) {
-        path_report r = {.cell = &cell, .states = &states, .margin = s.cell.margin, .is_edge = s.edges};
-        ovoid_robot_checker *checker = ovoid_robot_checker_create(cell.cell, NULL, &error);
-        if (checker && s.proofs) r.steps = malloc(STEPS_ROOM * sizeof *r.steps);
-        if (!checker || (s.proofs && !r.steps))
+        path_report *r = &run.report;
+        *r = (path_report){.cell = &cell, .states = &states, .margin = s.cell.margin, .is_edge = s.edges};
+        run.checker = ovoid_robot_checker_create(cell.cell, NULL, &error);
+        if (run.checker && s.proofs) r->steps = malloc(STEPS_ROOM * sizeof *r->steps);
+        if (!run.checker || (s.proofs && !r->steps))
             message_error("out of memory"), code = EXIT_INPUT;
         else
-            code = run_paths(&s, operands.items[0], &r, checker);
+            code = run_paths(&s, &run);
         if (is_too_fast && (code == EXIT_APART || code == EXIT_TOUCH)) code = EXIT_NOT_PROVEN;
-        ovoid_robot_checker_destroy(checker);
-        free(r.steps);
+        ovoid_robot_checker_destroy(run.checker);
+        free(r->steps);
     }
+    robot_page_close(&run.page);
     states_close(&states);
     cell_close(&cell);
     return code;

@@ -89,13 +89,15 @@ typedef struct ovoid_convexity {
     double mesh_volume; /**< NaN where the faces are no closed surface (open, or there twice), or there are none;
                            hollows do not count */
     double hull_volume; /**< of the hull without its rounding radius; 0 where it is not solid; NaN: of no mesh */
-    int is_nonconvex;   /**< 1: the hull has more, beyond rounding and by more than a thousandth: the mesh has dents,
+    int is_nonconvex;   /**< 1: the hull has more, beyond rounding and by more than a millionth: the mesh has dents,
                              holes, or several objects; 0: it has not, or that is not known */
 } ovoid_convexity;
 
 /**
  * Does a part of a mesh fill its hull? hull: of its points. By the volume of the closed surface; rounding is what
- * vertices that are off by 1e-5 of the box's diagonal can change. Equal points count as one. Cost: linear in the faces.
+ * vertices can change that are off by 1e-6 of the largest coordinate, or, where all coordinates are multiples of a
+ * power of ten, by half of that in each direction, up to 1e-5 of the box's diagonal. Equal points count as one. Cost:
+ * linear in the faces.
  */
 OVOID_API ovoid_convexity ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull);
 

@@ -1,6 +1,7 @@
 // From a pair in the world to the kernel of small bodies, and from its corners to bounds.
 #include "exact/small.h"
 
+#include "exact/kept.h"
 #include "pair/hull.h"
 #include "pair/inner.h"
 #include "pair/proof.h"
@@ -10,10 +11,27 @@ static difference get_corner(const small_gjk_result *r, int i) {
     return (difference){{r->at.x[i], r->at.y[i], r->at.z[i]}, r->a[i], r->b[i]};
 }
 
-static void get_corners(const small_gjk_result *r, simplex *x) {
+static void clear_points(simplex *x) {
     x->count = 0;
+    for (int i = 0; i < 4; i++) {
+        x->p[i].a = x->p[i].b = 0;
+        x->weight[i] = 0;
+    }
+}
+
+static void get_corners(const small_gjk_result *r, simplex *x) {
     for (int i = 0; i < 4; i++)
         if (r->valid >> i & 1) x->p[x->count++] = get_corner(r, i);
+}
+
+// One to three corners that were kept, with their weights: all but the differences, which no one asks for.
+static void get_kept_corners(const small_gjk_result *r, simplex *x) {
+    x->count = r->valid == 1 ? 1 : r->valid == 3 ? 2 : 3;
+    for (int i = 0; i < 3; i++) {
+        x->p[i].a = r->a[i];
+        x->p[i].b = r->b[i];
+        x->weight[i] = r->weight[i];
+    }
 }
 
 // The upper bound: of the nearest point, or of the hull around the origin; infinity where the origin is not proven
@@ -26,10 +44,9 @@ static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, 
         return vec3_norm(simplex_compute_point(x)) - f->upper_radii + claim;
     }
     vec3 w[4] = {x->p[0].w, x->p[1].w, x->p[2].w, x->p[3].w};
-    double depth = hull_compute_depth(w, 4, claim);
+    double depth = hull_find_weights(w, claim, x->weight);
     if (!(depth > 0)) return INFINITY;
     end->kind = OVOID_PROOF_HULL;
-    simplex_compute_inside_weights(x);
     return -depth - f->upper_radii;
 }
 
@@ -51,13 +68,12 @@ static void end_at_overlap(double spheres, vec3 line, double upper, ovoid_proof_
 static int run_inner(const pair_frame *f, double spheres, vec3 line, small_end *end) {
     double upper = inner_compute_upper_in_world(f, &end->inner);
     if (!(upper < 0)) return 0;
-    end->points.count = 0;
+    clear_points(&end->points);
     end_at_overlap(spheres, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_INNER, end);
     return 1;
 }
 
-// A search from the line of centres.
-static small_gjk_query make_query(const pair_frame *f, const query_goal *goal) {
+small_gjk_query small_make_query(const pair_frame *f, const query_goal *goal) {
     vec3 n = f->between;
     return (small_gjk_query){shape_get_points(f->a),
                              shape_get_points(f->b),
@@ -81,7 +97,7 @@ int small_begin(const pair_frame *f, const query_goal *goal, double spheres, sma
     vec3 d = f->between;
     if (!(vec3_norm_squared(d) > 1e-150)) return 0;
     if (spheres < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, spheres, d, end)) return 1;
-    *q = make_query(f, goal);
+    *q = small_make_query(f, goal);
     return -1;
 }
 
@@ -93,12 +109,18 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     end->lower = r->gap * scale - f->lower_radii - claim;
     end->iterations = r->iterations;
     end->stage = r->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
+    clear_points(&end->points);
+    end->inner = (vec3){0, 0, 0};
     if (r->end == SMALL_GJK_APART) {
         end->points.p[0] = get_corner(r, 0);
         end->points.weight[0] = 1;
         end->points.count = 1;
         end->kind = OVOID_PROOF_POINTS;
         end->upper = vec3_norm(end->points.p[0].w) - f->upper_radii + claim;
+    } else if (r->end == SMALL_GJK_KEPT) {
+        get_kept_corners(r, &end->points);
+        end->kind = OVOID_PROOF_POINTS;
+        end->upper = r->distance - f->upper_radii + claim;
     } else {
         get_corners(r, &end->points);
         end->upper = find_upper(f, r->end, claim, end);
@@ -117,23 +139,17 @@ int small_run(const pair_frame *f, const query_goal *goal, double spheres, small
 
 // ---- from an earlier proof
 
-// The difference of a proof's entry, in the world's axes. Its indices must be in range.
-static difference get_kept(const pair_frame *f, const ovoid_proof *p, int i) {
-    vec3 a = vec3_at(shape_vertices(f->a), p->a[i]), b = vec3_at(shape_vertices(f->b), p->b[i]);
-    return (difference){frame_world_difference(f, a, b), p->a[i], p->b[i]};
-}
-
 // The hull of four differences that was around the origin: 1 if it still is.
 static int run_kept_hull(const pair_frame *f, const ovoid_proof *p, double spheres, vec3 line, small_end *end) {
     vec3 w[4];
     for (int i = 0; i < 4; i++) {
-        end->points.p[i] = get_kept(f, p, i);
+        end->points.p[i] = kept_get_difference(f, p, i);
         w[i] = end->points.p[i].w;
     }
-    double depth = hull_compute_depth(w, 4, reject_get_claim(f));
+    double depth = hull_find_weights(w, reject_get_claim(f), end->points.weight);
     if (!(depth > 0)) return 0;
     end->points.count = 4;
-    simplex_compute_inside_weights(&end->points);
+    end->inner = (vec3){0, 0, 0};
     end_at_overlap(spheres, line, -depth - f->upper_radii, OVOID_PROOF_HULL, OVOID_STAGE_PROOF, end);
     return 1;
 }
@@ -143,7 +159,7 @@ static int run_kept_inner(const pair_frame *f, const ovoid_proof *p, double sphe
     double upper = inner_compute_upper_at(f, p->inner_a);
     if (!(upper < 0)) return run_inner(f, spheres, line, end);
     end->inner = p->inner_a;
-    end->points.count = 0;
+    clear_points(&end->points);
     end_at_overlap(spheres, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_PROOF, end);
     return 1;
 }
@@ -157,20 +173,8 @@ static small_outcome run_kept_overlap(const pair_frame *f, const ovoid_proof *p,
     return is_proven ? SMALL_ANSWERED : SMALL_UNKNOWN;
 }
 
-// 1 if the search goes on from the proof's differences, 0 if from its normal. A single difference may be no more than
-// what the supports met along a normal that parted the bodies; it is near if it is within the margin.
-static int is_simplex(const pair_frame *f, const query_goal *goal, const ovoid_proof *p) {
-    int is_single = p->count == 1 && goal->far < INFINITY;
-    if (p->kind != OVOID_PROOF_POINTS || p->count == 0 || p->count > 3) return 0;
-    if ((is_single && !(goal->near > 0)) || !proof_is_sound(f, p)) return 0;
-    if (!is_single) return 1;
-    vec3 w = get_kept(f, p, 0).w;
-    double reach = goal->near + f->upper_radii;
-    return vec3_norm_squared(w) <= reach * reach;
-}
-
 static small_outcome run_kept(const pair_frame *f, const query_goal *goal, const small_gjk_kept *kept, small_end *end) {
-    small_gjk_query q = make_query(f, goal);
+    small_gjk_query q = small_make_query(f, goal);
     small_gjk_result r;
     simd_run_small_gjk_kept(&q, kept, &r);
     if (!small_finish(f, goal, &r, end)) return SMALL_OPEN;
@@ -182,15 +186,13 @@ small_outcome small_run_earlier(const pair_frame *f, const query_goal *goal, con
                                 rejection *found, small_end *end) {
     int was_apart = earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS;
     if (!was_apart) return run_kept_overlap(f, earlier, found->lower, end);
-    if (is_simplex(f, goal, earlier)) {
-        small_gjk_kept kept = {.count = earlier->count};
-        for (uint32_t i = 0; i < earlier->count; i++) kept.a[i] = earlier->a[i], kept.b[i] = earlier->b[i];
-        return run_kept(f, goal, &kept, end);
-    }
+    small_gjk_kept kept = kept_get_simplex(f, goal, earlier);
+    if (kept.count) return run_kept(f, goal, &kept, end);
     if (goal->far == INFINITY) return SMALL_UNKNOWN;
     if (reject_by_normal(f, goal->far, earlier, found)) return SMALL_REJECTED;
     // More differences: it touched, and the stages of all pairs say more of that.
     if (earlier->count > 3) return SMALL_OPEN;
-    small_gjk_kept met = {1, {found->a}, {found->b}};
+    uint32_t a = found->a, b = found->b;
+    small_gjk_kept met = {1, {a, a, a, a}, {b, b, b, b}};
     return run_kept(f, goal, &met, end);
 }

@@ -16,9 +16,11 @@ enum { SMALL_POINTS = 32 };
 /// What the search found: bounds that answer the query, and what proves them.
 typedef struct small_end {
     double lower, upper;
-    vec3 normal;    ///< of the lower bound: unit, world
-    simplex points; ///< differences in the world's axes with weights: of the nearest point, or of the origin inside
-    vec3 inner;     ///< INNER: the common point, A's body frame
+    vec3 normal; ///< of the lower bound: unit, world
+    /// Differences in the world's axes with weights: of the nearest point, or of the origin inside. Indices and weights
+    /// of those that do not count are zero, so that sums run over all.
+    simplex points;
+    vec3 inner;            ///< INNER: the common point, A's body frame; else zero
     ovoid_proof_kind kind; ///< POINTS, HULL or INNER
     ovoid_stage stage;
     uint32_t iterations;
@@ -43,6 +45,9 @@ static inline int small_takes(const query_goal *goal, const ovoid_shape *a, cons
 /// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much. 1: answered; 0:
 /// unusual, and nothing is known. The frame needs only frame_place.
 int small_run(const pair_frame *frame, const query_goal *goal, double spheres, small_end *end);
+
+/// The pair as the kernel takes it, from the line of centres.
+small_gjk_query small_make_query(const pair_frame *frame, const query_goal *goal);
 
 /// small_run in parts, for searches in lanes. Before the kernel's search: 1: answered, 0: unusual, -1: *query is to be
 /// searched; it refers to the frame. After it: 1: answered, 0: unusual. Of the frame small_finish reads the size, what

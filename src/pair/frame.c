@@ -1,6 +1,7 @@
 // Making the frame of a pair, and supports in it.
 #include "pair/frame.h"
 
+#include "linear/both.h"
 #include "linear/dd3.h"
 #include "linear/pose.h"
 
@@ -44,11 +45,6 @@ static double place_origins(pair_frame *f, const ovoid_pair *pair) {
 static int is_place(vec3 p) {
     return (fabs(p.x) <= OVOID_LENGTH_MAX) & (fabs(p.y) <= OVOID_LENGTH_MAX) & (fabs(p.z) <= OVOID_LENGTH_MAX);
 }
-
-// A number of A and one of B, side by side.
-typedef double both __attribute__((vector_size(16)));
-
-static inline both both_make(double a, double b) { return (both){a, b}; }
 
 // Sets both rotations to the world, with the operations of quat_to_mat3, and the difference of the spheres' centres. 0:
 // a quaternion has to be looked at, and nothing is set.

@@ -16,6 +16,10 @@
 // triangle are kept with it until it goes. In the end a point of the surface is extreme if at least three of its edges
 // are creases; others are marked as on a face, and the caller runs again without them.
 //
+// Which facet is next is free. Those with many points go first, in turn, so that no list is shared out too often; those
+// with few go last in, first out: a cone's facets while they, their neighbors and their points are in the cache. Of
+// many points these are in the order of a curve that fills space. At 100 000 points both together take 0.4 of the time.
+//
 // The sign is first computed in doubles with the facet's normal, against a bound of its rounding (Shewchuk 1997), so
 // that the exact determinant is left for points within about 1e-15 of the body's size.
 #include "polytope/quickhull.h"
@@ -24,10 +28,14 @@
 #include "base/error.h"
 #include "linear/box.h"
 #include "linear/exact.h"
+#include "polytope/curve.h"
 
 #include <string.h>
 
 #define NOTHING UINT32_MAX
+
+// From so many points on their order in memory counts, and a facet has few points with at most FEW.
+enum { MANY = 2048, FEW = 128 };
 
 typedef struct facet {
     vec3 normal;        // (a - c) x (b - c), rounded
@@ -35,7 +43,8 @@ typedef struct facet {
     uint32_t vertex[3]; // a, b, c
     uint32_t across[3]; // beyond a b, b c, c a
     uint32_t points;    // its list: the highest point above it first, if there is any; NOTHING where empty
-    uint32_t pending;   // the next facet of the queue, NOTHING at its end
+    uint32_t count;     // of its list
+    uint32_t pending;   // the next facet of the queue or the stack, NOTHING at its end
     uint32_t stamp;     // of the last point for which is_above was computed
     uint8_t is_queued, is_above, is_free;
 } facet;
@@ -59,6 +68,7 @@ typedef struct builder {
     array facets, free;     // facet, uint32_t
     array visible, horizon; // uint32_t, edge
     uint32_t first, last;   // of the queue of facets with points above
+    uint32_t top, few;      // of the stack of such facets with at most `few` points
     uint32_t stamp;
     vec3 size; // of the points' box, rounded up
 } builder;
@@ -208,6 +218,7 @@ static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     f->vertex[1] = v;
     f->vertex[2] = w;
     f->across[0] = f->across[1] = f->across[2] = f->points = NOTHING;
+    f->count = 0;
     f->stamp = 0;
     f->is_free = 0;
     return index;
@@ -229,6 +240,11 @@ static void queue_facet(builder *b, uint32_t index) {
     facet *f = get_facet(b, index);
     if (f->is_queued) return;
     f->is_queued = 1;
+    if (f->count <= b->few) {
+        f->pending = b->top;
+        b->top = index;
+        return;
+    }
     f->pending = NOTHING;
     if (b->first == NOTHING)
         b->first = index;
@@ -249,7 +265,8 @@ static void list_point(builder *b, uint32_t index, uint32_t p, int side, double 
     uint32_t *link = is_first ? &f->points : &b->next[f->points];
     b->next[p] = *link;
     *link = p;
-    if (side > 0) queue_facet(b, index);
+    f->count++;
+    if (side > 0 && !b->few) queue_facet(b, index);
 }
 
 // Assigns a point: to the first of the facets that it is above, else to one that it is on, else it is inside. Only a
@@ -272,6 +289,12 @@ static void place_point(builder *b, uint32_t p, const uint32_t *facets, uint32_t
         b->state[p] = POINT_INSIDE;
 }
 
+// New facets, whose lists are complete; of few points each went in with its first one.
+static void queue_facets(builder *b, const uint32_t *facets, uint32_t count) {
+    for (uint32_t i = 0; i < count && b->few; i++)
+        if (has_above(b, get_facet(b, facets[i]))) queue_facet(b, facets[i]);
+}
+
 static int make_simplex(builder *b, uint32_t count, const uint32_t given[4]) {
     uint32_t c[4] = {given[0], given[1], given[2], given[3]}, f[4];
     // The fourth corner below the first three.
@@ -291,6 +314,7 @@ static int make_simplex(builder *b, uint32_t count, const uint32_t given[4]) {
         b->state[p] = POINT_EXTREME;
         if (p != c[0] && p != c[1] && p != c[2] && p != c[3]) place_point(b, p, f, 4);
     }
+    queue_facets(b, f, 4);
     return 1;
 }
 
@@ -376,6 +400,7 @@ static int share_points(builder *b, uint32_t p) {
         f->is_free = 1;
         if (!push_index(&b->free, index, b->allocator)) return 0;
     }
+    queue_facets(b, fresh, b->horizon.count);
     return 1;
 }
 
@@ -389,10 +414,10 @@ static ovoid_code add_point(builder *b, uint32_t start) {
 
 static ovoid_code build(builder *b, uint32_t count, const uint32_t corner[4]) {
     if (!make_simplex(b, count, corner)) return OVOID_ERROR_MEMORY;
-    while (b->first != NOTHING) {
-        uint32_t index = b->first;
+    while (b->first != NOTHING || b->top != NOTHING) {
+        uint32_t *list = b->first != NOTHING ? &b->first : &b->top, index = *list;
         facet *f = get_facet(b, index);
-        b->first = f->pending;
+        *list = f->pending;
         f->is_queued = 0;
         if (f->is_free || !has_above(b, f)) continue;
         ovoid_code code = add_point(b, index);
@@ -413,8 +438,14 @@ static void mark_corners(builder *b, const surface *s, uint32_t count) {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         const uint32_t *corner = s->triangles + 3 * (size_t)t;
         vec3 p[3] = {get_point(b, corner[0]), get_point(b, corner[1]), get_point(b, corner[2])};
-        for (uint32_t k = 0; k < 3; k++)
-            if (orient3d_sign(p[0], p[1], p[2], get_point(b, surface_get_beyond(s, t, k)))) creases[corner[k]]++;
+        // Each edge from the first of its triangles.
+        for (uint32_t k = 0; k < 3; k++) {
+            int is_first = t < s->across[3 * (size_t)t + k];
+            if (is_first && orient3d_sign(p[0], p[1], p[2], get_point(b, surface_get_beyond(s, t, k)))) {
+                creases[corner[k]]++;
+                creases[corner[(k + 1) % 3]]++;
+            }
+        }
     }
     for (uint32_t i = 0; i < count; i++) {
         if (b->state[i] != POINT_EXTREME) continue;
@@ -487,23 +518,62 @@ static vec3 compute_size(const double *grid, uint32_t count) {
     return vec3_scale(vec3_sub(b.max, b.min), 1 + 0x1p-50);
 }
 
+// The hull of points as they lie in memory, from its first simplex.
+static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
+    b->first = b->last = b->top = NOTHING;
+    b->size = compute_size(b->grid, count);
+    b->state = s->state = allocator_allocate(b->allocator, count, 1);
+    b->next = allocator_allocate(b->allocator, count, sizeof *b->next);
+    ovoid_code code = s->state && b->next ? build(b, count, s->corner) : OVOID_ERROR_MEMORY;
+    if (!code && !extract(b, count, s)) code = OVOID_ERROR_MEMORY;
+    allocator_release(b->allocator, b->next);
+    allocator_release(b->allocator, b->facets.items);
+    allocator_release(b->allocator, b->free.items);
+    allocator_release(b->allocator, b->visible.items);
+    allocator_release(b->allocator, b->horizon.items);
+    return code;
+}
+
+// The surface of points in another order as that of the points as they were given. 0 where there is no memory.
+static int restore_order(const curve *c, uint32_t count, surface *s, const ovoid_allocator *allocator) {
+    uint8_t *state = allocator_allocate(allocator, count, 1);
+    if (!state) return 0;
+    for (uint32_t i = 0; i < count; i++) state[c->given[i]] = s->state[i];
+    allocator_release(allocator, s->state);
+    s->state = state;
+    for (size_t i = 0; i < 3 * (size_t)s->triangle_count; i++) s->triangles[i] = c->given[s->triangles[i]];
+    for (int i = 0; i < 4; i++) s->corner[i] = c->given[s->corner[i]];
+    return 1;
+}
+
+// The corners of the first simplex by their places on the curve.
+static void follow_corners(const curve *c, uint32_t count, uint32_t corner[4]) {
+    uint32_t given[4];
+    memcpy(given, corner, sizeof given);
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 4; k++)
+            if (c->given[i] == given[k]) corner[k] = i;
+}
+
+static ovoid_code find_hull_along_curve(builder *b, uint32_t count, surface *s) {
+    curve c;
+    if (!curve_create(b->grid, count, b->allocator, &c)) return OVOID_ERROR_MEMORY;
+    b->grid = c.grid;
+    b->few = FEW;
+    follow_corners(&c, count, s->corner);
+    ovoid_code code = find_hull(b, count, s);
+    if (!code && !restore_order(&c, count, s, b->allocator)) code = OVOID_ERROR_MEMORY;
+    curve_destroy(&c, b->allocator);
+    return code;
+}
+
 ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, surface *s, ovoid_error *error) {
     uint32_t count = p->count;
-    builder b = {.grid = p->grid, .allocator = allocator, .first = NOTHING, .last = NOTHING};
+    builder b = {.grid = p->grid, .allocator = allocator};
     *s = (surface){0};
     find_simplex(&b, count, s);
     if (s->rank < 3) return OVOID_OK;
-
-    b.size = compute_size(p->grid, count);
-    b.state = s->state = allocator_allocate(allocator, count, 1);
-    b.next = allocator_allocate(allocator, count, sizeof *b.next);
-    ovoid_code code = s->state && b.next ? build(&b, count, s->corner) : OVOID_ERROR_MEMORY;
-    if (!code && !extract(&b, count, s)) code = OVOID_ERROR_MEMORY;
-    allocator_release(allocator, b.next);
-    allocator_release(allocator, b.facets.items);
-    allocator_release(allocator, b.free.items);
-    allocator_release(allocator, b.visible.items);
-    allocator_release(allocator, b.horizon.items);
+    ovoid_code code = count < MANY ? find_hull(&b, count, s) : find_hull_along_curve(&b, count, s);
     if (code) surface_destroy(s, allocator);
     if (code == OVOID_ERROR_MEMORY) return error_set(error, code, -1, "no memory for the hull of %u points", count);
     if (code) return error_set(error, code, -1, "the hull of %u points does not close", count);

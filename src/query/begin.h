@@ -3,7 +3,7 @@
 #ifndef OVOID_QUERY_BEGIN_H
 #define OVOID_QUERY_BEGIN_H
 
-#include "exact/small.h"
+#include "exact/kept.h"
 #include "query/goal.h"
 
 /// The rejection along an earlier proof's normal. That of a proof of overlap separated nothing, so it is not tried.
@@ -17,12 +17,15 @@ static inline int reject_by_earlier(const pair_frame *f, const query_goal *goal,
 /// How a query begins: refused, rejected, answered as a pair of small bodies, or passed on to the search.
 typedef enum beginning { BEGIN_REFUSED, BEGIN_REJECTED, BEGIN_SMALL, BEGIN_SEARCH } beginning;
 
-/// The kernel of small bodies, from the earlier proof where that says something.
+/// The kernel of small bodies, from the earlier proof where that says something; of larger ones what the proof's
+/// differences say.
 static inline small_outcome run_small(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
                                       rejection *found, small_end *end) {
     small_outcome outcome = SMALL_UNKNOWN;
     if (earlier && small_fits(goal, frame->a, frame->b, found->lower))
         outcome = small_run_earlier(frame, goal, earlier, found, end);
+    else if (earlier && kept_fits(goal, frame->a, frame->b, found->lower) && kept_run(frame, goal, earlier, end))
+        return SMALL_ANSWERED;
     if (outcome == SMALL_UNKNOWN && small_takes(goal, frame->a, frame->b, found->lower))
         outcome = small_run(frame, goal, found->lower, end) ? SMALL_ANSWERED : SMALL_OPEN;
     return outcome;

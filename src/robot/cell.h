@@ -11,6 +11,13 @@
 /// 256 u: what rounding may do to a centre and a distance, in parts of the lengths that they are made of.
 #define CELL_SLACK ROBOT8_SLACK
 
+/// The ellipsoid inside a shape. Its norm is |W (x - c)| (shape/block.h).
+typedef struct cell_inner {
+    vec3 center;
+    sym3 form;   ///< W' W
+    double size; ///< the lengths that the centre is made of, summed
+} cell_inner;
+
 /// Something that moves with a link.
 typedef struct cell_item {
     const ovoid_shape *shape;
@@ -21,6 +28,7 @@ typedef struct cell_item {
     vec3 middle, half;  ///< the box of its vertices, in its own frame
     double radius;      ///< what it stands out of that, and what rounding may add to the box' place
     ovoid_pose in_link; ///< of its own frame
+    cell_inner inner;   ///< in its own frame
     ovoid_robot_side side;
 } cell_item;
 
@@ -29,6 +37,7 @@ typedef struct cell_part {
     const ovoid_shape *shape;
     ovoid_pose pose;
     oriented_box box;
+    cell_inner inner; ///< in the world
     ovoid_robot_side side;
 } cell_part;
 

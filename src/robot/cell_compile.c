@@ -53,6 +53,16 @@ static void find_box(const ovoid_shape *s, vec3 *middle, vec3 *half) {
     *half = (vec3){(high[0] - low[0]) / 2, (high[1] - low[1]) / 2, (high[2] - low[2]) / 2};
 }
 
+// The ellipsoid inside a shape in the user's frame.
+static cell_inner make_inner(const ovoid_shape *s) {
+    const double *w = s->inside.w;
+    sym3 form = sym3_outer((vec3){w[0], 0, 0}, 1);
+    form = sym3_add(form, sym3_outer((vec3){w[1], w[2], 0}, 1));
+    form = sym3_add(form, sym3_outer((vec3){w[3], w[4], w[5]}, 1));
+    return (cell_inner){vec3_add(s->inner.center, s->origin), form,
+                        vec3_sum_abs(s->inner.center) + vec3_sum_abs(s->origin)};
+}
+
 static void add_item(compiler *x, const ovoid_shape *shape, placed_frame at, ovoid_robot_side side) {
     // The user's frame and the body frame differ by the shape's origin, without rotation.
     vec3 own = vec3_add(shape->center, shape->origin);
@@ -65,6 +75,7 @@ static void add_item(compiler *x, const ovoid_shape *shape, placed_frame at, ovo
                       .far = (local + reach) * (1 + CELL_SLACK),
                       .side = side};
     item.in_link = at.in_link;
+    item.inner = make_inner(shape);
     find_box(shape, &item.middle, &item.half);
     item.radius = shape->lower_radius + CELL_SLACK * (lengths + 2 * norm_of(item.middle));
     append(x, &x->cell->items, &item, sizeof item);
@@ -205,6 +216,12 @@ static oriented_box place_box(const ovoid_shape *shape, const ovoid_pose *pose) 
     return b;
 }
 
+static cell_inner place_inner(const ovoid_shape *shape, const mat3 *rotation, vec3 position) {
+    cell_inner own = make_inner(shape);
+    vec3 center = vec3_add(position, mat3_mul_vec3(*rotation, own.center));
+    return (cell_inner){center, sym3_rotate(own.form, *rotation), own.size + vec3_sum_abs(position)};
+}
+
 static void put_box(box8 *group, uint32_t lane, const oriented_box *b) {
     mat3 r = b->rotation;
     const double all[] = {b->center.x, b->center.y, b->center.z, r.r0.x, r.r0.y,    r.r0.z,    r.r1.x,    r.r1.y,
@@ -226,6 +243,7 @@ static void place_parts(ovoid_robot_cell *c, uint32_t first) {
             parts[i].pose = ovoid_pose_compute_product(&b->body.pose, &inner);
         }
         parts[i].box = place_box(parts[i].shape, &parts[i].pose);
+        parts[i].inner = place_inner(parts[i].shape, &parts[i].box.rotation, parts[i].pose.position);
         put_box(&boxes[i / ROBOT8], i % ROBOT8, &parts[i].box);
     }
 }

@@ -4,11 +4,22 @@
 #include "base/error.h"
 #include "robot/checker.h"
 
+// A pair that spheres and boxes leave.
+typedef struct candidate {
+    checker_pair pair;
+    pair_name name;
+} candidate;
+
+enum { CANDIDATES = 16 };
+
 // What the check of one state found.
 typedef struct state_check {
     ovoid_robot_checker *checker;
     double margin;
     ovoid_robot_answer *answer;
+    pair_name asked; ///< before the search
+    candidate candidates[CANDIDATES];
+    uint32_t count;
 } state_check;
 
 static void take_pair(state_check *s, const checker_pair *p, ovoid_robot_status status, double lower, double upper) {
@@ -18,19 +29,52 @@ static void take_pair(state_check *s, const checker_pair *p, ovoid_robot_status 
     a->lower = lower, a->upper = upper;
 }
 
-// Asks one pair; 0 where it is proven within the margin. Of pairs that stay open the first is kept.
-static int ask_pair(void *context, const checker_pair *p, pair_name name) {
-    state_check *s = context;
-    double margin = add_up(s->margin, p->padding, p->error);
-    ovoid_answer is = ovoid_within(&p->pair, margin, NULL, pair_get_earlier(s->checker, p));
-    pair_remember(s->checker, p, &is.proof);
-    if (is.lower > margin) return 1;
-    double lower = lower_outward(p, is.lower), upper = upper_outward(p, is.upper);
+static int are_equal(pair_name a, pair_name b) { return a.item == b.item && a.index == b.index; }
+
+static void remember_hit(ovoid_robot_checker *x, pair_name name) {
+    x->last_count = are_equal(name, x->last) ? x->last_count + 1 : 1;
+    x->last = name;
+}
+
+// Takes a bracket of the bodies' distance; 0 where it proves the pair within the margin. Of pairs that stay open the
+// first is kept.
+static int take_bracket(state_check *s, const checker_pair *p, pair_name name, double least, double most) {
+    double lower = lower_outward(p, least), upper = upper_outward(p, most);
     int is_hit = upper <= s->margin;
     if (is_hit || s->answer->status == OVOID_ROBOT_FREE)
         take_pair(s, p, is_hit ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED, lower, upper);
-    if (is_hit) s->checker->last = name;
+    if (is_hit) remember_hit(s->checker, name);
     return !is_hit;
+}
+
+static int was_apart(const ovoid_robot_checker *x, const checker_pair *p) {
+    return *p->mark == x->generation && p->proof->kind == OVOID_PROOF_POINTS;
+}
+
+// Asks one pair; 0 where it is proven within the margin.
+static int ask_pair(state_check *s, const checker_pair *p, pair_name name, const ovoid_proof *earlier) {
+    double margin = add_up(s->margin, p->padding, p->error);
+    ovoid_answer is = ovoid_within(&p->pair, margin, NULL, earlier);
+    pair_remember(s->checker, p, &is.proof);
+    return is.lower > margin || take_bracket(s, p, name, is.lower, is.upper);
+}
+
+// With the earlier proof where that parted the bodies: one of an overlap seldom holds for a state that is not close.
+static int ask_candidate(state_check *s, const checker_pair *p, pair_name name) {
+    return ask_pair(s, p, name, was_apart(s->checker, p) ? pair_get_earlier(s->checker, p) : NULL);
+}
+
+// First the ellipsoids inside both bodies, which most hits are proven by; the rest is asked after the search.
+static int look_at_pair(void *context, const checker_pair *p, pair_name name) {
+    state_check *s = context;
+    double lower, upper;
+    if (are_equal(name, s->asked)) return 1;
+    if (!was_apart(s->checker, p) && checker_prove_overlap(s->checker, name, &lower, &upper) &&
+        !take_bracket(s, p, name, lower, upper))
+        return 0;
+    if (s->count == CANDIDATES) return ask_candidate(s, p, name);
+    s->candidates[s->count++] = (candidate){*p, name};
+    return 1;
 }
 
 // The pair that ended the last state; 1 where it does not end this one.
@@ -38,12 +82,13 @@ static int ask_last(state_check *s, const ovoid_robot_check_options *options) {
     ovoid_robot_checker *x = s->checker;
     pair_name last = x->last;
     int is_self = last.item == OVOID_ROBOT_NONE;
-    if (last.index == OVOID_ROBOT_NONE || (is_self ? options->without_self : options->without_obstacles)) return 1;
+    if (x->last_count < 2 || (is_self ? options->without_self : options->without_obstacles)) return 1;
     if (is_self ? checker_is_pair_far(x, last.index, s->margin)
                 : checker_is_part_far(x, last.item, last.index, s->margin))
         return 1;
+    s->asked = last;
     checker_pair p = is_self ? checker_make_item_pair(x, last.index) : checker_make_part_pair(x, last.item, last.index);
-    return ask_pair(s, &p, last);
+    return ask_pair(s, &p, last, pair_get_earlier(x, &p));
 }
 
 static const ovoid_robot_check_options no_options = {0, 0, 0, 0};
@@ -56,10 +101,16 @@ static void refuse(ovoid_robot_answer *answer, ovoid_code code, uint32_t variabl
 // The answer to the state that is placed.
 static void decide(ovoid_robot_checker *x, const ovoid_robot_check_options *options, ovoid_robot_answer *answer) {
     *answer = (ovoid_robot_answer){.status = OVOID_ROBOT_FREE, .lower = options->margin, .upper = INFINITY};
-    state_check s = {x, options->margin, answer};
+    state_check s;
+    s.checker = x, s.margin = options->margin, s.answer = answer;
+    s.asked = (pair_name){OVOID_ROBOT_NONE, OVOID_ROBOT_NONE};
+    s.count = 0;
     if (!ask_last(&s, options)) return;
-    checker_search search = {x, options, &s.margin, ask_pair, &s};
+    checker_search search = {x, options, &s.margin, look_at_pair, &s};
     checker_find_pairs(&search);
+    if (answer->status == OVOID_ROBOT_HIT) return;
+    for (uint32_t i = 0; i < s.count; i++)
+        if (!ask_candidate(&s, &s.candidates[i].pair, s.candidates[i].name)) return;
 }
 
 static ovoid_code check(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,

@@ -4,6 +4,7 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "robot/inner_overlap.h"
 
 #include <string.h>
 
@@ -28,6 +29,7 @@ static void *take(const ovoid_robot_checker *x, size_t count, size_t size, int *
 
 static void forget(ovoid_robot_checker *x) {
     x->last = (pair_name){OVOID_ROBOT_NONE, OVOID_ROBOT_NONE};
+    x->last_count = 0;
     if (++x->generation) return;
     // All numbers have been used.
     memset(x->part_marks, 0, x->cell->items.count * x->cell->parts.count * sizeof *x->part_marks);
@@ -233,6 +235,45 @@ int checker_is_pair_far(ovoid_robot_checker *x, uint32_t pair, double margin) {
     item_pair p = cell_pairs(x->cell)[pair];
     oriented_box a = place_box(x, p.a), b = place_box(x, p.b);
     return oriented_boxes_are_far(&a, &b, margin);
+}
+
+// ---- the ellipsoids inside
+
+// Without the form.
+static inner_body place_inner(ovoid_robot_checker *x, uint32_t item) {
+    const cell_item *it = &cell_items(x->cell)[item];
+    const link_frame *f = get_frame(x, it->frame);
+    vec3 center = vec3_add(f->position, mat3_mul_vec3(f->matrix, it->inner.center));
+    return (inner_body){.shape = it->shape,
+                        .rotation = &f->matrix,
+                        .center = center,
+                        .size = it->inner.size + vec3_sum_abs(f->position)};
+}
+
+// At least the distance of the balls around two boxes.
+static double find_lower(const oriented_box *a, const oriented_box *b) {
+    double apart = vec3_norm(vec3_sub(b->center, a->center)), size = vec3_sum_abs(a->center) + vec3_sum_abs(b->center);
+    double reach = (vec3_norm(a->half) + a->radius) + (vec3_norm(b->half) + b->radius);
+    return apart - reach - CELL_SLACK * (size + reach);
+}
+
+int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper) {
+    const cell_item *items = cell_items(x->cell);
+    const cell_part *part = name.item == OVOID_ROBOT_NONE ? NULL : &cell_parts(x->cell)[name.index];
+    item_pair both = part ? (item_pair){name.item, 0} : cell_pairs(x->cell)[name.index];
+    inner_body a = place_inner(x, both.a), b;
+    if (part)
+        b = (inner_body){part->shape, &part->box.rotation, part->inner.center, part->inner.size, part->inner.form};
+    else
+        b = place_inner(x, both.b);
+    if (!inner_bodies_are_near(&a, &b)) return 0;
+    a.form = sym3_rotate(items[both.a].inner.form, *a.rotation);
+    if (!part) b.form = sym3_rotate(items[both.b].inner.form, *b.rotation);
+    *upper = inner_bodies_compute_upper(&a, &b);
+    if (!(*upper < 0)) return 0;
+    oriented_box box_a = place_box(x, both.a), box_b = part ? part->box : place_box(x, both.b);
+    *lower = find_lower(&box_a, &box_b);
+    return 1;
 }
 
 // ---- pairs

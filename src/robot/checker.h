@@ -57,9 +57,10 @@ typedef struct lane_filter {
 struct ovoid_robot_checker {
     const ovoid_robot_cell *cell;
     ovoid_allocator allocator;
-    uint64_t version; ///< of the cell, that the memory is for
-    double level;     ///< the magnitude that `errors` are of; below zero: none
-    pair_name last;   ///< the pair that ended the last state
+    uint64_t version;    ///< of the cell, that the memory is for
+    double level;        ///< the magnitude that `errors` are of; below zero: none
+    pair_name last;      ///< the pair that ended the last state
+    uint32_t last_count; ///< how many states one after another
     const robot8_kernels *kernels;
     uint32_t generation; ///< of what is remembered: a proof is of use where its mark is this
     uint32_t *part_marks, *pair_marks;
@@ -134,6 +135,10 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair);
 /// 1 where the boxes of a pair prove it farther apart than the margin; padding is added.
 int checker_is_part_far(ovoid_robot_checker *x, uint32_t item, uint32_t part, double margin);
 int checker_is_pair_far(ovoid_robot_checker *x, uint32_t pair, double margin);
+
+/// 1 where the ellipsoids inside both bodies overlap: then a bracket of the signed distance as the poses are, the upper
+/// bound below zero.
+int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper);
 
 /// Called for each pair that is not proven farther apart than `margin`; 0 ends the search.
 typedef int checker_visit(void *context, const checker_pair *pair, pair_name name);

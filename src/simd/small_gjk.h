@@ -23,7 +23,7 @@ typedef struct small_gjk_body {
 
 /// The pair, and when its search ends.
 typedef struct small_gjk_query {
-    simd_points a, b;              ///< body frames, at most SMALL_GJK_POINTS each, padded
+    simd_points a, b;              ///< body frames, padded; at most SMALL_GJK_POINTS each where it is searched
     const double *rows_a, *rows_b; ///< rotations to the world, by rows
     /// The same points turned by them, padded_count of x, then of y, then of z, without a place; NULL: to be turned.
     const double *turned_a, *turned_b;
@@ -36,10 +36,12 @@ typedef struct small_gjk_query {
 } small_gjk_query;
 
 typedef enum small_gjk_end {
-    SMALL_GJK_OPEN,  ///< undecided here
-    SMALL_GJK_APART, ///< the gap along n and the support there answer the query: one corner
-    SMALL_GJK_NEAR,  ///< the gap along n and the nearest point of the corners answer the query: 1 to 3 corners
-    SMALL_GJK_INSIDE ///< the origin seems to be in the tetrahedron of four corners; n is the first direction
+    SMALL_GJK_OPEN,   ///< undecided here
+    SMALL_GJK_APART,  ///< the gap along n and the support there answer the query: one corner
+    SMALL_GJK_NEAR,   ///< the gap along n and the nearest point of the corners answer the query: 1 to 3 corners
+    SMALL_GJK_INSIDE, ///< the origin seems to be in the tetrahedron of four corners; n is the first direction
+    SMALL_GJK_KEPT ///< as NEAR, of the corners of an earlier search, in lanes 0 to 2, with their weights; of lanes not
+                   ///< valid the indices and weights are zero
 } small_gjk_end;
 
 typedef struct small_gjk_result {
@@ -50,20 +52,27 @@ typedef struct small_gjk_result {
     double n[3];         ///< a direction of any length, world, and
     double square, gap;  ///< |n|^2, the gap along it times |n|
     uint32_t iterations; ///< steps of the simplex
+    double weight[3];    ///< KEPT: sum 1 to rounding
+    double distance;     ///< KEPT: of the weighted point from the origin
 } small_gjk_result;
 
 /// Runs the search. The same bits from every instruction set. Every number that comes back but OPEN's is finite; none
 /// is a proof: the caller makes the bounds from them.
 void simd_run_small_gjk(const small_gjk_query *query, small_gjk_result *result);
 
-/// Where a search ended a moment ago: the points of one to three differences, whose indices the bodies have.
+/// Where a search ended a moment ago: the points of one to three differences, whose indices the bodies have. Places
+/// from `count` on repeat the first.
 typedef struct small_gjk_kept {
-    uint32_t count, a[3], b[3];
+    uint32_t count, a[4], b[4];
 } small_gjk_kept;
 
-/// The same, from these differences; query->start is not read. The first support is measured before the bodies are
-/// posed, since it is mostly the last.
+/// The same, from these differences; query->start is not read. Mostly the nearest point still lies between them, and
+/// the first support is the last: it is measured before the bodies are posed.
 void simd_run_small_gjk_kept(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result);
+
+/// The nearest point of kept differences of bodies with any number of points, without a support: KEPT where it lies
+/// between all of them, the gap being 0; else OPEN.
+void simd_find_kept(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result);
 
 typedef void small_gjk_function(const small_gjk_query *query, small_gjk_result *result);
 typedef void small_gjk_kept_function(const small_gjk_query *query, const small_gjk_kept *kept,
@@ -72,11 +81,12 @@ typedef void small_gjk_kept_function(const small_gjk_query *query, const small_g
 /// The function of one instruction set; NULL where this machine or build lacks it.
 small_gjk_function *simd_get_small_gjk(simd_isa isa);
 small_gjk_kept_function *simd_get_small_gjk_kept(simd_isa isa);
+small_gjk_kept_function *simd_get_find_kept(simd_isa isa);
 
 #if defined(__x86_64__) && defined(__GNUC__)
 /// The functions for AVX2, compiled in a file of their own.
 small_gjk_function small_gjk_run_avx2;
-small_gjk_kept_function small_gjk_run_kept_avx2;
+small_gjk_kept_function small_gjk_run_kept_avx2, small_gjk_find_kept_avx2;
 #endif
 
 #endif

@@ -13,6 +13,11 @@ __attribute__((target("avx2"))) void small_gjk_run_kept_avx2(const small_gjk_que
     run_kept_class(query, kept, result);
 }
 
+__attribute__((target("avx2"))) void small_gjk_find_kept_avx2(const small_gjk_query *query, const small_gjk_kept *kept,
+                                                              small_gjk_result *result) {
+    find_kept(query, kept, result);
+}
+
 #else
 #include "simd/small_gjk.h"
 #endif

@@ -2,23 +2,23 @@
 //   met_set(m, w)            the difference of a support, from numbers
 //   corners_meet(c, q, a, b) the differences of four points b and a, posed
 //   find_extreme_point(p, n, blocks, is_least, value)   the point of a body that is extreme along n, in its own frame
+#include "linear/vec3.h"
 #include "simd/small_gjk_kernel.h"
 
 SMALL_GJK_INLINE double turn_row(const double row[3], const simd_points *p, uint32_t i) {
     return (row[0] * p->x[i] + row[1] * p->y[i]) + row[2] * p->z[i];
 }
 
-// The difference of point k of B and point i of A, in the world.
-SMALL_GJK_INLINE void meet_points(const small_gjk_query *q, uint32_t i, uint32_t k, met *m) {
+// The difference of the support's points, in the world.
+SMALL_GJK_INLINE void meet_points(const small_gjk_query *q, met *m) {
     double w[3];
     for (int c = 0; c < 3; c++)
-        w[c] = (turn_row(q->rows_b + 3 * c, &q->b, k) + q->offset[c]) - turn_row(q->rows_a + 3 * c, &q->a, i);
+        w[c] = (turn_row(q->rows_b + 3 * c, &q->b, m->b) + q->offset[c]) - turn_row(q->rows_a + 3 * c, &q->a, m->a);
     met_set(m, w);
-    m->a = i;
-    m->b = k;
 }
 
-// The support along a direction before the bodies are posed: the direction is turned into their frames.
+// The gap along a direction before the bodies are posed: the direction is turned into their frames. Of the support only
+// its points are known: meet_points.
 SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t blocks, double x, double y, double z) {
     const double *ra = q->rows_a, *rb = q->rows_b, *o = q->offset;
     double in_a[3], in_b[3], high, low;
@@ -26,10 +26,56 @@ SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t
         in_a[c] = (ra[c] * x + ra[3 + c] * y) + ra[6 + c] * z;
         in_b[c] = (rb[c] * x + rb[3 + c] * y) + rb[6 + c] * z;
     }
-    uint32_t i = find_extreme_point(&q->a, in_a, blocks, 0, &high),
-             k = find_extreme_point(&q->b, in_b, blocks, 1, &low);
+    m->a = find_extreme_point(&q->a, in_a, blocks, 0, &high);
+    m->b = find_extreme_point(&q->b, in_b, blocks, 1, &low);
     m->gap = (((o[0] * x + o[1] * y) + o[2] * z) + low) - high;
-    meet_points(q, i, k, m);
+}
+
+// The point of one to three corners that is nearest to the origin, where it lies between all of them.
+typedef struct kept_point {
+    vec3 n;                ///< its direction, of any length,
+    double square, height; ///< |n|^2 and n times the point
+    double part[3], sum;   ///< weights times their sum
+} kept_point;
+
+SMALL_GJK_INLINE vec3 get_lane(const corner_lanes *c, int i) { return (vec3){c->x[i], c->y[i], c->z[i]}; }
+
+SMALL_GJK_INLINE int find_between_two(vec3 a, vec3 b, kept_point *p) {
+    vec3 e = vec3_sub(b, a);
+    double to_b = -vec3_dot(a, e);
+    p->n = vec3_cross(e, vec3_cross(a, e));
+    p->sum = vec3_dot(e, e);
+    p->part[0] = p->sum - to_b;
+    p->part[1] = to_b;
+    p->part[2] = 0;
+    return (to_b > 0) & (to_b < p->sum);
+}
+
+// The parts are the areas of the triangles that the origin's projection makes with the edges; of a sliver the normal is
+// uncertain (corner.h).
+SMALL_GJK_INLINE int find_between_three(vec3 a, vec3 b, vec3 c, kept_point *p) {
+    vec3 e = vec3_sub(b, a), f = vec3_sub(c, a), n = vec3_cross(e, f);
+    double u = vec3_dot(n, vec3_cross(b, c)), v = vec3_dot(n, vec3_cross(c, a)), w = vec3_dot(n, vec3_cross(a, b));
+    p->n = vec3_dot(n, a) < 0 ? vec3_neg(n) : n;
+    p->part[0] = u;
+    p->part[1] = v;
+    p->part[2] = w;
+    p->sum = (u + v) + w;
+    return (u > 0) & (v > 0) & (w > 0) & (vec3_dot(n, n) > 1e-4 * (vec3_dot(e, e) * vec3_dot(f, f)));
+}
+
+SMALL_GJK_INLINE int find_between(const corner_lanes *c, uint32_t count, kept_point *p) {
+    vec3 a = get_lane(c, 0);
+    int is_between = 1;
+    if (count == 1)
+        *p = (kept_point){.n = a, .part = {1}, .sum = 1};
+    else if (count == 2)
+        is_between = find_between_two(a, get_lane(c, 1), p);
+    else
+        is_between = find_between_three(a, get_lane(c, 1), get_lane(c, 2), p);
+    p->square = vec3_dot(p->n, p->n);
+    p->height = vec3_dot(p->n, a);
+    return is_between & (p->square > 1e-150) & (p->square < 1e150);
 }
 
 // The lane of the nearest corner of three, and its difference. Which one it is no branch could foresee.
@@ -47,26 +93,58 @@ SMALL_GJK_INLINE unsigned find_nearest(const corners *c, double w[3]) {
     return nearest;
 }
 
-// The walk at the nearest point of the kept corners, posed anew; 0 where there is no certain one. The step is told that
-// the nearest corner is the new one: nearly always it is one of those that hold the nearest point.
-SMALL_GJK_INLINE int begin_at_kept(const small_gjk_query *q, const small_gjk_kept *kept, walk *k) {
+// The walk at another point of the kept corners; 0 where there is no certain one. The step is told that the nearest
+// corner is the new one: nearly always it is one of those that hold the nearest point.
+SMALL_GJK_INLINE int step_at_kept(uint32_t count, walk *k) {
     met m;
     double w[3];
-    for (unsigned i = 0; i < 4; i++) {
-        unsigned at = i < kept->count ? i : 0;
-        k->a[i] = kept->a[at];
-        k->b[i] = kept->b[at];
-    }
-    corners_meet(&k->at, q, k->a, k->b);
     unsigned nearest = find_nearest(&k->at, w);
     met_set(&m, w);
     m.a = k->a[nearest];
     m.b = k->b[nearest];
-    k->valid = ((1u << kept->count) - 1) & ~(1u << nearest);
+    k->valid = ((1u << count) - 1) & ~(1u << nearest);
     // Any height is a gain.
     k->height = 1e150;
     k->square = 1;
     return take_step(k, &m) == STEP_ON;
+}
+
+// The kept corners as they are posed now.
+SMALL_GJK_INLINE void meet_kept(const small_gjk_query *q, const small_gjk_kept *kept, walk *k, small_gjk_result *r) {
+    corners_meet(&k->at, q, kept->a, kept->b);
+    corners_store(&k->at, &r->at);
+    for (int i = 0; i < 4; i++) k->a[i] = kept->a[i], k->b[i] = kept->b[i];
+    k->valid = (1u << kept->count) - 1;
+}
+
+// The walk at the nearest point of the kept corners. 1: it lies between them, as before; 0: not all hold
+// it; -1: no certain one.
+SMALL_GJK_INLINE int begin_at_kept(const small_gjk_query *q, const small_gjk_kept *kept, walk *k, kept_point *p,
+                                   small_gjk_result *r) {
+    meet_kept(q, kept, k, r);
+    if (!find_between(&r->at, kept->count, p)) return step_at_kept(kept->count, k) ? 0 : -1;
+    k->x = p->n.x;
+    k->y = p->n.y;
+    k->z = p->n.z;
+    k->height = p->height;
+    k->square = p->square;
+    return 1;
+}
+
+// Ends at the point between the kept corners, which are stored.
+SMALL_GJK_INLINE void end_at_kept(small_gjk_result *r, const walk *k, const kept_point *p) {
+    double scale = 1 / p->sum;
+    vec3 point = {0, 0, 0};
+    for (unsigned i = 0; i < 3; i++) {
+        int is_kept = k->valid >> i & 1;
+        r->a[i] = is_kept ? k->a[i] : 0;
+        r->b[i] = is_kept ? k->b[i] : 0;
+        r->weight[i] = p->part[i] * scale;
+        point = vec3_add_scaled(point, get_lane(&r->at, (int)i), r->weight[i]);
+    }
+    r->distance = vec3_norm(point);
+    r->valid = k->valid;
+    r->end = SMALL_GJK_KEPT;
 }
 
 SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *kept, uint32_t blocks,
@@ -74,13 +152,20 @@ SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *k
     small_gjk_body a, b;
     met m;
     walk k;
+    kept_point p;
     r->iterations = 0;
     r->end = SMALL_GJK_OPEN;
-    if (!begin_at_kept(q, kept, &k)) return;
+    int is_between = begin_at_kept(q, kept, &k, &p, r);
+    if (is_between < 0) return;
     double scale = 1 / sqrt(k.square);
     if (!(k.height * scale > q->claim)) return;
     measure_unposed(&m, q, blocks, k.x, k.y, k.z);
     write_direction(r, k.x, k.y, k.z, k.square, m.gap);
+    if (is_between && is_near(q, &k, &m, scale)) {
+        end_at_kept(r, &k, &p);
+        return;
+    }
+    meet_points(q, &m);
     if (!look(q, &k, &m, scale, r)) {
         pose_bodies(q, &a, &b, blocks);
         search(q, &a, &b, blocks, &k, &m, r);
@@ -90,6 +175,18 @@ SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *k
         end_at_support(r, &m);
     else
         write_walk(r, &k);
+}
+
+// The point between the kept corners, without a support.
+SMALL_GJK_INLINE void find_kept(const small_gjk_query *q, const small_gjk_kept *kept, small_gjk_result *r) {
+    walk k;
+    kept_point p;
+    r->iterations = 0;
+    r->end = SMALL_GJK_OPEN;
+    meet_kept(q, kept, &k, r);
+    if (!find_between(&r->at, kept->count, &p) || !(p.height * (1 / sqrt(p.square)) > q->claim)) return;
+    write_direction(r, p.n.x, p.n.y, p.n.z, p.square, 0);
+    end_at_kept(r, &k, &p);
 }
 
 SMALL_GJK_INLINE void run_kept_class(const small_gjk_query *q, const small_gjk_kept *kept, small_gjk_result *r) {

@@ -92,10 +92,23 @@ SMALL_GJK_INLINE void end_at_support(small_gjk_result *r, const met *m) {
     r->end = SMALL_GJK_APART;
 }
 
-// What a support along the walk's heading says, and the step to it: 1 where that ends the search. scale: 1 over the
-// heading's length.
+// The bounds along the walk's heading. scale: 1 over its length.
+SMALL_GJK_INLINE double find_lower(const small_gjk_query *q, const met *m, double scale) {
+    return m->gap * scale - q->lower_radii - q->claim;
+}
+SMALL_GJK_INLINE double find_upper(const small_gjk_query *q, const walk *k, double scale) {
+    return k->height * scale - q->upper_radii + q->claim;
+}
+
+// 1 if they answer the query, by the upper one too.
+SMALL_GJK_INLINE int is_near(const small_gjk_query *q, const walk *k, const met *m, double scale) {
+    double lower = find_lower(q, m, scale);
+    return !(lower > q->far) && is_answered(q, lower, find_upper(q, k, scale));
+}
+
+// What a support along the walk's heading says, and the step to it: 1 where that ends the search.
 SMALL_GJK_INLINE int look(const small_gjk_query *q, walk *k, const met *m, double scale, small_gjk_result *r) {
-    double lower = m->gap * scale - q->lower_radii - q->claim, upper = k->height * scale - q->upper_radii + q->claim;
+    double lower = find_lower(q, m, scale), upper = find_upper(q, k, scale);
     int is_apart = lower > q->far;
     if (is_apart || is_answered(q, lower, upper)) {
         write_direction(r, k->x, k->y, k->z, k->square, m->gap);

@@ -52,6 +52,7 @@ static void set_filter(solid_search *h) {
     if (!(h->a.solid && h->b.shape) && !(h->a.shape && h->b.solid)) return;
     int side = h->a.solid != NULL;
     const solid_view *shape = side ? &h->b : &h->a;
+    if (!shape->shape) return;
     mat3 r = side ? h->frame.world : h->frame.world_b;
     vec3 n = side ? h->best.normal : vec3_neg(h->best.normal);
     h->filter = mat3_mul_transposed_vec3(r, n);

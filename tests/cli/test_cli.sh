@@ -16,7 +16,7 @@ mkdir -p "$work/bin"
 ln -sf "$OVOID_TOOL" "$work/bin/ovoid"
 PATH=$work/bin:$PATH
 LC_ALL=C NO_COLOR=
-export PATH LC_ALL NO_COLOR OVOID_SOURCE_DIR
+export PATH LC_ALL NO_COLOR OVOID_SOURCE_DIR OVOID_TOOL
 
 # replay FILE: the transcript of its commands.
 replay() {

@@ -59,6 +59,8 @@ static inline int same_search(const small_gjk_result *x, const small_gjk_result 
     if (x->end == SMALL_GJK_OPEN) return 1;
     if (memcmp(x->n, y->n, sizeof x->n) || memcmp(&x->square, &y->square, sizeof x->square)) return 0;
     if (x->gap != y->gap || x->iterations != y->iterations || x->valid != y->valid) return 0;
+    if (x->end == SMALL_GJK_KEPT && (memcmp(x->weight, y->weight, sizeof x->weight) || x->distance != y->distance))
+        return 0;
     for (int i = 0; i < 4; i++) {
         if (!(x->valid >> i & 1)) continue;
         if (x->a[i] != y->a[i] || x->b[i] != y->b[i] || x->at.x[i] != y->at.x[i] || x->at.y[i] != y->at.y[i] ||

@@ -5,7 +5,7 @@
 // any step's arithmetic changes the number; then take the one printed, after a look at the other tests.
 #include "bits.h"
 
-#define STORED 0x557911cabd870424u
+#define STORED 0xf0fd64df9dae01b4u
 
 enum { PAIRS = 250 };
 

@@ -6,7 +6,7 @@
 
 enum { COUPLES = 6000 };
 static const gjk8_kernels *kernels;
-static long ends[4];
+static long ends[5];
 
 typedef struct couple {
     small_gjk_query query;

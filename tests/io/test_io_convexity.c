@@ -119,14 +119,16 @@ static ovoid_convexity dent_plate(double thick, double dent) {
 }
 
 static void check_threshold(void) {
-    // A thousandth of the volume: 4 * dent / 3 = 4e-3.
-    CHECK_EQ(dent_plate(1, 0.0029).is_nonconvex, 0);
-    CHECK_EQ(dent_plate(1, 0.0031).is_nonconvex, 1);
-    // Of a plate as thin as 1e-4, rounding of its points weighs more than a thousandth: 1e-5 of the diagonal, 2.83,
-    // over its surface, 8.
-    CHECK_EQ(dent_plate(1e-4, 1.6e-4 * 0.5).is_nonconvex, 0);
-    CHECK_EQ(dent_plate(0.01, 1.6e-4).is_nonconvex, 0);
-    CHECK_EQ(dent_plate(0.01, 1.8e-4).is_nonconvex, 1);
+    // Beside whole numbers a height of five digits: steps of 1e-5, of which half in each direction, 8.7e-6, over the
+    // surface, 16, is 1.39e-4; what is missing is 4 dent / 3.
+    CHECK_EQ(dent_plate(1, 9e-5).is_nonconvex, 0);
+    CHECK_EQ(dent_plate(1, 1.1e-4).is_nonconvex, 1);
+    // Of six digits: 1e-6 of the largest coordinate, 2, over the surface.
+    CHECK_EQ(dent_plate(1, 2.3e-5).is_nonconvex, 0);
+    CHECK_EQ(dent_plate(1, 2.5e-5).is_nonconvex, 1);
+    // A plate as thin as 1e-4, whose surface is 8: rounding of its points weighs more.
+    CHECK_EQ(dent_plate(1e-4, 1.1e-5).is_nonconvex, 0);
+    CHECK_EQ(dent_plate(1e-4, 1.3e-5).is_nonconvex, 1);
 }
 
 // Parts one by one, and through a scene, which names each hull of a mesh.

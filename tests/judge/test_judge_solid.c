@@ -3,7 +3,7 @@
 // solid angles what is inside. Long double has 11 bits more than double, so that distance is trusted to 1e-15 of the
 // size; no answer may leave it, and beyond the tolerance of 1e-9 of the size none may be open.
 //
-// test_judge_solid [--answers N] [--seed N] [--family N]: `make soak-solid` asks for a million.
+// test_judge_solid [--answers N] [--seconds N] [--seed N] [--family N]: `make soak-solid` asks for a million answers.
 #include "judge.h"
 #include "solids.h"
 
@@ -327,16 +327,17 @@ static long count_answers(void) {
 }
 
 int main(int argc, char **argv) {
-    double wanted = 800, seed = 20261123;
+    double wanted = 800, seconds = INFINITY, seed = 20261123;
     long only = -1;
     for (int i = 1; i + 1 < argc; i += 2) {
         if (strcmp(argv[i], "--answers") == 0) wanted = strtod(argv[i + 1], NULL);
+        if (strcmp(argv[i], "--seconds") == 0) seconds = strtod(argv[i + 1], NULL);
         if (strcmp(argv[i], "--seed") == 0) seed = strtod(argv[i + 1], NULL);
         if (strcmp(argv[i], "--family") == 0) only = strtol(argv[i + 1], NULL, 10);
     }
     court = judge_create();
     time_t start = time(NULL);
-    for (uint64_t i = 0; court && (double)count_answers() < wanted; i++)
+    for (uint64_t i = 0; court && (double)count_answers() < wanted && difftime(time(NULL), start) < seconds; i++)
         if (only < 0 || (size_t)only == i % FAMILIES) try_pair(i % FAMILIES, (uint64_t)seed + i);
     check_seed = 0;
     judge_destroy(court);

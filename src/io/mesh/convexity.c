@@ -10,12 +10,16 @@
 #include <math.h>
 #include <string.h>
 
-// Vertices that are off by so much of the diagonal are off by rounding: coordinates of six digits, or floats, with
-// room.
-#define ROUNDING 1e-5
+// Vertices are off by rounding. Coordinates of six digits, and floats: by so much of the largest coordinate, in any of
+// three directions.
+#define DIGITS 1e-6
+
+// Coordinates that are all multiples of a power of ten: by half of that in each of three directions; but that is no
+// rounding any more where it is above this share of the diagonal, as of a body of whole numbers.
+#define COARSEST 1e-5
 
 // Less than this share of the hull is of no weight.
-#define SHARE 1e-3
+#define SHARE 1e-6
 
 static uint64_t mix(uint64_t h) {
     h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9u;
@@ -73,13 +77,33 @@ static double compute_volume(const ovoid_faces *f) {
     return f->face_count && !open ? fabs(sum) / 6 : NAN;
 }
 
+static int are_multiples(const ovoid_faces *f, double step) {
+    for (size_t i = 0; i < 3 * f->vertex_count; i++) {
+        double count = f->vertices[i] / step;
+        if (!(fabs(count - rint(count)) <= 1e-6)) return 0;
+    }
+    return 1;
+}
+
+// How far vertices may be off. Steps from the coarsest that is no more than COARSEST down to what DIGITS has anyway.
+static double find_rounding(const ovoid_faces *f, double diagonal) {
+    double most = 0;
+    for (size_t i = 0; i < 3 * f->vertex_count; i++) most = fmax(most, fabs(f->vertices[i]));
+    double least = DIGITS * most, half_diagonal = 0.5 * sqrt(3);
+    if (!(diagonal > 0 && most < 1e300)) return least;
+    double step = pow(10, floor(log10(COARSEST * diagonal / half_diagonal)));
+    for (; half_diagonal * step > least; step /= 10)
+        if (are_multiples(f, step)) return half_diagonal * step;
+    return least;
+}
+
 ovoid_convexity ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull) {
     ovoid_faces faces = ovoid_mesh_get_part(mesh, part).faces;
     ovoid_measures m = ovoid_shape_get_measures(hull);
     ovoid_convexity c = {compute_volume(&faces), m.volume, 0};
     double diagonal = hypot(hypot(m.box.max.x - m.box.min.x, m.box.max.y - m.box.min.y), m.box.max.z - m.box.min.z);
     // Points that are off by d take from a convex body, or give to it, no more than a layer d thick on its surface.
-    double allowed = fmax(SHARE * m.volume, ROUNDING * diagonal * m.area);
+    double allowed = fmax(SHARE * m.volume, find_rounding(&faces, diagonal) * m.area);
     // No surface encloses more than its hull: faces that are there twice are none.
     if (c.mesh_volume - m.volume > allowed) c.mesh_volume = NAN;
     c.is_nonconvex = m.volume - c.mesh_volume > allowed;

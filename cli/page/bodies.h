@@ -1,0 +1,52 @@
+// Which bodies and pairs are on a page, and the bodies as they are written.
+#ifndef OVOID_CLI_PAGE_BODIES_H
+#define OVOID_CLI_PAGE_BODIES_H
+
+#include "page/page.h"
+
+#include <ovoid/ovoid.h>
+
+/// A body that may come onto a page.
+typedef struct page_body {
+    const char *name;
+    ovoid_body body;
+    const char *mesh; ///< the path of its mesh; NULL: none
+    ovoid_read_options read;
+} page_body;
+
+/// The objects of a scene; the caller frees them. NULL after a message.
+page_body *page_bodies_list(const ovoid_scene *scene);
+
+/// A pair that is on the page, by its objects and its place among those given.
+typedef struct page_pair {
+    ovoid_couple couple;
+    size_t given;
+} page_pair;
+
+/// Number of an object that is not on the page.
+#define PAGE_NO_NUMBER UINT32_MAX
+
+/// What is on a page.
+typedef struct page_choice {
+    uint32_t *numbers; ///< of each object: on the page, or PAGE_NO_NUMBER
+    uint32_t *near;    ///< `count` objects, those of the nearest pairs first
+    size_t object_count, count;
+    page_pair *pairs; ///< in the order given
+    size_t pair_count;
+} page_choice;
+
+/// Couples of objects, `stride` bytes apart, the nearest first.
+typedef struct page_couples {
+    const void *items; ///< ovoid_couple
+    size_t stride, count;
+} page_couples;
+
+/// Chooses at most 10 000 objects and 20 000 pairs; those of the nearest pairs come first, then objects in their order.
+/// What is left out is counted. 0, or EXIT_INPUT after a message.
+int page_choose(cli_page *page, size_t object_count, const page_couples *couples, page_choice *choice);
+void page_choice_clear(page_choice *choice);
+
+/// Writes "shapes" and "bodies". bodies: all objects. 0, or EXIT_INPUT after a message.
+int page_write_bodies(cli_page *page, const page_body *bodies, const page_choice *choice);
+
+#endif

@@ -1,0 +1,34 @@
+// The pages of ovoid view, check and run.
+#ifndef OVOID_CLI_PAGE_SCENES_H
+#define OVOID_CLI_PAGE_SCENES_H
+
+#include "answers.h"
+#include "page/motion.h"
+
+/// Writes the page of a scene at rest: its objects, and the pairs of a job, the nearest first, each answered with its
+/// proof. title: the scene's path. 0, or an exit code after a message. Nothing where no page is wanted.
+int page_write_scene(cli_page *page, const char *title, const answers_job *job);
+
+/// Writes the page of one body or two that are no scene. paths: their files; margin: negative where none was given;
+/// unit:
+/// "" for none. The same otherwise.
+typedef struct page_bodies_source {
+    const page_body *bodies;
+    size_t count;
+    const char *unit;
+    double margin;
+} page_bodies_source;
+int page_write_files(cli_page *page, const page_bodies_source *source);
+
+/// What was seen of a motion.
+typedef struct page_run {
+    page_motion *motion;
+    cli_track *track; ///< with pairs
+    double margin;    ///< of the events; negative: none
+} page_run;
+
+/// Writes the page of a scene that moves: of each pair that was listed its answer in the frame on the page that is
+/// nearest to where it was nearest. job: without poses and couples. The same otherwise.
+int page_write_run(cli_page *page, const char *title, const answers_job *job, const page_run *run);
+
+#endif

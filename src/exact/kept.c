@@ -1,0 +1,58 @@
+// From an earlier proof's differences to the bounds that they give now.
+#include "exact/kept.h"
+
+// 1 if a single difference is more than what the supports met along a normal that parted the bodies: within the margin.
+static int is_near(const pair_frame *f, const query_goal *goal, const ovoid_proof *p) {
+    if (!(goal->far < INFINITY)) return 1;
+    if (!(goal->near > 0)) return 0;
+    vec3 w = kept_get_difference(f, p, 0).w;
+    double reach = goal->near + f->upper_radii;
+    return vec3_norm_squared(w) <= reach * reach;
+}
+
+small_gjk_kept kept_get_simplex(const pair_frame *f, const query_goal *goal, const ovoid_proof *p) {
+    small_gjk_kept kept = {.count = p->kind == OVOID_PROOF_POINTS && p->count <= 3 ? p->count : 0};
+    uint32_t most_a = 0, most_b = 0;
+    for (uint32_t i = 0; i < 4; i++) {
+        uint32_t at = i < kept.count ? i : 0;
+        kept.a[i] = p->a[at];
+        kept.b[i] = p->b[at];
+        most_a = kept.a[i] > most_a ? kept.a[i] : most_a;
+        most_b = kept.b[i] > most_b ? kept.b[i] : most_b;
+    }
+    int is_sound = (most_a < f->a->vertex_count) & (most_b < f->b->vertex_count);
+    if (!is_sound || (kept.count == 1 && !is_near(f, goal, p))) kept.count = 0;
+    return kept;
+}
+
+// The direction to measure along: that of the point, or where a margin is asked for the proof's normal. It parted the
+// bodies well, and a search that a margin ended early left no nearest point, but any that was within.
+static vec3 choose_direction(const query_goal *goal, const ovoid_proof *earlier, const small_gjk_result *r) {
+    if (goal->far < INFINITY && vec3_is_finite(earlier->normal)) return vec3_unit(earlier->normal);
+    return vec3_unit((vec3){r->n[0], r->n[1], r->n[2]});
+}
+
+// The gap along a unit direction.
+static void set_gap(const pair_frame *f, vec3 n, small_gjk_result *r) {
+    vec3 in_a = mat3_mul_transposed_vec3(f->world, n), in_b = mat3_mul_transposed_vec3(f->world_b, n);
+    simd_pair x = frame_find_pair(f, in_a, vec3_neg(in_b));
+    r->n[0] = n.x;
+    r->n[1] = n.y;
+    r->n[2] = n.z;
+    r->square = 1;
+    r->gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value;
+}
+
+int kept_run(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier, small_end *end) {
+    small_gjk_kept kept = kept_get_simplex(f, goal, earlier);
+    if (!kept.count) return 0;
+    small_gjk_query q = small_make_query(f, goal);
+    small_gjk_result r;
+    simd_find_kept(&q, &kept, &r);
+    if (r.end != SMALL_GJK_KEPT) return 0;
+    vec3 n = choose_direction(goal, earlier, &r);
+    set_gap(f, n, &r);
+    if (!(vec3_norm_squared(n) > 0.5) || !small_finish(f, goal, &r, end)) return 0;
+    end->stage = OVOID_STAGE_PROOF;
+    return 1;
+}
