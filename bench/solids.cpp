@@ -92,8 +92,9 @@ fcl::Transform3d make_transform(const ovoid_pose &p) {
 }
 
 // A pair at a gap, found by moving the second body along a line; gap 0: at a distance of 1.2 between the centres.
-ovoid_solid_pair make_pair_at(const ovoid_solid *s, double gap, random_numbers &numbers) {
-    ovoid_solid_pair pair = {{nullptr, s, {{0, 0, 0}, numbers.turn()}}, {nullptr, s, {{0, 0, 0}, numbers.turn()}}};
+ovoid_body_pair make_pair_at(const ovoid_solid *s, double gap, random_numbers &numbers) {
+    ovoid_body_pair pair = {{nullptr, nullptr, {{0, 0, 0}, numbers.turn()}, s},
+                            {nullptr, nullptr, {{0, 0, 0}, numbers.turn()}, s}};
     const ovoid_vec3 n = numbers.direction();
     double at = gap > 0 ? 4 : 1.2;
     for (int i = 0; i < 40; i++) {
@@ -120,7 +121,7 @@ template <class Work> double measure(std::size_t count, Work work) {
 
 int run(const ovoid_solid *s, const model *m, double gap, std::size_t count) {
     random_numbers numbers;
-    std::vector<ovoid_solid_pair> pairs;
+    std::vector<ovoid_body_pair> pairs;
     std::vector<fcl::Transform3d> a, b;
     for (std::size_t i = 0; i < count; i++) {
         pairs.push_back(make_pair_at(s, gap, numbers));

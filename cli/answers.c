@@ -32,8 +32,7 @@ typedef struct work_state {
 /* ---- one answer */
 
 ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid_pose *pose) {
-    ovoid_scene_object o = ovoid_scene_get(scene, object);
-    return (ovoid_body){o.shape, o.compound, *pose};
+    return ovoid_scene_get_body(scene, object, pose);
 }
 
 static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {
@@ -41,6 +40,14 @@ static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_que
     if (q->query == QUERY_COLLIDE) return ovoid_compound_collide(pair, &options, q->earlier, exclusions);
     if (q->query == QUERY_WITHIN) return ovoid_compound_within(pair, q->margin, &options, q->earlier, exclusions);
     return ovoid_compound_depth(pair, &options, q->earlier, exclusions);
+}
+
+void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_record *record) {
+    ovoid_scene_object a = ovoid_scene_get(scene, couple.a), b = ovoid_scene_get(scene, couple.b);
+    record->kind_a = a.kind;
+    record->kind_b = b.kind;
+    record->mesh_a = a.convexity;
+    record->mesh_b = b.convexity;
 }
 
 /// Makes room for that many exclusions; 0 where memory is out.
@@ -76,8 +83,36 @@ void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, dou
     if (2 * (find_width(&pair->a) + find_width(&pair->b)) > width) answer->limit = OVOID_LIMIT_ALLOWANCE;
 }
 
+static ovoid_solid_answer find_solids(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *proof) {
+    ovoid_options options = {.absolute_tolerance = q->tolerance};
+    if (q->query == QUERY_COLLIDE) return ovoid_solid_collide(pair, &options, q->earlier, proof);
+    if (q->query == QUERY_WITHIN) return ovoid_solid_within(pair, q->margin, &options, q->earlier, proof);
+    return ovoid_solid_distance(pair, &options, q->earlier, proof);
+}
+
+/// answers_find of a pair with a solid.
+static int answer_solids(answer_room *room, const ovoid_body_pair *pair, const answers_query *query,
+                         ovoid_record *record) {
+    ovoid_exclusions proof = {room->items, room->capacity, 0, NULL};
+    room->solid = find_solids(pair, query, query->wants_proof ? &proof : NULL);
+    if (proof.count > room->capacity) {
+        if (!reserve(room, proof.count)) return 0;
+        proof.items = room->items;
+        proof.capacity = room->capacity;
+        room->solid = find_solids(pair, query, &proof);
+    }
+    ovoid_record_set_solid(record, &room->solid);
+    record->part_a = pair->a.compound ? room->solid.triangle_a : OVOID_RECORD_NO_PART;
+    record->part_b = pair->b.compound ? room->solid.triangle_b : OVOID_RECORD_NO_PART;
+    record->exclusions = proof.items;
+    record->exclusion_count = proof.count;
+    return 1;
+}
+
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
     if (!reserve(room, ROOM)) return 0;
+    record->solid = NULL;
+    if (pair->a.solid || pair->b.solid) return answer_solids(room, pair, query, record);
     ovoid_exclusions proof = {room->items, room->capacity, 0, query->query == QUERY_DISTANCE ? room->cover : NULL};
     room->cover->point_count = 0;
     ovoid_compound_answer found = find(pair, query, query->wants_proof ? &proof : NULL);
@@ -100,7 +135,7 @@ int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_q
 void answer_room_clear(answer_room *room) {
     free(room->cover);
     free(room->items);
-    *room = (answer_room){NULL, NULL, 0};
+    *room = (answer_room){.cover = NULL};
 }
 
 /* ---- many */
@@ -128,6 +163,7 @@ static int make_record(const answers_job *job, chunk *k, size_t i, int wants_pro
                                    .margin = job->margin,
                                    .frame = NAN};
     const answers_query query = {job->query, job->margin, job->tolerance, wants_proof, NULL};
+    answers_describe(job->scene, c, &k->records[i]);
     return answers_find(&k->room, &pair, &query, &k->records[i]);
 }
 
@@ -150,6 +186,7 @@ static void work(void *context, void *slot) {
         k->records[i].cover = NULL;
         k->records[i].exclusions = NULL;
         k->records[i].exclusion_count = 0;
+        k->records[i].solid = NULL;
     }
     if (file && fclose(file) != 0) k->failed = 1;
 }

@@ -16,6 +16,7 @@ typedef struct answer_room {
     ovoid_cover *cover;
     ovoid_exclusion *items;
     size_t capacity;
+    ovoid_solid_answer solid;
 } answer_room;
 
 /// A query of two bodies.
@@ -27,13 +28,16 @@ typedef struct answers_query {
 } answers_query;
 
 /// Answers one query: the record's answer and parts, and with a proof its cover and exclusions, which live in the room
-/// until the next call. 0 where memory is out.
+/// until the next call; so does the answer of a pair with a solid. 0 where memory is out.
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record);
 void answer_room_clear(answer_room *room);
 
 /// Sets the limit of an answer whose bracket holds the margin and is no wider than its query made it: ALLOWANCE where
 /// the bodies' allowances make most of its width, as ovoid_within does. tolerance: an absolute one, that was asked for.
 void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, double margin, double tolerance);
+
+/// What two objects of a scene are taken as, for a record.
+void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_record *record);
 
 /// The object of a scene as a body, at a pose.
 ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid_pose *pose);

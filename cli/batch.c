@@ -89,7 +89,8 @@ static ovoid_answer find_answer(const settings *s, const ovoid_pair *pair, ovoid
     if (s->query == QUERY_COLLIDE) return ovoid_collide(pair, &query, NULL);
     if (s->query == QUERY_WITHIN) return ovoid_within(pair, s->margin, &query, NULL);
     ovoid_answer answer = ovoid_depth(pair, &query, NULL, cover);
-    const ovoid_body_pair bodies = {{pair->shape_a, NULL, pair->pose_a}, {pair->shape_b, NULL, pair->pose_b}};
+    const ovoid_body_pair bodies = {{.shape = pair->shape_a, .pose = pair->pose_a},
+                                    {.shape = pair->shape_b, .pose = pair->pose_b}};
     answers_settle_limit(&answer, &bodies, s->margin, s->tolerance);
     return answer;
 }

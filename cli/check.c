@@ -17,6 +17,7 @@
 typedef struct settings {
     output_settings out;
     unsigned threads, top;
+    int hull;
     double margin, tolerance; ///< margin negative: not given
     shard_part part;
     const char *html;
@@ -29,6 +30,7 @@ static const cli_option options[] = {
      "list the N nearest pairs, 0: all; all are counted (default: of a table without --margin 20, else all)"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
+    INPUTS_HULL_OPTION(settings),
     THREADS_OPTION(settings),
     SHARD_OPTION(settings),
     PAGE_OPTION(settings),
@@ -155,7 +157,7 @@ static int sort_rows(check *c) {
 }
 
 static unsigned get_fields(const check *c) {
-    return OVOID_RECORD_PARTS | (c->settings->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+    return OVOID_RECORD_PARTS | (c->settings->margin >= 0 ? OVOID_RECORD_MARGIN : 0) | inputs_get_fields(c->scene);
 }
 
 /* ---- a shard */
@@ -232,8 +234,14 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code >= 0) return code;
     check c = {.settings = &s, .path = paths.items[0]};
     if (page_open(&c.page, s.html)) return EXIT_INPUT;
-    ovoid_scene *scene = inputs_read_scene(paths.items[0]);
+    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull || s.html);
     if (!scene) return page_close(&c.page), EXIT_INPUT;
+    if (s.html && inputs_get_fields(scene)) {
+        message_error("%s: a page shows no solids: leave \"solid\": true out", paths.items[0]);
+        page_close(&c.page);
+        ovoid_scene_destroy(scene);
+        return EXIT_INPUT;
+    }
     inputs_warn_scene(scene);
     c.scene = scene;
     c.poses = inputs_copy_poses(scene);
@@ -259,7 +267,9 @@ const cli_command command_check = {
         "                 {\"name\": \"table\", \"box\": [0.8, 1.2, 0.04]}],\n"
         "     \"ignore\": [[\"arm\", \"table\"]]}\n\n"
         "Bodies: mesh, box, sphere, capsule, cylinder, cone, points; compound, a list of these, or a mesh with "
-        "\"parts\": true, whose objects are the parts. Poses: xyz, with rpy or quat_wxyz.",
+        "\"parts\": true, whose objects are the parts. A closed mesh that does not fill its hull is the solid that its "
+        "triangles enclose, whose depth in others is a bracket that is true, but wide. Poses: xyz, with rpy or "
+        "quat_wxyz.",
     .exits = "0 every pair is apart (with --margin: farther than M)\n"
              "1 a pair touches or overlaps (or is within M)\n"
              "2 the command line is wrong\n"

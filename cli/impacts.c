@@ -90,8 +90,10 @@ int impacts_leave_open(cli_impacts *x, ovoid_couple couple) {
 
 /// An object with its motion from the frame before to this one.
 static ovoid_moving_body get_moving(const cli_impacts *x, size_t object) {
-    ovoid_scene_object o = ovoid_scene_get(x->scene, object);
-    return (ovoid_moving_body){o.shape, o.compound, frames_get_motion(x->frames, object)};
+    const ovoid_pose any = ovoid_pose_make_identity();
+    ovoid_body o = answers_get_body(x->scene, object, &any);
+    return (ovoid_moving_body){
+        .shape = o.shape, .compound = o.compound, .motion = frames_get_motion(x->frames, object), .solid = o.solid};
 }
 
 static double get_duration(const cli_impacts *x) { return x->frames->time - x->frames->earlier; }
@@ -182,13 +184,15 @@ static int reserve(impact *item, ovoid_motion_options *options) {
 /// Finds the impact of a pair, with its steps where they are wanted.
 static void find_impact(const cli_impacts *x, impact *item) {
     ovoid_moving_body a = get_moving(x, item->couple.a), b = get_moving(x, item->couple.b);
-    int proofs = results_have_proofs(x->results), is_compound = a.compound || b.compound;
+    int proofs = results_have_proofs(x->results), are_solids = a.solid || b.solid;
+    int is_compound = are_solids || a.compound || b.compound;
     ovoid_motion_options options = {.capacity = proofs ? STEPS : 0,
                                     .group_capacity = proofs && is_compound ? STEPS : 0};
     for (;;) {
         item->failed = proofs && !reserve(item, &options);
         if (item->failed) return;
-        ovoid_compound_impact found = ovoid_compound_impact_find(&a, &b, x->margin, &options);
+        ovoid_compound_impact found = are_solids ? ovoid_solid_impact_find(&a, &b, x->margin, &options)
+                                                 : ovoid_compound_impact_find(&a, &b, x->margin, &options);
         item->found = found.impact;
         item->parts[0] = found.part_a;
         item->parts[1] = found.part_b;
@@ -241,7 +245,13 @@ static int compare_impacts(const void *a, const void *b) {
     return compare_couples(&p->couple, &q->couple);
 }
 
-/// The answer of compounds at a time between the frames, at which a hit is within the margin. 0 where memory is out.
+static int is_shape(const cli_impacts *x, size_t object) {
+    ovoid_scene_object o = ovoid_scene_get(x->scene, object);
+    return !o.compound && !o.solid;
+}
+
+/// The answer of compounds or solids at a time between the frames, at which a hit is within the margin. 0 where memory
+/// is out.
 static int answer_compounds(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
     double at = get_time(item);
@@ -279,8 +289,8 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     record->groups = item->groups;
     record->group_count = item->groups ? item->group_count : 0;
     int done = 1;
-    if (ovoid_scene_get(x->scene, c.a).compound || ovoid_scene_get(x->scene, c.b).compound)
-        done = answer_compounds(x, item, room, record);
+    answers_describe(x->scene, c, record);
+    if (!is_shape(x, c.a) || !is_shape(x, c.b)) done = answer_compounds(x, item, room, record);
     if (!is_hit(item)) record->answer.limit = item->found.limit;
     return done;
 }
@@ -296,9 +306,17 @@ static int is_arrival(const cli_impacts *x, const impact *item) {
         return 0;
     ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &f->poses[c.a]),
                             answers_get_body(x->scene, c.b, &f->poses[c.b])};
-    ovoid_compound_answer at_end = ovoid_compound_within(&pair, x->margin, NULL, NULL, NULL);
-    int within = ovoid_answer_is_within(&at_end.answer, x->margin);
-    return within > 0 || (within < 0 && at_end.answer.limit == OVOID_LIMIT_NONE);
+    ovoid_answer at_end;
+    if (pair.a.solid || pair.b.solid) {
+        ovoid_record record = {.a = NULL};
+        ovoid_solid_answer found = ovoid_solid_within(&pair, x->margin, NULL, NULL, NULL);
+        ovoid_record_set_solid(&record, &found);
+        at_end = record.answer;
+    } else {
+        at_end = ovoid_compound_within(&pair, x->margin, NULL, NULL, NULL).answer;
+    }
+    int within = ovoid_answer_is_within(&at_end, x->margin);
+    return within > 0 || (within < 0 && at_end.limit == OVOID_LIMIT_NONE);
 }
 
 /// Writes the line of an impact. Those of a frame come before its own lines, in the order of compare_impacts.
@@ -310,7 +328,7 @@ static int write_impact(cli_impacts *x, const impact *item, const ovoid_record *
 }
 
 static int write_impacts(cli_impacts *x, const impact *items) {
-    answer_room room = {NULL, NULL, 0};
+    answer_room room = {.cover = NULL};
     int code = 0;
     for (size_t i = 0; i < x->couple_count && !code; i++) {
         ovoid_record record;

@@ -72,7 +72,11 @@ static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context,
 }
 
 static ovoid_named_shape get_shape(const void *context, size_t i) { return ovoid_shapes_get(context, i); }
-static ovoid_named_shape get_mesh(const void *context, size_t i) { return ovoid_scene_get_mesh(context, i); }
+static ovoid_named_shape get_mesh(const void *context, size_t i) {
+    ovoid_named_shape mesh = ovoid_scene_get_mesh(context, i);
+    if (ovoid_scene_get_mesh_solid(context, i)) mesh.convexity.is_nonconvex = 0;
+    return mesh;
+}
 
 static void warn_body(const char *path, const cli_body *body, const read_settings *settings) {
     for (size_t i = 0; i < ovoid_shapes_get_count(body->parts); i++) {
@@ -119,7 +123,7 @@ int inputs_open_pair(const char *const paths[2], const read_settings *settings, 
 }
 
 ovoid_body inputs_get_body(const cli_body *body, const ovoid_pose *pose) {
-    return (ovoid_body){body->shape, body->compound, *pose};
+    return (ovoid_body){.shape = body->shape, .compound = body->compound, .pose = *pose};
 }
 
 void inputs_close_body(cli_body *body) {
@@ -128,11 +132,18 @@ void inputs_close_body(cli_body *body) {
     *body = (cli_body){NULL, NULL, NULL};
 }
 
-ovoid_scene *inputs_read_scene(const char *path) {
+ovoid_scene *inputs_read_scene(const char *path, int hulls) {
     ovoid_error error;
     ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
     if (!scene) message_error("%s", error.message);
+    if (scene && hulls) ovoid_scene_take_hulls(scene);
     return scene;
+}
+
+unsigned inputs_get_fields(const ovoid_scene *scene) {
+    for (size_t i = 0; i < ovoid_scene_get_count(scene); i++)
+        if (ovoid_scene_get(scene, i).solid) return OVOID_RECORD_MESHES | OVOID_RECORD_SOLIDS;
+    return 0;
 }
 
 ovoid_pose *inputs_copy_poses(const ovoid_scene *scene) {

@@ -50,8 +50,20 @@ int inputs_open_pair(const char *const paths[2], const read_settings *settings, 
 ovoid_body inputs_get_body(const cli_body *body, const ovoid_pose *pose);
 void inputs_close_body(cli_body *body);
 
-/// Reads a scene; NULL after a message.
-ovoid_scene *inputs_read_scene(const char *path);
+/// Reads a scene; NULL after a message. hulls: meshes are solids only where the scene says so.
+ovoid_scene *inputs_read_scene(const char *path, int hulls);
+
+/// The fields that the records of a scene with solids have.
+unsigned inputs_get_fields(const ovoid_scene *scene);
+
+/// The row of that option of a scene's meshes.
+#define INPUTS_HULL_OPTION(settings)                                                                                   \
+    {                                                                                                                  \
+        "hull", 0, OPTION_FLAG, offsetof(settings, hull), NULL, NULL,                                                  \
+            "each mesh is its convex hull, or its \"parts\" (default: a closed mesh that does not fill its hull is "   \
+            "the "                                                                                                     \
+            "solid that its triangles enclose); \"solid\": true or false in the scene comes first"                     \
+    }
 
 /// Copies the poses of its objects, which the caller frees; NULL after a message.
 ovoid_pose *inputs_copy_poses(const ovoid_scene *scene);
@@ -61,7 +73,7 @@ ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings);
 
 /// Warn of meshes that do not fill their hulls, which are what is queried: of a part of a file; of a file without
 /// --parts, with that advice where each of its parts fills its hull; of the files of one or two bodies, of the same
-/// file once; of the meshes of a list or a scene, each once.
+/// file once; of the meshes of a list or a scene, each once, but for those that are solids.
 void inputs_warn_part(const char *path, const char *part, const ovoid_convexity *convexity);
 void inputs_warn_file(const char *path, const read_settings *settings, const ovoid_convexity *convexity);
 void inputs_warn_bodies(const char *const *paths, const cli_body *bodies, size_t count, const read_settings *settings);

@@ -2,6 +2,7 @@
 // queries, so that they do not depend on earlier ones.
 #include "near.h"
 
+#include "answers.h"
 #include "message.h"
 #include "pipeline.h"
 
@@ -48,8 +49,8 @@ static int add_bodies(cli_near *near) {
     int done = 0;
     if (bodies && near->ids) {
         for (size_t i = 0; i < count; i++) {
-            ovoid_scene_object o = ovoid_scene_get(near->scene, i);
-            bodies[i].body = (ovoid_body){o.shape, o.compound, o.pose};
+            ovoid_pose pose = ovoid_scene_get(near->scene, i).pose;
+            bodies[i].body = answers_get_body(near->scene, i, &pose);
         }
         done = ovoid_world_add_many(near->world, bodies, count, near->ids, &error) == OVOID_OK;
     }

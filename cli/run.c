@@ -24,7 +24,7 @@
 typedef struct settings {
     output_settings out;
     const char *motion, *plot, *html;
-    int query, continuous;
+    int query, continuous, hull;
     unsigned threads;
     double margin, tolerance; ///< margin negative: not given
     shard_part part;
@@ -45,6 +45,7 @@ static const cli_option options[] = {
      "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distances of the nearest pairs over time, an SVG file"},
+    INPUTS_HULL_OPTION(settings),
     PAGE_OPTION(settings),
     THREADS_OPTION(settings),
     SHARD_OPTION(settings),
@@ -184,9 +185,10 @@ static int open_all(run_state *r) {
     return code;
 }
 
-static unsigned get_fields(const settings *s) {
-    return OVOID_RECORD_TIME | OVOID_RECORD_PARTS | (s->continuous ? OVOID_RECORD_IMPACT : 0) |
-           (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+static unsigned get_fields(const run_state *r) {
+    const settings *s = r->settings;
+    return inputs_get_fields(r->scene) | OVOID_RECORD_TIME | OVOID_RECORD_PARTS |
+           (s->continuous ? OVOID_RECORD_IMPACT : 0) | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
 }
 
 /// The motion of a shard's pairs: frames cannot be cut, since what a world remembers of a pair goes from one to the
@@ -195,7 +197,7 @@ static int run_shard(run_state *r, const cli_command *command, const cli_operand
     const settings *s = r->settings;
     shard_job job = {command, s, paths, s->part, .seen = shard_digest_make(), .units = "frames"};
     shard_digest_add_scene(&job.seen, r->scene);
-    int code = results_open_shard(&r->results, &s->out, get_fields(s), &job);
+    int code = results_open_shard(&r->results, &s->out, get_fields(r), &job);
     if (code) return code;
     r->kept = results_get_done(&r->results);
     if (r->kept != UINT64_MAX) code = open_all(r);
@@ -221,7 +223,7 @@ static int run_motion(run_state *r, const char *title) {
     int code = open_all(r);
     if (!code && s->html) code = page_motion_open(&r->motion, ovoid_scene_get_count(r->scene));
     if (code) return code;
-    const unsigned fields = get_fields(s);
+    const unsigned fields = get_fields(r);
     if (results_open(&r->results, &s->out, fields, ovoid_scene_get_unit(r->scene))) return EXIT_INPUT;
     r->track.has_plot = s->plot != NULL;
     r->track.has_pairs = s->html != NULL;
@@ -263,8 +265,14 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code >= 0) return code;
     run_state r = {.settings = &s};
     if (page_open(&r.page, s.html)) return EXIT_INPUT;
-    ovoid_scene *scene = inputs_read_scene(paths.items[0]);
+    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull || s.html);
     if (!scene) return page_close(&r.page), EXIT_INPUT;
+    if (s.html && inputs_get_fields(scene)) {
+        message_error("%s: a page shows no solids: leave \"solid\": true out", paths.items[0]);
+        page_close(&r.page);
+        ovoid_scene_destroy(scene);
+        return EXIT_INPUT;
+    }
     inputs_warn_scene(scene);
     r.scene = scene;
     code = s.part.count ? run_shard(&r, command, &paths) : run_motion(&r, paths.items[0]);

@@ -42,13 +42,13 @@ int solids_open_pair(const char *const *paths, const cli_body bodies[2], const o
                      const read_settings *read, const solids_choice *choice, solids_pair *p) {
     *p = (solids_pair){.paths = paths};
     if (choice->parts || choice->hull) return 0;
-    ovoid_solid_body *own[2] = {&p->pair.a, &p->pair.b};
+    ovoid_body *own[2] = {&p->pair.a, &p->pair.b};
     for (int i = 0; i < 2; i++) {
         if (!open_solid(paths[i], &bodies[i], read, choice->solid, &p->solids[i])) {
             solids_close_pair(p);
             return -1;
         }
-        *own[i] = (ovoid_solid_body){p->solids[i] ? NULL : bodies[i].shape, p->solids[i], poses[i]};
+        *own[i] = (ovoid_body){.shape = p->solids[i] ? NULL : bodies[i].shape, .pose = poses[i], .solid = p->solids[i]};
         p->convexity[i] = get_convexity(&bodies[i]);
     }
     int count = (p->solids[0] != NULL) + (p->solids[1] != NULL);
@@ -133,7 +133,7 @@ static ovoid_record make_record(const solids_pair *p, const solids_query *q, con
 // ---- for people
 
 static void print_body(FILE *file, const char *title, const solids_pair *p, int side) {
-    const ovoid_solid_body *body = side ? &p->pair.b : &p->pair.a;
+    const ovoid_body *body = side ? &p->pair.b : &p->pair.a;
     fprintf(file, "%-11s ", title);
     message_write_text(file, p->paths[side]);
     if (body->solid) {

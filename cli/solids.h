@@ -35,7 +35,7 @@ int solids_settle(const cli_command *command, const solids_choice *choice);
 typedef struct solids_pair {
     const char *const *paths;
     ovoid_solid *solids[2]; ///< NULL: the body's hull
-    ovoid_solid_pair pair;
+    ovoid_body_pair pair;
     ovoid_convexity convexity[2]; ///< of the meshes; volumes NaN where there is none
 } solids_pair;
 

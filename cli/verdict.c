@@ -77,8 +77,9 @@ ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const
     return code;
 }
 
-ovoid_code verdict_check_solid(verdict *v, const ovoid_solid_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                                const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
+    if (pair->a.compound || pair->b.compound) return ovoid_solid_answer_check(pair, answer, exclusions, error);
     judge *mine = take(v);
     ovoid_code code = judge_check_solid(mine, pair, answer, exclusions, points, error);
     give_back(v, mine);
@@ -114,7 +115,7 @@ ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const
     return ovoid_compound_answer_check(pair, answer, exclusions, error);
 }
 
-ovoid_code verdict_check_solid(verdict *v, const ovoid_solid_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                                const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
     (void)v, (void)points;
     return ovoid_solid_answer_check(pair, answer, exclusions, error);

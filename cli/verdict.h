@@ -21,7 +21,7 @@ ovoid_code verdict_check_compound(verdict *verdict, const ovoid_body_pair *pair,
                                   const ovoid_exclusions *exclusions, ovoid_error *error);
 
 /// The same for the answer of two bodies, of which one at least is a solid. points: of the deciding triangles.
-ovoid_code verdict_check_solid(verdict *verdict, const ovoid_solid_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code verdict_check_solid(verdict *verdict, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                                const ovoid_exclusions *exclusions, int points, ovoid_error *error);
 
 /// 1 if the checks are in exact arithmetic.

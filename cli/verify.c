@@ -83,6 +83,7 @@ static int drain(void *context, void *slot) {
         v->held += (size_t)i->holds;
         v->undecided += i->record.answer.status == OVOID_UNDECIDED || is_open(&i->record);
         v->impacts += (i->record.fields & OVOID_RECORD_IMPACT) != 0;
+        v->mixed += i->record.solid && (i->pair.a.compound || i->pair.b.compound);
         if (!i->holds && failures < REPORTED_MAX) message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
         verify_drop(i);
     }
@@ -130,7 +131,7 @@ static void report_missing(verify *v) {
 /// The counts, and in what arithmetic the proofs were checked.
 static void print_counts(const verify *v) {
     static const char floating[] = "floating point with rigorous error bounds";
-    size_t exact = verdict_is_exact() ? v->proofs - v->impacts : 0, failed = v->proofs - v->held;
+    size_t exact = verdict_is_exact() ? v->proofs - v->impacts - v->mixed : 0, failed = v->proofs - v->held;
     if (v->settings->json) {
         printf("{\"proofs\":%zu,\"hold\":%zu,\"fail\":%zu,\"undecided\":%zu,\"exact\":%zu,\"floating\":%zu,", v->proofs,
                v->held, failed, v->undecided, exact, v->proofs - exact);
@@ -144,9 +145,13 @@ static void print_counts(const verify *v) {
     if (!verdict_is_exact())
         printf("checked in %s\n", floating);
     else if (!v->impacts)
-        printf("checked in exact arithmetic\n");
+        printf("checked in exact arithmetic");
     else
-        printf("checked in exact arithmetic, but for impacts (%zu): their steps in %s\n", v->impacts, floating);
+        printf("checked in exact arithmetic, but for impacts (%zu): their steps in %s", v->impacts, floating);
+    if (verdict_is_exact() && v->mixed)
+        printf("; solids beside compounds (%zu) in %s\n", v->mixed, floating);
+    else if (verdict_is_exact())
+        printf("\n");
 }
 
 /// Checks every result; returns the exit code.
@@ -189,7 +194,7 @@ static int check_inputs(const cli_command *command, const verify_settings *s, co
         return args_complain(command,
                              "verify: --unit and --scale are for meshes; a scene says its own (\"unit\": \"mm\")");
     const solids_choice *c = &s->choice;
-    if (c->parts + c->solid + c->hull && (has_list || paths->count < 3))
+    if (c->parts + c->solid + (c->hull && !is_scene) && (has_list || paths->count < 3))
         return args_complain(command, "verify: --%s goes with A and B",
                              c->parts   ? "parts"
                              : c->solid ? "solid"

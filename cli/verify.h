@@ -42,7 +42,6 @@ typedef struct body_source {
 typedef struct claim {
     int64_t line;
     ovoid_body_pair pair;
-    ovoid_solid_pair solids;     ///< where the record has an answer of solids
     ovoid_moving_body moving[2]; ///< of an impact
     double duration;             ///< of an impact: of the motions
     ovoid_record record;         ///< with copies of what it points to; its names are not valid
@@ -59,6 +58,7 @@ typedef struct verify {
     verdict *verdict;
     size_t proofs, held, undecided;
     size_t impacts;        ///< results whose steps were checked in floating point
+    size_t mixed;          ///< and those of solids beside compounds, which the exact judge does not know
     cli_seen seen;         ///< the scene's pairs that have a result
     size_t pairs, missing; ///< of a scene, of all frames, and those of them without a result
     int refused;           ///< *error has the reason, if it has a message

@@ -49,7 +49,7 @@ static int open_pair(body_source *bodies, const verify_settings *s, const cli_op
 int verify_open_bodies(body_source *bodies, const verify_settings *s, const cli_operands *paths) {
     if (s->list) return open_list(bodies, s);
     if (paths->count == 3) return open_pair(bodies, s, paths);
-    bodies->scene = inputs_read_scene(paths->items[1]);
+    bodies->scene = inputs_read_scene(paths->items[1], s->choice.hull);
     if (!bodies->scene) return EXIT_INPUT;
     return s->motion ? frames_open(&bodies->frames, s->motion, bodies->scene) : 0;
 }
@@ -93,8 +93,38 @@ static void set_impact(const verify *v, const ovoid_record *record, size_t a, si
     item->pair.b.pose = ovoid_motion_compute_pose(&motions[1], at);
     if (!(at >= 0 && at <= item->duration && record->free_for >= 0) || record->time != record->frame + at)
         disprove(item, "its times are not those of an impact between two frames");
-    item->moving[0] = (ovoid_moving_body){item->pair.a.shape, item->pair.a.compound, motions[0]};
-    item->moving[1] = (ovoid_moving_body){item->pair.b.shape, item->pair.b.compound, motions[1]};
+    const ovoid_body *bodies[2] = {&item->pair.a, &item->pair.b};
+    for (int i = 0; i < 2; i++)
+        item->moving[i] = (ovoid_moving_body){.shape = bodies[i]->shape,
+                                              .compound = bodies[i]->compound,
+                                              .motion = motions[i],
+                                              .solid = bodies[i]->solid};
+}
+
+static int is_same_volume(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+
+static int is_same_mesh(const ovoid_convexity *a, const ovoid_convexity *b) {
+    return is_same_volume(a->mesh_volume, b->mesh_volume) && is_same_volume(a->hull_volume, b->hull_volume);
+}
+
+/// What a result says of its meshes must be so.
+static void check_meshes(const ovoid_record *record, const ovoid_record *meshes, claim *item) {
+    if (!(record->fields & OVOID_RECORD_MESHES) || item->message[0]) return;
+    if (record->kind_a != meshes->kind_a || record->kind_b != meshes->kind_b)
+        disprove(item, "kind_a and kind_b are not what the bodies are taken as: --solid, --parts and --hull choose");
+    else if (!is_same_mesh(&record->mesh_a, &meshes->mesh_a) || !is_same_mesh(&record->mesh_b, &meshes->mesh_b))
+        disprove(item, "the volumes are not those of the meshes and their hulls");
+}
+
+/// Of a scene: an answer about solids goes with a pair that has one, and what is said of the meshes must be so.
+static void check_objects(const ovoid_scene *scene, ovoid_couple couple, const ovoid_record *record, claim *item) {
+    ovoid_record meshes = {.a = NULL};
+    int have_solids = item->pair.a.solid || item->pair.b.solid;
+    answers_describe(scene, couple, &meshes);
+    if (!item->message[0] && !record->solid != !have_solids)
+        disprove(item, have_solids ? "it is an answer about hulls or parts, and an object is a solid: give --hull"
+                                   : "it is an answer about solids, which the objects are not: give no --hull");
+    check_meshes(record, &meshes, item);
 }
 
 /// Finds the objects of the scene that the result names. 0 where the motion is refused.
@@ -113,25 +143,11 @@ static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
     ovoid_pose pose_a = f->poses ? f->poses[a] : ovoid_scene_get(scene, a).pose;
     ovoid_pose pose_b = f->poses ? f->poses[b] : ovoid_scene_get(scene, b).pose;
     item->pair = (ovoid_body_pair){answers_get_body(scene, a, &pose_a), answers_get_body(scene, b, &pose_b)};
+    check_objects(scene, (ovoid_couple){(uint32_t)a, (uint32_t)b}, record, item);
     int is_impact = (record->fields & OVOID_RECORD_IMPACT) != 0;
     if (is_impact && !item->message[0]) set_impact(v, record, a, b, item);
     if (is_impact || item->message[0] || seen_add(&v->seen, scene, a, b)) return 1;
     return refuse(v, "out of memory");
-}
-
-static int is_same_volume(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
-
-static int is_same_mesh(const ovoid_convexity *a, const ovoid_convexity *b) {
-    return is_same_volume(a->mesh_volume, b->mesh_volume) && is_same_volume(a->hull_volume, b->hull_volume);
-}
-
-/// What a result says of its meshes must be so.
-static void check_meshes(const ovoid_record *record, const ovoid_record *meshes, claim *item) {
-    if (!(record->fields & OVOID_RECORD_MESHES) || item->message[0]) return;
-    if (record->kind_a != meshes->kind_a || record->kind_b != meshes->kind_b)
-        disprove(item, "kind_a and kind_b are not what the bodies are taken as: --solid, --parts and --hull choose");
-    else if (!is_same_mesh(&record->mesh_a, &meshes->mesh_a) || !is_same_mesh(&record->mesh_b, &meshes->mesh_b))
-        disprove(item, "the volumes are not those of the meshes and their hulls");
 }
 
 /// Reads the next pair of the pairs file, which must be the one that the result names. 0 where there is none.
@@ -153,8 +169,7 @@ static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
 
 static void find_given(const body_source *bodies, const ovoid_record *record, claim *item) {
     int are_solids = bodies->solids.solids[0] || bodies->solids.solids[1];
-    item->pair = bodies->pair;
-    item->solids = bodies->solids.pair;
+    item->pair = are_solids ? bodies->solids.pair : bodies->pair;
     if (!record->a || !record->b || strcmp(record->a, bodies->paths[0]) != 0 ||
         strcmp(record->b, bodies->paths[1]) != 0)
         disprove(item, "a and b are not the two bodies given");

@@ -59,6 +59,13 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
                                   .hit_at = r->hit_after,
                                   .step_count = r->step_count,
                                   .hit = *answer};
+    if (a->solid || b->solid) {
+        // The parts of solids' records are those of the whole bodies' answer, which decides where the impact ends.
+        found.part_a = r->solid ? r->solid->triangle_a : 0;
+        found.part_b = r->solid ? r->solid->triangle_b : 0;
+        found.impact.hit = r->solid ? r->solid->surfaces : *answer;
+        return ovoid_solid_impact_check(a, b, r->margin, &found, r->steps, r->groups, error);
+    }
     if (a->compound || b->compound)
         return ovoid_compound_impact_check(a, b, r->margin, &found, r->steps, r->groups, error);
     // The distance at the end of the free time is not claimed, so it is queried here.
@@ -73,16 +80,19 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
 static ovoid_code check_solids(const verify *v, const claim *item, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count, NULL};
-    if (!item->solids.a.solid && !item->solids.b.solid) {
+    if (!item->pair.a.solid && !item->pair.b.solid) {
         snprintf(error->message, sizeof error->message, "it is an answer about solids, which the bodies are not");
         return OVOID_ERROR_PROOF;
     }
     int points = has_nearest_points(v->settings->query, &r->solid->surfaces);
-    return verdict_check_solid(v->verdict, &item->solids, r->solid, &exclusions, points, error);
+    return verdict_check_solid(v->verdict, &item->pair, r->solid, &exclusions, points, error);
 }
 
 ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) {
-    if (item->record.solid) return check_solids(v, item, error);
+    if (item->record.solid) {
+        ovoid_code held = check_solids(v, item, error);
+        return held == OVOID_OK ? check_impact(item, &item->record.answer, error) : held;
+    }
     ovoid_pair pair;
     const ovoid_answer answer = item->record.answer;
     int is_compound = item->pair.a.compound || item->pair.b.compound;

@@ -253,7 +253,7 @@ static int write_page(cli_page *page, drawing *d, const settings *s, const ovoid
 }
 
 static int draw_scene(const settings *s, const char *path, cli_page *page) {
-    ovoid_scene *scene = inputs_read_scene(path);
+    ovoid_scene *scene = inputs_read_scene(path, 1);
     if (!scene) return EXIT_INPUT;
     size_t count = ovoid_scene_get_count(scene), drawn = 0;
     for (size_t i = 0; i < count; i++) drawn += count_parts(ovoid_scene_get(scene, i).compound);
@@ -261,7 +261,7 @@ static int draw_scene(const settings *s, const char *path, cli_page *page) {
     int code = make_drawing(&d, count, drawn) ? 0 : EXIT_INPUT;
     for (size_t i = 0; i < count && !code; i++) {
         ovoid_scene_object object = ovoid_scene_get(scene, i);
-        ovoid_body body = answers_get_body(scene, i, &object.pose);
+        ovoid_body body = {.shape = object.shape, .compound = object.compound, .pose = object.pose};
         add_body(&d, object.name, &body);
         if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &object);
     }

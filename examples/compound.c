@@ -31,7 +31,8 @@ int main(void) {
     if (!table || !mug) return fprintf(stderr, "%s\n", error.message), 1;
 
     // The mug is lowered onto the table, each query warm from the one before.
-    ovoid_body_pair pair = {{NULL, table, {{0, 0, 0}, none}}, {NULL, mug, {{0.2, 0.1, 0.9}, none}}};
+    ovoid_body_pair pair = {{.compound = table, .pose = {{0, 0, 0}, none}},
+                            {.compound = mug, .pose = {{0.2, 0.1, 0.9}, none}}};
     ovoid_exclusion items[200];
     ovoid_exclusions all = {.items = items, .capacity = 200};
     ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);

@@ -36,7 +36,8 @@ int main(void) {
     ovoid_exclusions all = {.items = items, .capacity = 20000};
     int refused = 0;
     for (double x = 0; x < 7; x += 2) {
-        ovoid_solid_pair pair = {{NULL, ring, ovoid_pose_make_identity()}, {peg, NULL, {{x, 0, 0}, {1, 0, 0, 0}}}};
+        ovoid_body_pair pair = {{.solid = ring, .pose = ovoid_pose_make_identity()},
+                                {.shape = peg, .pose = {{x, 0, 0}, {1, 0, 0, 0}}}};
         ovoid_solid_answer answer = ovoid_solid_distance(&pair, NULL, NULL, &all);
         printf("peg at %g: %s, %.4f to %.4f\n", x, ovoid_status_get_name(answer.status), answer.lower, answer.upper);
         refused += ovoid_solid_answer_check(&pair, &answer, &all, &error) != OVOID_OK;

@@ -26,7 +26,7 @@ static void make_cell(void) {
     static const double angles[2] = {1.5, -2};
     for (int i = 0; i < 2; i++) {
         double a = angles[i];
-        const ovoid_body body = {wall, NULL, {{cos(a), sin(a), 0}, {cos(a / 2), 0, 0, sin(a / 2)}}};
+        const ovoid_body body = {.shape = wall, .pose = {{cos(a), sin(a), 0}, {cos(a / 2), 0, 0, sin(a / 2)}}};
         fuzz_require(ovoid_robot_cell_add(cell, &body, NULL) != 0);
     }
 }

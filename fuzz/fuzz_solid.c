@@ -1,23 +1,25 @@
-// Two bodies, solids of up to 24 triangles over up to 12 points or a shape. Truth: the exact judge, and the check
-// without search, of each answer; brackets of one distance have a point in common; a winding number is the same again,
-// and none is given of what is not closed; where a surface meets itself does not depend on how much is asked for.
+// Two bodies, a solid of up to 24 triangles over up to 12 points, and another, a shape or a compound of it. Truth: the
+// exact judge (not of compounds), and the check without search, of each answer; brackets of one distance have a point
+// in common; a winding number is the same again, and none is given of what is not closed; where a surface meets itself
+// does not depend on how much is asked for.
 #include "ask.h"
 #include "bodies.h"
 
 #ifdef OVOID_HAVE_JUDGE
 #include <judge.h>
 
-static void put_before_judge(const ovoid_solid_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     static judge *the_judge;
     if (!the_judge) the_judge = judge_create();
     fuzz_require(the_judge != NULL);
     judge_set_touching(the_judge, INFINITY);
     ovoid_error error = {OVOID_OK, -1, ""};
+    if (pair->a.compound || pair->b.compound) return;
     fuzz_require_code(judge_check_solid(the_judge, pair, x, all, 0, &error), &error);
     judge_forget(the_judge);
 }
 #else
-static void put_before_judge(const ovoid_solid_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     (void)pair, (void)x, (void)all;
 }
 #endif
@@ -58,8 +60,19 @@ static ovoid_solid *take_triangles(fuzz_bytes *from) {
     return s;
 }
 
+// One to four of the shape; NULL where it is refused.
+static ovoid_compound *take_compound(fuzz_bytes *from, const ovoid_shape *shape, int is_wild) {
+    ovoid_posed_shape parts[4];
+    size_t count = 1 + (size_t)((unsigned)take_byte(from) & 3);
+    for (size_t i = 0; i < count; i++) parts[i] = (ovoid_posed_shape){shape, take_any_pose(from, is_wild)};
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_compound *made = ovoid_compound_create(parts, count, NULL, &error);
+    if (!made) fuzz_require_error(&error);
+    return made;
+}
+
 typedef struct findings {
-    const ovoid_solid_pair *pair;
+    const ovoid_body_pair *pair;
     double lower, upper;
 } findings;
 
@@ -93,12 +106,19 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int is_wild = take_byte(&from) > 96;
     ovoid_solid *a = take_triangles(&from), *b = NULL;
     ovoid_shape *shape = NULL;
-    if (take_byte(&from) & 1)
+    ovoid_compound *compound = NULL;
+    unsigned kind = (unsigned)take_byte(&from) & 3;
+    if (kind)
         shape = take_any_shape(&from, is_wild);
     else
         b = take_triangles(&from);
-    if (a && (b || shape)) {
-        ovoid_solid_pair pair = {{NULL, a, take_any_pose(&from, is_wild)}, {shape, b, take_any_pose(&from, is_wild)}};
+    if (kind == 2 && shape) compound = take_compound(&from, shape, is_wild);
+    if (a && (b || compound || (shape && kind != 2))) {
+        ovoid_body_pair pair = {{.solid = a, .pose = take_any_pose(&from, is_wild)},
+                                {.shape = compound ? NULL : shape,
+                                 .compound = compound,
+                                 .solid = b,
+                                 .pose = take_any_pose(&from, is_wild)}};
         double margin = fabs(take_double(&from));
         if (!isfinite(margin)) margin = 0;
         ovoid_compound_proof earlier = {(uint32_t)take_byte(&from) & 31, (uint32_t)take_byte(&from) & 31,
@@ -109,6 +129,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
     ovoid_solid_destroy(a);
     ovoid_solid_destroy(b);
+    ovoid_compound_destroy(compound);
     ovoid_shape_destroy(shape);
     return 0;
 }

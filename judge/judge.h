@@ -46,7 +46,7 @@ ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, con
 /// points of its triangles, that they leave out no pair of triangles, what is inside by exact winding numbers of all
 /// components, and a depth by all points along its direction. points: the deciding pair's as judge_check_points does.
 /// Cost: the triangles of all exclusions, some microseconds each, and for each component all triangles of the other.
-ovoid_code judge_check_solid(judge *context, const ovoid_solid_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code judge_check_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                              const ovoid_exclusions *exclusions, int points, ovoid_error *error);
 
 /// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: that point_b - point_a =

@@ -13,7 +13,7 @@
 
 /// One body: triangles, or a shape as triangle 0.
 typedef struct side {
-    const ovoid_solid_body *of;
+    const ovoid_body *of;
     const uint32_t *order; ///< NULL: a shape
     uint32_t count, place;
     uint32_t *corners; ///< three points of each triangle, in the caller's order; NULL: a shape
@@ -70,7 +70,7 @@ static int is_closed(const side *s) {
     return closed;
 }
 
-static ovoid_code read_side(pool *p, const ovoid_solid_body *of, uint32_t triangle, side *s, ovoid_error *error) {
+static ovoid_code read_side(pool *p, const ovoid_body *of, uint32_t triangle, side *s, ovoid_error *error) {
     *s = (side){.of = of, .count = 1};
     if (!of->shape == !of->solid)
         return judge_reject(error, OVOID_ERROR_ARGUMENT, "a body has neither a shape nor a solid, or both");
@@ -343,7 +343,7 @@ static ovoid_code check_bodies(const judge *context, const trial *t) {
     return code == OVOID_OK ? check_depth(t) : code;
 }
 
-ovoid_code judge_check_solid(judge *context, const ovoid_solid_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code judge_check_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                              const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
     if (!context || !pair || !answer) return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
     // A refusal claims nothing.

@@ -153,7 +153,22 @@ void shard_digest_add_shapes(shard_digest *d, const ovoid_shapes *shapes) {
     for (size_t i = 0; i < count; i++) shard_digest_add_shape(d, ovoid_shapes_get(shapes, i).shape);
 }
 
+// The points and triangles, which are all that answers come from.
+static void add_solid(shard_digest *d, const ovoid_solid *solid) {
+    ovoid_solid_report r = ovoid_solid_get_report(solid);
+    shard_digest_add(d, ovoid_solid_get_points(solid), (size_t)r.points * 3 * sizeof(double));
+    for (size_t i = 0; i < r.triangles; i++) {
+        uint32_t triangle[3];
+        ovoid_solid_get_triangle(solid, i, triangle);
+        shard_digest_add(d, triangle, sizeof triangle);
+    }
+}
+
 void shard_digest_add_scene(shard_digest *d, const ovoid_scene *scene) {
     size_t count = ovoid_scene_get_mesh_count(scene);
-    for (size_t i = 0; i < count; i++) shard_digest_add_shape(d, ovoid_scene_get_mesh(scene, i).shape);
+    for (size_t i = 0; i < count; i++) {
+        const ovoid_solid *solid = ovoid_scene_get_mesh_solid(scene, i);
+        shard_digest_add_shape(d, ovoid_scene_get_mesh(scene, i).shape);
+        if (solid) add_solid(d, solid);
+    }
 }

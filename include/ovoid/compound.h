@@ -49,11 +49,18 @@ OVOID_API ovoid_ellipsoid ovoid_compound_get_inner(const ovoid_compound *compoun
 /** Size of the block in bytes, without the shapes: about 472 bytes a part. */
 OVOID_API size_t ovoid_compound_get_size(const ovoid_compound *compound);
 
-/** A posed shape or a posed compound: exactly one of the two pointers is set. Borrowed. A shape is its part 0. */
+/** Triangles that need not be convex: <ovoid/solid.h>. */
+typedef struct ovoid_solid ovoid_solid;
+
+/**
+ * A posed shape, compound or solid: exactly one of the three pointers is set. Borrowed. A shape is its part 0, the
+ * parts of a solid are its triangles. Pairs with a solid are asked about in <ovoid/solid.h>.
+ */
 typedef struct ovoid_body {
     const ovoid_shape *shape;
     const ovoid_compound *compound;
     ovoid_pose pose;
+    const ovoid_solid *solid;
 } ovoid_body;
 
 /** Two bodies. */
@@ -103,7 +110,8 @@ typedef struct ovoid_compound_answer {
  * the bodies are apart, minus the depth of the deepest pair where they overlap. Options as in <ovoid/query.h>; the
  * relative tolerance is of the pair of bodies' size: the largest |part position| + vertex norm + radius of both (of a
  * shape vertex norm + radius) and the distance of their frames' origins. Refused as there, SHAPE_A or SHAPE_B where a
- * body has neither a shape nor a compound or both, and POSE_A or POSE_B where a part would lie beyond OVOID_LENGTH_MAX.
+ * body has neither a shape nor a compound, both, or a solid, and POSE_A or POSE_B where a part would lie beyond
+ * OVOID_LENGTH_MAX.
  * earlier: of this pair of bodies, or NULL. exclusions: NULL where no proof is wanted. Two shapes get the bits that
  * ovoid_collide and its sisters give. Cost: a traversal of both trees.
  */

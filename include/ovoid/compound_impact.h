@@ -12,11 +12,15 @@
 extern "C" {
 #endif
 
-/** A shape or a compound that moves: exactly one of the two pointers is set. Borrowed. A shape is its part 0. */
+/**
+ * A shape, compound or solid that moves: exactly one of the three pointers is set. Borrowed. A shape is its part 0.
+ * Solids are asked about in <ovoid/solid_impact.h>; here a body with one is refused as one without a shape.
+ */
 typedef struct ovoid_moving_body {
     const ovoid_shape *shape;
     const ovoid_compound *compound;
     ovoid_motion motion;
+    const ovoid_solid *solid;
 } ovoid_moving_body;
 
 /** When two moving bodies come within a margin of each other. */
@@ -48,12 +52,13 @@ OVOID_API ovoid_code ovoid_compound_impact_check(const ovoid_moving_body *a, con
                                                  const ovoid_compound_impact *impact, const ovoid_step *steps,
                                                  const ovoid_step_group *groups, ovoid_error *error);
 
-/** Part i of a moving body, as a moving shape: its pose at a time is that of ovoid_compound's definition. */
+/** Part i of a moving shape or compound, as a moving shape: its pose at a time is that of ovoid_compound's definition.
+ */
 OVOID_API ovoid_moving_shape ovoid_moving_body_get_part(const ovoid_moving_body *body, size_t i);
 
 /**
  * A box that holds the body at all times of [begin, end], rounding included; of a compound by the balls around at most
- * 16 nodes of its tree. NaN as ovoid_moving_shape_compute_box.
+ * 16 nodes of its tree, of a solid by those around at most 8. NaN as ovoid_moving_shape_compute_box.
  */
 OVOID_API ovoid_box ovoid_moving_body_compute_box(const ovoid_moving_body *body, double begin, double end);
 

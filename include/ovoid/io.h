@@ -159,6 +159,16 @@ OVOID_API size_t ovoid_shapes_get_count(const ovoid_shapes *shapes);
 /** Shape i < count. */
 OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i);
 
+/** What a mesh is taken as. */
+typedef enum ovoid_mesh_kind {
+    OVOID_MESH_HULL = 0, /**< its convex hull; a shape of any other origin, too */
+    OVOID_MESH_PARTS,    /**< a compound of its parts' hulls */
+    OVOID_MESH_SOLID,    /**< what its triangles enclose */
+    OVOID_MESH_SURFACE   /**< its triangles, which enclose nothing */
+} ovoid_mesh_kind;
+/** "hull", "parts", "solid" or "surface". */
+OVOID_API const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind);
+
 /* ---- scenes ---- */
 
 /**
@@ -176,7 +186,8 @@ OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t 
  *
  * Optional: "pose": {"xyz", and "quat_wxyz" or "rpy"}; "radius", a rounding radius around the body; for meshes and
  * points "scale", and "unit", from which they are converted to that of the scene (to metres where it names none); for
- * meshes "parts": true, a compound of the file's objects. Anything else is refused:
+ * meshes "parts": true, a compound of the file's objects, or "solid": true, the solid of its triangles, false, their
+ * hull; where neither is said, a closed mesh that does not fill its hull is a solid. Anything else is refused:
  * unknown keys, unknown names in "ignore", two objects of one name, wrong types, a zero quaternion. docs/scene.md has
  * examples.
  */
@@ -185,11 +196,15 @@ typedef struct ovoid_scene ovoid_scene;
 /** One object: a view. */
 typedef struct ovoid_scene_object {
     const char *name;
-    const ovoid_shape *shape;       /**< objects of equal geometry share it; NULL for a compound */
-    const ovoid_compound *compound; /**< objects of equal geometry share it; NULL for a shape */
+    const ovoid_shape *shape;       /**< NULL for a compound; of a solid its hull, for what takes no solids */
+    const ovoid_compound *compound; /**< NULL for all but compounds */
     ovoid_pose pose;
-    const char *mesh;        /**< the path of its mesh or `.ovoid` file; NULL: it has none of its own */
-    ovoid_read_options read; /**< how that was read */
+    const char *mesh;          /**< the path of its mesh or `.ovoid` file; NULL: it has none of its own */
+    ovoid_read_options read;   /**< how that was read */
+    const ovoid_solid *solid;  /**< NULL for all but solids. Objects of equal geometry share all three */
+    ovoid_mesh_kind kind;      /**< what it is taken as; HULL for a shape of any origin, PARTS for a compound */
+    ovoid_convexity convexity; /**< of a mesh of one part; else both volumes are NaN */
+    int is_asked;              /**< 1: the scene asks for the solid ("solid": true) */
 } ovoid_scene_object;
 
 /** Reads a scene and the meshes it names. options: of all shapes; their radius must be 0. The caller destroys it. */
@@ -202,10 +217,16 @@ OVOID_API size_t ovoid_scene_get_count(const ovoid_scene *scene);
 OVOID_API const char *ovoid_scene_get_unit(const ovoid_scene *scene);
 /** Object i < count. */
 OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i);
+/** The object as a body at a pose: its solid, compound or shape. */
+OVOID_API ovoid_body ovoid_scene_get_body(const ovoid_scene *scene, size_t i, const ovoid_pose *pose);
+/** From now on meshes that are solids only because they do not fill their hulls, and nobody asked, are their hulls. */
+OVOID_API void ovoid_scene_take_hulls(ovoid_scene *scene);
 /** How many hulls of meshes there are, each part of a file and each scale by itself. */
 OVOID_API size_t ovoid_scene_get_mesh_count(const ovoid_scene *scene);
 /** Hull i < mesh count, of an object or of a part of a compound, with the name of its part of the file. */
 OVOID_API ovoid_named_shape ovoid_scene_get_mesh(const ovoid_scene *scene, size_t i);
+/** The solid that counts in the place of that hull; NULL: the hull does. */
+OVOID_API const ovoid_solid *ovoid_scene_get_mesh_solid(const ovoid_scene *scene, size_t i);
 /** The object of that name, or (size_t)-1. */
 OVOID_API size_t ovoid_scene_find(const ovoid_scene *scene, const char *name);
 /** 1 if "ignore" names the pair, in either order. */
@@ -290,16 +311,6 @@ typedef enum ovoid_record_field {
     OVOID_RECORD_MESHES = 32, /**< what the bodies' meshes are taken as, and the volumes of mesh and hull */
     OVOID_RECORD_SOLIDS = 64  /**< of CSV: the triangles that decide, and what is inside; JSON has them with `solid` */
 } ovoid_record_field;
-
-/** What a mesh is taken as. */
-typedef enum ovoid_mesh_kind {
-    OVOID_MESH_HULL = 0, /**< its convex hull; a shape of any other origin, too */
-    OVOID_MESH_PARTS,    /**< a compound of its parts' hulls */
-    OVOID_MESH_SOLID,    /**< what its triangles enclose */
-    OVOID_MESH_SURFACE   /**< its triangles, which enclose nothing */
-} ovoid_mesh_kind;
-/** "hull", "parts", "solid" or "surface". */
-OVOID_API const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind);
 
 /** Most exclusions, steps and groups, all together, of a record in a line of JSON. */
 #define OVOID_RECORD_ITEMS_MAX ((size_t)1 << 16)

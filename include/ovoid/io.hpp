@@ -106,18 +106,22 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
     const char *name(std::size_t i) const noexcept { return ovoid_scene_get(get(), i).name; }
     /** Object i < size as a body, ready for queries and worlds. */
     body operator[](std::size_t i) const noexcept {
-        const ovoid_scene_object object = ovoid_scene_get(get(), i);
-        return ovoid_body{object.shape, object.compound, object.pose};
+        const ovoid_pose at = ovoid_scene_get(get(), i).pose;
+        return ovoid_scene_get_body(get(), i, &at);
     }
     /** The object of that name; size() where there is none. */
     std::size_t find(const std::string &named) const noexcept {
         const std::size_t i = ovoid_scene_find(get(), named.c_str());
         return i < size() ? i : size();
     }
+    /** From now on meshes that are solids only because they do not fill their hulls are their hulls. */
+    void take_hulls() noexcept { ovoid_scene_take_hulls(get()); }
     /** How many hulls of meshes there are. */
     std::size_t mesh_count() const noexcept { return ovoid_scene_get_mesh_count(get()); }
     /** Hull i < mesh_count, with its name and whether its mesh fills it. */
     ovoid_named_shape mesh(std::size_t i) const noexcept { return ovoid_scene_get_mesh(get(), i); }
+    /** The solid that counts in the place of that hull; empty: the hull does. */
+    solid_view mesh_solid(std::size_t i) const noexcept { return solid_view(ovoid_scene_get_mesh_solid(get(), i)); }
     /** True if the scene says to ignore the pair. */
     bool is_ignored(std::size_t a, std::size_t b) const noexcept { return ovoid_scene_is_ignored(get(), a, b) != 0; }
     /** How many pairs of objects there are, without those to be ignored. */

@@ -18,6 +18,7 @@
 #include "ovoid/shape.h"
 #include "ovoid/smooth.h"
 #include "ovoid/solid.h"
+#include "ovoid/solid_impact.h"
 #include "ovoid/world.h"
 
 #endif

@@ -8,15 +8,15 @@
  * mathematics.
  *
  * Functions that take a const world may run at the same time in any number of threads; all others need exclusive access
- * to the world. Stack as in <ovoid/query.h>; the world's own threads have 1 MB. In a child made by fork, while no
- * function was changing the world, it works on in one thread. Lengths are the caller's unit, poses
- * are in the world frame, quaternions as ovoid_pose has them.
+ * to the world. Stack as in <ovoid/query.h>, with solids as in <ovoid/solid.h>; the world's own threads have 1 MB. In a
+ * child made by fork, while no function was changing the world, it works on in one thread. Lengths are the caller's
+ * unit, poses are in the world frame, quaternions as ovoid_pose has them.
  */
 #ifndef OVOID_WORLD_H
 #define OVOID_WORLD_H
 
-#include "ovoid/compound.h"
 #include "ovoid/motion.h"
+#include "ovoid/solid.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -130,7 +130,8 @@ typedef enum ovoid_query_kind {
     OVOID_QUERY_COLLIDE = 0, /**< do they touch? (ovoid_collide) margin must be 0 */
     OVOID_QUERY_WITHIN,      /**< are they within the margin? (ovoid_within) */
     OVOID_QUERY_DISTANCE,    /**< how far apart, if within the margin? (ovoid_distance with the margin as cap) */
-    OVOID_QUERY_DEPTH        /**< how far apart, or how deep, if within the margin? (ovoid_depth) */
+    OVOID_QUERY_DEPTH /**< how far apart, or how deep, if within the margin? (ovoid_depth); of a pair with a solid
+                           the depth is as wide a bracket as ovoid_solid_distance gives */
 } ovoid_query_kind;
 
 /** The query of all pairs of a world. */
@@ -145,7 +146,7 @@ typedef struct ovoid_contact_query {
  */
 typedef struct ovoid_contact {
     ovoid_id a, b;           /**< a < b */
-    uint32_t part_a, part_b; /**< of compounds: the deciding parts; 0 for a shape */
+    uint32_t part_a, part_b; /**< of compounds the deciding parts, of solids the triangles; 0 for a shape */
     ovoid_verdict verdict;   /**< stage PROOF with 0 iterations: by the aged bounds of an earlier step's proof */
 } ovoid_contact;
 
@@ -176,7 +177,8 @@ OVOID_API ovoid_code ovoid_world_compute_contacts(ovoid_world *world, const ovoi
 /**
  * The whole answer of a contact at the present poses, with the proof that ovoid_compound_answer_check takes (of two
  * shapes: that ovoid_answer_check takes): the query is that of the last step, warm from its cache. exclusions: as in
- * ovoid_compound_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT. Cost: one query.
+ * ovoid_compound_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT (also: a pair with a solid, of which
+ * ovoid_solid_distance and its sisters give the proof). Cost: one query.
  */
 OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const ovoid_contact *contact,
                                                ovoid_exclusions *exclusions, ovoid_compound_answer *answer,
@@ -186,8 +188,9 @@ OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const o
  * Queries between steps. None of them allocates or changes anything; each takes the bodies where they are now, in any
  * thread, while no other thread changes the world. Pairs that are filtered out (ovoid_world_is_pair) are left out; of a
  * probe, which is no body of the world, groups and masks count, ignored pairs and the filter do not. Answers are those
- * of <ovoid/compound.h>, cold. Errors of all: ARGUMENT (options, margin), INDEX (an id), and for a probe those of
- * ovoid_world_add.
+ * of <ovoid/compound.h>, cold; of a pair with a solid those of <ovoid/solid.h>, with the surfaces' points and proof,
+ * triangles as parts, and status and bracket of the bodies (their check takes the ovoid_solid_answer, asked again).
+ * Errors of all: ARGUMENT (options, margin), INDEX (an id), and for a probe those of ovoid_world_add.
  */
 
 /** The pair that a query found. */
@@ -266,7 +269,7 @@ OVOID_API ovoid_world_body ovoid_world_make_point(const ovoid_world *world, ovoi
 /** The first hit of a ray or of a moved body. */
 typedef struct ovoid_world_cast {
     ovoid_id body;        /**< 0: none */
-    uint32_t part, probe; /**< part of the body, and of the probe */
+    uint32_t part, probe; /**< part of the body, and of the probe; of solids the triangles */
     double lower, upper;  /**< bracket of the first t; where nothing is met the whole length, and infinity */
     ovoid_vec3 point;     /**< of the body, world */
     ovoid_vec3 normal;    /**< unit, out of the body */
@@ -280,7 +283,9 @@ typedef struct ovoid_world_ray {
 } ovoid_world_ray;
 
 /**
- * The first hit of a ray, thick where its radius is above 0; t in lengths of its direction. Errors: ARGUMENT (the ray).
+ * The first hit of a ray, thick where its radius is above 0; t in lengths of its direction. A ray without a radius that
+ * enters a closed solid is proven by a point inside, a millionth of a millionth of the size further or more; where it
+ * only grazes one, or meets a surface without an inside, it is undecided. Errors: ARGUMENT (the ray).
  */
 OVOID_API ovoid_code ovoid_world_cast_ray(const ovoid_world *world, const ovoid_world_ray *ray, ovoid_world_cast *cast,
                                           ovoid_error *error);

@@ -61,8 +61,8 @@ int limit_check(module_state *state, ovoid_limit limit) {
 // ---- checking
 
 static ovoid_body make_body(module_state *state, PyObject *from, ovoid_pose pose) {
-    if (Py_TYPE(from) == state->shape) return (ovoid_body){((shape_object *)from)->shape, NULL, pose};
-    return (ovoid_body){NULL, ((compound_object *)from)->compound, pose};
+    if (Py_TYPE(from) == state->shape) return (ovoid_body){.shape = ((shape_object *)from)->shape, .pose = pose};
+    return (ovoid_body){.compound = ((compound_object *)from)->compound, .pose = pose};
 }
 
 ovoid_code answer_check(const answer_object *self, ovoid_error *error) {

@@ -15,7 +15,7 @@ typedef struct impact_object {
 } impact_object;
 
 static ovoid_moving_body make_moving(module_state *state, PyObject *body, PyObject *motion) {
-    ovoid_moving_body made = {NULL, NULL, ((motion_object *)motion)->motion};
+    ovoid_moving_body made = {.motion = ((motion_object *)motion)->motion};
     if (Py_TYPE(body) == state->shape)
         made.shape = ((shape_object *)body)->shape;
     else

@@ -102,7 +102,8 @@ static PyObject *swept(PyObject *self, PyObject *arguments) {
     ovoid_body body;
     if (!PyArg_ParseTuple(arguments, "Odd:swept", &given, &begin, &end) || body_read(state, given, "body", &body))
         return NULL;
-    ovoid_moving_body moving = {body.shape, body.compound, ((motion_object *)self)->motion};
+    ovoid_moving_body moving = {
+        .shape = body.shape, .compound = body.compound, .motion = ((motion_object *)self)->motion};
     ovoid_box box = ovoid_moving_body_compute_box(&moving, begin, end);
     if (box.min.x != box.min.x)
         return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "swept: begin <= end is wanted, and no NaN");

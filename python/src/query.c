@@ -122,8 +122,8 @@ static int read_prepared(module_state *state, PyObject *const x[ARGUMENT_COUNT],
     const prepared_object *a = (const prepared_object *)in->a, *b = (const prepared_object *)in->b;
     in->prepared_a = &a->of;
     in->prepared_b = &b->of;
-    in->pair.a = (ovoid_body){a->of.body.shape, NULL, a->of.body.pose};
-    in->pair.b = (ovoid_body){b->of.body.shape, NULL, b->of.body.pose};
+    in->pair.a = (ovoid_body){.shape = a->of.body.shape, .pose = a->of.body.pose};
+    in->pair.b = (ovoid_body){.shape = b->of.body.shape, .pose = b->of.body.pose};
     in->a = a->shape;
     in->b = b->shape;
     return 0;

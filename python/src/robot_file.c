@@ -396,7 +396,8 @@ static PyObject *add_obstacles(cell_object *self, PyObject *obstacles) {
     PyObject *list = PyList_New(0);
     for (Py_ssize_t i = 0; list && i < PyList_Size(obstacles); i++) {
         PyObject *obstacle = PyList_GetItem(obstacles, i), *shape = PyTuple_GetItem(obstacle, 1);
-        ovoid_body body = {((shape_object *)shape)->shape, NULL, ((pose_object *)PyTuple_GetItem(obstacle, 2))->pose};
+        ovoid_body body = {.shape = ((shape_object *)shape)->shape,
+                           .pose = ((pose_object *)PyTuple_GetItem(obstacle, 2))->pose};
         ovoid_error error;
         ovoid_id id = ovoid_robot_cell_add(self->cell, &body, &error);
         if (!id) raise_error(state, &error);

@@ -11,19 +11,18 @@ typedef struct solid_answer_object {
     size_t exclusion_count;
 } solid_answer_object;
 
-static ovoid_solid_body make_body(module_state *state, PyObject *from, const ovoid_pose *pose) {
-    if (Py_TYPE(from) == state->solid) return (ovoid_solid_body){NULL, ((solid_object *)from)->solid, *pose};
-    return (ovoid_solid_body){((shape_object *)from)->shape, NULL, *pose};
+static ovoid_body make_body(module_state *state, PyObject *from, const ovoid_pose *pose) {
+    if (Py_TYPE(from) == state->solid) return (ovoid_body){.solid = ((solid_object *)from)->solid, .pose = *pose};
+    return (ovoid_body){.shape = ((shape_object *)from)->shape, .pose = *pose};
 }
 
-static ovoid_solid_pair make_pair(module_state *state, const solid_answer_object *x) {
-    return (ovoid_solid_pair){make_body(state, x->a, &x->pose_a), make_body(state, x->b, &x->pose_b)};
+static ovoid_body_pair make_pair(module_state *state, const solid_answer_object *x) {
+    return (ovoid_body_pair){make_body(state, x->a, &x->pose_a), make_body(state, x->b, &x->pose_b)};
 }
 
 // ---- asking
 
-static ovoid_solid_answer query_once(const query_input *in, const ovoid_solid_pair *pair,
-                                     ovoid_exclusions *exclusions) {
+static ovoid_solid_answer query_once(const query_input *in, const ovoid_body_pair *pair, ovoid_exclusions *exclusions) {
     const ovoid_compound_proof *earlier = in->has_earlier ? &in->earlier : NULL;
     switch (in->name) {
     case QUERY_COLLIDE: return ovoid_solid_collide(pair, &in->options, earlier, exclusions);
@@ -34,7 +33,7 @@ static ovoid_solid_answer query_once(const query_input *in, const ovoid_solid_pa
 
 // Asks again with more memory where the exclusions were more than there was room for.
 static int find_answer(module_state *state, const query_input *in, solid_answer_object *to) {
-    ovoid_solid_pair pair = make_pair(state, to);
+    ovoid_body_pair pair = make_pair(state, to);
     for (size_t capacity = 256;; capacity = to->exclusion_count) {
         ovoid_exclusion *grown = realloc(to->exclusions, capacity * sizeof *grown);
         if (!grown) {
@@ -83,7 +82,7 @@ ovoid_compound_proof solid_answer_get_proof(PyObject *answer) {
 
 ovoid_code solid_answer_check(PyObject *answer, ovoid_error *error) {
     const solid_answer_object *self = (const solid_answer_object *)answer;
-    ovoid_solid_pair pair = make_pair(state_of(answer), self);
+    ovoid_body_pair pair = make_pair(state_of(answer), self);
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count, NULL};
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;

@@ -2,7 +2,7 @@
 #include "compound/compound.h"
 
 int body_view_make(const ovoid_body *body, body_view *v) {
-    if (!body_is_one(body->shape, body->compound)) return 0;
+    if (!body_is_convex(body)) return 0;
     if (pose_compute_check(&body->pose) != OVOID_OK) return 0;
     v->pose = &body->pose;
     v->compound = body->compound;

@@ -101,8 +101,10 @@ typedef struct body_view {
     compound_part own_part;
 } body_view;
 
+/// 1 if a body is a shape or a compound, and nothing else.
+static inline int body_is_convex(const ovoid_body *body) { return !body->solid && !body->shape != !body->compound; }
 /// 1 if exactly one of a body's pointers is set.
-static inline int body_is_one(const ovoid_shape *shape, const ovoid_compound *compound) { return !shape != !compound; }
+static inline int body_is_one(const ovoid_body *body) { return !!body->shape + !!body->compound + !!body->solid == 1; }
 
 /// 0 where the body or its pose is refused.
 int body_view_make(const ovoid_body *body, body_view *view);

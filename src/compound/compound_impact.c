@@ -35,7 +35,7 @@ static const ovoid_pose no_part = {{0, 0, 0}, {0, 0, 0, 0}};
 
 int moving_view_make(const ovoid_moving_body *body, body_view *view) {
     const ovoid_pose origin = {{0, 0, 0}, {1, 0, 0, 0}};
-    ovoid_body own = {body->shape, body->compound, origin};
+    ovoid_body own = {.shape = body->shape, .compound = body->compound, .pose = origin, .solid = body->solid};
     int ok = body_view_make(&own, view);
     view->pose = NULL;
     return ok;
@@ -263,7 +263,7 @@ static box find_box(const ovoid_moving_body *body, const body_view *view, const 
     return ovoid_moving_shape_compute_box(&m, begin, end);
 }
 
-static box compute_box(const ovoid_moving_body *body, double begin, double end) {
+box moving_body_compute_box(const ovoid_moving_body *body, double begin, double end) {
     struct {
         const compound_node *node;
         int depth;
@@ -291,8 +291,4 @@ static box compute_box(const ovoid_moving_body *body, double begin, double end) 
         stack[top++].depth = depth;
     }
     return all;
-}
-
-ovoid_box ovoid_moving_body_compute_box(const ovoid_moving_body *body, double begin, double end) {
-    ENVIRONMENT_RETURN(ovoid_box, begin, compute_box(body, begin, end));
 }

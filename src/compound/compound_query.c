@@ -295,9 +295,9 @@ void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *op
     ovoid_limit refused = OVOID_LIMIT_NONE;
     if (!options_make(options, &h.options) || !(goal.far >= 0))
         refused = OVOID_LIMIT_OPTIONS;
-    else if (!body_is_one(pair->a.shape, pair->a.compound))
+    else if (!body_is_convex(&pair->a))
         refused = OVOID_LIMIT_SHAPE_A;
-    else if (!body_is_one(pair->b.shape, pair->b.compound))
+    else if (!body_is_convex(&pair->b))
         refused = OVOID_LIMIT_SHAPE_B;
     else if (!body_view_make(&pair->a, &h.a))
         refused = OVOID_LIMIT_POSE_A;

@@ -122,6 +122,9 @@ int ovoid_robot_is_rigid_pair(const ovoid_robot *robot, uint32_t a, uint32_t b) 
 // ---- bodies
 
 static ovoid_code check_body(const ovoid_body *body, ovoid_error *error) {
+    if (body && body->solid)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1,
+                         "cells do not take solids; give their convex parts as a compound, or their hull");
     if (!body || !body->shape == !body->compound)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs exactly one of a shape and a compound");
     ovoid_code code = ovoid_pose_compute_check(&body->pose);

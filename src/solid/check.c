@@ -9,7 +9,7 @@
 // two 10 u, the normal's length 4 u: below 148 u S.
 #include "base/environment.h"
 #include "base/error.h"
-#include "compound/compound.h"
+#include "linear/rotation.h"
 #include "solid/frame.h"
 
 typedef struct cut {
@@ -28,12 +28,22 @@ static ovoid_code refuse_all(ovoid_error *error, const char *what) {
     return error_set(error, OVOID_ERROR_PROOF, -1, "%s", what);
 }
 
-// The largest n.x over the triangles at [first, end), from the origin of the body's frame, n in that frame.
-static double find_top(const solid_view *v, uint32_t first, uint32_t end, vec3 n) {
-    if (!v->solid)
-        return vec3_dot(n, v->shape->origin) + (shape_find_extreme(v->shape, n).value + v->shape->lower_radius);
+static double find_shape_top(const ovoid_shape *s, vec3 n) {
+    return vec3_dot(n, s->origin) + (shape_find_extreme(s, n).value + s->lower_radius);
+}
+
+// The largest n.x over the leaves at [first, end), from the origin of the body's frame; n in the world, and in that
+// frame.
+static double find_top(const solid_view *v, uint32_t first, uint32_t end, vec3 world, vec3 n) {
+    if (v->shape) return find_shape_top(v->shape, n);
     double most = -INFINITY;
-    for (uint32_t place = first; place < end; place++)
+    for (uint32_t place = first; place < end && v->compound; place++) {
+        ovoid_posed_shape part = solid_view_get_leaf(v, place, NULL);
+        vec3 in = mat3_mul_transposed_vec3(quat_to_mat3(part.pose.rotation), world);
+        double at = vec3_dot(world, vec3_sub(part.pose.position, v->pose->position));
+        most = max2(most, at + find_shape_top(part.shape, in));
+    }
+    for (uint32_t place = first; place < end && v->solid; place++)
         for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(n, solid_get_corner(v->solid, place, i)));
     return most;
 }
@@ -43,14 +53,14 @@ static double measure_gap(const cut *c, const ovoid_exclusion *e) {
     vec3 n = vec3_unit(e->normal);
     if (!vec3_is_finite(e->normal) || !(vec3_norm_squared(n) > 0.5)) return -INFINITY;
     vec3 in_a = mat3_mul_transposed_vec3(c->frame.world, n), in_b = mat3_mul_transposed_vec3(c->frame.world_b, n);
-    double top = find_top(&c->a, e->first_a, e->end_a, in_a);
-    double bottom = vec3_dot(n, c->frame.offset) - find_top(&c->b, e->first_b, e->end_b, vec3_neg(in_b));
+    double top = find_top(&c->a, e->first_a, e->end_a, n, in_a);
+    double bottom = vec3_dot(n, c->frame.offset) - find_top(&c->b, e->first_b, e->end_b, vec3_neg(n), vec3_neg(in_b));
     return (bottom - top) - c->frame.check;
 }
 
 static ovoid_pair get_pair(cut *c, uint32_t a, uint32_t b) {
-    return (ovoid_pair){solid_view_get_leaf(&c->a, a, &c->room_a), solid_view_get_leaf(&c->b, b, &c->room_b),
-                        *c->a.pose, *c->b.pose};
+    ovoid_posed_shape x = solid_view_get_leaf(&c->a, a, &c->room_a), y = solid_view_get_leaf(&c->b, b, &c->room_b);
+    return (ovoid_pair){x.shape, y.shape, x.pose, y.pose};
 }
 
 static ovoid_code check_bound(cut *c, size_t i, ovoid_error *error) {
@@ -68,15 +78,10 @@ static ovoid_code check_bound(cut *c, size_t i, ovoid_error *error) {
     return refuse(error, i, "is not shown by its normal");
 }
 
-static void set_range(const solid_view *v, solid_ref ref, uint32_t *first, uint32_t *end) {
-    *first = ref_is_triangle(ref) ? ref_get_place(ref) : v->solid->nodes[ref].first;
-    *end = ref_is_triangle(ref) ? *first + 1 : v->solid->nodes[ref].end;
-}
-
 static int is_excluded(const cut *c, solid_ref a, solid_ref b) {
     ovoid_exclusion wanted;
-    set_range(&c->a, a, &wanted.first_a, &wanted.end_a);
-    set_range(&c->b, b, &wanted.first_b, &wanted.end_b);
+    solid_view_get_range(&c->a, a, &wanted.first_a, &wanted.end_a);
+    solid_view_get_range(&c->b, b, &wanted.first_b, &wanted.end_b);
     return exclusions_have(c->all, &wanted);
 }
 
@@ -96,11 +101,11 @@ static ovoid_code check_cut(const cut *c, ovoid_error *error) {
         }
         tree_box box_a = solid_view_get_box(&c->a, a), box_b = solid_view_get_box(&c->b, b);
         int is_first = pair_is_split_first(a, &box_a, b, &box_b);
-        const ovoid_solid *s = is_first ? c->a.solid : c->b.solid;
-        solid_ref node = is_first ? a : b;
-        for (uint32_t i = 0; i < s->nodes[node].children; i++, count++) {
-            stack[count].a = is_first ? solid_get_child(s, node, i) : a;
-            stack[count].b = is_first ? b : solid_get_child(s, node, i);
+        solid_ref children[BOX8];
+        uint32_t more = solid_view_get_children(is_first ? &c->a : &c->b, is_first ? a : b, children);
+        for (uint32_t i = 0; i < more; i++, count++) {
+            stack[count].a = is_first ? children[i] : a;
+            stack[count].b = is_first ? b : children[i];
         }
     }
     return OVOID_OK;
@@ -131,15 +136,12 @@ static ovoid_code check_inside(const cut *c, ovoid_error *error) {
     const solid_view *own = x->inside == OVOID_SOLID_A_INSIDE ? &c->a : &c->b, *other = own == &c->a ? &c->b : &c->a;
     if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
         return refuse_all(error, "an overlap without a reason");
-    if (x->component >= (own->solid ? own->solid->component_count : 1))
-        return refuse_all(error, "there is no such component");
+    if (x->component >= solid_view_get_component_count(own)) return refuse_all(error, "there is no such component");
     if (!(x->surfaces.lower > c->frame.claim / 2) || !(x->upper >= -x->surfaces.lower))
         return refuse_all(error, "the surfaces are nearer than is claimed of what is inside");
     return solid_is_inside(own, other, x->component, 1) == 1 ? OVOID_OK
                                                              : refuse_all(error, "what is said to be inside is not");
 }
-
-static int is_closed(const solid_view *v) { return v->solid && v->solid->report.is_closed; }
 
 static ovoid_code check_apart(const cut *c, ovoid_error *error) {
     const ovoid_solid_answer *x = c->x;
@@ -147,7 +149,7 @@ static ovoid_code check_apart(const cut *c, ovoid_error *error) {
     uint32_t component;
     if (!(x->surfaces.lower > 0) || !(x->lower <= x->surfaces.lower) || !(x->upper >= x->surfaces.upper))
         return refuse_all(error, "the distance is not that of the surfaces");
-    if (!is_closed(&c->a) && !is_closed(&c->b)) return OVOID_OK;
+    if (!solid_view_is_closed(&c->a) && !solid_view_is_closed(&c->b)) return OVOID_OK;
     if (!(x->surfaces.lower > c->frame.claim / 2) || solid_find_inside(&c->a, &c->b, 1, &inside, &component) != 0)
         return refuse_all(error, "one body is inside of the other, or so near that it could be");
     return OVOID_OK;
@@ -170,7 +172,7 @@ static ovoid_code check_bodies(const cut *c, ovoid_error *error) {
     return check_depth(c, error);
 }
 
-static ovoid_code check(const ovoid_solid_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all,
+static ovoid_code check(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all,
                         ovoid_error *error) {
     static const ovoid_exclusions none = {NULL, 0, 0, NULL};
     cut c = {.x = x, .all = all ? all : &none};
@@ -192,7 +194,7 @@ static ovoid_code check(const ovoid_solid_pair *pair, const ovoid_solid_answer *
     return code == OVOID_OK ? check_bodies(&c, error) : code;
 }
 
-ovoid_code ovoid_solid_answer_check(const ovoid_solid_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code ovoid_solid_answer_check(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                                     const ovoid_exclusions *exclusions, ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
     ENVIRONMENT_RETURN(ovoid_code, pair, check(pair, answer, exclusions, error));

@@ -5,13 +5,18 @@
 
 #include <string.h>
 
-int solid_view_make(const ovoid_solid_body *body, solid_view *v) {
-    if (!body->shape == !body->solid || pose_compute_check(&body->pose) != OVOID_OK) return 0;
-    *v = (solid_view){.solid = body->solid, .shape = body->shape, .pose = &body->pose, .count = 1};
+int solid_view_make(const ovoid_body *body, solid_view *v) {
+    if (!body_is_one(body) || pose_compute_check(&body->pose) != OVOID_OK) return 0;
+    *v = (solid_view){
+        .solid = body->solid, .shape = body->shape, .compound = body->compound, .pose = &body->pose, .count = 1};
     if (v->solid) {
         v->center = v->solid->center;
         v->extent = v->solid->extent;
         v->count = v->solid->triangle_count;
+    } else if (v->compound) {
+        v->extent = v->compound->extent;
+        v->allowance = v->compound->allowance;
+        v->count = v->compound->count;
     } else {
         const ovoid_shape *s = v->shape;
         const ovoid_box *b = &s->measures.box;
@@ -20,8 +25,46 @@ int solid_view_make(const ovoid_solid_body *body, solid_view *v) {
         double r = s->lower_radius;
         v->half = vec3_add(v->half, (vec3){r, r, r});
         v->extent = vec3_norm(s->origin) * (1 + 0x1p-50) + s->span + s->lower_radius;
+        v->allowance = shape_get_width(s);
     }
     return vec3_norm(v->pose->position) + v->extent <= OVOID_LENGTH_MAX;
+}
+
+// The node of a compound's leaf: down to the child that holds the place.
+static const compound_node *find_part_node(const ovoid_compound *c, uint32_t place) {
+    const compound_node *n = c->nodes;
+    while (!node_is_leaf(n)) n = place < node_get_left(n)->end ? node_get_left(n) : node_get_right(n);
+    return n;
+}
+
+static const compound_node *get_node(const ovoid_compound *c, solid_ref ref) {
+    return ref_is_triangle(ref) ? find_part_node(c, ref_get_place(ref)) : &c->nodes[ref];
+}
+
+void solid_view_get_range(const solid_view *v, solid_ref ref, uint32_t *first, uint32_t *end) {
+    if (ref_is_triangle(ref)) {
+        *first = ref_get_place(ref);
+        *end = *first + 1;
+    } else if (v->solid) {
+        *first = v->solid->nodes[ref].first;
+        *end = v->solid->nodes[ref].end;
+    } else {
+        *first = v->compound->nodes[ref].first;
+        *end = v->compound->nodes[ref].end;
+    }
+}
+
+uint32_t solid_view_get_children(const solid_view *v, solid_ref node, solid_ref children[BOX8]) {
+    if (v->compound) {
+        const compound_node *n = &v->compound->nodes[node], *two[2] = {node_get_left(n), node_get_right(n)};
+        for (int i = 0; i < 2; i++)
+            children[i] =
+                node_is_leaf(two[i]) ? two[i]->first | SOLID_TRIANGLE : (solid_ref)(two[i] - v->compound->nodes);
+        return 2;
+    }
+    uint32_t count = v->solid->nodes[node].children;
+    for (uint32_t i = 0; i < count; i++) children[i] = solid_get_child(v->solid, node, i);
+    return count;
 }
 
 // The triangle's box as its node has it: rounded to single precision, so that both have the same centre.
@@ -35,7 +78,11 @@ static void set_triangle_box(const ovoid_solid *s, uint32_t place, float low[3],
 }
 
 tree_box solid_view_get_box(const solid_view *v, solid_ref ref) {
-    if (!v->solid) return (tree_box){{0, 0, 0}, v->half};
+    if (v->shape) return (tree_box){{0, 0, 0}, v->half};
+    if (v->compound) {
+        const compound_node *n = get_node(v->compound, ref);
+        return (tree_box){n->center, n->half};
+    }
     float own[2][3];
     const float *low = own[0], *high = own[1];
     if (ref_is_triangle(ref)) {
@@ -65,6 +112,8 @@ void solid_frame_make(const solid_view *a, const solid_view *b, solid_frame *f) 
     f->between = vec3_sub(vec3_add(f->translation, mat3_mul_vec3(f->to_a, b->center)), a->center);
     f->size = a->extent + b->extent + vec3_norm(f->offset);
     f->claim = SOLID_CLAIM * f->size + 4 * OVOID_LENGTH_MIN;
+    if (a->compound || b->compound)
+        f->claim += 8 * 0x1p-53 * (vec3_norm(a->pose->position) + vec3_norm(b->pose->position));
     f->check = SOLID_CHECK * f->size + OVOID_LENGTH_MIN;
 }
 
@@ -169,10 +218,14 @@ void triangle_set(triangle_shape *t, const vec3 c[3]) {
     s->inner = (ovoid_ellipsoid){.center = c[0]};
 }
 
-const ovoid_shape *solid_view_get_leaf(const solid_view *v, uint32_t place, triangle_shape *room) {
-    if (!v->solid) return v->shape;
+ovoid_posed_shape solid_view_get_leaf(const solid_view *v, uint32_t place, triangle_shape *room) {
+    if (v->shape) return (ovoid_posed_shape){v->shape, *v->pose};
+    if (v->compound) {
+        const compound_part *part = &v->compound->parts[place];
+        return (ovoid_posed_shape){part->shape, pose_compute_product(v->pose, &part->pose)};
+    }
     const vec3 corner[3] = {solid_get_corner(v->solid, place, 0), solid_get_corner(v->solid, place, 1),
                             solid_get_corner(v->solid, place, 2)};
     triangle_set(room, corner);
-    return &room->shape;
+    return (ovoid_posed_shape){&room->shape, *v->pose};
 }

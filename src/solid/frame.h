@@ -1,4 +1,4 @@
-// A pair of posed bodies, each a solid or a shape, in the frame of the first; triangles as shapes.
+// A pair of posed bodies, each a solid, a shape or a compound, in the frame of the first; triangles as shapes.
 //
 // With u = 2^-53, ea, eb the largest point norms in the bodies' frames (of a shape its origin's norm, span and radius),
 // t the place of b's frame and S = ea + eb + |t|:
@@ -9,35 +9,46 @@
 // - a gap of two triangles along a unit direction is off by 100 u S, turning the direction to the world moves it by
 //   42 u S, and whoever measures it again there is off by 148 u S.
 // Together below 400 u S; a bound is lowered by 512 u S and twice what underflow can hide.
+// A part of a compound is where the rounded product of two poses has it (compound.h): off by 45 u S more, and by u of
+// its body's position; where a compound takes part, a bound is lowered by 8 u of both positions beside that.
 #ifndef OVOID_SOLID_FRAME_H
 #define OVOID_SOLID_FRAME_H
 
-#include "query/answer.h"
+#include "compound/compound.h"
 #include "solid/solid.h"
 
 #define SOLID_CLAIM (512 * 0x1p-53)
 #define SOLID_CHECK (148 * 0x1p-53)
 
-/// A posed body as a tree; a shape is a tree of one leaf, "triangle" 0.
+/// A posed body as a tree, of which one pointer is set. The leaves of a compound's are its parts; a shape is a tree of
+/// one leaf, "triangle" 0.
 typedef struct solid_view {
-    const ovoid_solid *solid; ///< NULL: a shape
+    const ovoid_solid *solid;
     const ovoid_shape *shape;
+    const ovoid_compound *compound;
     const ovoid_pose *pose;
-    vec3 center;   ///< of the tree's frame, in the body's
-    vec3 half;     ///< of the shape's box around it
-    double extent; ///< radius and allowance included
+    vec3 center;      ///< of the tree's frame, in the body's
+    vec3 half;        ///< of the shape's box around it
+    double extent;    ///< radius and allowance included
+    double allowance; ///< the width that it gives every bracket
     uint32_t count;
 } solid_view;
 
 /// 0 where the body or its pose is refused.
-int solid_view_make(const ovoid_solid_body *body, solid_view *view);
-static inline solid_ref solid_view_get_root(const solid_view *v) { return v->solid ? 0 : SOLID_TRIANGLE; }
+int solid_view_make(const ovoid_body *body, solid_view *view);
+static inline solid_ref solid_view_get_root(const solid_view *v) {
+    return v->count > 1 || v->solid ? 0 : SOLID_TRIANGLE;
+}
 static inline uint32_t solid_view_get_index(const solid_view *v, uint32_t place) {
-    return v->solid ? v->solid->order[place] : 0;
+    return v->solid ? v->solid->order[place] : v->compound ? v->compound->order[place] : 0;
 }
 static inline uint32_t solid_view_get_place(const solid_view *v, uint32_t index) {
-    return v->solid ? v->solid->places[index] : 0;
+    return v->solid ? v->solid->places[index] : v->compound ? v->compound->places[index] : 0;
 }
+/// The places of the leaves below a node: [*first, *end).
+void solid_view_get_range(const solid_view *v, solid_ref ref, uint32_t *first, uint32_t *end);
+/// The children of a node that is no leaf; how many.
+uint32_t solid_view_get_children(const solid_view *v, solid_ref node, solid_ref children[BOX8]);
 
 /// A box in a tree's frame, in the user's unit of length.
 typedef struct tree_box {
@@ -86,8 +97,16 @@ typedef struct triangle_shape {
 void triangle_begin(triangle_shape *t);
 void triangle_set(triangle_shape *t, const vec3 corner[3]);
 
-/// The shape of a leaf: that of the body, or the triangle at that place, made in *room.
-const ovoid_shape *solid_view_get_leaf(const solid_view *v, uint32_t place, triangle_shape *room);
+/// A leaf in the world: the body's shape, the part, or the triangle at that place, made in *room.
+ovoid_posed_shape solid_view_get_leaf(const solid_view *v, uint32_t place, triangle_shape *room);
+
+/// Components, of which each is inside of another body or outside of it: of a solid those of its surface, of a compound
+/// its parts by the caller's index, of a shape the whole.
+static inline uint32_t solid_view_get_component_count(const solid_view *v) {
+    return v->solid ? v->solid->component_count : v->count;
+}
+/// 1 if a body has an inside that other bodies' components can be in.
+static inline int solid_view_is_closed(const solid_view *v) { return v->solid && v->solid->report.is_closed; }
 
 /// Is a component of one body inside of the other? For bodies whose surfaces are farther apart than frame->claim: 0 no,
 /// 1 yes, with side (the body whose component it is) and component; -1: a winding number could not be found. linear: as

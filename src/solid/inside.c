@@ -3,8 +3,12 @@
 // common point the region that both cover is bounded by surfaces of one that the other covers. So one point of each
 // component decides.
 //
-// The point is rounded in the other's frame, off by less than 91 u S, and the surfaces are farther apart than the claim
-// of 512 u S: on the way from the exact point to the rounded one no surface is met, so the winding number is the same.
+// The parts of a compound are its components: each is connected, and a surface that enters the union of the parts meets
+// one of them.
+//
+// The point is rounded in the other's frame, off by less than 91 u S (of a part 136 u S), and the surfaces are farther
+// apart than the claim of 512 u S: on the way from the exact point to the rounded one no surface is met, so the winding
+// number is the same.
 #include "solid/frame.h"
 
 #include "linear/rotation.h"
@@ -12,18 +16,22 @@
 // A point of a component in the frame of the other body.
 static vec3 find_point(const solid_view *own, const solid_view *other, uint32_t component) {
     vec3 p;
-    if (own->solid)
+    ovoid_pose pose = *own->pose;
+    if (own->solid) {
         p = vec3_at(own->solid->points, own->solid->components[component]);
-    else
-        p = vec3_add(own->shape->origin, own->shape->first);
-    mat3 r = quat_to_mat3(own->pose->rotation), q = quat_to_mat3(other->pose->rotation);
-    vec3 offset = vec3_sub(own->pose->position, other->pose->position);
+    } else {
+        ovoid_posed_shape leaf = solid_view_get_leaf(own, solid_view_get_place(own, component), NULL);
+        p = vec3_add(leaf.shape->origin, leaf.shape->first);
+        pose = leaf.pose;
+    }
+    mat3 r = quat_to_mat3(pose.rotation), q = quat_to_mat3(other->pose->rotation);
+    vec3 offset = vec3_sub(pose.position, other->pose->position);
     return mat3_mul_transposed_vec3(q, vec3_add(mat3_mul_vec3(r, p), offset));
 }
 
 int solid_is_inside(const solid_view *own, const solid_view *other, uint32_t component, int linear) {
     int64_t winding;
-    if (!other->solid || !other->solid->report.is_closed) return 0;
+    if (!solid_view_is_closed(other)) return 0;
     if (!solid_find_winding(other->solid, find_point(own, other, component), linear, &winding)) return -1;
     return winding != 0;
 }
@@ -33,8 +41,8 @@ int solid_find_inside(const solid_view *a, const solid_view *b, int linear, ovoi
     int is_open = 0;
     for (int side = 0; side < 2; side++) {
         const solid_view *own = side ? b : a, *other = side ? a : b;
-        uint32_t count = own->solid ? own->solid->component_count : 1;
-        if (!other->solid || !other->solid->report.is_closed) continue;
+        uint32_t count = solid_view_get_component_count(own);
+        if (!solid_view_is_closed(other)) continue;
         for (uint32_t i = 0; i < count; i++) {
             int is = solid_is_inside(own, other, i, linear);
             is_open |= is < 0;

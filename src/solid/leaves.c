@@ -20,24 +20,14 @@ void search_exclude(solid_search *h, uint32_t a, uint32_t b, double lower, vec3 
     add(h, &x);
 }
 
-static void set_range(const solid_view *v, solid_ref ref, uint32_t *first, uint32_t *end) {
-    if (!ref_is_triangle(ref)) {
-        *first = v->solid->nodes[ref].first;
-        *end = v->solid->nodes[ref].end;
-    } else {
-        *first = ref_get_place(ref);
-        *end = *first + 1;
-    }
-}
-
 void search_exclude_boxes(solid_search *h, const waiting_pair *w) {
     h->lower = min2(h->lower, w->lower);
     if (!h->exclusions) return;
     tree_box a = solid_view_get_box(&h->a, w->a), b = solid_view_get_box(&h->b, w->b);
     ovoid_exclusion x = {.lower = w->lower};
     x.normal = mat3_mul_vec3(h->frame.world, solid_frame_find_gap(&h->frame, &a, &b, h->normals[w->normal]).normal);
-    set_range(&h->a, w->a, &x.first_a, &x.end_a);
-    set_range(&h->b, w->b, &x.first_b, &x.end_b);
+    solid_view_get_range(&h->a, w->a, &x.first_a, &x.end_a);
+    solid_view_get_range(&h->b, w->b, &x.first_b, &x.end_b);
     add(h, &x);
 }
 
@@ -59,9 +49,10 @@ static void set_filter(solid_search *h) {
     if (!(vec3_norm_squared(h->best.normal) > 0.5)) return;
     if (h->normal_count < SEARCH_NORMALS)
         h->normals[h->normal_count++] = vec3_unit(mat3_mul_transposed_vec3(h->frame.world, h->best.normal));
-    if (h->a.solid && h->b.solid) return;
+    if (!(h->a.solid && h->b.shape) && !(h->a.shape && h->b.solid)) return;
     int side = h->a.solid != NULL;
     const solid_view *shape = side ? &h->b : &h->a;
+    if (!shape->shape) return;
     mat3 r = side ? h->frame.world : h->frame.world_b;
     vec3 n = side ? h->best.normal : vec3_neg(h->best.normal);
     h->filter = mat3_mul_transposed_vec3(r, n);
@@ -73,15 +64,51 @@ static void set_filter(solid_search *h) {
     h->filter_support = offset - top - shape->shape->lower_radius - h->frame.claim;
 }
 
-int search_is_filtered(solid_search *h, int side, uint32_t place) {
-    if (!h->has_best || h->filter_support == -INFINITY) return 0;
+// The gap of a triangle and the shape along the filter.
+static double find_shape_gap(const solid_search *h, int side, uint32_t place) {
     const ovoid_solid *s = side ? h->b.solid : h->a.solid;
     double most = -INFINITY;
     for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(h->filter, solid_get_corner(s, place, i)));
-    double lower = h->filter_support - most;
+    return h->filter_support - most;
+}
+
+// The largest n.x of a leaf, n in the world, from the body's origin.
+static double find_leaf_top(const solid_view *v, mat3 world, uint32_t place, vec3 n) {
+    if (v->solid) {
+        double most = -INFINITY;
+        vec3 in = mat3_mul_transposed_vec3(world, n);
+        for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(in, solid_get_corner(v->solid, place, i)));
+        return most;
+    }
+    ovoid_posed_shape leaf = solid_view_get_leaf(v, place, NULL);
+    const ovoid_shape *s = leaf.shape;
+    vec3 in = mat3_mul_transposed_vec3(quat_to_mat3(leaf.pose.rotation), n);
+    double at = vec3_dot(n, vec3_sub(leaf.pose.position, v->pose->position));
+    return at + (vec3_dot(in, s->origin) + (shape_find_extreme(s, in).value + s->lower_radius));
+}
+
+static double find_leaf_gap(const solid_search *h, uint32_t a, uint32_t b) {
+    vec3 n = vec3_unit(h->best.normal);
+    double top = find_leaf_top(&h->a, h->frame.world, a, n);
+    double bottom = vec3_dot(n, h->frame.offset) - find_leaf_top(&h->b, h->frame.world_b, b, vec3_neg(n));
+    return bottom - top - h->frame.claim;
+}
+
+int search_is_filtered(solid_search *h, uint32_t a, uint32_t b) {
+    double lower;
+    if (!h->has_best || !(vec3_norm_squared(h->best.normal) > 0.5)) return 0;
+    if (h->filter_support > -INFINITY)
+        lower = find_shape_gap(h, !h->a.solid, h->a.solid ? a : b);
+    else
+        lower = find_leaf_gap(h, a, b);
     if (!search_is_left_out(h, lower)) return 0;
-    search_exclude(h, side ? 0 : place, side ? place : 0, lower, h->best.normal, (vec3){0, 0, 0});
+    search_exclude(h, a, b, lower, h->best.normal, (vec3){0, 0, 0});
     return 1;
+}
+
+ovoid_pair search_get_pair(solid_search *h, uint32_t a, uint32_t b) {
+    ovoid_posed_shape x = solid_view_get_leaf(&h->a, a, &h->room_a), y = solid_view_get_leaf(&h->b, b, &h->room_b);
+    return (ovoid_pair){x.shape, y.shape, x.pose, y.pose};
 }
 
 static void exclude_candidate(solid_search *h, const solid_candidate *x) {
@@ -113,8 +140,7 @@ void search_visit_leaves(solid_search *h, uint32_t a, uint32_t b, const ovoid_pr
         goal.far = max2(h->enough, h->frame.claim);
         goal.beyond = OVOID_LIMIT_CAP;
     }
-    ovoid_pair pair = {solid_view_get_leaf(&h->a, a, &h->room_a), solid_view_get_leaf(&h->b, b, &h->room_b), *h->a.pose,
-                       *h->b.pose};
+    ovoid_pair pair = search_get_pair(h, a, b);
     answer_find_internal(&pair, &h->options, goal, earlier, NULL, &h->spare);
     h->out->tested++;
     const ovoid_answer *x = &h->spare;

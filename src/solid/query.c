@@ -3,6 +3,7 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "solid/body_find.h"
 #include "solid/search.h"
 
 // ---- the end of a query
@@ -27,8 +28,7 @@ static void finish_surfaces(solid_search *h) {
         search_visit_leaves(h, 0, 0, NULL);
     } else if (!h->is_answered) {
         // Known by the kernel only.
-        ovoid_pair pair = {solid_view_get_leaf(&h->a, h->best.place_a, &h->room_a),
-                           solid_view_get_leaf(&h->b, h->best.place_b, &h->room_b), *h->a.pose, *h->b.pose};
+        ovoid_pair pair = search_get_pair(h, h->best.place_a, h->best.place_b);
         query_goal goal = h->whole_goal;
         goal.far = max2(goal.far, h->frame.claim);
         answer_find_internal(&pair, &h->options, goal, NULL, NULL, &out->surfaces);
@@ -48,11 +48,9 @@ static void finish_surfaces(solid_search *h) {
     if (all && all->count <= all->capacity) exclusions_sort(all->items, all->count);
 }
 
-static int may_be_inside(const solid_view *v) { return v->solid && v->solid->report.is_closed; }
-
 // 1, 0, or -1 where it is open: nearer than half the claim the point's rounding may cross a surface.
 static int find_inside(solid_search *h) {
-    if (!may_be_inside(&h->a) && !may_be_inside(&h->b)) return 0;
+    if (!solid_view_is_closed(&h->a) && !solid_view_is_closed(&h->b)) return 0;
     if (!(h->out->surfaces.lower > h->frame.claim / 2)) return -1;
     return solid_find_inside(&h->a, &h->b, 0, &h->out->inside, &h->out->component);
 }
@@ -86,21 +84,20 @@ static void finish(solid_search *h) {
 // ---- the beginning
 
 static void visit_earlier(solid_search *h, const ovoid_compound_proof *earlier) {
-    uint32_t count_a = h->a.solid ? h->a.count : 1, count_b = h->b.solid ? h->b.count : 1;
     h->warm_a = h->a.count;
     h->warm_b = h->b.count;
-    if (!earlier || earlier->part_a >= count_a || earlier->part_b >= count_b) return;
+    if (!earlier || earlier->part_a >= h->a.count || earlier->part_b >= h->b.count) return;
     uint32_t a = solid_view_get_place(&h->a, earlier->part_a), b = solid_view_get_place(&h->b, earlier->part_b);
     search_visit_leaves(h, a, b, &earlier->proof);
     h->warm_a = a;
     h->warm_b = b;
 }
 
-static ovoid_limit begin(solid_search *h, const ovoid_solid_pair *pair, const ovoid_options *options,
+static ovoid_limit begin(solid_search *h, const ovoid_body_pair *pair, const ovoid_options *options,
                          const query_goal *goal) {
     if (!options_make(options, &h->options) || !(goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
-    if (!pair->a.shape == !pair->a.solid) return OVOID_LIMIT_SHAPE_A;
-    if (!pair->b.shape == !pair->b.solid) return OVOID_LIMIT_SHAPE_B;
+    if (!body_is_one(&pair->a)) return OVOID_LIMIT_SHAPE_A;
+    if (!body_is_one(&pair->b)) return OVOID_LIMIT_SHAPE_B;
     if (!solid_view_make(&pair->a, &h->a)) return OVOID_LIMIT_POSE_A;
     if (!solid_view_make(&pair->b, &h->b)) return OVOID_LIMIT_POSE_B;
     solid_frame_make(&h->a, &h->b, &h->frame);
@@ -109,7 +106,7 @@ static ovoid_limit begin(solid_search *h, const ovoid_solid_pair *pair, const ov
     // Half for a pair, half for what is left out beside it.
     h->options.absolute_tolerance = h->tolerance / 2;
     h->options.relative_tolerance = OVOID_LENGTH_MIN;
-    h->allowance = (h->a.shape ? shape_get_width(h->a.shape) : 0) + (h->b.shape ? shape_get_width(h->b.shape) : 0);
+    h->allowance = h->a.allowance + h->b.allowance;
     h->whole_goal = h->goal = *goal;
     h->far = max2(goal->far, h->frame.claim);
     h->enough = h->lower = INFINITY;
@@ -124,9 +121,9 @@ static ovoid_limit begin(solid_search *h, const ovoid_solid_pair *pair, const ov
     return OVOID_LIMIT_NONE;
 }
 
-COMPILER_NOINLINE static void find_internal(const ovoid_solid_pair *pair, const ovoid_options *options,
-                                            const query_goal *goal, const ovoid_compound_proof *earlier,
-                                            ovoid_exclusions *exclusions, ovoid_solid_answer *out) {
+COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *options,
+                                           const query_goal *goal, const ovoid_compound_proof *earlier,
+                                           ovoid_exclusions *exclusions, ovoid_solid_answer *out) {
     solid_search h;
     *out = (ovoid_solid_answer){.status = OVOID_UNDECIDED};
     if (exclusions) exclusions->count = 0;
@@ -145,22 +142,46 @@ COMPILER_NOINLINE static void find_internal(const ovoid_solid_pair *pair, const 
     finish(&h);
 }
 
-static ovoid_solid_answer find(const ovoid_solid_pair *pair, const ovoid_options *options, query_goal goal,
+// The same, with the compound's answer as its own.
+COMPILER_NOINLINE static void find_as_compound(const ovoid_body_pair *pair, const ovoid_options *options,
+                                               const query_goal *goal, const ovoid_compound_proof *earlier,
+                                               ovoid_exclusions *exclusions, ovoid_compound_answer *out) {
+    ovoid_solid_answer x;
+    solid_find_internal(pair, options, goal, earlier, exclusions, &x);
+    *out = (ovoid_compound_answer){
+        .answer = x.surfaces, .part_a = x.triangle_a, .part_b = x.triangle_b, .visited = x.visited, .tested = x.tested};
+    out->answer.status = x.status;
+    out->answer.limit = x.limit;
+    out->answer.lower = x.lower;
+    out->answer.upper = x.upper;
+}
+
+void body_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
+                        const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions, ovoid_compound_answer *out) {
+    if (!body_pair_has_solid(pair)) {
+        compound_find_internal(pair, options, goal, earlier, exclusions, out);
+        return;
+    }
+    goal.wants_depth = 0;
+    find_as_compound(pair, options, &goal, earlier, exclusions, out);
+}
+
+static ovoid_solid_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                                const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
     OVOID_ASSERT(pair);
     ENVIRONMENT_RETURN_FILLED(ovoid_solid_answer, out, goal,
-                              find_internal(pair, options, &goal, earlier, exclusions, &out));
+                              solid_find_internal(pair, options, &goal, earlier, exclusions, &out));
 }
 
-ovoid_solid_answer ovoid_solid_collide(const ovoid_solid_pair *pair, const ovoid_options *options,
+ovoid_solid_answer ovoid_solid_collide(const ovoid_body_pair *pair, const ovoid_options *options,
                                        const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
     return find(pair, options, query_goal_make_collide(), earlier, exclusions);
 }
-ovoid_solid_answer ovoid_solid_within(const ovoid_solid_pair *pair, double margin, const ovoid_options *options,
+ovoid_solid_answer ovoid_solid_within(const ovoid_body_pair *pair, double margin, const ovoid_options *options,
                                       const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
     return find(pair, options, query_goal_make_within(margin), earlier, exclusions);
 }
-ovoid_solid_answer ovoid_solid_distance(const ovoid_solid_pair *pair, const ovoid_options *options,
+ovoid_solid_answer ovoid_solid_distance(const ovoid_body_pair *pair, const ovoid_options *options,
                                         const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
     return find(pair, options, query_goal_make_distance(options), earlier, exclusions);
 }

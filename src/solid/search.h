@@ -36,8 +36,8 @@ typedef struct solid_search {
     int has_best, is_answered;
     ovoid_limit trouble;
     uint32_t warm_a, warm_b; ///< the pair of the earlier answer, or count_a
-    // Of a solid and a shape: the direction of the best pair, from the solid to the shape in the solid's frame, and the
-    // shape's least extent along it.
+    // Of a solid and a shape or a compound: the direction of the best pair, from the solid to the other in the solid's
+    // frame, and of a shape its least extent along it.
     vec3 filter;
     double filter_support;
     ovoid_answer spare;
@@ -66,8 +66,10 @@ void search_visit_leaves(solid_search *h, uint32_t a, uint32_t b, const ovoid_pr
 void search_take(solid_search *h, const solid_candidate *x);
 /// Triangles of the body `side` (0: a) at places, with one triangle of the other, in lanes. count <= 8.
 void search_visit_triangles(solid_search *h, int side, uint32_t one, const uint32_t *places, uint32_t count);
-/// 1 where a triangle and a shape are left out by the normal of the best pair.
-int search_is_filtered(solid_search *h, int side, uint32_t place);
+/// 1 where two leaves, of which one is no triangle, are left out by the normal of the best pair.
+int search_is_filtered(solid_search *h, uint32_t a, uint32_t b);
+/// Two leaves as an ordinary pair; triangles are made in the search's rooms.
+ovoid_pair search_get_pair(solid_search *h, uint32_t a, uint32_t b);
 
 static inline vec3 search_get_normal(const solid_search *h) { return h->normals[h->normal_count - 1]; }
 /// The pair of roots, with its bound.

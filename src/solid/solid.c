@@ -160,6 +160,7 @@ static void set_header(ovoid_solid *s, const merger *m, uint32_t triangles) {
                         vec3_max_abs(vec3_sub(s->report.box.min, s->center)));
     s->unit = ldexp(1, find_unit_exponent(max2(reach, OVOID_LENGTH_MIN)));
     s->extent = sphere_compute_radius(m->points, m->count, (vec3){0, 0, 0});
+    s->reach = sphere_compute_radius(m->points, m->count, s->center);
 }
 
 // The tree in arrays of its own, since the number of its nodes is known only afterwards; then the block.

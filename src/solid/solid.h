@@ -26,6 +26,7 @@ struct ovoid_solid {
     vec3 center;   ///< of the box of all points
     double unit;   ///< a power of two, at least the largest size of a coordinate from `center`
     double extent; ///< no point is farther than this from the frame's origin, rounding included
+    double reach;  ///< nor than this from `center`
     ovoid_solid_report report;
     size_t size;
     ovoid_allocator allocator;

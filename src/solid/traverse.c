@@ -18,20 +18,37 @@ static void insert(children *c, const waiting_pair *w) {
     c->pair[at] = *w;
 }
 
-static void bound_children(solid_search *h, const waiting_pair *w, int side, const tree_box *rest, children *found) {
+// The bounds of the children of a solid's node, in lanes. side 0: nodes of a beside a box of b.
+static void bound_boxes(const solid_search *h, int side, solid_ref node, const tree_box *rest, double lower[BOX8]) {
     const ovoid_solid *s = side ? h->b.solid : h->a.solid;
-    solid_ref node = side ? w->b : w->a;
     solid8_other other;
-    double lower[BOX8];
-    // side 0: nodes of a beside a box of b.
     solid_frame_turn(&h->frame, side, rest, search_get_normal(h), &other);
     other.unit = s->unit;
     h->kernels->boxes(&s->boxes[node], &other, lower);
-    uint32_t count = s->nodes[node].children;
+}
+
+// Of the two children of a compound's node.
+static void bound_nodes(const solid_search *h, int side, const solid_ref *two, const tree_box *rest,
+                        double lower[BOX8]) {
+    for (int i = 0; i < 2; i++) {
+        tree_box own = solid_view_get_box(side ? &h->b : &h->a, two[i]);
+        lower[i] = solid_frame_find_gap(&h->frame, side ? rest : &own, side ? &own : rest, search_get_normal(h)).lower;
+    }
+}
+
+static void bound_children(solid_search *h, const waiting_pair *w, int side, const tree_box *rest, children *found) {
+    const solid_view *v = side ? &h->b : &h->a;
+    solid_ref node = side ? w->b : w->a, all[BOX8];
+    uint32_t count = solid_view_get_children(v, node, all);
+    double lower[BOX8];
+    if (v->solid)
+        bound_boxes(h, side, node, rest, lower);
+    else
+        bound_nodes(h, side, all, rest, lower);
     h->out->visited += count;
     found->count = 0;
     for (uint32_t i = 0; i < count; i++) {
-        solid_ref child = solid_get_child(s, node, i);
+        solid_ref child = all[i];
         waiting_pair next = {side ? w->a : child, side ? child : w->b, lower[i] - h->frame.claim, h->normal_count - 1};
         if (search_is_left_out(h, next.lower))
             search_exclude_boxes(h, &next);
@@ -40,12 +57,11 @@ static void bound_children(solid_search *h, const waiting_pair *w, int side, con
     }
 }
 
-// Two leaves, of which at least one is a shape.
+// Two leaves, of which at least one is no triangle.
 static void visit_pair(solid_search *h, const waiting_pair *w) {
     uint32_t a = ref_get_place(w->a), b = ref_get_place(w->b);
     if (a == h->warm_a && b == h->warm_b) return;
-    if (h->a.solid && search_is_filtered(h, 0, a)) return;
-    if (h->b.solid && search_is_filtered(h, 1, b)) return;
+    if (search_is_filtered(h, a, b)) return;
     search_visit_leaves(h, a, b, NULL);
 }
 

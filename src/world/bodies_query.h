@@ -2,13 +2,12 @@
 #ifndef OVOID_WORLD_BODIES_QUERY_H
 #define OVOID_WORLD_BODIES_QUERY_H
 
-#include "compound/compound.h"
-#include "query/answer.h"
+#include "solid/body_find.h"
 
 /// Two shapes are asked directly, without a compound's traversal.
 static inline void bodies_query(const ovoid_body *a, const ovoid_body *b, const ovoid_options *options, query_goal goal,
                                 ovoid_compound_answer *out) {
-    if (!a->compound && !b->compound) {
+    if (a->shape && b->shape) {
         ovoid_pair two = {a->shape, b->shape, a->pose, b->pose};
         out->part_a = out->part_b = out->visited = 0;
         out->tested = 1;
@@ -16,7 +15,7 @@ static inline void bodies_query(const ovoid_body *a, const ovoid_body *b, const 
         return;
     }
     ovoid_body_pair pair = {*a, *b};
-    compound_find_internal(&pair, options, goal, NULL, NULL, out);
+    body_find_internal(&pair, options, goal, NULL, NULL, out);
 }
 
 #endif

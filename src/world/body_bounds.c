@@ -4,6 +4,7 @@
 #include "compound/compound.h"
 #include "linear/rotation.h"
 #include "simd/pair.h"
+#include "solid/solid.h"
 
 // u = 2^-53. R(q) is off by 36 u, a product with it by 6 u more, the sum by u of itself: 43 u |local| + u |r|, and
 // local itself, a sum, by u. The largest coordinate times sqrt 3 bounds a length: 64 u 2 (max|p| + max|local|) is above
@@ -18,6 +19,7 @@ body_sphere body_compute_sphere(const ovoid_body *body) {
         const compound_node *root = &body->compound->nodes[0];
         return (body_sphere){root->center, root->radius, 0, 4 * body->compound->extent};
     }
+    if (body->solid) return (body_sphere){body->solid->center, body->solid->reach, 0, body->solid->extent};
     vec3 local = vec3_add(s->origin, s->center);
     return (body_sphere){local, s->reach, s->lower_radius, vec3_max_abs(s->origin) + s->span + s->lower_radius};
 }
@@ -44,9 +46,17 @@ static void find_extent(const ovoid_shape *s, vec3 row, double *low, double *hig
 
 static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
 
-// The box around a compound's own box, turned, no larger than that of its enclosing sphere.
-static box find_compound_box(const ovoid_compound *c, const body_sphere *ball, mat3 r, vec3 at, double center_error) {
-    vec3 half = c->nodes[0].half;
+static int has_own_box(const ovoid_body *body) { return body->compound || body->solid; }
+
+// The box around the own box of a compound or a solid, turned, no larger than that of its enclosing sphere.
+static box find_own_box(const ovoid_body *body, const body_sphere *ball, mat3 r, vec3 at, double center_error) {
+    vec3 half;
+    if (body->compound) {
+        half = body->compound->nodes[0].half;
+    } else {
+        const box *b = &body->solid->report.box;
+        half = vec3_scale(vec3_sub(b->max, b->min), 0.5);
+    }
     double pad = center_error + 128 * 0x1p-53 * ball->reach + 4 * 0x1p-53 * vec3_max_abs(at);
     vec3 e = {min2(vec3_dot(absolute(r.r0), half), ball->reach) + pad,
               min2(vec3_dot(absolute(r.r1), half), ball->reach) + pad,
@@ -59,7 +69,7 @@ box body_compute_box(const ovoid_body *body, const body_sphere *ball) {
     mat3 r = quat_to_mat3(body->pose.rotation);
     double center_error, pad, radius;
     vec3 at = body_compute_center(ball, &body->pose, &center_error);
-    if (body->compound) return find_compound_box(body->compound, ball, r, at, center_error);
+    if (has_own_box(body)) return find_own_box(body, ball, r, at, center_error);
     radius = s->lower_radius;
     pad = radius + center_error + 128 * 0x1p-53 * (s->extent + radius) + 4 * 0x1p-53 * vec3_max_abs(at);
     vec3 low, high;
@@ -92,8 +102,8 @@ body_outline body_compute_outline(const ovoid_body *body, const body_sphere *bal
     double center_error = find_center_error(ball, &body->pose);
     vec3 at = vec3_add(body->pose.position, mat3_mul_vec3(r, ball->local));
     body_outline x = {.at = at, .reach = (ball->reach + ball->radius) * (1 + 0x1p-48) + center_error};
-    if (body->compound) {
-        x.bounds = find_compound_box(body->compound, ball, r, at, center_error);
+    if (has_own_box(body)) {
+        x.bounds = find_own_box(body, ball, r, at, center_error);
         x.is_tight = 1;
         return x;
     }

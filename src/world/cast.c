@@ -1,5 +1,6 @@
 // Casts into a world: a ray, or a body that is moved without turning. The tree is traversed in the order in which the
-// boxes are met, up to the first hit that is proven; the bodies are queried by the casts of motion.h, part by part.
+// boxes are met, up to the first hit that is proven; the bodies are queried by the casts of motion.h, part by part, and
+// solids by those of cast_solid.h.
 //
 // A slab is entered at (low - origin) / direction: one difference and one quotient of given numbers, off by 2 u of
 // itself, which WIDER covers. Boxes are enlarged by half the box of what moves, and by 2^-50 of their coordinates for
@@ -8,6 +9,7 @@
 #include "base/error.h"
 #include "compound/compound.h"
 #include "world/body_bounds.h"
+#include "world/cast_solid.h"
 #include "world/dynamic_tree_traverse.h"
 #include "world/state.h"
 
@@ -45,14 +47,6 @@ static double measure_entry(const void *context, const box *x) {
     return meets ? range[0] : INFINITY;
 }
 
-// The hit of one part: bracket of its time; upper is infinity where no hit is proven.
-typedef struct part_hit {
-    uint32_t part, probe; ///< parts of the body and of the probe
-    ovoid_impact_status status;
-    double lower, upper;
-    vec3 point, normal;
-} part_hit;
-
 static void take_hit(casting *c, uint32_t body, const part_hit *hit) {
     ovoid_world_cast *out = c->out;
     if (hit->status == OVOID_IMPACT_FREE) return;
@@ -76,7 +70,14 @@ static int is_met(const casting *c, uint32_t i) {
 static void visit_ray(void *context, uint32_t i) {
     casting *c = context;
     body_view view;
-    if (!is_met(c, i) || !body_view_make(&c->w->bodies[i].body, &view)) return;
+    const ovoid_body *body = &c->w->bodies[i].body;
+    if (!is_met(c, i)) return;
+    if (body->solid) {
+        part_hit hit = solid_cast_ray(body, c->ray);
+        take_hit(c, i, &hit);
+        return;
+    }
+    if (!body_view_make(body, &view)) return;
     for (uint32_t k = 0; k < view.count; k++) {
         ovoid_posed_shape part = body_view_get_part(&view, k);
         ovoid_ray_hit x = ovoid_ray_cast(&part, c->ray);
@@ -88,7 +89,14 @@ static void visit_ray(void *context, uint32_t i) {
 static void visit_body(void *context, uint32_t i) {
     casting *c = context;
     body_view view, probe;
-    if (!is_met(c, i) || !body_view_make(&c->w->bodies[i].body, &view) || !body_view_make(&c->body, &probe)) return;
+    const ovoid_body *body = &c->w->bodies[i].body;
+    if (!is_met(c, i)) return;
+    if (body->solid || c->body.solid) {
+        part_hit hit = solid_cast_body(body, &c->body, c->direction);
+        take_hit(c, i, &hit);
+        return;
+    }
+    if (!body_view_make(body, &view) || !body_view_make(&c->body, &probe)) return;
     for (uint32_t k = 0; k < view.count; k++) {
         for (uint32_t m = 0; m < probe.count; m++) {
             ovoid_posed_shape a = body_view_get_part(&view, k), b = body_view_get_part(&probe, m);

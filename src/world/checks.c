@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "compound/compound.h"
 #include "linear/pose.h"
+#include "solid/solid.h"
 
 uint32_t world_find_body(const ovoid_world *w, ovoid_id id) {
     uint64_t i = id >> 32;
@@ -24,12 +25,17 @@ static ovoid_code refuse_pose(ovoid_error *error, int64_t place, ovoid_code code
     return error_set(error, code, place, "the pose is refused: %s; the body stays where it was", what[k]);
 }
 
+double world_get_extent(const ovoid_body *body) {
+    return body->compound ? body->compound->extent : body->solid ? body->solid->extent : 0;
+}
+
 ovoid_code world_check_body(const ovoid_body *body, int64_t place, ovoid_error *error) {
-    if (!body->shape == !body->compound)
-        return error_set(error, OVOID_ERROR_ARGUMENT, place, "a body needs either a shape or a compound");
+    if (!body_is_one(body))
+        return error_set(error, OVOID_ERROR_ARGUMENT, place,
+                         "a body needs exactly one of a shape, a compound and a solid");
     ovoid_code code = pose_compute_check(&body->pose);
-    if (code == OVOID_OK && body->compound &&
-        !(vec3_norm(body->pose.position) + body->compound->extent <= OVOID_LENGTH_MAX))
+    double extent = world_get_extent(body);
+    if (code == OVOID_OK && extent > 0 && !(vec3_norm(body->pose.position) + extent <= OVOID_LENGTH_MAX))
         code = OVOID_ERROR_RANGE;
     return code == OVOID_OK ? code : refuse_pose(error, place, code);
 }

@@ -1,6 +1,7 @@
 // One contact in full: the query of its pair, warm from the cache, with a proof that can be checked.
 #include "base/environment.h"
 #include "base/error.h"
+#include "solid/body_find.h"
 #include "world/pair_update.h"
 
 // The pair of the list, or NULL, by bisection.
@@ -31,6 +32,9 @@ static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *conta
     const world_pair *p = find_pair(w, key_make(a, b));
     const pair_cache *warm = p && p->flags & PAIR_KNOWN ? &w->pair_cache[p->slot] : NULL;
     ovoid_body_pair both = {w->bodies[a].body, w->bodies[b].body};
+    if (body_pair_has_solid(&both))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1,
+                         "a pair with a solid: ask ovoid_solid_distance and its sisters about its bodies");
     pair_query(w, &both, warm, exclusions, out);
     return OVOID_OK;
 }

@@ -57,7 +57,7 @@ static int are_apart(vec3 a, vec3 b, double reach) {
 // What pose_compute_check asks, by comparisons alone, for most poses of shapes.
 static int is_plain(const ovoid_body *body) {
     const ovoid_pose *p = &body->pose;
-    return !body->compound && body->shape && quat_is_plain(quat_norm_squared(p->rotation)) &&
+    return !body->compound && !body->solid && body->shape && quat_is_plain(quat_norm_squared(p->rotation)) &&
            vec3_max_abs(p->position) <= OVOID_LENGTH_MAX && vec3_is_finite(p->position);
 }
 

@@ -52,7 +52,7 @@ int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *k) {
     const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
     int is_apart = k->status == OVOID_SEPARATED && k->lower > w->margin;
     int is_overlap = k->status == OVOID_OVERLAPPING && !world_is_measuring(w);
-    if (!(is_apart || is_overlap) || a->body.compound || b->body.compound) return 0;
+    if (!(is_apart || is_overlap) || !a->body.shape || !b->body.shape) return 0;
     ovoid_pair both = {a->body.shape, b->body.shape, a->body.pose, b->body.pose};
     pair_frame f;
     if (frame_place(&both, &f) != OVOID_LIMIT_NONE) return 0;

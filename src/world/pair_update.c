@@ -5,6 +5,8 @@
 // always show the status that a comparison found.
 #include "world/pair_update.h"
 
+#include "solid/body_find.h"
+
 #define SLACK_SET 0x1p-48
 #define SLACK_REPORTED 0x1p-49
 
@@ -66,7 +68,7 @@ void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_ca
         earlier.part_b = k->part_b;
         write_proof(k, &earlier.proof);
     }
-    compound_find_internal(both, &w->query_options, make_goal(w), k ? &earlier : NULL, exclusions, out);
+    body_find_internal(both, &w->query_options, make_goal(w), k ? &earlier : NULL, exclusions, out);
 }
 
 // d and t of a pair at the present poses.
@@ -82,7 +84,7 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k) {
     p->kind = PAIR_OPEN;
     p->flags &= (uint16_t)~PAIR_CONTACT;
     if (!(k->lower > margin)) p->flags |= PAIR_CONTACT;
-    int are_shapes = !w->bodies[p->a].body.compound && !w->bodies[p->b].body.compound;
+    int are_shapes = w->bodies[p->a].body.shape && w->bodies[p->b].body.shape;
     if (k->lower > margin && are_shapes && k->stage == OVOID_STAGE_SPHERE) {
         // Three times the present centre error is above the part of any later one that the positions do not explain.
         const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
@@ -97,7 +99,8 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k) {
         p->c = ((k->lower - margin) - vec3_dot(k->normal, k->between)) + k->travel - slack;
         return;
     }
-    // Witness points move with the bodies and must be measured again. Compounds have a normal for each pair of parts.
+    // Witness points move with the bodies and must be measured again. Compounds and solids have a normal for each pair
+    // of parts; their bounds age by the way of the points alone (docs/world.md).
     if (world_is_measuring(w) && p->flags & PAIR_CONTACT) return;
     double lasts = -k->upper;
     if (k->lower > margin)
@@ -152,7 +155,7 @@ static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *k, con
 }
 
 static void query_pair(ovoid_world *w, const world_pair *p, pair_cache *k) {
-    if (!w->bodies[p->a].body.compound && !w->bodies[p->b].body.compound) {
+    if (w->bodies[p->a].body.shape && w->bodies[p->b].body.shape) {
         ovoid_answer x;
         query_shapes(w, p, k, &x);
         cache_answer(w, p, k, &x);

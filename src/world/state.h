@@ -101,7 +101,7 @@ struct ovoid_world {
     uint8_t *marks;
     uint32_t *leaf_of, *changed, *generations;
     uint32_t capacity, used, count, free;
-    int has_vast;           ///< a compound of more than half of OVOID_LENGTH_MAX was added
+    int has_vast;           ///< a compound or solid of more than half of OVOID_LENGTH_MAX was added
     uint32_t changed_count; ///< bodies with MARK_BOX or MARK_FRESH: changed[0 ..]
     dynamic_tree tree;
     size_t wide_capacity;
@@ -150,6 +150,8 @@ static inline ovoid_id body_get_id(const ovoid_world *w, uint32_t i) { return (u
 /// The index of an id; NONE where it names no body.
 uint32_t world_find_body(const ovoid_world *w, ovoid_id id);
 ovoid_code world_refuse_id(ovoid_error *error, int64_t place, ovoid_id id);
+/// The largest length in the frame of a compound or a solid; 0 of a shape.
+double world_get_extent(const ovoid_body *body);
 /// OVOID_OK, or what is wrong with a body or its pose.
 ovoid_code world_check_body(const ovoid_body *body, int64_t place, ovoid_error *error);
 /// 1 if groups, ignored pairs and the filter let a pair through.

@@ -155,7 +155,7 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
                       .mask = all ? ~0u : given->mask,
                       .seen = box_make_empty()};
     w->places[i] = (body_place){body_compute_center(&ball, &b->body.pose, &b->center_error), 0};
-    if (given->body.compound && given->body.compound->extent > OVOID_LENGTH_MAX / 2) w->has_vast = 1;
+    if (world_get_extent(&given->body) > OVOID_LENGTH_MAX / 2) w->has_vast = 1;
     body_mark_fresh(w, i);
     w->count++;
     return i;
@@ -269,7 +269,7 @@ ovoid_code ovoid_world_remove(ovoid_world *w, ovoid_id id, ovoid_error *error) {
 // ---- accessors
 
 ovoid_world_body ovoid_world_make_point(const ovoid_world *w, ovoid_vec3 point) {
-    return (ovoid_world_body){.body = {w->point, NULL, {point, {1, 0, 0, 0}}}};
+    return (ovoid_world_body){.body = {.shape = w->point, .pose = {point, {1, 0, 0, 0}}}};
 }
 
 ovoid_code ovoid_world_get(const ovoid_world *w, ovoid_id id, ovoid_world_body *out, ovoid_error *error) {

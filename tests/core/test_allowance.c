@@ -235,8 +235,8 @@ static void destroy_assembly(assembly *c) {
 static void check_shape_beside(const assembly *b, ovoid_pose to, double by, uint64_t *s) {
     known one = make_known(ENLARGED, by, s);
     ovoid_pose at = {random_vec3(s, 5), random_quat(s)};
-    ovoid_body_pair shapes = {{one.shape, NULL, at}, {NULL, b->shape, to}},
-                    bodies = {{one.body, NULL, at}, {NULL, b->body, to}};
+    ovoid_body_pair shapes = {{.shape = one.shape, .pose = at}, {.compound = b->shape, .pose = to}},
+                    bodies = {{.shape = one.body, .pose = at}, {.compound = b->body, .pose = to}};
     ovoid_compound_answer truth = ovoid_compound_depth(&bodies, NULL, NULL, NULL),
                           x = ovoid_compound_depth(&shapes, NULL, NULL, NULL),
                           y = ovoid_compound_collide(&shapes, NULL, NULL, NULL);
@@ -254,8 +254,8 @@ static void test_compounds(void) {
         double by = seed % 2 ? 0.02 : 0.2;
         assembly a = make_assembly(&s, by), b = make_assembly(&s, by);
         ovoid_pose at = {random_vec3(&s, 4), random_quat(&s)}, to = {random_vec3(&s, 4), random_quat(&s)};
-        ovoid_body_pair shapes = {{NULL, a.shape, at}, {NULL, b.shape, to}},
-                        bodies = {{NULL, a.body, at}, {NULL, b.body, to}};
+        ovoid_body_pair shapes = {{.compound = a.shape, .pose = at}, {.compound = b.shape, .pose = to}},
+                        bodies = {{.compound = a.body, .pose = at}, {.compound = b.body, .pose = to}};
         ovoid_exclusion items[256];
         static ovoid_cover cover;
         ovoid_exclusions all = {.items = items, .capacity = 256, .cover = &cover};
@@ -291,7 +291,8 @@ static void test_mixed(void) {
                 *box = ovoid_shape_create_box((ovoid_vec3){1, 2, 5}, NULL, NULL);
     ovoid_posed_shape parts[2] = {{ball, {{0, 0, 0}, {1, 0, 0, 0}}}, {cloud, {{0.3, 0, 2}, {1, 0, 0, 0}}}};
     ovoid_compound *c = ovoid_compound_create(parts, 2, NULL, NULL);
-    ovoid_body_pair pair = {{NULL, c, {{0, 0, 0}, {1, 0, 0, 0}}}, {box, NULL, {{1.9, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_body_pair pair = {{.compound = c, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
+                            {.shape = box, .pose = {{1.9, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_compound_answer x = ovoid_compound_depth(&pair, NULL, NULL, NULL);
     CHECK(x.answer.status == OVOID_OVERLAPPING);
     CHECK_LE(x.answer.upper, -0.1 + 1e-8);
@@ -314,7 +315,8 @@ static void test_exclusion(void) {
     ovoid_shape *ball = ovoid_shape_create_from_points(origin, 1, &o, NULL);
     ovoid_posed_shape parts[2] = {{ball, {{0, 0, -1}, {1, 0, 0, 0}}}, {ball, {{0, 0, 1}, {1, 0, 0, 0}}}};
     ovoid_compound *c = ovoid_compound_create(parts, 2, NULL, NULL);
-    ovoid_body_pair pair = {{NULL, c, {{0, 0, 0}, {1, 0, 0, 0}}}, {NULL, c, {{apart, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_body_pair pair = {{.compound = c, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
+                            {.compound = c, .pose = {{apart, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_exclusion items[8];
     ovoid_exclusions all = {.items = items, .capacity = 8};
     ovoid_compound_answer x = ovoid_compound_collide(&pair, NULL, NULL, &all);
@@ -362,7 +364,7 @@ static void run_world(uint64_t seed, ovoid_query_kind kind, double margin, int m
         style how = most > 1 ? (style)(random_next(&s) % STYLES) : ENLARGED;
         bodies[i] = make_known_of(1 + (int)(random_next(&s) % (uint64_t)most), how, 0.1 * (i % 3), &s);
         poses[i] = (ovoid_pose){random_vec3(&s, most > 1 ? 5 : 1.5), random_quat(&s)};
-        ovoid_world_body b = {.body = {bodies[i].shape, NULL, poses[i]}};
+        ovoid_world_body b = {.body = {.shape = bodies[i].shape, .pose = poses[i]}};
         ids[i] = ovoid_world_add(w, &b, NULL);
     }
     ovoid_contact_query query = {kind, margin, NULL};

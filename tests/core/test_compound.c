@@ -104,10 +104,10 @@ static void check_random(int rounds, double scale, uint64_t seed) {
                        *b = make_compound(shapes, counts[1], reach, &s);
         if (CHECK(a && b)) {
             double apart = reach * random_uniform(&s, 0, 4);
-            ovoid_body_pair pair = {{NULL, a, {random_vec3(&s, apart), random_quat(&s)}},
-                                    {NULL, b, {random_vec3(&s, apart), random_quat(&s)}}};
-            if (i % 3 == 1) pair.b = (ovoid_body){shapes[i % SHAPES], NULL, pair.b.pose};
-            if (i % 8 == 2) pair.a = (ovoid_body){shapes[i % SHAPES], NULL, pair.a.pose};
+            ovoid_body_pair pair = {{.compound = a, .pose = {random_vec3(&s, apart), random_quat(&s)}},
+                                    {.compound = b, .pose = {random_vec3(&s, apart), random_quat(&s)}}};
+            if (i % 3 == 1) pair.b = (ovoid_body){.shape = shapes[i % SHAPES], .pose = pair.b.pose};
+            if (i % 8 == 2) pair.a = (ovoid_body){.shape = shapes[i % SHAPES], .pose = pair.a.pose};
             if (i % 11 == 3) pair.b.pose = pair.a.pose; // identical poses
             check_pair(&pair, &s);
         }
@@ -142,7 +142,8 @@ static void check_grid(void) {
             double z = fmax(fabs(at.z - p.z) - 0.3, 0);
             truth = fmin(truth, sqrt(x * x + y * y + z * z) - 0.25);
         }
-        ovoid_body_pair pair = {{NULL, grid, {{0, 0, 0}, {1, 0, 0, 0}}}, {ball, NULL, {at, {0, 3, 4, 0}}}};
+        ovoid_body_pair pair = {{.compound = grid, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
+                                {.shape = ball, .pose = {at, {0, 3, 4, 0}}}};
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
         ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
         // With its centre in a cube the ball is deeper than this formula says.
@@ -180,7 +181,8 @@ static void check_cup(void) {
     static const double moves[6][2] = {{0, 1.25}, {1, 0.25}, {1.25, 0}, {1.5, -0.25}, {-1.25, 0}, {-1.125, 0.125}};
     for (int i = 0; cup && one && i < 6; i++)
         for (int as_shape = 0; as_shape < 2; as_shape++) {
-            ovoid_body_pair pair = {{NULL, cup, {{0, 0, 0}, none}}, {NULL, one, {{moves[i][0], 0, 0}, none}}};
+            ovoid_body_pair pair = {{.compound = cup, .pose = {{0, 0, 0}, none}},
+                                    {.compound = one, .pose = {{moves[i][0], 0, 0}, none}}};
             if (as_shape) pair.b.shape = ball, pair.b.compound = NULL;
             ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
             ovoid_compound_answer x = ovoid_compound_depth(&pair, NULL, NULL, &all);
@@ -220,7 +222,8 @@ static void check_refused(void) {
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
     ovoid_posed_shape parts[2] = {{box, {{0, 0, 0}, {1, 0, 0, 0}}}, {box, {{5, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_compound *c = ovoid_compound_create(parts, 2, NULL, NULL);
-    const ovoid_body_pair sound = {{NULL, c, parts[0].pose}, {box, NULL, {{9, 0, 0}, {1, 0, 0, 0}}}};
+    const ovoid_body_pair sound = {{.compound = c, .pose = parts[0].pose},
+                                   {.shape = box, .pose = {{9, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_body_pair pair = sound;
     pair.a.pose.rotation = (ovoid_quat){0, 0, 0, 0};
     expect_refused(&pair, NULL, OVOID_LIMIT_POSE_A);

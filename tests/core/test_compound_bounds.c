@@ -150,7 +150,8 @@ static void check_proofs(ovoid_shape *const shapes[SHAPES], uint64_t seed) {
     // Near the origin, or both as far as there are digits for their gap.
     double far = seed % 2 ? 0 : ldexp(1, (int)(random_next(&s) % 32));
     ovoid_vec3 at = random_vec3(&s, far), way = vec3_scale(vec3_unit(random_vec3(&s, 1)), random_uniform(&s, 4, 14));
-    ovoid_body_pair pair = {{NULL, c[0], {at, random_quat(&s)}}, {NULL, c[1], {vec3_add(at, way), random_quat(&s)}}};
+    ovoid_body_pair pair = {{.compound = c[0], .pose = {at, random_quat(&s)}},
+                            {.compound = c[1], .pose = {vec3_add(at, way), random_quat(&s)}}};
     ovoid_exclusions all = {items, CAPACITY, 0, NULL};
     ovoid_error error = {.message = ""};
     ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
@@ -171,7 +172,8 @@ static void check_far_balls(uint64_t seed) {
     for (int i = 0; i < 2; i++) c[i] = ovoid_compound_create(parts, 2, NULL, NULL);
     double far = ldexp(1, (int)(random_next(&s) % 36));
     ovoid_vec3 at = random_vec3(&s, far), way = vec3_scale(vec3_unit(random_vec3(&s, 1)), random_uniform(&s, 8, 20));
-    ovoid_body_pair pair = {{NULL, c[0], {at, random_quat(&s)}}, {NULL, c[1], {vec3_add(at, way), random_quat(&s)}}};
+    ovoid_body_pair pair = {{.compound = c[0], .pose = {at, random_quat(&s)}},
+                            {.compound = c[1], .pose = {vec3_add(at, way), random_quat(&s)}}};
     ovoid_exclusions all = {items, CAPACITY, 0, NULL};
     ovoid_error error = {.message = ""};
     for (int k = 0; k < 3; k++) {

@@ -54,9 +54,9 @@ static void test_compounds(uint64_t seed) {
         ovoid_pose at_a = {random_place(&s, place), random_quat(&s)}, at_b = {at_a.position, random_quat(&s)};
         ovoid_vec3 way = random_place(&s, far);
         at_b.position = (ovoid_vec3){at_b.position.x + way.x, at_b.position.y + way.y, at_b.position.z + way.z};
-        ovoid_body_pair pair = {{NULL, c[0], at_a}, {NULL, c[1], at_b}};
-        if (k % 3 == 1) pair.a = (ovoid_body){shapes[k % WORLD_SHAPES], NULL, at_a};
-        if (k % 3 == 2) pair.b = (ovoid_body){shapes[k % WORLD_SHAPES], NULL, at_b};
+        ovoid_body_pair pair = {{.compound = c[0], .pose = at_a}, {.compound = c[1], .pose = at_b}};
+        if (k % 3 == 1) pair.a = (ovoid_body){.shape = shapes[k % WORLD_SHAPES], .pose = at_a};
+        if (k % 3 == 2) pair.b = (ovoid_body){.shape = shapes[k % WORLD_SHAPES], .pose = at_b};
         ovoid_answer truth = ovoid_compound_distance(&pair, NULL, NULL, NULL).answer;
         double margin = fmax(truth.lower, 0.1) * random_uniform(&s, 0.2, 1.1);
         for (int i = 0; i < 3; i++) check_answer(&pair, asks[i], margin, truth.lower, truth.upper);
@@ -80,7 +80,8 @@ static void test_balls(uint64_t seed) {
     ovoid_vec3 to = {at.x + more * way.x, at.y + more * way.y, at.z + more * way.z};
     extended3 d = extended3_sub(extended3_from(to), extended3_from(at));
     long double truth = extended3_norm(d) - ra - rb;
-    ovoid_body_pair pair = {{NULL, c[0], {at, random_quat(&s)}}, {NULL, c[1], {to, random_quat(&s)}}};
+    ovoid_body_pair pair = {{.compound = c[0], .pose = {at, random_quat(&s)}},
+                            {.compound = c[1], .pose = {to, random_quat(&s)}}};
     ovoid_compound_answer x = ovoid_compound_collide(&pair, NULL, NULL, NULL);
     CHECK(x.answer.lower <= truth && truth <= x.answer.upper);
     CHECK(x.tested == 0 || gap < 1e-6);

@@ -60,8 +60,9 @@ static void check_samples(const ovoid_moving_body *a, const ovoid_moving_body *b
                           uint64_t *s) {
     for (int i = 0; i < 20; i++) {
         double t = x->begin + (x->free_until - x->begin) * random_uniform(s, 0, 1);
-        ovoid_body_pair pair = {{a->shape, a->compound, ovoid_motion_compute_pose(&a->motion, t)},
-                                {b->shape, b->compound, ovoid_motion_compute_pose(&b->motion, t)}};
+        ovoid_body_pair pair = {
+            {.shape = a->shape, .compound = a->compound, .pose = ovoid_motion_compute_pose(&a->motion, t)},
+            {.shape = b->shape, .compound = b->compound, .pose = ovoid_motion_compute_pose(&b->motion, t)}};
         if (t < x->free_until) CHECK_LE(margin - 1e-10, ovoid_compound_distance(&pair, NULL, NULL, NULL).answer.upper);
     }
 }

@@ -144,7 +144,8 @@ static void check_fine(void) {
     ovoid_compound *c = ovoid_compound_create(parts, 3, NULL, NULL);
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     for (int i = 0; i < 32; i++) {
-        ovoid_body_pair pair = {{NULL, c, {{0, 0, 0}, {1, 0, 0, 0}}}, {NULL, c, {{2, 0, 0}, {1, 0, 0, 0}}}};
+        ovoid_body_pair pair = {{.compound = c, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
+                                {.compound = c, .pose = {{2, 0, 0}, {1, 0, 0, 0}}}};
         pair.b.pose.position.x += i < 20 ? 0 : ldexp(1, -i - 20);
         ovoid_compound_answer x = ovoid_compound_collide(&pair, NULL, NULL, &all);
         if (i >= 20)
@@ -168,8 +169,8 @@ int main(void) {
         if (!make_shapes(shapes, scale, &s)) return check_end();
         ovoid_compound *a = make_compound(shapes, 2 + (size_t)i, 4 * scale, &s);
         ovoid_compound *b = make_compound(shapes, 1 + (size_t)i / 2, 4 * scale, &s);
-        ovoid_body_pair pair = {{NULL, a, {random_vec3(&s, 4 * scale), random_quat(&s)}},
-                                {NULL, b, {random_vec3(&s, (i % 4) * 8 * scale), random_quat(&s)}}};
+        ovoid_body_pair pair = {{.compound = a, .pose = {random_vec3(&s, 4 * scale), random_quat(&s)}},
+                                {.compound = b, .pose = {random_vec3(&s, (i % 4) * 8 * scale), random_quat(&s)}}};
         if (CHECK(a && b)) check_pair(&pair, 20 * scale, &s);
         ovoid_compound_destroy(a);
         ovoid_compound_destroy(b);

@@ -191,7 +191,8 @@ static void ask_compounds(void) {
     static ovoid_exclusion items[256];
     for (int i = 0; i < 3; i++) {
         ovoid_exclusions all = {.items = items, .capacity = 256};
-        ovoid_body_pair p = {{NULL, compound, pairs[i].pose_b}, {NULL, compound, {{2.5 * i, third, 0}, {1, 0, 0, 1}}}};
+        ovoid_body_pair p = {{.compound = compound, .pose = pairs[i].pose_b},
+                             {.compound = compound, .pose = {{2.5 * i, third, 0}, {1, 0, 0, 1}}}};
         ovoid_compound_answer x[4] = {
             ovoid_compound_collide(&p, NULL, NULL, NULL), ovoid_compound_within(&p, third, NULL, NULL, NULL),
             ovoid_compound_distance(&p, NULL, NULL, NULL), ovoid_compound_depth(&p, NULL, NULL, &all)};
@@ -311,7 +312,8 @@ static void ask_world(void) {
     ovoid_world *w = ovoid_world_create(NULL, NULL);
     ovoid_world_body bodies[PAIRS];
     ovoid_id ids[PAIRS];
-    for (int i = 0; i < PAIRS; i++) bodies[i] = (ovoid_world_body){.body = {pairs[i].shape_b, NULL, pairs[i].pose_b}};
+    for (int i = 0; i < PAIRS; i++)
+        bodies[i] = (ovoid_world_body){.body = {.shape = pairs[i].shape_b, .pose = pairs[i].pose_b}};
     int code = (int)ovoid_world_add_many(w, bodies, PAIRS, ids, NULL);
     for (int k = 0; k < 8; k++) {
         ovoid_contact_query q = {.kind = (ovoid_query_kind)(k / 2), .margin = k / 2 ? third : 0};

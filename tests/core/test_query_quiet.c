@@ -81,7 +81,7 @@ int main(void) {
         ovoid_ray ray = {{9, 1, 0}, {-1, 0.1, 0}, INFINITY, 0};
         sum += ovoid_ray_cast(&(ovoid_posed_shape){a, p.pose_b}, &ray).iterations;
         sum += ovoid_translation_cast(&p, (ovoid_vec3){1, 2, 3}, 0, NULL).free_until;
-        ovoid_body_pair bodies = {{NULL, compound, p.pose_a}, {NULL, compound, p.pose_b}};
+        ovoid_body_pair bodies = {{.compound = compound, .pose = p.pose_a}, {.compound = compound, .pose = p.pose_b}};
         ovoid_compound_answer y = ovoid_compound_depth(&bodies, NULL, NULL, &all);
         sum += y.answer.upper + (double)ovoid_compound_answer_check(&bodies, &y, &all, NULL);
     }

@@ -241,7 +241,8 @@ static int set_up(void) {
         if (!CHECK(compounds[k] != NULL)) return 0;
         moving_bodies[k] = (ovoid_moving_body){.compound = compounds[k], .motion = moving[k].motion};
     }
-    body_pair = (ovoid_body_pair){{NULL, compounds[0], pair.pose_a}, {NULL, compounds[1], pair.pose_b}};
+    body_pair = (ovoid_body_pair){{.compound = compounds[0], .pose = pair.pose_a},
+                                  {.compound = compounds[1], .pose = pair.pose_b}};
     for (int i = 0; i < COUPLES; i++) couples[i] = (ovoid_couple){0, 1};
     world = ovoid_world_create(NULL, NULL);
     if (!CHECK(world != NULL)) return 0;

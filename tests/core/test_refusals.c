@@ -129,7 +129,7 @@ static void ask_motions(wrong w) {
 
 static void ask_solids(wrong w, int both) {
     ovoid_pair p = make_pair(w);
-    ovoid_body_pair s = {{NULL, compound, p.pose_a}, {shape, NULL, p.pose_b}};
+    ovoid_body_pair s = {{.compound = compound, .pose = p.pose_a}, {.shape = shape, .pose = p.pose_b}};
     ovoid_body *bad = w.b ? &s.b : &s.a;
     if (w.is == NO_SHAPE) bad->shape = both ? shape : NULL, bad->compound = both ? compound : NULL;
     ovoid_compound_answer x[4] = {
@@ -145,8 +145,8 @@ static void ask_solids(wrong w, int both) {
         EXPECT(ovoid_compound_answer_check(&s, &x[i], NULL, NULL) == OVOID_ERROR_PROOF);
     }
     asked = "compound_impact";
-    ovoid_moving_body a = {s.a.shape, s.a.compound, ovoid_motion_make_still(s.a.pose)};
-    ovoid_moving_body b = {s.b.shape, s.b.compound, ovoid_motion_make_still(s.b.pose)};
+    ovoid_moving_body a = {.shape = s.a.shape, .compound = s.a.compound, .motion = ovoid_motion_make_still(s.a.pose)};
+    ovoid_moving_body b = {.shape = s.b.shape, .compound = s.b.compound, .motion = ovoid_motion_make_still(s.b.pose)};
     ovoid_compound_impact hit = ovoid_compound_impact_find(&a, &b, 0, NULL);
     EXPECT(hit.impact.limit == get_limit(w) && hit.impact.status == OVOID_IMPACT_UNDECIDED);
     EXPECT(ovoid_compound_impact_check(&a, &b, 0, &hit, NULL, NULL, NULL) == OVOID_OK);
@@ -170,7 +170,7 @@ static void ask_solids(wrong w, int both) {
 static void ask_world(fault is, int both) {
     ovoid_code code = is == NO_SHAPE ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_ROTATION;
     ovoid_world *w = ovoid_world_create(NULL, NULL);
-    ovoid_world_body sound = {.body = {shape, NULL, identity}}, bad = sound;
+    ovoid_world_body sound = {.body = {.shape = shape, .pose = identity}}, bad = sound;
     if (is == NO_SHAPE) bad.body.shape = both ? shape : NULL, bad.body.compound = both ? compound : NULL;
     if (is == ZERO_POSE) bad.body.pose = zero;
     ovoid_id id = ovoid_world_add(w, &sound, NULL);

@@ -6,7 +6,7 @@
 enum { CAPACITY = 60000 };
 static ovoid_exclusion items[CAPACITY];
 
-static void check_answer(const ovoid_solid_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+static void check_answer(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     CHECK(all->count <= all->capacity);
     if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, all, &error), OVOID_OK)) printf("  %s\n", error.message);
@@ -21,7 +21,7 @@ static void check_sign(const ovoid_solid_answer *x, solid_truth t, double slack)
     if (!t.is_common) CHECK_LE(t.surfaces, x->upper + slack);
 }
 
-static void check_pair(const ovoid_solid_pair *pair, solid_truth t, double size, uint64_t *s) {
+static void check_pair(const ovoid_body_pair *pair, solid_truth t, double size, uint64_t *s) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     double slack = 1e-12 * size, tolerance = 1.01e-9 * size;
     ovoid_solid_answer distance = ovoid_solid_distance(pair, NULL, NULL, &all);
@@ -69,8 +69,8 @@ static void check_random(int rounds, double scale, uint64_t seed) {
         ovoid_solid *sa = mesh_make_solid(&a), *sb = mesh_make_solid(&b);
         if (CHECK(sa && sb)) {
             double apart = scale * random_uniform(&s, 0, i % 5 == 0 ? 0.5 : 2.5);
-            ovoid_solid_pair pair = {{NULL, sa, {random_vec3(&s, scale), random_quat(&s)}},
-                                     {NULL, sb, ovoid_pose_make_identity()}};
+            ovoid_body_pair pair = {{.solid = sa, .pose = {random_vec3(&s, scale), random_quat(&s)}},
+                                    {.solid = sb, .pose = ovoid_pose_make_identity()}};
             pair.b.pose = (ovoid_pose){random_vec3(&s, apart), random_quat(&s)};
             ovoid_vec3 at = pair.a.pose.position;
             pair.b.pose.position.x += at.x, pair.b.pose.position.y += at.y, pair.b.pose.position.z += at.z;
@@ -109,13 +109,13 @@ static void check_shapes(int rounds, uint64_t seed) {
             for (uint32_t k = 0; k < p.triangle_count; k++)
                 mesh_add_triangle(&b, p.triangles[3 * k], p.triangles[3 * k + 1], p.triangles[3 * k + 2]);
             double far = i % 4 == 3 ? -1000 : 0;
-            ovoid_solid_pair pair = {{NULL, solid, {{0, 0, 0}, random_quat(&s)}},
-                                     {shape, NULL, ovoid_pose_make_identity()}};
+            ovoid_body_pair pair = {{.solid = solid, .pose = {{0, 0, 0}, random_quat(&s)}},
+                                    {.shape = shape, .pose = ovoid_pose_make_identity()}};
             pair.b.pose.position = random_vec3(&s, 1.5);
             pair.b.pose.position.x += far, pair.b.pose.position.y += far, pair.b.pose.position.z += far;
             solid_truth t = find_solid_truth(&a, &pair.a.pose, &b, &pair.b.pose);
             check_pair(&pair, t, far < 0 ? 4000 : 9, &s);
-            ovoid_solid_pair turned = {pair.b, pair.a};
+            ovoid_body_pair turned = {pair.b, pair.a};
             check_pair(&turned, t, far < 0 ? 4000 : 9, &s);
         }
         ovoid_solid_destroy(solid);
@@ -141,7 +141,8 @@ static void check_peg(void) {
         CHECK_EQ(r.is_closed, 1);
         CHECK_NEAR(r.volume, 2 * 9.8696044 * 15 * 25, 0.01 * r.volume);
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-        ovoid_solid_pair pair = {{NULL, ring, ovoid_pose_make_identity()}, {peg, NULL, ovoid_pose_make_identity()}};
+        ovoid_body_pair pair = {{.solid = ring, .pose = ovoid_pose_make_identity()},
+                                {.shape = peg, .pose = ovoid_pose_make_identity()}};
         ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, &all);
         check_answer(&pair, &x, &all);
         CHECK_EQ(x.status, OVOID_SEPARATED);
@@ -197,7 +198,7 @@ static void check_flush(void) {
         for (int is_closed = 0; is_closed < 2; is_closed++)
             meet[is_closed] = is_common_block(low, high[0], at, size, is_closed) ||
                               is_common_block(low, high[1], at, size, is_closed);
-        ovoid_solid_pair pair = {{NULL, corner, here}, {box, NULL, there}};
+        ovoid_body_pair pair = {{.solid = corner, .pose = here}, {.shape = box, .pose = there}};
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
         for (int which = 0; which < 3; which++) {
             ovoid_solid_answer x = which == 0   ? ovoid_solid_distance(&pair, NULL, NULL, &all)

@@ -235,8 +235,8 @@ static void check_slivers(void) {
     ovoid_exclusions all = {items, 16, 0, NULL};
     ovoid_error error;
     for (int i = 0; i < 2; i++) {
-        ovoid_solid_pair pair = {{NULL, i ? tiny : s, ovoid_pose_make_identity()},
-                                 {NULL, tiny, {{0.5, 0, 0.25}, {1, 2, 3, 4}}}};
+        ovoid_body_pair pair = {{.solid = i ? tiny : s, .pose = ovoid_pose_make_identity()},
+                                {.solid = tiny, .pose = {{0.5, 0, 0.25}, {1, 2, 3, 4}}}};
         ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, &all);
         CHECK_EQ(x.status, OVOID_SEPARATED);
         CHECK_NEAR(x.lower, i ? sqrt(0.3125) : 0.25, 1e-9);
@@ -255,7 +255,8 @@ static void check_altered(void) {
     ovoid_solid *s = make_cube(12);
     static ovoid_exclusion items[4096];
     ovoid_exclusions all = {items, 4096, 0, NULL};
-    ovoid_solid_pair pair = {{NULL, s, ovoid_pose_make_identity()}, {NULL, s, {{2.5, 0.25, 0.125}, {9, 1, 2, 3}}}};
+    ovoid_body_pair pair = {{.solid = s, .pose = ovoid_pose_make_identity()},
+                            {.solid = s, .pose = {{2.5, 0.25, 0.125}, {9, 1, 2, 3}}}};
     const ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, &all);
     CHECK_EQ(ovoid_solid_answer_check(&pair, &x, &all, NULL), OVOID_OK);
     ovoid_solid_answer y = x;
@@ -288,7 +289,7 @@ static void check_altered(void) {
 
     // One in the other: not apart, and not deeper than the surfaces and the boxes show.
     ovoid_shape *ball = ovoid_shape_create_sphere(0.125, NULL, NULL);
-    pair.b = (ovoid_solid_body){ball, NULL, {{0.5, 0.5, 0.5}, {1, 0, 0, 0}}};
+    pair.b = (ovoid_body){.shape = ball, .pose = {{0.5, 0.5, 0.5}, {1, 0, 0, 0}}};
     const ovoid_solid_answer in = ovoid_solid_collide(&pair, NULL, NULL, &all);
     CHECK_EQ(in.status, OVOID_OVERLAPPING);
     CHECK_EQ(in.inside, OVOID_SOLID_B_INSIDE);
@@ -300,7 +301,7 @@ static void check_altered(void) {
     y = in, y.lower *= 0.99;
     CHECK_EQ(ovoid_solid_answer_check(&pair, &y, &all, NULL), OVOID_ERROR_PROOF);
 
-    ovoid_solid_pair bad = pair;
+    ovoid_body_pair bad = pair;
     bad.a.shape = ball;
     CHECK_EQ(ovoid_solid_distance(&bad, NULL, NULL, NULL).limit, OVOID_LIMIT_SHAPE_A);
     bad = pair, bad.b.shape = NULL;

@@ -26,7 +26,7 @@ static void test_lattice(void) {
     for (int x = 0; x < 5; x++)
         for (int y = 0; y < 5; y++)
             for (int z = 0; z < 5; z++) {
-                ovoid_world_body b = {.body = {box, NULL, here}};
+                ovoid_world_body b = {.body = {.shape = box, .pose = here}};
                 b.body.pose.position = (ovoid_vec3){x, y, z};
                 CHECK(ovoid_world_add(w, &b, NULL) != 0);
             }
@@ -55,7 +55,7 @@ static void test_one_place(void) {
     world_make_shapes(&s, 1, shapes);
     ovoid_world *w = ovoid_world_create(NULL, NULL);
     static ovoid_world_body bodies[300];
-    for (int i = 0; i < 300; i++) bodies[i] = (ovoid_world_body){.body = {shapes[i % 3], NULL, here}};
+    for (int i = 0; i < 300; i++) bodies[i] = (ovoid_world_body){.body = {.shape = shapes[i % 3], .pose = here}};
     CHECK(ovoid_world_add_many(w, bodies, 300, NULL, NULL) == OVOID_OK);
     ovoid_contacts frame;
     ovoid_contact_query q = {.kind = OVOID_QUERY_COLLIDE};
@@ -78,7 +78,7 @@ static void test_many(void) {
     for (int i = 0; i < MANY; i++) {
         // In an order that is not that of the line.
         poses[i] = (ovoid_pose){{(double)((uint64_t)i * 7919 % MANY), 0, 0}, {1, 0, 0, 0}};
-        bodies[i].body = (ovoid_body){ball, NULL, poses[i]};
+        bodies[i].body = (ovoid_body){.shape = ball, .pose = poses[i]};
     }
     CHECK(ovoid_world_add_many(w, bodies, MANY, ids, NULL) == OVOID_OK);
     ovoid_contacts f;

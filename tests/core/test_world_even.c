@@ -19,7 +19,7 @@ static void make(swarm *x, const ovoid_shape *ball, double speed, uint64_t *s) {
         ovoid_vec3 way = random_place(s, 1);
         double size = sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
         x->ways[i] = (ovoid_vec3){speed / size * way.x, speed / size * way.y, speed / size * way.z};
-        ovoid_world_body b = {.body = {ball, NULL, x->poses[i]}};
+        ovoid_world_body b = {.body = {.shape = ball, .pose = x->poses[i]}};
         x->ids[i] = ovoid_world_add(x->world, &b, NULL);
         CHECK(x->ids[i] != 0);
     }

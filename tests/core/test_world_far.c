@@ -56,8 +56,10 @@ static void test_far(uint64_t seed) {
     int are_compounds = seed % 7 > 4;
     ovoid_compound *all_a = are_compounds ? ovoid_compound_create(&part_a, 1, NULL, NULL) : NULL;
     ovoid_compound *all_b = are_compounds ? ovoid_compound_create(&part_b, 1, NULL, NULL) : NULL;
-    ovoid_world_body a = {.body = {are_compounds ? NULL : c.a, all_a, {c.at_a, {1, 0, 0, 0}}}};
-    ovoid_world_body b = {.body = {are_compounds ? NULL : c.b, all_b, {c.at_b, {1, 0, 0, 0}}}};
+    ovoid_world_body a = {
+        .body = {.shape = are_compounds ? NULL : c.a, .compound = all_a, .pose = {c.at_a, {1, 0, 0, 0}}}};
+    ovoid_world_body b = {
+        .body = {.shape = are_compounds ? NULL : c.b, .compound = all_b, .pose = {c.at_b, {1, 0, 0, 0}}}};
     if (is_moved) a.body.pose.position.y = 0, b.body.pose.position.y = 2.5;
     ovoid_id ids[2] = {ovoid_world_add(w, &a, NULL), ovoid_world_add(w, &b, NULL)};
     // A turn by an angle r moves A by 64 r along y, about a rounding at most; and along x by far r, which B does too.
@@ -92,8 +94,9 @@ static void test_long_life(int kind) {
     ovoid_posed_shape part = {ball, {{0, 0, 0}, {1, 0, 0, 0}}};
     ovoid_compound *c = ovoid_compound_create(&part, 1, NULL, NULL);
     ovoid_world *w = ovoid_world_create(&(ovoid_world_options){.enlargement = 4}, NULL);
-    ovoid_world_body b = {.body = {box, NULL, {{0, 0, 0}, {1, 0, 0, 0}}}};
-    ovoid_world_body a = {.body = {kind ? NULL : box, kind ? c : NULL, {{3, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_world_body b = {.body = {.shape = box, .pose = {{0, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_world_body a = {
+        .body = {.shape = kind ? NULL : box, .compound = kind ? c : NULL, .pose = {{3, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_id ids[2] = {ovoid_world_add(w, &b, NULL), ovoid_world_add(w, &a, NULL)};
     ovoid_pose poses[2] = {{{0, 0, 0}, {0, 1, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}};
     // Half turns: each point has gone at most twice its distance. Travel: 2 sqrt 3 for each.
@@ -127,8 +130,8 @@ static void test_long_contact(void) {
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
     ovoid_shape *pill = ovoid_shape_create_capsule(0.5, 8, NULL, NULL);
     ovoid_world *w = ovoid_world_create(&(ovoid_world_options){.enlargement = 4}, NULL);
-    ovoid_world_body b = {.body = {box, NULL, {{0, 0, 0}, {1, 0, 0, 0}}}};
-    ovoid_world_body a = {.body = {pill, NULL, {{5, 0, 4.9}, {1, 0, 0, 0}}}};
+    ovoid_world_body b = {.body = {.shape = box, .pose = {{0, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_world_body a = {.body = {.shape = pill, .pose = {{5, 0, 4.9}, {1, 0, 0, 0}}}};
     ovoid_id ids[2] = {ovoid_world_add(w, &b, NULL), ovoid_world_add(w, &a, NULL)};
     ovoid_pose poses[2] = {{{0, 0, 0}, {0, 1, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}};
     for (int i = 0; i < 2000000; i++) CHECK(ovoid_world_move(w, ids[0], &poses[i & 1], NULL) == OVOID_OK);
@@ -163,7 +166,7 @@ static double whole(uint64_t *s, double most) { return floor(random_uniform(s, -
 static void test_rays(void) {
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
     ovoid_world *w = ovoid_world_create(&(ovoid_world_options){.enlargement = 1e-30}, NULL);
-    ovoid_world_body b = {.body = {box, NULL, {{0, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_world_body b = {.body = {.shape = box, .pose = {{0, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_id id = ovoid_world_add(w, &b, NULL);
     uint64_t s = 5;
     for (int i = 0; i < 4000; i++) {
@@ -185,7 +188,7 @@ static void test_rays(void) {
         if (far > 0x1p20) continue;
         ovoid_shape *small = ovoid_shape_create_box((ovoid_vec3){0.5, 0.5, 0.5}, NULL, NULL);
         ovoid_vec3 from = {ray.origin.x + 0.5, ray.origin.y - 0.5, ray.origin.z};
-        ovoid_world_body probe = {.body = {small, NULL, {from, {1, 0, 0, 0}}}};
+        ovoid_world_body probe = {.body = {.shape = small, .pose = {from, {1, 0, 0, 0}}}};
         CHECK(ovoid_world_cast_body(w, &probe, way, &x_hit, NULL) == OVOID_OK);
         CHECK(x_hit.body == id || x_hit.undecided > 0);
         CHECK_LE(x_hit.lower, 1);
@@ -205,7 +208,7 @@ static int is_met(const ovoid_ray *r, ovoid_vec3 edge) {
 
 static void test_grazing_ray(const ovoid_shape *box, ovoid_vec3 half, double far, uint64_t *s, long *met) {
     ovoid_world *w = ovoid_world_create(&(ovoid_world_options){.enlargement = 1e-30}, NULL);
-    ovoid_world_body b = {.body = {box, NULL, {{0, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_world_body b = {.body = {.shape = box, .pose = {{0, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_id id = ovoid_world_add(w, &b, NULL);
     for (int i = 0; i < 16; i++) {
         double off = random_uniform(s, -2, 2) * 0x1p-53 * far;
@@ -240,8 +243,8 @@ static void test_grazing_rays(void) {
     // nearer.
     ovoid_shape *ball = ovoid_shape_create_sphere(1, NULL, NULL);
     double time = 50 - sqrt(0.75), sooner = time * (1 - 5e-10);
-    ovoid_world_body c = {.body = {ball, NULL, {{50, 0.5, 0}, {1, 0, 0, 0}}}};
-    ovoid_world_body d = {.body = {box, NULL, {{sooner + 1, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_world_body c = {.body = {.shape = ball, .pose = {{50, 0.5, 0}, {1, 0, 0, 0}}}};
+    ovoid_world_body d = {.body = {.shape = box, .pose = {{sooner + 1, 0, 0}, {1, 0, 0, 0}}}};
     CHECK(ovoid_world_add(w, &c, NULL) && ovoid_world_add(w, &d, NULL));
     ovoid_world_cast x;
     ovoid_ray ray = {{10, 0, 0}, {1, 0, 0}, 100, 0};

@@ -260,7 +260,7 @@ static void test_deep(void) {
     ovoid_id ids[600];
     int count = 0;
     for (double x = 1e48; x > 1e-48; x /= 1.5) {
-        ovoid_world_body b = {.body = {ball, NULL, {{x, 0, 0}, {1, 0, 0, 0}}}};
+        ovoid_world_body b = {.body = {.shape = ball, .pose = {{x, 0, 0}, {1, 0, 0, 0}}}};
         ids[count++] = ovoid_world_add(w, &b, NULL);
         if (count == 540) break;
     }

@@ -24,8 +24,8 @@ static ovoid_world *make(uint32_t threads) {
     ovoid_world_options options = {.threads = threads};
     ovoid_world *world = ovoid_world_create(&options, NULL);
     for (int i = 0; i < BODIES; i++)
-        bodies[i].body =
-            (ovoid_body){shapes[random_next(&s) % WORLD_SHAPES], NULL, {random_place(&s, 12), random_quat(&s)}};
+        bodies[i].body = (ovoid_body){.shape = shapes[random_next(&s) % WORLD_SHAPES],
+                                      .pose = {random_place(&s, 12), random_quat(&s)}};
     CHECK(world && ovoid_world_add_many(world, bodies, BODIES, ids, NULL) == OVOID_OK);
     return world;
 }

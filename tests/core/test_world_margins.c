@@ -23,7 +23,7 @@ static ovoid_vec3 turned(ovoid_quat q, ovoid_vec3 v) {
 }
 
 static void add(ovoid_world *w, ovoid_id *id, const ovoid_shape *shape, ovoid_pose pose) {
-    ovoid_world_body b = {.body = {shape, NULL, pose}};
+    ovoid_world_body b = {.body = {.shape = shape, .pose = pose}};
     *id = ovoid_world_add(w, &b, NULL);
     CHECK(*id != 0);
 }
@@ -101,7 +101,7 @@ static void test_arm(uint64_t seed, int is_compound) {
     double tip = middle + (seed % 5 == 1 ? -1 : 1) * (a.length - 0.1), down = tip < 0 ? 1 : -1;
     ovoid_vec3 at = {tip, -(a.thick + 0.1 + margin + a.gap), 0};
     ovoid_id ids[2];
-    ovoid_world_body body = {.body = {c ? NULL : a.shape, c, {{0, 0, 0}, attitude}}};
+    ovoid_world_body body = {.body = {.shape = c ? NULL : a.shape, .compound = c, .pose = {{0, 0, 0}, attitude}}};
     ids[0] = ovoid_world_add(w, &body, NULL);
     add(w, &ids[1], a.small, (ovoid_pose){turned(attitude, at), attitude});
     double step = 0.015 * a.gap / fabs(tip);
@@ -160,7 +160,9 @@ static void test_capsules(uint64_t seed) {
     // The capsule is along z; the ball beside its end, from overlapping to beyond the margin.
     double gap = random_uniform(&s, -0.6, 1.2);
     add(w, &ids[0], pill, here);
-    ovoid_world_body body = {.body = {seed % 2 ? ball : NULL, seed % 2 ? NULL : c, {{1 + gap, 0, 3.9}, {1, 0, 0, 0}}}};
+    ovoid_world_body body = {.body = {.shape = seed % 2 ? ball : NULL,
+                                      .compound = seed % 2 ? NULL : c,
+                                      .pose = {{1 + gap, 0, 3.9}, {1, 0, 0, 0}}}};
     ids[1] = ovoid_world_add(w, &body, NULL);
     double step = (seed % 4 < 2 ? 1 : -1) * 0.004;
     for (int i = 0; i < 100; i++) {

@@ -9,7 +9,7 @@ static const ovoid_contact_query collide = {.kind = OVOID_QUERY_COLLIDE};
 static ovoid_world *make_heap(const ovoid_world_options *o, const ovoid_shape *box, int n, ovoid_id *ids) {
     ovoid_world *w = ovoid_world_create(o, NULL);
     for (int i = 0; i < n; i++) {
-        ovoid_world_body b = {.body = {box, NULL, {{0.01 * i, 0, 0}, {1, 0, 0, 0}}}, .user = (uint64_t)i};
+        ovoid_world_body b = {.body = {.shape = box, .pose = {{0.01 * i, 0, 0}, {1, 0, 0, 0}}}, .user = (uint64_t)i};
         ids[i] = ovoid_world_add(w, &b, NULL);
         CHECK(ids[i] != 0);
     }
@@ -106,7 +106,7 @@ static void test_bodies_refused(const ovoid_shape *box) {
     expect(ovoid_world_renew(w, ids[1], &e), OVOID_ERROR_INDEX, &e, "was removed");
     expect(ovoid_world_set_groups(w, ids[1], 1, 1, &e), OVOID_ERROR_INDEX, &e, "was removed");
     // Bodies: neither shape nor compound; a bad pose among good ones.
-    ovoid_world_body none = {.body = {NULL, NULL, {{0, 0, 0}, {1, 0, 0, 0}}}}, two[2] = {before, before};
+    ovoid_world_body none = {.body = {.pose = {{0, 0, 0}, {1, 0, 0, 0}}}}, two[2] = {before, before};
     CHECK(ovoid_world_add(w, &none, &e) == 0);
     expect(e.code, OVOID_ERROR_ARGUMENT, &e, "shape or a compound");
     two[1].body.pose = bad;
@@ -183,7 +183,7 @@ static void test_failing_allocation(ovoid_shape **shapes, long k, uint32_t threa
     ovoid_id ids[90];
     for (int i = 0; i < 90; i++)
         bodies[i] = (ovoid_world_body){
-            .body = {shapes[random_next(&s) % WORLD_SHAPES], NULL, {random_place(&s, 4), random_quat(&s)}}};
+            .body = {.shape = shapes[random_next(&s) % WORLD_SHAPES], .pose = {random_place(&s, 4), random_quat(&s)}}};
     for (int i = 0; i < 20; i++) {
         ids[i] = ovoid_world_add(w, &bodies[i], &e);
         if (!retry(&t, ids[i] ? OVOID_OK : e.code)) ids[i] = ovoid_world_add(w, &bodies[i], NULL);

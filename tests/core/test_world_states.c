@@ -186,8 +186,8 @@ static void test_edges(uint64_t seed) {
     for (int k = -4; k <= 4; k++) {
         double gap = 2 * radius + k * 2e-12 * (half + 100);
         ovoid_vec3 to = vec3_add(vec3_add(at, step), vec3_scale(unit, gap));
-        ovoid_world_body probes[2] = {{.body = {shape, NULL, {at, {1, 0, 0, 0}}}},
-                                      {.body = {shape, NULL, {to, {1, 0, 0, 0}}}}};
+        ovoid_world_body probes[2] = {{.body = {.shape = shape, .pose = {at, {1, 0, 0, 0}}}},
+                                      {.body = {.shape = shape, .pose = {to, {1, 0, 0, 0}}}}};
         check_two(probes);
     }
     ovoid_shape_destroy(shape);
@@ -201,8 +201,8 @@ static void test_balls(uint64_t seed) {
     ovoid_vec3 at = random_place(&s, 10), way = vec3_unit(random_place(&s, 1));
     for (int k = -4; k <= 4; k++) {
         ovoid_vec3 to = vec3_add(at, vec3_scale(way, 2 * radius + k * 1e-11));
-        ovoid_world_body probes[2] = {{.body = {ball, NULL, {at, random_quat(&s)}}},
-                                      {.body = {ball, NULL, {to, random_quat(&s)}}}};
+        ovoid_world_body probes[2] = {{.body = {.shape = ball, .pose = {at, random_quat(&s)}}},
+                                      {.body = {.shape = ball, .pose = {to, random_quat(&s)}}}};
         check_two(probes);
     }
     ovoid_shape_destroy(ball);
@@ -214,7 +214,7 @@ static void test_groups(void) {
     for (uint32_t k = 0; k < 16; k++) {
         ovoid_world *w = ovoid_world_create(NULL, NULL);
         ovoid_world_body body = {
-            .body = {ball, NULL, {{0, 0, 0}, {1, 0, 0, 0}}}, .group = 1 + k % 2, .mask = 1 + k / 2 % 2};
+            .body = {.shape = ball, .pose = {{0, 0, 0}, {1, 0, 0, 0}}}, .group = 1 + k % 2, .mask = 1 + k / 2 % 2};
         ovoid_world_body probe = {.body = body.body, .group = 1 + k / 4 % 2, .mask = 1 + k / 8 % 2};
         ovoid_world_hit hit;
         CHECK(ovoid_world_add(w, &body, NULL) != 0);

@@ -82,7 +82,7 @@ static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t 
     hash = 14695981039346656037u;
     for (int i = 0; i < BODIES; i++)
         bodies[i] = (ovoid_world_body){
-            .body = {shapes[random_next(&s) % WORLD_SHAPES], NULL, {random_place(&s, 18), random_quat(&s)}}};
+            .body = {.shape = shapes[random_next(&s) % WORLD_SHAPES], .pose = {random_place(&s, 18), random_quat(&s)}}};
     CHECK(ovoid_world_add_many(w, bodies, BODIES, ids, NULL) == OVOID_OK);
     for (int f = 0; f < FRAMES; f++) {
         ovoid_contact_query q = {.kind = (ovoid_query_kind)(f / 2), .margin = f / 2 ? 0.1 : 0};
@@ -136,7 +136,8 @@ static void test_signals(ovoid_shape **shapes) {
     for (int round = 0; round < 20 && !heard; round++) {
         if (round == 0) CHECK(kill(getpid(), SIGUSR1) == 0);
         for (int i = 0; i < 200; i++) {
-            ovoid_world_body b = {.body = {shapes[i % WORLD_SHAPES], NULL, {random_place(&s, 5), random_quat(&s)}}};
+            ovoid_world_body b = {
+                .body = {.shape = shapes[i % WORLD_SHAPES], .pose = {random_place(&s, 5), random_quat(&s)}}};
             CHECK(ovoid_world_add(w, &b, NULL) != 0);
         }
         CHECK(ovoid_world_compute_contacts(w, &q, &found, NULL) == OVOID_OK);

@@ -128,7 +128,8 @@ void check_compounds() {
     CHECK(is_same(arm.outer(), same.outer()) && is_same(arm.inner(), same.inner()));
     CHECK(arm.order().size() == 2 && arm.size_in_bytes() == ovoid_compound_get_size(arm.get()));
     const ovoid::body_pair p({arm, vec3(0, 0, 1)}, {b.hull, vec3(7, 1, 0)});
-    const ovoid_body_pair c = {{nullptr, arm.get(), pose(vec3(0, 0, 1))}, {b.hull.get(), nullptr, pose(vec3(7, 1, 0))}};
+    const ovoid_body_pair c = {{nullptr, arm.get(), pose(vec3(0, 0, 1)), nullptr},
+                               {b.hull.get(), nullptr, pose(vec3(7, 1, 0)), nullptr}};
     const ovoid_compound_answer truth = ovoid_compound_distance(&c, nullptr, nullptr, nullptr);
     std::vector<ovoid_exclusion> space(10);
     ovoid::exclusions e(space);

@@ -89,10 +89,47 @@ void check_queries() {
     CHECK_NEAR(in.upper, -0.25, 1e-9);
 }
 
+// As any body: beside a compound, in a world, on its way.
+void check_bodies() {
+    const solid angle = make_angle();
+    const shape cube = shape::box({0.25, 0.25, 0.25});
+    const ovoid::compound two = ovoid::compound::create(
+        {{cube, pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0})}, {cube, pose::rpy({4, 4, 0.5}, {0, 0, 0})}});
+    ovoid_exclusion items[512];
+    ovoid_exclusions all = {items, 512, 0, nullptr};
+    const solid_pair beside(angle, two);
+    const ovoid::solid_answer x = ovoid::distance(beside, {}, nullptr, &all);
+    CHECK_EQ(x.triangle_b, 0u);
+    CHECK_NEAR(x.lower, 0.25, 1e-9);
+    CHECK(ovoid::is_proven(beside, x, &all));
+    ovoid::world w = ovoid::world::create();
+    const ovoid::id a = w.add(ovoid::body(angle)), b = w.add(ovoid::body(cube, pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0})));
+    const ovoid::contacts found = w.compute_contacts({OVOID_QUERY_DISTANCE, 1});
+    CHECK_EQ(found.size(), 1u);
+    CHECK(found.items[0].a == a && found.items[0].b == b);
+    CHECK_NEAR(found.items[0].verdict.lower, 0.25, 1e-9);
+    // The cube comes down the notch from above, past both walls, and out of it through the one at x = 1.
+    const ovoid::moving_body still(angle, ovoid::motion(pose()));
+    const ovoid::moving_body falls(
+        cube, ovoid_motion_make_poses(pose::rpy({1.5, 1.5, 3}, {0, 0, 0}), pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0}), 1));
+    CHECK_EQ(ovoid::find_impact(still, falls).impact.status, OVOID_IMPACT_FREE);
+    const ovoid::moving_body moved(
+        cube, ovoid_motion_make_poses(pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0}), pose::rpy({0.5, 1.5, 0.5}, {0, 0, 0}), 1));
+    static ovoid_step steps[4096];
+    static ovoid_step_group groups[1024];
+    const ovoid::motion_options full = ovoid::motion_options().with_steps(steps).with_groups(groups);
+    const ovoid::compound_impact met = ovoid::find_impact(still, moved, 0, full);
+    CHECK_EQ(met.impact.status, OVOID_IMPACT_HIT);
+    CHECK_NEAR(met.impact.hit_at, 0.25, 1e-8);
+    ovoid::check(still, moved, 0, met, steps, groups);
+    CHECK(still.swept(0, 1).max.x >= 2);
+}
+
 } // namespace
 
 int main() {
     check_views();
     check_queries();
+    check_bodies();
     return check_end();
 }

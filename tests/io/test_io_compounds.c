@@ -46,8 +46,8 @@ static void check_checks(const ovoid_body_pair *pair, const ovoid_compound_answe
 
 static void check_pair(const object *a, const object *b, uint64_t *s) {
     double reach = 0.6 * (a->reach + b->reach);
-    ovoid_body_pair pair = {{NULL, a->compound, {random_vec3(s, reach), random_quat(s)}},
-                            {NULL, b->compound, {random_vec3(s, reach), random_quat(s)}}};
+    ovoid_body_pair pair = {{.compound = a->compound, .pose = {random_vec3(s, reach), random_quat(s)}},
+                            {.compound = b->compound, .pose = {random_vec3(s, reach), random_quat(s)}}};
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     ovoid_compound_answer distance = ovoid_compound_distance(&pair, NULL, NULL, &all);
     check_checks(&pair, &distance, &all);

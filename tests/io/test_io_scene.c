@@ -153,6 +153,64 @@ static void check_compounds(void) {
     ovoid_scene_destroy(scene);
 }
 
+// A closed mesh that does not fill its hull is a solid, unless it is told or has a radius; so is what is told to be
+// one.
+static void check_solids(void) {
+    static const char text[] =
+        "{\"objects\": [{\"name\": \"a\", \"mesh\": \"l.obj\", \"pose\": {\"xyz\": [1, 0, 0]}},\n"
+        "  {\"name\": \"b\", \"mesh\": \"l.obj\", \"solid\": true}, {\"name\": \"c\", \"mesh\": \"l.obj\", \"solid\": "
+        "false},\n"
+        "  {\"name\": \"d\", \"mesh\": \"l.obj\", \"radius\": 0.5}, {\"name\": \"e\", \"mesh\": \"open.obj\", "
+        "\"solid\": true},\n"
+        "  {\"name\": \"f\", \"mesh\": \"open.obj\"}, {\"name\": \"g\", \"compound\": [{\"mesh\": \"l.obj\"}]},\n"
+        "  {\"name\": \"h\", \"mesh\": \"l.obj\", \"scale\": 2}, {\"name\": \"i\", \"mesh\": \"l.obj\"}]}";
+    static const char angle[] =
+        "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
+        "f 4 3 2\nf 4 2 1\nf 4 1 6\nf 4 6 5\nf 10 8 9\nf 10 7 8\nf 10 12 7\nf 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 "
+        "9\n"
+        "f 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
+    static const ovoid_mesh_kind kinds[9] = {OVOID_MESH_SOLID, OVOID_MESH_SOLID,   OVOID_MESH_HULL,
+                                             OVOID_MESH_HULL,  OVOID_MESH_SURFACE, OVOID_MESH_HULL,
+                                             OVOID_MESH_PARTS, OVOID_MESH_SOLID,   OVOID_MESH_SOLID};
+    char open[sizeof angle];
+    memcpy(open, angle, sizeof angle);
+    *strstr(open, "f 6 1") = 0;
+    file_write_text("l.obj", angle);
+    file_write_text("open.obj", open);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(file_write_text("solids.json", text), NULL, &error);
+    if (!CHECK(scene != NULL)) {
+        printf("  %s\n", error.message);
+        return;
+    }
+    for (int hulls = 0; hulls < 2; hulls++) {
+        for (size_t i = 0; i < 9; i++) {
+            ovoid_scene_object o = ovoid_scene_get(scene, i);
+            int is_asked = i == 1 || i == 4, is_solid = kinds[i] == OVOID_MESH_SOLID || is_asked;
+            if (hulls && !is_asked) is_solid = 0;
+            CHECK_EQ(o.is_asked, is_asked);
+            CHECK_EQ(o.kind, is_solid || !hulls || i == 6 ? kinds[i] : OVOID_MESH_HULL);
+            CHECK_EQ(o.solid != NULL, is_solid);
+            CHECK_EQ(o.shape != NULL, i != 6);
+            ovoid_body body = ovoid_scene_get_body(scene, i, &o.pose);
+            CHECK(body.solid == o.solid && (body.shape != NULL) == (i != 6 && !is_solid) &&
+                  body.compound == o.compound);
+            CHECK_EQ(body.pose.position.x, i == 0);
+        }
+        if (!hulls) ovoid_scene_take_hulls(scene);
+        if (!hulls) CHECK_NEAR(ovoid_scene_get(scene, 0).convexity.mesh_volume, 3, 1e-12);
+        if (!hulls) CHECK(ovoid_scene_get_mesh_solid(scene, 0) == NULL);
+    }
+    ovoid_scene_destroy(scene);
+    // Equal geometries are one solid; another scale is another one.
+    scene = ovoid_scene_read(file_write_text("solids.json", text), NULL, &error);
+    if (!CHECK(scene != NULL)) return;
+    CHECK(ovoid_scene_get(scene, 0).solid == ovoid_scene_get(scene, 8).solid);
+    CHECK_NEAR(ovoid_solid_get_report(ovoid_scene_get(scene, 7).solid).volume, 24, 1e-12);
+    CHECK(ovoid_scene_get_mesh_solid(scene, 0) == ovoid_scene_get(scene, 0).solid);
+    ovoid_scene_destroy(scene);
+}
+
 // Many objects: names, geometries that are all different, and all the same.
 static void check_many(void) {
     enum { COUNT = 3000 };
@@ -368,6 +426,7 @@ int main(void) {
     check_unit();
     check_good();
     check_compounds();
+    check_solids();
     check_many();
     check_bad();
     check_damaged();

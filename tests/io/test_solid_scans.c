@@ -23,7 +23,7 @@ static int read_mesh(const char *folder, const char *name, double scale, mesh *m
 }
 
 // Over every eleventh triangle of a: never below the distance, whose lower end the check proves.
-static double find_surfaces(const mesh *a, const mesh *b, const ovoid_solid_pair *pair) {
+static double find_surfaces(const mesh *a, const mesh *b, const ovoid_body_pair *pair) {
     long3 *p = long_place_mesh(a, &pair->a.pose), *q = long_place_mesh(b, &pair->b.pose);
     long double best = INFINITY;
     for (size_t i = 0; i < a->triangles && best > 0; i += 11)
@@ -34,7 +34,7 @@ static double find_surfaces(const mesh *a, const mesh *b, const ovoid_solid_pair
     return (double)best;
 }
 
-static void check_pair(const mesh *a, const mesh *b, const ovoid_solid_pair *pair, ovoid_status status, double size) {
+static void check_pair(const mesh *a, const mesh *b, const ovoid_body_pair *pair, ovoid_status status, double size) {
     ovoid_exclusions all = {items, 200000, 0, NULL};
     ovoid_error error = {OVOID_OK, -1, ""};
     double truth = find_surfaces(a, b, pair);
@@ -63,8 +63,8 @@ int main(void) {
         CHECK_EQ(r.is_closed, 1);
         CHECK(r.volume > 0 && ovoid_solid_get_report(d).triangles > 4000);
         double width = r.box.max.x - r.box.min.x, size = 8 * width;
-        ovoid_solid_pair pair = {{NULL, a, ovoid_pose_make_identity()},
-                                 {NULL, a, {{1.5 * width, 0.1, 0}, {3, 0, 1, 0}}}};
+        ovoid_body_pair pair = {{.solid = a, .pose = ovoid_pose_make_identity()},
+                                {.solid = a, .pose = {{1.5 * width, 0.1, 0}, {3, 0, 1, 0}}}};
         check_pair(&bunny, &bunny, &pair, OVOID_SEPARATED, size);
         pair.b.pose.position.x = 0.3 * width;
         check_pair(&bunny, &bunny, &pair, OVOID_OVERLAPPING, size);
@@ -77,7 +77,7 @@ int main(void) {
                              random_uniform(&s, r.box.min.z, r.box.max.z)};
             if (!ovoid_solid_compute_winding(a, p, &winding)) winding = 0;
         }
-        pair.b = (ovoid_solid_body){NULL, b, {p, {1, 0, 0, 0}}};
+        pair.b = (ovoid_body){.solid = b, .pose = {p, {1, 0, 0, 0}}};
         ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, NULL);
         CHECK_EQ(x.status, OVOID_OVERLAPPING);
         check_pair(&bunny, &small, &pair, OVOID_OVERLAPPING, size);

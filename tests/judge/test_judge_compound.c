@@ -103,9 +103,9 @@ static void check_round(int round) {
         if (!CHECK(shapes[i] != NULL)) return;
     }
     ovoid_compound *a = make_small(shapes, 1 + (size_t)(round % 6), scale, &s), *b = make_small(shapes, 4, scale, &s);
-    ovoid_body_pair pair = {{NULL, a, {random_vec3(&s, 4 * scale), random_quat(&s)}},
-                            {NULL, b, {random_vec3(&s, 4 * scale), random_quat(&s)}}};
-    if (round % 5 == 1) pair.b = (ovoid_body){shapes[0], NULL, pair.b.pose};
+    ovoid_body_pair pair = {{.compound = a, .pose = {random_vec3(&s, 4 * scale), random_quat(&s)}},
+                            {.compound = b, .pose = {random_vec3(&s, 4 * scale), random_quat(&s)}}};
+    if (round % 5 == 1) pair.b = (ovoid_body){.shape = shapes[0], .pose = pair.b.pose};
     if (CHECK(a && b)) {
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
         ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
@@ -133,7 +133,8 @@ static void check_edges(void) {
     for (int i = 0; i < 3; i++)
         parts[i] = (ovoid_posed_shape){i == 1 ? rounded : cube, {{0, 2.0 * i, 0}, {1, 0, 0, 0}}};
     ovoid_compound *row = ovoid_compound_create(parts, 3, NULL, NULL);
-    ovoid_body_pair pair = {{NULL, row, ovoid_pose_make_identity()}, {NULL, row, ovoid_pose_make_identity()}};
+    ovoid_body_pair pair = {{.compound = row, .pose = ovoid_pose_make_identity()},
+                            {.compound = row, .pose = ovoid_pose_make_identity()}};
     pair.b.pose.position.x = 4;
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
     ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);

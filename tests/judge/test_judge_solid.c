@@ -214,7 +214,7 @@ typedef struct tally {
 static tally tallies[FAMILIES];
 
 typedef struct inquiry {
-    ovoid_solid_pair pair;
+    ovoid_body_pair pair;
     solid_truth truth;
     double slack, tolerance;
     tally *t;
@@ -247,7 +247,7 @@ static void judge_answer(inquiry *q, const ovoid_solid_answer *x, int is_distanc
 }
 
 static void ask(inquiry *q, uint64_t *s) {
-    const ovoid_solid_pair *pair = &q->pair;
+    const ovoid_body_pair *pair = &q->pair;
     ovoid_solid_answer x = ovoid_solid_distance(pair, NULL, NULL, &q->all);
     judge_answer(q, &x, 1);
     if (x.status == OVOID_SEPARATED) CHECK_LE(x.upper - x.lower, q->tolerance);
@@ -272,7 +272,7 @@ static void ask(inquiry *q, uint64_t *s) {
         judge_answer(q, &x, 0);
     }
     // The other way round.
-    ovoid_solid_pair turned = {pair->b, pair->a};
+    ovoid_body_pair turned = {pair->b, pair->a};
     q->pair = turned;
     x = ovoid_solid_distance(&turned, NULL, NULL, &q->all);
     judge_answer(q, &x, 1);
@@ -301,8 +301,9 @@ static void try_pair(size_t f, uint64_t seed) {
     ovoid_solid *a = mesh_make_solid(&x.a), *b = x.is_hull ? NULL : mesh_make_solid(&x.b);
     if (CHECK(a && (b || shape))) {
         double far = fabs(x.pose_a.position.x) + fabs(x.pose_a.position.y) + fabs(x.pose_a.position.z);
-        inquiry q = {
-            .pair = {{NULL, a, x.pose_a}, {shape, b, x.pose_b}}, .t = &tallies[f], .slack = 1e-15 * (x.size + far)};
+        inquiry q = {.pair = {{.solid = a, .pose = x.pose_a}, {.shape = shape, .pose = x.pose_b, .solid = b}},
+                     .t = &tallies[f],
+                     .slack = 1e-15 * (x.size + far)};
         q.tolerance = 1.01e-9 * (x.size + 1e-3 * far);
         q.all = (ovoid_exclusions){.items = items, .capacity = CAPACITY};
         q.truth = find_solid_truth(&x.a, &x.pose_a, &x.b, &x.pose_b);

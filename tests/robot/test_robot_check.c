@@ -51,7 +51,7 @@ static void add_elements(uint64_t *s, scene *c) {
 }
 
 static ovoid_body random_body(uint64_t *s, double scale) {
-    ovoid_body b = {NULL, NULL, random_pose(s, scale)};
+    ovoid_body b = {.pose = random_pose(s, scale)};
     if (random_below(s, 4) == 0)
         b.compound = compound;
     else
@@ -433,7 +433,7 @@ static void test_refusals(void) {
     CHECK_EQ(ovoid_robot_check(x, q, &options, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_REFUSED && is.code == OVOID_ERROR_NOT_FINITE && is.variable == limited);
     // Bodies.
-    ovoid_body none = {NULL, NULL, ovoid_pose_make_identity()};
+    ovoid_body none = {.pose = ovoid_pose_make_identity()};
     CHECK_EQ(ovoid_robot_cell_add(c.cell, &none, &error), (ovoid_id)0);
     CHECK_EQ(error.code, OVOID_ERROR_ARGUMENT);
     none.shape = shapes[0], none.pose.position.x = NAN;
@@ -478,7 +478,7 @@ static void test_by_hand(void) {
         .links = links, .link_count = 2, .joints = &joint, .joint_count = 1, .elements = &element, .element_count = 1};
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_cell *cell = ovoid_robot_cell_create(r, NULL, &error);
-    ovoid_body wall = {shapes[0], NULL, {{5, 0, 0}, {1, 0, 0, 0}}};
+    ovoid_body wall = {.shape = shapes[0], .pose = {{5, 0, 0}, {1, 0, 0, 0}}};
     ovoid_id id = ovoid_robot_cell_add(cell, &wall, &error);
     ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
     ovoid_robot_answer is;
@@ -506,14 +506,14 @@ static void test_by_hand(void) {
     (void)ovoid_robot_cell_set_body_allowed(cell, id, 1, 1, &error);
     CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
-    ovoid_body held = {shapes[1], NULL, {{0, 0, 1}, {1, 0, 0, 0}}};
+    ovoid_body held = {.shape = shapes[1], .pose = {{0, 0, 1}, {1, 0, 0, 0}}};
     ovoid_id sphere = ovoid_robot_cell_attach(cell, 1, &held, NULL, 0, &error);
     wall.pose.position.z = 1;
     ovoid_id second = ovoid_robot_cell_add(cell, &wall, &error);
     CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_HIT && is.a.body == sphere && is.b.body == second && is.a.link == 1);
     // Both links, and a rail that an attached body touches.
-    ovoid_body on_rail = {shapes[1], NULL, {{4, 0, 1}, {1, 0, 0, 0}}};
+    ovoid_body on_rail = {.shape = shapes[1], .pose = {{4, 0, 1}, {1, 0, 0, 0}}};
     (void)ovoid_robot_cell_remove(cell, second, &error);
     ovoid_id fixed = ovoid_robot_cell_attach(cell, 0, &on_rail, NULL, 0, &error);
     CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);

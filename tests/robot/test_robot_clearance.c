@@ -67,7 +67,7 @@ static void test_random(void) {
         ovoid_robot_cell *cell = ovoid_robot_cell_create(r, NULL, &error);
         if (!cell) exit(1);
         for (int k = 0; k < OBSTACLES && i % 5; k++) {
-            ovoid_body b = {shapes[random_below(&s, SHAPES - 1)], NULL, random_pose(&s, 0.7)};
+            ovoid_body b = {.shape = shapes[random_below(&s, SHAPES - 1)], .pose = random_pose(&s, 0.7)};
             CHECK(ovoid_robot_cell_add(cell, &b, &error) != 0);
         }
         CHECK_EQ(ovoid_robot_cell_set_padding(cell, random_below(&s, (uint32_t)a.d.link_count), 0.02, &error),
@@ -107,7 +107,7 @@ static void test_hinge(void) {
         .links = links, .link_count = 2, .joints = &joint, .joint_count = 1, .elements = &element, .element_count = 1};
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_cell *cell = ovoid_robot_cell_create(r, NULL, &error);
-    ovoid_body wall = {shapes[3], NULL, {{2, 0, 0}, {1, 0, 0, 0}}};
+    ovoid_body wall = {.shape = shapes[3], .pose = {{2, 0, 0}, {1, 0, 0, 0}}};
     ovoid_id id = ovoid_robot_cell_add(cell, &wall, &error);
     ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
     const double q[3] = {-2, -1.1, 1.3};

@@ -52,7 +52,7 @@ static void test_wiper(void) {
         .links = links, .link_count = 2, .joints = &hinge, .joint_count = 1, .elements = &element, .element_count = 1};
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_cell *cell = ovoid_robot_cell_create(r, NULL, &error);
-    ovoid_body at = {ball, NULL, {{1, 0, 0}, {1, 0, 0, 0}}};
+    ovoid_body at = {.shape = ball, .pose = {{1, 0, 0}, {1, 0, 0, 0}}};
     ovoid_id id = ovoid_robot_cell_add(cell, &at, &error);
     ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
     if (!x) exit(1);
@@ -124,7 +124,7 @@ static void test_thin(void) {
     CHECK_EQ(check_motion(x, up, tilted, 2, NULL, &is), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     // Many turns through a thin plate.
-    ovoid_body wall = {plate, NULL, {{-1, 1, 0}, {1, 0, 0, 0}}};
+    ovoid_body wall = {.shape = plate, .pose = {{-1, 1, 0}, {1, 0, 0, 0}}};
     (void)ovoid_robot_cell_add(cell, &wall, &error);
     const double here[2] = {3, -1}, there[2] = {3 - 40 * 3.141592653589793, -1};
     CHECK_EQ(check_motion(x, here, there, 2, NULL, &is), OVOID_OK);
@@ -184,7 +184,7 @@ static void test_random(void) {
             for (uint32_t k = i + 1; k < a.d.link_count; k++)
                 if (k < i + 4 || random_below(&s, 3)) (void)ovoid_robot_cell_set_allowed(cell, i, k, 1, &error);
         for (int i = 0; i < 3; i++) {
-            ovoid_body body = {i ? ball : post, NULL, random_pose(&s, 2)};
+            ovoid_body body = {.shape = i ? ball : post, .pose = random_pose(&s, 2)};
             (void)ovoid_robot_cell_add(cell, &body, &error);
         }
         ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);

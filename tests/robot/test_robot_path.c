@@ -42,7 +42,7 @@ static void make_scene(uint64_t *s, scene *c) {
     c->cell = ovoid_robot_cell_create(c->r, NULL, &error);
     if (!c->cell) exit(1);
     for (int i = 0; i < OBSTACLES; i++) {
-        ovoid_body b = {shapes[random_below(s, SHAPES)], NULL, random_pose(s, 1)};
+        ovoid_body b = {.shape = shapes[random_below(s, SHAPES)], .pose = random_pose(s, 1)};
         CHECK(ovoid_robot_cell_add(c->cell, &b, &error) != 0);
     }
     CHECK_EQ(ovoid_robot_cell_set_padding(c->cell, random_below(s, (uint32_t)c->a.d.link_count), 0.01, &error),
@@ -172,7 +172,8 @@ static void test_wrist(double turns, double at, double radius) {
     double pi = 3.14159265358979323846, q[2] = {-2 * pi * turns, 2 * pi * turns};
     ovoid_robot *r = make_wrist(rod, 1e6);
     ovoid_robot_cell *cell = ovoid_robot_cell_create(r, NULL, &error);
-    ovoid_body body = {plate, NULL, {{radius * cos(at), radius * sin(at), 0}, {cos(at / 2), 0, 0, sin(at / 2)}}};
+    ovoid_body body = {.shape = plate,
+                       .pose = {{radius * cos(at), radius * sin(at), 0}, {cos(at / 2), 0, 0, sin(at / 2)}}};
     CHECK(ovoid_robot_cell_add(cell, &body, &error) != 0);
     ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
     ovoid_robot_path path = {q, 2};
@@ -241,7 +242,8 @@ static void test_arc(void) {
         double angle = random_uniform(&s, 0.05, 0.8), share = random_uniform(&s, 0.05, 0.95);
         double at = HINGES * angle * share, q[2 * HINGES] = {0}, far = 1.0149 + (i % 2 ? 0.02 : 0);
         for (int k = 0; k < HINGES; k++) q[HINGES + k] = angle;
-        ovoid_body body = {wall, NULL, {{far * cos(at), far * sin(at), 0}, {cos(at / 2), 0, 0, sin(at / 2)}}};
+        ovoid_body body = {.shape = wall,
+                           .pose = {{far * cos(at), far * sin(at), 0}, {cos(at / 2), 0, 0, sin(at / 2)}}};
         ovoid_id id = ovoid_robot_cell_add(cell, &body, &error);
         CHECK_EQ(ovoid_robot_cell_set_padding(cell, HINGES, i % 2 ? 0.02 : 0, &error), OVOID_OK);
         ovoid_robot_path path = {q, 2};
@@ -296,7 +298,7 @@ static void test_memory(void) {
     ovoid_shape *rod = ovoid_shape_create_box((ovoid_vec3){0.4, 0.001, 0.001}, NULL, &error);
     ovoid_robot *r = make_wrist(rod, 1);
     ovoid_robot_cell *cell = ovoid_robot_cell_create(r, NULL, &error);
-    ovoid_body body = {shapes[0], NULL, {{0, 0.5, 0}, {1, 0, 0, 0}}};
+    ovoid_body body = {.shape = shapes[0], .pose = {{0, 0.5, 0}, {1, 0, 0, 0}}};
     CHECK(ovoid_robot_cell_add(cell, &body, &error) != 0);
     double q[2] = {0, 0.9};
     ovoid_robot_path path = {q, 2};

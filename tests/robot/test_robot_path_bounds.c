@@ -342,7 +342,7 @@ static void test_sweeps(int rounds) {
         machine m;
         make_machine(&s, &m);
         for (int k = 0; k < OBSTACLES; k++) {
-            ovoid_body body = {m.shapes[k % 3], NULL, random_pose(&s, 1.5 * m.scale)};
+            ovoid_body body = {.shape = m.shapes[k % 3], .pose = random_pose(&s, 1.5 * m.scale)};
             CHECK(ovoid_robot_cell_add(m.cell, &body, &error) != 0);
         }
         ovoid_robot_checker *x = ovoid_robot_checker_create(m.cell, NULL, &error);

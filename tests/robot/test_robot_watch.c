@@ -69,7 +69,7 @@ static void open_scene(scene *s) {
     s->robot = ovoid_robot_create(&d, NULL, &error);
     s->cell = ovoid_robot_cell_create(s->robot, NULL, &error);
     there.position = (ovoid_vec3){1.6, 1.4, 0};
-    CHECK(ovoid_robot_cell_add(s->cell, &(const ovoid_body){s->ball, NULL, there}, &error) != 0);
+    CHECK(ovoid_robot_cell_add(s->cell, &(const ovoid_body){.shape = s->ball, .pose = there}, &error) != 0);
     CHECK(ovoid_robot_cell_set_allowed(s->cell, 1, 2, 1, &error) == OVOID_OK);
     CHECK(ovoid_robot_cell_set_allowed(s->cell, 0, 1, 1, &error) == OVOID_OK);
     s->checker = ovoid_robot_checker_create(s->cell, NULL, &error);

@@ -39,12 +39,12 @@ ovoid_exclusion *EXPORT(set_exclusions)(size_t count) {
     return exclusions.items;
 }
 
-static const double *read_body(const double *from, int is_solid, const void *body, ovoid_solid_body *out) {
-    *out = (ovoid_solid_body){.shape = is_solid ? NULL : body, .solid = is_solid ? body : NULL};
+static const double *read_body(const double *from, int is_solid, const void *body, ovoid_body *out) {
+    *out = (ovoid_body){.shape = is_solid ? NULL : body, .solid = is_solid ? body : NULL};
     return read_pose(from, &out->pose);
 }
 
-static ovoid_solid_answer ask(int kind, const ovoid_solid_pair *pair, double margin, const ovoid_options *options,
+static ovoid_solid_answer ask(int kind, const ovoid_body_pair *pair, double margin, const ovoid_options *options,
                               ovoid_exclusions *out) {
     switch (kind) {
     case 0: return ovoid_solid_collide(pair, options, NULL, out);
@@ -57,7 +57,7 @@ static ovoid_solid_answer ask(int kind, const ovoid_solid_pair *pair, double mar
 /// poses, the margin, tolerances, cap; writes status, limit, lower, upper, parting, inside, component, both triangles,
 /// how many exclusions there are, then the surfaces' answer and its proof.
 void EXPORT(solid_query)(int kind, int solids, const void *a, const void *b) {
-    ovoid_solid_pair pair;
+    ovoid_body_pair pair;
     const double *from = read_body(exchange, solids & 1, a, &pair.a);
     from = read_body(from, solids & 2, b, &pair.b);
     double margin = *from++;
@@ -76,7 +76,7 @@ void EXPORT(solid_query)(int kind, int solids, const void *a, const void *b) {
 
 /// Reads both poses and what solid_query wrote; the exclusions are those of set_exclusions. 0, or the error's code.
 int EXPORT(solid_check)(int solids, const void *a, const void *b) {
-    ovoid_solid_pair pair;
+    ovoid_body_pair pair;
     ovoid_solid_answer s = {0};
     const double *from = read_body(read_body(exchange, solids & 1, a, &pair.a), solids & 2, b, &pair.b);
     s.status = (ovoid_status)*from++;

@@ -82,12 +82,16 @@ class compound : public detail::owner<compound_view, ovoid_compound, ovoid_compo
     }
 };
 
-/** A posed shape or a posed compound, borrowed. */
+class solid_view;
+
+/** A posed shape, compound or solid, borrowed. */
 struct body : ovoid_body {
     /** A shape at a pose. */
-    body(shape_view s, const ovoid::pose &at = {}) noexcept : ovoid_body{s.get(), nullptr, at} {}
+    body(shape_view s, const ovoid::pose &at = {}) noexcept : ovoid_body{s.get(), nullptr, at, nullptr} {}
     /** A compound at a pose. */
-    body(compound_view c, const ovoid::pose &at = {}) noexcept : ovoid_body{nullptr, c.get(), at} {}
+    body(compound_view c, const ovoid::pose &at = {}) noexcept : ovoid_body{nullptr, c.get(), at, nullptr} {}
+    /** A solid at a pose: in <ovoid/cpp/solid.hpp>. */
+    body(solid_view s, const ovoid::pose &at = {}) noexcept;
     /** From the C struct. */
     template <class T, std::enable_if_t<std::is_same<T, ovoid_body>::value, int> = 0>
     body(const T &from) noexcept : ovoid_body(from) {}

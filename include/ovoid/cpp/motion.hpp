@@ -8,6 +8,7 @@
 #include "ovoid/compound_impact.h"
 #include "ovoid/cpp/compound.hpp"
 #include "ovoid/motion.h"
+#include "ovoid/solid_impact.h"
 
 namespace ovoid {
 
@@ -77,12 +78,14 @@ struct moving_shape : ovoid_moving_shape {
     }
 };
 
-/** A shape or a compound that moves, borrowed. */
+/** A shape, compound or solid that moves, borrowed. */
 struct moving_body : ovoid_moving_body {
     /** A shape and its motion. */
-    moving_body(shape_view s, const ovoid::motion &m) noexcept : ovoid_moving_body{s.get(), nullptr, m} {}
+    moving_body(shape_view s, const ovoid::motion &m) noexcept : ovoid_moving_body{s.get(), nullptr, m, nullptr} {}
     /** A compound and its motion. */
-    moving_body(compound_view c, const ovoid::motion &m) noexcept : ovoid_moving_body{nullptr, c.get(), m} {}
+    moving_body(compound_view c, const ovoid::motion &m) noexcept : ovoid_moving_body{nullptr, c.get(), m, nullptr} {}
+    /** A solid and its motion: in <ovoid/cpp/solid.hpp>. */
+    moving_body(solid_view s, const ovoid::motion &m) noexcept;
     /** From the C struct. */
     template <class T, std::enable_if_t<std::is_same<T, ovoid_moving_body>::value, int> = 0>
     moving_body(const T &from) noexcept : ovoid_moving_body(from) {}
@@ -110,10 +113,11 @@ inline impact find_impact(const moving_shape &a, const moving_shape &b, double m
                           const ovoid_motion_options &o = motion_options()) noexcept {
     return ovoid_impact_find(&a, &b, margin, &o);
 }
-/** When do two moving bodies? */
+/** When do two moving bodies, of which each may be a solid? */
 inline compound_impact find_impact(const moving_body &a, const moving_body &b, double margin = 0,
                                    const ovoid_motion_options &o = motion_options()) noexcept {
-    return ovoid_compound_impact_find(&a, &b, margin, &o);
+    return a.solid || b.solid ? ovoid_solid_impact_find(&a, &b, margin, &o)
+                              : ovoid_compound_impact_find(&a, &b, margin, &o);
 }
 /** Throws PROOF (place: the step) where an impact does not follow from its steps: all step_count of them. */
 template <class Steps>
@@ -130,7 +134,8 @@ void check(const moving_body &a, const moving_body &b, double margin, const ovoi
     ovoid_error e;
     if (std::size(steps) < found.impact.step_count || std::size(groups) < found.group_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps or groups than were kept");
-    detail::require(ovoid_compound_impact_check(&a, &b, margin, &found, std::data(steps), std::data(groups), &e), e);
+    const auto check_it = a.solid || b.solid ? ovoid_solid_impact_check : ovoid_compound_impact_check;
+    detail::require(check_it(&a, &b, margin, &found, std::data(steps), std::data(groups), &e), e);
 }
 
 /** The first time at which b, moved along displacement without turning, is within margin of a. */

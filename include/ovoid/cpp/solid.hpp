@@ -1,11 +1,11 @@
 /**
  * @file solid.hpp
- * Solids of triangles, and their proximity to each other and to shapes.
+ * Solids of triangles, and their proximity to each other, to shapes and to compounds.
  */
 #ifndef OVOID_CPP_SOLID_HPP
 #define OVOID_CPP_SOLID_HPP
 
-#include "ovoid/cpp/compound.hpp"
+#include "ovoid/cpp/motion.hpp"
 #include "ovoid/solid.h"
 
 namespace ovoid {
@@ -68,18 +68,14 @@ class solid : public detail::owner<solid_view, ovoid_solid, ovoid_solid_destroy>
     }
 };
 
-/** A posed shape or a posed solid, borrowed. */
-struct solid_body : ovoid_solid_body {
-    /** A shape at a pose. */
-    solid_body(shape_view s, const ovoid::pose &at = {}) noexcept : ovoid_solid_body{s.get(), nullptr, at} {}
-    /** A solid at a pose. */
-    solid_body(solid_view s, const ovoid::pose &at = {}) noexcept : ovoid_solid_body{nullptr, s.get(), at} {}
-};
+inline body::body(solid_view s, const ovoid::pose &at) noexcept : ovoid_body{nullptr, nullptr, at, s.get()} {}
 
-/** Two bodies. */
-struct solid_pair : ovoid_solid_pair {
-    /** a and b. */
-    solid_pair(const solid_body &a_, const solid_body &b_) noexcept : ovoid_solid_pair{a_, b_} {}
+inline moving_body::moving_body(solid_view s, const ovoid::motion &m) noexcept
+    : ovoid_moving_body{nullptr, nullptr, m, s.get()} {}
+
+/** Two bodies, of which one may be a solid: answers about them are solid_answer. */
+struct solid_pair : body_pair {
+    using body_pair::body_pair;
 };
 
 /** Do the bodies touch? e: receives what proves it, or nullptr. */

@@ -192,6 +192,9 @@ const char *record_read_solid(const json_t *line, ovoid_record *record, ovoid_so
                               .surfaces = *answer};
     wrong = read_triangle(line, record->kind_a, "triangle_a", &x->triangle_a, key);
     if (!wrong) wrong = read_triangle(line, record->kind_b, "triangle_b", &x->triangle_b, key);
+    // Of a compound beside a solid the deciding part.
+    if (record->kind_a == OVOID_MESH_PARTS && record->part_a != OVOID_RECORD_NO_PART) x->triangle_a = record->part_a;
+    if (record->kind_b == OVOID_MESH_PARTS && record->part_b != OVOID_RECORD_NO_PART) x->triangle_b = record->part_b;
     if (!wrong) wrong = read_inside(line, x, key);
     if (!wrong) wrong = read_surfaces(surfaces, &x->surfaces, key);
     if (wrong) return wrong;

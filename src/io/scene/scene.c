@@ -3,14 +3,16 @@
 // the shapes; n log n for the names.
 #include "io/scene/scene.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 // ---- failing
 
 static ovoid_code read_object(scene_reader *r, json_t *object) {
-    static const char *const words[] = {"name",  "pose",   "radius",  "allowance", "scale", "unit",   "mesh",     "box",
-                                        "parts", "sphere", "capsule", "cylinder",  "cone",  "points", "compound", NULL};
+    static const char *const words[] = {"name", "pose",   "radius",   "allowance", "scale",   "unit",
+                                        "mesh", "box",    "parts",    "sphere",    "capsule", "cylinder",
+                                        "cone", "points", "compound", "solid",     NULL};
     scene_entry *entry = &r->scene->entries[r->index];
     r->name = NULL;
     if (!json_is_object(object)) return scene_fail(r, OVOID_ERROR_FORMAT, NULL, "must be a JSON object");
@@ -205,11 +207,21 @@ size_t ovoid_scene_get_mesh_count(const ovoid_scene *scene) {
     return count;
 }
 
-ovoid_named_shape ovoid_scene_get_mesh(const ovoid_scene *scene, size_t i) {
+// The body of mesh *i, and which of its hulls it is.
+static const scene_body *find_mesh(const ovoid_scene *scene, size_t *i) {
     const scene_body *body = scene->bodies;
-    for (; !body->parts || i >= ovoid_shapes_get_count(body->parts); body++)
-        if (body->parts) i -= ovoid_shapes_get_count(body->parts);
+    for (; !body->parts || *i >= ovoid_shapes_get_count(body->parts); body++)
+        if (body->parts) *i -= ovoid_shapes_get_count(body->parts);
+    return body;
+}
+
+ovoid_named_shape ovoid_scene_get_mesh(const ovoid_scene *scene, size_t i) {
+    const scene_body *body = find_mesh(scene, &i);
     return ovoid_shapes_get(body->parts, i);
+}
+
+const ovoid_solid *ovoid_scene_get_mesh_solid(const ovoid_scene *scene, size_t i) {
+    return find_mesh(scene, &i)->solid;
 }
 
 const char *ovoid_scene_get_unit(const ovoid_scene *scene) { return scene->unit; }
@@ -219,7 +231,36 @@ size_t ovoid_scene_get_count(const ovoid_scene *scene) { return scene->count; }
 ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i) {
     const scene_entry *entry = &scene->entries[i];
     const scene_body *body = &scene->bodies[entry->body];
-    return (ovoid_scene_object){entry->name, body->shape, body->compound, entry->pose, body->mesh, body->read};
+    ovoid_scene_object o = {.name = entry->name,
+                            .shape = body->shape,
+                            .compound = body->compound,
+                            .pose = entry->pose,
+                            .mesh = body->mesh,
+                            .read = body->read,
+                            .solid = body->solid,
+                            .convexity = {NAN, NAN, 0},
+                            .is_asked = body->is_asked};
+    if (body->solid)
+        o.kind = ovoid_solid_get_report(body->solid).is_closed ? OVOID_MESH_SOLID : OVOID_MESH_SURFACE;
+    else
+        o.kind = body->compound ? OVOID_MESH_PARTS : OVOID_MESH_HULL;
+    if (body->mesh && body->shape) o.convexity = ovoid_shapes_get(body->parts, 0).convexity;
+    return o;
+}
+
+ovoid_body ovoid_scene_get_body(const ovoid_scene *scene, size_t i, const ovoid_pose *pose) {
+    const scene_body *body = &scene->bodies[scene->entries[i].body];
+    return (ovoid_body){
+        .shape = body->solid ? NULL : body->shape, .compound = body->compound, .pose = *pose, .solid = body->solid};
+}
+
+void ovoid_scene_take_hulls(ovoid_scene *scene) {
+    for (size_t i = 0; i < scene->body_count; i++) {
+        scene_body *body = &scene->bodies[i];
+        if (body->is_asked) continue;
+        ovoid_solid_destroy(body->solid);
+        body->solid = NULL;
+    }
 }
 
 size_t ovoid_scene_find(const ovoid_scene *scene, const char *name) {

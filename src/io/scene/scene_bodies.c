@@ -30,6 +30,7 @@ typedef struct geometry {
     char *mesh; ///< path; NULL for all but meshes
     ovoid_shape_options options;
     ovoid_read_options read;
+    int solid; ///< of a mesh: 1 a solid, 0 a hull, -1 what it suggests
 } geometry;
 
 // Puts the place of the object before the core's error for its shape. A shape that is not NULL is passed on.
@@ -138,6 +139,18 @@ static ovoid_code fail_mesh(scene_reader *r, const ovoid_error *why) {
     return why->code;
 }
 
+// The solid of a mesh that is to be one: as asked, or because it is closed and does not fill its hull. What cannot be
+// read as one then is its hull.
+static ovoid_code read_solid(scene_reader *r, const geometry *g, scene_body *body) {
+    ovoid_error why = {OVOID_OK, -1, ""};
+    ovoid_convexity c = ovoid_shapes_get(body->parts, 0).convexity;
+    body->is_asked = g->solid > 0;
+    if (g->solid == 0 || !(body->is_asked || (c.is_nonconvex && isfinite(c.mesh_volume)))) return OVOID_OK;
+    body->solid = ovoid_solid_read_file(g->mesh, &g->read, &why);
+    if (body->solid || (!body->is_asked && why.code != OVOID_ERROR_MEMORY)) return OVOID_OK;
+    return fail_mesh(r, &why);
+}
+
 static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body) {
     ovoid_error why = {OVOID_OK, -1, ""};
     body->mesh = text_copy(g->mesh, strlen(g->mesh));
@@ -147,7 +160,7 @@ static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body
     if (!body->parts) return fail_mesh(r, &why);
     if (!g->read.parts) {
         body->shape = ovoid_shapes_get(body->parts, 0).shape;
-        return OVOID_OK;
+        return read_solid(r, g, body);
     }
     body->compound = ovoid_shapes_create_compound(body->parts, g->options.allocator, &why);
     return body->compound ? OVOID_OK : fail_mesh(r, &why);
@@ -285,6 +298,26 @@ static ovoid_code read_parts(scene_reader *r, const json_t *object, geometry *g)
     return OVOID_OK;
 }
 
+// Reads "solid". A hull has a rounding radius and an allowance, a solid has none; parts of compounds are convex.
+static ovoid_code read_is_solid(scene_reader *r, const json_t *object, geometry *g) {
+    const json_t *solid = json_object_get(object, "solid");
+    const ovoid_allowance *allowance = &g->options.allowance;
+    int is_plain = !(g->options.radius > 0) && !(allowance->outside > 0) && !(allowance->inside > 0);
+    const char *path = strcmp(g->kind, "mesh") == 0 ? json_string_value(g->value) : NULL;
+    g->solid = r->part == NO_PART && is_plain && path && !g->read.parts && !ovoid_path_is_shape(path) ? -1 : 0;
+    if (!solid) return OVOID_OK;
+    if (strcmp(g->kind, "mesh") != 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "is for meshes only");
+    if (!json_is_boolean(solid)) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "must be true or false");
+    g->solid = json_is_true(solid);
+    if (!g->solid) return OVOID_OK;
+    if (g->read.parts)
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "excludes \"parts\", whose hulls are the body");
+    if (!is_plain) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "has no radius and no allowance");
+    if (path && ovoid_path_is_shape(path))
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "is for meshes; a .ovoid file has a hull");
+    return OVOID_OK;
+}
+
 static ovoid_code read_path(scene_reader *r, geometry *g) {
     if (strcmp(g->kind, "mesh") != 0) return OVOID_OK;
     const char *name = json_string_value(g->value);
@@ -346,8 +379,9 @@ static void add_value(key_text *k, const json_t *value) {
 static char *make_key(const geometry *g) {
     key_text k = {malloc(160), 0, 160};
     add_text(&k, g->kind, strlen(g->kind));
-    const double numbers[] = {g->options.radius, g->options.allowance.outside, g->options.allowance.inside,
-                              g->read.scale, g->read.parts};
+    const double numbers[] = {
+        g->options.radius, g->options.allowance.outside, g->options.allowance.inside, g->read.scale, g->read.parts,
+        g->solid};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) add_number(&k, numbers[i]);
     if (g->mesh)
         add_text(&k, g->mesh, strlen(g->mesh));
@@ -426,6 +460,7 @@ ovoid_code scene_read_body(scene_reader *r, json_t *object, size_t *body) {
     if (!code) code = read_parts(r, object, &g);
     if (!code) code = read_radius(r, object, &g);
     if (!code) code = read_allowance(r, object, &g);
+    if (!code) code = read_is_solid(r, object, &g);
     if (!code) code = read_path(r, &g);
     if (!code) code = find_or_make_body(r, &g, body);
     free(g.mesh);
@@ -436,6 +471,7 @@ void scene_body_clear(scene_body *body) {
     ovoid_compound_destroy(body->compound);
     ovoid_shape_destroy(body->made);
     ovoid_shapes_destroy(body->parts);
+    ovoid_solid_destroy(body->solid);
     free(body->mesh);
     free(body->key);
     *body = (scene_body){.key = NULL};

@@ -313,13 +313,19 @@ static ovoid_code read_planning_scene(message_reader *r, ovoid_obstacles *o) {
     return code;
 }
 
-// Compounds are their parts.
+// Compounds are their parts; meshes that could be solids are their hulls.
 static ovoid_code read_own_scene(const message_reader *r, ovoid_obstacles *o) {
     o->scene = ovoid_scene_read(r->path, r->options->shape, r->error);
     if (!o->scene) return OVOID_ERROR_FILE;
     ovoid_code code = OVOID_OK;
+    ovoid_scene_take_hulls(o->scene);
     for (size_t i = 0; i < ovoid_scene_get_count(o->scene) && !code; i++) {
         ovoid_scene_object object = ovoid_scene_get(o->scene, i);
+        if (object.solid)
+            return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, 0, -1},
+                           "object \"%.60s\": \"solid\": true is not for obstacles of robots, which are hulls or "
+                           "\"parts\"",
+                           object.name);
         obstacle_entry entry = {.name = object.name, .pose = object.pose, .shape = object.shape};
         size_t parts = object.compound ? ovoid_compound_get_part_count(object.compound) : 0;
         if (!parts) code = add_entry(o, r, &entry);

@@ -1,0 +1,45 @@
+// Moving bodies of any kind as trees: their leaves, and the balls around their nodes, as moving shapes.
+#ifndef OVOID_SOLID_MOVING_TREE_H
+#define OVOID_SOLID_MOVING_TREE_H
+
+#include "motion/impact.h"
+#include "ovoid/solid_impact.h"
+#include "shape/point.h"
+#include "solid/frame.h"
+
+typedef struct moving_tree {
+    const ovoid_moving_body *body;
+    solid_view view; ///< in the moving frame; its pose is not used
+} moving_tree;
+
+/// 0 where the body has not exactly one of shape, compound and solid.
+int moving_tree_make(const ovoid_moving_body *body, moving_tree *tree);
+
+/// Room for a leaf or a ball; it must outlive the moving shape that is made in it, and not be moved.
+typedef union moving_room {
+    point_shape ball;
+    triangle_shape triangle;
+} moving_room;
+
+/// The leaf at a place: the triangle, the part, the shape.
+ovoid_moving_shape moving_tree_get_leaf(const moving_tree *tree, uint32_t place, moving_room *room);
+/// A ball around a node or a leaf.
+ovoid_moving_shape moving_tree_make_ball(const moving_tree *tree, solid_ref ref, moving_room *room);
+/// The leaf where both are leaves, else the balls: what a group of steps is about.
+moving_shapes moving_trees_get_pair(const moving_tree *a, solid_ref ref_a, const moving_tree *b, solid_ref ref_b,
+                                    ovoid_moving_shape made[2], moving_room rooms[2]);
+/// 1 if of a pair, not both leaves, the first is to be split.
+int moving_trees_split_first(const moving_tree *a, solid_ref ref_a, const moving_tree *b, solid_ref ref_b);
+
+/// The bodies at a time: whether they are within the margin there, for computed poses, and by how much the exact motion
+/// may differ from these.
+typedef struct moving_answer {
+    ovoid_body_pair pair;
+    ovoid_solid_answer answer;
+    double shift;
+} moving_answer;
+void moving_trees_ask(const moving_tree *a, const moving_tree *b, double margin, double time, moving_answer *out);
+/// 1 if the answer shows that the bodies are apart then, and neither is inside the other; linear: by all triangles.
+int moving_answer_is_apart(const moving_answer *x, int linear);
+
+#endif

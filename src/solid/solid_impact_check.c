@@ -1,0 +1,142 @@
+// Checks the impact of solids: groups of steps, each of two leaves or of the balls around two nodes, that leave out no
+// pair of leaves (disjoint rectangles in the table of pairs cover it if their areas add up to its area); and the
+// beginning, which is asked anew.
+#include "base/environment.h"
+#include "base/error.h"
+#include "solid/moving_tree.h"
+
+// An impact and its proof, with both bodies as trees.
+typedef struct claim {
+    double margin;
+    const ovoid_compound_impact *found;
+    const ovoid_step *steps;
+    const ovoid_step_group *groups;
+    moving_tree a, b;
+} claim;
+
+// The node or leaf over exactly these leaves; descends to the child that holds them. 0 where there is none.
+static int find_node(const solid_view *v, uint32_t first, uint32_t end, solid_ref *found) {
+    uint32_t from, to;
+    if (first >= end || end > v->count) return 0;
+    for (solid_ref at = solid_view_get_root(v);;) {
+        solid_ref children[BOX8];
+        solid_view_get_range(v, at, &from, &to);
+        *found = at;
+        if (from == first && to == end && (end - first > 1 || ref_is_triangle(at))) return 1;
+        if (ref_is_triangle(at)) return 0;
+        uint32_t count = solid_view_get_children(v, at, children), i = 0;
+        for (; i < count; i++) {
+            solid_view_get_range(v, children[i], &from, &to);
+            if (from <= first && end <= to) break;
+        }
+        if (i == count) return 0;
+        at = children[i];
+    }
+}
+
+static int is_apart(const ovoid_step_group *x, const ovoid_step_group *y) {
+    return x->end_a <= y->first_a || y->end_a <= x->first_a || x->end_b <= y->first_b || y->end_b <= x->first_b;
+}
+
+// OVOID_OK if the groups leave out no pair of leaves.
+static ovoid_code check_cover(const claim *c, ovoid_error *error) {
+    const ovoid_step_group *groups = c->groups;
+    size_t count = c->found->group_count;
+    uint64_t area = 0;
+    solid_ref node;
+    for (size_t i = 0; i < count; i++) {
+        if (!find_node(&c->a.view, groups[i].first_a, groups[i].end_a, &node) ||
+            !find_node(&c->b.view, groups[i].first_b, groups[i].end_b, &node))
+            return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "group %zu is of no two nodes of the trees", i);
+        for (size_t k = 0; k < i; k++)
+            if (!is_apart(&groups[i], &groups[k]))
+                return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "groups %zu and %zu have parts in common", k, i);
+        area += (uint64_t)(groups[i].end_a - groups[i].first_a) * (groups[i].end_b - groups[i].first_b);
+    }
+    if (area == (uint64_t)c->a.view.count * c->b.view.count) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, (int64_t)count, "the groups leave out pairs of parts");
+}
+
+static ovoid_code check_group(const claim *c, const ovoid_step_group *g, const ovoid_step *steps, ovoid_error *error) {
+    solid_ref a, b;
+    moving_room rooms[2];
+    ovoid_moving_shape made[2];
+    (void)find_node(&c->a.view, g->first_a, g->end_a, &a);
+    (void)find_node(&c->b.view, g->first_b, g->end_b, &b);
+    const ovoid_impact *x = &c->found->impact;
+    const step_claim free = {x->begin, x->free_until, c->margin, steps, g->count};
+    // Two leaves may be free by their balls.
+    if (ref_is_triangle(a) && ref_is_triangle(b)) {
+        ovoid_moving_shape ball_a = moving_tree_make_ball(&c->a, a, &rooms[0]),
+                           ball_b = moving_tree_make_ball(&c->b, b, &rooms[1]);
+        if (impact_check_steps((moving_shapes){&ball_a, &ball_b}, &free, NULL) == OVOID_OK) return OVOID_OK;
+    }
+    return impact_check_steps(moving_trees_get_pair(&c->a, a, &c->b, b, made, rooms), &free, error);
+}
+
+static ovoid_code check_groups(const claim *c, ovoid_error *error) {
+    const ovoid_impact *x = &c->found->impact;
+    ovoid_code code = check_cover(c, error);
+    size_t next = 0;
+    for (size_t i = 0; i < c->found->group_count && code == OVOID_OK; i++) {
+        const ovoid_step_group *group = &c->groups[i];
+        if (group->count > x->step_count - next || (!group->count && x->begin == x->end))
+            return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "group %zu has no such steps", i);
+        code = check_group(c, group, c->steps + next, error);
+        if (code != OVOID_OK && error) error->place = (int64_t)i;
+        next += group->count;
+    }
+    return code;
+}
+
+// What is claimed of the beginning: within the margin, or apart.
+static ovoid_code check_begin(const claim *c, ovoid_error *error) {
+    const ovoid_impact *x = &c->found->impact;
+    moving_answer at;
+    int is_hit = x->status == OVOID_IMPACT_HIT && x->hit_at <= x->begin;
+    if (!is_hit && x->free_until <= x->begin && x->status != OVOID_IMPACT_FREE) return OVOID_OK;
+    moving_trees_ask(&c->a, &c->b, c->margin, x->begin, &at);
+    if (is_hit && at.answer.upper + at.shift <= c->margin) return OVOID_OK;
+    if (is_hit) return error_set(error, OVOID_ERROR_PROOF, -1, "the bodies are not within the margin at the beginning");
+    if (moving_answer_is_apart(&at, 1)) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, -1, "the bodies are not apart at the beginning");
+}
+
+static ovoid_code check_hit(const claim *c, ovoid_error *error) {
+    const ovoid_compound_impact *x = c->found;
+    moving_room rooms[2];
+    if (x->impact.status != OVOID_IMPACT_HIT || x->impact.hit_at <= x->impact.begin) return OVOID_OK;
+    ovoid_moving_shape a = moving_tree_get_leaf(&c->a, solid_view_get_place(&c->a.view, x->part_a), &rooms[0]);
+    ovoid_moving_shape b = moving_tree_get_leaf(&c->b, solid_view_get_place(&c->b.view, x->part_b), &rooms[1]);
+    const answer_claim hit = {x->impact.hit_at, &x->impact.hit, -INFINITY, c->margin};
+    return impact_check_answer((moving_shapes){&a, &b}, &hit, error);
+}
+
+static ovoid_code check(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
+    const ovoid_impact *x = &c->found->impact;
+    moving_room rooms[2];
+    OVOID_ASSERT((c->steps || !x->step_count) && (c->groups || !c->found->group_count));
+    // A refusal claims nothing.
+    if (x->status == OVOID_IMPACT_UNDECIDED && x->limit >= OVOID_LIMIT_POSE_A && x->free_until == 0) return OVOID_OK;
+    if (!moving_tree_make(a, &c->a) || !moving_tree_make(b, &c->b))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs exactly one of shape, compound and solid");
+    ovoid_moving_shape ball_a = moving_tree_make_ball(&c->a, solid_view_get_root(&c->a.view), &rooms[0]),
+                       ball_b = moving_tree_make_ball(&c->b, solid_view_get_root(&c->b.view), &rooms[1]);
+    ovoid_code code = impact_check_times((moving_shapes){&ball_a, &ball_b}, x->begin, x->end, error);
+    if (code != OVOID_OK) return code;
+    if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->a.view.count || c->found->part_b >= c->b.view.count)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
+                         ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
+    code = check_begin(c, error);
+    // Without steps nothing is claimed of the time before `begin`, and of one time alone the beginning is all.
+    int has_time = x->free_until > x->begin;
+    if (code == OVOID_OK && has_time) code = check_groups(c, error);
+    return code == OVOID_OK ? check_hit(c, error) : code;
+}
+
+ovoid_code ovoid_solid_impact_check(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
+                                    const ovoid_compound_impact *impact, const ovoid_step *steps,
+                                    const ovoid_step_group *groups, ovoid_error *error) {
+    claim c = {.margin = margin, .found = impact, .steps = steps, .groups = groups};
+    ENVIRONMENT_RETURN(ovoid_code, c, check(&c, a, b, error));
+}

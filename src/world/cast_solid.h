@@ -1,0 +1,23 @@
+// Casts against solids: a ray through a solid's tree, and bodies of which one is a solid.
+#ifndef OVOID_WORLD_CAST_SOLID_H
+#define OVOID_WORLD_CAST_SOLID_H
+
+#include "linear/vec3.h"
+#include "ovoid/motion.h"
+#include "ovoid/solid.h"
+
+/// The hit of one part: bracket of its time; upper is infinity where no hit is proven.
+typedef struct part_hit {
+    uint32_t part, probe; ///< parts of the body and of the probe
+    ovoid_impact_status status;
+    double lower, upper;
+    vec3 point, normal;
+} part_hit;
+
+/// Where a ray first meets a solid, its part the triangle. The ray must be valid.
+part_hit solid_cast_ray(const ovoid_body *body, const ovoid_ray *ray);
+
+/// When a body that is moved along `way`, without turning, first meets another; one of them at least is a solid.
+part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 way);
+
+#endif
