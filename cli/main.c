@@ -12,6 +12,7 @@
 
 static const cli_command *const commands[] = {&command_fit,
                                               &command_info,
+                                              &command_decompose,
                                               &command_distance,
                                               &command_batch,
                                               &command_check,

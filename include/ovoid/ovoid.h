@@ -8,6 +8,7 @@
 #include "ovoid/base.h"
 #include "ovoid/compound.h"
 #include "ovoid/compound_impact.h"
+#include "ovoid/decompose.h"
 #include "ovoid/ellipsoid.h"
 #include "ovoid/linear.h"
 #include "ovoid/motion.h"

@@ -17,6 +17,7 @@
 #define OVOID_OVOID_HPP
 
 #include "ovoid/cpp/compound.hpp"
+#include "ovoid/cpp/decompose.hpp"
 #include "ovoid/cpp/error.hpp"
 #include "ovoid/cpp/linear.hpp"
 #include "ovoid/cpp/motion.hpp"

@@ -28,10 +28,11 @@ expect() {
     fi
 }
 
-expect 'fit info distance batch check run merge verify view paper robot help --help --version' ''
+expect 'fit info decompose distance batch check run merge verify view paper robot help --help --version' ''
 expect 'verify view' v
 expect '--help' --h
 expect 'distance' help di
+expect '--check --cover --cells --csv' decompose l.obj --c
 expect '--margin' check --m
 expect '--pose-a --pose-b --parts --proofs' distance a.stl --p
 expect '--margin --motion' run --m

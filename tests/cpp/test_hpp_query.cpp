@@ -268,9 +268,28 @@ void check_ellipsoids() {
     CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "", [&] { ovoid::areas::create(p, f, OVOID_SPLIT_CUBE, 3); }));
 }
 
+// A cube in parts is the cube.
+void check_decompositions() {
+    const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+    const std::uint32_t faces[] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                   2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    const auto cube = ovoid::solid::from_triangles(corners, 8, faces, 12);
+    const auto parts = ovoid::parts::from_solid(cube);
+    CHECK(parts && parts.size() == 1 && parts[0].polytope().vertex_count == 8);
+    double excess = -1;
+    const auto proof = ovoid::prove(parts.of(cube), {}, &excess);
+    CHECK(proof.uncovered.upper < 1e-9 && proof.excess.upper < 1e-2 && excess <= proof.excess.upper);
+    const auto grown = ovoid::parts::enlarged(parts.of(cube), 0.5);
+    CHECK(ovoid::prove(grown.of(cube)).excess.upper >= 0.5);
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "", [&] { ovoid::parts::enlarged(parts.of(cube), -1); }));
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "", [&] { ovoid::parts::from_solid({}); }));
+    CHECK(throws(OVOID_ERROR_EMPTY, -1, "", [&] { ovoid::prove({cube, nullptr, 0}); }));
+}
+
 } // namespace
 
 int main() {
+    check_decompositions();
     check_pairs();
     check_batches();
     check_compounds();

@@ -1,0 +1,28 @@
+// Parts of a solid and what is proven of them, to be written.
+#ifndef OVOID_CLI_DECOMPOSE_H
+#define OVOID_CLI_DECOMPOSE_H
+
+#include <ovoid/io.h>
+#include <ovoid/ovoid.h>
+
+#include <stdio.h>
+
+typedef struct decomposed {
+    const char *path, *unit;
+    ovoid_decomposition view;
+    ovoid_parts *parts;       ///< made here; NULL: they are `given`
+    ovoid_shapes *given;      ///< of a file, or NULL
+    const ovoid_shape **list; ///< those of the file
+    ovoid_decomposition_proof proof;
+    double *excess; ///< of each part
+    int is_grown;   ///< 1: the parts were grown by `grown`, which is proven to suffice
+    double grown;
+} decomposed;
+
+void decomposed_write_text(FILE *file, const decomposed *d);
+void decomposed_write_json(FILE *file, const decomposed *d);
+void decomposed_write_csv(FILE *file, const decomposed *d);
+/// The parts as an OBJ file, one object each. 0, or an exit code after a message.
+int decomposed_write_parts(const char *path, const decomposed *d);
+
+#endif

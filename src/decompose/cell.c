@@ -1,0 +1,176 @@
+// Tetrahedra cut by planes, and the search that cuts the one with the greatest bound first (A. H. Land, A. G. Doig, An
+// automatic method of solving discrete programming problems, 1960). Pieces cover the cell but for the rounding of their
+// corners, which the problem's pad pays for.
+#include "decompose/cell.h"
+
+vec3 cell_compute_middle(const cell *c) {
+    vec3 sum = vec3_add(vec3_add(c->corner[0], c->corner[1]), vec3_add(c->corner[2], c->corner[3]));
+    return vec3_scale(sum, 0.25);
+}
+
+double cell_compute_radius(const cell *c, vec3 x) {
+    double most = 0;
+    for (int i = 0; i < 4; i++) most = max2(most, vec3_norm_squared(vec3_sub(c->corner[i], x)));
+    return sqrt(most) * (1 + 8 * ROUNDING);
+}
+
+box cell_compute_box(const cell *c) { return box_make_around(&c->corner[0].x, 4); }
+
+static uint32_t add_piece(const cell *c, vec3 a, vec3 b, vec3 d, vec3 e, cell *pieces, uint32_t count) {
+    pieces[count] = *c;
+    pieces[count].depth = c->depth + 1;
+    pieces[count].corner[0] = a;
+    pieces[count].corner[1] = b;
+    pieces[count].corner[2] = d;
+    pieces[count].corner[3] = e;
+    return count + 1;
+}
+
+// The prism over two triangles whose corners belong together, as three tetrahedra.
+static uint32_t add_prism(const cell *c, const vec3 a[3], const vec3 b[3], cell *pieces, uint32_t count) {
+    count = add_piece(c, a[0], a[1], a[2], b[0], pieces, count);
+    count = add_piece(c, a[1], a[2], b[0], b[1], pieces, count);
+    return add_piece(c, a[2], b[0], b[1], b[2], pieces, count);
+}
+
+// The point of the edge from a, below the plane by da < 0, to b, above it.
+static vec3 cross_edge(vec3 a, double da, vec3 b, double db) {
+    return vec3_add_scaled(a, vec3_sub(b, a), da / (da - db));
+}
+
+uint32_t cell_cut(const cell *c, const ovoid_plane *plane, cell pieces[CELL_PIECES], uint32_t *first_above) {
+    vec3 low[4], high[4];
+    double dl[4], dh[4];
+    int below = 0, above = 0;
+    for (int i = 0; i < 4; i++) {
+        double d = vec3_dot(plane->normal, c->corner[i]) - plane->offset;
+        if (d < 0)
+            low[below] = c->corner[i], dl[below++] = d;
+        else
+            high[above] = c->corner[i], dh[above++] = d;
+    }
+    // A plane through a corner, but for rounding, would leave the cell as it is, and a sliver.
+    double deepest = 0, highest = 0;
+    for (int i = 0; i < below; i++) deepest = max2(deepest, -dl[i]);
+    for (int i = 0; i < above; i++) highest = max2(highest, dh[i]);
+    if (min2(deepest, highest) <= CELL_TOUCH) return 0;
+    uint32_t count = 0;
+    if (below == 2) {
+        vec3 x[2][2];
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) x[i][j] = cross_edge(low[i], dl[i], high[j], dh[j]);
+        *first_above = 3;
+        count = add_prism(c, (vec3[]){low[0], x[0][0], x[0][1]}, (vec3[]){low[1], x[1][0], x[1][1]}, pieces, count);
+        return add_prism(c, (vec3[]){high[0], x[0][0], x[1][0]}, (vec3[]){high[1], x[0][1], x[1][1]}, pieces, count);
+    }
+    // One corner alone: a tetrahedron, and a prism over what is left of the opposite side.
+    vec3 x[3];
+    *first_above = below == 1 ? 1 : 3;
+    if (below == 1) {
+        for (int i = 0; i < 3; i++) x[i] = cross_edge(low[0], dl[0], high[i], dh[i]);
+        count = add_piece(c, low[0], x[0], x[1], x[2], pieces, count);
+        return add_prism(c, x, high, pieces, count);
+    }
+    for (int i = 0; i < 3; i++) x[i] = cross_edge(low[i], dl[i], high[0], dh[0]);
+    count = add_prism(c, x, low, pieces, count);
+    return add_piece(c, high[0], x[0], x[1], x[2], pieces, count);
+}
+
+uint32_t cell_halve(const cell *c, cell pieces[CELL_PIECES]) {
+    int a = 0, b = 1;
+    double longest = -1;
+    for (int i = 0; i < 4; i++)
+        for (int j = i + 1; j < 4; j++) {
+            double d = vec3_norm_squared(vec3_sub(c->corner[j], c->corner[i]));
+            if (d > longest) longest = d, a = i, b = j;
+        }
+    vec3 middle = vec3_scale(vec3_add(c->corner[a], c->corner[b]), 0.5);
+    for (int k = 0; k < 2; k++) {
+        pieces[k] = *c;
+        pieces[k].depth = c->depth + 1;
+        pieces[k].corner[k ? a : b] = middle;
+    }
+    return 2;
+}
+
+// ---- the heap
+
+static void push(cell_search *s, const cell *c) {
+    size_t i = s->count++;
+    for (; i > 0 && s->heap[(i - 1) / 2].bound < c->bound; i = (i - 1) / 2) s->heap[i] = s->heap[(i - 1) / 2];
+    s->heap[i] = *c;
+}
+
+static cell pop(cell_search *s) {
+    cell top = s->heap[0], last = s->heap[--s->count];
+    size_t i = 0;
+    for (size_t child; (child = 2 * i + 1) < s->count; i = child) {
+        child += child + 1 < s->count && s->heap[child + 1].bound > s->heap[child].bound;
+        if (!(s->heap[child].bound > last.bound)) break;
+        s->heap[i] = s->heap[child];
+    }
+    s->heap[i] = last;
+    return top;
+}
+
+// ---- the search
+
+void cell_search_raise(cell_search *s, double lower, vec3 point, uint32_t owner) {
+    if (!(lower > s->lower)) return;
+    s->lower = lower;
+    s->point = point;
+    s->point_owner = owner;
+}
+
+static void drop(cell_search *s, const cell *c) {
+    s->dropped = max2(s->dropped, c->bound);
+    if (s->owners) s->owners[c->owner] = max2(s->owners[c->owner], c->bound);
+}
+
+void cell_search_add(cell_search *s, cell *c) {
+    s->looked++;
+    s->find_bound(s, c);
+    if (c->bound <= cell_search_get_goal(s))
+        drop(s, c);
+    else
+        push(s, c);
+}
+
+// The box in six tetrahedra around a diagonal (H. W. Kuhn, 1960).
+void cell_search_add_box(cell_search *s, const box *around, uint32_t owner) {
+    static const uint8_t orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    for (int i = 0; i < 6; i++) {
+        double at[3] = {around->min.x, around->min.y, around->min.z};
+        const double end[3] = {around->max.x, around->max.y, around->max.z};
+        cell c = {.bound = INFINITY, .owner = owner};
+        for (int k = 0; k < 4; k++) {
+            c.corner[k] = (vec3){at[0], at[1], at[2]};
+            if (k < 3) at[orders[i][k]] = end[orders[i][k]];
+        }
+        cell_search_add(s, &c);
+    }
+}
+
+// The pieces that are to be looked at.
+static uint32_t cut(cell_search *s, const cell *c, cell pieces[CELL_PIECES]) {
+    ovoid_plane plane;
+    uint32_t first_above;
+    cell_plane kind = s->find_plane(s, c, &plane);
+    uint32_t count = kind == CELL_HALVES ? 0 : cell_cut(c, &plane, pieces, &first_above);
+    if (count == 0) return cell_halve(c, pieces);
+    return kind == CELL_BELOW ? first_above : count;
+}
+
+double cell_search_run(cell_search *s) {
+    const ovoid_decomposition_options *o = s->options;
+    while (s->count > 0 && s->heap[0].bound > cell_search_get_goal(s)) {
+        if (s->looked >= s->work || s->count + CELL_PIECES > s->room || s->heap[0].depth >= CELL_DEPTH) break;
+        cell c = pop(s), pieces[CELL_PIECES];
+        uint32_t count = cut(s, &c, pieces);
+        for (uint32_t i = 0; i < count; i++) cell_search_add(s, &pieces[i]);
+        if (o->progress && s->looked / 1024 != (s->looked - count) / 1024)
+            o->progress(o->progress_context, s->looked, s->work);
+    }
+    for (size_t i = 0; i < s->count; i++) drop(s, &s->heap[i]);
+    return max2(s->lower, s->dropped);
+}

@@ -1,0 +1,136 @@
+// How far a hull stands out of the solid, by samples: points of its faces by their share of the surface, and points
+// inside it; the farthest is then moved to where it is farther yet. An estimate from below, which only leads the cuts.
+#include "base/allocator.h"
+#include "base/error.h"
+#include "decompose/piece.h"
+
+#include <string.h>
+
+enum { ON_FACES = 384, WITHIN = 128, CLIMB = 24 };
+
+// Points of the unit square and cube, evenly spread, by the additive recurrence of M. Roberts, 2018: the powers of the
+// root of x^4 = x + 1.
+static double spread(uint32_t i, int k) {
+    static const double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    double x = 0.5 + steps[k] * i;
+    return x - floor(x);
+}
+
+typedef struct sampling {
+    const body *b;
+    const hull *h;
+    outlier *outliers; ///< room for OUTLIERS
+    uint32_t count, hint;
+    double excess, enough;
+} sampling;
+
+// A place among the outliers, the farthest first.
+static void keep(sampling *s, vec3 x, double distance) {
+    s->excess = max2(s->excess, distance);
+    if (!s->outliers || (s->count == OUTLIERS && distance <= s->outliers[OUTLIERS - 1].distance)) return;
+    uint32_t at = s->count < OUTLIERS ? s->count++ : OUTLIERS - 1;
+    for (; at > 0 && s->outliers[at - 1].distance < distance; at--) s->outliers[at] = s->outliers[at - 1];
+    s->outliers[at] = (outlier){x, distance, s->hint};
+}
+
+// How far x is from the solid; 0 inside, or where less than `least`.
+static double measure(sampling *s, vec3 x, double least) {
+    double distance;
+    s->hint = body_find_triangle(s->b, x, s->hint, &distance);
+    return distance > least && body_find_inside(s->b, x) == 0 ? distance : 0;
+}
+
+static vec3 get_corner(const hull *h, uint32_t triangle, int k) {
+    return vec3_add(h->origin, vec3_at(h->vertices, h->triangles[3 * (size_t)triangle + (size_t)k]));
+}
+
+static double compute_area_of(const hull *h, uint32_t t) {
+    vec3 a = get_corner(h, t, 0), u = vec3_sub(get_corner(h, t, 1), a), v = vec3_sub(get_corner(h, t, 2), a);
+    return vec3_norm(vec3_cross(u, v));
+}
+
+static vec3 get_on_face(const hull *h, uint32_t t, double u, double v) {
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    vec3 a = get_corner(h, t, 0);
+    return vec3_add_scaled(vec3_add_scaled(a, vec3_sub(get_corner(h, t, 1), a), u), vec3_sub(get_corner(h, t, 2), a),
+                           v);
+}
+
+// Faces at even steps of area; each point also drawn towards the middle for the inside.
+static void sample_faces(sampling *s, vec3 middle) {
+    double total = 0, sum = 0;
+    for (uint32_t t = 0; t < s->h->triangle_count; t++) total += compute_area_of(s->h, t);
+    uint32_t drawn = 0;
+    for (uint32_t t = 0; t < s->h->triangle_count && s->excess <= s->enough; t++) {
+        sum += compute_area_of(s->h, t);
+        for (; drawn < ON_FACES && (drawn + 0.5) * total <= sum * ON_FACES; drawn++) {
+            vec3 x = get_on_face(s->h, t, spread(drawn, 0), spread(drawn, 1));
+            double d = measure(s, x, 0);
+            if (d > 0) keep(s, x, d);
+            if (drawn % (ON_FACES / WITHIN) != 0) continue;
+            vec3 y = vec3_add_scaled(middle, vec3_sub(x, middle), cbrt(spread(drawn, 2)));
+            d = measure(s, y, 0);
+            if (d > 0) keep(s, y, d);
+        }
+    }
+}
+
+// 1 if the point is in the hull, to rounding.
+static int is_in_hull(const hull *h, vec3 x) {
+    vec3 y = vec3_sub(x, h->origin);
+    for (uint32_t f = 0; f < h->facet_count; f++)
+        if (vec3_dot(h->planes[f].normal, y) > h->planes[f].offset + 1e-12) return 0;
+    return 1;
+}
+
+// From the farthest point by shorter and shorter steps along the axes.
+static void climb(sampling *s, double step) {
+    if (!s->count) return;
+    vec3 at = s->outliers[0].point;
+    double best = s->outliers[0].distance;
+    for (int round = 0; round < CLIMB; round++) {
+        int is_better = 0;
+        for (int k = 0; k < 6; k++) {
+            double d[3] = {0, 0, 0};
+            d[k / 2] = k % 2 ? step : -step;
+            vec3 x = vec3_add(at, (vec3){d[0], d[1], d[2]});
+            if (!is_in_hull(s->h, x)) continue;
+            double distance = measure(s, x, best);
+            if (distance > best) best = distance, at = x, is_better = 1;
+        }
+        if (!is_better) step *= 0.5;
+    }
+    keep(s, at, best);
+}
+
+static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoid_error *error) {
+    hull h;
+    ovoid_code code = hull_create(&points[0].x, count, &s->b->memory, &h, error);
+    if (code != OVOID_OK) return code;
+    s->h = &h;
+    box around = box_make_around(&points[0].x, count);
+    vec3 sum = {0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, points[i]);
+    sample_faces(s, vec3_scale(sum, 1.0 / count));
+    if (s->excess <= s->enough) climb(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
+    hull_destroy(&h, &s->b->memory);
+    s->h = NULL;
+    return OVOID_OK;
+}
+
+ovoid_code piece_estimate(const body *b, piece *p, ovoid_error *error) {
+    sampling s = {.b = b, .outliers = p->outliers, .enough = INFINITY};
+    ovoid_code code = estimate(&s, p->points, p->point_count, error);
+    p->outlier_count = s.count;
+    p->excess = s.excess;
+    return code;
+}
+
+ovoid_code points_estimate(const body *b, const vec3 *points, uint32_t count, double enough, double *excess,
+                           ovoid_error *error) {
+    outlier kept[OUTLIERS];
+    sampling s = {.b = b, .outliers = kept, .enough = enough};
+    ovoid_code code = estimate(&s, points, count, error);
+    *excess = s.excess;
+    return code;
+}

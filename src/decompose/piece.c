@@ -1,0 +1,160 @@
+// Pieces of a solid, clipped by planes (I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, 1974).
+#include "decompose/piece.h"
+
+#include "base/allocator.h"
+#include "base/error.h"
+
+#include <string.h>
+
+/// Corners nearer to a plane than this, of the solid's diagonal, are on it: a triangle that a plane was laid through
+/// belongs to the side where the solid is.
+#define ON_PLANE 1e-9
+
+static ovoid_code report_memory(ovoid_error *error) {
+    return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a piece of the solid");
+}
+
+static int soup_reserve(const body *b, soup *s, size_t more) {
+    if (s->count + more <= s->room) return 1;
+    size_t room = 2 * s->room + more;
+    vec3 *corners = allocator_allocate(&b->memory, room, sizeof *corners);
+    if (!corners) return 0;
+    if (s->count) memcpy(corners, s->corners, s->count * sizeof *corners);
+    allocator_release(&b->memory, s->corners);
+    s->corners = corners;
+    s->room = room;
+    return 1;
+}
+
+// Adds the share of a triangle on one side: d are the corners' places above the plane, as seen from that side.
+static int clip(const body *b, const vec3 t[3], const double d[3], double margin, soup *s) {
+    if (!(max2(d[0], max2(d[1], d[2])) > margin)) return 1;
+    vec3 polygon[6];
+    int count = 0;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3;
+        if (d[i] >= -margin) polygon[count++] = t[i];
+        if ((d[i] > margin && d[j] < -margin) || (d[i] < -margin && d[j] > margin))
+            polygon[count++] = vec3_add_scaled(t[i], vec3_sub(t[j], t[i]), d[i] / (d[i] - d[j]));
+    }
+    if (!soup_reserve(b, s, 6)) return 0;
+    for (int i = 1; i + 1 < count; i++) {
+        s->corners[s->count++] = polygon[0];
+        s->corners[s->count++] = polygon[i];
+        s->corners[s->count++] = polygon[i + 1];
+    }
+    return 1;
+}
+
+static int divide_soup(const body *b, const soup *whole, const ovoid_plane *plane, soup sides[2]) {
+    double margin = ON_PLANE * b->diagonal;
+    for (size_t i = 0; i < whole->count; i += 3) {
+        double below[3], above[3];
+        for (int k = 0; k < 3; k++) {
+            above[k] = vec3_dot(plane->normal, whole->corners[i + (size_t)k]) - plane->offset;
+            below[k] = -above[k];
+        }
+        if (!clip(b, whole->corners + i, below, margin, &sides[0])) return 0;
+        if (!clip(b, whole->corners + i, above, margin, &sides[1])) return 0;
+    }
+    return 1;
+}
+
+vec3 piece_get_frame_point(const body *b, const ovoid_polytope *frame, uint32_t i) {
+    return vec3_scale(vec3_add(frame->origin, vec3_at(frame->vertices, i)), b->inverse);
+}
+
+vec3 piece_get_frame_middle(const body *b, const ovoid_polytope *frame) {
+    vec3 sum = {0, 0, 0};
+    for (uint32_t i = 0; i < frame->vertex_count; i++) sum = vec3_add(sum, piece_get_frame_point(b, frame, i));
+    return vec3_scale(sum, 1.0 / frame->vertex_count);
+}
+
+int piece_is_inside(const body *b, vec3 corner, vec3 middle) {
+    return body_find_inside(b, vec3_add_scaled(corner, vec3_sub(middle, corner), 1e-7)) == 1;
+}
+
+// The corners of the hull of the triangles and of the cell's corners inside.
+static ovoid_code find_points(const body *b, piece *p, ovoid_error *error) {
+    ovoid_polytope frame = ovoid_shape_get_polytope(p->frame);
+    vec3 middle = piece_get_frame_middle(b, &frame);
+    if (!soup_reserve(b, &p->triangles, frame.vertex_count)) return report_memory(error);
+    size_t count = p->triangles.count;
+    for (uint32_t i = 0; i < frame.vertex_count; i++) {
+        vec3 corner = piece_get_frame_point(b, &frame, i);
+        if (piece_is_inside(b, corner, middle)) p->triangles.corners[count++] = corner;
+    }
+    hull h;
+    ovoid_code code = hull_create(&p->triangles.corners[0].x, count, &b->memory, &h, error);
+    if (code != OVOID_OK) return code;
+    p->points = allocator_allocate(&b->memory, h.vertex_count, sizeof *p->points);
+    p->point_count = h.vertex_count;
+    for (uint32_t i = 0; p->points && i < h.vertex_count; i++)
+        p->points[i] = vec3_add(h.origin, vec3_at(h.vertices, i));
+    hull_destroy(&h, &b->memory);
+    return p->points ? OVOID_OK : report_memory(error);
+}
+
+static ovoid_code finish(const body *b, piece *p, ovoid_error *error) {
+    ovoid_code code = find_points(b, p, error);
+    return code == OVOID_OK ? piece_estimate(b, p, error) : code;
+}
+
+// A box somewhat larger than the solid's.
+static ovoid_shape *create_frame(const body *b, ovoid_error *error) {
+    const ovoid_box *around = &b->solid->report.box;
+    double margin = 0.01 * b->diagonal * b->unit, xyz[24];
+    for (int i = 0; i < 8; i++) {
+        xyz[3 * i] = i & 1 ? around->max.x + margin : around->min.x - margin;
+        xyz[3 * i + 1] = i & 2 ? around->max.y + margin : around->min.y - margin;
+        xyz[3 * i + 2] = i & 4 ? around->max.z + margin : around->min.z - margin;
+    }
+    return ovoid_shape_create_from_points(xyz, 8, &(ovoid_shape_options){.allocator = &b->memory}, error);
+}
+
+ovoid_code piece_create(const body *b, piece *p, ovoid_error *error) {
+    const ovoid_solid *s = b->solid;
+    *p = (piece){.frame = create_frame(b, error)};
+    if (!p->frame) return OVOID_ERROR_MEMORY;
+    if (!soup_reserve(b, &p->triangles, 3 * (size_t)s->triangle_count)) {
+        piece_destroy(b, p);
+        return report_memory(error);
+    }
+    for (uint32_t i = 0; i < s->triangle_count; i++) {
+        body_get_triangle(b, i, p->triangles.corners + p->triangles.count);
+        p->triangles.count += 3;
+    }
+    ovoid_code code = finish(b, p, error);
+    if (code != OVOID_OK) piece_destroy(b, p);
+    return code;
+}
+
+ovoid_code piece_divide(const body *b, const piece *p, const ovoid_plane *plane, piece sides[2], int *is_cut,
+                        ovoid_error *error) {
+    for (int i = 0; i < 2; i++) sides[i] = (piece){0};
+    *is_cut = 0;
+    soup two[2] = {{0}, {0}};
+    int is_room = divide_soup(b, &p->triangles, plane, two);
+    for (int i = 0; i < 2; i++) sides[i].triangles = two[i];
+    ovoid_code code = is_room ? OVOID_OK : report_memory(error);
+    if (code == OVOID_OK && two[0].count && two[1].count) {
+        ovoid_shape *frames[2] = {NULL, NULL};
+        ovoid_plane in_unit = {plane->normal, plane->offset * b->unit};
+        code = ovoid_shape_create_divided(p->frame, &in_unit, &(ovoid_shape_options){.allocator = &b->memory}, frames,
+                                          error);
+        for (int i = 0; i < 2; i++) sides[i].frame = frames[i];
+        *is_cut = code == OVOID_OK && frames[0] && frames[1];
+    }
+    for (int i = 0; i < 2 && *is_cut && code == OVOID_OK; i++) code = finish(b, &sides[i], error);
+    if (code == OVOID_OK && *is_cut) return OVOID_OK;
+    *is_cut = 0;
+    for (int i = 0; i < 2; i++) piece_destroy(b, &sides[i]);
+    return code;
+}
+
+void piece_destroy(const body *b, piece *p) {
+    ovoid_shape_destroy(p->frame);
+    allocator_release(&b->memory, p->triangles.corners);
+    allocator_release(&b->memory, p->points);
+    *p = (piece){0};
+}
