@@ -205,7 +205,8 @@ int body_find_inside(const body *b, vec3 x) {
 double body_find_outside(const body *b, vec3 x) {
     ovoid_pose at = ovoid_pose_make_identity();
     at.position = vec3_scale(x, b->unit);
-    ovoid_solid_pair pair = {{b->point, NULL, at}, {NULL, b->solid, ovoid_pose_make_identity()}};
+    ovoid_body_pair pair = {.a = {.shape = b->point, .pose = at},
+                            .b = {.solid = b->solid, .pose = ovoid_pose_make_identity()}};
     ovoid_options options = {.absolute_tolerance = b->tolerance};
     ovoid_solid_answer answer = ovoid_solid_distance(&pair, &options, NULL, NULL);
     return answer.status == OVOID_SEPARATED ? answer.lower * b->inverse : 0;
