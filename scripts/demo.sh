@@ -34,7 +34,7 @@ ovoid() { "${tool_path:-$tool}" "$@" || [ $? -eq 1 ]; }
 warned() { grep -v '^ovoid: warning: .* is not convex'; }
 title() { printf '\n== %s\n\n' "$1"; }
 
-echo "they are not convex: each counts as its hull; of closed meshes the tool warns, at the first step"
+echo "they are not convex: closed ones are taken as they are, the others by their hulls; ellipsoids are those of the hulls"
 
 title "Fit: the smallest ellipsoid around each mesh's hull and the largest inside"
 # shellcheck disable=SC2086 # a list of names

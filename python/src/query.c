@@ -77,6 +77,7 @@ int query_keywords_check(module_state *state, query_keywords *k) {
 int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body) {
     body->shape = NULL;
     body->compound = NULL;
+    body->solid = NULL;
     if (Py_TYPE(from) == state->shape)
         body->shape = ((shape_object *)from)->shape;
     else if (Py_TYPE(from) == state->compound)

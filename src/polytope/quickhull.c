@@ -18,7 +18,8 @@
 //
 // Which facet is next is free. Those with many points go first, in turn, so that no list is shared out too often; those
 // with few go last in, first out: a cone's facets while they, their neighbors and their points are in the cache. Of
-// many points these are in the order of a curve that fills space. At 100 000 points both together take about half of the time.
+// many points these are in the order of a curve that fills space. At 100 000 points both together take about half of
+// the time.
 //
 // The sign is first computed in doubles with the facet's normal, against a bound of its rounding (Shewchuk 1997), so
 // that the exact determinant is left for points within about 1e-15 of the body's size.

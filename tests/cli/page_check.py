@@ -108,7 +108,7 @@ def check_scene():
     check("meshes of hulls", sum("mesh" in shape for shape in shapes) == 1)
     check("areas", [len(base64.b64decode(shape.get("areas", ""))) for shape in shapes].count(0) == 1)
     # The same of two files, with their pair.
-    write("pair.json", {"objects": [{"name": str(x), "mesh": "dent.off", "pose": {"xyz": [x, 0, 0]}} for x in (0, 5)]})
+    write("pair.json", {"objects": [{"name": str(x), "mesh": "dent.off", "solid": False, "pose": {"xyz": [x, 0, 0]}} for x in (0, 5)]})
     wanted = lines("check", "pair.json", "--json")[0]
     run("view", "dent.off", "dent.off", "--pose-b", "5 0 0", "--html", "pair.html")
     data = read("pair.html")

@@ -104,7 +104,13 @@ cp line.jsonl altered.jsonl
 for options in "--hull" "--scale 2" "--parts"; do
     # shellcheck disable=SC2086
     "$OVOID_TOOL" verify line.jsonl l.obj tet.obj $options --pose-b "$pose" >out 2>&1
-    [ $? -eq 4 ] && passed=$((passed + 1)) || { failed=$((failed + 1)); echo "FAILED $options"; cat out; }
+    if [ $? -eq 4 ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED $options"
+        cat out
+    fi
 done
 pose="0.25 0.3 0.25"
 expect 4 "elsewhere"

@@ -108,7 +108,7 @@ static void test_bodies_refused(const ovoid_shape *box) {
     // Bodies: neither shape nor compound; a bad pose among good ones.
     ovoid_world_body none = {.body = {.pose = {{0, 0, 0}, {1, 0, 0, 0}}}}, two[2] = {before, before};
     CHECK(ovoid_world_add(w, &none, &e) == 0);
-    expect(e.code, OVOID_ERROR_ARGUMENT, &e, "shape or a compound");
+    expect(e.code, OVOID_ERROR_ARGUMENT, &e, "a shape, a compound and a solid");
     two[1].body.pose = bad;
     expect(ovoid_world_add_many(w, two, 2, NULL, &e), OVOID_ERROR_NOT_FINITE, &e, "NaN");
     CHECK_EQ(e.place, 1);
