@@ -47,11 +47,11 @@ title "Verify: the proof of every pair, in exact arithmetic, without the search"
 ovoid check --json scene.json >results.jsonl 2>check.log
 ovoid verify results.jsonl scene.json
 
-title "Run: the knot tumbles through the others; first contact and smallest distance, between frames too"
+title "Run: the knot tumbles through the others, all by their hulls; first contact and smallest distance, between frames too"
 awk 'BEGIN { print "time,body,vx,vy,vz,wx,wy,wz"
     for (i = 0; i <= 90; i++) printf "%g,knot,-0.9,-0.75,-0.35,1,2,4\n", i / 60 }' >motion.csv
-ovoid run scene.json --motion motion.csv --margin 0.4 --continuous --json -o motion.jsonl --plot motion.svg 2>&1 | warned
-ovoid verify motion.jsonl scene.json --motion motion.csv
+ovoid run scene.json --hull --motion motion.csv --margin 0.4 --continuous --json -o motion.jsonl --plot motion.svg 2>&1 | warned
+ovoid verify motion.jsonl scene.json --hull --motion motion.csv
 
 title "View: the scene, its ellipsoids and witness points"
 ovoid view scene.json -o scene.svg && echo "scene.svg: $(wc -c <scene.svg) bytes"

@@ -86,9 +86,9 @@ typedef struct interrupt {
 } interrupt;
 
 /// Gives up the lock; the watch goes to the library's options.
-ovoid_watch interrupt_begin(interrupt *signals);
+ovoid_watch interrupt_begin(interrupt *i);
 /// Takes the lock back; -1 where a handler raised: then the answer is one of a call that was ended.
-int interrupt_end(interrupt *signals);
+int interrupt_end(interrupt *i);
 
 /// Work on many items that goes by pieces, of some hundredths of a second, each a multiple of `least` but the last.
 typedef struct pieces {

@@ -1,5 +1,5 @@
 // The numbers that the module and its caller pass each other.
-#include "exchange.h"
+#include "src/exchange.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 // Motions of two bodies: when they come within a margin, how near they come.
-#include "exchange.h"
+#include "src/exchange.h"
 
 static const double *read_moving(const double *from, const ovoid_shape *shape, double duration,
                                  ovoid_moving_shape *moving) {

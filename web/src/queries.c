@@ -1,5 +1,5 @@
 // Queries of pairs, their proofs and checks, batches, smooth brackets.
-#include "exchange.h"
+#include "src/exchange.h"
 
 #include <stdlib.h>
 

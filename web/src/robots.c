@@ -1,6 +1,6 @@
 // Robots: made from flat arrays, where their links are, what is near.
-#include "exchange.h"
 #include "ovoid/robot.h"
+#include "src/exchange.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // Shapes: made, read, written, described.
-#include "exchange.h"
+#include "src/exchange.h"
 
 // Numbers 0 to 4: radius, gap, inner method, allowance.
 static ovoid_shape_options read_options(void) {

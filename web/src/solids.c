@@ -1,6 +1,6 @@
 // Solids of triangles, against each other and against shapes.
-#include "exchange.h"
 #include "ovoid/solid.h"
+#include "src/exchange.h"
 
 #include <stdlib.h>
 
