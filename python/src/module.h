@@ -98,7 +98,7 @@ typedef struct pieces {
     PyObject *progress; ///< called with (done, total) after each; NULL or None: none
 } pieces;
 /// Runs them all, with a look for signals after each; -1: an exception.
-int pieces_run(module_state *state, const pieces *work);
+int pieces_run(module_state *state, const pieces *p);
 /// Refuses what is no function; -1 then.
 int progress_check(PyObject *progress);
 

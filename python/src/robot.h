@@ -46,7 +46,7 @@ PyObject *robot_new(PyTypeObject *type, PyObject *arguments, PyObject *keywords)
 /// A name as a string, which need not be UTF-8; NULL: None.
 PyObject *robot_name_make(const char *name);
 /// "shoulder", or of a joint of several variables "floor/x".
-PyObject *robot_variable_name_make(const robot_object *self, size_t variable);
+PyObject *robot_variable_name_make(const robot_object *self, size_t i);
 /// A Shape for each element of a robot whose shapes `owner` keeps; equal ones are one object.
 PyObject *robot_shapes_make(module_state *state, const ovoid_robot_description *d, PyObject *owner);
 
