@@ -63,9 +63,14 @@ export function bindRobots(core) {
       this.#checker = this.#cell = this.#robot = 0;
     }
 
-    #state(q) {
+    /** The cell, where the robot was not freed. */
+    get #open() {
       if (!this.#robot) throw new TypeError('the robot was freed');
-      if (q.length !== this.variableCount) throw new TypeError(`q: ${this.variableCount} numbers are needed, not ${q.length}`);
+      return this.#cell;
+    }
+
+    #state(q) {
+      if (this.#open && q.length !== this.variableCount) throw new TypeError(`q: ${this.variableCount} numbers are needed, not ${q.length}`);
       return Float64Array.from(q);
     }
 
@@ -81,19 +86,18 @@ export function bindRobots(core) {
 
     /** Adds an obstacle; its number. */
     add(shape, pose) {
-      this.#state(new Array(this.variableCount).fill(0));
       memory.set(toPose(pose));
-      const id = calls.cell_add(this.#cell, shape.address);
+      const id = calls.cell_add(this.#open, shape.address);
       if (!id) throw memory.error();
       this.obstacles.set(id, shape);
       return id;
     }
     move(id, pose) {
       memory.set(toPose(pose));
-      if (calls.cell_move(this.#cell, id)) throw memory.error();
+      if (calls.cell_move(this.#open, id)) throw memory.error();
     }
     remove(id) {
-      if (calls.cell_remove(this.#cell, id)) throw memory.error();
+      if (calls.cell_remove(this.#open, id)) throw memory.error();
       this.obstacles.delete(id);
     }
 

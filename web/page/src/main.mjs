@@ -211,8 +211,6 @@ async function start() {
 start().catch((error) => {
   const needs = document.createElement('canvas').getContext('webgl2') ? '' : ' This browser draws no 3-D (WebGL 2).';
   say(`${error.message}${needs}`);
-  const picture = $('ovoid-picture');
-  if (picture) picture.hidden = false;
   document.body.dataset.ready = 'failed';
   throw error;
 });
