@@ -60,16 +60,11 @@ int limit_check(module_state *state, ovoid_limit limit) {
 
 // ---- checking
 
-static ovoid_body make_body(module_state *state, PyObject *from, ovoid_pose pose) {
-    if (Py_TYPE(from) == state->shape) return (ovoid_body){.shape = ((shape_object *)from)->shape, .pose = pose};
-    return (ovoid_body){.compound = ((compound_object *)from)->compound, .pose = pose};
-}
-
 ovoid_code answer_check(const answer_object *self, ovoid_error *error) {
     module_state *state = state_of((PyObject *)self);
     ovoid_cover unpacked;
     const ovoid_cover *cover = answer_unpack_cover(self, &unpacked);
-    ovoid_body_pair bodies = {make_body(state, self->a, self->pose_a), make_body(state, self->b, self->pose_b)};
+    ovoid_body_pair bodies = {body_make(state, self->a, self->pose_a), body_make(state, self->b, self->pose_b)};
     if (bodies.a.shape && bodies.b.shape) {
         ovoid_pair pair = {bodies.a.shape, bodies.b.shape, self->pose_a, self->pose_b};
         return ovoid_answer_check(&pair, &self->of.answer, cover, error);

@@ -204,7 +204,9 @@ typedef struct answer_object {
     size_t exclusion_count;
 } answer_object;
 
-/// A Shape or Compound as a body. what: how messages name the argument.
+/// A Shape, Compound or Solid at a pose; without any where it is none of them.
+ovoid_body body_make(module_state *state, PyObject *from, ovoid_pose pose);
+/// A Shape or Compound as a body, its pose to be set. what: how messages name the argument.
 int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body);
 /// A new Shape around a C shape, which it takes over; where that is NULL, raises the error.
 PyObject *shape_wrap(module_state *state, ovoid_shape *shape, const ovoid_error *error);

@@ -74,19 +74,19 @@ int query_keywords_check(module_state *state, query_keywords *k) {
     return -1;
 }
 
+ovoid_body body_make(module_state *state, PyObject *from, ovoid_pose pose) {
+    ovoid_body body = {.pose = pose};
+    if (Py_TYPE(from) == state->shape) body.shape = ((shape_object *)from)->shape;
+    if (Py_TYPE(from) == state->compound) body.compound = ((compound_object *)from)->compound;
+    if (Py_TYPE(from) == state->solid) body.solid = ((solid_object *)from)->solid;
+    return body;
+}
+
 int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body) {
-    body->shape = NULL;
-    body->compound = NULL;
-    body->solid = NULL;
-    if (Py_TYPE(from) == state->shape)
-        body->shape = ((shape_object *)from)->shape;
-    else if (Py_TYPE(from) == state->compound)
-        body->compound = ((compound_object *)from)->compound;
-    else {
-        PyErr_Format(PyExc_TypeError, "%s: a Shape or Compound is wanted, not %R", what, (PyObject *)Py_TYPE(from));
-        return -1;
-    }
-    return 0;
+    *body = body_make(state, from, (ovoid_pose){{0, 0, 0}, {0, 0, 0, 0}});
+    if (body->shape || body->compound) return 0;
+    PyErr_Format(PyExc_TypeError, "%s: a Shape or Compound is wanted, not %R", what, (PyObject *)Py_TYPE(from));
+    return -1;
 }
 
 static int read_earlier(module_state *state, PyObject *from, query_input *in) {
@@ -131,12 +131,9 @@ static int read_prepared(module_state *state, PyObject *const x[ARGUMENT_COUNT],
 }
 
 // A Solid, or what body_read takes.
-static int read_any_body(module_state *state, PyObject *from, const char *what, ovoid_body *body,
-                         const ovoid_solid **solid) {
-    *solid = NULL;
+static int read_any_body(module_state *state, PyObject *from, const char *what, ovoid_body *body) {
     if (Py_TYPE(from) != state->solid) return body_read(state, from, what, body);
-    *body = (ovoid_body){.shape = NULL};
-    *solid = ((solid_object *)from)->solid;
+    *body = body_make(state, from, (ovoid_pose){{0, 0, 0}, {0, 0, 0, 0}});
     return 0;
 }
 
@@ -144,10 +141,8 @@ static int read_bodies(module_state *state, PyObject *const x[ARGUMENT_COUNT], q
     in->a = x[BODY_A];
     in->b = x[BODY_B];
     in->prepared_a = NULL;
-    in->solid_a = in->solid_b = NULL;
     if (Py_TYPE(in->a) == state->prepared || Py_TYPE(in->b) == state->prepared) return read_prepared(state, x, in);
-    if (read_any_body(state, in->a, "a", &in->pair.a, &in->solid_a) ||
-        read_any_body(state, in->b, "b", &in->pair.b, &in->solid_b) ||
+    if (read_any_body(state, in->a, "a", &in->pair.a) || read_any_body(state, in->b, "b", &in->pair.b) ||
         pose_read(state, x[PLACE_A], "pose_a", &in->pair.a.pose))
         return -1;
     return pose_read(state, x[PLACE_B], "pose_b", &in->pair.b.pose);
@@ -243,7 +238,7 @@ static PyObject *query(PyObject *module, query_name name, PyObject *const *given
     query_input in;
     in.name = name;
     if (sort_arguments(name, given, count, names, sorted) || read_input(state, sorted, &in)) return NULL;
-    if (in.solid_a || in.solid_b) return solid_query(state, &in);
+    if (in.pair.a.solid || in.pair.b.solid) return solid_query(state, &in);
     answer_object *to = answer_make(state, in.a, in.b, &in.pair.a.pose, &in.pair.b.pose);
     if (!to) return NULL;
     int failed = in.pair.a.shape && in.pair.b.shape ? query_shapes(&in, to) : query_compounds(&in, to);

@@ -11,7 +11,6 @@ typedef struct query_input {
     PyObject *a, *b;
     ovoid_body_pair pair;
     const ovoid_prepared_shape *prepared_a, *prepared_b; ///< both or none
-    const ovoid_solid *solid_a, *solid_b;                ///< in the place of the pair's shape; NULL: it is none
     double margin;
     ovoid_options options;
     ovoid_compound_proof earlier;

@@ -11,13 +11,8 @@ typedef struct solid_answer_object {
     size_t exclusion_count;
 } solid_answer_object;
 
-static ovoid_body make_body(module_state *state, PyObject *from, const ovoid_pose *pose) {
-    if (Py_TYPE(from) == state->solid) return (ovoid_body){.solid = ((solid_object *)from)->solid, .pose = *pose};
-    return (ovoid_body){.shape = ((shape_object *)from)->shape, .pose = *pose};
-}
-
 static ovoid_body_pair make_pair(module_state *state, const solid_answer_object *x) {
-    return (ovoid_body_pair){make_body(state, x->a, &x->pose_a), make_body(state, x->b, &x->pose_b)};
+    return (ovoid_body_pair){body_make(state, x->a, x->pose_a), body_make(state, x->b, x->pose_b)};
 }
 
 // ---- asking
