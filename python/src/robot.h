@@ -65,6 +65,17 @@ int cell_keep(cell_object *self, ovoid_id id, PyObject *body);
 #define CHECK_SIGNATURE "margin=0, limit_slack=0, without_self=False, without_obstacles=False"
 #define CHECK_NAMES "margin", "limit_slack", "without_self", "without_obstacles"
 #define CHECK_TARGETS(o) &(o).margin, &(o).limit_slack, &(o).without_self, &(o).without_obstacles
+
+/// What a question about a path is given.
+typedef struct path_arguments {
+    items states; ///< (n, variables); the caller frees states.data
+    ovoid_robot_check_options check;
+    double tolerance;
+    uint32_t most_states;
+} path_arguments;
+/// Reads them; format: as PyArg_ParseTupleAndKeywords has it, with the question's name. -1: raised, nothing to free.
+int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format,
+                        path_arguments *in);
 /// The StateAnswer and the Side of Python.
 PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answer);
 PyObject *side_make(module_state *state, const ovoid_robot_side *side);

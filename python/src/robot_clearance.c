@@ -18,27 +18,17 @@ static PyObject *make_clearance(module_state *state, const ovoid_robot_clearance
 }
 
 static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"states", CHECK_NAMES, "tolerance", "most_states", NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
-    PyObject *given;
-    ovoid_robot_clearance_options o = {.tolerance = 0};
-    unsigned long long most = 0;
-    items states;
+    path_arguments in;
     ovoid_robot_checker *checker;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "dK:clearance", names, &given,
-                                     CHECK_TARGETS(o.check), &o.tolerance, &most) ||
-        check_options_check(state, &o.check))
-        return NULL;
-    if (most > UINT32_MAX) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "most_states: 0 to 2^32 - 1 are wanted");
-    o.states = (uint32_t)most;
-    Py_ssize_t variables = (Py_ssize_t)robot_variable_count(self->robot);
-    if (items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &states)) return NULL;
+    if (path_arguments_read(self, arguments, keywords, "O|$" CHECK_FORMAT "dK:clearance", &in)) return NULL;
+    ovoid_robot_clearance_options o = {.check = in.check, .tolerance = in.tolerance, .states = in.most_states};
     if (checkers_borrow(self, &checker, 1)) {
-        free(states.data);
+        free(in.states.data);
         return NULL;
     }
-    const ovoid_robot_path path = {states.data, (size_t)states.shape[0]};
+    const ovoid_robot_path path = {in.states.data, (size_t)in.states.shape[0]};
     ovoid_robot_clearance found;
     ovoid_error error;
     interrupt signals;
@@ -46,7 +36,7 @@ static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keyw
     ovoid_code code = ovoid_robot_compute_clearance(checker, &path, &o, &found, &error);
     int is_raised = interrupt_end(&signals);
     checkers_return(self, &checker, 1);
-    free(states.data);
+    free(in.states.data);
     if (is_raised) return NULL;
     return code == OVOID_OK ? make_clearance(state, &found) : raise_error(state, &error);
 }

@@ -62,25 +62,35 @@ static ovoid_code find_steps(path_object *self, ovoid_robot_checker *checker, ov
     }
 }
 
+int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format,
+                        path_arguments *in) {
+    static char *names[] = {"states", CHECK_NAMES, "tolerance", "most_states", NULL};
+    module_state *state = state_of((PyObject *)cell);
+    PyObject *given;
+    unsigned long long most = 0;
+    *in = (path_arguments){.tolerance = 0};
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, names, &given, CHECK_TARGETS(in->check),
+                                     &in->tolerance, &most) ||
+        check_options_check(state, &in->check))
+        return -1;
+    if (most > UINT32_MAX) {
+        raise_code(state, OVOID_ERROR_ARGUMENT, -1, "most_states: 0 to 2^32 - 1 are wanted");
+        return -1;
+    }
+    in->most_states = (uint32_t)most;
+    Py_ssize_t variables = (Py_ssize_t)robot_variable_count(cell->robot);
+    return items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &in->states);
+}
+
 PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords);
 PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"states", CHECK_NAMES, "tolerance", "most_states", NULL};
     cell_object *cell = (cell_object *)object;
     module_state *state = state_of(object);
-    PyObject *given;
-    ovoid_robot_path_options o = {.tolerance = 0};
-    unsigned long long most = 0;
-    items states;
+    path_arguments in;
     ovoid_robot_checker *checker;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "dK:check_path", names, &given,
-                                     CHECK_TARGETS(o.check), &o.tolerance, &most) ||
-        check_options_check(state, &o.check))
-        return NULL;
-    if (most > UINT32_MAX) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "most_states: 0 to 2^32 - 1 are wanted");
-    o.states = (uint32_t)most;
-    Py_ssize_t variables = (Py_ssize_t)robot_variable_count(cell->robot);
-    if (items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &states)) return NULL;
-    path_object *self = make_object(cell, &o, &states);
+    if (path_arguments_read(cell, arguments, keywords, "O|$" CHECK_FORMAT "dK:check_path", &in)) return NULL;
+    ovoid_robot_path_options o = {.check = in.check, .tolerance = in.tolerance, .states = in.most_states};
+    path_object *self = make_object(cell, &o, &in.states);
     if (!self || checkers_borrow(cell, &checker, 1)) {
         Py_XDECREF((PyObject *)self);
         return NULL;
