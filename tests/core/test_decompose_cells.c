@@ -1,9 +1,10 @@
 // The upper ends of the two lengths, where the points from below do not hide them. Truth: single cells, whose bounds
 // may not be below the distance of any point that the cell has of the solid, or of the part, by brute force in extended
-// precision; pieces of a cell, whose volumes add up to its own; and searches that end early, whose upper ends may not
-// be below closed forms. Tolerances are roundings of coordinates of about 1.
+// precision; pieces of a cell or of the solid, whose volumes add up to its own; and searches that end early, whose
+// upper ends may not be below closed forms. Tolerances are roundings of coordinates of about 1.
 #include "decompositions.h"
 
+#include "decompose/piece.h"
 #include "decompose/searches.h"
 
 #define SLACK 1e-12
@@ -191,6 +192,60 @@ static void check_cuts(int rounds) {
     check_seed = 0;
 }
 
+// ---- pieces of the solid
+
+static double find_piece_volume(const piece *p) {
+    ovoid_shape *shape = ovoid_shape_create_from_points(&p->points[0].x, p->point_count, NULL, NULL);
+    ovoid_polytope faces = ovoid_shape_get_polytope(shape);
+    double volume = ovoid_polytope_compute_measures(&faces).volume;
+    ovoid_shape_destroy(shape);
+    return volume;
+}
+
+// A cube cut by random planes that go on from piece to piece: what meets inside, far from all triangles, is a corner of
+// all pieces around it, and the volumes of their hulls add up to the cube's.
+static void check_divided(int rounds) {
+    enum { PLANES = 4 };
+    mesh m = {NULL, NULL, 0, 0, 0, 0};
+    mesh_add_box(&m, (vec3){-1, -1, -1}, (vec3){1, 1, 1}, 0);
+    ovoid_solid *cube = mesh_make_solid(&m);
+    mesh_clear(&m);
+    ovoid_decomposition_options o;
+    body b;
+    CHECK_EQ(body_check_options(NULL, &o, NULL), OVOID_OK);
+    CHECK_EQ(body_open(&b, cube, &o, NULL), OVOID_OK);
+    double unit = 1 / (b.unit * b.unit * b.unit);
+    for (int i = 0; i < rounds; i++) {
+        uint64_t s = check_seed = 9000 + (uint64_t)i;
+        piece pieces[1 << PLANES];
+        size_t count = 1;
+        CHECK_EQ(piece_create(&b, &pieces[0], NULL), OVOID_OK);
+        for (int k = 0; k < PLANES; k++) {
+            ovoid_plane plane = {vec3_unit(random_vec3(&s, 1)), 0.3 * b.inverse * random_uniform(&s, -1, 1)};
+            for (size_t j = count; j-- > 0;) {
+                piece sides[2];
+                int is_cut;
+                CHECK_EQ(piece_divide(&b, &pieces[j], &plane, sides, &is_cut, NULL), OVOID_OK);
+                if (!is_cut) continue;
+                piece_destroy(&b, &pieces[j]);
+                pieces[j] = sides[0];
+                pieces[count++] = sides[1];
+            }
+        }
+        CHECK(count > 8);
+        double volume = 0;
+        for (size_t j = 0; j < count; j++) {
+            volume += find_piece_volume(&pieces[j]);
+            piece_destroy(&b, &pieces[j]);
+        }
+        // Slivers thinner than what counts as on a plane may be lost.
+        CHECK_NEAR(volume, 8 * unit, 1e-6);
+    }
+    body_close(&b);
+    ovoid_solid_destroy(cube);
+    check_seed = 0;
+}
+
 // ---- searches that end early
 
 static void check_length(const ovoid_decomposition_length *l, double truth) {
@@ -243,6 +298,7 @@ static void check_few_cells(void) {
 int main(void) {
     check_bounds(24);
     check_cuts(2000);
+    check_divided(12);
     check_few_cells();
     return check_end();
 }
