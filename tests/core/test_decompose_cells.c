@@ -148,6 +148,63 @@ static void check_bounds(int rounds) {
     check_seed = 0;
 }
 
+// The k-th of the 48 ways to name axes and turn them round.
+static vec3 swap_axes(vec3 x, int k) {
+    const double c[3] = {k & 1 ? -x.x : x.x, k & 2 ? -x.y : x.y, k & 4 ? -x.z : x.z};
+    int i = k / 8 % 3, j = (i + 1 + k / 24) % 3;
+    return (vec3){c[i], c[j], c[3 - i - j]};
+}
+
+// A box whose upper face has a small square in its middle, so that no triangle is near all of a large cell.
+static void add_box_with_square(mesh *m, vec3 low, vec3 high) {
+    mesh_add_box(m, low, high, 0);
+    // The last two faces take the places of the upper one.
+    m->triangles -= 2;
+    memcpy(m->indices + 6, m->indices + 30, 6 * sizeof *m->indices);
+    const uint32_t outer[4] = {4, 5, 7, 6};
+    for (int i = 0; i < 4; i++) mesh_add_point(m, i == 1 || i == 2 ? 0.1 : -0.1, i >= 2 ? 0.1 : -0.1, high.z);
+    for (uint32_t i = 0; i < 4; i++) {
+        uint32_t j = (i + 1) % 4;
+        mesh_add_triangle(m, outer[i], outer[j], 8 + j);
+        mesh_add_triangle(m, outer[i], 8 + j, 8 + i);
+    }
+    mesh_add_triangle(m, 8, 9, 10);
+    mesh_add_triangle(m, 8, 10, 11);
+}
+
+// A box as the solid, and as the part one that is higher by 0.3. The cell's middle is 0.05 below the solid's top, one
+// corner at the part's, 0.3 from the solid; another reaches far beyond a side that both have, 0.9 from the middle. The
+// depth below that side must not stand for that below the top, whichever triangle is looked at first.
+static void check_unlike_faces(void) {
+    static const vec3 corners[4] = {{1, 0, -0.1}, {-0.3, 0, 0.35}, {-0.35, 0.5, -0.125}, {-0.35, -0.5, -0.125}};
+    const vec3 low = {-2, -2, -2};
+    for (int k = 0; k < 48; k++) {
+        mesh m = {NULL, NULL, 0, 0, 0, 0};
+        add_box_with_square(&m, low, (vec3){0.9, 2, 0.05});
+        for (size_t i = 0; i < m.points; i++) {
+            vec3 x = swap_axes(vec3_at(m.xyz, i), k);
+            memcpy(m.xyz + 3 * i, &x, sizeof x);
+        }
+        ovoid_shape *part = make_box_between(swap_axes(low, k), swap_axes((vec3){0.9, 2, 0.35}, k));
+        scene e = {.solid = mesh_make_solid(&m), .d = {.parts = (const ovoid_shape *const *)&part, .part_count = 1}};
+        e.d.solid = e.solid;
+        CHECK(ovoid_solid_get_report(e.solid).is_closed);
+        CHECK_EQ(body_check_options(NULL, &e.o, NULL), OVOID_OK);
+        CHECK_EQ(body_open_parts(&e.b, &e.d, &e.o, NULL), OVOID_OK);
+        cell_search search = make_search(&e, 0);
+        excess_set_functions(&search);
+        cell c = {.bound = INFINITY};
+        for (int i = 0; i < 4; i++) c.corner[i] = vec3_scale(swap_axes(corners[i], k), e.b.inverse);
+        search.find_bound(&search, &c);
+        CHECK_LE(0.3, c.bound * e.b.unit + SLACK);
+        CHECK_LE(c.bound * e.b.unit, 0.9);
+        body_close(&e.b);
+        ovoid_shape_destroy(part);
+        ovoid_solid_destroy(e.solid);
+        mesh_clear(&m);
+    }
+}
+
 // ---- pieces of cells
 
 static long double find_volume(const cell *c) {
@@ -297,6 +354,7 @@ static void check_few_cells(void) {
 
 int main(void) {
     check_bounds(24);
+    check_unlike_faces();
     check_cuts(2000);
     check_divided(12);
     check_few_cells();
