@@ -35,7 +35,7 @@ tests_of() {
     solid_body) echo "test_solid_compound test_solid_impact test_world_solids test_io_scene" ;;
     solid) echo "test_solid_create test_solid_crossings test_solid test_solid_compound test_judge_solid" ;;
     solid_files) echo "test_cli_altered_solids.sh test_cli.sh:solid:info" ;;
-    decompose) echo "test_decompose" ;;
+    decompose) echo "test_decompose_cells test_decompose" ;;
     compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_judge_compound" ;;
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_bounds" ;;
