@@ -107,6 +107,33 @@ class Words(unittest.TestCase):
     def test_readme_prints_what_it_says(self):
         self.check_first("README.md", 10)
 
+    def test_start_prints_what_it_says(self):
+        """The programs of the start, the tutorials and the pages for those who come from elsewhere, run in examples/start."""
+        import contextlib
+        import glob
+        import io
+
+        root = os.path.abspath(SOURCE)
+        pages = ["docs/first-steps.md", "docs/coming-from-trimesh.md"]
+        pages += [os.path.relpath(path, root) for path in sorted(glob.glob(f"{root}/docs/tutorial-*.md"))]
+        self.assertGreaterEqual(len(pages), 6)
+        before = os.getcwd()
+        os.chdir(f"{root}/examples/start")
+        try:
+            for page in pages:
+                text = read(page)
+                blocks = re.findall(r"```python\n(.*?)```\n+It prints\n+```text\n(.*?)```", text, re.S)
+                self.assertEqual(len(blocks), text.count("```python"), f"{page}: a block without what it prints")
+                for block, printed in blocks:
+                    if ("load(" in block and not ovoid.has_io) or ("ovoid.Robot" in block and not ovoid.has_robot):
+                        continue
+                    said = io.StringIO()
+                    with contextlib.redirect_stdout(said):
+                        exec(compile(block, page, "exec"), {"__name__": "page"})
+                    self.assertEqual(said.getvalue(), printed, page)
+        finally:
+            os.chdir(before)
+
     def test_docstring(self):
         self.assertEqual(doctest.testmod(ovoid).failed, 0)
 
