@@ -59,7 +59,7 @@ static checker_pair get_checker_pair(const path_search *s, uint32_t number, cons
     ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
     uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
     // The normal stays in the world here: one that a check kept in a link's frame is a bad hint once, and no more.
-    return (checker_pair){p->pair, p->a, p->b, proof, mark, NULL, p->error + p->motion.rounded, p->padding};
+    return (checker_pair){p->pair, p->a, p->b, proof, mark, NULL, p->error + p->motion.rounded, p->padding, NULL};
 }
 
 // 1 where the interval's ends and the second order prove it along the normal.
