@@ -44,6 +44,17 @@ static int draw_edge(robots_run *run, robots_scene *s, edge *e, double length) {
     return 0;
 }
 
+/// Whether the edge is free, as samplers say it: any hit ends the search. *time: in microseconds.
+static ovoid_robot_status ask_any_hit(robots_scene *s, const edge *e, double *time) {
+    ovoid_robot_path path = {e->q, 2};
+    ovoid_robot_path_options options = {.any_hit = 1};
+    ovoid_robot_path_answer is;
+    double start = get_own_seconds();
+    ovoid_code code = ovoid_robot_check_path(s->checker, &path, &options, &is, NULL);
+    *time = (get_own_seconds() - start) * 1e6;
+    return code == OVOID_OK ? is.status : OVOID_ROBOT_REFUSED;
+}
+
 /// The search is timed without its steps; a second one writes them, and ovoid_robot_path_check measures them again.
 static void prove(robots_run *run, robots_scene *s, edge *e, tally *to[2]) {
     enum { STEPS = 1 << 16 };
@@ -148,9 +159,13 @@ void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t 
         if (!draw_edge(run, s, &e, lengths[length])) break;
         tally *to[2] = {tallies_get(&run->edges[length], "ovoid, proof"),
                         tallies_get(&run->hit_edges[length], "ovoid, proof")};
+        double time;
+        ovoid_robot_status any = ask_any_hit(s, &e, &time);
         prove(run, s, &e, to);
         if (e.is.status != OVOID_ROBOT_FREE && e.is.status != OVOID_ROBOT_HIT) continue;
         int is_hit = e.is.status == OVOID_ROBOT_HIT;
+        run->wrong += any != e.is.status;
+        tally_add(tallies_get(is_hit ? &run->hit_edges[length] : &run->edges[length], "ovoid, any hit ends"), time);
         double *work = q + (size_t)2 * m->variable_count;
         judge_edge(run, s, &e, work);
         if (!is_hit) time_along(run, s, &e);

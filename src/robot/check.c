@@ -109,20 +109,25 @@ static void decide(ovoid_robot_checker *x, const ovoid_robot_check_options *opti
         if (!ask_candidate(&s, &s.candidates[i].pair, s.candidates[i].name)) return;
 }
 
+int check_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
+                ovoid_robot_answer *answer) {
+    ovoid_error refused;
+    ovoid_code code = checker_place(x, q, options->limit_slack, &refused);
+    if (code == OVOID_OK)
+        decide(x, options, answer);
+    else
+        refuse(answer, code, (uint32_t)refused.place);
+    return code == OVOID_OK;
+}
+
 static ovoid_code check(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
                         ovoid_robot_answer *answer, ovoid_error *error) {
     if (!options) options = &no_options;
     *answer = (ovoid_robot_answer){.lower = -INFINITY, .upper = INFINITY};
     ovoid_code code = check_options_check(options, error);
     if (code == OVOID_OK) code = checker_renew(x, error);
-    if (code != OVOID_OK) return code;
-    ovoid_error refused;
-    code = checker_place(x, q, options->limit_slack, &refused);
-    if (code == OVOID_OK)
-        decide(x, options, answer);
-    else
-        refuse(answer, code, (uint32_t)refused.place);
-    return OVOID_OK;
+    if (code == OVOID_OK) (void)check_state(x, q, options, answer);
+    return code;
 }
 
 ovoid_code ovoid_robot_check(ovoid_robot_checker *checker, const double *q, const ovoid_robot_check_options *options,

@@ -163,6 +163,16 @@ void checker_find_pairs(const checker_search *s);
 void checker_compute_gradient(const ovoid_robot_checker *x, const checker_pair *p, const double gradient[12],
                               const double *q, double *row);
 
+/// The answer to a state by a checker that fits its cell; 0: the state is refused.
+int check_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
+                ovoid_robot_answer *answer);
+/// The number of the pair that ended the last state that hit.
+static inline uint32_t checker_get_last_number(const ovoid_robot_checker *x) {
+    size_t parts = x->cell->parts.count, first = x->cell->items.count * parts;
+    if (x->last.item == OVOID_ROBOT_NONE) return (uint32_t)(first + x->last.index);
+    return (uint32_t)(x->last.item * parts + x->last.index);
+}
+
 /// The states of a batch from `first` to before `end`, by a checker that has forgotten all and fits its cell.
 void check_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end);
 
