@@ -24,6 +24,11 @@ def get_arguments(function):
     return [name for name in names if name not in ("self", "cls")]
 
 
+def get_name(node):
+    """Of a stub's method or attribute."""
+    return node.target.id if isinstance(node, ast.AnnAssign) else node.name
+
+
 # What a build without libovoid_robot, or without readers of files, lacks.
 OF_ROBOTS = {"Robot", "Cell", "RobotPath", "compare_states"}
 OF_FILES = {"load_obstacles", "load_motion_request", "find_problems", "load_path_sources"}
@@ -61,7 +66,7 @@ class Stubs(unittest.TestCase):
             kind = getattr(ovoid, name)
             if issubclass(kind, tuple):
                 continue
-            said = {node.name: node for node in stub.body}
+            said = {get_name(node): node for node in stub.body}
             there = {key for key in vars(kind) if not key.startswith("_")}
             if not ovoid.has_io:
                 there |= {"load", "load_paths", "save"} & set(said)
@@ -74,10 +79,14 @@ class Stubs(unittest.TestCase):
 
 class Words(unittest.TestCase):
     def test_page(self):
+        names = {}
         for block in re.findall(r"```python\n(.*?)```", read("docs/python.md"), re.S):
             if "ovoid.Robot" in block and not ovoid.has_robot:
                 continue
-            exec(compile(block, "docs/python.md", "exec"), {"__name__": "page"})
+            # What imports begins anew, other blocks go on from the one before.
+            if "import ovoid" in block:
+                names = {"__name__": "page"}
+            exec(compile(block, "docs/python.md", "exec"), names)
 
     def check_first(self, path, most):
         """The first example of a page prints what the page says."""
