@@ -102,9 +102,6 @@ typedef struct ovoid_robot_clearance_options {
     double tolerance;  /**< of the bracket, a length; 0 means 1/1024 of the radius of the robot's largest element */
     uint32_t states;   /**< most states that are looked at; 0 means 100 000 and 100 for each segment */
     ovoid_watch watch; /**< asked before each state; stopped: as though `states` were used up */
-    int any_hit; /**< 1: any hit ends the search, the first one that is found: some states are looked at before anything
-                      is proven. hit_at need not be the first hit then, and free_until is what was proven by then, often
-                      0. Whether the path is free is answered as without it, and sooner where it is not */
 } ovoid_robot_clearance_options;
 
 /** The smallest clearance of a path: the least signed distance of any queried pair at any real s. */
