@@ -254,6 +254,7 @@ int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower,
     const cell_item *items = cell_items(x->cell);
     const cell_part *part = name.item == OVOID_ROBOT_NONE ? NULL : &cell_parts(x->cell)[name.index];
     item_pair both = part ? (item_pair){name.item, 0} : cell_pairs(x->cell)[name.index];
+    if (items[both.a].solid || (part ? part->solid : items[both.b].solid)) return 0;
     inner_body a = place_inner(x, both.a), b;
     if (part)
         b = (inner_body){part->shape, &part->box.rotation, part->inner.center, part->inner.size, part->inner.form};
@@ -278,6 +279,7 @@ checker_pair checker_make_part_pair(ovoid_robot_checker *x, uint32_t item, uint3
     size_t at = item * c->parts.count + part;
     checker_pair p = {.a = &a->side, .b = &b->side, .proof = &x->part_proofs[at], .mark = &x->part_marks[at]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), b->pose};
+    p.solids = (solid_sides){a->solid, b->solid};
     p.error = x->errors[item];
     p.padding = c->padding[a->side.link];
     return p;
@@ -289,6 +291,7 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair) {
     const cell_item *a = &cell_items(c)[both.a], *b = &cell_items(c)[both.b];
     checker_pair p = {.a = &a->side, .b = &b->side, .proof = &x->pair_proofs[pair], .mark = &x->pair_marks[pair]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), get_pose(x, b)};
+    p.solids = (solid_sides){a->solid, b->solid};
     p.rotation = &get_frame(x, a->frame)->matrix;
     p.error = x->errors[both.a] + x->errors[both.b];
     return p;
