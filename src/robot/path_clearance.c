@@ -77,6 +77,14 @@ static double find_least(const checker_pair *outward, const path_pair *p, double
     return lower - 0x1p-50 * (fabs(lower) + p->motion.moved);
 }
 
+// 1 where the pair moves by so little in the interval that its halves can add less than the tolerance: of a body whose
+// allowance is wider than that, and of solids, a bracket may never be as narrow.
+static int is_narrow(clearance_search *s, const path_pair *p, double least) {
+    if (p->motion.moved > 0.5 * s->tolerance) return 0;
+    keep_least(s, least);
+    return 1;
+}
+
 // The hulls, then the solids themselves. Of an overlap no more is known than the bracket in the middle: the depth of
 // solids may jump.
 static int test_solids(clearance_search *s, const path_span *i, uint32_t number, const path_pair *p,
@@ -94,7 +102,7 @@ static int test_solids(clearance_search *s, const path_span *i, uint32_t number,
         keep_least(s, *least);
         return 1;
     }
-    return *least > get_margin(s);
+    return *least > get_margin(s) || is_narrow(s, p, *least);
 }
 
 // 1: the pair need not be looked at again in the interval. *least: what it is not nearer than.
@@ -109,7 +117,8 @@ static int test_pair(clearance_search *s, const path_span *i, uint32_t number, d
     if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &is, least);
     take(s, &p, upper_outward(&outward, is.upper), 0.5 * (i->begin + i->end));
     if (*least > get_margin(s)) return 1;
-    return is_above_by_ends(s, i, number, &p, path_turn_back(&p, i->middle->frames, is.normal));
+    return is_above_by_ends(s, i, number, &p, path_turn_back(&p, i->middle->frames, is.normal)) ||
+           is_narrow(s, &p, *least);
 }
 
 // ---- all pairs in an interval
