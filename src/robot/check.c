@@ -66,7 +66,7 @@ static int ask_candidate(state_check *s, const checker_pair *p, pair_name name) 
     return ask_pair(s, p, name, was_apart(s->checker, p) ? pair_get_earlier(s->checker, p) : NULL);
 }
 
-// First the ellipsoids inside both bodies, which most hits are proven by; the rest is asked after the search.
+// First what lies inside both bodies, by which most hits are proven; the rest is asked after the search.
 static int look_at_pair(void *context, const checker_pair *p, pair_name name) {
     state_check *s = context;
     double lower, upper;

@@ -76,12 +76,14 @@ struct ovoid_robot_checker {
     frame_error *frame_errors;
     double *values, *cosines, *sines; ///< padded to a multiple of 8
     sphere_place *places;             ///< of each group
-    double *errors;                   ///< of each item: what its points may be off by
-    double *group_errors;             ///< the same of each group's
-    ovoid_proof *part_proofs;         ///< of item i and part k at i part_count + k
-    ovoid_proof *pair_proofs;         ///< of each pair of items
-    near_key *near_keys;              ///< two of each pair that there is
-    path_memory *path;                ///< NULL: no path was searched since the cell has changed
+    inner_balls *balls;               ///< of each item, in the world, where `ball_stamps` say so
+    uint64_t *ball_stamps;
+    double *errors;           ///< of each item: what its points may be off by
+    double *group_errors;     ///< the same of each group's
+    ovoid_proof *part_proofs; ///< of item i and part k at i part_count + k
+    ovoid_proof *pair_proofs; ///< of each pair of items
+    near_key *near_keys;      ///< two of each pair that there is
+    path_memory *path;        ///< NULL: no path was searched since the cell has changed
 };
 
 /// How many pairs there are to find.
@@ -137,8 +139,8 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair);
 int checker_is_part_far(ovoid_robot_checker *x, uint32_t item, uint32_t part, double margin);
 int checker_is_pair_far(ovoid_robot_checker *x, uint32_t pair, double margin);
 
-/// 1 where the ellipsoids inside both bodies, of which none is a solid, overlap: then a bracket of the signed distance
-/// as the poses are, the upper bound below zero.
+/// 1 where what is known to lie inside both bodies, of which none is a solid, overlaps: then a bracket of the signed
+/// distance as the poses are, the upper bound below zero.
 int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper);
 
 /// Called for each pair that is not proven farther apart than `margin`; 0 ends the search.

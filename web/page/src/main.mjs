@@ -98,8 +98,7 @@ class Page {
     this.view.placeAll();
     if (this.panel.chosen) {
       const { chosen } = this.panel;
-      chosen.answer = this.model.ask(chosen.a, chosen.b);
-      chosen.isLive = true;
+      this.model.askAgain(chosen);
       this.panel.update([chosen]);
       this.view.showAnswer(chosen.answer);
     }

@@ -27,11 +27,10 @@ function makeLayers(model) {
     list.items.push({ body, matrix });
   };
   for (const body of bodies) {
-    if (body.mesh) add('meshes', `solid ${body.index}`, () => makeMesh(body.mesh), body, new Matrix4());
     for (const part of body.parts) {
       const at = makePoseMatrix(part.pose), { shape, index } = part;
       add('hulls', index, () => makeHull(ovoid, shape, uses.get(index)), body, at);
-      if (!body.mesh) add('meshes', shape.mesh ? index : `hull ${index}`, () => (shape.mesh ? makeMesh(shape.mesh) : cached(`hulls ${index}`)), body, at);
+      add('meshes', shape.mesh ? index : `hull ${index}`, () => (shape.mesh ? makeMesh(shape.mesh) : cached(`hulls ${index}`)), body, at);
       if (shape.areas) add('areas', index, () => makeAreas(shape, AREAS), body, at);
       add('outer', 'ball', () => ball, body, at.clone().multiply(makeEllipsoidMatrix(shape.outer, shape.radius)));
       add('inner', 'ball', () => ball, body, at.clone().multiply(makeEllipsoidMatrix(shape.inner, shape.radius)));

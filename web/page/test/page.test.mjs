@@ -56,6 +56,32 @@ const land = (page) => page.waitForFunction(() => !window.ovoidPage.view.flight 
 
 const readRows = (page) => page.$$eval('#pairs tr', (rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent)));
 
+/** A page with its data altered. */
+function alter(file, change) {
+  const text = readFileSync(join(folder, file), 'utf8'), [, json] = text.match(/<script id="ovoid-data" type="application\/json">(.*?)<\/script>/s);
+  const data = JSON.parse(json);
+  change(data);
+  writeFileSync(join(folder, 'altered.html'), text.replace(json, () => JSON.stringify(data).replaceAll('<', '\\u003c')));
+}
+
+/** The page refuses each answer that is altered; how many there are. */
+async function refuseAltered(file, change, takes = () => true) {
+  let count;
+  alter(file, (data) => {
+    data.pairs = data.pairs.filter(takes);
+    for (const { answer } of data.pairs) change(answer);
+    count = data.pairs.length;
+  });
+  const { page } = await open('altered.html');
+  for (let i = 0; i < count; i++) {
+    await page.click(`#pairs tr:nth-child(${i + 1})`);
+    await page.click('#check');
+    assert.match(await page.getAttribute('#proof', 'class'), /fails/, `${await page.textContent('#details h2')}: ${await page.textContent('#proof')}`);
+  }
+  await page.close();
+  return count;
+}
+
 test('the list is that of ovoid check, good proofs hold, altered ones do not', { skip }, async () => {
   writeFileSync(join(folder, 'scene.json'), JSON.stringify(scene));
   const lines = run('check', 'scene.json', '--json', '--html', 'scene.html').trim().split('\n').map((line) => JSON.parse(line));
@@ -80,20 +106,63 @@ test('the list is that of ovoid check, good proofs hold, altered ones do not', {
   assert.deepEqual(errors, []);
   await page.close();
 
-  const text = readFileSync(join(folder, 'scene.html'), 'utf8'), [, json] = text.match(/<script id="ovoid-data" type="application\/json">(.*?)<\/script>/s);
-  const data = JSON.parse(json);
-  for (const pair of data.pairs) {
-    pair.answer.lower += 0.01;
-    pair.answer.upper += 0.01;
+  await refuseAltered('scene.html', (answer) => {
+    answer.lower += 0.01;
+    answer.upper += 0.01;
+  });
+});
+
+test('compounds and solids: their proofs hold, altered ones do not, and they are asked live', { skip }, async () => {
+  // An L of three cubes, a block in its corner, a rack of two boxes, a cube that the large L encloses.
+  const outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], points = [0, 1].flatMap((z) => outline.map(([x, y]) => `${x} ${y} ${z}`));
+  const sides = outline.map((_, i) => `4 ${i} ${(i + 1) % 6} ${6 + ((i + 1) % 6)} ${6 + i}`);
+  writeFileSync(join(folder, 'l.off'), `OFF\n12 10 0\n${points.join('\n')}\n${sides.join('\n')}\n4 3 2 1 0\n4 5 4 3 0\n4 6 7 8 9\n4 6 9 10 11\n`);
+  const objects = [
+    { name: 'l', mesh: 'l.off' }, { name: 'turned', mesh: 'l.off', pose: { xyz: [4, 1, 0], rpy: [0, 0, 1] } }, { name: 'large', mesh: 'l.off', scale: 5, pose: { xyz: [-20, 0, 0] } },
+    { name: 'block', box: [0.8, 0.8, 0.8], pose: { xyz: [1.5, 1.5, 0.5] } }, { name: 'within', box: [1, 1, 1], pose: { xyz: [-18, 2, 2] } },
+    { name: 'rack', compound: [{ box: [1, 1, 1] }, { box: [1, 1, 1], pose: { xyz: [0, 0, 3] } }], pose: { xyz: [1.7, 1.7, 2], rpy: [0.1, 0, 0] } },
+    { name: 'other rack', compound: [{ sphere: 0.5 }, { box: [1, 1, 1], pose: { xyz: [0, 0, -1] } }], pose: { xyz: [1.7, 3.5, 2] } },
+  ];
+  writeFileSync(join(folder, 'solids.json'), JSON.stringify({ objects }));
+  const lines = run('check', 'solids.json', '--json', '--html', 'solids.html').trim().split('\n').map((line) => JSON.parse(line));
+  assert.deepEqual([lines.filter((l) => l.proof.surfaces).length, lines.filter((l) => l.inside).length, lines.filter((l) => (l.part_a ?? l.part_b) !== undefined).length], [15, 1, 11]);
+  const { page, errors } = await open('solids.html');
+  assert.equal((await readRows(page)).length, lines.length);
+  for (let i = 0; i < lines.length; i++) {
+    await page.click(`#pairs tr:nth-child(${i + 1})`);
+    await page.click('#check');
+    assert.equal(await page.textContent('#proof'), 'The proof holds.', await page.textContent('#details h2'));
   }
-  writeFileSync(join(folder, 'altered.html'), text.replace(json, () => JSON.stringify(data).replaceAll('<', '\\u003c')));
-  const altered = await open('altered.html');
-  for (let i = 0; i < data.pairs.length; i++) {
-    await altered.page.click(`#pairs tr:nth-child(${i + 1})`);
-    await altered.page.click('#check');
-    assert.match(await altered.page.textContent('#proof'), /bound|status|bracket|point/);
-  }
-  await altered.page.close();
+  // Where they are moved to, the page says what the tool says.
+  const poses = [{ xyz: [0.2, 0.1, 3.4], quat_wxyz: [1, 0.2, 0, 0] }, { xyz: [1, 2, 1.5], quat_wxyz: [1, 0, 0.3, 0.1] }];
+  const live = await page.evaluate((to) => {
+    const { model } = window.ovoidPage, moved = [model.bodies[1], model.bodies[5]];
+    moved.forEach((body, i) => (body.pose = to[i]));
+    moved.forEach((body) => window.ovoidPage.moved(body));
+    return model.pairs.filter((pair) => pair.isLive).map((pair) => [`${pair.a.name} – ${pair.b.name}`, pair.answer.lower, pair.answer.upper, model.check(pair).text]);
+  }, poses);
+  [objects[1].pose, objects[5].pose] = poses;
+  writeFileSync(join(folder, 'moved.json'), JSON.stringify({ objects }));
+  const wanted = new Map(run('check', 'moved.json', '--json').trim().split('\n').map((line) => JSON.parse(line)).map(({ a, b, lower, upper }) => [`${a} – ${b}`, [lower, upper]]));
+  assert.equal(live.length, 11);
+  for (const [names, lower, upper, text] of live) assert.deepEqual([lower, upper, text], [...wanted.get(names), 'The proof holds.'], names);
+  assert.deepEqual(errors, []);
+  await page.close();
+  // Of the bracket, of what is excluded, and of what is inside.
+  await refuseAltered('solids.html', (answer) => (answer.upper -= 0.01));
+  const count = await refuseAltered('solids.html', ({ proof }) => proof.exclusions?.pop(), ({ answer }) => answer.proof.exclusions?.length > 0);
+  assert.ok(count > 3, `${count} have exclusions`);
+  assert.equal(await refuseAltered('solids.html', (answer) => (answer.inside = 'a in b'), ({ answer }) => answer.inside), 1);
+  // Triangles that were too many for the page.
+  alter('solids.html', (data) => data.shapes.forEach((shape) => delete shape.solid));
+  const bare = await open('altered.html');
+  await bare.page.click('#pairs tr:has-text("large")');
+  await bare.page.click('#check');
+  assert.match(await bare.page.textContent('#proof'), /ovoid verify/);
+  await bare.page.evaluate(() => window.ovoidPage.moved(window.ovoidPage.model.bodies[2]));
+  assert.equal(await bare.page.textContent('#lower'), '-∞');
+  assert.deepEqual(bare.errors, []);
+  await bare.page.close();
 });
 
 test('a body that is dragged has the brackets that the tool gives for its pose', { skip }, async () => {
