@@ -90,6 +90,14 @@ static void test_meshes(void) {
     if (solid) CHECK_NEAR(ovoid_solid_get_report(solid).volume, 2.25, 1e-12);
     CHECK_EQ(get_box(o, 1).max.z, 3);
     ovoid_obstacles_destroy(o);
+    // A surface that is not closed is its hull: two faces of the first mesh are missing.
+    static const char open[] =
+        "world:\n  collision_objects:\n    - id: l\n      meshes:\n        - vertices: [[0, 0, 0], "
+        "[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n          triangles: [[0, 2, 1], [0, 1, 3]]\n";
+    o = read_scene("open.yaml", open, &options);
+    if (!CHECK(o && ovoid_obstacles_get_count(o) == 1)) return;
+    CHECK(!ovoid_obstacles_get(o, 0).solid);
+    ovoid_obstacles_destroy(o);
 }
 
 // By the scene's own rule, and where it asks for it; without the option that is refused.
