@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_spheres robot_compare robot_cli robot_spheres_cli shard page python python_solid decompose_watch robot_watch"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard page python python_solid decompose_watch robot_watch"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -46,6 +46,7 @@ tests_of() {
     robot) echo "test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_check test_robot_matrix test_robot_path test_robot_path_bounds test_robot_clearance test_robot_motion" ;;
     io) echo "test_io_numbers test_io_json test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_known" ;;
+    robot_solid) echo "test_robot_solid test_robot_urdf test_robot_scenes test_cli.sh:robot_solid" ;;
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
     robot_cli) echo "test_cli.sh:robot_check:robot_path test_cli_altered_paths.sh" ;;

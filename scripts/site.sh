@@ -26,14 +26,13 @@ mv "$work/html" "$out/api"
 # The live page of the demo, where that and the page's template were made.
 if [ -f build/demo/scene.json ] && [ -x build/release/ovoid ] && [ -f build/release/page.html ]; then
     (cd build/demo && ../release/ovoid check scene.json --margin 0.5 --html demo.html >/dev/null 2>&1)
-    mv build/demo/demo.html "$work/pages/demo.html"
-    cp "$work/pages/demo.html" "$out/"
+    mv build/demo/demo.html "$out/"
 else
     echo "site: without the live page; scripts/demo.sh and scripts/page.sh make what it needs"
 fi
 
 # The pages. The same bytes for the same sources: no dates.
-python3 docs/site/stage.py "$work/pages" "$work/xml" || exit 1
+python3 docs/site/stage.py "$work/pages" "$work/xml" "$(ls "$out/demo.html" 2>/dev/null)" || exit 1
 sphinx-build -q -W --keep-going -j 2 -c docs/site -d "$work/trees" "$work/pages" "$out" 2>"$work/sphinx.log" ||
     { cat "$work/sphinx.log" && exit 1; }
 rm -rf "$out/.buildinfo" "$out/objects.inv"

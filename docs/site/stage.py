@@ -1,9 +1,9 @@
-"""stage.py FOLDER XML: lays out the pages of the site in FOLDER, for Sphinx.
+"""stage.py FOLDER XML [DEMO]: lays out the pages of the site in FOLDER, for Sphinx.
 
 The pages of docs/ and the three of the root come together in one folder, so links between them lose their folder; each
 example is a page of its own; the reference is made of Doxygen's XML and of the Python package's types. The navigation is that of
-docs/index.md: each of its headings is a group, the links of its list are the group's pages. FOLDER/demo.html, where it is
-there, is the live page that the front page's picture leads to."""
+docs/index.md: each of its headings is a group, the links of its list are the group's pages. DEMO: there is
+a live page, demo.html, which the front page's picture leads to."""
 import ast
 import pathlib
 import re
@@ -13,6 +13,10 @@ import xml.etree.ElementTree
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ROOT_PAGES = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")
 FENCE = "````"
+# The front page's picture where the live page is there.
+LIVE = r"""<a href="demo.html">\1</a>
+
+<a href="demo.html">Open it</a>: turn it, drag a body and see the brackets follow, choose a pair and have its proof checked, in the browser."""
 LANGUAGES = {".c": "c", ".cpp": "cpp", ".json": "json", ".urdf": "xml", ".srdf": "xml"}
 
 
@@ -42,12 +46,12 @@ def add_navigation(text, reference, examples):
     return text + trees
 
 
-def stage_pages(out, reference, examples):
+def stage_pages(out, reference, examples, demo):
     for page in [*(ROOT / name for name in ROOT_PAGES), *sorted((ROOT / "docs").glob("*.md"))]:
         text = move_links(page.read_text(encoding="utf-8"))
         if page.name == "index.md":
-            if (out / "demo.html").exists():
-                text = text.replace("demo.svg)](page.md)", "demo.svg)](demo.html)")
+            if demo:
+                text = re.sub(r"\[(!\[[^]]*\]\(demo\.svg\))\]\(page\.md\)", LIVE, text)
             text = add_navigation(text, reference, examples)
         write(out / page.name, text)
     for figure in [*(ROOT / "docs").glob("*.svg"), *(ROOT / "docs" / "paper").glob("*.svg")]:
@@ -179,9 +183,10 @@ def stage_reference(out, xml_folder):
     return ["reference/index"]
 
 
-def main(out, xml_folder):
-    stage_pages(out, stage_reference(out, xml_folder), stage_examples(out))
+def main(out, xml_folder, demo=""):
+    out, xml_folder = pathlib.Path(out), pathlib.Path(xml_folder)
+    stage_pages(out, stage_reference(out, xml_folder), stage_examples(out), demo)
 
 
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
+    main(*sys.argv[1:])

@@ -68,6 +68,8 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     if (s->marks[both].hit == s->state) return 1;
     ovoid_answer is = ovoid_within(&p->pair, p->error, NULL, pair_get_earlier(s->checker, p));
     pair_remember(s->checker, p, &is.proof);
+    if (sides_have_solid(&p->solids) && !(is.lower > p->error))
+        is = solid_pair_within(&p->pair, &p->solids, p->error, &is, p->error);
     if (is.lower > p->error) return 1;
     if (upper_outward(p, is.upper) <= 0)
         take_hit(s, both);
@@ -102,7 +104,7 @@ static void count_frees(const sampler *s) {
 static const ovoid_robot_check_options links_alone = {.margin = 0, .without_obstacles = 1};
 
 static void look_at_state(sampler *s) {
-    checker_search search = {s->checker, &links_alone, &links_alone.margin, ask_pair, s};
+    checker_search search = {s->checker, &links_alone, &links_alone.margin, ask_pair, s, 0};
     s->state++;
     checker_find_pairs(&search);
     keep_frees(s);

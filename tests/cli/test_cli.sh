@@ -2,7 +2,7 @@
 # test_cli.sh [--update] [NAME...]: the tool as a user meets it. Each tests/cli/NAME.txt is a transcript: "$ command", then
 # what it prints (both streams), then "[code]" where the exit code is not 0; "# " lines are remarks. Every command is run
 # again, in a folder with a copy of tests/cli/data, and the transcript that comes out must be the one that is stored.
-# The sessions of the pages are replayed likewise, those of the start and the tutorials in a copy of examples/start.
+# The sessions of the pages are replayed likewise, those of the start, the tutorials and of robots in a copy of examples/start.
 # Truth: the transcripts were read by a person; numbers in them are closed forms of boxes and the like.
 # --update stores what comes out: then read the difference.
 set -u
@@ -55,7 +55,7 @@ expect() {
 
 passed=0 failed=0
 if [ $# -eq 0 ]; then
-    for page in tool first-steps tutorial-clearance tutorial-robot; do
+    for page in tool first-steps tutorial-clearance tutorial-robot robot; do
         awk '/^```/ { inside = /console/; next } inside' "$OVOID_SOURCE_DIR/docs/$page.md" >"$work/page"
         if [ $page = tool ]; then data=$cases/data; else data=$OVOID_SOURCE_DIR/examples/start; fi
         expect docs/$page.md "$work/page" "$data"

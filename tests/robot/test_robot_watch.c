@@ -49,7 +49,7 @@ static void open_scene(scene *s) {
                                           .mimic = OVOID_ROBOT_NONE,
                                           .multiplier = 1}};
     const ovoid_robot_element elements[3] = {
-        {1, NULL, s->bar, here}, {2, NULL, s->bar, here}, {0, NULL, s->ball, here}};
+        {1, NULL, s->bar, here, NULL}, {2, NULL, s->bar, here, NULL}, {0, NULL, s->ball, here, NULL}};
     const ovoid_robot_description d = {
         .links = links, .link_count = 3, .joints = joints, .joint_count = 2, .elements = elements, .element_count = 3};
     s->robot = ovoid_robot_create(&d, NULL, &error);
