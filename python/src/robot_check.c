@@ -296,8 +296,10 @@ PyMethodDef cell_queries[] = {
      "1 is no link, no element. The same bits on any number of threads.\nout: an array of zeros('states', n). "
      "progress(done, total) is called now and then; Ctrl-C ends it."},
     {"near", METHOD_KEYWORDS(near), METH_VARARGS | METH_KEYWORDS,
-     "near(q, margin, *, limit_slack=0, without_self=False, without_obstacles=False)\n--\n\nAll pairs that are not "
-     "proven farther apart than margin, nearest first: " NEAR_DOC "(m, variables)."},
+     "near(q, margin, *, limit_slack=0, without_self=False, without_obstacles=False, without_depths=False)\n--\n\nAll "
+     "pairs that are not "
+     "proven farther apart than margin, nearest first: " NEAR_DOC "(m, variables). without_depths: of most pairs that "
+     "overlap only that is\nsaid, by a bracket that ends below zero."},
     {"nearest", METHOD_KEYWORDS(nearest), METH_VARARGS | METH_KEYWORDS,
      "nearest(q, *, " NEAREST_SIGNATURE ")\n--\n\nThe nearest pair, where one is not proven farther apart than margin: "
      "one record or none, as of near, and "
@@ -308,8 +310,8 @@ PyMethodDef cell_queries[] = {
      "(n, variables). Where none is within margin, lower is margin\nand upper inf. A state that is refused raises "
      "Error, place its number."},
     {"check_path", METHOD_KEYWORDS(check_path), METH_VARARGS | METH_KEYWORDS,
-     "check_path(states, *, " CHECK_SIGNATURE
-     ", tolerance=0, most_states=0)\n--\n\nIs the path through states (n, variables), linear in between, free at all "
+     "check_path(states, *, " CHECK_SIGNATURE ", tolerance=0, most_states=0, any_hit=False)\n--\n\nIs the path through "
+                                              "states (n, variables), linear in between, free at all "
      "times? A RobotPath with its proof,\nwhich check() checks. tolerance: of hit_at - free_until, 0: 2**-20; "
-     "most_states: looked at, 0: 100 000."},
+     "most_states: looked at, 0: 100 000. any_hit: the search ends with any hit, which need not be the first."},
     {NULL, NULL, 0, NULL}};

@@ -191,5 +191,25 @@ class Worlds(unittest.TestCase):
         self.assertTrue(cast.lower <= 0.75 <= cast.upper <= cast.lower + 1e-6)
 
 
+@unittest.skipUnless(ovoid.has_robot, "built without libovoid_robot")
+class Cells(unittest.TestCase):
+    def test_obstacle(self):
+        """A ball on a rail along the notch of an L, whose hull it would hit."""
+        rail = ovoid.Joint("x", "prismatic", "base", "hand", at(0, 1.5, 0.5), (1, 0, 0), 0, 5)
+        robot = ovoid.Robot(["base", "hand"], [rail], [("hand", BALL)])
+        cell, hull = ovoid.Cell(robot), ovoid.Cell(robot)
+        key = cell.add(L)
+        hull.add(ovoid.Shape.hull_of(L))
+        self.assertIs(cell.bodies[key], L)
+        self.assertEqual([cell.check([x]).status for x in (0.5, 1.2, 1.3)], [ovoid.RobotStatus.HIT] * 2 + [ovoid.RobotStatus.FREE])
+        self.assertEqual(hull.check([1.3]).status, ovoid.RobotStatus.HIT)
+        path = cell.check_path([[5], [1.3]])
+        self.assertEqual(path.status, ovoid.RobotStatus.FREE)
+        ovoid.check(path)
+        path = cell.check_path([[5], [0]])
+        self.assertTrue(path.free_until <= 0.75 <= path.hit_at <= path.free_until + 0.01)
+        ovoid.check(path)
+
+
 if __name__ == "__main__":
     common.main()
