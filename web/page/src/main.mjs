@@ -61,7 +61,10 @@ class Page {
     this.view.choose(this.#chosen(), this.isIsolated);
     this.view.showAnswer(pair?.answer);
     this.timeline?.show(pair);
-    if (pair) this.fly();
+    if (!pair) return;
+    this.fly();
+    // On a phone what is known of the pair is below the list.
+    if (matchMedia('(max-width: 45rem)').matches) $('details').scrollIntoView({ behavior: 'smooth', block: 'nearest' });
   }
 
   chooseBody(body) {
