@@ -97,10 +97,10 @@ ovoid_robot_cell *ovoid_robot_cell_create(const ovoid_robot *robot, const ovoid_
 
 static void destroy(ovoid_robot_cell *c) {
     ovoid_allocator memory = c->allocator;
-    void *all[] = {
-        c->bodies.items,      c->allowed_links.items, c->allowed_bodies.items, c->padding,           c->rigid,
-        c->items.items,       c->parts.items,         c->boxes.items,          c->pairs.items,       c->groups.items,
-        c->group_pairs.items, c->own.items,           c->steps.items,          c->step_joints.items, c};
+    void *all[] = {c->bodies.items, c->allowed_links.items, c->allowed_bodies.items, c->padding,
+                   c->rigid,        c->items.items,         c->parts.items,          c->boxes.items,
+                   c->pairs.items,  c->groups.items,        c->insides.items,        c->group_pairs.items,
+                   c->own.items,    c->steps.items,         c->step_joints.items,    c};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&memory, all[i]);
 }
 

@@ -4,19 +4,13 @@
 #define OVOID_ROBOT_CELL_H
 
 #include "base/allocator.h"
+#include "robot/inner_balls.h"
 #include "robot/kinematics.h"
 #include "robot/oriented_box.h"
 #include "shape/block.h"
 
 /// 256 u: what rounding may do to a centre and a distance, in parts of the lengths that they are made of.
 #define CELL_SLACK ROBOT8_SLACK
-
-/// The ellipsoid inside a shape. Its norm is |W (x - c)| (shape/block.h).
-typedef struct cell_inner {
-    vec3 center;
-    sym3 form;   ///< W' W
-    double size; ///< the lengths that the centre is made of, summed
-} cell_inner;
 
 /// Something that moves with a link.
 typedef struct cell_item {
@@ -28,7 +22,7 @@ typedef struct cell_item {
     vec3 middle, half;  ///< the box of its vertices, in its own frame
     double radius;      ///< what it stands out of that, and what rounding may add to the box' place
     ovoid_pose in_link; ///< of its own frame
-    cell_inner inner;   ///< in its own frame
+    const shape_inside *inside;
     ovoid_robot_side side;
 } cell_item;
 
@@ -37,7 +31,8 @@ typedef struct cell_part {
     const ovoid_shape *shape;
     ovoid_pose pose;
     oriented_box box;
-    cell_inner inner; ///< in the world
+    inner_region inside; ///< in the world
+    double inside_size;  ///< the lengths that its centre is made of, summed
     ovoid_robot_side side;
 } cell_part;
 
@@ -87,6 +82,7 @@ struct ovoid_robot_cell {
     uint32_t *rigid;           ///< of each link: the topmost link that it never moves against
     // What follows from these.
     cell_array items, parts, boxes, pairs; ///< cell_item, sorted by link; cell_part, box8, item_pair
+    cell_array insides;                    ///< shape_inside, of items that are attached
     cell_array groups, group_pairs;        ///< cell_group, group_pair
     cell_array steps, step_joints;         ///< chain_step and its joint: those of the links that items hang on
     cell_array own;                        ///< chain_step: the frames beyond those of links, each one's

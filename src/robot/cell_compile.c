@@ -53,16 +53,6 @@ static void find_box(const ovoid_shape *s, vec3 *middle, vec3 *half) {
     *half = (vec3){(high[0] - low[0]) / 2, (high[1] - low[1]) / 2, (high[2] - low[2]) / 2};
 }
 
-// The ellipsoid inside a shape in the user's frame.
-static cell_inner make_inner(const ovoid_shape *s) {
-    const double *w = s->inside.w;
-    sym3 form = sym3_outer((vec3){w[0], 0, 0}, 1);
-    form = sym3_add(form, sym3_outer((vec3){w[1], w[2], 0}, 1));
-    form = sym3_add(form, sym3_outer((vec3){w[3], w[4], w[5]}, 1));
-    return (cell_inner){vec3_add(s->inner.center, s->origin), form,
-                        vec3_sum_abs(s->inner.center) + vec3_sum_abs(s->origin)};
-}
-
 static void add_item(compiler *x, const ovoid_shape *shape, placed_frame at, ovoid_robot_side side) {
     // The user's frame and the body frame differ by the shape's origin, without rotation.
     vec3 own = vec3_add(shape->center, shape->origin);
@@ -75,7 +65,6 @@ static void add_item(compiler *x, const ovoid_shape *shape, placed_frame at, ovo
                       .far = (local + reach) * (1 + CELL_SLACK),
                       .side = side};
     item.in_link = at.in_link;
-    item.inner = make_inner(shape);
     find_box(shape, &item.middle, &item.half);
     item.radius = shape->lower_radius + CELL_SLACK * (lengths + 2 * norm_of(item.middle));
     append(x, &x->cell->items, &item, sizeof item);
@@ -96,6 +85,34 @@ static void add_attached(compiler *x, uint32_t slot) {
     }
 }
 
+// What is inside of each item: an element's is the robot's, an attached body's the cell's.
+static void set_insides(compiler *x) {
+    ovoid_robot_cell *c = x->cell;
+    cell_item *items = c->items.items;
+    size_t attached = 0;
+    for (size_t i = 0; i < c->items.count; i++) attached += items[i].side.body != 0;
+    if (!x->has_memory || !cell_reserve(&c->allocator, &c->insides, attached, sizeof(shape_inside))) {
+        x->has_memory = 0;
+        return;
+    }
+    c->insides.count = attached;
+    ovoid_shape *point = attached ? shape_create_point(&c->allocator) : NULL;
+    if (attached && !point) {
+        x->has_memory = 0;
+        return;
+    }
+    shape_inside *next = c->insides.items;
+    for (size_t i = 0; i < c->items.count; i++) {
+        if (items[i].side.body == 0) {
+            items[i].inside = robot_get_inside(c->robot, items[i].side.element);
+            continue;
+        }
+        shape_inside_find(items[i].shape, point, next);
+        items[i].inside = next++;
+    }
+    ovoid_shape_destroy(point);
+}
+
 static int compare_items(const void *x, const void *y) {
     const ovoid_robot_side *a = &((const cell_item *)x)->side, *b = &((const cell_item *)y)->side;
     if (a->link != b->link) return a->link < b->link ? -1 : 1;
@@ -114,6 +131,7 @@ static void add_items(compiler *x) {
     for (uint32_t i = 0; x->has_memory && i < x->cell->bodies.count; i++)
         if (cell_bodies(x->cell)[i].is_used && cell_bodies(x->cell)[i].link != OVOID_ROBOT_NONE) add_attached(x, i);
     if (x->cell->items.count) qsort(x->cell->items.items, x->cell->items.count, sizeof(cell_item), compare_items);
+    set_insides(x);
 }
 
 // The sphere around the box around the items' spheres.
@@ -216,12 +234,6 @@ static oriented_box place_box(const ovoid_shape *shape, const ovoid_pose *pose) 
     return b;
 }
 
-static cell_inner place_inner(const ovoid_shape *shape, const mat3 *rotation, vec3 position) {
-    cell_inner own = make_inner(shape);
-    vec3 center = vec3_add(position, mat3_mul_vec3(*rotation, own.center));
-    return (cell_inner){center, sym3_rotate(own.form, *rotation), own.size + vec3_sum_abs(position)};
-}
-
 static void put_box(box8 *group, uint32_t lane, const oriented_box *b) {
     mat3 r = b->rotation;
     const double all[] = {b->center.x, b->center.y, b->center.z, r.r0.x, r.r0.y,    r.r0.z,    r.r1.x,    r.r1.y,
@@ -243,7 +255,9 @@ static void place_parts(ovoid_robot_cell *c, uint32_t first) {
             parts[i].pose = ovoid_pose_compute_product(&b->body.pose, &inner);
         }
         parts[i].box = place_box(parts[i].shape, &parts[i].pose);
-        parts[i].inner = place_inner(parts[i].shape, &parts[i].box.rotation, parts[i].pose.position);
+        inner_region own = inner_region_find(parts[i].shape);
+        parts[i].inside = inner_region_place(&own, &parts[i].box.rotation, parts[i].pose.position);
+        parts[i].inside_size = vec3_sum_abs(parts[i].pose.position) + vec3_sum_abs(own.center) + vec3_sum_abs(own.half);
         put_box(&boxes[i / ROBOT8], i % ROBOT8, &parts[i].box);
     }
 }
@@ -328,7 +342,7 @@ ovoid_code cell_compile(ovoid_robot_cell *c, ovoid_error *error) {
     c->version++;
     c->is_whole = 0;
     c->items.count = c->parts.count = c->boxes.count = c->pairs.count = c->groups.count = c->group_pairs.count = 0;
-    c->steps.count = c->step_joints.count = c->own.count = 0;
+    c->steps.count = c->step_joints.count = c->own.count = c->insides.count = 0;
     c->frame_count = c->robot->link_count;
     compiler x = {c, 1};
     add_items(&x);

@@ -18,7 +18,7 @@ static size_t advance(size_t *at, size_t count, size_t size) {
 // Where the arrays are in the block.
 typedef struct layout {
     size_t links, joints, elements, disabled, link_names, joint_names, parent_joint, order, joint_variable, variables,
-        leads, steps, step_of, value_first, sources, free_values, text, size;
+        leads, steps, step_of, value_first, sources, element_inside, free_values, text, size;
 } layout;
 
 static size_t text_size(const char *text) { return text ? strlen(text) + 1 : 0; }
@@ -65,6 +65,7 @@ static layout make_layout(const ovoid_robot_description *d) {
     l.value_first = advance(&l.size, d->joint_count, sizeof(uint32_t));
     l.sources = advance(&l.size, count_values(d), sizeof(value_source));
     l.free_values = advance(&l.size, d->joint_count, sizeof(uint32_t));
+    l.element_inside = advance(&l.size, d->element_count, sizeof(uint32_t));
     l.text = advance(&l.size, compute_text_size(d), 1);
     return l;
 }
@@ -141,6 +142,7 @@ static ovoid_robot *create_copy(const ovoid_robot_description *d, const ovoid_al
     r->value_first = (void *)(block + l.value_first);
     r->free_values = (void *)(block + l.free_values);
     r->sources = (void *)(block + l.sources);
+    r->element_inside = (void *)(block + l.element_inside);
     copy_items(r->links, d->links, d->link_count, sizeof *r->links);
     copy_items(r->joints, d->joints, d->joint_count, sizeof *r->joints);
     copy_items(r->elements, d->elements, d->element_count, sizeof *r->elements);
@@ -166,6 +168,36 @@ static ovoid_code sort_names(ovoid_robot *r, ovoid_error *error) {
     return OVOID_OK;
 }
 
+typedef struct shape_use {
+    const ovoid_shape *shape;
+    uint32_t element;
+} shape_use;
+
+static int compare_uses(const void *x, const void *y) {
+    uintptr_t a = (uintptr_t)((const shape_use *)x)->shape, b = (uintptr_t)((const shape_use *)y)->shape;
+    return (a > b) - (a < b);
+}
+
+// What is inside the shapes, each of which is looked at once.
+static ovoid_code find_insides(ovoid_robot *r, ovoid_error *error) {
+    uint32_t count = 0;
+    ovoid_shape *point = shape_create_point(&r->allocator);
+    shape_use *uses = allocator_allocate(&r->allocator, (size_t)r->element_count + 1, sizeof *uses);
+    for (uint32_t i = 0; uses && i < r->element_count; i++) uses[i] = (shape_use){r->elements[i].shape, i};
+    if (uses && r->element_count) qsort(uses, r->element_count, sizeof *uses, compare_uses);
+    for (uint32_t i = 0; uses && i < r->element_count; i++) {
+        count += i == 0 || uses[i].shape != uses[i - 1].shape;
+        r->element_inside[uses[i].element] = count - 1;
+    }
+    r->insides = uses && point ? allocator_allocate(&r->allocator, (size_t)count + 1, sizeof *r->insides) : NULL;
+    for (uint32_t i = 0; r->insides && i < r->element_count; i++)
+        if (i == 0 || uses[i].shape != uses[i - 1].shape)
+            shape_inside_find(uses[i].shape, point, &r->insides[r->element_inside[uses[i].element]]);
+    allocator_release(&r->allocator, uses);
+    ovoid_shape_destroy(point);
+    return r->insides ? OVOID_OK : error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a robot's shapes");
+}
+
 // What is worked out from the copy.
 static ovoid_code compile(ovoid_robot *r, ovoid_error *error) {
     ovoid_code code = sort_names(r, error);
@@ -175,8 +207,15 @@ static ovoid_code compile(ovoid_robot *r, ovoid_error *error) {
     if (!scratch) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a robot of %u links", r->link_count);
     code = tree_find_order(r, scratch, error);
     allocator_release(&r->allocator, scratch);
-    if (code == OVOID_OK) chain_compile(r);
-    return code;
+    if (code != OVOID_OK) return code;
+    chain_compile(r);
+    return find_insides(r, error);
+}
+
+static void release(ovoid_robot *r) {
+    ovoid_allocator memory = r->allocator;
+    allocator_release(&memory, r->insides);
+    allocator_release(&memory, r);
 }
 
 static ovoid_robot *create(const ovoid_robot_description *d, const ovoid_robot_options *options, ovoid_error *error) {
@@ -193,7 +232,7 @@ static ovoid_robot *create(const ovoid_robot_description *d, const ovoid_robot_o
         r->takes_shapes = options->takes_shapes;
         return r;
     }
-    allocator_release(&memory, r);
+    release(r);
     return NULL;
 }
 
@@ -215,14 +254,13 @@ void element_destroy_shape(const ovoid_robot_element *element) {
 
 void ovoid_robot_destroy(ovoid_robot *robot) {
     if (!robot) return;
-    ovoid_allocator memory = robot->allocator;
     if (robot->takes_shapes) {
         qsort(robot->elements, robot->element_count, sizeof *robot->elements, compare_shapes);
         for (uint32_t i = 0; i < robot->element_count; i++)
             if (i == 0 || robot->elements[i].shape != robot->elements[i - 1].shape)
                 element_destroy_shape(&robot->elements[i]);
     }
-    ENVIRONMENT_RUN(allocator_release(&memory, robot));
+    ENVIRONMENT_RUN(release(robot));
 }
 
 ovoid_robot_description ovoid_robot_get_description(const ovoid_robot *robot) { return robot->of; }

@@ -3,7 +3,7 @@
 #define OVOID_ROBOT_ROBOT_H
 
 #include "ovoid/robot.h"
-#include "simd/robot8.h"
+#include "robot/inner_balls.h"
 
 /// A name and the index of what has it.
 typedef struct robot_name {
@@ -48,7 +48,9 @@ struct ovoid_robot {
     uint32_t *free_values; ///< of each floating joint: where its quaternion begins among the values
     uint32_t free_count;   ///< floating joints
     uint32_t value_count;
-    double magnitude; ///< the largest that variables of limited joints can have, where errors grow with them
+    double magnitude;         ///< the largest that variables of limited joints can have, where errors grow with them
+    shape_inside *insides;    ///< of each shape once, in a block of its own
+    uint32_t *element_inside; ///< of each element: which
     int takes_shapes;
     ovoid_allocator allocator;
 };
@@ -67,6 +69,11 @@ ovoid_code tree_find_order(ovoid_robot *r, uint32_t *scratch, ovoid_error *error
 
 /// 1: errors grow with the variables of the joint: those that are lengths, and that which a mimic multiplies.
 static inline int lead_is_scaled(const joint_lead *lead) { return lead->lengths > 0 || lead->error > 0; }
+
+/// What is known to lie inside an element's shape.
+static inline const shape_inside *robot_get_inside(const ovoid_robot *r, uint32_t element) {
+    return &r->insides[r->element_inside[element]];
+}
 
 /// Sets leads, steps and frames.
 void chain_compile(ovoid_robot *r);

@@ -1,6 +1,7 @@
 // A link's convex parts in its own frame, in units of a power of two near its size, and the core's answers about how
 // far a point is from a part.
 #include "base/error.h"
+#include "robot/inner_balls.h"
 #include "robot/spheres.h"
 
 static double sum_sizes(vec3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
@@ -86,10 +87,9 @@ ovoid_code spheres_link_open(spheres_link *link, const ovoid_robot *robot, uint3
     if (link->part_count == 0)
         return error_set(error, OVOID_ERROR_EMPTY, (int64_t)index, "link \"%.80s\" has no collision geometry",
                          d.links[index].name);
-    static const double origin[3] = {0, 0, 0};
     link->parts = allocator_allocate(memory, link->part_count, sizeof *link->parts);
     link->points = allocator_allocate(memory, points, sizeof *link->points);
-    link->point = ovoid_shape_create_from_points(origin, 1, &(ovoid_shape_options){.allocator = memory}, NULL);
+    link->point = shape_create_point(memory);
     if (link->parts && link->points && link->point) {
         fill_parts(link, &d, index);
         return OVOID_OK;

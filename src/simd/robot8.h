@@ -53,6 +53,22 @@ typedef struct linked_box8 {
     double radius;
 } linked_box8;
 
+/// Balls that lie in a body, side by side: centres and radii. One of a radius below zero says that the body comes
+/// within its size of the centre. Fewer are repeated.
+enum { BALLS = 16, BALLS_CENTER = 0, BALLS_RADIUS = 3, BALLS_COLUMNS = 4 };
+typedef struct inner_balls {
+    _Alignas(64) double column[BALLS_COLUMNS][BALLS];
+} inner_balls;
+
+/// A region inside another body, in the world. A ball of radius r at c meets it where |max(|map (c - center)| - half,
+/// 0)| is below scale r + offset: a box' map is its rotation, an ellipsoid's one to the unit ball, its half zero.
+typedef struct inner_region {
+    mat3 map;
+    vec3 center, half;
+    double scale, offset;
+    double condition; ///< a centre that is off by e may change the norm by e times this and the scale
+} inner_region;
+
 /// Kernels of one instruction set.
 typedef struct robot8_kernels {
     /// All frames, from values[value][lane].
@@ -72,6 +88,14 @@ typedef struct robot8_kernels {
     unsigned (*near_spheres)(const sphere8 *a, const sphere8 *b, double margin);
     /// The same of two boxes: robot/oriented_box.h has the twin.
     unsigned (*near_linked_boxes)(const linked_box8 *a, const linked_box8 *b, double margin);
+    /// Balls of a frame in the world; their radii lose what rounding does to the centres.
+    void (*place_balls)(const mat3 *rotation, const double position[3], const inner_balls *local, inner_balls *world);
+    /// How far the balls, each enlarged by `more`, come into the region: the greatest limit^2 - norm^2, by the limit's
+    /// sign; above zero: one meets it.
+    double (*balls_in_region)(const inner_balls *balls, const inner_region *region, double more);
+    /// The greatest (r + s)^2 - distance^2, by the sum's sign, of a ball of the first body and all of the second's, r
+    /// and s their radii: of the first ball of which it is above zero, or of all balls that meet `around`.
+    double (*balls_in_balls)(const inner_balls *a, const inner_region *around, const inner_balls *b);
 } robot8_kernels;
 
 /// The kernels of the widest instruction set of this machine.

@@ -1,4 +1,5 @@
 // The kernels of robot8.h, written once over lanes. Every step has the operations of robot/kinematics.h in their order.
+#include "base/compiler.h"
 #include "simd/lanes.h"
 #include "simd/robot8.h"
 
@@ -254,4 +255,75 @@ LANES_TARGET static unsigned run_near_linked_boxes(const linked_box8 *a, const l
         bits |= lane_bits(lane_not(far)) << at;
     }
     return bits & ((1u << ROBOT8) - 1);
+}
+
+// ---- balls inside bodies
+
+LANES_INLINE lane9 spread9(const mat3 *m) { return (lane9){spread3(m->r0), spread3(m->r1), spread3(m->r2)}; }
+LANES_INLINE lane3 get_centers(const inner_balls *b, int at) {
+    return (lane3){get(b->column[0], at), get(b->column[1], at), get(b->column[2], at)};
+}
+
+LANES_TARGET static void run_place_balls(const mat3 *rotation, const double position[3], const inner_balls *local,
+                                         inner_balls *world) {
+    lane9 r = spread9(rotation);
+    lane3 p = {lane_set(position[0]), lane_set(position[1]), lane_set(position[2])};
+    for (int at = 0; at < BALLS; at += LANES) {
+        lane3 own = get_centers(local, at), c = lane3_add(p, lane9_mul3(r, own));
+        lane size = sum_abs(own) + sum_abs(p);
+        lane_store(world->column[0] + at, c.x);
+        lane_store(world->column[1] + at, c.y);
+        lane_store(world->column[2] + at, c.z);
+        lane_store(world->column[BALLS_RADIUS] + at,
+                   get(local->column[BALLS_RADIUS], at) - lane_set(ROBOT8_SLACK) * size);
+    }
+}
+
+LANES_INLINE double find_greatest(lane most) {
+    double all[8];
+    lane_store(all, most);
+    double greatest = all[0];
+    for (int i = 1; i < LANES; i++) greatest = all[i] > greatest ? all[i] : greatest;
+    return greatest;
+}
+
+// limit^2 - norm^2 of LANES balls, by the limit's sign.
+LANES_INLINE lane compute_depths(const inner_balls *balls, int at, const inner_region *g, lane more) {
+    lane zero = lane_set(0);
+    lane3 own = lane9_mul3(spread9(&g->map), lane3_sub(get_centers(balls, at), spread3(g->center)));
+    lane3 out = {lane_max(lane_abs(own.x) - lane_set(g->half.x), zero),
+                 lane_max(lane_abs(own.y) - lane_set(g->half.y), zero),
+                 lane_max(lane_abs(own.z) - lane_set(g->half.z), zero)};
+    lane limit = (get(balls->column[BALLS_RADIUS], at) + more) * lane_set(g->scale) + lane_set(g->offset);
+    return limit * lane_abs(limit) - lane3_dot(out, out);
+}
+
+LANES_TARGET static double run_balls_in_region(const inner_balls *balls, const inner_region *g, double more) {
+    lane most = lane_set(-INFINITY);
+    for (int at = 0; at < BALLS; at += LANES) most = lane_max(compute_depths(balls, at, g, lane_set(more)), most);
+    return find_greatest(most);
+}
+
+// Of one ball and all of another body.
+LANES_INLINE lane compute_ball_depth(const inner_balls *a, uint32_t k, const inner_balls *b) {
+    lane3 c = {lane_set(a->column[0][k]), lane_set(a->column[1][k]), lane_set(a->column[2][k])};
+    lane radius = lane_set(a->column[BALLS_RADIUS][k]), most = lane_set(-INFINITY);
+    for (int at = 0; at < BALLS; at += LANES) {
+        lane3 d = lane3_sub(get_centers(b, at), c);
+        lane limit = radius + get(b->column[BALLS_RADIUS], at);
+        most = lane_max(limit * lane_abs(limit) - lane3_dot(d, d), most);
+    }
+    return most;
+}
+
+LANES_TARGET static double run_balls_in_balls(const inner_balls *a, const inner_region *around, const inner_balls *b) {
+    lane zero = lane_set(0);
+    unsigned meeting = 0;
+    for (int at = 0; at < BALLS; at += LANES)
+        meeting |= lane_bits(lane_greater(compute_depths(a, at, around, zero), zero)) << at;
+    for (; meeting; meeting &= meeting - 1) {
+        lane most = compute_ball_depth(a, compiler_count_low_zeros(meeting), b);
+        if (lane_bits(lane_greater(most, zero))) return find_greatest(most);
+    }
+    return 0;
 }

@@ -5,8 +5,9 @@
 
 #include <stddef.h>
 
-static const robot8_kernels scalar = {run_chain,       run_place,        run_half_turns,       run_near_boxes,
-                                      run_near_boxes8, run_near_spheres, run_near_linked_boxes};
+static const robot8_kernels scalar = {run_chain,           run_place,         run_half_turns,        run_near_boxes,
+                                      run_near_boxes8,     run_near_spheres,  run_near_linked_boxes, run_place_balls,
+                                      run_balls_in_region, run_balls_in_balls};
 
 const robot8_kernels *robot8_get_kernels_of(simd_isa isa) {
     switch (isa) {
