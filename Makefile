@@ -90,8 +90,7 @@ docs: ## the manual, in build/docs/html
 
 site: ## the documentation as a site, in build/site, with the demo's scene live where Node.js and npm can build its page
 	@$(call build,site,ovoid_cli)
-	@scripts/demo.sh >/dev/null
-	@JOBS=$(JOBS) scripts/page.sh --template || echo "site: the live page is left out"
+	@scripts/demo.sh >build/demo.log 2>&1 && JOBS=$(JOBS) scripts/page.sh --template || echo "site: the live page is left out"
 	@scripts/site.sh
 
 install: all ## PREFIX=/usr/local DESTDIR=

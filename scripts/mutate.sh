@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard page python python_solid decompose_watch robot_watch"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard page report python python_solid decompose_watch robot_watch"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -53,6 +53,7 @@ tests_of() {
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;
     shard) echo "test_io_pairs test_cli_shard.sh" ;;
     page) echo "test_cli.sh:page test_page.sh" ;;
+    report) echo "test_cli.sh:paper" ;;
     robot_spheres) echo "test_robot_spheres" ;;
     python) echo "test_python_pair test_python_batch test_python_world test_python_motion test_python_robot test_python_prepared test_python_solid test_python_robot_paths" ;;
     python_solid) echo "test_python_solid_moving test_python_solid_parts test_python_solid test_python_trimesh_compat" ;;

@@ -20,7 +20,7 @@ packages_of() {
         python) packages_of build && echo python3 python3-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-hypothesis python3-matplotlib python3-nbconvert python3-ipykernel ;;
         cluster) packages_of python && echo parallel slurmctld slurmd slurm-client munge python3-distributed python3-mpi4py openmpi-bin ;;
         docs) echo cmake build-essential doxygen ;;
-        site) packages_of docs demo page && echo python3 python3-sphinx python3-myst-parser furo ;;
+        site) packages_of docs demo wasm && echo python3 python3-sphinx python3-myst-parser furo && { command -v npm >/dev/null || echo npm; } ;;
         *) echo "setup: no such job: $job" >&2 && return 1 ;;
         esac
     done | tr ' ' '\n' | sort -u | tr '\n' ' '

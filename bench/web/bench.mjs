@@ -43,10 +43,22 @@ async function openRapier() {
   };
 }
 
+// What registers Jolt's kinds of shapes: a world, which is not used.
+function startJolt(jolt) {
+  const settings = new jolt.JoltSettings(), pairs = new jolt.ObjectLayerPairFilterTable(1), layers = new jolt.BroadPhaseLayerInterfaceTable(1, 1);
+  layers.MapObjectToBroadPhaseLayer(0, new jolt.BroadPhaseLayer(0));
+  settings.mObjectLayerPairFilter = pairs;
+  settings.mBroadPhaseLayerInterface = layers;
+  settings.mObjectVsBroadPhaseLayerFilter = new jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 1, pairs, 1);
+  return new jolt.JoltInterface(settings);
+}
+
 /** Jolt: single precision, the deepest hit of two shapes within a separation, its depth negative where they are apart. */
 async function openJolt() {
   const { default: init } = await import(pathToFileURL(require.resolve('jolt-physics')));
-  const jolt = await init(), zero = new jolt.RVec3(0, 0, 0), one = new jolt.Vec3(1, 1, 1), filter = new jolt.ShapeFilter(), none = new jolt.BodyID();
+  const jolt = await init();
+  startJolt(jolt);
+  const zero = new jolt.RVec3(0, 0, 0), one = new jolt.Vec3(1, 1, 1), filter = new jolt.ShapeFilter();
   return ({ points }) => {
     const shapes = points.map((list) => {
       const settings = new jolt.ConvexHullShapeSettings();
@@ -54,8 +66,13 @@ async function openJolt() {
       for (const [x, y, z] of list) settings.mPoints.push_back(new jolt.Vec3(x, y, z));
       return settings.Create().Get();
     });
-    const centers = shapes.map((shape) => [shape.GetCenterOfMass()].map((c) => [c.GetX(), c.GetY(), c.GetZ()])[0]);
-    const still = shapes.map((shape, i) => new jolt.TransformedShape(new jolt.RVec3(...centers[i]), new jolt.Quat(0, 0, 0, 1), shape, none));
+    const centers = shapes.map((shape) => ['GetX', 'GetY', 'GetZ'].map((name) => shape.GetCenterOfMass()[name]()));
+    const still = shapes.map((shape, i) => {
+      const body = new jolt.TransformedShape();
+      Object.assign(body, { mShape: shape, mShapePositionCOM: new jolt.RVec3(...centers[i]), mShapeRotation: new jolt.Quat(0, 0, 0, 1) });
+      body.SetShapeScale(one);
+      return body;
+    });
     const settings = new jolt.CollideShapeSettings(), collector = new jolt.CollideShapeClosestHitCollisionCollector();
     const position = new jolt.RVec3(0, 0, 0), rotation = new jolt.Quat(0, 0, 0, 1);
     const ask = ({ a, b, pose: { xyz: [x, y, z], quat_wxyz: [w, i, j, k] } }, separation) => {

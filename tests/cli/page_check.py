@@ -73,12 +73,13 @@ def lines(*args):
 
 
 def is_dent(kind, mesh):
-    """Whether the arrays are 20 triangles that enclose 3."""
+    """Whether the arrays are 20 triangles that enclose 3, that of the first corners first."""
     points, triangles = numbers(kind, mesh["points"]), numbers("I", mesh["triangles"])
     at = [points[3 * i:3 * i + 3] for i in triangles]
     volume = sum(p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0])
                  for p, q, r in zip(at[0::3], at[1::3], at[2::3])) / 6
-    return len(points) == 36 and len(triangles) == 60 and abs(volume - 3) < 1e-6
+    is_first = [list(p) for p in at[:3]] == [[0, 0, 0], [2, 0, 0], [2, 0, 1]]
+    return len(points) == 36 and len(triangles) == 60 and is_first and abs(volume - 3) < 1e-6
 
 
 def check_scene():

@@ -116,7 +116,7 @@ export function bindBodies(core) {
 
   // And beside its proof.
   function completeProof(proof, { kinds, n, bytes, cover, lower }) {
-    if (cover) proof.cover = cover;
+    if (cover) proof.cover = cover();
     if (bytes.length) proof.exclusions = readExclusions(bytes);
     if (!kinds.includes(2)) return;
     proof.surfaces = { status: names.status[n[8]], limit: names.limit[n[9]], lower: n[10], upper: n[11] };

@@ -153,15 +153,16 @@ function bindShapes(core) {
 
 // ---- queries
 
+// The cover of the last depth, copied; as an object when that is asked for. undefined: there is none.
 function readCover(core) {
-  const { memory, calls } = core, at = calls.get_cover(), buffer = memory.exports.memory.buffer;
-  const [points, triangles] = new Uint32Array(buffer, at, 2);
+  const { memory, calls } = core, at = calls.get_cover(), [points, triangles] = new Uint32Array(memory.exports.memory.buffer, at, 2);
   if (!points) return undefined;
-  const ends = new Uint32Array(buffer, at + 8, 2 * COVER_POINTS), corners = new Uint16Array(buffer, at + 8 + 8 * COVER_POINTS, 3 * triangles);
-  return {
-    pairs: Array.from({ length: points }, (_, i) => [ends[i], ends[COVER_POINTS + i]]),
+  const a = memory.take(Uint32Array, at + 8, points), b = memory.take(Uint32Array, at + 8 + 4 * COVER_POINTS, points);
+  const corners = memory.take(Uint16Array, at + 8 + 8 * COVER_POINTS, 3 * triangles);
+  return () => ({
+    pairs: Array.from(a, (end, i) => [end, b[i]]),
     triangles: Array.from({ length: triangles }, (_, i) => [...corners.subarray(3 * i, 3 * i + 3)]),
-  };
+  });
 }
 
 function writeCover(core, cover) {
@@ -204,7 +205,7 @@ function bindQueries(core, bodies) {
     if (!arePlain) return bodies.query(kind, a, b, earlier, () => readCover(core));
     calls.query(kind, a.address, b.address, earlier ? 1 : 0);
     const n = memory.get(ANSWER + PROOF), cover = kind === 3 ? readCover(core) : undefined;
-    return new Answer(n, names, cover && ((proof) => (proof.cover = cover)));
+    return new Answer(n, names, cover && ((proof) => (proof.cover = cover())));
   }
 
   function check(a, poseA, b, poseB, answer) {

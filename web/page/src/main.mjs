@@ -61,7 +61,10 @@ class Page {
     this.view.choose(this.#chosen(), this.isIsolated);
     this.view.showAnswer(pair?.answer);
     this.timeline?.show(pair);
-    if (pair) this.fly();
+    if (!pair) return;
+    this.fly();
+    // On a phone what is known of the pair is below the list.
+    if (matchMedia('(max-width: 45rem)').matches) $('details').scrollIntoView({ behavior: 'smooth', block: 'nearest' });
   }
 
   chooseBody(body) {
@@ -77,7 +80,7 @@ class Page {
   /** The camera to the witness points, across the normal. */
   fly() {
     const { chosen } = this.panel;
-    if (!chosen?.answer.point_a) return this.chosenBody && this.view.fit({ center: this.chosenBody.pose.xyz, radius: this.chosenBody.radius });
+    if (!chosen?.answer.point_a) return this.chosenBody && this.view.fit({ center: this.chosenBody.center, radius: this.chosenBody.radius });
     const { point_a: p, point_b: q, upper } = chosen.answer, least = Math.min(chosen.a.radius, chosen.b.radius);
     this.view.fit({ center: p.map((x, k) => (x + q[k]) / 2), radius: Math.max(0.6 * least, 1.2 * Math.abs(upper)) });
   }

@@ -15,12 +15,18 @@ class Body {
     // The triangles of its one shape are the body, not their hull.
     this.isSolid = given.solid === true;
     this.isShape = given.parts.length === 1 && !given.parts[0].pose;
-    this.radius = Math.max(0, ...this.parts.map((p) => Math.hypot(...p.pose.xyz) + p.shape.reach));
+    const { middle, radius } = makeBall(this.parts.map(({ pose, shape }) => ({ middle: move(pose, shape.ball.middle), radius: shape.ball.radius })));
+    Object.assign(this, { middle, radius });
     this.#model = model;
   }
 
   #model;
   #asked;
+
+  /** The middle of the ball around it, where it is now. */
+  get center() {
+    return move(this.pose, this.middle);
+  }
 
   /** What the library is asked about, made when it first is; null: the page has not got it. */
   get asked() {
@@ -35,10 +41,30 @@ class Body {
   }
 }
 
-function reachOf(points) {
+// The ball around a box of balls { middle, radius }, about the box's middle.
+function makeBall(balls) {
+  const [low, high] = [-1, 1].map((sign) => [0, 1, 2].map((k) => sign * balls.reduce((most, b) => Math.max(most, sign * b.middle[k] + b.radius), -Infinity)));
+  const middle = low.map((x, k) => (x + high[k]) / 2);
+  return { middle, radius: balls.reduce((most, b) => Math.max(most, Math.hypot(...b.middle.map((x, k) => x - middle[k])) + b.radius), 0) };
+}
+
+// The ball around points, about the middle of their box.
+function makeBallOfPoints(points) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < points.length; i++) {
+    low[i % 3] = Math.min(low[i % 3], points[i]);
+    high[i % 3] = Math.max(high[i % 3], points[i]);
+  }
+  const middle = low.map((x, k) => (x + high[k]) / 2);
   let most = 0;
-  for (let i = 0; i < points.length; i += 3) most = Math.max(most, points[i] ** 2 + points[i + 1] ** 2 + points[i + 2] ** 2);
-  return Math.sqrt(most);
+  for (let i = 0; i < points.length; i += 3) most = Math.max(most, (points[i] - middle[0]) ** 2 + (points[i + 1] - middle[1]) ** 2 + (points[i + 2] - middle[2]) ** 2);
+  return { middle, radius: Math.sqrt(most) };
+}
+
+// Where a pose moves a point.
+function move({ xyz, quat_wxyz: [w, x, y, z] }, [a, b, c]) {
+  const s = 2 / (w * w + x * x + y * y + z * z), u = y * c - z * b, v = z * a - x * c, t = x * b - y * a;
+  return [xyz[0] + a + s * (w * u + y * t - z * v), xyz[1] + b + s * (w * v + z * u - x * t), xyz[2] + c + s * (w * t + x * v - y * u)];
 }
 
 /** A shape of the page, with what is drawn of it; a mesh that counts with its dents is a solid of the library. */
@@ -49,11 +75,12 @@ class PageShape {
   constructor(ovoid, { bytes, mesh, solid, areas }) {
     this.#ovoid = ovoid;
     this.shape = ovoid.Shape.fromBytes(bytes);
-    const { radius, origin, outer, inner, rank } = this.shape.description, move = (e) => ({ ...e, center: e.center.map((x, i) => x + origin[i]) });
+    const { radius, origin, outer, inner, rank } = this.shape.description, shift = (e) => ({ ...e, center: e.center.map((x, i) => x + origin[i]) });
     this.vertices = this.shape.vertices;
     for (let i = 0; i < this.vertices.length; i++) this.vertices[i] += origin[i % 3];
-    Object.assign(this, { rank, radius, triangles: this.shape.triangles, outer: move(outer), inner: move(inner), mesh: mesh ?? solid, triangulation: solid, areas });
-    this.reach = reachOf(this.vertices) + radius;
+    Object.assign(this, { rank, radius, triangles: this.shape.triangles, outer: shift(outer), inner: shift(inner), mesh: mesh ?? solid, triangulation: solid, areas });
+    const ball = makeBallOfPoints(this.vertices);
+    this.ball = { middle: ball.middle, radius: ball.radius + radius };
   }
 
   /** Made when it is first asked about; null: the page has not got its triangles. */
@@ -80,14 +107,9 @@ export class Model {
 
   /** The ball around all bodies. */
   get ball() {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (const { pose, radius } of this.bodies)
-      for (let k = 0; k < 3; k++) {
-        low[k] = Math.min(low[k], pose.xyz[k] - radius);
-        high[k] = Math.max(high[k], pose.xyz[k] + radius);
-      }
     if (!this.bodies.length) return { center: [0, 0, 0], radius: 1 };
-    return { center: low.map((x, k) => (x + high[k]) / 2), radius: Math.max(1e-12, Math.hypot(...low.map((x, k) => high[k] - x)) / 2) };
+    const { middle, radius } = makeBall(this.bodies.map((body) => ({ middle: body.center, radius: body.radius })));
+    return { center: middle, radius: Math.max(1e-12, radius) };
   }
 
   /** The answer for where both bodies are now; null: the page has not got them. */

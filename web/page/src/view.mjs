@@ -273,7 +273,7 @@ export class View {
   // Of each body how many pixels its ball is wide.
   #measureSizes() {
     const { camera } = this, scale = (this.canvas.clientHeight || 1) / Math.tan((camera.fov * Math.PI) / 360), at = new Vector3();
-    return Float64Array.from(this.model.bodies, ({ pose, radius }) => (scale * radius) / Math.max(at.set(...pose.xyz).distanceTo(camera.position), 1e-9));
+    return Float64Array.from(this.model.bodies, ({ center, radius }) => (scale * radius) / Math.max(at.set(...center).distanceTo(camera.position), 1e-9));
   }
 
   // How many triangles a millisecond are drawn, known when the picture is there.
