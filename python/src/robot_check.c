@@ -311,7 +311,7 @@ PyMethodDef cell_queries[] = {
      "Error, place its number."},
     {"check_path", METHOD_KEYWORDS(check_path), METH_VARARGS | METH_KEYWORDS,
      "check_path(states, *, " CHECK_SIGNATURE ", tolerance=0, most_states=0, any_hit=False)\n--\n\nIs the path through "
-                                              "states (n, variables), linear in between, free at all "
+     "states (n, variables), linear in between, free at all "
      "times? A RobotPath with its proof,\nwhich check() checks. tolerance: of hit_at - free_until, 0: 2**-20; "
      "most_states: looked at, 0: 100 000. any_hit: the search ends with any hit, which need not be the first."},
     {NULL, NULL, 0, NULL}};
