@@ -6,7 +6,7 @@ PYTHON_FOLDER ?= build/python
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 BUILD := build/release
 
-.PHONY: all help demo check python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs install deb deb-root format lint clean
+.PHONY: all help demo check python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs site install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -87,6 +87,11 @@ fuzz: ## each fuzz target for SECONDS=60; goes on from what it found before
 docs: ## the manual, in build/docs/html
 	@scripts/setup.sh docs
 	@scripts/docs.sh
+
+site: ## the documentation as a site, in build/site, with the demo's scene live where Node.js and npm can build its page
+	@$(call build,site,ovoid_cli)
+	@scripts/demo.sh >build/demo.log 2>&1 && JOBS=$(JOBS) scripts/page.sh --template || echo "site: the live page is left out"
+	@scripts/site.sh
 
 install: all ## PREFIX=/usr/local DESTDIR=
 	@DESTDIR=$(DESTDIR) cmake --install $(BUILD) --prefix $(PREFIX)

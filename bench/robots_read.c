@@ -223,7 +223,7 @@ int machine_make_snake(machine *m, uint32_t links) {
         (void)snprintf(names[1][i], sizeof names[1][i], "joint%u", i);
         link[i].name = names[0][i];
         // Each takes its own, as the robot frees them.
-        element[i] = (ovoid_robot_element){i, NULL, ovoid_shape_create_capsule(0.03, 0.05, NULL, NULL), middle};
+        element[i] = (ovoid_robot_element){i, NULL, ovoid_shape_create_capsule(0.03, 0.05, NULL, NULL), middle, NULL};
         if (i == 0) continue;
         pair[i - 1] = (ovoid_robot_pair){i - 1, i, "Adjacent"};
         joint[i - 1] = (ovoid_robot_joint){.name = names[1][i],

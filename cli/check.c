@@ -234,14 +234,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code >= 0) return code;
     check c = {.settings = &s, .path = paths.items[0]};
     if (page_open(&c.page, s.html)) return EXIT_INPUT;
-    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull || s.html);
+    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
     if (!scene) return page_close(&c.page), EXIT_INPUT;
-    if (s.html && inputs_get_fields(scene)) {
-        message_error("%s: a page shows no solids: leave \"solid\": true out", paths.items[0]);
-        page_close(&c.page);
-        ovoid_scene_destroy(scene);
-        return EXIT_INPUT;
-    }
     inputs_warn_scene(scene);
     c.scene = scene;
     c.poses = inputs_copy_poses(scene);

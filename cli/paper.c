@@ -98,7 +98,7 @@ const cli_command command_paper = {
         "Areas Splitting\" (Su, Liu, Chen): the models, the time of each step, facial areas against checking all "
         "faces, the soundness of its rules, false alarms and misses, the bracket, the three phases, bodies that "
         "are deformed or divided, an arm of links. Writes CSV files, SVG figures and report.html, a page that "
-        "holds all of them. Takes some seconds, in proportion to --frames.",
+        "holds all of them, which of the paper's claims hold first. Takes some seconds, in proportion to --frames.",
     .exits = "0 written\n"
              "2 the command line is wrong\n"
              "3 the folder or a file could not be written",

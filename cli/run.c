@@ -265,14 +265,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code >= 0) return code;
     run_state r = {.settings = &s};
     if (page_open(&r.page, s.html)) return EXIT_INPUT;
-    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull || s.html);
+    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
     if (!scene) return page_close(&r.page), EXIT_INPUT;
-    if (s.html && inputs_get_fields(scene)) {
-        message_error("%s: a page shows no solids: leave \"solid\": true out", paths.items[0]);
-        page_close(&r.page);
-        ovoid_scene_destroy(scene);
-        return EXIT_INPUT;
-    }
     inputs_warn_scene(scene);
     r.scene = scene;
     code = s.part.count ? run_shard(&r, command, &paths) : run_motion(&r, paths.items[0]);

@@ -253,7 +253,7 @@ static int write_page(cli_page *page, drawing *d, const settings *s, const ovoid
 }
 
 static int draw_scene(const settings *s, const char *path, cli_page *page) {
-    ovoid_scene *scene = inputs_read_scene(path, 1);
+    ovoid_scene *scene = inputs_read_scene(path, 0);
     if (!scene) return EXIT_INPUT;
     size_t count = ovoid_scene_get_count(scene), drawn = 0;
     for (size_t i = 0; i < count; i++) drawn += count_parts(ovoid_scene_get(scene, i).compound);
@@ -297,7 +297,7 @@ static int draw_bodies(const settings *s, const cli_operands *paths, cli_page *p
         ovoid_scene_object object = {.mesh = paths->items[i], .read = inputs_make_options(&s->read)};
         object.read.parts = s->parts;
         add_body(&d, get_base(paths->items[i]), &body);
-        listed[i] = (page_body){get_base(paths->items[i]), body, paths->items[i], object.read};
+        listed[i] = (page_body){get_base(paths->items[i]), body, NULL, paths->items[i], object.read};
         if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &object);
     }
     if (!code) code = draw(&d, s, NULL);

@@ -22,7 +22,7 @@ int main(void) {
     const ovoid_robot_link links[] = {{"base"}, {"upper"}, {"lower"}};
     const ovoid_robot_joint joints[] = {make_hinge("shoulder", BASE, UPPER, (ovoid_vec3){0, 0, 0}),
                                         make_hinge("elbow", UPPER, LOWER, (ovoid_vec3){1, 0, 0})};
-    const ovoid_robot_element elements[] = {{UPPER, NULL, rod, middle}, {LOWER, NULL, rod, middle}};
+    const ovoid_robot_element elements[] = {{UPPER, NULL, rod, middle, NULL}, {LOWER, NULL, rod, middle, NULL}};
     const ovoid_robot_pair touching[] = {{UPPER, LOWER, "neighbours"}};
     const ovoid_robot_description arm = {"arm", links, 3, joints, 2, elements, 2, touching, 1};
 

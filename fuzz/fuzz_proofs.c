@@ -17,7 +17,7 @@ static void make_cell(void) {
     static const ovoid_robot_link links[2] = {{"base"}, {"arm"}};
     static const ovoid_robot_joint joint = {
         "hinge", OVOID_JOINT_REVOLUTE, 0, 1, {{0, 0, 0}, {1, 0, 0, 0}}, {0, 0, 1}, -3, 3, 0, OVOID_ROBOT_NONE, 1, 0};
-    const ovoid_robot_element element = {1, NULL, ball, {{1, 0, 0}, {1, 0, 0, 0}}};
+    const ovoid_robot_element element = {1, NULL, ball, {{1, 0, 0}, {1, 0, 0, 0}}, NULL};
     const ovoid_robot_description d = {
         .links = links, .link_count = 2, .joints = &joint, .joint_count = 1, .elements = &element, .element_count = 1};
     ovoid_robot *robot = ovoid_robot_create(&d, NULL, NULL);

@@ -1,9 +1,11 @@
 // Two bodies, a solid of up to 24 triangles over up to 12 points, and another, a shape or a compound of it. Truth: the
 // exact judge (not of compounds), and the check without search, of each answer; brackets of one distance have a point
 // in common; a winding number is the same again, and none is given of what is not closed; where a surface meets itself
-// does not depend on how much is asked for.
+// does not depend on how much is asked for. Of two that move: the check of their impact, and the bodies at sampled
+// times.
 #include "ask.h"
 #include "bodies.h"
+#include "meshes.h"
 
 #ifdef OVOID_HAVE_JUDGE
 #include <judge.h>
@@ -24,27 +26,11 @@ static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answ
 }
 #endif
 
-enum { POINTS = 12, TRIANGLES = 24, ITEMS = 2048 };
+enum { ITEMS = 2048, STEPS = 8192, GROUPS = 1024 };
 
-static ovoid_solid *take_triangles(fuzz_bytes *from) {
-    double xyz[3 * POINTS];
-    uint32_t indices[3 * TRIANGLES] = {0};
-    size_t points = 1 + (size_t)(take_byte(from) & 0xff) % POINTS,
-           count = (size_t)(take_byte(from) & 0xff) % (TRIANGLES + 1);
-    for (size_t i = 0; i < 3 * points; i++) xyz[i] = take_double(from);
-    for (size_t i = 0; i < 3 * count; i++)
-        indices[i] = (uint32_t)(take_byte(from) & 0xff) % (uint32_t)(points + (i == 71));
-    // The other side of each, so that it is closed.
-    int is_doubled = take_byte(from) & 1;
-    for (size_t i = 0; is_doubled && i < count / 2; i++) {
-        const uint32_t *t = indices + 3 * i;
-        uint32_t *back = indices + 3 * (count / 2 + i);
-        back[0] = t[0], back[1] = t[2], back[2] = t[1];
-    }
-    ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_solid *s =
-        ovoid_solid_create_from_triangles(xyz, points, indices, is_doubled ? count / 2 * 2 : count, NULL, &error);
-    if (!s) fuzz_require_error(&error);
+static ovoid_solid *take_solid(fuzz_bytes *from) {
+    fuzz_triangles m = take_triangles(from);
+    ovoid_solid *s = fuzz_make_solid(&m);
     if (!s) return NULL;
     ovoid_solid_report r = ovoid_solid_get_report(s);
     int64_t winding = 0, again = 0;
@@ -101,17 +87,63 @@ static void ask(findings *f, double margin, const ovoid_compound_proof *earlier,
     check(f, &x, &all);
 }
 
+// ---- motions
+
+static ovoid_moving_body take_moving(fuzz_bytes *from, const ovoid_body *body, int is_wild) {
+    ovoid_vec3 linear = take_vector(from, is_wild), angular = take_vector(from, is_wild);
+    double duration = fabs(take_number(from, is_wild)) / 4;
+    return (ovoid_moving_body){.shape = body->shape,
+                               .compound = body->compound,
+                               .motion = ovoid_motion_make_velocity(body->pose, linear, angular, duration),
+                               .solid = body->solid};
+}
+
+// The largest coordinate on the way: poses are off by far less than a millionth of it.
+static double find_size(const ovoid_moving_body *a, const ovoid_moving_body *b, double end) {
+    double size = 0;
+    ovoid_box box[2] = {ovoid_moving_body_compute_box(a, 0, end), ovoid_moving_body_compute_box(b, 0, end)};
+    for (int i = 0; i < 2; i++) {
+        const double side[6] = {box[i].min.x, box[i].min.y, box[i].min.z, box[i].max.x, box[i].max.y, box[i].max.z};
+        for (int k = 0; k < 6; k++) size = fmax(size, fabs(side[k]));
+    }
+    return size;
+}
+
+static void ask_impact(fuzz_bytes *from, const ovoid_body_pair *pair, double margin, int is_wild) {
+    static ovoid_step steps[STEPS];
+    static ovoid_step_group groups[GROUPS];
+    ovoid_moving_body a = take_moving(from, &pair->a, is_wild), b = take_moving(from, &pair->b, is_wild);
+    const ovoid_motion_options options = {
+        .iterations = 100, .steps = steps, .capacity = STEPS, .groups = groups, .group_capacity = GROUPS};
+    ovoid_compound_impact x = ovoid_solid_impact_find(&a, &b, margin, &options);
+    const ovoid_impact *is = &x.impact;
+    ovoid_error error = {OVOID_OK, -1, ""};
+    fuzz_require(!(is->free_until > is->hit_at));
+    if (is->step_count > STEPS || x.group_count > GROUPS) return;
+    fuzz_require_code(ovoid_solid_impact_check(&a, &b, margin, &x, steps, groups, &error), &error);
+    if (is_wild || is->limit >= OVOID_LIMIT_POSE_A) return;
+    double slack = 1e-6 * find_size(&a, &b, is->end);
+    for (int i = 0; i < 4; i++) {
+        double time = is->begin + i / 4.0 * (is->free_until - is->begin);
+        if (!(time < is->free_until)) return;
+        ovoid_body_pair at = *pair;
+        at.a.pose = ovoid_motion_compute_pose(&a.motion, time);
+        at.b.pose = ovoid_motion_compute_pose(&b.motion, time);
+        fuzz_require(ovoid_solid_within(&at, margin, NULL, NULL, NULL).upper > margin - slack);
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_bytes from = {data, size};
     int is_wild = take_byte(&from) > 96;
-    ovoid_solid *a = take_triangles(&from), *b = NULL;
+    ovoid_solid *a = take_solid(&from), *b = NULL;
     ovoid_shape *shape = NULL;
     ovoid_compound *compound = NULL;
     unsigned kind = (unsigned)take_byte(&from) & 3;
     if (kind)
         shape = take_any_shape(&from, is_wild);
     else
-        b = take_triangles(&from);
+        b = take_solid(&from);
     if (kind == 2 && shape) compound = take_compound(&from, shape, is_wild);
     if (a && (b || compound || (shape && kind != 2))) {
         ovoid_body_pair pair = {{.solid = a, .pose = take_any_pose(&from, is_wild)},
@@ -126,6 +158,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         findings f = {&pair, -INFINITY, INFINITY};
         ask(&f, margin, NULL, ITEMS);
         ask(&f, margin, &earlier, (size_t)(take_byte(&from) & 3));
+        ask_impact(&from, &pair, margin, is_wild);
     }
     ovoid_solid_destroy(a);
     ovoid_solid_destroy(b);

@@ -56,11 +56,19 @@ ovoid verify motion.jsonl scene.json --hull --motion motion.csv
 title "View: the scene, its ellipsoids and witness points"
 ovoid view scene.json -o scene.svg && echo "scene.svg: $(wc -c <scene.svg) bytes"
 
+page=
+if [ -f "$root/build/release/page.html" ]; then
+    title "Page: the same for the browser, with the proofs to be checked there"
+    OVOID_PAGE=$root/build/release/page.html ovoid check scene.json --margin 0.5 --html demo.html >/dev/null 2>&1
+    page="
+the page              $demo/demo.html"
+fi
+
 title "Look"
 cat <<END
 the picture           $demo/scene.svg
 the motion's plot     $demo/motion.svg
 the scene             $demo/scene.json (change a pose, then: $tool check $demo/scene.json)
-the proofs            $demo/results.jsonl
+the proofs            $demo/results.jsonl$page
 the tool              $tool --help
 END

@@ -1,5 +1,5 @@
 #!/bin/sh
-# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, deb, deb-root, demo, bench, fuzz, ports, wasm, page, python, cluster or docs.
+# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, deb, deb-root, demo, bench, fuzz, ports, wasm, page, python, cluster, docs or site.
 # Nothing missing: nothing is called. Nowhere to install from or no right to: a sentence that names the packages.
 set -eu
 
@@ -8,7 +8,7 @@ packages_of() {
     for job in "$@"; do
         case $job in
         build) echo build-essential cmake pkgconf libjansson-dev libassimp-dev libexpat1-dev libyaml-dev libgmp-dev ;;
-        check) packages_of build deb python page && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel ;;
+        check) packages_of build deb python page site && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel ;;
         deb) packages_of build && echo dpkg-dev lintian ;;
         deb-root) packages_of deb && echo debootstrap ;;
         demo) packages_of build && echo libcgal-demo ;;
@@ -20,6 +20,7 @@ packages_of() {
         python) packages_of build && echo python3 python3-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-hypothesis python3-matplotlib python3-nbconvert python3-ipykernel ;;
         cluster) packages_of python && echo parallel slurmctld slurmd slurm-client munge python3-distributed python3-mpi4py openmpi-bin ;;
         docs) echo cmake build-essential doxygen ;;
+        site) packages_of docs demo wasm && echo python3 python3-sphinx python3-myst-parser furo && { command -v npm >/dev/null || echo npm; } ;;
         *) echo "setup: no such job: $job" >&2 && return 1 ;;
         esac
     done | tr ' ' '\n' | sort -u | tr '\n' ' '

@@ -18,6 +18,7 @@ page_body *page_bodies_list(const ovoid_scene *scene) {
         ovoid_scene_object o = ovoid_scene_get(scene, i);
         bodies[i] = (page_body){.name = o.name,
                                 .body = {.shape = o.shape, .compound = o.compound, .pose = o.pose},
+                                .solid = o.solid,
                                 .mesh = o.mesh,
                                 .read = o.read};
     }
@@ -80,7 +81,8 @@ static int add_shapes(cli_page *page, page_shapes *shapes, const page_body *bodi
     int code = 0;
     for (size_t i = 0; i < c->count && !code; i++) {
         const page_body *b = &bodies[c->near[i]];
-        code = page_shapes_add_mesh(shapes, page, &b->body, b->mesh, &b->read);
+        code = b->solid ? page_shapes_add_solid(shapes, page, b->body.shape, b->solid)
+                        : page_shapes_add_mesh(shapes, page, &b->body, b->mesh, &b->read);
     }
     return code;
 }
@@ -118,7 +120,7 @@ static int write_body(FILE *file, page_shapes *shapes, const page_body *b) {
         fputs(i ? "," : ",\"parts\":[", file);
         done = write_part(file, shapes, &part);
     }
-    fputs("]}", file);
+    fputs(b->solid ? "],\"solid\":true}" : "]}", file);
     return done;
 }
 

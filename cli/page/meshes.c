@@ -76,6 +76,22 @@ static int keep(page_shapes *shapes, cli_page *page, const ovoid_mesh *mesh, siz
     return message_error("out of memory"), EXIT_INPUT;
 }
 
+int page_shapes_add_solid(page_shapes *shapes, cli_page *page, const ovoid_shape *hull, const ovoid_solid *solid) {
+    size_t number;
+    if (!page_shapes_add(shapes, hull, &number)) return message_error("out of memory"), EXIT_INPUT;
+    if (shapes->seen[number] & PAGE_SEEN_SOLID) return 0;
+    shapes->seen[number] |= PAGE_SEEN_SOLID;
+    ovoid_solid_report report = ovoid_solid_get_report(solid);
+    size_t bytes = 24 * (size_t)report.points + 12 * (size_t)report.triangles;
+    if (shapes->mesh_bytes + bytes > BYTES_MOST) {
+        page->left_out.meshes++;
+        return 0;
+    }
+    shapes->mesh_bytes += bytes;
+    shapes->meshes[number].solid = solid;
+    return 0;
+}
+
 /// Part i of a body.
 static const ovoid_shape *get_part(const ovoid_body *body, size_t i) {
     return body->shape ? body->shape : ovoid_compound_get_part(body->compound, i).shape;
@@ -89,8 +105,8 @@ int page_shapes_add_mesh(page_shapes *shapes, cli_page *page, const ovoid_body *
     if (!path || ovoid_path_is_shape(path) || strcmp(path, "-") == 0) return 0;
     // Bodies of one geometry share their shapes.
     if (!page_shapes_add(shapes, get_part(body, 0), &number)) return message_error("out of memory"), EXIT_INPUT;
-    if (shapes->is_seen[number]) return 0;
-    shapes->is_seen[number] = 1;
+    if (shapes->seen[number] & PAGE_SEEN_MESH) return 0;
+    shapes->seen[number] |= PAGE_SEEN_MESH;
     ovoid_mesh *mesh = ovoid_mesh_read(path, read, &error);
     if (!mesh) return message_error("%s", error.message), EXIT_INPUT;
     int code = 0;

@@ -25,10 +25,10 @@ static int grow(page_shapes *s) {
     if (items) s->items = items;
     page_mesh *meshes = realloc(s->meshes, capacity * sizeof *meshes);
     if (meshes) s->meshes = meshes;
-    unsigned char *is_seen = realloc(s->is_seen, capacity);
-    if (is_seen) s->is_seen = is_seen;
+    unsigned char *seen = realloc(s->seen, capacity);
+    if (seen) s->seen = seen;
     size_t *slots = calloc(2 * capacity, sizeof *slots);
-    if (!items || !meshes || !is_seen || !slots) {
+    if (!items || !meshes || !seen || !slots) {
         free(slots);
         return 0;
     }
@@ -46,7 +46,7 @@ int page_shapes_add(page_shapes *s, const ovoid_shape *shape, size_t *number) {
     if (!*slot) {
         s->items[s->count] = shape;
         s->meshes[s->count] = (page_mesh){.points = NULL};
-        s->is_seen[s->count] = 0;
+        s->seen[s->count] = 0;
         *slot = ++s->count;
     }
     *number = *slot - 1;
@@ -60,7 +60,7 @@ void page_shapes_clear(page_shapes *s) {
     }
     free(s->items);
     free(s->meshes);
-    free(s->is_seen);
+    free(s->seen);
     free(s->slots);
     *s = (page_shapes){.items = NULL};
 }
@@ -88,6 +88,25 @@ static void write_mesh(FILE *file, const page_mesh *mesh) {
     fputs(",\"triangles\":", file);
     to = page_base64_begin(file);
     for (size_t i = 0; i < 3 * mesh->triangle_count; i++) page_base64_add_uint32(&to, mesh->triangles[i]);
+    page_base64_end(&to);
+    fputc('}', file);
+}
+
+/// Writes the points and triangles of a solid as its proofs name them: in full precision and in their order.
+static void write_solid(FILE *file, const ovoid_solid *solid) {
+    ovoid_solid_report report = ovoid_solid_get_report(solid);
+    const double *points = ovoid_solid_get_points(solid);
+    fputs(",\"solid\":{\"points\":", file);
+    page_base64 to = page_base64_begin(file);
+    for (size_t i = 0; i < 3 * (size_t)report.points; i++) page_base64_add_double(&to, points[i]);
+    page_base64_end(&to);
+    fputs(",\"triangles\":", file);
+    to = page_base64_begin(file);
+    for (size_t t = 0; t < (size_t)report.triangles; t++) {
+        uint32_t corners[3];
+        ovoid_solid_get_triangle(solid, t, corners);
+        for (int i = 0; i < 3; i++) page_base64_add_uint32(&to, corners[i]);
+    }
     page_base64_end(&to);
     fputc('}', file);
 }
@@ -121,6 +140,7 @@ int page_shapes_write(const page_shapes *s, FILE *file) {
         if (i) fputc(',', file);
         if (!write_bytes(file, s->items[i])) return message_error("out of memory"), EXIT_INPUT;
         if (s->meshes[i].points) write_mesh(file, &s->meshes[i]);
+        if (s->meshes[i].solid) write_solid(file, s->meshes[i].solid);
         write_areas(file, s->items[i]);
         fputc('}', file);
     }

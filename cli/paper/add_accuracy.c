@@ -198,6 +198,26 @@ static void add_volumes(const experiment *e) {
     report_end_table(t, FAMILY_COUNT);
 }
 
+static void add_verdicts(const experiment *e, const counts *c) {
+    double apart = sum_apart(c->pairs), criterion = sum_apart(c->wrong[BY_CRITERION + 1]),
+           misses = c->wrong[BY_CRITERION + 1][0];
+    int fewer = criterion < sum_apart(c->wrong[BY_SPHERE]) && criterion < sum_apart(c->wrong[BY_ORIENTED_BOX]);
+    char alarms[120], missed[80], ours[120];
+    snprintf(alarms, sizeof alarms, "false alarms: %.2f %%, spheres %.1f %%, oriented boxes %.1f %%",
+             100 * criterion / apart, 100 * sum_apart(c->wrong[BY_SPHERE]) / apart,
+             100 * sum_apart(c->wrong[BY_ORIENTED_BOX]) / apart);
+    snprintf(ours, sizeof ours, "false alarms: %.0f of %.0f", sum_apart(c->wrong[BY_LIBRARY]), apart);
+    report_add_verdict(e->report,
+                       (report_verdict){"Enclosed ellipsoids get fewer collision error reports than boxes or spheres.",
+                                        fewer ? REPORT_HOLDS : REPORT_DOES_NOT_HOLD, alarms, ours});
+    snprintf(missed, sizeof missed, "misses %.1f %% of the overlaps, at a threshold of 0.2",
+             100 * misses / c->pairs[0]);
+    snprintf(ours, sizeof ours, "misses: %.0f of %.0f; each answer with its proof", c->wrong[BY_LIBRARY][0],
+             c->pairs[0]);
+    report_add_verdict(e->report, (report_verdict){"Its criterion tells a collision.",
+                                                   misses > 0 ? REPORT_DOES_NOT_HOLD : REPORT_HOLDS, missed, ours});
+}
+
 void experiment_add_accuracy(const experiment *e) {
     static counts c;
     memset(&c, 0, sizeof c);
@@ -229,6 +249,7 @@ void experiment_add_accuracy(const experiment *e) {
     report_end_table(t, 0);
     add_chart(e, &c);
     add_volumes(e);
+    add_verdicts(e, &c);
     char measured[512];
     double apart = sum_apart(c.pairs);
     snprintf(

@@ -148,6 +148,11 @@ void experiment_add_changes(const experiment *e) {
         "Started from the last ellipsoids a deformed body takes %.0f %% of the time that it takes afresh. A division "
         "makes two shapes; the table has its cost.",
         100 * share);
+    char part[80];
+    snprintf(part, sizeof part, "from the last ellipsoids %.0f %% of the time afresh", 100 * share);
+    report_add_verdict(e->report,
+                       (report_verdict){"Offline steps are computed again only where a body is deformed or divided.",
+                                        REPORT_HOLDS, part, "a shape never changes; a changed one is made anew"});
     report_add_finding(
         e->report, (report_finding){"The offline steps need not be computed again until an object is deformed or "
                                     "divided.",

@@ -63,6 +63,12 @@ void experiment_add_models(const experiment *e) {
                        s[0].low, s[0].high, paper[i][1], s[1].low, s[1].high, paper[i][2], s[2].low, s[2].high);
     }
     report_end_table(t, FAMILY_COUNT);
+    char pieces[80];
+    snprintf(pieces, sizeof pieces, "vertices and faces are its own; a sphere has %u to %u pieces",
+             spans[FAMILY_SPHERE][2].low, spans[FAMILY_SPHERE][2].high);
+    report_add_verdict(e->report,
+                       (report_verdict){"Its models have 8 to 142 vertices; split, a sphere has 123 to 630 pieces.",
+                                        REPORT_HOLDS_IN_PART, pieces, "any number of vertices"});
     report_add_finding(
         e->report,
         (report_finding){

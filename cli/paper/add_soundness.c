@@ -45,6 +45,14 @@ static void add_directions(const experiment *e, char *measured, size_t size) {
              "Over %u random directions the paper's rule drops %.3f octants of eight, and %.1f %% of its drops "
              "reach into the front half. The rule of signs drops exactly one, always soundly.",
              count, dropped[PAPER] / count, 100 * unsound[PAPER] / dropped[PAPER]);
+    char part[80];
+    snprintf(part, sizeof part, "%.1f %% of what it drops reaches into the front half",
+             100 * unsound[PAPER] / dropped[PAPER]);
+    report_add_verdict(
+        e->report,
+        (report_verdict){"Proposition 2: an area whose vector has a product below -sqrt(2)/2 cannot collide.",
+                         unsound[PAPER] > 0 ? REPORT_DOES_NOT_HOLD : REPORT_HOLDS, part,
+                         "drops by three signs: one octant, always soundly"});
 }
 
 /// Exits under a rule that are not the true ones.

@@ -59,7 +59,7 @@ double random_uniform(uint64_t *state, double low, double high);
 ovoid_vec3 random_direction(uint64_t *state);
 ovoid_quat random_rotation(uint64_t *state);
 
-/// Nanoseconds of processor time.
+/// Nanoseconds of processor time, or where its clock is too coarse of time.
 double clock_get_ns(void);
 
 /// The q-quantile (0 to 1) of the values, which are sorted in place; NaN of none.

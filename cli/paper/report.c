@@ -1,4 +1,4 @@
-// The page is built in memory and written at the end; each file appears whole or not at all.
+// The parts of the page are built in memory and put together at the end; each file appears whole or not at all.
 #include "paper/report.h"
 
 #include "finish.h"
@@ -9,11 +9,18 @@
 #include <string.h>
 #include <sys/stat.h>
 
-struct report {
-    char *folder;
-    FILE *page; ///< into `text`
+/// Text that grows.
+typedef struct buffer {
+    FILE *file; ///< into `text`
     char *text;
     size_t size;
+} buffer;
+
+struct report {
+    char *folder;
+    buffer page, verdicts, contents; ///< the sections; rows of the table; items of the list
+    unsigned sections;
+    size_t front;    ///< where the second section begins in the page
     ovoid_code code; ///< the first failure
     ovoid_error error;
 };
@@ -27,7 +34,8 @@ struct report_table {
 
 static const char head[] =
     "<!DOCTYPE html>\n"
-    "<html lang=\"en\"><head><meta charset=\"utf-8\"><title>The paper's experiment, repeated</title>\n"
+    "<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>The "
+    "paper's experiment, repeated</title>\n"
     "<style>\n"
     "body{font:16px/1.5 Georgia,serif;color:#222;max-width:760px;margin:2em auto;padding:0 1em}\n"
     "h1,h2,th,td,figcaption{font-family:Helvetica,Arial,sans-serif}\n"
@@ -38,6 +46,14 @@ static const char head[] =
     "#ddd}td:first-child,th:first-child{text-align:left}\n"
     "dl{display:grid;grid-template-columns:7em 1fr;gap:.2em 1em;background:#f6f6f2;padding:.7em 1em;font-size:15px}\n"
     "dt{font-weight:bold}dd{margin:0}p.more{font-size:13px;color:#666;margin-top:-.6em}\n"
+    "a{color:#0b5d8a}ol{columns:2 20em;padding-left:1.4em}table.wide{display:block;overflow-x:auto}\n"
+    "table.verdicts td,table.verdicts th{text-align:left;vertical-align:top;padding:5px 9px}"
+    "td.yes,td.part,td.no{font-weight:bold;white-space:nowrap}"
+    "td.yes a{color:#1a7f37}td.part a{color:#9a6700}td.no a{color:#b42318}\n"
+    "@media(max-width:600px){table.verdicts tr{display:block;padding:.5em 0;border-bottom:1px solid #ccc}"
+    "table.verdicts th{display:none}table.verdicts td{display:block;border:0;padding:2px 0}"
+    "table.verdicts td:nth-child(3)::before{content:\"measured: \"}"
+    "table.verdicts td:nth-child(4)::before{content:\"ovoid: \"}}\n"
     "@media print{body{font-size:11px;max-width:none}h2,figure,dl,tr{break-inside:avoid}h2{break-after:avoid}}\n"
     "</style></head><body>\n";
 
@@ -51,17 +67,26 @@ static void fail(report *r, ovoid_code code, const char *what, const char *why) 
 
 static void fail_memory(report *r) { fail(r, OVOID_ERROR_MEMORY, "the report", "out of memory"); }
 
+static void open_buffer(report *r, buffer *b) {
+    b->file = open_memstream(&b->text, &b->size);
+    if (!b->file) fail_memory(r);
+}
+
+/// Ends the writing of a buffer; its text is the report's until report_finish frees it.
+static void close_buffer(report *r, buffer *b) {
+    if (b->file && fclose(b->file)) fail_memory(r);
+    b->file = NULL;
+}
+
 report *report_create(const char *folder) {
     report *r = calloc(1, sizeof *r);
     if (!r) return NULL;
     r->folder = strdup(folder);
-    r->page = open_memstream(&r->text, &r->size);
-    if (!r->folder || !r->page) {
-        fail_memory(r);
-        return r;
-    }
-    if (mkdir(folder, 0777) && errno != EEXIST) fail(r, OVOID_ERROR_FILE, folder, strerror(errno));
-    fputs(head, r->page);
+    if (!r->folder) fail_memory(r);
+    open_buffer(r, &r->page);
+    open_buffer(r, &r->verdicts);
+    open_buffer(r, &r->contents);
+    if (!r->code && mkdir(folder, 0777) && errno != EEXIST) fail(r, OVOID_ERROR_FILE, folder, strerror(errno));
     return r;
 }
 
@@ -86,11 +111,31 @@ static void write_escaped(FILE *file, const char *text, size_t length) {
 
 void report_add_section(report *r, const char *title) {
     if (r->code) return;
-    // The first one is the page's own title.
-    int level = r->page && ftell(r->page) > (long)sizeof head ? 2 : 1;
-    fprintf(r->page, "<h%d>", level);
-    write_escaped(r->page, title, strlen(title));
-    fprintf(r->page, "</h%d>\n", level);
+    if (r->sections == 1) r->front = (size_t)ftell(r->page.file);
+    if (r->sections++ == 0)
+        fputs("<h1>", r->page.file);
+    else {
+        fprintf(r->page.file, "<h2 id=\"s%u\">", r->sections);
+        fprintf(r->contents.file, "<li><a href=\"#s%u\">", r->sections);
+        write_escaped(r->contents.file, title, strlen(title));
+        fputs("</a></li>\n", r->contents.file);
+    }
+    write_escaped(r->page.file, title, strlen(title));
+    fputs(r->sections == 1 ? "</h1>\n" : "</h2>\n", r->page.file);
+}
+
+void report_add_verdict(report *r, report_verdict verdict) {
+    if (r->code) return;
+    static const char *const names[][2] = {{"yes", "holds"}, {"part", "holds in part"}, {"no", "does not hold"}};
+    FILE *rows = r->verdicts.file;
+    fputs("<tr><td>", rows);
+    write_escaped(rows, verdict.claim, strlen(verdict.claim));
+    fprintf(rows, "</td><td class=\"%s\"><a href=\"#s%u\">%s</a></td><td>", names[verdict.holds][0], r->sections,
+            names[verdict.holds][1]);
+    write_escaped(rows, verdict.measured, strlen(verdict.measured));
+    fputs("</td><td>", rows);
+    write_escaped(rows, verdict.ours, strlen(verdict.ours));
+    fputs("</td></tr>\n", rows);
 }
 
 void report_add_text(report *r, const char *format, ...) {
@@ -103,9 +148,9 @@ void report_add_text(report *r, const char *format, ...) {
     for (const char *at = text; *at;) {
         const char *end = strstr(at, "\n\n");
         size_t length = end ? (size_t)(end - at) : strlen(at);
-        fputs("<p>", r->page);
-        write_escaped(r->page, at, length);
-        fputs("</p>\n", r->page);
+        fputs("<p>", r->page.file);
+        write_escaped(r->page.file, at, length);
+        fputs("</p>\n", r->page.file);
         at += length + (end ? 2 : 0);
     }
 }
@@ -114,14 +159,14 @@ void report_add_finding(report *r, report_finding finding) {
     if (r->code) return;
     const char *const names[] = {"Paper", "Here", "Why"};
     const char *const texts[] = {finding.paper, finding.measured, finding.why};
-    fputs("<dl>", r->page);
+    fputs("<dl>", r->page.file);
     for (int i = 0; i < 3; i++) {
         if (!texts[i]) continue;
-        fprintf(r->page, "<dt>%s</dt><dd>", names[i]);
-        write_escaped(r->page, texts[i], strlen(texts[i]));
-        fputs("</dd>", r->page);
+        fprintf(r->page.file, "<dt>%s</dt><dd>", names[i]);
+        write_escaped(r->page.file, texts[i], strlen(texts[i]));
+        fputs("</dd>", r->page.file);
     }
-    fputs("</dl>\n", r->page);
+    fputs("</dl>\n", r->page.file);
 }
 
 // Writes a file of the folder with that text.
@@ -155,9 +200,9 @@ void report_add_chart(report *r, const char *name, const ovoid_chart *chart) {
         fail_memory(r);
     else {
         write_file(r, name, "svg", text, size);
-        fputs("<figure>\n", r->page);
-        fwrite(text, 1, size, r->page);
-        fputs("</figure>\n", r->page);
+        fputs("<figure>\n", r->page.file);
+        fwrite(text, 1, size, r->page.file);
+        fputs("</figure>\n", r->page.file);
     }
     free(text);
 }
@@ -168,7 +213,7 @@ static void embed(report *r, FILE *file) {
     int is_open = 0;
     while (fgets(block, sizeof block, file)) {
         const char *from = is_open ? block : strstr(block, "<svg");
-        if (from) fputs(from, r->page);
+        if (from) fputs(from, r->page.file);
         is_open = is_open || from;
     }
 }
@@ -186,11 +231,11 @@ void report_add_picture(report *r, const char *name, const ovoid_picture *pictur
     else if (!(file = fopen(path, "rb")))
         fail(r, OVOID_ERROR_FILE, name, "the picture cannot be read again");
     if (file) {
-        fputs("<figure>\n", r->page);
+        fputs("<figure>\n", r->page.file);
         embed(r, file);
-        fputs("<figcaption>", r->page);
-        write_escaped(r->page, caption, strlen(caption));
-        fputs("</figcaption></figure>\n", r->page);
+        fputs("<figcaption>", r->page.file);
+        write_escaped(r->page.file, caption, strlen(caption));
+        fputs("</figcaption></figure>\n", r->page.file);
         fclose(file);
     }
     free(path);
@@ -245,27 +290,49 @@ void report_end_table(report_table *t, size_t in_page) {
     if (!r->code) {
         write_file(r, t->name, "csv", t->text, t->size);
         if (in_page) {
-            fputs("<table>", r->page);
-            const char *at = add_html_row(r->page, t->text, "th");
-            for (; in_page && *at; in_page--) at = add_html_row(r->page, at, "td");
-            fputs("</table>\n", r->page);
+            fputs("<table class=\"wide\">", r->page.file);
+            const char *at = add_html_row(r->page.file, t->text, "th");
+            for (; in_page && *at; in_page--) at = add_html_row(r->page.file, at, "td");
+            fputs("</table>\n", r->page.file);
         }
-        fprintf(r->page, "<p class=\"more\">Numbers: %s.csv</p>\n", t->name);
+        fprintf(r->page.file, "<p class=\"more\">Numbers: <a href=\"%s.csv\">%s.csv</a></p>\n", t->name, t->name);
     }
     free(t->name);
     free(t->text);
     free(t);
 }
 
+// The page: its title and what stands below it, the verdicts, the contents, the other sections.
+static void write_page(report *r) {
+    size_t front = r->sections > 1 ? r->front : r->page.size;
+    buffer all = {0};
+    open_buffer(r, &all);
+    if (!all.file) return;
+    fputs(head, all.file);
+    fwrite(r->page.text, 1, front, all.file);
+    if (r->verdicts.size)
+        fprintf(all.file,
+                "<table class=\"verdicts\"><tr><th>The paper says</th><th>here it</th><th>measured in this run</th>"
+                "<th>ovoid</th></tr>\n%s</table>\n",
+                r->verdicts.text);
+    if (r->contents.size) fprintf(all.file, "<ol>\n%s</ol>\n", r->contents.text);
+    fwrite(r->page.text + front, 1, r->page.size - front, all.file);
+    fputs("</body></html>\n", all.file);
+    close_buffer(r, &all);
+    if (!r->code) write_file(r, "report", "html", all.text, all.size);
+    free(all.text);
+}
+
 ovoid_code report_finish(report *r, ovoid_error *error) {
-    if (r->page) {
-        fputs("</body></html>\n", r->page);
-        if (fclose(r->page)) fail_memory(r);
-    }
-    if (!r->code) write_file(r, "report", "html", r->text, r->size);
+    close_buffer(r, &r->page);
+    close_buffer(r, &r->verdicts);
+    close_buffer(r, &r->contents);
+    if (!r->code) write_page(r);
     ovoid_code code = r->code;
     if (error && code) *error = r->error;
-    free(r->text);
+    free(r->page.text);
+    free(r->verdicts.text);
+    free(r->contents.text);
     free(r->folder);
     free(r);
     return code;

@@ -1,5 +1,5 @@
 // The report of the experiment: a folder of CSV files and SVG figures, and one HTML page with all figures and tables,
-// which needs no other file and can be printed.
+// which needs no other file and can be printed. The page begins with its title, the verdicts and the contents.
 #ifndef OVOID_CLI_PAPER_REPORT_H
 #define OVOID_CLI_PAPER_REPORT_H
 
@@ -14,7 +14,7 @@ report *report_create(const char *folder);
 /// 1 until something fails.
 int report_is_good(const report *r);
 
-/// Adds a section's heading.
+/// Adds a section's heading. The first one is the page's title; verdicts and contents stand before the second.
 void report_add_section(report *r, const char *title);
 
 /// Adds a paragraph; escaped. Blank lines in it begin new ones.
@@ -29,6 +29,16 @@ typedef struct report_finding {
     const char *paper, *measured, *why;
 } report_finding;
 void report_add_finding(report *r, report_finding finding);
+
+/// A line of the table at the top: what the paper claims, whether that holds here, what was measured, and what ovoid
+/// does instead or beside it. It leads to the section in which it is added.
+typedef enum report_holds { REPORT_HOLDS, REPORT_HOLDS_IN_PART, REPORT_DOES_NOT_HOLD } report_holds;
+typedef struct report_verdict {
+    const char *claim;
+    report_holds holds;
+    const char *measured, *ours;
+} report_verdict;
+void report_add_verdict(report *r, report_verdict verdict);
 
 /// Adds NAME.svg, and the same figure in the page.
 void report_add_chart(report *r, const char *name, const ovoid_chart *chart);

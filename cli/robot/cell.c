@@ -16,8 +16,10 @@ static int compare_ids(const void *a, const void *b) {
 /// Reads the scene and adds its obstacles. 0, or an exit code after a message.
 static int add_obstacles(cli_cell *cell, const cell_settings *settings) {
     ovoid_error error;
-    ovoid_robot_read_options options = {
-        .tolerance = settings->robot->tolerance, .note = robot_warn, .context = &cell->robot};
+    ovoid_robot_read_options options = {.tolerance = settings->robot->tolerance,
+                                        .solids = !settings->robot->hull,
+                                        .note = robot_warn,
+                                        .context = &cell->robot};
     if (!settings->scene) return 0;
     cell->obstacles = ovoid_obstacles_read(settings->scene, &options, &error);
     if (!cell->obstacles) return message_error("%s", error.message), EXIT_INPUT;
@@ -26,7 +28,7 @@ static int add_obstacles(cli_cell *cell, const cell_settings *settings) {
     if (!cell->ids) return message_error("out of memory"), EXIT_INPUT;
     for (; cell->id_count < count; cell->id_count++) {
         ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, cell->id_count);
-        const ovoid_body body = {.shape = o.shape, .pose = o.pose};
+        const ovoid_body body = {.shape = o.solid ? NULL : o.shape, .pose = o.pose, .solid = o.solid};
         ovoid_id id = ovoid_robot_cell_add(cell->cell, &body, &error);
         if (!id) return message_error("%s: %s: %s", settings->scene, o.name, error.message), EXIT_INPUT;
         cell->ids[cell->id_count] = (cell_id){id, cell->id_count};
@@ -55,6 +57,14 @@ int cell_set_paddings(const cli_command *command, const cli_cell *cell, ovoid_ro
                                          error.message);
         }
     return 0;
+}
+
+int cell_settle_solids(const cli_command *command, robot_settings *settings, const char *html) {
+    const char *other = settings->hull ? "hull" : settings->parts ? "parts" : "html";
+    if (settings->solid && (settings->hull || settings->parts || html))
+        return args_complain(command, "%s: --solid does not go with --%s", command->name, other);
+    if (html) settings->hull = 1;
+    return -1;
 }
 
 int cell_open(const cli_command *command, const char *urdf, const cell_settings *settings, cli_cell *cell) {

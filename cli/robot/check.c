@@ -39,6 +39,7 @@ static const cli_option options[] = {
     SHARD_OPTION(settings),
     PAGE_OPTION(settings),
     ROBOT_OPTIONS(settings),
+    CELL_SOLID_OPTIONS(settings),
     REPORT_OPTIONS(settings),
     {.name = NULL},
 };
@@ -249,13 +250,29 @@ static int check_states(check *c) {
     return code;
 }
 
+/// Adds what the hull of a solid does not tell.
+static void add_solid(shard_digest *digest, const ovoid_solid *solid) {
+    if (!solid) return;
+    ovoid_solid_report is = ovoid_solid_get_report(solid);
+    shard_digest_add(digest, ovoid_solid_get_points(solid), 3 * (size_t)is.points * sizeof(double));
+    for (size_t i = 0; i < (size_t)is.triangles; i++) {
+        uint32_t corner[3];
+        ovoid_solid_get_triangle(solid, i, corner);
+        shard_digest_add(digest, corner, sizeof corner);
+    }
+}
+
 /// Adds the shapes of the links and of the obstacles.
 static void add_shapes(shard_digest *digest, const cli_cell *cell) {
     size_t obstacles = cell->obstacles ? ovoid_obstacles_get_count(cell->obstacles) : 0;
-    for (size_t i = 0; i < cell->description.element_count; i++)
+    for (size_t i = 0; i < cell->description.element_count; i++) {
         shard_digest_add_shape(digest, cell->description.elements[i].shape);
-    for (size_t i = 0; i < obstacles; i++)
+        add_solid(digest, cell->description.elements[i].solid);
+    }
+    for (size_t i = 0; i < obstacles; i++) {
         shard_digest_add_shape(digest, ovoid_obstacles_get(cell->obstacles, i).shape);
+        add_solid(digest, ovoid_obstacles_get(cell->obstacles, i).solid);
+    }
 }
 
 /// Opens the file of a shard. 0, or EXIT_INPUT after a message.
@@ -322,6 +339,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &operands);
     if (code < 0) code = results_settle_part(command, &s.out, s.part);
     if (code < 0) code = page_settle(command, s.html, s.part);
+    if (code < 0) code = cell_settle_solids(command, &s.robot, s.html);
     if (code < 0) code = states_settle(command, &s.states);
     if (code < 0 && s.part.count && !s.states.path)
         code = args_complain(command, "%s: --shard goes with --states Q.csv", command->name);

@@ -85,6 +85,7 @@ static int read_file(const char *urdf, const robot_settings *s, const package_li
     ovoid_robot_read_options options = {.packages = packages->items,
                                         .package_count = (size_t)packages->count,
                                         .parts = s->parts,
+                                        .solids = s->solid,
                                         .scales = scales->items,
                                         .scale_count = scales->count,
                                         .visual = s->visual,
@@ -110,11 +111,11 @@ static int read_file(const char *urdf, const robot_settings *s, const package_li
 static void warn_nonconvex(const cli_robot *robot, int parts) {
     for (size_t i = 0; i < ovoid_robot_file_get_mesh_count(robot->file); i++) {
         ovoid_robot_mesh m = ovoid_robot_file_get_mesh(robot->file, i);
-        if (!m.convexity.is_nonconvex) continue;
+        if (!m.convexity.is_nonconvex || m.is_solid) continue;
         double share = m.convexity.mesh_volume / m.convexity.hull_volume;
         message_warning(
-            "the mesh %s is not convex and counts as its hull%s, which adds %.3g m3 (%.3g %%); decompose it (CoACD, "
-            "V-HACD)%s",
+            "the mesh %s is not convex and counts as its hull%s, which adds %.3g m3 (%.3g %%); decompose it "
+            "(ovoid decompose)%s",
             m.address, m.part_count > 1 ? "s" : "", m.convexity.hull_volume - m.convexity.mesh_volume,
             100 * (1 - share), parts ? "" : ", then --parts");
     }

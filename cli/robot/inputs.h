@@ -12,6 +12,7 @@ typedef struct robot_settings {
     args_list packages; ///< NAME=DIR
     args_list scales;   ///< LINK=F or F
     int parts, visual, fixed_base;
+    int solid, hull;  ///< solid: links too are solids; hull: obstacles are none
     double tolerance; ///< of cylinders; 0: radius/200
 } robot_settings;
 

@@ -218,12 +218,12 @@ static void write_sides(FILE *file, const path_report *r, const ovoid_robot_side
 }
 
 static void write_step(FILE *file, const ovoid_robot_step *step) {
-    static const char *const kinds[] = {"", "outer", "middle", "ends"};
+    static const char *const kinds[] = {"", "outer", "middle", "ends", "solid"};
     const char *before = "";
-    fprintf(file, "{\"step\":\"%s\"", kinds[step->kind & 3]);
+    fprintf(file, "{\"step\":\"%s\"", kinds[step->kind]);
     write_value(file, "begin", step->begin);
     write_value(file, "end", step->end);
-    if (step->kind != OVOID_ROBOT_STEP_OUTER) {
+    if (step->kind == OVOID_ROBOT_STEP_MIDDLE || step->kind == OVOID_ROBOT_STEP_ENDS) {
         const double normal[] = {step->normal.x, step->normal.y, step->normal.z};
         fputs(",\"normal\":", file);
         json_write_numbers(file, normal, 3);

@@ -44,6 +44,20 @@ static uint64_t add_shape(uint64_t hash, const ovoid_shape *shape) {
     return add_number(add_number(hash, allowance.outside), allowance.inside);
 }
 
+static uint64_t add_solid(uint64_t hash, const ovoid_solid *solid) {
+    if (!solid) return hash;
+    ovoid_solid_report is = ovoid_solid_get_report(solid);
+    const double *points = ovoid_solid_get_points(solid);
+    hash = add_index(add_index(hash, is.points), is.triangles);
+    for (size_t i = 0; i < 3 * (size_t)is.points; i++) hash = add_number(hash, points[i]);
+    for (size_t i = 0; i < (size_t)is.triangles; i++) {
+        uint32_t corner[3];
+        ovoid_solid_get_triangle(solid, i, corner);
+        for (int k = 0; k < 3; k++) hash = add_index(hash, corner[k]);
+    }
+    return hash;
+}
+
 static uint64_t add_joint(uint64_t hash, const ovoid_robot_joint *j) {
     hash = add_index(add_text(hash, j->name), (uint64_t)j->type);
     hash = add_pose(add_index(add_index(hash, j->parent), j->child), &j->origin);
@@ -59,12 +73,13 @@ uint64_t proof_compute_digest(const cli_cell *cell) {
     for (size_t i = 0; i < d->element_count; i++) {
         const ovoid_robot_element *e = &d->elements[i];
         hash = add_shape(add_pose(add_text(add_index(hash, e->link), e->name), &e->pose), e->shape);
+        hash = add_solid(hash, e->solid);
     }
     for (size_t i = 0; i < d->disabled_count; i++)
         hash = add_index(add_index(hash, d->disabled[i].a), d->disabled[i].b);
     for (size_t i = 0; i < cell->id_count; i++) {
         ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        hash = add_shape(add_pose(add_text(hash, o.name), &o.pose), o.shape);
+        hash = add_solid(add_shape(add_pose(add_text(hash, o.name), &o.pose), o.shape), o.solid);
     }
     return hash;
 }
@@ -104,6 +119,16 @@ static void write_flag(FILE *file, const char *key, int is_set) {
     fprintf(file, ",\"%s\":%s", key, is_set ? "true" : "false");
 }
 
+/// What was read as solids, where there are any.
+static void write_solids(FILE *file, const proof_source *source) {
+    const cli_cell *cell = source->opened;
+    int has_solids = 0;
+    for (size_t i = 0; i < cell->description.element_count; i++)
+        has_solids |= cell->description.elements[i].solid != NULL;
+    for (size_t i = 0; i < cell->id_count; i++) has_solids |= ovoid_obstacles_get(cell->obstacles, i).solid != NULL;
+    if (has_solids) fprintf(file, ",\"solids\":\"%s\"", source->cell->robot->solid ? "all" : "obstacles");
+}
+
 static void write_value(FILE *file, const char *key, double number) {
     fprintf(file, ",\"%s\":", key);
     json_write_number(file, number);
@@ -136,6 +161,7 @@ void proof_write_source(FILE *file, const proof_source *source) {
     write_list(file, "scales", &s->robot->scales);
     write_list(file, "paddings", &s->paddings);
     write_flag(file, "parts", s->robot->parts);
+    write_solids(file, source);
     write_flag(file, "visual", s->robot->visual);
     write_flag(file, "fixed_base", s->robot->fixed_base);
     write_value(file, "cylinder_tolerance", s->robot->tolerance);

@@ -284,6 +284,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code < 0) code = settle(command, &s);
     if (code >= 0) return code;
     s.cell.robot = &s.robot;
+    // Spheres are of hulls, and so is what they are compared with.
+    s.robot.hull = 1;
     code = cell_open(command, operands.items[0], &s.cell, &r.cell);
     if (code) return code;
     code = work(command, &r, operands.items[0]);

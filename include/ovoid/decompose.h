@@ -53,6 +53,8 @@ typedef struct ovoid_decomposition_options {
     const ovoid_allocator *allocator;      /**< of the working memory and of what is created; NULL: malloc and free */
     ovoid_decomposition_progress progress; /**< or NULL */
     void *progress_context;
+    ovoid_watch watch; /**< asked before each cell, cut and join; stopped: a proof as though the work were used up;
+                          parts as cut by then, which cover too, but stand out farther or are more than `parts` */
 } ovoid_decomposition_options;
 
 /**

@@ -61,12 +61,14 @@ typedef struct ovoid_robot_joint {
     double multiplier, offset;
 } ovoid_robot_joint;
 
-/** A convex part of a link's collision geometry. */
+/** A part of a link's collision geometry, convex or a solid. */
 typedef struct ovoid_robot_element {
     uint32_t link;
     const char *name; /**< may be NULL */
     const ovoid_shape *shape;
-    ovoid_pose pose; /**< in the link's frame */
+    ovoid_pose pose;          /**< in the link's frame */
+    const ovoid_solid *solid; /**< NULL; or what counts: `shape` must then be its convex hull, of all its points, which
+                                   answers where it suffices. Borrowed, whatever `takes_shapes` says */
 } ovoid_robot_element;
 
 /** Two links. */
@@ -199,7 +201,8 @@ OVOID_API int ovoid_robot_is_rigid_pair(const ovoid_robot *robot, uint32_t a, ui
 
 /**
  * Adds an obstacle, which is borrowed, posed in the root link's frame: its id, as those of ovoid_world; 0 on failure:
- * ARGUMENT (not exactly one of shape and compound), the codes of ovoid_pose_compute_check, MEMORY, LIMIT.
+ * ARGUMENT (not exactly one of shape, compound and solid), the codes of ovoid_pose_compute_check, MEMORY, LIMIT. Of a
+ * solid the cell makes the hull.
  */
 OVOID_API ovoid_id ovoid_robot_cell_add(ovoid_robot_cell *cell, const ovoid_body *body, ovoid_error *error);
 /**

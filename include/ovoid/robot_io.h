@@ -54,6 +54,8 @@ typedef struct ovoid_robot_read_options {
     const ovoid_robot_link_scale *scales; /**< NULL: every factor is 1; a link comes once at most */
     size_t scale_count;
     const ovoid_shape_options *shape; /**< of all shapes; their radius must be 0; NULL: the default */
+    int solids; /**< 1: a closed mesh that does not fill its hull counts as the solid of its triangles, unless its
+                     objects are parts; 0: as its hull */
     void (*note)(void *context, const ovoid_robot_note *note); /**< NULL: notes are dropped */
     void *context;
 } ovoid_robot_read_options;
@@ -91,6 +93,7 @@ typedef struct ovoid_robot_mesh {
     size_t use_count;    /**< collision elements that share them */
     ovoid_convexity
         convexity; /**< summed over the parts; is_nonconvex: of any; mesh_volume NaN where one is not known */
+    int is_solid;  /**< 1: it counts as the solid of its triangles, with options->solids */
 } ovoid_robot_mesh;
 
 /** How many meshes there are. */
@@ -155,20 +158,22 @@ OVOID_API const uint32_t *ovoid_robot_file_get_passive(const ovoid_robot_file *f
 
 /* ---- obstacles ---- */
 
-/** Convex obstacles, from a scene. Owned by the caller. */
+/** Obstacles, from a scene. Owned by the caller. */
 typedef struct ovoid_obstacles ovoid_obstacles;
 
 /** One of them: a view. An object of several parts is several obstacles of one name. */
 typedef struct ovoid_obstacle {
     const char *name;
-    const ovoid_shape *shape;
+    const ovoid_shape *shape; /**< of a solid its hull */
     ovoid_pose pose; /**< of an object with a pose and parts with poses: ovoid_pose_compute_product, by definition */
+    const ovoid_solid *solid; /**< with options->solids: what counts in the place of the hull; NULL: the shape does */
 } ovoid_obstacle;
 
 /**
  * Reads a scene: MoveIt's planning scene (.yaml, .yml; world: collision_objects: with primitives box, sphere, cylinder
- * and cone, and meshes, which count as their hulls) or ovoid's own (.json: ovoid_scene_read). Equal primitives share a
- * shape. options: tolerance, shape, note. Errors as those of ovoid_robot_file_read; planes and other types are refused.
+ * and cone, and meshes) or ovoid's own (.json: ovoid_scene_read). Meshes count as their hulls, or with options->solids
+ * as scenes have it; a scene that asks for a solid is refused without. Equal primitives share a shape. options:
+ * tolerance, shape, solids, note. Errors as those of ovoid_robot_file_read; planes and other types are refused.
  */
 OVOID_API ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_options *options,
                                                 ovoid_error *error);

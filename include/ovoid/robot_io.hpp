@@ -77,13 +77,13 @@ class obstacles : public detail::owner<detail::pointer<ovoid_obstacles>, ovoid_o
     std::size_t size() const noexcept { return ovoid_obstacles_get_count(get()); }
     /** Obstacle i < size. */
     ovoid_obstacle operator[](std::size_t i) const noexcept { return ovoid_obstacles_get(get(), i); }
-    /** Adds all of them to a cell, which borrows their shapes; their ids, in order. Throws as robot_cell::add does. */
+    /** Adds all of them to a cell, which borrows their shapes and solids; their ids, in order. Throws as robot_cell::add does. */
     std::vector<id> add_to(robot_cell &cell) const {
         std::vector<id> ids;
         for (std::size_t i = 0; i < size(); i++) {
             const ovoid_obstacle o = (*this)[i];
             ovoid_body b = {};
-            b.shape = o.shape, b.pose = o.pose;
+            b.shape = o.solid ? nullptr : o.shape, b.solid = o.solid, b.pose = o.pose;
             ovoid_error e;
             const id made = ovoid_robot_cell_add(cell.get(), &b, &e);
             if (made == 0) detail::fail(e);

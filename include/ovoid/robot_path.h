@@ -30,8 +30,10 @@ typedef enum ovoid_robot_step_kind {
     OVOID_ROBOT_STEP_OUTER = 1, /**< in the middle of the interval, spheres or boxes around the bodies are farther apart
                                     than margin and motion */
     OVOID_ROBOT_STEP_MIDDLE,    /**< in the middle, the gap along `normal`: above margin and motion */
-    OVOID_ROBOT_STEP_ENDS /**< at both ends, the gap along `normal`: above the margin by what it may fall below its
-                             chord in between */
+    OVOID_ROBOT_STEP_ENDS, /**< at both ends, the gap along `normal`: above the margin by what it may fall below its
+                              chord in between */
+    OVOID_ROBOT_STEP_SOLID /**< of a pair with a solid: in the middle, the distance of the bodies: above margin and
+                              motion. Its check asks for the distance again */
 } ovoid_robot_step_kind;
 
 /**
@@ -40,11 +42,11 @@ typedef enum ovoid_robot_step_kind {
  */
 typedef struct ovoid_robot_step {
     double begin, end;
-    uint32_t pair; /**< the pair; of OUTER the first of eight */
-    uint16_t kind; /**< ovoid_robot_step_kind */
-    uint16_t mask; /**< bit i: the step is of pair + i */
-    ovoid_vec3
-        normal; /**< unit, in the frame of the link that is the lowest above both bodies; of an obstacle the root's */
+    uint32_t pair;     /**< the pair; of OUTER the first of eight */
+    uint16_t kind;     /**< ovoid_robot_step_kind */
+    uint16_t mask;     /**< bit i: the step is of pair + i */
+    ovoid_vec3 normal; /**< unit, in the frame of the link that is the lowest above both bodies; of an obstacle the
+                          root's. Not of OUTER and SOLID: zero */
 } ovoid_robot_step;
 
 /** How a path is checked; all zero is the default, and NULL means that. */
@@ -102,9 +104,6 @@ typedef struct ovoid_robot_clearance_options {
     double tolerance;  /**< of the bracket, a length; 0 means 1/1024 of the radius of the robot's largest element */
     uint32_t states;   /**< most states that are looked at; 0 means 100 000 and 100 for each segment */
     ovoid_watch watch; /**< asked before each state; stopped: as though `states` were used up */
-    int any_hit; /**< 1: any hit ends the search, the first one that is found: some states are looked at before anything
-                      is proven. hit_at need not be the first hit then, and free_until is what was proven by then, often
-                      0. Whether the path is free is answered as without it, and sooner where it is not */
 } ovoid_robot_clearance_options;
 
 /** The smallest clearance of a path: the least signed distance of any queried pair at any real s. */

@@ -37,6 +37,7 @@ typedef struct ovoid_robot_proof_source {
     size_t variable_count;
     const ovoid_robot_proof_side *pairs; /**< the sides of pair i are 2 i and 2 i + 1 */
     size_t pair_count;
+    int has_solid_links, has_solid_obstacles; /**< 1: read with ovoid_robot_read_options.solids */
 } ovoid_robot_proof_source;
 
 /** A path, what is said of it, and the steps that are to prove that. Views, valid until the next call. */

@@ -19,7 +19,7 @@ from ._enums import Agreement, Code, Error, ImpactStatus, Inside, Limit, ProofKi
 from ._ovoid import *  # noqa: F403
 from ._ovoid import __version__, has_io, has_robot
 from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint, MatrixPair, MotionRequest, Obstacle,
-                      Side, SphereAudit, StateAnswer, Variable)
+                      PartsAudit, Side, SphereAudit, StateAnswer, Variable)
 
 
 def load(path, **options):

@@ -48,6 +48,12 @@ SphereAudit.__doc__ = """Spheres against a link: brackets (lower, upper) of the 
 of the uncovered volume, of the spheres' volume outside the link, of the link's and of the spheres' volume. point: shows
 depth's lower end, of that element, nearest to that sphere."""
 
+PartsAudit = namedtuple("PartsAudit", "uncovered excess uncovered_point uncovered_part excess_point excess_part excess_of_parts cells")
+PartsAudit.__doc__ = """Convex parts against a solid: brackets (lower, upper) of two lengths. uncovered: the greatest distance of a point of the
+solid from its nearest part; enlarge_parts by its upper end covers. excess: the greatest distance of a point of a part from
+the solid, excess_of_parts no less than each part's own. The points show the lower ends; uncovered_part is one of the nearest,
+excess_part has the point. cells: looked at."""
+
 Obstacle = namedtuple("Obstacle", "name shape pose")
 Obstacle.__doc__ = """A convex obstacle of a scene."""
 

@@ -1,19 +1,21 @@
 """CollisionManager: the methods of trimesh.collision.CollisionManager, answered by ovoid; trimesh need not be installed.
 
-Objects are anything with .vertices (a trimesh.Trimesh), of which the convex hull is meant, or a Shape or Compound, or a list
-of convex parts. trimesh's own manager takes meshes as surfaces, through FCL. So:
+Objects are anything with .vertices and .faces (a trimesh.Trimesh), or a Shape, Compound or Solid, or a list of convex parts.
+trimesh's own manager takes meshes as surfaces, through FCL. So:
 
-- a mesh that says is_convex is False draws a warning, unless `parts` splits it: a function of the mesh that returns convex
-  meshes, for example `trimesh.Trimesh.convex_decomposition`;
+- a mesh that says is_convex is False is taken as a Solid, of which closed ones have an inside; all others by their hull, as
+  are those without .faces, with a warning. `parts`, a function of a mesh that is not convex, returns convex meshes to take in
+  its place: fewer and faster to ask than many triangles;
 - one body inside another is a collision, and every pair that is not proven apart counts as one;
-- of bodies that overlap the distance is minus the depth of the deepest pair, where FCL says -1;
+- of bodies that overlap the distance is minus the depth of the deepest pair, where FCL says -1; of Solids minus a way that is
+  proven to part them, which need not be the shortest;
 - a pair has one contact, the deepest;
-- faces have no index here: ContactData.index and DistanceData.index raise NotImplementedError.
+- hulls have no faces of the mesh: of these ContactData.index and DistanceData.index raise NotImplementedError.
 """
 
 import warnings
 
-from . import Compound, Pose, Shape, Status, World, depth
+from . import Compound, Pose, Shape, Solid, Status, World, depth, distance
 
 __all__ = ["CollisionManager", "ContactData", "DistanceData"]
 
@@ -23,7 +25,7 @@ _EXTERNAL = "__external"
 class _PairData:
     def __init__(self, names, answer):
         self._names = tuple(names)
-        self.answer = answer  #: the Answer, which ovoid.check takes
+        self.answer = answer  #: the Answer or SolidAnswer, which ovoid.check takes
 
     @property
     def names(self):
@@ -31,7 +33,11 @@ class _PairData:
         return set(self._names)
 
     def index(self, name):
-        raise NotImplementedError("ovoid's bodies are hulls: they have no face of the mesh to name")
+        """The face of an object that decides, where it is a Solid."""
+        is_first = name == self._names[0]
+        if not isinstance(self.answer.a if is_first else self.answer.b, Solid):
+            raise NotImplementedError("this body is a hull: it has no face of the mesh to name")
+        return self.answer.triangle_a if is_first else self.answer.triangle_b
 
 
 class ContactData(_PairData):
@@ -155,7 +161,7 @@ class CollisionManager:
         return self._ids[name]
 
     def _make_body(self, mesh):
-        if isinstance(mesh, (Shape, Compound)):
+        if isinstance(mesh, (Shape, Compound, Solid)):
             return mesh
         if isinstance(mesh, (list, tuple)):
             return Compound([self._make_hull(part) for part in mesh])
@@ -163,7 +169,9 @@ class CollisionManager:
         if self._parts is not None and not is_convex:
             return Compound([self._make_hull(part) for part in self._parts(mesh)])
         if is_convex is not None and not is_convex:
-            warnings.warn("the mesh is not convex: its convex hull is taken; CollisionManager(parts=...) splits it", stacklevel=3)
+            if hasattr(mesh, "faces"):
+                return Solid.from_mesh(mesh)
+            warnings.warn("the mesh is not convex and has no faces: its convex hull is taken", stacklevel=3)
         return self._make_hull(mesh)
 
     @staticmethod
@@ -174,13 +182,13 @@ class CollisionManager:
         """The contacts of a body that is not in the world; the body is a."""
         contacts = []
         for hit in self._world.overlaps(body, pose):
-            answer = depth(body, hit.answer.b, pose, hit.answer.pose_b)
+            answer = _find_depth(body, hit.answer.b, pose, hit.answer.pose_b)
             contacts.append(ContactData((name, self._names[hit.b]), answer))
         return contacts
 
     def _get_depth(self, a, b):
         world = self._world
-        return depth(world.body(a), world.body(b), world.pose(a), world.pose(b))
+        return _find_depth(world.body(a), world.body(b), world.pose(a), world.pose(b))
 
     def _find_nearest(self, body, pose, name, key=None):
         """The nearest object to a body, or where some overlap the deepest; key: the body's own id, left out."""
@@ -190,11 +198,17 @@ class CollisionManager:
         if hit.answer.status == Status.SEPARATED:
             return DistanceData((name, self._names[hit.b]), hit.answer)
         deepest = [
-            DistanceData((name, self._names[other.b]), depth(body, other.answer.b, pose, other.answer.pose_b))
+            DistanceData((name, self._names[other.b]), _find_depth(body, other.answer.b, pose, other.answer.pose_b))
             for other in self._world.overlaps(body, pose)
             if other.b != key
         ]
         return min(deepest, key=lambda data: data.distance)
+
+
+def _find_depth(a, b, pose_a, pose_b):
+    """Of Solids the distance, whose bracket has their depth too."""
+    ask = distance if isinstance(a, Solid) or isinstance(b, Solid) else depth
+    return ask(a, b, pose_a, pose_b)
 
 
 def _select(first, has_second, second, has_third, third):

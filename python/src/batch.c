@@ -12,9 +12,9 @@
 #include <string.h>
 #include <time.h>
 
-typedef enum batch_name { COLLIDE, WITHIN, DISTANCE, DEPTH } batch_name;
 // Most couples of a chunk: its copy stays in the nearest cache, and in memory that malloc keeps.
-enum { CHUNK_MOST = 2048, CHUNK_DEPTH = 512, CHUNK_LEAST = 64, THREADS_MOST = 256 };
+// Of bodies that are no shapes a couple may take milliseconds.
+enum { CHUNK_MOST = 2048, CHUNK_DEPTH = 512, CHUNK_LEAST = 64, CHUNK_OTHERS = 4, THREADS_MOST = 256 };
 
 /// The couples as they were given: pairs of integers of 4 or 8 bytes, in a buffer or in memory of our own.
 typedef struct couples {
@@ -28,8 +28,9 @@ typedef struct couples {
 typedef struct job {
     ovoid_batch batch; ///< all of it, but for the couples
     ovoid_options options;
-    batch_name name;
+    query_name name;
     double margin;
+    const ovoid_body *others; ///< the bodies where they are no shapes alone, else NULL
     couples couples;
     size_t chunk;
     atomic_size_t next, done;
@@ -103,10 +104,14 @@ static int read_couples(module_state *state, PyObject *from, couples *c) {
 // ---- the work
 
 static ovoid_code query_chunk(const job *j, const ovoid_batch *batch) {
+    if (j->others) {
+        bodies_query q = {j->name, j->margin, &j->options, j->others, batch->body_count};
+        return bodies_ask(&q, batch->couples, batch->couple_count, batch->verdicts, batch->witnesses);
+    }
     switch (j->name) {
-    case COLLIDE: return ovoid_collide_batch(batch, NULL);
-    case WITHIN: return ovoid_within_batch(batch, j->margin, NULL);
-    case DISTANCE: return ovoid_distance_batch(batch, NULL);
+    case QUERY_COLLIDE: return ovoid_collide_batch(batch, NULL);
+    case QUERY_WITHIN: return ovoid_within_batch(batch, j->margin, NULL);
+    case QUERY_DISTANCE: return ovoid_distance_batch(batch, NULL);
     default: return ovoid_depth_batch(batch, NULL);
     }
 }
@@ -150,16 +155,6 @@ static double get_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-// Under the interpreter's lock: -1 where a signal's handler or the callback raised.
-static int look_around(job *j, PyObject *progress) {
-    if (PyErr_CheckSignals()) return -1;
-    if (!progress) return 0;
-    PyObject *said =
-        PyObject_CallFunction(progress, "nn", (Py_ssize_t)atomic_load(&j->done), (Py_ssize_t)j->batch.couple_count);
-    Py_XDECREF(said);
-    return said ? 0 : -1;
-}
-
 // The calling thread's share, without the lock; -1 where it was interrupted.
 static int work_and_look(job *j, PyObject *progress) {
     double looked = get_seconds();
@@ -172,7 +167,7 @@ static int work_and_look(job *j, PyObject *progress) {
         if (now - looked < 0.05) continue;
         looked = now;
         PyEval_RestoreThread(saved);
-        failed = look_around(j, progress);
+        failed = look_around(progress, atomic_load(&j->done), j->batch.couple_count);
         saved = PyEval_SaveThread();
     }
     if (failed) atomic_store(&j->stop, 1);
@@ -193,7 +188,10 @@ static int start_threads(job *j, pthread_t *threads, int wanted) {
 }
 
 static int run_job(module_state *state, job *j, int thread_count, PyObject *progress) {
-    size_t most = j->name == DEPTH ? CHUNK_DEPTH : CHUNK_MOST, total = j->batch.couple_count;
+    size_t most = j->others                ? CHUNK_OTHERS
+                  : j->name == QUERY_DEPTH ? CHUNK_DEPTH
+                                           : CHUNK_MOST,
+           total = j->batch.couple_count;
     j->chunk = thread_count > 1 ? (total / (4 * (size_t)thread_count) + 7) / 8 * 8 : most;
     if (j->chunk < CHUNK_LEAST) j->chunk = CHUNK_LEAST;
     if (j->chunk > most) j->chunk = most;
@@ -209,7 +207,7 @@ static int run_job(module_state *state, job *j, int thread_count, PyObject *prog
     for (int i = 0; i < others; i++) pthread_join(threads[i], NULL);
     Py_END_ALLOW_THREADS;
     if (failed) return -1;
-    if (!atomic_load(&j->stop)) return progress ? look_around(j, progress) : 0;
+    if (!atomic_load(&j->stop)) return progress ? look_around(progress, atomic_load(&j->done), total) : 0;
     if (!check_couples(state, &j->couples, (Py_ssize_t)j->batch.body_count))
         raise_code(state, OVOID_ERROR_INDEX, -1, "the couples were changed while the batch ran");
     return -1;
@@ -268,6 +266,7 @@ static PyObject *run_on(module_state *state, const batch_input *in, job *j) {
                                  .proofs = proofs.data,
                                  .verdicts = verdicts.data,
                                  .witnesses = witnesses.data};
+        j->others = bodies->others;
         bodies->users++;
         is_good = !run_job(state, j, in->threads, in->progress == Py_None ? NULL : in->progress);
         bodies->users--;
@@ -296,20 +295,30 @@ static int check_input(module_state *state, const batch_input *in, const job *j)
         return -1;
     }
     if (progress_check(in->progress)) return -1;
+    const bodies_object *bodies = (const bodies_object *)in->bodies;
+    if (bodies->has_solids && j->name == QUERY_DEPTH) {
+        PyErr_SetString(PyExc_TypeError, "bodies: depth_batch() takes Shapes and Compounds: distance_batch() of Solids "
+                                         "that overlap has a bracket of their depth");
+        return -1;
+    }
+    if (bodies->others && in->proofs && in->proofs != Py_None) {
+        PyErr_SetString(PyExc_TypeError, "proofs: of Shapes alone; these bodies have Compounds or Solids");
+        return -1;
+    }
     const ovoid_options *o = &j->options;
     if (o->absolute_tolerance >= 0 && o->relative_tolerance >= 0 && o->cap >= 0 && j->margin >= 0) return 0;
     return limit_check(state, OVOID_LIMIT_OPTIONS);
 }
 
 #define BATCH_NAMES QUERY_NAMES, "threads", "out", "witnesses", "proofs", "progress", NULL
-static PyObject *batch(PyObject *module, PyObject *arguments, PyObject *keywords, batch_name name) {
+static PyObject *batch(PyObject *module, PyObject *arguments, PyObject *keywords, query_name name) {
     static char *names[] = {"bodies", "couples", BATCH_NAMES},
                 *within_names[] = {"bodies", "couples", "margin", BATCH_NAMES};
     module_state *state = state_of_module(module);
     batch_input in = {.threads = 1};
     query_keywords k = {0};
     job j = {.name = name, .margin = 0};
-    int is_read = name == WITHIN
+    int is_read = name == QUERY_WITHIN
                       ? PyArg_ParseTupleAndKeywords(arguments, keywords, "OOd|$" QUERY_FORMAT "iOOOO", within_names,
                                                     &in.bodies, &in.couples, &j.margin, QUERY_TARGETS(k), &in.threads,
                                                     &in.out, &in.witnesses, &in.proofs, &in.progress)
@@ -325,16 +334,16 @@ static PyObject *batch(PyObject *module, PyObject *arguments, PyObject *keywords
 }
 
 static PyObject *collide_batch(PyObject *module, PyObject *arguments, PyObject *keywords) {
-    return batch(module, arguments, keywords, COLLIDE);
+    return batch(module, arguments, keywords, QUERY_COLLIDE);
 }
 static PyObject *within_batch(PyObject *module, PyObject *arguments, PyObject *keywords) {
-    return batch(module, arguments, keywords, WITHIN);
+    return batch(module, arguments, keywords, QUERY_WITHIN);
 }
 static PyObject *distance_batch(PyObject *module, PyObject *arguments, PyObject *keywords) {
-    return batch(module, arguments, keywords, DISTANCE);
+    return batch(module, arguments, keywords, QUERY_DISTANCE);
 }
 static PyObject *depth_batch(PyObject *module, PyObject *arguments, PyObject *keywords) {
-    return batch(module, arguments, keywords, DEPTH);
+    return batch(module, arguments, keywords, QUERY_DEPTH);
 }
 
 #define BATCH_SIGNATURE                                                                                                \
@@ -347,7 +356,8 @@ static PyObject *depth_batch(PyObject *module, PyObject *arguments, PyObject *ke
     "the like "                                                                                                        \
     "by number); with witnesses=True also one of\npoint_a, point_b, normal, world frame. out, witnesses: arrays to "   \
     "write "                                                                                                           \
-    "into, as of ovoid.zeros. proofs: an array of\nproofs, the earlier ones of these couples, replaced by the new. "   \
+    "into, as of ovoid.zeros. proofs: of Shapes, an array of\nproofs, the earlier ones of these couples, replaced by " \
+    "the new. "                                                                                                        \
     "progress(done, total) is called now and then.\nNo other thread may change the arrays meanwhile; Ctrl-C ends it, " \
     "with "                                                                                                            \
     "part of them written."

@@ -10,7 +10,7 @@ static int read_pair(module_state *state, PyObject *const given[4], ovoid_pair *
     pair->shape_a = a.shape;
     pair->shape_b = b.shape;
     if (a.shape && b.shape) return 0;
-    PyErr_SetString(PyExc_TypeError, "two Shapes are wanted; of Compounds ask part by part");
+    PyErr_SetString(PyExc_TypeError, "two Shapes are wanted; of Compounds and Solids ask part by part");
     return -1;
 }
 

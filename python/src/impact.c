@@ -1,5 +1,6 @@
 // When two moving bodies meet, how near they come, casts and rays; each with the steps that check() takes.
 #include "src/motion.h"
+#include "src/query.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,12 +16,9 @@ typedef struct impact_object {
 } impact_object;
 
 static ovoid_moving_body make_moving(module_state *state, PyObject *body, PyObject *motion) {
-    ovoid_moving_body made = {.motion = ((motion_object *)motion)->motion};
-    if (Py_TYPE(body) == state->shape)
-        made.shape = ((shape_object *)body)->shape;
-    else
-        made.compound = ((compound_object *)body)->compound;
-    return made;
+    ovoid_body of = body_make(state, body, ovoid_pose_make_identity());
+    return (ovoid_moving_body){
+        .shape = of.shape, .compound = of.compound, .solid = of.solid, .motion = ((motion_object *)motion)->motion};
 }
 
 static ovoid_moving_shape make_moving_shape(const ovoid_moving_body *body) {
@@ -62,6 +60,8 @@ static void search(impact_object *self, int what, const ovoid_moving_body *a, co
         self->approach = ovoid_approach_find(&shape_a, &shape_b, o);
     else if (a->shape && b->shape)
         self->of.impact = ovoid_impact_find(&shape_a, &shape_b, self->margin, o);
+    else if (a->solid || b->solid)
+        self->of = ovoid_solid_impact_find(a, b, self->margin, o);
     else
         self->of = ovoid_compound_impact_find(a, b, self->margin, o);
     Py_END_ALLOW_THREADS;
@@ -108,8 +108,9 @@ typedef struct moving_input {
 static PyObject *find(module_state *state, moving_input *in, int what) {
     ovoid_body a, b;
     if (body_read(state, in->a, "a", &a) || body_read(state, in->b, "b", &b)) return NULL;
-    if (what == APPROACH && (a.compound || b.compound)) {
-        PyErr_SetString(PyExc_TypeError, "find_approach: two Shapes are wanted; of Compounds ask part by part");
+    if (what == APPROACH && (!a.shape || !b.shape)) {
+        PyErr_SetString(PyExc_TypeError,
+                        "find_approach: two Shapes are wanted; of Compounds and Solids ask part by part");
         return NULL;
     }
     if (in->iterations > UINT32_MAX || !(in->margin >= 0)) {
@@ -164,7 +165,13 @@ ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *erro
         return ovoid_approach_check(&shape_a, &shape_b, &self->approach, self->steps, error);
     if (a.shape && b.shape)
         return ovoid_impact_check(&shape_a, &shape_b, self->margin, &self->of.impact, self->steps, error);
-    return ovoid_compound_impact_check(&a, &b, self->margin, &self->of, self->steps, self->groups, error);
+    if (!a.solid && !b.solid)
+        return ovoid_compound_impact_check(&a, &b, self->margin, &self->of, self->steps, self->groups, error);
+    ovoid_code code;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_solid_impact_check(&a, &b, self->margin, &self->of, self->steps, self->groups, error);
+    Py_END_ALLOW_THREADS;
+    return code;
 }
 
 // ---- what they hold
@@ -180,10 +187,21 @@ static ovoid_pose get_part_pose(const ovoid_moving_body *body, uint32_t part, do
     return ovoid_moving_shape_compute_pose(&moving, time);
 }
 
+// A triangle is no body of Python's: solids are asked again, with the deciding triangles first.
+static PyObject *ask_solids(const impact_object *self, const ovoid_moving_body *a, const ovoid_moving_body *b,
+                            double time, const ovoid_answer *answer) {
+    module_state *state = state_of((PyObject *)self);
+    ovoid_body_pair pair = {body_make(state, self->a, ovoid_motion_compute_pose(&a->motion, time)),
+                            body_make(state, self->b, ovoid_motion_compute_pose(&b->motion, time))};
+    ovoid_compound_proof earlier = {self->of.part_a, self->of.part_b, answer->proof};
+    return solid_answer_ask(state, self->a, self->b, &pair, self->margin, &earlier);
+}
+
 // The answer of the deciding parts at a time.
 static PyObject *make_answer(const impact_object *self, double time, const ovoid_answer *answer) {
     module_state *state = state_of((PyObject *)self);
     ovoid_moving_body a = make_moving(state, self->a, self->motion_a), b = make_moving(state, self->b, self->motion_b);
+    if (a.solid || b.solid) return ask_solids(self, &a, &b, time, answer);
     ovoid_pose pose_a = get_part_pose(&a, self->of.part_a, time), pose_b = get_part_pose(&b, self->of.part_b, time);
     answer_object *made = answer_make(state, get_part(self->a, state, self->of.part_a),
                                       get_part(self->b, state, self->of.part_b), &pose_a, &pose_b);
@@ -235,11 +253,11 @@ static PyGetSetDef impact_fields[] = {
     FIELD(impact_object, FIELD_DOUBLE, "begin", of.impact.begin, "The first time queried."),
     FIELD(impact_object, FIELD_DOUBLE, "end", of.impact.end, "The last time queried."),
     FIELD(impact_object, FIELD_UINT, "iterations", of.impact.iterations, "Queries at single times."),
-    FIELD(impact_object, FIELD_UINT, "part_a", of.part_a, "The deciding part of a compound a."),
-    FIELD(impact_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of a compound b."),
+    FIELD(impact_object, FIELD_UINT, "part_a", of.part_a, "The deciding part of a compound a, triangle of a solid."),
+    FIELD(impact_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of a compound b, triangle of a solid."),
     FIELD(impact_object, FIELD_DOUBLE, "margin", margin, "The margin that was asked about."),
-    {"free", get_free, NULL, "The Answer at free_until, or None.", NULL},
-    {"hit", get_hit, NULL, "The Answer at hit_at, or None.", NULL},
+    {"free", get_free, NULL, "The Answer (of Solids a SolidAnswer, asked again) at free_until, or None.", NULL},
+    {"hit", get_hit, NULL, "The Answer (of Solids a SolidAnswer, asked again) at hit_at, or None.", NULL},
     {"steps", get_steps, NULL, "The steps that prove free_until: until, normal, frame.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot impact_slots[] = {
@@ -290,7 +308,7 @@ static PyObject *cast_ray(PyObject *module, PyObject *arguments, PyObject *keywo
         vec3_read(state, origin, "origin", &ray.origin) || vec3_read(state, direction, "direction", &ray.direction))
         return NULL;
     if (!body.shape) {
-        PyErr_SetString(PyExc_TypeError, "shape: a Shape is wanted; a World casts at Compounds");
+        PyErr_SetString(PyExc_TypeError, "shape: a Shape is wanted; a World casts at Compounds and Solids");
         return NULL;
     }
     posed.shape = body.shape;

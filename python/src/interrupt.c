@@ -9,22 +9,31 @@ static double get_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+int look_around(PyObject *progress, size_t done, size_t total) {
+    if (PyErr_CheckSignals()) return -1;
+    if (!progress || progress == Py_None) return 0;
+    PyObject *said = PyObject_CallFunction(progress, "nn", (Py_ssize_t)done, (Py_ssize_t)total);
+    Py_XDECREF(said);
+    return said ? 0 : -1;
+}
+
 static int is_stopped(void *context) {
     interrupt *i = context;
     if (i->is_raised) return 1;
-    // The clock costs a tenth of what a state of a robot does.
-    if (++i->calls % 8) return 0;
+    if (++i->calls % i->every) return 0;
     double now = get_seconds();
     if (now - i->looked < 0.05) return 0;
     i->looked = now;
     PyEval_RestoreThread(i->thread);
-    i->is_raised = PyErr_CheckSignals() != 0;
+    // Before the library has said a total, there is nothing to tell.
+    i->is_raised = look_around(i->total ? i->progress : NULL, i->done, i->total) != 0;
     i->thread = PyEval_SaveThread();
     return i->is_raised;
 }
 
 ovoid_watch interrupt_begin(interrupt *i) {
-    *i = (interrupt){.looked = get_seconds()};
+    // The clock costs a tenth of what a state of a robot does.
+    *i = (interrupt){.looked = get_seconds(), .every = 8};
     i->thread = PyEval_SaveThread();
     return (ovoid_watch){is_stopped, i};
 }
@@ -42,15 +51,6 @@ int progress_check(PyObject *progress) {
     return -1;
 }
 
-// Under the interpreter's lock: -1 where a signal's handler or the callback raised.
-static int look_around(const pieces *p, size_t done) {
-    if (PyErr_CheckSignals()) return -1;
-    if (!p->progress || p->progress == Py_None) return 0;
-    PyObject *said = PyObject_CallFunction(p->progress, "nn", (Py_ssize_t)done, (Py_ssize_t)p->total);
-    Py_XDECREF(said);
-    return said ? 0 : -1;
-}
-
 int pieces_run(module_state *state, const pieces *p) {
     ovoid_error error;
     for (size_t done = 0, size = p->least; done < p->total;) {
@@ -65,7 +65,7 @@ int pieces_run(module_state *state, const pieces *p) {
             return -1;
         }
         done += count;
-        if (look_around(p, done)) return -1;
+        if (look_around(p->progress, done, p->total)) return -1;
         if (get_seconds() - begun < 0.02 && size < ((size_t)1 << 24)) size *= 2;
     }
     return 0;

@@ -66,7 +66,8 @@ static int import_python(module_state *state) {
                   {&state->obstacle, "Obstacle"},
                   {&state->motion_request, "MotionRequest"},
                   {&state->clearance, "Clearance"},
-                  {&state->comparison, "Comparison"}};
+                  {&state->comparison, "Comparison"},
+                  {&state->parts_audit, "PartsAudit"}};
     for (size_t i = 0; !failed && i < sizeof tuples / sizeof *tuples; i++)
         failed = !(*tuples[i].to = PyObject_GetAttrString(values, tuples[i].name));
     Py_DECREF(values);
@@ -110,7 +111,8 @@ static int execute(PyObject *module) {
 #endif
                                                 prepared_add, solid_add, solid_answer_add};
     PyMethodDef *const functions[] = {
-        own_methods,        query_methods, batch_methods, impact_methods, smooth_methods, array_methods, bounds_methods,
+        own_methods,        query_methods, batch_methods,  impact_methods,
+        smooth_methods,     array_methods, bounds_methods, decompose_methods,
 #ifdef OVOID_PYTHON_IO
         shape_file_methods,
 #endif
@@ -147,7 +149,7 @@ static PyObject **get_object(module_state *s, size_t i) {
     PyObject **others[] = {&s->dtype_name,   &s->error,       &s->numpy_array,  &s->contacts, &s->hit,
                            &s->cast,         &s->joint,       &s->variable,     &s->element,  &s->side,
                            &s->state_answer, &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request,
-                           &s->clearance,    &s->comparison};
+                           &s->clearance,    &s->comparison,  &s->parts_audit};
     return i < sizeof others / sizeof *others ? others[i] : NULL;
 }
 

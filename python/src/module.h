@@ -53,7 +53,7 @@ typedef struct module_state {
     PyObject *error; ///< ovoid.Error
     /// Named tuples of ovoid/_values.py.
     PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
-        *obstacle, *motion_request, *clearance, *comparison;
+        *obstacle, *motion_request, *clearance, *comparison, *parts_audit;
     PyObject *enums[ENUM_COUNT]; ///< tuples
     PyObject *dtype_name;        ///< "dtype"
     PyObject *numpy_array;       ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried
@@ -80,9 +80,11 @@ PyObject *enum_get(module_state *state, enum_kind kind, uint32_t value);
 /// A call of the library that runs without the interpreter's lock, and that a signal's handler may end.
 typedef struct interrupt {
     PyThreadState *thread;
-    double looked; ///< seconds of the monotonic clock
-    unsigned calls;
+    double looked;         ///< seconds of the monotonic clock
+    unsigned calls, every; ///< the clock is asked at every so many calls
     int is_raised;
+    PyObject *progress; ///< called with the two numbers, about twenty times a second; NULL: none
+    size_t done, total;
 } interrupt;
 
 /// Gives up the lock; the watch goes to the library's options.
@@ -99,6 +101,9 @@ typedef struct pieces {
 } pieces;
 /// Runs them all, with a look for signals after each; -1: an exception.
 int pieces_run(module_state *state, const pieces *p);
+/// Lets signals' handlers run and calls progress(done, total) (NULL or None: none), under the interpreter's lock; -1
+/// where one of them raised.
+int look_around(PyObject *progress, size_t done, size_t total);
 /// Refuses what is no function; -1 then.
 int progress_check(PyObject *progress);
 
@@ -206,7 +211,7 @@ typedef struct answer_object {
 
 /// A Shape, Compound or Solid at a pose; without any where it is none of them.
 ovoid_body body_make(module_state *state, PyObject *from, ovoid_pose pose);
-/// A Shape or Compound as a body, its pose to be set. what: how messages name the argument.
+/// A Shape, Compound or Solid as a body, its pose to be set. what: how messages name the argument.
 int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body);
 /// A new Shape around a C shape, which it takes over; where that is NULL, raises the error.
 PyObject *shape_wrap(module_state *state, ovoid_shape *shape, const ovoid_error *error);
@@ -271,8 +276,8 @@ int cell_add(PyObject *module);
 int robot_path_add(PyObject *module);
 
 extern PyMethodDef query_methods[], batch_methods[], impact_methods[], smooth_methods[], array_methods[],
-    bounds_methods[], shape_file_methods[];
-extern PyMethodDef shape_constructors[], world_queries[];
+    bounds_methods[], shape_file_methods[], decompose_methods[];
+extern PyMethodDef shape_constructors[], world_queries[], solid_decompositions[];
 
 /// Joins two tables of methods in `all`, which the type keeps, and enters it in the slots.
 void slots_set_methods(PyType_Slot *slots, PyMethodDef *all, const PyMethodDef *first, const PyMethodDef *second);

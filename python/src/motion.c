@@ -103,7 +103,7 @@ static PyObject *swept(PyObject *self, PyObject *arguments) {
     if (!PyArg_ParseTuple(arguments, "Odd:swept", &given, &begin, &end) || body_read(state, given, "body", &body))
         return NULL;
     ovoid_moving_body moving = {
-        .shape = body.shape, .compound = body.compound, .motion = ((motion_object *)self)->motion};
+        .shape = body.shape, .compound = body.compound, .solid = body.solid, .motion = ((motion_object *)self)->motion};
     ovoid_box box = ovoid_moving_body_compute_box(&moving, begin, end);
     if (box.min.x != box.min.x)
         return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "swept: begin <= end is wanted, and no NaN");
@@ -131,7 +131,7 @@ static PyMethodDef methods[] = {
      "Bodies."},
     {"pose", pose, METH_O, "pose(time)\n--\n\nThe pose at a time; before and after its times a motion rests."},
     {"swept", swept, METH_VARARGS,
-     "swept(body, begin, end)\n--\n\nA box that holds a Shape or Compound at all times of [begin, end]: (least corner, "
+     "swept(body, begin, end)\n--\n\nA box that holds a body at all times of [begin, end]: (least corner, "
      "greatest corner)."},
     {NULL, NULL, 0, NULL}};
 static PyType_Slot slots[] = {{Py_tp_doc, "A motion: Motion.still, velocity, poses or path. Immutable."},

@@ -84,8 +84,8 @@ ovoid_body body_make(module_state *state, PyObject *from, ovoid_pose pose) {
 
 int body_read(module_state *state, PyObject *from, const char *what, ovoid_body *body) {
     *body = body_make(state, from, (ovoid_pose){{0, 0, 0}, {0, 0, 0, 0}});
-    if (body->shape || body->compound) return 0;
-    PyErr_Format(PyExc_TypeError, "%s: a Shape or Compound is wanted, not %R", what, (PyObject *)Py_TYPE(from));
+    if (body->shape || body->compound || body->solid) return 0;
+    PyErr_Format(PyExc_TypeError, "%s: a Shape, Compound or Solid is wanted, not %R", what, (PyObject *)Py_TYPE(from));
     return -1;
 }
 
@@ -130,19 +130,12 @@ static int read_prepared(module_state *state, PyObject *const x[ARGUMENT_COUNT],
     return 0;
 }
 
-// A Solid, or what body_read takes.
-static int read_any_body(module_state *state, PyObject *from, const char *what, ovoid_body *body) {
-    if (Py_TYPE(from) != state->solid) return body_read(state, from, what, body);
-    *body = body_make(state, from, (ovoid_pose){{0, 0, 0}, {0, 0, 0, 0}});
-    return 0;
-}
-
 static int read_bodies(module_state *state, PyObject *const x[ARGUMENT_COUNT], query_input *in) {
     in->a = x[BODY_A];
     in->b = x[BODY_B];
     in->prepared_a = NULL;
     if (Py_TYPE(in->a) == state->prepared || Py_TYPE(in->b) == state->prepared) return read_prepared(state, x, in);
-    if (read_any_body(state, in->a, "a", &in->pair.a) || read_any_body(state, in->b, "b", &in->pair.b) ||
+    if (body_read(state, in->a, "a", &in->pair.a) || body_read(state, in->b, "b", &in->pair.b) ||
         pose_read(state, x[PLACE_A], "pose_a", &in->pair.a.pose))
         return -1;
     return pose_read(state, x[PLACE_B], "pose_b", &in->pair.b.pose);
@@ -264,7 +257,7 @@ static PyObject *depth(PyObject *module, PyObject *const *given, Py_ssize_t coun
 
 #define QUERY_SIGNATURE "absolute_tolerance=0, relative_tolerance=0, cap=0, iterations=0, earlier=None)\n--\n\n"
 #define QUERY_DOC                                                                                                      \
-    "\n\na, b: Shapes or Compounds, a Solid and a Shape or Solid, or two Prepared without poses. pose_a, pose_b: "     \
+    "\n\na, b: Shapes, Compounds or Solids, or two Prepared without poses. pose_a, pose_b: "                           \
     "None (the identity), a Pose, a "                                                                                  \
     "4x4 array, or (xyz, SciPy "                                                                                       \
     "Rotation);\n"                                                                                                     \

@@ -27,6 +27,10 @@ typedef struct solid_object {
 
 /// The SolidAnswer to a query of which one body at least is a solid.
 PyObject *solid_query(module_state *state, const query_input *in);
+/// The SolidAnswer to two bodies at their poses, asked for their distance, or where the margin is at least 0 whether
+/// they are within it. earlier: of this pair, or NULL.
+PyObject *solid_answer_ask(module_state *state, PyObject *a, PyObject *b, const ovoid_body_pair *pair, double margin,
+                           const ovoid_compound_proof *earlier);
 /// Its parts and proof as a warm start.
 ovoid_compound_proof solid_answer_get_proof(PyObject *answer);
 /// Checks a SolidAnswer by its proof: OVOID_OK, or what ovoid_solid_answer_check says.

@@ -27,8 +27,8 @@ static PyObject *smooth(PyObject *module, PyObject *arguments, PyObject *keyword
         body_read(state, first, "a", &a) || body_read(state, second, "b", &b) ||
         pose_read(state, place_a, "pose_a", &pair.pose_a) || pose_read(state, place_b, "pose_b", &pair.pose_b))
         return NULL;
-    if (a.compound || b.compound) {
-        PyErr_SetString(PyExc_TypeError, "smooth: two Shapes are wanted; of Compounds ask part by part");
+    if (!a.shape || !b.shape) {
+        PyErr_SetString(PyExc_TypeError, "smooth: two Shapes are wanted; of Compounds and Solids ask part by part");
         return NULL;
     }
     if (order < 0 || order > 2)

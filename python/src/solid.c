@@ -240,10 +240,14 @@ static PyType_Slot slots[] = {
      "Solid.from_triangles, from_mesh and load. Where the triangles are not closed the body is their surface alone."},
     {Py_tp_dealloc, solid_dealloc},
     {Py_tp_repr, repr},
-    {Py_tp_methods, methods},
+    {Py_tp_methods, NULL},
     {Py_tp_getset, fields},
     {0, NULL}};
 static PyType_Spec spec = {"ovoid.Solid", sizeof(solid_object), 0,
                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
 
-int solid_add(PyObject *module) { return type_add(module, &spec, &state_of_module(module)->solid); }
+int solid_add(PyObject *module) {
+    static PyMethodDef all[16];
+    slots_set_methods(slots, all, methods, solid_decompositions);
+    return type_add(module, &spec, &state_of_module(module)->solid);
+}

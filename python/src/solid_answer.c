@@ -5,7 +5,7 @@
 
 typedef struct solid_answer_object {
     PyObject_HEAD ovoid_solid_answer of;
-    PyObject *a, *b; ///< shapes or solids
+    PyObject *a, *b; ///< shapes, compounds or solids
     ovoid_pose pose_a, pose_b;
     ovoid_exclusion *exclusions;
     size_t exclusion_count;
@@ -45,20 +45,12 @@ static int find_answer(module_state *state, const query_input *in, solid_answer_
     }
 }
 
-// A body that solids are not asked with: raises.
-static int check_bodies(const query_input *in) {
+PyObject *solid_query(module_state *state, const query_input *in) {
     if (in->name == QUERY_DEPTH) {
         PyErr_SetString(PyExc_TypeError, "depth() takes Shapes and Compounds: distance() of solids that overlap has a "
                                          "bracket of their depth");
-        return -1;
+        return NULL;
     }
-    if (!in->pair.a.compound && !in->pair.b.compound) return 0;
-    PyErr_SetString(PyExc_TypeError, "a Solid is asked with a Shape or a Solid, not with a Compound");
-    return -1;
-}
-
-PyObject *solid_query(module_state *state, const query_input *in) {
-    if (check_bodies(in)) return NULL;
     solid_answer_object *to = object_make(state->solid_answer);
     if (!to) return NULL;
     to->a = Py_NewRef(in->a);
@@ -68,6 +60,15 @@ PyObject *solid_query(module_state *state, const query_input *in) {
     if (!find_answer(state, in, to)) return (PyObject *)to;
     Py_DECREF((PyObject *)to);
     return NULL;
+}
+
+PyObject *solid_answer_ask(module_state *state, PyObject *a, PyObject *b, const ovoid_body_pair *pair, double margin,
+                           const ovoid_compound_proof *earlier) {
+    query_input in = {.name = margin >= 0 ? QUERY_WITHIN : QUERY_DISTANCE, .a = a, .b = b, .pair = *pair};
+    in.margin = margin;
+    in.has_earlier = earlier != NULL;
+    if (earlier) in.earlier = *earlier;
+    return solid_query(state, &in);
 }
 
 ovoid_compound_proof solid_answer_get_proof(PyObject *answer) {
@@ -160,8 +161,10 @@ static PyGetSetDef fields[] = {
     FIELD(solid_answer_object, FIELD_ENUM + ENUM_INSIDE, "inside", of.inside,
           "Which body has a component inside the other, where that is what proves an overlap: an Inside."),
     {"component", get_component, NULL, "The component that is inside, or None.", NULL},
-    FIELD(solid_answer_object, FIELD_UINT, "triangle_a", of.triangle_a, "The deciding triangle of a; 0 of a shape."),
-    FIELD(solid_answer_object, FIELD_UINT, "triangle_b", of.triangle_b, "The deciding triangle of b; 0 of a shape."),
+    FIELD(solid_answer_object, FIELD_UINT, "triangle_a", of.triangle_a,
+          "The deciding triangle of a; of a compound the part, of a shape 0."),
+    FIELD(solid_answer_object, FIELD_UINT, "triangle_b", of.triangle_b,
+          "The deciding triangle of b; of a compound the part, of a shape 0."),
     FIELD(solid_answer_object, FIELD_UINT, "visited", of.visited,
           "How many pairs of nodes and triangles were bounded."),
     FIELD(solid_answer_object, FIELD_UINT, "tested", of.tested, "How many pairs of triangles were queried."),

@@ -395,21 +395,18 @@ static PyObject *contacts(PyObject *object, PyObject *arguments, PyObject *keywo
 
 // ---- answers
 
-answer_object *world_answer(world_object *self, ovoid_id a, ovoid_id b) {
-    ovoid_world_body first, second;
-    if (get_body(self, a, &first) || get_body(self, b, &second)) return NULL;
-    PyObject *of_a = find_kept(self, a), *of_b = find_kept(self, b);
-    answer_object *made =
-        of_a && of_b ? answer_make(state_of((PyObject *)self), of_a, of_b, &first.body.pose, &second.body.pose) : NULL;
-    Py_XDECREF(of_a);
-    Py_XDECREF(of_b);
-    return made;
+int world_find(world_object *self, ovoid_id id, PyObject **body, ovoid_pose *pose) {
+    ovoid_world_body found;
+    if (get_body(self, id, &found)) return -1;
+    *pose = found.body.pose;
+    *body = find_kept(self, id);
+    return *body ? 0 : -1;
 }
 
-static PyObject *compute_proof(world_object *self, const ovoid_contact *contact) {
+// Fills an answer to two bodies without a solid.
+static PyObject *fill_proof(world_object *self, const ovoid_contact *contact, answer_object *made) {
     ovoid_cover cover;
     ovoid_error error;
-    answer_object *made = world_answer(self, contact->a, contact->b);
     for (size_t capacity = 64; made;) {
         ovoid_exclusion *grown = realloc(made->exclusions, capacity * sizeof *grown);
         if (!grown)
@@ -433,6 +430,21 @@ static PyObject *compute_proof(world_object *self, const ovoid_contact *contact)
     return (PyObject *)made;
 }
 
+// Of solids the world keeps no proof: they are asked.
+static PyObject *compute_proof(world_object *self, const ovoid_contact *contact) {
+    module_state *state = state_of((PyObject *)self);
+    PyObject *a = NULL, *b = NULL, *made = NULL;
+    ovoid_pose pose_a, pose_b;
+    if (!world_find(self, contact->a, &a, &pose_a) && !world_find(self, contact->b, &b, &pose_b)) {
+        ovoid_body_pair pair = {body_make(state, a, pose_a), body_make(state, b, pose_b)};
+        made = pair.a.solid || pair.b.solid ? solid_answer_ask(state, a, b, &pair, -1, NULL)
+                                            : fill_proof(self, contact, answer_make(state, a, b, &pose_a, &pose_b));
+    }
+    Py_XDECREF(a);
+    Py_XDECREF(b);
+    return made;
+}
+
 static PyObject *proof(PyObject *object, PyObject *arguments) {
     world_object *self = (world_object *)object;
     ovoid_contact contact = {0};
@@ -445,7 +457,8 @@ static PyObject *proof(PyObject *object, PyObject *arguments) {
 
 static PyMethodDef methods[] = {
     {"add", METHOD_KEYWORDS(add), METH_VARARGS | METH_KEYWORDS,
-     "add(body, pose=None, *, group=0, mask=0)\n--\n\nAdds a Shape or Compound; returns its id. Two bodies are a pair "
+     "add(body, pose=None, *, group=0, mask=0)\n--\n\nAdds a Shape, Compound or Solid; returns its id. Two bodies are "
+     "a pair "
      "if "
      "a.group & b.mask and b.group & a.mask are\nboth not zero; both zero: all of both."},
     {"add_many", METHOD_KEYWORDS(add_many), METH_VARARGS | METH_KEYWORDS,
@@ -458,7 +471,7 @@ static PyMethodDef methods[] = {
     {"move_many", METHOD_KEYWORDS(move_many), METH_VARARGS | METH_KEYWORDS,
      "move_many(ids, poses, *, order=None)\n--\n\nMoves many, all or none. poses and order as in Bodies."},
     {"pose", get_pose, METH_O, "pose(id)\n--\n\nThe pose of a body."},
-    {"body", get_kept, METH_O, "body(id)\n--\n\nThe Shape or Compound of a body."},
+    {"body", get_kept, METH_O, "body(id)\n--\n\nThe Shape, Compound or Solid of a body."},
     {"ids", get_ids, METH_NOARGS, "ids()\n--\n\nThe ids of all bodies, in ascending order."},
     {"set_groups", set_groups, METH_VARARGS, "set_groups(id, group, mask)\n--\n\nOther groups for a body."},
     {"set_ignored", set_ignored, METH_VARARGS,
@@ -470,7 +483,7 @@ static PyMethodDef methods[] = {
      "pairs that are not proven farther than the margin: a Contacts tuple. kind: 'collide' (margin 0), 'within',\n"
      "'distance' or 'depth'."},
     {"proof", proof, METH_VARARGS,
-     "proof(a, b)\n--\n\nThe whole Answer of a contact at the present poses, which check() takes."},
+     "proof(a, b)\n--\n\nThe whole Answer (SolidAnswer) of a contact at the present poses, which check() takes."},
     {NULL, NULL, 0, NULL}};
 
 static PyType_Slot slots[] = {

@@ -2,11 +2,11 @@
 #ifndef OVOID_PYTHON_WORLD_H
 #define OVOID_PYTHON_WORLD_H
 
-#include "src/module.h"
+#include "src/query.h"
 
 typedef struct world_object {
     PyObject_HEAD ovoid_world *world;
-    PyObject *kept;          ///< a dict: the Shape or Compound of each id
+    PyObject *kept;          ///< a dict: the Shape, Compound or Solid of each id
     int readers, is_written; ///< calls that run without the interpreter's lock
 } world_object;
 
@@ -14,12 +14,12 @@ typedef struct world_object {
 int world_enter(world_object *self, int is_writing);
 void world_leave(world_object *self, int is_writing);
 
-/// A Shape or Compound at a pose as a body of a world.
+/// A Shape, Compound or Solid at a pose as a body of a world.
 int probe_read(module_state *state, PyObject *body, PyObject *pose, ovoid_world_body *to);
 /// The Hit of a query; probes: the tuple of querying bodies that are not in the world, and how they are posed; NULL:
 /// none.
 PyObject *hit_make(world_object *self, const ovoid_world_hit *hit, PyObject *probes, const ovoid_world_body *posed);
-/// An Answer to a pair of bodies of the world.
-answer_object *world_answer(world_object *self, ovoid_id a, ovoid_id b);
+/// The body of an id, a new reference, and its pose.
+int world_find(world_object *self, ovoid_id id, PyObject **body, ovoid_pose *pose);
 
 #endif

@@ -7,35 +7,41 @@
 
 // ---- hits
 
-static answer_object *answer_of(world_object *self, const ovoid_world_hit *hit, PyObject *probes,
-                                const ovoid_world_body *posed) {
-    if (!probes) return world_answer(self, hit->a, hit->b);
-    if (hit->b & OVOID_WORLD_PROBE) {
-        Py_ssize_t a = (Py_ssize_t)hit->a, b = (Py_ssize_t)(hit->b & ~OVOID_WORLD_PROBE);
-        return answer_make(state_of((PyObject *)self), PyTuple_GetItem(probes, a), PyTuple_GetItem(probes, b),
-                           &posed[a].body.pose, &posed[b].body.pose);
+// Of solids the whole answer is asked again, with the deciding triangles first.
+static PyObject *make_answer(module_state *state, PyObject *a, PyObject *b, const ovoid_pose poses[2],
+                             const ovoid_compound_answer *of) {
+    ovoid_body_pair pair = {body_make(state, a, poses[0]), body_make(state, b, poses[1])};
+    if (pair.a.solid || pair.b.solid) {
+        ovoid_compound_proof earlier = {of->part_a, of->part_b, of->answer.proof};
+        return solid_answer_ask(state, a, b, &pair, -1, &earlier);
     }
-    // The probe is a; its own pose is what was asked with.
-    ovoid_world_body found;
-    ovoid_error error;
-    if (ovoid_world_get(self->world, hit->b, &found, &error) != OVOID_OK)
-        return raise_error(state_of((PyObject *)self), &error);
-    PyObject *key = PyLong_FromUnsignedLongLong(hit->b);
-    PyObject *body = key ? PyObject_GetItem(self->kept, key) : NULL;
-    Py_XDECREF(key);
-    if (!body) return NULL;
-    answer_object *made = answer_make(state_of((PyObject *)self), PyTuple_GetItem(probes, (Py_ssize_t)hit->a), body,
-                                      &posed[hit->a].body.pose, &found.body.pose);
-    Py_DECREF(body);
-    return made;
+    answer_object *made = answer_make(state, a, b, &poses[0], &poses[1]);
+    if (made) made->of = *of;
+    return (PyObject *)made;
+}
+
+// One side of a hit: the probe of a number, with the pose it was asked with, or the body of an id; a new reference.
+static int find_side(world_object *self, ovoid_id id, PyObject *probes, const ovoid_world_body *posed, PyObject **body,
+                     ovoid_pose *pose) {
+    if (!probes) return world_find(self, id, body, pose);
+    *body = Py_NewRef(PyTuple_GetItem(probes, (Py_ssize_t)id));
+    *pose = posed[id].body.pose;
+    return 0;
 }
 
 PyObject *hit_make(world_object *self, const ovoid_world_hit *hit, PyObject *probes, const ovoid_world_body *posed) {
     if (!hit->b) Py_RETURN_NONE;
-    answer_object *answer = answer_of(self, hit, probes, posed);
+    module_state *state = state_of((PyObject *)self);
+    PyObject *a = NULL, *b = NULL, *answer = NULL;
+    ovoid_pose poses[2];
+    PyObject *others = hit->b & OVOID_WORLD_PROBE ? probes : NULL;
+    if (!find_side(self, hit->a, probes, posed, &a, &poses[0]) &&
+        !find_side(self, hit->b & ~OVOID_WORLD_PROBE, others, posed, &b, &poses[1]))
+        answer = make_answer(state, a, b, poses, &hit->answer);
+    Py_XDECREF(a);
+    Py_XDECREF(b);
     if (!answer) return NULL;
-    answer->of = hit->answer;
-    return PyObject_CallFunction(state_of((PyObject *)self)->hit, "KKdN", hit->a, hit->b, hit->lower, answer);
+    return PyObject_CallFunction(state->hit, "KKdN", hit->a, hit->b, hit->lower, answer);
 }
 
 // ---- nearest
@@ -340,7 +346,7 @@ PyMethodDef world_queries[] = {
      "overlap it, one."},
     {"nearest_to", METHOD_KEYWORDS(nearest_to), METH_VARARGS | METH_KEYWORDS,
      "nearest_to(body, pose=None, *, group=0, mask=0, " OPTIONS_SIGNATURE
-     "The body nearest to a Shape or Compound that is not in the world: a Hit, or None."},
+     "The body nearest to one that is not in the world: a Hit, or None."},
     {"nearest_pair", METHOD_KEYWORDS(nearest_pair), METH_VARARGS | METH_KEYWORDS,
      "nearest_pair(*, " OPTIONS_SIGNATURE
      "The two nearest of all bodies: a Hit, or None. Two that overlap end the search."},
@@ -358,7 +364,7 @@ PyMethodDef world_queries[] = {
      "number of the other."},
     {"overlaps", METHOD_KEYWORDS(overlaps), METH_VARARGS | METH_KEYWORDS,
      "overlaps(body, pose=None, *, margin=0, group=0, mask=0, " OPTIONS_SIGNATURE
-     "All bodies that are not proven farther than margin from a Shape or Compound: Hits, sorted by id."},
+     "All bodies that are not proven farther than margin from one that is not in the world: Hits, sorted by id."},
     {"cast_ray", METHOD_KEYWORDS(cast_ray), METH_VARARGS | METH_KEYWORDS,
      "cast_ray(origin, direction, length=1e999, *, radius=0, group=0, mask=0)\n--\n\nThe first hit of a ray, thick "
      "where "

@@ -24,6 +24,11 @@ def get_arguments(function):
     return [name for name in names if name not in ("self", "cls")]
 
 
+def get_name(node):
+    """Of a stub's method or attribute."""
+    return node.target.id if isinstance(node, ast.AnnAssign) else node.name
+
+
 # What a build without libovoid_robot, or without readers of files, lacks.
 OF_ROBOTS = {"Robot", "Cell", "RobotPath", "compare_states"}
 OF_FILES = {"load_obstacles", "load_motion_request", "find_problems", "load_path_sources"}
@@ -61,7 +66,7 @@ class Stubs(unittest.TestCase):
             kind = getattr(ovoid, name)
             if issubclass(kind, tuple):
                 continue
-            said = {node.name: node for node in stub.body}
+            said = {get_name(node): node for node in stub.body}
             there = {key for key in vars(kind) if not key.startswith("_")}
             if not ovoid.has_io:
                 there |= {"load", "load_paths", "save"} & set(said)
@@ -74,10 +79,14 @@ class Stubs(unittest.TestCase):
 
 class Words(unittest.TestCase):
     def test_page(self):
+        names = {}
         for block in re.findall(r"```python\n(.*?)```", read("docs/python.md"), re.S):
             if "ovoid.Robot" in block and not ovoid.has_robot:
                 continue
-            exec(compile(block, "docs/python.md", "exec"), {"__name__": "page"})
+            # What imports begins anew, other blocks go on from the one before.
+            if "import ovoid" in block:
+                names = {"__name__": "page"}
+            exec(compile(block, "docs/python.md", "exec"), names)
 
     def check_first(self, path, most):
         """The first example of a page prints what the page says."""
@@ -97,6 +106,33 @@ class Words(unittest.TestCase):
     @unittest.skipUnless(common.numpy, "needs python3-numpy, which prints arrays so")
     def test_readme_prints_what_it_says(self):
         self.check_first("README.md", 10)
+
+    def test_start_prints_what_it_says(self):
+        """The programs of the start, the tutorials and the pages for those who come from elsewhere, run in examples/start."""
+        import contextlib
+        import glob
+        import io
+
+        root = os.path.abspath(SOURCE)
+        pages = ["docs/first-steps.md", "docs/coming-from-trimesh.md"]
+        pages += [os.path.relpath(path, root) for path in sorted(glob.glob(f"{root}/docs/tutorial-*.md"))]
+        self.assertGreaterEqual(len(pages), 6)
+        before = os.getcwd()
+        os.chdir(f"{root}/examples/start")
+        try:
+            for page in pages:
+                text = read(page)
+                blocks = re.findall(r"```python\n(.*?)```\n+It prints\n+```text\n(.*?)```", text, re.S)
+                self.assertEqual(len(blocks), text.count("```python"), f"{page}: a block without what it prints")
+                for block, printed in blocks:
+                    if ("load(" in block and not ovoid.has_io) or ("ovoid.Robot" in block and not ovoid.has_robot):
+                        continue
+                    said = io.StringIO()
+                    with contextlib.redirect_stdout(said):
+                        exec(compile(block, page, "exec"), {"__name__": "page"})
+                    self.assertEqual(said.getvalue(), printed, page)
+        finally:
+            os.chdir(before)
 
     def test_docstring(self):
         self.assertEqual(doctest.testmod(ovoid).failed, 0)

@@ -219,7 +219,7 @@ class Queries(unittest.TestCase):
 
     def test_refused(self):
         for bad, kind, sentence in (
-                (lambda: ovoid.distance(BOX, None), TypeError, "b: a Shape or Compound"),
+                (lambda: ovoid.distance(BOX, None), TypeError, "b: a Shape, Compound or Solid"),
                 (lambda: ovoid.distance(BOX), TypeError, "two bodies"),
                 (lambda: ovoid.within(BOX, BALL), TypeError, "margin="),
                 (lambda: ovoid.distance(BOX, BALL, margin=1), TypeError, "no argument 'margin'"),

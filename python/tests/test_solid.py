@@ -193,6 +193,19 @@ class Queries(unittest.TestCase):
                     self.assertTrue(answer.lower <= least.upper and least.lower <= answer.upper)
                     self.assertEqual(ovoid.within(a, b, *poses, margin=0.3).is_within(0.3), least.upper <= 0.3)
 
+    def test_compound(self):
+        """The two blocks as one compound are the L."""
+        blocks = ovoid.Compound(BLOCKS)
+        for i in range(20):
+            pose = at(3 * math.sin(i) + 1, 3 * math.sin(2.3 * i) + 1, 0.7 * math.sin(5 * i), (i, 2 * i, 0.3 * i))
+            answer, same = ovoid.distance(L, blocks, None, pose), ovoid.distance(L, L, None, pose)
+            self.assertEqual(answer.status, same.status)
+            if answer.status == ovoid.Status.SEPARATED:
+                self.assertTrue(answer.lower <= same.upper and same.lower <= answer.upper)
+            self.assertLess(answer.triangle_b, 2)
+            ovoid.check(answer)
+            self.assertEqual(ovoid.collide(blocks, L, pose).status, answer.status)
+
     def test_inside(self):
         big, small = make_box(3), make_box(1)
         answer = ovoid.distance(small, big)
@@ -225,10 +238,10 @@ class Queries(unittest.TestCase):
         ovoid.check(answer)
 
     def test_refused(self):
-        compound = ovoid.Compound([BALL])
-        for call in (lambda: ovoid.depth(L, L), lambda: ovoid.collide(L, compound), lambda: ovoid.distance(compound, L),
-                     lambda: ovoid.distance(L, ovoid.Prepared(BALL)), lambda: ovoid.distance(L, 3), lambda: ovoid.World().add(L),
-                     lambda: ovoid.Bodies(L, [None]), lambda: ovoid.Compound([L])):
+        for call in (lambda: ovoid.depth(L, L), lambda: ovoid.distance(L, ovoid.Prepared(BALL)), lambda: ovoid.distance(L, 3),
+                     lambda: ovoid.Compound([L]), lambda: ovoid.Prepared(L), lambda: ovoid.bounds(L, BALL), lambda: ovoid.smooth(L, BALL),
+                     lambda: ovoid.gap(L, BALL, direction=(1, 0, 0)), lambda: ovoid.find_approach(BALL, L),
+                     lambda: ovoid.cast_ray(L, None, (9, 0, 0), (-1, 0, 0)), lambda: ovoid.gradient(ovoid.distance(L, BALL))):
             with self.assertRaises(TypeError):
                 call()
         for call in (lambda: ovoid.distance(L, L, absolute_tolerance=-1), lambda: ovoid.within(L, L, margin=math.nan),

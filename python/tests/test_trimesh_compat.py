@@ -19,6 +19,16 @@ class Cube:
         self.vertices = [[x * size / 2, y * size / 2, z * size / 2] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 
 
+class Frame:
+    """A square frame of height 1, from 1 to 2 around the z axis."""
+
+    is_convex = False
+    vertices = [(r * x, r * y, z) for z in (-0.5, 0.5) for r in (1, 2) for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+    faces = [face for i in range(4) for k in [(i + 1) % 4]
+             for a, b, c, d in ((i, i + 8, k + 8, k), (i + 4, k + 4, k + 12, i + 12), (i, k, k + 4, i + 4), (i + 8, i + 12, k + 12, k + 8))
+             for face in ((a, b, c), (a, c, d))]
+
+
 def shift(x, y=0, z=0):
     return [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]
 
@@ -107,9 +117,40 @@ class Collisions(unittest.TestCase):
         self.assertAlmostEqual(self.manager.min_distance_internal(), -0.25, delta=1e-8)
 
     def test_not_convex(self):
+        """A frame around a hole of 2 by 2, which a cube is in without touching it."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.manager.add_object("frame", Frame())
+        self.assertIs(self.manager.in_collision_internal(), False)
+        distance, names, data = self.manager.min_distance_internal(return_names=True, return_data=True)
+        self.assertEqual(names, ("cube0", "frame"))
+        self.assertAlmostEqual(distance, 0.5, delta=1e-8)
+        ovoid.check(data.answer)
+        # The face that is near is that of the hole at y = -1.
+        self.manager.set_transform("cube0", shift(0, -0.2))
+        _, data = self.manager.min_distance_internal(return_data=True)
+        corners = [Frame.vertices[i] for i in Frame.faces[data.index("frame")]]
+        self.assertTrue(all(y == -1 for _, y, _ in corners), corners)
+        with self.assertRaises(NotImplementedError):
+            data.index("cube0")
+        self.manager.set_transform("cube0", shift(0.75))
+        hit, names, data = self.manager.in_collision_internal(return_names=True, return_data=True)
+        self.assertEqual((hit, names), (True, {("cube0", "frame")}))
+        self.assertGreaterEqual(data[0].depth, 0.25)
+        ovoid.check(data[0].answer)
+        self.assertLessEqual(self.manager.min_distance_internal(), -0.25)
+        hit, names = self.manager.in_collision_single(Frame(), shift(0, 0, 5), return_names=True)
+        self.assertEqual((hit, names), (False, set()))
+        self.assertAlmostEqual(self.manager.min_distance_single(Frame(), shift(0, 0, 3)), 2, delta=1e-8)
+        other = CollisionManager()
+        other.add_object("ring", ovoid.Solid.from_mesh(Frame()), shift(1.5))
+        hit, names = self.manager.in_collision_other(other, return_names=True)
+        self.assertEqual((hit, names), (True, {("frame", "ring"), ("cube0", "ring")}))
+
+    def test_without_faces(self):
         mesh = Cube(1)
         mesh.is_convex = False
-        with self.assertWarnsRegex(UserWarning, "hull"):
+        with self.assertWarnsRegex(UserWarning, "no faces"):
             self.manager.add_object("hollow", mesh)
         split = CollisionManager(parts=lambda mesh: [Cube(1), Cube(2)])
         with warnings.catch_warnings():

@@ -155,7 +155,7 @@ class Queries(unittest.TestCase):
     def test_refused(self):
         world, ids = make_row()
         for bad, kind, sentence in (
-                (lambda: world.add(3), TypeError, "body: a Shape or Compound"),
+                (lambda: world.add(3), TypeError, "body: a Shape, Compound or Solid"),
                 (lambda: world.add(BALL, [[1]]), ovoid.Error, r"pose: .*\(4, 4\)"),
                 (lambda: world.add_many([BALL], []), ovoid.Error, "1 bodies need as many"),
                 (lambda: world.add_many([3], [at(0)]), TypeError, "body 0"),

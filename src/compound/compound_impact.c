@@ -120,18 +120,11 @@ COMPILER_NOINLINE static void take_parts(descent *d, const compound_node *leaf_a
     impact_find((moving_shapes){&moving_a, &moving_b}, d->margin, &o, 1e-9, &x);
     take_group(d, leaf_a, leaf_b, x.step_count);
     d->out->tested++;
-    uint32_t all = best->iterations + x.iterations;
-    // This pair decides: a hit before all others, or undecided where there is no hit yet.
-    int is_first = x.status == OVOID_IMPACT_HIT || (x.status == OVOID_IMPACT_UNDECIDED &&
-                                                    best->status != OVOID_IMPACT_HIT && x.free_until < d->free_until);
-    if (x.status != OVOID_IMPACT_FREE && x.free_until < d->free_until) d->free_until = x.free_until;
-    if (is_first) {
+    if (impact_take_pair(best, &x, &d->free_until)) {
         d->window = d->end;
         d->place_a = a;
         d->place_b = b;
-        *best = x;
     }
-    best->iterations = all;
     if (x.status == OVOID_IMPACT_HIT) d->end = x.hit_at;
 }
 
@@ -200,11 +193,7 @@ COMPILER_NOINLINE static void finish(descent *d) {
         impact_find((moving_shapes){&a, &b}, d->margin, &o, 1e-9, best);
         best->iterations = iterations;
     }
-    // Another pair may have been proven free for a shorter time without being hit.
-    if (d->free_until < best->free_until) {
-        best->free_until = d->free_until;
-        if (best->limit == OVOID_LIMIT_NONE) best->limit = OVOID_LIMIT_PRECISION;
-    }
+    impact_finish_pairs(best, d->free_until);
 }
 
 // The bodies as trees, and the times. Refusals are those of two parts.

@@ -28,10 +28,6 @@ static const compound_node *find_node(const body_view *view, uint32_t first, uin
     return n->first == first && n->end == end ? n : NULL;
 }
 
-static int is_apart(const ovoid_step_group *x, const ovoid_step_group *y) {
-    return x->end_a <= y->first_a || y->end_a <= x->first_a || x->end_b <= y->first_b || y->end_b <= x->first_b;
-}
-
 // OVOID_OK if the groups leave out no pair of parts.
 static ovoid_code check_cover(const claim *c, ovoid_error *error) {
     const body_view *a = &c->view_a, *b = &c->view_b;
@@ -42,7 +38,7 @@ static ovoid_code check_cover(const claim *c, ovoid_error *error) {
         if (!find_node(a, groups[i].first_a, groups[i].end_a) || !find_node(b, groups[i].first_b, groups[i].end_b))
             return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "group %zu is of no two nodes of the trees", i);
         for (size_t k = 0; k < i; k++)
-            if (!is_apart(&groups[i], &groups[k]))
+            if (!step_groups_are_apart(&groups[i], &groups[k]))
                 return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "groups %zu and %zu have parts in common", k, i);
         area += (uint64_t)(groups[i].end_a - groups[i].first_a) * (groups[i].end_b - groups[i].first_b);
     }

@@ -3,6 +3,8 @@
 // corners, which the problem's pad pays for.
 #include "decompose/cell.h"
 
+#include "base/watch.h"
+
 vec3 cell_compute_middle(const cell *c) {
     vec3 sum = vec3_add(vec3_add(c->corner[0], c->corner[1]), vec3_add(c->corner[2], c->corner[3]));
     return vec3_scale(sum, 0.25);
@@ -165,6 +167,7 @@ double cell_search_run(cell_search *s) {
     const ovoid_decomposition_options *o = s->options;
     while (s->count > 0 && s->heap[0].bound > cell_search_get_goal(s)) {
         if (s->looked >= s->work || s->count + CELL_PIECES > s->room || s->heap[0].depth >= CELL_DEPTH) break;
+        if (watch_is_stopped(&o->watch)) break;
         cell c = pop(s), pieces[CELL_PIECES];
         uint32_t count = cut(s, &c, pieces);
         for (uint32_t i = 0; i < count; i++) cell_search_add(s, &pieces[i]);

@@ -154,10 +154,14 @@ static void try_part(cell_search *s, uint32_t part) {
     }
 }
 
-double excess_search(cell_search *s) {
-    const body *b = s->problem;
+void excess_set_functions(cell_search *s) {
     s->find_bound = find_bound;
     s->find_plane = find_plane;
+}
+
+double excess_search(cell_search *s) {
+    const body *b = s->problem;
+    excess_set_functions(s);
     for (uint32_t i = 0; i < b->part_count; i++) try_part(s, i);
     for (uint32_t i = 0; i < b->part_count; i++) cell_search_add_box(s, &b->parts[i].bounds, i);
     return cell_search_run(s);

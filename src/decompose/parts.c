@@ -3,6 +3,7 @@
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "decompose/piece.h"
 
 #include <string.h>
@@ -74,14 +75,14 @@ static size_t find_worst(const making *m) {
 }
 
 static ovoid_code cut_pieces(making *m, ovoid_error *error) {
-    while (m->count < m->room) {
+    while (m->count < m->room && !watch_is_stopped(&m->o->watch)) {
         size_t worst = find_worst(m);
         if (worst == m->room || m->pieces[worst].excess <= m->error) return OVOID_OK;
         piece *p = &m->pieces[worst], sides[2];
         ovoid_plane plane;
-        int is_cut = 0;
-        ovoid_code code = OVOID_OK;
-        if (piece_find_plane(m->b, p, &plane)) code = piece_divide(m->b, p, &plane, sides, &is_cut, error);
+        int is_found, is_cut = 0;
+        ovoid_code code = piece_choose_plane(m->b, p, &plane, &is_found, error);
+        if (code == OVOID_OK && is_found) code = piece_divide(m->b, p, &plane, sides, &is_cut, error);
         if (code != OVOID_OK) return code;
         p->is_finished = !is_cut;
         if (!is_cut) continue;
@@ -124,7 +125,7 @@ static ovoid_code find_cost(making *m, size_t i, size_t k, double enough, ovoid_
     double *cost = get_cost(m, i, k);
     const piece *p = &m->pieces[i], *q = &m->pieces[k];
     *cost = INFINITY;
-    if (is_far_apart(m->b, p, q, enough)) return OVOID_OK;
+    if (watch_is_stopped(&m->o->watch) || is_far_apart(m->b, p, q, enough)) return OVOID_OK;
     vec3 *points;
     ovoid_code code = join_points(m->b, p, q, &points, error);
     if (code != OVOID_OK) return code;
@@ -186,7 +187,7 @@ static ovoid_code join_pieces(making *m, ovoid_error *error) {
         size_t first = 0, second = 0;
         while (code == OVOID_OK && (!m->wanted || m->count > m->wanted) && find_cheapest(m, enough, &first, &second))
             code = join(m, first, second, enough, error);
-        if (code != OVOID_OK || !m->wanted || m->count <= m->wanted) return code;
+        if (code != OVOID_OK || !m->wanted || m->count <= m->wanted || watch_is_stopped(&m->o->watch)) return code;
         enough = max2(2 * enough, 1e-3 * m->b->diagonal);
     }
 }

@@ -138,6 +138,11 @@ static cell_plane find_plane(cell_search *s, const cell *c, ovoid_plane *plane) 
     return CELL_BOTH;
 }
 
+void uncovered_set_functions(cell_search *s) {
+    s->find_bound = find_bound;
+    s->find_plane = find_plane;
+}
+
 double uncovered_search(cell_search *s) {
     const body *b = s->problem;
     enum { POINTS = 1 << 14 };
@@ -145,8 +150,7 @@ double uncovered_search(cell_search *s) {
     for (uint32_t i = 0; i < b->part_count; i++) vertices += ovoid_shape_get_polytope(b->parts[i].shape).vertex_count;
     // A part of thousands of vertices takes its time.
     uint32_t points = (uint32_t)min2(POINTS, 0x1p24 * b->part_count / (double)vertices);
-    s->find_bound = find_bound;
-    s->find_plane = find_plane;
+    uncovered_set_functions(s);
     // The solid's points first: farthest are mostly corners.
     uint32_t step = b->solid->point_count / points + 1;
     for (uint32_t i = 0; i < b->solid->point_count; i += step)

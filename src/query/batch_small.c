@@ -48,6 +48,12 @@ static unsigned find_group(small_pool *p) {
     }
 }
 
+// 1 where a place in the lanes costs more than it saves: the first supports end most searches of bodies far apart, and
+// most of yes or no whose spheres do not overlap by a fifth.
+static int is_short(const pair_frame *f, const query_goal *goal, double spheres) {
+    return spheres > (goal->wants_bracket ? 1 : -0.2) * (f->a->reach + f->b->reach);
+}
+
 void small_pool_add(small_pool *p, size_t index, const pair_frame *f, const query_goal *goal, double spheres) {
     small_gjk_query q;
     small_end end;
@@ -56,8 +62,7 @@ void small_pool_add(small_pool *p, size_t index, const pair_frame *f, const quer
         p->owner.finish(p->owner.self, index, goal, f, is_over ? &end : NULL);
         return;
     }
-    // Far apart the first support ends most searches, and a place in the lanes costs more than it saves.
-    if (spheres > f->a->reach + f->b->reach) {
+    if (is_short(f, goal, spheres)) {
         small_gjk_result r;
         simd_run_small_gjk(&q, &r);
         p->owner.finish(p->owner.self, index, goal, f, small_finish(f, goal, &r, &end) ? &end : NULL);

@@ -95,8 +95,14 @@ ovoid_robot_cell *ovoid_robot_cell_create(const ovoid_robot *robot, const ovoid_
     ENVIRONMENT_RETURN(ovoid_robot_cell *, robot, create(robot, allocator, error));
 }
 
+static void release_hull(cell_body *b) {
+    ovoid_shape_destroy(b->hull);
+    b->hull = NULL;
+}
+
 static void destroy(ovoid_robot_cell *c) {
     ovoid_allocator memory = c->allocator;
+    for (size_t i = 0; i < c->bodies.count; i++) release_hull((cell_body *)c->bodies.items + i);
     void *all[] = {c->bodies.items, c->allowed_links.items, c->allowed_bodies.items, c->padding,
                    c->rigid,        c->items.items,         c->parts.items,          c->boxes.items,
                    c->pairs.items,  c->groups.items,        c->insides.items,        c->group_pairs.items,
@@ -122,14 +128,24 @@ int ovoid_robot_is_rigid_pair(const ovoid_robot *robot, uint32_t a, uint32_t b) 
 // ---- bodies
 
 static ovoid_code check_body(const ovoid_body *body, ovoid_error *error) {
-    if (body && body->solid)
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1,
-                         "cells do not take solids; give their convex parts as a compound, or their hull");
-    if (!body || !body->shape == !body->compound)
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs exactly one of a shape and a compound");
+    if (!body || !!body->shape + !!body->compound + !!body->solid != 1)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs exactly one of shape, compound and solid");
     ovoid_code code = ovoid_pose_compute_check(&body->pose);
     return code == OVOID_OK ? code
                             : error_set(error, code, -1, "the body's pose is refused: %s", ovoid_code_get_name(code));
+}
+
+// The hull that a solid's boxes and cheap proofs are of; NULL for all else.
+static ovoid_code create_hull(const ovoid_robot_cell *c, const ovoid_body *body, ovoid_shape **hull,
+                              ovoid_error *error) {
+    const ovoid_shape_options options = {.allocator = &c->allocator};
+    *hull = NULL;
+    if (!body->solid) return OVOID_OK;
+    ovoid_error why;
+    size_t count = (size_t)ovoid_solid_get_report(body->solid).points;
+    *hull = ovoid_shape_create_from_points(ovoid_solid_get_points(body->solid), count, &options, &why);
+    if (*hull) return OVOID_OK;
+    return error_set(error, why.code, -1, "the hull of a solid cannot be made: %s", why.message);
 }
 
 // A free slot; it is used only once the body has its place.
@@ -154,15 +170,17 @@ static void forget_allowed(ovoid_robot_cell *c, uint32_t slot) {
 static ovoid_id add(ovoid_robot_cell *c, uint32_t link, const ovoid_body *body, const uint32_t *touching, size_t count,
                     ovoid_error *error) {
     uint32_t slot = 0;
+    ovoid_shape *hull;
     ovoid_code code = check_body(body, error);
     if (code != OVOID_OK) return 0;
     for (size_t i = 0; i < count; i++)
         if (touching[i] >= c->robot->link_count)
             return (void)error_set(error, OVOID_ERROR_INDEX, (int64_t)i, "there is no link %u", touching[i]), 0;
+    if (create_hull(c, body, &hull, error) != OVOID_OK) return 0;
     code = find_slot(c, &slot);
     if (code == OVOID_OK) {
         cell_body *b = (cell_body *)c->bodies.items + slot;
-        *b = (cell_body){*body, b->generation + 1, link, 1};
+        *b = (cell_body){*body, hull, b->generation + 1, link, 1};
         for (size_t i = 0; code == OVOID_OK && i < count; i++)
             code = keys_set(&c->allocator, &c->allowed_bodies, cell_make_key(slot, touching[i]), 1);
         if (code == OVOID_OK) {
@@ -170,9 +188,11 @@ static ovoid_id add(ovoid_robot_cell *c, uint32_t link, const ovoid_body *body, 
             if (code == OVOID_OK) return cell_make_id(slot, b->generation);
         }
         ((cell_body *)c->bodies.items)[slot].is_used = 0;
+        ((cell_body *)c->bodies.items)[slot].hull = NULL;
         forget_allowed(c, slot);
         (void)cell_compile(c, NULL); // no larger than before: its memory is there
     }
+    ovoid_shape_destroy(hull);
     if (code == OVOID_ERROR_MEMORY) error_write(error, code, -1, "no memory for a body of the cell");
     return 0;
 }
@@ -206,6 +226,7 @@ static ovoid_code remove_body(ovoid_robot_cell *c, ovoid_id id, ovoid_error *err
     if (!b) return OVOID_ERROR_INDEX;
     uint32_t slot = (uint32_t)(id >> 32);
     b->is_used = 0;
+    release_hull(b);
     c->used = slot < c->used ? slot : c->used;
     forget_allowed(c, slot);
     return cell_compile(c, error);

@@ -7,6 +7,7 @@
 #include "robot/inner_balls.h"
 #include "robot/kinematics.h"
 #include "robot/oriented_box.h"
+#include "robot/solid_pair.h"
 #include "shape/block.h"
 
 /// 256 u: what rounding may do to a centre and a distance, in parts of the lengths that they are made of.
@@ -14,7 +15,8 @@
 
 /// Something that moves with a link.
 typedef struct cell_item {
-    const ovoid_shape *shape;
+    const ovoid_shape *shape; ///< where there is a solid its hull
+    const ovoid_solid *solid; ///< NULL: none
     uint32_t frame;
     vec3 center;        ///< of its enclosing sphere, in its link's frame
     double reach;       ///< its radius, rounding radius and allowance in it, and what rounding may add to a centre
@@ -28,7 +30,8 @@ typedef struct cell_item {
 
 /// A part of an obstacle: where it is, and a box around it.
 typedef struct cell_part {
-    const ovoid_shape *shape;
+    const ovoid_shape *shape; ///< as of an item
+    const ovoid_solid *solid;
     ovoid_pose pose;
     oriented_box box;
     inner_region inside; ///< in the world
@@ -58,6 +61,7 @@ typedef struct group_pair {
 /// An obstacle or an attached body in its slot.
 typedef struct cell_body {
     ovoid_body body;
+    ovoid_shape *hull;         ///< of a solid, the cell's own; else NULL
     uint32_t generation, link; ///< link NONE: an obstacle
     int is_used;
 } cell_body;

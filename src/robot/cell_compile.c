@@ -53,12 +53,14 @@ static void find_box(const ovoid_shape *s, vec3 *middle, vec3 *half) {
     *half = (vec3){(high[0] - low[0]) / 2, (high[1] - low[1]) / 2, (high[2] - low[2]) / 2};
 }
 
-static void add_item(compiler *x, const ovoid_shape *shape, placed_frame at, ovoid_robot_side side) {
+static void add_item(compiler *x, const ovoid_shape *shape, const ovoid_solid *solid, placed_frame at,
+                     ovoid_robot_side side) {
     // The user's frame and the body frame differ by the shape's origin, without rotation.
     vec3 own = vec3_add(shape->center, shape->origin);
     double local = norm_of(own), reach = shape->reach + shape->lower_radius;
     double lengths = 2 * local + reach + norm_of(shape->origin) + 2 * norm_of(at.in_link.position);
     cell_item item = {.shape = shape,
+                      .solid = solid,
                       .frame = at.frame,
                       .center = ovoid_pose_compute_point(&at.in_link, own),
                       .reach = reach + CELL_SLACK * lengths,
@@ -74,14 +76,14 @@ static void add_attached(compiler *x, uint32_t slot) {
     const cell_body b = cell_bodies(x->cell)[slot];
     placed_frame at = add_frame(x, (placed_frame){b.link, ovoid_pose_make_identity()}, &b.body.pose);
     ovoid_robot_side side = {b.link, OVOID_ROBOT_NONE, cell_make_id(slot, b.generation), 0};
-    if (b.body.shape) {
-        add_item(x, b.body.shape, at, side);
+    if (!b.body.compound) {
+        add_item(x, b.body.solid ? b.hull : b.body.shape, b.body.solid, at, side);
         return;
     }
     for (size_t i = 0; x->has_memory && i < ovoid_compound_get_part_count(b.body.compound); i++) {
         ovoid_posed_shape part = ovoid_compound_get_part(b.body.compound, i);
         side.part = (uint32_t)i;
-        add_item(x, part.shape, add_frame(x, at, &part.pose), side);
+        add_item(x, part.shape, NULL, add_frame(x, at, &part.pose), side);
     }
 }
 
@@ -126,7 +128,7 @@ static void add_items(compiler *x) {
     for (uint32_t i = 0; x->has_memory && i < r->element_count; i++) {
         const ovoid_robot_element *e = &r->elements[i];
         placed_frame at = add_frame(x, (placed_frame){e->link, ovoid_pose_make_identity()}, &e->pose);
-        add_item(x, e->shape, at, (ovoid_robot_side){e->link, i, 0, 0});
+        add_item(x, e->shape, e->solid, at, (ovoid_robot_side){e->link, i, 0, 0});
     }
     for (uint32_t i = 0; x->has_memory && i < x->cell->bodies.count; i++)
         if (cell_bodies(x->cell)[i].is_used && cell_bodies(x->cell)[i].link != OVOID_ROBOT_NONE) add_attached(x, i);
@@ -207,12 +209,12 @@ static void add_steps(compiler *x) {
 static void add_parts_of(compiler *x, uint32_t slot) {
     const cell_body *b = &cell_bodies(x->cell)[slot];
     ovoid_robot_side side = {OVOID_ROBOT_NONE, OVOID_ROBOT_NONE, cell_make_id(slot, b->generation), 0};
-    size_t count = b->body.shape ? 1 : ovoid_compound_get_part_count(b->body.compound);
+    size_t count = b->body.compound ? ovoid_compound_get_part_count(b->body.compound) : 1;
     for (size_t i = 0; i < count; i++) {
-        ovoid_posed_shape posed = {b->body.shape, b->body.pose};
-        if (!b->body.shape) posed = ovoid_compound_get_part(b->body.compound, i);
+        ovoid_posed_shape posed = {b->body.solid ? b->hull : b->body.shape, b->body.pose};
+        if (b->body.compound) posed = ovoid_compound_get_part(b->body.compound, i);
         side.part = (uint32_t)i;
-        cell_part part = {.shape = posed.shape, .pose = posed.pose, .side = side};
+        cell_part part = {.shape = posed.shape, .solid = b->body.solid, .pose = posed.pose, .side = side};
         append(x, &x->cell->parts, &part, sizeof part);
     }
 }

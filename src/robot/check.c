@@ -52,6 +52,8 @@ static int ask_pair(state_check *s, const checker_pair *p, pair_name name, const
     double margin = add_up(s->margin, p->padding, p->error);
     ovoid_answer is = ovoid_within(&p->pair, margin, NULL, earlier);
     pair_remember(s->checker, p, &is.proof);
+    if (sides_have_solid(&p->solids) && !(is.lower > margin))
+        is = solid_pair_within(&p->pair, &p->solids, margin, &is, pair_get_clear(p));
     return is.lower > margin || take_bracket(s, p, name, is.lower, is.upper);
 }
 

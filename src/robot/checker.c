@@ -285,6 +285,7 @@ static double compute_balls_depth(ovoid_robot_checker *x, item_pair both) {
 int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper) {
     const cell_part *part = name.item == OVOID_ROBOT_NONE ? NULL : &cell_parts(x->cell)[name.index];
     item_pair both = part ? (item_pair){name.item, 0} : cell_pairs(x->cell)[name.index];
+    if (cell_items(x->cell)[both.a].solid || (part ? part->solid : cell_items(x->cell)[both.b].solid)) return 0;
     double depth = part ? compute_depth(x, both.a, &part->inside, part->shape->upper_radius,
                                         get_size(x, both.a) + part->inside_size)
                         : compute_balls_depth(x, both);
@@ -308,6 +309,7 @@ checker_pair checker_make_part_pair(ovoid_robot_checker *x, uint32_t item, uint3
                       .mark = &x->part_marks[at],
                       .near = &x->part_nears[at]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), b->pose};
+    p.solids = (solid_sides){a->solid, b->solid};
     p.error = x->errors[item];
     p.padding = c->padding[a->side.link];
     return p;
@@ -323,6 +325,7 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair) {
                       .mark = &x->pair_marks[pair],
                       .near = &x->pair_nears[pair]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), get_pose(x, b)};
+    p.solids = (solid_sides){a->solid, b->solid};
     p.rotation = &get_frame(x, a->frame)->matrix;
     p.error = x->errors[both.a] + x->errors[both.b];
     return p;

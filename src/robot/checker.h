@@ -125,6 +125,7 @@ void checker_take_lane(ovoid_robot_checker *x, uint32_t which, const lane_state 
 /// A pair as its query wants it.
 typedef struct checker_pair {
     ovoid_pair pair;
+    solid_sides solids;
     const ovoid_robot_side *a, *b;
     ovoid_proof *proof;
     uint32_t *mark;
@@ -141,8 +142,8 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair);
 int checker_is_part_far(ovoid_robot_checker *x, uint32_t item, uint32_t part, double margin);
 int checker_is_pair_far(ovoid_robot_checker *x, uint32_t pair, double margin);
 
-/// 1 where what is known to lie inside both bodies overlaps: then a bracket of the signed distance as the poses are,
-/// the upper bound below zero.
+/// 1 where what is known to lie inside both bodies, of which none is a solid, overlaps: then a bracket of the signed
+/// distance as the poses are, the upper bound below zero.
 int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper);
 
 /// Called for each pair that is not proven farther apart than `margin`; 0 ends the search.
@@ -198,6 +199,9 @@ static inline int pair_was_apart(const ovoid_robot_checker *x, const checker_pai
 
 /// a + b + c, not below the exact sum.
 static inline double add_up(double a, double b, double c) { return ((a + b) + c) * (1 + 0x1p-50); }
+
+/// By how much the bodies may be nearer than they are as posed.
+static inline double pair_get_clear(const checker_pair *p) { return add_up(p->padding, p->error, 0); }
 
 /// Moves the exact query's bracket outward by the poses' errors, and by the padding.
 static inline double lower_outward(const checker_pair *p, double lower) {

@@ -57,6 +57,7 @@ static int is_far(const prover *p, uint32_t pair) {
 // 1 where the middle is proven in contact.
 static int is_hit(prover *p, uint32_t pair, const path_pair *at) {
     ovoid_answer is = ovoid_within(&at->pair, at->error, NULL, get_proof(p, pair));
+    if (sides_have_solid(&at->solids)) is = solid_pair_within(&at->pair, &at->solids, at->error, &is, at->error);
     return is.upper + at->error + 0x1p-51 * (fabs(is.upper) + at->error) <= 0;
 }
 
@@ -68,6 +69,8 @@ static cell_verdict look_for_free(prover *p) {
         double margin = add_up(at.motion.moved, at.error, 0);
         ovoid_answer is = ovoid_within(&at.pair, margin, NULL, get_proof(p, i));
         remember(p, i, &is.proof);
+        if (sides_have_solid(&at.solids) && !(is.lower > margin))
+            is = solid_pair_within(&at.pair, &at.solids, margin, &is, at.error);
         if (is.lower > margin) continue;
         if (!(is.lower > at.error) && is_hit(p, i, &at)) return CELL_REFUTED;
         if (verdict == CELL_PROVEN) p->widest = i;
@@ -86,6 +89,8 @@ static cell_verdict look_for_contact(prover *p) {
         ovoid_cover cover;
         ovoid_answer is = ovoid_depth(&at.pair, NULL, get_proof(p, i), &cover);
         remember(p, i, &is.proof);
+        if (sides_have_solid(&at.solids) && !(is.lower > at.error))
+            is = solid_pair_distance(&at.pair, &at.solids, NULL, &is, at.error);
         if (is.upper < -add_up(at.motion.moved, at.error, 0)) return CELL_PROVEN;
         is_free &= is.lower > at.error;
         if (is.upper < deepest) deepest = is.upper, p->widest = i;

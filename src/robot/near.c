@@ -20,6 +20,21 @@ static ovoid_status find_status(double lower, double upper, ovoid_status of_shap
     return of_shapes == OVOID_TOUCHING ? OVOID_TOUCHING : OVOID_UNDECIDED;
 }
 
+static void put(double *to, vec3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
+
+// Of solids: that of the deciding pair of triangles at its points. That no other pair is as near is not shown.
+static ovoid_gradient make_gradient(const checker_pair *p, const ovoid_answer *is) {
+    ovoid_gradient g = {.has_translation = 0};
+    vec3 lever_a = vec3_sub(is->point_a, p->pair.pose_a.position),
+         lever_b = vec3_sub(is->point_b, p->pair.pose_b.position);
+    put(g.gradient, vec3_neg(is->normal));
+    put(g.gradient + 3, vec3_cross(is->normal, lever_a));
+    put(g.gradient + 6, is->normal);
+    put(g.gradient + 9, vec3_cross(lever_b, is->normal));
+    return g;
+}
+
+// cover: NULL of solids.
 static void keep(const near_search *s, uint32_t at, const checker_pair *p, const ovoid_answer *is,
                  const ovoid_cover *cover) {
     const near_list *list = &s->list;
@@ -34,7 +49,7 @@ static void keep(const near_search *s, uint32_t at, const checker_pair *p, const
                             .normal = is->normal};
     n->point_a = vec3_add_scaled(is->point_a, is->normal, p->padding);
     if (!list->gradients) return;
-    ovoid_gradient g = ovoid_answer_compute_gradient(&p->pair, is, cover);
+    ovoid_gradient g = cover ? ovoid_answer_compute_gradient(&p->pair, is, cover) : make_gradient(p, is);
     n->has_gradient = g.has_translation && g.has_rotation;
     checker_compute_gradient(s->checker, p, g.gradient, s->q, list->gradients + at * list->variables);
 }
@@ -58,11 +73,13 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     if (s->without_depths && take_overlap(s, p, name)) return 1;
     ovoid_answer is = ovoid_depth(&p->pair, &options, pair_get_earlier(s->checker, p), &cover);
     pair_remember(s->checker, p, &is.proof);
+    int asks_solids = sides_have_solid(&p->solids) && !(lower_outward(p, is.lower) > s->margin);
+    if (asks_solids) is = solid_pair_distance(&p->pair, &p->solids, &options, &is, pair_get_clear(p));
     double lower = lower_outward(p, is.lower);
     if (lower > s->margin) return 1;
     *p->near = s->checker->state;
     uint32_t slot = near_list_find_slot(&s->list, lower);
-    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &is, &cover);
+    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &is, asks_solids ? NULL : &cover);
     if (s->wants_one) s->margin = min2(s->margin, s->list.items[0].upper);
     return 1;
 }

@@ -60,7 +60,14 @@ static checker_pair get_checker_pair(const path_search *s, uint32_t number, cons
     ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
     uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
     // The normal stays in the world here: one that a check kept in a link's frame is a bad hint once, and no more.
-    return (checker_pair){p->pair, p->a, p->b, proof, mark, NULL, p->error + p->motion.rounded, p->padding, NULL};
+    return (checker_pair){.pair = p->pair,
+                          .solids = p->solids,
+                          .a = p->a,
+                          .b = p->b,
+                          .proof = proof,
+                          .mark = mark,
+                          .error = p->error + p->motion.rounded,
+                          .padding = p->padding};
 }
 
 // 1 where the interval's ends and the second order prove it along the normal.
@@ -107,6 +114,24 @@ static int is_proven_earlier(path_search *s, const path_span *i, uint32_t number
 
 typedef enum pair_outcome { PAIR_APART, PAIR_LEFT, PAIR_HIT } pair_outcome;
 
+// What the hulls leave open: the solids' distance in the middle.
+static pair_outcome test_solids(path_search *s, const path_span *i, uint32_t number, const path_pair *p,
+                                const ovoid_answer *of_hulls) {
+    checker_pair known = get_checker_pair(s, number, p);
+    double near = add_up(s->margin, p->padding, p->error);
+    const ovoid_options capped = {.cap = add_up(near, p->motion.moved, 0),
+                                  .absolute_tolerance = 0.05 * p->motion.moved};
+    ovoid_answer is = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, pair_get_clear(&known));
+    if (is.lower > capped.cap && (!s->options->steps || path_is_solid_far(p, s->margin))) {
+        add_step(s, i, number, OVOID_ROBOT_STEP_SOLID, 1, (vec3){0, 0, 0});
+        return PAIR_APART;
+    }
+    double upper = upper_outward(&known, is.upper);
+    int is_hit = upper <= s->margin;
+    take_answer(s, p, is_hit ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED, lower_outward(&known, is.lower), upper);
+    return is_hit ? PAIR_HIT : PAIR_LEFT;
+}
+
 // In the middle: apart by more than the motion, or along one normal at both ends, or left open, or a hit.
 static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t number) {
     path_pair p = path_make_pair(s->w, number, i->middle->frames);
@@ -120,6 +145,7 @@ static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t nu
     ovoid_answer is = ovoid_distance(&p.pair, &capped, earlier);
     pair_remember(s->checker, &known, &is.proof);
     if (is_proven(s, i, number, &p, &is)) return PAIR_APART;
+    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &is);
     double upper = upper_outward(&known, is.upper);
     if (is.status == OVOID_OVERLAPPING && upper > s->margin) {
         is = ovoid_depth(&p.pair, NULL, &is.proof, NULL);
@@ -134,8 +160,10 @@ static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t nu
 static pair_outcome test_pair(path_search *s, const path_span *i, uint32_t number) {
     // The bodies hold their spheres' centres, or nearly: no query can show more than these are apart. Where that is not
     // well above the motion, half the interval is the cheaper question.
+    // A ring does not.
     pair_parts of = pair_take_apart(s->w->cell, number);
-    if (path_get_center_distance(s->w, &of) < 2 * path_get_motion(s->w, &of).moved) return PAIR_LEFT;
+    if (!path_has_solid(s->w, &of) && path_get_center_distance(s->w, &of) < 2 * path_get_motion(s->w, &of).moved)
+        return PAIR_LEFT;
     vec3 normal = {0, 0, 0};
     switch (path_test_boxes(s->w, number, i, s->margin, &normal)) {
     case PATH_BOXES_FAR: add_step(s, i, number, OVOID_ROBOT_STEP_OUTER, 1, (vec3){0, 0, 0}); return PAIR_APART;

@@ -97,6 +97,7 @@ path_motion path_get_motion(const path_work *w, const pair_parts *of);
 /// A pair of the cell at some frames. Numbers: item * parts + part, then the pairs of items.
 typedef struct path_pair {
     ovoid_pair pair;
+    solid_sides solids;
     const ovoid_robot_side *a, *b;
     double error, padding, apart; ///< apart: of two items, how far their points are from their frames' origins
     path_motion motion;
@@ -110,6 +111,9 @@ vec3 path_turn_back(const path_pair *p, const link_frame *frames, vec3 world);
 /// A lower bound of the pair's signed distance at the frames that it was made for, along the exact direction that has
 /// the normal in its frame; padding and errors counted.
 double path_measure(const path_work *w, const path_pair *p, const link_frame *frames, vec3 normal);
+
+/// 1 where SOLID holds: the bodies at the frames are proven farther apart than the margin and their motion.
+int path_is_solid_far(const path_pair *p, double margin);
 
 /// 1 where OUTER, MIDDLE or ENDS hold for the interval that was set.
 unsigned path_find_far_parts(const path_work *w, uint32_t item, uint32_t group, double margin);
@@ -150,6 +154,13 @@ typedef struct path_any_hit {
 } path_any_hit;
 /// Where one hits, 0 to 1, or infinity: none was found. *states grows by those looked at.
 double path_find_any_hit(const path_any_hit *x, uint32_t *states, ovoid_robot_answer *hit);
+
+/// 1 where one of two bodies is a solid.
+static inline int path_has_solid(const path_work *w, const pair_parts *of) {
+    const cell_item *items = cell_items(w->cell);
+    return items[of->item].solid ||
+           (of->part != OVOID_ROBOT_NONE ? cell_parts(w->cell)[of->part].solid : items[of->other].solid);
+}
 
 /// 1 where no step of the chain moves along the segment.
 int path_is_still(const path_work *w);

@@ -72,6 +72,12 @@ static ovoid_code check_outer(const path_checker *x, size_t index, const ovoid_r
 static ovoid_code check_gap(const path_checker *x, size_t index, const ovoid_robot_step *s, ovoid_error *error) {
     double margin = x->options->check.margin, gaps[3];
     path_pair p[3];
+    if (s->kind == OVOID_ROBOT_STEP_SOLID) {
+        p[1] = path_make_pair(&x->w, s->pair, x->states[1].frames);
+        return path_is_solid_far(&p[1], margin)
+                   ? OVOID_OK
+                   : refuse(error, index, "the solids in its middle are not as far apart as the bodies may move");
+    }
     for (int i = 0; i < 3; i++) {
         p[i] = path_make_pair(&x->w, s->pair, x->states[i].frames);
         gaps[i] = path_measure(&x->w, &p[i], x->states[i].frames, s->normal);
@@ -101,7 +107,7 @@ static ovoid_code check_step(path_checker *x, size_t index, const ovoid_robot_st
     if (s->mask == 0 || top >= ROBOT8 || (s->kind != OVOID_ROBOT_STEP_OUTER && s->mask != mask) ||
         (uint64_t)s->pair + top >= pairs)
         return refuse(error, index, "it names pairs that there are not");
-    if (s->kind < OVOID_ROBOT_STEP_OUTER || s->kind > OVOID_ROBOT_STEP_ENDS)
+    if (s->kind < OVOID_ROBOT_STEP_OUTER || s->kind > OVOID_ROBOT_STEP_SOLID)
         return refuse(error, index, "it is of no kind that there is");
     ovoid_code code = set_segment(x, segment, error);
     if (code != OVOID_OK) return code;
@@ -178,6 +184,8 @@ static ovoid_code check_hit(path_checker *x, const ovoid_robot_path_answer *answ
         if (!is_side(p.a, &answer->hit.a) || !is_side(p.b, &answer->hit.b) || !is_queried(x, (uint32_t)i)) continue;
         checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
         ovoid_answer is = ovoid_depth(&p.pair, NULL, NULL, NULL);
+        if (sides_have_solid(&p.solids))
+            is = solid_pair_distance(&p.pair, &p.solids, NULL, &is, pair_get_clear(&outward));
         if (!(upper_outward(&outward, is.upper) <= x->options->check.margin)) break;
         // The bracket that is claimed has something in common with the one found here.
         if (answer->hit.lower <= upper_outward(&outward, is.upper) &&

@@ -28,6 +28,10 @@ typedef struct clearance_search {
     char *states;   // the middle's of each level, then those of the segment's ends
 } clearance_search;
 
+static void keep_least(clearance_search *s, double least) {
+    if (least < s->out->lower) s->out->lower = least;
+}
+
 // What a pair must be proven farther apart than.
 static double get_margin(const clearance_search *s) { return s->out->upper - s->tolerance; }
 
@@ -39,7 +43,7 @@ static ovoid_answer measure(clearance_search *s, const path_pair *p, uint32_t nu
     int is_part = of.part != OVOID_ROBOT_NONE;
     ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
     uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
-    const checker_pair known = {p->pair, p->a, p->b, proof, mark, NULL, 0, 0, NULL};
+    const checker_pair known = {.pair = p->pair, .a = p->a, .b = p->b, .proof = proof, .mark = mark};
     // No cap is 0: a body that is nearer than that is measured in full.
     const ovoid_options capped = {.cap = cap > 0 && cap < INFINITY ? cap : 0};
     ovoid_answer is = ovoid_distance(&p->pair, &capped, pair_get_earlier(x, &known));
@@ -67,19 +71,54 @@ static int is_above_by_ends(const clearance_search *s, const path_span *i, uint3
     return path_is_free_between(begin, end, get_margin(s), p->motion.curved, i->end - i->begin);
 }
 
+// What the pair is not nearer than in the interval, by what it is not nearer than in the middle.
+static double find_least(const checker_pair *outward, const path_pair *p, double in_middle) {
+    double lower = lower_outward(outward, in_middle) - p->motion.moved;
+    return lower - 0x1p-50 * (fabs(lower) + p->motion.moved);
+}
+
+// 1 where the pair moves by so little in the interval that its halves can add less than the tolerance: of a body whose
+// allowance is wider than that, and of solids, a bracket may never be as narrow.
+static int is_narrow(clearance_search *s, const path_pair *p, double least) {
+    if (p->motion.moved > 0.5 * s->tolerance) return 0;
+    keep_least(s, least);
+    return 1;
+}
+
+// The hulls, then the solids themselves. Of an overlap no more is known than the bracket in the middle: the depth of
+// solids may jump.
+static int test_solids(clearance_search *s, const path_span *i, uint32_t number, const path_pair *p,
+                       const ovoid_answer *of_hulls, double *least) {
+    double margin = get_margin(s);
+    if (*least > margin) return 1;
+    if (is_above_by_ends(s, i, number, p, path_turn_back(p, i->middle->frames, of_hulls->normal))) return 1;
+    checker_pair outward = {.pair = p->pair, .error = p->error + p->motion.rounded, .padding = p->padding};
+    double clear = add_up(p->padding, outward.error, p->motion.moved), cap = add_up(margin, clear, 0);
+    const ovoid_options capped = {.cap = cap > 0 && cap < INFINITY ? cap : 0};
+    ovoid_answer is = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, clear);
+    take(s, p, upper_outward(&outward, is.upper), 0.5 * (i->begin + i->end));
+    *least = find_least(&outward, p, is.lower);
+    if (is.status == OVOID_OVERLAPPING) {
+        keep_least(s, *least);
+        return 1;
+    }
+    return *least > get_margin(s) || is_narrow(s, p, *least);
+}
+
 // 1: the pair need not be looked at again in the interval. *least: what it is not nearer than.
 static int test_pair(clearance_search *s, const path_span *i, uint32_t number, double *least) {
     vec3 normal;
     if (path_test_boxes(&s->w, number, i, get_margin(s), &normal) != PATH_BOXES_OPEN) return 1;
     path_pair p = path_make_pair(&s->w, number, i->middle->frames);
     checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
-    ovoid_answer is =
-        measure(s, &p, number, add_up(add_up(get_margin(s), p.padding, outward.error), p.motion.moved, 0));
+    double cap = add_up(add_up(get_margin(s), p.padding, outward.error), p.motion.moved, 0);
+    ovoid_answer is = measure(s, &p, number, cap);
+    *least = find_least(&outward, &p, is.lower);
+    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &is, least);
     take(s, &p, upper_outward(&outward, is.upper), 0.5 * (i->begin + i->end));
-    double lower = lower_outward(&outward, is.lower) - p.motion.moved;
-    *least = lower - 0x1p-50 * (fabs(lower) + p.motion.moved);
     if (*least > get_margin(s)) return 1;
-    return is_above_by_ends(s, i, number, &p, path_turn_back(&p, i->middle->frames, is.normal));
+    return is_above_by_ends(s, i, number, &p, path_turn_back(&p, i->middle->frames, is.normal)) ||
+           is_narrow(s, &p, *least);
 }
 
 // ---- all pairs in an interval
@@ -128,10 +167,6 @@ static path_state get_state(const clearance_search *s, uint32_t level) {
     return path_place_state(s->w.cell, s->states + level * s->state_size);
 }
 static uint8_t *get_masks(const clearance_search *s, uint32_t level) { return s->masks + level * s->mask_count; }
-
-static void keep_least(clearance_search *s, double least) {
-    if (least < s->out->lower) s->out->lower = least;
-}
 
 // 1 where no more states may be looked at.
 static int is_used_up(clearance_search *s) {

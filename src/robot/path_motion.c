@@ -322,12 +322,14 @@ path_pair path_make_pair(const path_work *w, uint32_t number, const link_frame *
         const cell_part *b = &cell_parts(w->cell)[of.part];
         p.b = &b->side;
         p.pair = (ovoid_pair){a->shape, b->shape, pose, b->pose};
+        p.solids = (solid_sides){a->solid, b->solid};
         p.padding = w->cell->padding[a->side.link];
         p.frame = OVOID_ROBOT_NONE;
     } else {
         const cell_item *b = &cell_items(w->cell)[of.other];
         p.b = &b->side;
         p.pair = (ovoid_pair){a->shape, b->shape, pose, get_pose(&frames[b->frame])};
+        p.solids = (solid_sides){a->solid, b->solid};
         p.error += w->errors[of.other];
         p.apart = a->far + b->far;
         p.frame = w->pairs[of.pair].frame;
@@ -350,6 +352,12 @@ double path_measure(const path_work *w, const path_pair *p, const link_frame *fr
         error += (2 * w->frame_errors[p->frame].quaternion + 64 * ROUNDING) * apart * UP;
     }
     return gap - error - 0x1p-50 * (fabs(gap) + error);
+}
+
+int path_is_solid_far(const path_pair *p, double margin) {
+    static const ovoid_answer none = {.lower = -INFINITY};
+    double far = add_up(add_up(margin, p->padding, p->error), p->motion.moved, 0);
+    return sides_have_solid(&p->solids) && solid_pair_within(&p->pair, &p->solids, far, &none, far).lower > far;
 }
 
 // ---- spheres

@@ -13,7 +13,7 @@ static ovoid_code make_elements(ovoid_robot_element *elements, const ovoid_robot
         ovoid_robot_element *e = &elements[*made];
         ovoid_shape *shape = ovoid_shape_create_sphere(s->ball.radius, &options, error);
         if (!shape) return OVOID_ERROR_MEMORY; // all else was looked at before
-        *e = (ovoid_robot_element){s->link, NULL, shape, ovoid_pose_make_identity()};
+        *e = (ovoid_robot_element){s->link, NULL, shape, ovoid_pose_make_identity(), NULL};
         e->pose.position = s->ball.center;
     }
     return OVOID_OK;

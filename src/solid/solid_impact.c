@@ -8,6 +8,7 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "compound/compound_impact.h"
 #include "linear/box.h"
 #include "motion/impact_sweep.h"
 #include "solid/moving_tree.h"
@@ -81,17 +82,10 @@ COMPILER_NOINLINE static void take_leaves(descent *d, const couple *c) {
     impact_find(pair, d->margin, &o, 1e-9, &x);
     take_group(d, c->a, c->b, x.step_count);
     d->out->tested++;
-    uint32_t all = best->iterations + x.iterations;
-    // This pair decides: a hit before all others, or undecided where there is no hit yet.
-    int is_first = x.status == OVOID_IMPACT_HIT || (x.status == OVOID_IMPACT_UNDECIDED &&
-                                                    best->status != OVOID_IMPACT_HIT && x.free_until < d->free_until);
-    if (x.status != OVOID_IMPACT_FREE && x.free_until < d->free_until) d->free_until = x.free_until;
-    if (is_first) {
+    if (impact_take_pair(best, &x, &d->free_until)) {
         d->place_a = ref_get_place(c->a);
         d->place_b = ref_get_place(c->b);
-        *best = x;
     }
-    best->iterations = all;
     if (x.status == OVOID_IMPACT_HIT) d->end = x.hit_at;
 }
 
@@ -142,11 +136,7 @@ static void finish(descent *d) {
     if (best->status == OVOID_IMPACT_FREE) return;
     out->part_a = solid_view_get_index(&d->a.view, d->place_a);
     out->part_b = solid_view_get_index(&d->b.view, d->place_b);
-    // Another pair may have been proven free for a shorter time without being hit.
-    if (d->free_until < best->free_until) {
-        best->free_until = d->free_until;
-        if (best->limit == OVOID_LIMIT_NONE) best->limit = OVOID_LIMIT_PRECISION;
-    }
+    impact_finish_pairs(best, d->free_until);
 }
 
 // The bodies as trees, and the times. Refusals are those of two shapes.

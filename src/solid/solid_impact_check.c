@@ -3,6 +3,7 @@
 // beginning, which is asked anew.
 #include "base/environment.h"
 #include "base/error.h"
+#include "compound/compound_impact.h"
 #include "solid/moving_tree.h"
 
 // An impact and its proof, with both bodies as trees.
@@ -34,10 +35,6 @@ static int find_node(const solid_view *v, uint32_t first, uint32_t end, solid_re
     }
 }
 
-static int is_apart(const ovoid_step_group *x, const ovoid_step_group *y) {
-    return x->end_a <= y->first_a || y->end_a <= x->first_a || x->end_b <= y->first_b || y->end_b <= x->first_b;
-}
-
 // OVOID_OK if the groups leave out no pair of leaves.
 static ovoid_code check_cover(const claim *c, ovoid_error *error) {
     const ovoid_step_group *groups = c->groups;
@@ -49,7 +46,7 @@ static ovoid_code check_cover(const claim *c, ovoid_error *error) {
             !find_node(&c->b.view, groups[i].first_b, groups[i].end_b, &node))
             return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "group %zu is of no two nodes of the trees", i);
         for (size_t k = 0; k < i; k++)
-            if (!is_apart(&groups[i], &groups[k]))
+            if (!step_groups_are_apart(&groups[i], &groups[k]))
                 return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "groups %zu and %zu have parts in common", k, i);
         area += (uint64_t)(groups[i].end_a - groups[i].first_a) * (groups[i].end_b - groups[i].first_b);
     }

@@ -72,6 +72,16 @@ def lines(*args):
     return [json.loads(line) for line in run(*args)[0].splitlines()]
 
 
+def is_dent(kind, mesh):
+    """Whether the arrays are 20 triangles that enclose 3, that of the first corners first."""
+    points, triangles = numbers(kind, mesh["points"]), numbers("I", mesh["triangles"])
+    at = [points[3 * i:3 * i + 3] for i in triangles]
+    volume = sum(p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0])
+                 for p, q, r in zip(at[0::3], at[1::3], at[2::3])) / 6
+    is_first = [list(p) for p in at[:3]] == [[0, 0, 0], [2, 0, 0], [2, 0, 1]]
+    return len(points) == 36 and len(triangles) == 60 and is_first and abs(volume - 3) < 1e-6
+
+
 def check_scene():
     # A name that looks like the members that are taken out, and one that would end a string.
     rows = [{"name": 'a","b":"', "box": [1, 2, 3]}, {"name": '\\"b":\\', "mesh": "dent.off", "pose": {"xyz": [3, 0, 0]}},
@@ -100,18 +110,15 @@ def check_scene():
     dent = shapes[data["bodies"][1]["parts"][0]["shape"]]
     with open("dent.ovoid", "rb") as file:
         check("bytes", base64.b64decode(dent["bytes"], validate=True) == file.read())
-    points, triangles = numbers("f", dent["mesh"]["points"]), numbers("I", dent["mesh"]["triangles"])
-    at = [points[3 * i:3 * i + 3] for i in triangles]
-    volume = sum(p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) + p[2] * (q[0] * r[1] - q[1] * r[0])
-                 for p, q, r in zip(at[0::3], at[1::3], at[2::3])) / 6
-    check("mesh", len(points) == 36 and len(triangles) == 60 and abs(volume - 3) < 1e-6)
-    check("meshes of hulls", sum("mesh" in shape for shape in shapes) == 1)
+    check("solid", is_dent("d", dent["solid"]) and [body.get("solid") for body in data["bodies"]] == [None, True, None])
+    check("meshes of hulls", sum("solid" in shape or "mesh" in shape for shape in shapes) == 1)
     check("areas", [len(base64.b64decode(shape.get("areas", ""))) for shape in shapes].count(0) == 1)
     # The same of two files, with their pair.
     write("pair.json", {"objects": [{"name": str(x), "mesh": "dent.off", "solid": False, "pose": {"xyz": [x, 0, 0]}} for x in (0, 5)]})
     wanted = lines("check", "pair.json", "--json")[0]
     run("view", "dent.off", "dent.off", "--pose-b", "5 0 0", "--html", "pair.html")
     data = read("pair.html")
+    check("mesh", is_dent("f", data["shapes"][0]["mesh"]) and not any("solid" in item for item in data["shapes"] + data["bodies"]))
     check("files", data["title"] == "dent.off, dent.off" and len(data["bodies"]) == 2 and data["unit"] is data["margin"] is None)
     check("answer of files", [data["pairs"][0]["answer"][key] for key in ("lower", "upper", "proof")] == [wanted[key] for key in ("lower", "upper", "proof")])
 
@@ -197,6 +204,21 @@ def check_meshes():
     most = 30000000 // (12 * 45030)
     check("meshes", sorted(map(int, with_mesh)) == list(range(most)))
     check("left out of meshes", data["left_out"] == {"meshes": 61 - most} and f"meshes: {61 - most}" in said)
+
+
+def check_proofs():
+    # Hulls about one point: proofs of depths, tens of kilobytes each.
+    random.seed(9)
+    points = [[random.gauss(0, 1) for _ in range(3)] for _ in range(300)]
+    points = [[x / math.hypot(*p) for x in p] for p in points]
+    rows = [{"name": str(i), "points": points, "pose": {"xyz": [i / 1e3, i * i / 1e5, 0], "rpy": [i, 0, 0]}} for i in range(64)]
+    write("proofs.json", {"objects": rows})
+    done = subprocess.run([tool, "check", "proofs.json", "--json", "--html", "proofs.html"], capture_output=True, text=True)
+    sizes = [len(line) - line.index('"proof":') - 1 for line in done.stdout.splitlines()]
+    given = ["proof" in pair["answer"] for pair in read("proofs.html")["pairs"]]
+    most = next(i for i in range(len(sizes)) if sum(sizes[:i + 1]) > 20000000)
+    check("proofs", given == [True] * most + [False] * (len(sizes) - most) and read("proofs.html")["left_out"] == {"proofs": len(sizes) - most})
+    check("left out of proofs", f"proofs: {len(sizes) - most}" in done.stderr)
 
 
 def check_motion():
@@ -288,7 +310,7 @@ def check_many_states():
     check("many edges", len(data["robot"]["path"]["edges"]) == 5000 and data["left_out"] == {"states": 4})
 
 
-tests = [check_scene, check_areas, check_many, check_meshes, check_motion]
+tests = [check_scene, check_areas, check_many, check_meshes, check_proofs, check_motion]
 if "robot" in run("complete")[0].split():
     tests += [check_robot, check_rigid, check_many_states]
 for each in tests:

@@ -2,7 +2,7 @@
 # test_cli.sh [--update] [NAME...]: the tool as a user meets it. Each tests/cli/NAME.txt is a transcript: "$ command", then
 # what it prints (both streams), then "[code]" where the exit code is not 0; "# " lines are remarks. Every command is run
 # again, in a folder with a copy of tests/cli/data, and the transcript that comes out must be the one that is stored.
-# The sessions of docs/tool.md are replayed likewise.
+# The sessions of the pages are replayed likewise, those of the start, the tutorials and of robots in a copy of examples/start.
 # Truth: the transcripts were read by a person; numbers in them are closed forms of boxes and the like.
 # --update stores what comes out: then read the difference.
 set -u
@@ -38,10 +38,10 @@ even() {
     sed -E 's/ +[0-9.]+ (m?s)\>/ T \1/g; s/ +[0-9.]+  ([a-z]+\.(off|obj))/ T  \1/; s/(checked in|altered.jsonl:6:).*/\1 .../' "$1"
 }
 
-# expect PLACE WANTED: replays WANTED in a folder of its own and compares; a failure names the place.
+# expect PLACE WANTED [DATA]: replays WANTED in a copy of DATA, by default tests/cli/data, and compares; a failure names the place.
 expect() {
     rm -rf "$work/run"
-    cp -R "$cases/data" "$work/run"
+    cp -R "${3:-$cases/data}" "$work/run"
     (cd "$work/run" && replay "$2") >"$work/out"
     even "$2" >"$work/wanted.even"
     even "$work/out" >"$work/out.even"
@@ -55,9 +55,11 @@ expect() {
 
 passed=0 failed=0
 if [ $# -eq 0 ]; then
-    # The sessions of the page about the tool.
-    awk '/^```/ { inside = /console/; next } inside' "$OVOID_SOURCE_DIR/docs/tool.md" >"$work/page"
-    expect docs/tool.md "$work/page"
+    for page in tool first-steps tutorial-clearance tutorial-robot robot; do
+        awk '/^```/ { inside = /console/; next } inside' "$OVOID_SOURCE_DIR/docs/$page.md" >"$work/page"
+        if [ $page = tool ]; then data=$cases/data; else data=$OVOID_SOURCE_DIR/examples/start; fi
+        expect docs/$page.md "$work/page" "$data"
+    done
     for file in "$cases"/*.txt; do set -- "$@" "$(basename "$file" .txt)"; done
 fi
 for name; do

@@ -5,33 +5,16 @@
 set -u
 # shellcheck source=tests/cli/need_tool.sh
 . "$(dirname "$0")/need_tool.sh"
+# shellcheck source=tests/cli/altered.sh
+. "$(dirname "$0")/altered.sh"
 work=$OVOID_BUILD_DIR/test_cli_altered
 rm -rf "$work" && cp -R "$OVOID_SOURCE_DIR/tests/cli/data" "$work" && cd "$work" || exit 1
-passed=0 failed=0
 
-# expect CODE NAME: what verify must say of the file altered.jsonl.
-expect() {
-    "$OVOID_TOOL" verify altered.jsonl scene.json >out 2>&1
-    code=$?
-    if [ $code -eq "$1" ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s: exit %s, not %s\n' "$2" "$code" "$1"
-        cat out altered.jsonl
-    fi
-}
+# hold CODE NAME: what verify must say of altered.jsonl, of the scene.
+hold() { expect "$1" "$2" altered.jsonl scene.json; }
 
-# alter CODE NAME PROGRAM: the line after a sed program, which must have changed something.
-alter() {
-    sed -E "$3" line.jsonl >altered.jsonl
-    if cmp -s line.jsonl altered.jsonl; then
-        failed=$((failed + 1))
-        printf 'FAILED %s: nothing was changed\n' "$2"
-    else
-        expect "$1" "$2"
-    fi
-}
+# vary CODE NAME PROGRAM: of line.jsonl after a sed program.
+vary() { alter "$1" "$2" "$3" line.jsonl scene.json; }
 
 "$OVOID_TOOL" check scene.json --json -o all.jsonl 2>/dev/null
 count=$(wc -l <all.jsonl)
@@ -41,19 +24,19 @@ while [ $line -lt "$count" ]; do
     line=$((line + 1))
     sed -n "${line}p" all.jsonl >line.jsonl
     cp line.jsonl altered.jsonl
-    expect 0 "line $line"
+    hold 0 "line $line"
     # A bound beyond the other one, by as little as the bracket is wide.
-    alter 4 "line $line, lower" "s/\"lower\":$number,\"upper\":($number)/\"lower\":\\1,\"upper\":\\1/"
-    alter 4 "line $line, upper" "s/\"lower\":($number),\"upper\":$number/\"lower\":\\1,\"upper\":\\1/"
-    alter 4 "line $line, status" 's/"separated"/"overlapping"/; t; s/"overlapping"/"separated"/'
-    alter 4 "line $line, touching" 's/"status":"[a-z]+"/"status":"touching"/'
-    alter 4 "line $line, point of a" "s/\"point_a\":\\[$number,/\"point_a\":[0.0625,/"
-    alter 4 "line $line, point of b" "s/(\"point_b\":\\[$number,)$number,/\\10.0625,/"
-    alter 4 "line $line, points" 's/"point_a"(.*)"point_b"/"point_b"\1"point_a"/'
-    alter 4 "line $line, normal" 's/"normal":\[[^]]*\]/"normal":[0.6,0.48,0.64]/'
-    alter 4 "line $line, normals" 's/"normal":\[[^]]*\]/"normal":[0.6,0.48,0.64]/g'
-    alter 4 "line $line, kind" 's/"kind":"[a-z_ ]+"/"kind":"none"/'
-    alter 4 "line $line, other bodies" 's/"b":"[a-z]+"/"b":"nobody"/'
+    vary 4 "line $line, lower" "s/\"lower\":$number,\"upper\":($number)/\"lower\":\\1,\"upper\":\\1/"
+    vary 4 "line $line, upper" "s/\"lower\":($number),\"upper\":$number/\"lower\":\\1,\"upper\":\\1/"
+    vary 4 "line $line, status" 's/"separated"/"overlapping"/; t; s/"overlapping"/"separated"/'
+    vary 4 "line $line, touching" 's/"status":"[a-z]+"/"status":"touching"/'
+    vary 4 "line $line, point of a" "s/\"point_a\":\\[$number,/\"point_a\":[0.0625,/"
+    vary 4 "line $line, point of b" "s/(\"point_b\":\\[$number,)$number,/\\10.0625,/"
+    vary 4 "line $line, points" 's/"point_a"(.*)"point_b"/"point_b"\1"point_a"/'
+    vary 4 "line $line, normal" 's/"normal":\[[^]]*\]/"normal":[0.6,0.48,0.64]/'
+    vary 4 "line $line, normals" 's/"normal":\[[^]]*\]/"normal":[0.6,0.48,0.64]/g'
+    vary 4 "line $line, kind" 's/"kind":"[a-z_ ]+"/"kind":"none"/'
+    vary 4 "line $line, other bodies" 's/"b":"[a-z]+"/"b":"nobody"/'
     # Each of the digits that matter, of bounds, points and normals: one more, a line each; none may hold.
     awk -v line="$(cat line.jsonl)" 'BEGIN { alter("lower", 1, 1, 10); alter("upper", 1, -1, 10); alter("point_a", 3, 0, 5)
             alter("point_b", 3, 0, 5); alter("normal", 3, 0, 9) }
@@ -85,9 +68,9 @@ while [ $line -lt "$count" ]; do
         cat out line.jsonl
     fi
     # What is not a result at all is bad input.
-    alter 3 "line $line, no number" "s/\"lower\":$number/\"lower\":\"far\"/"
-    alter 3 "line $line, no status" 's/"status":"[a-z]+"/"status":"near"/'
-    alter 3 "line $line, cut off" 's/.{20}$//'
+    vary 3 "line $line, no number" "s/\"lower\":$number/\"lower\":\"far\"/"
+    vary 3 "line $line, no status" 's/"status":"[a-z]+"/"status":"near"/'
+    vary 3 "line $line, cut off" 's/.{20}$//'
 done
 echo "$passed passed, $failed failed, 0 skipped"
-[ $failed -eq 0 ]
+[ "$failed" -eq 0 ]

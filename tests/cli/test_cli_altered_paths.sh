@@ -5,41 +5,14 @@
 set -u
 # shellcheck source=tests/cli/need_tool.sh
 . "$(dirname "$0")/need_tool.sh"
+# shellcheck source=tests/cli/altered.sh
+. "$(dirname "$0")/altered.sh"
 work=$OVOID_BUILD_DIR/test_cli_altered_paths
 rm -rf "$work" && cp -R "$OVOID_SOURCE_DIR/tests/cli/data" "$work" && cd "$work" || exit 1
-passed=0 failed=0
 if ! "$OVOID_TOOL" robot path --help >/dev/null 2>&1; then
     echo "0 passed, 0 failed, 1 skipped (this ovoid has no robots)"
     exit 0
 fi
-
-# expect CODE NAME FILE [OPTION...]: what verify must say of a file.
-expect() {
-    wanted=$1 name=$2
-    shift 2
-    "$OVOID_TOOL" verify "$@" >out 2>&1
-    code=$?
-    if [ $code -eq "$wanted" ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s: exit %s, not %s\n' "$name" "$code" "$wanted"
-        cat out
-    fi
-}
-
-# alter CODE NAME PROGRAM FILE [OPTION...]: the file after a sed program, which must have changed something.
-alter() {
-    wanted=$1 name=$2 program=$3 file=$4
-    shift 4
-    sed -E "$program" "$file" >altered.jsonl
-    if cmp -s "$file" altered.jsonl; then
-        failed=$((failed + 1))
-        printf 'FAILED %s: nothing was changed\n' "$name"
-    else
-        expect "$wanted" "$name" altered.jsonl "$@"
-    fi
-}
 
 # spoil FILE: every number of every step for the worse, a copy of the path each; none may hold.
 spoil() {
@@ -183,4 +156,4 @@ expect 0 "moved, given" moved.jsonl arm/arm.urdf --srdf arm/arm.srdf --scene arm
 expect 3 "another robot" free.jsonl arm/floats.urdf
 expect 4 "other states" free.jsonl --states times.csv
 echo "$passed passed, $failed failed, 0 skipped"
-[ $failed -eq 0 ]
+[ "$failed" -eq 0 ]

@@ -19,7 +19,7 @@ int main() {
     slide.axis = {2, 0, 0};
     slide.upper = 10;
     slide.mimic = OVOID_ROBOT_NONE;
-    const ovoid_robot_element element = {1, nullptr, box.get(), ovoid_pose_make_identity()};
+    const ovoid_robot_element element = {1, nullptr, box.get(), ovoid_pose_make_identity(), nullptr};
     ovoid_robot_description d = {};
     d.links = links.data(), d.link_count = links.size();
     d.joints = &slide, d.joint_count = 1;

@@ -45,7 +45,7 @@ static void add_elements(uint64_t *s, scene *c) {
     for (uint32_t i = 0; i < c->a.d.link_count; i++)
         for (uint32_t k = random_below(s, 3); k > 0; k--) {
             ovoid_pose pose = random_below(s, 2) ? ovoid_pose_make_identity() : random_pose(s, 0.1);
-            c->a.elements[count++] = (ovoid_robot_element){i, NULL, shapes[random_below(s, SHAPES)], pose};
+            c->a.elements[count++] = (ovoid_robot_element){i, NULL, shapes[random_below(s, SHAPES)], pose, NULL};
         }
     c->a.d.element_count = count;
 }
@@ -493,7 +493,7 @@ static void test_by_hand(void) {
                                .lower = 0,
                                .upper = 10,
                                .mimic = OVOID_ROBOT_NONE};
-    ovoid_robot_element element = {1, "box", shapes[0], ovoid_pose_make_identity()};
+    ovoid_robot_element element = {1, "box", shapes[0], ovoid_pose_make_identity(), NULL};
     ovoid_robot_description d = {
         .links = links, .link_count = 2, .joints = &joint, .joint_count = 1, .elements = &element, .element_count = 1};
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);

@@ -61,7 +61,7 @@ static void test_random(void) {
         for (uint32_t k = 0; k < a.d.link_count; k++)
             if (random_below(&s, 3) == 0)
                 a.elements[count++] =
-                    (ovoid_robot_element){k, NULL, shapes[random_below(&s, SHAPES - 1)], random_pose(&s, 0.1)};
+                    (ovoid_robot_element){k, NULL, shapes[random_below(&s, SHAPES - 1)], random_pose(&s, 0.1), NULL};
         a.d.element_count = count;
         ovoid_robot *r = ovoid_robot_create(&a.d, NULL, &error);
         ovoid_robot_cell *cell = ovoid_robot_cell_create(r, NULL, &error);
@@ -102,7 +102,7 @@ static void test_hinge(void) {
     const ovoid_robot_link links[2] = {{"base"}, {"arm"}};
     const ovoid_robot_joint joint = {"hinge", OVOID_JOINT_REVOLUTE, 0, 1, {{0, 0, 0}, {1, 0, 0, 0}}, {0, 0, 1}, -3, 3,
                                      0,       OVOID_ROBOT_NONE,     1, 0};
-    const ovoid_robot_element element = {1, NULL, shapes[1], {{1, 0, 0}, {1, 0, 0, 0}}};
+    const ovoid_robot_element element = {1, NULL, shapes[1], {{1, 0, 0}, {1, 0, 0, 0}}, NULL};
     const ovoid_robot_description d = {
         .links = links, .link_count = 2, .joints = &joint, .joint_count = 1, .elements = &element, .element_count = 1};
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);

@@ -32,7 +32,7 @@ static void open_stage(stage *s, double radius) {
                                .mimic = OVOID_ROBOT_NONE,
                                .multiplier = 1};
     *s = (stage){.box = ovoid_shape_create_box((ovoid_vec3){0.1, 0.1, 0.1}, NULL, &error)};
-    ovoid_robot_element elements[2] = {{0, NULL, s->box, home}, {1, NULL, s->box, home}};
+    ovoid_robot_element elements[2] = {{0, NULL, s->box, home, NULL}, {1, NULL, s->box, home, NULL}};
     ovoid_robot_description d = {NULL, links, 2, &slide, 1, elements, 2, NULL, 0};
     s->robots[0] = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_link_sphere balls[2] = {{0, {{0, 0, 0}, 0.1}}, {1, {{0, 0, 0}, radius}}};

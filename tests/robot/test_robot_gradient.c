@@ -107,7 +107,7 @@ static void make_shapes(uint64_t *seed) {
 static ovoid_robot *make_robot(uint64_t *s, random_robot *a) {
     make_random_robot(s, a);
     for (uint32_t i = 0; i < a->d.link_count; i++)
-        a->elements[i] = (ovoid_robot_element){i, NULL, shapes[i % KINDS], ovoid_pose_make_identity()};
+        a->elements[i] = (ovoid_robot_element){i, NULL, shapes[i % KINDS], ovoid_pose_make_identity(), NULL};
     a->d.element_count = a->d.link_count;
     return ovoid_robot_create(&a->d, NULL, &error);
 }

@@ -21,7 +21,7 @@ static flyer make_flyer(const ovoid_shape *shape, const ovoid_body *obstacles, s
                                .child = 1,
                                .origin = ovoid_pose_make_identity(),
                                .mimic = OVOID_ROBOT_NONE};
-    ovoid_robot_element element = {1, NULL, shape, {{0.1, -0.2, 0.05}, {1, 0.2, -0.3, 0.4}}};
+    ovoid_robot_element element = {1, NULL, shape, {{0.1, -0.2, 0.05}, {1, 0.2, -0.3, 0.4}}, NULL};
     ovoid_robot_description d = {
         .links = links, .link_count = 2, .joints = &joint, .joint_count = 1, .elements = &element, .element_count = 1};
     flyer f = {.robot = ovoid_robot_create(&d, NULL, &error)};

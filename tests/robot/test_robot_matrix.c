@@ -58,8 +58,8 @@ static ovoid_robot_matrix_pair find(const ovoid_robot_matrix *m, uint32_t a, uin
 static ovoid_robot_touch ask_balls(double lower, double upper, ovoid_joint_type type) {
     ovoid_robot_joint hinge = make_hinge("j", 1, (ovoid_vec3){0, 0, 0}, lower, upper);
     hinge.type = type;
-    ovoid_robot_element balls[] = {{0, NULL, shapes[1], {{1, 0, 0}, {1, 0, 0, 0}}},
-                                   {1, NULL, shapes[1], {{1, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_robot_element balls[] = {{0, NULL, shapes[1], {{1, 0, 0}, {1, 0, 0, 0}}, NULL},
+                                   {1, NULL, shapes[1], {{1, 0, 0}, {1, 0, 0, 0}}, NULL}};
     ovoid_robot_description d = {
         .links = links, .link_count = 2, .joints = &hinge, .joint_count = 1, .elements = balls, .element_count = 2};
     ovoid_robot_matrix *m = make_matrix(&d, NULL);
@@ -103,8 +103,8 @@ static ovoid_robot_matrix *make_rods(double gap, ovoid_robot_description *d) {
     hinges[0] = make_hinge("j", 1, (ovoid_vec3){0, 0, 0}, -0.75, 1);
     hinges[1] = make_hinge("k", 2, (ovoid_vec3){2.2 + gap, 0, 0}, -1, 1);
     ovoid_quat along_x = {1, 0, 1, 0}; // capsules are along z
-    rods[0] = (ovoid_robot_element){1, NULL, shapes[2], {{0.5, 0, 0}, along_x}};
-    rods[1] = (ovoid_robot_element){2, NULL, shapes[2], {{-0.5, 0, 0}, along_x}};
+    rods[0] = (ovoid_robot_element){1, NULL, shapes[2], {{0.5, 0, 0}, along_x}, NULL};
+    rods[1] = (ovoid_robot_element){2, NULL, shapes[2], {{-0.5, 0, 0}, along_x}, NULL};
     *d = (ovoid_robot_description){
         .links = links, .link_count = 3, .joints = hinges, .joint_count = 2, .elements = rods, .element_count = 2};
     return make_matrix(d, &(ovoid_robot_matrix_options){.samples = 100});
@@ -140,9 +140,9 @@ static ovoid_robot_touch ask_kind(ovoid_joint_type type, uint32_t mimic, size_t 
     joints[1].mimic = mimic;
     joints[2].parent = 2;
     joints[2].type = OVOID_JOINT_FIXED;
-    ovoid_robot_element balls[] = {{0, NULL, shapes[1], {{1, 0, 0}, {1, 0, 0, 0}}},
-                                   {2, NULL, shapes[1], {{1, 0, 5}, {1, 0, 0, 0}}},
-                                   {3, NULL, shapes[1], {{1, 0, 5}, {1, 0, 0, 0}}}};
+    ovoid_robot_element balls[] = {{0, NULL, shapes[1], {{1, 0, 0}, {1, 0, 0, 0}}, NULL},
+                                   {2, NULL, shapes[1], {{1, 0, 5}, {1, 0, 0, 0}}, NULL},
+                                   {3, NULL, shapes[1], {{1, 0, 5}, {1, 0, 0, 0}}, NULL}};
     ovoid_robot_description d = {
         .links = links, .link_count = 4, .joints = joints, .joint_count = 3, .elements = balls, .element_count = 3};
     ovoid_robot_matrix *m = make_matrix(&d, &(ovoid_robot_matrix_options){.budget = budget});
@@ -202,7 +202,7 @@ static void make_scene(uint64_t *s, scene *c) {
             j->type = OVOID_JOINT_REVOLUTE;
         for (uint32_t k = random_below(s, 3); k-- > 0;)
             c->a.elements[count++] =
-                (ovoid_robot_element){i, NULL, shapes[random_below(s, SHAPES)], random_pose(s, 0.1)};
+                (ovoid_robot_element){i, NULL, shapes[random_below(s, SHAPES)], random_pose(s, 0.1), NULL};
     }
     c->a.d.element_count = count;
     c->r = ovoid_robot_create(&c->a.d, NULL, &error);

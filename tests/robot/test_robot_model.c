@@ -41,8 +41,8 @@ static void make_arm(arm *a) {
     a->joints[1] = make_joint("finger_left", OVOID_JOINT_PRISMATIC, 0, 3);
     a->joints[2] = make_joint("wrist", OVOID_JOINT_CONTINUOUS, 2, 0);
     a->joints[3] = make_joint("mount", OVOID_JOINT_PLANAR, 1, 2);
-    a->elements[0] = (ovoid_robot_element){2, "upper", box, ovoid_pose_make_identity()};
-    a->elements[1] = (ovoid_robot_element){0, NULL, box, ovoid_pose_make_identity()};
+    a->elements[0] = (ovoid_robot_element){2, "upper", box, ovoid_pose_make_identity(), NULL};
+    a->elements[1] = (ovoid_robot_element){0, NULL, box, ovoid_pose_make_identity(), NULL};
     a->disabled[0] = (ovoid_robot_pair){3, 0, "near"};
     a->disabled[1] = (ovoid_robot_pair){0, 3, NULL};
     a->disabled[2] = (ovoid_robot_pair){2, 0, "near"};

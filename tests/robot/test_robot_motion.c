@@ -47,7 +47,7 @@ static void test_wiper(void) {
     ovoid_robot_link links[2] = {{"base"}, {"wiper"}};
     ovoid_robot_joint hinge = make_hinge(0, 1, 0, "hinge");
     const double turn = sqrt(0.5);
-    ovoid_robot_element element = {1, NULL, rod, {{1, 0, 0}, {turn, 0, turn, 0}}};
+    ovoid_robot_element element = {1, NULL, rod, {{1, 0, 0}, {turn, 0, turn, 0}}, NULL};
     ovoid_robot_description d = {
         .links = links, .link_count = 2, .joints = &hinge, .joint_count = 1, .elements = &element, .element_count = 1};
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);
@@ -104,8 +104,8 @@ static void test_thin(void) {
     ovoid_robot_link links[3] = {{"base"}, {"left"}, {"right"}};
     ovoid_robot_joint hinges[2] = {make_hinge(0, 1, -1, "left"), make_hinge(0, 2, 1, "right")};
     const double turn = sqrt(0.5);
-    ovoid_robot_element elements[2] = {{1, NULL, rod, {{1, 0, 0}, {turn, 0, turn, 0}}},
-                                       {2, NULL, rod, {{1, 0, 0}, {turn, 0, turn, 0}}}};
+    ovoid_robot_element elements[2] = {{1, NULL, rod, {{1, 0, 0}, {turn, 0, turn, 0}}, NULL},
+                                       {2, NULL, rod, {{1, 0, 0}, {turn, 0, turn, 0}}, NULL}};
     ovoid_robot_description d = {
         .links = links, .link_count = 3, .joints = hinges, .joint_count = 2, .elements = elements, .element_count = 2};
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);
@@ -144,7 +144,8 @@ static void fill_elements(uint64_t *s, random_robot *a) {
     size_t count = 0;
     for (uint32_t i = 0; i < a->d.link_count; i++)
         if (random_below(s, 2))
-            a->elements[count++] = (ovoid_robot_element){i, NULL, shapes[random_below(s, 3)], random_pose(s, 0.1)};
+            a->elements[count++] =
+                (ovoid_robot_element){i, NULL, shapes[random_below(s, 3)], random_pose(s, 0.1), NULL};
     a->d.element_count = count;
 }
 

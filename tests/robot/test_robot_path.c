@@ -36,7 +36,7 @@ static void make_scene(uint64_t *s, scene *c) {
     for (uint32_t i = 0; i < c->a.d.link_count; i++)
         if (random_below(s, 2) == 0)
             c->a.elements[count++] =
-                (ovoid_robot_element){i, NULL, shapes[random_below(s, SHAPES)], random_pose(s, 0.1)};
+                (ovoid_robot_element){i, NULL, shapes[random_below(s, SHAPES)], random_pose(s, 0.1), NULL};
     c->a.d.element_count = count;
     c->r = ovoid_robot_create(&c->a.d, NULL, &error);
     c->cell = ovoid_robot_cell_create(c->r, NULL, &error);
@@ -178,7 +178,7 @@ static ovoid_robot *make_wrist(ovoid_shape *rod, double upper) {
     const ovoid_robot_joint joint = {
         "wrist", OVOID_JOINT_REVOLUTE, 0, 1, {{0, 0, 0}, {1, 0, 0, 0}}, {0, 0, 1}, -upper, upper,
         0,       OVOID_ROBOT_NONE,     1, 0};
-    const ovoid_robot_element element = {1, NULL, rod, {{0.5, 0, 0}, {1, 0, 0, 0}}};
+    const ovoid_robot_element element = {1, NULL, rod, {{0.5, 0, 0}, {1, 0, 0, 0}}, NULL};
     const ovoid_robot_description d = {
         .links = links, .link_count = 2, .joints = &joint, .joint_count = 1, .elements = &element, .element_count = 1};
     return ovoid_robot_create(&d, NULL, &error);
@@ -246,7 +246,7 @@ static void test_arc(void) {
                                         OVOID_ROBOT_NONE,
                                         1,
                                         0};
-    const ovoid_robot_element element = {HINGES, NULL, ball, {{1, 0, 0}, {1, 0, 0, 0}}};
+    const ovoid_robot_element element = {HINGES, NULL, ball, {{1, 0, 0}, {1, 0, 0, 0}}, NULL};
     const ovoid_robot_description d = {.links = links,
                                        .link_count = HINGES + 1,
                                        .joints = joints,

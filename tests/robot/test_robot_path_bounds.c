@@ -150,7 +150,7 @@ static void make_machine(uint64_t *s, machine *m) {
     m->shapes[2] = ovoid_shape_create_box((ovoid_vec3){0.01 * c, 1e-6 * c, 0.5 * c}, NULL, &error);
     for (uint32_t i = 0; i <= count; i++) {
         m->links[i].name = names[i];
-        m->elements[i] = (ovoid_robot_element){i, NULL, m->shapes[random_below(s, 3)], random_pose(s, 0.5 * c)};
+        m->elements[i] = (ovoid_robot_element){i, NULL, m->shapes[random_below(s, 3)], random_pose(s, 0.5 * c), NULL};
     }
     for (uint32_t i = 0; i < count; i++) make_joint(s, m, i, is_tree);
     const ovoid_robot_description d = {.links = m->links,

@@ -19,7 +19,7 @@ static ovoid_robot *make_robot(const ovoid_robot_element *elements, size_t count
 
 static ovoid_robot *make_posed(ovoid_shape *shape, ovoid_pose pose) {
     CHECK(shape != NULL);
-    ovoid_robot_element e = {0, NULL, shape, pose};
+    ovoid_robot_element e = {0, NULL, shape, pose, NULL};
     return make_robot(&e, 1);
 }
 
@@ -167,7 +167,7 @@ static ovoid_robot *make_from_cloud(const cloud *c, ovoid_pose pose) {
     for (size_t part = 0; part < c->parts; part++) {
         ovoid_shape_options o = {.radius = c->radius[part]};
         e[part] = (ovoid_robot_element){
-            0, NULL, ovoid_shape_create_from_points(c->xyz[part], c->points[part], &o, &error), pose};
+            0, NULL, ovoid_shape_create_from_points(c->xyz[part], c->points[part], &o, &error), pose, NULL};
     }
     return make_robot(e, c->parts);
 }
@@ -228,8 +228,8 @@ static void test_points(void) {
 static void test_shares(void) {
     uint64_t random = check_seed = 7;
     ovoid_robot_element e[2] = {
-        {0, NULL, ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error), ovoid_pose_make_identity()},
-        {0, NULL, ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error), ovoid_pose_make_identity()}};
+        {0, NULL, ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error), ovoid_pose_make_identity(), NULL},
+        {0, NULL, ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error), ovoid_pose_make_identity(), NULL}};
     e[1].pose.position = (ovoid_vec3){1.2, 0.5, 0.25};
     ovoid_robot *r = make_robot(e, 2);
     ovoid_robot_sphere s[6];
@@ -372,7 +372,7 @@ static void test_refused(void) {
     ovoid_robot_joint joint = {"j", OVOID_JOINT_FIXED, 0, 1, ovoid_pose_make_identity(), {0, 0, 1}, 0, 0,
                                0,   OVOID_ROBOT_NONE,  1, 0};
     ovoid_robot_element e = {0, NULL, ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error),
-                             ovoid_pose_make_identity()};
+                             ovoid_pose_make_identity(), NULL};
     ovoid_robot_description d = {NULL, links, 2, &joint, 1, &e, 1, NULL, 0};
     ovoid_robot *r = ovoid_robot_create(&d, &(ovoid_robot_options){.takes_shapes = 1}, &error);
     CHECK(r != NULL);

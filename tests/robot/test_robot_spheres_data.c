@@ -93,7 +93,7 @@ static void read_link(body *b, const char *link, const char *folder) {
                              : mesh ? read_mesh(folder, mesh)
                                     : NULL;
         if (shape && b->part_count < MOST_PARTS)
-            b->parts[b->part_count++] = (ovoid_robot_element){0, NULL, shape, pose};
+            b->parts[b->part_count++] = (ovoid_robot_element){0, NULL, shape, pose, NULL};
         else
             ovoid_shape_destroy(shape);
         free(collision);

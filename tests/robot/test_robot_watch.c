@@ -2,6 +2,7 @@
 // Truth: the answer of the whole call, which that of a stopped one must not contradict; its proof; covers by an audit
 // of their own.
 #include "check.h"
+#include "patience.h"
 #include "robots.h"
 
 #include "ovoid/robot_matrix.h"
@@ -10,21 +11,6 @@
 
 enum { STEPS = 4096 };
 static ovoid_error error;
-
-/// Says 1 from a question on.
-typedef struct patience {
-    size_t asked, most;
-} patience;
-
-static int is_stopped(void *context) {
-    patience *p = context;
-    return ++p->asked > p->most;
-}
-
-static ovoid_watch make_watch(patience *p, size_t most) {
-    *p = (patience){0, most};
-    return (ovoid_watch){is_stopped, p};
-}
 
 /// Two bars on hinges and a ball beside them.
 typedef struct scene {
@@ -63,7 +49,7 @@ static void open_scene(scene *s) {
                                           .mimic = OVOID_ROBOT_NONE,
                                           .multiplier = 1}};
     const ovoid_robot_element elements[3] = {
-        {1, NULL, s->bar, here}, {2, NULL, s->bar, here}, {0, NULL, s->ball, here}};
+        {1, NULL, s->bar, here, NULL}, {2, NULL, s->bar, here, NULL}, {0, NULL, s->ball, here, NULL}};
     const ovoid_robot_description d = {
         .links = links, .link_count = 3, .joints = joints, .joint_count = 2, .elements = elements, .element_count = 3};
     s->robot = ovoid_robot_create(&d, NULL, &error);

@@ -73,8 +73,13 @@ export class Memory {
   copy(array) {
     const address = this.exports.allocate(array.byteLength);
     if (!address) throw new OvoidError(1, -1, 'out of memory');
-    new Uint8Array(this.exports.memory.buffer).set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), address);
+    this.put(address, new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
     return address;
+  }
+
+  /** Writes bytes at an address. */
+  put(address, bytes) {
+    new Uint8Array(this.exports.memory.buffer).set(bytes, address);
   }
 
   /** Runs a function with copies of arrays, and gives their memory back. */

@@ -1,4 +1,4 @@
-// ovoid: proximity of convex bodies and triangle solids, with proofs.
+// ovoid: proximity of convex bodies, compounds of these and solids of triangles, with proofs.
 // Lengths have one unit, the caller's; angles are radians. Poses map a body's frame to the world's. Every bracket is true,
 // rounding included: lower <= signed distance <= upper. What is wrong with an argument is thrown: OvoidError by the
 // library, TypeError for what is not of the shape that is written here.
@@ -70,6 +70,9 @@ export interface Proof {
   a: number[]; b: number[]; weight_a: number[]; weight_b: number[];
   inner_a?: number[]; inner_b?: number[];
   cover?: { pairs: number[][]; triangles: number[][] };
+  /** Of compounds and solids: why no other parts decide; and of solids the bracket of their surfaces, and what parts the bodies. */
+  exclusions?: { a: number[]; b: number[]; normal: number[]; normal_low?: number[]; lower: number }[];
+  surfaces?: { status: Status; limit: string; lower: number; upper: number }; parting?: number[];
 }
 /** As a line of the tool's JSON: `ovoid check --json` writes what `check` takes. */
 export interface Answer {
@@ -77,6 +80,8 @@ export interface Answer {
   /** World frame; the normal is from a to b. */
   point_a: number[]; point_b: number[]; normal: number[];
   stage: Stage; iterations: number; proof: Proof;
+  /** What decided: of a compound the part, of a solid the triangle; and of solids which component is inside the other. */
+  part_a?: number; part_b?: number; triangle_a?: number; triangle_b?: number; inside?: 'a in b' | 'b in a'; component?: number;
 }
 export interface Options {
   absoluteTolerance?: number;
@@ -85,8 +90,8 @@ export interface Options {
   /** Stop when proven farther than this. */
   cap?: number;
   iterations?: number;
-  /** A proof of this pair a moment ago: where the search begins. */
-  earlier?: Proof;
+  /** The answer about this pair a moment ago: where the search begins. */
+  earlier?: Answer;
 }
 export interface Body { shape: Shape; pose?: Pose }
 /** A column of each; status, stage and limit are numbers of names. */
@@ -113,6 +118,12 @@ export interface SolidReport {
   points: number; triangles: number; components: number; edgesUnmatched: number; edgesCrowded: number; degenerate: number; duplicates: number;
   isClosed: boolean; volume: number; area: number; box: { min: number[]; max: number[] };
 }
+/** Shapes with poses in one body, its union. The shapes are borrowed: one that was freed is refused. */
+export declare class Compound {
+  constructor(parts: readonly { shape: Shape; pose?: Pose }[]);
+  readonly parts: readonly { shape: Shape; pose?: Pose }[];
+  free(): void;
+}
 /** Closed triangles: the body they wind around; open ones: the surface. */
 export declare class Solid {
   private constructor();
@@ -120,14 +131,6 @@ export declare class Solid {
   readonly report: SolidReport;
   free(): void;
 }
-export interface SolidAnswer {
-  status: Status; limit: string; lower: number; upper: number; parting: number[]; inside: 'a' | 'b' | null; component: number;
-  triangle_a: number; triangle_b: number; surfaces: Answer;
-  /** With { proof: true }. */
-  exclusions?: Uint8Array;
-}
-export type SolidOptions = { absoluteTolerance?: number; relativeTolerance?: number; cap?: number; proof?: boolean };
-
 export interface Joint {
   name: string; type: 'fixed' | 'revolute' | 'continuous' | 'prismatic' | 'planar' | 'floating'; parent: string; child: string;
   origin?: Pose; axis?: Vector; lower?: number; upper?: number; velocity?: number; mimic?: { joint: string; multiplier?: number; offset?: number };
@@ -154,24 +157,25 @@ export declare class Robot {
   free(): void;
 }
 
-type Ask<Options, Answer> = (a: Shape, poseA: Pose | null | undefined, b: Shape, poseB?: Pose | null, options?: Options) => Answer;
-type AskWithin<Options, Answer> = (a: Shape, poseA: Pose | null | undefined, b: Shape, poseB: Pose | null | undefined, margin: number, options?: Options) => Answer;
-type Either = Shape | Solid;
+export type AnyBody = Shape | Compound | Solid;
+type Ask<B> = (a: B, poseA: Pose | null | undefined, b: B, poseB?: Pose | null, options?: Options) => Answer;
+type AskWithin<B> = (a: B, poseA: Pose | null | undefined, b: B, poseB: Pose | null | undefined, margin: number, options?: Options) => Answer;
 
 export interface Ovoid {
   version: string;
   /** What the module has of memory; it grows and never shrinks. */
   readonly memoryBytes: number;
   names: { status: Status[]; stage: Stage[]; limit: string[]; kind: string[] };
-  Shape: typeof Shape; Solid: typeof Solid; Robot: typeof Robot; OvoidError: typeof OvoidError;
+  Shape: typeof Shape; Compound: typeof Compound; Solid: typeof Solid; Robot: typeof Robot; OvoidError: typeof OvoidError;
   /** Do they touch? Ends as soon as the sign is proven. */
-  collide: Ask<Options, Answer>;
-  within: AskWithin<Options, Answer>;
-  distance: Ask<Options, Answer>;
-  /** The signed distance: minus the penetration depth where they overlap. */
-  depth: Ask<Options, Answer>;
+  collide: Ask<AnyBody>;
+  within: AskWithin<AnyBody>;
+  /** The distance; of an overlap that it is one, and with a solid a true bracket of the depth. */
+  distance: Ask<AnyBody>;
+  /** The signed distance: minus the penetration depth where they overlap; of compounds of the deepest parts. */
+  depth: Ask<Shape | Compound>;
   /** Checks an answer by its proof alone. null: it holds; else what does not. */
-  check(a: Shape, poseA: Pose | null | undefined, b: Shape, poseB: Pose | null | undefined, answer: Answer): OvoidError | null;
+  check(a: AnyBody, poseA: Pose | null | undefined, b: AnyBody, poseB: Pose | null | undefined, answer: Answer): OvoidError | null;
   /** Many couples [a, b] of bodies at once, eight in lanes; the bits of single queries. */
   batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Options & { margin?: number }): Batch;
   /** The signed distances of both ellipsoids: outer.value <= d <= inner.value. order 1: gradients, 2: Hessians too. */
@@ -180,12 +184,6 @@ export interface Ovoid {
   impact(a: Moving, b: Moving, options?: MotionOptions): Impact;
   /** How near they come, and when. */
   approach(a: Moving, b: Moving, options?: MotionOptions): Approach;
-  solids: {
-    collide(a: Either, poseA: Pose | null | undefined, b: Either, poseB?: Pose | null, options?: SolidOptions): SolidAnswer;
-    within(a: Either, poseA: Pose | null | undefined, b: Either, poseB: Pose | null | undefined, margin: number, options?: SolidOptions): SolidAnswer;
-    distance(a: Either, poseA: Pose | null | undefined, b: Either, poseB?: Pose | null, options?: SolidOptions): SolidAnswer;
-    check(a: Either, poseA: Pose | null | undefined, b: Either, poseB: Pose | null | undefined, answer: SolidAnswer): OvoidError | null;
-  };
 }
 
 /** Loads the module, from beside this file, an address, bytes or a compiled module. */

@@ -1,8 +1,8 @@
-// ovoid: proximity of convex bodies, with proofs. See ovoid.d.ts for what each function takes and gives.
+// ovoid: proximity of bodies, with proofs. See ovoid.d.ts for what each function takes and gives.
 import { instantiate, Memory, OvoidError } from './memory.mjs';
 import { Answer, ANSWER, fromAnswer, fromProof, Names, PROOF, putPose, toPose, toVector } from './values.mjs';
 import { bindRobots } from './robots.mjs';
-import { bindSolids } from './solids.mjs';
+import { bindBodies } from './bodies.mjs';
 
 export { OvoidError };
 
@@ -20,12 +20,13 @@ export async function load(source) {
   core.drop = (object) => collected.unregister(object);
   const Shape = bindShapes(core);
   core.Shape = Shape;
+  const { Compound, Solid, ...bodies } = bindBodies(core);
   return {
     get memoryBytes() {
       return core.calls.memory.buffer.byteLength;
     },
-    Shape, OvoidError, version: memory.text(core.calls.get_version()), names: core.names,
-    ...bindQueries(core), ...bindMotions(core), ...bindSolids(core), ...bindRobots(core),
+    Shape, Compound, Solid, OvoidError, version: memory.text(core.calls.get_version()), names: core.names,
+    ...bindQueries(core, bodies), ...bindMotions(core), ...bindRobots(core),
   };
 }
 
@@ -152,15 +153,16 @@ function bindShapes(core) {
 
 // ---- queries
 
+// The cover of the last depth, copied; as an object when that is asked for. undefined: there is none.
 function readCover(core) {
-  const { memory, calls } = core, at = calls.get_cover(), buffer = memory.exports.memory.buffer;
-  const [points, triangles] = new Uint32Array(buffer, at, 2);
+  const { memory, calls } = core, at = calls.get_cover(), [points, triangles] = new Uint32Array(memory.exports.memory.buffer, at, 2);
   if (!points) return undefined;
-  const ends = new Uint32Array(buffer, at + 8, 2 * COVER_POINTS), corners = new Uint16Array(buffer, at + 8 + 8 * COVER_POINTS, 3 * triangles);
-  return {
-    pairs: Array.from({ length: points }, (_, i) => [ends[i], ends[COVER_POINTS + i]]),
+  const a = memory.take(Uint32Array, at + 8, points), b = memory.take(Uint32Array, at + 8 + 4 * COVER_POINTS, points);
+  const corners = memory.take(Uint16Array, at + 8 + 8 * COVER_POINTS, 3 * triangles);
+  return () => ({
+    pairs: Array.from(a, (end, i) => [end, b[i]]),
     triangles: Array.from({ length: triangles }, (_, i) => [...corners.subarray(3 * i, 3 * i + 3)]),
-  };
+  });
 }
 
 function writeCover(core, cover) {
@@ -179,11 +181,18 @@ function writeCover(core, cover) {
 
 const settings = (o) => [o?.absoluteTolerance ?? 0, o?.relativeTolerance ?? 0, o?.cap ?? 0, o?.iterations ?? 0];
 
-function bindQueries(core) {
-  const { memory, calls, names } = core;
+function bindQueries(core, bodies) {
+  const { memory, calls, names, Shape } = core;
+  const areShapes = (a, b) => a instanceof Shape && b instanceof Shape;
+
+  // An earlier answer's proof, where the search begins; before it, of other bodies than shapes, the parts that decided.
+  function putEarlier(earlier, arePlain) {
+    const side = (name) => earlier[`triangle_${name}`] ?? earlier[`part_${name}`] ?? 0;
+    memory.set([...(arePlain ? [] : [side('a'), side('b')]), ...fromProof(earlier.proof, names)], 19);
+  }
 
   function query(kind, a, poseA, b, poseB, margin, options) {
-    const earlier = options?.earlier;
+    const earlier = options?.earlier, arePlain = areShapes(a, b);
     const { doubles, place } = memory;
     putPose(doubles, place, poseA, 'poseA');
     putPose(doubles, place + 7, poseB, 'poseB');
@@ -192,14 +201,18 @@ function bindQueries(core) {
     doubles[place + 16] = options?.relativeTolerance ?? 0;
     doubles[place + 17] = options?.cap ?? 0;
     doubles[place + 18] = options?.iterations ?? 0;
-    if (earlier) memory.set(fromProof(earlier, names), 19);
+    if (earlier) putEarlier(earlier, arePlain);
+    if (!arePlain) return bodies.query(kind, a, b, earlier, () => readCover(core));
     calls.query(kind, a.address, b.address, earlier ? 1 : 0);
-    return new Answer(memory.get(ANSWER + PROOF), names, kind === 3 ? readCover(core) : undefined);
+    const n = memory.get(ANSWER + PROOF), cover = kind === 3 ? readCover(core) : undefined;
+    return new Answer(n, names, cover && ((proof) => (proof.cover = cover())));
   }
 
   function check(a, poseA, b, poseB, answer) {
-    memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB'), ...fromAnswer(answer, names)]);
+    memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB')]);
     writeCover(core, answer.proof.cover);
+    if (!areShapes(a, b)) return bodies.check(a, b, answer);
+    memory.set(fromAnswer(answer, names), 14);
     return calls.check(a.address, b.address) ? memory.error() : null;
   }
 

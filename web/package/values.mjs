@@ -84,13 +84,14 @@ function toProofObject(n, names) {
   return proof;
 }
 
-/** An answer: its fields are those of a line of the tool's JSON. The proof is made when it is asked for. */
+/** An answer: its fields are those of a line of the tool's JSON. The proof is made when it is asked for, and completed. */
 export class Answer {
   #numbers;
   #names;
   #proof;
+  #complete;
 
-  constructor(n, names, cover) {
+  constructor(n, names, complete) {
     this.status = names.status[n[0]];
     this.limit = names.limit[n[2]];
     this.lower = n[4];
@@ -102,11 +103,14 @@ export class Answer {
     this.iterations = n[3];
     this.#numbers = n;
     this.#names = names;
-    if (cover) this.proof.cover = cover;
+    this.#complete = complete;
   }
 
   get proof() {
-    this.#proof ??= toProofObject(this.#numbers, this.#names);
+    if (!this.#proof) {
+      this.#proof = toProofObject(this.#numbers, this.#names);
+      this.#complete?.(this.#proof);
+    }
     return this.#proof;
   }
 
@@ -116,7 +120,7 @@ export class Answer {
 }
 
 /** What JSON writes of numbers that it has none for: null, "inf", "-inf". */
-const toNumber = (x, fallback) => (typeof x === 'number' ? x : x === 'inf' ? Infinity : x === '-inf' ? -Infinity : fallback);
+export const toNumber = (x, fallback) => (typeof x === 'number' ? x : x === 'inf' ? Infinity : x === '-inf' ? -Infinity : fallback);
 
 /** The numbers of a proof. */
 export function fromProof(proof, names) {

@@ -70,6 +70,12 @@ const double *read_proof(const double *from, ovoid_proof *p) {
     return read_vec3(read_vec3(from, &p->inner_a), &p->inner_b);
 }
 
+const double *read_options(const double *from, ovoid_options *o) {
+    *o = (ovoid_options){.absolute_tolerance = from[0], .relative_tolerance = from[1], .cap = from[2]};
+    o->iterations = from[3] >= 0 && from[3] <= 1e9 ? (uint32_t)from[3] : 1;
+    return from + 4;
+}
+
 // ---- memory and errors
 
 void *EXPORT(allocate)(size_t size) { return malloc(size ? size : 1); }

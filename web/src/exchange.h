@@ -1,6 +1,6 @@
 // What the module and its caller pass each other: numbers in one array, in the order of their fields, arrays by
 // address. A call reads its numbers from the array's beginning and writes its results there. Addresses are the caller's
-// to release; handles are addresses of shapes, solids, robots.
+// to release; handles are addresses of shapes, compounds, solids, robots.
 #ifndef OVOID_WEB_EXCHANGE_H
 #define OVOID_WEB_EXCHANGE_H
 
@@ -16,6 +16,9 @@
 extern double exchange[EXCHANGE_COUNT];
 extern ovoid_error exchange_error;
 
+/// The cover of the last depth that was asked, and of the next check.
+extern ovoid_cover cover;
+
 /// Reads and writes fields one after another.
 const double *read_vec3(const double *from, ovoid_vec3 *v);
 const double *read_pose(const double *from, ovoid_pose *pose);
@@ -25,6 +28,9 @@ double *write_pose(double *to, const ovoid_pose *pose);
 
 /// A number as an unsigned one: what is none, or too large, becomes the largest, which is no index of anything.
 uint32_t read_index(double x);
+
+/// Both tolerances, the cap, the iterations.
+const double *read_options(const double *from, ovoid_options *options);
 
 /// 15 numbers, the proof left out.
 double *write_answer(double *to, const ovoid_answer *answer);

@@ -3,16 +3,10 @@
 
 #include <stdlib.h>
 
-static ovoid_cover cover;
+ovoid_cover cover;
 
 /// Where a depth's cover stands: point_count and triangle_count, a, b, triangles, as ovoid_cover has them.
 ovoid_cover *EXPORT(get_cover)(void) { return &cover; }
-
-static const double *read_options(const double *from, ovoid_options *o) {
-    *o = (ovoid_options){.absolute_tolerance = from[0], .relative_tolerance = from[1], .cap = from[2]};
-    o->iterations = from[3] >= 0 && from[3] <= 1e9 ? (uint32_t)from[3] : 1;
-    return from + 4;
-}
 
 static const double *read_pair(const ovoid_shape *a, const ovoid_shape *b, ovoid_pair *pair) {
     pair->shape_a = a, pair->shape_b = b;

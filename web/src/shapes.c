@@ -2,7 +2,7 @@
 #include "src/exchange.h"
 
 // Numbers 0 to 4: radius, gap, inner method, allowance.
-static ovoid_shape_options read_options(void) {
+static ovoid_shape_options read_shape_options(void) {
     const double *x = exchange;
     return (ovoid_shape_options){.radius = x[0],
                                  .gap = x[1],
@@ -11,13 +11,13 @@ static ovoid_shape_options read_options(void) {
 }
 
 ovoid_shape *EXPORT(shape_from_points)(const double *xyz, size_t count) {
-    ovoid_shape_options options = read_options();
+    ovoid_shape_options options = read_shape_options();
     return ovoid_shape_create_from_points(xyz, count, &options, &exchange_error);
 }
 
 /// Numbers from 5 on: of a box the half sizes, else radius, half length, tolerance or sides.
 ovoid_shape *EXPORT(shape_create)(int kind) {
-    ovoid_shape_options options = read_options();
+    ovoid_shape_options options = read_shape_options();
     const double *x = exchange + 5;
     ovoid_error *e = &exchange_error;
     uint32_t sides = x[2] >= 0 && x[2] <= 1e6 ? (uint32_t)x[2] : 0;

@@ -1,7 +1,7 @@
 // The package against known answers, against the tool's bits, and against what it must refuse.
 // OVOID names the tool. Run by scripts/wasm.sh.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -9,7 +9,7 @@ import { test } from 'node:test';
 import { load } from '../../build/wasm/package/ovoid.mjs';
 
 const ovoid = await load();
-const { Shape, Solid, Robot } = ovoid;
+const { Shape, Compound, Solid, Robot } = ovoid;
 
 // xorshift32: the same numbers everywhere.
 let state = 2463534242;
@@ -29,34 +29,82 @@ function makeScene(count) {
   }));
 }
 
-test("a scene's pairs have the bits of the tool, proofs included, and every proof holds", () => {
+/** The lines of ovoid check of a scene and files beside it; some bodies overlap, whose exit status is 1. */
+function checkByTool(scene, files = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'ovoid-'));
   try {
-    const objects = makeScene(40), file = join(folder, 'scene.json');
-    writeFileSync(file, JSON.stringify({ objects }));
-    let text;
-    try {
-      text = execFileSync(process.env.OVOID, ['check', file, '--json'], { encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'ignore'] });
-    } catch (error) {
-      assert.equal(error.status, 1, 'bodies overlap');
-      text = error.stdout;
-    }
-    const shapes = new Map(objects.map((o) => [o.name, Shape.fromPoints(o.points)])), poses = new Map(objects.map((o) => [o.name, o.pose]));
-    const lines = text.trim().split('\n').map((line) => JSON.parse(line)), seen = { separated: 0, overlapping: 0 };
-    assert.equal(lines.length, (40 * 39) / 2);
-    for (const { a, b, ...line } of lines) {
-      const pair = [shapes.get(a), poses.get(a), shapes.get(b), poses.get(b)];
-      const answer = ovoid.depth(...pair);
-      assert.deepEqual(JSON.parse(JSON.stringify(answer)), line);
-      assert.equal(ovoid.check(...pair, line), null);
-      assert.match(ovoid.check(...pair, { ...line, lower: line.lower + 1e-6, upper: line.upper + 1e-6 }).message, /lower bound/);
-      assert.match(ovoid.check(...pair, { ...line, lower: line.lower - 1e-6, upper: line.upper - 1e-6 }).message, /upper bound/);
-      seen[answer.status]++;
-    }
-    assert.ok(seen.separated > 100 && seen.overlapping > 20, JSON.stringify(seen));
+    for (const [name, text] of Object.entries({ 'scene.json': JSON.stringify(scene), ...files })) writeFileSync(join(folder, name), text);
+    const { status, stdout, stderr } = spawnSync(process.env.OVOID, ['check', join(folder, 'scene.json'), '--json'], { encoding: 'utf8', maxBuffer: 1 << 28 });
+    assert.equal(status, 1, stderr);
+    return stdout.trim().split('\n').map((line) => JSON.parse(line));
   } finally {
     rmSync(folder, { recursive: true });
   }
+}
+
+/** An answer with its bracket moved. */
+const moved = (line, by) => ({ ...line, lower: line.lower + by, upper: line.upper + by });
+
+test("a scene's pairs have the bits of the tool, proofs included, and every proof holds", () => {
+  const objects = makeScene(40), lines = checkByTool({ objects }), seen = { separated: 0, overlapping: 0 };
+  const shapes = new Map(objects.map((o) => [o.name, Shape.fromPoints(o.points)])), poses = new Map(objects.map((o) => [o.name, o.pose]));
+  assert.equal(lines.length, (40 * 39) / 2);
+  for (const { a, b, ...line } of lines) {
+    const pair = [shapes.get(a), poses.get(a), shapes.get(b), poses.get(b)];
+    const answer = ovoid.depth(...pair);
+    assert.deepEqual(answer.toJSON(), line);
+    assert.equal(ovoid.check(...pair, line), null);
+    if (line.proof.cover) assert.ok(ovoid.check(...pair, { ...line, proof: { ...line.proof, cover: undefined } }), 'the cover of the last check is gone');
+    assert.match(ovoid.check(...pair, moved(line, 1e-6)).message, /lower bound/);
+    assert.match(ovoid.check(...pair, moved(line, -1e-6)).message, /upper bound/);
+    seen[answer.status]++;
+  }
+  assert.ok(seen.separated > 100 && seen.overlapping > 20, JSON.stringify(seen));
+});
+
+// An L of three cubes: its corner's distance is not its hull's.
+const outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], corners = [0, 1].flatMap((z) => outline.map(([x, y]) => [x, y, z]));
+const caps = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
+const sides = outline.flatMap((_, i) => [[i, (i + 1) % 6, 6 + ((i + 1) % 6)], [i, 6 + ((i + 1) % 6), 6 + i]]);
+const faces = [...caps.map(([a, b, c]) => [a, c, b]), ...caps.map((t) => t.map((x) => x + 6)), ...sides];
+
+test('compounds and solids have the bits of the tool; their proofs hold, altered ones do not', () => {
+  const off = `OFF\n12 20 0\n${corners.map((p) => p.join(' ')).join('\n')}\n${faces.map((t) => `3 ${t.join(' ')}`).join('\n')}\n`;
+  const shapes = makeScene(6).map(({ points }) => ({ points, shape: Shape.fromPoints(points) })), solid = Solid.fromTriangles(corners, faces);
+  // Three of each kind, wherever they are; a small box in a large L, which is inside.
+  const bodies = [], objects = makeScene(9).map(({ name, pose: { xyz, quat_wxyz } }, i) => {
+    const pose = { xyz: xyz.map((x) => x / 2), quat_wxyz };
+    const parts = [0, 1, 2, 3].map((k) => ({ ...shapes[(i + k) % 6], pose: { xyz: [between(-1, 1), between(-1, 1), k], quat_wxyz: [1, between(-1, 1), between(-1, 1), 0] } }));
+    bodies.push({ body: [parts[0].shape, new Compound(parts), solid][i % 3], pose });
+    return { name, pose, ...[{ points: parts[0].points }, { compound: parts.map(({ points, pose }) => ({ points, pose })) }, { mesh: 'l.off' }][i % 3] };
+  });
+  bodies.push({ body: Solid.fromTriangles(corners.map((p) => p.map((x) => 16 * x)), faces), pose: { xyz: [9, 9, 9] } });
+  objects.push({ name: 'large', mesh: 'l.off', scale: 16, pose: { xyz: [9, 9, 9] } });
+  bodies.push({ body: Shape.box([0.5, 0.5, 0.5]), pose: { xyz: [12, 12, 20] } });
+  objects.push({ name: 'within', box: [1, 1, 1], pose: { xyz: [12, 12, 20] } });
+  const byName = new Map(objects.map(({ name }, i) => [name, bodies[i]])), seen = { separated: 0, overlapping: 0 };
+  for (const { a, b, kind_a, kind_b, mesh_volume_a, mesh_volume_b, hull_volume_a, hull_volume_b, ...line } of checkByTool({ objects }, { 'l.off': off })) {
+    const [p, q] = [byName.get(a), byName.get(b)], pair = [p.body, p.pose, q.body, q.pose];
+    const answer = ovoid[line.proof.surfaces ? 'distance' : 'depth'](...pair);
+    assert.deepEqual(answer.toJSON(), line, `${a} ${b}`);
+    assert.equal(ovoid.check(...pair, line), null);
+    for (const by of [0.01, -0.01]) assert.ok(ovoid.check(...pair, moved(line, by)), `${a} ${b} ${by}`);
+    const { exclusions = [] } = line.proof;
+    // Of compounds: turned round by what rounding left of its normal, none shows that parts are apart.
+    const turned = exclusions.map((x) => ({ ...x, normal_low: x.normal.map((v) => -2 * v) }));
+    if (turned.length && line.status === 'separated' && !line.proof.surfaces) assert.ok(ovoid.check(...pair, { ...line, proof: { ...line.proof, exclusions: turned } }), `${a} ${b}`);
+    if (line.proof.cover) assert.ok(ovoid.check(...pair, { ...line, proof: { ...line.proof, cover: undefined } }), 'the cover of the last check is gone');
+    if (exclusions.length > 1) assert.match(ovoid.check(...pair, { ...line, proof: { ...line.proof, exclusions: exclusions.slice(1) } }).message, /nothing excludes/);
+    if (line.inside) {
+      assert.deepEqual([a, b, line.inside], ['large', 'within', 'b in a']);
+      assert.ok(ovoid.check(...pair, { ...line, inside: 'a in b' }));
+      seen.inside = true;
+    }
+    assert.equal(ovoid.distance(...pair, { earlier: line }).status, line.status);
+    seen[line.status]++;
+  }
+  assert.ok(seen.separated > 10 && seen.overlapping > 3 && seen.inside, JSON.stringify(seen));
+  assert.ok(ovoid.distance(bodies[1].body, null, bodies[4].body, { xyz: [9, 0, 0] }).proof.exclusions.length > 0);
 });
 
 test('batches have the bits of single queries', () => {
@@ -93,7 +141,7 @@ test('known distances; a warm start', () => {
   const far = ovoid.distance(box, null, ball, at);
   assert.equal(far.status, 'separated');
   assert.ok(far.lower <= 1.5 && far.upper >= 1.5 && far.upper - far.lower < 1e-8);
-  assert.equal(ovoid.distance(box, null, ball, { xyz: [3.001, 0.2, 0.1] }, { earlier: far.proof }).status, 'separated');
+  assert.equal(ovoid.distance(box, null, ball, { xyz: [3.001, 0.2, 0.1] }, { earlier: far }).status, 'separated');
   assert.equal(ovoid.within(box, null, ball, at, 1.6).upper <= 1.6, true);
   assert.equal(ovoid.within(box, null, ball, at, 1.4).lower > 1.4, true);
   assert.equal(ovoid.collide(box, null, ball, { xyz: [1.2, 0, 0] }).status, 'overlapping');
@@ -118,25 +166,31 @@ test('motions', () => {
   assert.ok(near.lower <= 0.5 && near.upper >= 0.5 && near.upper - near.lower < 1e-4);
 });
 
-test('solids, and their proofs', () => {
-  // An L of three cubes: its corner's distance is not its hull's.
-  const outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], points = [0, 1].flatMap((z) => outline.map(([x, y]) => [x, y, z]));
-  const caps = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
-  const sides = outline.flatMap((_, i) => [[i, (i + 1) % 6, 6 + ((i + 1) % 6)], [i, 6 + ((i + 1) % 6), 6 + i]]);
-  const triangles = [...caps.map(([a, b, c]) => [a, c, b]), ...caps.map((t) => t.map((x) => x + 6)), ...sides];
-  const solid = Solid.fromTriangles(points, triangles), ball = Shape.sphere(0.1), pose = { xyz: [1.5, 1.5, 0.5] };
+test('compounds and solids: known answers, and what is refused', () => {
+  const solid = Solid.fromTriangles(corners, faces), ball = Shape.sphere(0.1), pose = { xyz: [1.5, 1.5, 0.5] };
   assert.equal(solid.report.isClosed, true);
   assert.ok(Math.abs(solid.report.volume - 3) < 1e-12);
-  const d = ovoid.solids.distance(solid, null, ball, pose, { proof: true });
+  const d = ovoid.distance(solid, null, ball, pose);
   assert.ok(d.lower <= 0.4 && d.upper >= 0.4 && d.upper - d.lower < 1e-8);
-  assert.equal(ovoid.solids.check(solid, null, ball, pose, d), null);
-  assert.ok(ovoid.solids.check(solid, null, ball, pose, { ...d, lower: d.lower + 1e-3, upper: d.upper + 1e-3 }));
-  const bytes = d.exclusions.slice();
-  bytes[0] ^= 1;
-  assert.ok(ovoid.solids.check(solid, null, ball, pose, { ...d, exclusions: bytes }));
-  assert.equal(ovoid.solids.collide(solid, null, Shape.fromPoints([[0.5, 0.5, 0.5]]), {}).status, 'overlapping');
-  assert.equal(ovoid.solids.within(ball, pose, solid, null, 0.3).lower > 0.3, true);
+  assert.equal(ovoid.collide(solid, null, Shape.fromPoints([[0.5, 0.5, 0.5]]), {}).status, 'overlapping');
+  assert.equal(ovoid.within(ball, pose, solid, null, 0.3).lower > 0.3, true);
   assert.throws(() => Solid.fromTriangles([[0, 0, 0]], [[0, 0, 9]]), { name: 'OvoidError' });
+  assert.throws(() => ovoid.depth(solid, null, ball, pose), /ask for the distance/);
+  assert.throws(() => ovoid.distance(solid, null, {}, pose), /a Shape, a Compound or a Solid/);
+
+  const box = Shape.box([0.5, 0.5, 0.5]), rack = new Compound([{ shape: box }, { shape: box, pose: { xyz: [0, 0, 3] } }]);
+  const far = ovoid.depth(rack, { xyz: [1, 0, 0] }, ball, { xyz: [1, 0, 2] });
+  assert.deepEqual([far.status, far.part_a, far.part_b], ['separated', 1, undefined]);
+  assert.ok(far.lower <= 0.4 && far.upper >= 0.4);
+  assert.equal(ovoid.collide(solid, null, rack, { xyz: [0.5, 0.5, -2.5] }).part_b, 1);
+  assert.throws(() => new Compound([]), { name: 'OvoidError', message: /part/ });
+  assert.throws(() => new Compound([{ shape: solid }]), /the parts of a compound/);
+  assert.throws(() => new Compound([{ shape: box, pose: { quat_wxyz: [0, 0, 0, 0] } }]), { name: 'OvoidError', place: 0 });
+  box.free();
+  assert.throws(() => ovoid.distance(rack, null, ball, pose), /the shape was freed/);
+  rack.free();
+  rack.free();
+  assert.throws(() => ovoid.distance(rack, null, ball, pose), /the compound was freed/);
 });
 
 test('robots', () => {

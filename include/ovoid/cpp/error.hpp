@@ -122,6 +122,7 @@ template <class View, class Handle, void (*Destroy)(Handle *)> class owner : pub
 
 /** A C struct that begins with every field zero, which in all options of ovoid is the default. */
 template <class C> struct zeroed : C {
+    /** Every field zero. */
     constexpr zeroed() noexcept : C() {}
     /** From the C struct. */
     constexpr zeroed(const C &from) noexcept : C(from) {}

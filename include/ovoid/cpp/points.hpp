@@ -26,7 +26,9 @@ class point_array {
     /** Takes numbers x y z x y z ... over; their number is divisible by three. */
     explicit point_array(std::vector<double> &&numbers) noexcept
         : numbers_(std::move(numbers)), xyz_(numbers_.data()), count_(numbers_.size() / 3) {}
+    /** Takes over what the other has. */
     point_array(point_array &&) noexcept = default;
+    /** Takes it over in the place of what this one had. */
     point_array &operator=(point_array &&) noexcept = default;
     /** x y z of point i at 3 i. */
     const double *data() const noexcept { return xyz_; }

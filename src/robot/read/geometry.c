@@ -147,7 +147,7 @@ static ovoid_code make_elements(robot_reader *r, const geometry_list *list) {
         const geometry *g = &list->items[i];
         for (size_t k = 0; k < g->shape_count; k++) {
             const char *name = g->part_names && g->part_names[k] ? g->part_names[k] : g->name;
-            elements[n++] = (ovoid_robot_element){g->link, name, file->shapes[g->shape + k], g->pose};
+            elements[n++] = (ovoid_robot_element){g->link, name, file->shapes[g->shape + k], g->pose, g->solid};
         }
     }
     file->description.elements = elements;

@@ -16,6 +16,7 @@ typedef struct geometry {
     const char *address, *path;    ///< of a mesh; "" else
     int is_absent;                 ///< it is the first one of its address, which was not found
     size_t shape, shape_count;     ///< in the file's shapes
+    const ovoid_solid *solid;      ///< of which the one shape is the hull; NULL: none
     const char *const *part_names; ///< of these; NULL: they have none
 } geometry;
 

@@ -42,6 +42,7 @@ typedef struct open_mesh {
     int is_measured;
     ovoid_convexity convexity; ///< unscaled, summed over the parts
     const char **names;        ///< of the parts; NULL: one part without a name
+    ovoid_solid *solid;        ///< unscaled; NULL: none is wanted yet
 } open_mesh;
 
 // The hull of a part with each coordinate multiplied by its factor, NULL for none; mirrored or not, points are points.
@@ -82,6 +83,54 @@ static ovoid_code measure(robot_reader *r, const geometry *g, open_mesh *open) {
     return OVOID_OK;
 }
 
+// ---- solids
+
+// The solid with each coordinate multiplied by its factor; a mirrored one is inside out, which does not matter.
+static ovoid_solid *scale_solid(const ovoid_solid *from, const double *scale, ovoid_error *why) {
+    ovoid_solid_report is = ovoid_solid_get_report(from);
+    const double *points = ovoid_solid_get_points(from);
+    double *xyz = malloc(3 * (size_t)is.points * sizeof *xyz);
+    uint32_t *triangles = malloc(3 * (size_t)is.triangles * sizeof *triangles);
+    ovoid_solid *solid = NULL;
+    if (xyz && triangles) {
+        for (size_t i = 0; i < 3 * (size_t)is.points; i++) xyz[i] = scale[i % 3] * points[i];
+        for (size_t i = 0; i < (size_t)is.triangles; i++) ovoid_solid_get_triangle(from, i, triangles + 3 * i);
+        solid = ovoid_solid_create_from_triangles(xyz, (size_t)is.points, triangles, (size_t)is.triangles, NULL, why);
+    } else {
+        (void)io_fail_memory(why, "");
+    }
+    free(xyz);
+    free(triangles);
+    return solid;
+}
+
+static ovoid_code keep_solid(robot_reader *r, geometry *g, ovoid_solid *solid) {
+    ovoid_robot_file *file = r->file;
+    if (!array_reserve((void **)&file->solids, &file->solid_capacity, file->solid_count, sizeof *file->solids)) {
+        ovoid_solid_destroy(solid);
+        return robot_fail_memory(r);
+    }
+    g->solid = file->solids[file->solid_count++] = solid;
+    return OVOID_OK;
+}
+
+// By the rule of scenes: closed, and not all of its hull. What cannot be read as a solid is its hull.
+static ovoid_code make_solid(robot_reader *r, geometry *g, open_mesh *open) {
+    ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
+    ovoid_read_options read = {.trusted = r->options->trusted};
+    int is_wanted = r->options->solids && !r->options->parts && open->convexity.is_nonconvex &&
+                    isfinite(open->convexity.mesh_volume);
+    if (!is_wanted) return OVOID_OK;
+    if (!open->solid) open->solid = ovoid_solid_read_file(g->path, &read, &why);
+    ovoid_solid *solid = open->solid ? scale_solid(open->solid, g->what.size, &why) : NULL;
+    if (solid) return keep_solid(r, g, solid);
+    if (why.code == OVOID_ERROR_MEMORY) return robot_fail_memory(r);
+    robot_note(r, g->at, "the mesh counts as its hull: %s", why.message);
+    return OVOID_OK;
+}
+
+// ---- meshes
+
 static ovoid_code keep_part_names(robot_reader *r, open_mesh *open) {
     size_t count = ovoid_mesh_get_part_count(open->mesh);
     if (!r->options->parts) return OVOID_OK;
@@ -98,6 +147,7 @@ static ovoid_code open_file(robot_reader *r, const geometry *g, open_mesh *open)
     ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
     ovoid_read_options read = {.parts = r->options->parts, .trusted = r->options->trusted};
     ovoid_mesh_destroy(open->mesh);
+    ovoid_solid_destroy(open->solid);
     *open = (open_mesh){.path = g->path, .mesh = ovoid_mesh_read(g->path, &read, &why)};
     if (!open->mesh) return robot_fail(r, g->at, why.code, "%s", why.message);
     return keep_part_names(r, open);
@@ -111,7 +161,8 @@ static ovoid_code add_mesh(robot_reader *r, const geometry *g, const open_mesh *
                              .address = pool_copy(&file->memory, g->address, strlen(g->address)),
                              .scale = {s[0], s[1], s[2]},
                              .part_count = g->shape_count,
-                             .convexity = open->convexity};
+                             .convexity = open->convexity,
+                             .is_solid = g->solid != NULL};
     mesh.convexity.mesh_volume *= volume;
     mesh.convexity.hull_volume *= volume;
     if (!mesh.path || !mesh.address) return robot_fail_memory(r);
@@ -130,6 +181,7 @@ static ovoid_code make_mesh(robot_reader *r, geometry *g, open_mesh *open) {
         code = keep_shape(r, g, create_hull(r, open, i, is_unscaled(g) ? NULL : g->what.size, &why), &why);
     }
     if (!code) code = measure(r, g, open);
+    if (!code) code = make_solid(r, g, open);
     return code ? code : add_mesh(r, g, open);
 }
 
@@ -143,11 +195,13 @@ ovoid_code geometry_make(robot_reader *r, geometry_list *list) {
     for (size_t i = 0; i < list->count && !code; i++) {
         geometry *g = list->order[i], *before = i ? list->order[i - 1] : NULL;
         if (before && compare_geometries(before, g) == 0)
-            g->shape = before->shape, g->shape_count = before->shape_count, g->part_names = before->part_names;
+            g->shape = before->shape, g->shape_count = before->shape_count, g->solid = before->solid,
+            g->part_names = before->part_names;
         else
             code = *g->path ? make_mesh(r, g, &open) : make_primitive(r, g);
         if (!code && *g->path) file->meshes[file->mesh_count - 1].use_count++;
     }
     ovoid_mesh_destroy(open.mesh);
+    ovoid_solid_destroy(open.solid);
     return code;
 }

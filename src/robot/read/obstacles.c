@@ -1,6 +1,6 @@
 // Obstacles from a scene: MoveIt's planning scene in YAML (moveit_msgs/PlanningScene, of which world: collision_objects
-// is read), or ovoid's own scenes. An object is its parts, each convex; where an object and its parts have poses, the
-// pose of a part is their product by definition. Cost: n log n, plus the shapes.
+// is read), or ovoid's own scenes. An object is its parts, each convex or a solid; where an object and its parts have
+// poses, the pose of a part is their product by definition. Cost: n log n, plus the shapes.
 #include "robot/read/message.h"
 #include "robot/read/primitive.h"
 
@@ -15,6 +15,7 @@ typedef struct obstacle_entry {
     primitive what;
     ovoid_shape *made; ///< of a mesh: its own; NULL: of the primitive
     const ovoid_shape *shape;
+    const ovoid_solid *solid; ///< of which the shape is the hull; NULL: none
     const yaml_value *at;
     size_t index;
 } obstacle_entry;
@@ -26,6 +27,8 @@ struct ovoid_obstacles {
     size_t count, capacity;
     ovoid_shape **shapes;
     size_t shape_count, shape_capacity;
+    ovoid_solid **solids; ///< of planning scenes
+    size_t solid_count, solid_capacity;
 };
 
 static const ovoid_robot_read_options no_options;
@@ -141,8 +144,32 @@ static double compute_determinant(const double *o, const double *a, const double
     return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-// Tells of a mesh that its hull is larger than what the triangles enclose, if they are closed, by a thousandth or more.
-static void note_hull(const message_reader *r, const yaml_value *at, const mesh_numbers *m, const ovoid_shape *hull) {
+// The solid of the triangles, if they are closed. What cannot be one is its hull.
+static ovoid_code make_solid(const message_reader *r, ovoid_obstacles *o, const mesh_numbers *m,
+                             obstacle_entry *entry) {
+    ovoid_error why;
+    ovoid_solid *solid =
+        ovoid_solid_create_from_triangles(m->xyz, m->point_count, m->indices, m->triangle_count,
+                                          r->options->shape ? r->options->shape->allocator : NULL, &why);
+    if (!solid && why.code != OVOID_ERROR_MEMORY) return OVOID_OK;
+    if (!solid) return io_fail_memory(r->error, r->path);
+    if (!ovoid_solid_get_report(solid).is_closed) {
+        ovoid_solid_destroy(solid);
+        return OVOID_OK;
+    }
+    if (!array_reserve((void **)&o->solids, &o->solid_capacity, o->solid_count, sizeof *o->solids)) {
+        ovoid_solid_destroy(solid);
+        return io_fail_memory(r->error, r->path);
+    }
+    entry->solid = o->solids[o->solid_count++] = solid;
+    return OVOID_OK;
+}
+
+// What a mesh is whose hull is larger than what its triangles enclose, if they are closed, by a thousandth or more: a
+// solid where these are wanted, else its hull, of which a note tells.
+static ovoid_code look_at_hull(const message_reader *r, ovoid_obstacles *o, const yaml_value *at, const mesh_numbers *m,
+                               obstacle_entry *entry) {
+    const ovoid_shape *hull = entry->made;
     double sum = 0, whole = ovoid_shape_get_measures(hull).volume;
     for (size_t i = 0; i < m->triangle_count; i++) {
         const uint32_t *t = m->indices + 3 * i;
@@ -150,9 +177,12 @@ static void note_hull(const message_reader *r, const yaml_value *at, const mesh_
                                    m->xyz + 3 * (size_t)t[2]);
     }
     double enclosed = fabs(sum) / 6;
-    if (whole - enclosed > 1e-3 * whole)
+    if (!(whole - enclosed > 1e-3 * whole)) return OVOID_OK;
+    ovoid_code code = r->options->solids ? make_solid(r, o, m, entry) : OVOID_OK;
+    if (!code && !entry->solid)
         message_note(r, at, "a mesh of the object %.100s counts as its hull, of which it is %.3g %%", r->object,
                      100 * enclosed / whole);
+    return code;
 }
 
 static ovoid_code read_mesh(message_reader *r, ovoid_obstacles *o, const yaml_value *value, obstacle_entry *entry) {
@@ -168,8 +198,8 @@ static ovoid_code read_mesh(message_reader *r, ovoid_obstacles *o, const yaml_va
     entry->what.kind = PRIMITIVE_MESH;
     entry->made = ovoid_shape_create_from_points(m.xyz, m.point_count, r->options->shape, &why);
     if (!entry->made) return message_fail(r, vertices, why.code, "%s", why.message);
-    if (triangles) note_hull(r, value, &m, entry->made);
-    return keep_shape(o, r, entry->made);
+    code = keep_shape(o, r, entry->made);
+    return code || !triangles ? code : look_at_hull(r, o, value, &m, entry);
 }
 
 // ---- objects
@@ -313,20 +343,20 @@ static ovoid_code read_planning_scene(message_reader *r, ovoid_obstacles *o) {
     return code;
 }
 
-// Compounds are their parts; meshes that could be solids are their hulls.
+// Compounds are their parts; meshes that could be solids are their hulls where none are wanted.
 static ovoid_code read_own_scene(const message_reader *r, ovoid_obstacles *o) {
     o->scene = ovoid_scene_read(r->path, r->options->shape, r->error);
     if (!o->scene) return OVOID_ERROR_FILE;
     ovoid_code code = OVOID_OK;
-    ovoid_scene_take_hulls(o->scene);
+    if (!r->options->solids) ovoid_scene_take_hulls(o->scene);
     for (size_t i = 0; i < ovoid_scene_get_count(o->scene) && !code; i++) {
         ovoid_scene_object object = ovoid_scene_get(o->scene, i);
-        if (object.solid)
+        if (object.solid && !r->options->solids)
             return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, 0, -1},
-                           "object \"%.60s\": \"solid\": true is not for obstacles of robots, which are hulls or "
+                           "object \"%.60s\": \"solid\": true, but solids are not taken here: obstacles are hulls or "
                            "\"parts\"",
                            object.name);
-        obstacle_entry entry = {.name = object.name, .pose = object.pose, .shape = object.shape};
+        obstacle_entry entry = {.name = object.name, .pose = object.pose, .shape = object.shape, .solid = object.solid};
         size_t parts = object.compound ? ovoid_compound_get_part_count(object.compound) : 0;
         if (!parts) code = add_entry(o, r, &entry);
         for (size_t k = 0; k < parts && !code; k++) {
@@ -355,7 +385,9 @@ ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_o
 void ovoid_obstacles_destroy(ovoid_obstacles *o) {
     if (!o) return;
     for (size_t i = 0; i < o->shape_count; i++) ovoid_shape_destroy(o->shapes[i]);
+    for (size_t i = 0; i < o->solid_count; i++) ovoid_solid_destroy(o->solids[i]);
     ovoid_scene_destroy(o->scene);
+    free(o->solids);
     free(o->shapes);
     free(o->entries);
     pool_clear(&o->memory);
@@ -365,5 +397,6 @@ void ovoid_obstacles_destroy(ovoid_obstacles *o) {
 size_t ovoid_obstacles_get_count(const ovoid_obstacles *o) { return o->count; }
 
 ovoid_obstacle ovoid_obstacles_get(const ovoid_obstacles *o, size_t i) {
-    return (ovoid_obstacle){o->entries[i].name, o->entries[i].shape, o->entries[i].pose};
+    const obstacle_entry *e = &o->entries[i];
+    return (ovoid_obstacle){e->name, e->shape, e->pose, e->solid};
 }

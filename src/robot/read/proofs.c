@@ -112,6 +112,15 @@ static uint64_t take_digest(scan *s) {
     return value;
 }
 
+// What is read as solids; without the key nothing is.
+static void take_solids(scan *s, ovoid_robot_proof_source *source) {
+    if (!scan_try_key(s, "solids", 0)) return;
+    const char *text = scan_text(s);
+    source->has_solid_links = strcmp(text, "all") == 0;
+    source->has_solid_obstacles = source->has_solid_links || strcmp(text, "obstacles") == 0;
+    if (!source->has_solid_obstacles) scan_fail(s, "solids are \"obstacles\" or \"all\"");
+}
+
 static void take_source(scan *s, ovoid_robot_proof_source *source) {
     if (scan_whole(s, 1) != 1) scan_fail(s, "the form of the proofs is not 1, the only one that there is");
     scan_take_key(s, "robot", 0), source->robot = scan_text(s);
@@ -121,6 +130,7 @@ static void take_source(scan *s, ovoid_robot_proof_source *source) {
     scan_take_key(s, "scales", 0), source->scales = take_texts(s, &source->scale_count);
     scan_take_key(s, "paddings", 0), source->paddings = take_texts(s, &source->padding_count);
     scan_take_key(s, "parts", 0), source->parts = scan_flag(s);
+    take_solids(s, source);
     scan_take_key(s, "visual", 0), source->visual = scan_flag(s);
     scan_take_key(s, "fixed_base", 0), source->fixed_base = scan_flag(s);
     scan_take_key(s, "cylinder_tolerance", 0), source->tolerance = scan_number(s);
@@ -217,9 +227,9 @@ static void take_times(proof_reader *r, ovoid_robot_proof *p) {
 // ---- a step
 
 static uint16_t take_kind(scan *s) {
-    static const char *const names[] = {"outer", "middle", "ends"};
+    static const char *const names[] = {"outer", "middle", "ends", "solid"};
     const char *text = scan_text(s);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         if (strcmp(text, names[i]) == 0) return (uint16_t)(i + 1);
     scan_fail(s, "there is no such kind of step");
     return OVOID_ROBOT_STEP_OUTER;
@@ -231,7 +241,7 @@ static ovoid_robot_step take_step(scan *s) {
     scan_take_key(s, "step", 1), step.kind = take_kind(s);
     scan_take_key(s, "begin", 0), step.begin = scan_number(s);
     scan_take_key(s, "end", 0), step.end = scan_number(s);
-    if (step.kind != OVOID_ROBOT_STEP_OUTER) {
+    if (step.kind == OVOID_ROBOT_STEP_MIDDLE || step.kind == OVOID_ROBOT_STEP_ENDS) {
         double v[3];
         scan_take_key(s, "normal", 0);
         for (int i = 0; i < 3; i++) scan_take(s, i ? ',' : '['), v[i] = scan_number(s);

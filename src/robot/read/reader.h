@@ -13,6 +13,8 @@ struct ovoid_robot_file {
     ovoid_robot_joint *joints;
     ovoid_shape **shapes;
     size_t shape_count, shape_capacity;
+    ovoid_solid **solids;
+    size_t solid_count, solid_capacity;
     ovoid_robot_mesh *meshes;
     size_t mesh_count;
     ovoid_robot_ignored *ignored;

@@ -51,7 +51,9 @@ ovoid_robot_file *ovoid_robot_file_read(const char *urdf, const char *srdf, cons
 void ovoid_robot_file_destroy(ovoid_robot_file *file) {
     if (!file) return;
     for (size_t i = 0; i < file->shape_count; i++) ovoid_shape_destroy(file->shapes[i]);
+    for (size_t i = 0; i < file->solid_count; i++) ovoid_solid_destroy(file->solids[i]);
     free(file->shapes);
+    free(file->solids);
     pool_clear(&file->memory);
     free(file);
 }

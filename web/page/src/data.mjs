@@ -34,10 +34,9 @@ export function readData(text) {
   for (const shape of data.shapes) {
     shape.bytes = decodeBytes(shape.bytes);
     if (shape.mesh) shape.mesh = { points: decode(Float32Array, shape.mesh.points), triangles: decode(Uint32Array, shape.mesh.triangles) };
+    if (shape.solid) shape.solid = { points: decode(Float64Array, shape.solid.points), triangles: decode(Uint32Array, shape.solid.triangles) };
     if (shape.areas) shape.areas = decodeBytes(shape.areas);
   }
-  for (const body of data.bodies)
-    if (body.solid) body.solid = { points: decode(Float64Array, body.solid.points), triangles: decode(Uint32Array, body.solid.triangles) };
   if (data.motion) data.motion.poses = decode(Float64Array, data.motion.poses);
   data.pairs ??= [];
   return data;

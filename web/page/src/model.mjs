@@ -1,21 +1,8 @@
 // Bodies where they are now, and the answers about them: the library, asked live.
 
-// Products and inverses of poses { xyz, quat_wxyz }.
-function multiply(p, q) {
-  const [a, b, c, d] = p, [w, x, y, z] = q;
-  return [a * w - b * x - c * y - d * z, a * x + b * w + c * z - d * y, a * y - b * z + c * w + d * x, a * z + b * y - c * x + d * w];
-}
-export function turn(q, v) {
-  const n = q[0] ** 2 + q[1] ** 2 + q[2] ** 2 + q[3] ** 2, [, x, y, z] = multiply(multiply(q, [0, ...v]), [q[0], -q[1], -q[2], -q[3]]);
-  return [x / n, y / n, z / n];
-}
-export const complete = (pose) => ({ xyz: [...(pose?.xyz ?? [0, 0, 0])], quat_wxyz: [...(pose?.quat_wxyz ?? [1, 0, 0, 0])] });
-export function compose(outer, inner) {
-  const moved = turn(outer.quat_wxyz, inner.xyz);
-  return { xyz: outer.xyz.map((x, i) => x + moved[i]), quat_wxyz: multiply(outer.quat_wxyz, inner.quat_wxyz) };
-}
+const complete = (pose) => ({ xyz: [...(pose?.xyz ?? [0, 0, 0])], quat_wxyz: [...(pose?.quat_wxyz ?? [1, 0, 0, 0])] });
 
-/** A body: parts of shapes, or a solid; a ball around it. */
+/** A body: a shape, several as a compound, or a solid; a ball around it. */
 class Body {
   constructor(model, given, index) {
     this.index = index;
@@ -25,41 +12,93 @@ class Body {
     this.home = complete(given.pose);
     this.pose = complete(given.pose);
     this.parts = given.parts.map(({ shape, pose }) => ({ index: shape, shape: model.shapes[shape], pose: complete(pose) }));
-    this.solid = given.solid ? model.ovoid.Solid.fromTriangles(given.solid.points, given.solid.triangles) : null;
-    this.mesh = given.solid ?? null;
-    this.radius = Math.max(0, ...this.parts.map((p) => Math.hypot(...p.pose.xyz) + p.shape.reach), this.solid ? reachOf(given.solid.points) : 0);
+    // The triangles of its one shape are the body, not their hull.
+    this.isSolid = given.solid === true;
+    this.isShape = given.parts.length === 1 && !given.parts[0].pose;
+    const { middle, radius } = makeBall(this.parts.map(({ pose, shape }) => ({ middle: move(pose, shape.ball.middle), radius: shape.ball.radius })));
+    Object.assign(this, { middle, radius });
+    this.#model = model;
   }
 
-  posesOfParts() {
-    return this.parts.map((part) => compose(this.pose, part.pose));
+  #model;
+  #asked;
+
+  /** The middle of the ball around it, where it is now. */
+  get center() {
+    return move(this.pose, this.middle);
+  }
+
+  /** What the library is asked about, made when it first is; null: the page has not got it. */
+  get asked() {
+    this.#asked ??= this.#make();
+    return this.#asked;
+  }
+
+  #make() {
+    if (this.isSolid) return this.parts[0].shape.solid;
+    if (this.isShape) return this.parts[0].shape.shape;
+    return new this.#model.ovoid.Compound(this.parts.map(({ shape, pose }) => ({ shape: shape.shape, pose })));
   }
 }
 
-function reachOf(points) {
+// The ball around a box of balls { middle, radius }, about the box's middle.
+function makeBall(balls) {
+  const [low, high] = [-1, 1].map((sign) => [0, 1, 2].map((k) => sign * balls.reduce((most, b) => Math.max(most, sign * b.middle[k] + b.radius), -Infinity)));
+  const middle = low.map((x, k) => (x + high[k]) / 2);
+  return { middle, radius: balls.reduce((most, b) => Math.max(most, Math.hypot(...b.middle.map((x, k) => x - middle[k])) + b.radius), 0) };
+}
+
+// The ball around points, about the middle of their box.
+function makeBallOfPoints(points) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < points.length; i++) {
+    low[i % 3] = Math.min(low[i % 3], points[i]);
+    high[i % 3] = Math.max(high[i % 3], points[i]);
+  }
+  const middle = low.map((x, k) => (x + high[k]) / 2);
   let most = 0;
-  for (let i = 0; i < points.length; i += 3) most = Math.max(most, Math.hypot(points[i], points[i + 1], points[i + 2]));
-  return most;
+  for (let i = 0; i < points.length; i += 3) most = Math.max(most, (points[i] - middle[0]) ** 2 + (points[i + 1] - middle[1]) ** 2 + (points[i + 2] - middle[2]) ** 2);
+  return { middle, radius: Math.sqrt(most) };
 }
 
-function makeShapes(ovoid, list) {
-  return list.map(({ bytes, mesh, areas }) => {
-    const shape = ovoid.Shape.fromBytes(bytes), { radius, origin, outer, inner, rank } = shape.description;
-    const vertices = shape.vertices;
-    for (let i = 0; i < vertices.length; i++) vertices[i] += origin[i % 3];
-    const move = (e) => ({ ...e, center: e.center.map((x, i) => x + origin[i]) });
-    return {
-      shape, rank, radius, vertices, triangles: shape.triangles, outer: move(outer), inner: move(inner), mesh, areas,
-      reach: reachOf(vertices) + radius,
-    };
-  });
+// Where a pose moves a point.
+function move({ xyz, quat_wxyz: [w, x, y, z] }, [a, b, c]) {
+  const s = 2 / (w * w + x * x + y * y + z * z), u = y * c - z * b, v = z * a - x * c, t = x * b - y * a;
+  return [xyz[0] + a + s * (w * u + y * t - z * v), xyz[1] + b + s * (w * v + z * u - x * t), xyz[2] + c + s * (w * t + x * v - y * u)];
 }
+
+/** A shape of the page, with what is drawn of it; a mesh that counts with its dents is a solid of the library. */
+class PageShape {
+  #ovoid;
+  #solid;
+
+  constructor(ovoid, { bytes, mesh, solid, areas }) {
+    this.#ovoid = ovoid;
+    this.shape = ovoid.Shape.fromBytes(bytes);
+    const { radius, origin, outer, inner, rank } = this.shape.description, shift = (e) => ({ ...e, center: e.center.map((x, i) => x + origin[i]) });
+    this.vertices = this.shape.vertices;
+    for (let i = 0; i < this.vertices.length; i++) this.vertices[i] += origin[i % 3];
+    Object.assign(this, { rank, radius, triangles: this.shape.triangles, outer: shift(outer), inner: shift(inner), mesh: mesh ?? solid, triangulation: solid, areas });
+    const ball = makeBallOfPoints(this.vertices);
+    this.ball = { middle: ball.middle, radius: ball.radius + radius };
+  }
+
+  /** Made when it is first asked about; null: the page has not got its triangles. */
+  get solid() {
+    if (this.triangulation) this.#solid ??= this.#ovoid.Solid.fromTriangles(this.triangulation.points, this.triangulation.triangles);
+    return this.#solid ?? null;
+  }
+}
+
+/** In the place of an answer, of bodies that moved and are not on the page. */
+const UNKNOWN = { status: 'undecided', lower: -Infinity, upper: Infinity, stage: 'none' };
 
 export class Model {
   constructor(ovoid, data) {
     this.ovoid = ovoid;
     this.data = data;
     this.unit = data.unit ?? '';
-    this.shapes = makeShapes(ovoid, data.shapes);
+    this.shapes = data.shapes.map((shape) => new PageShape(ovoid, shape));
     this.bodies = data.bodies.map((body, i) => new Body(this, body, i));
     this.pairs = data.pairs.map(({ a, b, answer, frame }) => ({ a: this.bodies[a], b: this.bodies[b], answer, given: answer, frame, isLive: false }));
     this.byBody = new Map(this.bodies.map((body) => [body, []]));
@@ -68,55 +107,26 @@ export class Model {
 
   /** The ball around all bodies. */
   get ball() {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (const { pose, radius } of this.bodies)
-      for (let k = 0; k < 3; k++) {
-        low[k] = Math.min(low[k], pose.xyz[k] - radius);
-        high[k] = Math.max(high[k], pose.xyz[k] + radius);
-      }
     if (!this.bodies.length) return { center: [0, 0, 0], radius: 1 };
-    return { center: low.map((x, k) => (x + high[k]) / 2), radius: Math.max(1e-12, Math.hypot(...low.map((x, k) => high[k] - x)) / 2) };
+    const { middle, radius } = makeBall(this.bodies.map((body) => ({ middle: body.center, radius: body.radius })));
+    return { center: middle, radius: Math.max(1e-12, radius) };
   }
 
-  /** The answer for where both bodies are now: of parts the nearest two, with a bracket of all. */
+  /** The answer for where both bodies are now; null: the page has not got them. */
   ask(a, b) {
-    if (a.solid || b.solid) return this.#askSolid(a, b);
-    const posesA = a.posesOfParts(), posesB = b.posesOfParts();
-    let best = null, lower = Infinity;
-    const couples = [];
-    a.parts.forEach((p, i) =>
-      b.parts.forEach((q, k) => {
-        const gap = Math.hypot(...posesA[i].xyz.map((x, j) => x - posesB[k].xyz[j])) - p.shape.reach - q.shape.reach;
-        couples.push({ i, k, gap });
-      }),
-    );
-    couples.sort((x, y) => x.gap - y.gap);
-    for (const { i, k, gap } of couples) {
-      if (best && gap > best.upper) {
-        lower = Math.min(lower, gap);
-        break;
-      }
-      const answer = this.ovoid.depth(a.parts[i].shape.shape, posesA[i], b.parts[k].shape.shape, posesB[k]);
-      lower = Math.min(lower, answer.lower);
-      if (!best || answer.upper < best.upper) best = Object.assign(answer, { part_a: i, part_b: k });
-    }
-    best.lower = Math.min(lower, best.lower);
-    return best;
+    if (!a.asked || !b.asked) return null;
+    const kind = a.isSolid || b.isSolid ? 'distance' : 'depth';
+    return this.ovoid[kind](a.asked, a.pose, b.asked, b.pose);
   }
 
-  #askSolid(a, b) {
-    const side = (body) => body.solid ?? body.parts[0].shape.shape;
-    const pose = (body) => (body.solid ? body.pose : compose(body.pose, body.parts[0].pose));
-    const { surfaces, ...answer } = this.ovoid.solids.distance(side(a), pose(a), side(b), pose(b));
-    return { ...answer, point_a: surfaces.point_a, point_b: surfaces.point_b, normal: surfaces.normal, stage: 'solid', iterations: surfaces.iterations };
+  askAgain(pair) {
+    pair.answer = this.ask(pair.a, pair.b) ?? UNKNOWN;
+    pair.isLive = true;
   }
 
   /** Asks anew about all listed pairs of a body that was moved. */
   refresh(body) {
-    for (const pair of this.byBody.get(body)) {
-      pair.answer = this.ask(pair.a, pair.b);
-      pair.isLive = true;
-    }
+    for (const pair of this.byBody.get(body)) this.askAgain(pair);
   }
 
   /** Puts all bodies back where the data have them. */
@@ -130,11 +140,11 @@ export class Model {
 
   /** Whether the proof of a pair's answer holds, in words; isChecked false: that cannot be checked here. */
   check(pair) {
-    const { a, b, answer } = pair;
-    if (a.solid || b.solid || !answer.proof) return { isChecked: false, text: 'Proofs of solids are checked by ovoid verify.' };
-    if (a.parts.length > 1 || b.parts.length > 1) return { isChecked: false, text: 'Proofs of compounds are checked by ovoid verify.' };
-    const [p, q] = [a.parts[answer.part_a ?? 0], b.parts[answer.part_b ?? 0]];
-    const error = this.ovoid.check(p.shape.shape, compose(a.pose, p.pose), q.shape.shape, compose(b.pose, q.pose), answer);
+    const { a, b } = pair;
+    if (!a.asked || !b.asked) return { isChecked: false, text: 'The triangles are too many for the page: ovoid verify checks this proof.' };
+    // What is near a robot comes without proofs, and those that were too many for the page.
+    if (!pair.answer.proof) this.askAgain(pair);
+    const error = this.ovoid.check(a.asked, a.pose, b.asked, b.pose, pair.answer);
     return { isChecked: true, holds: error === null, text: error ? error.message : 'The proof holds.' };
   }
 }

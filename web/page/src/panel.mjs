@@ -131,11 +131,15 @@ export class Panel {
         element('button', { textContent: 'Only this', title: 'show nothing else (X)', onclick: () => this.actions.isolate() })),
       element('dl', {},
         element('dt', { textContent: 'pose (x y z, w x y z)' }), element('dd', {}, pose),
-        element('dt', { textContent: 'parts' }), element('dd', { textContent: body.solid ? `a solid of ${body.mesh.triangles.length / 3} triangles` : String(body.parts.length) }),
+        element('dt', { textContent: 'parts' }), element('dd', { textContent: body.isSolid ? this.#describeSolid(body) : String(body.parts.length) }),
       ),
       element('h3', { textContent: 'Its pairs' }),
       element('ul', { id: 'own' }, ...this.#ownPairs(body)),
     );
+  }
+
+  #describeSolid({ parts: [{ shape }] }) {
+    return shape.triangulation ? `a solid of ${shape.triangulation.triangles.length / 3} triangles` : 'a solid, whose triangles are too many for the page';
   }
 
   #ownPairs(body) {

@@ -54,7 +54,7 @@ export class Timeline {
   /** The distance of a pair over time; margin and events marked. */
   show(pair) {
     const { times, margin, events = [] } = this.motion, last = times.length - 1;
-    if (!pair || last < 1) {
+    if (!pair?.a.asked || !pair.b.asked || last < 1) {
       this.cursor = null;
       return this.plot.replaceChildren();
     }

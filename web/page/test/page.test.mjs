@@ -9,16 +9,20 @@ import { after, test } from 'node:test';
 
 const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 const folder = mkdtempSync(join(tmpdir(), 'ovoid-page-'));
-let browser, skip = existsSync(browserPath) ? false : `${browserPath} is not here`;
+let browser, flat, skip = existsSync(browserPath) ? false : `${browserPath} is not here`;
 if (!skip) {
   const { chromium } = await import(process.env.PLAYWRIGHT);
-  const args = ['--no-sandbox', '--disable-dev-shm-usage', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-  browser = await chromium.launch({ executablePath: browserPath, args }).catch((error) => {
+  const launch = (...args) => chromium.launch({ executablePath: browserPath, args: ['--no-sandbox', '--disable-dev-shm-usage', ...args] });
+  try {
+    browser = await launch('--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader');
+    flat = await launch('--disable-gpu', '--disable-3d-apis');
+  } catch (error) {
     skip = `${browserPath} does not start here: ${error.message.split('\n')[0]}`;
-  });
+  }
 }
 after(async () => {
   await browser?.close();
+  await flat?.close();
   rmSync(folder, { recursive: true });
 });
 
@@ -29,8 +33,9 @@ function run(...args) {
   return stdout;
 }
 
-async function open(file) {
-  const page = await browser.newPage({ viewport: { width: 1100, height: 750 } }), errors = [];
+/** A page without errors or requests. In the browser without WebGL it takes a fraction of the time: for all but pictures. */
+async function open(file, where = browser) {
+  const page = await where.newPage({ viewport: { width: 1100, height: 750 } }), errors = [];
   page.on('pageerror', (error) => errors.push(error.message));
   page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
   page.on('request', (request) => /^https?:/.test(request.url()) && errors.push(`asks for ${request.url()}`));
@@ -56,10 +61,45 @@ const land = (page) => page.waitForFunction(() => !window.ovoidPage.view.flight 
 
 const readRows = (page) => page.$$eval('#pairs tr', (rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent)));
 
+/** A page with its data altered. */
+function alter(file, change) {
+  const text = readFileSync(join(folder, file), 'utf8'), [, json] = text.match(/<script id="ovoid-data" type="application\/json">(.*?)<\/script>/s);
+  const data = JSON.parse(json);
+  change(data);
+  writeFileSync(join(folder, 'altered.html'), text.replace(json, () => JSON.stringify(data).replaceAll('<', '\\u003c')));
+}
+
+/** Chooses each pair and checks its proof: the pair, what the page says, and whether that is good. */
+const checkAll = (page) => page.evaluate(() => {
+  const { ovoidPage } = window;
+  return [...ovoidPage.panel.rows.keys()].map((pair) => {
+    ovoidPage.choosePair(pair);
+    document.getElementById('check').click();
+    const { textContent, className } = document.getElementById('proof');
+    return { names: `${pair.a.name} – ${pair.b.name}`, text: textContent, isGood: className.includes('holds'), isBad: className.includes('fails') };
+  });
+});
+
+/** The page refuses each answer that is altered; how many there are. */
+async function refuseAltered(file, change, takes = () => true) {
+  let count;
+  alter(file, (data) => {
+    data.pairs = data.pairs.filter(takes);
+    for (const { answer } of data.pairs) change(answer);
+    count = data.pairs.length;
+  });
+  const { page } = await open('altered.html', flat);
+  const checked = await checkAll(page);
+  assert.equal(checked.length, count);
+  for (const { names, text, isBad } of checked) assert.ok(isBad, `${names}: ${text}`);
+  await page.close();
+  return count;
+}
+
 test('the list is that of ovoid check, good proofs hold, altered ones do not', { skip }, async () => {
   writeFileSync(join(folder, 'scene.json'), JSON.stringify(scene));
   const lines = run('check', 'scene.json', '--json', '--html', 'scene.html').trim().split('\n').map((line) => JSON.parse(line));
-  const { page, errors } = await open('scene.html');
+  const { page, errors } = await open('scene.html', flat);
   assert.equal(await page.textContent('#title'), 'scene.json');
   const expected = lines.sort((a, b) => a.lower - b.lower).map(({ a, b, lower }) => [`${a} – ${b}`, lower]), rows = await readRows(page);
   assert.deepEqual(rows.map(([names]) => names), expected.map(([names]) => names));
@@ -67,11 +107,10 @@ test('the list is that of ovoid check, good proofs hold, altered ones do not', {
     assert.ok(text.endsWith(' mm'), text);
     assert.ok(Math.abs(parseFloat(text) - expected[i][1]) <= 1e-5 * Math.max(1e-3, Math.abs(expected[i][1])), `${text} ${expected[i][1]}`);
   });
-  for (let i = 0; i < rows.length; i++) {
-    await page.click(`#pairs tr:nth-child(${i + 1})`);
-    await page.keyboard.press('p');
-    assert.equal(await page.textContent('#proof'), 'The proof holds.', rows[i][0]);
-  }
+  await page.click('#pairs tr:nth-child(2)');
+  await page.keyboard.press('p');
+  assert.equal(await page.textContent('#proof'), 'The proof holds.');
+  for (const { names, text, isGood } of await checkAll(page)) assert.ok(isGood && text === 'The proof holds.', `${names}: ${text}`);
   await page.fill('#filter', 'ball');
   assert.ok((await readRows(page)).every(([names]) => names.includes('ball')));
   await page.fill('#filter', '');
@@ -80,20 +119,59 @@ test('the list is that of ovoid check, good proofs hold, altered ones do not', {
   assert.deepEqual(errors, []);
   await page.close();
 
-  const text = readFileSync(join(folder, 'scene.html'), 'utf8'), [, json] = text.match(/<script id="ovoid-data" type="application\/json">(.*?)<\/script>/s);
-  const data = JSON.parse(json);
-  for (const pair of data.pairs) {
-    pair.answer.lower += 0.01;
-    pair.answer.upper += 0.01;
-  }
-  writeFileSync(join(folder, 'altered.html'), text.replace(json, () => JSON.stringify(data).replaceAll('<', '\\u003c')));
-  const altered = await open('altered.html');
-  for (let i = 0; i < data.pairs.length; i++) {
-    await altered.page.click(`#pairs tr:nth-child(${i + 1})`);
-    await altered.page.click('#check');
-    assert.match(await altered.page.textContent('#proof'), /bound|status|bracket|point/);
-  }
-  await altered.page.close();
+  await refuseAltered('scene.html', (answer) => {
+    answer.lower += 0.01;
+    answer.upper += 0.01;
+  });
+});
+
+test('compounds and solids: their proofs hold, altered ones do not, and they are asked live', { skip }, async () => {
+  // An L of three cubes, a block in its corner, a rack of two boxes, a cube that the large L encloses.
+  const outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], points = [0, 1].flatMap((z) => outline.map(([x, y]) => `${x} ${y} ${z}`));
+  const sides = outline.map((_, i) => `4 ${i} ${(i + 1) % 6} ${6 + ((i + 1) % 6)} ${6 + i}`);
+  writeFileSync(join(folder, 'l.off'), `OFF\n12 10 0\n${points.join('\n')}\n${sides.join('\n')}\n4 3 2 1 0\n4 5 4 3 0\n4 6 7 8 9\n4 6 9 10 11\n`);
+  const objects = [
+    { name: 'l', mesh: 'l.off' }, { name: 'turned', mesh: 'l.off', pose: { xyz: [4, 1, 0], rpy: [0, 0, 1] } }, { name: 'large', mesh: 'l.off', scale: 5, pose: { xyz: [-20, 0, 0] } },
+    { name: 'block', box: [0.8, 0.8, 0.8], pose: { xyz: [1.5, 1.5, 0.5] } }, { name: 'within', box: [1, 1, 1], pose: { xyz: [-18, 2, 2] } },
+    { name: 'rack', compound: [{ box: [1, 1, 1] }, { box: [1, 1, 1], pose: { xyz: [0, 0, 3] } }], pose: { xyz: [1.7, 1.7, 2], rpy: [0.1, 0, 0] } },
+    { name: 'other rack', compound: [{ sphere: 0.5 }, { box: [1, 1, 1], pose: { xyz: [0, 0, -1] } }], pose: { xyz: [1.7, 3.5, 2] } },
+  ];
+  writeFileSync(join(folder, 'solids.json'), JSON.stringify({ objects }));
+  const lines = run('check', 'solids.json', '--json', '--html', 'solids.html').trim().split('\n').map((line) => JSON.parse(line));
+  assert.deepEqual([lines.filter((l) => l.proof.surfaces).length, lines.filter((l) => l.inside).length, lines.filter((l) => (l.part_a ?? l.part_b) !== undefined).length], [15, 1, 11]);
+  const { page, errors } = await open('solids.html', flat);
+  assert.equal((await readRows(page)).length, lines.length);
+  for (const { names, text, isGood } of await checkAll(page)) assert.ok(isGood && text === 'The proof holds.', `${names}: ${text}`);
+  // Where they are moved to, the page says what the tool says.
+  const poses = [{ xyz: [0.2, 0.1, 3.4], quat_wxyz: [1, 0.2, 0, 0] }, { xyz: [1, 2, 1.5], quat_wxyz: [1, 0, 0.3, 0.1] }];
+  const live = await page.evaluate((to) => {
+    const { model } = window.ovoidPage, moved = [model.bodies[1], model.bodies[5]];
+    moved.forEach((body, i) => (body.pose = to[i]));
+    moved.forEach((body) => window.ovoidPage.moved(body));
+    return model.pairs.filter((pair) => pair.isLive).map((pair) => [`${pair.a.name} – ${pair.b.name}`, pair.answer.lower, pair.answer.upper, model.check(pair).text]);
+  }, poses);
+  [objects[1].pose, objects[5].pose] = poses;
+  writeFileSync(join(folder, 'moved.json'), JSON.stringify({ objects }));
+  const wanted = new Map(run('check', 'moved.json', '--json').trim().split('\n').map((line) => JSON.parse(line)).map(({ a, b, lower, upper }) => [`${a} – ${b}`, [lower, upper]]));
+  assert.equal(live.length, 11);
+  for (const [names, lower, upper, text] of live) assert.deepEqual([lower, upper, text], [...wanted.get(names), 'The proof holds.'], names);
+  assert.deepEqual(errors, []);
+  await page.close();
+  // Of the bracket, of what is excluded, and of what is inside.
+  await refuseAltered('solids.html', (answer) => (answer.upper -= 0.01));
+  const count = await refuseAltered('solids.html', ({ proof }) => proof.exclusions?.pop(), ({ answer }) => answer.proof.exclusions?.length > 0);
+  assert.ok(count > 3, `${count} have exclusions`);
+  assert.equal(await refuseAltered('solids.html', (answer) => (answer.inside = 'a in b'), ({ answer }) => answer.inside), 1);
+  // Triangles that were too many for the page.
+  alter('solids.html', (data) => data.shapes.forEach((shape) => delete shape.solid));
+  const bare = await open('altered.html', flat);
+  await bare.page.click('#pairs tr:has-text("large")');
+  await bare.page.click('#check');
+  assert.match(await bare.page.textContent('#proof'), /ovoid verify/);
+  await bare.page.evaluate(() => window.ovoidPage.moved(window.ovoidPage.model.bodies[2]));
+  assert.equal(await bare.page.textContent('#lower'), '-∞');
+  assert.deepEqual(bare.errors, []);
+  await bare.page.close();
 });
 
 test('a body that is dragged has the brackets that the tool gives for its pose', { skip }, async () => {
@@ -125,22 +203,24 @@ test('a body that is dragged has the brackets that the tool gives for its pose',
   await page.close();
 });
 
+/** How many of the picture's pixels are drawn, in a picture of 200 by 150. */
+const countPixels = (page) => page.evaluate(() => {
+  const { view } = window.ovoidPage;
+  view.drawNow();
+  const small = document.createElement('canvas');
+  small.width = 200;
+  small.height = 150;
+  const paint = small.getContext('2d');
+  paint.drawImage(view.canvas, 0, 0, 200, 150);
+  const { data } = paint.getImageData(0, 0, 200, 150);
+  let drawn = 0;
+  for (let i = 3; i < data.length; i += 4) drawn += data[i] > 0;
+  return drawn;
+});
+
 test('layers, keys, themes and exports', { skip }, async () => {
   const { page, errors } = await open('scene.html');
-  // How many of the picture's pixels differ from one in the corner.
-  const count = () => page.evaluate(() => {
-    const { view } = window.ovoidPage;
-    view.drawNow();
-    const small = document.createElement('canvas');
-    small.width = 200;
-    small.height = 150;
-    const paint = small.getContext('2d');
-    paint.drawImage(view.canvas, 0, 0, 200, 150);
-    const { data } = paint.getImageData(0, 0, 200, 150);
-    let drawn = 0;
-    for (let i = 3; i < data.length; i += 4) drawn += data[i] > 0;
-    return drawn;
-  });
+  const count = () => countPixels(page);
   const all = await count();
   assert.ok(all > 1500, `${all} pixels are drawn`);
   await page.keyboard.press('m');
@@ -169,6 +249,63 @@ test('layers, keys, themes and exports', { skip }, async () => {
   await page.close();
 });
 
+test('without WebGL the picture is painted, and all else is as with it', { skip }, async () => {
+  const { page, errors } = await open('scene.html', flat), drawn = await open('scene.html');
+  assert.match(await page.textContent('#painted'), /no WebGL 2/);
+  assert.deepEqual(await readRows(page), await readRows(drawn.page));
+  const [painted, rendered] = [await countPixels(page), await countPixels(drawn.page)];
+  assert.ok(Math.abs(painted / rendered - 1) < 0.05, `${painted} pixels are painted, ${rendered} drawn`);
+  await page.keyboard.press('i');
+  assert.ok((await countPixels(page)) > 0.9 * painted, 'what is seen through');
+  await page.keyboard.press('i');
+  await page.click('#pairs tr:has-text("crate – ball")');
+  await land(page);
+  await page.keyboard.press('p');
+  assert.equal(await page.textContent('#proof'), 'The proof holds.');
+  // A click finds the nearest body.
+  const [x, y] = await page.evaluate(() => {
+    const { view, model } = window.ovoidPage, at = view.camera.position.clone().set(...model.bodies[2].pose.xyz).project(view.camera), box = view.canvas.getBoundingClientRect();
+    return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
+  });
+  await page.mouse.click(x, y);
+  assert.equal(await page.textContent('#details h2'), 'ball');
+  await page.click('#move');
+  assert.deepEqual([...errors, ...drawn.errors], []);
+  await page.close();
+  await drawn.page.close();
+});
+
+test('of many bodies the small ones are drawn coarser, which the page says; they are found by clicks, and GLB has them whole', { skip }, async () => {
+  const objects = Array.from({ length: 1331 }, (_, i) => ({ name: `b${i}`, capsule: { radius: 0.2, length: 0.5 }, pose: { xyz: [i % 11, Math.floor(i / 11) % 11, Math.floor(i / 121)] } }));
+  writeFileSync(join(folder, 'many.json'), JSON.stringify({ objects }));
+  run('check', 'many.json', '--margin', '0.31', '--html', 'many.html');
+  for (const where of [browser, flat]) {
+    const { page, errors } = await open('many.html', where);
+    const [few, all, found] = await page.evaluate(() => {
+      const { view } = window.ovoidPage, layer = view.layers.meshes;
+      // As on a machine that draws next to nothing in time.
+      view.rate = 1e-9;
+      view.drawNow();
+      const box = view.canvas.getBoundingClientRect(), body = view.bodyAt(box.left + box.width / 2, box.top + box.height / 2);
+      return [layer.drawn, layer.all, body?.name];
+    });
+    assert.ok(few < all / 4 && few >= 8 * objects.length, `${few} of ${all}`);
+    assert.match(await page.textContent('#drawn'), /of .* triangles/);
+    assert.match(found ?? 'nothing', /^b\d+$/);
+    assert.ok((await countPixels(page)) > 2000);
+    await page.evaluate(() => {
+      const { view, model } = window.ovoidPage;
+      view.choose([model.bodies[665]], true);
+      view.drawNow();
+    });
+    assert.ok((await countPixels(page)) < 500, 'one is left');
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#glb')]);
+    assert.ok(readFileSync(await download.path()).length > 2000);
+    assert.deepEqual(errors, []);
+    await page.close();
+  }
+});
+
 test('data that are none are refused with a sentence', { skip }, async () => {
   const text = readFileSync(join(folder, 'scene.html'), 'utf8');
   for (const [json, said] of [['null', /template/], ['{"format": 9}', /format 9/]]) {
@@ -186,7 +323,7 @@ test('a motion: the slider moves the bodies, the chosen pair follows', { skip },
   writeFileSync(join(folder, 'motion.json'), JSON.stringify({ objects }));
   writeFileSync(join(folder, 'go.csv'), 'time,body,x,y,z,qw,qx,qy,qz\n0,ball,4,0,0,1,0,0,0\n1,ball,3,0,0,1,0,0,0\n2,ball,1,0,0,1,0,0,0\n3,ball,5,0,0,1,0,0,0\n');
   run('run', 'motion.json', '--motion', 'go.csv', '--html', 'motion.html', '-o', 'motion.csv');
-  const { page, errors } = await open('motion.html');
+  const { page, errors } = await open('motion.html', flat);
   await page.click('#pairs tr');
   assert.equal(await page.evaluate(() => window.ovoidPage.timeline.frame), 2);
   assert.match(await page.textContent('#lower'), /^0\.3999|^0\.4/);
@@ -208,7 +345,7 @@ test("a robot: joints' sliders move it, the near pairs are those of the tool", {
     <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="1.3 0 0"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint></robot>`);
   writeFileSync(join(folder, 'cell.json'), JSON.stringify({ objects: [{ name: 'post', box: [0.2, 0.2, 2], pose: { xyz: [0, 2, 0] } }] }));
   run('robot', 'check', 'arm.urdf', '--scene', 'cell.json', '--state', 'shoulder=0,elbow=0', '--html', 'arm.html');
-  const { page, errors } = await open('arm.html');
+  const { page, errors } = await open('arm.html', flat);
   assert.equal(await page.textContent('#verdict').then((text) => text.split(';')[0]), 'free');
   const before = await page.evaluate(() => window.ovoidPage.model.bodies.find((body) => body.name === 'lower').pose.xyz[1]);
   await page.$eval('#joints input[aria-label="shoulder"]', (input) => {

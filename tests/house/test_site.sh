@@ -1,0 +1,75 @@
+#!/bin/sh
+# The site: it builds without a warning, no link of it leads nowhere, nothing of it comes from the network, every public function is in
+# the index that its search reads, every page of docs/ and every example is on it, and the navigation has them all. Truth: the headers, the folders. It can fail: a
+# page with a dead link, and one that is not listed, do not build.
+set -u
+cd "$OVOID_SOURCE_DIR" || exit 1
+passed=0 failed=0
+site=$OVOID_BUILD_DIR/test_site
+for tool in sphinx-build doxygen python3; do
+    command -v $tool >/dev/null && continue
+    echo "skipped: $tool is not here, so the site is not built"
+    echo "0 passed, 0 failed, 1 skipped"
+    exit 0
+done
+# The interpreter that Sphinx runs in.
+if ! "$(sed -n '1s/^#! *//p' "$(command -v sphinx-build)")" -c 'import furo, myst_parser' 2>/dev/null; then
+    echo "skipped: Sphinx has no MyST or no furo, so the site is not built"
+    echo "0 passed, 0 failed, 1 skipped"
+    exit 0
+fi
+
+# check NAME WRONG: one check; WRONG, what was found to be so, is empty where it holds.
+check() {
+    if [ -z "$2" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        printf 'FAILED %s: %s\n' "$1" "$2"
+    fi
+}
+check 'the site builds' "$(scripts/site.sh "$site" 2>&1 | grep -v 'index.html: \|^site: without the live page')"
+check 'a front page' "$([ -s "$site/index.html" ] || echo 'none')"
+check 'nothing from the network, nor from the root of a server' "$(grep -rlE '(src|href)="(https?:)?//[^"]*\.(js|css|woff2?|png|svg)"|url\(["'\'']?(https?:)?/' "$site" --include='*.html' --include='*.css')"
+
+# The names of the headers' functions: what is declared with OVOID_API, and the C++ classes.
+index=$site/searchindex.js
+missing=
+for name in $(grep -ohE 'OVOID_API [^(;]*\(' include/ovoid/*.h | grep -oE 'ovoid_[a-z0-9_]+\($' | tr -d '(' | sort -u); do
+    grep -qE "[\"',{[]${name}[\"',:]" "$index" || missing="$missing $name"
+    passed=$((passed + 1))
+done
+check 'functions of C that the search does not find' "$missing"
+for name in ovoid::shape::box ovoid::world::add ovoid::robot_cell distance check_path; do
+    check "$name in the search" "$(grep -qE "[\"',{[]${name}[\"',:]" "$index" || echo 'is absent')"
+done
+for page in docs/*.md; do
+    name=$(basename "$page" .md)
+    check "$page" "$([ -s "$site/$name.html" ] || echo 'is not on the site')"
+done
+for example in examples/*.c examples/*.cpp; do
+    check "$example" "$([ -s "$site/$example.html" ] || echo 'is not on the site')"
+done
+
+# It can fail: a small site, which builds; then with a dead link, then with a page that is not listed.
+small=$OVOID_BUILD_DIR/test_site.small
+rm -rf "$small" && mkdir -p "$small/docs" "$small/include/ovoid/cpp" "$small/python/ovoid" "$small/examples"
+cp -R scripts "$small/"
+cp -R docs/site docs/Doxyfile docs/layout.xml docs/manual.css "$small/docs/"
+cp include/ovoid/base.h "$small/include/ovoid/"
+cp python/ovoid/__init__.pyi "$small/python/ovoid/"
+for page in README CHANGELOG CONTRIBUTING docs/cpp docs/python; do echo "# $page" >"$small/$page.md"; done
+{
+    printf '# Small\n\n## Tutorials\n\n## Reference\n\n'
+    for page in cpp python ../README ../CHANGELOG ../CONTRIBUTING; do echo "- [$page]($page.md)"; done
+} >"$small/docs/index.md"
+build_small() { (cd "$small" && scripts/site.sh out 2>&1); }
+check 'a small site' "$(build_small | grep -v 'index.html: \|^site: without the live page')"
+echo '[nowhere](none.md)' >>"$small/docs/cpp.md"
+check 'a dead link' "$(build_small | grep -q 'none.md' || echo 'is not found')"
+echo '# C++' >"$small/docs/cpp.md"
+echo '# Alone' >"$small/docs/alone.md"
+check 'a page that is not listed' "$(build_small | grep -q 'alone.md.*toctree' || echo 'is not found')"
+rm -rf "$small"
+echo "$passed passed, $failed failed, 0 skipped"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,148 @@
+// Compounds, and pairs with a compound or a solid: queries, the exclusions of their proofs, checks.
+#include "ovoid/solid.h"
+#include "src/exchange.h"
+
+#include <stdlib.h>
+
+/// What a body is: two bits each of `kinds`, those of a first.
+enum { IS_SHAPE, IS_COMPOUND, IS_SOLID };
+
+/// poses: seven numbers each.
+ovoid_compound *EXPORT(compound_create)(ovoid_shape *const *shapes, const double *poses, size_t count) {
+    ovoid_posed_shape *parts = calloc(count + 1, sizeof *parts);
+    if (!parts) return exchange_error = (ovoid_error){OVOID_ERROR_MEMORY, -1, "out of memory"}, NULL;
+    for (size_t i = 0; i < count; i++) {
+        parts[i].shape = shapes[i];
+        read_pose(poses + 7 * i, &parts[i].pose);
+    }
+    ovoid_compound *compound = ovoid_compound_create(parts, count, NULL, &exchange_error);
+    free(parts);
+    return compound;
+}
+void EXPORT(compound_destroy)(ovoid_compound *compound) { ovoid_compound_destroy(compound); }
+
+// The exclusions of the last query, and of the next check, as the caller reads and writes them.
+static ovoid_exclusions exclusions;
+_Static_assert(sizeof(ovoid_exclusion) == 72 && offsetof(ovoid_exclusion, normal) == 16, "four indices, seven numbers");
+
+ovoid_exclusion *EXPORT(get_exclusions)(void) { return exclusions.items; }
+
+/// Room for so many exclusions: their address; 0 where there is no memory, or nothing to hold.
+ovoid_exclusion *EXPORT(set_exclusions)(size_t count) {
+    if (count > exclusions.capacity) {
+        void *items = count <= SIZE_MAX / sizeof(ovoid_exclusion)
+                          ? realloc(exclusions.items, count * sizeof(ovoid_exclusion))
+                          : NULL;
+        if (!items) return NULL;
+        exclusions.items = items;
+        exclusions.capacity = count;
+    }
+    exclusions.count = count;
+    return exclusions.items;
+}
+
+static const double *read_body(const double *from, unsigned kind, const void *body, ovoid_body *out) {
+    *out = (ovoid_body){.shape = kind == IS_SHAPE ? body : NULL,
+                        .compound = kind == IS_COMPOUND ? body : NULL,
+                        .solid = kind == IS_SOLID ? body : NULL};
+    return read_pose(from, &out->pose);
+}
+
+static const double *read_bodies(unsigned kinds, const void *a, const void *b, ovoid_body_pair *pair) {
+    return read_body(read_body(exchange, kinds & 3, a, &pair->a), kinds >> 2 & 3, b, &pair->b);
+}
+
+static int has_solid(const ovoid_body_pair *pair) { return pair->a.solid || pair->b.solid; }
+
+typedef struct question {
+    int kind;
+    ovoid_body_pair pair;
+    double margin;
+    ovoid_options options;
+    ovoid_compound_proof earlier;
+    int is_warm;
+} question;
+
+static ovoid_solid_answer ask_solids(const question *q) {
+    const ovoid_compound_proof *earlier = q->is_warm ? &q->earlier : NULL;
+    switch (q->kind) {
+    case 0: return ovoid_solid_collide(&q->pair, &q->options, earlier, &exclusions);
+    case 1: return ovoid_solid_within(&q->pair, q->margin, &q->options, earlier, &exclusions);
+    default: return ovoid_solid_distance(&q->pair, &q->options, earlier, &exclusions);
+    }
+}
+
+static ovoid_compound_answer ask_compounds(const question *q) {
+    const ovoid_compound_proof *earlier = q->is_warm ? &q->earlier : NULL;
+    switch (q->kind) {
+    case 0: return ovoid_compound_collide(&q->pair, &q->options, earlier, &exclusions);
+    case 1: return ovoid_compound_within(&q->pair, q->margin, &q->options, earlier, &exclusions);
+    case 2: return ovoid_compound_distance(&q->pair, &q->options, earlier, &exclusions);
+    default: return ovoid_compound_depth(&q->pair, &q->options, earlier, &exclusions);
+    }
+}
+
+// The answer of a pair as one of solids; of compounds the surfaces are not used.
+static ovoid_solid_answer ask(const question *q) {
+    if (has_solid(&q->pair)) return ask_solids(q);
+    ovoid_compound_answer c = ask_compounds(q);
+    return (ovoid_solid_answer){.status = c.answer.status,
+                                .limit = c.answer.limit,
+                                .lower = c.answer.lower,
+                                .upper = c.answer.upper,
+                                .triangle_a = c.part_a,
+                                .triangle_b = c.part_b,
+                                .surfaces = c.answer};
+}
+
+/// kind: collide, within, distance, depth. Reads both poses, the margin, four options and, where is_warm, the deciding
+/// parts of an earlier answer and its proof. Writes how many exclusions there are, the deciding parts, parting, inside,
+/// component, of the surfaces status, limit, lower and upper, then the answer and its proof; of a depth the cover.
+void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, int is_warm) {
+    question q = {.kind = kind, .is_warm = is_warm};
+    const double *from = read_bodies(kinds, a, b, &q.pair);
+    q.margin = *from++;
+    from = read_options(from, &q.options);
+    if (is_warm) {
+        q.earlier.part_a = read_index(from[0]), q.earlier.part_b = read_index(from[1]);
+        read_proof(from + 2, &q.earlier.proof);
+    }
+    exclusions.cover = kind == 3 ? &cover : NULL;
+    cover.point_count = cover.triangle_count = 0;
+    ovoid_solid_answer s = ask(&q);
+    // Once more where there was too little room: the search is the same.
+    if (exclusions.count > exclusions.capacity && set_exclusions(exclusions.count)) s = ask(&q);
+    double *to = exchange;
+    *to++ = (double)exclusions.count, *to++ = s.triangle_a, *to++ = s.triangle_b;
+    to = write_vec3(to, s.parting);
+    *to++ = s.inside, *to++ = s.component;
+    *to++ = s.surfaces.status, *to++ = s.surfaces.limit, *to++ = s.surfaces.lower, *to++ = s.surfaces.upper;
+    ovoid_answer answer = s.surfaces;
+    answer.status = s.status, answer.limit = s.limit, answer.lower = s.lower, answer.upper = s.upper;
+    write_proof(write_answer(to, &answer), &answer.proof);
+}
+
+static int check_compounds(const ovoid_body_pair *pair, const ovoid_solid_answer *s) {
+    exclusions.cover = cover.point_count ? &cover : NULL;
+    ovoid_compound_answer c = {.answer = s->surfaces, .part_a = s->triangle_a, .part_b = s->triangle_b};
+    return (int)ovoid_compound_answer_check(pair, &c, &exclusions, &exchange_error);
+}
+
+/// Reads both poses and what body_query wrote; the exclusions are those of set_exclusions. 0, or the error's code.
+int EXPORT(body_check)(unsigned kinds, const void *a, const void *b) {
+    ovoid_body_pair pair;
+    ovoid_solid_answer s = {0};
+    const double *head = read_bodies(kinds, a, b, &pair), *from = head + 1;
+    s.triangle_a = read_index(*from++), s.triangle_b = read_index(*from++);
+    from = read_vec3(from, &s.parting);
+    s.inside = (ovoid_solid_inside)(read_index(*from++) & 0xff);
+    s.component = read_index(*from++);
+    const double *surfaces = from;
+    read_proof(read_answer(from + 4, &s.surfaces), &s.surfaces.proof);
+    if (!has_solid(&pair)) return check_compounds(&pair, &s);
+    s.status = s.surfaces.status, s.limit = s.surfaces.limit, s.lower = s.surfaces.lower, s.upper = s.surfaces.upper;
+    s.surfaces.status = (ovoid_status)(read_index(surfaces[0]) & 0xff);
+    s.surfaces.limit = (ovoid_limit)(read_index(surfaces[1]) & 0xff);
+    s.surfaces.lower = surfaces[2], s.surfaces.upper = surfaces[3];
+    return (int)ovoid_solid_answer_check(&pair, &s, &exclusions, &exchange_error);
+}
