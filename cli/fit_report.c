@@ -95,13 +95,8 @@ void fit_write_table_row(FILE *file, const fitted *f) {
 /* ---- for programs ---- */
 
 static void write_vector(FILE *file, ovoid_vec3 v) {
-    fputc('[', file);
-    json_write_number(file, v.x);
-    fputc(',', file);
-    json_write_number(file, v.y);
-    fputc(',', file);
-    json_write_number(file, v.z);
-    fputc(']', file);
+    const double items[] = {v.x, v.y, v.z};
+    json_write_numbers(file, items, 3);
 }
 
 static void write_step_json(FILE *file, const fitted *f, int step) {

@@ -22,3 +22,12 @@ void json_write_number(FILE *file, double number) {
     else
         fputs("null", file);
 }
+
+void json_write_numbers(FILE *file, const double *numbers, size_t count) {
+    fputc('[', file);
+    for (size_t i = 0; i < count; i++) {
+        if (i) fputc(',', file);
+        json_write_number(file, numbers[i]);
+    }
+    fputc(']', file);
+}

@@ -9,5 +9,7 @@ void json_write_text(FILE *file, const char *text);
 
 /// Writes a number with 17 digits; "null" where it is not finite.
 void json_write_number(FILE *file, double number);
+/// Writes numbers as an array.
+void json_write_numbers(FILE *file, const double *numbers, size_t count);
 
 #endif

@@ -118,12 +118,9 @@ void page_motion_add_firsts(page_motion *m, const cli_track *track) {
 // ---- writing
 
 static void write_times(FILE *file, const page_motion *m) {
-    fputs(",\"motion\":{\"times\":[", file);
-    for (size_t i = 0; i < m->count; i++) {
-        if (i) fputc(',', file);
-        json_write_number(file, m->times[i]);
-    }
-    fputs("],\"poses\":", file);
+    fputs(",\"motion\":{\"times\":", file);
+    json_write_numbers(file, m->times, m->count);
+    fputs(",\"poses\":", file);
 }
 
 static void write_poses(FILE *file, const page_motion *m, const page_choice *choice) {

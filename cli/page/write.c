@@ -50,11 +50,7 @@ void page_write_text(FILE *file, const char *text) {
 
 static void write_numbers(FILE *file, const char *key, const double *numbers, int count) {
     fprintf(file, "\"%s\":", key);
-    for (int i = 0; i < count; i++) {
-        fputc(i ? ',' : '[', file);
-        json_write_number(file, numbers[i]);
-    }
-    fputc(']', file);
+    json_write_numbers(file, numbers, (size_t)count);
 }
 
 void page_write_vector(FILE *file, const char *before, const char *key, ovoid_vec3 v) {

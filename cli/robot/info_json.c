@@ -20,11 +20,7 @@ static void write_value(FILE *file, const char *before, const char *key, double 
 
 static void write_vector(FILE *file, const char *before, const char *key, const double *v, size_t count) {
     write_key(file, before, key);
-    for (size_t i = 0; i < count; i++) {
-        fputc(i ? ',' : '[', file);
-        json_write_number(file, v[i]);
-    }
-    fputs(count ? "]" : "[]", file);
+    json_write_numbers(file, v, count);
 }
 
 static void write_pose(FILE *file, const char *before, const char *key, const ovoid_pose *p) {
@@ -160,11 +156,7 @@ static void write_states(FILE *file, const cli_robot *robot, const ovoid_robot_d
             if (k) fputc(',', file);
             json_write_text(file, d->joints[v->joint].name);
             fputc(':', file);
-            for (uint32_t c = 0; c < v->count; c++) {
-                fputc(c ? ',' : '[', file);
-                json_write_number(file, v->values[c]);
-            }
-            fputc(']', file);
+            json_write_numbers(file, v->values, v->count);
         }
         fputs("}}", file);
     }

@@ -39,12 +39,7 @@ static void write_state(FILE *file, const matrix_view *v, const char *key, const
         fputs("null", file);
         return;
     }
-    fputc('[', file);
-    for (size_t i = 0; i < ovoid_robot_get_variable_count(v->robot); i++) {
-        if (i) fputc(',', file);
-        json_write_number(file, q[i]);
-    }
-    fputc(']', file);
+    json_write_numbers(file, q, ovoid_robot_get_variable_count(v->robot));
 }
 
 static const char *get_finding_name(matrix_finding finding) {

@@ -185,23 +185,8 @@ static int write_disabled(FILE *file, const cli_cell *cell) {
 
 /// Writes the states, at most STATES_MOST, and their times where they have some; returns how many are left out.
 static size_t write_states(FILE *file, const cli_states *states) {
-    size_t n = states->variable_count, count = states->count < STATES_MOST ? states->count : STATES_MOST;
-    fputs(",\"states\":[", file);
-    for (size_t i = 0; i < count; i++) {
-        const double *q = states->q + i * n;
-        fputs(i ? ",[" : "[", file);
-        for (size_t k = 0; k < n; k++) {
-            if (k) fputc(',', file);
-            json_write_number(file, q[k]);
-        }
-        fputc(']', file);
-    }
-    fputc(']', file);
-    for (size_t i = 0; i < count && states->times; i++) {
-        fputs(i ? "," : ",\"times\":[", file);
-        json_write_number(file, states->times[i]);
-    }
-    if (states->times) fputc(']', file);
+    size_t count = states->count < STATES_MOST ? states->count : STATES_MOST;
+    states_write_json(file, states, "states", count);
     return states->count - count;
 }
 

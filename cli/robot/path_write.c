@@ -224,13 +224,9 @@ static void write_step(FILE *file, const ovoid_robot_step *step) {
     write_value(file, "begin", step->begin);
     write_value(file, "end", step->end);
     if (step->kind == OVOID_ROBOT_STEP_MIDDLE || step->kind == OVOID_ROBOT_STEP_ENDS) {
-        fputs(",\"normal\":[", file);
-        json_write_number(file, step->normal.x);
-        fputc(',', file);
-        json_write_number(file, step->normal.y);
-        fputc(',', file);
-        json_write_number(file, step->normal.z);
-        fputc(']', file);
+        const double normal[] = {step->normal.x, step->normal.y, step->normal.z};
+        fputs(",\"normal\":", file);
+        json_write_numbers(file, normal, 3);
     }
     fputs(",\"pairs\":[", file);
     for (uint32_t i = 0; i < 8; i++) {
@@ -239,26 +235,6 @@ static void write_step(FILE *file, const ovoid_robot_step *step) {
         before = ",";
     }
     fputs("]}\n", file);
-}
-
-/// The states of the path, and their times.
-static void write_states(FILE *file, const cli_states *states) {
-    size_t n = states->variable_count;
-    fputs(",\"q\":[", file);
-    for (size_t i = 0; i < states->count; i++) {
-        fputs(i ? ",[" : "[", file);
-        for (size_t k = 0; k < n; k++) {
-            if (k) fputc(',', file);
-            json_write_number(file, states->q[i * n + k]);
-        }
-        fputc(']', file);
-    }
-    fputc(']', file);
-    for (size_t i = 0; i < states->count && states->times; i++) {
-        fputs(i ? "," : ",\"times\":[", file);
-        json_write_number(file, states->times[i]);
-    }
-    if (states->times) fputc(']', file);
 }
 
 static void write_clearance_json(FILE *file, const path_report *r) {
@@ -301,7 +277,7 @@ void path_write_json(FILE *file, const path_report *r) {
         write_value(file, "upper", a->hit.upper);
     }
     fprintf(file, ",\"looked_at\":%lu,\"steps\":%zu", (unsigned long)a->states, a->step_count);
-    if (r->steps) write_states(file, r->states);
+    if (r->steps) states_write_json(file, r->states, "q", r->states->count);
     if (r->clearance && r->clearance->status != OVOID_ROBOT_REFUSED) write_clearance_json(file, r);
     fputs("}\n", file);
     for (size_t i = 0; i < a->step_count && r->steps; i++) write_step(file, &r->steps[i]);

@@ -37,11 +37,7 @@ static pair_row get_row(const report_form *form, const report_state *s, size_t i
 static void write_vector(FILE *file, const char *key, ovoid_vec3 v) {
     const double items[] = {v.x, v.y, v.z};
     fprintf(file, ",\"%s\":", key);
-    for (int i = 0; i < 3; i++) {
-        fputc(i ? ',' : '[', file);
-        json_write_number(file, items[i]);
-    }
-    fputc(']', file);
+    json_write_numbers(file, items, 3);
 }
 
 static void write_pair(FILE *file, const report_form *form, const pair_row *row) {

@@ -2,6 +2,7 @@
 // is not given is MoveIt's default (moveit_core, RobotModel::getVariableDefaultPositions), and a note says so.
 #include "robot/states.h"
 
+#include "json.h"
 #include "message.h"
 
 #include <ctype.h>
@@ -381,4 +382,16 @@ void states_close(cli_states *states) {
 
 const char *states_get_name(const cli_states *states, size_t i) {
     return states->texts && i < (size_t)states->texts->count ? states->texts->items[i] : NULL;
+}
+
+void states_write_json(FILE *file, const cli_states *states, const char *key, size_t count) {
+    fprintf(file, ",\"%s\":[", key);
+    for (size_t i = 0; i < count; i++) {
+        if (i) fputc(',', file);
+        json_write_numbers(file, states->q + i * states->variable_count, states->variable_count);
+    }
+    fputc(']', file);
+    if (!states->times) return;
+    fputs(",\"times\":", file);
+    json_write_numbers(file, states->times, count);
 }

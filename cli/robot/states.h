@@ -45,6 +45,8 @@ int states_open(const cli_command *command, const states_settings *settings, con
 /// The variables of state i, which is one of the part; those of the states behind it in its block follow.
 const double *states_get(const cli_states *states, size_t i);
 void states_close(cli_states *states);
+/// Writes the first `count` states as a member of an object, and their times where they have some.
+void states_write_json(FILE *file, const cli_states *states, const char *key, size_t count);
 
 /// The number of a variable that is not given.
 double states_get_default(const cli_cell *cell, size_t variable);

@@ -1,5 +1,7 @@
 #include "robot/read/message.h"
 
+#include "robot/read/note.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
@@ -18,14 +20,10 @@ void message_report(const message_reader *r, const yaml_value *at, ovoid_code co
 }
 
 void message_note(const message_reader *r, const yaml_value *at, const char *format, ...) {
-    if (!r->options->note) return;
-    char text[512];
     va_list list;
     va_start(list, format);
-    (void)vsnprintf(text, sizeof text, format, list);
+    note_tell(r->options, r->path, at ? at->line : 0, format, list);
     va_end(list);
-    ovoid_robot_note note = {r->path, at ? at->line : 0, text};
-    r->options->note(r->options->context, &note);
 }
 
 static int is_nothing(const yaml_value *v) {

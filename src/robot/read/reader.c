@@ -1,6 +1,8 @@
 // Errors, notes, ignored elements and the values of attributes.
 #include "robot/read/reader.h"
 
+#include "robot/read/note.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -32,14 +34,10 @@ void robot_report(const robot_reader *r, const xml_element *element, ovoid_code 
 ovoid_code robot_fail_memory(const robot_reader *r) { return io_fail_memory(r->error, r->path); }
 
 void robot_note(const robot_reader *r, const xml_element *element, const char *format, ...) {
-    if (!r->options->note) return;
-    char text[1024];
     va_list list;
     va_start(list, format);
-    (void)vsnprintf(text, sizeof text, format, list);
+    note_tell(r->options, r->path, element ? element->line : 0, format, list);
     va_end(list);
-    ovoid_robot_note note = {r->path, element ? element->line : 0, text};
-    r->options->note(r->options->context, &note);
 }
 
 // ---- ignored elements
