@@ -1,7 +1,7 @@
 # page_check.py TOOL DATA: the data of --html, read back. Run by test_page.sh in an empty folder.
 # Truth: the lines of `ovoid check --json`, the files of `ovoid fit`, the numbers given; octants of affine tetrahedra, whose
 # largest inner ellipsoid is the image of the sphere in a regular one. What a browser would be given is read as one would.
-import array, base64, html.parser, json, math, os, random, struct, subprocess, sys
+import array, base64, html.parser, itertools, json, math, os, random, struct, subprocess, sys
 
 tool = os.path.abspath(sys.argv[1])
 counts = {"passed": 0, "failed": 0}
@@ -207,17 +207,18 @@ def check_meshes():
 
 
 def check_proofs():
-    # Hulls about one point: proofs of depths, tens of kilobytes each.
+    # Hulls about one point: proofs of depths, five kilobytes each.
     random.seed(9)
     points = [[random.gauss(0, 1) for _ in range(3)] for _ in range(300)]
     points = [[x / math.hypot(*p) for x in p] for p in points]
-    rows = [{"name": str(i), "points": points, "pose": {"xyz": [i / 1e3, i * i / 1e5, 0], "rpy": [i, 0, 0]}} for i in range(64)]
+    rows = [{"name": str(i), "points": points, "pose": {"xyz": [i / 1e3, i * i / 1e5, 0], "rpy": [i, 0, 0]}} for i in range(112)]
     write("proofs.json", {"objects": rows})
     done = subprocess.run([tool, "check", "proofs.json", "--json", "--html", "proofs.html"], capture_output=True, text=True)
     sizes = [len(line) - line.index('"proof":') - 1 for line in done.stdout.splitlines()]
-    given = ["proof" in pair["answer"] for pair in read("proofs.html")["pairs"]]
-    most = next(i for i in range(len(sizes)) if sum(sizes[:i + 1]) > 20000000)
-    check("proofs", given == [True] * most + [False] * (len(sizes) - most) and read("proofs.html")["left_out"] == {"proofs": len(sizes) - most})
+    data = read("proofs.html")
+    given = ["proof" in pair["answer"] for pair in data["pairs"]]
+    most = sum(1 for end in itertools.accumulate(sizes) if end <= 20000000)
+    check("proofs", most < len(sizes) and given == [True] * most + [False] * (len(sizes) - most) and data["left_out"] == {"proofs": len(sizes) - most})
     check("left out of proofs", f"proofs: {len(sizes) - most}" in done.stderr)
 
 
