@@ -122,6 +122,7 @@ typedef struct robots_run {
     double wrong, judged;           ///< of ovoid's answers
     double open;                    ///< states whose truth is open
     double near, states_free, states_hit;
+    uint32_t edge_count;
 } robots_run;
 
 void robots_run_states(robots_run *run, robots_scene *s, rival *rivals, uint32_t count);

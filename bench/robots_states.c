@@ -115,10 +115,11 @@ void robots_run_states(robots_run *run, robots_scene *s, rival *rivals, uint32_t
 // ---- the monitor
 
 /// Every pair within the margin, with its gradient.
-static double time_monitor(const robots_scene *s, const double *q, ovoid_robot_nears *nears) {
+static double time_monitor(const robots_scene *s, ovoid_robot_checker *checker, const double *q,
+                           ovoid_robot_nears *nears) {
     ovoid_robot_check_options options = {.margin = s->what.margin};
     double start = get_own_seconds();
-    (void)ovoid_robot_find_near(s->checker, q, &options, nears, NULL);
+    (void)ovoid_robot_find_near(checker, q, &options, nears, NULL);
     return (get_own_seconds() - start) * 1e6;
 }
 
@@ -138,18 +139,26 @@ void robots_run_monitor(robots_run *run, robots_scene *s, rival *rivals, uint32_
     uint32_t width = m->variable_count;
     double *q = malloc(sizeof *q * 3 * (width + 1)), *to = q + width, *at = to + width;
     ovoid_pose *links = malloc(sizeof *links * m->link_count);
-    ovoid_robot_nears nears = {malloc(sizeof *nears.items * NEARS), malloc(sizeof(double) * NEARS * (width + 1)), NEARS,
-                               0};
-    if (q && links && nears.items && nears.gradients) {
+    ovoid_robot_nears nears = {.items = malloc(sizeof *nears.items * NEARS),
+                               .gradients = malloc(sizeof(double) * NEARS * (width + 1)),
+                               .capacity = NEARS};
+    // What peers find: distances alone, and of overlaps that there is one.
+    ovoid_robot_checker *plain = ovoid_robot_checker_create(s->cell, NULL, NULL);
+    if (q && links && nears.items && nears.gradients && plain) {
         double most = 0;
         machine_draw(m, &s->random, q);
         machine_draw(m, &s->random, to);
         for (uint32_t i = 0; i < width; i++) most = fmax(most, fabs(to[i] - q[i]));
         for (uint32_t k = 0; k < run->plan->cycles; k++) {
             for (uint32_t i = 0; i < width; i++) at[i] = q[i] + (to[i] - q[i]) * fmin(1, 0.01 * k / most);
-            double time = time_monitor(s, at, &nears);
+            double time = time_monitor(s, s->checker, at, &nears);
+            size_t expected = nears.count;
+            ovoid_robot_nears alone = {.items = nears.items, .capacity = NEARS, .without_depths = 1};
+            double time_alone = time_monitor(s, plain, at, &alone);
+            run->wrong += alone.count != expected;
+            if (k > 0) tally_add(tallies_get(&run->monitor, "ovoid, distances"), time_alone);
             // The first cycle has no earlier one to begin with.
-            if (k > 0) tally_add(tallies_get(&run->monitor, "ovoid"), time);
+            if (k > 0) tally_add(tallies_get(&run->monitor, "ovoid, gradients"), time);
             if (k > 0) run->near += (double)nears.count;
             for (uint32_t r = 0; r < count; r++)
                 if (k > 0 && rivals[r].who->measure) time_measure(run, &rivals[r], at, links, nears.count);
@@ -157,6 +166,7 @@ void robots_run_monitor(robots_run *run, robots_scene *s, rival *rivals, uint32_
     }
     free(q);
     free(links);
+    ovoid_robot_checker_destroy(plain);
     free(nears.items);
     free(nears.gradients);
 }

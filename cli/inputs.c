@@ -34,7 +34,9 @@ static size_t count_convex_parts(const char *path, const read_settings *settings
 
 /// Warns of a mesh; convex_parts: how many parts it has that fill their hulls, 0: not known.
 static void warn_nonconvex(const char *path, const char *part, const ovoid_convexity *c, size_t convex_parts) {
-    char advice[160] = "for the mesh itself ovoid distance --solid, or decompose it (CoACD, V-HACD), then --parts";
+    char advice[160] =
+        "for the mesh itself ovoid distance --solid, or \"solid\": true in a scene; for convex parts ovoid "
+        "decompose, then --parts";
     if (convex_parts)
         snprintf(advice, sizeof advice, "each of its %zu parts fills its hull: use --parts", convex_parts);
     message_warning("%s%s%s is not convex and counts as its hull, of which it is %.3g %% (%.6g of %.6g); %s, or "

@@ -4,6 +4,7 @@
 // does not depend on how much is asked for.
 #include "ask.h"
 #include "bodies.h"
+#include "meshes.h"
 
 #ifdef OVOID_HAVE_JUDGE
 #include <judge.h>
@@ -24,27 +25,11 @@ static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answ
 }
 #endif
 
-enum { POINTS = 12, TRIANGLES = 24, ITEMS = 2048 };
+enum { ITEMS = 2048 };
 
-static ovoid_solid *take_triangles(fuzz_bytes *from) {
-    double xyz[3 * POINTS];
-    uint32_t indices[3 * TRIANGLES] = {0};
-    size_t points = 1 + (size_t)(take_byte(from) & 0xff) % POINTS,
-           count = (size_t)(take_byte(from) & 0xff) % (TRIANGLES + 1);
-    for (size_t i = 0; i < 3 * points; i++) xyz[i] = take_double(from);
-    for (size_t i = 0; i < 3 * count; i++)
-        indices[i] = (uint32_t)(take_byte(from) & 0xff) % (uint32_t)(points + (i == 71));
-    // The other side of each, so that it is closed.
-    int is_doubled = take_byte(from) & 1;
-    for (size_t i = 0; is_doubled && i < count / 2; i++) {
-        const uint32_t *t = indices + 3 * i;
-        uint32_t *back = indices + 3 * (count / 2 + i);
-        back[0] = t[0], back[1] = t[2], back[2] = t[1];
-    }
-    ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_solid *s =
-        ovoid_solid_create_from_triangles(xyz, points, indices, is_doubled ? count / 2 * 2 : count, NULL, &error);
-    if (!s) fuzz_require_error(&error);
+static ovoid_solid *take_solid(fuzz_bytes *from) {
+    fuzz_triangles m = take_triangles(from);
+    ovoid_solid *s = fuzz_make_solid(&m);
     if (!s) return NULL;
     ovoid_solid_report r = ovoid_solid_get_report(s);
     int64_t winding = 0, again = 0;
@@ -104,14 +89,14 @@ static void ask(findings *f, double margin, const ovoid_compound_proof *earlier,
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_bytes from = {data, size};
     int is_wild = take_byte(&from) > 96;
-    ovoid_solid *a = take_triangles(&from), *b = NULL;
+    ovoid_solid *a = take_solid(&from), *b = NULL;
     ovoid_shape *shape = NULL;
     ovoid_compound *compound = NULL;
     unsigned kind = (unsigned)take_byte(&from) & 3;
     if (kind)
         shape = take_any_shape(&from, is_wild);
     else
-        b = take_triangles(&from);
+        b = take_solid(&from);
     if (kind == 2 && shape) compound = take_compound(&from, shape, is_wild);
     if (a && (b || compound || (shape && kind != 2))) {
         ovoid_body_pair pair = {{.solid = a, .pose = take_any_pose(&from, is_wild)},

@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_spheres robot_compare robot_cli robot_spheres_cli shard page report python"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_spheres robot_compare robot_cli robot_spheres_cli shard page report python python_solid decompose_watch robot_watch"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -36,6 +36,7 @@ tests_of() {
     solid) echo "test_solid_create test_solid_crossings test_solid test_solid_compound test_judge_solid" ;;
     solid_files) echo "test_cli_altered_solids.sh test_cli.sh:solid:info" ;;
     decompose) echo "test_decompose_cells test_decompose" ;;
+    decompose_watch) echo "test_decompose_watch" ;;
     compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_judge_compound" ;;
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_bounds" ;;
@@ -43,7 +44,7 @@ tests_of() {
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_octet test_simd_gjk8 test_query_batch" ;;
     robot) echo "test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_check test_robot_matrix test_robot_path test_robot_path_bounds test_robot_clearance test_robot_motion" ;;
-    io) echo "test_io_numbers test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
+    io) echo "test_io_numbers test_io_json test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_known" ;;
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
@@ -54,6 +55,7 @@ tests_of() {
     report) echo "test_cli.sh:paper" ;;
     robot_spheres) echo "test_robot_spheres" ;;
     python) echo "test_python_pair test_python_batch test_python_world test_python_motion test_python_robot test_python_prepared test_python_solid test_python_robot_paths" ;;
+    python_solid) echo "test_python_solid_moving test_python_solid_parts test_python_solid test_python_trimesh_compat" ;;
     *) return 1 ;;
     esac
 }

@@ -17,9 +17,9 @@
 
 /// What a page did not take.
 typedef struct page_left_out {
-    size_t pairs, bodies, meshes; ///< the nearest stay
-    size_t frames, events;        ///< of a motion
-    size_t states;                ///< of a robot
+    size_t pairs, bodies, meshes, proofs; ///< the nearest stay
+    size_t frames, events;                ///< of a motion
+    size_t states;                        ///< of a robot
 } page_left_out;
 
 /// A page that is being written. All zero is one that nobody asked for.

@@ -12,6 +12,9 @@
 /// Pairs that are answered before they are written.
 #define BLOCK 1024
 
+/// Most bytes of the proofs of a page.
+#define PROOF_BYTES_MOST 20000000u
+
 /// The settings of lines of JSON.
 static const output_settings as_json = {.json = 1};
 
@@ -35,22 +38,35 @@ static const char *find_end(const char *at, const char *end) {
     return at;
 }
 
-static int is_name(const char *member, const char *end) {
-    return end - member > 4 && (memcmp(member, "\"a\":", 4) == 0 || memcmp(member, "\"b\":", 4) == 0);
+static int begins_with(const char *member, const char *end, const char *key) {
+    return (size_t)(end - member) > strlen(key) && memcmp(member, key, strlen(key)) == 0;
 }
 
-/// Writes an object without its members "a" and "b".
-static void write_answer(FILE *file, const char *line, const char *end) {
+static int is_name(const char *member, const char *end) {
+    return begins_with(member, end, "\"a\":") || begins_with(member, end, "\"b\":");
+}
+
+/// 1 where the member is a proof for which there is no room.
+static int is_left_out(page_pairs *list, const char *member, const char *end) {
+    if (!begins_with(member, end, "\"proof\":")) return 0;
+    list->proof_bytes += (size_t)(end - member);
+    if (list->proof_bytes <= PROOF_BYTES_MOST) return 0;
+    list->page->left_out.proofs++;
+    return 1;
+}
+
+/// Writes an object without its members "a" and "b", and without a proof that is left out.
+static void write_answer(page_pairs *list, const char *line, const char *end) {
     const char *before = "{";
     for (const char *member = line + 1, *next; member < end && *member != '}'; member = next + (*next == ',')) {
         next = find_end(member, end);
         if (next == end) break;
-        if (is_name(member, next)) continue;
-        fputs(before, file);
-        page_copy_json(file, member, (size_t)(next - member));
+        if (is_name(member, next) || is_left_out(list, member, next)) continue;
+        fputs(before, list->file);
+        page_copy_json(list->file, member, (size_t)(next - member));
         before = ",";
     }
-    fputc('}', file);
+    fputc('}', list->file);
 }
 
 static void write_pair(page_pairs *l, ovoid_couple couple, const char *line, const char *end) {
@@ -58,13 +74,13 @@ static void write_pair(page_pairs *l, ovoid_couple couple, const char *line, con
             (unsigned long)l->numbers[couple.b]);
     if (l->frame != PAGE_NO_FRAME) fprintf(l->file, ",\"frame\":%zu", l->frame);
     fputs(",\"answer\":", l->file);
-    write_answer(l->file, line, end);
+    write_answer(l, line, end);
     fputc('}', l->file);
 }
 
-page_pairs page_pairs_begin(const cli_page *page, const page_choice *choice) {
+page_pairs page_pairs_begin(cli_page *page, const page_choice *choice) {
     fputs(",\"pairs\":[", page->file);
-    return (page_pairs){page->file, choice->numbers, 0, PAGE_NO_FRAME};
+    return (page_pairs){page, page->file, choice->numbers, 0, PAGE_NO_FRAME, 0};
 }
 
 void page_pairs_end(page_pairs *list) { fputc(']', list->file); }

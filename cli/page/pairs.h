@@ -7,18 +7,21 @@
 
 /// A list of pairs that is being written.
 typedef struct page_pairs {
-    FILE *file;
+    cli_page *page;
+    FILE *file;              ///< of the page
     const uint32_t *numbers; ///< of objects
     size_t count;            ///< written so far
     size_t frame;            ///< of a motion; PAGE_NO_FRAME: none
+    size_t proof_bytes;      ///< of all proofs
 } page_pairs;
 
 #define PAGE_NO_FRAME ((size_t)-1)
 
-page_pairs page_pairs_begin(const cli_page *page, const page_choice *choice);
+page_pairs page_pairs_begin(cli_page *page, const page_choice *choice);
 
-/// Answers and writes pairs of a scene, whose members of the job are set; its couples are those of `pairs`. 0, or an
-/// exit code after a message.
+/// Answers and writes pairs of a scene, the nearest first; above 20 MB of proofs these are left out and counted, since
+/// the page can find them anew. The members of the job are set; its couples are those of `pairs`. 0, or an exit code
+/// after a message.
 int page_pairs_add(page_pairs *list, const answers_job *job, const page_pair *pairs, size_t count);
 
 /// Writes one pair from its record, that has margin and parts. 0, or EXIT_INPUT after a message.

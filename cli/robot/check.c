@@ -127,7 +127,7 @@ static ovoid_code find_near(const check *c, block *k, size_t i) {
             return OVOID_ERROR_MEMORY;
         }
         double *gradients = c->form.has_gradient ? k->near.gradients + k->near.count * n : NULL;
-        ovoid_robot_nears nears = {k->near.items + k->near.count, gradients, room, 0};
+        ovoid_robot_nears nears = {.items = k->near.items + k->near.count, .gradients = gradients, .capacity = room};
         const double *q = states_get(c->form.states, k->first) + i * n;
         ovoid_code code = ovoid_robot_find_near(k->checker, q, &c->near_options, &nears, &k->error);
         if (code != OVOID_OK) return code;

@@ -113,8 +113,8 @@ static void warn_nonconvex(const cli_robot *robot, int parts) {
         if (!m.convexity.is_nonconvex) continue;
         double share = m.convexity.mesh_volume / m.convexity.hull_volume;
         message_warning(
-            "the mesh %s is not convex and counts as its hull%s, which adds %.3g m3 (%.3g %%); decompose it (CoACD, "
-            "V-HACD)%s",
+            "the mesh %s is not convex and counts as its hull%s, which adds %.3g m3 (%.3g %%); decompose it "
+            "(ovoid decompose)%s",
             m.address, m.part_count > 1 ? "s" : "", m.convexity.hull_volume - m.convexity.mesh_volume,
             100 * (1 - share), parts ? "" : ", then --parts");
     }

@@ -20,7 +20,7 @@ typedef struct settings {
     output_settings out;
     const char *plot, *html;
     double tolerance, clearance_tolerance;
-    int proofs, edges, clearance, speed;
+    int proofs, edges, clearance, speed, any_hit;
     unsigned most;
 } settings;
 
@@ -43,6 +43,8 @@ static const cli_option options[] = {
     PAGE_OPTION(settings),
     {"tol", 0, OPTION_SHARE, offsetof(settings, tolerance), "T", NULL,
      "end when the first hit is known to within T of a segment (default: 1e-6)"},
+    {"any-hit", 0, OPTION_FLAG, offsetof(settings, any_hit), NULL, NULL,
+     "end at any hit that is found, sooner than at the first one of the path"},
     {"max-states", 0, OPTION_COUNT, offsetof(settings, most), "N", NULL,
      "give up after looking at N states (default: 100000)"},
     ROBOT_OPTIONS(settings),
@@ -134,7 +136,8 @@ static int run_one(const settings *s, path_run *run, const cli_results *results,
     path_report *r = &run->report;
     ovoid_robot_checker *checker = run->checker;
     const ovoid_robot_path path = {r->states->q, r->states->count};
-    ovoid_robot_path_options o = {.check = cell_make_options(&s->cell), .tolerance = s->tolerance, .states = s->most};
+    ovoid_robot_path_options o = {
+        .check = cell_make_options(&s->cell), .tolerance = s->tolerance, .states = s->most, .any_hit = s->any_hit};
     ovoid_robot_clearance clearance;
     int code = find_answer(r, checker, &path, &o);
     if (!code && s->clearance) code = find_clearance(s, r, checker, &path, &clearance);

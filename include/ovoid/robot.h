@@ -320,7 +320,9 @@ typedef struct ovoid_robot_nears {
     ovoid_robot_near *items; /**< the caller's; nearest first by lower */
     double *gradients;       /**< d(distance)/d(variables): of item i from i * variable count on; or NULL */
     size_t capacity;
-    size_t count; /**< written: how many pairs there are; more than capacity: the nearest were written */
+    size_t count;       /**< written: how many pairs there are; more than capacity: the nearest were written */
+    int without_depths; /**< 1, of ovoid_robot_find_near alone: most pairs that overlap are said to without their
+                           depths: a wide bracket that ends below zero, no points, no gradient */
 } ovoid_robot_nears;
 
 /**

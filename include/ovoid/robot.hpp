@@ -188,14 +188,14 @@ class robot_checker
         return found;
     }
     /** All near pairs with gradients by `variables` numbers. Throws as ovoid_robot_find_near fails. */
-    robot_nears find_near(span<const double> q, const ovoid_robot_check_options &o) {
+    robot_nears find_near(span<const double> q, const ovoid_robot_check_options &o, int without_depths = 0) {
         robot_nears found;
-        ovoid_robot_nears nears = {nullptr, nullptr, 0, 0};
+        ovoid_robot_nears nears = {nullptr, nullptr, 0, 0, without_depths};
         call(ovoid_robot_find_near, q.data(), &o, &nears);
         while (nears.count > nears.capacity) {
             found.items.resize(nears.count);
             found.gradients.resize(nears.count * q.size());
-            nears = {found.items.data(), found.gradients.data(), nears.count, 0};
+            nears = {found.items.data(), found.gradients.data(), nears.count, 0, without_depths};
             call(ovoid_robot_find_near, q.data(), &o, &nears);
         }
         return found;
@@ -205,7 +205,7 @@ class robot_checker
         robot_nears found;
         found.items.resize(1);
         found.gradients.resize(q.size());
-        ovoid_robot_nears nears = {found.items.data(), found.gradients.data(), 1, 0};
+        ovoid_robot_nears nears = {found.items.data(), found.gradients.data(), 1, 0, 0};
         call(ovoid_robot_find_nearest, q.data(), &o, &nears);
         found.items.resize(nears.count);
         found.gradients.resize(nears.count * q.size());

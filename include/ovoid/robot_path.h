@@ -56,6 +56,9 @@ typedef struct ovoid_robot_path_options {
     ovoid_robot_step *steps; /**< receives the proof's steps, up to capacity; NULL: none are wanted */
     size_t capacity;
     ovoid_watch watch; /**< asked before each state; stopped: as though `states` were used up */
+    int any_hit; /**< 1: any hit ends the search, the first one that is found: some states are looked at before anything
+                      is proven. hit_at need not be the first hit then, and free_until is what was proven by then, often
+                      0. Whether the path is free is answered as without it, and sooner where it is not */
 } ovoid_robot_path_options;
 
 /** The answer to a path. */

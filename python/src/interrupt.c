@@ -25,7 +25,8 @@ static int is_stopped(void *context) {
     if (now - i->looked < 0.05) return 0;
     i->looked = now;
     PyEval_RestoreThread(i->thread);
-    i->is_raised = look_around(i->progress, i->done, i->total) != 0;
+    // Before the library has said a total, there is nothing to tell.
+    i->is_raised = look_around(i->total ? i->progress : NULL, i->done, i->total) != 0;
     i->thread = PyEval_SaveThread();
     return i->is_raised;
 }

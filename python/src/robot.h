@@ -72,6 +72,7 @@ typedef struct path_arguments {
     ovoid_robot_check_options check;
     double tolerance;
     uint32_t most_states;
+    int any_hit; ///< of check_path
 } path_arguments;
 /// Reads them; format: as PyArg_ParseTupleAndKeywords has it, with the question's name. -1: raised, nothing to free.
 int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format,

@@ -96,22 +96,25 @@ static ovoid_code find_near(ovoid_robot_checker *checker, const near_query *quer
 
 static PyObject *near_or_nearest(PyObject *object, PyObject *arguments, PyObject *keywords, int is_nearest) {
     static char *names[] = {"q", CHECK_NAMES, NULL};
+    static char *near_names[] = {"q", CHECK_NAMES, "without_depths", NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
     PyObject *given;
+    int without_depths = 0;
     near_query query = {.options.margin = is_nearest ? INFINITY : 0, .is_nearest = is_nearest};
     ovoid_robot_checker *checker;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, is_nearest ? "O|$" CHECK_FORMAT ":nearest" : "Od|$dpp:near",
-                                     names, &given, CHECK_TARGETS(query.options)) ||
-        check_options_check(state, &query.options))
-        return NULL;
+    int is_read = is_nearest ? PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT ":nearest", names,
+                                                           &given, CHECK_TARGETS(query.options))
+                             : PyArg_ParseTupleAndKeywords(arguments, keywords, "Od|$dppp:near", near_names, &given,
+                                                           CHECK_TARGETS(query.options), &without_depths);
+    if (!is_read || check_options_check(state, &query.options)) return NULL;
     double *q = state_read(self->robot, given);
     if (!q || checkers_borrow(self, &checker, 1)) {
         free(q);
         return NULL;
     }
     query.q = q;
-    ovoid_robot_nears nears = {NULL, NULL, 0, 0};
+    ovoid_robot_nears nears = {.without_depths = without_depths};
     size_t variables = robot_variable_count(self->robot);
     ovoid_error error;
     ovoid_code code;
@@ -161,7 +164,7 @@ typedef struct job {
 static ovoid_code find_nearest_of(const job *j, size_t first, size_t count, ovoid_error *error) {
     for (size_t i = first; i < first + count; i++) {
         if (i % OVOID_ROBOT_BLOCK == 0) ovoid_robot_checker_reset(j->checkers[0]);
-        ovoid_robot_nears one = {&j->nears[i], j->gradients + i * j->variables, 1, 0};
+        ovoid_robot_nears one = {.items = &j->nears[i], .gradients = j->gradients + i * j->variables, .capacity = 1};
         const double *q = j->q + i * j->variables;
         ovoid_code code = ovoid_robot_find_nearest(j->checkers[0], q, &j->options, &one, error);
         if (code != OVOID_OK) {

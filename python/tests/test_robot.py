@@ -169,6 +169,8 @@ class Cells(unittest.TestCase):
     def test_near(self):
         self.cell.add(BALL, at(-1.5))
         near, gradients = self.cell.near([math.pi / 2, 0.5], 5)
+        plain = self.cell.near([math.pi / 2, 0.5], 5, without_depths=True)[0]
+        self.assertEqual(len(plain), len(near))
         self.assertEqual(len(near), 4)
         self.assertEqual([row["lower"] for row in rows(near)], sorted(row["lower"] for row in rows(near)))
         self.assertEqual(len(self.cell.near([math.pi / 2, 0.5], 0.1)[0]), 0)

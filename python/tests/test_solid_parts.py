@@ -2,6 +2,7 @@
 notch of 3 by 3, one of its arms leaves the other's end at 3."""
 
 import gc
+import math
 import os
 import signal
 import threading
@@ -9,6 +10,7 @@ import unittest
 
 import common
 import ovoid
+from test_solid import ROUND
 
 OUTLINE = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
 POINTS = [(x, y, z) for z in (-0.5, 0.5) for x, y in OUTLINE]
@@ -120,6 +122,15 @@ class Ended(unittest.TestCase):
             self.work(progress=say)
         self.assertEqual(said, sorted(said))
         self.assertTrue(0 < said[-1][0] < said[-1][1] == 2**40)
+
+    def test_cuts(self):
+        # A ball with bumps all over: hundreds of cuts.
+        points = [[x * (1 + 0.2 * math.sin(9 * x) * math.sin(9 * y) * math.sin(9 * z)) for x in (x, y, z)] for x, y, z in ROUND.vertices.tolist()]
+        bumpy, said = ovoid.Solid.from_triangles(points, ROUND.faces), []
+        with self.assertRaises(ZeroDivisionError):
+            bumpy.decompose(error=1e-4, progress=lambda done, total: said.append((done, total)) or 1 // 0)
+        self.assertEqual(len(said), 1)
+        self.assertLess(*said[0])
 
     def test_ctrl_c(self):
         self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))

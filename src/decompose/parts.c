@@ -80,9 +80,9 @@ static ovoid_code cut_pieces(making *m, ovoid_error *error) {
         if (worst == m->room || m->pieces[worst].excess <= m->error) return OVOID_OK;
         piece *p = &m->pieces[worst], sides[2];
         ovoid_plane plane;
-        int is_cut = 0;
-        ovoid_code code = OVOID_OK;
-        if (piece_find_plane(m->b, p, &plane)) code = piece_divide(m->b, p, &plane, sides, &is_cut, error);
+        int is_found, is_cut = 0;
+        ovoid_code code = piece_choose_plane(m->b, p, &plane, &is_found, error);
+        if (code == OVOID_OK && is_found) code = piece_divide(m->b, p, &plane, sides, &is_cut, error);
         if (code != OVOID_OK) return code;
         p->is_finished = !is_cut;
         if (!is_cut) continue;

@@ -9,6 +9,8 @@
 /// Corners nearer to a plane than this, of the solid's diagonal, are on it: a triangle that a plane was laid through
 /// belongs to the side where the solid is.
 #define ON_PLANE 1e-9
+/// How far from a plane it is asked whether the solid is there.
+#define BESIDE 1e-7
 
 static ovoid_code report_memory(ovoid_error *error) {
     return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a piece of the solid");
@@ -46,16 +48,35 @@ static int clip(const body *b, const vec3 t[3], const double d[3], double margin
     return 1;
 }
 
+static int add_triangle(const body *b, const vec3 t[3], soup *s) {
+    if (!soup_reserve(b, s, 3)) return 0;
+    memcpy(s->corners + s->count, t, 3 * sizeof *t);
+    s->count += 3;
+    return 1;
+}
+
+// A triangle in the plane goes to where the solid is beside it; where there is none, as of a sheet, to the side below.
+static int add_in_plane(const body *b, const vec3 t[3], const ovoid_plane *plane, soup sides[2]) {
+    vec3 middle = vec3_scale(vec3_add(vec3_add(t[0], t[1]), t[2]), 1.0 / 3);
+    vec3 step = vec3_scale(plane->normal, BESIDE * b->diagonal);
+    int is_above = body_find_inside(b, vec3_add(middle, step)) != 0;
+    int is_below = body_find_inside(b, vec3_sub(middle, step)) != 0 || !is_above;
+    return (!is_below || add_triangle(b, t, &sides[0])) && (!is_above || add_triangle(b, t, &sides[1]));
+}
+
 static int divide_soup(const body *b, const soup *whole, const ovoid_plane *plane, soup sides[2]) {
     double margin = ON_PLANE * b->diagonal;
     for (size_t i = 0; i < whole->count; i += 3) {
+        const vec3 *t = whole->corners + i;
         double below[3], above[3];
         for (int k = 0; k < 3; k++) {
-            above[k] = vec3_dot(plane->normal, whole->corners[i + (size_t)k]) - plane->offset;
+            above[k] = vec3_dot(plane->normal, t[k]) - plane->offset;
             below[k] = -above[k];
         }
-        if (!clip(b, whole->corners + i, below, margin, &sides[0])) return 0;
-        if (!clip(b, whole->corners + i, above, margin, &sides[1])) return 0;
+        int is_in_plane = max2(max2(fabs(above[0]), fabs(above[1])), fabs(above[2])) <= margin;
+        if (is_in_plane && !add_in_plane(b, t, plane, sides)) return 0;
+        if (!clip(b, t, below, margin, &sides[0])) return 0;
+        if (!clip(b, t, above, margin, &sides[1])) return 0;
     }
     return 1;
 }
@@ -71,7 +92,7 @@ vec3 piece_get_frame_middle(const body *b, const ovoid_polytope *frame) {
 }
 
 int piece_is_inside(const body *b, vec3 corner, vec3 middle) {
-    return body_find_inside(b, vec3_add_scaled(corner, vec3_sub(middle, corner), 1e-7)) == 1;
+    return body_find_inside(b, vec3_add_scaled(corner, vec3_sub(middle, corner), BESIDE)) == 1;
 }
 
 // The corners of the hull of the triangles and of the cell's corners inside.

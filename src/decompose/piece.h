@@ -45,8 +45,16 @@ ovoid_code piece_estimate(const body *b, piece *p, ovoid_error *error);
 ovoid_code points_estimate(const body *b, const vec3 *points, uint32_t count, double enough, double *excess,
                            ovoid_error *error);
 
-/// A plane that leaves the least of the outliers in the hulls of both sides; 0 where there is none.
-int piece_find_plane(const body *b, const piece *p, ovoid_plane *plane);
+/// A plane that leaves the least of the outliers in the hulls of both sides, and how much that is in the measure of
+/// piece_compute_cost, with a hair for planes far from the middle; infinite where there is none.
+double piece_find_plane(const body *b, const piece *p, ovoid_plane *plane);
+/// The sum of the squares of the outliers' distances.
+double piece_compute_cost(const piece *p);
+/// A few planes that a second one may make good.
+enum { PIECE_PLANES = 15 };
+uint32_t piece_list_planes(const body *b, const piece *p, ovoid_plane planes[PIECE_PLANES]);
+/// The plane by which the piece is cut; 0 in *is_found where there is none. Errors: MEMORY and those of hulls.
+ovoid_code piece_choose_plane(const body *b, const piece *p, ovoid_plane *plane, int *is_found, ovoid_error *error);
 
 /// Corners of the cell inside the solid, moved towards its middle by a hair: what touches from outside is not inside.
 int piece_is_inside(const body *b, vec3 corner, vec3 middle);

@@ -167,17 +167,55 @@ static void refine(choice *c) {
     }
 }
 
-int piece_find_plane(const body *b, const piece *p, ovoid_plane *plane) {
-    if (!p->outlier_count) return 0;
-    choice c = {.b = b, .p = p, .best = INFINITY, .frame = ovoid_shape_get_polytope(p->frame)};
-    c.frame_middle = piece_get_frame_middle(b, &c.frame);
-    for (uint32_t i = 0; i < c.frame.vertex_count && i < sizeof c.frame_inside; i++)
-        c.frame_inside[i] = (uint8_t)piece_is_inside(b, piece_get_frame_point(b, &c.frame, i), c.frame_middle);
-    set_directions(&c);
-    c.around = box_make_around(&p->points[0].x, p->point_count);
+static void open_choice(choice *c, const body *b, const piece *p) {
+    memset(c, 0, sizeof *c);
+    c->b = b;
+    c->p = p;
+    c->best = INFINITY;
+    c->frame = ovoid_shape_get_polytope(p->frame);
+    c->frame_middle = piece_get_frame_middle(b, &c->frame);
+    for (uint32_t i = 0; i < c->frame.vertex_count && i < sizeof c->frame_inside; i++)
+        c->frame_inside[i] = (uint8_t)piece_is_inside(b, piece_get_frame_point(b, &c->frame, i), c->frame_middle);
+    set_directions(c);
+    c->around = box_make_around(&p->points[0].x, p->point_count);
+}
+
+double piece_find_plane(const body *b, const piece *p, ovoid_plane *plane) {
+    if (!p->outlier_count) return INFINITY;
+    choice c;
+    open_choice(&c, b, p);
     try_axes(&c);
     try_outliers(&c);
     refine(&c);
     *plane = c.plane;
-    return c.best < INFINITY;
+    return c.best;
+}
+
+double piece_compute_cost(const piece *p) {
+    double cost = 0;
+    for (uint32_t i = 0; i < p->outlier_count; i++) cost += p->outliers[i].distance * p->outliers[i].distance;
+    return cost;
+}
+
+uint32_t piece_list_planes(const body *b, const piece *p, ovoid_plane planes[PIECE_PLANES]) {
+    uint32_t count = 0, outliers = p->outlier_count < 3 ? p->outlier_count : 3;
+    box around = box_make_around(&p->points[0].x, p->point_count);
+    vec3 middle = vec3_scale(vec3_add(around.min, around.max), 0.5);
+    for (int k = 0; k < 3; k++) {
+        vec3 axis = {k == 0, k == 1, k == 2};
+        planes[count++] = (ovoid_plane){axis, vec3_dot(axis, middle)};
+    }
+    for (uint32_t i = 0; i < outliers; i++) {
+        const outlier *o = &p->outliers[i * (p->outlier_count / outliers)];
+        vec3 t[3];
+        body_get_triangle(b, o->triangle, t);
+        vec3 n = vec3_unit(vec3_cross(vec3_sub(t[1], t[0]), vec3_sub(t[2], t[0]))), near;
+        if (vec3_norm_squared(n) > 0) planes[count++] = (ovoid_plane){n, vec3_dot(n, t[0])};
+        near = triangle_find_nearest(t, o->point);
+        for (int k = 0; k < 3; k++) {
+            vec3 axis = {k == 0, k == 1, k == 2};
+            planes[count++] = (ovoid_plane){axis, vec3_dot(axis, near)};
+        }
+    }
+    return count;
 }

@@ -155,14 +155,17 @@ static int is_apart(const cell_axes *a, const vec3 t[3]) {
     return 0;
 }
 
-// The tree's boxes that may meet the cell's.
+// The tree's boxes that may meet the cell's. They are of about 1, and lanes without a box end at 2^100: an end beyond
+// both, of a part much larger than the solid, is as good at 2^64.
 static void begin_walk(const body *b, const cell *c, box8_walk *walk) {
     const ovoid_solid *s = b->solid;
+    const double far = 0x1p64;
     box around = cell_compute_box(c);
     vec3 pad = {b->pad, b->pad, b->pad};
     vec3 low = vec3_scale(vec3_sub(vec3_scale(vec3_sub(around.min, pad), b->unit), s->center), 1 / s->unit);
     vec3 high = vec3_scale(vec3_sub(vec3_scale(vec3_add(around.max, pad), b->unit), s->center), 1 / s->unit);
-    const double ends[6] = {low.x, low.y, low.z, high.x, high.y, high.z};
+    const double ends[6] = {max2(low.x, -far), max2(low.y, -far), max2(low.z, -far),
+                            min2(high.x, far), min2(high.y, far), min2(high.z, far)};
     box8_begin(walk, s->boxes, ends);
 }
 

@@ -1,8 +1,9 @@
-// The line of a JSON value, found by scanning the text once more, since jansson keeps no positions; and texts and
-// numbers written as JSON.
+// The line of a JSON value, found by scanning the text once more, since jansson keeps no positions; long lists read
+// element by element; and texts and numbers written as JSON.
 #include "io/json.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 // ---- the line of a value
@@ -77,6 +78,70 @@ int64_t json_find_line(bytes text, const json_step *steps, size_t count) {
     int64_t line = 1;
     for (const char *c = text.data; c < s.at; c++) line += *c == '\n';
     return line;
+}
+
+// ---- a list, element by element
+
+// The list at the key, without its brackets; 0 where none is found. Of what is no JSON it may be anything within the
+// text.
+static int find_list(bytes text, const char *key, scanner *inside) {
+    scanner s = {text.data, text.data + text.size};
+    skip_space(&s);
+    if (!enter(&s, (json_step){key, 0}) || s.at == s.end || *s.at != '[') return 0;
+    inside->at = s.at + 1;
+    skip_value(&s);
+    while (s.at[-1] == ' ' || s.at[-1] == '\t' || s.at[-1] == '\r' || s.at[-1] == '\n') s.at--;
+    inside->end = s.at - 1;
+    return inside->end >= inside->at && *inside->end == ']';
+}
+
+json_t *json_load_around(bytes text, const char *key, int flags, json_list *list, json_error_t *why) {
+    scanner s;
+    *list = (json_list){.flags = flags};
+    if (!find_list(text, key, &s)) {
+        json_t *root = json_loadb(text.data, text.size, flags, why);
+        list->loaded = json_object_get(root, key);
+        return root;
+    }
+    list->at = s.at;
+    list->end = s.end;
+    // Up to the opening bracket, and from the closing one on.
+    size_t before = (size_t)(s.at - text.data), after = text.size - (size_t)(s.end - text.data);
+    char *around = malloc(before + after);
+    *why = (json_error_t){.text = ""};
+    if (!around) return NULL;
+    memcpy(around, text.data, before);
+    memcpy(around + before, s.end, after);
+    json_t *root = json_loadb(around, before + after, flags, why);
+    free(around);
+    return root;
+}
+
+// Behind an element a comma, which another must follow, or the end.
+static int skip_comma(json_list *list, const char *behind) {
+    scanner s = {behind, list->end};
+    skip_space(&s);
+    list->is_ended = s.at == s.end;
+    list->at = s.at + !list->is_ended;
+    return list->is_ended || *s.at == ',';
+}
+
+int json_next(json_list *list, json_t **element, json_error_t *why) {
+    if (!list->at) {
+        *element = json_incref(json_array_get(list->loaded, list->index++));
+        return *element != NULL;
+    }
+    scanner s = {list->at, list->end};
+    skip_space(&s);
+    if (list->is_ended || (s.at == s.end && !list->index)) return 0;
+    int flags = list->flags | JSON_DISABLE_EOF_CHECK | JSON_DECODE_ANY;
+    *element = json_loadb(s.at, (size_t)(s.end - s.at) + 1, flags, why);
+    list->index++;
+    if (!*element) return -1;
+    if (skip_comma(list, s.at + why->position)) return 1;
+    json_decref(*element);
+    snprintf(why->text, sizeof why->text, "no comma between elements");
+    return -1;
 }
 
 int json_is_memory_error(const json_error_t *why) {

@@ -16,6 +16,24 @@ typedef struct json_step {
 /// leads nowhere, the line of the value before it. Linear in the text: meant for messages.
 int64_t json_find_line(bytes text, const json_step *steps, size_t count);
 
+/// The elements of a list in a text, one at a time: a million of them in one tree would be a gigabyte, and take twice
+/// as long to make and to free.
+typedef struct json_list {
+    const char *at, *end; ///< behind the last element, and the closing bracket
+    const json_t *loaded; ///< the list, where the tree has it
+    size_t index;
+    int flags, is_ended;
+} json_list;
+
+/// Loads a text but for the elements of the root's member `key`, which is an empty list in the tree; where the text
+/// does not write that key plainly, or it is no list, all is in the tree. NULL and *why where the text is no JSON; so
+/// may some of the elements still be.
+json_t *json_load_around(bytes text, const char *key, int flags, json_list *list, json_error_t *why);
+
+/// The next element in *element, which the caller frees: 1; 0 at the end; -1 where it is no JSON (or there is no
+/// memory) and *why: its line is of no use.
+int json_next(json_list *list, json_t **element, json_error_t *why);
+
 /// 1 if jansson failed for lack of memory. It does not always set that code, but then its message is empty.
 int json_is_memory_error(const json_error_t *why);
 

@@ -47,10 +47,6 @@ static int take_bracket(state_check *s, const checker_pair *p, pair_name name, d
     return !is_hit;
 }
 
-static int was_apart(const ovoid_robot_checker *x, const checker_pair *p) {
-    return *p->mark == x->generation && p->proof->kind == OVOID_PROOF_POINTS;
-}
-
 // Asks one pair; 0 where it is proven within the margin.
 static int ask_pair(state_check *s, const checker_pair *p, pair_name name, const ovoid_proof *earlier) {
     double margin = add_up(s->margin, p->padding, p->error);
@@ -61,7 +57,7 @@ static int ask_pair(state_check *s, const checker_pair *p, pair_name name, const
 
 // With the earlier proof where that parted the bodies: one of an overlap seldom holds for a state that is not close.
 static int ask_candidate(state_check *s, const checker_pair *p, pair_name name) {
-    return ask_pair(s, p, name, was_apart(s->checker, p) ? pair_get_earlier(s->checker, p) : NULL);
+    return ask_pair(s, p, name, pair_was_apart(s->checker, p) ? pair_get_earlier(s->checker, p) : NULL);
 }
 
 // First what lies inside both bodies, by which most hits are proven; the rest is asked after the search.
@@ -69,7 +65,7 @@ static int look_at_pair(void *context, const checker_pair *p, pair_name name) {
     state_check *s = context;
     double lower, upper;
     if (are_equal(name, s->asked)) return 1;
-    if (!was_apart(s->checker, p) && checker_prove_overlap(s->checker, name, &lower, &upper) &&
+    if (!pair_was_apart(s->checker, p) && checker_prove_overlap(s->checker, name, &lower, &upper) &&
         !take_bracket(s, p, name, lower, upper))
         return 0;
     if (s->count == CANDIDATES) return ask_candidate(s, p, name);
@@ -106,11 +102,22 @@ static void decide(ovoid_robot_checker *x, const ovoid_robot_check_options *opti
     s.asked = (pair_name){OVOID_ROBOT_NONE, OVOID_ROBOT_NONE};
     s.count = 0;
     if (!ask_last(&s, options)) return;
-    checker_search search = {x, options, &s.margin, look_at_pair, &s};
+    checker_search search = {x, options, &s.margin, look_at_pair, &s, 0};
     checker_find_pairs(&search);
     if (answer->status == OVOID_ROBOT_HIT) return;
     for (uint32_t i = 0; i < s.count; i++)
         if (!ask_candidate(&s, &s.candidates[i].pair, s.candidates[i].name)) return;
+}
+
+int check_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
+                ovoid_robot_answer *answer) {
+    ovoid_error refused;
+    ovoid_code code = checker_place(x, q, options->limit_slack, &refused);
+    if (code == OVOID_OK)
+        decide(x, options, answer);
+    else
+        refuse(answer, code, (uint32_t)refused.place);
+    return code == OVOID_OK;
 }
 
 static ovoid_code check(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
@@ -119,14 +126,8 @@ static ovoid_code check(ovoid_robot_checker *x, const double *q, const ovoid_rob
     *answer = (ovoid_robot_answer){.lower = -INFINITY, .upper = INFINITY};
     ovoid_code code = check_options_check(options, error);
     if (code == OVOID_OK) code = checker_renew(x, error);
-    if (code != OVOID_OK) return code;
-    ovoid_error refused;
-    code = checker_place(x, q, options->limit_slack, &refused);
-    if (code == OVOID_OK)
-        decide(x, options, answer);
-    else
-        refuse(answer, code, (uint32_t)refused.place);
-    return OVOID_OK;
+    if (code == OVOID_OK) (void)check_state(x, q, options, answer);
+    return code;
 }
 
 ovoid_code ovoid_robot_check(ovoid_robot_checker *checker, const double *q, const ovoid_robot_check_options *options,

@@ -13,7 +13,7 @@ static void release_all(ovoid_robot_checker *x) {
     void *all[] = {x->frames,       x->stamps,  x->frame_errors, x->values,      x->cosines,     x->sines,
                    x->places,       x->errors,  x->group_errors, x->part_proofs, x->pair_proofs, x->part_marks,
                    x->pair_marks,   x->values8, x->frames8,      x->spheres8,    x->near_keys,   x->filter.parts,
-                   x->filter.pairs, x->balls,   x->ball_stamps};
+                   x->filter.pairs, x->balls,   x->ball_stamps,  x->near_row,    x->part_nears,  x->pair_nears};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&x->allocator, all[i]);
     path_memory_destroy(x->path);
     *x = (ovoid_robot_checker){.cell = x->cell, .allocator = x->allocator, .kernels = x->kernels};
@@ -68,6 +68,9 @@ ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error) {
     x->near_keys = take(x, 2 * checker_count_pairs(x), sizeof *x->near_keys, &ok);
     x->values8 = take(x, values, sizeof *x->values8, &ok);
     x->frames8 = take(x, c->robot->link_count, sizeof *x->frames8, &ok);
+    x->near_row = take(x, c->robot->variable_count, sizeof *x->near_row, &ok);
+    x->part_nears = take(x, proofs, sizeof *x->part_nears, &ok);
+    x->pair_nears = take(x, c->pairs.count, sizeof *x->pair_nears, &ok);
     x->balls = take(x, c->items.count, sizeof *x->balls, &ok);
     x->ball_stamps = take(x, c->items.count, sizeof *x->ball_stamps, &ok);
     x->spheres8 = take(x, groups, sizeof *x->spheres8, &ok);
@@ -299,7 +302,11 @@ checker_pair checker_make_part_pair(ovoid_robot_checker *x, uint32_t item, uint3
     const cell_item *a = &cell_items(c)[item];
     const cell_part *b = &cell_parts(c)[part];
     size_t at = item * c->parts.count + part;
-    checker_pair p = {.a = &a->side, .b = &b->side, .proof = &x->part_proofs[at], .mark = &x->part_marks[at]};
+    checker_pair p = {.a = &a->side,
+                      .b = &b->side,
+                      .proof = &x->part_proofs[at],
+                      .mark = &x->part_marks[at],
+                      .near = &x->part_nears[at]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), b->pose};
     p.error = x->errors[item];
     p.padding = c->padding[a->side.link];
@@ -310,11 +317,20 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair) {
     const ovoid_robot_cell *c = x->cell;
     item_pair both = cell_pairs(c)[pair];
     const cell_item *a = &cell_items(c)[both.a], *b = &cell_items(c)[both.b];
-    checker_pair p = {.a = &a->side, .b = &b->side, .proof = &x->pair_proofs[pair], .mark = &x->pair_marks[pair]};
+    checker_pair p = {.a = &a->side,
+                      .b = &b->side,
+                      .proof = &x->pair_proofs[pair],
+                      .mark = &x->pair_marks[pair],
+                      .near = &x->pair_nears[pair]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), get_pose(x, b)};
     p.rotation = &get_frame(x, a->frame)->matrix;
     p.error = x->errors[both.a] + x->errors[both.b];
     return p;
+}
+
+// Was the pair near in the state before?
+static int is_expected(const checker_search *s, const uint64_t *near) {
+    return s->expects_nears && *near && *near + 1 == s->checker->state;
 }
 
 // The boxes of a lane group that a group of items is near, by its sphere.
@@ -337,8 +353,12 @@ static int visit_items(const checker_search *s, const cell_group *g, uint32_t pa
     const ovoid_robot_cell *c = s->checker->cell;
     if (cell_is_allowed(c, &cell_items(c)[g->first].side, &cell_parts(c)[part].side)) return 1;
     if (g->is_box_of_item) return visit_part(s, g->first, part);
-    for (uint32_t item = g->first; item < g->end; item++)
-        if (!checker_is_part_far(s->checker, item, part, *s->margin) && !visit_part(s, item, part)) return 0;
+    for (uint32_t item = g->first; item < g->end; item++) {
+        size_t pair = item * c->parts.count + part;
+        if (!is_expected(s, &s->checker->part_nears[pair]) && checker_is_part_far(s->checker, item, part, *s->margin))
+            continue;
+        if (!visit_part(s, item, part)) return 0;
+    }
     return 1;
 }
 
@@ -346,6 +366,7 @@ static int visit_items(const checker_search *s, const cell_group *g, uint32_t pa
 static int visit_near_part(const checker_search *s, const cell_group *g, const oriented_box *box, uint32_t part) {
     const ovoid_robot_cell *c = s->checker->cell;
     double margin = add_up(*s->margin, c->padding[g->link], 0);
+    if (is_expected(s, &s->checker->part_nears[g->first * c->parts.count + part])) return visit_items(s, g, part);
     return oriented_boxes_are_far(box, &cell_parts(c)[part].box, margin) || visit_items(s, g, part);
 }
 
@@ -369,7 +390,8 @@ static int visit_group_pair(const checker_search *s, const group_pair *both) {
     int are_boxes_of_items =
         cell_groups(x->cell)[both->a].is_box_of_item && cell_groups(x->cell)[both->b].is_box_of_item;
     for (uint32_t i = both->first; i < both->end; i++) {
-        if (!are_boxes_of_items && checker_is_pair_far(x, i, *s->margin)) continue;
+        if (!are_boxes_of_items && !is_expected(s, &x->pair_nears[i]) && checker_is_pair_far(x, i, *s->margin))
+            continue;
         checker_pair p = checker_make_item_pair(x, i);
         if (!s->visit(s->context, &p, (pair_name){OVOID_ROBOT_NONE, i})) return 0;
     }
@@ -402,8 +424,11 @@ static void visit_pairs(const checker_search *s) {
     for (uint32_t i = 0; i < x->cell->group_pairs.count; i++) {
         const group_pair *both = &cell_group_pairs(x->cell)[i];
         if (spheres_are_far(&x->places[both->a], &x->places[both->b], *s->margin)) continue;
-        oriented_box a = place_group_box(x, both->a), b = place_group_box(x, both->b);
-        if (!oriented_boxes_are_far(&a, &b, *s->margin) && !visit_group_pair(s, both)) return;
+        if (!is_expected(s, &x->pair_nears[both->first])) {
+            oriented_box a = place_group_box(x, both->a), b = place_group_box(x, both->b);
+            if (oriented_boxes_are_far(&a, &b, *s->margin)) continue;
+        }
+        if (!visit_group_pair(s, both)) return;
     }
 }
 

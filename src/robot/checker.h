@@ -78,12 +78,14 @@ struct ovoid_robot_checker {
     sphere_place *places;             ///< of each group
     inner_balls *balls;               ///< of each item, in the world, where `ball_stamps` say so
     uint64_t *ball_stamps;
-    double *errors;           ///< of each item: what its points may be off by
-    double *group_errors;     ///< the same of each group's
-    ovoid_proof *part_proofs; ///< of item i and part k at i part_count + k
-    ovoid_proof *pair_proofs; ///< of each pair of items
-    near_key *near_keys;      ///< two of each pair that there is
-    path_memory *path;        ///< NULL: no path was searched since the cell has changed
+    double *errors;                    ///< of each item: what its points may be off by
+    double *group_errors;              ///< the same of each group's
+    ovoid_proof *part_proofs;          ///< of item i and part k at i part_count + k
+    ovoid_proof *pair_proofs;          ///< of each pair of items
+    near_key *near_keys;               ///< two of each pair that there is
+    double *near_row;                  ///< a row of gradients
+    uint64_t *part_nears, *pair_nears; ///< of each pair: the last state in which it was found near
+    path_memory *path;                 ///< NULL: no path was searched since the cell has changed
 };
 
 /// How many pairs there are to find.
@@ -129,6 +131,7 @@ typedef struct checker_pair {
     const mat3 *rotation; ///< of a, where the proof is kept in its frame: of two links; NULL: in the world
     double error;         ///< of the poses: what the distance may be off by
     double padding;       ///< what is subtracted from it
+    uint64_t *near;       ///< the last state in which it was found near
 } checker_pair;
 
 checker_pair checker_make_part_pair(ovoid_robot_checker *x, uint32_t item, uint32_t part);
@@ -152,12 +155,23 @@ typedef struct checker_search {
     const double *margin; ///< may fall on the way
     checker_visit *visit;
     void *context;
+    int expects_nears; ///< 1: what was near in the state before is visited, whatever its boxes say
 } checker_search;
 void checker_find_pairs(const checker_search *s);
 
 /// d(distance)/d(variables) of the state placed last, from the gradient by both poses.
 void checker_compute_gradient(const ovoid_robot_checker *x, const checker_pair *p, const double gradient[12],
                               const double *q, double *row);
+
+/// The answer to a state by a checker that fits its cell; 0: the state is refused.
+int check_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
+                ovoid_robot_answer *answer);
+/// The number of the pair that ended the last state that hit.
+static inline uint32_t checker_get_last_number(const ovoid_robot_checker *x) {
+    size_t parts = x->cell->parts.count, first = x->cell->items.count * parts;
+    if (x->last.item == OVOID_ROBOT_NONE) return (uint32_t)(first + x->last.index);
+    return (uint32_t)(x->last.item * parts + x->last.index);
+}
 
 /// The states of a batch from `first` to before `end`, by a checker that has forgotten all and fits its cell.
 void check_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end);
@@ -175,6 +189,11 @@ static inline void pair_remember(const ovoid_robot_checker *x, const checker_pai
     if (!p->rotation) return;
     p->proof->normal = mat3_mul_transposed_vec3(*p->rotation, proof->normal);
     p->proof->normal_low = (vec3){0, 0, 0};
+}
+
+/// Did the pair's last query part its bodies?
+static inline int pair_was_apart(const ovoid_robot_checker *x, const checker_pair *p) {
+    return *p->mark == x->generation && p->proof->kind == OVOID_PROOF_POINTS;
 }
 
 /// a + b + c, not below the exact sum.

@@ -25,7 +25,7 @@ static ovoid_code take_missed(const ovoid_robot_comparison_batch *batch, size_t 
                               ovoid_error *error) {
     size_t variables = batch->robot->cell->robot->variable_count;
     ovoid_robot_near near;
-    ovoid_robot_nears nears = {&near, NULL, 1, 0};
+    ovoid_robot_nears nears = {.items = &near, .capacity = 1};
     ovoid_code code =
         ovoid_robot_find_nearest(batch->robot, batch->q + state * variables, batch->options, &nears, error);
     if (code != OVOID_OK || nears.count == 0) return code;

@@ -11,6 +11,7 @@ typedef struct near_search {
     near_list list;
     double margin;
     int wants_one; ///< the nearest alone: the margin falls
+    int without_depths;
 } near_search;
 
 static ovoid_status find_status(double lower, double upper, ovoid_status of_shapes) {
@@ -38,16 +39,28 @@ static void keep(const near_search *s, uint32_t at, const checker_pair *p, const
     checker_compute_gradient(s->checker, p, g.gradient, s->q, list->gradients + at * list->variables);
 }
 
+// An overlap without its depth, where balls inside the bodies prove it.
+static int take_overlap(near_search *s, const checker_pair *p, pair_name name) {
+    ovoid_answer is = {.status = OVOID_OVERLAPPING};
+    if (pair_was_apart(s->checker, p) || !checker_prove_overlap(s->checker, name, &is.lower, &is.upper)) return 0;
+    if (!(upper_outward(p, is.upper) < 0)) return 0;
+    *p->near = s->checker->state;
+    uint32_t slot = near_list_find_slot(&s->list, lower_outward(p, is.lower));
+    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &is, NULL);
+    return 1;
+}
+
 static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     near_search *s = context;
-    (void)name;
     ovoid_cover cover;
     ovoid_options options = {.cap = add_up(s->margin, p->padding, p->error)};
     if (!(options.cap > 0)) options.cap = OVOID_LENGTH_MIN;
+    if (s->without_depths && take_overlap(s, p, name)) return 1;
     ovoid_answer is = ovoid_depth(&p->pair, &options, pair_get_earlier(s->checker, p), &cover);
     pair_remember(s->checker, p, &is.proof);
     double lower = lower_outward(p, is.lower);
     if (lower > s->margin) return 1;
+    *p->near = s->checker->state;
     uint32_t slot = near_list_find_slot(&s->list, lower);
     if (slot != NEAR_LIST_FULL) keep(s, slot, p, &is, &cover);
     if (s->wants_one) s->margin = min2(s->margin, s->list.items[0].upper);
@@ -68,11 +81,12 @@ static ovoid_code find(ovoid_robot_checker *x, const double *q, const ovoid_robo
     near_list list = {.items = nears->items,
                       .gradients = nears->gradients,
                       .variables = x->cell->robot->variable_count,
+                      .row = x->near_row,
                       .capacity = wants_one ? 1 : nears->capacity,
                       .keys = x->near_keys,
                       .scratch = x->near_keys + checker_count_pairs(x)};
-    near_search s = {x, q, list, options->margin, wants_one};
-    checker_search search = {x, options, &s.margin, ask_pair, &s};
+    near_search s = {x, q, list, options->margin, wants_one, nears->without_depths && !wants_one};
+    checker_search search = {x, options, &s.margin, ask_pair, &s, !wants_one};
     checker_find_pairs(&search);
     near_list_sort(&s.list);
     nears->count = wants_one ? s.list.kept : s.list.found;

@@ -1,5 +1,5 @@
 // The order of near pairs. Keys of 16 bytes are sorted, by merging; items and rows, which are longer, move along
-// the cycles of the permutation, once or twice.
+// the cycles of the permutation, once.
 #include "robot/near_list.h"
 
 static int is_before(near_key a, near_key b) { return a.lower < b.lower || (a.lower == b.lower && a.found < b.found); }
@@ -60,30 +60,31 @@ static void sort_keys(near_list *x) {
     }
 }
 
-static void swap(near_list *x, uint32_t a, uint32_t b) {
-    ovoid_robot_near item = x->items[a];
-    x->items[a] = x->items[b];
-    x->items[b] = item;
-    if (!x->gradients) return;
-    double *row = x->gradients + a * x->variables, *other = x->gradients + b * x->variables;
-    for (size_t i = 0; i < x->variables; i++) {
-        double value = row[i];
-        row[i] = other[i];
-        other[i] = value;
+static double *get_row(const near_list *x, uint32_t slot) { return x->gradients + slot * x->variables; }
+
+static void copy_row(const near_list *x, const double *from, double *to) {
+    for (size_t i = 0; i < x->variables; i++) to[i] = from[i];
+}
+
+// What belongs at `begin` is moved there, what belongs where that was is moved there, and so on, until what was at
+// `begin` has its place.
+static void run_cycle(near_list *x, uint32_t begin) {
+    ovoid_robot_near first = x->items[begin];
+    uint32_t at = begin;
+    if (x->gradients) copy_row(x, get_row(x, begin), x->row);
+    for (uint32_t next = x->keys[at].slot; next != begin; next = x->keys[at].slot) {
+        x->items[at] = x->items[next];
+        if (x->gradients) copy_row(x, get_row(x, next), get_row(x, at));
+        x->keys[at].slot = at;
+        at = next;
     }
+    x->items[at] = first;
+    if (x->gradients) copy_row(x, x->row, get_row(x, at));
+    x->keys[at].slot = at;
 }
 
 void near_list_sort(near_list *x) {
     sort_keys(x);
-    // What a cycle began with goes along it, a swap at a time, to the place where it belongs.
-    for (uint32_t begin = 0; begin < x->kept; begin++) {
-        uint32_t at = begin;
-        while (x->keys[at].slot != begin) {
-            uint32_t next = x->keys[at].slot;
-            swap(x, at, next);
-            x->keys[at].slot = at;
-            at = next;
-        }
-        x->keys[at].slot = at;
-    }
+    for (uint32_t i = 0; i < x->kept; i++)
+        if (x->keys[i].slot != i) run_cycle(x, i);
 }

@@ -16,6 +16,7 @@ typedef struct near_list {
     ovoid_robot_near *items;
     double *gradients; ///< or NULL
     size_t variables;  ///< numbers of a row
+    double *row;       ///< room for one
     size_t capacity;   ///< of these
     size_t kept, found;
     near_key *keys, *scratch; ///< room for as many as can be found
@@ -26,7 +27,7 @@ typedef struct near_list {
 
 /// The slot of a pair that was found; FULL: as many are at least as near, and it falls out. Cost: O(log n).
 uint32_t near_list_find_slot(near_list *x, double lower);
-/// Sorts keys, items and rows. Cost: n log n comparisons, each item and row moved at most twice.
+/// Sorts keys, items and rows. Cost: n log n comparisons, each item and row moved once, one of each cycle twice.
 void near_list_sort(near_list *x);
 
 #endif

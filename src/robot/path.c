@@ -32,7 +32,8 @@ typedef struct path_search {
     const double *q0, *q1;
     double segment, margin, tolerance;
     uint32_t states_most;
-    int is_still; // the segment's states are one
+    size_t set_segment; // the number of that which `w` is set to, and one; 0: none
+    int is_still;       // the segment's states are one
 } path_search;
 
 // ---- steps
@@ -59,7 +60,7 @@ static checker_pair get_checker_pair(const path_search *s, uint32_t number, cons
     ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
     uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
     // The normal stays in the world here: one that a check kept in a link's frame is a bad hint once, and no more.
-    return (checker_pair){p->pair, p->a, p->b, proof, mark, NULL, p->error + p->motion.rounded, p->padding};
+    return (checker_pair){p->pair, p->a, p->b, proof, mark, NULL, p->error + p->motion.rounded, p->padding, NULL};
 }
 
 // 1 where the interval's ends and the second order prove it along the normal.
@@ -202,52 +203,6 @@ static uint8_t *get_masks(const path_search *s, uint32_t level) {
     return s->memory->masks + level * s->memory->mask_count;
 }
 
-// Is the state at t a hit? Its pair is then the answer's.
-static int is_hit_at(path_search *s, double t, const path_state *state) {
-    path_search at = *s;
-    ovoid_robot_path_answer answer = *s->answer;
-    at.answer = &answer;
-    at.options = &(const ovoid_robot_path_options){.check = s->options->check};
-    path_span i = {t, t, state, state, state};
-    // Only the boxes of items with open pairs have been placed.
-    for (uint32_t k = 0; k < s->w->cell->items.count; k++) path_place_item(s->w, state, k);
-    path_set_interval(s->w, state, 0);
-    uint8_t *masks = get_masks(s, LEVELS);
-    memcpy(masks, get_masks(s, 0), s->memory->mask_count);
-    if (!test_all(&at, &i, masks).is_hit) return 0;
-    s->answer->hit = answer.hit;
-    return 1;
-}
-
-// Where a body's allowance hides when it is met, a hit soon after it; farther and farther ahead.
-static void look_ahead(path_search *s, double from) {
-    path_state state = get_state(s, LEVELS + 2);
-    for (double by = s->tolerance; by <= AHEAD && from + by <= 1; by *= 2) {
-        s->answer->states++;
-        path_compute_state(s->w, s->q0, s->q1, from + by, &state);
-        if (!is_hit_at(s, from + by, &state)) continue;
-        s->answer->hit_at = s->segment + (from + by);
-        return;
-    }
-}
-
-// The interval is as short as intervals get, and not proven free: its first state that is a hit, or a later one that
-// is known.
-static void end_at(path_search *s, const path_span *i, int is_hit) {
-    ovoid_robot_path_answer *a = s->answer;
-    a->free_until = s->segment + i->begin;
-    if (is_hit_at(s, i->begin, i->at_begin))
-        a->hit_at = a->free_until;
-    else if (is_hit)
-        a->hit_at = s->segment + 0.5 * (i->begin + i->end);
-    else if (is_hit_at(s, i->end, i->at_end))
-        a->hit_at = s->segment + i->end;
-    else if (!(a->hit_at < INFINITY))
-        look_ahead(s, i->end);
-    a->status = a->hit_at < INFINITY ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED;
-    if (a->status == OVOID_ROBOT_HIT) a->hit.status = OVOID_ROBOT_HIT;
-}
-
 // Where the items are that have open pairs, and how they move.
 static void place_open(path_search *s, const uint8_t *masks, const path_state *state, double half) {
     const ovoid_robot_cell *c = s->w->cell;
@@ -267,6 +222,59 @@ static void place_open(path_search *s, const uint8_t *masks, const path_state *s
         path_place_item(s->w, state, i);
         path_set_item(s->w, state, i, half);
     }
+}
+
+// Is the state at t a hit, of a pair that is open? It is then the answer's. The state has its frames.
+static int is_hit_at(path_search *s, double t, const path_state *state, const uint8_t *open) {
+    path_search at = *s;
+    ovoid_robot_path_answer answer = *s->answer;
+    at.answer = &answer;
+    at.options = &(const ovoid_robot_path_options){.check = s->options->check};
+    path_span i = {t, t, state, state, state};
+    uint8_t *masks = get_masks(s, LEVELS);
+    memcpy(masks, open, s->memory->mask_count);
+    place_open(s, masks, state, 0);
+    if (!test_all(&at, &i, masks).is_hit) return 0;
+    s->answer->hit = answer.hit;
+    return 1;
+}
+
+// Where a body's allowance hides when it is met, a hit soon after it; farther and farther ahead.
+static void look_ahead(path_search *s, double from) {
+    path_state state = get_state(s, LEVELS + 2);
+    for (double by = s->tolerance; by <= AHEAD && from + by <= 1; by *= 2) {
+        s->answer->states++;
+        path_compute_frames(s->w, s->q0, s->q1, from + by, &state);
+        if (!is_hit_at(s, from + by, &state, get_masks(s, 0))) continue;
+        s->answer->hit_at = s->segment + (from + by);
+        return;
+    }
+}
+
+// The interval is as short as intervals get, and not proven free: its first state that is a hit, or a later one that
+// is known.
+static void end_at(path_search *s, const path_span *i, const uint8_t *open, int is_hit) {
+    ovoid_robot_path_answer *a = s->answer;
+    a->free_until = s->segment + i->begin;
+    if (is_hit_at(s, i->begin, i->at_begin, open))
+        a->hit_at = a->free_until;
+    else if (is_hit)
+        a->hit_at = s->segment + 0.5 * (i->begin + i->end);
+    else if (is_hit_at(s, i->end, i->at_end, open))
+        a->hit_at = s->segment + i->end;
+    else if (!(a->hit_at < INFINITY))
+        look_ahead(s, i->end);
+    a->status = a->hit_at < INFINITY ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED;
+    if (a->status == OVOID_ROBOT_HIT) a->hit.status = OVOID_ROBOT_HIT;
+}
+
+// A hit was found, and is the answer; free is what was proven up to `begin`.
+static void end_with(path_search *s, double begin, double at, const ovoid_robot_answer *hit) {
+    ovoid_robot_path_answer *a = s->answer;
+    a->free_until = s->segment + begin;
+    a->hit_at = s->segment + at;
+    a->hit = *hit;
+    a->status = a->hit.status = OVOID_ROBOT_HIT;
 }
 
 // 1 where all pairs that are open at the level are proven apart in the interval; 0: the search has ended.
@@ -291,13 +299,17 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
         a->hit = known;
         return 1;
     }
+    if (is.is_hit && s->options->any_hit) {
+        end_with(s, begin, middle, &a->hit);
+        return 0;
+    }
     if (is.is_hit)
         a->hit_at = s->segment + middle;
     else if (a->hit_at < INFINITY)
         a->hit = known;
     int is_narrow = a->hit_at - (s->segment + begin) <= s->tolerance;
     if (s->is_still || is_narrow || level + 1 == LEVELS) {
-        end_at(s, &i, is.is_hit);
+        end_at(s, &i, masks, is.is_hit);
         return 0;
     }
     memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
@@ -322,13 +334,38 @@ static void open_all(path_search *s) {
         masks[c->items.count * s->memory->groups + k / ROBOT8] |= (uint8_t)(1u << k % ROBOT8);
 }
 
-static int run_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
+static ovoid_code set_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
     size_t count = s->w->cell->robot->variable_count;
-    ovoid_robot_path_answer *a = s->answer;
     s->q0 = path->states + index * count;
     s->q1 = index + 1 < path->count ? s->q0 + count : s->q0;
     s->segment = (double)index;
+    if (s->set_segment == index + 1) return OVOID_OK;
+    s->set_segment = 0;
     ovoid_code code = path_set_segment(s->w, s->q0, s->q1, s->options->check.limit_slack, refused);
+    if (code == OVOID_OK) s->set_segment = index + 1;
+    return code;
+}
+
+// 1 where a state of the path that was looked at hits; it is the answer. Segments from one that is refused on are not
+// looked at.
+static int find_any_hit(path_search *s, const ovoid_robot_path *path, size_t segments) {
+    ovoid_error refused;
+    for (size_t i = 0; i < segments && !watch_is_stopped(&s->options->watch); i++) {
+        ovoid_robot_answer hit;
+        if (s->answer->states >= s->states_most || set_segment(s, i, path, &refused) != OVOID_OK) return 0;
+        path_any_hit x = {s->w, s->checker, &s->options->check, s->q0, s->q1, get_state(s, LEVELS + 2)};
+        double at = path_find_any_hit(&x, &s->answer->states, &hit);
+        if (!(at < INFINITY)) continue;
+        s->segment = 0;
+        end_with(s, 0, (double)i + at, &hit);
+        return 1;
+    }
+    return 0;
+}
+
+static int run_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
+    ovoid_robot_path_answer *a = s->answer;
+    ovoid_code code = set_segment(s, index, path, refused);
     if (code != OVOID_OK) {
         a->status = OVOID_ROBOT_REFUSED;
         a->hit.status = OVOID_ROBOT_REFUSED;
@@ -401,6 +438,7 @@ static void run(path_search *s, const ovoid_robot_path *path) {
     ovoid_error refused;
     size_t segments = path->count > 1 ? path->count - 1 : 1;
     s->answer->status = OVOID_ROBOT_FREE;
+    if (s->options->any_hit && find_any_hit(s, path, segments)) return;
     for (size_t i = 0; i < segments; i++)
         if (!run_segment(s, i, path, &refused)) return;
 }

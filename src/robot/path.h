@@ -140,6 +140,17 @@ static inline int path_is_free_between(double begin, double end, double margin, 
     return least - 0x1p-45 * (fabs(begin) + fabs(end) + k) > margin;
 }
 
+/// A search for any state of the segment that was set that hits.
+typedef struct path_any_hit {
+    path_work *w;
+    ovoid_robot_checker *checker;
+    const ovoid_robot_check_options *options;
+    const double *q0, *q1;
+    path_state state; ///< memory
+} path_any_hit;
+/// Where one hits, 0 to 1, or infinity: none was found. *states grows by those looked at.
+double path_find_any_hit(const path_any_hit *x, uint32_t *states, ovoid_robot_answer *hit);
+
 /// 1 where no step of the chain moves along the segment.
 int path_is_still(const path_work *w);
 

@@ -39,7 +39,7 @@ static ovoid_answer measure(clearance_search *s, const path_pair *p, uint32_t nu
     int is_part = of.part != OVOID_ROBOT_NONE;
     ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
     uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
-    const checker_pair known = {p->pair, p->a, p->b, proof, mark, NULL, 0, 0};
+    const checker_pair known = {p->pair, p->a, p->b, proof, mark, NULL, 0, 0, NULL};
     // No cap is 0: a body that is nearer than that is measured in full.
     const ovoid_options capped = {.cap = cap > 0 && cap < INFINITY ? cap : 0};
     ovoid_answer is = ovoid_distance(&p->pair, &capped, pair_get_earlier(x, &known));

@@ -58,7 +58,7 @@ static double find_slope(const feature *x) {
     const char *block = (const char *)x->shape;
     const uint32_t *starts = (const uint32_t *)(block + x->shape->at.neighbor_starts);
     const uint32_t *neighbors = (const uint32_t *)(block + x->shape->at.neighbors);
-    double least = INFINITY;
+    double least = INFINITY; // its square
     for (int k = 0; k < x->count; k++) {
         vec3 corner = vec3_at(shape_vertices(x->shape), x->v[k]);
         for (uint32_t i = starts[x->v[k]]; i < starts[x->v[k] + 1]; i++) {
@@ -67,12 +67,12 @@ static double find_slope(const feature *x) {
             double fall = -vec3_dot(x->n, e) - 8 * rounding * x->shape->extent;
             vec3 t = vec3_add_scaled(e, x->n, -vec3_dot(x->n, e));
             if (x->count == 2) t = vec3_add_scaled(t, x->edge, -vec3_dot(x->edge, t));
-            double run = vec3_norm(t);
+            double run = vec3_norm_squared(t);
             if (!(fall > 0)) return 0;
-            if (run > 0 && fall < least * run) least = fall / run;
+            if (run > 0) least = min2(least, fall * fall / run);
         }
     }
-    return least;
+    return sqrt(least);
 }
 
 static feature make_feature(const ovoid_shape *shape, vec3 n, const uint32_t *index, const double *weight,

@@ -205,6 +205,21 @@ def check_meshes():
     check("left out of meshes", data["left_out"] == {"meshes": 61 - most} and f"meshes: {61 - most}" in said)
 
 
+def check_proofs():
+    # Hulls about one point: proofs of depths, tens of kilobytes each.
+    random.seed(9)
+    points = [[random.gauss(0, 1) for _ in range(3)] for _ in range(300)]
+    points = [[x / math.hypot(*p) for x in p] for p in points]
+    rows = [{"name": str(i), "points": points, "pose": {"xyz": [i / 1e3, i * i / 1e5, 0], "rpy": [i, 0, 0]}} for i in range(64)]
+    write("proofs.json", {"objects": rows})
+    done = subprocess.run([tool, "check", "proofs.json", "--json", "--html", "proofs.html"], capture_output=True, text=True)
+    sizes = [len(line) - line.index('"proof":') - 1 for line in done.stdout.splitlines()]
+    given = ["proof" in pair["answer"] for pair in read("proofs.html")["pairs"]]
+    most = next(i for i in range(len(sizes)) if sum(sizes[:i + 1]) > 20000000)
+    check("proofs", given == [True] * most + [False] * (len(sizes) - most) and read("proofs.html")["left_out"] == {"proofs": len(sizes) - most})
+    check("left out of proofs", f"proofs: {len(sizes) - most}" in done.stderr)
+
+
 def check_motion():
     frames = 5003
     with open("motion.csv", "w") as file:
@@ -294,7 +309,7 @@ def check_many_states():
     check("many edges", len(data["robot"]["path"]["edges"]) == 5000 and data["left_out"] == {"states": 4})
 
 
-tests = [check_scene, check_areas, check_many, check_meshes, check_motion]
+tests = [check_scene, check_areas, check_many, check_meshes, check_proofs, check_motion]
 if "robot" in run("complete")[0].split():
     tests += [check_robot, check_rigid, check_many_states]
 for each in tests:

@@ -278,6 +278,33 @@ static void check_made_angle(double scale) {
     ovoid_solid_destroy(s);
 }
 
+// A box with a square hole through it: no single plane lets any of the hole go, and four bars make it.
+static void check_made_frame(void) {
+    mesh m = {NULL, NULL, 0, 0, 0, 0};
+    static const double at[4] = {2, 2, 1, 1}, height[4] = {-1, 1, 1, -1};
+    for (int ring = 0; ring < 4; ring++)
+        for (int i = 0; i < 4; i++)
+            mesh_add_point(&m, i == 1 || i == 2 ? at[ring] : -at[ring], i >= 2 ? at[ring] : -at[ring], height[ring]);
+    for (uint32_t ring = 0; ring < 4; ring++)
+        for (uint32_t i = 0; i < 4; i++) {
+            uint32_t a = 4 * ring + i, b = 4 * ring + (i + 1) % 4, c = (a + 4) % 16, d = (b + 4) % 16;
+            mesh_add_triangle(&m, a, b, d);
+            mesh_add_triangle(&m, a, d, c);
+        }
+    ovoid_solid *s = mesh_make_solid(&m);
+    CHECK(ovoid_solid_get_report(s).is_closed);
+    CHECK_NEAR(ovoid_solid_get_report(s).volume, 24, 1e-12);
+    ovoid_parts *parts = make_parts(s, 0.05, 0);
+    CHECK_EQ(ovoid_parts_get_count(parts), 4);
+    ovoid_decomposition_options o = {.tolerance = 0.02};
+    ovoid_decomposition_proof p = prove(s, ovoid_parts_get_shapes(parts), ovoid_parts_get_count(parts), &o);
+    check_length(&p.uncovered, 0, 0.02);
+    CHECK_LE(p.excess.upper, 0.1);
+    ovoid_parts_destroy(parts);
+    ovoid_solid_destroy(s);
+    mesh_clear(&m);
+}
+
 // Random solids: the parts cover, no more are made than asked for, and more parts stand out less.
 static void check_made(int rounds) {
     for (int i = 0; i < rounds; i++) {
@@ -436,6 +463,7 @@ int main(void) {
     check_made_angle(1);
     check_made_angle(1e-30);
     check_made_angle(1e30);
+    check_made_frame();
     check_made(3);
     check_enlarged();
     check_refusals();

@@ -303,6 +303,35 @@ static void check_divided(int rounds) {
     check_seed = 0;
 }
 
+// A sheet in the plane of a cut, with nothing beside it, goes to the piece below: none of it is lost.
+static void check_sheet(void) {
+    mesh m = {NULL, NULL, 0, 0, 0, 0};
+    mesh_add_box(&m, (vec3){-1, -1, -1}, (vec3){1, 1, 1}, 0);
+    mesh_add_box(&m, (vec3){-1, -1, 3}, (vec3){1, 1, 4}, 0);
+    mesh_add_box(&m, (vec3){-1, -1, 2}, (vec3){1, 1, 2}, 0);
+    ovoid_solid *s = mesh_make_solid(&m);
+    ovoid_decomposition_options o;
+    body b;
+    CHECK_EQ(body_check_options(NULL, &o, NULL), OVOID_OK);
+    CHECK_EQ(body_open(&b, s, &o, NULL), OVOID_OK);
+    piece whole, sides[2];
+    int is_cut = 0;
+    ovoid_plane plane = {{0, 0, 1}, 2 * b.inverse};
+    CHECK_EQ(piece_create(&b, &whole, NULL), OVOID_OK);
+    CHECK_EQ(piece_divide(&b, &whole, &plane, sides, &is_cut, NULL), OVOID_OK);
+    if (CHECK(is_cut)) {
+        box below = box_make_around(&sides[0].points[0].x, sides[0].point_count);
+        box above = box_make_around(&sides[1].points[0].x, sides[1].point_count);
+        CHECK_NEAR(below.max.z * b.unit, 2, SLACK);
+        CHECK_NEAR(above.min.z * b.unit, 3, SLACK);
+        for (int i = 0; i < 2; i++) piece_destroy(&b, &sides[i]);
+    }
+    piece_destroy(&b, &whole);
+    body_close(&b);
+    ovoid_solid_destroy(s);
+    mesh_clear(&m);
+}
+
 // ---- searches that end early
 
 static void check_length(const ovoid_decomposition_length *l, double truth) {
@@ -352,11 +381,31 @@ static void check_few_cells(void) {
     for (int k = 0; k < 3; k++) mesh_clear(all[k]);
 }
 
+// A part as large as may be around a solid as small: nothing is uncovered, and the part's corners stand out.
+static void check_much_larger(void) {
+    mesh m = {NULL, NULL, 0, 0, 0, 0};
+    mesh_add_angle(&m, 4e-60, 1e-60, 1e-60);
+    ovoid_solid *s = mesh_make_solid(&m);
+    ovoid_shape *part = make_box_between((vec3){-1e40, -1e40, -1e40}, (vec3){1e40, 1e40, 1e40});
+    ovoid_decomposition d = {s, (const ovoid_shape *const *)&part, 1};
+    ovoid_decomposition_options o = {.work = 1000};
+    ovoid_decomposition_proof p;
+    CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &p, NULL, NULL), OVOID_OK);
+    CHECK_EQ(p.uncovered.lower, 0);
+    CHECK_NEAR(p.excess.lower / 1e40, sqrt(3), 0.01);
+    CHECK_LE(sqrt(3), p.excess.upper / 1e40 + SLACK);
+    ovoid_shape_destroy(part);
+    ovoid_solid_destroy(s);
+    mesh_clear(&m);
+}
+
 int main(void) {
     check_bounds(24);
     check_unlike_faces();
     check_cuts(2000);
     check_divided(12);
+    check_sheet();
     check_few_cells();
+    check_much_larger();
     return check_end();
 }

@@ -184,7 +184,7 @@ static const true_pair *find_true_pair(const true_pair *pairs, size_t count, con
 
 // ---- comparisons
 
-static long free_count, hit_count, row_count;
+static long free_count, hit_count, row_count, wide_count;
 
 static void compare_check(const scene *c, ovoid_robot_checker *x, const double *q, const true_pair *pairs,
                           size_t count) {
@@ -256,6 +256,25 @@ static void compare_near(const scene *c, ovoid_robot_checker *x, const double *q
         for (size_t v = 0; v < variables; v++) CHECK_NEAR(own[i * variables + v], rows[i * variables + v], 1e-5);
         row_count++;
     }
+    // Without depths: the same pairs, overlaps by brackets that hold.
+    static ovoid_robot_near plain_items[MOST];
+    ovoid_robot_nears plain = {.items = plain_items, .capacity = MOST, .without_depths = 1};
+    for (int round = 0; round < 2; round++) {
+        CHECK_EQ(ovoid_robot_find_near(x, q, &options, &plain, &error), OVOID_OK);
+        CHECK_EQ(plain.count, expected);
+        for (size_t i = 0; i < plain.count && i < MOST; i++) {
+            const true_pair *p = find_true_pair(pairs, count, &plain_items[i].a, &plain_items[i].b);
+            CHECK(p != NULL);
+            if (!p) continue;
+            CHECK_LE(plain_items[i].lower, p->answer.upper + near_enough);
+            CHECK_LE(p->answer.lower, plain_items[i].upper + near_enough);
+            if (p->answer.lower > near_enough)
+                CHECK_LE(plain_items[i].upper - plain_items[i].lower, p->answer.upper - p->answer.lower + 1e-9);
+            if (p->answer.upper < -near_enough) CHECK_EQ(plain_items[i].status, OVOID_OVERLAPPING);
+            wide_count += plain_items[i].upper - plain_items[i].lower > 1e-3;
+        }
+        ovoid_robot_checker_reset(x);
+    }
     some.capacity = 0;
     CHECK_EQ(ovoid_robot_find_near(x, q, &options, &some, &error), OVOID_OK);
     CHECK_EQ(some.count, expected);
@@ -292,6 +311,7 @@ static void test_truth(void) {
     CHECK_LE(200, free_count);
     CHECK_LE(200, hit_count);
     CHECK_LE(200, row_count);
+    CHECK_LE(100, wide_count);
 }
 
 // ---- batches
@@ -606,7 +626,7 @@ static void test_appended(void) {
         enum { ROOM = 64 };
         double q[7 * ROBOT_LINKS];
         ovoid_robot_near items[2][ROOM];
-        ovoid_robot_nears nears[2] = {{items[0], NULL, ROOM, 0}, {items[1], NULL, ROOM, 0}};
+        ovoid_robot_nears nears[2] = {{.items = items[0], .capacity = ROOM}, {.items = items[1], .capacity = ROOM}};
         ovoid_robot_check_options options = {.margin = 0.5, .limit_slack = INFINITY};
         make_random_state(&s, c.r, q);
         for (int k = 0; k < 2; k++) {

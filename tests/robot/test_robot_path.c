@@ -12,7 +12,7 @@ enum { SHAPES = 4, OBSTACLES = 5, STEPS = 200000, SAMPLES = 300 };
 static ovoid_shape *shapes[SHAPES];
 static ovoid_robot_step steps[STEPS];
 static ovoid_error error;
-static long frees, hits, undecided, step_sum, state_sum;
+static long frees, hits, undecided, step_sum, state_sum, any_states, first_states, looked;
 
 static void make_shapes(void) {
     shapes[0] = ovoid_shape_create_box((ovoid_vec3){0.1, 0.05, 0.2}, NULL, &error);
@@ -126,6 +126,24 @@ static void spoil(uint64_t *s, const scene *c, const ovoid_robot_path *path, con
     steps[at] = kept;
 }
 
+// Any hit: the same word on whether the path is free, proven too, by no more states where it is not.
+static void compare_any_hit(const scene *c, const ovoid_robot_path *path, const ovoid_robot_path_options *first,
+                            const ovoid_robot_path_answer *known) {
+    ovoid_robot_path_options o = *first;
+    ovoid_robot_path_answer x;
+    o.any_hit = 1;
+    CHECK_EQ(ovoid_robot_check_path(c->checker, path, &o, &x, &error), OVOID_OK);
+    if (known->status != OVOID_ROBOT_UNDECIDED && x.status != OVOID_ROBOT_UNDECIDED) CHECK_EQ(x.status, known->status);
+    if (known->status == OVOID_ROBOT_HIT) CHECK_EQ(x.status, OVOID_ROBOT_HIT);
+    compare_samples(c, path->states, path->count, o.check.margin, &x);
+    ovoid_code code = ovoid_robot_path_check(c->cell, path, &o, &x, steps, &error);
+    if (!CHECK_EQ(code, OVOID_OK)) printf("  any hit: %s\n", error.message);
+    if (x.status != OVOID_ROBOT_HIT || known->status != OVOID_ROBOT_HIT) return;
+    CHECK(x.hit_at >= known->free_until);
+    any_states += x.states, first_states += known->states;
+    looked += x.free_until == 0 && x.hit_at > 0;
+}
+
 static void test_random(void) {
     uint64_t s = 31;
     double states[4 * 7 * ROBOT_LINKS] = {0};
@@ -149,6 +167,7 @@ static void test_random(void) {
         ovoid_code code = ovoid_robot_path_check(c.cell, &path, &o, &x, steps, &error);
         if (!CHECK_EQ(code, OVOID_OK)) printf("  %d: %s\n", i, error.message);
         spoil(&s, &c, &path, &o, &x);
+        compare_any_hit(&c, &path, &o, &x);
         destroy_scene(&c);
     }
 }
@@ -344,7 +363,8 @@ int main(void) {
     test_refusals();
     test_random();
     printf("%ld free, %ld hit, %ld undecided, %ld steps, %ld states\n", frees, hits, undecided, step_sum, state_sum);
-    CHECK(frees > 50 && hits > 50);
+    printf("any hit: %ld states, %ld; %ld hits before anything was proven\n", any_states, first_states, looked);
+    CHECK(frees > 50 && hits > 50 && looked > 30 && any_states < first_states);
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
     return check_end();
 }

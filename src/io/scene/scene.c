@@ -9,6 +9,13 @@
 
 // ---- failing
 
+static ovoid_code fail_syntax(const scene_reader *r, const json_error_t *why) {
+    if (json_is_memory_error(why)) return io_fail_memory(r->error, r->path);
+    return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, why->line, -1}, "JSON: %s", why->text);
+}
+
+// ---- objects
+
 static ovoid_code read_object(scene_reader *r, json_t *object) {
     static const char *const words[] = {"name", "pose",   "radius",   "allowance", "scale",   "unit",
                                         "mesh", "box",    "parts",    "sphere",    "capsule", "cylinder",
@@ -63,17 +70,24 @@ static ovoid_code read_objects(scene_reader *r, const json_t *objects) {
     where at = {r->path, 0, -1};
     if (!json_is_array(objects))
         return io_fail(r->error, OVOID_ERROR_FORMAT, at, "the scene needs \"objects\", a list");
-    size_t count = json_array_size(objects);
-    if (!count) return io_fail(r->error, OVOID_ERROR_EMPTY, at, "the scene has no objects");
-    if (count > UINT32_MAX) return io_fail(r->error, OVOID_ERROR_LIMIT, at, "too many objects");
-    r->scene->entries = calloc(count, sizeof *r->scene->entries);
-    if (!r->scene->entries) return io_fail_memory(r->error, r->path);
-    for (r->index = 0; r->index < count; r->index++) {
-        r->scene->count = r->index + 1;
-        ovoid_code code = read_object(r, json_array_get(objects, r->index));
-        if (code) return code;
+    ovoid_scene *scene = r->scene;
+    json_t *object;
+    json_error_t why;
+    size_t capacity = 0;
+    int found;
+    ovoid_code code = OVOID_OK;
+    while (!code && (found = json_next(&r->objects, &object, &why)) > 0) {
+        r->index = scene->count;
+        if (array_reserve((void **)&scene->entries, &capacity, scene->count, sizeof *scene->entries)) {
+            scene->entries[scene->count++] = (scene_entry){.name = NULL};
+            code = read_object(r, object);
+        } else
+            code = io_fail_memory(r->error, r->path);
+        json_decref(object);
     }
-    return sort_names(r);
+    if (!code && found < 0) return fail_syntax(r, &why);
+    if (!code && !scene->count) return io_fail(r->error, OVOID_ERROR_EMPTY, at, "the scene has no objects");
+    return code ? code : sort_names(r);
 }
 
 // ---- pairs to ignore
@@ -165,12 +179,16 @@ static ovoid_code read_scene(scene_reader *r) {
     if (r->file.size >= 6 && memcmp(r->file.data, "\x89OVOID", 6) == 0)
         return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, 0, -1},
                        "a file of a shape (.ovoid), not a scene, which is JSON and may name it as a \"mesh\"");
+    const int flags = JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL;
     json_error_t why;
-    json_t *root = json_loadb(r->file.data, r->file.size, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
-    if (!root && json_is_memory_error(&why)) return io_fail_memory(r->error, r->path);
-    if (!root) return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, why.line, -1}, "JSON: %s", why.text);
-    ovoid_code code = read_root(r, root);
+    json_t *root = json_load_around(r->file, "objects", flags, &r->objects, &why);
+    ovoid_code code = root ? read_root(r, root) : fail_syntax(r, &why);
     json_decref(root);
+    if (!code || code == OVOID_ERROR_MEMORY || !r->objects.at) return code;
+    // What is no JSON comes before all else, with its line in the whole text.
+    json_t *whole = json_loadb(r->file.data, r->file.size, flags, &why);
+    if (!whole) return fail_syntax(r, &why);
+    json_decref(whole);
     return code;
 }
 

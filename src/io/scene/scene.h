@@ -42,6 +42,7 @@ enum { NO_PART = -1 };
 typedef struct scene_reader {
     const char *path;
     bytes file;
+    json_list objects;
     ovoid_scene *scene;
     const ovoid_shape_options *options;
     ovoid_error *error;

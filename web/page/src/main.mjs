@@ -6,6 +6,9 @@ import { Model } from './model.mjs';
 import { element, Panel } from './panel.mjs';
 import { saveModel, savePicture } from './save.mjs';
 import { Timeline } from './timeline.mjs';
+import { Painter } from './painter.mjs';
+import { makeRenderer } from './renderer.mjs';
+import { Layer } from './layers.mjs';
 import { View } from './view.mjs';
 
 const $ = (id) => document.getElementById(id);
@@ -16,10 +19,10 @@ function say(text) {
 }
 
 class Page {
-  constructor(model) {
+  constructor(model, renderer) {
     this.model = model;
     this.chosenBody = null;
-    this.view = new View(model, $('canvas'), (body) => this.chooseBody(body), (body) => this.moved(body));
+    this.view = new View(model, renderer, (body) => this.chooseBody(body), (body) => this.moved(body));
     this.panel = new Panel(document, model, {
       choosePair: (pair) => this.choosePair(pair),
       isolate: () => this.isolate(),
@@ -28,6 +31,7 @@ class Page {
     });
     if (model.data.motion) this.timeline = new Timeline($('timeline'), model, () => this.atTime());
     if (model.data.robot) this.joints = new Joints($('joints'), model, () => this.atJoints());
+    this.view.onDrawn = (drawn, all) => this.#sayDrawn(drawn, all);
     this.#layers();
     this.#buttons();
     document.addEventListener('keydown', (event) => this.#key(event));
@@ -127,7 +131,7 @@ class Page {
   #layers() {
     const labels = { meshes: 'Meshes', hulls: 'Hulls', outer: 'Outer ellipsoids', inner: 'Inner ellipsoids', areas: 'Areas', witness: 'Witness points' };
     const keys = { meshes: 'm', hulls: 'h', outer: 'o', inner: 'i', areas: 'a', witness: 'w' };
-    const has = (name) => name === 'witness' || this.view.layers[name].children.length > 0;
+    const has = (name) => name === 'witness' || Layer.has(this.model, name);
     this.boxes = {};
     for (const [name, text] of Object.entries(labels)) {
       if (!has(name)) continue;
@@ -150,6 +154,12 @@ class Page {
     $('glb').onclick = () => saveModel(this.view, name).catch((error) => say(error.message));
     $('theme').onclick = () => this.#theme();
     $('help').onclick = () => $('keys').showModal();
+  }
+
+  /** A line that says where less is drawn than there is. */
+  #sayDrawn(drawn, all) {
+    const count = (n) => n.toLocaleString('en').replaceAll(',', ' ');
+    $('drawn').textContent = drawn < all ? `${count(drawn)} of ${count(all)} triangles: what is small is drawn coarser` : '';
   }
 
   #theme() {
@@ -197,19 +207,26 @@ class Page {
 }
 
 async function start() {
+  performance.mark('begin');
   const data = readData($('ovoid-data')?.textContent ?? 'null');
   document.title = `${data.title ?? 'scene'} – ovoid`;
   $('title').textContent = data.title ?? 'scene';
   $('command').textContent = data.command ?? '';
-  if (data.left_out) say(`Left out, as there are so many: ${Object.entries(data.left_out).filter(([, n]) => n).map(([what, n]) => `${n} ${what}`).join(', ')}.`);
-  const ovoid = await load(await unpack($('ovoid-module').textContent));
-  window.ovoidPage = new Page(new Model(ovoid, data));
+  if (data.left_out) say(`Left out, as there are so many: ${Object.entries(data.left_out).filter(([, n]) => n).map(([what, n]) => `${n} ${what}${what === 'proofs' ? ' (found anew where they are checked)' : ''}`).join(', ')}.`);
+  performance.mark('data');
+  // The module is compiled while the picture is prepared.
+  const module = unpack($('ovoid-module').textContent).then((bytes) => load(bytes)), renderer = makeRenderer($('canvas'));
+  performance.mark('renderer');
+  const model = new Model(await module, data);
+  performance.mark('model');
+  window.ovoidPage = new Page(model, renderer);
+  if (renderer instanceof Painter) $('drawn').before(element('p', { id: 'painted', textContent: 'Painted, as this browser has no WebGL 2: coarser, and slower.' }));
+  performance.mark('page');
   document.body.dataset.ready = 'yes';
 }
 
 start().catch((error) => {
-  const needs = document.createElement('canvas').getContext('webgl2') ? '' : ' This browser draws no 3-D (WebGL 2).';
-  say(`${error.message}${needs}`);
+  say(error.message);
   document.body.dataset.ready = 'failed';
   throw error;
 });

@@ -37,8 +37,8 @@ class Body {
 
 function reachOf(points) {
   let most = 0;
-  for (let i = 0; i < points.length; i += 3) most = Math.max(most, Math.hypot(points[i], points[i + 1], points[i + 2]));
-  return most;
+  for (let i = 0; i < points.length; i += 3) most = Math.max(most, points[i] ** 2 + points[i + 1] ** 2 + points[i + 2] ** 2);
+  return Math.sqrt(most);
 }
 
 /** A shape of the page, with what is drawn of it; a mesh that counts with its dents is a solid of the library. */
@@ -120,7 +120,7 @@ export class Model {
   check(pair) {
     const { a, b } = pair;
     if (!a.asked || !b.asked) return { isChecked: false, text: 'The triangles are too many for the page: ovoid verify checks this proof.' };
-    // What is near a robot comes without proofs.
+    // What is near a robot comes without proofs, and those that were too many for the page.
     if (!pair.answer.proof) this.askAgain(pair);
     const error = this.ovoid.check(a.asked, a.pose, b.asked, b.pose, pair.answer);
     return { isChecked: true, holds: error === null, text: error ? error.message : 'The proof holds.' };

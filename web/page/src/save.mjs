@@ -1,5 +1,5 @@
 // The picture as PNG, the bodies as GLB.
-import { Color, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial, Scene } from 'three';
+import { Mesh, MeshStandardMaterial, Scene } from 'three';
 import { GLTFExporter } from 'three/examples/jsm/exporters/GLTFExporter.js';
 
 function save(blob, name) {
@@ -17,22 +17,16 @@ export function savePicture(view, name) {
 
 /** Bodies as they are shown, instances made single. */
 export function makeExport(view) {
-  const scene = new Scene(), at = new Matrix4(), color = new Color();
-  for (const name of ['meshes', 'hulls', 'areas', 'outer', 'inner'])
-    if (view.shown[name])
-      for (const set of view.layers[name].children)
-        if (set instanceof InstancedMesh)
-          set.userData.bodies.forEach((body, i) => {
-            set.getMatrixAt(i, at);
-            if (at.determinant() === 0) return;
-            if (set.instanceColor) set.getColorAt(i, color);
-            else color.copy(set.material.color);
-            const { opacity, transparent, vertexColors } = set.material;
-            const mesh = new Mesh(set.geometry, new MeshStandardMaterial({ color: color.clone(), opacity, transparent, vertexColors }));
-            mesh.name = body.name;
-            mesh.applyMatrix4(at);
-            scene.add(mesh);
-          });
+  const scene = new Scene();
+  for (const { items, material } of view.shownLayers)
+    for (const { body, levels, world, color, isShown } of items) {
+      if (!isShown) continue;
+      const { opacity, transparent, vertexColors } = material;
+      const mesh = new Mesh(levels[0].geometry, new MeshStandardMaterial({ color: (color ?? material.color).clone(), opacity, transparent, vertexColors }));
+      mesh.name = body.name;
+      mesh.applyMatrix4(world);
+      scene.add(mesh);
+    }
   return scene;
 }
 

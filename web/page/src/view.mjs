@@ -1,64 +1,42 @@
-// The picture: bodies in layers, each a set of instances of one geometry; the chosen pair; the camera.
+// The picture: bodies in layers, the chosen pair, the camera; as many triangles as the machine draws in time.
 import {
-  AmbientLight, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, HemisphereLight, IcosahedronGeometry, InstancedMesh, Line, LineBasicMaterial,
-  Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer,
+  AmbientLight, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight, IcosahedronGeometry, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
+  PerspectiveCamera, Quaternion, Raycaster, Scene, Vector2, Vector3,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
-import { makeAreas, makeEllipsoidMatrix, makeHull, makeMesh, makePoseMatrix } from './geometry.mjs';
+import { makePoseMatrix } from './geometry.mjs';
+import { Layer, NAMES } from './layers.mjs';
 
 const COLORS = ['#4e79a7', '#f28e2b', '#59a14f', '#b07aa1', '#76b7b2', '#edc948', '#9c755f', '#86bcb6', '#d4a6c8', '#8cd17d'];
-const AREAS = ['#1f77b4', '#ff7f0e', '#2ca02c', '#d62728', '#9467bd', '#8c564b', '#e377c2', '#bcbd22'].map((c) => new Color(c).toArray());
 const CHOSEN = new Color('#ffb000');
-const HIDDEN = new Matrix4().makeScale(0, 0, 0);
 
-const solidMaterial = () => new MeshStandardMaterial({ roughness: 0.75, metalness: 0.05, side: DoubleSide });
-const glass = (color, opacity) => new MeshStandardMaterial({ color, transparent: true, opacity, depthWrite: false, roughness: 0.4, side: DoubleSide });
-
-/** What can be drawn: for each body's part a geometry and a matrix in the body's frame. */
-function makeLayers(model) {
-  const { ovoid, bodies } = model, ball = bodies.length > 1000 ? new SphereGeometry(1, 14, 8) : new SphereGeometry(1, 40, 24);
-  const uses = new Map();
-  for (const { parts } of bodies) for (const { index } of parts) uses.set(index, (uses.get(index) ?? 0) + 1);
-  const layers = { hulls: new Map(), meshes: new Map(), areas: new Map(), outer: new Map(), inner: new Map() };
-  const geometries = new Map(), cached = (key, make) => geometries.get(key) ?? geometries.set(key, make()).get(key);
-  const add = (layer, key, make, body, matrix) => {
-    const list = layers[layer].get(key) ?? layers[layer].set(key, { geometry: cached(`${layer} ${key}`, make), items: [] }).get(key);
-    list.items.push({ body, matrix });
-  };
-  for (const body of bodies) {
-    for (const part of body.parts) {
-      const at = makePoseMatrix(part.pose), { shape, index } = part;
-      add('hulls', index, () => makeHull(ovoid, shape, uses.get(index)), body, at);
-      add('meshes', shape.mesh ? index : `hull ${index}`, () => (shape.mesh ? makeMesh(shape.mesh) : cached(`hulls ${index}`)), body, at);
-      if (shape.areas) add('areas', index, () => makeAreas(shape, AREAS), body, at);
-      add('outer', 'ball', () => ball, body, at.clone().multiply(makeEllipsoidMatrix(shape.outer, shape.radius)));
-      add('inner', 'ball', () => ball, body, at.clone().multiply(makeEllipsoidMatrix(shape.inner, shape.radius)));
-    }
-  }
-  return layers;
-}
+/** Milliseconds that a picture may take while it moves, and when it rests. */
+const MOVING = 60, RESTING = 700;
 
 export class View {
-  constructor(model, canvas, onPick, onDrag) {
+  constructor(model, renderer, onPick, onDrag) {
     this.model = model;
-    this.canvas = canvas;
+    this.renderer = renderer;
+    this.canvas = renderer.domElement;
     this.shown = { meshes: true, hulls: false, areas: false, outer: false, inner: false, witness: true };
     this.opacity = 1;
     this.only = null;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.layers = {};
+    this.colors = new Map(model.bodies.map((body) => [body, new Color(body.isObstacle ? '#9aa0a6' : COLORS[body.index % COLORS.length])]));
+    this.chosen = new Set();
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(40, 1, 0.01, 1000);
     this.camera.up.set(0, 0, 1);
-    this.#light();
-    this.#build();
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener('change', () => this.draw());
-    this.#addHandles(onDrag);
     this.pairGroup = new Group();
     this.scene.add(this.pairGroup);
+    this.#light();
+    this.show({});
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.addEventListener('change', () => this.draw());
+    this.#addHandles(onDrag);
     this.#listen(onPick);
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
     this.resize();
     this.fit();
   }
@@ -69,41 +47,33 @@ export class View {
     this.scene.add(this.sun);
   }
 
-  #build() {
-    this.layers = {};
-    this.instances = new Map(this.model.bodies.map((body) => [body, []]));
-    for (const [name, sets] of Object.entries(makeLayers(this.model))) {
-      const group = (this.layers[name] = new Group());
-      for (const { geometry, items } of sets.values()) {
-        const material = name === 'outer' ? glass('#4e79a7', 0.16) : name === 'inner' ? glass('#e15759', 0.55) : solidMaterial();
-        if (name === 'areas') material.vertexColors = true;
-        const mesh = new InstancedMesh(geometry, material, items.length);
-        mesh.frustumCulled = false;
-        mesh.userData.bodies = items.map((item) => item.body);
-        items.forEach(({ body, matrix }, i) => {
-          this.instances.get(body).push({ mesh, i, matrix });
-          if (name === 'meshes' || name === 'hulls') mesh.setColorAt(i, new Color(this.colorOf(body)));
-        });
-        group.add(mesh);
-      }
-      this.scene.add(group);
+  /** A layer, made when it is first needed. */
+  #need(name) {
+    if (this.layers[name]) return;
+    const layer = (this.layers[name] = new Layer(this.model, name, this.renderer.limits.levels));
+    this.scene.add(...layer.meshes);
+    for (const body of this.model.bodies) {
+      this.#placeIn(layer, body);
+      this.#paintIn(layer, body);
     }
-    for (const body of this.model.bodies) this.place(body);
-    this.show({});
   }
 
-  colorOf(body) {
-    return body.isObstacle ? '#9aa0a6' : COLORS[body.index % COLORS.length];
+  get shownLayers() {
+    return Object.values(this.layers).filter(({ name }) => this.shown[name]);
+  }
+
+  #placeIn(layer, body) {
+    layer.place(body, makePoseMatrix(body.pose), !this.only || this.only.has(body));
+  }
+  #paintIn(layer, body) {
+    if (layer.name !== 'meshes' && layer.name !== 'hulls') return;
+    const color = this.colors.get(body);
+    layer.paint(body, this.chosen.has(body) && !this.only ? color.clone().lerp(CHOSEN, 0.65) : color);
   }
 
   /** Puts a body's instances where it is. */
   place(body) {
-    const at = makePoseMatrix(body.pose), isHidden = this.only && !this.only.has(body);
-    for (const { mesh, i, matrix } of this.instances.get(body)) {
-      mesh.setMatrixAt(i, isHidden ? HIDDEN : at.clone().multiply(matrix));
-      mesh.instanceMatrix.needsUpdate = true;
-      mesh.boundingSphere = null;
-    }
+    for (const layer of Object.values(this.layers)) this.#placeIn(layer, body);
   }
   placeAll() {
     for (const body of this.model.bodies) this.place(body);
@@ -114,45 +84,44 @@ export class View {
   show(changes) {
     Object.assign(this.shown, changes);
     const { shown } = this;
-    for (const [name, group] of Object.entries(this.layers)) group.visible = shown[name];
+    for (const name of NAMES) {
+      if (shown[name]) this.#need(name);
+      for (const mesh of this.layers[name]?.meshes ?? []) mesh.visible = shown[name];
+    }
     const paint = (name, opacity) => {
-      for (const { material } of this.layers[name].children) {
-        material.opacity = opacity;
-        material.transparent = opacity < 1;
-        material.depthWrite = opacity === 1;
-        material.needsUpdate = true;
-      }
+      const material = this.layers[name]?.material;
+      if (material) Object.assign(material, { opacity, transparent: opacity < 1, depthWrite: opacity === 1, needsUpdate: true });
     };
     const isVeiled = shown.inner || shown.outer ? Math.min(this.opacity, shown.inner ? 0.45 : 1) : this.opacity;
     paint('meshes', isVeiled);
     paint('hulls', shown.meshes ? Math.min(0.3, isVeiled) : isVeiled);
     paint('areas', isVeiled);
-    if (this.pairGroup) this.pairGroup.visible = shown.witness;
+    this.pairGroup.visible = shown.witness;
     this.draw();
   }
 
   /** Colours what is chosen, and leaves out the rest where it is isolated. */
   choose(bodies, only) {
-    const chosen = new Set(bodies), changed = this.only;
-    this.only = only && chosen.size ? chosen : null;
-    for (const body of this.model.bodies) {
-      const color = chosen.has(body) && !this.only ? new Color(this.colorOf(body)).lerp(CHOSEN, 0.65) : new Color(this.colorOf(body));
-      for (const { mesh, i } of this.instances.get(body))
-        if (mesh.instanceColor) {
-          mesh.setColorAt(i, color);
-          mesh.instanceColor.needsUpdate = true;
-        }
-      if (this.only || changed) this.place(body);
-    }
+    const before = this.chosen, wasOnly = this.only;
+    this.chosen = new Set(bodies);
+    this.only = only && this.chosen.size ? this.chosen : null;
+    const isNew = this.only !== wasOnly;
+    for (const layer of Object.values(this.layers))
+      for (const body of isNew ? this.model.bodies : new Set([...before, ...bodies])) {
+        if (isNew) this.#placeIn(layer, body);
+        this.#paintIn(layer, body);
+      }
     this.draw();
   }
 
   /** Draws the witness points of an answer: two balls, the way between them. */
   showAnswer(answer) {
     this.pairGroup.clear();
+    this.line = null;
     if (!answer || !answer.point_a) return this.draw();
     const [a, b] = [answer.point_a, answer.point_b].map((p) => new Vector3(...p)), size = this.model.ball.radius * 0.008;
     const color = answer.status === 'separated' ? '#2e9e4f' : '#d62728', paint = new MeshBasicMaterial({ color, depthTest: false, transparent: true });
+    this.line = { points: [a, b], color };
     for (const at of [a, b]) {
       const dot = new Mesh(new IcosahedronGeometry(size, 3), paint);
       dot.position.copy(at);
@@ -194,9 +163,9 @@ export class View {
   bodyAt(x, y) {
     const box = this.canvas.getBoundingClientRect(), ray = new Raycaster();
     ray.setFromCamera(new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera);
-    const names = ['meshes', 'hulls', 'areas'].filter((name) => this.shown[name]);
-    const [hit] = ray.intersectObjects(names.flatMap((name) => this.layers[name].children), false);
-    return hit ? hit.object.userData.bodies[hit.instanceId] : null;
+    const layers = this.shownLayers.filter(({ name }) => name !== 'outer' && name !== 'inner');
+    const [hit] = ray.intersectObjects(layers.flatMap(({ meshes }) => meshes), false);
+    return hit ? layers.find(({ meshes }) => meshes.includes(hit.object)).bodyOf(hit) : null;
   }
 
   #listen(onPick) {
@@ -210,7 +179,7 @@ export class View {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.setPixelRatio(this.#pixelRatio);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -244,18 +213,81 @@ export class View {
     step(start);
   }
 
+  // Half as many each way while a picture that takes long moves.
+  get #pixelRatio() {
+    return Math.min(2, window.devicePixelRatio) * (this.isMoving && this.isSlow ? 0.5 : 1);
+  }
+
   draw() {
+    this.isMoving = true;
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => {
+      this.isMoving = false;
+      if (this.isSlow || this.isCoarse) this.#drawSoon();
+    }, 300);
+    this.#drawSoon();
+  }
+
+  #drawSoon() {
     if (this.isDue) return;
     this.isDue = true;
     requestAnimationFrame(() => {
       this.isDue = false;
-      this.sun.position.copy(this.camera.position);
-      this.renderer.render(this.scene, this.camera);
+      const start = performance.now();
+      this.drawNow();
+      this.#measure(start);
     });
   }
 
-  /** What is seen, without handles. */
+  /** Draws at once. */
   drawNow() {
-    this.renderer.render(this.scene, this.camera);
+    this.sun.position.copy(this.camera.position);
+    if (this.renderer.getPixelRatio() !== this.#pixelRatio) this.renderer.setPixelRatio(this.#pixelRatio);
+    this.#refine();
+    this.renderer.render(this.scene, this.camera, this.shownLayers, this.#listLines());
+  }
+
+  // The lines of a picture that is painted: the witness points', and of what is held the axes.
+  #listLines() {
+    const lines = this.line && this.shown.witness ? [this.line] : [];
+    if (!this.held) return lines;
+    const { position: from } = this.handle, size = 0.15 * from.distanceTo(this.camera.position);
+    return [...lines, ...['#e33', '#3a3', '#33e'].map((color, k) => ({ color, points: [from, from.clone().setComponent(k, from.getComponent(k) + size)] }))];
+  }
+
+  /** Takes coarser levels of what is small, until the triangles are as many as can be drawn in time. */
+  #refine() {
+    const layers = this.shownLayers, { fewest, most: highest, rate } = this.renderer.limits;
+    const most = Math.min(highest, Math.max(fewest, (this.rate ?? rate) * (this.isMoving ? MOVING : RESTING)));
+    const sizes = this.#measureSizes(), measure = (factor) => layers.reduce((sum, layer) => sum + layer.measure(sizes, factor), 0);
+    let factor = 0, cost = measure(0);
+    while (cost > most && factor < 1e6) cost = measure((factor = factor ? factor * 1.6 : 0.1));
+    for (const layer of layers) layer.setLevels(sizes, factor);
+    this.cost = cost;
+    this.isCoarse = factor > 0;
+    const sum = (name) => layers.reduce((n, layer) => n + layer[name], 0);
+    if (this.isCoarse || this.wasCoarse) this.onDrawn?.(sum('drawn'), sum('all'));
+    this.wasCoarse = this.isCoarse;
+  }
+
+  // Of each body how many pixels its ball is wide.
+  #measureSizes() {
+    const { camera } = this, scale = (this.canvas.clientHeight || 1) / Math.tan((camera.fov * Math.PI) / 360), at = new Vector3();
+    return Float64Array.from(this.model.bodies, ({ pose, radius }) => (scale * radius) / Math.max(at.set(...pose.xyz).distanceTo(camera.position), 1e-9));
+  }
+
+  // How many triangles a millisecond are drawn, known when the picture is there.
+  #measure(start) {
+    if (this.isMeasured) return;
+    this.isMeasured = true;
+    const { cost } = this, wasMoving = this.isMoving;
+    this.renderer.wait(() => {
+      this.isMeasured = false;
+      const time = Math.max(1, performance.now() - start), rate = Math.max(cost, 1000) / time;
+      if (wasMoving && this.rate) this.isSlow = this.isSlow ? time > MOVING / 3 : time > 2 * MOVING;
+      // The first picture has shaders compiled.
+      this.rate = this.rate === undefined ? Math.max(rate, 300) : 0.6 * this.rate + 0.4 * rate;
+      performance.mark('picture');
+    });
   }
 }
