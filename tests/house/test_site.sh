@@ -67,6 +67,8 @@ build_small() { (cd "$small" && scripts/site.sh out 2>&1); }
 check 'a small site' "$(build_small | grep -v 'index.html: \|^site: without the live page')"
 echo '[nowhere](none.md)' >>"$small/docs/cpp.md"
 check 'a dead link' "$(build_small | grep -q 'none.md' || echo 'is not found')"
+printf '# C++\n\n<a href="none.html">nowhere</a>\n' >"$small/docs/cpp.md"
+check 'a dead link that Sphinx does not know' "$(build_small | grep -q '^cpp.html: none.html leads nowhere' || echo 'is not found')"
 echo '# C++' >"$small/docs/cpp.md"
 echo '# Alone' >"$small/docs/alone.md"
 check 'a page that is not listed' "$(build_small | grep -q 'alone.md.*toctree' || echo 'is not found')"
