@@ -231,7 +231,41 @@ static void check_refused(stage *x) {
     CHECK_EQ(error.code, OVOID_ERROR_RANGE);
 }
 
+// A small box in the hole of a ring of radius 1 with a tube of 1/4: apart near one side of it; on this or the other,
+// which the normal that parted them first says nothing of, it meets the ring; in the tube it is within it and crosses
+// nothing.
+static void test_ring(void) {
+    uint64_t s = 1;
+    mesh m = {0};
+    mesh_add_ring(&m, 1, 0.25, 24, 12, 0, &s);
+    ovoid_solid *ring = mesh_make_solid(&m);
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){0.05, 0.05, 0.05}, NULL, NULL);
+    ovoid_world *w = ovoid_world_create(NULL, NULL);
+    const ovoid_pose turned = {{0, 0, 0}, {1, 0, 0, 0}};
+    ovoid_pose at = {{0.5, 0, 0}, {1, 0, 0, 0}};
+    ovoid_id id = ovoid_world_add(w, &(ovoid_world_body){.body = {.shape = box, .pose = at}}, NULL);
+    CHECK(ovoid_world_add(w, &(ovoid_world_body){.body = {.solid = ring, .pose = turned}}, NULL) != 0);
+    const ovoid_contact_query q = {.kind = OVOID_QUERY_DISTANCE, .margin = 0.1};
+    static const double places[] = {0.5, 0.74, 0.2, -0.3, -0.74, -1, -0.4};
+    static const size_t counts[] = {0, 1, 0, 0, 1, 1, 0};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        at.position.x = places[i];
+        CHECK_EQ(ovoid_world_move(w, id, &at, NULL), OVOID_OK);
+        ovoid_contacts f;
+        CHECK_EQ(ovoid_world_compute_contacts(w, &q, &f, NULL), OVOID_OK);
+        if (!CHECK_EQ(f.count, counts[i]) || !f.count) continue;
+        CHECK_EQ(f.items[0].verdict.status, OVOID_OVERLAPPING);
+        CHECK(f.items[0].verdict.lower <= f.items[0].verdict.upper && f.items[0].verdict.upper < 0);
+        if (places[i] == -1) CHECK(f.items[0].verdict.lower < -0.05);
+    }
+    ovoid_world_destroy(w);
+    ovoid_shape_destroy(box);
+    ovoid_solid_destroy(ring);
+    mesh_clear(&m);
+}
+
 int main(void) {
+    test_ring();
     size_t aged = 0, rays = 0, casts = 0;
     for (uint64_t seed = 1; seed <= 5; seed++) {
         check_seed = seed;
