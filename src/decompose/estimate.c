@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { ON_FACES = 384, WITHIN = 128, CLIMB = 24 };
+enum { ON_FACES = 384, WITHIN = 128, CLIMB = 24, CLIMBS = 4 };
 
 // Points of the unit square and cube, evenly spread, by the additive recurrence of M. Roberts, 2018: the powers of the
 // root of x^4 = x + 1.
@@ -83,11 +83,8 @@ static int is_in_hull(const hull *h, vec3 x) {
     return 1;
 }
 
-// From the farthest point by shorter and shorter steps along the axes.
-static void climb(sampling *s, double step) {
-    if (!s->count) return;
-    vec3 at = s->outliers[0].point;
-    double best = s->outliers[0].distance;
+// From a point by shorter and shorter steps along the axes.
+static void climb(sampling *s, vec3 at, double best, double step) {
     for (int round = 0; round < CLIMB; round++) {
         int is_better = 0;
         for (int k = 0; k < 6; k++) {
@@ -103,6 +100,19 @@ static void climb(sampling *s, double step) {
     keep(s, at, best);
 }
 
+// From the farthest points that are not near each other.
+static void climb_all(sampling *s, double step) {
+    outlier starts[CLIMBS];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < s->count && count < CLIMBS; i++) {
+        double least = INFINITY;
+        for (uint32_t k = 0; k < count; k++)
+            least = min2(least, vec3_norm_squared(vec3_sub(s->outliers[i].point, starts[k].point)));
+        if (least > 4 * step * step) starts[count++] = s->outliers[i];
+    }
+    for (uint32_t i = 0; i < count; i++) climb(s, starts[i].point, starts[i].distance, step);
+}
+
 static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoid_error *error) {
     hull h;
     ovoid_code code = hull_create(&points[0].x, count, &s->b->memory, &h, error);
@@ -112,7 +122,7 @@ static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoi
     vec3 sum = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, points[i]);
     sample_faces(s, vec3_scale(sum, 1.0 / count));
-    if (s->excess <= s->enough) climb(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
+    if (s->excess <= s->enough) climb_all(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
     hull_destroy(&h, &s->b->memory);
     s->h = NULL;
     return OVOID_OK;

@@ -278,10 +278,11 @@ static void check_made_angle(double scale) {
     ovoid_solid_destroy(s);
 }
 
-// A box with a square hole through it: no single plane lets any of the hole go, and four bars make it.
+// A long box with a square hole through it, a little wider at one end: no single plane lets any of the hole go, and
+// four bars make it.
 static void check_made_frame(void) {
     mesh m = {NULL, NULL, 0, 0, 0, 0};
-    static const double at[4] = {2, 2, 1, 1}, height[4] = {-1, 1, 1, -1};
+    static const double at[4] = {2, 2, 1.03, 0.97}, height[4] = {-4, 4, 4, -4};
     for (int ring = 0; ring < 4; ring++)
         for (int i = 0; i < 4; i++)
             mesh_add_point(&m, i == 1 || i == 2 ? at[ring] : -at[ring], i >= 2 ? at[ring] : -at[ring], height[ring]);
@@ -293,13 +294,12 @@ static void check_made_frame(void) {
         }
     ovoid_solid *s = mesh_make_solid(&m);
     CHECK(ovoid_solid_get_report(s).is_closed);
-    CHECK_NEAR(ovoid_solid_get_report(s).volume, 24, 1e-12);
-    ovoid_parts *parts = make_parts(s, 0.05, 0);
+    ovoid_parts *parts = make_parts(s, 0.1, 0);
     CHECK_EQ(ovoid_parts_get_count(parts), 4);
     ovoid_decomposition_options o = {.tolerance = 0.02};
     ovoid_decomposition_proof p = prove(s, ovoid_parts_get_shapes(parts), ovoid_parts_get_count(parts), &o);
     check_length(&p.uncovered, 0, 0.02);
-    CHECK_LE(p.excess.upper, 0.1);
+    CHECK_LE(p.excess.upper, 0.15);
     ovoid_parts_destroy(parts);
     ovoid_solid_destroy(s);
     mesh_clear(&m);
