@@ -240,7 +240,7 @@ static void test_ring(void) {
     mesh_add_ring(&m, 1, 0.25, 24, 12, 0, &s);
     ovoid_solid *ring = mesh_make_solid(&m);
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){0.05, 0.05, 0.05}, NULL, NULL);
-    ovoid_world *w = ovoid_world_create(NULL, NULL);
+    ovoid_world *w = ovoid_world_create(&(ovoid_world_options){.enlargement = 20}, NULL);
     const ovoid_pose turned = {{0, 0, 0}, {1, 0, 0, 0}};
     ovoid_pose at = {{0.5, 0, 0}, {1, 0, 0, 0}};
     ovoid_id id = ovoid_world_add(w, &(ovoid_world_body){.body = {.shape = box, .pose = at}}, NULL);
