@@ -258,7 +258,7 @@ export class View {
   /** Takes coarser levels of what is small, until the triangles are as many as can be drawn in time. */
   #refine() {
     const layers = this.shownLayers, { fewest, most: highest, rate } = this.renderer.limits;
-    const most = Math.min(highest, Math.max(fewest, (this.rate ?? rate) * (this.isMoving ? MOVING : RESTING)));
+    const most = Math.min(highest, Math.max(fewest, (this.rate ?? rate) * (this.isMoving || !this.rate ? MOVING : RESTING)));
     const sizes = this.#measureSizes(), measure = (factor) => layers.reduce((sum, layer) => sum + layer.measure(sizes, factor), 0);
     let factor = 0, cost = measure(0);
     while (cost > most && factor < 1e6) cost = measure((factor = factor ? factor * 1.6 : 0.1));
@@ -286,7 +286,9 @@ export class View {
       const time = Math.max(1, performance.now() - start), rate = Math.max(cost, 1000) / time;
       if (wasMoving && this.rate) this.isSlow = this.isSlow ? time > MOVING / 3 : time > 2 * MOVING;
       // The first picture has shaders compiled.
-      this.rate = this.rate === undefined ? Math.max(rate, 300) : 0.6 * this.rate + 0.4 * rate;
+      const isFirst = this.rate === undefined;
+      this.rate = isFirst ? Math.max(rate, 300) : 0.6 * this.rate + 0.4 * rate;
+      if (isFirst && !this.isMoving && this.isCoarse) this.#drawSoon();
       performance.mark('picture');
     });
   }
