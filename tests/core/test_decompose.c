@@ -278,14 +278,14 @@ static void check_made_angle(double scale) {
     ovoid_solid_destroy(s);
 }
 
-// A long box with a square hole through it, a little wider at one end: no single plane lets any of the hole go, and
+// A long box with a square hole through it: no single plane lets any of the hole go, and
 // four bars make it.
 static void check_made_frame(void) {
     mesh m = {NULL, NULL, 0, 0, 0, 0};
-    static const double at[4] = {2, 2, 1.03, 0.97}, height[4] = {-4, 4, 4, -4};
+    static const double at[4] = {2, 2, 1, 1}, height[4] = {-4, 4, 4, -4};
     for (int ring = 0; ring < 4; ring++)
         for (int i = 0; i < 4; i++)
-            mesh_add_point(&m, i == 1 || i == 2 ? at[ring] : -at[ring], i >= 2 ? at[ring] : -at[ring], height[ring]);
+            mesh_add_point(&m, height[ring], i == 1 || i == 2 ? at[ring] : -at[ring], i >= 2 ? at[ring] : -at[ring]);
     for (uint32_t ring = 0; ring < 4; ring++)
         for (uint32_t i = 0; i < 4; i++) {
             uint32_t a = 4 * ring + i, b = 4 * ring + (i + 1) % 4, c = (a + 4) % 16, d = (b + 4) % 16;
