@@ -77,7 +77,8 @@ class obstacles : public detail::owner<detail::pointer<ovoid_obstacles>, ovoid_o
     std::size_t size() const noexcept { return ovoid_obstacles_get_count(get()); }
     /** Obstacle i < size. */
     ovoid_obstacle operator[](std::size_t i) const noexcept { return ovoid_obstacles_get(get(), i); }
-    /** Adds all of them to a cell, which borrows their shapes and solids; their ids, in order. Throws as robot_cell::add does. */
+    /** Adds all of them to a cell, which borrows their shapes and solids; their ids, in order. Throws as
+     * robot_cell::add does. */
     std::vector<id> add_to(robot_cell &cell) const {
         std::vector<id> ids;
         for (std::size_t i = 0; i < size(); i++) {

@@ -1,4 +1,5 @@
-// What the fragments of C and C++ on the pages speak of without declaring it; test_blocks.sh compiles each below this. PAGE_name is defined.
+// What the fragments of C and C++ on the pages speak of without declaring it; test_blocks.sh compiles each below this.
+// PAGE_name is defined.
 #include <ovoid/io.h>
 #include <ovoid/ovoid.h>
 #include <ovoid/robot_io.h>
