@@ -30,8 +30,8 @@ static void fill_lattice(lattice *l, const ovoid_shape *s, const ovoid_polytope 
     vec3 low = s->measures.box.min, size = vec3_sub(s->measures.box.max, low);
     l->count = 0;
     for (uint32_t i = 0; i < CANDIDATES; i++) {
-        double x = (i % LATTICE + 0.5) / LATTICE, y = (i / LATTICE % LATTICE + 0.5) / LATTICE,
-               z = (i / (LATTICE * LATTICE) + 0.5) / LATTICE;
+        uint32_t layer = i / (LATTICE * LATTICE), row = i / LATTICE % LATTICE;
+        double x = (i % LATTICE + 0.5) / LATTICE, y = (row + 0.5) / LATTICE, z = (layer + 0.5) / LATTICE;
         vec3 point = vec3_add(low, (vec3){x * size.x, y * size.y, z * size.z});
         double radius = find_radius(p, point);
         if (!(radius > 0)) continue;
