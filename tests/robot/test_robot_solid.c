@@ -448,6 +448,11 @@ static void test_peg(void) {
     q0[0] = 1;
     CHECK_EQ(ovoid_robot_find_near(c.x, q0, NULL, &nears, &error), OVOID_OK);
     CHECK(nears.count == 1 && inside.status == OVOID_OVERLAPPING && inside.upper < 0 && inside.lower < -0.2);
+    // Deeper in the tube by less than it has to spare: the depth of solids may jump, so no state tells more than the
+    // first.
+    double within[2 * JOINTS] = {1, 0, 0, 0, 0, 1, 0, 0.02, 0, 0};
+    CHECK_EQ(ovoid_robot_compute_clearance(c.x, &(const ovoid_robot_path){within, 2}, &fine, &near, &error), OVOID_OK);
+    CHECK(near.upper < 0 && near.states < 40);
     // Along the axis they never touch, with its tip in the tube always; from there to the middle sometimes.
     CHECK_EQ(find_touch(&c, 0, 0.05), OVOID_ROBOT_TOUCH_NEVER);
     CHECK_EQ(find_touch(&c, 0.75, 0.01), OVOID_ROBOT_TOUCH_ALWAYS);
@@ -469,6 +474,40 @@ static void test_peg(void) {
     ovoid_robot_destroy(c.r);
     destroy_body(&c.base);
     destroy_body(&c.wrist);
+}
+
+// The peg in the middle of the ring, padded by more than it has to spare. Moved along the axis it is free when it is
+// 0.41 up: 0.8 to the side and z up of the circle in the tube's middle, 0.3 + 0.6 from that; to the side it has farther
+// to go.
+static void test_padded_peg(void) {
+    uint64_t s = 1;
+    scene c = {.padding = 0.6};
+    body *ring = &c.obstacles[0];
+    mesh_add_ring(&ring->m, 1, 0.3, 64, 16, 0, &s);
+    ring->solid = mesh_make_solid(&ring->m);
+    ring->pose = still;
+    c.base = make_body(0, 0.01, &s);
+    c.base.pose.position.x = 50;
+    c.wrist = make_body(0, 0.2, &s);
+    c.wrist.pose = still;
+    c.wrist.pose.position.x = -0.3;
+    c.r = make_robot(&c.base, &c.wrist);
+    c.cell = ovoid_robot_cell_create(c.r, NULL, &error);
+    ovoid_body b = get_body(ring);
+    CHECK(ovoid_robot_cell_add(c.cell, &b, &error) != 0);
+    CHECK_EQ(ovoid_robot_cell_set_padding(c.cell, LINKS - 1, c.padding, &error), OVOID_OK);
+    c.x = ovoid_robot_checker_create(c.cell, NULL, &error);
+    const double q[JOINTS] = {0};
+    ovoid_robot_near is;
+    ovoid_robot_nears nears = {.items = &is, .capacity = 1};
+    CHECK_EQ(ovoid_robot_find_near(c.x, q, NULL, &nears, &error), OVOID_OK);
+    CHECK(nears.count == 1 && is.upper < 0 && is.lower <= -0.4);
+    ovoid_robot_checker_destroy(c.x);
+    ovoid_robot_cell_destroy(c.cell);
+    ovoid_robot_destroy(c.r);
+    destroy_body(&c.base);
+    destroy_body(&c.wrist);
+    destroy_body(ring);
 }
 
 // ---- the cell
@@ -506,6 +545,7 @@ static void test_cell(void) {
 int main(void) {
     test_cell();
     test_peg();
+    test_padded_peg();
     test_states();
     test_paths();
     return check_end();
