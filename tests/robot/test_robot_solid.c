@@ -510,6 +510,39 @@ static void test_padded_peg(void) {
     destroy_body(ring);
 }
 
+// The ring in the hand, around a post: what lies inside the ring's hull hits nothing.
+static void test_post(void) {
+    uint64_t s = 1;
+    scene c = {.padding = 0};
+    mesh_add_ring(&c.wrist.m, 1, 0.3, 64, 16, 0, &s);
+    c.wrist.hull = ovoid_shape_create_from_points(c.wrist.m.xyz, c.wrist.m.points, NULL, &error);
+    c.wrist.solid = mesh_make_solid(&c.wrist.m);
+    c.wrist.pose = still;
+    c.wrist.pose.position.x = -0.3;
+    c.base = make_body(0, 0.01, &s);
+    c.base.pose.position.x = 50;
+    c.obstacles[0] = make_body(0, 0.6, &s);
+    c.obstacles[0].pose = still;
+    c.r = make_robot(&c.base, &c.wrist);
+    c.cell = ovoid_robot_cell_create(c.r, NULL, &error);
+    ovoid_body b = get_body(&c.obstacles[0]);
+    CHECK(ovoid_robot_cell_add(c.cell, &b, &error) != 0);
+    c.x = ovoid_robot_checker_create(c.cell, NULL, &error);
+    double q[JOINTS] = {0};
+    ovoid_robot_answer is;
+    CHECK_EQ(ovoid_robot_check(c.x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(is.status, OVOID_ROBOT_FREE);
+    q[0] = 0.7;
+    CHECK_EQ(ovoid_robot_check(c.x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(is.status, OVOID_ROBOT_HIT);
+    ovoid_robot_checker_destroy(c.x);
+    ovoid_robot_cell_destroy(c.cell);
+    ovoid_robot_destroy(c.r);
+    destroy_body(&c.base);
+    destroy_body(&c.wrist);
+    destroy_body(&c.obstacles[0]);
+}
+
 // ---- the cell
 
 // An obstacle that is taken out, moved and put in again, and bodies that are none.
@@ -546,6 +579,7 @@ int main(void) {
     test_cell();
     test_peg();
     test_padded_peg();
+    test_post();
     test_states();
     test_paths();
     return check_end();
