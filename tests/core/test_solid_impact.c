@@ -161,6 +161,11 @@ static void check_known(void) {
     CHECK_EQ(x.impact.status, OVOID_IMPACT_HIT);
     CHECK_EQ(x.impact.hit_at, 0);
     CHECK(x.impact.hit.upper < 0);
+    // No surface is met on the way, but it is not free: what is inside at the beginning is asked before any step.
+    x.impact.status = OVOID_IMPACT_FREE, x.impact.free_until = x.impact.end, x.impact.hit_at = INFINITY;
+    ovoid_error error = {.message = ""};
+    CHECK_EQ(ovoid_solid_impact_check(&a, &b, 0, &x, steps, groups, &error), OVOID_ERROR_PROOF);
+    CHECK(strstr(error.message, "not apart at the beginning") != NULL);
     // The ring, from z = 5 down to -1, around the peg whose top is at 2.
     const ovoid_pose above = {{0, 0, 5}, {1, 0, 0, 0}}, below = {{0, 0, -1}, {1, 0, 0, 0}};
     ovoid_moving_body r = {.solid = ring, .motion = ovoid_motion_make_poses(above, below, 1)};
