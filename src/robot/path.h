@@ -112,6 +112,9 @@ vec3 path_turn_back(const path_pair *p, const link_frame *frames, vec3 world);
 /// the normal in its frame; padding and errors counted.
 double path_measure(const path_work *w, const path_pair *p, const link_frame *frames, vec3 normal);
 
+/// The bodies' distance or depth at their poses, of solids theirs, not their hulls'. outward: the pair's error and
+/// padding.
+ovoid_answer path_ask_exactly(const path_pair *p, const checker_pair *outward);
 /// 1 where SOLID holds: the bodies at the frames are proven farther apart than the margin and their motion.
 int path_is_solid_far(const path_pair *p, double margin);
 

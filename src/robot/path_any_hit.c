@@ -35,9 +35,11 @@ static int is_hit_on_path(const path_any_hit *x, double t, uint32_t number, ovoi
     path_pair p = path_make_pair(w, number, x->state.frames);
     const checker_pair known = {.error = p.error + p.motion.rounded, .padding = p.padding};
     double margin = x->options->margin;
-    ovoid_answer is = ovoid_within(&p.pair, add_up(margin, known.padding, known.error), NULL, NULL);
+    ovoid_answer is = {.upper = INFINITY};
+    if (!sides_have_solid(&p.solids))
+        is = ovoid_within(&p.pair, add_up(margin, known.padding, known.error), NULL, NULL);
     // Touching by less than the errors: the depth may be more than them.
-    if (!(upper_outward(&known, is.upper) <= margin)) is = ovoid_depth(&p.pair, NULL, NULL, NULL);
+    if (!(upper_outward(&known, is.upper) <= margin)) is = path_ask_exactly(&p, &known);
     double upper = upper_outward(&known, is.upper);
     *hit = (ovoid_robot_answer){
         .status = OVOID_ROBOT_HIT, .a = *p.a, .b = *p.b, .lower = lower_outward(&known, is.lower), .upper = upper};

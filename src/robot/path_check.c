@@ -183,9 +183,7 @@ static ovoid_code check_hit(path_checker *x, const ovoid_robot_path_answer *answ
         path_pair p = path_make_pair(&x->w, (uint32_t)i, x->states[1].frames);
         if (!is_side(p.a, &answer->hit.a) || !is_side(p.b, &answer->hit.b) || !is_queried(x, (uint32_t)i)) continue;
         checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
-        ovoid_answer is = ovoid_depth(&p.pair, NULL, NULL, NULL);
-        if (sides_have_solid(&p.solids))
-            is = solid_pair_distance(&p.pair, &p.solids, NULL, &is, pair_get_clear(&outward));
+        ovoid_answer is = path_ask_exactly(&p, &outward);
         if (!(upper_outward(&outward, is.upper) <= x->options->check.margin)) break;
         // The bracket that is claimed has something in common with the one found here.
         if (answer->hit.lower <= upper_outward(&outward, is.upper) &&

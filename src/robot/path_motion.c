@@ -354,6 +354,12 @@ double path_measure(const path_work *w, const path_pair *p, const link_frame *fr
     return gap - error - 0x1p-50 * (fabs(gap) + error);
 }
 
+ovoid_answer path_ask_exactly(const path_pair *p, const checker_pair *outward) {
+    ovoid_answer is = ovoid_depth(&p->pair, NULL, NULL, NULL);
+    if (!sides_have_solid(&p->solids)) return is;
+    return solid_pair_distance(&p->pair, &p->solids, NULL, &is, pair_get_clear(outward));
+}
+
 int path_is_solid_far(const path_pair *p, double margin) {
     static const ovoid_answer none = {.lower = -INFINITY};
     double far = add_up(add_up(margin, p->padding, p->error), p->motion.moved, 0);

@@ -467,6 +467,11 @@ static void test_peg(void) {
     CHECK_EQ(ovoid_robot_check_path(c.x, &path, &o, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
     CHECK_EQ(ovoid_robot_path_check(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
+    // Any hit is one of the solids, too: a tenth towards the axis parts them, where their hulls are half a length deep.
+    const ovoid_robot_path_options any = {.any_hit = 1};
+    ovoid_robot_path_answer some;
+    CHECK_EQ(ovoid_robot_check_path(c.x, &path, &any, &some, &error), OVOID_OK);
+    CHECK(some.status == OVOID_ROBOT_HIT && some.hit.upper >= -0.15);
     is.hit.upper = -5, is.hit.lower = -6; // deeper than it is
     CHECK_EQ(ovoid_robot_path_check(c.cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
     ovoid_robot_checker_destroy(c.x);
