@@ -74,8 +74,10 @@ typedef struct path_arguments {
     uint32_t most_states;
     int any_hit; ///< of check_path
 } path_arguments;
-/// Reads them; format: as PyArg_ParseTupleAndKeywords has it, with the question's name. -1: raised, nothing to free.
-int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format,
+#define PATH_NAMES "states", CHECK_NAMES, "tolerance", "most_states"
+/// Reads them; format, names: as PyArg_ParseTupleAndKeywords has them, with the question's name and PATH_NAMES. -1:
+/// raised, nothing to free.
+int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format, char **names,
                         path_arguments *in);
 /// The StateAnswer and the Side of Python.
 PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answer);

@@ -18,11 +18,12 @@ static PyObject *make_clearance(module_state *state, const ovoid_robot_clearance
 }
 
 static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {PATH_NAMES, NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
     path_arguments in;
     ovoid_robot_checker *checker;
-    if (path_arguments_read(self, arguments, keywords, "O|$" CHECK_FORMAT "dK:clearance", &in)) return NULL;
+    if (path_arguments_read(self, arguments, keywords, "O|$" CHECK_FORMAT "dK:clearance", names, &in)) return NULL;
     ovoid_robot_clearance_options o = {.check = in.check, .tolerance = in.tolerance, .states = in.most_states};
     if (checkers_borrow(self, &checker, 1)) {
         free(in.states.data);

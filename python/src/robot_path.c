@@ -62,17 +62,15 @@ static ovoid_code find_steps(path_object *self, ovoid_robot_checker *checker, ov
     }
 }
 
-int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format,
+int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format, char **names,
                         path_arguments *in) {
-    static char *names[] = {"states", CHECK_NAMES, "tolerance", "most_states", NULL};
-    static char *path_names[] = {"states", CHECK_NAMES, "tolerance", "most_states", "any_hit", NULL};
     module_state *state = state_of((PyObject *)cell);
     PyObject *given;
     unsigned long long most = 0;
     *in = (path_arguments){.tolerance = 0};
     // The last one is read where the format has it.
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, strstr(format, "dKp") ? path_names : names, &given,
-                                     CHECK_TARGETS(in->check), &in->tolerance, &most, &in->any_hit) ||
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, names, &given, CHECK_TARGETS(in->check),
+                                     &in->tolerance, &most, &in->any_hit) ||
         check_options_check(state, &in->check))
         return -1;
     if (most > UINT32_MAX) {
@@ -86,11 +84,12 @@ int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywor
 
 PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords);
 PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {PATH_NAMES, "any_hit", NULL};
     cell_object *cell = (cell_object *)object;
     module_state *state = state_of(object);
     path_arguments in;
     ovoid_robot_checker *checker;
-    if (path_arguments_read(cell, arguments, keywords, "O|$" CHECK_FORMAT "dKp:check_path", &in)) return NULL;
+    if (path_arguments_read(cell, arguments, keywords, "O|$" CHECK_FORMAT "dKp:check_path", names, &in)) return NULL;
     ovoid_robot_path_options o = {
         .check = in.check, .tolerance = in.tolerance, .states = in.most_states, .any_hit = in.any_hit};
     path_object *self = make_object(cell, &o, &in.states);
