@@ -5,24 +5,13 @@
 set -u
 # shellcheck source=tests/cli/need_tool.sh
 . "$(dirname "$0")/../cli/need_tool.sh"
+# shellcheck source=tests/house/steps.sh
+. "$(dirname "$0")/steps.sh"
 cd "$OVOID_SOURCE_DIR" || exit 1
 folder=$OVOID_BUILD_DIR/test_blocks
-passed=0 failed=0 skipped=0
+skipped=0
 rm -rf "$folder"
 mkdir -p "$folder"
-
-# check NAME COMMAND...: one check; what the command said is shown where it fails.
-check() {
-    name=$1
-    shift
-    if output=$("$@" 2>&1); then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s\n%s\n' "$name" "$output"
-    fi
-}
-fails() { ! "$@" >/dev/null 2>&1; }
 
 # split PAGE LANGUAGE: the blocks of that language, but for those with a main, each into a file; the names of the files.
 split() {

@@ -4,7 +4,8 @@
 # libraries there by pkg-config and CMake, link and run, and all is removed without a trace. Truth: lintian's and dpkg's
 # exit codes; programs that run. scripts/deb-root.sh does so in a fresh Debian.
 set -u
-passed=0 failed=0
+# shellcheck source=tests/house/steps.sh
+. "$(dirname "$0")/steps.sh"
 folder=$OVOID_BUILD_DIR/test_deb
 root=$folder/root
 outside=$OVOID_SOURCE_DIR/tests/house/outside
@@ -16,18 +17,6 @@ for tool in dpkg dpkg-shlibdeps lintian cpack; do
         exit 0
     fi
 done
-
-check() {
-    name=$1
-    shift
-    if output=$("$@" 2>&1); then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s\n%s\n' "$name" "$output" | tail -n 60
-    fi
-}
-fails() { ! "$@" >/dev/null 2>&1; }
 
 # The version of header and packages is one.
 define() { sed -n "s/^#define OVOID_VERSION_$1 //p" "$OVOID_SOURCE_DIR/include/ovoid/base.h"; }

@@ -3,21 +3,12 @@
 # nothing of its settings reaches the project, the project's own flags (fast mathematics) change no answer, nothing is
 # installed or tested. Truth: what CMake says of its variables and targets; programs that run; answers of one build.
 set -u
-passed=0 failed=0
+# shellcheck source=tests/house/steps.sh
+. "$(dirname "$0")/steps.sh"
 folder=$OVOID_BUILD_DIR/test_embed
 cc=${OVOID_CC:-cc}
 echo "with $(cmake --version | head -n 1), of which 3.22 is the oldest that will do"
 
-check() {
-    name=$1
-    shift
-    if output=$("$@" 2>&1); then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s\n%s\n' "$name" "$output"
-    fi
-}
 # logged LOG COMMAND...: the end of the log is shown where the command fails.
 logged() {
     log=$folder/$1

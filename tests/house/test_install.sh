@@ -2,22 +2,11 @@
 # The installed copy as its users meet it: an outside CMake project, pkg-config (shared and static), the names that the
 # libraries export and the soname. Truth: each either builds, runs and exits 0 or does not.
 set -u
-passed=0 failed=0
+# shellcheck source=tests/house/steps.sh
+. "$(dirname "$0")/steps.sh"
 folder=$OVOID_BUILD_DIR/test_install
 prefix=$folder/prefix
 cc=${OVOID_CC:-cc}
-
-# check NAME COMMAND...: one check; what the command said is shown where it fails.
-check() {
-    name=$1
-    shift
-    if output=$("$@" 2>&1); then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s\n%s\n' "$name" "$output"
-    fi
-}
 
 rm -rf "$folder"
 mkdir -p "$folder"

@@ -4,24 +4,15 @@
 # are the project's, the test program links and runs. Truth: the version in the header; CMake, which names options that
 # it does not know.
 set -u
-passed=0 failed=0 skipped=0
+# shellcheck source=tests/house/steps.sh
+. "$(dirname "$0")/steps.sh"
+skipped=0
 folder=$OVOID_BUILD_DIR/test_recipes
 here=$OVOID_SOURCE_DIR/tests/house/recipes
 port=$OVOID_SOURCE_DIR/packaging/vcpkg/ovoid
 conan=$OVOID_SOURCE_DIR/packaging/conan
 export OVOID_CC="${OVOID_CC:-cc}"
 
-check() {
-    name=$1
-    shift
-    if output=$("$@" 2>&1); then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s\n%s\n' "$name" "$output"
-    fi
-}
-fails() { ! "$@" >/dev/null 2>&1; }
 define() { sed -n "s/^#define OVOID_VERSION_$1 //p" "$OVOID_SOURCE_DIR/include/ovoid/base.h"; }
 version=$(define MAJOR).$(define MINOR).$(define PATCH)
 rm -rf "$folder"

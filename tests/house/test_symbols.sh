@@ -7,7 +7,9 @@ set -u
 archives=$OVOID_BUILD_DIR/src
 folder=$OVOID_BUILD_DIR/test_symbols
 cc=${OVOID_CC:-cc}
-passed=0 failed=0 skipped=0
+# shellcheck source=tests/house/steps.sh
+. "$(dirname "$0")/steps.sh"
+skipped=0
 
 if [ "${OVOID_ARCHIVES:-one}" != one ] || ! command -v nm >/dev/null || ! [ -f "$archives/libovoid.a" ]; then
     echo "skipped: no nm, no static library, or one of plain objects (OVOID_ONE_OBJECT)"
@@ -17,34 +19,22 @@ fi
 rm -rf "$folder"
 mkdir -p "$folder"
 
-# expect NAME COMMAND...: one check; what the command said is shown where it fails.
-expect() {
-    name=$1
-    shift
-    if output=$("$@" 2>&1); then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s: %s\n' "$name" "$output"
-    fi
-}
 # Global names of an archive that are not ours; common and weak ones count.
 list_foreign() { nm -g --defined-only "$1" | awk 'NF >= 3 && $NF !~ /^ovoid_/ { print $NF }' | sort -u; }
 has_no_foreign() { ! list_foreign "$1" | grep .; }
-fails() { ! "$@" >/dev/null 2>&1; }
 
 for archive in "$archives/libovoid.a" "$archives/libovoid_io.a" "$archives/libovoid_robot.a"; do
     [ -f "$archive" ] || continue
-    expect "names of $archive" has_no_foreign "$archive"
-    expect "public names of $archive" sh -c "nm -g --defined-only '$archive' | grep -q ' T ovoid_'"
+    check "names of $archive" has_no_foreign "$archive"
+    check "public names of $archive" sh -c "nm -g --defined-only '$archive' | grep -q ' T ovoid_'"
 done
 # It can fail: a hidden name, a common one and a weak one are found in a copy.
 cp "$archives/libovoid.a" "$folder/planted.a"
 printf '__attribute__((visibility("hidden"))) int sort_indices;\n__attribute__((common)) int shared;\n
     __attribute__((weak)) int keys = 1;\n' >"$folder/planted.c"
-expect "compile what is planted" "$cc" -c "$folder/planted.c" -o "$folder/planted.o"
-expect "plant" ar q "$folder/planted.a" "$folder/planted.o"
-expect "planted names are found" [ "$(list_foreign "$folder/planted.a" | tr '\n' ' ')" = "keys shared sort_indices " ]
+check "compile what is planted" "$cc" -c "$folder/planted.c" -o "$folder/planted.o"
+check "plant" ar q "$folder/planted.a" "$folder/planted.o"
+check "planted names are found" [ "$(list_foreign "$folder/planted.a" | tr '\n' ' ')" = "keys shared sort_indices " ]
 
 # A name that two libraries have is that of one source, which both were made of: in a test, which links their internal
 # archives, one would else be called for the other. Truth: the objects' names.
@@ -54,17 +44,17 @@ list_shared() {
         if ($NF in first && first[$NF] != object) print $NF
         first[$NF] = object }' | sort -u
 }
-# shellcheck disable=SC2317 # called through expect
+# shellcheck disable=SC2317 # called through check
 has_no_shared() { ! list_shared "$@" | grep .; }
-expect "names of several libraries" has_no_shared "$archives"/libovoid*_internal.a
+check "names of several libraries" has_no_shared "$archives"/libovoid*_internal.a
 printf 'int sort_indices(void);\nint sort_indices(void) { return 0; }\n' >"$folder/shared.c"
-expect "compile a shared name" "$cc" -c "$folder/shared.c" -o "$folder/shared.o"
-expect "a shared name is found" [ "$(list_shared "$archives/libovoid_internal.a" "$folder/shared.o")" = sort_indices ]
+check "compile a shared name" "$cc" -c "$folder/shared.c" -o "$folder/shared.o"
+check "a shared name is found" [ "$(list_shared "$archives/libovoid_internal.a" "$folder/shared.o")" = sort_indices ]
 
 # The program, alone and with a function of its own for each internal name.
 source=$OVOID_SOURCE_DIR/tests/house/outside/namesake.c
 list_foreign "$archives/libovoid_internal.a" >"$folder/names"
-expect "internal names are known" [ "$(wc -l <"$folder/names")" -gt 100 ]
+check "internal names are known" [ "$(wc -l <"$folder/names")" -gt 100 ]
 {
     echo '_Noreturn void abort(void);'
     sed 's/.*/void &(void); void &(void) { abort(); }/' "$folder/names"
@@ -80,14 +70,14 @@ if [ "${OVOID_SANITIZE:-}" ]; then
     echo "skipped: the program would have to know the sanitizers' flags"
     skipped=1
 else
-    expect "link plain" link plain "$archives/libovoid.a" "$source"
-    expect "link namesakes" link namesakes "$archives/libovoid.a" "$source" "$folder/names.c"
-    expect "run plain" sh -c "'$folder/plain' >'$folder/plain.txt'"
-    expect "run namesakes" sh -c "'$folder/namesakes' >'$folder/namesakes.txt'"
-    expect "the same answers" cmp "$folder/plain.txt" "$folder/namesakes.txt"
-    # shellcheck disable=SC2317 # called through expect
+    check "link plain" link plain "$archives/libovoid.a" "$source"
+    check "link namesakes" link namesakes "$archives/libovoid.a" "$source" "$folder/names.c"
+    check "run plain" sh -c "'$folder/plain' >'$folder/plain.txt'"
+    check "run namesakes" sh -c "'$folder/namesakes' >'$folder/namesakes.txt'"
+    check "the same answers" cmp "$folder/plain.txt" "$folder/namesakes.txt"
+    # shellcheck disable=SC2317 # called through check
     hijacked() { link hijacked "$archives/libovoid_internal.a" "$source" "$folder/names.c" && "$folder/hijacked"; }
-    expect "with global names it fails" fails hijacked
+    check "with global names it fails" fails hijacked
 fi
 echo "$passed passed, $failed failed, $skipped skipped"
 [ "$failed" -eq 0 ]
