@@ -1,12 +1,11 @@
-// The line of a JSON value, found by scanning the text once more, since jansson keeps no positions; long lists read
-// element by element; and texts and numbers written as JSON.
+// JSON of bounded depth, since jansson calls itself for each level and the stack may be small; the line of a value,
+// found by scanning the text once more, since jansson keeps no positions; long lists read element by element; and texts
+// and numbers written as JSON.
 #include "io/json.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-// ---- the line of a value
 
 /// A position in a text that is known to be JSON.
 typedef struct scanner {
@@ -40,6 +39,45 @@ static void skip_value(scanner *s) {
         }
     }
 }
+
+// ---- loading
+
+// Says that the value at the scanner is nested too deep.
+static void fail_depth(bytes text, const char *at, json_error_t *why) {
+    *why = (json_error_t){.line = 1, .position = (int)(at - text.data)};
+    for (const char *c = text.data; c < at; c++) why->column = *c == '\n' ? why->line++, 0 : why->column + 1;
+    snprintf(why->text, sizeof why->text, "values are nested more than %d deep", JSON_DEPTH_MAX);
+    why->text[sizeof why->text - 1] = json_error_stack_overflow; // where jansson has its codes
+}
+
+// 0, and *why, where values are nested too deep. As far as a text is JSON its texts and brackets are seen as jansson
+// sees them; behind that jansson goes no deeper.
+static int check_depth(bytes text, json_error_t *why) {
+    scanner s = {text.data, text.data + text.size};
+    size_t depth = 0;
+    while (s.at < s.end) {
+        char c = *s.at;
+        if (c == '"') {
+            skip_text(&s);
+            continue;
+        }
+        if ((c == '{' || c == '[') && ++depth > JSON_DEPTH_MAX) return fail_depth(text, s.at, why), 0;
+        if ((c == '}' || c == ']') && depth) depth--;
+        s.at++;
+    }
+    return 1;
+}
+
+json_t *json_load(bytes text, int flags, json_error_t *why) {
+    return check_depth(text, why) ? json_loadb(text.data, text.size, flags, why) : NULL;
+}
+
+ovoid_code json_get_failure(const json_error_t *why) {
+    if (!why->text[0] || json_error_code(why) == json_error_out_of_memory) return OVOID_ERROR_MEMORY;
+    return json_error_code(why) == json_error_stack_overflow ? OVOID_ERROR_LIMIT : OVOID_ERROR_FORMAT;
+}
+
+// ---- the line of a value
 
 // 1 if the text in quotes at the scanner is the key, written without escapes.
 static int is_key(const scanner *s, const char *key) {
@@ -98,6 +136,7 @@ static int find_list(bytes text, const char *key, scanner *inside) {
 json_t *json_load_around(bytes text, const char *key, int flags, json_list *list, json_error_t *why) {
     scanner s;
     *list = (json_list){.flags = flags};
+    if (!check_depth(text, why)) return NULL;
     if (!find_list(text, key, &s)) {
         json_t *root = json_loadb(text.data, text.size, flags, why);
         list->loaded = json_object_get(root, key);
@@ -142,10 +181,6 @@ int json_next(json_list *list, json_t **element, json_error_t *why) {
     json_decref(*element);
     snprintf(why->text, sizeof why->text, "no comma between elements");
     return -1;
-}
-
-int json_is_memory_error(const json_error_t *why) {
-    return !why->text[0] || json_error_code(why) == json_error_out_of_memory;
 }
 
 // ---- writing

@@ -6,6 +6,16 @@
 
 #include <jansson.h>
 
+/// Most values within each other. jansson's own limit, 2048, needs more stack than every thread has.
+enum { JSON_DEPTH_MAX = 64 };
+
+/// Loads a text, as json_loadb does. NULL and *why where it is no JSON, or nested too deep. The caller frees the value.
+json_t *json_load(bytes text, int flags, json_error_t *why);
+
+/// What kind of failure *why tells of: MEMORY (jansson does not always set that code, but then its message is empty),
+/// LIMIT (nested too deep) or FORMAT.
+ovoid_code json_get_failure(const json_error_t *why);
+
 /// A step into a value: the member of an object by its key, or the element of an array by its index (key NULL).
 typedef struct json_step {
     const char *key;
@@ -33,9 +43,6 @@ json_t *json_load_around(bytes text, const char *key, int flags, json_list *list
 /// The next element in *element, which the caller frees: 1; 0 at the end; -1 where it is no JSON (or there is no
 /// memory) and *why: its line is of no use.
 int json_next(json_list *list, json_t **element, json_error_t *why);
-
-/// 1 if jansson failed for lack of memory. It does not always set that code, but then its message is empty.
-int json_is_memory_error(const json_error_t *why);
 
 /// The length of the UTF-8 sequence at c, of a text that ends with a zero byte; 0 if there is none.
 int utf8_get_length(const unsigned char *c);

@@ -84,25 +84,31 @@ static ovoid_code check_content(const char *path, bytes *out, ovoid_error *error
     return code;
 }
 
-static ovoid_code read_file(const char *path, size_t most, bytes *out, ovoid_error *error) {
-    *out = (bytes){NULL, 0};
+// Reads what is open, which must be a regular file of at most `most` bytes.
+static ovoid_code read_open(int file, const char *path, size_t most, bytes *out, ovoid_error *error) {
     where at = {path, 0, -1};
-    // O_NONBLOCK: a pipe of that name must be refused, not waited for.
-    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) return io_fail(error, OVOID_ERROR_FILE, at, "cannot be opened: %s", strerror(errno));
     struct stat status;
-    ovoid_code code;
-    if (fstat(file, &status) != 0)
-        code = io_fail(error, OVOID_ERROR_FILE, at, "cannot be read: %s", strerror(errno));
-    else if (!S_ISREG(status.st_mode))
-        code = io_fail(error, OVOID_ERROR_FILE, at, "is not a regular file");
-    else if ((uint64_t)status.st_size > most)
-        code = io_fail(error, OVOID_ERROR_LIMIT, at, "has %lld bytes; at most %zu are read", (long long)status.st_size,
+    if (fstat(file, &status) != 0) return io_fail(error, OVOID_ERROR_FILE, at, "cannot be read: %s", strerror(errno));
+    if (!S_ISREG(status.st_mode)) return io_fail(error, OVOID_ERROR_FILE, at, "is not a regular file");
+    if ((uint64_t)status.st_size > most)
+        return io_fail(error, OVOID_ERROR_LIMIT, at, "has %lld bytes; at most %zu are read", (long long)status.st_size,
                        most);
-    else
-        code = read_all(file, (size_t)status.st_size, path, out, error);
+    return read_all(file, (size_t)status.st_size, path, out, error);
+}
+
+ovoid_code bytes_read_open(int file, const char *path, size_t most, bytes *out, ovoid_error *error) {
+    *out = (bytes){NULL, 0};
+    ovoid_code code = read_open(file, path, most, out, error);
     close(file);
     return code ? code : check_content(path, out, error);
+}
+
+static ovoid_code read_file(const char *path, size_t most, bytes *out, ovoid_error *error) {
+    *out = (bytes){NULL, 0};
+    int file = open(path, FILE_OPEN_FLAGS);
+    if (file < 0)
+        return io_fail(error, OVOID_ERROR_FILE, (where){path, 0, -1}, "cannot be opened: %s", strerror(errno));
+    return bytes_read_open(file, path, most, out, error);
 }
 
 // Standard input, of a length that is not known before.

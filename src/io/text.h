@@ -40,6 +40,11 @@ ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error);
 /// Reads a regular file, or standard input where the path is "-", of at most `most` bytes. The caller frees out->data.
 ovoid_code bytes_read_input(const char *path, size_t most, bytes *out, ovoid_error *error);
 
+/// How files are opened to be read. O_NONBLOCK: a pipe of that name must be refused, not waited for.
+#define FILE_OPEN_FLAGS (O_RDONLY | O_NONBLOCK | O_CLOEXEC)
+/// Reads an open regular file of at most `most` bytes, closes it; the path is for messages. The caller frees out->data.
+ovoid_code bytes_read_open(int file, const char *path, size_t most, bytes *out, ovoid_error *error);
+
 /// The text without a byte order mark (UTF-8) at its beginning: a view.
 bytes bytes_skip_mark(bytes text);
 /// 1 if the text is that of a Git LFS pointer, which stands in the place of a file that was not fetched.

@@ -273,7 +273,30 @@ code=$?
 if [ $code -eq 1 ] && [ "$(grep -c overlapping new.out)" -ge 1 ]; then pass; else fail "all streams closed: exit $code"; fi
 rm -f new.out
 
-# ---- little memory (sanitizers need terabytes of addresses)
+# ---- little memory, little stack (sanitizers need terabytes of addresses, and much stack)
+
+# nest N OPEN CLOSE: OPEN N times, then CLOSE N times.
+nest() { awk -v n="$1" -v open="$2" -v close_="$3" 'BEGIN { for (i = 0; i < n; i++) printf "%s", open; for (i = 0; i < n; i++) printf "%s", close_ }'; }
+
+for n in 65 2000 100000; do
+    (printf '{\n"objects": ' && nest $n '[' ']' && printf '}') >deep.json
+    (printf '{"objects":\n[{"name": "a", "box": [1, 1, 1], "pose": ' && nest $n '{"xyz":' '}' && printf '}]}') >deeper.json
+    (printf '{"a": ' && nest $n '[' ']' && echo '}') >deep.jsonl
+    (printf '<robot name="r">\n' && nest $n '<a>' '</a>' && printf '</robot>') >deep.urdf
+    (printf '<robot name="r">\n' && nest $n '<group name="g">' '</group>' && printf '</robot>') >deep.srdf
+    (printf 'world:\n  ' && nest $n '[' ']' && echo) >deep.yaml
+    (printf 'world:\n  ' && nest $n '{a: ' '}' && echo) >deeper.yaml
+    nest $n '- ' '' >deepest.yaml
+    for run in "check deep.json" "check deeper.json" "verify deep.jsonl scene.json" "robot info deep.urdf" \
+        "robot info arm/arm.urdf --srdf deep.srdf" "robot check arm/arm.urdf --scene deep.json --state shoulder=0" \
+        "robot check arm/arm.urdf --scene deep.yaml --state shoulder=0" "robot check arm/arm.urdf --scene deeper.yaml --state shoulder=0" \
+        "robot check arm/arm.urdf --scene deepest.yaml --state shoulder=0"; do
+        # shellcheck disable=SC2086 # a command line
+        (ulimit -s 128 && exec timeout 20 "$OVOID_TOOL" $run) >/dev/null 2>err
+        code=$?
+        expect "nested $n deep, $run" 3 'deep[a-z]*\.[a-z]*:[12]: .*nested more than 64 deep'
+    done
+done
 
 # shellcheck disable=SC3045 # where ulimit has no -v, it is skipped
 if (ulimit -v 400000 && "$OVOID_TOOL" --version) >/dev/null 2>&1; then
@@ -292,6 +315,16 @@ if (ulimit -v 400000 && "$OVOID_TOOL" --version) >/dev/null 2>&1; then
         esac
         rm -f new.out
         clean "little memory, $run"
+    done
+    # The least stack of a thread with the C library of musl: 128 KB.
+    printf 'v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\nf 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n' >l.obj
+    for run in "distance cube.off tetra.obj" "distance many.obj cube.off" "distance l.obj cube.off --hull" "check scene.json" \
+        "run moving.json --motion fall.csv --continuous" "fit many.obj" "decompose l.obj" "view scene.json -o l.svg" \
+        "robot check arm/arm.urdf --scene arm/cell.yaml --states arm/states.csv" "robot info arm/arm.urdf --srdf arm/arm.srdf"; do
+        # shellcheck disable=SC2086 # a command line
+        (ulimit -s 128 && exec "$OVOID_TOOL" $run) >/dev/null 2>err
+        code=$?
+        if [ $code -le 1 ] || [ $code -eq 4 ]; then pass; else fail "little stack, $run: exit $code: $(head -c 200 err)"; fi
     done
 else
     skipped=$((skipped + 1))

@@ -342,15 +342,76 @@ static const char gltf[] = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scene
                            "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
                            "\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}]}";
 
-// 1 if a glTF file whose points are at that place is read, in a child or here.
-static int can_read_buffer(const char *place, int trusted) {
+static void write_gltf(const char *name, const char *place) {
     char text[1000];
-    ovoid_read_options options = {.trusted = trusted};
     snprintf(text, sizeof text, gltf, place);
-    ovoid_mesh *mesh = ovoid_mesh_read(file_write_text("side.gltf", text), &options, NULL);
+    file_write_text(name, text);
+}
+
+// 1 if the glTF file of that name is read, in a child or here; else the error has a phrase.
+static int can_read(const char *name, int trusted, const char *phrase) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_read_options options = {.trusted = trusted};
+    ovoid_mesh *mesh = ovoid_mesh_read(file_path(name), &options, &error);
     if (mesh) CHECK_EQ(ovoid_mesh_get_part(mesh, 0).faces.vertex_count, 3);
+    if (!mesh && !CHECK(strstr(error.message, phrase))) printf("  %s: %s\n", name, error.message);
     ovoid_mesh_destroy(mesh);
     return mesh != NULL;
+}
+
+// 1 if a glTF file whose points are at that place is read.
+static int can_read_buffer(const char *place, int trusted, const char *phrase) {
+    write_gltf("side.gltf", place);
+    return can_read("side.gltf", trusted, phrase);
+}
+
+static void make_link(const char *to, const char *name) {
+    const char *path = file_path(name);
+    (void)unlink(path);
+    CHECK(symlink(to, path) == 0);
+}
+
+// Links within the folder are followed, to files, folders and other links; one that leads out of it is refused by name.
+// A folder of links to files that lie together (as build systems install them) is read.
+static void check_links(void) {
+    mkdir(file_path("below/deep"), 0777);
+    make_link("../side.bin", "below/out.bin");
+    make_link("deep/in.bin", "below/in.bin");
+    make_link("../../side.bin", "below/deep/in.bin");
+    make_link("..", "below/up");
+    make_link("deep", "below/down");
+    make_link("nowhere.bin", "below/none.bin");
+    make_link("circle.bin", "below/circle.bin");
+    mkdir(file_path("below2"), 0777);
+    file_write("below2/side.bin", (const float[9]){0, 0, 0, 1, 0, 0, 0, 1, 0}, 36);
+    make_link("../below2/side.bin", "below/alike.bin");
+    file_write("below/deep/side.bin", (const float[9]){0, 0, 0, 1, 0, 0, 0, 1, 0}, 36);
+    mkdir(file_path("beside"), 0777);
+    write_gltf("below/side.gltf", "side.bin");
+    make_link("../below/side.gltf", "beside/side.gltf");
+    make_link("../below/side.bin", "beside/side.bin");
+    write_gltf("beside/other.gltf", "side.bin");
+    static const struct {
+        const char *place, *phrase; // no phrase: it is read
+    } cases[] = {{"side.bin", NULL},
+                 {"deep/side.bin", NULL},
+                 {"down/side.bin", NULL},
+                 {"out.bin", "out.bin: a link leads out of the folder of the file that names it, to /"},
+                 {"in.bin", "in.bin: a link leads out"},
+                 {"down/in.bin", "in.bin: a link leads out"},
+                 {"up/side.bin", "up/side.bin: a link leads out"},
+                 {"alike.bin", "alike.bin: a link leads out"},
+                 {"none.bin", "none.bin: cannot be opened: No such file"},
+                 {"circle.bin", "circle.bin: cannot be opened"},
+                 {"down", "down: is not a regular file"}};
+    for (int trusted = 0; trusted < 2; trusted++) {
+        for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+            write_gltf("below/links.gltf", cases[i].place);
+            CHECK_EQ(can_read("below/links.gltf", trusted, cases[i].phrase), !cases[i].phrase);
+        }
+        CHECK(can_read("beside/side.gltf", trusted, ""));
+        CHECK(!can_read("beside/other.gltf", trusted, "a link leads out"));
+    }
 }
 
 // What a file names is read from below its folder only, and only if it is a regular file.
@@ -363,24 +424,23 @@ static void check_other_files(void) {
     mkfifo(file_path("side.pipe"), 0600);
     snprintf(above, sizeof above, "../test_files/side.bin");
     for (int trusted = 0; trusted < 2; trusted++) {
-        CHECK(can_read_buffer("side.bin", trusted));
-        CHECK(can_read_buffer("below/side.bin", trusted));
-        CHECK(!can_read_buffer("missing.bin", trusted));
-        CHECK(!can_read_buffer(above, trusted));
-        CHECK(!can_read_buffer("below/../side.bin", trusted));
-        CHECK(!can_read_buffer("/dev/zero", trusted));
-        CHECK(!can_read_buffer(file_path("side.bin") + strlen(OVOID_BUILD_DIR), trusted));
-        CHECK(!can_read_buffer("side.pipe", trusted)); // it would be waited for
-        CHECK(!can_read_buffer("below", trusted));
+        static const char out[] = "is not below the folder of the file that names it";
+        CHECK(can_read_buffer("side.bin", trusted, ""));
+        CHECK(can_read_buffer("below/side.bin", trusted, ""));
+        CHECK(!can_read_buffer("missing.bin", trusted, "missing.bin: cannot be opened: No such file"));
+        CHECK(!can_read_buffer(above, trusted, out));
+        CHECK(!can_read_buffer("below/../side.bin", trusted, out));
+        CHECK(!can_read_buffer("/dev/zero", trusted, ""));
+        CHECK(!can_read_buffer(file_path("side.bin") + strlen(OVOID_BUILD_DIR), trusted, ""));
+        CHECK(!can_read_buffer("side.pipe", trusted, "is not a regular file")); // it would be waited for
+        CHECK(!can_read_buffer("below", trusted, "is not a regular file"));
     }
     // A path without a folder.
     char before[1024];
     if (CHECK(getcwd(before, sizeof before) && chdir(OVOID_BUILD_DIR "/test_files") == 0)) {
         ovoid_mesh *mesh = ovoid_mesh_read("side.gltf", NULL, NULL);
         CHECK(!mesh); // the last place was a folder
-        char text[1000];
-        snprintf(text, sizeof text, gltf, "side.bin");
-        file_write_text("side.gltf", text);
+        write_gltf("side.gltf", "side.bin");
         mesh = ovoid_mesh_read("side.gltf", NULL, NULL);
         CHECK(mesh);
         ovoid_mesh_destroy(mesh);
@@ -455,6 +515,7 @@ int main(void) {
         check_hostile_file("self.3mf", OVOID_ERROR_FORMAT);
         check_hostile_file("good.3mf", OVOID_OK);
         check_other_files();
+        check_links();
         check_trusted();
 #ifdef HAS_ASAN
         check_skip("AddressSanitizer's own malloc may be locked in the child of a process with threads");

@@ -100,9 +100,64 @@ static void check_damaged(int rounds) {
     CHECK(taken > rounds / 100 && taken < rounds / 2);
 }
 
+// `before`, n - 1 brackets, a list of one number, the brackets' ends, `after`; the caller frees it.
+static bytes make_nested(const char *before, const char *open, size_t n, const char *close, const char *after) {
+    char *text = malloc(strlen(before) + n * (strlen(open) + strlen(close)) + 4 + strlen(after)), *at = text;
+    at += sprintf(at, "%s", before);
+    for (size_t i = 1; i < n; i++) at += sprintf(at, "%s", open);
+    at += sprintf(at, "[0]");
+    for (size_t i = 1; i < n; i++) at += sprintf(at, "%s", close);
+    at += sprintf(at, "%s", after);
+    return (bytes){text, (size_t)(at - text)};
+}
+
+// What failed must have failed for its depth, in that line.
+static void check_failure(const json_t *root, const json_error_t *why, int line) {
+    CHECK(!root && json_get_failure(why) == OVOID_ERROR_LIMIT);
+    CHECK_EQ(why->line, line);
+    CHECK(strcmp(why->text, "values are nested more than 64 deep") == 0);
+}
+
+// Values n deep within a text, which is an object: taken or refused, as a whole and around its list.
+static void check_nested(const char *before, size_t n, const char *after, int line) {
+    static const char *const brackets[2][2] = {{"[", "]"}, {"{\"[[\":", "}"}};
+    for (int kind = 0; kind < 2; kind++) {
+        bytes text = make_nested(before, brackets[kind][0], n, brackets[kind][1], after);
+        json_error_t why = {.text = ""}, around_why = {.text = ""};
+        json_list list;
+        json_t *root = json_load(text, FLAGS, &why),
+               *around = json_load_around(text, "list", FLAGS, &list, &around_why);
+        if (n < JSON_DEPTH_MAX) {
+            CHECK(root && around);
+        } else {
+            check_failure(root, &why, line);
+            check_failure(around, &around_why, line);
+        }
+        json_decref(root);
+        json_decref(around);
+        free(text.data);
+    }
+}
+
+static void check_depth(void) {
+    // Values beside each other are not nested.
+    char flat[12000] = "{\"list\": [0";
+    size_t length = strlen(flat);
+    for (int i = 0; i < 500; i++) length += (size_t)sprintf(flat + length, ",[[1], {\"a\": 2}]");
+    strcpy(flat + length, "]}");
+    CHECK(check_text(flat, strlen(flat)));
+    static const size_t depths[] = {1, JSON_DEPTH_MAX - 1, JSON_DEPTH_MAX, 2000, 3000, 1000000};
+    for (size_t i = 0; i < sizeof depths / sizeof *depths; i++) {
+        check_nested("{\"list\":", depths[i], "}", 1);
+        check_nested("{\n\"list\": [1, 2],\n \"b\": ", depths[i], "}", 3);
+        check_nested("{\"a\":\n", depths[i], ", \"list\": [1, 2]}", 2);
+    }
+}
+
 int main(void) {
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) CHECK_EQ(check_text(good[i], strlen(good[i])), 1);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) CHECK_EQ(check_text(bad[i], strlen(bad[i])), 0);
     check_damaged(20000);
+    check_depth();
     return check_end();
 }

@@ -102,11 +102,13 @@ static const struct aiScene *import(const char *path, struct aiFileIO *io) {
     return scene;
 }
 
-// Writes why there is no scene: Assimp's own message, or lack of memory.
-static void hand_over_failure(record_sink *sink) {
+// Writes why there is no scene: a file that it names was not opened, lack of memory, or Assimp's own message.
+static void hand_over_failure(record_sink *sink, const ovoid_error *refused) {
     char sentence[400];
     const char *words = aiGetErrorString();
-    if (!*words || strstr(words, "bad_alloc")) {
+    if (refused->code) {
+        record_write_end(sink, refused->code, refused->message);
+    } else if (!*words || strstr(words, "bad_alloc")) {
         record_write_end(sink, OVOID_ERROR_LIMIT, "Assimp ran out of the memory that a file of this size is allowed");
     } else {
         (void)snprintf(sentence, sizeof sentence, "Assimp cannot read it: %s", words);
@@ -116,14 +118,14 @@ static void hand_over_failure(record_sink *sink) {
 
 // Imports the reader's file and writes all of it as records.
 static void hand_over(const mesh_reader *reader, record_sink *sink, void (*before_reading)(size_t)) {
-    assimp_files files = {reader->path, reader->file, before_reading};
+    assimp_files files = {.path = reader->path, .file = reader->file, .before_reading = before_reading};
     struct aiFileIO io = assimp_files_make(&files);
     // Some importers read numbers by the locale.
     locale_scope locale = locale_enter();
     const struct aiScene *scene = import(reader->path, &io);
     locale_leave(locale);
     if (!scene) {
-        hand_over_failure(sink);
+        hand_over_failure(sink, &files.refused);
         return;
     }
     scene_traversal traversal = {.sink = sink, .scene = scene, .parts = reader->parts};

@@ -1,13 +1,17 @@
 // The files that Assimp may open: the imported file, which is in memory already, and regular files below its folder
-// (the buffers of a glTF file). No device, no pipe that would be waited for, no absolute path, no "..", nothing for
-// writing.
+// (the buffers of a glTF file). No device, no pipe that would be waited for, no absolute path, no "..", no symbolic
+// link that leads out of the folder, nothing for writing.
+#define _XOPEN_SOURCE 700 // realpath, openat
 #include "io/mesh/assimp_files.h"
 
 #ifdef OVOID_WITH_ASSIMP
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /// An open file; it owns its bytes unless it is the imported one.
 typedef struct open_file {
@@ -62,22 +66,82 @@ static int is_below(const char *base, const char *path) {
     return 1;
 }
 
-// Reads a file beside the imported one. 1, or 0 where it may not be read.
-static int read_other(const assimp_files *files, const char *path, bytes *file) {
+// Opens a file by its way down from a folder, neither of which may have links any more: step by step, following none,
+// so that a link which is put there meanwhile leads nowhere. -1 with errno.
+static int open_steps(const char *folder, char *way) {
+    int at = open(*folder ? folder : "/", FILE_OPEN_FLAGS | O_DIRECTORY);
+    for (char *step = way, *rest; at >= 0 && step; step = rest) {
+        rest = strchr(step, '/');
+        if (rest) *rest++ = 0;
+        int next = openat(at, step, FILE_OPEN_FLAGS | O_NOFOLLOW | (rest ? O_DIRECTORY : 0));
+        close(at);
+        at = next;
+    }
+    return at;
+}
+
+// The folder of a path that has no links, without the slash at its end.
+static void cut_name(char *path) { *strrchr(path, '/') = 0; }
+
+// The way down from the folder to the file, or NULL where it is not below.
+static char *find_way(const char *folder, char *file) {
+    size_t length = strlen(folder);
+    return strncmp(file, folder, length) == 0 && file[length] == '/' ? file + length + 1 : NULL;
+}
+
+// Opens a file whose path without links is given, where it is below the folder of the imported file's name, or of the
+// file that this name leads to. -1 with errno; 0 there: it is below neither.
+static int open_below(const char *base, char *resolved) {
+    char *named = path_join(base, "."), *folders[2] = {named ? realpath(named, NULL) : NULL, realpath(base, NULL)};
+    if (folders[0] && strcmp(folders[0], "/") == 0) *folders[0] = 0;
+    if (folders[1]) cut_name(folders[1]);
+    int file = -1, why = 0;
+    char *way = NULL;
+    for (int i = 0; i < 2 && !way; i++) {
+        way = folders[i] ? find_way(folders[i], resolved) : NULL;
+        if (!way) continue;
+        file = open_steps(folders[i], way);
+        why = errno;
+    }
+    free(named), free(folders[0]), free(folders[1]);
+    errno = why;
+    return file;
+}
+
+static ovoid_code fail_open(const char *path, ovoid_error *error) {
+    return io_fail(error, OVOID_ERROR_FILE, (where){path, 0, -1}, "cannot be opened: %s", strerror(errno));
+}
+
+// Reads a file beside the imported one.
+static ovoid_code read_other(const assimp_files *files, const char *path, bytes *out, ovoid_error *error) {
+    where at = {path, 0, -1};
     struct stat status;
-    if (!is_below(files->path, path) || stat(path, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
-    if (files->before_reading) files->before_reading((size_t)status.st_size);
-    return bytes_read(path, file, NULL) == OVOID_OK;
+    if (!is_below(files->path, path))
+        return io_fail(error, OVOID_ERROR_FILE, at, "is not below the folder of the file that names it");
+    char *resolved = realpath(path, NULL);
+    if (!resolved) return fail_open(path, error);
+    int file = open_below(files->path, resolved);
+    ovoid_code code = OVOID_OK;
+    if (file < 0 && !errno)
+        code = io_fail(error, OVOID_ERROR_FILE, at, "a link leads out of the folder of the file that names it, to %s",
+                       resolved);
+    else if (file < 0)
+        code = fail_open(path, error);
+    free(resolved);
+    if (code) return code;
+    if (files->before_reading && fstat(file, &status) == 0) files->before_reading((size_t)status.st_size);
+    return bytes_read_open(file, path, OVOID_FILE_SIZE_MAX, out, error);
 }
 
 static struct aiFile *open_named(struct aiFileIO *io, const char *path, const char *mode) {
-    const assimp_files *files = (const assimp_files *)(void *)io->UserData;
+    assimp_files *files = (assimp_files *)(void *)io->UserData;
     open_file *f = calloc(1, sizeof *f);
     struct aiFile *file = calloc(1, sizeof *file);
     int is_main = strcmp(path, files->path) == 0;
     int good = f && file && !strpbrk(mode, "wa+");
     if (good && is_main) f->file = files->file;
-    if (good && !is_main) f->is_owned = good = read_other(files, path, &f->file);
+    if (good && !is_main)
+        f->is_owned = good = !read_other(files, path, &f->file, files->refused.code ? NULL : &files->refused);
     if (!good) {
         free(f);
         free(file);

@@ -11,6 +11,7 @@ typedef struct assimp_files {
     const char *path;
     bytes file;
     void (*before_reading)(size_t size); ///< may be NULL
+    ovoid_error refused;                 ///< why the first file that was not opened was not; code OVOID_OK: none
 } assimp_files;
 
 /// The callbacks for aiImportFileExWithProperties. The files must outlive the import.

@@ -444,9 +444,9 @@ static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t 
     if (begin == length || text[begin] != '{')
         return io_fail(r->error, OVOID_ERROR_FORMAT, at,
                        "no JSON object; results are read as JSON Lines, which have proofs, not as CSV or a table");
-    r->line = json_loadb(text, length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
-    if (!r->line && json_is_memory_error(&why)) return io_fail_memory(r->error, r->source.path);
-    if (!r->line) return io_fail(r->error, OVOID_ERROR_FORMAT, at, "JSON, column %d: %s", why.column, why.text);
+    r->line = json_load((bytes){(char *)text, length}, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
+    if (!r->line && json_get_failure(&why) == OVOID_ERROR_MEMORY) return io_fail_memory(r->error, r->source.path);
+    if (!r->line) return io_fail(r->error, json_get_failure(&why), at, "JSON, column %d: %s", why.column, why.text);
     const char *bad = "line";
     if (!has_keys(r->line, keys, ALL, NEEDED, &bad)) return fail(r, bad, find_key_fault(r->line, bad));
     *record = (ovoid_record){.a = NULL};

@@ -10,8 +10,9 @@
 // ---- failing
 
 static ovoid_code fail_syntax(const scene_reader *r, const json_error_t *why) {
-    if (json_is_memory_error(why)) return io_fail_memory(r->error, r->path);
-    return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, why->line, -1}, "JSON: %s", why->text);
+    ovoid_code code = json_get_failure(why);
+    if (code == OVOID_ERROR_MEMORY) return io_fail_memory(r->error, r->path);
+    return io_fail(r->error, code, (where){r->path, why->line, -1}, "JSON: %s", why->text);
 }
 
 // ---- objects
@@ -186,7 +187,7 @@ static ovoid_code read_scene(scene_reader *r) {
     json_decref(root);
     if (!code || code == OVOID_ERROR_MEMORY || !r->objects.at) return code;
     // What is no JSON comes before all else, with its line in the whole text.
-    json_t *whole = json_loadb(r->file.data, r->file.size, flags, &why);
+    json_t *whole = json_load(r->file, flags, &why);
     if (!whole) return fail_syntax(r, &why);
     json_decref(whole);
     return code;
