@@ -6,7 +6,7 @@ PYTHON_FOLDER ?= build/python
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 BUILD := build/release
 
-.PHONY: all help demo check python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs site install deb deb-root format lint clean
+.PHONY: all help demo check check-all test python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs site install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -23,9 +23,16 @@ demo: ## fit real meshes, pose them, prove every pair, draw the picture
 	@$(call build,demo,ovoid_cli)
 	@scripts/demo.sh
 
-check: ## lint, then build and test: gcc, clang, sanitizers
+check: ## lint, then build and run the tests, in about 12 minutes on two cores
 	@scripts/setup.sh check
-	@JOBS=$(JOBS) scripts/check.sh
+	@JOBS=$(JOBS) scripts/check.sh check
+
+check-all: check ## all that CI runs: check; then sanitizers, other processors, pages, static analysis, the manual
+	@JOBS=$(JOBS) scripts/check.sh rest
+
+test: ## the tests of one floor after a change: make test FLOOR=solid
+	@scripts/setup.sh build
+	@JOBS=$(JOBS) scripts/test-floor.sh "$(FLOOR)"
 
 python: ## the Python package, its tests and gallery, installed into PYTHON_FOLDER=build/python
 	@$(call build,python,ovoid_python)

@@ -1,19 +1,41 @@
 #!/bin/sh
-# check.sh: all that must hold before a change lands. Lint; then three builds, warnings as errors, each with its tests:
-# gcc optimised, clang with ASan and UBSan, and gcc with these, which does not run the tool's transcripts again; and the
-# same bits from musl, 64-bit ARM and WebAssembly. Goes on after a failure; the last line sums all, exit 1 if any failed.
+# check.sh [check | rest]: what must hold before a change lands, in two parts.
+# check: floors, format and shell scripts; then the optimised build, warnings as errors, with all tests but those that take minutes.
+# rest: these tests; clang with ASan and UBSan, and gcc with these, which does not run the tool's transcripts again; the same bits from musl,
+# 64-bit ARM and WebAssembly; the page; static analysis; the manual. It stands on the build that check makes.
+# Goes on after a failure; the last line sums all, exit 1 if any failed. Each line says how many minutes are left.
 set -u
 cd "$(dirname "$0")/.." || exit 1
+part=${1:-check}
 jobs=${JOBS:-2}
 mkdir -p build
 log=build/check.log
 passed=0 failed=0 skipped=0
 export UBSAN_OPTIONS=print_stacktrace=1
 
-# step NAME COMMAND...: counts one check; shows what the command said only where it fails.
+# The seconds that the steps of a part take on two cores together; how long they take here scales what is left of them.
+case $part in
+check) planned=620 ;;
+rest) planned=2000 ;;
+*) echo "check: there is no part $part; parts are check and rest" >&2 && exit 2 ;;
+esac
+begin=$(date +%s)
+finished=0
+
+# How many minutes are left, after the first steps have shown how fast this machine is.
+print_left() {
+    elapsed=$(($(date +%s) - begin))
+    if [ $finished -lt 60 ] || [ $finished -ge "$planned" ]; then
+        echo
+    else
+        echo "about $(((planned - finished) * elapsed / finished / 60 + 1)) min left"
+    fi
+}
+
+# step SECONDS NAME COMMAND...: counts one check; shows what the command said only where it fails.
 step() {
-    name=$1
-    shift
+    seconds=$1 name=$2
+    shift 2
     printf '%-40s' "$name"
     start=$(date +%s)
     if "$@" >$log 2>&1; then
@@ -21,7 +43,8 @@ step() {
     else
         failed=$((failed + 1)) code=1 word=FAILED
     fi
-    printf '%-8s%4s s\n' $word $(($(date +%s) - start))
+    finished=$((finished + seconds))
+    printf '%-8s%4s s   %s\n' $word $(($(date +%s) - start)) "$(print_left)"
     [ $code -eq 0 ] || tail -n 200 $log
     return $code
 }
@@ -37,12 +60,12 @@ count_tests() {
          END { print passed + 0, failed + 0, skipped + 0 }' "build/$1/Testing/Temporary/LastTest.log"
 }
 
-# run_tests BUILD [OPTION...]: with options of ctest.
+# run_tests SECONDS BUILD [OPTION...]: with options of ctest.
 run_tests() {
-    build=$1
-    shift
+    seconds=$1 build=$2
+    shift 2
     rm -f "build/$build/Testing/Temporary/LastTest.log"
-    step "$build: tests" ctest --test-dir "build/$build" "$@" -j "$jobs" --output-on-failure --no-tests=error
+    step "$seconds" "$build: tests" ctest --test-dir "build/$build" "$@" -j "$jobs" --output-on-failure --no-tests=error
     code=$?
     # shellcheck disable=SC2046 # three numbers
     set -- $(count_tests "$build")
@@ -52,15 +75,21 @@ run_tests() {
 
 configure_and_build() { cmake --preset "$1" && cmake --build "build/$1" -j "$jobs"; }
 
-for lint in floors format shell; do step "lint: $lint" scripts/lint.sh $lint; done
-for preset in release check; do
-    step "$preset: build" configure_and_build $preset && run_tests $preset
-done
-step "check-gcc: build" configure_and_build check-gcc && run_tests check-gcc -E '^test_(cli|demo|docs|mutations|page)'
-step "ports: musl, 64-bit ARM" scripts/ports.sh quick
-step "wasm and the page, with their tests" scripts/page.sh --check
-step "lint: tidy" scripts/lint.sh tidy
-step "docs" scripts/docs.sh
+run_check() {
+    for lint in floors format shell; do step 10 "lint: $lint" scripts/lint.sh $lint; done
+    step 270 "release: build" configure_and_build release && run_tests 320 release -LE long
+}
 
+run_rest() {
+    step 10 "release: build" configure_and_build release && run_tests 260 release -L long
+    step 300 "check: build" configure_and_build check && run_tests 540 check
+    step 240 "check-gcc: build" configure_and_build check-gcc && run_tests 300 check-gcc -E '^test_(cli|demo|docs|mutations|page)'
+    step 60 "ports: musl, 64-bit ARM" scripts/ports.sh quick
+    step 90 "wasm and the page, with their tests" scripts/page.sh --check
+    step 180 "lint: tidy" scripts/lint.sh tidy
+    step 20 "docs" scripts/docs.sh
+}
+
+"run_$part"
 echo "$passed passed, $failed failed, $skipped skipped"
 [ $failed -eq 0 ]

@@ -58,6 +58,20 @@ expect own cli/a.c '#include "args.h"\n#include <ovoid/ovoid.h>\n#include <ovoid
 expect long src/query/a.c "$(awk 'BEGIN { for (i = 0; i < 801; i++) printf "int a%d;\\n", i }')" '801: over 800 lines'
 rm -rf "$folder"
 
+# Each test of a floor is one of those that `make test FLOOR=` runs.
+find_floor() { awk -v name="$1" '!/^#/ && $1 != "house" && name ~ "^(" $2 ")$" { print $1; exit }' "$OVOID_SOURCE_DIR/tests/floors.txt"; }
+for source in "$OVOID_SOURCE_DIR"/tests/core/test_*.c "$OVOID_SOURCE_DIR"/tests/io/test_*.c "$OVOID_SOURCE_DIR"/tests/robot*/test_*.c \
+    "$OVOID_SOURCE_DIR"/tests/judge/test_*.c; do
+    name=$(basename "$source" .c)
+    if [ -n "$(find_floor "$name")" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: tests/floors.txt has no floor for $name"
+    fi
+done
+if [ -n "$(find_floor test_nothing)" ]; then failed=$((failed + 1)) && echo "FAILED: test_nothing has a floor"; fi
+
 if "$check" "$OVOID_SOURCE_DIR"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
 echo "$passed passed, $failed failed, 0 skipped"
 [ "$failed" -eq 0 ]
