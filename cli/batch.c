@@ -187,7 +187,7 @@ static void report_counts(const batch *b, double seconds) {
 /// 1 if a mesh of the list does not fill its hull, which is what is queried.
 static int has_nonconvex(const ovoid_shapes *shapes) {
     size_t i = 0, count = ovoid_shapes_get_count(shapes);
-    while (i < count && !ovoid_shapes_get(shapes, i).convexity.is_nonconvex) i++;
+    while (i < count && ovoid_shapes_get(shapes, i).convexity.kind == OVOID_MESH_HULL) i++;
     return i < count;
 }
 

@@ -205,7 +205,10 @@ static int fit_file(fit *f, const char *path) {
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(&f->settings->read);
     ovoid_shape_options make = make_options(f->settings);
-    fitted found = {.file = path, .name = "", .unit = inputs_get_unit(&f->settings->read), .convexity = {NAN, NAN, 0}};
+    fitted found = {.file = path,
+                    .name = "",
+                    .unit = inputs_get_unit(&f->settings->read),
+                    .convexity = {.mesh_volume = NAN, .hull_volume = NAN}};
     double start = progress_get_seconds();
     ovoid_shape *shape = ovoid_shape_read_file(path, &read, &make, &error);
     if (!shape) return message_error("%s", error.message), f->failed = 1, 0;
@@ -233,7 +236,11 @@ static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t num
     }
     found.make_seconds = progress_get_seconds() - start;
     found.report.faces = part.faces.face_count;
-    found.convexity = ovoid_mesh_compute_convexity(mesh, number, shape);
+    if (ovoid_mesh_compute_convexity(mesh, number, shape, &found.convexity, &error)) {
+        message_error("%s: %s", path, error.message);
+        ovoid_shape_destroy(shape);
+        return f->failed = 1, 0;
+    }
     if (f->settings->parts)
         inputs_warn_part(path, name, &found.convexity);
     else

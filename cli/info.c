@@ -63,8 +63,7 @@ static int read_mesh(const char *path, const settings *s, info *x) {
         x->convexity = ovoid_shapes_get(body.parts, 0).convexity;
         x->report = ovoid_solid_get_report(solid);
         x->crossings = ovoid_solid_compute_crossings(solid, CROSSINGS_MAX);
-        int is_solid = x->report.is_closed && x->convexity.is_nonconvex && isfinite(x->convexity.mesh_volume);
-        x->kind = is_solid ? OVOID_MESH_SOLID : OVOID_MESH_HULL;
+        x->kind = x->convexity.kind;
         inputs_close_body(&body);
     }
     ovoid_solid_destroy(solid);

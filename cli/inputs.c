@@ -26,7 +26,7 @@ static size_t count_convex_parts(const char *path, const read_settings *settings
     size_t count = ovoid_shapes_get_count(parts), convex = 0;
     for (size_t i = 0; i < count; i++) {
         ovoid_convexity c = ovoid_shapes_get(parts, i).convexity;
-        convex += !c.is_nonconvex && c.mesh_volume > 0;
+        convex += c.kind == OVOID_MESH_HULL && c.mesh_volume > 0;
     }
     ovoid_shapes_destroy(parts);
     return count > 1 && convex == count ? count : 0;
@@ -46,11 +46,11 @@ static void warn_nonconvex(const char *path, const char *part, const ovoid_conve
 }
 
 void inputs_warn_part(const char *path, const char *part, const ovoid_convexity *c) {
-    if (c->is_nonconvex) warn_nonconvex(path, part, c, 0);
+    if (c->kind != OVOID_MESH_HULL) warn_nonconvex(path, part, c, 0);
 }
 
 void inputs_warn_file(const char *path, const read_settings *settings, const ovoid_convexity *c) {
-    if (c->is_nonconvex) warn_nonconvex(path, "", c, count_convex_parts(path, settings));
+    if (c->kind != OVOID_MESH_HULL) warn_nonconvex(path, "", c, count_convex_parts(path, settings));
 }
 
 /// Most warnings about the meshes of one list or scene.
@@ -63,7 +63,7 @@ static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context,
     for (size_t i = 0; i < count; i++) {
         ovoid_named_shape mesh = get(context, i);
         size_t k = 0;
-        if (!mesh.convexity.is_nonconvex) continue;
+        if (mesh.convexity.kind == OVOID_MESH_HULL) continue;
         while (k < warned && strcmp(named[k], mesh.name) != 0) k++;
         left_out += k == WARNINGS_MAX;
         if (k < warned || k == WARNINGS_MAX) continue;
@@ -76,7 +76,7 @@ static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context,
 static ovoid_named_shape get_shape(const void *context, size_t i) { return ovoid_shapes_get(context, i); }
 static ovoid_named_shape get_mesh(const void *context, size_t i) {
     ovoid_named_shape mesh = ovoid_scene_get_mesh(context, i);
-    if (ovoid_scene_get_mesh_solid(context, i)) mesh.convexity.is_nonconvex = 0;
+    if (ovoid_scene_get_mesh_solid(context, i)) mesh.convexity.kind = OVOID_MESH_HULL;
     return mesh;
 }
 
@@ -136,9 +136,8 @@ void inputs_close_body(cli_body *body) {
 
 ovoid_scene *inputs_read_scene(const char *path, int hulls) {
     ovoid_error error;
-    ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
+    ovoid_scene *scene = (hulls ? ovoid_scene_read_hulls : ovoid_scene_read)(path, NULL, &error);
     if (!scene) message_error("%s", error.message);
-    if (scene && hulls) ovoid_scene_take_hulls(scene);
     return scene;
 }
 

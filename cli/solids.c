@@ -21,14 +21,14 @@ static int open_solid(const char *path, const cli_body *body, const read_setting
                       ovoid_solid **solid) {
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_convexity c = get_convexity(body);
-    int is_default = c.is_nonconvex && isfinite(c.mesh_volume);
+    int is_default = c.kind != OVOID_MESH_HULL;
     *solid = NULL;
     if (ovoid_path_is_shape(path) || !(is_wanted || is_default)) return 1;
     ovoid_read_options options = inputs_make_options(read);
     *solid = ovoid_solid_read_file(path, &options, &error);
     if (!*solid) {
-        if (is_wanted) message_error("%s", error.message);
-        return !is_wanted;
+        message_error("%s", error.message);
+        return 0;
     }
     ovoid_solid_report r = ovoid_solid_get_report(*solid);
     if (!r.is_closed)
@@ -84,7 +84,7 @@ static ovoid_convexity sum_convexity(const cli_body *body) {
         ovoid_convexity c = ovoid_shapes_get(body->parts, i).convexity;
         sum.mesh_volume += c.mesh_volume;
         sum.hull_volume += c.hull_volume;
-        sum.is_nonconvex |= c.is_nonconvex;
+        if (c.kind > sum.kind) sum.kind = c.kind;
     }
     return sum;
 }
@@ -94,7 +94,7 @@ void solids_describe_bodies(const cli_body bodies[2], ovoid_record *record) {
     record->mesh_b = sum_convexity(&bodies[1]);
     record->kind_a = bodies[0].compound ? OVOID_MESH_PARTS : OVOID_MESH_HULL;
     record->kind_b = bodies[1].compound ? OVOID_MESH_PARTS : OVOID_MESH_HULL;
-    if (record->mesh_a.is_nonconvex || record->mesh_b.is_nonconvex) record->fields |= OVOID_RECORD_MESHES;
+    if (record->mesh_a.kind || record->mesh_b.kind) record->fields |= OVOID_RECORD_MESHES;
 }
 
 // ---- the answer

@@ -44,8 +44,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(ovoid_pose_compute_check(&object.pose) == OVOID_OK);
         fuzz_require(ovoid_scene_is_ignored(scene, 0, i) == ovoid_scene_is_ignored(scene, i, 0));
     }
-    ovoid_scene_take_hulls(scene);
-    for (size_t i = 0; i < count; i++) check_object(scene, i);
+    ovoid_scene_destroy(scene);
+    scene = ovoid_scene_read_hulls(fuzz_write_file("scene.json", data, size), NULL, &error);
+    if (!scene) fuzz_require_error(&error);
+    for (size_t i = 0; i < count && scene; i++) check_object(scene, i);
     ovoid_scene_destroy(scene);
     return 0;
 }

@@ -63,8 +63,10 @@ static int keep(page_shapes *shapes, cli_page *page, const ovoid_mesh *mesh, siz
     size_t number;
     if (!page_shapes_add(shapes, shape, &number)) return message_error("out of memory"), EXIT_INPUT;
     ovoid_faces faces = ovoid_mesh_get_part(mesh, part).faces;
-    ovoid_convexity convexity = ovoid_mesh_compute_convexity(mesh, part, shape);
-    int is_hull = !isnan(convexity.mesh_volume) && !convexity.is_nonconvex;
+    ovoid_convexity convexity;
+    if (ovoid_mesh_compute_convexity(mesh, part, shape, &convexity, NULL))
+        return message_error("out of memory"), EXIT_INPUT;
+    int is_hull = convexity.kind == OVOID_MESH_HULL;
     if (is_hull || !faces.face_count || shapes->meshes[number].points) return 0;
     size_t bytes = get_bytes(faces.vertex_count, count_triangles(&faces));
     if (shapes->mesh_bytes + bytes > BYTES_MOST) {

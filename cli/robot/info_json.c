@@ -105,7 +105,7 @@ static void write_meshes(FILE *file, const cli_robot *robot) {
         fprintf(file, ",\"parts\":%zu,\"uses\":%zu", m.part_count, m.use_count);
         write_value(file, ",", "mesh_volume", m.convexity.mesh_volume);
         write_value(file, ",", "hull_volume", m.convexity.hull_volume);
-        fprintf(file, ",\"nonconvex\":%s}", m.convexity.is_nonconvex ? "true" : "false");
+        fprintf(file, ",\"nonconvex\":%s}", m.convexity.kind != OVOID_MESH_HULL ? "true" : "false");
     }
     fputc(']', file);
 }

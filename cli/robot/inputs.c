@@ -111,7 +111,7 @@ static int read_file(const char *urdf, const robot_settings *s, const package_li
 static void warn_nonconvex(const cli_robot *robot, int parts) {
     for (size_t i = 0; i < ovoid_robot_file_get_mesh_count(robot->file); i++) {
         ovoid_robot_mesh m = ovoid_robot_file_get_mesh(robot->file, i);
-        if (!m.convexity.is_nonconvex || m.is_solid) continue;
+        if (m.convexity.kind == OVOID_MESH_HULL || m.is_solid) continue;
         double share = m.convexity.mesh_volume / m.convexity.hull_volume;
         message_warning(
             "the mesh %s is not convex and counts as its hull%s, which adds %.3g m3 (%.3g %%); decompose it "

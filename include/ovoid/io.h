@@ -50,9 +50,12 @@ typedef struct ovoid_mesh_part {
 typedef struct ovoid_read_options {
     double scale; /**< each coordinate is multiplied by it; > 0; 0 means 1 */
     const char
-        *unit;   /**< in which coordinates are wanted, a word of ovoid_unit_get_scale: files that say their unit
-                      (COLLADA, which is read in metres) are converted, all others are in it; NULL: no conversion */
-    int parts;   /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
+        *unit; /**< in which coordinates are wanted, a word of ovoid_unit_get_scale: files that say their unit
+                    (COLLADA, which is read in metres) are converted, all others are in it; NULL: no conversion */
+    int parts; /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
+    int hull;  /**< of shapes from meshes: 1: each is the convex hull, asked for as such; 0: where the mesh is the hull
+                    only nearly, the shape has the allowance that keeps brackets true of the mesh
+                    (ovoid_convexity.allowance); without effect on parts, whose hulls are the body */
     int trusted; /**< 0: Assimp's importers run in a child process; 1: in this one, which their faults may crash */
 } ovoid_read_options;
 
@@ -84,28 +87,47 @@ OVOID_API ovoid_mesh_part ovoid_mesh_get_part(const ovoid_mesh *mesh, size_t i);
 /** 1 where ovoid_mesh_read can use Assimp. */
 OVOID_API int ovoid_io_has_assimp(void);
 
-/** What the faces of a mesh enclose, beside its hull, which is the body that is queried. */
+/** What a mesh is taken as. */
+typedef enum ovoid_mesh_kind {
+    OVOID_MESH_HULL = 0, /**< its convex hull; a shape of any other origin, too */
+    OVOID_MESH_PARTS,    /**< a compound of its parts' hulls */
+    OVOID_MESH_SOLID,    /**< what its triangles enclose */
+    OVOID_MESH_SURFACE   /**< its triangles, which enclose nothing */
+} ovoid_mesh_kind;
+/** "hull", "parts", "solid" or "surface". */
+OVOID_API const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind);
+
+/** What a mesh is, beside its hull. */
 typedef struct ovoid_convexity {
-    double mesh_volume; /**< NaN where the faces are no closed surface (open, or there twice), or there are none;
-                           hollows do not count */
-    double hull_volume; /**< of the hull without its rounding radius; 0 where it is not solid; NaN: of no mesh */
-    int is_nonconvex;   /**< 1: the hull has more, beyond rounding and by more than a millionth: the mesh has dents,
-                             holes, or several objects; 0: it has not, or that is not known */
+    ovoid_mesh_kind kind;     /**< what it is taken as where nobody asks for another: HULL, SOLID or SURFACE; HULL of
+                                   points without faces, and of no mesh */
+    double allowance;         /**< of HULL: 0, or the `inside` of the hull's allowance that keeps brackets true of the
+                                   mesh itself, as ovoid_triangles_match_hull proves */
+    uint64_t edges_unmatched; /**< of SURFACE: the edges that are open */
+    double mesh_volume;       /**< for information: what the triangles enclose, counted as often as they wind around it;
+                                   NaN where they are not closed, or there are none */
+    double hull_volume;       /**< of the hull without its rounding radius; 0 where it is not solid; NaN: of no mesh */
 } ovoid_convexity;
 
 /**
- * Does a part of a mesh fill its hull? hull: of its points. By the volume of the closed surface; rounding is what
- * vertices can change that are off by 1e-6 of the largest coordinate, or, where all coordinates are multiples of a
- * power of ten, by half of that in each direction, up to 1e-5 of the box's diagonal. Equal points count as one. Cost:
- * linear in the faces.
+ * What a part of a mesh is: the hull, a solid or a surface, by exact signs (ovoid_triangles_match_hull). hull: of its
+ * points. A part with a face that cannot be cut into triangles counts as a solid, which ovoid_mesh_create_solid refuses
+ * with the reason. Errors: MEMORY. Cost: as there.
  */
-OVOID_API ovoid_convexity ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull);
+OVOID_API ovoid_code ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull,
+                                                  ovoid_convexity *convexity, ovoid_error *error);
 
 /**
- * The triangles of a mesh file as one solid; one that is not closed becomes a surface, as its report says. A polygon is
- * cut into triangles from its first corner from which all of them face as the polygon does. options->parts is ignored.
- * Errors: those of ovoid_mesh_read and of ovoid_solid_create_from_triangles; EMPTY (no faces), FORMAT (place: a face
- * that no corner cuts so). The caller destroys it.
+ * The triangles of a part as a solid; of a part that is not closed they are a surface, as its report says. A polygon is
+ * cut into triangles from its first corner from which all of them face as the polygon does. Errors: those of
+ * ovoid_solid_create_from_triangles; EMPTY (no faces), FORMAT (place: a face that no corner cuts so). The caller
+ * destroys it.
+ */
+OVOID_API ovoid_solid *ovoid_mesh_create_solid(const ovoid_mesh *mesh, size_t part, ovoid_error *error);
+
+/**
+ * The triangles of a mesh file as one solid, by ovoid_mesh_create_solid. options->parts is ignored. Errors: those of
+ * ovoid_mesh_read and of ovoid_mesh_create_solid.
  */
 OVOID_API ovoid_solid *ovoid_solid_read_file(const char *path, const ovoid_read_options *options, ovoid_error *error);
 
@@ -116,7 +138,8 @@ OVOID_API int ovoid_path_is_shape(const char *path);
 
 /**
  * A shape from a file: a `.ovoid` file, checked byte by byte, or the hull of a mesh file. For a `.ovoid` file a scale
- * other than 1 or a radius is refused (ARGUMENT). options->parts is ignored. The caller destroys it.
+ * other than 1 or a radius is refused (ARGUMENT). options->parts is ignored, and so is options->hull: the hull is what
+ * is asked for. The caller destroys it.
  */
 OVOID_API ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read,
                                              const ovoid_shape_options *options, ovoid_error *error);
@@ -131,10 +154,13 @@ typedef struct ovoid_shapes ovoid_shapes;
 typedef struct ovoid_named_shape {
     const char *name; /**< of the part, or "part 3" where it has none (counted from 0); of a whole file: its path */
     const ovoid_shape *shape;
-    ovoid_convexity convexity; /**< of the mesh; both volumes NaN for a `.ovoid` file */
+    ovoid_convexity convexity; /**< of the mesh: a shape is the hull, whatever its mesh is; HULL for a `.ovoid` file */
 } ovoid_named_shape;
 
-/** The shapes of one file: one, or with read->parts one for each part. */
+/**
+ * The shapes of one file: one, or with read->parts one for each part. Each is a hull: whether that is what the mesh is
+ * stands in its convexity.
+ */
 OVOID_API ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_read_options *read,
                                                const ovoid_shape_options *options, ovoid_error *error);
 
@@ -159,16 +185,6 @@ OVOID_API size_t ovoid_shapes_get_count(const ovoid_shapes *shapes);
 /** Shape i < count. */
 OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i);
 
-/** What a mesh is taken as. */
-typedef enum ovoid_mesh_kind {
-    OVOID_MESH_HULL = 0, /**< its convex hull; a shape of any other origin, too */
-    OVOID_MESH_PARTS,    /**< a compound of its parts' hulls */
-    OVOID_MESH_SOLID,    /**< what its triangles enclose */
-    OVOID_MESH_SURFACE   /**< its triangles, which enclose nothing */
-} ovoid_mesh_kind;
-/** "hull", "parts", "solid" or "surface". */
-OVOID_API const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind);
-
 /* ---- scenes ---- */
 
 /**
@@ -186,8 +202,10 @@ OVOID_API const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind);
  *
  * Optional: "pose": {"xyz", and "quat_wxyz" or "rpy"}; "radius", a rounding radius around the body; for meshes and
  * points "scale", and "unit", from which they are converted to that of the scene (to metres where it names none); for
- * meshes "parts": true, a compound of the file's objects, or "solid": true, the solid of its triangles, false, their
- * hull; where neither is said, a closed mesh that does not fill its hull is a solid. Anything else is refused:
+ * meshes "parts": true, a compound of the hulls of the file's objects, "hull": true (or "solid": false), the convex
+ * hull, or "solid": true, the triangles. Where none is said a mesh is what ovoid_mesh_compute_convexity says: the hull,
+ * with the allowance of that, a solid, or a surface. A mesh with a radius or an allowance, and one in a compound, must
+ * be its hull then. Anything else is refused:
  * unknown keys, unknown names in "ignore", two objects of one name, wrong types, a zero quaternion. docs/scene.md has
  * examples.
  */
@@ -203,12 +221,14 @@ typedef struct ovoid_scene_object {
     ovoid_read_options read;   /**< how that was read */
     const ovoid_solid *solid;  /**< NULL for all but solids. Objects of equal geometry share all three */
     ovoid_mesh_kind kind;      /**< what it is taken as; HULL for a shape of any origin, PARTS for a compound */
-    ovoid_convexity convexity; /**< of a mesh of one part; else both volumes are NaN */
+    ovoid_convexity convexity; /**< of a mesh of one part, whatever it is taken as; else both volumes are NaN */
     int is_asked;              /**< 1: the scene asks for the solid ("solid": true) */
 } ovoid_scene_object;
 
 /** Reads a scene and the meshes it names. options: of all shapes; their radius must be 0. The caller destroys it. */
 OVOID_API ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error);
+/** The same, but a mesh of which the scene says neither "solid": true nor "hull": false is its convex hull. */
+OVOID_API ovoid_scene *ovoid_scene_read_hulls(const char *path, const ovoid_shape_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_scene_destroy(ovoid_scene *scene);
 /** How many objects there are. */
@@ -219,8 +239,6 @@ OVOID_API const char *ovoid_scene_get_unit(const ovoid_scene *scene);
 OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i);
 /** The object as a body at a pose: its solid, compound or shape. */
 OVOID_API ovoid_body ovoid_scene_get_body(const ovoid_scene *scene, size_t i, const ovoid_pose *pose);
-/** From now on meshes that are solids only because they do not fill their hulls, and nobody asked, are their hulls. */
-OVOID_API void ovoid_scene_take_hulls(ovoid_scene *scene);
 /** How many hulls of meshes there are, each part of a file and each scale by itself. */
 OVOID_API size_t ovoid_scene_get_mesh_count(const ovoid_scene *scene);
 /** Hull i < mesh count, of an object or of a part of a compound, with the name of its part of the file. */

@@ -49,8 +49,11 @@ class mesh : public detail::owner<detail::pointer<ovoid_mesh>, ovoid_mesh, ovoid
     /** Part i < size: a view. Its points make a shape: shape::from_points(points_of(part)). */
     ovoid_mesh_part operator[](std::size_t i) const noexcept { return ovoid_mesh_get_part(get(), i); }
     /** Does part i < size fill its hull? */
-    ovoid_convexity compute_convexity(std::size_t i, const shape_view &hull) const noexcept {
-        return ovoid_mesh_compute_convexity(get(), i, hull.get());
+    ovoid_convexity compute_convexity(std::size_t i, const shape_view &hull) const {
+        ovoid_convexity convexity;
+        ovoid_error e{};
+        detail::require(ovoid_mesh_compute_convexity(get(), i, hull.get(), &convexity, &e), e);
+        return convexity;
     }
 };
 /** The coordinates of a part's points, x y z x y z ... */
@@ -115,7 +118,6 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
         return i < size() ? i : size();
     }
     /** From now on meshes that are solids only because they do not fill their hulls are their hulls. */
-    void take_hulls() noexcept { ovoid_scene_take_hulls(get()); }
     /** How many hulls of meshes there are. */
     std::size_t mesh_count() const noexcept { return ovoid_scene_get_mesh_count(get()); }
     /** Hull i < mesh_count, with its name and whether its mesh fills it. */

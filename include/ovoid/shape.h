@@ -133,6 +133,10 @@ OVOID_API ovoid_code ovoid_shape_create_divided(const ovoid_shape *shape, const 
 OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator,
                                                ovoid_error *error);
 
+/** A copy with another allowance. Errors: ARGUMENT (no shape), NOT_FINITE, RANGE (the allowance), MEMORY. */
+OVOID_API ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, ovoid_allowance allowance,
+                                                  const ovoid_allocator *allocator, ovoid_error *error);
+
 /** Frees the shape; NULL is allowed. No query may be using it. */
 OVOID_API void ovoid_shape_destroy(ovoid_shape *shape);
 

@@ -16,12 +16,22 @@ extern "C" {
 /** Most triangles of a solid. */
 #define OVOID_SOLID_TRIANGLES_MAX ((size_t)1 << 26)
 
+/** Triangles and their points, borrowed. */
+typedef struct ovoid_triangles {
+    const double *xyz; /**< xyz of point i at 3 i */
+    size_t point_count;
+    const uint32_t *indices; /**< three points of triangle t at 3 t, counter-clockwise from outside */
+    size_t count;            /**< of triangles */
+} ovoid_triangles;
+
 /**
  * Triangles and a tree of boxes over them, in one block of memory.
  *
- * If the triangles are closed (each edge is run through as often in one direction as in the other, equal points
- * counting as one), the body is all points of them and all points around which they wind: how they are oriented does
- * not matter, nor that some are there twice. If they are not, the body is the surface itself, which has no inside.
+ * The triangles are closed if their edges cancel: each piece of a line is run through as often in one direction as in
+ * the other, exactly. Equal points count as one, an edge may be matched by several shorter ones that make it up, and a
+ * triangle without area has no edges that count. If the triangles are closed, the body is all points of them and all
+ * points around which they wind: how they are oriented does not matter, nor that some are there twice. If they are not,
+ * the body is the surface itself, which has no inside.
  */
 typedef struct ovoid_solid ovoid_solid;
 
@@ -30,7 +40,8 @@ typedef struct ovoid_solid_report {
     uint64_t points;          /**< points that triangles use; equal ones count once */
     uint64_t triangles;       /**< as given */
     uint64_t components;      /**< sets of triangles that share points */
-    uint64_t edges_unmatched; /**< edges not run through as often in each direction; 0: the surface is closed */
+    uint64_t edges_unmatched; /**< edges, or pieces of them, not run through as often in each direction; 0: the surface
+                                   is closed */
     uint64_t edges_crowded;   /**< edges of more than two triangles */
     uint64_t degenerate;      /**< triangles without area, as far as pairs of doubles tell: two corners that are the
                                    same, or three on a line */
@@ -72,6 +83,29 @@ OVOID_API size_t ovoid_solid_get_size(const ovoid_solid *solid);
  * outside. Cost: the boxes along a ray.
  */
 OVOID_API int ovoid_solid_compute_winding(const ovoid_solid *solid, ovoid_vec3 point, int64_t *winding);
+
+/** What triangles are beside the convex hull of their points. */
+typedef struct ovoid_hull_match {
+    int is_closed;            /**< as of a solid's report */
+    uint64_t edges_unmatched; /**< as there */
+    int is_hull;              /**< 1: the hull may stand for the body that the triangles enclose, with `allowance` */
+    double allowance;         /**< of a hull: 0 where it is that body; else the body lies in the hull, and there is a
+                                   convex body in it whose supports are nowhere lower by more than this: as the
+                                   `inside` of the hull's allowance it keeps every bracket true of the body, depths
+                                   included */
+} ovoid_hull_match;
+
+/**
+ * Is the body of these triangles the convex hull of their points, exactly or nearly? hull: made of the same points.
+ * Exactly: the triangles are closed, wind around the hull's centroid, and each of them with area lies in a plane that
+ * the hull does not cross, by exact signs. Nearly: each lies so little below such a plane that the allowance is at most
+ * a millionth of the diagonal of the hull's box and four ten millionths of its largest coordinate (a few roundings to
+ * single precision, which STL files have), and no more than a ten thousandth of the diagonal. A hull of rank below 3
+ * encloses nothing and is none. Errors: those of ovoid_solid_create_from_triangles, ARGUMENT (no hull). Cost: linear
+ * but for the matching of edges that are open; of triangles that are no hull mostly less.
+ */
+OVOID_API ovoid_code ovoid_triangles_match_hull(const ovoid_triangles *triangles, const ovoid_shape *hull,
+                                                ovoid_hull_match *match, ovoid_error *error);
 
 /** Where a surface meets itself. */
 typedef struct ovoid_solid_crossings {

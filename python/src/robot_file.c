@@ -148,7 +148,7 @@ static PyObject *make_mesh(const ovoid_robot_file *file, const ovoid_robot_descr
     return Py_BuildValue("{s:s,s:s,s:N,s:n,s:n,s:d,s:d,s:O}", "path", m.path, "address", m.address, "scale",
                          vec3_make(m.scale), "parts", (Py_ssize_t)m.part_count, "uses", (Py_ssize_t)m.use_count,
                          "mesh_volume", m.convexity.mesh_volume, "hull_volume", m.convexity.hull_volume, "is_convex",
-                         m.convexity.is_nonconvex ? Py_False : Py_True);
+                         m.convexity.kind != OVOID_MESH_HULL ? Py_False : Py_True);
 }
 
 static PyObject *make_sphere(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {

@@ -1,6 +1,6 @@
-// Bodies that change: deformed, or divided by a plane. W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection
-// Method Based on Enclosed Ellipsoid by Facial Areas Splitting, name these as the cases in which the offline steps run
-// again.
+// Bodies that change: deformed, known to within another allowance, or divided by a plane. W.-K. Su, J.-S. Liu, I-F.
+// Chen, Enhancing Collision Detection Method Based on Enclosed Ellipsoid by Facial Areas Splitting, name these as the
+// cases in which the offline steps run again.
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
@@ -19,6 +19,22 @@ static ovoid_shape *create_deformed(const ovoid_shape *shape, const double *xyz,
 ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double *xyz,
                                          const ovoid_shape_options *options, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_shape *, xyz, create_deformed(shape, xyz, options, error));
+}
+
+// ---- another allowance
+
+static ovoid_shape *create_allowed(const ovoid_shape *shape, const ovoid_shape_options *options, ovoid_error *error) {
+    ovoid_shape_options o;
+    if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
+    ovoid_shape *to = ovoid_shape_create_copy(shape, o.allocator, error);
+    if (to) block_set_radius(to, to->radius, o.allowance);
+    return to;
+}
+
+ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, ovoid_allowance allowance,
+                                        const ovoid_allocator *allocator, ovoid_error *error) {
+    const ovoid_shape_options options = {.allowance = allowance, .allocator = allocator};
+    ENVIRONMENT_RETURN(ovoid_shape *, shape, create_allowed(shape, &options, error));
 }
 
 // ---- division

@@ -1,11 +1,11 @@
 // What the triangles of a solid are: closed or not, in how many pieces, with what doubled or without area.
 //
-// Edges are sorted by their ends; a run of equal ones is matched where as many go one way as the other. That makes the
-// triangles a cycle, of which winding numbers are defined; it is less than a manifold, of which each edge has two
-// triangles. Components: union by points (B. A. Galler, M. J. Fischer, An improved equivalence algorithm, 1964).
+// Edges: solid/edges.c. Components: union by points (B. A. Galler, M. J. Fischer, An improved equivalence algorithm,
+// 1964).
 #include "base/allocator.h"
 #include "linear/dd3.h"
 #include "polytope/sort.h"
+#include "solid/edges.h"
 #include "solid/solid.h"
 
 // Room for sorting three entries a triangle.
@@ -13,24 +13,7 @@ typedef struct room {
     sort_entry *entries, *scratch;
 } room;
 
-static uint64_t make_key(uint32_t a, uint32_t b) { return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a; }
-
-static void count_edges(const solid_parts *p, room *r, ovoid_solid_report *report) {
-    uint32_t count = 0;
-    for (uint32_t t = 0; t < p->triangle_count; t++)
-        for (int i = 0; i < 3; i++) {
-            uint32_t a = p->triangles[t].point[i], b = p->triangles[t].point[(i + 1) % 3];
-            if (a != b) r->entries[count++] = (sort_entry){make_key(a, b), a < b};
-        }
-    sort_entries(r->entries, r->scratch, count);
-    for (uint32_t i = 0, end; i < count; i = end) {
-        uint32_t forward = 0;
-        for (end = i; end < count && r->entries[end].key == r->entries[i].key; end++) forward += r->entries[end].index;
-        report->edges_unmatched += 2 * forward != end - i;
-        report->edges_crowded += end - i > 2;
-    }
-    report->is_closed = report->edges_unmatched == 0 && count > 0;
-}
+static uint64_t make_key(uint32_t a, uint32_t b) { return (uint64_t)a << 32 | b; }
 
 static void sort_points(uint32_t p[3]) {
     for (int i = 0; i < 3; i++) {
@@ -113,8 +96,11 @@ uint32_t solid_compute_report(const solid_parts *p, const ovoid_allocator *alloc
     room r = {allocator_allocate(allocator, p->triangle_count, 3 * sizeof(sort_entry)),
               allocator_allocate(allocator, p->triangle_count, 3 * sizeof(sort_entry))};
     uint32_t count = 0;
-    if (r.entries && r.scratch) {
-        count_edges(p, &r, report);
+    solid_edges edges;
+    if (r.entries && r.scratch && solid_find_edges(p, allocator, &edges)) {
+        report->edges_unmatched = edges.unmatched;
+        report->edges_crowded = edges.crowded;
+        report->is_closed = edges.unmatched == 0;
         count_duplicates(p, &r, report);
         measure(p, report);
         count = find_components(p, components);

@@ -5,114 +5,9 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "polytope/sphere.h"
+#include "solid/merge.h"
 
 #include <string.h>
-
-// ---- the input
-
-static ovoid_code check_input(const double *xyz, size_t points, const uint32_t *indices, size_t count,
-                              ovoid_error *error) {
-    if ((!xyz && points) || (!indices && count))
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the array of %s is NULL", xyz ? "indices" : "points");
-    if (count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "a solid of no triangles");
-    if (count > OVOID_SOLID_TRIANGLES_MAX)
-        return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu triangles, %zu are allowed", count,
-                         OVOID_SOLID_TRIANGLES_MAX);
-    if (points > 3 * OVOID_SOLID_TRIANGLES_MAX)
-        return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu points, %zu are allowed", points,
-                         3 * OVOID_SOLID_TRIANGLES_MAX);
-    for (size_t i = 0; i < points; i++) {
-        vec3 p = vec3_at(xyz, i);
-        if (!vec3_is_finite(p))
-            return error_set(error, OVOID_ERROR_NOT_FINITE, (int64_t)i, "point %zu is not finite", i);
-        if (vec3_max_abs(p) > OVOID_LENGTH_MAX)
-            return error_set(error, OVOID_ERROR_RANGE, (int64_t)i, "point %zu is beyond %g", i, OVOID_LENGTH_MAX);
-    }
-    for (size_t i = 0; i < 3 * count; i++)
-        if (indices[i] >= points)
-            return error_set(error, OVOID_ERROR_INDEX, (int64_t)(i / 3), "triangle %zu: there is no point %u, only %zu",
-                             i / 3, indices[i], points);
-    return OVOID_OK;
-}
-
-// ---- equal points
-
-// The points that triangles use, each once, in the order of their first use, by a table of open addresses.
-typedef struct merger {
-    double *points;
-    solid_triangle *triangles;
-    uint32_t *table;  ///< a point, or UINT32_MAX
-    uint32_t *merged; ///< of each point given, or UINT32_MAX
-    uint32_t mask, count;
-} merger;
-
-// Coordinates as they are stored.
-typedef struct point_bits {
-    uint64_t bits[3];
-} point_bits;
-
-static point_bits get_bits(const double p[3]) {
-    point_bits b;
-    memcpy(&b, p, sizeof b);
-    return b;
-}
-
-static int is_same(point_bits a, point_bits b) {
-    return a.bits[0] == b.bits[0] && a.bits[1] == b.bits[1] && a.bits[2] == b.bits[2];
-}
-
-static uint64_t hash(point_bits p) {
-    uint64_t h = 0;
-    for (int k = 0; k < 3; k++) {
-        h = (h ^ p.bits[k]) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 32;
-    }
-    return h;
-}
-
-static uint32_t merge_point(merger *m, const double *xyz) {
-    // Zeros of both signs are one.
-    const double p[3] = {xyz[0] + 0.0, xyz[1] + 0.0, xyz[2] + 0.0};
-    point_bits bits = get_bits(p);
-    uint32_t at = (uint32_t)hash(bits) & m->mask;
-    for (; m->table[at] != UINT32_MAX; at = (at + 1) & m->mask)
-        if (is_same(get_bits(m->points + 3 * (size_t)m->table[at]), bits)) return m->table[at];
-    memcpy(m->points + 3 * (size_t)m->count, p, sizeof p);
-    return m->table[at] = m->count++;
-}
-
-static void merger_destroy(merger *m, const ovoid_allocator *a) {
-    allocator_release(a, m->points);
-    allocator_release(a, m->triangles);
-    allocator_release(a, m->table);
-    allocator_release(a, m->merged);
-}
-
-static int merge(const double *xyz, size_t points, const uint32_t *indices, size_t count, const ovoid_allocator *a,
-                 merger *m) {
-    size_t most = points < 3 * count ? points : 3 * count, slots = 4;
-    while (slots < 2 * most) slots *= 2;
-    *m = (merger){allocator_allocate(a, most, 3 * sizeof(double)),
-                  allocator_allocate(a, count, sizeof(solid_triangle)),
-                  allocator_allocate(a, slots, sizeof(uint32_t)),
-                  allocator_allocate(a, points, sizeof(uint32_t)),
-                  (uint32_t)(slots - 1),
-                  0};
-    if (!m->points || !m->triangles || !m->table || !m->merged) {
-        merger_destroy(m, a);
-        return 0;
-    }
-    memset(m->table, 0xff, slots * sizeof(uint32_t));
-    memset(m->merged, 0xff, points * sizeof(uint32_t));
-    for (size_t i = 0; i < 3 * count; i++) {
-        uint32_t *known = &m->merged[indices[i]];
-        if (*known == UINT32_MAX) *known = merge_point(m, xyz + 3 * (size_t)indices[i]);
-        m->triangles[i / 3].point[i % 3] = *known;
-    }
-    return 1;
-}
-
-// ---- the block
 
 typedef struct layout {
     size_t boxes, points, triangles, order, places, nodes, components, size;
@@ -151,7 +46,7 @@ static void place_arrays(ovoid_solid *s, const layout *l) {
 }
 
 // What is known before the tree, in a header that owns nothing but points and components.
-static void set_header(ovoid_solid *s, const merger *m, uint32_t triangles) {
+static void set_header(ovoid_solid *s, const solid_merger *m, uint32_t triangles) {
     s->point_count = m->count;
     s->triangle_count = triangles;
     s->report.box = box_make_around(m->points, m->count);
@@ -164,7 +59,7 @@ static void set_header(ovoid_solid *s, const merger *m, uint32_t triangles) {
 }
 
 // The tree in arrays of its own, since the number of its nodes is known only afterwards; then the block.
-static ovoid_solid *assemble(ovoid_solid *made, const merger *m, const uint32_t *components) {
+static ovoid_solid *assemble(ovoid_solid *made, const solid_merger *m, const uint32_t *components) {
     const ovoid_allocator *a = &made->allocator;
     uint32_t most = tree_get_most_nodes(made->triangle_count);
     made->points = m->points;
@@ -196,15 +91,14 @@ static ovoid_solid *assemble(ovoid_solid *made, const merger *m, const uint32_t 
     return s;
 }
 
-static ovoid_solid *create(const double *xyz, size_t points, const uint32_t *indices, size_t count,
-                           const ovoid_allocator *given, ovoid_error *error) {
-    if (check_input(xyz, points, indices, count, error) != OVOID_OK) return NULL;
-    ovoid_solid made = {.allocator = allocator_make(given)}, *s = NULL;
-    merger m;
-    if (merge(xyz, points, indices, count, &made.allocator, &m)) {
-        set_header(&made, &m, (uint32_t)count);
+static ovoid_solid *create(const ovoid_triangles *given, const ovoid_allocator *allocator, ovoid_error *error) {
+    if (solid_check_triangles(given, error) != OVOID_OK) return NULL;
+    ovoid_solid made = {.allocator = allocator_make(allocator)}, *s = NULL;
+    solid_merger m;
+    if (merger_make(&m, given, &made.allocator)) {
+        set_header(&made, &m, (uint32_t)given->count);
         uint32_t *components = allocator_allocate(&made.allocator, m.count, sizeof *components);
-        solid_parts parts = {m.points, m.triangles, m.count, (uint32_t)count};
+        solid_parts parts = {m.points, m.triangles, m.count, (uint32_t)given->count};
         if (components) {
             made.component_count = solid_compute_report(&parts, &made.allocator, components, &made.report);
             if (made.component_count) s = assemble(&made, &m, components);
@@ -212,13 +106,14 @@ static ovoid_solid *create(const double *xyz, size_t points, const uint32_t *ind
         allocator_release(&made.allocator, components);
         merger_destroy(&m, &made.allocator);
     }
-    if (!s) error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for a solid of %zu triangles", count);
+    if (!s) error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for a solid of %zu triangles", given->count);
     return s;
 }
 
 ovoid_solid *ovoid_solid_create_from_triangles(const double *xyz, size_t point_count, const uint32_t *indices,
                                                size_t count, const ovoid_allocator *allocator, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_solid *, xyz, create(xyz, point_count, indices, count, allocator, error));
+    const ovoid_triangles given = {xyz, point_count, indices, count};
+    ENVIRONMENT_RETURN(ovoid_solid *, xyz, create(&given, allocator, error));
 }
 
 void ovoid_solid_destroy(ovoid_solid *solid) {

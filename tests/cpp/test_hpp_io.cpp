@@ -40,7 +40,8 @@ void check_shapes() {
     const auto shapes = ovoid::shapes::read_file(path, each);
     CHECK(shapes.size() == 2 && std::string(shapes.name(0)) == "one" && is_same_shape(shapes[1], second.get()));
     CHECK_EQ(shapes.create_compound().size(), 2);
-    CHECK(!shapes.convexity(0).is_nonconvex && ovoid::shapes::read_file(path).convexity(0).is_nonconvex);
+    CHECK(shapes.convexity(0).kind == OVOID_MESH_HULL &&
+          ovoid::shapes::read_file(path).convexity(0).kind == OVOID_MESH_SOLID);
     const auto list = ovoid::shapes::read_list(write_text("list.txt", "# two\nmesh.obj\nhull.ovoid\n"));
     CHECK(list.size() == 2 && is_same_shape(list[1], hull.get()));
     const ovoid::solid triangles = ovoid::read_solid(path, each);
@@ -63,7 +64,7 @@ void check_scenes() {
     CHECK(std::string(scene.unit()) == "mm" && scene.mesh_count() == 0);
     const auto meshes =
         ovoid::scene::read(write_text("meshes.json", R"({"objects": [{"name": "a", "mesh": "mesh.obj"}]})"));
-    CHECK(meshes.mesh_count() == 1 && meshes.mesh(0).convexity.is_nonconvex && !*meshes.unit());
+    CHECK(meshes.mesh_count() == 1 && meshes.mesh(0).convexity.kind == OVOID_MESH_SOLID && !*meshes.unit());
     CHECK(scene.pair_count() == ovoid_scene_get_pair_count(scene.get()));
     const ovoid::compound_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));
     CHECK(a.answer.lower <= 7 && a.answer.upper >= 7 && a.part_b == 0);

@@ -26,7 +26,7 @@ static ovoid_solid *read_part(const char *folder, int number) {
     ovoid_solid_destroy(solid);
     ovoid_shapes *hull = ovoid_shapes_read_file(path, &read, NULL, &error);
     if (!CHECK(hull != NULL)) return NULL;
-    int is_nonconvex = ovoid_shapes_get(hull, 0).convexity.is_nonconvex;
+    int is_nonconvex = ovoid_shapes_get(hull, 0).convexity.kind != OVOID_MESH_HULL;
     ovoid_shapes_destroy(hull);
     return is_nonconvex && r.is_closed ? ovoid_solid_read_file(path, &read, &error) : NULL;
 }

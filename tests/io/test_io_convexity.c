@@ -1,4 +1,4 @@
-// Does a mesh fill its hull? Truth: volumes of boxes and of what is cut out of them, in closed form.
+// What a mesh is: its hull, a solid or a surface. Truth: boxes and what is cut out of them, in closed form.
 #include "files.h"
 
 #include <stdarg.h>
@@ -34,55 +34,57 @@ static void add_box(text *t, const double low[3], const double high[3], int turn
 static ovoid_convexity compute(const text *t) {
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_shapes *shapes = ovoid_shapes_read_file(file_write_text("mesh.obj", t->data), NULL, NULL, &error);
-    if (!CHECK(shapes != NULL)) return (ovoid_convexity){0, 0, -1};
+    if (!CHECK(shapes != NULL)) return (ovoid_convexity){.kind = OVOID_MESH_PARTS};
     ovoid_convexity c = ovoid_shapes_get(shapes, 0).convexity;
     ovoid_shapes_destroy(shapes);
     return c;
 }
 
-static void expect(const text *t, double mesh, double hull, int is_nonconvex) {
+static void expect(const text *t, double mesh, double hull, ovoid_mesh_kind kind) {
     ovoid_convexity c = compute(t);
     if (isnan(mesh))
         CHECK(isnan(c.mesh_volume));
     else
         CHECK_NEAR(c.mesh_volume, mesh, 1e-12 * hull);
     CHECK_NEAR(c.hull_volume, hull, 1e-12 * hull);
-    CHECK_EQ(c.is_nonconvex, is_nonconvex);
+    CHECK_EQ(c.kind, kind);
+    CHECK_EQ(c.allowance, 0);
 }
 
 static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1}, two[3] = {2, 2, 2}, three[3] = {3, 3, 3};
 
 static void check_boxes(void) {
-    // A box, also seen from inside, and far from the origin; with a face missing nothing can be said.
+    // A box, also seen from inside, and far from the origin; with a face missing, a surface.
     for (int turned = 0; turned < 2; turned++) {
         text t = {.length = 0};
         add_box(&t, zero, one, turned, 0);
-        expect(&t, 1, 1, 0);
+        expect(&t, 1, 1, OVOID_MESH_HULL);
     }
     text open = {.length = 0};
     add_box(&open, zero, one, 0, 1);
-    expect(&open, NAN, 1, 0);
+    expect(&open, NAN, 1, OVOID_MESH_SURFACE);
+    CHECK_EQ(compute(&open).edges_unmatched, 4);
     const double far_low[3] = {1e6, 1e6, 1e6}, far_high[3] = {1e6 + 1, 1e6 + 1, 1e6 + 1};
     text far = {.length = 0};
     add_box(&far, far_low, far_high, 0, 0);
-    expect(&far, 1, 1, 0);
+    expect(&far, 1, 1, OVOID_MESH_HULL);
     // Two boxes at the ends of a diagonal; a box with a hollow; the same box twice.
     text apart = {.length = 0};
     add_box(&apart, zero, one, 0, 0);
     add_box(&apart, two, three, 0, 0);
-    expect(&apart, 2, 7, 1); // the hull is a unit cube moved by (2, 2, 2)
+    expect(&apart, 2, 7, OVOID_MESH_SOLID); // the hull is a unit cube moved by (2, 2, 2)
     text hollow = {.length = 0};
     add_box(&hollow, zero, three, 0, 0);
     add_box(&hollow, one, two, 1, 0);
-    expect(&hollow, 26, 27, 1);
+    expect(&hollow, 26, 27, OVOID_MESH_SOLID);
     text twice = {.length = 0};
     add_box(&twice, zero, one, 0, 0);
     add_box(&twice, zero, one, 0, 0);
-    expect(&twice, NAN, 1, 0);
+    expect(&twice, 2, 1, OVOID_MESH_HULL);
     // Points without faces.
     text cloud = {.length = 0};
     add_box(&cloud, zero, one, 0, 6);
-    expect(&cloud, NAN, 1, 0);
+    expect(&cloud, NAN, 1, OVOID_MESH_HULL);
 }
 
 // A box of triangles that share no point: equal points count as one. One triangle turned: not closed.
@@ -101,7 +103,7 @@ static void check_soup(void) {
             }
         ovoid_convexity c = compute(&t);
         CHECK(turned ? isnan(c.mesh_volume) : fabs(c.mesh_volume - 1) < 1e-15);
-        CHECK_EQ(c.is_nonconvex, 0);
+        CHECK_EQ(c.kind, turned ? OVOID_MESH_SURFACE : OVOID_MESH_HULL);
     }
 }
 
@@ -113,22 +115,20 @@ static ovoid_convexity dent_plate(double thick, double dent) {
     add(&t, "f 1 2 5\nf 2 3 5\nf 3 6 5\nf 6 9 5\nf 9 8 5\nf 8 7 5\nf 7 4 5\nf 4 1 5\nf 10 12 13 11\n");
     add(&t, "f 10 11 3 2 1\nf 11 13 9 6 3\nf 13 12 7 8 9\nf 12 10 1 4 7\n");
     ovoid_convexity c = compute(&t);
-    CHECK_NEAR(c.hull_volume, 4 * thick, 1e-12);
+    if (dent > 0) CHECK_NEAR(c.hull_volume, 4 * thick, 1e-12);
     CHECK_NEAR(c.mesh_volume, 4 * thick - 4 * dent / 3, 1e-12);
     return c;
 }
 
 static void check_threshold(void) {
-    // Beside whole numbers a height of five digits: steps of 1e-5, of which half in each direction, 8.7e-6, over the
-    // surface, 16, is 1.39e-4; what is missing is 4 dent / 3.
-    CHECK_EQ(dent_plate(1, 9e-5).is_nonconvex, 0);
-    CHECK_EQ(dent_plate(1, 1.1e-4).is_nonconvex, 1);
-    // Of six digits: 1e-6 of the largest coordinate, 2, over the surface.
-    CHECK_EQ(dent_plate(1, 2.3e-5).is_nonconvex, 0);
-    CHECK_EQ(dent_plate(1, 2.5e-5).is_nonconvex, 1);
-    // A plate as thin as 1e-4, whose surface is 8: rounding of its points weighs more.
-    CHECK_EQ(dent_plate(1e-4, 1.1e-5).is_nonconvex, 0);
-    CHECK_EQ(dent_plate(1e-4, 1.3e-5).is_nonconvex, 1);
+    // The centroid is 0.5 below the top, the farthest vertex 1.5 from it: the allowance is three times the dent. It may
+    // be a millionth of the diagonal, 3, and 4e-7 of the largest coordinate, 2.
+    ovoid_convexity near = dent_plate(1, 1.2e-6), far = dent_plate(1, 1.3e-6);
+    CHECK_EQ(near.kind, OVOID_MESH_HULL);
+    CHECK(near.allowance >= 3.6e-6 && near.allowance < 3.6001e-6);
+    CHECK_EQ(far.kind, OVOID_MESH_SOLID);
+    CHECK_EQ(far.allowance, 0);
+    CHECK_EQ(dent_plate(1, -1.3e-6).kind, OVOID_MESH_HULL);
 }
 
 // Parts one by one, and through a scene, which names each hull of a mesh.
@@ -142,18 +142,19 @@ static void check_lists(void) {
     file_write_text("parts.obj", t.data);
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_scene *scene = ovoid_scene_read(
-        file_write_text("convexity.json", "{\"objects\": [{\"name\": \"a\", \"box\": [1, 1, 1]},"
-                                          "{\"name\": \"b\", \"mesh\": \"parts.obj\", \"parts\": true},"
-                                          "{\"name\": \"c\", \"mesh\": \"parts.obj\"},"
-                                          "{\"name\": \"d\", \"compound\": [{\"mesh\": \"parts.obj\"}]}]}"),
+        file_write_text("convexity.json",
+                        "{\"objects\": [{\"name\": \"a\", \"box\": [1, 1, 1]},"
+                        "{\"name\": \"b\", \"mesh\": \"parts.obj\", \"parts\": true},"
+                        "{\"name\": \"c\", \"mesh\": \"parts.obj\"},"
+                        "{\"name\": \"d\", \"compound\": [{\"mesh\": \"parts.obj\", \"hull\": true}]}]}"),
         NULL, &error);
     if (!CHECK(scene != NULL)) return;
     // The file is there twice: as a body it may be a solid, as a part it is a hull.
     CHECK_EQ(ovoid_scene_get_mesh_count(scene), 4);
     ovoid_named_shape m[4];
     for (size_t i = 0; i < 4; i++) m[i] = ovoid_scene_get_mesh(scene, i);
-    CHECK(strcmp(m[0].name, "whole") == 0 && !m[0].convexity.is_nonconvex && m[0].convexity.mesh_volume == 1);
-    CHECK(strcmp(m[1].name, "hollow") == 0 && m[1].convexity.is_nonconvex);
+    CHECK(strcmp(m[0].name, "whole") == 0 && m[0].convexity.kind == OVOID_MESH_HULL && m[0].convexity.mesh_volume == 1);
+    CHECK(strcmp(m[1].name, "hollow") == 0 && m[1].convexity.kind == OVOID_MESH_SOLID);
     CHECK(strstr(m[2].name, "parts.obj") && m[2].shape == ovoid_scene_get(scene, 2).shape);
     CHECK(strstr(m[3].name, "parts.obj") && m[3].shape != m[2].shape);
     ovoid_scene_destroy(scene);

@@ -112,7 +112,7 @@ static void check_good(void) {
 static const char compounds[] =
     "{\"objects\": [\n"
     "  {\"name\": \"file\", \"mesh\": \"parts.obj\", \"parts\": true, \"radius\": 0.5, \"unit\": \"cm\"},\n"
-    "  {\"name\": \"hull\", \"mesh\": \"parts.obj\", \"parts\": false, \"radius\": 0.5, \"unit\": \"cm\"},\n"
+    "  {\"name\": \"hull\", \"mesh\": \"parts.obj\", \"hull\": true, \"radius\": 0.5, \"unit\": \"cm\"},\n"
     "  {\"name\": \"again\", \"unit\": \"cm\", \"radius\": 0.5, \"parts\": true, \"mesh\": \"parts.obj\"},\n"
     "  {\"name\": \"tool\", \"pose\": {\"xyz\": [9, 0, 0]}, \"compound\": [\n"
     "    {\"box\": [1, 2, 3], \"pose\": {\"xyz\": [1, 0, 0]}},\n"
@@ -153,16 +153,17 @@ static void check_compounds(void) {
     ovoid_scene_destroy(scene);
 }
 
-// A closed mesh that does not fill its hull is a solid, unless it is told or has a radius; so is what is told to be
-// one.
+// A mesh that is not its hull is a solid, or where it is open a surface, unless its hull is asked for.
 static void check_solids(void) {
     static const char text[] =
         "{\"objects\": [{\"name\": \"a\", \"mesh\": \"l.obj\", \"pose\": {\"xyz\": [1, 0, 0]}},\n"
         "  {\"name\": \"b\", \"mesh\": \"l.obj\", \"solid\": true}, {\"name\": \"c\", \"mesh\": \"l.obj\", \"solid\": "
         "false},\n"
-        "  {\"name\": \"d\", \"mesh\": \"l.obj\", \"radius\": 0.5}, {\"name\": \"e\", \"mesh\": \"open.obj\", "
+        "  {\"name\": \"d\", \"mesh\": \"l.obj\", \"radius\": 0.5, \"hull\": true}, {\"name\": \"e\", \"mesh\": "
+        "\"open.obj\", "
         "\"solid\": true},\n"
-        "  {\"name\": \"f\", \"mesh\": \"open.obj\"}, {\"name\": \"g\", \"compound\": [{\"mesh\": \"l.obj\"}]},\n"
+        "  {\"name\": \"f\", \"mesh\": \"open.obj\"}, {\"name\": \"g\", \"compound\": [{\"mesh\": \"l.obj\", \"hull\": "
+        "true}]},\n"
         "  {\"name\": \"h\", \"mesh\": \"l.obj\", \"scale\": 2}, {\"name\": \"i\", \"mesh\": \"l.obj\"}]}";
     static const char angle[] =
         "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
@@ -170,7 +171,7 @@ static void check_solids(void) {
         "9\n"
         "f 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
     static const ovoid_mesh_kind kinds[9] = {OVOID_MESH_SOLID, OVOID_MESH_SOLID,   OVOID_MESH_HULL,
-                                             OVOID_MESH_HULL,  OVOID_MESH_SURFACE, OVOID_MESH_HULL,
+                                             OVOID_MESH_HULL,  OVOID_MESH_SURFACE, OVOID_MESH_SURFACE,
                                              OVOID_MESH_PARTS, OVOID_MESH_SOLID,   OVOID_MESH_SOLID};
     char open[sizeof angle];
     memcpy(open, angle, sizeof angle);
@@ -178,15 +179,18 @@ static void check_solids(void) {
     file_write_text("l.obj", angle);
     file_write_text("open.obj", open);
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_scene *scene = ovoid_scene_read(file_write_text("solids.json", text), NULL, &error);
-    if (!CHECK(scene != NULL)) {
-        printf("  %s\n", error.message);
-        return;
-    }
+    const char *path = file_write_text("solids.json", text);
+    ovoid_scene *scene = NULL;
     for (int hulls = 0; hulls < 2; hulls++) {
+        scene = hulls ? ovoid_scene_read_hulls(path, NULL, &error) : ovoid_scene_read(path, NULL, &error);
+        if (!CHECK(scene != NULL)) {
+            printf("  %s\n", error.message);
+            return;
+        }
         for (size_t i = 0; i < 9; i++) {
             ovoid_scene_object o = ovoid_scene_get(scene, i);
-            int is_asked = i == 1 || i == 4, is_solid = kinds[i] == OVOID_MESH_SOLID || is_asked;
+            int is_asked = i == 1 || i == 4;
+            int is_solid = kinds[i] == OVOID_MESH_SOLID || kinds[i] == OVOID_MESH_SURFACE;
             if (hulls && !is_asked) is_solid = 0;
             CHECK_EQ(o.is_asked, is_asked);
             CHECK_EQ(o.kind, is_solid || !hulls || i == 6 ? kinds[i] : OVOID_MESH_HULL);
@@ -197,11 +201,10 @@ static void check_solids(void) {
                   body.compound == o.compound);
             CHECK_EQ(body.pose.position.x, i == 0);
         }
-        if (!hulls) ovoid_scene_take_hulls(scene);
-        if (!hulls) CHECK_NEAR(ovoid_scene_get(scene, 0).convexity.mesh_volume, 3, 1e-12);
-        if (!hulls) CHECK(ovoid_scene_get_mesh_solid(scene, 0) == NULL);
+        CHECK_NEAR(ovoid_scene_get(scene, 0).convexity.mesh_volume, 3, 1e-12);
+        CHECK_EQ(ovoid_scene_get_mesh_solid(scene, 0) == NULL, hulls);
+        ovoid_scene_destroy(scene);
     }
-    ovoid_scene_destroy(scene);
     // Equal geometries are one solid; another scale is another one.
     scene = ovoid_scene_read(file_write_text("solids.json", text), NULL, &error);
     if (!CHECK(scene != NULL)) return;

@@ -204,7 +204,7 @@ static void test_meshes(void) {
             double volume = mesh.scale.y == -2 ? 1 : 1;
             CHECK_EQ(mesh.part_count, each);
             CHECK_EQ(mesh.use_count, 1);
-            CHECK_EQ(mesh.convexity.is_nonconvex, !parts);
+            CHECK_EQ(mesh.convexity.kind, parts ? OVOID_MESH_HULL : OVOID_MESH_SOLID);
             CHECK_NEAR(mesh.convexity.hull_volume, (parts ? 3 : 3.5) * volume, 1e-12);
             CHECK_NEAR(mesh.convexity.mesh_volume, 3 * volume, 1e-12);
         }

@@ -59,6 +59,10 @@ ovoid_code mesh_add_merged_point(mesh_reader *reader, mesh_part *part, point_tab
 /// Adds an index to the present face; unchecked.
 ovoid_code mesh_add_index(mesh_reader *reader, mesh_part *part, uint32_t index);
 
+/// The triangles of all faces, three indices each, to be freed; NULL after an error: MEMORY, FORMAT (a face that cannot
+/// be cut).
+uint32_t *mesh_cut_polygons(const ovoid_faces *faces, size_t *count, ovoid_error *error);
+
 /// Ends a face of `size` indices. With fewer than three it is no face: the indices are removed.
 ovoid_code mesh_end_face(mesh_reader *reader, mesh_part *part, uint32_t size);
 

@@ -28,7 +28,7 @@ static ovoid_shape *read_shape_bytes(const char *path, const ovoid_read_options 
     return shape;
 }
 
-static const ovoid_convexity no_mesh = {NAN, NAN, 0};
+static const ovoid_convexity no_mesh = {.mesh_volume = NAN, .hull_volume = NAN};
 
 /// A hull, and whether its mesh fills it.
 typedef struct mesh_hull {
@@ -36,34 +36,58 @@ typedef struct mesh_hull {
     ovoid_convexity convexity;
 } mesh_hull;
 
-static mesh_hull hull_of_part(const ovoid_mesh *mesh, size_t i, const ovoid_shape_options *options, const char *path,
+/// How a file's hulls are made.
+typedef struct hull_options {
+    const ovoid_read_options *read;   ///< may be NULL
+    const ovoid_shape_options *shape; ///< may be NULL
+    int is_compared;                  ///< 1: with the mesh
+} hull_options;
+
+// Gives the hull of a mesh that is so only nearly the allowance for it. 0 where there is no memory.
+static int allow(mesh_hull *hull, const hull_options *o, ovoid_error *error) {
+    if (!(hull->convexity.allowance > 0) || (o->read && (o->read->hull || o->read->parts))) return 1;
+    ovoid_allowance allowance = ovoid_shape_get_allowance(hull->shape);
+    allowance.inside = nextafter(allowance.inside + hull->convexity.allowance, INFINITY);
+    ovoid_shape *allowed =
+        ovoid_shape_create_allowed(hull->shape, allowance, o->shape ? o->shape->allocator : NULL, error);
+    if (!allowed) return 0;
+    ovoid_shape_destroy(hull->shape);
+    hull->shape = allowed;
+    return 1;
+}
+
+static mesh_hull hull_of_part(const ovoid_mesh *mesh, size_t i, const hull_options *o, const char *path,
                               ovoid_error *error) {
     ovoid_faces faces = ovoid_mesh_get_part(mesh, i).faces;
-    mesh_hull hull = {ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, options, error), no_mesh};
-    if (hull.shape)
-        hull.convexity = ovoid_mesh_compute_convexity(mesh, i, hull.shape);
-    else
-        io_prefix_path(error, path);
+    mesh_hull hull = {ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, o->shape, error), no_mesh};
+    if (hull.shape && o->is_compared) {
+        int is_known = ovoid_mesh_compute_convexity(mesh, i, hull.shape, &hull.convexity, error) == OVOID_OK;
+        if (!is_known || !allow(&hull, o, error)) {
+            ovoid_shape_destroy(hull.shape);
+            hull.shape = NULL;
+        }
+    }
+    if (!hull.shape) io_prefix_path(error, path);
     return hull;
 }
 
 // The shape of a whole file.
-static mesh_hull read_hull(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
-                           ovoid_error *error) {
-    if (ovoid_path_is_shape(path)) return (mesh_hull){read_shape_bytes(path, read, options, error), no_mesh};
+static mesh_hull read_hull(const char *path, const hull_options *o, ovoid_error *error) {
+    if (ovoid_path_is_shape(path)) return (mesh_hull){read_shape_bytes(path, o->read, o->shape, error), no_mesh};
     ovoid_read_options whole = {.scale = 0};
-    if (read) whole = *read;
+    if (o->read) whole = *o->read;
     whole.parts = 0;
+    const hull_options options = {&whole, o->shape, o->is_compared};
     ovoid_mesh *mesh = ovoid_mesh_read(path, &whole, error);
     if (!mesh) return (mesh_hull){NULL, no_mesh};
-    mesh_hull hull = hull_of_part(mesh, 0, options, path, error);
+    mesh_hull hull = hull_of_part(mesh, 0, &options, path, error);
     ovoid_mesh_destroy(mesh);
     return hull;
 }
 
 ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
                                    ovoid_error *error) {
-    return read_hull(path, read, options, error).shape;
+    return read_hull(path, &(hull_options){read, options, 0}, error).shape;
 }
 
 ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ovoid_error *error) {
@@ -135,12 +159,15 @@ static ovoid_code add_entry(shapes_reader *r, const char *name, mesh_hull hull, 
     return OVOID_OK;
 }
 
+static hull_options get_hull_options(const shapes_reader *r) { return (hull_options){r->read, r->options, 1}; }
+
 static ovoid_code add_parts(shapes_reader *r, const ovoid_mesh *mesh, const char *path) {
+    hull_options options = get_hull_options(r);
     for (size_t i = 0; i < ovoid_mesh_get_part_count(mesh); i++) {
         char number[40];
         snprintf(number, sizeof number, "part %zu", i);
         const char *name = ovoid_mesh_get_part(mesh, i).name;
-        mesh_hull hull = hull_of_part(mesh, i, r->options, path, r->error);
+        mesh_hull hull = hull_of_part(mesh, i, &options, path, r->error);
         ovoid_code code = OVOID_ERROR_HULL;
         if (hull.shape) code = add_entry(r, name[0] ? name : number, hull, 0);
         if (code) return code;
@@ -150,7 +177,8 @@ static ovoid_code add_parts(shapes_reader *r, const ovoid_mesh *mesh, const char
 
 static ovoid_code fill_from_file(shapes_reader *r, const char *path) {
     if (!r->read || !r->read->parts || ovoid_path_is_shape(path)) {
-        mesh_hull hull = read_hull(path, r->read, r->options, r->error);
+        hull_options options = get_hull_options(r);
+        mesh_hull hull = read_hull(path, &options, r->error);
         return hull.shape ? add_entry(r, path, hull, 0) : OVOID_ERROR_FILE;
     }
     ovoid_mesh *mesh = ovoid_mesh_read(path, r->read, r->error);
@@ -195,7 +223,8 @@ static ovoid_code add_line(shapes_reader *r, const char *path) {
     for (size_t i = 0; i < shapes->count; i++)
         if (shapes->entries[i].hash == hash && strcmp(shapes->entries[i].name, path) == 0)
             return add_entry(r, path, (mesh_hull){shapes->entries[i].shape, shapes->entries[i].convexity}, 1);
-    mesh_hull hull = read_hull(path, r->read, r->options, r->error);
+    hull_options options = get_hull_options(r);
+    mesh_hull hull = read_hull(path, &options, r->error);
     return hull.shape ? add_entry(r, path, hull, 0) : OVOID_ERROR_FILE;
 }
 

@@ -38,18 +38,26 @@ static uint32_t find_apex(const double *xyz, const uint32_t *face, uint32_t size
     return size;
 }
 
-static uint32_t *cut_polygons(const char *path, const ovoid_faces *faces, size_t *count, ovoid_error *error) {
+// An error without a path, which the caller may know. format has one %zu.
+static void report(ovoid_error *error, ovoid_code code, int64_t place, const char *format, size_t count) {
+    if (!error) return;
+    error->code = code;
+    error->place = place;
+    snprintf(error->message, sizeof error->message, format, count);
+}
+
+uint32_t *mesh_cut_polygons(const ovoid_faces *faces, size_t *count, ovoid_error *error) {
     size_t room = 0;
     for (size_t f = 0; f < faces->face_count; f++) room += faces->sizes[f] - 2;
     uint32_t *triangles = malloc((3 * room + 1) * sizeof *triangles);
     *count = 0;
-    if (!triangles) (void)io_fail_memory(error, path);
+    if (!triangles) report(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu triangles", room);
     const uint32_t *face = faces->indices;
     for (size_t f = 0; f < faces->face_count && triangles; face += faces->sizes[f++]) {
         uint32_t size = faces->sizes[f], apex = find_apex(faces->vertices, face, size);
         if (apex == size) {
-            io_report(error, OVOID_ERROR_FORMAT, (where){path, 0, (int64_t)f},
-                      "face %zu cannot be cut into triangles from one of its corners: triangulate the mesh", f);
+            report(error, OVOID_ERROR_FORMAT, (int64_t)f,
+                   "face %zu cannot be cut into triangles from one of its corners: triangulate the mesh", f);
             free(triangles);
             return NULL;
         }
@@ -63,18 +71,18 @@ static uint32_t *cut_polygons(const char *path, const ovoid_faces *faces, size_t
     return triangles;
 }
 
-static ovoid_solid *make_solid(const char *path, const ovoid_faces *faces, ovoid_error *error) {
-    if (faces->face_count == 0) {
-        io_report(error, OVOID_ERROR_EMPTY, (where){path, 0, -1}, "no faces: points alone are no solid");
+ovoid_solid *ovoid_mesh_create_solid(const ovoid_mesh *mesh, size_t part, ovoid_error *error) {
+    ovoid_faces faces = ovoid_mesh_get_part(mesh, part).faces;
+    if (faces.face_count == 0) {
+        report(error, OVOID_ERROR_EMPTY, -1, "no faces, %zu points alone: they are no solid", faces.vertex_count);
         return NULL;
     }
     size_t count;
-    uint32_t *triangles = cut_polygons(path, faces, &count, error);
+    uint32_t *triangles = mesh_cut_polygons(&faces, &count, error);
     if (!triangles) return NULL;
     ovoid_solid *solid =
-        ovoid_solid_create_from_triangles(faces->vertices, faces->vertex_count, triangles, count, NULL, error);
+        ovoid_solid_create_from_triangles(faces.vertices, faces.vertex_count, triangles, count, NULL, error);
     free(triangles);
-    if (!solid) io_prefix_path(error, path);
     return solid;
 }
 
@@ -84,8 +92,8 @@ ovoid_solid *ovoid_solid_read_file(const char *path, const ovoid_read_options *r
     whole.parts = 0;
     ovoid_mesh *mesh = ovoid_mesh_read(path, &whole, error);
     if (!mesh) return NULL;
-    ovoid_faces faces = ovoid_mesh_get_part(mesh, 0).faces;
-    ovoid_solid *solid = make_solid(path, &faces, error);
+    ovoid_solid *solid = ovoid_mesh_create_solid(mesh, 0, error);
+    if (!solid) io_prefix_path(error, path);
     ovoid_mesh_destroy(mesh);
     return solid;
 }

@@ -20,7 +20,7 @@ static ovoid_code fail_syntax(const scene_reader *r, const json_error_t *why) {
 static ovoid_code read_object(scene_reader *r, json_t *object) {
     static const char *const words[] = {"name", "pose",   "radius",   "allowance", "scale",   "unit",
                                         "mesh", "box",    "parts",    "sphere",    "capsule", "cylinder",
-                                        "cone", "points", "compound", "solid",     NULL};
+                                        "cone", "points", "compound", "solid",     "hull",    NULL};
     scene_entry *entry = &r->scene->entries[r->index];
     r->name = NULL;
     if (!json_is_object(object)) return scene_fail(r, OVOID_ERROR_FORMAT, NULL, "must be a JSON object");
@@ -193,8 +193,8 @@ static ovoid_code read_scene(scene_reader *r) {
     return code;
 }
 
-ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error) {
-    scene_reader r = {.path = path, .options = options, .error = error, .part = NO_PART};
+static ovoid_scene *read_file(const char *path, const ovoid_shape_options *options, int hulls, ovoid_error *error) {
+    scene_reader r = {.path = path, .options = options, .error = error, .part = NO_PART, .hulls = hulls};
     bytes file;
     if (bytes_read_input(path, OVOID_SCENE_SIZE_MAX, &file, error)) return NULL;
     r.file = bytes_skip_mark(file);
@@ -205,6 +205,14 @@ ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *optio
     if (!code) return r.scene;
     ovoid_scene_destroy(r.scene);
     return NULL;
+}
+
+ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error) {
+    return read_file(path, options, 0, error);
+}
+
+ovoid_scene *ovoid_scene_read_hulls(const char *path, const ovoid_shape_options *options, ovoid_error *error) {
+    return read_file(path, options, 1, error);
 }
 
 void ovoid_scene_destroy(ovoid_scene *scene) {
@@ -257,7 +265,7 @@ ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i) {
                             .mesh = body->mesh,
                             .read = body->read,
                             .solid = body->solid,
-                            .convexity = {NAN, NAN, 0},
+                            .convexity = {.mesh_volume = NAN, .hull_volume = NAN},
                             .is_asked = body->is_asked};
     if (body->solid)
         o.kind = ovoid_solid_get_report(body->solid).is_closed ? OVOID_MESH_SOLID : OVOID_MESH_SURFACE;
@@ -271,15 +279,6 @@ ovoid_body ovoid_scene_get_body(const ovoid_scene *scene, size_t i, const ovoid_
     const scene_body *body = &scene->bodies[scene->entries[i].body];
     return (ovoid_body){
         .shape = body->solid ? NULL : body->shape, .compound = body->compound, .pose = *pose, .solid = body->solid};
-}
-
-void ovoid_scene_take_hulls(ovoid_scene *scene) {
-    for (size_t i = 0; i < scene->body_count; i++) {
-        scene_body *body = &scene->bodies[i];
-        if (body->is_asked) continue;
-        ovoid_solid_destroy(body->solid);
-        body->solid = NULL;
-    }
 }
 
 size_t ovoid_scene_find(const ovoid_scene *scene, const char *name) {

@@ -49,6 +49,7 @@ typedef struct scene_reader {
     size_t index;     ///< the present object
     const char *name; ///< its name; NULL until it is read
     long part;        ///< of the object's "compound", or NO_PART
+    int hulls;        ///< 1: meshes are their hulls where the scene does not say otherwise
     size_t *slots;    ///< bodies by their hash, as index + 1; a power of two of them
     size_t slot_count;
 } scene_reader;

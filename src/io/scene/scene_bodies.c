@@ -30,7 +30,8 @@ typedef struct geometry {
     char *mesh; ///< path; NULL for all but meshes
     ovoid_shape_options options;
     ovoid_read_options read;
-    int solid; ///< of a mesh: 1 a solid, 0 a hull, -1 what it suggests
+    int solid;    ///< of a mesh: 1 its triangles, 0 a hull, -1 what it is
+    int is_plain; ///< without a rounding radius and an allowance, and no part of a compound: it may be a solid
 } geometry;
 
 // Puts the place of the object before the core's error for its shape. A shape that is not NULL is passed on.
@@ -139,16 +140,21 @@ static ovoid_code fail_mesh(scene_reader *r, const ovoid_error *why) {
     return why->code;
 }
 
-// The solid of a mesh that is to be one: as asked, or because it is closed and does not fill its hull. What cannot be
-// read as one then is its hull.
+// The triangles of a mesh that is to be them: as asked, or because it is not its hull.
 static ovoid_code read_solid(scene_reader *r, const geometry *g, scene_body *body) {
     ovoid_error why = {OVOID_OK, -1, ""};
     ovoid_convexity c = ovoid_shapes_get(body->parts, 0).convexity;
     body->is_asked = g->solid > 0;
-    if (g->solid == 0 || !(body->is_asked || (c.is_nonconvex && isfinite(c.mesh_volume)))) return OVOID_OK;
+    if (g->solid == 0 || !(body->is_asked || c.kind != OVOID_MESH_HULL)) return OVOID_OK;
+    if (!g->is_plain)
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, "mesh",
+                                 c.kind == OVOID_MESH_SURFACE
+                                     ? "is not closed: as a surface it has no radius and no allowance, and is no part "
+                                       "of a compound; \"hull\": true takes its hull"
+                                     : "is not convex: as a solid it has no radius and no allowance, and is no part of "
+                                       "a compound; \"hull\": true takes its hull");
     body->solid = ovoid_solid_read_file(g->mesh, &g->read, &why);
-    if (body->solid || (!body->is_asked && why.code != OVOID_ERROR_MEMORY)) return OVOID_OK;
-    return fail_mesh(r, &why);
+    return body->solid ? OVOID_OK : fail_mesh(r, &why);
 }
 
 static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body) {
@@ -183,7 +189,7 @@ static ovoid_code add_part(scene_reader *r, part_list *list, const ovoid_shape *
 
 // Reads a part: one shape, or all parts of a mesh.
 static ovoid_code read_part(scene_reader *r, json_t *object, part_list *list) {
-    static const char *const words[] = {"pose", "radius", "allowance", "scale",    "unit", "mesh",   "parts",
+    static const char *const words[] = {"pose", "radius", "allowance", "scale",    "unit", "mesh",   "parts", "hull",
                                         "box",  "sphere", "capsule",   "cylinder", "cone", "points", NULL};
     const char *unknown;
     ovoid_pose pose;
@@ -298,18 +304,33 @@ static ovoid_code read_parts(scene_reader *r, const json_t *object, geometry *g)
     return OVOID_OK;
 }
 
-// Reads "solid". A hull has a rounding radius and an allowance, a solid has none; parts of compounds are convex.
-static ovoid_code read_is_solid(scene_reader *r, const json_t *object, geometry *g) {
-    const json_t *solid = json_object_get(object, "solid");
+// Reads a member that is true or false, of meshes; *is_true stays as it is where there is none.
+static ovoid_code read_flag(scene_reader *r, const json_t *object, const geometry *g, const char *key, int *is_true) {
+    const json_t *value = json_object_get(object, key);
+    if (!value) return OVOID_OK;
+    if (strcmp(g->kind, "mesh") != 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, key, "is for meshes only");
+    if (!json_is_boolean(value)) return scene_fail_member(r, OVOID_ERROR_FORMAT, key, "must be true or false");
+    *is_true = json_is_true(value);
+    return OVOID_OK;
+}
+
+// Reads "hull" and "solid". "solid": false is "hull": true.
+static ovoid_code read_choice(scene_reader *r, const json_t *object, geometry *g) {
     const ovoid_allowance *allowance = &g->options.allowance;
     int is_plain = !(g->options.radius > 0) && !(allowance->outside > 0) && !(allowance->inside > 0);
     const char *path = strcmp(g->kind, "mesh") == 0 ? json_string_value(g->value) : NULL;
-    g->solid = r->part == NO_PART && is_plain && path && !g->read.parts && !ovoid_path_is_shape(path) ? -1 : 0;
-    if (!solid) return OVOID_OK;
-    if (strcmp(g->kind, "mesh") != 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "is for meshes only");
-    if (!json_is_boolean(solid)) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "must be true or false");
-    g->solid = json_is_true(solid);
-    if (!g->solid) return OVOID_OK;
+    int is_mesh = path && !g->read.parts && !ovoid_path_is_shape(path), hull = -1, solid = -1;
+    ovoid_code code = read_flag(r, object, g, "hull", &hull);
+    if (!code) code = read_flag(r, object, g, "solid", &solid);
+    if (code) return code;
+    g->is_plain = is_plain && r->part == NO_PART;
+    g->solid = is_mesh && !r->hulls ? -1 : 0;
+    if (hull > 0 || solid == 0) g->solid = 0;
+    if (hull == 0 && is_mesh) g->solid = -1;
+    g->read.hull = g->solid == 0;
+    if (solid <= 0) return OVOID_OK;
+    g->solid = 1;
+    if (hull > 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "excludes \"hull\"");
     if (g->read.parts)
         return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "excludes \"parts\", whose hulls are the body");
     if (!is_plain) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "has no radius and no allowance");
@@ -460,7 +481,7 @@ ovoid_code scene_read_body(scene_reader *r, json_t *object, size_t *body) {
     if (!code) code = read_parts(r, object, &g);
     if (!code) code = read_radius(r, object, &g);
     if (!code) code = read_allowance(r, object, &g);
-    if (!code) code = read_is_solid(r, object, &g);
+    if (!code) code = read_choice(r, object, &g);
     if (!code) code = read_path(r, &g);
     if (!code) code = find_or_make_body(r, &g, body);
     free(g.mesh);

@@ -73,11 +73,14 @@ static ovoid_code measure(robot_reader *r, const geometry *g, open_mesh *open) {
     for (size_t i = 0; i < g->shape_count; i++) {
         ovoid_shape *own = is_unscaled(g) ? NULL : create_hull(r, open, i, NULL, &why);
         if (!own && !is_unscaled(g)) return robot_fail(r, g->at, why.code, "%s: %s", g->path, why.message);
-        ovoid_convexity c = ovoid_mesh_compute_convexity(open->mesh, i, own ? own : r->file->shapes[g->shape + i]);
+        ovoid_convexity c;
+        const ovoid_shape *hull = own ? own : r->file->shapes[g->shape + i];
+        ovoid_code code = ovoid_mesh_compute_convexity(open->mesh, i, hull, &c, NULL);
+        ovoid_shape_destroy(own);
+        if (code) return robot_fail_memory(r);
         open->convexity.mesh_volume += c.mesh_volume;
         open->convexity.hull_volume += c.hull_volume;
-        open->convexity.is_nonconvex |= c.is_nonconvex;
-        ovoid_shape_destroy(own);
+        if (c.kind > open->convexity.kind) open->convexity.kind = c.kind;
     }
     open->is_measured = 1;
     return OVOID_OK;
@@ -118,7 +121,7 @@ static ovoid_code keep_solid(robot_reader *r, geometry *g, ovoid_solid *solid) {
 static ovoid_code make_solid(robot_reader *r, geometry *g, open_mesh *open) {
     ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
     ovoid_read_options read = {.trusted = r->options->trusted};
-    int is_wanted = r->options->solids && !r->options->parts && open->convexity.is_nonconvex &&
+    int is_wanted = r->options->solids && !r->options->parts && open->convexity.kind == OVOID_MESH_SOLID &&
                     isfinite(open->convexity.mesh_volume);
     if (!is_wanted) return OVOID_OK;
     if (!open->solid) open->solid = ovoid_solid_read_file(g->path, &read, &why);

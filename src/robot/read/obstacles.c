@@ -345,10 +345,9 @@ static ovoid_code read_planning_scene(message_reader *r, ovoid_obstacles *o) {
 
 // Compounds are their parts; meshes that could be solids are their hulls where none are wanted.
 static ovoid_code read_own_scene(const message_reader *r, ovoid_obstacles *o) {
-    o->scene = ovoid_scene_read(r->path, r->options->shape, r->error);
+    o->scene = (r->options->solids ? ovoid_scene_read : ovoid_scene_read_hulls)(r->path, r->options->shape, r->error);
     if (!o->scene) return OVOID_ERROR_FILE;
     ovoid_code code = OVOID_OK;
-    if (!r->options->solids) ovoid_scene_take_hulls(o->scene);
     for (size_t i = 0; i < ovoid_scene_get_count(o->scene) && !code; i++) {
         ovoid_scene_object object = ovoid_scene_get(o->scene, i);
         if (object.solid && !r->options->solids)
