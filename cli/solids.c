@@ -173,7 +173,10 @@ static void print_report(FILE *file, const solids_pair *p, const solids_query *q
     if (q->margin >= 0) print_margin(file, q, x, unit);
     if (p->solids[0]) fprintf(file, "%-11s %u of a\n", "triangle", (unsigned)x->triangle_a);
     if (p->solids[1]) fprintf(file, "%-11s %u of b\n", "triangle", (unsigned)x->triangle_b);
-    if (x->inside) fprintf(file, "%-11s %s\n", "inside", x->inside == OVOID_SOLID_A_INSIDE ? "a in b" : "b in a");
+    if (x->inside == OVOID_SOLID_COMMON_POINT)
+        print_vector(file, "common", x->common, unit);
+    else if (x->inside)
+        fprintf(file, "%-11s %s\n", "inside", x->inside == OVOID_SOLID_A_INSIDE ? "a in b" : "b in a");
     print_vector(file, "point on a", x->surfaces.point_a, unit);
     print_vector(file, "point on b", x->surfaces.point_b, unit);
     print_vector(file, "normal", x->surfaces.normal, "");

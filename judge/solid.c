@@ -8,6 +8,7 @@
 //
 // A ray from the point toward +x, in the frame of the body around it; where it meets an edge, one of no symmetry.
 #include "parts.h"
+#include "shell.h"
 
 #include <stdlib.h>
 
@@ -125,12 +126,11 @@ static ovoid_code check_leaves(judge *context, const trial *t, int points) {
 }
 
 static ovoid_code check_touching(const judge *context, const trial *t) {
-    const ovoid_answer *x = &t->x->surfaces;
+    const ovoid_solid_answer *x = t->x;
     ovoid_vec3 a = t->a.of->pose.position, b = t->b.of->pose.position;
     double radii = num_to_double(num_add(t->p, t->a.posed.radius, t->b.posed.radius));
     double size = t->a.posed.extent + t->b.posed.extent + radii + hypot(hypot(b.x - a.x, b.y - a.y), b.z - a.z);
     double unresolved = 0x1p-88 * (t->a.posed.reach + t->b.posed.reach) + 16 * OVOID_LENGTH_MIN;
-    if (!(x->lower <= 0 && x->upper >= 0)) return reject(t, "the status is not what the bracket of the surfaces says");
     if (!(x->upper - x->lower > context->touching * size + unresolved)) return OVOID_OK;
     return judge_reject(t->error, OVOID_ERROR_PROOF, "touching within %.3g is wide for bodies of size %.3g",
                         x->upper - x->lower, size);
@@ -299,6 +299,157 @@ static int has_inside(const trial *t, const side *own, const side *other, uint32
     return is;
 }
 
+// --- a point of both
+
+/// The triangles of a side, a shape's in its body frame; how many. corner: three points of one, `at` the origin.
+static uint32_t count_triangles(const side *s) { return s->corners ? s->count : s->posed.polytope.triangle_count; }
+
+static void get_triangle(pool *p, const side *s, const scaled *at, uint32_t t, nvec corner[3]) {
+    for (int i = 0; i < 3; i++) {
+        ovoid_vec3 v;
+        if (s->corners) {
+            v = get_point(s, s->corners[3 * (size_t)t + i]);
+        } else {
+            const ovoid_polytope *own = &s->posed.polytope;
+            const double *x = own->vertices + 3 * (size_t)own->triangles[3 * (size_t)t + i];
+            v = (ovoid_vec3){x[0], x[1], x[2]};
+        }
+        corner[i] = nvec_sub(p, nvec_scale(p, nvec_from(p, v), at->factor), at->x);
+    }
+}
+
+/// 1 if all triangles are at least r from the origin of `at`; r in its units.
+static int are_beyond_ball(pool *p, const side *s, const scaled *at, num r) {
+    num square = num_mul(p, r, r);
+    int ok = 1;
+    for (uint32_t t = 0; t < count_triangles(s) && ok; t++) {
+        size_t mark = pool_get_mark(p);
+        nvec c[3];
+        get_triangle(p, s, at, t, c);
+        ok = triangle_is_farther(p, c[0], c[1], c[2], square);
+        pool_release(p, mark);
+    }
+    return ok;
+}
+
+/// 1 if the side winds around the point: of a shape, which is convex, one ray after another as of a solid.
+static int covers(const trial *t, const side *s, const scaled *at) {
+    static const ovoid_vec3 rays[] = {{1009, 2003, -3001}, {-4001, 907, 1301}, {577, -2741, 991}};
+    if (s->corners ? !s->is_closed : s->posed.polytope.rank < 3) return 0;
+    for (size_t i = 0; i < sizeof rays / sizeof *rays; i++) {
+        long winding = 0;
+        int ok = 1;
+        for (uint32_t k = 0; k < count_triangles(s) && ok; k++) {
+            size_t mark = pool_get_mark(t->p);
+            nvec c[3];
+            get_triangle(t->p, s, at, k, c);
+            winding += count_crossing(t->p, nvec_from(t->p, rays[i]), c, &ok);
+            pool_release(t->p, mark);
+        }
+        if (ok) return winding != 0;
+    }
+    return 0;
+}
+
+/// 1 if the side has the clearance r at the point: the ball of that radius lies in it; or, below 0, it has a point no
+/// farther than -r.
+static int has_clearance(const trial *t, const side *s, const scaled *at, num r) {
+    pool *p = t->p;
+    num core = num_mul(p, num_add(p, num_sub(p, r, s->posed.radius), s->posed.inside), at->factor);
+    if (num_sign(core) <= 0) {
+        num most = num_neg(p, core);
+        if (covers(t, s, at)) return 1;
+        if (count_triangles(s)) return !are_beyond_ball(p, s, at, most);
+        nvec v = nvec_from(p, (ovoid_vec3){s->posed.polytope.vertices[0], s->posed.polytope.vertices[1],
+                                           s->posed.polytope.vertices[2]});
+        nvec d = nvec_sub(p, nvec_scale(p, v, at->factor), at->x);
+        return num_compare(p, nvec_norm_squared(p, d), num_mul(p, most, most)) <= 0;
+    }
+    return covers(t, s, at) && are_beyond_ball(p, s, at, core);
+}
+
+/// The distance of the origin to a segment in doubles.
+static double measure_segment(const double a[3], const double b[3]) {
+    double along = 0, length = 0, square = 0;
+    for (int k = 0; k < 3; k++) along -= a[k] * (b[k] - a[k]), length += (b[k] - a[k]) * (b[k] - a[k]);
+    double at = length > 0 ? fmin(fmax(along / length, 0), 1) : 0;
+    for (int k = 0; k < 3; k++) square += (a[k] + at * (b[k] - a[k])) * (a[k] + at * (b[k] - a[k]));
+    return sqrt(square);
+}
+
+/// The distance of the origin to a triangle in doubles: of its plane where its edges have the foot between them.
+static double measure_triangle(double c[3][3]) {
+    double n[3], foot[3], best = INFINITY, offset = 0, length = 0;
+    int inner = 1;
+    for (int k = 0; k < 3; k++) {
+        int u = (k + 1) % 3, v = (k + 2) % 3;
+        n[k] = (c[1][u] - c[0][u]) * (c[2][v] - c[0][v]) - (c[1][v] - c[0][v]) * (c[2][u] - c[0][u]);
+        offset += n[k] * c[0][k];
+        length += n[k] * n[k];
+    }
+    for (int k = 0; k < 3; k++) foot[k] = length > 0 ? n[k] * offset / length : 0;
+    for (int i = 0; i < 3; i++) {
+        const double *a = c[i], *b = c[(i + 1) % 3];
+        double turn = 0;
+        for (int k = 0; k < 3; k++) {
+            int u = (k + 1) % 3, v = (k + 2) % 3;
+            turn += n[k] * ((b[u] - a[u]) * (foot[v] - a[v]) - (b[v] - a[v]) * (foot[u] - a[u]));
+        }
+        inner &= turn > 0;
+        best = fmin(best, measure_segment(a, b));
+    }
+    return inner && length > 0 ? fabs(offset) / sqrt(length) : best;
+}
+
+/// How far the point is from the side's triangles, or its first vertex, in doubles: how a depth is shared out.
+static double measure_distance(const trial *t, const side *s, const scaled *at) {
+    double factor = num_to_double(at->factor), best = INFINITY;
+    for (uint32_t k = 0; k < count_triangles(s); k++) {
+        size_t mark = pool_get_mark(t->p);
+        nvec corner[3];
+        double c[3][3];
+        get_triangle(t->p, s, at, k, corner);
+        for (int i = 0; i < 3; i++) {
+            c[i][0] = num_to_double(corner[i].x) / factor;
+            c[i][1] = num_to_double(corner[i].y) / factor;
+            c[i][2] = num_to_double(corner[i].z) / factor;
+        }
+        best = fmin(best, measure_triangle(c));
+        pool_release(t->p, mark);
+    }
+    return best < INFINITY ? best : 0;
+}
+
+/// The common point of a's frame in the frame of a side, where a shape's vertices are about its origin.
+static scaled find_common(const trial *t, const side *s) {
+    pool *p = t->p;
+    nvec local = nvec_from(p, t->x->common);
+    nvec own = nvec_sub(p, local, t->a.posed.origin);
+    nvec from = nvec_sub(p, body_point(p, &t->a.posed, own), nvec_scale(p, s->posed.position, t->a.posed.n));
+    scaled at = {body_rotate_back(p, &s->posed, from), num_mul(p, t->a.posed.n, s->posed.n)};
+    at.x = nvec_sub(p, at.x, nvec_scale(p, s->posed.origin, at.factor));
+    return at;
+}
+
+/// The clearance in doubles.
+static double measure_clearance(const trial *t, const side *s, const scaled *at) {
+    double distance = measure_distance(t, s, at),
+           radius = num_to_double(num_sub(t->p, s->posed.radius, s->posed.inside));
+    return (covers(t, s, at) ? distance : -distance) + radius;
+}
+
+static ovoid_code check_common_point(const trial *t) {
+    const ovoid_solid_answer *x = t->x;
+    const char *why = "the common point does not show the overlap";
+    if (!is_finite(x->common)) return reject(t, why);
+    scaled in_a = find_common(t, &t->a), in_b = find_common(t, &t->b);
+    double a = measure_clearance(t, &t->a, &in_a), b = measure_clearance(t, &t->b, &in_b);
+    // What both have beyond the claim is left to each in halves.
+    num share = number_from(t->p, a - 0.5 * ((a + b) + x->upper));
+    num rest = num_sub(t->p, number_from(t->p, -x->upper), share);
+    return has_clearance(t, &t->a, &in_a, share) && has_clearance(t, &t->b, &in_b, rest) ? OVOID_OK : reject(t, why);
+}
+
 // --- the bodies
 
 static ovoid_code check_apart(const trial *t) {
@@ -316,6 +467,7 @@ static ovoid_code check_overlap(const trial *t) {
     if (!x->inside)
         return x->surfaces.upper < 0 && x->upper >= x->surfaces.upper ? OVOID_OK
                                                                       : reject(t, "an overlap without a reason");
+    if (x->inside == OVOID_SOLID_COMMON_POINT) return check_common_point(t);
     if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
         return reject(t, "an overlap without a reason");
     if (!(x->surfaces.lower > 0 && x->upper >= -x->surfaces.lower))

@@ -124,8 +124,9 @@ OVOID_API ovoid_solid_crossings ovoid_solid_compute_crossings(const ovoid_solid 
 /** Which body has a point of the other inside, if that is what proves an overlap. */
 typedef enum ovoid_solid_inside {
     OVOID_SOLID_INSIDE_NONE = 0,
-    OVOID_SOLID_A_INSIDE, /**< a component of a is inside b; of a compound a part, of a shape the whole of it */
-    OVOID_SOLID_B_INSIDE  /**< a component of b is inside a */
+    OVOID_SOLID_A_INSIDE,    /**< a component of a is inside b; of a compound a part, of a shape the whole of it */
+    OVOID_SOLID_B_INSIDE,    /**< a component of b is inside a */
+    OVOID_SOLID_COMMON_POINT /**< neither; `common` is a point of both bodies, away from their surfaces */
 } ovoid_solid_inside;
 
 /**
@@ -143,7 +144,8 @@ typedef struct ovoid_solid_answer {
     double lower, upper; /**< of d; -infinity and infinity where refused */
     ovoid_vec3 parting;  /**< unit, world frame: along it the boxes show `lower`, where that is below 0 */
     ovoid_solid_inside inside;
-    uint32_t component;              /**< the component that is inside */
+    uint32_t component;              /**< the component that is inside; else 0 */
+    ovoid_vec3 common;               /**< COMMON_POINT: the point, frame of a; else 0 */
     uint32_t triangle_a, triangle_b; /**< the deciding pair; 0 for a shape, of a compound the part */
     uint32_t visited;                /**< pairs of nodes and triangles whose bounds were looked at */
     uint32_t tested;                 /**< pairs queried */

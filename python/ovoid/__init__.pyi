@@ -147,6 +147,7 @@ class SolidAnswer:
     parting: Final[_Vec3]
     inside: Final[Inside]
     component: Final[int | None]
+    common: Final[_Vec3]
     triangle_a: Final[int]
     triangle_b: Final[int]
     visited: Final[int]

@@ -114,11 +114,12 @@ class Touch(Named):
 
 
 class Inside(Named):
-    """Which body has a component inside the other, where that is what proves that two solids overlap."""
+    """What is inside, where that is what proves that two solids overlap."""
 
     NONE = 0
     A = 1  #: a component of a is inside b
     B = 2  #: a component of b is inside a
+    POINT = 3  #: a point is in both, away from their surfaces
 
 
 class Agreement(Named):

@@ -98,7 +98,8 @@ static PyObject *get_proof(PyObject *self, void *closure) {
 static PyObject *get_component(PyObject *self, void *closure) {
     (void)closure;
     const ovoid_solid_answer *of = &((solid_answer_object *)self)->of;
-    return of->inside == OVOID_SOLID_INSIDE_NONE ? Py_NewRef(Py_None) : PyLong_FromUnsignedLong(of->component);
+    int is = of->inside == OVOID_SOLID_A_INSIDE || of->inside == OVOID_SOLID_B_INSIDE;
+    return is ? PyLong_FromUnsignedLong(of->component) : Py_NewRef(Py_None);
 }
 
 static PyObject *get_body(PyObject *self, void *closure) {
@@ -159,8 +160,10 @@ static PyGetSetDef fields[] = {
     FIELD(solid_answer_object, FIELD_VEC3, "parting", of.parting,
           "Unit direction, world frame, along which a way of -lower parts the bodies, where lower is below 0."),
     FIELD(solid_answer_object, FIELD_ENUM + ENUM_INSIDE, "inside", of.inside,
-          "Which body has a component inside the other, where that is what proves an overlap: an Inside."),
+          "What is inside, where that is what proves an overlap: an Inside."),
     {"component", get_component, NULL, "The component that is inside, or None.", NULL},
+    FIELD(solid_answer_object, FIELD_VEC3, "common", of.common,
+          "Where inside is Inside.POINT: the point that both bodies cover, frame of a; else zeros."),
     FIELD(solid_answer_object, FIELD_UINT, "triangle_a", of.triangle_a,
           "The deciding triangle of a; of a compound the part, of a shape 0."),
     FIELD(solid_answer_object, FIELD_UINT, "triangle_b", of.triangle_b,

@@ -10,7 +10,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/rotation.h"
-#include "solid/frame.h"
+#include "solid/clearance.h"
 
 typedef struct cut {
     const ovoid_solid_answer *x;
@@ -131,8 +131,19 @@ static ovoid_code check_depth(const cut *c, ovoid_error *error) {
     return measure_gap(c, &all) >= x->lower ? OVOID_OK : refuse_all(error, "the depth is not shown by its direction");
 }
 
+static ovoid_code check_common_point(const cut *c, ovoid_error *error) {
+    const ovoid_solid_answer *x = c->x;
+    const framed_pair pair = {&c->frame, &c->a, &c->b};
+    if (!vec3_is_finite(x->common) || !(vec3_norm(x->common) <= c->frame.size))
+        return refuse_all(error, "the common point is beyond the bodies");
+    double depth = framed_pair_find_clearance(&pair, 0, x->common, 1) +
+                   framed_pair_find_clearance(&pair, 1, x->common, 1) - 2 * c->frame.check;
+    return depth > 0 && x->upper >= -depth ? OVOID_OK : refuse_all(error, "the common point does not show the overlap");
+}
+
 static ovoid_code check_inside(const cut *c, ovoid_error *error) {
     const ovoid_solid_answer *x = c->x;
+    if (x->inside == OVOID_SOLID_COMMON_POINT) return check_common_point(c, error);
     const solid_view *own = x->inside == OVOID_SOLID_A_INSIDE ? &c->a : &c->b, *other = own == &c->a ? &c->b : &c->a;
     if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
         return refuse_all(error, "an overlap without a reason");

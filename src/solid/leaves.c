@@ -31,6 +31,27 @@ void search_exclude_boxes(solid_search *h, const waiting_pair *w) {
     add(h, &x);
 }
 
+// ---- pairs that may touch
+
+static vec3 find_normal(const solid_view *v, uint32_t place) {
+    vec3 c = solid_get_corner(v->solid, place, 0);
+    vec3 n = vec3_cross(vec3_sub(solid_get_corner(v->solid, place, 1), c),
+                        vec3_sub(solid_get_corner(v->solid, place, 2), c));
+    return vec3_unit(v->solid->report.volume < 0 ? vec3_neg(n) : n);
+}
+
+// Of two triangles only where both bodies are on one side of them.
+static void note_flush(solid_search *h, uint32_t a, uint32_t b, double lower) {
+    flush_pairs *all = &h->flush;
+    if (lower > h->frame.claim || all->count == sizeof all->pair / sizeof *all->pair) return;
+    if (h->a.solid && h->b.solid) {
+        vec3 n = find_normal(&h->a, a), m = mat3_mul_vec3(h->frame.to_a, find_normal(&h->b, b));
+        if (!(vec3_dot(n, m) > 0.5) || !(vec3_max_abs(vec3_cross(n, m)) <= 1e-6)) return;
+    }
+    all->pair[all->count].a = a;
+    all->pair[all->count++].b = b;
+}
+
 // ---- the best pair
 
 static void tighten(solid_search *h) {
@@ -102,6 +123,7 @@ int search_is_filtered(solid_search *h, uint32_t a, uint32_t b) {
     else
         lower = find_leaf_gap(h, a, b);
     if (!search_is_left_out(h, lower)) return 0;
+    note_flush(h, a, b, lower);
     search_exclude(h, a, b, lower, h->best.normal, (vec3){0, 0, 0});
     return 1;
 }
@@ -116,6 +138,7 @@ static void exclude_candidate(solid_search *h, const solid_candidate *x) {
 }
 
 void search_take(solid_search *h, const solid_candidate *x) {
+    note_flush(h, x->place_a, x->place_b, x->lower);
     if (h->has_best && !(x->upper < h->best.upper)) {
         exclude_candidate(h, x);
         return;
@@ -191,9 +214,10 @@ void search_visit_triangles(solid_search *h, int side, uint32_t one, const uint3
         // From the one to the eight: for nodes of a that is from b to a.
         c.normal = side ? mat3_mul_vec3(f->world, n) : vec3_neg(mat3_mul_vec3(f->world_b, n));
         int is_known = h->goal.wants_bracket && c.upper - c.lower <= h->tolerance / 2;
-        if (search_is_left_out(h, c.lower))
+        if (search_is_left_out(h, c.lower)) {
+            note_flush(h, a, b, c.lower);
             exclude_candidate(h, &c);
-        else if (is_known)
+        } else if (is_known)
             search_take(h, &c);
         else
             search_visit_leaves(h, a, b, NULL);

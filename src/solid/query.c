@@ -21,6 +21,15 @@ static void exclude_all(solid_search *h) {
     search_exclude_boxes(h, &all);
 }
 
+static ovoid_limit find_limit(const solid_search *h, double lower, double upper, ovoid_status status) {
+    final_bracket b = {.lower = lower, .upper = upper, .status = status, .kind = h->out->surfaces.proof.kind};
+    b.tolerance = h->tolerance + h->allowance;
+    b.allowance = h->allowance;
+    if (bracket_is_left_open(&b, &h->whole_goal)) return OVOID_LIMIT_ALLOWANCE;
+    return bracket_is_narrow(&b, &h->whole_goal) ? OVOID_LIMIT_NONE
+                                                 : bracket_find_limit(&b, &h->whole_goal, h->trouble);
+}
+
 // The bracket of the surfaces, with the answer of the pair that decides it.
 static void finish_surfaces(solid_search *h) {
     ovoid_solid_answer *out = h->out;
@@ -38,10 +47,7 @@ static void finish_surfaces(solid_search *h) {
     ovoid_answer *x = &out->surfaces;
     x->lower = min2(x->lower, h->lower);
     x->status = find_status(x->lower, x->upper, h->tolerance + h->allowance);
-    final_bracket b = {x->lower, x->upper, h->tolerance + h->allowance, h->allowance, x->status, x->proof.kind};
-    x->limit = bracket_is_left_open(&b, &h->whole_goal) ? OVOID_LIMIT_ALLOWANCE
-               : bracket_is_narrow(&b, &h->whole_goal)  ? OVOID_LIMIT_NONE
-                                                        : bracket_find_limit(&b, &h->whole_goal, h->trouble);
+    x->limit = find_limit(h, x->lower, x->upper, x->status);
     out->triangle_a = solid_view_get_index(&h->a, h->best.place_a);
     out->triangle_b = solid_view_get_index(&h->b, h->best.place_b);
     ovoid_exclusions *all = h->exclusions;
@@ -55,6 +61,28 @@ static int find_inside(solid_search *h) {
     return solid_find_inside(&h->a, &h->b, 0, &h->out->inside, &h->out->component);
 }
 
+// What parts the bodies: of a distance, which is asked for its bracket, and of bodies that touch, by all points.
+static void find_parting(solid_search *h) {
+    ovoid_solid_answer *out = h->out;
+    int is_distance = h->whole_goal.wants_bracket && h->whole_goal.near == -INFINITY;
+    box_gap gap = is_distance || !(out->upper < 0) ? solid_find_parting(&h->frame, &h->a, &h->b, out->surfaces.normal)
+                                                   : solid_frame_find_parting(&h->frame, &h->a, &h->b);
+    out->lower = min2(gap.lower, min2(out->upper, 0));
+    out->parting = gap.normal;
+}
+
+// Surfaces that touch leave open how deep the bodies are in each other: a point of both may show it.
+static void find_common_point(solid_search *h) {
+    ovoid_solid_answer *out = h->out;
+    const framed_pair pair = {&h->frame, &h->a, &h->b};
+    common_point found;
+    if (!framed_pair_find_common_point(&pair, &h->flush, &found)) return;
+    out->inside = OVOID_SOLID_COMMON_POINT;
+    out->common = found.point;
+    out->upper = -found.depth;
+    out->lower = min2(out->lower, out->upper);
+}
+
 // From the surfaces to the bodies: what is inside what, and how deep an overlap may be.
 static void finish(solid_search *h) {
     ovoid_solid_answer *out = h->out;
@@ -64,21 +92,14 @@ static void finish(solid_search *h) {
     out->limit = x->limit;
     out->lower = x->lower;
     out->upper = x->upper;
-    if (x->lower > 0) {
-        int is = find_inside(h);
-        if (is == 0) return;
-        out->status = is > 0 ? OVOID_OVERLAPPING : OVOID_UNDECIDED;
-        out->limit = is > 0 ? OVOID_LIMIT_NONE : OVOID_LIMIT_PRECISION;
-        if (is > 0) out->upper = -x->lower;
-    } else if (out->status == OVOID_OVERLAPPING) {
-        out->limit = OVOID_LIMIT_NONE;
-    }
-    // Of a distance, which is asked for its bracket, by all points.
-    int is_distance = h->whole_goal.wants_bracket && h->whole_goal.near == -INFINITY;
-    box_gap gap = is_distance ? solid_find_parting(&h->frame, &h->a, &h->b, x->normal)
-                              : solid_frame_find_parting(&h->frame, &h->a, &h->b);
-    out->lower = min2(gap.lower, min2(out->upper, 0));
-    out->parting = gap.normal;
+    int is = x->lower > 0 ? find_inside(h) : -1;
+    if (is == 0) return;
+    if (is > 0) out->upper = -x->lower;
+    find_parting(h);
+    if (find_status(out->lower, out->upper, h->tolerance + h->allowance) == OVOID_UNDECIDED) find_common_point(h);
+    out->status = find_status(out->lower, out->upper, h->tolerance + h->allowance);
+    out->limit =
+        out->status == OVOID_OVERLAPPING ? OVOID_LIMIT_NONE : find_limit(h, out->lower, out->upper, out->status);
 }
 
 // ---- the beginning
@@ -112,6 +133,7 @@ static ovoid_limit begin(solid_search *h, const ovoid_body_pair *pair, const ovo
     h->enough = h->lower = INFINITY;
     h->trouble = OVOID_LIMIT_NONE;
     h->has_best = h->is_answered = 0;
+    h->flush.count = 0;
     h->filter_support = -INFINITY;
     h->normals[0] = (vec3){1, 0, 0};
     h->normal_count = 1;

@@ -3,6 +3,7 @@
 #define OVOID_SOLID_SEARCH_H
 
 #include "compound/compound.h"
+#include "solid/clearance.h"
 #include "solid/frame.h"
 
 /// A pair that may decide: its bracket, and the direction in the world that shows the lower end.
@@ -34,6 +35,7 @@ typedef struct solid_search {
     vec3 normals[SEARCH_NORMALS];
     uint32_t normal_count;
     int has_best, is_answered;
+    flush_pairs flush; ///< of the pairs of leaves that may touch, as many as there is room for
     ovoid_limit trouble;
     uint32_t warm_a, warm_b; ///< the pair of the earlier answer, or count_a
     // Of a solid and a shape or a compound: the direction of the best pair, from the solid to the other in the solid's

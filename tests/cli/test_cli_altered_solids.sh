@@ -1,7 +1,7 @@
 #!/bin/sh
 # Results of `ovoid distance` about solids with one number or word changed: `ovoid verify` must refuse each of them, and
 # accept what was not changed. Truth: each change claims something false, or something that its proof does not show. The
-# three answers are a distance, an overlap of crossing triangles, and a solid inside another; limits, stages and counts
+# answers are a distance, an overlap of crossing triangles, a solid inside another, and one whose faces are flush; limits, stages and counts
 # of iterations claim nothing.
 set -u
 # shellcheck source=tests/cli/need_tool.sh
@@ -82,6 +82,16 @@ vary 4 "inside, no such component" 's/"component":0/"component":1/'
 vary 4 "inside, nothing" 's/"inside":"b in a","component":0,//'
 vary 4 "inside, parting" 's/"parting":\[[^]]*\]/"parting":[0.6,0.48,0.64]/'
 vary 4 "inside, one exclusion less" 's/"exclusions":\[\{[^}]*\},/"exclusions":[/'
+ask "0 0 0" flush
+vary 4 "flush, inside instead" 's/"common point","common":\[[^]]*\]/"b in a","component":0/'
+vary 4 "flush, nothing" 's/"inside":"common point","common":\[[^]]*\],//'
+vary 4 "flush, the point outside" 's/"common":\[[^]]*\]/"common":[1.5,1.5,0.5]/'
+vary 4 "flush, the point on the surface" 's/"common":\[[^]]*\]/"common":[0,0.1,0.1]/'
+vary 4 "flush, the point nearer to it" 's/"common":\[[^]]*\]/"common":[0.03125,0.125,0.125]/'
+vary 3 "flush, no point" 's/,"common":\[[^]]*\]//'
+vary 3 "flush, and a component" 's/"common":/"component":0,"common":/'
+vary 3 "flush, two numbers" 's/"common":\[[^]]*\]/"common":[0.1,0.1]/'
+ask "0.25 0.25 0.25" inside
 # Right, and of other bodies: the hulls, the same elsewhere, scaled.
 cp line.jsonl altered.jsonl
 for options in "--hull" "--scale 2" "--parts"; do

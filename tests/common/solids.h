@@ -132,6 +132,61 @@ static inline void mesh_add_random(mesh *m, double scale, uint64_t *seed) {
     }
 }
 
+// ---- cubes on a grid
+
+enum { CUBES = 4, CUBES_ALL = CUBES * CUBES * CUBES };
+
+/// Unit cubes of a grid that starts at the origin.
+typedef struct cubes {
+    unsigned char is[CUBES_ALL];
+} cubes;
+
+static inline int cubes_get(const cubes *c, int x, int y, int z) {
+    int in = x >= 0 && y >= 0 && z >= 0 && x < CUBES && y < CUBES && z < CUBES;
+    return in && c->is[(x * CUBES + y) * CUBES + z];
+}
+
+/// From one cube on, each beside one that is there.
+static inline cubes cubes_make(uint64_t *s) {
+    cubes c = {{0}};
+    int count = 1 + (int)(random_next(s) % 12), at[3] = {1, 1, 1};
+    for (int i = 0; i < count; i++) {
+        c.is[(at[0] * CUBES + at[1]) * CUBES + at[2]] = 1;
+        int axis = (int)(random_next(s) % 3), next = at[axis] + (random_next(s) % 2 ? 1 : -1);
+        if (next >= 0 && next < CUBES) at[axis] = next;
+    }
+    return c;
+}
+
+// A unit square of n by n cells, each of two triangles; from `at` along two axes.
+static inline void mesh_add_square(mesh *m, const double at[3], int axis, int is_high, int n) {
+    int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            uint32_t p[4];
+            for (int k = 0; k < 4; k++) {
+                double x[3] = {at[0], at[1], at[2]};
+                x[u] += (double)(i + (k == 1 || k == 2)) / n;
+                x[v] += (double)(j + (k >= 2)) / n;
+                p[k] = mesh_add_point(m, x[0], x[1], x[2]);
+            }
+            mesh_add_triangle(m, p[0], p[is_high ? 1 : 2], p[is_high ? 2 : 1]);
+            mesh_add_triangle(m, p[0], p[is_high ? 2 : 3], p[is_high ? 3 : 2]);
+        }
+}
+
+/// The surface of the cubes, each square of n by n cells.
+static inline void mesh_add_cubes(mesh *m, const cubes *c, int n) {
+    for (int i = 0; i < 6 * CUBES_ALL; i++) {
+        int x = i / 6 / CUBES / CUBES, y = i / 6 / CUBES % CUBES, z = i / 6 % CUBES;
+        int axis = i % 6 / 2, high = i % 2, step = high ? 1 : -1;
+        if (!cubes_get(c, x, y, z)) continue;
+        if (cubes_get(c, x + step * (axis == 0), y + step * (axis == 1), z + step * (axis == 2))) continue;
+        const double at[3] = {x + high * (axis == 0), y + high * (axis == 1), z + high * (axis == 2)};
+        mesh_add_square(m, at, axis, high, n);
+    }
+}
+
 // ---- brute force
 
 typedef struct long3 {
@@ -248,9 +303,9 @@ static inline long_ball *long_make_balls(const long3 *t, size_t count) {
 }
 
 /// Over all pairs of triangles, but those whose balls are farther apart than the nearest so far. Where no surfaces
-/// meet, any corner inside decides: of closed ones, as the meshes here are.
-static inline solid_truth find_solid_truth(const mesh *a, const ovoid_pose *pose_a, const mesh *b,
-                                           const ovoid_pose *pose_b) {
+/// meet, any corner inside decides; nothing is inside of open ones.
+static inline solid_truth find_truth_of(const mesh *a, const ovoid_pose *pose_a, int is_open_a, const mesh *b,
+                                        const ovoid_pose *pose_b, int is_open_b) {
     long3 *p = long_place_mesh(a, pose_a), *q = long_place_mesh(b, pose_b);
     long_ball *in_a = long_make_balls(p, a->triangles), *in_b = long_make_balls(q, b->triangles);
     long double best = INFINITY;
@@ -260,15 +315,20 @@ static inline solid_truth find_solid_truth(const mesh *a, const ovoid_pose *pose
             if (apart < best) best = fminl(best, long_triangles_distance(p + 3 * i, q + 3 * j));
         }
     int is_common = best <= 0;
-    for (size_t i = 0; i < 3 * a->triangles && !is_common; i++)
+    for (size_t i = 0; i < 3 * a->triangles && !is_common && !is_open_b; i++)
         is_common = fabsl(long_winding(q, b->triangles, p[i])) > 0.5L;
-    for (size_t i = 0; i < 3 * b->triangles && !is_common; i++)
+    for (size_t i = 0; i < 3 * b->triangles && !is_common && !is_open_a; i++)
         is_common = fabsl(long_winding(p, a->triangles, q[i])) > 0.5L;
     free(p);
     free(q);
     free(in_a);
     free(in_b);
     return (solid_truth){(double)best, is_common};
+}
+
+static inline solid_truth find_solid_truth(const mesh *a, const ovoid_pose *pose_a, const mesh *b,
+                                           const ovoid_pose *pose_b) {
+    return find_truth_of(a, pose_a, 0, b, pose_b, 0);
 }
 
 #endif

@@ -20,7 +20,8 @@ typedef struct sample {
     mesh a, b;
     ovoid_pose pose_a, pose_b;
     double size;
-    int is_hull; ///< b is a shape, the hull of its mesh's points
+    int is_hull;              ///< b is a shape, the hull of its mesh's points
+    int is_open_a, is_open_b; ///< without an inside
 } sample;
 
 static uint32_t random_count(uint64_t *s, uint32_t least, uint32_t most) {
@@ -184,6 +185,46 @@ static void make_off_center(sample *x, uint64_t *s) {
     x->size = 3000;
 }
 
+// Cubes on one grid, turned together: whatever meets is flush; of fine and coarse triangles.
+static void make_cubes(sample *x, uint64_t *s) {
+    cubes a = cubes_make(s), b = random_next(s) % 4 ? cubes_make(s) : a;
+    mesh_add_cubes(&x->a, &a, random_next(s) % 8 ? 1 : 2);
+    mesh_add_cubes(&x->b, &b, 1);
+    ovoid_vec3 by = random_vec3(s, 2.5);
+    double step = random_next(s) % 2 ? 1 : 2;
+    ovoid_pose turn = {{0, 0, 0}, {1, 0, 0, 0}}, at = {{0, 0, 0}, {1, 0, 0, 0}};
+    if (random_next(s) % 2) turn.rotation = random_quat(s);
+    at.position = (ovoid_vec3){rint(step * by.x) / step, rint(step * by.y) / step, rint(step * by.z) / step};
+    x->pose_a = turn;
+    x->pose_b = ovoid_pose_compute_product(&turn, &at);
+}
+
+static void make_cubes_and_hull(sample *x, uint64_t *s) {
+    make_cubes(x, s);
+    mesh_clear(&x->b);
+    cubes one = {{0}};
+    int length = 1 + (int)(random_next(s) % 3);
+    for (int i = 0; i < length; i++) one.is[i] = 1;
+    mesh_add_cubes(&x->b, &one, 1);
+    x->is_hull = 1;
+}
+
+// Without some of their triangles they are surfaces.
+static void open_mesh(mesh *m, uint64_t *s) {
+    size_t drop = 1 + random_next(s) % 4;
+    m->triangles -= m->triangles > drop ? drop : 0;
+}
+
+static void make_open(sample *x, uint64_t *s) {
+    if (random_next(s) % 3)
+        make_any(x, s);
+    else
+        make_cubes(x, s);
+    uint64_t which = random_next(s) % 3;
+    if (which != 1) open_mesh(&x->a, s), x->is_open_a = 1;
+    if (which != 0) open_mesh(&x->b, s), x->is_open_b = 1;
+}
+
 typedef struct family {
     const char *name;
     void (*make)(sample *x, uint64_t *s);
@@ -203,6 +244,9 @@ static const family families[] = {
     {"1e9", make_large},
     {"1e6 from the origin", make_far},
     {"1000 from the frame", make_off_center},
+    {"cubes on a grid", make_cubes},
+    {"cubes and a box", make_cubes_and_hull},
+    {"open", make_open},
 };
 enum { FAMILIES = sizeof families / sizeof *families };
 
@@ -306,7 +350,7 @@ static void try_pair(size_t f, uint64_t seed) {
                      .slack = 1e-15 * (x.size + far)};
         q.tolerance = 1.01e-9 * (x.size + 1e-3 * far);
         q.all = (ovoid_exclusions){.items = items, .capacity = CAPACITY};
-        q.truth = find_solid_truth(&x.a, &x.pose_a, &x.b, &x.pose_b);
+        q.truth = find_truth_of(&x.a, &x.pose_a, x.is_open_a, &x.b, &x.pose_b, x.is_open_b);
         q.t->pairs += (long)(x.a.triangles * x.b.triangles);
         ask(&q, &s);
     }

@@ -3,7 +3,7 @@ import { OvoidError } from './memory.mjs';
 import { Answer, ANSWER, fromAnswer, PROOF, toNumber, toPose } from './values.mjs';
 
 /** Numbers of an answer before those that every answer has; of an exclusion: four indices, seven numbers. */
-const HEAD = 12;
+const HEAD = 15;
 const EXCLUSION = 72;
 
 function bindCompound({ memory, calls, hold, drop, Shape }) {
@@ -96,7 +96,7 @@ function toExclusionBytes(list) {
   return bytes;
 }
 
-const INSIDE = [undefined, 'a in b', 'b in a'];
+const INSIDE = [undefined, 'a in b', 'b in a', 'common point'];
 
 export function bindBodies(core) {
   const { memory, calls, names, Shape } = core, Compound = bindCompound(core), Solid = bindSolid(core);
@@ -111,7 +111,8 @@ export function bindBodies(core) {
   // What a line of the tool's JSON has beside an answer about two shapes: n, the numbers before that one's.
   function describe(answer, kinds, n) {
     kinds.forEach((kind, side) => kind && (answer[`${kind === 1 ? 'part' : 'triangle'}_${'ab'[side]}`] = n[1 + side]));
-    if (kinds.includes(2) && INSIDE[n[6]]) Object.assign(answer, { inside: INSIDE[n[6]], component: n[7] });
+    if (kinds.includes(2) && INSIDE[n[6]])
+      Object.assign(answer, { inside: INSIDE[n[6]], ...(n[6] === 3 ? { common: n.slice(8, 11) } : { component: n[7] }) });
   }
 
   // And beside its proof.
@@ -119,7 +120,7 @@ export function bindBodies(core) {
     if (cover) proof.cover = cover();
     if (bytes.length) proof.exclusions = readExclusions(bytes);
     if (!kinds.includes(2)) return;
-    proof.surfaces = { status: names.status[n[8]], limit: names.limit[n[9]], lower: n[10], upper: n[11] };
+    proof.surfaces = { status: names.status[n[11]], limit: names.limit[n[12]], lower: n[13], upper: n[14] };
     if (lower <= 0 && lower !== -Infinity) proof.parting = n.slice(3, 6);
   }
 
@@ -144,6 +145,7 @@ export function bindBodies(core) {
     const side = (name) => answer[`triangle_${name}`] ?? answer[`part_${name}`] ?? 0;
     memory.set([
       0, side('a'), side('b'), ...(parting ?? [0, 0, 0]), Math.max(0, INSIDE.indexOf(answer.inside)), answer.component ?? 0,
+      ...(answer.common ?? [0, 0, 0]),
       names.number('status', surfaces?.status), names.number('limit', surfaces?.limit), toNumber(surfaces?.lower, -Infinity), toNumber(surfaces?.upper, Infinity),
       ...fromAnswer(answer, names),
     ], 14);

@@ -81,7 +81,8 @@ export interface Answer {
   point_a: number[]; point_b: number[]; normal: number[];
   stage: Stage; iterations: number; proof: Proof;
   /** What decided: of a compound the part, of a solid the triangle; and of solids which component is inside the other. */
-  part_a?: number; part_b?: number; triangle_a?: number; triangle_b?: number; inside?: 'a in b' | 'b in a'; component?: number;
+  part_a?: number; part_b?: number; triangle_a?: number; triangle_b?: number; inside?: 'a in b' | 'b in a' | 'common point'; component?: number;
+  common?: [number, number, number];
 }
 export interface Options {
   absoluteTolerance?: number;

@@ -97,7 +97,8 @@ static ovoid_solid_answer ask(const question *q) {
 
 /// kind: collide, within, distance, depth. Reads both poses, the margin, four options and, where is_warm, the deciding
 /// parts of an earlier answer and its proof. Writes how many exclusions there are, the deciding parts, parting, inside,
-/// component, of the surfaces status, limit, lower and upper, then the answer and its proof; of a depth the cover.
+/// component, common point, of the surfaces status, limit, lower and upper, then the answer and its proof; of a depth
+/// the cover.
 void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, int is_warm) {
     question q = {.kind = kind, .is_warm = is_warm};
     const double *from = read_bodies(kinds, a, b, &q.pair);
@@ -116,6 +117,7 @@ void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, 
     *to++ = (double)exclusions.count, *to++ = s.triangle_a, *to++ = s.triangle_b;
     to = write_vec3(to, s.parting);
     *to++ = s.inside, *to++ = s.component;
+    to = write_vec3(to, s.common);
     *to++ = s.surfaces.status, *to++ = s.surfaces.limit, *to++ = s.surfaces.lower, *to++ = s.surfaces.upper;
     ovoid_answer answer = s.surfaces;
     answer.status = s.status, answer.limit = s.limit, answer.lower = s.lower, answer.upper = s.upper;
@@ -137,6 +139,7 @@ int EXPORT(body_check)(unsigned kinds, const void *a, const void *b) {
     from = read_vec3(from, &s.parting);
     s.inside = (ovoid_solid_inside)(read_index(*from++) & 0xff);
     s.component = read_index(*from++);
+    from = read_vec3(from, &s.common);
     const double *surfaces = from;
     read_proof(read_answer(from + 4, &s.surfaces), &s.surfaces.proof);
     if (!has_solid(&pair)) return check_compounds(&pair, &s);

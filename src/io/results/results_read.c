@@ -433,7 +433,8 @@ static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t 
                                        "triangle_a",
                                        "triangle_b",
                                        "inside",
-                                       "component"};
+                                       "component",
+                                       "common"};
     enum { ALL = sizeof keys / sizeof *keys, NEEDED = 12 };
     where at = {r->source.path, r->source.line, -1};
     json_error_t why;

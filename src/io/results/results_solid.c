@@ -25,8 +25,10 @@ void ovoid_record_set_solid(ovoid_record *record, const ovoid_solid_answer *answ
 
 static int has_triangles(ovoid_mesh_kind kind) { return kind == OVOID_MESH_SOLID || kind == OVOID_MESH_SURFACE; }
 
+static const char *const insides[] = {"", "a in b", "b in a", "common point"};
+
 static const char *find_inside(const ovoid_solid_answer *x) {
-    return x->inside == OVOID_SOLID_A_INSIDE ? "a in b" : x->inside == OVOID_SOLID_B_INSIDE ? "b in a" : "";
+    return (unsigned)x->inside < sizeof insides / sizeof *insides ? insides[x->inside] : "";
 }
 
 /// 1 where the lower bound of the bodies is that of a direction.
@@ -51,10 +53,25 @@ void record_write_kind(FILE *file, const ovoid_record *record, int side) {
                 (unsigned long)(side ? record->solid->triangle_b : record->solid->triangle_a));
 }
 
+static void write_vector(FILE *file, ovoid_vec3 v) {
+    const double x[3] = {v.x, v.y, v.z};
+    for (int k = 0; k < 3; k++) {
+        fputc(k ? ',' : '[', file);
+        json_write_number(file, x[k]);
+    }
+    fputc(']', file);
+}
+
 void record_write_inside(FILE *file, const ovoid_record *record) {
     const ovoid_solid_answer *x = record->solid;
-    if (x && x->inside)
-        fprintf(file, ",\"inside\":\"%s\",\"component\":%lu", find_inside(x), (unsigned long)x->component);
+    if (!x || !x->inside) return;
+    fprintf(file, ",\"inside\":\"%s\"", find_inside(x));
+    if (x->inside == OVOID_SOLID_COMMON_POINT) {
+        fputs(",\"common\":", file);
+        write_vector(file, x->common);
+    } else {
+        fprintf(file, ",\"component\":%lu", (unsigned long)x->component);
+    }
 }
 
 void record_write_surfaces(FILE *file, const char *q, const ovoid_record *record) {
@@ -67,13 +84,8 @@ void record_write_surfaces(FILE *file, const char *q, const ovoid_record *record
     json_write_number(file, x->surfaces.upper);
     fputc('}', file);
     if (!has_parting(&record->answer)) return;
-    fprintf(file, ",%sparting%s:[", q, q);
-    const double n[3] = {x->parting.x, x->parting.y, x->parting.z};
-    for (int k = 0; k < 3; k++) {
-        if (k) fputc(',', file);
-        json_write_number(file, n[k]);
-    }
-    fputc(']', file);
+    fprintf(file, ",%sparting%s:", q, q);
+    write_vector(file, x->parting);
 }
 
 void record_write_solid_header(FILE *file, unsigned fields) {
@@ -140,16 +152,25 @@ static const char *read_triangle(const json_t *line, ovoid_mesh_kind kind, const
     return NULL;
 }
 
+static ovoid_solid_inside find_inside_named(const char *text) {
+    for (unsigned i = 1; text && i < sizeof insides / sizeof *insides; i++)
+        if (strcmp(insides[i], text) == 0) return (ovoid_solid_inside)i;
+    return OVOID_SOLID_INSIDE_NONE;
+}
+
 static const char *read_inside(const json_t *line, ovoid_solid_answer *x, const char **key) {
-    const json_t *component = json_object_get(line, "component");
-    const char *inside = json_string_value(json_object_get(line, "inside"));
+    const json_t *inside = json_object_get(line, "inside"), *component = json_object_get(line, "component"),
+                 *common = json_object_get(line, "common");
     double whole;
     *key = "inside";
-    if (!json_object_get(line, "inside") && !component) return NULL;
-    if (!inside || (strcmp(inside, "a in b") != 0 && strcmp(inside, "b in a") != 0))
-        return "must be \"a in b\" or \"b in a\", with a component";
-    x->inside = inside[0] == 'a' ? OVOID_SOLID_A_INSIDE : OVOID_SOLID_B_INSIDE;
-    *key = "component";
+    if (!inside && !component && !common) return NULL;
+    x->inside = find_inside_named(json_string_value(inside));
+    if (!x->inside) return "must be \"a in b\" or \"b in a\", with a component, or \"common point\", with \"common\"";
+    int is_point = x->inside == OVOID_SOLID_COMMON_POINT;
+    *key = is_point ? "component" : "common";
+    if (is_point ? component : common) return "does not go with what \"inside\" says";
+    *key = is_point ? "common" : "component";
+    if (is_point) return common && record_read_vector(common, &x->common) ? NULL : "must be three numbers";
     if (!record_read_whole(component, UINT32_MAX, &whole)) return "must be a whole number >= 0";
     x->component = (uint32_t)whole;
     return NULL;
@@ -172,11 +193,11 @@ static const char *read_surfaces(const json_t *json, ovoid_answer *x, const char
 const char *record_read_solid(const json_t *line, ovoid_record *record, ovoid_solid_answer *x, const char **key) {
     const json_t *proof = json_object_get(line, "proof");
     const json_t *surfaces = json_object_get(proof, "surfaces"), *parting = json_object_get(proof, "parting");
-    static const char *const own[] = {"triangle_a", "triangle_b", "inside", "component"};
+    static const char *const own[] = {"triangle_a", "triangle_b", "inside", "component", "common"};
     const char *wrong = read_meshes(line, record, key);
     if (wrong) return wrong;
     if (!surfaces) {
-        for (int i = 0; i < 4; i++)
+        for (int i = 0; i < 5; i++)
             if (json_object_get(line, *key = own[i])) return "goes with a proof that has \"surfaces\"";
         *key = "parting";
         return parting ? "goes with \"surfaces\"" : NULL;

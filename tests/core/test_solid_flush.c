@@ -1,0 +1,138 @@
+// Bodies of unit cubes on one grid: their faces are flush wherever they meet, and no two triangles need cross. Truth:
+// the cubes. Bodies that share one overlap; bodies whose cubes only touch do not, and are not apart; the distance of
+// others is the least of two cubes. Quarter turns are exact; turned by other angles the bodies are off by rounding, far
+// below the tolerance.
+#include "solids.h"
+
+enum { CAPACITY = 60000, ROOM = 8 };
+static ovoid_exclusion items[CAPACITY];
+
+static ovoid_solid *make_solid(const cubes *c, int n, double scale) {
+    mesh m = {NULL, NULL, 0, 0, 0, 0};
+    mesh_add_cubes(&m, c, n);
+    for (size_t i = 0; i < 3 * m.points; i++) m.xyz[i] *= scale;
+    ovoid_solid *s = mesh_make_solid(&m);
+    mesh_clear(&m);
+    return s;
+}
+
+// The body as boxes, one a cube.
+static ovoid_compound *make_compound(const cubes *c, const ovoid_shape *cube, double scale) {
+    ovoid_posed_shape parts[CUBES_ALL];
+    size_t count = 0;
+    for (int i = 0; i < CUBES_ALL; i++)
+        if (c->is[i])
+            parts[count++] = (ovoid_posed_shape){
+                cube,
+                {{scale * (i / CUBES / CUBES + 0.5), scale * (i / CUBES % CUBES + 0.5), scale * (i % CUBES + 0.5)},
+                 {1, 0, 0, 0}}};
+    return ovoid_compound_create(parts, count, NULL, NULL);
+}
+
+typedef struct truth {
+    int shared;    ///< cubes
+    double square; ///< of the distance
+} truth;
+
+static truth find_truth(const cubes *a, const cubes *b, const int shift[3]) {
+    truth t = {0, INFINITY};
+    for (int i = 0; i < CUBES_ALL; i++)
+        for (int j = 0; j < CUBES_ALL; j++) {
+            if (!a->is[i] || !b->is[j]) continue;
+            const int p[3] = {i / CUBES / CUBES, i / CUBES % CUBES, i % CUBES};
+            const int q[3] = {j / CUBES / CUBES + shift[0], j / CUBES % CUBES + shift[1], j % CUBES + shift[2]};
+            double square = 0;
+            int same = 1;
+            for (int k = 0; k < 3; k++) {
+                int off = abs(p[k] - q[k]);
+                same &= off == 0;
+                square += off > 1 ? (off - 1) * (off - 1) : 0;
+            }
+            t.shared += same;
+            t.square = fmin(t.square, square);
+        }
+    return t;
+}
+
+static struct { int shared, decided, touching, undecided, apart; } tally;
+
+static void check(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all, truth t,
+                  double scale) {
+    ovoid_error error = {.message = ""};
+    CHECK(all->count <= all->capacity);
+    if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    CHECK_LE(x->lower, x->upper);
+    if (x->status == OVOID_TOUCHING) CHECK(x->lower <= 0 && x->upper >= 0 && x->upper - x->lower <= 1e-7 * scale);
+    if (t.shared) {
+        CHECK(x->status == OVOID_OVERLAPPING);
+        tally.shared++;
+        tally.decided += x->status == OVOID_OVERLAPPING;
+    } else if (t.square > 0) {
+        CHECK_EQ(x->status, OVOID_SEPARATED);
+        CHECK_LE(x->lower, scale * sqrt(t.square) * (1 + 1e-14));
+        CHECK_LE(scale * sqrt(t.square) * (1 - 1e-14), x->upper);
+        tally.apart++;
+    } else {
+        // Touching: never more than rounding into each other or apart.
+        CHECK(x->status == OVOID_TOUCHING || x->status == OVOID_UNDECIDED || fabs(x->upper) < 1e-13 * scale);
+        CHECK(x->lower <= 1e-13 * scale && x->upper >= -1e-13 * scale);
+        if (x->status == OVOID_UNDECIDED) CHECK(x->limit == OVOID_LIMIT_PRECISION);
+        tally.touching += x->status == OVOID_TOUCHING;
+        tally.undecided += x->status == OVOID_UNDECIDED;
+    }
+}
+
+static void ask(const ovoid_body_pair *pair, truth t, double scale) {
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
+    ovoid_solid_answer x = ovoid_solid_distance(pair, NULL, NULL, &all);
+    check(pair, &x, &all, t, scale);
+    x = ovoid_solid_collide(pair, NULL, NULL, &all);
+    check(pair, &x, &all, t, scale);
+}
+
+// The pose that turns the second body and brings it to the shift, both then turned by one rotation.
+static void place(ovoid_body_pair *pair, const int shift[3], double scale, ovoid_quat turn) {
+    pair->a.pose = pair->b.pose = ovoid_pose_make_identity();
+    pair->b.pose.position = (ovoid_vec3){scale * shift[0], scale * shift[1], scale * shift[2]};
+    ovoid_pose all = {{0, 0, 0}, turn};
+    pair->a.pose = ovoid_pose_compute_product(&all, &pair->a.pose);
+    pair->b.pose = ovoid_pose_compute_product(&all, &pair->b.pose);
+}
+
+static void check_rounds(int rounds, uint64_t seed) {
+    static const ovoid_quat quarter[] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 1, 0},  {1, 0, 0, 1},
+                                         {0, 1, 0, 0}, {1, 1, 1, 1}, {1, -1, 1, -1}};
+    for (int i = 0; i < rounds; i++) {
+        uint64_t s = check_seed = seed + (uint64_t)i;
+        double scale = i % 5 == 4 ? pow(10, random_uniform(&s, -9, 9)) : 1;
+        cubes a = cubes_make(&s), b = i % 7 == 6 ? a : cubes_make(&s);
+        int fine = i % 10 == 9 ? 4 : 1, shift[3];
+        ovoid_shape *cube = ovoid_shape_create_box((ovoid_vec3){scale / 2, scale / 2, scale / 2}, NULL, NULL);
+        ovoid_solid *sa = make_solid(&a, fine, scale), *sb = make_solid(&b, i % 20 == 19 ? 3 : 1, scale);
+        ovoid_compound *cb = cube ? make_compound(&b, cube, scale) : NULL;
+        for (int k = 0; k < ROOM && CHECK(sa && sb && cb); k++) {
+            for (int j = 0; j < 3; j++) shift[j] = k == 0 ? 0 : (int)(random_next(&s) % 5) - 2;
+            truth t = find_truth(&a, &b, shift);
+            ovoid_body_pair pair = {{.solid = sa}, {.solid = sb}};
+            ovoid_quat turn = k % 3 == 2 ? random_quat(&s) : quarter[random_next(&s) % 7];
+            place(&pair, shift, scale, turn);
+            ask(&pair, t, scale);
+            if (k > 2) continue;
+            ovoid_body_pair parts = {pair.a, {.compound = cb, .pose = pair.b.pose}};
+            ask(&parts, t, scale);
+        }
+        ovoid_solid_destroy(sa);
+        ovoid_solid_destroy(sb);
+        ovoid_compound_destroy(cb);
+        ovoid_shape_destroy(cube);
+    }
+    check_seed = 0;
+}
+
+int main(int count, char **arguments) {
+    check_rounds(count > 1 ? atoi(arguments[1]) : 200, 5000);
+    printf("sharing cubes %d, said to overlap %d; touching: %d said so, %d undecided; apart %d\n", tally.shared,
+           tally.decided, tally.touching, tally.undecided, tally.apart);
+    CHECK(tally.shared > 500 && tally.touching > 100 && tally.apart > 100);
+    return check_end();
+}
