@@ -74,6 +74,23 @@ ovoid_motion frames_get_motion(const cli_frames *f, size_t object) {
     return ovoid_motion_make_poses(f->starts[i], f->poses[i], duration);
 }
 
+/// 1 if the object's motion to this frame is valid, or 0 after a message.
+static int check_motion(const cli_frames *f, size_t object, const ovoid_motion *motion) {
+    ovoid_error error;
+    if (ovoid_motion_compute_check(motion, &error) == OVOID_OK) return 1;
+    message_error("%s: object \"%.60s\" from time %.9g to %.9g: %s", f->path,
+                  ovoid_scene_get(f->scene, object).name, f->earlier, f->time, error.message);
+    return 0;
+}
+
+int frames_check_motions(const cli_frames *f) {
+    for (size_t i = 0; i < f->moved_count; i++) {
+        const ovoid_motion motion = frames_get_motion(f, f->moved[i]);
+        if (!check_motion(f, f->moved[i], &motion)) return EXIT_INPUT;
+    }
+    return 0;
+}
+
 /// Moves every object with a velocity to the time of the frame. 1, or -1 after a message.
 static int integrate(cli_frames *f) {
     size_t count = ovoid_scene_get_count(f->scene);
@@ -81,14 +98,9 @@ static int integrate(cli_frames *f) {
         f->used[i][0] = f->speed[i][0];
         f->used[i][1] = f->speed[i][1];
         if (is_zero(f->used[i]) || !(f->time > f->earlier)) continue;
-        ovoid_error error;
         ovoid_motion motion =
             ovoid_motion_make_velocity(f->starts[i], f->used[i][0], f->used[i][1], f->time - f->earlier);
-        if (ovoid_motion_compute_check(&motion, &error) != OVOID_OK) {
-            message_error("%s: object \"%.60s\" from time %.9g to %.9g: %s", f->path, ovoid_scene_get(f->scene, i).name,
-                          f->earlier, f->time, error.message);
-            return -1;
-        }
+        if (!check_motion(f, i, &motion)) return -1;
         ovoid_pose pose = ovoid_motion_compute_pose(&motion, motion.duration);
         set_pose(f, i, &pose);
     }

@@ -104,7 +104,7 @@ static void make_box(cli_impacts *x, size_t object) {
     ovoid_moving_body moving = get_moving(x, object);
     ovoid_box *box = &x->boxes[object];
     *box = ovoid_moving_body_compute_box(&moving, 0, get_duration(x));
-    // A refused motion has no box: an infinite one makes its pairs candidates, whose impacts report it.
+    // A body without a box is near all others.
     if (isnan(box->min.x)) *box = (ovoid_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
     x->is_fresh[object] = !moves;
 }
@@ -369,7 +369,8 @@ static int find_impacts(cli_impacts *x) {
 }
 
 int impacts_find(cli_impacts *x) {
-    int code = find_couples(x);
+    int code = frames_check_motions(x->frames);
+    if (!code) code = find_couples(x);
     if (!code && x->couple_count) code = find_impacts(x);
     x->held_count = x->open_count = 0;
     return code;

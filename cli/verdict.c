@@ -70,9 +70,11 @@ ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer 
 }
 
 ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                  const ovoid_exclusions *exclusions, ovoid_error *error) {
+                                  const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
     judge *mine = take(v);
     ovoid_code code = judge_check_compound(mine, pair, answer, exclusions, error);
+    if (code == OVOID_OK && points && answer->answer.status != OVOID_UNDECIDED)
+        code = judge_check_points(mine, points, &answer->answer, error);
     give_back(v, mine);
     return code;
 }
@@ -110,8 +112,8 @@ ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer 
 }
 
 ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                  const ovoid_exclusions *exclusions, ovoid_error *error) {
-    (void)v;
+                                  const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
+    (void)v, (void)points;
     return ovoid_compound_answer_check(pair, answer, exclusions, error);
 }
 

@@ -16,9 +16,10 @@ void verdict_destroy(verdict *verdict);
 ovoid_code verdict_check(verdict *verdict, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
                          int points, ovoid_error *error);
 
-/// The same for the answer of two bodies, of which one at least is a compound, with its exclusions and cover.
+/// The same for the answer of two bodies, of which one at least is a compound, with its exclusions and cover. points:
+/// the deciding parts, where their witness points are checked; else NULL.
 ovoid_code verdict_check_compound(verdict *verdict, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                  const ovoid_exclusions *exclusions, ovoid_error *error);
+                                  const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error);
 
 /// The same for the answer of two bodies, of which one at least is a solid. points: of the deciding triangles.
 ovoid_code verdict_check_solid(verdict *verdict, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,

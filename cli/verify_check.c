@@ -32,15 +32,15 @@ static int get_parts(const ovoid_body_pair *bodies, const ovoid_record *record, 
 }
 
 /// Checks the answer of compounds: that of the deciding parts, and that the exclusions hold and leave out no other pair
-/// of parts.
-static ovoid_code check_compound(const verify *v, const claim *item, ovoid_error *error) {
+/// of parts. points: the deciding parts, whose witness points are checked too, or NULL.
+static ovoid_code check_compound(const verify *v, const claim *item, const ovoid_pair *points, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     ovoid_compound_answer answer = {.answer = r->answer,
                                     .part_a = item->pair.a.compound ? r->part_a : 0,
                                     .part_b = item->pair.b.compound ? r->part_b : 0};
     ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count,
                                    (ovoid_cover *)r->cover};
-    return verdict_check_compound(v->verdict, &item->pair, &answer, &exclusions, error);
+    return verdict_check_compound(v->verdict, &item->pair, &answer, &exclusions, points, error);
 }
 
 /// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is
@@ -103,7 +103,7 @@ ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) 
     // The answer of an impact is that of ovoid_within at its margin.
     int is_impact = (item->record.fields & OVOID_RECORD_IMPACT) != 0;
     int points = !is_impact && has_nearest_points(v->settings->query, &answer);
-    ovoid_code code = is_compound ? check_compound(v, item, error)
+    ovoid_code code = is_compound ? check_compound(v, item, points ? &pair : NULL, error)
                                   : verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
     return code == OVOID_OK ? check_impact(item, &answer, error) : code;
 }

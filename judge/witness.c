@@ -108,8 +108,9 @@ ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
 // The default tolerance of the queries, in parts of the pair's size.
 #define QUERY_TOLERANCE 1e-9
 
-// |point_b - point_a - d n| for d in the bracket: with w = upper - lower the points may differ from the nearest ones by
-// what the bracket leaves open, sqrt(w (w + 2 |d|)) across and w along the normal, and by the query's tolerance.
+// |point_b - point_a - d n| for d in the bracket of the two hulls, which is the answer's without what the allowances
+// added to both ends: with w its width the points may differ from the nearest ones by what it leaves open, sqrt(w (w +
+// 2 |d|)) across and w along the normal, and by the query's tolerance.
 ovoid_code judge_check_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error) {
     if (!(isfinite(answer->lower) && isfinite(answer->upper)))
         return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
@@ -117,10 +118,12 @@ ovoid_code judge_check_points_posed(const posed *s, const ovoid_answer *answer, 
         return judge_reject(error, OVOID_ERROR_NOT_FINITE, "a witness point or the normal is not finite");
     pool *p = s->p;
     size_t mark = pool_get_mark(p);
-    double width = answer->upper - answer->lower, size = fmax(fabs(answer->lower), fabs(answer->upper));
+    num lower = num_add(p, number_from(p, answer->lower), s->outside),
+        upper = num_sub(p, number_from(p, answer->upper), s->inside);
+    double width = fmax(0, num_to_double(num_sub(p, upper, lower)));
+    double size = fmax(fabs(num_to_double(lower)), fabs(num_to_double(upper)));
     double slack = width + sqrt(width * (width + 2 * size)) + QUERY_TOLERANCE * s->size + 2 * compute_tolerance(s);
-    num d = num_scaled(p, num_add(p, number_from(p, answer->lower), number_from(p, answer->upper)), -1);
-    nvec along = nvec_scale(p, nvec_from(p, answer->normal), d);
+    nvec along = nvec_scale(p, nvec_from(p, answer->normal), num_scaled(p, num_add(p, lower, upper), -1));
     nvec off = nvec_sub(p, nvec_sub(p, nvec_from(p, answer->point_b), nvec_from(p, answer->point_a)), along);
     double found = sqrt(num_to_double(nvec_norm_squared(p, off)));
     pool_release(p, mark);
