@@ -78,8 +78,8 @@ ovoid_motion frames_get_motion(const cli_frames *f, size_t object) {
 static int check_motion(const cli_frames *f, size_t object, const ovoid_motion *motion) {
     ovoid_error error;
     if (ovoid_motion_compute_check(motion, &error) == OVOID_OK) return 1;
-    message_error("%s: object \"%.60s\" from time %.9g to %.9g: %s", f->path,
-                  ovoid_scene_get(f->scene, object).name, f->earlier, f->time, error.message);
+    message_error("%s: object \"%.60s\" from time %.9g to %.9g: %s", f->path, ovoid_scene_get(f->scene, object).name,
+                  f->earlier, f->time, error.message);
     return 0;
 }
 

@@ -1,10 +1,11 @@
-// Impacts between two frames: boxes that hold each object over the whole interval are swept along x (D. Baraff, Dynamic
-// simulation of non-penetrating rigid bodies, 1992); the remaining pairs go to ovoid_compound_impact_find, on several
-// threads. A pair is a candidate until it first comes within the margin.
+// Impacts between two frames: boxes that hold each object over the whole interval are swept along x; the remaining
+// pairs go to ovoid_compound_impact_find, on several threads. A pair is a candidate until it first comes within the
+// margin.
 #include "impacts.h"
 
 #include "message.h"
 #include "pipeline.h"
+#include "sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,11 +22,7 @@
 /// The result for one pair: an impact, or none.
 typedef struct impact {
     ovoid_couple couple;
-    ovoid_impact found;
-    uint32_t parts[2]; ///< of compounds: those that meet
-    ovoid_step *steps;
-    ovoid_step_group *groups; ///< of compounds
-    size_t group_count;
+    pair_impact pair;
     int failed; ///< no memory
 } impact;
 
@@ -39,18 +36,11 @@ typedef struct work_state {
     size_t next;
 } work_state;
 
-/// The beginning of an object's box along x.
-typedef struct cli_span {
-    double low;
-    uint32_t object;
-} cli_span;
-
 int impacts_open(cli_impacts *x) {
     size_t count = ovoid_scene_get_count(x->scene);
     x->boxes = calloc(count + 1, sizeof *x->boxes);
     x->is_fresh = calloc(count + 1, 1);
-    x->spans = calloc(count + 1, sizeof *x->spans);
-    if (x->boxes && x->is_fresh && x->spans) return 0;
+    if (x->boxes && x->is_fresh) return 0;
     message_error("out of memory");
     impacts_close(x);
     return EXIT_INPUT;
@@ -59,7 +49,6 @@ int impacts_open(cli_impacts *x) {
 void impacts_close(cli_impacts *x) {
     free(x->boxes);
     free(x->is_fresh);
-    free(x->spans);
     free(x->held);
     free(x->open);
     free(x->couples);
@@ -88,12 +77,15 @@ int impacts_leave_open(cli_impacts *x, ovoid_couple couple) {
 
 /* ---- which pairs come near each other */
 
-/// An object with its motion from the frame before to this one.
-static ovoid_moving_body get_moving(const cli_impacts *x, size_t object) {
+ovoid_moving_body impacts_get_moving(const ovoid_scene *scene, const cli_frames *frames, size_t object) {
     const ovoid_pose any = ovoid_pose_make_identity();
-    ovoid_body o = answers_get_body(x->scene, object, &any);
+    ovoid_body o = answers_get_body(scene, object, &any);
     return (ovoid_moving_body){
-        .shape = o.shape, .compound = o.compound, .motion = frames_get_motion(x->frames, object), .solid = o.solid};
+        .shape = o.shape, .compound = o.compound, .motion = frames_get_motion(frames, object), .solid = o.solid};
+}
+
+static ovoid_moving_body get_moving(const cli_impacts *x, size_t object) {
+    return impacts_get_moving(x->scene, x->frames, object);
 }
 
 static double get_duration(const cli_impacts *x) { return x->frames->time - x->frames->earlier; }
@@ -104,18 +96,7 @@ static void make_box(cli_impacts *x, size_t object) {
     ovoid_moving_body moving = get_moving(x, object);
     ovoid_box *box = &x->boxes[object];
     *box = ovoid_moving_body_compute_box(&moving, 0, get_duration(x));
-    // A body without a box is near all others.
-    if (isnan(box->min.x)) *box = (ovoid_box){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
     x->is_fresh[object] = !moves;
-}
-
-/// 1 if two boxes are not proven farther apart than the margin.
-static int is_near(const ovoid_box *a, const ovoid_box *b, double margin) {
-    const double gaps[] = {b->min.x - a->max.x, a->min.x - b->max.x, b->min.y - a->max.y,
-                           a->min.y - b->max.y, b->min.z - a->max.z, a->min.z - b->max.z};
-    for (int i = 0; i < 6; i++)
-        if (gaps[i] > margin * (1 + 1e-15)) return 0;
-    return 1;
 }
 
 static int compare_couples(const void *a, const void *b) {
@@ -134,35 +115,21 @@ static int has_couple(const ovoid_couple *couples, size_t count, ovoid_couple c)
 static int is_candidate(const cli_impacts *x, ovoid_couple c) {
     if (!x->frames->is_moved[c.a] && !x->frames->is_moved[c.b]) return 0;
     if (!shard_part_has_pair(x->part, c.a, c.b)) return 0;
-    if (!is_near(&x->boxes[c.a], &x->boxes[c.b], x->margin) || ovoid_scene_is_ignored(x->scene, c.a, c.b)) return 0;
+    if (ovoid_scene_is_ignored(x->scene, c.a, c.b)) return 0;
     return !has_couple(x->held, x->held_count, c);
 }
 
-static int compare_spans(const void *a, const void *b) {
-    const cli_span *p = a, *q = b;
-    if (p->low != q->low) return p->low < q->low ? -1 : 1;
-    return p->object < q->object ? -1 : p->object > q->object;
+static int visit_couple(void *context, ovoid_couple couple) {
+    cli_impacts *x = context;
+    if (!is_candidate(x, couple)) return 0;
+    return add_couple(&x->couples, &x->couple_count, &x->couple_capacity, couple);
 }
 
 static int find_couples(cli_impacts *x) {
     size_t count = ovoid_scene_get_count(x->scene);
-    int code = 0;
     x->couple_count = 0;
-    for (size_t i = 0; i < count; i++) {
-        make_box(x, i);
-        x->spans[i] = (cli_span){x->boxes[i].min.x, (uint32_t)i};
-    }
-    qsort(x->spans, count, sizeof *x->spans, compare_spans);
-    for (size_t i = 0; i < count; i++) {
-        uint32_t a = x->spans[i].object;
-        double end = x->boxes[a].max.x + x->margin;
-        end += 1e-15 * fabs(end);
-        for (size_t k = i + 1; k < count && !(x->spans[k].low > end) && !code; k++) {
-            uint32_t b = x->spans[k].object;
-            ovoid_couple c = {a < b ? a : b, a < b ? b : a};
-            if (is_candidate(x, c)) code = add_couple(&x->couples, &x->couple_count, &x->couple_capacity, c);
-        }
-    }
+    for (size_t i = 0; i < count; i++) make_box(x, i);
+    int code = sweep_find(x->boxes, count, x->margin, visit_couple, x);
     if (x->couple_count) qsort(x->couples, x->couple_count, sizeof *x->couples, compare_couples);
     return code;
 }
@@ -170,39 +137,43 @@ static int find_couples(cli_impacts *x) {
 /* ---- their impacts */
 
 /// Makes room for the steps of a proof and, of compounds, for their groups. 0 where memory is out.
-static int reserve(impact *item, ovoid_motion_options *options) {
-    options->steps = realloc(item->steps, options->capacity * sizeof *item->steps);
+static int reserve(pair_impact *p, ovoid_motion_options *options) {
+    options->steps = realloc(p->steps, options->capacity * sizeof *p->steps);
     if (!options->steps) return 0;
-    item->steps = options->steps;
+    p->steps = options->steps;
     if (!options->group_capacity) return 1;
-    options->groups = realloc(item->groups, options->group_capacity * sizeof *item->groups);
+    options->groups = realloc(p->groups, options->group_capacity * sizeof *p->groups);
     if (!options->groups) return 0;
-    item->groups = options->groups;
+    p->groups = options->groups;
     return 1;
 }
 
-/// Finds the impact of a pair, with its steps where they are wanted.
-static void find_impact(const cli_impacts *x, impact *item) {
-    ovoid_moving_body a = get_moving(x, item->couple.a), b = get_moving(x, item->couple.b);
-    int proofs = results_have_proofs(x->results), are_solids = a.solid || b.solid;
-    int is_compound = are_solids || a.compound || b.compound;
-    ovoid_motion_options options = {.capacity = proofs ? STEPS : 0,
-                                    .group_capacity = proofs && is_compound ? STEPS : 0};
+int pair_impact_find(pair_impact *p, const ovoid_moving_body bodies[2], double margin, impact_proof proof) {
+    const ovoid_moving_body *a = &bodies[0], *b = &bodies[1];
+    int are_solids = a->solid || b->solid, is_compound = are_solids || a->compound || b->compound;
+    int has_groups = proof == IMPACT_PROOF_GROUPS || (proof && is_compound);
+    ovoid_motion_options options = {.capacity = proof ? STEPS : 0, .group_capacity = has_groups ? STEPS : 0};
     for (;;) {
-        item->failed = proofs && !reserve(item, &options);
-        if (item->failed) return;
-        ovoid_compound_impact found = are_solids ? ovoid_solid_impact_find(&a, &b, x->margin, &options)
-                                                 : ovoid_compound_impact_find(&a, &b, x->margin, &options);
-        item->found = found.impact;
-        item->parts[0] = found.part_a;
-        item->parts[1] = found.part_b;
-        item->group_count = found.group_count;
-        if (!proofs) return;
-        if (!is_compound) item->group_count = 0;
-        if (found.impact.step_count <= options.capacity && item->group_count <= options.group_capacity) return;
-        if (options.capacity < found.impact.step_count) options.capacity = found.impact.step_count;
-        if (options.group_capacity < item->group_count) options.group_capacity = item->group_count;
+        if (proof && !reserve(p, &options)) return 0;
+        p->found = are_solids ? ovoid_solid_impact_find(a, b, margin, &options)
+                              : ovoid_compound_impact_find(a, b, margin, &options);
+        if (!has_groups) p->found.group_count = 0;
+        size_t steps = p->found.impact.step_count, groups = p->found.group_count;
+        if (!proof || (steps <= options.capacity && groups <= options.group_capacity)) return 1;
+        if (options.capacity < steps) options.capacity = steps;
+        if (options.group_capacity < groups) options.group_capacity = groups;
     }
+}
+
+void pair_impact_clear(pair_impact *p) {
+    free(p->steps);
+    free(p->groups);
+    *p = (pair_impact){.steps = NULL};
+}
+
+int pair_impact_is_arrival(const pair_impact *p) {
+    const ovoid_impact *x = &p->found.impact;
+    return x->status == OVOID_IMPACT_UNDECIDED && x->free_until >= (1 - TOLERANCE) * x->end;
 }
 
 static int fill(void *context, void *slot) {
@@ -216,8 +187,12 @@ static void work(void *context, void *slot) {
     const work_state *w = context;
     const chunk *k = slot;
     for (size_t i = k->first; i < k->first + k->count; i++) {
-        w->items[i].couple = w->impacts->couples[i];
-        find_impact(w->impacts, &w->items[i]);
+        const cli_impacts *x = w->impacts;
+        impact_proof proof = results_have_proofs(x->results) ? IMPACT_PROOF_RECORD : IMPACT_PROOF_NONE;
+        const ovoid_couple c = x->couples[i];
+        const ovoid_moving_body bodies[2] = {get_moving(x, c.a), get_moving(x, c.b)};
+        w->items[i].couple = c;
+        w->items[i].failed = !pair_impact_find(&w->items[i].pair, bodies, x->margin, proof);
     }
 }
 
@@ -233,10 +208,14 @@ static void clear(void *slot) { (void)slot; }
 
 /* ---- what is written */
 
-static int is_hit(const impact *item) { return item->found.status == OVOID_IMPACT_HIT; }
+static const ovoid_impact *get_impact(const impact *item) { return &item->pair.found.impact; }
+
+static int is_hit(const impact *item) { return get_impact(item)->status == OVOID_IMPACT_HIT; }
 
 /// The time of an impact: when the pair is within the margin; where that is not proven, until when it is free.
-static double get_time(const impact *item) { return is_hit(item) ? item->found.hit_at : item->found.free_until; }
+static double get_time(const impact *item) {
+    return is_hit(item) ? get_impact(item)->hit_at : get_impact(item)->free_until;
+}
 
 static int compare_impacts(const void *a, const void *b) {
     const impact *p = a, *q = b;
@@ -262,7 +241,7 @@ static int answer_compounds(const cli_impacts *x, const impact *item, answer_roo
     int done = answers_find(room, &pair, &query, record);
     if (!done || !is_hit(item) || record->answer.upper <= x->margin) return done;
     // Of bodies with allowances the few pairs of one proof may show less than those of the hit.
-    ovoid_compound_proof earlier = {item->parts[0], item->parts[1], item->found.hit.proof};
+    ovoid_compound_proof earlier = {item->pair.found.part_a, item->pair.found.part_b, get_impact(item)->hit.proof};
     query.earlier = &earlier;
     return answers_find(room, &pair, &query, record);
 }
@@ -272,26 +251,27 @@ static int answer_compounds(const cli_impacts *x, const impact *item, answer_roo
 /// memory is out.
 static int make_record(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
+    const ovoid_impact *found = get_impact(item);
     double at = get_time(item);
     *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
                              .b = ovoid_scene_get(x->scene, c.b).name,
-                             .answer = is_hit(item) ? item->found.hit : item->found.free,
+                             .answer = is_hit(item) ? found->hit : found->free,
                              .fields = x->results->fields,
                              .time = x->frames->earlier + at,
                              .frame = x->frames->earlier,
                              .margin = x->margin,
-                             .free_for = item->found.free_until,
-                             .hit_after = item->found.hit_at,
+                             .free_for = found->free_until,
+                             .hit_after = found->hit_at,
                              .part_a = OVOID_RECORD_NO_PART,
                              .part_b = OVOID_RECORD_NO_PART};
-    record->steps = item->steps;
-    record->step_count = item->steps ? item->found.step_count : 0;
-    record->groups = item->groups;
-    record->group_count = item->groups ? item->group_count : 0;
+    record->steps = item->pair.steps;
+    record->step_count = item->pair.steps ? found->step_count : 0;
+    record->groups = item->pair.groups;
+    record->group_count = item->pair.groups ? item->pair.found.group_count : 0;
     int done = 1;
     answers_describe(x->scene, c, record);
     if (!is_shape(x, c.a) || !is_shape(x, c.b)) done = answer_compounds(x, item, room, record);
-    if (!is_hit(item)) record->answer.limit = item->found.limit;
+    if (!is_hit(item)) record->answer.limit = found->limit;
     return done;
 }
 
@@ -301,9 +281,7 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
 static int is_arrival(const cli_impacts *x, const impact *item) {
     const cli_frames *f = x->frames;
     const ovoid_couple c = item->couple;
-    double duration = f->time - f->earlier;
-    if (item->found.status != OVOID_IMPACT_UNDECIDED || !(item->found.free_until >= (1 - TOLERANCE) * duration))
-        return 0;
+    if (!pair_impact_is_arrival(&item->pair)) return 0;
     ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &f->poses[c.a]),
                             answers_get_body(x->scene, c.b, &f->poses[c.b])};
     ovoid_answer at_end;
@@ -332,7 +310,7 @@ static int write_impacts(cli_impacts *x, const impact *items) {
     int code = 0;
     for (size_t i = 0; i < x->couple_count && !code; i++) {
         ovoid_record record;
-        if (items[i].found.status == OVOID_IMPACT_FREE) continue;
+        if (get_impact(&items[i])->status == OVOID_IMPACT_FREE) continue;
         // That an open pair stays open is in the lines of the frames.
         if (!is_hit(&items[i]) && has_couple(x->open, x->open_count, items[i].couple)) continue;
         int arrives = is_arrival(x, &items[i]);
@@ -360,10 +338,7 @@ static int find_impacts(cli_impacts *x) {
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
     if (!code) qsort(w.items, x->couple_count, sizeof *w.items, compare_impacts);
     if (!code) code = write_impacts(x, w.items);
-    for (size_t i = 0; i < x->couple_count; i++) {
-        free(w.items[i].steps);
-        free(w.items[i].groups);
-    }
+    for (size_t i = 0; i < x->couple_count; i++) pair_impact_clear(&w.items[i].pair);
     free(w.items);
     return code;
 }

@@ -15,7 +15,6 @@ typedef struct cli_impacts {
     shard_part part;         ///< of the pairs
     ovoid_box *boxes;        ///< of each object, from the frame before to this one
     unsigned char *is_fresh; ///< of each object: its box is that of its present resting place
-    struct cli_span *spans;  ///< the objects' boxes along x
     ovoid_couple *held;      ///< within the margin in the frame before, ascending
     size_t held_count, held_capacity;
     ovoid_couple *open; ///< not proven within the margin in the frame before, nor farther, ascending
@@ -28,6 +27,31 @@ typedef struct cli_impacts {
     void (*take)(void *context, ovoid_couple couple, const ovoid_record *record);
     void *context;
 } cli_impacts;
+
+/// An impact of one pair, with the memory of its proof.
+typedef struct pair_impact {
+    ovoid_compound_impact found;
+    ovoid_step *steps;
+    ovoid_step_group *groups; ///< of compounds and solids
+} pair_impact;
+
+/// How an object of a scene moves from the frame before to this one.
+ovoid_moving_body impacts_get_moving(const ovoid_scene *scene, const cli_frames *frames, size_t object);
+
+/// What a proof of an impact has.
+typedef enum impact_proof {
+    IMPACT_PROOF_NONE,
+    IMPACT_PROOF_RECORD, ///< as in records: of shapes the steps, of other bodies their groups too
+    IMPACT_PROOF_GROUPS  ///< of shapes the groups, too: without them nothing shows that there is no impact
+} impact_proof;
+
+/// Finds the impact of two moving bodies, with its proof. The pair begins as all zero, or as an earlier call left it. 0
+/// where memory is out.
+int pair_impact_find(pair_impact *pair, const ovoid_moving_body bodies[2], double margin, impact_proof proof);
+void pair_impact_clear(pair_impact *pair);
+
+/// 1 if what is found is free until the end, but for the tolerance.
+int pair_impact_is_arrival(const pair_impact *pair);
 
 /// Makes room for the objects. 0, or EXIT_INPUT after a message. Members that the caller has set stay.
 int impacts_open(cli_impacts *x);

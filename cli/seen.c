@@ -4,44 +4,52 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// The larger index is not 0, so no key is.
+static uint64_t make_key(ovoid_couple c) { return c.a < c.b ? (uint64_t)c.b << 32 | c.a : (uint64_t)c.a << 32 | c.b; }
+
 /// The slot of a key, or the empty one where it would be.
-static uint64_t *find_slot(const cli_seen *s, uint64_t key) {
+static size_t find_slot(const cli_seen *s, uint64_t key) {
     size_t at = (size_t)(key * 0x9e3779b97f4a7c15u >> 20) & (s->slot_count - 1);
     while (s->slots[at] && s->slots[at] != key) at = (at + 1) & (s->slot_count - 1);
-    return &s->slots[at];
+    return at;
 }
 
 static int grow(cli_seen *s) {
-    cli_seen grown = {.slot_count = s->slot_count ? 2 * s->slot_count : 1024};
+    cli_seen grown = {.slot_count = s->slot_count ? 2 * s->slot_count : 1024, .count = s->count};
     grown.slots = calloc(grown.slot_count, sizeof *grown.slots);
-    if (!grown.slots) return 0;
-    for (size_t i = 0; i < s->slot_count; i++)
-        if (s->slots[i]) *find_slot(&grown, s->slots[i]) = s->slots[i];
-    free(s->slots);
-    s->slots = grown.slots;
-    s->slot_count = grown.slot_count;
+    grown.flags = calloc(grown.slot_count, 1);
+    if (!grown.slots || !grown.flags) return seen_clear(&grown), 0;
+    for (size_t i = 0; i < s->slot_count; i++) {
+        if (!s->slots[i]) continue;
+        size_t at = find_slot(&grown, s->slots[i]);
+        grown.slots[at] = s->slots[i];
+        grown.flags[at] = s->flags[i];
+    }
+    seen_clear(s);
+    *s = grown;
     return 1;
 }
 
-int seen_add(cli_seen *s, const ovoid_scene *scene, size_t a, size_t b) {
-    if (a == b || ovoid_scene_is_ignored(scene, a, b)) return 1;
-    if (2 * (s->count + 1) > s->slot_count && !grow(s)) return 0;
-    // The larger index is not 0, so no key is.
-    uint64_t key = a < b ? (uint64_t)b << 32 | a : (uint64_t)a << 32 | b, *slot = find_slot(s, key);
-    s->count += *slot != key;
-    *slot = key;
-    return 1;
+unsigned char *seen_add(cli_seen *s, ovoid_couple couple) {
+    if (2 * (s->count + 1) > s->slot_count && !grow(s)) return NULL;
+    uint64_t key = make_key(couple);
+    size_t at = find_slot(s, key);
+    if (!s->slots[at]) s->slots[at] = key, s->count++;
+    return &s->flags[at];
 }
 
-void seen_begin_frame(cli_seen *s) {
+unsigned seen_get(const cli_seen *s, ovoid_couple couple) {
+    return s->slot_count ? s->flags[find_slot(s, make_key(couple))] : 0;
+}
+
+void seen_empty(cli_seen *s) {
     if (s->slots) memset(s->slots, 0, s->slot_count * sizeof *s->slots);
-    s->before += s->count;
+    if (s->flags) memset(s->flags, 0, s->slot_count);
     s->count = 0;
 }
 
-size_t seen_get_count(const cli_seen *s) { return s->before + s->count; }
-
 void seen_clear(cli_seen *s) {
     free(s->slots);
+    free(s->flags);
     *s = (cli_seen){.slots = NULL};
 }

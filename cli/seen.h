@@ -1,25 +1,32 @@
-// Which pairs of a scene the results name: so that pairs without a result can be counted.
+// What the results of a frame say of each pair of a scene: so that what they lack is known.
 #ifndef OVOID_CLI_SEEN_H
 #define OVOID_CLI_SEEN_H
 
-#include <ovoid/io.h>
+#include <ovoid/ovoid.h>
 
-/// A set of pairs of objects. Memory: 16 to 32 bytes a pair. All zero is the empty set.
+/// What is known of a pair; bits.
+enum seen_flag {
+    SEEN_RESULT = 1, ///< it has a result
+    SEEN_IMPACT = 2, ///< it has an impact between the frame before and this one
+    SEEN_NEAR = 4,   ///< its result says that it is within the margin, or at it
+    SEEN_OPEN = 8    ///< its result leaves open on which side of the margin it is
+};
+
+/// Flags of pairs of objects. Memory: 18 to 36 bytes a pair. All zero is empty.
 typedef struct cli_seen {
     uint64_t *slots; ///< open addressing; 0: empty
+    unsigned char *flags;
     size_t slot_count, count;
-    size_t before; ///< pairs of earlier frames
 } cli_seen;
 
-/// Adds a pair of two objects that the scene does not ignore; others, and those that are there, change nothing. 0 where
-/// memory is out.
-int seen_add(cli_seen *seen, const ovoid_scene *scene, size_t a, size_t b);
+/// Adds a pair without flags if it is not there. Its flags, until the next call, or NULL where memory is out.
+unsigned char *seen_add(cli_seen *seen, ovoid_couple couple);
 
-/// Begins another frame: its pairs are counted anew.
-void seen_begin_frame(cli_seen *seen);
+/// The flags of a pair; 0 where it is not there.
+unsigned seen_get(const cli_seen *seen, ovoid_couple couple);
 
-/// How many pairs of all frames were added.
-size_t seen_get_count(const cli_seen *seen);
+/// Removes all pairs.
+void seen_empty(cli_seen *seen);
 
 void seen_clear(cli_seen *seen);
 

@@ -19,7 +19,7 @@
 /// Results of a chunk.
 #define CHUNK 32
 
-/// Most failures that are reported one by one.
+/// Most failures, and missing results, that are reported one by one.
 #define REPORTED_MAX 10
 
 static const cli_option options[] = {
@@ -34,8 +34,12 @@ static const cli_option options[] = {
     SOLIDS_OPTIONS(verify_settings,
                    "A and B are compounds of their files' objects, as given to ovoid distance; so are the next two"),
     {"motion", 0, OPTION_FILE, offsetof(verify_settings, motion), "MOTION.csv", NULL, "the motion of ovoid run"},
-    {"allow-empty", 0, OPTION_FLAG, offsetof(verify_settings, allow_empty), NULL, NULL,
-     "a file without results is no error, as of a scene whose pairs are all beyond a margin"},
+    {"margin", 0, OPTION_LENGTH, offsetof(verify_settings, margin), "M", NULL,
+     "the margin that was asked: a pair without a result is proven farther apart (default: that of the results)"},
+    {"continuous", 0, OPTION_FLAG, offsetof(verify_settings, continuous), NULL, NULL,
+     "as given to ovoid run: a pair without an impact between two frames is proven not to come within the margin"},
+    {"partial", 0, OPTION_FLAG, offsetof(verify_settings, partial), NULL, NULL,
+     "results may be missing or undecided: only those that are there are checked"},
     {"json", 0, OPTION_FLAG, offsetof(verify_settings, json), NULL, NULL, "write the counts as one JSON object"},
     {"threads", 0, OPTION_COUNT, offsetof(verify_settings, threads), "N", NULL,
      "work on N threads (default: one for each processor)"},
@@ -49,6 +53,7 @@ static const cli_option options[] = {
 typedef struct chunk {
     size_t count;
     claim items[CHUNK];
+    answer_room room;
 } chunk;
 
 static int fill(void *context, void *slot) {
@@ -64,94 +69,136 @@ static void work(void *context, void *slot) {
     chunk *c = slot;
     for (claim *i = c->items; i < c->items + c->count; i++) {
         ovoid_error error = {.message = ""};
+        if (i->kind != CLAIM_RESULT) {
+            i->holds = verify_prove_rest(v, &c->room, i);
+            continue;
+        }
         if (!i->message[0] && verify_check(v, i, &error) != OVOID_OK)
             snprintf(i->message, sizeof i->message, "%s", error.message[0] ? error.message : "the proof does not hold");
         i->holds = !i->message[0];
     }
 }
 
-/// 1 for an impact that is not proven.
-static int is_open(const ovoid_record *record) {
-    return record->fields & OVOID_RECORD_IMPACT && !isfinite(record->hit_after);
+/// 1 where the answer leaves open what was asked: the sign, the side of the margin, or when there is an impact.
+static int is_open(const ovoid_record *r) {
+    if (r->fields & OVOID_RECORD_IMPACT && !isfinite(r->hit_after)) return 1;
+    return results_judge(&r->answer, r->fields & OVOID_RECORD_MARGIN ? r->margin : -1) == EXIT_NOT_PROVEN;
+}
+
+static void count_result(verify *v, const claim *i) {
+    verify_counts *n = &v->counts;
+    n->proofs++;
+    n->held += (size_t)i->holds;
+    n->undecided += is_open(&i->record);
+    n->impacts += (i->record.fields & OVOID_RECORD_IMPACT) != 0;
+    n->mixed += i->record.solid && (i->pair.a.compound || i->pair.b.compound);
+    if (!i->holds && v->reported++ < REPORTED_MAX)
+        message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
+}
+
+/// Counts a pair without a result, and names it where it needs one.
+static void count_rest(verify *v, const claim *i) {
+    const char *a = ovoid_scene_get(v->bodies.scene, i->couple.a).name,
+               *b = ovoid_scene_get(v->bodies.scene, i->couple.b).name;
+    char time[64] = "";
+    if (v->settings->motion) snprintf(time, sizeof time, i->kind == CLAIM_FREE ? " before %.9g" : " at %.9g", i->time);
+    v->counts.beyond += i->kind == CLAIM_BEYOND && i->holds;
+    v->counts.impacts_lacking += i->kind == CLAIM_FREE && !i->holds;
+    if (!i->holds && v->reported++ < REPORTED_MAX)
+        message_error("%s: there is no %s of %.60s, %.60s%s", v->path, i->kind == CLAIM_FREE ? "impact" : "result", a,
+                      b, time);
 }
 
 static int drain(void *context, void *slot) {
     verify *v = context;
     chunk *c = slot;
     for (claim *i = c->items; i < c->items + c->count; i++) {
-        size_t failures = v->proofs++ - v->held;
-        v->held += (size_t)i->holds;
-        v->undecided += i->record.answer.status == OVOID_UNDECIDED || is_open(&i->record);
-        v->impacts += (i->record.fields & OVOID_RECORD_IMPACT) != 0;
-        v->mixed += i->record.solid && (i->pair.a.compound || i->pair.b.compound);
-        if (!i->holds && failures < REPORTED_MAX) message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
+        if (i->kind == CLAIM_RESULT)
+            count_result(v, i);
+        else
+            count_rest(v, i);
         verify_drop(i);
     }
-    progress_set(v->proofs);
+    progress_set(v->counts.proofs);
     return 0;
 }
 
 static void clear(void *slot) {
     chunk *c = slot;
     for (size_t i = 0; i < CHUNK; i++) verify_drop(&c->items[i]);
+    answer_room_clear(&c->room);
 }
 
-/// Counts the pairs of a scene, at each of its frames, that have no result: a margin leaves far ones out.
-static void count_missing(verify *v) {
-    cli_frames *f = &v->bodies.frames;
-    int got = 1;
-    while (v->settings->motion && got > 0) got = frames_next(f);
-    if (got < 0) v->refused = 1, v->error.message[0] = 0;
-    v->pairs = ovoid_scene_get_pair_count(v->bodies.scene) * (v->settings->motion ? f->count : 1);
-    v->missing = v->pairs - seen_get_count(&v->seen);
-}
-
-/// Refuses results of a batch that were cut off.
-static void check_rest(verify *v) {
+/// Counts the pairs of a batch, or of two bodies, that have no result.
+static void count_others(verify *v) {
     ovoid_indexed_pair pair;
-    size_t rest = 0;
-    int got;
-    while ((got = ovoid_pairs_reader_read(v->bodies.pairs, &pair, &v->error)) > 0) rest++;
-    v->refused = got < 0 || rest > 0;
-    if (got == 0 && rest)
-        snprintf(v->error.message, sizeof v->error.message, "%s: %zu pairs have no result: it was cut off", v->path,
-                 rest);
+    int got = 0;
+    if (v->bodies.scene) return;
+    while (v->bodies.pairs && (got = ovoid_pairs_reader_read(v->bodies.pairs, &pair, &v->error)) > 0)
+        v->counts.lacking++;
+    if (!v->bodies.pairs) v->counts.lacking = v->rest.results == 0;
+    v->counts.pairs = v->counts.proofs + v->counts.lacking;
+    v->refused = got < 0;
 }
 
-/// Reports pairs without a result, and a file without any.
-static void report_missing(verify *v) {
-    if (!v->refused && v->bodies.pairs) check_rest(v);
-    if (!v->refused && v->bodies.scene) count_missing(v);
-    if (v->refused || v->proofs || v->settings->allow_empty) return;
-    v->refused = 1;
-    snprintf(v->error.message, sizeof v->error.message,
-             "%s: there is no result; where none is wanted, --allow-empty says so", v->path);
+/// The pairs that need a result and have none.
+static size_t get_missing(const verify_counts *n) { return n->lacking - n->beyond - n->by_boxes; }
+
+/// 1 if results of a motion have impacts, and what is missing of these was not asked.
+static int is_continuous_unasked(const verify *v) { return v->counts.impacts && !v->settings->continuous; }
+
+static void print_json(const verify_counts *n, size_t exact) {
+    printf("{\"proofs\":%zu,\"hold\":%zu,\"fail\":%zu,\"undecided\":%zu,\"exact\":%zu,\"floating\":%zu,", n->proofs,
+           n->held, n->proofs - n->held, n->undecided, exact, n->proofs - exact);
+    printf("\"pairs\":%zu,\"missing\":%zu,\"beyond\":%zu,\"impacts_missing\":%zu}\n", n->pairs, get_missing(n),
+           n->beyond + n->by_boxes, n->impacts_lacking);
+}
+
+/// What the results lack.
+static void print_rest(const verify *v) {
+    const verify_counts *n = &v->counts;
+    size_t beyond = n->beyond + n->by_boxes;
+    if (n->lacking)
+        printf("%s without a result: %zu of %zu", v->settings->motion ? "pairs of frames" : "pairs", n->lacking,
+               n->pairs);
+    if (beyond) printf(", proven farther than the margin: %zu (%zu by boxes)", beyond, n->by_boxes);
+    if (n->lacking) printf("; ");
+    if (n->impacts_lacking) printf("impacts missing: %zu; ", n->impacts_lacking);
 }
 
 /// The counts, and in what arithmetic the proofs were checked.
 static void print_counts(const verify *v) {
     static const char floating[] = "floating point with rigorous error bounds";
-    size_t exact = verdict_is_exact() ? v->proofs - v->impacts - v->mixed : 0, failed = v->proofs - v->held;
+    const verify_counts *n = &v->counts;
+    size_t exact = verdict_is_exact() ? n->proofs - n->impacts - n->mixed : 0;
     if (v->settings->json) {
-        printf("{\"proofs\":%zu,\"hold\":%zu,\"fail\":%zu,\"undecided\":%zu,\"exact\":%zu,\"floating\":%zu,", v->proofs,
-               v->held, failed, v->undecided, exact, v->proofs - exact);
-        printf("\"pairs\":%zu,\"missing\":%zu}\n", v->bodies.scene ? v->pairs : v->proofs, v->missing);
+        print_json(n, exact);
         return;
     }
-    printf("proofs: %zu, hold: %zu, do not: %zu; undecided answers: %zu; ", v->proofs, v->held, failed, v->undecided);
-    if (v->missing)
-        printf("%s without a result: %zu of %zu; ", v->settings->motion ? "pairs of frames" : "pairs", v->missing,
-               v->pairs);
+    printf("proofs: %zu, hold: %zu, do not: %zu; undecided answers: %zu; ", n->proofs, n->held, n->proofs - n->held,
+           n->undecided);
+    print_rest(v);
     if (!verdict_is_exact())
         printf("checked in %s\n", floating);
-    else if (!v->impacts)
+    else if (!n->impacts)
         printf("checked in exact arithmetic");
     else
-        printf("checked in exact arithmetic, but for impacts (%zu): their steps in %s", v->impacts, floating);
-    if (verdict_is_exact() && v->mixed)
-        printf("; solids beside compounds (%zu) in %s\n", v->mixed, floating);
+        printf("checked in exact arithmetic, but for impacts (%zu): their steps in %s", n->impacts, floating);
+    if (verdict_is_exact() && n->mixed)
+        printf("; solids beside compounds (%zu) in %s\n", n->mixed, floating);
     else if (verdict_is_exact())
         printf("\n");
+}
+
+/// The exit code of what was counted: what does not hold, before what is missing or open.
+static int find_code(const verify *v) {
+    const verify_counts *n = &v->counts;
+    if (n->held != n->proofs) return EXIT_NOT_PROVEN;
+    if (v->settings->partial) return EXIT_APART;
+    if (is_continuous_unasked(v))
+        message_note("the results have impacts: --continuous proves that none is missing, --partial allows it");
+    int is_whole = !get_missing(n) && !n->impacts_lacking && !n->undecided && !is_continuous_unasked(v);
+    return is_whole ? EXIT_APART : EXIT_TOUCH;
 }
 
 /// Checks every result; returns the exit code.
@@ -165,13 +212,13 @@ static int run_results(verify *v) {
     progress_end();
     verdict_destroy(v->verdict);
     if (code) return code < 0 ? (message_error("out of memory or threads"), EXIT_INPUT) : code;
-    report_missing(v);
+    if (!v->refused) count_others(v);
     if (v->refused && v->error.message[0]) message_error("%s", v->error.message);
     if (v->refused) return EXIT_INPUT;
     print_counts(v);
     code = finish_file(stdout);
     if (code) return code;
-    return v->held == v->proofs ? EXIT_APART : EXIT_NOT_PROVEN;
+    return find_code(v);
 }
 
 /* ---- the inputs ---- */
@@ -189,6 +236,8 @@ static int check_inputs(const cli_command *command, const verify_settings *s, co
                              paths->items[1]);
     if (s->motion && (has_list || paths->count > 2))
         return args_complain(command, "verify: --motion is that of a scene: give SCENE.json");
+    if (s->continuous && !s->motion)
+        return args_complain(command, "verify: --continuous is of a motion: give --motion too");
     int is_scene = !has_list && paths->count == 2;
     if (is_scene && (s->read.unit != INPUTS_NO_UNIT || s->read.scale > 0))
         return args_complain(command,
@@ -211,7 +260,7 @@ static int has_path_proofs(const verify_settings *s, const cli_operands *paths) 
 #ifdef OVOID_HAVE_ROBOT
 static int verify_paths(const cli_command *command, verify_settings *s, const cli_operands *paths) {
     s->paths.json = s->json;
-    s->paths.allow_empty = s->allow_empty;
+    s->paths.partial = s->partial;
     return path_verify(command, &s->paths, paths->items[0], paths->count > 1 ? paths->items[1] : NULL);
 }
 #else
@@ -226,6 +275,7 @@ static int verify_paths(const cli_command *command, verify_settings *s, const cl
 static int run(const cli_command *command, int argc, char **argv) {
     verify_settings s = {.read.unit = INPUTS_NO_UNIT,
                          .query = QUERY_NONE,
+                         .margin = -1,
                          .pose_a = ovoid_pose_make_identity(),
                          .pose_b = ovoid_pose_make_identity()};
     cli_operands paths;
@@ -234,7 +284,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code < 0) code = check_inputs(command, &s, &paths);
     if (code >= 0) return code;
     if (s.query == QUERY_NONE) s.query = s.list ? QUERY_WITHIN : QUERY_DISTANCE;
-    verify v = {.settings = &s, .path = paths.items[0]};
+    verify v = {.settings = &s, .path = paths.items[0], .margin = s.margin >= 0 ? s.margin : NAN};
     code = verify_open_bodies(&v.bodies, &s, &paths);
     if (!code) {
         v.reader = ovoid_results_reader_create(v.path, &v.error);
@@ -244,7 +294,7 @@ static int run(const cli_command *command, int argc, char **argv) {
             message_error("%s", v.error.message), code = EXIT_INPUT;
     }
     ovoid_results_reader_destroy(v.reader);
-    seen_clear(&v.seen);
+    verify_clear_rest(&v.rest);
     verify_close_bodies(&v.bodies);
     return code;
 }
@@ -272,14 +322,18 @@ const cli_command command_verify = {
         "still: a digest says so. Each step is measured again, without a search, and for each pair the steps must "
         "reach "
         "from the beginning to the end of what is said to be free.\n\n"
-        "RESULTS.jsonl is \"-\" for standard input. The first failures are listed with their lines. "
-        "Of a scene, pairs without a result are counted (check --margin leaves far ones out); of a batch they are an "
-        "error.",
-    .exits = "0 every proof holds\n"
+        "Nothing may be missing either, unless --partial says so: each pair of the scene has one result, at each "
+        "frame, or it is farther apart than the margin that was asked, which is proven anew where there is no "
+        "result. An answer that is undecided claims nothing, so it counts as missing.\n\n"
+        "RESULTS.jsonl is \"-\" for standard input. The first failures are listed with their lines, and the first "
+        "pairs whose results are missing with their names.",
+    .exits = "0 every proof holds, and nothing is missing or undecided\n"
+             "1 every proof holds, but results are missing or undecided\n"
              "2 the command line is wrong\n"
              "3 bad input\n"
              "4 a proof does not hold",
     .examples = "ovoid check cell.json --json | ovoid verify - cell.json\n"
+                "ovoid verify near.jsonl cell.json --margin 0.02\n"
                 "ovoid verify results.jsonl --shapes hulls.txt --pairs pairs.csv\n"
                 "ovoid verify proof.jsonl",
     .options = options,

@@ -63,24 +63,23 @@ static int refuse(verify *v, const char *message) {
 
 static void disprove(claim *item, const char *message) { snprintf(item->message, sizeof item->message, "%s", message); }
 
-/// Advances to the frame of the result: the last one that is not after it, or of an impact the one that ends its
-/// interval. 0 where the motion is refused.
-static int go_to_frame(verify *v, const ovoid_record *record, claim *item) {
-    cli_frames *f = &v->bodies.frames;
-    int is_impact = (record->fields & OVOID_RECORD_IMPACT) != 0, got = 1;
-    if (!(record->fields & OVOID_RECORD_TIME)) {
+static int is_impact(const ovoid_record *record) { return (record->fields & OVOID_RECORD_IMPACT) != 0; }
+
+/// 1 if the result needs no later frame than the one at hand: it is of the last frame that is not after it, or an
+/// impact of the one that ends its interval. 1 without a motion, which has one frame.
+static int has_come(const verify *v, const ovoid_record *record) {
+    const cli_frames *f = &v->bodies.frames;
+    if (!v->settings->motion || !(record->fields & OVOID_RECORD_TIME)) return 1;
+    return f->count && (is_impact(record) ? f->time > record->frame : f->time >= record->time);
+}
+
+/// A result of a motion is of the frame at hand, or it is wrong.
+static void check_frame(const verify *v, const ovoid_record *record, claim *item) {
+    const cli_frames *f = &v->bodies.frames;
+    if (!(record->fields & OVOID_RECORD_TIME))
         disprove(item, "it has no time, which the results of a motion have");
-        return 1;
-    }
-    double from = is_impact ? record->frame : record->time;
-    while (got > 0 && !(f->count && (is_impact ? f->time > from : f->time >= from))) {
-        got = frames_next(f);
-        seen_begin_frame(&v->seen);
-    }
-    if (got < 0) return v->refused = 1, v->error.message[0] = 0, 0;
-    if (is_impact ? f->earlier != from || !(f->time > from) : f->time != from)
-        disprove(item, is_impact ? "the motion has no such frame" : "the motion has no frame at this time");
-    return 1;
+    else if (is_impact(record) ? f->earlier != record->frame || !(f->time > record->frame) : f->time != record->time)
+        disprove(item, is_impact(record) ? "the motion has no such frame" : "the motion has no frame at this time");
 }
 
 /// Sets both bodies of an impact, and their motions.
@@ -127,7 +126,28 @@ static void check_objects(const ovoid_scene *scene, ovoid_couple couple, const o
     check_meshes(record, &meshes, item);
 }
 
-/// Finds the objects of the scene that the result names. 0 where the motion is refused.
+/// What the result says of the margin of the question, without which of its sign.
+static unsigned get_flags(const verify *v, const ovoid_record *record) {
+    if (is_impact(record)) return SEEN_IMPACT;
+    exit_code side = results_judge(&record->answer, v->margin > 0 ? v->margin : 0);
+    return SEEN_RESULT | (side == EXIT_TOUCH ? SEEN_NEAR : side == EXIT_NOT_PROVEN ? SEEN_OPEN : 0);
+}
+
+/// Notes that a pair has a result, or an impact, in this frame: one of each. 0 where the run is refused.
+static int note_result(verify *v, ovoid_couple couple, const ovoid_record *record, claim *item) {
+    unsigned flags = get_flags(v, record);
+    unsigned char *known = seen_add(&v->rest.seen, couple);
+    if (!known) return refuse(v, "out of memory");
+    if (*known & flags & (SEEN_RESULT | SEEN_IMPACT))
+        disprove(item, is_impact(record) ? "the pair has another impact between these frames"
+                                         : "the pair has another result, in an earlier line");
+    else
+        v->rest.results += (flags & SEEN_RESULT) != 0;
+    *known |= (unsigned char)flags;
+    return 1;
+}
+
+/// Finds the objects of the scene that the result names, which is of the frame at hand. 0 where the run is refused.
 static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
     const ovoid_scene *scene = v->bodies.scene;
     size_t none = (size_t)-1;
@@ -138,16 +158,16 @@ static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
         return 1;
     }
     const cli_frames *f = &v->bodies.frames;
-    if (v->settings->motion && !go_to_frame(v, record, item)) return 0;
+    if (v->settings->motion) check_frame(v, record, item);
     if (!v->settings->motion && record->fields & OVOID_RECORD_TIME) disprove(item, "it has a time: give the --motion");
     ovoid_pose pose_a = f->poses ? f->poses[a] : ovoid_scene_get(scene, a).pose;
     ovoid_pose pose_b = f->poses ? f->poses[b] : ovoid_scene_get(scene, b).pose;
     item->pair = (ovoid_body_pair){answers_get_body(scene, a, &pose_a), answers_get_body(scene, b, &pose_b)};
     check_objects(scene, (ovoid_couple){(uint32_t)a, (uint32_t)b}, record, item);
-    int is_impact = (record->fields & OVOID_RECORD_IMPACT) != 0;
-    if (is_impact && !item->message[0]) set_impact(v, record, a, b, item);
-    if (is_impact || item->message[0] || seen_add(&v->seen, scene, a, b)) return 1;
-    return refuse(v, "out of memory");
+    if (is_impact(record) && !item->message[0]) set_impact(v, record, a, b, item);
+    if (!item->message[0] && (a == b || ovoid_scene_is_ignored(scene, a, b)))
+        disprove(item, "the scene does not ask about this pair");
+    return item->message[0] || note_result(v, (ovoid_couple){(uint32_t)a, (uint32_t)b}, record, item);
 }
 
 /// Reads the next pair of the pairs file, which must be the one that the result names. 0 where there is none.
@@ -167,7 +187,9 @@ static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
     return 1;
 }
 
-static void find_given(const body_source *bodies, const ovoid_record *record, claim *item) {
+static void find_given(verify *v, const ovoid_record *record, claim *item) {
+    const body_source *bodies = &v->bodies;
+    if (v->rest.results++) disprove(item, "the pair has another result, in an earlier line");
     int are_solids = bodies->solids.solids[0] || bodies->solids.solids[1];
     item->pair = are_solids ? bodies->solids.pair : bodies->pair;
     if (!record->a || !record->b || strcmp(record->a, bodies->paths[0]) != 0 ||
@@ -212,21 +234,77 @@ void verify_drop(claim *item) {
     item->record = (ovoid_record){.a = NULL};
 }
 
-/// Reads the next result with its bodies. 0: the end, or refused.
-int verify_read(verify *v, claim *item) {
-    ovoid_record record;
-    int got = ovoid_results_reader_read(v->reader, &record, &v->error);
-    if (got < 0) v->refused = 1;
-    if (got <= 0) return 0;
-    *item = (claim){.line = ovoid_results_reader_get_line(v->reader)};
+/// The margin of a result; negative: none. Without one impacts are those of touching.
+static double get_margin(const ovoid_record *record) {
+    return record->fields & OVOID_RECORD_MARGIN ? record->margin : -1;
+}
+
+/// The margin of the question is that of --margin, or else that of the first result.
+static void settle_margin(verify *v) {
+    const ovoid_record *record = &v->record;
+    double own = get_margin(record);
+    if (isnan(v->margin) && (!is_impact(record) || own > 0)) v->margin = own;
+}
+
+/// All results have the margin of the question.
+static void check_margin(const verify *v, const ovoid_record *record, claim *item) {
+    double least = is_impact(record) ? 0 : -1;
+    if (!isnan(v->margin) && get_margin(record) != fmax(v->margin, least))
+        disprove(item, "its margin is not the one that was asked");
+}
+
+/// Makes the item of the record that was read. 0 where the run is refused.
+static int make_result(verify *v, claim *item) {
+    const ovoid_record *record = &v->record;
+    int got = 1;
+    *item = (claim){.kind = CLAIM_RESULT, .line = ovoid_results_reader_get_line(v->reader)};
+    check_margin(v, record, item);
     if (v->bodies.scene)
-        got = find_in_scene(v, &record, item);
+        got = find_in_scene(v, record, item);
     else if (v->bodies.list)
-        got = find_in_list(v, &record, item);
+        got = find_in_list(v, record, item);
     else
-        find_given(&v->bodies, &record, item);
-    if (got <= 0) return 0;
-    if (store_record(&record, item)) return 1;
+        find_given(v, record, item);
+    v->has_record = 0;
+    if (!got) return 0;
+    if (store_record(record, item)) return 1;
     verify_drop(item);
     return refuse(v, "out of memory");
+}
+
+/// Reads the next record, where none waits. 0 where the run is refused.
+static int read_record(verify *v) {
+    if (v->has_record || v->has_ended) return 1;
+    int got = ovoid_results_reader_read(v->reader, &v->record, &v->error);
+    v->has_record = got > 0;
+    v->has_ended = got <= 0;
+    if (got > 0) settle_margin(v);
+    if (got < 0) v->refused = 1;
+    return got >= 0;
+}
+
+/// Goes on to the next frame. 1, 0 where there is none, or the run is refused.
+static int go_on(verify *v) {
+    int got = v->settings->motion ? frames_next(&v->bodies.frames) : 0;
+    if (got < 0) v->refused = 1, v->error.message[0] = 0;
+    return got > 0 && verify_begin_rest(v);
+}
+
+int verify_read(verify *v, claim *item) {
+    verify_rest *rest = &v->rest;
+    for (;;) {
+        if (rest->next < rest->count) return *item = rest->items[rest->next++], 1;
+        if (!read_record(v)) return 0;
+        int goes_on = v->bodies.scene && !(v->has_record && has_come(v, &v->record));
+        if (v->has_record && !goes_on) return make_result(v, item);
+        if (!goes_on) return 0;
+        // What the frame lacks comes before the next frame.
+        int has_frame = !v->settings->motion || v->bodies.frames.count;
+        if (has_frame && !rest->is_listed) {
+            if (!verify_list_rest(v)) return 0;
+            continue;
+        }
+        if (go_on(v)) continue;
+        return v->has_record && !v->refused ? make_result(v, item) : 0;
+    }
 }

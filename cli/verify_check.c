@@ -6,11 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-/// 1 if point_b - point_a must be d times the normal: in answers to distance; not where a limit ended the search of a
-/// depth and the proof is a common point.
-static int has_nearest_points(int query, const ovoid_answer *answer) {
+/// 1 if point_b - point_a must be d times the normal: in answers to distance, not of ovoid_within, which are those of
+/// impacts; not where a limit ended the search of a depth and the proof is a common point.
+static int claims_points(const verify *v, const claim *item, const ovoid_answer *answer) {
     if (answer->proof.kind == OVOID_PROOF_HULL || answer->proof.kind == OVOID_PROOF_INNER) return 0;
-    return query == QUERY_DISTANCE;
+    if (item->kind != CLAIM_RESULT || item->record.fields & OVOID_RECORD_IMPACT) return 0;
+    return v->settings->query == QUERY_DISTANCE;
 }
 
 /// Finds the pair of parts of a record; 0 where there is none such.
@@ -43,6 +44,16 @@ static ovoid_code check_compound(const verify *v, const claim *item, const ovoid
     return verdict_check_compound(v->verdict, &item->pair, &answer, &exclusions, points, error);
 }
 
+ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_compound_impact *found,
+                               const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
+    const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
+    if (a->solid || b->solid) return ovoid_solid_impact_check(a, b, margin, found, steps, groups, error);
+    if (a->compound || b->compound || found->group_count)
+        return ovoid_compound_impact_check(a, b, margin, found, steps, groups, error);
+    ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};
+    return ovoid_impact_check(&moving[0], &moving[1], margin, &found->impact, steps, error);
+}
+
 /// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is
 /// not; of one that is not proven, the steps alone.
 static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ovoid_error *error) {
@@ -64,16 +75,13 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
         found.part_a = r->solid ? r->solid->triangle_a : 0;
         found.part_b = r->solid ? r->solid->triangle_b : 0;
         found.impact.hit = r->solid ? r->solid->surfaces : *answer;
-        return ovoid_solid_impact_check(a, b, r->margin, &found, r->steps, r->groups, error);
+    } else if (!a->compound && !b->compound) {
+        // The distance at the end of the free time is not claimed, so it is queried here.
+        ovoid_pair free = {a->shape, b->shape, ovoid_motion_compute_pose(&a->motion, r->free_for),
+                           ovoid_motion_compute_pose(&b->motion, r->free_for)};
+        found.impact.free = ovoid_within(&free, r->margin, NULL, NULL);
     }
-    if (a->compound || b->compound)
-        return ovoid_compound_impact_check(a, b, r->margin, &found, r->steps, r->groups, error);
-    // The distance at the end of the free time is not claimed, so it is queried here.
-    ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};
-    ovoid_pair free = {a->shape, b->shape, ovoid_moving_shape_compute_pose(&moving[0], r->free_for),
-                       ovoid_moving_shape_compute_pose(&moving[1], r->free_for)};
-    found.impact.free = ovoid_within(&free, r->margin, NULL, NULL);
-    return ovoid_impact_check(&moving[0], &moving[1], r->margin, &found.impact, r->steps, error);
+    return verify_check_impact(item, r->margin, &found, r->steps, r->groups, error);
 }
 
 /// The answer of solids is that of their surfaces, of which the points are, and what follows from it.
@@ -84,7 +92,7 @@ static ovoid_code check_solids(const verify *v, const claim *item, ovoid_error *
         snprintf(error->message, sizeof error->message, "it is an answer about solids, which the bodies are not");
         return OVOID_ERROR_PROOF;
     }
-    int points = has_nearest_points(v->settings->query, &r->solid->surfaces);
+    int points = claims_points(v, item, &r->solid->surfaces);
     return verdict_check_solid(v->verdict, &item->pair, r->solid, &exclusions, points, error);
 }
 
@@ -100,9 +108,7 @@ ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) 
         snprintf(error->message, sizeof error->message, "the parts are not those of the bodies");
         return OVOID_ERROR_PROOF;
     }
-    // The answer of an impact is that of ovoid_within at its margin.
-    int is_impact = (item->record.fields & OVOID_RECORD_IMPACT) != 0;
-    int points = !is_impact && has_nearest_points(v->settings->query, &answer);
+    int points = claims_points(v, item, &answer);
     ovoid_code code = is_compound ? check_compound(v, item, points ? &pair : NULL, error)
                                   : verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
     return code == OVOID_OK ? check_impact(item, &answer, error) : code;

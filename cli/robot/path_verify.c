@@ -191,8 +191,8 @@ static int run_proofs(verify *v, ovoid_robot_proofs *proofs) {
                                  "path proofs of ovoid robot path need none)");
         return message_error("%s", error.message), EXIT_INPUT;
     }
-    if (!v->made && !v->settings->allow_empty)
-        return message_error("%s: there is no path; where none is wanted, --allow-empty says so", v->path), EXIT_INPUT;
+    if (!v->made && !v->settings->partial)
+        return message_error("%s: there is no path; where none is wanted, --partial says so", v->path), EXIT_INPUT;
     if (v->settings->states && v->next < v->states.count)
         return message_error("%s: %zu states of %s are on no path", v->path, v->states.count - v->next,
                              v->settings->states),

@@ -8,7 +8,7 @@
 typedef struct path_verify_settings {
     const char *srdf, *scene, *states;
     args_list packages;
-    int json, allow_empty;
+    int json, partial;
 } path_verify_settings;
 
 /// The rows of these options; `paths` is the member of the settings that holds them.

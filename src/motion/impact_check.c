@@ -5,16 +5,24 @@
 #include "motion/impact.h"
 #include "motion/impact_sweep.h"
 
+// A direction is unit, and turns with a body that turns.
+static int step_is_sound(const motion_pair *pieces, const ovoid_step *step) {
+    int turns = step->frame == OVOID_STEP_WORLD || (step->frame == OVOID_STEP_A && pieces->a.piece.turn > 0) ||
+                (step->frame == OVOID_STEP_B && pieces->b.piece.turn > 0);
+    return turns && fabs(vec3_norm_squared(step->normal) - 1) <= 16 * ROUNDING;
+}
+
 ovoid_code impact_check_steps(moving_shapes shapes, const step_claim *claim, ovoid_error *error) {
     double time = claim->begin, level = claim->level, least;
     motion_pair pieces;
     for (size_t i = 0; i < claim->count; i++) {
         const ovoid_step *step = &claim->steps[i];
         (void)motion_pair_make(shapes.a, shapes.b, time, &pieces);
-        int sound = step->frame <= OVOID_STEP_B && fabs(vec3_norm_squared(step->normal) - 1) <= 16 * ROUNDING;
-        if (!(step->until > time) || !(step->until <= pieces.end) || !sound)
+        if (!(step->until > time) || !(step->until <= pieces.end) || !step_is_sound(&pieces, step))
             return error_set(error, OVOID_ERROR_PROOF, (int64_t)i,
-                             "step %zu does not go on from %.17g within one piece, or has no unit normal", i, time);
+                             "step %zu does not go on from %.17g within one piece, or its normal is not unit, or turns "
+                             "with a body that does not",
+                             i, time);
         if (!motion_pair_is_above(&pieces, step, time, level, &least))
             return error_set(error, OVOID_ERROR_PROOF, (int64_t)i,
                              "step %zu, from %.17g to %.17g: claimed above %.17g, its normal shows %.17g", i, time,

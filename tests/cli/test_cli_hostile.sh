@@ -240,7 +240,7 @@ expect 'run, standard input closed' 3 'Bad file descriptor'
 printf 'time,body,x,y,z,qw,qx,qy,qz\n-1e308,ball,9,9,9,1,0,0,0\n1e308,ball,9,9,8,1,0,0,0\n' >long.csv
 "$OVOID_TOOL" run scene.json --motion long.csv --margin 0 --continuous >/dev/null 2>err
 code=$?
-expect 'run, a step of no finite length' 4 'not proven: [1-9]'
+expect 'run, a step of no finite length' 3 'its duration must be'
 printf 'time,body,vx,vy,vz,wx,wy,wz\n0,ball,0,0,0,1e20,0,0\n1,ball,0,0,0,0,0,0\n' >fast.csv
 "$OVOID_TOOL" run scene.json --motion fast.csv >/dev/null 2>err
 code=$?

@@ -54,7 +54,17 @@ for f in 0 1 2 3 4 5; do
 done
 "$OVOID_TOOL" run frame0.json --motion moves.csv --margin 0.2 --continuous --json -o run.jsonl 2>/dev/null
 check 'impacts are found' grep -q free_for run.jsonl
-check 'proofs of frames and impacts' quiet verify run.jsonl frame0.json --motion moves.csv
+# Some are undecided: the cylinders' allowances leave them open.
+"$OVOID_TOOL" verify run.jsonl frame0.json --motion moves.csv --continuous --json >said 2>&1
+check 'undecided results' [ $? -eq 1 ]
+check 'proofs of frames and impacts' grep -q '"fail":0,"undecided":[1-9].*"missing":0,"beyond":[1-9][0-9]*,"impacts_missing":0' said
+# One impact less, and one result.
+for gone in 107 110; do
+    sed "${gone}d" run.jsonl | "$OVOID_TOOL" verify - frame0.json --motion moves.csv --continuous --json >said 2>&1
+    check "without impact $gone" grep -q '"missing":0,.*"impacts_missing":1' said
+done
+sed 17d run.jsonl | "$OVOID_TOOL" verify - frame0.json --motion moves.csv --json >said 2>&1
+check 'without a result' grep -q '"fail":0,.*"missing":1,' said
 # The pairs that are within the margin in a frame and were not in the one before have an impact in between.
 awk -F, -v OFS=, '{ print $1, $2, $4 }' run.csv >near.txt
 "$OVOID_TOOL" run frame0.json --motion moves.csv --margin 0.2 --continuous --csv 2>/dev/null | awk -F, 'NR > 1 && $2 != "" { print $2 + 0.25 "," $5 "," $7 }' >impacts.txt
@@ -84,7 +94,7 @@ check 'a ball through a plate, velocities' hit speeds.csv plate ball 0.4998995
     $5 == "needle" && $7 == "post" { found = $4 > 1 / 40 - 0.02 / 15 / 62.8 && $4 < 1 / 40 } END { exit !found }'
 check 'a needle that spins meets a post' [ $? -eq 0 ]
 "$OVOID_TOOL" run fast.json --motion speeds.csv --query collide --continuous --json -o fast.jsonl 2>/dev/null
-check 'proofs of fast impacts' quiet verify fast.jsonl fast.json --motion speeds.csv --query collide
+check 'proofs of fast impacts' quiet verify fast.jsonl fast.json --motion speeds.csv --query collide --continuous
 
 echo "$passed passed, $failed failed, 0 skipped"
 [ $failed -eq 0 ]

@@ -100,7 +100,7 @@ all 2 'no pair' batch --shapes shapes.txt --pairs none.csv --csv
 rm -f -- *.shard
 for i in 1 2 3; do "$OVOID_TOOL" run scene.json --motion moves.csv --margin 0.2 --continuous --json --shard $i/3 -o $i.shard 2>/dev/null; done
 "$OVOID_TOOL" merge ./*.shard -o merged.jsonl 2>/dev/null
-"$OVOID_TOOL" verify merged.jsonl scene.json --motion moves.csv >/dev/null 2>&1
+"$OVOID_TOOL" verify merged.jsonl scene.json --motion moves.csv --partial >/dev/null 2>&1
 check 'the proofs of merged lines' [ $? -eq 0 ]
 
 # ---- interrupted: cut at many places, between and within blocks, and a byte altered behind them
