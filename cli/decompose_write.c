@@ -91,24 +91,13 @@ void decomposed_write_json(FILE *file, const decomposed *d) {
     fprintf(file, "],\"cells\":%zu}\n", d->proof.cells);
 }
 
-/// A text as a field of CSV.
-static void write_csv_text(FILE *file, const char *text) {
-    int is_plain = !strpbrk(text, ",\"\r\n");
-    if (!is_plain) fputc('"', file);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', file);
-        fputc(*text, file);
-    }
-    if (!is_plain) fputc('"', file);
-}
-
 void decomposed_write_csv(FILE *file, const decomposed *d) {
     ovoid_solid_report r = ovoid_solid_get_report(d->view.solid);
     const ovoid_decomposition_proof *p = &d->proof;
     fputs("mesh,triangles,volume,parts,vertices,parts_volume,grown,uncovered_lower,uncovered_upper,excess_lower,"
           "excess_upper,cells\n",
           file);
-    write_csv_text(file, d->path);
+    ovoid_text_write_csv(file, d->path);
     fprintf(file, ",%llu,%.17g,%zu,%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%zu\n", (unsigned long long)r.triangles,
             r.volume, d->view.part_count, count_vertices(d), sum_volumes(d), d->grown, p->uncovered.lower,
             p->uncovered.upper, p->excess.lower, p->excess.upper, p->cells);

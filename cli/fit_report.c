@@ -141,13 +141,6 @@ void fit_write_json(FILE *file, const fitted *f) {
     fputs("}\n", file);
 }
 
-/// Writes a text as a CSV field.
-static void write_field(FILE *file, const char *text) {
-    fputc('"', file);
-    for (; *text; text++) fprintf(file, *text == '"' ? "\"\"" : "%c", *text);
-    fputc('"', file);
-}
-
 void fit_write_csv_title(FILE *file) {
     fprintf(file, "file,name,points,vertices,duplicates,interior,coplanar,rank,facets,triangles,radius,outside,inside,"
                   "volume,area,mesh_volume");
@@ -165,9 +158,9 @@ static void write_column(FILE *file, double number) {
 
 void fit_write_csv_row(FILE *file, const fitted *f) {
     const ovoid_report *r = &f->report;
-    write_field(file, f->file);
+    ovoid_text_write_csv(file, f->file);
     fputc(',', file);
-    write_field(file, f->name);
+    ovoid_text_write_csv(file, f->name);
     fprintf(file, ",%llu,%llu,%llu,%llu,%llu,%u,%u,%u", (unsigned long long)r->points, (unsigned long long)r->vertices,
             (unsigned long long)r->duplicates, (unsigned long long)r->interior, (unsigned long long)r->coplanar,
             (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles);
@@ -190,6 +183,6 @@ void fit_write_csv_row(FILE *file, const fitted *f) {
     write_column(file, f->read_seconds);
     write_column(file, f->make_seconds);
     fputc(',', file);
-    if (f->output) write_field(file, f->output);
+    if (f->output) ovoid_text_write_csv(file, f->output);
     fputc('\n', file);
 }

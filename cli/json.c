@@ -1,20 +1,10 @@
 #include "json.h"
 
+#include <ovoid/io.h>
+
 #include <math.h>
 
-void json_write_text(FILE *file, const char *text) {
-    fputc('"', file);
-    for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\')
-            fprintf(file, "\\%c", c);
-        else if (c < 0x20)
-            fprintf(file, "\\u%04x", c);
-        else
-            fputc(c, file);
-    }
-    fputc('"', file);
-}
+void json_write_text(FILE *file, const char *text) { ovoid_text_write_json(file, text); }
 
 void json_write_number(FILE *file, double number) {
     if (isfinite(number))

@@ -3,6 +3,8 @@
 
 #include "progress.h"
 
+#include <ovoid/io.h>
+
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,24 +18,11 @@ int message_is_colored(FILE *stream) {
     return message_is_terminal(stream) && term && strcmp(term, "dumb") != 0;
 }
 
-/// The length of the character at c in UTF-8 that can be shown as it is; 0 for one that may control a terminal (C0,
-/// DEL, and C1 in its two bytes), and for a byte that begins none.
-static int get_visible_length(const unsigned char *c) {
-    if (c[0] < 0x80) return c[0] >= 0x20 && c[0] != 0x7f;
-    int length = c[0] >= 0xc2 && c[0] < 0xe0   ? 2
-                 : c[0] >= 0xe0 && c[0] < 0xf0 ? 3
-                 : c[0] >= 0xf0 && c[0] < 0xf5 ? 4
-                                               : 0;
-    for (int i = 1; i < length; i++)
-        if ((c[i] & 0xc0) != 0x80) return 0;
-    return c[0] == 0xc2 && c[1] < 0xa0 ? 0 : length;
-}
-
 /// Writes the character at the text's beginning as it is shown; returns its length in the text.
-static int show(const char *text, char shown[5]) {
-    int length = get_visible_length((const unsigned char *)text);
+static size_t show(const char *text, char shown[5]) {
+    size_t length = ovoid_text_get_visible_length(text);
     if (length)
-        memcpy(shown, text, (size_t)length), shown[length] = 0;
+        memcpy(shown, text, length), shown[length] = 0;
     else
         snprintf(shown, 5, "\\x%02x", (unsigned)(unsigned char)*text);
     return length ? length : 1;

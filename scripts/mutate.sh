@@ -36,7 +36,7 @@ tests_of() {
     solid) echo "test_solid_create test_solid_crossings test_solid test_solid_compound test_judge_solid" ;;
     solid_files) echo "test_cli_altered_solids.sh test_cli.sh:solid:info" ;;
     decompose) echo "test_decompose_cells test_decompose" ;;
-    hostile) echo "test_io_json test_io_child" ;;
+    hostile) echo "test_io_json test_io_texts test_io_child" ;;
     decompose_watch) echo "test_decompose_watch" ;;
     compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_judge_compound" ;;
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_judge_impact test_impact_trials test_compound_impact" ;;

@@ -141,17 +141,7 @@ void cell_write_side_json(FILE *file, const cli_cell *cell, const ovoid_robot_si
 }
 
 void cell_write_field(FILE *file, const char *text) {
-    if (!text) return;
-    if (!strpbrk(text, ",\"\r\n")) {
-        fputs(text, file);
-        return;
-    }
-    fputc('"', file);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', file);
-        fputc(*text, file);
-    }
-    fputc('"', file);
+    if (text) ovoid_text_write_csv(file, text);
 }
 
 /// Link and element, both empty for an obstacle.

@@ -115,7 +115,7 @@ void cell_write_side_json(FILE *file, const cli_cell *cell, const ovoid_robot_si
 /// Writes these columns; a NULL: all are empty.
 void cell_write_pair_csv(FILE *file, const cli_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b);
 
-/// Writes a text as a field of CSV, in quotes where it needs them; NULL: empty.
+/// Writes a text as a field of CSV; NULL: empty.
 void cell_write_field(FILE *file, const char *text);
 
 /// The name of a variable into a text.

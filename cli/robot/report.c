@@ -96,8 +96,10 @@ void report_write_csv_header(FILE *file, const report_form *form) {
     if (form->has_near)
         fputs(",point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z", file);
     for (size_t i = 0; i < form->states->variable_count && form->has_gradient; i++) {
-        fputs(",d ", file);
-        cell_write_variable_name(file, form->cell, i);
+        char name[CELL_SIDE_ROOM + 2] = "d ";
+        cell_format_variable(name + 2, form->cell, i);
+        fputc(',', file);
+        ovoid_text_write_csv(file, name);
     }
     fputc('\n', file);
 }

@@ -199,14 +199,14 @@ static uint32_t take_column(reader *r, const char *name) {
     return OVOID_ROBOT_NONE;
 }
 
-static int read_header(reader *r, char *line) {
-    size_t most = 1;
+/// The names of a header, each read into `name`, which has room for the line.
+static int read_names(reader *r, const char *line, char *name) {
+    size_t room = strlen(line) + 1;
+    ovoid_error error;
     double number;
-    for (const char *c = line; *c; c++) most += *c == ',';
-    r->columns = malloc(most * sizeof *r->columns);
-    if (!r->columns) return snprintf(r->why, WHY_ROOM, "out of memory"), 0;
-    for (char *at = line; at;) {
-        const char *name = take_field(&at);
+    for (const char *at = line; at; at = *at == ',' ? at + 1 : NULL) {
+        at = ovoid_text_read_csv(at, name, room, &error);
+        if (!at) return snprintf(r->why, WHY_ROOM, "%s", error.message), 0;
         if (!r->column_count && read_number(r, name, &number)) {
             snprintf(r->why, WHY_ROOM, "the first line names the joints, \"shoulder,elbow,...\"; this one has numbers");
             return 0;
@@ -216,6 +216,16 @@ static int read_header(reader *r, char *line) {
         r->columns[r->column_count++] = variable;
     }
     return check_quaternions(r);
+}
+
+static int read_header(reader *r, const char *line) {
+    size_t most = 1;
+    for (const char *c = line; *c; c++) most += *c == ',';
+    char *name = malloc(strlen(line) + 1);
+    r->columns = malloc(most * sizeof *r->columns);
+    int is_good = name && r->columns ? read_names(r, line, name) : (snprintf(r->why, WHY_ROOM, "out of memory"), 0);
+    free(name);
+    return is_good;
 }
 
 static int read_state(reader *r, char *line, double *state) {

@@ -416,6 +416,32 @@ OVOID_API int64_t ovoid_results_reader_get_line(const ovoid_results_reader *read
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_results_reader_destroy(ovoid_results_reader *reader);
 
+/* ---- texts of files, written and read ---- */
+
+/**
+ * How many bytes the first character of the text has; 0 where it should not be shown as it is: it is no UTF-8, controls
+ * terminals (C0, DEL, C1), turns the text round (U+202A and others) or is not seen (no width).
+ */
+OVOID_API size_t ovoid_text_get_visible_length(const char *text);
+
+/** Writes a text of JSON, in quotes. What should not be shown is escaped; bytes that are no UTF-8 become U+FFFD. */
+OVOID_API void ovoid_text_write_json(FILE *file, const char *text);
+
+/**
+ * Writes a field of CSV that no spreadsheet takes for a formula: in quotes where it has a comma, a semicolon, a quote
+ * or blanks at an end; with an apostrophe before it where its first character, blanks apart, is one of = + - @ ' or the
+ * wide forms of these four; each byte of what should not be shown as \xHH, and so the backslash of what looks like
+ * that. ovoid_text_read_csv undoes all of it.
+ */
+OVOID_API void ovoid_text_write_csv(FILE *file, const char *text);
+
+/**
+ * Reads the first field of a line of CSV that ends with a zero byte, or before it with "\n" or "\r\n", into text, which
+ * has room for `room` bytes; a line's length and one will do. Returns what is behind the field: the comma, or the end.
+ * NULL and FORMAT: quotes that do not close, or in a text without them; an escape of zero; no room.
+ */
+OVOID_API const char *ovoid_text_read_csv(const char *line, char *text, size_t room, ovoid_error *error);
+
 /* ---- output files ---- */
 
 /** A file that appears whole or not at all: written under another name in the same folder, then renamed. */

@@ -1,4 +1,5 @@
-// CSV as RFC 4180 defines it, read strictly: anything else is refused with its line and column.
+// CSV as RFC 4180 defines it, read strictly: anything else is refused with its line and column. Texts are read as
+// ovoid_text_write_csv writes them.
 #include "io/csv.h"
 
 #include <math.h>
@@ -34,50 +35,69 @@ ovoid_code csv_read_number(csv_line *line, double *value) {
     return end_column(line, after);
 }
 
-static ovoid_code fail_text(const csv_line *line, const char *what) {
-    return io_fail(line->error, OVOID_ERROR_FORMAT, line->place, "column %s: %s", line->columns[line->column], what);
+// ---- texts
+
+/// A field as it stands in the line.
+typedef struct field {
+    const char *begin, *end; ///< without quotes and the blanks around it
+    const char *behind;      ///< the comma, or the line's end
+    int is_quoted;
+} field;
+
+// Finds a field in quotes; NULL, or what is wrong.
+static const char *find_quoted(const char *at, const char *end, field *f) {
+    const char *c = at + 1;
+    for (; c < end && (*c != '"' || (c + 1 < end && c[1] == '"')); c++) c += *c == '"';
+    if (c >= end) return "the closing quote is missing";
+    *f = (field){at + 1, c, skip(c + 1, end), 1};
+    return f->behind < end && *f->behind != ',' ? "something follows the closing quote" : NULL;
 }
 
-static const char zero[] = "there is a zero byte in the text";
+static const char *find_field(const char *at, const char *end, field *f) {
+    at = skip(at, end);
+    if (at < end && *at == '"') return find_quoted(at, end, f);
+    const char *comma = at < end ? memchr(at, ',', (size_t)(end - at)) : NULL, *last = comma ? comma : end;
+    *f = (field){at, last, last, 0};
+    while (f->end > at && (f->end[-1] == ' ' || f->end[-1] == '\t')) f->end--;
+    return at < last && memchr(at, '"', (size_t)(last - at)) ? "a quote within a text without quotes" : NULL;
+}
 
-// The text between quotes; *at is behind the closing one.
-static ovoid_code read_quoted(const csv_line *line, const char **at, char *text, size_t room) {
+// The text of a field, as it was before ovoid_text_write_csv: into `room` bytes, which may be where the field stands.
+static const char *decode(const field *f, char *text, size_t room) {
     size_t length = 0;
-    const char *c = *at + 1;
-    for (;; c++) {
-        if (c == line->end) return fail_text(line, "the closing quote is missing");
-        if (*c == '"' && (c + 1 == line->end || c[1] != '"')) break;
-        if (*c == '"') c++;
-        if (!*c) return fail_text(line, zero);
-        if (length + 1 >= room) return fail_text(line, "the text is too long");
-        text[length++] = *c;
+    const char *c = f->begin;
+    if (c < f->end && *c == '\'' && text_is_formula(c + 1, f->end)) c++;
+    while (c < f->end) {
+        int byte = text_read_escape(c, f->end), is_escape = byte >= 0, is_doubled = f->is_quoted && *c == '"';
+        if (!is_escape) byte = (unsigned char)*c;
+        if (!byte) return "there is a zero byte in the text";
+        if (length + 1 >= room) return "the text is too long";
+        text[length++] = (char)byte;
+        c += is_escape ? 4 : is_doubled ? 2 : 1;
     }
     text[length] = 0;
-    *at = c + 1;
-    return OVOID_OK;
+    return NULL;
 }
 
 ovoid_code csv_read_text(csv_line *line, char *text, size_t room) {
-    const char *at = skip(line->at, line->end);
-    if (at < line->end && *at == '"') {
-        ovoid_code code = read_quoted(line, &at, text, room);
-        if (code) return code;
-        at = skip(at, line->end);
-        if (at < line->end && *at != ',') return fail_text(line, "something follows the closing quote");
-    } else {
-        size_t length = 0, until = 0;
-        for (; at + until < line->end && at[until] != ','; until++) {
-            if (at[until] == '"') return fail_text(line, "a quote within a text without quotes");
-            if (!at[until]) return fail_text(line, zero);
-            if (at[until] != ' ' && at[until] != '\t') length = until + 1;
-        }
-        if (length >= room) return fail_text(line, "the text is too long");
-        memcpy(text, at, length);
-        text[length] = 0;
-        at += until;
-    }
-    if (!text[0]) return fail_text(line, "is empty");
-    return end_column(line, at);
+    field f;
+    const char *wrong = find_field(line->at, line->end, &f);
+    if (!wrong) wrong = decode(&f, text, room);
+    if (!wrong && !text[0]) wrong = "is empty";
+    if (!wrong) return end_column(line, f.behind);
+    return io_fail(line->error, OVOID_ERROR_FORMAT, line->place, "column %s: %s", line->columns[line->column], wrong);
+}
+
+const char *ovoid_text_read_csv(const char *line, char *text, size_t room, ovoid_error *error) {
+    const char *end = line + strcspn(line, "\n");
+    if (end > line && *end && end[-1] == '\r') end--;
+    field f;
+    const char *wrong = find_field(line, end, &f);
+    if (!wrong) wrong = decode(&f, text, room);
+    if (!wrong) return f.behind;
+    if (error) *error = (ovoid_error){.code = OVOID_ERROR_FORMAT, .place = -1};
+    if (error) snprintf(error->message, sizeof error->message, "%s", wrong);
+    return NULL;
 }
 
 int csv_read_header(line_source *source, const char *const *headers, int count, ovoid_error *error) {

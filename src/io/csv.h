@@ -16,8 +16,15 @@ typedef struct csv_line {
 /// The next column as a finite number.
 ovoid_code csv_read_number(csv_line *line, double *value);
 
-/// The next column as a text, without the blanks around it, or in quotes ("" stands for a quote). Terminated; FORMAT
-/// where it does not fit into `room` bytes.
+/// 1 if a spreadsheet may take the text for a formula, or its first byte is an apostrophe; blanks before it do not
+/// count.
+int text_is_formula(const char *text, const char *end);
+
+/// The byte of an escape "\xHH" at the text; -1: there is none.
+int text_read_escape(const char *text, const char *end);
+
+/// The next column as a text that ovoid_text_write_csv wrote, without the blanks around it, or in quotes ("" stands for
+/// a quote). Terminated; FORMAT where it is empty or does not fit into `room` bytes.
 ovoid_code csv_read_text(csv_line *line, char *text, size_t room);
 
 /// The first line of a file, which must be one of these: which one, or -1 with the error filled.

@@ -185,41 +185,6 @@ int json_next(json_list *list, json_t **element, json_error_t *why) {
 
 // ---- writing
 
-// R. Pike, K. Thompson, 1992; RFC 3629: no surrogates, no overlong forms, nothing above U+10FFFF.
-int utf8_get_length(const unsigned char *c) {
-    if (c[0] < 0x80) return 1;
-    int length = c[0] >= 0xc2 && c[0] < 0xe0   ? 2
-                 : c[0] >= 0xe0 && c[0] < 0xf0 ? 3
-                 : c[0] >= 0xf0 && c[0] < 0xf5 ? 4
-                                               : 0;
-    for (int i = 1; i < length; i++)
-        if ((c[i] & 0xc0) != 0x80) return 0;
-    if (c[0] == 0xe0 && c[1] < 0xa0) return 0;
-    if (c[0] == 0xed && c[1] > 0x9f) return 0;
-    if (c[0] == 0xf0 && c[1] < 0x90) return 0;
-    if (c[0] == 0xf4 && c[1] > 0x8f) return 0;
-    return length;
-}
-
-void json_write_text(FILE *file, const char *text) {
-    fputc('"', file);
-    for (const unsigned char *c = (const unsigned char *)text; *c;) {
-        int length = utf8_get_length(c);
-        if (*c == '"' || *c == '\\')
-            fprintf(file, "\\%c", *c);
-        else if (*c < 0x20 || *c == 0x7f)
-            fprintf(file, "\\u%04x", *c);
-        else if (*c == 0xc2 && c[1] < 0xa0 && length) // C1, which controls terminals too
-            fprintf(file, "\\u%04x", c[1]);
-        else if (length)
-            fwrite(c, 1, (size_t)length, file);
-        else
-            fputs("\\ufffd", file);
-        c += length ? length : 1;
-    }
-    fputc('"', file);
-}
-
 void json_write_number(FILE *file, double value) {
     char digits[32];
     if (!isfinite(value)) {

@@ -1,4 +1,4 @@
-// JSON beyond what jansson offers: the line of a value, and texts written as JSON.
+// JSON beyond what jansson offers: the line of a value, and numbers written as JSON.
 #ifndef OVOID_IO_JSON_H
 #define OVOID_IO_JSON_H
 
@@ -43,12 +43,6 @@ json_t *json_load_around(bytes text, const char *key, int flags, json_list *list
 /// The next element in *element, which the caller frees: 1; 0 at the end; -1 where it is no JSON (or there is no
 /// memory) and *why: its line is of no use.
 int json_next(json_list *list, json_t **element, json_error_t *why);
-
-/// The length of the UTF-8 sequence at c, of a text that ends with a zero byte; 0 if there is none.
-int utf8_get_length(const unsigned char *c);
-
-/// Writes a text in quotes. Bytes that are not UTF-8 become U+FFFD.
-void json_write_text(FILE *file, const char *text);
 
 /// Writes %.17g; null where it is not finite.
 void json_write_number(FILE *file, double value);

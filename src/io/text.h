@@ -87,6 +87,9 @@ void line_source_close(line_source *source);
 /// malloc'ed copy of length bytes, terminated; NULL where there is no memory.
 char *text_copy(const char *text, size_t length);
 
+/// The length of the UTF-8 sequence at c, of a text that ends with a zero byte; 0 if there is none.
+int utf8_get_length(const unsigned char *c);
+
 /// A 64-bit hash of the text.
 uint64_t text_hash(const char *text);
 

@@ -96,10 +96,10 @@ void svg_escape(FILE *file, const char *text) {
         int length = utf8_get_length(c);
         if (*c == '<' || *c == '>' || *c == '&')
             fprintf(file, "&#%d;", *c);
-        else if (!length)
-            fputs("\xef\xbf\xbd", file);
-        else if (*c >= 0x20 && *c != 0x7f)
+        else if (ovoid_text_get_visible_length((const char *)c))
             fwrite(c, 1, (size_t)length, file);
+        else if (*c >= 0x20 && *c != 0x7f)
+            fputs("\xef\xbf\xbd", file);
         c += length ? length : 1;
     }
 }

@@ -161,7 +161,7 @@ static void write_proof(FILE *file, const char *q, const ovoid_record *record) {
 
 static void write_body(FILE *file, const char *name, size_t index) {
     if (name)
-        json_write_text(file, name);
+        ovoid_text_write_json(file, name);
     else
         fprintf(file, "%zu", index);
 }
@@ -245,22 +245,11 @@ ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields) {
     return stream_code(file);
 }
 
-// Writes a name, in quotes where it needs them.
 static void write_csv_body(FILE *file, const char *name, size_t index) {
-    if (!name) {
+    if (name)
+        ovoid_text_write_csv(file, name);
+    else
         fprintf(file, "%zu", index);
-        return;
-    }
-    if (!name[strcspn(name, ",\"\r\n")]) {
-        fputs(name, file);
-        return;
-    }
-    fputc('"', file);
-    for (; *name; name++) {
-        if (*name == '"') fputc('"', file);
-        fputc(*name, file);
-    }
-    fputc('"', file);
 }
 
 void record_write_column(FILE *file, double value) {

@@ -14,18 +14,18 @@ typedef struct table_row {
     char cell[COLUMNS][CELL];
 } table_row;
 
-// Sets a cell; a name from a file must not end the line or control the terminal.
+// Sets a cell; a name from a file must not end the line, control the terminal, or turn what stands beside it round.
 static void set_cell(char cell[CELL], const char *text) {
     size_t n = 0;
-    for (; text[n] && n < CELL - 1; n++) {
-        unsigned char c = (unsigned char)text[n], before = n ? (unsigned char)text[n - 1] : 0;
-        cell[n] = c < 0x20 || c == 0x7f ? '?' : text[n];
-        // The controls of C1 are two bytes, c2 and 80 to 9f.
-        if (before == 0xc2 && c >= 0x80 && c < 0xa0) cell[n - 1] = cell[n] = '?';
+    while (*text) {
+        int length = utf8_get_length((const unsigned char *)text), is_shown = ovoid_text_get_visible_length(text) > 0;
+        if (!length) length = 1;
+        size_t needed = is_shown ? (size_t)length : 1;
+        if (n + needed > CELL - 1) break;
+        memcpy(cell + n, is_shown ? text : "?", needed);
+        n += needed;
+        text += length;
     }
-    // No character of several bytes is cut in half.
-    if (text[n])
-        while (n > 0 && ((unsigned char)text[n] & 0xc0) == 0x80) n--;
     cell[n] = 0;
 }
 
