@@ -144,14 +144,15 @@ static void print_report(const report *r, const cli_body bodies[2], const ovoid_
 }
 
 /// Checks a record by its proof alone.
-static int check_record(const ovoid_body_pair *pair, const ovoid_record *record) {
+static int check_record(const ovoid_body_pair *pair, const ovoid_record *record, double tolerance) {
     ovoid_error error;
+    const ovoid_options asked = {.absolute_tolerance = tolerance};
     ovoid_compound_answer answer = {.answer = record->answer,
                                     .part_a = pair->a.compound ? record->part_a : 0,
                                     .part_b = pair->b.compound ? record->part_b : 0};
     ovoid_exclusions exclusions = {(ovoid_exclusion *)record->exclusions, record->exclusion_count,
                                    record->exclusion_count, (ovoid_cover *)record->cover};
-    if (ovoid_compound_answer_check(pair, &answer, &exclusions, &error) == OVOID_OK) return 1;
+    if (ovoid_compound_answer_check(pair, &answer, &asked, &exclusions, &error) == OVOID_OK) return 1;
     message_error("the proof does not hold: %s", error.message);
     return 0;
 }
@@ -168,7 +169,7 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
         answer_room_clear(&room);
         return EXIT_INPUT;
     }
-    int holds = check_record(&pair, &record);
+    int holds = check_record(&pair, &record, s->tolerance);
     int code = holds ? (int)results_judge(&record.answer, s->margin) : EXIT_NOT_PROVEN;
     const char *unit = inputs_get_unit(&s->read);
     solids_describe_bodies(bodies, &record);

@@ -108,13 +108,13 @@ void verdict_destroy(verdict *v) { (void)v; }
 ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
                          int points, ovoid_error *error) {
     (void)v, (void)points;
-    return ovoid_answer_check(pair, answer, cover, error);
+    return ovoid_answer_check(pair, answer, NULL, cover, error);
 }
 
 ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
                                   const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
     (void)v, (void)points;
-    return ovoid_compound_answer_check(pair, answer, exclusions, error);
+    return ovoid_compound_answer_check(pair, answer, NULL, exclusions, error);
 }
 
 ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,

@@ -9,6 +9,7 @@
 /// What the answers to a pair have said so far: d is in [lower, upper].
 typedef struct findings {
     const ovoid_pair *pair;
+    const ovoid_options *options; ///< of the queries
     judge *judge;
     double lower, upper;
 } findings;
@@ -16,8 +17,9 @@ typedef struct findings {
 // An answer and, where the full default question was asked, its points.
 static void check(findings *f, const ovoid_answer *x, const ovoid_cover *cover, int is_full) {
     ovoid_error error = {OVOID_OK, -1, ""};
+    judge_set_options(f->judge, f->options);
     ovoid_code code = judge_check_answer(f->judge, f->pair, x, cover, &error);
-    if (code == OVOID_OK) code = ovoid_answer_check(f->pair, x, cover, &error);
+    if (code == OVOID_OK) code = ovoid_answer_check(f->pair, x, f->options, cover, &error);
     // Where a limit ended the search of a depth, a common point may be all there is.
     int has_points = x->status == OVOID_SEPARATED || x->limit == OVOID_LIMIT_NONE;
     if (code == OVOID_OK && is_full && has_points && x->stage != OVOID_STAGE_NONE && x->status != OVOID_UNDECIDED)
@@ -32,8 +34,8 @@ static void check(findings *f, const ovoid_answer *x, const ovoid_cover *cover, 
     fuzz_require(f->lower <= f->upper);
 }
 
-static void check_within(findings *f, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
-    ovoid_answer x = ovoid_within(f->pair, margin, options, earlier);
+static void check_within(findings *f, double margin, const ovoid_proof *earlier) {
+    ovoid_answer x = ovoid_within(f->pair, margin, f->options, earlier);
     check(f, &x, NULL, 0);
     int within = ovoid_answer_is_within(&x, margin);
     if (within == 1) fuzz_require(x.upper <= margin);
@@ -42,10 +44,11 @@ static void check_within(findings *f, double margin, const ovoid_options *option
 
 static void ask_all(findings *f, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
     static ovoid_cover cover; // large, and filled by each call
+    f->options = options;
     int is_full = options == NULL;
     ovoid_answer x = ovoid_collide(f->pair, options, earlier);
     check(f, &x, NULL, 0);
-    check_within(f, margin, options, earlier);
+    check_within(f, margin, earlier);
     x = ovoid_distance(f->pair, options, earlier);
     check(f, &x, NULL, is_full && x.status == OVOID_SEPARATED);
     x = ovoid_depth(f->pair, options, earlier, &cover);
@@ -54,6 +57,7 @@ static void ask_all(findings *f, double margin, const ovoid_options *options, co
     ovoid_proof own = x.proof;
     x = ovoid_depth(f->pair, options, &own, &cover);
     check(f, &x, &cover, is_full);
+    f->options = NULL;
     x = ovoid_bounds(f->pair);
     check(f, &x, NULL, 0);
 }
@@ -71,12 +75,10 @@ static void check_truth(findings *f) {
 }
 
 void fuzz_ask(const ovoid_pair *pair, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
-    findings f = {pair, judge_create(), -INFINITY, INFINITY};
+    findings f = {pair, NULL, judge_create(), -INFINITY, INFINITY};
     fuzz_require(f.judge != NULL);
     ask_all(&f, margin, NULL, NULL);
     ask_all(&f, margin, NULL, earlier);
-    // "touching" within the tolerance of the options, whatever that is.
-    judge_set_touching(f.judge, INFINITY);
     if (options) ask_all(&f, margin, options, earlier);
     check_truth(&f);
     judge_destroy(f.judge);
@@ -87,7 +89,8 @@ void fuzz_ask(const ovoid_pair *pair, double margin, const ovoid_options *option
 void fuzz_ask(const ovoid_pair *pair, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
     ovoid_answer answers[4] = {ovoid_collide(pair, options, earlier), ovoid_distance(pair, options, earlier),
                                ovoid_within(pair, margin, options, earlier), ovoid_bounds(pair)};
-    for (int i = 0; i < 4; i++) fuzz_require(ovoid_answer_check(pair, &answers[i], NULL, NULL) == OVOID_OK);
+    for (int i = 0; i < 4; i++)
+        fuzz_require(ovoid_answer_check(pair, &answers[i], i < 3 ? options : NULL, NULL, NULL) == OVOID_OK);
 }
 
 #endif

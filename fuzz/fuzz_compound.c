@@ -7,20 +7,20 @@
 #include <judge.h>
 
 /// What the library's check accepts, exact arithmetic must accept too.
-static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_answer *x,
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *options,
                              const ovoid_exclusions *exclusions) {
     static judge *the_judge;
     if (!the_judge) the_judge = judge_create();
     fuzz_require(the_judge != NULL);
-    judge_set_touching(the_judge, 1e300);
+    judge_set_options(the_judge, options);
     ovoid_error error = {OVOID_OK, -1, ""};
     fuzz_require_code(judge_check_compound(the_judge, pair, x, exclusions, &error), &error);
     judge_forget(the_judge);
 }
 #else
-static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_answer *x,
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *options,
                              const ovoid_exclusions *exclusions) {
-    (void)pair, (void)x, (void)exclusions;
+    (void)pair, (void)x, (void)options, (void)exclusions;
 }
 #endif
 
@@ -28,6 +28,7 @@ enum { SHAPES = 3, PARTS = 6, ITEMS = 64 };
 
 typedef struct findings {
     const ovoid_body_pair *pair;
+    const ovoid_options *options; ///< of the queries
     double lower, upper;
     ovoid_compound_proof last;
 } findings;
@@ -36,8 +37,8 @@ static void check(findings *f, const ovoid_compound_answer *x, const ovoid_exclu
     ovoid_error error = {OVOID_OK, -1, ""};
     // Without all exclusions there is nothing to check it by.
     if (exclusions->count <= exclusions->capacity) {
-        fuzz_require_code(ovoid_compound_answer_check(f->pair, x, exclusions, &error), &error);
-        put_before_judge(f->pair, x, exclusions);
+        fuzz_require_code(ovoid_compound_answer_check(f->pair, x, f->options, exclusions, &error), &error);
+        put_before_judge(f->pair, x, f->options, exclusions);
     }
     f->lower = fmax(f->lower, x->answer.lower);
     f->upper = fmin(f->upper, x->answer.upper);
@@ -50,6 +51,7 @@ static void ask_all(findings *f, double margin, const ovoid_options *options, co
     static ovoid_exclusion items[ITEMS];
     static ovoid_cover cover;
     ovoid_exclusions exclusions = {items, capacity, 0, &cover};
+    f->options = options;
     ovoid_compound_answer x = ovoid_compound_collide(f->pair, options, earlier, &exclusions);
     check(f, &x, &exclusions);
     x = ovoid_compound_within(f->pair, margin, options, earlier, &exclusions);
@@ -121,7 +123,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         ovoid_options options = {.relative_tolerance = ldexp(1, take_byte(&from) / 4 - 32),
                                  .iterations = 1 + (uint32_t)(take_byte(&from) & 15)};
         ovoid_compound_proof earlier = {(uint32_t)take_byte(&from), (uint32_t)take_byte(&from), fuzz_take_proof(&from)};
-        findings f = {&pair, -INFINITY, INFINITY, earlier};
+        findings f = {&pair, NULL, -INFINITY, INFINITY, earlier};
         ask_all(&f, margin, NULL, NULL, ITEMS);
         ask_all(&f, margin, NULL, &earlier, ITEMS);
         earlier = f.last;

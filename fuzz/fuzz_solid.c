@@ -14,7 +14,7 @@ static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answ
     static judge *the_judge;
     if (!the_judge) the_judge = judge_create();
     fuzz_require(the_judge != NULL);
-    judge_set_touching(the_judge, INFINITY);
+    judge_set_options(the_judge, &(ovoid_options){.absolute_tolerance = INFINITY});
     ovoid_error error = {OVOID_OK, -1, ""};
     if (pair->a.compound || pair->b.compound) return;
     fuzz_require_code(judge_check_solid(the_judge, pair, x, all, 0, &error), &error);

@@ -102,7 +102,7 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
     ovoid_exclusions exclusions = {items, 256, 0, &cover};
     ovoid_error error = {OVOID_OK, -1, ""};
     fuzz_require_code(ovoid_world_compute_proof(m->world, c, &exclusions, &whole, &error), &error);
-    fuzz_require_code(ovoid_compound_answer_check(&pair, &whole, &exclusions, &error), &error);
+    fuzz_require_code(ovoid_compound_answer_check(&pair, &whole, NULL, &exclusions, &error), &error);
 }
 
 static void ask_frame(model *m, fuzz_bytes *from) {

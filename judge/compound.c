@@ -158,12 +158,12 @@ static measure measure_body(const ovoid_body *of) {
         ovoid_posed_shape part = {of->shape, ovoid_pose_make_identity()};
         if (of->compound) part = ovoid_compound_get_part(of->compound, i);
         ovoid_polytope polytope = ovoid_shape_get_polytope(part.shape);
-        double size = compute_norm(part.pose.position) + judge_find_extent(&polytope);
-        size += ovoid_shape_get_radius(part.shape) + ovoid_shape_get_allowance(part.shape).outside;
+        ovoid_allowance allowance = ovoid_shape_get_allowance(part.shape);
+        double size = compute_norm(part.pose.position) + judge_find_extent(&polytope) + compute_norm(polytope.origin);
+        size += ovoid_shape_get_radius(part.shape) + allowance.outside + 2 * allowance.inside;
         m.size = fmax(m.size, size);
-        m.reach = fmax(m.reach, size + compute_norm(polytope.origin));
     }
-    m.reach += compute_norm(of->pose.position);
+    m.reach = m.size + compute_norm(of->pose.position);
     return m;
 }
 
@@ -173,11 +173,7 @@ static ovoid_code check_touching(const judge *context, const ovoid_body_pair *pa
     ovoid_vec3 a = pair->a.pose.position, b = pair->b.pose.position;
     measure ma = measure_body(&pair->a), mb = measure_body(&pair->b);
     double size = ma.size + mb.size + compute_norm((ovoid_vec3){b.x - a.x, b.y - a.y, b.z - a.z});
-    double width = x->upper - x->lower, unresolved = 0x1p-88 * (ma.reach + mb.reach) + 16 * OVOID_LENGTH_MIN;
-    if (!(x->lower <= 0 && x->upper >= 0))
-        return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what the bracket says");
-    if (!(width > context->touching * size + unresolved)) return OVOID_OK;
-    return judge_reject(error, OVOID_ERROR_PROOF, "touching within %.3g is wide for bodies of size %.3g", width, size);
+    return judge_check_touching(context, x, size, ma.reach + mb.reach, error);
 }
 
 ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
@@ -194,7 +190,7 @@ ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, con
     ovoid_answer own = answer->answer;
     // A refusal claims nothing.
     if (own.status == OVOID_UNDECIDED && own.lower == -INFINITY && own.upper == INFINITY) return OVOID_OK;
-    if (own.status == OVOID_TOUCHING) {
+    if (own.status == OVOID_TOUCHING && (pair->a.compound || pair->b.compound)) {
         code = check_touching(context, pair, &own, error);
         own.status = OVOID_UNDECIDED, own.limit = OVOID_LIMIT_PRECISION;
     }

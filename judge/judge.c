@@ -4,14 +4,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Part of the pair's size that a bracket of status "touching" may be wide, unless the caller set another.
-#define TOUCHING 1e-6
+// The library's default, and what the sizes may differ by in rounding.
+#define TOLERANCE 1e-9
+#define ROUNDING 1e-12
 
 judge *judge_create(void) {
     judge *context = calloc(1, sizeof *context);
     if (!context) return NULL;
     context->p = number_pool_create();
-    context->touching = TOUCHING;
+    judge_set_options(context, NULL);
     if (context->p) return context;
     free(context);
     return NULL;
@@ -32,7 +33,10 @@ void judge_destroy(judge *context) {
     free(context);
 }
 
-void judge_set_touching(judge *context, double relative) { context->touching = relative; }
+void judge_set_options(judge *context, const ovoid_options *options) {
+    context->absolute = options ? options->absolute_tolerance : 0;
+    context->relative = options && options->relative_tolerance > 0 ? options->relative_tolerance : TOLERANCE;
+}
 
 // --- refusals
 
@@ -63,18 +67,23 @@ static ovoid_code check_data(const ovoid_answer *answer, ovoid_error *error) {
     return OVOID_OK;
 }
 
+ovoid_code judge_check_touching(const judge *context, const ovoid_answer *answer, double size, double reach,
+                                ovoid_error *error) {
+    double width = answer->upper - answer->lower, unresolved = 0x1p-88 * reach + 16 * OVOID_LENGTH_MIN;
+    if (!(answer->lower <= 0 && answer->upper >= 0))
+        return judge_reject(error, OVOID_ERROR_PROOF, "touching is not what the bracket says");
+    if (width <= fmax(context->absolute, context->relative * size) * (1 + ROUNDING) + unresolved) return OVOID_OK;
+    return judge_reject(error, OVOID_ERROR_PROOF, "touching within %.3g is wide for bodies of size %.3g", width, size);
+}
+
 static ovoid_code check_status(const judge *context, const posed *s, const ovoid_answer *answer, ovoid_error *error) {
     if ((answer->status == OVOID_SEPARATED) != (answer->lower > 0))
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what lower, %.17g, says", answer->lower);
     if ((answer->status == OVOID_OVERLAPPING) != (answer->upper < 0))
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what upper, %.17g, says", answer->upper);
-    // What double-doubles cannot resolve of positions and origins counts as touching too, however small the bodies.
-    double width = answer->upper - answer->lower,
-           unresolved = 0x1p-88 * (s->a.reach + s->b.reach) + 16 * OVOID_LENGTH_MIN;
-    if (answer->status == OVOID_TOUCHING && width > context->touching * s->size + unresolved)
-        return judge_reject(error, OVOID_ERROR_PROOF, "touching within %.3g is wide for a pair of size %.3g", width,
-                            s->size);
-    return OVOID_OK;
+    if (answer->status != OVOID_TOUCHING) return OVOID_OK;
+    double size = s->size + num_to_double(s->outside) + 2 * num_to_double(s->inside);
+    return judge_check_touching(context, answer, size, s->a.reach + s->b.reach, error);
 }
 
 // The normal is unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is required where there is no

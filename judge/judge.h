@@ -23,9 +23,9 @@ void judge_set_out_of_memory(void (*handler)(void));
 /// Forgets all shapes.
 void judge_forget(judge *context);
 
-/// How wide, in parts of the pair's size, the bracket of an answer with status "touching" may be: its query's
-/// tolerance. 1e-6 unless set; INFINITY allows any width.
-void judge_set_touching(judge *context, double relative);
+/// The options that the answers were asked with: a bracket of status "touching" is at most as wide as their tolerance.
+/// NULL, and until this is called: the default ones.
+void judge_set_options(judge *context, const ovoid_options *options);
 
 /// OVOID_OK if everything the answer claims is proven: lower by proof.normal, upper by proof.kind, the status, the unit
 /// normal, and that the witness points lie on their bodies to rounding. Else OVOID_ERROR_PROOF (or INDEX, NOT_FINITE)
@@ -36,7 +36,7 @@ ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoi
 /// OVOID_OK if everything is proven that the answer of a query of bodies (ovoid_compound_distance and its sisters)
 /// claims: the deciding pair's answer with the bodies' lower bound, as judge_check_answer judges it; that each
 /// exclusion's pairs of parts are no nearer than it says, and none of them is nearer than the lower bound; and that the
-/// exclusions and the deciding pair leave out no pair of parts. A bracket around zero must be narrow beside the bodies'
+/// exclusions and the deciding pair leave out no pair of parts. The relative tolerance of "touching" is of the bodies'
 /// size. Codes as above; place: the exclusion, or -1. exclusions: those of the query; NULL is enough for two shapes.
 /// Cost: the parts of all exclusions, some 15 us each. That the tree's order names each part once is checked too.
 ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,

@@ -18,7 +18,7 @@ struct judge {
     pool *p;
     facts *table; ///< open addressing
     size_t capacity, count;
-    double touching;
+    double absolute, relative;                      ///< the tolerances that "touching" is within
     nvec points[OVOID_COVER_POINTS];                ///< of the cover at hand
     uint32_t triangles[3 * 2 * OVOID_COVER_POINTS]; ///< of the cover at hand
 };
@@ -53,6 +53,11 @@ ovoid_code judge_check_inner(const claim *c);
 
 /// The witness points lie on their bodies.
 ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer);
+
+/// OVOID_OK if the bracket of "touching" holds zero and is no wider than the tolerance, for bodies of that size; reach:
+/// the sum of all positions and lengths, of which double-doubles resolve 2^-88.
+ovoid_code judge_check_touching(const judge *context, const ovoid_answer *answer, double size, double reach,
+                                ovoid_error *error);
 
 /// judge_check_answer of a pair that is made already, and no refusal; judge_check_points.
 ovoid_code judge_check_posed(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,

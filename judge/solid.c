@@ -130,10 +130,7 @@ static ovoid_code check_touching(const judge *context, const trial *t) {
     ovoid_vec3 a = t->a.of->pose.position, b = t->b.of->pose.position;
     double radii = num_to_double(num_add(t->p, t->a.posed.radius, t->b.posed.radius));
     double size = t->a.posed.extent + t->b.posed.extent + radii + hypot(hypot(b.x - a.x, b.y - a.y), b.z - a.z);
-    double unresolved = 0x1p-88 * (t->a.posed.reach + t->b.posed.reach) + 16 * OVOID_LENGTH_MIN;
-    if (!(x->upper - x->lower > context->touching * size + unresolved)) return OVOID_OK;
-    return judge_reject(t->error, OVOID_ERROR_PROOF, "touching within %.3g is wide for bodies of size %.3g",
-                        x->upper - x->lower, size);
+    return judge_check_touching(context, x, size, t->a.posed.reach + t->b.posed.reach, t->error);
 }
 
 // --- directions

@@ -23,8 +23,9 @@ typedef struct ovoid_pair {
 typedef enum ovoid_status {
     OVOID_UNDECIDED = 0, /**< the sign of d is not proven; ovoid_answer.limit says why */
     OVOID_SEPARATED,     /**< lower > 0 */
-    OVOID_TOUCHING,      /**< lower <= 0 <= upper, and the bracket is narrower than the tolerance */
-    OVOID_OVERLAPPING    /**< upper < 0 */
+    OVOID_TOUCHING, /**< lower <= 0 <= upper, and upper - lower is at most the options' tolerance, to which the bodies'
+                       allowances add nothing */
+    OVOID_OVERLAPPING /**< upper < 0 */
 } ovoid_status;
 
 /** What decided. */
@@ -234,10 +235,12 @@ OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
 
 /**
  * Checks an answer against its pair without any search: every bound is recomputed from the proof alone, with directed
- * error bounds. cover: that of ovoid_depth, or NULL. OVOID_OK, or PROOF with a sentence in *error (may be NULL).
+ * error bounds, and the status must be what the bracket and the options' tolerance say. options: those that the query
+ * was asked with, NULL the default, which is that of ovoid_bounds too. cover: that of ovoid_depth, or NULL. OVOID_OK,
+ * or PROOF with a sentence in *error (may be NULL).
  */
-OVOID_API ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
-                                        ovoid_error *error);
+OVOID_API ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *answer,
+                                        const ovoid_options *options, const ovoid_cover *cover, ovoid_error *error);
 
 /** The name of a status in results, for example "separated"; never NULL. */
 OVOID_API const char *ovoid_status_get_name(ovoid_status status);

@@ -234,6 +234,7 @@ static PyObject *query(PyObject *module, query_name name, PyObject *const *given
     if (in.pair.a.solid || in.pair.b.solid) return solid_query(state, &in);
     answer_object *to = answer_make(state, in.a, in.b, &in.pair.a.pose, &in.pair.b.pose);
     if (!to) return NULL;
+    to->options = in.options;
     int failed = in.pair.a.shape && in.pair.b.shape ? query_shapes(&in, to) : query_compounds(&in, to);
     if (failed || limit_check(state, to->of.answer.limit)) {
         Py_DECREF(to);

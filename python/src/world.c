@@ -389,6 +389,7 @@ static PyObject *contacts(PyObject *object, PyObject *arguments, PyObject *keywo
     code = ovoid_world_compute_contacts(self->world, &query, &found, &error);
     Py_END_ALLOW_THREADS;
     PyObject *made = code == OVOID_OK ? copy_contacts(state, &found) : raise_error(state, &error);
+    if (code == OVOID_OK) self->asked = k.options;
     world_leave(self, 1);
     return made;
 }
@@ -422,6 +423,7 @@ static PyObject *fill_proof(world_object *self, const ovoid_contact *contact, an
             Py_CLEAR(made);
         } else if (exclusions.count <= capacity) {
             made->exclusion_count = exclusions.count;
+            made->options = self->asked;
             if (answer_keep_cover(made, &cover)) Py_CLEAR(made);
             break;
         }

@@ -6,6 +6,7 @@
 
 typedef struct world_object {
     PyObject_HEAD ovoid_world *world;
+    ovoid_options asked;     ///< the options of the last contacts
     PyObject *kept;          ///< a dict: the Shape, Compound or Solid of each id
     int readers, is_written; ///< calls that run without the interpreter's lock
 } world_object;
@@ -16,9 +17,14 @@ void world_leave(world_object *self, int is_writing);
 
 /// A Shape, Compound or Solid at a pose as a body of a world.
 int probe_read(module_state *state, PyObject *body, PyObject *pose, ovoid_world_body *to);
-/// The Hit of a query; probes: the tuple of querying bodies that are not in the world, and how they are posed; NULL:
-/// none.
-PyObject *hit_make(world_object *self, const ovoid_world_hit *hit, PyObject *probes, const ovoid_world_body *posed);
+/// What a query that found hits was asked with.
+typedef struct hits_query {
+    PyObject *probes;              ///< the tuple of querying bodies that are not in the world; NULL: none
+    const ovoid_world_body *posed; ///< how these are posed
+    const ovoid_options *options;  ///< NULL: the default
+} hits_query;
+/// The Hit of a query.
+PyObject *hit_make(world_object *self, const ovoid_world_hit *hit, const hits_query *query);
 /// The body of an id, a new reference, and its pose.
 int world_find(world_object *self, ovoid_id id, PyObject **body, ovoid_pose *pose);
 

@@ -9,7 +9,7 @@
 
 // Of solids the whole answer is asked again, with the deciding triangles first.
 static PyObject *make_answer(module_state *state, PyObject *a, PyObject *b, const ovoid_pose poses[2],
-                             const ovoid_compound_answer *of) {
+                             const ovoid_compound_answer *of, const ovoid_options *options) {
     ovoid_body_pair pair = {body_make(state, a, poses[0]), body_make(state, b, poses[1])};
     if (pair.a.solid || pair.b.solid) {
         ovoid_compound_proof earlier = {of->part_a, of->part_b, of->answer.proof};
@@ -17,27 +17,27 @@ static PyObject *make_answer(module_state *state, PyObject *a, PyObject *b, cons
     }
     answer_object *made = answer_make(state, a, b, &poses[0], &poses[1]);
     if (made) made->of = *of;
+    if (made && options) made->options = *options;
     return (PyObject *)made;
 }
 
 // One side of a hit: the probe of a number, with the pose it was asked with, or the body of an id; a new reference.
-static int find_side(world_object *self, ovoid_id id, PyObject *probes, const ovoid_world_body *posed, PyObject **body,
-                     ovoid_pose *pose) {
-    if (!probes) return world_find(self, id, body, pose);
-    *body = Py_NewRef(PyTuple_GetItem(probes, (Py_ssize_t)id));
-    *pose = posed[id].body.pose;
+static int find_side(world_object *self, ovoid_id id, const hits_query *query, PyObject **body, ovoid_pose *pose) {
+    if (!query || !query->probes) return world_find(self, id, body, pose);
+    *body = Py_NewRef(PyTuple_GetItem(query->probes, (Py_ssize_t)id));
+    *pose = query->posed[id].body.pose;
     return 0;
 }
 
-PyObject *hit_make(world_object *self, const ovoid_world_hit *hit, PyObject *probes, const ovoid_world_body *posed) {
+PyObject *hit_make(world_object *self, const ovoid_world_hit *hit, const hits_query *query) {
     if (!hit->b) Py_RETURN_NONE;
     module_state *state = state_of((PyObject *)self);
     PyObject *a = NULL, *b = NULL, *answer = NULL;
     ovoid_pose poses[2];
-    PyObject *others = hit->b & OVOID_WORLD_PROBE ? probes : NULL;
-    if (!find_side(self, hit->a, probes, posed, &a, &poses[0]) &&
-        !find_side(self, hit->b & ~OVOID_WORLD_PROBE, others, posed, &b, &poses[1]))
-        answer = make_answer(state, a, b, poses, &hit->answer);
+    const hits_query *others = hit->b & OVOID_WORLD_PROBE ? query : NULL;
+    if (!find_side(self, hit->a, query, &a, &poses[0]) &&
+        !find_side(self, hit->b & ~OVOID_WORLD_PROBE, others, &b, &poses[1]))
+        answer = make_answer(state, a, b, poses, &hit->answer, query->options);
     Py_XDECREF(a);
     Py_XDECREF(b);
     if (!answer) return NULL;
@@ -62,7 +62,8 @@ static PyObject *nearest(PyObject *object, PyObject *arguments, PyObject *keywor
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_world_find_nearest(self->world, id, &k.options, &hit, &error);
     Py_END_ALLOW_THREADS;
-    PyObject *made = code == OVOID_OK ? hit_make(self, &hit, NULL, NULL) : raise_error(state, &error);
+    PyObject *made =
+        code == OVOID_OK ? hit_make(self, &hit, &(hits_query){NULL, NULL, &k.options}) : raise_error(state, &error);
     world_leave(self, 0);
     return made;
 }
@@ -88,7 +89,7 @@ static PyObject *nearest_to(PyObject *object, PyObject *arguments, PyObject *key
     if (code != OVOID_OK)
         raise_error(state, &error);
     else if (probes)
-        made = hit_make(self, &hit, probes, &probe);
+        made = hit_make(self, &hit, &(hits_query){probes, &probe, &k.options});
     Py_XDECREF(probes);
     world_leave(self, 0);
     return made;
@@ -108,7 +109,8 @@ static PyObject *nearest_pair(PyObject *object, PyObject *arguments, PyObject *k
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_world_find_nearest_pair(self->world, &k.options, &hit, &error);
     Py_END_ALLOW_THREADS;
-    PyObject *made = code == OVOID_OK ? hit_make(self, &hit, NULL, NULL) : raise_error(state, &error);
+    PyObject *made =
+        code == OVOID_OK ? hit_make(self, &hit, &(hits_query){NULL, NULL, &k.options}) : raise_error(state, &error);
     world_leave(self, 0);
     return made;
 }
@@ -132,7 +134,8 @@ static PyObject *find_any(PyObject *object, PyObject *arguments) {
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_world_find_any(self->world, ids.data, (size_t)ids.shape[0], NULL, &hit, &error);
     Py_END_ALLOW_THREADS;
-    PyObject *made = code == OVOID_OK ? hit_make(self, &hit, NULL, NULL) : raise_error(state, &error);
+    PyObject *made =
+        code == OVOID_OK ? hit_make(self, &hit, &(hits_query){NULL, NULL, NULL}) : raise_error(state, &error);
     world_leave(self, 0);
     free(ids.data);
     return made;
@@ -173,7 +176,8 @@ static PyObject *find_any_among(world_object *self, PyObject *bodies, const ovoi
         code = of->couples ? ovoid_world_find_any_of(self->world, of, &hit, &error)
                            : ovoid_world_find_any_to(self->world, probes, (size_t)count, &hit, &error);
         Py_END_ALLOW_THREADS;
-        made = code == OVOID_OK ? hit_make(self, &hit, bodies, probes) : raise_error(state, &error);
+        made =
+            code == OVOID_OK ? hit_make(self, &hit, &(hits_query){bodies, probes, NULL}) : raise_error(state, &error);
         world_leave(self, 0);
     }
     free(probes);
@@ -229,8 +233,9 @@ static PyObject *make_hits(world_object *self, const ovoid_world_hits *hits, PyO
                            const ovoid_world_body *probe) {
     PyObject *probes = PyTuple_Pack(1, body);
     PyObject *list = probes ? PyList_New(0) : NULL;
+    const hits_query query = {probes, probe, hits->options};
     for (size_t i = 0; list && i < hits->count; i++) {
-        PyObject *hit = hit_make(self, &hits->items[i], probes, probe);
+        PyObject *hit = hit_make(self, &hits->items[i], &query);
         if (!hit || PyList_Append(list, hit)) Py_CLEAR(list);
         Py_XDECREF(hit);
     }

@@ -51,6 +51,11 @@ struct ovoid_compound {
     uint32_t *places;     ///< the place of each of the caller's parts
 };
 
+/// The options of a query of bodies of that size become those of its pairs of parts: the tolerance of the bodies.
+static inline void options_take_size(ovoid_options *options, double size) {
+    options->absolute_tolerance = options_compute_tolerance(options, size, 0);
+}
+
 static inline int node_is_leaf(const compound_node *n) { return n->end - n->first == 1; }
 static inline const compound_node *node_get_left(const compound_node *n) { return n + 1; }
 static inline const compound_node *node_get_right(const compound_node *n) {

@@ -229,11 +229,10 @@ static void visit_earlier(traversal *h, const ovoid_compound_proof *earlier) {
 
 // ---- the answer
 
+// A deciding pair that touches within its own tolerance, in which is what far origins hide, keeps its status.
 static ovoid_status find_status(const traversal *h, const ovoid_answer *x, double lower) {
-    if (lower > 0) return OVOID_SEPARATED;
-    if (x->upper < 0) return OVOID_OVERLAPPING;
-    int is_narrow = x->upper - lower <= h->tolerance || (x->status == OVOID_TOUCHING && lower >= x->lower);
-    return is_narrow ? OVOID_TOUCHING : OVOID_UNDECIDED;
+    ovoid_status status = bracket_find_status(lower, x->upper, h->tolerance);
+    return status == OVOID_UNDECIDED && x->status == OVOID_TOUCHING && lower >= x->lower ? OVOID_TOUCHING : status;
 }
 
 static ovoid_limit find_limit(const traversal *h, const final_bracket *b) {
@@ -270,8 +269,8 @@ static void finish(traversal *h) {
 // Starts a traversal; the options are set already.
 static void traversal_make(traversal *h, query_goal goal) {
     nodes_frame_make(&h->a, &h->b, &h->frame);
-    h->tolerance = max2(h->options.absolute_tolerance, h->options.relative_tolerance * h->frame.size);
-    h->options.absolute_tolerance = h->tolerance;
+    options_take_size(&h->options, h->frame.size);
+    h->tolerance = h->options.absolute_tolerance;
     h->allowance = h->a.allowance + h->b.allowance;
     h->whole_goal = h->goal = goal;
     h->enough = h->lower = INFINITY;

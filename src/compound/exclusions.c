@@ -154,11 +154,13 @@ static ovoid_code check_refusal(const ovoid_answer *x, ovoid_error *error) {
     return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer");
 }
 
-static ovoid_code check(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all,
-                        ovoid_error *error) {
+static ovoid_code check(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *given,
+                        const ovoid_exclusions *all, ovoid_error *error) {
     const ovoid_exclusions none = {NULL, 0, 0, NULL};
     cut c = {.pair = pair, .x = x, .all = all ? all : &none};
-    if (!body_view_make(&pair->a, &c.a) || !body_view_make(&pair->b, &c.b) || x->answer.limit == OVOID_LIMIT_OPTIONS)
+    ovoid_options options;
+    if (!options_make(given, &options) || !body_view_make(&pair->a, &c.a) || !body_view_make(&pair->b, &c.b) ||
+        x->answer.limit == OVOID_LIMIT_OPTIONS)
         return check_refusal(&x->answer, error);
     if (x->part_a >= c.a.count || x->part_b >= c.b.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "parts %u and %u are not both there", x->part_a, x->part_b);
@@ -167,12 +169,15 @@ static ovoid_code check(const ovoid_body_pair *pair, const ovoid_compound_answer
     nodes_frame_make(&c.a, &c.b, &c.frame);
     ovoid_posed_shape a = body_view_get_part(&c.a, c.place_a), b = body_view_get_part(&c.b, c.place_b);
     ovoid_pair parts = {a.shape, b.shape, a.pose, b.pose};
-    ovoid_code code = answer_check_internal(&parts, &x->answer, c.all->cover, error);
+    // Two shapes are asked with the options as they are.
+    if (c.a.compound || c.b.compound) options_take_size(&options, c.frame.size);
+    ovoid_code code = answer_check_internal(&parts, &x->answer, &options, c.all->cover, error);
     return code == OVOID_OK ? check_exclusions(&c, error) : code;
 }
 
 ovoid_code ovoid_compound_answer_check(const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                       const ovoid_exclusions *exclusions, ovoid_error *error) {
+                                       const ovoid_options *options, const ovoid_exclusions *exclusions,
+                                       ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
-    ENVIRONMENT_RETURN(ovoid_code, pair, check(pair, answer, exclusions, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, check(pair, answer, options, exclusions, error));
 }

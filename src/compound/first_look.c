@@ -42,7 +42,7 @@ int first_look(const body_view *a, const body_view *b, const ovoid_options *opti
     const ovoid_shape *shape_a = a->parts[0].shape, *shape_b = b->parts[0].shape;
     double distance = vec3_norm(d), upper = distance - (shape_a->upper_radius + shape_b->upper_radius) + claim;
     vec3 point = vec3_add(a->pose->position, from), normal = vec3_scale(between, 1 / length);
-    double tolerance = max2(options->absolute_tolerance, options->relative_tolerance * size);
+    double tolerance = options_compute_tolerance(options, size, 0);
     out->part_a = body_view_get_index(a, 0);
     out->part_b = body_view_get_index(b, 0);
     out->visited = 1;

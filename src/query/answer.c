@@ -34,9 +34,7 @@ static void set_upper_proof(ovoid_proof *p, const search *s) {
 }
 
 static ovoid_status find_status(double lower, double upper, const query_goal *goal) {
-    if (lower > 0) return OVOID_SEPARATED;
-    if (upper < 0) return OVOID_OVERLAPPING;
-    return upper - lower <= goal->tolerance - goal->allowance ? OVOID_TOUCHING : OVOID_UNDECIDED;
+    return bracket_find_status(lower, upper, goal->tolerance - goal->allowance);
 }
 
 // Why the bracket is wider than the tolerance, if it is.

@@ -41,8 +41,12 @@ void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, qu
                           const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out);
 
 /// ovoid_answer_check for callers inside a public function.
-ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
-                                 ovoid_error *error);
+ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
+                                 const ovoid_cover *cover, ovoid_error *error);
+
+/// OVOID_OK if a status follows from its bracket, or PROOF with a sentence. tolerance: as in bracket_find_status.
+/// "undecided" claims nothing but that the bracket leaves the sign open.
+ovoid_code status_check_internal(ovoid_status status, double lower, double upper, double tolerance, ovoid_error *error);
 
 /// Checks the lower bound alone: that the proof's normal shows it.
 ovoid_code lower_check_internal(const ovoid_pair *pair, double lower, const ovoid_proof *proof, ovoid_error *error);

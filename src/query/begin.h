@@ -34,8 +34,7 @@ static inline small_outcome run_small(const pair_frame *frame, const query_goal 
 /// The goal's numbers that are the pair's own.
 static inline void set_numbers(query_goal *goal, const ovoid_options *options, const pair_frame *frame) {
     goal->allowance = frame_get_allowance(frame);
-    goal->tolerance = max2(options->absolute_tolerance, options->relative_tolerance * frame->size) + 8 * frame->hidden +
-                      goal->allowance;
+    goal->tolerance = options_compute_tolerance(options, frame->size, frame->hidden) + goal->allowance;
     goal->iterations = options->iterations;
 }
 

@@ -121,31 +121,33 @@ static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, ovoi
     return off <= slack ? OVOID_OK : refuse(error, "witness points are not the proof's, off by", off, slack);
 }
 
-static ovoid_code check_status(const ovoid_answer *x, ovoid_error *error) {
-    int ok = 0;
-    switch (x->status) {
-    case OVOID_UNDECIDED: ok = 1; break;
-    case OVOID_SEPARATED: ok = x->lower > 0; break;
-    case OVOID_TOUCHING: ok = x->lower <= 0 && x->upper >= 0; break;
-    case OVOID_OVERLAPPING: ok = x->upper < 0; break;
-    }
-    if (ok && x->lower <= x->upper) return OVOID_OK;
-    return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from the bracket [%.17g, %.17g]",
-                     ovoid_status_get_name(x->status), x->lower, x->upper);
+ovoid_code status_check_internal(ovoid_status status, double lower, double upper, double tolerance,
+                                 ovoid_error *error) {
+    ovoid_status shown = bracket_find_status(lower, upper, tolerance);
+    int is_open = status == OVOID_UNDECIDED && shown == OVOID_TOUCHING;
+    if (lower <= upper && (status == shown || is_open)) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, -1,
+                     "status %s does not follow from the bracket [%.17g, %.17g] and the tolerance %.3g",
+                     ovoid_status_get_name(status), lower, upper, tolerance);
 }
 
-ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
-                                 ovoid_error *error) {
+// Which queries are refused, and that nothing else is: a refusal claims nothing.
+static ovoid_code check_refusal(const ovoid_answer *x, ovoid_limit refused, ovoid_error *error) {
+    int claims = x->lower != -INFINITY || x->upper != INFINITY || x->status != OVOID_UNDECIDED;
+    // The margin that is refused too is not among the options.
+    if (!claims && (x->limit == refused || x->limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer");
+}
+
+ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
+                                 const ovoid_cover *cover, ovoid_error *error) {
     OVOID_ASSERT(pair && x);
     pair_frame f;
-    ovoid_limit refused = frame_make(pair, &f);
-    if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS) {
-        // A refusal claims nothing, and is right if it says so.
-        int claims = x->lower != -INFINITY || x->upper != INFINITY || x->status != OVOID_UNDECIDED;
-        if (!claims && (x->limit == refused || x->limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
-        return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer");
-    }
-    ovoid_code code = check_status(x, error);
+    ovoid_options options;
+    ovoid_limit refused = options_make(given, &options) ? frame_make(pair, &f) : OVOID_LIMIT_OPTIONS;
+    if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS) return check_refusal(x, refused, error);
+    double tolerance = options_compute_tolerance(&options, f.size, f.hidden);
+    ovoid_code code = status_check_internal(x->status, x->lower, x->upper, tolerance, error);
     if (code != OVOID_OK) return code;
     if (!proof_is_sound(&f, &x->proof))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
@@ -155,7 +157,7 @@ ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, 
     return code == OVOID_OK ? check_witness(&f, x, error) : code;
 }
 
-ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover,
-                              ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, pair, answer_check_internal(pair, x, cover, error));
+ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *options,
+                              const ovoid_cover *cover, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, pair, answer_check_internal(pair, x, options, cover, error));
 }

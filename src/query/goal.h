@@ -16,6 +16,20 @@ static inline int options_make(const ovoid_options *given, ovoid_options *option
     return 1;
 }
 
+/// The width that a bracket may keep beside the bodies' allowances: the options' tolerance for bodies of that size, and
+/// what underflow and far origins hide. The options are those that options_make filled in.
+static inline double options_compute_tolerance(const ovoid_options *options, double size, double hidden) {
+    return max2(options->absolute_tolerance, options->relative_tolerance * size) + 8 * hidden;
+}
+
+/// What a bracket says of the sign: the one definition of the four statuses, for queries and for checks of answers.
+/// tolerance: that of options_compute_tolerance. The bodies' allowances widen brackets but not what "touching" means.
+static inline ovoid_status bracket_find_status(double lower, double upper, double tolerance) {
+    if (lower > 0) return OVOID_SEPARATED;
+    if (upper < 0) return OVOID_OVERLAPPING;
+    return upper - lower <= tolerance ? OVOID_TOUCHING : OVOID_UNDECIDED;
+}
+
 /// options_make for functions that return a code: ARGUMENT with a sentence where options are invalid.
 ovoid_code options_check(const ovoid_options *given, ovoid_options *options, ovoid_error *error);
 

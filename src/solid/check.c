@@ -200,7 +200,8 @@ static ovoid_code check(const ovoid_body_pair *pair, const ovoid_solid_answer *x
     if (c.a.solid) triangle_begin(&c.room_a);
     if (c.b.solid) triangle_begin(&c.room_b);
     ovoid_pair leaves = get_pair(&c, c.place_a, c.place_b);
-    ovoid_code code = answer_check_internal(&leaves, &x->surfaces, NULL, error);
+    static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
+    ovoid_code code = answer_check_internal(&leaves, &x->surfaces, &of_leaves, NULL, error);
     if (code == OVOID_OK) code = check_exclusions(&c, error);
     return code == OVOID_OK ? check_bodies(&c, error) : code;
 }

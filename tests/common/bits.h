@@ -160,7 +160,8 @@ static inline uint64_t bits_add_pair(uint64_t hash, const ovoid_pair *p) {
     x[8] = ovoid_distance(p, &few, NULL);
     for (int k = 0; k < BITS_ANSWERS; k++) {
         hash = bits_add_answer(hash, &x[k]);
-        ovoid_code code = ovoid_answer_check(p, &x[k], k == 0 ? &cover : k == 7 ? &warm_cover : NULL, NULL);
+        const ovoid_cover *shown = k == 0 ? &cover : k == 7 ? &warm_cover : NULL;
+        ovoid_code code = ovoid_answer_check(p, &x[k], k == 8 ? &few : NULL, shown, NULL);
         BITS_ADD(hash, code);
     }
     return bits_add_cover(bits_add_cover(hash, &cover), &warm_cover);

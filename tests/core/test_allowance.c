@@ -123,7 +123,7 @@ static void check_pair(const trial *t) {
     x = ovoid_depth(&t->shapes, NULL, NULL, &cover);
     check_answer(t, &x, &truth, 0);
     ovoid_error e;
-    if (!CHECK(ovoid_answer_check(&t->shapes, &x, &cover, &e) == OVOID_OK)) puts(e.message);
+    if (!CHECK(ovoid_answer_check(&t->shapes, &x, NULL, &cover, &e) == OVOID_OK)) puts(e.message);
     CHECK_LE(x.upper - x.lower, t->width + slack);
     CHECK_EQ(ovoid_answer_get_distance(&x), x.lower);
     if (t->is_tight && ovoid_shape_get_allowance(t->a.shape).outside > 0) CHECK_LE(truth.lower, x.lower + slack);
@@ -135,7 +135,7 @@ static void check_pair(const trial *t) {
                  deep = ovoid_collide(&t->shapes, NULL, &x.proof);
     check_answer(t, &cold, &truth, 0);
     check_answer(t, &warm, &truth, 0);
-    CHECK(ovoid_answer_check(&t->shapes, &cold, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_check(&t->shapes, &cold, NULL, NULL, NULL) == OVOID_OK);
     check_decided(&cold, &truth);
     // No earlier proof leaves open what a cold query proves.
     if (cold.status == OVOID_SEPARATED || cold.status == OVOID_OVERLAPPING) {
@@ -145,12 +145,12 @@ static void check_pair(const trial *t) {
 
     x = ovoid_distance(&t->shapes, NULL, &cold.proof);
     check_answer(t, &x, &truth, 0);
-    CHECK(ovoid_answer_check(&t->shapes, &x, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_check(&t->shapes, &x, NULL, NULL, NULL) == OVOID_OK);
     if (truth.lower > t->width + slack) CHECK_LE(x.upper - x.lower, t->width + slack);
 
     x = ovoid_bounds(&t->shapes);
     check_answer(t, &x, &truth, 0);
-    CHECK(ovoid_answer_check(&t->shapes, &x, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_check(&t->shapes, &x, NULL, NULL, NULL) == OVOID_OK);
 
     double margin = fmax(truth.lower, 0) + 0.5 * t->width;
     x = ovoid_within(&t->shapes, margin, NULL, NULL);
@@ -264,11 +264,11 @@ static void test_compounds(void) {
         CHECK_LE(x.answer.lower, truth.answer.upper);
         CHECK_LE(truth.answer.lower, x.answer.upper);
         CHECK_LE(x.answer.upper - x.answer.lower, 8 * by + 1e-6);
-        CHECK(all.count <= all.capacity && ovoid_compound_answer_check(&shapes, &x, &all, NULL) == OVOID_OK);
+        CHECK(all.count <= all.capacity && ovoid_compound_answer_check(&shapes, &x, NULL, &all, NULL) == OVOID_OK);
         ovoid_compound_answer y = ovoid_compound_collide(&shapes, NULL, NULL, &all);
         CHECK_LE(y.answer.lower, truth.answer.upper);
         CHECK_LE(truth.answer.lower, y.answer.upper);
-        CHECK(ovoid_compound_answer_check(&shapes, &y, &all, NULL) == OVOID_OK);
+        CHECK(ovoid_compound_answer_check(&shapes, &y, NULL, &all, NULL) == OVOID_OK);
         check_decided(&y.answer, &truth.answer);
         y = ovoid_compound_within(&shapes, 0.5, NULL, NULL, NULL);
         int is_within = ovoid_answer_is_within(&y.answer, 0.5);
@@ -324,9 +324,9 @@ static void test_exclusion(void) {
         ovoid_exclusion e = {0, 2, 0, 2, {1, 0, 0}, {0, 0, 0}, apart - 2 * (radius + outside) - 1e-12};
         all.count = 1;
         items[0] = e;
-        CHECK(ovoid_compound_answer_check(&pair, &x, &all, NULL) == OVOID_OK);
+        CHECK(ovoid_compound_answer_check(&pair, &x, NULL, &all, NULL) == OVOID_OK);
         items[0].lower += 0.5 * outside;
-        CHECK(ovoid_compound_answer_check(&pair, &x, &all, NULL) == OVOID_ERROR_PROOF);
+        CHECK(ovoid_compound_answer_check(&pair, &x, NULL, &all, NULL) == OVOID_ERROR_PROOF);
     }
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(ball);

@@ -11,7 +11,7 @@ static ovoid_cover cover;
 static void check_answer(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all,
                          bracket truth) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_compound_answer_check(pair, x, all, &error);
+    ovoid_code code = ovoid_compound_answer_check(pair, x, NULL, all, &error);
     if (!CHECK_EQ(code, OVOID_OK)) printf("  %s\n", error.message);
     CHECK_LE(x->answer.lower, truth.upper);
     CHECK_LE(truth.lower, x->answer.upper);
@@ -203,6 +203,37 @@ static void check_cup(void) {
     ovoid_shape_destroy(ball);
 }
 
+// ---- what "touching" means
+
+// Two boxes, one 1 apart from a third body and one far away: of a true bracket around 0 the options decide. The
+// relative tolerance is of the bodies' size, not of the deciding parts'.
+static void check_touching(void) {
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
+    ovoid_posed_shape parts[2] = {{box, {{0, 0, 0}, {1, 0, 0, 0}}}, {box, {{0, 100, 0}, {1, 0, 0, 0}}}};
+    ovoid_compound *c = ovoid_compound_create(parts, 2, NULL, NULL);
+    const ovoid_body_pair pair = {{.compound = c, .pose = parts[0].pose},
+                                  {.shape = box, .pose = {{3, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
+    ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
+    CHECK_EQ(x.answer.status, OVOID_SEPARATED);
+    x.answer.proof.normal = x.answer.normal = (ovoid_vec3){0.8, 0.6, 0};
+    x.answer.lower = -0.5;
+    x.answer.limit = OVOID_LIMIT_PRECISION;
+    x.answer.status = OVOID_UNDECIDED;
+    CHECK_EQ(ovoid_compound_answer_check(&pair, &x, NULL, &all, NULL), OVOID_OK);
+    x.answer.status = OVOID_TOUCHING;
+    CHECK_EQ(ovoid_compound_answer_check(&pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    double width = x.answer.upper - x.answer.lower, size = 100 + 2 * sqrt(3) + 3;
+    for (int i = 0; i < 4; i++) {
+        double share = i % 2 ? 1 + 1e-9 : 1 - 1e-9;
+        ovoid_options o = {0};
+        *(i / 2 ? &o.relative_tolerance : &o.absolute_tolerance) = share * (i / 2 ? width / size : width);
+        CHECK_EQ(ovoid_compound_answer_check(&pair, &x, &o, &all, NULL) == OVOID_OK, i % 2);
+    }
+    ovoid_compound_destroy(c);
+    ovoid_shape_destroy(box);
+}
+
 // ---- what is refused
 
 static void expect_refused(const ovoid_body_pair *pair, const ovoid_options *options, ovoid_limit limit) {
@@ -211,11 +242,11 @@ static void expect_refused(const ovoid_body_pair *pair, const ovoid_options *opt
     CHECK_EQ(x.answer.limit, limit);
     CHECK(x.answer.status == OVOID_UNDECIDED && x.answer.lower == -INFINITY && x.answer.upper == INFINITY);
     CHECK_EQ(all.count, 0);
-    CHECK_EQ(ovoid_compound_answer_check(pair, &x, &all, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_compound_answer_check(pair, &x, NULL, &all, NULL), OVOID_OK);
     // An answer where there can be none.
     x.answer.lower = 1;
     x.answer.status = OVOID_SEPARATED;
-    CHECK_EQ(ovoid_compound_answer_check(pair, &x, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_compound_answer_check(pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
 }
 
 static void check_refused(void) {
@@ -256,6 +287,7 @@ static void check_refused(void) {
 int main(void) {
     check_grid();
     check_cup();
+    check_touching();
     check_refused();
     check_random(60, 1, 100);
     check_random(15, 1e-9, 1000);

@@ -127,10 +127,10 @@ static void ask_depth(void) {
         add_answer(&x);
         add(cover.a, cover.point_count * sizeof *cover.a);
         add(cover.triangles, cover.triangle_count * sizeof *cover.triangles);
-        ovoid_code code = ovoid_answer_check(&pairs[i], &x, &cover, NULL);
+        ovoid_code code = ovoid_answer_check(&pairs[i], &x, NULL, &cover, NULL);
         ADD(code);
         x.lower = x.upper;
-        code = ovoid_answer_check(&pairs[i], &x, &cover, NULL);
+        code = ovoid_answer_check(&pairs[i], &x, NULL, &cover, NULL);
         ADD(code);
     }
 }
@@ -202,7 +202,7 @@ static void ask_compounds(void) {
             ADD(x[k].visited);
         }
         for (size_t k = 0; k < all.count && k < 256; k++) ADD(items[k].lower);
-        ovoid_code code = ovoid_compound_answer_check(&p, &x[3], &all, NULL);
+        ovoid_code code = ovoid_compound_answer_check(&p, &x[3], NULL, &all, NULL);
         ADD(code);
     }
     ovoid_compound_destroy(compound);

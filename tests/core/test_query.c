@@ -27,7 +27,7 @@ static double size_of(const ovoid_pair *p) {
 
 static int holds(const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
     ovoid_error error = {OVOID_OK, 0, ""};
-    if (ovoid_answer_check(p, x, cover, &error) == OVOID_OK) return 1;
+    if (ovoid_answer_check(p, x, NULL, cover, &error) == OVOID_OK) return 1;
     printf("%s\n", error.message);
     return 0;
 }
@@ -239,9 +239,9 @@ static void check_refused(void) {
     ovoid_answer x = ovoid_depth(&bad, NULL, NULL, NULL);
     CHECK_EQ(x.limit, OVOID_LIMIT_POSE_B);
     CHECK(x.status == OVOID_UNDECIDED && x.lower == -INFINITY && x.upper == INFINITY);
-    CHECK_EQ(ovoid_answer_check(&bad, &x, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_answer_check(&bad, &x, NULL, NULL, NULL), OVOID_OK);
     x.upper = 1;
-    CHECK_EQ(ovoid_answer_check(&bad, &x, NULL, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_answer_check(&bad, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
     bad.pose_b.rotation.x = INFINITY;
     CHECK_EQ(ovoid_bounds(&bad).limit, OVOID_LIMIT_POSE_B);
     bad = p;
@@ -282,7 +282,8 @@ static void check_altered(void) {
     q.pose_b.position = (ovoid_vec3){1.5, 0.2, 0};
     ovoid_answer deep = ovoid_depth(&q, NULL, NULL, &cover);
     CHECK(holds(&p, &x, NULL) && holds(&q, &deep, &cover));
-#define REJECTED(pair, answer, evidence) CHECK(ovoid_answer_check(pair, answer, evidence, NULL) == OVOID_ERROR_PROOF)
+#define REJECTED(pair, answer, evidence)                                                                               \
+    CHECK(ovoid_answer_check(pair, answer, NULL, evidence, NULL) == OVOID_ERROR_PROOF)
     y = x, y.lower += 1e-9, REJECTED(&p, &y, NULL);
     y = x, y.upper -= 1e-9, REJECTED(&p, &y, NULL);
     y = x, y.status = OVOID_OVERLAPPING, REJECTED(&p, &y, NULL);
@@ -305,6 +306,37 @@ static void check_altered(void) {
     cover.triangle_count++;
     cover.a[cover.triangles[0][0]] ^= 7;
     REJECTED(&q, &deep, &cover);
+    ovoid_shape_destroy(a);
+}
+
+// Boxes 1 apart, with a true bracket around 0: what it says of the sign depends on the options' tolerance alone.
+static void check_touching(void) {
+    ovoid_shape *a = box(1, 1, 1, 0);
+    ovoid_pair p = {a, a, at(0, 0, 0), at(3, 0, 0)};
+    ovoid_answer x = ovoid_distance(&p, NULL, NULL);
+    x.proof.normal = x.normal = (ovoid_vec3){0.8, 0.6, 0};
+    x.lower = -0.5;
+    x.limit = OVOID_LIMIT_PRECISION;
+    x.status = OVOID_UNDECIDED;
+    CHECK(holds(&p, &x, NULL));
+    x.status = OVOID_TOUCHING;
+    double width = x.upper - x.lower, size = 2 * sqrt(3) + 3;
+    struct {
+        ovoid_options options;
+        int is_touching;
+    } cases[] = {{{0}, 0},
+                 {{.absolute_tolerance = width}, 1},
+                 {{.absolute_tolerance = width * (1 - 1e-12)}, 0},
+                 {{.relative_tolerance = width / size * (1 + 1e-9)}, 1},
+                 {{.relative_tolerance = width / size * (1 - 1e-9)}, 0},
+                 {{.absolute_tolerance = NAN}, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        CHECK_EQ(ovoid_answer_check(&p, &x, &cases[i].options, NULL, NULL) == OVOID_OK, cases[i].is_touching);
+    CHECK_EQ(ovoid_answer_check(&p, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
+    // A sign that the bracket shows is not open.
+    x = ovoid_distance(&p, NULL, NULL);
+    x.status = OVOID_UNDECIDED;
+    CHECK_EQ(ovoid_answer_check(&p, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
     ovoid_shape_destroy(a);
 }
 
@@ -334,5 +366,6 @@ int main(void) {
     check_refused();
     check_foreign_proofs();
     check_altered();
+    check_touching();
     return check_end();
 }

@@ -64,7 +64,7 @@ int main(void) {
         ovoid_answer x = ovoid_depth(&p, NULL, NULL, &cover);
         sum += x.lower + ovoid_collide(&p, NULL, &x.proof).upper + ovoid_within(&p, 0.1, NULL, NULL).upper;
         sum += ovoid_distance(&p, NULL, NULL).upper + ovoid_bounds(&p).upper;
-        sum += ovoid_answer_check(&p, &x, &cover, NULL);
+        sum += ovoid_answer_check(&p, &x, NULL, &cover, NULL);
         ovoid_moving_shape moving[2] = {{.shape = a, .motion = ovoid_motion_make_poses(p.pose_a, p.pose_b, 1)},
                                         {.shape = b, .motion = ovoid_motion_make_poses(p.pose_b, p.pose_a, 1)}};
         ovoid_moving_body whole[2] = {{.compound = compound, .motion = moving[0].motion},
@@ -83,7 +83,7 @@ int main(void) {
         sum += ovoid_translation_cast(&p, (ovoid_vec3){1, 2, 3}, 0, NULL).free_until;
         ovoid_body_pair bodies = {{.compound = compound, .pose = p.pose_a}, {.compound = compound, .pose = p.pose_b}};
         ovoid_compound_answer y = ovoid_compound_depth(&bodies, NULL, NULL, &all);
-        sum += y.answer.upper + (double)ovoid_compound_answer_check(&bodies, &y, &all, NULL);
+        sum += y.answer.upper + (double)ovoid_compound_answer_check(&bodies, &y, NULL, &all, NULL);
     }
     CHECK(isfinite(sum));
     CHECK_EQ(allocations - before, 0);

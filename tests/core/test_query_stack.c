@@ -64,7 +64,7 @@ static void ask_distance(void) { answer = ovoid_distance(&pair, NULL, NULL); }
 static void ask_bounds(void) { answer = ovoid_bounds(&pair); }
 static void ask_depth(void) { answer = ovoid_depth(&pair, NULL, NULL, &cover); }
 /// Of the depth's answer: the query before them.
-static void ask_check(void) { CHECK(ovoid_answer_check(&pair, &answer, &cover, NULL) == OVOID_OK); }
+static void ask_check(void) { CHECK(ovoid_answer_check(&pair, &answer, NULL, &cover, NULL) == OVOID_OK); }
 static void ask_gradient(void) { gradient = ovoid_answer_compute_gradient(&pair, &answer, &cover); }
 static void ask_smooth(void) { smooth = ovoid_smooth_compute(&pair, 2); }
 
@@ -111,7 +111,7 @@ static void ask_compound_distance(void) {
 }
 static void ask_compound_depth(void) { compound_answer = ovoid_compound_depth(&body_pair, NULL, NULL, &exclusions); }
 static void ask_compound_check(void) {
-    CHECK(ovoid_compound_answer_check(&body_pair, &compound_answer, &exclusions, NULL) == OVOID_OK);
+    CHECK(ovoid_compound_answer_check(&body_pair, &compound_answer, NULL, &exclusions, NULL) == OVOID_OK);
 }
 static void ask_compound_impact(void) {
     compound_impact = ovoid_compound_impact_find(&moving_bodies[0], &moving_bodies[1], 0, &recording);

@@ -51,12 +51,12 @@ static void ask_pair(wrong w) {
         asked = names[i];
         expect_refused(&x[i], get_limit(w));
         asked = "answer_check";
-        EXPECT(ovoid_answer_check(&p, &x[i], NULL, NULL) == OVOID_OK);
+        EXPECT(ovoid_answer_check(&p, &x[i], NULL, NULL, NULL) == OVOID_OK);
     }
     // An answer to what must be refused.
     ovoid_pair sound = {shape, shape, identity, aside};
     ovoid_answer claim = ovoid_distance(&sound, NULL, NULL);
-    EXPECT(ovoid_answer_check(&p, &claim, NULL, NULL) == OVOID_ERROR_PROOF);
+    EXPECT(ovoid_answer_check(&p, &claim, NULL, NULL, NULL) == OVOID_ERROR_PROOF);
     asked = "gradient";
     ovoid_gradient g = ovoid_answer_compute_gradient(&p, &claim, NULL);
     EXPECT(!g.has_translation && !g.has_rotation);
@@ -140,9 +140,9 @@ static void ask_solids(wrong w, int both) {
         asked = names[i];
         expect_refused(&x[i].answer, get_limit(w));
         asked = "compound_answer_check";
-        EXPECT(ovoid_compound_answer_check(&s, &x[i], NULL, NULL) == OVOID_OK);
+        EXPECT(ovoid_compound_answer_check(&s, &x[i], NULL, NULL, NULL) == OVOID_OK);
         x[i].answer.lower = 0;
-        EXPECT(ovoid_compound_answer_check(&s, &x[i], NULL, NULL) == OVOID_ERROR_PROOF);
+        EXPECT(ovoid_compound_answer_check(&s, &x[i], NULL, NULL, NULL) == OVOID_ERROR_PROOF);
     }
     asked = "compound_impact";
     ovoid_moving_body a = {.shape = s.a.shape, .compound = s.a.compound, .motion = ovoid_motion_make_still(s.a.pose)};

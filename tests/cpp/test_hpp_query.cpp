@@ -42,12 +42,12 @@ void check_pairs() {
         CHECK(is_same_answer(a, cold));
         CHECK_EQ(ovoid::distance_of(a), a.lower);
         CHECK_EQ(ovoid::is_within(a, 0.5), ovoid_answer_is_within(&a, 0.5));
-        CHECK(ovoid::is_proven(p, a, &cover));
-        ovoid::check(p, a, &cover);
+        CHECK(ovoid::is_proven(p, a, ovoid::options(), &cover));
+        ovoid::check(p, a, ovoid::options(), &cover);
         ovoid::answer wrong = a;
         wrong.lower += 0.1;
-        CHECK(!ovoid::is_proven(p, wrong, &cover));
-        CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, &cover); }));
+        CHECK(!ovoid::is_proven(p, wrong, ovoid::options(), &cover));
+        CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, ovoid::options(), &cover); }));
         const ovoid::prepared_shape ready_a(ovoid::posed_shape(b.box)), ready_b(ovoid::posed_shape(b.hull, at));
         ovoid::answer whole;
         ovoid::evidence into;
@@ -135,8 +135,8 @@ void check_compounds() {
     ovoid::exclusions e(space);
     const ovoid::compound_answer found = ovoid::distance(p, {}, nullptr, &e);
     CHECK(is_same_answer(found.answer, truth.answer) && found.part_a == truth.part_a && found.part_b == truth.part_b);
-    CHECK(e.is_complete() && e.written().size() == e.count && ovoid::is_proven(p, found, &e));
-    ovoid::check(p, found, &e);
+    CHECK(e.is_complete() && e.written().size() == e.count && ovoid::is_proven(p, found, ovoid::options(), &e));
+    ovoid::check(p, found, ovoid::options(), &e);
     const ovoid::compound_proof warm = ovoid::proof_of(found);
     CHECK(is_same_answer(ovoid::collide(p).answer, ovoid_compound_collide(&c, nullptr, nullptr, nullptr).answer));
     CHECK(is_same_answer(ovoid::collide(p, {}, &warm).answer,
@@ -145,8 +145,8 @@ void check_compounds() {
     CHECK(is_same_answer(ovoid::depth(p).answer, ovoid_compound_depth(&c, nullptr, nullptr, nullptr).answer));
     ovoid::compound_answer wrong = found;
     wrong.answer.lower += 1;
-    CHECK(!ovoid::is_proven(p, wrong, &e));
-    CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, &e); }));
+    CHECK(!ovoid::is_proven(p, wrong, ovoid::options(), &e));
+    CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, ovoid::options(), &e); }));
     CHECK(throws(OVOID_ERROR_EMPTY, -1, "", [] { ovoid::compound::create(std::vector<ovoid::posed_shape>()); }));
     CHECK(throws(OVOID_ERROR_ROTATION, 1, "", [&] {
         ovoid::compound::create({{b.box}, {b.box, {vec3(), ovoid::quat(0, 0, 0, 0)}}});

@@ -225,9 +225,9 @@ static void test_spheres_and_spread(void) {
     good.lower = good.upper = 0;
     ACCEPT(&pair, &good, NULL);
     ALTER(bad.lower = -1e-3, REFUSE); // wide for a touch
-    judge_set_touching(court, 1e-3);
+    judge_set_options(court, &(ovoid_options){.absolute_tolerance = 1e-3});
     ALTER(bad.lower = -1e-3, ACCEPT);
-    judge_set_touching(court, 1e-6);
+    judge_set_options(court, NULL);
     // Spread: a tiny vertical step on top of a huge gap is seen.
     pair.pose_a = make_pose(-1e50, 0, 1e-100);
     pair.pose_b = make_pose(1e50, 0, 1e-100);

@@ -26,7 +26,7 @@ static ovoid_answer alter(const ovoid_answer *x, int upper, double bound) {
 
 static int is_accepted(const ovoid_pair *p, const ovoid_answer *x, int upper, double bound) {
     ovoid_answer y = alter(x, upper, bound);
-    return ovoid_answer_check(p, &y, &cover, NULL) == OVOID_OK;
+    return ovoid_answer_check(p, &y, NULL, &cover, NULL) == OVOID_OK;
 }
 
 /// The last double in the direction of `beyond`, which is refused, that is accepted.
@@ -74,7 +74,8 @@ static long altered;
 
 static void check_refused(const ovoid_pair *p, const ovoid_answer *y, const ovoid_cover *c, const char *what) {
     altered++;
-    if (!CHECK(ovoid_answer_check(p, y, c, NULL) != OVOID_OK) && check_failed < 10) printf("  accepted: %s\n", what);
+    if (!CHECK(ovoid_answer_check(p, y, NULL, c, NULL) != OVOID_OK) && check_failed < 10)
+        printf("  accepted: %s\n", what);
 }
 
 static void check_altered_entries(const ovoid_pair *p, const ovoid_answer *x) {

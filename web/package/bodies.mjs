@@ -136,7 +136,7 @@ export function bindBodies(core) {
     return answer;
   }
 
-  /** Checks an answer: both poses stand in the memory. */
+  /** Checks an answer: both poses and the query's options stand in the memory. */
   function check(a, b, answer) {
     const kinds = [kindOf(a), kindOf(b)], { exclusions = [], surfaces, parting } = answer.proof;
     const at = calls.set_exclusions(exclusions.length);
@@ -148,7 +148,7 @@ export function bindBodies(core) {
       ...(answer.common ?? [0, 0, 0]),
       names.number('status', surfaces?.status), names.number('limit', surfaces?.limit), toNumber(surfaces?.lower, -Infinity), toNumber(surfaces?.upper, Infinity),
       ...fromAnswer(answer, names),
-    ], 14);
+    ], 18);
     return calls.body_check(kinds[0] | (kinds[1] << 2), a.address, b.address) ? memory.error() : null;
   }
 

@@ -175,8 +175,8 @@ export interface Ovoid {
   distance: Ask<AnyBody>;
   /** The signed distance: minus the penetration depth where they overlap; of compounds of the deepest parts. */
   depth: Ask<Shape | Compound>;
-  /** Checks an answer by its proof alone. null: it holds; else what does not. */
-  check(a: AnyBody, poseA: Pose | null | undefined, b: AnyBody, poseB: Pose | null | undefined, answer: Answer): OvoidError | null;
+  /** Checks an answer by its proof alone, its status by the tolerance of the options that it was asked with. null: it holds; else what does not. */
+  check(a: AnyBody, poseA: Pose | null | undefined, b: AnyBody, poseB: Pose | null | undefined, answer: Answer, options?: Options): OvoidError | null;
   /** Many couples [a, b] of bodies at once, eight in lanes; the bits of single queries. */
   batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Options & { margin?: number }): Batch;
   /** The signed distances of both ellipsoids: outer.value <= d <= inner.value. order 1: gradients, 2: Hessians too. */

@@ -208,11 +208,11 @@ function bindQueries(core, bodies) {
     return new Answer(n, names, cover && ((proof) => (proof.cover = cover())));
   }
 
-  function check(a, poseA, b, poseB, answer) {
-    memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB')]);
+  function check(a, poseA, b, poseB, answer, options) {
+    memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB'), ...settings(options)]);
     writeCover(core, answer.proof.cover);
     if (!areShapes(a, b)) return bodies.check(a, b, answer);
-    memory.set(fromAnswer(answer, names), 14);
+    memory.set(fromAnswer(answer, names), 18);
     return calls.check(a.address, b.address) ? memory.error() : null;
   }
 

@@ -35,13 +35,15 @@ void EXPORT(query)(int kind, const ovoid_shape *a, const ovoid_shape *b, int is_
     write_proof(write_answer(exchange, &answer), &answer.proof);
 }
 
-/// Reads both poses, an answer and its proof, and the cover where it stands. 0, or the error's code.
+/// Reads both poses, the four options of the query, its answer and proof, and the cover where it stands. 0, or the
+/// error's code.
 int EXPORT(check)(const ovoid_shape *a, const ovoid_shape *b) {
     ovoid_pair pair;
+    ovoid_options options;
     ovoid_answer answer;
-    read_proof(read_answer(read_pair(a, b, &pair), &answer), &answer.proof);
+    read_proof(read_answer(read_options(read_pair(a, b, &pair), &options), &answer), &answer.proof);
     const ovoid_cover *given = cover.point_count ? &cover : NULL;
-    return (int)ovoid_answer_check(&pair, &answer, given, &exchange_error);
+    return (int)ovoid_answer_check(&pair, &answer, &options, given, &exchange_error);
 }
 
 static ovoid_code run_batch(int kind, const ovoid_batch *batch, double margin) {

@@ -144,15 +144,17 @@ inline compound_answer depth(const body_pair &p, const ovoid_options &o = option
 inline compound_proof proof_of(const ovoid_compound_answer &a) noexcept {
     return ovoid_compound_proof{a.part_a, a.part_b, a.answer.proof};
 }
-/** True where the answer follows from its proof and the exclusions (nullptr is enough for two shapes). */
-inline bool is_proven(const body_pair &p, const ovoid_compound_answer &a,
+/** True where the answer follows from its proof, the exclusions (nullptr is enough for two shapes) and the query's
+ *  options. */
+inline bool is_proven(const body_pair &p, const ovoid_compound_answer &a, const ovoid_options &o = options(),
                       const ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_compound_answer_check(&p, &a, e, nullptr) == OVOID_OK;
+    return ovoid_compound_answer_check(&p, &a, &o, e, nullptr) == OVOID_OK;
 }
 /** Throws PROOF (place: the exclusion), with a sentence, where is_proven is false. */
-inline void check(const body_pair &p, const ovoid_compound_answer &a, const ovoid_exclusions *e = nullptr) {
+inline void check(const body_pair &p, const ovoid_compound_answer &a, const ovoid_options &o = options(),
+                  const ovoid_exclusions *e = nullptr) {
     ovoid_error error;
-    detail::require(ovoid_compound_answer_check(&p, &a, e, &error), error);
+    detail::require(ovoid_compound_answer_check(&p, &a, &o, e, &error), error);
 }
 
 } // namespace ovoid

@@ -83,15 +83,17 @@ inline answer bounds(const pair &p) noexcept { return ovoid_bounds(&p); }
 inline double distance_of(const ovoid_answer &a) noexcept { return ovoid_answer_get_distance(&a); }
 /** 1: proven within the margin; 0: proven farther; -1: the bracket straddles it. */
 inline int is_within(const ovoid_answer &a, double margin) noexcept { return ovoid_answer_is_within(&a, margin); }
-/** True where the answer's bounds follow from its proof: no search, and nothing trusted. c: that of depth, or nullptr.
- */
-inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_cover *c = nullptr) noexcept {
-    return ovoid_answer_check(&p, &a, c, nullptr) == OVOID_OK;
+/** True where the answer's bounds follow from its proof, and its status from them and the tolerance: no search, and
+ *  nothing trusted. o: the options of the query. c: the cover of depth, or nullptr. */
+inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
+                      const ovoid_cover *c = nullptr) noexcept {
+    return ovoid_answer_check(&p, &a, &o, c, nullptr) == OVOID_OK;
 }
 /** Throws PROOF, with a sentence, where is_proven is false. */
-inline void check(const pair &p, const ovoid_answer &a, const ovoid_cover *c = nullptr) {
+inline void check(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
+                  const ovoid_cover *c = nullptr) {
     ovoid_error e;
-    detail::require(ovoid_answer_check(&p, &a, c, &e), e);
+    detail::require(ovoid_answer_check(&p, &a, &o, c, &e), e);
 }
 
 /** What a query of prepared shapes writes beside its verdict. */

@@ -79,7 +79,8 @@ typedef struct hearing {
     const ovoid_pair *pair;
     const trial_hints *hints;
     uint64_t *state;
-    double d; // a distance near the true one, for margins and caps
+    double d;                     // a distance near the true one, for margins and caps
+    const ovoid_options *options; // of the query that is heard
 } hearing;
 
 // Distances above this part of the size have a proven sign: ten times what docs/query.md says of overlaps.
@@ -104,9 +105,10 @@ static void judge_answer(const hearing *h, const ovoid_answer *x, const ovoid_co
     ovoid_error error = {0};
     h->t->answers++;
     if (x->iterations > h->t->iterations) h->t->iterations = x->iterations;
+    judge_set_options(trial_judge, h->options);
     if (judge_check_answer(trial_judge, h->pair, x, cover, &error) != OVOID_OK)
         trial_fail(h->t, h->pair, x, query, error.message);
-    else if (ovoid_answer_check(h->pair, x, cover, &error) != OVOID_OK)
+    else if (ovoid_answer_check(h->pair, x, h->options, cover, &error) != OVOID_OK)
         trial_fail(h->t, h->pair, x, query, error.message);
     else if (x->stage != OVOID_STAGE_NONE && full && x->status != OVOID_UNDECIDED &&
              judge_check_points(trial_judge, h->pair, x, &error) != OVOID_OK)
@@ -215,12 +217,12 @@ static void ask_limited(const hearing *h) {
     default: options.cap = fabs(h->d) * random_uniform(h->state, 0, 2); break;
     }
     ovoid_cover cover;
-    judge_set_touching(trial_judge, INFINITY);
     ovoid_answer x = random_next(h->state) % 2 ? ovoid_depth(h->pair, &options, NULL, &cover)
                                                : (cover.point_count = 0, ovoid_distance(h->pair, &options, NULL));
-    judge_answer(h, &x, &cover, "with options", 0);
+    hearing with_options = *h;
+    with_options.options = &options;
+    judge_answer(&with_options, &x, &cover, "with options", 0);
     compare_truth(h, &x, "with options", 0);
-    judge_set_touching(trial_judge, 1e-6);
     if (x.limit == OVOID_LIMIT_CAP && !(x.lower > options.cap))
         trial_fail(h->t, h->pair, &x, "cap", "not proven farther");
     if (options.iterations && x.iterations > 2 * options.iterations)
@@ -239,7 +241,7 @@ static void ask_warm(const hearing *h, const ovoid_proof *warm, const ovoid_proo
 }
 
 ovoid_proof trial_ask(tally *t, const ovoid_pair *pair, const trial_hints *hints, uint64_t *state) {
-    hearing h = {t, pair, hints, state, 0};
+    hearing h = {t, pair, hints, state, 0, NULL};
     ovoid_cover cover;
     t->pairs++;
     ovoid_answer depth = ovoid_depth(pair, NULL, NULL, &cover);

@@ -89,11 +89,12 @@ static void fail(work *w, const scene *s, const ovoid_answer *x, question_kind k
 }
 
 static void check_exactly(work *w, const scene *s, const ovoid_answer *x, const ovoid_cover *cover, question_kind kind,
-                          int in_full) {
+                          const ovoid_options *options) {
     ovoid_error error = {0};
+    int in_full = options == NULL;
     judge *j = w->run->judge;
     w->c.exact++;
-    judge_set_touching(j, in_full ? 1e-6 : INFINITY);
+    judge_set_options(j, options);
     int has_points = in_full && x->status != OVOID_UNDECIDED &&
                      (kind == ASK_DEPTH || (kind == ASK_DISTANCE && x->status == OVOID_SEPARATED));
     if (judge_check_answer(j, &s->pair, x, cover, &error) != OVOID_OK ||
@@ -120,10 +121,11 @@ static void check_completeness(work *w, const scene *s, const ovoid_answer *x, q
     if (what) report(w, s, x, kind, what);
 }
 
-// in_full: the default options, so that the answer is to be complete.
+// options: NULL where the answer is to be complete.
 static void check_answer(work *w, scene *s, const ovoid_answer *x, const ovoid_cover *cover, question_kind kind,
-                         int in_full) {
+                         const ovoid_options *options) {
     ovoid_error error;
+    int in_full = options == NULL;
     counts *c = &w->c;
     c->queries++;
     c->questions[kind]++;
@@ -131,7 +133,7 @@ static void check_answer(work *w, scene *s, const ovoid_answer *x, const ovoid_c
     c->stages[x->stage]++;
     c->limits[x->limit]++;
     if (x->iterations > c->iterations) c->iterations = x->iterations;
-    if (ovoid_answer_check(&s->pair, x, cover, &error) != OVOID_OK) fail(w, s, x, kind, error.message);
+    if (ovoid_answer_check(&s->pair, x, options, cover, &error) != OVOID_OK) fail(w, s, x, kind, error.message);
     s->low = fmax(s->low, x->lower);
     s->high = fmin(s->high, x->upper);
     if (!(s->low <= s->high)) {
@@ -141,7 +143,7 @@ static void check_answer(work *w, scene *s, const ovoid_answer *x, const ovoid_c
     if (in_full && kind != ASK_BOUNDS) check_completeness(w, s, x, kind);
     if (--w->until_exact == 0) {
         w->until_exact = w->run->sample;
-        check_exactly(w, s, x, cover, kind, in_full);
+        check_exactly(w, s, x, cover, kind, options);
     }
 }
 
@@ -218,7 +220,7 @@ static ovoid_answer ask(work *w, scene *s, question_kind kind, uint64_t *r) {
         break;
     default: x = ovoid_bounds(&s->pair); break;
     }
-    check_answer(w, s, &x, cover, kind, options == NULL);
+    check_answer(w, s, &x, cover, kind, kind == ASK_BOUNDS ? NULL : options);
     keep_proof(w, &x);
     return x;
 }
