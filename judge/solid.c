@@ -130,7 +130,8 @@ static ovoid_code check_touching(const judge *context, const trial *t) {
     ovoid_vec3 a = t->a.of->pose.position, b = t->b.of->pose.position;
     double radii = num_to_double(num_add(t->p, t->a.posed.radius, t->b.posed.radius));
     double size = t->a.posed.extent + t->b.posed.extent + radii + hypot(hypot(b.x - a.x, b.y - a.y), b.z - a.z);
-    return judge_check_touching(context, x, size, t->a.posed.reach + t->b.posed.reach, t->error);
+    const ovoid_answer bodies = {.lower = x->lower, .upper = x->upper};
+    return judge_check_touching(context, &bodies, size, t->a.posed.reach + t->b.posed.reach, t->error);
 }
 
 // --- directions

@@ -92,7 +92,7 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     ovoid_compound_answer proven;
     ovoid_error error = {0};
     CHECK(ovoid_world_compute_proof(w, c, &exclusions, &proven, &error) == OVOID_OK);
-    if (!CHECK(ovoid_compound_answer_check(&pair, &proven, NULL, &exclusions, &error) == OVOID_OK))
+    if (!CHECK(ovoid_compound_answer_check(&pair, &proven, q->options, &exclusions, &error) == OVOID_OK))
         printf("  %s\n", error.message);
     CHECK_EQ(proven.answer.status, alone.status);
     // Two brackets of one distance, each as wide as the tolerance.
