@@ -86,27 +86,56 @@ static ovoid_code check_groups(const claim *c, ovoid_error *error) {
     return code;
 }
 
+// The deciding pair as moving shapes, made in rooms.
+static moving_shapes get_leaves(const claim *c, ovoid_moving_shape made[2], moving_room rooms[2]) {
+    made[0] = moving_tree_get_leaf(&c->a, solid_view_get_place(&c->a.view, c->found->part_a), &rooms[0]);
+    made[1] = moving_tree_get_leaf(&c->b, solid_view_get_place(&c->b.view, c->found->part_b), &rooms[1]);
+    return (moving_shapes){&made[0], &made[1]};
+}
+
+static ovoid_code check_leaves(const claim *c, const ovoid_answer *hit, double most, ovoid_error *error) {
+    moving_room rooms[2];
+    ovoid_moving_shape made[2];
+    const answer_claim own = {c->found->impact.hit_at, hit, -INFINITY, most};
+    return impact_check_answer(get_leaves(c, made, rooms), &own, error);
+}
+
+static int holds(const ovoid_answer *claimed, const ovoid_solid_answer *found) {
+    return claimed->lower <= found->lower && claimed->upper >= found->upper && claimed->status == found->status;
+}
+
+// A hit at the beginning is what the query of the bodies says there, with the answer of the surfaces; where that left
+// the margin open, it is a hit of the deciding pair as any other.
+static ovoid_code check_hit_at_begin(const claim *c, ovoid_error *error) {
+    const ovoid_impact *x = &c->found->impact;
+    moving_answer at;
+    moving_trees_ask(&c->a, &c->b, c->margin, x->begin, &at);
+    if (at.answer.upper + at.shift > c->margin) return check_leaves(c, &x->hit, c->margin, error);
+    ovoid_answer surfaces = x->hit;
+    surfaces.status = at.answer.surfaces.status;
+    surfaces.limit = at.answer.surfaces.limit;
+    surfaces.lower = at.answer.surfaces.lower;
+    surfaces.upper = at.answer.surfaces.upper;
+    if (!holds(&x->hit, &at.answer) || x->hit.upper + at.shift > c->margin)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "the hit at the beginning is not what the bodies show there");
+    return check_leaves(c, &surfaces, INFINITY, error);
+}
+
 // What is claimed of the beginning: within the margin, or apart.
 static ovoid_code check_begin(const claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     moving_answer at;
-    int is_hit = x->status == OVOID_IMPACT_HIT && x->hit_at <= x->begin;
-    if (!is_hit && x->free_until <= x->begin && x->status != OVOID_IMPACT_FREE) return OVOID_OK;
+    if (x->status == OVOID_IMPACT_HIT && x->hit_at <= x->begin) return check_hit_at_begin(c, error);
+    if (x->free_until <= x->begin && x->status != OVOID_IMPACT_FREE) return OVOID_OK;
     moving_trees_ask(&c->a, &c->b, c->margin, x->begin, &at);
-    if (is_hit && at.answer.upper + at.shift <= c->margin) return OVOID_OK;
-    if (is_hit) return error_set(error, OVOID_ERROR_PROOF, -1, "the bodies are not within the margin at the beginning");
     if (moving_answer_is_apart(&at, 1)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1, "the bodies are not apart at the beginning");
 }
 
 static ovoid_code check_hit(const claim *c, ovoid_error *error) {
-    const ovoid_compound_impact *x = c->found;
-    moving_room rooms[2];
-    if (x->impact.status != OVOID_IMPACT_HIT || x->impact.hit_at <= x->impact.begin) return OVOID_OK;
-    ovoid_moving_shape a = moving_tree_get_leaf(&c->a, solid_view_get_place(&c->a.view, x->part_a), &rooms[0]);
-    ovoid_moving_shape b = moving_tree_get_leaf(&c->b, solid_view_get_place(&c->b.view, x->part_b), &rooms[1]);
-    const answer_claim hit = {x->impact.hit_at, &x->impact.hit, -INFINITY, c->margin};
-    return impact_check_answer((moving_shapes){&a, &b}, &hit, error);
+    const ovoid_impact *x = &c->found->impact;
+    if (x->status != OVOID_IMPACT_HIT || x->hit_at <= x->begin) return OVOID_OK;
+    return check_leaves(c, &x->hit, c->margin, error);
 }
 
 static ovoid_code check(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
