@@ -236,7 +236,7 @@ int machine_make_snake(machine *m, uint32_t links) {
                                            .upper = 0.4,
                                            .mimic = OVOID_ROBOT_NONE};
     }
-    ovoid_robot_description d = {m->name, link, links, joint, links - 1, element, links, pair, links - 1};
+    ovoid_robot_description d = {m->name, link, links, joint, links - 1, element, links, pair, links - 1, NULL};
     m->robot = ovoid_robot_create(&d, &(ovoid_robot_options){.takes_shapes = 1}, NULL);
     for (uint32_t i = 0; !m->robot && i < links; i++) ovoid_shape_destroy((ovoid_shape *)element[i].shape);
     free(joint);
@@ -310,7 +310,8 @@ int machine_make_pair(machine *m, const machine *one) {
                                         t.elements,
                                         2 * d.element_count,
                                         t.disabled,
-                                        2 * d.disabled_count};
+                                        2 * d.disabled_count,
+                                        NULL};
         m->robot = ovoid_robot_create(&both, NULL, NULL);
     }
     free(t.links);

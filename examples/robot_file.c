@@ -10,10 +10,7 @@ static void print_note(void *context, const ovoid_robot_note *note) {
 /// The cell of a robot among obstacles; NULL where something fails.
 static ovoid_robot_cell *create_cell(const ovoid_robot *robot, const ovoid_obstacles *obstacles, ovoid_error *error) {
     ovoid_robot_cell *cell = ovoid_robot_cell_create(robot, NULL, error);
-    for (size_t i = 0; cell && i < ovoid_obstacles_get_count(obstacles); i++) {
-        ovoid_obstacle o = ovoid_obstacles_get(obstacles, i);
-        if (!ovoid_robot_cell_add(cell, &(ovoid_body){.shape = o.shape, .pose = o.pose}, error)) return NULL;
-    }
+    if (cell && ovoid_robot_cell_add_obstacles(cell, obstacles, NULL, error) != OVOID_OK) return NULL;
     return cell;
 }
 

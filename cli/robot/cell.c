@@ -13,6 +13,18 @@ static int compare_ids(const void *a, const void *b) {
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
+/// Tells of obstacles whose frame is a link: they stand still.
+static void tell_frames(const cli_cell *cell, const char *scene) {
+    for (size_t i = 0; i < ovoid_obstacles_get_count(cell->obstacles); i++) {
+        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
+        uint32_t link = o.frame && !o.link ? ovoid_robot_find_link(cell->robot.robot, o.frame) : OVOID_ROBOT_NONE;
+        if (link == OVOID_ROBOT_NONE || link == ovoid_robot_get_root(cell->robot.robot)) continue;
+        message_note("%s: %s is given in the frame of link %s: it stands where that is in the scene's robot_state, and "
+                     "does not move with it",
+                     scene, o.name, o.frame);
+    }
+}
+
 /// Reads the scene and adds its obstacles. 0, or an exit code after a message.
 static int add_obstacles(cli_cell *cell, const cell_settings *settings) {
     ovoid_error error;
@@ -25,14 +37,13 @@ static int add_obstacles(cli_cell *cell, const cell_settings *settings) {
     if (!cell->obstacles) return message_error("%s", error.message), EXIT_INPUT;
     size_t count = ovoid_obstacles_get_count(cell->obstacles);
     cell->ids = malloc((count + 1) * sizeof *cell->ids);
-    if (!cell->ids) return message_error("out of memory"), EXIT_INPUT;
-    for (; cell->id_count < count; cell->id_count++) {
-        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, cell->id_count);
-        const ovoid_body body = {.shape = o.solid ? NULL : o.shape, .pose = o.pose, .solid = o.solid};
-        ovoid_id id = ovoid_robot_cell_add(cell->cell, &body, &error);
-        if (!id) return message_error("%s: %s: %s", settings->scene, o.name, error.message), EXIT_INPUT;
-        cell->ids[cell->id_count] = (cell_id){id, cell->id_count};
-    }
+    cell->placed = malloc((count + 1) * sizeof *cell->placed);
+    if (!cell->ids || !cell->placed) return message_error("out of memory"), EXIT_INPUT;
+    if (ovoid_robot_cell_add_obstacles(cell->cell, cell->obstacles, cell->placed, &error) != OVOID_OK)
+        return message_error("%s", error.message), EXIT_INPUT;
+    tell_frames(cell, settings->scene);
+    for (; cell->id_count < count; cell->id_count++)
+        cell->ids[cell->id_count] = (cell_id){cell->placed[cell->id_count].id, cell->id_count};
     qsort(cell->ids, count, sizeof *cell->ids, compare_ids);
     return 0;
 }
@@ -75,8 +86,9 @@ int cell_open(const cli_command *command, const char *urdf, const cell_settings 
     cell->description = ovoid_robot_get_description(cell->robot.robot);
     cell->cell = ovoid_robot_cell_create(cell->robot.robot, NULL, &error);
     if (!cell->cell) message_error("%s: %s", urdf, error.message), code = EXIT_INPUT;
-    if (!code) code = cell_set_paddings(command, cell, cell->cell, &settings->paddings);
     if (!code) code = add_obstacles(cell, settings);
+    // Those of the options count before those of the scene.
+    if (!code) code = cell_set_paddings(command, cell, cell->cell, &settings->paddings);
     if (code) cell_close(cell);
     return code;
 }
@@ -85,6 +97,7 @@ void cell_close(cli_cell *cell) {
     ovoid_robot_cell_destroy(cell->cell);
     ovoid_obstacles_destroy(cell->obstacles);
     free(cell->ids);
+    free(cell->placed);
     robot_close(&cell->robot);
     *cell = (cli_cell){.cell = NULL};
 }
@@ -95,27 +108,45 @@ ovoid_robot_check_options cell_make_options(const cell_settings *settings) {
 
 // ---- names
 
-/// The place of an obstacle among those of its name, which follow one another.
-static cell_side get_obstacle(const cli_cell *cell, ovoid_id id) {
+/// The obstacle of an id; id_count: there is none.
+static size_t find_obstacle(const cli_cell *cell, ovoid_id id) {
     const cell_id key = {id, 0};
     const cell_id *found = bsearch(&key, cell->ids, cell->id_count, sizeof key, compare_ids);
-    if (!found) return (cell_side){.obstacle = "?", .is_alone = 1};
-    size_t i = found->obstacle, first = i;
+    return found ? found->obstacle : cell->id_count;
+}
+
+/// The place of an obstacle among those of its name, which follow one another.
+static cell_side get_obstacle(const cli_cell *cell, ovoid_id id) {
+    size_t i = find_obstacle(cell, id), first = i;
+    if (i == cell->id_count) return (cell_side){.obstacle = "?", .is_alone = 1};
     const char *name = ovoid_obstacles_get(cell->obstacles, i).name;
     while (first && strcmp(ovoid_obstacles_get(cell->obstacles, first - 1).name, name) == 0) first--;
     int is_last = i + 1 == cell->id_count || strcmp(ovoid_obstacles_get(cell->obstacles, i + 1).name, name) != 0;
     return (cell_side){.obstacle = name, .number = i - first, .is_alone = first == i && is_last};
 }
 
+/// What a link holds, as an element that has the object's name, behind the link's own.
+static cell_side get_held(const cli_cell *cell, const ovoid_robot_side *side) {
+    size_t at = find_obstacle(cell, side->body);
+    cell_side s = {.link = cell->description.links[side->link].name};
+    for (size_t i = 0; i < cell->description.element_count; i++)
+        s.number += cell->description.elements[i].link == side->link;
+    for (size_t i = 0; i < at; i++) s.number += cell->placed[i].link == side->link;
+    s.element = at < cell->id_count ? ovoid_obstacles_get(cell->obstacles, at).name : NULL;
+    return s;
+}
+
 cell_side cell_get_side(const cli_cell *cell, const ovoid_robot_side *side) {
     const ovoid_robot_description *d = &cell->description;
     if (side->link == OVOID_ROBOT_NONE) return get_obstacle(cell, side->body);
+    if (side->body) return get_held(cell, side);
     cell_side s = {.link = d->links[side->link].name, .is_alone = 1};
     for (uint32_t i = 0; i < d->element_count; i++) {
         if (d->elements[i].link != side->link || i == side->element) continue;
         s.is_alone = 0;
         s.number += i < side->element;
     }
+    for (size_t i = 0; i < cell->id_count; i++) s.is_alone &= cell->placed[i].link != side->link;
     if (side->element != OVOID_ROBOT_NONE) s.element = d->elements[side->element].name;
     return s;
 }
@@ -203,12 +234,47 @@ void cell_format_bracket(char text[64], double lower, double upper) {
     (void)ovoid_answer_write_distance(text, &answer);
 }
 
+/// The value of a joint that follows others.
+static double get_value(const cli_cell *cell, uint32_t joint, const double *q) {
+    const ovoid_robot_joint *j = &cell->description.joints[joint];
+    if (j->mimic == OVOID_ROBOT_NONE) return q[ovoid_robot_get_joint_variable(cell->robot.robot, joint)];
+    return j->multiplier * get_value(cell, j->mimic, q) + j->offset;
+}
+
+/// The first joint that follows the variable and is outside its limits; NONE: there is none.
+static uint32_t find_follower(const cli_cell *cell, uint32_t variable, const double *q) {
+    for (uint32_t i = 0; i < cell->description.joint_count; i++) {
+        const ovoid_robot_joint *j = &cell->description.joints[i];
+        int is_limited = j->type == OVOID_JOINT_REVOLUTE || j->type == OVOID_JOINT_PRISMATIC;
+        if (j->mimic == OVOID_ROBOT_NONE || !is_limited ||
+            ovoid_robot_get_joint_variable(cell->robot.robot, i) != variable)
+            continue;
+        double value = get_value(cell, i, q);
+        if (value < j->lower || value > j->upper) return i;
+    }
+    return OVOID_ROBOT_NONE;
+}
+
 void cell_write_refusal(FILE *file, const cli_cell *cell, const ovoid_robot_answer *answer, const double *q) {
     ovoid_robot_variable v = ovoid_robot_get_variable(cell->robot.robot, answer->variable);
     cell_write_variable_name(file, cell, answer->variable);
     double value = q[answer->variable];
-    if (value < v.lower || value > v.upper)
+    int is_outside = value < v.lower || value > v.upper;
+    uint32_t follower = is_outside ? OVOID_ROBOT_NONE : find_follower(cell, answer->variable, q);
+    if (is_outside) {
         fprintf(file, ": %.9g is outside its limits, %.9g .. %.9g", value, v.lower, v.upper);
-    else
+    } else if (answer->code == OVOID_ERROR_RANGE && follower != OVOID_ROBOT_NONE) {
+        const ovoid_robot_joint *j = &cell->description.joints[follower];
+        fputs(": ", file);
+        message_write_text(file, j->name);
+        fprintf(file, ", which follows it, is %.9g, outside its limits, %.9g .. %.9g", get_value(cell, follower, q),
+                j->lower, j->upper);
+    } else {
         fprintf(file, ": %s", ovoid_code_get_name(answer->code));
+    }
+}
+
+const char *cell_get_empty(void) {
+    return "nothing is compared: no link has collision geometry that another link or an obstacle could touch (--visual "
+           "takes visual geometry)";
 }

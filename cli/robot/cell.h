@@ -72,6 +72,7 @@ typedef struct cli_cell {
     ovoid_robot_cell *cell;
     cell_id *ids; ///< sorted by id
     size_t id_count;
+    ovoid_placed_obstacle *placed; ///< of each obstacle
 } cli_cell;
 
 /// Settles what meshes count as; html: the page that is asked for, which shows no solids. -1 to go on, or an exit code.
@@ -133,6 +134,14 @@ int cell_get_exit(ovoid_robot_status status);
 
 /// Writes a bracket for people into 64 characters: one number where it is narrow.
 void cell_format_bracket(char text[64], double lower, double upper);
+
+/// The sentence of an answer with the code EMPTY.
+const char *cell_get_empty(void);
+/// 1: an answer names a pair.
+static inline int cell_has_pair(const ovoid_robot_answer *answer) {
+    return answer->status == OVOID_ROBOT_HIT ||
+           (answer->status == OVOID_ROBOT_UNDECIDED && answer->code != OVOID_ERROR_EMPTY);
+}
 
 /// Writes why a state is refused: "shoulder: 3 is not within -1.5 .. 2.5".
 void cell_write_refusal(FILE *file, const cli_cell *cell, const ovoid_robot_answer *answer, const double *q);

@@ -132,11 +132,22 @@ static void write_elements(FILE *file, page_shapes *shapes, const cli_cell *cell
         if (e->name) write_key(file, ",", "name", e->name);
         write_place(file, shapes, e->shape, &e->pose);
     }
-    fputs("],\"obstacles\":[", file);
+    // What a link holds is one of its elements.
+    size_t count = d->element_count;
     for (size_t i = 0; i < cell->id_count; i++) {
         ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        write_key(file, i ? ",{" : "{", "name", o.name);
-        write_place(file, shapes, o.shape, &o.pose);
+        if (cell->placed[i].link == OVOID_ROBOT_NONE) continue;
+        write_key(file, count++ ? ",{" : "{", "link", d->links[cell->placed[i].link].name);
+        write_key(file, ",", "name", o.name);
+        write_place(file, shapes, o.shape, &cell->placed[i].pose);
+    }
+    fputs("],\"obstacles\":[", file);
+    count = 0;
+    for (size_t i = 0; i < cell->id_count; i++) {
+        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
+        if (cell->placed[i].link != OVOID_ROBOT_NONE) continue;
+        write_key(file, count++ ? ",{" : "{", "name", o.name);
+        write_place(file, shapes, o.shape, &cell->placed[i].pose);
     }
     fputc(']', file);
 }

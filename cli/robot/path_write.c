@@ -158,6 +158,8 @@ void path_write_text(FILE *file, const path_report *r) {
         fprintf(file, "free        at all s from 0 to %zu\n", last);
     else if (a->status == OVOID_ROBOT_REFUSED)
         write_refused(file, r);
+    else if (a->hit.code == OVOID_ERROR_EMPTY)
+        fprintf(file, "because     %s\n", cell_get_empty());
     else if (a->free_until > 0)
         fprintf(file, "free        before s %.9g\n", a->free_until);
     if (a->status == OVOID_ROBOT_HIT) write_hit(file, r);

@@ -79,7 +79,9 @@ uint64_t proof_compute_digest(const cli_cell *cell) {
         hash = add_index(add_index(hash, d->disabled[i].a), d->disabled[i].b);
     for (size_t i = 0; i < cell->id_count; i++) {
         ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        hash = add_solid(add_shape(add_pose(add_text(hash, o.name), &o.pose), o.shape), o.solid);
+        const ovoid_placed_obstacle *at = &cell->placed[i];
+        hash = add_solid(add_shape(add_pose(add_text(hash, o.name), &at->pose), o.shape), o.solid);
+        if (at->link != OVOID_ROBOT_NONE) hash = add_index(hash, at->link);
     }
     return hash;
 }

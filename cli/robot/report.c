@@ -27,8 +27,7 @@ static pair_row get_row(const report_form *form, const report_state *s, size_t i
         return (pair_row){&near->a,    &near->b, near->lower,
                           near->upper, near,     s->gradients ? s->gradients + i * n : NULL};
     }
-    int has_pair = answer->status == OVOID_ROBOT_HIT || answer->status == OVOID_ROBOT_UNDECIDED;
-    if (!has_pair) return (pair_row){.near = NULL};
+    if (!cell_has_pair(answer)) return (pair_row){.near = NULL};
     return (pair_row){&answer->a, &answer->b, answer->lower, answer->upper, NULL, NULL};
 }
 
@@ -75,6 +74,8 @@ void report_write_json(FILE *file, const report_form *form, const report_state *
         fprintf(file, ",\"code\":\"%s\",\"variable\":", ovoid_code_get_name(s->answer.code));
         cell_write_variable_json(file, form->cell, s->answer.variable);
     }
+    if (s->answer.status == OVOID_ROBOT_UNDECIDED && !found.a)
+        fprintf(file, ",\"code\":\"%s\"", ovoid_code_get_name(s->answer.code));
     if (found.a) {
         fputc(',', file);
         write_pair(file, form, &found);
@@ -209,6 +210,7 @@ static void write_state(FILE *file, const report_form *form, const report_state 
             fputs("    ", file);
             cell_write_refusal(file, form->cell, &s->answer, form->states->q + s->index * form->states->variable_count);
         }
+        if (s->answer.status == OVOID_ROBOT_UNDECIDED && !row.a) fputs("  nothing is compared", file);
         fputc('\n', file);
     }
 }

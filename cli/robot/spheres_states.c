@@ -73,10 +73,8 @@ static int open_model(model *m, const cli_cell *cell, const cell_settings *setti
     *m = (model){.robot = ovoid_robot_create_from_spheres(cell->robot.robot, list->items, list->count, NULL, &error)};
     if (m->robot) m->cell = ovoid_robot_cell_create(m->robot, NULL, &error);
     int good = m->cell != NULL;
-    for (size_t i = 0; good && cell->obstacles && i < ovoid_obstacles_get_count(cell->obstacles); i++) {
-        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        good = ovoid_robot_cell_add(m->cell, &(ovoid_body){.shape = o.shape, .pose = o.pose}, &error) != 0;
-    }
+    if (good && cell->obstacles)
+        good = ovoid_robot_cell_add_obstacles(m->cell, cell->obstacles, NULL, &error) == OVOID_OK;
     // The options' paddings are in the robot's cell already, so they are right.
     if (good) good = cell_set_paddings(NULL, cell, m->cell, &settings->paddings) == 0;
     if (good) m->checkers[0] = ovoid_robot_checker_create(cell->cell, NULL, &error);

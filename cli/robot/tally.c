@@ -35,6 +35,7 @@ static size_t find_place(const tally *t, const tally_pair *pair) {
 
 int tally_add(tally *t, const ovoid_robot_answer *answer) {
     t->statuses[answer->status]++;
+    t->empty += answer->status == OVOID_ROBOT_UNDECIDED && answer->code == OVOID_ERROR_EMPTY;
     if (answer->status != OVOID_ROBOT_HIT) return 1;
     const tally_pair pair = {answer->a, answer->b, 0};
     size_t at = find_place(t, &pair);
@@ -72,6 +73,7 @@ void tally_report(tally *t, const cli_cell *cell, double seconds) {
     size_t all = n[0] + n[1] + n[2] + n[3];
     message_note("%zu state%s in %.2f s; free: %zu, hit: %zu, undecided: %zu, refused: %zu", all, all == 1 ? "" : "s",
                  seconds, n[OVOID_ROBOT_FREE], n[OVOID_ROBOT_HIT], n[OVOID_ROBOT_UNDECIDED], n[OVOID_ROBOT_REFUSED]);
+    if (t->empty) message_warning("%s", cell_get_empty());
     if (!t->pair_count) return;
     qsort(t->pairs, t->pair_count, sizeof *t->pairs, compare_counts);
     for (size_t i = 0; i < t->pair_count && i < REPORTED_MAX; i++) {

@@ -13,6 +13,7 @@ typedef struct tally_pair {
 /// Counts; all zero is the beginning.
 typedef struct tally {
     size_t statuses[4]; ///< by ovoid_robot_status
+    size_t empty;       ///< of the undecided, those of which nothing is compared
     tally_pair *pairs;
     size_t pair_count, capacity;
 } tally;

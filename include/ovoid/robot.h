@@ -88,6 +88,7 @@ typedef struct ovoid_robot_description {
     size_t element_count;
     const ovoid_robot_pair *disabled; /**< pairs of links that are never queried; one may come twice */
     size_t disabled_count;
+    const char *frame; /**< another name of the root link's frame, which scenes may use; may be NULL */
 } ovoid_robot_description;
 
 /** Options; all zero is the default, and NULL means that. */
@@ -173,8 +174,8 @@ OVOID_API ovoid_code ovoid_robot_compute_poses_batch(const ovoid_robot *robot, c
                                                      ovoid_pose *poses, ovoid_error *error);
 
 /**
- * OVOID_OK where every variable is within its limits or outside by at most `slack`; RANGE (place: the variable; the
- * sentence names the joint), NOT_FINITE.
+ * OVOID_OK where every variable, and every joint that follows another one, is within its limits or outside by at most
+ * `slack`; RANGE (place: the variable, of a follower that which it follows; the sentence names the joint), NOT_FINITE.
  */
 OVOID_API ovoid_code ovoid_robot_check_limits(const ovoid_robot *robot, const double *q, double slack,
                                               ovoid_error *error);
@@ -245,8 +246,9 @@ OVOID_API void ovoid_robot_checker_reset(ovoid_robot_checker *checker);
 
 /** What is proven of a state. */
 typedef enum ovoid_robot_status {
-    OVOID_ROBOT_UNDECIDED = 0, /**< some pair could not be decided: treat it as a hit */
-    OVOID_ROBOT_FREE,          /**< every pair is farther apart than the margin, proven */
+    OVOID_ROBOT_UNDECIDED = 0, /**< some pair could not be decided: treat it as a hit. With the code EMPTY: no pair is
+                                    queried, so nothing is said */
+    OVOID_ROBOT_FREE,          /**< every pair is farther apart than the margin, proven; there is one */
     OVOID_ROBOT_HIT,           /**< a pair is within the margin, proven */
     OVOID_ROBOT_REFUSED        /**< the state is no state: see code and variable */
 } ovoid_robot_status;

@@ -167,13 +167,16 @@ typedef struct ovoid_obstacle {
     const ovoid_shape *shape; /**< of a solid its hull */
     ovoid_pose pose; /**< of an object with a pose and parts with poses: ovoid_pose_compute_product, by definition */
     const ovoid_solid *solid; /**< with options->solids: what counts in the place of the hull; NULL: the shape does */
+    const char *frame;        /**< in which the pose is: a link or a fixed frame of the scene; NULL: the root link's */
+    const char *link;         /**< the link that holds it; NULL: it stands in the world */
 } ovoid_obstacle;
 
 /**
- * Reads a scene: MoveIt's planning scene (.yaml, .yml; world: collision_objects: with primitives box, sphere, cylinder
- * and cone, and meshes) or ovoid's own (.json: ovoid_scene_read). Meshes count as their hulls, or with options->solids
- * as scenes have it; a scene that asks for a solid is refused without. Equal primitives share a shape. options:
- * tolerance, shape, solids, note. Errors as those of ovoid_robot_file_read; planes and other types are refused.
+ * Reads a scene: MoveIt's planning scene (.yaml, .yml) or ovoid's own (.json: ovoid_scene_read). Meshes count as their
+ * hulls, or with options->solids as scenes have it; a scene that asks for a solid is refused without. Equal primitives
+ * share a shape. docs/robot.md says what each key of a planning scene means, and which mean nothing; any other key, and
+ * what cannot be obeyed (octomaps, planes, scaled links), is refused with its line. options: tolerance, shape, solids,
+ * note. Errors as those of ovoid_robot_file_read.
  */
 OVOID_API ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_options *options,
                                                 ovoid_error *error);
@@ -183,6 +186,24 @@ OVOID_API void ovoid_obstacles_destroy(ovoid_obstacles *obstacles);
 OVOID_API size_t ovoid_obstacles_get_count(const ovoid_obstacles *obstacles);
 /** Obstacle i < count, in the order of the file. */
 OVOID_API ovoid_obstacle ovoid_obstacles_get(const ovoid_obstacles *obstacles, size_t i);
+
+/** Where an obstacle came to be in a cell. */
+typedef struct ovoid_placed_obstacle {
+    ovoid_id id;
+    uint32_t link;   /**< that holds it; OVOID_ROBOT_NONE: it stands in the world */
+    ovoid_pose pose; /**< in that link's frame, or in the root link's */
+} ovoid_placed_obstacle;
+
+/**
+ * Puts a scene around a robot: adds its obstacles to the cell, attaches to links what these hold, pads links, and
+ * allows the collisions that the scene allows. Where an obstacle's frame is a link, it stands where that link is in the
+ * scene's robot_state, as MoveIt has it, and stays there. A scene with an allowed_collision_matrix replaces what the
+ * SRDF disables; without, that holds. The obstacles are borrowed. placed: room for their count, or NULL. Errors, with
+ * the line of the scene: FORMAT (a frame or a link that there is not; an entry of the matrix that cannot be told apart
+ * from another), those of ovoid_robot_cell_add and ovoid_robot_cell_attach; then the cell has none of the obstacles.
+ */
+OVOID_API ovoid_code ovoid_robot_cell_add_obstacles(ovoid_robot_cell *cell, const ovoid_obstacles *obstacles,
+                                                    ovoid_placed_obstacle *placed, ovoid_error *error);
 
 /* ---- planning problems ---- */
 
@@ -195,7 +216,11 @@ typedef struct ovoid_joint_position {
 /** A motion planning request of MoveIt: a start, and goals of which one is to be reached. Owned by the caller. */
 typedef struct ovoid_motion_request ovoid_motion_request;
 
-/** Reads a request (YAML): start_state: joint_state, goal_constraints: joint_constraints, group_name. */
+/**
+ * Reads a request (YAML): start_state: joint_state, goal_constraints: joint_constraints, group_name. Keys that tell a
+ * planner how to search mean nothing here; any other key is refused with its line, as are goals that are not given by
+ * joints, and a base that is not where its frame is.
+ */
 OVOID_API ovoid_motion_request *ovoid_motion_request_read(const char *path, const ovoid_robot_read_options *options,
                                                           ovoid_error *error);
 /** Frees it; NULL is allowed. */

@@ -66,7 +66,8 @@ typedef struct ovoid_robot_path_options {
 /** The answer to a path. */
 typedef struct ovoid_robot_path_answer {
     ovoid_robot_status status; /**< UNDECIDED: the pair of `hit` stays so near the margin that doubles cannot tell, or
-                                    options.states are used up; REFUSED: see hit.code, hit.variable and `refused` */
+                                    options.states are used up, or (hit.code EMPTY) no pair is queried; REFUSED: see
+                                  hit.code, hit.variable and `refused` */
     double free_until;         /**< proven: free at all s before it */
     double hit_at;             /**< HIT: the state there is within the margin, proven; else infinity */
     size_t refused;            /**< REFUSED: the state that is refused, or at whose beginning a segment is */
@@ -108,14 +109,15 @@ typedef struct ovoid_robot_clearance_options {
 
 /** The smallest clearance of a path: the least signed distance of any queried pair at any real s. */
 typedef struct ovoid_robot_clearance {
-    ovoid_robot_status status; /**< FREE: lower is above the margin; HIT: upper is not; UNDECIDED; REFUSED */
+    ovoid_robot_status status; /**< FREE: lower is above the margin; HIT: upper is not; UNDECIDED, with the code EMPTY
+                                    where no pair is queried; REFUSED */
     double lower, upper;       /**< the least distance is proven to be in here, padding counted; both infinite where no
                                     pair is queried. Wider than the tolerance where options.states were used up, or an
                                     allowance is wider */
     double at;                 /**< s where a pair is no farther apart than `upper` */
     ovoid_robot_side a, b;     /**< that pair; of a finite upper */
     size_t refused;            /**< REFUSED: the state, or that at whose beginning a segment is */
-    ovoid_code code;           /**< REFUSED: why */
+    ovoid_code code;           /**< REFUSED, and UNDECIDED of no pair: why */
     uint32_t variable;         /**< REFUSED: which */
     uint32_t states;           /**< looked at */
 } ovoid_robot_clearance;

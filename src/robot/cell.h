@@ -78,6 +78,7 @@ struct ovoid_robot_cell {
     uint64_t version;          ///< changes with everything that checkers keep memory for
     uint64_t moved;            ///< changes where an obstacle moves
     uint32_t used;             ///< all slots before this one are used
+    int ignores_disabled;      ///< 1: what the description disables is queried: a scene says what is allowed
     int is_whole;              ///< 0: memory ended while the arrays were made; nothing is said of a state
     cell_array bodies;         ///< cell_body
     cell_array allowed_links;  ///< keys of two links, sorted
@@ -124,5 +125,8 @@ static inline int cell_is_allowed(const ovoid_robot_cell *c, const ovoid_robot_s
     return c->allowed_bodies.count &&
            keys_are_holding(&c->allowed_bodies, cell_make_key((uint32_t)(obstacle->body >> 32), item->link));
 }
+
+/// 1 if there is a pair to ask about.
+int cell_has_pairs(const ovoid_robot_cell *c, const ovoid_robot_check_options *options);
 
 #endif

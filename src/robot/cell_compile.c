@@ -297,7 +297,8 @@ static int is_disabled(const ovoid_robot *r, uint32_t a, uint32_t b) {
 static int are_links_queried(const ovoid_robot_cell *c, uint32_t a, uint32_t b) {
     uint32_t low = a < b ? a : b, high = a < b ? b : a;
     if (c->rigid[a] == c->rigid[b]) return 0;
-    return !is_disabled(c->robot, low, high) && !keys_are_holding(&c->allowed_links, cell_make_key(low, high));
+    if (!c->ignores_disabled && is_disabled(c->robot, low, high)) return 0;
+    return !keys_are_holding(&c->allowed_links, cell_make_key(low, high));
 }
 
 static int is_attached_allowed(const ovoid_robot_cell *c, const ovoid_robot_side *attached, uint32_t link) {
@@ -338,6 +339,15 @@ static ovoid_code find_pairs(compiler *x) {
         for (uint32_t b = a + 1; code == OVOID_OK && x->has_memory && b < x->cell->groups.count; b++)
             code = find_group_pairs(x, a, b);
     return code;
+}
+
+int cell_has_pairs(const ovoid_robot_cell *c, const ovoid_robot_check_options *options) {
+    if (!options->without_self && c->pairs.count) return 1;
+    // The first of them is one, but where obstacles are allowed.
+    for (size_t i = 0; !options->without_obstacles && i < c->groups.count; i++)
+        for (size_t k = 0; k < c->parts.count; k++)
+            if (!cell_is_allowed(c, &cell_items(c)[cell_groups(c)[i].first].side, &cell_parts(c)[k].side)) return 1;
+    return 0;
 }
 
 ovoid_code cell_compile(ovoid_robot_cell *c, ovoid_error *error) {

@@ -98,6 +98,15 @@ static void find_leads(ovoid_robot *r) {
     }
 }
 
+static void find_followers(ovoid_robot *r) {
+    r->follower_count = 0;
+    for (uint32_t i = 0; i < r->joint_count; i++) {
+        const ovoid_robot_joint *j = &r->joints[i];
+        int is_limited = j->type == OVOID_JOINT_REVOLUTE || j->type == OVOID_JOINT_PRISMATIC;
+        if (j->mimic != OVOID_ROBOT_NONE && is_limited) r->followers[r->follower_count++] = i;
+    }
+}
+
 static void find_magnitude(ovoid_robot *r) {
     r->magnitude = 0;
     for (uint32_t i = 0; i < r->joint_count; i++) {
@@ -144,6 +153,7 @@ void chain_compile(ovoid_robot *r) {
         r->value_count += ovoid_joint_type_get_variable_count(r->joints[i].type);
     }
     find_leads(r);
+    find_followers(r);
     for (uint32_t i = 0; i < r->joint_count; i++) set_sources(r, i);
     find_magnitude(r);
     for (uint32_t i = 0; i < r->joint_count; i++) {

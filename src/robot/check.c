@@ -99,6 +99,10 @@ static void refuse(ovoid_robot_answer *answer, ovoid_code code, uint32_t variabl
 // The answer to the state that is placed.
 static void decide(ovoid_robot_checker *x, const ovoid_robot_check_options *options, ovoid_robot_answer *answer) {
     *answer = (ovoid_robot_answer){.status = OVOID_ROBOT_FREE, .lower = options->margin, .upper = INFINITY};
+    if (!cell_has_pairs(x->cell, options)) {
+        *answer = answer_make_empty();
+        return;
+    }
     state_check s;
     s.checker = x, s.margin = options->margin, s.answer = answer;
     s.asked = (pair_name){OVOID_ROBOT_NONE, OVOID_ROBOT_NONE};

@@ -96,6 +96,12 @@ static inline size_t checker_count_pairs(const ovoid_robot_checker *x) {
 /// Makes the checker's memory fit its cell; all is forgotten where that has changed.
 ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error);
 
+/// The answer where there is no pair to ask about.
+static inline ovoid_robot_answer answer_make_empty(void) {
+    const ovoid_robot_side none = {OVOID_ROBOT_NONE, OVOID_ROBOT_NONE, 0, 0};
+    return (ovoid_robot_answer){.code = OVOID_ERROR_EMPTY, .a = none, .b = none, .lower = -INFINITY, .upper = INFINITY};
+}
+
 /// Whether the options are ones.
 ovoid_code check_options_check(const ovoid_robot_check_options *options, ovoid_error *error);
 

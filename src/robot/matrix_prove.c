@@ -35,6 +35,7 @@ typedef struct prover {
     unsigned char *has_proof;
     double *q0, *q1; ///< the cell
     const group_pair *of;
+    int is_state;    ///< 1: the middle is one, also for joints that follow others
     uint32_t widest; ///< the pair of items by whose motion an open cell is divided
     division divisions[DEPTH];
 } prover;
@@ -72,7 +73,7 @@ static cell_verdict look_for_free(prover *p) {
         if (sides_have_solid(&at.solids) && !(is.lower > margin))
             is = solid_pair_within(&at.pair, &at.solids, margin, &is, at.error);
         if (is.lower > margin) continue;
-        if (!(is.lower > at.error) && is_hit(p, i, &at)) return CELL_REFUTED;
+        if (p->is_state && !(is.lower > at.error) && is_hit(p, i, &at)) return CELL_REFUTED;
         if (verdict == CELL_PROVEN) p->widest = i;
         verdict = CELL_OPEN;
     }
@@ -95,13 +96,15 @@ static cell_verdict look_for_contact(prover *p) {
         is_free &= is.lower > at.error;
         if (is.upper < deepest) deepest = is.upper, p->widest = i;
     }
-    return is_free ? CELL_REFUTED : CELL_OPEN;
+    return is_free && p->is_state ? CELL_REFUTED : CELL_OPEN;
 }
 
 static cell_verdict look(prover *p, int wants_contact) {
     // A refused corner, as of a mimic beyond all lengths: nothing is proven of this cell, nor of its parts.
     if (path_set_segment(&p->w, p->q0, p->q1, INFINITY, NULL) != OVOID_OK) return CELL_OPEN;
     path_compute_state(&p->w, p->q0, p->q1, 0.5, &p->at);
+    p->is_state = state_is_within_limits(p->work->cell->robot, p->w.state, 0);
+    p->widest = p->of->first;
     const cell_group *a = &cell_groups(p->work->cell)[p->of->a], *b = &cell_groups(p->work->cell)[p->of->b];
     for (uint32_t i = a->first; i < a->end; i++) path_set_item(&p->w, &p->at, i, 0.5);
     for (uint32_t i = b->first; i < b->end; i++) path_set_item(&p->w, &p->at, i, 0.5);

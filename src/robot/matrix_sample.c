@@ -117,10 +117,10 @@ static void look_at_all(sampler *s) {
         lane_state states[ROBOT8];
         size_t count = samples - i < ROBOT8 ? samples - i : ROBOT8;
         for (size_t k = 0; k < count; k++) draw_state(s, s->q + k * variables);
-        checker_place_lanes(s->checker, s->q, count, INFINITY, states);
+        checker_place_lanes(s->checker, s->q, count, 0, states);
         checker_filter_lanes(s->checker, &links_alone);
         for (uint32_t k = 0; k < count && s->code == OVOID_OK; k++) {
-            if (states[k].code != OVOID_OK) continue; // a mimic that goes beyond all lengths
+            if (states[k].code != OVOID_OK) continue; // a follower is outside its limits, or beyond all lengths
             checker_take_lane(s->checker, k, &states[k]);
             s->now = s->q + k * variables;
             look_at_state(s);

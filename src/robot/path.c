@@ -466,9 +466,14 @@ static void run(path_search *s, const ovoid_robot_path *path) {
     ovoid_error refused;
     size_t segments = path->count > 1 ? path->count - 1 : 1;
     s->answer->status = OVOID_ROBOT_FREE;
-    if (s->options->any_hit && find_any_hit(s, path, segments)) return;
+    int has_pairs = cell_has_pairs(s->w->cell, &s->options->check);
+    if (s->options->any_hit && has_pairs && find_any_hit(s, path, segments)) return;
     for (size_t i = 0; i < segments; i++)
         if (!run_segment(s, i, path, &refused)) return;
+    if (has_pairs) return;
+    s->answer->status = OVOID_ROBOT_UNDECIDED;
+    s->answer->free_until = 0;
+    s->answer->hit = answer_make_empty();
 }
 
 static ovoid_code check_path(ovoid_robot_checker *x, const ovoid_robot_path *path,

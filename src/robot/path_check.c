@@ -202,6 +202,8 @@ static ovoid_code check(path_checker *x, const ovoid_robot_path_answer *answer, 
     if (!(answer->free_until >= 0 && answer->free_until <= last) ||
         (answer->status == OVOID_ROBOT_FREE && answer->free_until < last))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the free part is not of the path");
+    if (answer->status != OVOID_ROBOT_UNDECIDED && !cell_has_pairs(x->w.cell, &x->options->check))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "no pair is queried: nothing is free or hit");
     // A path of one state is a segment in which nothing moves.
     double until = x->path->count == 1 && answer->status == OVOID_ROBOT_FREE ? 1 : answer->free_until;
     ovoid_code code = check_steps(x, steps, answer->step_count, until, error);

@@ -279,6 +279,9 @@ static void run(clearance_search *s, const ovoid_robot_path *path) {
     out->status = out->lower > s->options->margin    ? OVOID_ROBOT_FREE
                   : out->upper <= s->options->margin ? OVOID_ROBOT_HIT
                                                      : OVOID_ROBOT_UNDECIDED;
+    if (cell_has_pairs(s->checker->cell, s->options)) return;
+    out->status = OVOID_ROBOT_UNDECIDED;
+    out->code = OVOID_ERROR_EMPTY;
 }
 
 static double find_tolerance(const ovoid_robot_cell *c, double given) {

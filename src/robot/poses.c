@@ -163,8 +163,20 @@ ovoid_code ovoid_robot_compute_poses_batch(const ovoid_robot *robot, const doubl
 
 // ---- limits
 
+// Where a joint that follows another one is, outside its own limits by more than slack and what rounding may do: 1.
+static int is_follower_outside(const ovoid_robot *r, uint32_t joint, const double *q, double slack, double *value) {
+    const joint_lead *lead = &r->leads[joint];
+    double leader = q[r->joint_variable[joint]];
+    *value = lead->factor * leader + lead->offset;
+    slack += (lead->error + 2 * ROUNDING) * (lead->spread * fabs(leader) + lead->offset_spread);
+    return !(*value >= r->joints[joint].lower - slack && *value <= r->joints[joint].upper + slack);
+}
+
 int state_is_within_limits(const ovoid_robot *r, const double *q, double slack) {
     int is_within = 1;
+    double value;
+    for (uint32_t i = 0; i < r->follower_count; i++)
+        is_within &= !is_follower_outside(r, r->followers[i], q, slack, &value);
     for (uint32_t i = 0; i < r->variable_count; i++)
         is_within &= (q[i] >= r->variables[i].lower - slack) & (q[i] <= r->variables[i].upper + slack);
     return is_within;
@@ -178,6 +190,15 @@ static ovoid_code check_limits(const ovoid_robot *r, const double *q, double sla
         return error_set(error, OVOID_ERROR_RANGE, (int64_t)i,
                          "variable %u, of joint \"%.80s\", is %.9g, outside its limits %.9g to %.9g", i,
                          r->joints[v->joint].name, q[i], v->lower, v->upper);
+    }
+    for (uint32_t i = 0; i < r->follower_count; i++) {
+        const ovoid_robot_joint *j = &r->joints[r->followers[i]];
+        uint32_t variable = r->joint_variable[r->followers[i]];
+        double value;
+        if (is_follower_outside(r, r->followers[i], q, slack, &value))
+            return error_set(error, OVOID_ERROR_RANGE, (int64_t)variable,
+                             "joint \"%.60s\", which follows \"%.60s\", is %.9g, outside its limits %.9g to %.9g",
+                             j->name, r->joints[j->mimic].name, value, j->lower, j->upper);
     }
     return OVOID_OK;
 }

@@ -18,13 +18,13 @@ static size_t advance(size_t *at, size_t count, size_t size) {
 // Where the arrays are in the block.
 typedef struct layout {
     size_t links, joints, elements, disabled, link_names, joint_names, parent_joint, order, joint_variable, variables,
-        leads, steps, step_of, value_first, sources, element_inside, free_values, text, size;
+        leads, steps, step_of, value_first, sources, element_inside, free_values, followers, text, size;
 } layout;
 
 static size_t text_size(const char *text) { return text ? strlen(text) + 1 : 0; }
 
 static size_t compute_text_size(const ovoid_robot_description *d) {
-    size_t size = text_size(d->name);
+    size_t size = text_size(d->name) + text_size(d->frame);
     for (size_t i = 0; i < d->link_count; i++) size += text_size(d->links[i].name);
     for (size_t i = 0; i < d->joint_count; i++) size += text_size(d->joints[i].name);
     for (size_t i = 0; i < d->element_count; i++) size += text_size(d->elements[i].name);
@@ -64,6 +64,7 @@ static layout make_layout(const ovoid_robot_description *d) {
     l.step_of = advance(&l.size, d->joint_count, sizeof(uint32_t));
     l.value_first = advance(&l.size, d->joint_count, sizeof(uint32_t));
     l.sources = advance(&l.size, count_values(d), sizeof(value_source));
+    l.followers = advance(&l.size, d->joint_count, sizeof(uint32_t));
     l.free_values = advance(&l.size, d->joint_count, sizeof(uint32_t));
     l.element_inside = advance(&l.size, d->element_count, sizeof(uint32_t));
     l.text = advance(&l.size, compute_text_size(d), 1);
@@ -81,6 +82,7 @@ static const char *copy_text(char **at, const char *text) {
 
 static void copy_texts(ovoid_robot *r, char *at) {
     r->of.name = copy_text(&at, r->of.name);
+    r->of.frame = copy_text(&at, r->of.frame);
     for (uint32_t i = 0; i < r->link_count; i++) r->links[i].name = copy_text(&at, r->links[i].name);
     for (uint32_t i = 0; i < r->joint_count; i++) r->joints[i].name = copy_text(&at, r->joints[i].name);
     for (uint32_t i = 0; i < r->element_count; i++) r->elements[i].name = copy_text(&at, r->elements[i].name);
@@ -141,6 +143,7 @@ static ovoid_robot *create_copy(const ovoid_robot_description *d, const ovoid_al
     r->step_of = (void *)(block + l.step_of);
     r->value_first = (void *)(block + l.value_first);
     r->free_values = (void *)(block + l.free_values);
+    r->followers = (void *)(block + l.followers);
     r->sources = (void *)(block + l.sources);
     r->element_inside = (void *)(block + l.element_inside);
     copy_items(r->links, d->links, d->link_count, sizeof *r->links);

@@ -45,6 +45,8 @@ struct ovoid_robot {
     uint32_t *step_of;     ///< of each joint: its place in `order`
     uint32_t *value_first; ///< of each joint: where its values begin
     value_source *sources; ///< of each value
+    uint32_t *followers;   ///< the joints that follow others and have limits of their own
+    uint32_t follower_count;
     uint32_t *free_values; ///< of each floating joint: where its quaternion begins among the values
     uint32_t free_count;   ///< floating joints
     uint32_t value_count;

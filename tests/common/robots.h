@@ -58,6 +58,8 @@ static inline void make_random_robot(uint64_t *s, random_robot *r) {
         uint32_t leader = random_below(s, i + 1);
         if (leader == i || !has_one_variable(j) || !has_one_variable(&r->joints[leader])) continue;
         j->mimic = leader;
+        // Any state of the leader is one of the follower.
+        j->lower = -1e9, j->upper = 1e9;
         j->multiplier = random_below(s, 3) ? random_uniform(s, -2, 2) : -1;
         j->offset = random_below(s, 2) ? random_uniform(s, -1, 1) : 0;
     }

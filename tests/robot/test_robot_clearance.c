@@ -155,7 +155,8 @@ static void test_hinge(void) {
     CHECK_EQ(ovoid_robot_cell_remove(cell, id, &error), OVOID_OK);
     path = (ovoid_robot_path){q, 1};
     CHECK_EQ(ovoid_robot_compute_clearance(x, &path, NULL, &is, &error), OVOID_OK);
-    CHECK(is.lower == INFINITY && is.upper == INFINITY && is.status == OVOID_ROBOT_FREE);
+    CHECK(is.lower == INFINITY && is.upper == INFINITY && is.status == OVOID_ROBOT_UNDECIDED);
+    CHECK_EQ(is.code, OVOID_ERROR_EMPTY);
     ovoid_robot_checker_destroy(x);
     ovoid_robot_cell_destroy(cell);
     ovoid_robot_destroy(r);

@@ -33,7 +33,7 @@ static void open_stage(stage *s, double radius) {
                                .multiplier = 1};
     *s = (stage){.box = ovoid_shape_create_box((ovoid_vec3){0.1, 0.1, 0.1}, NULL, &error)};
     ovoid_robot_element elements[2] = {{0, NULL, s->box, home, NULL}, {1, NULL, s->box, home, NULL}};
-    ovoid_robot_description d = {NULL, links, 2, &slide, 1, elements, 2, NULL, 0};
+    ovoid_robot_description d = {NULL, links, 2, &slide, 1, elements, 2, NULL, 0, NULL};
     s->robots[0] = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_link_sphere balls[2] = {{0, {{0, 0, 0}, 0.1}}, {1, {{0, 0, 0}, radius}}};
     s->robots[1] = ovoid_robot_create_from_spheres(s->robots[0], balls, 2, NULL, &error);
@@ -154,7 +154,7 @@ static void test_limits(void) {
     open_stage(&s, 0.05);
     ovoid_robot_joint slide = ovoid_robot_get_description(s.robots[0]).joints[0];
     slide.upper = 1;
-    ovoid_robot_description d = {NULL, links, 2, &slide, 1, NULL, 0, NULL, 0};
+    ovoid_robot_description d = {NULL, links, 2, &slide, 1, NULL, 0, NULL, 0, NULL};
     ovoid_robot *narrow = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_cell *cell = ovoid_robot_cell_create(narrow, NULL, &error);
     ovoid_robot_checker *checker = ovoid_robot_checker_create(cell, NULL, &error);

@@ -290,7 +290,8 @@ static void test_random(uint64_t seed) {
     }
     for (int i = 0; i < 60; i++) {
         make_state(&s, c.r, q);
-        check_state(&c, q);
+        // Joints that follow others have limits of their own.
+        if (ovoid_robot_check_limits(c.r, q, 0, NULL) == OVOID_OK) check_state(&c, q);
     }
     destroy_scene(&c);
 }

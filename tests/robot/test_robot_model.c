@@ -46,7 +46,7 @@ static void make_arm(arm *a) {
     a->disabled[0] = (ovoid_robot_pair){3, 0, "near"};
     a->disabled[1] = (ovoid_robot_pair){0, 3, NULL};
     a->disabled[2] = (ovoid_robot_pair){2, 0, "near"};
-    a->d = (ovoid_robot_description){"arm", a->links, 5, a->joints, 4, a->elements, 2, a->disabled, 3};
+    a->d = (ovoid_robot_description){"arm", a->links, 5, a->joints, 4, a->elements, 2, a->disabled, 3, NULL};
 }
 
 static void test_tree(void) {

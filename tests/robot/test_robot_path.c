@@ -301,7 +301,7 @@ static void test_refusals(void) {
     o = (ovoid_robot_path_options){.check = {.margin = -1}};
     CHECK_EQ(ovoid_robot_check_path(x, &path, &o, &is, &error), OVOID_ERROR_ARGUMENT);
     CHECK_EQ(ovoid_robot_check_path(x, &path, NULL, &is, &error), OVOID_OK);
-    CHECK(is.status == OVOID_ROBOT_FREE && is.step_count == 0);
+    CHECK(is.status == OVOID_ROBOT_UNDECIDED && is.hit.code == OVOID_ERROR_EMPTY && is.step_count == 0);
     ovoid_robot_side a, b;
     CHECK_EQ(ovoid_robot_cell_get_pair_count(cell), 0);
     CHECK_EQ(ovoid_robot_cell_get_pair(cell, 0, &a, &b, &error), OVOID_ERROR_INDEX);

@@ -373,7 +373,7 @@ static void test_refused(void) {
                                0,   OVOID_ROBOT_NONE,  1, 0};
     ovoid_robot_element e = {0, NULL, ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error),
                              ovoid_pose_make_identity(), NULL};
-    ovoid_robot_description d = {NULL, links, 2, &joint, 1, &e, 1, NULL, 0};
+    ovoid_robot_description d = {NULL, links, 2, &joint, 1, &e, 1, NULL, 0, NULL};
     ovoid_robot *r = ovoid_robot_create(&d, &(ovoid_robot_options){.takes_shapes = 1}, &error);
     CHECK(r != NULL);
     REFUSED(s[1].center.y = NAN, OVOID_ERROR_NOT_FINITE, 1, "sphere 1");

@@ -53,6 +53,32 @@ static void test_groups(void) {
     ovoid_robot_file_destroy(file);
 }
 
+static int has_pair(const ovoid_robot_file *file, uint32_t a, uint32_t b) {
+    ovoid_robot_description d = ovoid_robot_file_get_description(file);
+    int found = 0;
+    for (size_t i = 0; i < d.disabled_count; i++) found += d.disabled[i].a == a && d.disabled[i].b == b;
+    return found;
+}
+
+// As MoveIt 2 has it: all pairs of a, less those that are enabled, and those that are named, which count last.
+static void test_defaults(void) {
+    ovoid_robot_read_options options = make_read_options();
+    ovoid_robot_file *file = read_both(urdf,
+                                       SRDF("<disable_default_collisions link=\"a\"/>"
+                                            "<enable_collisions link1=\"c\" link2=\"a\"/>"
+                                            "<enable_collisions link1=\"a\" link2=\"d\"/>"
+                                            "<disable_collisions link1=\"a\" link2=\"d\" reason=\"User\"/>"
+                                            "<disable_collisions link1=\"b\" link2=\"c\" reason=\"Adjacent\"/>"
+                                            "<disable_default_collisions link=\"other\"/>"),
+                                       &options, NULL);
+    if (!CHECK(file)) return;
+    CHECK_EQ(ovoid_robot_file_get_description(file).disabled_count, 4);
+    CHECK(has_pair(file, BASE, A) == 1 && has_pair(file, A, B) == 1 && has_pair(file, A, C) == 0);
+    CHECK(has_pair(file, A, D) == 1 && has_pair(file, B, C) == 1);
+    CHECK(notes.count == 1 && has_note("other"));
+    ovoid_robot_file_destroy(file);
+}
+
 static void test_pairs(void) {
     ovoid_robot_read_options options = make_read_options();
     ovoid_robot_file *file = read_both(
@@ -210,6 +236,7 @@ static void test_nests(void) {
 int main(void) {
     test_groups();
     test_pairs();
+    test_defaults();
     test_base();
     test_fixed_base();
     test_passed_over();

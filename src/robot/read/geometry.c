@@ -2,6 +2,7 @@
 // before any shape is made, so that those that are absent are told at once. Cost: n log n, plus the shapes.
 #include "robot/read/geometry.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,6 +119,24 @@ static ovoid_code read_link(robot_reader *r, const xml_element *link, uint32_t i
     return code;
 }
 
+// What has only visual geometry is not compared with anything: the caller is told of which links that is so.
+static void tell_visual(const robot_reader *r, const xml_element *const *links) {
+    char names[160] = "";
+    size_t count = 0, used = 0;
+    const xml_element *first = NULL;
+    for (size_t i = 0; i < r->file->description.link_count && !r->options->visual; i++) {
+        if (!xml_find(links[i], "visual") || xml_find(links[i], "collision")) continue;
+        if (!count++) first = links[i];
+        const char *name = r->file->description.links[i].name;
+        size_t length = strlen(name);
+        if (used + length + 8 > sizeof names) continue;
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", name);
+    }
+    if (count)
+        robot_note(r, first, "%zu link%s only <visual> geometry, which is not compared: %s%s", count,
+                   count == 1 ? " has" : "s have", names, count > 1 && used + 8 > sizeof names ? ", ..." : "");
+}
+
 static ovoid_code read_all(robot_reader *r, const xml_element *const *links, geometry_list *list) {
     size_t most = 0, link_count = r->file->description.link_count;
     for (size_t i = 0; i < link_count; i++)
@@ -127,6 +146,7 @@ static ovoid_code read_all(robot_reader *r, const xml_element *const *links, geo
     if (!list->items || !list->order) return robot_fail_memory(r);
     ovoid_code code = OVOID_OK;
     for (uint32_t i = 0; i < link_count && !code; i++) code = read_link(r, links[i], i, list);
+    if (!code) tell_visual(r, links);
     return code;
 }
 

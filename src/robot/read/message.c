@@ -91,7 +91,8 @@ ovoid_code message_read_pose(const message_reader *r, const yaml_value *value, o
     double p[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1};
     *pose = ovoid_pose_make_identity();
     if (!value) return OVOID_OK;
-    ovoid_code code = message_find(r, value, "position", &position);
+    ovoid_code code = message_refuse_others(r, value, "position|orientation");
+    if (!code) code = message_find(r, value, "position", &position);
     if (!code) code = message_find(r, value, "orientation", &orientation);
     if (!code && position) code = message_read_numbers(r, position, keys, 3, p);
     if (!code && orientation) code = message_read_numbers(r, orientation, keys, 4, q);
@@ -102,12 +103,55 @@ ovoid_code message_read_pose(const message_reader *r, const yaml_value *value, o
     return code ? message_fail(r, value, code, "the pose has a number above %g", OVOID_LENGTH_MAX) : OVOID_OK;
 }
 
-void message_note_others(const message_reader *r, const yaml_value *map, const char *known) {
-    for (const yaml_value *v = map->first; v && map->kind == YAML_MAP; v = v->next) {
-        const char *at = known;
-        size_t length = strlen(v->key);
-        while (at && !(strncmp(at, v->key, length) == 0 && (!at[length] || at[length] == '|')))
-            at = (at = strchr(at, '|')) ? at + 1 : NULL;
-        if (!at) message_note(r, v, "\"%.60s\" is not read", v->key);
-    }
+// 1: one of "one|two" is the key.
+static int is_known(const char *key, const char *known) {
+    size_t length = strlen(key);
+    for (const char *at = known; at; at = (at = strchr(at, '|')) ? at + 1 : NULL)
+        if (strncmp(at, key, length) == 0 && (!at[length] || at[length] == '|')) return 1;
+    return 0;
+}
+
+ovoid_code message_refuse_others(const message_reader *r, const yaml_value *map, const char *known) {
+    if (map->kind != YAML_MAP) return OVOID_OK;
+    for (const yaml_value *v = map->first; v; v = v->next)
+        if (!is_known(v->key, known))
+            return message_fail(r, v, OVOID_ERROR_FORMAT,
+                                "\"%.60s\" is no key that is read here; take it out if nothing depends on it", v->key);
+    return OVOID_OK;
+}
+
+ovoid_code message_refuse_filled(const message_reader *r, const yaml_value *map, const char *key, const char *why) {
+    const yaml_value *v;
+    ovoid_code code = message_find(r, map, key, &v);
+    if (code || !v || (v->kind != YAML_TEXT && v->count == 0)) return code;
+    return message_fail(r, v, OVOID_ERROR_FORMAT, "\"%s\" %s", key, why);
+}
+
+ovoid_code message_read_frame(const message_reader *r, const yaml_value *header, const char **frame) {
+    ovoid_code code = message_refuse_others(r, header, "frame_id|stamp|seq");
+    if (!code) code = message_read_text(r, header, "frame_id", frame);
+    // ROS 1 wrote names with a slash before them.
+    if (!code && (*frame)[0] == '/') ++*frame;
+    return code;
+}
+
+ovoid_code message_read_transform(const message_reader *r, const yaml_value *value, double values[7]) {
+    static const char *const keys[] = {"x", "y", "z", "w"};
+    const yaml_value *translation, *rotation;
+    double q[4] = {0, 0, 0, 1};
+    ovoid_code code = message_refuse_others(r, value, "translation|rotation");
+    if (!code) code = message_find(r, value, "translation", &translation);
+    if (!code) code = message_find(r, value, "rotation", &rotation);
+    if (code) return code;
+    values[0] = values[1] = values[2] = 0;
+    if (translation) code = message_read_numbers(r, translation, keys, 3, values);
+    if (!code && rotation) code = message_read_numbers(r, rotation, keys, 4, q);
+    if (!code && q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
+        code = message_fail(r, rotation, OVOID_ERROR_ROTATION, "a rotation is a quaternion of four zeros");
+    values[3] = q[3], values[4] = q[0], values[5] = q[1], values[6] = q[2];
+    return code;
+}
+
+int transform_is_identity(const double v[7]) {
+    return v[0] == 0 && v[1] == 0 && v[2] == 0 && v[4] == 0 && v[5] == 0 && v[6] == 0;
 }

@@ -11,7 +11,6 @@ typedef struct message_reader {
     const ovoid_robot_read_options *options;
     ovoid_error *error;
     const char *object; ///< the name of the object at hand; NULL: none
-    const char *frame;  ///< that of the objects so far; NULL: there were none
     pool *memory;       ///< of what is kept
     pool scratch;       ///< of the tree
 } message_reader;
@@ -39,7 +38,15 @@ ovoid_code message_read_numbers(const message_reader *r, const yaml_value *value
                                 double *numbers);
 /// {position, orientation}: lists or maps, the quaternion x y z w; NULL: no displacement.
 ovoid_code message_read_pose(const message_reader *r, const yaml_value *value, ovoid_pose *pose);
-/// A note for each key of a map that is not among "one|two".
-void message_note_others(const message_reader *r, const yaml_value *map, const char *known);
+/// {translation, rotation} as x, y, z and the quaternion w, x, y, z.
+ovoid_code message_read_transform(const message_reader *r, const yaml_value *value, double values[7]);
+/// 1: such a transform moves nothing.
+int transform_is_identity(const double values[7]);
+/// Refuses the first key of a map that is not among "one|two"; what is no map has none.
+ovoid_code message_refuse_others(const message_reader *r, const yaml_value *map, const char *known);
+/// Refuses a key whose value is not empty, with the reason.
+ovoid_code message_refuse_filled(const message_reader *r, const yaml_value *map, const char *key, const char *why);
+/// The frame_id of a header, kept, without a slash before it; "" where there is none.
+ovoid_code message_read_frame(const message_reader *r, const yaml_value *header, const char **frame);
 
 #endif

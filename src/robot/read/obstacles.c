@@ -1,35 +1,11 @@
-// Obstacles from a scene: MoveIt's planning scene in YAML (moveit_msgs/PlanningScene, of which world: collision_objects
-// is read), or ovoid's own scenes. An object is its parts, each convex or a solid; where an object and its parts have
-// poses, the pose of a part is their product by definition. Cost: n log n, plus the shapes.
-#include "robot/read/message.h"
-#include "robot/read/primitive.h"
+// Obstacles from a scene: MoveIt's planning scene in YAML (moveit_msgs/PlanningScene), or ovoid's own scenes. An object
+// is its parts, each convex or a solid; where an object and its parts have poses, the pose of a part is their product
+// by definition. scene_state.c reads what a planning scene says beside them. Cost: n log n, plus the shapes.
+#include "robot/read/obstacles.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/// An obstacle that is being made.
-typedef struct obstacle_entry {
-    const char *name;
-    ovoid_pose pose;
-    primitive what;
-    ovoid_shape *made; ///< of a mesh: its own; NULL: of the primitive
-    const ovoid_shape *shape;
-    const ovoid_solid *solid; ///< of which the shape is the hull; NULL: none
-    const yaml_value *at;
-    size_t index;
-} obstacle_entry;
-
-struct ovoid_obstacles {
-    pool memory;
-    ovoid_scene *scene; ///< whose shapes these are; NULL: the shapes are ours
-    obstacle_entry *entries;
-    size_t count, capacity;
-    ovoid_shape **shapes;
-    size_t shape_count, shape_capacity;
-    ovoid_solid **solids; ///< of planning scenes
-    size_t solid_count, solid_capacity;
-};
 
 static const ovoid_robot_read_options no_options;
 
@@ -70,7 +46,8 @@ static int find_type(const char *word) {
 static ovoid_code read_primitive(const message_reader *r, const yaml_value *value, primitive *out) {
     static const char *const keys[] = {"x", "y", "z"};
     const yaml_value *type, *sizes;
-    ovoid_code code = message_find_kind(r, value, "type", YAML_TEXT, &type);
+    ovoid_code code = message_refuse_others(r, value, "type|dimensions|polygon");
+    if (!code) code = message_find_kind(r, value, "type", YAML_TEXT, &type);
     if (!code) code = message_find_kind(r, value, "dimensions", YAML_LIST, &sizes);
     if (code) return code;
     if (!type || !sizes) return message_fail(r, value, OVOID_ERROR_FORMAT, "a primitive needs type and dimensions");
@@ -189,7 +166,8 @@ static ovoid_code read_mesh(message_reader *r, ovoid_obstacles *o, const yaml_va
     const yaml_value *vertices, *triangles;
     mesh_numbers m = {NULL, NULL, 0, 0};
     ovoid_error why;
-    ovoid_code code = message_find_kind(r, value, "vertices", YAML_LIST, &vertices);
+    ovoid_code code = message_refuse_others(r, value, "vertices|triangles");
+    if (!code) code = message_find_kind(r, value, "vertices", YAML_LIST, &vertices);
     if (!code) code = message_find_kind(r, value, "triangles", YAML_LIST, &triangles);
     if (!code && !vertices) code = message_fail(r, value, OVOID_ERROR_EMPTY, "a mesh needs vertices");
     if (!code) code = read_vertices(r, vertices, &m);
@@ -222,17 +200,19 @@ static ovoid_code find_lists(const message_reader *r, const yaml_value *object, 
 }
 
 static ovoid_code read_parts(message_reader *r, ovoid_obstacles *o, const yaml_value *object, const char *const keys[2],
-                             const ovoid_pose *outer) {
+                             const obstacle_entry *whole) {
     part_lists lists;
     ovoid_code code = find_lists(r, object, keys, &lists);
     if (code || !lists.parts) return code;
     const yaml_value *pose = lists.poses ? lists.poses->first : NULL;
     for (const yaml_value *v = lists.parts->first; v && !code; v = v->next) {
-        obstacle_entry entry = {.name = r->object, .at = v};
+        obstacle_entry entry = *whole;
+        entry.at = v;
+        entry.line = v->line;
         ovoid_pose inner;
         code = message_read_pose(r, pose, &inner);
         if (!code) code = keys[0][0] == 'm' ? read_mesh(r, o, v, &entry) : read_primitive(r, v, &entry.what);
-        entry.pose = ovoid_pose_compute_product(outer, &inner);
+        entry.pose = ovoid_pose_compute_product(&whole->pose, &inner);
         if (!code && ovoid_pose_compute_check(&entry.pose))
             code = message_fail(r, v, OVOID_ERROR_RANGE, "its pose has a number above %g", OVOID_LENGTH_MAX);
         if (!code) code = add_entry(o, r, &entry);
@@ -243,51 +223,84 @@ static ovoid_code read_parts(message_reader *r, ovoid_obstacles *o, const yaml_v
 
 // What would be an obstacle and is none here must not be passed over.
 static ovoid_code refuse_others(const message_reader *r, const yaml_value *object) {
-    const yaml_value *planes, *operation;
-    ovoid_code code = message_find(r, object, "planes", &planes);
+    const yaml_value *operation;
+    ovoid_code code = message_refuse_others(r, object,
+                                            "id|header|pose|primitives|primitive_poses|meshes|mesh_poses|planes|"
+                                            "plane_poses|operation|type|subframe_names|subframe_poses");
+    if (!code) code = message_refuse_filled(r, object, "planes", "are not read; put a box in the plane's place");
     if (!code) code = message_find(r, object, "operation", &operation);
-    if (code) return code;
-    if (planes && planes->count)
-        return message_fail(r, planes, OVOID_ERROR_FORMAT, "planes are not read; put a box in the plane's place");
-    if (operation && strcmp(operation->text, "0") != 0 && strcmp(operation->text, "add") != 0)
-        return message_fail(r, operation, OVOID_ERROR_FORMAT, "its operation is \"%.20s\"; only 0, to add, is read",
-                            operation->text);
-    message_note_others(
-        r, object, "id|header|pose|primitives|primitive_poses|meshes|mesh_poses|planes|plane_poses|operation|type");
-    return OVOID_OK;
+    if (code || !operation || strcmp(operation->text, "0") == 0 || strcmp(operation->text, "add") == 0) return code;
+    return message_fail(r, operation, OVOID_ERROR_FORMAT, "its operation is \"%.20s\"; only 0, to add, is read",
+                        operation->text);
 }
 
-// All objects are taken to be in one frame; where they say that they are not, the caller is told.
-static ovoid_code read_frame(message_reader *r, const yaml_value *object) {
-    const yaml_value *header, *frame = NULL;
+static ovoid_code read_frame(message_reader *r, const yaml_value *object, const char **frame) {
+    const yaml_value *header;
+    *frame = "";
     ovoid_code code = message_find_kind(r, object, "header", YAML_MAP, &header);
-    if (!code && header) code = message_find_kind(r, header, "frame_id", YAML_TEXT, &frame);
-    const char *name = frame ? frame->text : "";
-    if (!code && r->frame && strcmp(r->frame, name) != 0)
-        message_note(r, object,
-                     "the object %.100s is in the frame \"%.60s\", one before it in \"%.60s\": frames are not read",
-                     r->object, name, r->frame);
-    r->frame = name;
-    return code;
+    return code || !header ? code : message_read_frame(r, header, frame);
 }
 
-static ovoid_code read_object(message_reader *r, ovoid_obstacles *o, const yaml_value *object) {
+// holder: what its parts have of the link that holds the object; all zero: it stands in the world.
+static ovoid_code read_object(message_reader *r, ovoid_obstacles *o, const yaml_value *object, obstacle_entry holder) {
     static const char *const primitives[2] = {"primitives", "primitive_poses"}, *const meshes[2] = {"meshes",
                                                                                                     "mesh_poses"};
     const yaml_value *value;
     const char *name;
-    ovoid_pose pose;
     r->object = NULL;
     ovoid_code code = message_read_text(r, object, "id", &name);
     if (code) return code;
     if (!name[0]) return message_fail(r, object, OVOID_ERROR_FORMAT, "an object needs an id");
-    r->object = name;
+    holder.name = r->object = name;
+    size_t before = o->count;
     code = refuse_others(r, object);
-    if (!code) code = read_frame(r, object);
+    if (!code) code = read_frame(r, object, &holder.frame);
     if (!code) code = message_find_kind(r, object, "pose", YAML_MAP, &value);
-    if (!code) code = message_read_pose(r, value, &pose);
-    if (!code) code = read_parts(r, o, object, primitives, &pose);
-    return code ? code : read_parts(r, o, object, meshes, &pose);
+    if (!code) code = message_read_pose(r, value, &holder.pose);
+    if (!code) code = read_parts(r, o, object, primitives, &holder);
+    if (!code) code = read_parts(r, o, object, meshes, &holder);
+    if (!code && o->count == before)
+        code = message_fail(r, object, OVOID_ERROR_EMPTY, "it has neither primitives nor meshes");
+    return code;
+}
+
+// ---- what links hold
+
+static ovoid_code read_touching(const message_reader *r, const yaml_value *value, obstacle_entry *holder) {
+    const yaml_value *list;
+    ovoid_code code = message_find_kind(r, value, "touch_links", YAML_LIST, &list);
+    if (code || !list) return code;
+    const char **names = pool_get(r->memory, list->count, sizeof *names);
+    if (!names) return io_fail_memory(r->error, r->path);
+    for (const yaml_value *v = list->first; v; v = v->next) {
+        if (v->kind != YAML_TEXT) return message_fail(r, v, OVOID_ERROR_FORMAT, "a link's name must be a text");
+        names[holder->touching_count] = pool_copy(r->memory, v->text, strlen(v->text));
+        if (!names[holder->touching_count++]) return io_fail_memory(r->error, r->path);
+    }
+    holder->touching = names;
+    return OVOID_OK;
+}
+
+static ovoid_code read_attached(message_reader *r, ovoid_obstacles *o, const yaml_value *value) {
+    const yaml_value *object;
+    obstacle_entry holder = {.name = NULL};
+    r->object = NULL;
+    ovoid_code code = message_refuse_others(r, value, "link_name|object|touch_links|detach_posture|weight");
+    if (!code) code = message_read_text(r, value, "link_name", &holder.link);
+    if (!code) code = message_find_kind(r, value, "object", YAML_MAP, &object);
+    if (!code) code = read_touching(r, value, &holder);
+    if (!code && (!object || !holder.link[0]))
+        code = message_fail(r, value, OVOID_ERROR_FORMAT, "an attached object needs link_name and object");
+    return code ? code : read_object(r, o, object, holder);
+}
+
+static ovoid_code read_all_attached(message_reader *r, ovoid_obstacles *o, const yaml_value *root) {
+    const yaml_value *robot, *list = NULL;
+    ovoid_code code = message_find_kind(r, root, "robot_state", YAML_MAP, &robot);
+    if (!code && robot) code = message_find_kind(r, robot, "attached_collision_objects", YAML_LIST, &list);
+    for (const yaml_value *v = list ? list->first : NULL; v && !code; v = v->next) code = read_attached(r, o, v);
+    r->object = NULL;
+    return code;
 }
 
 // ---- shapes of primitives
@@ -322,6 +335,17 @@ static ovoid_code make_shapes(message_reader *r, ovoid_obstacles *o) {
 
 // ---- scenes
 
+static ovoid_code refuse_octomap(const message_reader *r, const yaml_value *world) {
+    const yaml_value *with_pose, *map = NULL;
+    ovoid_code code = message_find_kind(r, world, "octomap", YAML_MAP, &with_pose);
+    if (!code && with_pose) code = message_refuse_others(r, with_pose, "header|origin|octomap");
+    if (!code && with_pose) code = message_find_kind(r, with_pose, "octomap", YAML_MAP, &map);
+    if (!code && map) code = message_refuse_others(r, map, "header|binary|id|resolution|data");
+    return code || !map
+               ? code
+               : message_refuse_filled(r, map, "data", "of an octomap is not read; its voxels would be missing");
+}
+
 static ovoid_code read_world(message_reader *r, ovoid_obstacles *o, const yaml_value *root) {
     const yaml_value *world, *objects = NULL;
     ovoid_code code = message_find_kind(r, root, "world", YAML_MAP, &world);
@@ -329,9 +353,16 @@ static ovoid_code read_world(message_reader *r, ovoid_obstacles *o, const yaml_v
     if (code) return code;
     if (!world)
         return message_fail(r, root, OVOID_ERROR_FORMAT, "a planning scene needs world: collision_objects: [...]");
-    message_note_others(r, world, "collision_objects");
-    message_note_others(r, root, "name|world|robot_model_name|robot_state|fixed_frame_transforms|is_diff");
-    for (const yaml_value *v = objects ? objects->first : NULL; v && !code; v = v->next) code = read_object(r, o, v);
+    code = message_refuse_others(r, world, "collision_objects|octomap");
+    if (!code)
+        code = message_refuse_others(r, root,
+                                     "name|world|robot_model_name|robot_state|fixed_frame_transforms|is_diff|"
+                                     "allowed_collision_matrix|link_padding|link_scale|object_colors");
+    if (!code) code = refuse_octomap(r, world);
+    if (!code) code = scene_state_read(r, root, &o->state);
+    for (const yaml_value *v = objects ? objects->first : NULL; v && !code; v = v->next)
+        code = read_object(r, o, v, (obstacle_entry){.name = NULL});
+    if (!code) code = read_all_attached(r, o, root);
     return code ? code : make_shapes(r, o);
 }
 
@@ -355,7 +386,8 @@ static ovoid_code read_own_scene(const message_reader *r, ovoid_obstacles *o) {
                            "object \"%.60s\": \"solid\": true, but solids are not taken here: obstacles are hulls or "
                            "\"parts\"",
                            object.name);
-        obstacle_entry entry = {.name = object.name, .pose = object.pose, .shape = object.shape, .solid = object.solid};
+        obstacle_entry entry = {
+            .name = object.name, .frame = "", .pose = object.pose, .shape = object.shape, .solid = object.solid};
         size_t parts = object.compound ? ovoid_compound_get_part_count(object.compound) : 0;
         if (!parts) code = add_entry(o, r, &entry);
         for (size_t k = 0; k < parts && !code; k++) {
@@ -375,7 +407,10 @@ ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_o
         return NULL;
     }
     message_reader r = {.path = path, .options = options ? options : &no_options, .error = error, .memory = &o->memory};
-    ovoid_code code = path_has_extension(path, "json") ? read_own_scene(&r, o) : read_planning_scene(&r, o);
+    o->path = pool_copy(&o->memory, path, strlen(path));
+    ovoid_code code = !o->path                           ? io_fail_memory(error, path)
+                      : path_has_extension(path, "json") ? read_own_scene(&r, o)
+                                                         : read_planning_scene(&r, o);
     if (!code) return o;
     ovoid_obstacles_destroy(o);
     return NULL;
@@ -397,5 +432,5 @@ size_t ovoid_obstacles_get_count(const ovoid_obstacles *o) { return o->count; }
 
 ovoid_obstacle ovoid_obstacles_get(const ovoid_obstacles *o, size_t i) {
     const obstacle_entry *e = &o->entries[i];
-    return (ovoid_obstacle){e->name, e->shape, e->pose, e->solid};
+    return (ovoid_obstacle){e->name, e->shape, e->pose, e->solid, e->frame[0] ? e->frame : NULL, e->link};
 }

@@ -34,11 +34,29 @@ static ovoid_code add_position(const message_reader *r, const char *name, const 
     return message_read_number(r, number, &item->position);
 }
 
+// The numbers of a request are those of joints with one variable, so a base must be where it is by default.
+static ovoid_code check_bases(const message_reader *r, const yaml_value *start) {
+    const yaml_value *state, *list = NULL;
+    double values[7];
+    ovoid_code code = message_find_kind(r, start, "multi_dof_joint_state", YAML_MAP, &state);
+    if (!code && state) code = message_refuse_others(r, state, "header|joint_names|transforms|twist|wrench");
+    if (!code && state) code = message_find_kind(r, state, "transforms", YAML_LIST, &list);
+    for (const yaml_value *v = list ? list->first : NULL; v && !code; v = v->next) {
+        code = message_read_transform(r, v, values);
+        if (!code && !transform_is_identity(values))
+            code = message_fail(r, v, OVOID_ERROR_FORMAT,
+                                "multi_dof_joint_state: a base that is not where its frame is cannot be told here");
+    }
+    return code;
+}
+
 // start_state: joint_state: name and position, two lists of one length.
 static ovoid_code read_start(const message_reader *r, const yaml_value *root, position_list *out) {
     const yaml_value *start, *state = NULL, *names = NULL, *positions = NULL;
     ovoid_code code = message_find_kind(r, root, "start_state", YAML_MAP, &start);
+    if (!code && start) code = check_bases(r, start);
     if (!code && start) code = message_find_kind(r, start, "joint_state", YAML_MAP, &state);
+    if (!code && state) code = message_refuse_others(r, state, "header|name|position|velocity|effort");
     if (!code && state) code = message_find_kind(r, state, "name", YAML_LIST, &names);
     if (!code && state) code = message_find_kind(r, state, "position", YAML_LIST, &positions);
     if (code) return code;
@@ -57,7 +75,8 @@ static ovoid_code read_start(const message_reader *r, const yaml_value *root, po
 
 static ovoid_code read_constraint(const message_reader *r, const yaml_value *value, position_list *out) {
     const yaml_value *name, *number;
-    ovoid_code code = message_find_kind(r, value, "joint_name", YAML_TEXT, &name);
+    ovoid_code code = message_refuse_others(r, value, "joint_name|position|tolerance_above|tolerance_below|weight");
+    if (!code) code = message_find_kind(r, value, "joint_name", YAML_TEXT, &name);
     if (!code) code = message_find(r, value, "position", &number);
     if (!code && (!name || !number))
         code = message_fail(r, value, OVOID_ERROR_FORMAT, "a joint constraint needs joint_name and position");
@@ -65,19 +84,44 @@ static ovoid_code read_constraint(const message_reader *r, const yaml_value *val
 }
 
 static ovoid_code read_goal(const message_reader *r, const yaml_value *value, position_list *out) {
+    static const char *const others[3] = {"position_constraints", "orientation_constraints", "visibility_constraints"};
     const yaml_value *constraints;
     ovoid_code code = message_find_kind(r, value, "joint_constraints", YAML_LIST, &constraints);
     if (code) return code;
-    message_note_others(r, value, "joint_constraints|name");
+    code = message_refuse_others(r, value,
+                                 "joint_constraints|name|position_constraints|orientation_constraints|"
+                                 "visibility_constraints");
+    for (int i = 0; i < 3 && !code; i++)
+        code = message_refuse_filled(r, value, others[i], "of a goal are not read: its states are not known by joints");
+    if (code) return code;
     code = make_list(r, constraints ? constraints->count : 0, out);
     for (const yaml_value *v = constraints ? constraints->first : NULL; v && !code; v = v->next)
         code = read_constraint(r, v, out);
     return code;
 }
 
+// What a planner is told of how to search, and what a path must do beside being free, means nothing here. An object
+// that a link holds at the start does.
+static ovoid_code refuse_others(const message_reader *r, const yaml_value *root) {
+    const yaml_value *start;
+    ovoid_code code = message_refuse_others(
+        r, root,
+        "group_name|start_state|goal_constraints|path_constraints|trajectory_constraints|reference_trajectories|"
+        "workspace_parameters|pipeline_id|planner_id|num_planning_attempts|allowed_planning_time|"
+        "max_velocity_scaling_factor|max_acceleration_scaling_factor|cartesian_speed_end_effector_link|"
+        "cartesian_speed_limited_link|max_cartesian_speed");
+    if (!code) code = message_find_kind(r, root, "start_state", YAML_MAP, &start);
+    if (code || !start) return code;
+    code = message_refuse_others(r, start, "joint_state|multi_dof_joint_state|attached_collision_objects|is_diff");
+    return code ? code
+                : message_refuse_filled(r, start, "attached_collision_objects",
+                                        "of a request are not read: put them into the scene's robot_state");
+}
+
 static ovoid_code read_request(const message_reader *r, const yaml_value *root, ovoid_motion_request *out) {
     const yaml_value *goals;
-    ovoid_code code = message_read_text(r, root, "group_name", &out->group);
+    ovoid_code code = refuse_others(r, root);
+    if (!code) code = message_read_text(r, root, "group_name", &out->group);
     if (!code) code = read_start(r, root, &out->start);
     if (!code) code = message_find_kind(r, root, "goal_constraints", YAML_LIST, &goals);
     if (code || !goals) return code;

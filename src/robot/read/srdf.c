@@ -24,41 +24,99 @@ static ovoid_code read_link(robot_reader *r, const xml_element *e, const char *a
 
 // ---- disabled pairs
 
+enum { PAIRS_MOST = 1 << 24 };
+
+typedef struct pair_list {
+    ovoid_robot_pair *pairs; ///< a < b
+    size_t count;
+} pair_list;
+
 static int compare_pairs(const void *a, const void *b) {
     const ovoid_robot_pair *m = a, *n = b;
     if (m->a != n->a) return m->a < n->a ? -1 : 1;
     return (m->b > n->b) - (m->b < n->b);
 }
 
-static ovoid_code read_pair(robot_reader *r, const xml_element *e, ovoid_robot_pair *pairs, size_t *count) {
+static ovoid_code read_pair(robot_reader *r, const xml_element *e, pair_list *list) {
     uint32_t a, b = OVOID_ROBOT_NONE;
     const char *reason = xml_get(e, "reason");
     ovoid_code code = read_link(r, e, "link1", &a);
     if (!code) code = read_link(r, e, "link2", &b);
     if (code || a == OVOID_ROBOT_NONE || b == OVOID_ROBOT_NONE) return code;
     if (a == b) {
-        robot_note(r, e, "<disable_collisions> names the link %.100s twice", r->file->links[a].name);
+        robot_note(r, e, "<%s> names the link %.100s twice", e->name, r->file->links[a].name);
         return OVOID_OK;
     }
     if (reason && !(reason = pool_copy(&r->file->memory, reason, strlen(reason)))) return robot_fail_memory(r);
-    pairs[(*count)++] = (ovoid_robot_pair){a < b ? a : b, a < b ? b : a, reason};
+    list->pairs[list->count++] = (ovoid_robot_pair){a < b ? a : b, a < b ? b : a, reason};
     return OVOID_OK;
 }
 
-// The pairs, sorted, each once.
-static ovoid_code read_disabled(robot_reader *r, const xml_element *root) {
-    size_t most = count_children(root, "disable_collisions"), count = 0, kept = 0;
-    ovoid_robot_pair *pairs = pool_get(&r->file->memory, most, sizeof *pairs);
-    if (!pairs) return robot_fail_memory(r);
+// Sorts the pairs and keeps each once; none that `without` has.
+static void settle_pairs(pair_list *list, const pair_list *without) {
+    size_t kept = 0;
+    if (list->count) qsort(list->pairs, list->count, sizeof *list->pairs, compare_pairs);
+    for (size_t i = 0; i < list->count; i++) {
+        const ovoid_robot_pair *p = &list->pairs[i];
+        if (i && compare_pairs(p, p - 1) == 0) continue;
+        if (without->count && bsearch(p, without->pairs, without->count, sizeof *p, compare_pairs)) continue;
+        list->pairs[kept++] = *p;
+    }
+    list->count = kept;
+}
+
+// The pairs of the elements of that name, with room for more.
+static ovoid_code read_pairs(robot_reader *r, const xml_element *root, const char *name, size_t more, pair_list *list) {
+    size_t most = count_children(root, name);
+    list->pairs = pool_get(&r->file->memory, most + more, sizeof *list->pairs);
+    list->count = 0;
+    if (!list->pairs) return robot_fail_memory(r);
     for (const xml_element *e = root->first; e; e = e->next) {
-        ovoid_code code = xml_is(e, "disable_collisions") ? read_pair(r, e, pairs, &count) : OVOID_OK;
+        ovoid_code code = xml_is(e, name) ? read_pair(r, e, list) : OVOID_OK;
         if (code) return code;
     }
-    if (count) qsort(pairs, count, sizeof *pairs, compare_pairs);
-    for (size_t i = 0; i < count; i++)
-        if (!i || compare_pairs(&pairs[i], &pairs[i - 1]) != 0) pairs[kept++] = pairs[i];
-    r->file->description.disabled = pairs;
-    r->file->description.disabled_count = kept;
+    return OVOID_OK;
+}
+
+// <disable_default_collisions>: all pairs of the link that <enable_collisions> does not name.
+static ovoid_code read_defaults(robot_reader *r, const xml_element *root, pair_list *list) {
+    size_t links = r->file->description.link_count, most = count_children(root, "disable_default_collisions");
+    pair_list enabled;
+    const pair_list none = {NULL, 0};
+    ovoid_code code = read_pairs(r, root, "enable_collisions", 0, &enabled);
+    if (code) return code;
+    settle_pairs(&enabled, &none);
+    *list = none;
+    if (most == 0) return OVOID_OK;
+    if (most > PAIRS_MOST / links)
+        return robot_fail(r, root, OVOID_ERROR_LIMIT, "more than %d pairs are disabled by default", (int)PAIRS_MOST);
+    list->pairs = pool_get(&r->file->memory, most * links, sizeof *list->pairs);
+    if (!list->pairs) return robot_fail_memory(r);
+    for (const xml_element *e = root->first; e; e = e->next) {
+        uint32_t link;
+        if (!xml_is(e, "disable_default_collisions")) continue;
+        if ((code = read_link(r, e, "link", &link)) != OVOID_OK) return code;
+        for (uint32_t other = 0; link != OVOID_ROBOT_NONE && other < links; other++)
+            if (other != link)
+                list->pairs[list->count++] =
+                    (ovoid_robot_pair){link < other ? link : other, link < other ? other : link, "Default"};
+    }
+    settle_pairs(list, &enabled);
+    return OVOID_OK;
+}
+
+// The pairs, sorted, each once. As in MoveIt: those by default, less those that are enabled, and those that are named.
+static ovoid_code read_disabled(robot_reader *r, const xml_element *root) {
+    pair_list defaults, list;
+    const pair_list none = {NULL, 0};
+    ovoid_code code = read_defaults(r, root, &defaults);
+    if (!code) code = read_pairs(r, root, "disable_collisions", defaults.count, &list);
+    if (code) return code;
+    if (defaults.count) memcpy(list.pairs + list.count, defaults.pairs, defaults.count * sizeof *list.pairs);
+    list.count += defaults.count;
+    settle_pairs(&list, &none);
+    r->file->description.disabled = list.pairs;
+    r->file->description.disabled_count = list.count;
     return OVOID_OK;
 }
 
@@ -128,7 +186,9 @@ static ovoid_code read_virtual(robot_reader *r, const xml_element *e) {
                    r->file->links[child].name);
         return OVOID_OK;
     }
-    return r->options->fixed_base ? OVOID_OK : add_virtual(r, e, name, frame, types[i].type);
+    if (!r->options->fixed_base) return add_virtual(r, e, name, frame, types[i].type);
+    r->file->description.frame = pool_copy(&r->file->memory, frame, strlen(frame));
+    return r->file->description.frame ? OVOID_OK : robot_fail_memory(r);
 }
 
 // ---- spheres and passive joints
@@ -191,8 +251,8 @@ ovoid_code srdf_read(robot_reader *r, const xml_element *root) {
     if (name && strcmp(name, own) != 0)
         robot_note(r, root, "the SRDF is of the robot %.100s, the URDF of %.100s", name, own);
     ovoid_code code = robot_ignore_others(r, root,
-                                          "group|group_state|disable_collisions|virtual_joint|passive_joint|"
-                                          "link_sphere_approximation");
+                                          "group|group_state|disable_collisions|disable_default_collisions|"
+                                          "enable_collisions|virtual_joint|passive_joint|link_sphere_approximation");
     if (!code) code = robot_ignore_attributes(r, root);
     const xml_element *joint = NULL;
     if (!code) code = robot_get_child(r, root, "virtual_joint", &joint);
