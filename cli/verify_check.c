@@ -49,9 +49,9 @@ ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_com
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
     if (a->solid || b->solid) return ovoid_solid_impact_check(a, b, margin, found, steps, groups, error);
     if (a->compound || b->compound || found->group_count)
-        return ovoid_compound_impact_check(a, b, margin, found, steps, groups, error);
+        return ovoid_compound_impact_check(a, b, margin, found, NULL, steps, groups, error);
     ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};
-    return ovoid_impact_check(&moving[0], &moving[1], margin, &found->impact, steps, error);
+    return ovoid_impact_check(&moving[0], &moving[1], margin, &found->impact, NULL, steps, error);
 }
 
 /// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is

@@ -57,9 +57,10 @@ static void check_impact(const ovoid_moving_shape *a, const ovoid_moving_shape *
     ovoid_error error = {OVOID_OK, -1, ""};
     if (x.limit == OVOID_LIMIT_POSE_A || x.limit == OVOID_LIMIT_POSE_B || x.limit == OVOID_LIMIT_OPTIONS) {
         fuzz_require(x.status == OVOID_IMPACT_UNDECIDED);
+        fuzz_require_code(ovoid_impact_check(a, b, margin, &x, &options, NULL, &error), &error);
         return;
     }
-    if (x.step_count <= STEPS) fuzz_require_code(ovoid_impact_check(a, b, margin, &x, steps, &error), &error);
+    if (x.step_count <= STEPS) fuzz_require_code(ovoid_impact_check(a, b, margin, &x, &options, steps, &error), &error);
     fuzz_require(x.begin <= x.free_until && x.free_until <= x.end);
     if (x.status == OVOID_IMPACT_HIT) fuzz_require(x.free_until <= x.hit_at && x.hit_at <= x.end);
     // Samples of what is free.
@@ -78,7 +79,7 @@ static void check_approach(const ovoid_moving_shape *a, const ovoid_moving_shape
     ovoid_approach x = ovoid_approach_find(a, b, &options);
     ovoid_error error = {OVOID_OK, -1, ""};
     if (x.limit == OVOID_LIMIT_POSE_A || x.limit == OVOID_LIMIT_POSE_B || x.limit == OVOID_LIMIT_OPTIONS) return;
-    if (x.step_count <= STEPS) fuzz_require_code(ovoid_approach_check(a, b, &x, steps, &error), &error);
+    if (x.step_count <= STEPS) fuzz_require_code(ovoid_approach_check(a, b, &x, &options, steps, &error), &error);
     fuzz_require(x.lower <= x.upper);
     double slack = 1e-9 * find_size(a, b, x.begin, x.end);
     for (int i = 0; i <= 16 && slack < 1e30 && x.status != OVOID_OVERLAPPING; i++) {

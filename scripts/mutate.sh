@@ -38,8 +38,8 @@ tests_of() {
     decompose) echo "test_decompose_cells test_decompose" ;;
     hostile) echo "test_io_json test_io_texts test_io_child" ;;
     decompose_watch) echo "test_decompose_watch" ;;
-    compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_judge_compound" ;;
-    motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_judge_impact test_impact_trials test_compound_impact" ;;
+    compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_compound_impact_altered test_judge_compound" ;;
+    motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_impact_altered test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_bounds" ;;
     paper) echo "test_paper test_area" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;

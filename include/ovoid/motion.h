@@ -112,7 +112,8 @@ typedef struct ovoid_step {
 
 /**
  * Of compounds: the next `count` steps hold for each part of a at [first_a, end_a) of its tree's order against each
- * part of b at [first_b, end_b): for two single parts by their own gap, else by the gap of the balls around them.
+ * part of b at [first_b, end_b): for two single parts by their own gap, else by the gap of the balls around them. Where
+ * one time alone is asked about, each group has one step, which ends where it begins.
  */
 typedef struct ovoid_step_group {
     uint32_t first_a, end_a, first_b, end_b;
@@ -162,12 +163,16 @@ OVOID_API ovoid_impact ovoid_impact_find(const ovoid_moving_shape *a, const ovoi
                                          const ovoid_motion_options *options);
 
 /**
- * Checks an impact without any search: that each step's gap is above the margin from its beginning to its end, that the
- * steps reach free_until, that the bodies are within the margin at hit_at, and that the status follows. steps: all
- * step_count of them. OVOID_OK, or PROOF with a sentence in *error (may be NULL); place: the step.
+ * Checks an impact without any search: that its times are those asked for, that each step's gap is above the margin
+ * from its beginning to its end, that the steps reach free_until, that the bodies are within the margin at hit_at, that
+ * the status follows, and that a refusal is right and claims nothing. Not claims, and not checked: iterations; the
+ * limit of a query that is not refused; `hit` where there is none. options: those of the query; NULL: the defaults, at
+ * the impact's own times. steps: all step_count of them. OVOID_OK, or PROOF with a sentence in *error (may be NULL);
+ * place: the step.
  */
 OVOID_API ovoid_code ovoid_impact_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                                        const ovoid_impact *impact, const ovoid_step *steps, ovoid_error *error);
+                                        const ovoid_impact *impact, const ovoid_motion_options *options,
+                                        const ovoid_step *steps, ovoid_error *error);
 
 /**
  * The first time at which B, moved along `displacement` (time 0: where it is, 1: all the way), is within margin of A,
@@ -206,7 +211,7 @@ OVOID_API ovoid_ray_hit ovoid_ray_cast(const ovoid_posed_shape *body, const ovoi
 /** How near two moving bodies come. */
 typedef struct ovoid_approach {
     ovoid_status status; /**< SEPARATED: lower > 0; OVERLAPPING: they overlap at `time`, upper < 0; TOUCHING: the
-                            bracket is around 0 and narrow */
+                            bracket is around 0 and as narrow as the tolerance */
     ovoid_limit limit;
     uint32_t iterations;
     double begin, end;
@@ -225,11 +230,12 @@ OVOID_API ovoid_approach ovoid_approach_find(const ovoid_moving_shape *a, const 
                                              const ovoid_motion_options *options);
 
 /**
- * Checks an approach without any search: that the steps prove lower over all of [begin, end], and the answer upper.
- * Arguments and errors as in ovoid_impact_check.
+ * Checks an approach without any search: that the steps prove lower over all of [begin, end], and the answer upper;
+ * that the status follows, TOUCHING within the options' tolerance. Arguments and errors as in ovoid_impact_check.
  */
 OVOID_API ovoid_code ovoid_approach_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                                          const ovoid_approach *approach, const ovoid_step *steps, ovoid_error *error);
+                                          const ovoid_approach *approach, const ovoid_motion_options *options,
+                                          const ovoid_step *steps, ovoid_error *error);
 
 /** The name of a status in results, for example "hit"; never NULL. */
 OVOID_API const char *ovoid_impact_status_get_name(ovoid_impact_status status);

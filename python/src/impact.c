@@ -11,6 +11,7 @@ typedef struct impact_object {
     ovoid_approach approach;
     PyObject *a, *b, *motion_a, *motion_b;
     double margin;
+    ovoid_motion_options options; ///< as asked; where the proof went is not kept
     ovoid_step *steps;
     ovoid_step_group *groups;
 } impact_object;
@@ -127,6 +128,7 @@ static PyObject *find(module_state *state, moving_input *in, int what) {
     Py_XDECREF(motion_b);
     if (!made) return NULL;
     made->margin = in->margin;
+    made->options = in->options;
     if (!find_steps(state, made, what, &in->options) &&
         !limit_check(state, what == APPROACH ? made->approach.limit : made->of.impact.limit))
         return (PyObject *)made;
@@ -162,11 +164,13 @@ ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *erro
     ovoid_moving_body a = make_moving(state, self->a, self->motion_a), b = make_moving(state, self->b, self->motion_b);
     ovoid_moving_shape shape_a = make_moving_shape(&a), shape_b = make_moving_shape(&b);
     if (Py_TYPE(object) == state->approach)
-        return ovoid_approach_check(&shape_a, &shape_b, &self->approach, self->steps, error);
+        return ovoid_approach_check(&shape_a, &shape_b, &self->approach, &self->options, self->steps, error);
     if (a.shape && b.shape)
-        return ovoid_impact_check(&shape_a, &shape_b, self->margin, &self->of.impact, self->steps, error);
+        return ovoid_impact_check(&shape_a, &shape_b, self->margin, &self->of.impact, &self->options, self->steps,
+                                  error);
     if (!a.solid && !b.solid)
-        return ovoid_compound_impact_check(&a, &b, self->margin, &self->of, self->steps, self->groups, error);
+        return ovoid_compound_impact_check(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups,
+                                           error);
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_solid_impact_check(&a, &b, self->margin, &self->of, self->steps, self->groups, error);

@@ -85,6 +85,16 @@ static void take_group(descent *d, const compound_node *a, const compound_node *
     d->step_count += count;
 }
 
+// The steps of two bodies that are free: of one time alone, which no step goes on from, one that ends where it begins,
+// along the normal of their distance.
+static size_t count_steps(const descent *d, const ovoid_impact *x) {
+    if (d->begin < d->end || x->status != OVOID_IMPACT_FREE) return x->step_count;
+    ovoid_motion_options room = {.steps = NULL};
+    set_steps(d, &room);
+    if (room.steps) room.steps[0] = (ovoid_step){d->begin, x->free.normal, OVOID_STEP_WORLD};
+    return 1;
+}
+
 // ---- the search
 
 // The impact of the balls around two nodes, up to the first hit found. A tolerance of 1e-3 is enough to order them.
@@ -105,7 +115,7 @@ COMPILER_NOINLINE static int is_pruned(descent *d, const compound_node *a, const
     find_balls(d, a, b, &x);
     *after = x.free_until;
     if (x.status != OVOID_IMPACT_FREE) return 0;
-    take_group(d, a, b, x.step_count);
+    take_group(d, a, b, count_steps(d, &x));
     return 1;
 }
 
@@ -118,7 +128,7 @@ COMPILER_NOINLINE static void take_parts(descent *d, const compound_node *leaf_a
     ovoid_motion_options o = make_options(d, d->end, d->tolerance);
     set_steps(d, &o);
     impact_find((moving_shapes){&moving_a, &moving_b}, d->margin, &o, 1e-9, &x);
-    take_group(d, leaf_a, leaf_b, x.step_count);
+    take_group(d, leaf_a, leaf_b, count_steps(d, &x));
     d->out->tested++;
     if (impact_take_pair(best, &x, &d->free_until)) {
         d->window = d->end;

@@ -11,6 +11,7 @@ typedef struct claim {
     const ovoid_moving_body *a, *b;
     double margin;
     const ovoid_compound_impact *found;
+    const ovoid_motion_options *options;
     const ovoid_step *steps;
     const ovoid_step_group *groups;
     body_view view_a, view_b;
@@ -77,31 +78,40 @@ static ovoid_code check_groups(const claim *c, ovoid_error *error) {
     return code;
 }
 
+// OVOID_OK if the query has these times, or is refused for this reason and nothing is claimed.
+static ovoid_code check_query(claim *c, ovoid_error *error) {
+    const ovoid_impact *x = &c->found->impact;
+    int has_a = moving_view_make(c->a, &c->view_a), has_b = moving_view_make(c->b, &c->view_b);
+    if (!has_a || !has_b) {
+        ovoid_limit limit = has_a ? OVOID_LIMIT_SHAPE_B : OVOID_LIMIT_SHAPE_A;
+        if (x->limit == limit && impact_is_empty(x) && !c->found->group_count) return OVOID_OK;
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs either a shape or a compound");
+    }
+    ovoid_moving_shape a = moving_view_get_part(c->a, &c->view_a, 0), b = moving_view_get_part(c->b, &c->view_b, 0);
+    int is_empty = impact_is_empty(x) && !c->found->group_count;
+    const query_claim query = {c->margin, c->options, x->begin, x->end, x->limit, is_empty};
+    return impact_check_query((moving_shapes){&a, &b}, &query, error);
+}
+
 static ovoid_code check(claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     OVOID_ASSERT((c->steps || !x->step_count) && (c->groups || !c->found->group_count));
-    // A refusal claims nothing.
-    if (x->status == OVOID_IMPACT_UNDECIDED && x->limit >= OVOID_LIMIT_POSE_A && x->free_until == 0) return OVOID_OK;
-    if (!moving_view_make(c->a, &c->view_a) || !moving_view_make(c->b, &c->view_b))
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs either a shape or a compound");
-    ovoid_moving_shape part_a = moving_view_get_part(c->a, &c->view_a, 0),
-                       part_b = moving_view_get_part(c->b, &c->view_b, 0);
-    ovoid_code code = impact_check_times((moving_shapes){&part_a, &part_b}, x->begin, x->end, error);
-    if (code != OVOID_OK) return code;
+    ovoid_code code = check_query(c, error);
+    if (code != OVOID_OK || impact_is_refusal(x)) return code;
     if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->view_a.count || c->found->part_b >= c->view_b.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
                          ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
     code = check_groups(c, error);
     if (code != OVOID_OK || x->status != OVOID_IMPACT_HIT) return code;
-    part_a = ovoid_moving_body_get_part(c->a, c->found->part_a);
-    part_b = ovoid_moving_body_get_part(c->b, c->found->part_b);
+    ovoid_moving_shape part_a = ovoid_moving_body_get_part(c->a, c->found->part_a);
+    ovoid_moving_shape part_b = ovoid_moving_body_get_part(c->b, c->found->part_b);
     const answer_claim hit = {x->hit_at, &x->hit, -INFINITY, c->margin};
     return impact_check_answer((moving_shapes){&part_a, &part_b}, &hit, error);
 }
 
 ovoid_code ovoid_compound_impact_check(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                       const ovoid_compound_impact *impact, const ovoid_step *steps,
-                                       const ovoid_step_group *groups, ovoid_error *error) {
-    claim c = {.a = a, .b = b, .margin = margin, .found = impact, .steps = steps, .groups = groups};
+                                       const ovoid_compound_impact *impact, const ovoid_motion_options *options,
+                                       const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
+    claim c = {.a = a, .b = b, .margin = margin, .found = impact, .options = options, .steps = steps, .groups = groups};
     ENVIRONMENT_RETURN(ovoid_code, c, check(&c, error));
 }

@@ -125,25 +125,17 @@ static void finish(approach *x) {
     out->limit = s->used >= s->most ? OVOID_LIMIT_ITERATIONS : OVOID_LIMIT_PRECISION;
 }
 
-// The pair's size, for the tolerance, at the first time.
-static double find_size(const approach *x) {
-    ovoid_pair at;
-    pair_frame f;
-    (void)motion_pair_find_pair(&x->s.pieces, x->s.time, &at);
-    return frame_place(&at, &f) == OVOID_LIMIT_NONE ? f.size : 0;
-}
-
 static ovoid_approach find(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
                            const ovoid_motion_options *options) {
     OVOID_ASSERT(a && b);
     ovoid_approach out = {.lower = -INFINITY, .upper = INFINITY};
     approach x = {.out = &out};
-    out.limit = sweep_make(&x.s, (moving_shapes){a, b}, options, 1e-6);
+    out.limit = sweep_make(&x.s, (moving_shapes){a, b}, options, APPROACH_TOLERANCE);
     if (out.limit != OVOID_LIMIT_NONE) {
         out.answer = answer_make_refused(out.limit);
         return out;
     }
-    x.tolerance = x.s.tolerance * find_size(&x);
+    x.tolerance = x.s.tolerance * sweep_find_size(&x.s);
     if (x.s.begin < x.s.end)
         run(&x);
     else

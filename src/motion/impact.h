@@ -28,7 +28,28 @@ ovoid_code impact_check_answer(moving_shapes shapes, const answer_claim *claim, 
 
 /// OVOID_OK if a query would have taken these motions and times.
 ovoid_code impact_check_times(moving_shapes shapes, double begin, double end, ovoid_error *error);
-/// 1 if status and times of an impact agree.
+
+/// What a record says of its query: the times, or why it is refused.
+typedef struct query_claim {
+    double margin;
+    const ovoid_motion_options *options; ///< as asked; NULL: not known, then the record's own times and the defaults
+    double begin, end;
+    ovoid_limit limit;
+    int is_empty; ///< 1: nothing is claimed of the bodies
+} query_claim;
+/// OVOID_OK if the query has these times, or is refused for this reason and nothing is claimed.
+ovoid_code impact_check_query(moving_shapes shapes, const query_claim *claim, ovoid_error *error);
+
+/// The steps of a proof, and the options of its query (NULL: not known).
+typedef struct step_proof {
+    const ovoid_motion_options *options;
+    const ovoid_step *steps;
+} step_proof;
+
+/// 1 if an impact says that its query is refused; 1 if it claims nothing of the bodies.
+int impact_is_refusal(const ovoid_impact *x);
+int impact_is_empty(const ovoid_impact *x);
+/// 1 if status, limit and times of an impact agree.
 int impact_is_sound(const ovoid_impact *x, double margin);
 
 #endif

@@ -15,10 +15,12 @@ static int step_is_sound(const motion_pair *pieces, const ovoid_step *step) {
 ovoid_code impact_check_steps(moving_shapes shapes, const step_claim *claim, ovoid_error *error) {
     double time = claim->begin, level = claim->level, least;
     motion_pair pieces;
+    int is_moment = claim->begin == claim->end;
     for (size_t i = 0; i < claim->count; i++) {
         const ovoid_step *step = &claim->steps[i];
         (void)motion_pair_make(shapes.a, shapes.b, time, &pieces);
-        if (!(step->until > time) || !(step->until <= pieces.end) || !step_is_sound(&pieces, step))
+        int goes_on = step->until > time || (is_moment && step->until == time);
+        if (!goes_on || !(step->until <= pieces.end) || !step_is_sound(&pieces, step))
             return error_set(error, OVOID_ERROR_PROOF, (int64_t)i,
                              "step %zu does not go on from %.17g within one piece, or its normal is not unit, or turns "
                              "with a body that does not",
@@ -62,25 +64,48 @@ ovoid_code impact_check_times(moving_shapes shapes, double begin, double end, ov
 
 static int is_refusal(ovoid_limit limit) { return limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B; }
 
-int impact_is_sound(const ovoid_impact *x, double margin) {
-    int is_hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
-    int times = x->free_until >= x->begin && x->free_until <= x->end && x->hit_at >= x->free_until;
-    return times && is_hit == (x->hit_at <= x->end) && !(is_free && x->free_until != x->end) && margin >= 0;
+ovoid_code impact_check_query(moving_shapes shapes, const query_claim *claim, ovoid_error *error) {
+    sweep s;
+    const ovoid_motion_options own = {.begin = claim->begin, .end = claim->end}, *asked = claim->options;
+    ovoid_limit limit = sweep_make(&s, shapes, asked ? asked : &own, 0);
+    if (limit == OVOID_LIMIT_NONE && !(claim->margin >= 0 && claim->margin < INFINITY)) limit = OVOID_LIMIT_OPTIONS;
+    // Options that are not known may be those that were refused.
+    if (!asked && limit == OVOID_LIMIT_NONE && claim->limit == OVOID_LIMIT_OPTIONS) limit = claim->limit;
+    int is_right = is_refusal(limit) ? claim->limit == limit : s.begin == claim->begin && s.end == claim->end;
+    if (is_refusal(claim->limit) && is_right && !claim->is_empty)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "a query that is refused has an answer");
+    if (is_refusal(claim->limit) == is_refusal(limit) && is_right) return OVOID_OK;
+    if (!is_refusal(claim->limit) && (!shapes.a->shape || !shapes.b->shape))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body without a shape");
+    return error_set(error, OVOID_ERROR_PROOF, -1, "from %.17g to %.17g, limit %s: the query's limit is %s",
+                     claim->begin, claim->end, ovoid_limit_get_name(claim->limit), ovoid_limit_get_name(limit));
 }
 
-static ovoid_code check_impact(moving_shapes shapes, double margin, const ovoid_impact *x, const ovoid_step *steps,
+int impact_is_refusal(const ovoid_impact *x) { return is_refusal(x->limit); }
+
+int impact_is_empty(const ovoid_impact *x) {
+    return x->status == OVOID_IMPACT_UNDECIDED && x->free_until == 0 && x->hit_at == INFINITY && x->step_count == 0;
+}
+
+int impact_is_sound(const ovoid_impact *x, double margin) {
+    int is_hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
+    int is_known = (unsigned)x->status <= OVOID_IMPACT_HIT && (unsigned)x->limit <= OVOID_LIMIT_ALLOWANCE;
+    int times = x->free_until >= x->begin && x->free_until <= x->end && x->hit_at >= x->free_until;
+    int hit = is_hit ? x->hit_at <= x->end : x->hit_at == INFINITY;
+    return is_known && times && hit && !(is_free && x->free_until != x->end) && margin >= 0;
+}
+
+static ovoid_code check_impact(moving_shapes shapes, double margin, const ovoid_impact *x, const step_proof *proof,
                                ovoid_error *error) {
-    OVOID_ASSERT(shapes.a && shapes.b && x && (steps || !x->step_count));
-    // A refusal claims nothing.
-    if (is_refusal(x->limit) && x->status == OVOID_IMPACT_UNDECIDED && x->free_until == 0 && x->step_count == 0)
-        return OVOID_OK;
-    ovoid_code code = impact_check_times(shapes, x->begin, x->end, error);
-    if (code != OVOID_OK) return code;
+    OVOID_ASSERT(shapes.a && shapes.b && x && (proof->steps || !x->step_count));
+    const query_claim query = {margin, proof->options, x->begin, x->end, x->limit, impact_is_empty(x)};
+    ovoid_code code = impact_check_query(shapes, &query, error);
+    if (code != OVOID_OK || impact_is_refusal(x)) return code;
     int is_hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
     if (!impact_is_sound(x, margin))
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
                          ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
-    const step_claim free = {x->begin, x->free_until, margin, steps, x->step_count};
+    const step_claim free = {x->begin, x->free_until, margin, proof->steps, x->step_count};
     const answer_claim at_end = {x->free_until, &x->free, is_free && !x->step_count ? margin : -INFINITY, INFINITY};
     const answer_claim at_hit = {x->hit_at, &x->hit, -INFINITY, margin};
     code = impact_check_steps(shapes, &free, error);
@@ -90,25 +115,42 @@ static ovoid_code check_impact(moving_shapes shapes, double margin, const ovoid_
 }
 
 ovoid_code ovoid_impact_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                              const ovoid_impact *impact, const ovoid_step *steps, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, margin, check_impact((moving_shapes){a, b}, margin, impact, steps, error));
+                              const ovoid_impact *impact, const ovoid_motion_options *options, const ovoid_step *steps,
+                              ovoid_error *error) {
+    const step_proof proof = {options, steps};
+    ENVIRONMENT_RETURN(ovoid_code, margin, check_impact((moving_shapes){a, b}, margin, impact, &proof, error));
 }
 
-static ovoid_code check_approach(moving_shapes shapes, const ovoid_approach *x, const ovoid_step *steps,
+// 1 if the status says what the bracket says; of bodies that touch, within the tolerance that was asked for.
+static int approach_is_sound(moving_shapes shapes, const ovoid_approach *x, const ovoid_motion_options *options) {
+    if ((unsigned)x->limit > OVOID_LIMIT_ALLOWANCE || !(x->time >= x->begin && x->time <= x->end)) return 0;
+    if (!(x->lower <= x->upper)) return 0;
+    sweep s;
+    const ovoid_motion_options own = {.begin = x->begin, .end = x->end};
+    switch (x->status) {
+    case OVOID_SEPARATED: return x->lower > 0;
+    case OVOID_OVERLAPPING: return x->upper < 0;
+    case OVOID_TOUCHING:
+        (void)sweep_make(&s, shapes, options ? options : &own, APPROACH_TOLERANCE);
+        return x->lower <= 0 && x->upper >= 0 && x->upper - x->lower <= s.tolerance * sweep_find_size(&s);
+    case OVOID_UNDECIDED: return x->lower <= 0 && x->upper >= 0;
+    }
+    return 0;
+}
+
+static ovoid_code check_approach(moving_shapes shapes, const ovoid_approach *x, const step_proof *proof,
                                  ovoid_error *error) {
-    OVOID_ASSERT(shapes.a && shapes.b && x && (steps || !x->step_count));
-    if (is_refusal(x->limit) && x->lower == -INFINITY && x->upper == INFINITY) return OVOID_OK;
-    ovoid_code code = impact_check_times(shapes, x->begin, x->end, error);
-    if (code != OVOID_OK) return code;
-    int follows = x->status == OVOID_SEPARATED     ? x->lower > 0
-                  : x->status == OVOID_OVERLAPPING ? x->upper < 0
-                                                   : x->lower <= 0 && x->upper >= 0;
-    if (!follows || !(x->time >= x->begin && x->time <= x->end) || !(x->lower <= x->upper))
+    OVOID_ASSERT(shapes.a && shapes.b && x && (proof->steps || !x->step_count));
+    int is_empty = x->status == OVOID_UNDECIDED && x->lower == -INFINITY && x->upper == INFINITY;
+    const query_claim query = {0, proof->options, x->begin, x->end, x->limit, is_empty};
+    ovoid_code code = impact_check_query(shapes, &query, error);
+    if (code != OVOID_OK || is_refusal(x->limit)) return code;
+    if (!approach_is_sound(shapes, x, proof->options))
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from the bracket [%.17g, %.17g]",
                          ovoid_status_get_name(x->status), x->lower, x->upper);
     // lower is proven if every step is above the number just below it.
     double level = nextafter(x->lower, -INFINITY);
-    const step_claim above = {x->begin, x->end, level, steps, x->step_count};
+    const step_claim above = {x->begin, x->end, level, proof->steps, x->step_count};
     const answer_claim alone = {x->begin, &x->answer, level, INFINITY};
     const answer_claim nearest = {x->time, &x->answer, -INFINITY, x->upper};
     if (x->lower > -INFINITY && x->begin < x->end)
@@ -120,6 +162,8 @@ static ovoid_code check_approach(moving_shapes shapes, const ovoid_approach *x, 
 }
 
 ovoid_code ovoid_approach_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                                const ovoid_approach *approach, const ovoid_step *steps, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, a, check_approach((moving_shapes){a, b}, approach, steps, error));
+                                const ovoid_approach *approach, const ovoid_motion_options *options,
+                                const ovoid_step *steps, ovoid_error *error) {
+    const step_proof proof = {options, steps};
+    ENVIRONMENT_RETURN(ovoid_code, a, check_approach((moving_shapes){a, b}, approach, &proof, error));
 }

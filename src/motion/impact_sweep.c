@@ -48,6 +48,13 @@ ovoid_limit sweep_make(sweep *s, moving_shapes shapes, const ovoid_motion_option
     return ok ? motion_pair_make(shapes.a, shapes.b, s->time, &s->pieces) : OVOID_LIMIT_OPTIONS;
 }
 
+double sweep_find_size(const sweep *s) {
+    ovoid_pair at;
+    pair_frame f;
+    (void)motion_pair_find_pair(&s->pieces, s->begin, &at);
+    return frame_place(&at, &f) == OVOID_LIMIT_NONE ? f.size : 0;
+}
+
 // The pieces at a time: those at hand, or others.
 static const motion_pair *find_pieces(const sweep *s, double time, motion_pair *other) {
     if (time >= s->pieces.begin && time <= s->pieces.end) return &s->pieces;

@@ -29,6 +29,12 @@ typedef struct sweep {
 /// options->tolerance.
 ovoid_limit sweep_make(sweep *s, moving_shapes shapes, const ovoid_motion_options *options, double tolerance);
 
+/// The pair's size at the first time, by which the tolerance of an approach is measured.
+double sweep_find_size(const sweep *s);
+
+/// The tolerance of approaches where the options have none.
+#define APPROACH_TOLERANCE 1e-6
+
 /// The distance at a time not before the begin of the present pieces, warm from the last proof.
 void sweep_query(sweep *s, double time);
 

@@ -410,14 +410,14 @@ static void test_motions(void) {
         double hit = truth.status == OVOID_IMPACT_HIT ? truth.hit_at : INFINITY;
         CHECK_LE(x.free_until, fmin(hit, 1));
         if (x.status == OVOID_IMPACT_HIT) CHECK(truth.status != OVOID_IMPACT_FREE && truth.free_until <= x.hit_at);
-        if (x.step_count <= 4096) CHECK(ovoid_impact_check(&a, &b, 0, &x, steps, NULL) == OVOID_OK);
+        if (x.step_count <= 4096) CHECK(ovoid_impact_check(&a, &b, 0, &x, NULL, steps, NULL) == OVOID_OK);
 
         ovoid_approach nearest = ovoid_approach_find(&a, &b, &o), real = ovoid_approach_find(&true_a, &true_b, NULL);
         CHECK_LE(nearest.lower, real.upper);
         CHECK_LE(real.lower, nearest.upper);
         if (nearest.limit == OVOID_LIMIT_NONE && nearest.status == OVOID_SEPARATED)
             CHECK_LE(nearest.upper - nearest.lower, t.width + 1e-4);
-        if (nearest.step_count <= 4096) CHECK(ovoid_approach_check(&a, &b, &nearest, steps, NULL) == OVOID_OK);
+        if (nearest.step_count <= 4096) CHECK(ovoid_approach_check(&a, &b, &nearest, NULL, steps, NULL) == OVOID_OK);
 
         // The box holds the true body: its enclosing box along the axes at some times.
         ovoid_box box = ovoid_moving_shape_compute_box(&b, 0, 1);

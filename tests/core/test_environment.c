@@ -236,13 +236,13 @@ static void ask_motions(void) {
     ovoid_motion_options o = {.begin = 0.01, .end = 0.99, .steps = steps, .capacity = 1000};
     ovoid_impact x = ovoid_impact_find(&a, &b, 0.01, &o);
     add_impact(&x);
-    code = ovoid_impact_check(&a, &b, 0.01, &x, steps, NULL);
+    code = ovoid_impact_check(&a, &b, 0.01, &x, NULL, steps, NULL);
     ADD(code);
     ovoid_approach y = ovoid_approach_find(&a, &b, &o);
     ADD(y.lower);
     ADD(y.upper);
     ADD(y.time);
-    code = ovoid_approach_check(&a, &b, &y, steps, NULL);
+    code = ovoid_approach_check(&a, &b, &y, NULL, steps, NULL);
     ADD(code);
     x = ovoid_translation_cast(&pairs[0], linear, third, NULL);
     add_impact(&x);

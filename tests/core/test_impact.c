@@ -20,7 +20,7 @@ static ovoid_impact find(const ovoid_moving_shape *a, const ovoid_moving_shape *
     ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY};
     ovoid_impact x = ovoid_impact_find(a, b, margin, &o);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_impact_check(a, b, margin, &x, steps, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_impact_check(a, b, margin, &x, NULL, steps, &error), OVOID_OK)) printf("  %s\n", error.message);
     return x;
 }
 
@@ -339,11 +339,11 @@ static void check_refused(const ovoid_moving_shape *a, const ovoid_moving_shape 
     CHECK_EQ(x.status, OVOID_IMPACT_UNDECIDED);
     if (!CHECK_EQ(x.limit, limit)) printf("  %s\n", ovoid_limit_get_name(x.limit));
     CHECK(x.free_until == 0 && isinf(x.hit_at) && x.step_count == 0);
-    CHECK_EQ(ovoid_impact_check(a, b, margin, &x, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_impact_check(a, b, margin, &x, o, NULL, NULL), OVOID_OK);
     if (!(margin >= 0 && margin < INFINITY)) return;
     ovoid_approach y = ovoid_approach_find(a, b, o);
     CHECK(y.limit == limit && y.lower == -INFINITY && y.upper == INFINITY);
-    CHECK_EQ(ovoid_approach_check(a, b, &y, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_approach_check(a, b, &y, o, NULL, NULL), OVOID_OK);
 }
 
 static void check_refusals(void) {

@@ -72,7 +72,7 @@ int main(void) {
         static ovoid_step steps[100];
         ovoid_motion_options o = {.steps = steps, .capacity = 100};
         ovoid_impact hit = ovoid_impact_find(&moving[0], &moving[1], 0, &o);
-        if (hit.step_count <= 100) sum += ovoid_impact_check(&moving[0], &moving[1], 0, &hit, steps, NULL);
+        if (hit.step_count <= 100) sum += ovoid_impact_check(&moving[0], &moving[1], 0, &hit, NULL, steps, NULL);
         if (i % 20 == 0) {
             sum += ovoid_approach_find(&moving[0], &moving[1], NULL).upper;
             sum += (double)ovoid_compound_impact_find(&whole[0], &whole[1], 0, NULL).tested;

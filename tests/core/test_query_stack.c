@@ -90,11 +90,11 @@ static void ask_depth_batch(void) {
 
 static void ask_impact(void) { impact = ovoid_impact_find(&moving[0], &moving[1], 0, &recording); }
 static void ask_impact_check(void) {
-    CHECK(ovoid_impact_check(&moving[0], &moving[1], 0, &impact, steps, NULL) == OVOID_OK);
+    CHECK(ovoid_impact_check(&moving[0], &moving[1], 0, &impact, NULL, steps, NULL) == OVOID_OK);
 }
 static void ask_approach(void) { approach = ovoid_approach_find(&moving[0], &moving[1], &recording); }
 static void ask_approach_check(void) {
-    CHECK(ovoid_approach_check(&moving[0], &moving[1], &approach, steps, NULL) == OVOID_OK);
+    CHECK(ovoid_approach_check(&moving[0], &moving[1], &approach, NULL, steps, NULL) == OVOID_OK);
 }
 static void ask_cast(void) { impact = ovoid_translation_cast(&pair, (ovoid_vec3){-2, 0.1, 0}, 0, NULL); }
 static void ask_ray(void) { ray_hit = ovoid_ray_cast(&posed[1], &ray); }
@@ -117,8 +117,8 @@ static void ask_compound_impact(void) {
     compound_impact = ovoid_compound_impact_find(&moving_bodies[0], &moving_bodies[1], 0, &recording);
 }
 static void ask_compound_impact_check(void) {
-    CHECK(ovoid_compound_impact_check(&moving_bodies[0], &moving_bodies[1], 0, &compound_impact, steps, groups, NULL) ==
-          OVOID_OK);
+    CHECK(ovoid_compound_impact_check(&moving_bodies[0], &moving_bodies[1], 0, &compound_impact, NULL, steps, groups,
+                                      NULL) == OVOID_OK);
 }
 static void ask_compound_box(void) { box = ovoid_moving_body_compute_box(&moving_bodies[0], 0, 1); }
 

@@ -106,15 +106,15 @@ static void ask_motions(wrong w) {
     asked = "impact";
     ovoid_impact x = ovoid_impact_find(&a, &b, 0, NULL);
     EXPECT(x.limit == get_limit(w) && x.status == OVOID_IMPACT_UNDECIDED && x.hit_at == INFINITY);
-    EXPECT(ovoid_impact_check(&a, &b, 0, &x, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_impact_check(&a, &b, 0, &x, NULL, NULL, NULL) == OVOID_OK);
     x.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_impact_check(&a, &b, 0, &x, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_impact_check(&a, &b, 0, &x, NULL, NULL, NULL) != OVOID_OK);
     asked = "approach";
     ovoid_approach y = ovoid_approach_find(&a, &b, NULL);
     EXPECT(y.limit == get_limit(w) && y.lower == -INFINITY && y.upper == INFINITY);
-    EXPECT(ovoid_approach_check(&a, &b, &y, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_approach_check(&a, &b, &y, NULL, NULL, NULL) == OVOID_OK);
     y.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_approach_check(&a, &b, &y, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_approach_check(&a, &b, &y, NULL, NULL, NULL) != OVOID_OK);
     asked = "translation_cast";
     EXPECT(ovoid_translation_cast(&p, (ovoid_vec3){1, 0, 0}, 0, NULL).limit == get_limit(w));
     asked = "box";
@@ -149,9 +149,9 @@ static void ask_solids(wrong w, int both) {
     ovoid_moving_body b = {.shape = s.b.shape, .compound = s.b.compound, .motion = ovoid_motion_make_still(s.b.pose)};
     ovoid_compound_impact hit = ovoid_compound_impact_find(&a, &b, 0, NULL);
     EXPECT(hit.impact.limit == get_limit(w) && hit.impact.status == OVOID_IMPACT_UNDECIDED);
-    EXPECT(ovoid_compound_impact_check(&a, &b, 0, &hit, NULL, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_compound_impact_check(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) == OVOID_OK);
     hit.impact.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_compound_impact_check(&a, &b, 0, &hit, NULL, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_compound_impact_check(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) != OVOID_OK);
     asked = "compound box";
     EXPECT(isnan(ovoid_moving_body_compute_box(w.b ? &b : &a, 0, 1).min.x));
 }
