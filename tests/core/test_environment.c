@@ -254,7 +254,7 @@ static void ask_motions(void) {
     o.group_capacity = 8;
     z = ovoid_compound_impact_find(&bodies[0], &bodies[1], 0.01, &o);
     ADD(z.group_count);
-    code = ovoid_compound_impact_check(&bodies[0], &bodies[1], 0.01, &z, steps, groups, NULL);
+    code = ovoid_compound_impact_check(&bodies[0], &bodies[1], 0.01, &z, NULL, steps, groups, NULL);
     ADD(code);
     box = ovoid_moving_body_compute_box(&bodies[1], 0, third);
     ADD(box);

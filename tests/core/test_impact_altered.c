@@ -8,7 +8,7 @@
 #include "alter.h"
 #include "moving.h"
 
-enum { CAPACITY = 20000, SAMPLES = 60, STEP_SAMPLES = 12, CASES = 260 };
+enum { CAPACITY = 20000, SAMPLES = 60, STEP_SAMPLES = 12, CASES = 60 };
 static ovoid_step steps[CAPACITY];
 
 typedef struct truth {
@@ -71,11 +71,12 @@ static double measure_step(const truth *t, const ovoid_step *step, double from, 
     return -find_support(b, time, moving_scaled(n, -1)) - find_support(a, time, n);
 }
 
-// 1 if a step is no step, or the gap along its normal is not above the level at a sampled time.
+// 1 if a step is no step, or the gap along its normal is not above the level at a sampled time. One that ends where it
+// begins says something of that time.
 static int step_is_false(const truth *t, const ovoid_step *step, double from, double level) {
     ovoid_vec3 n = step->normal;
     double norm = n.x * n.x + n.y * n.y + n.z * n.z;
-    if (!(step->until > from) || !(step->until <= t->last) || (int)step->frame > 2) return 1;
+    if (!(step->until >= from) || !(step->until <= t->last) || (int)step->frame > 2) return 1;
     if (!(fabs(norm - 1) <= 1e-12)) return 1;
     for (int i = 0; i <= STEP_SAMPLES; i++) {
         double time = from + (step->until - from) * i / STEP_SAMPLES;
@@ -165,7 +166,7 @@ static void tell_approach(const truth *t, const ovoid_approach *x, const ovoid_a
     take(approach_is_false(t, x, right, steps, checked), code, n);
 }
 
-enum { IMPACT_FIELDS = 13, APPROACH_FIELDS = 11, STEP_FIELDS = 5, FORGED = 8 };
+enum { IMPACT_FIELDS = 13, APPROACH_FIELDS = 11, STEP_FIELDS = 5, FORGED = 10 };
 static const alter_field impact_fields[IMPACT_FIELDS] = {
     ALTER_FIELD(ovoid_impact, status, ALTER_INT, 0),         ALTER_FIELD(ovoid_impact, limit, ALTER_INT, 0),
     ALTER_FIELD(ovoid_impact, begin, ALTER_REAL, 1e-9),      ALTER_FIELD(ovoid_impact, end, ALTER_REAL, 1e-9),
@@ -283,6 +284,28 @@ static void forge_hit(const truth *t, double hit_at) {
     forge(t, "undecided, with a hit after the end", 2, &x);
 }
 
+// A hit at a time at which the bodies are farther apart; times that are free before the beginning, or after the end.
+static void forge_times(const truth *t, const ovoid_impact *right) {
+    ovoid_impact x = make_free(t, t->begin, t->end);
+    x.free_until = x.begin;
+    x.free = ask(t, x.begin);
+    x.status = OVOID_IMPACT_HIT;
+    for (int i = 0; i < t->count; i++) {
+        x.hit_at = t->times[i];
+        x.hit = ask(t, x.hit_at);
+        forge(t, "a hit that is none", 8, &x);
+    }
+    x = (ovoid_impact){.begin = t->begin, .end = t->end, .hit_at = INFINITY};
+    x.free_until = 0.5 * (t->first + t->begin);
+    x.free = ask(t, x.free_until);
+    if (t->begin > t->first) forge(t, "free before the beginning", 9, &x);
+    x = *right;
+    x.status = OVOID_IMPACT_UNDECIDED;
+    x.hit_at = INFINITY;
+    x.end = 0.5 * (t->begin + x.free_until);
+    forge(t, "free after the end", 9, &x);
+}
+
 // Free by `count` steps of equal length, along the normals of the distances at their beginnings; knots are not looked
 // at.
 static void forge_steps(const truth *t, size_t count, ovoid_step_frame frame) {
@@ -319,6 +342,10 @@ static void forge_reasons(const truth *t) {
     x = right;
     x.free_until = 0.5;
     CHECK(ovoid_impact_check(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+    x.free_until = 0;
+    x.status = OVOID_IMPACT_FREE;
+    CHECK(ovoid_impact_check(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+    x = right;
     x.free_until = -1;
     CHECK(ovoid_impact_check(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
     y = nearest;
@@ -379,6 +406,7 @@ static void try_impact(truth *t, uint64_t *s) {
     CHECK(!impact_is_false(t, &right, steps, CAPACITY));
     lie_about_impact(t, &right);
     lie_about_steps(t, &right);
+    forge_times(t, &right);
     for (size_t count = 1; count <= 64 && t->begin < t->end; count *= 4)
         for (int frame = 0; frame < 3; frame++) forge_steps(t, count, (ovoid_step_frame)frame);
     for (int i = 0; i < t->count && i < 12; i++) forge_moment(t, t->times[i]);
@@ -415,8 +443,8 @@ int main(int count, char **arguments) {
     for (int i = 0; i < STEP_FIELDS; i++) alter_print(step_fields[i].name, &step_counts[i]);
     for (int i = 0; i < APPROACH_FIELDS; i++) alter_print(approach_fields[i].name, &approach_counts[i]);
     const char *const names[FORGED] = {
-        "free for no time", "hit before the beginning", "hit after the end", "coarse steps",
-        "refused",          "refused, with a hit",      "approach refused",  "nearest outside"};
+        "free for no time",    "hit before the beginning", "hit after the end", "coarse steps",       "refused",
+        "refused, with a hit", "approach refused",         "nearest outside",   "a hit that is none", "free outside"};
     for (int i = 0; i < FORGED; i++) alter_print(names[i], &forged_counts[i]);
     return check_end();
 }
