@@ -136,7 +136,8 @@ static int approach_is_false(const truth *t, const ovoid_approach *x, const ovoi
     if (!(x->time >= x->begin && x->time <= x->end) || !(x->lower <= x->upper)) return 1;
     if (x->status == OVOID_SEPARATED && !(x->lower > 0)) return 1;
     if (x->status == OVOID_OVERLAPPING && !(x->upper < 0)) return 1;
-    if (x->status == OVOID_TOUCHING && !(x->lower <= 0 && x->upper >= 0)) return 1;
+    if (x->status <= OVOID_TOUCHING && x->status != OVOID_SEPARATED && !(x->lower <= 0 && x->upper >= 0)) return 1;
+    if (x->status == OVOID_TOUCHING && x->upper - x->lower > 1e-4 * t->c.size) return 1; // the tolerance is 1e-6
     for (int i = 0; i < t->count; i++)
         if (t->times[i] >= x->begin && t->times[i] <= x->end && x->lower > t->upper[i]) return 1;
     int same_times = x->begin >= right->begin && x->end <= right->end;
@@ -166,7 +167,7 @@ static void tell_approach(const truth *t, const ovoid_approach *x, const ovoid_a
     take(approach_is_false(t, x, right, steps, checked), code, n);
 }
 
-enum { IMPACT_FIELDS = 13, APPROACH_FIELDS = 11, STEP_FIELDS = 5, FORGED = 10 };
+enum { IMPACT_FIELDS = 13, APPROACH_FIELDS = 11, STEP_FIELDS = 5, FORGED = 11 };
 static const alter_field impact_fields[IMPACT_FIELDS] = {
     ALTER_FIELD(ovoid_impact, status, ALTER_INT, 0),         ALTER_FIELD(ovoid_impact, limit, ALTER_INT, 0),
     ALTER_FIELD(ovoid_impact, begin, ALTER_REAL, 1e-9),      ALTER_FIELD(ovoid_impact, end, ALTER_REAL, 1e-9),
@@ -370,6 +371,20 @@ static void forge_refusals(const truth *t) {
     }
 }
 
+// A wide bracket around 0, as bodies that touch; one that is not around 0, as undecided.
+static void forge_touching(const truth *t, const ovoid_approach *right) {
+    ovoid_approach x = *right;
+    lie_kind = "forged";
+    lie_name = "undecided of a decided bracket";
+    x.status = OVOID_UNDECIDED;
+    tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
+    lie_name = "touching within a wide bracket";
+    x.status = OVOID_TOUCHING;
+    x.lower = fmin(x.lower, -t->c.size);
+    x.upper = fmax(x.upper, t->c.size);
+    tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
+}
+
 // The distance at a time outside of those queried, as the smallest.
 static void forge_nearest(const truth *t, const ovoid_approach *right, double time) {
     ovoid_approach x = *right;
@@ -421,6 +436,7 @@ static void try_approach(truth *t) {
     CHECK_EQ(ovoid_approach_check(&t->c.a, &t->c.b, &right, t->told, steps, NULL), OVOID_OK);
     CHECK(!approach_is_false(t, &right, &right, steps, CAPACITY));
     lie_about_approach(t, &right);
+    forge_touching(t, &right);
     for (int i = 0; i <= 8; i++) forge_nearest(t, &right, t->first + (t->last - t->first) * i / 8);
 }
 
@@ -442,9 +458,17 @@ int main(int count, char **arguments) {
     for (int i = 0; i < IMPACT_FIELDS; i++) alter_print(impact_fields[i].name, &impact_counts[i]);
     for (int i = 0; i < STEP_FIELDS; i++) alter_print(step_fields[i].name, &step_counts[i]);
     for (int i = 0; i < APPROACH_FIELDS; i++) alter_print(approach_fields[i].name, &approach_counts[i]);
-    const char *const names[FORGED] = {
-        "free for no time",    "hit before the beginning", "hit after the end", "coarse steps",       "refused",
-        "refused, with a hit", "approach refused",         "nearest outside",   "a hit that is none", "free outside"};
+    const char *const names[FORGED] = {"free for no time",
+                                       "hit before the beginning",
+                                       "hit after the end",
+                                       "coarse steps",
+                                       "refused",
+                                       "refused, with a hit",
+                                       "approach refused",
+                                       "nearest outside",
+                                       "a hit that is none",
+                                       "free outside",
+                                       "touching"};
     for (int i = 0; i < FORGED; i++) alter_print(names[i], &forged_counts[i]);
     return check_end();
 }
