@@ -378,6 +378,12 @@ static void forge_touching(const truth *t, const ovoid_approach *right) {
     lie_name = "undecided of a decided bracket";
     x.status = OVOID_UNDECIDED;
     tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
+    lie_name = "a bracket farther away";
+    x = *right;
+    x.lower = x.upper = right->upper + t->c.size;
+    x.status = x.lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
+    tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
+    x = *right;
     lie_name = "touching within a wide bracket";
     x.status = OVOID_TOUCHING;
     x.lower = fmin(x.lower, -t->c.size);
