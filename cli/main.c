@@ -3,6 +3,7 @@
 #include "finish.h"
 #include "help.h"
 #include "page/page.h"
+#include "verdict.h"
 
 #include <ovoid/io.h>
 #include <ovoid/ovoid.h>
@@ -43,11 +44,8 @@ static int complain_unknown(const char *name) {
 
 static int print_version(void) {
     printf("ovoid %s\n", ovoid_get_version());
-#ifdef OVOID_HAVE_JUDGE
-    printf("verify: exact rational arithmetic (GMP)\n");
-#else
-    printf("verify: floating point with rigorous error bounds\n");
-#endif
+    printf("verify: %s\n",
+           verdict_is_exact() ? "exact rational arithmetic (GMP)" : "floating point with rigorous error bounds");
     printf("meshes: STL, OBJ, OFF, PLY%s\n", ovoid_io_has_assimp() ? ", COLLADA, glTF and more through Assimp" : "");
     return finish_file(stdout);
 }

@@ -37,7 +37,8 @@ while [ $line -lt "$count" ]; do
     vary 4 "line $line, normals" 's/"normal":\[[^]]*\]/"normal":[0.6,0.48,0.64]/g'
     vary 4 "line $line, kind" 's/"kind":"[a-z_ ]+"/"kind":"none"/'
     vary 4 "line $line, other bodies" 's/"b":"[a-z]+"/"b":"nobody"/'
-    # Each of the digits that matter, of bounds, points and normals: one more, a line each; none may hold.
+    # Each of the digits that matter, of bounds, points and normals: one more, a line each; none may hold. A pair has one
+    # result at each time, so each line has its own.
     awk -v line="$(cat line.jsonl)" 'BEGIN { alter("lower", 1, 1, 10); alter("upper", 1, -1, 10); alter("point_a", 3, 0, 5)
             alter("point_b", 3, 0, 5); alter("normal", 3, 0, 9) }
         # The first `most` significant digits of each of the numbers behind the key; sign: only up (1) or down (-1).
@@ -53,13 +54,17 @@ while [ $line -lt "$count" ]; do
                     from = number < 0 ? -number : number
                     changed = number + (sign < 0 ? -1 : 1) * exp(log(10) * (int(log(from > 0.1 ? from : 0.1) / log(10)) - k))
                     if (changed != number)
-                        print substr(line, 1, at - 1) sprintf("%.17g", changed) substr(line, at + length(text))
+                        print "{\"time\":" ++time "," substr(line, 2, at - 2) sprintf("%.17g", changed) substr(line, at + length(text))
                 }
                 at += length(text) + 1
             }
         }' >altered.jsonl
-    "$OVOID_TOOL" verify altered.jsonl scene.json >out 2>&1
     lines=$(wc -l <altered.jsonl)
+    seq "$lines" | awk 'BEGIN { print "time,body,x,y,z,qw,qx,qy,qz" } { print $1 ",floor,0,0,-0.1,1,0,0,0" }' >still.csv
+    sed 's/{/{"time":0,/' line.jsonl >still.jsonl
+    sed 's/^1,/0,/' still.csv >begin.csv
+    expect 0 "line $line, at a time" still.jsonl scene.json --motion begin.csv --partial
+    "$OVOID_TOOL" verify altered.jsonl scene.json --motion still.csv --partial >out 2>&1
     if [ "$lines" -gt 50 ] && grep -q "^proofs: $lines, hold: 0, do not: $lines;" out; then
         passed=$((passed + lines))
     else
