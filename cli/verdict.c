@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 struct verdict {
+    ovoid_options options;
     pthread_mutex_t lock;
     unsigned count; ///< judges that are free, at the front
     judge **judges;
@@ -25,13 +26,20 @@ static void end_out_of_memory(void) {
     _exit(EXIT_INPUT);
 }
 
-verdict *verdict_create(unsigned threads) {
+static judge *make_judge(const ovoid_options *options) {
+    judge *made = judge_create();
+    if (made) judge_set_options(made, options);
+    return made;
+}
+
+verdict *verdict_create(unsigned threads, const ovoid_options *options) {
     judge_set_out_of_memory(end_out_of_memory);
     verdict *v = calloc(1, sizeof *v);
     if (!v) return NULL;
+    v->options = *options;
     pthread_mutex_init(&v->lock, NULL);
     v->judges = calloc(threads, sizeof *v->judges);
-    while (v->judges && v->count < threads && (v->judges[v->count] = judge_create()) != NULL) v->count++;
+    while (v->judges && v->count < threads && (v->judges[v->count] = make_judge(options)) != NULL) v->count++;
     if (v->count == threads) return v;
     verdict_destroy(v);
     return NULL;
@@ -94,12 +102,13 @@ int verdict_is_exact(void) { return 1; }
 
 /// The library's check needs no working memory.
 struct verdict {
-    int nothing;
+    ovoid_options options;
 };
 
-verdict *verdict_create(unsigned threads) {
+verdict *verdict_create(unsigned threads, const ovoid_options *options) {
     static verdict only;
     (void)threads;
+    only.options = *options;
     return &only;
 }
 
@@ -107,14 +116,14 @@ void verdict_destroy(verdict *v) { (void)v; }
 
 ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
                          int points, ovoid_error *error) {
-    (void)v, (void)points;
-    return ovoid_answer_check(pair, answer, NULL, cover, error);
+    (void)points;
+    return ovoid_answer_check(pair, answer, &v->options, cover, error);
 }
 
 ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
                                   const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
-    (void)v, (void)points;
-    return ovoid_compound_answer_check(pair, answer, NULL, exclusions, error);
+    (void)points;
+    return ovoid_compound_answer_check(pair, answer, &v->options, exclusions, error);
 }
 
 ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,

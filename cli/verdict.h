@@ -7,8 +7,9 @@
 /// Working memory for some threads.
 typedef struct verdict verdict;
 
-/// Makes the memory for that many threads at a time; NULL where memory is out.
-verdict *verdict_create(unsigned threads);
+/// Makes the memory for that many threads at a time; NULL where memory is out. options: of the queries, whose tolerance
+/// says what touching is.
+verdict *verdict_create(unsigned threads, const ovoid_options *options);
 void verdict_destroy(verdict *verdict);
 
 /// Checks that the answer follows from its proof. points: also that the witness points differ by the distance along the

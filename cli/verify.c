@@ -36,6 +36,9 @@ static const cli_option options[] = {
     {"motion", 0, OPTION_FILE, offsetof(verify_settings, motion), "MOTION.csv", NULL, "the motion of ovoid run"},
     {"margin", 0, OPTION_LENGTH, offsetof(verify_settings, margin), "M", NULL,
      "the margin that was asked: a pair without a result is proven farther apart (default: that of the results)"},
+    {"tol", 0, OPTION_LENGTH, offsetof(verify_settings, tolerance), "T", NULL,
+     "the tolerance that was asked: touching is a bracket of at most T, or of 1e-9 of the bodies' size (default: the "
+     "latter alone)"},
     {"continuous", 0, OPTION_FLAG, offsetof(verify_settings, continuous), NULL, NULL,
      "as given to ovoid run: a pair without an impact between two frames is proven not to come within the margin"},
     {"partial", 0, OPTION_FLAG, offsetof(verify_settings, partial), NULL, NULL,
@@ -205,7 +208,8 @@ static int find_code(const verify *v) {
 static int run_results(verify *v) {
     cli_pipeline line = {v, sizeof(chunk), fill, work, drain, clear};
     unsigned threads = v->settings->threads ? v->settings->threads : pipeline_get_processors();
-    v->verdict = verdict_create(threads);
+    const ovoid_options asked = {.absolute_tolerance = v->settings->tolerance};
+    v->verdict = verdict_create(threads, &asked);
     if (!v->verdict) return message_error("out of memory"), EXIT_INPUT;
     progress_start("proofs", 0);
     int code = pipeline_run(&line, threads);
