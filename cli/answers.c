@@ -236,7 +236,7 @@ int answers_run(const answers_job *job) {
     work_state w = {job, 0};
     cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
     // A few pairs are answered sooner than a thread starts.
-    unsigned threads = job->threads ? job->threads : pipeline_get_processors();
+    unsigned threads = pipeline_get_threads(job->threads);
     int code = job->count ? pipeline_run(&line, job->count <= CHUNK ? 1 : threads) : 0;
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
     return code;

@@ -213,7 +213,7 @@ static int run_pairs(batch *b, shard_job *job) {
     if (open_output(b, job)) return EXIT_INPUT;
     double start = progress_get_seconds();
     progress_start("pairs", s->part.count ? 0 : count_pairs(s->pairs));
-    int code = pipeline_run(&line, s->threads ? s->threads : pipeline_get_processors());
+    int code = pipeline_run(&line, pipeline_get_threads(s->threads));
     progress_end();
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
     if (!code && b->refused) message_error("%s", b->error.message), code = EXIT_INPUT;

@@ -333,7 +333,7 @@ static int find_impacts(cli_impacts *x) {
     int code = 0;
     if (!w.items) return message_error("out of memory"), EXIT_INPUT;
     cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
-    unsigned threads = x->threads ? x->threads : pipeline_get_processors();
+    unsigned threads = pipeline_get_threads(x->threads);
     code = pipeline_run(&line, x->couple_count <= CHUNK ? 1 : threads);
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
     if (!code) qsort(w.items, x->couple_count, sizeof *w.items, compare_impacts);

@@ -64,9 +64,11 @@ int near_open(cli_near *near, const ovoid_scene *scene, const ovoid_contact_quer
     ovoid_error error;
     *near = (cli_near){.scene = scene, .query = *query, .part = part};
     if (query->margin < 0) return 0;
-    if (!threads) threads = pipeline_get_processors();
+    size_t most =
+        ovoid_scene_get_count(scene) < OVOID_WORLD_THREADS_MAX ? ovoid_scene_get_count(scene) : OVOID_WORLD_THREADS_MAX;
+    threads = pipeline_get_threads(threads);
     const ovoid_allocator allocator = {allocate, release, near};
-    ovoid_world_options options = {.threads = threads < OVOID_WORLD_THREADS_MAX ? threads : OVOID_WORLD_THREADS_MAX,
+    ovoid_world_options options = {.threads = threads < most ? threads : (uint32_t)most,
                                    .allocator = &allocator,
                                    .filter = is_wanted,
                                    .filter_context = near};

@@ -20,8 +20,10 @@ typedef struct ring {
     size_t count;
     uint64_t filled, drained; // slots so far
     int ended, stopped;       // the input has ended; drain has stopped the run
-    pthread_mutex_t filling;  // held by the worker that fills; taken before `lock`
-    pthread_mutex_t lock;     // of all numbers above
+    pthread_t *workers;
+    unsigned started, most;  // threads: how many run, how many may
+    pthread_mutex_t filling; // held by the worker that fills; taken before `lock`
+    pthread_mutex_t lock;    // of all numbers above
     pthread_cond_t changed;
 } ring;
 
@@ -39,15 +41,20 @@ static int wait_for_room(ring *r, uint64_t *number) {
     return go;
 }
 
-/// Claims and fills the next slot. 0 where there is none.
+static void start_worker(ring *r);
+
+/// Claims and fills the next slot, and starts another worker, for what comes after it. 0 where there is no slot to
+/// fill.
 static int claim(ring *r, uint64_t *number) {
     pthread_mutex_lock(&r->filling);
     int go = wait_for_room(r, number) && r->pipeline->fill(r->pipeline->context, get_slot(r, *number));
     pthread_mutex_lock(&r->lock);
-    if (go)
+    if (go) {
         r->filled++;
-    else
+        start_worker(r);
+    } else {
         r->ended = 1;
+    }
     pthread_cond_broadcast(&r->changed);
     pthread_mutex_unlock(&r->lock);
     pthread_mutex_unlock(&r->filling);
@@ -65,6 +72,22 @@ static void *run_worker(void *argument) {
         pthread_mutex_unlock(&r->lock);
     }
     return NULL;
+}
+
+/// Bytes of a worker's stack, where the system's own choice may be as little as 128 KB.
+#define WORKER_STACK ((size_t)2 << 20)
+
+/// Starts one more worker where one may be; `lock` is held. Where the system has no more, those that run do the work.
+static void start_worker(ring *r) {
+    pthread_attr_t attributes;
+    if (r->started == r->most || pthread_attr_init(&attributes) != 0) return;
+    int ok = pthread_attr_setstacksize(&attributes, WORKER_STACK) == 0 &&
+             pthread_create(&r->workers[r->started], &attributes, run_worker, r) == 0;
+    pthread_attr_destroy(&attributes);
+    if (ok)
+        r->started++;
+    else
+        r->most = r->started;
 }
 
 /// Drains slots in order until all filled ones are drained, or drain stops the run.
@@ -98,43 +121,41 @@ static int run_alone(ring *r) {
     return code;
 }
 
-/// Bytes of a worker's stack, where the system's own choice may be as little as 128 KB.
-#define WORKER_STACK ((size_t)2 << 20)
-
-static int start_worker(pthread_t *worker, ring *r) {
-    pthread_attr_t attributes;
-    if (pthread_attr_init(&attributes) != 0) return 0;
-    // Signals that the program holds back for a moment must not come by way of a worker.
-    finish_hold_signals();
-    int ok = pthread_attr_setstacksize(&attributes, WORKER_STACK) == 0 &&
-             pthread_create(worker, &attributes, run_worker, r) == 0;
-    finish_release_signals();
-    pthread_attr_destroy(&attributes);
-    return ok;
-}
-
-static int run_threads(ring *r, unsigned threads) {
-    pthread_t *workers = malloc(threads * sizeof *workers);
-    unsigned started = 0;
+static int run_threads(ring *r) {
     int code = -1;
-    if (!workers) return -1;
-    while (started < threads && start_worker(&workers[started], r)) started++;
+    r->workers = malloc(r->most * sizeof *r->workers);
+    if (!r->workers) return -1;
+    // Signals that the program holds back for a moment must not come by way of a worker, nor of those that it starts.
+    finish_hold_signals();
+    pthread_mutex_lock(&r->lock);
+    start_worker(r);
+    unsigned started = r->started;
+    pthread_mutex_unlock(&r->lock);
+    finish_release_signals();
     if (started) code = drain_all(r);
-    for (unsigned i = 0; i < started; i++) pthread_join(workers[i], NULL);
-    free(workers);
+    // A worker that runs may still start others; one that has ended starts none.
+    for (unsigned i = 0; i < started; i++) {
+        pthread_join(r->workers[i], NULL);
+        pthread_mutex_lock(&r->lock);
+        started = r->started;
+        pthread_mutex_unlock(&r->lock);
+    }
+    free(r->workers);
     return code;
 }
 
 int pipeline_run(const cli_pipeline *pipeline, unsigned threads) {
-    ring r = {.pipeline = pipeline, .count = threads > 1 ? (size_t)threads * SLOTS_PER_THREAD : 1};
+    ring r = {.pipeline = pipeline, .count = threads > 1 ? (size_t)threads * SLOTS_PER_THREAD : 1, .most = threads};
     int code = -1;
     r.slots = calloc(r.count, pipeline->slot_size);
     r.done = calloc(r.count, 1);
     pthread_mutex_init(&r.filling, NULL);
     pthread_mutex_init(&r.lock, NULL);
     pthread_cond_init(&r.changed, NULL);
-    if (r.slots && r.done) code = threads > 1 ? run_threads(&r, threads) : run_alone(&r);
-    for (size_t i = 0; r.slots && i < r.count; i++) pipeline->clear(r.slots + i * pipeline->slot_size);
+    if (r.slots && r.done) code = threads > 1 ? run_threads(&r) : run_alone(&r);
+    // Those that were never filled have nothing; memory that nobody looked at was never taken.
+    size_t used = threads > 1 && r.filled < r.count ? (size_t)r.filled + 1 : r.count;
+    for (size_t i = 0; r.slots && i < r.count && i < used; i++) pipeline->clear(r.slots + i * pipeline->slot_size);
     pthread_cond_destroy(&r.changed);
     pthread_mutex_destroy(&r.lock);
     pthread_mutex_destroy(&r.filling);
@@ -150,7 +171,8 @@ size_t pipeline_take(size_t *next, size_t total, size_t most, size_t *first) {
     return count;
 }
 
-unsigned pipeline_get_processors(void) {
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count > 1 ? (unsigned)count : 1;
+unsigned pipeline_get_threads(unsigned asked) {
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    unsigned threads = asked ? asked : processors > 1 ? (unsigned)processors : 1;
+    return threads < PIPELINE_THREADS_MAX ? threads : PIPELINE_THREADS_MAX;
 }

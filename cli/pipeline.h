@@ -9,7 +9,9 @@
 #define THREADS_OPTION(settings)                                                                                       \
     {                                                                                                                  \
         "threads", 0, OPTION_COUNT, offsetof(settings, threads), "N", NULL,                                            \
-            "work on N threads; the output is the same bytes for any N (default: one for each processor)"              \
+            "work on N threads, 1024 at most, and no more than there is work for; the output is the same bytes for "   \
+            "any N "                                                                                                   \
+            "(default: one for each processor)"                                                                        \
     }
 
 /// The steps of a pipeline; context is the caller's.
@@ -26,15 +28,18 @@ typedef struct cli_pipeline {
     void (*clear)(void *slot);
 } cli_pipeline;
 
-/// Runs a pipeline on that many threads (1: none are started). Returns 0, the code with which drain stopped it, or -1:
-/// no memory or no threads.
+/// Runs a pipeline on that many threads (1: none are started), or as many as there are slots to fill where these are
+/// fewer. Returns 0, the code with which drain stopped it, or -1: no memory or no threads.
 int pipeline_run(const cli_pipeline *pipeline, unsigned threads);
 
 /// The next chunk of a list of `total` items for a slot: from *first on, at most `most`. Returns their number; 0: there
 /// are no more.
 size_t pipeline_take(size_t *next, size_t total, size_t most, size_t *first);
 
-/// The number of processors this process may use, at least 1.
-unsigned pipeline_get_processors(void);
+/// Most threads of a pipeline.
+#define PIPELINE_THREADS_MAX 1024u
+
+/// The threads to work on: as many as are asked for, 0: one for each processor; at most PIPELINE_THREADS_MAX.
+unsigned pipeline_get_threads(unsigned asked);
 
 #endif

@@ -16,7 +16,7 @@
 struct verdict {
     ovoid_options options;
     pthread_mutex_t lock;
-    unsigned count; ///< judges that are free, at the front
+    unsigned count; ///< judges that are free, at the front; others are made as they are needed
     judge **judges;
 };
 
@@ -39,8 +39,8 @@ verdict *verdict_create(unsigned threads, const ovoid_options *options) {
     v->options = *options;
     pthread_mutex_init(&v->lock, NULL);
     v->judges = calloc(threads, sizeof *v->judges);
-    while (v->judges && v->count < threads && (v->judges[v->count] = make_judge(options)) != NULL) v->count++;
-    if (v->count == threads) return v;
+    if (v->judges && (v->judges[0] = make_judge(options)) != NULL) v->count = 1;
+    if (v->count) return v;
     verdict_destroy(v);
     return NULL;
 }
@@ -53,11 +53,13 @@ void verdict_destroy(verdict *v) {
     free(v);
 }
 
-/// There are as many judges as threads: one is always free.
+/// A free judge, or a new one; there are no more than threads.
 static judge *take(verdict *v) {
     pthread_mutex_lock(&v->lock);
-    judge *taken = v->judges[--v->count];
+    judge *taken = v->count ? v->judges[--v->count] : NULL;
     pthread_mutex_unlock(&v->lock);
+    if (!taken) taken = make_judge(&v->options);
+    if (!taken) end_out_of_memory();
     return taken;
 }
 

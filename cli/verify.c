@@ -207,7 +207,7 @@ static int find_code(const verify *v) {
 /// Checks every result; returns the exit code.
 static int run_results(verify *v) {
     cli_pipeline line = {v, sizeof(chunk), fill, work, drain, clear};
-    unsigned threads = v->settings->threads ? v->settings->threads : pipeline_get_processors();
+    unsigned threads = pipeline_get_threads(v->settings->threads);
     const ovoid_options asked = {.absolute_tolerance = v->settings->tolerance};
     v->verdict = verdict_create(threads, &asked);
     if (!v->verdict) return message_error("out of memory"), EXIT_INPUT;

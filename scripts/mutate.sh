@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard page report python python_solid decompose_watch robot_watch hostile"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard page report python python_solid decompose_watch robot_watch hostile hostile_cli"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -37,6 +37,7 @@ tests_of() {
     solid_files) echo "test_cli_altered_solids.sh test_cli.sh:solid:info" ;;
     decompose) echo "test_decompose_cells test_decompose" ;;
     hostile) echo "test_io_json test_io_texts test_io_child" ;;
+    hostile_cli) echo "test_cli_hostile.sh" ;;
     decompose_watch) echo "test_decompose_watch" ;;
     compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_compound_impact_altered test_judge_compound" ;;
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_impact_altered test_judge_impact test_impact_trials test_compound_impact" ;;

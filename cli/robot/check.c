@@ -242,7 +242,7 @@ static int check_states(check *c) {
     size_t count = c->form.states->count;
     // A few states are checked sooner than a thread starts.
     cli_pipeline line = {c, sizeof(block), fill, work, drain, clear};
-    unsigned threads = c->settings->threads ? c->settings->threads : pipeline_get_processors();
+    unsigned threads = pipeline_get_threads(c->settings->threads);
     progress_start("states", count);
     int code = pipeline_run(&line, count <= OVOID_ROBOT_BLOCK ? 1 : threads);
     progress_end();

@@ -1,10 +1,14 @@
 // Output files that appear whole or not at all: written beside their path under a temporary name, flushed to the disk,
 // then renamed. A link is followed first, so that it stays a link. A path that is no regular file (a terminal, a pipe,
-// /dev/null) is written to directly.
+// /dev/null) is written to directly. What a process that was killed left of an unfinished file is removed by the next
+// one that writes the same path.
 #define _XOPEN_SOURCE 700 // realpath, fsync
 #include "io/text.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -21,17 +25,65 @@ static ovoid_code fail_output(ovoid_error *error, const char *path, const char *
     return io_fail(error, OVOID_ERROR_FILE, (where){path, 0, -1}, "%s: %s", what, strerror(errno));
 }
 
+// ---- unfinished files
+
+// A lock for as long as the file is open: who cannot have it sees that somebody writes, on another machine too.
+static int lock(int file) {
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    return fcntl(file, F_SETLK, &whole) == 0;
+}
+
+// The process that writes, or wrote, NAME.PROCESS-ATTEMPT.tmp; 0 where the file's name is not of that form.
+static long get_writer(const char *file, const char *name) {
+    size_t length = strlen(name);
+    if (strncmp(file, name, length) != 0 || file[length] != '.') return 0;
+    char *end;
+    const char *number = file + length + 1;
+    errno = 0;
+    long process = strtol(number, &end, 10);
+    if (errno || *number < '1' || *number > '9' || (pid_t)process != process || *end != '-') return 0;
+    const char *attempt = end + 1;
+    size_t digits = strspn(attempt, "0123456789");
+    return digits && strcmp(attempt + digits, ".tmp") == 0 ? process : 0;
+}
+
+// Removes an unfinished file of ours that nobody writes any more.
+static void remove_leftover(int folder, const char *file) {
+    struct stat status;
+    int opened = openat(folder, file, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (opened < 0) return;
+    if (fstat(opened, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid() && lock(opened))
+        (void)unlinkat(folder, file, 0);
+    close(opened);
+}
+
+// Removes what processes that are gone have left of the target.
+static void remove_leftovers(const char *target) {
+    const char *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
+    char *path = path_join(target, ".");
+    DIR *folder = path ? opendir(path) : NULL;
+    free(path);
+    if (!folder) return;
+    for (struct dirent *entry; (entry = readdir(folder));) {
+        long writer = get_writer(entry->d_name, name);
+        if (writer && kill((pid_t)writer, 0) != 0 && errno == ESRCH) remove_leftover(dirfd(folder), entry->d_name);
+    }
+    closedir(folder);
+}
+
 // Opens a new file beside the target; mode "x" fails where it exists.
 static ovoid_code open_temporary(ovoid_output *output, ovoid_error *error) {
     size_t length = strlen(output->target);
     char *name = malloc(length + 48);
     if (!name) return io_fail_memory(error, output->path);
+    remove_leftovers(output->target);
     for (unsigned attempt = 0; attempt < 100 && !output->file; attempt++) {
         snprintf(name, length + 48, "%s.%ld-%u.tmp", output->target, (long)getpid(), attempt);
         output->file = fopen(name, "wbx");
         if (!output->file && errno != EEXIST) break;
     }
     if (output->file) {
+        (void)lock(fileno(output->file)); // a file system without locks has none to be seen
         output->temporary = name;
         return OVOID_OK;
     }

@@ -207,6 +207,47 @@ else
     echo 'skipped: there is no timeout, or env has no --default-signal'
 fi
 
+# ---- killed outright: the unfinished file stays, and the next run into that name removes it, and no other file
+
+kill_batch() { # kill_batch NAME: leaves the unfinished file of a batch into NAME
+    "$OVOID_TOOL" batch --shapes shapes.txt --pairs - --json -o "$1" <killed.fifo >/dev/null 2>&1 &
+    exec 3>killed.fifo
+    cat many.csv >&3
+    kill -KILL $!
+    wait $! 2>/dev/null
+    exec 3>&-
+}
+mkfifo killed.fifo
+mkdir deep
+for target in new.out old.out deep/linked.out; do
+    if [ $target = deep/linked.out ]; then ln -s ../linked.json deep/linked.out; fi
+    kill_batch $target
+    left=$(find . -name '*.tmp')
+    if [ -n "$left" ]; then pass; else fail "killed, $target: nothing is left behind, which this is about"; fi
+    gone=$(echo "$left" | sed 's/.*out\.//; s/.*json\.//; s/-0.tmp//')
+    # Not ours to remove: of a process that lives, of another name, no file.
+    sleep 100 &
+    alive=$!
+    mkdir "$target.$gone-7.tmp"
+    ln -s scene.json "$target.$gone-8.tmp"
+    for name in "$target.$alive-0.tmp" "$target.1-0.tmp" "$target.$gone-x.tmp" "$target.$gone-.tmp" "$target.0$gone-0.tmp" "$target.99999999999999999999-0.tmp" \
+        "$target.$gone-0.tmpx" "$target.x$gone-0.tmp" "other.$target.$gone-0.tmp" "$target$gone-0.tmp"; do
+        (mkdir -p "$(dirname "$name")" && echo mine >"$name")
+    done
+    kept=$(find . -name '*.tmp*' | grep -vFx -- "$left" | sort)
+    "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --json -o $target 2>err
+    code=$?
+    if [ $code -le 1 ] && [ "$(find . -name '*.tmp*' | sort)" = "$kept" ]; then
+        pass
+    else
+        fail "after a kill, $target: exit $code; there were $left $kept; there are $(find . -name '*.tmp*' | sort)"
+    fi
+    kill $alive
+    find . -name '*.tmp*' -exec rm -rf {} +
+    rm -rf new.out linked.json other.*
+    echo old >old.out
+done
+
 # ---- bad input in the middle: the file that was there stays
 
 (cat many.csv && echo 0,1,nonsense) >broken.csv
@@ -257,6 +298,19 @@ expect '100 000 objects' 1 '100000 objects'
 lines=$(wc -l <huge.csv)
 if [ "$lines" -eq 99001 ]; then pass; else fail "100 000 objects: $lines lines, not 99001"; fi
 rm -f huge.json huge.csv
+# ---- more threads than there is work: none of them is started, which memory shows
+
+for run in "batch --shapes shapes.txt --pairs pairs.csv --json -o threads.jsonl" "verify threads.jsonl --shapes shapes.txt --pairs pairs.csv" \
+    "check scene.json" "check scene.json --margin 1" "robot check arm/arm.urdf --states arm/states.csv"; do
+    # shellcheck disable=SC3045,SC2086 # where ulimit has no -v, there is no limit; a command line
+    (
+        if ulimit -v 400000 && "$OVOID_TOOL" --version; then :; else ulimit -v unlimited; fi
+        exec timeout 20 "$OVOID_TOOL" $run --threads 1000000000
+    ) >/dev/null 2>err
+    code=$?
+    case $code in 0 | 1 | 4) pass ;; *) fail "many threads, $run: exit $code: $(head -c 200 err)" ;; esac
+done
+rm -f threads.jsonl
 # ---- streams that are closed or full
 
 "$OVOID_TOOL" verify - scene.json <&- >/dev/null 2>err
