@@ -1,8 +1,8 @@
 /**
  * @file solid.h
  * Solids of triangles, convex or not, and their proximity to each other, to shapes and to compounds.
- * A solid is immutable: any number of bodies and threads share it. Queries allocate nothing and keep no state; stack 64
- * KB beside what <ovoid/query.h> says.
+ * A solid is immutable: any number of bodies and threads share it. Queries allocate nothing and keep no state; stack 16
+ * KB beside what <ovoid/query.h> says, so a thread of 128 KB will do.
  */
 #ifndef OVOID_SOLID_H
 #define OVOID_SOLID_H

@@ -4,7 +4,8 @@
 // tolerance, is left out. The stack is as deep as both trees together; nothing is allocated.
 #include "solid/search.h"
 
-enum { HEAP_ROOM = 1024 };
+enum { WAITING_ROOM = 1280, HEAP_MOST = 1024 };
+_Static_assert(WAITING_ROOM > 2 * (BOX8 - 1) * SOLID_DEPTH_MAX + 1, "the deepest trees leave room for a heap");
 
 // The children of a node that are not left out, farthest first.
 typedef struct children {
@@ -76,24 +77,57 @@ static void visit_triangles(solid_search *h, int side, const children *found) {
     search_visit_triangles(h, side, one, places, found->count);
 }
 
+// A waiting pair in 16 bytes: the six bits of its normal's number are where a node's or triangle's has none.
+typedef struct packed_pair {
+    uint32_t a, b;
+    double lower;
+} packed_pair;
+
+enum { PACKED_SHIFT = 28, PACKED_MASK = 7 };
+_Static_assert(OVOID_SOLID_TRIANGLES_MAX <= (size_t)1 << PACKED_SHIFT, "the number of a triangle or node has room");
+_Static_assert(SEARCH_NORMALS <= (PACKED_MASK + 1) * (PACKED_MASK + 1), "the number of a normal has room");
+
+static packed_pair pack(const waiting_pair *w) {
+    uint32_t low = w->normal & PACKED_MASK, high = w->normal / (PACKED_MASK + 1);
+    return (packed_pair){w->a | low << PACKED_SHIFT, w->b | high << PACKED_SHIFT, w->lower};
+}
+
+static waiting_pair unpack(packed_pair p) {
+    uint32_t low = p.a >> PACKED_SHIFT & PACKED_MASK, high = p.b >> PACKED_SHIFT & PACKED_MASK;
+    const uint32_t own = ~((uint32_t)PACKED_MASK << PACKED_SHIFT);
+    return (waiting_pair){p.a & own, p.b & own, p.lower, high * (PACKED_MASK + 1) + low};
+}
+
 // Pairs that wait: of boxes that overlap the last one first, since each has to be opened; then the nearest, from a heap
-// (J. W. J. Williams, Algorithm 232: heapsort, 1964), so that none is opened whose bound is above the answer. A heap
-// that is full leaves its place to the stack.
+// (J. W. J. Williams, Algorithm 232: heapsort, 1964), so that none is opened whose bound is above the answer. The stack
+// is at the beginning of the memory, the heap behind the most that the stack can take; where it is full, pairs go to
+// the stack.
 typedef struct waiting {
-    waiting_pair stack[2 * SOLID_DEPTH_MAX * BOX8];
-    waiting_pair heap[HEAP_ROOM];
-    uint32_t stacked, heaped;
+    packed_pair all[WAITING_ROOM], *heap;
+    uint32_t stacked, heaped, heap_room;
 } waiting;
+
+// Down a path of both trees each node leaves all its children but one.
+static uint32_t find_most_stacked(const solid_view *v) {
+    return v->solid ? (BOX8 - 1) * v->solid->depth : v->compound ? COMPOUND_DEPTH_MAX : 0;
+}
+
+static void waiting_begin(waiting *q, const solid_search *h) {
+    uint32_t most = 1 + find_most_stacked(&h->a) + find_most_stacked(&h->b);
+    q->stacked = q->heaped = 0;
+    q->heap = q->all + most;
+    q->heap_room = WAITING_ROOM - most < HEAP_MOST ? WAITING_ROOM - most : HEAP_MOST;
+}
 
 static void push_heap(waiting *q, const waiting_pair *w) {
     uint32_t at = q->heaped++;
     for (uint32_t parent; at > 0 && q->heap[parent = (at - 1) / 2].lower > w->lower; at = parent)
         q->heap[at] = q->heap[parent];
-    q->heap[at] = *w;
+    q->heap[at] = pack(w);
 }
 
-static waiting_pair pop_heap(waiting *q) {
-    waiting_pair top = q->heap[0], last = q->heap[--q->heaped];
+static packed_pair pop_heap(waiting *q) {
+    packed_pair top = q->heap[0], last = q->heap[--q->heaped];
     uint32_t at = 0;
     for (uint32_t child; (child = 2 * at + 1) < q->heaped; at = child) {
         if (child + 1 < q->heaped && q->heap[child + 1].lower < q->heap[child].lower) child++;
@@ -104,7 +138,7 @@ static waiting_pair pop_heap(waiting *q) {
     return top;
 }
 
-static waiting_pair pop(waiting *q) { return q->stacked ? q->stack[--q->stacked] : pop_heap(q); }
+static waiting_pair pop(waiting *q) { return unpack(q->stacked ? q->all[--q->stacked] : pop_heap(q)); }
 
 // Children wait; triangles beside a triangle are visited at once.
 static void pass_on(solid_search *h, int side, const children *found, waiting *q) {
@@ -113,10 +147,10 @@ static void pass_on(solid_search *h, int side, const children *found, waiting *q
         const waiting_pair *w = &found->pair[i];
         if (ref_is_triangle(w->a) && ref_is_triangle(w->b) && h->a.solid && h->b.solid)
             leaves.pair[leaves.count++] = *w;
-        else if (w->lower > 0 && q->heaped < HEAP_ROOM)
+        else if (w->lower > 0 && q->heaped < q->heap_room)
             push_heap(q, w);
         else
-            q->stack[q->stacked++] = *w;
+            q->all[q->stacked++] = pack(w);
     }
     if (leaves.count) visit_triangles(h, side, &leaves);
 }
@@ -130,8 +164,9 @@ waiting_pair search_make_roots(const solid_search *h) {
 
 void search_traverse(solid_search *h) {
     waiting q;
-    q.stacked = q.heaped = 0;
-    q.stack[q.stacked++] = search_make_roots(h);
+    waiting_begin(&q, h);
+    waiting_pair roots = search_make_roots(h);
+    q.all[q.stacked++] = pack(&roots);
     h->out->visited++;
     while (q.stacked + q.heaped > 0 && !search_is_decided(h)) {
         waiting_pair w = pop(&q);

@@ -17,6 +17,7 @@ typedef struct range {
     uint32_t first, end;
     box bounds;
     double surface;
+    uint32_t level; ///< of its node, the root 1; set where it waits
 } range;
 
 typedef struct builder {
@@ -67,7 +68,7 @@ static void select_first(const builder *b, uint32_t first, uint32_t middle, uint
 }
 
 static range make_range(const builder *b, uint32_t first, uint32_t end) {
-    range r = {first, end, box_make_empty(), 0};
+    range r = {first, end, box_make_empty(), 0, 0};
     for (uint32_t i = first; i < end; i++) r.bounds = box_join(&r.bounds, &b->bounds[b->solid->order[i]]);
     r.surface = box_compute_surface(&r.bounds);
     return r;
@@ -194,6 +195,7 @@ static uint32_t make_node(const builder *b, const range *whole, uint32_t node, r
         } else {
             n->child[i] = s->node_count++;
             stack[waiting] = child[i];
+            stack[waiting].level = whole->level + 1;
             nodes[waiting++] = n->child[i];
         }
     }
@@ -219,9 +221,11 @@ int solid_build_tree(ovoid_solid *s, const solid_triangle *triangles) {
     }
     range stack[SOLID_DEPTH_MAX * BOX8] = {make_range(&b, 0, s->triangle_count)};
     uint32_t nodes[SOLID_DEPTH_MAX * BOX8] = {0};
+    stack[0].level = 1;
     s->node_count = 1;
     for (uint32_t count = 1; count > 0;) {
         range whole = stack[--count];
+        s->depth = whole.level > s->depth ? whole.level : s->depth;
         count += make_node(&b, &whole, nodes[count], stack + count, nodes + count);
     }
     allocator_release(&s->allocator, b.bounds);

@@ -18,7 +18,15 @@
 #define MEASURED 1
 #endif
 
-enum { STACK = 256 << 10, PATTERN = 0xa5, PAIRS = 24, SHALLOW = 96, STATED = 96 << 10, COUPLES = 9 };
+enum {
+    STACK = 256 << 10,
+    PATTERN = 0xa5,
+    PAIRS = 24,
+    SHALLOW = 96,
+    STATED = 96 << 10,
+    STATED_OF_SOLIDS = STATED + (16 << 10),
+    COUPLES = 9
+};
 
 static _Alignas(65536) unsigned char stack[STACK];
 
@@ -37,6 +45,10 @@ static ovoid_moving_shape moving[2];
 static ovoid_compound *compounds[2];
 static ovoid_body_pair body_pair;
 static ovoid_moving_body moving_bodies[2];
+static ovoid_solid *solids[2];
+static ovoid_body_pair solid_pair;
+static ovoid_moving_body moving_solids[2];
+static ovoid_solid_answer solid_answer;
 static ovoid_compound_answer compound_answer;
 static ovoid_compound_impact compound_impact;
 static ovoid_step_group groups[4096];
@@ -122,6 +134,21 @@ static void ask_compound_impact_check(void) {
 }
 static void ask_compound_box(void) { box = ovoid_moving_body_compute_box(&moving_bodies[0], 0, 1); }
 
+static void ask_solid_collide(void) { solid_answer = ovoid_solid_collide(&solid_pair, NULL, NULL, &exclusions); }
+static void ask_solid_within(void) { solid_answer = ovoid_solid_within(&solid_pair, 0.01, NULL, NULL, &exclusions); }
+static void ask_solid_distance(void) { solid_answer = ovoid_solid_distance(&solid_pair, NULL, NULL, &exclusions); }
+/// Of the distance, where there was room for its proof.
+static void ask_solid_check(void) {
+    ovoid_code code = ovoid_solid_answer_check(&solid_pair, &solid_answer, &exclusions, NULL);
+    CHECK(code == OVOID_OK || exclusions.count > exclusions.capacity);
+}
+static void ask_solid_impact(void) {
+    compound_impact = ovoid_solid_impact_find(&moving_solids[0], &moving_solids[1], 0, &recording);
+}
+static void ask_solid_impact_check(void) {
+    (void)ovoid_solid_impact_check(&moving_solids[0], &moving_solids[1], 0, &compound_impact, steps, groups, NULL);
+}
+
 static void ask_find_any(void) { CHECK(ovoid_world_find_any(world, NULL, 0, NULL, &hit, NULL) == OVOID_OK); }
 static void ask_find_any_to(void) { CHECK(ovoid_world_find_any_to(world, &probe, 1, &hit, NULL) == OVOID_OK); }
 static void ask_find_any_of(void) {
@@ -189,6 +216,12 @@ static const struct {
                {"compound_impact", ask_compound_impact, STATED},
                {"compound_impact_check", ask_compound_impact_check, 64 << 10},
                {"compound_box", ask_compound_box, 12 << 10},
+               {"solid_collide", ask_solid_collide, STATED_OF_SOLIDS},
+               {"solid_within", ask_solid_within, STATED_OF_SOLIDS},
+               {"solid_distance", ask_solid_distance, STATED_OF_SOLIDS},
+               {"solid_check", ask_solid_check, 64 << 10},
+               {"solid_impact", ask_solid_impact, STATED + (32 << 10)},
+               {"solid_impact_check", ask_solid_impact_check, STATED + (32 << 10)},
                {"find_any", ask_find_any, STATED},
                {"find_any_to", ask_find_any_to, STATED},
                {"find_any_of", ask_find_any_of, STATED},
@@ -225,6 +258,15 @@ static size_t measure(int query) {
     return sizeof stack - untouched;
 }
 
+/// The surface of a shape; of one that is flat or less, the triangle of three of its vertices.
+static ovoid_solid *make_solid(const ovoid_shape *shape) {
+    static const uint32_t one[3] = {0, 0, 0};
+    ovoid_polytope p = ovoid_shape_get_polytope(shape);
+    uint32_t count = p.triangle_count ? p.triangle_count : 1;
+    return ovoid_solid_create_from_triangles(p.vertices, p.vertex_count, p.triangle_count ? p.triangles : one, count,
+                                             NULL, NULL);
+}
+
 /// The pair at hand in all that is asked about: bodies that change places, compounds of three of its shapes, a world.
 static int set_up(void) {
     ovoid_pose none = ovoid_pose_make_identity(), aside = none;
@@ -239,10 +281,20 @@ static int set_up(void) {
         moving[k] = (ovoid_moving_shape){.shape = shape, .motion = ovoid_motion_make_poses(from, to, 1)};
         compounds[k] = ovoid_compound_create(parts, 3, NULL, NULL);
         if (!CHECK(compounds[k] != NULL)) return 0;
+        solids[k] = make_solid(shape);
+        if (!CHECK(solids[k] != NULL)) return 0;
+        moving_solids[k] = (ovoid_moving_body){.solid = solids[k], .motion = moving[k].motion};
         moving_bodies[k] = (ovoid_moving_body){.compound = compounds[k], .motion = moving[k].motion};
     }
     body_pair = (ovoid_body_pair){{.compound = compounds[0], .pose = pair.pose_a},
                                   {.compound = compounds[1], .pose = pair.pose_b}};
+    solid_pair = (ovoid_body_pair){{.solid = solids[0], .pose = pair.pose_a}, {.pose = pair.pose_b}};
+    // By turns beside a solid and beside the shape.
+    static int turn;
+    if (turn++ % 2)
+        solid_pair.b.shape = pair.shape_b;
+    else
+        solid_pair.b.solid = solids[1];
     for (int i = 0; i < COUPLES; i++) couples[i] = (ovoid_couple){0, 1};
     world = ovoid_world_create(NULL, NULL);
     if (!CHECK(world != NULL)) return 0;
@@ -254,7 +306,10 @@ static int set_up(void) {
 
 static void tear_down(void) {
     ovoid_world_destroy(world);
-    for (int k = 0; k < 2; k++) ovoid_compound_destroy(compounds[k]);
+    for (int k = 0; k < 2; k++) {
+        ovoid_compound_destroy(compounds[k]);
+        ovoid_solid_destroy(solids[k]);
+    }
 }
 
 static void measure_all(size_t base) {
