@@ -430,7 +430,7 @@ OVOID_API void ovoid_text_write_json(FILE *file, const char *text);
 /**
  * Writes a field of CSV that no spreadsheet takes for a formula: in quotes where it has a comma, a semicolon, a quote
  * or blanks at an end; with an apostrophe before it where its first character, blanks apart, is one of = + - @ ' or the
- * wide forms of these four; each byte of what should not be shown as \xHH, and so the backslash of what looks like
+ * wide forms of these four; each byte of what should not be shown as `\xHH`, and so the backslash of what looks like
  * that. ovoid_text_read_csv undoes all of it.
  */
 OVOID_API void ovoid_text_write_csv(FILE *file, const char *text);
