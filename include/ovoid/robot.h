@@ -316,8 +316,8 @@ typedef struct ovoid_robot_near {
     double lower, upper;         /**< bracket of the signed distance, padding and the poses' errors counted */
     ovoid_vec3 point_a, point_b; /**< root link's frame; of the padded link */
     ovoid_vec3 normal;           /**< unit, from a to b */
-    int has_gradient;            /**< 1: shown: the distance is differentiable here, and this is its gradient as
-                                      ovoid_gradient has it */
+    int has_gradient;            /**< 1: shown: the distance of the true bodies is differentiable here, and this is its
+                                      gradient as ovoid_gradient has it, by translations and rotations */
 } ovoid_robot_near;
 
 /** Memory for near pairs. */

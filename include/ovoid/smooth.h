@@ -45,7 +45,7 @@ typedef struct ovoid_smooth {
  */
 OVOID_API ovoid_smooth ovoid_smooth_compute(const ovoid_pair *pair, int order);
 
-/** The gradient of the exact signed distance, as far as an answer shows it. */
+/** The gradient of the exact signed distance (of the true bodies), as far as an answer shows it. */
 typedef struct ovoid_gradient {
     double gradient[12];      /**< by translations (0-2, 6-8) and rotations (3-5, 9-11); zero of a refused answer */
     uint32_t has_translation; /**< 1: shown: the derivative by translations exists, and is this one to `turn` */
@@ -63,7 +63,8 @@ typedef struct ovoid_gradient {
  * The gradient of the exact signed distance from an answer of ovoid_distance or ovoid_depth and its pair. cover: the
  * one that ovoid_depth gave, or NULL; without it no derivative of a depth is shown. Nothing is shown where the hulls,
  * without radii, touch to rounding. What is not shown is filled in all the same: one of several gradients, or an
- * inexact one. Cost: the edges at the witness points, and the cover's triangles; 0.1 to some microseconds.
+ * inexact one. Of shapes with an allowance the gradient is that of the true bodies: by translations, apart, to `turn`,
+ * which the width of their bracket makes; by rotations nothing is shown. Cost: the edges at the witness points, and the cover's triangles; 0.1 to some microseconds.
  */
 OVOID_API ovoid_gradient ovoid_answer_compute_gradient(const ovoid_pair *pair, const ovoid_answer *answer,
                                                        const ovoid_cover *cover);

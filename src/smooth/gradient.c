@@ -13,6 +13,9 @@
 // it falls away by sa(u), sb(u) >= 0, and the points can move along together where both are zero. These are bounded
 // from below: at a vertex by the least slope of its edges; at an edge by the slope across it, so that two edges at the
 // angle psi leave the lesser slope times sin psi; on a face by 0. Rounding and the turn of n are subtracted first.
+//
+// Of shapes with an allowance the gradient is that of the true bodies: their normal is bounded by their own bracket in
+// the same way, which holds for any convex bodies; their points are not known.
 #include "base/environment.h"
 #include "base/error.h"
 #include "ovoid/smooth.h"
@@ -160,6 +163,10 @@ static void add_rotation(const pair_frame *f, const ovoid_proof *p, vec3 n, doub
     if (out->slope > 0) out->slide = (excess + off) / out->slope;
 }
 
+// The radius by which a body's own distance is that of its hull. A true body within an allowance has none that is
+// known.
+static double get_core_radius(const ovoid_shape *s) { return s->has_allowance ? 0 : s->radius; }
+
 static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover, ovoid_gradient *out) {
     OVOID_ASSERT(pair && x);
     pair_frame f;
@@ -172,13 +179,15 @@ static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_c
     put(out->gradient, vec3_neg(n));
     put(out->gradient + 6, n);
 
-    // Bounds of the hulls, without radii and allowances.
-    double lower = x->lower + f.lower_radii, upper = x->upper + f.upper_radii, off = INFINITY;
+    // Bounds of the hulls, without radii; of true bodies that are known to within allowances, of these bodies.
+    int is_exact = !f.a->has_allowance && !f.b->has_allowance;
+    double radii = get_core_radius(f.a) + get_core_radius(f.b);
+    double lower = x->lower + radii, upper = x->upper + radii, off = INFINITY;
     if (lower > 0) {
         out->turn = find_angle_above((upper - lower) / upper);
         out->margin = INFINITY;
         off = sqrt(max2((upper - lower) * (upper + lower), 0));
-    } else if (upper < 0) {
+    } else if (upper < 0 && is_exact) {
         vec3 in_frame = frame_direction_from_world(&f, n);
         out->turn = find_angle_above(judge_depth(&f, cover, in_frame, -upper, -lower, &out->margin));
         off = out->turn * -lower;
@@ -187,6 +196,11 @@ static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_c
     int has_points = x->proof.kind == OVOID_PROOF_POINTS || x->proof.kind == OVOID_PROOF_COVER;
     if (has_points && x->proof.count && proof_is_sound(&f, &x->proof))
         add_rotation(&f, &x->proof, n, upper - lower, off, out);
+    if (is_exact) return;
+    // The points of the true bodies, and how these fall away there, are not known.
+    out->has_rotation = 0;
+    out->slope = 0;
+    out->slide = INFINITY;
 }
 
 ovoid_gradient ovoid_answer_compute_gradient(const ovoid_pair *pair, const ovoid_answer *answer,

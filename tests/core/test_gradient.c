@@ -5,6 +5,7 @@
 #include "check.h"
 #include "ovoid/ovoid.h"
 
+#include "bits.h"
 #include "linear/mat3.h"
 #include "pairs.h"
 
@@ -247,8 +248,39 @@ static void test_kinks(void) {
     ovoid_shape_destroy(ball);
 }
 
+// Bodies known to within an allowance: the normal of the true ones is within `turn`, and no more is shown. Truth: balls
+// that are smaller than the shapes and beside them, as far as the allowances let them be.
+static void test_allowances(void) {
+    uint64_t s = 5;
+    for (int i = 0; i < 400; i++) {
+        check_seed = (uint64_t)i;
+        ovoid_shape *shapes[2];
+        vec3 at[2], center[2];
+        double room[2];
+        for (int k = 0; k < 2; k++) {
+            double size = random_uniform(&s, 0.1, 1), shrunk;
+            room[k] = random_uniform(&s, 0, 0.2) * size;
+            shrunk = random_uniform(&s, 0, room[k]);
+            const ovoid_shape_options o = {.allowance = {room[k], room[k]}};
+            shapes[k] = ovoid_shape_create_sphere(size, &o, NULL);
+            at[k] = vec3_scale(vec3_unit(bits_vec3(&s, 1)), k ? 2.5 : 0);
+            center[k] = vec3_add_scaled(at[k], vec3_unit(bits_vec3(&s, 1)), room[k] - shrunk);
+        }
+        ovoid_pair pair = {shapes[0], shapes[1], {at[0], {1, 0, 0, 0}}, {at[1], {1, 0, 0, 0}}};
+        ovoid_answer x = ovoid_distance(&pair, NULL, NULL);
+        ovoid_gradient g = ovoid_answer_compute_gradient(&pair, &x, NULL);
+        vec3 n = vec3_unit(vec3_sub(center[1], center[0]));
+        CHECK(g.has_translation == (x.lower > 0) && !g.has_rotation && isinf(g.slide));
+        if (g.has_translation) CHECK_LE(acos(fmin(vec3_dot(n, x.normal), 1)), g.turn);
+        ovoid_shape_destroy(shapes[0]);
+        ovoid_shape_destroy(shapes[1]);
+    }
+    check_seed = 0;
+}
+
 int main(void) {
     test_random();
     test_kinks();
+    test_allowances();
     return check_end();
 }
