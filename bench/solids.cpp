@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -167,7 +168,15 @@ int run(const ovoid_solid *s, const model *m, double gap, std::size_t count) {
 
 int main(int argc, char **argv) {
     const long only = argc > 1 ? std::atol(argv[1]) : 0;
-    const std::size_t pairs = argc > 2 ? static_cast<std::size_t>(std::atol(argv[2])) : 100;
+    const long wanted = argc > 2 ? std::atol(argv[2]) : 100;
+    if (argc > 3 || (argc > 1 && only < 1) || wanted < 1) {
+        const bool help = argc == 2 && std::strcmp(argv[1], "--help") == 0;
+        (void)std::fprintf(help ? stdout : stderr,
+                           "bench_solids [TRIANGLES [PAIRS]]: queries of solids beside FCL; 5000 "
+                           "or 50000 triangles alone, PAIRS (100) of each gap\n");
+        return help ? 0 : 2;
+    }
+    const std::size_t pairs = static_cast<std::size_t>(wanted);
     int ok = 1;
     for (long size : {5000L, 50000L}) {
         if (only > 0 && size != only) continue;

@@ -4,6 +4,8 @@
 # what they print. No core may hold a fused multiply-add: contraction is off, but compilers have forgotten. A compiler that
 # is not there is skipped. A line for each build; exit 1 where one differs, with its families. Some minutes on two cores.
 set -u
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 folder=build/bits
 mkdir -p $folder

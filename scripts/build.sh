@@ -2,6 +2,8 @@
 # build.sh FOLDER TARGET...: configures the preset release in FOLDER where that is not done, and builds the targets, with a line for
 # each tenth of the work. What the build says goes to FOLDER/said.log, and is shown where it fails. JOBS: how many at a time.
 set -eu
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 folder=$1
 shift

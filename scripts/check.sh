@@ -5,6 +5,8 @@
 # 64-bit ARM and WebAssembly; the page; static analysis; the manual. It stands on the build that check makes.
 # Goes on after a failure; the last line sums all, exit 1 if any failed. Each line says how many minutes are left.
 set -u
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 part=${1:-check}
 jobs=${JOBS:-2}

@@ -3,6 +3,8 @@
 # compiler; outside programs by pkg-config and CMake; the tool; and everything removed. As root, some minutes, in
 # build/deb-root, which is used again. The last line counts.
 set -u
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 packages=${1:-build/deb}
 root=build/deb-root

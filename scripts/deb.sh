@@ -2,6 +2,8 @@
 # deb.sh [FOLDER]: Debian packages of the libraries and the tool into FOLDER (build/deb): built with Debian's flags, all
 # hardening on, and looked through by lintian, whose errors and warnings end it with exit 1. Prints the packages' paths.
 set -eu
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 folder=${1:-build/deb}
 export DEB_BUILD_MAINT_OPTIONS=hardening=+all

@@ -2,6 +2,8 @@
 # demo.sh: six real meshes (Debian's libcgal-demo, CC0) fitted, posed in a scene, every pair answered and proven, one of
 # them moved through the others, the scene drawn. OVOID_TOOL: another tool than build/release/ovoid; OVOID_DEMO: another folder than build/demo.
 set -eu
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 root=$PWD
 tool=${OVOID_TOOL:-build/release/ovoid}

@@ -3,6 +3,8 @@
 # value or macro without a word, a broken link; and where a link of a page leads nowhere. Fields are excepted: a struct's
 # comment may explain them together.
 set -u
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 out=${1:-build/docs}
 rm -rf "$out/html"

@@ -6,6 +6,8 @@
 # covered, inputs kept, failures.
 # Exit 1 where a target failed.
 set -u
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 seconds=${1:-60}
 [ $# -eq 0 ] || shift

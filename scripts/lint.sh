@@ -2,6 +2,8 @@
 # lint.sh [STEP...]: floors, format, shell, tidy; all of them where none is named. format-in-place rewrites the sources.
 # Says what is wrong; exit 1 where anything is.
 set -u
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 
 sources() { find src include cli judge bench examples fuzz packaging python tests web/src \( -name '*.[ch]' -o -name '*.[ch]pp' \) -print; }

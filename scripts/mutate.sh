@@ -9,6 +9,9 @@
 # mutate.sh --check: nothing is built; every mutation has all it needs and applies.
 # mutate.sh --list: the groups, how many mutations each has, and its tests.
 set -u
+options="--check --list -g"
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate

@@ -3,6 +3,9 @@
 # finds it: three.js and the package of scripts/wasm.sh in one file. Then its tests in Chromium, where that is installed; not with --template.
 # Exit 1 where something is missing or wrong; without npm's packages it says so and tests nothing.
 set -eu
+options="--check --template"
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 most=1500000
 out=build/page

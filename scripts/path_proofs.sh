@@ -4,6 +4,8 @@
 # scenes of MotionBenchMaker, others without obstacles. Each robot gets EDGES edges (default 5000) whose both ends are free;
 # joints move by at most 0.3 of their range. Exit 1 where a proof does not hold.
 set -eu
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 tool=${OVOID_TOOL:-$(cd "$(dirname "$0")/.." && pwd)/build/release/ovoid}
 data=${OVOID_DATA:-$(cd "$(dirname "$0")/.." && pwd)/../shared/data}/robots
 wanted=${1:-5000} seed=${2:-1} scenes=20

@@ -5,6 +5,8 @@
 # skipped with a line. quick: musl and 64-bit ARM only, the first pairs only, for make check-all; PORT: that one. A line for each port; exit 1
 # where one differs or a test fails. docs/ports.md says what was run where.
 set -u
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 folder=$PWD/build/ports
 mkdir -p "$folder"
@@ -59,8 +61,8 @@ run() {
 # What the programs print of their bits; quick: of the first pairs.
 print_bits() {
     if [ "$quick" = quick ]; then
-        "$@" test_query_bits --print 25
-        "$@" test_motion_bits --print 20
+        "$@" test_query_bits --print --pairs 25
+        "$@" test_motion_bits --print --cases 20
     else
         "$@" test_query_bits --print
         "$@" test_motion_bits --print

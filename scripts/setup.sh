@@ -2,6 +2,8 @@
 # setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, deb, deb-root, demo, bench, fuzz, ports, wasm, page, python, cluster, docs or site.
 # Nothing missing: nothing is called. Nowhere to install from or no right to: a sentence that names the packages.
 set -eu
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 
 # The packages that each job needs.
 packages_of() {

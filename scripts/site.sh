@@ -3,6 +3,8 @@
 # search, without the network. Of the pages of docs/, the examples and the headers, by Sphinx and Doxygen; and with a live
 # page of the demo's scene where build/demo has it. Exit 1 where Sphinx or Doxygen warns, or a link leads nowhere.
 set -u
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 out=${1:-build/site}
 work=$out.work

@@ -2,6 +2,8 @@
 # test-floor.sh FLOOR: builds and runs the tests of one floor (tests/floors.txt) in build/release; those that take minutes are left to
 # make check. A floor has its tests in about 20 seconds after a change of one of its files.
 set -eu
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 build=build/release
 pattern=$(awk -v floor="${1:-}" '$1 == floor { print $2 }' tests/floors.txt)

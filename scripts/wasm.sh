@@ -2,6 +2,8 @@
 # wasm.sh: the package for JavaScript, in build/wasm/package and packed as build/wasm/ovoid-VERSION.tgz, at most 300 kB; its
 # tests under Node.js, which compare it with build/release/ovoid bit by bit. Exit 1 where something is missing or wrong.
 set -eu
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-2} most=300000
 out=build/wasm

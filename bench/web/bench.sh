@@ -2,6 +2,8 @@
 # bench.sh: the package for JavaScript beside the native library, Rapier and Jolt, as a table; their packages come from npm
 # into build/bench_web. Some minutes. Exit 1 where something is missing.
 set -eu
+# shellcheck source=scripts/help.sh
+. "$(dirname "$0")/../../scripts/help.sh"
 cd "$(dirname "$0")/../.."
 out=build/bench_web
 for tool in node npm; do

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 enum { ROUNDS = 15, QUERIES = 4 };
@@ -77,8 +78,10 @@ static pairs make_pairs(const double *from) {
 }
 
 int main(int argc, char **argv) {
-    double *numbers = argc == 2 ? read_numbers(argv[1]) : NULL;
-    if (!numbers) return fprintf(stderr, "bench_web: FILE, as pairs.mjs writes it\n"), 1;
+    int is_help = argc == 2 && strcmp(argv[1], "--help") == 0;
+    double *numbers = argc == 2 && !is_help ? read_numbers(argv[1]) : NULL;
+    if (!numbers)
+        return fprintf(is_help ? stdout : stderr, "bench_web: FILE, as pairs.mjs writes it\n"), is_help ? 0 : 2;
     pairs p = make_pairs(numbers);
     for (int query = 0; query < QUERIES; query++) {
         double best = 1e9;

@@ -24,10 +24,10 @@ typedef struct solid_triangle {
 struct ovoid_solid {
     uint32_t point_count, triangle_count, node_count, component_count;
     uint32_t depth; ///< nodes on the longest path down
-    vec3 center;   ///< of the box of all points
-    double unit;   ///< a power of two, at least the largest size of a coordinate from `center`
-    double extent; ///< no point is farther than this from the frame's origin, rounding included
-    double reach;  ///< nor than this from `center`
+    vec3 center;    ///< of the box of all points
+    double unit;    ///< a power of two, at least the largest size of a coordinate from `center`
+    double extent;  ///< no point is farther than this from the frame's origin, rounding included
+    double reach;   ///< nor than this from `center`
     ovoid_solid_report report;
     size_t size;
     ovoid_allocator allocator;

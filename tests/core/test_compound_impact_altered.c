@@ -7,6 +7,7 @@
 // they do not show to be false may pass. Slack: the rounding of poses (docs/motion.md).
 #include "alter.h"
 #include "moving.h"
+#include "options.h"
 
 enum { PARTS = 7, CAPACITY = 20000, SAMPLES = 24, CASES = 90, SHAPES = 3, TIMES = SAMPLES + 3 };
 static ovoid_step steps[CAPACITY];
@@ -274,8 +275,12 @@ static void try_case(truth *t, uint64_t seed) {
 }
 
 int main(int count, char **arguments) {
-    uint64_t first = count > 2 ? strtoull(arguments[1], NULL, 10) : 1;
-    uint64_t cases = count > 2 ? strtoull(arguments[2], NULL, 10) : CASES;
+    uint64_t first = 1, cases = CASES;
+    const test_option options[] = {{"seed", "of the first case (1)", &first, NULL, NULL, NULL},
+                                   {"cases", "how many", &cases, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
     static truth t;
     for (uint64_t seed = first; seed < first + cases; seed++) {
         check_seed = seed;

@@ -7,6 +7,7 @@
 // be false may pass. Slack: the rounding of poses, 1e-12 of the size and 1e-15 of the angle turned (docs/motion.md).
 #include "alter.h"
 #include "moving.h"
+#include "options.h"
 
 enum { CAPACITY = 20000, SAMPLES = 60, STEP_SAMPLES = 12, CASES = 60 };
 static ovoid_step steps[CAPACITY];
@@ -447,8 +448,12 @@ static void try_approach(truth *t) {
 }
 
 int main(int count, char **arguments) {
-    uint64_t first = count > 2 ? strtoull(arguments[1], NULL, 10) : 1;
-    uint64_t cases = count > 2 ? strtoull(arguments[2], NULL, 10) : CASES;
+    uint64_t first = 1, cases = CASES;
+    const test_option options[] = {{"seed", "of the first case (1)", &first, NULL, NULL, NULL},
+                                   {"cases", "how many", &cases, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
     static truth t;
     for (uint64_t seed = first; seed < first + cases; seed++) {
         uint64_t s = check_seed = seed;

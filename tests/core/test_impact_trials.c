@@ -4,6 +4,7 @@
 // checked, and what is altered is refused. Widths and step counts are printed, and few answers may stay undecided. To
 // run more of them: test_impact_trials FIRST_SEED COUNT.
 #include "moving.h"
+#include "options.h"
 
 enum { CAPACITY = 20000, SAMPLES = 120, TRIALS = 1200 };
 static ovoid_step steps[CAPACITY];
@@ -111,9 +112,14 @@ static void try_approach(const moving_case *c, uint64_t *s) {
 }
 
 int main(int count, char **arguments) {
-    uint64_t first = count > 2 ? strtoull(arguments[1], NULL, 10) : 1;
-    long trials = count > 2 ? strtol(arguments[2], NULL, 10) : TRIALS;
-    for (uint64_t seed = first; seed < first + (uint64_t)trials; seed++) {
+    uint64_t first = 1, wanted = TRIALS;
+    const test_option options[] = {{"seed", "of the first trial (1)", &first, NULL, NULL, NULL},
+                                   {"trials", "how many", &wanted, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
+    long trials = (long)wanted;
+    for (uint64_t seed = first; seed < first + wanted; seed++) {
         moving_case c;
         uint64_t s = seed;
         check_seed = seed;

@@ -1,8 +1,9 @@
 // The same bits from every compiler: a hash of poses, boxes and motions' checks, stored, as no other step's arithmetic
 // is in it; and with --print one of impacts, approaches and rays too, which scripts/bits.sh and scripts/ports.sh
-// compare between builds (their queries' bits are those of test_query_bits); --print N of the first N cases only. Truth
+// compare between builds (their queries' bits are those of test_query_bits); --cases N of the first N cases only. Truth
 // of the stored one: what gcc 12 gave at -O2.
 #include "moving.h"
+#include "options.h"
 
 #define STORED 0x94e8ece75b062bf8u
 
@@ -65,9 +66,14 @@ static uint64_t hash_impacts(uint64_t cases) {
 }
 
 int main(int count, char **arguments) {
-    int print = count > 1 && strcmp(arguments[1], "--print") == 0;
-    long few = print && count > 2 ? strtol(arguments[2], NULL, 10) : 0;
-    uint64_t cases = few > 0 && few < CASES ? (uint64_t)few : CASES;
+    int print = 0;
+    uint64_t few = 0;
+    const test_option options[] = {{"print", "the hashes", NULL, NULL, NULL, &print},
+                                   {"cases", "so many alone, and no check of the hash", &few, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
+    uint64_t cases = few > 0 && few < CASES ? few : CASES;
     uint64_t hash = hash_motions(cases), impacts = hash_impacts(cases);
     if (print)
         printf("%-10s %016llx\n%-10s %016llx\n", "motions", (unsigned long long)hash, "impacts",

@@ -1,9 +1,10 @@
 // The same bits from every compiler, level of optimisation and vector width: a hash of 27 000 answers and of the shapes
 // that they are about, stored. Truth: what gcc 12 gave at -O2; clang, -O0 and sanitizers must give it too, and so must
 // each vector width of this machine. scripts/bits.sh and scripts/ports.sh compare builds; --print shows the hash of
-// each family, to see where bits part; --print N that of the first N pairs of each only, for slow machines. A change of
+// each family, to see where bits part; --pairs N that of the first N pairs of each only, for slow machines. A change of
 // any step's arithmetic changes the number; then take the one printed, after a look at the other tests.
 #include "bits.h"
+#include "options.h"
 
 #define STORED 0xf0fd64df9dae01b4u
 
@@ -52,8 +53,13 @@ static void check_widths(uint64_t truth) { (void)truth; }
 #endif
 
 int main(int count, char **arguments) {
-    int print = count > 1 && strcmp(arguments[1], "--print") == 0;
-    long few = print && count > 2 ? strtol(arguments[2], NULL, 10) : 0;
+    int print = 0;
+    uint64_t few = 0;
+    const test_option options[] = {{"print", "the hash of each pair", NULL, NULL, NULL, &print},
+                                   {"pairs", "so many alone, and no check of the hash", &few, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
     uint64_t hash = hash_all(print, few > 0 && few < PAIRS ? (uint32_t)few : PAIRS);
     if (few > 0) return check_end();
     if (!CHECK(hash == STORED)) printf("the hash is 0x%016llxu\n", (unsigned long long)hash);

@@ -2,6 +2,7 @@
 // the cubes. Bodies that share one overlap; bodies whose cubes only touch do not, and are not apart; the distance of
 // others is the least of two cubes. Quarter turns are exact; turned by other angles the bodies are off by rounding, far
 // below the tolerance.
+#include "options.h"
 #include "solids.h"
 
 enum { CAPACITY = 60000, ROOM = 8 };
@@ -130,7 +131,12 @@ static void check_rounds(int rounds, uint64_t seed) {
 }
 
 int main(int count, char **arguments) {
-    check_rounds(count > 1 ? atoi(arguments[1]) : 200, 5000);
+    uint64_t rounds = 200;
+    const test_option options[] = {{"rounds", "how many (200)", &rounds, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
+    check_rounds((int)rounds, 5000);
     printf("sharing cubes %d, said to overlap %d; touching: %d said so, %d undecided; apart %d\n", tally.shared,
            tally.decided, tally.touching, tally.undecided, tally.apart);
     CHECK(tally.shared > 500 && tally.touching > 100 && tally.apart > 100);

@@ -1,6 +1,7 @@
 // Worlds at random: test_world_soak [--lives N] [--seed S] [--seconds T]. 3 lives where nothing is said, so that what
 // is checked does not depend on the machine; --seconds: as many as that takes. Every frame is compared with all pairs
 // asked one by one (worlds.h), and the world's memory with what its bodies and pairs may take (world_life.h).
+#include "options.h"
 #include "world_life.h"
 
 #include <time.h>
@@ -27,12 +28,15 @@ static void run(uint64_t seed) {
 }
 
 int main(int count, char **arguments) {
-    uint64_t seed = 1, most = 3;
-    for (int i = 1; i + 1 < count; i += 2) {
-        if (!strcmp(arguments[i], "--lives")) most = strtoull(arguments[i + 1], NULL, 10);
-        if (!strcmp(arguments[i], "--seed")) seed = strtoull(arguments[i + 1], NULL, 10);
-        if (!strcmp(arguments[i], "--seconds")) end_at = time(NULL) + strtol(arguments[i + 1], NULL, 10);
-    }
+    uint64_t seed = 1, most = 3, seconds = 0;
+    const test_option options[] = {
+        {"lives", "worlds (3)", &most, NULL, NULL, NULL},
+        {"seed", "of the first (1)", &seed, NULL, NULL, NULL},
+        {"seconds", "goes on for so long, whatever their number", &seconds, NULL, NULL, NULL},
+        {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
+    if (seconds) end_at = time(NULL) + (time_t)seconds;
     uint64_t lives = 0;
     for (; (end_at || lives < most) && !is_over() && !check_failed; lives++) run(seed++);
     printf("%llu lives, %ld checks\n", (unsigned long long)lives, check_passed);

@@ -3,6 +3,7 @@
 // and n times three 32-bit floats; it is not part of the project, and the test is skipped where it is absent.
 //   --pairs N (default 5000), --seed N; --export DIR: writes each cloud as OBJ, LIST and PAIRS.csv for `ovoid batch`.
 #include "check.h"
+#include "options.h"
 #include "trials/ask.h"
 #include "trials/clouds.h"
 #include "trials/shapes.h"
@@ -162,14 +163,14 @@ static void run_all(const clouds *all, long pairs, uint64_t seed, const char *fo
 }
 
 int main(int count, char **arguments) {
-    long pairs = 5000;
-    uint64_t seed = 1;
+    uint64_t pairs = 5000, seed = 1;
     const char *folder = NULL;
-    for (int i = 1; i + 1 < count; i += 2) {
-        if (strcmp(arguments[i], "--pairs") == 0) pairs = atol(arguments[i + 1]);
-        if (strcmp(arguments[i], "--seed") == 0) seed = strtoull(arguments[i + 1], NULL, 10);
-        if (strcmp(arguments[i], "--export") == 0) folder = arguments[i + 1];
-    }
+    const test_option options[] = {{"pairs", "how many (5000)", &pairs, NULL, NULL, NULL},
+                                   {"seed", "of their poses (1)", &seed, NULL, NULL, NULL},
+                                   {"export", "a folder for the pairs", NULL, NULL, &folder, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
     clouds all = clouds_read();
     if (all.count == 0) {
         check_skip("pieces/game_hulls.bin is not in the data folder (OVOID_DATA)");
@@ -177,7 +178,7 @@ int main(int count, char **arguments) {
     }
     trial_judge = judge_create();
     if (!CHECK(trial_judge != NULL)) return check_end();
-    run_all(&all, pairs, seed, folder);
+    run_all(&all, (long)pairs, seed, folder);
     judge_destroy(trial_judge);
     clouds_destroy(all);
     return check_end();

@@ -5,6 +5,7 @@
 //
 // test_judge_solid [--answers N] [--seconds N] [--seed N] [--family N]: `make soak-solid` asks for a million answers.
 #include "judge.h"
+#include "options.h"
 #include "solids.h"
 
 #include <time.h>
@@ -386,17 +387,18 @@ static long count_answers(void) {
 
 int main(int argc, char **argv) {
     double wanted = 800, seconds = INFINITY, seed = 20261123;
-    long only = -1;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--answers") == 0) wanted = strtod(argv[i + 1], NULL);
-        if (strcmp(argv[i], "--seconds") == 0) seconds = strtod(argv[i + 1], NULL);
-        if (strcmp(argv[i], "--seed") == 0) seed = strtod(argv[i + 1], NULL);
-        if (strcmp(argv[i], "--family") == 0) only = strtol(argv[i + 1], NULL, 10);
-    }
+    uint64_t only = UINT64_MAX;
+    const test_option options[] = {{"answers", "ends after so many (800)", NULL, &wanted, NULL, NULL},
+                                   {"seconds", "ends after so long", NULL, &seconds, NULL, NULL},
+                                   {"seed", "of the first pair", NULL, &seed, NULL, NULL},
+                                   {"family", "a number: this one alone", &only, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, argc, argv);
+    if (code >= 0) return code;
     court = judge_create();
     time_t start = time(NULL);
     for (uint64_t i = 0; court && (double)count_answers() < wanted && difftime(time(NULL), start) < seconds; i++)
-        if (only < 0 || (size_t)only == i % FAMILIES) try_pair(i % FAMILIES, (uint64_t)seed + i);
+        if (only == UINT64_MAX || only == i % FAMILIES) try_pair(i % FAMILIES, (uint64_t)seed + i);
     check_seed = 0;
     judge_destroy(court);
     print_tallies();

@@ -8,6 +8,7 @@
 //                 Failures are appended to FILE.failures at once
 //   --seed N; --rounds N; --family NAME (only this); --trial SEED with a family: one trial again
 #include "check.h"
+#include "options.h"
 #include "trials/families.h"
 #include "trials/shapes.h"
 
@@ -237,15 +238,15 @@ static void run_once_failed(void) { run_named("near-coplanar", 95371458881307442
 int main(int count, char **arguments) {
     soak s = {.seed = 1};
     uint64_t one = 0, rounds = ROUNDS;
-    for (int i = 1; i + 1 < count; i += 2) {
-        const char *name = arguments[i], *value = arguments[i + 1];
-        if (strcmp(name, "--seconds") == 0) s.seconds = atof(value);
-        if (strcmp(name, "--seed") == 0) s.seed = strtoull(value, NULL, 10);
-        if (strcmp(name, "--rounds") == 0) rounds = strtoull(value, NULL, 10);
-        if (strcmp(name, "--state") == 0) s.state = value;
-        if (strcmp(name, "--family") == 0) s.only = value;
-        if (strcmp(name, "--trial") == 0) one = strtoull(value, NULL, 10);
-    }
+    const test_option options[] = {{"seconds", "goes on for so long", NULL, &s.seconds, NULL, NULL},
+                                   {"seed", "of the first trial (1)", &s.seed, NULL, NULL, NULL},
+                                   {"rounds", "trials of each family", &rounds, NULL, NULL, NULL},
+                                   {"state", "a file: goes on where it stopped", NULL, NULL, &s.state, NULL},
+                                   {"family", "this one alone", NULL, NULL, &s.only, NULL},
+                                   {"trial", "with --family: the trial of this seed alone", &one, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
     static char failures[1024];
     if (s.state) {
         snprintf(failures, sizeof failures, "%s.failures", s.state);

@@ -6,6 +6,7 @@
 // reached to 0.9 in some trials, so that they are not merely large. Then whole paths are swept: no state before
 // free_until may overlap.
 #include "check.h"
+#include "options.h"
 #include "robots.h"
 
 #include "robot/path.h"
@@ -368,8 +369,12 @@ static void test_sweeps(int rounds) {
 
 // test_robot_path_bounds [ROUNDS]: as many times the trials, each sweep as many times as dense.
 int main(int argc, char **argv) {
-    int rounds = argc > 1 ? atoi(argv[1]) : 1;
-    if (rounds < 1) return 2;
+    uint64_t wanted = 1;
+    const test_option options[] = {{"rounds", "how many (1)", &wanted, NULL, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, argc, argv);
+    if (code >= 0) return code;
+    int rounds = (int)wanted;
     test_bounds(rounds);
     test_sweeps(rounds);
     return check_end();

@@ -4,6 +4,7 @@
 // below read these files and no others. With the argument --full: both robots, and a longer search; these are the
 // numbers of docs/robot-spheres.md.
 #include "check.h"
+#include "options.h"
 #include "ovoid/robot_spheres.h"
 
 enum { MOST_SPHERES = 64, MOST_PARTS = 16 };
@@ -231,7 +232,11 @@ static void test_robot(const char *data, const char *folder_name, const char *ro
 
 int main(int count, char **arguments) {
     const char *data = check_data_folder();
-    int full = count > 1 && strcmp(arguments[1], "--full") == 0;
+    int full = 0;
+    const test_option options[] = {{"full", "all robots and cells, which takes long", NULL, NULL, NULL, &full},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
     if (full) rounds = 0, cells.volume_cells = 0;
     if (data) {
         test_robot(data, "panda_mbm", "panda");

@@ -7,6 +7,7 @@
 //   --family NAME, --block N   this block again, and nothing else; open and wide answers are shown too
 // Ctrl-C ends the run after the blocks at hand, and saves. Failures go to the output and, at once, to FILE.failures.
 #include "long_run.h"
+#include "options.h"
 
 #include "check.h"
 #include "report.h"
@@ -313,19 +314,20 @@ static void run_block(long_run *run, uint64_t number) {
 
 int main(int count, char **arguments) {
     static long_run run = {.seed = 1, .target = 1000000000u, .sample = 1000};
-    int threads = 1;
-    uint64_t block = 0;
-    for (int i = 1; i + 1 < count; i += 2) {
-        const char *name = arguments[i], *value = arguments[i + 1];
-        if (strcmp(name, "--queries") == 0) run.target = (uint64_t)strtod(value, NULL);
-        if (strcmp(name, "--seconds") == 0) run.seconds = strtod(value, NULL);
-        if (strcmp(name, "--threads") == 0) threads = atoi(value) < 1 ? 1 : atoi(value) > 64 ? 64 : atoi(value);
-        if (strcmp(name, "--sample") == 0) run.sample = strtoull(value, NULL, 10);
-        if (strcmp(name, "--seed") == 0) run.seed = strtoull(value, NULL, 10);
-        if (strcmp(name, "--state") == 0) run.state = value;
-        if (strcmp(name, "--family") == 0) run.family = value;
-        if (strcmp(name, "--block") == 0) block = strtoull(value, NULL, 10);
-    }
+    uint64_t threads = 1, block = 0;
+    const test_option options[] = {
+        {"queries", "ends after so many (1e9)", &run.target, NULL, NULL, NULL},
+        {"seconds", "ends after so long", NULL, &run.seconds, NULL, NULL},
+        {"threads", "1 to 64", &threads, NULL, NULL, NULL},
+        {"sample", "one answer in so many goes before the judge (1000)", &run.sample, NULL, NULL, NULL},
+        {"seed", "of the first block (1)", &run.seed, NULL, NULL, NULL},
+        {"state", "a file: goes on where it stopped", NULL, NULL, &run.state, NULL},
+        {"family", "one block of this family alone, with --block", NULL, NULL, &run.family, NULL},
+        {"block", "the block's number", &block, NULL, NULL, NULL},
+        {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, count, arguments);
+    if (code >= 0) return code;
+    threads = threads < 1 ? 1 : threads > 64 ? 64 : threads;
     if (run.sample == 0 || mtx_init(&run.lock, mtx_plain) != thrd_success) return 2;
     run.clouds = clouds_read();
     fill_schedule(&run);
@@ -337,7 +339,7 @@ int main(int count, char **arguments) {
     else if (!read_state(&run))
         return 2;
     else
-        run_all(&run, threads);
+        run_all(&run, (int)threads);
     print_tables(&run);
     clouds_destroy(run.clouds);
     return check_end();
