@@ -99,9 +99,7 @@ static void exclude_nodes(traversal *h, const node_pair *w) {
 }
 
 static void take_trouble(traversal *h, const ovoid_answer *x) {
-    int is_wide =
-        x->limit == OVOID_LIMIT_ITERATIONS || x->limit == OVOID_LIMIT_PRECISION || x->limit == OVOID_LIMIT_CAPACITY;
-    if (is_wide && h->trouble == OVOID_LIMIT_NONE) h->trouble = x->limit;
+    if (limit_is_stuck(x->limit) && h->trouble == OVOID_LIMIT_NONE) h->trouble = x->limit;
 }
 
 static void exclude_parts(traversal *h, uint32_t a, uint32_t b, const ovoid_answer *x) {
@@ -283,6 +281,17 @@ static void traversal_make(traversal *h, query_goal goal) {
     h->turned_side = 0;
 }
 
+// The whole traversal, from an earlier proof or NULL. Nodes visited and pairs tested are counted on.
+static void search_from(traversal *h, query_goal goal, const ovoid_compound_proof *earlier) {
+    ovoid_exclusions *all = h->exclusions;
+    if (all) all->count = 0;
+    if (all && all->cover) all->cover->point_count = all->cover->triangle_count = 0;
+    traversal_make(h, goal);
+    visit_earlier(h, earlier);
+    if (!is_decided(h)) traverse(h);
+    finish(h);
+}
+
 void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                             const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions,
                             ovoid_compound_answer *out) {
@@ -313,12 +322,14 @@ void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *op
         return;
     }
     if (goal.far < INFINITY && first_look(&h.a, &h.b, &h.options, &goal, exclusions, out)) return;
-    traversal_make(&h, goal);
     h.out = out;
     h.exclusions = exclusions;
-    visit_earlier(&h, earlier);
-    if (!is_decided(&h)) traverse(&h);
-    finish(&h);
+    search_from(&h, goal, earlier);
+    if (!earlier || !answer_is_improvable(&out->answer)) return;
+    // No earlier proof makes an answer worse: the query alone, unless only the proof decides it.
+    int was_decided = out->answer.status != OVOID_UNDECIDED;
+    search_from(&h, goal, NULL);
+    if (was_decided && out->answer.status == OVOID_UNDECIDED) search_from(&h, goal, earlier);
 }
 
 static ovoid_compound_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,

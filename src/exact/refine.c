@@ -376,12 +376,8 @@ static void state_points(refinement *r) {
     s->upper = fine_compute_upper(&r->f, fine_measure_points(&r->f, &proof), r->f.claim);
 }
 
-static void run(refinement *r, const ovoid_proof *earlier) {
+static void run(refinement *r) {
     search *s = r->s;
-    if (earlier && proof_is_sound(s->frame, earlier) && vec3_norm_squared(earlier->normal_low) > 0) {
-        (void)probe(r, dd3_make(earlier->normal, earlier->normal_low));
-        if (is_done(s)) return;
-    }
     dd3 normal = dd3_from(frame_direction_to_world(s->frame, s->normal));
     fine_support first = probe(r, normal);
     if (is_done(s)) return;
@@ -392,7 +388,7 @@ static void run(refinement *r, const ovoid_proof *earlier) {
     if (!is_done(s) && x.distance.high <= 0x1p-40) find_side(r, &x, normal);
 }
 
-void refine_run(search *s, const ovoid_pair *pair, const ovoid_proof *earlier) {
+void refine_run(search *s, const ovoid_pair *pair) {
     refinement r = {.s = s};
     if (!is_wanted(s) || !fine_make(pair, &r.f)) return;
     r.noise = 2 * r.f.claim;
@@ -402,7 +398,7 @@ void refine_run(search *s, const ovoid_pair *pair, const ovoid_proof *earlier) {
     if (left < 10) return;
     left -= 8;
     r.most = left < STEPS ? (int)left : STEPS;
-    run(&r, earlier);
+    run(&r);
     if (r.has_points && s->kind == OVOID_PROOF_POINTS) state_points(&r);
     s->iterations += (uint32_t)r.steps;
     s->limit = is_done(s) ? OVOID_LIMIT_NONE : OVOID_LIMIT_PRECISION;

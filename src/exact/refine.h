@@ -6,7 +6,6 @@
 
 /// Continues in double-double where the search ended near contact or short of the tolerance without an answer; else
 /// does nothing. Its results go into the search: bounds with their evidence, the direction in world and world_low.
-/// earlier: the pair's earlier proof, or NULL.
-void refine_run(search *s, const ovoid_pair *pair, const ovoid_proof *earlier);
+void refine_run(search *s, const ovoid_pair *pair);
 
 #endif

@@ -212,9 +212,9 @@ static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
     if (!epa_run(s, start, 0, cover) && !search_is_done(s)) s->limit = OVOID_LIMIT_PRECISION;
 }
 
-void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier, simplex *start, ovoid_cover *cover) {
-    if (!search_is_done(s)) run_exact(s, start, cover);
-    if (!search_is_done(s)) refine_run(s, pair, earlier);
+void answer_search(search *s, const ovoid_pair *pair, simplex *start) {
+    if (!search_is_done(s)) run_exact(s, start, NULL);
+    if (!search_is_done(s)) refine_run(s, pair);
 }
 
 // A query from its arguments on.
@@ -232,18 +232,69 @@ static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given
     return begin_after_spheres(frame, goal, earlier, found, end);
 }
 
+// What a search is about, once the beginning of the query has left it open.
+typedef struct open_query {
+    const ovoid_pair *pair;
+    const pair_frame *frame;
+    double spheres;
+    const query_goal *goal;
+    ovoid_cover *cover;
+} open_query;
+
+// The stages in doubles.
+static void search_in_doubles(const open_query *q, const ovoid_proof *earlier, search *s) {
+    simplex start;
+    search_make(s, q->frame, q->goal);
+    run_stages(s, q->spheres, earlier, &start);
+    if (!search_is_done(s)) run_exact(s, &start, q->cover);
+}
+
+// The query as it is without an earlier proof, from the beginning that the spheres left open.
+static void search_afresh(const open_query *q, ovoid_answer *out) {
+    rejection found = {.lower = q->spheres};
+    small_end end;
+    search s;
+    if (begin_after_spheres(q->frame, q->goal, NULL, &found, &end) == BEGIN_SMALL) {
+        *out = answer_make_small(&end, q->frame, q->goal);
+        return;
+    }
+    search_in_doubles(q, NULL, &s);
+    if (!search_is_done(&s)) refine_run(&s, q->pair);
+    answer_write(&s, out);
+}
+
+// Few iterations are all that was allowed: the next call goes on where this one ended.
+static int is_better(const ovoid_answer *warm, const ovoid_answer *cold) {
+    if (warm->status != OVOID_UNDECIDED && cold->status == OVOID_UNDECIDED) return 1;
+    return cold->limit == OVOID_LIMIT_ITERATIONS && warm->status == cold->status &&
+           warm->upper - warm->lower < cold->upper - cold->lower;
+}
+
+// A search from an earlier proof that did not answer is followed by the query without that proof: no proof, whatever it
+// holds, makes an answer worse. What the proof decided and the query alone does not is kept, with its cover.
+COMPILER_NOINLINE static void search_again(const open_query *q, const ovoid_proof *earlier, search *s,
+                                           ovoid_answer *out) {
+    ovoid_answer warm;
+    answer_write(s, &warm);
+    if (q->cover) q->cover->point_count = q->cover->triangle_count = 0;
+    search_afresh(q, out);
+    if (!is_better(&warm, out)) return;
+    if (q->cover) q->cover->point_count = q->cover->triangle_count = 0;
+    search_in_doubles(q, earlier, s);
+    *out = warm;
+}
+
 void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const query_goal *goal,
                        const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out) {
     frame_relate(frame);
+    const open_query q = {pair, frame, spheres, goal, cover};
     search s;
-    // An earlier proof of an overlap may be too shallow for the allowances: then the pair is queried afresh.
-    for (const ovoid_proof *known = earlier;; known = NULL) {
-        search_make(&s, frame, goal);
-        simplex start;
-        run_stages(&s, spheres, known, &start);
-        answer_search(&s, pair, known, &start, cover);
-        if (!known || !(goal->allowance > 0) || search_is_done(&s)) break;
+    search_in_doubles(&q, earlier, &s);
+    if (!search_is_done(&s) && earlier) {
+        search_again(&q, earlier, &s, out);
+        return;
     }
+    if (!search_is_done(&s)) refine_run(&s, pair);
     answer_write(&s, out);
 }
 

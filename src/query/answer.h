@@ -17,8 +17,8 @@ ovoid_proof answer_make_small_proof(const small_end *x);
 ovoid_verdict answer_make_small_verdict(const small_end *x, const query_goal *goal);
 
 /// The exact methods, from the bounds and the simplex that the stages before them left, until the query is answered or
-/// no method makes progress. earlier and cover may be NULL.
-void answer_search(search *s, const ovoid_pair *pair, const ovoid_proof *earlier, simplex *start, ovoid_cover *cover);
+/// no method makes progress.
+void answer_search(search *s, const ovoid_pair *pair, simplex *start);
 
 /// The beginning of an answer.
 static inline ovoid_verdict answer_get_verdict(const ovoid_answer *x) {

@@ -249,7 +249,7 @@ static void search_open(const ovoid_batch *batch, query_goal goal, int wants_evi
     goal.tolerance = x->tolerance;
     search_make(&s, &frame, &goal);
     take_supports(&s, x, &start);
-    answer_search(&s, &pair, NULL, &start, NULL);
+    answer_search(&s, &pair, &start);
     end_search(batch, wants_evidence, x->index, &s);
 }
 

@@ -68,6 +68,16 @@ int bracket_is_narrow(const final_bracket *b, const query_goal *goal);
 /// 1 if the sign, or the margin of the goal, is left open by the bodies' allowances: no search would find it.
 int bracket_is_left_open(const final_bracket *b, const query_goal *goal);
 
+/// 1 if a search ended for want of precision, memory or iterations.
+static inline int limit_is_stuck(ovoid_limit limit) {
+    return limit == OVOID_LIMIT_ITERATIONS || limit == OVOID_LIMIT_PRECISION || limit == OVOID_LIMIT_CAPACITY;
+}
+
+/// 1 if a search that began elsewhere might do better: it got stuck, or found no sign within the tolerance.
+static inline int answer_is_improvable(const ovoid_answer *x) {
+    return limit_is_stuck(x->limit) || x->status == OVOID_TOUCHING;
+}
+
 /// Why a bracket that is not narrow is wide. trouble: what kept the search from narrowing it, or NONE.
 ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble);
 

@@ -1,0 +1,206 @@
+// Bodies within rounding of touching, whose vertices lie 1e-15 apart, whose meshes have a seam, or far from the origin,
+// asked with earlier proofs: their own, another pair's, damaged ones. Truth: the query without a proof, of which no
+// proof may lose a sign or a narrow bracket; and the checker. The same of batches, worlds and compounds.
+#include "check.h"
+#include "ovoid/ovoid.h"
+
+enum { PAIRS = 3000, KINDS = 4, VERTICES = 40 };
+
+static const double margin = 0.1;
+
+/// A point or two at each of a few places of the unit sphere.
+static ovoid_shape *make_rock(uint64_t *s, int doubled) {
+    double xyz[3 * VERTICES];
+    size_t places = 4 + random_next(s) % 7, count = 0;
+    for (size_t i = 0; i < places; i++) {
+        double p[3] = {random_normal(s), random_normal(s), random_normal(s)}, length = hypot(hypot(p[0], p[1]), p[2]);
+        for (int copy = 0; copy <= doubled; copy++)
+            for (int k = 0; k < 3; k++) xyz[count++] = p[k] / length + (copy ? 1e-15 * random_normal(s) : 0);
+    }
+    return ovoid_shape_create_from_points(xyz, count / 3, NULL, NULL);
+}
+
+/// Two rings whose last points are the first ones, but for the rounding of 2 pi.
+static ovoid_shape *make_tube(uint64_t *s) {
+    double xyz[3 * VERTICES], radius = random_uniform(s, 0.2, 1.2), half = random_uniform(s, 0.2, 1.2);
+    int sides = 3 + (int)(random_next(s) % 10), count = 0;
+    for (int i = 0; i <= sides; i++)
+        for (int end = 0; end < 2; end++) {
+            double angle = 2 * 3.14159265358979323846 * i / sides, r = end ? radius : 1;
+            xyz[count++] = r * cos(angle);
+            xyz[count++] = r * sin(angle);
+            xyz[count++] = end ? half : -half;
+        }
+    return ovoid_shape_create_from_points(xyz, (size_t)count / 3, NULL, NULL);
+}
+
+static ovoid_pose random_pose(uint64_t *s, double far) {
+    ovoid_vec3 at = {far + 3 * random_normal(s), far + 3 * random_normal(s), far + 3 * random_normal(s)};
+    return (ovoid_pose){at, {random_normal(s), random_normal(s), random_normal(s), random_normal(s)}};
+}
+
+/// Kinds: doubled vertices, seams, both 1e6 from the origin, one in another.
+static ovoid_pair make_pair(uint64_t *s, int kind) {
+    ovoid_shape *a = kind == 1 ? make_tube(s) : make_rock(s, kind != 3),
+                *b = kind == 1 || kind == 3 ? make_tube(s) : make_rock(s, 1);
+    double far = kind == 2 ? 1e6 : 0;
+    ovoid_pair p = {a, b, random_pose(s, far), random_pose(s, far)};
+    if (!a || !b) return p;
+    double depth = kind == 3 ? random_uniform(s, 0, 0.5) : 0;
+    for (int round = 0; round < 2; round++) {
+        ovoid_answer x = ovoid_depth(&p, NULL, NULL, NULL);
+        double by = 0.5 * (x.lower + x.upper) + depth;
+        p.pose_b.position.x -= by * x.normal.x;
+        p.pose_b.position.y -= by * x.normal.y;
+        p.pose_b.position.z -= by * x.normal.z;
+    }
+    return p;
+}
+
+static ovoid_answer ask(int query, const ovoid_pair *p, const ovoid_proof *earlier, ovoid_cover *cover) {
+    switch (query) {
+    case 0: return ovoid_collide(p, NULL, earlier);
+    case 1: return ovoid_within(p, margin, NULL, earlier);
+    case 2: return ovoid_distance(p, NULL, earlier);
+    default: return ovoid_depth(p, NULL, earlier, cover);
+    }
+}
+
+/// 1 if a limit kept the bracket wide.
+static int is_stuck(const ovoid_answer *x) {
+    return x->limit == OVOID_LIMIT_PRECISION || x->limit == OVOID_LIMIT_CAPACITY || x->limit == OVOID_LIMIT_ITERATIONS;
+}
+
+static long asked, decided_by_proof;
+
+static void compare(int query, const ovoid_pair *p, const ovoid_proof *earlier, const ovoid_answer *cold) {
+    static ovoid_cover cover;
+    ovoid_answer warm = ask(query, p, earlier, &cover);
+    ovoid_error error = {0};
+    asked++;
+    if (cold->status != OVOID_UNDECIDED)
+        CHECK_EQ(warm.status, cold->status);
+    else
+        decided_by_proof += warm.status != OVOID_UNDECIDED;
+    CHECK(is_stuck(cold) || !is_stuck(&warm));
+    CHECK(warm.lower <= cold->upper && cold->lower <= warm.upper);
+    if (!CHECK(ovoid_answer_check(p, &warm, NULL, query == 3 ? &cover : NULL, &error) == OVOID_OK)) puts(error.message);
+}
+
+static ovoid_proof damage(const ovoid_proof *of, uint64_t *s) {
+    ovoid_proof p = *of;
+    switch (random_next(s) % 6) {
+    case 0: p.count = (uint32_t)(random_next(s) % (OVOID_PROOF_PAIRS + 2)); break;
+    case 1: p.a[random_next(s) % 4] = (uint32_t)(random_next(s) % 12); break;
+    case 2: p.normal = (ovoid_vec3){-p.normal.x, p.normal.y, p.normal.z}; break;
+    case 3: p.kind = (ovoid_proof_kind)(random_next(s) % 6); break;
+    case 4: p.normal_low = (ovoid_vec3){1e-17, 0, 1e-9}; break;
+    default: ((unsigned char *)&p)[random_next(s) % sizeof p] ^= (unsigned char)(1 + random_next(s) % 255); break;
+    }
+    return p;
+}
+
+/// The couple alone in a batch with its proof, and among seven that have none.
+static void check_batch(const ovoid_pair *p, const ovoid_proof *earlier) {
+    const ovoid_posed_shape bodies[2] = {{p->shape_a, p->pose_a}, {p->shape_b, p->pose_b}};
+    const ovoid_couple couples[8] = {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}};
+    ovoid_proof proofs[8] = {{.count = 0}};
+    ovoid_answer answers[8];
+    proofs[3] = *earlier;
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2, .couples = couples, .couple_count = 8, .proofs = proofs, .answers = answers};
+    ovoid_answer cold = ovoid_distance(p, NULL, NULL), warm = ovoid_distance(p, NULL, earlier);
+    CHECK_EQ(ovoid_distance_batch(&batch, NULL), OVOID_OK);
+    for (int i = 0; i < 8; i++) {
+        const ovoid_answer *alone = i == 3 ? &warm : &cold;
+        CHECK(answers[i].status == alone->status && answers[i].lower == alone->lower &&
+              answers[i].upper == alone->upper);
+    }
+}
+
+static void check_world(const ovoid_pair *p, uint64_t *s) {
+    static const ovoid_query_kind kinds[] = {OVOID_QUERY_COLLIDE, OVOID_QUERY_WITHIN, OVOID_QUERY_DISTANCE,
+                                             OVOID_QUERY_DEPTH};
+    int query = (int)(random_next(s) % 4);
+    ovoid_pair now = *p;
+    ovoid_world *w = ovoid_world_create(NULL, NULL);
+    ovoid_world_body a = {.body = {.shape = p->shape_a, .pose = p->pose_a}},
+                     b = {.body = {.shape = p->shape_b, .pose = p->pose_b}};
+    ovoid_id ids[2] = {ovoid_world_add(w, &a, NULL), ovoid_world_add(w, &b, NULL)};
+    ovoid_contact_query q = {kinds[query], query ? margin : 0, NULL};
+    for (int step = 0; step < 4; step++) {
+        ovoid_contacts found;
+        if (!CHECK(ovoid_world_compute_contacts(w, &q, &found, NULL) == OVOID_OK)) break;
+        ovoid_answer alone = ask(query, &now, NULL, NULL);
+        if (found.count && alone.status != OVOID_UNDECIDED) CHECK_EQ(found.items[0].verdict.status, alone.status);
+        now.pose_b.position.x += 1e-16 * random_normal(s);
+        CHECK_EQ(ovoid_world_move(w, ids[1], &now.pose_b, NULL), OVOID_OK);
+    }
+    ovoid_world_destroy(w);
+}
+
+/// Both as compounds of one part and another far away.
+static void check_compounds(const ovoid_pair *p, const ovoid_proof *foreign) {
+    ovoid_posed_shape a[2] = {{p->shape_a, ovoid_pose_make_identity()}, {p->shape_a, {{30, 0, 0}, {1, 0, 0, 0}}}};
+    ovoid_posed_shape b[2] = {{p->shape_b, ovoid_pose_make_identity()}, {p->shape_b, {{0, 0, 30}, {1, 0, 0, 0}}}};
+    ovoid_compound *ca = ovoid_compound_create(a, 2, NULL, NULL), *cb = ovoid_compound_create(b, 2, NULL, NULL);
+    static ovoid_exclusion items[64];
+    static ovoid_cover cover;
+    ovoid_exclusions all = {items, 64, 0, &cover};
+    ovoid_body_pair pair = {{.compound = ca, .pose = p->pose_a}, {.compound = cb, .pose = p->pose_b}};
+    ovoid_compound_answer cold = ovoid_compound_depth(&pair, NULL, NULL, NULL);
+    for (int i = 0; i < 2; i++) {
+        ovoid_compound_proof earlier = {cold.part_a, cold.part_b, i ? *foreign : cold.answer.proof};
+        ovoid_compound_answer warm = ovoid_compound_depth(&pair, NULL, &earlier, &all);
+        if (cold.answer.status != OVOID_UNDECIDED) CHECK_EQ(warm.answer.status, cold.answer.status);
+        CHECK(is_stuck(&cold.answer) || !is_stuck(&warm.answer));
+        CHECK_EQ(ovoid_compound_answer_check(&pair, &warm, NULL, &all, NULL), OVOID_OK);
+    }
+    ovoid_compound_destroy(ca);
+    ovoid_compound_destroy(cb);
+}
+
+static void check_pair(uint64_t *s, int kind, ovoid_proof foreign[4]) {
+    static ovoid_cover cover;
+    ovoid_pair p = make_pair(s, kind);
+    if (!CHECK(p.shape_a && p.shape_b)) return;
+    for (int query = 0; query < 4; query++) {
+        ovoid_answer cold = ask(query, &p, NULL, &cover);
+        ovoid_proof own = cold.proof, other = foreign[random_next(s) % 4], damaged = damage(&own, s);
+        compare(query, &p, &own, &cold);
+        compare(query, &p, &other, &cold);
+        compare(query, &p, &damaged, &cold);
+        foreign[query] = own;
+    }
+    check_batch(&p, &foreign[random_next(s) % 4]);
+    check_world(&p, s);
+    check_compounds(&p, &foreign[0]);
+    ovoid_shape_destroy((ovoid_shape *)p.shape_a);
+    ovoid_shape_destroy((ovoid_shape *)p.shape_b);
+}
+
+/// The most that calls of few iterations do is to go on from one another.
+static void check_few_iterations(uint64_t *s) {
+    ovoid_shape *a = make_rock(s, 0), *b = make_tube(s);
+    ovoid_pair p = {a, b, random_pose(s, 0), random_pose(s, 0)};
+    const ovoid_options few = {.iterations = 1};
+    ovoid_answer x = ovoid_distance(&p, &few, NULL);
+    for (int i = 0; i < 30 && x.limit == OVOID_LIMIT_ITERATIONS; i++) {
+        ovoid_answer next = ovoid_distance(&p, &few, &x.proof);
+        CHECK_LE(next.upper - next.lower, x.upper - x.lower);
+        x = next;
+    }
+    CHECK(x.limit != OVOID_LIMIT_ITERATIONS);
+    ovoid_shape_destroy(a);
+    ovoid_shape_destroy(b);
+}
+
+int main(int count, char **arguments) {
+    long pairs = count > 1 ? strtol(arguments[1], NULL, 10) : PAIRS;
+    uint64_t s = count > 2 ? strtoull(arguments[2], NULL, 10) : 20261123;
+    ovoid_proof foreign[4] = {{.count = 0}};
+    for (long i = 0; i < pairs; i++) check_pair(&s, (int)(i % KINDS), foreign);
+    for (int i = 0; i < 200; i++) check_few_iterations(&s);
+    printf("%ld warm queries; %ld of them decided what the query alone does not\n", asked, decided_by_proof);
+    return check_end();
+}
