@@ -1,6 +1,6 @@
 #!/bin/sh
 # The pages: every relative link in a Markdown file leads to a file, every source file that a page names is there, every
-# public function or type that it names is in a header, and docs/index.md lists every page of docs/. The manual made of them
+# public function or type that it names is in a header, docs/index.md lists every page of docs/, and ten questions of users have a page. The manual made of them
 # has no dead link and no two pages of one title; a page with a dead link, made here, is found.
 set -u
 cd "$OVOID_SOURCE_DIR" || exit 1
@@ -49,6 +49,26 @@ for page in docs/*.md; do
         echo "FAILED docs/index.md does not list $name"
     fi
 done
+# Ten questions of users: the page that answers each has its words in a heading, which the site's search puts first, and docs/index.md names it.
+# answers HEADING PAGE: the page has a heading with these words, and the table of questions leads there.
+answers() {
+    if grep -qi "^#.*$1" "docs/$2" && grep -q "^|.*]($2) |\$" docs/index.md; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED docs/$2 has no heading with \"$1\", or the questions of docs/index.md do not lead there"
+    fi
+}
+answers 'contact points for an engine' world.md
+answers eigen cpp.md
+answers fetchcontent packaging.md
+answers 'thread safety' design.md
+answers units first-steps.md
+answers 'convex hull of a point cloud' polytope.md
+answers 'warm start' pairs.md
+answers deterministic design.md
+answers coal coming-from-fcl.md
+answers license packaging.md
 # ---- the manual
 
 check() {
