@@ -91,7 +91,8 @@ ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const
 
 ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                                const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
-    if (pair->a.compound || pair->b.compound) return ovoid_solid_answer_check(pair, answer, exclusions, error);
+    if (pair->a.compound || pair->b.compound)
+        return ovoid_solid_answer_check(pair, answer, &v->options, exclusions, error);
     judge *mine = take(v);
     ovoid_code code = judge_check_solid(mine, pair, answer, exclusions, points, error);
     give_back(v, mine);
@@ -130,8 +131,8 @@ ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const
 
 ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                                const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
-    (void)v, (void)points;
-    return ovoid_solid_answer_check(pair, answer, exclusions, error);
+    (void)points;
+    return ovoid_solid_answer_check(pair, answer, &v->options, exclusions, error);
 }
 
 int verdict_is_exact(void) { return 0; }

@@ -47,7 +47,7 @@ static ovoid_code check_compound(const verify *v, const claim *item, const ovoid
 ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_compound_impact *found,
                                const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
-    if (a->solid || b->solid) return ovoid_solid_impact_check(a, b, margin, found, steps, groups, error);
+    if (a->solid || b->solid) return ovoid_solid_impact_check(a, b, margin, found, NULL, steps, groups, error);
     if (a->compound || b->compound || found->group_count)
         return ovoid_compound_impact_check(a, b, margin, found, NULL, steps, groups, error);
     ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};

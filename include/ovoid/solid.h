@@ -135,8 +135,9 @@ typedef enum ovoid_solid_inside {
  * `surfaces` is the answer of the deciding pair of triangles (of a shape the whole of it, of a compound a part), with
  * its points, normal and proof; but its lower end holds for all pairs. SEPARATED: that bracket is d's. OVERLAPPING:
  * surfaces.upper < 0, two triangles cross (or one reaches into a shape or a part); or `inside` says which body has a
- * component in the other, at least surfaces.lower away from its surface. TOUCHING and UNDECIDED: the surfaces are so
- * near each other that rounding leaves open whether they cross; upper is theirs, lower what parts the boxes.
+ * component in the other, at least surfaces.lower away from its surface, or that a point lies in both. Else rounding
+ * leaves open whether the surfaces cross: upper is theirs, lower what parts the bodies; TOUCHING where that bracket is
+ * as narrow as the tolerance, and UNDECIDED where it is not, as of bodies that interlock without play.
  */
 typedef struct ovoid_solid_answer {
     ovoid_status status;
@@ -178,12 +179,16 @@ OVOID_API int ovoid_solid_answer_is_within(const ovoid_solid_answer *answer, dou
 /**
  * Checks an answer without any search: the deciding pair as ovoid_answer_check does, each exclusion by all its
  * triangles' points along its normal, that with the deciding pair they leave out no pair of triangles, what is inside
- * by the winding numbers of all components, and the depth by all points along `parting`. OVOID_OK, or PROOF with a
- * sentence in *error (may be NULL; place: the exclusion). exclusions: those of the query. Cost: the triangles of all
- * exclusions, and for each component that is not outside of the other's box all triangles.
+ * by the winding numbers of all components, a common point by its distance from all triangles, the depth by all points
+ * along `parting`; and that both statuses follow from their brackets and the tolerance. Not claims, and not checked:
+ * visited, tested, `parting` of what is apart, why a bracket is wide (a limit other than NONE). OVOID_OK, or PROOF with
+ * a sentence in *error (may be NULL; place: the exclusion). options: those of the query, or NULL, the default.
+ * exclusions: those of the query. Cost: the triangles of all exclusions, and for each component that is not outside of
+ * the other's box all triangles.
  */
 OVOID_API ovoid_code ovoid_solid_answer_check(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                                              const ovoid_exclusions *exclusions, ovoid_error *error);
+                                              const ovoid_options *options, const ovoid_exclusions *exclusions,
+                                              ovoid_error *error);
 
 #ifdef __cplusplus
 }

@@ -173,7 +173,7 @@ ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *erro
                                            error);
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_solid_impact_check(&a, &b, self->margin, &self->of, self->steps, self->groups, error);
+    code = ovoid_solid_impact_check(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups, error);
     Py_END_ALLOW_THREADS;
     return code;
 }

@@ -7,6 +7,7 @@ typedef struct solid_answer_object {
     PyObject_HEAD ovoid_solid_answer of;
     PyObject *a, *b; ///< shapes, compounds or solids
     ovoid_pose pose_a, pose_b;
+    ovoid_options options; ///< of the query
     ovoid_exclusion *exclusions;
     size_t exclusion_count;
 } solid_answer_object;
@@ -57,6 +58,7 @@ PyObject *solid_query(module_state *state, const query_input *in) {
     to->b = Py_NewRef(in->b);
     to->pose_a = in->pair.a.pose;
     to->pose_b = in->pair.b.pose;
+    to->options = in->options;
     if (!find_answer(state, in, to)) return (PyObject *)to;
     Py_DECREF((PyObject *)to);
     return NULL;
@@ -82,7 +84,7 @@ ovoid_code solid_answer_check(PyObject *answer, ovoid_error *error) {
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count, NULL};
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_solid_answer_check(&pair, &self->of, &exclusions, error);
+    code = ovoid_solid_answer_check(&pair, &self->of, &self->options, &exclusions, error);
     Py_END_ALLOW_THREADS;
     return code;
 }

@@ -15,6 +15,7 @@
 typedef struct cut {
     const ovoid_solid_answer *x;
     const ovoid_exclusions *all;
+    double tolerance;
     solid_view a, b;
     solid_frame frame;
     uint32_t place_a, place_b;
@@ -69,7 +70,8 @@ static ovoid_code check_bound(cut *c, size_t i, ovoid_error *error) {
         e->first_a < e->end_a && e->end_a <= c->a.count && e->first_b < e->end_b && e->end_b <= c->b.count;
     if (!is_in_range) return refuse(error, i, "names triangles that there are not");
     if (!(e->lower >= c->x->surfaces.lower)) return refuse(error, i, "is below the answer's lower bound");
-    if (measure_gap(c, e) >= e->lower) return OVOID_OK;
+    int is_plain = !(vec3_max_abs(e->normal_low) > 0) && vec3_is_finite(e->normal_low);
+    if (is_plain && measure_gap(c, e) >= e->lower) return OVOID_OK;
     if (e->end_a - e->first_a == 1 && e->end_b - e->first_b == 1) {
         ovoid_pair pair = get_pair(c, e->first_a, e->first_b);
         ovoid_proof proof = {.normal = e->normal, .normal_low = e->normal_low};
@@ -166,48 +168,93 @@ static ovoid_code check_apart(const cut *c, ovoid_error *error) {
     return OVOID_OK;
 }
 
-static ovoid_code check_bodies(const cut *c, ovoid_error *error) {
-    const ovoid_solid_answer *x = c->x;
-    int ok = x->lower <= x->upper;
-    switch (x->status) {
-    case OVOID_SEPARATED: return ok ? check_apart(c, error) : refuse_all(error, "the bracket is empty");
-    case OVOID_OVERLAPPING: ok = ok && x->upper < 0; break;
-    case OVOID_TOUCHING:
-    case OVOID_UNDECIDED: ok = ok && x->lower <= 0 && x->upper >= x->surfaces.upper; break;
-    }
-    if (!ok) return refuse_all(error, "the status does not follow from the bracket");
-    if (x->status == OVOID_OVERLAPPING && !(x->surfaces.upper < 0 && x->upper >= x->surfaces.upper)) {
-        ovoid_code code = check_inside(c, error);
-        if (code != OVOID_OK) return code;
-    }
-    return check_depth(c, error);
+// 1 if what proves no overlap, and what is not of the kind that proves it, is not there.
+static int inside_is_sound(const ovoid_solid_answer *x) {
+    int is_component = x->inside == OVOID_SOLID_A_INSIDE || x->inside == OVOID_SOLID_B_INSIDE;
+    int has_point = fabs(x->common.x) > 0 || fabs(x->common.y) > 0 || fabs(x->common.z) > 0;
+    if (x->inside != OVOID_SOLID_INSIDE_NONE && x->status != OVOID_OVERLAPPING) return 0;
+    if (!vec3_is_finite(x->common) || (has_point && x->inside != OVOID_SOLID_COMMON_POINT)) return 0;
+    return is_component || x->component == 0;
 }
 
-static ovoid_code check(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all,
-                        ovoid_error *error) {
+static ovoid_code check_overlap(const cut *c, ovoid_error *error) {
+    const ovoid_solid_answer *x = c->x;
+    if (x->inside != OVOID_SOLID_INSIDE_NONE) return check_inside(c, error);
+    if (x->surfaces.upper < 0 && x->upper >= x->surfaces.upper) return OVOID_OK;
+    return refuse_all(error, "an overlap without a reason");
+}
+
+// "none" claims a narrow bracket, but of an overlap, whose depth is not searched for.
+static int limit_is_sound(const cut *c) {
+    const ovoid_solid_answer *x = c->x;
+    if ((unsigned)x->limit > OVOID_LIMIT_ALLOWANCE) return 0;
+    if (x->limit != OVOID_LIMIT_NONE || x->status == OVOID_OVERLAPPING) return 1;
+    return x->upper - x->lower <= c->tolerance + (c->a.allowance + c->b.allowance);
+}
+
+static ovoid_code check_bodies(const cut *c, ovoid_error *error) {
+    const ovoid_solid_answer *x = c->x;
+    ovoid_code code =
+        status_check_internal(x->surfaces.status, x->surfaces.lower, x->surfaces.upper, c->tolerance, error);
+    if (code == OVOID_OK) code = status_check_internal(x->status, x->lower, x->upper, c->tolerance, error);
+    if (code != OVOID_OK) return code;
+    if (!inside_is_sound(x)) return refuse_all(error, "what is said to be inside proves nothing of that status");
+    if (!limit_is_sound(c)) return refuse_all(error, "the bracket is wider than its limit says");
+    if (x->status == OVOID_SEPARATED) return check_apart(c, error);
+    if (x->status == OVOID_OVERLAPPING)
+        code = check_overlap(c, error);
+    else if (!(x->upper >= x->surfaces.upper))
+        code = refuse_all(error, "the upper bound is below that of the surfaces");
+    return code == OVOID_OK ? check_depth(c, error) : code;
+}
+
+// ---- refusals
+
+static ovoid_limit find_refusal(const ovoid_body_pair *pair, const ovoid_options *given, cut *c) {
+    ovoid_options options;
+    if (!options_make(given, &options)) return OVOID_LIMIT_OPTIONS;
+    if (!body_is_one(&pair->a)) return OVOID_LIMIT_SHAPE_A;
+    if (!body_is_one(&pair->b)) return OVOID_LIMIT_SHAPE_B;
+    if (!solid_view_make(&pair->a, &c->a)) return OVOID_LIMIT_POSE_A;
+    if (!solid_view_make(&pair->b, &c->b)) return OVOID_LIMIT_POSE_B;
+    solid_frame_make(&c->a, &c->b, &c->frame);
+    c->tolerance = solid_frame_compute_tolerance(&c->frame, &options);
+    return OVOID_LIMIT_NONE;
+}
+
+// A refusal claims nothing but its reason; a margin or a cap that is none is not known here.
+static ovoid_code check_refusal(const ovoid_solid_answer *x, ovoid_limit refused, ovoid_error *error) {
+    int claims = x->status != OVOID_UNDECIDED || x->lower != -INFINITY || x->upper != INFINITY;
+    if (claims) return refuse_all(error, "a query that must be refused has an answer");
+    if (x->limit == refused || x->limit == OVOID_LIMIT_OPTIONS) return OVOID_OK;
+    return refuse_all(error, "a refusal with another reason than that of the query");
+}
+
+static ovoid_code check(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_options *options,
+                        const ovoid_exclusions *all, ovoid_error *error) {
     static const ovoid_exclusions none = {NULL, 0, 0, NULL};
+    static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
     cut c = {.x = x, .all = all ? all : &none};
-    if (!solid_view_make(&pair->a, &c.a) || !solid_view_make(&pair->b, &c.b) || x->limit == OVOID_LIMIT_OPTIONS) {
-        int claims = x->status != OVOID_UNDECIDED || x->lower != -INFINITY || x->upper != INFINITY;
-        return claims ? refuse_all(error, "a query that must be refused has an answer") : OVOID_OK;
-    }
+    ovoid_limit refused = find_refusal(pair, options, &c);
+    if (refused != OVOID_LIMIT_NONE || (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B))
+        return check_refusal(x, refused, error);
     if (x->triangle_a >= c.a.count || x->triangle_b >= c.b.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "triangles %u and %u are not both there", x->triangle_a,
                          x->triangle_b);
     c.place_a = solid_view_get_place(&c.a, x->triangle_a);
     c.place_b = solid_view_get_place(&c.b, x->triangle_b);
-    solid_frame_make(&c.a, &c.b, &c.frame);
     if (c.a.solid) triangle_begin(&c.room_a);
     if (c.b.solid) triangle_begin(&c.room_b);
+    // Of the deciding pair the bounds; what its status means is a matter of the bodies' size.
     ovoid_pair leaves = get_pair(&c, c.place_a, c.place_b);
-    static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
     ovoid_code code = answer_check_internal(&leaves, &x->surfaces, &of_leaves, NULL, error);
     if (code == OVOID_OK) code = check_exclusions(&c, error);
     return code == OVOID_OK ? check_bodies(&c, error) : code;
 }
 
 ovoid_code ovoid_solid_answer_check(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                                    const ovoid_exclusions *exclusions, ovoid_error *error) {
+                                    const ovoid_options *options, const ovoid_exclusions *exclusions,
+                                    ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
-    ENVIRONMENT_RETURN(ovoid_code, pair, check(pair, answer, exclusions, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, check(pair, answer, options, exclusions, error));
 }

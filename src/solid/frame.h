@@ -68,6 +68,11 @@ typedef struct solid_frame {
 
 void solid_frame_make(const solid_view *a, const solid_view *b, solid_frame *frame);
 
+/// The width that a bracket of two bodies may keep beside their allowances.
+static inline double solid_frame_compute_tolerance(const solid_frame *f, const ovoid_options *options) {
+    return options_compute_tolerance(options, f->size, OVOID_LENGTH_MIN);
+}
+
 /// The bound of two boxes, and a unit direction in a's frame that shows it: as the kernel's. normal: one to try, in a's
 /// frame.
 typedef struct box_gap {

@@ -8,12 +8,6 @@
 
 // ---- the end of a query
 
-static ovoid_status find_status(double lower, double upper, double tolerance) {
-    if (lower > 0) return OVOID_SEPARATED;
-    if (upper < 0) return OVOID_OVERLAPPING;
-    return upper - lower <= tolerance ? OVOID_TOUCHING : OVOID_UNDECIDED;
-}
-
 // Where the traversal ended early: one exclusion of all pairs, by the roots.
 static void exclude_all(solid_search *h) {
     if (h->exclusions) h->exclusions->count = 0;
@@ -46,7 +40,7 @@ static void finish_surfaces(solid_search *h) {
     if (search_is_decided(h)) exclude_all(h);
     ovoid_answer *x = &out->surfaces;
     x->lower = min2(x->lower, h->lower);
-    x->status = find_status(x->lower, x->upper, h->tolerance + h->allowance);
+    x->status = bracket_find_status(x->lower, x->upper, h->tolerance);
     x->limit = find_limit(h, x->lower, x->upper, x->status);
     out->triangle_a = solid_view_get_index(&h->a, h->best.place_a);
     out->triangle_b = solid_view_get_index(&h->b, h->best.place_b);
@@ -96,8 +90,10 @@ static void finish(solid_search *h) {
     if (is == 0) return;
     if (is > 0) out->upper = -x->lower;
     find_parting(h);
-    if (find_status(out->lower, out->upper, h->tolerance + h->allowance) == OVOID_UNDECIDED) find_common_point(h);
-    out->status = find_status(out->lower, out->upper, h->tolerance + h->allowance);
+    // What the bodies' allowances leave open no point shows.
+    int is_wide = out->upper - out->lower > h->tolerance + h->allowance;
+    if (is_wide && !(out->upper < 0)) find_common_point(h);
+    out->status = bracket_find_status(out->lower, out->upper, h->tolerance);
     out->limit =
         out->status == OVOID_OVERLAPPING ? OVOID_LIMIT_NONE : find_limit(h, out->lower, out->upper, out->status);
 }
@@ -122,8 +118,7 @@ static ovoid_limit begin(solid_search *h, const ovoid_body_pair *pair, const ovo
     if (!solid_view_make(&pair->a, &h->a)) return OVOID_LIMIT_POSE_A;
     if (!solid_view_make(&pair->b, &h->b)) return OVOID_LIMIT_POSE_B;
     solid_frame_make(&h->a, &h->b, &h->frame);
-    double hidden = 8 * OVOID_LENGTH_MIN;
-    h->tolerance = max2(h->options.absolute_tolerance, h->options.relative_tolerance * h->frame.size) + hidden;
+    h->tolerance = solid_frame_compute_tolerance(&h->frame, &h->options);
     // Half for a pair, half for what is left out beside it.
     h->options.absolute_tolerance = h->tolerance / 2;
     h->options.relative_tolerance = OVOID_LENGTH_MIN;

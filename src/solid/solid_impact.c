@@ -56,6 +56,15 @@ static void take_group(descent *d, solid_ref a, solid_ref b, size_t count) {
     d->step_count += count;
 }
 
+// The steps of two leaves or balls that are free: of one time alone, which no step goes on from, one that ends where it
+// begins, along the normal of their distance.
+static size_t count_steps(const descent *d, const ovoid_impact *x) {
+    if (d->begin < d->end || x->status != OVOID_IMPACT_FREE) return x->step_count;
+    ovoid_motion_options room = make_options(d, 0);
+    if (room.steps) room.steps[0] = (ovoid_step){d->begin, x->free.normal, OVOID_STEP_WORLD};
+    return 1;
+}
+
 // 1 if the balls are free up to the first hit found; that is a group of the proof. Else *after: the time until which
 // they are free. A tolerance of 1e-3 is enough to order them.
 COMPILER_NOINLINE static int is_pruned(descent *d, couple *c) {
@@ -68,7 +77,7 @@ COMPILER_NOINLINE static int is_pruned(descent *d, couple *c) {
     impact_find((moving_shapes){&ball_a, &ball_b}, d->margin, &o, 1e-3, &x);
     c->after = x.free_until;
     if (x.status != OVOID_IMPACT_FREE) return 0;
-    take_group(d, c->a, c->b, x.step_count);
+    take_group(d, c->a, c->b, count_steps(d, &x));
     return 1;
 }
 
@@ -80,7 +89,7 @@ COMPILER_NOINLINE static void take_leaves(descent *d, const couple *c) {
     moving_shapes pair = moving_trees_get_pair(&d->a, c->a, &d->b, c->b, made, rooms);
     ovoid_motion_options o = make_options(d, d->tolerance);
     impact_find(pair, d->margin, &o, 1e-9, &x);
-    take_group(d, c->a, c->b, x.step_count);
+    take_group(d, c->a, c->b, count_steps(d, &x));
     d->out->tested++;
     if (impact_take_pair(best, &x, &d->free_until)) {
         d->place_a = ref_get_place(c->a);

@@ -10,6 +10,7 @@
 typedef struct claim {
     double margin;
     const ovoid_compound_impact *found;
+    const ovoid_motion_options *options;
     const ovoid_step *steps;
     const ovoid_step_group *groups;
     moving_tree a, b;
@@ -138,31 +139,41 @@ static ovoid_code check_hit(const claim *c, ovoid_error *error) {
     return check_leaves(c, &x->hit, c->margin, error);
 }
 
-static ovoid_code check(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
+// OVOID_OK if the query has these times, or is refused for this reason and nothing is claimed.
+static ovoid_code check_query(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     moving_room rooms[2];
-    OVOID_ASSERT((c->steps || !x->step_count) && (c->groups || !c->found->group_count));
-    // A refusal claims nothing.
-    if (x->status == OVOID_IMPACT_UNDECIDED && x->limit >= OVOID_LIMIT_POSE_A && x->free_until == 0) return OVOID_OK;
-    if (!moving_tree_make(a, &c->a) || !moving_tree_make(b, &c->b))
+    int is_empty = impact_is_empty(x) && !c->found->group_count;
+    int has_a = moving_tree_make(a, &c->a), has_b = moving_tree_make(b, &c->b);
+    if (!has_a || !has_b) {
+        ovoid_limit limit = has_a ? OVOID_LIMIT_SHAPE_B : OVOID_LIMIT_SHAPE_A;
+        if (x->limit == limit && is_empty) return OVOID_OK;
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs exactly one of shape, compound and solid");
+    }
     ovoid_moving_shape ball_a = moving_tree_make_ball(&c->a, solid_view_get_root(&c->a.view), &rooms[0]),
                        ball_b = moving_tree_make_ball(&c->b, solid_view_get_root(&c->b.view), &rooms[1]);
-    ovoid_code code = impact_check_times((moving_shapes){&ball_a, &ball_b}, x->begin, x->end, error);
-    if (code != OVOID_OK) return code;
+    const query_claim query = {c->margin, c->options, x->begin, x->end, x->limit, is_empty};
+    return impact_check_query((moving_shapes){&ball_a, &ball_b}, &query, error);
+}
+
+static ovoid_code check(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
+    const ovoid_impact *x = &c->found->impact;
+    OVOID_ASSERT((c->steps || !x->step_count) && (c->groups || !c->found->group_count));
+    ovoid_code code = check_query(c, a, b, error);
+    if (code != OVOID_OK || impact_is_refusal(x)) return code;
     if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->a.view.count || c->found->part_b >= c->b.view.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
                          ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
     code = check_begin(c, error);
-    // Without steps nothing is claimed of the time before `begin`, and of one time alone the beginning is all.
-    int has_time = x->free_until > x->begin;
-    if (code == OVOID_OK && has_time) code = check_groups(c, error);
+    // Without steps nothing is claimed of the time before `begin`.
+    int is_claimed = x->free_until > x->begin || x->status == OVOID_IMPACT_FREE;
+    if (code == OVOID_OK && is_claimed) code = check_groups(c, error);
     return code == OVOID_OK ? check_hit(c, error) : code;
 }
 
 ovoid_code ovoid_solid_impact_check(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                    const ovoid_compound_impact *impact, const ovoid_step *steps,
-                                    const ovoid_step_group *groups, ovoid_error *error) {
-    claim c = {.margin = margin, .found = impact, .steps = steps, .groups = groups};
+                                    const ovoid_compound_impact *impact, const ovoid_motion_options *options,
+                                    const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
+    claim c = {.margin = margin, .found = impact, .options = options, .steps = steps, .groups = groups};
     ENVIRONMENT_RETURN(ovoid_code, c, check(&c, a, b, error));
 }

@@ -139,14 +139,15 @@ static void ask_solid_within(void) { solid_answer = ovoid_solid_within(&solid_pa
 static void ask_solid_distance(void) { solid_answer = ovoid_solid_distance(&solid_pair, NULL, NULL, &exclusions); }
 /// Of the distance, where there was room for its proof.
 static void ask_solid_check(void) {
-    ovoid_code code = ovoid_solid_answer_check(&solid_pair, &solid_answer, &exclusions, NULL);
+    ovoid_code code = ovoid_solid_answer_check(&solid_pair, &solid_answer, NULL, &exclusions, NULL);
     CHECK(code == OVOID_OK || exclusions.count > exclusions.capacity);
 }
 static void ask_solid_impact(void) {
     compound_impact = ovoid_solid_impact_find(&moving_solids[0], &moving_solids[1], 0, &recording);
 }
 static void ask_solid_impact_check(void) {
-    (void)ovoid_solid_impact_check(&moving_solids[0], &moving_solids[1], 0, &compound_impact, steps, groups, NULL);
+    (void)ovoid_solid_impact_check(&moving_solids[0], &moving_solids[1], 0, &compound_impact, NULL, steps, groups,
+                                   NULL);
 }
 
 static void ask_find_any(void) { CHECK(ovoid_world_find_any(world, NULL, 0, NULL, &hit, NULL) == OVOID_OK); }

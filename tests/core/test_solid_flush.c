@@ -61,7 +61,7 @@ static void check(const ovoid_body_pair *pair, const ovoid_solid_answer *x, cons
                   double scale) {
     ovoid_error error = {.message = ""};
     CHECK(all->count <= all->capacity);
-    if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, NULL, all, &error), OVOID_OK)) printf("  %s\n", error.message);
     CHECK_LE(x->lower, x->upper);
     if (x->status == OVOID_TOUCHING) CHECK(x->lower <= 0 && x->upper >= 0 && x->upper - x->lower <= 1e-7 * scale);
     if (t.shared) {

@@ -66,10 +66,10 @@ void check_queries() {
             const ovoid::solid_answer x = ovoid::distance(*q, {}, nullptr, &all);
             CHECK(is_same_solid_answer(x, ovoid_solid_distance(q, nullptr, nullptr, &c)));
             CHECK_EQ(all.count, c.count);
-            CHECK(ovoid::is_proven(*q, x, &all));
+            CHECK(ovoid::is_proven(*q, x, ovoid::options(), &all));
             ovoid::solid_answer wrong = x;
             wrong.surfaces.lower += 0.1;
-            CHECK(!ovoid::is_proven(*q, wrong, &all));
+            CHECK(!ovoid::is_proven(*q, wrong, ovoid::options(), &all));
             const ovoid::compound_proof earlier = ovoid::proof_of(x);
             CHECK(is_same_solid_answer(ovoid::distance(*q, {}, &earlier),
                                        ovoid_solid_distance(q, nullptr, &earlier, nullptr)));
@@ -101,7 +101,7 @@ void check_bodies() {
     const ovoid::solid_answer x = ovoid::distance(beside, {}, nullptr, &all);
     CHECK_EQ(x.triangle_b, 0u);
     CHECK_NEAR(x.lower, 0.25, 1e-9);
-    CHECK(ovoid::is_proven(beside, x, &all));
+    CHECK(ovoid::is_proven(beside, x, ovoid::options(), &all));
     ovoid::world w = ovoid::world::create();
     const ovoid::id a = w.add(ovoid::body(angle)), b = w.add(ovoid::body(cube, pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0})));
     const ovoid::contacts found = w.compute_contacts({OVOID_QUERY_DISTANCE, 1});

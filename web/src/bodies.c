@@ -149,5 +149,5 @@ int EXPORT(body_check)(unsigned kinds, const void *a, const void *b) {
     s.surfaces.status = (ovoid_status)(read_index(surfaces[0]) & 0xff);
     s.surfaces.limit = (ovoid_limit)(read_index(surfaces[1]) & 0xff);
     s.surfaces.lower = surfaces[2], s.surfaces.upper = surfaces[3];
-    return (int)ovoid_solid_answer_check(&pair, &s, &exclusions, &exchange_error);
+    return (int)ovoid_solid_answer_check(&pair, &s, &options, &exclusions, &exchange_error);
 }

@@ -120,28 +120,28 @@ inline compound_impact find_impact(const moving_body &a, const moving_body &b, d
                               : ovoid_compound_impact_find(&a, &b, margin, &o);
 }
 /**
- * Throws PROOF (place: the step) where an impact does not follow from its steps: all step_count of them. options: those
- * of the query; nullptr as in ovoid_impact_check.
+ * Throws PROOF (place: the step) where an impact does not follow from its steps: all step_count of them. asked: the
+ * options of the query; nullptr as in ovoid_impact_check.
  */
 template <class Steps>
 void check(const moving_shape &a, const moving_shape &b, double margin, const ovoid_impact &found, const Steps &steps,
-           const ovoid_motion_options *options = nullptr) {
+           const ovoid_motion_options *asked = nullptr) {
     ovoid_error e;
     if (std::size(steps) < found.step_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps than were kept");
-    detail::require(ovoid_impact_check(&a, &b, margin, &found, options, std::data(steps), &e), e);
+    detail::require(ovoid_impact_check(&a, &b, margin, &found, asked, std::data(steps), &e), e);
 }
 /** Throws PROOF (place: the group) where an impact of bodies does not follow from its steps and groups. */
 template <class Steps, class Groups>
 void check(const moving_body &a, const moving_body &b, double margin, const ovoid_compound_impact &found,
-           const Steps &steps, const Groups &groups, const ovoid_motion_options *options = nullptr) {
+           const Steps &steps, const Groups &groups, const ovoid_motion_options *asked = nullptr) {
     ovoid_error e;
     if (std::size(steps) < found.impact.step_count || std::size(groups) < found.group_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps or groups than were kept");
     ovoid_code code =
         a.solid || b.solid
-            ? ovoid_solid_impact_check(&a, &b, margin, &found, std::data(steps), std::data(groups), &e)
-            : ovoid_compound_impact_check(&a, &b, margin, &found, options, std::data(steps), std::data(groups), &e);
+            ? ovoid_solid_impact_check(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e)
+            : ovoid_compound_impact_check(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e);
     detail::require(code, e);
 }
 
@@ -172,11 +172,11 @@ inline approach find_approach(const moving_shape &a, const moving_shape &b,
 /** Throws PROOF where an approach does not follow from its steps: all step_count of them. */
 template <class Steps>
 void check(const moving_shape &a, const moving_shape &b, const ovoid_approach &found, const Steps &steps,
-           const ovoid_motion_options *options = nullptr) {
+           const ovoid_motion_options *asked = nullptr) {
     ovoid_error e;
     if (std::size(steps) < found.step_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps than were kept");
-    detail::require(ovoid_approach_check(&a, &b, &found, options, std::data(steps), &e), e);
+    detail::require(ovoid_approach_check(&a, &b, &found, asked, std::data(steps), &e), e);
 }
 
 /** The word for results, for example "hit". */

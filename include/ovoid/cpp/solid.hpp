@@ -99,9 +99,10 @@ inline int is_within(const solid_answer &a, double margin) noexcept { return ovo
 inline compound_proof proof_of(const ovoid_solid_answer &a) noexcept {
     return ovoid_compound_proof{a.triangle_a, a.triangle_b, a.surfaces.proof};
 }
-/** True where the answer follows from its proof and the exclusions. */
-inline bool is_proven(const solid_pair &p, const ovoid_solid_answer &a, const ovoid_exclusions *e) noexcept {
-    return ovoid_solid_answer_check(&p, &a, e, nullptr) == OVOID_OK;
+/** True where the answer follows from its proof, the exclusions and the query's options. */
+inline bool is_proven(const solid_pair &p, const ovoid_solid_answer &a, const ovoid_options &o = options(),
+                      const ovoid_exclusions *e = nullptr) noexcept {
+    return ovoid_solid_answer_check(&p, &a, &o, e, nullptr) == OVOID_OK;
 }
 
 } // namespace ovoid
