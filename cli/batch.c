@@ -39,6 +39,8 @@ static const cli_option options[] = {
      "the margin of within; for distance, exit code 1 if a pair is within M"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket is at most T wide, or 1e-9 of the pair's size (default: the latter alone)"},
+    {"hull", 0, OPTION_FLAG, offsetof(settings, read.hull), NULL, NULL,
+     "each mesh is its convex hull (default: one that is not convex, or not closed, is refused)"},
     THREADS_OPTION(settings),
     SHARD_OPTION(settings),
     INPUTS_OPTIONS(settings),
@@ -184,7 +186,7 @@ static void report_counts(const batch *b, double seconds) {
                      b->counts[OVOID_UNDECIDED]);
 }
 
-/// 1 if a mesh of the list does not fill its hull, which is what is queried.
+/// 1 if a mesh of the list is not its hull, which is what is queried.
 static int has_nonconvex(const ovoid_shapes *shapes) {
     size_t i = 0, count = ovoid_shapes_get_count(shapes);
     while (i < count && ovoid_shapes_get(shapes, i).convexity.kind == OVOID_MESH_HULL) i++;
@@ -233,6 +235,20 @@ static int settle(const cli_command *command, settings *s) {
     return results_settle_part(command, &s->out, s->part);
 }
 
+/// Refuses meshes that are not their hulls, unless those are asked for: -1 to go on, or EXIT_INPUT after a message.
+static int check_meshes(const settings *s, const ovoid_shapes *shapes) {
+    if (s->read.hull) return inputs_warn_list(shapes), -1;
+    for (size_t i = 0; i < ovoid_shapes_get_count(shapes); i++) {
+        ovoid_named_shape shape = ovoid_shapes_get(shapes, i);
+        if (shape.convexity.kind == OVOID_MESH_HULL) continue;
+        message_error("%s is not %s, and batch takes convex shapes: --hull takes its hull; ovoid distance and ovoid "
+                      "check take the mesh itself",
+                      shape.name, shape.convexity.kind == OVOID_MESH_SURFACE ? "closed" : "convex");
+        return EXIT_INPUT;
+    }
+    return -1;
+}
+
 static int run(const cli_command *command, int argc, char **argv) {
     settings s = {.read.unit = INPUTS_NO_UNIT, .query = QUERY_DISTANCE, .margin = -1};
     cli_operands none;
@@ -242,7 +258,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     batch b = {.settings = &s};
     ovoid_shapes *shapes = inputs_read_list(s.list, &s.read);
     if (!shapes) return EXIT_INPUT;
-    inputs_warn_list(shapes);
+    if ((code = check_meshes(&s, shapes)) >= 0) return ovoid_shapes_destroy(shapes), code;
     b.shapes = shapes;
     b.reader = ovoid_pairs_reader_create(s.pairs, ovoid_shapes_get_count(shapes), &b.error);
     shard_job job = {command, &s, &none, s.part, .seen = shard_digest_make(), .units = "pairs"};
@@ -263,7 +279,8 @@ const cli_command command_batch = {
         "One result for each pair of PAIRS.csv, in the file's order. Its first line must be\n\n"
         "    a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n\n"
         "a and b are shapes of LIST, counted from 0 without empty lines and comments; the position and the quaternion "
-        "of each body follow.\n\n"
+        "of each body follow. Shapes are convex: a mesh that is not its hull is refused, unless --hull asks for "
+        "that.\n\n"
         "Pairs are read, answered and written as they come, in bounded memory. A bad line (an index that LIST does not "
         "have, NaN, a zero quaternion) ends the run with code 3 and the line's number: what stands on standard output "
         "by then are the results of all pairs before it; a file asked for with --output is not made.",

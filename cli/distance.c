@@ -68,11 +68,14 @@ static ovoid_allowance find_allowance(const ovoid_shapes *parts) {
     return most;
 }
 
-static void print_shape(const report *r, const char *title, const char *path, const ovoid_shape *shape) {
+static void print_shape(const report *r, const char *title, const char *path, const cli_body *body) {
+    const ovoid_shape *shape = body->shape;
+    ovoid_convexity mesh = ovoid_shapes_get(body->parts, 0).convexity;
     unsigned long long vertices = ovoid_shape_get_report(shape).vertices;
     double radius = ovoid_shape_get_radius(shape);
+    int are_points = !ovoid_path_is_shape(path) && mesh.kind == OVOID_MESH_HULL && isnan(mesh.mesh_volume);
     print_name(r->file, title, path);
-    fprintf(r->file, "; vertices: %llu", vertices);
+    fprintf(r->file, "; %svertices: %llu", are_points ? "hull of points, " : "", vertices);
     ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
     if (radius > 0) fprintf(r->file, "; radius: %.9g%s", radius, r->unit);
     print_allowance(r, "allowance", &allowance);
@@ -81,7 +84,7 @@ static void print_shape(const report *r, const char *title, const char *path, co
 
 static void print_body(const report *r, const char *title, const char *path, const cli_body *body) {
     if (body->shape)
-        print_shape(r, title, path, body->shape);
+        print_shape(r, title, path, body);
     else {
         print_name(r->file, title, path);
         fprintf(r->file, "; parts: %zu", ovoid_shapes_get_count(body->parts));
@@ -194,11 +197,7 @@ static int answer_solids(const settings *s, const cli_body bodies[2], const char
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
     solids_query query = {s->margin, s->tolerance, inputs_get_unit(&s->read)};
     solids_pair pair;
-    int found = solids_open_pair(paths, bodies, poses, &s->read, &s->choice, &pair);
-    if (found <= 0) return found < 0 ? EXIT_INPUT : -1;
-    int code = solids_answer(&pair, &query, &s->out);
-    solids_close_pair(&pair);
-    return code;
+    return solids_make_pair(paths, bodies, poses, &pair) ? solids_answer(&pair, &query, &s->out) : -1;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -212,6 +211,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code < 0) code = results_settle(command, &s.out);
     if (code < 0) code = solids_settle(command, &s.choice);
     if (code >= 0) return code;
+    s.read = solids_get_read(&s.read, &s.choice);
     if ((code = inputs_open_pair(paths.items, &s.read, s.choice.parts, bodies)) != 0) return code;
     code = answer_solids(&s, bodies, paths.items);
     if (code < 0) {
@@ -232,8 +232,10 @@ const cli_command command_distance = {
         "overlap. The answer is a bracket, lower <= d <= upper, rounding included, with witness points, a normal "
         "from A to B, and a proof, which is checked before it is written.\n\n"
         "A and B are meshes (STL, OBJ, OFF, PLY; COLLADA, glTF and more with Assimp), or .ovoid files. A closed "
-        "mesh that does not fill its convex hull is the solid that its triangles enclose, any other is its hull; "
-        "--solid and --hull choose. The depth of overlapping solids is a bracket that is true, but wide. With --parts, "
+        "mesh that is convex is its hull, any other the solid that its triangles enclose; an open one is its surface, "
+        "which has no inside and no depth. --solid and --hull choose. A mesh that is convex but for rounding is its "
+        "hull with an allowance, so that the bracket is true of the mesh. The depth of overlapping solids is a bracket "
+        "that is true, but wide. With --parts, "
         "they are compounds of convex parts, as CoACD and V-HACD write them: "
         "d is then the smallest signed distance of a part of A and a part of B, and the proof also says why no "
         "other two are nearer.",

@@ -37,6 +37,9 @@ static const cli_option options[] = {
      "relative volume gap of the outer and the inner ellipsoid, below 1 (default: 1e-6)"},
     {"phases", 0, OPTION_FLAG, offsetof(settings, phases), NULL, NULL,
      "the files hold the inner ellipsoid of the three phases (default: that of maximum volume)"},
+    {"hull", 0, OPTION_FLAG, offsetof(settings, read.hull), NULL, NULL,
+     "the hull stands for itself (default: where its mesh is so only nearly, \"inside\" has what keeps answers true of "
+     "the mesh)"},
     INPUTS_OPTIONS(settings),
     {"table", 0, OPTION_FLAG, offsetof(settings, table), NULL, NULL,
      "one line a body, the ellipsoids' volumes relative to the body's (default: a report of each body)"},
@@ -218,6 +221,19 @@ static int fit_file(fit *f, const char *path) {
     return code;
 }
 
+/// Gives a hull that its mesh is only nearly the allowance for that; 0 where memory is out.
+static int allow(const fit *f, ovoid_shape **shape, fitted *found, ovoid_error *error) {
+    if (f->settings->read.hull || f->settings->parts) found->convexity.allowance = 0;
+    if (!(found->convexity.allowance > 0)) return 1;
+    ovoid_allowance allowance = ovoid_shape_get_allowance(*shape);
+    allowance.inside = nextafter(allowance.inside + found->convexity.allowance, INFINITY);
+    ovoid_shape *allowed = ovoid_shape_create_allowed(*shape, allowance, NULL, error);
+    if (!allowed) return 0;
+    ovoid_shape_destroy(*shape);
+    *shape = allowed;
+    return 1;
+}
+
 /// Fits one part of a mesh. A refused one is reported, and the run goes on.
 static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t number, double read_seconds) {
     ovoid_error error;
@@ -237,6 +253,11 @@ static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t num
     found.make_seconds = progress_get_seconds() - start;
     found.report.faces = part.faces.face_count;
     if (ovoid_mesh_compute_convexity(mesh, number, shape, &found.convexity, &error)) {
+        message_error("%s: %s", path, error.message);
+        ovoid_shape_destroy(shape);
+        return f->failed = 1, 0;
+    }
+    if (!allow(f, &shape, &found, &error)) {
         message_error("%s: %s", path, error.message);
         ovoid_shape_destroy(shape);
         return f->failed = 1, 0;

@@ -55,6 +55,9 @@ void fit_write_report(FILE *file, const fitted *f) {
     if (f->convexity.mesh_volume >= 0 && r->rank == 3 && m->volume > 0)
         fprintf(file, "  mesh     %.9g enclosed, %.4g %% of the hull\n", f->convexity.mesh_volume,
                 100 * f->convexity.mesh_volume / m->volume);
+    if (f->convexity.kind != OVOID_MESH_HULL)
+        fprintf(file, "  mesh     a %s: all that is said here is of its hull\n",
+                ovoid_mesh_kind_get_name(f->convexity.kind));
     if (r->rank == 3) fprintf(file, "  surface  %.9g\n", m->area);
     fprintf(file, "  box      %.6g x %.6g x %.6g\n", m->box.max.x - m->box.min.x, m->box.max.y - m->box.min.y,
             m->box.max.z - m->box.min.z);
@@ -130,7 +133,7 @@ void fit_write_json(FILE *file, const fitted *f) {
             "\"volume\":%.17g,\"area\":%.17g",
             (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles, f->radius, f->allowance.outside,
             f->allowance.inside, f->measures.volume, f->measures.area);
-    fprintf(file, ",\"mesh_volume\":");
+    fprintf(file, ",\"mesh_kind\":\"%s\",\"mesh_volume\":", ovoid_mesh_kind_get_name(f->convexity.kind));
     json_write_number(file, f->convexity.mesh_volume);
     for (int i = 0; i < FIT_STEPS; i++) write_step_json(file, f, i);
     fprintf(file, ",\"read_seconds\":%.9f,\"make_seconds\":%.9f,\"output\":", f->read_seconds, f->make_seconds);
@@ -143,7 +146,7 @@ void fit_write_json(FILE *file, const fitted *f) {
 
 void fit_write_csv_title(FILE *file) {
     fprintf(file, "file,name,points,vertices,duplicates,interior,coplanar,rank,facets,triangles,radius,outside,inside,"
-                  "volume,area,mesh_volume");
+                  "volume,area,mesh_kind,mesh_volume");
     for (int i = 0; i < FIT_STEPS; i++)
         fprintf(file, ",%s_volume,%s_gap,%s_radius1,%s_radius2,%s_radius3,%s_seconds", step_keys[i], step_keys[i],
                 step_keys[i], step_keys[i], step_keys[i], step_keys[i]);
@@ -169,6 +172,7 @@ void fit_write_csv_row(FILE *file, const fitted *f) {
     write_column(file, f->allowance.inside);
     write_column(file, f->measures.volume);
     write_column(file, f->measures.area);
+    fprintf(file, ",%s", ovoid_mesh_kind_get_name(f->convexity.kind));
     write_column(file, f->convexity.mesh_volume);
     for (int i = 0; i < FIT_STEPS; i++) {
         int none = isnan(f->steps[i].volume);

@@ -48,26 +48,22 @@ static int is_clean(const info *x) {
 
 /// Reads a mesh. 0 after a message.
 static int read_mesh(const char *path, const settings *s, info *x) {
-    ovoid_error error;
     cli_body body;
+    read_settings read = s->read;
+    read.solid = 1;
     *x = (info){.path = path, .unit = inputs_get_unit(&s->read)};
     if (ovoid_path_is_shape(path)) {
         message_error("%s is a shape, not a mesh: ovoid fit tells about it", path);
         return 0;
     }
-    ovoid_read_options read = inputs_make_options(&s->read);
-    ovoid_solid *solid = ovoid_solid_read_file(path, &read, &error);
-    if (!solid) return message_error("%s", error.message), 0;
-    int found = !inputs_open_body(path, &s->read, 0, &body);
-    if (found) {
-        x->convexity = ovoid_shapes_get(body.parts, 0).convexity;
-        x->report = ovoid_solid_get_report(solid);
-        x->crossings = ovoid_solid_compute_crossings(solid, CROSSINGS_MAX);
-        x->kind = x->convexity.kind;
-        inputs_close_body(&body);
-    }
-    ovoid_solid_destroy(solid);
-    return found;
+    if (inputs_open_body(path, &read, 0, &body)) return 0;
+    ovoid_named_shape mesh = ovoid_shapes_get(body.parts, 0);
+    x->convexity = mesh.convexity;
+    x->kind = mesh.convexity.kind;
+    x->report = ovoid_solid_get_report(mesh.solid);
+    x->crossings = ovoid_solid_compute_crossings(mesh.solid, CROSSINGS_MAX);
+    inputs_close_body(&body);
+    return 1;
 }
 
 // ---- for people
@@ -108,7 +104,14 @@ static void print_info(const info *x) {
     print_count("degenerate", r->degenerate, " triangles without area");
     print_count("duplicates", r->duplicates, " triangles that are there before");
     print_crossings(x);
-    printf("  %-11s %s\n", "counts as", ovoid_mesh_kind_get_name(x->kind));
+    printf("  %-11s %s", "counts as", ovoid_mesh_kind_get_name(x->kind));
+    double allowance = x->kind == OVOID_MESH_HULL ? x->convexity.allowance : 0;
+    if (allowance > 0)
+        printf(", off the mesh by at most %.2g%s%s: answers allow for it", allowance, *x->unit ? " " : "", x->unit);
+    if (x->kind == OVOID_MESH_HULL && !(allowance > 0)) fputs(", which it is exactly", stdout);
+    if (x->kind == OVOID_MESH_SURFACE)
+        printf(", without an inside: %llu edges are open", (unsigned long long)r->edges_unmatched);
+    putchar('\n');
 }
 
 // ---- for programs
@@ -142,7 +145,9 @@ static void write_json(const info *x) {
     write_number("area", r->area);
     write_number("mesh_volume", x->convexity.mesh_volume);
     write_number("hull_volume", x->convexity.hull_volume);
-    printf(",\"kind\":\"%s\"}\n", ovoid_mesh_kind_get_name(x->kind));
+    printf(",\"kind\":\"%s\",\"allowance\":", ovoid_mesh_kind_get_name(x->kind));
+    json_write_number(stdout, x->kind == OVOID_MESH_HULL ? x->convexity.allowance : 0);
+    fputs("}\n", stdout);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
@@ -173,7 +178,8 @@ const cli_command command_info = {
         "one direction as in the other) or inside out; its volume and that of its convex hull; edges of more than two "
         "triangles, triangles without area or there twice; and the pairs of triangles that meet other than in common "
         "corners and edges, by exact arithmetic, counted up to a million. Last, as what \"ovoid distance\" takes it: "
-        "a closed mesh that does not fill its hull is a solid, any other its hull; --solid and --hull choose there.\n\n"
+        "its hull, exactly or with an allowance, a solid, or, where it is open, a surface; --solid and --hull choose "
+        "there.\n\n"
         "A bad mesh is named, the others are done all the same, and the exit code is 3.",
     .exits = "0 each mesh is closed, the right way round, and nothing of the above is found\n"
              "1 something is\n"

@@ -14,7 +14,8 @@ const char *inputs_get_unit(const read_settings *settings) {
 
 ovoid_read_options inputs_make_options(const read_settings *settings) {
     const char *unit = inputs_get_unit(settings);
-    return (ovoid_read_options){.scale = settings->scale, .unit = unit[0] ? unit : NULL};
+    return (ovoid_read_options){
+        .scale = settings->scale, .unit = unit[0] ? unit : NULL, .hull = settings->hull, .solid = settings->solid};
 }
 
 /// How many parts a mesh file has, where there are several and each is known to fill its hull; else 0.
@@ -22,7 +23,8 @@ static size_t count_convex_parts(const char *path, const read_settings *settings
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(settings);
     read.parts = 1;
-    ovoid_shapes *parts = ovoid_shapes_read_file(path, &read, NULL, &error);
+    ovoid_shapes *parts = strcmp(path, "-") == 0 ? NULL : ovoid_shapes_read_file(path, &read, NULL, &error);
+    if (!parts) return 0;
     size_t count = ovoid_shapes_get_count(parts), convex = 0;
     for (size_t i = 0; i < count; i++) {
         ovoid_convexity c = ovoid_shapes_get(parts, i).convexity;
@@ -32,57 +34,70 @@ static size_t count_convex_parts(const char *path, const read_settings *settings
     return count > 1 && convex == count ? count : 0;
 }
 
-/// Warns of a mesh; convex_parts: how many parts it has that fill their hulls, 0: not known.
-static void warn_nonconvex(const char *path, const char *part, const ovoid_convexity *c, size_t convex_parts) {
-    char advice[160] =
-        "for the mesh itself ovoid distance --solid, or \"solid\": true in a scene; for convex parts ovoid "
-        "decompose, then --parts";
+/// Warns of a mesh that is taken as its hull; convex_parts: how many parts it has that fill their hulls, 0: not known.
+static void warn_hull(const char *path, const char *part, const ovoid_convexity *c, size_t convex_parts) {
+    char advice[160] = "", share[120] = "";
     if (convex_parts)
-        snprintf(advice, sizeof advice, "each of its %zu parts fills its hull: use --parts", convex_parts);
-    message_warning("%s%s%s is not convex and counts as its hull, of which it is %.3g %% (%.6g of %.6g); %s, or "
-                    "\"parts\": true in a scene",
-                    path, *part ? ": " : "", part, 100 * c->mesh_volume / c->hull_volume, c->mesh_volume,
-                    c->hull_volume, advice);
+        snprintf(advice, sizeof advice,
+                 "; each of its %zu parts is convex: --parts, or \"parts\": true in a scene, takes these",
+                 convex_parts);
+    if (c->kind == OVOID_MESH_SOLID && c->mesh_volume <= c->hull_volume)
+        snprintf(share, sizeof share, ", of which it is %.3g %% (%.6g of %.6g)", 100 * c->mesh_volume / c->hull_volume,
+                 c->mesh_volume, c->hull_volume);
+    message_warning("%s%s%s is not %s and counts as its hull%s%s", path, *part ? ": " : "", part,
+                    c->kind == OVOID_MESH_SURFACE ? "closed" : "convex", share, advice);
 }
 
 void inputs_warn_part(const char *path, const char *part, const ovoid_convexity *c) {
-    if (c->kind != OVOID_MESH_HULL) warn_nonconvex(path, part, c, 0);
+    if (c->kind != OVOID_MESH_HULL) warn_hull(path, part, c, 0);
 }
 
 void inputs_warn_file(const char *path, const read_settings *settings, const ovoid_convexity *c) {
-    if (c->kind != OVOID_MESH_HULL) warn_nonconvex(path, "", c, count_convex_parts(path, settings));
+    if (c->kind != OVOID_MESH_HULL) warn_hull(path, "", c, count_convex_parts(path, settings));
+}
+
+void inputs_warn_surface(const char *path, uint64_t open_edges) {
+    message_warning("%s is not closed, %llu of its edges are open: it counts as its surface, which has no inside; "
+                    "--hull, or \"hull\": true in a scene, takes its hull",
+                    path, (unsigned long long)open_edges);
 }
 
 /// Most warnings about the meshes of one list or scene.
 #define WARNINGS_MAX 10
 
 /// Warns of the meshes of a list or a scene, each name once.
-static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context, size_t i), const void *context) {
+static void warn_all(size_t count, ovoid_named_shape (*get)(const void *context, size_t i),
+                     const ovoid_solid *(*get_solid)(const void *context, size_t i), const void *context) {
     const char *named[WARNINGS_MAX];
     size_t warned = 0, left_out = 0;
     for (size_t i = 0; i < count; i++) {
         ovoid_named_shape mesh = get(context, i);
         size_t k = 0;
-        if (mesh.convexity.kind == OVOID_MESH_HULL) continue;
+        int is_surface = get_solid(context, i) && mesh.convexity.kind == OVOID_MESH_SURFACE;
+        if (mesh.convexity.kind == OVOID_MESH_HULL || (get_solid(context, i) && !is_surface)) continue;
         while (k < warned && strcmp(named[k], mesh.name) != 0) k++;
         left_out += k == WARNINGS_MAX;
         if (k < warned || k == WARNINGS_MAX) continue;
         named[warned++] = mesh.name;
-        inputs_warn_part(mesh.name, "", &mesh.convexity);
+        if (is_surface)
+            inputs_warn_surface(mesh.name, mesh.convexity.edges_unmatched);
+        else
+            inputs_warn_part(mesh.name, "", &mesh.convexity);
     }
-    if (left_out) message_warning("%zu more meshes are not convex and count as their hulls", left_out);
+    if (left_out) message_warning("%zu more meshes are not closed, or not convex and count as their hulls", left_out);
 }
 
 static ovoid_named_shape get_shape(const void *context, size_t i) { return ovoid_shapes_get(context, i); }
-static ovoid_named_shape get_mesh(const void *context, size_t i) {
-    ovoid_named_shape mesh = ovoid_scene_get_mesh(context, i);
-    if (ovoid_scene_get_mesh_solid(context, i)) mesh.convexity.kind = OVOID_MESH_HULL;
-    return mesh;
+static const ovoid_solid *get_none(const void *context, size_t i) { return (void)context, (void)i, NULL; }
+static ovoid_named_shape get_mesh(const void *context, size_t i) { return ovoid_scene_get_mesh(context, i); }
+static const ovoid_solid *get_mesh_solid(const void *context, size_t i) {
+    return ovoid_scene_get_mesh_solid(context, i);
 }
 
 static void warn_body(const char *path, const cli_body *body, const read_settings *settings) {
     for (size_t i = 0; i < ovoid_shapes_get_count(body->parts); i++) {
         ovoid_named_shape part = ovoid_shapes_get(body->parts, i);
+        if (part.solid) continue;
         if (body->compound)
             inputs_warn_part(path, part.name, &part.convexity);
         else
@@ -95,8 +110,12 @@ void inputs_warn_bodies(const char *const *paths, const cli_body *bodies, size_t
         if (!i || strcmp(paths[i], paths[i - 1]) != 0) warn_body(paths[i], &bodies[i], settings);
 }
 
-void inputs_warn_list(const ovoid_shapes *shapes) { warn_all(ovoid_shapes_get_count(shapes), get_shape, shapes); }
-void inputs_warn_scene(const ovoid_scene *scene) { warn_all(ovoid_scene_get_mesh_count(scene), get_mesh, scene); }
+void inputs_warn_list(const ovoid_shapes *shapes) {
+    warn_all(ovoid_shapes_get_count(shapes), get_shape, get_none, shapes);
+}
+void inputs_warn_scene(const ovoid_scene *scene) {
+    warn_all(ovoid_scene_get_mesh_count(scene), get_mesh, get_mesh_solid, scene);
+}
 
 int inputs_open_body(const char *path, const read_settings *settings, int parts, cli_body *body) {
     ovoid_error error;

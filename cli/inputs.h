@@ -10,6 +10,8 @@
 typedef struct read_settings {
     int unit;     ///< index in INPUTS_UNITS; INPUTS_NO_UNIT: none is named
     double scale; ///< 0 means 1
+    int hull;     ///< 1: meshes are taken as their hulls, without an allowance
+    int solid;    ///< 1: also a mesh that is its hull is taken as its triangles
 } read_settings;
 
 #define INPUTS_UNITS "m|cm|mm|um|in|ft"
@@ -60,9 +62,8 @@ unsigned inputs_get_fields(const ovoid_scene *scene);
 #define INPUTS_HULL_OPTION(settings)                                                                                   \
     {                                                                                                                  \
         "hull", 0, OPTION_FLAG, offsetof(settings, hull), NULL, NULL,                                                  \
-            "each mesh is its convex hull, or its \"parts\" (default: a closed mesh that does not fill its hull is "   \
-            "the "                                                                                                     \
-            "solid that its triangles enclose); \"solid\": true or false in the scene comes first"                     \
+            "each mesh is its convex hull, or its \"parts\" (default: a closed mesh that is not convex is the solid "  \
+            "that its triangles enclose, an open one its surface); \"solid\" and \"hull\" in the scene come first"     \
     }
 
 /// Copies the poses of its objects, which the caller frees; NULL after a message.
@@ -71,14 +72,16 @@ ovoid_pose *inputs_copy_poses(const ovoid_scene *scene);
 /// Reads the shapes of a LIST; NULL after a message.
 ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings);
 
-/// Warn of meshes that do not fill their hulls, which are what is queried: of a part of a file; of a file without
-/// --parts, with that advice where each of its parts fills its hull; of the files of one or two bodies, of the same
-/// file once; of the meshes of a list or a scene, each once, but for those that are solids.
+/// Say which meshes are taken as their hulls and are not: a part of a file; a file without --parts, with that advice
+/// where each of its parts is its hull; the files of one or two bodies, the same file once; the meshes of a list or a
+/// scene, each once, and of a scene those that are surfaces, with how many edges are open.
 void inputs_warn_part(const char *path, const char *part, const ovoid_convexity *convexity);
 void inputs_warn_file(const char *path, const read_settings *settings, const ovoid_convexity *convexity);
 void inputs_warn_bodies(const char *const *paths, const cli_body *bodies, size_t count, const read_settings *settings);
 void inputs_warn_list(const ovoid_shapes *shapes);
 void inputs_warn_scene(const ovoid_scene *scene);
+/// Says that an open mesh is taken as its surface.
+void inputs_warn_surface(const char *path, uint64_t open_edges);
 
 /// 1 if the path is that of a scene: it ends in ".json".
 int inputs_is_scene(const char *path);

@@ -16,63 +16,41 @@ int solids_settle(const cli_command *command, const solids_choice *choice) {
 
 static ovoid_convexity get_convexity(const cli_body *body) { return ovoid_shapes_get(body->parts, 0).convexity; }
 
-/// The solid of a body that is to be one, where *solid is not NULL then; 0 after a message where it cannot be read.
-static int open_solid(const char *path, const cli_body *body, const read_settings *read, int is_wanted,
-                      ovoid_solid **solid) {
-    ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_convexity c = get_convexity(body);
-    int is_default = c.kind != OVOID_MESH_HULL;
-    *solid = NULL;
-    if (ovoid_path_is_shape(path) || !(is_wanted || is_default)) return 1;
-    ovoid_read_options options = inputs_make_options(read);
-    *solid = ovoid_solid_read_file(path, &options, &error);
-    if (!*solid) {
-        message_error("%s", error.message);
-        return 0;
-    }
-    ovoid_solid_report r = ovoid_solid_get_report(*solid);
-    if (!r.is_closed)
-        message_warning("%s is not closed, %llu of its edges are not matched: it counts as its surface, which has no "
-                        "inside",
-                        path, (unsigned long long)r.edges_unmatched);
-    return 1;
+read_settings solids_get_read(const read_settings *read, const solids_choice *choice) {
+    read_settings settings = *read;
+    settings.hull = choice->hull;
+    settings.solid = choice->solid;
+    return settings;
 }
 
-int solids_open_pair(const char *const *paths, const cli_body bodies[2], const ovoid_pose poses[2],
-                     const read_settings *read, const solids_choice *choice, solids_pair *p) {
+const ovoid_solid *solids_get(const char *path, const cli_body *body) {
+    const ovoid_solid *solid = body->compound ? NULL : ovoid_shapes_get(body->parts, 0).solid;
+    if (!solid) return NULL;
+    ovoid_solid_report r = ovoid_solid_get_report(solid);
+    if (!r.is_closed) inputs_warn_surface(path, r.edges_unmatched);
+    return solid;
+}
+
+int solids_make_pair(const char *const *paths, const cli_body bodies[2], const ovoid_pose poses[2], solids_pair *p) {
     *p = (solids_pair){.paths = paths};
-    if (choice->parts || choice->hull) return 0;
     ovoid_body *own[2] = {&p->pair.a, &p->pair.b};
     for (int i = 0; i < 2; i++) {
-        if (!open_solid(paths[i], &bodies[i], read, choice->solid, &p->solids[i])) {
-            solids_close_pair(p);
-            return -1;
-        }
+        p->solids[i] = solids_get(paths[i], &bodies[i]);
         *own[i] = (ovoid_body){.shape = p->solids[i] ? NULL : bodies[i].shape, .pose = poses[i], .solid = p->solids[i]};
         p->convexity[i] = get_convexity(&bodies[i]);
     }
-    int count = (p->solids[0] != NULL) + (p->solids[1] != NULL);
-    for (int i = 0; i < 2 && count; i++)
-        if (!p->solids[i]) inputs_warn_bodies(&paths[i], &bodies[i], 1, read);
-    return count;
+    return (p->solids[0] != NULL) + (p->solids[1] != NULL);
 }
 
-void solids_close_pair(solids_pair *p) {
-    for (int i = 0; i < 2; i++) {
-        ovoid_solid_destroy(p->solids[i]);
-        p->solids[i] = NULL;
-    }
-}
-
-static ovoid_mesh_kind get_kind(const ovoid_solid *solid) {
+ovoid_mesh_kind solids_get_kind(const ovoid_solid *solid) {
     if (!solid) return OVOID_MESH_HULL;
     return ovoid_solid_get_report(solid).is_closed ? OVOID_MESH_SOLID : OVOID_MESH_SURFACE;
 }
 
 void solids_describe(const solids_pair *p, ovoid_record *record) {
     record->fields |= OVOID_RECORD_MESHES;
-    record->kind_a = get_kind(p->solids[0]);
-    record->kind_b = get_kind(p->solids[1]);
+    record->kind_a = solids_get_kind(p->solids[0]);
+    record->kind_b = solids_get_kind(p->solids[1]);
     record->mesh_a = p->convexity[0];
     record->mesh_b = p->convexity[1];
 }
@@ -132,7 +110,7 @@ static ovoid_record make_record(const solids_pair *p, const solids_query *q, con
 
 // ---- for people
 
-static void print_body(FILE *file, const char *title, const solids_pair *p, int side) {
+static void print_body(FILE *file, const char *title, const solids_pair *p, int side, const char *unit) {
     const ovoid_body *body = side ? &p->pair.b : &p->pair.a;
     fprintf(file, "%-11s ", title);
     message_write_text(file, p->paths[side]);
@@ -143,6 +121,8 @@ static void print_body(FILE *file, const char *title, const solids_pair *p, int 
         if (r.is_closed) fprintf(file, "; volume: %.6g", fabs(r.volume));
     } else {
         fprintf(file, "; hull, vertices: %llu", (unsigned long long)ovoid_shape_get_report(body->shape).vertices);
+        double allowance = p->convexity[side].allowance;
+        if (allowance > 0) fprintf(file, "; off its mesh by at most %.2g%s%s", allowance, *unit ? " " : "", unit);
     }
     fputc('\n', file);
 }
@@ -157,15 +137,27 @@ static void print_margin(FILE *file, const solids_query *q, const ovoid_solid_an
     fprintf(file, "%-11s %.9g%s: within: %s\n", "margin", q->margin, unit, word);
 }
 
+// Why there is no depth.
+static void print_surfaces(FILE *file, const solids_pair *p) {
+    int a = solids_get_kind(p->solids[0]) == OVOID_MESH_SURFACE,
+        b = solids_get_kind(p->solids[1]) == OVOID_MESH_SURFACE;
+    if (a || b)
+        fprintf(file, "%-11s %s, without an inside: they cross, and the bracket is that of the crossing\n", "no depth",
+                a && b ? "a and b are surfaces"
+                : a    ? "a is a surface"
+                       : "b is a surface");
+}
+
 static void print_report(FILE *file, const solids_pair *p, const solids_query *q, const solids_result *r) {
     const ovoid_solid_answer *x = &r->answer;
     char unit[8], text[64];
     snprintf(unit, sizeof unit, "%s%s", q->unit[0] ? " " : "", q->unit);
-    print_body(file, "a", p, 0);
-    print_body(file, "b", p, 1);
+    print_body(file, "a", p, 0, q->unit);
+    print_body(file, "b", p, 1, q->unit);
     fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(x->status));
     ovoid_answer shown = {.status = x->status, .lower = x->lower, .upper = x->upper};
-    int is_depth = x->upper < 0;
+    int is_depth = x->upper < 0 && solids_get_kind(p->solids[0]) != OVOID_MESH_SURFACE &&
+                   solids_get_kind(p->solids[1]) != OVOID_MESH_SURFACE;
     if (is_depth) shown.lower = -x->upper, shown.upper = -x->lower;
     (void)ovoid_answer_write_distance(text, &shown);
     fprintf(file, "%-11s %s%s\n", is_depth ? "depth" : "distance", text, unit);
@@ -177,6 +169,7 @@ static void print_report(FILE *file, const solids_pair *p, const solids_query *q
         print_vector(file, "common", x->common, unit);
     else if (x->inside)
         fprintf(file, "%-11s %s\n", "inside", x->inside == OVOID_SOLID_A_INSIDE ? "a in b" : "b in a");
+    if (x->status == OVOID_OVERLAPPING) print_surfaces(file, p);
     print_vector(file, "point on a", x->surfaces.point_a, unit);
     print_vector(file, "point on b", x->surfaces.point_b, unit);
     print_vector(file, "normal", x->surfaces.normal, "");

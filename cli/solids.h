@@ -22,8 +22,8 @@ typedef struct solids_choice {
          offsetof(settings, choice.solid),                                                                             \
          NULL,                                                                                                         \
          NULL,                                                                                                         \
-         "each mesh is the solid that its triangles enclose, or where they are not closed their surface (default: of " \
-         "a closed mesh that does not fill its hull)"},                                                                \
+         "each mesh is the solid that its triangles enclose, or where they are not closed their surface, also "        \
+         "where it is its hull (default: where it is not)"},                                                           \
     {                                                                                                                  \
         "hull", 0, OPTION_FLAG, offsetof(settings, choice.hull), NULL, NULL, "each mesh is its convex hull"            \
     }
@@ -31,19 +31,23 @@ typedef struct solids_choice {
 /// At most one of them: -1 to go on, or EXIT_USAGE.
 int solids_settle(const cli_command *command, const solids_choice *choice);
 
+/// The same settings, with what the choice says of hulls and solids.
+read_settings solids_get_read(const read_settings *read, const solids_choice *choice);
+/// The triangles of a body, where it is a solid or a surface, else NULL. Says what is a surface.
+const ovoid_solid *solids_get(const char *path, const cli_body *body);
+/// SOLID or SURFACE; of NULL HULL.
+ovoid_mesh_kind solids_get_kind(const ovoid_solid *solid);
+
 /// Two files' bodies, of which each may be a solid.
 typedef struct solids_pair {
     const char *const *paths;
-    ovoid_solid *solids[2]; ///< NULL: the body's hull
+    const ovoid_solid *solids[2]; ///< NULL: the body's hull
     ovoid_body_pair pair;
     ovoid_convexity convexity[2]; ///< of the meshes; volumes NaN where there is none
 } solids_pair;
 
-/// Opens as solids what is to be one of two bodies that are open, and warns of what is taken by its hull all the same.
-/// Returns how many are solids, or -1 after a message, with nothing left open.
-int solids_open_pair(const char *const *paths, const cli_body bodies[2], const ovoid_pose poses[2],
-                     const read_settings *read, const solids_choice *choice, solids_pair *pair);
-void solids_close_pair(solids_pair *pair);
+/// A pair of bodies that are open. Returns how many are solids or surfaces.
+int solids_make_pair(const char *const *paths, const cli_body bodies[2], const ovoid_pose poses[2], solids_pair *pair);
 
 /// Sets a record's kinds and volumes from two bodies, and the field that says so where one of their meshes does not
 /// fill its hull.

@@ -247,7 +247,7 @@ static int check_inputs(const cli_command *command, const verify_settings *s, co
         return args_complain(command,
                              "verify: --unit and --scale are for meshes; a scene says its own (\"unit\": \"mm\")");
     const solids_choice *c = &s->choice;
-    if (c->parts + c->solid + (c->hull && !is_scene) && (has_list || paths->count < 3))
+    if (c->parts + c->solid + (c->hull && !is_scene && !has_list) && (has_list || paths->count < 3))
         return args_complain(command, "verify: --%s goes with A and B",
                              c->parts   ? "parts"
                              : c->solid ? "solid"

@@ -16,13 +16,13 @@ void verify_close_bodies(body_source *bodies) {
     ovoid_shapes_destroy(bodies->list);
     inputs_close_body(&bodies->bodies[0]);
     inputs_close_body(&bodies->bodies[1]);
-    solids_close_pair(&bodies->solids);
 }
 
 /// Opens the bodies of ovoid batch. 0, or EXIT_INPUT after a message.
 static int open_list(body_source *bodies, const verify_settings *s) {
     ovoid_error error;
-    bodies->list = inputs_read_list(s->list, &s->read);
+    read_settings read = solids_get_read(&s->read, &s->choice);
+    bodies->list = inputs_read_list(s->list, &read);
     if (!bodies->list) return EXIT_INPUT;
     bodies->pairs = ovoid_pairs_reader_create(s->pairs, ovoid_shapes_get_count(bodies->list), &error);
     if (!bodies->pairs) message_error("%s", error.message);
@@ -34,10 +34,9 @@ static int open_pair(body_source *bodies, const verify_settings *s, const cli_op
     bodies->paths[0] = paths->items[1];
     bodies->paths[1] = paths->items[2];
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
-    if (inputs_open_pair(bodies->paths, &s->read, s->choice.parts, bodies->bodies)) return EXIT_INPUT;
-    int solids = solids_open_pair(bodies->paths, bodies->bodies, poses, &s->read, &s->choice, &bodies->solids);
-    if (solids < 0) return EXIT_INPUT;
-    if (solids)
+    read_settings read = solids_get_read(&s->read, &s->choice);
+    if (inputs_open_pair(bodies->paths, &read, s->choice.parts, bodies->bodies)) return EXIT_INPUT;
+    if (solids_make_pair(bodies->paths, bodies->bodies, poses, &bodies->solids))
         solids_describe(&bodies->solids, &bodies->meshes);
     else
         solids_describe_bodies(bodies->bodies, &bodies->meshes);
@@ -106,11 +105,20 @@ static int is_same_mesh(const ovoid_convexity *a, const ovoid_convexity *b) {
     return is_same_volume(a->mesh_volume, b->mesh_volume) && is_same_volume(a->hull_volume, b->hull_volume);
 }
 
+static double get_allowance(ovoid_mesh_kind kind, const ovoid_convexity *mesh) {
+    return kind == OVOID_MESH_HULL ? mesh->allowance : 0;
+}
+
 /// What a result says of its meshes must be so.
 static void check_meshes(const ovoid_record *record, const ovoid_record *meshes, claim *item) {
-    if (!(record->fields & OVOID_RECORD_MESHES) || item->message[0]) return;
+    if (item->message[0]) return;
     if (record->kind_a != meshes->kind_a || record->kind_b != meshes->kind_b)
         disprove(item, "kind_a and kind_b are not what the bodies are taken as: --solid, --parts and --hull choose");
+    else if (get_allowance(record->kind_a, &record->mesh_a) != get_allowance(meshes->kind_a, &meshes->mesh_a) ||
+             get_allowance(record->kind_b, &record->mesh_b) != get_allowance(meshes->kind_b, &meshes->mesh_b))
+        disprove(item, "allowance_a and allowance_b are not those of the meshes and their hulls");
+    else if (!(record->fields & OVOID_RECORD_MESHES))
+        return;
     else if (!is_same_mesh(&record->mesh_a, &meshes->mesh_a) || !is_same_mesh(&record->mesh_b, &meshes->mesh_b))
         disprove(item, "the volumes are not those of the meshes and their hulls");
 }
@@ -183,6 +191,7 @@ static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
         disprove(item, "a and b are not those of the pair with the same place in the pairs");
     ovoid_record meshes = {.mesh_a = ovoid_shapes_get(bodies->list, pair.a).convexity,
                            .mesh_b = ovoid_shapes_get(bodies->list, pair.b).convexity};
+    if (!v->settings->choice.hull) meshes.kind_a = meshes.mesh_a.kind, meshes.kind_b = meshes.mesh_b.kind;
     check_meshes(record, &meshes, item);
     return 1;
 }

@@ -8,6 +8,7 @@
 #include "message.h"
 #include "outputs.h"
 #include "page/scenes.h"
+#include "solids.h"
 
 #include <ovoid/ovoid.h>
 
@@ -20,7 +21,7 @@ typedef struct settings {
     const char *output, *html;
     ovoid_vec3 from;
     unsigned layers, width, height;
-    int parts;
+    solids_choice choice;
     double margin; ///< negative: not given
 } settings;
 
@@ -31,8 +32,7 @@ static const cli_option options[] = {
     {"pose-a", 0, OPTION_POSE, offsetof(settings, pose_a), ARGS_POSE, NULL,
      "pose of A" ARGS_POSE_HELP " (default: \"0 0 0\")"},
     {"pose-b", 0, OPTION_POSE, offsetof(settings, pose_b), ARGS_POSE, NULL, "pose of B"},
-    {"parts", 0, OPTION_FLAG, offsetof(settings, parts), NULL, NULL,
-     "A and B are compounds of their files' objects, as with ovoid distance (default: their hulls)"},
+    SOLIDS_OPTIONS(settings, "A and B are compounds of their files' objects, as with ovoid distance"),
     {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
      "draw the witness points of all pairs within M (default: of each of at most 12 objects and the one nearest to "
      "it)"},
@@ -68,6 +68,7 @@ typedef struct drawing {
     ovoid_mesh **meshes;    ///< of the objects, where they are drawn
     ovoid_faces *faces;     ///< of the drawn bodies that have a mesh
     size_t body_count, drawn_count, link_count, link_capacity;
+    answer_room room;
 } drawing;
 
 /// Makes room for that many objects and drawn bodies; 0 after a message.
@@ -92,24 +93,26 @@ static void clear_drawing(drawing *d) {
     free(d->links);
     free(d->answers);
     free(d->couples);
+    answer_room_clear(&d->room);
 }
 
 static size_t count_parts(const ovoid_compound *compound) {
     return compound ? ovoid_compound_get_part_count(compound) : 1;
 }
 
-/// Adds an object: a shape, or the parts of a compound, of which the first has the name.
-static void add_body(drawing *d, const char *name, const ovoid_body *body) {
+/// Adds an object: a shape, a solid with its hull, or the parts of a compound, of which the first has the name.
+static void add_body(drawing *d, const char *name, const ovoid_body *body, const ovoid_shape *hull) {
     d->first[d->body_count] = d->drawn_count;
     d->bodies[d->body_count] = *body;
     uint32_t group = (uint32_t)++d->body_count;
     for (size_t i = 0; i < count_parts(body->compound); i++) {
-        ovoid_posed_shape part = {body->shape, body->pose};
+        ovoid_posed_shape part = {hull, body->pose};
         if (body->compound) {
             part = ovoid_compound_get_part(body->compound, i);
             part.pose = ovoid_pose_compute_product(&body->pose, &part.pose);
         }
-        d->drawn[d->drawn_count++] = (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group, NULL};
+        d->drawn[d->drawn_count++] =
+            (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group, NULL, body->solid != NULL};
     }
 }
 
@@ -121,6 +124,7 @@ static void add_body(drawing *d, const char *name, const ovoid_body *body) {
 static int add_mesh(drawing *d, unsigned layers, size_t drawn, const ovoid_scene_object *object) {
     int is_wanted = layers ? (layers & OVOID_PICTURE_MESHES) != 0 : drawn > POLYHEDRA_MOST;
     size_t number = d->body_count - 1, first = d->first[number];
+    is_wanted |= d->drawn[first].is_mesh;
     if (!is_wanted || !object->mesh || ovoid_path_is_shape(object->mesh) || strcmp(object->mesh, "-") == 0) return 0;
     ovoid_error error;
     ovoid_mesh *mesh = d->meshes[number] = ovoid_mesh_read(object->mesh, &object->read, &error);
@@ -132,7 +136,22 @@ static int add_mesh(drawing *d, unsigned layers, size_t drawn, const ovoid_scene
     return 0;
 }
 
-static int add_link(drawing *d, size_t a, size_t b, const ovoid_compound_answer *answer) {
+/// An answer, and of compounds the parts that decide.
+typedef struct found_answer {
+    ovoid_answer answer;
+    uint32_t part_a, part_b;
+} found_answer;
+
+/// Answers a pair as ovoid check does. 0, or EXIT_INPUT after a message.
+static int find(drawing *d, size_t a, size_t b, const answers_query *query, found_answer *found) {
+    const ovoid_body_pair pair = {d->bodies[a], d->bodies[b]};
+    ovoid_record record = {.a = NULL};
+    if (!answers_find(&d->room, &pair, query, &record)) return message_error("out of memory"), EXIT_INPUT;
+    *found = (found_answer){record.answer, pair.a.compound ? record.part_a : 0, pair.b.compound ? record.part_b : 0};
+    return 0;
+}
+
+static int add_link(drawing *d, size_t a, size_t b, const found_answer *found) {
     if (d->link_count == d->link_capacity) {
         size_t capacity = d->link_capacity ? 2 * d->link_capacity : 64;
         ovoid_picture_link *links = realloc(d->links, capacity * sizeof *links);
@@ -144,16 +163,13 @@ static int add_link(drawing *d, size_t a, size_t b, const ovoid_compound_answer 
         if (!links || !answers || !couples) return message_error("out of memory"), EXIT_INPUT;
         d->link_capacity = capacity;
     }
-    d->links[d->link_count] =
-        (ovoid_picture_link){.a = d->first[a] + answer->part_a, .b = d->first[b] + answer->part_b};
-    d->couples[d->link_count] = (linked_couple){{(uint32_t)a, (uint32_t)b}, answer->answer.lower};
-    d->answers[d->link_count++] = answer->answer;
+    d->links[d->link_count] = (ovoid_picture_link){.a = d->first[a] + found->part_a, .b = d->first[b] + found->part_b};
+    d->couples[d->link_count] = (linked_couple){{(uint32_t)a, (uint32_t)b}, found->answer.lower};
+    d->answers[d->link_count++] = found->answer;
     return 0;
 }
 
-static ovoid_body_pair make_pair(const drawing *d, size_t a, size_t b) {
-    return (ovoid_body_pair){d->bodies[a], d->bodies[b]};
-}
+static const answers_query distance_query = {QUERY_DISTANCE, -1, 0, 0, NULL};
 
 /// Links each object with the nearest one; a pair that is nearest both ways once.
 static int link_nearest(drawing *d, const ovoid_scene *scene) {
@@ -161,20 +177,17 @@ static int link_nearest(drawing *d, const ovoid_scene *scene) {
     size_t none = d->body_count, *nearest = malloc((d->body_count + 1) * sizeof *nearest);
     if (!nearest) return message_error("out of memory"), EXIT_INPUT;
     for (size_t a = 0; a < d->body_count && !code; a++) {
-        ovoid_compound_answer best = {.part_a = 0};
+        found_answer best = {.part_a = 0}, found;
         nearest[a] = none;
-        for (size_t b = 0; b < d->body_count; b++) {
+        for (size_t b = 0; b < d->body_count && !code; b++) {
             if (b == a || (scene && ovoid_scene_is_ignored(scene, a, b))) continue;
             // The lower index comes first, so that both ways give the same answer.
-            ovoid_body_pair pair = make_pair(d, a < b ? a : b, a < b ? b : a);
-            // An object that is proven farther than the best so far needs no better bound.
-            ovoid_options query = {.cap = nearest[a] != none && best.answer.upper > 0 ? best.answer.upper : 0};
-            ovoid_compound_answer answer = ovoid_compound_depth(&pair, &query, NULL, NULL);
-            if (nearest[a] == none || answer.answer.lower < best.answer.lower) best = answer, nearest[a] = b;
+            code = find(d, a < b ? a : b, a < b ? b : a, &distance_query, &found);
+            if (!code && (nearest[a] == none || found.answer.lower < best.answer.lower)) best = found, nearest[a] = b;
         }
         size_t b = nearest[a];
-        int is_drawn = b < a && nearest[b] == a;
-        if (b != none && !is_drawn) code = add_link(d, a < b ? a : b, a < b ? b : a, &best);
+        int is_linked = b < a && nearest[b] == a;
+        if (!code && b != none && !is_linked) code = add_link(d, a < b ? a : b, a < b ? b : a, &best);
     }
     free(nearest);
     return code;
@@ -182,15 +195,16 @@ static int link_nearest(drawing *d, const ovoid_scene *scene) {
 
 /// Links all pairs that are not proven farther than the margin.
 static int link_within(drawing *d, const ovoid_scene *scene, double margin) {
+    const answers_query within = {QUERY_WITHIN, margin, 0, 0, NULL};
     int code = 0;
     for (size_t a = 0; a < d->body_count; a++)
         for (size_t b = a + 1; b < d->body_count && !code; b++) {
+            found_answer found;
             if (scene && ovoid_scene_is_ignored(scene, a, b)) continue;
-            ovoid_body_pair pair = make_pair(d, a, b);
-            ovoid_compound_answer answer = ovoid_compound_within(&pair, margin, NULL, NULL, NULL);
-            if (ovoid_answer_is_within(&answer.answer, margin) == 0) continue;
-            answer = ovoid_compound_depth(&pair, NULL, NULL, NULL);
-            code = add_link(d, a, b, &answer);
+            code = find(d, a, b, &within, &found);
+            if (code || ovoid_answer_is_within(&found.answer, margin) == 0) continue;
+            code = find(d, a, b, &distance_query, &found);
+            if (!code) code = add_link(d, a, b, &found);
         }
     return code;
 }
@@ -253,16 +267,17 @@ static int write_page(cli_page *page, drawing *d, const settings *s, const ovoid
 }
 
 static int draw_scene(const settings *s, const char *path, cli_page *page) {
-    ovoid_scene *scene = inputs_read_scene(path, 0);
+    ovoid_scene *scene = inputs_read_scene(path, s->choice.hull);
     if (!scene) return EXIT_INPUT;
+    inputs_warn_scene(scene);
     size_t count = ovoid_scene_get_count(scene), drawn = 0;
     for (size_t i = 0; i < count; i++) drawn += count_parts(ovoid_scene_get(scene, i).compound);
     drawing d;
     int code = make_drawing(&d, count, drawn) ? 0 : EXIT_INPUT;
     for (size_t i = 0; i < count && !code; i++) {
         ovoid_scene_object object = ovoid_scene_get(scene, i);
-        ovoid_body body = {.shape = object.shape, .compound = object.compound, .pose = object.pose};
-        add_body(&d, object.name, &body);
+        ovoid_body body = ovoid_scene_get_body(scene, i, &object.pose);
+        add_body(&d, object.name, &body, object.shape);
         if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &object);
     }
     if (!code) code = draw(&d, s, scene);
@@ -284,20 +299,29 @@ static int draw_bodies(const settings *s, const cli_operands *paths, cli_page *p
     cli_body bodies[2] = {{NULL, NULL, NULL}, {NULL, NULL, NULL}};
     size_t drawn = 0;
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
+    const read_settings read = solids_get_read(&s->read, &s->choice);
+    const ovoid_solid *solids[2] = {NULL, NULL};
     drawing d;
     int code = 0;
     for (int i = 0; i < paths->count && !code; i++) {
-        code = inputs_open_body(paths->items[i], &s->read, s->parts, &bodies[i]);
+        code = inputs_open_body(paths->items[i], &read, s->choice.parts, &bodies[i]);
+        if (!code) solids[i] = solids_get(paths->items[i], &bodies[i]);
         drawn += count_parts(bodies[i].compound);
     }
     if (!make_drawing(&d, 2, drawn)) code = EXIT_INPUT;
-    if (!code) inputs_warn_bodies(paths->items, bodies, (size_t)paths->count, &s->read);
+    if (!code) inputs_warn_bodies(paths->items, bodies, (size_t)paths->count, &read);
     for (int i = 0; i < paths->count && !code; i++) {
         ovoid_body body = inputs_get_body(&bodies[i], &poses[i]);
-        ovoid_scene_object object = {.mesh = paths->items[i], .read = inputs_make_options(&s->read)};
-        object.read.parts = s->parts;
-        add_body(&d, get_base(paths->items[i]), &body);
-        listed[i] = (page_body){get_base(paths->items[i]), body, NULL, paths->items[i], object.read};
+        if (solids[i]) body = (ovoid_body){.solid = solids[i], .pose = poses[i]};
+        ovoid_scene_object object = {.mesh = paths->items[i], .read = inputs_make_options(&read)};
+        object.read.parts = s->choice.parts;
+        add_body(&d, get_base(paths->items[i]), &body, bodies[i].shape);
+        listed[i] = (page_body){.name = get_base(paths->items[i]),
+                                .body = inputs_get_body(&bodies[i], &poses[i]),
+                                .solid = solids[i],
+                                .mesh = paths->items[i],
+                                .read = object.read,
+                                .convexity = ovoid_shapes_get(bodies[i].parts, 0).convexity};
         if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &object);
     }
     if (!code) code = draw(&d, s, NULL);
@@ -316,13 +340,15 @@ static int run(const cli_command *command, int argc, char **argv) {
                   .margin = -1};
     cli_operands paths;
     int code = command_parse(command, argc, argv, &s, &paths);
+    if (code < 0) code = solids_settle(command, &s.choice);
     if (code < 0) code = page_settle(command, s.html, (shard_part){0, 0});
     if (code >= 0) return code;
     if (is_drawn(&s) && !s.output && message_is_terminal(stdout))
         return args_complain(command, "view: --output FILE is missing, and standard output is a terminal");
     int is_scene = paths.count == 1 && inputs_is_scene(paths.items[0]);
-    if (is_scene && s.parts)
-        return args_complain(command, "view: --parts is for A and B; a scene says its own (\"parts\": true)");
+    if (is_scene && (s.choice.parts || s.choice.solid))
+        return args_complain(command, "view: --%s is for A and B; a scene says its own (\"%s\": true)",
+                             s.choice.parts ? "parts" : "solid", s.choice.parts ? "parts" : "solid");
     if (is_scene && (s.read.unit != INPUTS_NO_UNIT || s.read.scale > 0))
         return args_complain(command,
                              "view: --unit and --scale are for A and B; a scene says its own (\"unit\": \"mm\")");

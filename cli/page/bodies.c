@@ -19,6 +19,7 @@ page_body *page_bodies_list(const ovoid_scene *scene) {
         bodies[i] = (page_body){.name = o.name,
                                 .body = {.shape = o.shape, .compound = o.compound, .pose = o.pose},
                                 .solid = o.solid,
+                                .convexity = o.convexity,
                                 .mesh = o.mesh,
                                 .read = o.read};
     }

@@ -9,9 +9,10 @@
 /// A body that may come onto a page.
 typedef struct page_body {
     const char *name;
-    ovoid_body body;          ///< of a solid its hull
-    const ovoid_solid *solid; ///< NULL: the body is no solid
-    const char *mesh;         ///< the path of its mesh; NULL: none
+    ovoid_body body;           ///< of a solid its hull
+    const ovoid_solid *solid;  ///< NULL: the body is no solid
+    ovoid_convexity convexity; ///< of its mesh
+    const char *mesh;          ///< the path of its mesh; NULL: none
     ovoid_read_options read;
 } page_body;
 

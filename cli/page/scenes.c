@@ -1,6 +1,8 @@
 // Pages of scenes: at rest, in motion, or of files without a scene.
 #include "page/scenes.h"
 
+#include "solids.h"
+
 #include "message.h"
 #include "page/pairs.h"
 
@@ -37,16 +39,28 @@ int page_write_scene(cli_page *page, const char *title, const answers_job *job) 
     return code;
 }
 
+static ovoid_body get_body(const page_body *b) {
+    return b->solid ? (ovoid_body){.solid = b->solid, .pose = b->body.pose} : b->body;
+}
+
+static ovoid_mesh_kind get_kind(const page_body *b) {
+    return b->body.compound ? OVOID_MESH_PARTS : solids_get_kind(b->solid);
+}
+
 /// Answers and writes the one pair of two bodies. 0, or EXIT_INPUT after a message.
 static int write_pair(page_pairs *list, const page_bodies_source *source) {
     const page_body *b = source->bodies;
-    const ovoid_body_pair pair = {b[0].body, b[1].body};
+    const ovoid_body_pair pair = {get_body(&b[0]), get_body(&b[1])};
     const answers_query query = {QUERY_DISTANCE, source->margin, 0, 1, NULL};
     ovoid_record record = {.a = b[0].name,
                            .b = b[1].name,
                            .fields = OVOID_RECORD_PARTS | (source->margin >= 0 ? OVOID_RECORD_MARGIN : 0),
                            .margin = source->margin,
-                           .frame = NAN};
+                           .frame = NAN,
+                           .kind_a = get_kind(&b[0]),
+                           .kind_b = get_kind(&b[1]),
+                           .mesh_a = b[0].convexity,
+                           .mesh_b = b[1].convexity};
     answer_room room = {.cover = NULL};
     int code = EXIT_INPUT;
     if (answers_find(&room, &pair, &query, &record))

@@ -60,8 +60,8 @@ static void add_picture(const experiment *e, const arm *a, double t, int nearest
     ovoid_pose poses[LINKS];
     ovoid_picture_body bodies[LINKS + 1];
     find_poses(t, poses);
-    for (int i = 0; i < LINKS; i++) bodies[i] = (ovoid_picture_body){names[i], a->links[i], poses[i], 0, NULL};
-    bodies[LINKS] = (ovoid_picture_body){"obstacle", a->obstacle, a->obstacle_pose, 0, NULL};
+    for (int i = 0; i < LINKS; i++) bodies[i] = (ovoid_picture_body){names[i], a->links[i], poses[i], 0, NULL, 0};
+    bodies[LINKS] = (ovoid_picture_body){"obstacle", a->obstacle, a->obstacle_pose, 0, NULL, 0};
     const ovoid_picture_link link = {(size_t)nearest, LINKS, answer};
     const ovoid_picture picture = {bodies, LINKS + 1, &link, 1, NULL, "m"};
     const ovoid_picture_options options = {

@@ -88,9 +88,9 @@ static void add_picture(const experiment *e) {
     const paper_model *m = &e->models[1 + MODELS_EACH + 5];
     ovoid_shape *parts[2] = {NULL, NULL};
     if (ovoid_shape_create_divided(m->shape, &plane, NULL, parts, NULL) == OVOID_OK && parts[0] && parts[1]) {
-        const ovoid_picture_body bodies[] = {{m->name, m->shape, {{0, 0, 0}, {1, 0, 0, 0}}, 0, NULL},
-                                             {NULL, parts[0], {{1.9, 0.9, 0}, {1, 0, 0, 0}}, 0, NULL},
-                                             {NULL, parts[1], {{2.4, 1.2, 0.35}, {1, 0, 0, 0}}, 0, NULL}};
+        const ovoid_picture_body bodies[] = {{m->name, m->shape, {{0, 0, 0}, {1, 0, 0, 0}}, 0, NULL, 0},
+                                             {NULL, parts[0], {{1.9, 0.9, 0}, {1, 0, 0, 0}}, 0, NULL, 0},
+                                             {NULL, parts[1], {{2.4, 1.2, 0.35}, {1, 0, 0, 0}}, 0, NULL, 0}};
         const ovoid_picture picture = {bodies, 3, NULL, 0, NULL, NULL};
         const ovoid_picture_options options = {900, 420, {1, -1.6, 0.6}, OVOID_PICTURE_OUTER | OVOID_PICTURE_INNER};
         report_add_picture(e->report, "divided", &picture, &options,

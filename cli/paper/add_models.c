@@ -20,7 +20,8 @@ static void add_pictures(const experiment *e) {
                                          e->models[shown[i]].shape,
                                          {{2.6 * i * 0.85, 2.6 * i * 0.53, 0}, {1, 0, 0, 0}},
                                          0,
-                                         NULL};
+                                         NULL,
+                                         0};
     const ovoid_picture picture = {bodies, FAMILY_COUNT, NULL, 0, NULL, NULL};
     const ovoid_picture_options options = {1000, 420, view,
                                            OVOID_PICTURE_AREAS | OVOID_PICTURE_INNER | OVOID_PICTURE_NAMES};

@@ -148,8 +148,8 @@ static void add_case(const experiment *e) {
     if (shapes[0] && shapes[1] && areas) {
         ovoid_exit truth = ovoid_areas_find_exit(areas, ray, toward, OVOID_RULE_ALL);
         ovoid_exit found = ovoid_areas_find_exit(areas, ray, toward, OVOID_RULE_PAPER);
-        const ovoid_picture_body bodies[] = {{"A", shapes[0], {{0, 0, 0}, {1, 0, 0, 0}}, 0, NULL},
-                                             {"B", shapes[1], {{1.2, 1.2, 0.276}, {1, 0, 0, 0}}, 0, NULL}};
+        const ovoid_picture_body bodies[] = {{"A", shapes[0], {{0, 0, 0}, {1, 0, 0, 0}}, 0, NULL, 0},
+                                             {"B", shapes[1], {{1.2, 1.2, 0.276}, {1, 0, 0, 0}}, 0, NULL, 0}};
         const ovoid_answer link = {.status = OVOID_SEPARATED,
                                    .point_a = truth.point,
                                    .point_b = found.point,

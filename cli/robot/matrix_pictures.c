@@ -29,7 +29,7 @@ static void add_link(pair_picture *p, const ovoid_robot_description *d, uint32_t
         const ovoid_robot_element *e = &d->elements[i];
         if (e->link != link) continue;
         ovoid_pose pose = ovoid_pose_compute_product(at, &e->pose);
-        p->bodies[p->count++] = (ovoid_picture_body){name, e->shape, pose, group, NULL};
+        p->bodies[p->count++] = (ovoid_picture_body){name, e->shape, pose, group, NULL, 0};
         name = NULL;
     }
 }

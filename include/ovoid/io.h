@@ -56,6 +56,7 @@ typedef struct ovoid_read_options {
     int hull;  /**< of shapes from meshes: 1: each is the convex hull, asked for as such; 0: where the mesh is the hull
                     only nearly, the shape has the allowance that keeps brackets true of the mesh
                     (ovoid_convexity.allowance); without effect on parts, whose hulls are the body */
+    int solid; /**< of ovoid_shapes_read_file: 1: the triangles are wanted of a mesh that is its hull, too */
     int trusted; /**< 0: Assimp's importers run in a child process; 1: in this one, which their faults may crash */
 } ovoid_read_options;
 
@@ -155,6 +156,8 @@ typedef struct ovoid_named_shape {
     const char *name; /**< of the part, or "part 3" where it has none (counted from 0); of a whole file: its path */
     const ovoid_shape *shape;
     ovoid_convexity convexity; /**< of the mesh: a shape is the hull, whatever its mesh is; HULL for a `.ovoid` file */
+    const ovoid_solid *solid;  /**< the triangles of a mesh that is not its hull; NULL: it is, or its hull was asked for
+                                    (options->hull, options->parts), or it is of a list */
 } ovoid_named_shape;
 
 /**
@@ -326,7 +329,7 @@ typedef enum ovoid_record_field {
     OVOID_RECORD_IMPACT = 4,  /**< that the time is that of an impact, and its bracket; also the margin */
     OVOID_RECORD_MARGIN = 8,  /**< the margin that was asked about */
     OVOID_RECORD_PROOF = 16,  /**< of CSV: the proof, as the last column; JSON always has it */
-    OVOID_RECORD_MESHES = 32, /**< what the bodies' meshes are taken as, and the volumes of mesh and hull */
+    OVOID_RECORD_MESHES = 32, /**< the volumes of the bodies' meshes and of their hulls */
     OVOID_RECORD_SOLIDS = 64  /**< of CSV: the triangles that decide, and what is inside; JSON has them with `solid` */
 } ovoid_record_field;
 
@@ -360,8 +363,9 @@ typedef struct ovoid_record {
     size_t step_count;
     const ovoid_step_group *groups; /**< of compounds: to which parts the steps belong; NULL: none */
     size_t group_count;
-    ovoid_mesh_kind kind_a, kind_b;
-    ovoid_convexity mesh_a, mesh_b;  /**< volumes NaN where there is no mesh, or it has none */
+    ovoid_mesh_kind kind_a, kind_b; /**< what the bodies are taken as; always written */
+    ovoid_convexity mesh_a, mesh_b; /**< of their meshes: the allowance, written where it is not 0 and the kind is HULL;
+                                         the volumes, NaN where there is no mesh, or it has none */
     const ovoid_solid_answer *solid; /**< the answer of solids, beside `answer`; NULL: there is none */
 } ovoid_record;
 
@@ -374,11 +378,12 @@ OVOID_API void ovoid_record_set_solid(ovoid_record *record, const ovoid_solid_an
 /**
  * One line of JSON with the keys time, frame, free_for, hit_after, a, part_a, b, part_b, status, limit, margin, within,
  * lower, upper, point_a, point_b, normal, stage, iterations, proof, in this order, the first four, the parts and the
- * margin where they are given; numbers with 17 digits; infinity and NaN are null. Behind a and b stand, where they are
- * given, kind_a, mesh_volume_a, hull_volume_a and of a solid triangle_a, and the same of b; behind within, where one
- * solid has a component in the other, inside and component; docs/formats.md has them. within is what the bracket says
- * of the margin: "yes", "no" (farther), "at" (the bracket is as narrow as asked and holds the margin) or "unproven".
- * FILE where the stream failed; LIMIT, and nothing is written, where the record has too many items.
+ * margin where they are given; numbers with 17 digits; infinity and NaN are null. Of a solid or a surface triangle_a
+ * and triangle_b stand behind a and b. Behind iterations stand kind_a, of a hull that its mesh is only nearly
+ * allowance_a, and where they are given mesh_volume_a and hull_volume_a; then what belongs to b. Behind within, where
+ * one solid has a component in the other, inside and component; docs/formats.md has them. within is what the bracket
+ * says of the margin: "yes", "no" (farther), "at" (the bracket is as narrow as asked and holds the margin) or
+ * "unproven". FILE where the stream failed; LIMIT, and nothing is written, where the record has too many items.
  */
 OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
 
@@ -479,6 +484,8 @@ typedef struct ovoid_picture_body {
     uint32_t group; /**< bodies of one group, as the parts of a compound, have one colour; 0: a colour of its own */
     const ovoid_faces *mesh; /**< of which the shape is the hull, in the frame that the pose moves; NULL: none; not
                                   drawn of a shape with a rounding radius */
+    int is_mesh;             /**< 1: the mesh is the body, and the shape only its hull: the mesh is drawn whatever the
+                                  layers, and no inner ellipsoid */
 } ovoid_picture_body;
 
 /** A pair of a picture: its witness points are drawn. */

@@ -66,8 +66,8 @@ static void write_drawings(const ovoid_pair *pair) {
     CHECK_EQ(ovoid_chart_write_svg(file, &chart), OVOID_OK);
     fclose(file);
     keep_file("chart", path);
-    ovoid_picture_body bodies[2] = {{"box", pair->shape_a, pair->pose_a, 0, NULL},
-                                    {"ball", pair->shape_b, pair->pose_b, 0, NULL}};
+    ovoid_picture_body bodies[2] = {{"box", pair->shape_a, pair->pose_a, 0, NULL, 0},
+                                    {"ball", pair->shape_b, pair->pose_b, 0, NULL, 0}};
     ovoid_answer answer = ovoid_distance(pair, NULL, NULL);
     ovoid_picture_link link = {0, 1, &answer};
     ovoid_picture picture = {bodies, 2, &link, 1, "a title", "m"};

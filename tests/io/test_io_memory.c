@@ -75,8 +75,8 @@ static int read_results(ovoid_error *error) {
 static ovoid_shape *shapes[2];
 
 static int write_picture(ovoid_error *error) {
-    ovoid_picture_body bodies[2] = {{"a", shapes[0], ovoid_pose_make_identity(), 0, NULL},
-                                    {"b", shapes[1], ovoid_pose_make_identity(), 0, NULL}};
+    ovoid_picture_body bodies[2] = {{"a", shapes[0], ovoid_pose_make_identity(), 0, NULL, 0},
+                                    {"b", shapes[1], ovoid_pose_make_identity(), 0, NULL, 0}};
     ovoid_picture picture = {.bodies = bodies, .body_count = 2, .title = "t"};
     ovoid_picture_options options = {.layers = 63};
     return ovoid_picture_write_svg(file_path("memory.svg"), &picture, &options, error) == OVOID_OK;

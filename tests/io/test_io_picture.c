@@ -6,7 +6,7 @@
 
 static ovoid_picture_body make_body(const char *name, ovoid_shape *shape, double x, double y, double z) {
     CHECK(shape != NULL);
-    ovoid_picture_body body = {name, shape, ovoid_pose_make_identity(), 0, NULL};
+    ovoid_picture_body body = {name, shape, ovoid_pose_make_identity(), 0, NULL, 0};
     body.pose.position = (ovoid_vec3){x, y, z};
     return body;
 }

@@ -46,12 +46,13 @@ static const char golden_json[] =
     "10000000000000001,"
     "\"upper\":0.10000000000000002,\"point_a\":[1,-0,1.0000000000000001e+300],"
     "\"point_b\":[1.1000000000000001,0,4.9406564584124654e-324],\"normal\":[0,0,-1],\"stage\":\"gjk\",\"iterations\":4,"
-    "\"proof\":{\"normal\":[0,0.5,-1],\"kind\":\"points\",\"a\":[7,4294967295],\"b\":[0,3],\"weight_a\":[0.25,0.75],"
+    "\"kind_a\":\"hull\",\"kind_b\":\"hull\",\"proof\":{\"normal\":[0,0.5,-1],\"kind\":\"points\",\"a\":[7,4294967295],"
+    "\"b\":[0,3],\"weight_a\":[0.25,0.75],"
     "\"weight_b\":[1,0]}}\n";
 
 static const char golden_csv[] =
     "\"link \"\"1\"\"\",,\"b\xc3\xa4r,\\x0a\\xff\",,separated,none,,,0.10000000000000001,0.10000000000000002,1,-0,"
-    "1.0000000000000001e+300,1.1000000000000001,0,4.9406564584124654e-324,0,0,-1,gjk,4,"
+    "1.0000000000000001e+300,1.1000000000000001,0,4.9406564584124654e-324,0,0,-1,gjk,4,hull,,hull,,"
     "\"{\"\"normal\"\":[0,0.5,-1],\"\"kind\"\":\"\"points\"\",\"\"a\"\":[7,4294967295],\"\"b\"\":[0,3],"
     "\"\"weight_a\"\":[0.25,0.75],\"\"weight_b\"\":[1,0]}\"\n";
 
@@ -145,14 +146,14 @@ static void check_golden(void) {
     check_text(text, golden_csv);
     free(text);
     text = write_header(record.fields);
-    CHECK(strstr(text, ",iterations,proof\n") != NULL);
+    CHECK(strstr(text, ",iterations,kind_a,allowance_a,kind_b,allowance_b,proof\n") != NULL);
     free(text);
     record.fields = 0;
     text = write_with(ovoid_record_write_csv, &record);
-    CHECK(strstr(text, ",gjk,4\n") != NULL);
+    CHECK(strstr(text, ",gjk,4,hull,,hull,\n") != NULL);
     free(text);
     text = write_header(0);
-    CHECK(strstr(text, ",iterations\n") != NULL);
+    CHECK(strstr(text, ",iterations,kind_a,allowance_a,kind_b,allowance_b\n") != NULL);
     free(text);
     check_within();
     check_golden_fields(record);
@@ -168,7 +169,7 @@ static void check_golden(void) {
              "{\"a\":12,\"b\":0,\"status\":\"undecided\",\"limit\":\"%s\",\"lower\":null,\"upper\":null,\"point_a\":["
              "null,0,0],"
              "\"point_b\":[0,0,0],\"normal\":[0,0,0],\"stage\":\"%s\",\"iterations\":0,"
-             "\"proof\":{\"normal\":[0,0,0],\"kind\":\"none\"}}\n",
+             "\"kind_a\":\"hull\",\"kind_b\":\"hull\",\"proof\":{\"normal\":[0,0,0],\"kind\":\"none\"}}\n",
              ovoid_limit_get_name(OVOID_LIMIT_POSE_A), ovoid_stage_get_name(OVOID_STAGE_NONE));
     check_text(text, truth);
     free(text);
@@ -483,7 +484,8 @@ static void check_locale(void) {
 #define GOOD_REST                                                                                                      \
     "\"a\":0,\"b\":1,\"status\":\"separated\",\"limit\":\"none\",\"lower\":0,\"upper\":1,\"point_a\":[0,0,0],\"point_" \
     "b\":[0,0,0],"                                                                                                     \
-    "\"normal\":[0,0,1],\"stage\":\"gjk\",\"iterations\":0,\"proof\":" PROOF "}\n"
+    "\"normal\":[0,0,1],\"stage\":\"gjk\",\"iterations\":0,\"kind_a\":\"hull\",\"kind_b\":\"hull\",\"proof\":" PROOF   \
+    "}\n"
 
 static const bad_input bad_lines[] = {
     {"time.jsonl", "{\"time\":null," GOOD_REST, OVOID_ERROR_FORMAT, 1, "\"time\" must be a number"},

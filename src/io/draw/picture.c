@@ -144,7 +144,7 @@ static ovoid_code draw_figure(const figure *f, const drawing *d, ovoid_error *er
     int has_outer = (d->layers & OVOID_PICTURE_OUTER) && f->has_ellipsoids;
     int has_inner = (d->layers & OVOID_PICTURE_INNER) && f->has_ellipsoids;
     const ovoid_faces *mesh = f->rounded ? NULL : f->body->mesh;
-    int has_mesh = (d->layers & OVOID_PICTURE_MESHES) && mesh && mesh->face_count;
+    int has_mesh = (d->layers & OVOID_PICTURE_MESHES || f->body->is_mesh) && mesh && mesh->face_count;
     fputs("<g>\n", d->file);
     if (has_outer) figure_draw_outer_back(f, d);
     ovoid_code code = has_mesh ? figure_draw_mesh(f, d, error) : figure_draw_back(f, d, error);

@@ -30,10 +30,11 @@ static ovoid_shape *read_shape_bytes(const char *path, const ovoid_read_options 
 
 static const ovoid_convexity no_mesh = {.mesh_volume = NAN, .hull_volume = NAN};
 
-/// A hull, and whether its mesh fills it.
+/// A hull, and what its mesh is.
 typedef struct mesh_hull {
     ovoid_shape *shape;
     ovoid_convexity convexity;
+    ovoid_solid *solid; ///< its triangles, where they are wanted
 } mesh_hull;
 
 /// How a file's hulls are made.
@@ -41,11 +42,16 @@ typedef struct hull_options {
     const ovoid_read_options *read;   ///< may be NULL
     const ovoid_shape_options *shape; ///< may be NULL
     int is_compared;                  ///< 1: with the mesh
+    int is_list;                      ///< 1: no triangles are wanted
 } hull_options;
 
 // Gives the hull of a mesh that is so only nearly the allowance for it. 0 where there is no memory.
 static int allow(mesh_hull *hull, const hull_options *o, ovoid_error *error) {
-    if (!(hull->convexity.allowance > 0) || (o->read && (o->read->hull || o->read->parts))) return 1;
+    if (!(hull->convexity.allowance > 0)) return 1;
+    if (o->read && (o->read->hull || o->read->parts)) {
+        hull->convexity.allowance = 0;
+        return 1;
+    }
     ovoid_allowance allowance = ovoid_shape_get_allowance(hull->shape);
     allowance.inside = nextafter(allowance.inside + hull->convexity.allowance, INFINITY);
     ovoid_shape *allowed =
@@ -56,30 +62,43 @@ static int allow(mesh_hull *hull, const hull_options *o, ovoid_error *error) {
     return 1;
 }
 
+static int wants_triangles(const hull_options *o, ovoid_mesh_kind kind) {
+    if (o->is_list || (o->read && (o->read->hull || o->read->parts))) return 0;
+    return kind != OVOID_MESH_HULL || (o->read && o->read->solid);
+}
+
+static void mesh_hull_clear(mesh_hull *hull) {
+    ovoid_shape_destroy(hull->shape);
+    ovoid_solid_destroy(hull->solid);
+}
+
 static mesh_hull hull_of_part(const ovoid_mesh *mesh, size_t i, const hull_options *o, const char *path,
                               ovoid_error *error) {
     ovoid_faces faces = ovoid_mesh_get_part(mesh, i).faces;
-    mesh_hull hull = {ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, o->shape, error), no_mesh};
-    if (hull.shape && o->is_compared) {
-        int is_known = ovoid_mesh_compute_convexity(mesh, i, hull.shape, &hull.convexity, error) == OVOID_OK;
-        if (!is_known || !allow(&hull, o, error)) {
-            ovoid_shape_destroy(hull.shape);
-            hull.shape = NULL;
-        }
+    mesh_hull hull = {ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, o->shape, error), no_mesh,
+                      NULL};
+    int is_made = hull.shape != NULL;
+    if (is_made && o->is_compared) {
+        is_made = ovoid_mesh_compute_convexity(mesh, i, hull.shape, &hull.convexity, error) == OVOID_OK;
+        if (is_made && wants_triangles(o, hull.convexity.kind))
+            is_made = (hull.solid = ovoid_mesh_create_solid(mesh, i, error)) != NULL;
+        is_made = is_made && allow(&hull, o, error);
     }
-    if (!hull.shape) io_prefix_path(error, path);
-    return hull;
+    if (is_made) return hull;
+    io_prefix_path(error, path);
+    mesh_hull_clear(&hull);
+    return (mesh_hull){NULL, no_mesh, NULL};
 }
 
 // The shape of a whole file.
 static mesh_hull read_hull(const char *path, const hull_options *o, ovoid_error *error) {
-    if (ovoid_path_is_shape(path)) return (mesh_hull){read_shape_bytes(path, o->read, o->shape, error), no_mesh};
+    if (ovoid_path_is_shape(path)) return (mesh_hull){read_shape_bytes(path, o->read, o->shape, error), no_mesh, NULL};
     ovoid_read_options whole = {.scale = 0};
     if (o->read) whole = *o->read;
     whole.parts = 0;
-    const hull_options options = {&whole, o->shape, o->is_compared};
+    const hull_options options = {&whole, o->shape, o->is_compared, o->is_list};
     ovoid_mesh *mesh = ovoid_mesh_read(path, &whole, error);
-    if (!mesh) return (mesh_hull){NULL, no_mesh};
+    if (!mesh) return (mesh_hull){NULL, no_mesh, NULL};
     mesh_hull hull = hull_of_part(mesh, 0, &options, path, error);
     ovoid_mesh_destroy(mesh);
     return hull;
@@ -87,7 +106,7 @@ static mesh_hull read_hull(const char *path, const hull_options *o, ovoid_error 
 
 ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
                                    ovoid_error *error) {
-    return read_hull(path, &(hull_options){read, options, 0}, error).shape;
+    return read_hull(path, &(hull_options){read, options, 0, 1}, error).shape;
 }
 
 ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ovoid_error *error) {
@@ -111,8 +130,7 @@ ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ov
 /// A shape and its name; some entries share the shape of an earlier one.
 typedef struct shape_entry {
     char *name;
-    ovoid_shape *shape;
-    ovoid_convexity convexity;
+    mesh_hull hull;
     uint64_t hash; ///< of the name
     int is_shared;
 } shape_entry;
@@ -126,7 +144,7 @@ void ovoid_shapes_destroy(ovoid_shapes *shapes) {
     if (!shapes) return;
     for (size_t i = 0; i < shapes->count; i++) {
         free(shapes->entries[i].name);
-        if (!shapes->entries[i].is_shared) ovoid_shape_destroy(shapes->entries[i].shape);
+        if (!shapes->entries[i].is_shared) mesh_hull_clear(&shapes->entries[i].hull);
     }
     free(shapes->entries);
     free(shapes);
@@ -135,7 +153,8 @@ void ovoid_shapes_destroy(ovoid_shapes *shapes) {
 size_t ovoid_shapes_get_count(const ovoid_shapes *shapes) { return shapes->count; }
 
 ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i) {
-    return (ovoid_named_shape){shapes->entries[i].name, shapes->entries[i].shape, shapes->entries[i].convexity};
+    const mesh_hull *hull = &shapes->entries[i].hull;
+    return (ovoid_named_shape){shapes->entries[i].name, hull->shape, hull->convexity, hull->solid};
 }
 
 /// Shapes under construction, and how their files are read.
@@ -152,17 +171,19 @@ static ovoid_code add_entry(shapes_reader *r, const char *name, mesh_hull hull, 
     char *copy = text_copy(name, strlen(name));
     if (!copy || !array_reserve((void **)&shapes->entries, &shapes->capacity, shapes->count, sizeof(shape_entry))) {
         free(copy);
-        if (!is_shared) ovoid_shape_destroy(hull.shape);
+        if (!is_shared) mesh_hull_clear(&hull);
         return io_fail_memory(r->error, name);
     }
-    shapes->entries[shapes->count++] = (shape_entry){copy, hull.shape, hull.convexity, text_hash(name), is_shared};
+    shapes->entries[shapes->count++] = (shape_entry){copy, hull, text_hash(name), is_shared};
     return OVOID_OK;
 }
 
-static hull_options get_hull_options(const shapes_reader *r) { return (hull_options){r->read, r->options, 1}; }
+static hull_options get_hull_options(const shapes_reader *r, int is_list) {
+    return (hull_options){r->read, r->options, 1, is_list};
+}
 
 static ovoid_code add_parts(shapes_reader *r, const ovoid_mesh *mesh, const char *path) {
-    hull_options options = get_hull_options(r);
+    hull_options options = get_hull_options(r, 0);
     for (size_t i = 0; i < ovoid_mesh_get_part_count(mesh); i++) {
         char number[40];
         snprintf(number, sizeof number, "part %zu", i);
@@ -177,7 +198,7 @@ static ovoid_code add_parts(shapes_reader *r, const ovoid_mesh *mesh, const char
 
 static ovoid_code fill_from_file(shapes_reader *r, const char *path) {
     if (!r->read || !r->read->parts || ovoid_path_is_shape(path)) {
-        hull_options options = get_hull_options(r);
+        hull_options options = get_hull_options(r, 0);
         mesh_hull hull = read_hull(path, &options, r->error);
         return hull.shape ? add_entry(r, path, hull, 0) : OVOID_ERROR_FILE;
     }
@@ -208,7 +229,7 @@ ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes, const o
         return NULL;
     }
     for (size_t i = 0; i < shapes->count; i++)
-        parts[i] = (ovoid_posed_shape){shapes->entries[i].shape, ovoid_pose_make_identity()};
+        parts[i] = (ovoid_posed_shape){shapes->entries[i].hull.shape, ovoid_pose_make_identity()};
     ovoid_compound *compound = ovoid_compound_create(parts, shapes->count, allocator, error);
     free(parts);
     return compound;
@@ -222,8 +243,8 @@ static ovoid_code add_line(shapes_reader *r, const char *path) {
     uint64_t hash = text_hash(path);
     for (size_t i = 0; i < shapes->count; i++)
         if (shapes->entries[i].hash == hash && strcmp(shapes->entries[i].name, path) == 0)
-            return add_entry(r, path, (mesh_hull){shapes->entries[i].shape, shapes->entries[i].convexity}, 1);
-    hull_options options = get_hull_options(r);
+            return add_entry(r, path, shapes->entries[i].hull, 1);
+    hull_options options = get_hull_options(r, 1);
     mesh_hull hull = read_hull(path, &options, r->error);
     return hull.shape ? add_entry(r, path, hull, 0) : OVOID_ERROR_FILE;
 }

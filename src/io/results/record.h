@@ -19,7 +19,8 @@ const char *record_find_within(const ovoid_record *record);
 // What solids have beside the deciding pair's answer, and what meshes are taken as. q: the quote, as in
 // results_write.c.
 
-/// The keys behind a (side 0) or b; those behind the margin; those of the proof.
+/// The keys behind a (side 0) or b; what is taken of it; those behind the margin; those of the proof.
+void record_write_triangle(FILE *file, const ovoid_record *record, int side);
 void record_write_kind(FILE *file, const ovoid_record *record, int side);
 void record_write_inside(FILE *file, const ovoid_record *record);
 void record_write_surfaces(FILE *file, const char *q, const ovoid_record *record);

@@ -404,37 +404,12 @@ static const char *find_key_fault(const json_t *line, const char *key) {
 }
 
 static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t length, ovoid_record *record) {
-    static const char *const keys[] = {"a",
-                                       "b",
-                                       "status",
-                                       "limit",
-                                       "lower",
-                                       "upper",
-                                       "point_a",
-                                       "point_b",
-                                       "normal",
-                                       "stage",
-                                       "iterations",
-                                       "proof",
-                                       "time",
-                                       "frame",
-                                       "margin",
-                                       "within",
-                                       "part_a",
-                                       "part_b",
-                                       "free_for",
-                                       "hit_after",
-                                       "kind_a",
-                                       "kind_b",
-                                       "mesh_volume_a",
-                                       "mesh_volume_b",
-                                       "hull_volume_a",
-                                       "hull_volume_b",
-                                       "triangle_a",
-                                       "triangle_b",
-                                       "inside",
-                                       "component",
-                                       "common"};
+    static const char *const keys[] = {
+        "a",          "b",           "status",      "limit",         "lower",         "upper",         "point_a",
+        "point_b",    "normal",      "stage",       "iterations",    "proof",         "time",          "frame",
+        "margin",     "within",      "part_a",      "part_b",        "free_for",      "hit_after",     "kind_a",
+        "kind_b",     "allowance_a", "allowance_b", "mesh_volume_a", "mesh_volume_b", "hull_volume_a", "hull_volume_b",
+        "triangle_a", "triangle_b",  "inside",      "component",     "common"};
     enum { ALL = sizeof keys / sizeof *keys, NEEDED = 12 };
     where at = {r->source.path, r->source.line, -1};
     json_error_t why;

@@ -27,6 +27,11 @@ static int has_triangles(ovoid_mesh_kind kind) { return kind == OVOID_MESH_SOLID
 
 static const char *const insides[] = {"", "a in b", "b in a", "common point"};
 
+/// 1 where the body is the hull of a mesh that is so only nearly.
+static int has_allowance(ovoid_mesh_kind kind, const ovoid_convexity *mesh) {
+    return kind == OVOID_MESH_HULL && mesh->allowance > 0;
+}
+
 static const char *find_inside(const ovoid_solid_answer *x) {
     return (unsigned)x->inside < sizeof insides / sizeof *insides ? insides[x->inside] : "";
 }
@@ -36,19 +41,24 @@ static int has_parting(const ovoid_answer *bodies) { return bodies->lower <= 0 &
 
 // ---- written
 
-static void write_volume(FILE *file, const char *key, int side, double volume) {
+static void write_side(FILE *file, const char *key, int side, double number) {
     fprintf(file, ",\"%s_%c\":", key, side ? 'b' : 'a');
-    json_write_number(file, volume);
+    json_write_number(file, number);
 }
 
 void record_write_kind(FILE *file, const ovoid_record *record, int side) {
     ovoid_mesh_kind kind = side ? record->kind_b : record->kind_a;
     const ovoid_convexity *mesh = side ? &record->mesh_b : &record->mesh_a;
-    if (!(record->fields & OVOID_RECORD_MESHES)) return;
     fprintf(file, ",\"kind_%c\":\"%s\"", side ? 'b' : 'a', ovoid_mesh_kind_get_name(kind));
-    write_volume(file, "mesh_volume", side, mesh->mesh_volume);
-    write_volume(file, "hull_volume", side, mesh->hull_volume);
-    if (record->solid && has_triangles(kind))
+    if (has_allowance(kind, mesh)) write_side(file, "allowance", side, mesh->allowance);
+    if (record->fields & OVOID_RECORD_MESHES) {
+        write_side(file, "mesh_volume", side, mesh->mesh_volume);
+        write_side(file, "hull_volume", side, mesh->hull_volume);
+    }
+}
+
+void record_write_triangle(FILE *file, const ovoid_record *record, int side) {
+    if (record->solid && has_triangles(side ? record->kind_b : record->kind_a))
         fprintf(file, ",\"triangle_%c\":%lu", side ? 'b' : 'a',
                 (unsigned long)(side ? record->solid->triangle_b : record->solid->triangle_a));
 }
@@ -89,16 +99,22 @@ void record_write_surfaces(FILE *file, const char *q, const ovoid_record *record
 }
 
 void record_write_solid_header(FILE *file, unsigned fields) {
-    if (fields & OVOID_RECORD_MESHES)
-        fputs(",kind_a,mesh_volume_a,hull_volume_a,kind_b,mesh_volume_b,hull_volume_b", file);
+    int has_volumes = (fields & OVOID_RECORD_MESHES) != 0;
+    fputs(has_volumes ? ",kind_a,allowance_a,mesh_volume_a,hull_volume_a,kind_b,allowance_b,mesh_volume_b,hull_volume_b"
+                      : ",kind_a,allowance_a,kind_b,allowance_b",
+          file);
     if (fields & OVOID_RECORD_SOLIDS) fputs(",triangle_a,triangle_b,inside", file);
 }
 
 void record_write_solid_columns(FILE *file, const ovoid_record *record) {
     const ovoid_solid_answer *x = record->solid;
-    for (int side = 0; side < 2 && record->fields & OVOID_RECORD_MESHES; side++) {
+    for (int side = 0; side < 2; side++) {
         const ovoid_convexity *mesh = side ? &record->mesh_b : &record->mesh_a;
-        fprintf(file, ",%s,", ovoid_mesh_kind_get_name(side ? record->kind_b : record->kind_a));
+        ovoid_mesh_kind kind = side ? record->kind_b : record->kind_a;
+        fprintf(file, ",%s,", ovoid_mesh_kind_get_name(kind));
+        if (has_allowance(kind, mesh)) record_write_column(file, mesh->allowance);
+        if (!(record->fields & OVOID_RECORD_MESHES)) continue;
+        fputc(',', file);
         if (isfinite(mesh->mesh_volume)) record_write_column(file, mesh->mesh_volume);
         fputc(',', file);
         if (isfinite(mesh->hull_volume)) record_write_column(file, mesh->hull_volume);
@@ -119,24 +135,40 @@ static int find_kind(const char *text) {
     return -1;
 }
 
-// Both bodies have all three keys, or neither has one.
-static const char *read_meshes(const json_t *line, ovoid_record *record, const char **key) {
-    static const char *const keys[] = {"kind_a",        "kind_b",        "mesh_volume_a",
-                                       "mesh_volume_b", "hull_volume_a", "hull_volume_b"};
+// Both bodies have a kind, or neither has: hulls. Only the hull of a mesh has an allowance.
+static const char *read_kinds(const json_t *line, ovoid_record *record, const char **key) {
+    static const char *const keys[] = {"kind_a", "kind_b"}, *const allowances[] = {"allowance_a", "allowance_b"};
+    ovoid_mesh_kind *const kinds_read[] = {&record->kind_a, &record->kind_b};
+    ovoid_convexity *const meshes[] = {&record->mesh_a, &record->mesh_b};
+    int has_kinds = json_object_get(line, keys[0]) || json_object_get(line, keys[1]);
+    for (int i = 0; i < 2; i++) {
+        const json_t *value = json_object_get(line, *key = keys[i]);
+        if (has_kinds && !value) return "is missing: both bodies have a kind";
+        int kind = value ? find_kind(json_string_value(value)) : OVOID_MESH_HULL;
+        if (kind < 0) return "is not a kind of mesh";
+        *kinds_read[i] = (ovoid_mesh_kind)kind;
+        value = json_object_get(line, *key = allowances[i]);
+        if (value && (kind != OVOID_MESH_HULL || !has_kinds)) return "goes with a hull";
+        if (value && (!record_read_number(value, NAN, &meshes[i]->allowance) || !(meshes[i]->allowance > 0)))
+            return "must be a number above 0";
+    }
+    return NULL;
+}
+
+// All four keys, beside kinds, or none.
+static const char *read_volumes(const json_t *line, ovoid_record *record, const char **key) {
+    static const char *const keys[] = {"mesh_volume_a", "mesh_volume_b", "hull_volume_a", "hull_volume_b"};
     double *const volumes[] = {&record->mesh_a.mesh_volume, &record->mesh_b.mesh_volume, &record->mesh_a.hull_volume,
                                &record->mesh_b.hull_volume};
-    int present = 0, kind[2];
-    for (int i = 0; i < 6; i++) present += json_object_get(line, keys[i]) != NULL;
+    int present = 0;
+    for (int i = 0; i < 4; i++) present += json_object_get(line, keys[i]) != NULL;
     if (!present) return NULL;
-    for (int i = 0; i < 6; i++) {
-        *key = keys[i];
-        const json_t *value = json_object_get(line, keys[i]);
-        if (!value) return "is missing: kinds and volumes come together";
-        if (i < 2 && (kind[i] = find_kind(json_string_value(value))) < 0) return "is not a kind of mesh";
-        if (i >= 2 && !record_read_number(value, NAN, volumes[i - 2])) return "must be a number or null";
+    if (!json_object_get(line, *key = "kind_a")) return "is missing: volumes come with kinds";
+    for (int i = 0; i < 4; i++) {
+        const json_t *value = json_object_get(line, *key = keys[i]);
+        if (!value) return "is missing: volumes come together";
+        if (!record_read_number(value, NAN, volumes[i])) return "must be a number or null";
     }
-    record->kind_a = (ovoid_mesh_kind)kind[0];
-    record->kind_b = (ovoid_mesh_kind)kind[1];
     record->fields |= OVOID_RECORD_MESHES;
     return NULL;
 }
@@ -194,7 +226,8 @@ const char *record_read_solid(const json_t *line, ovoid_record *record, ovoid_so
     const json_t *proof = json_object_get(line, "proof");
     const json_t *surfaces = json_object_get(proof, "surfaces"), *parting = json_object_get(proof, "parting");
     static const char *const own[] = {"triangle_a", "triangle_b", "inside", "component", "common"};
-    const char *wrong = read_meshes(line, record, key);
+    const char *wrong = read_kinds(line, record, key);
+    if (!wrong) wrong = read_volumes(line, record, key);
     if (wrong) return wrong;
     if (!surfaces) {
         for (int i = 0; i < 5; i++)
@@ -203,7 +236,7 @@ const char *record_read_solid(const json_t *line, ovoid_record *record, ovoid_so
         return parting ? "goes with \"surfaces\"" : NULL;
     }
     *key = "kind_a";
-    if (!(record->fields & OVOID_RECORD_MESHES) || !(has_triangles(record->kind_a) || has_triangles(record->kind_b)))
+    if (!has_triangles(record->kind_a) && !has_triangles(record->kind_b))
         return "must say what is a solid or a surface, where a proof has \"surfaces\"";
     const ovoid_answer *answer = &record->answer;
     *x = (ovoid_solid_answer){.status = answer->status,

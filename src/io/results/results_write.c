@@ -204,11 +204,11 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
     write_key(file, q, write_times(file, record), "a");
     write_body(file, record->a, record->index_a);
     write_part(file, "part_a", record, record->part_a);
-    record_write_kind(file, record, 0);
+    record_write_triangle(file, record, 0);
     write_key(file, q, ",", "b");
     write_body(file, record->b, record->index_b);
     write_part(file, "part_b", record, record->part_b);
-    record_write_kind(file, record, 1);
+    record_write_triangle(file, record, 1);
     write_word(file, "status", ovoid_status_get_name(answer->status));
     write_word(file, "limit", ovoid_limit_get_name(answer->limit));
     write_margin(file, record);
@@ -226,6 +226,7 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
     write_word(file, "stage", ovoid_stage_get_name(answer->stage));
     write_key(file, q, ",", "iterations");
     fprintf(file, "%lu", (unsigned long)answer->iterations);
+    for (int side = 0; side < 2; side++) record_write_kind(file, record, side);
     write_key(file, q, ",", "proof");
     write_proof(file, q, record);
     fputs("}\n", file);

@@ -93,14 +93,39 @@ static const char *name_within(const ovoid_record *record) {
     }
 }
 
-// What else there is to say: an impact, the margin, and the limit that left the bracket wide.
+// What a body is where it is no plain hull: "solid", "surface", or by how much its hull is off; else "".
+static void name_mesh(char text[40], ovoid_mesh_kind kind, const ovoid_convexity *mesh) {
+    text[0] = 0;
+    if (kind == OVOID_MESH_SOLID || kind == OVOID_MESH_SURFACE)
+        snprintf(text, 40, "%s", ovoid_mesh_kind_get_name(kind));
+    else if (kind == OVOID_MESH_HULL && mesh->allowance > 0) {
+        char number[32];
+        number_write(number, mesh->allowance, 2);
+        snprintf(text, 40, "hull to %s", number);
+    }
+}
+
+// Adds words to a note, behind a comma where there are some before.
+static void add_note(char cell[CELL], const char *before, const char *words) {
+    size_t used = strlen(cell);
+    if (*words) snprintf(cell + used, CELL - used, "%s%s%s", used ? ", " : "", before, words);
+}
+
+// What else there is to say: what the bodies are, an impact, the margin, and the limit that left the bracket wide.
 static void set_note(char cell[CELL], const ovoid_record *record) {
     ovoid_limit limit = record->answer.limit;
     const char *impact = isfinite(record->hit_after) ? "impact" : "impact not proven";
     const char *note = record_is_impact(record) ? impact : name_within(record);
     int is_ended = limit != OVOID_LIMIT_NONE && limit != OVOID_LIMIT_ANSWERED;
     const char *words = is_ended ? "ended by " : "", *name = is_ended ? ovoid_limit_get_name(limit) : "";
-    snprintf(cell, CELL, "%s%s%s%s", note, *note && is_ended ? ", " : "", words, name);
+    char mesh[40];
+    cell[0] = 0;
+    name_mesh(mesh, record->kind_a, &record->mesh_a);
+    add_note(cell, "a ", mesh);
+    name_mesh(mesh, record->kind_b, &record->mesh_b);
+    add_note(cell, "b ", mesh);
+    add_note(cell, "", note);
+    add_note(cell, words, name);
 }
 
 static table_row make_row(const ovoid_record *record) {

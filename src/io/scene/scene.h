@@ -14,9 +14,9 @@ typedef struct scene_body {
     ovoid_compound *compound;
     char *mesh; ///< its path, NULL for none
     ovoid_read_options read;
-    ovoid_shapes *parts; ///< the hulls of a mesh; other compounds have parts that are bodies of the scene
-    ovoid_solid *solid;  ///< of a mesh that is one; `shape` is its hull
-    int is_asked;        ///< the scene says that it is to be one
+    ovoid_shapes *parts;      ///< the hulls of a mesh; other compounds have parts that are bodies of the scene
+    const ovoid_solid *solid; ///< of a mesh that is one, owned by `parts`; `shape` is its hull
+    int is_asked;             ///< the scene says that it is to be one
 } scene_body;
 
 typedef struct scene_entry {

@@ -141,8 +141,7 @@ static ovoid_code fail_mesh(scene_reader *r, const ovoid_error *why) {
 }
 
 // The triangles of a mesh that is to be them: as asked, or because it is not its hull.
-static ovoid_code read_solid(scene_reader *r, const geometry *g, scene_body *body) {
-    ovoid_error why = {OVOID_OK, -1, ""};
+static ovoid_code take_solid(scene_reader *r, const geometry *g, scene_body *body) {
     ovoid_convexity c = ovoid_shapes_get(body->parts, 0).convexity;
     body->is_asked = g->solid > 0;
     if (g->solid == 0 || !(body->is_asked || c.kind != OVOID_MESH_HULL)) return OVOID_OK;
@@ -153,8 +152,8 @@ static ovoid_code read_solid(scene_reader *r, const geometry *g, scene_body *bod
                                        "of a compound; \"hull\": true takes its hull"
                                      : "is not convex: as a solid it has no radius and no allowance, and is no part of "
                                        "a compound; \"hull\": true takes its hull");
-    body->solid = ovoid_solid_read_file(g->mesh, &g->read, &why);
-    return body->solid ? OVOID_OK : fail_mesh(r, &why);
+    body->solid = ovoid_shapes_get(body->parts, 0).solid;
+    return OVOID_OK;
 }
 
 static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body) {
@@ -166,7 +165,7 @@ static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body
     if (!body->parts) return fail_mesh(r, &why);
     if (!g->read.parts) {
         body->shape = ovoid_shapes_get(body->parts, 0).shape;
-        return read_solid(r, g, body);
+        return take_solid(r, g, body);
     }
     body->compound = ovoid_shapes_create_compound(body->parts, g->options.allocator, &why);
     return body->compound ? OVOID_OK : fail_mesh(r, &why);
@@ -329,7 +328,8 @@ static ovoid_code read_choice(scene_reader *r, const json_t *object, geometry *g
     if (hull == 0 && is_mesh) g->solid = -1;
     g->read.hull = g->solid == 0;
     if (solid <= 0) return OVOID_OK;
-    g->solid = 1;
+    g->solid = g->read.solid = 1;
+    g->read.hull = 0;
     if (hull > 0) return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "excludes \"hull\"");
     if (g->read.parts)
         return scene_fail_member(r, OVOID_ERROR_FORMAT, "solid", "excludes \"parts\", whose hulls are the body");
@@ -492,7 +492,6 @@ void scene_body_clear(scene_body *body) {
     ovoid_compound_destroy(body->compound);
     ovoid_shape_destroy(body->made);
     ovoid_shapes_destroy(body->parts);
-    ovoid_solid_destroy(body->solid);
     free(body->mesh);
     free(body->key);
     *body = (scene_body){.key = NULL};
