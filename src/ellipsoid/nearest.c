@@ -331,6 +331,26 @@ static ovoid_nearest compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellip
     return make_answer(a, b, &t);
 }
 
+/// How far the multipliers are from those of the nearest points: their points should be on their surfaces, or inside
+/// with a multiplier of zero.
+static double compute_residue(const multipliers *m) {
+    double a = m->ma > 1 ? m->ma - 1 : (1 - m->ma) * fmin(m->la, 1);
+    double b = m->mb > 1 ? m->mb - 1 : (1 - m->mb) * fmin(m->lb, 1);
+    return a + b;
+}
+
+/// The bracket closes with the square of the direction's error; Newton's steps go on while the residue falls, which is
+/// as this error. For any multipliers w = d - Ea p - Eb q, so that w is the direction of the points.
+static void polish(search *s, multipliers *m) {
+    for (int round = 0; round < ROUNDS_PLAIN; round++) {
+        change e = find_change(s, m, (change){m->ma - 1, m->mb - 1});
+        multipliers next = evaluate(s, m->la * (1 + e.a), m->lb * (1 + e.b));
+        if (!(compute_residue(&next) < compute_residue(m))) return;
+        *m = next;
+        s->rounds++;
+    }
+}
+
 int roots_find_nearest(const root3 *a, const root3 *b, vec3 d, root3_nearest *found) {
     scaled_pair pair = {.d = d, .unit = 1};
     search s = {.pair = &pair, .a = *a, .b = *b, .normal = {1, 0, 0}, .is_careful = 1};
@@ -339,7 +359,9 @@ int roots_find_nearest(const root3 *a, const root3 *b, vec3 d, root3_nearest *fo
     multipliers m = find_start(&s);
     if (!(m.dual > 0)) return 0;
     search_run(&s, &m, ROUNDS_CAREFUL);
-    *found = (root3_nearest){s.normal, s.p, s.q, s.rounds};
+    polish(&s, &m);
+    *found = (root3_nearest){vec3_unit(m.w), vec3_scale(m.p, 1 / fmax(1, m.ma)), vec3_scale(m.q, 1 / fmax(1, m.mb)),
+                             s.rounds};
     return s.lower > 0;
 }
 

@@ -88,8 +88,8 @@ static int search_by_multipliers(const smooth_pair *pair, smooth_state *x, uint3
     smooth_state y;
     smooth_evaluate(pair, found.normal, &y);
     // A point inside the unit ball belongs to a body that n is across.
-    y.p = vec3_norm_squared(found.p) > 1 - 0x1p-20 ? vec3_unit(found.p) : found.p;
-    y.q = vec3_norm_squared(found.q) > 1 - 0x1p-20 ? vec3_unit(found.q) : found.q;
+    y.p = vec3_norm_squared(found.p) > 1 - 0x1p-40 ? vec3_unit(found.p) : found.p;
+    y.q = vec3_norm_squared(found.q) > 1 - 0x1p-40 ? vec3_unit(found.q) : found.q;
     smooth_set_points(pair, &y);
     if (!(vec3_norm_squared(y.across) < vec3_norm_squared(x->across)) || y.gap < x->gap - 0x1p-40 * pair->size)
         return 0;
