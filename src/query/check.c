@@ -114,6 +114,10 @@ static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, ovoi
     if (!(vec3_max_abs(turn) <= 0)) return refuse(error, "normal is not the proof's", vec3_norm(x->normal), 1);
     if (!(fabs(vec3_norm(x->normal) - 1) <= 1e-12))
         return refuse(error, "length of the normal", vec3_norm(x->normal), 1);
+    if (!(vec3_max_abs(x->proof.normal_low) <= 1e-12))
+        return refuse(error, "normal is not the proof's, with its low part", vec3_max_abs(x->proof.normal_low), 0);
+    if (!vec3_is_finite(x->point_a) || !vec3_is_finite(x->point_b))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "a witness point is not finite");
     witness_points w = witness_compute_points(f, &x->proof);
     double slack = f->claim + 0x1p-50 * (vec3_max_abs(x->point_a) + vec3_max_abs(x->point_b));
     double off = fmax(vec3_norm(vec3_sub(frame_point_to_world(f, w.a), x->point_a)),
