@@ -24,3 +24,10 @@ int body_view_make(const ovoid_body *body, body_view *v) {
     }
     return vec3_norm(v->pose->position) + v->extent <= OVOID_LENGTH_MAX;
 }
+
+ovoid_limit body_pair_view(const ovoid_body_pair *pair, body_view *a, body_view *b) {
+    if (!body_is_convex(&pair->a)) return OVOID_LIMIT_SHAPE_A;
+    if (!body_is_convex(&pair->b)) return OVOID_LIMIT_SHAPE_B;
+    if (!body_view_make(&pair->a, a)) return OVOID_LIMIT_POSE_A;
+    return body_view_make(&pair->b, b) ? OVOID_LIMIT_NONE : OVOID_LIMIT_POSE_B;
+}

@@ -113,6 +113,8 @@ static inline int body_is_one(const ovoid_body *body) { return !!body->shape + !
 
 /// 0 where the body or its pose is refused.
 int body_view_make(const ovoid_body *body, body_view *view);
+/// The views of both bodies, or the reason why their queries are refused.
+ovoid_limit body_pair_view(const ovoid_body_pair *pair, body_view *a, body_view *b);
 
 /// The part at a place of the order, with its pose in the world.
 static inline ovoid_posed_shape body_view_get_part(const body_view *v, uint32_t place) {

@@ -300,17 +300,8 @@ void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *op
     ovoid_cover *cover = exclusions ? exclusions->cover : NULL;
     if (cover) cover->point_count = cover->triangle_count = 0;
     traversal h;
-    ovoid_limit refused = OVOID_LIMIT_NONE;
-    if (!options_make(options, &h.options) || !(goal.far >= 0))
-        refused = OVOID_LIMIT_OPTIONS;
-    else if (!body_is_convex(&pair->a))
-        refused = OVOID_LIMIT_SHAPE_A;
-    else if (!body_is_convex(&pair->b))
-        refused = OVOID_LIMIT_SHAPE_B;
-    else if (!body_view_make(&pair->a, &h.a))
-        refused = OVOID_LIMIT_POSE_A;
-    else if (!body_view_make(&pair->b, &h.b))
-        refused = OVOID_LIMIT_POSE_B;
+    ovoid_limit refused = OVOID_LIMIT_OPTIONS;
+    if (options_make(options, &h.options) && goal.far >= 0) refused = body_pair_view(pair, &h.a, &h.b);
     if (refused != OVOID_LIMIT_NONE) {
         out->answer = answer_make_refused(refused);
         return;

@@ -96,6 +96,8 @@ static ovoid_code check_bound(const cut *c, size_t i, ovoid_error *error) {
     const ovoid_exclusion *e = &c->all->items[i];
     if (!is_in_range(c, e)) return refuse(error, i, "names parts that there are not");
     if (!(e->lower >= c->x->answer.lower)) return refuse(error, i, "is below the answer's lower bound");
+    if (!vec3_is_finite(e->normal_low) || !(vec3_max_abs(e->normal_low) <= 0x1p-50 * vec3_max_abs(e->normal)))
+        return refuse(error, i, "has a normal whose low half is not one");
     if (e->end_a - e->first_a == 1 && e->end_b - e->first_b == 1) {
         ovoid_posed_shape a = body_view_get_part(&c->a, e->first_a), b = body_view_get_part(&c->b, e->first_b);
         ovoid_pair pair = {a.shape, b.shape, a.pose, b.pose};
@@ -149,9 +151,22 @@ static ovoid_code check_exclusions(const cut *c, ovoid_error *error) {
     return check_cut(c, error);
 }
 
-static ovoid_code check_refusal(const ovoid_answer *x, ovoid_error *error) {
-    if (x->status == OVOID_UNDECIDED && x->lower == -INFINITY && x->upper == INFINITY) return OVOID_OK;
+// The margin that is refused too is not among the options.
+static ovoid_code check_refusal(const ovoid_answer *x, ovoid_limit refused, ovoid_error *error) {
+    int is_blank = x->status == OVOID_UNDECIDED && x->lower == -INFINITY && x->upper == INFINITY;
+    if (is_blank && (x->limit == refused || x->limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer");
+}
+
+// Status and limit by the bodies' tolerance, or that of the deciding pair, in which is what far origins hide.
+static ovoid_code check_terms(const cut *c, const ovoid_pair *parts, const ovoid_options *options, ovoid_error *error) {
+    pair_frame f = {.size = 0};
+    ovoid_options of_parts = *options;
+    options_take_size(&of_parts, c->frame.size);
+    (void)frame_place(parts, &f);
+    const answer_terms terms = {options_compute_tolerance(&of_parts, f.size, f.hidden), c->a.allowance + c->b.allowance,
+                                options->cap < INFINITY ? options->cap : 0};
+    return terms_check_internal(&c->x->answer, &terms, error);
 }
 
 static ovoid_code check(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *given,
@@ -159,9 +174,9 @@ static ovoid_code check(const ovoid_body_pair *pair, const ovoid_compound_answer
     const ovoid_exclusions none = {NULL, 0, 0, NULL};
     cut c = {.pair = pair, .x = x, .all = all ? all : &none};
     ovoid_options options;
-    if (!options_make(given, &options) || !body_view_make(&pair->a, &c.a) || !body_view_make(&pair->b, &c.b) ||
-        x->answer.limit == OVOID_LIMIT_OPTIONS)
-        return check_refusal(&x->answer, error);
+    ovoid_limit refused = options_make(given, &options) ? body_pair_view(pair, &c.a, &c.b) : OVOID_LIMIT_OPTIONS;
+    if (refused != OVOID_LIMIT_NONE || x->answer.limit == OVOID_LIMIT_OPTIONS)
+        return check_refusal(&x->answer, refused, error);
     if (x->part_a >= c.a.count || x->part_b >= c.b.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "parts %u and %u are not both there", x->part_a, x->part_b);
     c.place_a = c.a.compound ? c.a.compound->places[x->part_a] : 0;
@@ -170,8 +185,11 @@ static ovoid_code check(const ovoid_body_pair *pair, const ovoid_compound_answer
     ovoid_posed_shape a = body_view_get_part(&c.a, c.place_a), b = body_view_get_part(&c.b, c.place_b);
     ovoid_pair parts = {a.shape, b.shape, a.pose, b.pose};
     // Two shapes are asked with the options as they are.
-    if (c.a.compound || c.b.compound) options_take_size(&options, c.frame.size);
-    ovoid_code code = answer_check_internal(&parts, &x->answer, &options, c.all->cover, error);
+    if (!c.a.compound && !c.b.compound) return answer_check_internal(&parts, &x->answer, given, c.all->cover, error);
+    ovoid_code code = check_terms(&c, &parts, &options, error);
+    // A first look at the bodies has its points by their rounding.
+    const answer_claims claims = {&parts, &x->answer, c.all->cover, c.frame.claim};
+    if (code == OVOID_OK) code = bounds_check_internal(&claims, error);
     return code == OVOID_OK ? check_exclusions(&c, error) : code;
 }
 

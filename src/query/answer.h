@@ -44,6 +44,26 @@ void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, qu
 ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
                                  const ovoid_cover *cover, ovoid_error *error);
 
+/// What an answer was asked by: the tolerance, to which allowances add nothing; the width that these make; the cap, or
+/// 0.
+typedef struct answer_terms {
+    double tolerance, allowance, cap;
+} answer_terms;
+
+/// OVOID_OK if the answer's status and limit follow from its bracket.
+ovoid_code terms_check_internal(const ovoid_answer *x, const answer_terms *terms, ovoid_error *error);
+
+/// What is claimed of a pair. slack: by how much the witness points may be off beside the pair's own rounding.
+typedef struct answer_claims {
+    const ovoid_pair *pair;
+    const ovoid_answer *answer;
+    const ovoid_cover *cover; ///< or NULL
+    double slack;
+} answer_claims;
+
+/// OVOID_OK if the answer's bracket and points follow from its proof; status and limit are not looked at.
+ovoid_code bounds_check_internal(const answer_claims *claims, ovoid_error *error);
+
 /// OVOID_OK if a status follows from its bracket, or PROOF with a sentence. tolerance: as in bracket_find_status.
 /// "undecided" claims nothing but that the bracket leaves the sign open.
 ovoid_code status_check_internal(ovoid_status status, double lower, double upper, double tolerance, ovoid_error *error);

@@ -108,8 +108,8 @@ static ovoid_code check_upper(measure *m, const ovoid_answer *x, const ovoid_cov
     return found <= x->upper ? OVOID_OK : refuse(error, "upper bound", x->upper, found);
 }
 
-// The answer's points and normal must be those of the proof.
-static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, ovoid_error *error) {
+// The answer's points and normal must be those of the proof, to rounding and the slack.
+static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, double slack, ovoid_error *error) {
     vec3 turn = vec3_sub(x->normal, x->proof.normal);
     if (!(vec3_max_abs(turn) <= 0)) return refuse(error, "normal is not the proof's", vec3_norm(x->normal), 1);
     if (!(fabs(vec3_norm(x->normal) - 1) <= 1e-12))
@@ -119,7 +119,7 @@ static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, ovoi
     if (!vec3_is_finite(x->point_a) || !vec3_is_finite(x->point_b))
         return error_set(error, OVOID_ERROR_PROOF, -1, "a witness point is not finite");
     witness_points w = witness_compute_points(f, &x->proof);
-    double slack = f->claim + 0x1p-50 * (vec3_max_abs(x->point_a) + vec3_max_abs(x->point_b));
+    slack += f->claim + 0x1p-50 * (vec3_max_abs(x->point_a) + vec3_max_abs(x->point_b));
     double off = fmax(vec3_norm(vec3_sub(frame_point_to_world(f, w.a), x->point_a)),
                       vec3_norm(vec3_sub(frame_point_to_world(f, w.b), x->point_b)));
     return off <= slack ? OVOID_OK : refuse(error, "witness points are not the proof's, off by", off, slack);
@@ -135,12 +135,47 @@ ovoid_code status_check_internal(ovoid_status status, double lower, double upper
                      ovoid_status_get_name(status), lower, upper, tolerance);
 }
 
+// 1 if what the limit says is so: NONE and ALLOWANCE are promises of a width, on which ovoid_answer_get_distance rests,
+// CAP is one of a distance. The others are reasons why there is no promise.
+static int is_limit_shown(const ovoid_answer *x, const answer_terms *terms) {
+    double width = x->upper - x->lower, most = terms->tolerance + terms->allowance;
+    switch (x->limit) {
+    case OVOID_LIMIT_NONE: return width <= most;
+    case OVOID_LIMIT_ALLOWANCE:
+        return terms->allowance > 0 &&
+               (width <= most || (x->lower >= -terms->allowance && x->upper <= terms->allowance));
+    case OVOID_LIMIT_CAP: return x->lower > terms->cap;
+    case OVOID_LIMIT_ANSWERED:
+    case OVOID_LIMIT_ITERATIONS:
+    case OVOID_LIMIT_PRECISION:
+    case OVOID_LIMIT_CAPACITY: return 1;
+    default: return 0;
+    }
+}
+
+ovoid_code terms_check_internal(const ovoid_answer *x, const answer_terms *terms, ovoid_error *error) {
+    ovoid_code code = status_check_internal(x->status, x->lower, x->upper, terms->tolerance, error);
+    if (code != OVOID_OK || is_limit_shown(x, terms)) return code;
+    return error_set(error, OVOID_ERROR_PROOF, -1, "limit %s does not follow from the bracket [%.17g, %.17g]",
+                     ovoid_limit_get_name(x->limit), x->lower, x->upper);
+}
+
 // Which queries are refused, and that nothing else is: a refusal claims nothing.
 static ovoid_code check_refusal(const ovoid_answer *x, ovoid_limit refused, ovoid_error *error) {
     int claims = x->lower != -INFINITY || x->upper != INFINITY || x->status != OVOID_UNDECIDED;
     // The margin that is refused too is not among the options.
     if (!claims && (x->limit == refused || x->limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer");
+}
+
+static ovoid_code check_bounds(const pair_frame *f, const answer_claims *claims, ovoid_error *error) {
+    const ovoid_answer *x = claims->answer;
+    if (!proof_is_sound(f, &x->proof))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
+    measure m = {.pair = claims->pair, .frame = f};
+    ovoid_code code = check_lower(&m, x->lower, &x->proof, error);
+    if (code == OVOID_OK) code = check_upper(&m, x, claims->cover, error);
+    return code == OVOID_OK ? check_witness(f, x, claims->slack, error) : code;
 }
 
 ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
@@ -150,15 +185,17 @@ ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, 
     ovoid_options options;
     ovoid_limit refused = options_make(given, &options) ? frame_make(pair, &f) : OVOID_LIMIT_OPTIONS;
     if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS) return check_refusal(x, refused, error);
-    double tolerance = options_compute_tolerance(&options, f.size, f.hidden);
-    ovoid_code code = status_check_internal(x->status, x->lower, x->upper, tolerance, error);
-    if (code != OVOID_OK) return code;
-    if (!proof_is_sound(&f, &x->proof))
-        return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
-    measure m = {.pair = pair, .frame = &f};
-    code = check_lower(&m, x->lower, &x->proof, error);
-    if (code == OVOID_OK) code = check_upper(&m, x, cover, error);
-    return code == OVOID_OK ? check_witness(&f, x, error) : code;
+    const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), frame_get_allowance(&f),
+                                given ? given->cap : 0};
+    ovoid_code code = terms_check_internal(x, &terms, error);
+    return code == OVOID_OK ? check_bounds(&f, &(answer_claims){pair, x, cover, 0}, error) : code;
+}
+
+ovoid_code bounds_check_internal(const answer_claims *claims, ovoid_error *error) {
+    pair_frame f;
+    ovoid_limit refused = frame_make(claims->pair, &f);
+    return refused == OVOID_LIMIT_NONE ? check_bounds(&f, claims, error)
+                                       : check_refusal(claims->answer, refused, error);
 }
 
 ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *options,

@@ -43,6 +43,8 @@ void trial_count_width(tally *t, const ovoid_pair *pair, const ovoid_answer *x);
 
 /// The pair's size: both extents about the body frames, the distance of the frames and the radii.
 double pair_size(const ovoid_pair *pair);
+/// The least that a bracket can be asked to be narrower than: what far origins, far positions and underflow leave.
+double pair_unresolved(const ovoid_pair *pair);
 
 void tally_print_header(void);
 void tally_print(const tally *t);

@@ -1,0 +1,68 @@
+// The fields of an answer with its proof, for liars (alter.h).
+#ifndef OVOID_TESTS_ALTER_ANSWER_H
+#define OVOID_TESTS_ALTER_ANSWER_H
+
+#include "alter.h"
+#include "ovoid/compound.h"
+
+#define ALTER_VEC3(member)                                                                                             \
+    ALTER_FIELD(ovoid_answer, member.x, ALTER_REAL, 1e-9), ALTER_FIELD(ovoid_answer, member.y, ALTER_REAL, 1e-9),      \
+        ALTER_FIELD(ovoid_answer, member.z, ALTER_REAL, 1e-9)
+#define ALTER_PAIRS(member, type)                                                                                      \
+    ALTER_FIELD(ovoid_answer, member[0], type, 1e-9), ALTER_FIELD(ovoid_answer, member[1], type, 1e-9),                \
+        ALTER_FIELD(ovoid_answer, member[2], type, 1e-9), ALTER_FIELD(ovoid_answer, member[3], type, 1e-9),            \
+        ALTER_FIELD(ovoid_answer, member[4], type, 1e-9), ALTER_FIELD(ovoid_answer, member[5], type, 1e-9)
+
+/// All that an answer claims; stage and iterations say how it was found.
+static const alter_field alter_answer_fields[] = {ALTER_FIELD(ovoid_answer, status, ALTER_INT, 0),
+                                                  ALTER_FIELD(ovoid_answer, limit, ALTER_INT, 0),
+                                                  ALTER_FIELD(ovoid_answer, lower, ALTER_REAL, 1e-9),
+                                                  ALTER_FIELD(ovoid_answer, upper, ALTER_REAL, 1e-9),
+                                                  ALTER_VEC3(point_a),
+                                                  ALTER_VEC3(point_b),
+                                                  ALTER_VEC3(normal),
+                                                  ALTER_VEC3(proof.normal),
+                                                  ALTER_VEC3(proof.normal_low),
+                                                  ALTER_FIELD(ovoid_answer, proof.kind, ALTER_INT, 0),
+                                                  ALTER_FIELD(ovoid_answer, proof.count, ALTER_U32, 0),
+                                                  ALTER_PAIRS(proof.a, ALTER_U32),
+                                                  ALTER_PAIRS(proof.b, ALTER_U32),
+                                                  ALTER_PAIRS(proof.weight_a, ALTER_REAL),
+                                                  ALTER_PAIRS(proof.weight_b, ALTER_REAL),
+                                                  ALTER_VEC3(proof.inner_a),
+                                                  ALTER_VEC3(proof.inner_b)};
+enum { ALTER_ANSWER_FIELDS = sizeof alter_answer_fields / sizeof *alter_answer_fields };
+
+/// Lies that are no change of one number: parts of the answer swapped, another's, or what no enumeration has. 0: there
+/// is no such lie, or it changes nothing.
+enum { ALTER_ANSWER_FORGERIES = 10 };
+static inline int alter_answer_forge(ovoid_answer *x, const ovoid_answer *other, const uint32_t counts[2], int which) {
+    const ovoid_answer before = *x;
+    ovoid_vec3 kept = x->point_a;
+    switch (which) {
+    case 0: x->point_a = x->point_b, x->point_b = kept; break;
+    case 1: x->proof = other->proof; break;
+    case 2: x->proof = other->proof, x->normal = other->normal; break;
+    case 3: x->proof.a[x->proof.count ? x->proof.count - 1 : 0] = counts[0]; break;
+    case 4: x->proof.b[0] = counts[1]; break;
+    case 5: x->proof.count = OVOID_PROOF_PAIRS + 1; break;
+    case 6: x->normal = (ovoid_vec3){-x->normal.x, -x->normal.y, -x->normal.z}, x->proof.normal = x->normal; break;
+    case 7: x->lower = other->lower, x->upper = other->upper, x->status = other->status; break;
+    case 8: x->status = OVOID_TOUCHING, x->lower = fmin(x->lower, -1e-7), x->upper = fmax(x->upper, 1e-7); break;
+    default: x->limit = OVOID_LIMIT_NONE, x->lower -= 1 + fabs(x->lower); break;
+    }
+    return memcmp(&before, x, sizeof before) != 0;
+}
+
+/// 1 if the limit promises a width that the bracket has not, or a distance beyond a cap that it does not show. most: no
+/// less than the tolerance for these bodies; wide: than the width that their allowances make.
+static inline int alter_limit_is_false(const ovoid_answer *x, double most, double wide, double cap) {
+    double width = x->upper - x->lower;
+    if ((int)x->limit < 0 || x->limit > OVOID_LIMIT_ALLOWANCE) return 1;
+    if (x->limit == OVOID_LIMIT_NONE) return !(width <= most + wide);
+    if (x->limit == OVOID_LIMIT_ALLOWANCE) return !(wide > 0 && width <= most + 2 * wide);
+    if (x->limit == OVOID_LIMIT_CAP) return !(x->lower > cap);
+    return x->limit >= OVOID_LIMIT_POSE_A && (x->lower > -INFINITY || x->upper < INFINITY);
+}
+
+#endif
