@@ -91,7 +91,8 @@ OVOID_API ovoid_code ovoid_robot_check_path(ovoid_robot_checker *checker, const 
 
 /**
  * Checks an answer without any search: that the steps (all step_count of them) hold, that those of each pair reach from
- * 0 to free_until, and that the state at hit_at is within the margin. options: margin, limits and pairs count.
+ * 0 to free_until, that the state at hit_at is within the margin, and that the bracket of the hit holds what is found
+ * there. Of UNDECIDED the bracket is not looked at. options: margin, limits and pairs count.
  * OVOID_OK; PROOF with a sentence (place: the step, or -1); ARGUMENT, MEMORY. Takes the cell as it was.
  */
 OVOID_API ovoid_code ovoid_robot_path_check(const ovoid_robot_cell *cell, const ovoid_robot_path *path,

@@ -462,7 +462,22 @@ static ovoid_code get_memory(ovoid_robot_checker *x, ovoid_error *error) {
     return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
 }
 
-static void run(path_search *s, const ovoid_robot_path *path) {
+// The answer's hit as its check finds it again. What is within rounding of the margin may be none then.
+static void settle_hit(path_search *s, const ovoid_robot_path *path) {
+    ovoid_robot_path_answer *a = s->answer;
+    if (a->status != OVOID_ROBOT_HIT) return;
+    path_place place = path_find_place(s->w->cell, path, a->hit_at);
+    path_state state = get_state(s, LEVELS + 2);
+    ovoid_error refused;
+    uint32_t number = path_find_number(s->w->cell, &a->hit.a, &a->hit.b);
+    if (number != OVOID_ROBOT_NONE && set_segment(s, place.segment, path, &refused) == OVOID_OK)
+        a->hit = path_ask_hit(s->w, &place, number, &state);
+    if (a->hit.upper <= s->margin) return;
+    a->status = a->hit.status = OVOID_ROBOT_UNDECIDED;
+    a->hit_at = INFINITY;
+}
+
+static void search(path_search *s, const ovoid_robot_path *path) {
     ovoid_error refused;
     size_t segments = path->count > 1 ? path->count - 1 : 1;
     s->answer->status = OVOID_ROBOT_FREE;
@@ -494,7 +509,8 @@ static ovoid_code check_path(ovoid_robot_checker *x, const ovoid_robot_path *pat
                      .margin = options->check.margin,
                      .tolerance = options->tolerance > 0 ? options->tolerance : 0x1p-20,
                      .states_most = options->states ? options->states : 100000};
-    run(&s, path);
+    search(&s, path);
+    settle_hit(&s, path);
     return OVOID_OK;
 }
 

@@ -115,6 +115,20 @@ double path_measure(const path_work *w, const path_pair *p, const link_frame *fr
 /// The bodies' distance or depth at their poses, of solids theirs, not their hulls'. outward: the pair's error and
 /// padding.
 ovoid_answer path_ask_exactly(const path_pair *p, const checker_pair *outward);
+
+/// A place of a path by its segment and t in it, 0 to 1: between two states that of their segment, at a state the end
+/// of the one before, which is no refused one where the path came that far.
+typedef struct path_place {
+    size_t segment;
+    const double *q0, *q1;
+    double t;
+} path_place;
+path_place path_find_place(const ovoid_robot_cell *cell, const ovoid_robot_path *path, double s);
+/// The pair at a place, as an answer tells a hit and as its check asks for it again: from the state there, the rounding
+/// of the exact path's state and the bodies alone, so that both get the same bits. The segment is that which was set.
+ovoid_robot_answer path_ask_hit(path_work *w, const path_place *place, uint32_t number, const path_state *memory);
+/// The number of a pair by its sides; NONE: there is none.
+uint32_t path_find_number(const ovoid_robot_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b);
 /// 1 where SOLID holds: the bodies at the frames are proven farther apart than the margin and their motion.
 int path_is_solid_far(const path_pair *p, double margin);
 

@@ -163,35 +163,26 @@ static ovoid_code check_steps(path_checker *x, const ovoid_robot_step *steps, si
     return code;
 }
 
-static int is_side(const ovoid_robot_side *a, const ovoid_robot_side *b) {
-    return a->link == b->link && a->element == b->element && a->body == b->body && a->part == b->part;
-}
-
-// The state at hit_at: its pair is within the margin.
+// The state at hit_at: its pair is within the margin, and the bracket that is claimed holds the one that is found
+// there.
 static ovoid_code check_hit(path_checker *x, const ovoid_robot_path_answer *answer, ovoid_error *error) {
-    double last = x->path->count > 1 ? (double)(x->path->count - 1) : 1;
+    double last = x->path->count > 1 ? (double)(x->path->count - 1) : 1, margin = x->options->check.margin;
     if (!(answer->hit_at >= answer->free_until && answer->hit_at <= last))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the hit is not after the free part, or not on the path");
-    size_t segment = (size_t)answer->hit_at;
-    if (segment > 0 && (double)segment == last) segment--;
-    ovoid_code code = set_segment(x, segment, error);
+    path_place place = path_find_place(x->w.cell, x->path, answer->hit_at);
+    ovoid_code code = set_segment(x, place.segment, error);
     if (code != OVOID_OK) return code;
-    set_interval(x, answer->hit_at - (double)segment, answer->hit_at - (double)segment);
-    const ovoid_robot_cell *c = x->w.cell;
-    size_t pairs = ovoid_robot_cell_get_pair_count(c);
-    for (uint64_t i = 0; i < pairs; i++) {
-        path_pair p = path_make_pair(&x->w, (uint32_t)i, x->states[1].frames);
-        if (!is_side(p.a, &answer->hit.a) || !is_side(p.b, &answer->hit.b) || !is_queried(x, (uint32_t)i)) continue;
-        checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
-        ovoid_answer is = path_ask_exactly(&p, &outward);
-        if (!(upper_outward(&outward, is.upper) <= x->options->check.margin)) break;
-        // The bracket that is claimed has something in common with the one found here.
-        if (answer->hit.lower <= upper_outward(&outward, is.upper) &&
-            answer->hit.upper >= lower_outward(&outward, is.lower) && answer->hit.upper <= x->options->check.margin)
-            return OVOID_OK;
-        return error_set(error, OVOID_ERROR_PROOF, -1, "the bracket of the hit is not that of its pair there");
-    }
-    return error_set(error, OVOID_ERROR_PROOF, -1, "the pair of the hit is not within the margin there");
+    uint32_t number = path_find_number(x->w.cell, &answer->hit.a, &answer->hit.b);
+    if (number == OVOID_ROBOT_NONE || !is_queried(x, number))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "the hit is of no pair that is queried");
+    x->begin = x->end = -1;
+    ovoid_robot_answer is = path_ask_hit(&x->w, &place, number, &x->states[1]);
+    if (!(is.upper <= margin))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "the pair of the hit is not within the margin there");
+    if (answer->hit.lower <= is.lower && answer->hit.upper >= is.upper && answer->hit.upper <= margin) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, -1,
+                     "the bracket of the hit, %.9g .. %.9g, does not hold what is found there, %.9g .. %.9g",
+                     answer->hit.lower, answer->hit.upper, is.lower, is.upper);
 }
 
 static ovoid_code check(path_checker *x, const ovoid_robot_path_answer *answer, const ovoid_robot_step *steps,

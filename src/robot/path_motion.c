@@ -360,6 +360,42 @@ ovoid_answer path_ask_exactly(const path_pair *p, const checker_pair *outward) {
     return solid_pair_distance(&p->pair, &p->solids, NULL, &is, pair_get_clear(outward));
 }
 
+path_place path_find_place(const ovoid_robot_cell *cell, const ovoid_robot_path *path, double s) {
+    size_t count = cell->robot->variable_count, last = path->count > 1 ? path->count - 2 : 0, segment = (size_t)s;
+    if (segment > 0 && (double)segment == s) segment--;
+    segment = segment < last ? segment : last;
+    const double *q0 = path->states + segment * count;
+    return (path_place){segment, q0, segment + 1 < path->count ? q0 + count : q0, s - (double)segment};
+}
+
+ovoid_robot_answer path_ask_hit(path_work *w, const path_place *place, uint32_t number, const path_state *memory) {
+    pair_parts of = pair_take_apart(w->cell, number);
+    path_compute_frames(w, place->q0, place->q1, place->t, memory);
+    path_set_item(w, memory, of.item, 0);
+    if (of.part == OVOID_ROBOT_NONE) path_set_item(w, memory, of.other, 0);
+    path_pair p = path_make_pair(w, number, memory->frames);
+    const checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
+    ovoid_answer is = path_ask_exactly(&p, &outward);
+    return (ovoid_robot_answer){.status = OVOID_ROBOT_HIT,
+                                .a = *p.a,
+                                .b = *p.b,
+                                .lower = lower_outward(&outward, is.lower),
+                                .upper = upper_outward(&outward, is.upper)};
+}
+
+static int is_side(const ovoid_robot_side *a, const ovoid_robot_side *b) {
+    return a->link == b->link && a->element == b->element && a->body == b->body && a->part == b->part;
+}
+
+uint32_t path_find_number(const ovoid_robot_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b) {
+    size_t count = ovoid_robot_cell_get_pair_count(cell);
+    ovoid_robot_side p, q;
+    for (size_t i = 0; i < count; i++)
+        if (ovoid_robot_cell_get_pair(cell, i, &p, &q, NULL) == OVOID_OK && is_side(&p, a) && is_side(&q, b))
+            return (uint32_t)i;
+    return OVOID_ROBOT_NONE;
+}
+
 int path_is_solid_far(const path_pair *p, double margin) {
     static const ovoid_answer none = {.lower = -INFINITY};
     double far = add_up(add_up(margin, p->padding, p->error), p->motion.moved, 0);
