@@ -169,7 +169,7 @@ int machine_read(machine *m, const char *data, const machine_files *files) {
     (void)snprintf(srdf, sizeof srdf, "%s/robots/%s", data, files->srdf ? files->srdf : "");
     (void)snprintf(archive, sizeof archive, "%s/robots/%s", data, files->problems ? files->problems : "");
     ovoid_error error;
-    ovoid_robot_read_options options = {.fixed_base = 1, .ros_package_path = "", .ament_prefix_path = ""};
+    ovoid_robot_read_options options = {.fixed_base = 1, .hull = 1, .ros_package_path = "", .ament_prefix_path = ""};
     m->file = ovoid_robot_file_read(urdf, files->srdf ? srdf : NULL, &options, &error);
     if (!m->file) {
         printf("without %s: %s\n", files->name, error.message);
@@ -355,8 +355,10 @@ static int make_boxes(robots_scene *s, machine *m) {
 }
 
 static int read_obstacles(robots_scene *s, machine *m, uint32_t index) {
+    // The peers take hulls.
+    const ovoid_robot_read_options hulls = {.hull = 1};
     ovoid_error error;
-    s->file = ovoid_obstacles_read(ovoid_problems_get(m->problems, index).scene, NULL, &error);
+    s->file = ovoid_obstacles_read(ovoid_problems_get(m->problems, index).scene, &hulls, &error);
     if (!s->file) {
         printf("%s\n", error.message);
         return 0;

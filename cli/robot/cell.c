@@ -29,7 +29,7 @@ static void tell_frames(const cli_cell *cell, const char *scene) {
 static int add_obstacles(cli_cell *cell, const cell_settings *settings) {
     ovoid_error error;
     ovoid_robot_read_options options = {.tolerance = settings->robot->tolerance,
-                                        .solids = !settings->robot->hull,
+                                        .hull = settings->robot->hull,
                                         .note = robot_warn,
                                         .context = &cell->robot};
     if (!settings->scene) return 0;
@@ -70,12 +70,12 @@ int cell_set_paddings(const cli_command *command, const cli_cell *cell, ovoid_ro
     return 0;
 }
 
-int cell_settle_solids(const cli_command *command, robot_settings *settings, const char *html) {
-    const char *other = settings->hull ? "hull" : settings->parts ? "parts" : "html";
-    if (settings->solid && (settings->hull || settings->parts || html))
-        return args_complain(command, "%s: --solid does not go with --%s", command->name, other);
-    if (html) settings->hull = 1;
-    return -1;
+int cell_has_solids(const cli_cell *cell) {
+    for (size_t i = 0; i < cell->description.element_count; i++)
+        if (cell->description.elements[i].solid) return 1;
+    for (size_t i = 0; i < cell->id_count; i++)
+        if (ovoid_obstacles_get(cell->obstacles, i).solid) return 1;
+    return 0;
 }
 
 int cell_open(const cli_command *command, const char *urdf, const cell_settings *settings, cli_cell *cell) {

@@ -43,21 +43,6 @@ typedef struct cell_settings {
             "variables may be outside their limits by S; 1e50: limits do not count (default: 0)"                       \
     }
 
-/// The rows of what meshes count as; `robot` is the member of the settings that holds them.
-#define CELL_SOLID_OPTIONS(settings)                                                                                   \
-    {"solid",                                                                                                          \
-     0,                                                                                                                \
-     OPTION_FLAG,                                                                                                      \
-     offsetof(settings, robot.solid),                                                                                  \
-     NULL,                                                                                                             \
-     NULL,                                                                                                             \
-     "a closed mesh of a link that does not fill its hull is the solid that its triangles enclose (default: its "      \
-     "hull)"},                                                                                                         \
-    {                                                                                                                  \
-        "hull", 0, OPTION_FLAG, offsetof(settings, robot.hull), NULL, NULL,                                            \
-            "such a mesh among the obstacles is its hull, as it is with --html (default: the solid)"                   \
-    }
-
 /// An obstacle by its id.
 typedef struct cell_id {
     ovoid_id id;
@@ -75,8 +60,8 @@ typedef struct cli_cell {
     ovoid_placed_obstacle *placed; ///< of each obstacle
 } cli_cell;
 
-/// Settles what meshes count as; html: the page that is asked for, which shows no solids. -1 to go on, or an exit code.
-int cell_settle_solids(const cli_command *command, robot_settings *settings, const char *html);
+/// 1: a link or an obstacle is a solid or a surface.
+int cell_has_solids(const cli_cell *cell);
 
 /// Reads the files and makes the cell. 0, or an exit code after a message, with nothing left open.
 int cell_open(const cli_command *command, const char *urdf, const cell_settings *settings, cli_cell *cell);

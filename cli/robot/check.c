@@ -39,7 +39,6 @@ static const cli_option options[] = {
     SHARD_OPTION(settings),
     PAGE_OPTION(settings),
     ROBOT_OPTIONS(settings),
-    CELL_SOLID_OPTIONS(settings),
     REPORT_OPTIONS(settings),
     {.name = NULL},
 };
@@ -339,7 +338,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &operands);
     if (code < 0) code = results_settle_part(command, &s.out, s.part);
     if (code < 0) code = page_settle(command, s.html, s.part);
-    if (code < 0) code = cell_settle_solids(command, &s.robot, s.html);
+    if (code < 0) code = robot_settle(command, &s.robot);
     if (code < 0) code = states_settle(command, &s.states);
     if (code < 0 && s.part.count && !s.states.path)
         code = args_complain(command, "%s: --shard goes with --states Q.csv", command->name);
@@ -350,6 +349,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     robot_page page;
     if (robot_page_open(&page, s.html)) return EXIT_INPUT;
     code = cell_open(command, operands.items[0], &s.cell, &cell);
+    if (!code && s.html) code = robot_page_check(command, &cell);
     if (code) return robot_page_close(&page), code;
     states.part = s.part;
     code = states_open(command, &s.states, &cell, &states);

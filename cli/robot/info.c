@@ -35,6 +35,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_operands operands;
     cli_robot robot;
     int code = command_parse(command, argc, argv, &s, &operands);
+    if (code < 0) code = robot_settle(command, &s.robot);
     if (code >= 0) return code;
     code = robot_open(command, operands.items[0], &s.robot, &robot);
     if (code) return code;

@@ -105,7 +105,9 @@ static void write_meshes(FILE *file, const cli_robot *robot) {
         fprintf(file, ",\"parts\":%zu,\"uses\":%zu", m.part_count, m.use_count);
         write_value(file, ",", "mesh_volume", m.convexity.mesh_volume);
         write_value(file, ",", "hull_volume", m.convexity.hull_volume);
-        fprintf(file, ",\"nonconvex\":%s}", m.convexity.kind != OVOID_MESH_HULL ? "true" : "false");
+        fprintf(file, ",\"kind\":\"%s\"", ovoid_mesh_kind_get_name(m.kind));
+        if (m.allowance > 0) write_value(file, ",", "allowance", m.allowance);
+        fputc('}', file);
     }
     fputc(']', file);
 }

@@ -104,17 +104,18 @@ static void write_scale(FILE *file, ovoid_vec3 s) {
 static void write_meshes(FILE *file, const cli_robot *robot) {
     size_t count = ovoid_robot_file_get_mesh_count(robot->file);
     if (!count) return;
-    fprintf(file, "\n%5s %5s  %7s  mesh\n", "parts", "uses", "of hull");
+    fprintf(file, "\n%5s %5s  %-7s  %7s  mesh\n", "parts", "uses", "as", "of hull");
     for (size_t i = 0; i < count; i++) {
         ovoid_robot_mesh m = ovoid_robot_file_get_mesh(robot->file, i);
         double share = 100 * m.convexity.mesh_volume / m.convexity.hull_volume;
-        fprintf(file, "%5zu %5zu  ", m.part_count, m.use_count);
+        fprintf(file, "%5zu %5zu  %-7s  ", m.part_count, m.use_count, ovoid_mesh_kind_get_name(m.kind));
         if (isfinite(share))
             fprintf(file, "%5.1f %%  ", share);
         else
             fprintf(file, "%7s  ", "open");
         message_write_text(file, m.address);
         write_scale(file, m.scale);
+        if (m.allowance > 0) fprintf(file, ", to %.2g m", m.allowance);
         fputc('\n', file);
     }
 }

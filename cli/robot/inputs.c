@@ -85,7 +85,7 @@ static int read_file(const char *urdf, const robot_settings *s, const package_li
     ovoid_robot_read_options options = {.packages = packages->items,
                                         .package_count = (size_t)packages->count,
                                         .parts = s->parts,
-                                        .solids = s->solid,
+                                        .hull = s->hull,
                                         .scales = scales->items,
                                         .scale_count = scales->count,
                                         .visual = s->visual,
@@ -107,17 +107,12 @@ static int read_file(const char *urdf, const robot_settings *s, const package_li
     return EXIT_INPUT;
 }
 
-/// Warns of the meshes that do not fill their hulls.
-static void warn_nonconvex(const cli_robot *robot, int parts) {
+/// Warns of objects that are not convex and were asked to count as convex parts.
+static void warn_parts(const cli_robot *robot) {
     for (size_t i = 0; i < ovoid_robot_file_get_mesh_count(robot->file); i++) {
         ovoid_robot_mesh m = ovoid_robot_file_get_mesh(robot->file, i);
-        if (m.convexity.kind == OVOID_MESH_HULL || m.is_solid) continue;
-        double share = m.convexity.mesh_volume / m.convexity.hull_volume;
-        message_warning(
-            "the mesh %s is not convex and counts as its hull%s, which adds %.3g m3 (%.3g %%); decompose it "
-            "(ovoid decompose)%s",
-            m.address, m.part_count > 1 ? "s" : "", m.convexity.hull_volume - m.convexity.mesh_volume,
-            100 * (1 - share), parts ? "" : ", then --parts");
+        if (m.convexity.kind == OVOID_MESH_HULL || m.kind != OVOID_MESH_PARTS) continue;
+        message_warning("the mesh %s has objects that are not convex and count as their hulls (--parts)", m.address);
     }
 }
 
@@ -132,9 +127,14 @@ int robot_open_beside(const cli_command *command, const char *urdf, const robot_
     return code;
 }
 
+int robot_settle(const cli_command *command, const robot_settings *settings) {
+    if (!settings->hull || !settings->parts) return -1;
+    return args_complain(command, "%s: --hull does not go with --parts", command->name);
+}
+
 int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
     int code = robot_open_beside(command, urdf, settings, robot);
-    if (!code) warn_nonconvex(robot, settings->parts);
+    if (!code) warn_parts(robot);
     return code;
 }
 

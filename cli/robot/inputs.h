@@ -12,7 +12,7 @@ typedef struct robot_settings {
     args_list packages; ///< NAME=DIR
     args_list scales;   ///< LINK=F or F
     int parts, visual, fixed_base;
-    int solid, hull;  ///< solid: links too are solids; hull: obstacles are none
+    int hull;         ///< meshes are their hulls, of links and obstacles
     double tolerance; ///< of cylinders; 0: radius/200
 } robot_settings;
 
@@ -47,7 +47,15 @@ typedef struct robot_settings {
          offsetof(settings, robot.parts),                                                                              \
          NULL,                                                                                                         \
          NULL,                                                                                                         \
-         "each object of a mesh file is a convex part, where else the mesh counts as its hull"},                       \
+         "each object of a mesh file is a convex part"},                                                               \
+        {"hull",                                                                                                       \
+         0,                                                                                                            \
+         OPTION_FLAG,                                                                                                  \
+         offsetof(settings, robot.hull),                                                                               \
+         NULL,                                                                                                         \
+         NULL,                                                                                                         \
+         "meshes count as their convex hulls (default: as what they are, a solid or, where they are not closed, a "    \
+         "surface)"},                                                                                                  \
         {"visual",                                                                                                     \
          0,                                                                                                            \
          OPTION_FLAG,                                                                                                  \
@@ -75,9 +83,12 @@ typedef struct cli_robot {
     size_t note_count; ///< how many notes there were
 } cli_robot;
 
+/// Settles what meshes count as. -1 to go on, or an exit code after a message.
+int robot_settle(const cli_command *command, const robot_settings *settings);
+
 /// Reads a robot; notes are warnings. 0, or an exit code after a message, with nothing left open.
 int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot);
-/// The same without the warnings of meshes that are not convex: of a file beside the robot.
+/// The same without the warnings of objects that are not convex: of a file beside the robot.
 int robot_open_beside(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot);
 void robot_close(cli_robot *robot);
 

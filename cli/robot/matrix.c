@@ -63,6 +63,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &operands);
     if (code < 0 && s.pictures && !s.robot.srdf)
         code = args_complain(command, "%s: --pictures are of pairs that --srdf FILE disables", command->name);
+    if (code < 0) code = robot_settle(command, &s.robot);
     if (code >= 0) return code;
     code = robot_open(command, operands.items[0], &s.robot, &robot);
     if (code) return code;

@@ -216,6 +216,16 @@ static int write_answers(robot_page *p, const robot_page_source *s) {
     return code;
 }
 
+int robot_page_check(const cli_command *command, cli_cell *cell) {
+    if (!cell_has_solids(cell)) return 0;
+    cell_close(cell);
+    return args_complain(
+        command,
+        "%s: --html draws hulls and asks about them, and there are meshes that are none: add --hull to "
+        "ask about hulls",
+        command->name);
+}
+
 int robot_page_write(robot_page *p, const robot_page_source *s) {
     const page_head head = {s->urdf, NULL, "m", s->settings->margin > 0 ? s->settings->margin : -1};
     page_shapes shapes = {.items = NULL};

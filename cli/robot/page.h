@@ -14,6 +14,10 @@ typedef struct robot_page {
     size_t size, count;
 } robot_page;
 
+/// A page draws hulls and asks about them: 0, or, after a message and with the cell closed, an exit code where a body
+/// is none.
+int robot_page_check(const cli_command *command, cli_cell *cell);
+
 /// Opens a page; path NULL: none is wanted, and nothing is done below. 0, or EXIT_INPUT after a message.
 int robot_page_open(robot_page *page, const char *path);
 

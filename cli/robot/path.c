@@ -48,7 +48,6 @@ static const cli_option options[] = {
     {"max-states", 0, OPTION_COUNT, offsetof(settings, most), "N", NULL,
      "give up after looking at N states (default: 100000)"},
     ROBOT_OPTIONS(settings),
-    CELL_SOLID_OPTIONS(settings),
     REPORT_OPTIONS(settings),
     {.name = NULL},
 };
@@ -259,12 +258,13 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &operands);
     if (code < 0) code = settle(command, &s);
     if (code < 0) code = page_settle(command, s.html, (shard_part){0, 0});
-    if (code < 0) code = cell_settle_solids(command, &s.robot, s.html);
+    if (code < 0) code = robot_settle(command, &s.robot);
     if (code >= 0) return code;
     s.cell.robot = &s.robot;
     path_run run = {.urdf = operands.items[0]};
     if (robot_page_open(&run.page, s.html)) return EXIT_INPUT;
     code = cell_open(command, operands.items[0], &s.cell, &cell);
+    if (!code && s.html) code = robot_page_check(command, &cell);
     if (code) return robot_page_close(&run.page), code;
     code = states_open(command, &s.states, &cell, &states);
     int is_too_fast = 0;

@@ -81,8 +81,7 @@ static int open_cell(verify *v, const ovoid_robot_proof_source *source) {
     v->robot = (robot_settings){.srdf = s->srdf ? s->srdf : source->srdf,
                                 .packages = s->packages,
                                 .parts = source->parts,
-                                .solid = source->has_solid_links,
-                                .hull = !source->has_solid_obstacles,
+                                .hull = source->hull,
                                 .visual = source->visual,
                                 .fixed_base = source->fixed_base,
                                 .tolerance = source->tolerance};

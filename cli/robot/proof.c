@@ -121,16 +121,6 @@ static void write_flag(FILE *file, const char *key, int is_set) {
     fprintf(file, ",\"%s\":%s", key, is_set ? "true" : "false");
 }
 
-/// What was read as solids, where there are any.
-static void write_solids(FILE *file, const proof_source *source) {
-    const cli_cell *cell = source->opened;
-    int has_solids = 0;
-    for (size_t i = 0; i < cell->description.element_count; i++)
-        has_solids |= cell->description.elements[i].solid != NULL;
-    for (size_t i = 0; i < cell->id_count; i++) has_solids |= ovoid_obstacles_get(cell->obstacles, i).solid != NULL;
-    if (has_solids) fprintf(file, ",\"solids\":\"%s\"", source->cell->robot->solid ? "all" : "obstacles");
-}
-
 static void write_value(FILE *file, const char *key, double number) {
     fprintf(file, ",\"%s\":", key);
     json_write_number(file, number);
@@ -155,7 +145,7 @@ void proof_write_source(FILE *file, const proof_source *source) {
     const cell_settings *s = source->cell;
     const cli_cell *cell = source->opened;
     size_t variables = ovoid_robot_get_variable_count(cell->robot.robot);
-    fputs("{\"path_proofs\":1", file);
+    fputs("{\"path_proofs\":2", file);
     write_path(file, "robot", source->urdf);
     write_path(file, "srdf", s->robot->srdf);
     write_path(file, "scene", s->scene);
@@ -163,7 +153,7 @@ void proof_write_source(FILE *file, const proof_source *source) {
     write_list(file, "scales", &s->robot->scales);
     write_list(file, "paddings", &s->paddings);
     write_flag(file, "parts", s->robot->parts);
-    write_solids(file, source);
+    write_flag(file, "hull", s->robot->hull);
     write_flag(file, "visual", s->robot->visual);
     write_flag(file, "fixed_base", s->robot->fixed_base);
     write_value(file, "cylinder_tolerance", s->robot->tolerance);

@@ -96,6 +96,7 @@ int spheres_read(const cli_command *command, const cli_cell *cell, const robot_s
         robot_settings s = *settings;
         s.srdf = is_srdf ? given : NULL;
         s.visual = 0;
+        s.hull = 1;
         s.scales.count = 0; // spheres are taken as they are
         int code = robot_open_beside(command, is_srdf ? urdf : given, &s, &beside);
         if (code) return code;

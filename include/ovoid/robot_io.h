@@ -54,8 +54,9 @@ typedef struct ovoid_robot_read_options {
     const ovoid_robot_link_scale *scales; /**< NULL: every factor is 1; a link comes once at most */
     size_t scale_count;
     const ovoid_shape_options *shape; /**< of all shapes; their radius must be 0; NULL: the default */
-    int solids; /**< 1: a closed mesh that does not fill its hull counts as the solid of its triangles, unless its
-                     objects are parts; 0: as its hull */
+    int hull; /**< 0: a mesh counts as what it is (ovoid_triangles_match_hull): its hull, exactly or with an allowance that
+                   keeps brackets true of it; the solid that its triangles enclose; or, where they are not closed, their
+                   surface, of which a note tells. 1: as its hull. Without effect on `parts` */
     void (*note)(void *context, const ovoid_robot_note *note); /**< NULL: notes are dropped */
     void *context;
 } ovoid_robot_read_options;
@@ -93,7 +94,8 @@ typedef struct ovoid_robot_mesh {
     size_t use_count;    /**< collision elements that share them */
     ovoid_convexity
         convexity; /**< summed over the parts; is_nonconvex: of any; mesh_volume NaN where one is not known */
-    int is_solid;  /**< 1: it counts as the solid of its triangles, with options->solids */
+    ovoid_mesh_kind kind; /**< as which it counts: HULL, PARTS, SOLID or SURFACE */
+    double allowance;     /**< of HULL: the `inside` of the shape's allowance, 0 where the mesh is the hull exactly */
 } ovoid_robot_mesh;
 
 /** How many meshes there are. */
@@ -166,16 +168,16 @@ typedef struct ovoid_obstacle {
     const char *name;
     const ovoid_shape *shape; /**< of a solid its hull */
     ovoid_pose pose; /**< of an object with a pose and parts with poses: ovoid_pose_compute_product, by definition */
-    const ovoid_solid *solid; /**< with options->solids: what counts in the place of the hull; NULL: the shape does */
+    const ovoid_solid *solid; /**< a solid or a surface, which counts in the place of the hull; NULL: the shape does */
     const char *frame;        /**< in which the pose is: a link or a fixed frame of the scene; NULL: the root link's */
     const char *link;         /**< the link that holds it; NULL: it stands in the world */
 } ovoid_obstacle;
 
 /**
- * Reads a scene: MoveIt's planning scene (.yaml, .yml) or ovoid's own (.json: ovoid_scene_read). Meshes count as their
- * hulls, or with options->solids as scenes have it; a scene that asks for a solid is refused without. Equal primitives
+ * Reads a scene: MoveIt's planning scene (.yaml, .yml) or ovoid's own (.json: ovoid_scene_read). Meshes count as
+ * what they are, or with options->hull as their hulls; a scene that asks for a solid is refused then. Equal primitives
  * share a shape. docs/robot.md says what each key of a planning scene means, and which mean nothing; any other key, and
- * what cannot be obeyed (octomaps, planes, scaled links), is refused with its line. options: tolerance, shape, solids,
+ * what cannot be obeyed (octomaps, planes, scaled links), is refused with its line. options: tolerance, shape, hull,
  * note. Errors as those of ovoid_robot_file_read.
  */
 OVOID_API ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_options *options,

@@ -64,7 +64,7 @@ class robot_file : public detail::owner<detail::pointer<ovoid_robot_file>, ovoid
     }
 };
 
-/** Convex obstacles of a scene, owned. */
+/** Obstacles of a scene, owned. */
 class obstacles : public detail::owner<detail::pointer<ovoid_obstacles>, ovoid_obstacles, ovoid_obstacles_destroy> {
   public:
     using owner::owner;
@@ -77,20 +77,13 @@ class obstacles : public detail::owner<detail::pointer<ovoid_obstacles>, ovoid_o
     std::size_t size() const noexcept { return ovoid_obstacles_get_count(get()); }
     /** Obstacle i < size. */
     ovoid_obstacle operator[](std::size_t i) const noexcept { return ovoid_obstacles_get(get(), i); }
-    /** Adds all of them to a cell, which borrows their shapes and solids; their ids, in order. Throws as
-     * robot_cell::add does. */
-    std::vector<id> add_to(robot_cell &cell) const {
-        std::vector<id> ids;
-        for (std::size_t i = 0; i < size(); i++) {
-            const ovoid_obstacle o = (*this)[i];
-            ovoid_body b = {};
-            b.shape = o.solid ? nullptr : o.shape, b.solid = o.solid, b.pose = o.pose;
-            ovoid_error e;
-            const id made = ovoid_robot_cell_add(cell.get(), &b, &e);
-            if (made == 0) detail::fail(e);
-            ids.push_back(made);
-        }
-        return ids;
+    /** Puts the scene around the robot of a cell, which borrows the obstacles: where each came to be, in order. Throws
+     * as ovoid_robot_cell_add_obstacles fails. */
+    std::vector<ovoid_placed_obstacle> add_to(robot_cell &cell) const {
+        std::vector<ovoid_placed_obstacle> placed(size());
+        ovoid_error e;
+        if (ovoid_robot_cell_add_obstacles(cell.get(), get(), placed.data(), &e) != OVOID_OK) detail::fail(e);
+        return placed;
     }
 };
 

@@ -28,7 +28,7 @@ typedef struct ovoid_robot_proof_source {
     size_t package_count;
     const char *const *scales, *const *paddings; /**< LINK=X, or X: of all links that have no other */
     size_t scale_count, padding_count;
-    int parts, visual, fixed_base; /**< as in ovoid_robot_read_options */
+    int parts, hull, visual, fixed_base; /**< as in ovoid_robot_read_options */
     double tolerance;              /**< of cylinders, likewise */
     double margin, limit_slack;    /**< as in ovoid_robot_check_options */
     size_t path_count;             /**< paths that follow */
@@ -37,7 +37,6 @@ typedef struct ovoid_robot_proof_source {
     size_t variable_count;
     const ovoid_robot_proof_side *pairs; /**< the sides of pair i are 2 i and 2 i + 1 */
     size_t pair_count;
-    int has_solid_links, has_solid_obstacles; /**< 1: read with ovoid_robot_read_options.solids */
 } ovoid_robot_proof_source;
 
 /** A path, what is said of it, and the steps that are to prove that. Views, valid until the next call. */

@@ -54,8 +54,8 @@ solid from its nearest part; enlarge_parts by its upper end covers. excess: the 
 the solid, excess_of_parts no less than each part's own. The points show the lower ends; uncovered_part is one of the nearest,
 excess_part has the point. cells: looked at."""
 
-Obstacle = namedtuple("Obstacle", "name shape pose")
-Obstacle.__doc__ = """A convex obstacle of a scene."""
+Obstacle = namedtuple("Obstacle", "name shape pose solid frame link")
+Obstacle.__doc__ = """An obstacle of a scene: a solid counts in the place of the shape; the link that holds it, or None."""
 
 MotionRequest = namedtuple("MotionRequest", "group start goals")
 MotionRequest.__doc__ = """A planning request: the group's name, and joints' numbers by their names at the start and at each goal."""

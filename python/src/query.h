@@ -21,7 +21,11 @@ typedef struct query_input {
 
 typedef struct solid_object {
     PyObject_HEAD ovoid_solid *solid;
+    PyObject *owner; ///< that the solid belongs to; NULL: this object
 } solid_object;
+
+/// A Solid of a file that the owner keeps.
+PyObject *solid_borrow(module_state *state, const ovoid_solid *solid, PyObject *owner);
 
 // ---- solid_answer.c
 

@@ -24,10 +24,11 @@ PyObject *side_make(module_state *state, const ovoid_robot_side *side) {
 
 PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answer) {
     int is_refused = answer->status == OVOID_ROBOT_REFUSED;
-    int has_pair = answer->status == OVOID_ROBOT_HIT || answer->status == OVOID_ROBOT_UNDECIDED;
+    int is_empty = answer->status == OVOID_ROBOT_UNDECIDED && answer->code == OVOID_ERROR_EMPTY;
+    int has_pair = answer->status == OVOID_ROBOT_HIT || (answer->status == OVOID_ROBOT_UNDECIDED && !is_empty);
     PyObject *a = has_pair ? side_make(state, &answer->a) : Py_NewRef(Py_None);
     PyObject *b = has_pair ? side_make(state, &answer->b) : Py_NewRef(Py_None);
-    PyObject *code = is_refused ? enum_get(state, ENUM_CODE, answer->code) : Py_NewRef(Py_None);
+    PyObject *code = is_refused || is_empty ? enum_get(state, ENUM_CODE, answer->code) : Py_NewRef(Py_None);
     PyObject *variable = is_refused ? PyLong_FromUnsignedLong(answer->variable) : Py_NewRef(Py_None);
     return PyObject_CallFunction(state->state_answer, "NNNddNN", enum_get(state, ENUM_ROBOT_STATUS, answer->status), a,
                                  b, has_pair ? answer->lower : NAN, has_pair ? answer->upper : NAN, code, variable);

@@ -1,5 +1,6 @@
 // Robots, scenes of obstacles and planning problems from files. Notes of the readers become warnings.
 #ifdef OVOID_PYTHON_ROBOT_READ
+#include "src/query.h"
 #include "src/robot.h"
 
 #include <ovoid/robot_io.h>
@@ -54,6 +55,8 @@ typedef struct read_input {
     PyObject *urdf, *srdf;      ///< bytes
     PyObject *packages, *names; ///< a dict, and a list of what the packages' texts belong to
     ovoid_robot_package *list;
+    PyObject *scales; ///< a dict of factors by the links' names; None: of all others
+    ovoid_robot_link_scale *factors;
     ovoid_robot_read_options o;
     notes notes;
 } read_input;
@@ -63,6 +66,7 @@ static void free_input(read_input *in) {
     Py_XDECREF(in->srdf);
     Py_XDECREF(in->names);
     free(in->list);
+    free(in->factors);
 }
 
 // The bytes of a path or a name, which the list keeps.
@@ -101,6 +105,34 @@ static int read_packages(read_input *in) {
     if (count < 0) return -1;
     in->o.packages = in->list;
     in->o.package_count = (size_t)count;
+    return 0;
+}
+
+static int read_scales(read_input *in) {
+    if (!in->scales || in->scales == Py_None) return 0;
+    if (!PyDict_Check(in->scales)) {
+        PyErr_SetString(PyExc_TypeError, "scales: a dict of factors by the links' names is wanted; None: all others");
+        return -1;
+    }
+    in->factors = calloc((size_t)PyDict_Size(in->scales) + 1, sizeof *in->factors);
+    if (!in->factors) {
+        PyErr_NoMemory();
+        return -1;
+    }
+    PyObject *key, *value;
+    Py_ssize_t at = 0;
+    while (PyDict_Next(in->scales, &at, &key, &value)) {
+        ovoid_robot_link_scale *to = &in->factors[in->o.scale_count];
+        to->link = key == Py_None ? NULL : keep_path(in->names, key);
+        to->factor = PyFloat_AsDouble(value);
+        if ((key != Py_None && !to->link) || PyErr_Occurred()) return -1;
+        if (!(to->factor > 0 && to->factor < INFINITY)) {
+            PyErr_SetString(PyExc_ValueError, "scales: a factor is a number above 0");
+            return -1;
+        }
+        in->o.scale_count++;
+    }
+    in->o.scales = in->factors;
     return 0;
 }
 
@@ -145,10 +177,10 @@ static PyObject *make_named_state(const ovoid_robot_file *file, const ovoid_robo
 static PyObject *make_mesh(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
     (void)d;
     ovoid_robot_mesh m = ovoid_robot_file_get_mesh(file, i);
-    return Py_BuildValue("{s:s,s:s,s:N,s:n,s:n,s:d,s:d,s:O}", "path", m.path, "address", m.address, "scale",
+    return Py_BuildValue("{s:s,s:s,s:N,s:n,s:n,s:d,s:d,s:s,s:d}", "path", m.path, "address", m.address, "scale",
                          vec3_make(m.scale), "parts", (Py_ssize_t)m.part_count, "uses", (Py_ssize_t)m.use_count,
-                         "mesh_volume", m.convexity.mesh_volume, "hull_volume", m.convexity.hull_volume, "is_convex",
-                         m.convexity.kind != OVOID_MESH_HULL ? Py_False : Py_True);
+                         "mesh_volume", m.convexity.mesh_volume, "hull_volume", m.convexity.hull_volume, "kind",
+                         ovoid_mesh_kind_get_name(m.kind), "allowance", m.allowance);
 }
 
 static PyObject *make_sphere(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
@@ -229,17 +261,20 @@ static PyObject *make_robot(PyTypeObject *type, ovoid_robot_file *file) {
 // ---- Robot.load
 
 static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"urdf", "srdf", "packages", "parts", "visual", "fixed_base", "tolerance", NULL};
+    static char *names[] = {"urdf",   "srdf",   "packages",   "parts",     "visual",
+                            "solids", "scales", "fixed_base", "tolerance", NULL};
+    int solids = 1;
     PyObject *srdf = Py_None;
     read_input in = {.urdf = NULL};
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|O$Opppd:load", names, PyUnicode_FSConverter, &in.urdf,
-                                     &srdf, &in.packages, &in.o.parts, &in.o.visual, &in.o.fixed_base,
-                                     &in.o.tolerance) ||
-        (srdf != Py_None && !PyUnicode_FSConverter(srdf, &in.srdf)) || read_packages(&in)) {
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|O$OpppOpd:load", names, PyUnicode_FSConverter, &in.urdf,
+                                     &srdf, &in.packages, &in.o.parts, &in.o.visual, &solids, &in.scales,
+                                     &in.o.fixed_base, &in.o.tolerance) ||
+        (srdf != Py_None && !PyUnicode_FSConverter(srdf, &in.srdf)) || read_packages(&in) || read_scales(&in)) {
         free_input(&in);
         return NULL;
     }
+    in.o.hull = !solids;
     in.o.note = gather;
     in.o.context = &in.notes;
     const char *first = PyBytes_AsString(in.urdf), *second = in.srdf ? PyBytes_AsString(in.srdf) : NULL;
@@ -258,62 +293,72 @@ static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
 
 PyMethodDef robot_constructors[] = {
     {"load", METHOD_KEYWORDS(load), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "load(urdf, srdf=None, *, packages=None, parts=False, visual=False, fixed_base=False, tolerance=0)\n--\n\nFrom a "
-     "URDF with its meshes, perhaps with an SRDF; metres. packages: {name: folder} of package:// addresses. parts: a\n"
-     "mesh counts as the hulls of its objects, not as its hull. visual: links without collision geometry take their "
-     "visual\none. fixed_base: the SRDF's virtual joint adds nothing. tolerance: of cylinders. What should be known is "
-     "a UserWarning."},
+     "load(urdf, srdf=None, *, packages=None, parts=False, visual=False, solids=True, scales=None, fixed_base=False, "
+     "tolerance=0)\n--\n\nFrom a URDF with its meshes, perhaps with an SRDF; metres. packages: {name: folder} of "
+     "package:// addresses. solids: a\nmesh counts as what it is, its hull, the solid that its triangles enclose, or, "
+     "where they are not closed, their surface;\nFalse: as its hull. parts: as the hulls of its objects. visual: links "
+     "without collision geometry take their visual one.\nscales: {link: factor} of the sizes of links, None: of all "
+     "others. fixed_base: the SRDF's virtual joint adds nothing.\ntolerance: of cylinders. What should be known is a "
+     "UserWarning."},
     {NULL, NULL, 0, NULL}};
 
 // ---- scenes
 
-// The obstacles of a file as a list of (name, Shape, Pose); the owner keeps the shapes.
-static PyObject *make_obstacles(module_state *state, ovoid_obstacles *obstacles) {
-    PyObject *owner = PyCapsule_New(obstacles, "obstacles", destroy_obstacles);
-    if (!owner) {
-        ovoid_obstacles_destroy(obstacles);
-        return NULL;
-    }
+static PyObject *make_solid(module_state *state, const ovoid_solid *solid, PyObject *owner) {
+    return solid ? solid_borrow(state, solid, owner) : Py_NewRef(Py_None);
+}
+
+static PyObject *make_text(const char *text) { return text ? robot_name_make(text) : Py_NewRef(Py_None); }
+
+// The obstacles of a file as a list of tuples; the owner keeps the shapes.
+static PyObject *make_obstacles(module_state *state, const ovoid_obstacles *obstacles, PyObject *owner) {
     size_t count = ovoid_obstacles_get_count(obstacles);
     PyObject *list = PyList_New(0);
     for (size_t i = 0; list && i < count; i++) {
         ovoid_obstacle o = ovoid_obstacles_get(obstacles, i);
-        PyObject *one = PyObject_CallFunction(state->obstacle, "sNN", o.name, shape_borrow(state, o.shape, owner),
-                                              pose_wrap(state, o.pose));
+        PyObject *solid = make_solid(state, o.solid, owner);
+        PyObject *one =
+            solid ? PyObject_CallFunction(state->obstacle, "sNNNNN", o.name, shape_borrow(state, o.shape, owner),
+                                          pose_wrap(state, o.pose), solid, make_text(o.frame), make_text(o.link))
+                  : NULL;
         if (!one || PyList_Append(list, one)) Py_CLEAR(list);
         Py_XDECREF(one);
     }
-    Py_DECREF(owner);
     return list;
 }
 
-static PyObject *read_obstacles(module_state *state, PyObject *path, double tolerance) {
+// Reads a scene; the capsule owns it.
+static PyObject *read_scene(module_state *state, PyObject *path, double tolerance, int solids) {
     notes told = {NULL, 0, 0};
-    ovoid_robot_read_options o = {.tolerance = tolerance, .note = gather, .context = &told};
+    ovoid_robot_read_options o = {.tolerance = tolerance, .hull = !solids, .note = gather, .context = &told};
     ovoid_error error;
     ovoid_obstacles *obstacles;
     const char *text = PyBytes_AsString(path);
     Py_BEGIN_ALLOW_THREADS;
     obstacles = ovoid_obstacles_read(text, &o, &error);
     Py_END_ALLOW_THREADS;
-    if (tell(&told)) {
-        ovoid_obstacles_destroy(obstacles);
-        return NULL;
-    }
-    return obstacles ? make_obstacles(state, obstacles) : raise_error(state, &error);
+    int failed = tell(&told);
+    if (!failed && !obstacles) return raise_error(state, &error);
+    PyObject *owner = failed ? NULL : PyCapsule_New(obstacles, "obstacles", destroy_obstacles);
+    if (!owner) ovoid_obstacles_destroy(obstacles);
+    return owner;
 }
 
 static PyObject *load_obstacles(PyObject *module, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"path", "tolerance", NULL};
-    PyObject *path = NULL;
+    static char *names[] = {"path", "tolerance", "solids", NULL};
+    PyObject *path = NULL, *list = NULL;
     double tolerance = 0;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d:load_obstacles", names, PyUnicode_FSConverter, &path,
-                                     &tolerance)) {
+    int solids = 1;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d$p:load_obstacles", names, PyUnicode_FSConverter, &path,
+                                     &tolerance, &solids)) {
         Py_XDECREF(path);
         return NULL;
     }
-    PyObject *list = read_obstacles(state_of_module(module), path, tolerance);
+    module_state *state = state_of_module(module);
+    PyObject *owner = read_scene(state, path, tolerance, solids);
     Py_DECREF(path);
+    if (owner) list = make_obstacles(state, PyCapsule_GetPointer(owner, "obstacles"), owner);
+    Py_XDECREF(owner);
     return list;
 }
 
@@ -378,9 +423,11 @@ static PyObject *find_problems(PyObject *module, PyObject *given) {
 
 PyMethodDef robot_file_functions[] = {
     {"load_obstacles", METHOD_KEYWORDS(load_obstacles), METH_VARARGS | METH_KEYWORDS,
-     "load_obstacles(path, tolerance=0)\n--\n\nThe convex obstacles of a scene, MoveIt's YAML or ovoid's JSON: "
-     "Obstacle "
-     "tuples (name, shape, pose). tolerance: of\ncylinders and cones, a length."},
+     "load_obstacles(path, tolerance=0, *, solids=True)\n--\n\nThe obstacles of a scene, MoveIt's YAML or ovoid's "
+     "JSON: "
+     "Obstacle tuples (name, shape, pose, solid, frame, link). A solid\ncounts in the place of the shape, which is its "
+     "hull. frame: the link or fixed frame in which the pose is, None: the root's.\nlink: the link that holds it, or "
+     "None. tolerance: of cylinders and cones, a length. solids=False: meshes are their hulls."},
     {"load_motion_request", load_motion_request, METH_O,
      "load_motion_request(path, /)\n--\n\nA motion planning request of MoveIt (YAML): a MotionRequest (group, start, "
      "goals), states as dicts of joints."},
@@ -391,48 +438,84 @@ PyMethodDef robot_file_functions[] = {
 
 // ---- Cell.load
 
-static PyObject *add_obstacles(cell_object *self, PyObject *obstacles) {
+// Links' paddings by their names; None: of all links without one of their own.
+static int set_paddings(cell_object *self, PyObject *paddings) {
+    PyObject *key, *value;
+    Py_ssize_t at = 0;
+    ovoid_error error;
+    size_t links = ovoid_robot_get_description(self->robot->robot).link_count;
+    if (!paddings || paddings == Py_None) return 0;
+    if (!PyDict_Check(paddings)) {
+        PyErr_SetString(PyExc_TypeError, "paddings: a dict of lengths by the links' names is wanted; None: all others");
+        return -1;
+    }
+    for (int pass = 0; pass < 2; pass++)
+        for (at = 0; PyDict_Next(paddings, &at, &key, &value);) {
+            uint32_t link = 0;
+            double padding = PyFloat_AsDouble(value);
+            if (PyErr_Occurred()) return -1;
+            if ((key == Py_None) == pass) continue;
+            if (key != Py_None && link_read(self->robot, key, &link)) return -1;
+            for (size_t end = key == Py_None ? links : link + 1; link < end; link++)
+                if (ovoid_robot_cell_set_padding(self->cell, link, padding, &error) != OVOID_OK)
+                    return raise_error(state_of((PyObject *)self), &error), -1;
+        }
+    return 0;
+}
+
+// Puts the scene around the robot, and keeps it with each of its bodies.
+static PyObject *add_obstacles(cell_object *self, PyObject *owner) {
     module_state *state = state_of((PyObject *)self);
-    PyObject *list = PyList_New(0);
-    for (Py_ssize_t i = 0; list && i < PyList_Size(obstacles); i++) {
-        PyObject *obstacle = PyList_GetItem(obstacles, i), *shape = PyTuple_GetItem(obstacle, 1);
-        ovoid_body body = {.shape = ((shape_object *)shape)->shape,
-                           .pose = ((pose_object *)PyTuple_GetItem(obstacle, 2))->pose};
-        ovoid_error error;
-        ovoid_id id = ovoid_robot_cell_add(self->cell, &body, &error);
-        if (!id) raise_error(state, &error);
-        PyObject *one = id && !cell_keep(self, id, shape)
-                            ? Py_BuildValue("(OK)", PyTuple_GetItem(obstacle, 0), (unsigned long long)id)
+    const ovoid_obstacles *obstacles = PyCapsule_GetPointer(owner, "obstacles");
+    size_t count = ovoid_obstacles_get_count(obstacles);
+    ovoid_placed_obstacle *placed = malloc((count + 1) * sizeof *placed);
+    ovoid_error error;
+    if (!placed) return PyErr_NoMemory();
+    ovoid_code code = ovoid_robot_cell_add_obstacles(self->cell, obstacles, placed, &error);
+    self->version++;
+    PyObject *list = code == OVOID_OK ? PyList_New(0) : raise_error(state, &error);
+    for (size_t i = 0; list && i < count; i++) {
+        ovoid_obstacle o = ovoid_obstacles_get(obstacles, i);
+        PyObject *body = o.solid ? solid_borrow(state, o.solid, owner) : shape_borrow(state, o.shape, owner);
+        PyObject *one = body && !cell_keep(self, placed[i].id, body)
+                            ? Py_BuildValue("(sK)", o.name, (unsigned long long)placed[i].id)
                             : NULL;
         if (!one || PyList_Append(list, one)) Py_CLEAR(list);
         Py_XDECREF(one);
+        Py_XDECREF(body);
     }
+    free(placed);
     return list;
 }
 
 static PyObject *load_into(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"path", "tolerance", NULL};
+    static char *names[] = {"path", "tolerance", "solids", "paddings", NULL};
     cell_object *self = (cell_object *)object;
-    PyObject *path = NULL, *made = NULL;
+    PyObject *path = NULL, *paddings = NULL, *made = NULL;
     double tolerance = 0;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d:load", names, PyUnicode_FSConverter, &path,
-                                     &tolerance)) {
+    int solids = 1;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d$pO:load", names, PyUnicode_FSConverter, &path,
+                                     &tolerance, &solids, &paddings)) {
         Py_XDECREF(path);
         return NULL;
     }
-    PyObject *obstacles = read_obstacles(state_of(object), path, tolerance);
+    PyObject *owner = read_scene(state_of(object), path, tolerance, solids);
     Py_DECREF(path);
-    if (obstacles && self->readers)
+    if (owner && self->readers)
         PyErr_SetString(PyExc_RuntimeError, "another thread is querying this cell");
-    else if (obstacles)
-        made = add_obstacles(self, obstacles);
-    Py_XDECREF(obstacles);
+    else if (owner)
+        made = add_obstacles(self, owner);
+    // Those that are given count before those of the scene.
+    if (made && set_paddings(self, paddings)) Py_CLEAR(made);
+    Py_XDECREF(owner);
     return made;
 }
 
 PyMethodDef cell_scenes[] = {
     {"load", METHOD_KEYWORDS(load_into), METH_VARARGS | METH_KEYWORDS,
-     "load(path, tolerance=0)\n--\n\nAdds the obstacles of a scene, as load_obstacles reads it: a list of (name, id)."},
+     "load(path, tolerance=0, *, solids=True, paddings=None)\n--\n\nPuts a scene around the robot, as load_obstacles "
+     "reads it: obstacles, what links hold, paddings and allowed collisions. A\nlist of (name, id). paddings: {link: "
+     "length}, None: of all other links; they count before those of the scene."},
     {NULL, NULL, 0, NULL}};
 #else
 typedef int nothing_to_read; // ISO C wants a declaration

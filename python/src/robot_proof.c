@@ -22,14 +22,15 @@ static PyObject *make_texts(const char *const *texts, size_t count) {
 }
 
 static PyObject *make_source(const ovoid_robot_proof_source *s) {
-    return Py_BuildValue("{s:N,s:N,s:N,s:N,s:N,s:N,s:O,s:O,s:O,s:d,s:d,s:d,s:n,s:K,s:N}", "robot",
+    return Py_BuildValue("{s:N,s:N,s:N,s:N,s:N,s:N,s:O,s:O,s:O,s:O,s:d,s:d,s:d,s:n,s:K,s:N}", "robot",
                          robot_name_make(s->robot), "srdf", robot_name_make(s->srdf), "scene",
                          robot_name_make(s->scene), "packages", make_texts(s->packages, s->package_count), "scales",
                          make_texts(s->scales, s->scale_count), "paddings", make_texts(s->paddings, s->padding_count),
-                         "parts", s->parts ? Py_True : Py_False, "visual", s->visual ? Py_True : Py_False, "fixed_base",
-                         s->fixed_base ? Py_True : Py_False, "tolerance", s->tolerance, "margin", s->margin,
-                         "limit_slack", s->limit_slack, "path_count", (Py_ssize_t)s->path_count, "digest",
-                         (unsigned long long)s->digest, "variables", make_texts(s->variables, s->variable_count));
+                         "parts", s->parts ? Py_True : Py_False, "hull", s->hull ? Py_True : Py_False, "visual",
+                         s->visual ? Py_True : Py_False, "fixed_base", s->fixed_base ? Py_True : Py_False, "tolerance",
+                         s->tolerance, "margin", s->margin, "limit_slack", s->limit_slack, "path_count",
+                         (Py_ssize_t)s->path_count, "digest", (unsigned long long)s->digest, "variables",
+                         make_texts(s->variables, s->variable_count));
 }
 
 // ---- the same robot and pairs

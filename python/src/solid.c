@@ -22,6 +22,14 @@ static PyObject *wrap(PyObject *type, ovoid_solid *solid, const ovoid_error *err
     return (PyObject *)self;
 }
 
+PyObject *solid_borrow(module_state *state, const ovoid_solid *solid, PyObject *owner) {
+    solid_object *self = object_make(state->solid);
+    if (!self) return NULL;
+    self->solid = (ovoid_solid *)solid;
+    self->owner = Py_NewRef(owner);
+    return (PyObject *)self;
+}
+
 // The indices (m, 3) in 32 bits; one that no point has is told by its triangle. The caller frees them.
 static uint32_t *read_triangles(module_state *state, PyObject *from, Py_ssize_t *count) {
     items given;
@@ -100,7 +108,9 @@ static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
 #endif
 
 static void solid_dealloc(PyObject *self) {
-    ovoid_solid_destroy(((solid_object *)self)->solid);
+    solid_object *solid = (solid_object *)self;
+    if (!solid->owner) ovoid_solid_destroy(solid->solid);
+    Py_XDECREF(solid->owner);
     object_free(self);
 }
 

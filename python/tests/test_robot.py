@@ -128,7 +128,7 @@ class Cells(unittest.TestCase):
         refused = self.cell.check([4, 0])
         self.assertEqual((refused.status, refused.code, refused.variable), (ovoid.RobotStatus.REFUSED, ovoid.Code.RANGE, 0))
         self.assertEqual(self.cell.check([4, 0], limit_slack=2).status, ovoid.RobotStatus.FREE)
-        self.assertEqual(self.cell.check([0, 0], without_obstacles=True).status, ovoid.RobotStatus.FREE)
+        self.assertEqual(self.cell.check([0, 0], without_obstacles=True).status, ovoid.RobotStatus.UNDECIDED)
         with self.assertRaises(ovoid.Error):
             self.cell.check([0, 0], margin=-1)
 
@@ -352,7 +352,7 @@ class Files(unittest.TestCase):
         self.assertEqual(robot.groups[0], ("reach", ("shoulder", "wrist"), ("base", "upper", "hand")))
         self.assertEqual(robot.states, (("up", "reach", {"shoulder": (0,), "wrist": (1.5,)}),))
         self.assertEqual((robot.passive, robot.spheres), (("right_slide",), (("upper", (0, 0, 0.5), 0.6),)))
-        self.assertFalse(robot.meshes[0]["is_convex"])
+        self.assertEqual(robot.meshes[0]["kind"], "solid")
         self.assertIn(("link/inertial", 1), robot.ignored)
         self.assertEqual(self.load(os.path.join(ARM, "arm.srdf"), fixed_base=True)[0].root, "base")
         # Its own shapes outlive it.
@@ -384,6 +384,43 @@ class Files(unittest.TestCase):
         self.assertEqual(obstacles[0].pose.xyz, (1, 0, 0.4))
         self.assertEqual(cell.check([1.4, 0, 0], without_self=True).status, ovoid.RobotStatus.HIT)
         self.assertEqual(cell.check([-1, 0, 0], without_self=True).status, ovoid.RobotStatus.FREE)
+
+    def test_kinds(self):
+        # A box in the notch of an L: free of the mesh, in its hull; the tool says the same.
+        slide = ('<robot name="r"><link name="base"/><link name="tip"><collision><origin xyz="1.2 1.2 0.5"/><geometry><box size="0.1 0.1 0.1"/>'
+                 '</geometry></collision></link><joint name="j" type="prismatic"><parent link="base"/><child link="tip"/><axis xyz="1 0 0"/>'
+                 '<limit lower="-5" upper="5"/></joint></robot>')
+        faces = ["354", "305", "310", "321", "9AB", "9B6", "967", "978", "017", "076", "128", "187", "239", "298", "34A", "3A9", "45B", "4BA", "506", "56B"]
+        corners = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+        mesh = {"triangles": [[int(c, 16) for c in face] for face in faces], "vertices": [[x, y, z] for z in (0, 1) for x, y in corners]}
+        held = ('link_padding: [{link_name: tip, padding: 0.01}]\nrobot_state: {attached_collision_objects: [{link_name: tip, object: {id: held, '
+                'header: {frame_id: tip}, primitives: [{type: box, dimensions: [9, 0.1, 0.1]}]}}]}\n')
+        with tempfile.TemporaryDirectory() as folder:
+            urdf, scene, other = (os.path.join(folder, name) for name in ("r.urdf", "s.yaml", "t.yaml"))
+            text = "world: {collision_objects: [{id: L, meshes: [%s]}]}\n" % mesh
+            for path, content in ((urdf, slide), (scene, text), (other, held + text)):
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(content)
+            robot = ovoid.Robot.load(urdf)
+
+            def ask(path, robot=robot, **how):
+                cell = ovoid.Cell(robot)
+                cell.load(path, **how)
+                return cell.check((0,)).status
+            free, hit = ovoid.RobotStatus.FREE, ovoid.RobotStatus.HIT
+            self.assertEqual((ask(scene), ask(scene, solids=False), ask(other)), (free, hit, hit))
+            self.assertEqual((ask(scene, paddings={None: 0.1}), ask(scene, paddings={"tip": 0.2}), ask(scene, paddings={None: 9, "tip": 0})), (free, hit, free))
+            self.assertEqual(ask(scene, ovoid.Robot.load(urdf, scales={"tip": 5.0})), hit)
+            with self.assertRaises(ValueError):
+                ovoid.Robot.load(urdf, scales={"tip": 0})
+            one = ovoid.load_obstacles(other)
+            self.assertEqual([(o.name, o.frame, o.link, o.solid is None) for o in one], [("L", None, None, False), ("held", "tip", "tip", True)])
+            self.assertIsNone(ovoid.load_obstacles(scene, solids=False)[0].solid)
+            cell = ovoid.Cell(robot)
+            (name, key), = cell.load(scene)
+            self.assertIsInstance(cell.bodies[key], ovoid.Solid)
+            empty = ovoid.Cell(robot).check((0,))
+            self.assertEqual((empty.status, empty.code, empty.a), (ovoid.RobotStatus.UNDECIDED, ovoid.Code.EMPTY, None))
 
     def test_problems(self):
         with tempfile.TemporaryDirectory() as folder:

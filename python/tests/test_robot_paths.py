@@ -172,8 +172,8 @@ def write_proofs(path, paths, **changes):
         return {"link": links[side.link], "element": 0, **({"name": element.name} if element.name else {})}
 
     pairs = [[name(side) for side in cell.pair(i)] for i in range(cell.pair_count)]
-    head = {"path_proofs": 1, "robot": "arm.urdf", "srdf": None, "scene": "cell.yaml", "packages": ["a=b"], "scales": [], "paddings": [],
-            "parts": False, "visual": False, "fixed_base": True, "cylinder_tolerance": 0, "margin": 0, "limit_slack": 0,
+    head = {"path_proofs": 2, "robot": "arm.urdf", "srdf": None, "scene": "cell.yaml", "packages": ["a=b"], "scales": [], "paddings": [],
+            "parts": False, "hull": False, "visual": False, "fixed_base": True, "cylinder_tolerance": 0, "margin": 0, "limit_slack": 0,
             "paths": len(paths), "digest": "00000000000000ff", "variables": [v.name for v in cell.robot.variables], "pairs": pairs}
     head.update({key: value for key, value in changes.items() if key in head})
     with open(path, "w", encoding="ascii") as file:

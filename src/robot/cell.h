@@ -62,6 +62,7 @@ typedef struct group_pair {
 typedef struct cell_body {
     ovoid_body body;
     ovoid_shape *hull;         ///< of a solid, the cell's own; else NULL
+    inner_region inside;       ///< of a solid
     uint32_t generation, link; ///< link NONE: an obstacle
     int is_used;
 } cell_body;

@@ -109,7 +109,7 @@ static void set_insides(compiler *x) {
             items[i].inside = robot_get_inside(c->robot, items[i].side.element);
             continue;
         }
-        shape_inside_find(items[i].shape, point, next);
+        shape_inside_find(items[i].shape, items[i].solid, point, next);
         items[i].inside = next++;
     }
     ovoid_shape_destroy(point);
@@ -257,7 +257,7 @@ static void place_parts(ovoid_robot_cell *c, uint32_t first) {
             parts[i].pose = ovoid_pose_compute_product(&b->body.pose, &inner);
         }
         parts[i].box = place_box(parts[i].shape, &parts[i].pose);
-        inner_region own = inner_region_find(parts[i].shape);
+        inner_region own = b->body.solid ? b->inside : inner_region_find(parts[i].shape);
         parts[i].inside = inner_region_place(&own, &parts[i].box.rotation, parts[i].pose.position);
         parts[i].inside_size = vec3_sum_abs(parts[i].pose.position) + vec3_sum_abs(own.center) + vec3_sum_abs(own.half);
         put_box(&boxes[i / ROBOT8], i % ROBOT8, &parts[i].box);

@@ -86,6 +86,11 @@ static int ask_last(state_check *s, const ovoid_robot_check_options *options) {
         return 1;
     s->asked = last;
     checker_pair p = is_self ? checker_make_item_pair(x, last.index) : checker_make_part_pair(x, last.item, last.index);
+    double lower, upper;
+    // Of solids what lies inside is the cheaper question.
+    if (sides_have_solid(&p.solids) && checker_prove_overlap(x, last, &lower, &upper) &&
+        !take_bracket(s, &p, last, lower, upper))
+        return 0;
     return ask_pair(s, &p, last, pair_get_earlier(x, &p));
 }
 

@@ -285,7 +285,6 @@ static double compute_balls_depth(ovoid_robot_checker *x, item_pair both) {
 int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper) {
     const cell_part *part = name.item == OVOID_ROBOT_NONE ? NULL : &cell_parts(x->cell)[name.index];
     item_pair both = part ? (item_pair){name.item, 0} : cell_pairs(x->cell)[name.index];
-    if (cell_items(x->cell)[both.a].solid || (part ? part->solid : cell_items(x->cell)[both.b].solid)) return 0;
     double depth = part ? compute_depth(x, both.a, &part->inside, part->shape->upper_radius,
                                         get_size(x, both.a) + part->inside_size)
                         : compute_balls_depth(x, both);

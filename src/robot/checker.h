@@ -148,7 +148,7 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair);
 int checker_is_part_far(ovoid_robot_checker *x, uint32_t item, uint32_t part, double margin);
 int checker_is_pair_far(ovoid_robot_checker *x, uint32_t pair, double margin);
 
-/// 1 where what is known to lie inside both bodies, of which none is a solid, overlaps: then a bracket of the signed
+/// 1 where what is known to lie inside both bodies overlaps: then a bracket of the signed
 /// distance as the poses are, the upper bound below zero.
 int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper);
 

@@ -4,7 +4,7 @@
 #include "linear/mat3.h"
 #include "ovoid/query.h"
 
-enum { LATTICE = 6, CANDIDATES = LATTICE * LATTICE * LATTICE };
+enum { LATTICE = 6, TRIES = 4 * BALLS, CANDIDATES = LATTICE * LATTICE * LATTICE };
 
 // Points of the lattice that are inside, by the planes, and how far from all of these.
 typedef struct lattice {
@@ -16,6 +16,7 @@ typedef struct lattice {
 
 typedef struct ball_search {
     const ovoid_shape *shape, *point; ///< point: at its frame's origin
+    const ovoid_solid *solid;         ///< NULL: the shape is the body
 } ball_search;
 
 static double find_radius(const ovoid_polytope *p, vec3 x) {
@@ -68,8 +69,18 @@ static void put_ball(inner_balls *b, uint32_t at, vec3 center, double radius) {
     b->column[BALLS_RADIUS][at] = radius;
 }
 
+// How far a point inside a solid is from all of its surface; 0: it is not shown to be inside.
+static double prove_in_solid(const ball_search *x, vec3 center) {
+    ovoid_body_pair pair = {{.shape = x->point, .pose = ovoid_pose_make_identity()},
+                            {.solid = x->solid, .pose = ovoid_pose_make_identity()}};
+    pair.a.pose.position = center;
+    ovoid_solid_answer is = ovoid_solid_distance(&pair, NULL, NULL, NULL);
+    return is.inside == OVOID_SOLID_A_INSIDE && is.surfaces.lower > 0 ? is.surfaces.lower : 0;
+}
+
 // The ball around a point that is proven to lie in the body, radius and allowance counted; 0: none is.
 static double prove_radius(const ball_search *x, vec3 center) {
+    if (x->solid) return prove_in_solid(x, center);
     ovoid_pair pair = {x->point, x->shape, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
     pair.pose_a.position = center;
     double upper = ovoid_depth(&pair, NULL, NULL, NULL).upper;
@@ -81,7 +92,8 @@ static uint32_t find_in_solid(const ball_search *x, inner_balls *b) {
     lattice l;
     fill_lattice(&l, x->shape, &p);
     uint32_t count = 0;
-    while (count < BALLS) {
+    // Of a solid any number of the hull's points may be outside.
+    for (uint32_t tries = 0; count < BALLS && tries < TRIES; tries++) {
         uint32_t next = find_next(&l);
         if (next == l.count) break;
         (void)cover(&l, next, 1);
@@ -149,10 +161,21 @@ inner_region inner_region_find(const ovoid_shape *s) {
     return box.scale > 0 ? box : make_ellipsoid(s);
 }
 
-void shape_inside_find(const ovoid_shape *s, const ovoid_shape *point, shape_inside *in) {
-    const ball_search search = {s, point};
+// The largest ball as a region.
+static inner_region make_ball(const inner_balls *b) {
+    int best = 0;
+    for (int i = 1; i < BALLS; i++)
+        if (b->column[BALLS_RADIUS][i] > b->column[BALLS_RADIUS][best]) best = i;
+    double radius = b->column[BALLS_RADIUS][best];
+    if (!(radius > 0)) return nothing;
+    vec3 center = {b->column[0][best], b->column[1][best], b->column[2][best]};
+    return (inner_region){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, center, {0, 0, 0}, 1, radius, 1};
+}
+
+void shape_inside_find(const ovoid_shape *s, const ovoid_solid *solid, const ovoid_shape *point, shape_inside *in) {
+    const ball_search search = {s, point, solid};
     find_balls(&search, &in->balls);
-    in->region = inner_region_find(s);
+    in->region = solid ? make_ball(&in->balls) : inner_region_find(s);
     in->most = in->least = in->balls.column[BALLS_RADIUS][0];
     for (int i = 1; i < BALLS; i++) {
         in->most = max2(in->most, in->balls.column[BALLS_RADIUS][i]);

@@ -7,6 +7,7 @@
 #ifndef OVOID_ROBOT_INNER_BALLS_H
 #define OVOID_ROBOT_INNER_BALLS_H
 
+#include "ovoid/solid.h"
 #include "shape/block.h"
 #include "simd/robot8.h"
 
@@ -16,15 +17,17 @@ static inline ovoid_shape *shape_create_point(const ovoid_allocator *memory) {
     return ovoid_shape_create_from_points(origin, 1, &(ovoid_shape_options){.allocator = memory}, NULL);
 }
 
-/// What is known to lie inside a shape, in its user's frame.
+/// What is known to lie inside a shape, or inside the solid that it is the hull of, in its user's frame.
 typedef struct shape_inside {
     inner_balls balls; ///< radius and allowance counted; none: radii that nothing meets
     inner_region region;
     double most, least; ///< radii of the balls
     double size;        ///< the lengths that centres are made of, summed
 } shape_inside;
-/// point: a shape that is a point at its frame's origin. Cost: some hundred passes over the facets.
-void shape_inside_find(const ovoid_shape *shape, const ovoid_shape *point, shape_inside *inside);
+/// solid: NULL, or the body; nothing is inside a surface. point: a shape that is a point at its frame's origin. Cost:
+/// some hundred passes over the facets, and some tens of distances from the solid's surface.
+void shape_inside_find(const ovoid_shape *shape, const ovoid_solid *solid, const ovoid_shape *point,
+                       shape_inside *inside);
 
 /// The region inside a shape in its user's frame, without its radius. Cost: none.
 inner_region inner_region_find(const ovoid_shape *shape);

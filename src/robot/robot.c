@@ -173,11 +173,14 @@ static ovoid_code sort_names(ovoid_robot *r, ovoid_error *error) {
 
 typedef struct shape_use {
     const ovoid_shape *shape;
+    const ovoid_solid *solid;
     uint32_t element;
 } shape_use;
 
 static int compare_uses(const void *x, const void *y) {
-    uintptr_t a = (uintptr_t)((const shape_use *)x)->shape, b = (uintptr_t)((const shape_use *)y)->shape;
+    const shape_use *m = x, *n = y;
+    uintptr_t a = (uintptr_t)m->shape, b = (uintptr_t)n->shape;
+    if (a == b) a = (uintptr_t)m->solid, b = (uintptr_t)n->solid;
     return (a > b) - (a < b);
 }
 
@@ -186,16 +189,17 @@ static ovoid_code find_insides(ovoid_robot *r, ovoid_error *error) {
     uint32_t count = 0;
     ovoid_shape *point = shape_create_point(&r->allocator);
     shape_use *uses = allocator_allocate(&r->allocator, (size_t)r->element_count + 1, sizeof *uses);
-    for (uint32_t i = 0; uses && i < r->element_count; i++) uses[i] = (shape_use){r->elements[i].shape, i};
+    for (uint32_t i = 0; uses && i < r->element_count; i++)
+        uses[i] = (shape_use){r->elements[i].shape, r->elements[i].solid, i};
     if (uses && r->element_count) qsort(uses, r->element_count, sizeof *uses, compare_uses);
     for (uint32_t i = 0; uses && i < r->element_count; i++) {
-        count += i == 0 || uses[i].shape != uses[i - 1].shape;
+        count += i == 0 || compare_uses(&uses[i], &uses[i - 1]) != 0;
         r->element_inside[uses[i].element] = count - 1;
     }
     r->insides = uses && point ? allocator_allocate(&r->allocator, (size_t)count + 1, sizeof *r->insides) : NULL;
     for (uint32_t i = 0; r->insides && i < r->element_count; i++)
-        if (i == 0 || uses[i].shape != uses[i - 1].shape)
-            shape_inside_find(uses[i].shape, point, &r->insides[r->element_inside[uses[i].element]]);
+        if (i == 0 || compare_uses(&uses[i], &uses[i - 1]) != 0)
+            shape_inside_find(uses[i].shape, uses[i].solid, point, &r->insides[r->element_inside[uses[i].element]]);
     allocator_release(&r->allocator, uses);
     ovoid_shape_destroy(point);
     return r->insides ? OVOID_OK : error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a robot's shapes");

@@ -117,7 +117,7 @@ for kind in free hit; do
     alter 3 "$kind: kind" '3s/"step":"[a-z]*"/"step":"near"/' $kind.jsonl
     alter 3 "$kind: keys" '2s/"looked_at"/"looked at"/' $kind.jsonl
     alter 3 "$kind: more" '2s/\}$/,"more":1}/' $kind.jsonl
-    alter 3 "$kind: form" 's/"path_proofs":1/"path_proofs":2/' $kind.jsonl
+    alter 3 "$kind: form" 's/"path_proofs":2/"path_proofs":1/' $kind.jsonl
 done
 # Steps that hold of states nearby prove nothing of those that were asked.
 alter 4 "free: states nearby" '2s/"q":\[\[0,1.5,/"q":[[0,1.5000001,/' free.jsonl --states arm/path.csv
@@ -129,6 +129,17 @@ alter 4 "hit: undecided, free until the end" "2s/\"status\":\"hit\"(.*\"free_unt
 alter 4 "hit: later" "2s/\"hit_at\":$number/\"hit_at\":0.99/" hit.jsonl
 alter 4 "hit: earlier" "2s/\"hit_at\":$number/\"hit_at\":0.1/" hit.jsonl
 alter 4 "hit: beyond" "2s/\"hit_at\":$number/\"hit_at\":5/" hit.jsonl
+# The claimed bracket must hold the one that is found: narrower, beside it, upside down and no number are refused, wider is
+# true.
+alter 4 "hit: raised lower end" "2s/\"lower\":$number/\"lower\":-5.66972344e-7/" hit.jsonl
+alter 4 "hit: lowered upper end" "2s/\"upper\":$number/\"upper\":-5.66972344e-7/" hit.jsonl
+alter 4 "hit: bracket below" "2s/\"lower\":$number,\"upper\":$number/\"lower\":-0.2,\"upper\":-0.1/" hit.jsonl
+alter 4 "hit: bracket of a point" "2s/\"lower\":$number,\"upper\":$number/\"lower\":-5.66972344e-7,\"upper\":-5.66972344e-7/" hit.jsonl
+alter 4 "hit: bracket upside down" "2s/\"lower\":$number,\"upper\":$number/\"lower\":0,\"upper\":-1/" hit.jsonl
+alter 4 "hit: beyond the margin" "2s/\"upper\":$number/\"upper\":0.001/" hit.jsonl
+alter 0 "hit: wider" "2s/\"lower\":$number,\"upper\":$number/\"lower\":-1,\"upper\":0/" hit.jsonl
+printf 'shoulder,time\n0,0\n1.4,2\n1.4,3\n' >more.csv
+expect 3 "hit: states left over" hit.jsonl --states more.csv
 alter 4 "hit: free longer" "2s/\"free_until\":$number/\"free_until\":0.5683/" hit.jsonl
 alter 4 "hit: time" "2s/\"hit_at_time\":$number/\"hit_at_time\":1/" hit.jsonl
 alter 4 "hit: free time" "2s/\"free_until_time\":$number/\"free_until_time\":1.5/" hit.jsonl

@@ -41,7 +41,7 @@ static void test_balls(ovoid_shape *const shapes[SHAPES], const ovoid_shape *poi
     for (int i = 0; i < SHAPES; i++) {
         shape_inside in;
         int count = 0;
-        shape_inside_find(shapes[i], point, &in);
+        shape_inside_find(shapes[i], NULL, point, &in);
         for (int k = 0; k < BALLS; k++) {
             double r = in.balls.column[BALLS_RADIUS][k];
             count += r > 0;
@@ -90,7 +90,7 @@ static void test_regions(ovoid_shape *const shapes[SHAPES], uint64_t *s) {
 static void test_lanes(ovoid_shape *const shapes[SHAPES], const ovoid_shape *point, uint64_t *s) {
     const robot8_kernels *scalar = robot8_get_kernels_of(SIMD_SCALAR);
     static shape_inside in[SHAPES];
-    for (int i = 0; i < SHAPES; i++) shape_inside_find(shapes[i], point, &in[i]);
+    for (int i = 0; i < SHAPES; i++) shape_inside_find(shapes[i], NULL, point, &in[i]);
     long deep = 0;
     for (int n = 0; n < 2000; n++) {
         int i = (int)random_below(s, SHAPES), k = (int)random_below(s, SHAPES);

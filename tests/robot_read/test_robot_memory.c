@@ -81,8 +81,8 @@ static const char request[] = "start_state: {joint_state: {name: [a], position: 
                               "goal_constraints: [{joint_constraints: [{joint_name: a, position: 2}]}]\n";
 
 static const char proofs[] =
-    "{\"path_proofs\":1,\"robot\":\"r\",\"srdf\":null,\"scene\":\"s\",\"packages\":[\"a=b\"],\"scales\":[\"x=2\"],"
-    "\"paddings\":[],\"parts\":true,\"visual\":"
+    "{\"path_proofs\":2,\"robot\":\"r\",\"srdf\":null,\"scene\":\"s\",\"packages\":[\"a=b\"],\"scales\":[\"x=2\"],"
+    "\"paddings\":[],\"parts\":true,\"hull\":false,\"visual\":"
     "false,"
     "\"fixed_base\":false,\"cylinder_tolerance\":0,\"margin\":0,\"limit_slack\":0,\"paths\":1,"
     "\"digest\":\"0123456789abcdef\",\"variables\":[\"x\",\"y\"],\"pairs\":[[{\"link\":\"a\",\"element\":0,\"name\":"

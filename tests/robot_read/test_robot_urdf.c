@@ -138,7 +138,8 @@ static const char l_shape[] = "o low\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 
                               "o high\nv 0 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
                               "f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
 
-// A closed mesh that is not its hull as a solid: of each scale one, mirrored or not; objects that are parts stay hulls.
+// A closed mesh that is not its hull is a solid, of each scale one, mirrored or not, an open one a surface; objects
+// that are parts are hulls, and so is what is asked for as hulls.
 static void test_solids(void) {
     static const char text[] = "<robot name=\"m\"><link name=\"a\">" //
         COLLISION("<mesh filename=\"l.obj\"/>") COLLISION("<mesh filename=\"l.obj\" scale=\"1 -2 0.5\"/>")
@@ -151,17 +152,18 @@ static void test_solids(void) {
     file_write_text("open.obj", open);
     file_write_text("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
     ovoid_robot_read_options options = make_read_options();
-    options.solids = 1;
     for (options.parts = 0; options.parts < 2; options.parts++) {
         ovoid_robot_file *file = read_urdf(text, &options, NULL);
         if (!CHECK(file)) continue;
         ovoid_robot_description d = ovoid_robot_file_get_description(file);
         size_t solids = 0;
         for (size_t i = 0; i < d.element_count; i++) solids += d.elements[i].solid != NULL;
-        CHECK_EQ(solids, options.parts ? 0 : 3);
+        CHECK_EQ(solids, options.parts ? 0 : 4);
         if (!options.parts && CHECK_EQ(d.element_count, 5)) {
             const ovoid_solid *own = d.elements[0].solid, *scaled = d.elements[1].solid;
-            CHECK(own != scaled && scaled == d.elements[2].solid && !d.elements[3].solid && !d.elements[4].solid);
+            CHECK(own != scaled && scaled == d.elements[2].solid && !d.elements[3].solid);
+            CHECK(!ovoid_solid_get_report(d.elements[4].solid).is_closed);
+            CHECK(notes.count == 1 && has_note("the mesh open.obj is not closed, "));
             CHECK_EQ(ovoid_solid_get_report(own).volume, 3);
             CHECK_EQ(fabs(ovoid_solid_get_report(scaled).volume), 3); // twice as wide, half as high
             CHECK_EQ(ovoid_solid_get_report(scaled).box.min.y, -4);
@@ -169,13 +171,16 @@ static void test_solids(void) {
         }
         size_t said = 0;
         for (size_t i = 0; i < ovoid_robot_file_get_mesh_count(file); i++)
-            said += (size_t)ovoid_robot_file_get_mesh(file, i).is_solid;
-        CHECK_EQ(said, options.parts ? 0 : 2);
+            said |= (size_t)1 << 4 * ovoid_robot_file_get_mesh(file, i).kind;
+        CHECK_EQ(said, options.parts ? (size_t)0x10 : (size_t)0x1101); // parts; hull, solid and surface
         ovoid_robot_file_destroy(file);
     }
-    options.solids = options.parts = 0;
+    options = make_read_options();
+    options.hull = 1;
     ovoid_robot_file *file = read_urdf(text, &options, NULL);
     if (CHECK(file)) CHECK(!ovoid_robot_file_get_description(file).elements[0].solid);
+    if (file) CHECK_EQ(ovoid_robot_file_get_mesh(file, 0).kind, OVOID_MESH_HULL);
+    CHECK_EQ(notes.count, 0);
     ovoid_robot_file_destroy(file);
 }
 

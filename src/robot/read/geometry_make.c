@@ -1,6 +1,7 @@
 // The shapes of the geometry: sorted, so that equal ones are neighbours and are made once, and a mesh file is read once
 // for all its scales.
 #include "robot/read/geometry.h"
+#include "robot/read/mesh_body.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,29 +87,11 @@ static ovoid_code measure(robot_reader *r, const geometry *g, open_mesh *open) {
     return OVOID_OK;
 }
 
-// ---- solids
-
-// The solid with each coordinate multiplied by its factor; a mirrored one is inside out, which does not matter.
-static ovoid_solid *scale_solid(const ovoid_solid *from, const double *scale, ovoid_error *why) {
-    ovoid_solid_report is = ovoid_solid_get_report(from);
-    const double *points = ovoid_solid_get_points(from);
-    double *xyz = malloc(3 * (size_t)is.points * sizeof *xyz);
-    uint32_t *triangles = malloc(3 * (size_t)is.triangles * sizeof *triangles);
-    ovoid_solid *solid = NULL;
-    if (xyz && triangles) {
-        for (size_t i = 0; i < 3 * (size_t)is.points; i++) xyz[i] = scale[i % 3] * points[i];
-        for (size_t i = 0; i < (size_t)is.triangles; i++) ovoid_solid_get_triangle(from, i, triangles + 3 * i);
-        solid = ovoid_solid_create_from_triangles(xyz, (size_t)is.points, triangles, (size_t)is.triangles, NULL, why);
-    } else {
-        (void)io_fail_memory(why, "");
-    }
-    free(xyz);
-    free(triangles);
-    return solid;
-}
+// ---- what a mesh is
 
 static ovoid_code keep_solid(robot_reader *r, geometry *g, ovoid_solid *solid) {
     ovoid_robot_file *file = r->file;
+    if (!solid) return OVOID_OK;
     if (!array_reserve((void **)&file->solids, &file->solid_capacity, file->solid_count, sizeof *file->solids)) {
         ovoid_solid_destroy(solid);
         return robot_fail_memory(r);
@@ -117,19 +100,49 @@ static ovoid_code keep_solid(robot_reader *r, geometry *g, ovoid_solid *solid) {
     return OVOID_OK;
 }
 
-// By the rule of scenes: closed, and not all of its hull. What cannot be read as a solid is its hull.
-static ovoid_code make_solid(robot_reader *r, geometry *g, open_mesh *open) {
+// The triangles of the file with each coordinate multiplied by its factor; mirrored ones are inside out, which does not
+// matter. What the scaled triangles are is looked at anew: rounding may take them off their hull.
+static ovoid_code make_scaled(const open_mesh *open, const double *scale, ovoid_shape *hull, mesh_body *body,
+                              ovoid_error *why) {
+    ovoid_solid_report is = ovoid_solid_get_report(open->solid);
+    const double *points = ovoid_solid_get_points(open->solid);
+    size_t count = (size_t)is.points, triangles = (size_t)is.triangles;
+    double *xyz = malloc(3 * count * sizeof *xyz);
+    uint32_t *indices = malloc(3 * triangles * sizeof *indices);
+    ovoid_code code = OVOID_ERROR_MEMORY;
+    if (xyz && indices) {
+        for (size_t i = 0; i < 3 * count; i++) xyz[i] = scale[i % 3] * points[i];
+        for (size_t i = 0; i < triangles; i++) ovoid_solid_get_triangle(open->solid, i, indices + 3 * i);
+        const ovoid_triangles all = {xyz, count, indices, triangles};
+        code = mesh_body_make(&all, hull, NULL, body, why);
+    } else {
+        ovoid_shape_destroy(hull);
+        (void)io_fail_memory(why, open->path);
+    }
+    free(xyz);
+    free(indices);
+    return code;
+}
+
+// By the rule of all files: a mesh is what its triangles are, unless its hull, or hulls of parts, are asked for.
+static ovoid_code make_body(robot_reader *r, geometry *g, open_mesh *open, ovoid_shape *hull, mesh_body *body) {
     ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
-    ovoid_read_options read = {.trusted = r->options->trusted};
-    int is_wanted = r->options->solids && !r->options->parts && open->convexity.kind == OVOID_MESH_SOLID &&
-                    isfinite(open->convexity.mesh_volume);
-    if (!is_wanted) return OVOID_OK;
-    if (!open->solid) open->solid = ovoid_solid_read_file(g->path, &read, &why);
-    ovoid_solid *solid = open->solid ? scale_solid(open->solid, g->what.size, &why) : NULL;
-    if (solid) return keep_solid(r, g, solid);
+    *body = (mesh_body){.kind = OVOID_MESH_HULL, .shape = hull};
+    if (r->options->hull || r->options->parts || !ovoid_mesh_get_part(open->mesh, 0).faces.face_count) return OVOID_OK;
+    if (!open->solid && !(open->solid = ovoid_mesh_create_solid(open->mesh, 0, &why)))
+        ovoid_shape_destroy(hull);
+    else if (make_scaled(open, g->what.size, hull, body, &why) == OVOID_OK)
+        return OVOID_OK;
     if (why.code == OVOID_ERROR_MEMORY) return robot_fail_memory(r);
-    robot_note(r, g->at, "the mesh counts as its hull: %s", why.message);
-    return OVOID_OK;
+    return robot_fail(r, g->at, why.code, "%s: %s; --hull takes its hull", g->path, why.message);
+}
+
+static void tell_surface(const robot_reader *r, const geometry *g, const mesh_body *body) {
+    if (body->kind == OVOID_MESH_SURFACE)
+        robot_note(r, g->at,
+                   "the mesh %.200s is not closed, %llu of its edges are open: it counts as its surface, which has no "
+                   "inside (--hull takes its hull)",
+                   g->address, (unsigned long long)body->edges_open);
 }
 
 // ---- meshes
@@ -156,7 +169,7 @@ static ovoid_code open_file(robot_reader *r, const geometry *g, open_mesh *open)
     return keep_part_names(r, open);
 }
 
-static ovoid_code add_mesh(robot_reader *r, const geometry *g, const open_mesh *open) {
+static ovoid_code add_mesh(robot_reader *r, const geometry *g, const open_mesh *open, const mesh_body *body) {
     ovoid_robot_file *file = r->file;
     const double *s = g->what.size;
     double volume = fabs(s[0] * s[1] * s[2]);
@@ -165,7 +178,8 @@ static ovoid_code add_mesh(robot_reader *r, const geometry *g, const open_mesh *
                              .scale = {s[0], s[1], s[2]},
                              .part_count = g->shape_count,
                              .convexity = open->convexity,
-                             .is_solid = g->solid != NULL};
+                             .kind = r->options->parts ? OVOID_MESH_PARTS : body->kind,
+                             .allowance = body->allowance};
     mesh.convexity.mesh_volume *= volume;
     mesh.convexity.hull_volume *= volume;
     if (!mesh.path || !mesh.address) return robot_fail_memory(r);
@@ -179,13 +193,21 @@ static ovoid_code make_mesh(robot_reader *r, geometry *g, open_mesh *open) {
     g->shape = r->file->shape_count;
     g->shape_count = ovoid_mesh_get_part_count(open->mesh);
     g->part_names = open->names;
+    mesh_body body = {.kind = OVOID_MESH_HULL};
     for (size_t i = 0; i < g->shape_count && !code; i++) {
         ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
-        code = keep_shape(r, g, create_hull(r, open, i, is_unscaled(g) ? NULL : g->what.size, &why), &why);
+        ovoid_shape *hull = create_hull(r, open, i, is_unscaled(g) ? NULL : g->what.size, &why);
+        if (hull) code = make_body(r, g, open, hull, &body);
+        if (!code) code = keep_shape(r, g, hull ? body.shape : NULL, &why);
+        if (code)
+            ovoid_solid_destroy(body.solid);
+        else
+            code = keep_solid(r, g, body.solid);
+        body.solid = NULL;
+        if (!code) tell_surface(r, g, &body);
     }
     if (!code) code = measure(r, g, open);
-    if (!code) code = make_solid(r, g, open);
-    return code ? code : add_mesh(r, g, open);
+    return code ? code : add_mesh(r, g, open, &body);
 }
 
 ovoid_code geometry_make(robot_reader *r, geometry_list *list) {

@@ -2,6 +2,7 @@
 // is its parts, each convex or a solid; where an object and its parts have poses, the pose of a part is their product
 // by definition. scene_state.c reads what a planning scene says beside them. Cost: n log n, plus the shapes.
 #include "robot/read/obstacles.h"
+#include "robot/read/mesh_body.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -114,51 +115,38 @@ static ovoid_code read_triangles(message_reader *r, const yaml_value *list, mesh
     return OVOID_OK;
 }
 
-// Six times the signed volume of the tetrahedron of a triangle and the first vertex.
-static double compute_determinant(const double *o, const double *a, const double *b, const double *c) {
-    double u[3], v[3], w[3];
-    for (int k = 0; k < 3; k++) u[k] = a[k] - o[k], v[k] = b[k] - o[k], w[k] = c[k] - o[k];
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
-// The solid of the triangles, if they are closed. What cannot be one is its hull.
-static ovoid_code make_solid(const message_reader *r, ovoid_obstacles *o, const mesh_numbers *m,
-                             obstacle_entry *entry) {
-    ovoid_error why;
-    ovoid_solid *solid =
-        ovoid_solid_create_from_triangles(m->xyz, m->point_count, m->indices, m->triangle_count,
-                                          r->options->shape ? r->options->shape->allocator : NULL, &why);
-    if (!solid && why.code != OVOID_ERROR_MEMORY) return OVOID_OK;
-    if (!solid) return io_fail_memory(r->error, r->path);
-    if (!ovoid_solid_get_report(solid).is_closed) {
-        ovoid_solid_destroy(solid);
-        return OVOID_OK;
-    }
+static ovoid_code keep_solid(ovoid_obstacles *o, const message_reader *r, ovoid_solid *solid) {
+    if (!solid) return OVOID_OK;
     if (!array_reserve((void **)&o->solids, &o->solid_capacity, o->solid_count, sizeof *o->solids)) {
         ovoid_solid_destroy(solid);
         return io_fail_memory(r->error, r->path);
     }
-    entry->solid = o->solids[o->solid_count++] = solid;
+    o->solids[o->solid_count++] = solid;
     return OVOID_OK;
 }
 
-// What a mesh is whose hull is larger than what its triangles enclose, if they are closed, by a thousandth or more: a
-// solid where these are wanted, else its hull, of which a note tells.
-static ovoid_code look_at_hull(const message_reader *r, ovoid_obstacles *o, const yaml_value *at, const mesh_numbers *m,
-                               obstacle_entry *entry) {
-    const ovoid_shape *hull = entry->made;
-    double sum = 0, whole = ovoid_shape_get_measures(hull).volume;
-    for (size_t i = 0; i < m->triangle_count; i++) {
-        const uint32_t *t = m->indices + 3 * i;
-        sum += compute_determinant(m->xyz, m->xyz + 3 * (size_t)t[0], m->xyz + 3 * (size_t)t[1],
-                                   m->xyz + 3 * (size_t)t[2]);
+// What the triangles are, where they are given and their hull is not asked for.
+static ovoid_code make_body(const message_reader *r, ovoid_obstacles *o, const yaml_value *at, const mesh_numbers *m,
+                            obstacle_entry *entry) {
+    const ovoid_triangles triangles = {m->xyz, m->point_count, m->indices, m->triangle_count};
+    ovoid_error why;
+    mesh_body body = {.shape = entry->made};
+    if (m->triangle_count && !r->options->hull) {
+        ovoid_code code = mesh_body_make(&triangles, entry->made,
+                                         r->options->shape ? r->options->shape->allocator : NULL, &body, &why);
+        if (code == OVOID_ERROR_MEMORY) return io_fail_memory(r->error, r->path);
+        if (code) return message_fail(r, at, code, "%s; --hull takes its hull", why.message);
     }
-    double enclosed = fabs(sum) / 6;
-    if (!(whole - enclosed > 1e-3 * whole)) return OVOID_OK;
-    ovoid_code code = r->options->solids ? make_solid(r, o, m, entry) : OVOID_OK;
-    if (!code && !entry->solid)
-        message_note(r, at, "a mesh of the object %.100s counts as its hull, of which it is %.3g %%", r->object,
-                     100 * enclosed / whole);
+    entry->made = body.shape;
+    entry->solid = body.solid;
+    if (body.kind == OVOID_MESH_SURFACE)
+        message_note(r, at,
+                     "a mesh of the object %.100s is not closed, %llu of its edges are open: it counts as its surface, "
+                     "which has no inside (--hull takes its hull)",
+                     r->object, (unsigned long long)body.edges_open);
+    ovoid_code code = keep_shape(o, r, entry->made);
+    if (!code) return keep_solid(o, r, body.solid);
+    ovoid_solid_destroy(body.solid);
     return code;
 }
 
@@ -176,8 +164,7 @@ static ovoid_code read_mesh(message_reader *r, ovoid_obstacles *o, const yaml_va
     entry->what.kind = PRIMITIVE_MESH;
     entry->made = ovoid_shape_create_from_points(m.xyz, m.point_count, r->options->shape, &why);
     if (!entry->made) return message_fail(r, vertices, why.code, "%s", why.message);
-    code = keep_shape(o, r, entry->made);
-    return code || !triangles ? code : look_at_hull(r, o, value, &m, entry);
+    return make_body(r, o, value, &m, entry);
 }
 
 // ---- objects
@@ -374,18 +361,16 @@ static ovoid_code read_planning_scene(message_reader *r, ovoid_obstacles *o) {
     return code;
 }
 
-// Compounds are their parts; meshes that could be solids are their hulls where none are wanted.
+// Compounds are their parts; with the option hull meshes are their hulls, but where the scene says otherwise.
 static ovoid_code read_own_scene(const message_reader *r, ovoid_obstacles *o) {
-    o->scene = (r->options->solids ? ovoid_scene_read : ovoid_scene_read_hulls)(r->path, r->options->shape, r->error);
+    o->scene = (r->options->hull ? ovoid_scene_read_hulls : ovoid_scene_read)(r->path, r->options->shape, r->error);
     if (!o->scene) return OVOID_ERROR_FILE;
     ovoid_code code = OVOID_OK;
     for (size_t i = 0; i < ovoid_scene_get_count(o->scene) && !code; i++) {
         ovoid_scene_object object = ovoid_scene_get(o->scene, i);
-        if (object.solid && !r->options->solids)
+        if (object.solid && r->options->hull)
             return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, 0, -1},
-                           "object \"%.60s\": \"solid\": true, but solids are not taken here: obstacles are hulls or "
-                           "\"parts\"",
-                           object.name);
+                           "object \"%.60s\": \"solid\": true, but hulls are asked for", object.name);
         obstacle_entry entry = {
             .name = object.name, .frame = "", .pose = object.pose, .shape = object.shape, .solid = object.solid};
         size_t parts = object.compound ? ovoid_compound_get_part_count(object.compound) : 0;

@@ -31,7 +31,7 @@ struct ovoid_obstacles {
     size_t count, capacity;
     ovoid_shape **shapes;
     size_t shape_count, shape_capacity;
-    ovoid_solid **solids; ///< of planning scenes
+    ovoid_solid **solids; ///< and surfaces, of planning scenes
     size_t solid_count, solid_capacity;
 };
 

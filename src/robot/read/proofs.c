@@ -112,17 +112,8 @@ static uint64_t take_digest(scan *s) {
     return value;
 }
 
-// What is read as solids; without the key nothing is.
-static void take_solids(scan *s, ovoid_robot_proof_source *source) {
-    if (!scan_try_key(s, "solids", 0)) return;
-    const char *text = scan_text(s);
-    source->has_solid_links = strcmp(text, "all") == 0;
-    source->has_solid_obstacles = source->has_solid_links || strcmp(text, "obstacles") == 0;
-    if (!source->has_solid_obstacles) scan_fail(s, "solids are \"obstacles\" or \"all\"");
-}
-
 static void take_source(scan *s, ovoid_robot_proof_source *source) {
-    if (scan_whole(s, 1) != 1) scan_fail(s, "the form of the proofs is not 1, the only one that there is");
+    if (scan_whole(s, 2) != 2) scan_fail(s, "the form of the proofs is not 2: they were written by another version");
     scan_take_key(s, "robot", 0), source->robot = scan_text(s);
     scan_take_key(s, "srdf", 0), source->srdf = scan_text_or_null(s);
     scan_take_key(s, "scene", 0), source->scene = scan_text_or_null(s);
@@ -130,7 +121,7 @@ static void take_source(scan *s, ovoid_robot_proof_source *source) {
     scan_take_key(s, "scales", 0), source->scales = take_texts(s, &source->scale_count);
     scan_take_key(s, "paddings", 0), source->paddings = take_texts(s, &source->padding_count);
     scan_take_key(s, "parts", 0), source->parts = scan_flag(s);
-    take_solids(s, source);
+    scan_take_key(s, "hull", 0), source->hull = scan_flag(s);
     scan_take_key(s, "visual", 0), source->visual = scan_flag(s);
     scan_take_key(s, "fixed_base", 0), source->fixed_base = scan_flag(s);
     scan_take_key(s, "cylinder_tolerance", 0), source->tolerance = scan_number(s);
