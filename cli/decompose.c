@@ -7,6 +7,7 @@
 #include "message.h"
 #include "outputs.h"
 #include "progress.h"
+#include "solids.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -170,8 +171,11 @@ static int run(const cli_command *command, int argc, char **argv) {
                              "decompose: --parts is for parts that are made, --check for parts that are given");
     decomposed d = {.path = paths.items[0], .unit = inputs_get_unit(&s.read)};
     ovoid_read_options read = inputs_make_options(&s.read);
+    progress_read(d.path);
     ovoid_solid *solid = ovoid_solid_read_file(d.path, &read, &error);
+    progress_hide();
     if (!solid) return message_error("%s", error.message), EXIT_INPUT;
+    solids_warn_flat(d.path, solid);
     d.view.solid = solid;
     code = work(&d, &s);
     ovoid_parts_destroy(d.parts);

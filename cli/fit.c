@@ -279,7 +279,9 @@ static int fit_mesh(fit *f, const char *path) {
     ovoid_read_options read = inputs_make_options(&f->settings->read);
     read.parts = f->settings->parts;
     double start = progress_get_seconds();
+    progress_read(path);
     ovoid_mesh *mesh = ovoid_mesh_read(path, &read, &error);
+    progress_hide();
     if (!mesh) return message_error("%s", error.message), f->failed = 1, 0;
     double seconds = progress_get_seconds() - start;
     size_t count = ovoid_mesh_get_part_count(mesh);

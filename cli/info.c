@@ -100,6 +100,7 @@ static void print_info(const info *x) {
     else
         printf("  %-11s no: %llu edges are not matched\n", "closed", (unsigned long long)r->edges_unmatched);
     print_volumes(x);
+    if (r->is_flat) puts("  flat        encloses no volume but what rounding left: a sheet with two sides");
     print_count("crowded", r->edges_crowded, " edges of more than two triangles");
     print_count("degenerate", r->degenerate, " triangles without area");
     print_count("duplicates", r->duplicates, " triangles that are there before");
@@ -142,6 +143,7 @@ static void write_json(const info *x) {
     else
         fputs("null", stdout);
     write_number("volume", r->is_closed ? r->volume : NAN);
+    printf(",\"flat\":%s", r->is_flat ? "true" : "false");
     write_number("area", r->area);
     write_number("mesh_volume", x->convexity.mesh_volume);
     write_number("hull_volume", x->convexity.hull_volume);

@@ -2,6 +2,7 @@
 #include "inputs.h"
 
 #include "message.h"
+#include "progress.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -122,7 +123,9 @@ int inputs_open_body(const char *path, const read_settings *settings, int parts,
     *body = (cli_body){NULL, NULL, NULL};
     ovoid_read_options read = inputs_make_options(settings);
     read.parts = parts;
+    progress_read(path);
     body->parts = ovoid_shapes_read_file(path, &read, NULL, &error);
+    progress_hide();
     if (body->parts && parts) body->compound = ovoid_shapes_create_compound(body->parts, NULL, &error);
     if (body->parts && !parts) body->shape = ovoid_shapes_get(body->parts, 0).shape;
     if (!body->shape && !body->compound) {

@@ -1,13 +1,19 @@
 // The progress bar: items done, share, speed and the remaining time, redrawn in place.
 #include "progress.h"
 
+#include "message.h"
+
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
 /// Cells of the bar.
 #define BAR_WIDTH 28
+
+/// Bytes of a file that takes a while to read and to make into a body: a second or more.
+#define LARGE_FILE (32 << 20)
 
 /// The only bar; only the main thread uses it.
 static struct {
@@ -28,6 +34,18 @@ void progress_start(const char *what, size_t total) {
     bar.total = total;
     bar.start = bar.drawn = progress_get_seconds();
     bar.active = isatty(fileno(stderr));
+}
+
+void progress_read(const char *path) {
+    struct stat status;
+    if (!isatty(fileno(stderr)) || stat(path, &status) != 0 || status.st_size < LARGE_FILE) return;
+    char words[300];
+    snprintf(words, sizeof words, "%.200s, %.0f MB: read, and made ready ...", path, 1e-6 * (double)status.st_size);
+    fputc('\r', stderr);
+    message_write_text(stderr, words);
+    fputs("\033[K", stderr);
+    fflush(stderr);
+    bar.visible = 1;
 }
 
 static void draw(size_t done, double seconds) {

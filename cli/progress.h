@@ -7,6 +7,9 @@
 /// Starts the bar. what: for example "pairs"; total: 0 where it is not known. One bar at a time, from one thread.
 void progress_start(const char *what, size_t total);
 
+/// Says that a file is being read, where it is so large that this takes a while; progress_hide or a bar removes it.
+void progress_read(const char *path);
+
 /// Sets the number of items done; draws at most ten times a second.
 void progress_set(size_t done);
 

@@ -2,6 +2,7 @@
 #include "solids.h"
 
 #include "message.h"
+#include "progress.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,6 +17,14 @@ int solids_settle(const cli_command *command, const solids_choice *choice) {
 
 static ovoid_convexity get_convexity(const cli_body *body) { return ovoid_shapes_get(body->parts, 0).convexity; }
 
+void solids_warn_flat(const char *path, const ovoid_solid *solid) {
+    ovoid_solid_report r = ovoid_solid_get_report(solid);
+    if (!r.is_flat) return;
+    message_warning("%s encloses no volume but what rounding left, %.3g: it is a sheet with two sides, and counts as a "
+                    "solid that has no inside",
+                    path, r.volume);
+}
+
 read_settings solids_get_read(const read_settings *read, const solids_choice *choice) {
     read_settings settings = *read;
     settings.hull = choice->hull;
@@ -28,6 +37,7 @@ const ovoid_solid *solids_get(const char *path, const cli_body *body) {
     if (!solid) return NULL;
     ovoid_solid_report r = ovoid_solid_get_report(solid);
     if (!r.is_closed) inputs_warn_surface(path, r.edges_unmatched);
+    solids_warn_flat(path, solid);
     return solid;
 }
 

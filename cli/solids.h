@@ -64,4 +64,7 @@ typedef struct solids_query {
 /// Answers, checks the proof, writes the answer as text, JSON or CSV. Returns the exit code.
 int solids_answer(const solids_pair *pair, const solids_query *query, const output_settings *out);
 
+/// Says of a solid that it encloses nothing, where that is so.
+void solids_warn_flat(const char *path, const ovoid_solid *solid);
+
 #endif

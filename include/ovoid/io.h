@@ -33,7 +33,7 @@ extern "C" {
 #define OVOID_MESH_PARTS_MAX 65536
 
 /** Most points, after equal ones are merged, of a mesh file. */
-#define OVOID_MESH_POINTS_MAX 5000000
+#define OVOID_MESH_POINTS_MAX 20000000
 
 /* ---- meshes ---- */
 

@@ -48,6 +48,8 @@ typedef struct ovoid_solid_report {
     uint64_t duplicates;      /**< triangles with the three points of an earlier one, in any order */
     int is_closed;            /**< 1: a solid; 0: a surface */
     double volume;            /**< with its sign: below 0 where inside out; of a closed one, rounded; else 0 */
+    int is_flat;              /**< 1: closed, and encloses nothing but what rounding may have left: its mean thickness,
+                                   twice the volume over the area, is below 2^-39 of its size. A sheet with two sides */
     double area;              /**< rounded */
     ovoid_box box;            /**< of the points; solid's frame */
 } ovoid_solid_report;

@@ -156,9 +156,9 @@ static PyObject *get_bounds(PyObject *self, void *closure) {
 static PyObject *get_report(PyObject *self, void *closure) {
     (void)closure;
     ovoid_solid_report r = ovoid_solid_get_report(get(self));
-    return Py_BuildValue("{sKsKsKsKsKsKsK}", "points", r.points, "triangles", r.triangles, "components", r.components,
+    return Py_BuildValue("{sKsKsKsKsKsKsKsN}", "points", r.points, "triangles", r.triangles, "components", r.components,
                          "edges_unmatched", r.edges_unmatched, "edges_crowded", r.edges_crowded, "degenerate",
-                         r.degenerate, "duplicates", r.duplicates);
+                         r.degenerate, "duplicates", r.duplicates, "is_flat", PyBool_FromLong(r.is_flat));
 }
 
 static PyObject *winding(PyObject *self, PyObject *given) {

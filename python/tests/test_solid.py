@@ -67,6 +67,7 @@ class Making(unittest.TestCase):
         self.assertEqual(L.report, {"points": 12, "triangles": 20, "components": 1, "edges_unmatched": 0, "edges_crowded": 0,
                                     "degenerate": 0, "duplicates": 0})
         self.assertTrue(L.is_closed and ROUND.is_closed)
+        self.assertIs(L.report["is_flat"], False)
         self.assertTrue(4.1 < ROUND.volume < 4 * math.pi / 3)
         self.assertAlmostEqual(L.volume, 3, delta=1e-12)
         self.assertAlmostEqual(L.area, 2 * 3 + 8, delta=1e-12)

@@ -122,7 +122,8 @@ static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoi
     vec3 sum = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, points[i]);
     sample_faces(s, vec3_scale(sum, 1.0 / count));
-    if (s->excess <= s->enough) climb_all(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
+    // The planes of a flat hull do not bound it; its faces are all there is of it.
+    if (s->excess <= s->enough && h.rank == 3) climb_all(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
     hull_destroy(&h, &s->b->memory);
     s->h = NULL;
     return OVOID_OK;

@@ -65,6 +65,10 @@ static uint32_t find_components(const solid_parts *p, uint32_t *parent) {
     return count;
 }
 
+// A closed surface whose volume is at most this share of its area, in units of its size, encloses nothing: a sheet with
+// two sides, whose volume is what rounding left. In metres a sheet of 1 m is one below 2 pm of thickness.
+#define FLAT 0x1p-40
+
 // Volume and area about the middle of the points, and triangles without area.
 static void measure(const solid_parts *p, ovoid_solid_report *report) {
     vec3 middle = vec3_scale(vec3_add(report->box.min, report->box.max), 0.5);
@@ -89,6 +93,7 @@ static void measure(const solid_parts *p, ovoid_solid_report *report) {
     }
     report->volume = report->is_closed ? volume * unit * unit * unit : 0;
     report->area = area * unit * unit;
+    report->is_flat = report->is_closed && fabs(volume) <= FLAT * area;
 }
 
 uint32_t solid_compute_report(const solid_parts *p, const ovoid_allocator *allocator, uint32_t *components,

@@ -278,6 +278,33 @@ static void check_made_angle(double scale) {
     ovoid_solid_destroy(s);
 }
 
+// A sheet with two sides and a fold, alone and beside a box: its parts are flat, and the fold takes one cut.
+static void check_made_sheet(void) {
+    mesh m = {NULL, NULL, 0, 0, 0, 0};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 5; k++) mesh_add_point(&m, i, 0.25 * k, i == 1);
+    for (uint32_t i = 0; i < 2; i++)
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t a = 5 * i + k, b = a + 1, c = a + 5, d = c + 1;
+            mesh_add_triangle(&m, a, b, d), mesh_add_triangle(&m, a, d, c);
+            mesh_add_triangle(&m, d, b, a), mesh_add_triangle(&m, c, d, a);
+        }
+    for (int round = 0; round < 2; round++) {
+        ovoid_solid *s = mesh_make_solid(&m);
+        CHECK_EQ(ovoid_solid_get_report(s).is_flat, !round);
+        ovoid_parts *parts = make_parts(s, 0.05, 0);
+        CHECK_LE((double)ovoid_parts_get_count(parts), 2 + 2 * round);
+        ovoid_decomposition_options o = {.tolerance = 0.01};
+        ovoid_decomposition_proof p = prove(s, ovoid_parts_get_shapes(parts), ovoid_parts_get_count(parts), &o);
+        CHECK_LE(p.uncovered.upper, 0.01);
+        CHECK_LE(p.excess.upper, 0.06);
+        ovoid_parts_destroy(parts);
+        ovoid_solid_destroy(s);
+        mesh_add_box(&m, (ovoid_vec3){4, 0, 0}, (ovoid_vec3){5, 1, 1}, 0);
+    }
+    mesh_clear(&m);
+}
+
 // A long box with a square hole through it: no single plane lets any of the hole go, and
 // four bars make it.
 static void check_made_frame(void) {
@@ -463,6 +490,7 @@ int main(void) {
     check_made_angle(1);
     check_made_angle(1e-30);
     check_made_angle(1e30);
+    check_made_sheet();
     check_made_frame();
     check_made(3);
     check_enlarged();

@@ -315,8 +315,29 @@ static void check_altered(void) {
     ovoid_solid_destroy(s);
 }
 
+// A prism over a triangle whose top is that much above its bottom, at any scale and place: flat below a thickness of
+// 2^-40.
+static void check_flat(void) {
+    static const double scales[] = {1, 1e-60, 1e40, 1e-100}, heights[] = {0, 1e-18, -1e-13, 1e-11, 0.5};
+    static const uint32_t faces[] = {0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 5; k++) {
+            double s = scales[i], h = heights[k] * s;
+            const double points[] = {0, 0, 0, s, 0, 0, 0, s, 0, 0, 0, h, s, 0, h, 0, s, h};
+            ovoid_solid *solid = ovoid_solid_create_from_triangles(points, 6, faces, 8, NULL, NULL);
+            ovoid_solid *open = ovoid_solid_create_from_triangles(points, 6, faces, 7, NULL, NULL);
+            if (!CHECK(solid && open)) return;
+            CHECK_EQ(ovoid_solid_get_report(solid).is_flat, k < 3);
+            CHECK(ovoid_solid_get_report(solid).is_closed);
+            if (h != 0) CHECK(!ovoid_solid_get_report(open).is_closed && !ovoid_solid_get_report(open).is_flat);
+            ovoid_solid_destroy(solid);
+            ovoid_solid_destroy(open);
+        }
+}
+
 int main(void) {
     check_reports();
+    check_flat();
     check_strip();
     check_bad_input();
     check_windings();
