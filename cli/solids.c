@@ -2,7 +2,6 @@
 #include "solids.h"
 
 #include "message.h"
-#include "progress.h"
 
 #include <math.h>
 #include <stdlib.h>
