@@ -101,7 +101,10 @@ static ovoid_code check_leaves(const claim *c, const ovoid_answer *hit, double m
     return impact_check_answer(get_leaves(c, made, rooms), &own, error);
 }
 
+// The claimed bracket contains what is found, and says the same of the sign.
 static int holds(const ovoid_answer *claimed, const ovoid_solid_answer *found) {
+    int follows = status_check_internal(claimed->status, claimed->lower, claimed->upper, INFINITY, NULL) == OVOID_OK;
+    if (!follows) return 0;
     return claimed->lower <= found->lower && claimed->upper >= found->upper && claimed->status == found->status;
 }
 
