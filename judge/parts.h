@@ -79,6 +79,10 @@ int judge_is_covered(const pair_table *table, uint32_t *row, uint32_t *column);
 /// 1 if the order names each of count things once, with the place of one of them.
 int judge_is_order(const uint32_t *order, uint32_t count, uint32_t of, uint32_t *place);
 
+/// 1 if the edges of the triangles cancel, as pieces of lines. points: xyz of point i at 3 i; corners: of triangle t at
+/// 3 t.
+int judge_is_chain_closed(pool *p, const double *points, const uint32_t *corners, size_t triangles);
+
 /// The sum of w[i] times vertex v[i] of a body in the world, times the body's n, and the sum of the weights.
 typedef struct weighted {
     nvec point;

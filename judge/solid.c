@@ -45,32 +45,6 @@ static ovoid_code reject_item(const trial *t, size_t i, const char *why) {
 
 // --- the sides
 
-static int compare_edges(const void *a, const void *b) {
-    const uint64_t *x = a, *y = b;
-    return x[0] != y[0] ? (x[0] < y[0] ? -1 : 1) : x[1] < y[1] ? -1 : x[1] > y[1];
-}
-
-/// 1 if each edge is run through as often in one direction as in the other, and there is one.
-static int is_closed(const side *s) {
-    uint64_t(*edges)[2] = judge_allocate(3 * (size_t)s->count, sizeof *edges);
-    size_t count = 0;
-    for (size_t i = 0; i < 3 * (size_t)s->count; i++) {
-        uint64_t a = s->corners[i], b = s->corners[i % 3 == 2 ? i - 2 : i + 1];
-        if (a == b) continue;
-        edges[count][0] = a < b ? a << 32 | b : b << 32 | a;
-        edges[count++][1] = a < b;
-    }
-    qsort(edges, count, sizeof *edges, compare_edges);
-    int closed = count > 0;
-    for (size_t i = 0, end; i < count && closed; i = end) {
-        uint64_t forward = 0;
-        for (end = i; end < count && edges[end][0] == edges[i][0]; end++) forward += edges[end][1];
-        closed = 2 * forward == end - i;
-    }
-    free(edges);
-    return closed;
-}
-
 static ovoid_code read_side(pool *p, const ovoid_body *of, uint32_t triangle, side *s, ovoid_error *error) {
     *s = (side){.of = of, .count = 1};
     if (!of->shape == !of->solid)
@@ -89,7 +63,7 @@ static ovoid_code read_side(pool *p, const ovoid_body *of, uint32_t triangle, si
         s->posed = body_make_hull(p, &all, &of->pose);
         s->corners = judge_allocate(3 * (size_t)s->count, sizeof *s->corners);
         for (uint32_t i = 0; i < s->count; i++) ovoid_solid_get_triangle(of->solid, i, s->corners + 3 * (size_t)i);
-        s->is_closed = is_closed(s);
+        s->is_closed = judge_is_chain_closed(p, s->points, s->corners, s->count);
     }
     if (triangle >= s->count) return judge_reject(error, OVOID_ERROR_PROOF, "there is no triangle %u", triangle);
     if (s->order && !judge_is_order(s->order, s->count, triangle, &s->place))

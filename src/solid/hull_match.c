@@ -221,7 +221,7 @@ static int winds_around_center(const match *m) {
         vec3 corner[3];
         for (int i = 0; i < 3; i++)
             corner[i] = vec3_scale(vec3_sub(vec3_at(m->parts->points, point[i]), m->hull.origin), m->scale);
-        int crossing = ray_count_crossing(m->center, corner, point);
+        int crossing = has_area(corner) ? ray_count_crossing(m->center, corner, point) : 0;
         if (crossing == 2) return 0;
         winding += crossing;
     }
