@@ -426,7 +426,7 @@ static ovoid_code check_common_point(const trial *t) {
 
 static ovoid_code check_apart(const trial *t) {
     const ovoid_solid_answer *x = t->x;
-    if (!(x->surfaces.lower > 0 && x->lower <= x->surfaces.lower && x->upper >= x->surfaces.upper) || x->inside)
+    if (!(x->lower > 0 && x->lower <= x->surfaces.lower && x->upper >= x->surfaces.upper) || x->inside)
         return reject(t, "the distance is not that of the surfaces");
     if (has_inside(t, &t->a, &t->b, UINT32_MAX) || has_inside(t, &t->b, &t->a, UINT32_MAX))
         return reject(t, "one body is inside of the other");

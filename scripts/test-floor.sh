@@ -15,7 +15,7 @@ cmake --preset release >/dev/null
 # A test NAME is a program of the same name; scripts and Python's tests need the tool and the package.
 programs=$(cmake --build $build --target help | sed -n 's/^\.\.\. //p' | grep -E "^$pattern\$" || true)
 case $1 in
-cli) programs="$programs ovoid_cli" ;;
+cli) programs="$programs ovoid_cli $(cmake --build $build --target help | sed -n 's/^\.\.\. \(ovoid_floating\)$/\1/p')" ;;
 python) programs="$programs ovoid_python" ;;
 house) echo "test: the house's tests are run by make check and make check-all" >&2 && exit 2 ;;
 esac
