@@ -101,7 +101,7 @@ static void tell(const truth *t, const ovoid_compound_impact *x, alter_count *n)
     if (!CHECK(is_noticed) && check_failed <= 20) printf("  accepted: %s, %s\n", lie_name, lie_kind);
 }
 
-enum { FIELDS = 12, GROUP_FIELDS = 5, STEP_FIELDS = 5, FORGED = 4 };
+enum { FIELDS = 12, GROUP_FIELDS = 5, STEP_FIELDS = 5, FORGED = 7 };
 static const alter_field fields[FIELDS] = {
     ALTER_FIELD(ovoid_compound_impact, impact.status, ALTER_INT, 0),
     ALTER_FIELD(ovoid_compound_impact, impact.limit, ALTER_INT, 0),
@@ -200,7 +200,74 @@ static void part_groups(const truth *t, ovoid_compound_impact *x) {
         for (uint32_t b = 0; b < t->count_b; b++) groups[x->group_count++] = (ovoid_step_group){a, a + 1, b, b + 1, 0};
 }
 
+// A pair of groups said twice, steps and all, in the place of another.
+static void forge_twice(const truth *t, const ovoid_compound_impact *right) {
+    size_t at_i = 0;
+    for (size_t i = 0; i < right->group_count; at_i += groups[i++].count) {
+        size_t at_j = 0;
+        for (size_t j = 0; j < right->group_count; at_j += groups[j++].count) {
+            ovoid_step_group before = groups[i], other = groups[j];
+            ovoid_step kept[8];
+            uint32_t area = (before.end_a - before.first_a) * (before.end_b - before.first_b);
+            if (i == j || before.count != other.count || before.count > 8) continue;
+            if (area != (other.end_a - other.first_a) * (other.end_b - other.first_b)) continue;
+            memcpy(kept, steps + at_i, before.count * sizeof *kept);
+            memcpy(steps + at_i, steps + at_j, before.count * sizeof *kept);
+            groups[i] = other;
+            forge(t, "a group said twice", 4, right);
+            groups[i] = before;
+            memcpy(steps + at_i, kept, before.count * sizeof *kept);
+        }
+    }
+}
+
+// Any two parts at any time as those that meet then.
+static void forge_hits(const truth *t) {
+    for (int i = 0; i < t->count; i++) {
+        ovoid_compound_impact x = {.impact = {.status = OVOID_IMPACT_HIT, .begin = t->begin, .end = t->end}};
+        x.part_a = (uint32_t)i % t->count_a;
+        x.part_b = (uint32_t)i % t->count_b;
+        x.impact.free_until = t->begin;
+        x.impact.hit_at = t->times[i];
+        x.impact.hit = ask_parts(t, x.part_a, x.part_b, t->times[i]);
+        forge(t, "a hit that is none", 5, &x);
+    }
+}
+
+// A larger margin than the one that was asked about.
+static void forge_margins(const truth *t, const ovoid_compound_impact *right) {
+    truth larger = *t;
+    double least = INFINITY;
+    for (int i = 0; i < t->count; i++)
+        if (t->times[i] < right->impact.free_until) least = fmin(least, t->upper[i]);
+    for (double by = 1e-9; by < 10 && least < INFINITY; by *= 10) {
+        larger.margin = least + by;
+        forge(&larger, "a larger margin", 6, right);
+    }
+}
+
+// Of a body that is refused only that reason is right, and nothing may be claimed beside it.
+static void forge_refusals(const truth *t) {
+    ovoid_moving_body none = {.motion = t->b.motion};
+    ovoid_compound_impact right = ovoid_compound_impact_find(&t->a, &none, t->margin, &t->options), x = right;
+    CHECK_EQ(ovoid_compound_impact_check(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL), OVOID_OK);
+    x.impact.hit_at = 0.5;
+    CHECK(ovoid_compound_impact_check(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
+    x = right;
+    x.impact.limit = OVOID_LIMIT_SHAPE_A;
+    CHECK(ovoid_compound_impact_check(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
+    x = right;
+    x.impact.limit = OVOID_LIMIT_OPTIONS;
+    CHECK_EQ(ovoid_compound_impact_check(&t->a, &t->b, -1, &x, t->told, NULL, NULL, NULL), OVOID_OK);
+    x.group_count = 1;
+    CHECK(ovoid_compound_impact_check(&t->a, &t->b, -1, &x, t->told, NULL, groups, NULL) != OVOID_OK);
+}
+
 static void forge_all(const truth *t, const ovoid_compound_impact *right) {
+    forge_twice(t, right);
+    forge_margins(t, right);
+    forge_hits(t);
+    forge_refusals(t);
     for (int i = 0; i < t->count; i++) {
         ovoid_compound_impact x = make_free(t, t->times[i], t->times[i], 0);
         forge(t, "free for no time", 0, &x);
@@ -293,8 +360,9 @@ int main(int count, char **arguments) {
     for (int i = 0; i < FIELDS; i++) alter_print(fields[i].name, &counts[i]);
     for (int i = 0; i < GROUP_FIELDS; i++) alter_print(group_fields[i].name, &group_counts[i]);
     for (int i = 0; i < STEP_FIELDS; i++) alter_print(step_fields[i].name, &step_counts[i]);
-    const char *const names[FORGED] = {"free for no time", "coarse steps", "hit before the beginning",
-                                       "hit after the end"};
+    const char *const names[FORGED] = {"free for no time",  "coarse steps", "hit before the beginning",
+                                       "hit after the end", "twice",        "a hit that is none",
+                                       "a larger margin"};
     for (int i = 0; i < FORGED; i++) alter_print(names[i], &forged_counts[i]);
     return check_end();
 }
