@@ -63,8 +63,10 @@ typedef struct ovoid_gradient {
  * The gradient of the exact signed distance from an answer of ovoid_distance or ovoid_depth and its pair. cover: the
  * one that ovoid_depth gave, or NULL; without it no derivative of a depth is shown. Nothing is shown where the hulls,
  * without radii, touch to rounding. What is not shown is filled in all the same: one of several gradients, or an
- * inexact one. Of shapes with an allowance the gradient is that of the true bodies: by translations, apart, to `turn`,
- * which the width of their bracket makes; by rotations nothing is shown. Cost: the edges at the witness points, and the
+ * inexact one. Of shapes with an allowance the gradient is that of the true bodies. Of
+ * cylinders and cones (ovoid_shape_create_cylinder, ovoid_shape_create_cone) that are apart these are known in closed
+ * form, so that their own gradient is found; of others only the derivative by translations is shown, to the `turn` that
+ * their bracket's width makes. Cost: the edges at the witness points, and the
  * cover's triangles; 0.1 to some microseconds.
  */
 OVOID_API ovoid_gradient ovoid_answer_compute_gradient(const ovoid_pair *pair, const ovoid_answer *answer,

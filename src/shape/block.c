@@ -93,6 +93,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
 void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) {
     s->radius = s->lower_radius = s->upper_radius = radius;
     s->allowance = allowance;
+    s->round = (round_form){ROUND_NONE, 0, 0};
     s->span = s->extent;
     s->has_allowance = allowance.outside + allowance.inside > 0;
     if (allowance.outside > 0) s->lower_radius = nextafter(radius + allowance.outside, INFINITY);

@@ -32,6 +32,15 @@ typedef struct shape_inner {
     double reach; ///< an upper bound of its largest radius
 } shape_inner;
 
+/// A body that is not its polyhedron, in closed form: along z of the user's frame, around its origin.
+typedef enum round_kind { ROUND_NONE = 0, ROUND_CYLINDER, ROUND_CONE } round_kind;
+
+/// What is known of the true body beside the allowance. With the rounding radius around it.
+typedef struct round_form {
+    round_kind kind;
+    double radius, half_length; ///< a cone's apex is at +half_length
+} round_form;
+
 struct ovoid_shape {
     // Read by the first rejections: one cache line, and the beginning of the next.
     double reach;      ///< no vertex is farther than this from `center`, rounding included
@@ -60,6 +69,7 @@ struct ovoid_shape {
     ovoid_fit outer_fit, inner_fit;
     ovoid_report report;
     ovoid_measures measures;
+    round_form round; ///< not in files: of a shape that was read the polyhedron is known, and its allowance
     ovoid_allocator allocator;
 };
 
@@ -87,7 +97,8 @@ ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovo
 /// padding, sphere, extent, measures. The polytope must have the block's counts.
 void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope);
 
-/// Sets the radius and the allowance of a block that has been filled, and what follows from them.
+/// Sets the radius and the allowance of a block that has been filled, and what follows from them. The true body is then
+/// known by these alone.
 void block_set_radius(ovoid_shape *shape, double radius, ovoid_allowance allowance);
 
 /// By how much the allowance widens a bracket.

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "linear/vec3.h"
 #include "polytope/points.h"
+#include "shape/block.h"
 #include "shape/create.h"
 
 // Checks a length of a primitive: finite and not negative.
@@ -159,7 +160,12 @@ static ovoid_shape *create_round(const turned *t, double tolerance, const ovoid_
     }
     o.allowance.outside += by.radius * compute_sagitta(by.sides);
     o.allowance.inside += by.radius * (8 * 0x1p-53);
-    return create_turned(&by, &o, error);
+    ovoid_shape *shape = create_turned(&by, &o, error);
+    // An allowance that was given leaves the true body open.
+    int is_known = !options || (!(options->allowance.outside > 0) && !(options->allowance.inside > 0));
+    round_kind kind = by.rings == 2 ? ROUND_CYLINDER : ROUND_CONE;
+    if (shape && is_known) shape->round = (round_form){kind, by.radius, by.half_length};
+    return shape;
 }
 
 ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, double tolerance,

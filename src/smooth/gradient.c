@@ -16,24 +16,13 @@
 //
 // Of shapes with an allowance the gradient is that of the true bodies: their normal is bounded by their own bracket in
 // the same way, which holds for any convex bodies; their points are not known.
+#include "smooth/gradient.h"
 #include "base/environment.h"
 #include "base/error.h"
-#include "ovoid/smooth.h"
 #include "pair/cover.h"
 #include "pair/proof.h"
 
 static const double rounding = 0x1p-53;
-
-/// The feature of one body that holds its witness point.
-typedef struct feature {
-    const ovoid_shape *shape;
-    vec3 n;     ///< body frame, outward
-    vec3 point; ///< body frame
-    uint32_t v[OVOID_PROOF_PAIRS];
-    int count; ///< vertices: 1, 2 or more
-    vec3 edge; ///< where count is 2, the unit direction between them
-    double slope;
-} feature;
 
 // The vertices of positive weight, and their mean.
 static void take_vertices(feature *x, const uint32_t *index, const double *weight, uint32_t count) {
@@ -78,8 +67,7 @@ static double find_slope(const feature *x) {
     return sqrt(least);
 }
 
-static feature make_feature(const ovoid_shape *shape, vec3 n, const uint32_t *index, const double *weight,
-                            uint32_t count) {
+feature feature_make(const ovoid_shape *shape, vec3 n, const uint32_t *index, const double *weight, uint32_t count) {
     feature x = {.shape = shape, .n = n};
     take_vertices(&x, index, weight, count);
     if (x.count == 2) {
@@ -138,7 +126,7 @@ static double judge_depth(const pair_frame *f, const ovoid_cover *cover, vec3 n,
 
 // An upper bound of the angle whose cosine is 1 - rest: with the chord c = sqrt(2 rest) the angle is 2 asin(c / 2), and
 // that over c is 1 + k c^2 with a k that grows from 1 / 24 to 0.1427.
-static double find_angle_above(double rest) {
+double gradient_find_angle_above(double rest) {
     if (!(rest < 2)) return 0x1.921fb54442d19p+1;
     double chord = sqrt(2 * max2(rest, 0));
     return chord * (1 + 0.143 * chord * chord);
@@ -151,11 +139,20 @@ static vec3 find_lever(const ovoid_shape *shape, const mat3 *rotation, vec3 poin
     return mat3_mul_vec3(*rotation, point);
 }
 
+void gradient_put(const pair_frame *f, vec3 n, vec3 point_a, vec3 point_b, ovoid_gradient *out) {
+    if (f->a->has_origin) point_a = vec3_add(point_a, mat3_mul_vec3(f->world, f->a->origin));
+    if (f->b->has_origin) point_b = vec3_add(point_b, mat3_mul_vec3(f->world_b, f->b->origin));
+    put(out->gradient, vec3_neg(n));
+    put(out->gradient + 3, vec3_cross(n, point_a));
+    put(out->gradient + 6, n);
+    put(out->gradient + 9, vec3_cross(point_b, n));
+}
+
 // The torques, and whether the derivative by rotations exists.
 static void add_rotation(const pair_frame *f, const ovoid_proof *p, vec3 n, double excess, double off,
                          ovoid_gradient *out) {
-    feature a = make_feature(f->a, mat3_mul_transposed_vec3(f->world, n), p->a, p->weight_a, p->count);
-    feature b = make_feature(f->b, vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)), p->b, p->weight_b, p->count);
+    feature a = feature_make(f->a, mat3_mul_transposed_vec3(f->world, n), p->a, p->weight_a, p->count);
+    feature b = feature_make(f->b, vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)), p->b, p->weight_b, p->count);
     put(out->gradient + 3, vec3_cross(n, find_lever(f->a, &f->world, a.point)));
     put(out->gradient + 9, vec3_cross(find_lever(f->b, &f->world_b, b.point), n));
     out->slope = min2(join_slopes(f, &a, &b), 1);
@@ -172,7 +169,7 @@ static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_c
     pair_frame f;
     vec3 n = vec3_unit(x->normal);
     *out = (ovoid_gradient){.has_translation = 0};
-    out->turn = find_angle_above(2);
+    out->turn = gradient_find_angle_above(2);
     out->slide = INFINITY;
     if (frame_make(pair, &f) != OVOID_LIMIT_NONE) return;
     if (!(vec3_norm_squared(n) > 0.5) || !vec3_is_finite(n) || !(x->lower <= x->upper)) return;
@@ -184,12 +181,12 @@ static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_c
     double radii = get_core_radius(f.a) + get_core_radius(f.b);
     double lower = x->lower + radii, upper = x->upper + radii, off = INFINITY;
     if (lower > 0) {
-        out->turn = find_angle_above((upper - lower) / upper);
+        out->turn = gradient_find_angle_above((upper - lower) / upper);
         out->margin = INFINITY;
         off = sqrt(max2((upper - lower) * (upper + lower), 0));
     } else if (upper < 0 && is_exact) {
         vec3 in_frame = frame_direction_from_world(&f, n);
-        out->turn = find_angle_above(judge_depth(&f, cover, in_frame, -upper, -lower, &out->margin));
+        out->turn = gradient_find_angle_above(judge_depth(&f, cover, in_frame, -upper, -lower, &out->margin));
         off = out->turn * -lower;
     }
     out->has_translation = out->margin > 0;
@@ -197,10 +194,12 @@ static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_c
     if (has_points && x->proof.count && proof_is_sound(&f, &x->proof))
         add_rotation(&f, &x->proof, n, upper - lower, off, out);
     if (is_exact) return;
-    // The points of the true bodies, and how these fall away there, are not known.
+    // The points of the true bodies, and how these fall away there, are not known but of those in closed form.
     out->has_rotation = 0;
     out->slope = 0;
     out->slide = INFINITY;
+    if (has_points && x->proof.kind == OVOID_PROOF_POINTS && x->proof.count && proof_is_sound(&f, &x->proof))
+        gradient_refine_round(&f, pair, &x->proof, out);
 }
 
 ovoid_gradient ovoid_answer_compute_gradient(const ovoid_pair *pair, const ovoid_answer *answer,

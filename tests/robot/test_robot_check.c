@@ -414,8 +414,11 @@ static void test_gradients(void) {
         ovoid_robot_nears nears = {.items = items, .gradients = rows, .capacity = MOST};
         CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears, &error), OVOID_OK);
         size_t n = ovoid_robot_get_variable_count(c.r), kept = nears.count < MOST ? nears.count : MOST;
+        // Differences of brackets are those of the shapes; gradients of cylinders are those of true cylinders, which
+        // test_gradient_round compares.
         for (size_t i = 0; i < kept; i += 3)
-            if (items[i].has_gradient) compare_gradient(x, q, n, &items[i], rows + i * n);
+            if (items[i].has_gradient && items[i].upper - items[i].lower < 1e-6)
+                compare_gradient(x, q, n, &items[i], rows + i * n);
         ovoid_robot_checker_destroy(x);
         destroy_scene(&c);
     }

@@ -1,0 +1,316 @@
+// The gradient of the distance of cylinders and cones themselves, which shapes hold by polyhedra with an allowance.
+//
+// The answer's points are those of the polyhedra. From them the points of the true bodies are found: the polyhedron's
+// nearest feature to a point of the round body (an exact query of a point), then the point of the round body that is
+// nearest to that feature, in closed form for a vertex and a face, by halving along an edge, where the distance from a
+// convex body is convex; and so on until the feature stays. Of two round bodies each is nearest to the other's point in
+// turn; the axis of a cylinder that is met at its side is an edge. Whatever these searches do, the result is proven:
+// the supports' gap along the direction n that was found, in closed form, is below the distance, and the distance of
+// the two points above it. So the exact normal is within acos(lower / upper) of n, as for polyhedra.
+//
+// Are the points unique? Those of one body are, if for all directions within that angle of n its support is one point;
+// then so are the other's, as their difference is. At the rim of a base, off n's angles to the axis and to the base (of
+// a cone also to its side), the support point is the rim's point along n; it turns by the angle over the sine of n to
+// the axis. At a polyhedron's vertex or a cone's apex it stays. Where neither is such, a cylinder's side is a line with
+// a radius: where another such line or an edge crosses it, they fall away from each other by the slope that they have
+// as edges.
+//
+// Cost: some queries of a point, 1 to 10 microseconds.
+#include "pair/proof.h"
+#include "query/answer.h"
+#include "shape/point.h"
+#include "smooth/gradient.h"
+
+#define ROUNDING 0x1p-53
+
+enum { ROUNDS = 8, TURNS = 200, HALVINGS = 80 };
+
+/// A body in the world's axes, from the body frame of A.
+typedef struct round_body {
+    const ovoid_shape *shape;
+    round_form form; ///< ROUND_NONE: the polyhedron
+    ovoid_pose pose;
+    mat3 rotation;
+    vec3 base;         ///< the origin of the body frame
+    vec3 center, axis; ///< of the round body
+} round_body;
+
+/// A point of the round body, the nearest of the other body, and what holds that.
+typedef struct nearest {
+    vec3 p, q;
+    vec3 n;       ///< unit, from p to q
+    double upper; ///< of the distance
+    feature of_q; ///< of a polyhedron; its vertices alone
+} nearest;
+
+static vec3 get_axis(const mat3 *m) { return (vec3){m->r0.z, m->r1.z, m->r2.z}; }
+
+static round_body make_body(const ovoid_shape *shape, const mat3 *rotation, ovoid_quat turn, vec3 base) {
+    round_body b = {.shape = shape, .form = shape->round, .rotation = *rotation, .base = base};
+    vec3 origin = shape->has_origin ? mat3_mul_vec3(*rotation, shape->origin) : (vec3){0, 0, 0};
+    b.center = vec3_sub(base, origin);
+    b.axis = get_axis(rotation);
+    b.pose = (ovoid_pose){b.center, turn};
+    return b;
+}
+
+// ---- round bodies in closed form
+
+// The support along the unit n, and its point.
+static double find_round_support(const round_body *b, vec3 n, vec3 *point) {
+    double along = vec3_dot(n, b->axis), half = b->form.half_length;
+    vec3 across = vec3_add_scaled(n, b->axis, -along);
+    double length = vec3_norm(across), rim = b->form.radius * length, end = along < 0 ? -half : half;
+    if (b->form.kind == ROUND_CONE) {
+        end = half * along >= rim - half * along ? half : -half;
+        if (end > 0) rim = 0;
+    }
+    *point = vec3_add_scaled(b->center, b->axis, end);
+    if (rim > 0) *point = vec3_add_scaled(*point, across, b->form.radius / length);
+    return (vec3_dot(n, b->center) + end * along) + rim;
+}
+
+// The nearest point to one outside.
+static vec3 find_round_point(const round_body *b, vec3 x) {
+    vec3 v = vec3_sub(x, b->center);
+    double z = vec3_dot(v, b->axis), radius = b->form.radius, half = b->form.half_length;
+    vec3 across = vec3_add_scaled(v, b->axis, -z);
+    double off = vec3_norm(across), to = min2(off, radius), at = max2(-half, min2(z, half));
+    if (b->form.kind == ROUND_CONE) {
+        // In the half plane through the axis: the base, or the side.
+        double t = ((radius - off) * radius + (z + half) * (2 * half)) / (radius * radius + 4 * half * half);
+        t = max2(0, min2(t, 1));
+        double side_off = radius * (1 - t), side_at = half * (2 * t - 1);
+        double from_side = (off - side_off) * (off - side_off) + (z - side_at) * (z - side_at);
+        double from_base = (off - to) * (off - to) + (z + half) * (z + half);
+        at = from_side < from_base ? side_at : -half;
+        to = from_side < from_base ? side_off : to;
+    }
+    vec3 point = vec3_add_scaled(b->center, b->axis, at);
+    return off > 0 ? vec3_add_scaled(point, across, to / off) : point;
+}
+
+static double find_support(const round_body *b, vec3 n) {
+    vec3 point;
+    if (b->form.kind != ROUND_NONE) return find_round_support(b, n, &point);
+    return vec3_dot(n, b->base) + shape_find_extreme(b->shape, mat3_mul_transposed_vec3(b->rotation, n)).value;
+}
+
+static vec3 find_vertex(const round_body *b, uint32_t v) {
+    return vec3_add(b->base, mat3_mul_vec3(b->rotation, vec3_at(shape_vertices(b->shape), v)));
+}
+
+// ---- a round body and a polyhedron
+
+// The polyhedron's nearest point to x->p, and its feature. 0 where there is none.
+static int ask_point(const round_body *hull, nearest *x) {
+    point_shape point;
+    point_make(&point, 0);
+    const ovoid_pair pair = {&point.shape, hull->shape, {x->p, {1, 0, 0, 0}}, hull->pose};
+    const ovoid_options options = {.relative_tolerance = 1e-14};
+    ovoid_answer found;
+    answer_find_internal(&pair, &options, query_goal_make_distance(&options), NULL, NULL, &found);
+    const ovoid_proof *proof = &found.proof;
+    if (proof->kind != OVOID_PROOF_POINTS || !proof->count) return 0;
+    x->of_q = feature_make(hull->shape, (vec3){0, 0, 0}, proof->b, proof->weight_b, proof->count);
+    x->q = vec3_add(hull->base, mat3_mul_vec3(hull->rotation, x->of_q.point));
+    x->upper = vec3_norm(vec3_sub(x->q, x->p));
+    return x->upper > 0;
+}
+
+// The nearest points of a round body and an edge: halving on where the way to the body is across the edge.
+static void solve_edge(const round_body *round, vec3 from, vec3 to, nearest *x) {
+    vec3 e = vec3_sub(to, from);
+    double low = 0, high = 1;
+    for (int i = 0; i < HALVINGS; i++) {
+        double t = low + 0.5 * (high - low);
+        if (!(t > low && t < high)) break;
+        x->q = vec3_add_scaled(from, e, t);
+        x->p = find_round_point(round, x->q);
+        if (vec3_dot(vec3_sub(x->q, x->p), e) < 0)
+            low = t;
+        else
+            high = t;
+    }
+}
+
+// The nearest points of the round body and the feature.
+static void solve_feature(const round_body *round, const round_body *hull, nearest *x) {
+    const uint32_t *v = x->of_q.v;
+    vec3 first = find_vertex(hull, v[0]);
+    if (x->of_q.count >= 3) {
+        vec3 n =
+            vec3_unit(vec3_cross(vec3_sub(find_vertex(hull, v[1]), first), vec3_sub(find_vertex(hull, v[2]), first)));
+        if (vec3_dot(n, vec3_sub(first, x->p)) < 0) n = vec3_neg(n);
+        (void)find_round_support(round, n, &x->p);
+        x->n = n;
+        return;
+    }
+    if (x->of_q.count == 2)
+        solve_edge(round, first, find_vertex(hull, v[1]), x);
+    else
+        x->p = find_round_point(round, x->q = first);
+    x->n = vec3_unit(vec3_sub(x->q, x->p));
+}
+
+static int has_same_feature(const feature *a, const feature *b) {
+    if (a->count != b->count) return 0;
+    for (int i = 0; i < a->count; i++)
+        if (a->v[i] != b->v[i] && (a->count < 2 || a->v[i] != b->v[(i + 1) % a->count])) return 0;
+    return 1;
+}
+
+// From a point q of the polyhedron.
+static int find_with_hull(const round_body *round, const round_body *hull, vec3 q, nearest *x) {
+    x->p = find_round_point(round, q);
+    for (int i = 0; i < ROUNDS; i++) {
+        feature before = x->of_q;
+        if (!ask_point(hull, x)) return 0;
+        if (i > 0 && has_same_feature(&before, &x->of_q)) return 1;
+        solve_feature(round, hull, x);
+    }
+    return 1;
+}
+
+// ---- two round bodies
+
+// From the axis of a cylinder, which is an edge with a radius where the points are on its side; 0 where they are not.
+static int find_from_axis(const round_body *a, const round_body *b, nearest *x) {
+    vec3 end = vec3_scale(b->axis, b->form.half_length);
+    if (b->form.kind != ROUND_CYLINDER || !(fabs(vec3_dot(x->n, b->axis)) < 0.25)) return 0;
+    nearest y = *x;
+    solve_edge(a, vec3_sub(b->center, end), vec3_add(b->center, end), &y);
+    y.n = vec3_unit(vec3_sub(y.q, y.p));
+    y.q = find_round_point(b, y.p);
+    y.upper = vec3_norm(vec3_sub(y.q, y.p));
+    if (!(fabs(vec3_dot(y.n, b->axis)) < 0x1p-40) || !(y.upper < x->upper * (1 + 0x1p-40))) return 0;
+    *x = y;
+    return 1;
+}
+
+static int find_with_round(const round_body *a, const round_body *b, vec3 q, nearest *x) {
+    x->q = q;
+    x->of_q.count = 0;
+    for (int i = 0; i < TURNS; i++) {
+        vec3 before = x->q;
+        x->p = find_round_point(a, x->q);
+        x->q = find_round_point(b, x->p);
+        if (!(vec3_max_abs(vec3_sub(before, x->q)) > 0)) break;
+    }
+    vec3 w = vec3_sub(x->q, x->p);
+    x->upper = vec3_norm(w);
+    x->n = vec3_unit(w);
+    if (!(x->upper > 0)) return 0;
+    if (find_from_axis(a, b, x)) return 1;
+    nearest y = {.p = x->q, .q = x->p, .n = vec3_neg(x->n), .upper = x->upper};
+    if (find_from_axis(b, a, &y)) {
+        x->p = y.q;
+        x->q = y.p;
+        x->n = vec3_neg(y.n);
+        x->upper = y.upper;
+    }
+    return 1;
+}
+
+// ---- what is shown
+
+/// How far a body's support point for directions within `turn` of n may be from the one of n; infinity where it may not
+/// be one point. *angle: how far n is from directions of several points, at least.
+static double find_round_slide(const round_body *b, vec3 n, double turn, double *angle) {
+    double along = vec3_dot(n, b->axis), across = vec3_norm(vec3_cross(n, b->axis));
+    double radius = b->form.radius, half = b->form.half_length;
+    // Sines of angles are below the angles: to the axis, and to the base plane or the cone's side.
+    *angle = min2(across, fabs(along));
+    if (b->form.kind == ROUND_CONE) {
+        double side = (2 * half * along - radius * across) / sqrt(4 * half * half + radius * radius);
+        *angle = fabs(side);
+        if (side > turn + 64 * ROUNDING) return 0;
+        *angle = min2(*angle, across);
+    }
+    if (!(*angle > 2 * turn + 64 * ROUNDING)) return INFINITY;
+    return radius * turn / (across - turn);
+}
+
+static double find_slide(const round_body *b, const nearest *x, vec3 n, double turn, double *angle) {
+    if (b->form.kind != ROUND_NONE) return find_round_slide(b, n, turn, angle);
+    const double weight[OVOID_PROOF_PAIRS] = {1, 1, 1, 1, 1, 1};
+    feature f =
+        feature_make(b->shape, mat3_mul_transposed_vec3(b->rotation, n), x->of_q.v, weight, (uint32_t)x->of_q.count);
+    *angle = f.count == 1 ? min2(f.slope, 1) : 0;
+    return *angle > 2 * turn + 256 * ROUNDING ? 0 : INFINITY;
+}
+
+// The room along a cylinder's side to its ends, of a point with the normal n there; below zero where it is not there.
+static double find_room(const round_body *b, vec3 n, vec3 point, double turn) {
+    if (b->form.kind != ROUND_CYLINDER || !(fabs(vec3_dot(n, b->axis)) <= turn + 64 * ROUNDING)) return -1;
+    return b->form.half_length - fabs(vec3_dot(vec3_sub(point, b->center), b->axis));
+}
+
+// The side of a cylinder that crosses an edge, or another cylinder's side: the slope by which they fall away from each
+// other, else 0. *room: how far the points may be moved along them.
+static double find_crossing(const round_body bodies[2], const nearest *x, double turn, double *room) {
+    const round_body *other = &bodies[1];
+    *room = find_room(&bodies[0], x->n, x->p, turn);
+    if (other->form.kind != ROUND_NONE) {
+        *room = min2(*room, find_room(other, x->n, x->q, turn));
+        return vec3_norm(vec3_cross(other->axis, bodies[0].axis));
+    }
+    if (x->of_q.count != 2) return 0;
+    const double weight[2] = {1, 1};
+    vec3 n = mat3_mul_transposed_vec3(other->rotation, vec3_neg(x->n));
+    feature f = feature_make(other->shape, n, x->of_q.v, weight, 2);
+    return min2(f.slope, 1) * vec3_norm(vec3_cross(mat3_mul_vec3(other->rotation, f.edge), bodies[0].axis));
+}
+
+// Of the first body, which is round, and the second; *slide and *slope as in ovoid_gradient.
+static void find_points(const round_body bodies[2], const nearest *x, double turn, double excess, double off,
+                        double *slope, double *slide) {
+    double angle;
+    *slide = INFINITY;
+    *slope = 0;
+    for (int k = 0; k < 2; k++) {
+        double own = find_slide(&bodies[k], x, k ? vec3_neg(x->n) : x->n, turn, &angle);
+        if (!(own + off < *slide)) continue;
+        *slide = own + off;
+        *slope = angle;
+    }
+    if (*slide < INFINITY) return;
+    double room, cross = find_crossing(bodies, x, turn, &room);
+    if (!(cross > 2 * turn + 256 * ROUNDING) || !((excess + off) / cross < room)) return;
+    *slide = (excess + off) / cross;
+    *slope = cross;
+}
+
+void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ovoid_proof *proof, ovoid_gradient *out) {
+    const ovoid_shape *shapes[2] = {f->a, f->b};
+    for (int k = 0; k < 2; k++)
+        if (shapes[k]->has_allowance && shapes[k]->round.kind == ROUND_NONE) return;
+    // The first body is round.
+    int is_swapped = f->a->round.kind == ROUND_NONE;
+    round_body bodies[2];
+    bodies[is_swapped] = make_body(f->a, &f->world, pair->pose_a.rotation, (vec3){0, 0, 0});
+    bodies[!is_swapped] = make_body(f->b, &f->world_b, pair->pose_b.rotation, f->offset);
+    nearest x = {.upper = 0};
+    feature start = is_swapped ? feature_make(f->a, (vec3){0, 0, 0}, proof->a, proof->weight_a, proof->count)
+                               : feature_make(f->b, (vec3){0, 0, 0}, proof->b, proof->weight_b, proof->count);
+    vec3 q = vec3_add(bodies[1].base, mat3_mul_vec3(bodies[1].rotation, start.point));
+    int is_found = bodies[1].form.kind == ROUND_NONE ? find_with_hull(&bodies[0], &bodies[1], q, &x)
+                                                     : find_with_round(&bodies[0], &bodies[1], q, &x);
+    if (!is_found || !(vec3_norm_squared(x.n) > 0.5)) return;
+
+    double gap = -find_support(&bodies[1], vec3_neg(x.n)) - find_support(&bodies[0], x.n);
+    double lower = gap - 2 * f->check, upper = x.upper + 2 * f->check;
+    if (!(lower > 0)) return;
+    double turn = gradient_find_angle_above((upper - lower) / upper), slope, slide;
+    if (!(turn < out->turn)) return;
+    find_points(bodies, &x, turn, upper - lower, sqrt(max2((upper - lower) * (upper + lower), 0)), &slope, &slide);
+    vec3 n = is_swapped ? vec3_neg(x.n) : x.n, to_p = vec3_sub(x.p, bodies[0].base),
+         to_q = vec3_sub(x.q, bodies[1].base);
+    gradient_put(f, n, is_swapped ? to_q : to_p, is_swapped ? to_p : to_q, out);
+    out->turn = turn;
+    out->margin = INFINITY;
+    out->slope = min2(slope, 1);
+    out->slide = slide;
+    out->has_translation = 1;
+    out->has_rotation = slide < INFINITY;
+}
