@@ -130,7 +130,69 @@ static void check_rounds(int rounds, uint64_t seed) {
     check_seed = 0;
 }
 
+// A bar with the section |x| + |z| <= 1 through a block, |y| <= 1: their surfaces meet along edges of both alone, and
+// no triangles are flush. Beside them each body has a fine ball elsewhere, so that few triangles are near the overlap,
+// and the middle of both boxes is in neither.
+static void add_block(mesh *m) {
+    static const uint8_t face[10][3] = {{0, 5, 4}, {1, 6, 5}, {2, 7, 6}, {3, 4, 7}, {0, 1, 5},
+                                        {1, 2, 6}, {2, 3, 7}, {3, 0, 4}, {4, 5, 6}, {4, 6, 7}};
+    for (int side = 0; side < 2; side++) {
+        double y = side ? 1 : -1;
+        for (int i = 0; i < 4; i++) mesh_add_point(m, i == 0 || i == 3 ? 2 : -2, y, i < 2 ? 2 : -2);
+        for (int i = 0; i < 4; i++) mesh_add_point(m, i % 2 ? 0 : 1 - i, y, i % 2 ? 2 - i : 0);
+    }
+    for (uint32_t i = 0; i < 10; i++) {
+        mesh_add_triangle(m, face[i][0], face[i][1], face[i][2]);
+        mesh_add_triangle(m, face[i][0] + 8u, face[i][2] + 8u, face[i][1] + 8u);
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        mesh_add_triangle(m, i, i + 8, (i + 1) % 4 + 8);
+        mesh_add_triangle(m, i, (i + 1) % 4 + 8, (i + 1) % 4);
+    }
+}
+
+static void add_bar(mesh *m) {
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 4; i++)
+            mesh_add_point(m, i % 2 ? 0 : 1 - i, k == 0 ? -9 : k == 3 ? 9 : 2 * k - 3, i % 2 ? 2 - i : 0);
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t i = 0; i < 4; i++) {
+            uint32_t j = (i + 1) % 4;
+            mesh_add_triangle(m, 4 * k + i, 4 * k + 4 + i, 4 * k + 4 + j);
+            mesh_add_triangle(m, 4 * k + i, 4 * k + 4 + j, 4 * k + j);
+        }
+    for (uint32_t i = 1; i < 3; i++) {
+        mesh_add_triangle(m, 0, i, i + 1);
+        mesh_add_triangle(m, 12, 12 + i + 1, 12 + i);
+    }
+}
+
+static void check_edges(void) {
+    mesh a = {NULL, NULL, 0, 0, 0, 0}, b = a;
+    uint64_t s = 1;
+    add_block(&a);
+    mesh_add_star(&a, (ovoid_vec3){-9, 0, 9}, 2, 40, 40, 0, &s);
+    add_bar(&b);
+    mesh_add_star(&b, (ovoid_vec3){9, 0, 9}, 2, 40, 40, 0, &s);
+    ovoid_solid *sa = mesh_make_solid(&a), *sb = mesh_make_solid(&b);
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
+    ovoid_body_pair pair = {{.solid = sa, .pose = ovoid_pose_make_identity()},
+                            {.solid = sb, .pose = ovoid_pose_make_identity()}};
+    if (CHECK(sa && sb)) {
+        CHECK(ovoid_solid_get_report(sa).is_closed && ovoid_solid_get_report(sb).is_closed);
+        ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, &all);
+        CHECK_EQ(x.status, OVOID_OVERLAPPING);
+        CHECK_EQ(x.inside, OVOID_SOLID_COMMON_POINT);
+        CHECK_EQ(ovoid_solid_answer_check(&pair, &x, NULL, &all, NULL), OVOID_OK);
+    }
+    ovoid_solid_destroy(sa);
+    ovoid_solid_destroy(sb);
+    mesh_clear(&a);
+    mesh_clear(&b);
+}
+
 int main(int count, char **arguments) {
+    check_edges();
     uint64_t rounds = 200;
     const test_option options[] = {{"rounds", "how many (200)", &rounds, NULL, NULL, NULL},
                                    {NULL, NULL, NULL, NULL, NULL, NULL}};

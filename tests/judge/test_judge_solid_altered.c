@@ -231,9 +231,13 @@ static void make_meshes(sample *x, int kind, uint64_t *s) {
         cubes a = cubes_make(s), b = kind % 2 ? a : cubes_make(s);
         mesh_add_cubes(&x->a, &a, 1);
         mesh_add_cubes(&x->b, &b, 1);
+    } else if (kind == 1 || kind == 4) {
+        // The one may be within the other.
+        mesh_add_star(&x->a, (ovoid_vec3){0, 0, 0}, 1, 4, 6, 0.2, s);
+        mesh_add_star(&x->b, (ovoid_vec3){0, 0, 0}, 0.1, 3, 4, 0.3, s);
     } else {
         mesh_add_random(&x->a, 1, s);
-        mesh_add_random(&x->b, kind == 1 ? 0.1 : random_uniform(s, 0.3, 1), s);
+        mesh_add_random(&x->b, random_uniform(s, 0.3, 1), s);
     }
     double thin = kind == 5 ? 1e-3 : 1;
     for (size_t i = 0; i < x->a.points; i++) x->a.xyz[3 * i + 2] *= thin;
@@ -242,7 +246,7 @@ static void make_meshes(sample *x, int kind, uint64_t *s) {
 }
 
 static ovoid_pose make_pose(int kind, double scale, uint64_t *s) {
-    ovoid_vec3 at = random_vec3(s, kind == 1 ? 0.4 : 2);
+    ovoid_vec3 at = random_vec3(s, kind == 1 || kind == 4 ? 0.3 : 2);
     if (kind % 3) return (ovoid_pose){{scale * at.x, scale * at.y, scale * at.z}, random_quat(s)};
     return (ovoid_pose){{scale * rint(at.x), scale * rint(at.y), scale * rint(at.z)}, {1, 0, 0, 0}};
 }
