@@ -198,7 +198,7 @@ def swap(record, key, other):
 
 
 def make_lies(record, other):
-    """What is altered in the record, the function that does it and its arguments: in one field: claims in every way, of what only proves them some."""
+    """Lies of one field: what it is, the function that tells it and its arguments. Claims in every way, proofs in some."""
     claims, proofs = [], []
     for path in find_leaves(record):
         if not path or path[0] in HISTORY:

@@ -187,6 +187,10 @@ shard --shard 1/3 --proofs -o proofs.shard
 "$OVOID_TOOL" check scene.json --csv --shard 1/3 -o check.shard 2>/dev/null
 sed 's/^0,0,/0,1,/' pairs.csv >pairs2.csv
 "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs2.csv --csv --shard 1/3 -o pairs.shard 2>/dev/null
+# One digit of the last pair, far behind the beginning.
+sed '$s/^\([0-9],[0-9],\)0,/\11,/' pairs.csv >pairs3.csv
+cmp -s pairs.csv pairs3.csv && echo 'FAILED: the pairs are not altered' && failed=$((failed + 1))
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs3.csv --csv --shard 1/3 -o late.shard 2>/dev/null
 # The list stays the same, and a mesh that it names does not.
 printf '%s/cube.off\nmesh.obj\n' "$data" >shapes3.txt
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n' >mesh.obj
@@ -202,6 +206,7 @@ refuse 'proofs.shard: is with the options --proofs=1, and 2.shard --proofs=0' 2.
 refuse 'json.shard: is in the format json, and 2.shard csv' 2.shard json.shard 3.shard
 refuse 'check.shard: is of the command check, and 2.shard batch' 2.shard check.shard 3.shard
 refuse 'pairs.shard: is of inputs with the digest .*, and 2.shard' 2.shard pairs.shard 3.shard
+refuse 'late.shard: is of inputs with the digest .*, and 2.shard' 2.shard late.shard 3.shard
 refuse 'mesh2.shard: is of inputs with the digest .*, and mesh1.shard' mesh1.shard mesh2.shard
 refuse 'pairs.csv: is no shard' 1.shard pairs.csv
 refuse 'nowhere.shard: cannot be opened' nowhere.shard
@@ -215,6 +220,12 @@ while [ $at -lt "$size" ]; do
     check "altered at byte $at: its name" grep -q altered.shard said
     at=$((at + size / 11))
 done
+# Blocks behind the last one, which is there twice; and a part whose results are those of another part.
+{ cat 2.shard && tail -c 96 2.shard; } >behind.shard
+refuse 'behind.shard: block [0-9]* is damaged' 1.shard behind.shard 3.shard
+"$OVOID_TOOL" check scene.json --csv --shard 1/2 -o half.shard 2>/dev/null
+sed '1,20s,^part 1/2,part 2/2,' half.shard >same.shard
+refuse 'has results of another part too' half.shard same.shard
 { cat 2.shard && printf x; } >altered.shard
 refuse 'altered.shard: part 2/3 is not finished, or damaged' 1.shard altered.shard 3.shard
 # What is at the place of a shard and is none, or another one, stays.
