@@ -16,7 +16,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard page report python python_solid decompose_watch robot_watch hostile hostile_cli"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -57,6 +57,7 @@ tests_of() {
     robot_cli) echo "test_cli.sh:robot_check:robot_path test_cli_altered_paths.sh" ;;
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;
     shard) echo "test_io_pairs test_cli_shard.sh" ;;
+    verify) echo "test_cli_run.sh test_cli_altered.sh test_cli_lies.sh" ;;
     page) echo "test_cli.sh:page test_page.sh" ;;
     report) echo "test_cli.sh:paper" ;;
     robot_spheres) echo "test_robot_spheres" ;;
