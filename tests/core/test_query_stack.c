@@ -31,8 +31,9 @@ enum {
 static _Alignas(65536) unsigned char stack[STACK];
 
 /// What is asked about, and what was answered: all of it outside the stack that is measured.
-static ovoid_pair pair;
-static ovoid_answer answer;
+static ovoid_pair pair, round_pair;
+static ovoid_shape *cylinder; ///< beside the pair's second shape: the round pair
+static ovoid_answer answer, round_answer;
 static ovoid_cover cover;
 static ovoid_smooth smooth;
 static ovoid_gradient gradient;
@@ -78,6 +79,7 @@ static void ask_depth(void) { answer = ovoid_depth(&pair, NULL, NULL, &cover); }
 /// Of the depth's answer: the query before them.
 static void ask_check(void) { CHECK(ovoid_answer_check(&pair, &answer, NULL, &cover, NULL) == OVOID_OK); }
 static void ask_gradient(void) { gradient = ovoid_answer_compute_gradient(&pair, &answer, &cover); }
+static void ask_round_gradient(void) { gradient = ovoid_answer_compute_gradient(&round_pair, &round_answer, NULL); }
 static void ask_smooth(void) { smooth = ovoid_smooth_compute(&pair, 2); }
 
 static ovoid_batch make_batch(void) {
@@ -197,6 +199,7 @@ static const struct {
                {"depth", ask_depth, STATED},
                {"check", ask_check, 56 << 10},
                {"gradient", ask_gradient, 32 << 10},
+               {"gradient of a cylinder", ask_round_gradient, STATED},
                {"smooth", ask_smooth, STATED},
                {"collide_batch", ask_collide_batch, STATED},
                {"within_batch", ask_within_batch, STATED},
@@ -271,6 +274,16 @@ static ovoid_solid *make_solid(const ovoid_shape *shape) {
 /// The pair at hand in all that is asked about: bodies that change places, compounds of three of its shapes, a world.
 static int set_up(void) {
     ovoid_pose none = ovoid_pose_make_identity(), aside = none;
+    ovoid_measures size = ovoid_shape_get_measures(pair.shape_b);
+    double far = 3 * (size.sphere_radius + ovoid_shape_get_radius(pair.shape_b));
+    if (!(far > 0)) far = 1;
+    cylinder = ovoid_shape_create_cylinder(0.2 * far, 0.3 * far, 0, NULL, NULL);
+    if (!CHECK(cylinder != NULL)) return 0;
+    round_pair = (ovoid_pair){cylinder, pair.shape_b, none, pair.pose_b};
+    ovoid_vec3 center = ovoid_pose_compute_point(&pair.pose_b, size.sphere_center);
+    round_pair.pose_a.position = (ovoid_vec3){center.x + far, center.y + 0.1 * far, center.z + 0.2 * far};
+    round_pair.pose_a.rotation = (ovoid_quat){0.9, 0.1, 0.2, 0.3};
+    round_answer = ovoid_distance(&round_pair, NULL, NULL);
     for (int k = 0; k < 2; k++) {
         const ovoid_shape *shape = k ? pair.shape_b : pair.shape_a;
         ovoid_pose from = k ? pair.pose_b : pair.pose_a, to = k ? pair.pose_a : pair.pose_b;
@@ -306,6 +319,7 @@ static int set_up(void) {
 }
 
 static void tear_down(void) {
+    ovoid_shape_destroy(cylinder);
     ovoid_world_destroy(world);
     for (int k = 0; k < 2; k++) {
         ovoid_compound_destroy(compounds[k]);
