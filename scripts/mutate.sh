@@ -38,7 +38,7 @@ tests_of() {
     solid_body) echo "test_solid_compound test_solid_impact test_solid_impact_altered test_world_solids test_io_scene" ;;
     solid) echo "test_solid_create test_solid_crossings test_solid test_solid_compound test_solid_flush test_judge_solid_altered test_judge_solid" ;;
     solid_files) echo "test_cli_altered_solids.sh test_cli.sh:solid:info" ;;
-    decompose) echo "test_decompose_cells test_decompose" ;;
+    decompose) echo "test_decompose_cells test_decompose test_decompose_check" ;;
     hostile) echo "test_io_json test_io_texts test_io_child" ;;
     hostile_cli) echo "test_cli_hostile.sh" ;;
     decompose_watch) echo "test_decompose_watch" ;;

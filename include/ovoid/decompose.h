@@ -68,6 +68,17 @@ OVOID_API ovoid_code ovoid_decomposition_compute_proof(const ovoid_decomposition
                                                        ovoid_decomposition_proof *proof, double *excess,
                                                        ovoid_error *error);
 
+/**
+ * Holds a proof against the solid and the parts, whoever made it: the point of each lower end is measured, and each
+ * upper end is shown anew, by cells that are bounded by the claim. Of the options work, cells, watch and allocator
+ * count. `cells` of the proof is no claim. OVOID_OK: both brackets are true. Errors: ARGUMENT with the claim that is
+ * not so, or not strictly enough to be told from rounding (an upper end must be above 0); LIMIT, an upper end that the
+ * work did not show; EMPTY, MEMORY as above. Cost: about that of the proof.
+ */
+OVOID_API ovoid_code ovoid_decomposition_check(const ovoid_decomposition *decomposition,
+                                               const ovoid_decomposition_proof *proof,
+                                               const ovoid_decomposition_options *options, ovoid_error *error);
+
 /** Convex parts that own their shapes. */
 typedef struct ovoid_parts ovoid_parts;
 

@@ -54,9 +54,9 @@ typedef struct ovoid_robot_read_options {
     const ovoid_robot_link_scale *scales; /**< NULL: every factor is 1; a link comes once at most */
     size_t scale_count;
     const ovoid_shape_options *shape; /**< of all shapes; their radius must be 0; NULL: the default */
-    int hull; /**< 0: a mesh counts as what it is (ovoid_triangles_match_hull): its hull, exactly or with an allowance that
-                   keeps brackets true of it; the solid that its triangles enclose; or, where they are not closed, their
-                   surface, of which a note tells. 1: as its hull. Without effect on `parts` */
+    int hull; /**< 0: a mesh counts as what it is (ovoid_triangles_match_hull): its hull, exactly or with an allowance
+                 that keeps brackets true of it; the solid that its triangles enclose; or, where they are not closed,
+                 their surface, of which a note tells. 1: as its hull. Without effect on `parts` */
     void (*note)(void *context, const ovoid_robot_note *note); /**< NULL: notes are dropped */
     void *context;
 } ovoid_robot_read_options;
@@ -93,7 +93,7 @@ typedef struct ovoid_robot_mesh {
     size_t part_count;   /**< hulls: 1, or with options->parts the objects */
     size_t use_count;    /**< collision elements that share them */
     ovoid_convexity
-        convexity; /**< summed over the parts; is_nonconvex: of any; mesh_volume NaN where one is not known */
+        convexity;        /**< summed over the parts; is_nonconvex: of any; mesh_volume NaN where one is not known */
     ovoid_mesh_kind kind; /**< as which it counts: HULL, PARTS, SOLID or SURFACE */
     double allowance;     /**< of HULL: the `inside` of the shape's allowance, 0 where the mesh is the hull exactly */
 } ovoid_robot_mesh;

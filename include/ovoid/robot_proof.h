@@ -29,11 +29,11 @@ typedef struct ovoid_robot_proof_source {
     const char *const *scales, *const *paddings; /**< LINK=X, or X: of all links that have no other */
     size_t scale_count, padding_count;
     int parts, hull, visual, fixed_base; /**< as in ovoid_robot_read_options */
-    double tolerance;              /**< of cylinders, likewise */
-    double margin, limit_slack;    /**< as in ovoid_robot_check_options */
-    size_t path_count;             /**< paths that follow */
-    uint64_t digest;               /**< of the robot and its obstacles */
-    const char *const *variables;  /**< names */
+    double tolerance;                    /**< of cylinders, likewise */
+    double margin, limit_slack;          /**< as in ovoid_robot_check_options */
+    size_t path_count;                   /**< paths that follow */
+    uint64_t digest;                     /**< of the robot and its obstacles */
+    const char *const *variables;        /**< names */
     size_t variable_count;
     const ovoid_robot_proof_side *pairs; /**< the sides of pair i are 2 i and 2 i + 1 */
     size_t pair_count;

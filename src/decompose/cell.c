@@ -167,7 +167,7 @@ double cell_search_run(cell_search *s) {
     const ovoid_decomposition_options *o = s->options;
     while (s->count > 0 && s->heap[0].bound > cell_search_get_goal(s)) {
         if (s->looked >= s->work || s->count + CELL_PIECES > s->room || s->heap[0].depth >= CELL_DEPTH) break;
-        if (watch_is_stopped(&o->watch)) break;
+        if (watch_is_stopped(&o->watch) || s->lower > s->ceiling) break;
         cell c = pop(s), pieces[CELL_PIECES];
         uint32_t count = cut(s, &c, pieces);
         for (uint32_t i = 0; i < count; i++) cell_search_add(s, &pieces[i]);

@@ -47,7 +47,8 @@ struct cell_search {
     cell_plane (*find_plane)(cell_search *s, const cell *c, ovoid_plane *plane);
     void *problem;
     double tolerance;
-    double lower; ///< shown by `point`
+    double ceiling; ///< what is to be shown to hold the greatest value; INFINITY: the least that can be
+    double lower;   ///< shown by `point`
     vec3 point;
     uint32_t point_owner;
     double dropped; ///< the greatest bound of cells that need no further look
@@ -57,7 +58,7 @@ struct cell_search {
     const ovoid_decomposition_options *options;
 };
 
-static inline double cell_search_get_goal(const cell_search *s) { return s->lower + s->tolerance; }
+static inline double cell_search_get_goal(const cell_search *s) { return min2(s->lower + s->tolerance, s->ceiling); }
 void cell_search_raise(cell_search *s, double lower, vec3 point, uint32_t owner);
 /// Adds a cell with a bound that may be infinite.
 void cell_search_add(cell_search *s, cell *c);

@@ -19,6 +19,7 @@ static cell_search make_search(body *b, const ovoid_decomposition_options *o, ce
     double tolerance = o->tolerance > 0 ? o->tolerance * b->inverse : b->diagonal * 1e-3;
     return (cell_search){.problem = b,
                          .tolerance = max2(tolerance - 2 * b->pad, b->pad),
+                         .ceiling = INFINITY,
                          .heap = heap,
                          .room = room,
                          .work = o->work,

@@ -10,4 +10,7 @@ void excess_set_functions(cell_search *s);
 double uncovered_search(cell_search *s);
 double excess_search(cell_search *s);
 
+/// How far x is from all parts, at least; *nearest: a part that is as near.
+double uncovered_find_least(const body *b, vec3 x, uint32_t first, uint32_t *nearest);
+
 #endif

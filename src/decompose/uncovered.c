@@ -28,8 +28,7 @@ static double find_farthest(const body *b, const cell *c, uint32_t part, double 
     return most;
 }
 
-// How far x is from all parts, at least.
-static double find_least(const body *b, vec3 x, uint32_t first, uint32_t *nearest) {
+double uncovered_find_least(const body *b, vec3 x, uint32_t first, uint32_t *nearest) {
     double least = INFINITY;
     box at = {x, x};
     for (uint32_t k = 0; k < b->part_count && least > 0; k++) {
@@ -45,7 +44,7 @@ static void try_point(cell_search *s, vec3 x, uint32_t part) {
     const body *b = s->problem;
     // Hardly any point is the farthest yet: one part that is near enough shows that.
     if (body_probe_part(b, part, x, s->lower).upper <= s->lower) return;
-    double d = find_least(b, x, part, &part);
+    double d = uncovered_find_least(b, x, part, &part);
     cell_search_raise(s, d, x, part);
 }
 

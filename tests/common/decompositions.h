@@ -54,6 +54,14 @@ static inline long double long_parts_distance(const long_mesh *parts, const ovoi
     return best;
 }
 
+/// A point of the box.
+static inline ovoid_vec3 draw_in(uint64_t *s, const ovoid_box *b) {
+    double x = random_uniform(s, b->min.x, b->max.x), y = random_uniform(s, b->min.y, b->max.y);
+    return (ovoid_vec3){x, y, random_uniform(s, b->min.z, b->max.z)};
+}
+
+static inline long3 long3_from(ovoid_vec3 p) { return (long3){p.x, p.y, p.z}; }
+
 /// A box of a part of its own.
 static inline ovoid_shape *make_box_between(ovoid_vec3 a, ovoid_vec3 b) {
     double xyz[24];

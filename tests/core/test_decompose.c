@@ -164,13 +164,6 @@ static void check_rounded(void) {
 
 // ---- random solids and parts
 
-static ovoid_vec3 draw_in(uint64_t *s, const ovoid_box *b) {
-    double x = random_uniform(s, b->min.x, b->max.x), y = random_uniform(s, b->min.y, b->max.y);
-    return (ovoid_vec3){x, y, random_uniform(s, b->min.z, b->max.z)};
-}
-
-static long3 as_long(ovoid_vec3 p) { return (long3){p.x, p.y, p.z}; }
-
 // Of random points none may be above the upper ends; the points that are named show the lower ends.
 static void check_points(const ovoid_decomposition *d, const ovoid_decomposition_proof *p, const double *excess,
                          int points, uint64_t *s) {
@@ -179,7 +172,7 @@ static void check_points(const ovoid_decomposition *d, const ovoid_decomposition
     double size = fmax(box.max.x - box.min.x, box.max.y - box.min.y), slack = 1e-9 * size;
     for (size_t i = 0; i < d->part_count; i++) parts[i] = long_mesh_of_shape(d->parts[i]);
     for (int i = 0; i < points; i++) {
-        long3 x = as_long(draw_in(s, &box));
+        long3 x = long3_from(draw_in(s, &box));
         size_t part = random_next(s) % d->part_count;
         if (long_mesh_distance(&solid, x) <= 0)
             CHECK_LE((double)long_parts_distance(parts, d, x), p->uncovered.upper + slack);
@@ -199,12 +192,12 @@ static void check_points(const ovoid_decomposition *d, const ovoid_decomposition
         CHECK_LE(out, excess[part] + slack);
     }
     if (p->uncovered.lower > 0) {
-        long3 x = as_long(p->uncovered.point);
+        long3 x = long3_from(p->uncovered.point);
         CHECK_LE((double)long_mesh_distance(&solid, x), slack);
         CHECK_LE(p->uncovered.lower, (double)long_parts_distance(parts, d, x) + slack);
     }
     if (p->excess.lower > 0) {
-        long3 x = as_long(p->excess.point);
+        long3 x = long3_from(p->excess.point);
         CHECK_LE((double)long_mesh_distance(&parts[p->excess.part], x), slack);
         CHECK_LE(p->excess.lower, (double)long_mesh_distance(&solid, x) + slack);
     }

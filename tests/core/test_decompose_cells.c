@@ -105,7 +105,7 @@ static void clear_scene(scene *e) {
 }
 
 static cell_search make_search(scene *e, double lower) {
-    return (cell_search){.problem = &e->b, .tolerance = 1e-9, .lower = lower, .options = &e->o};
+    return (cell_search){.problem = &e->b, .tolerance = 1e-9, .ceiling = INFINITY, .lower = lower, .options = &e->o};
 }
 
 static void check_uncovered(scene *e, double lower, uint64_t *s) {
