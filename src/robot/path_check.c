@@ -189,6 +189,11 @@ static ovoid_code check(path_checker *x, const ovoid_robot_path_answer *answer, 
                         ovoid_error *error) {
     if (answer->status == OVOID_ROBOT_REFUSED)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a path that was refused has no proof");
+    int is_hit = answer->status == OVOID_ROBOT_HIT;
+    if (!is_hit && answer->status != OVOID_ROBOT_FREE && answer->status != OVOID_ROBOT_UNDECIDED)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "there is no status %d", (int)answer->status);
+    if (!is_hit && answer->hit_at != INFINITY)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "hit_at is told where nothing is hit");
     double last = (double)(x->path->count - 1);
     if (!(answer->free_until >= 0 && answer->free_until <= last) ||
         (answer->status == OVOID_ROBOT_FREE && answer->free_until < last))

@@ -30,7 +30,7 @@ static void test_robot() {
     auto cell = ovoid::robot_cell::create(robot);
     const auto scene = ovoid::obstacles::read(folder + "cell.yaml");
     const auto ids = scene.add_to(cell);
-    CHECK(scene.size() > 0 && ids.size() == scene.size() && ids[0] != 0 && scene[0].shape != nullptr);
+    CHECK(scene.size() > 0 && ids.size() == scene.size() && ids[0].id != 0 && scene[0].shape != nullptr);
     auto checker = ovoid::robot_checker::create(cell);
     const std::vector<double> up(robot.variable_count());
     CHECK_EQ(checker.check({up.data(), up.size()}).status, OVOID_ROBOT_FREE);

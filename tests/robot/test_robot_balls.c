@@ -126,12 +126,48 @@ static void test_lanes(ovoid_shape *const shapes[SHAPES], const ovoid_shape *poi
     CHECK_LE(200, deep);
 }
 
+// An L, whose notch is the square of x and y from 1 to 2: no ball of it reaches the notch or leaves the box around it,
+// and its region is one of them; turned inside out it holds as much, and without a side nothing.
+static void test_solid(const ovoid_shape *point) {
+    static const double xyz[36] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 2, 0, 0, 2, 0,
+                                   0, 0, 1, 2, 0, 1, 2, 1, 1, 1, 1, 1, 1, 2, 1, 0, 2, 1};
+    static const uint32_t faces[60] = {3, 5, 4, 3, 0,  5, 3,  1, 0, 3, 2,  1, 9,  10, 11, 9, 11, 6, 9, 6,
+                                       7, 9, 7, 8, 0,  1, 7,  0, 7, 6, 1,  2, 8,  1,  8,  7, 2,  3, 9, 2,
+                                       9, 8, 3, 4, 10, 3, 10, 9, 4, 5, 11, 4, 11, 10, 5,  0, 6,  5, 6, 11};
+    ovoid_shape *hull = ovoid_shape_create_from_points(xyz, 12, NULL, &error);
+    for (int kind = 0; kind < 3; kind++) {
+        uint32_t t[60];
+        for (int i = 0; i < 60; i++) t[i] = kind == 1 ? faces[i / 3 * 3 + 2 - i % 3] : faces[i];
+        ovoid_solid *solid = ovoid_solid_create_from_triangles(xyz, 12, t, kind == 2 ? 18 : 20, NULL, &error);
+        if (!CHECK(hull && solid)) return;
+        shape_inside in;
+        int count = 0;
+        shape_inside_find(hull, solid, point, &in);
+        check_seed = (uint64_t)kind;
+        for (int k = 0; k < BALLS; k++) {
+            double x = in.balls.column[0][k], y = in.balls.column[1][k], z = in.balls.column[2][k],
+                   r = in.balls.column[BALLS_RADIUS][k];
+            if (!(r > 0)) continue;
+            count++;
+            CHECK_LE(r, fmin(fmin(x, fmin(2 - x, y)), fmin(2 - y, fmin(z, 1 - z))) + 1e-12);
+            CHECK_LE(r, hypot(fmax(1 - x, 0), fmax(1 - y, 0)) + 1e-12);
+        }
+        CHECK_EQ(count > 0, kind < 2);
+        CHECK_EQ(in.region.offset > 0, kind < 2);
+        if (kind < 2) CHECK(in.region.offset == in.most && in.most > 0.4);
+        ovoid_solid_destroy(solid);
+    }
+    check_seed = 0;
+    ovoid_shape_destroy(hull);
+}
+
 int main(void) {
     uint64_t s = 71;
     ovoid_shape *shapes[SHAPES], *point = shape_create_point(NULL);
     if (!point) exit(1);
     make_shapes(shapes, &s);
     test_balls(shapes, point, &s);
+    test_solid(point);
     test_regions(shapes, &s);
     test_lanes(shapes, point, &s);
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);

@@ -79,6 +79,28 @@ static void test_cube(void) {
     ovoid_robot_destroy(r);
 }
 
+// A tolerance that cannot be met: cells end when they are too small to be halved, and count all the same. Truth: the
+// distance of the cube's farthest corner from the ball's centre, in long double, without slack.
+static void test_settled(void) {
+    uint64_t random = 5;
+    ovoid_robot *r = make_cube();
+    const ovoid_robot_audit_options endless = {.tolerance = 1e-300, .without_volumes = 1};
+    for (int i = 0; i < 10; i++) {
+        check_seed = (uint64_t)i;
+        ovoid_robot_sphere ball = {{random_uniform(&random, -0.9, 0.9), random_uniform(&random, -0.9, 0.9),
+                                    random_uniform(&random, -0.9, 0.9)},
+                                   random_uniform(&random, 0, 2)};
+        ovoid_robot_sphere_audit a = audit(r, &ball, 1, &endless);
+        long double x = 1 + fabsl((long double)ball.center.x), y = 1 + fabsl((long double)ball.center.y),
+                    z = 1 + fabsl((long double)ball.center.z);
+        long double deepest = sqrtl(x * x + y * y + z * z) - (long double)ball.radius;
+        CHECK(a.depth.lower <= deepest && deepest <= a.depth.upper);
+        CHECK_LE(a.depth.upper - a.depth.lower, 1e-11);
+    }
+    check_seed = 0;
+    ovoid_robot_destroy(r);
+}
+
 // Where two balls meet inside a cube: the deepest points are on an edge of the cube, not at a vertex. Eight balls at
 // the corners' octants with a hole at the centre: the deepest point is inside.
 static void test_inner_points(void) {
@@ -486,6 +508,7 @@ static void test_fewest(void) {
 
 int main(void) {
     test_cube();
+    test_settled();
     test_inner_points();
     test_round();
     test_allowance();
