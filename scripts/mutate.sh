@@ -20,8 +20,8 @@ groups="allowance query prepared growth boxes exact hull shape ellipsoid simd en
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
-    query="test_query test_query_warm test_judge_check test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
-    query="$query test_query_batch test_judge_capacity test_game_hulls test_query_refine"
+    query="test_query test_query_warm test_query_near test_simd_small_gjk test_judge_check test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
+    query="$query test_query_batch test_judge_capacity test_game_hulls test_query_refine test_query_altered"
     case $1 in
     allowance) echo "test_allowance test_judge_allowance" ;;
     query) echo "$query" ;;
@@ -42,7 +42,7 @@ tests_of() {
     hostile) echo "test_io_json test_io_texts test_io_child" ;;
     hostile_cli) echo "test_cli_hostile.sh" ;;
     decompose_watch) echo "test_decompose_watch" ;;
-    compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_compound_impact_altered test_judge_compound" ;;
+    compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_compound_impact_altered test_judge_compound test_compound_altered test_query_near" ;;
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_impact_altered test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_round test_gradient_bounds" ;;
     paper) echo "test_paper test_area" ;;

@@ -143,6 +143,35 @@ static int make_shapes(ovoid_shape *shapes[SHAPES], uint64_t *s) {
     return 1;
 }
 
+// Needles of too many vertices for the kernel of small bodies, side by side: the outer ellipsoids part many of them,
+// and each lane's answer has that lane's normal.
+static ovoid_shape *make_needle(uint64_t *s) {
+    double xyz[3 * 80];
+    for (int i = 0; i < 3 * 80; i++) xyz[i] = random_normal(s) * (i % 3 ? 0.04 : 0.5);
+    return ovoid_shape_create_from_points(xyz, 80, NULL, NULL);
+}
+
+static void check_needles(uint64_t *s) {
+    ovoid_shape *shapes[SHAPES];
+    long parted[2] = {0, 0};
+    for (int i = 0; i < SHAPES; i++)
+        if (!CHECK((shapes[i] = make_needle(s)) != NULL)) return;
+    for (int i = 0; i < BODIES; i++) {
+        bodies[i] = (ovoid_posed_shape){shapes[i % SHAPES], make_pose(s)};
+        bodies[i].pose.position.x *= 0.2, bodies[i].pose.position.y *= 0.2, bodies[i].pose.position.z *= 0.2;
+    }
+    for (int question = 0; question < 2; question++) {
+        ovoid_batch batch = {bodies, BODIES, couples, COUPLES, NULL, NULL, verdicts, answers, NULL};
+        CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
+        compare(question, NULL, 0, 0);
+        check_outputs(question, NULL);
+        for (int i = 0; i < COUPLES; i++) parted[question] += answers[i].stage == OVOID_STAGE_OUTER;
+    }
+    CHECK(parted[0] >= 50 && parted[1] >= 10);
+    printf("outer ellipsoids part %ld of %d touching or not, %ld within a margin\n", parted[0], COUPLES, parted[1]);
+    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+}
+
 // A couple that names no body; nothing at all.
 static void check_refusals(void) {
     couples[7].b = BODIES;
@@ -184,6 +213,7 @@ int main(void) {
     check_all();
     check_widths();
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+    check_needles(&s);
     // So small that what underflow can hide is a part of every bound.
     scale = 1e-115;
     if (!make_shapes(shapes, &s)) return check_end();

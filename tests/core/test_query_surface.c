@@ -257,7 +257,37 @@ static void check_convex(uint64_t *s) {
         for (int i = 0; i < 32 && e.f[f].alive; i++) CHECK_LE(vec3_dot(e.f[f].n, w[i]) - e.f[f].low, 1e-12);
 }
 
+// A corner that is none of the surface's points, though the memory behind them may hold one; and edges that nothing
+// closes.
+static void check_closed(void) {
+    static const vec3 w[5] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, 1}};
+    uint16_t t[4][3];
+    surface x = {w, (const uint16_t(*)[3])t, 4, 4};
+    memcpy(t, faces_of_four, sizeof t);
+    CHECK(surface_is_closed(&x));
+    for (int v = 0; v < 4; v++) {
+        memcpy(t, faces_of_four, sizeof t);
+        for (int i = 0; i < 12; i++)
+            if (t[i / 3][i % 3] == v) t[i / 3][i % 3] = 4;
+        CHECK(!surface_is_closed(&x));
+        x.point_count = 5;
+        CHECK(surface_is_closed(&x));
+        x.point_count = 4;
+    }
+    for (int i = 0; i < 12; i++) {
+        memcpy(t, faces_of_four, sizeof t);
+        t[i / 3][i % 3] = (uint16_t)((t[i / 3][i % 3] + 1) % 4);
+        CHECK(!surface_is_closed(&x));
+    }
+    memcpy(t, faces_of_four, sizeof t);
+    x.triangle_count = 3;
+    CHECK(!surface_is_closed(&x));
+    x.triangle_count = 0;
+    CHECK(!surface_is_closed(&x));
+}
+
 int main(void) {
+    check_closed();
     for (uint64_t seed = 0; seed < 3000; seed++) {
         uint64_t s = check_seed = seed;
         double error = seed % 3 == 0 ? 1e-2 : seed % 3 == 1 ? 1e-3 : 1e-6;
