@@ -261,9 +261,9 @@ const cli_command command_check = {
         "                 {\"name\": \"table\", \"box\": [0.8, 1.2, 0.04]}],\n"
         "     \"ignore\": [[\"arm\", \"table\"]]}\n\n"
         "Bodies: mesh, box, sphere, capsule, cylinder, cone, points; compound, a list of these, or a mesh with "
-        "\"parts\": true, whose objects are the parts. A closed mesh that does not fill its hull is the solid that its "
-        "triangles enclose, whose depth in others is a bracket that is true, but wide. Poses: xyz, with rpy or "
-        "quat_wxyz.",
+        "\"parts\": true, whose objects are the parts. A closed mesh that is not convex is the solid that its "
+        "triangles enclose, an open one its surface; the depth of solids is a bracket that is true, but wide. Poses: "
+        "xyz, with rpy or quat_wxyz.",
     .exits = "0 every pair is apart (with --margin: farther than M)\n"
              "1 a pair touches or overlaps (or is within M)\n"
              "2 the command line is wrong\n"

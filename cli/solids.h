@@ -49,8 +49,8 @@ typedef struct solids_pair {
 /// A pair of bodies that are open. Returns how many are solids or surfaces.
 int solids_make_pair(const char *const *paths, const cli_body bodies[2], const ovoid_pose poses[2], solids_pair *pair);
 
-/// Sets a record's kinds and volumes from two bodies, and the field that says so where one of their meshes does not
-/// fill its hull.
+/// Sets a record's kinds and volumes from two bodies, and the field that says so where one of their meshes is not
+/// its hull.
 void solids_describe_bodies(const cli_body bodies[2], ovoid_record *record);
 /// The same where one at least is a solid.
 void solids_describe(const solids_pair *pair, ovoid_record *record);

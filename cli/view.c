@@ -100,6 +100,11 @@ static size_t count_parts(const ovoid_compound *compound) {
     return compound ? ovoid_compound_get_part_count(compound) : 1;
 }
 
+static int get_mesh_use(const ovoid_solid *solid) {
+    if (!solid) return 0;
+    return ovoid_solid_get_report(solid).is_closed ? OVOID_PICTURE_CLOSED : 1;
+}
+
 /// Adds an object: a shape, a solid with its hull, or the parts of a compound, of which the first has the name.
 static void add_body(drawing *d, const char *name, const ovoid_body *body, const ovoid_shape *hull) {
     d->first[d->body_count] = d->drawn_count;
@@ -112,7 +117,7 @@ static void add_body(drawing *d, const char *name, const ovoid_body *body, const
             part.pose = ovoid_pose_compute_product(&body->pose, &part.pose);
         }
         d->drawn[d->drawn_count++] =
-            (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group, NULL, body->solid != NULL};
+            (ovoid_picture_body){i ? NULL : name, part.shape, part.pose, group, NULL, get_mesh_use(body->solid)};
     }
 }
 

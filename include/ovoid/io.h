@@ -476,6 +476,9 @@ typedef enum ovoid_picture_layer {
     OVOID_PICTURE_MESHES = 64  /**< the bodies' meshes, where they have one, in the place of polyhedra */
 } ovoid_picture_layer;
 
+/** Of ovoid_picture_body.is_mesh: the mesh is the body and closed. */
+#define OVOID_PICTURE_CLOSED 2
+
 /** A body of a picture. */
 typedef struct ovoid_picture_body {
     const char *name; /**< may be NULL */
@@ -485,7 +488,8 @@ typedef struct ovoid_picture_body {
     const ovoid_faces *mesh; /**< of which the shape is the hull, in the frame that the pose moves; NULL: none; not
                                   drawn of a shape with a rounding radius */
     int is_mesh;             /**< 1: the mesh is the body, and the shape only its hull: the mesh is drawn whatever the
-                                  layers, and no inner ellipsoid */
+                                  layers, and no inner ellipsoid. OVOID_PICTURE_CLOSED: it is closed besides, and faces
+                                  that look away are left out */
 } ovoid_picture_body;
 
 /** A pair of a picture: its witness points are drawn. */

@@ -48,7 +48,12 @@ class mesh : public detail::owner<detail::pointer<ovoid_mesh>, ovoid_mesh, ovoid
     std::size_t size() const noexcept { return ovoid_mesh_get_part_count(get()); }
     /** Part i < size: a view. Its points make a shape: shape::from_points(points_of(part)). */
     ovoid_mesh_part operator[](std::size_t i) const noexcept { return ovoid_mesh_get_part(get(), i); }
-    /** Does part i < size fill its hull? */
+    /** The triangles of part i < size: ovoid_mesh_create_solid. */
+    solid create_solid(std::size_t i) const {
+        ovoid_error e;
+        return solid(detail::require(ovoid_mesh_create_solid(get(), i, &e), e));
+    }
+    /** What part i < size is: its hull, a solid or a surface. */
     ovoid_convexity compute_convexity(std::size_t i, const shape_view &hull) const {
         ovoid_convexity convexity;
         ovoid_error e{};
@@ -101,6 +106,11 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
         ovoid_error e;
         return scene(detail::require(ovoid_scene_read(path.c_str(), &o, &e), e));
     }
+    /** The same with hulls: ovoid_scene_read_hulls. */
+    static scene read_hulls(const std::string &path, const ovoid_shape_options &o = shape_options()) {
+        ovoid_error e;
+        return scene(detail::require(ovoid_scene_read_hulls(path.c_str(), &o, &e), e));
+    }
     /** How many objects there are. */
     std::size_t size() const noexcept { return ovoid_scene_get_count(get()); }
     /** The unit of all its lengths, "mm" for example; "" where it names none. */
@@ -117,7 +127,6 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
         const std::size_t i = ovoid_scene_find(get(), named.c_str());
         return i < size() ? i : size();
     }
-    /** From now on meshes that are solids only because they do not fill their hulls are their hulls. */
     /** How many hulls of meshes there are. */
     std::size_t mesh_count() const noexcept { return ovoid_scene_get_mesh_count(get()); }
     /** Hull i < mesh_count, with its name and whether its mesh fills it. */

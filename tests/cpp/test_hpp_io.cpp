@@ -37,6 +37,10 @@ void check_shapes() {
     const ovoid::shape second = ovoid::shape::from_points(ovoid::points_of(mesh[1]));
     CHECK_NEAR(second.measures().volume, 8000.0 / 6, 1e-9);
     CHECK_NEAR(mesh.compute_convexity(1, second).mesh_volume, 8000.0 / 6, 1e-9);
+    CHECK(mesh.create_solid(1).report().is_closed);
+    CHECK_EQ(second.allowed({0, 0.5}).allowance().inside, 0.5);
+    const std::uint32_t one[3] = {0, 1, 2};
+    CHECK(!ovoid::match_hull({mesh[1].faces.vertices, mesh[1].faces.vertex_count, one, 1}, second).is_closed);
     const auto shapes = ovoid::shapes::read_file(path, each);
     CHECK(shapes.size() == 2 && std::string(shapes.name(0)) == "one" && is_same_shape(shapes[1], second.get()));
     CHECK_EQ(shapes.create_compound().size(), 2);
@@ -65,6 +69,8 @@ void check_scenes() {
     const auto meshes =
         ovoid::scene::read(write_text("meshes.json", R"({"objects": [{"name": "a", "mesh": "mesh.obj"}]})"));
     CHECK(meshes.mesh_count() == 1 && meshes.mesh(0).convexity.kind == OVOID_MESH_SOLID && !*meshes.unit());
+    const auto hulls = ovoid::scene::read_hulls(folder + "/meshes.json");
+    CHECK(ovoid_scene_get(hulls.get(), 0).solid == nullptr && ovoid_scene_get(meshes.get(), 0).solid != nullptr);
     CHECK(scene.pair_count() == ovoid_scene_get_pair_count(scene.get()));
     const ovoid::compound_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));
     CHECK(a.answer.lower <= 7 && a.answer.upper >= 7 && a.part_b == 0);

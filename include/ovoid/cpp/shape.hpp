@@ -65,6 +65,8 @@ class shape_view {
 
     /** A copy with memory of its own. Throws MEMORY. */
     shape copy(const ovoid_allocator *allocator = nullptr) const;
+    /** A copy with another allowance. */
+    shape allowed(ovoid_allowance allowance) const;
     /** The shape with its vertices moved, one point for each. Throws ARGUMENT (their number) and as shape::from_points.
      */
     template <class Points>
@@ -163,6 +165,10 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
         return shape(detail::require(create(&e), e));
     }
 };
+
+inline shape shape_view::allowed(ovoid_allowance allowance) const {
+    return shape::made([&](ovoid_error *e) { return ovoid_shape_create_allowed(shape_, allowance, nullptr, e); });
+}
 
 inline shape shape_view::copy(const ovoid_allocator *allocator) const {
     return shape::made([&](ovoid_error *e) { return ovoid_shape_create_copy(shape_, allocator, e); });

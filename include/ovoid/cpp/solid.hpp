@@ -68,6 +68,14 @@ class solid : public detail::owner<solid_view, ovoid_solid, ovoid_solid_destroy>
     }
 };
 
+/** Are the triangles the hull, exactly or nearly? hull: of the same points. */
+inline ovoid_hull_match match_hull(const ovoid_triangles &triangles, const shape_view &hull) {
+    ovoid_hull_match found;
+    ovoid_error e;
+    detail::require(ovoid_triangles_match_hull(&triangles, hull.get(), &found, &e), e);
+    return found;
+}
+
 inline body::body(solid_view s, const ovoid::pose &at) noexcept : ovoid_body{nullptr, nullptr, at, s.get()} {}
 
 inline moving_body::moving_body(solid_view s, const ovoid::motion &m) noexcept

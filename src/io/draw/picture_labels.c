@@ -273,8 +273,10 @@ static void draw_sign(const drawing *d, uint32_t layer, double x, double y) {
 }
 
 static int has_meshes(const ovoid_picture *picture, const drawing *d) {
-    for (size_t i = 0; i < picture->body_count && d->layers & OVOID_PICTURE_MESHES; i++)
-        if (picture->bodies[i].mesh) return 1;
+    for (size_t i = 0; i < picture->body_count; i++) {
+        const ovoid_picture_body *b = &picture->bodies[i];
+        if (b->mesh && (d->layers & OVOID_PICTURE_MESHES || b->is_mesh)) return 1;
+    }
     return 0;
 }
 

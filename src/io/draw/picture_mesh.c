@@ -60,12 +60,13 @@ static void sort_faces(const ovoid_faces *mesh, const vec3 *points, const camera
 
 static void write_faces(const figure *f, const drawing *d, const vec3 *points, const mesh_face *faces) {
     const ovoid_faces *mesh = f->body->mesh;
-    fputs("<g stroke-width=\".6\" stroke-linejoin=\"round\">\n", d->file);
+    fputs("<g fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\".6\" stroke-linejoin=\"round\">\n", d->file);
     for (size_t i = 0; i < mesh->face_count; i++) {
         char hex[8];
+        if (f->body->is_mesh == OVOID_PICTURE_CLOSED && !faces[i].is_front) continue;
         color_write(facet_get_color(f->base, vec3_unit(faces[i].normal), &d->camera), hex);
         svg_path path = {d->file, 0, 0};
-        fprintf(d->file, "<path fill=\"%s\" stroke=\"%s\" d=\"", hex, hex);
+        fprintf(d->file, "<path color=\"%s\" d=\"", hex);
         for (uint32_t k = 0; k < faces[i].size; k++) {
             vec2 p = camera_project(&d->camera, points[mesh->indices[faces[i].first + k]]);
             (k ? svg_line : svg_move)(&path, p);
