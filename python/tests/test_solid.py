@@ -207,6 +207,13 @@ class Queries(unittest.TestCase):
             ovoid.check(answer)
             self.assertEqual(ovoid.collide(blocks, L, pose).status, answer.status)
 
+    def test_flush(self):
+        # The same body twice: no two triangles cross, and a point is in both.
+        answer = ovoid.distance(L, L)
+        self.assertEqual((answer.status, answer.inside, answer.component), (ovoid.Status.OVERLAPPING, ovoid.Inside.POINT, None))
+        self.assertTrue(answer.upper < -0.1 and all(0 < x < 2 for x in answer.common))
+        ovoid.check(answer)
+
     def test_inside(self):
         big, small = make_box(3), make_box(1)
         answer = ovoid.distance(small, big)

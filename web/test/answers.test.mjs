@@ -105,6 +105,11 @@ test('compounds and solids have the bits of the tool; their proofs hold, altered
   }
   assert.ok(seen.separated > 10 && seen.overlapping > 3 && seen.inside, JSON.stringify(seen));
   assert.ok(ovoid.distance(bodies[1].body, null, bodies[4].body, { xyz: [9, 0, 0] }).proof.exclusions.length > 0);
+  // The same body twice: all faces are flush, and a point of both proves the overlap.
+  const flush = ovoid.distance(solid, null, solid, null).toJSON();
+  assert.deepEqual([flush.status, flush.inside, flush.common.length, flush.component], ['overlapping', 'common point', 3, undefined]);
+  assert.equal(ovoid.check(solid, null, solid, null, flush), null);
+  assert.ok(ovoid.check(solid, null, solid, null, { ...flush, common: [1.5, 1.5, 0.5] }));
 });
 
 test('batches have the bits of single queries', () => {
