@@ -15,13 +15,15 @@ static void drop_note(void *context, const ovoid_robot_note *note) {
 
 static size_t notes;
 
+static int with_parts = 1;
+
 static int read_robot(ovoid_error *error) {
     static const ovoid_robot_package package = {"p", "/nowhere"};
     ovoid_robot_read_options options = {.packages = &package,
                                         .package_count = 1,
                                         .ros_package_path = "",
                                         .ament_prefix_path = "/nowhere",
-                                        .parts = 1,
+                                        .parts = with_parts,
                                         .note = drop_note,
                                         .context = &notes};
     ovoid_robot_file *file =
@@ -34,6 +36,30 @@ static int read_scene(ovoid_error *error) {
     ovoid_obstacles *o = ovoid_obstacles_read(file_path("scene.yaml"), NULL, error);
     ovoid_obstacles_destroy(o);
     return o != NULL;
+}
+
+// The scene around a robot of two links that is there.
+static ovoid_robot *robot;
+static void make_robot(void) {
+    static const ovoid_robot_link links[2] = {{"a"}, {"b"}};
+    const ovoid_robot_joint joint = {.name = "j",
+                                     .type = OVOID_JOINT_CONTINUOUS,
+                                     .child = 1,
+                                     .origin = {{0, 0, 0}, {1, 0, 0, 0}},
+                                     .axis = {0, 0, 1},
+                                     .mimic = OVOID_ROBOT_NONE,
+                                     .multiplier = 1};
+    const ovoid_robot_description d = {.links = links, .link_count = 2, .joints = &joint, .joint_count = 1};
+    robot = ovoid_robot_create(&d, NULL, NULL);
+}
+
+static int place_scene(ovoid_error *error) {
+    ovoid_obstacles *o = ovoid_obstacles_read(file_path("scene.yaml"), NULL, error);
+    ovoid_robot_cell *cell = o ? ovoid_robot_cell_create(robot, NULL, error) : NULL;
+    int good = cell && ovoid_robot_cell_add_obstacles(cell, o, NULL, error) == OVOID_OK;
+    ovoid_robot_cell_destroy(cell);
+    ovoid_obstacles_destroy(o);
+    return good;
 }
 
 static int read_request(ovoid_error *error) {
@@ -76,7 +102,15 @@ static const char obj[] = "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf
                           "o two\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
 static const char scene[] =
     "world:\n  collision_objects:\n    - id: o\n      primitives: [{type: box, dimensions: [1, 1, 1]}]\n"
-    "      meshes: [{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}]\n";
+    "      meshes: [{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}]\n"
+    "      primitive_poses: [{}]\n      mesh_poses: [{}]\n      header: {frame_id: b}\n"
+    "robot_state:\n  joint_state: {name: [j], position: [1]}\n  attached_collision_objects:\n"
+    "    - {link_name: b, touch_links: [a], object: {id: h, header: {frame_id: cam}, primitives: [{type: sphere, "
+    "dimensions: [1]}]}}\n"
+    "fixed_frame_transforms: [{header: {frame_id: cam}, child_frame_id: a, transform: {translation: [1, 0, 0]}}]\n"
+    "link_padding: [{link_name: a, padding: 0.1}]\n"
+    "allowed_collision_matrix: {entry_names: [a, b], entry_values: [[0, 1], [1, 0]], default_entry_names: [o, h], "
+    "default_entry_values: [1, 1]}\n";
 static const char request[] = "start_state: {joint_state: {name: [a], position: [1]}}\ngroup_name: g\n"
                               "goal_constraints: [{joint_constraints: [{joint_name: a, position: 2}]}]\n";
 
@@ -108,7 +142,13 @@ int main(void) {
     file_write_text("problems/request1.yaml", request);
     check_operation("robot", 0, read_robot);
     CHECK(notes > 0);
+    with_parts = 0;
+    // A triangle that cannot be measured beside the hull makes the mesh a solid, which it is in any case.
+    check_operation("robot of solids", 1, read_robot);
     check_operation("scene", 0, read_scene);
+    make_robot();
+    check_operation("cell", 0, place_scene);
+    ovoid_robot_destroy(robot);
     check_operation("request", 0, read_request);
     file_write_text("proofs.jsonl", proofs);
     check_operation("problems", 0, find_problems);
