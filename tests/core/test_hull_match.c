@@ -73,7 +73,7 @@ static void check_corner_on_edge(void) {
         static soup s;
         s.points = s.count = 0;
         for (int i = 0; i < 8; i++) add_point(&s, corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]);
-        uint32_t middle = add_point(&s, 0.375, 0, kind == 2 ? -0x1p-40 : 0);
+        uint32_t middle = add_point(&s, 0.375, 0, kind == 2 ? -0x1p-44 : 0);
         for (size_t t = 0; t < 12; t++) {
             const uint32_t *c = cube + 3 * t;
             if (t == 4) {
