@@ -212,9 +212,55 @@ static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
     if (!epa_run(s, start, 0, cover) && !search_is_done(s)) s->limit = OVOID_LIMIT_PRECISION;
 }
 
+static void take_small_overlap(search *s, const small_end *end) {
+    s->upper = end->upper;
+    s->kind = end->kind;
+    s->witness = evidence_make(&end->points);
+    s->inner_a = end->inner;
+    s->stage = end->stage;
+}
+
+// Of a depth whose search got stuck without a sign, as of lengths of whose squares' squares nothing is left: the sign,
+// as a yes or no finds it, by inner ellipsoids or a few differences. All exact methods together stay within twice the
+// goal's iterations.
+COMPILER_NOINLINE static void find_sign(search *s) {
+    query_goal sign = query_goal_make_collide();
+    sign.tolerance = s->goal.tolerance;
+    sign.allowance = s->goal.allowance;
+    sign.iterations = s->goal.iterations - s->iterations / 2;
+    rejection found;
+    simplex start;
+    search t;
+    small_end end;
+    (void)reject_by_spheres(s->frame, INFINITY, &found);
+    search_make(&t, s->frame, &sign);
+    if (begin_after_spheres(s->frame, &sign, NULL, &found, &end) == BEGIN_SMALL) {
+        s->iterations += end.iterations;
+        if (end.upper < 0) take_small_overlap(s, &end);
+        return;
+    }
+    run_stages(&t, found.lower, NULL, &start);
+    if (!search_is_done(&t)) run_exact(&t, &start, NULL);
+    s->iterations += t.iterations;
+    if (!(t.upper < 0)) return;
+    s->upper = t.upper;
+    s->kind = t.kind;
+    s->witness = t.witness;
+    s->inner_a = t.inner_a;
+    s->stage = t.stage;
+}
+
+// The last stage, and what a depth that it leaves open falls back on.
+static void search_on(search *s, const ovoid_pair *pair) {
+    if (search_is_done(s)) return;
+    refine_run(s, pair);
+    int is_open = s->lower <= 0 && s->upper >= 0 && s->upper - s->lower > s->goal.tolerance - s->goal.allowance;
+    if (s->goal.wants_depth && is_open && s->iterations / 2 < s->goal.iterations) find_sign(s);
+}
+
 void answer_search(search *s, const ovoid_pair *pair, simplex *start) {
     if (!search_is_done(s)) run_exact(s, start, NULL);
-    if (!search_is_done(s)) refine_run(s, pair);
+    search_on(s, pair);
 }
 
 // A query from its arguments on.
@@ -259,7 +305,7 @@ static void search_afresh(const open_query *q, ovoid_answer *out) {
         return;
     }
     search_in_doubles(q, NULL, &s);
-    if (!search_is_done(&s)) refine_run(&s, q->pair);
+    search_on(&s, q->pair);
     answer_write(&s, out);
 }
 
@@ -294,7 +340,7 @@ void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double spheres
         search_again(&q, earlier, &s, out);
         return;
     }
-    if (!search_is_done(&s)) refine_run(&s, pair);
+    search_on(&s, pair);
     answer_write(&s, out);
 }
 

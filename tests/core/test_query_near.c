@@ -195,12 +195,41 @@ static void check_few_iterations(uint64_t *s) {
     ovoid_shape_destroy(b);
 }
 
+/// Cubes of any size, and skewed ones, on one another: a depth decides what a yes or no decides, in batches too.
+static void check_sizes(uint64_t *s) {
+    for (int exponent = 40; exponent >= -124; exponent--)
+        for (int turned = 0; turned < 6; turned++) {
+            double half = 0.5 * pow(10, exponent);
+            double xyz[24];
+            for (int i = 0; i < 24; i++) xyz[i] = (i / 3 >> i % 3 & 1 ? 1 : -1) * half * (1 + 0.03 * turned * (i % 5));
+            ovoid_shape *cube = ovoid_shape_create_from_points(xyz, 8, NULL, NULL);
+            if (!CHECK(cube != NULL)) return;
+            ovoid_pair p = {cube, cube, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
+            p.pose_b.position.x = (turned % 3) * 0.4 * half;
+            if (turned > 2) p.pose_b.rotation = random_pose(s, 0).rotation;
+            static ovoid_cover cover;
+            ovoid_answer deep = ovoid_depth(&p, NULL, NULL, &cover), sign = ovoid_collide(&p, NULL, NULL);
+            CHECK_EQ(sign.status, OVOID_OVERLAPPING);
+            CHECK_EQ(deep.status, OVOID_OVERLAPPING);
+            CHECK_EQ(ovoid_answer_check(&p, &deep, NULL, &cover, NULL), OVOID_OK);
+            const ovoid_posed_shape bodies[2] = {{cube, p.pose_a}, {cube, p.pose_b}};
+            ovoid_couple couple = {0, 1};
+            ovoid_answer batched;
+            ovoid_batch batch = {
+                .bodies = bodies, .body_count = 2, .couples = &couple, .couple_count = 1, .answers = &batched};
+            CHECK_EQ(ovoid_depth_batch(&batch, NULL), OVOID_OK);
+            CHECK(batched.lower == deep.lower && batched.upper == deep.upper);
+            ovoid_shape_destroy(cube);
+        }
+}
+
 int main(int count, char **arguments) {
     long pairs = count > 1 ? strtol(arguments[1], NULL, 10) : PAIRS;
     uint64_t s = count > 2 ? strtoull(arguments[2], NULL, 10) : 20261123;
     ovoid_proof foreign[4] = {{.count = 0}};
     for (long i = 0; i < pairs; i++) check_pair(&s, (int)(i % KINDS), foreign);
     for (int i = 0; i < 200; i++) check_few_iterations(&s);
+    check_sizes(&s);
     printf("%ld warm queries; %ld of them decided what the query alone does not\n", asked, decided_by_proof);
     return check_end();
 }
