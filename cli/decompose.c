@@ -15,7 +15,7 @@
 
 typedef struct settings {
     read_settings read;
-    const char *output, *check;
+    const char *output, *proof, *check;
     double error, tolerance;
     unsigned parts, cells;
     int cover, json, csv;
@@ -34,6 +34,8 @@ static const cli_option options[] = {
      "the parts are the objects of this mesh file, each as its hull; none are made"},
     {"cover", 0, OPTION_FLAG, offsetof(settings, cover), NULL, NULL,
      "grow the parts by what may be uncovered, so that they are proven to cover the solid"},
+    {"proof", 0, OPTION_OUTPUT, offsetof(settings, proof), "FILE", "json|jsonl",
+     "write what is proven as a file that \"ovoid verify FILE MESH PARTS\" checks"},
     {"tolerance", 0, OPTION_POSITIVE, offsetof(settings, tolerance), "T", NULL,
      "how narrow both brackets shall be, a length (default: 1/1000 of the diagonal, or a tenth of --error if that is "
      "less)"},
@@ -73,6 +75,7 @@ static int prove(decomposed *d, const ovoid_decomposition_options *o) {
     ovoid_code code = ovoid_decomposition_compute_proof(&d->view, o, &d->proof, d->excess, &error);
     progress_end();
     if (code != OVOID_OK) return message_error("%s: %s", d->path, error.message), EXIT_INPUT;
+    d->found = d->proof;
     return 0;
 }
 
@@ -102,12 +105,11 @@ static int make_parts(decomposed *d, const settings *s) {
     return 0;
 }
 
-/// Parts of a file. 0, or EXIT_INPUT after a message.
-static int read_parts(decomposed *d, const settings *s) {
+int decomposed_read_parts(decomposed *d, const char *path, const read_settings *how) {
     ovoid_error error;
-    ovoid_read_options read = inputs_make_options(&s->read);
+    ovoid_read_options read = inputs_make_options(how);
     read.parts = 1;
-    d->given = ovoid_shapes_read_file(s->check, &read, NULL, &error);
+    d->given = ovoid_shapes_read_file(path, &read, NULL, &error);
     if (!d->given) return message_error("%s", error.message), EXIT_INPUT;
     size_t count = ovoid_shapes_get_count(d->given);
     d->list = calloc(count ? count : 1, sizeof *d->list);
@@ -115,8 +117,14 @@ static int read_parts(decomposed *d, const settings *s) {
     for (size_t i = 0; i < count; i++) d->list[i] = ovoid_shapes_get(d->given, i).shape;
     d->view.parts = d->list;
     d->view.part_count = count;
+    return 0;
+}
+
+/// Parts of a file, and what is proven of them. 0, or EXIT_INPUT after a message.
+static int read_parts(decomposed *d, const settings *s) {
+    int code = decomposed_read_parts(d, s->check, &s->read);
     ovoid_decomposition_options o = make_options(s, d->view.solid);
-    return prove(d, &o);
+    return code ? code : prove(d, &o);
 }
 
 /// Grows the parts by what is proven to suffice. That they cover then follows; how far they stand out is proven anew.
@@ -156,6 +164,7 @@ static int work(decomposed *d, const settings *s) {
     int code = s->check ? read_parts(d, s) : make_parts(d, s);
     if (!code && s->cover) code = cover(d, s);
     if (!code && s->output) code = decomposed_write_parts(s->output, d);
+    if (!code && s->proof) code = decomposed_write_proof(s->proof, d);
     return code ? code : report(d, s);
 }
 

@@ -130,19 +130,50 @@ static void write_parts(FILE *file, const decomposed *d) {
     }
 }
 
-int decomposed_write_parts(const char *path, const decomposed *d) {
+/// What writes a file of a decomposition.
+typedef void (*writer)(FILE *file, const decomposed *d);
+
+static int write_file(const char *path, const decomposed *d, writer write) {
     ovoid_error error;
+    ovoid_output *output = ovoid_output_create(path, &error);
+    if (!output) return message_error("%s", error.message), EXIT_INPUT;
+    finish_set_unfinished(ovoid_output_get_temporary(output));
+    write(ovoid_output_get_file(output), d);
+    int code = finish_output(output);
+    finish_set_unfinished(NULL);
+    ovoid_output_destroy(output);
+    return code;
+}
+
+int decomposed_write_parts(const char *path, const decomposed *d) {
     for (size_t i = 0; i < d->view.part_count; i++)
         if (ovoid_shape_get_radius(d->view.parts[i]) > 0) {
             message_error("part %zu has a rounding radius, which an OBJ file cannot say", i);
             return EXIT_INPUT;
         }
-    ovoid_output *output = ovoid_output_create(path, &error);
-    if (!output) return message_error("%s", error.message), EXIT_INPUT;
-    finish_set_unfinished(ovoid_output_get_temporary(output));
-    write_parts(ovoid_output_get_file(output), d);
-    int code = finish_output(output);
-    finish_set_unfinished(NULL);
-    ovoid_output_destroy(output);
-    return code;
+    return write_file(path, d, write_parts);
+}
+
+// ---- the proof
+
+static void write_proof(FILE *file, const decomposed *d) {
+    (void)ovoid_decomposition_write_json(file, &d->view, &d->found); // the stream keeps what failed
+}
+
+int decomposed_write_proof(const char *path, const decomposed *d) {
+    enum { ROUNDS = 12 };
+    decomposed checked = *d;
+    ovoid_error error;
+    ovoid_decomposition_options options = {.work = DECOMPOSED_CHECK_WORK / 8};
+    double step = 1e-3 * (d->found.uncovered.upper + d->found.excess.upper);
+    ovoid_code code = OVOID_ERROR_LIMIT;
+    for (int round = 0; round < ROUNDS && code == OVOID_ERROR_LIMIT; round++, step *= 2) {
+        code = ovoid_decomposition_check(&d->view, &checked.found, &options, &error);
+        if (code != OVOID_ERROR_LIMIT) break;
+        // A search may end below what it aims at, by luck; the check would need more cells.
+        int is_excess = strncmp(error.message, "excess", 6) == 0;
+        *(is_excess ? &checked.found.excess.upper : &checked.found.uncovered.upper) += step;
+    }
+    if (code) return message_error("%s: the proof could not be written: %s", path, error.message), EXIT_INPUT;
+    return write_file(path, &checked, write_proof);
 }

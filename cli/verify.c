@@ -5,6 +5,7 @@
 #include "commands.h"
 
 #include "answers.h"
+#include "decompose.h"
 #include "finish.h"
 #include "message.h"
 #include "outputs.h"
@@ -285,6 +286,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_operands paths;
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0 && has_path_proofs(&s, &paths)) return verify_paths(command, &s, &paths);
+    if (code < 0 && paths.count == 3 && ovoid_decomposition_is_proof(paths.items[0]))
+        return decomposed_verify(paths.items, &s.read);
     if (code < 0) code = check_inputs(command, &s, &paths);
     if (code >= 0) return code;
     if (s.query == QUERY_NONE) s.query = s.list ? QUERY_WITHIN : QUERY_DISTANCE;
@@ -310,7 +313,8 @@ const cli_command command_verify = {
              "[OPTION...] RESULTS.jsonl SCENE.json --motion MOTION.csv\n"
              "[OPTION...] RESULTS.jsonl A B\n"
              "[OPTION...] RESULTS.jsonl --shapes LIST --pairs PAIRS.csv\n"
-             "[OPTION...] PROOFS.jsonl [ROBOT.urdf]",
+             "[OPTION...] PROOFS.jsonl [ROBOT.urdf]\n"
+             "[OPTION...] PROOF.json MESH PARTS.obj",
     .description =
         "Checks every result of a file written with --json by check, run, distance or batch, on the same bodies, "
         "without the search that found it: each bound is computed again from the proof alone, in exact rational "
@@ -326,6 +330,8 @@ const cli_command command_verify = {
         "still: a digest says so. Each step is measured again, without a search, and for each pair the steps must "
         "reach "
         "from the beginning to the end of what is said to be free.\n\n"
+        "PROOF.json is of \"ovoid decompose --proof\", MESH and PARTS.obj what it is about. The points that it names "
+        "are measured, and both lengths are shown anew, by cells that are bounded by what is claimed.\n\n"
         "Nothing may be missing either, unless --partial says so: each pair of the scene has one result, at each "
         "frame, or it is farther apart than the margin that was asked, which is proven anew where there is no "
         "result. An answer that is undecided claims nothing, so it counts as missing.\n\n"

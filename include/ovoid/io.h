@@ -14,6 +14,7 @@
 #define OVOID_IO_H
 
 #include "ovoid/compound.h"
+#include "ovoid/decompose.h"
 #include "ovoid/motion.h"
 #include "ovoid/solid.h"
 
@@ -420,6 +421,23 @@ OVOID_API int ovoid_results_reader_read(ovoid_results_reader *reader, ovoid_reco
 OVOID_API int64_t ovoid_results_reader_get_line(const ovoid_results_reader *reader);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_results_reader_destroy(ovoid_results_reader *reader);
+
+/* ---- proofs of decompositions ---- */
+
+/** A proof of <ovoid/decompose.h> as a file has it, and of how many triangles and parts it is. */
+typedef struct ovoid_decomposition_record {
+    ovoid_decomposition_proof proof; /**< cells: 0 */
+    uint64_t triangles, parts;
+} ovoid_decomposition_record;
+
+/** Writes a proof as one line of JSON: its two lengths, and the numbers of triangles and parts. FILE. */
+OVOID_API ovoid_code ovoid_decomposition_write_json(FILE *file, const ovoid_decomposition *decomposition,
+                                                    const ovoid_decomposition_proof *proof);
+/** Reads one, strictly; ovoid_decomposition_check says whether it is true. FILE, FORMAT, LIMIT, MEMORY. */
+OVOID_API ovoid_code ovoid_decomposition_read_json(const char *path, ovoid_decomposition_record *record,
+                                                   ovoid_error *error);
+/** 1 if the file begins as such a proof does; 0 for standard input. */
+OVOID_API int ovoid_decomposition_is_proof(const char *path);
 
 /* ---- texts of files, written and read ---- */
 
