@@ -116,6 +116,7 @@ class Solid:
     vertices: Final[_Array]
     faces: Final[_Array]
     order: Final[_Array]
+    kind: Final[Literal["solid", "surface"]]
     is_closed: Final[bool]
     volume: Final[float]
     area: Final[float]

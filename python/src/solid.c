@@ -137,6 +137,11 @@ static PyObject *get_order(PyObject *self, void *closure) {
     return array_copy(state_of(self), RECORD_UINT32, 1, &count, ovoid_solid_get_order(get(self)));
 }
 
+static PyObject *get_kind(PyObject *self, void *closure) {
+    (void)closure;
+    return PyUnicode_FromString(ovoid_solid_get_report(get(self)).is_closed ? "solid" : "surface");
+}
+
 static PyObject *get_is_closed(PyObject *self, void *closure) {
     (void)closure;
     return PyBool_FromLong(ovoid_solid_get_report(get(self)).is_closed);
@@ -234,6 +239,7 @@ static PyGetSetDef fields[] = {
     {"vertices", get_vertices, NULL, "The points that triangles use, (n, 3), its frame.", NULL},
     {"faces", get_faces, NULL, "The triangles as given, (m, 3) indices of vertices.", NULL},
     {"order", get_order, NULL, "The triangles in the order of the tree's leaves.", NULL},
+    {"kind", get_kind, NULL, "\"solid\" where the triangles are closed, else \"surface\", as results have it.", NULL},
     {"is_closed", get_is_closed, NULL, "True: a solid with an inside; False: a surface, the triangles alone.", NULL},
     {"volume", get_measure, NULL, "Below 0 where it is inside out; 0 where it is not closed. Rounded.", NULL},
     {"area", get_measure, NULL, "The area of all triangles, rounded.", ""},

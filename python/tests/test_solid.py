@@ -66,7 +66,7 @@ class Making(unittest.TestCase):
     def test_report(self):
         self.assertEqual(L.report, {"points": 12, "triangles": 20, "components": 1, "edges_unmatched": 0, "edges_crowded": 0,
                                     "degenerate": 0, "duplicates": 0})
-        self.assertTrue(L.is_closed and ROUND.is_closed)
+        self.assertTrue(L.is_closed and ROUND.is_closed and L.kind == "solid")
         self.assertIs(L.report["is_flat"], False)
         self.assertTrue(4.1 < ROUND.volume < 4 * math.pi / 3)
         self.assertAlmostEqual(L.volume, 3, delta=1e-12)
@@ -78,6 +78,7 @@ class Making(unittest.TestCase):
         self.assertEqual(turned.winding((0, 0, 0)), -1)
         open_box = ovoid.Solid.from_triangles(POINTS, FACES[:-1] + [FACES[0], (0, 0, 1)])
         self.assertEqual((open_box.is_closed, open_box.volume, open_box.winding((0.5, 0.5, 0.5))), (False, 0, None))
+        self.assertEqual(open_box.kind, "surface")
         self.assertEqual((open_box.report["duplicates"], open_box.report["degenerate"]), (1, 1))
 
     def test_arrays(self):
