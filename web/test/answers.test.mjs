@@ -49,7 +49,8 @@ test("a scene's pairs have the bits of the tool, proofs included, and every proo
   const objects = makeScene(40), lines = checkByTool({ objects }), seen = { separated: 0, overlapping: 0 };
   const shapes = new Map(objects.map((o) => [o.name, Shape.fromPoints(o.points)])), poses = new Map(objects.map((o) => [o.name, o.pose]));
   assert.equal(lines.length, (40 * 39) / 2);
-  for (const { a, b, ...line } of lines) {
+  for (const { a, b, kind_a, kind_b, ...line } of lines) {
+    assert.deepEqual([kind_a, kind_b], ['hull', 'hull']);
     const pair = [shapes.get(a), poses.get(a), shapes.get(b), poses.get(b)];
     const answer = ovoid.depth(...pair);
     assert.deepEqual(answer.toJSON(), line);
