@@ -139,7 +139,7 @@ typedef enum ovoid_solid_inside {
  * surfaces.upper < 0, two triangles cross (or one reaches into a shape or a part); or `inside` says which body has a
  * component in the other, at least surfaces.lower away from its surface, or that a point lies in both. Else rounding
  * leaves open whether the surfaces cross: upper is theirs, lower what parts the bodies; TOUCHING where that bracket is
- * as narrow as the tolerance, and UNDECIDED where it is not, as of bodies that interlock without play.
+ * as narrow as the tolerance, and UNDECIDED where it is not, as of bodies that interlock, or touch around a corner.
  */
 typedef struct ovoid_solid_answer {
     ovoid_status status;
