@@ -134,7 +134,8 @@ static int add_panda_links(robot *all, const char *data) {
         const struct panda_link *link = &panda_links[k];
         char path[1024];
         (void)snprintf(path, sizeof path, "%s/robots/panda/meshes/collision/%s.stl", data, link->mesh);
-        if (!bodies_add_shape(&all->set, ovoid_shape_read_file(path, NULL, NULL, NULL))) return 0;
+        if (!bodies_add_shape(&all->set, ovoid_shape_read_file(path, &(ovoid_read_options){.hull = 1}, NULL, NULL)))
+            return 0;
         set_shape(all, k, k);
         all->joints[k] = (joint){ovoid_pose_make_rpy(link->xyz, link->rpy), {0, 0, 1}, link->low, link->high};
     }

@@ -1,4 +1,4 @@
-// How far apart are two mesh files? Loads each as its convex hull (libovoid_io), poses the second, prints the distance
+// How far apart are two mesh files? Loads convex meshes (libovoid_io), poses the second, prints the distance
 // and the nearest points, and checks the proof. Two files of one's own: mesh_distance A B
 #include <ovoid/io.h>
 #include <ovoid/ovoid.h>

@@ -56,7 +56,8 @@ typedef struct ovoid_read_options {
     int parts; /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
     int hull;  /**< of shapes from meshes: 1: each is the convex hull, asked for as such; 0: where the mesh is the hull
                     only nearly, the shape has the allowance that keeps brackets true of the mesh
-                    (ovoid_convexity.allowance); without effect on parts, whose hulls are the body */
+                    (ovoid_convexity.allowance), and ovoid_shape_read_file refuses what is not its hull; without effect
+                    on parts, whose hulls are the body */
     int solid; /**< of ovoid_shapes_read_file: 1: the triangles are wanted of a mesh that is its hull, too */
     int trusted; /**< 0: Assimp's importers run in a child process; 1: in this one, which their faults may crash */
 } ovoid_read_options;
@@ -139,9 +140,11 @@ OVOID_API ovoid_solid *ovoid_solid_read_file(const char *path, const ovoid_read_
 OVOID_API int ovoid_path_is_shape(const char *path);
 
 /**
- * A shape from a file: a `.ovoid` file, checked byte by byte, or the hull of a mesh file. For a `.ovoid` file a scale
- * other than 1 or a radius is refused (ARGUMENT). options->parts is ignored, and so is options->hull: the hull is what
- * is asked for. The caller destroys it.
+ * A shape from a file: a `.ovoid` file, checked byte by byte, or a mesh file that is its convex hull, or nearly so:
+ * then the shape has the allowance that keeps brackets true of the mesh. Any other mesh, closed and not convex or open,
+ * is refused (NOT_CONVEX), unless read->hull asks for the hull. Points without faces are their hull. For a `.ovoid`
+ * file a scale other than 1 or a radius is refused (ARGUMENT). read->parts is ignored. The caller destroys it. Cost:
+ * beside the hull's that of ovoid_mesh_compute_convexity, unless read->hull.
  */
 OVOID_API ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read,
                                              const ovoid_shape_options *options, ovoid_error *error);

@@ -14,10 +14,11 @@
 
 namespace ovoid {
 
-/** How to read a mesh: scale, parts, trusted. */
+/** How to read a mesh: scale, parts, hull, trusted. */
 using read_options = zeroed<ovoid_read_options>;
 
-/** A shape from a file: `.ovoid`, or the hull of a mesh. Throws as ovoid_shape_read_file fails. */
+/** A shape from a file: `.ovoid`, or a mesh that is its hull; how.hull: the hull of any. Throws as
+ * ovoid_shape_read_file fails. */
 inline shape read_shape(const std::string &path, const ovoid_read_options &how = read_options(),
                         const ovoid_shape_options &o = shape_options()) {
     ovoid_error e;

@@ -23,12 +23,14 @@ from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint
 
 
 def load(path, **options):
-    """A Shape from an .ovoid file, or the convex hull of a mesh file: Shape.load."""
+    """The body that a file holds: a Shape of an .ovoid file and of a mesh that is its convex hull, or nearly so (then with
+    an allowance for the difference); a Solid of any other mesh, a surface where that is open. hull=True: the hull of any
+    mesh. Arguments as of Shape.load; a Solid has no rounding and no allowance."""
     from . import _ovoid
 
     if not has_io:
         raise Error("this build of ovoid reads no files: it was built without libovoid_io", Code.FILE)
-    return _ovoid.Shape.load(path, **options)
+    return _ovoid.load(path, **options)
 
 
 __all__ = [name for name in dir() if not name.startswith("_")]

@@ -2,6 +2,7 @@
 //
 // What they read of Python is copied first; the building itself runs without the interpreter's lock.
 #include "src/module.h"
+#include "src/query.h"
 
 #ifdef OVOID_PYTHON_IO
 #include <ovoid/io.h>
@@ -302,29 +303,39 @@ static PyObject *from_bytes(PyObject *type, PyObject *bytes) {
 }
 
 #ifdef OVOID_PYTHON_IO
-static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"path", "scale", "unit", SHAPE_NAMES, NULL};
-    PyObject *path = NULL;
-    double scale = 0;
-    const char *unit = NULL;
-    shape_keywords k = {0};
+/// Which file is to be read, and how.
+typedef struct file_keywords {
+    PyObject *path; ///< owned once it is read
+    ovoid_read_options read;
     ovoid_shape_options options;
+} file_keywords;
+
+// Reads the arguments of a function of a file; without `hull` where the hulls are what it makes.
+static int read_file_keywords(module_state *state, PyObject *arguments, PyObject *keywords, const char *format,
+                              file_keywords *f) {
+    static char *names[] = {"path", "scale", "unit", SHAPE_NAMES, "hull", NULL};
+    static char *parts_names[] = {"path", "scale", "unit", SHAPE_NAMES, NULL};
+    shape_keywords k = {0};
+    int has_hull = !f->read.parts;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, has_hull ? names : parts_names, PyUnicode_FSConverter,
+                                     &f->path, &f->read.scale, &f->read.unit, SHAPE_TARGETS(k), &f->read.hull))
+        return -1;
+    if (!make_options(state, &k, &f->options)) return 0;
+    Py_DECREF(f->path);
+    return -1;
+}
+
+static PyObject *load_shape(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    file_keywords f = {.read = {.scale = 0}};
     ovoid_error error;
     module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|dz" SHAPE_FORMAT ":load", names, PyUnicode_FSConverter,
-                                     &path, &scale, &unit, SHAPE_TARGETS(k)))
-        return NULL;
-    if (make_options(state, &k, &options)) {
-        Py_DECREF(path);
-        return NULL;
-    }
-    ovoid_read_options read = {.scale = scale, .unit = unit};
+    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT "p:load", &f)) return NULL;
     ovoid_shape *shape;
-    const char *name = PyBytes_AsString(path);
+    const char *name = PyBytes_AsString(f.path);
     Py_BEGIN_ALLOW_THREADS;
-    shape = ovoid_shape_read_file(name, &read, &options, &error);
+    shape = ovoid_shape_read_file(name, &f.read, &f.options, &error);
     Py_END_ALLOW_THREADS;
-    Py_DECREF(path);
+    Py_DECREF(f.path);
     return shape_wrap(state, shape, &error);
 }
 
@@ -345,31 +356,54 @@ static PyObject *make_named(module_state *state, ovoid_shapes *shapes) {
     return list;
 }
 
-static PyObject *load_parts(PyObject *module, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"path", "scale", "unit", SHAPE_NAMES, NULL};
-    PyObject *path = NULL;
-    ovoid_read_options read = {.parts = 1};
-    shape_keywords k = {0};
-    ovoid_shape_options options;
+// The shapes of the file; NULL with an exception. Releases the path.
+static ovoid_shapes *read_shapes(module_state *state, file_keywords *f) {
     ovoid_error error;
+    ovoid_shapes *shapes;
+    const char *name = PyBytes_AsString(f->path);
+    Py_BEGIN_ALLOW_THREADS;
+    shapes = ovoid_shapes_read_file(name, &f->read, &f->options, &error);
+    Py_END_ALLOW_THREADS;
+    Py_DECREF(f->path);
+    if (!shapes) raise_error(state, &error);
+    return shapes;
+}
+
+static PyObject *load_parts(PyObject *module, PyObject *arguments, PyObject *keywords) {
+    file_keywords f = {.read = {.parts = 1}};
     module_state *state = state_of_module(module);
-    ovoid_shapes *shapes = NULL;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|dz" SHAPE_FORMAT ":load_parts", names,
-                                     PyUnicode_FSConverter, &path, &read.scale, &read.unit, SHAPE_TARGETS(k)))
-        return NULL;
-    int failed = make_options(state, &k, &options);
-    if (!failed) {
-        const char *name = PyBytes_AsString(path);
-        Py_BEGIN_ALLOW_THREADS;
-        shapes = ovoid_shapes_read_file(name, &read, &options, &error);
-        Py_END_ALLOW_THREADS;
-        if (!shapes) raise_error(state, &error);
-    }
-    Py_DECREF(path);
+    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT ":load_parts", &f)) return NULL;
+    ovoid_shapes *shapes = read_shapes(state, &f);
     return shapes ? make_named(state, shapes) : NULL;
 }
 
+// The body of a file: its triangles where they are not their hull, else the shape. Borrowed from the owner.
+static PyObject *make_body(module_state *state, ovoid_named_shape one, const ovoid_shape_options *o, PyObject *owner) {
+    if (!one.solid) return shape_borrow(state, one.shape, owner);
+    if (o->radius == 0 && o->allowance.outside == 0 && o->allowance.inside == 0)
+        return solid_borrow(state, one.solid, owner);
+    PyErr_Format(PyExc_ValueError,
+                 "%s: the mesh is not its hull: a Solid has no rounding and no allowance; hull=True takes the hull",
+                 one.name);
+    return NULL;
+}
+
+static PyObject *load_body(PyObject *module, PyObject *arguments, PyObject *keywords) {
+    file_keywords f = {.read = {.scale = 0}};
+    module_state *state = state_of_module(module);
+    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT "p:load", &f)) return NULL;
+    ovoid_shapes *shapes = read_shapes(state, &f);
+    PyObject *owner = shapes ? PyCapsule_New(shapes, "shapes", destroy_shapes) : NULL;
+    if (shapes && !owner) ovoid_shapes_destroy(shapes);
+    PyObject *body = owner ? make_body(state, ovoid_shapes_get(shapes, 0), &f.options, owner) : NULL;
+    Py_XDECREF(owner);
+    return body;
+}
+
 PyMethodDef shape_file_methods[] = {
+    {"load", METHOD_KEYWORDS(load_body), METH_VARARGS | METH_KEYWORDS,
+     "load(path, scale=1, unit=None, " SHAPE_SIGNATURE
+     ", hull=False)\n--\n\nThe body of a file: ovoid.load." SHAPE_DOC},
     {"load_parts", METHOD_KEYWORDS(load_parts), METH_VARARGS | METH_KEYWORDS,
      "load_parts(path, scale=1, unit=None, " SHAPE_SIGNATURE
      ")\n--\n\nThe objects of a mesh file, each as its convex hull: a list of (name, Shape), each where the file has "
@@ -414,9 +448,12 @@ PyMethodDef shape_constructors[] = {
      "was "
      "written."},
 #ifdef OVOID_PYTHON_IO
-    {"load", METHOD_KEYWORDS(load), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+    {"load", METHOD_KEYWORDS(load_shape), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "load(path, scale=1, unit=None, " SHAPE_SIGNATURE
-     ")\n--\n\nA shape from an .ovoid file, or the hull of a mesh file "
-     "(STL, OBJ, OFF, PLY, ...)." SHAPE_DOC},
+     ", hull=False)\n--\n\nA shape from an .ovoid file, or from a mesh "
+     "file (STL, OBJ, OFF, PLY, ...) whose mesh is its convex hull, or nearly\nso: then the shape has an allowance for "
+     "the "
+     "difference. Any other mesh, closed and not convex or open, is refused:\nSolid.load takes it as it is, hull=True "
+     "takes its hull." SHAPE_DOC},
 #endif
     {NULL, NULL, 0, NULL}};

@@ -82,6 +82,8 @@ class Shapes(unittest.TestCase):
             with open(mesh, "w") as file:
                 file.write("OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
             self.assertAlmostEqual(ovoid.load(mesh, scale=2).volume, 8 / 6)
+            # Points alone are their hull; a shape that is meant is no less said to be one.
+            self.assertEqual(ovoid.load(mesh).to_bytes(), ovoid.load(mesh, hull=True).to_bytes())
             with self.assertRaisesRegex(ovoid.Error, "nowhere") as caught:
                 ovoid.load(os.path.join(folder, "nowhere.stl"))
             self.assertEqual(caught.exception.code, ovoid.Code.FILE)

@@ -80,7 +80,7 @@ class Bounds(unittest.TestCase):
         path = os.path.join(source, "tests", "cli", "data", "parts.obj")
         parts = ovoid.load_parts(path)
         self.assertEqual([name for name, _ in parts], ["left part", "right/part"])
-        whole = ovoid.Shape.load(path)
+        whole = ovoid.Shape.load(path, hull=True)
         self.assertLess(sum(shape.volume for _, shape in parts), whole.volume)
         big = ovoid.load_parts(path, 2, rounding=0.5)
         self.assertAlmostEqual(big[0][1].radius, 0.5, delta=0)

@@ -159,6 +159,43 @@ class Making(unittest.TestCase):
                     call()
 
 
+    @unittest.skipUnless(ovoid.has_io, "built without readers of files")
+    def test_kind_of_a_file(self):
+        """A file is never its hull in silence: a shape where it is that, a solid or a surface else."""
+        def write(name, faces, points=POINTS):
+            path = os.path.join(folder, name)
+            with open(path, "w", encoding="ascii") as file:
+                file.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points)
+                file.writelines("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces)
+            return path
+
+        cube = make_box(1)
+        box, flat = cube.vertices.tolist(), cube.faces.tolist()
+        # A plate of 2 x 2 squares, the middle of its top lower by a millionth.
+        plate = [(i % 3, i // 3, 1 - (i == 4) * 1e-6) for i in range(9)] + [(i % 2 * 2, i // 2 * 2, 0) for i in range(4)]
+        walls = [(0, 1, 4), (1, 2, 4), (2, 5, 4), (5, 8, 4), (8, 7, 4), (7, 6, 4), (6, 3, 4), (3, 0, 4), (9, 11, 12, 10),
+                 (9, 10, 2, 1, 0), (10, 12, 8, 5, 2), (12, 11, 6, 7, 8), (11, 9, 0, 3, 6)]
+        with tempfile.TemporaryDirectory() as folder:
+            whole, open_, convex = write("l.obj", FACES), write("open.obj", FACES[:-2]), write("box.obj", flat, box)
+            for path, words, kind in ((whole, "closed and not convex", "solid"), (open_, "4 of its edges are open", "surface")):
+                with self.assertRaisesRegex(ovoid.Error, words + ".*solid.*hull") as caught:
+                    ovoid.Shape.load(path)
+                self.assertEqual(caught.exception.code, ovoid.Code.NOT_CONVEX)
+                body = ovoid.load(path)
+                self.assertEqual((body.kind, body.report), (kind, ovoid.Solid.load(path).report))
+                self.assertEqual(ovoid.distance(body, BALL, None, at(1.5, 1.5, 0.5)).status, ovoid.Status.SEPARATED)
+                with self.assertRaisesRegex(ValueError, "hull=True"):
+                    ovoid.load(path, rounding=0.1)
+                hull = ovoid.load(path, hull=True)
+                self.assertEqual(hull.to_bytes(), ovoid.Shape.load(path, hull=True).to_bytes())
+                self.assertEqual(ovoid.distance(hull, BALL, None, at(1.5, 1.5, 0.5)).status, ovoid.Status.OVERLAPPING)
+            self.assertEqual((ovoid.load(convex).allowance, ovoid.load(convex, scale=2).volume), ((0, 0), 64))
+            nearly = write("nearly.obj", walls, plate)
+            for load in (ovoid.load, ovoid.Shape.load):
+                self.assertTrue(0 < load(nearly).allowance[1] < 1e-5, load(nearly).allowance)
+                self.assertEqual(load(nearly, hull=True).allowance, (0, 0))
+
+
 class Queries(unittest.TestCase):
     def test_notch(self):
         """A ball in the notch, which the hull would fill."""

@@ -108,12 +108,17 @@ static void check_soup(void) {
 }
 
 // A plate of 2 x 2 squares, `thick` high, whose middle of the top is lower by `dent`: a pyramid is missing.
-static ovoid_convexity dent_plate(double thick, double dent) {
+static text make_dented_plate(double thick, double dent) {
     text t = {.length = 0};
     for (int i = 0; i < 9; i++) add(&t, "v %d %d %.17g\n", i % 3, i / 3, i == 4 ? thick - dent : thick);
     for (int i = 0; i < 4; i++) add(&t, "v %d %d 0\n", i % 2 * 2, i / 2 * 2);
     add(&t, "f 1 2 5\nf 2 3 5\nf 3 6 5\nf 6 9 5\nf 9 8 5\nf 8 7 5\nf 7 4 5\nf 4 1 5\nf 10 12 13 11\n");
     add(&t, "f 10 11 3 2 1\nf 11 13 9 6 3\nf 13 12 7 8 9\nf 12 10 1 4 7\n");
+    return t;
+}
+
+static ovoid_convexity dent_plate(double thick, double dent) {
+    text t = make_dented_plate(thick, dent);
     ovoid_convexity c = compute(&t);
     if (dent > 0) CHECK_NEAR(c.hull_volume, 4 * thick, 1e-12);
     CHECK_NEAR(c.mesh_volume, 4 * thick - 4 * dent / 3, 1e-12);
@@ -129,6 +134,40 @@ static void check_threshold(void) {
     CHECK_EQ(far.kind, OVOID_MESH_SOLID);
     CHECK_EQ(far.allowance, 0);
     CHECK_EQ(dent_plate(1, -1.3e-6).kind, OVOID_MESH_HULL);
+}
+
+// What ovoid_shape_read_file makes of the mesh: 0, the shape, whose allowance inside is given; else the error.
+static ovoid_code read_shape(const text *t, int hull, double *allowance, const char *phrase) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_read_options read = {.hull = hull, .parts = 1}; // parts has no effect
+    ovoid_shape *shape = ovoid_shape_read_file(file_write_text("shape.obj", t->data), &read, NULL, &error);
+    *allowance = shape ? ovoid_shape_get_allowance(shape).inside : 0;
+    ovoid_shape_destroy(shape);
+    if (!shape) CHECK(strstr(error.message, "shape.obj: ") && strstr(error.message, phrase));
+    return shape ? OVOID_OK : error.code;
+}
+
+// A shape of a mesh that is not its hull has to be asked for.
+static void check_shapes(void) {
+    double allowance;
+    text box = {.length = 0}, hollow = box, open = box, cloud = box;
+    add_box(&box, zero, one, 0, 0);
+    add_box(&hollow, zero, three, 0, 0);
+    add_box(&hollow, one, two, 1, 0);
+    add_box(&open, zero, one, 0, 1);
+    add_box(&cloud, zero, one, 0, 6);
+    CHECK_EQ(read_shape(&box, 0, &allowance, ""), OVOID_OK);
+    CHECK_EQ(read_shape(&cloud, 0, &allowance, ""), OVOID_OK);
+    CHECK_EQ(read_shape(&hollow, 0, &allowance, "closed and not convex"), OVOID_ERROR_NOT_CONVEX);
+    CHECK_EQ(read_shape(&open, 0, &allowance, "not closed, 4 of its edges are open"), OVOID_ERROR_NOT_CONVEX);
+    CHECK_EQ(read_shape(&hollow, 1, &allowance, ""), OVOID_OK);
+    CHECK_EQ(read_shape(&open, 1, &allowance, ""), OVOID_OK);
+    text near = make_dented_plate(1, 1.2e-6), far = make_dented_plate(1, 1.3e-6);
+    CHECK_EQ(read_shape(&near, 0, &allowance, ""), OVOID_OK);
+    CHECK(allowance >= 3.6e-6 && allowance < 3.6001e-6);
+    CHECK_EQ(read_shape(&near, 1, &allowance, ""), OVOID_OK);
+    CHECK_EQ(allowance, 0);
+    CHECK_EQ(read_shape(&far, 0, &allowance, "closed and not convex"), OVOID_ERROR_NOT_CONVEX);
 }
 
 // Parts one by one, and through a scene, which names each hull of a mesh.
@@ -171,6 +210,7 @@ int main(void) {
     check_boxes();
     check_soup();
     check_threshold();
+    check_shapes();
     check_lists();
     return check_end();
 }

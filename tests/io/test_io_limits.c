@@ -158,10 +158,10 @@ static const char *write_repeated(const char *name, const char *before, const ch
 }
 
 static void check_long(void) {
-    expect('c', write_repeated("deep.json", "", "[", 1000000, ""), OVOID_ERROR_FORMAT, "depth");
-    expect('c', write_repeated("deep.json", "", "{\"objects\":", 1000000, ""), OVOID_ERROR_FORMAT, "depth");
-    expect('c', write_repeated("deep.json", "{\"objects\":[", "[", 1000, ""), OVOID_ERROR_FORMAT, "JSON");
-    expect('r', write_repeated("deep.jsonl", "{\"a\":", "[", 900000, ""), OVOID_ERROR_FORMAT, "JSON");
+    expect('c', write_repeated("deep.json", "", "[", 1000000, ""), OVOID_ERROR_LIMIT, "more than 64 deep");
+    expect('c', write_repeated("deep.json", "", "{\"objects\":", 1000000, ""), OVOID_ERROR_LIMIT, "more than 64 deep");
+    expect('c', write_repeated("deep.json", "{\"objects\":[", "[", 1000, ""), OVOID_ERROR_LIMIT, "more than 64 deep");
+    expect('r', write_repeated("deep.jsonl", "{\"a\":", "[", 900000, ""), OVOID_ERROR_LIMIT, "more than 64 deep");
     expect('r', write_repeated("long.jsonl", "", " ", 40000000, "\n"), OVOID_ERROR_LIMIT, "the line has more than");
     expect('r', write_repeated("long.jsonl", "{\"proof\":{\"cover\":{\"pairs\":[", "[0,0],", 150000, "[0,0]]}}}"),
            OVOID_ERROR_FORMAT, "missing");

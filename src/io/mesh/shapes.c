@@ -104,9 +104,23 @@ static mesh_hull read_hull(const char *path, const hull_options *o, ovoid_error 
     return hull;
 }
 
+static ovoid_code refuse_kind(const char *path, const ovoid_convexity *c, ovoid_error *error) {
+    const where at = {path, 0, -1};
+    static const char advice[] = "read it as a solid, or ask for its convex hull (hull)";
+    if (c->kind == OVOID_MESH_SOLID)
+        return io_fail(error, OVOID_ERROR_NOT_CONVEX, at, "the mesh is closed and not convex; %s", advice);
+    return io_fail(error, OVOID_ERROR_NOT_CONVEX, at, "the mesh is not closed, %llu of its edges are open; %s",
+                   (unsigned long long)c->edges_unmatched, advice);
+}
+
 ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read, const ovoid_shape_options *options,
                                    ovoid_error *error) {
-    return read_hull(path, &(hull_options){read, options, 0, 1}, error).shape;
+    int is_compared = !(read && read->hull);
+    mesh_hull hull = read_hull(path, &(hull_options){read, options, is_compared, 1}, error);
+    if (!hull.shape || hull.convexity.kind == OVOID_MESH_HULL) return hull.shape;
+    refuse_kind(path, &hull.convexity, error);
+    mesh_hull_clear(&hull);
+    return NULL;
 }
 
 ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ovoid_error *error) {
