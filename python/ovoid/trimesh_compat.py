@@ -3,9 +3,10 @@
 Objects are anything with .vertices and .faces (a trimesh.Trimesh), or a Shape, Compound or Solid, or a list of convex parts.
 trimesh's own manager takes meshes as surfaces, through FCL. So:
 
-- a mesh that says is_convex is False is taken as a Solid, of which closed ones have an inside; all others by their hull, as
-  are those without .faces, with a warning. `parts`, a function of a mesh that is not convex, returns convex meshes to take in
-  its place: fewer and faster to ask than many triangles;
+- a mesh with .faces is a hull where exact signs say so (Solid.match_hull), whatever its is_convex says; else a Solid, of
+  which closed ones have an inside and open ones are surfaces. One without .faces is the hull of its points, with a warning
+  where is_convex is False. `parts`, a function of a mesh that is not convex, returns convex meshes to take in its place:
+  fewer and faster to ask than many triangles;
 - one body inside another is a collision, and every pair that is not proven apart counts as one;
 - of bodies that overlap the distance is minus the depth of the deepest pair, where FCL says -1; of Solids minus a way that is
   proven to part them, which need not be the shortest;
@@ -165,12 +166,15 @@ class CollisionManager:
             return mesh
         if isinstance(mesh, (list, tuple)):
             return Compound([self._make_hull(part) for part in mesh])
-        is_convex = getattr(mesh, "is_convex", None)
-        if self._parts is not None and not is_convex:
+        solid = Solid.from_mesh(mesh) if hasattr(mesh, "faces") else None
+        hull = solid.match_hull() if solid else None
+        if hull:
+            return hull
+        if self._parts is not None and (solid or not getattr(mesh, "is_convex", None)):
             return Compound([self._make_hull(part) for part in self._parts(mesh)])
-        if is_convex is not None and not is_convex:
-            if hasattr(mesh, "faces"):
-                return Solid.from_mesh(mesh)
+        if solid:
+            return solid
+        if not getattr(mesh, "is_convex", True):
             warnings.warn("the mesh is not convex and has no faces: its convex hull is taken", stacklevel=3)
         return self._make_hull(mesh)
 

@@ -186,6 +186,34 @@ static PyObject *crossings(PyObject *self, PyObject *arguments, PyObject *keywor
     return Py_BuildValue("KNN", (unsigned long long)found.pairs, PyBool_FromLong(found.is_complete), pair);
 }
 
+// The hull of the triangles' points with the allowance for the difference of both; NULL: it is not what they enclose,
+// and *error is as it was, or the error.
+static ovoid_shape *create_match(const ovoid_triangles *t, ovoid_error *error) {
+    ovoid_hull_match match;
+    ovoid_shape *made = NULL, *hull = ovoid_shape_create_from_points(t->xyz, t->point_count, NULL, error);
+    if (hull && !ovoid_triangles_match_hull(t, hull, &match, error) && match.is_closed && match.is_hull)
+        made = ovoid_shape_create_allowed(hull, (ovoid_allowance){.inside = match.allowance}, NULL, error);
+    ovoid_shape_destroy(hull);
+    return made;
+}
+
+static PyObject *match_hull(PyObject *self, PyObject *ignored) {
+    (void)ignored;
+    ovoid_solid_report r = ovoid_solid_get_report(get(self));
+    uint32_t *indices = malloc((size_t)(3 * r.triangles + 1) * sizeof *indices);
+    if (!indices) return PyErr_NoMemory();
+    for (size_t i = 0; i < r.triangles; i++) ovoid_solid_get_triangle(get(self), i, indices + 3 * i);
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_triangles triangles = {ovoid_solid_get_points(get(self)), (size_t)r.points, indices, (size_t)r.triangles};
+    ovoid_shape *shape;
+    Py_BEGIN_ALLOW_THREADS;
+    shape = create_match(&triangles, &error);
+    Py_END_ALLOW_THREADS;
+    free(indices);
+    if (!shape && !error.code) Py_RETURN_NONE;
+    return shape_wrap(state_of(self), shape, &error);
+}
+
 static PyObject *reduce(PyObject *self, PyObject *ignored) {
     (void)ignored;
     PyObject *helper = PyImport_ImportModule("ovoid._records");
@@ -230,6 +258,9 @@ static PyMethodDef methods[] = {
      "triangles have a point in common that is\nno corner or edge of both, by exact signs; False where the search "
      "ended at "
      "most of them; the first pair, or None."},
+    {"match_hull", match_hull, METH_NOARGS,
+     "match_hull()\n--\n\nThe Shape that it is: the convex hull of its points where the triangles are closed and lie "
+     "on it, exactly or so\nnearly that the shape's allowance holds the difference; else None. Exact signs decide."},
     {"__reduce__", reduce, METH_NOARGS, NULL},
     {"__copy__", copy, METH_NOARGS, NULL},
     {"__deepcopy__", copy, METH_O, NULL},

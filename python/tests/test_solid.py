@@ -142,6 +142,15 @@ class Making(unittest.TestCase):
                 ovoid.Solid.from_triangles(p, f)
         self.assertEqual((L.vertices.shape, L.faces.dtype), ((12, 3), numpy.dtype("u4")))
 
+    def test_match_hull(self):
+        cube = make_box(1)
+        self.assertEqual((cube.match_hull().volume, cube.match_hull().allowance), (8, (0, 0)))
+        for solid in (L, ovoid.Solid.from_triangles(cube.vertices, cube.faces.tolist()[:-1]), ovoid.Solid.from_triangles(POINTS[:3], [(0, 1, 2)])):
+            self.assertIs(solid.match_hull(), None)
+        ball = make_ball(12, 8).match_hull()
+        self.assertTrue(0 <= ball.allowance[1] < 1e-12)
+        self.assertAlmostEqual(ball.volume, make_ball(12, 8).volume, delta=1e-9)
+
     @unittest.skipUnless(ovoid.has_io, "built without readers of files")
     def test_load(self):
         with tempfile.TemporaryDirectory() as folder:

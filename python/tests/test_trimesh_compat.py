@@ -147,6 +147,31 @@ class Collisions(unittest.TestCase):
         hit, names = self.manager.in_collision_other(other, return_names=True)
         self.assertEqual((hit, names), (True, {("frame", "ring"), ("cube0", "ring")}))
 
+    def test_said_to_be_convex(self):
+        """What is_convex says, or that it is not there, makes no hull of a frame, nor of a box without a lid."""
+        class Said(Frame):
+            is_convex = True
+
+        class Silent:
+            vertices, faces = Frame.vertices, Frame.faces
+
+        box = [(0, 2, 6, 4), (1, 5, 7, 3), (0, 4, 5, 1), (2, 3, 7, 6), (0, 1, 3, 2), (4, 6, 7, 5)]
+
+        class Box(Cube):
+            faces = [face for a, b, c, d in box for face in ((a, b, c), (a, c, d))]
+
+        class Lidless(Cube):
+            faces = Box.faces[:-2]
+
+        for mesh in (Said(), Silent(), Lidless(4)):
+            manager = CollisionManager()
+            manager.add_object("hole", mesh)
+            self.assertAlmostEqual(manager.min_distance_single(self.cube), 1.5 if mesh.__class__ is Lidless else 0.5, delta=1e-8)
+        manager = CollisionManager(parts=lambda mesh: self.fail("a box is its hull"))
+        manager.add_object("box", Box(4))
+        with self.assertRaises(NotImplementedError):
+            manager.min_distance_single(self.cube, shift(9), return_data=True)[1].index("box")
+
     def test_without_faces(self):
         mesh = Cube(1)
         mesh.is_convex = False
