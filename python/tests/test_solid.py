@@ -148,7 +148,7 @@ class Making(unittest.TestCase):
         for solid in (L, ovoid.Solid.from_triangles(cube.vertices, cube.faces.tolist()[:-1]), ovoid.Solid.from_triangles(POINTS[:3], [(0, 1, 2)])):
             self.assertIs(solid.match_hull(), None)
         ball = make_ball(12, 8).match_hull()
-        self.assertTrue(0 <= ball.allowance[1] < 1e-12)
+        self.assertTrue(0 < ball.allowance[1] < 1e-12)
         self.assertAlmostEqual(ball.volume, make_ball(12, 8).volume, delta=1e-9)
 
     @unittest.skipUnless(ovoid.has_io, "built without readers of files")
