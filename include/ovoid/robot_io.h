@@ -46,7 +46,7 @@ typedef struct ovoid_robot_read_options {
     size_t package_count;
     const char *ros_package_path;  /**< folders with colons between; NULL: the environment's ROS_PACKAGE_PATH */
     const char *ament_prefix_path; /**< the same; NULL: the environment's AMENT_PREFIX_PATH */
-    int parts;                     /**< 0: a mesh counts as its hull; 1: as the hulls of its objects (OBJ `o`, nodes) */
+    int parts;                     /**< 0: a mesh is one body; 1: the hulls of its objects (OBJ `o`, nodes) */
     int visual;                    /**< 1: a link without collision geometry takes its visual one */
     int fixed_base;                /**< 1: the SRDF's virtual joint adds nothing: the root link is the base */
     int trusted;                   /**< as in ovoid_read_options */

@@ -24,7 +24,10 @@ const char *const two_parts = "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 
 
 void check_shapes() {
     const std::string path = write_text("mesh.obj", two_parts);
-    const ovoid::shape hull = ovoid::read_shape(path);
+    CHECK(throws(OVOID_ERROR_NOT_CONVEX, -1, "closed and not convex", [&] { ovoid::read_shape(path); }));
+    ovoid::read_options filled;
+    filled.hull = 1;
+    const ovoid::shape hull = ovoid::read_shape(path, filled);
     CHECK_EQ(hull.report().points, 8);
     ovoid::write_shape(hull, folder + "/hull.ovoid");
     CHECK(is_same_shape(ovoid::read_shape(folder + "/hull.ovoid"), hull.get()));
