@@ -57,26 +57,30 @@ static void remove_leftover(int folder, const char *file) {
     close(opened);
 }
 
-// Removes what processes that are gone have left of the target.
-static void remove_leftovers(const char *target) {
+// Removes what processes that are gone have left of the target. 0 where memory is out.
+static int remove_leftovers(const char *target) {
     const char *slash = strrchr(target, '/'), *name = slash ? slash + 1 : target;
     char *path = path_join(target, ".");
     DIR *folder = path ? opendir(path) : NULL;
+    int has_memory = path != NULL;
     free(path);
-    if (!folder) return;
+    if (!folder) return has_memory;
     for (struct dirent *entry; (entry = readdir(folder));) {
         long writer = get_writer(entry->d_name, name);
         if (writer && kill((pid_t)writer, 0) != 0 && errno == ESRCH) remove_leftover(dirfd(folder), entry->d_name);
     }
     closedir(folder);
+    return 1;
 }
 
 // Opens a new file beside the target; mode "x" fails where it exists.
 static ovoid_code open_temporary(ovoid_output *output, ovoid_error *error) {
     size_t length = strlen(output->target);
     char *name = malloc(length + 48);
-    if (!name) return io_fail_memory(error, output->path);
-    remove_leftovers(output->target);
+    if (!name || !remove_leftovers(output->target)) {
+        free(name);
+        return io_fail_memory(error, output->path);
+    }
     for (unsigned attempt = 0; attempt < 100 && !output->file; attempt++) {
         snprintf(name, length + 48, "%s.%ld-%u.tmp", output->target, (long)getpid(), attempt);
         output->file = fopen(name, "wbx");
