@@ -24,7 +24,7 @@ int main(void) {
                                         make_hinge("elbow", UPPER, LOWER, (ovoid_vec3){1, 0, 0})};
     const ovoid_robot_element elements[] = {{UPPER, NULL, rod, middle, NULL}, {LOWER, NULL, rod, middle, NULL}};
     const ovoid_robot_pair touching[] = {{UPPER, LOWER, "neighbours"}};
-    const ovoid_robot_description arm = {"arm", links, 3, joints, 2, elements, 2, touching, 1};
+    const ovoid_robot_description arm = {"arm", links, 3, joints, 2, elements, 2, touching, 1, NULL};
 
     ovoid_robot *robot = ovoid_robot_create(&arm, NULL, &error);
     ovoid_robot_cell *cell = ovoid_robot_cell_create(robot, NULL, &error);

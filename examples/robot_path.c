@@ -17,7 +17,7 @@ static ovoid_robot *make_arm(const ovoid_shape *rod, ovoid_error *error) {
                                      .upper = 3,
                                      .mimic = OVOID_ROBOT_NONE};
     const ovoid_robot_element element = {1, NULL, rod, {{0.5, 0, 0}, {1, 0, 0, 0}}, NULL};
-    const ovoid_robot_description arm = {"arm", links, 2, &hinge, 1, &element, 1, NULL, 0};
+    const ovoid_robot_description arm = {"arm", links, 2, &hinge, 1, &element, 1, NULL, 0, NULL};
     return ovoid_robot_create(&arm, NULL, error);
 }
 
