@@ -22,7 +22,7 @@ int main(void) {
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){0.3, 0.1, 0.1}, NULL, &error);
     const ovoid_robot_link link = {"forearm"};
     const ovoid_robot_element element = {0, NULL, box, {{0, 0, 0}, {1, 0, 0, 0}}, NULL};
-    const ovoid_robot_description d = {"arm", &link, 1, NULL, 0, &element, 1, NULL, 0};
+    const ovoid_robot_description d = {"arm", &link, 1, NULL, 0, &element, 1, NULL, 0, NULL};
     ovoid_robot *robot = ovoid_robot_create(&d, NULL, &error);
     if (!robot) return fprintf(stderr, "%s\n", error.message), 1;
 
