@@ -222,12 +222,14 @@ static void take_small_overlap(search *s, const small_end *end) {
 
 // Of a depth whose search got stuck without a sign, as of lengths of whose squares' squares nothing is left: the sign,
 // as a yes or no finds it, by inner ellipsoids or a few differences. All exact methods together stay within twice the
-// goal's iterations.
+// goal's iterations; there are two of them here.
 COMPILER_NOINLINE static void find_sign(search *s) {
+    uint64_t most = 2 * (uint64_t)s->goal.iterations;
+    if (s->iterations + 2 > most) return;
     query_goal sign = query_goal_make_collide();
     sign.tolerance = s->goal.tolerance;
     sign.allowance = s->goal.allowance;
-    sign.iterations = s->goal.iterations - s->iterations / 2;
+    sign.iterations = (uint32_t)((most - s->iterations) / 2);
     rejection found;
     simplex start;
     search t;
@@ -255,7 +257,7 @@ static void search_on(search *s, const ovoid_pair *pair) {
     if (search_is_done(s)) return;
     refine_run(s, pair);
     int is_open = s->lower <= 0 && s->upper >= 0 && s->upper - s->lower > s->goal.tolerance - s->goal.allowance;
-    if (s->goal.wants_depth && is_open && s->iterations / 2 < s->goal.iterations) find_sign(s);
+    if (s->goal.wants_depth && is_open) find_sign(s);
 }
 
 void answer_search(search *s, const ovoid_pair *pair, simplex *start) {

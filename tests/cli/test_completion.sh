@@ -49,7 +49,7 @@ expect '--samples --states --state --scene --srdf --scale --seed' robot spheres 
 expect 'a.stl b.stl folder/' robot spheres --given ''
 expect 'check' robot c
 expect '--proofs --plot --padding --package --parts' robot path --p
-expect '--states --state --scene --shard --solid --srdf --scale' robot check --s
+expect '--states --state --scene --shard --srdf --scale' robot check --s
 expect 'a.stl b.stl folder/' robot check --states ''
 expect 'info' robot i
 expect '--package --parts' robot info --pa

@@ -111,6 +111,7 @@ static void alter_answer(const ovoid_body_pair *pair, const ovoid_compound_answe
     }
     y = *x;
     y.answer.lower = -INFINITY;
+    y.answer.limit = OVOID_LIMIT_ANSWERED; // a depth's would promise a narrow bracket
     if (x->answer.status == OVOID_OVERLAPPING) CHECK(is_accepted(pair, &y, &none));
 }
 
