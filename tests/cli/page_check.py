@@ -113,10 +113,13 @@ def check_scene():
     check("solid", is_dent("d", dent["solid"]) and [body.get("solid") for body in data["bodies"]] == [None, True, None])
     check("meshes of hulls", sum("solid" in shape or "mesh" in shape for shape in shapes) == 1)
     check("areas", [len(base64.b64decode(shape.get("areas", ""))) for shape in shapes].count(0) == 1)
-    # The same of two files, with their pair.
+    # Two files, with their pair: their hulls where those are asked for, else what they are.
     write("pair.json", {"objects": [{"name": str(x), "mesh": "dent.off", "solid": False, "pose": {"xyz": [x, 0, 0]}} for x in (0, 5)]})
     wanted = lines("check", "pair.json", "--json")[0]
-    run("view", "dent.off", "dent.off", "--pose-b", "5 0 0", "--html", "pair.html")
+    run("view", "dent.off", "dent.off", "--pose-b", "5 0 0", "--html", "solids.html")
+    data = read("solids.html")
+    check("solids of files", is_dent("d", data["shapes"][0]["solid"]) and [body.get("solid") for body in data["bodies"]] == [True, True])
+    run("view", "dent.off", "dent.off", "--pose-b", "5 0 0", "--hull", "--html", "pair.html")
     data = read("pair.html")
     check("mesh", is_dent("f", data["shapes"][0]["mesh"]) and not any("solid" in item for item in data["shapes"] + data["bodies"]))
     check("files", data["title"] == "dent.off, dent.off" and len(data["bodies"]) == 2 and data["unit"] is data["margin"] is None)
@@ -188,14 +191,14 @@ def check_many():
 
 
 def check_meshes():
-    # Few points, and faces there many times, so that no volume is known: 61 files of half a megabyte of triangles.
+    # Few points, and faces there many times: the hulls of 61 files of half a megabyte of triangles.
     points = [(math.cos(i), math.sin(i), i % 3) for i in range(30)]
     with open("crowd.ply", "wb") as file:
         file.write(b"ply\nformat binary_little_endian 1.0\nelement vertex 30\nproperty float x\nproperty float y\nproperty float z\n"
                    b"element face 45000\nproperty list uchar int vertex_indices\nend_header\n")
         file.write(b"".join(struct.pack("<3f", *p) for p in points))
         file.write(b"".join(struct.pack("<B3i", 3, i, (i + 1) % 30, (i + 7) % 30) for i in range(30)) * 1500)
-    rows = [{"name": str(i), "mesh": "crowd.ply", "scale": 1 + i / 64, "pose": {"xyz": [10 * i * i, 0, 0]}} for i in range(61)]
+    rows = [{"name": str(i), "mesh": "crowd.ply", "hull": True, "scale": 1 + i / 64, "pose": {"xyz": [10 * i * i, 0, 0]}} for i in range(61)]
     write("meshes.json", {"objects": rows[::-1]})
     said = run("check", "meshes.json", "--html", "meshes.html")[1]
     data = read("meshes.html")
