@@ -303,7 +303,7 @@ def check_many_states():
     arm = os.path.join(sys.argv[2], "arm")
     with open("states.csv", "w") as file:
         file.write("time,shoulder\n" + "".join(f"{i},{i / 1e6!r}\n" for i in range(10004)))
-    robot = [f"{arm}/arm.urdf", "--fixed-base", "--states", "states.csv", "--csv", "-o", "states.out"]
+    robot = [f"{arm}/arm.urdf", "--fixed-base", "--hull", "--states", "states.csv", "--csv", "-o", "states.out"]
     said = run("robot", "check", *robot, "--html", "many_states.html")[1]
     data = read("many_states.html")
     check("many states", [len(data["robot"][key]) for key in ("states", "answers")] == [10000] * 2 and data["left_out"] == {"states": 4}

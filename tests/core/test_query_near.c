@@ -180,8 +180,8 @@ static void check_pair(uint64_t *s, int kind, ovoid_proof foreign[4]) {
     ovoid_shape_destroy((ovoid_shape *)p.shape_b);
 }
 
-/// Calls of one iteration that go on from one another: none loses a sign that the query alone has with as few. (Which of
-/// the brackets is narrower is open: one iteration from a good simplex may lead to a worse one.)
+/// Calls of one iteration that go on from one another: none loses a sign that the query alone has with as few. (Which
+/// of the brackets is narrower is open: one iteration from a good simplex may lead to a worse one.)
 static void check_few_iterations(uint64_t *s) {
     ovoid_shape *a = make_rock(s, 0), *b = make_tube(s);
     ovoid_pair p = {a, b, random_pose(s, 0), random_pose(s, 0)};
