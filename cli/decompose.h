@@ -34,7 +34,7 @@ int decomposed_write_parts(const char *path, const decomposed *d);
 /// little. 0, or an exit code after a message.
 int decomposed_write_proof(const char *path, const decomposed *d);
 /// The parts of a file. 0, or EXIT_INPUT after a message.
-int decomposed_read_parts(decomposed *d, const char *path, const read_settings *read);
+int decomposed_read_parts(decomposed *d, const char *path, const read_settings *how);
 /// Holds a proof, paths[0], against a mesh and parts. An exit code.
 int decomposed_verify(const char *const *paths, const read_settings *settings);
 
