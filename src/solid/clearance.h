@@ -13,7 +13,7 @@ typedef struct framed_pair {
 /// The clearance of a point in a body: above 0 the body covers a ball of that radius around the point; else a point of
 /// the body is no farther from it than minus the clearance. side: 0 for a, 1 for b; point: in a's frame. linear: all
 /// triangles are looked at, without the tree. Off by less than frame->check and what that counts for a compound.
-double framed_pair_find_clearance(const framed_pair *pair, int side, vec3 point, int linear);
+double framed_pair_find_clearance(const framed_pair *framed, int side, vec3 point, int linear);
 
 /// Pairs of leaves, by their places, whose surfaces touch flush or may.
 typedef struct flush_pairs {

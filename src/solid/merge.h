@@ -14,10 +14,10 @@ typedef struct solid_merger {
 } solid_merger;
 
 /// The refusals of ovoid_solid_create_from_triangles.
-ovoid_code solid_check_triangles(const ovoid_triangles *triangles, ovoid_error *error);
+ovoid_code solid_check_triangles(const ovoid_triangles *given, ovoid_error *error);
 
 /// Merges triangles that were checked; 0 where there is no memory, with nothing left.
-int merger_make(solid_merger *merger, const ovoid_triangles *triangles, const ovoid_allocator *allocator);
+int merger_make(solid_merger *merger, const ovoid_triangles *given, const ovoid_allocator *allocator);
 void merger_destroy(solid_merger *merger, const ovoid_allocator *allocator);
 
 /// The merged point with these coordinates, or UINT32_MAX.
