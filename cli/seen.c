@@ -25,8 +25,11 @@ static int grow(cli_seen *s) {
         grown.slots[at] = s->slots[i];
         grown.flags[at] = s->flags[i];
     }
-    seen_clear(s);
-    *s = grown;
+    free(s->slots);
+    free(s->flags);
+    s->slots = grown.slots;
+    s->flags = grown.flags;
+    s->slot_count = grown.slot_count;
     return 1;
 }
 

@@ -238,7 +238,7 @@ static int read_state(reader *r, char *line, double *state) {
     }
     for (char *at = line; at; i++) {
         if (!read_number(r, take_field(&at), &value)) return 0;
-        if (r->columns[i] == COLUMN_TIME) r->states->times[r->states->stored - 1] = value;
+        if (r->columns[i] == COLUMN_TIME && r->states->times) r->states->times[r->states->stored - 1] = value;
         if (r->columns[i] < COLUMN_TIME) state[r->columns[i]] = value;
     }
     return 1;

@@ -500,9 +500,10 @@ typedef enum ovoid_picture_layer {
 /** Of ovoid_picture_body.is_mesh: the mesh is the body and closed. */
 #define OVOID_PICTURE_CLOSED 2
 
+// New members come last.
 /** A body of a picture. */
-typedef struct ovoid_picture_body {
-    const char *name; /**< may be NULL */
+typedef struct ovoid_picture_body { // NOLINT(clang-analyzer-optin.performance.Padding)
+    const char *name;               /**< may be NULL */
     const ovoid_shape *shape;
     ovoid_pose pose;
     uint32_t group; /**< bodies of one group, as the parts of a compound, have one colour; 0: a colour of its own */
