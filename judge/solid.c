@@ -332,8 +332,9 @@ static int has_clearance(const trial *t, const side *s, const scaled *at, num r)
         num most = num_neg(p, core);
         if (covers(t, s, at)) return 1;
         if (count_triangles(s)) return !are_beyond_ball(p, s, at, most);
-        nvec v = nvec_from(p, (ovoid_vec3){s->posed.polytope.vertices[0], s->posed.polytope.vertices[1],
-                                           s->posed.polytope.vertices[2]});
+        const double *vertex = s->posed.polytope.vertices;
+        if (!vertex) return 0;
+        nvec v = nvec_from(p, (ovoid_vec3){vertex[0], vertex[1], vertex[2]});
         nvec d = nvec_sub(p, nvec_scale(p, v, at->factor), at->x);
         return num_compare(p, nvec_norm_squared(p, d), num_mul(p, most, most)) <= 0;
     }
