@@ -1,5 +1,5 @@
 // Kernels of robots: eight states side by side, each a lane. A state in a lane gets the bits that it gets alone
-// (robot/kinematics.h has the twin of the chain). Compiled into libovoid_robot.
+// (robot/model/kinematics.h has the twin of the chain). Compiled into libovoid_robot.
 #ifndef OVOID_SIMD_ROBOT8_H
 #define OVOID_SIMD_ROBOT8_H
 
@@ -86,7 +86,7 @@ typedef struct robot8_kernels {
                         unsigned char near[ROBOT8]);
     /// One bit for each state in which two spheres are not proven farther apart than the margin.
     unsigned (*near_spheres)(const sphere8 *a, const sphere8 *b, double margin);
-    /// The same of two boxes: robot/oriented_box.h has the twin.
+    /// The same of two boxes: robot/cell/oriented_box.h has the twin.
     unsigned (*near_linked_boxes)(const linked_box8 *a, const linked_box8 *b, double margin);
     /// Balls of a frame in the world; their radii lose what rounding does to the centres.
     void (*place_balls)(const mat3 *rotation, const double position[3], const inner_balls *local, inner_balls *world);

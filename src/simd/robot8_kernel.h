@@ -1,4 +1,5 @@
-// The kernels of robot8.h, written once over lanes. Every step has the operations of robot/kinematics.h in their order.
+// The kernels of robot8.h, written once over lanes. Every step has the operations of robot/model/kinematics.h in their
+// order.
 #include "base/compiler.h"
 #include "simd/lanes.h"
 #include "simd/robot8.h"

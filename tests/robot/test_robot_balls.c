@@ -1,7 +1,7 @@
 // What is known to lie inside bodies. Truth: the distance of points on a ball, and of a ball and the body, by the exact
 // query, whose brackets are 1e-12 wide here; the kernels of all instruction sets beside one another, bit for bit.
 #include "check.h"
-#include "robot/inner_balls.h"
+#include "robot/model/inner_balls.h"
 #include "robots.h"
 
 enum { SHAPES = 9 };

@@ -9,7 +9,7 @@
 #include "options.h"
 #include "robots.h"
 
-#include "robot/path.h"
+#include "robot/path/motion.h"
 
 #include <math.h>
 

@@ -5,10 +5,10 @@
 #include "check.h"
 #include "countdown.h"
 #include "exact_robot.h"
-#include "robot/checker.h"
+#include "robot/cell/checker.h"
 #include "robots.h"
 
-#include "robot/kinematics.h"
+#include "robot/model/kinematics.h"
 
 static double worst_position, worst_rotation, worst_bound;
 

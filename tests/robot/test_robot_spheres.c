@@ -3,7 +3,7 @@
 #include "check.h"
 #include "countdown.h"
 #include "ovoid/robot_spheres.h"
-#include "robot/spheres.h"
+#include "robot/spheres/spheres.h"
 
 static ovoid_error error;
 static const double pi = 3.14159265358979323846;

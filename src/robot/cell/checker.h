@@ -1,0 +1,222 @@
+// A thread's memory for the states of a cell, and what its queries share.
+#ifndef OVOID_ROBOT_CELL_CHECKER_H
+#define OVOID_ROBOT_CELL_CHECKER_H
+
+#include "robot/cell/cell.h"
+#include "robot/cell/near_list.h"
+
+/// Where a sphere around items is.
+typedef struct sphere_place {
+    double center[3]; ///< world
+    double reach;     ///< its radius, by how much the items may be elsewhere, and what rounding does to the centre
+} sphere_place;
+
+/// From its centre, and its reach without what rounding does to that.
+static inline sphere_place sphere_place_make(vec3 center, double reach) {
+    return (sphere_place){{center.x, center.y, center.z}, reach + CELL_SLACK * vec3_sum_abs(center)};
+}
+
+/// 1 where two spheres are proven farther apart than the margin.
+static inline int spheres_are_far(const sphere_place *a, const sphere_place *b, double margin) {
+    double x = b->center[0] - a->center[0], y = b->center[1] - a->center[1], z = b->center[2] - a->center[2];
+    double reach = (a->reach + b->reach) + margin, square = (x * x + y * y) + z * z;
+    return square * (1 - 0x1p-40) > reach * reach;
+}
+
+/// The box of an item in its own frame's state; error: what its points may be off by.
+static inline oriented_box item_place_box(const cell_item *item, const link_frame *f, double error) {
+    vec3 center = vec3_add(f->position, mat3_mul_vec3(f->matrix, item->middle));
+    return (oriented_box){f->matrix, center, item->half, item->radius + error};
+}
+
+/// Which pair: of an item and a part of an obstacle, or of the cell's pairs of items.
+typedef struct pair_name {
+    uint32_t item;  ///< NONE: a pair of items
+    uint32_t index; ///< the part, or the pair of items; NONE: there is none
+} pair_name;
+
+/// What the checker's searches of paths work with; made by the first of them.
+typedef struct path_memory path_memory;
+void path_memory_destroy(path_memory *memory);
+
+/// What is near in some of eight states: a group and a part, or a pair of groups.
+typedef struct near_lanes {
+    uint32_t group;
+    uint32_t index;  ///< of the part, or of the pair
+    uint32_t states; ///< a bit for each
+} near_lanes;
+
+/// What spheres and boxes leave of eight states.
+typedef struct lane_filter {
+    int is_made, is_on; ///< for these states; for the one that was taken
+    double level;       ///< of the errors that are counted in
+    near_lanes *parts, *pairs;
+    size_t part_count, pair_count;
+} lane_filter;
+
+struct ovoid_robot_checker {
+    const ovoid_robot_cell *cell;
+    ovoid_allocator allocator;
+    uint64_t version;    ///< of the cell, that the memory is for
+    double level;        ///< the magnitude that `errors` are of; below zero: none
+    pair_name last;      ///< the pair that ended the last state
+    uint32_t last_count; ///< how many states one after another
+    const robot8_kernels *kernels;
+    uint32_t generation; ///< of what is remembered: a proof is of use where its mark is this
+    uint32_t *part_marks, *pair_marks;
+    /// Eight states side by side. Their values, their links' frames, their groups' spheres.
+    double (*values8)[ROBOT8];
+    frame8 *frames8;
+    sphere8 *spheres8;
+    lane_filter filter;
+    int lane;           ///< of the state that is placed; below zero: it was placed alone
+    link_frame *frames; ///< of links; of others where `stamps` say so
+    uint64_t *stamps;   ///< of each frame: the state that it was computed for
+    uint64_t state;     ///< how many states were placed
+    frame_error *frame_errors;
+    double *values, *cosines, *sines; ///< padded to a multiple of 8
+    sphere_place *places;             ///< of each group
+    inner_balls *balls;               ///< of each item, in the world, where `ball_stamps` say so
+    uint64_t *ball_stamps;
+    double *errors;                    ///< of each item: what its points may be off by
+    double *group_errors;              ///< the same of each group's
+    ovoid_proof *part_proofs;          ///< of item i and part k at i part_count + k
+    ovoid_proof *pair_proofs;          ///< of each pair of items
+    near_key *near_keys;               ///< two of each pair that there is
+    double *near_row;                  ///< a row of gradients
+    uint64_t *part_nears, *pair_nears; ///< of each pair: the last state in which it was found near
+    path_memory *path;                 ///< NULL: no path was searched since the cell has changed
+};
+
+/// How many pairs there are to find.
+static inline size_t checker_count_pairs(const ovoid_robot_checker *x) {
+    return x->cell->items.count * x->cell->parts.count + x->cell->pairs.count;
+}
+
+/// Makes the checker's memory fit its cell; all is forgotten where that has changed.
+ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error);
+
+/// The answer where there is no pair to ask about.
+static inline ovoid_robot_answer answer_make_empty(void) {
+    const ovoid_robot_side none = {OVOID_ROBOT_NONE, OVOID_ROBOT_NONE, 0, 0};
+    return (ovoid_robot_answer){.code = OVOID_ERROR_EMPTY, .a = none, .b = none, .lower = -INFINITY, .upper = INFINITY};
+}
+
+/// Whether the options are ones.
+ovoid_code check_options_check(const ovoid_robot_check_options *options, ovoid_error *error);
+
+/// Makes errors those of states of that magnitude.
+void checker_set_level(ovoid_robot_checker *x, double magnitude);
+
+/// Frames, places and errors of a state; options: the limits. The codes of a refused state, with its variable as
+/// place.
+ovoid_code checker_place(ovoid_robot_checker *x, const double *q, double limit_slack, ovoid_error *error);
+
+/// What is refused of a state, or OVOID_OK; and the magnitude of its errors.
+typedef struct lane_state {
+    ovoid_code code;
+    uint32_t variable;
+    double magnitude;
+} lane_state;
+
+/// Frames and places of up to eight states, side by side; those that are refused have none.
+void checker_place_lanes(ovoid_robot_checker *x, const double *q, size_t count, double limit_slack,
+                         lane_state states[ROBOT8]);
+/// Finds what spheres and boxes leave of the states that were placed; the search of each is then to have these options
+/// and their margin.
+void checker_filter_lanes(ovoid_robot_checker *x, const ovoid_robot_check_options *options);
+/// Makes one of them the state that is placed.
+void checker_take_lane(ovoid_robot_checker *x, uint32_t which, const lane_state *state);
+
+/// A pair as its query wants it.
+typedef struct checker_pair {
+    ovoid_pair pair;
+    solid_sides solids;
+    const ovoid_robot_side *a, *b;
+    ovoid_proof *proof;
+    uint32_t *mark;
+    const mat3 *rotation; ///< of a, where the proof is kept in its frame: of two links; NULL: in the world
+    double error;         ///< of the poses: what the distance may be off by
+    double padding;       ///< what is subtracted from it
+    uint64_t *near;       ///< the last state in which it was found near
+} checker_pair;
+
+checker_pair checker_make_part_pair(ovoid_robot_checker *x, uint32_t item, uint32_t part);
+checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair);
+
+/// 1 where the boxes of a pair prove it farther apart than the margin; padding is added.
+int checker_is_part_far(ovoid_robot_checker *x, uint32_t item, uint32_t part, double margin);
+int checker_is_pair_far(ovoid_robot_checker *x, uint32_t pair, double margin);
+
+/// 1 where what is known to lie inside both bodies overlaps: then a bracket of the signed
+/// distance as the poses are, the upper bound below zero.
+int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper);
+
+/// Called for each pair that is not proven farther apart than `margin`; 0 ends the search.
+typedef int checker_visit(void *context, const checker_pair *pair, pair_name name);
+
+/// All pairs that the enclosing spheres and boxes leave.
+typedef struct checker_search {
+    ovoid_robot_checker *checker;
+    const ovoid_robot_check_options *options;
+    const double *margin; ///< may fall on the way
+    checker_visit *visit;
+    void *context;
+    int expects_nears; ///< 1: what was near in the state before is visited, whatever its boxes say
+} checker_search;
+void checker_find_pairs(const checker_search *s);
+
+/// d(distance)/d(variables) of the state placed last, from the gradient by both poses.
+void checker_compute_gradient(const ovoid_robot_checker *x, const checker_pair *p, const double gradient[12],
+                              const double *q, double *row);
+
+/// The answer to a state by a checker that fits its cell; 0: the state is refused.
+int check_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
+                ovoid_robot_answer *answer);
+/// The number of the pair that ended the last state that hit.
+static inline uint32_t checker_get_last_number(const ovoid_robot_checker *x) {
+    size_t parts = x->cell->parts.count, first = x->cell->items.count * parts;
+    if (x->last.item == OVOID_ROBOT_NONE) return (uint32_t)(first + x->last.index);
+    return (uint32_t)(x->last.item * parts + x->last.index);
+}
+
+/// The states of a batch from `first` to before `end`, by a checker that has forgotten all and fits its cell.
+void check_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end);
+
+/// What the pair's last query proved, or NULL. Of two links the normal is kept in the frame of the first, with which it
+/// turns: what parted them often still does. A proof is measured again, so any normal is safe.
+static inline const ovoid_proof *pair_get_earlier(const ovoid_robot_checker *x, const checker_pair *p) {
+    if (*p->mark != x->generation) return NULL;
+    if (p->rotation) p->proof->normal = mat3_mul_vec3(*p->rotation, p->proof->normal);
+    return p->proof;
+}
+static inline void pair_remember(const ovoid_robot_checker *x, const checker_pair *p, const ovoid_proof *proof) {
+    *p->proof = *proof;
+    *p->mark = x->generation;
+    if (!p->rotation) return;
+    p->proof->normal = mat3_mul_transposed_vec3(*p->rotation, proof->normal);
+    p->proof->normal_low = (vec3){0, 0, 0};
+}
+
+/// Did the pair's last query part its bodies?
+static inline int pair_was_apart(const ovoid_robot_checker *x, const checker_pair *p) {
+    return *p->mark == x->generation && p->proof->kind == OVOID_PROOF_POINTS;
+}
+
+/// a + b + c, not below the exact sum.
+static inline double add_up(double a, double b, double c) { return ((a + b) + c) * (1 + 0x1p-50); }
+
+/// By how much the bodies may be nearer than they are as posed.
+static inline double pair_get_clear(const checker_pair *p) { return add_up(p->padding, p->error, 0); }
+
+/// Moves the exact query's bracket outward by the poses' errors, and by the padding.
+static inline double lower_outward(const checker_pair *p, double lower) {
+    double moved = lower - p->padding - p->error;
+    return moved - 0x1p-51 * (fabs(lower) + p->padding + p->error);
+}
+static inline double upper_outward(const checker_pair *p, double upper) {
+    double moved = upper - p->padding + p->error;
+    return moved + 0x1p-51 * (fabs(upper) + p->padding + p->error);
+}
+
+#endif

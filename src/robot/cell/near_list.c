@@ -1,0 +1,90 @@
+// The order of near pairs. Keys of 16 bytes are sorted, by merging; items and rows, which are longer, move along
+// the cycles of the permutation, once.
+#include "robot/cell/near_list.h"
+
+static int is_before(near_key a, near_key b) { return a.lower < b.lower || (a.lower == b.lower && a.found < b.found); }
+
+// ---- the farthest of those that are kept
+
+static void sift_down(near_key *heap, size_t count, size_t at) {
+    near_key moved = heap[at];
+    for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
+        child += child + 1 < count && is_before(heap[child], heap[child + 1]);
+        if (!is_before(moved, heap[child])) break;
+        heap[at] = heap[child];
+        at = child;
+    }
+    heap[at] = moved;
+}
+
+uint32_t near_list_find_slot(near_list *x, double lower) {
+    uint32_t found = (uint32_t)x->found++;
+    if (x->kept < x->capacity) {
+        x->keys[x->kept] = (near_key){lower, found, (uint32_t)x->kept};
+        return (uint32_t)x->kept++;
+    }
+    if (x->capacity == 0) return NEAR_LIST_FULL;
+    for (size_t i = x->is_heap ? 0 : x->kept / 2; i-- > 0;) sift_down(x->keys, x->kept, i);
+    x->is_heap = 1;
+    if (!(lower < x->keys[0].lower)) return NEAR_LIST_FULL;
+    x->keys[0] = (near_key){lower, found, x->keys[0].slot};
+    uint32_t slot = x->keys[0].slot;
+    sift_down(x->keys, x->kept, 0);
+    return slot;
+}
+
+// ---- the order
+
+// Two sorted runs, from[0 .. middle) and from[middle .. count), become one.
+static void merge(const near_key *from, size_t middle, size_t count, near_key *to) {
+    size_t a = 0, b = middle;
+    while (a < middle && b < count) {
+        int takes_b = is_before(from[b], from[a]);
+        *to++ = from[takes_b ? b : a];
+        b += (size_t)takes_b, a += (size_t)!takes_b;
+    }
+    while (a < middle) *to++ = from[a++];
+    while (b < count) *to++ = from[b++];
+}
+
+static void sort_keys(near_list *x) {
+    size_t n = x->kept;
+    for (size_t width = 1; width < n; width *= 2) {
+        for (size_t at = 0; at < n; at += 2 * width) {
+            size_t count = n - at < 2 * width ? n - at : 2 * width;
+            merge(x->keys + at, width < count ? width : count, count, x->scratch + at);
+        }
+        near_key *sorted = x->scratch;
+        x->scratch = x->keys;
+        x->keys = sorted;
+    }
+}
+
+static double *get_row(const near_list *x, uint32_t slot) { return x->gradients + slot * x->variables; }
+
+static void copy_row(const near_list *x, const double *from, double *to) {
+    for (size_t i = 0; i < x->variables; i++) to[i] = from[i];
+}
+
+// What belongs at `begin` is moved there, what belongs where that was is moved there, and so on, until what was at
+// `begin` has its place.
+static void run_cycle(near_list *x, uint32_t begin) {
+    ovoid_robot_near first = x->items[begin];
+    uint32_t at = begin;
+    if (x->gradients) copy_row(x, get_row(x, begin), x->row);
+    for (uint32_t next = x->keys[at].slot; next != begin; next = x->keys[at].slot) {
+        x->items[at] = x->items[next];
+        if (x->gradients) copy_row(x, get_row(x, next), get_row(x, at));
+        x->keys[at].slot = at;
+        at = next;
+    }
+    x->items[at] = first;
+    if (x->gradients) copy_row(x, x->row, get_row(x, at));
+    x->keys[at].slot = at;
+}
+
+void near_list_sort(near_list *x) {
+    sort_keys(x);
+    for (uint32_t i = 0; i < x->kept; i++)
+        if (x->keys[i].slot != i) run_cycle(x, i);
+}

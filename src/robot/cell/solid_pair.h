@@ -1,0 +1,24 @@
+// Pairs of which a body is a solid: a pair's shapes are then the convex hulls of these. What parts the hulls parts the
+// bodies; where that is not enough, the bodies themselves are asked.
+#ifndef OVOID_ROBOT_CELL_SOLID_PAIR_H
+#define OVOID_ROBOT_CELL_SOLID_PAIR_H
+
+#include "ovoid/solid.h"
+
+/// The solids of a pair of hulls; NULL: that body is the shape itself.
+typedef struct solid_sides {
+    const ovoid_solid *a, *b;
+} solid_sides;
+
+static inline int sides_have_solid(const solid_sides *s) { return s->a || s->b; }
+
+/// Whether the bodies are within a margin, or their distance with the nearest points, from the answer of their hulls.
+/// Its points and normal are those of the deciding pair of triangles. clear: by how much the bodies may be nearer than
+/// these are, by padding and by the errors of poses. A lower end that is not above it is that of the hulls: solids that
+/// interlock are parted by no small translation, so where bodies may overlap their distance says nothing of that.
+ovoid_answer solid_pair_within(const ovoid_pair *hulls, const solid_sides *solids, double margin,
+                               const ovoid_answer *of_hulls, double clear);
+ovoid_answer solid_pair_distance(const ovoid_pair *hulls, const solid_sides *solids, const ovoid_options *options,
+                                 const ovoid_answer *of_hulls, double clear);
+
+#endif

@@ -1,0 +1,67 @@
+// Any state of a path that hits, found before anything is proven free: states in van der Corput's order, the last one
+// first (J. G. van der Corput, Verteilungsfunktionen, 1935), as planners sample edges. More states the more the joints
+// turn; a hit counts if the exact path's state, which rounding moves, is one too.
+#include "robot/path/motion.h"
+
+#define TURN_A_STATE 0.35 // radians
+enum { STATES_MOST = 16 };
+
+// How many states of the segment that was set are looked at.
+static uint32_t count_states(const path_work *w) {
+    double fastest = 0, slide = 0;
+    for (uint32_t i = 0; i < w->step_count; i++) {
+        fastest = max2(fastest, w->speeds[i].turn);
+        slide = max2(slide, w->speeds[i].slide);
+    }
+    double count = max2(1 + fastest / TURN_A_STATE, slide > 0 ? 4 : 1);
+    return count < STATES_MOST ? (uint32_t)count : STATES_MOST;
+}
+
+// 1, then 1/2, 1/4, 3/4, 1/8, 5/8, ...
+static double get_place(uint32_t i) {
+    if (i == 0) return 1;
+    double place = 0;
+    for (double half = 0.5; i; i /= 2, half *= 0.5) place += half * (i % 2);
+    return place;
+}
+
+// Is the checker's pair within the margin at t of the exact path too?
+static int is_hit_on_path(const path_any_hit *x, double t, uint32_t number, ovoid_robot_answer *hit) {
+    path_work *w = x->w;
+    pair_parts of = pair_take_apart(w->cell, number);
+    path_compute_frames(w, x->q0, x->q1, t, &x->state);
+    path_set_item(w, &x->state, of.item, 0);
+    if (of.part == OVOID_ROBOT_NONE) path_set_item(w, &x->state, of.other, 0);
+    path_pair p = path_make_pair(w, number, x->state.frames);
+    const checker_pair known = {.error = p.error + p.motion.rounded, .padding = p.padding};
+    double margin = x->options->margin;
+    ovoid_answer is = {.upper = INFINITY};
+    if (!sides_have_solid(&p.solids))
+        is = ovoid_within(&p.pair, add_up(margin, known.padding, known.error), NULL, NULL);
+    // Touching by less than the errors: the depth may be more than them.
+    if (!(upper_outward(&known, is.upper) <= margin)) is = path_ask_exactly(&p, &known);
+    double upper = upper_outward(&known, is.upper);
+    *hit = (ovoid_robot_answer){
+        .status = OVOID_ROBOT_HIT, .a = *p.a, .b = *p.b, .lower = lower_outward(&known, is.lower), .upper = upper};
+    return upper <= margin;
+}
+
+double path_find_any_hit(const path_any_hit *x, uint32_t *states, ovoid_robot_answer *hit) {
+    const ovoid_robot *r = x->w->cell->robot;
+    ovoid_robot_check_options options = *x->options;
+    // Between two states that are within their limits rounding may leave them.
+    options.limit_slack = INFINITY;
+    uint32_t count = count_states(x->w);
+    for (uint32_t i = 0; i < count; i++) {
+        double t = get_place(i);
+        uint32_t number;
+        ovoid_robot_answer is;
+        for (uint32_t k = 0; k < r->variable_count; k++)
+            x->w->state[k] = t == 1 ? x->q1[k] : x->q0[k] + t * (x->q1[k] - x->q0[k]);
+        ++*states;
+        if (!check_state(x->checker, x->w->state, &options, &is) || is.status != OVOID_ROBOT_HIT) continue;
+        number = checker_get_last_number(x->checker);
+        if (is_hit_on_path(x, t, number, hit)) return t;
+    }
+    return INFINITY;
+}

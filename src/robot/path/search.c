@@ -1,0 +1,521 @@
+// Is a path free? Intervals are halved, the earlier half first, until each pair of bodies is proven apart over each of
+// them, or the first hit is between two times that are near each other. What an interval dismisses its halves do not
+// look at again.
+#include "robot/path/motion.h"
+
+#include "base/compiler.h"
+#include "base/environment.h"
+#include "base/error.h"
+#include "base/watch.h"
+
+#include <string.h>
+
+#define AHEAD 0x1p-5
+enum { LEVELS = 31 }; // so begin, end and middle of an interval are exact numbers
+
+// What is between the bits of the masks: eights of parts for each item, then eights of pairs of items.
+struct path_memory {
+    path_work w;
+    uint32_t groups;
+    size_t mask_count, state_size;
+    uint8_t *masks;   // of each level
+    uint8_t *is_open; // of each item: it has open pairs
+    char *states;     // the middle's of each level, then those of the segment's ends, and of a state ahead
+};
+
+typedef struct path_search {
+    path_work *w;
+    const path_memory *memory;
+    ovoid_robot_checker *checker;
+    const ovoid_robot_path_options *options;
+    ovoid_robot_path_answer *answer;
+    const double *q0, *q1;
+    double segment, margin, tolerance;
+    uint32_t states_most;
+    size_t set_segment; // the number of that which `w` is set to, and one; 0: none
+    int is_still;       // the segment's states are one
+} path_search;
+
+// ---- steps
+
+static void add_step(path_search *s, const path_span *i, uint32_t pair, ovoid_robot_step_kind kind, unsigned mask,
+                     vec3 normal) {
+    size_t at = s->answer->step_count++;
+    if (!s->options->steps || at >= s->options->capacity) return;
+    s->options->steps[at] =
+        (ovoid_robot_step){s->segment + i->begin, s->segment + i->end, pair, (uint16_t)kind, (uint16_t)mask, normal};
+}
+
+// ---- one pair in an interval
+
+static void take_answer(path_search *s, const path_pair *p, ovoid_robot_status status, double lower, double upper) {
+    ovoid_robot_answer *a = &s->answer->hit;
+    *a = (ovoid_robot_answer){.status = status, .a = *p->a, .b = *p->b, .lower = lower, .upper = upper};
+}
+
+static checker_pair get_checker_pair(const path_search *s, uint32_t number, const path_pair *p) {
+    ovoid_robot_checker *x = s->checker;
+    pair_parts of = pair_take_apart(s->w->cell, number);
+    int is_part = of.part != OVOID_ROBOT_NONE;
+    ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
+    uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
+    // The normal stays in the world here: one that a check kept in a link's frame is a bad hint once, and no more.
+    return (checker_pair){.pair = p->pair,
+                          .solids = p->solids,
+                          .a = p->a,
+                          .b = p->b,
+                          .proof = proof,
+                          .mark = mark,
+                          .error = p->error + p->motion.rounded,
+                          .padding = p->padding};
+}
+
+// 1 where the interval's ends and the second order prove it along the normal.
+static int is_free_by_ends(path_search *s, const path_span *i, uint32_t number, const path_pair *p, vec3 normal) {
+    path_pair at_begin = path_make_pair(s->w, number, i->at_begin->frames),
+              at_end = path_make_pair(s->w, number, i->at_end->frames);
+    double begin = path_measure(s->w, &at_begin, i->at_begin->frames, normal) - p->motion.rounded;
+    if (!(begin > s->margin)) return 0;
+    double end = path_measure(s->w, &at_end, i->at_end->frames, normal) - p->motion.rounded;
+    return path_is_free_between(begin, end, s->margin, p->motion.curved, i->end - i->begin);
+}
+
+// 1 where the gap along the normal in the middle proves the interval.
+static int is_free_by_middle(const path_search *s, const path_span *i, const path_pair *p, vec3 normal) {
+    return path_is_above(path_measure(s->w, p, i->middle->frames, normal), s->margin, p->motion.moved);
+}
+
+// What the ends may give: less than the second order takes away in between, and there is no use in measuring them.
+static int may_be_free_by_ends(const path_search *s, const path_span *i, const path_pair *p, double lower) {
+    double width = i->end - i->begin;
+    return p->motion.curved * width * width < 16 * (lower - s->margin);
+}
+
+static int is_proven(path_search *s, const path_span *i, uint32_t number, const path_pair *p, const ovoid_answer *is) {
+    double near = add_up(s->margin, p->padding, p->error);
+    if (!(is->lower > near)) return 0;
+    vec3 normal = path_turn_back(p, i->middle->frames, is->normal);
+    if (is->lower > add_up(near, p->motion.moved, 0) && (!s->options->steps || is_free_by_middle(s, i, p, normal))) {
+        add_step(s, i, number, OVOID_ROBOT_STEP_MIDDLE, 1, normal);
+        return 1;
+    }
+    if (!may_be_free_by_ends(s, i, p, is->lower) || !is_free_by_ends(s, i, number, p, normal)) return 0;
+    add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal);
+    return 1;
+}
+
+// Along what parted the pair in an earlier interval.
+static int is_proven_earlier(path_search *s, const path_span *i, uint32_t number, const path_pair *p, vec3 world) {
+    vec3 normal = path_turn_back(p, i->middle->frames, world);
+    if (!is_free_by_ends(s, i, number, p, normal)) return 0;
+    add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal);
+    return 1;
+}
+
+typedef enum pair_outcome { PAIR_APART, PAIR_LEFT, PAIR_HIT } pair_outcome;
+
+// What the hulls leave open: the solids' distance in the middle.
+static pair_outcome test_solids(path_search *s, const path_span *i, uint32_t number, const path_pair *p,
+                                const ovoid_answer *of_hulls) {
+    checker_pair known = get_checker_pair(s, number, p);
+    double near = add_up(s->margin, p->padding, p->error);
+    const ovoid_options capped = {.cap = add_up(near, p->motion.moved, 0),
+                                  .absolute_tolerance = 0.05 * p->motion.moved};
+    ovoid_answer is = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, pair_get_clear(&known));
+    if (is.lower > capped.cap && (!s->options->steps || path_is_solid_far(p, s->margin))) {
+        add_step(s, i, number, OVOID_ROBOT_STEP_SOLID, 1, (vec3){0, 0, 0});
+        return PAIR_APART;
+    }
+    double upper = upper_outward(&known, is.upper);
+    int is_hit = upper <= s->margin;
+    take_answer(s, p, is_hit ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED, lower_outward(&known, is.lower), upper);
+    return is_hit ? PAIR_HIT : PAIR_LEFT;
+}
+
+// In the middle: apart by more than the motion, or along one normal at both ends, or left open, or a hit.
+static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t number) {
+    path_pair p = path_make_pair(s->w, number, i->middle->frames);
+    checker_pair known = get_checker_pair(s, number, &p);
+    const ovoid_proof *earlier = pair_get_earlier(s->checker, &known);
+    int is_known = *known.mark == s->checker->generation;
+    if (is_known && is_proven_earlier(s, i, number, &p, known.proof->normal)) return PAIR_APART;
+    // A normal need not be better than the motion lets it count.
+    const ovoid_options capped = {.cap = add_up(add_up(s->margin, p.padding, p.error), p.motion.moved, 0),
+                                  .absolute_tolerance = 0.05 * p.motion.moved};
+    ovoid_answer is = ovoid_distance(&p.pair, &capped, earlier);
+    pair_remember(s->checker, &known, &is.proof);
+    if (is_proven(s, i, number, &p, &is)) return PAIR_APART;
+    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &is);
+    double upper = upper_outward(&known, is.upper);
+    if (is.status == OVOID_OVERLAPPING && upper > s->margin) {
+        is = ovoid_depth(&p.pair, NULL, &is.proof, NULL);
+        upper = upper_outward(&known, is.upper);
+    }
+    take_answer(s, &p, OVOID_ROBOT_UNDECIDED, lower_outward(&known, is.lower), upper);
+    if (!(upper <= s->margin)) return PAIR_LEFT;
+    s->answer->hit.status = OVOID_ROBOT_HIT;
+    return PAIR_HIT;
+}
+
+static pair_outcome test_pair(path_search *s, const path_span *i, uint32_t number) {
+    // The bodies hold their spheres' centres, or nearly: no query can show more than these are apart. Where that is not
+    // well above the motion, half the interval is the cheaper question.
+    // A ring does not.
+    pair_parts of = pair_take_apart(s->w->cell, number);
+    if (!path_has_solid(s->w, &of) && path_get_center_distance(s->w, &of) < 2 * path_get_motion(s->w, &of).moved)
+        return PAIR_LEFT;
+    vec3 normal = {0, 0, 0};
+    switch (path_test_boxes(s->w, number, i, s->margin, &normal)) {
+    case PATH_BOXES_FAR: add_step(s, i, number, OVOID_ROBOT_STEP_OUTER, 1, (vec3){0, 0, 0}); return PAIR_APART;
+    case PATH_BOXES_PART: add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal); return PAIR_APART;
+    default: return test_exactly(s, i, number);
+    }
+}
+
+// ---- all pairs in an interval
+
+// Of one eight: those that stay open. 1: one is a hit.
+static int test_mask(path_search *s, const path_span *i, uint8_t *mask, uint32_t first, unsigned far) {
+    unsigned gone = *mask & far;
+    if (gone) add_step(s, i, first, OVOID_ROBOT_STEP_OUTER, gone, (vec3){0, 0, 0});
+    *mask &= (uint8_t)~gone;
+    for (unsigned rest = *mask; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        pair_outcome is = test_pair(s, i, first + k);
+        if (is == PAIR_HIT) return 1;
+        if (is == PAIR_APART) *mask &= (uint8_t) ~(1u << k);
+    }
+    return 0;
+}
+
+static unsigned find_far_pairs(const path_search *s, uint32_t first, unsigned mask) {
+    unsigned far = 0;
+    for (unsigned rest = mask; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        far |= (unsigned)path_is_far_pair(s->w, first + k, s->margin) << k;
+    }
+    return far;
+}
+
+typedef struct open_count {
+    int is_hit;
+    unsigned left;
+} open_count;
+
+static open_count test_all(path_search *s, const path_span *i, uint8_t *masks) {
+    const ovoid_robot_cell *c = s->w->cell;
+    open_count is = {0, 0};
+    uint32_t parts = (uint32_t)(c->items.count * c->parts.count);
+    for (uint32_t k = 0; !is.is_hit && k < s->memory->mask_count; k++) {
+        if (!masks[k]) continue;
+        uint32_t item = k / (s->memory->groups ? s->memory->groups : 1),
+                 group = s->memory->groups ? k % s->memory->groups : 0;
+        if (item < c->items.count && s->memory->groups) {
+            unsigned far = path_find_far_parts(s->w, item, group, s->margin);
+            is.is_hit = test_mask(s, i, &masks[k], item * (uint32_t)c->parts.count + group * ROBOT8, far);
+        } else {
+            uint32_t first = ROBOT8 * (k - (uint32_t)c->items.count * s->memory->groups);
+            is.is_hit = test_mask(s, i, &masks[k], parts + first, find_far_pairs(s, first, masks[k]));
+        }
+        is.left |= masks[k];
+    }
+    return is;
+}
+
+// ---- intervals
+
+static path_state get_state(const path_search *s, uint32_t level) {
+    return path_place_state(s->w->cell, s->memory->states + level * s->memory->state_size);
+}
+static uint8_t *get_masks(const path_search *s, uint32_t level) {
+    return s->memory->masks + level * s->memory->mask_count;
+}
+
+// Where the items are that have open pairs, and how they move.
+static void place_open(path_search *s, const uint8_t *masks, const path_state *state, double half) {
+    const ovoid_robot_cell *c = s->w->cell;
+    uint32_t items = (uint32_t)c->items.count, first = items * s->memory->groups;
+    for (uint32_t i = 0; i < items; i++) {
+        uint8_t any = 0;
+        for (uint32_t k = 0; k < s->memory->groups; k++) any |= masks[i * s->memory->groups + k];
+        s->memory->is_open[i] = any != 0;
+    }
+    for (uint32_t k = first; k < s->memory->mask_count; k++)
+        for (unsigned rest = masks[k]; rest; rest &= rest - 1) {
+            item_pair p = cell_pairs(c)[ROBOT8 * (k - first) + compiler_count_low_zeros(rest)];
+            s->memory->is_open[p.a] = s->memory->is_open[p.b] = 1;
+        }
+    for (uint32_t i = 0; i < items; i++) {
+        if (!s->memory->is_open[i]) continue;
+        path_place_item(s->w, state, i);
+        path_set_item(s->w, state, i, half);
+    }
+}
+
+// Is the state at t a hit, of a pair that is open? It is then the answer's. The state has its frames.
+static int is_hit_at(path_search *s, double t, const path_state *state, const uint8_t *open) {
+    path_search at = *s;
+    ovoid_robot_path_answer answer = *s->answer;
+    at.answer = &answer;
+    at.options = &(const ovoid_robot_path_options){.check = s->options->check};
+    path_span i = {t, t, state, state, state};
+    uint8_t *masks = get_masks(s, LEVELS);
+    memcpy(masks, open, s->memory->mask_count);
+    place_open(s, masks, state, 0);
+    if (!test_all(&at, &i, masks).is_hit) return 0;
+    s->answer->hit = answer.hit;
+    return 1;
+}
+
+// Where a body's allowance hides when it is met, a hit soon after it; farther and farther ahead.
+static void look_ahead(path_search *s, double from) {
+    path_state state = get_state(s, LEVELS + 2);
+    for (double by = s->tolerance; by <= AHEAD && from + by <= 1; by *= 2) {
+        s->answer->states++;
+        path_compute_frames(s->w, s->q0, s->q1, from + by, &state);
+        if (!is_hit_at(s, from + by, &state, get_masks(s, 0))) continue;
+        s->answer->hit_at = s->segment + (from + by);
+        return;
+    }
+}
+
+// The interval is as short as intervals get, and not proven free: its first state that is a hit, or a later one that
+// is known.
+static void end_at(path_search *s, const path_span *i, const uint8_t *open, int is_hit) {
+    ovoid_robot_path_answer *a = s->answer;
+    a->free_until = s->segment + i->begin;
+    if (is_hit_at(s, i->begin, i->at_begin, open))
+        a->hit_at = a->free_until;
+    else if (is_hit)
+        a->hit_at = s->segment + 0.5 * (i->begin + i->end);
+    else if (is_hit_at(s, i->end, i->at_end, open))
+        a->hit_at = s->segment + i->end;
+    else if (!(a->hit_at < INFINITY))
+        look_ahead(s, i->end);
+    a->status = a->hit_at < INFINITY ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED;
+    if (a->status == OVOID_ROBOT_HIT) a->hit.status = OVOID_ROBOT_HIT;
+}
+
+// A hit was found, and is the answer; free is what was proven up to `begin`.
+static void end_with(path_search *s, double begin, double at, const ovoid_robot_answer *hit) {
+    ovoid_robot_path_answer *a = s->answer;
+    a->free_until = s->segment + begin;
+    a->hit_at = s->segment + at;
+    a->hit = *hit;
+    a->status = a->hit.status = OVOID_ROBOT_HIT;
+}
+
+// 1 where all pairs that are open at the level are proven apart in the interval; 0: the search has ended.
+static int visit(path_search *s, uint32_t level, double begin, double end, const path_state *at_begin,
+                 const path_state *at_end) {
+    ovoid_robot_path_answer *a = s->answer;
+    double middle = 0.5 * (begin + end);
+    path_state state = get_state(s, level);
+    path_span i = {begin, end, at_begin, at_end, &state};
+    if (a->states >= s->states_most || watch_is_stopped(&s->options->watch)) {
+        a->free_until = s->segment + begin;
+        a->status = a->hit_at < INFINITY ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED;
+        return 0;
+    }
+    a->states++;
+    path_compute_frames(s->w, s->q0, s->q1, middle, &state);
+    uint8_t *masks = get_masks(s, level);
+    place_open(s, masks, &state, 0.5 * (end - begin));
+    ovoid_robot_answer known = a->hit;
+    open_count is = test_all(s, &i, masks);
+    if (!is.is_hit && !is.left) {
+        a->hit = known;
+        return 1;
+    }
+    if (is.is_hit && s->options->any_hit) {
+        end_with(s, begin, middle, &a->hit);
+        return 0;
+    }
+    if (is.is_hit)
+        a->hit_at = s->segment + middle;
+    else if (a->hit_at < INFINITY)
+        a->hit = known;
+    int is_narrow = a->hit_at - (s->segment + begin) <= s->tolerance;
+    if (s->is_still || is_narrow || level + 1 == LEVELS) {
+        end_at(s, &i, masks, is.is_hit);
+        return 0;
+    }
+    memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
+    if (!visit(s, level + 1, begin, middle, at_begin, &state) || is.is_hit) return 0;
+    memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
+    return visit(s, level + 1, middle, end, &state, at_end);
+}
+
+// ---- a path
+
+// All pairs that are queried, at level 0.
+static void open_all(path_search *s) {
+    const ovoid_robot_cell *c = s->w->cell;
+    const ovoid_robot_check_options *o = &s->options->check;
+    uint8_t *masks = get_masks(s, 0);
+    memset(masks, 0, s->memory->mask_count);
+    for (uint32_t item = 0; !o->without_obstacles && item < c->items.count; item++)
+        for (uint32_t part = 0; part < c->parts.count; part++)
+            masks[item * s->memory->groups + part / ROBOT8] |=
+                (uint8_t)(path_is_queried(s->w, item, part) << part % ROBOT8);
+    for (uint32_t k = 0; !o->without_self && k < c->pairs.count; k++)
+        masks[c->items.count * s->memory->groups + k / ROBOT8] |= (uint8_t)(1u << k % ROBOT8);
+}
+
+static ovoid_code set_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
+    size_t count = s->w->cell->robot->variable_count;
+    s->q0 = path->states + index * count;
+    s->q1 = index + 1 < path->count ? s->q0 + count : s->q0;
+    s->segment = (double)index;
+    if (s->set_segment == index + 1) return OVOID_OK;
+    s->set_segment = 0;
+    ovoid_code code = path_set_segment(s->w, s->q0, s->q1, s->options->check.limit_slack, refused);
+    if (code == OVOID_OK) s->set_segment = index + 1;
+    return code;
+}
+
+// 1 where a state of the path that was looked at hits; it is the answer. Segments from one that is refused on are not
+// looked at.
+static int find_any_hit(path_search *s, const ovoid_robot_path *path, size_t segments) {
+    ovoid_error refused;
+    for (size_t i = 0; i < segments && !watch_is_stopped(&s->options->watch); i++) {
+        ovoid_robot_answer hit;
+        if (s->answer->states >= s->states_most || set_segment(s, i, path, &refused) != OVOID_OK) return 0;
+        path_any_hit x = {s->w, s->checker, &s->options->check, s->q0, s->q1, get_state(s, LEVELS + 2)};
+        double at = path_find_any_hit(&x, &s->answer->states, &hit);
+        if (!(at < INFINITY)) continue;
+        s->segment = 0;
+        end_with(s, 0, (double)i + at, &hit);
+        return 1;
+    }
+    return 0;
+}
+
+static int run_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
+    ovoid_robot_path_answer *a = s->answer;
+    ovoid_code code = set_segment(s, index, path, refused);
+    if (code != OVOID_OK) {
+        a->status = OVOID_ROBOT_REFUSED;
+        a->hit.status = OVOID_ROBOT_REFUSED;
+        a->hit.code = code;
+        a->hit.variable = (uint32_t)refused->place;
+        a->refused = index;
+        return 0;
+    }
+    s->is_still = path_is_still(s->w);
+    path_state begin = get_state(s, LEVELS), end = get_state(s, LEVELS + 1);
+    path_compute_state(s->w, s->q0, s->q1, 0, &begin);
+    path_compute_state(s->w, s->q0, s->q1, 1, &end);
+    open_all(s);
+    if (!visit(s, 0, 0, 1, &begin, &end)) return 0;
+    a->free_until = index + 1 < path->count ? s->segment + 1 : s->segment;
+    return 1;
+}
+
+static ovoid_code check_options(const ovoid_robot_path *path, const ovoid_robot_path_options *o, ovoid_error *error) {
+    ovoid_code code = check_options_check(&o->check, error);
+    if (code != OVOID_OK) return code;
+    if (!(o->tolerance >= 0))
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance of a path is a number of at least 0");
+    if (!path->states || path->count < 1 || path->count > OVOID_ROBOT_PATH_STATES_MAX)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a path has 1 to 2^20 states, not %zu", path->count);
+    return OVOID_OK;
+}
+
+// ---- memory
+
+void path_memory_destroy(path_memory *m) {
+    if (!m) return;
+    ovoid_allocator memory = m->w.allocator;
+    allocator_release(&memory, m->masks);
+    allocator_release(&memory, m->states);
+    path_work_destroy(&m->w);
+    allocator_release(&memory, m);
+}
+
+static int allocate(path_memory *m, const ovoid_robot_cell *c) {
+    m->groups = (uint32_t)c->boxes.count;
+    m->mask_count = c->items.count * m->groups + (c->pairs.count + ROBOT8 - 1) / ROBOT8;
+    m->state_size = path_get_state_size(c);
+    m->masks = allocator_allocate(&m->w.allocator, m->mask_count * (LEVELS + 1) + c->items.count + 1, 1);
+    m->states = allocator_allocate(&m->w.allocator, LEVELS + 3, m->state_size);
+    m->is_open = m->masks ? m->masks + m->mask_count * (LEVELS + 1) : NULL;
+    return m->masks && m->states;
+}
+
+// The checker's memory, made where there is none for the cell as it is.
+static ovoid_code get_memory(ovoid_robot_checker *x, ovoid_error *error) {
+    if (x->path) return OVOID_OK;
+    path_memory *m = allocator_allocate(&x->allocator, 1, sizeof *m);
+    if (!m) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
+    *m = (path_memory){.groups = 0};
+    ovoid_code code = path_work_create(&m->w, x->cell, &x->allocator, error);
+    if (code != OVOID_OK) {
+        allocator_release(&x->allocator, m);
+        return code;
+    }
+    if (allocate(m, x->cell)) {
+        x->path = m;
+        return OVOID_OK;
+    }
+    path_memory_destroy(m);
+    return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
+}
+
+// The answer's hit as its check finds it again. What is within rounding of the margin may be none then.
+static void settle_hit(path_search *s, const ovoid_robot_path *path) {
+    ovoid_robot_path_answer *a = s->answer;
+    if (a->status != OVOID_ROBOT_HIT) return;
+    path_place place = path_find_place(s->w->cell, path, a->hit_at);
+    path_state state = get_state(s, LEVELS + 2);
+    ovoid_error refused;
+    uint32_t number = path_find_number(s->w->cell, &a->hit.a, &a->hit.b);
+    if (number != OVOID_ROBOT_NONE && set_segment(s, place.segment, path, &refused) == OVOID_OK)
+        a->hit = path_ask_hit(s->w, &place, number, &state);
+    if (a->hit.upper <= s->margin) return;
+    a->status = a->hit.status = OVOID_ROBOT_UNDECIDED;
+    a->hit_at = INFINITY;
+}
+
+static void search(path_search *s, const ovoid_robot_path *path) {
+    ovoid_error refused;
+    size_t segments = path->count > 1 ? path->count - 1 : 1;
+    s->answer->status = OVOID_ROBOT_FREE;
+    int has_pairs = cell_has_pairs(s->w->cell, &s->options->check);
+    if (s->options->any_hit && has_pairs && find_any_hit(s, path, segments)) return;
+    for (size_t i = 0; i < segments; i++)
+        if (!run_segment(s, i, path, &refused)) return;
+    if (has_pairs) return;
+    s->answer->status = OVOID_ROBOT_UNDECIDED;
+    s->answer->free_until = 0;
+    s->answer->hit = answer_make_empty();
+}
+
+static ovoid_code check_path(ovoid_robot_checker *x, const ovoid_robot_path *path,
+                             const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
+                             ovoid_error *error) {
+    static const ovoid_robot_path_options none;
+    if (!options) options = &none;
+    *answer = (ovoid_robot_path_answer){.hit_at = INFINITY, .hit = {.lower = -INFINITY, .upper = INFINITY}};
+    ovoid_code code = check_options(path, options, error);
+    if (code == OVOID_OK) code = checker_renew(x, error);
+    if (code == OVOID_OK) code = get_memory(x, error);
+    if (code != OVOID_OK) return code;
+    path_search s = {.w = &x->path->w,
+                     .memory = x->path,
+                     .checker = x,
+                     .options = options,
+                     .answer = answer,
+                     .margin = options->check.margin,
+                     .tolerance = options->tolerance > 0 ? options->tolerance : 0x1p-20,
+                     .states_most = options->states ? options->states : 100000};
+    search(&s, path);
+    settle_hit(&s, path);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_robot_check_path(ovoid_robot_checker *checker, const ovoid_robot_path *path,
+                                  const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
+                                  ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checker, check_path(checker, path, options, answer, error));
+}

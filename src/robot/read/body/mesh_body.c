@@ -1,0 +1,33 @@
+// Exact signs decide what a mesh is (ovoid_triangles_match_hull). Cost: linear, plus a tree of what is no hull.
+#include "robot/read/body/mesh_body.h"
+
+// The hull with the allowance that keeps brackets true of the triangles.
+static ovoid_code allow(mesh_body *body, double allowance, const ovoid_allocator *allocator, ovoid_error *error) {
+    ovoid_allowance is = ovoid_shape_get_allowance(body->shape);
+    is.inside += allowance;
+    ovoid_shape *allowed = ovoid_shape_create_allowed(body->shape, is, allocator, error);
+    ovoid_shape_destroy(body->shape);
+    body->shape = allowed;
+    body->allowance = allowance;
+    return allowed ? OVOID_OK : error->code;
+}
+
+ovoid_code mesh_body_make(const ovoid_triangles *triangles, ovoid_shape *hull, const ovoid_allocator *allocator,
+                          mesh_body *body, ovoid_error *error) {
+    ovoid_hull_match match;
+    *body = (mesh_body){.kind = OVOID_MESH_HULL, .shape = hull};
+    ovoid_code code = ovoid_triangles_match_hull(triangles, hull, &match, error);
+    if (!code && match.is_hull) {
+        if (match.allowance > 0) code = allow(body, match.allowance, allocator, error);
+    } else if (!code) {
+        body->kind = match.is_closed ? OVOID_MESH_SOLID : OVOID_MESH_SURFACE;
+        body->edges_open = match.edges_unmatched;
+        body->solid = ovoid_solid_create_from_triangles(triangles->xyz, triangles->point_count, triangles->indices,
+                                                        triangles->count, allocator, error);
+        if (!body->solid) code = error->code;
+    }
+    if (!code) return OVOID_OK;
+    ovoid_shape_destroy(body->shape);
+    *body = (mesh_body){.kind = OVOID_MESH_HULL};
+    return code;
+}

@@ -1,0 +1,172 @@
+// A motion planning request in YAML (moveit_msgs/MotionPlanRequest): where the joints begin, and the goals that are
+// given by the joints' numbers. Cost: linear in the file.
+#include "robot/read/scene/message.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/// The joints' numbers of the start or of a goal.
+typedef struct position_list {
+    ovoid_joint_position *items;
+    size_t count;
+} position_list;
+
+struct ovoid_motion_request {
+    pool memory;
+    const char *group;
+    position_list start, *goals;
+    size_t goal_count;
+};
+
+static const ovoid_robot_read_options no_options;
+
+static ovoid_code make_list(const message_reader *r, size_t most, position_list *out) {
+    out->items = pool_get(r->memory, most, sizeof *out->items);
+    out->count = 0;
+    return out->items ? OVOID_OK : io_fail_memory(r->error, r->path);
+}
+
+static ovoid_code add_position(const message_reader *r, const char *name, const yaml_value *number,
+                               position_list *out) {
+    ovoid_joint_position *item = &out->items[out->count++];
+    item->joint = pool_copy(r->memory, name, strlen(name));
+    if (!item->joint) return io_fail_memory(r->error, r->path);
+    return message_read_number(r, number, &item->position);
+}
+
+// The numbers of a request are those of joints with one variable, so a base must be where it is by default.
+static ovoid_code check_bases(const message_reader *r, const yaml_value *start) {
+    const yaml_value *state, *list = NULL;
+    double values[7];
+    ovoid_code code = message_find_kind(r, start, "multi_dof_joint_state", YAML_MAP, &state);
+    if (!code && state) code = message_refuse_others(r, state, "header|joint_names|transforms|twist|wrench");
+    if (!code && state) code = message_find_kind(r, state, "transforms", YAML_LIST, &list);
+    for (const yaml_value *v = list ? list->first : NULL; v && !code; v = v->next) {
+        code = message_read_transform(r, v, values);
+        if (!code && !transform_is_identity(values))
+            code = message_fail(r, v, OVOID_ERROR_FORMAT,
+                                "multi_dof_joint_state: a base that is not where its frame is cannot be told here");
+    }
+    return code;
+}
+
+// start_state: joint_state: name and position, two lists of one length.
+static ovoid_code read_start(const message_reader *r, const yaml_value *root, position_list *out) {
+    const yaml_value *start, *state = NULL, *names = NULL, *positions = NULL;
+    ovoid_code code = message_find_kind(r, root, "start_state", YAML_MAP, &start);
+    if (!code && start) code = check_bases(r, start);
+    if (!code && start) code = message_find_kind(r, start, "joint_state", YAML_MAP, &state);
+    if (!code && state) code = message_refuse_others(r, state, "header|name|position|velocity|effort");
+    if (!code && state) code = message_find_kind(r, state, "name", YAML_LIST, &names);
+    if (!code && state) code = message_find_kind(r, state, "position", YAML_LIST, &positions);
+    if (code) return code;
+    if (!names || !positions)
+        return message_fail(r, root, OVOID_ERROR_FORMAT, "a request needs start_state: joint_state: name and position");
+    if (names->count != positions->count)
+        return message_fail(r, positions, OVOID_ERROR_FORMAT, "there are %zu names but %zu positions", names->count,
+                            positions->count);
+    code = make_list(r, names->count, out);
+    const yaml_value *number = positions->first;
+    for (const yaml_value *name = names->first; name && !code; name = name->next, number = number->next)
+        code = name->kind == YAML_TEXT ? add_position(r, name->text, number, out)
+                                       : message_fail(r, name, OVOID_ERROR_FORMAT, "a joint's name must be a text");
+    return code;
+}
+
+static ovoid_code read_constraint(const message_reader *r, const yaml_value *value, position_list *out) {
+    const yaml_value *name, *number;
+    ovoid_code code = message_refuse_others(r, value, "joint_name|position|tolerance_above|tolerance_below|weight");
+    if (!code) code = message_find_kind(r, value, "joint_name", YAML_TEXT, &name);
+    if (!code) code = message_find(r, value, "position", &number);
+    if (!code && (!name || !number))
+        code = message_fail(r, value, OVOID_ERROR_FORMAT, "a joint constraint needs joint_name and position");
+    return code ? code : add_position(r, name->text, number, out);
+}
+
+static ovoid_code read_goal(const message_reader *r, const yaml_value *value, position_list *out) {
+    static const char *const others[3] = {"position_constraints", "orientation_constraints", "visibility_constraints"};
+    const yaml_value *constraints;
+    ovoid_code code = message_find_kind(r, value, "joint_constraints", YAML_LIST, &constraints);
+    if (code) return code;
+    code = message_refuse_others(r, value,
+                                 "joint_constraints|name|position_constraints|orientation_constraints|"
+                                 "visibility_constraints");
+    for (int i = 0; i < 3 && !code; i++)
+        code = message_refuse_filled(r, value, others[i], "of a goal are not read: its states are not known by joints");
+    if (code) return code;
+    code = make_list(r, constraints ? constraints->count : 0, out);
+    for (const yaml_value *v = constraints ? constraints->first : NULL; v && !code; v = v->next)
+        code = read_constraint(r, v, out);
+    return code;
+}
+
+// What a planner is told of how to search, and what a path must do beside being free, means nothing here. An object
+// that a link holds at the start does.
+static ovoid_code refuse_others(const message_reader *r, const yaml_value *root) {
+    const yaml_value *start;
+    ovoid_code code = message_refuse_others(
+        r, root,
+        "group_name|start_state|goal_constraints|path_constraints|trajectory_constraints|reference_trajectories|"
+        "workspace_parameters|pipeline_id|planner_id|num_planning_attempts|allowed_planning_time|"
+        "max_velocity_scaling_factor|max_acceleration_scaling_factor|cartesian_speed_end_effector_link|"
+        "cartesian_speed_limited_link|max_cartesian_speed");
+    if (!code) code = message_find_kind(r, root, "start_state", YAML_MAP, &start);
+    if (code || !start) return code;
+    code = message_refuse_others(r, start, "joint_state|multi_dof_joint_state|attached_collision_objects|is_diff");
+    return code ? code
+                : message_refuse_filled(r, start, "attached_collision_objects",
+                                        "of a request are not read: put them into the scene's robot_state");
+}
+
+static ovoid_code read_request(const message_reader *r, const yaml_value *root, ovoid_motion_request *out) {
+    const yaml_value *goals;
+    ovoid_code code = refuse_others(r, root);
+    if (!code) code = message_read_text(r, root, "group_name", &out->group);
+    if (!code) code = read_start(r, root, &out->start);
+    if (!code) code = message_find_kind(r, root, "goal_constraints", YAML_LIST, &goals);
+    if (code || !goals) return code;
+    out->goals = pool_get(r->memory, goals->count, sizeof *out->goals);
+    if (!out->goals) return io_fail_memory(r->error, r->path);
+    for (const yaml_value *v = goals->first; v && !code; v = v->next)
+        code = read_goal(r, v, &out->goals[out->goal_count++]);
+    return code;
+}
+
+ovoid_motion_request *ovoid_motion_request_read(const char *path, const ovoid_robot_read_options *options,
+                                                ovoid_error *error) {
+    ovoid_motion_request *request = calloc(1, sizeof *request);
+    if (!request) {
+        (void)io_fail_memory(error, path);
+        return NULL;
+    }
+    message_reader r = {
+        .path = path, .options = options ? options : &no_options, .error = error, .memory = &request->memory};
+    yaml_value *root;
+    ovoid_code code = yaml_read(path, &r.scratch, &root, error);
+    if (!code) code = read_request(&r, root, request);
+    pool_clear(&r.scratch);
+    if (!code) return request;
+    ovoid_motion_request_destroy(request);
+    return NULL;
+}
+
+void ovoid_motion_request_destroy(ovoid_motion_request *request) {
+    if (!request) return;
+    pool_clear(&request->memory);
+    free(request);
+}
+
+const char *ovoid_motion_request_get_group(const ovoid_motion_request *request) { return request->group; }
+
+const ovoid_joint_position *ovoid_motion_request_get_start(const ovoid_motion_request *request, size_t *count) {
+    *count = request->start.count;
+    return request->start.items;
+}
+
+size_t ovoid_motion_request_get_goal_count(const ovoid_motion_request *request) { return request->goal_count; }
+
+const ovoid_joint_position *ovoid_motion_request_get_goal(const ovoid_motion_request *request, size_t i,
+                                                          size_t *count) {
+    *count = request->goals[i].count;
+    return request->goals[i].items;
+}
