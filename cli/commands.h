@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_COMMANDS_H
 #define OVOID_CLI_COMMANDS_H
 
-#include "args.h"
+#include "base/args.h"
 
 extern const cli_command command_fit, command_info, command_decompose, command_distance, command_batch, command_check,
     command_run, command_merge, command_verify, command_view, command_paper, command_robot;

@@ -1,7 +1,7 @@
 // The tool's entry: finds the command and calls it with its arguments.
+#include "base/finish.h"
+#include "base/help.h"
 #include "commands.h"
-#include "finish.h"
-#include "help.h"
 #include "page/page.h"
 #include "verdict.h"
 

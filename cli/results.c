@@ -2,9 +2,9 @@
 // takes bounded memory.
 #include "results.h"
 
-#include "finish.h"
-#include "message.h"
-#include "outputs.h"
+#include "base/finish.h"
+#include "base/message.h"
+#include "base/outputs.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_RESULTS_H
 #define OVOID_CLI_RESULTS_H
 
-#include "args.h"
+#include "base/args.h"
 #include "shard/write.h"
 
 #include <ovoid/io.h>

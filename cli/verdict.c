@@ -4,8 +4,8 @@
 
 #ifdef OVOID_HAVE_JUDGE
 
-#include "args.h"
-#include "message.h"
+#include "base/args.h"
+#include "base/message.h"
 
 #include <judge.h>
 

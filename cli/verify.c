@@ -4,13 +4,13 @@
 // checked in floating point; such results are counted apart.
 #include "commands.h"
 
-#include "answers.h"
-#include "decompose.h"
-#include "finish.h"
-#include "message.h"
-#include "outputs.h"
-#include "pipeline.h"
-#include "progress.h"
+#include "base/finish.h"
+#include "base/message.h"
+#include "base/outputs.h"
+#include "base/pipeline.h"
+#include "base/progress.h"
+#include "body/decompose.h"
+#include "pairs/answers.h"
 #include "verify.h"
 
 #include <math.h>

@@ -2,14 +2,14 @@
 #ifndef OVOID_CLI_VERIFY_H
 #define OVOID_CLI_VERIFY_H
 
-#include "answers.h"
-#include "frames.h"
-#include "inputs.h"
+#include "base/frames.h"
+#include "base/inputs.h"
+#include "pairs/answers.h"
+#include "pairs/solids.h"
 #include "seen.h"
-#include "solids.h"
 #include "verdict.h"
 #ifdef OVOID_HAVE_ROBOT
-#include "robot/path_verify.h"
+#include "robot/path/verify.h"
 #endif
 
 #include <ovoid/ovoid.h>

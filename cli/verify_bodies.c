@@ -2,8 +2,8 @@
 // with pairs, or two.
 #include "verify.h"
 
-#include "answers.h"
-#include "message.h"
+#include "base/message.h"
+#include "pairs/answers.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // Checking a result by its proof alone, on its bodies, without any search.
 #include "verify.h"
 
-#include "answers.h"
+#include "pairs/answers.h"
 
 #include <math.h>
 #include <string.h>

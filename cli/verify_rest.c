@@ -1,9 +1,9 @@
 // What results lack. Each pair of a scene, at each frame, has a result, or it is farther apart than the margin that was
 // asked: by the boxes around both bodies, which hold rounding and allowances, or by a query whose proof is checked as
 // that of a result is. Between frames each pair that moves has an impact, or is near already, or is proven free.
-#include "impacts.h"
-#include "message.h"
-#include "sweep.h"
+#include "base/message.h"
+#include "pairs/impacts.h"
+#include "pairs/sweep.h"
 #include "verify.h"
 
 #include <math.h>

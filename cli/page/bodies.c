@@ -1,7 +1,7 @@
 // Bodies: chosen, then written in the order of the scene; each shape once.
 #include "page/bodies.h"
 
-#include "message.h"
+#include "base/message.h"
 #include "page/shapes.h"
 #include "page/write.h"
 

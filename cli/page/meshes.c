@@ -1,5 +1,5 @@
 // The meshes of a page: read again, since what is queried is their hull, and cut into triangles.
-#include "message.h"
+#include "base/message.h"
 #include "page/shapes.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #define OVOID_CLI_PAGE_MOTION_H
 
 #include "page/bodies.h"
-#include "track.h"
+#include "pairs/track.h"
 
 /// An event between two objects.
 typedef struct page_event {

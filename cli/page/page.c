@@ -1,9 +1,9 @@
 // The frame of a page: template, head, what was left out, template.
 #include "page/page.h"
 
-#include "finish.h"
-#include "json.h"
-#include "message.h"
+#include "base/finish.h"
+#include "base/json.h"
+#include "base/message.h"
 #include "page/write.h"
 
 #include <ovoid/ovoid.h>

@@ -3,7 +3,7 @@
 #ifndef OVOID_CLI_PAGE_H
 #define OVOID_CLI_PAGE_H
 
-#include "args.h"
+#include "base/args.h"
 #include "page/template.h"
 
 #include <ovoid/io.h>

@@ -2,8 +2,8 @@
 // bodies.
 #include "page/pairs.h"
 
-#include "inputs.h"
-#include "message.h"
+#include "base/inputs.h"
+#include "base/message.h"
 #include "page/write.h"
 
 #include <stdlib.h>

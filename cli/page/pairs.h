@@ -2,8 +2,8 @@
 #ifndef OVOID_CLI_PAGE_PAIRS_H
 #define OVOID_CLI_PAGE_PAIRS_H
 
-#include "answers.h"
 #include "page/bodies.h"
+#include "pairs/answers.h"
 
 /// A list of pairs that is being written.
 typedef struct page_pairs {

@@ -1,9 +1,9 @@
 // Pages of scenes: at rest, in motion, or of files without a scene.
 #include "page/scenes.h"
 
-#include "solids.h"
+#include "pairs/solids.h"
 
-#include "message.h"
+#include "base/message.h"
 #include "page/pairs.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
 #ifndef OVOID_CLI_PAGE_SCENES_H
 #define OVOID_CLI_PAGE_SCENES_H
 
-#include "answers.h"
 #include "page/motion.h"
+#include "pairs/answers.h"
 
 /// Writes the page of a scene at rest: its objects, and the pairs of a job, the nearest first, each answered with its
 /// proof. title: the scene's path. 0, or an exit code after a message. Nothing where no page is wanted.

@@ -1,7 +1,7 @@
 // Shapes by number: a table of their addresses (open addressing), and each as it is written.
 #include "page/shapes.h"
 
-#include "message.h"
+#include "base/message.h"
 #include "page/areas.h"
 #include "page/write.h"
 

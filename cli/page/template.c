@@ -1,8 +1,8 @@
 // Where the template is, and whether it is one.
 #include "page/template.h"
 
-#include "args.h"
-#include "message.h"
+#include "base/args.h"
+#include "base/message.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // The parts of the page are built in memory and put together at the end; each file appears whole or not at all.
 #include "paper/report.h"
 
-#include "finish.h"
+#include "base/finish.h"
 
 #include <errno.h>
 #include <stdarg.h>

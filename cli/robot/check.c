@@ -3,10 +3,10 @@
 // answers are the same bytes for any number of threads.
 #include "robot/commands.h"
 
-#include "message.h"
-#include "outputs.h"
-#include "pipeline.h"
-#include "progress.h"
+#include "base/message.h"
+#include "base/outputs.h"
+#include "base/pipeline.h"
+#include "base/progress.h"
 #include "robot/page.h"
 #include "robot/report.h"
 #include "robot/tally.h"

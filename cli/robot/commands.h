@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_ROBOT_COMMANDS_H
 #define OVOID_CLI_ROBOT_COMMANDS_H
 
-#include "args.h"
+#include "base/args.h"
 
 extern const cli_command command_robot_info, command_robot_check, command_robot_path, command_robot_matrix,
     command_robot_spheres;

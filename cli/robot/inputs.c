@@ -1,7 +1,7 @@
 // Reading a robot: options become those of the library, notes become warnings.
 #include "robot/inputs.h"
 
-#include "message.h"
+#include "base/message.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_ROBOT_INPUTS_H
 #define OVOID_CLI_ROBOT_INPUTS_H
 
-#include "args.h"
+#include "base/args.h"
 
 #include <ovoid/robot_io.h>
 

@@ -3,7 +3,7 @@
 #define OVOID_CLI_ROBOT_PAGE_H
 
 #include "page/page.h"
-#include "robot/path.h"
+#include "robot/path/path.h"
 #include "robot/report.h"
 
 /// A page, with the answers as they come. It stays where it was opened: the stream knows its members.

@@ -1,10 +1,10 @@
 // Samples of the clearance: what holds at these s, not between them.
 #include "robot/page_clearance.h"
 
-#include "json.h"
-#include "message.h"
+#include "base/json.h"
+#include "base/message.h"
 #include "page/write.h"
-#include "robot/path.h"
+#include "robot/path/path.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 // The states of a check, written. Rows of a table and lines of CSV are alike: one a state, or one a near pair.
 #include "robot/report.h"
 
-#include "json.h"
-#include "message.h"
+#include "base/json.h"
+#include "base/message.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 // ovoid robot: finds the command about robots and calls it.
 #include "robot/commands.h"
 
+#include "base/help.h"
 #include "commands.h"
-#include "help.h"
 
 #include <string.h>
 

@@ -2,8 +2,8 @@
 // is not given is MoveIt's default (moveit_core, RobotModel::getVariableDefaultPositions), and a note says so.
 #include "robot/states.h"
 
-#include "json.h"
-#include "message.h"
+#include "base/json.h"
+#include "base/message.h"
 
 #include <ctype.h>
 #include <errno.h>

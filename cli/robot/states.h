@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_ROBOT_STATES_H
 #define OVOID_CLI_ROBOT_STATES_H
 
-#include "robot/cell.h"
+#include "robot/cell_files.h"
 
 /// Options of every command that takes states.
 typedef struct states_settings {

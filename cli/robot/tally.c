@@ -1,7 +1,7 @@
 // The summary of a check. Pairs are kept sorted, each once, so that any number of states takes the memory of the pairs.
 #include "robot/tally.h"
 
-#include "message.h"
+#include "base/message.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_ROBOT_TALLY_H
 #define OVOID_CLI_ROBOT_TALLY_H
 
-#include "robot/cell.h"
+#include "robot/cell_files.h"
 
 /// Two links, or a link and an obstacle, that ended a check.
 typedef struct tally_pair {

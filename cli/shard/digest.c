@@ -4,8 +4,8 @@
 #define _FILE_OFFSET_BITS 64
 #include "shard/digest.h"
 
-#include "args.h"
-#include "message.h"
+#include "base/args.h"
+#include "base/message.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef OVOID_CLI_SHARD_FILE_H
 #define OVOID_CLI_SHARD_FILE_H
 
-#include "args.h"
+#include "base/args.h"
 
 #include <stdint.h>
 

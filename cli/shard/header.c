@@ -2,7 +2,7 @@
 // of other versions would show; paths of inputs are not: their content is in the digest.
 #include "shard/header.h"
 
-#include "message.h"
+#include "base/message.h"
 
 #include <ovoid/ovoid.h>
 

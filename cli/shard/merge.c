@@ -1,10 +1,10 @@
 // ovoid merge: the shards of a command's work become what one run would have written. Their texts come in the order of
 // their keys, by a heap of the shards (J. W. J. Williams, Algorithm 232: Heapsort, 1964), in memory that does not grow
 // with their length.
+#include "base/finish.h"
+#include "base/message.h"
+#include "base/outputs.h"
 #include "commands.h"
-#include "finish.h"
-#include "message.h"
-#include "outputs.h"
 #include "shard/header.h"
 #include "shard/read.h"
 

@@ -2,7 +2,7 @@
 #define _FILE_OFFSET_BITS 64
 #include "shard/read.h"
 
-#include "message.h"
+#include "base/message.h"
 
 #include <errno.h>
 #include <inttypes.h>

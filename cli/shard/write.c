@@ -3,7 +3,7 @@
 #define _FILE_OFFSET_BITS 64
 #include "shard/write.h"
 
-#include "message.h"
+#include "base/message.h"
 #include "shard/header.h"
 
 #include <errno.h>

@@ -1,0 +1,25 @@
+// A progress bar on stderr, drawn only where stderr is a terminal, and removed when the work is done.
+#ifndef OVOID_CLI_BASE_PROGRESS_H
+#define OVOID_CLI_BASE_PROGRESS_H
+
+#include <stddef.h>
+
+/// Starts the bar. what: for example "pairs"; total: 0 where it is not known. One bar at a time, from one thread.
+void progress_start(const char *what, size_t total);
+
+/// Says that a file is being read, where it is so large that this takes a while; progress_hide or a bar removes it.
+void progress_read(const char *path);
+
+/// Sets the number of items done; draws at most ten times a second.
+void progress_set(size_t done);
+
+/// Removes the bar from the screen, so that a message can be written there; it comes back with the next progress_set.
+void progress_hide(void);
+
+/// Ends the bar.
+void progress_end(void);
+
+/// Seconds of the monotonic clock.
+double progress_get_seconds(void);
+
+#endif

@@ -1,0 +1,243 @@
+// The answers of many pairs: chunks of the same size for any number of threads, so that the output is the same bytes.
+#include "pairs/answers.h"
+
+#include "base/message.h"
+#include "base/pipeline.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// Pairs of a chunk.
+#define CHUNK 128
+
+/// Exclusions for which there is room at first.
+#define ROOM 256
+
+typedef struct chunk {
+    size_t first, count;
+    ovoid_record *records; ///< CHUNK
+    answer_room room;
+    char *text;
+    size_t size;
+    size_t ends[CHUNK];       ///< of the records' lines, for shards
+    int failed;               ///< no memory
+    const char *long_pair[2]; ///< the names of a pair whose proof is too long for a line; NULL: none
+} chunk;
+
+typedef struct work_state {
+    const answers_job *job;
+    size_t next;
+} work_state;
+
+/* ---- one answer */
+
+ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid_pose *pose) {
+    return ovoid_scene_get_body(scene, object, pose);
+}
+
+static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {
+    ovoid_options options = {.absolute_tolerance = q->tolerance};
+    if (q->query == QUERY_COLLIDE) return ovoid_compound_collide(pair, &options, q->earlier, exclusions);
+    if (q->query == QUERY_WITHIN) return ovoid_compound_within(pair, q->margin, &options, q->earlier, exclusions);
+    return ovoid_compound_depth(pair, &options, q->earlier, exclusions);
+}
+
+void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_record *record) {
+    ovoid_scene_object a = ovoid_scene_get(scene, couple.a), b = ovoid_scene_get(scene, couple.b);
+    record->kind_a = a.kind;
+    record->kind_b = b.kind;
+    record->mesh_a = a.convexity;
+    record->mesh_b = b.convexity;
+}
+
+/// Makes room for that many exclusions; 0 where memory is out.
+static int reserve(answer_room *room, size_t count) {
+    if (!room->cover) room->cover = malloc(sizeof *room->cover);
+    if (count > room->capacity) {
+        ovoid_exclusion *items = realloc(room->items, count * sizeof *items);
+        if (!items) return 0;
+        room->items = items;
+        room->capacity = count;
+    }
+    return room->cover != NULL;
+}
+
+/// The width that a shape's allowance gives a bracket.
+static double get_width(const ovoid_shape *shape) {
+    ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
+    return allowance.outside + allowance.inside;
+}
+
+/// The largest width that the allowance of the body, or of one of its parts, gives a bracket.
+static double find_width(const ovoid_body *body) {
+    double width = body->shape ? get_width(body->shape) : 0;
+    for (size_t i = 0; body->compound && i < ovoid_compound_get_part_count(body->compound); i++)
+        width = fmax(width, get_width(ovoid_compound_get_part(body->compound, i).shape));
+    return width;
+}
+
+void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, double margin, double tolerance) {
+    double width = answer->upper - answer->lower;
+    if (!(margin >= 0) || answer->limit != OVOID_LIMIT_NONE || answer->status == OVOID_TOUCHING) return;
+    if (ovoid_answer_is_within(answer, margin) >= 0 || width <= tolerance) return;
+    if (2 * (find_width(&pair->a) + find_width(&pair->b)) > width) answer->limit = OVOID_LIMIT_ALLOWANCE;
+}
+
+static ovoid_solid_answer find_solids(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *proof) {
+    ovoid_options options = {.absolute_tolerance = q->tolerance};
+    if (q->query == QUERY_COLLIDE) return ovoid_solid_collide(pair, &options, q->earlier, proof);
+    if (q->query == QUERY_WITHIN) return ovoid_solid_within(pair, q->margin, &options, q->earlier, proof);
+    return ovoid_solid_distance(pair, &options, q->earlier, proof);
+}
+
+/// answers_find of a pair with a solid.
+static int answer_solids(answer_room *room, const ovoid_body_pair *pair, const answers_query *query,
+                         ovoid_record *record) {
+    ovoid_exclusions proof = {room->items, room->capacity, 0, NULL};
+    room->solid = find_solids(pair, query, query->wants_proof ? &proof : NULL);
+    if (proof.count > room->capacity) {
+        if (!reserve(room, proof.count)) return 0;
+        proof.items = room->items;
+        proof.capacity = room->capacity;
+        room->solid = find_solids(pair, query, &proof);
+    }
+    ovoid_record_set_solid(record, &room->solid);
+    record->part_a = pair->a.compound ? room->solid.triangle_a : OVOID_RECORD_NO_PART;
+    record->part_b = pair->b.compound ? room->solid.triangle_b : OVOID_RECORD_NO_PART;
+    record->exclusions = proof.items;
+    record->exclusion_count = proof.count;
+    return 1;
+}
+
+int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
+    if (!reserve(room, ROOM)) return 0;
+    record->solid = NULL;
+    if (pair->a.solid || pair->b.solid) return answer_solids(room, pair, query, record);
+    ovoid_exclusions proof = {room->items, room->capacity, 0, query->query == QUERY_DISTANCE ? room->cover : NULL};
+    room->cover->point_count = 0;
+    ovoid_compound_answer found = find(pair, query, query->wants_proof ? &proof : NULL);
+    if (proof.count > room->capacity) {
+        if (!reserve(room, proof.count)) return 0;
+        proof.items = room->items;
+        proof.capacity = room->capacity;
+        found = find(pair, query, &proof);
+    }
+    record->answer = found.answer;
+    if (query->query == QUERY_DISTANCE) answers_settle_limit(&record->answer, pair, query->margin, query->tolerance);
+    record->part_a = pair->a.compound ? found.part_a : OVOID_RECORD_NO_PART;
+    record->part_b = pair->b.compound ? found.part_b : OVOID_RECORD_NO_PART;
+    record->cover = query->wants_proof && room->cover->point_count ? room->cover : NULL;
+    record->exclusions = proof.items;
+    record->exclusion_count = proof.count;
+    return 1;
+}
+
+void answer_room_clear(answer_room *room) {
+    free(room->cover);
+    free(room->items);
+    *room = (answer_room){.cover = NULL};
+}
+
+/* ---- many */
+
+static int fill(void *context, void *slot) {
+    work_state *w = context;
+    chunk *k = slot;
+    k->count = pipeline_take(&w->next, w->job->count, CHUNK, &k->first);
+    return k->count > 0;
+}
+
+static ovoid_couple get_couple(const answers_job *job, size_t i) {
+    return *(const ovoid_couple *)(const void *)((const char *)job->couples + i * job->stride);
+}
+
+/// Record i of the chunk; 0 where memory is out.
+static int make_record(const answers_job *job, chunk *k, size_t i, int wants_proof) {
+    ovoid_couple c = get_couple(job, k->first + i);
+    ovoid_body_pair pair = {answers_get_body(job->scene, c.a, &job->poses[c.a]),
+                            answers_get_body(job->scene, c.b, &job->poses[c.b])};
+    k->records[i] = (ovoid_record){.a = ovoid_scene_get(job->scene, c.a).name,
+                                   .b = ovoid_scene_get(job->scene, c.b).name,
+                                   .fields = job->results ? job->results->fields : 0,
+                                   .time = job->time,
+                                   .margin = job->margin,
+                                   .frame = NAN};
+    const answers_query query = {job->query, job->margin, job->tolerance, wants_proof, NULL};
+    answers_describe(job->scene, c, &k->records[i]);
+    return answers_find(&k->room, &pair, &query, &k->records[i]);
+}
+
+static void work(void *context, void *slot) {
+    const answers_job *job = ((work_state *)context)->job;
+    chunk *k = slot;
+    int lines = job->results && results_are_lines(job->results);
+    int proofs = job->results && results_have_proofs(job->results);
+    if (!k->records) k->records = malloc(CHUNK * sizeof *k->records);
+    FILE *file = lines ? open_memstream(&k->text, &k->size) : NULL;
+    k->failed = !k->records || (lines && !file);
+    for (size_t i = 0; i < k->count && !k->failed; i++) {
+        k->failed = !make_record(job, k, i, proofs);
+        if (lines && !k->failed && !results_write_line(file, job->results->settings, &k->records[i])) {
+            k->long_pair[0] = k->records[i].a;
+            k->long_pair[1] = k->records[i].b;
+        }
+        if (lines && job->results->shard && !k->failed) k->failed = fflush(file) != 0, k->ends[i] = k->size;
+        // The room is used again for the next pair.
+        k->records[i].cover = NULL;
+        k->records[i].exclusions = NULL;
+        k->records[i].exclusion_count = 0;
+        k->records[i].solid = NULL;
+    }
+    if (file && fclose(file) != 0) k->failed = 1;
+}
+
+/// Writes the chunk's lines: at once, or each with its key.
+static int write_lines(const answers_job *job, const chunk *k) {
+    if (!job->results->shard) return results_add_text(job->results, k->text, k->size);
+    int code = 0;
+    for (size_t i = 0; i < k->count && !code; i++) {
+        const shard_key key = job->make_key(job->context, k->first + i);
+        size_t begin = i ? k->ends[i - 1] : 0;
+        code = results_add_keyed(job->results, &key, k->text + begin, k->ends[i] - begin);
+    }
+    return code;
+}
+
+static int drain(void *context, void *slot) {
+    const answers_job *job = ((work_state *)context)->job;
+    chunk *k = slot;
+    int lines = job->results && results_are_lines(job->results), code = 0;
+    if (k->failed) {
+        message_error("out of memory");
+        return EXIT_INPUT;
+    }
+    if (k->long_pair[0]) {
+        results_report_long(k->long_pair[0], k->long_pair[1]);
+        return EXIT_INPUT;
+    }
+    if (lines) code = write_lines(job, k);
+    for (size_t i = 0; i < k->count && !code; i++) {
+        if (job->results && !lines) code = results_add(job->results, &k->records[i]);
+        if (job->take) job->take(job->context, k->first + i, &k->records[i]);
+    }
+    free(k->text);
+    k->text = NULL;
+    return code;
+}
+
+static void clear(void *slot) {
+    chunk *k = slot;
+    answer_room_clear(&k->room);
+    free(k->records);
+    free(k->text);
+}
+
+int answers_run(const answers_job *job) {
+    work_state w = {job, 0};
+    cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
+    // A few pairs are answered sooner than a thread starts.
+    unsigned threads = pipeline_get_threads(job->threads);
+    int code = job->count ? pipeline_run(&line, job->count <= CHUNK ? 1 : threads) : 0;
+    if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
+    return code;
+}

@@ -1,0 +1,66 @@
+// The answers of many pairs of a scene's objects, on several threads, in the order of the pairs.
+#ifndef OVOID_CLI_PAIRS_ANSWERS_H
+#define OVOID_CLI_PAIRS_ANSWERS_H
+
+#include "results.h"
+
+#include <ovoid/ovoid.h>
+
+/// The words of the commands' --query, in their order. A distance is signed: where bodies overlap it is minus the
+/// depth, to the tolerance, as ovoid_depth answers.
+enum query { QUERY_NONE = -1, QUERY_COLLIDE, QUERY_WITHIN, QUERY_DISTANCE };
+#define QUERY_CHOICES "collide|within|distance"
+
+/// Working memory for one answer after another.
+typedef struct answer_room {
+    ovoid_cover *cover;
+    ovoid_exclusion *items;
+    size_t capacity;
+    ovoid_solid_answer solid;
+} answer_room;
+
+/// A query of two bodies.
+typedef struct answers_query {
+    int query; ///< of enum query
+    double margin, tolerance;
+    int wants_proof;                     ///< 1: with cover and exclusions
+    const ovoid_compound_proof *earlier; ///< of this pair, or NULL
+} answers_query;
+
+/// Answers one query: the record's answer and parts, and with a proof its cover and exclusions, which live in the room
+/// until the next call; so does the answer of a pair with a solid. 0 where memory is out.
+int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record);
+void answer_room_clear(answer_room *room);
+
+/// Sets the limit of an answer whose bracket holds the margin and is no wider than its query made it: ALLOWANCE where
+/// the bodies' allowances make most of its width, as ovoid_within does. tolerance: an absolute one, that was asked for.
+void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, double margin, double tolerance);
+
+/// What two objects of a scene are taken as, for a record.
+void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_record *record);
+
+/// The object of a scene as a body, at a pose.
+ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid_pose *pose);
+
+/// A query of many pairs.
+typedef struct answers_job {
+    const ovoid_scene *scene;
+    const ovoid_pose *poses; ///< of its objects
+    int query;
+    double margin, tolerance; ///< margin: that of the records; negative where there is none
+    unsigned threads;
+    const void *couples; ///< ovoid_couple, `stride` bytes apart
+    size_t stride, count;
+    double time;
+    cli_results *results; ///< where the records go; NULL: nowhere
+    /// The place of a record's line among those of all shards; called for shards only.
+    shard_key (*make_key)(void *context, size_t i);
+    /// Receives each record in order (without cover and exclusions); i: of the couple. May be NULL.
+    void (*take)(void *context, size_t i, const ovoid_record *record);
+    void *context;
+} answers_job;
+
+/// Answers all pairs. 0, or an exit code, after a message where one is due.
+int answers_run(const answers_job *job);
+
+#endif

@@ -1,0 +1,352 @@
+// Impacts between two frames: boxes that hold each object over the whole interval are swept along x; the remaining
+// pairs go to ovoid_compound_impact_find, on several threads. A pair is a candidate until it first comes within the
+// margin.
+#include "pairs/impacts.h"
+
+#include "base/message.h"
+#include "base/pipeline.h"
+#include "pairs/sweep.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// Pairs of a chunk.
+#define CHUNK 16
+
+/// Part of the time between two frames to which impacts are found: the default of ovoid_motion_options.
+#define TOLERANCE 1e-9
+
+/// Steps of a proof for which there is room at first.
+#define STEPS 64
+
+/// The result for one pair: an impact, or none.
+typedef struct impact {
+    ovoid_couple couple;
+    pair_impact pair;
+    int failed; ///< no memory
+} impact;
+
+typedef struct chunk {
+    size_t first, count;
+} chunk;
+
+typedef struct work_state {
+    const cli_impacts *impacts;
+    impact *items;
+    size_t next;
+} work_state;
+
+int impacts_open(cli_impacts *x) {
+    size_t count = ovoid_scene_get_count(x->scene);
+    x->boxes = calloc(count + 1, sizeof *x->boxes);
+    x->is_fresh = calloc(count + 1, 1);
+    if (x->boxes && x->is_fresh) return 0;
+    message_error("out of memory");
+    impacts_close(x);
+    return EXIT_INPUT;
+}
+
+void impacts_close(cli_impacts *x) {
+    free(x->boxes);
+    free(x->is_fresh);
+    free(x->held);
+    free(x->open);
+    free(x->couples);
+    *x = (cli_impacts){.scene = NULL};
+}
+
+static int add_couple(ovoid_couple **couples, size_t *count, size_t *capacity, ovoid_couple couple) {
+    if (*count == *capacity) {
+        size_t grown = *capacity ? 2 * *capacity : 256;
+        ovoid_couple *moved = realloc(*couples, grown * sizeof *moved);
+        if (!moved) return message_error("out of memory for %zu pairs", grown), EXIT_INPUT;
+        *couples = moved;
+        *capacity = grown;
+    }
+    (*couples)[(*count)++] = couple;
+    return 0;
+}
+
+int impacts_hold(cli_impacts *x, ovoid_couple couple) {
+    return add_couple(&x->held, &x->held_count, &x->held_capacity, couple);
+}
+
+int impacts_leave_open(cli_impacts *x, ovoid_couple couple) {
+    return add_couple(&x->open, &x->open_count, &x->open_capacity, couple);
+}
+
+/* ---- which pairs come near each other */
+
+ovoid_moving_body impacts_get_moving(const ovoid_scene *scene, const cli_frames *frames, size_t object) {
+    const ovoid_pose any = ovoid_pose_make_identity();
+    ovoid_body o = answers_get_body(scene, object, &any);
+    return (ovoid_moving_body){
+        .shape = o.shape, .compound = o.compound, .motion = frames_get_motion(frames, object), .solid = o.solid};
+}
+
+static ovoid_moving_body get_moving(const cli_impacts *x, size_t object) {
+    return impacts_get_moving(x->scene, x->frames, object);
+}
+
+static double get_duration(const cli_impacts *x) { return x->frames->time - x->frames->earlier; }
+
+static void make_box(cli_impacts *x, size_t object) {
+    int moves = x->frames->is_moved[object];
+    if (!moves && x->is_fresh[object]) return;
+    ovoid_moving_body moving = get_moving(x, object);
+    ovoid_box *box = &x->boxes[object];
+    *box = ovoid_moving_body_compute_box(&moving, 0, get_duration(x));
+    x->is_fresh[object] = !moves;
+}
+
+static int compare_couples(const void *a, const void *b) {
+    const ovoid_couple *p = a, *q = b;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
+}
+
+/// 1 if the pair is among these, which ascend.
+static int has_couple(const ovoid_couple *couples, size_t count, ovoid_couple c) {
+    return count && bsearch(&c, couples, count, sizeof c, compare_couples);
+}
+
+/// 1 for a candidate: one of the two moves, the scene does not ignore the pair, and it was not proven within the
+/// margin.
+static int is_candidate(const cli_impacts *x, ovoid_couple c) {
+    if (!x->frames->is_moved[c.a] && !x->frames->is_moved[c.b]) return 0;
+    if (!shard_part_has_pair(x->part, c.a, c.b)) return 0;
+    if (ovoid_scene_is_ignored(x->scene, c.a, c.b)) return 0;
+    return !has_couple(x->held, x->held_count, c);
+}
+
+static int visit_couple(void *context, ovoid_couple couple) {
+    cli_impacts *x = context;
+    if (!is_candidate(x, couple)) return 0;
+    return add_couple(&x->couples, &x->couple_count, &x->couple_capacity, couple);
+}
+
+static int find_couples(cli_impacts *x) {
+    size_t count = ovoid_scene_get_count(x->scene);
+    x->couple_count = 0;
+    for (size_t i = 0; i < count; i++) make_box(x, i);
+    int code = sweep_find(x->boxes, count, x->margin, visit_couple, x);
+    if (x->couple_count) qsort(x->couples, x->couple_count, sizeof *x->couples, compare_couples);
+    return code;
+}
+
+/* ---- their impacts */
+
+/// Makes room for the steps of a proof and, of compounds, for their groups. 0 where memory is out.
+static int reserve(pair_impact *p, ovoid_motion_options *options) {
+    options->steps = realloc(p->steps, options->capacity * sizeof *p->steps);
+    if (!options->steps) return 0;
+    p->steps = options->steps;
+    if (!options->group_capacity) return 1;
+    options->groups = realloc(p->groups, options->group_capacity * sizeof *p->groups);
+    if (!options->groups) return 0;
+    p->groups = options->groups;
+    return 1;
+}
+
+int pair_impact_find(pair_impact *p, const ovoid_moving_body bodies[2], double margin, impact_proof proof) {
+    const ovoid_moving_body *a = &bodies[0], *b = &bodies[1];
+    int are_solids = a->solid || b->solid, is_compound = are_solids || a->compound || b->compound;
+    int has_groups = proof == IMPACT_PROOF_GROUPS || (proof && is_compound);
+    ovoid_motion_options options = {.capacity = proof ? STEPS : 0, .group_capacity = has_groups ? STEPS : 0};
+    for (;;) {
+        if (proof && !reserve(p, &options)) return 0;
+        p->found = are_solids ? ovoid_solid_impact_find(a, b, margin, &options)
+                              : ovoid_compound_impact_find(a, b, margin, &options);
+        if (!has_groups) p->found.group_count = 0;
+        size_t steps = p->found.impact.step_count, groups = p->found.group_count;
+        if (!proof || (steps <= options.capacity && groups <= options.group_capacity)) return 1;
+        if (options.capacity < steps) options.capacity = steps;
+        if (options.group_capacity < groups) options.group_capacity = groups;
+    }
+}
+
+void pair_impact_clear(pair_impact *p) {
+    free(p->steps);
+    free(p->groups);
+    *p = (pair_impact){.steps = NULL};
+}
+
+int pair_impact_is_arrival(const pair_impact *p) {
+    const ovoid_impact *x = &p->found.impact;
+    return x->status == OVOID_IMPACT_UNDECIDED && x->free_until >= (1 - TOLERANCE) * x->end;
+}
+
+static int fill(void *context, void *slot) {
+    work_state *w = context;
+    chunk *k = slot;
+    k->count = pipeline_take(&w->next, w->impacts->couple_count, CHUNK, &k->first);
+    return k->count > 0;
+}
+
+static void work(void *context, void *slot) {
+    const work_state *w = context;
+    const chunk *k = slot;
+    for (size_t i = k->first; i < k->first + k->count; i++) {
+        const cli_impacts *x = w->impacts;
+        impact_proof proof = results_have_proofs(x->results) ? IMPACT_PROOF_RECORD : IMPACT_PROOF_NONE;
+        const ovoid_couple c = x->couples[i];
+        const ovoid_moving_body bodies[2] = {get_moving(x, c.a), get_moving(x, c.b)};
+        w->items[i].couple = c;
+        w->items[i].failed = !pair_impact_find(&w->items[i].pair, bodies, x->margin, proof);
+    }
+}
+
+static int drain(void *context, void *slot) {
+    const work_state *w = context;
+    const chunk *k = slot;
+    for (size_t i = k->first; i < k->first + k->count; i++)
+        if (w->items[i].failed) return message_error("out of memory"), EXIT_INPUT;
+    return 0;
+}
+
+static void clear(void *slot) { (void)slot; }
+
+/* ---- what is written */
+
+static const ovoid_impact *get_impact(const impact *item) { return &item->pair.found.impact; }
+
+static int is_hit(const impact *item) { return get_impact(item)->status == OVOID_IMPACT_HIT; }
+
+/// The time of an impact: when the pair is within the margin; where that is not proven, until when it is free.
+static double get_time(const impact *item) {
+    return is_hit(item) ? get_impact(item)->hit_at : get_impact(item)->free_until;
+}
+
+static int compare_impacts(const void *a, const void *b) {
+    const impact *p = a, *q = b;
+    double s = get_time(p), t = get_time(q);
+    if (s != t) return s < t ? -1 : 1;
+    return compare_couples(&p->couple, &q->couple);
+}
+
+static int is_shape(const cli_impacts *x, size_t object) {
+    ovoid_scene_object o = ovoid_scene_get(x->scene, object);
+    return !o.compound && !o.solid;
+}
+
+/// The answer of compounds or solids at a time between the frames, at which a hit is within the margin. 0 where memory
+/// is out.
+static int answer_compounds(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
+    const ovoid_couple c = item->couple;
+    double at = get_time(item);
+    ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
+    ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], at), ovoid_motion_compute_pose(&motions[1], at)};
+    ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &poses[0]), answers_get_body(x->scene, c.b, &poses[1])};
+    answers_query query = {QUERY_WITHIN, x->margin, 0, results_have_proofs(x->results), NULL};
+    int done = answers_find(room, &pair, &query, record);
+    if (!done || !is_hit(item) || record->answer.upper <= x->margin) return done;
+    // Of bodies with allowances the few pairs of one proof may show less than those of the hit.
+    ovoid_compound_proof earlier = {item->pair.found.part_a, item->pair.found.part_b, get_impact(item)->hit.proof};
+    query.earlier = &earlier;
+    return answers_find(room, &pair, &query, record);
+}
+
+/// Makes the record of an impact. Of compounds the answer is that of the whole bodies at that time, whose proof is
+/// complete. Where the impact is not proven, the record says why, and has the answer where the free time ends. 0 where
+/// memory is out.
+static int make_record(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
+    const ovoid_couple c = item->couple;
+    const ovoid_impact *found = get_impact(item);
+    double at = get_time(item);
+    *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
+                             .b = ovoid_scene_get(x->scene, c.b).name,
+                             .answer = is_hit(item) ? found->hit : found->free,
+                             .fields = x->results->fields,
+                             .time = x->frames->earlier + at,
+                             .frame = x->frames->earlier,
+                             .margin = x->margin,
+                             .free_for = found->free_until,
+                             .hit_after = found->hit_at,
+                             .part_a = OVOID_RECORD_NO_PART,
+                             .part_b = OVOID_RECORD_NO_PART};
+    record->steps = item->pair.steps;
+    record->step_count = item->pair.steps ? found->step_count : 0;
+    record->groups = item->pair.groups;
+    record->group_count = item->pair.groups ? item->pair.found.group_count : 0;
+    int done = 1;
+    answers_describe(x->scene, c, record);
+    if (!is_shape(x, c.a) || !is_shape(x, c.b)) done = answer_compounds(x, item, room, record);
+    if (!is_hit(item)) record->answer.limit = found->limit;
+    return done;
+}
+
+/// 1 if a pair that is proven free until the frame, but for the tolerance, is not proven beyond the margin there: it
+/// arrives with the frame, whose own line says how near it is. That it meets no later than that, a bracket of the
+/// distance around the margin cannot prove.
+static int is_arrival(const cli_impacts *x, const impact *item) {
+    const cli_frames *f = x->frames;
+    const ovoid_couple c = item->couple;
+    if (!pair_impact_is_arrival(&item->pair)) return 0;
+    ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &f->poses[c.a]),
+                            answers_get_body(x->scene, c.b, &f->poses[c.b])};
+    ovoid_answer at_end;
+    if (pair.a.solid || pair.b.solid) {
+        ovoid_record record = {.a = NULL};
+        ovoid_solid_answer found = ovoid_solid_within(&pair, x->margin, NULL, NULL, NULL);
+        ovoid_record_set_solid(&record, &found);
+        at_end = record.answer;
+    } else {
+        at_end = ovoid_compound_within(&pair, x->margin, NULL, NULL, NULL).answer;
+    }
+    int within = ovoid_answer_is_within(&at_end, x->margin);
+    return within > 0 || (within < 0 && at_end.limit == OVOID_LIMIT_NONE);
+}
+
+/// Writes the line of an impact. Those of a frame come before its own lines, in the order of compare_impacts.
+static int write_impact(cli_impacts *x, const impact *item, const ovoid_record *record) {
+    if (!x->results->shard) return results_add(x->results, record);
+    const shard_key key = {{2 * (uint64_t)x->frames->count, shard_key_from_number(get_time(item)),
+                            (uint64_t)item->couple.a << 32 | item->couple.b}};
+    return results_add_record(x->results, &key, record);
+}
+
+static int write_impacts(cli_impacts *x, const impact *items) {
+    answer_room room = {.cover = NULL};
+    int code = 0;
+    for (size_t i = 0; i < x->couple_count && !code; i++) {
+        ovoid_record record;
+        if (get_impact(&items[i])->status == OVOID_IMPACT_FREE) continue;
+        // That an open pair stays open is in the lines of the frames.
+        if (!is_hit(&items[i]) && has_couple(x->open, x->open_count, items[i].couple)) continue;
+        int arrives = is_arrival(x, &items[i]);
+        if (is_hit(&items[i]) || arrives)
+            x->found++;
+        else
+            x->not_proven++;
+        if (!make_record(x, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
+        if (arrives) record.hit_after = x->frames->time - x->frames->earlier, record.time = x->frames->time;
+        if (!code && !arrives) code = write_impact(x, &items[i], &record);
+        if (!code) x->take(x->context, items[i].couple, &record);
+    }
+    answer_room_clear(&room);
+    return code;
+}
+
+/// Finds the impacts of the candidates and writes them.
+static int find_impacts(cli_impacts *x) {
+    work_state w = {x, calloc(x->couple_count, sizeof(impact)), 0};
+    int code = 0;
+    if (!w.items) return message_error("out of memory"), EXIT_INPUT;
+    cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
+    unsigned threads = pipeline_get_threads(x->threads);
+    code = pipeline_run(&line, x->couple_count <= CHUNK ? 1 : threads);
+    if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
+    if (!code) qsort(w.items, x->couple_count, sizeof *w.items, compare_impacts);
+    if (!code) code = write_impacts(x, w.items);
+    for (size_t i = 0; i < x->couple_count; i++) pair_impact_clear(&w.items[i].pair);
+    free(w.items);
+    return code;
+}
+
+int impacts_find(cli_impacts *x) {
+    int code = frames_check_motions(x->frames);
+    if (!code) code = find_couples(x);
+    if (!code && x->couple_count) code = find_impacts(x);
+    x->held_count = x->open_count = 0;
+    return code;
+}

@@ -1,0 +1,159 @@
+// Near pairs come from a world (broad phase and cached proofs, see <ovoid/world.h>); their answers are found by new
+// queries, so that they do not depend on earlier ones.
+#include "pairs/near.h"
+
+#include "base/message.h"
+#include "base/pipeline.h"
+#include "pairs/answers.h"
+
+#include <stdlib.h>
+
+/// Most pairs.
+#define COUPLES_MAX 50000000
+
+/// Most pairs that a world may keep, with some 400 bytes for each.
+#define CANDIDATES_MAX 10000000
+
+/// Bodies that are moved by one call.
+#define MOVES 1024
+
+/// The object of an id: they were added in order, to an empty world.
+static uint32_t get_object(const cli_near *near, ovoid_id id) { return (uint32_t)((id >> 32) - (near->ids[0] >> 32)); }
+
+/// Called for each pair that comes near.
+static int is_wanted(void *context, ovoid_id a, ovoid_id b) {
+    cli_near *near = context;
+    uint32_t p = get_object(near, a), q = get_object(near, b);
+    if (!shard_part_has_pair(near->part, p < q ? p : q, p < q ? q : p)) return 0;
+    if (ovoid_scene_is_ignored(near->scene, p, q)) return 0;
+    atomic_fetch_add(&near->candidates, 1);
+    return 1;
+}
+
+/// Memory for the world; none once there are too many pairs, so that it does not go on to find and answer all of them.
+static void *allocate(void *context, size_t size) {
+    const cli_near *near = context;
+    return near->candidates > CANDIDATES_MAX ? NULL : aligned_alloc(64, (size + 63) / 64 * 64);
+}
+
+static void release(void *context, void *memory) {
+    (void)context;
+    free(memory);
+}
+
+static int add_bodies(cli_near *near) {
+    size_t count = ovoid_scene_get_count(near->scene);
+    ovoid_world_body *bodies = calloc(count + 1, sizeof *bodies);
+    ovoid_error error = {OVOID_ERROR_MEMORY, -1, "out of memory"};
+    near->ids = calloc(count + 1, sizeof *near->ids);
+    int done = 0;
+    if (bodies && near->ids) {
+        for (size_t i = 0; i < count; i++) {
+            ovoid_pose pose = ovoid_scene_get(near->scene, i).pose;
+            bodies[i].body = answers_get_body(near->scene, i, &pose);
+        }
+        done = ovoid_world_add_many(near->world, bodies, count, near->ids, &error) == OVOID_OK;
+    }
+    free(bodies);
+    if (!done) message_error("%s", error.message);
+    return done ? 0 : EXIT_INPUT;
+}
+
+int near_open(cli_near *near, const ovoid_scene *scene, const ovoid_contact_query *query, shard_part part,
+              unsigned threads) {
+    ovoid_error error;
+    *near = (cli_near){.scene = scene, .query = *query, .part = part};
+    if (query->margin < 0) return 0;
+    size_t most =
+        ovoid_scene_get_count(scene) < OVOID_WORLD_THREADS_MAX ? ovoid_scene_get_count(scene) : OVOID_WORLD_THREADS_MAX;
+    threads = pipeline_get_threads(threads);
+    const ovoid_allocator allocator = {allocate, release, near};
+    ovoid_world_options options = {.threads = threads < most ? threads : (uint32_t)most,
+                                   .allocator = &allocator,
+                                   .filter = is_wanted,
+                                   .filter_context = near};
+    near->world = ovoid_world_create(&options, &error);
+    if (!near->world) return message_error("%s", error.message), EXIT_INPUT;
+    int code = add_bodies(near);
+    if (code) near_close(near);
+    return code;
+}
+
+void near_close(cli_near *near) {
+    ovoid_world_destroy(near->world);
+    free(near->ids);
+    free(near->couples);
+    near->world = NULL;
+    near->ids = NULL;
+    near->couples = NULL;
+}
+
+int near_move(cli_near *near, const uint32_t *moved, size_t count, const ovoid_pose *poses) {
+    ovoid_id ids[MOVES];
+    ovoid_pose to[MOVES];
+    ovoid_error error;
+    for (size_t done = 0; near->world && done < count; done += MOVES) {
+        size_t n = count - done < MOVES ? count - done : MOVES;
+        for (size_t i = 0; i < n; i++) {
+            ids[i] = near->ids[moved[done + i]];
+            to[i] = poses[moved[done + i]];
+        }
+        if (ovoid_world_move_many(near->world, ids, to, n, &error) == OVOID_OK) continue;
+        return message_error("%s", error.message), EXIT_INPUT;
+    }
+    return 0;
+}
+
+/// Room for more couples. 0, or EXIT_INPUT after a message.
+static int reserve(cli_near *near, size_t count) {
+    if (count <= near->capacity) return 0;
+    size_t capacity = 2 * near->capacity > count ? 2 * near->capacity : count;
+    ovoid_couple *couples = count > COUPLES_MAX ? NULL : realloc(near->couples, capacity * sizeof *couples);
+    if (couples) {
+        near->couples = couples;
+        near->capacity = capacity;
+        return 0;
+    }
+    if (count <= COUPLES_MAX)
+        message_error("out of memory for %zu pairs", capacity);
+    else
+        message_error("too many pairs: above %d; %s", COUPLES_MAX,
+                      near->world ? "give a smaller --margin" : "give --margin to leave out far pairs, or --shard");
+    return EXIT_INPUT;
+}
+
+static int find_all(cli_near *near) {
+    size_t count = ovoid_scene_get_count(near->scene);
+    near->count = 0;
+    for (size_t a = 0; a < count; a++)
+        for (size_t b = a + 1, end; b < count; b = end) {
+            // The row's next pairs that go to one shard.
+            end = b / SHARD_ROW * SHARD_ROW + SHARD_ROW < count ? b / SHARD_ROW * SHARD_ROW + SHARD_ROW : count;
+            if (!shard_part_has_pair(near->part, (uint32_t)a, (uint32_t)b)) continue;
+            if (reserve(near, near->count + end - b)) return EXIT_INPUT;
+            for (size_t i = b; i < end; i++)
+                if (!ovoid_scene_is_ignored(near->scene, a, i))
+                    near->couples[near->count++] = (ovoid_couple){(uint32_t)a, (uint32_t)i};
+        }
+    return 0;
+}
+
+int near_find(cli_near *near) {
+    ovoid_error error;
+    ovoid_contacts frame;
+    // The list of all pairs never changes.
+    if (!near->world) return near->count ? 0 : find_all(near);
+    atomic_store(&near->candidates, near->count);
+    ovoid_code code = ovoid_world_compute_contacts(near->world, &near->query, &frame, &error);
+    if (near->candidates > CANDIDATES_MAX) {
+        message_error("more than %d pairs are near each other; give a smaller --margin%s", CANDIDATES_MAX,
+                      ovoid_scene_get_pair_count(near->scene) <= COUPLES_MAX ? ", or none" : "");
+        return EXIT_INPUT;
+    }
+    if (code) return message_error("%s", error.message), EXIT_INPUT;
+    if (reserve(near, frame.count)) return EXIT_INPUT;
+    for (size_t i = 0; i < frame.count; i++)
+        near->couples[i] = (ovoid_couple){get_object(near, frame.items[i].a), get_object(near, frame.items[i].b)};
+    near->count = frame.count;
+    return 0;
+}

@@ -1,0 +1,316 @@
+// ovoid run: a scene that moves. Frame by frame a world finds the pairs that are not proven farther apart than the
+// margin; each is answered by a new query, so that its line depends on no earlier frame, and can be checked alone. With
+// --continuous the times of impact between frames are bracketed. Memory does not grow with the number of frames, except
+// for the points of a plot.
+#include "commands.h"
+
+#include "base/frames.h"
+#include "base/inputs.h"
+#include "base/message.h"
+#include "base/outputs.h"
+#include "base/pipeline.h"
+#include "base/progress.h"
+#include "page/scenes.h"
+#include "pairs/answers.h"
+#include "pairs/impacts.h"
+#include "pairs/near.h"
+#include "pairs/run_report.h"
+#include "pairs/track.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct settings {
+    output_settings out;
+    const char *motion, *plot, *html;
+    int query, continuous, hull;
+    unsigned threads;
+    double margin, tolerance; ///< margin negative: not given
+    shard_part part;
+} settings;
+
+static const cli_option options[] = {
+    {"motion", 0, OPTION_FILE, offsetof(settings, motion), "MOTION.csv", NULL,
+     "times with poses or velocities of objects, \"-\" for standard input (required)"},
+    {"margin", 0, OPTION_LENGTH, offsetof(settings, margin), "M", NULL,
+     "list only the pairs that are not proven farther apart than M; without it, every pair of every frame, or with "
+     "--query collide those that touch"},
+    {"query", 0, OPTION_CHOICE, offsetof(settings, query), "QUERY", QUERY_CHOICES,
+     "collide: which pairs touch? within: which are within --margin? distance: the signed distance, minus the depth "
+     "where they overlap (default)"},
+    {"continuous", 0, OPTION_FLAG, offsetof(settings, continuous), NULL, NULL,
+     "between frames, also find when pairs come within the margin (without one: touch)"},
+    {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
+     "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
+    {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
+     "draw the distances of the nearest pairs over time, an SVG file"},
+    INPUTS_HULL_OPTION(settings),
+    PAGE_OPTION(settings),
+    THREADS_OPTION(settings),
+    SHARD_OPTION(settings),
+    RESULTS_OPTIONS(settings),
+    {0},
+};
+
+/// The state of a run.
+typedef struct run_state {
+    const settings *settings;
+    const ovoid_scene *scene;
+    cli_frames frames;
+    cli_near near;
+    cli_impacts impacts;
+    cli_track track;
+    cli_results results;
+    cli_page page;
+    page_motion motion; ///< of the page
+    size_t counts[4];   ///< of the records of frames, by ovoid_status
+    exit_code worst;
+    int code;      ///< the exit code of a failed callback, or 0
+    uint64_t kept; ///< frames of a shard that an earlier run has written
+} run_state;
+
+/// The margin of impacts: 0, touching, where none was given.
+static double get_margin(const settings *s) { return s->margin > 0 ? s->margin : 0; }
+
+/* ---- records, as they come */
+
+/// Notes a pair for the impacts until the next frame.
+static void take_held(void *context, size_t i, const ovoid_record *record) {
+    run_state *r = context;
+    const settings *s = r->settings;
+    ovoid_couple couple = r->near.couples[i];
+    if (!s->continuous || r->code || ovoid_answer_is_within(&record->answer, get_margin(s)) == 0) return;
+    int is_open = results_judge(&record->answer, get_margin(s)) == EXIT_NOT_PROVEN;
+    r->code = is_open ? impacts_leave_open(&r->impacts, couple) : impacts_hold(&r->impacts, couple);
+}
+
+/// Counts an answer by the exit code that it would give.
+static void take_side(run_state *r, exit_code side) {
+    r->worst = results_worse(r->worst, side);
+    results_count(&r->results, side);
+}
+
+static void take_record(void *context, size_t i, const ovoid_record *record) {
+    run_state *r = context;
+    const settings *s = r->settings;
+    r->counts[record->answer.status]++;
+    take_side(r, results_judge(&record->answer, s->margin));
+    if (!s->part.count)
+        track_add(&r->track, r->near.couples[i], record, s->margin, r->frames.count > 1 ? r->frames.earlier : NAN);
+    take_held(r, i, record);
+}
+
+/// The lines of a frame are in the order of their pairs, behind the impacts before it.
+static shard_key make_key(void *context, size_t i) {
+    const run_state *r = context;
+    const ovoid_couple couple = r->near.couples[i];
+    return (shard_key){{2 * (uint64_t)r->frames.count + 1, 0, (uint64_t)couple.a << 32 | couple.b}};
+}
+
+static void take_impact(void *context, ovoid_couple couple, const ovoid_record *record) {
+    run_state *r = context;
+    take_side(r, isfinite(record->hit_after) ? EXIT_TOUCH : EXIT_NOT_PROVEN);
+    if (!r->settings->part.count) track_add_impact(&r->track, couple, record, r->frames.time);
+    if (r->page.path) page_motion_add_impact(&r->motion, couple, record, r->frames.time);
+}
+
+/* ---- the frames */
+
+/// Answers the pairs of a frame. is_kept: their lines are in the shard, and only what the next frame needs is noted.
+static int answer_frame(run_state *r, int is_kept) {
+    const settings *s = r->settings;
+    answers_job job = {.scene = r->scene,
+                       .poses = r->frames.poses,
+                       .query = s->query,
+                       .margin = s->margin,
+                       .tolerance = s->tolerance,
+                       .threads = s->threads,
+                       .couples = r->near.couples,
+                       .stride = sizeof *r->near.couples,
+                       .count = r->near.count,
+                       .time = r->frames.time,
+                       .results = is_kept ? NULL : &r->results,
+                       .make_key = make_key,
+                       .take = is_kept ? take_held : take_record,
+                       .context = r};
+    int code = answers_run(&job);
+    if (!code && r->track.failed) message_error("out of memory"), code = EXIT_INPUT;
+    return code ? code : r->code;
+}
+
+static int run_frame(run_state *r) {
+    int code = 0, is_kept = r->frames.count <= r->kept;
+    if (r->settings->continuous && r->frames.count > 1 && !is_kept) code = impacts_find(&r->impacts);
+    // The world goes through all frames: what it remembers of a pair it has from them.
+    if (!code) code = near_move(&r->near, r->frames.moved, r->frames.moved_count, r->frames.poses);
+    if (!code) code = near_find(&r->near);
+    track_add_frame(&r->track, r->frames.time);
+    if (r->page.path) page_motion_add_frame(&r->motion, r->frames.time, r->frames.poses);
+    if (!code && !is_kept) code = answer_frame(r, 0);
+    if (!code && r->settings->continuous && r->frames.count == r->kept) code = answer_frame(r, 1);
+    if (!code && !is_kept) code = results_end_units(&r->results, 1);
+    progress_set(r->frames.count);
+    return code;
+}
+
+static int run_frames(run_state *r) {
+    int code = 0, got = 0;
+    progress_start("frames", 0);
+    while (!code && (got = frames_next(&r->frames)) > 0) code = run_frame(r);
+    progress_end();
+    return code || got >= 0 ? code : EXIT_INPUT;
+}
+
+/* ---- the run */
+
+static int open_all(run_state *r) {
+    const settings *s = r->settings;
+    int is_collide = s->query == QUERY_COLLIDE;
+    const ovoid_contact_query query = {.kind = is_collide ? OVOID_QUERY_COLLIDE : OVOID_QUERY_WITHIN,
+                                       .margin = is_collide ? 0 : s->margin};
+    int code = frames_open(&r->frames, s->motion, r->scene);
+    if (!code) code = near_open(&r->near, r->scene, &query, s->part, s->threads);
+    if (!code && s->continuous) {
+        r->impacts = (cli_impacts){.scene = r->scene,
+                                   .frames = &r->frames,
+                                   .margin = get_margin(s),
+                                   .threads = s->threads,
+                                   .results = &r->results,
+                                   .part = s->part,
+                                   .take = take_impact,
+                                   .context = r};
+        code = impacts_open(&r->impacts);
+    }
+    return code;
+}
+
+static unsigned get_fields(const run_state *r) {
+    const settings *s = r->settings;
+    return inputs_get_fields(r->scene) | OVOID_RECORD_TIME | OVOID_RECORD_PARTS |
+           (s->continuous ? OVOID_RECORD_IMPACT : 0) | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+}
+
+/// The motion of a shard's pairs: frames cannot be cut, since what a world remembers of a pair goes from one to the
+/// next, but of each pair it remembers nothing from others.
+static int run_shard(run_state *r, const cli_command *command, const cli_operands *paths) {
+    const settings *s = r->settings;
+    shard_job job = {command, s, paths, s->part, .seen = shard_digest_make(), .units = "frames"};
+    shard_digest_add_scene(&job.seen, r->scene);
+    int code = results_open_shard(&r->results, &s->out, get_fields(r), &job);
+    if (code) return code;
+    r->kept = results_get_done(&r->results);
+    if (r->kept != UINT64_MAX) code = open_all(r);
+    if (!code && r->kept != UINT64_MAX) code = run_frames(r);
+    return results_close(&r->results, code);
+}
+
+/// Writes the page. 0, or an exit code after a message; nothing where none is wanted.
+static int write_page(run_state *r, const char *title) {
+    const settings *s = r->settings;
+    const answers_job job = {.scene = r->scene,
+                             .query = QUERY_DISTANCE,
+                             .margin = s->margin,
+                             .tolerance = s->tolerance,
+                             .threads = s->threads};
+    const page_run run = {&r->motion, &r->track, s->continuous ? get_margin(s) : s->margin};
+    return page_write_run(&r->page, title, &job, &run);
+}
+
+static int run_motion(run_state *r, const char *title) {
+    const settings *s = r->settings;
+    double start = progress_get_seconds();
+    int code = open_all(r);
+    if (!code && s->html) code = page_motion_open(&r->motion, ovoid_scene_get_count(r->scene));
+    if (code) return code;
+    const unsigned fields = get_fields(r);
+    if (results_open(&r->results, &s->out, fields, ovoid_scene_get_unit(r->scene))) return EXIT_INPUT;
+    r->track.has_plot = s->plot != NULL;
+    r->track.has_pairs = s->html != NULL;
+    code = run_frames(r);
+    int worst = (int)r->worst;
+    code = results_close(&r->results, code ? code : worst);
+    if (code != worst) return code;
+    if (s->plot && track_write_plot(&r->track, s->plot, r->scene, s->margin)) return EXIT_INPUT;
+    const run_summary summary = {.scene = r->scene,
+                                 .track = &r->track,
+                                 .frames = r->frames.count,
+                                 .counts = r->counts,
+                                 .impacts = s->continuous ? &r->impacts : NULL,
+                                 .margin = s->margin,
+                                 .measures = s->query == QUERY_DISTANCE};
+    run_report(&summary, progress_get_seconds() - start);
+    return write_page(r, title) ? EXIT_INPUT : code;
+}
+
+/// Checks the options together. -1 to go on, or EXIT_USAGE.
+static int settle(const cli_command *command, settings *s) {
+    if (!s->motion) return args_complain(command, "run: --motion MOTION.csv is missing");
+    if (s->query == QUERY_WITHIN && s->margin < 0) return args_complain(command, "run: --query within needs --margin");
+    if (s->query == QUERY_COLLIDE && s->margin >= 0)
+        return args_complain(command, "run: --query collide takes no --margin; --query within does");
+    if (s->plot && strcmp(s->plot, "-") == 0)
+        return args_complain(command, "run: --plot needs a file; standard output has the results");
+    if (s->plot && s->part.count)
+        return args_complain(command, "run: --plot is of all pairs, --shard of a part of them");
+    int code = page_settle(command, s->html, s->part);
+    return code < 0 ? results_settle_part(command, &s->out, s->part) : code;
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    settings s = {.query = QUERY_DISTANCE, .margin = -1};
+    cli_operands paths;
+    int code = command_parse(command, argc, argv, &s, &paths);
+    if (code < 0) code = settle(command, &s);
+    if (code >= 0) return code;
+    run_state r = {.settings = &s};
+    if (page_open(&r.page, s.html)) return EXIT_INPUT;
+    ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
+    if (!scene) return page_close(&r.page), EXIT_INPUT;
+    inputs_warn_scene(scene);
+    r.scene = scene;
+    code = s.part.count ? run_shard(&r, command, &paths) : run_motion(&r, paths.items[0]);
+    impacts_close(&r.impacts);
+    track_clear(&r.track);
+    near_close(&r.near);
+    frames_close(&r.frames);
+    page_motion_close(&r.motion);
+    page_close(&r.page);
+    ovoid_scene_destroy(scene);
+    return code;
+}
+
+const cli_command command_run = {
+    .name = "run",
+    .summary = "a scene that moves: what is near, touches, and when",
+    .usage = "[OPTION...] SCENE.json --motion MOTION.csv",
+    .description =
+        "The signed distances of the pairs of a scene at each time of a motion: a line for each frame and pair. "
+        "The first line of MOTION.csv must be one of\n\n"
+        "    time,body,x,y,z,qw,qx,qy,qz\n"
+        "    time,body,vx,vy,vz,wx,wy,wz\n\n"
+        "for poses of objects, or velocities from that time on (of the frame's origin, and in radians about axes of "
+        "the world). Times never decrease; an object stays, or goes on, until its next line; until its first it is "
+        "where the scene has it.\n\n"
+        "With --continuous, motion between two frames counts too: from pose to pose the position is linear and the "
+        "rotation turns about one axis, the shorter way round; velocities are constant. An impact is a line of its "
+        "own, with the time until which the pair is proven farther apart and the time when it is within the margin, or "
+        "the reason why that is not proven. No motion is too fast for it.\n\n"
+        "At the end are reported: what touches, or is not proven apart, from the beginning; the first contact of pairs "
+        "that "
+        "did not touch then, and their first "
+        "impacts; the smallest distance of the frames. ovoid verify --motion "
+        "checks the lines of --json.",
+    .exits = "0 every pair is apart in every frame (with --margin: farther than M)\n"
+             "1 a pair touches or overlaps (or is within M)\n"
+             "2 the command line is wrong\n"
+             "3 bad input, or output that could not be written\n"
+             "4 for some pair the sign (with --margin: the side of M) is not proven; this comes before 1",
+    .examples = "ovoid run cell.json --motion pick.csv --margin 0.1 --plot pick.svg\n"
+                "ovoid run cell.json --motion pick.csv --continuous --query collide\n"
+                "ovoid run cell.json --motion pick.csv --margin 0.05 --json -o near.jsonl",
+    .options = options,
+    .operands_min = 1,
+    .operands_max = 1,
+    .run = run,
+};
