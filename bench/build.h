@@ -1,8 +1,0 @@
-// What the numbers were measured with.
-#ifndef OVOID_BENCH_BUILD_H
-#define OVOID_BENCH_BUILD_H
-
-/// "commit ..., compiler ..., flags ..., processor ...".
-const char *get_build(void);
-
-#endif

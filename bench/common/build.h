@@ -1,0 +1,8 @@
+// What the numbers were measured with.
+#ifndef OVOID_BENCH_COMMON_BUILD_H
+#define OVOID_BENCH_COMMON_BUILD_H
+
+/// "commit ..., compiler ..., flags ..., processor ...".
+const char *get_build(void);
+
+#endif

@@ -1,0 +1,78 @@
+// What both of Bullet's many-body contestants use; built once in double and once in single precision.
+#ifndef OVOID_BENCH_PEERS_PEER_MANY_BULLET_H
+#define OVOID_BENCH_PEERS_PEER_MANY_BULLET_H
+
+#include "peers/many_peer.h"
+
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+#include <LinearMath/btAabbUtil2.h>
+
+#include <memory>
+#include <vector>
+
+inline std::unique_ptr<btConvexHullShape> make_hull(const body &b) {
+    auto shape = std::make_unique<btConvexHullShape>();
+    const double *v = b.vertices;
+    for (uint32_t k = 0; k < b.vertex_count; k++, v += 3)
+        shape->addPoint({btScalar(v[0]), btScalar(v[1]), btScalar(v[2])}, false);
+    shape->setMargin(0);
+    shape->recalcLocalAabb();
+    return shape;
+}
+
+inline btTransform make_transform(const ovoid_pose &pose) {
+    const ovoid_quat &q = pose.rotation;
+    const ovoid_vec3 &p = pose.position;
+    return btTransform(btQuaternion(btScalar(q.x), btScalar(q.y), btScalar(q.z), btScalar(q.w)),
+                       btVector3(btScalar(p.x), btScalar(p.y), btScalar(p.z)));
+}
+
+/// A posed shape as the pair detector takes it.
+struct hull_at {
+    const btConvexHullShape *shape;
+    btTransform at;
+};
+
+/// The pair detector: no margins, a cut-off, the separating axis of the last call.
+struct narrow {
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver depth;
+
+    /// The signed distance, or BT_LARGE_FLOAT where it is beyond the cut-off.
+    btScalar ask(const hull_at &a, const hull_at &b, btScalar cut, btVector3 *axis) {
+        btGjkPairDetector detector(a.shape, b.shape, CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE, 0, 0,
+                                   &simplex, &depth);
+        if (axis->fuzzyZero() == 0) detector.setCachedSeparatingAxis(*axis);
+        btDiscreteCollisionDetectorInterface::ClosestPointInput input;
+        input.m_transformA = a.at;
+        input.m_transformB = b.at;
+        input.m_maximumDistanceSquared = cut * cut;
+        btPointCollector points;
+        detector.getClosestPointsNonVirtual(input, points, nullptr);
+        *axis = detector.getCachedSeparatingAxis();
+        return points.m_hasResult ? points.m_distance : BT_LARGE_FLOAT;
+    }
+};
+
+#ifdef BT_USE_DOUBLE_PRECISION
+#define SUFFIX ""
+#else
+#define SUFFIX "-f"
+#endif
+
+extern const swarm_peer *const bullet_swarms[];
+extern const cell_peer *const bullet_cells[];
+
+#endif

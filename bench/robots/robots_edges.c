@@ -1,0 +1,178 @@
+// Edges: ovoid proves them, peers look at some of their states; the states along an edge, one after another.
+#include "robots/robots.h"
+
+#include "common/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double lengths[3] = {0.1, 0.5, 1};
+
+uint32_t robots_count_samples(const machine *m, const double *q0, const double *q1) {
+    double moved = 0, range = 0;
+    for (uint32_t i = 0; i < m->variable_count; i++) {
+        moved += fabs(q1[i] - q0[i]);
+        range += m->high[i] - m->low[i];
+    }
+    return (uint32_t)ceil(moved / (ROBOTS_RESOLUTION * range)) + 1;
+}
+
+/// An edge and what was proven of it.
+typedef struct edge {
+    double *q; ///< its two states, then one of work
+    uint32_t samples;
+    ovoid_robot_path_answer is;
+    double depth; ///< of a hit: the deepest of the states that were sampled
+} edge;
+
+/// From a state that is free, in a random direction: each joint by up to that part of its range. 0: none was found.
+static int draw_edge(robots_run *run, robots_scene *s, edge *e, double length) {
+    const machine *m = run->machine;
+    uint32_t width = m->variable_count;
+    ovoid_robot_answer is;
+    for (int i = 0; i < 100; i++) {
+        machine_draw(m, &s->random, e->q);
+        for (uint32_t k = 0; k < width; k++) {
+            double by = random_uniform(&s->random, -0.5, 0.5) * length * (m->high[k] - m->low[k]);
+            e->q[width + k] = fmin(fmax(e->q[k] + by, m->low[k]), m->high[k]);
+        }
+        if (ovoid_robot_check(s->checker, e->q, NULL, &is, NULL) != OVOID_OK || is.status != OVOID_ROBOT_FREE) continue;
+        e->samples = robots_count_samples(m, e->q, e->q + width);
+        return 1;
+    }
+    return 0;
+}
+
+/// One question about the edge: the first hit or, as samplers ask, any. Its time in microseconds; below zero: it
+/// failed.
+static double ask(robots_scene *s, const edge *e, int any_hit, ovoid_robot_path_answer *is) {
+    ovoid_robot_path path = {e->q, 2};
+    ovoid_robot_path_options options = {.any_hit = any_hit};
+    double start = get_own_seconds();
+    ovoid_code code = ovoid_robot_check_path(s->checker, &path, &options, is, NULL);
+    return code == OVOID_OK ? (get_own_seconds() - start) * 1e6 : -1;
+}
+
+/// Both questions in turn: the first of the two is timed, as it finds nothing remembered of the edge. The steps are
+/// written by one more search, and ovoid_robot_path_check measures them again.
+static void prove(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
+    enum { STEPS = 1 << 16 };
+    static ovoid_robot_step steps[STEPS];
+    int any_first = run->edge_count++ / 3 % 2;
+    ovoid_robot_path_answer any;
+    double times[2] = {0, 0};
+    for (int k = 0; k < 2; k++) {
+        int is_any = k ^ any_first;
+        times[is_any] = ask(s, e, is_any, is_any ? &any : &e->is);
+    }
+    if (times[0] < 0 || times[1] < 0) {
+        run->wrong++;
+        return;
+    }
+    int is_hit = e->is.status == OVOID_ROBOT_HIT;
+    tallies *to = is_hit ? &run->hit_edges[length] : &run->edges[length];
+    if (is_hit || e->is.status == OVOID_ROBOT_FREE)
+        tally_add(tallies_get(to, any_first ? "ovoid, any hit" : "ovoid, first hit"), times[any_first]);
+    ovoid_robot_path path = {e->q, 2};
+    ovoid_robot_path_options options = {.steps = steps, .capacity = STEPS};
+    ovoid_robot_path_answer again;
+    ovoid_code code = ovoid_robot_check_path(s->checker, &path, &options, &again, NULL);
+    if (code == OVOID_OK && again.step_count <= STEPS)
+        code = ovoid_robot_path_check(s->cell, &path, &options, &again, steps, NULL);
+    run->judged++;
+    run->wrong += code != OVOID_OK || again.status != e->is.status || any.status != e->is.status;
+}
+
+static void place_sample(const machine *m, const edge *e, uint32_t i, double *q) {
+    double t = (double)i / (e->samples - 1);
+    for (uint32_t k = 0; k < m->variable_count; k++) q[k] = e->q[k] + t * (e->q[m->variable_count + k] - e->q[k]);
+}
+
+/// How deep the hit is that samples may miss, in the states at the resolution times 8; and whether any truth speaks
+/// against the proof.
+static void judge_edge(robots_run *run, const robots_scene *s, edge *e, double *q) {
+    const machine *m = run->machine;
+    e->depth = 0;
+    edge fine = *e;
+    fine.samples = e->is.status == OVOID_ROBOT_HIT ? 8 * (e->samples - 1) + 1 : e->samples;
+    for (uint32_t i = 0; i < fine.samples; i++) {
+        place_sample(m, &fine, i, q);
+        double at = (double)i / (fine.samples - 1);
+        state_truth t = robots_judge(s, m, q);
+        e->depth = fmax(e->depth, t.depth);
+        run->judged++;
+        run->wrong += t.is_hit && at < e->is.free_until;
+    }
+}
+
+static int sample_edge(const machine *m, const rival *r, const edge *e, double *q, ovoid_pose *links) {
+    if (r->who->is_edge_hit) return r->who->is_edge_hit(r->self, e->q, e->q + m->variable_count, e->samples);
+    for (uint32_t i = 0; i < e->samples; i++) {
+        place_sample(m, e, i, q);
+        if (!r->who->has_kinematics) (void)ovoid_robot_compute_poses(m->robot, q, links, NULL, NULL);
+        if (r->who->is_hit(r->self, q, r->who->has_kinematics ? NULL : links)) return 1;
+    }
+    return 0;
+}
+
+/// A sampler's question and, where the edge is free, its cost a state.
+static void time_rival(robots_run *run, const rival *r, const edge *e, double *q, ovoid_pose *links, tally *to) {
+    double start = get_own_seconds();
+    int said_hit = sample_edge(run->machine, r, e, q, links);
+    double time = get_own_seconds() - start;
+    tally_add(to, time * 1e6);
+    int is_hit = e->is.status == OVOID_ROBOT_HIT;
+    tally_judge(to, said_hit, is_hit, e->depth);
+    if (!is_hit && !said_hit) tally_add(tallies_get(&run->along, r->who->name), time / e->samples * 1e9);
+}
+
+/// ovoid as a sampler.
+static void time_along(robots_run *run, robots_scene *s, const edge *e) {
+    const machine *m = run->machine;
+    uint32_t hits = 0;
+    double *all = malloc(sizeof *all * e->samples * (m->variable_count + 1));
+    ovoid_robot_answer *answers = malloc(sizeof *answers * e->samples);
+    if (all && answers) {
+        for (uint32_t i = 0; i < e->samples; i++) place_sample(m, e, i, all + (size_t)i * m->variable_count);
+        double start = get_own_seconds();
+        for (uint32_t i = 0; i < e->samples; i++) {
+            (void)ovoid_robot_check(s->checker, all + (size_t)i * m->variable_count, NULL, &answers[i], NULL);
+            hits += answers[i].status == OVOID_ROBOT_HIT;
+        }
+        tally_add(tallies_get(&run->along, "ovoid"), (get_own_seconds() - start) / e->samples * 1e9);
+        ovoid_robot_batch batch = {all, e->samples, NULL, answers};
+        start = get_own_seconds();
+        (void)ovoid_robot_check_batch(&s->checker, 1, &batch, NULL);
+        tally_add(tallies_get(&run->along, "ovoid, batch"), (get_own_seconds() - start) / e->samples * 1e9);
+        for (uint32_t i = 0; i < e->samples; i++) hits += answers[i].status == OVOID_ROBOT_HIT;
+    }
+    run->wrong += hits;
+    free(all);
+    free(answers);
+}
+
+void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t count) {
+    const machine *m = run->machine;
+    double *q = malloc(sizeof *q * 3 * (m->variable_count + 1));
+    ovoid_pose *links = malloc(sizeof *links * m->link_count);
+    edge e = {.q = q};
+    // The first search makes the checker's memory for paths.
+    if (q && links && draw_edge(run, s, &e, 0.1))
+        (void)ovoid_robot_check_path(s->checker, &(ovoid_robot_path){q, 2}, NULL, &e.is, NULL);
+    for (uint32_t i = 0; q && links && i < 3 * run->plan->edges; i++) {
+        uint32_t length = i % 3;
+        if (!draw_edge(run, s, &e, lengths[length])) break;
+        prove(run, s, &e, length);
+        if (e.is.status != OVOID_ROBOT_FREE && e.is.status != OVOID_ROBOT_HIT) continue;
+        int is_hit = e.is.status == OVOID_ROBOT_HIT;
+        double *work = q + (size_t)2 * m->variable_count;
+        judge_edge(run, s, &e, work);
+        if (!is_hit) time_along(run, s, &e);
+        tallies *lines = is_hit ? &run->hit_edges[length] : &run->edges[length];
+        for (uint32_t r = 0; r < count; r++)
+            time_rival(run, &rivals[r], &e, work, links, tallies_get(lines, rivals[r].who->name));
+    }
+    free(q);
+    free(links);
+}
