@@ -19,7 +19,7 @@ packages_of() {
         ports) packages_of check && echo gcc-i686-linux-gnu libc6-dev-i386-cross gcc-mingw-w64-x86-64-win32 wine64 ;;
         wasm) packages_of build && echo clang lld wasi-libc libclang-rt-14-dev-wasm32 && { command -v node >/dev/null || echo nodejs; } ;;
         page) packages_of wasm && echo chromium && { command -v npm >/dev/null || echo npm; } ;;
-        python) packages_of build && echo python3 python3-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-hypothesis python3-matplotlib python3-nbconvert python3-ipykernel ;;
+        python) packages_of build && echo python3 python3-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-venv python3-hypothesis python3-matplotlib python3-nbconvert python3-ipykernel ;;
         cluster) packages_of python && echo parallel slurmctld slurmd slurm-client munge python3-distributed python3-mpi4py openmpi-bin ;;
         docs) echo cmake build-essential doxygen ;;
         site) packages_of docs demo wasm && echo python3 python3-sphinx python3-myst-parser furo && { command -v npm >/dev/null || echo npm; } ;;
@@ -52,8 +52,11 @@ fi
 command -v apt-get >/dev/null || say_and_stop "there is no apt-get"
 
 echo "setup: installing$missing" >&2
+# Another apt may be at work (unattended upgrades, a second job): it is waited for.
+wait_for_lock="-o DPkg::Lock::Timeout=${OVOID_APT_TIMEOUT:-300}"
 # The lists of a fresh machine may be empty or old; where they cannot be had, what is there may do.
-$as_root apt-get -qq update >&2 || echo "setup: could not refresh the package lists" >&2
+# shellcheck disable=SC2086 # an option and its value
+$as_root apt-get -qq $wait_for_lock update >&2 || echo "setup: could not refresh the package lists" >&2
 # shellcheck disable=SC2086 # a list of package names
-$as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $missing >&2 ||
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y $wait_for_lock --no-install-recommends install $missing >&2 ||
     say_and_stop "apt-get could not install them"
