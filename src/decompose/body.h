@@ -8,7 +8,7 @@
 #ifndef OVOID_DECOMPOSE_BODY_H
 #define OVOID_DECOMPOSE_BODY_H
 
-#include "decompose/cell.h"
+#include "decompose/tetrahedra.h"
 #include "solid/solid.h"
 
 #define BODY_PAD (2048 * ROUNDING)

@@ -5,7 +5,7 @@
 
 #include "linear/mat3.h"
 #include "ovoid/base.h"
-#include "simd/cell.h"
+#include "simd/support_cell.h"
 
 /// The map from a direction n to its cell: root n falls in one of the cube's 6 k k cells. k = 0: there is no table.
 typedef struct support_table {

@@ -3,7 +3,7 @@
 #ifndef OVOID_SMOOTH_SMOOTH_H
 #define OVOID_SMOOTH_SMOOTH_H
 
-#include "ellipsoid/root.h"
+#include "ellipsoid/distance/root.h"
 #include "ovoid/smooth.h"
 #include "pair/frame.h"
 

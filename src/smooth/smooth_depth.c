@@ -12,7 +12,7 @@
 // radius that its surface keeps from the origin, proven by cover.c, is inside the sum. The points lie on a smooth
 // surface, so the error falls with the square of the faces' size: about 4 points for each factor of 4. Cost: 10 to 100
 // microseconds, 80 KB of stack.
-#include "ellipsoid/pencil.h"
+#include "ellipsoid/distance/pencil.h"
 #include "exact/expand.h"
 #include "pair/cover.h"
 #include "smooth/smooth_state.h"

@@ -6,10 +6,10 @@
 // overlap the matrix is shifted until it is. A step that lowers the gap is halved. The state of largest gap is kept.
 //
 // Newton's method stalls where n is across a flat body (the support has a kink there). For bodies apart,
-// ellipsoid/nearest.c then solves the same problem by its multipliers, which has no kink. For bodies that overlap, any
-// direction gives a true lower bound, and the residue shows in `across`. Cost: 4 to 8 evaluations of some 20 ns; flat
-// bodies 5 to 10 microseconds.
-#include "ellipsoid/pencil.h"
+// ellipsoid/distance/nearest.c then solves the same problem by its multipliers, which has no kink. For bodies that
+// overlap, any direction gives a true lower bound, and the residue shows in `across`. Cost: 4 to 8 evaluations of some
+// 20 ns; flat bodies 5 to 10 microseconds.
+#include "ellipsoid/distance/pencil.h"
 #include "smooth/smooth_state.h"
 
 enum { STEPS = 24, HALVINGS = 8 };

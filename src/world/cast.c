@@ -10,8 +10,8 @@
 #include "compound/compound.h"
 #include "world/body_bounds.h"
 #include "world/cast_solid.h"
-#include "world/dynamic_tree_traverse.h"
 #include "world/state.h"
+#include "world/tree/dynamic_tree_traverse.h"
 
 #define WIDER 0x1p-50
 

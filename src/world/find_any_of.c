@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "linear/rotation.h"
 #include "world/bodies_query.h"
-#include "world/dynamic_tree_traverse.h"
 #include "world/state.h"
+#include "world/tree/dynamic_tree_traverse.h"
 
 #include <string.h>
 

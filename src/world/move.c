@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "linear/rotation.h"
 #include "world/body_bounds.h"
-#include "world/wide_tree.h"
+#include "world/tree/wide_tree.h"
 
 // Covers the rounding of a sum of a few terms.
 #define SLACK (1 + 0x1p-48)

@@ -6,8 +6,8 @@
 // list changes.
 #include "world/state.h"
 
-#include "world/dynamic_tree_traverse.h"
-#include "world/radix_sort.h"
+#include "world/tree/dynamic_tree_traverse.h"
+#include "world/tree/radix_sort.h"
 
 #include <string.h>
 

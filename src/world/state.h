@@ -11,9 +11,9 @@
 
 #include "ovoid/world.h"
 #include "world/body_bounds.h"
-#include "world/dynamic_tree.h"
 #include "world/ignored.h"
 #include "world/thread_pool.h"
+#include "world/tree/dynamic_tree.h"
 
 /// The place of a body as the pairs read it: half a cache line.
 typedef struct body_place {

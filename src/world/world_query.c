@@ -6,8 +6,8 @@
 #include "compound/compound.h"
 #include "world/bodies_query.h"
 #include "world/body_bounds.h"
-#include "world/dynamic_tree_traverse.h"
 #include "world/state.h"
+#include "world/tree/dynamic_tree_traverse.h"
 
 #include <string.h>
 

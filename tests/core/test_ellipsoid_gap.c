@@ -1,7 +1,7 @@
 // The proven gap of two ellipsoids along a direction is never more than the exact one. Truth: double-double (2^-102),
 // of the exact unit vector along n; ellipsoids of every kind, and points, whose gap is a sum of three products.
 #include "check.h"
-#include "ellipsoid/gap.h"
+#include "ellipsoid/distance/gap.h"
 #include "linear/dd3.h"
 
 // sqrt(n'Qn) in double-double; only its first digits matter where it is nearly nothing.

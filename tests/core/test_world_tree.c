@@ -3,10 +3,10 @@
 // node has two parents), and brute force over all boxes for what a traversal must find. The set of ignored pairs beside
 // a table of all pairs; the sort of keys beside its definition.
 #include "check.h"
-#include "world/dynamic_tree_traverse.h"
 #include "world/ignored.h"
-#include "world/radix_sort.h"
-#include "world/wide_tree.h"
+#include "world/tree/dynamic_tree_traverse.h"
+#include "world/tree/radix_sort.h"
+#include "world/tree/wide_tree.h"
 
 enum { BODIES = 60, STEPS = 4000 };
 

@@ -8,7 +8,7 @@
 // is evaluated again in double-double: 18 products and sums of relative error 2^-100 leave less than 2^-95 T, so that
 // the root is off by less than 2^-47 sqrt(T) even where Q is singular. |n| is 1 to 4 u. Underflow stays below
 // OVOID_LENGTH_MIN, which is subtracted.
-#include "ellipsoid/gap.h"
+#include "ellipsoid/distance/gap.h"
 
 #include "linear/exact.h"
 

@@ -1,6 +1,6 @@
 // Least squares with nine rows of three or six unknowns whose rows differ in size by many orders.
-#ifndef OVOID_ELLIPSOID_ROWS_H
-#define OVOID_ELLIPSOID_ROWS_H
+#ifndef OVOID_ELLIPSOID_DISTANCE_ROWS_H
+#define OVOID_ELLIPSOID_DISTANCE_ROWS_H
 
 enum { ROWS_COUNT = 9, ROWS_WIDTH = 7 };
 

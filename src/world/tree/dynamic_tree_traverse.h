@@ -1,9 +1,9 @@
 // Traversals of the tree: the nearest leaves first, up to a bound that may fall on the way; and all leaves that overlap
 // a box.
-#ifndef OVOID_WORLD_DYNAMIC_TREE_TRAVERSE_H
-#define OVOID_WORLD_DYNAMIC_TREE_TRAVERSE_H
+#ifndef OVOID_WORLD_TREE_DYNAMIC_TREE_TRAVERSE_H
+#define OVOID_WORLD_TREE_DYNAMIC_TREE_TRAVERSE_H
 
-#include "world/dynamic_tree.h"
+#include "world/tree/dynamic_tree.h"
 
 /// A lower bound, over all bodies in the box, of the quantity that is minimised; INFINITY: none of them counts.
 typedef double tree_measure(const void *context, const box *bounds);

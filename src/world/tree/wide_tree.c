@@ -1,6 +1,6 @@
 // A wide node stands for a node of the binary tree. Its children are found below that: of the children so far the one
 // with the largest surface gives way to its own two, until there are eight or all of them are leaves.
-#include "world/wide_tree.h"
+#include "world/tree/wide_tree.h"
 
 // Of wide nodes whose places in a node's link would not fit.
 enum { WIDE_MOST = (1u << 31) / BOX8 - 1 };

@@ -9,7 +9,7 @@
 // is between 1 and sqrt(3); 3 to 8 steps reach rounding. A zero radius contributes nothing to p, and x_i = 0: so flat
 // ellipsoids, segments and points need no case of their own.
 #include "base/environment.h"
-#include "ellipsoid/gap.h"
+#include "ellipsoid/distance/gap.h"
 
 /// part / (t + e^2), 0 where both parts of the sum are zero.
 static double find_share(double part, double t, double square) { return t + square > 0 ? part / (t + square) : 0; }

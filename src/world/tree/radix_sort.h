@@ -1,6 +1,6 @@
 // Sorting pairs of indices.
-#ifndef OVOID_WORLD_RADIX_SORT_H
-#define OVOID_WORLD_RADIX_SORT_H
+#ifndef OVOID_WORLD_TREE_RADIX_SORT_H
+#define OVOID_WORLD_TREE_RADIX_SORT_H
 
 #include <stddef.h>
 #include <stdint.h>

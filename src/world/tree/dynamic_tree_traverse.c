@@ -1,5 +1,5 @@
 // Traversals of the tree with a small stack; below it, in the order of the tree, without one.
-#include "world/dynamic_tree_traverse.h"
+#include "world/tree/dynamic_tree_traverse.h"
 
 typedef struct traversal_entry {
     uint32_t node;

@@ -1,5 +1,5 @@
 // Single steps of the dynamic tree: adding, removing and refitting a leaf, and the tree's cost.
-#include "world/wide_tree.h"
+#include "world/tree/wide_tree.h"
 
 void dynamic_tree_make(dynamic_tree *t, tree_node *nodes, uint32_t capacity) {
     *t = (dynamic_tree){.nodes = nodes, .capacity = capacity, .used = 2};

@@ -1,6 +1,6 @@
 // What the proximity functions of ellipsoids share: the proven gap of two supports, and a common change of scale.
-#ifndef OVOID_ELLIPSOID_GAP_H
-#define OVOID_ELLIPSOID_GAP_H
+#ifndef OVOID_ELLIPSOID_DISTANCE_GAP_H
+#define OVOID_ELLIPSOID_DISTANCE_GAP_H
 
 #include "linear/mat3.h"
 #include "ovoid/ellipsoid.h"

@@ -1,9 +1,9 @@
 // The dynamic tree once more, eight boxes to a node in single precision, for the search of all leaves that overlap a
 // box. It follows the binary tree's boxes; a leaf that is added or removed makes it void, until it is made anew.
-#ifndef OVOID_WORLD_WIDE_TREE_H
-#define OVOID_WORLD_WIDE_TREE_H
+#ifndef OVOID_WORLD_TREE_WIDE_TREE_H
+#define OVOID_WORLD_TREE_WIDE_TREE_H
 
-#include "world/dynamic_tree.h"
+#include "world/tree/dynamic_tree.h"
 
 /// Room for so many wide nodes is enough for a tree of so many leaves: each has eight children, or leaves alone, at
 /// least two; so at most half of the leaves' number hold leaves alone, and a seventh of that the others.

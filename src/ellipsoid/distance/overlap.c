@@ -7,8 +7,8 @@
 // eigenvalue. So ellipsoids too thin for doubles (radii 1 : 1e-7) get 0, and of a flat ellipsoid only the centre, which
 // is exact, can be shown to be in another. Cost: 15 ns for most pairs apart, about 100 ns for a proof.
 #include "base/environment.h"
-#include "ellipsoid/gap.h"
-#include "ellipsoid/pencil.h"
+#include "ellipsoid/distance/gap.h"
+#include "ellipsoid/distance/pencil.h"
 
 /// At most the least eigenvalue of Q, rounding included; not positive where that is not certain. The trace of Q^-1 =
 /// L'^-1 D^-1 L^-1 bounds its largest eigenvalue; the computed factor belongs to a matrix off by less than 16 u trace.

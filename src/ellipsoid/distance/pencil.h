@@ -1,6 +1,6 @@
 // The pencil of two ellipsoids: one number decides whether they share a point. See pencil.c.
-#ifndef OVOID_ELLIPSOID_PENCIL_H
-#define OVOID_ELLIPSOID_PENCIL_H
+#ifndef OVOID_ELLIPSOID_DISTANCE_PENCIL_H
+#define OVOID_ELLIPSOID_DISTANCE_PENCIL_H
 
 #include "linear/mat3.h"
 

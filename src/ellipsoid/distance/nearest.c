@@ -22,10 +22,10 @@
 // are returned; the lower bound is evaluated anew with every rounding bounded (gap.h). Cost: 4 to 8 rounds, 1 to 2
 // microseconds in all; 5 to 10 for flat bodies.
 #include "base/environment.h"
-#include "ellipsoid/gap.h"
-#include "ellipsoid/pencil.h"
-#include "ellipsoid/root.h"
-#include "ellipsoid/rows.h"
+#include "ellipsoid/distance/gap.h"
+#include "ellipsoid/distance/pencil.h"
+#include "ellipsoid/distance/root.h"
+#include "ellipsoid/distance/rows.h"
 
 enum { ROUNDS_PLAIN = 20, ROUNDS_CAREFUL = 180 };
 

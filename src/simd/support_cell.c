@@ -1,6 +1,6 @@
 // Products are (x dx + y dy) + z dz as in support.c, so that a value has the same bits wherever it is computed, and the
 // lowest index among equal values wins: entries are ascending, and a later one has to be greater.
-#include "simd/cell.h"
+#include "simd/support_cell.h"
 
 static inline simd_extreme take(const simd_cell *c, unsigned lane, double value) {
     return (simd_extreme){value + 0.0, c->x[lane], c->y[lane], c->z[lane], c->index[lane]};

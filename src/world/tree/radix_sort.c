@@ -1,5 +1,5 @@
 // Radix sort of 64-bit keys by bytes.
-#include "world/radix_sort.h"
+#include "world/tree/radix_sort.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 // Building a tree from the top: the leaves of a node are sorted into bins along the longest axis of their centres, and
 // cut where the sum of surface times count on both sides is least; in the middle where all are in one bin, or where the
 // tree is already deep. Cost: n log n.
-#include "world/dynamic_tree.h"
+#include "world/tree/dynamic_tree.h"
 
 // From depth DEEP on nodes are cut in halves, so that no path is longer than DEEP + 32.
 enum { BINS = 16, DEEP = 80, STACK = DEEP + 40 };

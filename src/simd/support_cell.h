@@ -1,7 +1,7 @@
 // The vector kernels of a table of supports (shape/support_table.h): the best of the few vertices that a cell lists,
 // and which of many vertices cannot be the best of a cell.
-#ifndef OVOID_SIMD_CELL_H
-#define OVOID_SIMD_CELL_H
+#ifndef OVOID_SIMD_SUPPORT_CELL_H
+#define OVOID_SIMD_SUPPORT_CELL_H
 
 #include <stdint.h>
 

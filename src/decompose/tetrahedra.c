@@ -1,7 +1,7 @@
 // Tetrahedra cut by planes, and the search that cuts the one with the greatest bound first (A. H. Land, A. G. Doig, An
 // automatic method of solving discrete programming problems, 1960). Pieces cover the cell but for the rounding of their
 // corners, which the problem's pad pays for.
-#include "decompose/cell.h"
+#include "decompose/tetrahedra.h"
 
 #include "base/watch.h"
 

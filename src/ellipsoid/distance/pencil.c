@@ -8,7 +8,7 @@
 // gives two answers: F(s) > 1 shows that no point is in both, ma, mb <= 1 that x is. F is concave with slope ma - mb,
 // so at its maximum ma = mb = F: no third case but touching. No matrix is inverted, so one of the two may be flat.
 // Cost: one evaluation for most pairs (30 ns), two or three near contact, where Newton's method runs inside a bracket.
-#include "ellipsoid/pencil.h"
+#include "ellipsoid/distance/pencil.h"
 
 int ldl3_make(sym3 q, ldl3 *f) {
     if (!(q.xx > 0)) return 0;

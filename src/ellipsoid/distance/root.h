@@ -1,6 +1,6 @@
 // The root of an ellipsoid's matrix: three vectors E with Q = E E', so that the body is { center + E p : |p| <= 1 }.
-#ifndef OVOID_ELLIPSOID_ROOT_H
-#define OVOID_ELLIPSOID_ROOT_H
+#ifndef OVOID_ELLIPSOID_DISTANCE_ROOT_H
+#define OVOID_ELLIPSOID_DISTANCE_ROOT_H
 
 #include "linear/mat3.h"
 

@@ -5,8 +5,8 @@
 // hierarchies, 2007); a leaf that is added goes down to the sibling that costs least surface (E. Catto, Dynamic
 // bounding volume hierarchies, GDC 2019); a leaf whose box changes refits its ancestors as far as they change. All of
 // it is serial and depends on the order of the calls alone.
-#ifndef OVOID_WORLD_DYNAMIC_TREE_H
-#define OVOID_WORLD_DYNAMIC_TREE_H
+#ifndef OVOID_WORLD_TREE_DYNAMIC_TREE_H
+#define OVOID_WORLD_TREE_DYNAMIC_TREE_H
 
 #include "base/allocator.h"
 #include "linear/box.h"

@@ -1,5 +1,5 @@
 // Q = E E' by Cholesky with diagonal pivots.
-#include "ellipsoid/root.h"
+#include "ellipsoid/distance/root.h"
 
 #include "linear/exact.h"
 

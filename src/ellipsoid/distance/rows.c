@@ -1,7 +1,7 @@
 // Householder's QR factorisation with column and row interchanges. M. J. D. Powell and J. K. Reid, On applying
 // Householder transformations to linear least squares problems, 1969; N. J. Higham, Accuracy and Stability of Numerical
 // Algorithms, 2002, section 20.3: with these interchanges the error of each row is small against that row.
-#include "ellipsoid/rows.h"
+#include "ellipsoid/distance/rows.h"
 
 #include <math.h>
 

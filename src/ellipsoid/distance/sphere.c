@@ -10,7 +10,7 @@
 // if |y| <= 1, and the plane across y, which separates sphere and b', maps back to one whose normal is E'^-1 y: a lower
 // bound that is positive whenever the ellipsoids are apart. Cost: one 3x3 eigenproblem.
 #include "base/environment.h"
-#include "ellipsoid/gap.h"
+#include "ellipsoid/distance/gap.h"
 
 /// Lower triangular E with E E' = Q.
 typedef struct cholesky3 {

@@ -1,7 +1,7 @@
 // Branch and bound over tetrahedra: the greatest value of a function over a body, from below by points and from above
 // by cells. What a cell is worth and by which plane it is best cut, the problem at hand knows (uncovered.c, excess.c).
-#ifndef OVOID_DECOMPOSE_CELL_H
-#define OVOID_DECOMPOSE_CELL_H
+#ifndef OVOID_DECOMPOSE_TETRAHEDRA_H
+#define OVOID_DECOMPOSE_TETRAHEDRA_H
 
 #include "linear/box.h"
 #include "ovoid/decompose.h"
