@@ -51,11 +51,6 @@ struct ovoid_compound {
     uint32_t *places;     ///< the place of each of the caller's parts
 };
 
-/// The options of a query of bodies of that size become those of its pairs of parts: the tolerance of the bodies.
-static inline void options_take_size(ovoid_options *options, double size) {
-    options->absolute_tolerance = options_compute_tolerance(options, size, 0);
-}
-
 static inline int node_is_leaf(const compound_node *n) { return n->end - n->first == 1; }
 static inline const compound_node *node_get_left(const compound_node *n) { return n + 1; }
 static inline const compound_node *node_get_right(const compound_node *n) {
@@ -92,50 +87,5 @@ ovoid_ellipsoid ellipsoid_enlarge(ovoid_ellipsoid e, double r);
 
 /// Fills the outer and inner ellipsoids; 0 where there is no memory.
 int compound_compute_bounds(ovoid_compound *compound, const ovoid_posed_shape *parts, const parts_vertices *all);
-
-/// A posed body as a tree over parts; a shape is a tree of one node.
-typedef struct body_view {
-    const compound_node *nodes;
-    const compound_part *parts;
-    const ovoid_compound *compound; ///< NULL: a shape
-    const ovoid_pose *pose;
-    double extent, allowance;
-    uint32_t count;
-    // The tree of a shape.
-    compound_node own_node;
-    compound_part own_part;
-} body_view;
-
-/// 1 if a body is a shape or a compound, and nothing else.
-static inline int body_is_convex(const ovoid_body *body) { return !body->solid && !body->shape != !body->compound; }
-/// 1 if exactly one of a body's pointers is set.
-static inline int body_is_one(const ovoid_body *body) { return !!body->shape + !!body->compound + !!body->solid == 1; }
-
-/// 0 where the body or its pose is refused.
-int body_view_make(const ovoid_body *body, body_view *view);
-/// The views of both bodies, or the reason why their queries are refused.
-ovoid_limit body_pair_view(const ovoid_body_pair *pair, body_view *a, body_view *b);
-
-/// The part at a place of the order, with its pose in the world.
-static inline ovoid_posed_shape body_view_get_part(const body_view *v, uint32_t place) {
-    const compound_part *part = &v->parts[place];
-    if (!v->compound) return (ovoid_posed_shape){part->shape, *v->pose};
-    return (ovoid_posed_shape){part->shape, pose_compute_product(v->pose, &part->pose)};
-}
-/// The caller's index of the part at a place.
-static inline uint32_t body_view_get_index(const body_view *v, uint32_t place) {
-    return v->compound ? v->compound->order[place] : 0;
-}
-
-/// The pipeline of all compound queries, for callers inside a public function, which has set the default floating-point
-/// environment already. options, earlier and exclusions may be NULL.
-void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                            const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions,
-                            ovoid_compound_answer *out);
-
-/// Sorts exclusions by their ranges.
-void exclusions_sort(ovoid_exclusion *items, size_t count);
-/// 1 if one of the sorted exclusions has the ranges of `wanted`.
-int exclusions_have(const ovoid_exclusions *all, const ovoid_exclusion *wanted);
 
 #endif

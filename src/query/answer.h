@@ -68,6 +68,9 @@ ovoid_code bounds_check_internal(const answer_claims *claims, ovoid_error *error
 /// "undecided" claims nothing but that the bracket leaves the sign open.
 ovoid_code status_check_internal(ovoid_status status, double lower, double upper, double tolerance, ovoid_error *error);
 
+/// OVOID_OK if an answer is the refusal for that reason, and claims nothing.
+ovoid_code refusal_check_internal(ovoid_verdict answer, ovoid_limit refused, ovoid_error *error);
+
 /// Checks the lower bound alone: that the proof's normal shows it.
 ovoid_code lower_check_internal(const ovoid_pair *pair, double lower, const ovoid_proof *proof, ovoid_error *error);
 

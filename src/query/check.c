@@ -160,12 +160,11 @@ ovoid_code terms_check_internal(const ovoid_answer *x, const answer_terms *terms
                      ovoid_limit_get_name(x->limit), x->lower, x->upper);
 }
 
-// Which queries are refused, and that nothing else is: a refusal claims nothing.
-static ovoid_code check_refusal(const ovoid_answer *x, ovoid_limit refused, ovoid_error *error) {
-    int claims = x->lower != -INFINITY || x->upper != INFINITY || x->status != OVOID_UNDECIDED;
+ovoid_code refusal_check_internal(ovoid_verdict x, ovoid_limit refused, ovoid_error *error) {
+    int claims = x.lower != -INFINITY || x.upper != INFINITY || x.status != OVOID_UNDECIDED;
     // The margin that is refused too is not among the options.
-    if (!claims && (x->limit == refused || x->limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
-    return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer");
+    if (!claims && (x.limit == refused || x.limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer or another reason");
 }
 
 static ovoid_code check_bounds(const pair_frame *f, const answer_claims *claims, ovoid_error *error) {
@@ -184,7 +183,8 @@ ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, 
     pair_frame f;
     ovoid_options options;
     ovoid_limit refused = options_make(given, &options) ? frame_make(pair, &f) : OVOID_LIMIT_OPTIONS;
-    if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS) return check_refusal(x, refused, error);
+    if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS)
+        return refusal_check_internal(answer_get_verdict(x), refused, error);
     const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), frame_get_allowance(&f),
                                 given ? given->cap : 0};
     ovoid_code code = terms_check_internal(x, &terms, error);
@@ -195,7 +195,7 @@ ovoid_code bounds_check_internal(const answer_claims *claims, ovoid_error *error
     pair_frame f;
     ovoid_limit refused = frame_make(claims->pair, &f);
     return refused == OVOID_LIMIT_NONE ? check_bounds(&f, claims, error)
-                                       : check_refusal(claims->answer, refused, error);
+                                       : refusal_check_internal(answer_get_verdict(claims->answer), refused, error);
 }
 
 ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *options,

@@ -2,7 +2,7 @@
 #ifndef OVOID_WORLD_BODIES_QUERY_H
 #define OVOID_WORLD_BODIES_QUERY_H
 
-#include "solid/body_find.h"
+#include "body/body_find.h"
 
 /// Two shapes are asked directly, without a compound's traversal.
 static inline void bodies_query(const ovoid_body *a, const ovoid_body *b, const ovoid_options *options, query_goal goal,

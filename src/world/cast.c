@@ -7,7 +7,7 @@
 // the rounding of that sum.
 #include "base/environment.h"
 #include "base/error.h"
-#include "compound/compound.h"
+#include "body/body_view.h"
 #include "world/body_bounds.h"
 #include "world/cast_solid.h"
 #include "world/state.h"

@@ -9,12 +9,12 @@
 // enlarged by 256 u S and the ray's radius. Times at the boxes' sides are off by a few u of themselves.
 #include "world/cast_solid.h"
 
+#include "body/body_find.h"
+#include "body/frame.h"
 #include "linear/rotation.h"
 #include "motion/impact.h"
 #include "ovoid/solid_impact.h"
 #include "shape/point.h"
-#include "solid/body_find.h"
-#include "solid/frame.h"
 
 #define WIDER 0x1p-48
 

@@ -1,7 +1,7 @@
 // One contact in full: the query of its pair, warm from the cache, with a proof that can be checked.
 #include "base/environment.h"
 #include "base/error.h"
-#include "solid/body_find.h"
+#include "body/body_find.h"
 #include "world/pair_update.h"
 
 // The pair of the list, or NULL, by bisection.

@@ -5,7 +5,7 @@
 // always show the status that a comparison found.
 #include "world/pair_update.h"
 
-#include "solid/body_find.h"
+#include "body/body_find.h"
 
 #define SLACK_SET 0x1p-48
 #define SLACK_REPORTED 0x1p-49

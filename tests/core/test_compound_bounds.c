@@ -5,7 +5,7 @@
 #include "compounds.h"
 #include "extended.h"
 
-#include "compound/compound.h"
+#include "body/body_view.h"
 
 enum { CAPACITY = 4000, DIRECTIONS = 12 };
 static ovoid_exclusion items[CAPACITY];

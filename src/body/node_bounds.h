@@ -2,7 +2,7 @@
 #ifndef OVOID_COMPOUND_NODE_BOUNDS_H
 #define OVOID_COMPOUND_NODE_BOUNDS_H
 
-#include "compound/compound.h"
+#include "body/body_view.h"
 
 /// The other body in one's own frame: x_own = rotation x_other + translation.
 typedef struct nodes_side {

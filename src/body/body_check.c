@@ -1,20 +1,22 @@
-// Checking an answer by its proof alone.
+// Checking an answer of two bodies by its proof alone.
 //
-// The deciding pair is an ordinary one (query/check.c). Each exclusion is measured again along its normal, over the
-// points of all its triangles. The cut is followed from the pair of roots down by the rule that queries split by
-// (frame.h): each pair is the deciding one, or named by an exclusion, or split, so no two triangles are left out. What
-// lies inside is counted over all triangles, without the tree.
+// The deciding pair is an ordinary one (query/check.c). Each exclusion is measured again along its normal, over all its
+// parts, or for a pair of parts as an ordinary lower bound. The cut is followed from the pair of roots down by the rule
+// that queries split by (frame.h): each pair is the deciding one, or named by an exclusion, or split, so no two parts
+// are left out, whatever the trees are. What lies inside of a solid is counted over all triangles, without the tree.
 //
 // Errors, u = 2^-53, S as in frame.h: a point in the world 45 u, its product with a unit normal and the difference of
 // two 10 u, the normal's length 4 u: below 148 u S.
 #include "base/environment.h"
 #include "base/error.h"
+#include "body/clearance.h"
+#include "body/exclusions.h"
 #include "linear/rotation.h"
-#include "solid/clearance.h"
 
 typedef struct cut {
-    const ovoid_solid_answer *x;
+    const ovoid_solid_answer *x; ///< NULL: of bodies without a solid
     const ovoid_exclusions *all;
+    double lower; ///< of all pairs of parts
     double tolerance;
     solid_view a, b;
     solid_frame frame;
@@ -68,9 +70,11 @@ static ovoid_code check_bound(cut *c, size_t i, ovoid_error *error) {
     const ovoid_exclusion *e = &c->all->items[i];
     int is_in_range =
         e->first_a < e->end_a && e->end_a <= c->a.count && e->first_b < e->end_b && e->end_b <= c->b.count;
-    if (!is_in_range) return refuse(error, i, "names triangles that there are not");
-    if (!(e->lower >= c->x->surfaces.lower)) return refuse(error, i, "is below the answer's lower bound");
-    int is_plain = !(vec3_max_abs(e->normal_low) > 0) && vec3_is_finite(e->normal_low);
+    if (!is_in_range) return refuse(error, i, "names parts that there are not");
+    if (!(e->lower >= c->lower)) return refuse(error, i, "is below the answer's lower bound");
+    if (!vec3_is_finite(e->normal_low) || !(vec3_max_abs(e->normal_low) <= 0x1p-50 * vec3_max_abs(e->normal)))
+        return refuse(error, i, "has a normal whose low half is not one");
+    int is_plain = !(vec3_max_abs(e->normal_low) > 0);
     if (is_plain && measure_gap(c, e) >= e->lower) return OVOID_OK;
     if (e->end_a - e->first_a == 1 && e->end_b - e->first_b == 1) {
         ovoid_pair pair = get_pair(c, e->first_a, e->first_b);
@@ -87,7 +91,7 @@ static int is_excluded(const cut *c, solid_ref a, solid_ref b) {
     return exclusions_have(c->all, &wanted);
 }
 
-// OVOID_OK if the cut leaves out no pair of triangles.
+// OVOID_OK if the cut leaves out no pair of parts.
 static ovoid_code check_cut(const cut *c, ovoid_error *error) {
     struct {
         solid_ref a, b;
@@ -97,12 +101,11 @@ static ovoid_code check_cut(const cut *c, ovoid_error *error) {
         if (is_excluded(c, a, b)) continue;
         if (ref_is_triangle(a) && ref_is_triangle(b)) {
             if (ref_get_place(a) == c->place_a && ref_get_place(b) == c->place_b) continue;
-            return error_set(error, OVOID_ERROR_PROOF, -1, "nothing excludes triangle %u of a and triangle %u of b",
+            return error_set(error, OVOID_ERROR_PROOF, -1, "nothing excludes part %u of a and part %u of b",
                              solid_view_get_index(&c->a, ref_get_place(a)),
                              solid_view_get_index(&c->b, ref_get_place(b)));
         }
-        tree_box box_a = solid_view_get_box(&c->a, a), box_b = solid_view_get_box(&c->b, b);
-        int is_first = pair_is_split_first(a, &box_a, b, &box_b);
+        int is_first = c->x ? solid_views_split_first(&c->a, a, &c->b, b) : parts_views_split_first(&c->a, a, &c->b, b);
         solid_ref children[BOX8];
         uint32_t more = solid_view_get_children(is_first ? &c->a : &c->b, is_first ? a : b, children);
         for (uint32_t i = 0; i < more; i++, count++) {
@@ -114,6 +117,7 @@ static ovoid_code check_cut(const cut *c, ovoid_error *error) {
 }
 
 static ovoid_code check_exclusions(cut *c, ovoid_error *error) {
+    if (c->lower == -INFINITY) return OVOID_OK;
     if (c->all->count > c->all->capacity)
         return error_set(error, OVOID_ERROR_PROOF, -1, "%zu exclusions, but there was room for %zu", c->all->count,
                          c->all->capacity);
@@ -208,7 +212,7 @@ static ovoid_code check_bodies(const cut *c, ovoid_error *error) {
     return code == OVOID_OK ? check_depth(c, error) : code;
 }
 
-// ---- refusals
+// ---- both bodies
 
 static ovoid_limit find_refusal(const ovoid_body_pair *pair, const ovoid_options *given, cut *c) {
     ovoid_options options;
@@ -219,42 +223,86 @@ static ovoid_limit find_refusal(const ovoid_body_pair *pair, const ovoid_options
     if (!solid_view_make(&pair->b, &c->b)) return OVOID_LIMIT_POSE_B;
     solid_frame_make(&c->a, &c->b, &c->frame);
     c->tolerance = solid_frame_compute_tolerance(&c->frame, &options);
+    if (c->a.solid) triangle_begin(&c->room_a);
+    if (c->b.solid) triangle_begin(&c->room_b);
     return OVOID_LIMIT_NONE;
 }
 
-// A refusal claims nothing but its reason; a margin or a cap that is none is not known here.
-static ovoid_code check_refusal(const ovoid_solid_answer *x, ovoid_limit refused, ovoid_error *error) {
-    int claims = x->status != OVOID_UNDECIDED || x->lower != -INFINITY || x->upper != INFINITY;
-    if (claims) return refuse_all(error, "a query that must be refused has an answer");
-    if (x->limit == refused || x->limit == OVOID_LIMIT_OPTIONS) return OVOID_OK;
-    return refuse_all(error, "a refusal with another reason than that of the query");
+// The deciding pair, as ordinary shapes.
+static ovoid_code take_deciding(cut *c, uint32_t a, uint32_t b, ovoid_pair *pair, ovoid_error *error) {
+    if (a >= c->a.count || b >= c->b.count)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "parts %u and %u are not both there", a, b);
+    c->place_a = solid_view_get_place(&c->a, a);
+    c->place_b = solid_view_get_place(&c->b, b);
+    *pair = get_pair(c, c->place_a, c->place_b);
+    return OVOID_OK;
 }
 
-static ovoid_code check(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_options *options,
-                        const ovoid_exclusions *all, ovoid_error *error) {
-    static const ovoid_exclusions none = {NULL, 0, 0, NULL};
+static const ovoid_exclusions no_exclusions = {NULL, 0, 0, NULL};
+
+static ovoid_code check_solids(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_options *options,
+                               const ovoid_exclusions *all, ovoid_error *error) {
     static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
-    cut c = {.x = x, .all = all ? all : &none};
+    const ovoid_verdict claimed = {.status = x->status, .limit = x->limit, .lower = x->lower, .upper = x->upper};
+    cut c = {.x = x, .all = all ? all : &no_exclusions, .lower = x->surfaces.lower};
+    ovoid_pair leaves;
     ovoid_limit refused = find_refusal(pair, options, &c);
     if (refused != OVOID_LIMIT_NONE || (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B))
-        return check_refusal(x, refused, error);
-    if (x->triangle_a >= c.a.count || x->triangle_b >= c.b.count)
-        return error_set(error, OVOID_ERROR_PROOF, -1, "triangles %u and %u are not both there", x->triangle_a,
-                         x->triangle_b);
-    c.place_a = solid_view_get_place(&c.a, x->triangle_a);
-    c.place_b = solid_view_get_place(&c.b, x->triangle_b);
-    if (c.a.solid) triangle_begin(&c.room_a);
-    if (c.b.solid) triangle_begin(&c.room_b);
+        return refusal_check_internal(claimed, refused, error);
+    ovoid_code code = take_deciding(&c, x->triangle_a, x->triangle_b, &leaves, error);
     // Of the deciding pair the bounds; what its status means is a matter of the bodies' size.
-    ovoid_pair leaves = get_pair(&c, c.place_a, c.place_b);
-    ovoid_code code = answer_check_internal(&leaves, &x->surfaces, &of_leaves, NULL, error);
+    if (code == OVOID_OK) code = answer_check_internal(&leaves, &x->surfaces, &of_leaves, NULL, error);
     if (code == OVOID_OK) code = check_exclusions(&c, error);
     return code == OVOID_OK ? check_bodies(&c, error) : code;
+}
+
+// ---- bodies without a solid
+
+// Status and limit by the bodies' tolerance, or that of the deciding pair, in which is what far origins hide.
+static ovoid_code check_terms(const cut *c, const ovoid_pair *parts, const ovoid_answer *x, const ovoid_options *given,
+                              ovoid_error *error) {
+    pair_frame f = {.size = 0};
+    ovoid_options options;
+    (void)options_make(given, &options);
+    double cap = options.cap < INFINITY ? options.cap : 0;
+    options_take_size(&options, c->frame.size);
+    (void)frame_place(parts, &f);
+    const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), c->a.allowance + c->b.allowance,
+                                cap};
+    return terms_check_internal(x, &terms, error);
+}
+
+static ovoid_code check_parts(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *given,
+                              const ovoid_exclusions *all, ovoid_error *error) {
+    cut c = {.all = all ? all : &no_exclusions, .lower = x->answer.lower};
+    ovoid_pair parts;
+    ovoid_limit refused = find_refusal(pair, given, &c);
+    if (pair->a.solid || pair->b.solid) refused = pair->a.solid ? OVOID_LIMIT_SHAPE_A : OVOID_LIMIT_SHAPE_B;
+    if (refused != OVOID_LIMIT_NONE || x->answer.limit == OVOID_LIMIT_OPTIONS)
+        return refusal_check_internal(answer_get_verdict(&x->answer), refused, error);
+    ovoid_code code = take_deciding(&c, x->part_a, x->part_b, &parts, error);
+    if (code != OVOID_OK) return code;
+    // Two shapes are asked with the options as they are.
+    if (c.a.shape && c.b.shape) return answer_check_internal(&parts, &x->answer, given, c.all->cover, error);
+    code = check_terms(&c, &parts, &x->answer, given, error);
+    // A first look at the bodies has its points by their rounding.
+    const answer_claims claims = {&parts, &x->answer, c.all->cover, c.frame.claim};
+    if (code == OVOID_OK) code = bounds_check_internal(&claims, error);
+    return code == OVOID_OK ? check_exclusions(&c, error) : code;
+}
+
+// ---- the public functions
+
+ovoid_code ovoid_compound_answer_check(const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                       const ovoid_options *options, const ovoid_exclusions *exclusions,
+                                       ovoid_error *error) {
+    OVOID_ASSERT(pair && answer);
+    ENVIRONMENT_RETURN(ovoid_code, pair, check_parts(pair, answer, options, exclusions, error));
 }
 
 ovoid_code ovoid_solid_answer_check(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
                                     const ovoid_options *options, const ovoid_exclusions *exclusions,
                                     ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
-    ENVIRONMENT_RETURN(ovoid_code, pair, check(pair, answer, options, exclusions, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, check_solids(pair, answer, options, exclusions, error));
 }

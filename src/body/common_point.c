@@ -5,7 +5,7 @@
 // in common, on both sides; points beside the middles of some triangles of each body, and those middles; then boxes
 // of what the bodies' boxes have in common, the most promising first: the clearance of a point changes by no more than
 // the point moves, so a box of half diagonal h around a point that is outside of a body by h or more is dropped.
-#include "solid/clearance.h"
+#include "body/clearance.h"
 
 #include "ovoid/shape.h"
 

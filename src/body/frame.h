@@ -14,7 +14,7 @@
 #ifndef OVOID_SOLID_FRAME_H
 #define OVOID_SOLID_FRAME_H
 
-#include "compound/compound.h"
+#include "body/body_view.h"
 #include "solid/solid.h"
 
 #define SOLID_CLAIM (512 * 0x1p-53)
@@ -90,6 +90,10 @@ static inline int pair_is_split_first(solid_ref a, const tree_box *box_a, solid_
     if (ref_is_triangle(a) || ref_is_triangle(b)) return ref_is_triangle(b);
     return box_a->half.x + box_a->half.y + box_a->half.z >= box_b->half.x + box_b->half.y + box_b->half.z;
 }
+
+int solid_views_split_first(const solid_view *a, solid_ref ref_a, const solid_view *b, solid_ref ref_b);
+/// The rule of bodies without a solid: the balls around the nodes are compared.
+int parts_views_split_first(const solid_view *a, solid_ref ref_a, const solid_view *b, solid_ref ref_b);
 
 /// A triangle as a shape, without an allocation. It must not be moved once made.
 typedef struct triangle_shape {

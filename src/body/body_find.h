@@ -2,7 +2,7 @@
 #ifndef OVOID_SOLID_BODY_FIND_H
 #define OVOID_SOLID_BODY_FIND_H
 
-#include "compound/compound.h"
+#include "body/body_view.h"
 #include "ovoid/solid.h"
 
 static inline int body_pair_has_solid(const ovoid_body_pair *pair) { return pair->a.solid || pair->b.solid; }

@@ -2,7 +2,7 @@
 // non-convex objects, 1994): the larger node of a pair is replaced by its children, eight bounds at a time, the nearest
 // visited first. A pair whose bound is beyond what the goal needs, or not below the best pair's upper bound less the
 // tolerance, is left out. The stack is as deep as both trees together; nothing is allocated.
-#include "solid/search.h"
+#include "body/search.h"
 
 enum { WAITING_ROOM = 1280, HEAP_MOST = 1024 };
 _Static_assert(WAITING_ROOM > 2 * (BOX8 - 1) * SOLID_DEPTH_MAX + 1, "the deepest trees leave room for a heap");

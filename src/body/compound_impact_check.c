@@ -3,7 +3,7 @@
 // area.
 #include "base/environment.h"
 #include "base/error.h"
-#include "compound/compound_impact.h"
+#include "body/compound_impact.h"
 #include "motion/impact.h"
 
 // An impact and its proof, with both bodies as trees.

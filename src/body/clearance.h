@@ -2,7 +2,7 @@
 #ifndef OVOID_SOLID_CLEARANCE_H
 #define OVOID_SOLID_CLEARANCE_H
 
-#include "solid/frame.h"
+#include "body/frame.h"
 
 /// A pair of bodies in the frame of the first.
 typedef struct framed_pair {

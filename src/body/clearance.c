@@ -9,7 +9,7 @@
 //
 // The distance to a triangle is shown from both sides: its nearest point, a convex combination of the corners, is no
 // nearer than the triangle; and the least corner along the unit vector toward that point is no farther.
-#include "solid/clearance.h"
+#include "body/clearance.h"
 
 #include "linear/rotation.h"
 #include "pair/simplex.h"

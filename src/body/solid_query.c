@@ -3,8 +3,9 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
-#include "solid/body_find.h"
-#include "solid/search.h"
+#include "body/body_find.h"
+#include "body/exclusions.h"
+#include "body/search.h"
 
 // ---- the end of a query
 
@@ -44,8 +45,7 @@ static void finish_surfaces(solid_search *h) {
     x->limit = find_limit(h, x->lower, x->upper, x->status);
     out->triangle_a = solid_view_get_index(&h->a, h->best.place_a);
     out->triangle_b = solid_view_get_index(&h->b, h->best.place_b);
-    ovoid_exclusions *all = h->exclusions;
-    if (all && all->count <= all->capacity) exclusions_sort(all->items, all->count);
+    exclusions_finish(h->exclusions);
 }
 
 // 1, 0, or -1 where it is open: nearer than half the claim the point's rounding may cross a surface.
@@ -143,7 +143,7 @@ COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ov
                                            ovoid_exclusions *exclusions, ovoid_solid_answer *out) {
     solid_search h;
     *out = (ovoid_solid_answer){.status = OVOID_UNDECIDED};
-    if (exclusions) exclusions->count = 0;
+    exclusions_begin(exclusions);
     ovoid_limit refused = begin(&h, pair, options, goal);
     if (refused != OVOID_LIMIT_NONE) {
         out->surfaces = answer_make_refused(refused);

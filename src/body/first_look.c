@@ -4,9 +4,10 @@
 //
 // Errors: all is measured in the world, where rotations are off by 36 u, not by 82 u as in the frame of the other body
 // (node_bounds.c): its claim covers them, for the bounds and for whoever checks them in the world poses of the parts.
-#include "compound/first_look.h"
+#include "body/first_look.h"
 
-#include "compound/node_bounds.h"
+#include "body/exclusions.h"
+#include "body/node_bounds.h"
 #include "linear/rotation.h"
 
 // The deciding parts are the first of the trees' order; one vertex of each, from its body's origin, in the world's
@@ -22,9 +23,8 @@ static ovoid_limit find_limit(double lower, double upper, double tolerance, doub
 }
 
 static void exclude_all(const body_view *a, const body_view *b, vec3 normal, double lower, ovoid_exclusions *all) {
-    if (!all) return;
-    if (all->capacity) all->items[0] = (ovoid_exclusion){0, a->count, 0, b->count, normal, {0, 0, 0}, lower};
-    all->count = 1;
+    const ovoid_exclusion roots = {0, a->count, 0, b->count, normal, {0, 0, 0}, lower};
+    if (all) exclusions_add(all, &roots);
 }
 
 int first_look(const body_view *a, const body_view *b, const ovoid_options *options, const query_goal *goal,

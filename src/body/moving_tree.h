@@ -2,10 +2,10 @@
 #ifndef OVOID_SOLID_MOVING_TREE_H
 #define OVOID_SOLID_MOVING_TREE_H
 
+#include "body/frame.h"
 #include "motion/impact.h"
 #include "ovoid/solid_impact.h"
 #include "shape/point.h"
-#include "solid/frame.h"
 
 typedef struct moving_tree {
     const ovoid_moving_body *body;

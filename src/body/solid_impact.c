@@ -8,10 +8,10 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
-#include "compound/compound_impact.h"
+#include "body/compound_impact.h"
+#include "body/moving_tree.h"
 #include "linear/box.h"
 #include "motion/impact_sweep.h"
-#include "solid/moving_tree.h"
 
 typedef struct couple {
     solid_ref a, b;

@@ -2,9 +2,9 @@
 #ifndef OVOID_SOLID_SEARCH_H
 #define OVOID_SOLID_SEARCH_H
 
-#include "compound/compound.h"
-#include "solid/clearance.h"
-#include "solid/frame.h"
+#include "body/body_view.h"
+#include "body/clearance.h"
+#include "body/frame.h"
 
 /// A pair that may decide: its bracket, and the direction in the world that shows the lower end.
 typedef struct solid_candidate {

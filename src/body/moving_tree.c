@@ -1,10 +1,10 @@
 // Moving bodies as trees.
-#include "solid/moving_tree.h"
+#include "body/moving_tree.h"
 
 #include "base/environment.h"
-#include "compound/compound_impact.h"
+#include "body/body_find.h"
+#include "body/compound_impact.h"
 #include "motion/motion_gap.h"
-#include "solid/body_find.h"
 
 static const ovoid_pose still = {{0, 0, 0}, {1, 0, 0, 0}};
 static const ovoid_pose no_part = {{0, 0, 0}, {0, 0, 0, 0}};
@@ -51,8 +51,7 @@ moving_shapes moving_trees_get_pair(const moving_tree *a, solid_ref ref_a, const
 }
 
 int moving_trees_split_first(const moving_tree *a, solid_ref ref_a, const moving_tree *b, solid_ref ref_b) {
-    tree_box box_a = solid_view_get_box(&a->view, ref_a), box_b = solid_view_get_box(&b->view, ref_b);
-    return pair_is_split_first(ref_a, &box_a, ref_b, &box_b);
+    return solid_views_split_first(&a->view, ref_a, &b->view, ref_b);
 }
 
 static ovoid_body get_body(const ovoid_moving_body *body, double time) {

@@ -3,7 +3,7 @@
 // 2007): the balls around two nodes are moved with their bodies, and the time until which these are free is a lower
 // bound for all their parts. The pair of nodes that may meet first is opened first; pairs that are free until the first
 // hit found are pruned. Each pair of parts is an ordinary impact (motion/impact.c), with its own steps.
-#include "compound/compound_impact.h"
+#include "body/compound_impact.h"
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"

@@ -3,8 +3,8 @@
 // beginning, which is asked anew.
 #include "base/environment.h"
 #include "base/error.h"
-#include "compound/compound_impact.h"
-#include "solid/moving_tree.h"
+#include "body/compound_impact.h"
+#include "body/moving_tree.h"
 
 // An impact and its proof, with both bodies as trees.
 typedef struct claim {

@@ -10,8 +10,9 @@
 // The traversal's stack is as deep as both trees together; nothing is allocated. At worst every pair of parts is
 // queried.
 #include "base/environment.h"
-#include "compound/first_look.h"
-#include "compound/node_bounds.h"
+#include "body/exclusions.h"
+#include "body/first_look.h"
+#include "body/node_bounds.h"
 #include "query/answer.h"
 
 typedef struct traversal {
@@ -37,12 +38,6 @@ typedef struct traversal {
 } traversal;
 
 // ---- pruning
-
-static void add_exclusion(traversal *h, const ovoid_exclusion *x) {
-    ovoid_exclusions *all = h->exclusions;
-    if (all->count < all->capacity) all->items[all->count] = *x;
-    all->count++;
-}
 
 // A pair of nodes on the stack, with its lower bound.
 typedef struct node_pair {
@@ -95,7 +90,7 @@ static void exclude_nodes(traversal *h, const node_pair *w) {
     x.normal = means < NODES_PARTS
                    ? nodes_compute_normal(&h->frame, a, b, means)
                    : parts_compute_normal(&h->frame, &h->a.parts[a->first], &h->b.parts[b->first], means);
-    add_exclusion(h, &x);
+    exclusions_add(h->exclusions, &x);
 }
 
 static void take_trouble(traversal *h, const ovoid_answer *x) {
@@ -107,7 +102,7 @@ static void exclude_parts(traversal *h, uint32_t a, uint32_t b, const ovoid_answ
     take_trouble(h, x);
     if (!h->exclusions) return;
     ovoid_exclusion e = {a, a + 1, b, b + 1, x->proof.normal, x->proof.normal_low, x->lower};
-    add_exclusion(h, &e);
+    exclusions_add(h->exclusions, &e);
 }
 
 // ---- pairs of parts
@@ -260,8 +255,7 @@ static void finish(traversal *h) {
     x->lower = lower;
     out->part_a = body_view_get_index(&h->a, h->place_a);
     out->part_b = body_view_get_index(&h->b, h->place_b);
-    ovoid_exclusions *all = h->exclusions;
-    if (all && all->count <= all->capacity) exclusions_sort(all->items, all->count);
+    exclusions_finish(h->exclusions);
 }
 
 // Starts a traversal; the options are set already.
@@ -283,9 +277,7 @@ static void traversal_make(traversal *h, query_goal goal) {
 
 // The whole traversal, from an earlier proof or NULL. Nodes visited and pairs tested are counted on.
 static void search_from(traversal *h, query_goal goal, const ovoid_compound_proof *earlier) {
-    ovoid_exclusions *all = h->exclusions;
-    if (all) all->count = 0;
-    if (all && all->cover) all->cover->point_count = all->cover->triangle_count = 0;
+    exclusions_begin(h->exclusions);
     traversal_make(h, goal);
     visit_earlier(h, earlier);
     if (!is_decided(h)) traverse(h);
@@ -296,9 +288,8 @@ void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *op
                             const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions,
                             ovoid_compound_answer *out) {
     out->part_a = out->part_b = out->visited = out->tested = 0;
-    if (exclusions) exclusions->count = 0;
+    exclusions_begin(exclusions);
     ovoid_cover *cover = exclusions ? exclusions->cover : NULL;
-    if (cover) cover->point_count = cover->triangle_count = 0;
     traversal h;
     ovoid_limit refused = OVOID_LIMIT_OPTIONS;
     if (options_make(options, &h.options) && goal.far >= 0) refused = body_pair_view(pair, &h.a, &h.b);

@@ -3,16 +3,14 @@
 // Two triangles go through the kernel first, eight pairs at a time. Its bounds, lowered and raised by the claim, are
 // true, and where they are closer than half the tolerance they are all that is needed; else, and for shapes, the pair
 // is an ordinary query, which is exact. The best pair of all becomes one in the end.
-#include "solid/search.h"
+#include "body/exclusions.h"
+#include "body/search.h"
 
 #include "linear/rotation.h"
 
 static void add(solid_search *h, const ovoid_exclusion *x) {
     h->lower = min2(h->lower, x->lower);
-    ovoid_exclusions *all = h->exclusions;
-    if (!all) return;
-    if (all->count < all->capacity) all->items[all->count] = *x;
-    all->count++;
+    if (h->exclusions) exclusions_add(h->exclusions, x);
 }
 
 void search_exclude(solid_search *h, uint32_t a, uint32_t b, double lower, vec3 normal, vec3 normal_low) {

@@ -1,5 +1,5 @@
 // The frame of a pair, boxes in it, and triangles as shapes.
-#include "solid/frame.h"
+#include "body/frame.h"
 
 #include "linear/rotation.h"
 
@@ -94,6 +94,16 @@ tree_box solid_view_get_box(const solid_view *v, solid_ref ref) {
     vec3 from = {low[0], low[1], low[2]}, to = {high[0], high[1], high[2]};
     double half = 0.5 * v->solid->unit;
     return (tree_box){vec3_scale(vec3_add(to, from), half), vec3_scale(vec3_sub(to, from), half)};
+}
+
+int solid_views_split_first(const solid_view *a, solid_ref ref_a, const solid_view *b, solid_ref ref_b) {
+    tree_box box_a = solid_view_get_box(a, ref_a), box_b = solid_view_get_box(b, ref_b);
+    return pair_is_split_first(ref_a, &box_a, ref_b, &box_b);
+}
+
+int parts_views_split_first(const solid_view *a, solid_ref ref_a, const solid_view *b, solid_ref ref_b) {
+    if (ref_is_triangle(ref_a) || ref_is_triangle(ref_b)) return ref_is_triangle(ref_b);
+    return a->compound->nodes[ref_a].radius >= b->compound->nodes[ref_b].radius;
 }
 
 static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }

@@ -1,5 +1,5 @@
 // A posed body as a tree over parts: that of a compound, or one node around a shape.
-#include "compound/compound.h"
+#include "body/body_view.h"
 
 int body_view_make(const ovoid_body *body, body_view *v) {
     if (!body_is_convex(body)) return 0;

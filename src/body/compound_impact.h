@@ -2,7 +2,7 @@
 #ifndef OVOID_COMPOUND_COMPOUND_IMPACT_H
 #define OVOID_COMPOUND_COMPOUND_IMPACT_H
 
-#include "compound/compound.h"
+#include "body/body_view.h"
 #include "linear/box.h"
 #include "ovoid/compound_impact.h"
 #include "shape/point.h"

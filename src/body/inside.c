@@ -9,7 +9,7 @@
 // The point is rounded in the other's frame, off by less than 91 u S (of a part 136 u S), and the surfaces are farther
 // apart than the claim of 512 u S: on the way from the exact point to the rounded one no surface is met, so the winding
 // number is the same.
-#include "solid/frame.h"
+#include "body/frame.h"
 
 #include "linear/rotation.h"
 

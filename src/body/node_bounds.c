@@ -11,7 +11,7 @@
 //   the normal, turned to the world                                   42 u S
 //   the measurement of whoever checks it, along that normal           148 u S
 // Together below 460 u S + 2 u P: a bound is lowered by 512 u S + 8 u P.
-#include "compound/node_bounds.h"
+#include "body/node_bounds.h"
 
 #include "linear/rotation.h"
 

@@ -7,7 +7,7 @@
 //
 // The farthest point of a solid is found through its tree, nearest box first. A box is rounded outward by more than its
 // bound is off here; a point that is passed over so is farther by less than 16 u S, and the claim has room for that.
-#include "solid/search.h"
+#include "body/search.h"
 
 enum { DESCENT = 12 };
 
