@@ -51,7 +51,7 @@ int results_open(cli_results *results, const output_settings *settings, unsigned
     *results = (cli_results){.settings = settings, .unit = unit, .fields = fields, .header_due = settings->csv};
     if (settings->proofs) results->fields |= OVOID_RECORD_PROOF;
     finish_hold_signals();
-    results->output = ovoid_output_create(settings->path ? settings->path : "-", &error);
+    results->output = ovoid_output_open(settings->path ? settings->path : "-", &error);
     if (results->output) finish_set_unfinished(ovoid_output_get_temporary(results->output));
     finish_release_signals();
     if (!results->output) {
@@ -192,7 +192,7 @@ int results_close(cli_results *results, int code) {
         int failed = finish_output(results->output);
         if (failed) code = failed;
     }
-    ovoid_output_destroy(results->output);
+    ovoid_output_close(results->output);
     finish_set_unfinished(NULL);
     free(results->rows);
     return code;

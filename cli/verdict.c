@@ -69,32 +69,32 @@ static void give_back(verdict *v, judge *given) {
     pthread_mutex_unlock(&v->lock);
 }
 
-ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
-                         int points, ovoid_error *error) {
+ovoid_code verdict_verify(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
+                          int points, ovoid_error *error) {
     judge *mine = take(v);
-    ovoid_code code = judge_check_answer(mine, pair, answer, cover, error);
+    ovoid_code code = judge_verify_answer(mine, pair, answer, cover, error);
     if (code == OVOID_OK && points && answer->status != OVOID_UNDECIDED)
-        code = judge_check_points(mine, pair, answer, error);
+        code = judge_verify_points(mine, pair, answer, error);
     give_back(v, mine);
     return code;
 }
 
-ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                  const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
+ovoid_code verdict_verify_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                   const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
     judge *mine = take(v);
-    ovoid_code code = judge_check_compound(mine, pair, answer, exclusions, error);
+    ovoid_code code = judge_verify_compound(mine, pair, answer, exclusions, error);
     if (code == OVOID_OK && points && answer->answer.status != OVOID_UNDECIDED)
-        code = judge_check_points(mine, points, &answer->answer, error);
+        code = judge_verify_points(mine, points, &answer->answer, error);
     give_back(v, mine);
     return code;
 }
 
-ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                               const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
+ovoid_code verdict_verify_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                                const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
     if (pair->a.compound || pair->b.compound)
-        return ovoid_solid_answer_check(pair, answer, &v->options, exclusions, error);
+        return ovoid_solid_answer_verify(pair, answer, &v->options, exclusions, error);
     judge *mine = take(v);
-    ovoid_code code = judge_check_solid(mine, pair, answer, exclusions, points, error);
+    ovoid_code code = judge_verify_solid(mine, pair, answer, exclusions, points, error);
     give_back(v, mine);
     return code;
 }
@@ -117,22 +117,22 @@ verdict *verdict_create(unsigned threads, const ovoid_options *options) {
 
 void verdict_destroy(verdict *v) { (void)v; }
 
-ovoid_code verdict_check(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
-                         int points, ovoid_error *error) {
+ovoid_code verdict_verify(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
+                          int points, ovoid_error *error) {
     (void)points;
-    return ovoid_answer_check(pair, answer, &v->options, cover, error);
+    return ovoid_answer_verify(pair, answer, &v->options, cover, error);
 }
 
-ovoid_code verdict_check_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                  const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
+ovoid_code verdict_verify_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                   const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
     (void)points;
-    return ovoid_compound_answer_check(pair, answer, &v->options, exclusions, error);
+    return ovoid_compound_answer_verify(pair, answer, &v->options, exclusions, error);
 }
 
-ovoid_code verdict_check_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                               const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
+ovoid_code verdict_verify_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                                const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
     (void)points;
-    return ovoid_solid_answer_check(pair, answer, &v->options, exclusions, error);
+    return ovoid_solid_answer_verify(pair, answer, &v->options, exclusions, error);
 }
 
 int verdict_is_exact(void) { return 0; }

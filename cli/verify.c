@@ -294,13 +294,13 @@ static int run(const cli_command *command, int argc, char **argv) {
     verify v = {.settings = &s, .path = paths.items[0], .margin = s.margin >= 0 ? s.margin : NAN};
     code = verify_open_bodies(&v.bodies, &s, &paths);
     if (!code) {
-        v.reader = ovoid_results_reader_create(v.path, &v.error);
+        v.reader = ovoid_results_reader_open(v.path, &v.error);
         if (v.reader)
             code = run_results(&v);
         else
             message_error("%s", v.error.message), code = EXIT_INPUT;
     }
-    ovoid_results_reader_destroy(v.reader);
+    ovoid_results_reader_close(v.reader);
     verify_clear_rest(&v.rest);
     verify_close_bodies(&v.bodies);
     return code;

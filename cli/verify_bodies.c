@@ -12,7 +12,7 @@
 void verify_close_bodies(body_source *bodies) {
     frames_close(&bodies->frames);
     ovoid_scene_destroy(bodies->scene);
-    ovoid_pairs_reader_destroy(bodies->pairs);
+    ovoid_pairs_reader_close(bodies->pairs);
     ovoid_shapes_destroy(bodies->list);
     inputs_close_body(&bodies->bodies[0]);
     inputs_close_body(&bodies->bodies[1]);
@@ -24,7 +24,7 @@ static int open_list(body_source *bodies, const verify_settings *s) {
     read_settings read = solids_get_read(&s->read, &s->choice);
     bodies->list = inputs_read_list(s->list, &read);
     if (!bodies->list) return EXIT_INPUT;
-    bodies->pairs = ovoid_pairs_reader_create(s->pairs, ovoid_shapes_get_count(bodies->list), &error);
+    bodies->pairs = ovoid_pairs_reader_open(s->pairs, ovoid_shapes_get_count(bodies->list), &error);
     if (!bodies->pairs) message_error("%s", error.message);
     return bodies->pairs ? 0 : EXIT_INPUT;
 }

@@ -41,17 +41,17 @@ static ovoid_code check_compound(const verify *v, const claim *item, const ovoid
                                     .part_b = item->pair.b.compound ? r->part_b : 0};
     ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count,
                                    (ovoid_cover *)r->cover};
-    return verdict_check_compound(v->verdict, &item->pair, &answer, &exclusions, points, error);
+    return verdict_verify_compound(v->verdict, &item->pair, &answer, &exclusions, points, error);
 }
 
 ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_compound_impact *found,
                                const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
-    if (a->solid || b->solid) return ovoid_solid_impact_check(a, b, margin, found, NULL, steps, groups, error);
+    if (a->solid || b->solid) return ovoid_solid_impact_verify(a, b, margin, found, NULL, steps, groups, error);
     if (a->compound || b->compound || found->group_count)
-        return ovoid_compound_impact_check(a, b, margin, found, NULL, steps, groups, error);
+        return ovoid_compound_impact_verify(a, b, margin, found, NULL, steps, groups, error);
     ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};
-    return ovoid_impact_check(&moving[0], &moving[1], margin, &found->impact, NULL, steps, error);
+    return ovoid_impact_verify(&moving[0], &moving[1], margin, &found->impact, NULL, steps, error);
 }
 
 /// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is
@@ -93,7 +93,7 @@ static ovoid_code check_solids(const verify *v, const claim *item, ovoid_error *
         return OVOID_ERROR_PROOF;
     }
     int points = claims_points(v, item, &r->solid->surfaces);
-    return verdict_check_solid(v->verdict, &item->pair, r->solid, &exclusions, points, error);
+    return verdict_verify_solid(v->verdict, &item->pair, r->solid, &exclusions, points, error);
 }
 
 ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) {
@@ -110,6 +110,6 @@ ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) 
     }
     int points = claims_points(v, item, &answer);
     ovoid_code code = is_compound ? check_compound(v, item, points ? &pair : NULL, error)
-                                  : verdict_check(v->verdict, &pair, &answer, item->record.cover, points, error);
+                                  : verdict_verify(v->verdict, &pair, &answer, item->record.cover, points, error);
     return code == OVOID_OK ? check_impact(item, &answer, error) : code;
 }

@@ -132,7 +132,7 @@ static int list_free(verify *v) {
     const cli_frames *f = &v->bodies.frames;
     size_t count = ovoid_scene_get_count(v->bodies.scene);
     if (!v->settings->continuous || f->count < 2) return 0;
-    if (frames_check_motions(f)) return EXIT_INPUT;
+    if (frames_validate_motions(f)) return EXIT_INPUT;
     for (size_t i = 0; i < count; i++) {
         v->rest.swept[i] = v->rest.boxes[i];
         if (!f->is_moved[i]) continue;

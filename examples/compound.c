@@ -43,7 +43,7 @@ int main(void) {
         x = ovoid_compound_distance(&pair, NULL, &known, &all);
         printf("z %.2f: part %u of the table, part %u of the mug: %s, %.6f apart; %zu exclusions, %u of 50 pairs\n", z,
                x.part_a, x.part_b, ovoid_status_get_name(x.answer.status), x.answer.lower, all.count, x.tested);
-        refused += ovoid_compound_answer_check(&pair, &x, NULL, &all, &error) != OVOID_OK;
+        refused += ovoid_compound_answer_verify(&pair, &x, NULL, &all, &error) != OVOID_OK;
     }
     // From 0.75 to the table's 0.74.
     int wrong = refused || x.part_a != 0 || x.part_b != 0 || fabs(x.answer.lower - 0.01) > 1e-8;

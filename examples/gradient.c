@@ -20,7 +20,7 @@ int main(void) {
     double off = 1;
     int wrong = 0;
     for (int step = 0; step < 8 && fabs(off) > 1e-12; step++) {
-        ovoid_smooth s = ovoid_smooth_compute(&pair, 1);
+        ovoid_smooth s = ovoid_pair_compute_smooth(&pair, 1);
         ovoid_answer exact = ovoid_depth(&pair, NULL, NULL, NULL);
         ovoid_gradient g = ovoid_answer_compute_gradient(&pair, &exact, NULL);
         printf("%.6f <= %.6f <= %.6f, exact normal %.3f %.3f %.3f\n", s.outer.value, exact.lower, s.inner.value,

@@ -29,7 +29,7 @@ int main(void) {
            x.free.normal.x, x.free.normal.y, x.free.normal.z);
 
     // The steps prove it to whoever does not trust the search.
-    ovoid_code code = ovoid_impact_check(&a, &b, 0, &x, &options, steps, &error);
+    ovoid_code code = ovoid_impact_verify(&a, &b, 0, &x, &options, steps, &error);
     printf("proof: %s\n", code == OVOID_OK ? "holds" : error.message);
 
     // How near would it come if it flew past, 3 above?

@@ -18,12 +18,12 @@ typedef struct findings {
 static void check(findings *f, const ovoid_answer *x, const ovoid_cover *cover, int is_full) {
     ovoid_error error = {OVOID_OK, -1, ""};
     judge_set_options(f->judge, f->options);
-    ovoid_code code = judge_check_answer(f->judge, f->pair, x, cover, &error);
-    if (code == OVOID_OK) code = ovoid_answer_check(f->pair, x, f->options, cover, &error);
+    ovoid_code code = judge_verify_answer(f->judge, f->pair, x, cover, &error);
+    if (code == OVOID_OK) code = ovoid_answer_verify(f->pair, x, f->options, cover, &error);
     // Where a limit ended the search of a depth, a common point may be all there is.
     int has_points = x->status == OVOID_SEPARATED || x->limit == OVOID_LIMIT_NONE;
     if (code == OVOID_OK && is_full && has_points && x->stage != OVOID_STAGE_NONE && x->status != OVOID_UNDECIDED)
-        code = judge_check_points(f->judge, f->pair, x, &error);
+        code = judge_verify_points(f->judge, f->pair, x, &error);
     if (code != OVOID_OK) {
         (void)fprintf(stderr, "wrong answer: %s\n", error.message);
         abort();
@@ -58,7 +58,7 @@ static void ask_all(findings *f, double margin, const ovoid_options *options, co
     x = ovoid_depth(f->pair, options, &own, &cover);
     check(f, &x, &cover, is_full);
     f->options = NULL;
-    x = ovoid_bounds(f->pair);
+    x = ovoid_pair_compute_bounds(f->pair);
     check(f, &x, NULL, 0);
 }
 
@@ -88,9 +88,9 @@ void fuzz_ask(const ovoid_pair *pair, double margin, const ovoid_options *option
 
 void fuzz_ask(const ovoid_pair *pair, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
     ovoid_answer answers[4] = {ovoid_collide(pair, options, earlier), ovoid_distance(pair, options, earlier),
-                               ovoid_within(pair, margin, options, earlier), ovoid_bounds(pair)};
+                               ovoid_within(pair, margin, options, earlier), ovoid_pair_compute_bounds(pair)};
     for (int i = 0; i < 4; i++)
-        fuzz_require(ovoid_answer_check(pair, &answers[i], i < 3 ? options : NULL, NULL, NULL) == OVOID_OK);
+        fuzz_require(ovoid_answer_verify(pair, &answers[i], i < 3 ? options : NULL, NULL, NULL) == OVOID_OK);
 }
 
 #endif

@@ -14,7 +14,7 @@ static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_a
     fuzz_require(the_judge != NULL);
     judge_set_options(the_judge, options);
     ovoid_error error = {OVOID_OK, -1, ""};
-    fuzz_require_code(judge_check_compound(the_judge, pair, x, exclusions, &error), &error);
+    fuzz_require_code(judge_verify_compound(the_judge, pair, x, exclusions, &error), &error);
     judge_forget(the_judge);
 }
 #else
@@ -37,7 +37,7 @@ static void check(findings *f, const ovoid_compound_answer *x, const ovoid_exclu
     ovoid_error error = {OVOID_OK, -1, ""};
     // Without all exclusions there is nothing to check it by.
     if (exclusions->count <= exclusions->capacity) {
-        fuzz_require_code(ovoid_compound_answer_check(f->pair, x, f->options, exclusions, &error), &error);
+        fuzz_require_code(ovoid_compound_answer_verify(f->pair, x, f->options, exclusions, &error), &error);
         put_before_judge(f->pair, x, f->options, exclusions);
     }
     f->lower = fmax(f->lower, x->answer.lower);

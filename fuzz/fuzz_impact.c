@@ -57,10 +57,11 @@ static void check_impact(const ovoid_moving_shape *a, const ovoid_moving_shape *
     ovoid_error error = {OVOID_OK, -1, ""};
     if (x.limit == OVOID_LIMIT_POSE_A || x.limit == OVOID_LIMIT_POSE_B || x.limit == OVOID_LIMIT_OPTIONS) {
         fuzz_require(x.status == OVOID_IMPACT_UNDECIDED);
-        fuzz_require_code(ovoid_impact_check(a, b, margin, &x, &options, NULL, &error), &error);
+        fuzz_require_code(ovoid_impact_verify(a, b, margin, &x, &options, NULL, &error), &error);
         return;
     }
-    if (x.step_count <= STEPS) fuzz_require_code(ovoid_impact_check(a, b, margin, &x, &options, steps, &error), &error);
+    if (x.step_count <= STEPS)
+        fuzz_require_code(ovoid_impact_verify(a, b, margin, &x, &options, steps, &error), &error);
     fuzz_require(x.begin <= x.free_until && x.free_until <= x.end);
     if (x.status == OVOID_IMPACT_HIT) fuzz_require(x.free_until <= x.hit_at && x.hit_at <= x.end);
     // Samples of what is free.
@@ -79,7 +80,7 @@ static void check_approach(const ovoid_moving_shape *a, const ovoid_moving_shape
     ovoid_approach x = ovoid_approach_find(a, b, &options);
     ovoid_error error = {OVOID_OK, -1, ""};
     if (x.limit == OVOID_LIMIT_POSE_A || x.limit == OVOID_LIMIT_POSE_B || x.limit == OVOID_LIMIT_OPTIONS) return;
-    if (x.step_count <= STEPS) fuzz_require_code(ovoid_approach_check(a, b, &x, &options, steps, &error), &error);
+    if (x.step_count <= STEPS) fuzz_require_code(ovoid_approach_verify(a, b, &x, &options, steps, &error), &error);
     fuzz_require(x.lower <= x.upper);
     double slack = 1e-9 * find_size(a, b, x.begin, x.end);
     for (int i = 0; i <= 16 && slack < 1e30 && x.status != OVOID_OVERLAPPING; i++) {
@@ -91,14 +92,13 @@ static void check_approach(const ovoid_moving_shape *a, const ovoid_moving_shape
 static void check_casts(const ovoid_moving_shape *a, const ovoid_moving_shape *b, fuzz_bytes *from, int is_wild) {
     ovoid_pair pair = {a->shape, b->shape, ovoid_moving_shape_compute_pose(a, 0),
                        ovoid_moving_shape_compute_pose(b, 0)};
-    if (ovoid_pose_compute_check(&pair.pose_a) != OVOID_OK || ovoid_pose_compute_check(&pair.pose_b) != OVOID_OK)
-        return;
-    ovoid_impact x = ovoid_translation_cast(&pair, take_vector(from, is_wild), fabs(take_number(from, 0)) / 8, NULL);
+    if (ovoid_pose_validate(&pair.pose_a) != OVOID_OK || ovoid_pose_validate(&pair.pose_b) != OVOID_OK) return;
+    ovoid_impact x = ovoid_shape_cast(&pair, take_vector(from, is_wild), fabs(take_number(from, 0)) / 8, NULL);
     fuzz_require(!(x.free_until > x.hit_at));
     ovoid_posed_shape body = {a->shape, pair.pose_a};
     ovoid_ray ray = {take_vector(from, is_wild), take_vector(from, is_wild), take_number(from, is_wild), 0};
     ray.radius = fabs(take_number(from, is_wild)) / 8;
-    ovoid_ray_hit hit = ovoid_ray_cast(&body, &ray);
+    ovoid_ray_hit hit = ovoid_shape_cast_ray(&body, &ray);
     fuzz_require(!(hit.lower > hit.upper));
     if (hit.status == OVOID_IMPACT_HIT) fuzz_require(hit.upper < INFINITY && hit.lower >= 0);
 }
@@ -133,7 +133,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     ovoid_moving_shape b = {.shape = shapes[1], .motion = take_motion(&from, is_wild, times_b, poses_b)};
     if (take_byte(&from) > 64) b.part = take_any_pose(&from, is_wild);
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_code sound = ovoid_motion_compute_check(&a.motion, &error);
+    ovoid_code sound = ovoid_motion_validate(&a.motion, &error);
     if (sound != OVOID_OK) fuzz_require_error(&error);
     if (shapes[0] && shapes[1]) {
         double margin = fabs(take_number(&from, is_wild)) / 8;
@@ -142,7 +142,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
             options.begin = take_number(&from, is_wild), options.end = take_number(&from, is_wild);
         check_impact(&a, &b, margin, options);
         check_approach(&a, &b, options);
-        if (sound == OVOID_OK && ovoid_motion_compute_check(&b.motion, NULL) == OVOID_OK)
+        if (sound == OVOID_OK && ovoid_motion_validate(&b.motion, NULL) == OVOID_OK)
             check_casts(&a, &b, &from, is_wild);
         check_solids(&a, &b, margin, &options, take_any_pose(&from, is_wild));
     }

@@ -12,17 +12,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const void *text = scene_text;
     ovoid_scene *scene = ovoid_scene_read(fuzz_write_file("motion.json", text, sizeof scene_text - 1), NULL, &error);
     fuzz_require(scene != NULL);
-    ovoid_motion_reader *reader = ovoid_motion_reader_create(fuzz_write_file("motion.csv", data, size), scene, &error);
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(fuzz_write_file("motion.csv", data, size), scene, &error);
     ovoid_motion_line line;
     double time = -INFINITY;
     int got = reader ? 1 : -1;
     while (got == 1 && (got = ovoid_motion_reader_read(reader, &line, &error)) == 1) {
         fuzz_require(line.body < 2 && line.time >= time && isfinite(line.time));
-        fuzz_require(ovoid_pose_compute_check(&line.pose) == OVOID_OK);
+        fuzz_require(ovoid_pose_validate(&line.pose) == OVOID_OK);
         time = line.time;
     }
     if (got < 0) fuzz_require_error(&error);
-    ovoid_motion_reader_destroy(reader);
+    ovoid_motion_reader_close(reader);
     ovoid_scene_destroy(scene);
     return 0;
 }

@@ -52,11 +52,11 @@ static void check_claim(const ovoid_robot_proof *p, const ovoid_robot_proof_sour
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_robot_path_answer answer = p->answer;
     const ovoid_robot_path path = {p->states, p->count};
-    const ovoid_robot_path_options o = {.check = {.margin = source->margin, .limit_slack = source->limit_slack}};
+    const ovoid_robot_path_options o = {.query = {.margin = source->margin, .limit_slack = source->limit_slack}};
     if (source->variable_count != 1) return;
     if (p->has_pair && ovoid_robot_cell_get_pair(cell, p->pair, &answer.hit.a, &answer.hit.b, &error) != OVOID_OK)
         return;
-    if (ovoid_robot_path_check(cell, &path, &o, &answer, p->steps, &error) != OVOID_OK) {
+    if (ovoid_robot_path_verify(cell, &path, &o, &answer, p->steps, &error) != OVOID_OK) {
         fuzz_require_error(&error);
         return;
     }
@@ -68,24 +68,25 @@ static void check_claim(const ovoid_robot_proof *p, const ovoid_robot_proof_sour
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (!cell) make_cell();
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_robot_proofs *proofs = ovoid_robot_proofs_create(fuzz_write_file("proofs.jsonl", data, size), &error);
+    ovoid_robot_proofs_reader *proofs =
+        ovoid_robot_proofs_reader_open(fuzz_write_file("proofs.jsonl", data, size), &error);
     if (!proofs) {
         fuzz_require_error(&error);
         return 0;
     }
     ovoid_robot_proof p;
     int got;
-    while ((got = ovoid_robot_proofs_read(proofs, &p, &error)) > 0) {
-        const ovoid_robot_proof_source *source = ovoid_robot_proofs_get_source(proofs);
+    while ((got = ovoid_robot_proofs_reader_read(proofs, &p, &error)) > 0) {
+        const ovoid_robot_proof_source *source = ovoid_robot_proofs_reader_get_source(proofs);
         fuzz_require(source != NULL && source->robot != NULL && p.number < source->path_count && p.count > 0);
         for (size_t i = 0; i < 2 * source->pair_count; i++)
             fuzz_require(!source->pairs[i].link == (source->pairs[i].obstacle != NULL));
         for (size_t i = 0; i < p.count * source->variable_count; i++) fuzz_require(isfinite(p.states[i]));
         for (size_t i = 0; i < p.answer.step_count; i++) fuzz_require(p.steps[i].mask != 0 && p.steps[i].mask < 256);
-        fuzz_require(p.line > 0 && ovoid_robot_proofs_get_line(proofs) == p.line + (int64_t)p.answer.step_count);
+        fuzz_require(p.line > 0 && ovoid_robot_proofs_reader_get_line(proofs) == p.line + (int64_t)p.answer.step_count);
         check_claim(&p, source);
     }
     if (got < 0) fuzz_require_error(&error);
-    ovoid_robot_proofs_destroy(proofs);
+    ovoid_robot_proofs_reader_close(proofs);
     return 0;
 }

@@ -6,7 +6,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_results_reader *reader = ovoid_results_reader_create(fuzz_write_file("results.jsonl", data, size), &error);
+    ovoid_results_reader *reader = ovoid_results_reader_open(fuzz_write_file("results.jsonl", data, size), &error);
     if (!reader) {
         fuzz_require_error(&error);
         return 0;
@@ -20,13 +20,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int got;
     while ((got = ovoid_results_reader_read(reader, &record, &error)) == 1) {
         fuzz_require(ovoid_results_reader_get_line(reader) > 0);
-        (void)ovoid_answer_check(&pair, &record.answer, NULL, record.cover, &error);
+        (void)ovoid_answer_verify(&pair, &record.answer, NULL, record.cover, &error);
         fuzz_require(ovoid_record_write_json(nowhere, &record) == OVOID_OK);
         fuzz_require(ovoid_record_write_csv(nowhere, &record) == OVOID_OK);
     }
     if (got < 0) fuzz_require_error(&error);
     (void)fclose(nowhere);
     ovoid_shape_destroy(box);
-    ovoid_results_reader_destroy(reader);
+    ovoid_results_reader_close(reader);
     return 0;
 }

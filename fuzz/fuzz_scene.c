@@ -41,7 +41,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(object.name != NULL);
         check_object(scene, i);
         fuzz_require(ovoid_scene_find(scene, object.name) == i);
-        fuzz_require(ovoid_pose_compute_check(&object.pose) == OVOID_OK);
+        fuzz_require(ovoid_pose_validate(&object.pose) == OVOID_OK);
         fuzz_require(ovoid_scene_is_ignored(scene, 0, i) == ovoid_scene_is_ignored(scene, i, 0));
     }
     ovoid_scene_destroy(scene);

@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (a && b) {
         ovoid_pair pair = {a, b, take_any_pose(&from, is_wild), take_any_pose(&from, is_wild)};
         static ovoid_cover cover;
-        ovoid_smooth s = ovoid_smooth_compute(&pair, order);
+        ovoid_smooth s = ovoid_pair_compute_smooth(&pair, order);
         ovoid_answer x = ovoid_depth(&pair, NULL, NULL, &cover);
         ovoid_gradient g = ovoid_answer_compute_gradient(&pair, &x, &cover);
         fuzz_require(s.outer.value <= x.upper && x.lower <= s.inner.value);

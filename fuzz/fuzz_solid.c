@@ -17,7 +17,7 @@ static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answ
     judge_set_options(the_judge, &(ovoid_options){.absolute_tolerance = INFINITY});
     ovoid_error error = {OVOID_OK, -1, ""};
     if (pair->a.compound || pair->b.compound) return;
-    fuzz_require_code(judge_check_solid(the_judge, pair, x, all, 0, &error), &error);
+    fuzz_require_code(judge_verify_solid(the_judge, pair, x, all, 0, &error), &error);
     judge_forget(the_judge);
 }
 #else
@@ -65,7 +65,7 @@ typedef struct findings {
 static void check(findings *f, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {OVOID_OK, -1, ""};
     if (all->count <= all->capacity) {
-        fuzz_require_code(ovoid_solid_answer_check(f->pair, x, NULL, all, &error), &error);
+        fuzz_require_code(ovoid_solid_answer_verify(f->pair, x, NULL, all, &error), &error);
         put_before_judge(f->pair, x, all);
     }
     f->lower = fmax(f->lower, x->lower);
@@ -120,7 +120,7 @@ static void ask_impact(fuzz_bytes *from, const ovoid_body_pair *pair, double mar
     ovoid_error error = {OVOID_OK, -1, ""};
     fuzz_require(!(is->free_until > is->hit_at));
     if (is->step_count > STEPS || x.group_count > GROUPS) return;
-    fuzz_require_code(ovoid_solid_impact_check(&a, &b, margin, &x, NULL, steps, groups, &error), &error);
+    fuzz_require_code(ovoid_solid_impact_verify(&a, &b, margin, &x, NULL, steps, groups, &error), &error);
     if (is_wild || is->limit >= OVOID_LIMIT_POSE_A) return;
     double slack = 1e-6 * find_size(&a, &b, is->end);
     for (int i = 0; i < 4; i++) {

@@ -56,7 +56,7 @@ static void make_world(void) {
         k->answers[1] = ovoid_within(&k->pair, 0.5, NULL, NULL);
         k->answers[2] = ovoid_distance(&k->pair, NULL, NULL);
         k->answers[3] = ovoid_depth(&k->pair, NULL, NULL, &k->cover);
-        k->answers[4] = ovoid_bounds(&k->pair);
+        k->answers[4] = ovoid_pair_compute_bounds(&k->pair);
         fuzz_require(judge_compute_truth(the_judge, &k->pair, &k->truth, NULL) == OVOID_OK);
     }
 }
@@ -118,7 +118,7 @@ static int pass_through_file(ovoid_record *record, ovoid_results_reader **reader
     fuzz_require(file != NULL);
     fuzz_require(ovoid_record_write_json(file, record) == OVOID_OK && fclose(file) == 0);
     ovoid_error error = {OVOID_OK, -1, ""};
-    *reader = ovoid_results_reader_create(fuzz_write_file("results.jsonl", (const uint8_t *)text, size), &error);
+    *reader = ovoid_results_reader_open(fuzz_write_file("results.jsonl", (const uint8_t *)text, size), &error);
     free(text);
     fuzz_require(*reader != NULL);
     int got = ovoid_results_reader_read(*reader, record, &error);
@@ -130,10 +130,10 @@ static int pass_through_file(ovoid_record *record, ovoid_results_reader **reader
 static void check_claim(const known *k, const ovoid_record *record) {
     const ovoid_answer *x = &record->answer;
     ovoid_error error = {OVOID_OK, -1, ""};
-    int by_judge = judge_check_answer(the_judge, &k->pair, x, record->cover, &error) == OVOID_OK;
+    int by_judge = judge_verify_answer(the_judge, &k->pair, x, record->cover, &error) == OVOID_OK;
     if (!by_judge) fuzz_require_error(&error);
-    (void)judge_check_points(the_judge, &k->pair, x, &error);
-    int by_library = ovoid_answer_check(&k->pair, x, NULL, record->cover, &error) == OVOID_OK;
+    (void)judge_verify_points(the_judge, &k->pair, x, &error);
+    int by_library = ovoid_answer_verify(&k->pair, x, NULL, record->cover, &error) == OVOID_OK;
     if (!by_judge && !by_library) return;
     fuzz_require(x->lower <= k->truth.high && x->upper >= k->truth.low);
     if (x->status == OVOID_SEPARATED) fuzz_require(k->truth.sign > 0);
@@ -152,7 +152,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     while (from.size) change(&from, &record.answer, &cover);
     ovoid_results_reader *reader;
     if (pass_through_file(&record, &reader)) check_claim(k, &record);
-    ovoid_results_reader_destroy(reader);
+    ovoid_results_reader_close(reader);
     return 0;
 }
 

@@ -102,7 +102,7 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
     ovoid_exclusions exclusions = {items, 256, 0, &cover};
     ovoid_error error = {OVOID_OK, -1, ""};
     fuzz_require_code(ovoid_world_compute_proof(m->world, c, &exclusions, &whole, &error), &error);
-    fuzz_require_code(ovoid_compound_answer_check(&pair, &whole, NULL, &exclusions, &error), &error);
+    fuzz_require_code(ovoid_compound_answer_verify(&pair, &whole, NULL, &exclusions, &error), &error);
 }
 
 static void ask_frame(model *m, fuzz_bytes *from) {
@@ -191,7 +191,7 @@ static void check_casts(const model *m, fuzz_bytes *from, const ovoid_world_body
         for (int i = 0; i < m->count; i++) {
             if (!m->bodies[i].body.shape || !m->bodies[i].group || !m->bodies[i].mask) continue;
             ovoid_posed_shape body = {m->bodies[i].body.shape, m->bodies[i].body.pose};
-            ovoid_ray_hit alone = ovoid_ray_cast(&body, &ray.ray);
+            ovoid_ray_hit alone = ovoid_shape_cast_ray(&body, &ray.ray);
             if (alone.status == OVOID_IMPACT_HIT) fuzz_require(cast.lower <= alone.upper);
         }
     } else {

@@ -13,7 +13,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (size_t i = 0; o && i < ovoid_obstacles_get_count(o); i++) {
         ovoid_obstacle obstacle = ovoid_obstacles_get(o, i);
         fuzz_require(obstacle.name[0] != 0 && obstacle.shape != NULL);
-        fuzz_require(ovoid_pose_compute_check(&obstacle.pose) == OVOID_OK);
+        fuzz_require(ovoid_pose_validate(&obstacle.pose) == OVOID_OK);
     }
     ovoid_obstacles_destroy(o);
     error = (ovoid_error){OVOID_OK, -1, ""};

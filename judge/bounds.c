@@ -14,7 +14,7 @@ static double compute_ratio(pool *p, num a, num b) {
     return num_to_double(num_root_below(p, num_quotient_below(p, a, b, 120), 60));
 }
 
-ovoid_code judge_check_lower(const claim *c) {
+ovoid_code judge_verify_lower(const claim *c) {
     const posed *s = c->s;
     pool *p = s->p;
     if (!is_finite(c->proof->normal) || !is_finite(c->proof->normal_low))
@@ -45,7 +45,7 @@ weighted body_weighted_point(pool *p, const body *b, const uint32_t *v, const do
 }
 
 // |difference| / denominator <= core, in exact arithmetic.
-static ovoid_code check_distance(const claim *c, nvec difference, num denominator) {
+static ovoid_code verify_distance(const claim *c, nvec difference, num denominator) {
     pool *p = c->s->p;
     num square = nvec_norm_squared(p, difference), one = number_from_integer(p, 1);
     if (num_compare_roots(p, one, square, num_mul(p, c->core, denominator), one) > 0)
@@ -55,7 +55,7 @@ static ovoid_code check_distance(const claim *c, nvec difference, num denominato
     return OVOID_OK;
 }
 
-static ovoid_code check_points(const claim *c) {
+static ovoid_code verify_points(const claim *c) {
     const posed *s = c->s;
     const ovoid_proof *proof = c->proof;
     for (uint32_t i = 0; i < proof->count; i++)
@@ -68,12 +68,12 @@ static ovoid_code check_points(const claim *c) {
         return judge_reject(c->error, OVOID_ERROR_PROOF, "the weights are all zero");
     // k wa wb (B - A)
     nvec difference = posed_difference(s, nvec_scale(s->p, a.point, b.weight), nvec_scale(s->p, b.point, a.weight));
-    return check_distance(c, difference, num_mul(s->p, s->k, num_mul(s->p, a.weight, b.weight)));
+    return verify_distance(c, difference, num_mul(s->p, s->k, num_mul(s->p, a.weight, b.weight)));
 }
 
-static ovoid_code check_inner_points(const claim *c) {
+static ovoid_code verify_inner_points(const claim *c) {
     const posed *s = c->s;
-    return check_distance(c, posed_difference(s, inner_point_a(c), inner_point_b(c)), s->k);
+    return verify_distance(c, posed_difference(s, inner_point_a(c), inner_point_b(c)), s->k);
 }
 
 // The closed surface of four to six differences: a tetrahedron, or a double pyramid with tips 0 and 1.
@@ -112,7 +112,7 @@ static ovoid_code read_cover(const claim *c, const ovoid_cover *cover, shell *ou
 }
 
 // The surface winds around the origin, and none of it is nearer than the depth claimed.
-static ovoid_code check_shell(const claim *c, const shell *s) {
+static ovoid_code verify_shell(const claim *c, const shell *s) {
     pool *p = c->s->p;
     if (!shell_is_closed(s)) return judge_reject(c->error, OVOID_ERROR_PROOF, "the surface is not closed");
     if (!shell_is_winding(p, s))
@@ -127,29 +127,29 @@ static ovoid_code check_shell(const claim *c, const shell *s) {
     return OVOID_OK;
 }
 
-static ovoid_code check_hull(const claim *c) {
+static ovoid_code verify_hull(const claim *c) {
     if (c->proof->count < 4)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "%u differences hold nothing", c->proof->count);
     shell s = make_hull(c);
-    return check_shell(c, &s);
+    return verify_shell(c, &s);
 }
 
-static ovoid_code check_cover(const claim *c, const ovoid_cover *cover) {
+static ovoid_code verify_cover(const claim *c, const ovoid_cover *cover) {
     shell s;
     ovoid_code code = read_cover(c, cover, &s);
-    return code == OVOID_OK ? check_shell(c, &s) : code;
+    return code == OVOID_OK ? verify_shell(c, &s) : code;
 }
 
-ovoid_code judge_check_upper(const claim *c, const ovoid_cover *cover) {
+ovoid_code judge_verify_upper(const claim *c, const ovoid_cover *cover) {
     switch (c->proof->kind) {
-    case OVOID_PROOF_POINTS: return check_points(c);
-    case OVOID_PROOF_HULL: return check_hull(c);
-    case OVOID_PROOF_INNER: return judge_check_inner(c);
+    case OVOID_PROOF_POINTS: return verify_points(c);
+    case OVOID_PROOF_HULL: return verify_hull(c);
+    case OVOID_PROOF_INNER: return judge_verify_inner(c);
     case OVOID_PROOF_INNER_POINTS: {
-        ovoid_code code = judge_check_inner(c);
-        return code == OVOID_OK ? check_inner_points(c) : code;
+        ovoid_code code = judge_verify_inner(c);
+        return code == OVOID_OK ? verify_inner_points(c) : code;
     }
-    case OVOID_PROOF_COVER: return check_cover(c, cover);
+    case OVOID_PROOF_COVER: return verify_cover(c, cover);
     case OVOID_PROOF_NONE: break;
     }
     return judge_reject(c->error, OVOID_ERROR_PROOF, "an upper bound without a proof");

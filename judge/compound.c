@@ -103,7 +103,7 @@ static int is_bound(pool *p, const reach *a, const reach *b, nvec n, double lowe
     return num_compare_roots(p, claimed, nvec_norm_squared(p, n), gap, one) <= 0;
 }
 
-static ovoid_code check_bound(const table *t, size_t i) {
+static ovoid_code verify_bound(const table *t, size_t i) {
     const ovoid_exclusion *e = &t->items[i];
     pool *p = t->context->p;
     if (!(e->lower >= t->lower) || !isfinite(e->lower)) return reject_item(t, i, "is below the answer's lower bound");
@@ -117,7 +117,7 @@ static ovoid_code check_bound(const table *t, size_t i) {
     return is_bound(p, &a, &b, n, e->lower) ? OVOID_OK : reject_item(t, i, "is not shown by its normal");
 }
 
-static ovoid_code check_cover(const table *t) {
+static ovoid_code verify_cover(const table *t) {
     pair_table all = {t->a.count, t->b.count, t->place_a, t->place_b, t->items, t->count};
     uint32_t row, column;
     if (judge_is_covered(&all, &row, &column)) return OVOID_OK;
@@ -125,17 +125,17 @@ static ovoid_code check_cover(const table *t) {
                         get_index(&t->a, row), get_index(&t->b, column));
 }
 
-static ovoid_code check_exclusions(const table *t) {
+static ovoid_code verify_exclusions(const table *t) {
     if (t->lower == -INFINITY) return OVOID_OK;
     for (size_t i = 0; i < t->count; i++) {
         const ovoid_exclusion *e = &t->items[i];
         if (!(e->first_a < e->end_a && e->end_a <= t->a.count && e->first_b < e->end_b && e->end_b <= t->b.count))
             return reject_item(t, i, "names parts that there are not");
     }
-    ovoid_code code = check_cover(t);
+    ovoid_code code = verify_cover(t);
     for (size_t i = 0; i < t->count && code == OVOID_OK; i++) {
         size_t mark = pool_get_mark(t->context->p);
-        code = check_bound(t, i);
+        code = verify_bound(t, i);
         pool_release(t->context->p, mark);
     }
     return code;
@@ -168,16 +168,16 @@ static measure measure_body(const ovoid_body *of) {
 }
 
 // The bracket of "touching" is narrow beside the bodies, of which the deciding parts may be small ones.
-static ovoid_code check_touching(const judge *context, const ovoid_body_pair *pair, const ovoid_answer *x,
-                                 ovoid_error *error) {
+static ovoid_code verify_touching(const judge *context, const ovoid_body_pair *pair, const ovoid_answer *x,
+                                  ovoid_error *error) {
     ovoid_vec3 a = pair->a.pose.position, b = pair->b.pose.position;
     measure ma = measure_body(&pair->a), mb = measure_body(&pair->b);
     double size = ma.size + mb.size + compute_norm((ovoid_vec3){b.x - a.x, b.y - a.y, b.z - a.z});
-    return judge_check_touching(context, x, size, ma.reach + mb.reach, error);
+    return judge_verify_touching(context, x, size, ma.reach + mb.reach, error);
 }
 
-ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                const ovoid_exclusions *exclusions, ovoid_error *error) {
+ovoid_code judge_verify_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                 const ovoid_exclusions *exclusions, ovoid_error *error) {
     if (!context || !pair || !answer) return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
     table t = {.context = context, .lower = answer->answer.lower, .error = error};
     ovoid_code code = read_side(&pair->a, answer->part_a, &t.a, &t.place_a, error);
@@ -191,12 +191,12 @@ ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, con
     // A refusal claims nothing.
     if (own.status == OVOID_UNDECIDED && own.lower == -INFINITY && own.upper == INFINITY) return OVOID_OK;
     if (own.status == OVOID_TOUCHING && (pair->a.compound || pair->b.compound)) {
-        code = check_touching(context, pair, &own, error);
+        code = verify_touching(context, pair, &own, error);
         own.status = OVOID_UNDECIDED, own.limit = OVOID_LIMIT_PRECISION;
     }
     ovoid_posed_shape a = get_part(&pair->a, answer->part_a), b = get_part(&pair->b, answer->part_b);
     ovoid_pair parts = {a.shape, b.shape, a.pose, b.pose};
     if (code == OVOID_OK)
-        code = judge_check_answer(context, &parts, &own, exclusions ? exclusions->cover : NULL, error);
-    return code == OVOID_OK ? check_exclusions(&t) : code;
+        code = judge_verify_answer(context, &parts, &own, exclusions ? exclusions->cover : NULL, error);
+    return code == OVOID_OK ? verify_exclusions(&t) : code;
 }

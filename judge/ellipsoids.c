@@ -229,7 +229,7 @@ static int is_depth_proven(const claim *c, depth_in a, depth_in b) {
     return num_sign(num_add(p, num_mul(p, c->core, num_mul(p, a.whole, b.whole)), balls)) >= 0;
 }
 
-static ovoid_code check_common_point(const claim *c, const facts *a, const facts *b) {
+static ovoid_code verify_common_point(const claim *c, const facts *a, const facts *b) {
     const posed *s = c->s;
     pool *p = s->p;
     nvec local_a = nvec_from(p, c->proof->inner_a);
@@ -245,7 +245,7 @@ static ovoid_code check_common_point(const claim *c, const facts *a, const facts
     return OVOID_OK;
 }
 
-static ovoid_code check_two_points(const claim *c) {
+static ovoid_code verify_two_points(const claim *c) {
     const posed *s = c->s;
     pool *p = s->p;
     num one = number_from_integer(p, 1);
@@ -256,7 +256,7 @@ static ovoid_code check_two_points(const claim *c) {
     return OVOID_OK;
 }
 
-ovoid_code judge_check_inner(const claim *c) {
+ovoid_code judge_verify_inner(const claim *c) {
     int common = c->proof->kind == OVOID_PROOF_INNER;
     if (!is_finite(c->proof->inner_a) || (!common && !is_finite(c->proof->inner_b)))
         return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "a point of the proof is not finite");
@@ -268,5 +268,5 @@ ovoid_code judge_check_inner(const claim *c) {
     if (!a.is_inside || !b.is_inside)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "the inner ellipsoid of %s is not inside its polyhedron",
                             a.is_inside ? "B" : "A");
-    return common ? check_common_point(c, &a, &b) : check_two_points(c);
+    return common ? verify_common_point(c, &a, &b) : verify_two_points(c);
 }

@@ -40,7 +40,7 @@ void judge_set_options(judge *context, const ovoid_options *options) {
 
 // --- refusals
 
-static ovoid_code check_refusal(const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
+static ovoid_code verify_refusal(const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
     int valid_a = judge_is_pose_valid(&pair->pose_a), valid_b = judge_is_pose_valid(&pair->pose_b);
     if (answer->status != OVOID_UNDECIDED || answer->lower != -INFINITY || answer->upper != INFINITY)
         return judge_reject(error, OVOID_ERROR_PROOF, "a refused query with an answer");
@@ -57,7 +57,7 @@ static int is_refusal(const ovoid_answer *answer) {
 
 // --- what can be judged without the bodies
 
-static ovoid_code check_data(const ovoid_answer *answer, ovoid_error *error) {
+static ovoid_code verify_data(const ovoid_answer *answer, ovoid_error *error) {
     if (isnan(answer->lower) || isnan(answer->upper) || answer->lower == INFINITY || answer->upper == -INFINITY)
         return judge_reject(error, OVOID_ERROR_NOT_FINITE, "the bracket is not one of numbers");
     if (!is_finite(answer->point_a) || !is_finite(answer->point_b) || !is_finite(answer->normal))
@@ -67,8 +67,8 @@ static ovoid_code check_data(const ovoid_answer *answer, ovoid_error *error) {
     return OVOID_OK;
 }
 
-ovoid_code judge_check_touching(const judge *context, const ovoid_answer *answer, double size, double reach,
-                                ovoid_error *error) {
+ovoid_code judge_verify_touching(const judge *context, const ovoid_answer *answer, double size, double reach,
+                                 ovoid_error *error) {
     double width = answer->upper - answer->lower, unresolved = 0x1p-88 * reach + 16 * OVOID_LENGTH_MIN;
     if (!(answer->lower <= 0 && answer->upper >= 0))
         return judge_reject(error, OVOID_ERROR_PROOF, "touching is not what the bracket says");
@@ -76,19 +76,19 @@ ovoid_code judge_check_touching(const judge *context, const ovoid_answer *answer
     return judge_reject(error, OVOID_ERROR_PROOF, "touching within %.3g is wide for bodies of size %.3g", width, size);
 }
 
-static ovoid_code check_status(const judge *context, const posed *s, const ovoid_answer *answer, ovoid_error *error) {
+static ovoid_code verify_status(const judge *context, const posed *s, const ovoid_answer *answer, ovoid_error *error) {
     if ((answer->status == OVOID_SEPARATED) != (answer->lower > 0))
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what lower, %.17g, says", answer->lower);
     if ((answer->status == OVOID_OVERLAPPING) != (answer->upper < 0))
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what upper, %.17g, says", answer->upper);
     if (answer->status != OVOID_TOUCHING) return OVOID_OK;
     double size = s->size + num_to_double(s->outside) + 2 * num_to_double(s->inside);
-    return judge_check_touching(context, answer, size, s->a.reach + s->b.reach, error);
+    return judge_verify_touching(context, answer, size, s->a.reach + s->b.reach, error);
 }
 
 // The normal is unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is required where there is no
 // lower bound.
-static ovoid_code check_normal(pool *p, const ovoid_answer *answer, ovoid_error *error) {
+static ovoid_code verify_normal(pool *p, const ovoid_answer *answer, ovoid_error *error) {
     if (answer->lower == -INFINITY) return OVOID_OK;
     nvec n = nvec_from(p, answer->normal), direction = proof_direction(p, &answer->proof);
     num square = nvec_norm_squared(p, n), tolerance = number_from(p, 1e-12), one = number_from_integer(p, 1);
@@ -103,7 +103,7 @@ static ovoid_code check_normal(pool *p, const ovoid_answer *answer, ovoid_error 
     return OVOID_OK;
 }
 
-static ovoid_code check_indices(const posed *s, const ovoid_proof *proof, ovoid_error *error) {
+static ovoid_code verify_indices(const posed *s, const ovoid_proof *proof, ovoid_error *error) {
     if (proof->count > OVOID_PROOF_PAIRS)
         return judge_reject(error, OVOID_ERROR_INDEX, "%u pairs, more than a proof has", proof->count);
     for (uint32_t i = 0; i < proof->count; i++)
@@ -114,43 +114,43 @@ static ovoid_code check_indices(const posed *s, const ovoid_proof *proof, ovoid_
 
 // --- all of it
 
-static ovoid_code check_bounds(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
-                               ovoid_error *error) {
+static ovoid_code verify_bounds(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
+                                ovoid_error *error) {
     pool *p = s->p;
     claim c = {.context = context, .s = s, .proof = &answer->proof, .error = error};
     ovoid_code code = OVOID_OK;
     if (answer->lower != -INFINITY) {
         c.core = num_add(p, num_add(p, number_from(p, answer->lower), s->radii), s->outside);
-        code = judge_check_lower(&c);
+        code = judge_verify_lower(&c);
     }
     if (code == OVOID_OK && answer->upper != INFINITY) {
         c.core = num_sub(p, num_add(p, number_from(p, answer->upper), s->radii), s->inside);
-        code = judge_check_upper(&c, cover);
-        if (code == OVOID_OK) code = judge_check_witness(&c, answer);
+        code = judge_verify_upper(&c, cover);
+        if (code == OVOID_OK) code = judge_verify_witness(&c, answer);
     }
     return code;
 }
 
-ovoid_code judge_check_posed(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
-                             ovoid_error *error) {
-    ovoid_code code = check_data(answer, error);
-    if (code == OVOID_OK) code = check_indices(s, &answer->proof, error);
-    if (code == OVOID_OK) code = check_bounds(context, s, answer, cover, error);
-    if (code == OVOID_OK) code = check_status(context, s, answer, error);
-    if (code == OVOID_OK) code = check_normal(context->p, answer, error);
+ovoid_code judge_verify_posed(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
+                              ovoid_error *error) {
+    ovoid_code code = verify_data(answer, error);
+    if (code == OVOID_OK) code = verify_indices(s, &answer->proof, error);
+    if (code == OVOID_OK) code = verify_bounds(context, s, answer, cover, error);
+    if (code == OVOID_OK) code = verify_status(context, s, answer, error);
+    if (code == OVOID_OK) code = verify_normal(context->p, answer, error);
     return code;
 }
 
-ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
-                              const ovoid_cover *cover, ovoid_error *error) {
+ovoid_code judge_verify_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
+                               const ovoid_cover *cover, ovoid_error *error) {
     if (!context || !pair || !pair->shape_a || !pair->shape_b || !answer)
         return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
-    if (is_refusal(answer)) return check_refusal(pair, answer, error);
+    if (is_refusal(answer)) return verify_refusal(pair, answer, error);
     if (!judge_is_pose_valid(&pair->pose_a) || !judge_is_pose_valid(&pair->pose_b))
         return judge_reject(error, OVOID_ERROR_PROOF, "an answer for a pose that is none");
     size_t mark = pool_get_mark(context->p);
     posed s = posed_make(context->p, pair);
-    ovoid_code code = judge_check_posed(context, &s, answer, cover, error);
+    ovoid_code code = judge_verify_posed(context, &s, answer, cover, error);
     pool_release(context->p, mark);
     return code;
 }

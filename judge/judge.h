@@ -30,28 +30,28 @@ void judge_set_options(judge *context, const ovoid_options *options);
 /// OVOID_OK if everything the answer claims is proven: lower by proof.normal, upper by proof.kind, the status, the unit
 /// normal, and that the witness points lie on their bodies to rounding. Else OVOID_ERROR_PROOF (or INDEX, NOT_FINITE)
 /// with a sentence in *error (may be NULL). cover: that of ovoid_depth, or NULL.
-ovoid_code judge_check_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
-                              const ovoid_cover *cover, ovoid_error *error);
+ovoid_code judge_verify_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
+                               const ovoid_cover *cover, ovoid_error *error);
 
 /// OVOID_OK if everything is proven that the answer of a query of bodies (ovoid_compound_distance and its sisters)
-/// claims: the deciding pair's answer with the bodies' lower bound, as judge_check_answer judges it; that each
+/// claims: the deciding pair's answer with the bodies' lower bound, as judge_verify_answer judges it; that each
 /// exclusion's pairs of parts are no nearer than it says, and none of them is nearer than the lower bound; and that the
 /// exclusions and the deciding pair leave out no pair of parts. The relative tolerance of "touching" is of the bodies'
 /// size. Codes as above; place: the exclusion, or -1. exclusions: those of the query; NULL is enough for two shapes.
 /// Cost: the parts of all exclusions, some 15 us each. That the tree's order names each part once is checked too.
-ovoid_code judge_check_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                const ovoid_exclusions *exclusions, ovoid_error *error);
+ovoid_code judge_verify_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                 const ovoid_exclusions *exclusions, ovoid_error *error);
 
 /// The same for two bodies of which one at least is a solid: the deciding pair of triangles, each exclusion by all
 /// points of its triangles, that they leave out no pair of triangles, what is inside by exact winding numbers of all
-/// components, and a depth by all points along its direction. points: the deciding pair's as judge_check_points does.
+/// components, and a depth by all points along its direction. points: the deciding pair's as judge_verify_points does.
 /// Cost: the triangles of all exclusions, some microseconds each, and for each component all triangles of the other.
-ovoid_code judge_check_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                             const ovoid_exclusions *exclusions, int points, ovoid_error *error);
+ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                              const ovoid_exclusions *exclusions, int points, ovoid_error *error);
 
 /// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: that point_b - point_a =
 /// d normal, to what the bracket and the tolerance allow. OVOID_OK or OVOID_ERROR_PROOF.
-ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error);
+ovoid_code judge_verify_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error);
 
 /// The truth about a pair of few vertices, by brute force over all features, independent of any proof.
 typedef struct judge_truth {

@@ -45,24 +45,24 @@ typedef struct claim {
 nvec proof_direction(pool *p, const ovoid_proof *proof);
 
 /// The lower bound, by proof.normal and normal_low.
-ovoid_code judge_check_lower(const claim *c);
+ovoid_code judge_verify_lower(const claim *c);
 /// The upper bound, by proof.kind.
-ovoid_code judge_check_upper(const claim *c, const ovoid_cover *cover);
+ovoid_code judge_verify_upper(const claim *c, const ovoid_cover *cover);
 /// The upper bounds that rest on the inner ellipsoids.
-ovoid_code judge_check_inner(const claim *c);
+ovoid_code judge_verify_inner(const claim *c);
 
 /// The witness points lie on their bodies.
-ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer);
+ovoid_code judge_verify_witness(const claim *c, const ovoid_answer *answer);
 
 /// OVOID_OK if the bracket of "touching" holds zero and is no wider than the tolerance, for bodies of that size; reach:
 /// the sum of all positions and lengths, of which double-doubles resolve 2^-88.
-ovoid_code judge_check_touching(const judge *context, const ovoid_answer *answer, double size, double reach,
-                                ovoid_error *error);
+ovoid_code judge_verify_touching(const judge *context, const ovoid_answer *answer, double size, double reach,
+                                 ovoid_error *error);
 
-/// judge_check_answer of a pair that is made already, and no refusal; judge_check_points.
-ovoid_code judge_check_posed(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
-                             ovoid_error *error);
-ovoid_code judge_check_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error);
+/// judge_verify_answer of a pair that is made already, and no refusal; judge_verify_points.
+ovoid_code judge_verify_posed(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
+                              ovoid_error *error);
+ovoid_code judge_verify_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error);
 
 /// A table of all pairs of parts or triangles, rows and columns in the orders of both trees.
 typedef struct pair_table {

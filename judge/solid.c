@@ -87,25 +87,25 @@ static body make_leaf(pool *p, const side *s, uint32_t triangle, double room[9])
     return body_make_hull(p, &one, &s->of->pose);
 }
 
-static ovoid_code check_leaves(judge *context, const trial *t, int points) {
+static ovoid_code verify_leaves(judge *context, const trial *t, int points) {
     double room[2][9];
     posed s = posed_join(t->p, make_leaf(t->p, &t->a, t->x->triangle_a, room[0]),
                          make_leaf(t->p, &t->b, t->x->triangle_b, room[1]));
     ovoid_answer own = t->x->surfaces;
     // How narrow the bracket of touching must be is a question to the bodies, whose triangles may be small.
     if (own.status == OVOID_TOUCHING) own.status = OVOID_UNDECIDED, own.limit = OVOID_LIMIT_PRECISION;
-    ovoid_code code = judge_check_posed(context, &s, &own, NULL, t->error);
+    ovoid_code code = judge_verify_posed(context, &s, &own, NULL, t->error);
     if (code != OVOID_OK || !points || t->x->surfaces.status == OVOID_UNDECIDED) return code;
-    return judge_check_points_posed(&s, &t->x->surfaces, t->error);
+    return judge_verify_points_posed(&s, &t->x->surfaces, t->error);
 }
 
-static ovoid_code check_touching(const judge *context, const trial *t) {
+static ovoid_code verify_touching(const judge *context, const trial *t) {
     const ovoid_solid_answer *x = t->x;
     ovoid_vec3 a = t->a.of->pose.position, b = t->b.of->pose.position;
     double radii = num_to_double(num_add(t->p, t->a.posed.radius, t->b.posed.radius));
     double size = t->a.posed.extent + t->b.posed.extent + radii + hypot(hypot(b.x - a.x, b.y - a.y), b.z - a.z);
     const ovoid_answer bodies = {.lower = x->lower, .upper = x->upper};
-    return judge_check_touching(context, &bodies, size, t->a.posed.reach + t->b.posed.reach, t->error);
+    return judge_verify_touching(context, &bodies, size, t->a.posed.reach + t->b.posed.reach, t->error);
 }
 
 // --- directions
@@ -143,7 +143,7 @@ static int is_shown(const trial *t, const ovoid_exclusion *e) {
     return num_compare_roots(p, claimed, nvec_norm_squared(p, n), gap, one) <= 0;
 }
 
-static ovoid_code check_exclusions(const trial *t) {
+static ovoid_code verify_exclusions(const trial *t) {
     pair_table all = {t->a.count, t->b.count, t->a.place, t->b.place, t->items, t->count};
     uint32_t row, column;
     for (size_t i = 0; i < t->count; i++) {
@@ -411,7 +411,7 @@ static double measure_clearance(const trial *t, const side *s, const scaled *at)
     return (covers(t, s, at) ? distance : -distance) + radius;
 }
 
-static ovoid_code check_common_point(const trial *t) {
+static ovoid_code verify_common_point(const trial *t) {
     const ovoid_solid_answer *x = t->x;
     const char *why = "the common point does not show the overlap";
     if (!is_finite(x->common)) return reject(t, why);
@@ -425,7 +425,7 @@ static ovoid_code check_common_point(const trial *t) {
 
 // --- the bodies
 
-static ovoid_code check_apart(const trial *t) {
+static ovoid_code verify_apart(const trial *t) {
     const ovoid_solid_answer *x = t->x;
     if (!(x->lower > 0 && x->lower <= x->surfaces.lower && x->upper >= x->surfaces.upper) || x->inside)
         return reject(t, "the distance is not that of the surfaces");
@@ -434,13 +434,13 @@ static ovoid_code check_apart(const trial *t) {
     return OVOID_OK;
 }
 
-static ovoid_code check_overlap(const trial *t) {
+static ovoid_code verify_overlap(const trial *t) {
     const ovoid_solid_answer *x = t->x;
     if (!(x->upper < 0)) return reject(t, "an overlap whose bracket reaches 0");
     if (!x->inside)
         return x->surfaces.upper < 0 && x->upper >= x->surfaces.upper ? OVOID_OK
                                                                       : reject(t, "an overlap without a reason");
-    if (x->inside == OVOID_SOLID_COMMON_POINT) return check_common_point(t);
+    if (x->inside == OVOID_SOLID_COMMON_POINT) return verify_common_point(t);
     if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
         return reject(t, "an overlap without a reason");
     if (!(x->surfaces.lower > 0 && x->upper >= -x->surfaces.lower))
@@ -449,27 +449,27 @@ static ovoid_code check_overlap(const trial *t) {
     return has_inside(t, own, other, x->component) == 1 ? OVOID_OK : reject(t, "what is said to be inside is not");
 }
 
-static ovoid_code check_depth(const trial *t) {
+static ovoid_code verify_depth(const trial *t) {
     ovoid_exclusion all = {0, t->a.count, 0, t->b.count, t->x->parting, {0, 0, 0}, t->x->lower};
     if (t->x->lower == -INFINITY) return OVOID_OK;
     return is_shown(t, &all) ? OVOID_OK : reject(t, "the depth is not shown by its direction");
 }
 
-static ovoid_code check_bodies(const judge *context, const trial *t) {
+static ovoid_code verify_bodies(const judge *context, const trial *t) {
     const ovoid_solid_answer *x = t->x;
     if (!(x->lower <= x->upper)) return reject(t, "the bracket is empty");
-    if (x->status == OVOID_SEPARATED) return check_apart(t);
+    if (x->status == OVOID_SEPARATED) return verify_apart(t);
     ovoid_code code = OVOID_OK;
     if (x->status == OVOID_OVERLAPPING)
-        code = check_overlap(t);
+        code = verify_overlap(t);
     else if (x->inside || !(x->lower <= 0 && x->upper >= 0 && x->upper >= x->surfaces.upper))
         code = reject(t, "the status does not follow from the bracket");
-    if (code == OVOID_OK && x->status == OVOID_TOUCHING) code = check_touching(context, t);
-    return code == OVOID_OK ? check_depth(t) : code;
+    if (code == OVOID_OK && x->status == OVOID_TOUCHING) code = verify_touching(context, t);
+    return code == OVOID_OK ? verify_depth(t) : code;
 }
 
-ovoid_code judge_check_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                             const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
+ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                              const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
     if (!context || !pair || !answer) return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
     // A refusal claims nothing.
     if (answer->status == OVOID_UNDECIDED && answer->lower == -INFINITY && answer->upper == INFINITY) return OVOID_OK;
@@ -481,9 +481,9 @@ ovoid_code judge_check_solid(judge *context, const ovoid_body_pair *pair, const 
     if (exclusions) t.items = exclusions->items, t.count = exclusions->count;
     ovoid_code code = read_side(t.p, &pair->a, answer->triangle_a, &t.a, error);
     if (code == OVOID_OK) code = read_side(t.p, &pair->b, answer->triangle_b, &t.b, error);
-    if (code == OVOID_OK) code = check_leaves(context, &t, points);
-    if (code == OVOID_OK) code = check_exclusions(&t);
-    if (code == OVOID_OK) code = check_bodies(context, &t);
+    if (code == OVOID_OK) code = verify_leaves(context, &t, points);
+    if (code == OVOID_OK) code = verify_exclusions(&t);
+    if (code == OVOID_OK) code = verify_bodies(context, &t);
     free(t.a.corners);
     free(t.b.corners);
     pool_release(context->p, mark);

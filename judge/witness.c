@@ -96,7 +96,7 @@ static int is_witness(const claim *c, int of_b, nvec point, double tolerance) {
     return is_in_body(s->p, b, point, reach);
 }
 
-ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
+ovoid_code judge_verify_witness(const claim *c, const ovoid_answer *answer) {
     double tolerance = compute_tolerance(c->s);
     if (!is_witness(c, 0, nvec_from(c->s->p, answer->point_a), tolerance))
         return judge_reject(c->error, OVOID_ERROR_PROOF, "point_a is not on A, rounding (%.3g) included", tolerance);
@@ -111,7 +111,7 @@ ovoid_code judge_check_witness(const claim *c, const ovoid_answer *answer) {
 // |point_b - point_a - d n| for d in the bracket of the two hulls, which is the answer's without what the allowances
 // added to both ends: with w its width the points may differ from the nearest ones by what it leaves open, sqrt(w (w +
 // 2 |d|)) across and w along the normal, and by the query's tolerance.
-ovoid_code judge_check_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error) {
+ovoid_code judge_verify_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error) {
     if (!(isfinite(answer->lower) && isfinite(answer->upper)))
         return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
     if (!is_finite(answer->point_a) || !is_finite(answer->point_b) || !is_finite(answer->normal))
@@ -132,10 +132,10 @@ ovoid_code judge_check_points_posed(const posed *s, const ovoid_answer *answer, 
                         slack);
 }
 
-ovoid_code judge_check_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
+ovoid_code judge_verify_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error) {
     size_t mark = pool_get_mark(context->p);
     posed s = posed_make(context->p, pair);
-    ovoid_code code = judge_check_points_posed(&s, answer, error);
+    ovoid_code code = judge_verify_points_posed(&s, answer, error);
     pool_release(context->p, mark);
     return code;
 }

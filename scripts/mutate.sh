@@ -20,7 +20,7 @@ groups="allowance query prepared growth boxes exact hull shape ellipsoid simd en
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
-    query="test_query test_query_warm test_query_near test_simd_small_gjk test_judge_check test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
+    query="test_query test_query_warm test_query_near test_simd_small_gjk test_judge_verify test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
     query="$query test_query_batch test_judge_capacity test_game_hulls test_query_refine test_query_altered"
     case $1 in
     allowance) echo "test_allowance test_judge_allowance" ;;
@@ -38,7 +38,7 @@ tests_of() {
     solid_body) echo "test_solid_compound test_solid_impact test_solid_impact_altered test_world_solids test_io_scene" ;;
     solid) echo "test_solid_create test_hull_match test_solid_crossings test_solid test_solid_compound test_solid_flush test_judge_solid_altered test_judge_solid" ;;
     solid_files) echo "test_cli_altered_solids.sh test_cli.sh:solid:info" ;;
-    decompose) echo "test_decompose_cells test_decompose test_decompose_check" ;;
+    decompose) echo "test_decompose_cells test_decompose test_decompose_verify" ;;
     hostile) echo "test_io_json test_io_texts test_io_child" ;;
     hostile_cli) echo "test_cli_hostile.sh" ;;
     decompose_watch) echo "test_decompose_watch" ;;
@@ -48,7 +48,7 @@ tests_of() {
     paper) echo "test_paper test_area" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_octet test_simd_gjk8 test_query_batch" ;;
-    robot) echo "test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_check test_robot_matrix test_robot_path test_robot_path_altered test_robot_path_bounds test_robot_clearance test_robot_motion" ;;
+    robot) echo "test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_collide test_robot_matrix test_robot_path test_robot_path_altered test_robot_path_bounds test_robot_clearance test_robot_motion" ;;
     io) echo "test_io_numbers test_io_json test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_place test_robot_known" ;;
     robot_solid) echo "test_robot_solid test_robot_urdf test_robot_scenes test_cli.sh:robot_solid" ;;

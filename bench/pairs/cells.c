@@ -119,7 +119,7 @@ void cells_print_faults(const cells *all) {
         open += all->items[i].open;
         pairs += all->items[i].pairs;
     }
-    printf("\nOf %u answers of ovoid %u failed ovoid_answer_check or left the question open; %u references are wider "
+    printf("\nOf %u answers of ovoid %u failed ovoid_answer_verify or left the question open; %u references are wider "
            "than 1e-7 of the size.\n",
            pairs, unproven, open);
     printf("Wrong answers: none given; sign; off by 1e-4 (depth 1e-3) of itself; off by 1e-6; points or normal\n");

@@ -14,7 +14,7 @@ extern const peer ours_in_batches;
 /// ovoid's answer to the pair.
 ovoid_answer ours_get_answer(const ovoid_pair *pair, question what, double margin, const ovoid_proof *earlier);
 
-/// Asks once more, untimed, and puts every answer before ovoid_answer_check: the number that failed it or left the
+/// Asks once more, untimed, and puts every answer before ovoid_answer_verify: the number that failed it or left the
 /// question open.
 uint32_t ours_count_unproven(const workload *work, question what);
 

@@ -77,7 +77,7 @@ void robots_scene_destroy(robots_scene *s, machine *m);
 /// A state, uniform within the limits.
 void machine_draw(const machine *m, uint64_t *random, double *q);
 
-/// What is true of a state: all pairs, tried one by one, their proofs checked by ovoid_answer_check.
+/// What is true of a state: all pairs, tried one by one, their proofs checked by ovoid_answer_verify.
 typedef struct state_truth {
     int is_hit, is_free; ///< neither: it is within rounding or an allowance of touching
     double depth;        ///< the deepest overlap that is proven

@@ -37,7 +37,8 @@ static int draw_edge(robots_run *run, robots_scene *s, edge *e, double length) {
             double by = random_uniform(&s->random, -0.5, 0.5) * length * (m->high[k] - m->low[k]);
             e->q[width + k] = fmin(fmax(e->q[k] + by, m->low[k]), m->high[k]);
         }
-        if (ovoid_robot_check(s->checker, e->q, NULL, &is, NULL) != OVOID_OK || is.status != OVOID_ROBOT_FREE) continue;
+        if (ovoid_robot_collide(s->checker, e->q, NULL, &is, NULL) != OVOID_OK || is.status != OVOID_ROBOT_FREE)
+            continue;
         e->samples = robots_count_samples(m, e->q, e->q + width);
         return 1;
     }
@@ -50,12 +51,12 @@ static double ask(robots_scene *s, const edge *e, int any_hit, ovoid_robot_path_
     ovoid_robot_path path = {e->q, 2};
     ovoid_robot_path_options options = {.any_hit = any_hit};
     double start = get_own_seconds();
-    ovoid_code code = ovoid_robot_check_path(s->checker, &path, &options, is, NULL);
+    ovoid_code code = ovoid_robot_path_find_hit(s->checker, &path, &options, is, NULL);
     return code == OVOID_OK ? (get_own_seconds() - start) * 1e6 : -1;
 }
 
 /// Both questions in turn: the first of the two is timed, as it finds nothing remembered of the edge. The steps are
-/// written by one more search, and ovoid_robot_path_check measures them again.
+/// written by one more search, and ovoid_robot_path_verify measures them again.
 static void prove(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
     enum { STEPS = 1 << 16 };
     static ovoid_robot_step steps[STEPS];
@@ -77,9 +78,9 @@ static void prove(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
     ovoid_robot_path path = {e->q, 2};
     ovoid_robot_path_options options = {.steps = steps, .capacity = STEPS};
     ovoid_robot_path_answer again;
-    ovoid_code code = ovoid_robot_check_path(s->checker, &path, &options, &again, NULL);
+    ovoid_code code = ovoid_robot_path_find_hit(s->checker, &path, &options, &again, NULL);
     if (code == OVOID_OK && again.step_count <= STEPS)
-        code = ovoid_robot_path_check(s->cell, &path, &options, &again, steps, NULL);
+        code = ovoid_robot_path_verify(s->cell, &path, &options, &again, steps, NULL);
     run->judged++;
     run->wrong += code != OVOID_OK || again.status != e->is.status || any.status != e->is.status;
 }
@@ -137,13 +138,13 @@ static void time_along(robots_run *run, robots_scene *s, const edge *e) {
         for (uint32_t i = 0; i < e->samples; i++) place_sample(m, e, i, all + (size_t)i * m->variable_count);
         double start = get_own_seconds();
         for (uint32_t i = 0; i < e->samples; i++) {
-            (void)ovoid_robot_check(s->checker, all + (size_t)i * m->variable_count, NULL, &answers[i], NULL);
+            (void)ovoid_robot_collide(s->checker, all + (size_t)i * m->variable_count, NULL, &answers[i], NULL);
             hits += answers[i].status == OVOID_ROBOT_HIT;
         }
         tally_add(tallies_get(&run->along, "ovoid"), (get_own_seconds() - start) / e->samples * 1e9);
         ovoid_robot_batch batch = {all, e->samples, NULL, answers};
         start = get_own_seconds();
-        (void)ovoid_robot_check_batch(&s->checker, 1, &batch, NULL);
+        (void)ovoid_robot_collide_batch(&s->checker, 1, &batch, NULL);
         tally_add(tallies_get(&run->along, "ovoid, batch"), (get_own_seconds() - start) / e->samples * 1e9);
         for (uint32_t i = 0; i < e->samples; i++) hits += answers[i].status == OVOID_ROBOT_HIT;
     }
@@ -159,7 +160,7 @@ void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t 
     edge e = {.q = q};
     // The first search makes the checker's memory for paths.
     if (q && links && draw_edge(run, s, &e, 0.1))
-        (void)ovoid_robot_check_path(s->checker, &(ovoid_robot_path){q, 2}, NULL, &e.is, NULL);
+        (void)ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path){q, 2}, NULL, &e.is, NULL);
     for (uint32_t i = 0; q && links && i < 3 * run->plan->edges; i++) {
         uint32_t length = i % 3;
         if (!draw_edge(run, s, &e, lengths[length])) break;

@@ -1,5 +1,5 @@
 // What is true of a robot's state, and what was wrong in the answers. The truth is found pair by pair, without a tree,
-// a box or a proof of an earlier state; each pair's proof is put before ovoid_answer_check.
+// a box or a proof of an earlier state; each pair's proof is put before ovoid_answer_verify.
 #include "robots/robots.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ static void judge_pair(const judged *a, const judged *b, state_truth *right) {
     }
     ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
     ovoid_answer is = ovoid_depth(&pair, NULL, NULL, &cover);
-    if (ovoid_answer_check(&pair, &is, NULL, &cover, NULL) != OVOID_OK) {
+    if (ovoid_answer_verify(&pair, &is, NULL, &cover, NULL) != OVOID_OK) {
         right->is_free = 0;
         return;
     }

@@ -18,7 +18,7 @@ typedef struct states {
 
 static int is_hit(robots_scene *s, const double *q) {
     ovoid_robot_answer is;
-    return ovoid_robot_check(s->checker, q, NULL, &is, NULL) != OVOID_OK || is.status != OVOID_ROBOT_FREE;
+    return ovoid_robot_collide(s->checker, q, NULL, &is, NULL) != OVOID_OK || is.status != OVOID_ROBOT_FREE;
 }
 
 /// Draws until there are enough of both kinds, or the tries are over.
@@ -65,7 +65,7 @@ static void time_batch(robots_run *run, robots_scene *s, const states *all, int 
     if (!answers) return;
     ovoid_robot_batch batch = {all->q, all->count, NULL, answers};
     double start = get_own_seconds();
-    ovoid_code code = ovoid_robot_check_batch(&s->checker, 1, &batch, NULL);
+    ovoid_code code = ovoid_robot_collide_batch(&s->checker, 1, &batch, NULL);
     tally_add(tallies_get(to, "ovoid, batch"), (get_own_seconds() - start) / all->count * 1e9);
     for (uint32_t i = 0; i < all->count; i++)
         run->wrong += code != OVOID_OK || (answers[i].status != OVOID_ROBOT_FREE) != hit;
@@ -117,7 +117,7 @@ void robots_run_states(robots_run *run, robots_scene *s, rival *rivals, uint32_t
 /// Every pair within the margin, with its gradient.
 static double time_monitor(const robots_scene *s, ovoid_robot_checker *checker, const double *q,
                            ovoid_robot_nears *nears) {
-    ovoid_robot_check_options options = {.margin = s->what.margin};
+    ovoid_robot_query_options options = {.margin = s->what.margin};
     double start = get_own_seconds();
     (void)ovoid_robot_find_near(checker, q, &options, nears, NULL);
     return (get_own_seconds() - start) * 1e6;

@@ -158,7 +158,7 @@ static int set_pose(const cli_command *command, const cli_option *o, const char 
             "a quaternion w x y z; \"0 0 1.5 rpy 0 0 0.5\" or \"0 0 1.5 deg 0 0 30\", with roll, pitch "
             "and yaw; got \"%s\"",
             command->name, o->name, text);
-    ovoid_code code = ovoid_pose_compute_check(pose);
+    ovoid_code code = ovoid_pose_validate(pose);
     if (code == OVOID_OK) return -1;
     char why[80] = "NaN or infinity";
     if (code == OVOID_ERROR_ROTATION)

@@ -23,7 +23,7 @@ int frames_open(cli_frames *f, const char *path, const ovoid_scene *scene) {
     ovoid_error error;
     size_t count = ovoid_scene_get_count(scene);
     *f = (cli_frames){.scene = scene, .path = path};
-    f->reader = ovoid_motion_reader_create(path, scene, &error);
+    f->reader = ovoid_motion_reader_open(path, scene, &error);
     if (!f->reader) return message_error("%s", error.message), EXIT_INPUT;
     int has_speed = ovoid_motion_reader_get_columns(f->reader) == OVOID_MOTION_COLUMNS_VELOCITY;
     f->poses = make_array(count, sizeof *f->poses);
@@ -45,7 +45,7 @@ int frames_open(cli_frames *f, const char *path, const ovoid_scene *scene) {
 }
 
 void frames_close(cli_frames *f) {
-    ovoid_motion_reader_destroy(f->reader);
+    ovoid_motion_reader_close(f->reader);
     free(f->poses);
     free(f->starts);
     free(f->speed);
@@ -77,13 +77,13 @@ ovoid_motion frames_get_motion(const cli_frames *f, size_t object) {
 /// 1 if the object's motion to this frame is valid, or 0 after a message.
 static int check_motion(const cli_frames *f, size_t object, const ovoid_motion *motion) {
     ovoid_error error;
-    if (ovoid_motion_compute_check(motion, &error) == OVOID_OK) return 1;
+    if (ovoid_motion_validate(motion, &error) == OVOID_OK) return 1;
     message_error("%s: object \"%.60s\" from time %.9g to %.9g: %s", f->path, ovoid_scene_get(f->scene, object).name,
                   f->earlier, f->time, error.message);
     return 0;
 }
 
-int frames_check_motions(const cli_frames *f) {
+int frames_validate_motions(const cli_frames *f) {
     for (size_t i = 0; i < f->moved_count; i++) {
         const ovoid_motion motion = frames_get_motion(f, f->moved[i]);
         if (!check_motion(f, f->moved[i], &motion)) return EXIT_INPUT;

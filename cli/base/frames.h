@@ -34,7 +34,7 @@ ovoid_motion frames_get_motion(const cli_frames *frames, size_t object);
 
 /// Refuses motions from the frame before to this one that nothing can be asked about, as over more than 1e100 of time.
 /// 0, or EXIT_INPUT after a message.
-int frames_check_motions(const cli_frames *frames);
+int frames_validate_motions(const cli_frames *frames);
 
 void frames_close(cli_frames *frames);
 

@@ -22,7 +22,7 @@ static int check(const char *path, const decomposed *d, const ovoid_decompositio
         return EXIT_NOT_PROVEN;
     }
     progress_start("cells", 0);
-    ovoid_code code = ovoid_decomposition_check(&d->view, &record->proof, &options, &error);
+    ovoid_code code = ovoid_decomposition_verify(&d->view, &record->proof, &options, &error);
     progress_end();
     if (code) message_error("%s: %s", path, error.message);
     if (code == OVOID_ERROR_ARGUMENT || code == OVOID_ERROR_LIMIT) return EXIT_NOT_PROVEN;

@@ -135,13 +135,13 @@ typedef void (*writer)(FILE *file, const decomposed *d);
 
 static int write_file(const char *path, const decomposed *d, writer write) {
     ovoid_error error;
-    ovoid_output *output = ovoid_output_create(path, &error);
+    ovoid_output *output = ovoid_output_open(path, &error);
     if (!output) return message_error("%s", error.message), EXIT_INPUT;
     finish_set_unfinished(ovoid_output_get_temporary(output));
     write(ovoid_output_get_file(output), d);
     int code = finish_output(output);
     finish_set_unfinished(NULL);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     return code;
 }
 
@@ -168,7 +168,7 @@ int decomposed_write_proof(const char *path, const decomposed *d) {
     double step = 1e-3 * (d->found.uncovered.upper + d->found.excess.upper);
     ovoid_code code = OVOID_ERROR_LIMIT;
     for (int round = 0; round < ROUNDS && code == OVOID_ERROR_LIMIT; round++, step *= 2) {
-        code = ovoid_decomposition_check(&d->view, &checked.found, &options, &error);
+        code = ovoid_decomposition_verify(&d->view, &checked.found, &options, &error);
         if (code != OVOID_ERROR_LIMIT) break;
         // A search may end below what it aims at, by luck; the check would need more cells.
         int is_excess = strncmp(error.message, "excess", 6) == 0;

@@ -109,7 +109,7 @@ int page_begin(cli_page *page, const page_head *head) {
     char *command = make_command();
     if (!command) return message_error("out of memory"), EXIT_INPUT;
     finish_hold_signals();
-    page->output = ovoid_output_create(page->path, &error);
+    page->output = ovoid_output_open(page->path, &error);
     if (page->output) finish_set_unfinished(ovoid_output_get_temporary(page->output));
     finish_release_signals();
     if (page->output) {
@@ -176,7 +176,7 @@ int page_end(cli_page *page, int code) {
 
 void page_close(cli_page *page) {
     if (page->output) {
-        ovoid_output_destroy(page->output);
+        ovoid_output_close(page->output);
         finish_set_unfinished(NULL);
     }
     page_template_clear(&page->template);

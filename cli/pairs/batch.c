@@ -260,13 +260,13 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!shapes) return EXIT_INPUT;
     if ((code = check_meshes(&s, shapes)) >= 0) return ovoid_shapes_destroy(shapes), code;
     b.shapes = shapes;
-    b.reader = ovoid_pairs_reader_create(s.pairs, ovoid_shapes_get_count(shapes), &b.error);
+    b.reader = ovoid_pairs_reader_open(s.pairs, ovoid_shapes_get_count(shapes), &b.error);
     shard_job job = {command, &s, &none, s.part, .seen = shard_digest_make(), .units = "pairs"};
     if (b.reader)
         code = run_pairs(&b, &job);
     else
         message_error("%s", b.error.message), code = EXIT_INPUT;
-    ovoid_pairs_reader_destroy(b.reader);
+    ovoid_pairs_reader_close(b.reader);
     ovoid_shapes_destroy(shapes);
     return code;
 }

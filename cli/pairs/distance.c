@@ -155,7 +155,7 @@ static int check_record(const ovoid_body_pair *pair, const ovoid_record *record,
                                     .part_b = pair->b.compound ? record->part_b : 0};
     ovoid_exclusions exclusions = {(ovoid_exclusion *)record->exclusions, record->exclusion_count,
                                    record->exclusion_count, (ovoid_cover *)record->cover};
-    if (ovoid_compound_answer_check(pair, &answer, &asked, &exclusions, &error) == OVOID_OK) return 1;
+    if (ovoid_compound_answer_verify(pair, &answer, &asked, &exclusions, &error) == OVOID_OK) return 1;
     message_error("the proof does not hold: %s", error.message);
     return 0;
 }

@@ -344,7 +344,7 @@ static int find_impacts(cli_impacts *x) {
 }
 
 int impacts_find(cli_impacts *x) {
-    int code = frames_check_motions(x->frames);
+    int code = frames_validate_motions(x->frames);
     if (!code) code = find_couples(x);
     if (!code && x->couple_count) code = find_impacts(x);
     x->held_count = x->open_count = 0;

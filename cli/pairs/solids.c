@@ -103,7 +103,7 @@ static int find_answer(const solids_pair *p, const solids_query *q, solids_resul
         r->answer = ovoid_solid_distance(&p->pair, &options, NULL, &r->exclusions);
         if (r->exclusions.count <= room) break;
     }
-    r->holds = ovoid_solid_answer_check(&p->pair, &r->answer, &options, &r->exclusions, &error) == OVOID_OK;
+    r->holds = ovoid_solid_answer_verify(&p->pair, &r->answer, &options, &r->exclusions, &error) == OVOID_OK;
     if (!r->holds) message_error("the proof does not hold: %s", error.message);
     return 1;
 }

@@ -262,13 +262,13 @@ static int compare_pairs(const void *a, const void *b) {
 static int write_chart(const ovoid_chart *chart, const char *path) {
     ovoid_error error;
     finish_hold_signals();
-    ovoid_output *output = ovoid_output_create(path, &error);
+    ovoid_output *output = ovoid_output_open(path, &error);
     int failed = !output;
     if (output) {
         (void)ovoid_chart_write_svg(ovoid_output_get_file(output), chart); // ovoid_output_commit checks the stream
         failed = ovoid_output_commit(output, &error) != OVOID_OK;
     }
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     finish_release_signals();
     if (failed) finish_report_failure(&error);
     return failed ? EXIT_INPUT : 0;

@@ -120,7 +120,7 @@ static void run_tests(const paper_model *a, const paper_model *b, const ovoid_pa
     found[BY_INNER] = is_ellipsoid_overlap(p, 1);
     for (int i = 0; i < THRESHOLDS; i++)
         found[BY_CRITERION + i] = ovoid_paper_compute_bounds(p, areas, OVOID_RULE_RAY, thresholds[i] * size).collides;
-    ovoid_answer bracket = ovoid_bounds(p), exact = ovoid_collide(p, NULL, NULL);
+    ovoid_answer bracket = ovoid_pair_compute_bounds(p), exact = ovoid_collide(p, NULL, NULL);
     found[BY_BRACKET] = bracket.lower > 0 ? 0 : bracket.upper < 0 ? 1 : -1;
     found[BY_LIBRARY] = exact.status == OVOID_SEPARATED ? 0 : exact.status == OVOID_OVERLAPPING ? 1 : -1;
 }

@@ -35,7 +35,7 @@ static int set_gap(ovoid_pair *p, double gap) {
 /// Distance less lower bound, upper bound less distance, in sums of the radii.
 static void measure(const paper_model *a, const paper_model *b, const ovoid_pair *p, double open[BOUNDS]) {
     double size = experiment_get_radius(a) + experiment_get_radius(b);
-    ovoid_answer exact = ovoid_distance(p, NULL, NULL), bounds = ovoid_bounds(p),
+    ovoid_answer exact = ovoid_distance(p, NULL, NULL), bounds = ovoid_pair_compute_bounds(p),
                  collide = ovoid_collide(p, NULL, NULL);
     const ovoid_areas *areas[2] = {a->areas, b->areas};
     ovoid_paper_bounds exits = ovoid_paper_compute_bounds(p, areas, OVOID_RULE_RAY, INFINITY);

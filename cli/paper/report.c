@@ -177,7 +177,7 @@ static void write_file(report *r, const char *name, const char *extension, const
         return;
     }
     ovoid_error error = {0};
-    ovoid_output *output = ovoid_output_create(path, &error);
+    ovoid_output *output = ovoid_output_open(path, &error);
     finish_set_unfinished(output ? ovoid_output_get_temporary(output) : NULL);
     if (output) fwrite(text, 1, size, ovoid_output_get_file(output));
     if ((!output || ovoid_output_commit(output, &error)) && !r->code) {
@@ -185,7 +185,7 @@ static void write_file(report *r, const char *name, const char *extension, const
         r->error = error;
     }
     finish_set_unfinished(NULL);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     free(path);
 }
 

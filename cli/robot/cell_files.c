@@ -102,8 +102,8 @@ void cell_close(cli_cell *cell) {
     *cell = (cli_cell){.cell = NULL};
 }
 
-ovoid_robot_check_options cell_make_options(const cell_settings *settings) {
-    return (ovoid_robot_check_options){.margin = settings->margin, .limit_slack = settings->slack};
+ovoid_robot_query_options cell_make_options(const cell_settings *settings) {
+    return (ovoid_robot_query_options){.margin = settings->margin, .limit_slack = settings->slack};
 }
 
 // ---- names

@@ -73,7 +73,7 @@ int cell_set_paddings(const cli_command *command, const cli_cell *cell, ovoid_ro
                       const args_list *given);
 
 /// The options of a check by the settings.
-ovoid_robot_check_options cell_make_options(const cell_settings *settings);
+ovoid_robot_query_options cell_make_options(const cell_settings *settings);
 
 /// One side of a pair by its names.
 typedef struct cell_side {

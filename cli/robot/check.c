@@ -1,6 +1,6 @@
 // ovoid robot check: which states of a robot are free, and what they hit or are near. States go through a pipeline in
-// blocks of OVOID_ROBOT_BLOCK, each of which begins with nothing remembered, as ovoid_robot_check_batch has it; so the
-// answers are the same bytes for any number of threads.
+// blocks of OVOID_ROBOT_BLOCK, each of which begins with nothing remembered, as ovoid_robot_collide_batch has it; so
+// the answers are the same bytes for any number of threads.
 #include "robot/commands.h"
 
 #include "base/message.h"
@@ -58,7 +58,7 @@ typedef struct near_list {
 typedef struct check {
     const settings *settings;
     report_form form;
-    ovoid_robot_check_options options, near_options;
+    ovoid_robot_query_options options, near_options;
     size_t next, listed;
     cli_results results;
     tally tally;
@@ -168,7 +168,7 @@ static void work(void *context, void *slot) {
     k->failed = !k->checker;
     if (k->failed) return;
     const ovoid_robot_batch batch = {states_get(c->form.states, k->first), k->count, &c->options, k->answers};
-    k->failed = ovoid_robot_check_batch(&k->checker, 1, &batch, &k->error) != OVOID_OK;
+    k->failed = ovoid_robot_collide_batch(&k->checker, 1, &batch, &k->error) != OVOID_OK;
     // The near pairs begin with the proofs of the batch, which begins with none.
     k->near.count = 0;
     memset(k->counts, 0, sizeof k->counts);

@@ -210,7 +210,7 @@ static int write_answers(robot_page *p, const robot_page_source *s) {
     page_copy_json(file, p->text, p->size);
     fputs("]", file);
     if (!s->checker) return 0;
-    const ovoid_robot_check_options options = cell_make_options(s->settings);
+    const ovoid_robot_query_options options = cell_make_options(s->settings);
     int code = s->has_clearance ? page_write_clearance(file, s->cell, s->states, s->checker, &options) : 0;
     fputc('}', file);
     return code;

@@ -28,7 +28,7 @@ static void write_sample(FILE *file, const cli_cell *cell, double s, const ovoid
 }
 
 static int write_samples(FILE *file, const cli_cell *cell, const cli_states *states, ovoid_robot_checker *checker,
-                         const ovoid_robot_check_options *options) {
+                         const ovoid_robot_query_options *options) {
     ovoid_error error;
     ovoid_robot_near near;
     ovoid_robot_nears nears = {.items = &near, .capacity = 1};
@@ -56,8 +56,8 @@ static int write_samples(FILE *file, const cli_cell *cell, const cli_states *sta
 }
 
 int page_write_clearance(FILE *file, const cli_cell *cell, const cli_states *states, ovoid_robot_checker *checker,
-                         const ovoid_robot_check_options *options) {
-    ovoid_robot_check_options all = *options;
+                         const ovoid_robot_query_options *options) {
+    ovoid_robot_query_options all = *options;
     all.margin = all.limit_slack = INFINITY; // all distances, of all states that there are
     char *text = NULL;
     size_t size = 0;

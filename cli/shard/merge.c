@@ -181,7 +181,7 @@ static shard_tally add_tallies(const merge *m) {
 static int write_output(merge *m, const char *path) {
     ovoid_error error;
     finish_hold_signals();
-    ovoid_output *output = ovoid_output_create(path ? path : "-", &error);
+    ovoid_output *output = ovoid_output_open(path ? path : "-", &error);
     if (output) finish_set_unfinished(ovoid_output_get_temporary(output));
     finish_release_signals();
     if (!output) return message_error("%s", error.message), EXIT_INPUT;
@@ -193,7 +193,7 @@ static int write_output(merge *m, const char *path) {
         if (failed) code = failed;
     } else if (!path)
         (void)finish_file(m->file);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     finish_set_unfinished(NULL);
     if (code) return code;
     shard_tally all = add_tallies(m);

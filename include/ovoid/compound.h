@@ -136,15 +136,15 @@ OVOID_API ovoid_compound_answer ovoid_compound_depth(const ovoid_body_pair *pair
                                                      const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions);
 
 /**
- * Checks an answer without any search: the deciding pair as ovoid_answer_check does, each exclusion by the supports of
+ * Checks an answer without any search: the deciding pair as ovoid_answer_verify does, each exclusion by the supports of
  * all its parts along its normal, and that with the deciding pair they leave out no pair of parts. OVOID_OK, or PROOF
  * with a sentence in *error (may be NULL; place: the exclusion). options: those of the query, or NULL; their relative
  * tolerance is of the bodies' size. exclusions: those of the query; NULL is enough for two shapes. Cost: the parts of
  * all exclusions.
  */
-OVOID_API ovoid_code ovoid_compound_answer_check(const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                                 const ovoid_options *options, const ovoid_exclusions *exclusions,
-                                                 ovoid_error *error);
+OVOID_API ovoid_code ovoid_compound_answer_verify(const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                                  const ovoid_options *options, const ovoid_exclusions *exclusions,
+                                                  ovoid_error *error);
 
 #ifdef __cplusplus
 }

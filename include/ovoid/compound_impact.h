@@ -45,15 +45,15 @@ OVOID_API ovoid_compound_impact ovoid_compound_impact_find(const ovoid_moving_bo
 /**
  * Checks an impact of compounds without a search: that the groups leave out no pair of parts, that the steps of each
  * reach free_until with a gap above the margin, that the deciding parts are within the margin at hit_at, and that times
- * and status follow as in ovoid_impact_check. Not checked beside what that function leaves: `free`, visited, tested.
+ * and status follow as in ovoid_impact_verify. Not checked beside what that function leaves: `free`, visited, tested.
  * options: those of the query, or NULL as there. steps, groups: all that the query wrote (options.groups). OVOID_OK, or
  * PROOF with a sentence in *error (may be NULL); place: the group. Cost: the steps, and the square of the number of
  * groups.
  */
-OVOID_API ovoid_code ovoid_compound_impact_check(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                                 const ovoid_compound_impact *impact,
-                                                 const ovoid_motion_options *options, const ovoid_step *steps,
-                                                 const ovoid_step_group *groups, ovoid_error *error);
+OVOID_API ovoid_code ovoid_compound_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
+                                                  const ovoid_compound_impact *impact,
+                                                  const ovoid_motion_options *options, const ovoid_step *steps,
+                                                  const ovoid_step_group *groups, ovoid_error *error);
 
 /** Part i of a moving shape or compound, as a moving shape: its pose at a time is that of ovoid_compound's definition.
  */

@@ -75,9 +75,9 @@ OVOID_API ovoid_code ovoid_decomposition_compute_proof(const ovoid_decomposition
  * not so, or not strictly enough to be told from rounding (an upper end must be above 0); LIMIT, an upper end that the
  * work did not show; EMPTY, MEMORY as above. Cost: about that of the proof.
  */
-OVOID_API ovoid_code ovoid_decomposition_check(const ovoid_decomposition *decomposition,
-                                               const ovoid_decomposition_proof *proof,
-                                               const ovoid_decomposition_options *options, ovoid_error *error);
+OVOID_API ovoid_code ovoid_decomposition_verify(const ovoid_decomposition *decomposition,
+                                                const ovoid_decomposition_proof *proof,
+                                                const ovoid_decomposition_options *options, ovoid_error *error);
 
 /** Convex parts that own their shapes. */
 typedef struct ovoid_parts ovoid_parts;

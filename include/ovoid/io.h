@@ -274,7 +274,7 @@ typedef struct ovoid_indexed_pair {
 } ovoid_indexed_pair;
 
 /** Opens the file ("-": standard input) and reads the header. shape_count: a and b must be below it. */
-OVOID_API ovoid_pairs_reader *ovoid_pairs_reader_create(const char *path, size_t shape_count, ovoid_error *error);
+OVOID_API ovoid_pairs_reader *ovoid_pairs_reader_open(const char *path, size_t shape_count, ovoid_error *error);
 /** The next pair. 1: *pair is filled; 0: the end; -1: *error is filled. */
 OVOID_API int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_pair *pair, ovoid_error *error);
 /**
@@ -287,7 +287,7 @@ OVOID_API ovoid_code ovoid_pairs_reader_set_part(ovoid_pairs_reader *reader, siz
 /** Leaves that many pairs out, or what there is of them, without looking into their lines. Errors: FILE, LIMIT. */
 OVOID_API ovoid_code ovoid_pairs_reader_skip(ovoid_pairs_reader *reader, uint64_t count, ovoid_error *error);
 /** Frees it; NULL is allowed. */
-OVOID_API void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader);
+OVOID_API void ovoid_pairs_reader_close(ovoid_pairs_reader *reader);
 
 /* ---- motions ---- */
 
@@ -313,8 +313,7 @@ typedef struct ovoid_motion_line {
 typedef struct ovoid_motion_reader ovoid_motion_reader;
 
 /** Opens the file ("-": standard input) and reads the header. The scene is borrowed: its names are the bodies. */
-OVOID_API ovoid_motion_reader *ovoid_motion_reader_create(const char *path, const ovoid_scene *scene,
-                                                          ovoid_error *error);
+OVOID_API ovoid_motion_reader *ovoid_motion_reader_open(const char *path, const ovoid_scene *scene, ovoid_error *error);
 /** The columns of its lines. */
 OVOID_API ovoid_motion_columns ovoid_motion_reader_get_columns(const ovoid_motion_reader *reader);
 /** The next line. 1: *line is filled; 0: the end; -1: *error is filled. */
@@ -322,7 +321,7 @@ OVOID_API int ovoid_motion_reader_read(ovoid_motion_reader *reader, ovoid_motion
 /** The 1-based line of the file that was read last. */
 OVOID_API int64_t ovoid_motion_reader_get_line(const ovoid_motion_reader *reader);
 /** Frees it; NULL is allowed. */
-OVOID_API void ovoid_motion_reader_destroy(ovoid_motion_reader *reader);
+OVOID_API void ovoid_motion_reader_close(ovoid_motion_reader *reader);
 
 /* ---- results ---- */
 
@@ -417,13 +416,13 @@ OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *r
 typedef struct ovoid_results_reader ovoid_results_reader;
 
 /** Opens the file; "-" is standard input. */
-OVOID_API ovoid_results_reader *ovoid_results_reader_create(const char *path, ovoid_error *error);
+OVOID_API ovoid_results_reader *ovoid_results_reader_open(const char *path, ovoid_error *error);
 /** The next record, valid until the next call. 1: *record is filled; 0: the end; -1: *error is filled. */
 OVOID_API int ovoid_results_reader_read(ovoid_results_reader *reader, ovoid_record *record, ovoid_error *error);
 /** The 1-based line of the last record. */
 OVOID_API int64_t ovoid_results_reader_get_line(const ovoid_results_reader *reader);
 /** Frees it; NULL is allowed. */
-OVOID_API void ovoid_results_reader_destroy(ovoid_results_reader *reader);
+OVOID_API void ovoid_results_reader_close(ovoid_results_reader *reader);
 
 /* ---- proofs of decompositions ---- */
 
@@ -436,7 +435,7 @@ typedef struct ovoid_decomposition_record {
 /** Writes a proof as one line of JSON: its two lengths, and the numbers of triangles and parts. FILE. */
 OVOID_API ovoid_code ovoid_decomposition_write_json(FILE *file, const ovoid_decomposition *decomposition,
                                                     const ovoid_decomposition_proof *proof);
-/** Reads one, strictly; ovoid_decomposition_check says whether it is true. FILE, FORMAT, LIMIT, MEMORY. */
+/** Reads one, strictly; ovoid_decomposition_verify says whether it is true. FILE, FORMAT, LIMIT, MEMORY. */
 OVOID_API ovoid_code ovoid_decomposition_read_json(const char *path, ovoid_decomposition_record *record,
                                                    ovoid_error *error);
 /** 1 if the file begins as such a proof does; 0 for standard input. */
@@ -474,7 +473,7 @@ OVOID_API const char *ovoid_text_read_csv(const char *line, char *text, size_t r
 typedef struct ovoid_output ovoid_output;
 
 /** Starts one. A path that exists and is no regular file (a device, a pipe) is written to directly; "-": stdout. */
-OVOID_API ovoid_output *ovoid_output_create(const char *path, ovoid_error *error);
+OVOID_API ovoid_output *ovoid_output_open(const char *path, ovoid_error *error);
 /** The stream to write to; the caller must not close it. */
 OVOID_API FILE *ovoid_output_get_file(ovoid_output *output);
 /** The path of the unfinished file, for signal handlers that must remove it; NULL where it is written to directly. */
@@ -482,7 +481,7 @@ OVOID_API const char *ovoid_output_get_temporary(const ovoid_output *output);
 /** Flushes and puts the file in its place; FILE if anything was not written (a full disk), the path is as it was. */
 OVOID_API ovoid_code ovoid_output_commit(ovoid_output *output, ovoid_error *error);
 /** Frees it; what was not committed is removed. NULL is allowed. */
-OVOID_API void ovoid_output_destroy(ovoid_output *output);
+OVOID_API void ovoid_output_close(ovoid_output *output);
 
 /* ---- pictures ---- */
 

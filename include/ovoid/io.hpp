@@ -142,13 +142,13 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
 
 /** A PAIRS.csv read line by line. */
 class pairs_reader
-    : public detail::owner<detail::pointer<ovoid_pairs_reader>, ovoid_pairs_reader, ovoid_pairs_reader_destroy> {
+    : public detail::owner<detail::pointer<ovoid_pairs_reader>, ovoid_pairs_reader, ovoid_pairs_reader_close> {
   public:
     using owner::owner;
     /** Opens the file. Throws FILE, FORMAT. */
     static pairs_reader create(const std::string &path, std::size_t shape_count) {
         ovoid_error e;
-        return pairs_reader(detail::require(ovoid_pairs_reader_create(path.c_str(), shape_count, &e), e));
+        return pairs_reader(detail::require(ovoid_pairs_reader_open(path.c_str(), shape_count, &e), e));
     }
     /** Before the first pair: only part `part`, from 0 on, of `parts` by the file's bytes. Throws ARGUMENT, FILE. */
     void set_part(std::size_t part, std::size_t parts) {
@@ -171,13 +171,13 @@ class pairs_reader
 
 /** A MOTION.csv read line by line; it borrows the scene. */
 class motion_reader
-    : public detail::owner<detail::pointer<ovoid_motion_reader>, ovoid_motion_reader, ovoid_motion_reader_destroy> {
+    : public detail::owner<detail::pointer<ovoid_motion_reader>, ovoid_motion_reader, ovoid_motion_reader_close> {
   public:
     using owner::owner;
     /** Opens the file. Throws FILE, FORMAT. */
     static motion_reader create(const std::string &path, const scene &of) {
         ovoid_error e;
-        return motion_reader(detail::require(ovoid_motion_reader_create(path.c_str(), of.get(), &e), e));
+        return motion_reader(detail::require(ovoid_motion_reader_open(path.c_str(), of.get(), &e), e));
     }
     /** What its lines give. */
     ovoid_motion_columns columns() const noexcept { return ovoid_motion_reader_get_columns(get()); }
@@ -194,13 +194,13 @@ class motion_reader
 
 /** A results file of JSON lines. */
 class results_reader
-    : public detail::owner<detail::pointer<ovoid_results_reader>, ovoid_results_reader, ovoid_results_reader_destroy> {
+    : public detail::owner<detail::pointer<ovoid_results_reader>, ovoid_results_reader, ovoid_results_reader_close> {
   public:
     using owner::owner;
     /** Opens the file. Throws FILE. */
     static results_reader create(const std::string &path) {
         ovoid_error e;
-        return results_reader(detail::require(ovoid_results_reader_create(path.c_str(), &e), e));
+        return results_reader(detail::require(ovoid_results_reader_open(path.c_str(), &e), e));
     }
     /** The next record, valid until the next call; false at the end. Throws as the file is wrong. */
     bool read(ovoid_record &next) {
@@ -214,13 +214,13 @@ class results_reader
 };
 
 /** A file that appears whole, by commit, or not at all. */
-class output : public detail::owner<detail::pointer<ovoid_output>, ovoid_output, ovoid_output_destroy> {
+class output : public detail::owner<detail::pointer<ovoid_output>, ovoid_output, ovoid_output_close> {
   public:
     using owner::owner;
     /** Starts one. Throws FILE. */
     static output create(const std::string &path) {
         ovoid_error e;
-        return output(detail::require(ovoid_output_create(path.c_str(), &e), e));
+        return output(detail::require(ovoid_output_open(path.c_str(), &e), e));
     }
     /** Where to write; not to be closed. */
     std::FILE *file() noexcept { return ovoid_output_get_file(get()); }

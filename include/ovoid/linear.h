@@ -86,7 +86,7 @@ OVOID_API ovoid_code ovoid_pose_make_axis_angle(ovoid_vec3 position, ovoid_vec3 
 
 /**
  * The rotation matrix of a pose, entry (row, column) at matrix[3 row + column]; each is off by at most 12 u, u = 2^-53.
- * The pose must not be one that ovoid_pose_compute_check refuses.
+ * The pose must not be one that ovoid_pose_validate refuses.
  */
 OVOID_API void ovoid_pose_compute_matrix(const ovoid_pose *pose, double matrix[9]);
 
@@ -103,7 +103,7 @@ OVOID_API ovoid_vec3 ovoid_pose_compute_local_point(const ovoid_pose *pose, ovoi
  * The pose of a part that is posed by `inner` in a body that is posed by `outer`: its points are, to rounding, those of
  * inner moved by outer. This product defines where a part of a body is; it has the same bits everywhere. Its rotation
  * is that of the exact product to 16 u in operator norm, u = 2^-53; its position is off by at most 46 u
- * |inner.position| + 2 u |outer.position|. Neither pose may be one that ovoid_pose_compute_check refuses.
+ * |inner.position| + 2 u |outer.position|. Neither pose may be one that ovoid_pose_validate refuses.
  */
 OVOID_API ovoid_pose ovoid_pose_compute_product(const ovoid_pose *outer, const ovoid_pose *inner);
 
@@ -111,7 +111,7 @@ OVOID_API ovoid_pose ovoid_pose_compute_product(const ovoid_pose *outer, const o
 OVOID_API ovoid_pose ovoid_pose_compute_inverse(const ovoid_pose *pose);
 
 /** OVOID_OK, or what is wrong with the pose: NOT_FINITE, RANGE, ROTATION. */
-OVOID_API ovoid_code ovoid_pose_compute_check(const ovoid_pose *pose);
+OVOID_API ovoid_code ovoid_pose_validate(const ovoid_pose *pose);
 
 #ifdef __cplusplus
 }

@@ -56,12 +56,12 @@ OVOID_API ovoid_motion ovoid_motion_make_path(const double *times, const ovoid_p
  * time above 1e100, more than 1e9 radians in a piece), ARGUMENT (kind, duration, times that do not increase, fewer than
  * two), with a sentence in *error (may be NULL); place: of a path, the pose.
  */
-OVOID_API ovoid_code ovoid_motion_compute_check(const ovoid_motion *motion, ovoid_error *error);
+OVOID_API ovoid_code ovoid_motion_validate(const ovoid_motion *motion, ovoid_error *error);
 
 /**
  * The pose at a time, rounded; before and after its times a motion rests. Off the exact motion by at most 16 u of the
  * way travelled, 4 u of the starting position, 160 u of the pivot and, in the rotation, 160 u + 16 u of the angle
- * turned, u = 2^-53; docs/motion.md derives this. The motion must be valid (ovoid_motion_compute_check).
+ * turned, u = 2^-53; docs/motion.md derives this. The motion must be valid (ovoid_motion_validate).
  */
 OVOID_API ovoid_pose ovoid_motion_compute_pose(const ovoid_motion *motion, double time);
 
@@ -139,7 +139,7 @@ typedef struct ovoid_motion_options {
 typedef struct ovoid_impact {
     ovoid_impact_status status;
     ovoid_limit limit;   /**< SHAPE_A, SHAPE_B: there is no shape; POSE_A, POSE_B: that motion is refused
-                              (ovoid_motion_compute_check says why); OPTIONS:
+                              (ovoid_motion_validate says why); OPTIONS:
                               margin, times or options are refused; ITERATIONS; PRECISION: the gap stays so near the
                               margin that doubles cannot tell */
     uint32_t iterations; /**< queries at single times */
@@ -170,17 +170,17 @@ OVOID_API ovoid_impact ovoid_impact_find(const ovoid_moving_shape *a, const ovoi
  * the impact's own times. steps: all step_count of them. OVOID_OK, or PROOF with a sentence in *error (may be NULL);
  * place: the step.
  */
-OVOID_API ovoid_code ovoid_impact_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                                        const ovoid_impact *impact, const ovoid_motion_options *options,
-                                        const ovoid_step *steps, ovoid_error *error);
+OVOID_API ovoid_code ovoid_impact_verify(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
+                                         const ovoid_impact *impact, const ovoid_motion_options *options,
+                                         const ovoid_step *steps, ovoid_error *error);
 
 /**
  * The first time at which B, moved along `displacement` (time 0: where it is, 1: all the way), is within margin of A,
  * which stands still; neither turns. G. van den Bergen, Ray casting against general convex objects with application to
  * continuous collision detection, 2004. The bracket of the time is narrowed to rounding.
  */
-OVOID_API ovoid_impact ovoid_translation_cast(const ovoid_pair *pair, ovoid_vec3 displacement, double margin,
-                                              const ovoid_motion_options *options);
+OVOID_API ovoid_impact ovoid_shape_cast(const ovoid_pair *pair, ovoid_vec3 displacement, double margin,
+                                        const ovoid_motion_options *options);
 
 /** A ray of a finite or infinite length, thick where radius > 0. */
 typedef struct ovoid_ray {
@@ -206,7 +206,7 @@ typedef struct ovoid_ray_hit {
  * that point; give the ray a radius. Refused: SHAPE_B, POSE_B (the body's), OPTIONS (the ray: NaN, infinity, lengths
  * above OVOID_LENGTH_MAX, a direction of zero).
  */
-OVOID_API ovoid_ray_hit ovoid_ray_cast(const ovoid_posed_shape *body, const ovoid_ray *ray);
+OVOID_API ovoid_ray_hit ovoid_shape_cast_ray(const ovoid_posed_shape *body, const ovoid_ray *ray);
 
 /** How near two moving bodies come. */
 typedef struct ovoid_approach {
@@ -231,11 +231,11 @@ OVOID_API ovoid_approach ovoid_approach_find(const ovoid_moving_shape *a, const 
 
 /**
  * Checks an approach without any search: that the steps prove lower over all of [begin, end], and the answer upper;
- * that the status follows, TOUCHING within the options' tolerance. Arguments and errors as in ovoid_impact_check.
+ * that the status follows, TOUCHING within the options' tolerance. Arguments and errors as in ovoid_impact_verify.
  */
-OVOID_API ovoid_code ovoid_approach_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                                          const ovoid_approach *approach, const ovoid_motion_options *options,
-                                          const ovoid_step *steps, ovoid_error *error);
+OVOID_API ovoid_code ovoid_approach_verify(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
+                                           const ovoid_approach *approach, const ovoid_motion_options *options,
+                                           const ovoid_step *steps, ovoid_error *error);
 
 /** The name of a status in results, for example "hit"; never NULL. */
 OVOID_API const char *ovoid_impact_status_get_name(ovoid_impact_status status);

@@ -45,7 +45,7 @@ OVOID_API void ovoid_prepared_shape_make(const ovoid_posed_shape *body, ovoid_pr
 typedef struct ovoid_evidence {
     ovoid_proof *proof;     /**< the earlier proof of this pair (all zero: none), replaced by the new answer's */
     ovoid_witness *witness; /**< receives points and normal */
-    ovoid_answer *answer;   /**< receives the whole answer, which ovoid_answer_check takes */
+    ovoid_answer *answer;   /**< receives the whole answer, which ovoid_answer_verify takes */
 } ovoid_evidence;
 
 /** ovoid_collide of prepared shapes. */

@@ -76,7 +76,7 @@ typedef enum ovoid_proof_kind {
 #define OVOID_PROOF_PAIRS 6
 
 /**
- * A proof: plain data that ovoid_answer_check, or anyone with exact arithmetic, can check, and the warm start of the
+ * A proof: plain data that ovoid_answer_verify, or anyone with exact arithmetic, can check, and the warm start of the
  * next query of the pair. Indices are vertices of ovoid_polytope. Rounding radii are subtracted from both bounds.
  *
  * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal + normal_low is that n
@@ -221,7 +221,7 @@ OVOID_API ovoid_code ovoid_depth_batch(const ovoid_batch *batch, ovoid_error *er
 OVOID_API double ovoid_pair_compute_gap(const ovoid_pair *pair, ovoid_vec3 direction);
 
 /** The bracket from the ellipsoids alone, without a search: smooth in the poses, O(1). */
-OVOID_API ovoid_answer ovoid_bounds(const ovoid_pair *pair);
+OVOID_API ovoid_answer ovoid_pair_compute_bounds(const ovoid_pair *pair);
 
 /**
  * The signed distance as one number, for those who want no bracket: lower, which is never above the true one and within
@@ -236,11 +236,11 @@ OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
 /**
  * Checks an answer against its pair without any search: every bound is recomputed from the proof alone, with directed
  * error bounds, and the status must be what the bracket and the options' tolerance say. options: those that the query
- * was asked with, NULL the default, which is that of ovoid_bounds too. cover: that of ovoid_depth, or NULL. OVOID_OK,
- * or PROOF with a sentence in *error (may be NULL).
+ * was asked with, NULL the default, which is that of ovoid_pair_compute_bounds too. cover: that of ovoid_depth, or
+ * NULL. OVOID_OK, or PROOF with a sentence in *error (may be NULL).
  */
-OVOID_API ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *answer,
-                                        const ovoid_options *options, const ovoid_cover *cover, ovoid_error *error);
+OVOID_API ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *answer,
+                                         const ovoid_options *options, const ovoid_cover *cover, ovoid_error *error);
 
 /** The name of a status in results, for example "separated"; never NULL. */
 OVOID_API const char *ovoid_status_get_name(ovoid_status status);

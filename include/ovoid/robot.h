@@ -158,7 +158,7 @@ typedef struct ovoid_robot_pose_error {
 
 /**
  * The poses of all links in the root link's frame. q: variable count numbers; poses: link count; errors: as many, or
- * NULL. Allocates nothing. Limits are not looked at (ovoid_robot_check_limits). Errors (place: the variable):
+ * NULL. Allocates nothing. Limits are not looked at (ovoid_robot_validate_limits). Errors (place: the variable):
  * NOT_FINITE, RANGE (an angle above OVOID_ROBOT_ANGLE_MAX, a length above OVOID_LENGTH_MAX), ROTATION (a floating
  * joint's quaternion is zero).
  */
@@ -177,8 +177,8 @@ OVOID_API ovoid_code ovoid_robot_compute_poses_batch(const ovoid_robot *robot, c
  * OVOID_OK where every variable, and every joint that follows another one, is within its limits or outside by at most
  * `slack`; RANGE (place: the variable, of a follower that which it follows; the sentence names the joint), NOT_FINITE.
  */
-OVOID_API ovoid_code ovoid_robot_check_limits(const ovoid_robot *robot, const double *q, double slack,
-                                              ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_validate_limits(const ovoid_robot *robot, const double *q, double slack,
+                                                 ovoid_error *error);
 
 /* ---- a robot among obstacles ---- */
 
@@ -202,7 +202,7 @@ OVOID_API int ovoid_robot_is_rigid_pair(const ovoid_robot *robot, uint32_t a, ui
 
 /**
  * Adds an obstacle, which is borrowed, posed in the root link's frame: its id, as those of ovoid_world; 0 on failure:
- * ARGUMENT (not exactly one of shape, compound and solid), the codes of ovoid_pose_compute_check, MEMORY, LIMIT. Of a
+ * ARGUMENT (not exactly one of shape, compound and solid), the codes of ovoid_pose_validate, MEMORY, LIMIT. Of a
  * solid the cell makes the hull.
  */
 OVOID_API ovoid_id ovoid_robot_cell_add(ovoid_robot_cell *cell, const ovoid_body *body, ovoid_error *error);
@@ -214,7 +214,7 @@ OVOID_API ovoid_id ovoid_robot_cell_attach(ovoid_robot_cell *cell, uint32_t link
                                            const uint32_t *touching, size_t count, ovoid_error *error);
 /** Removes an obstacle or an attached body. Errors: INDEX. */
 OVOID_API ovoid_code ovoid_robot_cell_remove(ovoid_robot_cell *cell, ovoid_id id, ovoid_error *error);
-/** Moves an obstacle, or an attached body in its link's frame. Errors: INDEX, those of ovoid_pose_compute_check. */
+/** Moves an obstacle, or an attached body in its link's frame. Errors: INDEX, those of ovoid_pose_validate. */
 OVOID_API ovoid_code ovoid_robot_cell_move(ovoid_robot_cell *cell, ovoid_id id, const ovoid_pose *pose,
                                            ovoid_error *error);
 /**
@@ -264,7 +264,7 @@ typedef struct ovoid_robot_side {
 /** The answer to a state. */
 typedef struct ovoid_robot_answer {
     ovoid_robot_status status;
-    ovoid_code code;       /**< REFUSED: why, as ovoid_robot_compute_poses and ovoid_robot_check_limits say */
+    ovoid_code code;       /**< REFUSED: why, as ovoid_robot_compute_poses and ovoid_robot_validate_limits say */
     uint32_t variable;     /**< REFUSED: which */
     ovoid_robot_side a, b; /**< the pair of HIT and UNDECIDED; a is of the robot, and
                                 where both are, of the link with the lower index */
@@ -272,27 +272,27 @@ typedef struct ovoid_robot_answer {
 } ovoid_robot_answer;
 
 /** How a state is checked; all zero is the default, and NULL means that. */
-typedef struct ovoid_robot_check_options {
+typedef struct ovoid_robot_query_options {
     double margin;      /**< >= 0: what is nearer than this is a hit */
     double limit_slack; /**< by how much variables may be outside their limits; >= 0, infinity: limits do not count */
     int without_self;   /**< 1: pairs of links are left out */
     int without_obstacles; /**< 1: obstacles are left out */
-} ovoid_robot_check_options;
+} ovoid_robot_query_options;
 
 /**
  * Is the state free? Ends at the first pair that is proven within the margin, and begins with the pair that ended the
  * last state. Which pair is named depends on the states before (ovoid_robot_checker_reset); the status does where a
  * pair is within rounding of the margin. Errors: ARGUMENT (options), MEMORY; then *answer is UNDECIDED.
  */
-OVOID_API ovoid_code ovoid_robot_check(ovoid_robot_checker *checker, const double *q,
-                                       const ovoid_robot_check_options *options, ovoid_robot_answer *answer,
-                                       ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_collide(ovoid_robot_checker *checker, const double *q,
+                                         const ovoid_robot_query_options *options, ovoid_robot_answer *answer,
+                                         ovoid_error *error);
 
 /** States to check. */
 typedef struct ovoid_robot_batch {
     const double *q; /**< state i from i * variable count on */
     size_t count;
-    const ovoid_robot_check_options *options; /**< NULL: the default */
+    const ovoid_robot_query_options *options; /**< NULL: the default */
     ovoid_robot_answer *answers;              /**< count */
 } ovoid_robot_batch;
 
@@ -301,13 +301,13 @@ typedef struct ovoid_robot_batch {
 
 /**
  * Checks many states, eight at a time, in blocks of OVOID_ROBOT_BLOCK, on as many threads as there are checkers (of one
- * cell, each given once), the caller's included. Each state gets the bits that ovoid_robot_check gives if its block's
+ * cell, each given once), the caller's included. Each state gets the bits that ovoid_robot_collide gives if its block's
  * states are asked in order after ovoid_robot_checker_reset: they do not depend on the number of threads. Starts its
  * threads, so more than one pays for thousands of states. Errors: ARGUMENT (options, no checker), MEMORY, LIMIT
  * (no thread could be started; the others did the work, and all answers are there).
  */
-OVOID_API ovoid_code ovoid_robot_check_batch(ovoid_robot_checker *const *checkers, size_t checker_count,
-                                             const ovoid_robot_batch *batch, ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_collide_batch(ovoid_robot_checker *const *checkers, size_t checker_count,
+                                               const ovoid_robot_batch *batch, ovoid_error *error);
 
 /** A near pair of a state. */
 typedef struct ovoid_robot_near {
@@ -332,10 +332,10 @@ typedef struct ovoid_robot_nears {
 
 /**
  * All pairs that are not proven farther apart than options->margin, with their distances; overlapping ones with their
- * depths. Errors: ARGUMENT, MEMORY, and those that ovoid_robot_check puts into a refused answer.
+ * depths. Errors: ARGUMENT, MEMORY, and those that ovoid_robot_collide puts into a refused answer.
  */
 OVOID_API ovoid_code ovoid_robot_find_near(ovoid_robot_checker *checker, const double *q,
-                                           const ovoid_robot_check_options *options, ovoid_robot_nears *nears,
+                                           const ovoid_robot_query_options *options, ovoid_robot_nears *nears,
                                            ovoid_error *error);
 
 /**
@@ -343,7 +343,7 @@ OVOID_API ovoid_code ovoid_robot_find_near(ovoid_robot_checker *checker, const d
  * gets one item, or none, whatever its capacity (>= 1). Errors as above.
  */
 OVOID_API ovoid_code ovoid_robot_find_nearest(ovoid_robot_checker *checker, const double *q,
-                                              const ovoid_robot_check_options *options, ovoid_robot_nears *nears,
+                                              const ovoid_robot_query_options *options, ovoid_robot_nears *nears,
                                               ovoid_error *error);
 
 #ifdef __cplusplus

@@ -21,7 +21,7 @@ namespace ovoid {
 /** Options of a robot. */
 using robot_options = zeroed<ovoid_robot_options>;
 /** How a state is checked. */
-using robot_check_options = zeroed<ovoid_robot_check_options>;
+using robot_check_options = zeroed<ovoid_robot_query_options>;
 /** How a motion is checked. */
 using robot_path_options = zeroed<ovoid_robot_path_options>;
 /** How a clearance is computed. */
@@ -93,7 +93,7 @@ class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ov
     /** Throws RANGE or NOT_FINITE where a variable is outside its limits by more than slack. */
     void check_limits(span<const double> q, double slack = 0) const {
         ovoid_error e;
-        detail::require(ovoid_robot_check_limits(get(), q.data(), slack, &e), e);
+        detail::require(ovoid_robot_validate_limits(get(), q.data(), slack, &e), e);
     }
 };
 
@@ -155,19 +155,19 @@ class robot_checker
     /** Forgets the last state. */
     void reset() noexcept { ovoid_robot_checker_reset(get()); }
     /** Is a state free? Throws ARGUMENT, MEMORY. */
-    robot_answer check(span<const double> q, const ovoid_robot_check_options &o = robot_check_options()) {
+    robot_answer check(span<const double> q, const ovoid_robot_query_options &o = robot_check_options()) {
         robot_answer found;
-        call(ovoid_robot_check, q.data(), &o, &found);
+        call(ovoid_robot_collide, q.data(), &o, &found);
         return found;
     }
     /** Many states, one after another; count: how many. Throws ARGUMENT, MEMORY. */
     std::vector<robot_answer> check_batch(span<const double> q, std::size_t count,
-                                          const ovoid_robot_check_options &o = robot_check_options()) {
+                                          const ovoid_robot_query_options &o = robot_check_options()) {
         std::vector<robot_answer> answers(count);
         const ovoid_robot_batch batch = {q.data(), count, &o, answers.data()};
         ovoid_robot_checker *self = get();
         ovoid_error e;
-        detail::require(ovoid_robot_check_batch(&self, 1, &batch, &e), e);
+        detail::require(ovoid_robot_collide_batch(&self, 1, &batch, &e), e);
         return answers;
     }
     /** Is a path of `count` states free for all times in between? Steps are written where options say. Throws ARGUMENT,
@@ -176,7 +176,7 @@ class robot_checker
                                        const ovoid_robot_path_options &o = robot_path_options()) {
         const ovoid_robot_path path = {states.data(), count};
         ovoid_robot_path_answer found;
-        call(ovoid_robot_check_path, &path, &o, &found);
+        call(ovoid_robot_path_find_hit, &path, &o, &found);
         return found;
     }
     /** The smallest clearance of a path of `count` states, as a bracket. Throws ARGUMENT, MEMORY. */
@@ -184,11 +184,11 @@ class robot_checker
                                             const ovoid_robot_clearance_options &o = robot_clearance_options()) {
         const ovoid_robot_path path = {states.data(), count};
         ovoid_robot_clearance found;
-        call(ovoid_robot_compute_clearance, &path, &o, &found);
+        call(ovoid_robot_path_compute_clearance, &path, &o, &found);
         return found;
     }
     /** All near pairs with gradients by `variables` numbers. Throws as ovoid_robot_find_near fails. */
-    robot_nears find_near(span<const double> q, const ovoid_robot_check_options &o, int without_depths = 0) {
+    robot_nears find_near(span<const double> q, const ovoid_robot_query_options &o, int without_depths = 0) {
         robot_nears found;
         ovoid_robot_nears nears = {nullptr, nullptr, 0, 0, without_depths};
         call(ovoid_robot_find_near, q.data(), &o, &nears);
@@ -201,7 +201,7 @@ class robot_checker
         return found;
     }
     /** The nearest pair, or none. Throws as ovoid_robot_find_nearest fails. */
-    robot_nears find_nearest(span<const double> q, const ovoid_robot_check_options &o) {
+    robot_nears find_nearest(span<const double> q, const ovoid_robot_query_options &o) {
         robot_nears found;
         found.items.resize(1);
         found.gradients.resize(q.size());
@@ -225,7 +225,7 @@ inline void check_robot_path(const robot_cell &cell, span<const double> states, 
                              span<const ovoid_robot_step> steps) {
     const ovoid_robot_path path = {states.data(), count};
     ovoid_error e;
-    detail::require(ovoid_robot_path_check(cell.get(), &path, &o, &found, steps.data(), &e), e);
+    detail::require(ovoid_robot_path_verify(cell.get(), &path, &o, &found, steps.data(), &e), e);
 }
 /** How many pairs a cell has. */
 inline std::size_t pair_count(const robot_cell &cell) noexcept { return ovoid_robot_cell_get_pair_count(cell.get()); }
@@ -305,7 +305,7 @@ inline robot create_from_spheres(const robot &r, span<const ovoid_robot_link_sph
 /** Adds states, `count` of them, to a comparison of a robot with its model; agreements: receives one a state, or
  * nullptr. Throws ARGUMENT, MEMORY. */
 inline void compare_states(robot_checker &of_robot, robot_checker &of_model, span<const double> q, std::size_t count,
-                           ovoid_robot_comparison &sum, const ovoid_robot_check_options &o = robot_check_options(),
+                           ovoid_robot_comparison &sum, const ovoid_robot_query_options &o = robot_check_options(),
                            std::vector<ovoid_robot_agreement> *agreements = nullptr) {
     if (agreements) agreements->resize(count);
     const ovoid_robot_comparison_batch batch = {

@@ -33,7 +33,7 @@ typedef struct ovoid_robot_comparison_batch {
     ovoid_robot_checker *robot, *model; /**< of cells that have the same variables; both are reset */
     const double *q;                    /**< state i from i * variable count on */
     size_t count;
-    const ovoid_robot_check_options *options; /**< of both; NULL: the default. Pairs of links or obstacles may be left
+    const ovoid_robot_query_options *options; /**< of both; NULL: the default. Pairs of links or obstacles may be left
                                                    out, so that the two are told apart by two calls */
     ovoid_robot_agreement *agreements;        /**< count, or NULL: only counts are wanted */
 } ovoid_robot_comparison_batch;

@@ -4,7 +4,7 @@
  *
  * A path goes through states; between two neighbours every variable is linear in the path's parameter s, which is i at
  * state i. Free means: at every real s, every queried pair of the cell is farther apart than the margin, in the exact
- * kinematics. It is proven by steps, each of a pair and an interval, which ovoid_robot_path_check measures again
+ * kinematics. It is proven by steps, each of a pair and an interval, which ovoid_robot_path_verify measures again
  * without a search. docs/robot-path.md has the mathematics.
  */
 #ifndef OVOID_ROBOT_PATH_H
@@ -51,7 +51,7 @@ typedef struct ovoid_robot_step {
 
 /** How a path is checked; all zero is the default, and NULL means that. */
 typedef struct ovoid_robot_path_options {
-    ovoid_robot_check_options check; /**< margin, limits, which pairs */
+    ovoid_robot_query_options query; /**< margin, limits, which pairs */
     double tolerance; /**< of hit_at - free_until, in s; 0 means 2^-20. Where a body's allowance hides when it is met,
                          up to 1/32 */
     uint32_t states;  /**< most states that are looked at; 0 means 100 000 */
@@ -85,9 +85,9 @@ typedef struct ovoid_robot_path_answer {
  * *answer is UNDECIDED. The checker keeps the search's memory: only the first path after a change of the
  * cell allocates. Cost: some tens of states a segment.
  */
-OVOID_API ovoid_code ovoid_robot_check_path(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                                            const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
-                                            ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path *path,
+                                               const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
+                                               ovoid_error *error);
 
 /**
  * Checks an answer without any search: that the steps (all step_count of them) hold, that those of each pair reach from
@@ -95,14 +95,14 @@ OVOID_API ovoid_code ovoid_robot_check_path(ovoid_robot_checker *checker, const 
  * there. Of UNDECIDED the bracket is not looked at. options: margin, limits and pairs count.
  * OVOID_OK; PROOF with a sentence (place: the step, or -1); ARGUMENT, MEMORY. Takes the cell as it was.
  */
-OVOID_API ovoid_code ovoid_robot_path_check(const ovoid_robot_cell *cell, const ovoid_robot_path *path,
-                                            const ovoid_robot_path_options *options,
-                                            const ovoid_robot_path_answer *answer, const ovoid_robot_step *steps,
-                                            ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_path_verify(const ovoid_robot_cell *cell, const ovoid_robot_path *path,
+                                             const ovoid_robot_path_options *options,
+                                             const ovoid_robot_path_answer *answer, const ovoid_robot_step *steps,
+                                             ovoid_error *error);
 
 /** How a clearance is computed; all zero is the default, and NULL means that. */
 typedef struct ovoid_robot_clearance_options {
-    ovoid_robot_check_options check; /**< limits, which pairs; margin: of the status */
+    ovoid_robot_query_options query; /**< limits, which pairs; margin: of the status */
     double tolerance;  /**< of the bracket, a length; 0 means 1/1024 of the radius of the robot's largest element */
     uint32_t states;   /**< most states that are looked at; 0 means 100 000 and 100 for each segment */
     ovoid_watch watch; /**< asked before each state; stopped: as though `states` were used up */
@@ -124,14 +124,14 @@ typedef struct ovoid_robot_clearance {
 } ovoid_robot_clearance;
 
 /**
- * The smallest clearance of a path, by branch and bound with the bounds of ovoid_robot_check_path: what is proven to be
- * no nearer than the nearest that was found, less the tolerance, is not looked at again. Errors: ARGUMENT (options, no
- * states, too many), MEMORY; then the bracket is all numbers. Cost: some tens of states a segment; more the smaller the
- * tolerance, about as 1/sqrt(tolerance).
+ * The smallest clearance of a path, by branch and bound with the bounds of ovoid_robot_path_find_hit: what is proven to
+ * be no nearer than the nearest that was found, less the tolerance, is not looked at again. Errors: ARGUMENT (options,
+ * no states, too many), MEMORY; then the bracket is all numbers. Cost: some tens of states a segment; more the smaller
+ * the tolerance, about as 1/sqrt(tolerance).
  */
-OVOID_API ovoid_code ovoid_robot_compute_clearance(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                                                   const ovoid_robot_clearance_options *options,
-                                                   ovoid_robot_clearance *clearance, ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_path_compute_clearance(ovoid_robot_checker *checker, const ovoid_robot_path *path,
+                                                        const ovoid_robot_clearance_options *options,
+                                                        ovoid_robot_clearance *clearance, ovoid_error *error);
 
 /** How many pairs a cell has, queried or left out; their numbers begin at 0. */
 OVOID_API size_t ovoid_robot_cell_get_pair_count(const ovoid_robot_cell *cell);

@@ -2,7 +2,7 @@
  * @file robot_proof.h
  * Files of path proofs, as `ovoid robot path --proofs` writes them: JSON Lines with the robot, the obstacles and the
  * options first, then for each path its states, its answer and its steps. docs/robot-path.md has the format. What is
- * read is a claim; ovoid_robot_path_check says whether it holds.
+ * read is a claim; ovoid_robot_path_verify says whether it holds.
  */
 #ifndef OVOID_ROBOT_PROOF_H
 #define OVOID_ROBOT_PROOF_H
@@ -30,7 +30,7 @@ typedef struct ovoid_robot_proof_source {
     size_t scale_count, padding_count;
     int parts, hull, visual, fixed_base; /**< as in ovoid_robot_read_options */
     double tolerance;                    /**< of cylinders, likewise */
-    double margin, limit_slack;          /**< as in ovoid_robot_check_options */
+    double margin, limit_slack;          /**< as in ovoid_robot_query_options */
     size_t path_count;                   /**< paths that follow */
     uint64_t digest;                     /**< of the robot and its obstacles */
     const char *const *variables;        /**< names */
@@ -58,23 +58,25 @@ typedef struct ovoid_robot_proof {
 } ovoid_robot_proof;
 
 /** A file that is read path by path. */
-typedef struct ovoid_robot_proofs ovoid_robot_proofs;
+typedef struct ovoid_robot_proofs_reader ovoid_robot_proofs_reader;
 
 /** Opens a file, "-": standard input. NULL on failure: FILE, MEMORY. */
-OVOID_API ovoid_robot_proofs *ovoid_robot_proofs_create(const char *path, ovoid_error *error);
+OVOID_API ovoid_robot_proofs_reader *ovoid_robot_proofs_reader_open(const char *path, ovoid_error *error);
 /** Closes it; NULL is allowed. */
-OVOID_API void ovoid_robot_proofs_destroy(ovoid_robot_proofs *proofs);
+OVOID_API void ovoid_robot_proofs_reader_close(ovoid_robot_proofs_reader *proofs);
 
 /**
  * Reads the next path, after the source where one comes before it. Strictly: keys in the order of the format, each
  * once, no other; whole numbers where counts are; as many steps as the answer says. 1; 0: the file ends; -1: *error is
  * filled (place: the line): FORMAT, FILE, MEMORY. NOT_FINITE where a state's number is none. Cost: linear in the text.
  */
-OVOID_API int ovoid_robot_proofs_read(ovoid_robot_proofs *proofs, ovoid_robot_proof *proof, ovoid_error *error);
-/** What the path read last is of: a view, valid until the next call of ovoid_robot_proofs_read. NULL: none was read. */
-OVOID_API const ovoid_robot_proof_source *ovoid_robot_proofs_get_source(const ovoid_robot_proofs *proofs);
+OVOID_API int ovoid_robot_proofs_reader_read(ovoid_robot_proofs_reader *proofs, ovoid_robot_proof *proof,
+                                             ovoid_error *error);
+/** What the path read last is of: a view, valid until the next call of ovoid_robot_proofs_reader_read. NULL: none was
+ * read. */
+OVOID_API const ovoid_robot_proof_source *ovoid_robot_proofs_reader_get_source(const ovoid_robot_proofs_reader *proofs);
 /** The line that was read last. */
-OVOID_API int64_t ovoid_robot_proofs_get_line(const ovoid_robot_proofs *proofs);
+OVOID_API int64_t ovoid_robot_proofs_reader_get_line(const ovoid_robot_proofs_reader *proofs);
 
 #ifdef __cplusplus
 }

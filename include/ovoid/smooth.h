@@ -43,7 +43,7 @@ typedef struct ovoid_smooth {
  * ellipsoids are ellipses, segments, points. Cost: O(1), but linear in the corners of a flat polygon. docs/smooth.md
  * derives it all. Bounded work, no allocation; stack as in <ovoid/query.h>.
  */
-OVOID_API ovoid_smooth ovoid_smooth_compute(const ovoid_pair *pair, int order);
+OVOID_API ovoid_smooth ovoid_pair_compute_smooth(const ovoid_pair *pair, int order);
 
 /** The gradient of the exact signed distance (of the true bodies), as far as an answer shows it. */
 typedef struct ovoid_gradient {

@@ -179,7 +179,7 @@ OVOID_API ovoid_solid_answer ovoid_solid_distance(const ovoid_body_pair *pair, c
 OVOID_API int ovoid_solid_answer_is_within(const ovoid_solid_answer *answer, double margin);
 
 /**
- * Checks an answer without any search: the deciding pair as ovoid_answer_check does, each exclusion by all its
+ * Checks an answer without any search: the deciding pair as ovoid_answer_verify does, each exclusion by all its
  * triangles' points along its normal, that with the deciding pair they leave out no pair of triangles, what is inside
  * by the winding numbers of all components, a common point by its distance from all triangles, the depth by all points
  * along `parting`; and that both statuses follow from their brackets and the tolerance. Not claims, and not checked:
@@ -188,9 +188,9 @@ OVOID_API int ovoid_solid_answer_is_within(const ovoid_solid_answer *answer, dou
  * exclusions: those of the query. Cost: the triangles of all exclusions, and for each component that is not outside of
  * the other's box all triangles.
  */
-OVOID_API ovoid_code ovoid_solid_answer_check(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                                              const ovoid_options *options, const ovoid_exclusions *exclusions,
-                                              ovoid_error *error);
+OVOID_API ovoid_code ovoid_solid_answer_verify(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                                               const ovoid_options *options, const ovoid_exclusions *exclusions,
+                                               ovoid_error *error);
 
 #ifdef __cplusplus
 }

@@ -25,16 +25,16 @@ OVOID_API ovoid_compound_impact ovoid_solid_impact_find(const ovoid_moving_body 
                                                         double margin, const ovoid_motion_options *options);
 
 /**
- * Checks an impact as ovoid_compound_impact_check does, but for the beginning: that the bodies are apart there, or
+ * Checks an impact as ovoid_compound_impact_verify does, but for the beginning: that the bodies are apart there, or
  * within the margin with a bracket that holds what is claimed, is asked anew, and what is inside counted over all
  * triangles. options: those of the query, or NULL as there. steps, groups: all that the query wrote (options.groups).
  * OVOID_OK, or PROOF with a sentence in *error (may be NULL); place: the group. Cost: a query, the steps, and the
  * square of the number of groups.
  */
-OVOID_API ovoid_code ovoid_solid_impact_check(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                              const ovoid_compound_impact *impact, const ovoid_motion_options *options,
-                                              const ovoid_step *steps, const ovoid_step_group *groups,
-                                              ovoid_error *error);
+OVOID_API ovoid_code ovoid_solid_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
+                                               const ovoid_compound_impact *impact, const ovoid_motion_options *options,
+                                               const ovoid_step *steps, const ovoid_step_group *groups,
+                                               ovoid_error *error);
 
 #ifdef __cplusplus
 }

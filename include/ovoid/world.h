@@ -79,7 +79,7 @@ typedef struct ovoid_world_body {
 } ovoid_world_body;
 
 /**
- * Adds a body; 0 on failure, and the world is as it was: ARGUMENT, the codes of ovoid_pose_compute_check, LIMIT,
+ * Adds a body; 0 on failure, and the world is as it was: ARGUMENT, the codes of ovoid_pose_validate, LIMIT,
  * MEMORY. Cost: one insertion into the tree.
  */
 OVOID_API ovoid_id ovoid_world_add(ovoid_world *world, const ovoid_world_body *body, ovoid_error *error);
@@ -99,7 +99,7 @@ OVOID_API ovoid_code ovoid_world_remove(ovoid_world *world, ovoid_id id, ovoid_e
 OVOID_API ovoid_code ovoid_world_remove_many(ovoid_world *world, const ovoid_id *ids, size_t count, ovoid_error *error);
 
 /**
- * Moves a body to a pose, allocating nothing. Errors: INDEX, and the codes of ovoid_pose_compute_check; then the body
+ * Moves a body to a pose, allocating nothing. Errors: INDEX, and the codes of ovoid_pose_validate; then the body
  * stays where it was.
  */
 OVOID_API ovoid_code ovoid_world_move(ovoid_world *world, ovoid_id id, const ovoid_pose *pose, ovoid_error *error);
@@ -175,8 +175,8 @@ OVOID_API ovoid_code ovoid_world_compute_contacts(ovoid_world *world, const ovoi
                                                   ovoid_contacts *contacts, ovoid_error *error);
 
 /**
- * The whole answer of a contact at the present poses, with the proof that ovoid_compound_answer_check takes (of two
- * shapes: that ovoid_answer_check takes): the query is that of the last step, warm from its cache. exclusions: as in
+ * The whole answer of a contact at the present poses, with the proof that ovoid_compound_answer_verify takes (of two
+ * shapes: that ovoid_answer_verify takes): the query is that of the last step, warm from its cache. exclusions: as in
  * ovoid_compound_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT (also: a pair with a solid, of which
  * ovoid_solid_distance and its sisters give the proof). Cost: one query.
  */

@@ -67,11 +67,11 @@ ovoid_code answer_check(const answer_object *self, ovoid_error *error) {
     ovoid_body_pair bodies = {body_make(state, self->a, self->pose_a), body_make(state, self->b, self->pose_b)};
     if (bodies.a.shape && bodies.b.shape) {
         ovoid_pair pair = {bodies.a.shape, bodies.b.shape, self->pose_a, self->pose_b};
-        return ovoid_answer_check(&pair, &self->of.answer, &self->options, cover, error);
+        return ovoid_answer_verify(&pair, &self->of.answer, &self->options, cover, error);
     }
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count,
                                    self->cover ? &unpacked : NULL};
-    return ovoid_compound_answer_check(&bodies, &self->of, &self->options, &exclusions, error);
+    return ovoid_compound_answer_verify(&bodies, &self->of, &self->options, &exclusions, error);
 }
 
 static ovoid_code check_any(module_state *state, PyObject *what, ovoid_error *error) {

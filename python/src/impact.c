@@ -164,16 +164,16 @@ ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *erro
     ovoid_moving_body a = make_moving(state, self->a, self->motion_a), b = make_moving(state, self->b, self->motion_b);
     ovoid_moving_shape shape_a = make_moving_shape(&a), shape_b = make_moving_shape(&b);
     if (Py_TYPE(object) == state->approach)
-        return ovoid_approach_check(&shape_a, &shape_b, &self->approach, &self->options, self->steps, error);
+        return ovoid_approach_verify(&shape_a, &shape_b, &self->approach, &self->options, self->steps, error);
     if (a.shape && b.shape)
-        return ovoid_impact_check(&shape_a, &shape_b, self->margin, &self->of.impact, &self->options, self->steps,
-                                  error);
+        return ovoid_impact_verify(&shape_a, &shape_b, self->margin, &self->of.impact, &self->options, self->steps,
+                                   error);
     if (!a.solid && !b.solid)
-        return ovoid_compound_impact_check(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups,
-                                           error);
+        return ovoid_compound_impact_verify(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups,
+                                            error);
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_solid_impact_check(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups, error);
+    code = ovoid_solid_impact_verify(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups, error);
     Py_END_ALLOW_THREADS;
     return code;
 }
@@ -318,7 +318,7 @@ static PyObject *cast_ray(PyObject *module, PyObject *arguments, PyObject *keywo
     posed.shape = body.shape;
     ray_hit_object *made = object_make(state->ray_hit);
     if (!made) return NULL;
-    made->hit = ovoid_ray_cast(&posed, &ray);
+    made->hit = ovoid_shape_cast_ray(&posed, &ray);
     if (!limit_check(state, made->hit.limit)) return (PyObject *)made;
     Py_DECREF((PyObject *)made);
     return NULL;

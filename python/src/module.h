@@ -252,7 +252,7 @@ int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
 const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.
 int limit_check(module_state *state, ovoid_limit limit);
-/// Checks an answer by its proof and the options of its query: OVOID_OK, or what ovoid_answer_check says.
+/// Checks an answer by its proof and the options of its query: OVOID_OK, or what ovoid_answer_verify says.
 ovoid_code answer_check(const answer_object *self, ovoid_error *error);
 /// Checks an impact or an approach likewise.
 ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *error);

@@ -7,7 +7,7 @@
 static PyObject *wrap(module_state *state, ovoid_motion motion, double *times, ovoid_pose *poses) {
     ovoid_error error;
     motion_object *self = NULL;
-    if (ovoid_motion_compute_check(&motion, &error) != OVOID_OK)
+    if (ovoid_motion_validate(&motion, &error) != OVOID_OK)
         raise_error(state, &error);
     else
         self = object_make(state->motion);

@@ -12,7 +12,7 @@ PyObject *pose_wrap(module_state *state, ovoid_pose pose) {
 
 // A pose made of numbers that are checked here: what it is wrong with it, as an exception.
 static int check_pose(module_state *state, const char *what, Py_ssize_t place, const ovoid_pose *pose) {
-    ovoid_code code = ovoid_pose_compute_check(pose);
+    ovoid_code code = ovoid_pose_validate(pose);
     if (code == OVOID_OK) return 0;
     const char *why = code == OVOID_ERROR_ROTATION ? "the quaternion is zero"
                       : code == OVOID_ERROR_RANGE  ? "the position or the quaternion is out of range"

@@ -37,7 +37,7 @@ PyObject *solid_answer_ask(module_state *state, PyObject *a, PyObject *b, const 
                            const ovoid_compound_proof *earlier);
 /// Its parts and proof as a warm start.
 ovoid_compound_proof solid_answer_get_proof(PyObject *answer);
-/// Checks a SolidAnswer by its proof: OVOID_OK, or what ovoid_solid_answer_check says.
+/// Checks a SolidAnswer by its proof: OVOID_OK, or what ovoid_solid_answer_verify says.
 ovoid_code solid_answer_check(PyObject *answer, ovoid_error *error);
 
 #endif

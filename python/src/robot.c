@@ -172,7 +172,7 @@ static PyObject *check_limits(PyObject *object, PyObject *arguments, PyObject *k
     double *q = state_read((robot_object *)object, given);
     if (!q) return NULL;
     ovoid_error error;
-    ovoid_code code = ovoid_robot_check_limits(get(object), q, slack, &error);
+    ovoid_code code = ovoid_robot_validate_limits(get(object), q, slack, &error);
     free(q);
     return code == OVOID_OK ? Py_NewRef(Py_None) : raise_error(state, &error);
 }

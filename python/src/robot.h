@@ -69,7 +69,7 @@ int cell_keep(cell_object *self, ovoid_id id, PyObject *body);
 /// What a question about a path is given.
 typedef struct path_arguments {
     items states; ///< (n, variables); the caller frees states.data
-    ovoid_robot_check_options check;
+    ovoid_robot_query_options check;
     double tolerance;
     uint32_t most_states;
     int any_hit; ///< of check_path
@@ -83,7 +83,7 @@ int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywor
 PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answer);
 PyObject *side_make(module_state *state, const ovoid_robot_side *side);
 /// Refuses options that C would read in another order, or not at all.
-int check_options_check(module_state *state, const ovoid_robot_check_options *o);
+int query_options_validate(module_state *state, const ovoid_robot_query_options *o);
 
 // ---- tables of methods, and what each file adds
 

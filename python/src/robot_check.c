@@ -34,7 +34,7 @@ PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answe
                                  b, has_pair ? answer->lower : NAN, has_pair ? answer->upper : NAN, code, variable);
 }
 
-int check_options_check(module_state *state, const ovoid_robot_check_options *o) {
+int query_options_validate(module_state *state, const ovoid_robot_query_options *o) {
     if (o->margin >= 0 && o->limit_slack >= 0) return 0;
     raise_code(state, OVOID_ERROR_ARGUMENT, -1, "margin and limit_slack are numbers >= 0");
     return -1;
@@ -47,11 +47,11 @@ static PyObject *check(PyObject *object, PyObject *arguments, PyObject *keywords
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
     PyObject *given;
-    ovoid_robot_check_options o = {0};
+    ovoid_robot_query_options o = {0};
     ovoid_robot_checker *checker;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT ":check", names, &given,
                                      CHECK_TARGETS(o)) ||
-        check_options_check(state, &o))
+        query_options_validate(state, &o))
         return NULL;
     double *q = state_read(self->robot, given);
     if (!q || checkers_borrow(self, &checker, 1)) {
@@ -62,7 +62,7 @@ static PyObject *check(PyObject *object, PyObject *arguments, PyObject *keywords
     ovoid_error error;
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_robot_check(checker, q, &o, &answer, &error);
+    code = ovoid_robot_collide(checker, q, &o, &answer, &error);
     Py_END_ALLOW_THREADS;
     checkers_return(self, &checker, 1);
     free(q);
@@ -73,7 +73,7 @@ static PyObject *check(PyObject *object, PyObject *arguments, PyObject *keywords
 
 typedef struct near_query {
     const double *q;
-    ovoid_robot_check_options options;
+    ovoid_robot_query_options options;
     int is_nearest;
 } near_query;
 
@@ -108,7 +108,7 @@ static PyObject *near_or_nearest(PyObject *object, PyObject *arguments, PyObject
                                                            &given, CHECK_TARGETS(query.options))
                              : PyArg_ParseTupleAndKeywords(arguments, keywords, "Od|$dppp:near", near_names, &given,
                                                            CHECK_TARGETS(query.options), &without_depths);
-    if (!is_read || check_options_check(state, &query.options)) return NULL;
+    if (!is_read || query_options_validate(state, &query.options)) return NULL;
     double *q = state_read(self->robot, given);
     if (!q || checkers_borrow(self, &checker, 1)) {
         free(q);
@@ -155,7 +155,7 @@ typedef struct job {
     ovoid_robot_checker *checkers[THREADS_MOST];
     size_t checker_count, variables, count;
     const double *q;
-    ovoid_robot_check_options options;
+    ovoid_robot_query_options options;
     ovoid_robot_answer *answers;
     ovoid_robot_near *nears;
     double *gradients;
@@ -187,7 +187,7 @@ static ovoid_code run_piece(void *context, size_t first, size_t count, ovoid_err
     const job *j = context;
     if (j->nears) return find_nearest_of(j, first, count, error);
     ovoid_robot_batch batch = {j->q + first * j->variables, count, &j->options, j->answers + first};
-    ovoid_code code = ovoid_robot_check_batch(j->checkers, j->checker_count, &batch, error);
+    ovoid_code code = ovoid_robot_collide_batch(j->checkers, j->checker_count, &batch, error);
     return code == OVOID_ERROR_LIMIT ? OVOID_OK : code; // fewer threads could be started; the others did the work
 }
 
@@ -200,7 +200,7 @@ typedef struct states_input {
 static int read_input(cell_object *self, states_input *in, job *j) {
     module_state *state = state_of((PyObject *)self);
     j->variables = robot_variable_count(self->robot);
-    if (check_options_check(state, &j->options)) return -1;
+    if (query_options_validate(state, &j->options)) return -1;
     if (in->threads < 1 || in->threads > THREADS_MOST) {
         raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, in->threads);
         return -1;

@@ -12,7 +12,7 @@ typedef struct comparing {
     ovoid_robot_checker *checkers[2]; ///< of the robot, of its model
     const double *q;
     size_t variables;
-    ovoid_robot_check_options options;
+    ovoid_robot_query_options options;
     ovoid_robot_agreement *agreements;
     ovoid_robot_comparison sum;
 } comparing;
@@ -51,7 +51,7 @@ static PyObject *make_comparison(module_state *state, const ovoid_robot_comparis
 }
 
 static PyObject *compare_read(module_state *state, cell_object *const cells[2], const items *states,
-                              const ovoid_robot_check_options *o, PyObject *progress) {
+                              const ovoid_robot_query_options *o, PyObject *progress) {
     comparing c = {.q = states->data, .variables = (size_t)states->shape[1], .options = *o};
     PyObject *agreements = array_make(state, RECORD_UINT32, 1, states->shape, &c.agreements);
     if (!agreements) return NULL;
@@ -82,11 +82,11 @@ static PyObject *compare_states(PyObject *module, PyObject *arguments, PyObject 
     module_state *state = state_of_module(module);
     PyObject *first, *second, *given, *progress = NULL;
     cell_object *cells[2];
-    ovoid_robot_check_options o = {0};
+    ovoid_robot_query_options o = {0};
     items states;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$" CHECK_FORMAT "O:compare_states", names, &first,
                                      &second, &given, CHECK_TARGETS(o), &progress) ||
-        check_options_check(state, &o) || progress_check(progress) || read_cell(state, first, "robot", &cells[0]) ||
+        query_options_validate(state, &o) || progress_check(progress) || read_cell(state, first, "robot", &cells[0]) ||
         read_cell(state, second, "model", &cells[1]))
         return NULL;
     size_t variables = robot_variable_count(cells[0]->robot), of_model = robot_variable_count(cells[1]->robot);

@@ -57,7 +57,7 @@ static ovoid_code find_steps(path_object *self, ovoid_robot_checker *checker, ov
         self->steps = o.steps;
         // From the same memory of earlier states, so that the second time has as many steps.
         ovoid_robot_checker_reset(checker);
-        ovoid_code code = ovoid_robot_check_path(checker, &path, &o, &self->of, error);
+        ovoid_code code = ovoid_robot_path_find_hit(checker, &path, &o, &self->of, error);
         if (code != OVOID_OK || self->of.step_count <= o.capacity) return code;
     }
 }
@@ -71,7 +71,7 @@ int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywor
     // The last one is read where the format has it.
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, names, &given, CHECK_TARGETS(in->check),
                                      &in->tolerance, &most, &in->any_hit) ||
-        check_options_check(state, &in->check))
+        query_options_validate(state, &in->check))
         return -1;
     if (most > UINT32_MAX) {
         raise_code(state, OVOID_ERROR_ARGUMENT, -1, "most_states: 0 to 2^32 - 1 are wanted");
@@ -91,7 +91,7 @@ PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords) 
     ovoid_robot_checker *checker;
     if (path_arguments_read(cell, arguments, keywords, "O|$" CHECK_FORMAT "dKp:check_path", names, &in)) return NULL;
     ovoid_robot_path_options o = {
-        .check = in.check, .tolerance = in.tolerance, .states = in.most_states, .any_hit = in.any_hit};
+        .query = in.check, .tolerance = in.tolerance, .states = in.most_states, .any_hit = in.any_hit};
     path_object *self = make_object(cell, &o, &in.states);
     if (!self || checkers_borrow(cell, &checker, 1)) {
         Py_XDECREF((PyObject *)self);
@@ -122,7 +122,7 @@ ovoid_code path_check(PyObject *object, ovoid_error *error) {
     ovoid_code code;
     self->cell->readers++;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_robot_path_check(self->cell->cell, &path, &self->options, &self->of, self->steps, to);
+    code = ovoid_robot_path_verify(self->cell->cell, &path, &self->options, &self->of, self->steps, to);
     Py_END_ALLOW_THREADS;
     self->cell->readers--;
     return code;
@@ -131,7 +131,7 @@ ovoid_code path_check(PyObject *object, ovoid_error *error) {
 #ifdef OVOID_PYTHON_ROBOT_READ
 PyObject *path_claim(cell_object *cell, const ovoid_robot_proof *proof, double limit_slack) {
     size_t variables = robot_variable_count(cell->robot), size = proof->count * variables * sizeof(double);
-    const ovoid_robot_path_options o = {.check = {.margin = proof->margin, .limit_slack = limit_slack}};
+    const ovoid_robot_path_options o = {.query = {.margin = proof->margin, .limit_slack = limit_slack}};
     items states = {malloc(size + 1), {(Py_ssize_t)proof->count, 0, 0}};
     size_t steps = proof->answer.step_count * sizeof *proof->steps;
     path_object *self = states.data ? make_object(cell, &o, &states) : NULL;

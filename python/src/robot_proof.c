@@ -78,14 +78,14 @@ static int check_source(const cell_object *cell, const ovoid_robot_proof_source 
 // ---- reading
 
 // Calls take for each path; -1: an exception.
-static int read_all(module_state *state, ovoid_robot_proofs *file, PyObject *list,
+static int read_all(module_state *state, ovoid_robot_proofs_reader *file, PyObject *list,
                     PyObject *(*take)(void *context, const ovoid_robot_proof *, const ovoid_robot_proof_source *),
                     void *context) {
     ovoid_robot_proof proof;
     ovoid_error error;
     int got;
-    while ((got = ovoid_robot_proofs_read(file, &proof, &error)) > 0) {
-        PyObject *one = take(context, &proof, ovoid_robot_proofs_get_source(file));
+    while ((got = ovoid_robot_proofs_reader_read(file, &proof, &error)) > 0) {
+        PyObject *one = take(context, &proof, ovoid_robot_proofs_reader_get_source(file));
         int failed = !one || (one != Py_None && PyList_Append(list, one)) || PyErr_CheckSignals();
         Py_XDECREF(one);
         if (failed) return -1;
@@ -100,12 +100,12 @@ static PyObject *read_file(module_state *state, PyObject *given,
     PyObject *path = NULL;
     ovoid_error error;
     if (!PyUnicode_FSConverter(given, &path)) return NULL;
-    ovoid_robot_proofs *file = ovoid_robot_proofs_create(PyBytes_AsString(path), &error);
+    ovoid_robot_proofs_reader *file = ovoid_robot_proofs_reader_open(PyBytes_AsString(path), &error);
     Py_DECREF(path);
     if (!file) return raise_error(state, &error);
     PyObject *list = PyList_New(0);
     if (list && read_all(state, file, list, take, context)) Py_CLEAR(list);
-    ovoid_robot_proofs_destroy(file);
+    ovoid_robot_proofs_reader_close(file);
     return list;
 }
 

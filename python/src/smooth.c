@@ -37,7 +37,7 @@ static PyObject *smooth(PyObject *module, PyObject *arguments, PyObject *keyword
     pair.shape_b = b.shape;
     smooth_object *made = object_make(state->smooth);
     if (!made) return NULL;
-    made->smooth = ovoid_smooth_compute(&pair, order);
+    made->smooth = ovoid_pair_compute_smooth(&pair, order);
     return (PyObject *)made;
 }
 

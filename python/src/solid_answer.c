@@ -84,7 +84,7 @@ ovoid_code solid_answer_check(PyObject *answer, ovoid_error *error) {
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count, NULL};
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_solid_answer_check(&pair, &self->of, &self->options, &exclusions, error);
+    code = ovoid_solid_answer_verify(&pair, &self->of, &self->options, &exclusions, error);
     Py_END_ALLOW_THREADS;
     return code;
 }

@@ -3,7 +3,7 @@
 
 int body_view_make(const ovoid_body *body, body_view *v) {
     if (!body_is_convex(body)) return 0;
-    if (pose_compute_check(&body->pose) != OVOID_OK) return 0;
+    if (pose_validate(&body->pose) != OVOID_OK) return 0;
     v->pose = &body->pose;
     v->compound = body->compound;
     if (v->compound) {

@@ -6,7 +6,7 @@
 #include <string.h>
 
 int solid_view_make(const ovoid_body *body, solid_view *v) {
-    if (!body_is_one(body) || pose_compute_check(&body->pose) != OVOID_OK) return 0;
+    if (!body_is_one(body) || pose_validate(&body->pose) != OVOID_OK) return 0;
     *v = (solid_view){
         .solid = body->solid, .shape = body->shape, .compound = body->compound, .pose = &body->pose, .count = 1};
     if (v->solid) {

@@ -8,9 +8,9 @@
 #include "linear/rotation.h"
 
 // OVOID_OK, or what is wrong with a part.
-static ovoid_code check_part(const ovoid_posed_shape *part, size_t i, ovoid_error *error) {
+static ovoid_code validate_part(const ovoid_posed_shape *part, size_t i, ovoid_error *error) {
     if (!part->shape) return error_set(error, OVOID_ERROR_ARGUMENT, (int64_t)i, "part %zu has no shape", i);
-    ovoid_code code = pose_compute_check(&part->pose);
+    ovoid_code code = pose_validate(&part->pose);
     if (code == OVOID_OK && !(posed_shape_compute_extent(part) <= OVOID_LENGTH_MAX)) code = OVOID_ERROR_RANGE;
     if (code == OVOID_OK) return OVOID_OK;
     const char *what = code == OVOID_ERROR_ROTATION     ? "has a quaternion of four zeros"
@@ -19,13 +19,13 @@ static ovoid_code check_part(const ovoid_posed_shape *part, size_t i, ovoid_erro
     return error_set(error, code, (int64_t)i, "part %zu %s", i, what);
 }
 
-static ovoid_code check_parts(const ovoid_posed_shape *parts, size_t count, ovoid_error *error) {
+static ovoid_code validate_parts(const ovoid_posed_shape *parts, size_t count, ovoid_error *error) {
     if (!parts || count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "a compound needs at least one part");
     if (count > OVOID_COMPOUND_PARTS_MAX)
         return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu parts, at most %zu are allowed", count,
                          OVOID_COMPOUND_PARTS_MAX);
     for (size_t i = 0; i < count; i++) {
-        ovoid_code code = check_part(&parts[i], i, error);
+        ovoid_code code = validate_part(&parts[i], i, error);
         if (code != OVOID_OK) return code;
     }
     return OVOID_OK;
@@ -93,7 +93,7 @@ static int fill(ovoid_compound *c, const ovoid_posed_shape *parts, const ovoid_a
 
 static ovoid_compound *create(const ovoid_posed_shape *parts, size_t count, const ovoid_allocator *allocator,
                               ovoid_error *error) {
-    if (check_parts(parts, count, error) != OVOID_OK) return NULL;
+    if (validate_parts(parts, count, error) != OVOID_OK) return NULL;
     ovoid_allocator memory = allocator_make(allocator);
     ovoid_compound *c = create_block(count, &memory);
     if (c && fill(c, parts, &memory)) return c;

@@ -6,16 +6,16 @@
 
 enum { CELLS = 1 << 18, CELLS_LEAST = 4096, WORK = 1 << 21 };
 
-static ovoid_code check_length(const char *name, double length, ovoid_error *error) {
+static ovoid_code validate_length(const char *name, double length, ovoid_error *error) {
     if (length >= 0 && length <= OVOID_LENGTH_MAX) return OVOID_OK;
     return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the %s %g is no length: give one of at least 0", name, length);
 }
 
-ovoid_code body_check_options(const ovoid_decomposition_options *given, ovoid_decomposition_options *options,
-                              ovoid_error *error) {
+ovoid_code body_validate_options(const ovoid_decomposition_options *given, ovoid_decomposition_options *options,
+                                 ovoid_error *error) {
     *options = given ? *given : (ovoid_decomposition_options){0};
-    ovoid_code code = check_length("tolerance", options->tolerance, error);
-    if (code == OVOID_OK) code = check_length("error", options->error, error);
+    ovoid_code code = validate_length("tolerance", options->tolerance, error);
+    if (code == OVOID_OK) code = validate_length("error", options->error, error);
     if (code != OVOID_OK) return code;
     if (options->parts > OVOID_DECOMPOSITION_PARTS_MAX)
         return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu parts, %d are allowed", options->parts,
@@ -28,7 +28,7 @@ ovoid_code body_check_options(const ovoid_decomposition_options *given, ovoid_de
     return OVOID_OK;
 }
 
-static ovoid_code check_solid(const ovoid_solid *solid, ovoid_error *error) {
+static ovoid_code validate_solid(const ovoid_solid *solid, ovoid_error *error) {
     if (!solid) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no solid (NULL)");
     if (!solid->report.is_closed)
         return error_set(
@@ -65,7 +65,7 @@ static void set_tolerance(body *b, const ovoid_decomposition_options *o) {
 
 ovoid_code body_open(body *b, const ovoid_solid *solid, const ovoid_decomposition_options *options,
                      ovoid_error *error) {
-    ovoid_code code = check_solid(solid, error);
+    ovoid_code code = validate_solid(solid, error);
     if (code != OVOID_OK) return code;
     *b = (body){.solid = solid, .memory = allocator_make(options->allocator)};
     set_unit(b, find_reach(solid));
@@ -75,7 +75,7 @@ ovoid_code body_open(body *b, const ovoid_solid *solid, const ovoid_decompositio
 
 // ---- parts
 
-ovoid_code body_check_parts(const ovoid_decomposition *d, ovoid_error *error) {
+ovoid_code body_validate_parts(const ovoid_decomposition *d, ovoid_error *error) {
     if (!d || (d->part_count && !d->parts)) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no parts (NULL)");
     if (!d->part_count) return error_set(error, OVOID_ERROR_EMPTY, -1, "there are no parts");
     if (d->part_count > OVOID_DECOMPOSITION_PARTS_MAX)
@@ -102,8 +102,8 @@ static box find_box(const ovoid_shape *shape) {
 
 ovoid_code body_open_parts(body *b, const ovoid_decomposition *d, const ovoid_decomposition_options *options,
                            ovoid_error *error) {
-    ovoid_code code = body_check_parts(d, error);
-    if (code == OVOID_OK) code = check_solid(d->solid, error);
+    ovoid_code code = body_validate_parts(d, error);
+    if (code == OVOID_OK) code = validate_solid(d->solid, error);
     if (code != OVOID_OK) return code;
     *b = (body){.solid = d->solid, .memory = allocator_make(options->allocator)};
     b->parts = allocator_allocate(&b->memory, d->part_count, sizeof *b->parts);

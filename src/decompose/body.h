@@ -34,12 +34,12 @@ typedef struct body {
 } body;
 
 /// The default of what the options leave out, checked. Errors: ARGUMENT.
-ovoid_code body_check_options(const ovoid_decomposition_options *given, ovoid_decomposition_options *options,
-                              ovoid_error *error);
+ovoid_code body_validate_options(const ovoid_decomposition_options *given, ovoid_decomposition_options *options,
+                                 ovoid_error *error);
 /// The solid alone, closed. The caller closes it. Errors: ARGUMENT, MEMORY.
 ovoid_code body_open(body *b, const ovoid_solid *solid, const ovoid_decomposition_options *options, ovoid_error *error);
 /// Errors: ARGUMENT, EMPTY, LIMIT.
-ovoid_code body_check_parts(const ovoid_decomposition *d, ovoid_error *error);
+ovoid_code body_validate_parts(const ovoid_decomposition *d, ovoid_error *error);
 /// With the parts of a decomposition. Errors: those, EMPTY, LIMIT.
 ovoid_code body_open_parts(body *b, const ovoid_decomposition *d, const ovoid_decomposition_options *options,
                            ovoid_error *error);

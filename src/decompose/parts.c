@@ -222,7 +222,7 @@ static ovoid_parts *create_from_solid(const ovoid_solid *solid, const ovoid_deco
                                       ovoid_error *error) {
     ovoid_decomposition_options options;
     body b;
-    if (body_check_options(given, &options, error) != OVOID_OK) return NULL;
+    if (body_validate_options(given, &options, error) != OVOID_OK) return NULL;
     if (body_open(&b, solid, &options, error) != OVOID_OK) return NULL;
     making m = {.b = &b, .o = &options};
     set_aims(&m);
@@ -296,7 +296,7 @@ static ovoid_shape *enlarge(const ovoid_shape *shape, double radius, const ovoid
 static ovoid_parts *create_enlarged(const ovoid_decomposition *d, double radius,
                                     const ovoid_decomposition_options *given, ovoid_error *error) {
     ovoid_allocator memory = allocator_make(given ? given->allocator : NULL);
-    if (body_check_parts(d, error) != OVOID_OK) return NULL;
+    if (body_validate_parts(d, error) != OVOID_OK) return NULL;
     if (!(radius >= 0 && radius <= OVOID_LENGTH_MAX)) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "the radius %g is no length: give one of at least 0", radius);
         return NULL;

@@ -50,7 +50,7 @@ static ovoid_code compute_proof(const ovoid_decomposition *d, const ovoid_decomp
     ovoid_decomposition_options options;
     body b;
     if (!proof) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no place for the proof (NULL)");
-    ovoid_code code = body_check_options(given, &options, error);
+    ovoid_code code = body_validate_options(given, &options, error);
     if (code == OVOID_OK) code = body_open_parts(&b, d, &options, error);
     if (code != OVOID_OK) return code;
     code = prove(&b, &options, proof, excess, error);

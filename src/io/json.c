@@ -52,7 +52,7 @@ static void fail_depth(bytes text, const char *at, json_error_t *why) {
 
 // 0, and *why, where values are nested too deep. As far as a text is JSON its texts and brackets are seen as jansson
 // sees them; behind that jansson goes no deeper.
-static int check_depth(bytes text, json_error_t *why) {
+static int validate_depth(bytes text, json_error_t *why) {
     scanner s = {text.data, text.data + text.size};
     size_t depth = 0;
     while (s.at < s.end) {
@@ -69,7 +69,7 @@ static int check_depth(bytes text, json_error_t *why) {
 }
 
 json_t *json_load(bytes text, int flags, json_error_t *why) {
-    return check_depth(text, why) ? json_loadb(text.data, text.size, flags, why) : NULL;
+    return validate_depth(text, why) ? json_loadb(text.data, text.size, flags, why) : NULL;
 }
 
 ovoid_code json_get_failure(const json_error_t *why) {
@@ -136,7 +136,7 @@ static int find_list(bytes text, const char *key, scanner *inside) {
 json_t *json_load_around(bytes text, const char *key, int flags, json_list *list, json_error_t *why) {
     scanner s;
     *list = (json_list){.flags = flags};
-    if (!check_depth(text, why)) return NULL;
+    if (!validate_depth(text, why)) return NULL;
     if (!find_list(text, key, &s)) {
         json_t *root = json_loadb(text.data, text.size, flags, why);
         list->loaded = json_object_get(root, key);

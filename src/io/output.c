@@ -126,12 +126,12 @@ static ovoid_code find_target(ovoid_output *output, ovoid_error *error) {
     return output->target ? OVOID_OK : fail_output(error, output->path, "cannot be written");
 }
 
-ovoid_output *ovoid_output_create(const char *path, ovoid_error *error) {
+ovoid_output *ovoid_output_open(const char *path, ovoid_error *error) {
     ovoid_output *output = calloc(1, sizeof *output);
     if (output) output->path = text_copy(path, strlen(path));
     if (!output || !output->path) {
         io_fail_memory(error, path);
-        ovoid_output_destroy(output);
+        ovoid_output_close(output);
         return NULL;
     }
     ovoid_code code = find_target(output, error);
@@ -142,7 +142,7 @@ ovoid_output *ovoid_output_create(const char *path, ovoid_error *error) {
         if (!output->file) code = fail_output(error, path, "cannot be written");
     }
     if (!code) return output;
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     return NULL;
 }
 
@@ -181,7 +181,7 @@ ovoid_code ovoid_output_commit(ovoid_output *output, ovoid_error *error) {
     return OVOID_OK;
 }
 
-void ovoid_output_destroy(ovoid_output *output) {
+void ovoid_output_close(ovoid_output *output) {
     if (!output) return;
     if (output->file && output->file != stdout) fclose(output->file);
     if (output->temporary) remove(output->temporary);

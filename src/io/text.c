@@ -73,7 +73,7 @@ int text_is_pointer(const char *text, size_t length) {
 }
 
 // What no reader wants.
-static ovoid_code check_content(const char *path, bytes *out, ovoid_error *error) {
+static ovoid_code validate_content(const char *path, bytes *out, ovoid_error *error) {
     where at = {path, 0, -1};
     ovoid_code code = OVOID_OK;
     if (out->size == 0) code = io_fail(error, OVOID_ERROR_EMPTY, at, "the file is empty");
@@ -100,7 +100,7 @@ ovoid_code bytes_read_open(int file, const char *path, size_t most, bytes *out, 
     *out = (bytes){NULL, 0};
     ovoid_code code = read_open(file, path, most, out, error);
     close(file);
-    return code ? code : check_content(path, out, error);
+    return code ? code : validate_content(path, out, error);
 }
 
 static ovoid_code read_file(const char *path, size_t most, bytes *out, ovoid_error *error) {
@@ -132,7 +132,7 @@ static ovoid_code read_input(size_t most, bytes *out, ovoid_error *error) {
     }
     if (!out->data) return io_fail_memory(error, "-");
     out->data[out->size] = 0;
-    return check_content("-", out, error);
+    return validate_content("-", out, error);
 }
 
 ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error) {

@@ -35,7 +35,7 @@ ovoid_vec3 ovoid_pose_compute_local_point(const ovoid_pose *pose, ovoid_vec3 wor
     ENVIRONMENT_RETURN(vec3, world, compute_local_point(pose, world));
 }
 
-ovoid_code pose_compute_check(const ovoid_pose *pose) {
+ovoid_code pose_validate(const ovoid_pose *pose) {
     ovoid_quat q = pose->rotation;
     if (!vec3_is_finite(pose->position)) return OVOID_ERROR_NOT_FINITE;
     if (!isfinite(q.w) || !isfinite(q.x) || !isfinite(q.y) || !isfinite(q.z)) return OVOID_ERROR_NOT_FINITE;
@@ -44,9 +44,7 @@ ovoid_code pose_compute_check(const ovoid_pose *pose) {
     return OVOID_OK;
 }
 
-ovoid_code ovoid_pose_compute_check(const ovoid_pose *pose) {
-    ENVIRONMENT_RETURN(ovoid_code, pose, pose_compute_check(pose));
-}
+ovoid_code ovoid_pose_validate(const ovoid_pose *pose) { ENVIRONMENT_RETURN(ovoid_code, pose, pose_validate(pose)); }
 
 ovoid_pose pose_compute_product(const ovoid_pose *outer, const ovoid_pose *inner) {
     ovoid_quat a = outer->rotation, b = inner->rotation;

@@ -4,8 +4,8 @@
 
 #include "ovoid/linear.h"
 
-/// ovoid_pose_compute_check, for callers that have set up the floating-point environment.
-ovoid_code pose_compute_check(const ovoid_pose *pose);
+/// ovoid_pose_validate, for callers that have set up the floating-point environment.
+ovoid_code pose_validate(const ovoid_pose *pose);
 
 /// ovoid_pose_compute_product, for callers that have set up the floating-point environment. With u = 2^-53: a component
 /// of q p is a sum of four products, off by 4 u times the sum of their sizes, which is at most |q||p| (Cauchy,

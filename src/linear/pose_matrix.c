@@ -90,7 +90,7 @@ static ovoid_code make_matrix(const double *m, ovoid_vec3 position, ovoid_pose *
         return error_set(error, OVOID_ERROR_ROTATION, -1,
                          "the matrix is a reflection: its determinant is -1; one axis is turned over");
     ovoid_pose made = {position, compute_nearest_rotation(m)};
-    ovoid_code code = pose_compute_check(&made);
+    ovoid_code code = pose_validate(&made);
     if (code == OVOID_ERROR_NOT_FINITE) return error_set(error, code, -1, "the position is not finite");
     if (code == OVOID_ERROR_RANGE) return error_set(error, code, -1, "the position is above %g", OVOID_LENGTH_MAX);
     *pose = made;
@@ -126,7 +126,7 @@ static ovoid_code make_axis_angle(ovoid_vec3 position, ovoid_vec3 axis, double a
     vec3 n = vec3_scale(vec3_unit(axis), sin(angle / 2));
     if (vec3_max_abs(axis) == 0) return OVOID_ERROR_ROTATION;
     ovoid_pose made = {position, {cos(angle / 2), n.x, n.y, n.z}};
-    ovoid_code code = pose_compute_check(&made);
+    ovoid_code code = pose_validate(&made);
     if (code == OVOID_OK) *pose = made;
     return code;
 }

@@ -14,8 +14,8 @@ static void cast(const ovoid_pair *pair, ovoid_vec3 displacement, double margin,
     impact_find((moving_shapes){&a, &b}, margin, options, 1e-12, out);
 }
 
-ovoid_impact ovoid_translation_cast(const ovoid_pair *pair, ovoid_vec3 displacement, double margin,
-                                    const ovoid_motion_options *options) {
+ovoid_impact ovoid_shape_cast(const ovoid_pair *pair, ovoid_vec3 displacement, double margin,
+                              const ovoid_motion_options *options) {
     struct {
         ovoid_vec3 displacement;
         double margin;

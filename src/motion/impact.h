@@ -15,7 +15,7 @@ typedef struct step_claim {
     size_t count;
 } step_claim;
 /// OVOID_OK if the steps show it: each within one piece of both motions, the last reaching `end`.
-ovoid_code impact_check_steps(moving_shapes shapes, const step_claim *claim, ovoid_error *error);
+ovoid_code impact_verify_steps(moving_shapes shapes, const step_claim *claim, ovoid_error *error);
 
 /// What the answer for the computed poses at a time claims of the exact motion: its distance is in (above, most].
 typedef struct answer_claim {
@@ -24,10 +24,10 @@ typedef struct answer_claim {
     double above, most;
 } answer_claim;
 /// OVOID_OK if the answer's own proof shows it.
-ovoid_code impact_check_answer(moving_shapes shapes, const answer_claim *claim, ovoid_error *error);
+ovoid_code impact_verify_answer(moving_shapes shapes, const answer_claim *claim, ovoid_error *error);
 
 /// OVOID_OK if a query would have taken these motions and times.
-ovoid_code impact_check_times(moving_shapes shapes, double begin, double end, ovoid_error *error);
+ovoid_code impact_verify_times(moving_shapes shapes, double begin, double end, ovoid_error *error);
 
 /// What a record says of its query: the times, or why it is refused.
 typedef struct query_claim {
@@ -38,7 +38,7 @@ typedef struct query_claim {
     int is_empty; ///< 1: nothing is claimed of the bodies
 } query_claim;
 /// OVOID_OK if the query has these times, or is refused for this reason and nothing is claimed.
-ovoid_code impact_check_query(moving_shapes shapes, const query_claim *claim, ovoid_error *error);
+ovoid_code impact_verify_query(moving_shapes shapes, const query_claim *claim, ovoid_error *error);
 
 /// The steps of a proof, and the options of its query (NULL: not known).
 typedef struct step_proof {

@@ -43,8 +43,8 @@ ovoid_limit sweep_make(sweep *s, moving_shapes shapes, const ovoid_motion_option
     // within the queried times are checked.
     int all = o->begin == 0 && o->end == 0;
     double from = all ? -INFINITY : s->begin, to = all ? INFINITY : s->end;
-    if (motion_check(a, from, to, NULL) != OVOID_OK) return OVOID_LIMIT_POSE_A;
-    if (motion_check(b, from, to, NULL) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+    if (motion_validate(a, from, to, NULL) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+    if (motion_validate(b, from, to, NULL) != OVOID_OK) return OVOID_LIMIT_POSE_B;
     return ok ? motion_pair_make(shapes.a, shapes.b, s->time, &s->pieces) : OVOID_LIMIT_OPTIONS;
 }
 

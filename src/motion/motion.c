@@ -33,7 +33,7 @@ ovoid_motion ovoid_motion_make_path(const double *times, const ovoid_pose *poses
 // ---- validity
 
 static ovoid_code refuse_pose(const ovoid_pose *pose, int64_t place, const char *which, ovoid_error *error) {
-    ovoid_code code = pose_compute_check(pose);
+    ovoid_code code = pose_validate(pose);
     switch (code) {
     case OVOID_OK: return code;
     case OVOID_ERROR_NOT_FINITE:
@@ -47,13 +47,13 @@ static ovoid_code refuse_pose(const ovoid_pose *pose, int64_t place, const char 
     }
 }
 
-static ovoid_code check_duration(const ovoid_motion *m, ovoid_error *error) {
+static ovoid_code validate_duration(const ovoid_motion *m, ovoid_error *error) {
     if (m->duration > 0 && m->duration <= LONGEST_TIME) return OVOID_OK;
     return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a motion lasts %g; its duration must be above 0 and at most %g",
                      m->duration, LONGEST_TIME);
 }
 
-static ovoid_code check_velocity(const ovoid_motion *m, ovoid_error *error) {
+static ovoid_code validate_velocity(const ovoid_motion *m, ovoid_error *error) {
     if (!vec3_is_finite(m->linear) || !vec3_is_finite(m->angular) || !vec3_is_finite(m->pivot))
         return error_set(error, OVOID_ERROR_NOT_FINITE, -1, "a velocity or the pivot holds NaN or infinity");
     double way = vec3_max_abs(m->linear) * m->duration, angle = vec3_max_abs(m->angular) * m->duration;
@@ -80,7 +80,7 @@ static size_t find_knot(const ovoid_motion *m, double t) {
     return low;
 }
 
-static ovoid_code check_path(const ovoid_motion *m, double begin, double end, ovoid_error *error) {
+static ovoid_code validate_path(const ovoid_motion *m, double begin, double end, ovoid_error *error) {
     if (!m->times || !m->poses || m->count < 2)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a path needs times and poses, two at least; it has %zu",
                          m->times && m->poses ? m->count : 0);
@@ -100,24 +100,24 @@ static ovoid_code check_path(const ovoid_motion *m, double begin, double end, ov
     return OVOID_OK;
 }
 
-ovoid_code motion_check(const ovoid_motion *m, double begin, double end, ovoid_error *error) {
-    if (m->kind == OVOID_MOTION_PATH) return check_path(m, begin, end, error);
+ovoid_code motion_validate(const ovoid_motion *m, double begin, double end, ovoid_error *error) {
+    if (m->kind == OVOID_MOTION_PATH) return validate_path(m, begin, end, error);
     ovoid_code code = refuse_pose(&m->start, -1, "starting", error);
     if (code != OVOID_OK) return code;
     switch (m->kind) {
     case OVOID_MOTION_STILL: return OVOID_OK;
     case OVOID_MOTION_VELOCITY:
-        code = check_duration(m, error);
-        return code == OVOID_OK ? check_velocity(m, error) : code;
+        code = validate_duration(m, error);
+        return code == OVOID_OK ? validate_velocity(m, error) : code;
     case OVOID_MOTION_POSES:
-        code = check_duration(m, error);
+        code = validate_duration(m, error);
         return code == OVOID_OK ? refuse_pose(&m->end, -1, "last", error) : code;
     default: return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a motion has kind %d, which is none", (int)m->kind);
     }
 }
 
-ovoid_code ovoid_motion_compute_check(const ovoid_motion *motion, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, motion, motion_check(motion, -INFINITY, INFINITY, error));
+ovoid_code ovoid_motion_validate(const ovoid_motion *motion, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, motion, motion_validate(motion, -INFINITY, INFINITY, error));
 }
 
 // ---- pieces
@@ -282,7 +282,7 @@ int motion_body_make(const ovoid_moving_shape *moving, double time, motion_body 
     b->moving = moving;
     motion_find_piece(&moving->motion, time, &b->piece);
     b->has_part = !is_none(&moving->part);
-    if (b->has_part && pose_compute_check(&moving->part) != OVOID_OK) return 0;
+    if (b->has_part && pose_validate(&moving->part) != OVOID_OK) return 0;
     // The pivot, from the part's frame, then from the shape's body frame.
     const motion_piece *p = &b->piece;
     mat3 first = quat_to_mat3(p->inner.rotation), part = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -24,8 +24,8 @@ typedef struct motion_piece {
     double fixed;      ///< error of the position at any time, without the arm's share
 } motion_piece;
 
-/// ovoid_motion_compute_check, for the pieces within [begin, end] only.
-ovoid_code motion_check(const ovoid_motion *m, double begin, double end, ovoid_error *error);
+/// ovoid_motion_validate, for the pieces within [begin, end] only.
+ovoid_code motion_validate(const ovoid_motion *m, double begin, double end, ovoid_error *error);
 
 /// The first and the last time of a motion; infinite where it stands still.
 double motion_get_begin(const ovoid_motion *m);

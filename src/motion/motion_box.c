@@ -96,7 +96,7 @@ static ovoid_box compute_box(const ovoid_moving_shape *moving, double begin, dou
     const ovoid_motion *m = &moving->motion;
     ovoid_box none = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
     box all = box_make_empty();
-    if (!moving->shape || !(begin <= end) || motion_check(m, begin, end, NULL) != OVOID_OK) return none;
+    if (!moving->shape || !(begin <= end) || motion_validate(m, begin, end, NULL) != OVOID_OK) return none;
     // Outside of its time the body rests.
     double first = motion_get_begin(m), last = motion_get_end(m);
     double time = min2(max2(begin, first), last), until = max2(min2(end, last), first);

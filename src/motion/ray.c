@@ -40,7 +40,7 @@ static ovoid_ray_hit cast(const ovoid_posed_shape *body, const ovoid_ray *ray) {
     if (!body->shape) return refuse(OVOID_LIMIT_SHAPE_B);
     const ovoid_pose none = {{0, 0, 0}, {0, 0, 0, 0}}, at = {ray->origin, {1, 0, 0, 0}};
     ovoid_moving_shape still = {body->shape, ovoid_motion_make_still(body->pose), none}, moving;
-    if (motion_check(&still.motion, 0, 0, NULL) != OVOID_OK) return refuse(OVOID_LIMIT_POSE_B);
+    if (motion_validate(&still.motion, 0, 0, NULL) != OVOID_OK) return refuse(OVOID_LIMIT_POSE_B);
     if (!ray_is_sound(ray)) return refuse(OVOID_LIMIT_OPTIONS);
     point_shape point;
     ovoid_impact x;
@@ -64,6 +64,6 @@ static ovoid_ray_hit cast(const ovoid_posed_shape *body, const ovoid_ray *ray) {
     return out;
 }
 
-ovoid_ray_hit ovoid_ray_cast(const ovoid_posed_shape *body, const ovoid_ray *ray) {
+ovoid_ray_hit ovoid_shape_cast_ray(const ovoid_posed_shape *body, const ovoid_ray *ray) {
     ENVIRONMENT_RETURN(ovoid_ray_hit, body, cast(body, ray));
 }

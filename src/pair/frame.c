@@ -41,7 +41,7 @@ static double place_origins(pair_frame *f, const ovoid_pair *pair) {
                       vec3_max_abs(f->b->origin));
 }
 
-// pose_compute_check for a position; NaN fails every comparison.
+// pose_validate for a position; NaN fails every comparison.
 static int is_place(vec3 p) {
     return (fabs(p.x) <= OVOID_LENGTH_MAX) & (fabs(p.y) <= OVOID_LENGTH_MAX) & (fabs(p.z) <= OVOID_LENGTH_MAX);
 }
@@ -84,13 +84,13 @@ ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
     f->hidden = OVOID_LENGTH_MIN;
     int is_plain = is_place(a->position) & is_place(b->position);
     if (f->a->has_origin | f->b->has_origin) {
-        if (pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
-        if (pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+        if (pose_validate(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+        if (pose_validate(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
         f->hidden += place_origins(f, pair);
     }
     if (!is_plain || !place_plain(f, a->rotation, b->rotation)) {
-        if (pose_compute_check(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
-        if (pose_compute_check(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
+        if (pose_validate(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
+        if (pose_validate(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;
         place_scaled(f, a->rotation, b->rotation);
     }
     frame_set_lengths(f);

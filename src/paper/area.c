@@ -107,8 +107,8 @@ static ovoid_code create_facets(ovoid_areas *a) {
 }
 
 /// OVOID_OK, or an error where areas cannot be made of the input.
-static ovoid_code check_input(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
-                              uint32_t k, ovoid_error *error) {
+static ovoid_code validate_input(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
+                                 uint32_t k, ovoid_error *error) {
     if (!polytope || !ellipsoid)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "areas need a polytope and an ellipsoid; one is NULL");
     if (polytope->rank < 3)
@@ -140,7 +140,7 @@ static ovoid_code fill_areas(ovoid_areas *a, const ovoid_ellipsoid *ellipsoid, o
 
 static ovoid_areas *create_areas(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
                                  uint32_t k, const ovoid_allocator *allocator, ovoid_error *error) {
-    if (check_input(polytope, ellipsoid, split, k, error) != OVOID_OK) return NULL;
+    if (validate_input(polytope, ellipsoid, split, k, error) != OVOID_OK) return NULL;
     ovoid_allocator use = allocator_make(allocator);
     ovoid_areas *a = allocator_allocate(&use, 1, sizeof *a);
     if (!a) {

@@ -4,8 +4,8 @@
 // Step (e): X* and Y* of the inner ellipsoids by the sphere transform. Step (f): the gap of the outer ellipsoids along
 // the normal that the same transform finds for them, rounding and rounding radii subtracted: a true lower bound. Step
 // (g): where the rays from the inner centres through X* and Y* leave the polyhedra: Q1 and Q2, points of the bodies, so
-// that |Q1 Q2| is an upper bound of the distance (to rounding; the library's own upper bounds are ovoid_bounds and
-// ovoid_distance).
+// that |Q1 Q2| is an upper bound of the distance (to rounding; the library's own upper bounds are
+// ovoid_pair_compute_bounds and ovoid_distance).
 //
 // The paper speaks of one line through X* and Y*. It passes through A's inner centre by the nature of the transform,
 // but not through B's; areas are seen from the centre, so B's ray is that from its own centre through Y*. Both rays

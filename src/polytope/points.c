@@ -27,7 +27,7 @@ typedef struct bounds {
 } bounds;
 
 // Checks that all points are finite and in range, and finds their bounds.
-static ovoid_code check_points(const double *xyz, size_t count, bounds *b, ovoid_error *error) {
+static ovoid_code validate_points(const double *xyz, size_t count, bounds *b, ovoid_error *error) {
     for (int c = 0; c < 3; c++) b->low[c] = INFINITY, b->high[c] = -INFINITY;
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) {
@@ -144,7 +144,7 @@ static ovoid_code create(const double *xyz, size_t count, const ovoid_allocator 
     if (count > POINTS_MAX)
         return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu points; at most %zu are taken", count, POINTS_MAX);
     bounds b;
-    ovoid_code code = check_points(xyz, count, &b, error);
+    ovoid_code code = validate_points(xyz, count, &b, error);
     if (code) return code;
     p->origin = make_origin(xyz, count, &b);
     p->source = allocator_allocate(allocator, count, sizeof *p->source);

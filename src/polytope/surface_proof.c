@@ -117,7 +117,7 @@ static ovoid_code find_across(prover *w) {
 // ---- convexity ----
 
 // (1) and (3): each edge is looked at from the triangle with the smaller number.
-static ovoid_code check_triangle(const prover *w, uint32_t t) {
+static ovoid_code verify_triangle(const prover *w, uint32_t t) {
     const surface *s = w->s;
     const uint32_t *corner = s->triangles + 3 * (size_t)t;
     vec3 a = vec3_at(w->p->grid, corner[0]), b = vec3_at(w->p->grid, corner[1]), c = vec3_at(w->p->grid, corner[2]);
@@ -133,10 +133,10 @@ static ovoid_code check_triangle(const prover *w, uint32_t t) {
     return OVOID_OK;
 }
 
-static ovoid_code check_convex(const prover *w) {
+static ovoid_code verify_convex(const prover *w) {
     memset(w->end, 0, w->p->count * sizeof *w->end);
     for (uint32_t t = 0; t < w->s->triangle_count; t++) {
-        ovoid_code code = check_triangle(w, t);
+        ovoid_code code = verify_triangle(w, t);
         if (code) return code;
     }
     ovoid_polytope p = {.vertices = w->claim->xyz,
@@ -160,7 +160,7 @@ static ovoid_code prove(prover *w) {
     memcpy(w->s->triangles, w->claim->triangles, 3 * (size_t)w->s->triangle_count * sizeof *w->s->triangles);
     ovoid_code code = list_edges(w);
     if (!code) code = find_across(w);
-    return code ? code : check_convex(w);
+    return code ? code : verify_convex(w);
 }
 
 ovoid_code surface_create_proven(const surface_claim *claim, const points *p, const ovoid_allocator *allocator,

@@ -40,9 +40,9 @@ void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double spheres
 void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, query_goal goal,
                           const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out);
 
-/// ovoid_answer_check for callers inside a public function.
-ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
-                                 const ovoid_cover *cover, ovoid_error *error);
+/// ovoid_answer_verify for callers inside a public function.
+ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
+                                  const ovoid_cover *cover, ovoid_error *error);
 
 /// What an answer was asked by: the tolerance, to which allowances add nothing; the width that these make; the cap, or
 /// 0.
@@ -51,7 +51,7 @@ typedef struct answer_terms {
 } answer_terms;
 
 /// OVOID_OK if the answer's status and limit follow from its bracket.
-ovoid_code terms_check_internal(const ovoid_answer *x, const answer_terms *terms, ovoid_error *error);
+ovoid_code terms_verify_internal(const ovoid_answer *x, const answer_terms *terms, ovoid_error *error);
 
 /// What is claimed of a pair. slack: by how much the witness points may be off beside the pair's own rounding.
 typedef struct answer_claims {
@@ -62,17 +62,18 @@ typedef struct answer_claims {
 } answer_claims;
 
 /// OVOID_OK if the answer's bracket and points follow from its proof; status and limit are not looked at.
-ovoid_code bounds_check_internal(const answer_claims *claims, ovoid_error *error);
+ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *error);
 
 /// OVOID_OK if a status follows from its bracket, or PROOF with a sentence. tolerance: as in bracket_find_status.
 /// "undecided" claims nothing but that the bracket leaves the sign open.
-ovoid_code status_check_internal(ovoid_status status, double lower, double upper, double tolerance, ovoid_error *error);
+ovoid_code status_verify_internal(ovoid_status status, double lower, double upper, double tolerance,
+                                  ovoid_error *error);
 
 /// OVOID_OK if an answer is the refusal for that reason, and claims nothing.
-ovoid_code refusal_check_internal(ovoid_verdict answer, ovoid_limit refused, ovoid_error *error);
+ovoid_code refusal_verify_internal(ovoid_verdict answer, ovoid_limit refused, ovoid_error *error);
 
 /// Checks the lower bound alone: that the proof's normal shows it.
-ovoid_code lower_check_internal(const ovoid_pair *pair, double lower, const ovoid_proof *proof, ovoid_error *error);
+ovoid_code lower_verify_internal(const ovoid_pair *pair, double lower, const ovoid_proof *proof, ovoid_error *error);
 
 /// 1 if a query starts from the line of centres instead of the outer ellipsoids' direction. For bodies far apart it is
 /// as good a direction. With few vertices a support costs less than the ellipsoids: these are worth it only where the

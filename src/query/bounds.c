@@ -59,4 +59,6 @@ static ovoid_answer find_bounds(const ovoid_pair *pair) {
     return out;
 }
 
-ovoid_answer ovoid_bounds(const ovoid_pair *pair) { ENVIRONMENT_RETURN(ovoid_answer, pair, find_bounds(pair)); }
+ovoid_answer ovoid_pair_compute_bounds(const ovoid_pair *pair) {
+    ENVIRONMENT_RETURN(ovoid_answer, pair, find_bounds(pair));
+}

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 
-ovoid_code options_check(const ovoid_options *given, ovoid_options *options, ovoid_error *error) {
+ovoid_code options_validate(const ovoid_options *given, ovoid_options *options, ovoid_error *error) {
     if (options_make(given, options)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_ARGUMENT, -1, "options: a tolerance or the cap is NaN or negative");
 }

@@ -31,7 +31,7 @@ static inline ovoid_status bracket_find_status(double lower, double upper, doubl
 }
 
 /// options_make for functions that return a code: ARGUMENT with a sentence where options are invalid.
-ovoid_code options_check(const ovoid_options *given, ovoid_options *options, ovoid_error *error);
+ovoid_code options_validate(const ovoid_options *given, ovoid_options *options, ovoid_error *error);
 
 /// The goals of the four queries.
 static inline query_goal query_goal_make_collide(void) {

@@ -25,7 +25,7 @@ static void make(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
     to->body = *body;
     to->turned_count = 0;
     // The place of a far origin is found for a pair.
-    to->is_ready = body->shape && !body->shape->has_origin && pose_compute_check(&body->pose) == OVOID_OK;
+    to->is_ready = body->shape && !body->shape->has_origin && pose_validate(&body->pose) == OVOID_OK;
     if (to->is_ready) set_ready(body, to);
 }
 

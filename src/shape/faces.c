@@ -39,7 +39,7 @@ typedef struct checker {
 
 // ---- (1) ----
 
-static ovoid_code check_face(const ovoid_faces *f, size_t face, size_t at, ovoid_error *error) {
+static ovoid_code validate_face(const ovoid_faces *f, size_t face, size_t at, ovoid_error *error) {
     int64_t place = (int64_t)face;
     if (f->sizes[face] < 3)
         return error_set(error, OVOID_ERROR_NOT_CONVEX, place, "face %zu has %u corners; at least 3 are needed", face,
@@ -51,12 +51,12 @@ static ovoid_code check_face(const ovoid_faces *f, size_t face, size_t at, ovoid
     return OVOID_OK;
 }
 
-static ovoid_code check_indices(checker *c) {
+static ovoid_code validate_indices(checker *c) {
     const ovoid_faces *f = c->faces;
     for (size_t face = 0; face < f->face_count; face++) {
         if (f->sizes[face] > CORNERS_MAX - c->corners)
             return error_set(c->error, OVOID_ERROR_LIMIT, (int64_t)face, "more than %zu corners of faces", CORNERS_MAX);
-        ovoid_code code = check_face(f, face, c->corners, c->error);
+        ovoid_code code = validate_face(f, face, c->corners, c->error);
         if (code) return code;
         c->corners += f->sizes[face];
     }
@@ -102,7 +102,7 @@ static ovoid_code add_edges(const checker *c, edge_table *t) {
     return OVOID_OK;
 }
 
-static ovoid_code check_closed(const checker *c) {
+static ovoid_code validate_closed(const checker *c) {
     edge_table t = {NULL, 16};
     while (t.mask < 2 * c->corners) t.mask *= 2;
     t.slots = allocator_allocate(c->allocator, t.mask, sizeof *t.slots);
@@ -188,7 +188,7 @@ static double compute_volume(const checker *c) {
     return volume;
 }
 
-static ovoid_code check_face_plane(const checker *c, size_t face, const face_plane *p, uint32_t *highest) {
+static ovoid_code validate_face_plane(const checker *c, size_t face, const face_plane *p, uint32_t *highest) {
     if (p->height <= FACET_FLATNESS) return OVOID_OK;
     *highest = find_highest(c, p->normal, *highest);
     double above = vec3_dot(p->normal, vec3_sub(get_vertex(c, *highest), p->middle));
@@ -198,7 +198,7 @@ static ovoid_code check_face_plane(const checker *c, size_t face, const face_pla
                      face, above / c->scale, p->flatness / c->scale);
 }
 
-static ovoid_code check_convex(checker *c) {
+static ovoid_code validate_convex(checker *c) {
     c->scale = ldexp(1, -find_unit_exponent(compute_extent(c->hull->vertices, c->hull->vertex_count)));
     if (compute_volume(c) < -FACET_FLATNESS)
         return error_set(c->error, OVOID_ERROR_NOT_CONVEX, -1,
@@ -208,22 +208,22 @@ static ovoid_code check_convex(checker *c) {
     ovoid_code code = OVOID_OK;
     for (size_t face = 0; face < c->faces->face_count && !code; corner += c->faces->sizes[face++]) {
         face_plane p = make_plane(c, corner, c->faces->sizes[face]);
-        code = check_face_plane(c, face, &p, &highest);
+        code = validate_face_plane(c, face, &p, &highest);
     }
     return code;
 }
 
 // ----
 
-static ovoid_code check_surface(checker *c) {
+static ovoid_code validate_surface(checker *c) {
     size_t count = c->faces->vertex_count;
     c->first = allocator_allocate(c->allocator, count, sizeof *c->first);
     ovoid_code code = OVOID_ERROR_MEMORY;
     if (c->first && points_find_first(c->faces->vertices, count, c->allocator, c->first))
-        code = check_closed(c);
+        code = validate_closed(c);
     else
         error_write(c->error, code, -1, "no memory for %zu vertices", count);
-    if (!code) code = check_convex(c);
+    if (!code) code = validate_convex(c);
     allocator_release(c->allocator, c->first);
     return code;
 }
@@ -252,10 +252,10 @@ static ovoid_shape *create_from_faces(const ovoid_faces *faces, const ovoid_shap
     ovoid_allocator allocator = allocator_make(o.allocator);
     checker c = {.faces = faces, .allocator = &allocator, .error = error};
     hull h;
-    if (check_indices(&c) || hull_create(faces->vertices, faces->vertex_count, &allocator, &h, error)) return NULL;
+    if (validate_indices(&c) || hull_create(faces->vertices, faces->vertex_count, &allocator, &h, error)) return NULL;
     c.hull = &h;
     h.report.faces = faces->face_count;
-    ovoid_shape *shape = check_surface(&c) ? NULL : shape_create_from_hull(&h, &o, NULL, error);
+    ovoid_shape *shape = validate_surface(&c) ? NULL : shape_create_from_hull(&h, &o, NULL, error);
     hull_destroy(&h, &allocator);
     return shape;
 }

@@ -186,7 +186,7 @@ static ovoid_code refuse(const reader *r, size_t place, const char *what) {
 }
 
 // Magic, version, size and checksum show that it is a file of this format, and complete.
-static ovoid_code check_envelope(reader *r, size_t size, content *c) {
+static ovoid_code validate_envelope(reader *r, size_t size, content *c) {
     if (size < sizeof magic || memcmp(r->bytes, magic, sizeof magic) != 0) return refuse(r, 0, "not an .ovoid file");
     if (size < HEADER_SIZE + CHECKSUM_SIZE) return refuse(r, size, "the file ends within its header");
     r->at = sizeof magic;
@@ -279,7 +279,7 @@ static void read_triangles(reader *r, content *c) {
 }
 
 // The hull of the vertices must be these vertices.
-static ovoid_code check_hull(const reader *r, const content *c, const hull *h) {
+static ovoid_code validate_hull(const reader *r, const content *c, const hull *h) {
     if (h->vertex_count != c->vertex_count) return refuse(r, c->at.vertices_at, "a vertex is not extreme");
     if (h->origin.x != 0 || h->origin.y != 0 || h->origin.z != 0)
         return refuse(r, c->at.vertices_at, "the vertices are not in the body frame");
@@ -296,7 +296,7 @@ static int is_point_to_queries(const ovoid_polytope *p, const ovoid_ellipsoid *e
     return is_small && q->xx == 0 && q->xy == 0 && q->xz == 0 && q->yy == 0 && q->yz == 0 && q->zz == 0;
 }
 
-static ovoid_code check_ellipsoids(const reader *r, const content *c, const ovoid_shape *shape) {
+static ovoid_code validate_ellipsoids(const reader *r, const content *c, const ovoid_shape *shape) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     if (!ellipsoid_is_enclosing(&p, &c->outer.ellipsoid) && !is_point_to_queries(&p, &c->outer.ellipsoid))
         return refuse(r, OUTER_AT, "the outer ellipsoid does not enclose");
@@ -318,7 +318,7 @@ static ovoid_shape *make_shape(const reader *r, const content *c, hull *h, const
     if (!shape) return NULL;
     shape->report = c->report;
     shape_set_fits(shape, &c->outer, &c->inner);
-    if (!set_radius(r, c, shape) && !check_ellipsoids(r, c, shape)) return shape;
+    if (!set_radius(r, c, shape) && !validate_ellipsoids(r, c, shape)) return shape;
     ovoid_shape_destroy(shape);
     return NULL;
 }
@@ -347,7 +347,7 @@ static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *all
     read_triangles(r, c);
     hull h;
     if (c->at.triangle_count ? prove_hull(r, c, allocator, &h) : find_hull(r, c, allocator, &h)) return NULL;
-    ovoid_shape *shape = check_hull(r, c, &h) ? NULL : make_shape(r, c, &h, allocator);
+    ovoid_shape *shape = validate_hull(r, c, &h) ? NULL : make_shape(r, c, &h, allocator);
     hull_destroy(&h, allocator);
     return shape;
 }
@@ -359,7 +359,7 @@ static ovoid_shape *read_bytes(const void *bytes, size_t size, const ovoid_alloc
     }
     reader r = {bytes, 0, error};
     content c = {0};
-    if (check_envelope(&r, size, &c)) return NULL;
+    if (validate_envelope(&r, size, &c)) return NULL;
     ovoid_allocator allocator = allocator_make(given);
     // Vertices, then triangles.
     c.vertices = allocator_allocate(&allocator, c.at.size, 1);

@@ -72,6 +72,6 @@ static void compute(const ovoid_pair *pair, int order, ovoid_smooth *out) {
     fill_value(&f, 1, order, unit, &out->inner);
 }
 
-ovoid_smooth ovoid_smooth_compute(const ovoid_pair *pair, int order) {
+ovoid_smooth ovoid_pair_compute_smooth(const ovoid_pair *pair, int order) {
     ENVIRONMENT_RETURN_FILLED(ovoid_smooth, out, order, compute(pair, order, &out));
 }

@@ -260,7 +260,7 @@ static ovoid_code match_hull(const ovoid_triangles *given, const ovoid_shape *hu
                              ovoid_error *error) {
     *out = (ovoid_hull_match){.is_closed = 0};
     if (!hull) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no hull to compare with");
-    ovoid_code code = solid_check_triangles(given, error);
+    ovoid_code code = solid_validate_triangles(given, error);
     if (code != OVOID_OK) return code;
     ovoid_allocator allocator = allocator_make(NULL);
     solid_merger merger;

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-ovoid_code solid_check_triangles(const ovoid_triangles *given, ovoid_error *error) {
+ovoid_code solid_validate_triangles(const ovoid_triangles *given, ovoid_error *error) {
     const double *xyz = given->xyz;
     const uint32_t *indices = given->indices;
     size_t points = given->point_count, count = given->count;

@@ -14,7 +14,7 @@ typedef struct solid_merger {
 } solid_merger;
 
 /// The refusals of ovoid_solid_create_from_triangles.
-ovoid_code solid_check_triangles(const ovoid_triangles *given, ovoid_error *error);
+ovoid_code solid_validate_triangles(const ovoid_triangles *given, ovoid_error *error);
 
 /// Merges triangles that were checked; 0 where there is no memory, with nothing left.
 int merger_make(solid_merger *merger, const ovoid_triangles *given, const ovoid_allocator *allocator);

@@ -92,7 +92,7 @@ static ovoid_solid *assemble(ovoid_solid *made, const solid_merger *m, const uin
 }
 
 static ovoid_solid *create(const ovoid_triangles *given, const ovoid_allocator *allocator, ovoid_error *error) {
-    if (solid_check_triangles(given, error) != OVOID_OK) return NULL;
+    if (solid_validate_triangles(given, error) != OVOID_OK) return NULL;
     ovoid_solid made = {.allocator = allocator_make(allocator)}, *s = NULL;
     solid_merger m;
     if (merger_make(&m, given, &made.allocator)) {

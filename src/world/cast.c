@@ -80,7 +80,7 @@ static void visit_ray(void *context, uint32_t i) {
     if (!body_view_make(body, &view)) return;
     for (uint32_t k = 0; k < view.count; k++) {
         ovoid_posed_shape part = body_view_get_part(&view, k);
-        ovoid_ray_hit x = ovoid_ray_cast(&part, c->ray);
+        ovoid_ray_hit x = ovoid_shape_cast_ray(&part, c->ray);
         part_hit hit = {body_view_get_index(&view, k), 0, x.status, x.lower, x.upper, x.point, x.normal};
         take_hit(c, i, &hit);
     }
@@ -101,7 +101,7 @@ static void visit_body(void *context, uint32_t i) {
         for (uint32_t m = 0; m < probe.count; m++) {
             ovoid_posed_shape a = body_view_get_part(&view, k), b = body_view_get_part(&probe, m);
             ovoid_pair pair = {a.shape, b.shape, a.pose, b.pose};
-            ovoid_impact x = ovoid_translation_cast(&pair, c->direction, 0, NULL);
+            ovoid_impact x = ovoid_shape_cast(&pair, c->direction, 0, NULL);
             part_hit hit = {body_view_get_index(&view, k),
                             body_view_get_index(&probe, m),
                             x.status,
@@ -153,7 +153,7 @@ ovoid_code ovoid_world_cast_ray(const ovoid_world *w, const ovoid_world_ray *ray
 static ovoid_code cast_body(const ovoid_world *w, const ovoid_world_body *probe, vec3 way, ovoid_world_cast *out,
                             ovoid_error *error) {
     OVOID_ASSERT(w && probe);
-    ovoid_code code = world_check_body(&probe->body, -1, error);
+    ovoid_code code = world_validate_body(&probe->body, -1, error);
     if (code != OVOID_OK) return code;
     if (!is_length(way))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the displacement is NaN, infinite or too large");

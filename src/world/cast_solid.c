@@ -65,7 +65,7 @@ static void visit_triangle(ray_search *x, uint32_t place) {
     triangle_shape room;
     triangle_begin(&room);
     ovoid_posed_shape leaf = solid_view_get_leaf(&x->view, place, &room);
-    ovoid_ray_hit h = ovoid_ray_cast(&leaf, x->ray);
+    ovoid_ray_hit h = ovoid_shape_cast_ray(&leaf, x->ray);
     if (h.status == OVOID_IMPACT_FREE) return;
     part_hit found = {solid_view_get_index(&x->view, place), 0, h.status, h.lower, h.upper, h.point, h.normal};
     double lower = min2(x->hit.lower, h.lower);

@@ -108,7 +108,7 @@ static int reserve_contacts(ovoid_world *w, size_t count) {
 
 // ---- the query
 
-static ovoid_code check_query(const ovoid_contact_query *q, ovoid_error *error) {
+static ovoid_code validate_query(const ovoid_contact_query *q, ovoid_error *error) {
     ovoid_options options;
     if ((unsigned)q->kind > OVOID_QUERY_DEPTH)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "kind %d: there are 0 .. 3", (int)q->kind);
@@ -118,7 +118,7 @@ static ovoid_code check_query(const ovoid_contact_query *q, ovoid_error *error) 
     if (q->kind == OVOID_QUERY_COLLIDE && q->margin > 0)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "margin %.17g: collide takes none; the query within does",
                          q->margin);
-    return options_check(q->options, &options, error);
+    return options_validate(q->options, &options, error);
 }
 
 static ovoid_code refuse_memory(ovoid_error *error) {
@@ -161,7 +161,7 @@ static void decide(ovoid_world *w, uint32_t chunks, ovoid_contacts *found) {
 static ovoid_code compute_contacts(ovoid_world *w, const ovoid_contact_query *q, ovoid_contacts *out,
                                    ovoid_error *error) {
     OVOID_ASSERT(w && q && out);
-    ovoid_code code = check_query(q, error);
+    ovoid_code code = validate_query(q, error);
     if (code != OVOID_OK) return code;
     ovoid_contacts found = {.bodies = w->count};
     take_query(w, q);

@@ -54,15 +54,15 @@ static int are_apart(vec3 a, vec3 b, double reach) {
     return vec3_norm_squared(vec3_sub(b, a)) > most * most * (1 + 0x1p-48);
 }
 
-// What pose_compute_check asks, by comparisons alone, for most poses of shapes.
+// What pose_validate asks, by comparisons alone, for most poses of shapes.
 static int is_plain(const ovoid_body *body) {
     const ovoid_pose *p = &body->pose;
     return !body->compound && !body->solid && body->shape && quat_is_plain(quat_norm_squared(p->rotation)) &&
            vec3_max_abs(p->position) <= OVOID_LENGTH_MAX && vec3_is_finite(p->position);
 }
 
-static ovoid_code check_probe(const ovoid_body *body, size_t number, ovoid_error *error) {
-    return is_plain(body) ? OVOID_OK : world_check_body(body, (int64_t)number, error);
+static ovoid_code validate_probe(const ovoid_body *body, size_t number, ovoid_error *error) {
+    return is_plain(body) ? OVOID_OK : world_validate_body(body, (int64_t)number, error);
 }
 
 // ---- a probe and the world
@@ -123,7 +123,7 @@ static size_t find_couple(state_search *x, placed_probe *kept) {
 
 // ---- the query
 
-static ovoid_code check_couples(const ovoid_world_probes *all, ovoid_error *error) {
+static ovoid_code validate_couples(const ovoid_world_probes *all, ovoid_error *error) {
     for (size_t k = 0; k < all->couple_count; k++)
         if (all->couples[k].a >= all->count || all->couples[k].b >= all->count)
             return error_set(error, OVOID_ERROR_INDEX, (int64_t)k, "couple %zu names a probe past the last of %zu", k,
@@ -140,14 +140,14 @@ static void write_hit(const state_search *x, size_t a, ovoid_id b, ovoid_world_h
 static ovoid_code find_any_of(const ovoid_world *w, const ovoid_world_probes *all, ovoid_world_hit *hit,
                               ovoid_error *error) {
     OVOID_ASSERT(w && hit && all && (all->items || !all->count) && (all->couples || !all->couple_count));
-    ovoid_code code = check_couples(all, error);
+    ovoid_code code = validate_couples(all, error);
     if (code != OVOID_OK) return code;
     state_search x = {.w = w, .probes = all, .goal = query_goal_make_collide(), .body = NONE};
     (void)options_make(NULL, &x.options);
     placed_probe kept[KEPT], spare;
     for (size_t k = 0; k < all->count; k++) {
         const ovoid_world_body *given = &all->items[k];
-        code = check_probe(&given->body, k, error);
+        code = validate_probe(&given->body, k, error);
         if (code != OVOID_OK) return code;
         placed_probe *p = k < KEPT ? &kept[k] : &spare;
         *p = place_probe(&given->body);

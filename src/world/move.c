@@ -160,14 +160,14 @@ static int is_plain(const ovoid_pose *pose) {
            fabs(pose->position.y) <= OVOID_LENGTH_MAX / 4 && fabs(pose->position.z) <= OVOID_LENGTH_MAX / 4;
 }
 
-static ovoid_code check_move(const ovoid_world *w, ovoid_id id, const ovoid_pose *pose, int64_t place,
-                             ovoid_error *error) {
+static ovoid_code validate_move(const ovoid_world *w, ovoid_id id, const ovoid_pose *pose, int64_t place,
+                                ovoid_error *error) {
     uint32_t i = world_find_body(w, id);
     if (i == NONE) return world_refuse_id(error, place, id);
     if (is_plain(pose) && !w->has_vast) return OVOID_OK;
     ovoid_body moved = w->bodies[i].body;
     moved.pose = *pose;
-    return world_check_body(&moved, place, error);
+    return world_validate_body(&moved, place, error);
 }
 
 // A batch of moves, no body twice: all workers move the bodies, then boxes that were left are made anew, in order.
@@ -223,7 +223,7 @@ static ovoid_code move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pos
                             ovoid_error *error) {
     OVOID_ASSERT(w && ((ids && poses) || !count));
     for (size_t k = 0; k < count; k++) {
-        ovoid_code code = check_move(w, ids[k], &poses[k], (int64_t)k, error);
+        ovoid_code code = validate_move(w, ids[k], &poses[k], (int64_t)k, error);
         if (code != OVOID_OK) return code;
     }
     if (count > (w->threads > 1 ? LEAST : MANY) && are_different(w, ids, count)) {

@@ -153,7 +153,7 @@ ovoid_code world_refuse_id(ovoid_error *error, int64_t place, ovoid_id id);
 /// The largest length in the frame of a compound or a solid; 0 of a shape.
 double world_get_extent(const ovoid_body *body);
 /// OVOID_OK, or what is wrong with a body or its pose.
-ovoid_code world_check_body(const ovoid_body *body, int64_t place, ovoid_error *error);
+ovoid_code world_validate_body(const ovoid_body *body, int64_t place, ovoid_error *error);
 /// 1 if groups, ignored pairs and the filter let a pair through.
 int world_is_pair(const ovoid_world *w, uint32_t a, uint32_t b);
 /// Builds a new tree where the old one is worn: 1. 0: it is not worn, or there is no memory; then the old one stays.

@@ -11,7 +11,7 @@
 
 // ---- the world
 
-static ovoid_code check_options(const ovoid_world_options *o, ovoid_error *error) {
+static ovoid_code validate_options(const ovoid_world_options *o, ovoid_error *error) {
     if (o->threads > OVOID_WORLD_THREADS_MAX)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "%u threads: a world has at most %u", o->threads,
                          OVOID_WORLD_THREADS_MAX);
@@ -31,7 +31,7 @@ static ovoid_world *refuse_world(ovoid_world *w, ovoid_error *error) {
 static ovoid_world *create(const ovoid_world_options *given, ovoid_error *error) {
     ovoid_world_options o = {.threads = 0};
     if (given) o = *given;
-    if (check_options(&o, error) != OVOID_OK) return NULL;
+    if (validate_options(&o, error) != OVOID_OK) return NULL;
     ovoid_allocator allocator = allocator_make(o.allocator);
     ovoid_world *w = allocator_allocate(&allocator, 1, sizeof *w);
     if (!w) return refuse_world(NULL, error);
@@ -161,7 +161,7 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
     return i;
 }
 
-static ovoid_code check_room(const ovoid_world *w, size_t count, ovoid_error *error) {
+static ovoid_code validate_room(const ovoid_world *w, size_t count, ovoid_error *error) {
     if (count <= OVOID_WORLD_BODIES - (size_t)w->count) return OVOID_OK;
     return error_set(error, OVOID_ERROR_LIMIT, -1, "a world holds at most %u bodies", OVOID_WORLD_BODIES);
 }
@@ -188,8 +188,9 @@ static int add_by_building(ovoid_world *w, const ovoid_world_body *bodies, uint3
 static ovoid_code add_many(ovoid_world *w, const ovoid_world_body *bodies, size_t count, ovoid_id *ids,
                            ovoid_error *error) {
     OVOID_ASSERT(w && (bodies || !count));
-    ovoid_code code = check_room(w, count, error);
-    for (size_t k = 0; k < count && code == OVOID_OK; k++) code = world_check_body(&bodies[k].body, (int64_t)k, error);
+    ovoid_code code = validate_room(w, count, error);
+    for (size_t k = 0; k < count && code == OVOID_OK; k++)
+        code = world_validate_body(&bodies[k].body, (int64_t)k, error);
     if (code != OVOID_OK) return code;
     // Indices in use: at most the bodies at one time, and those freed.
     if (!reserve_bodies(w, w->used + (uint32_t)count)) return refuse_memory(error, count);
@@ -239,7 +240,7 @@ static void remove_body(ovoid_world *w, uint32_t i) {
 }
 
 // OVOID_OK if all ids name bodies, and none comes twice.
-static ovoid_code check_ids(ovoid_world *w, const ovoid_id *ids, size_t count, ovoid_error *error) {
+static ovoid_code validate_ids(ovoid_world *w, const ovoid_id *ids, size_t count, ovoid_error *error) {
     size_t k = 0;
     for (; k < count; k++) {
         uint32_t i = world_find_body(w, ids[k]);
@@ -252,7 +253,7 @@ static ovoid_code check_ids(ovoid_world *w, const ovoid_id *ids, size_t count, o
 
 static ovoid_code remove_many(ovoid_world *w, const ovoid_id *ids, size_t count, ovoid_error *error) {
     OVOID_ASSERT(w && (ids || !count));
-    ovoid_code code = check_ids(w, ids, count, error);
+    ovoid_code code = validate_ids(w, ids, count, error);
     if (code != OVOID_OK) return code;
     for (size_t k = 0; k < count; k++) remove_body(w, (uint32_t)(ids[k] >> 32));
     return OVOID_OK;

@@ -44,7 +44,7 @@ static void take_body(world_search *x, uint32_t i) {
 }
 
 static ovoid_code take_probe(world_search *x, const ovoid_world_body *probe, ovoid_error *error) {
-    ovoid_code code = world_check_body(&probe->body, -1, error);
+    ovoid_code code = world_validate_body(&probe->body, -1, error);
     if (code != OVOID_OK) return code;
     int all = !probe->group && !probe->mask;
     x->self = NONE;
@@ -151,7 +151,7 @@ static ovoid_code find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_op
     OVOID_ASSERT(w && hit);
     world_search x;
     world_search_make(&x, w);
-    ovoid_code code = options_check(options, &x.options, error);
+    ovoid_code code = options_validate(options, &x.options, error);
     uint32_t i = world_find_body(w, id);
     if (code == OVOID_OK && i == NONE) code = world_refuse_id(error, -1, id);
     if (code != OVOID_OK) return code;
@@ -169,7 +169,7 @@ static ovoid_code find_nearest_to(const ovoid_world *w, const ovoid_world_body *
     OVOID_ASSERT(w && probe && hit);
     world_search x;
     world_search_make(&x, w);
-    ovoid_code code = options_check(options, &x.options, error);
+    ovoid_code code = options_validate(options, &x.options, error);
     if (code == OVOID_OK) code = take_probe(&x, probe, error);
     return code == OVOID_OK ? find_nearest_of(&x, hit) : code;
 }
@@ -185,7 +185,7 @@ static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t cou
     OVOID_ASSERT(w && hit);
     world_search x;
     world_search_make(&x, w);
-    ovoid_code code = options_check(options, &x.options, error);
+    ovoid_code code = options_validate(options, &x.options, error);
     for (size_t k = 0; ids && k < count && code == OVOID_OK; k++)
         if (world_find_body(w, ids[k]) == NONE) code = world_refuse_id(error, (int64_t)k, ids[k]);
     if (code != OVOID_OK) return code;
@@ -237,7 +237,7 @@ static ovoid_code find_overlaps(const ovoid_world *w, const ovoid_world_body *pr
     world_search_make(&x, w);
     if (!(margin >= 0 && margin <= OVOID_LENGTH_MAX))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "margin %.17g: it must be finite and not negative", margin);
-    ovoid_code code = options_check(hits->options, &x.options, error);
+    ovoid_code code = options_validate(hits->options, &x.options, error);
     if (code == OVOID_OK) code = take_probe(&x, probe, error);
     if (code != OVOID_OK) return code;
     x.hits = hits->items;
@@ -331,7 +331,7 @@ static ovoid_code find_nearest_pair(const ovoid_world *w, const ovoid_options *o
     OVOID_ASSERT(w && hit);
     world_search x;
     world_search_make(&x, w);
-    ovoid_code code = options_check(options, &x.options, error);
+    ovoid_code code = options_validate(options, &x.options, error);
     if (code != OVOID_OK) return code;
     x.bound = x.options.cap;
     x.goal = query_goal_make_distance(NULL);

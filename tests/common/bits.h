@@ -152,7 +152,7 @@ static inline uint64_t bits_add_pair(uint64_t hash, const ovoid_pair *p) {
     ovoid_cover cover, warm_cover;
     ovoid_options few = {.iterations = 3, .relative_tolerance = 0x1p-20};
     ovoid_answer x[BITS_ANSWERS] = {ovoid_depth(p, NULL, NULL, &cover), ovoid_collide(p, NULL, NULL),
-                                    ovoid_distance(p, NULL, NULL), ovoid_bounds(p)};
+                                    ovoid_distance(p, NULL, NULL), ovoid_pair_compute_bounds(p)};
     x[4] = ovoid_within(p, 0.25 * fabs(x[2].upper), NULL, NULL);
     x[5] = ovoid_collide(p, NULL, &x[0].proof);
     x[6] = ovoid_distance(p, NULL, &x[1].proof);
@@ -161,7 +161,7 @@ static inline uint64_t bits_add_pair(uint64_t hash, const ovoid_pair *p) {
     for (int k = 0; k < BITS_ANSWERS; k++) {
         hash = bits_add_answer(hash, &x[k]);
         const ovoid_cover *shown = k == 0 ? &cover : k == 7 ? &warm_cover : NULL;
-        ovoid_code code = ovoid_answer_check(p, &x[k], k == 8 ? &few : NULL, shown, NULL);
+        ovoid_code code = ovoid_answer_verify(p, &x[k], k == 8 ? &few : NULL, shown, NULL);
         BITS_ADD(hash, code);
     }
     return bits_add_cover(bits_add_cover(hash, &cover), &warm_cover);

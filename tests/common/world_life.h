@@ -91,7 +91,7 @@ static inline void life_frame(life *l, ovoid_contact_query *q) {
     }
     ovoid_contacts frame;
     CHECK(ovoid_world_compute_contacts(l->world, q, &frame, NULL) == OVOID_OK);
-    world_check_frame(l->world, q, &frame);
+    world_validate_frame(l->world, q, &frame);
     if (frame.bodies > l->most_bodies) l->most_bodies = frame.bodies;
     if (frame.pairs > l->most_pairs) l->most_pairs = frame.pairs;
     CHECK_LE(frame.memory, 16384 + 1024 * (l->most_bodies + l->most_pairs));

@@ -92,7 +92,7 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     ovoid_compound_answer proven;
     ovoid_error error = {0};
     CHECK(ovoid_world_compute_proof(w, c, &exclusions, &proven, &error) == OVOID_OK);
-    if (!CHECK(ovoid_compound_answer_check(&pair, &proven, q->options, &exclusions, &error) == OVOID_OK))
+    if (!CHECK(ovoid_compound_answer_verify(&pair, &proven, q->options, &exclusions, &error) == OVOID_OK))
         printf("  %s\n", error.message);
     CHECK_EQ(proven.answer.status, alone.status);
     // Two brackets of one distance, each as wide as the tolerance.
@@ -103,7 +103,7 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
 }
 
 /// The frame against all pairs of the world, which must be small.
-static inline void world_check_frame(const ovoid_world *w, const ovoid_contact_query *q, const ovoid_contacts *f) {
+static inline void world_validate_frame(const ovoid_world *w, const ovoid_contact_query *q, const ovoid_contacts *f) {
     size_t at = 0;
     for (ovoid_id a = ovoid_world_find_next(w, 0); a; a = ovoid_world_find_next(w, a)) {
         ovoid_world_body body_a;

@@ -123,7 +123,7 @@ static void check_pair(const trial *t) {
     x = ovoid_depth(&t->shapes, NULL, NULL, &cover);
     check_answer(t, &x, &truth, 0);
     ovoid_error e;
-    if (!CHECK(ovoid_answer_check(&t->shapes, &x, NULL, &cover, &e) == OVOID_OK)) puts(e.message);
+    if (!CHECK(ovoid_answer_verify(&t->shapes, &x, NULL, &cover, &e) == OVOID_OK)) puts(e.message);
     CHECK_LE(x.upper - x.lower, t->width + slack);
     CHECK_EQ(ovoid_answer_get_distance(&x), x.lower);
     if (t->is_tight && ovoid_shape_get_allowance(t->a.shape).outside > 0) CHECK_LE(truth.lower, x.lower + slack);
@@ -135,7 +135,7 @@ static void check_pair(const trial *t) {
                  deep = ovoid_collide(&t->shapes, NULL, &x.proof);
     check_answer(t, &cold, &truth, 0);
     check_answer(t, &warm, &truth, 0);
-    CHECK(ovoid_answer_check(&t->shapes, &cold, NULL, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_verify(&t->shapes, &cold, NULL, NULL, NULL) == OVOID_OK);
     check_decided(&cold, &truth);
     // No earlier proof leaves open what a cold query proves.
     if (cold.status == OVOID_SEPARATED || cold.status == OVOID_OVERLAPPING) {
@@ -145,12 +145,12 @@ static void check_pair(const trial *t) {
 
     x = ovoid_distance(&t->shapes, NULL, &cold.proof);
     check_answer(t, &x, &truth, 0);
-    CHECK(ovoid_answer_check(&t->shapes, &x, NULL, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_verify(&t->shapes, &x, NULL, NULL, NULL) == OVOID_OK);
     if (truth.lower > t->width + slack) CHECK_LE(x.upper - x.lower, t->width + slack);
 
-    x = ovoid_bounds(&t->shapes);
+    x = ovoid_pair_compute_bounds(&t->shapes);
     check_answer(t, &x, &truth, 0);
-    CHECK(ovoid_answer_check(&t->shapes, &x, NULL, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_verify(&t->shapes, &x, NULL, NULL, NULL) == OVOID_OK);
 
     double margin = fmax(truth.lower, 0) + 0.5 * t->width;
     x = ovoid_within(&t->shapes, margin, NULL, NULL);
@@ -159,7 +159,7 @@ static void check_pair(const trial *t) {
     if (is_within == 0) CHECK(truth.upper > margin);
     if (is_within == 1) CHECK(truth.lower <= margin);
 
-    ovoid_smooth smooth = ovoid_smooth_compute(&t->shapes, 0);
+    ovoid_smooth smooth = ovoid_pair_compute_smooth(&t->shapes, 0);
     if (smooth.limit == OVOID_LIMIT_NONE) {
         CHECK_LE(smooth.outer.value, truth.upper);
         CHECK_LE(truth.lower, smooth.inner.value);
@@ -264,11 +264,11 @@ static void test_compounds(void) {
         CHECK_LE(x.answer.lower, truth.answer.upper);
         CHECK_LE(truth.answer.lower, x.answer.upper);
         CHECK_LE(x.answer.upper - x.answer.lower, 8 * by + 1e-6);
-        CHECK(all.count <= all.capacity && ovoid_compound_answer_check(&shapes, &x, NULL, &all, NULL) == OVOID_OK);
+        CHECK(all.count <= all.capacity && ovoid_compound_answer_verify(&shapes, &x, NULL, &all, NULL) == OVOID_OK);
         ovoid_compound_answer y = ovoid_compound_collide(&shapes, NULL, NULL, &all);
         CHECK_LE(y.answer.lower, truth.answer.upper);
         CHECK_LE(truth.answer.lower, y.answer.upper);
-        CHECK(ovoid_compound_answer_check(&shapes, &y, NULL, &all, NULL) == OVOID_OK);
+        CHECK(ovoid_compound_answer_verify(&shapes, &y, NULL, &all, NULL) == OVOID_OK);
         check_decided(&y.answer, &truth.answer);
         y = ovoid_compound_within(&shapes, 0.5, NULL, NULL, NULL);
         int is_within = ovoid_answer_is_within(&y.answer, 0.5);
@@ -324,9 +324,9 @@ static void test_exclusion(void) {
         ovoid_exclusion e = {0, 2, 0, 2, {1, 0, 0}, {0, 0, 0}, apart - 2 * (radius + outside) - 1e-12};
         all.count = 1;
         items[0] = e;
-        CHECK(ovoid_compound_answer_check(&pair, &x, NULL, &all, NULL) == OVOID_OK);
+        CHECK(ovoid_compound_answer_verify(&pair, &x, NULL, &all, NULL) == OVOID_OK);
         items[0].lower += 0.5 * outside;
-        CHECK(ovoid_compound_answer_check(&pair, &x, NULL, &all, NULL) == OVOID_ERROR_PROOF);
+        CHECK(ovoid_compound_answer_verify(&pair, &x, NULL, &all, NULL) == OVOID_ERROR_PROOF);
     }
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(ball);
@@ -410,14 +410,14 @@ static void test_motions(void) {
         double hit = truth.status == OVOID_IMPACT_HIT ? truth.hit_at : INFINITY;
         CHECK_LE(x.free_until, fmin(hit, 1));
         if (x.status == OVOID_IMPACT_HIT) CHECK(truth.status != OVOID_IMPACT_FREE && truth.free_until <= x.hit_at);
-        if (x.step_count <= 4096) CHECK(ovoid_impact_check(&a, &b, 0, &x, NULL, steps, NULL) == OVOID_OK);
+        if (x.step_count <= 4096) CHECK(ovoid_impact_verify(&a, &b, 0, &x, NULL, steps, NULL) == OVOID_OK);
 
         ovoid_approach nearest = ovoid_approach_find(&a, &b, &o), real = ovoid_approach_find(&true_a, &true_b, NULL);
         CHECK_LE(nearest.lower, real.upper);
         CHECK_LE(real.lower, nearest.upper);
         if (nearest.limit == OVOID_LIMIT_NONE && nearest.status == OVOID_SEPARATED)
             CHECK_LE(nearest.upper - nearest.lower, t.width + 1e-4);
-        if (nearest.step_count <= 4096) CHECK(ovoid_approach_check(&a, &b, &nearest, NULL, steps, NULL) == OVOID_OK);
+        if (nearest.step_count <= 4096) CHECK(ovoid_approach_verify(&a, &b, &nearest, NULL, steps, NULL) == OVOID_OK);
 
         // The box holds the true body: its enclosing box along the axes at some times.
         ovoid_box box = ovoid_moving_shape_compute_box(&b, 0, 1);
@@ -435,7 +435,7 @@ static void test_motions(void) {
         ovoid_ray ray = {from.position, vec3_sub(t.shapes.pose_a.position, from.position), 1,
                          0.01 * (double)(seed % 3)};
         ovoid_posed_shape seen = {t.a.shape, t.shapes.pose_a}, real_seen = {t.a.body, t.shapes.pose_a};
-        ovoid_ray_hit hit_shape = ovoid_ray_cast(&seen, &ray), hit_body = ovoid_ray_cast(&real_seen, &ray);
+        ovoid_ray_hit hit_shape = ovoid_shape_cast_ray(&seen, &ray), hit_body = ovoid_shape_cast_ray(&real_seen, &ray);
         if (hit_body.status == OVOID_IMPACT_HIT) CHECK_LE(hit_shape.lower, hit_body.upper);
         if (hit_shape.status == OVOID_IMPACT_FREE) CHECK(hit_body.status != OVOID_IMPACT_HIT);
         if (hit_shape.status == OVOID_IMPACT_HIT && hit_body.status == OVOID_IMPACT_HIT)

@@ -11,7 +11,7 @@ static ovoid_cover cover;
 static void check_answer(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all,
                          bracket truth) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_compound_answer_check(pair, x, NULL, all, &error);
+    ovoid_code code = ovoid_compound_answer_verify(pair, x, NULL, all, &error);
     if (!CHECK_EQ(code, OVOID_OK)) printf("  %s\n", error.message);
     CHECK_LE(x->answer.lower, truth.upper);
     CHECK_LE(truth.lower, x->answer.upper);
@@ -220,15 +220,15 @@ static void check_touching(void) {
     x.answer.lower = -0.5;
     x.answer.limit = OVOID_LIMIT_PRECISION;
     x.answer.status = OVOID_UNDECIDED;
-    CHECK_EQ(ovoid_compound_answer_check(&pair, &x, NULL, &all, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_compound_answer_verify(&pair, &x, NULL, &all, NULL), OVOID_OK);
     x.answer.status = OVOID_TOUCHING;
-    CHECK_EQ(ovoid_compound_answer_check(&pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_compound_answer_verify(&pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
     double width = x.answer.upper - x.answer.lower, size = 100 + 2 * sqrt(3) + 3;
     for (int i = 0; i < 4; i++) {
         double share = i % 2 ? 1 + 1e-9 : 1 - 1e-9;
         ovoid_options o = {0};
         *(i / 2 ? &o.relative_tolerance : &o.absolute_tolerance) = share * (i / 2 ? width / size : width);
-        CHECK_EQ(ovoid_compound_answer_check(&pair, &x, &o, &all, NULL) == OVOID_OK, i % 2);
+        CHECK_EQ(ovoid_compound_answer_verify(&pair, &x, &o, &all, NULL) == OVOID_OK, i % 2);
     }
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(box);
@@ -242,11 +242,11 @@ static void expect_refused(const ovoid_body_pair *pair, const ovoid_options *opt
     CHECK_EQ(x.answer.limit, limit);
     CHECK(x.answer.status == OVOID_UNDECIDED && x.answer.lower == -INFINITY && x.answer.upper == INFINITY);
     CHECK_EQ(all.count, 0);
-    CHECK_EQ(ovoid_compound_answer_check(pair, &x, NULL, &all, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_compound_answer_verify(pair, &x, NULL, &all, NULL), OVOID_OK);
     // An answer where there can be none.
     x.answer.lower = 1;
     x.answer.status = OVOID_SEPARATED;
-    CHECK_EQ(ovoid_compound_answer_check(pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_compound_answer_verify(pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
 }
 
 static void check_refused(void) {

@@ -126,7 +126,7 @@ static long double find_gap(const ovoid_body_pair *pair, const ovoid_exclusion *
 }
 
 static int is_accepted(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
-    return ovoid_compound_answer_check(pair, x, NULL, all, NULL) == OVOID_OK;
+    return ovoid_compound_answer_verify(pair, x, NULL, all, NULL) == OVOID_OK;
 }
 
 // The largest lower bound of an exclusion that passes, by halving from what it claims.
@@ -157,7 +157,8 @@ static void check_proofs(ovoid_shape *const shapes[SHAPES], uint64_t seed) {
     ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
     double size = c[0]->extent + c[1]->extent + vec3_norm(way);
     CHECK_LE(all.count, CAPACITY);
-    if (!CHECK(ovoid_compound_answer_check(&pair, &x, NULL, &all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(ovoid_compound_answer_verify(&pair, &x, NULL, &all, &error) == OVOID_OK))
+        printf("  %s\n", error.message);
     for (size_t i = 0; i < all.count && i < 8 && far < 1e3; i++) check_largest(&pair, &x, &all, i, size);
     ovoid_compound_destroy(c[0]);
     ovoid_compound_destroy(c[1]);
@@ -180,7 +181,7 @@ static void check_far_balls(uint64_t seed) {
         ovoid_options o = {.cap = k ? random_uniform(&s, 0, 20) : 0};
         ovoid_compound_answer x = k < 2 ? ovoid_compound_distance(&pair, &o, NULL, &all)
                                         : ovoid_compound_within(&pair, random_uniform(&s, 0, 10), NULL, NULL, &all);
-        if (!CHECK(ovoid_compound_answer_check(&pair, &x, NULL, &all, &error) == OVOID_OK))
+        if (!CHECK(ovoid_compound_answer_verify(&pair, &x, NULL, &all, &error) == OVOID_OK))
             printf("  %s\n", error.message);
     }
     for (int i = 0; i < 2; i++) ovoid_compound_destroy(c[i]);

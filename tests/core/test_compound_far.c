@@ -25,7 +25,7 @@ static void check_answer(const ovoid_body_pair *pair, ask *how, double margin, d
     ovoid_exclusions all = {items, 512, 0, NULL};
     ovoid_compound_answer x = how(pair, margin, &all), same = how(pair, margin, NULL);
     ovoid_error error = {0};
-    if (!CHECK(ovoid_compound_answer_check(pair, &x, NULL, &all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(ovoid_compound_answer_verify(pair, &x, NULL, &all, &error) == OVOID_OK)) printf("  %s\n", error.message);
     CHECK(x.answer.lower <= upper && lower <= x.answer.upper);
     CHECK(same.answer.lower == x.answer.lower && same.answer.upper == x.answer.upper);
     if (x.tested) return;

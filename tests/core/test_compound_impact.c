@@ -81,7 +81,7 @@ static void check_pair(const ovoid_moving_body *a, const ovoid_moving_body *b, d
     ovoid_moving_shape part_a = ovoid_moving_body_get_part(a, found.part_a);
     ovoid_moving_shape part_b = ovoid_moving_body_get_part(b, found.part_b);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_impact_check(&part_a, &part_b, margin, x, NULL, steps, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_impact_verify(&part_a, &part_b, margin, x, NULL, steps, &error), OVOID_OK))
         printf("  %s\n", error.message);
 }
 
@@ -95,34 +95,34 @@ static void check_proof(const ovoid_moving_body *a, const ovoid_moving_body *b, 
     CHECK_EQ(x.impact.status, y.impact.status);
     CHECK_NEAR(fmin(x.impact.hit_at, 2), fmin(y.impact.hit_at, 2), 2e-9);
     CHECK(x.impact.step_count <= CAPACITY && x.group_count <= CAPACITY);
-    if (!CHECK_EQ(ovoid_compound_impact_check(a, b, margin, &x, NULL, steps, groups, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_compound_impact_verify(a, b, margin, &x, NULL, steps, groups, &error), OVOID_OK))
         printf("  group %lld: %s\n", (long long)error.place, error.message);
     most_groups = x.group_count > most_groups ? x.group_count : most_groups;
     if (x.impact.free_until <= x.impact.begin) return;
     y = x;
     y.group_count--;
-    CHECK(ovoid_compound_impact_check(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
     y = x;
     y.impact.status = x.impact.status == OVOID_IMPACT_FREE ? OVOID_IMPACT_HIT : OVOID_IMPACT_FREE;
-    CHECK(ovoid_compound_impact_check(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
     y = x;
     y.impact.free_until += 1e-3;
-    CHECK(ovoid_compound_impact_check(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
     ovoid_step_group kept = groups[0];
     groups[0].end_a++;
-    CHECK(ovoid_compound_impact_check(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
     groups[0] = kept;
     groups[0].count++;
-    CHECK(ovoid_compound_impact_check(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
     groups[0] = kept;
     if (x.group_count > 1) {
         groups[0] = groups[1];
-        CHECK(ovoid_compound_impact_check(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
+        CHECK(ovoid_compound_impact_verify(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
         groups[0] = kept;
     }
     ovoid_step first = steps[0];
     steps[0].normal = (ovoid_vec3){-first.normal.x, -first.normal.y, -first.normal.z};
-    CHECK(ovoid_compound_impact_check(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
     steps[0] = first;
 }
 

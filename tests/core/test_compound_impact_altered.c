@@ -1,4 +1,4 @@
-// A liar for ovoid_compound_impact_check. Right records of moving compounds are altered one field at a time (alter.h),
+// A liar for ovoid_compound_impact_verify. Right records of moving compounds are altered one field at a time (alter.h),
 // their groups and steps too, and others are forged: free for no time, hit before the beginning, free by coarse steps
 // of the balls around all parts.
 //
@@ -96,7 +96,7 @@ static int is_false(const truth *t, const ovoid_compound_impact *found) {
 static const char *lie_name = "", *lie_kind = "";
 
 static void tell(const truth *t, const ovoid_compound_impact *x, alter_count *n) {
-    ovoid_code code = ovoid_compound_impact_check(&t->a, &t->b, t->margin, x, t->told, steps, groups, NULL);
+    ovoid_code code = ovoid_compound_impact_verify(&t->a, &t->b, t->margin, x, t->told, steps, groups, NULL);
     int is_noticed = alter_take(n, is_false(t, x), code != OVOID_OK);
     if (!CHECK(is_noticed) && check_failed <= 20) printf("  accepted: %s, %s\n", lie_name, lie_kind);
 }
@@ -250,17 +250,17 @@ static void forge_margins(const truth *t, const ovoid_compound_impact *right) {
 static void forge_refusals(const truth *t) {
     ovoid_moving_body none = {.motion = t->b.motion};
     ovoid_compound_impact right = ovoid_compound_impact_find(&t->a, &none, t->margin, &t->options), x = right;
-    CHECK_EQ(ovoid_compound_impact_check(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_compound_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL), OVOID_OK);
     x.impact.hit_at = 0.5;
-    CHECK(ovoid_compound_impact_check(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
     x = right;
     x.impact.limit = OVOID_LIMIT_SHAPE_A;
-    CHECK(ovoid_compound_impact_check(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
     x = right;
     x.impact.limit = OVOID_LIMIT_OPTIONS;
-    CHECK_EQ(ovoid_compound_impact_check(&t->a, &t->b, -1, &x, t->told, NULL, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_compound_impact_verify(&t->a, &t->b, -1, &x, t->told, NULL, NULL, NULL), OVOID_OK);
     x.group_count = 1;
-    CHECK(ovoid_compound_impact_check(&t->a, &t->b, -1, &x, t->told, NULL, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(&t->a, &t->b, -1, &x, t->told, NULL, groups, NULL) != OVOID_OK);
 }
 
 static void forge_all(const truth *t, const ovoid_compound_impact *right) {
@@ -328,7 +328,7 @@ static void try_case(truth *t, uint64_t seed) {
     uint64_t s = seed;
     ovoid_compound_impact right = ovoid_compound_impact_find(&t->a, &t->b, t->margin, &t->options);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_compound_impact_check(&t->a, &t->b, t->margin, &right, t->told, steps, groups, &error),
+    if (!CHECK_EQ(ovoid_compound_impact_verify(&t->a, &t->b, t->margin, &right, t->told, steps, groups, &error),
                   OVOID_OK))
         printf("  %s\n", error.message);
     add_time(t, t->begin);

@@ -29,7 +29,7 @@ static double measure(const ovoid_body_pair *pair, const ovoid_exclusion *e) {
 
 static int is_accepted(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_compound_answer_check(pair, x, NULL, all, &error);
+    ovoid_code code = ovoid_compound_answer_verify(pair, x, NULL, all, &error);
     CHECK(code == OVOID_OK || (code == OVOID_ERROR_PROOF && error.message[0]));
     return code == OVOID_OK;
 }

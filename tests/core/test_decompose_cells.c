@@ -90,7 +90,7 @@ static void draw_scene(scene *e, uint64_t *s) {
     e->d.solid = e->solid;
     e->d.parts = (const ovoid_shape *const *)e->parts;
     e->long_solid = long_mesh_of_solid(e->solid);
-    CHECK_EQ(body_check_options(NULL, &e->o, NULL), OVOID_OK);
+    CHECK_EQ(body_validate_options(NULL, &e->o, NULL), OVOID_OK);
     CHECK_EQ(body_open_parts(&e->b, &e->d, &e->o, NULL), OVOID_OK);
 }
 
@@ -189,7 +189,7 @@ static void check_unlike_faces(void) {
         scene e = {.solid = mesh_make_solid(&m), .d = {.parts = (const ovoid_shape *const *)&part, .part_count = 1}};
         e.d.solid = e.solid;
         CHECK(ovoid_solid_get_report(e.solid).is_closed);
-        CHECK_EQ(body_check_options(NULL, &e.o, NULL), OVOID_OK);
+        CHECK_EQ(body_validate_options(NULL, &e.o, NULL), OVOID_OK);
         CHECK_EQ(body_open_parts(&e.b, &e.d, &e.o, NULL), OVOID_OK);
         cell_search search = make_search(&e, 0);
         excess_set_functions(&search);
@@ -269,7 +269,7 @@ static void check_divided(int rounds) {
     mesh_clear(&m);
     ovoid_decomposition_options o;
     body b;
-    CHECK_EQ(body_check_options(NULL, &o, NULL), OVOID_OK);
+    CHECK_EQ(body_validate_options(NULL, &o, NULL), OVOID_OK);
     CHECK_EQ(body_open(&b, cube, &o, NULL), OVOID_OK);
     double unit = 1 / (b.unit * b.unit * b.unit);
     for (int i = 0; i < rounds; i++) {
@@ -312,7 +312,7 @@ static void check_sheet(void) {
     ovoid_solid *s = mesh_make_solid(&m);
     ovoid_decomposition_options o;
     body b;
-    CHECK_EQ(body_check_options(NULL, &o, NULL), OVOID_OK);
+    CHECK_EQ(body_validate_options(NULL, &o, NULL), OVOID_OK);
     CHECK_EQ(body_open(&b, s, &o, NULL), OVOID_OK);
     piece whole, sides[2];
     int is_cut = 0;

@@ -59,10 +59,10 @@ static void ask_pose(void) {
     ADD(made);
     ADD(more);
     p.position.y = third;
-    ovoid_code code = ovoid_pose_compute_check(&p);
+    ovoid_code code = ovoid_pose_validate(&p);
     ADD(code);
     p.position.y = 1e60;
-    code = ovoid_pose_compute_check(&p);
+    code = ovoid_pose_validate(&p);
     ADD(code);
 }
 
@@ -127,10 +127,10 @@ static void ask_depth(void) {
         add_answer(&x);
         add(cover.a, cover.point_count * sizeof *cover.a);
         add(cover.triangles, cover.triangle_count * sizeof *cover.triangles);
-        ovoid_code code = ovoid_answer_check(&pairs[i], &x, NULL, &cover, NULL);
+        ovoid_code code = ovoid_answer_verify(&pairs[i], &x, NULL, &cover, NULL);
         ADD(code);
         x.lower = x.upper;
-        code = ovoid_answer_check(&pairs[i], &x, NULL, &cover, NULL);
+        code = ovoid_answer_verify(&pairs[i], &x, NULL, &cover, NULL);
         ADD(code);
     }
 }
@@ -155,7 +155,7 @@ static void ask_batch(void) {
 
 static void ask_bounds(void) {
     for (int i = 0; i < PAIRS; i++) {
-        ovoid_answer x = ovoid_bounds(&pairs[i]);
+        ovoid_answer x = ovoid_pair_compute_bounds(&pairs[i]);
         add_answer(&x);
     }
 }
@@ -163,7 +163,7 @@ static void ask_bounds(void) {
 static void ask_smooth(void) {
     for (int i = 0; i < PAIRS; i++)
         for (int order = 0; order <= 2; order += 2) {
-            ovoid_smooth x = ovoid_smooth_compute(&pairs[i], order);
+            ovoid_smooth x = ovoid_pair_compute_smooth(&pairs[i], order);
             const ovoid_smooth_value *v[2] = {&x.outer, &x.inner};
             for (int k = 0; k < 2; k++) {
                 ADD(v[k]->value);
@@ -202,7 +202,7 @@ static void ask_compounds(void) {
             ADD(x[k].visited);
         }
         for (size_t k = 0; k < all.count && k < 256; k++) ADD(items[k].lower);
-        ovoid_code code = ovoid_compound_answer_check(&p, &x[3], NULL, &all, NULL);
+        ovoid_code code = ovoid_compound_answer_verify(&p, &x[3], NULL, &all, NULL);
         ADD(code);
     }
     ovoid_compound_destroy(compound);
@@ -228,7 +228,7 @@ static void ask_motions(void) {
                             .part = pairs[1].pose_b};
     ovoid_pose p[2] = {ovoid_motion_compute_pose(&a.motion, 0.7), ovoid_moving_shape_compute_pose(&b, third)};
     ADD(p);
-    ovoid_code code = ovoid_motion_compute_check(&b.motion, NULL);
+    ovoid_code code = ovoid_motion_validate(&b.motion, NULL);
     ADD(code);
     ovoid_box box = ovoid_moving_shape_compute_box(&a, 0.1, third);
     ADD(box);
@@ -236,15 +236,15 @@ static void ask_motions(void) {
     ovoid_motion_options o = {.begin = 0.01, .end = 0.99, .steps = steps, .capacity = 1000};
     ovoid_impact x = ovoid_impact_find(&a, &b, 0.01, &o);
     add_impact(&x);
-    code = ovoid_impact_check(&a, &b, 0.01, &x, NULL, steps, NULL);
+    code = ovoid_impact_verify(&a, &b, 0.01, &x, NULL, steps, NULL);
     ADD(code);
     ovoid_approach y = ovoid_approach_find(&a, &b, &o);
     ADD(y.lower);
     ADD(y.upper);
     ADD(y.time);
-    code = ovoid_approach_check(&a, &b, &y, NULL, steps, NULL);
+    code = ovoid_approach_verify(&a, &b, &y, NULL, steps, NULL);
     ADD(code);
-    x = ovoid_translation_cast(&pairs[0], linear, third, NULL);
+    x = ovoid_shape_cast(&pairs[0], linear, third, NULL);
     add_impact(&x);
     ovoid_moving_body bodies[2] = {{.shape = hull_shape, .motion = a.motion}, {.shape = box_shape, .motion = b.motion}};
     ovoid_compound_impact z = ovoid_compound_impact_find(&bodies[0], &bodies[1], 0.01, &o);
@@ -254,13 +254,13 @@ static void ask_motions(void) {
     o.group_capacity = 8;
     z = ovoid_compound_impact_find(&bodies[0], &bodies[1], 0.01, &o);
     ADD(z.group_count);
-    code = ovoid_compound_impact_check(&bodies[0], &bodies[1], 0.01, &z, NULL, steps, groups, NULL);
+    code = ovoid_compound_impact_verify(&bodies[0], &bodies[1], 0.01, &z, NULL, steps, groups, NULL);
     ADD(code);
     box = ovoid_moving_body_compute_box(&bodies[1], 0, third);
     ADD(box);
     ovoid_posed_shape body = {hull_shape, pairs[0].pose_b};
     ovoid_ray ray = {point, {2.1, 2.2, -2.7}, INFINITY, 0.01};
-    ovoid_ray_hit hit = ovoid_ray_cast(&body, &ray);
+    ovoid_ray_hit hit = ovoid_shape_cast_ray(&body, &ray);
     ADD(hit.lower);
     ADD(hit.upper);
     ADD(hit.point);

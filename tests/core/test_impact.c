@@ -1,5 +1,5 @@
 // Times of impact, casts and rays whose truth is a closed form, and what must be refused. Every answer's steps are
-// checked (ovoid_impact_check). Tolerances: that of the time asked for, and rounding of the closed form.
+// checked (ovoid_impact_verify). Tolerances: that of the time asked for, and rounding of the closed form.
 #include "linear/vec3.h"
 #include "moving.h"
 
@@ -20,7 +20,8 @@ static ovoid_impact find(const ovoid_moving_shape *a, const ovoid_moving_shape *
     ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY};
     ovoid_impact x = ovoid_impact_find(a, b, margin, &o);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_impact_check(a, b, margin, &x, NULL, steps, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_impact_verify(a, b, margin, &x, NULL, steps, &error), OVOID_OK))
+        printf("  %s\n", error.message);
     return x;
 }
 
@@ -220,7 +221,7 @@ static void check_casts(double scale) {
     ovoid_shape *round =
         ovoid_shape_create_box((ovoid_vec3){scale, scale, scale}, &(ovoid_shape_options){.radius = 0.25 * scale}, NULL);
     ovoid_pair pair = {box, round, at(0, 0, 0), at(4 * scale, 0.3 * scale, 0)};
-    ovoid_impact x = ovoid_translation_cast(&pair, (ovoid_vec3){-8 * scale, 0, 0}, 0, NULL);
+    ovoid_impact x = ovoid_shape_cast(&pair, (ovoid_vec3){-8 * scale, 0, 0}, 0, NULL);
     CHECK(x.status == OVOID_IMPACT_HIT && x.limit == OVOID_LIMIT_NONE);
     CHECK_LE(x.free_until, 1.75 / 8);
     CHECK_LE(1.75 / 8, x.hit_at);
@@ -229,11 +230,11 @@ static void check_casts(double scale) {
     CHECK_NEAR(x.free.point_a.x, scale, 1e-9 * scale);
     // Corner on corner: rounded corner (r = 1/4) along the diagonal of both cubes.
     pair.pose_b = at(5 * scale, 5 * scale, 5 * scale);
-    x = ovoid_translation_cast(&pair, (ovoid_vec3){-4 * scale, -4 * scale, -4 * scale}, 0, NULL);
+    x = ovoid_shape_cast(&pair, (ovoid_vec3){-4 * scale, -4 * scale, -4 * scale}, 0, NULL);
     double t = (3 - 0.25 / sqrt(3)) / 4;
     CHECK(x.status == OVOID_IMPACT_HIT && x.free_until <= t + 1e-15 && t - 1e-15 <= x.hit_at);
     CHECK_LE(x.hit_at - x.free_until, 2e-12);
-    x = ovoid_translation_cast(&pair, (ovoid_vec3){-4 * scale, 0, 0}, 0, NULL);
+    x = ovoid_shape_cast(&pair, (ovoid_vec3){-4 * scale, 0, 0}, 0, NULL);
     CHECK_EQ(x.status, OVOID_IMPACT_FREE);
     ovoid_shape_destroy(box);
     ovoid_shape_destroy(round);
@@ -241,7 +242,7 @@ static void check_casts(double scale) {
 
 static void check_ray(const ovoid_posed_shape *body, ovoid_ray ray, ovoid_impact_status status, double t,
                       double width) {
-    ovoid_ray_hit x = ovoid_ray_cast(body, &ray);
+    ovoid_ray_hit x = ovoid_shape_cast_ray(body, &ray);
     if (!CHECK_EQ(x.status, status)) printf("  limit %s\n", ovoid_limit_get_name(x.limit));
     CHECK_LE(x.lower, t);
     if (status == OVOID_IMPACT_HIT) {
@@ -265,15 +266,15 @@ static void check_rays(double scale) {
     check_ray(&body, ray, OVOID_IMPACT_FREE, 4.2, 0);
     ray = (ovoid_ray){{10.5 * scale, 0.1 * scale, 0}, {0, 0, 1}, INFINITY, 0};
     check_ray(&body, ray, OVOID_IMPACT_HIT, 0, 0);
-    ovoid_ray_hit x = ovoid_ray_cast(&body, &ray);
+    ovoid_ray_hit x = ovoid_shape_cast_ray(&body, &ray);
     CHECK_NEAR(x.point.x, 11 * scale, 1e-9 * scale);
     CHECK_NEAR(x.normal.x, 1, 1e-9);
     ray = (ovoid_ray){{0, 2.001 * scale, 0}, {1, 0, 0}, INFINITY, 0};
-    x = ovoid_ray_cast(&body, &ray);
+    x = ovoid_shape_cast_ray(&body, &ray);
     CHECK(x.status == OVOID_IMPACT_FREE && isinf(x.lower) && isinf(x.upper));
     ray.direction.x = -1;
     ray.origin.y = 0;
-    CHECK_EQ(ovoid_ray_cast(&body, &ray).status, OVOID_IMPACT_FREE);
+    CHECK_EQ(ovoid_shape_cast_ray(&body, &ray).status, OVOID_IMPACT_FREE);
     // Along a rod that begins beside the ray's origin, to its far end.
     ovoid_shape *rod = ovoid_shape_create_box((ovoid_vec3){10 * scale, 0.1 * scale, 0.1 * scale}, NULL, NULL);
     body = (ovoid_posed_shape){rod, at(0, 0, 0)};
@@ -287,7 +288,7 @@ static void check_rays(double scale) {
     // Without an inside nothing is proven, and said so; a thick ray is.
     body = (ovoid_posed_shape){plate, at(0, 0, 0)};
     ray.direction = (ovoid_vec3){-scale, 0, 0};
-    x = ovoid_ray_cast(&body, &ray);
+    x = ovoid_shape_cast_ray(&body, &ray);
     CHECK(x.status == OVOID_IMPACT_UNDECIDED && x.limit == OVOID_LIMIT_PRECISION);
     CHECK_NEAR(x.lower, 3, 1e-9);
     ray.radius = 1e-6 * scale;
@@ -323,7 +324,7 @@ static void check_clipped(uint64_t seed) {
             if (speed > 0) leave = fmin(leave, room / speed);
         }
         if (flattest < 1e-3 || fabs(leave - enter) < 1e-6) continue;
-        ovoid_ray_hit x = ovoid_ray_cast(&body, &ray);
+        ovoid_ray_hit x = ovoid_shape_cast_ray(&body, &ray);
         CHECK_EQ(x.status, enter < leave ? OVOID_IMPACT_HIT : OVOID_IMPACT_FREE);
         if (enter < leave) CHECK(x.lower - 1e-10 <= enter && enter <= x.upper + 1e-10 && x.upper - x.lower <= 1e-10);
         if (enter < leave && enter > 1e-9) CHECK_LE(vec3_dot(x.normal, ray.direction), 0);
@@ -339,11 +340,11 @@ static void check_refused(const ovoid_moving_shape *a, const ovoid_moving_shape 
     CHECK_EQ(x.status, OVOID_IMPACT_UNDECIDED);
     if (!CHECK_EQ(x.limit, limit)) printf("  %s\n", ovoid_limit_get_name(x.limit));
     CHECK(x.free_until == 0 && isinf(x.hit_at) && x.step_count == 0);
-    CHECK_EQ(ovoid_impact_check(a, b, margin, &x, o, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_impact_verify(a, b, margin, &x, o, NULL, NULL), OVOID_OK);
     if (!(margin >= 0 && margin < INFINITY)) return;
     ovoid_approach y = ovoid_approach_find(a, b, o);
     CHECK(y.limit == limit && y.lower == -INFINITY && y.upper == INFINITY);
-    CHECK_EQ(ovoid_approach_check(a, b, &y, o, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_approach_verify(a, b, &y, o, NULL, NULL), OVOID_OK);
 }
 
 static void check_refusals(void) {
@@ -370,18 +371,18 @@ static void check_refusals(void) {
     c.motion = ovoid_motion_make_path(NULL, NULL, 0);
     check_refused(&a, &c, 0, NULL, OVOID_LIMIT_POSE_B);
     ovoid_pair pair = {box, box, at(0, 0, 0), at(5, 0, 0)};
-    CHECK_EQ(ovoid_translation_cast(&pair, (ovoid_vec3){0, NAN, 0}, 0, NULL).limit, OVOID_LIMIT_POSE_B);
+    CHECK_EQ(ovoid_shape_cast(&pair, (ovoid_vec3){0, NAN, 0}, 0, NULL).limit, OVOID_LIMIT_POSE_B);
     pair.pose_a.rotation.w = 0;
-    CHECK_EQ(ovoid_translation_cast(&pair, zero, 0, NULL).limit, OVOID_LIMIT_POSE_A);
+    CHECK_EQ(ovoid_shape_cast(&pair, zero, 0, NULL).limit, OVOID_LIMIT_POSE_A);
     ovoid_posed_shape body = {box, at(0, 0, 0)};
     const ovoid_ray rays[5] = {{{0, NAN, 0}, {1, 0, 0}, 1, 0},
                                {{0, 0, 0}, {0, 0, 0}, 1, 0},
                                {{0, 0, 0}, {1, INFINITY, 0}, 1, 0},
                                {{0, 0, 0}, {1, 0, 0}, -1, 0},
                                {{0, 0, 0}, {1, 0, 0}, 1, NAN}};
-    for (int i = 0; i < 5; i++) CHECK_EQ(ovoid_ray_cast(&body, &rays[i]).limit, OVOID_LIMIT_OPTIONS);
+    for (int i = 0; i < 5; i++) CHECK_EQ(ovoid_shape_cast_ray(&body, &rays[i]).limit, OVOID_LIMIT_OPTIONS);
     body.pose.position.z = INFINITY;
-    CHECK_EQ(ovoid_ray_cast(&body, &(ovoid_ray){{5, 0, 0}, {1, 0, 0}, 1, 0}).limit, OVOID_LIMIT_POSE_B);
+    CHECK_EQ(ovoid_shape_cast_ray(&body, &(ovoid_ray){{5, 0, 0}, {1, 0, 0}, 1, 0}).limit, OVOID_LIMIT_POSE_B);
     ovoid_shape_destroy(box);
 }
 

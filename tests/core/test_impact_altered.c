@@ -1,4 +1,4 @@
-// Liars for ovoid_impact_check and ovoid_approach_check. Right records of random motions are altered one field at a
+// Liars for ovoid_impact_verify and ovoid_approach_verify. Right records of random motions are altered one field at a
 // time (alter.h), their steps too, and others are forged from true answers: free for no time, hit before the beginning,
 // free by steps over the knots of a path, refused without a reason.
 //
@@ -159,12 +159,12 @@ static void take(int is_false, ovoid_code code, alter_count *n) {
 }
 
 static void tell_impact(const truth *t, const ovoid_impact *x, size_t checked, alter_count *n) {
-    ovoid_code code = ovoid_impact_check(&t->c.a, &t->c.b, t->margin, x, t->told, steps, NULL);
+    ovoid_code code = ovoid_impact_verify(&t->c.a, &t->c.b, t->margin, x, t->told, steps, NULL);
     take(impact_is_false(t, x, steps, checked), code, n);
 }
 static void tell_approach(const truth *t, const ovoid_approach *x, const ovoid_approach *right, size_t checked,
                           alter_count *n) {
-    ovoid_code code = ovoid_approach_check(&t->c.a, &t->c.b, x, t->told, steps, NULL);
+    ovoid_code code = ovoid_approach_verify(&t->c.a, &t->c.b, x, t->told, steps, NULL);
     take(approach_is_false(t, x, right, steps, checked), code, n);
 }
 
@@ -331,28 +331,28 @@ static void forge_reasons(const truth *t) {
     const ovoid_moving_shape *a = &broken.c.a, *b = &broken.c.b;
     ovoid_impact right = ovoid_impact_find(a, b, t->margin, &t->options), x;
     ovoid_approach nearest = ovoid_approach_find(a, b, &t->options), y;
-    CHECK_EQ(ovoid_impact_check(a, b, t->margin, &right, t->told, NULL, NULL), OVOID_OK);
-    CHECK_EQ(ovoid_approach_check(a, b, &nearest, t->told, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_impact_verify(a, b, t->margin, &right, t->told, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_approach_verify(a, b, &nearest, t->told, NULL, NULL), OVOID_OK);
     for (int limit = 0; limit <= OVOID_LIMIT_ALLOWANCE; limit++) {
         if (limit == OVOID_LIMIT_POSE_B) continue;
         x = right;
         y = nearest;
         x.limit = y.limit = (ovoid_limit)limit;
-        CHECK(ovoid_impact_check(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
-        CHECK(ovoid_approach_check(a, b, &y, t->told, NULL, NULL) != OVOID_OK);
+        CHECK(ovoid_impact_verify(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+        CHECK(ovoid_approach_verify(a, b, &y, t->told, NULL, NULL) != OVOID_OK);
     }
     x = right;
     x.free_until = 0.5;
-    CHECK(ovoid_impact_check(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
     x.free_until = 0;
     x.status = OVOID_IMPACT_FREE;
-    CHECK(ovoid_impact_check(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
     x = right;
     x.free_until = -1;
-    CHECK(ovoid_impact_check(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
     y = nearest;
     y.lower = 1;
-    CHECK(ovoid_approach_check(a, b, &y, t->told, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_approach_verify(a, b, &y, t->told, NULL, NULL) != OVOID_OK);
 }
 
 static void forge_refusals(const truth *t) {
@@ -424,7 +424,7 @@ static void try_impact(truth *t, uint64_t *s) {
     ovoid_impact right = ovoid_impact_find(&t->c.a, &t->c.b, t->margin, &t->options);
     make_truth(t, s, right.hit_at);
     CHECK_LE(right.step_count, CAPACITY);
-    CHECK_EQ(ovoid_impact_check(&t->c.a, &t->c.b, t->margin, &right, t->told, steps, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_impact_verify(&t->c.a, &t->c.b, t->margin, &right, t->told, steps, NULL), OVOID_OK);
     CHECK(!impact_is_false(t, &right, steps, CAPACITY));
     lie_about_impact(t, &right);
     lie_about_steps(t, &right);
@@ -440,7 +440,7 @@ static void try_impact(truth *t, uint64_t *s) {
 
 static void try_approach(truth *t) {
     ovoid_approach right = ovoid_approach_find(&t->c.a, &t->c.b, &t->options);
-    CHECK_EQ(ovoid_approach_check(&t->c.a, &t->c.b, &right, t->told, steps, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_approach_verify(&t->c.a, &t->c.b, &right, t->told, steps, NULL), OVOID_OK);
     CHECK(!approach_is_false(t, &right, &right, steps, CAPACITY));
     lie_about_approach(t, &right);
     forge_touching(t, &right);

@@ -144,7 +144,7 @@ static void check_product(void) {
                                    far * random_uniform(&s, -1, 1)};
         }
         ovoid_pose product = ovoid_pose_compute_product(&p[0], &p[1]);
-        CHECK_EQ(ovoid_pose_compute_check(&product), OVOID_OK);
+        CHECK_EQ(ovoid_pose_validate(&product), OVOID_OK);
         double inner = vec3_norm(p[1].position), allowed = 46 * u * inner + 2 * u * vec3_norm(p[0].position);
         dd3 zero = dd3_from((vec3){0, 0, 0}), at = pose_point(&p[0], pose_point(&p[1], zero));
         CHECK_LE(dd3_distance(at, dd3_from(product.position)), allowed);

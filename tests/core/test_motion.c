@@ -87,7 +87,7 @@ static void check_velocity(uint64_t seed) {
     ovoid_motion m = ovoid_motion_make_velocity(start, random_vec3(&s, 3), random_vec3(&s, spin), 2.5);
     if (seed % 2) m.pivot = random_vec3(&s, 1);
     ovoid_vec3 local = random_vec3(&s, 2);
-    CHECK_EQ(ovoid_motion_compute_check(&m, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_motion_validate(&m, NULL), OVOID_OK);
     ovoid_pose first = ovoid_motion_compute_pose(&m, 0), before = ovoid_motion_compute_pose(&m, -3);
     CHECK(memcmp(&first, &start, sizeof first) == 0 && memcmp(&before, &start, sizeof first) == 0);
     for (int i = 0; i < 4; i++) {
@@ -125,7 +125,7 @@ static void check_poses(uint64_t seed) {
         b.rotation = (ovoid_quat){sign * (a.rotation.w + tiny * a.rotation.x), sign * a.rotation.x,
                                   sign * (a.rotation.y - tiny * a.rotation.z), sign * a.rotation.z};
     ovoid_motion m = ovoid_motion_make_poses(a, b, 0.7);
-    CHECK_EQ(ovoid_motion_compute_check(&m, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_motion_validate(&m, NULL), OVOID_OK);
     ovoid_pose end = ovoid_motion_compute_pose(&m, 0.7), after = ovoid_motion_compute_pose(&m, 1e9);
     CHECK(memcmp(&end, &b, sizeof end) == 0 && memcmp(&after, &b, sizeof end) == 0);
     ovoid_vec3 local = random_vec3(&s, 2);
@@ -142,7 +142,7 @@ static void check_path(void) {
     uint64_t s = 5;
     for (int i = 0; i < 4; i++) poses[i] = (ovoid_pose){random_vec3(&s, 1), random_quat(&s)};
     ovoid_motion m = ovoid_motion_make_path(times, poses, 4);
-    CHECK_EQ(ovoid_motion_compute_check(&m, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_motion_validate(&m, NULL), OVOID_OK);
     for (int i = 0; i < 4; i++) {
         ovoid_pose at = ovoid_motion_compute_pose(&m, times[i]);
         CHECK(memcmp(&at, &poses[i], sizeof at) == 0);
@@ -160,7 +160,7 @@ static void check_path(void) {
 
 static void check_bad(const char *what, ovoid_motion m, ovoid_code code, int64_t place) {
     ovoid_error error = {0};
-    ovoid_code found = ovoid_motion_compute_check(&m, &error);
+    ovoid_code found = ovoid_motion_validate(&m, &error);
     if (!CHECK_EQ(found, code) || !CHECK_EQ(error.place, place)) printf("  %s: %s\n", what, error.message);
     CHECK(strlen(error.message) > 20);
     ovoid_moving_shape moving = {.motion = m};
@@ -198,7 +198,7 @@ static void check_refusals(void) {
     check_bad("no poses", ovoid_motion_make_path(times, NULL, 3), OVOID_ERROR_ARGUMENT, -1);
     m = ovoid_motion_make_path(times, poses, 3);
     ovoid_error error;
-    CHECK_EQ(ovoid_motion_compute_check(&m, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_motion_validate(&m, &error), OVOID_ERROR_ARGUMENT);
     CHECK_EQ(error.place, 2);
     times[1] = NAN;
     check_bad("NaN time", ovoid_motion_make_path(times, poses, 3), OVOID_ERROR_RANGE, 1);

@@ -52,11 +52,11 @@ static uint64_t hash_impacts(uint64_t cases) {
             BITS_ADD(hash, y.time);
         }
         ovoid_pair pair = moving_get_pair(&c.a, &c.b, 0);
-        x = ovoid_translation_cast(&pair, moving_scaled(pair.pose_b.position, -2), 0, NULL);
+        x = ovoid_shape_cast(&pair, moving_scaled(pair.pose_b.position, -2), 0, NULL);
         hash = add_impact(hash, &x);
         ovoid_posed_shape body = {pair.shape_a, pair.pose_a};
         ovoid_ray ray = {pair.pose_b.position, moving_scaled(pair.pose_b.position, -1), INFINITY, 0};
-        ovoid_ray_hit hit = ovoid_ray_cast(&body, &ray);
+        ovoid_ray_hit hit = ovoid_shape_cast_ray(&body, &ray);
         BITS_ADD(hash, hit.lower);
         BITS_ADD(hash, hit.upper);
         BITS_ADD(hash, hit.point);

@@ -27,7 +27,7 @@ static double size_of(const ovoid_pair *p) {
 
 static int holds(const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
     ovoid_error error = {OVOID_OK, 0, ""};
-    if (ovoid_answer_check(p, x, NULL, cover, &error) == OVOID_OK) return 1;
+    if (ovoid_answer_verify(p, x, NULL, cover, &error) == OVOID_OK) return 1;
     printf("%s\n", error.message);
     return 0;
 }
@@ -38,7 +38,8 @@ static void check_pair(const ovoid_pair *p, double truth) {
     double size = size_of(p), margin = 0.25 * size + 1e-100, slack = 1e-13 * size, tolerance = 2e-9 * size + 1e-128;
     int sign = truth > slack ? 1 : truth < -slack ? -1 : 0;
     ovoid_answer x[5] = {ovoid_collide(p, NULL, NULL), ovoid_within(p, margin, NULL, NULL),
-                         ovoid_distance(p, NULL, NULL), ovoid_depth(p, NULL, NULL, &cover), ovoid_bounds(p)};
+                         ovoid_distance(p, NULL, NULL), ovoid_depth(p, NULL, NULL, &cover),
+                         ovoid_pair_compute_bounds(p)};
     for (int i = 0; i < 5; i++) {
         CHECK_LE(x[i].lower, truth + slack);
         CHECK_LE(truth - slack, x[i].upper);
@@ -239,11 +240,11 @@ static void check_refused(void) {
     ovoid_answer x = ovoid_depth(&bad, NULL, NULL, NULL);
     CHECK_EQ(x.limit, OVOID_LIMIT_POSE_B);
     CHECK(x.status == OVOID_UNDECIDED && x.lower == -INFINITY && x.upper == INFINITY);
-    CHECK_EQ(ovoid_answer_check(&bad, &x, NULL, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_answer_verify(&bad, &x, NULL, NULL, NULL), OVOID_OK);
     x.upper = 1;
-    CHECK_EQ(ovoid_answer_check(&bad, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_answer_verify(&bad, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
     bad.pose_b.rotation.x = INFINITY;
-    CHECK_EQ(ovoid_bounds(&bad).limit, OVOID_LIMIT_POSE_B);
+    CHECK_EQ(ovoid_pair_compute_bounds(&bad).limit, OVOID_LIMIT_POSE_B);
     bad = p;
     bad.pose_b.position.z = 1e51;
     CHECK_EQ(ovoid_distance(&bad, NULL, NULL).limit, OVOID_LIMIT_POSE_B);
@@ -283,7 +284,7 @@ static void check_altered(void) {
     ovoid_answer deep = ovoid_depth(&q, NULL, NULL, &cover);
     CHECK(holds(&p, &x, NULL) && holds(&q, &deep, &cover));
 #define REJECTED(pair, answer, evidence)                                                                               \
-    CHECK(ovoid_answer_check(pair, answer, NULL, evidence, NULL) == OVOID_ERROR_PROOF)
+    CHECK(ovoid_answer_verify(pair, answer, NULL, evidence, NULL) == OVOID_ERROR_PROOF)
     y = x, y.lower += 1e-9, REJECTED(&p, &y, NULL);
     y = x, y.upper -= 1e-9, REJECTED(&p, &y, NULL);
     y = x, y.status = OVOID_OVERLAPPING, REJECTED(&p, &y, NULL);
@@ -331,12 +332,12 @@ static void check_touching(void) {
                  {{.relative_tolerance = width / size * (1 - 1e-9)}, 0},
                  {{.absolute_tolerance = NAN}, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        CHECK_EQ(ovoid_answer_check(&p, &x, &cases[i].options, NULL, NULL) == OVOID_OK, cases[i].is_touching);
-    CHECK_EQ(ovoid_answer_check(&p, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_answer_verify(&p, &x, &cases[i].options, NULL, NULL) == OVOID_OK, cases[i].is_touching);
+    CHECK_EQ(ovoid_answer_verify(&p, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
     // A sign that the bracket shows is not open.
     x = ovoid_distance(&p, NULL, NULL);
     x.status = OVOID_UNDECIDED;
-    CHECK_EQ(ovoid_answer_check(&p, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_answer_verify(&p, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
     ovoid_shape_destroy(a);
 }
 

@@ -1,7 +1,7 @@
 // The depth of two parallelepipeds by all planes of their difference (exact/boxes.c). Truth: every plane through three
 // of the 64 differences of corners that has all others behind it, in long double, shares nothing with the planes of
 // pairs of edges; tolerance 1e-12 of a size of about 5, some thousand roundings. Covers are put before
-// ovoid_answer_check. What is not for this way is answered by EPA, which takes iterations.
+// ovoid_answer_verify. What is not for this way is answered by EPA, which takes iterations.
 #include "ovoid/ovoid.h"
 #include "shape/parallelepiped.h"
 
@@ -91,7 +91,7 @@ static int check_depth(const ovoid_pair *p) {
     static ovoid_cover cover;
     ovoid_answer x = ovoid_depth(p, NULL, NULL, &cover), same = ovoid_depth(p, NULL, NULL, NULL);
     ovoid_error error;
-    CHECK(ovoid_answer_check(p, &x, NULL, &cover, &error) == OVOID_OK);
+    CHECK(ovoid_answer_verify(p, &x, NULL, &cover, &error) == OVOID_OK);
     const double first[] = {x.lower, x.upper, x.normal.x, x.point_a.x, x.point_b.x, x.proof.weight_a[0]};
     const double again[] = {same.lower,     same.upper,     same.normal.x,
                             same.point_a.x, same.point_b.x, same.proof.weight_a[0]};

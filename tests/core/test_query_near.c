@@ -85,7 +85,8 @@ static void compare(int query, const ovoid_pair *p, const ovoid_proof *earlier, 
         decided_by_proof += warm.status != OVOID_UNDECIDED;
     CHECK(is_stuck(cold) || !is_stuck(&warm));
     CHECK(warm.lower <= cold->upper && cold->lower <= warm.upper);
-    if (!CHECK(ovoid_answer_check(p, &warm, NULL, query == 3 ? &cover : NULL, &error) == OVOID_OK)) puts(error.message);
+    if (!CHECK(ovoid_answer_verify(p, &warm, NULL, query == 3 ? &cover : NULL, &error) == OVOID_OK))
+        puts(error.message);
 }
 
 static ovoid_proof damage(const ovoid_proof *of, uint64_t *s) {
@@ -155,7 +156,7 @@ static void check_compounds(const ovoid_pair *p, const ovoid_proof *foreign) {
         ovoid_compound_answer warm = ovoid_compound_depth(&pair, NULL, &earlier, &all);
         if (cold.answer.status != OVOID_UNDECIDED) CHECK_EQ(warm.answer.status, cold.answer.status);
         CHECK(is_stuck(&cold.answer) || !is_stuck(&warm.answer));
-        CHECK_EQ(ovoid_compound_answer_check(&pair, &warm, NULL, &all, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_compound_answer_verify(&pair, &warm, NULL, &all, NULL), OVOID_OK);
     }
     ovoid_compound_destroy(ca);
     ovoid_compound_destroy(cb);
@@ -190,7 +191,7 @@ static void check_few_iterations(uint64_t *s) {
     for (int i = 0; i < 30 && x.limit == OVOID_LIMIT_ITERATIONS; i++) {
         x = ovoid_distance(&p, &few, &x.proof);
         CHECK(x.status == cold.status || cold.status == OVOID_UNDECIDED);
-        CHECK_EQ(ovoid_answer_check(&p, &x, &few, NULL, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_answer_verify(&p, &x, &few, NULL, NULL), OVOID_OK);
     }
     ovoid_shape_destroy(a);
     ovoid_shape_destroy(b);
@@ -212,7 +213,7 @@ static void check_sizes(uint64_t *s) {
             ovoid_answer deep = ovoid_depth(&p, NULL, NULL, &cover), sign = ovoid_collide(&p, NULL, NULL);
             CHECK_EQ(sign.status, OVOID_OVERLAPPING);
             CHECK_EQ(deep.status, OVOID_OVERLAPPING);
-            CHECK_EQ(ovoid_answer_check(&p, &deep, NULL, &cover, NULL), OVOID_OK);
+            CHECK_EQ(ovoid_answer_verify(&p, &deep, NULL, &cover, NULL), OVOID_OK);
             const ovoid_posed_shape bodies[2] = {{cube, p.pose_a}, {cube, p.pose_b}};
             ovoid_couple couple = {0, 1};
             ovoid_answer batched;

@@ -74,13 +74,13 @@ static void ask_nothing(void) {}
 static void ask_collide(void) { answer = ovoid_collide(&pair, NULL, NULL); }
 static void ask_within(void) { answer = ovoid_within(&pair, 0.01, NULL, NULL); }
 static void ask_distance(void) { answer = ovoid_distance(&pair, NULL, NULL); }
-static void ask_bounds(void) { answer = ovoid_bounds(&pair); }
+static void ask_bounds(void) { answer = ovoid_pair_compute_bounds(&pair); }
 static void ask_depth(void) { answer = ovoid_depth(&pair, NULL, NULL, &cover); }
 /// Of the depth's answer: the query before them.
-static void ask_check(void) { CHECK(ovoid_answer_check(&pair, &answer, NULL, &cover, NULL) == OVOID_OK); }
+static void ask_check(void) { CHECK(ovoid_answer_verify(&pair, &answer, NULL, &cover, NULL) == OVOID_OK); }
 static void ask_gradient(void) { gradient = ovoid_answer_compute_gradient(&pair, &answer, &cover); }
 static void ask_round_gradient(void) { gradient = ovoid_answer_compute_gradient(&round_pair, &round_answer, NULL); }
-static void ask_smooth(void) { smooth = ovoid_smooth_compute(&pair, 2); }
+static void ask_smooth(void) { smooth = ovoid_pair_compute_smooth(&pair, 2); }
 
 static ovoid_batch make_batch(void) {
     return (ovoid_batch){posed, 2, couples, COUPLES, NULL, NULL, NULL, answers, NULL};
@@ -104,14 +104,14 @@ static void ask_depth_batch(void) {
 
 static void ask_impact(void) { impact = ovoid_impact_find(&moving[0], &moving[1], 0, &recording); }
 static void ask_impact_check(void) {
-    CHECK(ovoid_impact_check(&moving[0], &moving[1], 0, &impact, NULL, steps, NULL) == OVOID_OK);
+    CHECK(ovoid_impact_verify(&moving[0], &moving[1], 0, &impact, NULL, steps, NULL) == OVOID_OK);
 }
 static void ask_approach(void) { approach = ovoid_approach_find(&moving[0], &moving[1], &recording); }
 static void ask_approach_check(void) {
-    CHECK(ovoid_approach_check(&moving[0], &moving[1], &approach, NULL, steps, NULL) == OVOID_OK);
+    CHECK(ovoid_approach_verify(&moving[0], &moving[1], &approach, NULL, steps, NULL) == OVOID_OK);
 }
-static void ask_cast(void) { impact = ovoid_translation_cast(&pair, (ovoid_vec3){-2, 0.1, 0}, 0, NULL); }
-static void ask_ray(void) { ray_hit = ovoid_ray_cast(&posed[1], &ray); }
+static void ask_cast(void) { impact = ovoid_shape_cast(&pair, (ovoid_vec3){-2, 0.1, 0}, 0, NULL); }
+static void ask_ray(void) { ray_hit = ovoid_shape_cast_ray(&posed[1], &ray); }
 static void ask_box(void) { box = ovoid_moving_shape_compute_box(&moving[0], 0, 1); }
 
 static void ask_compound_collide(void) {
@@ -125,14 +125,14 @@ static void ask_compound_distance(void) {
 }
 static void ask_compound_depth(void) { compound_answer = ovoid_compound_depth(&body_pair, NULL, NULL, &exclusions); }
 static void ask_compound_check(void) {
-    CHECK(ovoid_compound_answer_check(&body_pair, &compound_answer, NULL, &exclusions, NULL) == OVOID_OK);
+    CHECK(ovoid_compound_answer_verify(&body_pair, &compound_answer, NULL, &exclusions, NULL) == OVOID_OK);
 }
 static void ask_compound_impact(void) {
     compound_impact = ovoid_compound_impact_find(&moving_bodies[0], &moving_bodies[1], 0, &recording);
 }
 static void ask_compound_impact_check(void) {
-    CHECK(ovoid_compound_impact_check(&moving_bodies[0], &moving_bodies[1], 0, &compound_impact, NULL, steps, groups,
-                                      NULL) == OVOID_OK);
+    CHECK(ovoid_compound_impact_verify(&moving_bodies[0], &moving_bodies[1], 0, &compound_impact, NULL, steps, groups,
+                                       NULL) == OVOID_OK);
 }
 static void ask_compound_box(void) { box = ovoid_moving_body_compute_box(&moving_bodies[0], 0, 1); }
 
@@ -141,15 +141,15 @@ static void ask_solid_within(void) { solid_answer = ovoid_solid_within(&solid_pa
 static void ask_solid_distance(void) { solid_answer = ovoid_solid_distance(&solid_pair, NULL, NULL, &exclusions); }
 /// Of the distance, where there was room for its proof.
 static void ask_solid_check(void) {
-    ovoid_code code = ovoid_solid_answer_check(&solid_pair, &solid_answer, NULL, &exclusions, NULL);
+    ovoid_code code = ovoid_solid_answer_verify(&solid_pair, &solid_answer, NULL, &exclusions, NULL);
     CHECK(code == OVOID_OK || exclusions.count > exclusions.capacity);
 }
 static void ask_solid_impact(void) {
     compound_impact = ovoid_solid_impact_find(&moving_solids[0], &moving_solids[1], 0, &recording);
 }
 static void ask_solid_impact_check(void) {
-    (void)ovoid_solid_impact_check(&moving_solids[0], &moving_solids[1], 0, &compound_impact, NULL, steps, groups,
-                                   NULL);
+    (void)ovoid_solid_impact_verify(&moving_solids[0], &moving_solids[1], 0, &compound_impact, NULL, steps, groups,
+                                    NULL);
 }
 
 static void ask_find_any(void) { CHECK(ovoid_world_find_any(world, NULL, 0, NULL, &hit, NULL) == OVOID_OK); }

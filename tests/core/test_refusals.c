@@ -45,23 +45,23 @@ static void ask_pair(wrong w) {
     static ovoid_cover cover;
     ovoid_pair p = make_pair(w);
     ovoid_answer x[5] = {ovoid_collide(&p, NULL, NULL), ovoid_within(&p, 1, NULL, NULL), ovoid_distance(&p, NULL, NULL),
-                         ovoid_depth(&p, NULL, NULL, &cover), ovoid_bounds(&p)};
+                         ovoid_depth(&p, NULL, NULL, &cover), ovoid_pair_compute_bounds(&p)};
     static const char *const names[5] = {"collide", "within", "distance", "depth", "bounds"};
     for (int i = 0; i < 5; i++) {
         asked = names[i];
         expect_refused(&x[i], get_limit(w));
         asked = "answer_check";
-        EXPECT(ovoid_answer_check(&p, &x[i], NULL, NULL, NULL) == OVOID_OK);
+        EXPECT(ovoid_answer_verify(&p, &x[i], NULL, NULL, NULL) == OVOID_OK);
     }
     // An answer to what must be refused.
     ovoid_pair sound = {shape, shape, identity, aside};
     ovoid_answer claim = ovoid_distance(&sound, NULL, NULL);
-    EXPECT(ovoid_answer_check(&p, &claim, NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+    EXPECT(ovoid_answer_verify(&p, &claim, NULL, NULL, NULL) == OVOID_ERROR_PROOF);
     asked = "gradient";
     ovoid_gradient g = ovoid_answer_compute_gradient(&p, &claim, NULL);
     EXPECT(!g.has_translation && !g.has_rotation);
     asked = "smooth";
-    ovoid_smooth s = ovoid_smooth_compute(&p, 2);
+    ovoid_smooth s = ovoid_pair_compute_smooth(&p, 2);
     EXPECT(s.limit == get_limit(w) && s.outer.value == -INFINITY && s.inner.value == INFINITY);
     asked = "paper";
     const ovoid_areas *areas[2] = {NULL, NULL};
@@ -106,23 +106,23 @@ static void ask_motions(wrong w) {
     asked = "impact";
     ovoid_impact x = ovoid_impact_find(&a, &b, 0, NULL);
     EXPECT(x.limit == get_limit(w) && x.status == OVOID_IMPACT_UNDECIDED && x.hit_at == INFINITY);
-    EXPECT(ovoid_impact_check(&a, &b, 0, &x, NULL, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_impact_verify(&a, &b, 0, &x, NULL, NULL, NULL) == OVOID_OK);
     x.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_impact_check(&a, &b, 0, &x, NULL, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_impact_verify(&a, &b, 0, &x, NULL, NULL, NULL) != OVOID_OK);
     asked = "approach";
     ovoid_approach y = ovoid_approach_find(&a, &b, NULL);
     EXPECT(y.limit == get_limit(w) && y.lower == -INFINITY && y.upper == INFINITY);
-    EXPECT(ovoid_approach_check(&a, &b, &y, NULL, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_approach_verify(&a, &b, &y, NULL, NULL, NULL) == OVOID_OK);
     y.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_approach_check(&a, &b, &y, NULL, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_approach_verify(&a, &b, &y, NULL, NULL, NULL) != OVOID_OK);
     asked = "translation_cast";
-    EXPECT(ovoid_translation_cast(&p, (ovoid_vec3){1, 0, 0}, 0, NULL).limit == get_limit(w));
+    EXPECT(ovoid_shape_cast(&p, (ovoid_vec3){1, 0, 0}, 0, NULL).limit == get_limit(w));
     asked = "box";
     EXPECT(isnan(ovoid_moving_shape_compute_box(w.b ? &b : &a, 0, 1).min.x));
     asked = "ray_cast";
     ovoid_posed_shape body = {w.b ? p.shape_b : p.shape_a, w.b ? p.pose_b : p.pose_a};
     ovoid_ray ray = {{5, 0, 0}, {-1, 0, 0}, INFINITY, 0};
-    EXPECT(ovoid_ray_cast(&body, &ray).limit == (w.is == NO_SHAPE ? OVOID_LIMIT_SHAPE_B : OVOID_LIMIT_POSE_B));
+    EXPECT(ovoid_shape_cast_ray(&body, &ray).limit == (w.is == NO_SHAPE ? OVOID_LIMIT_SHAPE_B : OVOID_LIMIT_POSE_B));
 }
 
 // ---- compounds. A solid without a shape has neither of the two or both.
@@ -140,18 +140,18 @@ static void ask_solids(wrong w, int both) {
         asked = names[i];
         expect_refused(&x[i].answer, get_limit(w));
         asked = "compound_answer_check";
-        EXPECT(ovoid_compound_answer_check(&s, &x[i], NULL, NULL, NULL) == OVOID_OK);
+        EXPECT(ovoid_compound_answer_verify(&s, &x[i], NULL, NULL, NULL) == OVOID_OK);
         x[i].answer.lower = 0;
-        EXPECT(ovoid_compound_answer_check(&s, &x[i], NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+        EXPECT(ovoid_compound_answer_verify(&s, &x[i], NULL, NULL, NULL) == OVOID_ERROR_PROOF);
     }
     asked = "compound_impact";
     ovoid_moving_body a = {.shape = s.a.shape, .compound = s.a.compound, .motion = ovoid_motion_make_still(s.a.pose)};
     ovoid_moving_body b = {.shape = s.b.shape, .compound = s.b.compound, .motion = ovoid_motion_make_still(s.b.pose)};
     ovoid_compound_impact hit = ovoid_compound_impact_find(&a, &b, 0, NULL);
     EXPECT(hit.impact.limit == get_limit(w) && hit.impact.status == OVOID_IMPACT_UNDECIDED);
-    EXPECT(ovoid_compound_impact_check(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_compound_impact_verify(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) == OVOID_OK);
     hit.impact.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_compound_impact_check(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_compound_impact_verify(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) != OVOID_OK);
     asked = "compound box";
     EXPECT(isnan(ovoid_moving_body_compute_box(w.b ? &b : &a, 0, 1).min.x));
 }
@@ -209,9 +209,9 @@ static void ask_creations(void) {
     EXPECT_ERROR(ovoid_shape_create_divided(NULL, &plane, NULL, halves, &error) == OVOID_ERROR_ARGUMENT,
                  OVOID_ERROR_ARGUMENT);
     ovoid_motion still = ovoid_motion_make_still(zero);
-    EXPECT_ERROR(ovoid_motion_compute_check(&still, &error) == OVOID_ERROR_ROTATION, OVOID_ERROR_ROTATION);
-    asked = "pose_compute_check";
-    EXPECT(ovoid_pose_compute_check(&zero) == OVOID_ERROR_ROTATION);
+    EXPECT_ERROR(ovoid_motion_validate(&still, &error) == OVOID_ERROR_ROTATION, OVOID_ERROR_ROTATION);
+    asked = "pose_validate";
+    EXPECT(ovoid_pose_validate(&zero) == OVOID_ERROR_ROTATION);
     // Nothing to do is no error.
     ovoid_shape_destroy(NULL);
     ovoid_compound_destroy(NULL);

@@ -297,11 +297,11 @@ static void check_tiny(void) {
                 break;
             ovoid_pair pair = {shape, again, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
             for (int far = 0; far < 2; far++, pair.pose_b.position.y = 5) {
-                ovoid_answer bounds = ovoid_bounds(&pair), distance = ovoid_distance(&pair, NULL, NULL);
+                ovoid_answer bounds = ovoid_pair_compute_bounds(&pair), distance = ovoid_distance(&pair, NULL, NULL);
                 double size_of_body = ldexp(4, e);
                 CHECK_LE(fmax(bounds.lower, distance.lower), 5 * far + size_of_body);
                 CHECK_LE(5 * far - size_of_body, fmin(bounds.upper, distance.upper));
-                CHECK(ovoid_answer_check(&pair, &bounds, NULL, NULL, NULL) == OVOID_OK);
+                CHECK(ovoid_answer_verify(&pair, &bounds, NULL, NULL, NULL) == OVOID_OK);
             }
             ovoid_shape_destroy(shape);
             ovoid_shape_destroy(again);

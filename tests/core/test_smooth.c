@@ -189,7 +189,7 @@ static void test_solids(void) {
             vec3 n = random_unit(&s), before = at[1].center;
             place(&at[0], &at[1], n, gap);
             pair.pose_b.position = vec3_add(pair.pose_b.position, vec3_sub(at[1].center, before));
-            ovoid_smooth got = ovoid_smooth_compute(&pair, 2);
+            ovoid_smooth got = ovoid_pair_compute_smooth(&pair, 2);
             const ovoid_smooth_value *v = is_inner ? &got.inner : &got.outer;
             smooth_case c = {&e[0], &e[1], &pair, r_from(v->normal), 0};
             real zero[12] = {0}, truth = case_value(&c, zero);
@@ -246,7 +246,7 @@ static void test_thin(void) {
         vec3 n = random_unit(&s), before = at[1].center;
         place(&at[0], &at[1], n, gap);
         pair.pose_b.position = vec3_add(pair.pose_b.position, vec3_sub(at[1].center, before));
-        ovoid_smooth_value v = ovoid_smooth_compute(&pair, 2).outer;
+        ovoid_smooth_value v = ovoid_pair_compute_smooth(&pair, 2).outer;
         CHECK(v.is_smooth);
         condition = fmax(condition, v.condition);
         smooth_case c = {&e[0], &e[1], &pair, r_from(v.normal), 0};
@@ -308,7 +308,7 @@ static void test_spheres(void) {
         c.arm_b = r_rotate(pair.pose_b.rotation, r_from(arms[1]));
         c.v = r_add(r_add(r_from(pair.pose_b.position), r_from(pair.pose_a.position), -1), r_add(c.arm_b, c.arm_a, -1),
                     1);
-        ovoid_smooth got = ovoid_smooth_compute(&pair, 2);
+        ovoid_smooth got = ovoid_pair_compute_smooth(&pair, 2);
         real zero[12] = {0}, truth = spheres_value(&c, zero);
         const ovoid_smooth_value *v[2] = {&got.outer, &got.inner};
         for (int k = 0; k < 2; k++) {
@@ -357,7 +357,7 @@ static void test_capsules(void) {
         capsules c = {&pair, 1, 0.7L, (real)0.2 + (real)0.1, &rim};
         c.half_b = 0.7;
         real truth = capsules_value(&c, zero);
-        ovoid_smooth got = ovoid_smooth_compute(&pair, 2);
+        ovoid_smooth got = ovoid_pair_compute_smooth(&pair, 2);
         const ovoid_smooth_value *v[2] = {&got.outer, &got.inner};
         CHECK(got.outer.value <= truth && truth <= got.inner.value);
         for (int k = 0; k < 2; k++) {
@@ -407,7 +407,7 @@ typedef struct counts {
 // The bracket holds the exact one, whose ends are proven elsewhere.
 static void check_bracket(const ovoid_pair *pair, counts *seen) {
     ovoid_answer exact = ovoid_depth(pair, NULL, NULL, NULL);
-    ovoid_smooth got = ovoid_smooth_compute(pair, 1);
+    ovoid_smooth got = ovoid_pair_compute_smooth(pair, 1);
     CHECK_EQ(got.limit, OVOID_LIMIT_NONE);
     CHECK_LE(got.outer.value, exact.upper);
     CHECK_LE(exact.lower, got.inner.value);
@@ -470,7 +470,7 @@ static void test_flat(void) {
             pose[k] = (ovoid_pose){{4 * k * to[0], 4 * k * to[1], 4 * k * to[2]}, {to[3], to[4], to[5], to[6]}};
         }
         ovoid_pair pair = {shapes[0], shapes[1], pose[0], pose[1]};
-        ovoid_smooth x = ovoid_smooth_compute(&pair, 1);
+        ovoid_smooth x = ovoid_pair_compute_smooth(&pair, 1);
         for (int side = 0; side < 2; side++) {
             const ovoid_smooth_value *v = side ? &x.inner : &x.outer;
             vec3 w = vec3_sub(v->point_b, v->point_a);

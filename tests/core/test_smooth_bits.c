@@ -29,7 +29,7 @@ int main(void) {
     for (int f = 0; f < BITS_FAMILIES && made; f++)
         for (uint32_t i = 0; i < PAIRS; i++) {
             ovoid_pair pair = bits_make_pair(shapes, (bits_family)f, i);
-            ovoid_smooth s = ovoid_smooth_compute(&pair, 2);
+            ovoid_smooth s = ovoid_pair_compute_smooth(&pair, 2);
             all = add_side(add_side(all, &s.outer), &s.inner);
         }
     for (int i = 0; i < BITS_SHAPES; i++) ovoid_shape_destroy(shapes[i]);

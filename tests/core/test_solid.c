@@ -9,7 +9,7 @@ static ovoid_exclusion items[CAPACITY];
 static void check_answer(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     CHECK(all->count <= all->capacity);
-    if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, NULL, all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_solid_answer_verify(pair, x, NULL, all, &error), OVOID_OK)) printf("  %s\n", error.message);
 }
 
 static void check_sign(const ovoid_solid_answer *x, solid_truth t, double slack) {

@@ -72,7 +72,7 @@ static truth find_truth(const mesh *a, const ovoid_pose *pose_a, const assembly 
 
 static int is_proven(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_solid_answer_check(pair, x, NULL, all, &error);
+    ovoid_code code = ovoid_solid_answer_verify(pair, x, NULL, all, &error);
     if (code != OVOID_OK) printf("  %s\n", error.message);
     return code == OVOID_OK;
 }
@@ -131,26 +131,26 @@ static void check_altered(const ovoid_body_pair *pair, const ovoid_solid_answer 
     } else {
         y.status = OVOID_SEPARATED;
     }
-    CHECK(ovoid_solid_answer_check(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_solid_answer_verify(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
     y = *x;
     y.lower += 0.01;
     y.surfaces.lower += 0.01;
-    CHECK(ovoid_solid_answer_check(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_solid_answer_verify(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
     if (x->inside) {
         y = *x;
         y.inside = x->inside == OVOID_SOLID_A_INSIDE ? OVOID_SOLID_B_INSIDE : OVOID_SOLID_A_INSIDE;
-        CHECK(ovoid_solid_answer_check(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
+        CHECK(ovoid_solid_answer_verify(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
         y = *x;
         y.component = 1000;
-        CHECK(ovoid_solid_answer_check(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
+        CHECK(ovoid_solid_answer_verify(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
     }
     if (all->count == 0) return;
     ovoid_exclusion kept = all->items[all->count - 1];
     all->count--;
-    CHECK(ovoid_solid_answer_check(pair, x, NULL, all, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_solid_answer_verify(pair, x, NULL, all, NULL) == OVOID_ERROR_PROOF);
     all->count++;
     all->items[all->count - 1].normal = (ovoid_vec3){-kept.normal.x, -kept.normal.y, -kept.normal.z};
-    if (kept.lower > 0) CHECK(ovoid_solid_answer_check(pair, x, NULL, all, NULL) == OVOID_ERROR_PROOF);
+    if (kept.lower > 0) CHECK(ovoid_solid_answer_verify(pair, x, NULL, all, NULL) == OVOID_ERROR_PROOF);
     all->items[all->count - 1] = kept;
 }
 

@@ -61,7 +61,7 @@ static void check(const ovoid_body_pair *pair, const ovoid_solid_answer *x, cons
                   double scale) {
     ovoid_error error = {.message = ""};
     CHECK(all->count <= all->capacity);
-    if (!CHECK_EQ(ovoid_solid_answer_check(pair, x, NULL, all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_solid_answer_verify(pair, x, NULL, all, &error), OVOID_OK)) printf("  %s\n", error.message);
     CHECK_LE(x->lower, x->upper);
     if (x->status == OVOID_TOUCHING) CHECK(x->lower <= 0 && x->upper >= 0 && x->upper - x->lower <= 1e-7 * scale);
     if (t.shared) {
@@ -178,7 +178,7 @@ static void expect_point(mesh *a, mesh *b) {
         ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, &all);
         CHECK_EQ(x.status, OVOID_OVERLAPPING);
         CHECK_EQ(x.inside, OVOID_SOLID_COMMON_POINT);
-        CHECK_EQ(ovoid_solid_answer_check(&pair, &x, NULL, &all, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_solid_answer_verify(&pair, &x, NULL, &all, NULL), OVOID_OK);
     }
     ovoid_solid_destroy(sa);
     ovoid_solid_destroy(sb);

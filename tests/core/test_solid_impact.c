@@ -23,7 +23,7 @@ static ovoid_solid_answer ask(const ovoid_moving_body *a, const ovoid_moving_bod
 static int is_proven(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
                      const ovoid_compound_impact *x) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_solid_impact_check(a, b, margin, x, NULL, steps, groups, &error);
+    ovoid_code code = ovoid_solid_impact_verify(a, b, margin, x, NULL, steps, groups, &error);
     if (code != OVOID_OK) printf("  %lld: %s\n", (long long)error.place, error.message);
     return code == OVOID_OK;
 }
@@ -43,21 +43,21 @@ static void check_altered(const ovoid_moving_body *a, const ovoid_moving_body *b
     ovoid_compound_impact y = *x;
     if (!(x->impact.free_until > x->impact.begin)) return;
     y.group_count--;
-    CHECK(ovoid_solid_impact_check(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_solid_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
     y = *x;
     y.impact.free_until = fmin(y.impact.free_until + 1e-3, y.impact.hit_at);
     if (y.impact.free_until > x->impact.free_until + 1e-4 && y.impact.status != OVOID_IMPACT_FREE)
-        CHECK(ovoid_solid_impact_check(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+        CHECK(ovoid_solid_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
     y = *x;
     y.impact.status = x->impact.status == OVOID_IMPACT_FREE ? OVOID_IMPACT_HIT : OVOID_IMPACT_FREE;
-    CHECK(ovoid_solid_impact_check(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_solid_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
     ovoid_step_group kept = groups[0];
     groups[0].end_a++;
-    CHECK(ovoid_solid_impact_check(a, b, margin, x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_solid_impact_verify(a, b, margin, x, NULL, steps, groups, NULL) != OVOID_OK);
     groups[0] = kept;
     ovoid_step first = steps[0];
     steps[0].normal = (ovoid_vec3){-first.normal.x, -first.normal.y, -first.normal.z};
-    CHECK(ovoid_solid_impact_check(a, b, margin, x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_solid_impact_verify(a, b, margin, x, NULL, steps, groups, NULL) != OVOID_OK);
     steps[0] = first;
 }
 
@@ -205,7 +205,7 @@ static void check_known(void) {
     // No surface is met on the way, but it is not free: what is inside at the beginning is asked before any step.
     x.impact.status = OVOID_IMPACT_FREE, x.impact.free_until = x.impact.end, x.impact.hit_at = INFINITY;
     ovoid_error error = {.message = ""};
-    CHECK_EQ(ovoid_solid_impact_check(&a, &b, 0, &x, NULL, steps, groups, &error), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_solid_impact_verify(&a, &b, 0, &x, NULL, steps, groups, &error), OVOID_ERROR_PROOF);
     CHECK(strstr(error.message, "not apart at the beginning") != NULL);
     // The ring, from z = 5 down to -1, around the peg whose top is at 2.
     const ovoid_pose above = {{0, 0, 5}, {1, 0, 0, 0}}, below = {{0, 0, -1}, {1, 0, 0, 0}};

@@ -1,4 +1,4 @@
-// A liar for ovoid_solid_impact_check. Right records of moving solids, alone and beside a shape or a compound, are
+// A liar for ovoid_solid_impact_verify. Right records of moving solids, alone and beside a shape or a compound, are
 // altered one field at a time (alter.h), their groups and steps too, and others are forged: free for no time, free
 // although the one is inside the other, hit before the beginning.
 //
@@ -129,7 +129,7 @@ static int is_false(const truth *t, const ovoid_compound_impact *found) {
 static const char *lie_name = "", *lie_kind = "";
 
 static void tell(const truth *t, const ovoid_compound_impact *x, alter_count *n) {
-    ovoid_code code = ovoid_solid_impact_check(&t->a, &t->b, t->margin, x, t->told, steps, groups, NULL);
+    ovoid_code code = ovoid_solid_impact_verify(&t->a, &t->b, t->margin, x, t->told, steps, groups, NULL);
     int is_noticed = alter_take(n, is_false(t, x), code != OVOID_OK);
     if (!CHECK(is_noticed) && check_failed <= 20) printf("  accepted: %s, %s\n", lie_name, lie_kind);
 }
@@ -325,7 +325,7 @@ static void try_case(truth *t, uint64_t seed) {
     uint64_t s = seed;
     ovoid_compound_impact right = ovoid_solid_impact_find(&t->a, &t->b, t->margin, &t->options);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_solid_impact_check(&t->a, &t->b, t->margin, &right, t->told, steps, groups, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_solid_impact_verify(&t->a, &t->b, t->margin, &right, t->told, steps, groups, &error), OVOID_OK))
         printf("  %s\n", error.message);
     add_time(t, t->begin);
     add_time(t, t->end);

@@ -72,7 +72,7 @@ static void test_far(uint64_t seed) {
         if (i == 1 || i % 4 == 3 || (i && c.is_local)) CHECK(ovoid_world_move(w, ids[1], &other, NULL) == OVOID_OK);
         ovoid_contacts f;
         CHECK(ovoid_world_compute_contacts(w, &q, &f, NULL) == OVOID_OK);
-        world_check_frame(w, &q, &f);
+        world_validate_frame(w, &q, &f);
         // Between frames: the same truth from the boxes alone.
         ovoid_world_hit hit;
         CHECK(ovoid_world_find_any(w, NULL, 0, NULL, &hit, NULL) == OVOID_OK);
@@ -113,7 +113,7 @@ static void test_long_life(int kind) {
             CHECK(ovoid_world_move(w, ids[1], &pose, NULL) == OVOID_OK);
             ovoid_contacts f;
             CHECK(ovoid_world_compute_contacts(w, &q, &f, NULL) == OVOID_OK);
-            world_check_frame(w, &q, &f);
+            world_validate_frame(w, &q, &f);
             gap -= random_uniform(&s, 0, 0.6) * hidden;
         }
     }
@@ -149,7 +149,7 @@ static void test_long_contact(void) {
             CHECK(ovoid_world_move(w, ids[1], &pose, NULL) == OVOID_OK);
             ovoid_contacts f;
             CHECK(ovoid_world_compute_contacts(w, &q, &f, NULL) == OVOID_OK);
-            world_check_frame(w, &q, &f);
+            world_validate_frame(w, &q, &f);
             aged += f.aged;
         }
     }

@@ -220,7 +220,7 @@ static void test_rays(scene *x) {
                     part = ovoid_compound_get_part(b.body.compound, i);
                     part.pose = ovoid_pose_compute_product(&b.body.pose, &part.pose);
                 }
-                ovoid_ray_hit hit = ovoid_ray_cast(&part, &r.ray);
+                ovoid_ray_hit hit = ovoid_shape_cast_ray(&part, &r.ray);
                 if (hit.status == OVOID_IMPACT_HIT && hit.upper < upper) upper = hit.upper, body = x->ids[j];
                 if (hit.status != OVOID_IMPACT_FREE) lower = fmin(lower, hit.lower);
             }
@@ -255,7 +255,7 @@ static void test_solid_casts(scene *x) {
                     part.pose = ovoid_pose_compute_product(&b.body.pose, &part.pose);
                 }
                 ovoid_pair pair = {part.shape, probe.body.shape, part.pose, probe.body.pose};
-                ovoid_impact hit = ovoid_translation_cast(&pair, way, 0, NULL);
+                ovoid_impact hit = ovoid_shape_cast(&pair, way, 0, NULL);
                 upper = fmin(upper, hit.hit_at);
                 if (hit.status != OVOID_IMPACT_FREE) lower = fmin(lower, hit.free_until);
             }

@@ -31,7 +31,7 @@ static void add(ovoid_world *w, ovoid_id *id, const ovoid_shape *shape, ovoid_po
 static size_t look(ovoid_world *w, const ovoid_contact_query *q) {
     ovoid_contacts f;
     CHECK(ovoid_world_compute_contacts(w, q, &f, NULL) == OVOID_OK);
-    world_check_frame(w, q, &f);
+    world_validate_frame(w, q, &f);
     return f.count;
 }
 

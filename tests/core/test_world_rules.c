@@ -19,7 +19,7 @@ static ovoid_world *make_heap(const ovoid_world_options *o, const ovoid_shape *b
 static size_t count_contacts(ovoid_world *w) {
     ovoid_contacts f;
     CHECK(ovoid_world_compute_contacts(w, &collide, &f, NULL) == OVOID_OK);
-    world_check_frame(w, &collide, &f);
+    world_validate_frame(w, &collide, &f);
     return f.count;
 }
 
@@ -200,7 +200,7 @@ static void test_failing_allocation(ovoid_shape **shapes, long k, uint32_t threa
         CHECK_EQ(ovoid_world_get_count(w), round ? 90 : 20);
         if (!retry(&t, ovoid_world_compute_contacts(w, &q, &f, &e)))
             CHECK(ovoid_world_compute_contacts(w, &q, &f, NULL) == OVOID_OK);
-        if (t.failures || k % 16 == 0) world_check_frame(w, &q, &f);
+        if (t.failures || k % 16 == 0) world_validate_frame(w, &q, &f);
         for (int i = 0; i < 20; i++) {
             ovoid_pose p = {random_place(&s, 4), random_quat(&s)};
             CHECK(ovoid_world_move(w, ids[i], &p, NULL) == OVOID_OK);

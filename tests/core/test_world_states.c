@@ -104,7 +104,7 @@ static int touches_world(const scene *x, const ovoid_world_body *probe) {
 /// How many states ended at a body, at a couple, at nothing.
 static int ends[3];
 
-static void check_state(const scene *x) {
+static void collide_state(const scene *x) {
     size_t first = 0, couple = 0;
     while (first < x->probe_count && !touches_world(x, &x->probes[first])) first++;
     while (couple < x->couple_count &&
@@ -153,7 +153,7 @@ static void test_states(uint64_t seed) {
     // Of a probe and itself nothing is to be found.
     for (size_t i = 0; i < x.couple_count; i++)
         if (x.couples[i].a == x.couples[i].b) x.couples[i] = x.couples[--x.couple_count], i--;
-    check_state(&x);
+    collide_state(&x);
     ovoid_world_destroy(x.world);
     ovoid_compound_destroy(x.compound);
     world_destroy_shapes(x.shapes);

@@ -36,7 +36,7 @@ void check_pairs() {
         CHECK(is_same_answer(ovoid::within(p, 0.5, o, &cold.proof), ovoid_within(&c, 0.5, &o, &cold.proof)));
         CHECK(is_same_answer(ovoid::distance(p), ovoid_distance(&c, nullptr, nullptr)));
         CHECK(is_same_answer(ovoid::distance(p, o, &cold.proof), ovoid_distance(&c, &o, &cold.proof)));
-        CHECK(is_same_answer(ovoid::bounds(p), ovoid_bounds(&c)));
+        CHECK(is_same_answer(ovoid::bounds(p), ovoid_pair_compute_bounds(&c)));
         ovoid::cover cover;
         const ovoid::answer a = ovoid::depth(p, {}, nullptr, &cover);
         CHECK(is_same_answer(a, cold));
@@ -59,7 +59,7 @@ void check_pairs() {
         CHECK_EQ(ovoid::within(ready_a, ready_b, 0.5).upper, ovoid::within(p, 0.5).upper);
         CHECK_EQ(ovoid::distance(ready_a, ready_b).lower, ovoid::distance(p).lower);
         const ovoid_gradient g = ovoid_answer_compute_gradient(&c, &a, &cover);
-        const ovoid_smooth s = ovoid_smooth_compute(&c, 1), t = ovoid::compute_smooth(p, 1);
+        const ovoid_smooth s = ovoid_pair_compute_smooth(&c, 1), t = ovoid::compute_smooth(p, 1);
         CHECK(is_same_count(ovoid::compute_gradient(p, a, &cover).gradient, g.gradient, 12));
         CHECK(t.outer.value == s.outer.value && is_same_count(t.outer.gradient, s.outer.gradient, 12));
     }
@@ -212,7 +212,7 @@ void check_motions() {
 
     const ovoid::pair p(b.box, b.hull, {}, b.far);
     const ovoid::impact cast = ovoid::cast_translation(p, {-10, 0, 0}),
-                        c_cast = ovoid_translation_cast(&p, {-10, 0, 0}, 0, nullptr);
+                        c_cast = ovoid_shape_cast(&p, {-10, 0, 0}, 0, nullptr);
     CHECK(cast.hit_at == c_cast.hit_at && cast.status == OVOID_IMPACT_HIT);
     // The box's face is at x = 1: half way of the ray.
     const ovoid::ray_hit ray = ovoid::cast_ray(b.box, {{2, 0, 0}, {-2, 0, 0}});

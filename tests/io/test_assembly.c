@@ -60,7 +60,7 @@ static void check_answer(const ovoid_world *w, const ovoid_contact *c) {
     ovoid_solid_answer x = ovoid_solid_distance(&pair, NULL, NULL, &all);
     CHECK_EQ(x.status, c->verdict.status);
     if (all.count > CAPACITY) return;
-    if (!CHECK_EQ(ovoid_solid_answer_check(&pair, &x, NULL, &all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_solid_answer_verify(&pair, &x, NULL, &all, &error), OVOID_OK)) printf("  %s\n", error.message);
 }
 
 static void check_grid(const assembly *a, double cell) {

@@ -41,7 +41,7 @@ static void destroy_object(object *o) {
 static void check_checks(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     CHECK_LE(all->count, CAPACITY);
-    if (!CHECK(ovoid_compound_answer_check(pair, x, NULL, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(ovoid_compound_answer_verify(pair, x, NULL, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
 }
 
 static void check_pair(const object *a, const object *b, uint64_t *s) {

@@ -22,7 +22,7 @@ static int read_records(ovoid_results_reader *reader, ovoid_error *error) {
     ovoid_record record;
     int got = reader ? 1 : -1;
     while (got > 0) got = ovoid_results_reader_read(reader, &record, error);
-    ovoid_results_reader_destroy(reader);
+    ovoid_results_reader_close(reader);
     return got == 0;
 }
 
@@ -30,7 +30,7 @@ static int read_pairs(ovoid_pairs_reader *reader, ovoid_error *error) {
     ovoid_indexed_pair pair;
     int got = reader ? 1 : -1;
     while (got > 0) got = ovoid_pairs_reader_read(reader, &pair, error);
-    ovoid_pairs_reader_destroy(reader);
+    ovoid_pairs_reader_close(reader);
     return got == 0;
 }
 
@@ -42,8 +42,8 @@ static int read_any(reading *r) {
     case 's': got = ovoid_shape_read_file(r->path, NULL, NULL, &r->error); break;
     case 'c': got = ovoid_scene_read(r->path, NULL, &r->error); break;
     case 'l': got = ovoid_shapes_read_list(r->path, NULL, NULL, &r->error); break;
-    case 'v': return read_pairs(ovoid_pairs_reader_create(r->path, 2, &r->error), &r->error);
-    case 'r': return read_records(ovoid_results_reader_create(r->path, &r->error), &r->error);
+    case 'v': return read_pairs(ovoid_pairs_reader_open(r->path, 2, &r->error), &r->error);
+    case 'r': return read_records(ovoid_results_reader_open(r->path, &r->error), &r->error);
     default: got = ovoid_mesh_read(r->path, &options, &r->error); break;
     }
     return got != NULL; // the child ends with it

@@ -129,11 +129,11 @@ static void read_scene(void) {
     ovoid_pose pose = ovoid_scene_get(scene, 0).pose;
     CHECK(pose.position.x == 0.25 && pose.position.z == 1e-3);
     path = file_write_text("locale.csv", "time,body,vx,vy,vz,wx,wy,wz\n0.5,a,0.25,0,0,0,0,1.5\n");
-    ovoid_motion_reader *reader = ovoid_motion_reader_create(path, scene, &error);
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(path, scene, &error);
     ovoid_motion_line line;
     if (CHECK(reader != NULL) && CHECK(ovoid_motion_reader_read(reader, &line, &error) == 1))
         CHECK(line.time == 0.5 && line.linear.x == 0.25 && line.angular.z == 1.5);
-    ovoid_motion_reader_destroy(reader);
+    ovoid_motion_reader_close(reader);
     ovoid_scene_destroy(scene);
     keep("scene", &pose, sizeof pose);
 }

@@ -37,10 +37,10 @@ static int read_scene(ovoid_error *error) {
 }
 
 static int read_pairs(ovoid_error *error) {
-    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(file_path("memory.csv"), 2, error);
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_open(file_path("memory.csv"), 2, error);
     ovoid_indexed_pair pair;
     int got = reader ? ovoid_pairs_reader_read(reader, &pair, error) : -1;
-    ovoid_pairs_reader_destroy(reader);
+    ovoid_pairs_reader_close(reader);
     return got == 1;
 }
 
@@ -57,18 +57,18 @@ static int read_compound(ovoid_error *error) {
 static ovoid_scene *moved;
 
 static int read_motion(ovoid_error *error) {
-    ovoid_motion_reader *reader = ovoid_motion_reader_create(file_path("memory_motion.csv"), moved, error);
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(file_path("memory_motion.csv"), moved, error);
     ovoid_motion_line line;
     int got = reader ? ovoid_motion_reader_read(reader, &line, error) : -1;
-    ovoid_motion_reader_destroy(reader);
+    ovoid_motion_reader_close(reader);
     return got == 1;
 }
 
 static int read_results(ovoid_error *error) {
-    ovoid_results_reader *reader = ovoid_results_reader_create(file_path("memory.jsonl"), error);
+    ovoid_results_reader *reader = ovoid_results_reader_open(file_path("memory.jsonl"), error);
     ovoid_record record;
     int got = reader ? ovoid_results_reader_read(reader, &record, error) : -1;
-    ovoid_results_reader_destroy(reader);
+    ovoid_results_reader_close(reader);
     return got == 1;
 }
 

@@ -18,7 +18,7 @@ static void check_poses(void) {
                                                 "0.5,\"say \"\"so\"\"\",0,0,0,1,0,0,0\n"
                                                 "0.5,a,4,5,6,0.5,.5,0.5,-0.5\n0.5,\" d\",0,0,0,1,0,0,0.1");
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_motion_reader *reader = ovoid_motion_reader_create(path, scene, &error);
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(path, scene, &error);
     if (!CHECK(reader != NULL)) return;
     CHECK_EQ(ovoid_motion_reader_get_columns(reader), OVOID_MOTION_COLUMNS_POSE);
     ovoid_motion_line l;
@@ -36,13 +36,13 @@ static void check_poses(void) {
     CHECK(got == 1 && l.body == 3 && l.pose.rotation.z == 0.1);
     got = ovoid_motion_reader_read(reader, &l, &error);
     CHECK(got == 0 && error.code == OVOID_OK);
-    ovoid_motion_reader_destroy(reader);
+    ovoid_motion_reader_close(reader);
 }
 
 static void check_velocities(void) {
     const char *path = file_write_text("velocities.csv", VELOCITIES "-2,a,1,2,3,4,5,6\n1e3,a,0,0,0,0,0,0\n");
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_motion_reader *reader = ovoid_motion_reader_create(path, scene, &error);
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(path, scene, &error);
     if (!CHECK(reader != NULL)) return;
     CHECK_EQ(ovoid_motion_reader_get_columns(reader), OVOID_MOTION_COLUMNS_VELOCITY);
     ovoid_motion_line l;
@@ -53,7 +53,7 @@ static void check_velocities(void) {
     CHECK(got == 1 && l.time == 1000);
     got = ovoid_motion_reader_read(reader, &l, &error);
     CHECK_EQ(got, 0);
-    ovoid_motion_reader_destroy(reader);
+    ovoid_motion_reader_close(reader);
 }
 
 static const bad_input bad_files[] = {
@@ -83,11 +83,11 @@ static const bad_input bad_files[] = {
 };
 
 static int read_all(const char *path, ovoid_error *error) {
-    ovoid_motion_reader *reader = ovoid_motion_reader_create(path, scene, error);
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(path, scene, error);
     ovoid_motion_line line;
     int got = reader ? 1 : -1;
     while (got == 1) got = ovoid_motion_reader_read(reader, &line, error);
-    ovoid_motion_reader_destroy(reader);
+    ovoid_motion_reader_close(reader);
     return got;
 }
 

@@ -13,7 +13,7 @@ static void check_good(void) {
                                                    "\n 2 , 1 ,-1e-3,+2.5,0,\t0.5,.5,0.5,-0.5,0,0,0,2,0,0,0\r\n\r\n"
                                                    "1,1,0,0,0,1,0,0,0,0,0,0,1,0,0,0.1");
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, 3, &error);
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_open(path, 3, &error);
     if (!CHECK(reader != NULL)) return;
     ovoid_indexed_pair p;
     int got = ovoid_pairs_reader_read(reader, &p, &error);
@@ -26,7 +26,7 @@ static void check_good(void) {
     CHECK(got == 1 && p.pose_b.rotation.z == 0.1);
     got = ovoid_pairs_reader_read(reader, &p, &error);
     CHECK(got == 0 && error.code == OVOID_OK);
-    ovoid_pairs_reader_destroy(reader);
+    ovoid_pairs_reader_close(reader);
 }
 
 static const bad_input bad_files[] = {
@@ -50,11 +50,11 @@ static const bad_input bad_files[] = {
 };
 
 static int read_all(const char *path, ovoid_error *error) {
-    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, 3, error);
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_open(path, 3, error);
     ovoid_indexed_pair pair;
     int got = reader ? 1 : -1;
     while (got == 1) got = ovoid_pairs_reader_read(reader, &pair, error);
-    ovoid_pairs_reader_destroy(reader);
+    ovoid_pairs_reader_close(reader);
     return got;
 }
 
@@ -95,7 +95,7 @@ static void check_many(void) {
         fprintf(file, "%d,%d,%d,%.17g,0,1,0,0,0,0,0,0,1,0,0,0\n", i, COUNT - 1 - i, i, i / 3.0);
     fclose(file);
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, COUNT, &error);
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_open(path, COUNT, &error);
     ovoid_indexed_pair p;
     for (int i = 0; reader && i < COUNT; i++) {
         int got = ovoid_pairs_reader_read(reader, &p, &error);
@@ -103,7 +103,7 @@ static void check_many(void) {
               p.pose_a.position.y == i / 3.0);
     }
     CHECK(reader && ovoid_pairs_reader_read(reader, &p, &error) == 0);
-    ovoid_pairs_reader_destroy(reader);
+    ovoid_pairs_reader_close(reader);
 }
 
 // ---- output files
@@ -132,32 +132,32 @@ static void check_output(void) {
     ovoid_error error = {OVOID_OK, -1, ""};
     // Not there until it is committed; a second one replaces it and keeps its rights.
     for (int round = 0; round < 2; round++) {
-        ovoid_output *output = ovoid_output_create(path, &error);
+        ovoid_output *output = ovoid_output_open(path, &error);
         if (!CHECK(output != NULL)) return;
         fprintf(ovoid_output_get_file(output), "round %d", round);
         CHECK(round ? access(path, F_OK) == 0 : access(path, F_OK) != 0);
         CHECK(ovoid_output_commit(output, &error) == OVOID_OK);
         CHECK(ovoid_output_commit(output, &error) == OVOID_ERROR_ARGUMENT);
-        ovoid_output_destroy(output);
+        ovoid_output_close(output);
         check_holds(path, round ? "round 1" : "round 0");
         struct stat status;
         CHECK(stat(path, &status) == 0 && (round == 0 || (status.st_mode & 0777) == 0640));
         chmod(path, 0640);
     }
     // Given up: the old file stays, nothing else does.
-    ovoid_output *output = ovoid_output_create(path, &error);
+    ovoid_output *output = ovoid_output_open(path, &error);
     if (output) fputs("never", ovoid_output_get_file(output));
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     check_holds(path, "round 1");
     CHECK_EQ(count_files(folder), before + 1);
     // Through a link: the link stays one.
     const char *link_path = file_path("out/link");
     remove(link_path);
     CHECK(symlink("a.txt", link_path) == 0);
-    output = ovoid_output_create(link_path, &error);
+    output = ovoid_output_open(link_path, &error);
     if (output) fputs("linked", ovoid_output_get_file(output));
     CHECK(output && ovoid_output_commit(output, &error) == OVOID_OK);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     check_holds(path, "linked");
     struct stat status;
     CHECK(lstat(link_path, &status) == 0 && S_ISLNK(status.st_mode));
@@ -166,10 +166,10 @@ static void check_output(void) {
     remove(path);
     remove(second_path);
     CHECK(symlink("link", second_path) == 0);
-    output = ovoid_output_create(second_path, &error);
+    output = ovoid_output_open(second_path, &error);
     if (output) fputs("made", ovoid_output_get_file(output));
     CHECK(output && ovoid_output_commit(output, &error) == OVOID_OK);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     check_holds(path, "made");
     CHECK(lstat(link_path, &status) == 0 && S_ISLNK(status.st_mode));
     CHECK(lstat(second_path, &status) == 0 && S_ISLNK(status.st_mode));
@@ -177,10 +177,10 @@ static void check_output(void) {
     remove(path);
     // In a ring, and into a folder that is not there: refused.
     CHECK(symlink("second", link_path) == 0);
-    CHECK(!ovoid_output_create(second_path, &error) && strstr(error.message, "cannot be written"));
+    CHECK(!ovoid_output_open(second_path, &error) && strstr(error.message, "cannot be written"));
     remove(link_path);
     CHECK(symlink("nowhere/a.txt", link_path) == 0);
-    CHECK(!ovoid_output_create(second_path, &error) && strstr(error.message, "cannot be written"));
+    CHECK(!ovoid_output_open(second_path, &error) && strstr(error.message, "cannot be written"));
     remove(link_path);
     remove(second_path);
     CHECK_EQ(count_files(folder), before);
@@ -188,15 +188,15 @@ static void check_output(void) {
 
 static void check_bad_output(void) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    CHECK(!ovoid_output_create(file_path("no_folder/x"), &error) && error.code == OVOID_ERROR_FILE);
-    CHECK(!ovoid_output_create(OVOID_BUILD_DIR, &error) && strstr(error.message, "is a folder"));
+    CHECK(!ovoid_output_open(file_path("no_folder/x"), &error) && error.code == OVOID_ERROR_FILE);
+    CHECK(!ovoid_output_open(OVOID_BUILD_DIR, &error) && strstr(error.message, "is a folder"));
     // A device is written to, not replaced; a full one is reported.
-    ovoid_output *output = ovoid_output_create("/dev/null", &error);
+    ovoid_output *output = ovoid_output_open("/dev/null", &error);
     if (CHECK(output != NULL)) {
         fputs("x", ovoid_output_get_file(output));
         CHECK(ovoid_output_commit(output, &error) == OVOID_OK);
     }
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     struct stat status;
     CHECK(stat("/dev/null", &status) == 0 && S_ISCHR(status.st_mode));
     if (access("/dev/full", W_OK) != 0) {
@@ -204,11 +204,11 @@ static void check_bad_output(void) {
         return;
     }
     for (int size = 1; size < 100000; size += 99000) { // seen at the flush; seen while writing
-        output = ovoid_output_create("/dev/full", &error);
+        output = ovoid_output_open("/dev/full", &error);
         if (!CHECK(output != NULL)) return;
         for (int i = 0; i < size; i++) fputc('x', ovoid_output_get_file(output));
         CHECK(ovoid_output_commit(output, &error) == OVOID_ERROR_FILE && strstr(error.message, "written in full"));
-        ovoid_output_destroy(output);
+        ovoid_output_close(output);
     }
 }
 
@@ -217,7 +217,7 @@ static void check_bad_output(void) {
 /// Reads a part behind the first `skipped` of its pairs, which are numbered by ax: the numbers are appended.
 static int read_part(const char *path, const size_t part[2], uint64_t skipped, double *numbers, size_t *count,
                      ovoid_error *error) {
-    ovoid_pairs_reader *reader = ovoid_pairs_reader_create(path, 3, error);
+    ovoid_pairs_reader *reader = ovoid_pairs_reader_open(path, 3, error);
     if (!CHECK(reader != NULL)) return -1;
     ovoid_code code = ovoid_pairs_reader_set_part(reader, part[0], part[1], error);
     if (!code) code = ovoid_pairs_reader_skip(reader, skipped, error);
@@ -227,7 +227,7 @@ static int read_part(const char *path, const size_t part[2], uint64_t skipped, d
         got = ovoid_pairs_reader_read(reader, &p, error);
         if (got == 1) numbers[(*count)++] = p.pose_a.position.x;
     }
-    ovoid_pairs_reader_destroy(reader);
+    ovoid_pairs_reader_close(reader);
     return got;
 }
 

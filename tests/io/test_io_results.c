@@ -436,7 +436,7 @@ static void check_round_trip(void) {
     }
     fclose(file);
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_results_reader *reader = ovoid_results_reader_create(path, &error);
+    ovoid_results_reader *reader = ovoid_results_reader_open(path, &error);
     if (!CHECK(reader != NULL)) return;
     s = 3;
     ovoid_record found;
@@ -452,7 +452,7 @@ static void check_round_trip(void) {
     }
     check_seed = 0;
     CHECK(ovoid_results_reader_read(reader, &found, &error) == 0);
-    ovoid_results_reader_destroy(reader);
+    ovoid_results_reader_close(reader);
 }
 
 // A locale whose decimal sign is a comma changes nothing, neither written nor read.
@@ -571,16 +571,16 @@ static void check_bad_lines(void) {
     for (size_t i = 0; i < sizeof bad_lines / sizeof *bad_lines; i++) {
         ovoid_error error = {OVOID_OK, -2, ""};
         const char *path = file_write_text(bad_lines[i].name, bad_lines[i].text);
-        ovoid_results_reader *reader = ovoid_results_reader_create(path, &error);
+        ovoid_results_reader *reader = ovoid_results_reader_open(path, &error);
         ovoid_record record;
         int got = 1;
         while (reader && (got = ovoid_results_reader_read(reader, &record, &error)) == 1) continue;
         CHECK_EQ(got, -1);
         check_error(&bad_lines[i], &error);
-        ovoid_results_reader_destroy(reader);
+        ovoid_results_reader_close(reader);
     }
     ovoid_error error;
-    CHECK(!ovoid_results_reader_create(file_path("absent.jsonl"), &error) && error.code == OVOID_ERROR_FILE);
+    CHECK(!ovoid_results_reader_open(file_path("absent.jsonl"), &error) && error.code == OVOID_ERROR_FILE);
 }
 
 // A line of more than 2^25 bytes is refused, not gathered; one of 2^22 is read.
@@ -591,12 +591,12 @@ static void check_long_lines(void) {
         memset(text, ' ', size);
         memcpy(text + size - n, GOOD, n);
         ovoid_error error = {OVOID_OK, -1, ""};
-        ovoid_results_reader *reader = ovoid_results_reader_create(file_write("long.jsonl", text, size), &error);
+        ovoid_results_reader *reader = ovoid_results_reader_open(file_write("long.jsonl", text, size), &error);
         ovoid_record record;
         int got = ovoid_results_reader_read(reader, &record, &error);
         CHECK_EQ(got, is_long ? -1 : 1);
         CHECK_EQ(error.code, is_long ? OVOID_ERROR_LIMIT : OVOID_OK);
-        ovoid_results_reader_destroy(reader);
+        ovoid_results_reader_close(reader);
         free(text);
     }
 }
@@ -625,11 +625,11 @@ static void check_many_exclusions(void) {
     CHECK_LE(2 << 20, length);
     CHECK_LE(length / COUNT * OVOID_RECORD_ITEMS_MAX, OVOID_RECORD_SIZE_MAX / 4 * 3);
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_results_reader *reader = ovoid_results_reader_create(file_write("many.jsonl", text, length), &error);
+    ovoid_results_reader *reader = ovoid_results_reader_open(file_write("many.jsonl", text, length), &error);
     ovoid_record read;
     if (!CHECK_EQ(ovoid_results_reader_read(reader, &read, &error), 1)) printf("  %s\n", error.message);
     CHECK(read.exclusion_count == COUNT && memcmp(read.exclusions, items, COUNT * sizeof *items) == 0);
-    ovoid_results_reader_destroy(reader);
+    ovoid_results_reader_close(reader);
     free(text);
     record.step_count = OVOID_RECORD_ITEMS_MAX - COUNT + 1;
     size_t size = 0;
@@ -660,13 +660,13 @@ static void check_damaged(void) {
         text[random_next(&s) % length] = "0123456789\"[]{},:.-enul \n\xff"[random_next(&s) % 26];
         size_t size = i % 3 ? length : random_next(&s) % length;
         ovoid_error error = {OVOID_OK, -1, ""};
-        ovoid_results_reader *reader = ovoid_results_reader_create(file_write("damaged.jsonl", text, size), &error);
+        ovoid_results_reader *reader = ovoid_results_reader_open(file_write("damaged.jsonl", text, size), &error);
         ovoid_record found;
         int got = 1;
         while (reader && (got = ovoid_results_reader_read(reader, &found, &error)) == 1)
             CHECK_LE(found.answer.proof.count, OVOID_PROOF_PAIRS);
         CHECK(got == 0 || (error.code != OVOID_OK && error.message[0]));
-        ovoid_results_reader_destroy(reader);
+        ovoid_results_reader_close(reader);
     }
     check_seed = 0;
     free(good);

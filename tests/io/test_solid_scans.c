@@ -42,7 +42,7 @@ static void check_pair(const mesh *a, const mesh *b, const ovoid_body_pair *pair
                        y = ovoid_solid_collide(pair, NULL, NULL, NULL);
     CHECK_EQ(x.status, status);
     CHECK_EQ(y.status, status);
-    if (!CHECK_EQ(ovoid_solid_answer_check(pair, &x, NULL, &all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_solid_answer_verify(pair, &x, NULL, &all, &error), OVOID_OK)) printf("  %s\n", error.message);
     CHECK_LE(x.surfaces.lower, truth + 1e-12 * size);
     if (x.surfaces.lower > 0) CHECK_LE(x.surfaces.upper - x.surfaces.lower, 1e-9 * size);
     if (!(truth > 0)) CHECK_LE(x.upper, 0);

@@ -1,7 +1,7 @@
-// A liar for ovoid_compound_answer_check: true answers about compounds and shapes, of all four queries, are altered one
-// field at a time (alter.h), and their exclusions: each field of some, one left out, doubled, another's, two swapped.
-// Truth: exact arithmetic (the judge), by the parts of every exclusion; and for the limit what its words promise. What
-// these show to be false must be refused; what is still true may pass. Answers as they were must pass.
+// A liar for ovoid_compound_answer_verify: true answers about compounds and shapes, of all four queries, are altered
+// one field at a time (alter.h), and their exclusions: each field of some, one left out, doubled, another's, two
+// swapped. Truth: exact arithmetic (the judge), by the parts of every exclusion; and for the limit what its words
+// promise. What these show to be false must be refused; what is still true may pass. Answers as they were must pass.
 #include "alter_answer.h"
 #include "compounds.h"
 #include "judge.h"
@@ -42,9 +42,9 @@ static alter_count of_answer, of_parts, of_fields[EXCLUSION_FIELDS], of_lists, o
 static void tell(const told *t, const ovoid_compound_answer *x, const ovoid_exclusions *all, alter_count *n,
                  const char *what, const char *how) {
     ovoid_error why = {.message = ""};
-    int is_refused = ovoid_compound_answer_check(&t->pair, x, &t->options, all, NULL) != OVOID_OK;
+    int is_refused = ovoid_compound_answer_verify(&t->pair, x, &t->options, all, NULL) != OVOID_OK;
     judge_set_options(court, &t->options);
-    int is_lie = !is_refused && (judge_check_compound(court, &t->pair, x, all, &why) != OVOID_OK ||
+    int is_lie = !is_refused && (judge_verify_compound(court, &t->pair, x, all, &why) != OVOID_OK ||
                                  alter_limit_is_false(&x->answer, t->most, 0, t->options.cap));
     if (!CHECK(alter_take(n, is_lie, is_refused)) && check_failed < 20)
         printf("  accepted: %s %s: %s %s [%.17g, %.17g]: %s\n", what, how, ovoid_status_get_name(x->answer.status),
@@ -141,7 +141,7 @@ static void check_pair(told *t, uint64_t *s) {
     t->other = last;
     t->counts[0] = find_vertex_count(&t->pair.a, x.part_a);
     t->counts[1] = find_vertex_count(&t->pair.b, x.part_b);
-    if (!CHECK(ovoid_compound_answer_check(&t->pair, &x, &t->options, &all, &error) == OVOID_OK)) puts(error.message);
+    if (!CHECK(ovoid_compound_answer_verify(&t->pair, &x, &t->options, &all, &error) == OVOID_OK)) puts(error.message);
     lie_about_answer(t, &x, &all);
     if (all.count) lie_about_exclusions(t, &x, &all, s);
     if (cover.point_count) lie_about_cover(t, &x, &all, s);

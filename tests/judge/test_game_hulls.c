@@ -53,11 +53,11 @@ static void run_pair(run *all, const ovoid_pair *pair) {
     double before = seconds_now();
     ovoid_answer x = ovoid_depth(pair, NULL, NULL, &cover);
     double between = seconds_now();
-    ovoid_code code = judge_check_answer(trial_judge, pair, &x, &cover, &error);
-    if (code == OVOID_OK) code = judge_check_points(trial_judge, pair, &x, &error);
+    ovoid_code code = judge_verify_answer(trial_judge, pair, &x, &cover, &error);
+    if (code == OVOID_OK) code = judge_verify_points(trial_judge, pair, &x, &error);
     all->judge_seconds += seconds_now() - between;
     all->query_seconds += between - before;
-    if (code == OVOID_OK) code = ovoid_answer_check(pair, &x, NULL, &cover, &error);
+    if (code == OVOID_OK) code = ovoid_answer_verify(pair, &x, NULL, &cover, &error);
     t->pairs++;
     t->answers++;
     if (code != OVOID_OK) trial_fail(t, pair, &x, "depth", error.message);

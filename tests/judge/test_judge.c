@@ -24,13 +24,13 @@ static uint32_t find_vertex(const ovoid_shape *shape, double x, double y, double
 }
 
 static ovoid_code judge_it(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover) {
-    return judge_check_answer(court, pair, answer, cover, NULL);
+    return judge_verify_answer(court, pair, answer, cover, NULL);
 }
 
 // The sentence goes to the report where an answer that should be accepted is not.
 static void check_accepted(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover, int line) {
     ovoid_error error = {0};
-    ovoid_code code = judge_check_answer(court, pair, answer, cover, &error);
+    ovoid_code code = judge_verify_answer(court, pair, answer, cover, &error);
     if (code != OVOID_OK) printf("line %d: %s\n", line, error.message);
     CHECK_EQ(code, OVOID_OK);
 }
@@ -132,10 +132,10 @@ static void test_proofs_altered(void) {
     ALTER(bad.point_a.x += 1e-15, ACCEPT);
     ALTER(bad.point_a.y = -0.5, ACCEPT); // another point of the body
     ALTER(bad.point_a.x = NAN, REFUSE);
-    CHECK_EQ(judge_check_points(court, &pair, &good, NULL), OVOID_OK);
+    CHECK_EQ(judge_verify_points(court, &pair, &good, NULL), OVOID_OK);
     bad = good;
     bad.point_a.y -= 1e-8;
-    CHECK_EQ(judge_check_points(court, &pair, &bad, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(judge_verify_points(court, &pair, &bad, NULL), OVOID_ERROR_PROOF);
     // The pair.
     pair.pose_b.position.x = nextafter(1.25, 1);
     REFUSE(&pair, &good, NULL);
@@ -202,7 +202,7 @@ static void test_spheres_and_spread(void) {
     good.point_a = (ovoid_vec3){6 / 13.0, 8 / 13.0, 24 / 13.0};
     good.point_b = (ovoid_vec3){36 / 13.0, 48 / 13.0, 144 / 13.0};
     ACCEPT(&pair, &good, NULL);
-    CHECK_EQ(judge_check_points(court, &pair, &good, NULL), OVOID_OK);
+    CHECK_EQ(judge_verify_points(court, &pair, &good, NULL), OVOID_OK);
     ALTER(bad.lower = nextafter(10, 11); bad.upper = 11, REFUSE);
     ALTER(bad.upper = nextafter(10, 9); bad.lower = 9, REFUSE);
     ALTER(bad.point_a.z += 1e-11, REFUSE);
@@ -214,7 +214,7 @@ static void test_spheres_and_spread(void) {
     good.point_a = (ovoid_vec3){24 / 13.0, 32 / 13.0, 96 / 13.0};
     good.point_b = (ovoid_vec3){15 / 13.0, 20 / 13.0, 60 / 13.0};
     ACCEPT(&pair, &good, NULL);
-    CHECK_EQ(judge_check_points(court, &pair, &good, NULL), OVOID_OK);
+    CHECK_EQ(judge_verify_points(court, &pair, &good, NULL), OVOID_OK);
     ALTER(bad.lower = nextafter(-3, 0), REFUSE);
     ALTER(bad.upper = nextafter(-3, -4); bad.lower = -4, REFUSE);
     // Touching: 16 apart along x.
@@ -329,7 +329,7 @@ static void test_cover(void) {
     good.point_a = (ovoid_vec3){0.5, 0, 0};
     good.point_b = (ovoid_vec3){0.25, 0, 0};
     ACCEPT(&pair, &good, &cover);
-    CHECK_EQ(judge_check_points(court, &pair, &good, NULL), OVOID_OK);
+    CHECK_EQ(judge_verify_points(court, &pair, &good, NULL), OVOID_OK);
     REFUSE(&pair, &good, NULL);
     bad = good;
     bad.upper = nextafter(-0.25, -1), bad.lower = -1;
@@ -412,7 +412,7 @@ static void test_refusals(void) {
     pair.pose_a = make_pose(0, 0, 0);
     REFUSE(&pair, &good, NULL);
     ALTER(bad.limit = OVOID_LIMIT_OPTIONS, ACCEPT);
-    CHECK_EQ(judge_check_answer(court, NULL, &good, NULL, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(judge_verify_answer(court, NULL, &good, NULL, NULL), OVOID_ERROR_ARGUMENT);
     ovoid_shape_destroy(s);
 }
 

@@ -8,8 +8,8 @@ static long accepted, strengthened;
 
 static void check(judge *context, const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
     ovoid_error error = {.message = ""};
-    if (!CHECK_EQ(judge_check_answer(context, p, x, cover, &error), OVOID_OK)) printf("  %s\n", error.message);
-    if (!CHECK_EQ(ovoid_answer_check(p, x, NULL, cover, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(judge_verify_answer(context, p, x, cover, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_answer_verify(p, x, NULL, cover, &error), OVOID_OK)) printf("  %s\n", error.message);
     accepted++;
 }
 
@@ -19,8 +19,8 @@ static void set_status(ovoid_answer *x) {
 }
 
 static void check_refused(judge *context, const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
-    CHECK(judge_check_answer(context, p, x, cover, NULL) != OVOID_OK);
-    CHECK(ovoid_answer_check(p, x, NULL, cover, NULL) != OVOID_OK);
+    CHECK(judge_verify_answer(context, p, x, cover, NULL) != OVOID_OK);
+    CHECK(ovoid_answer_verify(p, x, NULL, cover, NULL) != OVOID_OK);
     strengthened++;
 }
 
@@ -74,7 +74,7 @@ static void check_pair(judge *context, const ovoid_pair *p) {
     check(context, p, &x, NULL);
     x = ovoid_distance(p, NULL, &earlier);
     check(context, p, &x, NULL);
-    x = ovoid_bounds(p);
+    x = ovoid_pair_compute_bounds(p);
     check(context, p, &x, NULL);
 }
 

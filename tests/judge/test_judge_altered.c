@@ -150,8 +150,8 @@ static void count_field(const char *field, int refused) {
 // The next line of the reader, as `ovoid verify` looks at it. 1 where it is accepted; *record: what it said.
 static int verify_next(ovoid_results_reader *reader, ovoid_record *record, ovoid_error *error) {
     int accepted = ovoid_results_reader_read(reader, record, error) == 1 &&
-                   judge_check_answer(the_judge, &k.pair, &record->answer, record->cover, error) == OVOID_OK;
-    if (accepted && k.has_points) accepted = !judge_check_points(the_judge, &k.pair, &record->answer, error);
+                   judge_verify_answer(the_judge, &k.pair, &record->answer, record->cover, error) == OVOID_OK;
+    if (accepted && k.has_points) accepted = !judge_verify_points(the_judge, &k.pair, &record->answer, error);
     return accepted;
 }
 
@@ -186,13 +186,13 @@ static void add_line(const char *field, const char *line, size_t size) {
 
 static void check_batch(const char *path) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_results_reader *reader = ovoid_results_reader_create(path, &error);
+    ovoid_results_reader *reader = ovoid_results_reader_open(path, &error);
     ovoid_record record;
     if (!CHECK(reader)) exit(1);
     if (!CHECK(verify_next(reader, &record, &error))) printf("  right, and refused: %s\n", error.message);
     for (size_t i = 1; i < batch_count; i++) check_next(reader, batch_fields[i]);
     CHECK_EQ(ovoid_results_reader_read(reader, &record, &error), 0);
-    ovoid_results_reader_destroy(reader);
+    ovoid_results_reader_close(reader);
 }
 
 // ---- altering a number
@@ -317,7 +317,7 @@ static void check_pair(ovoid_pair pair) {
     check_answer(ovoid_collide(&pair, NULL, NULL), NULL, 0, 1);
     check_answer(ovoid_distance(&pair, NULL, NULL), NULL, k.truth.sign > 0, 1);
     check_answer(ovoid_depth(&pair, NULL, NULL, &k.cover), &k.cover, 1, 7);
-    check_answer(ovoid_bounds(&pair), NULL, 0, 1);
+    check_answer(ovoid_pair_compute_bounds(&pair), NULL, 0, 1);
 }
 
 static void make_shapes(void) {

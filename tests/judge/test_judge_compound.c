@@ -11,7 +11,7 @@ static judge *court;
 
 static void expect_accepted(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *with) {
     ovoid_error error = {.message = ""};
-    if (!CHECK(judge_check_answer(court, pair, x, with, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(judge_verify_answer(court, pair, x, with, &error) == OVOID_OK)) printf("  %s\n", error.message);
 }
 
 static uint32_t get_index(const ovoid_body *body, uint32_t place) {
@@ -32,13 +32,13 @@ static void judge_excluded(const ovoid_body_pair *pair, const ovoid_exclusion *e
 }
 
 static ovoid_code judge_all(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
-    return judge_check_compound(court, pair, x, all, NULL);
+    return judge_verify_compound(court, pair, x, all, NULL);
 }
 
 // The whole answer is accepted, and refused once an exclusion is taken away or claims more than its normal shows.
 static void judge_whole(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
-    if (!CHECK(judge_check_compound(court, pair, x, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(judge_verify_compound(court, pair, x, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
     if (x->answer.lower == -INFINITY) return;
     for (size_t i = 0; i < all->count; i++) {
         ovoid_exclusion kept = all->items[i];

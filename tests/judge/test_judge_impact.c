@@ -15,11 +15,11 @@ int main(void) {
         ovoid_impact x = ovoid_impact_find(&c.a, &c.b, margin, NULL);
         ovoid_pair pair = moving_get_pair(&c.a, &c.b, x.free_until);
         ovoid_error error = {.message = ""};
-        if (!CHECK_EQ(judge_check_answer(context, &pair, &x.free, NULL, &error), OVOID_OK))
+        if (!CHECK_EQ(judge_verify_answer(context, &pair, &x.free, NULL, &error), OVOID_OK))
             printf("  %s\n", error.message);
         if (x.status == OVOID_IMPACT_HIT) {
             pair = moving_get_pair(&c.a, &c.b, x.hit_at);
-            if (!CHECK_EQ(judge_check_answer(context, &pair, &x.hit, NULL, &error), OVOID_OK))
+            if (!CHECK_EQ(judge_verify_answer(context, &pair, &x.hit, NULL, &error), OVOID_OK))
                 printf("  %s\n", error.message);
             CHECK_LE(x.hit.upper, margin);
             hits++;

@@ -27,10 +27,10 @@ static void check_gap(judge *context, const moving_case *c, double time, vec3 n)
     double shift = motion_pair_find_pair(&p, time, &pair);
     motion_gap_find(&p, time, n, &g);
     ovoid_answer x = make_claim(&pair, motion_gap_get_lower(&g) + shift, n);
-    if (!CHECK_EQ(judge_check_answer(context, &pair, &x, NULL, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(judge_verify_answer(context, &pair, &x, NULL, &error), OVOID_OK)) printf("  %s\n", error.message);
     // It is no less than it must be: a thousand roundings more are not shown.
     x = make_claim(&pair, x.lower + 1e3 * 0x1p-53 * g.size, n);
-    shown += judge_check_answer(context, &pair, &x, NULL, &error) != OVOID_OK;
+    shown += judge_verify_answer(context, &pair, &x, NULL, &error) != OVOID_OK;
 }
 
 int main(void) {

@@ -278,7 +278,7 @@ static void judge_answer(inquiry *q, const ovoid_solid_answer *x, int is_distanc
     // A proof by a common point names no nearest ones.
     ovoid_proof_kind kind = x->surfaces.proof.kind;
     int points = is_distance && kind != OVOID_PROOF_HULL && kind != OVOID_PROOF_INNER;
-    if (!CHECK_EQ(judge_check_solid(court, &q->pair, x, &q->all, points, &error), OVOID_OK))
+    if (!CHECK_EQ(judge_verify_solid(court, &q->pair, x, &q->all, points, &error), OVOID_OK))
         printf("  %s\n", error.message);
     // Within the slack of touching brute force does not know.
     if (t.surfaces > q->slack) CHECK(t.is_common ? x->status != OVOID_SEPARATED : x->status != OVOID_OVERLAPPING);

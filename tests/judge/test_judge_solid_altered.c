@@ -1,4 +1,4 @@
-// A liar for ovoid_solid_answer_check. Right answers about solids, surfaces, hulls and compounds are altered one field
+// A liar for ovoid_solid_answer_verify. Right answers about solids, surfaces, hulls and compounds are altered one field
 // at a time (alter.h), their exclusions too, and others are forged: an overlap without a reason, a distance of what
 // overlaps, touching within a wide bracket.
 //
@@ -58,7 +58,7 @@ static int is_false(const truth *t, const ovoid_solid_answer *x, const ovoid_exc
     if (x->triangle_a >= t->count_a || x->triangle_b >= t->count_b || !is_finite_vector(x->common)) return 1;
     if (bracket_is_false(t, x) || status_is_false(t, x)) return 1;
     if (t->has_compound) return 0;
-    ovoid_code code = judge_check_solid(court, &t->pair, x, all, 0, &error);
+    ovoid_code code = judge_verify_solid(court, &t->pair, x, all, 0, &error);
     judge_forget(court);
     return code != OVOID_OK;
 }
@@ -66,7 +66,7 @@ static int is_false(const truth *t, const ovoid_solid_answer *x, const ovoid_exc
 // ---- lies
 
 static void tell(truth *t, const ovoid_solid_answer *x, const ovoid_exclusions *all, alter_count *n) {
-    int is_refused = ovoid_solid_answer_check(&t->pair, x, NULL, all, NULL) != OVOID_OK;
+    int is_refused = ovoid_solid_answer_verify(&t->pair, x, NULL, all, NULL) != OVOID_OK;
     int is_noticed = alter_take(n, !is_refused && is_false(t, x, all), is_refused);
     if (!CHECK(is_noticed) && check_failed <= 20) printf("  accepted: %s, %s\n", lie_name, lie_kind);
 }
@@ -283,7 +283,7 @@ static void try_answer(truth *t, int query, double scale, uint64_t *s) {
     t->all = (ovoid_exclusions){.items = items, .capacity = CAPACITY};
     t->right = ask(t, query, &t->all);
     if (t->all.count > t->all.capacity) return;
-    if (!CHECK_EQ(ovoid_solid_answer_check(&t->pair, &t->right, NULL, &t->all, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_solid_answer_verify(&t->pair, &t->right, NULL, &t->all, &error), OVOID_OK))
         printf("  %s\n", error.message);
     CHECK(!is_false(t, &t->right, &t->all));
     lie_about(t, &other, scale);

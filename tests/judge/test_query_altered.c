@@ -1,7 +1,7 @@
-// A liar for ovoid_answer_check: true answers of every family of the trials, of all five queries, with options of every
-// kind, are altered one field at a time (alter.h), their covers too. Truth: exact arithmetic (the judge), which looks
-// at the altered answer as it stands; and for the limit what its words promise. What these show to be false must be
-// refused; what is still true may pass. Answers as they were must pass.
+// A liar for ovoid_answer_verify: true answers of every family of the trials, of all five queries, with options of
+// every kind, are altered one field at a time (alter.h), their covers too. Truth: exact arithmetic (the judge), which
+// looks at the altered answer as it stands; and for the limit what its words promise. What these show to be false must
+// be refused; what is still true may pass. Answers as they were must pass.
 #include "alter_answer.h"
 #include "options.h"
 #include "trials/families.h"
@@ -21,13 +21,13 @@ static alter_count counts[ALTER_ANSWER_FIELDS + 2];
 
 static int is_false(const told *t, const ovoid_answer *x, const ovoid_cover *cover) {
     judge_set_options(trial_judge, &t->options);
-    return judge_check_answer(trial_judge, &t->pair, x, cover, NULL) != OVOID_OK ||
+    return judge_verify_answer(trial_judge, &t->pair, x, cover, NULL) != OVOID_OK ||
            alter_limit_is_false(x, t->most, t->wide, t->options.cap);
 }
 
 static void tell(const told *t, const ovoid_answer *x, const ovoid_cover *cover, alter_count *n, const char *what,
                  const char *how) {
-    int is_refused = ovoid_answer_check(&t->pair, x, &t->options, cover, NULL) != OVOID_OK;
+    int is_refused = ovoid_answer_verify(&t->pair, x, &t->options, cover, NULL) != OVOID_OK;
     int is_lie = !is_refused && is_false(t, x, cover);
     if (!CHECK(alter_take(n, is_lie, is_refused)) && check_failed < 20)
         printf("  accepted: %s %s: %s %s [%.17g, %.17g] kind %s count %u\n", what, how,
@@ -62,7 +62,7 @@ static void lie_about_cover(const told *t, const ovoid_answer *x, const ovoid_co
 
 static void lie_about(const told *t, const ovoid_answer *x, const ovoid_cover *cover, uint64_t *s) {
     ovoid_error error = {.message = ""};
-    if (!CHECK(ovoid_answer_check(&t->pair, x, &t->options, cover, &error) == OVOID_OK)) puts(error.message);
+    if (!CHECK(ovoid_answer_verify(&t->pair, x, &t->options, cover, &error) == OVOID_OK)) puts(error.message);
     if (x->stage == OVOID_STAGE_NONE && x->lower == -INFINITY) return;
     CHECK(!alter_limit_is_false(x, t->most, t->wide, t->options.cap));
     for (int i = 0; i < ALTER_ANSWER_FIELDS; i++)
@@ -85,7 +85,7 @@ static ovoid_answer ask(const told *t, int query, double margin, ovoid_cover *co
     case 1: return ovoid_within(&t->pair, margin, &t->options, NULL);
     case 2: return ovoid_distance(&t->pair, &t->options, NULL);
     case 3: return ovoid_depth(&t->pair, &t->options, NULL, cover);
-    default: return ovoid_bounds(&t->pair);
+    default: return ovoid_pair_compute_bounds(&t->pair);
     }
 }
 

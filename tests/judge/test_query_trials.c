@@ -202,10 +202,10 @@ static void test_refusals(void) {
         ovoid_pair pair = {box, box, i % 2 ? bad[i / 2] : good, i % 2 ? good : bad[i / 2]};
         const ovoid_answer all[] = {ovoid_collide(&pair, NULL, NULL), ovoid_within(&pair, 1, NULL, NULL),
                                     ovoid_distance(&pair, NULL, NULL), ovoid_depth(&pair, NULL, NULL, NULL),
-                                    ovoid_bounds(&pair)};
+                                    ovoid_pair_compute_bounds(&pair)};
         for (int k = 0; k < 5; k++) {
             CHECK_EQ(all[k].limit, i % 2 ? OVOID_LIMIT_POSE_A : OVOID_LIMIT_POSE_B);
-            CHECK_EQ(judge_check_answer(trial_judge, &pair, &all[k], NULL, NULL), OVOID_OK);
+            CHECK_EQ(judge_verify_answer(trial_judge, &pair, &all[k], NULL, NULL), OVOID_OK);
         }
     }
     ovoid_shape_destroy(box);

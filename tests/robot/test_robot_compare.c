@@ -65,7 +65,7 @@ static void make_states(double *q) {
     for (int i = 0; i < STATES; i++) q[i] = 0.01 * i - 4.995;
 }
 
-static ovoid_robot_comparison compare(const stage *s, const double *q, const ovoid_robot_check_options *o,
+static ovoid_robot_comparison compare(const stage *s, const double *q, const ovoid_robot_query_options *o,
                                       ovoid_robot_agreement *agreements) {
     ovoid_robot_comparison c = {.states = 0};
     ovoid_robot_comparison_batch batch = {s->checkers[0], s->checkers[1], q, STATES, o, agreements};
@@ -88,7 +88,7 @@ static void test_small(void) {
     stage s;
     make_states(q);
     open_stage(&s, 0.05);
-    ovoid_robot_check_options self = {.without_obstacles = 1}, around = {.without_self = 1};
+    ovoid_robot_query_options self = {.without_obstacles = 1}, around = {.without_self = 1};
     ovoid_robot_comparison c = compare(&s, q, &self, agreements);
     check_counts(&c, 30, 10, 0); // 0.155 to 0.195 on both sides
     CHECK_EQ(agreements[499 - 15], OVOID_ROBOT_COMPARED_MISSED);
@@ -177,7 +177,7 @@ static void test_refused(void) {
     open_stage(&s, 0.05);
     double q = 0;
     ovoid_robot_comparison c = {.states = 7};
-    ovoid_robot_check_options wrong = {.margin = -1};
+    ovoid_robot_query_options wrong = {.margin = -1};
     ovoid_robot_comparison_batch batch = {s.checkers[0], s.checkers[1], &q, 1, &wrong, NULL};
     CHECK_EQ(ovoid_robot_compare_states(&batch, &c, &error), OVOID_ERROR_ARGUMENT);
     batch.options = NULL, batch.model = NULL;

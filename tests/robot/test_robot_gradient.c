@@ -161,7 +161,7 @@ static void test_gradients(uint64_t *s) {
         ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
         if (!x) exit(1);
         make_random_state(s, r, q);
-        ovoid_robot_check_options options = {.margin = 0.5, .limit_slack = INFINITY};
+        ovoid_robot_query_options options = {.margin = 0.5, .limit_slack = INFINITY};
         ovoid_robot_nears nears = {.items = items, .gradients = rows, .capacity = MOST};
         CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears, &error), OVOID_OK);
         size_t n = ovoid_robot_get_variable_count(r), kept = nears.count < MOST ? nears.count : MOST;

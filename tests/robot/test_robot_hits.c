@@ -44,7 +44,7 @@ static void compare(const flyer *f, const ovoid_shape *a, const ovoid_body *b, c
     ovoid_robot_answer is;
     ovoid_pose links[2];
     ovoid_robot_checker_reset(f->checker);
-    CHECK_EQ(ovoid_robot_check(f->checker, q, &(ovoid_robot_check_options){.limit_slack = INFINITY}, &is, &error),
+    CHECK_EQ(ovoid_robot_collide(f->checker, q, &(ovoid_robot_query_options){.limit_slack = INFINITY}, &is, &error),
              OVOID_OK);
     CHECK_EQ(ovoid_robot_compute_poses(f->robot, q, links, NULL, &error), OVOID_OK);
     ovoid_pose in_link = {{0.1, -0.2, 0.05}, {1, 0.2, -0.3, 0.4}};
@@ -106,9 +106,9 @@ static void test_many(void) {
     const double q[7] = {0, 0, 0, 1, 0, 0, 0};
     for (size_t count = BEADS; count <= BEADS + 1; count++) {
         flyer f = make_flyer(tetrahedron, beads, count);
-        ovoid_robot_check_options options = {.limit_slack = INFINITY};
+        ovoid_robot_query_options options = {.limit_slack = INFINITY};
         ovoid_robot_answer is;
-        CHECK_EQ(ovoid_robot_check(f.checker, q, &options, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_collide(f.checker, q, &options, &is, &error), OVOID_OK);
         CHECK_EQ(is.status, count > BEADS ? OVOID_ROBOT_HIT : OVOID_ROBOT_FREE);
         destroy_flyer(&f);
     }

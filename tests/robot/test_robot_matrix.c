@@ -226,7 +226,7 @@ static void destroy_scene(scene *c) {
 static void measure(const scene *c, const double *q, double slack, const ovoid_robot_matrix_pair *p, double *lower,
                     double *upper) {
     ovoid_robot_nears nears = {.items = near_items, .capacity = NEARS};
-    ovoid_robot_check_options options = {.limit_slack = slack};
+    ovoid_robot_query_options options = {.limit_slack = slack};
     *lower = *upper = 1;
     CHECK_EQ(ovoid_robot_find_near(c->checker, q, &options, &nears, &error), OVOID_OK);
     CHECK_LE(nears.count, (size_t)NEARS);
@@ -267,7 +267,7 @@ static void make_state(uint64_t *s, const ovoid_robot *r, double *q) {
     }
 }
 
-static void check_state(const scene *c, const double *q) {
+static void collide_state(const scene *c, const double *q) {
     double lower, upper;
     for (size_t i = 0; i < ovoid_robot_matrix_get_count(c->m); i++) {
         ovoid_robot_matrix_pair p = ovoid_robot_matrix_get_pair(c->m, i);
@@ -291,7 +291,7 @@ static void test_random(uint64_t seed) {
     for (int i = 0; i < 60; i++) {
         make_state(&s, c.r, q);
         // Joints that follow others have limits of their own.
-        if (ovoid_robot_check_limits(c.r, q, 0, NULL) == OVOID_OK) check_state(&c, q);
+        if (ovoid_robot_validate_limits(c.r, q, 0, NULL) == OVOID_OK) collide_state(&c, q);
     }
     destroy_scene(&c);
 }

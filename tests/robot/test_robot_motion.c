@@ -1,5 +1,5 @@
 // Motions that are proven. Truth: for a wiper past a post the angle of the first contact in closed form; for random
-// robots among obstacles states along the motion, thousands of them, by ovoid_robot_check: none of those said to be
+// robots among obstacles states along the motion, thousands of them, by ovoid_robot_collide: none of those said to be
 // free is a hit.
 #include "check.h"
 #include "robots.h"
@@ -25,7 +25,7 @@ static ovoid_code check_motion(ovoid_robot_checker *x, const double *q0, const d
     memcpy(states + n, q1, n * sizeof *q1);
     ovoid_robot_path path = {states, 2};
     ovoid_robot_path_answer is;
-    ovoid_code code = ovoid_robot_check_path(x, &path, options, &is, &error);
+    ovoid_code code = ovoid_robot_path_find_hit(x, &path, options, &is, &error);
     *found = (found_motion){is.status,     is.hit.code, is.hit.variable, is.states,
                             is.free_until, is.hit_at,   is.hit.a,        is.hit.b};
     return code;
@@ -57,7 +57,7 @@ static void test_wiper(void) {
     ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
     if (!x) exit(1);
     for (double margin = 0; margin < 0.4; margin += 0.1) {
-        ovoid_robot_path_options options = {.check.margin = margin};
+        ovoid_robot_path_options options = {.query.margin = margin};
         found_motion is;
         double q0 = -1.5, q1 = 1.5, contact = (-asin(0.15 + margin) + 1.5) / 3;
         CHECK_EQ(check_motion(x, &q0, &q1, 1, &options, &is), OVOID_OK);
@@ -152,13 +152,13 @@ static void fill_elements(uint64_t *s, random_robot *a) {
 static void sweep(ovoid_robot_checker *x, const double *q0, const double *q1, size_t n, const found_motion *is,
                   double margin) {
     enum { STATES = 400 };
-    ovoid_robot_check_options options = {.margin = margin};
+    ovoid_robot_query_options options = {.margin = margin};
     for (int i = 0; i <= STATES; i++) {
         double t = (double)i / STATES * is->from, q[7 * ROBOT_LINKS];
         if (t >= is->from && is->from < 1) break;
         for (size_t k = 0; k < n; k++) q[k] = q0[k] + t * (q1[k] - q0[k]);
         ovoid_robot_answer at;
-        CHECK_EQ(ovoid_robot_check(x, q, &options, &at, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_collide(x, q, &options, &at, &error), OVOID_OK);
         CHECK(at.status == OVOID_ROBOT_FREE);
         looked++;
     }
@@ -166,7 +166,7 @@ static void sweep(ovoid_robot_checker *x, const double *q0, const double *q1, si
     double q[7 * ROBOT_LINKS];
     for (size_t k = 0; k < n; k++) q[k] = q0[k] + is->until * (q1[k] - q0[k]);
     ovoid_robot_answer at;
-    CHECK_EQ(ovoid_robot_check(x, q, &options, &at, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, q, &options, &at, &error), OVOID_OK);
     CHECK(at.status != OVOID_ROBOT_FREE);
 }
 
@@ -199,11 +199,11 @@ static void test_random(void) {
                 if (a.joints[of.joint].type == OVOID_JOINT_FLOATING && of.component >= 3) q1[v] = q0[v];
                 q1[v] = q0[v] + (k % 3 + 1) * 0.05 * (q1[v] - q0[v]);
             }
-            ovoid_robot_path_options options = {.check.margin = k % 2 ? 0.02 : 0, .states = 2000};
+            ovoid_robot_path_options options = {.query.margin = k % 2 ? 0.02 : 0, .states = 2000};
             found_motion is;
             CHECK_EQ(check_motion(x, q0, q1, n, &options, &is), OVOID_OK);
             statuses[is.status]++;
-            sweep(x, q0, q1, n, &is, options.check.margin);
+            sweep(x, q0, q1, n, &is, options.query.margin);
         }
         ovoid_robot_checker_destroy(x);
         ovoid_robot_cell_destroy(cell);

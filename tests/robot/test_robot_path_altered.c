@@ -1,6 +1,7 @@
-// A liar for ovoid_robot_path_check. True answers of random arms among boxes are altered one field at a time (alter.h),
-// the answer's and its steps', and others are forged: a step over two segments, over an arc that comes nearer between
-// its ends, over more motion than there is room for, a state that collides and is called free without steps.
+// A liar for ovoid_robot_path_verify. True answers of random arms among boxes are altered one field at a time
+// (alter.h), the answer's and its steps', and others are forged: a step over two segments, over an arc that comes
+// nearer between its ends, over more motion than there is room for, a state that collides and is called free without
+// steps.
 //
 // Truth: kinematics in long double, written here from the joints' numbers; distances of the bodies at sampled s of the
 // exact path. What a sample shows to be false must be refused; what none does may pass. Slack: 1e-12, the rounding of
@@ -184,8 +185,8 @@ static int answer_is_false(const arm *m, const ovoid_robot_path_answer *x) {
 // ---- lies
 
 static int is_refused(const arm *m, const ovoid_robot_path_answer *x, const ovoid_robot_step *with) {
-    const ovoid_robot_path_options o = {.check = {.margin = m->margin}};
-    return ovoid_robot_path_check(m->cell, &m->path, &o, x, with, &error) != OVOID_OK;
+    const ovoid_robot_path_options o = {.query = {.margin = m->margin}};
+    return ovoid_robot_path_verify(m->cell, &m->path, &o, x, with, &error) != OVOID_OK;
 }
 
 #define OF_ANSWER(member, type, tolerance) ALTER_FIELD(ovoid_robot_path_answer, member, type, tolerance)
@@ -250,13 +251,13 @@ static void test_random(uint64_t seed, int cases) {
         check_seed = (uint64_t)i;
         make_random_arm(&s, &m);
         ovoid_robot_path_options o = {
-            .check = {.margin = m.margin}, .states = 400, .steps = steps, .capacity = STEPS, .any_hit = i % 4 == 0};
-        CHECK_EQ(ovoid_robot_check_path(m.checker, &m.path, &o, &x, &error), OVOID_OK);
+            .query = {.margin = m.margin}, .states = 400, .steps = steps, .capacity = STEPS, .any_hit = i % 4 == 0};
+        CHECK_EQ(ovoid_robot_path_find_hit(m.checker, &m.path, &o, &x, &error), OVOID_OK);
         if (x.step_count < STEPS && x.status < OVOID_ROBOT_REFUSED) {
             CHECK(!answer_is_false(&m, &x) && !is_refused(&m, &x, steps));
             ovoid_robot_path_options again = o;
             again.any_hit = !o.any_hit, again.steps = other_steps;
-            (void)ovoid_robot_check_path(m.checker, &m.path, &again, &other, &error);
+            (void)ovoid_robot_path_find_hit(m.checker, &m.path, &again, &other, &error);
             lie_about_answer(&m, &x, &other);
             for (int k = 0; k < 6 && x.step_count; k++) lie_about_step(&m, &x, random_next(&s) % x.step_count);
         }

@@ -352,9 +352,9 @@ static void test_sweeps(int rounds) {
         memcpy(states, m.q[0], n * sizeof *states);
         memcpy(states + n, m.q[1], n * sizeof *states);
         ovoid_robot_path path = {states, 2};
-        ovoid_robot_path_options o = {.check = {.limit_slack = INFINITY, .without_self = 1}, .states = 20000};
+        ovoid_robot_path_options o = {.query = {.limit_slack = INFINITY, .without_self = 1}, .states = 20000};
         ovoid_robot_path_answer is;
-        CHECK_EQ(ovoid_robot_check_path(x, &path, &o, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(x, &path, &o, &is, &error), OVOID_OK);
         frees += is.status == OVOID_ROBOT_FREE, hits += is.status == OVOID_ROBOT_HIT;
         // Most of them where a hit would be first missed: at the end of what is free.
         for (int k = 0; k < SWEEP * rounds && is.free_until > 0; k++)

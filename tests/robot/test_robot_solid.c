@@ -227,10 +227,10 @@ static void check_gradient(const scene *c, const double *q, const true_pair *p, 
     }
 }
 
-static void check_state(const scene *c, const double *q, const true_pair *pairs, int count, double margin) {
-    const ovoid_robot_check_options o = {.margin = margin};
+static void collide_state(const scene *c, const double *q, const true_pair *pairs, int count, double margin) {
+    const ovoid_robot_query_options o = {.margin = margin};
     ovoid_robot_answer is;
-    CHECK_EQ(ovoid_robot_check(c->x, q, &o, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(c->x, q, &o, &is, &error), OVOID_OK);
     int hits = 0, open = 0;
     for (int i = 0; i < count; i++) {
         double d = pairs[i].is.is_common ? -1 : get_distance(&pairs[i]);
@@ -256,7 +256,7 @@ static void test_states(void) {
         int count = find_truth(&c, q, pairs);
         ovoid_robot_near items[PAIRS];
         ovoid_robot_nears nears = {.items = items, .gradients = gradients, .capacity = PAIRS};
-        const ovoid_robot_check_options all = {.margin = 100};
+        const ovoid_robot_query_options all = {.margin = 100};
         CHECK_EQ(ovoid_robot_find_near(c.x, q, &all, &nears, &error), OVOID_OK);
         CHECK_EQ(nears.count, count);
         for (size_t k = 0; k < nears.count && k < PAIRS; k++) {
@@ -271,7 +271,7 @@ static void test_states(void) {
         ovoid_robot_nears one = {.items = &nearest, .capacity = 1};
         CHECK_EQ(ovoid_robot_find_nearest(c.x, q, &all, &one, &error), OVOID_OK);
         CHECK(one.count == 1 && nearest.lower <= items[0].upper && nearest.upper >= items[0].lower);
-        for (double margin = 0; margin < 0.5; margin += 0.1) check_state(&c, q, pairs, count, margin);
+        for (double margin = 0; margin < 0.5; margin += 0.1) collide_state(&c, q, pairs, count, margin);
         destroy_scene(&c);
     }
     printf("  %ld distances, %ld overlaps, %ld slopes\n", proven, overlaps, compared);
@@ -314,7 +314,7 @@ static long found[4], solid_steps;
 static void check_proof(const scene *c, const ovoid_robot_path *path, const ovoid_robot_path_options *o,
                         const ovoid_robot_path_answer *is, ovoid_robot_step *steps) {
     if (!CHECK(is->step_count <= o->capacity)) return;
-    if (!CHECK_EQ(ovoid_robot_path_check(c->cell, path, o, is, steps, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_robot_path_verify(c->cell, path, o, is, steps, &error), OVOID_OK))
         printf("  %s\n", error.message);
     size_t last = 0, of_solids = 0;
     for (size_t i = 0; i < is->step_count; i++)
@@ -324,7 +324,7 @@ static void check_proof(const scene *c, const ovoid_robot_path *path, const ovoi
     ovoid_robot_step kept = steps[last];
     steps[last].end = kept.begin + 0.5;
     if (kept.begin < 0.4 && is->hit_at < 0.6)
-        CHECK_EQ(ovoid_robot_path_check(c->cell, path, o, is, steps, &error), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_robot_path_verify(c->cell, path, o, is, steps, &error), OVOID_ERROR_PROOF);
     steps[last] = kept;
 }
 
@@ -340,21 +340,21 @@ static void test_paths(void) {
         make_state(states, &s);
         for (int k = 0; k < JOINTS; k++) states[JOINTS + k] = states[k] + random_uniform(&s, -0.5, 0.5);
         const ovoid_robot_path path = {states, 2};
-        const ovoid_robot_path_options o = {.check = {.margin = margin}, .steps = steps, .capacity = ROOM};
+        const ovoid_robot_path_options o = {.query = {.margin = margin}, .steps = steps, .capacity = ROOM};
         ovoid_robot_path_answer is;
-        CHECK_EQ(ovoid_robot_check_path(c.x, &path, &o, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &o, &is, &error), OVOID_OK);
         found[is.status]++;
         compare_path(&c, states, margin, &is);
         check_proof(&c, &path, &o, &is, steps);
         // Without steps there is less to ask, and the answer is the same.
         ovoid_robot_path_answer again;
-        const ovoid_robot_path_options alone = {.check = {.margin = margin}};
+        const ovoid_robot_path_options alone = {.query = {.margin = margin}};
         ovoid_robot_checker_reset(c.x);
-        CHECK_EQ(ovoid_robot_check_path(c.x, &path, &alone, &again, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &alone, &again, &error), OVOID_OK);
         CHECK(again.status == is.status && again.free_until == is.free_until);
         ovoid_robot_clearance_options far = {.tolerance = 0.01};
         ovoid_robot_clearance near;
-        CHECK_EQ(ovoid_robot_compute_clearance(c.x, &path, &far, &near, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_compute_clearance(c.x, &path, &far, &near, &error), OVOID_OK);
         double q[JOINTS], least = INFINITY;
         for (int k = 0; k <= SAMPLES; k++) {
             get_state(states, (double)k / SAMPLES, q);
@@ -419,22 +419,22 @@ static void test_peg(void) {
     static ovoid_robot_step steps[4096];
     ovoid_robot_path_options o = {.steps = steps, .capacity = 4096};
     ovoid_robot_path_answer is;
-    CHECK_EQ(ovoid_robot_check_path(c.x, &path, &o, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &o, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
-    CHECK_EQ(ovoid_robot_path_check(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
     // A step of solids whose half is longer than the clearance proves nothing.
     size_t at = 0;
     while (at < is.step_count && steps[at].kind != OVOID_ROBOT_STEP_SOLID) at++;
     if (CHECK(at < is.step_count)) {
         ovoid_robot_step kept = steps[at];
         steps[at].begin = 0;
-        CHECK_EQ(ovoid_robot_path_check(c.cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
         CHECK(strstr(error.message, "solids") != NULL);
         steps[at] = kept;
     }
     ovoid_robot_clearance near;
     const ovoid_robot_clearance_options fine = {.tolerance = 1e-5};
-    CHECK_EQ(ovoid_robot_compute_clearance(c.x, &path, &fine, &near, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(c.x, &path, &fine, &near, &error), OVOID_OK);
     double q0[JOINTS] = {0};
     true_pair middle[PAIRS];
     ovoid_pose poses[LINKS];
@@ -451,29 +451,30 @@ static void test_peg(void) {
     // Deeper in the tube by less than it has to spare: the depth of solids may jump, so no state tells more than the
     // first.
     double within[2 * JOINTS] = {1, 0, 0, 0, 0, 1, 0, 0.02, 0, 0};
-    CHECK_EQ(ovoid_robot_compute_clearance(c.x, &(const ovoid_robot_path){within, 2}, &fine, &near, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(c.x, &(const ovoid_robot_path){within, 2}, &fine, &near, &error),
+             OVOID_OK);
     CHECK(near.upper < 0 && near.states < 40);
     // Along the axis they never touch, with its tip in the tube always; from there to the middle sometimes.
     CHECK_EQ(find_touch(&c, 0, 0.05), OVOID_ROBOT_TOUCH_NEVER);
     CHECK_EQ(find_touch(&c, 0.75, 0.01), OVOID_ROBOT_TOUCH_ALWAYS);
     CHECK_EQ(find_touch(&c, 0.3, 0.3), OVOID_ROBOT_TOUCH_SOMETIMES);
     // The same by shapes alone is a hit, as hulls are: what solids are for.
-    o.check.margin = 0.6;
-    CHECK_EQ(ovoid_robot_check_path(c.x, &path, &o, &is, &error), OVOID_OK);
+    o.query.margin = 0.6;
+    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &o, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
-    CHECK_EQ(ovoid_robot_path_check(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
-    o.check.margin = 0;
+    CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
+    o.query.margin = 0;
     q[0] = q[JOINTS] = 0.6;
-    CHECK_EQ(ovoid_robot_check_path(c.x, &path, &o, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &o, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
-    CHECK_EQ(ovoid_robot_path_check(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
     // Any hit is one of the solids, too: a tenth towards the axis parts them, where their hulls are half a length deep.
     const ovoid_robot_path_options any = {.any_hit = 1};
     ovoid_robot_path_answer some;
-    CHECK_EQ(ovoid_robot_check_path(c.x, &path, &any, &some, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &any, &some, &error), OVOID_OK);
     CHECK(some.status == OVOID_ROBOT_HIT && some.hit.upper >= -0.15);
     is.hit.upper = -5, is.hit.lower = -6; // deeper than it is
-    CHECK_EQ(ovoid_robot_path_check(c.cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
     ovoid_robot_checker_destroy(c.x);
     ovoid_robot_cell_destroy(c.cell);
     ovoid_robot_destroy(c.r);
@@ -535,10 +536,10 @@ static void test_post(void) {
     c.x = ovoid_robot_checker_create(c.cell, NULL, &error);
     double q[JOINTS] = {0};
     ovoid_robot_answer is;
-    CHECK_EQ(ovoid_robot_check(c.x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(c.x, q, NULL, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     q[0] = 0.7;
-    CHECK_EQ(ovoid_robot_check(c.x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(c.x, q, NULL, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
     ovoid_robot_checker_destroy(c.x);
     ovoid_robot_cell_destroy(c.cell);
@@ -567,7 +568,7 @@ static void test_cell(void) {
     int count = find_truth(&c, q, pairs);
     ovoid_robot_near items[PAIRS];
     ovoid_robot_nears nears = {.items = items, .capacity = PAIRS};
-    CHECK_EQ(ovoid_robot_find_near(c.x, q, &(const ovoid_robot_check_options){.margin = 100}, &nears, &error),
+    CHECK_EQ(ovoid_robot_find_near(c.x, q, &(const ovoid_robot_query_options){.margin = 100}, &nears, &error),
              OVOID_OK);
     CHECK_EQ(nears.count, count);
     for (size_t k = 0; k < nears.count && k < PAIRS; k++) {

@@ -75,12 +75,12 @@ static int find_problems(ovoid_error *error) {
 }
 
 static int read_proofs(ovoid_error *error) {
-    ovoid_robot_proofs *proofs = ovoid_robot_proofs_create(file_path("proofs.jsonl"), error);
+    ovoid_robot_proofs_reader *proofs = ovoid_robot_proofs_reader_open(file_path("proofs.jsonl"), error);
     ovoid_robot_proof p;
-    int got = proofs ? ovoid_robot_proofs_read(proofs, &p, error) : -1;
+    int got = proofs ? ovoid_robot_proofs_reader_read(proofs, &p, error) : -1;
     CHECK(got != 0 &&
           (got < 0 || (p.count == 2 && p.times[1] == 3 && p.steps[0].mask == 5 && p.steps[1].normal.x == 1)));
-    ovoid_robot_proofs_destroy(proofs);
+    ovoid_robot_proofs_reader_close(proofs);
     return got > 0;
 }
 

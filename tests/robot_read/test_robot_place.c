@@ -59,8 +59,8 @@ static void close_setup(setup *s) {
 
 static ovoid_robot_answer ask(const setup *s, double j, double k) {
     ovoid_robot_answer answer;
-    ovoid_robot_check_options options = {.limit_slack = 0};
-    CHECK_EQ(ovoid_robot_check(s->checker, (double[2]){j, k}, &options, &answer, NULL), OVOID_OK);
+    ovoid_robot_query_options options = {.limit_slack = 0};
+    CHECK_EQ(ovoid_robot_collide(s->checker, (double[2]){j, k}, &options, &answer, NULL), OVOID_OK);
     return answer;
 }
 
@@ -260,13 +260,13 @@ static void test_followers(void) {
                                         NULL, "joint \"l\"", "joint \"l\""};
     for (size_t i = 0; i < sizeof q / sizeof *q; i++) {
         ovoid_error error = {OVOID_OK, -1, ""};
-        ovoid_code code = ovoid_robot_check_limits(s.robot, &q[i], 0, &error);
+        ovoid_code code = ovoid_robot_validate_limits(s.robot, &q[i], 0, &error);
         CHECK_EQ(code, names[i] ? OVOID_ERROR_RANGE : OVOID_OK);
         if (names[i] && !CHECK(strstr(error.message, names[i]))) printf("  %s\n", error.message);
         if (names[i]) CHECK_EQ(error.place, 0);
         CHECK_EQ(ask(&s, q[i], 0).status, names[i] ? OVOID_ROBOT_REFUSED : OVOID_ROBOT_UNDECIDED);
     }
-    CHECK_EQ(ovoid_robot_check_limits(s.robot, (double[1]){0.42}, 0.02, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_robot_validate_limits(s.robot, (double[1]){0.42}, 0.02, NULL), OVOID_OK);
     close_setup(&s);
 }
 
@@ -282,20 +282,20 @@ static void test_nothing(void) {
     CHECK(one.status == OVOID_ROBOT_UNDECIDED && one.code == OVOID_ERROR_EMPTY && one.a.link == OVOID_ROBOT_NONE);
     const double q[2] = {0, 1};
     const ovoid_robot_batch batch = {q, 2, NULL, many};
-    CHECK_EQ(ovoid_robot_check_batch(&s.checker, 1, &batch, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide_batch(&s.checker, 1, &batch, NULL), OVOID_OK);
     CHECK(many[1].status == OVOID_ROBOT_UNDECIDED && many[1].code == OVOID_ERROR_EMPTY);
     const ovoid_robot_path path = {q, 2};
     ovoid_robot_path_answer answer;
     for (int any = 0; any < 2; any++) {
         const ovoid_robot_path_options options = {.any_hit = any};
-        CHECK_EQ(ovoid_robot_check_path(s.checker, &path, &options, &answer, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(s.checker, &path, &options, &answer, NULL), OVOID_OK);
         CHECK(answer.status == OVOID_ROBOT_UNDECIDED && answer.hit.code == OVOID_ERROR_EMPTY && answer.free_until == 0);
-        CHECK_EQ(ovoid_robot_path_check(s.cell, &path, &options, &answer, NULL, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_verify(s.cell, &path, &options, &answer, NULL, NULL), OVOID_OK);
     }
     answer.status = OVOID_ROBOT_FREE, answer.free_until = 1;
-    CHECK_EQ(ovoid_robot_path_check(s.cell, &path, NULL, &answer, NULL, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_robot_path_verify(s.cell, &path, NULL, &answer, NULL, NULL), OVOID_ERROR_PROOF);
     ovoid_robot_clearance clearance;
-    CHECK_EQ(ovoid_robot_compute_clearance(s.checker, &path, NULL, &clearance, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(s.checker, &path, NULL, &clearance, NULL), OVOID_OK);
     CHECK(clearance.status == OVOID_ROBOT_UNDECIDED && clearance.code == OVOID_ERROR_EMPTY);
     close_setup(&s);
     ovoid_robot_read_options options = make_read_options();
@@ -304,8 +304,8 @@ static void test_nothing(void) {
     ovoid_robot_file_destroy(file);
     // Options may leave nothing: the two links alone are a pair.
     if (!open_with(&s, urdf, NULL, WORLD(""), 0)) return;
-    ovoid_robot_check_options without = {.without_self = 1};
-    CHECK_EQ(ovoid_robot_check(s.checker, (double[2]){0, 0}, &without, &one, NULL), OVOID_OK);
+    ovoid_robot_query_options without = {.without_self = 1};
+    CHECK_EQ(ovoid_robot_collide(s.checker, (double[2]){0, 0}, &without, &one, NULL), OVOID_OK);
     CHECK(one.status == OVOID_ROBOT_UNDECIDED && one.code == OVOID_ERROR_EMPTY);
     CHECK_EQ(ask(&s, 0, 0).status, OVOID_ROBOT_FREE);
     CHECK_EQ(ovoid_robot_cell_set_allowed(s.cell, 1, 2, 1, NULL), OVOID_OK);

@@ -127,7 +127,7 @@ void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, 
 static int check_compounds(const ovoid_body_pair *pair, const ovoid_solid_answer *s, const ovoid_options *options) {
     exclusions.cover = cover.point_count ? &cover : NULL;
     ovoid_compound_answer c = {.answer = s->surfaces, .part_a = s->triangle_a, .part_b = s->triangle_b};
-    return (int)ovoid_compound_answer_check(pair, &c, options, &exclusions, &exchange_error);
+    return (int)ovoid_compound_answer_verify(pair, &c, options, &exclusions, &exchange_error);
 }
 
 /// Reads both poses, the four options of the query and what body_query wrote; the exclusions are those of
@@ -149,5 +149,5 @@ int EXPORT(body_check)(unsigned kinds, const void *a, const void *b) {
     s.surfaces.status = (ovoid_status)(read_index(surfaces[0]) & 0xff);
     s.surfaces.limit = (ovoid_limit)(read_index(surfaces[1]) & 0xff);
     s.surfaces.lower = surfaces[2], s.surfaces.upper = surfaces[3];
-    return (int)ovoid_solid_answer_check(&pair, &s, &options, &exclusions, &exchange_error);
+    return (int)ovoid_solid_answer_verify(&pair, &s, &options, &exclusions, &exchange_error);
 }

@@ -43,7 +43,7 @@ int EXPORT(check)(const ovoid_shape *a, const ovoid_shape *b) {
     ovoid_answer answer;
     read_proof(read_answer(read_options(read_pair(a, b, &pair), &options), &answer), &answer.proof);
     const ovoid_cover *given = cover.point_count ? &cover : NULL;
-    return (int)ovoid_answer_check(&pair, &answer, &options, given, &exchange_error);
+    return (int)ovoid_answer_verify(&pair, &answer, &options, given, &exchange_error);
 }
 
 static ovoid_code run_batch(int kind, const ovoid_batch *batch, double margin) {
@@ -103,7 +103,7 @@ static double *write_smooth(double *to, const ovoid_smooth_value *v, int order) 
 void EXPORT(smooth)(const ovoid_shape *a, const ovoid_shape *b, int order) {
     ovoid_pair pair;
     read_pair(a, b, &pair);
-    ovoid_smooth s = ovoid_smooth_compute(&pair, order);
+    ovoid_smooth s = ovoid_pair_compute_smooth(&pair, order);
     exchange[0] = s.limit;
     write_smooth(write_smooth(exchange + 1, &s.outer, order), &s.inner, order);
 }

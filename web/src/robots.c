@@ -119,9 +119,9 @@ static double *write_side(double *to, const ovoid_robot_side *s) {
 
 /// Reads the margin. Writes status, code, variable, both sides, lower, upper. 0, or the error's code.
 int EXPORT(checker_check)(ovoid_robot_checker *checker, const double *q) {
-    ovoid_robot_check_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
+    ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
     ovoid_robot_answer a;
-    int code = (int)ovoid_robot_check(checker, q, &options, &a, &exchange_error);
+    int code = (int)ovoid_robot_collide(checker, q, &options, &a, &exchange_error);
     double *to = exchange;
     *to++ = a.status, *to++ = a.code, *to++ = a.variable;
     to = write_side(write_side(to, &a.a), &a.b);
@@ -132,7 +132,7 @@ int EXPORT(checker_check)(ovoid_robot_checker *checker, const double *q) {
 /// Near pairs, 18 numbers each: both sides, status, lower, upper, points, normal; nearest first. Reads the margin;
 /// writes how many there are. 0, or the error's code.
 int EXPORT(checker_find_near)(ovoid_robot_checker *checker, const double *q, double *out, size_t capacity) {
-    ovoid_robot_check_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
+    ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
     ovoid_robot_nears nears = {.items = calloc(capacity + 1, sizeof(ovoid_robot_near)), .capacity = capacity};
     if (!nears.items) return OVOID_ERROR_MEMORY;
     int code = (int)ovoid_robot_find_near(checker, q, &options, &nears, &exchange_error);

@@ -35,7 +35,7 @@ static const cli_option options[] = {
 
 static int write_srdf(const char *path, const matrix_view *v, int with_sampled) {
     ovoid_error error;
-    ovoid_output *output = ovoid_output_create(path, &error);
+    ovoid_output *output = ovoid_output_open(path, &error);
     if (!output) {
         finish_report_failure(&error);
         return EXIT_INPUT;
@@ -43,7 +43,7 @@ static int write_srdf(const char *path, const matrix_view *v, int with_sampled) 
     finish_set_unfinished(ovoid_output_get_temporary(output));
     matrix_write_srdf(ovoid_output_get_file(output), v, with_sampled);
     int code = finish_output(output);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     finish_set_unfinished(NULL);
     return code;
 }

@@ -1,5 +1,5 @@
 // ovoid robot path: is a path through states proven free at all times in between, and if not, what is hit first, and
-// when? With --proofs its steps are written, after ovoid_robot_path_check has measured each of them again.
+// when? With --proofs its steps are written, after ovoid_robot_path_verify has measured each of them again.
 #include "robot/path/path.h"
 
 #include "base/message.h"
@@ -64,7 +64,7 @@ static int find_answer(path_report *r, ovoid_robot_checker *checker, const ovoid
         o->steps = r->steps;
         o->capacity = room;
         ovoid_robot_checker_reset(checker);
-        if (ovoid_robot_check_path(checker, path, o, &r->answer, &error) != OVOID_OK)
+        if (ovoid_robot_path_find_hit(checker, path, o, &r->answer, &error) != OVOID_OK)
             return message_error("%s", error.message), EXIT_INPUT;
         if (!r->steps || r->answer.step_count <= room) return 0;
         room = r->answer.step_count;
@@ -82,7 +82,7 @@ static int check_proofs(const path_report *r, const ovoid_robot_path *path, cons
         if (!r->is_edge) message_note("nothing is proven of a path that is refused");
         return 0;
     }
-    if (ovoid_robot_path_check(r->cell->cell, path, o, &r->answer, r->steps, &error) != OVOID_OK) {
+    if (ovoid_robot_path_verify(r->cell->cell, path, o, &r->answer, r->steps, &error) != OVOID_OK) {
         message_error("path %zu: of %zu proofs not all hold: %s", r->number, count, error.message);
         return EXIT_NOT_PROVEN;
     }
@@ -98,9 +98,9 @@ static int find_clearance(const settings *s, path_report *r, ovoid_robot_checker
                           ovoid_robot_clearance *clearance) {
     ovoid_error error;
     const ovoid_robot_clearance_options o = {
-        .check = cell_make_options(&s->cell), .tolerance = s->clearance_tolerance, .states = s->most};
+        .query = cell_make_options(&s->cell), .tolerance = s->clearance_tolerance, .states = s->most};
     ovoid_robot_checker_reset(checker);
-    if (ovoid_robot_compute_clearance(checker, path, &o, clearance, &error) != OVOID_OK)
+    if (ovoid_robot_path_compute_clearance(checker, path, &o, clearance, &error) != OVOID_OK)
         return message_error("%s", error.message), EXIT_INPUT;
     r->clearance = clearance;
     return 0;
@@ -137,7 +137,7 @@ static int run_one(const settings *s, path_run *run, const cli_results *results,
     ovoid_robot_checker *checker = run->checker;
     const ovoid_robot_path path = {r->states->q, r->states->count};
     ovoid_robot_path_options o = {
-        .check = cell_make_options(&s->cell), .tolerance = s->tolerance, .states = s->most, .any_hit = s->any_hit};
+        .query = cell_make_options(&s->cell), .tolerance = s->tolerance, .states = s->most, .any_hit = s->any_hit};
     ovoid_robot_clearance clearance;
     int code = find_answer(r, checker, &path, &o);
     if (!code && s->clearance) code = find_clearance(s, r, checker, &path, &clearance);
@@ -180,7 +180,7 @@ static void report_counts(const settings *s, const path_counts *c, const cli_sta
 /// Draws the plot and writes the page, those that are wanted. 0, or an exit code after a message.
 static int draw(const settings *s, path_run *run) {
     const path_report *r = &run->report;
-    const ovoid_robot_check_options o = cell_make_options(&s->cell);
+    const ovoid_robot_query_options o = cell_make_options(&s->cell);
     int code = s->plot ? path_plot(s->plot, r, run->checker, &o) : 0;
     int has_clearance = !s->edges && r->answer.status != OVOID_ROBOT_REFUSED;
     const robot_page_source source = {run->urdf, &s->cell, r->cell, r->states, run->checker, has_clearance};

@@ -37,6 +37,6 @@ void path_write_json(FILE *file, const path_report *report);
 
 /// Draws the distance of the nearest pair over the path, at samples. 0, or an exit code after a message.
 int path_plot(const char *path, const path_report *report, ovoid_robot_checker *checker,
-              const ovoid_robot_check_options *options);
+              const ovoid_robot_query_options *options);
 
 #endif

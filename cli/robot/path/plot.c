@@ -1,5 +1,5 @@
 // The clearance over a path: the signed distance of the nearest pair at samples, in the colour of that pair. A picture
-// only: what holds between the samples is what ovoid_robot_check_path proves.
+// only: what holds between the samples is what ovoid_robot_path_find_hit proves.
 #include "base/finish.h"
 #include "base/message.h"
 #include "robot/path/path.h"
@@ -57,11 +57,11 @@ static void set_sample(plot *p, size_t i, const ovoid_robot_near *near) {
 }
 
 /// 0, or an exit code after a message.
-static int sample(plot *p, ovoid_robot_checker *checker, const ovoid_robot_check_options *options) {
+static int sample(plot *p, ovoid_robot_checker *checker, const ovoid_robot_query_options *options) {
     ovoid_error error;
     ovoid_robot_near near;
     ovoid_robot_nears nears = {.items = &near, .capacity = 1};
-    ovoid_robot_check_options all = *options;
+    ovoid_robot_query_options all = *options;
     const cli_states *states = p->report->states;
     double *q = malloc((states->variable_count + 1) * sizeof *q);
     if (!q) return message_error("out of memory"), EXIT_INPUT;
@@ -100,19 +100,19 @@ static int write_chart(const plot *p, const char *path) {
                                .series_count = count,
                                .width = 1000};
     finish_hold_signals();
-    ovoid_output *output = ovoid_output_create(path, &error);
+    ovoid_output *output = ovoid_output_open(path, &error);
     if (output) finish_set_unfinished(ovoid_output_get_temporary(output));
     finish_release_signals();
     if (!output) return message_error("%s", error.message), EXIT_INPUT;
     (void)ovoid_chart_write_svg(ovoid_output_get_file(output), &chart); // finish_output checks the stream
     int code = finish_output(output);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     finish_set_unfinished(NULL);
     return code;
 }
 
 int path_plot(const char *path, const path_report *report, ovoid_robot_checker *checker,
-              const ovoid_robot_check_options *options) {
+              const ovoid_robot_query_options *options) {
     size_t segments = report->states->count - 1, most = (SAMPLES_MAX - 1) / SEGMENT_SAMPLES;
     plot p = {.report = report, .least = INFINITY};
     p.count = 1 + (segments < most ? segments * SEGMENT_SAMPLES : SAMPLES_MAX - 1);

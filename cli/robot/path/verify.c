@@ -1,5 +1,5 @@
 // Path proofs of a file, checked on the robot and the obstacles that it names, or on those that are given: these must
-// be the same, and then each step is measured again by ovoid_robot_path_check, without any search.
+// be the same, and then each step is measured again by ovoid_robot_path_verify, without any search.
 #include "robot/path/verify.h"
 
 #include "base/finish.h"
@@ -132,7 +132,7 @@ static int are_times(const ovoid_robot_proof *p) {
 static const char *find_fault(verify *v, const ovoid_robot_proof *p, int64_t *line, ovoid_error *error) {
     ovoid_robot_path_answer answer = p->answer;
     const ovoid_robot_path path = {p->states, p->count};
-    const ovoid_robot_path_options o = {.check = cell_make_options(&v->options)};
+    const ovoid_robot_path_options o = {.query = cell_make_options(&v->options)};
     *line = p->line;
     if (!are_states(v, p)) return "the states are not those given";
     if (p->margin != v->options.margin) return "the margin is not that of the first line";
@@ -143,7 +143,7 @@ static const char *find_fault(verify *v, const ovoid_robot_proof *p, int64_t *li
         if (p->segment != path_get_segment(&answer, p->count)) return "the segment is not that of free_until";
         (void)ovoid_robot_cell_get_pair(v->cell.cell, p->pair, &answer.hit.a, &answer.hit.b, NULL);
     }
-    if (ovoid_robot_path_check(v->cell.cell, &path, &o, &answer, p->steps, error) == OVOID_OK) return NULL;
+    if (ovoid_robot_path_verify(v->cell.cell, &path, &o, &answer, p->steps, error) == OVOID_OK) return NULL;
     if (error->code == OVOID_ERROR_PROOF && error->place >= 0) *line += 1 + error->place;
     return error->message;
 }
@@ -170,13 +170,13 @@ static int open_states(verify *v) {
 }
 
 /// Reads and checks all paths. 0, or an exit code after a message.
-static int run_proofs(verify *v, ovoid_robot_proofs *proofs) {
+static int run_proofs(verify *v, ovoid_robot_proofs_reader *proofs) {
     ovoid_robot_proof p;
     ovoid_error error;
     int got, code = 0;
-    while (!code && (got = ovoid_robot_proofs_read(proofs, &p, &error)) > 0) {
+    while (!code && (got = ovoid_robot_proofs_reader_read(proofs, &p, &error)) > 0) {
         if (!v->cell.cell || p.source != v->source) {
-            code = open_cell(v, ovoid_robot_proofs_get_source(proofs));
+            code = open_cell(v, ovoid_robot_proofs_reader_get_source(proofs));
             v->source = p.source;
         }
         if (!code) code = open_states(v);
@@ -184,7 +184,7 @@ static int run_proofs(verify *v, ovoid_robot_proofs *proofs) {
     }
     if (code) return code;
     if (got < 0) {
-        if (!ovoid_robot_proofs_get_source(proofs) && error.code == OVOID_ERROR_FORMAT)
+        if (!ovoid_robot_proofs_reader_get_source(proofs) && error.code == OVOID_ERROR_FORMAT)
             return args_complain(v->command,
                                  "verify: on which bodies? Give SCENE.json, or A and B, or --shapes and --pairs (only "
                                  "path proofs of ovoid robot path need none)");
@@ -218,12 +218,12 @@ static void print_counts(const verify *v) {
 int path_verify(const cli_command *command, const path_verify_settings *settings, const char *path, const char *urdf) {
     verify v = {.command = command, .settings = settings, .path = path, .urdf = urdf};
     ovoid_error error;
-    ovoid_robot_proofs *proofs = ovoid_robot_proofs_create(path, &error);
+    ovoid_robot_proofs_reader *proofs = ovoid_robot_proofs_reader_open(path, &error);
     if (!proofs) return message_error("%s", error.message), EXIT_INPUT;
     progress_start("paths", 0);
     int code = run_proofs(&v, proofs);
     progress_end();
-    ovoid_robot_proofs_destroy(proofs);
+    ovoid_robot_proofs_reader_close(proofs);
     states_close(&v.states);
     cell_close(&v.cell);
     if (code) return code;

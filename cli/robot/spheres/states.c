@@ -86,7 +86,7 @@ static int open_model(model *m, const cli_cell *cell, const cell_settings *setti
 }
 
 /// Compares all states by one kind of pairs. 0 after a message.
-static int compare(const model *m, const sphere_samples *samples, const ovoid_robot_check_options *o,
+static int compare(const model *m, const sphere_samples *samples, const ovoid_robot_query_options *o,
                    ovoid_robot_comparison *found) {
     ovoid_error error;
     const cli_states *s = &samples->states;
@@ -111,7 +111,7 @@ int spheres_compare(const cli_cell *cell, const cell_settings *settings, const s
     if (!open_model(&m, cell, settings, &set->list)) return EXIT_INPUT;
     int good = 1, kinds = cell->obstacles ? 2 : 1;
     for (set->states_count = 0; set->states_count < kinds && good; set->states_count++) {
-        ovoid_robot_check_options o = cell_make_options(settings);
+        ovoid_robot_query_options o = cell_make_options(settings);
         o.without_obstacles = set->states_count == 0;
         o.without_self = set->states_count == 1;
         sphere_states *states = &set->states[set->states_count];

@@ -196,7 +196,7 @@ static int write_content(FILE *file, const char *path, const cli_cell *cell, con
 int spheres_write(const char *path, const cli_cell *cell, const sphere_list *list, const char *urdf, const char *srdf) {
     ovoid_error error;
     finish_hold_signals();
-    ovoid_output *output = ovoid_output_create(path, &error);
+    ovoid_output *output = ovoid_output_open(path, &error);
     if (output) finish_set_unfinished(ovoid_output_get_temporary(output));
     finish_release_signals();
     if (!output) {
@@ -207,7 +207,7 @@ int spheres_write(const char *path, const cli_cell *cell, const sphere_list *lis
     int code = write_content(ovoid_output_get_file(output), path, cell, list, &s);
     free(s.text);
     if (!code) code = finish_output(output);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     finish_set_unfinished(NULL);
     return code;
 }

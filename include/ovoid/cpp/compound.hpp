@@ -148,13 +148,13 @@ inline compound_proof proof_of(const ovoid_compound_answer &a) noexcept {
  *  options. */
 inline bool is_proven(const body_pair &p, const ovoid_compound_answer &a, const ovoid_options &o = options(),
                       const ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_compound_answer_check(&p, &a, &o, e, nullptr) == OVOID_OK;
+    return ovoid_compound_answer_verify(&p, &a, &o, e, nullptr) == OVOID_OK;
 }
 /** Throws PROOF (place: the exclusion), with a sentence, where is_proven is false. */
 inline void check(const body_pair &p, const ovoid_compound_answer &a, const ovoid_options &o = options(),
                   const ovoid_exclusions *e = nullptr) {
     ovoid_error error;
-    detail::require(ovoid_compound_answer_check(&p, &a, &o, e, &error), error);
+    detail::require(ovoid_compound_answer_verify(&p, &a, &o, e, &error), error);
 }
 
 } // namespace ovoid

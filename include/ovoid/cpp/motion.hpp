@@ -54,7 +54,7 @@ struct motion : ovoid_motion {
     /** Throws what is wrong with it: NOT_FINITE, ROTATION, RANGE, ARGUMENT (place: of a path, the pose). */
     void check() const {
         ovoid_error e;
-        detail::require(ovoid_motion_compute_check(this, &e), e);
+        detail::require(ovoid_motion_validate(this, &e), e);
     }
     /** The pose at a time; the motion must be sound. */
     pose at(double time) const noexcept { return ovoid_motion_compute_pose(this, time); }
@@ -121,7 +121,7 @@ inline compound_impact find_impact(const moving_body &a, const moving_body &b, d
 }
 /**
  * Throws PROOF (place: the step) where an impact does not follow from its steps: all step_count of them. asked: the
- * options of the query; nullptr as in ovoid_impact_check.
+ * options of the query; nullptr as in ovoid_impact_verify.
  */
 template <class Steps>
 void check(const moving_shape &a, const moving_shape &b, double margin, const ovoid_impact &found, const Steps &steps,
@@ -129,7 +129,7 @@ void check(const moving_shape &a, const moving_shape &b, double margin, const ov
     ovoid_error e;
     if (std::size(steps) < found.step_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps than were kept");
-    detail::require(ovoid_impact_check(&a, &b, margin, &found, asked, std::data(steps), &e), e);
+    detail::require(ovoid_impact_verify(&a, &b, margin, &found, asked, std::data(steps), &e), e);
 }
 /** Throws PROOF (place: the group) where an impact of bodies does not follow from its steps and groups. */
 template <class Steps, class Groups>
@@ -140,15 +140,15 @@ void check(const moving_body &a, const moving_body &b, double margin, const ovoi
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps or groups than were kept");
     ovoid_code code =
         a.solid || b.solid
-            ? ovoid_solid_impact_check(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e)
-            : ovoid_compound_impact_check(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e);
+            ? ovoid_solid_impact_verify(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e)
+            : ovoid_compound_impact_verify(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e);
     detail::require(code, e);
 }
 
 /** The first time at which b, moved along displacement without turning, is within margin of a. */
 inline impact cast_translation(const pair &p, const vec3 &displacement, double margin = 0,
                                const ovoid_motion_options &o = motion_options()) noexcept {
-    return ovoid_translation_cast(&p, displacement, margin, &o);
+    return ovoid_shape_cast(&p, displacement, margin, &o);
 }
 
 /** A ray, thick where its radius is above 0. */
@@ -162,7 +162,7 @@ struct ray : ovoid_ray {
     ray(const T &from) noexcept : ovoid_ray(from) {}
 };
 /** Where a ray first meets a posed shape. */
-inline ray_hit cast_ray(const posed_shape &target, const ray &r) noexcept { return ovoid_ray_cast(&target, &r); }
+inline ray_hit cast_ray(const posed_shape &target, const ray &r) noexcept { return ovoid_shape_cast_ray(&target, &r); }
 
 /** The smallest distance of two moving shapes over a time, and when. */
 inline approach find_approach(const moving_shape &a, const moving_shape &b,
@@ -176,7 +176,7 @@ void check(const moving_shape &a, const moving_shape &b, const ovoid_approach &f
     ovoid_error e;
     if (std::size(steps) < found.step_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps than were kept");
-    detail::require(ovoid_approach_check(&a, &b, &found, asked, std::data(steps), &e), e);
+    detail::require(ovoid_approach_verify(&a, &b, &found, asked, std::data(steps), &e), e);
 }
 
 /** The word for results, for example "hit". */

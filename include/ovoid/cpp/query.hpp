@@ -77,7 +77,7 @@ inline double compute_gap(const pair &p, const ovoid_vec3 &direction) noexcept {
     return ovoid_pair_compute_gap(&p, direction);
 }
 /** The bracket from the ellipsoids alone. */
-inline answer bounds(const pair &p) noexcept { return ovoid_bounds(&p); }
+inline answer bounds(const pair &p) noexcept { return ovoid_pair_compute_bounds(&p); }
 
 /** The signed distance as one number, never above the true one; NaN where the bracket is wider than was asked. */
 inline double distance_of(const ovoid_answer &a) noexcept { return ovoid_answer_get_distance(&a); }
@@ -87,13 +87,13 @@ inline int is_within(const ovoid_answer &a, double margin) noexcept { return ovo
  *  nothing trusted. o: the options of the query. c: the cover of depth, or nullptr. */
 inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                       const ovoid_cover *c = nullptr) noexcept {
-    return ovoid_answer_check(&p, &a, &o, c, nullptr) == OVOID_OK;
+    return ovoid_answer_verify(&p, &a, &o, c, nullptr) == OVOID_OK;
 }
 /** Throws PROOF, with a sentence, where is_proven is false. */
 inline void check(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                   const ovoid_cover *c = nullptr) {
     ovoid_error e;
-    detail::require(ovoid_answer_check(&p, &a, &o, c, &e), e);
+    detail::require(ovoid_answer_verify(&p, &a, &o, c, &e), e);
 }
 
 /** What a query of prepared shapes writes beside its verdict. */
@@ -184,7 +184,7 @@ inline void depth_batch(const ovoid_batch &b) {
 }
 
 /** The smooth bracket of the signed distance. order: 0 values, 1 gradients too, 2 Hessians too. */
-inline ovoid_smooth compute_smooth(const pair &p, int order) noexcept { return ovoid_smooth_compute(&p, order); }
+inline ovoid_smooth compute_smooth(const pair &p, int order) noexcept { return ovoid_pair_compute_smooth(&p, order); }
 /** The gradient of the exact signed distance, as far as an answer shows it. c: the cover of a depth. */
 inline ovoid_gradient compute_gradient(const pair &p, const ovoid_answer &a, const ovoid_cover *c = nullptr) noexcept {
     return ovoid_answer_compute_gradient(&p, &a, c);

@@ -110,7 +110,7 @@ inline compound_proof proof_of(const ovoid_solid_answer &a) noexcept {
 /** True where the answer follows from its proof, the exclusions and the query's options. */
 inline bool is_proven(const solid_pair &p, const ovoid_solid_answer &a, const ovoid_options &o = options(),
                       const ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_solid_answer_check(&p, &a, &o, e, nullptr) == OVOID_OK;
+    return ovoid_solid_answer_verify(&p, &a, &o, e, nullptr) == OVOID_OK;
 }
 
 } // namespace ovoid

@@ -185,13 +185,13 @@ static ovoid_code draw_all(const ovoid_picture *picture, figure *figures, drawin
 // ---- the picture
 
 // Checks that bodies and links are in range, and that there are not too many triangles.
-static ovoid_code check_picture(const char *path, const ovoid_picture *picture, ovoid_error *error) {
+static ovoid_code validate_picture(const char *path, const ovoid_picture *picture, ovoid_error *error) {
     where at = {path, 0, -1};
     if (!picture->body_count) return io_fail(error, OVOID_ERROR_EMPTY, at, "a picture needs at least one body");
     uint64_t triangles = 0;
     for (size_t i = 0; i < picture->body_count; i++) {
         at.place = (int64_t)i;
-        ovoid_code code = ovoid_pose_compute_check(&picture->bodies[i].pose);
+        ovoid_code code = ovoid_pose_validate(&picture->bodies[i].pose);
         if (code) return io_fail(error, code, at, "the pose of body %zu: %s", i, ovoid_code_get_name(code));
         const ovoid_faces *mesh = picture->bodies[i].mesh;
         triangles += ovoid_shape_get_polytope(picture->bodies[i].shape).triangle_count + (mesh ? mesh->face_count : 0);
@@ -239,15 +239,15 @@ static ovoid_code write_picture(const char *path, const ovoid_picture *picture, 
 
 ovoid_code ovoid_picture_write_svg(const char *path, const ovoid_picture *picture, const ovoid_picture_options *options,
                                    ovoid_error *error) {
-    ovoid_code code = check_picture(path, picture, error);
+    ovoid_code code = validate_picture(path, picture, error);
     if (code) return code;
-    ovoid_output *output = ovoid_output_create(path, error);
+    ovoid_output *output = ovoid_output_open(path, error);
     if (!output) return OVOID_ERROR_FILE;
     drawing d = make_drawing(picture, options, ovoid_output_get_file(output));
     locale_scope locale = locale_enter();
     code = write_picture(path, picture, &d, error);
     locale_leave(locale);
     if (!code) code = ovoid_output_commit(output, error);
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     return code;
 }

@@ -143,7 +143,7 @@ static int has_role(const ply_element *e, char role) {
 }
 
 // OK if there is a format, and an element of vertices with x, y and z.
-static ovoid_code check_header(ply_file *p) {
+static ovoid_code validate_header(ply_file *p) {
     if (p->format == PLY_UNKNOWN) return fail_header(p, "the header names no format");
     int vertices = 0;
     for (int i = 0; i < p->element_count; i++) {
@@ -177,7 +177,7 @@ static ovoid_code read_header(ply_file *p) {
         if (code) return code;
         skip_line(&p->c);
     }
-    ovoid_code code = check_header(p);
+    ovoid_code code = validate_header(p);
     skip_line(&p->c);
     return code;
 }
@@ -195,7 +195,7 @@ static int64_t least_bytes(const ply_file *p, const ply_element *e) {
 }
 
 // All counts together must fit into the bytes that follow; a last line end may be missing.
-static ovoid_code check_counts(ply_file *p) {
+static ovoid_code validate_counts(ply_file *p) {
     int64_t left = p->c.end - p->c.at + 1;
     for (int i = 0; i < p->element_count; i++) {
         const ply_element *e = &p->elements[i];
@@ -292,7 +292,7 @@ ovoid_code mesh_read_ply(mesh_reader *reader) {
     p.part = mesh_add_part(reader, "", 0);
     if (!p.part) return OVOID_ERROR_MEMORY;
     ovoid_code code = read_header(&p);
-    if (!code) code = check_counts(&p);
+    if (!code) code = validate_counts(&p);
     for (int i = 0; i < p.element_count && !code; i++)
         for (p.item = 0; p.item < p.elements[i].count && !code; p.item++) code = read_item(&p, &p.elements[i]);
     if (code) return code;

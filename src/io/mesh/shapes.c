@@ -128,13 +128,13 @@ ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ov
     void *buffer = malloc(size);
     if (!buffer) return io_fail_memory(error, path);
     ovoid_shape_write(shape, buffer, size);
-    ovoid_output *output = ovoid_output_create(path, error);
+    ovoid_output *output = ovoid_output_open(path, error);
     ovoid_code code = output ? OVOID_OK : OVOID_ERROR_FILE;
     if (output) {
         (void)fwrite(buffer, 1, size, ovoid_output_get_file(output)); // ovoid_output_commit checks ferror
         code = ovoid_output_commit(output, error);
     }
-    ovoid_output_destroy(output);
+    ovoid_output_close(output);
     free(buffer);
     return code;
 }

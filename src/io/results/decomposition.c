@@ -29,7 +29,7 @@ ovoid_code ovoid_decomposition_write_json(FILE *file, const ovoid_decomposition 
 }
 
 /// Why the object has not these keys, each once, and no other; NULL: it has.
-static const char *check_keys(const json_t *object, const char *const *keys, size_t count) {
+static const char *validate_keys(const json_t *object, const char *const *keys, size_t count) {
     if (!json_is_object(object)) return "is no object";
     for (size_t i = 0; i < count; i++)
         if (!json_object_get(object, keys[i])) return "lacks a key, or has another one";
@@ -44,7 +44,7 @@ static int read_count(const json_t *value, double most, double *count) {
 
 static const char *read_length(const json_t *object, ovoid_decomposition_length *l) {
     static const char *const keys[] = {"lower", "upper", "point", "part"};
-    const char *wrong = check_keys(object, keys, 4);
+    const char *wrong = validate_keys(object, keys, 4);
     double part;
     if (wrong) return wrong;
     const json_t *lower = json_object_get(object, "lower"), *upper = json_object_get(object, "upper");
@@ -66,7 +66,7 @@ static const char *read_length(const json_t *object, ovoid_decomposition_length 
 static ovoid_code read_proof(const json_t *root, where at, ovoid_decomposition_record *record, ovoid_error *error) {
     static const char *const keys[] = {"decomposition", "triangles", "parts", "uncovered", "excess"};
     double version, triangles, parts;
-    const char *wrong = check_keys(root, keys, 5), *name = "the proof";
+    const char *wrong = validate_keys(root, keys, 5), *name = "the proof";
     if (!wrong && (!read_count(json_object_get(root, "decomposition"), 1, &version) || version != 1))
         wrong = "is of another version than 1";
     if (!wrong && (!read_count(json_object_get(root, "triangles"), 0x1p53, &triangles) ||

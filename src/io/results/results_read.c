@@ -434,7 +434,7 @@ static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t 
     return wrong ? fail(r, bad, wrong) : code;
 }
 
-ovoid_results_reader *ovoid_results_reader_create(const char *path, ovoid_error *error) {
+ovoid_results_reader *ovoid_results_reader_open(const char *path, ovoid_error *error) {
     ovoid_results_reader *reader = calloc(1, sizeof *reader);
     if (!reader) {
         io_fail_memory(error, path);
@@ -459,7 +459,7 @@ int ovoid_results_reader_read(ovoid_results_reader *reader, ovoid_record *record
 
 int64_t ovoid_results_reader_get_line(const ovoid_results_reader *reader) { return reader->source.line; }
 
-void ovoid_results_reader_destroy(ovoid_results_reader *reader) {
+void ovoid_results_reader_close(ovoid_results_reader *reader) {
     if (!reader) return;
     line_source_close(&reader->source);
     json_decref(reader->line);

@@ -22,7 +22,7 @@ struct ovoid_motion_reader {
     char name[NAME_MAX_BYTES];
 };
 
-ovoid_motion_reader *ovoid_motion_reader_create(const char *path, const ovoid_scene *scene, ovoid_error *error) {
+ovoid_motion_reader *ovoid_motion_reader_open(const char *path, const ovoid_scene *scene, ovoid_error *error) {
     size_t count = ovoid_scene_get_count(scene);
     ovoid_motion_reader *reader = calloc(1, sizeof *reader);
     double *last_time = malloc((count + 1) * sizeof *last_time);
@@ -41,7 +41,7 @@ ovoid_motion_reader *ovoid_motion_reader_create(const char *path, const ovoid_sc
         reader->kind = kind == 1 ? OVOID_MOTION_COLUMNS_VELOCITY : OVOID_MOTION_COLUMNS_POSE;
         if (kind >= 0) return reader;
     }
-    ovoid_motion_reader_destroy(reader);
+    ovoid_motion_reader_close(reader);
     return NULL;
 }
 
@@ -49,7 +49,7 @@ ovoid_motion_columns ovoid_motion_reader_get_columns(const ovoid_motion_reader *
 
 int64_t ovoid_motion_reader_get_line(const ovoid_motion_reader *reader) { return reader->source.line; }
 
-void ovoid_motion_reader_destroy(ovoid_motion_reader *reader) {
+void ovoid_motion_reader_close(ovoid_motion_reader *reader) {
     if (!reader) return;
     line_source_close(&reader->source);
     free(reader->last_time);
@@ -68,7 +68,7 @@ static ovoid_code find_body(ovoid_motion_reader *r, const csv_line *c, double ti
 
 static ovoid_code set_pose(const ovoid_motion_reader *r, const csv_line *c, const double v[7], ovoid_pose *pose) {
     *pose = (ovoid_pose){{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
-    ovoid_code code = ovoid_pose_compute_check(pose);
+    ovoid_code code = ovoid_pose_validate(pose);
     if (!code) return code;
     return io_fail(c->error, code, c->place, "the pose of \"%.60s\" has %s", r->name,
                    code == OVOID_ERROR_ROTATION ? "a quaternion of four zeros" : "a number out of range");

@@ -25,7 +25,7 @@ struct ovoid_pairs_reader {
 
 static where here(const ovoid_pairs_reader *reader) { return (where){reader->source.path, reader->source.line, -1}; }
 
-ovoid_pairs_reader *ovoid_pairs_reader_create(const char *path, size_t shape_count, ovoid_error *error) {
+ovoid_pairs_reader *ovoid_pairs_reader_open(const char *path, size_t shape_count, ovoid_error *error) {
     ovoid_pairs_reader *reader = calloc(1, sizeof *reader);
     if (!reader) {
         io_fail_memory(error, path);
@@ -34,11 +34,11 @@ ovoid_pairs_reader *ovoid_pairs_reader_create(const char *path, size_t shape_cou
     reader->shape_count = shape_count;
     ovoid_code code = line_source_open(&reader->source, path, error);
     if (!code && csv_read_header(&reader->source, &header, 1, error) == 0) return reader;
-    ovoid_pairs_reader_destroy(reader);
+    ovoid_pairs_reader_close(reader);
     return NULL;
 }
 
-void ovoid_pairs_reader_destroy(ovoid_pairs_reader *reader) {
+void ovoid_pairs_reader_close(ovoid_pairs_reader *reader) {
     if (!reader) return;
     line_source_close(&reader->source);
     free(reader);
@@ -55,7 +55,7 @@ static ovoid_code read_index(ovoid_pairs_reader *reader, double value, char colu
 static ovoid_code read_pose(ovoid_pairs_reader *reader, const double v[7], char body, ovoid_pose *pose,
                             ovoid_error *error) {
     *pose = (ovoid_pose){{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
-    ovoid_code code = ovoid_pose_compute_check(pose);
+    ovoid_code code = ovoid_pose_validate(pose);
     if (!code) return code;
     return io_fail(error, code, here(reader), "the pose of %c has %s", body,
                    code == OVOID_ERROR_ROTATION ? "a quaternion of four zeros" : "a number out of range");

@@ -71,7 +71,7 @@ ovoid_code scene_read_pose(scene_reader *r, json_t *value, ovoid_pose *pose) {
         return scene_fail_member(r, OVOID_ERROR_FORMAT, "pose", "needs three numbers in rpy");
     *pose = (ovoid_pose){{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
     if (rpy) *pose = ovoid_pose_make_rpy(pose->position, (ovoid_vec3){angles[0], angles[1], angles[2]});
-    ovoid_code code = ovoid_pose_compute_check(pose);
+    ovoid_code code = ovoid_pose_validate(pose);
     if (code == OVOID_ERROR_ROTATION) return scene_fail_member(r, code, "pose", "has a quaternion of four zeros");
     return code ? scene_fail_member(r, code, "pose", "has a number out of range") : OVOID_OK;
 }

@@ -28,7 +28,7 @@ static void work_off(batch_work *w, ovoid_robot_checker *checker) {
         size_t first = atomic_fetch_add(&w->next, OVOID_ROBOT_BLOCK);
         if (first >= w->batch->count) return;
         size_t end = w->batch->count - first < OVOID_ROBOT_BLOCK ? w->batch->count : first + OVOID_ROBOT_BLOCK;
-        check_block(checker, w->batch, first, end);
+        collide_block(checker, w->batch, first, end);
     }
 }
 
@@ -38,18 +38,18 @@ THREAD_MAIN(run_worker, context) {
     return THREAD_END;
 }
 
-static ovoid_code check_checkers(ovoid_robot_checker *const *checkers, size_t count, const ovoid_robot_batch *batch,
-                                 ovoid_error *error) {
+static ovoid_code validate_checkers(ovoid_robot_checker *const *checkers, size_t count, const ovoid_robot_batch *batch,
+                                    ovoid_error *error) {
     if (!checkers || count == 0 || count > OVOID_WORLD_THREADS_MAX)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a batch needs 1 to %u checkers", OVOID_WORLD_THREADS_MAX);
-    ovoid_code code = batch->options ? check_options_check(batch->options, error) : OVOID_OK;
+    ovoid_code code = batch->options ? query_options_validate(batch->options, error) : OVOID_OK;
     for (size_t i = 0; code == OVOID_OK && i < count; i++) code = checker_renew(checkers[i], error);
     return code;
 }
 
-static ovoid_code check_batch(ovoid_robot_checker *const *checkers, size_t count, const ovoid_robot_batch *batch,
-                              ovoid_error *error) {
-    ovoid_code code = check_checkers(checkers, count, batch, error);
+static ovoid_code validate_batch(ovoid_robot_checker *const *checkers, size_t count, const ovoid_robot_batch *batch,
+                                 ovoid_error *error) {
+    ovoid_code code = validate_checkers(checkers, count, batch, error);
     if (code != OVOID_OK) return code;
     batch_work work = {.batch = batch};
     atomic_init(&work.next, 0);
@@ -67,7 +67,7 @@ static ovoid_code check_batch(ovoid_robot_checker *const *checkers, size_t count
     return error_set(error, code, -1, "not all threads of the batch could be started; all states are answered");
 }
 
-ovoid_code ovoid_robot_check_batch(ovoid_robot_checker *const *checkers, size_t checker_count,
-                                   const ovoid_robot_batch *batch, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checkers, check_batch(checkers, checker_count, batch, error));
+ovoid_code ovoid_robot_collide_batch(ovoid_robot_checker *const *checkers, size_t checker_count,
+                                     const ovoid_robot_batch *batch, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checkers, validate_batch(checkers, checker_count, batch, error));
 }

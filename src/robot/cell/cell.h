@@ -128,6 +128,6 @@ static inline int cell_is_allowed(const ovoid_robot_cell *c, const ovoid_robot_s
 }
 
 /// 1 if there is a pair to ask about.
-int cell_has_pairs(const ovoid_robot_cell *c, const ovoid_robot_check_options *options);
+int cell_has_pairs(const ovoid_robot_cell *c, const ovoid_robot_query_options *options);
 
 #endif

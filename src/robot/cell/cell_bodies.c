@@ -127,10 +127,10 @@ int ovoid_robot_is_rigid_pair(const ovoid_robot *robot, uint32_t a, uint32_t b) 
 
 // ---- bodies
 
-static ovoid_code check_body(const ovoid_body *body, ovoid_error *error) {
+static ovoid_code validate_body(const ovoid_body *body, ovoid_error *error) {
     if (!body || !!body->shape + !!body->compound + !!body->solid != 1)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs exactly one of shape, compound and solid");
-    ovoid_code code = ovoid_pose_compute_check(&body->pose);
+    ovoid_code code = ovoid_pose_validate(&body->pose);
     return code == OVOID_OK ? code
                             : error_set(error, code, -1, "the body's pose is refused: %s", ovoid_code_get_name(code));
 }
@@ -185,7 +185,7 @@ static ovoid_id add(ovoid_robot_cell *c, uint32_t link, const ovoid_body *body, 
                     ovoid_error *error) {
     uint32_t slot = 0;
     ovoid_shape *hull;
-    ovoid_code code = check_body(body, error);
+    ovoid_code code = validate_body(body, error);
     if (code != OVOID_OK) return 0;
     for (size_t i = 0; i < count; i++)
         if (touching[i] >= c->robot->link_count)
@@ -217,14 +217,14 @@ ovoid_id ovoid_robot_cell_add(ovoid_robot_cell *cell, const ovoid_body *body, ov
     ENVIRONMENT_RETURN(ovoid_id, cell, add(cell, OVOID_ROBOT_NONE, body, NULL, 0, error));
 }
 
-static ovoid_code check_link(const ovoid_robot_cell *c, uint32_t link, ovoid_error *error) {
+static ovoid_code validate_link(const ovoid_robot_cell *c, uint32_t link, ovoid_error *error) {
     if (link < c->robot->link_count) return OVOID_OK;
     return error_set(error, OVOID_ERROR_INDEX, -1, "there is no link %u, but %u", link, c->robot->link_count);
 }
 
 ovoid_id ovoid_robot_cell_attach(ovoid_robot_cell *cell, uint32_t link, const ovoid_body *body,
                                  const uint32_t *touching, size_t count, ovoid_error *error) {
-    if (check_link(cell, link, error) != OVOID_OK) return 0;
+    if (validate_link(cell, link, error) != OVOID_OK) return 0;
     ENVIRONMENT_RETURN(ovoid_id, cell, add(cell, link, body, touching, count, error));
 }
 
@@ -257,7 +257,7 @@ static ovoid_code move(ovoid_robot_cell *c, ovoid_id id, const ovoid_pose *pose,
     if (!b) return OVOID_ERROR_INDEX;
     ovoid_body moved = b->body;
     moved.pose = *pose;
-    ovoid_code code = check_body(&moved, error);
+    ovoid_code code = validate_body(&moved, error);
     if (code != OVOID_OK) return code;
     b->body.pose = *pose;
     if (b->link != OVOID_ROBOT_NONE) return cell_compile(c, error);
@@ -273,8 +273,8 @@ ovoid_code ovoid_robot_cell_move(ovoid_robot_cell *cell, ovoid_id id, const ovoi
 // ---- pairs and paddings
 
 static ovoid_code set_allowed(ovoid_robot_cell *c, uint32_t a, uint32_t b, int allowed, ovoid_error *error) {
-    ovoid_code code = check_link(c, a, error);
-    if (code == OVOID_OK) code = check_link(c, b, error);
+    ovoid_code code = validate_link(c, a, error);
+    if (code == OVOID_OK) code = validate_link(c, b, error);
     if (code == OVOID_OK && a == b)
         code = error_set(error, OVOID_ERROR_ARGUMENT, -1, "a link and itself are no pair: %u", a);
     if (code != OVOID_OK) return code;
@@ -289,7 +289,7 @@ ovoid_code ovoid_robot_cell_set_allowed(ovoid_robot_cell *cell, uint32_t a, uint
 }
 
 static ovoid_code set_body_allowed(ovoid_robot_cell *c, ovoid_id id, uint32_t link, int allowed, ovoid_error *error) {
-    ovoid_code code = check_link(c, link, error);
+    ovoid_code code = validate_link(c, link, error);
     if (code != OVOID_OK) return code;
     const cell_body *b = find_body(c, id, error);
     if (!b) return OVOID_ERROR_INDEX;
@@ -307,7 +307,7 @@ ovoid_code ovoid_robot_cell_set_body_allowed(ovoid_robot_cell *cell, ovoid_id id
 }
 
 ovoid_code ovoid_robot_cell_set_padding(ovoid_robot_cell *cell, uint32_t link, double padding, ovoid_error *error) {
-    ovoid_code code = check_link(cell, link, error);
+    ovoid_code code = validate_link(cell, link, error);
     if (code != OVOID_OK) return code;
     if (!(padding >= 0 && padding <= OVOID_LENGTH_MAX))
         return error_set(error, OVOID_ERROR_RADIUS, -1, "a padding is a length from 0 to 1e50");

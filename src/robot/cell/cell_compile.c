@@ -341,7 +341,7 @@ static ovoid_code find_pairs(compiler *x) {
     return code;
 }
 
-int cell_has_pairs(const ovoid_robot_cell *c, const ovoid_robot_check_options *options) {
+int cell_has_pairs(const ovoid_robot_cell *c, const ovoid_robot_query_options *options) {
     if (!options->without_self && c->pairs.count) return 1;
     // The first of them is one, but where obstacles are allowed.
     for (size_t i = 0; !options->without_obstacles && i < c->groups.count; i++)

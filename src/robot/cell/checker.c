@@ -125,7 +125,7 @@ void ovoid_robot_checker_reset(ovoid_robot_checker *checker) {
     if (checker->version == checker->cell->version) forget(checker);
 }
 
-ovoid_code check_options_check(const ovoid_robot_check_options *o, ovoid_error *error) {
+ovoid_code query_options_validate(const ovoid_robot_query_options *o, ovoid_error *error) {
     if (o->margin >= 0 && o->limit_slack >= 0) return OVOID_OK;
     return error_set(error, OVOID_ERROR_ARGUMENT, -1,
                      "the margin and the slack of the limits are lengths of at least 0");
@@ -175,7 +175,7 @@ ovoid_code checker_place(ovoid_robot_checker *x, const double *q, double limit_s
     const ovoid_robot *r = x->cell->robot;
     double magnitude;
     if (limit_slack < INFINITY && !state_is_within_limits(r, q, limit_slack))
-        return ovoid_robot_check_limits(r, q, limit_slack, error);
+        return ovoid_robot_validate_limits(r, q, limit_slack, error);
     ovoid_code code = robot_compute_values(r, q, x->values, 1, &magnitude, error);
     if (code != OVOID_OK) return code;
     checker_set_level(x, magnitude);

@@ -103,7 +103,7 @@ static inline ovoid_robot_answer answer_make_empty(void) {
 }
 
 /// Whether the options are ones.
-ovoid_code check_options_check(const ovoid_robot_check_options *options, ovoid_error *error);
+ovoid_code query_options_validate(const ovoid_robot_query_options *options, ovoid_error *error);
 
 /// Makes errors those of states of that magnitude.
 void checker_set_level(ovoid_robot_checker *x, double magnitude);
@@ -124,7 +124,7 @@ void checker_place_lanes(ovoid_robot_checker *x, const double *q, size_t count, 
                          lane_state states[ROBOT8]);
 /// Finds what spheres and boxes leave of the states that were placed; the search of each is then to have these options
 /// and their margin.
-void checker_filter_lanes(ovoid_robot_checker *x, const ovoid_robot_check_options *options);
+void checker_filter_lanes(ovoid_robot_checker *x, const ovoid_robot_query_options *options);
 /// Makes one of them the state that is placed.
 void checker_take_lane(ovoid_robot_checker *x, uint32_t which, const lane_state *state);
 
@@ -158,7 +158,7 @@ typedef int checker_visit(void *context, const checker_pair *pair, pair_name nam
 /// All pairs that the enclosing spheres and boxes leave.
 typedef struct checker_search {
     ovoid_robot_checker *checker;
-    const ovoid_robot_check_options *options;
+    const ovoid_robot_query_options *options;
     const double *margin; ///< may fall on the way
     checker_visit *visit;
     void *context;
@@ -171,8 +171,8 @@ void checker_compute_gradient(const ovoid_robot_checker *x, const checker_pair *
                               const double *q, double *row);
 
 /// The answer to a state by a checker that fits its cell; 0: the state is refused.
-int check_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
-                ovoid_robot_answer *answer);
+int collide_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_query_options *options,
+                  ovoid_robot_answer *answer);
 /// The number of the pair that ended the last state that hit.
 static inline uint32_t checker_get_last_number(const ovoid_robot_checker *x) {
     size_t parts = x->cell->parts.count, first = x->cell->items.count * parts;
@@ -181,7 +181,7 @@ static inline uint32_t checker_get_last_number(const ovoid_robot_checker *x) {
 }
 
 /// The states of a batch from `first` to before `end`, by a checker that has forgotten all and fits its cell.
-void check_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end);
+void collide_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end);
 
 /// What the pair's last query proved, or NULL. Of two links the normal is kept in the frame of the first, with which it
 /// turns: what parted them often still does. A proof is measured again, so any normal is safe.

@@ -7,7 +7,7 @@ static void place_values(ovoid_robot_checker *x, const double *q, double slack, 
     ovoid_error refused;
     state->code = OVOID_OK;
     if (slack < INFINITY && !state_is_within_limits(r, q, slack))
-        state->code = ovoid_robot_check_limits(r, q, slack, &refused);
+        state->code = ovoid_robot_validate_limits(r, q, slack, &refused);
     if (state->code == OVOID_OK)
         state->code = robot_compute_values(r, q, x->values8[0] + k, ROBOT8, &state->magnitude, &refused);
     if (state->code != OVOID_OK) state->variable = (uint32_t)refused.place;
@@ -71,7 +71,7 @@ static void filter_pairs(ovoid_robot_checker *x, double margin) {
     x->filter.pair_count = count;
 }
 
-void checker_filter_lanes(ovoid_robot_checker *x, const ovoid_robot_check_options *options) {
+void checker_filter_lanes(ovoid_robot_checker *x, const ovoid_robot_query_options *options) {
     if (!options->without_obstacles) filter_parts(x, options->margin);
     if (!options->without_self) filter_pairs(x, options->margin);
     x->filter.is_made = 1;

@@ -35,14 +35,14 @@ static ovoid_code take_missed(const ovoid_robot_comparison_batch *batch, size_t 
     return OVOID_OK;
 }
 
-static ovoid_code check_all(const ovoid_robot_comparison_batch *batch, size_t first, size_t count,
-                            ovoid_robot_answer answers[2][BLOCK], ovoid_error *error) {
+static ovoid_code validate_all(const ovoid_robot_comparison_batch *batch, size_t first, size_t count,
+                               ovoid_robot_answer answers[2][BLOCK], ovoid_error *error) {
     ovoid_robot_checker *checkers[2] = {batch->robot, batch->model};
     ovoid_code code = OVOID_OK;
     for (int i = 0; i < 2 && code == OVOID_OK; i++) {
         size_t variables = checkers[i]->cell->robot->variable_count;
         ovoid_robot_batch states = {batch->q + first * variables, count, batch->options, answers[i]};
-        code = ovoid_robot_check_batch(&checkers[i], 1, &states, error);
+        code = ovoid_robot_collide_batch(&checkers[i], 1, &states, error);
     }
     return code;
 }
@@ -50,7 +50,7 @@ static ovoid_code check_all(const ovoid_robot_comparison_batch *batch, size_t fi
 static ovoid_code compare_block(const ovoid_robot_comparison_batch *batch, size_t first, size_t count,
                                 ovoid_robot_comparison *sum, ovoid_error *error) {
     ovoid_robot_answer answers[2][BLOCK];
-    ovoid_code code = check_all(batch, first, count, answers, error);
+    ovoid_code code = validate_all(batch, first, count, answers, error);
     for (size_t i = 0; i < count && code == OVOID_OK; i++) {
         ovoid_robot_agreement a = judge(answers[0][i].status, answers[1][i].status);
         if (a == OVOID_ROBOT_COMPARED_MISSED) code = take_missed(batch, first + i, sum, error);

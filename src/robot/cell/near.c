@@ -84,14 +84,14 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     return 1;
 }
 
-static ovoid_code find(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
+static ovoid_code find(ovoid_robot_checker *x, const double *q, const ovoid_robot_query_options *options,
                        ovoid_robot_nears *nears, int wants_one, ovoid_error *error) {
-    static const ovoid_robot_check_options none = {0, 0, 0, 0};
+    static const ovoid_robot_query_options none = {0, 0, 0, 0};
     if (!options) options = &none;
     nears->count = 0;
     if ((wants_one || nears->capacity) && (!nears->items || nears->capacity == 0))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "there is no room for near pairs");
-    ovoid_code code = check_options_check(options, error);
+    ovoid_code code = query_options_validate(options, error);
     if (code == OVOID_OK) code = checker_renew(x, error);
     if (code == OVOID_OK) code = checker_place(x, q, options->limit_slack, error);
     if (code != OVOID_OK) return code;
@@ -111,13 +111,13 @@ static ovoid_code find(ovoid_robot_checker *x, const double *q, const ovoid_robo
 }
 
 ovoid_code ovoid_robot_find_near(ovoid_robot_checker *checker, const double *q,
-                                 const ovoid_robot_check_options *options, ovoid_robot_nears *nears,
+                                 const ovoid_robot_query_options *options, ovoid_robot_nears *nears,
                                  ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, checker, find(checker, q, options, nears, 0, error));
 }
 
 ovoid_code ovoid_robot_find_nearest(ovoid_robot_checker *checker, const double *q,
-                                    const ovoid_robot_check_options *options, ovoid_robot_nears *nears,
+                                    const ovoid_robot_query_options *options, ovoid_robot_nears *nears,
                                     ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, checker, find(checker, q, options, nears, 1, error));
 }

@@ -101,7 +101,7 @@ static void count_frees(const sampler *s) {
     }
 }
 
-static const ovoid_robot_check_options links_alone = {.margin = 0, .without_obstacles = 1};
+static const ovoid_robot_query_options links_alone = {.margin = 0, .without_obstacles = 1};
 
 static void look_at_state(sampler *s) {
     checker_search search = {s->checker, &links_alone, &links_alone.margin, ask_pair, s, 0};

@@ -30,8 +30,9 @@ uint32_t ovoid_joint_type_get_variable_count(ovoid_joint_type type) {
 static const char *name_or_empty(const char *name) { return name ? name : ""; }
 
 // The pose of a joint's origin or of an element.
-static ovoid_code check_pose(const ovoid_pose *pose, const char *what, size_t i, const char *name, ovoid_error *error) {
-    ovoid_code code = ovoid_pose_compute_check(pose);
+static ovoid_code validate_pose(const ovoid_pose *pose, const char *what, size_t i, const char *name,
+                                ovoid_error *error) {
+    ovoid_code code = ovoid_pose_validate(pose);
     if (code == OVOID_OK) return OVOID_OK;
     const char *wrong = code == OVOID_ERROR_ROTATION     ? "a quaternion of four zeros"
                         : code == OVOID_ERROR_NOT_FINITE ? "NaN or infinity"
@@ -42,7 +43,7 @@ static ovoid_code check_pose(const ovoid_pose *pose, const char *what, size_t i,
 
 static int is_limited(ovoid_joint_type type) { return type == OVOID_JOINT_REVOLUTE || type == OVOID_JOINT_PRISMATIC; }
 
-static ovoid_code check_limits(const ovoid_robot_joint *j, size_t i, ovoid_error *error) {
+static ovoid_code validate_limits(const ovoid_robot_joint *j, size_t i, ovoid_error *error) {
     if (isnan(j->lower) || isnan(j->upper) || !isfinite(j->velocity) || !isfinite(j->multiplier) ||
         !isfinite(j->offset))
         return error_set(error, OVOID_ERROR_NOT_FINITE, (int64_t)i,
@@ -56,7 +57,7 @@ static ovoid_code check_limits(const ovoid_robot_joint *j, size_t i, ovoid_error
     return OVOID_OK;
 }
 
-static ovoid_code check_axis(const ovoid_robot_joint *j, size_t i, ovoid_error *error) {
+static ovoid_code validate_axis(const ovoid_robot_joint *j, size_t i, ovoid_error *error) {
     if (j->type == OVOID_JOINT_FIXED || j->type == OVOID_JOINT_FLOATING) return OVOID_OK;
     if (!vec3_is_finite(j->axis))
         return error_set(error, OVOID_ERROR_NOT_FINITE, (int64_t)i, "joint \"%.80s\": its axis has NaN or infinity",
@@ -66,7 +67,7 @@ static ovoid_code check_axis(const ovoid_robot_joint *j, size_t i, ovoid_error *
     return OVOID_OK;
 }
 
-static ovoid_code check_joint(const ovoid_robot_description *d, size_t i, ovoid_error *error) {
+static ovoid_code validate_joint(const ovoid_robot_description *d, size_t i, ovoid_error *error) {
     const ovoid_robot_joint *j = &d->joints[i];
     if (!j->name || !*j->name) return error_set(error, OVOID_ERROR_ARGUMENT, (int64_t)i, "joint %zu has no name", i);
     if ((unsigned)j->type > OVOID_JOINT_FLOATING)
@@ -79,12 +80,12 @@ static ovoid_code check_joint(const ovoid_robot_description *d, size_t i, ovoid_
     if (j->mimic != OVOID_ROBOT_NONE && j->mimic >= d->joint_count)
         return error_set(error, OVOID_ERROR_INDEX, (int64_t)i, "joint \"%.80s\" mimics joint %u, there are %zu",
                          j->name, j->mimic, d->joint_count);
-    ovoid_code code = check_pose(&j->origin, "joint", i, j->name, error);
-    if (code == OVOID_OK) code = check_axis(j, i, error);
-    return code == OVOID_OK ? check_limits(j, i, error) : code;
+    ovoid_code code = validate_pose(&j->origin, "joint", i, j->name, error);
+    if (code == OVOID_OK) code = validate_axis(j, i, error);
+    return code == OVOID_OK ? validate_limits(j, i, error) : code;
 }
 
-static ovoid_code check_element(const ovoid_robot_description *d, size_t i, ovoid_error *error) {
+static ovoid_code validate_element(const ovoid_robot_description *d, size_t i, ovoid_error *error) {
     const ovoid_robot_element *e = &d->elements[i];
     if (e->link >= d->link_count)
         return error_set(error, OVOID_ERROR_INDEX, (int64_t)i, "element %zu \"%.80s\" is of link %u, there are %zu", i,
@@ -93,10 +94,10 @@ static ovoid_code check_element(const ovoid_robot_description *d, size_t i, ovoi
         return error_set(error, OVOID_ERROR_ARGUMENT, (int64_t)i,
                          "element %zu \"%.80s\" of link \"%.80s\" has no shape", i, name_or_empty(e->name),
                          d->links[e->link].name);
-    return check_pose(&e->pose, "element", i, e->name, error);
+    return validate_pose(&e->pose, "element", i, e->name, error);
 }
 
-static ovoid_code check_counts(const ovoid_robot_description *d, ovoid_error *error) {
+static ovoid_code validate_counts(const ovoid_robot_description *d, ovoid_error *error) {
     if (!d->links || d->link_count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "a robot needs a link");
     if (d->link_count > OVOID_ROBOT_LINKS_MAX || d->joint_count > OVOID_ROBOT_LINKS_MAX ||
         d->element_count > OVOID_ROBOT_LINKS_MAX || d->disabled_count > (size_t)1 << 30)
@@ -107,14 +108,14 @@ static ovoid_code check_counts(const ovoid_robot_description *d, ovoid_error *er
     return OVOID_OK;
 }
 
-ovoid_code description_check(const ovoid_robot_description *d, ovoid_error *error) {
+ovoid_code description_validate(const ovoid_robot_description *d, ovoid_error *error) {
     if (!d) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "there is no description");
-    ovoid_code code = check_counts(d, error);
+    ovoid_code code = validate_counts(d, error);
     for (size_t i = 0; code == OVOID_OK && i < d->link_count; i++)
         if (!d->links[i].name || !*d->links[i].name)
             code = error_set(error, OVOID_ERROR_ARGUMENT, (int64_t)i, "link %zu has no name", i);
-    for (size_t i = 0; code == OVOID_OK && i < d->joint_count; i++) code = check_joint(d, i, error);
-    for (size_t i = 0; code == OVOID_OK && i < d->element_count; i++) code = check_element(d, i, error);
+    for (size_t i = 0; code == OVOID_OK && i < d->joint_count; i++) code = validate_joint(d, i, error);
+    for (size_t i = 0; code == OVOID_OK && i < d->element_count; i++) code = validate_element(d, i, error);
     for (size_t i = 0; code == OVOID_OK && i < d->disabled_count; i++)
         if (d->disabled[i].a >= d->link_count || d->disabled[i].b >= d->link_count)
             code = error_set(error, OVOID_ERROR_INDEX, (int64_t)i, "disabled pair %zu is of links %u and %u of %zu", i,

@@ -182,7 +182,7 @@ int state_is_within_limits(const ovoid_robot *r, const double *q, double slack) 
     return is_within;
 }
 
-static ovoid_code check_limits(const ovoid_robot *r, const double *q, double slack, ovoid_error *error) {
+static ovoid_code validate_limits(const ovoid_robot *r, const double *q, double slack, ovoid_error *error) {
     for (uint32_t i = 0; i < r->variable_count; i++) {
         const ovoid_robot_variable *v = &r->variables[i];
         if (!isfinite(q[i])) return state_refuse(r, OVOID_ERROR_NOT_FINITE, i, error);
@@ -203,6 +203,6 @@ static ovoid_code check_limits(const ovoid_robot *r, const double *q, double sla
     return OVOID_OK;
 }
 
-ovoid_code ovoid_robot_check_limits(const ovoid_robot *robot, const double *q, double slack, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, slack, check_limits(robot, q, slack, error));
+ovoid_code ovoid_robot_validate_limits(const ovoid_robot *robot, const double *q, double slack, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, slack, validate_limits(robot, q, slack, error));
 }

@@ -228,7 +228,7 @@ static void release(ovoid_robot *r) {
 static ovoid_robot *create(const ovoid_robot_description *d, const ovoid_robot_options *options, ovoid_error *error) {
     static const ovoid_robot_options none = {0, NULL};
     if (!options) options = &none;
-    if (description_check(d, error) != OVOID_OK) return NULL;
+    if (description_validate(d, error) != OVOID_OK) return NULL;
     ovoid_allocator memory = allocator_make(options->allocator);
     ovoid_robot *r = create_copy(d, &memory);
     if (!r) {

@@ -58,7 +58,7 @@ struct ovoid_robot {
 };
 
 /// OVOID_OK, or what is wrong with the description, of each link, joint and element alone: names, numbers, indices.
-ovoid_code description_check(const ovoid_robot_description *d, ovoid_error *error);
+ovoid_code description_validate(const ovoid_robot_description *d, ovoid_error *error);
 
 /// Sorts names; the index of the second of two equal ones, or NONE.
 uint32_t names_sort(robot_name *names, uint32_t count);

@@ -48,7 +48,7 @@ static int is_hit_on_path(const path_any_hit *x, double t, uint32_t number, ovoi
 
 double path_find_any_hit(const path_any_hit *x, uint32_t *states, ovoid_robot_answer *hit) {
     const ovoid_robot *r = x->w->cell->robot;
-    ovoid_robot_check_options options = *x->options;
+    ovoid_robot_query_options options = *x->options;
     // Between two states that are within their limits rounding may leave them.
     options.limit_slack = INFINITY;
     uint32_t count = count_states(x->w);
@@ -59,7 +59,7 @@ double path_find_any_hit(const path_any_hit *x, uint32_t *states, ovoid_robot_an
         for (uint32_t k = 0; k < r->variable_count; k++)
             x->w->state[k] = t == 1 ? x->q1[k] : x->q0[k] + t * (x->q1[k] - x->q0[k]);
         ++*states;
-        if (!check_state(x->checker, x->w->state, &options, &is) || is.status != OVOID_ROBOT_HIT) continue;
+        if (!collide_state(x->checker, x->w->state, &options, &is) || is.status != OVOID_ROBOT_HIT) continue;
         number = checker_get_last_number(x->checker);
         if (is_hit_on_path(x, t, number, hit)) return t;
     }

@@ -17,7 +17,7 @@ enum { LEVELS = 31, SEEDS = 4 }; // ends and middle of an interval are exact num
 typedef struct clearance_search {
     path_work w;
     ovoid_robot_checker *checker;
-    const ovoid_robot_check_options *options;
+    const ovoid_robot_query_options *options;
     ovoid_robot_clearance *out; ///< upper: the least that was found; lower: of what is not proven to be above that
     const double *q0, *q1;
     double segment, tolerance;
@@ -301,9 +301,9 @@ static ovoid_code allocate(clearance_search *s, ovoid_error *error) {
     return OVOID_OK;
 }
 
-static ovoid_code check_options(const ovoid_robot_path *path, const ovoid_robot_clearance_options *o,
-                                ovoid_error *error) {
-    ovoid_code code = check_options_check(&o->check, error);
+static ovoid_code validate_options(const ovoid_robot_path *path, const ovoid_robot_clearance_options *o,
+                                   ovoid_error *error) {
+    ovoid_code code = query_options_validate(&o->query, error);
     if (code != OVOID_OK) return code;
     if (!(o->tolerance >= 0 && o->tolerance < INFINITY))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance of a clearance is a length of at least 0");
@@ -317,11 +317,11 @@ static ovoid_code compute(ovoid_robot_checker *x, const ovoid_robot_path *path, 
     static const ovoid_robot_clearance_options none;
     if (!o) o = &none;
     *out = (ovoid_robot_clearance){.lower = -INFINITY, .upper = INFINITY};
-    ovoid_code code = check_options(path, o, error);
+    ovoid_code code = validate_options(path, o, error);
     if (code == OVOID_OK) code = checker_renew(x, error);
     if (code != OVOID_OK) return code;
     clearance_search s = {.checker = x,
-                          .options = &o->check,
+                          .options = &o->query,
                           .out = out,
                           .tolerance = find_tolerance(x->cell, o->tolerance),
                           .states_most = o->states ? o->states : 100000 + 100 * (uint32_t)path->count,
@@ -339,8 +339,8 @@ static ovoid_code compute(ovoid_robot_checker *x, const ovoid_robot_path *path, 
     return code;
 }
 
-ovoid_code ovoid_robot_compute_clearance(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                                         const ovoid_robot_clearance_options *options, ovoid_robot_clearance *clearance,
-                                         ovoid_error *error) {
+ovoid_code ovoid_robot_path_compute_clearance(ovoid_robot_checker *checker, const ovoid_robot_path *path,
+                                              const ovoid_robot_clearance_options *options,
+                                              ovoid_robot_clearance *clearance, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, checker, compute(checker, path, options, clearance, error));
 }

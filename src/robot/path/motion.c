@@ -172,7 +172,7 @@ static void set_speed(path_work *w, uint32_t step, const double *q0, const doubl
     w->speeds[step] = v;
 }
 
-static ovoid_code check_floating(const path_work *w, const double *q0, const double *q1, ovoid_error *error) {
+static ovoid_code validate_floating(const path_work *w, const double *q0, const double *q1, ovoid_error *error) {
     const ovoid_robot *r = w->cell->robot;
     for (uint32_t i = 0; i < r->variable_count; i++) {
         const ovoid_robot_joint *j = &r->joints[r->variables[i].joint];
@@ -192,10 +192,10 @@ ovoid_code path_set_segment(path_work *w, const double *q0, const double *q1, do
     const double *ends[2] = {q0, q1};
     double magnitude[2] = {0, 0}, *values[2] = {w->values, w->other_values};
     for (int i = 0; code == OVOID_OK && i < 2; i++) {
-        if (limit_slack < INFINITY) code = ovoid_robot_check_limits(r, ends[i], limit_slack, error);
+        if (limit_slack < INFINITY) code = ovoid_robot_validate_limits(r, ends[i], limit_slack, error);
         if (code == OVOID_OK) code = robot_compute_values(r, ends[i], values[i], 1, &magnitude[i], error);
     }
-    if (code == OVOID_OK) code = check_floating(w, q0, q1, error);
+    if (code == OVOID_OK) code = validate_floating(w, q0, q1, error);
     if (code != OVOID_OK) return code;
     for (uint32_t i = 0; i < w->step_count; i++) set_speed(w, i, q0, q1);
     double level = robot_compute_level(r, max2(magnitude[0], magnitude[1]));

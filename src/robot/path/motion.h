@@ -165,7 +165,7 @@ static inline int path_is_free_between(double begin, double end, double margin, 
 typedef struct path_any_hit {
     path_work *w;
     ovoid_robot_checker *checker;
-    const ovoid_robot_check_options *options;
+    const ovoid_robot_query_options *options;
     const double *q0, *q1;
     path_state state; ///< memory
 } path_any_hit;

@@ -257,7 +257,7 @@ static int is_hit_at(path_search *s, double t, const path_state *state, const ui
     path_search at = *s;
     ovoid_robot_path_answer answer = *s->answer;
     at.answer = &answer;
-    at.options = &(const ovoid_robot_path_options){.check = s->options->check};
+    at.options = &(const ovoid_robot_path_options){.query = s->options->query};
     path_span i = {t, t, state, state, state};
     uint8_t *masks = get_masks(s, LEVELS);
     memcpy(masks, open, s->memory->mask_count);
@@ -351,7 +351,7 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
 // All pairs that are queried, at level 0.
 static void open_all(path_search *s) {
     const ovoid_robot_cell *c = s->w->cell;
-    const ovoid_robot_check_options *o = &s->options->check;
+    const ovoid_robot_query_options *o = &s->options->query;
     uint8_t *masks = get_masks(s, 0);
     memset(masks, 0, s->memory->mask_count);
     for (uint32_t item = 0; !o->without_obstacles && item < c->items.count; item++)
@@ -369,7 +369,7 @@ static ovoid_code set_segment(path_search *s, size_t index, const ovoid_robot_pa
     s->segment = (double)index;
     if (s->set_segment == index + 1) return OVOID_OK;
     s->set_segment = 0;
-    ovoid_code code = path_set_segment(s->w, s->q0, s->q1, s->options->check.limit_slack, refused);
+    ovoid_code code = path_set_segment(s->w, s->q0, s->q1, s->options->query.limit_slack, refused);
     if (code == OVOID_OK) s->set_segment = index + 1;
     return code;
 }
@@ -381,7 +381,7 @@ static int find_any_hit(path_search *s, const ovoid_robot_path *path, size_t seg
     for (size_t i = 0; i < segments && !watch_is_stopped(&s->options->watch); i++) {
         ovoid_robot_answer hit;
         if (s->answer->states >= s->states_most || set_segment(s, i, path, &refused) != OVOID_OK) return 0;
-        path_any_hit x = {s->w, s->checker, &s->options->check, s->q0, s->q1, get_state(s, LEVELS + 2)};
+        path_any_hit x = {s->w, s->checker, &s->options->query, s->q0, s->q1, get_state(s, LEVELS + 2)};
         double at = path_find_any_hit(&x, &s->answer->states, &hit);
         if (!(at < INFINITY)) continue;
         s->segment = 0;
@@ -412,8 +412,9 @@ static int run_segment(path_search *s, size_t index, const ovoid_robot_path *pat
     return 1;
 }
 
-static ovoid_code check_options(const ovoid_robot_path *path, const ovoid_robot_path_options *o, ovoid_error *error) {
-    ovoid_code code = check_options_check(&o->check, error);
+static ovoid_code validate_options(const ovoid_robot_path *path, const ovoid_robot_path_options *o,
+                                   ovoid_error *error) {
+    ovoid_code code = query_options_validate(&o->query, error);
     if (code != OVOID_OK) return code;
     if (!(o->tolerance >= 0))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance of a path is a number of at least 0");
@@ -481,7 +482,7 @@ static void search(path_search *s, const ovoid_robot_path *path) {
     ovoid_error refused;
     size_t segments = path->count > 1 ? path->count - 1 : 1;
     s->answer->status = OVOID_ROBOT_FREE;
-    int has_pairs = cell_has_pairs(s->w->cell, &s->options->check);
+    int has_pairs = cell_has_pairs(s->w->cell, &s->options->query);
     if (s->options->any_hit && has_pairs && find_any_hit(s, path, segments)) return;
     for (size_t i = 0; i < segments; i++)
         if (!run_segment(s, i, path, &refused)) return;
@@ -491,13 +492,13 @@ static void search(path_search *s, const ovoid_robot_path *path) {
     s->answer->hit = answer_make_empty();
 }
 
-static ovoid_code check_path(ovoid_robot_checker *x, const ovoid_robot_path *path,
-                             const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
-                             ovoid_error *error) {
+static ovoid_code find_hit(ovoid_robot_checker *x, const ovoid_robot_path *path,
+                           const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
+                           ovoid_error *error) {
     static const ovoid_robot_path_options none;
     if (!options) options = &none;
     *answer = (ovoid_robot_path_answer){.hit_at = INFINITY, .hit = {.lower = -INFINITY, .upper = INFINITY}};
-    ovoid_code code = check_options(path, options, error);
+    ovoid_code code = validate_options(path, options, error);
     if (code == OVOID_OK) code = checker_renew(x, error);
     if (code == OVOID_OK) code = get_memory(x, error);
     if (code != OVOID_OK) return code;
@@ -506,7 +507,7 @@ static ovoid_code check_path(ovoid_robot_checker *x, const ovoid_robot_path *pat
                      .checker = x,
                      .options = options,
                      .answer = answer,
-                     .margin = options->check.margin,
+                     .margin = options->query.margin,
                      .tolerance = options->tolerance > 0 ? options->tolerance : 0x1p-20,
                      .states_most = options->states ? options->states : 100000};
     search(&s, path);
@@ -514,8 +515,8 @@ static ovoid_code check_path(ovoid_robot_checker *x, const ovoid_robot_path *pat
     return OVOID_OK;
 }
 
-ovoid_code ovoid_robot_check_path(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                                  const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
-                                  ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checker, check_path(checker, path, options, answer, error));
+ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path *path,
+                                     const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
+                                     ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checker, find_hit(checker, path, options, answer, error));
 }

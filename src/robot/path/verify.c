@@ -33,7 +33,7 @@ static ovoid_code set_segment(path_checker *x, size_t index, ovoid_error *error)
     if (x->segment == index) return OVOID_OK;
     x->segment = SIZE_MAX;
     x->begin = x->end = -1;
-    ovoid_code code = path_set_segment(&x->w, q0, q1, x->options->check.limit_slack, error);
+    ovoid_code code = path_set_segment(&x->w, q0, q1, x->options->query.limit_slack, error);
     if (code == OVOID_OK) x->segment = index;
     return code;
 }
@@ -54,7 +54,7 @@ static void set_interval(path_checker *x, double begin, double end) {
 
 static int is_far(const path_checker *x, uint32_t number) {
     pair_parts of = pair_take_apart(x->w.cell, number);
-    double margin = x->options->check.margin;
+    double margin = x->options->query.margin;
     if (of.part == OVOID_ROBOT_NONE) {
         if (path_is_far_pair(&x->w, of.pair, margin)) return 1;
     } else if (path_find_far_parts(&x->w, of.item, of.part / ROBOT8, margin) >> of.part % ROBOT8 & 1)
@@ -62,15 +62,15 @@ static int is_far(const path_checker *x, uint32_t number) {
     return path_is_far_by_boxes(&x->w, number, &x->states[1], margin);
 }
 
-static ovoid_code check_outer(const path_checker *x, size_t index, const ovoid_robot_step *s, ovoid_error *error) {
+static ovoid_code verify_outer(const path_checker *x, size_t index, const ovoid_robot_step *s, ovoid_error *error) {
     for (uint32_t k = 0; k < ROBOT8; k++)
         if ((s->mask >> k & 1) && !is_far(x, s->pair + k))
             return refuse(error, index, "spheres and boxes are not as far apart as it says");
     return OVOID_OK;
 }
 
-static ovoid_code check_gap(const path_checker *x, size_t index, const ovoid_robot_step *s, ovoid_error *error) {
-    double margin = x->options->check.margin, gaps[3];
+static ovoid_code verify_gap(const path_checker *x, size_t index, const ovoid_robot_step *s, ovoid_error *error) {
+    double margin = x->options->query.margin, gaps[3];
     path_pair p[3];
     if (s->kind == OVOID_ROBOT_STEP_SOLID) {
         p[1] = path_make_pair(&x->w, s->pair, x->states[1].frames);
@@ -92,7 +92,7 @@ static ovoid_code check_gap(const path_checker *x, size_t index, const ovoid_rob
                : refuse(error, index, "the gaps at its ends do not keep the bodies apart in between");
 }
 
-static ovoid_code check_step(path_checker *x, size_t index, const ovoid_robot_step *s, ovoid_error *error) {
+static ovoid_code verify_step(path_checker *x, size_t index, const ovoid_robot_step *s, ovoid_error *error) {
     const ovoid_robot_cell *c = x->w.cell;
     size_t segments = x->path->count > 1 ? x->path->count - 1 : 1;
     double last = (double)segments;
@@ -112,7 +112,7 @@ static ovoid_code check_step(path_checker *x, size_t index, const ovoid_robot_st
     ovoid_code code = set_segment(x, segment, error);
     if (code != OVOID_OK) return code;
     set_interval(x, s->begin - (double)segment, s->end - (double)segment);
-    return s->kind == OVOID_ROBOT_STEP_OUTER ? check_outer(x, index, s, error) : check_gap(x, index, s, error);
+    return s->kind == OVOID_ROBOT_STEP_OUTER ? verify_outer(x, index, s, error) : verify_gap(x, index, s, error);
 }
 
 // ---- all of them
@@ -125,13 +125,13 @@ static int compare_covered(const void *a, const void *b) {
 
 static int is_queried(const path_checker *x, uint32_t pair) {
     pair_parts of = pair_take_apart(x->w.cell, pair);
-    if (of.part == OVOID_ROBOT_NONE) return !x->options->check.without_self;
-    return !x->options->check.without_obstacles && path_is_queried(&x->w, of.item, of.part);
+    if (of.part == OVOID_ROBOT_NONE) return !x->options->query.without_self;
+    return !x->options->query.without_obstacles && path_is_queried(&x->w, of.item, of.part);
 }
 
 // From 0 on the steps of each queried pair follow one another up to `until`.
-static ovoid_code check_cover(const path_checker *x, const covered *items, size_t count, double until,
-                              ovoid_error *error) {
+static ovoid_code verify_cover(const path_checker *x, const covered *items, size_t count, double until,
+                               ovoid_error *error) {
     const ovoid_robot_cell *c = x->w.cell;
     size_t pairs = ovoid_robot_cell_get_pair_count(c);
     size_t at = 0;
@@ -146,27 +146,27 @@ static ovoid_code check_cover(const path_checker *x, const covered *items, size_
     return OVOID_OK;
 }
 
-static ovoid_code check_steps(path_checker *x, const ovoid_robot_step *steps, size_t count, double until,
-                              ovoid_error *error) {
+static ovoid_code verify_steps(path_checker *x, const ovoid_robot_step *steps, size_t count, double until,
+                               ovoid_error *error) {
     covered *items = allocator_allocate(&x->w.allocator, count * ROBOT8 + 1, sizeof *items);
     if (!items) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the steps of a path");
     ovoid_code code = OVOID_OK;
     size_t made = 0;
     for (size_t i = 0; code == OVOID_OK && i < count; i++) {
-        code = check_step(x, i, &steps[i], error);
+        code = verify_step(x, i, &steps[i], error);
         for (uint32_t k = 0; k < ROBOT8; k++)
             if (steps[i].mask >> k & 1) items[made++] = (covered){steps[i].pair + k, steps[i].begin, steps[i].end};
     }
     if (code == OVOID_OK && made) qsort(items, made, sizeof *items, compare_covered);
-    if (code == OVOID_OK) code = check_cover(x, items, made, until, error);
+    if (code == OVOID_OK) code = verify_cover(x, items, made, until, error);
     allocator_release(&x->w.allocator, items);
     return code;
 }
 
 // The state at hit_at: its pair is within the margin, and the bracket that is claimed holds the one that is found
 // there.
-static ovoid_code check_hit(path_checker *x, const ovoid_robot_path_answer *answer, ovoid_error *error) {
-    double last = x->path->count > 1 ? (double)(x->path->count - 1) : 1, margin = x->options->check.margin;
+static ovoid_code verify_hit(path_checker *x, const ovoid_robot_path_answer *answer, ovoid_error *error) {
+    double last = x->path->count > 1 ? (double)(x->path->count - 1) : 1, margin = x->options->query.margin;
     if (!(answer->hit_at >= answer->free_until && answer->hit_at <= last))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the hit is not after the free part, or not on the path");
     path_place place = path_find_place(x->w.cell, x->path, answer->hit_at);
@@ -185,8 +185,8 @@ static ovoid_code check_hit(path_checker *x, const ovoid_robot_path_answer *answ
                      answer->hit.lower, answer->hit.upper, is.lower, is.upper);
 }
 
-static ovoid_code check(path_checker *x, const ovoid_robot_path_answer *answer, const ovoid_robot_step *steps,
-                        ovoid_error *error) {
+static ovoid_code verify(path_checker *x, const ovoid_robot_path_answer *answer, const ovoid_robot_step *steps,
+                         ovoid_error *error) {
     if (answer->status == OVOID_ROBOT_REFUSED)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a path that was refused has no proof");
     int is_hit = answer->status == OVOID_ROBOT_HIT;
@@ -198,12 +198,12 @@ static ovoid_code check(path_checker *x, const ovoid_robot_path_answer *answer, 
     if (!(answer->free_until >= 0 && answer->free_until <= last) ||
         (answer->status == OVOID_ROBOT_FREE && answer->free_until < last))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the free part is not of the path");
-    if (answer->status != OVOID_ROBOT_UNDECIDED && !cell_has_pairs(x->w.cell, &x->options->check))
+    if (answer->status != OVOID_ROBOT_UNDECIDED && !cell_has_pairs(x->w.cell, &x->options->query))
         return error_set(error, OVOID_ERROR_PROOF, -1, "no pair is queried: nothing is free or hit");
     // A path of one state is a segment in which nothing moves.
     double until = x->path->count == 1 && answer->status == OVOID_ROBOT_FREE ? 1 : answer->free_until;
-    ovoid_code code = check_steps(x, steps, answer->step_count, until, error);
-    if (code == OVOID_OK && answer->status == OVOID_ROBOT_HIT) code = check_hit(x, answer, error);
+    ovoid_code code = verify_steps(x, steps, answer->step_count, until, error);
+    if (code == OVOID_OK && answer->status == OVOID_ROBOT_HIT) code = verify_hit(x, answer, error);
     return code;
 }
 
@@ -214,21 +214,21 @@ static ovoid_code run(const ovoid_robot_cell *cell, const ovoid_robot_path *path
     path_checker x = {.path = path, .options = options ? options : &none, .segment = SIZE_MAX, .begin = -1, .end = -1};
     if (!path->states || path->count < 1 || path->count > OVOID_ROBOT_PATH_STATES_MAX || (answer->step_count && !steps))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a path of 1 to 2^20 states with all its steps is wanted");
-    ovoid_code code = check_options_check(&x.options->check, error);
+    ovoid_code code = query_options_validate(&x.options->query, error);
     if (code == OVOID_OK) code = path_work_create(&x.w, cell, &cell->allocator, error);
     if (code != OVOID_OK) return code;
     size_t size = path_get_state_size(cell);
     char *states = allocator_allocate(&cell->allocator, 3, size);
     for (size_t i = 0; states && i < 3; i++) x.states[i] = path_place_state(cell, states + i * size);
-    code = states ? check(&x, answer, steps, error) : error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
+    code = states ? verify(&x, answer, steps, error) : error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
     allocator_release(&cell->allocator, states);
     path_work_destroy(&x.w);
     return code;
 }
 
-ovoid_code ovoid_robot_path_check(const ovoid_robot_cell *cell, const ovoid_robot_path *path,
-                                  const ovoid_robot_path_options *options, const ovoid_robot_path_answer *answer,
-                                  const ovoid_robot_step *steps, ovoid_error *error) {
+ovoid_code ovoid_robot_path_verify(const ovoid_robot_cell *cell, const ovoid_robot_path *path,
+                                   const ovoid_robot_path_options *options, const ovoid_robot_path_answer *answer,
+                                   const ovoid_robot_step *steps, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, cell, run(cell, path, options, answer, steps, error));
 }
 

@@ -66,7 +66,7 @@ static ovoid_code audit_link(const spheres_link *link, const spheres_tree *tree,
     return OVOID_OK;
 }
 
-static ovoid_code check_options(const ovoid_robot_audit_options *o, ovoid_error *error) {
+static ovoid_code validate_options(const ovoid_robot_audit_options *o, ovoid_error *error) {
     if (!(o->tolerance >= 0) || isinf(o->tolerance))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance %g is no length: give one >= 0", o->tolerance);
     if ((o->depth_cells && o->depth_cells < CELLS_LEAST) || (o->volume_cells && o->volume_cells < CELLS_LEAST))
@@ -83,8 +83,8 @@ static ovoid_code compute_audit(const ovoid_robot *robot, uint32_t index, const 
     if (!options) options = &none;
     if (!robot || !audit)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no robot, or no room for the audit (NULL)");
-    ovoid_code code = check_options(options, error);
-    if (code == OVOID_OK) code = spheres_check(spheres, count, error);
+    ovoid_code code = validate_options(options, error);
+    if (code == OVOID_OK) code = spheres_validate(spheres, count, error);
     if (code != OVOID_OK) return code;
     ovoid_allocator memory = allocator_make(options->allocator);
     spheres_link link;

@@ -265,7 +265,7 @@ static ovoid_code cover_link(const spheres_link *link, const ovoid_robot_cover_o
     return code;
 }
 
-static ovoid_code check(const ovoid_robot_cover_options *o, const size_t *count, ovoid_error *error) {
+static ovoid_code validate(const ovoid_robot_cover_options *o, const size_t *count, ovoid_error *error) {
     if (!count || *count < 1 || *count > SPHERES_MOST)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "room for %zu spheres: give 1 to %d", count ? *count : 0,
                          SPHERES_MOST);
@@ -281,7 +281,7 @@ static ovoid_code compute_cover(const ovoid_robot *robot, uint32_t index, const 
     if (!options) options = &none;
     if (!robot || !spheres)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no robot, or no room for spheres (NULL)");
-    ovoid_code code = check(options, count, error);
+    ovoid_code code = validate(options, count, error);
     if (code != OVOID_OK) return code;
     ovoid_allocator memory = allocator_make(options->allocator);
     spheres_link link;

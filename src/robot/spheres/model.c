@@ -23,10 +23,10 @@ static void destroy_shapes(const ovoid_robot_element *elements, size_t count) {
     for (size_t i = 0; i < count; i++) element_destroy_shape(&elements[i]);
 }
 
-static ovoid_code check_spheres(const ovoid_robot_link_sphere *spheres, size_t count, size_t links,
-                                ovoid_error *error) {
+static ovoid_code validate_spheres(const ovoid_robot_link_sphere *spheres, size_t count, size_t links,
+                                   ovoid_error *error) {
     for (size_t i = 0; i < count; i++) {
-        ovoid_code code = spheres_check(&spheres[i].ball, 1, error);
+        ovoid_code code = spheres_validate(&spheres[i].ball, 1, error);
         if (code != OVOID_OK) {
             if (error) error->place = (int64_t)i;
             return code;
@@ -45,7 +45,7 @@ ovoid_robot *ovoid_robot_create_from_spheres(const ovoid_robot *robot, const ovo
         return NULL;
     }
     ovoid_robot_description d = ovoid_robot_get_description(robot);
-    if (check_spheres(spheres, count, d.link_count, error) != OVOID_OK) return NULL;
+    if (validate_spheres(spheres, count, d.link_count, error) != OVOID_OK) return NULL;
     ovoid_allocator memory = allocator_make(allocator);
     ovoid_robot_element *elements = allocator_allocate(&memory, count + 1, sizeof *elements);
     if (!elements) {

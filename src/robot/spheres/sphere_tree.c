@@ -7,7 +7,7 @@
 
 enum { MOST_SPHERES = 1 << 20, LEAF = 4 };
 
-ovoid_code spheres_check(const ovoid_robot_sphere *spheres, size_t count, ovoid_error *error) {
+ovoid_code spheres_validate(const ovoid_robot_sphere *spheres, size_t count, ovoid_error *error) {
     if (!spheres || count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "no spheres: give at least one");
     if (count > MOST_SPHERES)
         return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu spheres are more than %d", count, MOST_SPHERES);

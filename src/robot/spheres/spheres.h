@@ -59,7 +59,7 @@ void spheres_link_close(spheres_link *link);
 ovoid_answer spheres_part_probe(const spheres_link *link, const spheres_part *part, vec3 x);
 
 /// Refuses spheres that are none: EMPTY, LIMIT, NOT_FINITE, RADIUS, RANGE.
-ovoid_code spheres_check(const ovoid_robot_sphere *spheres, size_t count, ovoid_error *error);
+ovoid_code spheres_validate(const ovoid_robot_sphere *spheres, size_t count, ovoid_error *error);
 /// Builds the tree of spheres given in the caller's unit; MEMORY.
 ovoid_code spheres_tree_open(spheres_tree *tree, const ovoid_robot_sphere *spheres, size_t count,
                              const spheres_link *link, ovoid_error *error);

@@ -106,12 +106,12 @@ static void judge_answer(const hearing *h, const ovoid_answer *x, const ovoid_co
     h->t->answers++;
     if (x->iterations > h->t->iterations) h->t->iterations = x->iterations;
     judge_set_options(trial_judge, h->options);
-    if (judge_check_answer(trial_judge, h->pair, x, cover, &error) != OVOID_OK)
+    if (judge_verify_answer(trial_judge, h->pair, x, cover, &error) != OVOID_OK)
         trial_fail(h->t, h->pair, x, query, error.message);
-    else if (ovoid_answer_check(h->pair, x, h->options, cover, &error) != OVOID_OK)
+    else if (ovoid_answer_verify(h->pair, x, h->options, cover, &error) != OVOID_OK)
         trial_fail(h->t, h->pair, x, query, error.message);
     else if (x->stage != OVOID_STAGE_NONE && full && x->status != OVOID_UNDECIDED &&
-             judge_check_points(trial_judge, h->pair, x, &error) != OVOID_OK)
+             judge_verify_points(trial_judge, h->pair, x, &error) != OVOID_OK)
         trial_fail(h->t, h->pair, x, query, error.message);
 }
 
@@ -253,7 +253,7 @@ ovoid_proof trial_ask(tally *t, const ovoid_pair *pair, const trial_hints *hints
     hear_collide(&h, &collide, "collide");
     ovoid_answer distance = ovoid_distance(pair, NULL, NULL);
     hear_distance(&h, &distance, "distance");
-    ovoid_answer bounds = ovoid_bounds(pair);
+    ovoid_answer bounds = ovoid_pair_compute_bounds(pair);
     judge_answer(&h, &bounds, NULL, "bounds", 0);
     compare_truth(&h, &bounds, "bounds", 0);
     h.d = distance.upper;

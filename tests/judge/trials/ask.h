@@ -1,5 +1,5 @@
-// The trials' court: every query of a pair, each answer put before the exact judge (GMP) and before ovoid_answer_check,
-// counted by family; and compared with the truth where the pair is one of which it is known.
+// The trials' court: every query of a pair, each answer put before the exact judge (GMP) and before
+// ovoid_answer_verify, counted by family; and compared with the truth where the pair is one of which it is known.
 #ifndef OVOID_TRIALS_ASK_H
 #define OVOID_TRIALS_ASK_H
 

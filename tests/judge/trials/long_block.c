@@ -1,5 +1,5 @@
 // A block of the long run: scenes of a pair each, a scene a few frames, a frame a few questions. Each answer must pass
-// ovoid_answer_check; the brackets of all answers of one frame must have a common point, since each claims to hold the
+// ovoid_answer_verify; the brackets of all answers of one frame must have a common point, since each claims to hold the
 // same number; an answer that was not cut short must be as narrow as promised; and one in so many goes before the
 // judge.
 #define _POSIX_C_SOURCE 199309L // for the processor's clock
@@ -97,8 +97,8 @@ static void check_exactly(work *w, const scene *s, const ovoid_answer *x, const 
     judge_set_options(j, options);
     int has_points = in_full && x->status != OVOID_UNDECIDED &&
                      (kind == ASK_DEPTH || (kind == ASK_DISTANCE && x->status == OVOID_SEPARATED));
-    if (judge_check_answer(j, &s->pair, x, cover, &error) != OVOID_OK ||
-        (has_points && judge_check_points(j, &s->pair, x, &error) != OVOID_OK))
+    if (judge_verify_answer(j, &s->pair, x, cover, &error) != OVOID_OK ||
+        (has_points && judge_verify_points(j, &s->pair, x, &error) != OVOID_OK))
         fail(w, s, x, kind, error.message);
 }
 
@@ -133,7 +133,7 @@ static void check_answer(work *w, scene *s, const ovoid_answer *x, const ovoid_c
     c->stages[x->stage]++;
     c->limits[x->limit]++;
     if (x->iterations > c->iterations) c->iterations = x->iterations;
-    if (ovoid_answer_check(&s->pair, x, options, cover, &error) != OVOID_OK) fail(w, s, x, kind, error.message);
+    if (ovoid_answer_verify(&s->pair, x, options, cover, &error) != OVOID_OK) fail(w, s, x, kind, error.message);
     s->low = fmax(s->low, x->lower);
     s->high = fmin(s->high, x->upper);
     if (!(s->low <= s->high)) {
@@ -218,7 +218,7 @@ static ovoid_answer ask(work *w, scene *s, question_kind kind, uint64_t *r) {
         x = ovoid_depth(&s->pair, options, earlier, &w->cover);
         cover = &w->cover;
         break;
-    default: x = ovoid_bounds(&s->pair); break;
+    default: x = ovoid_pair_compute_bounds(&s->pair); break;
     }
     check_answer(w, s, &x, cover, kind, kind == ASK_BOUNDS ? NULL : options);
     keep_proof(w, &x);

@@ -1,5 +1,5 @@
 // long_run: at least 10^9 queries, each answer checked by its proof, 10^6 of them by exact arithmetic; 0 wrong ones are
-// expected, and the exit status says so. Truth: ovoid_answer_check and the judge; long_block.c says what else.
+// expected, and the exit status says so. Truth: ovoid_answer_verify and the judge; long_block.c says what else.
 //   --queries N (1e9)    stop when so many are done in all, earlier runs included
 //   --seconds S (0)      stop after so many; 0: never
 //   --threads T (1), --sample N (1000: one answer of so many goes before the judge), --seed N (1)

@@ -11,7 +11,7 @@
 /// Longest line: a path of many states.
 enum { LINE_MOST = 1 << 28, MASK_BITS = 8 };
 
-struct ovoid_robot_proofs {
+struct ovoid_robot_proofs_reader {
     line_source lines;
     pool memory, names; ///< of the source; of the path's names
     ovoid_robot_proof_source source;
@@ -30,7 +30,7 @@ typedef struct list {
 
 /// The state of reading a line.
 typedef struct proof_reader {
-    ovoid_robot_proofs *file;
+    ovoid_robot_proofs_reader *file;
     scan s;
     ovoid_error *error;
 } proof_reader;
@@ -181,7 +181,7 @@ static void take_answer(scan *s, ovoid_robot_proof *p) {
 
 // All numbers of the states, one after another.
 static void take_states(proof_reader *r, ovoid_robot_proof *p) {
-    ovoid_robot_proofs *f = r->file;
+    ovoid_robot_proofs_reader *f = r->file;
     scan *s = &r->s;
     list all = {f->states, 0, f->state_capacity};
     scan_take_key(s, "q", 0);
@@ -201,7 +201,7 @@ static void take_states(proof_reader *r, ovoid_robot_proof *p) {
 }
 
 static void take_times(proof_reader *r, ovoid_robot_proof *p) {
-    ovoid_robot_proofs *f = r->file;
+    ovoid_robot_proofs_reader *f = r->file;
     scan *s = &r->s;
     list all = {f->times, 0, f->time_capacity};
     if (!scan_try_key(s, "times", 0)) return;
@@ -258,7 +258,7 @@ static ovoid_robot_step take_step(scan *s) {
 // ---- lines
 
 static ovoid_code report(const proof_reader *r) {
-    const ovoid_robot_proofs *f = r->file;
+    const ovoid_robot_proofs_reader *f = r->file;
     const scan *s = &r->s;
     if (s->is_memory_out) return io_fail_memory(r->error, f->lines.path);
     // A failure without a blank is a key that is not there.
@@ -281,7 +281,7 @@ static int next_line(proof_reader *r, pool *memory) {
 
 // The steps behind an answer. 1, or -1 with the error filled.
 static int read_steps(proof_reader *r, ovoid_robot_proof *p) {
-    ovoid_robot_proofs *f = r->file;
+    ovoid_robot_proofs_reader *f = r->file;
     size_t count = p->answer.step_count;
     list all = {f->steps, 0, f->step_capacity};
     int got = 1;
@@ -304,7 +304,7 @@ static int read_steps(proof_reader *r, ovoid_robot_proof *p) {
 }
 
 static void read_path(proof_reader *r, ovoid_robot_proof *p) {
-    ovoid_robot_proofs *f = r->file;
+    ovoid_robot_proofs_reader *f = r->file;
     p->source = f->source_count - 1;
     p->line = f->lines.line;
     scan_take_key(&r->s, "path", 1);
@@ -320,7 +320,7 @@ static void read_path(proof_reader *r, ovoid_robot_proof *p) {
 }
 
 static void read_source(proof_reader *r) {
-    ovoid_robot_proofs *f = r->file;
+    ovoid_robot_proofs_reader *f = r->file;
     pool_clear(&f->memory);
     f->source = (ovoid_robot_proof_source){.robot = NULL};
     f->source_count++;
@@ -330,8 +330,8 @@ static void read_source(proof_reader *r) {
 }
 
 // Where a source ends: 0, or -1 with the error filled.
-static int check_paths(const proof_reader *r) {
-    const ovoid_robot_proofs *f = r->file;
+static int validate_paths(const proof_reader *r) {
+    const ovoid_robot_proofs_reader *f = r->file;
     if (f->path_count == f->source.path_count) return 0;
     where at = {f->lines.path, f->lines.line, -1};
     (void)io_fail(r->error, OVOID_ERROR_FORMAT, at, "there are %zu of %zu paths: it was cut off", f->path_count,
@@ -339,17 +339,17 @@ static int check_paths(const proof_reader *r) {
     return -1;
 }
 
-int ovoid_robot_proofs_read(ovoid_robot_proofs *f, ovoid_robot_proof *p, ovoid_error *error) {
+int ovoid_robot_proofs_reader_read(ovoid_robot_proofs_reader *f, ovoid_robot_proof *p, ovoid_error *error) {
     proof_reader r = {.file = f, .error = error};
     *p = (ovoid_robot_proof){.answer = {.hit_at = INFINITY}, .free_until_time = NAN, .hit_at_time = NAN};
     for (;;) {
         pool_clear(&f->names);
         int got = next_line(&r, &f->names);
-        if (got == 0) return check_paths(&r);
+        if (got == 0) return validate_paths(&r);
         if (got < 0) return got;
         scan_take(&r.s, '{');
         int is_source = scan_try_key(&r.s, "path_proofs", 1);
-        if (is_source && check_paths(&r) < 0) return -1;
+        if (is_source && validate_paths(&r) < 0) return -1;
         if (is_source)
             read_source(&r);
         else if (!f->source_count)
@@ -363,15 +363,15 @@ int ovoid_robot_proofs_read(ovoid_robot_proofs *f, ovoid_robot_proof *p, ovoid_e
 
 // ---- the file
 
-ovoid_robot_proofs *ovoid_robot_proofs_create(const char *path, ovoid_error *error) {
-    ovoid_robot_proofs *f = calloc(1, sizeof *f);
+ovoid_robot_proofs_reader *ovoid_robot_proofs_reader_open(const char *path, ovoid_error *error) {
+    ovoid_robot_proofs_reader *f = calloc(1, sizeof *f);
     if (!f) return (void)io_fail_memory(error, path), NULL;
     if (line_source_open(&f->lines, path, error) != OVOID_OK) return free(f), NULL;
     f->lines.most = LINE_MOST;
     return f;
 }
 
-void ovoid_robot_proofs_destroy(ovoid_robot_proofs *f) {
+void ovoid_robot_proofs_reader_close(ovoid_robot_proofs_reader *f) {
     if (!f) return;
     line_source_close(&f->lines);
     pool_clear(&f->memory);
@@ -382,8 +382,8 @@ void ovoid_robot_proofs_destroy(ovoid_robot_proofs *f) {
     free(f);
 }
 
-const ovoid_robot_proof_source *ovoid_robot_proofs_get_source(const ovoid_robot_proofs *f) {
+const ovoid_robot_proof_source *ovoid_robot_proofs_reader_get_source(const ovoid_robot_proofs_reader *f) {
     return f->source_count ? &f->source : NULL;
 }
 
-int64_t ovoid_robot_proofs_get_line(const ovoid_robot_proofs *f) { return f->lines.line; }
+int64_t ovoid_robot_proofs_reader_get_line(const ovoid_robot_proofs_reader *f) { return f->lines.line; }

@@ -98,7 +98,7 @@ ovoid_code message_read_pose(const message_reader *r, const yaml_value *value, o
     if (!code && orientation) code = message_read_numbers(r, orientation, keys, 4, q);
     if (code) return code;
     *pose = (ovoid_pose){{p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]}};
-    code = ovoid_pose_compute_check(pose);
+    code = ovoid_pose_validate(pose);
     if (code == OVOID_ERROR_ROTATION) return message_fail(r, value, code, "the pose has a quaternion of four zeros");
     return code ? message_fail(r, value, code, "the pose has a number above %g", OVOID_LENGTH_MAX) : OVOID_OK;
 }

@@ -200,7 +200,7 @@ static ovoid_code read_parts(message_reader *r, ovoid_obstacles *o, const yaml_v
         code = message_read_pose(r, pose, &inner);
         if (!code) code = keys[0][0] == 'm' ? read_mesh(r, o, v, &entry) : read_primitive(r, v, &entry.what);
         entry.pose = ovoid_pose_compute_product(&whole->pose, &inner);
-        if (!code && ovoid_pose_compute_check(&entry.pose))
+        if (!code && ovoid_pose_validate(&entry.pose))
             code = message_fail(r, v, OVOID_ERROR_RANGE, "its pose has a number above %g", OVOID_LENGTH_MAX);
         if (!code) code = add_entry(o, r, &entry);
         if (pose) pose = pose->next;

@@ -156,7 +156,7 @@ static ovoid_code place_all(placer *p) {
 // ---- allowed collisions
 
 // What is held and an obstacle, or two things that are held, are let touch as their links are.
-static ovoid_code check_held(const placer *p, size_t i) {
+static ovoid_code validate_held(const placer *p, size_t i) {
     const scene_matrix *m = &p->from->state.matrix;
     const obstacle_entry *e = &p->from->entries[i];
     for (size_t k = 0; k < p->from->count; k++) {
@@ -221,7 +221,7 @@ static ovoid_code add_all(placer *p) {
     size_t added = 0;
     ovoid_code code = place_all(p);
     for (size_t i = 0; i < p->from->count && !code && s->matrix.line; i++)
-        if (p->from->entries[i].link) code = check_held(p, i);
+        if (p->from->entries[i].link) code = validate_held(p, i);
     if (code) return code;
     for (; added < p->from->count && !code; added++) code = add(p, added);
     if (!code) code = allow(p);

@@ -35,7 +35,7 @@ static ovoid_code add_position(const message_reader *r, const char *name, const 
 }
 
 // The numbers of a request are those of joints with one variable, so a base must be where it is by default.
-static ovoid_code check_bases(const message_reader *r, const yaml_value *start) {
+static ovoid_code validate_bases(const message_reader *r, const yaml_value *start) {
     const yaml_value *state, *list = NULL;
     double values[7];
     ovoid_code code = message_find_kind(r, start, "multi_dof_joint_state", YAML_MAP, &state);
@@ -54,7 +54,7 @@ static ovoid_code check_bases(const message_reader *r, const yaml_value *start) 
 static ovoid_code read_start(const message_reader *r, const yaml_value *root, position_list *out) {
     const yaml_value *start, *state = NULL, *names = NULL, *positions = NULL;
     ovoid_code code = message_find_kind(r, root, "start_state", YAML_MAP, &start);
-    if (!code && start) code = check_bases(r, start);
+    if (!code && start) code = validate_bases(r, start);
     if (!code && start) code = message_find_kind(r, start, "joint_state", YAML_MAP, &state);
     if (!code && state) code = message_refuse_others(r, state, "header|name|position|velocity|effort");
     if (!code && state) code = message_find_kind(r, state, "name", YAML_LIST, &names);

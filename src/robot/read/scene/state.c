@@ -89,7 +89,7 @@ static ovoid_code read_frame(message_reader *r, const yaml_value *value, scene_s
     *frame = (scene_frame){name, {{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}}};
     state->model = child;
     state->model_line = value->line;
-    return ovoid_pose_compute_check(&frame->pose)
+    return ovoid_pose_validate(&frame->pose)
                ? message_fail(r, value, OVOID_ERROR_RANGE, "the frame is farther away than %g", OVOID_LENGTH_MAX)
                : OVOID_OK;
 }
@@ -138,7 +138,7 @@ static ovoid_code read_paddings(const message_reader *r, const yaml_value *root,
 
 // MoveIt scales links against obstacles and leaves them between links. Here a link has one size, which the robot's
 // reader sets.
-static ovoid_code check_scales(const message_reader *r, const yaml_value *root) {
+static ovoid_code validate_scales(const message_reader *r, const yaml_value *root) {
     const yaml_value *list;
     ovoid_code code = message_find_kind(r, root, "link_scale", YAML_LIST, &list);
     for (const yaml_value *v = get_first(list); v && !code; v = v->next) {
@@ -262,6 +262,6 @@ ovoid_code scene_state_read(message_reader *r, const yaml_value *root, scene_sta
     if (!code && robot) code = read_joints(r, robot, state);
     if (!code) code = read_frames(r, root, state);
     if (!code) code = read_paddings(r, root, state);
-    if (!code) code = check_scales(r, root);
+    if (!code) code = validate_scales(r, root);
     return code ? code : read_matrix(r, root, &state->matrix);
 }

@@ -107,7 +107,7 @@ static ovoid_code parse(yaml_reader *r, yaml_parser_t *parser) {
 }
 
 // libyaml looks at all tags of a document for each new one: a file of them alone would take it hours.
-static ovoid_code check_tags(const char *path, bytes file, ovoid_error *error) {
+static ovoid_code validate_tags(const char *path, bytes file, ovoid_error *error) {
     size_t count = 0;
     for (const char *at = file.data, *end = file.data + file.size; (at = memchr(at, '%', (size_t)(end - at))); at++)
         count += end - at >= 4 && memcmp(at, "%TAG", 4) == 0;
@@ -118,7 +118,7 @@ static ovoid_code check_tags(const char *path, bytes file, ovoid_error *error) {
 
 static ovoid_code read_file(yaml_reader *r, bytes file) {
     yaml_parser_t parser;
-    ovoid_code code = check_tags(r->path, file, r->error);
+    ovoid_code code = validate_tags(r->path, file, r->error);
     if (code) return code;
     if (!yaml_parser_initialize(&parser)) return io_fail_memory(r->error, r->path);
     yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);

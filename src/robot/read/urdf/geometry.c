@@ -82,7 +82,7 @@ static double find_factor(const ovoid_robot_read_options *o, const char *link) {
     return factor;
 }
 
-static ovoid_code check_scales(const robot_reader *r) {
+static ovoid_code validate_scales(const robot_reader *r) {
     const ovoid_robot_read_options *o = r->options;
     where at = {r->path, 0, -1};
     for (size_t i = 0; i < o->scale_count; i++) {
@@ -177,7 +177,7 @@ static ovoid_code make_elements(robot_reader *r, const geometry_list *list) {
 
 ovoid_code geometry_read(robot_reader *r, const xml_element *const *links) {
     geometry_list list = {NULL, NULL, 0};
-    ovoid_code code = check_scales(r);
+    ovoid_code code = validate_scales(r);
     if (!code) code = read_all(r, links, &list);
     if (!code) code = geometry_find(r, &list);
     if (!code) code = geometry_make(r, &list);

@@ -47,7 +47,7 @@ static ovoid_code find_loop(robot_reader *r, const xml_element *const *joints) {
     return OVOID_OK;
 }
 
-static ovoid_code check_root(robot_reader *r, const xml_element *const *links) {
+static ovoid_code validate_root(robot_reader *r, const xml_element *const *links) {
     const ovoid_robot_description *d = &r->file->description;
     uint32_t root = OVOID_ROBOT_NONE;
     for (uint32_t i = 0; i < d->link_count; i++) {
@@ -65,7 +65,7 @@ static ovoid_code check_root(robot_reader *r, const xml_element *const *links) {
 
 static int has_one_variable(ovoid_joint_type type) { return ovoid_joint_type_get_variable_count(type) == 1; }
 
-static ovoid_code check_mimic(robot_reader *r, const xml_element *at, uint32_t i) {
+static ovoid_code validate_mimic(robot_reader *r, const xml_element *at, uint32_t i) {
     const ovoid_robot_description *d = &r->file->description;
     const ovoid_robot_joint *j = &d->joints[i], *leader = &d->joints[j->mimic];
     if (j->mimic == i) return robot_fail(r, at, OVOID_ERROR_FORMAT, "mimics itself");
@@ -79,14 +79,14 @@ static ovoid_code check_mimic(robot_reader *r, const xml_element *at, uint32_t i
 }
 
 // A mimicking joint may follow one that mimics, but the row must end.
-static ovoid_code check_mimics(robot_reader *r, const xml_element *const *joints) {
+static ovoid_code validate_mimics(robot_reader *r, const xml_element *const *joints) {
     const ovoid_robot_description *d = &r->file->description;
     unsigned char *seen = pool_get(&r->scratch, d->joint_count, 1);
     if (!seen) return robot_fail_memory(r);
     for (uint32_t i = 0; i < d->joint_count; i++) {
         uint32_t at = i;
         for (; seen[at] == NOT_SEEN && d->joints[at].mimic != OVOID_ROBOT_NONE; at = d->joints[at].mimic) {
-            ovoid_code code = check_mimic(r, xml_find(joints[at], "mimic"), at);
+            ovoid_code code = validate_mimic(r, xml_find(joints[at], "mimic"), at);
             if (code) return code;
             seen[at] = ON_THE_WAY;
         }
@@ -99,9 +99,9 @@ static ovoid_code check_mimics(robot_reader *r, const xml_element *const *joints
     return OVOID_OK;
 }
 
-ovoid_code tree_check(robot_reader *r, const xml_element *const *links, const xml_element *const *joints) {
+ovoid_code tree_validate(robot_reader *r, const xml_element *const *links, const xml_element *const *joints) {
     ovoid_code code = find_parents(r, joints);
     if (!code) code = find_loop(r, joints);
-    if (!code) code = check_root(r, links);
-    return code ? code : check_mimics(r, joints);
+    if (!code) code = validate_root(r, links);
+    return code ? code : validate_mimics(r, joints);
 }

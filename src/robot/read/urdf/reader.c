@@ -197,7 +197,7 @@ ovoid_code robot_read_origin(const robot_reader *r, const xml_element *origin, o
     ovoid_vec3 position = {xyz[0], xyz[1], xyz[2]};
     *pose = ovoid_pose_make_rpy(position, (ovoid_vec3){rpy[0], rpy[1], rpy[2]});
     if (has_quat) pose->rotation = (ovoid_quat){q[3], q[0], q[1], q[2]};
-    ovoid_code code = ovoid_pose_compute_check(pose);
+    ovoid_code code = ovoid_pose_validate(pose);
     if (code == OVOID_ERROR_ROTATION) return robot_fail(r, origin, code, "<origin> has a quaternion of four zeros");
     return code ? robot_fail(r, origin, code, "<origin> has a number above %g", OVOID_LENGTH_MAX) : OVOID_OK;
 }

@@ -96,7 +96,7 @@ ovoid_code robot_read_origin(const robot_reader *r, const xml_element *origin, o
 
 /// The rooms: urdf.c, joint_tree.c, geometry.c, srdf.c and groups.c.
 ovoid_code urdf_read(robot_reader *r, const xml_element *root);
-ovoid_code tree_check(robot_reader *r, const xml_element *const *links, const xml_element *const *joints);
+ovoid_code tree_validate(robot_reader *r, const xml_element *const *links, const xml_element *const *joints);
 ovoid_code geometry_read(robot_reader *r, const xml_element *const *links);
 ovoid_code srdf_read(robot_reader *r, const xml_element *root);
 ovoid_code groups_read(robot_reader *r, const xml_element *root);

@@ -6,7 +6,7 @@
 
 static const ovoid_robot_read_options no_options;
 
-static ovoid_code check_options(const robot_reader *r) {
+static ovoid_code validate_options(const robot_reader *r) {
     const ovoid_robot_read_options *o = r->options;
     where at = {r->path, 0, -1};
     if (o->shape && o->shape->radius != 0)
@@ -36,7 +36,7 @@ ovoid_robot_file *ovoid_robot_file_read(const char *urdf, const char *srdf, cons
                                         ovoid_error *error) {
     robot_reader r = {.path = urdf, .options = options ? options : &no_options, .error = error};
     r.file = calloc(1, sizeof *r.file);
-    ovoid_code code = r.file ? check_options(&r) : robot_fail_memory(&r);
+    ovoid_code code = r.file ? validate_options(&r) : robot_fail_memory(&r);
     if (!code) code = read_part(&r, urdf, urdf_read);
     if (!code && srdf) code = read_part(&r, srdf, srdf_read);
     if (!code) code = robot_finish_ignored(&r);

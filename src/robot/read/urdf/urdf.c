@@ -183,7 +183,7 @@ static ovoid_code refuse_xacro(robot_reader *r, const xml_element *e) {
     return OVOID_OK;
 }
 
-static ovoid_code check_root(robot_reader *r, const xml_element *root) {
+static ovoid_code validate_root(robot_reader *r, const xml_element *root) {
     ovoid_code code = refuse_xacro(r, root);
     if (code) return code;
     if (xml_is(root, "sdf"))
@@ -199,7 +199,7 @@ static ovoid_code check_root(robot_reader *r, const xml_element *root) {
 ovoid_code urdf_read(robot_reader *r, const xml_element *root) {
     urdf_parts parts = {NULL, NULL};
     ovoid_robot_file *file = r->file;
-    ovoid_code code = check_root(r, root);
+    ovoid_code code = validate_root(r, root);
     if (!code) code = robot_ignore_others(r, root, "link|joint");
     if (!code) code = robot_ignore_attributes(r, root);
     if (!code) code = collect(r, root, "link", &parts.links, &r->link_names);
@@ -214,6 +214,6 @@ ovoid_code urdf_read(robot_reader *r, const xml_element *root) {
     file->description.links = file->links;
     file->description.link_count = count;
     code = read_joints(r, &parts);
-    if (!code) code = tree_check(r, parts.links, parts.joints);
+    if (!code) code = tree_validate(r, parts.links, parts.joints);
     return code ? code : geometry_read(r, parts.links);
 }

@@ -34,7 +34,7 @@ static double measure_lower_again(const measure *m, const ovoid_proof *p) {
     return fine_compute_lower(&m->fine, fine_find_support(&m->fine, n).gap, m->fine.check);
 }
 
-static ovoid_code check_lower(measure *m, double lower, const ovoid_proof *p, ovoid_error *error) {
+static ovoid_code verify_lower(measure *m, double lower, const ovoid_proof *p, ovoid_error *error) {
     const pair_frame *f = m->frame;
     if (lower == -INFINITY) return OVOID_OK;
     vec3 n = vec3_unit(frame_direction_from_world(f, vec3_add(p->normal, p->normal_low)));
@@ -44,12 +44,12 @@ static ovoid_code check_lower(measure *m, double lower, const ovoid_proof *p, ov
     return found >= lower ? OVOID_OK : refuse(error, "lower bound", lower, found);
 }
 
-ovoid_code lower_check_internal(const ovoid_pair *pair, double lower, const ovoid_proof *p, ovoid_error *error) {
+ovoid_code lower_verify_internal(const ovoid_pair *pair, double lower, const ovoid_proof *p, ovoid_error *error) {
     pair_frame f;
     if (frame_make(pair, &f) != OVOID_LIMIT_NONE || !vec3_is_finite(p->normal) || !vec3_is_finite(p->normal_low))
         return refuse(error, "lower bound of poses or by a normal that are not numbers", lower, 0);
     measure m = {.pair = pair, .frame = &f};
-    return check_lower(&m, lower, p, error);
+    return verify_lower(&m, lower, p, error);
 }
 
 static double measure_points(const pair_frame *f, const ovoid_proof *p) {
@@ -87,7 +87,7 @@ static double measure_cover(const pair_frame *f, const ovoid_cover *cover) {
     return depth > 0 ? -depth - f->upper_radii : INFINITY;
 }
 
-static ovoid_code check_upper(measure *m, const ovoid_answer *x, const ovoid_cover *cover, ovoid_error *error) {
+static ovoid_code verify_upper(measure *m, const ovoid_answer *x, const ovoid_cover *cover, ovoid_error *error) {
     const pair_frame *f = m->frame;
     const ovoid_proof *p = &x->proof;
     double found = INFINITY;
@@ -109,7 +109,7 @@ static ovoid_code check_upper(measure *m, const ovoid_answer *x, const ovoid_cov
 }
 
 // The answer's points and normal must be those of the proof, to rounding and the slack.
-static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, double slack, ovoid_error *error) {
+static ovoid_code verify_witness(const pair_frame *f, const ovoid_answer *x, double slack, ovoid_error *error) {
     vec3 turn = vec3_sub(x->normal, x->proof.normal);
     if (!(vec3_max_abs(turn) <= 0)) return refuse(error, "normal is not the proof's", vec3_norm(x->normal), 1);
     if (!(fabs(vec3_norm(x->normal) - 1) <= 1e-12))
@@ -125,8 +125,8 @@ static ovoid_code check_witness(const pair_frame *f, const ovoid_answer *x, doub
     return off <= slack ? OVOID_OK : refuse(error, "witness points are not the proof's, off by", off, slack);
 }
 
-ovoid_code status_check_internal(ovoid_status status, double lower, double upper, double tolerance,
-                                 ovoid_error *error) {
+ovoid_code status_verify_internal(ovoid_status status, double lower, double upper, double tolerance,
+                                  ovoid_error *error) {
     ovoid_status shown = bracket_find_status(lower, upper, tolerance);
     int is_open = status == OVOID_UNDECIDED && shown == OVOID_TOUCHING;
     if (lower <= upper && (status == shown || is_open)) return OVOID_OK;
@@ -153,52 +153,52 @@ static int is_limit_shown(const ovoid_answer *x, const answer_terms *terms) {
     }
 }
 
-ovoid_code terms_check_internal(const ovoid_answer *x, const answer_terms *terms, ovoid_error *error) {
-    ovoid_code code = status_check_internal(x->status, x->lower, x->upper, terms->tolerance, error);
+ovoid_code terms_verify_internal(const ovoid_answer *x, const answer_terms *terms, ovoid_error *error) {
+    ovoid_code code = status_verify_internal(x->status, x->lower, x->upper, terms->tolerance, error);
     if (code != OVOID_OK || is_limit_shown(x, terms)) return code;
     return error_set(error, OVOID_ERROR_PROOF, -1, "limit %s does not follow from the bracket [%.17g, %.17g]",
                      ovoid_limit_get_name(x->limit), x->lower, x->upper);
 }
 
-ovoid_code refusal_check_internal(ovoid_verdict x, ovoid_limit refused, ovoid_error *error) {
+ovoid_code refusal_verify_internal(ovoid_verdict x, ovoid_limit refused, ovoid_error *error) {
     int claims = x.lower != -INFINITY || x.upper != INFINITY || x.status != OVOID_UNDECIDED;
     // The margin that is refused too is not among the options.
     if (!claims && (x.limit == refused || x.limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer or another reason");
 }
 
-static ovoid_code check_bounds(const pair_frame *f, const answer_claims *claims, ovoid_error *error) {
+static ovoid_code verify_bounds(const pair_frame *f, const answer_claims *claims, ovoid_error *error) {
     const ovoid_answer *x = claims->answer;
     if (!proof_is_sound(f, &x->proof))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
     measure m = {.pair = claims->pair, .frame = f};
-    ovoid_code code = check_lower(&m, x->lower, &x->proof, error);
-    if (code == OVOID_OK) code = check_upper(&m, x, claims->cover, error);
-    return code == OVOID_OK ? check_witness(f, x, claims->slack, error) : code;
+    ovoid_code code = verify_lower(&m, x->lower, &x->proof, error);
+    if (code == OVOID_OK) code = verify_upper(&m, x, claims->cover, error);
+    return code == OVOID_OK ? verify_witness(f, x, claims->slack, error) : code;
 }
 
-ovoid_code answer_check_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
-                                 const ovoid_cover *cover, ovoid_error *error) {
+ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
+                                  const ovoid_cover *cover, ovoid_error *error) {
     OVOID_ASSERT(pair && x);
     pair_frame f;
     ovoid_options options;
     ovoid_limit refused = options_make(given, &options) ? frame_make(pair, &f) : OVOID_LIMIT_OPTIONS;
     if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS)
-        return refusal_check_internal(answer_get_verdict(x), refused, error);
+        return refusal_verify_internal(answer_get_verdict(x), refused, error);
     const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), frame_get_allowance(&f),
                                 given ? given->cap : 0};
-    ovoid_code code = terms_check_internal(x, &terms, error);
-    return code == OVOID_OK ? check_bounds(&f, &(answer_claims){pair, x, cover, 0}, error) : code;
+    ovoid_code code = terms_verify_internal(x, &terms, error);
+    return code == OVOID_OK ? verify_bounds(&f, &(answer_claims){pair, x, cover, 0}, error) : code;
 }
 
-ovoid_code bounds_check_internal(const answer_claims *claims, ovoid_error *error) {
+ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *error) {
     pair_frame f;
     ovoid_limit refused = frame_make(claims->pair, &f);
-    return refused == OVOID_LIMIT_NONE ? check_bounds(&f, claims, error)
-                                       : refusal_check_internal(answer_get_verdict(claims->answer), refused, error);
+    return refused == OVOID_LIMIT_NONE ? verify_bounds(&f, claims, error)
+                                       : refusal_verify_internal(answer_get_verdict(claims->answer), refused, error);
 }
 
-ovoid_code ovoid_answer_check(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *options,
-                              const ovoid_cover *cover, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, pair, answer_check_internal(pair, x, options, cover, error));
+ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *options,
+                               const ovoid_cover *cover, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, pair, answer_verify_internal(pair, x, options, cover, error));
 }

@@ -12,7 +12,7 @@ static int step_is_sound(const motion_pair *pieces, const ovoid_step *step) {
     return turns && fabs(vec3_norm_squared(step->normal) - 1) <= 16 * ROUNDING;
 }
 
-ovoid_code impact_check_steps(moving_shapes shapes, const step_claim *claim, ovoid_error *error) {
+ovoid_code impact_verify_steps(moving_shapes shapes, const step_claim *claim, ovoid_error *error) {
     double time = claim->begin, level = claim->level, least;
     motion_pair pieces;
     int is_moment = claim->begin == claim->end;
@@ -36,14 +36,14 @@ ovoid_code impact_check_steps(moving_shapes shapes, const step_claim *claim, ovo
                      time, claim->end);
 }
 
-ovoid_code impact_check_answer(moving_shapes shapes, const answer_claim *claim, ovoid_error *error) {
+ovoid_code impact_verify_answer(moving_shapes shapes, const answer_claim *claim, ovoid_error *error) {
     motion_pair pieces;
     ovoid_pair pair;
     (void)motion_pair_make(shapes.a, shapes.b, claim->time, &pieces);
     double shift = motion_pair_find_pair(&pieces, claim->time, &pair);
     // The bounds alone are claimed, whatever the tolerance that the queries at single times had.
     static const ovoid_options any = {.absolute_tolerance = INFINITY};
-    ovoid_code code = ovoid_answer_check(&pair, claim->answer, &any, NULL, error);
+    ovoid_code code = ovoid_answer_verify(&pair, claim->answer, &any, NULL, error);
     if (code != OVOID_OK) return code;
     double lower = claim->answer->lower - shift, upper = claim->answer->upper + shift;
     if (lower > claim->above && upper <= claim->most) return OVOID_OK;
@@ -52,7 +52,7 @@ ovoid_code impact_check_answer(moving_shapes shapes, const answer_claim *claim, 
                      claim->time, lower, upper, claim->above, claim->most);
 }
 
-ovoid_code impact_check_times(moving_shapes shapes, double begin, double end, ovoid_error *error) {
+ovoid_code impact_verify_times(moving_shapes shapes, double begin, double end, ovoid_error *error) {
     sweep s;
     ovoid_motion_options options = {.begin = begin, .end = end};
     ovoid_limit limit = sweep_make(&s, shapes, &options, 0);
@@ -64,7 +64,7 @@ ovoid_code impact_check_times(moving_shapes shapes, double begin, double end, ov
 
 static int is_refusal(ovoid_limit limit) { return limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B; }
 
-ovoid_code impact_check_query(moving_shapes shapes, const query_claim *claim, ovoid_error *error) {
+ovoid_code impact_verify_query(moving_shapes shapes, const query_claim *claim, ovoid_error *error) {
     sweep s;
     const ovoid_motion_options own = {.begin = claim->begin, .end = claim->end}, *asked = claim->options;
     ovoid_limit limit = sweep_make(&s, shapes, asked ? asked : &own, 0);
@@ -95,11 +95,11 @@ int impact_is_sound(const ovoid_impact *x, double margin) {
     return is_known && times && hit && !(is_free && x->free_until != x->end) && margin >= 0;
 }
 
-static ovoid_code check_impact(moving_shapes shapes, double margin, const ovoid_impact *x, const step_proof *proof,
-                               ovoid_error *error) {
+static ovoid_code verify_impact(moving_shapes shapes, double margin, const ovoid_impact *x, const step_proof *proof,
+                                ovoid_error *error) {
     OVOID_ASSERT(shapes.a && shapes.b && x && (proof->steps || !x->step_count));
     const query_claim query = {margin, proof->options, x->begin, x->end, x->limit, impact_is_empty(x)};
-    ovoid_code code = impact_check_query(shapes, &query, error);
+    ovoid_code code = impact_verify_query(shapes, &query, error);
     if (code != OVOID_OK || impact_is_refusal(x)) return code;
     int is_hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
     if (!impact_is_sound(x, margin))
@@ -108,17 +108,17 @@ static ovoid_code check_impact(moving_shapes shapes, double margin, const ovoid_
     const step_claim free = {x->begin, x->free_until, margin, proof->steps, x->step_count};
     const answer_claim at_end = {x->free_until, &x->free, is_free && !x->step_count ? margin : -INFINITY, INFINITY};
     const answer_claim at_hit = {x->hit_at, &x->hit, -INFINITY, margin};
-    code = impact_check_steps(shapes, &free, error);
-    if (code == OVOID_OK) code = impact_check_answer(shapes, &at_end, error);
-    if (code == OVOID_OK && is_hit) code = impact_check_answer(shapes, &at_hit, error);
+    code = impact_verify_steps(shapes, &free, error);
+    if (code == OVOID_OK) code = impact_verify_answer(shapes, &at_end, error);
+    if (code == OVOID_OK && is_hit) code = impact_verify_answer(shapes, &at_hit, error);
     return code;
 }
 
-ovoid_code ovoid_impact_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                              const ovoid_impact *impact, const ovoid_motion_options *options, const ovoid_step *steps,
-                              ovoid_error *error) {
+ovoid_code ovoid_impact_verify(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
+                               const ovoid_impact *impact, const ovoid_motion_options *options, const ovoid_step *steps,
+                               ovoid_error *error) {
     const step_proof proof = {options, steps};
-    ENVIRONMENT_RETURN(ovoid_code, margin, check_impact((moving_shapes){a, b}, margin, impact, &proof, error));
+    ENVIRONMENT_RETURN(ovoid_code, margin, verify_impact((moving_shapes){a, b}, margin, impact, &proof, error));
 }
 
 // 1 if the status says what the bracket says; of bodies that touch, within the tolerance that was asked for.
@@ -138,12 +138,12 @@ static int approach_is_sound(moving_shapes shapes, const ovoid_approach *x, cons
     return 0;
 }
 
-static ovoid_code check_approach(moving_shapes shapes, const ovoid_approach *x, const step_proof *proof,
-                                 ovoid_error *error) {
+static ovoid_code verify_approach(moving_shapes shapes, const ovoid_approach *x, const step_proof *proof,
+                                  ovoid_error *error) {
     OVOID_ASSERT(shapes.a && shapes.b && x && (proof->steps || !x->step_count));
     int is_empty = x->status == OVOID_UNDECIDED && x->lower == -INFINITY && x->upper == INFINITY;
     const query_claim query = {0, proof->options, x->begin, x->end, x->limit, is_empty};
-    ovoid_code code = impact_check_query(shapes, &query, error);
+    ovoid_code code = impact_verify_query(shapes, &query, error);
     if (code != OVOID_OK || is_refusal(x->limit)) return code;
     if (!approach_is_sound(shapes, x, proof->options))
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from the bracket [%.17g, %.17g]",
@@ -154,16 +154,16 @@ static ovoid_code check_approach(moving_shapes shapes, const ovoid_approach *x, 
     const answer_claim alone = {x->begin, &x->answer, level, INFINITY};
     const answer_claim nearest = {x->time, &x->answer, -INFINITY, x->upper};
     if (x->lower > -INFINITY && x->begin < x->end)
-        code = impact_check_steps(shapes, &above, error);
+        code = impact_verify_steps(shapes, &above, error);
     else if (x->lower > -INFINITY)
-        code = impact_check_answer(shapes, &alone, error);
-    if (code == OVOID_OK) code = impact_check_answer(shapes, &nearest, error);
+        code = impact_verify_answer(shapes, &alone, error);
+    if (code == OVOID_OK) code = impact_verify_answer(shapes, &nearest, error);
     return code;
 }
 
-ovoid_code ovoid_approach_check(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                                const ovoid_approach *approach, const ovoid_motion_options *options,
-                                const ovoid_step *steps, ovoid_error *error) {
+ovoid_code ovoid_approach_verify(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
+                                 const ovoid_approach *approach, const ovoid_motion_options *options,
+                                 const ovoid_step *steps, ovoid_error *error) {
     const step_proof proof = {options, steps};
-    ENVIRONMENT_RETURN(ovoid_code, a, check_approach((moving_shapes){a, b}, approach, &proof, error));
+    ENVIRONMENT_RETURN(ovoid_code, a, verify_approach((moving_shapes){a, b}, approach, &proof, error));
 }

@@ -13,16 +13,16 @@ typedef struct candidate {
 enum { CANDIDATES = 16 };
 
 // What the check of one state found.
-typedef struct state_check {
+typedef struct state_search {
     ovoid_robot_checker *checker;
     double margin;
     ovoid_robot_answer *answer;
     pair_name asked; ///< before the search
     candidate candidates[CANDIDATES];
     uint32_t count;
-} state_check;
+} state_search;
 
-static void take_pair(state_check *s, const checker_pair *p, ovoid_robot_status status, double lower, double upper) {
+static void take_pair(state_search *s, const checker_pair *p, ovoid_robot_status status, double lower, double upper) {
     ovoid_robot_answer *a = s->answer;
     a->status = status;
     a->a = *p->a, a->b = *p->b;
@@ -38,7 +38,7 @@ static void remember_hit(ovoid_robot_checker *x, pair_name name) {
 
 // Takes a bracket of the bodies' distance; 0 where it proves the pair within the margin. Of pairs that stay open the
 // first is kept.
-static int take_bracket(state_check *s, const checker_pair *p, pair_name name, double least, double most) {
+static int take_bracket(state_search *s, const checker_pair *p, pair_name name, double least, double most) {
     double lower = lower_outward(p, least), upper = upper_outward(p, most);
     int is_hit = upper <= s->margin;
     if (is_hit || s->answer->status == OVOID_ROBOT_FREE)
@@ -48,7 +48,7 @@ static int take_bracket(state_check *s, const checker_pair *p, pair_name name, d
 }
 
 // Asks one pair; 0 where it is proven within the margin.
-static int ask_pair(state_check *s, const checker_pair *p, pair_name name, const ovoid_proof *earlier) {
+static int ask_pair(state_search *s, const checker_pair *p, pair_name name, const ovoid_proof *earlier) {
     double margin = add_up(s->margin, p->padding, p->error);
     ovoid_answer is = ovoid_within(&p->pair, margin, NULL, earlier);
     pair_remember(s->checker, p, &is.proof);
@@ -58,13 +58,13 @@ static int ask_pair(state_check *s, const checker_pair *p, pair_name name, const
 }
 
 // With the earlier proof where that parted the bodies: one of an overlap seldom holds for a state that is not close.
-static int ask_candidate(state_check *s, const checker_pair *p, pair_name name) {
+static int ask_candidate(state_search *s, const checker_pair *p, pair_name name) {
     return ask_pair(s, p, name, pair_was_apart(s->checker, p) ? pair_get_earlier(s->checker, p) : NULL);
 }
 
 // First what lies inside both bodies, by which most hits are proven; the rest is asked after the search.
 static int look_at_pair(void *context, const checker_pair *p, pair_name name) {
-    state_check *s = context;
+    state_search *s = context;
     double lower, upper;
     if (are_equal(name, s->asked)) return 1;
     if (!pair_was_apart(s->checker, p) && checker_prove_overlap(s->checker, name, &lower, &upper) &&
@@ -76,7 +76,7 @@ static int look_at_pair(void *context, const checker_pair *p, pair_name name) {
 }
 
 // The pair that ended the last state; 1 where it does not end this one.
-static int ask_last(state_check *s, const ovoid_robot_check_options *options) {
+static int ask_last(state_search *s, const ovoid_robot_query_options *options) {
     ovoid_robot_checker *x = s->checker;
     pair_name last = x->last;
     int is_self = last.item == OVOID_ROBOT_NONE;
@@ -94,7 +94,7 @@ static int ask_last(state_check *s, const ovoid_robot_check_options *options) {
     return ask_pair(s, &p, last, pair_get_earlier(x, &p));
 }
 
-static const ovoid_robot_check_options no_options = {0, 0, 0, 0};
+static const ovoid_robot_query_options no_options = {0, 0, 0, 0};
 
 static void refuse(ovoid_robot_answer *answer, ovoid_code code, uint32_t variable) {
     *answer = (ovoid_robot_answer){
@@ -102,13 +102,13 @@ static void refuse(ovoid_robot_answer *answer, ovoid_code code, uint32_t variabl
 }
 
 // The answer to the state that is placed.
-static void decide(ovoid_robot_checker *x, const ovoid_robot_check_options *options, ovoid_robot_answer *answer) {
+static void decide(ovoid_robot_checker *x, const ovoid_robot_query_options *options, ovoid_robot_answer *answer) {
     *answer = (ovoid_robot_answer){.status = OVOID_ROBOT_FREE, .lower = options->margin, .upper = INFINITY};
     if (!cell_has_pairs(x->cell, options)) {
         *answer = answer_make_empty();
         return;
     }
-    state_check s;
+    state_search s;
     s.checker = x, s.margin = options->margin, s.answer = answer;
     s.asked = (pair_name){OVOID_ROBOT_NONE, OVOID_ROBOT_NONE};
     s.count = 0;
@@ -120,8 +120,8 @@ static void decide(ovoid_robot_checker *x, const ovoid_robot_check_options *opti
         if (!ask_candidate(&s, &s.candidates[i].pair, s.candidates[i].name)) return;
 }
 
-int check_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
-                ovoid_robot_answer *answer) {
+int collide_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_query_options *options,
+                  ovoid_robot_answer *answer) {
     ovoid_error refused;
     ovoid_code code = checker_place(x, q, options->limit_slack, &refused);
     if (code == OVOID_OK)
@@ -131,23 +131,23 @@ int check_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_check
     return code == OVOID_OK;
 }
 
-static ovoid_code check(ovoid_robot_checker *x, const double *q, const ovoid_robot_check_options *options,
-                        ovoid_robot_answer *answer, ovoid_error *error) {
+static ovoid_code collide(ovoid_robot_checker *x, const double *q, const ovoid_robot_query_options *options,
+                          ovoid_robot_answer *answer, ovoid_error *error) {
     if (!options) options = &no_options;
     *answer = (ovoid_robot_answer){.lower = -INFINITY, .upper = INFINITY};
-    ovoid_code code = check_options_check(options, error);
+    ovoid_code code = query_options_validate(options, error);
     if (code == OVOID_OK) code = checker_renew(x, error);
-    if (code == OVOID_OK) (void)check_state(x, q, options, answer);
+    if (code == OVOID_OK) (void)collide_state(x, q, options, answer);
     return code;
 }
 
-ovoid_code ovoid_robot_check(ovoid_robot_checker *checker, const double *q, const ovoid_robot_check_options *options,
-                             ovoid_robot_answer *answer, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checker, check(checker, q, options, answer, error));
+ovoid_code ovoid_robot_collide(ovoid_robot_checker *checker, const double *q, const ovoid_robot_query_options *options,
+                               ovoid_robot_answer *answer, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checker, collide(checker, q, options, answer, error));
 }
 
-void check_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end) {
-    const ovoid_robot_check_options *options = batch->options ? batch->options : &no_options;
+void collide_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end) {
+    const ovoid_robot_query_options *options = batch->options ? batch->options : &no_options;
     ovoid_robot_checker_reset(x);
     for (size_t i = first; i < end; i += ROBOT8) {
         lane_state states[ROBOT8];

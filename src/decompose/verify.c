@@ -37,7 +37,7 @@ static double measure_excess(const body *b, const ovoid_decomposition_length *le
     return body_find_outside(b, x) - body_probe_part(b, length->part, x, INFINITY).upper;
 }
 
-static ovoid_code check_lower(const body *b, const claim *c, ovoid_error *error) {
+static ovoid_code verify_lower(const body *b, const claim *c, ovoid_error *error) {
     const ovoid_decomposition_length *l = c->length;
     if (!(l->lower >= 0 && l->lower <= l->upper && l->upper <= OVOID_LENGTH_MAX))
         return refuse(c, "a bracket from", l->lower, error);
@@ -49,8 +49,8 @@ static ovoid_code check_lower(const body *b, const claim *c, ovoid_error *error)
     return l->lower * b->inverse <= c->measure(&fine, l) ? OVOID_OK : refuse(c, "at least", l->lower, error);
 }
 
-static ovoid_code check_upper(body *b, const ovoid_decomposition_options *o, const claim *c, cell *heap,
-                              ovoid_error *error) {
+static ovoid_code verify_upper(body *b, const ovoid_decomposition_options *o, const claim *c, cell *heap,
+                               ovoid_error *error) {
     double ceiling = c->length->upper * b->inverse - 0.75 * b->pad, lower = c->length->lower * b->inverse;
     if (!(ceiling > 0)) return refuse(c, "at most", c->length->upper, error);
     cell_search s = {.problem = b,
@@ -68,36 +68,36 @@ static ovoid_code check_upper(body *b, const ovoid_decomposition_options *o, con
                      c->name, c->length->upper, s.looked);
 }
 
-static ovoid_code check_both(body *b, const ovoid_decomposition_options *o, const ovoid_decomposition_proof *proof,
-                             ovoid_error *error) {
+static ovoid_code verify_both(body *b, const ovoid_decomposition_options *o, const ovoid_decomposition_proof *proof,
+                              ovoid_error *error) {
     const claim claims[] = {{"uncovered", &proof->uncovered, uncovered_search, measure_uncovered},
                             {"excess", &proof->excess, excess_search, measure_excess}};
     cell *heap = allocator_allocate(&b->memory, o->cells, sizeof *heap);
     if (!heap) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu cells", o->cells);
     ovoid_code code = OVOID_OK;
-    for (int i = 0; i < 2 && code == OVOID_OK; i++) code = check_lower(b, &claims[i], error);
-    for (int i = 0; i < 2 && code == OVOID_OK; i++) code = check_upper(b, o, &claims[i], heap, error);
+    for (int i = 0; i < 2 && code == OVOID_OK; i++) code = verify_lower(b, &claims[i], error);
+    for (int i = 0; i < 2 && code == OVOID_OK; i++) code = verify_upper(b, o, &claims[i], heap, error);
     allocator_release(&b->memory, heap);
     return code;
 }
 
-static ovoid_code check(const ovoid_decomposition *d, const ovoid_decomposition_proof *proof,
-                        const ovoid_decomposition_options *given, ovoid_error *error) {
+static ovoid_code verify(const ovoid_decomposition *d, const ovoid_decomposition_proof *proof,
+                         const ovoid_decomposition_options *given, ovoid_error *error) {
     ovoid_decomposition_options o;
     body b;
     if (!proof) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no proof (NULL)");
-    ovoid_code code = body_check_options(given, &o, error);
+    ovoid_code code = body_validate_options(given, &o, error);
     if (code == OVOID_OK) code = body_open_parts(&b, d, &o, error);
     if (code != OVOID_OK) return code;
     // The first cells of all parts must have room.
     size_t least = 6 * (size_t)b.part_count + CELL_PIECES;
     if (o.cells < least) o.cells = least;
-    code = check_both(&b, &o, proof, error);
+    code = verify_both(&b, &o, proof, error);
     body_close(&b);
     return code;
 }
 
-ovoid_code ovoid_decomposition_check(const ovoid_decomposition *decomposition, const ovoid_decomposition_proof *proof,
-                                     const ovoid_decomposition_options *options, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, decomposition, check(decomposition, proof, options, error));
+ovoid_code ovoid_decomposition_verify(const ovoid_decomposition *decomposition, const ovoid_decomposition_proof *proof,
+                                      const ovoid_decomposition_options *options, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, decomposition, verify(decomposition, proof, options, error));
 }

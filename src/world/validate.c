@@ -30,11 +30,11 @@ double world_get_extent(const ovoid_body *body) {
     return body->compound ? body->compound->extent : body->solid ? body->solid->extent : 0;
 }
 
-ovoid_code world_check_body(const ovoid_body *body, int64_t place, ovoid_error *error) {
+ovoid_code world_validate_body(const ovoid_body *body, int64_t place, ovoid_error *error) {
     if (!body_is_one(body))
         return error_set(error, OVOID_ERROR_ARGUMENT, place,
                          "a body needs exactly one of a shape, a compound and a solid");
-    ovoid_code code = pose_compute_check(&body->pose);
+    ovoid_code code = pose_validate(&body->pose);
     double extent = world_get_extent(body);
     if (code == OVOID_OK && extent > 0 && !(vec3_norm(body->pose.position) + extent <= OVOID_LENGTH_MAX))
         code = OVOID_ERROR_RANGE;

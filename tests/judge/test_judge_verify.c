@@ -1,4 +1,4 @@
-// What ovoid_answer_check accepts is true: of each answer the lower bound is raised, and the upper bound lowered, as
+// What ovoid_answer_verify accepts is true: of each answer the lower bound is raised, and the upper bound lowered, as
 // far as the checker still accepts them, to the last double; the exact judge must accept that too. So the checker's own
 // error constants are tested where they matter, at their edge. What is altered must be refused; what is handed to a
 // query may be anything. Truth: the judge.
@@ -26,7 +26,7 @@ static ovoid_answer alter(const ovoid_answer *x, int upper, double bound) {
 
 static int is_accepted(const ovoid_pair *p, const ovoid_answer *x, int upper, double bound) {
     ovoid_answer y = alter(x, upper, bound);
-    return ovoid_answer_check(p, &y, NULL, &cover, NULL) == OVOID_OK;
+    return ovoid_answer_verify(p, &y, NULL, &cover, NULL) == OVOID_OK;
 }
 
 /// The last double in the direction of `beyond`, which is refused, that is accepted.
@@ -62,7 +62,7 @@ static void check_bound(const ovoid_pair *p, const ovoid_answer *x, int upper) {
     double edge = find_edge(p, x, upper, bound, bound + step);
     ovoid_answer y = alter(x, upper, edge);
     ovoid_error error = {0};
-    if (!CHECK(judge_check_answer(exact, p, &y, &cover, &error) == OVOID_OK) && check_failed < 10)
+    if (!CHECK(judge_verify_answer(exact, p, &y, &cover, &error) == OVOID_OK) && check_failed < 10)
         printf("  %s bound %.17g, from %.17g, proof %s: %s\n", upper ? "upper" : "lower", edge, bound,
                ovoid_proof_kind_get_name(x->proof.kind), error.message);
     edges[upper][upper ? x->proof.kind : 0]++;
@@ -74,7 +74,7 @@ static long altered;
 
 static void check_refused(const ovoid_pair *p, const ovoid_answer *y, const ovoid_cover *c, const char *what) {
     altered++;
-    if (!CHECK(ovoid_answer_check(p, y, NULL, c, NULL) != OVOID_OK) && check_failed < 10)
+    if (!CHECK(ovoid_answer_verify(p, y, NULL, c, NULL) != OVOID_OK) && check_failed < 10)
         printf("  accepted: %s\n", what);
 }
 
@@ -125,9 +125,9 @@ static void check_strange(const ovoid_pair *p, const ovoid_answer *x) {
         ovoid_proof proof = x->proof;
         proof.normal.x *= lengths[i], proof.normal.y *= lengths[i], proof.normal.z *= lengths[i];
         ovoid_answer y = ovoid_collide(p, NULL, &proof);
-        CHECK(judge_check_answer(exact, p, &y, NULL, NULL) == OVOID_OK);
+        CHECK(judge_verify_answer(exact, p, &y, NULL, NULL) == OVOID_OK);
         y = ovoid_distance(p, NULL, &proof);
-        CHECK(judge_check_answer(exact, p, &y, NULL, NULL) == OVOID_OK);
+        CHECK(judge_verify_answer(exact, p, &y, NULL, NULL) == OVOID_OK);
     }
     // Where a bound that an earlier stage proves is just the margin, the query has to go on.
     ovoid_answer first = ovoid_collide(p, NULL, NULL);
@@ -149,7 +149,7 @@ static void check_stopped(const ovoid_pair *p) {
 
 static void check_pair(const ovoid_pair *p) {
     cover.point_count = cover.triangle_count = 0;
-    ovoid_answer x[4] = {ovoid_collide(p, NULL, NULL), ovoid_distance(p, NULL, NULL), ovoid_bounds(p),
+    ovoid_answer x[4] = {ovoid_collide(p, NULL, NULL), ovoid_distance(p, NULL, NULL), ovoid_pair_compute_bounds(p),
                          ovoid_depth(p, NULL, NULL, &cover)};
     for (int k = 0; k < 4; k++) {
         check_bound(p, &x[k], 0);

@@ -190,9 +190,9 @@ static void compare_check(const scene *c, ovoid_robot_checker *x, const double *
                           size_t count) {
     static const double margins[3] = {0, 0.05, 0.4};
     for (int m = 0; m < 3; m++) {
-        ovoid_robot_check_options options = {.margin = margins[m], .limit_slack = 0};
+        ovoid_robot_query_options options = {.margin = margins[m], .limit_slack = 0};
         ovoid_robot_answer is;
-        CHECK_EQ(ovoid_robot_check(x, q, &options, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_collide(x, q, &options, &is, &error), OVOID_OK);
         double least = INFINITY;
         for (size_t i = 0; i < count; i++) least = fmin(least, pairs[i].answer.lower);
         if (is.status == OVOID_ROBOT_FREE) {
@@ -219,7 +219,7 @@ static void compare_near(const scene *c, ovoid_robot_checker *x, const double *q
     static ovoid_robot_near items[MOST];
     static double rows[MOST * 7 * ROBOT_LINKS];
     size_t variables = ovoid_robot_get_variable_count(c->r);
-    ovoid_robot_check_options options = {.margin = 0.3};
+    ovoid_robot_query_options options = {.margin = 0.3};
     ovoid_robot_nears nears = {.items = items, .gradients = rows, .capacity = MOST};
     CHECK_LE(variables, 7 * ROBOT_LINKS);
     CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears, &error), OVOID_OK);
@@ -340,22 +340,22 @@ static void test_batches(void) {
             for (size_t v = 0; v < n; v++) q[i * n + v] *= 64;
         ovoid_robot_checker *x[3];
         for (int i = 0; i < 3; i++) x[i] = ovoid_robot_checker_create(c.cell, NULL, &error);
-        ovoid_robot_check_options options = {.margin = round % 2 ? 0.05 : 0, .limit_slack = round % 3 ? 0 : INFINITY};
+        ovoid_robot_query_options options = {.margin = round % 2 ? 0.05 : 0, .limit_slack = round % 3 ? 0 : INFINITY};
         for (size_t threads = 1; threads <= 3; threads += 2) {
             ovoid_robot_batch batch = {q, COUNT, &options, answers[threads / 2]};
-            CHECK_EQ(ovoid_robot_check_batch(x, threads, &batch, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_collide_batch(x, threads, &batch, &error), OVOID_OK);
         }
         for (size_t i = 0; i < COUNT; i++) {
             ovoid_robot_answer alone;
             if (i % OVOID_ROBOT_BLOCK == 0) ovoid_robot_checker_reset(x[0]);
-            CHECK_EQ(ovoid_robot_check(x[0], q + i * n, &options, &alone, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_collide(x[0], q + i * n, &options, &alone, &error), OVOID_OK);
             CHECK(same_answer(&alone, &answers[0][i]) && same_answer(&alone, &answers[1][i]));
             statuses[alone.status]++;
         }
         options.limit_slack = NAN;
         ovoid_robot_batch batch = {q, COUNT, &options, answers[0]};
-        CHECK_EQ(ovoid_robot_check_batch(x, 1, &batch, &error), OVOID_ERROR_ARGUMENT);
-        CHECK_EQ(ovoid_robot_check_batch(x, 0, &batch, &error), OVOID_ERROR_ARGUMENT);
+        CHECK_EQ(ovoid_robot_collide_batch(x, 1, &batch, &error), OVOID_ERROR_ARGUMENT);
+        CHECK_EQ(ovoid_robot_collide_batch(x, 0, &batch, &error), OVOID_ERROR_ARGUMENT);
         for (int i = 0; i < 3; i++) ovoid_robot_checker_destroy(x[i]);
         destroy_scene(&c);
     }
@@ -367,7 +367,7 @@ static void test_batches(void) {
 
 static double find_distance(ovoid_robot_checker *x, const double *q, const ovoid_robot_near *of) {
     static ovoid_robot_near items[1000];
-    ovoid_robot_check_options options = {.margin = 1, .limit_slack = INFINITY};
+    ovoid_robot_query_options options = {.margin = 1, .limit_slack = INFINITY};
     ovoid_robot_nears nears = {.items = items, .capacity = 1000};
     (void)ovoid_robot_find_near(x, q, &options, &nears, &error);
     for (size_t i = 0; i < nears.count; i++)
@@ -410,7 +410,7 @@ static void test_gradients(void) {
         static double rows[MOST * 7 * ROBOT_LINKS];
         ovoid_robot_near items[MOST];
         make_random_state(&s, c.r, q);
-        ovoid_robot_check_options options = {.margin = 0.5};
+        ovoid_robot_query_options options = {.margin = 0.5};
         ovoid_robot_nears nears = {.items = items, .gradients = rows, .capacity = MOST};
         CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears, &error), OVOID_OK);
         size_t n = ovoid_robot_get_variable_count(c.r), kept = nears.count < MOST ? nears.count : MOST;
@@ -438,22 +438,22 @@ static void test_refusals(void) {
     ovoid_robot_answer is;
     ovoid_robot_near item;
     ovoid_robot_nears nears = {.items = &item};
-    ovoid_robot_check_options options = {.margin = -1};
-    CHECK_EQ(ovoid_robot_check(x, q, &options, &is, &error), OVOID_ERROR_ARGUMENT);
+    ovoid_robot_query_options options = {.margin = -1};
+    CHECK_EQ(ovoid_robot_collide(x, q, &options, &is, &error), OVOID_ERROR_ARGUMENT);
     CHECK_EQ(is.status, OVOID_ROBOT_UNDECIDED);
     CHECK_EQ(ovoid_robot_find_nearest(x, q, NULL, &nears, &error), OVOID_ERROR_ARGUMENT);
     size_t limited = 0;
     while (!isfinite(ovoid_robot_get_variable(c.r, limited).upper)) limited++;
     q[limited] = ovoid_robot_get_variable(c.r, limited).upper + 0.25;
-    CHECK_EQ(ovoid_robot_check(x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, q, NULL, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_REFUSED && is.code == OVOID_ERROR_RANGE && is.variable == limited);
     CHECK_EQ(ovoid_robot_find_near(x, q, NULL, &nears, &error), OVOID_ERROR_RANGE);
-    options = (ovoid_robot_check_options){.limit_slack = 0.25};
-    CHECK_EQ(ovoid_robot_check(x, q, &options, &is, &error), OVOID_OK);
+    options = (ovoid_robot_query_options){.limit_slack = 0.25};
+    CHECK_EQ(ovoid_robot_collide(x, q, &options, &is, &error), OVOID_OK);
     CHECK(is.status != OVOID_ROBOT_REFUSED);
     q[limited] = NAN;
     options.limit_slack = INFINITY;
-    CHECK_EQ(ovoid_robot_check(x, q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, q, &options, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_REFUSED && is.code == OVOID_ERROR_NOT_FINITE && is.variable == limited);
     // Bodies.
     ovoid_body none = {.pose = ovoid_pose_make_identity()};
@@ -505,48 +505,48 @@ static void test_by_hand(void) {
     ovoid_id id = ovoid_robot_cell_add(cell, &wall, &error);
     ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
     ovoid_robot_answer is;
-    ovoid_robot_check_options options = {.margin = 0.5};
+    ovoid_robot_query_options options = {.margin = 0.5};
     // Half sizes 0.1: the gap at q is 4.8 - q.
     for (double q = 4; q <= 5; q += 0.0625) {
-        CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
         CHECK_EQ(is.status, q < 4.3 ? OVOID_ROBOT_FREE : OVOID_ROBOT_HIT);
     }
     double q = 4.3 + 1e-10;
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_HIT && is.a.link == 1 && is.a.element == 0 && is.b.link == OVOID_ROBOT_NONE &&
           is.b.body == id);
     q = 4.3 - 1e-10;
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     (void)ovoid_robot_cell_set_padding(cell, 1, 0.25, &error);
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
     CHECK_NEAR(is.upper, 0.25, 1e-3);
     options.without_obstacles = 1;
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_UNDECIDED && is.code == OVOID_ERROR_EMPTY); // of no pair
     options.without_obstacles = 0;
     (void)ovoid_robot_cell_set_body_allowed(cell, id, 1, 1, &error);
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_UNDECIDED && is.code == OVOID_ERROR_EMPTY); // of no pair
     ovoid_body held = {.shape = shapes[1], .pose = {{0, 0, 1}, {1, 0, 0, 0}}};
     ovoid_id sphere = ovoid_robot_cell_attach(cell, 1, &held, NULL, 0, &error);
     wall.pose.position.z = 1;
     ovoid_id second = ovoid_robot_cell_add(cell, &wall, &error);
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_HIT && is.a.body == sphere && is.b.body == second && is.a.link == 1);
     // Both links, and a rail that an attached body touches.
     ovoid_body on_rail = {.shape = shapes[1], .pose = {{4, 0, 1}, {1, 0, 0, 0}}};
     (void)ovoid_robot_cell_remove(cell, second, &error);
     ovoid_id fixed = ovoid_robot_cell_attach(cell, 0, &on_rail, NULL, 0, &error);
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_HIT && is.a.body && is.b.body);
     options.without_self = 1;
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     options.without_self = 0;
     (void)ovoid_robot_cell_set_body_allowed(cell, fixed, 1, 1, &error);
-    CHECK_EQ(ovoid_robot_check(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     CHECK(ovoid_robot_is_rigid_pair(r, 0, 1) == 0 && ovoid_robot_is_rigid_pair(r, 1, 1) == 1);
     ovoid_robot_checker_destroy(x);
@@ -570,11 +570,11 @@ static void test_half_changes(void) {
     CHECK_EQ(ovoid_robot_cell_add(cell, &c.obstacles[0], &error), (ovoid_id)0);
     CHECK_EQ(error.code, OVOID_ERROR_MEMORY);
     CHECK_EQ(ovoid_robot_cell_set_allowed(cell, 0, 1, 0, &error), OVOID_ERROR_MEMORY);
-    CHECK_EQ(ovoid_robot_check(x, q, NULL, &is, &error), OVOID_ERROR_MEMORY);
+    CHECK_EQ(ovoid_robot_collide(x, q, NULL, &is, &error), OVOID_ERROR_MEMORY);
     CHECK_EQ(is.status, OVOID_ROBOT_UNDECIDED);
     left.left = 1 << 20;
     CHECK_EQ(ovoid_robot_cell_set_allowed(cell, 0, 1, 0, &error), OVOID_OK);
-    CHECK_EQ(ovoid_robot_check(x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, q, NULL, &is, &error), OVOID_OK);
     ovoid_robot_checker_destroy(x);
     ovoid_robot_cell_destroy(cell);
     CHECK_EQ(left.held, 0);
@@ -599,7 +599,7 @@ static void test_memory(void) {
         if (x) { // queries allocate nothing, and find what there is
             left.left = 0;
             ovoid_robot_answer is;
-            CHECK_EQ(ovoid_robot_check(x, q, NULL, &is, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_collide(x, q, NULL, &is, &error), OVOID_OK);
         }
         ovoid_robot_checker_destroy(x);
         ovoid_robot_cell_destroy(cell);
@@ -630,7 +630,7 @@ static void test_appended(void) {
         double q[7 * ROBOT_LINKS];
         ovoid_robot_near items[2][ROOM];
         ovoid_robot_nears nears[2] = {{.items = items[0], .capacity = ROOM}, {.items = items[1], .capacity = ROOM}};
-        ovoid_robot_check_options options = {.margin = 0.5, .limit_slack = INFINITY};
+        ovoid_robot_query_options options = {.margin = 0.5, .limit_slack = INFINITY};
         make_random_state(&s, c.r, q);
         for (int k = 0; k < 2; k++) {
             CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears[k], &error), OVOID_OK);

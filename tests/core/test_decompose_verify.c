@@ -88,7 +88,7 @@ static void tell_lies(const truth *t, uint64_t *s) {
             ovoid_decomposition_proof altered = t->proof;
             ovoid_error error = {.message = ""};
             if (!alter(get_length(&altered, which), lie, t->size)) continue;
-            ovoid_code code = ovoid_decomposition_check(&t->d, &altered, &t->options, &error);
+            ovoid_code code = ovoid_decomposition_verify(&t->d, &altered, &t->options, &error);
             if (code == OVOID_OK) {
                 counts[lie].held++;
                 hold(t, get_length(&altered, which), which, s);
@@ -100,7 +100,7 @@ static void tell_lies(const truth *t, uint64_t *s) {
         }
     ovoid_decomposition_proof swapped = t->proof;
     swapped.uncovered = t->proof.excess, swapped.excess = t->proof.uncovered;
-    if (ovoid_decomposition_check(&t->d, &swapped, &t->options, NULL) == OVOID_OK) {
+    if (ovoid_decomposition_verify(&t->d, &swapped, &t->options, NULL) == OVOID_OK) {
         hold(t, &swapped.uncovered, 0, s);
         hold(t, &swapped.excess, 1, s);
     }
@@ -135,7 +135,7 @@ static void check_random(int rounds) {
         CHECK_EQ(ovoid_decomposition_compute_proof(&t.d, &tight, &t.proof, NULL, &error), OVOID_OK);
         t.solid = long_mesh_of_solid(solid);
         for (size_t k = 0; k < t.d.part_count; k++) t.parts[k] = long_mesh_of_shape(t.d.parts[k]);
-        ovoid_code code = ovoid_decomposition_check(&t.d, &t.proof, &t.options, &error);
+        ovoid_code code = ovoid_decomposition_verify(&t.d, &t.proof, &t.options, &error);
         if (!CHECK_EQ(code, OVOID_OK)) printf("  %s\n", error.message);
         tell_lies(&t, &s);
         free(t.solid.corners);
@@ -151,6 +151,6 @@ int main(void) {
     check_random(12);
     for (int i = 0; i < LIES; i++)
         printf("lie %d: refused %ld, still true %ld\n", i, counts[i].refused, counts[i].held);
-    CHECK(ovoid_decomposition_check(NULL, NULL, NULL, NULL) == OVOID_ERROR_ARGUMENT);
+    CHECK(ovoid_decomposition_verify(NULL, NULL, NULL, NULL) == OVOID_ERROR_ARGUMENT);
     return check_end();
 }

@@ -37,7 +37,7 @@ static int find_node(const solid_view *v, uint32_t first, uint32_t end, solid_re
 }
 
 // OVOID_OK if the groups leave out no pair of leaves.
-static ovoid_code check_cover(const claim *c, ovoid_error *error) {
+static ovoid_code verify_cover(const claim *c, ovoid_error *error) {
     const ovoid_step_group *groups = c->groups;
     size_t count = c->found->group_count;
     uint64_t area = 0;
@@ -55,7 +55,7 @@ static ovoid_code check_cover(const claim *c, ovoid_error *error) {
     return error_set(error, OVOID_ERROR_PROOF, (int64_t)count, "the groups leave out pairs of parts");
 }
 
-static ovoid_code check_group(const claim *c, const ovoid_step_group *g, const ovoid_step *steps, ovoid_error *error) {
+static ovoid_code verify_group(const claim *c, const ovoid_step_group *g, const ovoid_step *steps, ovoid_error *error) {
     solid_ref a, b;
     moving_room rooms[2];
     ovoid_moving_shape made[2];
@@ -67,20 +67,20 @@ static ovoid_code check_group(const claim *c, const ovoid_step_group *g, const o
     if (ref_is_triangle(a) && ref_is_triangle(b)) {
         ovoid_moving_shape ball_a = moving_tree_make_ball(&c->a, a, &rooms[0]),
                            ball_b = moving_tree_make_ball(&c->b, b, &rooms[1]);
-        if (impact_check_steps((moving_shapes){&ball_a, &ball_b}, &free, NULL) == OVOID_OK) return OVOID_OK;
+        if (impact_verify_steps((moving_shapes){&ball_a, &ball_b}, &free, NULL) == OVOID_OK) return OVOID_OK;
     }
-    return impact_check_steps(moving_trees_get_pair(&c->a, a, &c->b, b, made, rooms), &free, error);
+    return impact_verify_steps(moving_trees_get_pair(&c->a, a, &c->b, b, made, rooms), &free, error);
 }
 
-static ovoid_code check_groups(const claim *c, ovoid_error *error) {
+static ovoid_code verify_groups(const claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
-    ovoid_code code = check_cover(c, error);
+    ovoid_code code = verify_cover(c, error);
     size_t next = 0;
     for (size_t i = 0; i < c->found->group_count && code == OVOID_OK; i++) {
         const ovoid_step_group *group = &c->groups[i];
         if (group->count > x->step_count - next || (!group->count && x->begin == x->end))
             return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "group %zu has no such steps", i);
-        code = check_group(c, group, c->steps + next, error);
+        code = verify_group(c, group, c->steps + next, error);
         if (code != OVOID_OK && error) error->place = (int64_t)i;
         next += group->count;
     }
@@ -94,27 +94,27 @@ static moving_shapes get_leaves(const claim *c, ovoid_moving_shape made[2], movi
     return (moving_shapes){&made[0], &made[1]};
 }
 
-static ovoid_code check_leaves(const claim *c, const ovoid_answer *hit, double most, ovoid_error *error) {
+static ovoid_code verify_leaves(const claim *c, const ovoid_answer *hit, double most, ovoid_error *error) {
     moving_room rooms[2];
     ovoid_moving_shape made[2];
     const answer_claim own = {c->found->impact.hit_at, hit, -INFINITY, most};
-    return impact_check_answer(get_leaves(c, made, rooms), &own, error);
+    return impact_verify_answer(get_leaves(c, made, rooms), &own, error);
 }
 
 // The claimed bracket contains what is found, and says the same of the sign.
 static int holds(const ovoid_answer *claimed, const ovoid_solid_answer *found) {
-    int follows = status_check_internal(claimed->status, claimed->lower, claimed->upper, INFINITY, NULL) == OVOID_OK;
+    int follows = status_verify_internal(claimed->status, claimed->lower, claimed->upper, INFINITY, NULL) == OVOID_OK;
     if (!follows) return 0;
     return claimed->lower <= found->lower && claimed->upper >= found->upper && claimed->status == found->status;
 }
 
 // A hit at the beginning is what the query of the bodies says there, with the answer of the surfaces; where that left
 // the margin open, it is a hit of the deciding pair as any other.
-static ovoid_code check_hit_at_begin(const claim *c, ovoid_error *error) {
+static ovoid_code verify_hit_at_begin(const claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     moving_answer at;
     moving_trees_ask(&c->a, &c->b, c->margin, x->begin, &at);
-    if (at.answer.upper + at.shift > c->margin) return check_leaves(c, &x->hit, c->margin, error);
+    if (at.answer.upper + at.shift > c->margin) return verify_leaves(c, &x->hit, c->margin, error);
     ovoid_answer surfaces = x->hit;
     surfaces.status = at.answer.surfaces.status;
     surfaces.limit = at.answer.surfaces.limit;
@@ -122,28 +122,28 @@ static ovoid_code check_hit_at_begin(const claim *c, ovoid_error *error) {
     surfaces.upper = at.answer.surfaces.upper;
     if (!holds(&x->hit, &at.answer) || x->hit.upper + at.shift > c->margin)
         return error_set(error, OVOID_ERROR_PROOF, -1, "the hit at the beginning is not what the bodies show there");
-    return check_leaves(c, &surfaces, INFINITY, error);
+    return verify_leaves(c, &surfaces, INFINITY, error);
 }
 
 // What is claimed of the beginning: within the margin, or apart.
-static ovoid_code check_begin(const claim *c, ovoid_error *error) {
+static ovoid_code verify_begin(const claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     moving_answer at;
-    if (x->status == OVOID_IMPACT_HIT && x->hit_at <= x->begin) return check_hit_at_begin(c, error);
+    if (x->status == OVOID_IMPACT_HIT && x->hit_at <= x->begin) return verify_hit_at_begin(c, error);
     if (x->free_until <= x->begin && x->status != OVOID_IMPACT_FREE) return OVOID_OK;
     moving_trees_ask(&c->a, &c->b, c->margin, x->begin, &at);
     if (moving_answer_is_apart(&at, 1)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1, "the bodies are not apart at the beginning");
 }
 
-static ovoid_code check_hit(const claim *c, ovoid_error *error) {
+static ovoid_code verify_hit(const claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     if (x->status != OVOID_IMPACT_HIT || x->hit_at <= x->begin) return OVOID_OK;
-    return check_leaves(c, &x->hit, c->margin, error);
+    return verify_leaves(c, &x->hit, c->margin, error);
 }
 
 // OVOID_OK if the query has these times, or is refused for this reason and nothing is claimed.
-static ovoid_code check_query(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
+static ovoid_code verify_query(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     moving_room rooms[2];
     int is_empty = impact_is_empty(x) && !c->found->group_count;
@@ -156,27 +156,27 @@ static ovoid_code check_query(claim *c, const ovoid_moving_body *a, const ovoid_
     ovoid_moving_shape ball_a = moving_tree_make_ball(&c->a, solid_view_get_root(&c->a.view), &rooms[0]),
                        ball_b = moving_tree_make_ball(&c->b, solid_view_get_root(&c->b.view), &rooms[1]);
     const query_claim query = {c->margin, c->options, x->begin, x->end, x->limit, is_empty};
-    return impact_check_query((moving_shapes){&ball_a, &ball_b}, &query, error);
+    return impact_verify_query((moving_shapes){&ball_a, &ball_b}, &query, error);
 }
 
-static ovoid_code check(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
+static ovoid_code verify(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     OVOID_ASSERT((c->steps || !x->step_count) && (c->groups || !c->found->group_count));
-    ovoid_code code = check_query(c, a, b, error);
+    ovoid_code code = verify_query(c, a, b, error);
     if (code != OVOID_OK || impact_is_refusal(x)) return code;
     if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->a.view.count || c->found->part_b >= c->b.view.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
                          ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
-    code = check_begin(c, error);
+    code = verify_begin(c, error);
     // Without steps nothing is claimed of the time before `begin`.
     int is_claimed = x->free_until > x->begin || x->status == OVOID_IMPACT_FREE;
-    if (code == OVOID_OK && is_claimed) code = check_groups(c, error);
-    return code == OVOID_OK ? check_hit(c, error) : code;
+    if (code == OVOID_OK && is_claimed) code = verify_groups(c, error);
+    return code == OVOID_OK ? verify_hit(c, error) : code;
 }
 
-ovoid_code ovoid_solid_impact_check(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                    const ovoid_compound_impact *impact, const ovoid_motion_options *options,
-                                    const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
+ovoid_code ovoid_solid_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
+                                     const ovoid_compound_impact *impact, const ovoid_motion_options *options,
+                                     const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
     claim c = {.margin = margin, .found = impact, .options = options, .steps = steps, .groups = groups};
-    ENVIRONMENT_RETURN(ovoid_code, c, check(&c, a, b, error));
+    ENVIRONMENT_RETURN(ovoid_code, c, verify(&c, a, b, error));
 }

@@ -1,9 +1,10 @@
 // Checking an answer of two bodies by its proof alone.
 //
-// The deciding pair is an ordinary one (query/check.c). Each exclusion is measured again along its normal, over all its
-// parts, or for a pair of parts as an ordinary lower bound. The cut is followed from the pair of roots down by the rule
-// that queries split by (frame.h): each pair is the deciding one, or named by an exclusion, or split, so no two parts
-// are left out, whatever the trees are. What lies inside of a solid is counted over all triangles, without the tree.
+// The deciding pair is an ordinary one (query/verify.c). Each exclusion is measured again along its normal, over all
+// its parts, or for a pair of parts as an ordinary lower bound. The cut is followed from the pair of roots down by the
+// rule that queries split by (frame.h): each pair is the deciding one, or named by an exclusion, or split, so no two
+// parts are left out, whatever the trees are. What lies inside of a solid is counted over all triangles, without the
+// tree.
 //
 // Errors, u = 2^-53, S as in frame.h: a point in the world 45 u, its product with a unit normal and the difference of
 // two 10 u, the normal's length 4 u: below 148 u S.
@@ -66,7 +67,7 @@ static ovoid_pair get_pair(cut *c, uint32_t a, uint32_t b) {
     return (ovoid_pair){x.shape, y.shape, x.pose, y.pose};
 }
 
-static ovoid_code check_bound(cut *c, size_t i, ovoid_error *error) {
+static ovoid_code verify_bound(cut *c, size_t i, ovoid_error *error) {
     const ovoid_exclusion *e = &c->all->items[i];
     int is_in_range =
         e->first_a < e->end_a && e->end_a <= c->a.count && e->first_b < e->end_b && e->end_b <= c->b.count;
@@ -79,7 +80,7 @@ static ovoid_code check_bound(cut *c, size_t i, ovoid_error *error) {
     if (e->end_a - e->first_a == 1 && e->end_b - e->first_b == 1) {
         ovoid_pair pair = get_pair(c, e->first_a, e->first_b);
         ovoid_proof proof = {.normal = e->normal, .normal_low = e->normal_low};
-        if (lower_check_internal(&pair, e->lower, &proof, NULL) == OVOID_OK) return OVOID_OK;
+        if (lower_verify_internal(&pair, e->lower, &proof, NULL) == OVOID_OK) return OVOID_OK;
     }
     return refuse(error, i, "is not shown by its normal");
 }
@@ -92,7 +93,7 @@ static int is_excluded(const cut *c, solid_ref a, solid_ref b) {
 }
 
 // OVOID_OK if the cut leaves out no pair of parts.
-static ovoid_code check_cut(const cut *c, ovoid_error *error) {
+static ovoid_code verify_cut(const cut *c, ovoid_error *error) {
     struct {
         solid_ref a, b;
     } stack[2 * SOLID_DEPTH_MAX * BOX8] = {{solid_view_get_root(&c->a), solid_view_get_root(&c->b)}};
@@ -116,28 +117,28 @@ static ovoid_code check_cut(const cut *c, ovoid_error *error) {
     return OVOID_OK;
 }
 
-static ovoid_code check_exclusions(cut *c, ovoid_error *error) {
+static ovoid_code verify_exclusions(cut *c, ovoid_error *error) {
     if (c->lower == -INFINITY) return OVOID_OK;
     if (c->all->count > c->all->capacity)
         return error_set(error, OVOID_ERROR_PROOF, -1, "%zu exclusions, but there was room for %zu", c->all->count,
                          c->all->capacity);
     for (size_t i = 0; i < c->all->count; i++) {
-        ovoid_code code = check_bound(c, i, error);
+        ovoid_code code = verify_bound(c, i, error);
         if (code != OVOID_OK) return code;
     }
-    return check_cut(c, error);
+    return verify_cut(c, error);
 }
 
 // ---- the bodies
 
-static ovoid_code check_depth(const cut *c, ovoid_error *error) {
+static ovoid_code verify_depth(const cut *c, ovoid_error *error) {
     const ovoid_solid_answer *x = c->x;
     if (x->lower == -INFINITY) return OVOID_OK;
     ovoid_exclusion all = {0, c->a.count, 0, c->b.count, x->parting, {0, 0, 0}, x->lower};
     return measure_gap(c, &all) >= x->lower ? OVOID_OK : refuse_all(error, "the depth is not shown by its direction");
 }
 
-static ovoid_code check_common_point(const cut *c, ovoid_error *error) {
+static ovoid_code verify_common_point(const cut *c, ovoid_error *error) {
     const ovoid_solid_answer *x = c->x;
     const framed_pair pair = {&c->frame, &c->a, &c->b};
     if (!vec3_is_finite(x->common) || !(vec3_norm(x->common) <= c->frame.size))
@@ -147,9 +148,9 @@ static ovoid_code check_common_point(const cut *c, ovoid_error *error) {
     return depth > 0 && x->upper >= -depth ? OVOID_OK : refuse_all(error, "the common point does not show the overlap");
 }
 
-static ovoid_code check_inside(const cut *c, ovoid_error *error) {
+static ovoid_code verify_inside(const cut *c, ovoid_error *error) {
     const ovoid_solid_answer *x = c->x;
-    if (x->inside == OVOID_SOLID_COMMON_POINT) return check_common_point(c, error);
+    if (x->inside == OVOID_SOLID_COMMON_POINT) return verify_common_point(c, error);
     const solid_view *own = x->inside == OVOID_SOLID_A_INSIDE ? &c->a : &c->b, *other = own == &c->a ? &c->b : &c->a;
     if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
         return refuse_all(error, "an overlap without a reason");
@@ -160,7 +161,7 @@ static ovoid_code check_inside(const cut *c, ovoid_error *error) {
                                                              : refuse_all(error, "what is said to be inside is not");
 }
 
-static ovoid_code check_apart(const cut *c, ovoid_error *error) {
+static ovoid_code verify_apart(const cut *c, ovoid_error *error) {
     const ovoid_solid_answer *x = c->x;
     ovoid_solid_inside inside;
     uint32_t component;
@@ -181,9 +182,9 @@ static int inside_is_sound(const ovoid_solid_answer *x) {
     return is_component || x->component == 0;
 }
 
-static ovoid_code check_overlap(const cut *c, ovoid_error *error) {
+static ovoid_code verify_overlap(const cut *c, ovoid_error *error) {
     const ovoid_solid_answer *x = c->x;
-    if (x->inside != OVOID_SOLID_INSIDE_NONE) return check_inside(c, error);
+    if (x->inside != OVOID_SOLID_INSIDE_NONE) return verify_inside(c, error);
     if (x->surfaces.upper < 0 && x->upper >= x->surfaces.upper) return OVOID_OK;
     return refuse_all(error, "an overlap without a reason");
 }
@@ -196,20 +197,20 @@ static int limit_is_sound(const cut *c) {
     return x->upper - x->lower <= c->tolerance + (c->a.allowance + c->b.allowance);
 }
 
-static ovoid_code check_bodies(const cut *c, ovoid_error *error) {
+static ovoid_code verify_bodies(const cut *c, ovoid_error *error) {
     const ovoid_solid_answer *x = c->x;
     ovoid_code code =
-        status_check_internal(x->surfaces.status, x->surfaces.lower, x->surfaces.upper, c->tolerance, error);
-    if (code == OVOID_OK) code = status_check_internal(x->status, x->lower, x->upper, c->tolerance, error);
+        status_verify_internal(x->surfaces.status, x->surfaces.lower, x->surfaces.upper, c->tolerance, error);
+    if (code == OVOID_OK) code = status_verify_internal(x->status, x->lower, x->upper, c->tolerance, error);
     if (code != OVOID_OK) return code;
     if (!inside_is_sound(x)) return refuse_all(error, "what is said to be inside proves nothing of that status");
     if (!limit_is_sound(c)) return refuse_all(error, "the bracket is wider than its limit says");
-    if (x->status == OVOID_SEPARATED) return check_apart(c, error);
+    if (x->status == OVOID_SEPARATED) return verify_apart(c, error);
     if (x->status == OVOID_OVERLAPPING)
-        code = check_overlap(c, error);
+        code = verify_overlap(c, error);
     else if (!(x->upper >= x->surfaces.upper))
         code = refuse_all(error, "the upper bound is below that of the surfaces");
-    return code == OVOID_OK ? check_depth(c, error) : code;
+    return code == OVOID_OK ? verify_depth(c, error) : code;
 }
 
 // ---- both bodies
@@ -240,27 +241,27 @@ static ovoid_code take_deciding(cut *c, uint32_t a, uint32_t b, ovoid_pair *pair
 
 static const ovoid_exclusions no_exclusions = {NULL, 0, 0, NULL};
 
-static ovoid_code check_solids(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_options *options,
-                               const ovoid_exclusions *all, ovoid_error *error) {
+static ovoid_code verify_solids(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_options *options,
+                                const ovoid_exclusions *all, ovoid_error *error) {
     static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
     const ovoid_verdict claimed = {.status = x->status, .limit = x->limit, .lower = x->lower, .upper = x->upper};
     cut c = {.x = x, .all = all ? all : &no_exclusions, .lower = x->surfaces.lower};
     ovoid_pair leaves;
     ovoid_limit refused = find_refusal(pair, options, &c);
     if (refused != OVOID_LIMIT_NONE || (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B))
-        return refusal_check_internal(claimed, refused, error);
+        return refusal_verify_internal(claimed, refused, error);
     ovoid_code code = take_deciding(&c, x->triangle_a, x->triangle_b, &leaves, error);
     // Of the deciding pair the bounds; what its status means is a matter of the bodies' size.
-    if (code == OVOID_OK) code = answer_check_internal(&leaves, &x->surfaces, &of_leaves, NULL, error);
-    if (code == OVOID_OK) code = check_exclusions(&c, error);
-    return code == OVOID_OK ? check_bodies(&c, error) : code;
+    if (code == OVOID_OK) code = answer_verify_internal(&leaves, &x->surfaces, &of_leaves, NULL, error);
+    if (code == OVOID_OK) code = verify_exclusions(&c, error);
+    return code == OVOID_OK ? verify_bodies(&c, error) : code;
 }
 
 // ---- bodies without a solid
 
 // Status and limit by the bodies' tolerance, or that of the deciding pair, in which is what far origins hide.
-static ovoid_code check_terms(const cut *c, const ovoid_pair *parts, const ovoid_answer *x, const ovoid_options *given,
-                              ovoid_error *error) {
+static ovoid_code verify_terms(const cut *c, const ovoid_pair *parts, const ovoid_answer *x, const ovoid_options *given,
+                               ovoid_error *error) {
     pair_frame f = {.size = 0};
     ovoid_options options;
     (void)options_make(given, &options);
@@ -269,40 +270,40 @@ static ovoid_code check_terms(const cut *c, const ovoid_pair *parts, const ovoid
     (void)frame_place(parts, &f);
     const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), c->a.allowance + c->b.allowance,
                                 cap};
-    return terms_check_internal(x, &terms, error);
+    return terms_verify_internal(x, &terms, error);
 }
 
-static ovoid_code check_parts(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *given,
-                              const ovoid_exclusions *all, ovoid_error *error) {
+static ovoid_code verify_parts(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *given,
+                               const ovoid_exclusions *all, ovoid_error *error) {
     cut c = {.all = all ? all : &no_exclusions, .lower = x->answer.lower};
     ovoid_pair parts;
     ovoid_limit refused = find_refusal(pair, given, &c);
     if (pair->a.solid || pair->b.solid) refused = pair->a.solid ? OVOID_LIMIT_SHAPE_A : OVOID_LIMIT_SHAPE_B;
     if (refused != OVOID_LIMIT_NONE || x->answer.limit == OVOID_LIMIT_OPTIONS)
-        return refusal_check_internal(answer_get_verdict(&x->answer), refused, error);
+        return refusal_verify_internal(answer_get_verdict(&x->answer), refused, error);
     ovoid_code code = take_deciding(&c, x->part_a, x->part_b, &parts, error);
     if (code != OVOID_OK) return code;
     // Two shapes are asked with the options as they are.
-    if (c.a.shape && c.b.shape) return answer_check_internal(&parts, &x->answer, given, c.all->cover, error);
-    code = check_terms(&c, &parts, &x->answer, given, error);
+    if (c.a.shape && c.b.shape) return answer_verify_internal(&parts, &x->answer, given, c.all->cover, error);
+    code = verify_terms(&c, &parts, &x->answer, given, error);
     // A first look at the bodies has its points by their rounding.
     const answer_claims claims = {&parts, &x->answer, c.all->cover, c.frame.claim};
-    if (code == OVOID_OK) code = bounds_check_internal(&claims, error);
-    return code == OVOID_OK ? check_exclusions(&c, error) : code;
+    if (code == OVOID_OK) code = bounds_verify_internal(&claims, error);
+    return code == OVOID_OK ? verify_exclusions(&c, error) : code;
 }
 
 // ---- the public functions
 
-ovoid_code ovoid_compound_answer_check(const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                       const ovoid_options *options, const ovoid_exclusions *exclusions,
-                                       ovoid_error *error) {
+ovoid_code ovoid_compound_answer_verify(const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+                                        const ovoid_options *options, const ovoid_exclusions *exclusions,
+                                        ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
-    ENVIRONMENT_RETURN(ovoid_code, pair, check_parts(pair, answer, options, exclusions, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, verify_parts(pair, answer, options, exclusions, error));
 }
 
-ovoid_code ovoid_solid_answer_check(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                                    const ovoid_options *options, const ovoid_exclusions *exclusions,
-                                    ovoid_error *error) {
+ovoid_code ovoid_solid_answer_verify(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+                                     const ovoid_options *options, const ovoid_exclusions *exclusions,
+                                     ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
-    ENVIRONMENT_RETURN(ovoid_code, pair, check_solids(pair, answer, options, exclusions, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, verify_solids(pair, answer, options, exclusions, error));
 }
