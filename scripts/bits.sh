@@ -1,5 +1,5 @@
 #!/bin/sh
-# bits.sh: the same bits from every build? Builds the core, tests/core/test_query_bits.c and tests/core/test_motion_bits.c with gcc and clang, each at -O0 to
+# bits.sh: the same bits from every build? Builds the core, tests/core/query/test_query_bits.c and tests/core/motion/test_motion_bits.c with gcc and clang, each at -O0 to
 # -O3, for this machine's own instructions, with fused operations to be had, and linked as one; runs each, and compares
 # what they print. No core may hold a fused multiply-add: contraction is off, but compilers have forgotten. A compiler that
 # is not there is skipped. A line for each build; exit 1 where one differs, with its families. Some minutes on two cores.

@@ -29,7 +29,7 @@ formats_of() {
 timeout_of() { if [ "$1" = assimp ]; then echo 300; else echo 10; fi; }
 
 # collect_seeds TARGET FOLDER: the models of its formats, up to 32 KB each. Of the Assimp target the first byte says which
-# format it is (fuzz/fuzz_assimp.c), so it is put before.
+# format it is (fuzz/targets/fuzz_assimp.c), so it is put before.
 collect_seeds() {
     mkdir -p "$2"
     [ -d "$models" ] || return 0

@@ -1,6 +1,6 @@
 #!/bin/sh
 # ports.sh [quick | PORT]: the same bits elsewhere? Builds the core for other C libraries, processors and systems with the tools of
-# cmake/ports, runs tests/core/test_query_bits.c and test_motion_bits.c there and compares what they print with this
+# cmake/ports, runs tests/core/query/test_query_bits.c and test_motion_bits.c there and compares what they print with this
 # machine's release build; then other tests of the core. A port whose tools are absent, or that nothing here can run, is
 # skipped with a line. quick: musl and 64-bit ARM only, the first pairs only, for make check-all; PORT: that one. A line for each port; exit 1
 # where one differs or a test fails. docs/ports.md says what was run where.

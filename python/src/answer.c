@@ -1,7 +1,7 @@
 // Answer: what a query proved of two bodies, with its proof and what it takes to check it.
 #include "src/query.h"
 #ifdef OVOID_PYTHON_ROBOT
-#include "src/robot.h"
+#include "src/robot/robot.h"
 #endif
 
 #include <stdlib.h>

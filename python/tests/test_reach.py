@@ -1,6 +1,6 @@
 """Every public function of C is called by the extension, or named in docs/python.md with the reason why not.
 
-Truth: the declarations marked OVOID_API in include/ovoid/*.h, the names in python/src/*.c, the table of the page.
+Truth: the declarations marked OVOID_API in include/ovoid/*.h, the names in python/src, the table of the page.
 """
 
 import fnmatch
@@ -33,7 +33,7 @@ def find_declared():
 
 
 def find_called():
-    text = "".join(strip_comments(read(path)) for path in glob.glob(os.path.join(SOURCE, "python", "src", "*.c")))
+    text = "".join(strip_comments(read(path)) for path in glob.glob(os.path.join(SOURCE, "python", "src", "**", "*.c"), recursive=True))
     return set(re.findall(r"\bovoid_\w+", re.sub(r'"[^"\n]*"', "", text)))
 
 

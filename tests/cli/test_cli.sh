@@ -1,5 +1,5 @@
 #!/bin/sh
-# test_cli.sh [--update] [NAME...]: the tool as a user meets it. Each tests/cli/NAME.txt is a transcript: "$ command", then
+# test_cli.sh [--update] [NAME...]: the tool as a user meets it. Each tests/cli/transcripts/NAME.txt is a transcript: "$ command", then
 # what it prints (both streams), then "[code]" where the exit code is not 0; "# " lines are remarks. Every command is run
 # again, in a folder with a copy of tests/cli/data, and the transcript that comes out must be the one that is stored.
 # The sessions of the pages are replayed likewise, those of the start, the tutorials and of robots in a copy of examples/start.
@@ -60,11 +60,11 @@ if [ $# -eq 0 ]; then
         if [ $page = tool ]; then data=$cases/data; else data=$OVOID_SOURCE_DIR/examples/start; fi
         expect docs/$page.md "$work/page" "$data"
     done
-    for file in "$cases"/*.txt; do set -- "$@" "$(basename "$file" .txt)"; done
+    for file in "$cases"/transcripts/*.txt; do set -- "$@" "$(basename "$file" .txt)"; done
 fi
 for name; do
-    expect "tests/cli/$name.txt" "$cases/$name.txt"
-    if [ $update -eq 1 ]; then cp "$work/out" "$cases/$name.txt"; fi
+    expect "tests/cli/transcripts/$name.txt" "$cases/transcripts/$name.txt"
+    if [ $update -eq 1 ]; then cp "$work/out" "$cases/transcripts/$name.txt"; fi
 done
 echo "$passed passed, $failed failed, 0 skipped"
 [ $failed -eq 0 ]

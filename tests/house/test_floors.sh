@@ -60,7 +60,7 @@ rm -rf "$folder"
 
 # Each test of a floor is one of those that `make test FLOOR=` runs.
 find_floor() { awk -v name="$1" '!/^#/ && $1 != "house" && name ~ "^(" $2 ")$" { print $1; exit }' "$OVOID_SOURCE_DIR/tests/floors.txt"; }
-for source in "$OVOID_SOURCE_DIR"/tests/core/test_*.c "$OVOID_SOURCE_DIR"/tests/io/test_*.c "$OVOID_SOURCE_DIR"/tests/robot*/test_*.c \
+for source in "$OVOID_SOURCE_DIR"/tests/core/*/test_*.c "$OVOID_SOURCE_DIR"/tests/io/test_*.c "$OVOID_SOURCE_DIR"/tests/robot*/test_*.c \
     "$OVOID_SOURCE_DIR"/tests/judge/test_*.c; do
     name=$(basename "$source" .c)
     if [ -n "$(find_floor "$name")" ]; then

@@ -1,7 +1,7 @@
 // The gap of two moving bodies at one time, of which every step of an impact is made, before the exact judge: for the
 // poses that are computed there, what is left after the error of the measurement must be shown by the normal in
 // rational arithmetic. What the poses themselves may be off by is added again, as it is not the judge's matter
-// (tests/core/test_motion_pose.c). So no step, and no "free", stands on a gap that rounding made.
+// (tests/core/motion/test_motion_pose.c). So no step, and no "free", stands on a gap that rounding made.
 #include "judge.h"
 #include "motion/motion_gap.h"
 #include "moving.h"

@@ -1,5 +1,5 @@
 // Robot(...): a description that is read from tuples of names, Joints and elements.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <stdlib.h>
 #include <string.h>

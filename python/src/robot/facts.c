@@ -1,5 +1,5 @@
 // What a Robot is made of, as attributes: names, joints, variables, elements, limits, and what its files said beside.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 // A batch goes in chunks of whole blocks of OVOID_ROBOT_BLOCK states, each of which the library begins as if its
 // checker were new; so neither the chunks nor the threads change a bit. Between chunks the caller looks for signals
 // (Ctrl-C) and calls `progress` (interrupt.c).
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <math.h>
 #include <stdlib.h>

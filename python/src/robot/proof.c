@@ -1,7 +1,7 @@
 // Files of path proofs, as `ovoid robot path --proofs` writes them: their paths as claims about a cell, which check()
 // measures.
 #ifdef OVOID_PYTHON_ROBOT_READ
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <ovoid/robot_proof.h>
 

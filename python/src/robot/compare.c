@@ -1,5 +1,5 @@
 // States that a robot and a model of it disagree about.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <ovoid/robot_compare.h>
 

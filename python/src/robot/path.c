@@ -1,5 +1,5 @@
 // RobotPath: whether a path of a cell is free for all times in between, with the steps that prove it.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #ifdef OVOID_PYTHON_ROBOT_READ
 #include <ovoid/robot_proof.h>

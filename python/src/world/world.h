@@ -1,6 +1,6 @@
 // A world and what it keeps alive.
-#ifndef OVOID_PYTHON_WORLD_H
-#define OVOID_PYTHON_WORLD_H
+#ifndef OVOID_PYTHON_WORLD_WORLD_H
+#define OVOID_PYTHON_WORLD_WORLD_H
 
 #include "src/query.h"
 

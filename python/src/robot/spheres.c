@@ -1,7 +1,7 @@
 // Spheres that stand for a link: how far they are from covering it, and spheres that are proven to.
 //
 // A sphere is four numbers, its centre in the link's frame and its radius; the library's struct is those.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <ovoid/robot_spheres.h>
 

@@ -1,6 +1,6 @@
 // Robot: links that hang on joints, where they are for given joint numbers. Made of tuples in robot_create.c, of files
 // in robot_file.c; robot_facts.c has its attributes.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 // Changes are made under the interpreter's lock, queries without it; so a change that finds a query of another thread
 // at work raises RuntimeError and does nothing. Each query borrows a checker, and there are as many as there were
 // queries at once.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <stdlib.h>
 

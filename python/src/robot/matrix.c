@@ -1,5 +1,5 @@
 // The collision matrix of a robot: which pairs of links never touch, always do, or sometimes do.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <ovoid/robot_matrix.h>
 

@@ -1,5 +1,5 @@
 // The smallest clearance of a path of a cell.
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <math.h>
 #include <stdlib.h>

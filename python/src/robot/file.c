@@ -1,7 +1,7 @@
 // Robots, scenes of obstacles and planning problems from files. Notes of the readers become warnings.
 #ifdef OVOID_PYTHON_ROBOT_READ
 #include "src/query.h"
-#include "src/robot.h"
+#include "src/robot/robot.h"
 
 #include <ovoid/robot_io.h>
 

@@ -1,6 +1,6 @@
 // The kernels for eight pairs against their scalar twin, bit for bit: no tolerance. Lanes that a kernel reports as odd
-// are not compared: they are left to the single query (tests/core/test_query_batch.c compares those, and the twin with
-// it).
+// are not compared: they are left to the single query (tests/core/query/test_query_batch.c compares those, and the twin
+// with it).
 #include "simd/pair8.h"
 
 #include "check.h"

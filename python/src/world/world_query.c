@@ -1,6 +1,6 @@
 // Queries of a world between steps: nearest, any, overlaps, casts. They change nothing, and run without the
 // interpreter's lock.
-#include "src/world.h"
+#include "src/world/world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 //
 // The library wants exclusive access for what changes a world; so a call that finds another thread's in the way raises
 // RuntimeError and does nothing.
-#include "src/world.h"
+#include "src/world/world.h"
 
 #include <stdlib.h>
 #include <string.h>

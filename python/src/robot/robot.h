@@ -1,6 +1,6 @@
 // Robots and their cells, and what the files about them share. Compiled where there is libovoid_robot.
-#ifndef OVOID_PYTHON_ROBOT_H
-#define OVOID_PYTHON_ROBOT_H
+#ifndef OVOID_PYTHON_ROBOT_ROBOT_H
+#define OVOID_PYTHON_ROBOT_ROBOT_H
 
 #include "src/module.h"
 
