@@ -44,5 +44,11 @@ if grep -q 'url(/javascript/normalize.css/' "$styles/furo.css"; then
     cp /usr/share/javascript/normalize.css/normalize.css "$styles/" || exit 1
     sed -i 's|url(/javascript/normalize.css/|url(|' "$styles/furo.css"
 fi
+# Debian's furo is a module that the pages load as a plain script, and browsers refuse modules from the disk: the script that it imports, a
+# plain one, is put before it.
+furo=$out/_static/scripts/furo.js
+if grep -q '^import Gumshoe from "./gumshoe-patched.js";$' "$furo"; then
+    { cat "$out/_static/scripts/gumshoe-patched.js" && sed '/^import Gumshoe from/d' "$furo"; } >"$furo.new" && mv "$furo.new" "$furo" || exit 1
+fi
 scripts/check-links "$out" || exit 1
 echo "$out/index.html: $(find "$out" -name '*.html' | wc -l) pages, $(du -sk "$out" | cut -f1) kB"

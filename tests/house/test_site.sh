@@ -31,6 +31,10 @@ check() {
 check 'the site builds' "$(scripts/site.sh "$site" 2>&1 | grep -v 'index.html: \|^site: without the live page')"
 check 'a front page' "$([ -s "$site/index.html" ] || echo 'none')"
 check 'nothing from the network, nor from the root of a server' "$(grep -rlE '(src|href)="(https?:)?//[^"]*\.(js|css|woff2?|png|svg)"|url\(["'\'']?(https?:)?/' "$site" --include='*.html' --include='*.css')"
+# A browser loads it as a plain script, which may not import: Node.js reads files of this name as such scripts.
+if command -v node >/dev/null; then
+    check 'the script of the theme is a plain one' "$(node --check "$site/_static/scripts/furo.js" 2>&1 && ! grep -n '^import ' "$site/_static/scripts/furo.js")"
+fi
 
 # The names of the headers' functions: what is declared with OVOID_API, and the C++ classes.
 index=$site/searchindex.js
