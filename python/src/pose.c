@@ -64,6 +64,13 @@ static int read_two(module_state *state, PyObject *from, const char *what, ovoid
     return check_pose(state, what, -1, pose);
 }
 
+// A position alone: nothing is turned.
+static int read_position(module_state *state, PyObject *from, const char *what, ovoid_pose *pose) {
+    *pose = ovoid_pose_make_identity();
+    if (vec3_read(state, from, what, &pose->position)) return -1;
+    return check_pose(state, what, -1, pose);
+}
+
 int pose_read(module_state *state, PyObject *from, const char *what, ovoid_pose *pose) {
     if (!from || from == Py_None)
         *pose = ovoid_pose_make_identity();
@@ -71,6 +78,8 @@ int pose_read(module_state *state, PyObject *from, const char *what, ovoid_pose 
         *pose = ((pose_object *)from)->pose;
     else if (PyTuple_Check(from) && PyTuple_Size(from) == 2)
         return read_two(state, from, what, pose);
+    else if (array_axes(from) == 1)
+        return read_position(state, from, what, pose);
     else
         return read_matrix(state, from, what, pose);
     return 0;
@@ -164,6 +173,17 @@ static PyObject *pose_new(PyTypeObject *type, PyObject *arguments, PyObject *key
     ovoid_pose pose;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|O:Pose", names, &from) ||
         pose_read(state, from, "pose", &pose))
+        return NULL;
+    return pose_wrap(state, pose);
+}
+
+static PyObject *from_translation(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"xyz", NULL};
+    PyObject *xyz;
+    module_state *state = state_of_type(type);
+    ovoid_pose pose;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O:from_translation", names, &xyz) ||
+        read_position(state, xyz, "xyz", &pose))
         return NULL;
     return pose_wrap(state, pose);
 }
@@ -327,6 +347,9 @@ static PyObject *make(PyObject *type, PyObject *arguments) {
 }
 
 static PyMethodDef methods[] = {
+    {"from_translation", METHOD_KEYWORDS(from_translation), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "from_translation(xyz)\n--\n\nFrom a position; nothing is turned. Three numbers mean this wherever a pose is "
+     "wanted."},
     {"from_quaternion", METHOD_KEYWORDS(from_quaternion), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "from_quaternion(xyz, *, wxyz=None, xyzw=None)\n--\n\nFrom a position and four numbers whose order is named.\n\n"
      "Any norm but zero: the rotation is that of the normalised quaternion."},
@@ -353,10 +376,10 @@ static PyGetSetDef fields[] = {
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyType_Slot slots[] = {
-    {Py_tp_doc,
-     "Pose(pose=None)\n--\n\nWhere a body is: world = xyz + R local.\n\nFrom None (the identity), a 4x4 "
-     "array whose last row is 0 0 0 1, a tuple (xyz, SciPy\nRotation), or another Pose. a @ b is the pose of "
-     "b in the frame that a poses. Immutable."},
+    {Py_tp_doc, "Pose(pose=None)\n--\n\nWhere a body is: world = xyz + R local.\n\nFrom None (the identity), three "
+                "numbers (a position), a 4x4 array whose last row is\n0 0 0 1, a tuple (xyz, SciPy Rotation), or "
+                "another Pose. a @ b is the pose of "
+                "b in the frame that a poses. Immutable."},
     {Py_tp_new, pose_new},
     {Py_tp_dealloc, object_free},
     {Py_tp_richcompare, compare},

@@ -90,6 +90,18 @@ class Shapes(unittest.TestCase):
 
 
 class Poses(unittest.TestCase):
+    def test_three_numbers_are_a_position(self):
+        there = ovoid.Pose.from_quaternion((1, 2, 3), wxyz=(1, 0, 0, 0))
+        for given in (1, 2, 3), [1.0, 2.0, 3.0], there.matrix[:3, 3] if hasattr(there.matrix, "T") else (1, 2, 3):
+            self.assertEqual(ovoid.Pose(given), there)
+            self.assertEqual(ovoid.Pose.from_translation(given), there)
+        self.assertEqual(ovoid.distance(BOX, BOX, None, (9, 0, 0)).lower,
+                         ovoid.distance(BOX, BOX, None, ovoid.Pose((9, 0, 0))).lower)
+        self.assertEqual(ovoid.Bodies(BOX, [(0, 0, 0), (9, 0, 0)]).__len__(), 2)
+        for bad, sentence in ((1, 2), "Rotation"), ((1, 2, 3, 4), "shape"), ((1, 2, math.nan), "NaN"), ((1, 2, "x"), ""):
+            with self.assertRaisesRegex((TypeError, ValueError), sentence):
+                ovoid.Pose(bad)
+
     def test_orders_are_named(self):
         quarter = ovoid.Pose.from_quaternion((0, 0, 0), wxyz=(1, 0, 0, 1))
         self.assertEqual(quarter, ovoid.Pose.from_quaternion((0, 0, 0), xyzw=(0, 0, 1, 1)))
