@@ -1,9 +1,7 @@
 // JSON of bounded depth, since jansson calls itself for each level and the stack may be small; the line of a value,
-// found by scanning the text once more, since jansson keeps no positions; long lists read element by element; and texts
-// and numbers written as JSON.
+// found by scanning the text once more, since jansson keeps no positions; long lists read element by element.
 #include "io/json.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -181,15 +179,4 @@ int json_next(json_list *list, json_t **element, json_error_t *why) {
     json_decref(*element);
     snprintf(why->text, sizeof why->text, "no comma between elements");
     return -1;
-}
-
-// ---- writing
-
-void json_write_number(FILE *file, double value) {
-    char digits[32];
-    if (!isfinite(value)) {
-        fputs("null", file);
-        return;
-    }
-    fwrite(digits, 1, number_write(digits, value, 17), file);
 }

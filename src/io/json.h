@@ -2,6 +2,7 @@
 #ifndef OVOID_IO_JSON_H
 #define OVOID_IO_JSON_H
 
+#include "io/fields.h"
 #include "io/text.h"
 
 #include <jansson.h>
@@ -44,7 +45,8 @@ json_t *json_load_around(bytes text, const char *key, int flags, json_list *list
 /// memory) and *why: its line is of no use.
 int json_next(json_list *list, json_t **element, json_error_t *why);
 
-/// Writes %.17g; null where it is not finite.
-void json_write_number(FILE *file, double value);
+/// A whole number from 0 to top; an array of as many.
+int json_read_whole(const json_t *value, double top, double *whole);
+int json_read_wholes(const json_t *value, size_t count, double top, double *whole);
 
 #endif

@@ -5,78 +5,63 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void write_length(FILE *file, const char *name, const ovoid_decomposition_length *l) {
-    const double p[] = {l->point.x, l->point.y, l->point.z};
-    fprintf(file, ",\"%s\":{\"lower\":", name);
-    json_write_number(file, l->lower);
-    fputs(",\"upper\":", file);
-    json_write_number(file, l->upper);
-    for (int k = 0; k < 3; k++) {
-        fputs(k ? "," : ",\"point\":[", file);
-        json_write_number(file, l->lower > 0 ? p[k] : 0);
-    }
-    fprintf(file, "],\"part\":%lu}", l->lower > 0 ? (unsigned long)l->part : 0ul);
+/// What the line holds.
+typedef struct proof_line {
+    uint64_t version, triangles, parts;
+    ovoid_decomposition_length uncovered, excess;
+} proof_line;
+
+static const char wrong_keys[] = "lacks a key, or has another one";
+
+#define LENGTH(member) FIELD_AT(ovoid_decomposition_length, member)
+static const field length_fields[] = {
+    {"lower", FIELD_FINITE, LENGTH(lower), .wrong = "must be a number"},
+    {"upper", FIELD_FINITE, LENGTH(upper), .wrong = "must be a number"},
+    {"point", FIELD_VECTOR, LENGTH(point), .wrong = "must be a point of three numbers"},
+    {"part", FIELD_WHOLE, LENGTH(part), .wrong = "must be the number of a part"},
+};
+static const field_table length = FIELD_TABLE(ovoid_decomposition_length, length_fields, wrong_keys, wrong_keys);
+
+#define LINE(member) FIELD_AT(proof_line, member)
+static const field line_fields[] = {
+    {"decomposition", FIELD_WHOLE, LINE(version), .wrong = "must be the version, 1"},
+    {"triangles", FIELD_WHOLE, LINE(triangles), .wrong = "must be a whole number >= 0"},
+    {"parts", FIELD_WHOLE, LINE(parts), .wrong = "must be a whole number >= 0"},
+    {"uncovered", FIELD_OBJECT, LINE(uncovered), .table = &length},
+    {"excess", FIELD_OBJECT, LINE(excess), .table = &length},
+};
+static const field_table line_table = FIELD_TABLE(proof_line, line_fields, wrong_keys, wrong_keys);
+
+// A lower bound of 0 needs no point.
+static ovoid_decomposition_length make_length(ovoid_decomposition_length l) {
+    return l.lower > 0 ? l : (ovoid_decomposition_length){.lower = l.lower, .upper = l.upper};
 }
 
 ovoid_code ovoid_decomposition_write_json(FILE *file, const ovoid_decomposition *decomposition,
                                           const ovoid_decomposition_proof *proof) {
-    fprintf(file, "{\"decomposition\":1,\"triangles\":%llu,\"parts\":%zu",
-            (unsigned long long)ovoid_solid_get_report(decomposition->solid).triangles, decomposition->part_count);
-    write_length(file, "uncovered", &proof->uncovered);
-    write_length(file, "excess", &proof->excess);
-    fputs("}\n", file);
+    const proof_line line = {1, ovoid_solid_get_report(decomposition->solid).triangles, decomposition->part_count,
+                             make_length(proof->uncovered), make_length(proof->excess)};
+    fields_write_json(file, "\"", &line_table, &line, 0);
+    fputc('\n', file);
     return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK;
 }
 
-/// Why the object has not these keys, each once, and no other; NULL: it has.
-static const char *validate_keys(const json_t *object, const char *const *keys, size_t count) {
-    if (!json_is_object(object)) return "is no object";
-    for (size_t i = 0; i < count; i++)
-        if (!json_object_get(object, keys[i])) return "lacks a key, or has another one";
-    return json_object_size(object) == count ? NULL : "has a key too many";
-}
+static int has_point(const ovoid_decomposition_length *l) { return !isnan(l->point.x + l->point.y + l->point.z); }
 
-/// A whole number from 0 to `most`; 0 where there is none.
-static int read_count(const json_t *value, double most, double *count) {
-    *count = json_number_value(value);
-    return json_is_number(value) && *count >= 0 && *count <= most && *count == floor(*count);
-}
-
-static const char *read_length(const json_t *object, ovoid_decomposition_length *l) {
-    static const char *const keys[] = {"lower", "upper", "point", "part"};
-    const char *wrong = validate_keys(object, keys, 4);
-    double part;
-    if (wrong) return wrong;
-    const json_t *lower = json_object_get(object, "lower"), *upper = json_object_get(object, "upper");
-    const json_t *point = json_object_get(object, "point");
-    double *to[] = {&l->point.x, &l->point.y, &l->point.z};
-    if (!json_is_number(lower) || !json_is_number(upper)) return "needs numbers as lower and upper";
-    if (json_array_size(point) != 3) return "needs a point of three numbers";
-    for (size_t k = 0; k < 3; k++) {
-        if (!json_is_number(json_array_get(point, k))) return "needs a point of three numbers";
-        *to[k] = json_number_value(json_array_get(point, k));
-    }
-    if (!read_count(json_object_get(object, "part"), UINT32_MAX, &part)) return "needs the number of a part";
-    l->lower = json_number_value(lower);
-    l->upper = json_number_value(upper);
-    l->part = (uint32_t)part;
-    return NULL;
-}
-
-static ovoid_code read_proof(const json_t *root, where at, ovoid_decomposition_record *record, ovoid_error *error) {
-    static const char *const keys[] = {"decomposition", "triangles", "parts", "uncovered", "excess"};
-    double version, triangles, parts;
-    const char *wrong = validate_keys(root, keys, 5), *name = "the proof";
-    if (!wrong && (!read_count(json_object_get(root, "decomposition"), 1, &version) || version != 1))
-        wrong = "is of another version than 1";
-    if (!wrong && (!read_count(json_object_get(root, "triangles"), 0x1p53, &triangles) ||
-                   !read_count(json_object_get(root, "parts"), 0x1p53, &parts)))
-        wrong = "needs whole numbers as triangles and parts";
-    if (!wrong && (wrong = read_length(json_object_get(root, name = "uncovered"), &record->proof.uncovered)) == NULL)
-        wrong = read_length(json_object_get(root, name = "excess"), &record->proof.excess);
-    if (wrong) return io_fail(error, OVOID_ERROR_FORMAT, at, "%s %s", name, wrong);
-    record->triangles = (uint64_t)triangles;
-    record->parts = (uint64_t)parts;
+static ovoid_code read_proof(json_t *root, where at, ovoid_decomposition_record *record, ovoid_error *error) {
+    fields_reader reader = {.key = "the proof"};
+    proof_line line = {0};
+    uint64_t bits = 0;
+    const char *wrong = fields_read(&reader, root, &line_table, &line, &bits);
+    if (wrong == wrong_keys) reader.key = "the proof";
+    if (!wrong && line.version != 1) reader.key = "the proof", wrong = "is of another version than 1";
+    if (!wrong && (!has_point(&line.uncovered) || !has_point(&line.excess)))
+        reader.key = "point", wrong = "must be a point of three numbers";
+    if (wrong) return io_fail(error, OVOID_ERROR_FORMAT, at, "%.40s %s", reader.key, wrong);
+    record->proof.uncovered = line.uncovered;
+    record->proof.excess = line.excess;
+    record->triangles = line.triangles;
+    record->parts = line.parts;
     return OVOID_OK;
 }
 
