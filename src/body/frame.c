@@ -37,7 +37,7 @@ static const compound_node *find_part_node(const ovoid_compound *c, uint32_t pla
     return n;
 }
 
-static const compound_node *get_node(const ovoid_compound *c, solid_ref ref) {
+const compound_node *compound_get_node(const ovoid_compound *c, solid_ref ref) {
     return ref_is_triangle(ref) ? find_part_node(c, ref_get_place(ref)) : &c->nodes[ref];
 }
 
@@ -80,7 +80,7 @@ static void set_triangle_box(const ovoid_solid *s, uint32_t place, float low[3],
 tree_box solid_view_get_box(const solid_view *v, solid_ref ref) {
     if (v->shape) return (tree_box){{0, 0, 0}, v->half};
     if (v->compound) {
-        const compound_node *n = get_node(v->compound, ref);
+        const compound_node *n = compound_get_node(v->compound, ref);
         return (tree_box){n->center, n->half};
     }
     float own[2][3];

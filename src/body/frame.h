@@ -50,6 +50,9 @@ void solid_view_get_range(const solid_view *v, solid_ref ref, uint32_t *first, u
 /// The children of a node that is no leaf; how many.
 uint32_t solid_view_get_children(const solid_view *v, solid_ref node, solid_ref children[BOX8]);
 
+/// The node of a compound that a reference names; of a leaf down from the root.
+const compound_node *compound_get_node(const ovoid_compound *compound, solid_ref ref);
+
 /// A box in a tree's frame, in the user's unit of length.
 typedef struct tree_box {
     vec3 center, half;

@@ -1,9 +1,8 @@
-// Checks the impact of solids: groups of steps, each of two leaves or of the balls around two nodes, that leave out no
-// pair of leaves (disjoint rectangles in the table of pairs cover it if their areas add up to its area); and the
-// beginning, which is asked anew.
+// Verifies the impact of two bodies without a search: groups of steps, each of two parts or of the balls around two
+// nodes, that leave out no pair of parts (disjoint rectangles in the table of pairs cover it if their areas add up to
+// its area); and of solids the beginning, which is asked anew.
 #include "base/environment.h"
 #include "base/error.h"
-#include "body/compound_impact.h"
 #include "body/moving_tree.h"
 
 // An impact and its proof, with both bodies as trees.
@@ -13,7 +12,7 @@ typedef struct claim {
     const ovoid_motion_options *options;
     const ovoid_step *steps;
     const ovoid_step_group *groups;
-    moving_tree a, b;
+    moving_trees trees;
 } claim;
 
 // The node or leaf over exactly these leaves; descends to the child that holds them. 0 where there is none.
@@ -36,40 +35,44 @@ static int find_node(const solid_view *v, uint32_t first, uint32_t end, solid_re
     }
 }
 
-// OVOID_OK if the groups leave out no pair of leaves.
+// 1 if two groups have no pair of parts in common.
+static int groups_are_apart(const ovoid_step_group *x, const ovoid_step_group *y) {
+    return x->end_a <= y->first_a || y->end_a <= x->first_a || x->end_b <= y->first_b || y->end_b <= x->first_b;
+}
+
+// OVOID_OK if the groups leave out no pair of parts.
 static ovoid_code verify_cover(const claim *c, ovoid_error *error) {
+    const solid_view *a = &c->trees.a.view, *b = &c->trees.b.view;
     const ovoid_step_group *groups = c->groups;
     size_t count = c->found->group_count;
     uint64_t area = 0;
     solid_ref node;
     for (size_t i = 0; i < count; i++) {
-        if (!find_node(&c->a.view, groups[i].first_a, groups[i].end_a, &node) ||
-            !find_node(&c->b.view, groups[i].first_b, groups[i].end_b, &node))
+        if (!find_node(a, groups[i].first_a, groups[i].end_a, &node) ||
+            !find_node(b, groups[i].first_b, groups[i].end_b, &node))
             return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "group %zu is of no two nodes of the trees", i);
         for (size_t k = 0; k < i; k++)
-            if (!step_groups_are_apart(&groups[i], &groups[k]))
+            if (!groups_are_apart(&groups[i], &groups[k]))
                 return error_set(error, OVOID_ERROR_PROOF, (int64_t)i, "groups %zu and %zu have parts in common", k, i);
         area += (uint64_t)(groups[i].end_a - groups[i].first_a) * (groups[i].end_b - groups[i].first_b);
     }
-    if (area == (uint64_t)c->a.view.count * c->b.view.count) return OVOID_OK;
+    if (area == (uint64_t)a->count * b->count) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, (int64_t)count, "the groups leave out pairs of parts");
 }
 
 static ovoid_code verify_group(const claim *c, const ovoid_step_group *g, const ovoid_step *steps, ovoid_error *error) {
     solid_ref a, b;
-    moving_room rooms[2];
-    ovoid_moving_shape made[2];
-    (void)find_node(&c->a.view, g->first_a, g->end_a, &a);
-    (void)find_node(&c->b.view, g->first_b, g->end_b, &b);
+    moving_couple made;
+    (void)find_node(&c->trees.a.view, g->first_a, g->end_a, &a);
+    (void)find_node(&c->trees.b.view, g->first_b, g->end_b, &b);
     const ovoid_impact *x = &c->found->impact;
     const step_claim free = {x->begin, x->free_until, c->margin, steps, g->count};
-    // Two leaves may be free by their balls.
-    if (ref_is_triangle(a) && ref_is_triangle(b)) {
-        ovoid_moving_shape ball_a = moving_tree_make_ball(&c->a, a, &rooms[0]),
-                           ball_b = moving_tree_make_ball(&c->b, b, &rooms[1]);
-        if (impact_verify_steps((moving_shapes){&ball_a, &ball_b}, &free, NULL) == OVOID_OK) return OVOID_OK;
+    // Two triangles may be free by their balls.
+    if (c->trees.has_solid && ref_is_triangle(a) && ref_is_triangle(b)) {
+        moving_shapes balls = moving_trees_make_balls(&c->trees, a, b, &made);
+        if (impact_verify_steps(balls, &free, NULL) == OVOID_OK) return OVOID_OK;
     }
-    return impact_verify_steps(moving_trees_get_pair(&c->a, a, &c->b, b, made, rooms), &free, error);
+    return impact_verify_steps(moving_trees_get_pair(&c->trees, a, b, &made), &free, error);
 }
 
 static ovoid_code verify_groups(const claim *c, ovoid_error *error) {
@@ -87,18 +90,13 @@ static ovoid_code verify_groups(const claim *c, ovoid_error *error) {
     return code;
 }
 
-// The deciding pair as moving shapes, made in rooms.
-static moving_shapes get_leaves(const claim *c, ovoid_moving_shape made[2], moving_room rooms[2]) {
-    made[0] = moving_tree_get_leaf(&c->a, solid_view_get_place(&c->a.view, c->found->part_a), &rooms[0]);
-    made[1] = moving_tree_get_leaf(&c->b, solid_view_get_place(&c->b.view, c->found->part_b), &rooms[1]);
-    return (moving_shapes){&made[0], &made[1]};
-}
-
-static ovoid_code verify_leaves(const claim *c, const ovoid_answer *hit, double most, ovoid_error *error) {
-    moving_room rooms[2];
-    ovoid_moving_shape made[2];
+static ovoid_code verify_parts(const claim *c, const ovoid_answer *hit, double most, ovoid_error *error) {
+    const moving_tree *a = &c->trees.a, *b = &c->trees.b;
+    moving_couple made;
+    solid_ref part_a = solid_view_get_place(&a->view, c->found->part_a) | SOLID_TRIANGLE;
+    solid_ref part_b = solid_view_get_place(&b->view, c->found->part_b) | SOLID_TRIANGLE;
     const answer_claim own = {c->found->impact.hit_at, hit, -INFINITY, most};
-    return impact_verify_answer(get_leaves(c, made, rooms), &own, error);
+    return impact_verify_answer(moving_trees_get_pair(&c->trees, part_a, part_b, &made), &own, error);
 }
 
 // The claimed bracket contains what is found, and says the same of the sign.
@@ -113,8 +111,8 @@ static int holds(const ovoid_answer *claimed, const ovoid_solid_answer *found) {
 static ovoid_code verify_hit_at_begin(const claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     moving_answer at;
-    moving_trees_ask(&c->a, &c->b, c->margin, x->begin, &at);
-    if (at.answer.upper + at.shift > c->margin) return verify_leaves(c, &x->hit, c->margin, error);
+    moving_trees_ask(&c->trees, c->margin, x->begin, &at);
+    if (at.answer.upper + at.shift > c->margin) return verify_parts(c, &x->hit, c->margin, error);
     ovoid_answer surfaces = x->hit;
     surfaces.status = at.answer.surfaces.status;
     surfaces.limit = at.answer.surfaces.limit;
@@ -122,41 +120,41 @@ static ovoid_code verify_hit_at_begin(const claim *c, ovoid_error *error) {
     surfaces.upper = at.answer.surfaces.upper;
     if (!holds(&x->hit, &at.answer) || x->hit.upper + at.shift > c->margin)
         return error_set(error, OVOID_ERROR_PROOF, -1, "the hit at the beginning is not what the bodies show there");
-    return verify_leaves(c, &surfaces, INFINITY, error);
+    return verify_parts(c, &surfaces, INFINITY, error);
 }
 
 // What is claimed of the beginning: within the margin, or apart.
 static ovoid_code verify_begin(const claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     moving_answer at;
+    if (!c->trees.has_solid) return OVOID_OK;
     if (x->status == OVOID_IMPACT_HIT && x->hit_at <= x->begin) return verify_hit_at_begin(c, error);
     if (x->free_until <= x->begin && x->status != OVOID_IMPACT_FREE) return OVOID_OK;
-    moving_trees_ask(&c->a, &c->b, c->margin, x->begin, &at);
+    moving_trees_ask(&c->trees, c->margin, x->begin, &at);
     if (moving_answer_is_apart(&at, 1)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1, "the bodies are not apart at the beginning");
 }
 
 static ovoid_code verify_hit(const claim *c, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
-    if (x->status != OVOID_IMPACT_HIT || x->hit_at <= x->begin) return OVOID_OK;
-    return verify_leaves(c, &x->hit, c->margin, error);
+    if (x->status != OVOID_IMPACT_HIT || (c->trees.has_solid && x->hit_at <= x->begin)) return OVOID_OK;
+    return verify_parts(c, &x->hit, c->margin, error);
 }
 
 // OVOID_OK if the query has these times, or is refused for this reason and nothing is claimed.
 static ovoid_code verify_query(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
-    moving_room rooms[2];
+    moving_couple made;
     int is_empty = impact_is_empty(x) && !c->found->group_count;
-    int has_a = moving_tree_make(a, &c->a), has_b = moving_tree_make(b, &c->b);
-    if (!has_a || !has_b) {
-        ovoid_limit limit = has_a ? OVOID_LIMIT_SHAPE_B : OVOID_LIMIT_SHAPE_A;
+    ovoid_limit limit = moving_trees_make(a, b, &c->trees);
+    if (limit != OVOID_LIMIT_NONE) {
         if (x->limit == limit && is_empty) return OVOID_OK;
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs exactly one of shape, compound and solid");
     }
-    ovoid_moving_shape ball_a = moving_tree_make_ball(&c->a, solid_view_get_root(&c->a.view), &rooms[0]),
-                       ball_b = moving_tree_make_ball(&c->b, solid_view_get_root(&c->b.view), &rooms[1]);
+    const moving_shapes balls = moving_trees_make_balls(&c->trees, solid_view_get_root(&c->trees.a.view),
+                                                        solid_view_get_root(&c->trees.b.view), &made);
     const query_claim query = {c->margin, c->options, x->begin, x->end, x->limit, is_empty};
-    return impact_verify_query((moving_shapes){&ball_a, &ball_b}, &query, error);
+    return impact_verify_query(balls, &query, error);
 }
 
 static ovoid_code verify(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
@@ -164,7 +162,8 @@ static ovoid_code verify(claim *c, const ovoid_moving_body *a, const ovoid_movin
     OVOID_ASSERT((c->steps || !x->step_count) && (c->groups || !c->found->group_count));
     ovoid_code code = verify_query(c, a, b, error);
     if (code != OVOID_OK || impact_is_refusal(x)) return code;
-    if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->a.view.count || c->found->part_b >= c->b.view.count)
+    if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->trees.a.view.count ||
+        c->found->part_b >= c->trees.b.view.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
                          ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
     code = verify_begin(c, error);
@@ -174,9 +173,16 @@ static ovoid_code verify(claim *c, const ovoid_moving_body *a, const ovoid_movin
     return code == OVOID_OK ? verify_hit(c, error) : code;
 }
 
+ovoid_code ovoid_compound_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
+                                       const ovoid_compound_impact *impact, const ovoid_motion_options *options,
+                                       const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
+    claim c = {.margin = margin, .found = impact, .options = options, .steps = steps, .groups = groups};
+    ENVIRONMENT_RETURN(ovoid_code, c, verify(&c, a, b, error));
+}
+
 ovoid_code ovoid_solid_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                     const ovoid_compound_impact *impact, const ovoid_motion_options *options,
-                                     const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
+                                    const ovoid_compound_impact *impact, const ovoid_motion_options *options,
+                                    const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
     claim c = {.margin = margin, .found = impact, .options = options, .steps = steps, .groups = groups};
     ENVIRONMENT_RETURN(ovoid_code, c, verify(&c, a, b, error));
 }
