@@ -44,12 +44,11 @@ static ovoid_code check_compound(const verify *v, const claim *item, const ovoid
     return verdict_verify_compound(v->verdict, &item->pair, &answer, &exclusions, points, error);
 }
 
-ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_compound_impact *found,
+ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_body_impact *found,
                                const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
-    if (a->solid || b->solid) return ovoid_solid_impact_verify(a, b, margin, found, NULL, steps, groups, error);
-    if (a->compound || b->compound || found->group_count)
-        return ovoid_compound_impact_verify(a, b, margin, found, NULL, steps, groups, error);
+    if (!a->shape || !b->shape || found->group_count)
+        return ovoid_body_impact_verify(a, b, margin, found, NULL, steps, groups, error);
     ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};
     return ovoid_impact_verify(&moving[0], &moving[1], margin, &found->impact, NULL, steps, error);
 }
@@ -60,7 +59,7 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
     const ovoid_record *r = &item->record;
     if (!(r->fields & OVOID_RECORD_IMPACT)) return OVOID_OK;
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
-    ovoid_compound_impact found = {
+    ovoid_body_impact found = {
         .part_a = a->compound ? r->part_a : 0, .part_b = b->compound ? r->part_b : 0, .group_count = r->group_count};
     int is_hit = isfinite(r->hit_after);
     found.impact = (ovoid_impact){.status = is_hit ? OVOID_IMPACT_HIT : OVOID_IMPACT_UNDECIDED,

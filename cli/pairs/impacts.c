@@ -1,5 +1,5 @@
 // Impacts between two frames: boxes that hold each object over the whole interval are swept along x; the remaining
-// pairs go to ovoid_compound_impact_find, on several threads. A pair is a candidate until it first comes within the
+// pairs go to ovoid_body_impact_find, on several threads. A pair is a candidate until it first comes within the
 // margin.
 #include "pairs/impacts.h"
 
@@ -150,13 +150,12 @@ static int reserve(pair_impact *p, ovoid_motion_options *options) {
 
 int pair_impact_find(pair_impact *p, const ovoid_moving_body bodies[2], double margin, impact_proof proof) {
     const ovoid_moving_body *a = &bodies[0], *b = &bodies[1];
-    int are_solids = a->solid || b->solid, is_compound = are_solids || a->compound || b->compound;
+    int is_compound = !a->shape || !b->shape;
     int has_groups = proof == IMPACT_PROOF_GROUPS || (proof && is_compound);
     ovoid_motion_options options = {.capacity = proof ? STEPS : 0, .group_capacity = has_groups ? STEPS : 0};
     for (;;) {
         if (proof && !reserve(p, &options)) return 0;
-        p->found = are_solids ? ovoid_solid_impact_find(a, b, margin, &options)
-                              : ovoid_compound_impact_find(a, b, margin, &options);
+        p->found = ovoid_body_impact_find(a, b, margin, &options);
         if (!has_groups) p->found.group_count = 0;
         size_t steps = p->found.impact.step_count, groups = p->found.group_count;
         if (!proof || (steps <= options.capacity && groups <= options.group_capacity)) return 1;

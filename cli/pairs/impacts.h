@@ -30,7 +30,7 @@ typedef struct cli_impacts {
 
 /// An impact of one pair, with the memory of its proof.
 typedef struct pair_impact {
-    ovoid_compound_impact found;
+    ovoid_body_impact found;
     ovoid_step *steps;
     ovoid_step_group *groups; ///< of compounds and solids
 } pair_impact;

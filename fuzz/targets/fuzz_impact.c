@@ -111,7 +111,7 @@ static void check_solids(const ovoid_moving_shape *a, const ovoid_moving_shape *
     if (!compound) return;
     ovoid_moving_body bodies[2] = {{.shape = a->shape, .motion = a->motion},
                                    {.compound = compound, .motion = b->motion}};
-    ovoid_compound_impact x = ovoid_compound_impact_find(&bodies[0], &bodies[1], margin, options);
+    ovoid_body_impact x = ovoid_body_impact_find(&bodies[0], &bodies[1], margin, options);
     fuzz_require(!(x.impact.free_until > x.impact.hit_at));
     double least = INFINITY;
     for (size_t i = 0; i < 2; i++) {

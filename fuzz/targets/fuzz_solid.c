@@ -115,12 +115,12 @@ static void ask_impact(fuzz_bytes *from, const ovoid_body_pair *pair, double mar
     ovoid_moving_body a = take_moving(from, &pair->a, is_wild), b = take_moving(from, &pair->b, is_wild);
     const ovoid_motion_options options = {
         .iterations = 100, .steps = steps, .capacity = STEPS, .groups = groups, .group_capacity = GROUPS};
-    ovoid_compound_impact x = ovoid_solid_impact_find(&a, &b, margin, &options);
+    ovoid_body_impact x = ovoid_body_impact_find(&a, &b, margin, &options);
     const ovoid_impact *is = &x.impact;
     ovoid_error error = {OVOID_OK, -1, ""};
     fuzz_require(!(is->free_until > is->hit_at));
     if (is->step_count > STEPS || x.group_count > GROUPS) return;
-    fuzz_require_code(ovoid_solid_impact_verify(&a, &b, margin, &x, NULL, steps, groups, &error), &error);
+    fuzz_require_code(ovoid_body_impact_verify(&a, &b, margin, &x, NULL, steps, groups, &error), &error);
     if (is_wild || is->limit >= OVOID_LIMIT_POSE_A) return;
     double slack = 1e-6 * find_size(&a, &b, is->end);
     for (int i = 0; i < 4; i++) {

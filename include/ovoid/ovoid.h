@@ -6,8 +6,8 @@
 #define OVOID_OVOID_H
 
 #include "ovoid/base.h"
+#include "ovoid/body_impact.h"
 #include "ovoid/compound.h"
-#include "ovoid/compound_impact.h"
 #include "ovoid/decompose.h"
 #include "ovoid/ellipsoid.h"
 #include "ovoid/linear.h"
@@ -19,7 +19,6 @@
 #include "ovoid/shape.h"
 #include "ovoid/smooth.h"
 #include "ovoid/solid.h"
-#include "ovoid/solid_impact.h"
 #include "ovoid/world.h"
 
 #endif

@@ -7,7 +7,7 @@
 
 /// An impact or an approach, with its steps and what it is about. Approaches are of shapes alone.
 typedef struct impact_object {
-    PyObject_HEAD ovoid_compound_impact of;
+    PyObject_HEAD ovoid_body_impact of;
     ovoid_approach approach;
     PyObject *a, *b, *motion_a, *motion_b;
     double margin;
@@ -61,10 +61,8 @@ static void search(impact_object *self, int what, const ovoid_moving_body *a, co
         self->approach = ovoid_approach_find(&shape_a, &shape_b, o);
     else if (a->shape && b->shape)
         self->of.impact = ovoid_impact_find(&shape_a, &shape_b, self->margin, o);
-    else if (a->solid || b->solid)
-        self->of = ovoid_solid_impact_find(a, b, self->margin, o);
     else
-        self->of = ovoid_compound_impact_find(a, b, self->margin, o);
+        self->of = ovoid_body_impact_find(a, b, self->margin, o);
     Py_END_ALLOW_THREADS;
 }
 
@@ -168,12 +166,9 @@ ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *erro
     if (a.shape && b.shape)
         return ovoid_impact_verify(&shape_a, &shape_b, self->margin, &self->of.impact, &self->options, self->steps,
                                    error);
-    if (!a.solid && !b.solid)
-        return ovoid_compound_impact_verify(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups,
-                                            error);
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_solid_impact_verify(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups, error);
+    code = ovoid_body_impact_verify(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups, error);
     Py_END_ALLOW_THREADS;
     return code;
 }

@@ -24,7 +24,7 @@ typedef struct descent {
     double margin, begin, end; ///< end: of the relevant times, the first hit found
     double tolerance;          ///< of times
     ovoid_motion_options options;
-    ovoid_compound_impact *out;
+    ovoid_body_impact *out;
     couple deciding;
     double window;     ///< the end of the times of the deciding pair's query
     double free_until; ///< the least of all pairs of parts that are not free
@@ -190,7 +190,7 @@ COMPILER_NOINLINE static void find_deciding_steps(descent *d) {
 }
 
 static void finish(descent *d) {
-    ovoid_compound_impact *out = d->out;
+    ovoid_body_impact *out = d->out;
     ovoid_impact *best = &out->impact;
     if (is_recording(d)) best->step_count = d->step_count;
     if (best->status == OVOID_IMPACT_FREE) return;
@@ -227,7 +227,7 @@ COMPILER_NOINLINE static ovoid_limit start(descent *d, const ovoid_moving_body *
 // 1 where the beginning decides: within the margin there, or it cannot be said what is inside what.
 COMPILER_NOINLINE static int begin_decides(descent *d) {
     moving_answer at;
-    ovoid_compound_impact *out = d->out;
+    ovoid_body_impact *out = d->out;
     if (!d->trees.has_solid) return 0;
     moving_trees_ask(&d->trees, d->margin, d->begin, &at);
     const ovoid_solid_answer *answer = &at.answer;
@@ -251,9 +251,9 @@ COMPILER_NOINLINE static int begin_decides(descent *d) {
 }
 
 static void find(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                 const ovoid_motion_options *options, ovoid_compound_impact *out) {
+                 const ovoid_motion_options *options, ovoid_body_impact *out) {
     OVOID_ASSERT(a && b);
-    *out = (ovoid_compound_impact){.impact = {.hit_at = INFINITY}};
+    *out = (ovoid_body_impact){.impact = {.hit_at = INFINITY}};
     ovoid_impact *x = &out->impact;
     descent d = {.margin = margin, .out = out, .free_until = INFINITY};
     x->limit = start(&d, a, b, options);
@@ -273,12 +273,7 @@ static void find(const ovoid_moving_body *a, const ovoid_moving_body *b, double 
     x->end = end;
 }
 
-ovoid_compound_impact ovoid_compound_impact_find(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                                 const ovoid_motion_options *options) {
-    ENVIRONMENT_RETURN_FILLED(ovoid_compound_impact, out, margin, find(a, b, margin, options, &out));
-}
-
-ovoid_compound_impact ovoid_solid_impact_find(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                              const ovoid_motion_options *options) {
-    ENVIRONMENT_RETURN_FILLED(ovoid_compound_impact, out, margin, find(a, b, margin, options, &out));
+ovoid_body_impact ovoid_body_impact_find(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
+                                         const ovoid_motion_options *options) {
+    ENVIRONMENT_RETURN_FILLED(ovoid_body_impact, out, margin, find(a, b, margin, options, &out));
 }

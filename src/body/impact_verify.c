@@ -8,7 +8,7 @@
 // An impact and its proof, with both bodies as trees.
 typedef struct claim {
     double margin;
-    const ovoid_compound_impact *found;
+    const ovoid_body_impact *found;
     const ovoid_motion_options *options;
     const ovoid_step *steps;
     const ovoid_step_group *groups;
@@ -173,15 +173,8 @@ static ovoid_code verify(claim *c, const ovoid_moving_body *a, const ovoid_movin
     return code == OVOID_OK ? verify_hit(c, error) : code;
 }
 
-ovoid_code ovoid_compound_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                       const ovoid_compound_impact *impact, const ovoid_motion_options *options,
-                                       const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
-    claim c = {.margin = margin, .found = impact, .options = options, .steps = steps, .groups = groups};
-    ENVIRONMENT_RETURN(ovoid_code, c, verify(&c, a, b, error));
-}
-
-ovoid_code ovoid_solid_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                    const ovoid_compound_impact *impact, const ovoid_motion_options *options,
+ovoid_code ovoid_body_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
+                                    const ovoid_body_impact *impact, const ovoid_motion_options *options,
                                     const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
     claim c = {.margin = margin, .found = impact, .options = options, .steps = steps, .groups = groups};
     ENVIRONMENT_RETURN(ovoid_code, c, verify(&c, a, b, error));

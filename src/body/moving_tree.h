@@ -4,7 +4,7 @@
 
 #include "body/frame.h"
 #include "motion/impact.h"
-#include "ovoid/solid_impact.h"
+#include "ovoid/body_impact.h"
 #include "shape/point.h"
 
 typedef struct moving_tree {

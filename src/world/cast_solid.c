@@ -13,7 +13,7 @@
 #include "body/frame.h"
 #include "linear/rotation.h"
 #include "motion/impact.h"
-#include "ovoid/solid_impact.h"
+#include "ovoid/body_impact.h"
 #include "shape/point.h"
 
 #define WIDER 0x1p-48
@@ -162,7 +162,7 @@ part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 w
     const ovoid_moving_body a = {body->shape, body->compound, still, body->solid};
     const ovoid_motion motion = ovoid_motion_make_velocity(moved->pose, way, (vec3){0, 0, 0}, 1);
     const ovoid_moving_body b = {moved->shape, moved->compound, motion, moved->solid};
-    ovoid_compound_impact x = ovoid_solid_impact_find(&a, &b, 0, &options);
+    ovoid_body_impact x = ovoid_body_impact_find(&a, &b, 0, &options);
     const ovoid_impact *i = &x.impact;
     return (part_hit){x.part_a, x.part_b, i->status, i->free_until, i->hit_at, i->hit.point_a, i->hit.normal};
 }

@@ -223,8 +223,8 @@ void check_motions() {
     std::vector<ovoid::step_group> groups(100);
     ovoid::motion_options full;
     full.with_steps(steps).with_groups(groups);
-    const ovoid::compound_impact met = ovoid::find_impact(u, v, 0, full);
-    const ovoid_compound_impact c_met = ovoid_compound_impact_find(&u, &v, 0, nullptr);
+    const ovoid::body_impact met = ovoid::find_impact(u, v, 0, full);
+    const ovoid_body_impact c_met = ovoid_body_impact_find(&u, &v, 0, nullptr);
     CHECK(met.impact.hit_at == c_met.impact.hit_at && met.part_a == 0);
     ovoid::check(u, v, 0, met, steps, groups);
     CHECK(u.part(1).shape == b.pill.get() && is_same(v.swept(0, 1), ovoid_moving_body_compute_box(&v, 0, 1)));

@@ -118,7 +118,7 @@ void check_bodies() {
     static ovoid_step steps[4096];
     static ovoid_step_group groups[1024];
     const ovoid::motion_options full = ovoid::motion_options().with_steps(steps).with_groups(groups);
-    const ovoid::compound_impact met = ovoid::find_impact(still, moved, 0, full);
+    const ovoid::body_impact met = ovoid::find_impact(still, moved, 0, full);
     CHECK_EQ(met.impact.status, OVOID_IMPACT_HIT);
     CHECK_NEAR(met.impact.hit_at, 0.25, 1e-8);
     ovoid::check(still, moved, 0, met, steps, groups);

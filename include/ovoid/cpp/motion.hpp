@@ -5,10 +5,9 @@
 #ifndef OVOID_CPP_MOTION_HPP
 #define OVOID_CPP_MOTION_HPP
 
-#include "ovoid/compound_impact.h"
+#include "ovoid/body_impact.h"
 #include "ovoid/cpp/compound.hpp"
 #include "ovoid/motion.h"
-#include "ovoid/solid_impact.h"
 
 namespace ovoid {
 
@@ -21,7 +20,7 @@ using step_group = ovoid_step_group;
 /** When two moving shapes come within a margin of each other. */
 using impact = ovoid_impact;
 /** When two moving bodies do. */
-using compound_impact = ovoid_compound_impact;
+using body_impact = ovoid_body_impact;
 /** How near two moving shapes come. */
 using approach = ovoid_approach;
 /** Where a ray meets a shape. */
@@ -114,10 +113,9 @@ inline impact find_impact(const moving_shape &a, const moving_shape &b, double m
     return ovoid_impact_find(&a, &b, margin, &o);
 }
 /** When do two moving bodies, of which each may be a solid? */
-inline compound_impact find_impact(const moving_body &a, const moving_body &b, double margin = 0,
-                                   const ovoid_motion_options &o = motion_options()) noexcept {
-    return a.solid || b.solid ? ovoid_solid_impact_find(&a, &b, margin, &o)
-                              : ovoid_compound_impact_find(&a, &b, margin, &o);
+inline body_impact find_impact(const moving_body &a, const moving_body &b, double margin = 0,
+                               const ovoid_motion_options &o = motion_options()) noexcept {
+    return ovoid_body_impact_find(&a, &b, margin, &o);
 }
 /**
  * Throws PROOF (place: the step) where an impact does not follow from its steps: all step_count of them. asked: the
@@ -133,16 +131,13 @@ void check(const moving_shape &a, const moving_shape &b, double margin, const ov
 }
 /** Throws PROOF (place: the group) where an impact of bodies does not follow from its steps and groups. */
 template <class Steps, class Groups>
-void check(const moving_body &a, const moving_body &b, double margin, const ovoid_compound_impact &found,
+void check(const moving_body &a, const moving_body &b, double margin, const ovoid_body_impact &found,
            const Steps &steps, const Groups &groups, const ovoid_motion_options *asked = nullptr) {
     ovoid_error e;
     if (std::size(steps) < found.impact.step_count || std::size(groups) < found.group_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps or groups than were kept");
-    ovoid_code code =
-        a.solid || b.solid
-            ? ovoid_solid_impact_verify(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e)
-            : ovoid_compound_impact_verify(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e);
-    detail::require(code, e);
+    detail::require(ovoid_body_impact_verify(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e),
+                    e);
 }
 
 /** The first time at which b, moved along displacement without turning, is within margin of a. */

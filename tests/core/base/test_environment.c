@@ -247,14 +247,14 @@ static void ask_motions(void) {
     x = ovoid_shape_cast(&pairs[0], linear, third, NULL);
     add_impact(&x);
     ovoid_moving_body bodies[2] = {{.shape = hull_shape, .motion = a.motion}, {.shape = box_shape, .motion = b.motion}};
-    ovoid_compound_impact z = ovoid_compound_impact_find(&bodies[0], &bodies[1], 0.01, &o);
+    ovoid_body_impact z = ovoid_body_impact_find(&bodies[0], &bodies[1], 0.01, &o);
     add_impact(&z.impact);
     static ovoid_step_group groups[8];
     o.groups = groups;
     o.group_capacity = 8;
-    z = ovoid_compound_impact_find(&bodies[0], &bodies[1], 0.01, &o);
+    z = ovoid_body_impact_find(&bodies[0], &bodies[1], 0.01, &o);
     ADD(z.group_count);
-    code = ovoid_compound_impact_verify(&bodies[0], &bodies[1], 0.01, &z, NULL, steps, groups, NULL);
+    code = ovoid_body_impact_verify(&bodies[0], &bodies[1], 0.01, &z, NULL, steps, groups, NULL);
     ADD(code);
     box = ovoid_moving_body_compute_box(&bodies[1], 0, third);
     ADD(box);

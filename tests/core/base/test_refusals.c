@@ -147,11 +147,11 @@ static void ask_solids(wrong w, int both) {
     asked = "compound_impact";
     ovoid_moving_body a = {.shape = s.a.shape, .compound = s.a.compound, .motion = ovoid_motion_make_still(s.a.pose)};
     ovoid_moving_body b = {.shape = s.b.shape, .compound = s.b.compound, .motion = ovoid_motion_make_still(s.b.pose)};
-    ovoid_compound_impact hit = ovoid_compound_impact_find(&a, &b, 0, NULL);
+    ovoid_body_impact hit = ovoid_body_impact_find(&a, &b, 0, NULL);
     EXPECT(hit.impact.limit == get_limit(w) && hit.impact.status == OVOID_IMPACT_UNDECIDED);
-    EXPECT(ovoid_compound_impact_verify(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_body_impact_verify(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) == OVOID_OK);
     hit.impact.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_compound_impact_verify(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_body_impact_verify(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) != OVOID_OK);
     asked = "compound box";
     EXPECT(isnan(ovoid_moving_body_compute_box(w.b ? &b : &a, 0, 1).min.x));
 }

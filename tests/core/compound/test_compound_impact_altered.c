@@ -1,4 +1,4 @@
-// A liar for ovoid_compound_impact_verify. Right records of moving compounds are altered one field at a time (alter.h),
+// A liar for ovoid_body_impact_verify. Right records of moving compounds are altered one field at a time (alter.h),
 // their groups and steps too, and others are forged: free for no time, hit before the beginning, free by coarse steps
 // of the balls around all parts.
 //
@@ -63,7 +63,7 @@ static int groups_are_false(const truth *t, size_t count) {
     return 0;
 }
 
-static int hit_is_false(const truth *t, const ovoid_compound_impact *x) {
+static int hit_is_false(const truth *t, const ovoid_body_impact *x) {
     const ovoid_answer *said = &x->impact.hit;
     ovoid_answer is = ask_parts(t, x->part_a, x->part_b, x->impact.hit_at);
     if (isnan(said->lower) || isnan(said->upper) || is.lower - t->slack > t->margin) return 1;
@@ -72,7 +72,7 @@ static int hit_is_false(const truth *t, const ovoid_compound_impact *x) {
                                            : said->status == OVOID_OVERLAPPING && !(said->upper < 0);
 }
 
-static int is_false(const truth *t, const ovoid_compound_impact *found) {
+static int is_false(const truth *t, const ovoid_body_impact *found) {
     const ovoid_impact *x = &found->impact;
     int hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
     if (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B)
@@ -95,26 +95,26 @@ static int is_false(const truth *t, const ovoid_compound_impact *found) {
 
 static const char *lie_name = "", *lie_kind = "";
 
-static void tell(const truth *t, const ovoid_compound_impact *x, alter_count *n) {
-    ovoid_code code = ovoid_compound_impact_verify(&t->a, &t->b, t->margin, x, t->told, steps, groups, NULL);
+static void tell(const truth *t, const ovoid_body_impact *x, alter_count *n) {
+    ovoid_code code = ovoid_body_impact_verify(&t->a, &t->b, t->margin, x, t->told, steps, groups, NULL);
     int is_noticed = alter_take(n, is_false(t, x), code != OVOID_OK);
     if (!CHECK(is_noticed) && check_failed <= 20) printf("  accepted: %s, %s\n", lie_name, lie_kind);
 }
 
 enum { FIELDS = 12, GROUP_FIELDS = 5, STEP_FIELDS = 5, FORGED = 7 };
 static const alter_field fields[FIELDS] = {
-    ALTER_FIELD(ovoid_compound_impact, impact.status, ALTER_INT, 0),
-    ALTER_FIELD(ovoid_compound_impact, impact.limit, ALTER_INT, 0),
-    ALTER_FIELD(ovoid_compound_impact, impact.begin, ALTER_REAL, 1e-9),
-    ALTER_FIELD(ovoid_compound_impact, impact.end, ALTER_REAL, 1e-9),
-    ALTER_FIELD(ovoid_compound_impact, impact.free_until, ALTER_REAL, 1e-9),
-    ALTER_FIELD(ovoid_compound_impact, impact.hit_at, ALTER_REAL, 1e-9),
-    ALTER_FIELD(ovoid_compound_impact, impact.hit.status, ALTER_INT, 0),
-    ALTER_FIELD(ovoid_compound_impact, impact.hit.lower, ALTER_REAL, 1e-9),
-    ALTER_FIELD(ovoid_compound_impact, impact.hit.upper, ALTER_REAL, 1e-9),
-    ALTER_FIELD(ovoid_compound_impact, part_a, ALTER_U32, 0),
-    ALTER_FIELD(ovoid_compound_impact, part_b, ALTER_U32, 0),
-    ALTER_FIELD(ovoid_compound_impact, group_count, ALTER_SIZE, 0),
+    ALTER_FIELD(ovoid_body_impact, impact.status, ALTER_INT, 0),
+    ALTER_FIELD(ovoid_body_impact, impact.limit, ALTER_INT, 0),
+    ALTER_FIELD(ovoid_body_impact, impact.begin, ALTER_REAL, 1e-9),
+    ALTER_FIELD(ovoid_body_impact, impact.end, ALTER_REAL, 1e-9),
+    ALTER_FIELD(ovoid_body_impact, impact.free_until, ALTER_REAL, 1e-9),
+    ALTER_FIELD(ovoid_body_impact, impact.hit_at, ALTER_REAL, 1e-9),
+    ALTER_FIELD(ovoid_body_impact, impact.hit.status, ALTER_INT, 0),
+    ALTER_FIELD(ovoid_body_impact, impact.hit.lower, ALTER_REAL, 1e-9),
+    ALTER_FIELD(ovoid_body_impact, impact.hit.upper, ALTER_REAL, 1e-9),
+    ALTER_FIELD(ovoid_body_impact, part_a, ALTER_U32, 0),
+    ALTER_FIELD(ovoid_body_impact, part_b, ALTER_U32, 0),
+    ALTER_FIELD(ovoid_body_impact, group_count, ALTER_SIZE, 0),
 };
 static const alter_field group_fields[GROUP_FIELDS] = {
     ALTER_FIELD(ovoid_step_group, first_a, ALTER_U32, 0), ALTER_FIELD(ovoid_step_group, end_a, ALTER_U32, 0),
@@ -128,9 +128,9 @@ static const alter_field step_fields[STEP_FIELDS] = {
 };
 static alter_count counts[FIELDS], group_counts[GROUP_FIELDS], step_counts[STEP_FIELDS], forged_counts[FORGED];
 
-static void lie_about(const truth *t, const ovoid_compound_impact *right) {
+static void lie_about(const truth *t, const ovoid_body_impact *right) {
     ovoid_motion_options half = {.begin = 0.25, .end = 0.75};
-    ovoid_compound_impact other = ovoid_compound_impact_find(&t->a, &t->b, t->margin, &half), x;
+    ovoid_body_impact other = ovoid_body_impact_find(&t->a, &t->b, t->margin, &half), x;
     for (int f = 0; f < FIELDS; f++)
         for (int kind = 0; kind < ALTER_KINDS; kind++) {
             x = *right;
@@ -142,7 +142,7 @@ static void lie_about(const truth *t, const ovoid_compound_impact *right) {
 }
 
 // The first, the last and one group in between, and a step of each.
-static void lie_about_groups(const truth *t, const ovoid_compound_impact *right) {
+static void lie_about_groups(const truth *t, const ovoid_body_impact *right) {
     const size_t count = right->group_count, which[3] = {0, count / 2, count ? count - 1 : 0};
     for (int k = 0; k < 3 && count; k++) {
         ovoid_step_group *g = &groups[which[k]], before = *g;
@@ -169,39 +169,39 @@ static void lie_about_groups(const truth *t, const ovoid_compound_impact *right)
 
 // ---- forgeries
 
-static void forge(const truth *t, const char *name, int which, const ovoid_compound_impact *x) {
+static void forge(const truth *t, const char *name, int which, const ovoid_body_impact *x) {
     lie_name = name;
     lie_kind = "forged";
     tell(t, x, &forged_counts[which]);
 }
 
 // Free from begin to end by `count` steps of the balls around all parts, along the compounds' normals.
-static ovoid_compound_impact make_free(const truth *t, double begin, double end, size_t count) {
+static ovoid_body_impact make_free(const truth *t, double begin, double end, size_t count) {
     groups[0] = (ovoid_step_group){0, t->count_a, 0, t->count_b, count};
     for (size_t i = 0; i < count; i++) {
         double from = begin + (end - begin) * (double)i / (double)count;
         double until = i + 1 < count ? begin + (end - begin) * (double)(i + 1) / (double)count : end;
         steps[i] = (ovoid_step){until, ask(t, from).normal, OVOID_STEP_WORLD};
     }
-    return (ovoid_compound_impact){.impact = {.status = OVOID_IMPACT_FREE,
-                                              .begin = begin,
-                                              .end = end,
-                                              .free_until = end,
-                                              .hit_at = INFINITY,
-                                              .step_count = count,
-                                              .free = ask(t, end)},
-                                   .group_count = 1};
+    return (ovoid_body_impact){.impact = {.status = OVOID_IMPACT_FREE,
+                                          .begin = begin,
+                                          .end = end,
+                                          .free_until = end,
+                                          .hit_at = INFINITY,
+                                          .step_count = count,
+                                          .free = ask(t, end)},
+                               .group_count = 1};
 }
 
 // Groups of all pairs of single parts, without steps.
-static void part_groups(const truth *t, ovoid_compound_impact *x) {
+static void part_groups(const truth *t, ovoid_body_impact *x) {
     x->group_count = 0;
     for (uint32_t a = 0; a < t->count_a; a++)
         for (uint32_t b = 0; b < t->count_b; b++) groups[x->group_count++] = (ovoid_step_group){a, a + 1, b, b + 1, 0};
 }
 
 // A pair of groups said twice, steps and all, in the place of another.
-static void forge_twice(const truth *t, const ovoid_compound_impact *right) {
+static void forge_twice(const truth *t, const ovoid_body_impact *right) {
     size_t at_i = 0;
     for (size_t i = 0; i < right->group_count; at_i += groups[i++].count) {
         size_t at_j = 0;
@@ -224,7 +224,7 @@ static void forge_twice(const truth *t, const ovoid_compound_impact *right) {
 // Any two parts at any time as those that meet then.
 static void forge_hits(const truth *t) {
     for (int i = 0; i < t->count; i++) {
-        ovoid_compound_impact x = {.impact = {.status = OVOID_IMPACT_HIT, .begin = t->begin, .end = t->end}};
+        ovoid_body_impact x = {.impact = {.status = OVOID_IMPACT_HIT, .begin = t->begin, .end = t->end}};
         x.part_a = (uint32_t)i % t->count_a;
         x.part_b = (uint32_t)i % t->count_b;
         x.impact.free_until = t->begin;
@@ -235,7 +235,7 @@ static void forge_hits(const truth *t) {
 }
 
 // A larger margin than the one that was asked about.
-static void forge_margins(const truth *t, const ovoid_compound_impact *right) {
+static void forge_margins(const truth *t, const ovoid_body_impact *right) {
     truth larger = *t;
     double least = INFINITY;
     for (int i = 0; i < t->count; i++)
@@ -249,27 +249,27 @@ static void forge_margins(const truth *t, const ovoid_compound_impact *right) {
 // Of a body that is refused only that reason is right, and nothing may be claimed beside it.
 static void forge_refusals(const truth *t) {
     ovoid_moving_body none = {.motion = t->b.motion};
-    ovoid_compound_impact right = ovoid_compound_impact_find(&t->a, &none, t->margin, &t->options), x = right;
-    CHECK_EQ(ovoid_compound_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL), OVOID_OK);
+    ovoid_body_impact right = ovoid_body_impact_find(&t->a, &none, t->margin, &t->options), x = right;
+    CHECK_EQ(ovoid_body_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL), OVOID_OK);
     x.impact.hit_at = 0.5;
-    CHECK(ovoid_compound_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
     x = right;
     x.impact.limit = OVOID_LIMIT_SHAPE_A;
-    CHECK(ovoid_compound_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
     x = right;
     x.impact.limit = OVOID_LIMIT_OPTIONS;
-    CHECK_EQ(ovoid_compound_impact_verify(&t->a, &t->b, -1, &x, t->told, NULL, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_body_impact_verify(&t->a, &t->b, -1, &x, t->told, NULL, NULL, NULL), OVOID_OK);
     x.group_count = 1;
-    CHECK(ovoid_compound_impact_verify(&t->a, &t->b, -1, &x, t->told, NULL, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&t->a, &t->b, -1, &x, t->told, NULL, groups, NULL) != OVOID_OK);
 }
 
-static void forge_all(const truth *t, const ovoid_compound_impact *right) {
+static void forge_all(const truth *t, const ovoid_body_impact *right) {
     forge_twice(t, right);
     forge_margins(t, right);
     forge_hits(t);
     forge_refusals(t);
     for (int i = 0; i < t->count; i++) {
-        ovoid_compound_impact x = make_free(t, t->times[i], t->times[i], 0);
+        ovoid_body_impact x = make_free(t, t->times[i], t->times[i], 0);
         forge(t, "free for no time", 0, &x);
         part_groups(t, &x);
         forge(t, "free for no time, part by part", 0, &x);
@@ -277,11 +277,11 @@ static void forge_all(const truth *t, const ovoid_compound_impact *right) {
         forge(t, "free for no time by a step", 0, &x);
     }
     for (size_t count = 1; count <= 64 && t->begin < t->end; count *= 4) {
-        ovoid_compound_impact x = make_free(t, t->begin, t->end, count);
+        ovoid_body_impact x = make_free(t, t->begin, t->end, count);
         forge(t, "coarse steps", 1, &x);
     }
     if (right->impact.status != OVOID_IMPACT_HIT) return;
-    ovoid_compound_impact x = *right;
+    ovoid_body_impact x = *right;
     x.impact.begin = x.impact.free_until = 0.5 * (x.impact.hit_at + x.impact.end);
     forge(t, "hit before the beginning", 2, &x);
     x = *right;
@@ -326,10 +326,9 @@ static void make(truth *t, uint64_t seed) {
 
 static void try_case(truth *t, uint64_t seed) {
     uint64_t s = seed;
-    ovoid_compound_impact right = ovoid_compound_impact_find(&t->a, &t->b, t->margin, &t->options);
+    ovoid_body_impact right = ovoid_body_impact_find(&t->a, &t->b, t->margin, &t->options);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_compound_impact_verify(&t->a, &t->b, t->margin, &right, t->told, steps, groups, &error),
-                  OVOID_OK))
+    if (!CHECK_EQ(ovoid_body_impact_verify(&t->a, &t->b, t->margin, &right, t->told, steps, groups, &error), OVOID_OK))
         printf("  %s\n", error.message);
     add_time(t, t->begin);
     add_time(t, t->end);

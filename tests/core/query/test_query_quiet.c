@@ -75,7 +75,7 @@ int main(void) {
         if (hit.step_count <= 100) sum += ovoid_impact_verify(&moving[0], &moving[1], 0, &hit, NULL, steps, NULL);
         if (i % 20 == 0) {
             sum += ovoid_approach_find(&moving[0], &moving[1], NULL).upper;
-            sum += (double)ovoid_compound_impact_find(&whole[0], &whole[1], 0, NULL).tested;
+            sum += (double)ovoid_body_impact_find(&whole[0], &whole[1], 0, NULL).tested;
             sum += ovoid_moving_body_compute_box(&whole[0], 0, 1).min.x;
         }
         ovoid_ray ray = {{9, 1, 0}, {-1, 0.1, 0}, INFINITY, 0};

@@ -51,7 +51,7 @@ static ovoid_body_pair solid_pair;
 static ovoid_moving_body moving_solids[2];
 static ovoid_solid_answer solid_answer;
 static ovoid_compound_answer compound_answer;
-static ovoid_compound_impact compound_impact;
+static ovoid_body_impact compound_impact;
 static ovoid_step_group groups[4096];
 static ovoid_exclusion items[256];
 static ovoid_exclusions exclusions = {.items = items, .capacity = 256, .cover = &cover};
@@ -128,11 +128,11 @@ static void ask_compound_check(void) {
     CHECK(ovoid_compound_answer_verify(&body_pair, &compound_answer, NULL, &exclusions, NULL) == OVOID_OK);
 }
 static void ask_compound_impact(void) {
-    compound_impact = ovoid_compound_impact_find(&moving_bodies[0], &moving_bodies[1], 0, &recording);
+    compound_impact = ovoid_body_impact_find(&moving_bodies[0], &moving_bodies[1], 0, &recording);
 }
 static void ask_compound_impact_check(void) {
-    CHECK(ovoid_compound_impact_verify(&moving_bodies[0], &moving_bodies[1], 0, &compound_impact, NULL, steps, groups,
-                                       NULL) == OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&moving_bodies[0], &moving_bodies[1], 0, &compound_impact, NULL, steps, groups,
+                                   NULL) == OVOID_OK);
 }
 static void ask_compound_box(void) { box = ovoid_moving_body_compute_box(&moving_bodies[0], 0, 1); }
 
@@ -145,11 +145,11 @@ static void ask_solid_check(void) {
     CHECK(code == OVOID_OK || exclusions.count > exclusions.capacity);
 }
 static void ask_solid_impact(void) {
-    compound_impact = ovoid_solid_impact_find(&moving_solids[0], &moving_solids[1], 0, &recording);
+    compound_impact = ovoid_body_impact_find(&moving_solids[0], &moving_solids[1], 0, &recording);
 }
 static void ask_solid_impact_check(void) {
-    (void)ovoid_solid_impact_verify(&moving_solids[0], &moving_solids[1], 0, &compound_impact, NULL, steps, groups,
-                                    NULL);
+    (void)ovoid_body_impact_verify(&moving_solids[0], &moving_solids[1], 0, &compound_impact, NULL, steps, groups,
+                                   NULL);
 }
 
 static void ask_find_any(void) { CHECK(ovoid_world_find_any(world, NULL, 0, NULL, &hit, NULL) == OVOID_OK); }
