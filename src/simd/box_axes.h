@@ -37,9 +37,4 @@ int box_axes_find(const box_axes_query *query, box_axes *out);
 /// The kernel of one instruction set, for tests; NULL where this machine or build lacks it.
 box_axes_function *box_axes_get(simd_isa isa);
 
-#if defined(__x86_64__) && defined(__GNUC__)
-/// Each compiled in a file of its own.
-box_axes_function box_axes_find_avx2, box_axes_find_avx512;
-#endif
-
 #endif

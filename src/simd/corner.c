@@ -12,7 +12,7 @@
 // The conditions of Karush, Kuhn and Tucker, of which exactly one set holds, are combinations of these bits; so all
 // candidates are computed in lanes, without a branch, a division or a root, and one is picked. The directions are
 // n_i, e_i x c_i and a: orthogonal to their face or edge to rounding, also where the nearest point is almost 0.
-#include "simd/corner_pick.h"
+#include "simd/kernels/corner_pick.h"
 
 #include <math.h>
 
@@ -68,7 +68,7 @@ corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/corner_avx2.h"
+#include "simd/kernels/corner_avx2.h"
 
 __attribute__((target("avx2"))) static corner_step step_avx2(const corner_lanes *old, unsigned valid, double ax,
                                                              double ay, double az) {

@@ -62,9 +62,4 @@ epa8_end epa8_grow(epa8 *s, const epa8_query *query);
 /// The kernel of one instruction set, for tests; NULL where this machine or build lacks it.
 epa8_function *epa8_get(simd_isa isa);
 
-#if defined(__x86_64__) && defined(__GNUC__)
-/// Each compiled in a file of its own.
-epa8_function epa8_grow_avx2, epa8_grow_avx512;
-#endif
-
 #endif

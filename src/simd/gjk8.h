@@ -51,9 +51,4 @@ const gjk8_kernels *gjk8_get_kernels(void);
 /// The kernels of one instruction set, for tests; NULL where this machine or build lacks them.
 const gjk8_kernels *gjk8_get_kernels_of(simd_isa isa);
 
-#if defined(__x86_64__) && defined(__GNUC__)
-/// The kernels of the vector instruction sets, each compiled in a file of its own.
-extern const gjk8_kernels gjk8_avx2, gjk8_avx512;
-#endif
-
 #endif

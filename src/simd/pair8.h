@@ -89,9 +89,4 @@ const pair8_kernels *pair8_get_kernels(void);
 /// The kernels of one instruction set, for tests; NULL where this machine or build lacks them.
 const pair8_kernels *pair8_get_kernels_of(simd_isa isa);
 
-#if defined(__x86_64__) && defined(__GNUC__)
-/// The kernels of the vector instruction sets, each compiled in a file of its own.
-extern const pair8_kernels pair8_avx2, pair8_avx512;
-#endif
-
 #endif

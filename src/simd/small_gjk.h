@@ -83,10 +83,4 @@ small_gjk_function *simd_get_small_gjk(simd_isa isa);
 small_gjk_kept_function *simd_get_small_gjk_kept(simd_isa isa);
 small_gjk_kept_function *simd_get_find_kept(simd_isa isa);
 
-#if defined(__x86_64__) && defined(__GNUC__)
-/// The functions for AVX2, compiled in a file of their own.
-small_gjk_function small_gjk_run_avx2;
-small_gjk_kept_function small_gjk_run_kept_avx2, small_gjk_find_kept_avx2;
-#endif
-
 #endif

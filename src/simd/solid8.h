@@ -53,8 +53,4 @@ const solid8_kernels *solid8_get_kernels(void);
 /// The kernels of one instruction set, for tests; NULL where this machine or build lacks them.
 const solid8_kernels *solid8_get_kernels_of(simd_isa isa);
 
-#if defined(__x86_64__) && defined(__GNUC__)
-extern const solid8_kernels solid8_avx2, solid8_avx512;
-#endif
-
 #endif

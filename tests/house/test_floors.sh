@@ -56,6 +56,25 @@ expect program_up cli/a.c '#include "../src/exact/gjk.h"\n' \
     '1: a program includes <ovoid/...> and its own headers only: ../src/exact/gjk.h'
 expect own cli/a.c '#include "args.h"\n#include <ovoid/ovoid.h>\n#include <ovoid/ovoid.hpp>\n' ''
 expect long src/query/a.c "$(awk 'BEGIN { for (i = 0; i < 801; i++) printf "int a%d;\\n", i }')" '801: over 800 lines'
+
+# expect_files NAME FOLDER COUNT SAID: a folder of so many files gives that complaint, or none.
+expect_files() {
+    rm -rf "$folder"
+    mkdir -p "$folder/$2"
+    for i in $(seq "$3"); do : >"$folder/$2/a$i.txt"; done
+    output=$("$check" "$folder" 2>&1)
+    code=$?
+    if [ "$output" = "$4" ] && [ $code -eq "$([ -z "$4" ] && echo 0 || echo 1)" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        printf 'FAILED %s: exit %s, said: %s\n' "$1" "$code" "$output"
+    fi
+}
+expect_files crowd bench/many 31 'bench/many: over 30 files: 31'
+expect_files no_crowd bench/many 30 ''
+expect_files data tests/cli/data 31 ''
+expect_files public include/ovoid 31 ''
 rm -rf "$folder"
 
 # Each test of a floor is one of those that `make test FLOOR=` runs.

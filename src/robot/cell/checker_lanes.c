@@ -1,5 +1,5 @@
 // Eight states side by side: their frames and spheres, and which groups their spheres and boxes part, all of which is
-// the same arithmetic as for one state, in lanes (simd/robot8.h). What is left goes state by state.
+// the same arithmetic as for one state, in lanes (simd/robot/robot8.h). What is left goes state by state.
 #include "robot/cell/checker.h"
 
 static void place_values(ovoid_robot_checker *x, const double *q, double slack, uint32_t k, lane_state *state) {

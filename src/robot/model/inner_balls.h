@@ -9,7 +9,7 @@
 
 #include "ovoid/solid.h"
 #include "shape/block.h"
-#include "simd/robot8.h"
+#include "simd/robot/robot8.h"
 
 /// A point at its frame's origin; NULL: no memory.
 static inline ovoid_shape *shape_create_point(const ovoid_allocator *memory) {

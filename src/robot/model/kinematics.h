@@ -3,7 +3,7 @@
 // A step turns by the unit quaternion l = cos(a/2) o + sin(a/2) (o n) in its parent's frame, o being the origin's
 // rotation, n the axis, a the angle, and moves by t. Quaternions are multiplied along the chain, R. Featherstone, Rigid
 // body dynamics algorithms, 2008, has the tree; docs/robot-states.md has the bounds. Eight states at once:
-// simd/robot8.h.
+// simd/robot/robot8.h.
 #ifndef OVOID_ROBOT_MODEL_KINEMATICS_H
 #define OVOID_ROBOT_MODEL_KINEMATICS_H
 

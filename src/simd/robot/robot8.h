@@ -1,7 +1,7 @@
 // Kernels of robots: eight states side by side, each a lane. A state in a lane gets the bits that it gets alone
 // (robot/model/kinematics.h has the twin of the chain). Compiled into libovoid_robot.
-#ifndef OVOID_SIMD_ROBOT8_H
-#define OVOID_SIMD_ROBOT8_H
+#ifndef OVOID_SIMD_ROBOT_ROBOT8_H
+#define OVOID_SIMD_ROBOT_ROBOT8_H
 
 #include "linear/rotation.h"
 #include "simd/support.h"

@@ -1,6 +1,6 @@
 // What the kernels of a step of GJK have in common: the candidates of corner.c, and what they are to whom.
-#ifndef OVOID_SIMD_CORNER_PICK_H
-#define OVOID_SIMD_CORNER_PICK_H
+#ifndef OVOID_SIMD_KERNELS_CORNER_PICK_H
+#define OVOID_SIMD_KERNELS_CORNER_PICK_H
 
 #include "simd/corner.h"
 

@@ -1,8 +1,8 @@
 // Columns of lane groups (pair8.h) as lanes, from the lane `at` on.
-#ifndef OVOID_SIMD_LANE_COLUMNS_H
-#define OVOID_SIMD_LANE_COLUMNS_H
+#ifndef OVOID_SIMD_KERNELS_LANE_COLUMNS_H
+#define OVOID_SIMD_KERNELS_LANE_COLUMNS_H
 
-#include "simd/lanes.h"
+#include "simd/kernels/lanes.h"
 #include "simd/pair8.h"
 
 LANES_INLINE lane get(const lane_column *c, int at) { return lane_load(c->lane + at); }

@@ -1,9 +1,9 @@
-// The kernels of gjk8.h, written once over lanes; gjk8_scalar.c, gjk8_avx2.c and gjk8_avx512.c include this after the
-// parts of small_gjk_kernel.h. Every step has the operations of small_gjk_kernel.h and corner.c in their order: a
+// The kernels of gjk8.h, written once over lanes; scalar.c, avx2.c and avx512.c include this after the
+// parts of kernels/small_gjk.h. Every step has the operations of kernels/small_gjk.h and corner.c in their order: a
 // change there is a change here, and tests/core/simd/test_simd_gjk8.c sees the difference.
 #include "simd/gjk8.h"
-#include "simd/lane_columns.h"
-#include "simd/small_gjk_kernel.h"
+#include "simd/kernels/lane_columns.h"
+#include "simd/kernels/small_gjk.h"
 
 // ---- columns
 

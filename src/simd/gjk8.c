@@ -1,32 +1,5 @@
-// The scalar twin of the kernels of gjk8.h, the choice among them, and what a lane ended with.
-#include "simd/small_gjk_scalar.h"
-
-#include "simd/narrowest.h"
-
-#include "simd/gjk8_kernel.h"
-
-#include <stddef.h>
-
-static const gjk8_kernels scalar = {run_begin, run_advance};
-
-const gjk8_kernels *gjk8_get_kernels_of(simd_isa isa) {
-    switch (isa) {
-    case SIMD_SCALAR: return &scalar;
-#if defined(__x86_64__) && defined(__GNUC__)
-    case SIMD_AVX2: return __builtin_cpu_supports("avx2") ? &gjk8_avx2 : NULL;
-    case SIMD_AVX512: return __builtin_cpu_supports("avx512f") ? &gjk8_avx512 : NULL;
-#endif
-    default: return NULL;
-    }
-}
-
-const gjk8_kernels *gjk8_get_kernels(void) {
-    for (int isa = SIMD_ISA_COUNT - 1; isa > SIMD_SCALAR; isa--) {
-        const gjk8_kernels *best = gjk8_get_kernels_of((simd_isa)isa);
-        if (best) return best;
-    }
-    return &scalar;
-}
+// What a lane of gjk8.h ended with.
+#include "simd/gjk8.h"
 
 static void take_corner(const gjk8_corner *c, unsigned k, int i, small_gjk_result *r) {
     uint32_t id = (uint32_t)c->id.lane[k];

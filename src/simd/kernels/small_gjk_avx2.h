@@ -1,8 +1,8 @@
-// What the kernels of small_gjk_kernel.h are made of, for AVX2: a point's coordinate in each of four lanes.
-#ifndef OVOID_SIMD_SMALL_GJK_AVX2_H
-#define OVOID_SIMD_SMALL_GJK_AVX2_H
+// What the kernels of kernels/small_gjk.h are made of, for AVX2: a point's coordinate in each of four lanes.
+#ifndef OVOID_SIMD_KERNELS_SMALL_GJK_AVX2_H
+#define OVOID_SIMD_KERNELS_SMALL_GJK_AVX2_H
 
-#include "simd/corner_avx2.h"
+#include "simd/kernels/corner_avx2.h"
 #include "simd/small_gjk.h"
 
 #define SMALL_GJK_INLINE CORNER_AVX2

@@ -4,7 +4,7 @@
 // of six corners above the inside of the other one; the shortest difference of them is the direction along which the
 // gap is measured. Whatever the edges are, the parameters are kept in [0, 1], so the points are points of the
 // triangles, and any direction gives a true gap.
-#include "simd/lanes.h"
+#include "simd/kernels/lanes.h"
 #include "simd/solid8.h"
 
 #define TINY 1e-300
@@ -53,7 +53,7 @@ typedef struct nearest {
     lane3 d;
 } nearest;
 
-LANES_INLINE void take(nearest *best, lane_mask is_possible, lane3 d) {
+LANES_INLINE void take_nearest(nearest *best, lane_mask is_possible, lane3 d) {
     lane square = lane3_dot(d, d);
     lane_mask better = lane_and(is_possible, lane_less(square, best->square));
     best->square = lane_select(better, square, best->square);
@@ -80,7 +80,7 @@ LANES_INLINE void take_edges(nearest *best, const edge *p, const edge *q) {
     lane s = clamp((b * f - c * e) / lane_max(a * e - b * b, lane_set(TINY)));
     lane t = clamp((b * s + f) / e);
     s = clamp((b * t - c) / a);
-    take(best, always(), lane3_sub(lane3_scale(q->along, t), lane3_add_scaled(r, p->along, s)));
+    take_nearest(best, always(), lane3_sub(lane3_scale(q->along, t), lane3_add_scaled(r, p->along, s)));
 }
 
 // A corner above the inside of a triangle: sign 1 where the corner is of the other body, whose points are subtracted
@@ -93,7 +93,7 @@ LANES_INLINE void take_corner(nearest *best, lane3 corner, const edge of[3], lan
         inside = lane_and(inside, lane_at_least(side, zero));
     }
     lane height = lane3_dot(normal, lane3_sub(corner, of[0].from)) / lane_max(square, lane_set(TINY));
-    take(best, inside, lane3_scale(normal, height * sign));
+    take_nearest(best, inside, lane3_scale(normal, height * sign));
 }
 
 LANES_INLINE lane find_top(const lane3 corner[3], lane3 n) {

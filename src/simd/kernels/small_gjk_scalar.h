@@ -1,6 +1,6 @@
-// What the kernels of small_gjk_kernel.h are made of, in plain C: the scalar twin.
-#ifndef OVOID_SIMD_SMALL_GJK_SCALAR_H
-#define OVOID_SIMD_SMALL_GJK_SCALAR_H
+// What the kernels of kernels/small_gjk.h are made of, in plain C: the scalar twin.
+#ifndef OVOID_SIMD_KERNELS_SMALL_GJK_SCALAR_H
+#define OVOID_SIMD_KERNELS_SMALL_GJK_SCALAR_H
 
 #include "simd/small_gjk.h"
 

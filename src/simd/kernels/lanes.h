@@ -1,9 +1,9 @@
 // Numbers side by side, LANES of them: 8 (AVX-512), 4 (AVX2), 2 (WebAssembly's SIMD128) or 1 (plain C, the scalar
-// twin). A kernel is written once over these (pair8_kernel.h) and compiled for each; every operation is IEEE 754's,
+// twin). A kernel is written once over these (kernels/pair8.h) and compiled for each; every operation is IEEE 754's,
 // lane by lane, so all widths give the same bits. Sums and products are the operators. lane_sign is 1 of -0 too; of NaN
 // it is anything.
-#ifndef OVOID_SIMD_LANES_H
-#define OVOID_SIMD_LANES_H
+#ifndef OVOID_SIMD_KERNELS_LANES_H
+#define OVOID_SIMD_KERNELS_LANES_H
 
 #include <math.h>
 

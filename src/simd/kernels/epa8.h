@@ -1,9 +1,9 @@
-// The kernels of epa8.h, written once over lanes; epa8_scalar.c, epa8_avx2.c and epa8_avx512.c include this. Every
+// The kernels of epa8.h, written once over lanes; scalar.c, avx2.c and avx512.c include this. Every
 // number is computed lane by lane, minima and maxima do not depend on an order, ties go to the lowest index: so all
 // widths give the same bits.
 #include "linear/vec3.h"
 #include "simd/epa8.h"
-#include "simd/lanes.h"
+#include "simd/kernels/lanes.h"
 #include "simd/planes.h"
 
 enum { MOST = 64, RIM = 3 * EPA8_FACES + EPA8, EPA8_ROW = 4 };
@@ -18,7 +18,7 @@ LANES_INLINE lane lane_find_max(lane m) {
 }
 LANES_INLINE lane lane_min(lane a, lane b) { return _mm512_min_pd(a, b); }
 LANES_INLINE double lane_first(lane v) { return _mm512_cvtsd_f64(v); }
-LANES_INLINE lane_mask lane_mask_of(uint64_t bits) { return (lane_mask)bits; }
+LANES_INLINE lane_mask lane_mask_of_faces(uint64_t bits) { return (lane_mask)bits; }
 /// The numbers of an array of EPA8_POINTS at LANES places, a byte each; is_few: all below 16.
 LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
     __m512i index = _mm512_cvtepu8_epi64(_mm_cvtsi64_si128((long long)at));
@@ -39,7 +39,7 @@ LANES_INLINE lane lane_find_max(lane m) {
 }
 LANES_INLINE lane lane_min(lane a, lane b) { return _mm256_min_pd(a, b); }
 LANES_INLINE double lane_first(lane v) { return _mm256_cvtsd_f64(v); }
-LANES_INLINE lane_mask lane_mask_of(uint64_t bits) {
+LANES_INLINE lane_mask lane_mask_of_faces(uint64_t bits) {
     __m256i each = _mm256_setr_epi64x(1, 2, 4, 8), all = _mm256_set1_epi64x((long long)bits);
     return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(all, each), each));
 }
@@ -55,7 +55,7 @@ LANES_INLINE lane lane_top(lane a, lane b) { return lane_max(a, b); }
 LANES_INLINE lane lane_find_max(lane m) { return lane_max(m, (lane){m[1], m[0]}); }
 LANES_INLINE lane lane_min(lane a, lane b) { return lane_select(lane_less(a, b), a, b); }
 LANES_INLINE double lane_first(lane v) { return v[0]; }
-LANES_INLINE lane_mask lane_mask_of(uint64_t bits) {
+LANES_INLINE lane_mask lane_mask_of_faces(uint64_t bits) {
     return (lane_mask){-(long long)(bits & 1), -(long long)(bits >> 1 & 1)};
 }
 LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
@@ -71,7 +71,7 @@ LANES_INLINE lane lane_top(lane a, lane b) { return a > b ? a : b; }
 LANES_INLINE lane lane_find_max(lane m) { return m; }
 LANES_INLINE lane lane_min(lane a, lane b) { return a < b ? a : b; }
 LANES_INLINE double lane_first(lane v) { return v; }
-LANES_INLINE lane_mask lane_mask_of(uint64_t bits) { return (lane_mask)(bits & 1); }
+LANES_INLINE lane_mask lane_mask_of_faces(uint64_t bits) { return (lane_mask)(bits & 1); }
 LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
     (void)is_few;
     return p[at & 0xff];
@@ -145,7 +145,7 @@ LANES_INLINE void find_below(const epa8 *s, lane most, uint64_t below[2]) {
 }
 
 // The face of least offset; of several the first.
-LANES_INLINE uint32_t find_nearest(const epa8 *s) {
+LANES_INLINE uint32_t find_nearest_face(const epa8 *s) {
     uint32_t nearest = 0;
     double least = INFINITY;
     for (uint32_t half = 0; half < 2; half++)
@@ -195,13 +195,13 @@ LANES_INLINE void find_below(const epa8 *s, lane most, uint64_t below[2]) {
 }
 
 // The face of least offset; of several the first.
-LANES_INLINE uint32_t find_nearest(const epa8 *s) {
+LANES_INLINE uint32_t find_nearest_face(const epa8 *s) {
     lane least = lane_set(INFINITY);
     for (uint32_t row = 0; row < s->groups; row += EPA8_ROW) {
         uint64_t alive = get_row(s->alive, row);
         for (uint32_t i = 0; i < EPA8 * EPA8_ROW; i += LANES) {
             lane low = lane_load(s->low + EPA8 * row + i);
-            least = lane_min(lane_select(lane_mask_of(alive >> i), low, lane_set(INFINITY)), least);
+            least = lane_min(lane_select(lane_mask_of_faces(alive >> i), low, lane_set(INFINITY)), least);
         }
     }
     uint64_t below[2];
@@ -245,9 +245,9 @@ LANES_INLINE int find_rim(const epa8 *s, const uint64_t seen[2], rim *r) {
     uint32_t count = 0, begun = 0, twice = 0;
     for (uint64_t rest = low, at = 0; rest || (at == 0 && high); rest &= rest - 1) {
         if (!rest) rest = high, at = 64;
-        uint32_t corners;
-        __builtin_memcpy(&corners, s->v[at + (uint32_t)__builtin_ctzll(rest)], sizeof corners);
-        uint32_t v[4] = {corners & 0xff, corners >> 8 & 0xff, corners >> 16 & 0xff, corners & 0xff};
+        uint32_t packed;
+        __builtin_memcpy(&packed, s->v[at + (uint32_t)__builtin_ctzll(rest)], sizeof packed);
+        uint32_t v[4] = {packed & 0xff, packed >> 8 & 0xff, packed >> 16 & 0xff, packed & 0xff};
         for (int e = 0; e < 3; e++) {
             uint32_t i = v[e], k = v[e + 1], outer = s->left[k][i];
             uint64_t is_rim = ~((outer & 64 ? high : low) >> (outer & 63)) & 1;
@@ -322,8 +322,8 @@ LANES_INLINE uint32_t find_empty(const uint64_t alive[2]) {
 }
 
 LANES_INLINE void set_corners(epa8 *s, uint32_t face, uint32_t i, uint32_t j, uint32_t k) {
-    uint32_t corners = i | j << 8 | k << 16;
-    __builtin_memcpy(s->v[face], &corners, sizeof corners);
+    uint32_t packed = i | j << 8 | k << 16;
+    __builtin_memcpy(s->v[face], &packed, sizeof packed);
     s->left[i][j] = s->left[j][k] = s->left[k][i] = (uint8_t)face;
 }
 
@@ -398,9 +398,9 @@ LANES_INLINE int complete(epa8 *s, const epa8_query *q, int is_own) {
 
 // The surface of the first four points, counter-clockwise from outside by the sign. 0 if a face is a sliver.
 LANES_INLINE int make_tetrahedron(epa8 *s, const epa8_query *q, int sign) {
-    static const uint8_t corners[2][3][EPA8_START] = {{{3, 3, 3, 0}, {0, 1, 2, 2}, {1, 2, 0, 1}},
-                                                      {{3, 3, 3, 0}, {1, 2, 0, 1}, {0, 1, 2, 2}}};
-    const uint8_t(*v)[EPA8_START] = corners[sign < 0];
+    static const uint8_t start_corners[2][3][EPA8_START] = {{{3, 3, 3, 0}, {0, 1, 2, 2}, {1, 2, 0, 1}},
+                                                            {{3, 3, 3, 0}, {1, 2, 0, 1}, {0, 1, 2, 2}}};
+    const uint8_t(*v)[EPA8_START] = start_corners[sign < 0];
     // Stored again at full width, which is how they are read.
     for (int k = 0; k < 3; k++) lane_store_four(s->w[k], s->w[k][0], s->w[k][1], s->w[k][2], s->w[k][3]);
     s->groups = 1;
@@ -433,8 +433,8 @@ LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *x) {
 }
 
 // The support of the nearest face, and what it says of the gap.
-LANES_INLINE simd_difference measure(epa8 *s, const epa8_query *q, int is_own) {
-    uint32_t f = s->nearest = find_nearest(s);
+LANES_INLINE simd_difference measure_support(epa8 *s, const epa8_query *q, int is_own) {
+    uint32_t f = s->nearest = find_nearest_face(s);
     double n[3] = {s->n[0][f], s->n[1][f], s->n[2][f]};
     simd_difference x = find_difference(q, is_own, n[0], n[1], n[2]);
     s->supports++;
@@ -445,13 +445,13 @@ LANES_INLINE simd_difference measure(epa8 *s, const epa8_query *q, int is_own) {
     return x;
 }
 
-LANES_INLINE epa8_end run(epa8 *s, const epa8_query *q, int is_own) {
+LANES_INLINE epa8_end grow(epa8 *s, const epa8_query *q, int is_own) {
     s->supports = 0;
     s->best_gap = -INFINITY;
     int sign = complete(s, q, is_own);
     if (!sign || !make_tetrahedron(s, q, sign)) return EPA8_FLAT;
     while (s->supports < q->most) {
-        simd_difference x = measure(s, q, is_own);
+        simd_difference x = measure_support(s, q, is_own);
         double low = s->low[s->nearest], high = -x.gap;
         if (x.gap > q->claim) return EPA8_APART;
         if (low > q->claim && high - low <= q->narrow) {
@@ -464,6 +464,6 @@ LANES_INLINE epa8_end run(epa8 *s, const epa8_query *q, int is_own) {
     return EPA8_LEFT;
 }
 
-LANES_TARGET static __attribute__((noinline)) epa8_end run_own(epa8 *s, const epa8_query *q) { return run(s, q, 1); }
+LANES_TARGET static __attribute__((noinline)) epa8_end run_own(epa8 *s, const epa8_query *q) { return grow(s, q, 1); }
 
-LANES_INLINE epa8_end run_grow(epa8 *s, const epa8_query *q) { return q->find ? run_own(s, q) : run(s, q, 0); }
+LANES_INLINE epa8_end run_grow(epa8 *s, const epa8_query *q) { return q->find ? run_own(s, q) : grow(s, q, 0); }

@@ -1,8 +1,8 @@
 // The kernels of robot8.h, written once over lanes. Every step has the operations of robot/model/kinematics.h in their
 // order.
 #include "base/compiler.h"
-#include "simd/lanes.h"
-#include "simd/robot8.h"
+#include "simd/kernels/lanes.h"
+#include "simd/robot/robot8.h"
 
 #define HALF_PI 0x1.921fb54442d18p+0
 #define HALF_PI_LOW 0x1.1a62633145c07p-54

@@ -1,9 +1,9 @@
 // One step of GJK in lanes of AVX2, inline: corner.c has the method, its scalar twin, and the function for callers that
 // are not compiled for AVX2.
-#ifndef OVOID_SIMD_CORNER_AVX2_H
-#define OVOID_SIMD_CORNER_AVX2_H
+#ifndef OVOID_SIMD_KERNELS_CORNER_AVX2_H
+#define OVOID_SIMD_KERNELS_CORNER_AVX2_H
 
-#include "simd/corner_pick.h"
+#include "simd/kernels/corner_pick.h"
 
 #include <immintrin.h>
 

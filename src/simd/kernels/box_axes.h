@@ -1,7 +1,7 @@
-// The kernels of box_axes.h, written once over lanes; box_axes_scalar.c, box_axes_avx2.c and box_axes_avx512.c include
+// The kernels of box_axes.h, written once over lanes; scalar.c, avx2.c and avx512.c include
 // this. Every number is computed lane by lane in one order, so all widths give the same bits.
 #include "simd/box_axes.h"
-#include "simd/lanes.h"
+#include "simd/kernels/lanes.h"
 
 // For each segment the pairs that it is of.
 static const uint16_t own_pairs[BOX_AXES_SEGMENTS] = {0x001f, 0x01e1, 0x0e22, 0x3244, 0xd488, 0xe910};
@@ -32,13 +32,13 @@ LANES_INLINE lane lane_take(const double p[8], const uint8_t *at) { return p[*at
 LANES_INLINE lane_mask lane_mask_of(unsigned bits) { return (lane_mask)(bits & 1); }
 #endif
 
-LANES_INLINE lane3 take(const box_axes_query *q, const uint8_t *at) {
+LANES_INLINE lane3 take_segments(const box_axes_query *q, const uint8_t *at) {
     return (lane3){lane_take(q->segment[0], at), lane_take(q->segment[1], at), lane_take(q->segment[2], at)};
 }
 
 // LANES pairs from pair i on: the lanes that are known beyond rounding.
 LANES_INLINE unsigned find_planes(const box_axes_query *q, uint32_t i, box_axes *out) {
-    lane3 u = take(q, box_axes_first + i), v = take(q, box_axes_second + i), n = lane3_cross(u, v);
+    lane3 u = take_segments(q, box_axes_first + i), v = take_segments(q, box_axes_second + i), n = lane3_cross(u, v);
     lane square = lane3_dot(n, n), scale = lane_set(1) / lane_sqrt(square);
     // One over the sine of the pair's angle: so much more do the roundings of the cross product turn the normal.
     lane uu = lane3_dot(u, u), vv = lane3_dot(v, v), error = lane_set(q->error) * (lane_sqrt(uu * vv) * scale);

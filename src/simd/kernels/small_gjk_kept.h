@@ -1,9 +1,12 @@
-// The search of small_gjk.h from what an earlier one left. Who includes it has included small_gjk_kernel.h and defined
+// The search of small_gjk.h from what an earlier one left. Who includes it has included kernels/small_gjk.h and defined
 //   met_set(m, w)            the difference of a support, from numbers
 //   corners_meet(c, q, a, b) the differences of four points b and a, posed
 //   find_extreme_point(p, n, blocks, is_least, value)   the point of a body that is extreme along n, in its own frame
+#ifndef OVOID_SIMD_KERNELS_SMALL_GJK_KEPT_H
+#define OVOID_SIMD_KERNELS_SMALL_GJK_KEPT_H
+
 #include "linear/vec3.h"
-#include "simd/small_gjk_kernel.h"
+#include "simd/kernels/small_gjk.h"
 
 SMALL_GJK_INLINE double turn_row(const double row[3], const simd_points *p, uint32_t i) {
     return (row[0] * p->x[i] + row[1] * p->y[i]) + row[2] * p->z[i];
@@ -197,3 +200,5 @@ SMALL_GJK_INLINE void run_kept_class(const small_gjk_query *q, const small_gjk_k
     default: run_kept(q, kept, 4, r); break;
     }
 }
+
+#endif

@@ -6,6 +6,9 @@
 //   corners                  up to four such differences
 //   corners_fill(c, m), corners_put(c, i, m), corners_store(c, at), corners_step(c, valid, m)
 // with `blocks`, the number of eights of points, known to the compiler.
+#ifndef OVOID_SIMD_KERNELS_SMALL_GJK_H
+#define OVOID_SIMD_KERNELS_SMALL_GJK_H
+
 #include "simd/small_gjk.h"
 
 #include <math.h>
@@ -203,3 +206,5 @@ SMALL_GJK_INLINE void run_class(const small_gjk_query *q, small_gjk_result *r) {
     default: run(q, 4, r); break;
     }
 }
+
+#endif

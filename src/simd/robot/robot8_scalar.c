@@ -1,7 +1,7 @@
 // The scalar twin of the kernels of robot8.h, and the choice among them.
-#include "simd/narrowest.h"
+#include "simd/kernels/narrowest.h"
 
-#include "simd/robot8_kernel.h"
+#include "simd/robot/robot8_kernel.h"
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
-// The kernels of pair8.h, written once over lanes; pair8_scalar.c, pair8_avx2.c and pair8_avx512.c include this. Every
+// The kernels of pair8.h, written once over lanes; scalar.c, avx2.c and avx512.c include this. Every
 // step has the operations of the single query in their order: a change there is a change here, and
 // tests/core/query/test_query_batch.c sees the difference.
-#include "simd/lane_columns.h"
+#include "simd/kernels/lane_columns.h"
 
 // ---- columns
 

@@ -1,0 +1,40 @@
+// The kernels for AVX2.
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#include "simd/kernels.h"
+
+#include "simd/kernels/small_gjk_avx2.h"
+#include "simd/kernels/small_gjk_kept.h"
+
+#define LANES 4
+#include "simd/kernels/box_axes.h"
+#include "simd/kernels/epa8.h"
+#include "simd/kernels/gjk8.h"
+#include "simd/kernels/pair8.h"
+#include "simd/kernels/solid8.h"
+
+LANES_TARGET int box_axes_find_avx2(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+LANES_TARGET epa8_end epa8_grow_avx2(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
+
+const gjk8_kernels gjk8_avx2 = {run_begin, run_advance};
+const pair8_kernels pair8_avx2 = {run_spheres, run_ellipsoids, run_supports};
+const solid8_kernels solid8_avx2 = {run_boxes, run_triangles};
+
+__attribute__((target("avx2"))) void small_gjk_run_avx2(const small_gjk_query *query, small_gjk_result *result) {
+    run_class(query, result);
+}
+
+__attribute__((target("avx2"))) void small_gjk_run_kept_avx2(const small_gjk_query *query, const small_gjk_kept *kept,
+                                                             small_gjk_result *result) {
+    run_kept_class(query, kept, result);
+}
+
+__attribute__((target("avx2"))) void small_gjk_find_kept_avx2(const small_gjk_query *query, const small_gjk_kept *kept,
+                                                              small_gjk_result *result) {
+    find_kept(query, kept, result);
+}
+
+#else
+#include "simd/kernels.h"
+#endif

@@ -1,0 +1,25 @@
+// The kernels for AVX-512.
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#include "simd/kernels.h"
+
+#include "simd/kernels/small_gjk_avx2.h"
+
+#define LANES 8
+#include "simd/kernels/box_axes.h"
+#include "simd/kernels/epa8.h"
+#include "simd/kernels/gjk8.h"
+#include "simd/kernels/pair8.h"
+#include "simd/kernels/solid8.h"
+
+LANES_TARGET int box_axes_find_avx512(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+LANES_TARGET epa8_end epa8_grow_avx512(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
+
+const gjk8_kernels gjk8_avx512 = {run_begin, run_advance};
+const pair8_kernels pair8_avx512 = {run_spheres, run_ellipsoids, run_supports};
+const solid8_kernels solid8_avx512 = {run_boxes, run_triangles};
+
+#else
+#include "simd/kernels.h"
+#endif

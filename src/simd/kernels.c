@@ -1,0 +1,64 @@
+// The choice of a kernel, by the widest instruction set that this machine and this build have. All give the same bits.
+#include "simd/kernels.h"
+
+#include <stddef.h>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+// The set that is used: AVX-512 and AVX2 are told apart by one test each of a word that the C library's start has
+// filled.
+static inline simd_isa find_widest(void) {
+    if (__builtin_cpu_supports("avx512f")) return SIMD_AVX512;
+    return __builtin_cpu_supports("avx2") ? SIMD_AVX2 : SIMD_SCALAR;
+}
+static int has(simd_isa isa) {
+    if (isa == SIMD_AVX512) return __builtin_cpu_supports("avx512f") != 0;
+    return isa == SIMD_SCALAR || (isa == SIMD_AVX2 && __builtin_cpu_supports("avx2"));
+}
+#define KERNELS(scalar, avx2, avx512)                                                                                  \
+    { [SIMD_SCALAR] = (scalar), [SIMD_AVX2] = (avx2), [SIMD_AVX512] = (avx512) }
+#else
+static inline simd_isa find_widest(void) { return SIMD_SCALAR; }
+static int has(simd_isa isa) { return isa == SIMD_SCALAR; }
+#define KERNELS(scalar, avx2, avx512)                                                                                  \
+    { [SIMD_SCALAR] = (scalar) }
+#endif
+
+// One row for each kernel. Those of small bodies are four lanes wide at most.
+static box_axes_function *const box_axes_of[SIMD_ISA_COUNT] =
+    KERNELS(box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512);
+static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
+static const gjk8_kernels *const gjk8_of[SIMD_ISA_COUNT] = KERNELS(&gjk8_scalar, &gjk8_avx2, &gjk8_avx512);
+static const pair8_kernels *const pair8_of[SIMD_ISA_COUNT] = KERNELS(&pair8_scalar, &pair8_avx2, &pair8_avx512);
+static const solid8_kernels *const solid8_of[SIMD_ISA_COUNT] = KERNELS(&solid8_scalar, &solid8_avx2, &solid8_avx512);
+static small_gjk_function *const small_gjk_of[SIMD_ISA_COUNT] =
+    KERNELS(small_gjk_run_scalar, small_gjk_run_avx2, small_gjk_run_avx2);
+static small_gjk_kept_function *const small_gjk_kept_of[SIMD_ISA_COUNT] =
+    KERNELS(small_gjk_run_kept_scalar, small_gjk_run_kept_avx2, small_gjk_run_kept_avx2);
+static small_gjk_kept_function *const find_kept_of[SIMD_ISA_COUNT] =
+    KERNELS(small_gjk_find_kept_scalar, small_gjk_find_kept_avx2, small_gjk_find_kept_avx2);
+
+// By the widest set.
+int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_of[find_widest()](query, out); }
+epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
+const gjk8_kernels *gjk8_get_kernels(void) { return gjk8_of[find_widest()]; }
+const pair8_kernels *pair8_get_kernels(void) { return pair8_of[find_widest()]; }
+const solid8_kernels *solid8_get_kernels(void) { return solid8_of[find_widest()]; }
+void simd_run_small_gjk(const small_gjk_query *query, small_gjk_result *result) {
+    small_gjk_of[find_widest()](query, result);
+}
+void simd_run_small_gjk_kept(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result) {
+    small_gjk_kept_of[find_widest()](query, kept, result);
+}
+void simd_find_kept(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result) {
+    find_kept_of[find_widest()](query, kept, result);
+}
+
+// By one set, for tests: NULL where this machine or build lacks it.
+box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
+epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
+const gjk8_kernels *gjk8_get_kernels_of(simd_isa isa) { return has(isa) ? gjk8_of[isa] : NULL; }
+const pair8_kernels *pair8_get_kernels_of(simd_isa isa) { return has(isa) ? pair8_of[isa] : NULL; }
+const solid8_kernels *solid8_get_kernels_of(simd_isa isa) { return has(isa) ? solid8_of[isa] : NULL; }
+small_gjk_function *simd_get_small_gjk(simd_isa isa) { return has(isa) ? small_gjk_of[isa] : NULL; }
+small_gjk_kept_function *simd_get_small_gjk_kept(simd_isa isa) { return has(isa) ? small_gjk_kept_of[isa] : NULL; }
+small_gjk_kept_function *simd_get_find_kept(simd_isa isa) { return has(isa) ? find_kept_of[isa] : NULL; }

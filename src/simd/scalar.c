@@ -1,0 +1,34 @@
+// The kernels that every processor of a build runs: the scalar twins of those in avx2.c and avx512.c.
+#include "simd/kernels.h"
+
+#include "simd/kernels/narrowest.h"
+#include "simd/kernels/small_gjk_scalar.h"
+
+#include "simd/kernels/small_gjk_kept.h"
+
+#include "simd/kernels/box_axes.h"
+#include "simd/kernels/epa8.h"
+#include "simd/kernels/gjk8.h"
+#include "simd/kernels/pair8.h"
+#include "simd/kernels/solid8.h"
+
+const uint8_t box_axes_first[BOX_AXES] = {0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 3, 3, 4, 4};
+const uint8_t box_axes_second[BOX_AXES] = {1, 2, 3, 4, 5, 2, 3, 4, 5, 3, 4, 5, 4, 5, 5, 5};
+
+int box_axes_find_scalar(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+epa8_end epa8_grow_scalar(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
+
+const gjk8_kernels gjk8_scalar = {run_begin, run_advance};
+const pair8_kernels pair8_scalar = {run_spheres, run_ellipsoids, run_supports};
+const solid8_kernels solid8_scalar = {run_boxes, run_triangles};
+
+void small_gjk_run_scalar(const small_gjk_query *query, small_gjk_result *result) { run_class(query, result); }
+
+void small_gjk_run_kept_scalar(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result) {
+    run_kept_class(query, kept, result);
+}
+
+void small_gjk_find_kept_scalar(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result) {
+    find_kept(query, kept, result);
+}
