@@ -146,7 +146,7 @@ class pairs_reader
   public:
     using owner::owner;
     /** Opens the file. Throws FILE, FORMAT. */
-    static pairs_reader create(const std::string &path, std::size_t shape_count) {
+    static pairs_reader open(const std::string &path, std::size_t shape_count) {
         ovoid_error e;
         return pairs_reader(detail::require(ovoid_pairs_reader_open(path.c_str(), shape_count, &e), e));
     }
@@ -175,7 +175,7 @@ class motion_reader
   public:
     using owner::owner;
     /** Opens the file. Throws FILE, FORMAT. */
-    static motion_reader create(const std::string &path, const scene &of) {
+    static motion_reader open(const std::string &path, const scene &of) {
         ovoid_error e;
         return motion_reader(detail::require(ovoid_motion_reader_open(path.c_str(), of.get(), &e), e));
     }
@@ -198,7 +198,7 @@ class results_reader
   public:
     using owner::owner;
     /** Opens the file. Throws FILE. */
-    static results_reader create(const std::string &path) {
+    static results_reader open(const std::string &path) {
         ovoid_error e;
         return results_reader(detail::require(ovoid_results_reader_open(path.c_str(), &e), e));
     }
@@ -218,7 +218,7 @@ class output : public detail::owner<detail::pointer<ovoid_output>, ovoid_output,
   public:
     using owner::owner;
     /** Starts one. Throws FILE. */
-    static output create(const std::string &path) {
+    static output open(const std::string &path) {
         ovoid_error e;
         return output(detail::require(ovoid_output_open(path.c_str(), &e), e));
     }

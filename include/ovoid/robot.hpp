@@ -21,7 +21,7 @@ namespace ovoid {
 /** Options of a robot. */
 using robot_options = zeroed<ovoid_robot_options>;
 /** How a state is checked. */
-using robot_check_options = zeroed<ovoid_robot_query_options>;
+using robot_query_options = zeroed<ovoid_robot_query_options>;
 /** How a motion is checked. */
 using robot_path_options = zeroed<ovoid_robot_path_options>;
 /** How a clearance is computed. */
@@ -91,7 +91,7 @@ class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ov
         return poses;
     }
     /** Throws RANGE or NOT_FINITE where a variable is outside its limits by more than slack. */
-    void check_limits(span<const double> q, double slack = 0) const {
+    void validate_limits(span<const double> q, double slack = 0) const {
         ovoid_error e;
         detail::require(ovoid_robot_validate_limits(get(), q.data(), slack, &e), e);
     }
@@ -155,14 +155,14 @@ class robot_checker
     /** Forgets the last state. */
     void reset() noexcept { ovoid_robot_checker_reset(get()); }
     /** Is a state free? Throws ARGUMENT, MEMORY. */
-    robot_answer check(span<const double> q, const ovoid_robot_query_options &o = robot_check_options()) {
+    robot_answer collide(span<const double> q, const ovoid_robot_query_options &o = robot_query_options()) {
         robot_answer found;
         call(ovoid_robot_collide, q.data(), &o, &found);
         return found;
     }
     /** Many states, one after another; count: how many. Throws ARGUMENT, MEMORY. */
-    std::vector<robot_answer> check_batch(span<const double> q, std::size_t count,
-                                          const ovoid_robot_query_options &o = robot_check_options()) {
+    std::vector<robot_answer> collide_batch(span<const double> q, std::size_t count,
+                                            const ovoid_robot_query_options &o = robot_query_options()) {
         std::vector<robot_answer> answers(count);
         const ovoid_robot_batch batch = {q.data(), count, &o, answers.data()};
         ovoid_robot_checker *self = get();
@@ -172,8 +172,8 @@ class robot_checker
     }
     /** Is a path of `count` states free for all times in between? Steps are written where options say. Throws ARGUMENT,
      * MEMORY. */
-    ovoid_robot_path_answer check_path(span<const double> states, std::size_t count,
-                                       const ovoid_robot_path_options &o = robot_path_options()) {
+    ovoid_robot_path_answer find_hit(span<const double> states, std::size_t count,
+                                     const ovoid_robot_path_options &o = robot_path_options()) {
         const ovoid_robot_path path = {states.data(), count};
         ovoid_robot_path_answer found;
         call(ovoid_robot_path_find_hit, &path, &o, &found);
@@ -220,9 +220,9 @@ class robot_checker
 };
 
 /** Throws PROOF, with a sentence, where the steps do not prove the answer. */
-inline void check_robot_path(const robot_cell &cell, span<const double> states, std::size_t count,
-                             const ovoid_robot_path_options &o, const ovoid_robot_path_answer &found,
-                             span<const ovoid_robot_step> steps) {
+inline void verify_robot_path(const robot_cell &cell, span<const double> states, std::size_t count,
+                              const ovoid_robot_path_options &o, const ovoid_robot_path_answer &found,
+                              span<const ovoid_robot_step> steps) {
     const ovoid_robot_path path = {states.data(), count};
     ovoid_error e;
     detail::require(ovoid_robot_path_verify(cell.get(), &path, &o, &found, steps.data(), &e), e);
@@ -305,7 +305,7 @@ inline robot create_from_spheres(const robot &r, span<const ovoid_robot_link_sph
 /** Adds states, `count` of them, to a comparison of a robot with its model; agreements: receives one a state, or
  * nullptr. Throws ARGUMENT, MEMORY. */
 inline void compare_states(robot_checker &of_robot, robot_checker &of_model, span<const double> q, std::size_t count,
-                           ovoid_robot_comparison &sum, const ovoid_robot_query_options &o = robot_check_options(),
+                           ovoid_robot_comparison &sum, const ovoid_robot_query_options &o = robot_query_options(),
                            std::vector<ovoid_robot_agreement> *agreements = nullptr) {
     if (agreements) agreements->resize(count);
     const ovoid_robot_comparison_batch batch = {

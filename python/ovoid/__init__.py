@@ -1,7 +1,7 @@
 """Proximity of convex bodies, with proofs.
 
 Do two bodies touch, how far apart are they, how deep do they overlap, when do they meet. Every answer is a bracket that
-is true, rounding included, and carries a proof that check() checks.
+is true, rounding included, and carries a proof that verify() checks.
 
     >>> import ovoid
     >>> box = ovoid.Shape.box((1, 2, 3))
@@ -9,7 +9,7 @@ is true, rounding included, and carries a proof that check() checks.
     >>> answer = ovoid.distance(box, pill, None, ovoid.Pose.from_rpy((4, 0, 0), (0, 0.7, 0)))
     >>> str(answer.status), answer.lower <= 1.8557823127 + 1e-9
     ('separated', True)
-    >>> ovoid.check(answer)
+    >>> ovoid.verify(answer)
 
 Lengths are in the caller's unit, the same everywhere; angles are radians; poses are in the world frame. Results are NumPy
 arrays where NumPy can be imported.
@@ -22,15 +22,15 @@ from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint
                       PartsAudit, Side, SphereAudit, StateAnswer, Variable)
 
 
-def load(path, **options):
+def read(path, **options):
     """The body that a file holds: a Shape of an .ovoid file and of a mesh that is its convex hull, or nearly so (then with
     an allowance for the difference); a Solid of any other mesh, a surface where that is open. hull=True: the hull of any
-    mesh. Arguments as of Shape.load; a Solid has no rounding and no allowance."""
+    mesh. Arguments as of Shape.read; a Solid has no rounding and no allowance."""
     from . import _ovoid
 
     if not has_io:
         raise Error("this build of ovoid reads no files: it was built without libovoid_io", Code.FILE)
-    return _ovoid.load(path, **options)
+    return _ovoid.read(path, **options)
 
 
 __all__ = [name for name in dir() if not name.startswith("_")]

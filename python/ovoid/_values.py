@@ -11,7 +11,7 @@ them point_a, point_b, normal of distances and depths, else None. The rest count
 Hit = namedtuple("Hit", "a b lower answer")
 Hit.__doc__ = """A pair that a query of a world found: ids, or a: 0 of a probe, its number of several; the Answer.
 
-lower: of nearest ones, no pair is nearer. The answer of compounds has no proof for the other parts: check() wants that of
+lower: of nearest ones, no pair is nearer. The answer of compounds has no proof for the other parts: verify() wants that of
 distance(..., earlier=answer)."""
 
 Cast = namedtuple("Cast", "body part probe lower upper point normal undecided")

@@ -26,7 +26,7 @@ _EXTERNAL = "__external"
 class _PairData:
     def __init__(self, names, answer):
         self._names = tuple(names)
-        self.answer = answer  #: the Answer or SolidAnswer, which ovoid.check takes
+        self.answer = answer  #: the Answer or SolidAnswer, which ovoid.verify takes
 
     @property
     def names(self):

@@ -47,7 +47,7 @@ const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *t
     return to;
 }
 
-int limit_check(module_state *state, ovoid_limit limit) {
+int limit_raise(module_state *state, ovoid_limit limit) {
     const char *what = limit == OVOID_LIMIT_POSE_A   ? "pose_a: the body would lie beyond the range of lengths, 1e50"
                        : limit == OVOID_LIMIT_POSE_B ? "pose_b: the body would lie beyond the range of lengths, 1e50"
                        : limit == OVOID_LIMIT_OPTIONS
@@ -60,7 +60,7 @@ int limit_check(module_state *state, ovoid_limit limit) {
 
 // ---- checking
 
-ovoid_code answer_check(const answer_object *self, ovoid_error *error) {
+ovoid_code answer_verify(const answer_object *self, ovoid_error *error) {
     module_state *state = state_of((PyObject *)self);
     ovoid_cover unpacked;
     const ovoid_cover *cover = answer_unpack_cover(self, &unpacked);
@@ -74,16 +74,16 @@ ovoid_code answer_check(const answer_object *self, ovoid_error *error) {
     return ovoid_compound_answer_verify(&bodies, &self->of, &self->options, &exclusions, error);
 }
 
-static ovoid_code check_any(module_state *state, PyObject *what, ovoid_error *error) {
-    if (Py_TYPE(what) == state->answer) return answer_check((const answer_object *)what, error);
-    if (Py_TYPE(what) == state->solid_answer) return solid_answer_check(what, error);
+static ovoid_code verify_any(module_state *state, PyObject *what, ovoid_error *error) {
+    if (Py_TYPE(what) == state->answer) return answer_verify((const answer_object *)what, error);
+    if (Py_TYPE(what) == state->solid_answer) return solid_answer_verify(what, error);
 #ifdef OVOID_PYTHON_ROBOT
-    if (Py_TYPE(what) == state->robot_path) return path_check(what, error);
+    if (Py_TYPE(what) == state->robot_path) return path_verify(what, error);
 #endif
-    return impact_check(state, what, error);
+    return impact_verify(state, what, error);
 }
 
-static int is_checkable(module_state *state, PyObject *what) {
+static int is_verifiable(module_state *state, PyObject *what) {
     PyTypeObject *const types[] = {state->answer, state->solid_answer, state->impact, state->approach,
                                    state->robot_path};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
@@ -93,26 +93,26 @@ static int is_checkable(module_state *state, PyObject *what) {
     return 0;
 }
 
-static PyObject *check(PyObject *module, PyObject *what) {
+static PyObject *verify(PyObject *module, PyObject *what) {
     module_state *state = state_of_module(module);
     ovoid_error error;
-    if (!is_checkable(state, what)) return NULL;
-    if (check_any(state, what, &error) != OVOID_OK) return raise_error(state, &error);
+    if (!is_verifiable(state, what)) return NULL;
+    if (verify_any(state, what, &error) != OVOID_OK) return raise_error(state, &error);
     Py_RETURN_NONE;
 }
 
 static PyObject *is_proven(PyObject *module, PyObject *what) {
     module_state *state = state_of_module(module);
-    if (!is_checkable(state, what)) return NULL;
-    return PyBool_FromLong(check_any(state, what, NULL) == OVOID_OK);
+    if (!is_verifiable(state, what)) return NULL;
+    return PyBool_FromLong(verify_any(state, what, NULL) == OVOID_OK);
 }
 
-static PyMethodDef check_methods[] = {
-    {"check", check, METH_O,
-     "check(answer)\n--\n\nChecks an Answer, SolidAnswer, Impact, Approach or RobotPath by its proof alone, without "
+static PyMethodDef verify_methods[] = {
+    {"verify", verify, METH_O,
+     "verify(answer)\n--\n\nChecks an Answer, SolidAnswer, Impact, Approach or RobotPath by its proof alone, without "
      "any "
      "search; raises Error where\nthe proof does not hold."},
-    {"is_proven", is_proven, METH_O, "is_proven(answer)\n--\n\nTrue where check(answer) finds nothing wrong."},
+    {"is_proven", is_proven, METH_O, "is_proven(answer)\n--\n\nTrue where verify(answer) finds nothing wrong."},
     {NULL, NULL, 0, NULL}};
 
 // ---- what it is
@@ -196,7 +196,7 @@ static PyMethodDef methods[] = {
 static PyType_Slot slots[] = {
     {Py_tp_doc,
      "The answer to a query of two bodies: lower <= d <= upper, where d is the signed distance, positive apart,\n"
-     "minus the depth where they overlap. ovoid.check(answer) checks its proof."},
+     "minus the depth where they overlap. ovoid.verify(answer) checks its proof."},
     {Py_tp_dealloc, answer_dealloc},
     {Py_tp_repr, repr},
     {Py_tp_getset, fields},
@@ -206,5 +206,5 @@ static PyType_Spec spec = {"ovoid.Answer", sizeof(answer_object), 0,
                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
 
 int answer_add(PyObject *module) {
-    return type_add(module, &spec, &state_of_module(module)->answer) || PyModule_AddFunctions(module, check_methods);
+    return type_add(module, &spec, &state_of_module(module)->answer) || PyModule_AddFunctions(module, verify_methods);
 }

@@ -21,7 +21,7 @@ typedef struct record {
 
 #define VERDICT_FIELDS "I:status:I:stage:I:limit:I:iterations:d:lower:d:upper:"
 #define SIDE_FIELDS(which) "I:link_" which ":I:element_" which ":Q:body_" which ":I:part_" which ":4x"
-// Robots may be left out of a build; robot_check.c and robot_path.c say that these are the sizes.
+// Robots may be left out of a build; collide.c and robot_path.c say that these are the sizes.
 enum { STATE_SIZE = 80, NEAR_SIZE = 152, ROBOT_STEP_SIZE = 48 };
 static const record records[RECORD_COUNT] = {
     [RECORD_DOUBLE] = {"d", sizeof(double)},

@@ -58,7 +58,7 @@ static int has_bad_index(const couples *c, Py_ssize_t body_count) {
     return wrong != 0;
 }
 
-static int check_couples(module_state *state, const couples *c, Py_ssize_t body_count) {
+static int validate_couples(module_state *state, const couples *c, Py_ssize_t body_count) {
     if (!has_bad_index(c, body_count)) return 0;
     Py_ssize_t i = 0;
     while (i < 2 * c->count - 1 && get_index(c, i) < (uint64_t)body_count) i++;
@@ -198,7 +198,7 @@ static int run_job(module_state *state, job *j, int thread_count, PyObject *prog
     if (j->chunk > total) j->chunk = total + 1;
     size_t useful = (total + j->chunk - 1) / j->chunk;
     // The library checks each chunk before it writes; several are checked here, so that all or none is written.
-    if (useful > 1 && check_couples(state, &j->couples, (Py_ssize_t)j->batch.body_count)) return -1;
+    if (useful > 1 && validate_couples(state, &j->couples, (Py_ssize_t)j->batch.body_count)) return -1;
     pthread_t threads[THREADS_MOST];
     int others = useful <= 1 ? 0 : (size_t)thread_count < useful ? thread_count - 1 : (int)useful - 1;
     others = start_threads(j, threads, others);
@@ -208,7 +208,7 @@ static int run_job(module_state *state, job *j, int thread_count, PyObject *prog
     Py_END_ALLOW_THREADS;
     if (failed) return -1;
     if (!atomic_load(&j->stop)) return progress ? look_around(progress, atomic_load(&j->done), total) : 0;
-    if (!check_couples(state, &j->couples, (Py_ssize_t)j->batch.body_count))
+    if (!validate_couples(state, &j->couples, (Py_ssize_t)j->batch.body_count))
         raise_code(state, OVOID_ERROR_INDEX, -1, "the couples were changed while the batch ran");
     return -1;
 }
@@ -284,7 +284,7 @@ static PyObject *run_on(module_state *state, const batch_input *in, job *j) {
 
 // ---- what is called
 
-static int check_input(module_state *state, const batch_input *in, const job *j) {
+static int validate_input(module_state *state, const batch_input *in, const job *j) {
     if (Py_TYPE(in->bodies) != state->bodies) {
         PyErr_Format(PyExc_TypeError, "bodies: Bodies are wanted, as of Bodies(shapes, poses), not %R",
                      (PyObject *)Py_TYPE(in->bodies));
@@ -294,7 +294,7 @@ static int check_input(module_state *state, const batch_input *in, const job *j)
         raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, in->threads);
         return -1;
     }
-    if (progress_check(in->progress)) return -1;
+    if (progress_validate(in->progress)) return -1;
     const bodies_object *bodies = (const bodies_object *)in->bodies;
     if (bodies->has_solids && j->name == QUERY_DEPTH) {
         PyErr_SetString(PyExc_TypeError, "bodies: depth_batch() takes Shapes and Compounds: distance_batch() of Solids "
@@ -307,7 +307,7 @@ static int check_input(module_state *state, const batch_input *in, const job *j)
     }
     const ovoid_options *o = &j->options;
     if (o->absolute_tolerance >= 0 && o->relative_tolerance >= 0 && o->cap >= 0 && j->margin >= 0) return 0;
-    return limit_check(state, OVOID_LIMIT_OPTIONS);
+    return limit_raise(state, OVOID_LIMIT_OPTIONS);
 }
 
 #define BATCH_NAMES QUERY_NAMES, "threads", "out", "witnesses", "proofs", "progress", NULL
@@ -325,9 +325,9 @@ static PyObject *batch(PyObject *module, PyObject *arguments, PyObject *keywords
                       : PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$" QUERY_FORMAT "iOOOO", names, &in.bodies,
                                                     &in.couples, QUERY_TARGETS(k), &in.threads, &in.out, &in.witnesses,
                                                     &in.proofs, &in.progress);
-    if (!is_read || query_keywords_check(state, &k)) return NULL;
+    if (!is_read || query_keywords_validate(state, &k)) return NULL;
     j.options = k.options;
-    if (check_input(state, &in, &j) || read_couples(state, in.couples, &j.couples)) return NULL;
+    if (validate_input(state, &in, &j) || read_couples(state, in.couples, &j.couples)) return NULL;
     PyObject *made = run_on(state, &in, &j);
     release_couples(&j.couples);
     return made;

@@ -26,7 +26,7 @@ static PyObject *bounds(PyObject *module, PyObject *arguments, PyObject *keyword
     answer_object *to = answer_make(state, given[0], given[1], &pair.pose_a, &pair.pose_b);
     if (!to) return NULL;
     to->of.answer = ovoid_pair_compute_bounds(&pair);
-    if (!limit_check(state, to->of.answer.limit)) return (PyObject *)to;
+    if (!limit_raise(state, to->of.answer.limit)) return (PyObject *)to;
     Py_DECREF((PyObject *)to);
     return NULL;
 }

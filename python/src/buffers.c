@@ -69,8 +69,8 @@ static void write_shape(char *text, size_t size, int axes, const Py_ssize_t *sha
     PyOS_snprintf(text + at, size - at, axes == 1 ? ",)" : ")");
 }
 
-static int check_shape(module_state *state, const char *what, int axes, const Py_ssize_t *wanted, int given_axes,
-                       const Py_ssize_t *given) {
+static int validate_shape(module_state *state, const char *what, int axes, const Py_ssize_t *wanted, int given_axes,
+                          const Py_ssize_t *given) {
     int is_right = given_axes == axes;
     for (int i = 0; is_right && i < axes; i++) is_right = wanted[i] < 0 || wanted[i] == given[i];
     if (is_right) return 0;
@@ -156,7 +156,7 @@ static int is_wanted_kind(const Py_buffer *view, char type) {
 static int read_view(module_state *state, const char *what, int axes, const Py_ssize_t *wanted, char type,
                      const Py_buffer *view, items *to) {
     if (!is_wanted_kind(view, type)) return refuse_kind(what, type, view);
-    if (check_shape(state, what, axes, wanted, view->ndim, view->shape)) return -1;
+    if (validate_shape(state, what, axes, wanted, view->ndim, view->shape)) return -1;
     void *memory = to->data ? to->data : allocate_items(axes, view->shape);
     if (!memory) return -1;
     for (int i = 0; i < axes; i++) to->shape[i] = view->shape[i];
@@ -251,7 +251,7 @@ static int read_sequence(module_state *state, PyObject *from, const char *what, 
     // An empty list has no rows to count: it stands for any empty array.
     if (shape[0] == 0 && wanted[0] < 0)
         for (int i = 1; i < axes; i++) shape[i] = wanted[i] < 0 ? 0 : wanted[i];
-    if (check_shape(state, what, axes, wanted, axes, shape)) return -1;
+    if (validate_shape(state, what, axes, wanted, axes, shape)) return -1;
     void *memory = to->data ? to->data : allocate_items(axes, shape);
     if (!memory) return -1;
     char *next = memory;

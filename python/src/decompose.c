@@ -78,7 +78,7 @@ static PyObject *decompose(PyObject *self, PyObject *arguments, PyObject *keywor
     PyObject *progress = Py_None;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|$dnO:decompose", names, &j.options.error, &count,
                                      &progress) ||
-        progress_check(progress))
+        progress_validate(progress))
         return NULL;
     if (count < 0) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "parts: a number of at least 0 is wanted");
     j.options.parts = (size_t)count;
@@ -145,7 +145,7 @@ static PyObject *audit_parts(PyObject *self, PyObject *arguments, PyObject *keyw
     ovoid_decomposition d = {.solid = get(self)};
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$dnnO:audit_parts", names, &given, &j.options.tolerance,
                                      &cells, &work, &progress) ||
-        progress_check(progress))
+        progress_validate(progress))
         return NULL;
     if (cells < 0 || work < 0) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "numbers of cells are >= 0");
     j.options.cells = (size_t)cells;

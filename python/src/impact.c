@@ -1,4 +1,4 @@
-// When two moving bodies meet, how near they come, casts and rays; each with the steps that check() takes.
+// When two moving bodies meet, how near they come, casts and rays; each with the steps that verify() takes.
 #include "src/motion.h"
 #include "src/query.h"
 
@@ -113,7 +113,7 @@ static PyObject *find(module_state *state, moving_input *in, int what) {
         return NULL;
     }
     if (in->iterations > UINT32_MAX || !(in->margin >= 0)) {
-        limit_check(state, OVOID_LIMIT_OPTIONS);
+        limit_raise(state, OVOID_LIMIT_OPTIONS);
         return NULL;
     }
     in->options.iterations = (uint32_t)in->iterations;
@@ -128,7 +128,7 @@ static PyObject *find(module_state *state, moving_input *in, int what) {
     made->margin = in->margin;
     made->options = in->options;
     if (!find_steps(state, made, what, &in->options) &&
-        !limit_check(state, what == APPROACH ? made->approach.limit : made->of.impact.limit))
+        !limit_raise(state, what == APPROACH ? made->approach.limit : made->of.impact.limit))
         return (PyObject *)made;
     Py_DECREF((PyObject *)made);
     return NULL;
@@ -157,7 +157,7 @@ static PyObject *find_approach(PyObject *module, PyObject *arguments, PyObject *
 
 // ---- checking
 
-ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *error) {
+ovoid_code impact_verify(module_state *state, PyObject *object, ovoid_error *error) {
     const impact_object *self = (const impact_object *)object;
     ovoid_moving_body a = make_moving(state, self->a, self->motion_a), b = make_moving(state, self->b, self->motion_b);
     ovoid_moving_shape shape_a = make_moving_shape(&a), shape_b = make_moving_shape(&b);
@@ -314,7 +314,7 @@ static PyObject *cast_ray(PyObject *module, PyObject *arguments, PyObject *keywo
     ray_hit_object *made = object_make(state->ray_hit);
     if (!made) return NULL;
     made->hit = ovoid_shape_cast_ray(&posed, &ray);
-    if (!limit_check(state, made->hit.limit)) return (PyObject *)made;
+    if (!limit_raise(state, made->hit.limit)) return (PyObject *)made;
     Py_DECREF((PyObject *)made);
     return NULL;
 }
@@ -342,7 +342,7 @@ int impact_add(PyObject *module) {
 #define MOTION_DOC                                                                                                     \
     "\n\nmotion_a, motion_b: a Motion, or a pose: it stands still. begin, end: the times queried; both 0: those that " \
     "both "                                                                                                            \
-    "motions\nhave. tolerance: of the bracket; 0: the default. check() checks the result."
+    "motions\nhave. tolerance: of the bracket; 0: the default. verify() checks the result."
 
 PyMethodDef impact_methods[] = {
     {"find_impact", METHOD_KEYWORDS(find_impact), METH_VARARGS | METH_KEYWORDS,

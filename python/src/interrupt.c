@@ -45,7 +45,7 @@ int interrupt_end(interrupt *i) {
 
 // ---- pieces
 
-int progress_check(PyObject *progress) {
+int progress_validate(PyObject *progress) {
     if (!progress || progress == Py_None || PyCallable_Check(progress)) return 0;
     PyErr_SetString(PyExc_TypeError, "progress: a function of (done, total) is wanted");
     return -1;

@@ -105,7 +105,7 @@ int pieces_run(module_state *state, const pieces *p);
 /// where one of them raised.
 int look_around(PyObject *progress, size_t done, size_t total);
 /// Refuses what is no function; -1 then.
-int progress_check(PyObject *progress);
+int progress_validate(PyObject *progress);
 
 // ---- buffers.c
 
@@ -238,7 +238,7 @@ typedef struct query_keywords {
 #define QUERY_TARGETS(k)                                                                                               \
     &(k).options.absolute_tolerance, &(k).options.relative_tolerance, &(k).options.cap, &(k).iterations
 /// Checks them; options.iterations is filled.
-int query_keywords_check(module_state *state, query_keywords *k);
+int query_keywords_validate(module_state *state, query_keywords *k);
 
 /// An id of Python's as the library's, as a converter of PyArg_ParseTuple.
 int id_read(PyObject *from, void *to);
@@ -251,11 +251,11 @@ int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
 /// What was kept as the library reads it, in *to; NULL where there is none.
 const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.
-int limit_check(module_state *state, ovoid_limit limit);
+int limit_raise(module_state *state, ovoid_limit limit);
 /// Checks an answer by its proof and the options of its query: OVOID_OK, or what ovoid_answer_verify says.
-ovoid_code answer_check(const answer_object *self, ovoid_error *error);
+ovoid_code answer_verify(const answer_object *self, ovoid_error *error);
 /// Checks an impact or an approach likewise.
-ovoid_code impact_check(module_state *state, PyObject *object, ovoid_error *error);
+ovoid_code impact_verify(module_state *state, PyObject *object, ovoid_error *error);
 
 // ---- what each file adds to the module
 

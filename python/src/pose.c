@@ -11,7 +11,7 @@ PyObject *pose_wrap(module_state *state, ovoid_pose pose) {
 }
 
 // A pose made of numbers that are checked here: what it is wrong with it, as an exception.
-static int check_pose(module_state *state, const char *what, Py_ssize_t place, const ovoid_pose *pose) {
+static int validate_pose(module_state *state, const char *what, Py_ssize_t place, const ovoid_pose *pose) {
     ovoid_code code = ovoid_pose_validate(pose);
     if (code == OVOID_OK) return 0;
     const char *why = code == OVOID_ERROR_ROTATION ? "the quaternion is zero"
@@ -61,7 +61,7 @@ static int read_two(module_state *state, PyObject *from, const char *what, ovoid
     }
     if (vec3_read(state, PyTuple_GetItem(from, 0), what, &xyz) || read_rotation(state, rotation, q)) return -1;
     *pose = make_pose(xyz, q, 1);
-    return check_pose(state, what, -1, pose);
+    return validate_pose(state, what, -1, pose);
 }
 
 // A position alone: nothing is turned.
@@ -98,7 +98,7 @@ static int fill_sevens(module_state *state, const double *numbers, int is_xyzw, 
     for (Py_ssize_t i = 0; i < count; i++) {
         const double *n = numbers + 7 * i;
         poses[i] = make_pose((ovoid_vec3){n[0], n[1], n[2]}, n + 3, is_xyzw);
-        if (check_pose(state, "pose", i, &poses[i])) return -1;
+        if (validate_pose(state, "pose", i, &poses[i])) return -1;
     }
     return 0;
 }
@@ -203,7 +203,7 @@ static PyObject *from_quaternion(PyObject *type, PyObject *arguments, PyObject *
         doubles_read(state, wxyz ? wxyz : xyzw, wxyz ? "wxyz" : "xyzw", 1, (Py_ssize_t[]){4}, q))
         return NULL;
     ovoid_pose pose = make_pose(position, q, xyzw != NULL);
-    return check_pose(state, "from_quaternion", -1, &pose) ? NULL : pose_wrap(state, pose);
+    return validate_pose(state, "from_quaternion", -1, &pose) ? NULL : pose_wrap(state, pose);
 }
 
 static PyObject *from_rotation(PyObject *type, PyObject *arguments, PyObject *keywords) {
@@ -239,7 +239,7 @@ static PyObject *from_rpy(PyObject *type, PyObject *arguments, PyObject *keyword
         vec3_read(state, first, "xyz", &xyz) || vec3_read(state, second, "rpy", &rpy))
         return NULL;
     ovoid_pose pose = ovoid_pose_make_rpy(xyz, rpy);
-    return check_pose(state, "from_rpy", -1, &pose) ? NULL : pose_wrap(state, pose);
+    return validate_pose(state, "from_rpy", -1, &pose) ? NULL : pose_wrap(state, pose);
 }
 
 static PyObject *from_axis_angle(PyObject *type, PyObject *arguments, PyObject *keywords) {
@@ -287,7 +287,7 @@ static PyObject *multiply(PyObject *left, PyObject *right) {
     if (PyType_GetSlot(Py_TYPE(left), Py_nb_matrix_multiply) == (void *)multiply) state = state_of(left);
     if (!state || Py_TYPE(right) != state->pose) Py_RETURN_NOTIMPLEMENTED;
     ovoid_pose product = ovoid_pose_compute_product(get(left), get(right));
-    return check_pose(state, "product", -1, &product) ? NULL : pose_wrap(state, product);
+    return validate_pose(state, "product", -1, &product) ? NULL : pose_wrap(state, product);
 }
 
 static PyObject *move_points(PyObject *self, PyObject *points, ovoid_vec3 (*move)(const ovoid_pose *, ovoid_vec3)) {
@@ -343,7 +343,7 @@ static PyObject *make(PyObject *type, PyObject *arguments) {
                           &p.rotation.x, &p.rotation.y, &p.rotation.z))
         return NULL;
     module_state *state = state_of_type(type);
-    return check_pose(state, "pose", -1, &p) ? NULL : pose_wrap(state, p);
+    return validate_pose(state, "pose", -1, &p) ? NULL : pose_wrap(state, p);
 }
 
 static PyMethodDef methods[] = {

@@ -67,7 +67,7 @@ static int read_iterations(module_state *state, PyObject *from, uint32_t *to) {
     return -1;
 }
 
-int query_keywords_check(module_state *state, query_keywords *k) {
+int query_keywords_validate(module_state *state, query_keywords *k) {
     k->options.iterations = (uint32_t)k->iterations;
     if (k->iterations <= UINT32_MAX) return 0;
     raise_code(state, OVOID_ERROR_ARGUMENT, -1, "iterations: 0 to 2^32 - 1 are wanted");
@@ -236,7 +236,7 @@ static PyObject *query(PyObject *module, query_name name, PyObject *const *given
     if (!to) return NULL;
     to->options = in.options;
     int failed = in.pair.a.shape && in.pair.b.shape ? query_shapes(&in, to) : query_compounds(&in, to);
-    if (failed || limit_check(state, to->of.answer.limit)) {
+    if (failed || limit_raise(state, to->of.answer.limit)) {
         Py_DECREF(to);
         return NULL;
     }

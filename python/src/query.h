@@ -38,6 +38,6 @@ PyObject *solid_answer_ask(module_state *state, PyObject *a, PyObject *b, const 
 /// Its parts and proof as a warm start.
 ovoid_compound_proof solid_answer_get_proof(PyObject *answer);
 /// Checks a SolidAnswer by its proof: OVOID_OK, or what ovoid_solid_answer_verify says.
-ovoid_code solid_answer_check(PyObject *answer, ovoid_error *error);
+ovoid_code solid_answer_verify(PyObject *answer, ovoid_error *error);
 
 #endif

@@ -133,10 +133,10 @@ static PyObject *reduce(PyObject *self, PyObject *ignored) {
 }
 
 #ifdef OVOID_PYTHON_IO
-static PyObject *save(PyObject *self, PyObject *arguments) {
+static PyObject *write_file(PyObject *self, PyObject *arguments) {
     PyObject *path = NULL;
     ovoid_error error;
-    if (!PyArg_ParseTuple(arguments, "O&:save", PyUnicode_FSConverter, &path)) return NULL;
+    if (!PyArg_ParseTuple(arguments, "O&:write", PyUnicode_FSConverter, &path)) return NULL;
     ovoid_code code = ovoid_shape_write_file(get(self), PyBytes_AsString(path), &error);
     Py_DECREF(path);
     if (code != OVOID_OK) return raise_error(state_of(self), &error);
@@ -214,7 +214,8 @@ static void shape_dealloc(PyObject *self) {
 static PyMethodDef methods[] = {
     {"to_bytes", to_bytes, METH_NOARGS, "to_bytes()\n--\n\nThe bytes of an .ovoid file; pickle uses them too."},
 #ifdef OVOID_PYTHON_IO
-    {"save", save, METH_VARARGS, "save(path)\n--\n\nWrites an .ovoid file: all of it, or the path is as it was."},
+    {"write", write_file, METH_VARARGS,
+     "write(path)\n--\n\nWrites an .ovoid file: all of it, or the path is as it was."},
 #endif
     {"divided", METHOD_KEYWORDS(divided), METH_VARARGS | METH_KEYWORDS,
      "divided(normal, offset, *, rounding=0)\n--\n\nThe shape cut by the plane normal . x = offset (local frame): the "
@@ -248,7 +249,7 @@ static PyGetSetDef fields[] = {
 static PyType_Slot slots[] = {
     {Py_tp_doc,
      "An immutable convex body, shared by any number of poses and threads.\n\nMade by Shape.from_points, hull_of, "
-     "from_faces, box, sphere, capsule, cylinder, cone, prism, pyramid, load and\nfrom_bytes. The unit of "
+     "from_faces, box, sphere, capsule, cylinder, cone, prism, pyramid, read and\nfrom_bytes. The unit of "
      "length is the caller's and the same everywhere."},
     {Py_tp_dealloc, shape_dealloc},
     {Py_tp_repr, repr},

@@ -325,11 +325,11 @@ static int read_file_keywords(module_state *state, PyObject *arguments, PyObject
     return -1;
 }
 
-static PyObject *load_shape(PyObject *type, PyObject *arguments, PyObject *keywords) {
+static PyObject *read_shape(PyObject *type, PyObject *arguments, PyObject *keywords) {
     file_keywords f = {.read = {.scale = 0}};
     ovoid_error error;
     module_state *state = state_of_type(type);
-    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT "p:load", &f)) return NULL;
+    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT "p:read", &f)) return NULL;
     ovoid_shape *shape;
     const char *name = PyBytes_AsString(f.path);
     Py_BEGIN_ALLOW_THREADS;
@@ -369,10 +369,10 @@ static ovoid_shapes *read_shapes(module_state *state, file_keywords *f) {
     return shapes;
 }
 
-static PyObject *load_parts(PyObject *module, PyObject *arguments, PyObject *keywords) {
+static PyObject *read_parts(PyObject *module, PyObject *arguments, PyObject *keywords) {
     file_keywords f = {.read = {.parts = 1}};
     module_state *state = state_of_module(module);
-    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT ":load_parts", &f)) return NULL;
+    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT ":read_parts", &f)) return NULL;
     ovoid_shapes *shapes = read_shapes(state, &f);
     return shapes ? make_named(state, shapes) : NULL;
 }
@@ -388,10 +388,10 @@ static PyObject *make_body(module_state *state, ovoid_named_shape one, const ovo
     return NULL;
 }
 
-static PyObject *load_body(PyObject *module, PyObject *arguments, PyObject *keywords) {
+static PyObject *read_body(PyObject *module, PyObject *arguments, PyObject *keywords) {
     file_keywords f = {.read = {.scale = 0}};
     module_state *state = state_of_module(module);
-    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT "p:load", &f)) return NULL;
+    if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT "p:read", &f)) return NULL;
     ovoid_shapes *shapes = read_shapes(state, &f);
     PyObject *owner = shapes ? PyCapsule_New(shapes, "shapes", destroy_shapes) : NULL;
     if (shapes && !owner) ovoid_shapes_destroy(shapes);
@@ -401,14 +401,14 @@ static PyObject *load_body(PyObject *module, PyObject *arguments, PyObject *keyw
 }
 
 PyMethodDef shape_file_methods[] = {
-    {"load", METHOD_KEYWORDS(load_body), METH_VARARGS | METH_KEYWORDS,
-     "load(path, scale=1, unit=None, " SHAPE_SIGNATURE
-     ", hull=False)\n--\n\nThe body of a file: ovoid.load." SHAPE_DOC},
-    {"load_parts", METHOD_KEYWORDS(load_parts), METH_VARARGS | METH_KEYWORDS,
-     "load_parts(path, scale=1, unit=None, " SHAPE_SIGNATURE
+    {"read", METHOD_KEYWORDS(read_body), METH_VARARGS | METH_KEYWORDS,
+     "read(path, scale=1, unit=None, " SHAPE_SIGNATURE
+     ", hull=False)\n--\n\nThe body of a file: ovoid.read." SHAPE_DOC},
+    {"read_parts", METHOD_KEYWORDS(read_parts), METH_VARARGS | METH_KEYWORDS,
+     "read_parts(path, scale=1, unit=None, " SHAPE_SIGNATURE
      ")\n--\n\nThe objects of a mesh file, each as its convex hull: a list of (name, Shape), each where the file has "
      "it; "
-     "Compound([shape\nfor name, shape in ...]) is the body of them all. Arguments as of Shape.load." SHAPE_DOC},
+     "Compound([shape\nfor name, shape in ...]) is the body of them all. Arguments as of Shape.read." SHAPE_DOC},
     {NULL, NULL, 0, NULL}};
 #endif
 
@@ -448,8 +448,8 @@ PyMethodDef shape_constructors[] = {
      "was "
      "written."},
 #ifdef OVOID_PYTHON_IO
-    {"load", METHOD_KEYWORDS(load_shape), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "load(path, scale=1, unit=None, " SHAPE_SIGNATURE
+    {"read", METHOD_KEYWORDS(read_shape), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "read(path, scale=1, unit=None, " SHAPE_SIGNATURE
      ", hull=False)\n--\n\nA shape from an .ovoid file, or from a mesh "
      "file (STL, OBJ, OFF, PLY, ...) whose mesh is its convex hull, or nearly\nso: then the shape has an allowance for "
      "the "

@@ -87,12 +87,12 @@ static PyObject *from_mesh(PyObject *type, PyObject *mesh) {
 }
 
 #ifdef OVOID_PYTHON_IO
-static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
+static PyObject *read_solid(PyObject *type, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"path", "scale", "unit", NULL};
     PyObject *path = NULL;
     ovoid_read_options read = {.scale = 0};
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|dz:load", names, PyUnicode_FSConverter, &path,
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|dz:read", names, PyUnicode_FSConverter, &path,
                                      &read.scale, &read.unit)) {
         Py_XDECREF(path);
         return NULL;
@@ -244,8 +244,8 @@ static PyMethodDef methods[] = {
     {"from_mesh", from_mesh, METH_O | METH_CLASS,
      "from_mesh(mesh, /)\n--\n\nOf anything with .vertices (n, 3) and .faces (m, 3), as a trimesh.Trimesh."},
 #ifdef OVOID_PYTHON_IO
-    {"load", METHOD_KEYWORDS(load), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "load(path, scale=1, unit=None)\n--\n\nThe triangles of a mesh file (STL, OBJ, OFF, PLY, ...) as one solid; "
+    {"read", METHOD_KEYWORDS(read_solid), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "read(path, scale=1, unit=None)\n--\n\nThe triangles of a mesh file (STL, OBJ, OFF, PLY, ...) as one solid; "
      "polygons are cut into triangles. Arguments as of\nShape.load."},
 #endif
     {"winding", winding, METH_O,
@@ -284,7 +284,7 @@ static PyGetSetDef fields[] = {
 static PyType_Slot slots[] = {
     {Py_tp_doc,
      "Triangles and what they enclose, convex or not: immutable, shared by any number of poses and threads.\n\nMade by "
-     "Solid.from_triangles, from_mesh and load. Where the triangles are not closed the body is their surface alone."},
+     "Solid.from_triangles, from_mesh and read. Where the triangles are not closed the body is their surface alone."},
     {Py_tp_dealloc, solid_dealloc},
     {Py_tp_repr, repr},
     {Py_tp_methods, NULL},

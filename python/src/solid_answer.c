@@ -42,7 +42,7 @@ static int find_answer(module_state *state, const query_input *in, solid_answer_
         to->of = query_once(in, &pair, &exclusions);
         Py_END_ALLOW_THREADS;
         to->exclusion_count = exclusions.count;
-        if (exclusions.count <= capacity) return limit_check(state, to->of.limit);
+        if (exclusions.count <= capacity) return limit_raise(state, to->of.limit);
     }
 }
 
@@ -78,7 +78,7 @@ ovoid_compound_proof solid_answer_get_proof(PyObject *answer) {
     return (ovoid_compound_proof){of->triangle_a, of->triangle_b, of->surfaces.proof};
 }
 
-ovoid_code solid_answer_check(PyObject *answer, ovoid_error *error) {
+ovoid_code solid_answer_verify(PyObject *answer, ovoid_error *error) {
     const solid_answer_object *self = (const solid_answer_object *)answer;
     ovoid_body_pair pair = make_pair(state_of(answer), self);
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count, NULL};
@@ -184,7 +184,7 @@ static PyType_Slot slots[] = {
     {Py_tp_doc,
      "The answer to a query of two bodies of which one is a Solid at least: lower <= d <= upper, where d is the "
      "distance, "
-     "or\nminus the least way that parts the bodies where they overlap. ovoid.check(answer) checks its proof."},
+     "or\nminus the least way that parts the bodies where they overlap. ovoid.verify(answer) checks its proof."},
     {Py_tp_dealloc, solid_answer_dealloc},
     {Py_tp_repr, repr},
     {Py_tp_getset, fields},

@@ -16,7 +16,7 @@ from common import hypothesis, needs_hypothesis, numpy
 EXAMPLES = int(os.environ.get("FUZZ_EXAMPLES", "24"))
 REFUSALS = (TypeError, ValueError, OverflowError, RuntimeError, MemoryError, LookupError, BufferError, AttributeError)
 # They read files, or cost what their arguments say.
-LEFT_OUT = {"load", "load_obstacles", "load_motion_request", "find_problems", "load_paths", "load_path_sources", "compute_matrix", "cover_spheres", "audit_spheres", "audit_parts", "save", "prism", "pyramid", "cylinder", "cone"}
+LEFT_OUT = {"read", "read_obstacles", "read_motion_request", "find_problems", "read_paths", "read_path_sources", "compute_matrix", "cover_spheres", "audit_spheres", "audit_parts", "write", "prism", "pyramid", "cylinder", "cone"}
 
 BOX = ovoid.Shape.box((1, 2, 3))
 BALL = ovoid.Shape.sphere(1)
@@ -34,7 +34,7 @@ if ovoid.has_robot:
     ROBOT = ovoid.Robot(["a", "b"], [ovoid.Joint("j", "revolute", "a", "b", lower=-1, upper=1)], [("a", BOX), ("b", BALL, PLACE)])
     CELL = ovoid.Cell(ROBOT)
     CELL.add(BALL, PLACE)
-    ROBOTS = [ROBOT, CELL, CELL.check_path([[0], [1]]), ROBOT.joints[0], [ROBOT.joints[0]], ROBOT.elements, "a", [[0.5], [0.7]], [0.5],
+    ROBOTS = [ROBOT, CELL, CELL.find_hit([[0], [1]]), ROBOT.joints[0], [ROBOT.joints[0]], ROBOT.elements, "a", [[0.5], [0.7]], [0.5],
               ovoid.zeros("states", 2),
               [("a", (0, 0, 0), 0.5), (1, (0.1, 0, 0), 0.2)]]
 PREPARED = ovoid.Prepared(BALL, PLACE)
@@ -96,9 +96,9 @@ class Anything(unittest.TestCase):
         except ZeroDivisionError:
             return  # the callback above
         if isinstance(result, (ovoid.Answer, ovoid.SolidAnswer, ovoid.Impact, ovoid.Approach)):
-            ovoid.check(result)
+            ovoid.verify(result)
         if ROBOTS and isinstance(result, ovoid.RobotPath) and result.status != ovoid.RobotStatus.REFUSED:
-            ovoid.check(result)
+            ovoid.verify(result)
         if isinstance(result, ovoid.Solid):
             self.assertEqual(pickle.loads(pickle.dumps(result)).vertices.tolist(), result.vertices.tolist())
         if isinstance(result, ovoid.Shape):
@@ -131,8 +131,8 @@ class Anything(unittest.TestCase):
                 return
             for query in (ovoid.collide, ovoid.distance, ovoid.depth):
                 answer = query(a, b, None, pose)
-                ovoid.check(answer)
-                ovoid.check(query(a, b, pose, None, earlier=answer))
+                ovoid.verify(answer)
+                ovoid.verify(query(a, b, pose, None, earlier=answer))
 
         run()
 

@@ -25,22 +25,22 @@ class Impacts(unittest.TestCase):
         self.assertLessEqual(impact.free_until, 0.4)
         self.assertGreaterEqual(impact.hit_at, 0.4)
         self.assertLess(impact.hit_at - impact.free_until, 1e-8)
-        ovoid.check(impact)
-        ovoid.check(impact.hit)
+        ovoid.verify(impact)
+        ovoid.verify(impact.hit)
         self.assertEqual(len(impact.steps), 1)
         margin = ovoid.find_impact(BALL, BALL, None, fly((5, 0, 0), (-5, 0, 0)), margin=1)
         self.assertAlmostEqual(margin.hit_at, 0.3, delta=1e-8)
         self.assertAlmostEqual(margin.hit.upper, 1, delta=1e-6)
         free = ovoid.find_impact(BALL, BALL, None, fly((5, 2, 0), (-5, 2, 0)))
         self.assertEqual((str(free.status), free.hit_at, free.hit), ("free", math.inf, None))
-        ovoid.check(free)
+        ovoid.verify(free)
 
     def test_turning(self):
         # A box that spins about z sweeps a corner of radius sqrt(2); it meets a ball at 45 degrees.
         spin = ovoid.Motion.velocity(at(0), (0, 0, 0), (0, 0, 1), 1)
         impact = ovoid.find_impact(BOX, BALL, spin, at(math.sqrt(2) + 0.5 - 1e-9))
         self.assertAlmostEqual(impact.hit_at, math.pi / 4, delta=1e-3)
-        ovoid.check(impact)
+        ovoid.verify(impact)
         low, high = spin.swept(BOX, 0, 1)
         self.assertGreaterEqual(high[0], math.sqrt(2))
         self.assertAlmostEqual(high[2] - low[2], 2)
@@ -51,7 +51,7 @@ class Impacts(unittest.TestCase):
         impact = ovoid.find_impact(BOX, BALL, None, path)
         self.assertEqual(impact.status, ovoid.ImpactStatus.FREE)
         self.assertGreater(len(impact.steps), 200)
-        ovoid.check(impact)
+        ovoid.verify(impact)
 
     def test_translation_cast(self):
         impact = ovoid.find_impact(BOX, BOX, None, ovoid.Motion.velocity(at(5), (-6, 0, 0), (0, 0, 0), 1), tolerance=1e-12)
@@ -63,19 +63,19 @@ class Impacts(unittest.TestCase):
         self.assertEqual(path.pose(9), at(-5, 5))
         impact = ovoid.find_impact(BALL, BALL, at(0, 5), path)
         self.assertAlmostEqual(impact.hit_at, 1 + 2 * 0.4, delta=1e-8)
-        ovoid.check(impact)
+        ovoid.verify(impact)
 
     def test_compounds(self):
         comb = ovoid.Compound([BALL] * 40, [at(2 * i) for i in range(40)])
         impact = ovoid.find_impact(comb, comb, None, fly((1, 9, 0.5), (1, -9, 0.5)))
         self.assertEqual(impact.status, ovoid.ImpactStatus.FREE)
         self.assertGreater(len(impact.steps), 64)
-        ovoid.check(impact)
+        ovoid.verify(impact)
         impact = ovoid.find_impact(comb, BALL, None, fly((6, 9, 0), (6, -9, 0)))
         self.assertEqual(impact.part_a, 3)
         self.assertAlmostEqual(impact.hit_at, 8 / 18, delta=1e-8)
-        ovoid.check(impact)
-        ovoid.check(impact.hit)
+        ovoid.verify(impact)
+        ovoid.verify(impact.hit)
 
     def test_approach(self):
         near = ovoid.find_approach(BALL, BALL, None, fly((5, 2, 0), (-5, 2, 0)))
@@ -83,8 +83,8 @@ class Impacts(unittest.TestCase):
         self.assertGreaterEqual(near.upper, 1)
         self.assertLess(near.upper - near.lower, 1e-4)
         self.assertAlmostEqual(near.time, 0.5, delta=1e-2)
-        ovoid.check(near)
-        ovoid.check(near.answer)
+        ovoid.verify(near)
+        ovoid.verify(near.answer)
         self.assertLessEqual(near.answer.lower, near.upper)
 
     def test_rays(self):

@@ -31,7 +31,7 @@ def get_name(node):
 
 # What a build without libovoid_robot, or without readers of files, lacks.
 OF_ROBOTS = {"Robot", "Cell", "RobotPath", "compare_states"}
-OF_FILES = {"load_obstacles", "load_motion_request", "find_problems", "load_path_sources"}
+OF_FILES = {"read_obstacles", "read_motion_request", "find_problems", "read_path_sources"}
 
 
 class Stubs(unittest.TestCase):
@@ -39,7 +39,7 @@ class Stubs(unittest.TestCase):
         self.tree = ast.parse(read("python/ovoid/__init__.pyi"))
         lacking = (set() if ovoid.has_robot else OF_ROBOTS) | (set() if ovoid.has_robot and ovoid.has_io else OF_FILES)
         if not ovoid.has_io:
-            lacking.add("load_parts")
+            lacking.add("read_parts")
         self.tree.body = [node for node in self.tree.body if getattr(node, "name", None) not in lacking]
 
     def check_function(self, stub, function, where):
@@ -54,7 +54,7 @@ class Stubs(unittest.TestCase):
         stubs = {node.name: node for node in self.tree.body if isinstance(node, ast.FunctionDef)}
         functions = {name for name in ovoid.__all__ if inspect.isroutine(getattr(ovoid, name))}
         self.assertEqual(set(stubs), functions)
-        for name in functions - {"load"}:
+        for name in functions - {"read"}:
             self.check_function(stubs[name], getattr(ovoid, name), name)
 
     def test_classes(self):
@@ -69,12 +69,12 @@ class Stubs(unittest.TestCase):
             said = {get_name(node): node for node in stub.body}
             there = {key for key in vars(kind) if not key.startswith("_")}
             if not ovoid.has_io:
-                there |= {"load", "load_paths", "save"} & set(said)
+                there |= {"read", "read_paths", "write"} & set(said)
             self.assertEqual({key for key in said if not key.startswith("_")}, there, name)
             for key in there:
                 if inspect.isroutine(getattr(kind, key, None)) and key != "tolist":
                     self.check_function(said[key], getattr(kind, key), f"{name}.{key}")
-                self.assertTrue(getattr(kind, key, ovoid.load).__doc__, f"{name}.{key}")
+                self.assertTrue(getattr(kind, key, ovoid.read).__doc__, f"{name}.{key}")
 
 
 class Words(unittest.TestCase):
@@ -125,7 +125,7 @@ class Words(unittest.TestCase):
                 blocks = re.findall(r"```python\n(.*?)```\n+It prints\n+```text\n(.*?)```", text, re.S)
                 self.assertEqual(len(blocks), text.count("```python"), f"{page}: a block without what it prints")
                 for block, printed in blocks:
-                    if ("load(" in block and not ovoid.has_io) or ("ovoid.Robot" in block and not ovoid.has_robot):
+                    if (".read(" in block and not ovoid.has_io) or ("ovoid.Robot" in block and not ovoid.has_robot):
                         continue
                     said = io.StringIO()
                     with contextlib.redirect_stdout(said):

@@ -76,16 +76,16 @@ class Shapes(unittest.TestCase):
     def test_files(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "box.ovoid")
-            BOX.save(path)
-            self.assertEqual(ovoid.load(path).to_bytes(), BOX.to_bytes())
+            BOX.write(path)
+            self.assertEqual(ovoid.read(path).to_bytes(), BOX.to_bytes())
             mesh = os.path.join(folder, "corner.off")
             with open(mesh, "w") as file:
                 file.write("OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
-            self.assertAlmostEqual(ovoid.load(mesh, scale=2).volume, 8 / 6)
+            self.assertAlmostEqual(ovoid.read(mesh, scale=2).volume, 8 / 6)
             # Points alone are their hull; a shape that is meant is no less said to be one.
-            self.assertEqual(ovoid.load(mesh).to_bytes(), ovoid.load(mesh, hull=True).to_bytes())
+            self.assertEqual(ovoid.read(mesh).to_bytes(), ovoid.read(mesh, hull=True).to_bytes())
             with self.assertRaisesRegex(ovoid.Error, "nowhere") as caught:
-                ovoid.load(os.path.join(folder, "nowhere.stl"))
+                ovoid.read(os.path.join(folder, "nowhere.stl"))
             self.assertEqual(caught.exception.code, ovoid.Code.FILE)
 
 
@@ -164,7 +164,7 @@ class Queries(unittest.TestCase):
             self.assertEqual(answer.normal, (1, 0, 0))
             self.assertAlmostEqual(answer.point_b[0] - answer.point_a[0], 2.5)
             self.assertAlmostEqual(answer.distance, 2.5, delta=1e-8)
-            ovoid.check(answer)
+            ovoid.verify(answer)
         answer = ovoid.depth(BOX, BALL, None, at(0.75))
         self.assertLessEqual(answer.lower, -0.75)
         self.assertGreaterEqual(answer.upper, -0.75)
@@ -202,22 +202,22 @@ class Queries(unittest.TestCase):
         for earlier in (cold, cold.proof):
             warm = ovoid.distance(BOX, BALL, None, at(4, 1, 1), earlier=earlier)
             self.assertEqual(warm.stage, ovoid.Stage.PROOF)
-            ovoid.check(warm)
+            ovoid.verify(warm)
         # A proof of another pair is no trouble.
-        ovoid.check(ovoid.distance(BALL, BALL, None, at(4), earlier=cold))
+        ovoid.verify(ovoid.distance(BALL, BALL, None, at(4), earlier=cold))
 
     def test_compounds(self):
         dumbbell = ovoid.Compound([BALL, BALL], [at(-2), at(2)])
         answer = ovoid.distance(dumbbell, BALL, None, at(4))
         self.assertEqual((answer.part_a, answer.part_b), (1, 0))
         self.assertAlmostEqual(answer.distance, 1, delta=1e-8)
-        ovoid.check(answer)
+        ovoid.verify(answer)
         again = ovoid.distance(pickle.loads(pickle.dumps(dumbbell)), BALL, None, at(4), earlier=answer)
         self.assertAlmostEqual(again.lower, answer.lower, delta=1e-8)
         self.assertEqual(again.part_a, 1)
         deep = ovoid.depth(dumbbell, dumbbell, None, at(0, 0.25))
         self.assertAlmostEqual(deep.distance, -0.75, delta=1e-8)
-        ovoid.check(deep)
+        ovoid.verify(deep)
         self.assertEqual(len(dumbbell), 2)
         self.assertEqual(dumbbell.poses[1], at(2))
         with self.assertRaises(ovoid.Error) as caught:
@@ -229,7 +229,7 @@ class Queries(unittest.TestCase):
         plate = ovoid.Compound([BALL] * 400, [at(1.5 * (i % 20), 1.5 * (i // 20)) for i in range(400)])
         for z in (1.5, 2, 3):
             answer = ovoid.distance(plate, plate, None, ovoid.Pose.from_axis_angle((0.3, 0.2, z), (1, 2, 0), 0.01))
-            ovoid.check(answer)
+            ovoid.verify(answer)
 
     def test_refused(self):
         for bad, kind, sentence in (
@@ -245,7 +245,7 @@ class Queries(unittest.TestCase):
                 (lambda: ovoid.distance(BOX, BALL, iterations=-1), ovoid.Error, "iterations"),
                 (lambda: ovoid.distance(BOX, BALL, earlier=3), TypeError, "earlier"),
                 (lambda: ovoid.within(BOX, BALL, margin=-1), ovoid.Error, "negative"),
-                (lambda: ovoid.check(3), TypeError, "Answer"),
+                (lambda: ovoid.verify(3), TypeError, "Answer"),
                 (lambda: ovoid.Shape(), TypeError, "cannot create"),
                 (lambda: ovoid.Shape.from_points([]), ovoid.Error, "point"),
                 (lambda: ovoid.Shape.from_points([(0, 0)]), ovoid.Error, r"\(n, 3\)"),

@@ -32,7 +32,7 @@ class Prepared(unittest.TestCase):
                     expected = query(ROCKS[i], ROCKS[j], POSES[i], POSES[j], **more)
                     found = query(a, b, **more)
                     self.assertEqual(get_bits(found), get_bits(expected))
-                    ovoid.check(found)
+                    ovoid.verify(found)
                     again = query(a, b, earlier=found, **more)
                     self.assertEqual(get_bits(again), get_bits(query(ROCKS[i], ROCKS[j], POSES[i], POSES[j], earlier=found, **more)))
 
@@ -78,14 +78,14 @@ class Bounds(unittest.TestCase):
     def test_parts(self):
         source = os.environ.get("OVOID_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", ".."))
         path = os.path.join(source, "tests", "cli", "data", "parts.obj")
-        parts = ovoid.load_parts(path)
+        parts = ovoid.read_parts(path)
         self.assertEqual([name for name, _ in parts], ["left part", "right/part"])
-        whole = ovoid.Shape.load(path, hull=True)
+        whole = ovoid.Shape.read(path, hull=True)
         self.assertLess(sum(shape.volume for _, shape in parts), whole.volume)
-        big = ovoid.load_parts(path, 2, rounding=0.5)
+        big = ovoid.read_parts(path, 2, rounding=0.5)
         self.assertAlmostEqual(big[0][1].radius, 0.5, delta=0)
         with self.assertRaises(ovoid.Error):
-            ovoid.load_parts("absent.obj")
+            ovoid.read_parts("absent.obj")
 
 
 class Couples(unittest.TestCase):
@@ -100,7 +100,7 @@ class Couples(unittest.TestCase):
         hit = world.find_any_of(ROCKS, POSES, couples)
         self.assertEqual({hit.a, hit.b - 2**63}, set(touching[0]))
         self.assertEqual((hit.answer.a, hit.answer.pose_b), (ROCKS[hit.a], POSES[hit.b - 2**63]))
-        ovoid.check(hit.answer)
+        ovoid.verify(hit.answer)
         apart = [pair for pair in couples if pair not in touching]
         self.assertIsNone(world.find_any_of(ROCKS, POSES, apart))
         self.assertIsNone(world.find_any_of(ROCKS, POSES, []))

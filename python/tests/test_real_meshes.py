@@ -112,7 +112,7 @@ class RealMeshes(unittest.TestCase):
             if half:
                 write_cube("probe.obj", half)
             else:
-                ovoid.Shape.sphere(radius).save("probe.ovoid")
+                ovoid.Shape.sphere(radius).write("probe.ovoid")
             probe = "probe.obj" if half else "probe.ovoid"
             answer = self.ask_tool("distance", path, probe, "--pose-b", where)
             self.expect(answer["status"], answer["lower"], answer["upper"], low, room if half else low, slack)
@@ -129,10 +129,10 @@ class RealMeshes(unittest.TestCase):
 
     def check_mesh(self, name, kind):
         path = os.path.abspath(os.path.join(DATA, name))
-        solid, hull = ovoid.load(path), ovoid.load(path, hull=True)
+        solid, hull = ovoid.read(path), ovoid.read(path, hull=True)
         self.assertEqual(getattr(solid, "kind", "hull"), kind)
         with self.assertRaises(ovoid.Error):
-            ovoid.Shape.load(path)
+            ovoid.Shape.read(path)
         place = find_pocket(solid, hull)
         self.assertIsNotNone(place, "no pocket was found")
         points = [tuple(point) for point in solid.vertices.tolist()]
@@ -140,7 +140,7 @@ class RealMeshes(unittest.TestCase):
         radius, slack = room / 2, 1e-9 * math.dist(*solid.bounds)
         ball = ovoid.Shape.sphere(radius)
         answer = ovoid.distance(solid, ball, None, at(place))
-        ovoid.check(answer)
+        ovoid.verify(answer)
         self.expect(answer.status, answer.lower, answer.upper, room - radius, room - radius, slack)
         self.assertEqual(ovoid.collide(solid, ball, None, at(place)).status, ovoid.Status.SEPARATED)
         self.assertEqual(ovoid.collide(hull, ball, None, at(place)).status, ovoid.Status.OVERLAPPING)

@@ -92,12 +92,12 @@ class Model(unittest.TestCase):
 
     def test_refusals(self):
         arm = make_arm()
-        arm.check_limits([3, 99])
+        arm.validate_limits([3, 99])
         with self.assertRaises(ovoid.Error) as raised:
-            arm.check_limits([3.1, 0])
+            arm.validate_limits([3.1, 0])
         self.assertEqual((raised.exception.code, raised.exception.place), (ovoid.Code.RANGE, 0))
         self.assertIn("shoulder", str(raised.exception))
-        arm.check_limits([3.1, 0], slack=0.2)
+        arm.validate_limits([3.1, 0], slack=0.2)
         for bad in ([1], [1, 2, 3], [[[1, 2]]], "12", None, [math.nan, 0]):
             with self.assertRaises((TypeError, ovoid.Error)):
                 arm.poses(bad)
@@ -119,18 +119,18 @@ class Cells(unittest.TestCase):
 
     def test_states(self):
         # The end of the stretched arm goes through the ball; folded back it does not.
-        found = self.cell.check([0, 0])
+        found = self.cell.collide([0, 0])
         self.assertEqual(found.status, ovoid.RobotStatus.HIT)
         self.assertEqual((found.a.link, found.a.element, found.b.body), (2, 1, self.ball))
         self.assertLess(found.upper, 0)
-        free = self.cell.check([2, 0])
+        free = self.cell.collide([2, 0])
         self.assertEqual((free.status, free.a, free.code), (ovoid.RobotStatus.FREE, None, None))
-        refused = self.cell.check([4, 0])
+        refused = self.cell.collide([4, 0])
         self.assertEqual((refused.status, refused.code, refused.variable), (ovoid.RobotStatus.REFUSED, ovoid.Code.RANGE, 0))
-        self.assertEqual(self.cell.check([4, 0], limit_slack=2).status, ovoid.RobotStatus.FREE)
-        self.assertEqual(self.cell.check([0, 0], without_obstacles=True).status, ovoid.RobotStatus.UNDECIDED)
+        self.assertEqual(self.cell.collide([4, 0], limit_slack=2).status, ovoid.RobotStatus.FREE)
+        self.assertEqual(self.cell.collide([0, 0], without_obstacles=True).status, ovoid.RobotStatus.UNDECIDED)
         with self.assertRaises(ovoid.Error):
-            self.cell.check([0, 0], margin=-1)
+            self.cell.collide([0, 0], margin=-1)
 
     def test_as_world(self):
         world = ovoid.World()
@@ -138,7 +138,7 @@ class Cells(unittest.TestCase):
         for q in make_states(100):
             poses = [ovoid.Pose(matrix) @ ALONG for matrix in self.arm.poses(q).tolist()[1:]]
             hit = world.find_any_to([BAR, BAR], poses)
-            self.assertEqual(self.cell.check(q).status == ovoid.RobotStatus.FREE, hit is None, q)
+            self.assertEqual(self.cell.collide(q).status == ovoid.RobotStatus.FREE, hit is None, q)
             pairs = [ovoid.distance(BAR, BALL, pose, at(1.5)) for pose in poses]
             nearest, gradients = self.cell.nearest(q)
             least = min(pair.lower for pair in pairs)
@@ -147,24 +147,24 @@ class Cells(unittest.TestCase):
 
     def test_batch(self):
         states = make_states(700)
-        threads = [self.cell.check_batch(states, threads=count) for count in (1, 3)]
+        threads = [self.cell.collide_batch(states, threads=count) for count in (1, 3)]
         self.assertEqual(*(bytes(memoryview(array).cast("B")) for array in threads))
         self.cell.reset()
         for q, row in list(zip(states, rows(threads[0])))[:256]:
-            single = self.cell.check(q)
+            single = self.cell.collide(q)
             self.assertEqual((row["status"], row["link_a"] if single.a else None),
                              (single.status, single.a.link if single.a else None))
         out = ovoid.zeros("states", 700)
         seen = []
-        self.assertIs(self.cell.check_batch(states, out=out, progress=lambda *at: seen.append(at)), out)
+        self.assertIs(self.cell.collide_batch(states, out=out, progress=lambda *at: seen.append(at)), out)
         self.assertEqual(bytes(memoryview(out).cast("B")), bytes(memoryview(threads[0]).cast("B")))
         self.assertEqual(seen[-1], (700, 700))
         with self.assertRaises(ZeroDivisionError):
-            self.cell.check_batch(states, progress=lambda *at: 1 / 0)
+            self.cell.collide_batch(states, progress=lambda *at: 1 / 0)
         for bad in ({"threads": 0}, {"out": ovoid.zeros("states", 3)}, {"out": ovoid.zeros("proofs", 700)}, {"progress": 3}):
             with self.assertRaises((TypeError, ovoid.Error)):
-                self.cell.check_batch(states, **bad)
-        self.assertEqual(len(self.cell.check_batch([])), 0)
+                self.cell.collide_batch(states, **bad)
+        self.assertEqual(len(self.cell.collide_batch([])), 0)
 
     def test_near(self):
         self.cell.add(BALL, at(-1.5))
@@ -221,23 +221,23 @@ class Cells(unittest.TestCase):
         cell = self.cell
         free = [2, 0]
         block = cell.add(BALL, at(*get_end(free)))
-        self.assertEqual(cell.check(free).status, ovoid.RobotStatus.HIT)
+        self.assertEqual(cell.collide(free).status, ovoid.RobotStatus.HIT)
         cell.allow_body(block, "lower")
-        self.assertEqual(cell.check(free).status, ovoid.RobotStatus.FREE)
+        self.assertEqual(cell.collide(free).status, ovoid.RobotStatus.FREE)
         cell.allow_body(block, "lower", False)
         cell.move(block, at(0, 0, 9))
-        self.assertEqual(cell.check(free).status, ovoid.RobotStatus.FREE)
+        self.assertEqual(cell.collide(free).status, ovoid.RobotStatus.FREE)
         cell.move(block, at(*get_end(free)))
         cell.remove(block)
-        self.assertEqual((cell.check(free).status, list(cell.bodies)), (ovoid.RobotStatus.FREE, [self.ball]))
+        self.assertEqual((cell.collide(free).status, list(cell.bodies)), (ovoid.RobotStatus.FREE, [self.ball]))
         # A ball in the hand meets the ball on the table where the hand alone does not.
         nearly = [0, 1.2]
-        self.assertEqual(cell.check(nearly).status, ovoid.RobotStatus.FREE)
+        self.assertEqual(cell.collide(nearly).status, ovoid.RobotStatus.FREE)
         held = cell.attach("lower", ovoid.Shape.sphere(0.8), at(1), ["upper"])
-        self.assertEqual(cell.check(nearly).status, ovoid.RobotStatus.HIT)
+        self.assertEqual(cell.collide(nearly).status, ovoid.RobotStatus.HIT)
         cell.remove(held)
         cell.set_padding("lower", 0.5)
-        self.assertEqual(cell.check(nearly).status, ovoid.RobotStatus.HIT)
+        self.assertEqual(cell.collide(nearly).status, ovoid.RobotStatus.HIT)
         for call in (lambda: cell.remove(held), lambda: cell.move(7, None), lambda: cell.set_padding("lower", -1),
                      lambda: cell.allow("upper", "nowhere"), lambda: cell.allow(9, 1), lambda: cell.add("ball"),
                      lambda: cell.attach("lower", BALL, None, ["x"]), lambda: ovoid.Cell(BALL), lambda: cell.pair(10**6)):
@@ -249,11 +249,11 @@ class Cells(unittest.TestCase):
     def test_threads(self):
         """Queries may overlap; a change meanwhile raises or is made between them."""
         states, wrong = make_states(3000), []
-        expected = bytes(memoryview(self.cell.check_batch(states)).cast("B"))
+        expected = bytes(memoryview(self.cell.collide_batch(states)).cast("B"))
 
         def ask():
             for _ in range(5):
-                if bytes(memoryview(self.cell.check_batch(states)).cast("B")) != expected:
+                if bytes(memoryview(self.cell.collide_batch(states)).cast("B")) != expected:
                     wrong.append(1)
 
         threads = [threading.Thread(target=ask) for _ in range(3)]
@@ -269,31 +269,31 @@ class Cells(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def test_path(self):
-        free = self.cell.check_path([[0.5, 0], [2, 1], [1, -1]])
+        free = self.cell.find_hit([[0.5, 0], [2, 1], [1, -1]])
         self.assertEqual((free.status, free.hit, free.hit_at, free.refused), (ovoid.RobotStatus.FREE, None, math.inf, None))
-        ovoid.check(free)
+        ovoid.verify(free)
         self.assertGreater(len(free.steps), 0)
         # The ball's rim is met by the bar where sin(angle) * 1.5 is the sum of the radii.
-        hit = self.cell.check_path([[1, 0], [-1, 0]])
+        hit = self.cell.find_hit([[1, 0], [-1, 0]])
         angle = math.asin(0.3 / 1.5)
         self.assertEqual(hit.status, ovoid.RobotStatus.HIT)
         self.assertLess(abs(hit.free_until - (1 - angle) / 2), 2e-6)
         self.assertLessEqual(hit.free_until, hit.hit_at)
         self.assertEqual(hit.hit.b.body, self.ball)
-        ovoid.check(hit)
+        ovoid.verify(hit)
         self.assertTrue(ovoid.is_proven(hit))
-        many = self.cell.check_path([[1.5 - 0.003 * i, 0.1 * i] for i in range(400)])
+        many = self.cell.find_hit([[1.5 - 0.003 * i, 0.1 * i] for i in range(400)])
         self.assertGreater(len(many.steps), 256)
-        ovoid.check(many)
-        refused = self.cell.check_path([[1, 0], [9, 0]])
+        ovoid.verify(many)
+        refused = self.cell.find_hit([[1, 0], [9, 0]])
         self.assertEqual((refused.status, refused.refused), (ovoid.RobotStatus.REFUSED, 0))
         self.cell.move(self.ball, at(9))
         for path in (hit, free):
             with self.assertRaisesRegex(ovoid.Error, "the cell has changed"):
-                ovoid.check(path)
+                ovoid.verify(path)
         for bad in ([], [[1]], [1, 2], "x"):
             with self.assertRaises((TypeError, ovoid.Error)):
-                self.cell.check_path(bad)
+                self.cell.find_hit(bad)
 
     def test_matrix(self):
         robot = ovoid.Robot(self.arm.links, self.arm.joints, self.arm.elements)
@@ -322,15 +322,15 @@ class Cells(unittest.TestCase):
     @needs_numpy
     def test_arrays(self):
         states = numpy.array(make_states(64))
-        expected = self.cell.check_batch(states)
+        expected = self.cell.collide_batch(states)
         for given in (numpy.asfortranarray(states), numpy.repeat(states, 2, 0)[::2], states[::-1][::-1]):
-            self.assertTrue((self.cell.check_batch(given) == expected).all())
+            self.assertTrue((self.cell.collide_batch(given) == expected).all())
         self.assertEqual(self.arm.poses(states).shape, (64, 3, 4, 4))
         self.assertEqual(self.arm.poses(states, order="wxyz").shape, (64, 3, 7))
         self.assertEqual(self.arm.poses(states.astype("f4")[0]).shape, (3, 4, 4))
         for bad in (states.astype(complex), states.astype(">f8"), states[:, :1], states * numpy.nan):
             try:
-                statuses = self.cell.check_batch(bad)["status"]
+                statuses = self.cell.collide_batch(bad)["status"]
             except (TypeError, ovoid.Error):
                 continue
             self.assertTrue((statuses == ovoid.RobotStatus.REFUSED).all())
@@ -338,14 +338,14 @@ class Cells(unittest.TestCase):
 
 @unittest.skipUnless(ovoid.has_robot and ovoid.has_io, "built without readers of robots")
 class Files(unittest.TestCase):
-    def load(self, *more, **options):
+    def read(self, *more, **options):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
-            robot = ovoid.Robot.load(os.path.join(ARM, "arm.urdf"), *more, packages={"arm": ARM}, **options)
+            robot = ovoid.Robot.read(os.path.join(ARM, "arm.urdf"), *more, packages={"arm": ARM}, **options)
         return robot, [str(warning.message) for warning in told]
 
     def test_robot(self):
-        robot, told = self.load(os.path.join(ARM, "arm.srdf"))
+        robot, told = self.read(os.path.join(ARM, "arm.srdf"))
         self.assertEqual((robot.root, len(robot.variables), len(told)), ("world", 6, 1))
         self.assertIn("camera", told[0])
         self.assertEqual([variable.name for variable in robot.variables][3:], ["floor/x", "floor/y", "floor/angle"])
@@ -354,36 +354,36 @@ class Files(unittest.TestCase):
         self.assertEqual((robot.passive, robot.spheres), (("right_slide",), (("upper", (0, 0, 0.5), 0.6),)))
         self.assertEqual(robot.meshes[0]["kind"], "solid")
         self.assertIn(("link/inertial", 1), robot.ignored)
-        self.assertEqual(self.load(os.path.join(ARM, "arm.srdf"), fixed_base=True)[0].root, "base")
+        self.assertEqual(self.read(os.path.join(ARM, "arm.srdf"), fixed_base=True)[0].root, "base")
         # Its own shapes outlive it.
-        shape = self.load()[0].elements[2].shape
+        shape = self.read()[0].elements[2].shape
         self.assertAlmostEqual(shape.volume, 0.007, delta=1e-9)
-        self.assertEqual(len(self.load(parts=True)[0].meshes), 1)
+        self.assertEqual(len(self.read(parts=True)[0].meshes), 1)
 
     def test_trouble(self):
         with self.assertRaises(ovoid.Error) as raised:
-            ovoid.Robot.load(os.path.join(ARM, "upside_down.urdf"))
+            ovoid.Robot.read(os.path.join(ARM, "upside_down.urdf"))
         self.assertIn("upside_down.urdf:", str(raised.exception))
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             with self.assertRaises(UserWarning):
-                ovoid.Robot.load(os.path.join(ARM, "arm.urdf"), os.path.join(ARM, "arm.srdf"), packages={"arm": ARM})
-        for call in (lambda: ovoid.Robot.load("absent.urdf"), lambda: ovoid.Robot.load(3), lambda: ovoid.load_obstacles("absent.yaml"),
-                     lambda: ovoid.Robot.load(os.path.join(ARM, "arm.urdf"), packages=3), lambda: ovoid.find_problems(ARM),
-                     lambda: ovoid.Robot.load(os.path.join(ARM, "arm.urdf"), packages={"arm": 3}),
-                     lambda: ovoid.load_motion_request(os.path.join(ARM, "cell.yaml") + "x")):
+                ovoid.Robot.read(os.path.join(ARM, "arm.urdf"), os.path.join(ARM, "arm.srdf"), packages={"arm": ARM})
+        for call in (lambda: ovoid.Robot.read("absent.urdf"), lambda: ovoid.Robot.read(3), lambda: ovoid.read_obstacles("absent.yaml"),
+                     lambda: ovoid.Robot.read(os.path.join(ARM, "arm.urdf"), packages=3), lambda: ovoid.find_problems(ARM),
+                     lambda: ovoid.Robot.read(os.path.join(ARM, "arm.urdf"), packages={"arm": 3}),
+                     lambda: ovoid.read_motion_request(os.path.join(ARM, "cell.yaml") + "x")):
             with self.assertRaises((TypeError, ovoid.Error)):
                 call()
 
     def test_scene(self):
-        cell = ovoid.Cell(self.load()[0])
-        ids = cell.load(os.path.join(ARM, "cell.yaml"))
+        cell = ovoid.Cell(self.read()[0])
+        ids = cell.read(os.path.join(ARM, "cell.yaml"))
         self.assertEqual([name for name, _ in ids], ["table", "pillar"])
-        obstacles = ovoid.load_obstacles(os.path.join(ARM, "cell.yaml"))
+        obstacles = ovoid.read_obstacles(os.path.join(ARM, "cell.yaml"))
         self.assertEqual([one.shape.volume for one in obstacles], [cell.bodies[key].volume for _, key in ids])
         self.assertEqual(obstacles[0].pose.xyz, (1, 0, 0.4))
-        self.assertEqual(cell.check([1.4, 0, 0], without_self=True).status, ovoid.RobotStatus.HIT)
-        self.assertEqual(cell.check([-1, 0, 0], without_self=True).status, ovoid.RobotStatus.FREE)
+        self.assertEqual(cell.collide([1.4, 0, 0], without_self=True).status, ovoid.RobotStatus.HIT)
+        self.assertEqual(cell.collide([-1, 0, 0], without_self=True).status, ovoid.RobotStatus.FREE)
 
     def test_kinds(self):
         # A box in the notch of an L: free of the mesh, in its hull; the tool says the same.
@@ -401,25 +401,25 @@ class Files(unittest.TestCase):
             for path, content in ((urdf, slide), (scene, text), (other, held + text)):
                 with open(path, "w", encoding="utf-8") as file:
                     file.write(content)
-            robot = ovoid.Robot.load(urdf)
+            robot = ovoid.Robot.read(urdf)
 
             def ask(path, robot=robot, **how):
                 cell = ovoid.Cell(robot)
-                cell.load(path, **how)
-                return cell.check((0,)).status
+                cell.read(path, **how)
+                return cell.collide((0,)).status
             free, hit = ovoid.RobotStatus.FREE, ovoid.RobotStatus.HIT
             self.assertEqual((ask(scene), ask(scene, solids=False), ask(other)), (free, hit, hit))
             self.assertEqual((ask(scene, paddings={None: 0.1}), ask(scene, paddings={"tip": 0.2}), ask(scene, paddings={None: 9, "tip": 0})), (free, hit, free))
-            self.assertEqual(ask(scene, ovoid.Robot.load(urdf, scales={"tip": 5.0})), hit)
+            self.assertEqual(ask(scene, ovoid.Robot.read(urdf, scales={"tip": 5.0})), hit)
             with self.assertRaises(ValueError):
-                ovoid.Robot.load(urdf, scales={"tip": 0})
-            one = ovoid.load_obstacles(other)
+                ovoid.Robot.read(urdf, scales={"tip": 0})
+            one = ovoid.read_obstacles(other)
             self.assertEqual([(o.name, o.frame, o.link, o.solid is None) for o in one], [("L", None, None, False), ("held", "tip", "tip", True)])
-            self.assertIsNone(ovoid.load_obstacles(scene, solids=False)[0].solid)
+            self.assertIsNone(ovoid.read_obstacles(scene, solids=False)[0].solid)
             cell = ovoid.Cell(robot)
-            (name, key), = cell.load(scene)
+            (name, key), = cell.read(scene)
             self.assertIsInstance(cell.bodies[key], ovoid.Solid)
-            empty = ovoid.Cell(robot).check((0,))
+            empty = ovoid.Cell(robot).collide((0,))
             self.assertEqual((empty.status, empty.code, empty.a), (ovoid.RobotStatus.UNDECIDED, ovoid.Code.EMPTY, None))
 
     def test_problems(self):
@@ -430,8 +430,8 @@ class Files(unittest.TestCase):
                            "goal_constraints: [{joint_constraints: [{joint_name: b, position: 3}]}, {joint_constraints: []}]\n")
             ((name, scene, request),) = ovoid.find_problems(folder)
             self.assertEqual(name, "0001")
-            self.assertEqual(len(ovoid.load_obstacles(scene)), 2)
-            found = ovoid.load_motion_request(request)
+            self.assertEqual(len(ovoid.read_obstacles(scene)), 2)
+            found = ovoid.read_motion_request(request)
             self.assertEqual(found, ("arm", {"a": 1, "b": -0.25}, [{"b": 3}, {}]))
 
 

@@ -128,7 +128,7 @@ class Models(unittest.TestCase):
         found = ovoid.compare_states(self.cell, self.model, states, progress=lambda *at: seen.append(at))
         wanted = []
         for q in states:
-            robot, model = (cell.check(q).status for cell in (self.cell, self.model))
+            robot, model = (cell.collide(q).status for cell in (self.cell, self.model))
             hit = ovoid.RobotStatus.HIT
             wanted.append(Agreement.BOTH_HIT if robot == model == hit else Agreement.MISSED if robot == hit
                           else Agreement.INVENTED if model == hit else Agreement.BOTH_FREE)
@@ -204,28 +204,28 @@ class Proofs(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.path = os.path.join(self.folder.name, "proofs.jsonl")
         self.cell = make_cell()
-        self.paths = [self.cell.check_path(states) for states in ([[1.2, 0], [0.5, 0.4], [0.5, 2]], [[1, 0], [-1, 0]], [[2, 1]])]
+        self.paths = [self.cell.find_hit(states) for states in ([[1.2, 0], [0.5, 0.4], [0.5, 2]], [[1, 0], [-1, 0]], [[2, 1]])]
 
     def test_claims(self):
         write_proofs(self.path, self.paths)
-        claims = self.cell.load_paths(self.path)
+        claims = self.cell.read_paths(self.path)
         for claim, path in zip(claims, self.paths):
             self.assertEqual((claim.status, claim.free_until, claim.hit_at, claim.looked_at), (path.status, path.free_until, path.hit_at, path.looked_at))
             self.assertEqual((claim.states.tolist(), rows(claim.steps)), (path.states.tolist(), rows(path.steps)))
-            ovoid.check(claim)
+            ovoid.verify(claim)
         self.assertEqual(claims[1].hit, self.paths[1].hit)
         self.assertEqual(len(claims), 3)
         # The same file is no proof of another scene, and what is said beyond it does not hold.
         other = make_cell(self.cell.robot)
         other.move(list(other.bodies)[0], at(0.9, 0.9))
-        self.assertFalse(ovoid.is_proven(other.load_paths(self.path)[0]))
+        self.assertFalse(ovoid.is_proven(other.read_paths(self.path)[0]))
         write_proofs(self.path, self.paths[:1], free_until=2.5)
         with self.assertRaises(ovoid.Error):
-            ovoid.check(self.cell.load_paths(self.path)[0])
+            ovoid.verify(self.cell.read_paths(self.path)[0])
 
     def test_source(self):
         write_proofs(self.path, self.paths)
-        (source,) = ovoid.load_path_sources(self.path)
+        (source,) = ovoid.read_path_sources(self.path)
         self.assertEqual((source["robot"], source["srdf"], source["scene"], source["packages"], source["digest"], source["path_count"]),
                          ("arm.urdf", None, "cell.yaml", ("a=b",), 255, 3))
         self.assertEqual((source["variables"], source["fixed_base"], source["parts"], source["margin"]), (("shoulder", "elbow"), True, False, 0))
@@ -234,7 +234,7 @@ class Proofs(unittest.TestCase):
         for changes in ({"variables": ["shoulder", "wrist"]}, {"variables": ["shoulder"]}, {"pairs": []}):
             write_proofs(self.path, self.paths[2:], **changes)
             with self.assertRaises(ovoid.Error):
-                self.cell.load_paths(self.path)
+                self.cell.read_paths(self.path)
         write_proofs(self.path, self.paths)
         more = make_cell(self.cell.robot)
         more.add(BALL, at(9))
@@ -242,17 +242,17 @@ class Proofs(unittest.TestCase):
         named = make_cell(ovoid.Robot(self.cell.robot.links, self.cell.robot.joints, renamed, [("upper", "lower")]))
         for cell in (more, named):
             with self.assertRaisesRegex(ovoid.Error, "other pairs of bodies") as raised:
-                cell.load_paths(self.path)
+                cell.read_paths(self.path)
             self.assertEqual((raised.exception.code, raised.exception.place), (ovoid.Code.PROOF, 2))
         with open(self.path, encoding="ascii") as file:
             text = file.read()
         for bad in (text[:-9], text.replace('"ends"', '"end"'), "{}\n", text.replace("0.5", "NaN")):
             with open(self.path, "w", encoding="ascii") as file:
                 file.write(bad)
-            for read in (self.cell.load_paths, ovoid.load_path_sources):
+            for read in (self.cell.read_paths, ovoid.read_path_sources):
                 with self.assertRaises(ovoid.Error):
                     read(self.path)
-        for call in (lambda: self.cell.load_paths(3), lambda: self.cell.load_paths(self.path + "x"), lambda: ovoid.load_path_sources(None)):
+        for call in (lambda: self.cell.read_paths(3), lambda: self.cell.read_paths(self.path + "x"), lambda: ovoid.read_path_sources(None)):
             with self.assertRaises((TypeError, ovoid.Error)):
                 call()
 
@@ -287,12 +287,12 @@ class Interrupted(unittest.TestCase):
             cell.add(BALL, at(0.02 * i, 0.4 * math.cos(i), 0.4))
         count = 1 << 18
         states = memoryview(array.array("d", [0.3 * (i * i % 19) - 2.7 for i in range(2 * count)])).cast("B").cast("d", [count, 2])
-        self.check_ended(lambda: cell.check_path(states, most_states=2**32 - 1))
+        self.check_ended(lambda: cell.find_hit(states, most_states=2**32 - 1))
         self.check_ended(lambda: cell.clearance(states, tolerance=1e-9, most_states=2**32 - 1))
         self.check_ended(lambda: cell.nearest_batch(states))
         self.check_ended(lambda: ovoid.compare_states(cell, cell, memoryview(array.array("d", bytes(1 << 26))).cast("B").cast("d", [1 << 22, 2])))
         cell.add(BALL, at(9))  # nothing is at work any more
-        self.assertEqual(cell.check_path([[1.2, 0], [0.5, 0]]).status, ovoid.RobotStatus.FREE)
+        self.assertEqual(cell.find_hit([[1.2, 0], [0.5, 0]]).status, ovoid.RobotStatus.FREE)
 
     def test_robots(self):
         robot = make_cell().robot

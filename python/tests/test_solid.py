@@ -159,11 +159,11 @@ class Making(unittest.TestCase):
                 file.writelines(f"v {x} {y} {z}\n" for x, y, z in POINTS)
                 file.write("f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n")
                 file.writelines(f"f {i + 1} {k + 1} {k + 7} {i + 7}\n" for i in range(6) for k in [(i + 1) % 6])
-            self.assertEqual(ovoid.Solid.load(path).report, L.report)
-            self.assertAlmostEqual(ovoid.Solid.load(path, 0.5).volume, 3 / 8, delta=1e-12)
+            self.assertEqual(ovoid.Solid.read(path).report, L.report)
+            self.assertAlmostEqual(ovoid.Solid.read(path, 0.5).volume, 3 / 8, delta=1e-12)
             with open(path, "a", encoding="ascii") as file:
                 file.write("f 1 7 99\n")
-            for call in (lambda: ovoid.Solid.load(path), lambda: ovoid.Solid.load(path + "x"), lambda: ovoid.Solid.load(3)):
+            for call in (lambda: ovoid.Solid.read(path), lambda: ovoid.Solid.read(path + "x"), lambda: ovoid.Solid.read(3)):
                 with self.assertRaises((TypeError, ovoid.Error)):
                     call()
 
@@ -188,19 +188,19 @@ class Making(unittest.TestCase):
             whole, open_, convex = write("l.obj", FACES), write("open.obj", FACES[:-2]), write("box.obj", flat, box)
             for path, words, kind in ((whole, "closed and not convex", "solid"), (open_, "4 of its edges are open", "surface")):
                 with self.assertRaisesRegex(ovoid.Error, words + ".*solid.*hull") as caught:
-                    ovoid.Shape.load(path)
+                    ovoid.Shape.read(path)
                 self.assertEqual(caught.exception.code, ovoid.Code.NOT_CONVEX)
-                body = ovoid.load(path)
-                self.assertEqual((body.kind, body.report), (kind, ovoid.Solid.load(path).report))
+                body = ovoid.read(path)
+                self.assertEqual((body.kind, body.report), (kind, ovoid.Solid.read(path).report))
                 self.assertEqual(ovoid.distance(body, BALL, None, at(1.5, 1.5, 0.5)).status, ovoid.Status.SEPARATED)
                 with self.assertRaisesRegex(ValueError, "hull=True"):
-                    ovoid.load(path, rounding=0.1)
-                hull = ovoid.load(path, hull=True)
-                self.assertEqual(hull.to_bytes(), ovoid.Shape.load(path, hull=True).to_bytes())
+                    ovoid.read(path, rounding=0.1)
+                hull = ovoid.read(path, hull=True)
+                self.assertEqual(hull.to_bytes(), ovoid.Shape.read(path, hull=True).to_bytes())
                 self.assertEqual(ovoid.distance(hull, BALL, None, at(1.5, 1.5, 0.5)).status, ovoid.Status.OVERLAPPING)
-            self.assertEqual((ovoid.load(convex).allowance, ovoid.load(convex, scale=2).volume), ((0, 0), 64))
+            self.assertEqual((ovoid.read(convex).allowance, ovoid.read(convex, scale=2).volume), ((0, 0), 64))
             nearly = write("nearly.obj", walls, plate)
-            for load in (ovoid.load, ovoid.Shape.load):
+            for load in (ovoid.read, ovoid.Shape.read):
                 self.assertTrue(0 < load(nearly).allowance[1] < 1e-5, load(nearly).allowance)
                 self.assertEqual(load(nearly, hull=True).allowance, (0, 0))
 
@@ -221,7 +221,7 @@ class Queries(unittest.TestCase):
         self.assertEqual((answer.triangle_b, answer.inside, answer.component, answer.b), (0, ovoid.Inside.NONE, None, BALL))
         self.assertEqual((answer.is_within(0.2), answer.is_within(0.3)), (False, True))
         self.assertEqual(answer.pose_b.xyz, (1.5, 1.5, 0.5))
-        ovoid.check(answer)
+        ovoid.verify(answer)
         touching = ovoid.distance(ovoid.Shape.from_points(POINTS), BALL, None, at(1.4, 1.4, 0.5))
         self.assertEqual(touching.status, ovoid.Status.OVERLAPPING)
 
@@ -233,7 +233,7 @@ class Queries(unittest.TestCase):
             least = min(parts, key=lambda part: part.lower)
             for a, b, poses in ((L, BLOCKS[0], (None, pose)), (BLOCKS[0], L, (pose, None))):
                 answer = ovoid.distance(a, b, *poses)
-                ovoid.check(answer)
+                ovoid.verify(answer)
                 self.assertTrue(ovoid.is_proven(ovoid.within(a, b, *poses, margin=0.3)))
                 # In the notch a block touches on two sides: no direction parts the hulls, so the bracket is wide.
                 is_open = least.status == ovoid.Status.TOUCHING and answer.status == ovoid.Status.UNDECIDED
@@ -254,7 +254,7 @@ class Queries(unittest.TestCase):
             if answer.status == ovoid.Status.SEPARATED:
                 self.assertTrue(answer.lower <= same.upper and same.lower <= answer.upper)
             self.assertLess(answer.triangle_b, 2)
-            ovoid.check(answer)
+            ovoid.verify(answer)
             self.assertEqual(ovoid.collide(blocks, L, pose).status, answer.status)
 
     def test_flush(self):
@@ -262,7 +262,7 @@ class Queries(unittest.TestCase):
         answer = ovoid.distance(L, L)
         self.assertEqual((answer.status, answer.inside, answer.component), (ovoid.Status.OVERLAPPING, ovoid.Inside.POINT, None))
         self.assertTrue(answer.upper < -0.1 and all(0 < x < 2 for x in answer.common))
-        ovoid.check(answer)
+        ovoid.verify(answer)
 
     def test_inside(self):
         big, small = make_box(3), make_box(1)
@@ -271,7 +271,7 @@ class Queries(unittest.TestCase):
         self.assertTrue(answer.lower <= -4 <= answer.upper < 0)
         self.assertAlmostEqual(math.hypot(*answer.parting), 1, delta=1e-12)
         self.assertGreaterEqual(answer.surfaces_lower, 2 - 1e-7)
-        ovoid.check(answer)
+        ovoid.verify(answer)
         self.assertEqual(ovoid.collide(big, small).inside, ovoid.Inside.B)
         # Of the surfaces alone nothing is inside.
         shell = ovoid.Solid.from_triangles(big.vertices, big.faces.tolist()[1:])
@@ -283,9 +283,9 @@ class Queries(unittest.TestCase):
         alone = ovoid.distance(ROUND, L, None, at(0.9001, 0.9, 0.9))
         self.assertLess(second.visited, alone.visited)
         self.assertTrue(second.lower <= alone.upper and alone.lower <= second.upper)
-        ovoid.check(second)
-        ovoid.check(ovoid.distance(L, L, None, at(4), earlier=first.proof))
-        ovoid.check(ovoid.distance(L, BALL, None, at(4), earlier=ovoid.distance(BALL, BALL, None, at(4))))
+        ovoid.verify(second)
+        ovoid.verify(ovoid.distance(L, L, None, at(4), earlier=first.proof))
+        ovoid.verify(ovoid.distance(L, BALL, None, at(4), earlier=ovoid.distance(BALL, BALL, None, at(4))))
         self.assertIs(first.b, L)
         self.assertGreater(first.visited, 0)
 
@@ -293,7 +293,7 @@ class Queries(unittest.TestCase):
         """More than there is room for at first: two balls of triangles near each other."""
         answer = ovoid.distance(ROUND, ROUND, None, at(2.001, 0, 0, (0.1, 0.2, 0.3)))
         self.assertEqual(answer.status, ovoid.Status.SEPARATED)
-        ovoid.check(answer)
+        ovoid.verify(answer)
 
     def test_refused(self):
         for call in (lambda: ovoid.depth(L, L), lambda: ovoid.distance(L, ovoid.Prepared(BALL)), lambda: ovoid.distance(L, 3),

@@ -31,11 +31,11 @@ class Impacts(unittest.TestCase):
         self.assertEqual(impact.status, ovoid.ImpactStatus.HIT)
         self.assertTrue(impact.free_until <= 0.75 <= impact.hit_at <= impact.free_until + 1e-6)
         self.assertTrue(impact.part_a < 20 and impact.part_b == 0 and len(impact.steps) >= 20)
-        ovoid.check(impact)
+        ovoid.verify(impact)
         self.assertLess(ovoid.find_impact(ovoid.Shape.hull_of(L), BALL, None, flight).hit_at, 0.7)
         for answer in (impact.hit, impact.free):
             self.assertIsInstance(answer, ovoid.SolidAnswer)
-            ovoid.check(answer)
+            ovoid.verify(answer)
         self.assertTrue(impact.hit.is_within(1e-6) and impact.hit.pose_b.xyz[0] <= 1.25)
         self.assertIs(impact.hit.a, L)
         self.assertGreater(impact.free.lower, 0)
@@ -45,23 +45,23 @@ class Impacts(unittest.TestCase):
         self.assertTrue(impact.free_until <= 0.7 <= impact.hit_at <= impact.free_until + 1e-6)
         self.assertTrue(impact.hit.is_within(0.25 + 1e-9))
         self.assertIs(impact.free.is_within(0.25), False)
-        ovoid.check(impact)
+        ovoid.verify(impact)
 
     def test_free(self):
         # Through the notch, and out again.
         free = ovoid.find_impact(L, BALL, None, fly((1.5, 1.5, 5), (1.5, 1.5, -5)))
         self.assertEqual((free.status, free.hit, free.hit_at), (ovoid.ImpactStatus.FREE, None, math.inf))
-        ovoid.check(free)
+        ovoid.verify(free)
 
     def test_kinds(self):
         for body in (ROCK, COMPOUND, ROUND):
             impact = ovoid.find_impact(body, L, fly((9, 1.2, 0.4), (-9, 1.2, 0.4)))
             self.assertEqual(impact.status, ovoid.ImpactStatus.HIT)
-            ovoid.check(impact)
-            ovoid.check(impact.hit)
+            ovoid.verify(impact)
+            ovoid.verify(impact.hit)
         inside = ovoid.find_impact(make_box(1), make_box(3), fly((0, 0, 0), (9, 0, 0)))
         self.assertEqual((inside.hit_at, inside.hit.inside), (0, ovoid.Inside.A))
-        ovoid.check(inside)
+        ovoid.verify(inside)
 
     def test_turning(self):
         # The L spins about its corner: its far corner at radius sqrt(5) sweeps past, and hits what is nearer.
@@ -69,7 +69,7 @@ class Impacts(unittest.TestCase):
         self.assertEqual(ovoid.find_impact(L, BALL, spin, at(-2.3, -2.3, 0.5)).status, ovoid.ImpactStatus.FREE)
         impact = ovoid.find_impact(L, BALL, spin, at(-1, -1, 0.5))
         self.assertEqual(impact.status, ovoid.ImpactStatus.HIT)
-        ovoid.check(impact)
+        ovoid.verify(impact)
         low, high = spin.swept(L, 0, 6)
         self.assertTrue(high[0] >= 2 and high[1] >= math.sqrt(5) - 1e-9 and low[0] <= -2 and high[2] >= 1)
 
@@ -157,7 +157,7 @@ class Worlds(unittest.TestCase):
                 self.assertEqual(status, answer.status)
                 self.assertTrue(lower <= answer.upper and answer.lower <= upper)
                 whole = self.world.proof(self.ids[k], self.ids[i])
-                ovoid.check(whole)
+                ovoid.verify(whole)
                 is_solid = L in (SHAPES[i], SHAPES[k]) or ROUND in (SHAPES[i], SHAPES[k])
                 self.assertEqual(isinstance(whole, ovoid.SolidAnswer), is_solid)
         self.assertEqual(found, {})
@@ -168,7 +168,7 @@ class Worlds(unittest.TestCase):
                 *self.world.overlaps(probe, at(0.5, 0.5), margin=0.5), self.world.find_any_to([BALL, L], [at(50), at(0.5)])]
         for hit in hits:
             if isinstance(hit.answer, ovoid.SolidAnswer):
-                ovoid.check(hit.answer)
+                ovoid.verify(hit.answer)
             self.assertLessEqual(hit.lower, hit.answer.upper)
         best = min(ovoid.distance(probe, body, pose, place).upper for body, place in zip(SHAPES, POSES))
         self.assertTrue(hits[1].answer.lower <= best and hits[1].lower <= best)
@@ -179,7 +179,7 @@ class Worlds(unittest.TestCase):
                                     if ovoid.collide(probe, body, at(0.5, 0.5), place).status != ovoid.Status.SEPARATED])
         of_two = self.world.find_any_of([L, L], [at(90), at(91, 0.3, 0.2)], [(0, 1)])
         self.assertEqual((of_two.a, of_two.b, of_two.answer.status), (0, 2**63 + 1, ovoid.Status.OVERLAPPING))
-        ovoid.check(of_two.answer)
+        ovoid.verify(of_two.answer)
 
     def test_casts(self):
         world = ovoid.World()
@@ -201,14 +201,14 @@ class Cells(unittest.TestCase):
         key = cell.add(L)
         hull.add(ovoid.Shape.hull_of(L))
         self.assertIs(cell.bodies[key], L)
-        self.assertEqual([cell.check([x]).status for x in (0.5, 1.2, 1.3)], [ovoid.RobotStatus.HIT] * 2 + [ovoid.RobotStatus.FREE])
-        self.assertEqual(hull.check([1.3]).status, ovoid.RobotStatus.HIT)
-        path = cell.check_path([[5], [1.3]])
+        self.assertEqual([cell.collide([x]).status for x in (0.5, 1.2, 1.3)], [ovoid.RobotStatus.HIT] * 2 + [ovoid.RobotStatus.FREE])
+        self.assertEqual(hull.collide([1.3]).status, ovoid.RobotStatus.HIT)
+        path = cell.find_hit([[5], [1.3]])
         self.assertEqual(path.status, ovoid.RobotStatus.FREE)
-        ovoid.check(path)
-        path = cell.check_path([[5], [0]])
+        ovoid.verify(path)
+        path = cell.find_hit([[5], [0]])
         self.assertTrue(path.free_until <= 0.75 <= path.hit_at <= path.free_until + 0.01)
-        ovoid.check(path)
+        ovoid.verify(path)
 
 
 if __name__ == "__main__":

@@ -49,7 +49,7 @@ class Collisions(unittest.TestCase):
         self.assertAlmostEqual(data[0].depth, 0.25, delta=1e-8)
         self.assertAlmostEqual(abs(data[0].normal[0]), 1)
         self.assertTrue(0.25 - 1e-6 <= data[0].point[0] <= 0.5 + 1e-6)
-        ovoid.check(data[0].answer)
+        ovoid.verify(data[0].answer)
         with self.assertRaises(NotImplementedError):
             data[0].index("cube0")
 
@@ -125,7 +125,7 @@ class Collisions(unittest.TestCase):
         distance, names, data = self.manager.min_distance_internal(return_names=True, return_data=True)
         self.assertEqual(names, ("cube0", "frame"))
         self.assertAlmostEqual(distance, 0.5, delta=1e-8)
-        ovoid.check(data.answer)
+        ovoid.verify(data.answer)
         # The face that is near has the hole's edge at y = -1.
         self.manager.set_transform("cube0", shift(0, -0.2))
         _, data = self.manager.min_distance_internal(return_data=True)
@@ -137,7 +137,7 @@ class Collisions(unittest.TestCase):
         hit, names, data = self.manager.in_collision_internal(return_names=True, return_data=True)
         self.assertEqual((hit, names), (True, {("cube0", "frame")}))
         self.assertGreaterEqual(data[0].depth, 0.25)
-        ovoid.check(data[0].answer)
+        ovoid.verify(data[0].answer)
         self.assertLessEqual(self.manager.min_distance_internal(), -0.25)
         hit, names = self.manager.in_collision_single(Frame(), shift(0, 0, 5), return_names=True)
         self.assertEqual((hit, names), (False, set()))

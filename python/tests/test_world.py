@@ -42,7 +42,7 @@ class Steps(unittest.TestCase):
             self.assertEqual(list(rows(found.witnesses)[0]["normal"]), [1, 0, 0])
             self.assertEqual((found.bodies, found.rebuilt), (4, True))
             answer = world.proof(ids[0], ids[1])
-            ovoid.check(answer)
+            ovoid.verify(answer)
             self.assertAlmostEqual(answer.distance, 0.25, delta=1e-8)
             world.move(ids[3], at(3.5))
             self.assertEqual(len(world.contacts("collide").items), 1)
@@ -111,7 +111,7 @@ class Queries(unittest.TestCase):
         hit = world.nearest(ids[2])
         self.assertEqual((hit.a, hit.b), (ids[2], ids[1]))
         self.assertAlmostEqual(hit.answer.distance, 0.5, delta=1e-8)
-        ovoid.check(hit.answer)
+        ovoid.verify(hit.answer)
         self.assertIsNone(world.nearest(ids[3], cap=0.5))
         hit = world.nearest_pair()
         self.assertEqual((hit.a, hit.b), (ids[0], ids[1]))
@@ -119,7 +119,7 @@ class Queries(unittest.TestCase):
         self.assertEqual((hit.a, hit.b), (0, ids[3]))
         self.assertAlmostEqual(hit.answer.distance, 0.5, delta=1e-8)
         self.assertEqual(hit.answer.pose_a, at(6))
-        ovoid.check(hit.answer)
+        ovoid.verify(hit.answer)
         self.assertIsNone(ovoid.World().nearest_pair())
 
     def test_any(self):

@@ -91,7 +91,7 @@ void check_poses() {
     CHECK_NEAR(parts.rotation_matrix()[1], -1, 1e-15);
 
     const ovoid_pose identity = pose(), none = ovoid_pose_make_identity();
-    CHECK(is_same(identity, none) && pose().check() == OVOID_OK);
+    CHECK(is_same(identity, none) && pose().validate() == OVOID_OK);
     CHECK(is_same<ovoid_pose>(pose::rpy({1, 2, 3}, {.1, .2, .3}), ovoid_pose_make_rpy({1, 2, 3}, {.1, .2, .3})));
     ovoid_pose turned;
     CHECK_EQ(ovoid_pose_make_axis_angle({1, 2, 3}, {0, 1, 1}, 2, &turned), OVOID_OK);
@@ -101,7 +101,7 @@ void check_poses() {
     CHECK(is_same<ovoid_pose>(a.inverse(), ovoid_pose_compute_inverse(&turned)));
     CHECK(is_same<ovoid_vec3>(a * vec3(1, 2, 3), ovoid_pose_compute_point(&turned, {1, 2, 3})));
     CHECK(is_same<ovoid_vec3>(a.local({1, 2, 3}), ovoid_pose_compute_local_point(&turned, {1, 2, 3})));
-    CHECK_EQ(pose(vec3(NAN, 0, 0)).check(), OVOID_ERROR_NOT_FINITE);
+    CHECK_EQ(pose(vec3(NAN, 0, 0)).validate(), OVOID_ERROR_NOT_FINITE);
 
     std::array<double, 16> bad{};
     CHECK(throws(OVOID_ERROR_ROTATION, -1, "last row", [&] { pose::from_row_major(bad); }));

@@ -81,7 +81,7 @@ void check_scenes() {
     for (std::size_t i = 0; i < scene.size(); i++) world.add(scene[i]);
     CHECK_EQ(world.compute_contacts({OVOID_QUERY_WITHIN, 8}).size(), 1);
 
-    auto motion = ovoid::motion_reader::create(
+    auto motion = ovoid::motion_reader::open(
         write_text("motion.csv", "time,body,x,y,z,qw,qx,qy,qz\n0,box,1,2,3,1,0,0,0\n0.5,nobody,0,0,0,1,0,0,0\n"),
         scene);
     ovoid_motion_line line;
@@ -95,15 +95,15 @@ void check_scenes() {
 void check_tables() {
     const std::string header = "a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz\n";
     const std::string path = write_text("pairs.csv", header + "0,1,1,2,3,1,0,0,0,4,5,6,1,0,0,0\n");
-    auto pairs = ovoid::pairs_reader::create(path, 2);
+    auto pairs = ovoid::pairs_reader::open(path, 2);
     ovoid_indexed_pair pair;
     CHECK(pairs.read(pair) && pair.b == 1 && is_vec3(pair.pose_b.position, 4, 5, 6) && !pairs.read(pair));
-    auto half = ovoid::pairs_reader::create(path, 2);
+    auto half = ovoid::pairs_reader::open(path, 2);
     CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "no part 2", [&] { half.set_part(2, 2); }));
     half.set_part(0, 2);
     half.skip(1);
     CHECK(!half.read(pair));
-    auto few = ovoid::pairs_reader::create(path, 1);
+    auto few = ovoid::pairs_reader::open(path, 1);
     CHECK(throws(OVOID_ERROR_INDEX, 2, "pairs.csv:2", [&] { few.read(pair); }));
 
     const ovoid::shape ball = ovoid::shape::sphere(1);
@@ -111,14 +111,14 @@ void check_tables() {
     record.a = "left", record.b = "right";
     record.answer = ovoid::distance({ball, ball, {}, ovoid::vec3(5, 0, 0)});
     {
-        auto lost = ovoid::output::create(folder + "/lost.jsonl");
+        auto lost = ovoid::output::open(folder + "/lost.jsonl");
         ovoid_record_write_json(lost.file(), &record);
     }
-    CHECK(throws(OVOID_ERROR_FILE, -1, "lost", [] { ovoid::results_reader::create(folder + "/lost.jsonl"); }));
-    auto output = ovoid::output::create(folder + "/results.jsonl");
+    CHECK(throws(OVOID_ERROR_FILE, -1, "lost", [] { ovoid::results_reader::open(folder + "/lost.jsonl"); }));
+    auto output = ovoid::output::open(folder + "/results.jsonl");
     CHECK(ovoid_record_write_json(output.file(), &record) == OVOID_OK);
     output.commit();
-    auto results = ovoid::results_reader::create(folder + "/results.jsonl");
+    auto results = ovoid::results_reader::open(folder + "/results.jsonl");
     ovoid_record got;
     CHECK(results.read(got) && std::string(got.b) == "right" && got.answer.lower == record.answer.lower);
     CHECK_EQ(results.line(), 1);

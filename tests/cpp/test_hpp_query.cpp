@@ -43,11 +43,11 @@ void check_pairs() {
         CHECK_EQ(ovoid::distance_of(a), a.lower);
         CHECK_EQ(ovoid::is_within(a, 0.5), ovoid_answer_is_within(&a, 0.5));
         CHECK(ovoid::is_proven(p, a, ovoid::options(), &cover));
-        ovoid::check(p, a, ovoid::options(), &cover);
+        ovoid::verify(p, a, ovoid::options(), &cover);
         ovoid::answer wrong = a;
         wrong.lower += 0.1;
         CHECK(!ovoid::is_proven(p, wrong, ovoid::options(), &cover));
-        CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, ovoid::options(), &cover); }));
+        CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::verify(p, wrong, ovoid::options(), &cover); }));
         const ovoid::prepared_shape ready_a(ovoid::posed_shape(b.box)), ready_b(ovoid::posed_shape(b.hull, at));
         ovoid::answer whole;
         ovoid::evidence into;
@@ -136,7 +136,7 @@ void check_compounds() {
     const ovoid::compound_answer found = ovoid::distance(p, {}, nullptr, &e);
     CHECK(is_same_answer(found.answer, truth.answer) && found.part_a == truth.part_a && found.part_b == truth.part_b);
     CHECK(e.is_complete() && e.written().size() == e.count && ovoid::is_proven(p, found, ovoid::options(), &e));
-    ovoid::check(p, found, ovoid::options(), &e);
+    ovoid::verify(p, found, ovoid::options(), &e);
     const ovoid::compound_proof warm = ovoid::proof_of(found);
     CHECK(is_same_answer(ovoid::collide(p).answer, ovoid_compound_collide(&c, nullptr, nullptr, nullptr).answer));
     CHECK(is_same_answer(ovoid::collide(p, {}, &warm).answer,
@@ -146,7 +146,7 @@ void check_compounds() {
     ovoid::compound_answer wrong = found;
     wrong.answer.lower += 1;
     CHECK(!ovoid::is_proven(p, wrong, ovoid::options(), &e));
-    CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::check(p, wrong, ovoid::options(), &e); }));
+    CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::verify(p, wrong, ovoid::options(), &e); }));
     CHECK(throws(OVOID_ERROR_EMPTY, -1, "", [] { ovoid::compound::create(std::vector<ovoid::posed_shape>()); }));
     CHECK(throws(OVOID_ERROR_ROTATION, 1, "", [&] {
         ovoid::compound::create({{b.box}, {b.box, {vec3(), ovoid::quat(0, 0, 0, 0)}}});
@@ -179,12 +179,12 @@ void check_motions() {
     const ovoid::impact hit = ovoid::find_impact(x, y, 0, o), truth = ovoid_impact_find(&ca, &cb, 0, nullptr);
     CHECK(hit.status == OVOID_IMPACT_HIT && hit.hit_at == truth.hit_at && hit.free_until == truth.free_until);
     CHECK(std::strcmp(ovoid::name(hit.status), "hit") == 0);
-    ovoid::check(x, y, 0, hit, steps);
+    ovoid::verify(x, y, 0, hit, steps);
     ovoid::impact wrong = hit;
     wrong.free_until += 0.01;
-    CHECK(throws(OVOID_ERROR_PROOF, -1, "does not follow", [&] { ovoid::check(x, y, 0, wrong, steps); }));
+    CHECK(throws(OVOID_ERROR_PROOF, -1, "does not follow", [&] { ovoid::verify(x, y, 0, wrong, steps); }));
     CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "steps",
-                 [&] { ovoid::check(x, y, 0, hit, ovoid::span<const ovoid_step>()); }));
+                 [&] { ovoid::verify(x, y, 0, hit, ovoid::span<const ovoid_step>()); }));
     CHECK(is_same<ovoid_pose>(y.at(0.3), ovoid_moving_shape_compute_pose(&cb, 0.3)));
     CHECK(is_same(y.swept(0, 1), ovoid_moving_shape_compute_box(&cb, 0, 1)));
     const ovoid::moving_shape fixed(b.pill, ovoid::motion(start), vec3(1, 0, 0));
@@ -196,22 +196,22 @@ void check_motions() {
     const ovoid::approach nearest = ovoid::find_approach(x, past, wide);
     const ovoid_approach also = ovoid_approach_find(&ca, &past, nullptr);
     CHECK(nearest.lower == also.lower && nearest.upper == also.upper && nearest.time == also.time);
-    ovoid::check(x, past, nearest, steps);
+    ovoid::verify(x, past, nearest, steps);
 
     const std::vector<double> times = {0, 1, 2};
     const std::vector<pose> poses = {vec3(6, 0, 0), vec3(3, 0, 0), vec3(6, 0, 0)};
     const ovoid::motion path = ovoid::motion::path(times, poses);
-    path.check();
+    path.validate();
     CHECK(is_vec3(path.at(1.5).position, 4.5, 0, 0));
     CHECK(
         throws(OVOID_ERROR_ARGUMENT, -1, "as many times", [&] { ovoid::motion::path(std::vector<double>{0}, poses); }));
     CHECK(throws(OVOID_ERROR_ARGUMENT, 1, "", [&] {
-        ovoid::motion::path(std::vector<double>{0, 0, 1}, poses).check();
+        ovoid::motion::path(std::vector<double>{0, 0, 1}, poses).validate();
     }));
-    CHECK(throws(OVOID_ERROR_NOT_FINITE, -1, "", [] { ovoid::motion(vec3(NAN, 0, 0)).check(); }));
+    CHECK(throws(OVOID_ERROR_NOT_FINITE, -1, "", [] { ovoid::motion(vec3(NAN, 0, 0)).validate(); }));
 
     const ovoid::pair p(b.box, b.hull, {}, b.far);
-    const ovoid::impact cast = ovoid::cast_translation(p, {-10, 0, 0}),
+    const ovoid::impact cast = ovoid::cast_shape(p, {-10, 0, 0}),
                         c_cast = ovoid_shape_cast(&p, {-10, 0, 0}, 0, nullptr);
     CHECK(cast.hit_at == c_cast.hit_at && cast.status == OVOID_IMPACT_HIT);
     // The box's face is at x = 1: half way of the ray.
@@ -226,7 +226,7 @@ void check_motions() {
     const ovoid::body_impact met = ovoid::find_impact(u, v, 0, full);
     const ovoid_body_impact c_met = ovoid_body_impact_find(&u, &v, 0, nullptr);
     CHECK(met.impact.hit_at == c_met.impact.hit_at && met.part_a == 0);
-    ovoid::check(u, v, 0, met, steps, groups);
+    ovoid::verify(u, v, 0, met, steps, groups);
     CHECK(u.part(1).shape == b.pill.get() && is_same(v.swept(0, 1), ovoid_moving_body_compute_box(&v, 0, 1)));
 }
 

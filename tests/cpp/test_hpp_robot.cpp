@@ -35,16 +35,16 @@ int main() {
     CHECK(robot.compute_poses({q.data(), 1}, &errors)[1].position.x == 3);
     CHECK(errors.size() == 2 && errors[1].position > 0 && errors[1].position < 1e-13);
     CHECK(robot.compute_poses_batch({q.data(), 2})[3].position.x == q[1]);
-    robot.check_limits({q.data(), 1});
+    robot.validate_limits({q.data(), 1});
 
     auto cell = ovoid::robot_cell::create(robot);
     const ovoid::pose far({0, 0, 9});
     const auto wall = cell.add(ovoid::body(box, ovoid::pose({5, 0, 0})));
     auto checker = ovoid::robot_checker::create(cell);
-    ovoid::robot_check_options options;
+    ovoid::robot_query_options options;
     options.margin = 0.5;
-    CHECK_EQ(checker.check({q.data(), 1}, options).status, OVOID_ROBOT_FREE);
-    const auto answers = checker.check_batch({q.data(), 2}, 2, options);
+    CHECK_EQ(checker.collide({q.data(), 1}, options).status, OVOID_ROBOT_FREE);
+    const auto answers = checker.collide_batch({q.data(), 2}, 2, options);
     CHECK(answers[0].status == OVOID_ROBOT_FREE && answers[1].status == OVOID_ROBOT_HIT && answers[1].b.body == wall);
     const auto near = checker.find_near({&q[1], 1}, options);
     CHECK(near.items.size() == 1 && near.gradients.size() == 1);
@@ -54,15 +54,15 @@ int main() {
     ovoid_robot_step steps[64];
     ovoid::robot_path_options wanted;
     wanted.steps = steps, wanted.capacity = 64;
-    const auto path = checker.check_path({q.data(), 2}, 2, wanted);
+    const auto path = checker.find_hit({q.data(), 2}, 2, wanted);
     CHECK(path.status == OVOID_ROBOT_FREE && path.free_until == 1 && path.step_count > 0 && path.step_count <= 64);
-    ovoid::check_robot_path(cell, {q.data(), 2}, 2, wanted, path, {steps, path.step_count});
+    ovoid::verify_robot_path(cell, {q.data(), 2}, 2, wanted, path, {steps, path.step_count});
     const auto clearance = checker.compute_clearance({q.data(), 2}, 2);
     CHECK(clearance.status == OVOID_ROBOT_FREE && clearance.lower > 0 && clearance.lower <= clearance.upper);
     cell.set_padding(1, 2);
-    CHECK_EQ(checker.check({q.data(), 1}, options).status, OVOID_ROBOT_HIT);
+    CHECK_EQ(checker.collide({q.data(), 1}, options).status, OVOID_ROBOT_HIT);
     cell.set_body_allowed(wall, 1, true);
-    CHECK_EQ(checker.check({q.data(), 1}, options).status, OVOID_ROBOT_UNDECIDED); // no pair is left to compare
+    CHECK_EQ(checker.collide({q.data(), 1}, options).status, OVOID_ROBOT_UNDECIDED); // no pair is left to compare
     cell.move(wall, far);
     const auto held = cell.attach(1, ovoid::body(box, far));
     cell.set_allowed(0, 1, true);
@@ -89,7 +89,7 @@ int main() {
     ovoid_robot_comparison sum = {};
     std::vector<ovoid_robot_agreement> agreements;
     const std::array<double, 2> near_post = {{4.7, 4.83}};
-    ovoid::compare_states(first, second, {near_post.data(), 2}, 2, sum, ovoid::robot_check_options(), &agreements);
+    ovoid::compare_states(first, second, {near_post.data(), 2}, 2, sum, ovoid::robot_query_options(), &agreements);
     CHECK(sum.states == 2 && agreements[0] == OVOID_ROBOT_COMPARED_BOTH_FREE);
     CHECK(std::string(ovoid::name(agreements[1])) == "missed" && sum.deepest_state == 1);
     ovoid_robot_matrix_pair never = {};
@@ -103,7 +103,7 @@ int main() {
         thrown += e.code() == OVOID_ERROR_INDEX;
     }
     try {
-        robot.check_limits({q.data(), 1}, -20);
+        robot.validate_limits({q.data(), 1}, -20);
     } catch (const ovoid::error &e) {
         thrown += e.code() == OVOID_ERROR_RANGE && e.place() == 0;
     }

@@ -33,7 +33,7 @@ static void test_robot() {
     CHECK(scene.size() > 0 && ids.size() == scene.size() && ids[0].id != 0 && scene[0].shape != nullptr);
     auto checker = ovoid::robot_checker::create(cell);
     const std::vector<double> up(robot.variable_count());
-    CHECK_EQ(checker.check({up.data(), up.size()}).status, OVOID_ROBOT_FREE);
+    CHECK_EQ(checker.collide({up.data(), up.size()}).status, OVOID_ROBOT_FREE);
     CHECK_EQ(ovoid::robot_file::read(folder + "arm.urdf").state_count(), 0u);
 }
 

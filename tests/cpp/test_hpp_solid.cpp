@@ -121,7 +121,7 @@ void check_bodies() {
     const ovoid::body_impact met = ovoid::find_impact(still, moved, 0, full);
     CHECK_EQ(met.impact.status, OVOID_IMPACT_HIT);
     CHECK_NEAR(met.impact.hit_at, 0.25, 1e-8);
-    ovoid::check(still, moved, 0, met, steps, groups);
+    ovoid::verify(still, moved, 0, met, steps, groups);
     CHECK(still.swept(0, 1).max.x >= 2);
 }
 

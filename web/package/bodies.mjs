@@ -137,7 +137,7 @@ export function bindBodies(core) {
   }
 
   /** Checks an answer: both poses and the query's options stand in the memory. */
-  function check(a, b, answer) {
+  function verify(a, b, answer) {
     const kinds = [kindOf(a), kindOf(b)], { exclusions = [], surfaces, parting } = answer.proof;
     const at = calls.set_exclusions(exclusions.length);
     if (!at && exclusions.length) throw new OvoidError(1, -1, 'out of memory');
@@ -149,8 +149,8 @@ export function bindBodies(core) {
       names.number('status', surfaces?.status), names.number('limit', surfaces?.limit), toNumber(surfaces?.lower, -Infinity), toNumber(surfaces?.upper, Infinity),
       ...fromAnswer(answer, names),
     ], 18);
-    return calls.body_check(kinds[0] | (kinds[1] << 2), a.address, b.address) ? memory.error() : null;
+    return calls.body_verify(kinds[0] | (kinds[1] << 2), a.address, b.address) ? memory.error() : null;
   }
 
-  return { Compound, Solid, query, check };
+  return { Compound, Solid, query, verify };
 }

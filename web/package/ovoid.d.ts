@@ -74,7 +74,7 @@ export interface Proof {
   exclusions?: { a: number[]; b: number[]; normal: number[]; normal_low?: number[]; lower: number }[];
   surfaces?: { status: Status; limit: string; lower: number; upper: number }; parting?: number[];
 }
-/** As a line of the tool's JSON: `ovoid check --json` writes what `check` takes. */
+/** As a line of the tool's JSON: `ovoid check --json` writes what `verify` takes. */
 export interface Answer {
   status: Status; limit: string; lower: number; upper: number;
   /** World frame; the normal is from a to b. */
@@ -153,7 +153,7 @@ export declare class Robot {
   add(shape: Shape, pose?: Pose): number;
   move(id: number, pose: Pose): void;
   remove(id: number): void;
-  check(q: ArrayLike<number>, margin?: number): StateAnswer;
+  collide(q: ArrayLike<number>, margin?: number): StateAnswer;
   near(q: ArrayLike<number>, margin: number, most?: number): NearPair[];
   free(): void;
 }
@@ -176,7 +176,7 @@ export interface Ovoid {
   /** The signed distance: minus the penetration depth where they overlap; of compounds of the deepest parts. */
   depth: Ask<Shape | Compound>;
   /** Checks an answer by its proof alone, its status by the tolerance of the options that it was asked with. null: it holds; else what does not. */
-  check(a: AnyBody, poseA: Pose | null | undefined, b: AnyBody, poseB: Pose | null | undefined, answer: Answer, options?: Options): OvoidError | null;
+  verify(a: AnyBody, poseA: Pose | null | undefined, b: AnyBody, poseB: Pose | null | undefined, answer: Answer, options?: Options): OvoidError | null;
   /** Many couples [a, b] of bodies at once, eight in lanes; the bits of single queries. */
   batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Options & { margin?: number }): Batch;
   /** The signed distances of both ellipsoids: outer.value <= d <= inner.value. order 1: gradients, 2: Hessians too. */

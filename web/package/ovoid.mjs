@@ -208,12 +208,12 @@ function bindQueries(core, bodies) {
     return new Answer(n, names, cover && ((proof) => (proof.cover = cover())));
   }
 
-  function check(a, poseA, b, poseB, answer, options) {
+  function verify(a, poseA, b, poseB, answer, options) {
     memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB'), ...settings(options)]);
     writeCover(core, answer.proof.cover);
-    if (!areShapes(a, b)) return bodies.check(a, b, answer);
+    if (!areShapes(a, b)) return bodies.verify(a, b, answer);
     memory.set(fromAnswer(answer, names), 18);
-    return calls.check(a.address, b.address) ? memory.error() : null;
+    return calls.verify(a.address, b.address) ? memory.error() : null;
   }
 
   function batch(kind, bodies, couples, options) {
@@ -250,7 +250,7 @@ function bindQueries(core, bodies) {
     within: (a, poseA, b, poseB, margin, options) => query(1, a, poseA, b, poseB, margin, options),
     distance: (a, poseA, b, poseB, options) => query(2, a, poseA, b, poseB, 0, options),
     depth: (a, poseA, b, poseB, options) => query(3, a, poseA, b, poseB, 0, options),
-    check, batch, smooth,
+    verify, batch, smooth,
   };
 }
 

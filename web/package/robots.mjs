@@ -106,10 +106,10 @@ export function bindRobots(core) {
     }
 
     /** Is the state free by a margin? */
-    check(q, margin = 0) {
+    collide(q, margin = 0) {
       return memory.with([this.#state(q)], (s) => {
         memory.set([margin]);
-        if (calls.checker_check(this.#checker, s)) throw memory.error();
+        if (calls.checker_collide(this.#checker, s)) throw memory.error();
         const n = memory.get(11), status = STATES[n[0]];
         if (status !== 'hit' && status !== 'undecided') return { status, variable: status === 'refused' ? n[2] : undefined };
         return { status, a: this.#side(n.slice(3, 6)), b: this.#side(n.slice(6, 9)), lower: n[9], upper: n[10] };

@@ -124,7 +124,7 @@ void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, 
     write_proof(write_answer(to, &answer), &answer.proof);
 }
 
-static int check_compounds(const ovoid_body_pair *pair, const ovoid_solid_answer *s, const ovoid_options *options) {
+static int verify_compounds(const ovoid_body_pair *pair, const ovoid_solid_answer *s, const ovoid_options *options) {
     exclusions.cover = cover.point_count ? &cover : NULL;
     ovoid_compound_answer c = {.answer = s->surfaces, .part_a = s->triangle_a, .part_b = s->triangle_b};
     return (int)ovoid_compound_answer_verify(pair, &c, options, &exclusions, &exchange_error);
@@ -132,7 +132,7 @@ static int check_compounds(const ovoid_body_pair *pair, const ovoid_solid_answer
 
 /// Reads both poses, the four options of the query and what body_query wrote; the exclusions are those of
 /// set_exclusions. 0, or the error's code.
-int EXPORT(body_check)(unsigned kinds, const void *a, const void *b) {
+int EXPORT(body_verify)(unsigned kinds, const void *a, const void *b) {
     ovoid_body_pair pair;
     ovoid_solid_answer s = {0};
     ovoid_options options;
@@ -144,7 +144,7 @@ int EXPORT(body_check)(unsigned kinds, const void *a, const void *b) {
     from = read_vec3(from, &s.common);
     const double *surfaces = from;
     read_proof(read_answer(from + 4, &s.surfaces), &s.surfaces.proof);
-    if (!has_solid(&pair)) return check_compounds(&pair, &s, &options);
+    if (!has_solid(&pair)) return verify_compounds(&pair, &s, &options);
     s.status = s.surfaces.status, s.limit = s.surfaces.limit, s.lower = s.surfaces.lower, s.upper = s.surfaces.upper;
     s.surfaces.status = (ovoid_status)(read_index(surfaces[0]) & 0xff);
     s.surfaces.limit = (ovoid_limit)(read_index(surfaces[1]) & 0xff);

@@ -37,7 +37,7 @@ void EXPORT(query)(int kind, const ovoid_shape *a, const ovoid_shape *b, int is_
 
 /// Reads both poses, the four options of the query, its answer and proof, and the cover where it stands. 0, or the
 /// error's code.
-int EXPORT(check)(const ovoid_shape *a, const ovoid_shape *b) {
+int EXPORT(verify)(const ovoid_shape *a, const ovoid_shape *b) {
     ovoid_pair pair;
     ovoid_options options;
     ovoid_answer answer;

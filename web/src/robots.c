@@ -118,7 +118,7 @@ static double *write_side(double *to, const ovoid_robot_side *s) {
 }
 
 /// Reads the margin. Writes status, code, variable, both sides, lower, upper. 0, or the error's code.
-int EXPORT(checker_check)(ovoid_robot_checker *checker, const double *q) {
+int EXPORT(checker_collide)(ovoid_robot_checker *checker, const double *q) {
     ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
     ovoid_robot_answer a;
     int code = (int)ovoid_robot_collide(checker, q, &options, &a, &exchange_error);

@@ -54,10 +54,10 @@ test("a scene's pairs have the bits of the tool, proofs included, and every proo
     const pair = [shapes.get(a), poses.get(a), shapes.get(b), poses.get(b)];
     const answer = ovoid.depth(...pair);
     assert.deepEqual(answer.toJSON(), line);
-    assert.equal(ovoid.check(...pair, line), null);
-    if (line.proof.cover) assert.ok(ovoid.check(...pair, { ...line, proof: { ...line.proof, cover: undefined } }), 'the cover of the last check is gone');
-    assert.match(ovoid.check(...pair, moved(line, 1e-6)).message, /lower bound/);
-    assert.match(ovoid.check(...pair, moved(line, -1e-6)).message, /upper bound/);
+    assert.equal(ovoid.verify(...pair, line), null);
+    if (line.proof.cover) assert.ok(ovoid.verify(...pair, { ...line, proof: { ...line.proof, cover: undefined } }), 'the cover of the last check is gone');
+    assert.match(ovoid.verify(...pair, moved(line, 1e-6)).message, /lower bound/);
+    assert.match(ovoid.verify(...pair, moved(line, -1e-6)).message, /upper bound/);
     seen[answer.status]++;
   }
   assert.ok(seen.separated > 100 && seen.overlapping > 20, JSON.stringify(seen));
@@ -88,17 +88,17 @@ test('compounds and solids have the bits of the tool; their proofs hold, altered
     const [p, q] = [byName.get(a), byName.get(b)], pair = [p.body, p.pose, q.body, q.pose];
     const answer = ovoid[line.proof.surfaces ? 'distance' : 'depth'](...pair);
     assert.deepEqual(answer.toJSON(), line, `${a} ${b}`);
-    assert.equal(ovoid.check(...pair, line), null);
-    for (const by of [0.01, -0.01]) assert.ok(ovoid.check(...pair, moved(line, by)), `${a} ${b} ${by}`);
+    assert.equal(ovoid.verify(...pair, line), null);
+    for (const by of [0.01, -0.01]) assert.ok(ovoid.verify(...pair, moved(line, by)), `${a} ${b} ${by}`);
     const { exclusions = [] } = line.proof;
     // Of compounds: turned round by what rounding left of its normal, none shows that parts are apart.
     const turned = exclusions.map((x) => ({ ...x, normal_low: x.normal.map((v) => -2 * v) }));
-    if (turned.length && line.status === 'separated' && !line.proof.surfaces) assert.ok(ovoid.check(...pair, { ...line, proof: { ...line.proof, exclusions: turned } }), `${a} ${b}`);
-    if (line.proof.cover) assert.ok(ovoid.check(...pair, { ...line, proof: { ...line.proof, cover: undefined } }), 'the cover of the last check is gone');
-    if (exclusions.length > 1) assert.match(ovoid.check(...pair, { ...line, proof: { ...line.proof, exclusions: exclusions.slice(1) } }).message, /nothing excludes/);
+    if (turned.length && line.status === 'separated' && !line.proof.surfaces) assert.ok(ovoid.verify(...pair, { ...line, proof: { ...line.proof, exclusions: turned } }), `${a} ${b}`);
+    if (line.proof.cover) assert.ok(ovoid.verify(...pair, { ...line, proof: { ...line.proof, cover: undefined } }), 'the cover of the last check is gone');
+    if (exclusions.length > 1) assert.match(ovoid.verify(...pair, { ...line, proof: { ...line.proof, exclusions: exclusions.slice(1) } }).message, /nothing excludes/);
     if (line.inside) {
       assert.deepEqual([a, b, line.inside], ['large', 'within', 'b in a']);
-      assert.ok(ovoid.check(...pair, { ...line, inside: 'a in b' }));
+      assert.ok(ovoid.verify(...pair, { ...line, inside: 'a in b' }));
       seen.inside = true;
     }
     assert.equal(ovoid.distance(...pair, { earlier: line }).status, line.status);
@@ -109,8 +109,8 @@ test('compounds and solids have the bits of the tool; their proofs hold, altered
   // The same body twice: all faces are flush, and a point of both proves the overlap.
   const flush = ovoid.distance(solid, null, solid, null).toJSON();
   assert.deepEqual([flush.status, flush.inside, flush.common.length, flush.component], ['overlapping', 'common point', 3, undefined]);
-  assert.equal(ovoid.check(solid, null, solid, null, flush), null);
-  assert.ok(ovoid.check(solid, null, solid, null, { ...flush, common: [1.5, 1.5, 0.5] }));
+  assert.equal(ovoid.verify(solid, null, solid, null, flush), null);
+  assert.ok(ovoid.verify(solid, null, solid, null, { ...flush, common: [1.5, 1.5, 0.5] }));
 });
 
 test('batches have the bits of single queries', () => {
@@ -214,20 +214,20 @@ test('robots', () => {
   const [, , lower] = robot.poses([Math.PI / 2, 0]);
   assert.ok(Math.abs(lower.xyz[1] - 1) < 1e-12);
   const id = robot.add(Shape.box([0.5, 0.5, 0.5]), { xyz: [0, 2.2, 0] });
-  assert.equal(robot.check([0, 0]).status, 'free');
-  const hit = robot.check([Math.PI / 2, 0]);
+  assert.equal(robot.collide([0, 0]).status, 'free');
+  const hit = robot.collide([Math.PI / 2, 0]);
   assert.deepEqual([hit.status, hit.a.link, hit.b.obstacle], ['hit', 'lower', id]);
   const near = robot.near([Math.PI / 2, Math.PI], 5);
   assert.equal(near.length, 2);
   assert.ok(near[0].lower <= near[1].lower && near[0].upper >= 0.6 && near[0].lower <= 0.6);
   robot.move(id, { xyz: [0, 9, 0] });
-  assert.equal(robot.check([Math.PI / 2, 0]).status, 'free');
+  assert.equal(robot.collide([Math.PI / 2, 0]).status, 'free');
   robot.remove(id);
   assert.throws(() => robot.remove(id), { name: 'OvoidError' });
   assert.throws(() => robot.poses([1]), /2 numbers/);
   assert.throws(() => new Robot({ links: ['a', 'a'], joints: [] }), { name: 'OvoidError' });
   robot.free();
-  assert.throws(() => robot.check([0, 0]), /freed/);
+  assert.throws(() => robot.collide([0, 0]), /freed/);
 });
 
 test('what is wrong is refused, and nothing is lost', () => {
@@ -246,7 +246,7 @@ test('what is wrong is refused, and nothing is lost', () => {
   assert.equal(ovoid.distance(box, {}, box, { quat_wxyz: [0, 0, 0, 0] }).limit, 'pose_b');
   const good = ovoid.distance(box, {}, box, { xyz: [3, 0, 0] });
   for (const bad of [{ kind: 'cover' }, { kind: 'nonsense' }, { a: [99, 99, 99] }, { normal: [NaN, 0, 0] }, { weight_a: [-1, -1, -1] }, { a: new Array(9).fill(0) }])
-    assert.ok(ovoid.check(box, {}, box, { xyz: [3, 0, 0] }, { ...good.toJSON(), proof: { ...good.proof, ...bad } }), JSON.stringify(bad));
+    assert.ok(ovoid.verify(box, {}, box, { xyz: [3, 0, 0] }, { ...good.toJSON(), proof: { ...good.proof, ...bad } }), JSON.stringify(bad));
   box.free();
   box.free();
   assert.throws(() => box.vertices, /freed/);

@@ -151,8 +151,8 @@ inline bool is_proven(const body_pair &p, const ovoid_compound_answer &a, const 
     return ovoid_compound_answer_verify(&p, &a, &o, e, nullptr) == OVOID_OK;
 }
 /** Throws PROOF (place: the exclusion), with a sentence, where is_proven is false. */
-inline void check(const body_pair &p, const ovoid_compound_answer &a, const ovoid_options &o = options(),
-                  const ovoid_exclusions *e = nullptr) {
+inline void verify(const body_pair &p, const ovoid_compound_answer &a, const ovoid_options &o = options(),
+                   const ovoid_exclusions *e = nullptr) {
     ovoid_error error;
     detail::require(ovoid_compound_answer_verify(&p, &a, &o, e, &error), error);
 }

@@ -72,7 +72,7 @@ inline decomposition_proof prove(const decomposition &d, const decomposition_opt
 }
 
 /** Throws ARGUMENT where a claim of the proof is not so, LIMIT where the work did not show it, EMPTY, MEMORY. */
-inline void check(const decomposition &d, const decomposition_proof &claimed, const decomposition_options &o = {}) {
+inline void verify(const decomposition &d, const decomposition_proof &claimed, const decomposition_options &o = {}) {
     ovoid_error e;
     detail::require(ovoid_decomposition_verify(&d, &claimed, &o, &e), e);
 }

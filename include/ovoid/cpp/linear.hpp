@@ -244,7 +244,7 @@ struct pose : ovoid_pose {
     /** The world point in the local frame. */
     vec3 local(const vec3 &world) const noexcept { return ovoid_pose_compute_local_point(this, world); }
     /** OVOID_OK, or what is wrong with it: NOT_FINITE, RANGE, ROTATION. */
-    ovoid_code check() const noexcept { return ovoid_pose_validate(this); }
+    ovoid_code validate() const noexcept { return ovoid_pose_validate(this); }
 };
 
 /** The pose of what is posed by inner in a body that is posed by outer. */

@@ -51,7 +51,7 @@ struct motion : ovoid_motion {
         return ovoid_motion_make_path(t.data(), p.data(), t.size());
     }
     /** Throws what is wrong with it: NOT_FINITE, ROTATION, RANGE, ARGUMENT (place: of a path, the pose). */
-    void check() const {
+    void validate() const {
         ovoid_error e;
         detail::require(ovoid_motion_validate(this, &e), e);
     }
@@ -122,8 +122,8 @@ inline body_impact find_impact(const moving_body &a, const moving_body &b, doubl
  * options of the query; nullptr as in ovoid_impact_verify.
  */
 template <class Steps>
-void check(const moving_shape &a, const moving_shape &b, double margin, const ovoid_impact &found, const Steps &steps,
-           const ovoid_motion_options *asked = nullptr) {
+void verify(const moving_shape &a, const moving_shape &b, double margin, const ovoid_impact &found, const Steps &steps,
+            const ovoid_motion_options *asked = nullptr) {
     ovoid_error e;
     if (std::size(steps) < found.step_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps than were kept");
@@ -131,8 +131,8 @@ void check(const moving_shape &a, const moving_shape &b, double margin, const ov
 }
 /** Throws PROOF (place: the group) where an impact of bodies does not follow from its steps and groups. */
 template <class Steps, class Groups>
-void check(const moving_body &a, const moving_body &b, double margin, const ovoid_body_impact &found,
-           const Steps &steps, const Groups &groups, const ovoid_motion_options *asked = nullptr) {
+void verify(const moving_body &a, const moving_body &b, double margin, const ovoid_body_impact &found,
+            const Steps &steps, const Groups &groups, const ovoid_motion_options *asked = nullptr) {
     ovoid_error e;
     if (std::size(steps) < found.impact.step_count || std::size(groups) < found.group_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps or groups than were kept");
@@ -141,8 +141,8 @@ void check(const moving_body &a, const moving_body &b, double margin, const ovoi
 }
 
 /** The first time at which b, moved along displacement without turning, is within margin of a. */
-inline impact cast_translation(const pair &p, const vec3 &displacement, double margin = 0,
-                               const ovoid_motion_options &o = motion_options()) noexcept {
+inline impact cast_shape(const pair &p, const vec3 &displacement, double margin = 0,
+                         const ovoid_motion_options &o = motion_options()) noexcept {
     return ovoid_shape_cast(&p, displacement, margin, &o);
 }
 
@@ -166,8 +166,8 @@ inline approach find_approach(const moving_shape &a, const moving_shape &b,
 }
 /** Throws PROOF where an approach does not follow from its steps: all step_count of them. */
 template <class Steps>
-void check(const moving_shape &a, const moving_shape &b, const ovoid_approach &found, const Steps &steps,
-           const ovoid_motion_options *asked = nullptr) {
+void verify(const moving_shape &a, const moving_shape &b, const ovoid_approach &found, const Steps &steps,
+            const ovoid_motion_options *asked = nullptr) {
     ovoid_error e;
     if (std::size(steps) < found.step_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps than were kept");

@@ -90,8 +90,8 @@ inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_options 
     return ovoid_answer_verify(&p, &a, &o, c, nullptr) == OVOID_OK;
 }
 /** Throws PROOF, with a sentence, where is_proven is false. */
-inline void check(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
-                  const ovoid_cover *c = nullptr) {
+inline void verify(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
+                   const ovoid_cover *c = nullptr) {
     ovoid_error e;
     detail::require(ovoid_answer_verify(&p, &a, &o, c, &e), e);
 }

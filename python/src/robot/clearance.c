@@ -23,8 +23,9 @@ static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keyw
     module_state *state = state_of(object);
     path_arguments in;
     ovoid_robot_checker *checker;
-    if (path_arguments_read(self, arguments, keywords, "O|$" CHECK_FORMAT "dK:clearance", names, &in)) return NULL;
-    ovoid_robot_clearance_options o = {.query = in.check, .tolerance = in.tolerance, .states = in.most_states};
+    if (path_arguments_read(self, arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "dK:clearance", names, &in))
+        return NULL;
+    ovoid_robot_clearance_options o = {.query = in.query, .tolerance = in.tolerance, .states = in.most_states};
     if (checkers_borrow(self, &checker, 1)) {
         free(in.states.data);
         return NULL;
@@ -44,7 +45,7 @@ static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keyw
 
 PyMethodDef cell_clearances[] = {
     {"clearance", METHOD_KEYWORDS(clearance), METH_VARARGS | METH_KEYWORDS,
-     "clearance(states, *, " CHECK_SIGNATURE
+     "clearance(states, *, " ROBOT_QUERY_SIGNATURE
      ", tolerance=0, most_states=0)\n--\n\nThe least signed distance of any pair "
      "at any time of the path through states (n, variables), linear in between: a\nClearance, whose bracket is proven. "
      "margin: of its status. tolerance: of the bracket, a length, 0: 1/1024 of the\nradius of the largest element; "

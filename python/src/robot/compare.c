@@ -78,16 +78,16 @@ static int read_cell(module_state *state, PyObject *from, const char *what, cell
 }
 
 static PyObject *compare_states(PyObject *module, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"robot", "model", "q", CHECK_NAMES, "progress", NULL};
+    static char *names[] = {"robot", "model", "q", ROBOT_QUERY_NAMES, "progress", NULL};
     module_state *state = state_of_module(module);
     PyObject *first, *second, *given, *progress = NULL;
     cell_object *cells[2];
     ovoid_robot_query_options o = {0};
     items states;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$" CHECK_FORMAT "O:compare_states", names, &first,
-                                     &second, &given, CHECK_TARGETS(o), &progress) ||
-        query_options_validate(state, &o) || progress_check(progress) || read_cell(state, first, "robot", &cells[0]) ||
-        read_cell(state, second, "model", &cells[1]))
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$" ROBOT_QUERY_FORMAT "O:compare_states", names, &first,
+                                     &second, &given, ROBOT_QUERY_TARGETS(o), &progress) ||
+        query_options_validate(state, &o) || progress_validate(progress) ||
+        read_cell(state, first, "robot", &cells[0]) || read_cell(state, second, "model", &cells[1]))
         return NULL;
     size_t variables = robot_variable_count(cells[0]->robot), of_model = robot_variable_count(cells[1]->robot);
     if (variables != of_model)
@@ -100,7 +100,7 @@ static PyObject *compare_states(PyObject *module, PyObject *arguments, PyObject 
 }
 
 PyMethodDef robot_functions[] = {{"compare_states", METHOD_KEYWORDS(compare_states), METH_VARARGS | METH_KEYWORDS,
-                                  "compare_states(robot, model, q, *, " CHECK_SIGNATURE
+                                  "compare_states(robot, model, q, *, " ROBOT_QUERY_SIGNATURE
                                   ", progress=None)\n--\n\nIn which states (n, variables) do two "
                                   "Cells disagree, of a robot and of a model of it such as robot.with_spheres(...)?\nA "
                                   "Comparison: counts, an Agreement "

@@ -258,16 +258,16 @@ static PyObject *make_robot(PyTypeObject *type, ovoid_robot_file *file) {
     return made;
 }
 
-// ---- Robot.load
+// ---- Robot.read
 
-static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
+static PyObject *read_robot(PyObject *type, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"urdf",   "srdf",   "packages",   "parts",     "visual",
                             "solids", "scales", "fixed_base", "tolerance", NULL};
     int solids = 1;
     PyObject *srdf = Py_None;
     read_input in = {.urdf = NULL};
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|O$OpppOpd:load", names, PyUnicode_FSConverter, &in.urdf,
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|O$OpppOpd:read", names, PyUnicode_FSConverter, &in.urdf,
                                      &srdf, &in.packages, &in.o.parts, &in.o.visual, &solids, &in.scales,
                                      &in.o.fixed_base, &in.o.tolerance) ||
         (srdf != Py_None && !PyUnicode_FSConverter(srdf, &in.srdf)) || read_packages(&in) || read_scales(&in)) {
@@ -292,8 +292,8 @@ static PyObject *load(PyObject *type, PyObject *arguments, PyObject *keywords) {
 }
 
 PyMethodDef robot_constructors[] = {
-    {"load", METHOD_KEYWORDS(load), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "load(urdf, srdf=None, *, packages=None, parts=False, visual=False, solids=True, scales=None, fixed_base=False, "
+    {"read", METHOD_KEYWORDS(read_robot), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "read(urdf, srdf=None, *, packages=None, parts=False, visual=False, solids=True, scales=None, fixed_base=False, "
      "tolerance=0)\n--\n\nFrom a URDF with its meshes, perhaps with an SRDF; metres. packages: {name: folder} of "
      "package:// addresses. solids: a\nmesh counts as what it is, its hull, the solid that its triangles enclose, or, "
      "where they are not closed, their surface;\nFalse: as its hull. parts: as the hulls of its objects. visual: links "
@@ -344,12 +344,12 @@ static PyObject *read_scene(module_state *state, PyObject *path, double toleranc
     return owner;
 }
 
-static PyObject *load_obstacles(PyObject *module, PyObject *arguments, PyObject *keywords) {
+static PyObject *read_obstacles(PyObject *module, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"path", "tolerance", "solids", NULL};
     PyObject *path = NULL, *list = NULL;
     double tolerance = 0;
     int solids = 1;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d$p:load_obstacles", names, PyUnicode_FSConverter, &path,
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d$p:read_obstacles", names, PyUnicode_FSConverter, &path,
                                      &tolerance, &solids)) {
         Py_XDECREF(path);
         return NULL;
@@ -387,7 +387,7 @@ static PyObject *make_request(module_state *state, const ovoid_motion_request *r
     return PyObject_CallFunction(state->motion_request, "sNN", ovoid_motion_request_get_group(request), first, goals);
 }
 
-static PyObject *load_motion_request(PyObject *module, PyObject *given) {
+static PyObject *read_motion_request(PyObject *module, PyObject *given) {
     PyObject *path = NULL;
     ovoid_error error;
     if (!PyUnicode_FSConverter(given, &path)) return NULL;
@@ -422,21 +422,21 @@ static PyObject *find_problems(PyObject *module, PyObject *given) {
 }
 
 PyMethodDef robot_file_functions[] = {
-    {"load_obstacles", METHOD_KEYWORDS(load_obstacles), METH_VARARGS | METH_KEYWORDS,
-     "load_obstacles(path, tolerance=0, *, solids=True)\n--\n\nThe obstacles of a scene, MoveIt's YAML or ovoid's "
+    {"read_obstacles", METHOD_KEYWORDS(read_obstacles), METH_VARARGS | METH_KEYWORDS,
+     "read_obstacles(path, tolerance=0, *, solids=True)\n--\n\nThe obstacles of a scene, MoveIt's YAML or ovoid's "
      "JSON: "
      "Obstacle tuples (name, shape, pose, solid, frame, link). A solid\ncounts in the place of the shape, which is its "
      "hull. frame: the link or fixed frame in which the pose is, None: the root's.\nlink: the link that holds it, or "
      "None. tolerance: of cylinders and cones, a length. solids=False: meshes are their hulls."},
-    {"load_motion_request", load_motion_request, METH_O,
-     "load_motion_request(path, /)\n--\n\nA motion planning request of MoveIt (YAML): a MotionRequest (group, start, "
+    {"read_motion_request", read_motion_request, METH_O,
+     "read_motion_request(path, /)\n--\n\nA motion planning request of MoveIt (YAML): a MotionRequest (group, start, "
      "goals), states as dicts of joints."},
     {"find_problems", find_problems, METH_O,
      "find_problems(folder, /)\n--\n\nThe planning problems of a folder: a list of (name, path of the scene, path of "
      "the request)."},
     {NULL, NULL, 0, NULL}};
 
-// ---- Cell.load
+// ---- Cell.read
 
 // Links' paddings by their names; None: of all links without one of their own.
 static int set_paddings(cell_object *self, PyObject *paddings) {
@@ -488,13 +488,13 @@ static PyObject *add_obstacles(cell_object *self, PyObject *owner) {
     return list;
 }
 
-static PyObject *load_into(PyObject *object, PyObject *arguments, PyObject *keywords) {
+static PyObject *read_into(PyObject *object, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"path", "tolerance", "solids", "paddings", NULL};
     cell_object *self = (cell_object *)object;
     PyObject *path = NULL, *paddings = NULL, *made = NULL;
     double tolerance = 0;
     int solids = 1;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d$pO:load", names, PyUnicode_FSConverter, &path,
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d$pO:read", names, PyUnicode_FSConverter, &path,
                                      &tolerance, &solids, &paddings)) {
         Py_XDECREF(path);
         return NULL;
@@ -512,8 +512,8 @@ static PyObject *load_into(PyObject *object, PyObject *arguments, PyObject *keyw
 }
 
 PyMethodDef cell_scenes[] = {
-    {"load", METHOD_KEYWORDS(load_into), METH_VARARGS | METH_KEYWORDS,
-     "load(path, tolerance=0, *, solids=True, paddings=None)\n--\n\nPuts a scene around the robot, as load_obstacles "
+    {"read", METHOD_KEYWORDS(read_into), METH_VARARGS | METH_KEYWORDS,
+     "read(path, tolerance=0, *, solids=True, paddings=None)\n--\n\nPuts a scene around the robot, as read_obstacles "
      "reads it: obstacles, what links hold, paddings and allowed collisions. A\nlist of (name, id). paddings: {link: "
      "length}, None: of all other links; they count before those of the scene."},
     {NULL, NULL, 0, NULL}};

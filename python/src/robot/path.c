@@ -69,9 +69,9 @@ int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywor
     unsigned long long most = 0;
     *in = (path_arguments){.tolerance = 0};
     // The last one is read where the format has it.
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, names, &given, CHECK_TARGETS(in->check),
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, names, &given, ROBOT_QUERY_TARGETS(in->query),
                                      &in->tolerance, &most, &in->any_hit) ||
-        query_options_validate(state, &in->check))
+        query_options_validate(state, &in->query))
         return -1;
     if (most > UINT32_MAX) {
         raise_code(state, OVOID_ERROR_ARGUMENT, -1, "most_states: 0 to 2^32 - 1 are wanted");
@@ -82,16 +82,17 @@ int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywor
     return items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &in->states);
 }
 
-PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords);
-PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords) {
+PyObject *find_hit(PyObject *object, PyObject *arguments, PyObject *keywords);
+PyObject *find_hit(PyObject *object, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {PATH_NAMES, "any_hit", NULL};
     cell_object *cell = (cell_object *)object;
     module_state *state = state_of(object);
     path_arguments in;
     ovoid_robot_checker *checker;
-    if (path_arguments_read(cell, arguments, keywords, "O|$" CHECK_FORMAT "dKp:check_path", names, &in)) return NULL;
+    if (path_arguments_read(cell, arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "dKp:find_hit", names, &in))
+        return NULL;
     ovoid_robot_path_options o = {
-        .query = in.check, .tolerance = in.tolerance, .states = in.most_states, .any_hit = in.any_hit};
+        .query = in.query, .tolerance = in.tolerance, .states = in.most_states, .any_hit = in.any_hit};
     path_object *self = make_object(cell, &o, &in.states);
     if (!self || checkers_borrow(cell, &checker, 1)) {
         Py_XDECREF((PyObject *)self);
@@ -110,7 +111,7 @@ PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords) 
     return is_raised ? NULL : raise_error(state, &error);
 }
 
-ovoid_code path_check(PyObject *object, ovoid_error *error) {
+ovoid_code path_verify(PyObject *object, ovoid_error *error) {
     path_object *self = (path_object *)object;
     ovoid_error unused, *to = error ? error : &unused;
     if (self->version != self->cell->version) {
@@ -216,7 +217,7 @@ static PyGetSetDef fields[] = {
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyType_Slot slots[] = {{Py_tp_doc,
-                               "Whether a path of a Cell is free for all times in between. ovoid.check(path) measures "
+                               "Whether a path of a Cell is free for all times in between. ovoid.verify(path) measures "
                                "its steps again, without a\n"
                                "search, and raises Error where they prove less, or where the cell has changed since."},
                               {Py_tp_dealloc, path_dealloc},

@@ -1,4 +1,4 @@
-// Files of path proofs, as `ovoid robot path --proofs` writes them: their paths as claims about a cell, which check()
+// Files of path proofs, as `ovoid robot path --proofs` writes them: their paths as claims about a cell, which verify()
 // measures.
 #ifdef OVOID_PYTHON_ROBOT_READ
 #include "src/robot/robot.h"
@@ -58,7 +58,7 @@ static int has_variables(const cell_object *cell, const ovoid_robot_proof_source
 }
 
 // -1 with an Error where the cell is of another robot, or has other pairs.
-static int check_source(const cell_object *cell, const ovoid_robot_proof_source *s, int64_t line) {
+static int validate_source(const cell_object *cell, const ovoid_robot_proof_source *s, int64_t line) {
     module_state *state = state_of((PyObject *)cell);
     int is_same = has_variables(cell, s);
     if (is_same < 0) return -1;
@@ -117,12 +117,12 @@ typedef struct claims {
 
 static PyObject *take_path(void *context, const ovoid_robot_proof *proof, const ovoid_robot_proof_source *source) {
     claims *c = context;
-    if (proof->source >= c->sources && check_source(c->cell, source, proof->line)) return NULL;
+    if (proof->source >= c->sources && validate_source(c->cell, source, proof->line)) return NULL;
     c->sources = proof->source + 1;
     return path_claim(c->cell, proof, source->limit_slack);
 }
 
-static PyObject *load_paths(PyObject *object, PyObject *given) {
+static PyObject *read_paths(PyObject *object, PyObject *given) {
     claims c = {(cell_object *)object, 0};
     return read_file(state_of(object), given, take_path, &c);
 }
@@ -134,20 +134,21 @@ static PyObject *take_source(void *context, const ovoid_robot_proof *proof, cons
     return make_source(source);
 }
 
-static PyObject *load_path_sources(PyObject *module, PyObject *given) {
+static PyObject *read_path_sources(PyObject *module, PyObject *given) {
     size_t sources = 0;
     return read_file(state_of_module(module), given, take_source, &sources);
 }
 
 PyMethodDef cell_proofs[] = {
-    {"load_paths", load_paths, METH_O,
-     "load_paths(path, /)\n--\n\nThe paths of a file that `ovoid robot path --proofs` wrote, as claims about this "
+    {"read_paths", read_paths, METH_O,
+     "read_paths(path, /)\n--\n\nThe paths of a file that `ovoid robot path --proofs` wrote, as claims about this "
      "cell: a "
-     "list of RobotPaths, which check()\nmeasures. Error where the file's variables or pairs of bodies are others; the "
+     "list of RobotPaths, which verify()\nmeasures. Error where the file's variables or pairs of bodies are others; "
+     "the "
      "cell's obstacles count by their\norder, not by name."},
     {NULL, NULL, 0, NULL}};
-PyMethodDef robot_proof_functions[] = {{"load_path_sources", load_path_sources, METH_O,
-                                        "load_path_sources(path, /)\n--\n\nWhat the paths of a file of path proofs are "
+PyMethodDef robot_proof_functions[] = {{"read_path_sources", read_path_sources, METH_O,
+                                        "read_path_sources(path, /)\n--\n\nWhat the paths of a file of path proofs are "
                                         "of, a list of dicts: the files robot, "
                                         "srdf and scene, packages, scales,\npaddings, how they were read, margin, "
                                         "limit_slack, variables, path_count, digest."},

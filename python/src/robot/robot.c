@@ -162,11 +162,11 @@ static PyObject *pose_errors(PyObject *object, PyObject *given) {
 }
 _Static_assert(sizeof(ovoid_robot_pose_error) == 2 * sizeof(double), "a row of two numbers");
 
-static PyObject *check_limits(PyObject *object, PyObject *arguments, PyObject *keywords) {
+static PyObject *validate_limits(PyObject *object, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"q", "slack", NULL};
     PyObject *given;
     double slack = 0;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|d:check_limits", names, &given, &slack)) return NULL;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|d:validate_limits", names, &given, &slack)) return NULL;
     module_state *state = state_of(object);
     if (!(slack >= 0)) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "slack: a number >= 0 is wanted");
     double *q = state_read((robot_object *)object, given);
@@ -243,8 +243,9 @@ static PyMethodDef own_methods[] = {
     {"pose_errors", pose_errors, METH_O,
      "pose_errors(q)\n--\n\nHow far the poses of one state are from the exact kinematics at most: an array (links, 2), "
      "of the origin (a length) and\nof the rotation (operator norm)."},
-    {"check_limits", METHOD_KEYWORDS(check_limits), METH_VARARGS | METH_KEYWORDS,
-     "check_limits(q, slack=0)\n--\n\nRaises Error, place the variable, where one is outside its limits by more than "
+    {"validate_limits", METHOD_KEYWORDS(validate_limits), METH_VARARGS | METH_KEYWORDS,
+     "validate_limits(q, slack=0)\n--\n\nRaises Error, place the variable, where one is outside its limits by more "
+     "than "
      "slack."},
     {"is_rigid_pair", is_rigid_pair, METH_VARARGS,
      "is_rigid_pair(a, b, /)\n--\n\nTrue where nothing but fixed joints is between two links (names or indices)."},
@@ -259,7 +260,7 @@ static PyMethodDef own_methods[] = {
 
 static PyType_Slot slots[] = {
     {Py_tp_doc,
-     "Robot(links, joints, elements=(), disabled=(), *, name=None)\n--\n\nLinks that hang on joints. Robot.load reads "
+     "Robot(links, joints, elements=(), disabled=(), *, name=None)\n--\n\nLinks that hang on joints. Robot.read reads "
      "a URDF.\n\nlinks: names. joints: Joint tuples, which make one tree of all links; mimic names another joint. "
      "elements:\n(link, shape, pose, name) each, pose and name may be left out. disabled: pairs of names. Lengths are "
      "the caller's\nunit, angles radians. Immutable; a Cell says what it touches."},

@@ -58,23 +58,23 @@ void checkers_return(cell_object *self, ovoid_robot_checker *const *checkers, si
 /// An obstacle or attached body that the library took is kept alive.
 int cell_keep(cell_object *self, ovoid_id id, PyObject *body);
 
-// ---- robot_check.c
+// ---- collide.c
 
 /// The options that every query of a cell takes, as arguments of PyArg_ParseTupleAndKeywords.
-#define CHECK_FORMAT "ddpp"
-#define CHECK_SIGNATURE "margin=0, limit_slack=0, without_self=False, without_obstacles=False"
-#define CHECK_NAMES "margin", "limit_slack", "without_self", "without_obstacles"
-#define CHECK_TARGETS(o) &(o).margin, &(o).limit_slack, &(o).without_self, &(o).without_obstacles
+#define ROBOT_QUERY_FORMAT "ddpp"
+#define ROBOT_QUERY_SIGNATURE "margin=0, limit_slack=0, without_self=False, without_obstacles=False"
+#define ROBOT_QUERY_NAMES "margin", "limit_slack", "without_self", "without_obstacles"
+#define ROBOT_QUERY_TARGETS(o) &(o).margin, &(o).limit_slack, &(o).without_self, &(o).without_obstacles
 
 /// What a question about a path is given.
 typedef struct path_arguments {
     items states; ///< (n, variables); the caller frees states.data
-    ovoid_robot_query_options check;
+    ovoid_robot_query_options query;
     double tolerance;
     uint32_t most_states;
-    int any_hit; ///< of check_path
+    int any_hit; ///< of find_hit
 } path_arguments;
-#define PATH_NAMES "states", CHECK_NAMES, "tolerance", "most_states"
+#define PATH_NAMES "states", ROBOT_QUERY_NAMES, "tolerance", "most_states"
 /// Reads them; format, names: as PyArg_ParseTupleAndKeywords has them, with the question's name and PATH_NAMES. -1:
 /// raised, nothing to free.
 int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format, char **names,
@@ -95,7 +95,7 @@ extern PyMethodDef robot_proof_functions[];
 // ---- robot_path.c
 
 /// Checks a proven path by its steps.
-ovoid_code path_check(PyObject *object, ovoid_error *error);
+ovoid_code path_verify(PyObject *object, ovoid_error *error);
 /// A RobotPath of what a file claims of a path of this cell.
 struct ovoid_robot_proof;
 PyObject *path_claim(cell_object *cell, const struct ovoid_robot_proof *proof, double limit_slack);

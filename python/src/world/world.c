@@ -383,7 +383,7 @@ static PyObject *contacts(PyObject *object, PyObject *arguments, PyObject *keywo
     ovoid_code code;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|sd$" QUERY_FORMAT ":contacts", names, &kind, &query.margin,
                                      QUERY_TARGETS(k)) ||
-        read_kind(state, kind, &query.kind) || query_keywords_check(state, &k) || world_enter(self, 1))
+        read_kind(state, kind, &query.kind) || query_keywords_validate(state, &k) || world_enter(self, 1))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_world_compute_contacts(self->world, &query, &found, &error);
@@ -485,7 +485,7 @@ static PyMethodDef methods[] = {
      "pairs that are not proven farther than the margin: a Contacts tuple. kind: 'collide' (margin 0), 'within',\n"
      "'distance' or 'depth'."},
     {"proof", proof, METH_VARARGS,
-     "proof(a, b)\n--\n\nThe whole Answer (SolidAnswer) of a contact at the present poses, which check() takes."},
+     "proof(a, b)\n--\n\nThe whole Answer (SolidAnswer) of a contact at the present poses, which verify() takes."},
     {NULL, NULL, 0, NULL}};
 
 static PyType_Slot slots[] = {

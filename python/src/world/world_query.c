@@ -57,7 +57,7 @@ static PyObject *nearest(PyObject *object, PyObject *arguments, PyObject *keywor
     ovoid_code code;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|$" QUERY_FORMAT ":nearest", names, id_read, &id,
                                      QUERY_TARGETS(k)) ||
-        query_keywords_check(state, &k) || world_enter(self, 0))
+        query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_world_find_nearest(self->world, id, &k.options, &hit, &error);
@@ -80,7 +80,7 @@ static PyObject *nearest_to(PyObject *object, PyObject *arguments, PyObject *key
     ovoid_code code;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$II" QUERY_FORMAT ":nearest_to", names, &body, &pose,
                                      &probe.group, &probe.mask, QUERY_TARGETS(k)) ||
-        probe_read(state, body, pose, &probe) || query_keywords_check(state, &k) || world_enter(self, 0))
+        probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_world_find_nearest_to(self->world, &probe, &k.options, &hit, &error);
@@ -104,7 +104,7 @@ static PyObject *nearest_pair(PyObject *object, PyObject *arguments, PyObject *k
     ovoid_error error;
     ovoid_code code;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|$" QUERY_FORMAT ":nearest_pair", names, QUERY_TARGETS(k)) ||
-        query_keywords_check(state, &k) || world_enter(self, 0))
+        query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_world_find_nearest_pair(self->world, &k.options, &hit, &error);
@@ -284,7 +284,7 @@ static PyObject *overlaps(PyObject *object, PyObject *arguments, PyObject *keywo
     ovoid_world_body probe = {0};
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$dII" QUERY_FORMAT ":overlaps", names, &body, &pose,
                                      &margin, &probe.group, &probe.mask, QUERY_TARGETS(k)) ||
-        probe_read(state, body, pose, &probe) || query_keywords_check(state, &k) || world_enter(self, 0))
+        probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     PyObject *made = find_overlaps(self, body, &probe, margin, &k.options);
     world_leave(self, 0);

@@ -68,7 +68,7 @@ export class Joints {
     }
     this.model.pairs = [...best.values()];
     this.model.byBody = new Map(this.model.bodies.map((body) => [body, this.model.pairs.filter((p) => p.a === body || p.b === body)]));
-    const { status } = this.robot.check(this.q);
+    const { status } = this.robot.collide(this.q);
     this.verdict.textContent = status === 'free' ? `free; nearest ${near.length ? formatLength(near[0].lower, this.model.unit) : `beyond ${formatLength(this.margin, this.model.unit)}`}` : status;
     this.verdict.className = status;
     this.onMove();

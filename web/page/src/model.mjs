@@ -138,13 +138,13 @@ export class Model {
     }
   }
 
-  /** Whether the proof of a pair's answer holds, in words; isChecked false: that cannot be checked here. */
-  check(pair) {
+  /** Whether the proof of a pair's answer holds, in words; isVerified false: that cannot be checked here. */
+  verify(pair) {
     const { a, b } = pair;
-    if (!a.asked || !b.asked) return { isChecked: false, text: 'The triangles are too many for the page: ovoid verify checks this proof.' };
+    if (!a.asked || !b.asked) return { isVerified: false, text: 'The triangles are too many for the page: ovoid verify checks this proof.' };
     // What is near a robot comes without proofs, and those that were too many for the page.
     if (!pair.answer.proof) this.askAgain(pair);
-    const error = this.ovoid.check(a.asked, a.pose, b.asked, b.pose, pair.answer);
-    return { isChecked: true, holds: error === null, text: error ? error.message : 'The proof holds.' };
+    const error = this.ovoid.verify(a.asked, a.pose, b.asked, b.pose, pair.answer);
+    return { isVerified: true, holds: error === null, text: error ? error.message : 'The proof holds.' };
   }
 }

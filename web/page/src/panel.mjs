@@ -95,9 +95,9 @@ export class Panel {
     const check = element('button', {
       id: 'check', textContent: 'Check the proof here', title: 'by the library in this page, without any search (P)',
       onclick: () => {
-        const { isChecked, holds, text } = this.model.check(pair);
+        const { isVerified, holds, text } = this.model.verify(pair);
         said.textContent = text;
-        said.className = `proof ${isChecked ? (holds ? 'holds' : 'fails') : ''}`;
+        said.className = `proof ${isVerified ? (holds ? 'holds' : 'fails') : ''}`;
       },
     });
     this.details.replaceChildren(

@@ -148,7 +148,7 @@ test('compounds and solids: their proofs hold, altered ones do not, and they are
     const { model } = window.ovoidPage, moved = [model.bodies[1], model.bodies[5]];
     moved.forEach((body, i) => (body.pose = to[i]));
     moved.forEach((body) => window.ovoidPage.moved(body));
-    return model.pairs.filter((pair) => pair.isLive).map((pair) => [`${pair.a.name} – ${pair.b.name}`, pair.answer.lower, pair.answer.upper, model.check(pair).text]);
+    return model.pairs.filter((pair) => pair.isLive).map((pair) => [`${pair.a.name} – ${pair.b.name}`, pair.answer.lower, pair.answer.upper, model.verify(pair).text]);
   }, poses);
   [objects[1].pose, objects[5].pose] = poses;
   writeFileSync(join(folder, 'moved.json'), JSON.stringify({ objects }));

@@ -42,15 +42,15 @@ int query_options_validate(module_state *state, const ovoid_robot_query_options 
 
 // ---- one state
 
-static PyObject *check(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"q", CHECK_NAMES, NULL};
+static PyObject *collide(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"q", ROBOT_QUERY_NAMES, NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
     PyObject *given;
     ovoid_robot_query_options o = {0};
     ovoid_robot_checker *checker;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT ":check", names, &given,
-                                     CHECK_TARGETS(o)) ||
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT ":collide", names, &given,
+                                     ROBOT_QUERY_TARGETS(o)) ||
         query_options_validate(state, &o))
         return NULL;
     double *q = state_read(self->robot, given);
@@ -96,18 +96,18 @@ static ovoid_code find_near(ovoid_robot_checker *checker, const near_query *quer
 }
 
 static PyObject *near_or_nearest(PyObject *object, PyObject *arguments, PyObject *keywords, int is_nearest) {
-    static char *names[] = {"q", CHECK_NAMES, NULL};
-    static char *near_names[] = {"q", CHECK_NAMES, "without_depths", NULL};
+    static char *names[] = {"q", ROBOT_QUERY_NAMES, NULL};
+    static char *near_names[] = {"q", ROBOT_QUERY_NAMES, "without_depths", NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
     PyObject *given;
     int without_depths = 0;
     near_query query = {.options.margin = is_nearest ? INFINITY : 0, .is_nearest = is_nearest};
     ovoid_robot_checker *checker;
-    int is_read = is_nearest ? PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT ":nearest", names,
-                                                           &given, CHECK_TARGETS(query.options))
+    int is_read = is_nearest ? PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT ":nearest",
+                                                           names, &given, ROBOT_QUERY_TARGETS(query.options))
                              : PyArg_ParseTupleAndKeywords(arguments, keywords, "Od|$dppp:near", near_names, &given,
-                                                           CHECK_TARGETS(query.options), &without_depths);
+                                                           ROBOT_QUERY_TARGETS(query.options), &without_depths);
     if (!is_read || query_options_validate(state, &query.options)) return NULL;
     double *q = state_read(self->robot, given);
     if (!q || checkers_borrow(self, &checker, 1)) {
@@ -150,7 +150,7 @@ static PyObject *nearest(PyObject *object, PyObject *arguments, PyObject *keywor
 
 // ---- many states
 
-/// States in work: of check_batch the answers, of nearest_batch the nearest pairs and their gradients.
+/// States in work: of collide_batch the answers, of nearest_batch the nearest pairs and their gradients.
 typedef struct job {
     ovoid_robot_checker *checkers[THREADS_MOST];
     size_t checker_count, variables, count;
@@ -205,7 +205,7 @@ static int read_input(cell_object *self, states_input *in, job *j) {
         raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, in->threads);
         return -1;
     }
-    if (progress_check(in->progress)) return -1;
+    if (progress_validate(in->progress)) return -1;
     if (items_read(state, in->q, "q", 2, (Py_ssize_t[]){-1, (Py_ssize_t)j->variables}, 'd', &in->states)) return -1;
     j->q = in->states.data;
     j->count = (size_t)in->states.shape[0];
@@ -222,14 +222,14 @@ static int borrow_and_run(cell_object *self, job *j, PyObject *progress) {
     return failed;
 }
 
-static PyObject *check_batch(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"q", CHECK_NAMES, "threads", "out", "progress", NULL};
+static PyObject *collide_batch(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"q", ROBOT_QUERY_NAMES, "threads", "out", "progress", NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
     states_input in = {.threads = 1};
     job j = {.count = 0};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "iOO:check_batch", names, &in.q,
-                                     CHECK_TARGETS(j.options), &in.threads, &in.out, &in.progress) ||
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "iOO:collide_batch", names, &in.q,
+                                     ROBOT_QUERY_TARGETS(j.options), &in.threads, &in.out, &in.progress) ||
         read_input(self, &in, &j))
         return NULL;
     Py_buffer view = {.obj = NULL};
@@ -249,13 +249,13 @@ static PyObject *check_batch(PyObject *object, PyObject *arguments, PyObject *ke
 }
 
 static PyObject *nearest_batch(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"q", CHECK_NAMES, "progress", NULL};
+    static char *names[] = {"q", ROBOT_QUERY_NAMES, "progress", NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
     states_input in = {.threads = 1};
     job j = {.options.margin = INFINITY};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" CHECK_FORMAT "O:nearest_batch", names, &in.q,
-                                     CHECK_TARGETS(j.options), &in.progress) ||
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "O:nearest_batch", names, &in.q,
+                                     ROBOT_QUERY_TARGETS(j.options), &in.progress) ||
         read_input(self, &in, &j))
         return NULL;
     Py_ssize_t shape[] = {(Py_ssize_t)j.count, (Py_ssize_t)j.variables};
@@ -278,20 +278,20 @@ static PyObject *nearest_batch(PyObject *object, PyObject *arguments, PyObject *
 
 // ---- proven paths: robot_path.c
 
-PyObject *check_path(PyObject *object, PyObject *arguments, PyObject *keywords);
+PyObject *find_hit(PyObject *object, PyObject *arguments, PyObject *keywords);
 
 #define NEAREST_SIGNATURE "margin=1e999, limit_slack=0, without_self=False, without_obstacles=False"
 #define NEAR_DOC                                                                                                       \
     "records link_a, element_a, body_a, part_a,\nlink_b, ..., status, lower, upper, point_a, point_b, normal (root "   \
     "link's frame), has_gradient; and the gradients\nd distance / d q, "
 PyMethodDef cell_queries[] = {
-    {"check", METHOD_KEYWORDS(check), METH_VARARGS | METH_KEYWORDS,
-     "check(q, *, " CHECK_SIGNATURE
+    {"collide", METHOD_KEYWORDS(collide), METH_VARARGS | METH_KEYWORDS,
+     "collide(q, *, " ROBOT_QUERY_SIGNATURE
      ")\n--\n\nIs a state, an array (variables,), free? A StateAnswer: its status is FREE (all pairs proven farther "
      "apart than\nmargin), HIT (a pair proven within it), UNDECIDED (treat it as a hit) or REFUSED (outside its limits "
      "by more than\nlimit_slack). Begins with the pair that ended the state before."},
-    {"check_batch", METHOD_KEYWORDS(check_batch), METH_VARARGS | METH_KEYWORDS,
-     "check_batch(q, *, " CHECK_SIGNATURE
+    {"collide_batch", METHOD_KEYWORDS(collide_batch), METH_VARARGS | METH_KEYWORDS,
+     "collide_batch(q, *, " ROBOT_QUERY_SIGNATURE
      ", threads=1, out=None, progress=None)\n--\n\nMany states, (n, variables): an array of n records status "
      "(RobotStatus by number), code, variable, link_a, element_a,\nbody_a, part_a, link_b, ..., lower, upper; 2**32 - "
      "1 is no link, no element. The same bits on any number of threads.\nout: an array of zeros('states', n). "
@@ -310,9 +310,10 @@ PyMethodDef cell_queries[] = {
      ", progress=None)\n--\n\nThe nearest pair of many states, (n, variables): n " NEAR_DOC
      "(n, variables). Where none is within margin, lower is margin\nand upper inf. A state that is refused raises "
      "Error, place its number."},
-    {"check_path", METHOD_KEYWORDS(check_path), METH_VARARGS | METH_KEYWORDS,
-     "check_path(states, *, " CHECK_SIGNATURE ", tolerance=0, most_states=0, any_hit=False)\n--\n\nIs the path through "
+    {"find_hit", METHOD_KEYWORDS(find_hit), METH_VARARGS | METH_KEYWORDS,
+     "find_hit(states, *, " ROBOT_QUERY_SIGNATURE
+     ", tolerance=0, most_states=0, any_hit=False)\n--\n\nIs the path through "
      "states (n, variables), linear in between, free at all "
-     "times? A RobotPath with its proof,\nwhich check() checks. tolerance: of hit_at - free_until, 0: 2**-20; "
+     "times? A RobotPath with its proof,\nwhich verify() checks. tolerance: of hit_at - free_until, 0: 2**-20; "
      "most_states: looked at, 0: 100 000. any_hit: the search ends with any hit, which need not be the first."},
     {NULL, NULL, 0, NULL}};
