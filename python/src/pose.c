@@ -68,7 +68,7 @@ static int read_two(module_state *state, PyObject *from, const char *what, ovoid
 static int read_position(module_state *state, PyObject *from, const char *what, ovoid_pose *pose) {
     *pose = ovoid_pose_make_identity();
     if (vec3_read(state, from, what, &pose->position)) return -1;
-    return check_pose(state, what, -1, pose);
+    return validate_pose(state, what, -1, pose);
 }
 
 int pose_read(module_state *state, PyObject *from, const char *what, ovoid_pose *pose) {
