@@ -19,6 +19,7 @@ typedef enum field_kind {
     FIELD_FLAG,    ///< int: true or false
     FIELD_WHOLES,  ///< uint32_t[], as many as the count says; left out where there are none
     FIELD_NUMBERS, ///< double[], the same
+    FIELD_TEXTS,   ///< pointer to texts, as many as the size_t count says
     FIELD_OBJECT,  ///< a struct with a table
     FIELD_LIST,    ///< pointer to structs with a table, as many as the size_t count says; left out where there are none
     FIELD_OWN      ///< written and read by functions

@@ -116,6 +116,17 @@ static const char *read_array(fields_reader *r, const json_t *value, const field
     return NULL;
 }
 
+static const char *read_texts(fields_reader *r, const json_t *value, const field *f, void *item) {
+    size_t count = json_array_size(value);
+    const char **texts = json_is_array(value) ? get_memory(r, count, sizeof *texts) : NULL;
+    for (size_t i = 0; i < count && texts; i++)
+        if (!(texts[i] = json_string_value(json_array_get(value, i)))) return f->wrong;
+    if (!texts) return f->wrong;
+    memcpy((char *)item + f->offset, &texts, sizeof texts);
+    memcpy((char *)item + f->count, &count, sizeof count);
+    return NULL;
+}
+
 static const char *read_list(fields_reader *r, const json_t *value, const field *f, void *item, uint64_t *bits) {
     size_t count = json_array_size(value);
     if (!count) return "must be a list, not an empty one";
@@ -146,6 +157,7 @@ static const char *read_value(fields_reader *r, json_t *value, const field *f, v
     case FIELD_FLAG: good = read_flag(value, at); break;
     case FIELD_WHOLES:
     case FIELD_NUMBERS: return read_array(r, value, f, item);
+    case FIELD_TEXTS: return read_texts(r, value, f, item);
     case FIELD_OBJECT: return fields_read(r, value, f->table, at, bits);
     case FIELD_LIST: return read_list(r, value, f, item, bits);
     case FIELD_OWN: return f->own->read(value, item);

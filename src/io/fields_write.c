@@ -63,12 +63,12 @@ static int is_zero(const field *f, const void *at) {
 /// The number of items of an array or a list; 1 of all else.
 static size_t get_count(const field *f, const void *item) {
     const char *at = (const char *)item + f->count;
-    if (f->kind == FIELD_LIST) return (size_t)get_whole(at, sizeof(size_t));
+    if (f->kind == FIELD_LIST || f->kind == FIELD_TEXTS) return (size_t)get_whole(at, sizeof(size_t));
     return f->kind == FIELD_WHOLES || f->kind == FIELD_NUMBERS ? (size_t)get_whole(at, sizeof(uint32_t)) : 1;
 }
 
 static int is_there(const field *f, const void *item, uint64_t bits) {
-    if (!get_count(f, item)) return 0;
+    if (!get_count(f, item) && f->kind != FIELD_TEXTS) return 0;
     if (f->bit == FIELD_NOT_ZERO) return !is_zero(f, (const char *)item + f->offset);
     return f->bit == FIELD_ALWAYS || (bits & f->bit) != 0;
 }
@@ -94,6 +94,15 @@ static void write_list(FILE *file, const char *quote, const field *f, const void
     fputc(']', file);
 }
 
+static void write_texts(FILE *file, const char *const *texts, size_t count) {
+    fputc('[', file);
+    for (size_t i = 0; i < count; i++) {
+        if (i) fputc(',', file);
+        ovoid_text_write_json(file, texts[i]);
+    }
+    fputc(']', file);
+}
+
 static void write_text(FILE *file, const char *text) {
     if (text)
         ovoid_text_write_json(file, text);
@@ -115,6 +124,7 @@ static void write_value(FILE *file, const char *quote, const field *f, const voi
     case FIELD_FLAG: fputs(*(const int *)at ? "true" : "false", file); break;
     case FIELD_WHOLES: write_wholes(file, at, get_count(f, item)); break;
     case FIELD_NUMBERS: json_write_numbers(file, at, get_count(f, item)); break;
+    case FIELD_TEXTS: write_texts(file, get_pointer(at), get_count(f, item)); break;
     case FIELD_OBJECT: fields_write_json(file, quote, f->table, at, bits); break;
     case FIELD_LIST: write_list(file, quote, f, item, bits); break;
     case FIELD_OWN: f->own->write(file, quote, item); break;

@@ -100,7 +100,7 @@ for kind in free hit; do
     spoil $kind.jsonl
     alter 4 "$kind: margin" "s/\"margin\":$number/\"margin\":0.5/g" $kind.jsonl
     alter 4 "$kind: margin of the path" "2s/\"margin\":$number/\"margin\":0.001/" $kind.jsonl
-    alter 4 "$kind: states" '2s/"q":\[\[-?[0-9]/&1/' $kind.jsonl --states $states
+    alter 4 "$kind: states" '2s/"q":\[\[-?[0-9]/"q":[[1/' $kind.jsonl --states $states
     alter 3 "$kind: states' count" '2s/"states":[0-9]+/"states":9/' $kind.jsonl
     alter 3 "$kind: steps' count" '2s/"steps":([0-9]+)/"steps":1\1/' $kind.jsonl
     alter 3 "$kind: cut off" "\$d" $kind.jsonl
@@ -117,8 +117,11 @@ for kind in free hit; do
     alter 3 "$kind: kind" '3s/"step":"[a-z]*"/"step":"near"/' $kind.jsonl
     alter 3 "$kind: keys" '2s/"looked_at"/"looked at"/' $kind.jsonl
     alter 3 "$kind: more" '2s/\}$/,"more":1}/' $kind.jsonl
+    alter 3 "$kind: a pair twice in a step" '3s/"pairs":\[([0-9]+)/"pairs":[\1,\1/' $kind.jsonl
     alter 3 "$kind: form" 's/"path_proofs":2/"path_proofs":1/' $kind.jsonl
 done
+alter 3 "hit: no pair" '2s/"pair":[0-9]+,//' hit.jsonl
+alter 3 "free: with a hit" '2s/"looked_at"/"hit_at":1,"looked_at"/' free.jsonl
 # Steps that hold of states nearby prove nothing of those that were asked.
 alter 4 "free: states nearby" '2s/"q":\[\[0,1.5,/"q":[[0,1.5000001,/' free.jsonl --states arm/path.csv
 alter 0 "free: states nearby, not asked" '2s/"q":\[\[0,1.5,/"q":[[0,1.5000001,/' free.jsonl

@@ -2,7 +2,7 @@
 // Cost: linear in the text; memory: of a source and a path.
 #include "ovoid/robot_proof.h"
 
-#include "robot/read/text/scan.h"
+#include "io/json.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,353 +11,433 @@
 /// Longest line: a path of many states.
 enum { LINE_MOST = 1 << 28, MASK_BITS = 8 };
 
+enum { JSON_FLAGS = JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL };
+
 struct ovoid_robot_proofs_reader {
     line_source lines;
-    pool memory, names; ///< of the source; of the path's names
+    json_t *source_json, *path_json;          ///< texts point into them
+    fields_reader source_fields, path_fields; ///< their lists
     ovoid_robot_proof_source source;
     size_t source_count, path_count; ///< paths of the source that were read
+    ovoid_robot_proof_side *sides;
     ovoid_robot_step *steps;
     size_t step_capacity;
     double *states, *times;
-    size_t state_capacity, time_capacity;
+    ovoid_error *error;
 };
 
-/// An array under construction.
-typedef struct list {
-    void *items;
-    size_t count, capacity;
-} list;
+// ---- tables
 
-/// The state of reading a line.
-typedef struct proof_reader {
+/// Keys that are there together, or not at all.
+enum {
+    SIDE_LINK = 1,
+    SIDE_NAME = 2,
+    SIDE_OBSTACLE = 4,
+    PATH_REFUSED = 1,
+    PATH_FREE = 2,
+    PATH_FREE_TIME = 4,
+    PATH_HIT = 8,
+    PATH_HIT_TIME = 16,
+    PATH_PAIR = 32,
+    PATH_TIMES = 64,
+    STEP_NORMAL = 1
+};
+
+#define TEXT "must be a text"
+#define TEXTS "must be a list of texts"
+#define NUMBER "must be a number"
+#define WHOLE "must be a whole number >= 0"
+#define FLAG "must be true or false"
+#define STATUS "does not go with the status"
+
+#define SIDE(member) FIELD_AT(ovoid_robot_proof_side, member)
+#define SIDES "of a pair must be a link and an element, or an obstacle and a part"
+static const field side_fields[] = {
+    {"link", FIELD_TEXT, SIDE(link), .bit = SIDE_LINK, .wrong = TEXT, .apart = SIDES},
+    {"element", FIELD_WHOLE, SIDE(number), .bit = SIDE_LINK, .wrong = WHOLE, .apart = SIDES},
+    {"name", FIELD_TEXT, SIDE(name), .bit = SIDE_NAME, .wrong = TEXT, .apart = SIDES},
+    {"obstacle", FIELD_TEXT, SIDE(obstacle), .bit = SIDE_OBSTACLE, .wrong = TEXT, .apart = SIDES},
+    {"part", FIELD_WHOLE, SIDE(number), .bit = SIDE_OBSTACLE, .wrong = WHOLE, .apart = SIDES},
+};
+static const field_table side_table = FIELD_TABLE(ovoid_robot_proof_side, side_fields, SIDES, SIDES);
+
+static int read_side(const json_t *value, ovoid_robot_proof_side *side) {
+    fields_reader reader = {.key = ""};
+    uint64_t found = 0;
+    *side = (ovoid_robot_proof_side){.link = NULL};
+    if (fields_read(&reader, (json_t *)value, &side_table, side, &found)) return 0;
+    uint64_t wanted = side->link ? SIDE_LINK | (found & SIDE_NAME) : SIDE_OBSTACLE;
+    return !fields_compare(&reader, value, &side_table, wanted) && (side->link || side->obstacle);
+}
+
+/// The first line.
+typedef struct source_line {
+    ovoid_robot_proof_source source;
+    uint64_t version;
     ovoid_robot_proofs_reader *file;
-    scan s;
-    ovoid_error *error;
-} proof_reader;
-
-static void *add(scan *s, list *l, size_t size) {
-    if (!array_reserve(&l->items, &l->capacity, l->count, size)) return s->is_memory_out = 1, scan_fail(s, ""), NULL;
-    return (char *)l->items + size * l->count++;
-}
-
-// The array in the pool; its own memory is freed.
-static const void *keep(scan *s, list *l, size_t size) {
-    void *kept = pool_get(s->memory, l->count + 1, size);
-    if (!kept) s->is_memory_out = 1, scan_fail(s, "");
-    if (kept && l->count) memcpy(kept, l->items, l->count * size);
-    free(l->items);
-    return kept;
-}
-
-// 1 where one more item of an array follows; the brackets are taken.
-static int is_next(scan *s, size_t count) {
-    if (count == 0) scan_take(s, '[');
-    if (s->what || scan_try(s, ']')) return 0;
-    if (count) scan_take(s, ',');
-    return !s->what;
-}
-
-// ---- the source
-
-static const char *const *take_texts(scan *s, size_t *count) {
-    list texts = {NULL, 0, 0};
-    while (is_next(s, texts.count)) {
-        const char **text = add(s, &texts, sizeof *text);
-        if (text) *text = scan_text(s);
-    }
-    *count = texts.count;
-    return keep(s, &texts, sizeof(char *));
-}
-
-static ovoid_robot_proof_side take_side(scan *s) {
-    ovoid_robot_proof_side side = {NULL, NULL, NULL, 0};
-    scan_take(s, '{');
-    if (scan_try_key(s, "link", 1)) {
-        side.link = scan_text(s);
-        scan_take_key(s, "element", 0);
-        side.number = (uint32_t)scan_whole(s, UINT32_MAX);
-        if (scan_try_key(s, "name", 0)) side.name = scan_text(s);
-    } else {
-        scan_take_key(s, "obstacle", 1);
-        side.obstacle = scan_text(s);
-        scan_take_key(s, "part", 0);
-        side.number = (uint32_t)scan_whole(s, UINT32_MAX);
-    }
-    scan_take(s, '}');
-    return side;
-}
-
-static void take_pairs(scan *s, ovoid_robot_proof_source *source) {
-    list sides = {NULL, 0, 0};
-    for (; is_next(s, sides.count); source->pair_count++) {
-        scan_take(s, '[');
-        for (int i = 0; i < 2; i++) {
-            ovoid_robot_proof_side *side = add(s, &sides, sizeof *side);
-            if (side) *side = take_side(s);
-            scan_take(s, i ? ']' : ',');
-        }
-    }
-    source->pairs = keep(s, &sides, sizeof *source->pairs);
-}
+} source_line;
 
 // Sixteen digits.
-static uint64_t take_digest(scan *s) {
-    static const char digits[] = "0123456789abcdef";
-    const char *text = scan_text(s);
-    uint64_t value = 0;
-    size_t i = 0;
-    for (; i < 16 && text[i] && strchr(digits, text[i]); i++)
-        value = value << 4 | (uint64_t)(strchr(digits, text[i]) - digits);
-    if (i != 16 || text[16]) scan_fail(s, "the digest has not 16 digits");
-    return value;
+static const char *read_digest(const json_t *value, void *line) {
+    const char *text = json_string_value(value), *digits = "0123456789abcdef";
+    if (!text || strlen(text) != 16 || strspn(text, digits) != 16) return "has not 16 digits";
+    ((source_line *)line)->source.digest = strtoull(text, NULL, 16);
+    return NULL;
 }
 
-static void take_source(scan *s, ovoid_robot_proof_source *source) {
-    if (scan_whole(s, 2) != 2) scan_fail(s, "the form of the proofs is not 2: they were written by another version");
-    scan_take_key(s, "robot", 0), source->robot = scan_text(s);
-    scan_take_key(s, "srdf", 0), source->srdf = scan_text_or_null(s);
-    scan_take_key(s, "scene", 0), source->scene = scan_text_or_null(s);
-    scan_take_key(s, "packages", 0), source->packages = take_texts(s, &source->package_count);
-    scan_take_key(s, "scales", 0), source->scales = take_texts(s, &source->scale_count);
-    scan_take_key(s, "paddings", 0), source->paddings = take_texts(s, &source->padding_count);
-    scan_take_key(s, "parts", 0), source->parts = scan_flag(s);
-    scan_take_key(s, "hull", 0), source->hull = scan_flag(s);
-    scan_take_key(s, "visual", 0), source->visual = scan_flag(s);
-    scan_take_key(s, "fixed_base", 0), source->fixed_base = scan_flag(s);
-    scan_take_key(s, "cylinder_tolerance", 0), source->tolerance = scan_number(s);
-    scan_take_key(s, "margin", 0), source->margin = scan_number(s);
-    scan_take_key(s, "limit_slack", 0), source->limit_slack = scan_number(s);
-    scan_take_key(s, "paths", 0), source->path_count = (size_t)scan_whole(s, (uint64_t)1 << 52);
-    scan_take_key(s, "digest", 0), source->digest = take_digest(s);
-    scan_take_key(s, "variables", 0), source->variables = take_texts(s, &source->variable_count);
-    scan_take_key(s, "pairs", 0), take_pairs(s, source);
-    scan_take(s, '}');
-    scan_end(s);
+static const char *read_pairs(const json_t *value, void *item) {
+    source_line *line = item;
+    size_t count = json_array_size(value);
+    ovoid_robot_proof_side *sides = realloc(line->file->sides, (2 * count + 1) * sizeof *sides);
+    if (!sides) return line->file->source_fields.is_memory_out = 1, "";
+    line->file->sides = sides;
+    for (size_t i = 0; i < 2 * count; i++) {
+        const json_t *pair = json_array_get(value, i / 2);
+        if (json_array_size(pair) != 2 || !read_side(json_array_get(pair, i % 2), &sides[i]))
+            return "must be lists of two sides: a link and an element, or an obstacle and a part";
+    }
+    line->source.pairs = sides;
+    line->source.pair_count = count;
+    return json_is_array(value) ? NULL : "must be a list";
 }
 
-// ---- a path
+static const field_own own_digest = {NULL, read_digest}, own_pairs = {NULL, read_pairs};
 
-static ovoid_robot_status take_status(scan *s) {
+#define SOURCE(member) FIELD_AT(source_line, source.member)
+#define LIST(items, number) SOURCE(items), .count = offsetof(source_line, source.number), .wrong = TEXTS
+static const field source_fields[] = {
+    {"path_proofs", FIELD_WHOLE, FIELD_AT(source_line, version), .wrong = WHOLE},
+    {"robot", FIELD_TEXT, SOURCE(robot), .wrong = TEXT},
+    {"srdf", FIELD_TEXT, SOURCE(srdf), .wrong = TEXT},
+    {"scene", FIELD_TEXT, SOURCE(scene), .wrong = TEXT},
+    {"packages", FIELD_TEXTS, LIST(packages, package_count)},
+    {"scales", FIELD_TEXTS, LIST(scales, scale_count)},
+    {"paddings", FIELD_TEXTS, LIST(paddings, padding_count)},
+    {"parts", FIELD_FLAG, SOURCE(parts), .wrong = FLAG},
+    {"hull", FIELD_FLAG, SOURCE(hull), .wrong = FLAG},
+    {"visual", FIELD_FLAG, SOURCE(visual), .wrong = FLAG},
+    {"fixed_base", FIELD_FLAG, SOURCE(fixed_base), .wrong = FLAG},
+    {"cylinder_tolerance", FIELD_FINITE, SOURCE(tolerance), .wrong = NUMBER},
+    {"margin", FIELD_FINITE, SOURCE(margin), .wrong = NUMBER},
+    {"limit_slack", FIELD_FINITE, SOURCE(limit_slack), .wrong = NUMBER},
+    {"paths", FIELD_WHOLE, SOURCE(path_count), .wrong = WHOLE},
+    {"digest", FIELD_OWN, .own = &own_digest},
+    {"variables", FIELD_TEXTS, LIST(variables, variable_count)},
+    {"pairs", FIELD_OWN, .own = &own_pairs},
+};
+static const field_table source_table =
+    FIELD_TABLE(source_line, source_fields, "is no key of their first line", "is missing");
+
+/// The line of a path.
+typedef struct path_line {
+    ovoid_robot_proof proof;
+    const char *code, *variable; ///< of a refused path, for people
+    ovoid_robot_proofs_reader *file;
+} path_line;
+
+static const char *name_status(int i) {
     static const char *const names[] = {"undecided", "free", "hit", "refused"};
-    const char *text = scan_text(s);
-    for (int i = 0; i < 4; i++)
-        if (strcmp(text, names[i]) == 0) return (ovoid_robot_status)i;
-    scan_fail(s, "there is no such status");
-    return OVOID_ROBOT_UNDECIDED;
+    return names[i];
+}
+static const field_names statuses = {name_status, OVOID_ROBOT_UNDECIDED, OVOID_ROBOT_REFUSED};
+
+static const char *read_a(const json_t *value, void *line) {
+    return read_side(value, &((path_line *)line)->proof.a) ? NULL : SIDES;
 }
 
-static void take_pair(scan *s, ovoid_robot_proof *p) {
-    scan_take_key(s, "segment", 0), p->segment = (size_t)scan_whole(s, OVOID_ROBOT_PATH_STATES_MAX);
-    scan_take_key(s, "pair", 0), p->pair = (uint32_t)scan_whole(s, UINT32_MAX);
-    scan_take_key(s, "a", 0), p->a = take_side(s);
-    scan_take_key(s, "b", 0), p->b = take_side(s);
-    scan_take_key(s, "lower", 0), p->answer.hit.lower = scan_number_or(s, -INFINITY);
-    scan_take_key(s, "upper", 0), p->answer.hit.upper = scan_number_or(s, INFINITY);
+static const char *read_b(const json_t *value, void *line) {
+    return read_side(value, &((path_line *)line)->proof.b) ? NULL : SIDES;
 }
 
-static void take_answer(scan *s, ovoid_robot_proof *p) {
-    ovoid_robot_path_answer *a = &p->answer;
-    scan_take_key(s, "status", 0), a->status = a->hit.status = take_status(s);
-    scan_take_key(s, "states", 0), p->count = (size_t)scan_whole(s, OVOID_ROBOT_PATH_STATES_MAX);
-    scan_take_key(s, "margin", 0), p->margin = scan_number(s);
-    if (a->status == OVOID_ROBOT_REFUSED) {
-        scan_take_key(s, "refused", 0), a->refused = (size_t)scan_whole(s, OVOID_ROBOT_PATH_STATES_MAX);
-        scan_take_key(s, "code", 0), (void)scan_text(s);
-        scan_take_key(s, "variable", 0), (void)scan_text(s);
-    } else {
-        scan_take_key(s, "free_until", 0), a->free_until = scan_number(s);
-        if (scan_try_key(s, "free_until_time", 0)) p->free_until_time = scan_number(s);
-    }
-    if (a->status == OVOID_ROBOT_HIT) {
-        scan_take_key(s, "hit_at", 0), a->hit_at = scan_number(s);
-        if (scan_try_key(s, "hit_at_time", 0)) p->hit_at_time = scan_number(s);
-    }
-    // Where a path was given up before a pair was measured, none is named.
-    p->has_pair = a->status == OVOID_ROBOT_HIT || (a->status == OVOID_ROBOT_UNDECIDED && scan_is_key(s, "segment"));
-    if (p->has_pair) take_pair(s, p);
-    scan_take_key(s, "looked_at", 0), a->states = (uint32_t)scan_whole(s, UINT32_MAX);
-    scan_take_key(s, "steps", 0), a->step_count = (size_t)scan_whole(s, UINT32_MAX);
+// The states are read behind all else: read_states.
+static const char *read_q(const json_t *value, void *line) {
+    (void)line;
+    return json_is_array(value) ? NULL : "must be a list of states";
 }
 
-// All numbers of the states, one after another.
-static void take_states(proof_reader *r, ovoid_robot_proof *p) {
-    ovoid_robot_proofs_reader *f = r->file;
-    scan *s = &r->s;
-    list all = {f->states, 0, f->state_capacity};
-    scan_take_key(s, "q", 0);
-    size_t count = 0;
-    for (; is_next(s, count); count++) {
-        size_t k = 0;
-        for (; is_next(s, k); k++) {
-            double *value = add(s, &all, sizeof *value);
-            if (value) *value = scan_number(s);
-        }
-        if (k != f->source.variable_count) scan_fail(s, "a state has not as many numbers as there are variables");
+static const char *read_times(const json_t *value, void *item) {
+    path_line *line = item;
+    size_t count = json_array_size(value);
+    double *times = realloc(line->file->times, (count + 1) * sizeof *times);
+    if (!times) return line->file->path_fields.is_memory_out = 1, "";
+    line->file->times = times;
+    for (size_t i = 0; i < count; i++) {
+        if (!json_is_number(json_array_get(value, i))) return "must be numbers";
+        times[i] = json_number_value(json_array_get(value, i));
     }
-    if (count != p->count || count == 0) scan_fail(s, "there are not as many states as it says");
-    f->states = all.items;
-    f->state_capacity = all.capacity;
-    p->states = f->states;
+    line->proof.times = times;
+    return count == line->proof.count ? NULL : "must be as many as there are states";
 }
 
-static void take_times(proof_reader *r, ovoid_robot_proof *p) {
-    ovoid_robot_proofs_reader *f = r->file;
-    scan *s = &r->s;
-    list all = {f->times, 0, f->time_capacity};
-    if (!scan_try_key(s, "times", 0)) return;
-    while (is_next(s, all.count)) {
-        double *value = add(s, &all, sizeof *value);
-        if (value) *value = scan_number(s);
+static const field_own own_a = {NULL, read_a}, own_b = {NULL, read_b}, own_q = {NULL, read_q},
+                       own_times = {NULL, read_times};
+
+#define PATH(member) FIELD_AT(path_line, proof.member)
+static const field path_fields[] = {
+    {"path", FIELD_WHOLE, PATH(number), .wrong = WHOLE},
+    {"status", FIELD_NAME, PATH(answer.status), .names = &statuses, .wrong = "is not a status"},
+    {"states", FIELD_WHOLE, PATH(count), .wrong = WHOLE},
+    {"margin", FIELD_FINITE, PATH(margin), .wrong = NUMBER},
+    {"refused", FIELD_WHOLE, PATH(answer.refused), .bit = PATH_REFUSED, .wrong = WHOLE, .apart = STATUS},
+    {"code", FIELD_TEXT, FIELD_AT(path_line, code), .bit = PATH_REFUSED, .wrong = TEXT, .apart = STATUS},
+    {"variable", FIELD_TEXT, FIELD_AT(path_line, variable), .bit = PATH_REFUSED, .wrong = TEXT, .apart = STATUS},
+    {"free_until", FIELD_FINITE, PATH(answer.free_until), .bit = PATH_FREE, .wrong = NUMBER, .apart = STATUS},
+    {"free_until_time", FIELD_FINITE, PATH(free_until_time), .bit = PATH_FREE_TIME, .wrong = NUMBER, .apart = STATUS},
+    {"hit_at", FIELD_FINITE, PATH(answer.hit_at), .bit = PATH_HIT, .wrong = NUMBER, .apart = STATUS},
+    {"hit_at_time", FIELD_FINITE, PATH(hit_at_time), .bit = PATH_HIT_TIME, .wrong = NUMBER, .apart = STATUS},
+    {"segment", FIELD_WHOLE, PATH(segment), .bit = PATH_PAIR, .wrong = WHOLE, .apart = STATUS},
+    {"pair", FIELD_WHOLE, PATH(pair), .bit = PATH_PAIR, .wrong = WHOLE, .apart = STATUS},
+    {"a", FIELD_OWN, .own = &own_a, .bit = PATH_PAIR, .apart = STATUS},
+    {"b", FIELD_OWN, .own = &own_b, .bit = PATH_PAIR, .apart = STATUS},
+    {"lower", FIELD_NUMBER, PATH(answer.hit.lower), .bit = PATH_PAIR, .if_null = -INFINITY, .wrong = NUMBER,
+     .apart = STATUS},
+    {"upper", FIELD_NUMBER, PATH(answer.hit.upper), .bit = PATH_PAIR, .if_null = INFINITY, .wrong = NUMBER,
+     .apart = STATUS},
+    {"looked_at", FIELD_WHOLE, PATH(answer.states), .wrong = WHOLE},
+    {"steps", FIELD_WHOLE, PATH(answer.step_count), .wrong = WHOLE},
+    {"q", FIELD_OWN, .own = &own_q},
+    {"times", FIELD_OWN, .own = &own_times, .bit = PATH_TIMES},
+};
+static const field_table path_table = FIELD_TABLE(path_line, path_fields, "is no key of a path", "is missing");
+
+/// The line of a step.
+typedef struct step_line {
+    int kind;
+    double begin, end;
+    ovoid_vec3 normal;
+    uint32_t pair, mask;
+} step_line;
+
+static const char *name_kind(int i) {
+    static const char *const names[] = {"", "outer", "middle", "ends", "solid"};
+    return names[i];
+}
+static const field_names step_kinds = {name_kind, OVOID_ROBOT_STEP_OUTER, OVOID_ROBOT_STEP_SOLID};
+
+static const char *read_mask(const json_t *value, void *item) {
+    step_line *step = item;
+    double pair = 0, last = -1;
+    if (!json_array_size(value)) return "must be a list of at least one number";
+    for (size_t i = 0; i < json_array_size(value); i++, last = pair) {
+        if (!json_read_whole(json_array_get(value, i), UINT32_MAX, &pair)) return "must be whole numbers >= 0";
+        if (i == 0) step->pair = (uint32_t)pair;
+        if (pair <= last || pair - step->pair >= MASK_BITS)
+            return "of a step are up to eight, their numbers ascending and less than eight apart";
+        step->mask |= 1u << ((uint32_t)pair - step->pair);
     }
-    if (all.count != p->count) scan_fail(s, "there are not as many times as states");
-    f->times = all.items;
-    f->time_capacity = all.capacity;
-    p->times = f->times;
+    return NULL;
+}
+static const field_own own_mask = {NULL, read_mask};
+
+#define STEP(member) FIELD_AT(step_line, member)
+#define NORMAL "must be three numbers of a step \"middle\" or \"ends\""
+static const field step_fields[] = {
+    {"step", FIELD_NAME, STEP(kind), .names = &step_kinds, .wrong = "is no kind of step"},
+    {"begin", FIELD_FINITE, STEP(begin), .wrong = NUMBER},
+    {"end", FIELD_FINITE, STEP(end), .wrong = NUMBER},
+    {"normal", FIELD_VECTOR, STEP(normal), .bit = STEP_NORMAL, .wrong = NORMAL, .apart = NORMAL},
+    {"pairs", FIELD_OWN, .own = &own_mask},
+};
+static const field_table step_table = FIELD_TABLE(step_line, step_fields, "is no key of a step", "is missing");
+
+// ---- lines
+
+static where get_place(const ovoid_robot_proofs_reader *f) { return (where){f->lines.path, f->lines.line, -1}; }
+
+// Fills the error: -1.
+static int fail(ovoid_robot_proofs_reader *f, const fields_reader *reader, const char *wrong) {
+    if (reader->is_memory_out)
+        (void)io_fail_memory(f->error, f->lines.path);
+    else
+        io_report(f->error, OVOID_ERROR_FORMAT, get_place(f), "no line of path proofs: \"%.40s\" %s", reader->key,
+                  wrong);
+    return -1;
+}
+
+static int fail_json(ovoid_robot_proofs_reader *f, const json_error_t *why) {
+    ovoid_code code = json_get_failure(why);
+    if (code == OVOID_ERROR_MEMORY)
+        (void)io_fail_memory(f->error, f->lines.path);
+    else
+        io_report(f->error, code, get_place(f), "no line of path proofs: JSON, column %d: %s", why->column, why->text);
+    return -1;
+}
+
+// The next line, but for the items of its "q"; 0 at the end, -1: *error is filled.
+static int next_line(ovoid_robot_proofs_reader *f, json_t **line, json_list *states) {
+    const char *text = NULL;
+    size_t length = 0;
+    json_error_t why;
+    *line = NULL;
+    int got = line_source_next(&f->lines, &text, &length, f->error);
+    if (got <= 0) return got;
+    *line = json_load_around((bytes){(char *)text, length}, "q", JSON_FLAGS, states, &why);
+    return *line ? 1 : fail_json(f, &why);
 }
 
 // ---- a step
 
-static uint16_t take_kind(scan *s) {
-    static const char *const names[] = {"outer", "middle", "ends", "solid"};
-    const char *text = scan_text(s);
-    for (int i = 0; i < 4; i++)
-        if (strcmp(text, names[i]) == 0) return (uint16_t)(i + 1);
-    scan_fail(s, "there is no such kind of step");
-    return OVOID_ROBOT_STEP_OUTER;
+static const char *make_step(const step_line *line, ovoid_robot_step *step) {
+    if (isnan(line->normal.x + line->normal.y + line->normal.z)) return NORMAL;
+    *step = (ovoid_robot_step){.kind = (uint16_t)line->kind,
+                               .begin = line->begin,
+                               .end = line->end,
+                               .normal = line->normal,
+                               .pair = line->pair,
+                               .mask = (uint16_t)line->mask};
+    return NULL;
 }
 
-static ovoid_robot_step take_step(scan *s) {
-    ovoid_robot_step step = {.pair = 0};
-    scan_take(s, '{');
-    scan_take_key(s, "step", 1), step.kind = take_kind(s);
-    scan_take_key(s, "begin", 0), step.begin = scan_number(s);
-    scan_take_key(s, "end", 0), step.end = scan_number(s);
-    if (step.kind == OVOID_ROBOT_STEP_MIDDLE || step.kind == OVOID_ROBOT_STEP_ENDS) {
-        double v[3];
-        scan_take_key(s, "normal", 0);
-        for (int i = 0; i < 3; i++) scan_take(s, i ? ',' : '['), v[i] = scan_number(s);
-        scan_take(s, ']');
-        step.normal = (ovoid_vec3){v[0], v[1], v[2]};
-    }
-    scan_take_key(s, "pairs", 0);
-    size_t count = 0;
-    for (uint32_t last = 0; is_next(s, count); count++) {
-        uint32_t pair = (uint32_t)scan_whole(s, UINT32_MAX);
-        if (count == 0) step.pair = pair;
-        if ((count && pair <= last) || pair - step.pair >= MASK_BITS)
-            scan_fail(s, "a step is of up to eight pairs, their numbers ascending and less than eight apart");
-        if (!s->what) step.mask = (uint16_t)(step.mask | 1u << (pair - step.pair));
-        last = pair;
-    }
-    if (!count) scan_fail(s, "a step is of no pair");
-    scan_take(s, '}');
-    scan_end(s);
-    return step;
-}
-
-// ---- lines
-
-static ovoid_code report(const proof_reader *r) {
-    const ovoid_robot_proofs_reader *f = r->file;
-    const scan *s = &r->s;
-    if (s->is_memory_out) return io_fail_memory(r->error, f->lines.path);
-    // A failure without a blank is a key that is not there.
-    where at = {f->lines.path, f->lines.line, -1};
-    if (strchr(s->what, ' '))
-        return io_fail(r->error, OVOID_ERROR_FORMAT, at, "no line of path proofs, before \"%.*s\": %s",
-                       (int)(s->end - s->at < 20 ? s->end - s->at : 20), s->at, s->what);
-    return io_fail(r->error, OVOID_ERROR_FORMAT, at, "no line of path proofs: \"%s\" is missing, or not in its place",
-                   s->what);
-}
-
-// The next line; 0 at the end, -1: *error is filled.
-static int next_line(proof_reader *r, pool *memory) {
-    const char *line = NULL;
-    size_t length = 0;
-    int got = line_source_next(&r->file->lines, &line, &length, r->error);
-    if (got > 0) r->s = (scan){.at = line, .end = line + length, .memory = memory};
-    return got;
+static int read_step(ovoid_robot_proofs_reader *f, json_t *json, ovoid_robot_step *step) {
+    fields_reader reader = {.key = "step"};
+    step_line line = {.kind = 0};
+    uint64_t found = 0;
+    const char *wrong = fields_read(&reader, json, &step_table, &line, &found);
+    int has_normal = line.kind == OVOID_ROBOT_STEP_MIDDLE || line.kind == OVOID_ROBOT_STEP_ENDS;
+    if (!wrong) wrong = fields_compare(&reader, json, &step_table, has_normal ? STEP_NORMAL : 0);
+    if (!wrong) wrong = make_step(&line, step);
+    return wrong ? fail(f, &reader, wrong) : 1;
 }
 
 // The steps behind an answer. 1, or -1 with the error filled.
-static int read_steps(proof_reader *r, ovoid_robot_proof *p) {
-    ovoid_robot_proofs_reader *f = r->file;
+static int read_steps(ovoid_robot_proofs_reader *f, ovoid_robot_proof *p) {
     size_t count = p->answer.step_count;
-    list all = {f->steps, 0, f->step_capacity};
     int got = 1;
     for (size_t i = 0; i < count && got > 0; i++) {
-        got = next_line(r, &f->names);
+        json_t *line;
+        json_list states;
+        got = next_line(f, &line, &states);
         if (got == 0) {
-            where at = {f->lines.path, f->lines.line, -1};
             got = -1;
-            (void)io_fail(r->error, OVOID_ERROR_FORMAT, at, "it ends after %zu of %zu steps: it was cut off", i, count);
+            io_report(f->error, OVOID_ERROR_FORMAT, get_place(f), "it ends after %zu of %zu steps: it was cut off", i,
+                      count);
         }
-        if (got < 0) break;
-        ovoid_robot_step step = take_step(&r->s), *place = add(&r->s, &all, sizeof step);
-        if (place) *place = step;
-        if (r->s.what) (void)report(r), got = -1;
+        void *items = f->steps;
+        if (got > 0 && !array_reserve(&items, &f->step_capacity, i, sizeof *f->steps))
+            (void)io_fail_memory(f->error, f->lines.path), got = -1;
+        f->steps = items;
+        if (got > 0) got = read_step(f, line, &f->steps[i]);
+        json_decref(line);
     }
-    f->steps = all.items;
-    f->step_capacity = all.capacity;
     p->steps = f->steps;
     return got;
 }
 
-static void read_path(proof_reader *r, ovoid_robot_proof *p) {
-    ovoid_robot_proofs_reader *f = r->file;
-    p->source = f->source_count - 1;
-    p->line = f->lines.line;
-    scan_take_key(&r->s, "path", 1);
-    p->number = (size_t)scan_whole(&r->s, (uint64_t)1 << 52);
-    if (p->number != f->path_count || p->number >= f->source.path_count)
-        scan_fail(&r->s, "the paths are not numbered 0, 1, 2, ..., or there are more than were announced");
-    f->path_count++;
-    take_answer(&r->s, p);
-    take_states(r, p);
-    take_times(r, p);
-    scan_take(&r->s, '}');
-    scan_end(&r->s);
+// ---- a path
+
+static const char *read_state(const json_t *state, double *q, size_t count) {
+    if (json_array_size(state) != count) return "must have as many numbers in a state as there are variables";
+    for (size_t i = 0; i < count; i++) {
+        if (!json_is_number(json_array_get(state, i))) return "must be lists of numbers";
+        q[i] = json_number_value(json_array_get(state, i));
+    }
+    return NULL;
 }
 
-static void read_source(proof_reader *r) {
-    ovoid_robot_proofs_reader *f = r->file;
-    pool_clear(&f->memory);
-    f->source = (ovoid_robot_proof_source){.robot = NULL};
+// All numbers of the states, one after another.
+static int read_states(ovoid_robot_proofs_reader *f, json_list *list, ovoid_robot_proof *p) {
+    size_t variables = f->source.variable_count, count = 0, capacity = 0;
+    fields_reader reader = {.key = "q"};
+    json_error_t why;
+    json_t *state;
+    const char *wrong = NULL;
+    int got;
+    while (!wrong && (got = json_next(list, &state, &why)) > 0) {
+        if (count == capacity) {
+            capacity = 2 * capacity + 16;
+            double *grown = realloc(f->states, (capacity * variables + 1) * sizeof *grown);
+            reader.is_memory_out = !grown;
+            f->states = grown ? grown : f->states;
+        }
+        wrong = reader.is_memory_out ? "" : read_state(state, f->states + count++ * variables, variables);
+        json_decref(state);
+    }
+    if (!wrong && got < 0) return fail_json(f, &why);
+    if (!wrong && (count != p->count || count == 0)) wrong = "must be as many states as it says";
+    p->states = f->states;
+    return wrong ? fail(f, &reader, wrong) : 1;
+}
+
+// What keys a path has by its status; where a path was given up before a pair was measured, none is named.
+static uint64_t find_bits(ovoid_robot_status status, uint64_t found) {
+    uint64_t times = found & PATH_TIMES;
+    if (status == OVOID_ROBOT_REFUSED) return times | PATH_REFUSED;
+    times |= PATH_FREE | (found & PATH_FREE_TIME);
+    if (status == OVOID_ROBOT_HIT) return times | PATH_HIT | (found & PATH_HIT_TIME) | PATH_PAIR;
+    return status == OVOID_ROBOT_UNDECIDED ? times | (found & PATH_PAIR) : times;
+}
+
+// Takes the line over. 1, or -1 with the error filled.
+static int read_path(ovoid_robot_proofs_reader *f, json_t *json, json_list *states, ovoid_robot_proof *p) {
+    path_line line = {.proof = *p, .file = f};
+    uint64_t found = 0;
+    json_decref(f->path_json);
+    f->path_json = json;
+    f->path_fields.key = "path";
+    const char *wrong = fields_read(&f->path_fields, json, &path_table, &line, &found);
+    ovoid_robot_status status = line.proof.answer.status;
+    uint64_t bits = find_bits(status, found);
+    if (!wrong) wrong = fields_compare(&f->path_fields, json, &path_table, bits);
+    *p = line.proof;
+    p->source = f->source_count - 1;
+    p->line = f->lines.line;
+    p->answer.hit.status = status;
+    p->has_pair = (bits & PATH_PAIR) != 0;
+    if (!wrong && (p->number != f->path_count || p->number >= f->source.path_count)) {
+        f->path_fields.key = "path";
+        wrong = "must be numbered 0, 1, 2, ..., and no more than were announced";
+    }
+    f->path_count++;
+    return wrong ? fail(f, &f->path_fields, wrong) : read_states(f, states, p);
+}
+
+// ---- a source
+
+static int read_source(ovoid_robot_proofs_reader *f, json_t *json) {
+    source_line line = {.file = f};
+    uint64_t found = 0;
+    fields_reader_clear(&f->source_fields);
+    json_decref(f->source_json);
+    f->source_json = json;
     f->source_count++;
     f->path_count = 0;
-    r->s.memory = &f->memory;
-    take_source(&r->s, &f->source);
+    const char *wrong = fields_read(&f->source_fields, json, &source_table, &line, &found);
+    if (!wrong && line.version != 2)
+        f->source_fields.key = "path_proofs", wrong = "is not 2: they were written by another version";
+    if (!wrong && !line.source.robot) f->source_fields.key = "robot", wrong = TEXT;
+    f->source = line.source;
+    return wrong ? fail(f, &f->source_fields, wrong) : 1;
 }
 
 // Where a source ends: 0, or -1 with the error filled.
-static int validate_paths(const proof_reader *r) {
-    const ovoid_robot_proofs_reader *f = r->file;
+static int check_paths(const ovoid_robot_proofs_reader *f) {
     if (f->path_count == f->source.path_count) return 0;
-    where at = {f->lines.path, f->lines.line, -1};
-    (void)io_fail(r->error, OVOID_ERROR_FORMAT, at, "there are %zu of %zu paths: it was cut off", f->path_count,
-                  f->source.path_count);
+    io_report(f->error, OVOID_ERROR_FORMAT, get_place(f), "there are %zu of %zu paths: it was cut off", f->path_count,
+              f->source.path_count);
     return -1;
 }
 
 int ovoid_robot_proofs_reader_read(ovoid_robot_proofs_reader *f, ovoid_robot_proof *p, ovoid_error *error) {
-    proof_reader r = {.file = f, .error = error};
     *p = (ovoid_robot_proof){.answer = {.hit_at = INFINITY}, .free_until_time = NAN, .hit_at_time = NAN};
+    f->error = error;
     for (;;) {
-        pool_clear(&f->names);
-        int got = next_line(&r, &f->names);
-        if (got == 0) return validate_paths(&r);
+        json_t *line;
+        json_list states;
+        int got = next_line(f, &line, &states);
+        if (got == 0) return check_paths(f);
         if (got < 0) return got;
-        scan_take(&r.s, '{');
-        int is_source = scan_try_key(&r.s, "path_proofs", 1);
-        if (is_source && validate_paths(&r) < 0) return -1;
-        if (is_source)
-            read_source(&r);
-        else if (!f->source_count)
-            scan_fail(&r.s, "the first line does not say which robot and obstacles the proofs are of");
-        else
-            read_path(&r, p);
-        if (r.s.what) return (void)report(&r), -1;
-        if (!is_source) return read_steps(&r, p);
+        if (!json_object_get(line, "path_proofs")) {
+            if (f->source_count) return read_path(f, line, &states, p) < 0 ? -1 : read_steps(f, p);
+            json_decref(line);
+            io_report(error, OVOID_ERROR_FORMAT, get_place(f),
+                      "no line of path proofs: the first line does not say which robot and obstacles they are of");
+            return -1;
+        }
+        if (check_paths(f) < 0) {
+            json_decref(line);
+            return -1;
+        }
+        if (read_source(f, line) < 0) return -1;
     }
 }
 
@@ -374,8 +454,11 @@ ovoid_robot_proofs_reader *ovoid_robot_proofs_reader_open(const char *path, ovoi
 void ovoid_robot_proofs_reader_close(ovoid_robot_proofs_reader *f) {
     if (!f) return;
     line_source_close(&f->lines);
-    pool_clear(&f->memory);
-    pool_clear(&f->names);
+    json_decref(f->source_json);
+    json_decref(f->path_json);
+    fields_reader_clear(&f->source_fields);
+    fields_reader_clear(&f->path_fields);
+    free(f->sides);
     free(f->steps);
     free(f->states);
     free(f->times);
