@@ -200,7 +200,7 @@ static ovoid_shape_options make_options(const settings *s) {
     return (ovoid_shape_options){.radius = s->radius,
                                  .gap = s->gap,
                                  .inner = s->phases ? OVOID_INNER_PHASES : OVOID_INNER_MAXIMUM,
-                                 .allowance = {s->outside, s->inside}};
+                                 .allowance = {.outside = s->outside, .inside = s->inside}};
 }
 
 /// Reports on a .ovoid file, without fitting it again.

@@ -59,7 +59,7 @@ static void print_allowance(const report *r, const char *title, const ovoid_allo
 
 /// The largest allowances of the parts of a file.
 static ovoid_allowance find_allowance(const ovoid_shapes *parts) {
-    ovoid_allowance most = {0, 0};
+    ovoid_allowance most = {0};
     for (size_t i = 0; i < ovoid_shapes_get_count(parts); i++) {
         ovoid_allowance one = ovoid_shape_get_allowance(ovoid_shapes_get(parts, i).shape);
         most.outside = fmax(most.outside, one.outside);

@@ -43,7 +43,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     ovoid_shape_options options = {.inner = (ovoid_inner_method)(take_byte(&from) & 1)};
     uint8_t kind = take_byte(&from);
     if (kind > 64) options.radius = take_double(&from);
-    if (kind > 192) options.allowance = (ovoid_allowance){take_double(&from), take_double(&from)};
+    if (kind > 192) options.allowance = (ovoid_allowance){.outside = take_double(&from), .inside = take_double(&from)};
     if (take_byte(&from) > 64) options.gap = take_double(&from);
     for (size_t i = 0; i < 3 * count; i++) xyz[i] = take_double(&from);
     ovoid_error error = {OVOID_OK, -1, ""};

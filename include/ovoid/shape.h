@@ -31,11 +31,17 @@ typedef enum ovoid_inner_method {
  * d of two bodies, lower and upper being those of the shapes and both lengths summed over both (docs/allowances.md):
  * that is the bracket of every answer. Points and normals are those of the shapes. `outside` is no rounding radius,
  * which is part of the body: it moves lower bounds alone.
+ *
+ * With an axis, the true body stands out across it alone: every point of the true body is within `outside` of a point
+ * of the shape that has the same height along the axis. Along the axis the shape is then exact: a lower bound by a
+ * normal n loses outside |n x axis| in place of outside.
  */
 typedef struct ovoid_allowance {
-    double outside; /**< by how much the true body may stand out of the shape */
-    double inside;  /**< by how much the shape may stand out of the true body; more than its own diameter and `outside`
-                       says  nothing more, and is stored as about that */
+    double outside;  /**< by how much the true body may stand out of the shape */
+    double inside;   /**< by how much the shape may stand out of the true body; more than its own diameter and `outside`
+                        says  nothing more, and is stored as about that */
+    ovoid_vec3 axis; /**< of any length, which is stored as 1, in the user's local frame; zero: `outside` is for all
+                        directions. Stored as zero where `outside` is zero */
 } ovoid_allowance;
 
 /** Options of all ovoid_shape_create_* functions; all zero is the default, as is NULL. */
@@ -91,7 +97,8 @@ OVOID_API ovoid_shape *ovoid_shape_create_capsule(double radius, double half_len
  * The cylinder along z, held by an inscribed prism with an allowance: brackets are those of the true cylinder, and at
  * least as wide as the allowance. tolerance: the most that `outside` may be, a length; 0 means radius / 200 (32 sides).
  * The fewest sides that meet it are taken; LIMIT where these are more than 2^16. Both lengths are added to those of
- * options->allowance. Errors: NOT_FINITE, RADIUS, RANGE, ARGUMENT (tolerance), and those of
+ * options->allowance; the sum has the axis z, so that the flat ends are exact, unless options->allowance has an
+ * `outside` that is not along z. Errors: NOT_FINITE, RADIUS, RANGE, ARGUMENT (tolerance), and those of
  * ovoid_shape_create_from_points.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, double tolerance,
@@ -133,7 +140,8 @@ OVOID_API ovoid_code ovoid_shape_create_divided(const ovoid_shape *shape, const 
 OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator,
                                                ovoid_error *error);
 
-/** A copy with another allowance. Errors: ARGUMENT (no shape), NOT_FINITE, RANGE (the allowance), MEMORY. */
+/** A copy with another allowance, axis included. Errors: ARGUMENT (no shape), NOT_FINITE, RANGE (the allowance), MEMORY.
+ */
 OVOID_API ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, ovoid_allowance allowance,
                                                   const ovoid_allocator *allocator, ovoid_error *error);
 

@@ -184,7 +184,7 @@ void solid_frame_turn(const solid_frame *f, int side, const tree_box *rest, vec3
 
 void triangle_begin(triangle_shape *t) {
     memset(t, 0, sizeof *t);
-    block_set_radius(&t->shape, 0, (ovoid_allowance){0, 0});
+    block_set_radius(&t->shape, 0, (ovoid_allowance){0});
     t->shape.vertex_count = t->shape.counts.vertices = 3;
     t->shape.padded_count = 8;
     t->shape.rank = 2;

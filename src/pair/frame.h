@@ -71,8 +71,21 @@ static inline void frame_place_prepared(const ovoid_prepared_shape *a, const ovo
 
 void frame_place_rotations(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b, pair_frame *frame);
 
-/// The width of the bracket that the shapes' allowances make.
+/// The width of the bracket that the shapes' allowances make, at most.
 static inline double frame_get_allowance(const pair_frame *f) { return f->lower_radii - f->upper_radii; }
+static inline int frame_has_axis(const pair_frame *f) {
+    return (f->a->has_allowance | f->b->has_allowance) >= ALLOWANCE_AXIS;
+}
+/// What a lower bound along the unit direction n, from which `lower_radii` was subtracted, gains where an allowance is
+/// along an axis: to be added and rounded down. in_a: n in the axes of A; in_b: in those of B. error: of both
+/// (block.h).
+static inline double frame_compute_gain(const pair_frame *f, vec3 in_a, vec3 in_b, double error) {
+    return shape_compute_gain(f->a, in_a, error) + shape_compute_gain(f->b, in_b, error);
+}
+/// The bound with that.
+static inline double frame_take_gain(double lower, double gain) {
+    return gain > 0 ? nextafter(lower + gain, -INFINITY) : lower;
+}
 /// A vertex of B in the frame.
 static inline vec3 frame_b(const pair_frame *f, vec3 x) {
     return vec3_add(mat3_mul_vec3(f->rotation, x), f->translation);

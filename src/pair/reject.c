@@ -5,10 +5,11 @@ int reject_by_normal(const pair_frame *f, double far, const ovoid_proof *earlier
     found->a = found->b = 0;
     if (!vec3_is_finite(earlier->normal)) return 0;
     vec3 n = vec3_unit(earlier->normal);
-    simd_pair x =
-        frame_find_pair(f, mat3_mul_transposed_vec3(f->world, n), vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)));
+    vec3 in_a = mat3_mul_transposed_vec3(f->world, n), in_b = vec3_neg(mat3_mul_transposed_vec3(f->world_b, n));
+    simd_pair x = frame_find_pair(f, in_a, in_b);
     double gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value,
            lower = gap - f->lower_radii - reject_get_claim(f);
+    if (frame_has_axis(f)) lower = frame_take_gain(lower, frame_compute_gain(f, in_a, in_b, AXIS_CLAIM));
     found->a = x.high.index;
     found->b = x.low.index;
     // A direction that underflowed to nothing proves nothing.

@@ -11,6 +11,7 @@ typedef struct query_goal {
     double near;         ///< answered when upper <= near and the sign is proven: the margin; -infinity: never
     double tolerance;    ///< answered when the bracket is this narrow; `allowance` is in it
     double allowance;    ///< the width that no search takes away, since the bodies are not known better
+    int has_axis;        ///< an end along the normal takes some of it away (answer.c)
     uint32_t iterations; ///< most iterations of each exact method
     int wants_depth;     ///< a proven overlap does not answer it
     int wants_bracket;   ///< narrowing the bracket is asked, not only the sign
@@ -60,11 +61,13 @@ static inline void search_make(search *s, const pair_frame *frame, const query_g
 }
 
 /// 1 if the allowances leave the sign open, however narrow the bracket becomes: only they are left of it, or without
-/// them it is so near to zero that no further search takes the sign out of them.
+/// them it is so near to zero that no further search takes the sign out of them. Allowances along an axis are less along
+/// some normals: the normal is searched for to the end.
 static inline int query_goal_is_hopeless(const query_goal *goal, double lower, double upper) {
     if (!(goal->allowance > 0)) return 0;
     if (upper - lower <= goal->tolerance) return 1;
-    return !goal->wants_bracket && lower >= -goal->allowance && upper <= goal->allowance;
+    if (goal->wants_bracket || goal->has_axis) return 0;
+    return lower >= -goal->allowance && upper <= goal->allowance;
 }
 
 /// 1 if bounds answer a query that does not want the depth.

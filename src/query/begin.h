@@ -34,6 +34,7 @@ static inline small_outcome run_small(const pair_frame *frame, const query_goal 
 /// The goal's numbers that are the pair's own.
 static inline void set_numbers(query_goal *goal, const ovoid_options *options, const pair_frame *frame) {
     goal->allowance = frame_get_allowance(frame);
+    goal->has_axis = frame_has_axis(frame);
     goal->tolerance = options_compute_tolerance(options, frame->size, frame->hidden) + goal->allowance;
     goal->iterations = options->iterations;
 }

@@ -7,7 +7,10 @@ static double compute_gap(const ovoid_pair *pair, vec3 direction) {
     vec3 n = vec3_unit(direction);
     if (!vec3_is_finite(direction) || !(vec3_norm_squared(n) > 0.5)) return -INFINITY;
     if (frame_make(pair, &f) != OVOID_LIMIT_NONE) return -INFINITY;
-    return frame_find_support(&f, frame_direction_from_world(&f, n)).gap - f.lower_radii - f.claim;
+    vec3 in_a = frame_direction_from_world(&f, n);
+    double lower = frame_find_support(&f, in_a).gap - f.lower_radii - f.claim;
+    vec3 in_b = mat3_mul_transposed_vec3(f.rotation, in_a);
+    return frame_take_gain(lower, frame_compute_gain(&f, in_a, in_b, AXIS_CLAIM));
 }
 
 double ovoid_pair_compute_gap(const ovoid_pair *pair, ovoid_vec3 direction) {

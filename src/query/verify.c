@@ -39,8 +39,9 @@ static ovoid_code verify_lower(measure *m, double lower, const ovoid_proof *p, o
     if (lower == -INFINITY) return OVOID_OK;
     vec3 n = vec3_unit(frame_direction_from_world(f, vec3_add(p->normal, p->normal_low)));
     if (!(vec3_norm_squared(n) > 0)) return refuse(error, "lower bound without a normal", lower, 0);
-    double found = frame_measure_gap(f, n) - f->lower_radii - f->check;
-    if (found < lower && make_fine(m)) found = measure_lower_again(m, p);
+    double gain = frame_compute_gain(f, n, mat3_mul_transposed_vec3(f->rotation, n), AXIS_CHECK);
+    double found = frame_take_gain(frame_measure_gap(f, n) - f->lower_radii - f->check, gain);
+    if (found < lower && make_fine(m)) found = frame_take_gain(measure_lower_again(m, p), gain);
     return found >= lower ? OVOID_OK : refuse(error, "lower bound", lower, found);
 }
 

@@ -95,7 +95,8 @@ void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) 
     s->allowance = allowance;
     s->round = (round_form){ROUND_NONE, 0, 0};
     s->span = s->extent;
-    s->has_allowance = allowance.outside + allowance.inside > 0;
+    s->has_allowance = allowance.outside + allowance.inside > 0 ? ALLOWANCE_ANY : 0;
+    if (vec3_norm_squared(allowance.axis) > 0) s->has_allowance |= ALLOWANCE_AXIS;
     if (allowance.outside > 0) s->lower_radius = nextafter(radius + allowance.outside, INFINITY);
     // No point of the polyhedron is farther from a point of the true body than its own diameter and `outside`.
     double most = 2 * (s->extent + s->lower_radius);
@@ -104,6 +105,13 @@ void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) 
     if (!(inside > 0)) return;
     s->upper_radius = nextafter(radius - inside, -INFINITY);
     s->span += 2 * inside;
+}
+
+double shape_compute_lower_radius(const ovoid_shape *s, ovoid_vec3 n, double error) {
+    if (!shape_has_axis(s)) return s->lower_radius;
+    double across = vec3_norm(vec3_cross(n, s->allowance.axis)) + error;
+    double most = nextafter(s->radius + s->allowance.outside * across, INFINITY);
+    return most < s->lower_radius ? most : s->lower_radius;
 }
 
 static ovoid_shape *copy(const ovoid_shape *shape, const ovoid_allocator *allocator, ovoid_error *error) {

@@ -41,6 +41,9 @@ typedef struct round_form {
     double radius, half_length; ///< a cone's apex is at +half_length
 } round_form;
 
+/// Bits of has_allowance.
+enum { ALLOWANCE_ANY = 1, ALLOWANCE_AXIS = 2 };
+
 struct ovoid_shape {
     // Read by the first rejections: one cache line, and the beginning of the next.
     double reach;      ///< no vertex is farther than this from `center`, rounding included
@@ -50,7 +53,7 @@ struct ovoid_shape {
     uint32_t vertex_count, padded_count;
     uint32_t rank;
     uint16_t has_origin; ///< origin is not zero
-    uint16_t has_allowance;
+    uint16_t has_allowance; ///< ALLOWANCE_ANY where it has one, and ALLOWANCE_AXIS where that is along an axis
     ovoid_vec3 first; ///< vertex 0
     // With the allowance, rounded outward; without one they are radius, radius and extent.
     double lower_radius; ///< radius + outside, what a lower bound of the distance loses
@@ -101,7 +104,24 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope);
 /// known by these alone.
 void block_set_radius(ovoid_shape *shape, double radius, ovoid_allowance allowance);
 
-/// By how much the allowance widens a bracket.
+/// By how much the allowance widens a bracket, at most.
 static inline double shape_get_width(const ovoid_shape *s) { return s->lower_radius - s->upper_radius; }
+
+/// What a unit direction in a shape's axes may be off by: as it is computed from one of the world (at most 36 u for
+/// each rotation, 82 u for that of B in the frame of A, and 20 u for products, for the direction's length and for the
+/// axis'); twice that for a claim, whose direction is taken to the world and back before it is measured again.
+#define AXIS_CHECK (256 * 0x1p-53)
+#define AXIS_CLAIM (512 * 0x1p-53)
+
+static inline int shape_has_axis(const ovoid_shape *s) { return s->has_allowance >= ALLOWANCE_AXIS; }
+
+/// What a lower bound along the unit direction n, in the shape's axes, off by `error`, loses: lower_radius, or less
+/// where the allowance is along an axis. Rounded up.
+double shape_compute_lower_radius(const ovoid_shape *shape, ovoid_vec3 n, double error);
+
+/// What such a bound loses less than lower_radius. Rounded down, but for what `error` has room for.
+static inline double shape_compute_gain(const ovoid_shape *s, ovoid_vec3 n, double error) {
+    return shape_has_axis(s) ? s->lower_radius - shape_compute_lower_radius(s, n, error) : 0;
+}
 
 #endif

@@ -14,6 +14,13 @@
 
 #include <string.h>
 
+// The axis as a shape keeps it: none, or of length 1. One that is stored already stays as it is.
+static vec3 make_axis(const ovoid_allowance *allowance) {
+    vec3 axis = allowance->axis;
+    if (!(allowance->outside > 0)) return (vec3){0, 0, 0};
+    return fabs(vec3_norm_squared(axis) - 1) <= 8 * 0x1p-53 ? axis : vec3_unit(axis);
+}
+
 ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *o, ovoid_error *error) {
     *o = given ? *given : (ovoid_shape_options){0};
     if (!isfinite(o->radius)) return error_set(error, OVOID_ERROR_NOT_FINITE, -1, "the radius is not finite");
@@ -26,6 +33,9 @@ ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_opti
             return error_set(error, isfinite(lengths[i]) ? OVOID_ERROR_RANGE : OVOID_ERROR_NOT_FINITE, -1,
                              "the allowance %s, %g, is not in [0, %g]", i ? "inside" : "outside", lengths[i],
                              OVOID_LENGTH_MAX);
+    if (!vec3_is_finite(o->allowance.axis))
+        return error_set(error, OVOID_ERROR_NOT_FINITE, -1, "the axis of the allowance is not finite");
+    o->allowance.axis = make_axis(&o->allowance);
     if (!(o->gap >= 0 && o->gap < 1))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the ellipsoids' gap %g is not in [0, 1)", o->gap);
     if (o->inner != OVOID_INNER_MAXIMUM && o->inner != OVOID_INNER_PHASES)

@@ -15,7 +15,7 @@ typedef struct point_shape {
 /// A point at the origin with that rounding radius.
 static inline void point_make(point_shape *p, double radius) {
     memset(p, 0, sizeof *p);
-    block_set_radius(&p->shape, radius, (ovoid_allowance){0, 0});
+    block_set_radius(&p->shape, radius, (ovoid_allowance){0});
     p->shape.vertex_count = p->shape.counts.vertices = 1;
     p->shape.padded_count = 8;
     p->shape.at.x = p->shape.at.y = p->shape.at.z = p->shape.at.vertices = offsetof(point_shape, zeros);

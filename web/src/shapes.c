@@ -7,7 +7,7 @@ static ovoid_shape_options read_shape_options(void) {
     return (ovoid_shape_options){.radius = x[0],
                                  .gap = x[1],
                                  .inner = x[2] == 1 ? OVOID_INNER_PHASES : OVOID_INNER_MAXIMUM,
-                                 .allowance = {x[3], x[4]}};
+                                 .allowance = {.outside = x[3], .inside = x[4]}};
 }
 
 ovoid_shape *EXPORT(shape_from_points)(const double *xyz, size_t count) {

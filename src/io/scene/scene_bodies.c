@@ -284,7 +284,7 @@ static ovoid_code read_allowance(scene_reader *r, const json_t *object, geometry
     static const char *const words[] = {"outside", "inside", NULL};
     const char *unknown;
     json_t *allowance = json_object_get(object, "allowance");
-    g->options.allowance = (ovoid_allowance){0, 0};
+    g->options.allowance = (ovoid_allowance){0};
     if (!allowance) return OVOID_OK;
     if (strcmp(g->kind, "compound") == 0)
         return scene_fail_member(r, OVOID_ERROR_FORMAT, "allowance", "is for the parts of a compound, each its own");

@@ -346,11 +346,11 @@ static void check_refusals(void) {
     more[24] = 3;
     CHECK(!match(more, 9, cube, 12).is_hull && match(more, 9, cube, 12).is_closed);
     // The same hull with another allowance.
-    ovoid_shape *allowed = ovoid_shape_create_allowed(hull, (ovoid_allowance){0, 0.125}, NULL, &error);
+    ovoid_shape *allowed = ovoid_shape_create_allowed(hull, (ovoid_allowance){.outside = 0, .inside = 0.125}, NULL, &error);
     CHECK_EQ(ovoid_shape_get_allowance(allowed).inside, 0.125);
     CHECK_EQ(ovoid_shape_get_allowance(hull).inside, 0);
-    CHECK(!ovoid_shape_create_allowed(hull, (ovoid_allowance){0, -1}, NULL, &error));
-    CHECK(!ovoid_shape_create_allowed(NULL, (ovoid_allowance){0, 1}, NULL, &error));
+    CHECK(!ovoid_shape_create_allowed(hull, (ovoid_allowance){.outside = 0, .inside = -1}, NULL, &error));
+    CHECK(!ovoid_shape_create_allowed(NULL, (ovoid_allowance){.outside = 0, .inside = 1}, NULL, &error));
     ovoid_shape_destroy(allowed);
     ovoid_shape_destroy(hull);
 }

@@ -20,7 +20,7 @@ static int make_shapes(uint64_t *s) {
             xyz[3 * k + 2] = at.z + (i % 10 == 8 ? 0 : random_uniform(s, -1, 1));
         }
         ovoid_shape_options o = {.radius = i % 4 == 3 ? 0.1 : 0};
-        if (i % 10 == 7) o.allowance = (ovoid_allowance){1e-3, 2e-3};
+        if (i % 10 == 7) o.allowance = (ovoid_allowance){.outside = 1e-3, .inside = 2e-3};
         shapes[i] = ovoid_shape_create_from_points(xyz, count, &o, NULL);
         if (!CHECK(shapes[i] != NULL)) return 0;
     }

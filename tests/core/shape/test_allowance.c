@@ -285,7 +285,7 @@ static void test_compounds(void) {
 // warm start leaves nothing open that a cold one proves.
 static void test_mixed(void) {
     const double origin[3] = {0, 0, 0};
-    ovoid_shape_options exact = {.radius = 1}, loose = {.radius = 1, .allowance = {0.5, 0.5}};
+    ovoid_shape_options exact = {.radius = 1}, loose = {.radius = 1, .allowance = {.outside = 0.5, .inside = 0.5}};
     ovoid_shape *ball = ovoid_shape_create_from_points(origin, 1, &exact, NULL),
                 *cloud = ovoid_shape_create_from_points(origin, 1, &loose, NULL),
                 *box = ovoid_shape_create_box((ovoid_vec3){1, 2, 5}, NULL, NULL);
@@ -505,7 +505,7 @@ static void test_edges(void) {
     ovoid_error e;
     static const double bad[] = {-1, NAN, INFINITY, 1e300};
     for (int i = 0; i < 8; i++) {
-        ovoid_shape_options o = {.allowance = {i & 1 ? bad[i / 2] : 0, i & 1 ? 0 : bad[i / 2]}};
+        ovoid_shape_options o = {.allowance = {.outside = i & 1 ? bad[i / 2] : 0, .inside = i & 1 ? 0 : bad[i / 2]}};
         CHECK(ovoid_shape_create_from_points(xyz, 4, &o, &e) == NULL);
         CHECK(strstr(e.message, i & 1 ? "outside" : "inside") != NULL);
     }
@@ -518,7 +518,7 @@ static void test_edges(void) {
     ovoid_shape_destroy(line);
 
     // Files keep it, and a file that says nonsense is refused.
-    ovoid_shape_options o = {.radius = 0.5, .allowance = {0.25, 0.125}};
+    ovoid_shape_options o = {.radius = 0.5, .allowance = {.outside = 0.25, .inside = 0.125}};
     ovoid_shape *s = ovoid_shape_create_from_points(xyz, 4, &o, &e), *copy = ovoid_shape_create_copy(s, NULL, &e);
     unsigned char bytes[1024];
     size_t size = ovoid_shape_write(s, bytes, sizeof bytes);
@@ -531,7 +531,7 @@ static void test_edges(void) {
     }
     // Two points a length apart, each known to half of it: nothing is known of the sign.
     const double origin[] = {0, 0, 0};
-    ovoid_shape_options loose = {.allowance = {0.5, 0.5}};
+    ovoid_shape_options loose = {.allowance = {.outside = 0.5, .inside = 0.5}};
     ovoid_shape *point = ovoid_shape_create_from_points(origin, 1, &loose, &e);
     ovoid_pair p = {point, point, {{0, 0, 0}, {1, 0, 0, 0}}, {{1, 0, 0}, {1, 0, 0, 0}}};
     ovoid_answer x = ovoid_distance(&p, NULL, NULL);
@@ -541,7 +541,7 @@ static void test_edges(void) {
     CHECK_NEAR(x.upper, 2, 4 * 260 * 0x1p-53);
     CHECK(strcmp(ovoid_limit_get_name(x.limit), "allowance") == 0);
     // `inside` says no more than the bodies' own sizes do.
-    ovoid_shape_options huge = {.allowance = {0, 1e30}};
+    ovoid_shape_options huge = {.allowance = {.outside = 0, .inside = 1e30}};
     ovoid_shape *any = ovoid_shape_create_from_points(xyz, 4, &huge, &e);
     p = (ovoid_pair){any, any, {{0, 0, 0}, {1, 0, 0, 0}}, {{5, 0, 0}, {1, 0, 0, 0}}};
     x = ovoid_distance(&p, NULL, NULL);

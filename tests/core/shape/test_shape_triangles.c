@@ -42,7 +42,7 @@ static void check_primitives(void) {
     static const double sizes[] = {1e-60, 1e-9, 1, 1e9, 1e40};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         double r = sizes[i];
-        ovoid_shape_options known = {.radius = r / 8, .allowance = {r / 100, r / 50}};
+        ovoid_shape_options known = {.radius = r / 8, .allowance = {.outside = r / 100, .inside = r / 50}};
         check_body(ovoid_shape_create_box((vec3){r, 2 * r, 3 * r}, NULL, NULL));
         check_body(ovoid_shape_create_box((vec3){r, 2 * r, 3 * r}, &known, NULL));
         check_body(ovoid_shape_create_sphere(r, NULL, NULL));
@@ -409,7 +409,7 @@ static void check_allowances(void) {
             static const double wrong[] = {-1, NAN, 1e51, 1e30};
             for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
                 if (at == 328 && wrong[i] == 1e30) continue;
-                ovoid_shape_options known = {.allowance = {0.1, 0.1}};
+                ovoid_shape_options known = {.allowance = {.outside = 0.1, .inside = 0.1}};
                 ovoid_shape *t = ovoid_shape_create_from_points(cloud, 12, &known, NULL);
                 forgery f = {NULL, shape_write_version(t, version, NULL, 0), 12, 20};
                 f.bytes = malloc(f.size);

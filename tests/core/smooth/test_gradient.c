@@ -261,7 +261,7 @@ static void test_allowances(void) {
             double size = random_uniform(&s, 0.1, 1), shrunk;
             room[k] = random_uniform(&s, 0, 0.2) * size;
             shrunk = random_uniform(&s, 0, room[k]);
-            const ovoid_shape_options o = {.allowance = {room[k], room[k]}};
+            const ovoid_shape_options o = {.allowance = {.outside = room[k], .inside = room[k]}};
             shapes[k] = ovoid_shape_create_sphere(size, &o, NULL);
             at[k] = vec3_scale(vec3_unit(bits_vec3(&s, 1)), k ? 2.5 : 0);
             center[k] = vec3_add_scaled(at[k], vec3_unit(bits_vec3(&s, 1)), room[k] - shrunk);
