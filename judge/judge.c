@@ -82,8 +82,7 @@ static ovoid_code verify_status(const judge *context, const posed *s, const ovoi
     if ((answer->status == OVOID_OVERLAPPING) != (answer->upper < 0))
         return judge_reject(error, OVOID_ERROR_PROOF, "the status is not what upper, %.17g, says", answer->upper);
     if (answer->status != OVOID_TOUCHING) return OVOID_OK;
-    double size = s->size + num_to_double(s->outside) + 2 * num_to_double(s->inside);
-    return judge_verify_touching(context, answer, size, s->a.reach + s->b.reach, error);
+    return judge_verify_touching(context, answer, s->size + s->allowed, s->a.reach + s->b.reach, error);
 }
 
 // The normal is unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is required where there is no

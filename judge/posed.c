@@ -44,7 +44,8 @@ body body_make_hull(pool *p, const ovoid_polytope *polytope, const ovoid_pose *p
     set_rotation(p, &b, pose->rotation);
     b.position = nvec_from(p, pose->position);
     b.origin = nvec_from(p, b.polytope.origin);
-    b.radius = b.outside = b.inside = number_from_integer(p, 0);
+    b.radius = b.outside = b.inside = b.across = number_from_integer(p, 0);
+    b.axis = nvec_zero(p);
     b.extent = judge_find_extent(&b.polytope);
     b.reach = sum_abs(pose->position) + sum_abs(b.polytope.origin) + b.extent;
     return b;
@@ -55,8 +56,13 @@ body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose) {
     body b = body_make_hull(p, &polytope, pose);
     b.shape = shape;
     b.radius = number_from(p, ovoid_shape_get_radius(shape));
-    b.outside = number_from(p, ovoid_shape_get_allowance(shape).outside);
-    b.inside = number_from(p, ovoid_shape_get_allowance(shape).inside);
+    ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
+    b.inside = number_from(p, allowance.inside);
+    b.axis = nvec_from(p, allowance.axis);
+    if (nvec_is_zero(b.axis))
+        b.outside = number_from(p, allowance.outside);
+    else
+        b.across = number_from(p, allowance.outside);
     return b;
 }
 
@@ -70,6 +76,8 @@ posed posed_join(pool *p, body a, body b) {
     s.radii = num_add(p, s.a.radius, s.b.radius);
     s.outside = num_add(p, s.a.outside, s.b.outside);
     s.inside = num_add(p, s.a.inside, s.b.inside);
+    num outside = num_add(p, s.outside, num_add(p, s.a.across, s.b.across));
+    s.allowed = num_to_double(outside) + 2 * num_to_double(s.inside);
     // The frames' distance: exact difference, rounded.
     nvec t = posed_difference(&s, body_point(p, &s.a, nvec_zero(p)), body_point(p, &s.b, nvec_zero(p)));
     num square = num_quotient_below(p, nvec_norm_squared(p, t), num_mul(p, s.k, s.k), 60);
@@ -122,7 +130,17 @@ static double coarse_dot(const coarse *c, const double *v) {
     return c->x * (v[0] * c->unit) + c->y * (v[1] * c->unit) + c->z * (v[2] * c->unit);
 }
 
-num body_support(pool *p, const body *b, nvec direction, int side) {
+// |M'direction x axis| is n |direction x R axis|, R the rotation: over |axis|, which is 1 to rounding only.
+num body_find_across(pool *p, const body *b, nvec direction) {
+    enum { BITS = 240 };
+    if (num_sign(b->across) == 0) return b->across;
+    nvec across = nvec_cross(p, body_rotate_back(p, b, direction), b->axis);
+    num square = num_quotient_below(p, nvec_norm_squared(p, across), nvec_norm_squared(p, b->axis), BITS);
+    num above = num_add(p, square, num_scaled(p, square, 1 - BITS));
+    return num_mul(p, b->across, num_root_above(p, above, BITS));
+}
+
+static num find_top(pool *p, const body *b, nvec direction, int side) {
     slot best = slot_make(p);
     // In the body frame the direction is M' direction; vertices are compared there: first in doubles, and exactly where
     // these do not show that another one is farther.
@@ -142,6 +160,11 @@ num body_support(pool *p, const body *b, nvec direction, int side) {
     }
     num at_position = num_mul(p, nvec_dot(p, direction, b->position), b->n);
     return num_add(p, num_add(p, at_position, nvec_dot(p, local, b->origin)), best);
+}
+
+num body_support(pool *p, const body *b, nvec direction, int side) {
+    num top = find_top(p, b, direction, side), across = body_find_across(p, b, direction);
+    return side > 0 ? num_add(p, top, across) : num_sub(p, top, across);
 }
 
 nvec posed_difference(const posed *s, nvec xa, nvec xb) {

@@ -16,6 +16,8 @@ typedef struct body {
     num n;        ///< |q|^2 > 0
     nvec position, origin;
     num radius, outside, inside;
+    num across;    ///< what stands out across the axis alone, `outside` being zero then; zero: there is no axis
+    nvec axis;     ///< of any length, in the shape's axes
     double extent; ///< the largest |vertex|, in doubles
     double reach;  ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
 } body;
@@ -25,7 +27,8 @@ typedef struct posed {
     body a, b;
     num k;               ///< n_a n_b
     num radii;           ///< sum of the rounding radii
-    num outside, inside; ///< sums of the allowances
+    num outside, inside; ///< sums of the allowances in all directions
+    double allowed;      ///< the sum of all of `outside`, across axes too, and twice `inside`, in doubles
     double size;         ///< about the sum of both bodies' extents and the distance of their frames, in doubles
 } posed;
 
@@ -55,7 +58,12 @@ nvec body_rotate_back(pool *p, const body *b, nvec v);
 nvec body_point(pool *p, const body *b, nvec local);
 nvec body_vertex(pool *p, const body *b, uint32_t i);
 
-/// The largest (side 1) or smallest (side -1) n (direction . x) over all vertices.
+/// The least number at hand that is no less than n `across` |direction x axis|: what the true body stands out along the
+/// direction where its allowance is along an axis, times n |direction|.
+num body_find_across(pool *p, const body *b, nvec direction);
+
+/// The largest (side 1) or smallest (side -1) n (direction . x) over all vertices, and what the true body stands out
+/// there across its axis.
 num body_support(pool *p, const body *b, nvec direction, int side);
 
 /// k (x_b - x_a) for two points that carry n_a and n_b; for two vertices.

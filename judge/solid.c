@@ -103,7 +103,9 @@ static ovoid_code verify_touching(const judge *context, const trial *t) {
     const ovoid_solid_answer *x = t->x;
     ovoid_vec3 a = t->a.of->pose.position, b = t->b.of->pose.position;
     double radii = num_to_double(num_add(t->p, t->a.posed.radius, t->b.posed.radius));
+    const posed both = posed_join(t->p, t->a.posed, t->b.posed);
     double size = t->a.posed.extent + t->b.posed.extent + radii + hypot(hypot(b.x - a.x, b.y - a.y), b.z - a.z);
+    size += both.allowed;
     const ovoid_answer bodies = {.lower = x->lower, .upper = x->upper};
     return judge_verify_touching(context, &bodies, size, t->a.posed.reach + t->b.posed.reach, t->error);
 }

@@ -118,12 +118,17 @@ ovoid_code judge_verify_points_posed(const posed *s, const ovoid_answer *answer,
         return judge_reject(error, OVOID_ERROR_NOT_FINITE, "a witness point or the normal is not finite");
     pool *p = s->p;
     size_t mark = pool_get_mark(p);
+    nvec normal = nvec_from(p, answer->normal);
     num lower = num_add(p, number_from(p, answer->lower), s->outside),
         upper = num_sub(p, number_from(p, answer->upper), s->inside);
+    // The normal is 1 to rounding, and each find_across carries its body's n.
+    num across = num_add(p, num_mul(p, body_find_across(p, &s->a, normal), s->b.n),
+                         num_mul(p, body_find_across(p, &s->b, normal), s->a.n));
+    if (num_sign(across) > 0) lower = num_add(p, lower, num_quotient_below(p, across, s->k, 120));
     double width = fmax(0, num_to_double(num_sub(p, upper, lower)));
     double size = fmax(fabs(num_to_double(lower)), fabs(num_to_double(upper)));
     double slack = width + sqrt(width * (width + 2 * size)) + QUERY_TOLERANCE * s->size + 2 * compute_tolerance(s);
-    nvec along = nvec_scale(p, nvec_from(p, answer->normal), num_scaled(p, num_add(p, lower, upper), -1));
+    nvec along = nvec_scale(p, normal, num_scaled(p, num_add(p, lower, upper), -1));
     nvec off = nvec_sub(p, nvec_sub(p, nvec_from(p, answer->point_b), nvec_from(p, answer->point_a)), along);
     double found = sqrt(num_to_double(nvec_norm_squared(p, off)));
     pool_release(p, mark);

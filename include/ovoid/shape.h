@@ -140,7 +140,8 @@ OVOID_API ovoid_code ovoid_shape_create_divided(const ovoid_shape *shape, const 
 OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator,
                                                ovoid_error *error);
 
-/** A copy with another allowance, axis included. Errors: ARGUMENT (no shape), NOT_FINITE, RANGE (the allowance), MEMORY.
+/** A copy with another allowance, axis included. Errors: ARGUMENT (no shape), NOT_FINITE, RANGE (the allowance),
+ * MEMORY.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, ovoid_allowance allowance,
                                                   const ovoid_allocator *allocator, ovoid_error *error);

@@ -28,7 +28,8 @@ typedef struct shape_keywords {
 #define SHAPE_SIGNATURE "*, rounding=0, gap=0, inner='maximum', allowance=(0, 0)"
 
 static int make_options(module_state *state, const shape_keywords *k, ovoid_shape_options *options) {
-    *options = (ovoid_shape_options){.radius = k->rounding, .gap = k->gap, .allowance = {.outside = k->outside, .inside = k->inside}};
+    *options = (ovoid_shape_options){
+        .radius = k->rounding, .gap = k->gap, .allowance = {.outside = k->outside, .inside = k->inside}};
     if (!k->inner || !strcmp(k->inner, "maximum")) return 0;
     options->inner = OVOID_INNER_PHASES;
     if (!strcmp(k->inner, "phases")) return 0;

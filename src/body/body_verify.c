@@ -33,7 +33,7 @@ static ovoid_code refuse_all(ovoid_error *error, const char *what) {
 }
 
 static double find_shape_top(const ovoid_shape *s, vec3 n) {
-    return vec3_dot(n, s->origin) + (shape_find_extreme(s, n).value + s->lower_radius);
+    return vec3_dot(n, s->origin) + (shape_find_extreme(s, n).value + shape_compute_lower_radius(s, n, AXIS_CHECK));
 }
 
 // The largest n.x over the leaves at [first, end), from the origin of the body's frame; n in the world, and in that

@@ -80,7 +80,7 @@ static void set_filter(solid_search *h) {
     double top = vec3_dot(in, shape->shape->origin) + shape_find_extreme(shape->shape, in).value;
     // From the solid's frame's origin.
     double offset = vec3_dot(n, side ? h->frame.offset : vec3_neg(h->frame.offset));
-    h->filter_support = offset - top - shape->shape->lower_radius - h->frame.claim;
+    h->filter_support = offset - top - shape_compute_lower_radius(shape->shape, in, AXIS_CLAIM) - h->frame.claim;
 }
 
 // The gap of a triangle and the shape along the filter.
@@ -103,7 +103,8 @@ static double find_leaf_top(const solid_view *v, mat3 world, uint32_t place, vec
     const ovoid_shape *s = leaf.shape;
     vec3 in = mat3_mul_transposed_vec3(quat_to_mat3(leaf.pose.rotation), n);
     double at = vec3_dot(n, vec3_sub(leaf.pose.position, v->pose->position));
-    return at + (vec3_dot(in, s->origin) + (shape_find_extreme(s, in).value + s->lower_radius));
+    double radius = shape_compute_lower_radius(s, in, AXIS_CLAIM);
+    return at + (vec3_dot(in, s->origin) + (shape_find_extreme(s, in).value + radius));
 }
 
 static double find_leaf_gap(const solid_search *h, uint32_t a, uint32_t b) {

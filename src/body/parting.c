@@ -72,8 +72,9 @@ static farthest find_farthest_of_parts(const ovoid_compound *c, vec3 n) {
     farthest best = {-INFINITY, {0, 0, 0}};
     for (uint32_t i = 0; i < c->count; i++) {
         const compound_part *part = &c->parts[i];
-        simd_extreme x = shape_find_extreme(part->shape, mat3_mul_transposed_vec3(part->rotation, n));
-        double r = part->shape->lower_radius, top = vec3_dot(n, part->at) + x.value + r;
+        vec3 in = mat3_mul_transposed_vec3(part->rotation, n);
+        simd_extreme x = shape_find_extreme(part->shape, in);
+        double r = shape_compute_lower_radius(part->shape, in, AXIS_CLAIM), top = vec3_dot(n, part->at) + x.value + r;
         vec3 p = vec3_add(part->at, mat3_mul_vec3(part->rotation, (vec3){x.x, x.y, x.z}));
         if (top > best.top) best = (farthest){top, vec3_add_scaled(p, n, r)};
     }
@@ -85,7 +86,7 @@ static farthest find_farthest(const solid_view *v, vec3 n) {
     if (v->compound) return find_farthest_of_parts(v->compound, n);
     simd_extreme x = shape_find_extreme(v->shape, n);
     vec3 p = vec3_add(v->shape->origin, (vec3){x.x, x.y, x.z});
-    double r = v->shape->lower_radius;
+    double r = shape_compute_lower_radius(v->shape, n, AXIS_CLAIM);
     return (farthest){vec3_dot(n, v->shape->origin) + x.value + r, vec3_add_scaled(p, n, r)};
 }
 

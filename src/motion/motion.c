@@ -258,8 +258,8 @@ ovoid_pose ovoid_moving_shape_compute_pose(const ovoid_moving_shape *moving, dou
     ENVIRONMENT_RETURN(ovoid_pose, time, compute_moving_pose(moving, time));
 }
 
-// The cylinder about the axis that holds all vertices. Axis and pivot are rounded, each by two or three rotations of 42
-// u: 512 u of all lengths, and the axis' error times the arm.
+// The cylinder about the axis that holds all vertices and what stands out across the allowance's axis. Axis and pivot
+// are rounded, each by two or three rotations of 42 u: 512 u of all lengths, and the axis' error times the arm.
 static void find_cylinder(motion_body *b) {
     const ovoid_shape *shape = b->moving->shape;
     const double *v = shape_vertices(shape);
@@ -271,7 +271,7 @@ static void find_cylinder(motion_body *b) {
         high = max2(high, along);
         wide = max2(wide, vec3_norm_squared(vec3_cross(b->axis, y)));
     }
-    double slack = (512 * ROUNDING + b->axis_error) * b->reach;
+    double slack = (512 * ROUNDING + b->axis_error) * b->reach + b->across;
     b->low = low - slack;
     b->high = high + slack;
     b->wide = min2(sqrt(wide) + slack, b->reach);
@@ -293,8 +293,11 @@ int motion_body_make(const ovoid_moving_shape *moving, double time, motion_body 
         pivot = mat3_mul_transposed_vec3(part, vec3_sub(pivot, at));
     }
     b->pivot = vec3_sub(pivot, shape->origin);
-    b->reach = (shape->extent + norm_above(shape->origin) + 2 * norm_above(at) + norm_above(p->inner.position)) *
-               (1 + 256 * ROUNDING);
+    b->across = shape_has_axis(shape) ? shape->allowance.outside : 0;
+    b->radius = shape_has_axis(shape) ? shape->radius : shape->lower_radius;
+    b->reach =
+        (shape->extent + b->across + norm_above(shape->origin) + 2 * norm_above(at) + norm_above(p->inner.position)) *
+        (1 + 256 * ROUNDING);
     b->axis_error = p->turn > 0 ? min2(1, 2 * p->turn_error / p->turn + 256 * ROUNDING) : 0;
     b->axis = mat3_mul_transposed_vec3(part, mat3_mul_transposed_vec3(first, p->axis));
     b->low = b->high = b->wide = 0;

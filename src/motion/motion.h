@@ -56,9 +56,11 @@ typedef struct motion_body {
     const ovoid_moving_shape *moving;
     motion_piece piece;
     int has_part;
-    double reach;           ///< no vertex is farther from the origin of the shape's local frame, or from the pivot
+    double radius;          ///< what the body stands out of its vertices in all directions, however it turns
+    double across;          ///< and across the axis of its allowance, which turns with it
+    double reach;           ///< no vertex, and nothing across, is farther from the local frame's origin, or the pivot
     vec3 pivot;             ///< from the origin of the shape's body frame, along its axes
-    double low, high, wide; ///< a cylinder about the axis through the pivot that holds the vertices
+    double low, high, wide; ///< a cylinder about the axis through the pivot that holds these
     vec3 axis;              ///< in the shape's axes, at the piece's begin
     double axis_error;      ///< of the unit axis, at most 1
 } motion_body;

@@ -55,7 +55,7 @@ static void take(box *all, const extent low, const extent high, const extent bul
 static void take_cylinder(box *all, const motion_body *b, double time) {
     const motion_piece *p = &b->piece;
     vec3 at = vec3_add_scaled(p->from, p->travel, (time - p->begin) / p->span);
-    double radius = b->moving->shape->lower_radius;
+    double radius = b->radius;
     double slack = (2 * b->axis_error + 512 * ROUNDING) * b->reach + OVOID_LENGTH_MIN + p->fixed +
                    64 * ROUNDING * (vec3_max_abs(at) + vec3_max_abs(p->travel) + radius);
     extent low, high;

@@ -36,7 +36,7 @@ static double compute_turning(const motion_body *b, vec3 n, uint32_t vertex) {
 // One body's supports along n; m is n along the body's axes.
 static void set_support(const motion_body *b, vec3 n, vec3 m, support_result found, double support[2],
                         double speed[2]) {
-    support[0] = support[1] = found.value;
+    support[0] = support[1] = found.value + shape_compute_across(b->moving->shape, m, AXIS_CLAIM);
     speed[0] = speed[1] = compute_speed(b, n);
     if (!(b->piece.turn > 0)) return;
     speed[0] += compute_turning(b, m, found.index);
@@ -53,7 +53,7 @@ void motion_gap_find(const motion_pair *p, double time, vec3 n, motion_gap *g) {
     if (frame_place(&at, &f) != OVOID_LIMIT_NONE) return;
     vec3 in_a = mat3_mul_transposed_vec3(f.world, n), in_b = vec3_neg(mat3_mul_transposed_vec3(f.world_b, n));
     simd_pair x = frame_find_pair(&f, in_a, in_b);
-    g->base = vec3_dot(n, f.offset) - f.lower_radii;
+    g->base = vec3_dot(n, f.offset) - (p->a.radius + p->b.radius);
     set_support(&p->a, n, in_a, x.high, g->support[0], g->speed[0]);
     set_support(&p->b, vec3_neg(n), in_b, x.low, g->support[1], g->speed[1]);
     g->error = (shift + GAP_CHECK * f.size + f.hidden) * (1 + 16 * ROUNDING);

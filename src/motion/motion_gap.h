@@ -1,7 +1,9 @@
 // The gap of two moving bodies along one direction of the world, at a time and over an interval of times.
 //
 // Theorem. Let g(t) be the gap along the fixed unit n: the least n.x of B minus the largest of A, minus the radii and
-// what the allowances add to them. In an interval in which both bodies move in one piece, with s from 0 to 1 over it,
+// what the allowances add to them. (What stands out across the axis of an allowance turns with the body: it is a part
+// of the body's support, H below, and r counts it.) In an interval in which both bodies move in one piece, with s from
+// 0 to 1 over it,
 //     g(s) >= (1 - s) g(0) + s g(1) - s (1 - s) K,    K = sum over A and B of phi^2 |n x axis| r / 2,
 // phi the angle that the body turns in the interval and r the largest distance of its vertices from its axis. For the
 // support of a body is n.c(s) + H(m(s)): c, its pivot, is linear in s; m = R(s)'n, n as the body sees it, is a curve

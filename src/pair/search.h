@@ -61,8 +61,8 @@ static inline void search_make(search *s, const pair_frame *frame, const query_g
 }
 
 /// 1 if the allowances leave the sign open, however narrow the bracket becomes: only they are left of it, or without
-/// them it is so near to zero that no further search takes the sign out of them. Allowances along an axis are less along
-/// some normals: the normal is searched for to the end.
+/// them it is so near to zero that no further search takes the sign out of them. Allowances along an axis are less
+/// along some normals: the normal is searched for to the end.
 static inline int query_goal_is_hopeless(const query_goal *goal, double lower, double upper) {
     if (!(goal->allowance > 0)) return 0;
     if (upper - lower <= goal->tolerance) return 1;

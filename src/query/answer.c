@@ -37,9 +37,9 @@ static ovoid_status find_status(double lower, double upper, const query_goal *go
     return bracket_find_status(lower, upper, goal->tolerance - goal->allowance);
 }
 
-// Why the bracket is wider than the tolerance, if it is. gain: the part of the allowance that the lower bound keeps.
-static ovoid_limit find_limit(const search *s, double lower, double gain, ovoid_status status) {
-    final_bracket b = {lower, s->upper, s->goal.tolerance - gain, s->goal.allowance - gain, status, s->kind};
+// Why the bracket is wider than the tolerance, if it is.
+static ovoid_limit find_limit(const search *s, ovoid_status status) {
+    final_bracket b = {s->lower, s->upper, s->goal.tolerance, s->goal.allowance, status, s->kind};
     if (bracket_is_left_open(&b, &s->goal)) return OVOID_LIMIT_ALLOWANCE;
     if (bracket_is_narrow(&b, &s->goal)) return OVOID_LIMIT_NONE;
     return s->limit != OVOID_LIMIT_NONE ? s->limit : bracket_find_limit(&b, &s->goal, OVOID_LIMIT_NONE);
@@ -77,36 +77,40 @@ static vec3 get_normal(const search *s) {
     return vec3_norm_squared(s->world) > 0 ? frame_direction_from_world(s->frame, s->world) : s->normal;
 }
 
-// Takes a shape's axis for the normal where the lower bound is better along it. Bodies that touch have many normals, and
-// one that stands on its base has its axis among them.
-static void try_axis(search *s, vec3 axis, double *gain) {
+// Takes a shape's axis for the normal where the lower bound is better along it. Bodies that touch have many normals,
+// and one that stands on its base has its axis among them.
+static void try_axis(search *s, vec3 axis) {
     const pair_frame *f = s->frame;
     if (!(vec3_norm_squared(axis) > 0.5)) return;
     vec3 n = vec3_dot(axis, get_normal(s)) < 0 ? vec3_neg(axis) : axis;
-    double lower = frame_find_support(f, n).gap - f->lower_radii - f->claim, more = compute_gain(s, n);
-    if (!(frame_take_gain(lower, more) > frame_take_gain(s->lower, *gain))) return;
+    double lower = frame_find_support(f, n).gap - f->lower_radii - f->claim;
+    lower = frame_take_gain(lower, compute_gain(s, n));
+    if (!(lower > s->lower)) return;
     s->lower = lower;
     s->normal = n;
     s->world = s->world_low = (vec3){0, 0, 0};
-    *gain = more;
 }
 
-// What the lower bound gains along its normal; that is an axis where only this shows the sign.
-static double find_gain(search *s) {
-    if (!s->goal.has_axis) return 0;
+// The lower bound with what it gains along its normal; the normal may become an axis where the sign is open still. The
+// goal's allowance is then what is left of it along the normal that was found.
+static void take_gain(search *s) {
+    if (!s->goal.has_axis) return;
     const pair_frame *f = s->frame;
     double gain = compute_gain(s, get_normal(s));
-    if (frame_take_gain(s->lower, gain) > 0 || s->upper < 0) return gain;
-    try_axis(s, f->a->allowance.axis, &gain);
-    try_axis(s, mat3_mul_vec3(f->rotation, f->b->allowance.axis), &gain);
-    return gain;
+    s->goal.has_axis = 0;
+    s->goal.tolerance -= gain;
+    s->goal.allowance -= gain;
+    s->lower = frame_take_gain(s->lower, gain);
+    if (search_is_sign_known(s)) return;
+    try_axis(s, f->a->allowance.axis);
+    try_axis(s, mat3_mul_vec3(f->rotation, f->b->allowance.axis));
 }
 
 ovoid_verdict answer_make_verdict(search *s) {
     complete(s);
-    double gain = find_gain(s), lower = frame_take_gain(s->lower, gain);
-    ovoid_status status = find_status(lower, s->upper, &s->goal);
-    return (ovoid_verdict){status, s->stage, find_limit(s, lower, gain, status), s->iterations, lower, s->upper};
+    take_gain(s);
+    ovoid_status status = find_status(s->lower, s->upper, &s->goal);
+    return (ovoid_verdict){status, s->stage, find_limit(s, status), s->iterations, s->lower, s->upper};
 }
 
 void answer_write(search *s, ovoid_answer *out) {

@@ -109,8 +109,7 @@ void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) 
 
 double shape_compute_lower_radius(const ovoid_shape *s, ovoid_vec3 n, double error) {
     if (!shape_has_axis(s)) return s->lower_radius;
-    double across = vec3_norm(vec3_cross(n, s->allowance.axis)) + error;
-    double most = nextafter(s->radius + s->allowance.outside * across, INFINITY);
+    double most = nextafter(s->radius + shape_compute_across(s, n, error), INFINITY);
     return most < s->lower_radius ? most : s->lower_radius;
 }
 

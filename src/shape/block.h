@@ -52,9 +52,9 @@ struct ovoid_shape {
     double extent;     ///< no vertex is farther than this from the body frame's origin, rounding included
     uint32_t vertex_count, padded_count;
     uint32_t rank;
-    uint16_t has_origin; ///< origin is not zero
+    uint16_t has_origin;    ///< origin is not zero
     uint16_t has_allowance; ///< ALLOWANCE_ANY where it has one, and ALLOWANCE_AXIS where that is along an axis
-    ovoid_vec3 first; ///< vertex 0
+    ovoid_vec3 first;       ///< vertex 0
     // With the allowance, rounded outward; without one they are radius, radius and extent.
     double lower_radius; ///< radius + outside, what a lower bound of the distance loses
     double upper_radius; ///< radius - inside, what an upper bound loses; inside at most 2 (extent + lower_radius)
@@ -115,8 +115,13 @@ static inline double shape_get_width(const ovoid_shape *s) { return s->lower_rad
 
 static inline int shape_has_axis(const ovoid_shape *s) { return s->has_allowance >= ALLOWANCE_AXIS; }
 
-/// What a lower bound along the unit direction n, in the shape's axes, off by `error`, loses: lower_radius, or less
-/// where the allowance is along an axis. Rounded up.
+/// How far the true body stands out along the unit direction n, in the shape's axes, off by `error`, where the
+/// allowance is along an axis; else 0. But for one rounding of itself.
+static inline double shape_compute_across(const ovoid_shape *s, ovoid_vec3 n, double error) {
+    return shape_has_axis(s) ? s->allowance.outside * (vec3_norm(vec3_cross(n, s->allowance.axis)) + error) : 0;
+}
+
+/// What a lower bound along n loses: lower_radius, or less where the allowance is along an axis. Rounded up.
 double shape_compute_lower_radius(const ovoid_shape *shape, ovoid_vec3 n, double error);
 
 /// What such a bound loses less than lower_radius. Rounded down, but for what `error` has room for.

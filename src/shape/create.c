@@ -14,11 +14,15 @@
 
 #include <string.h>
 
-// The axis as a shape keeps it: none, or of length 1. One that is stored already stays as it is.
+int allowance_is_normal(const ovoid_allowance *allowance) {
+    if (!(vec3_max_abs(allowance->axis) > 0)) return 1;
+    return allowance->outside > 0 && fabs(vec3_norm_squared(allowance->axis) - 1) <= 8 * 0x1p-53;
+}
+
+// The axis as a shape keeps it: none, or of length 1. One that is kept already stays as it is.
 static vec3 make_axis(const ovoid_allowance *allowance) {
-    vec3 axis = allowance->axis;
     if (!(allowance->outside > 0)) return (vec3){0, 0, 0};
-    return fabs(vec3_norm_squared(axis) - 1) <= 8 * 0x1p-53 ? axis : vec3_unit(axis);
+    return allowance_is_normal(allowance) ? allowance->axis : vec3_unit(allowance->axis);
 }
 
 ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *o, ovoid_error *error) {

@@ -8,6 +8,9 @@
 /// The options with their defaults; NULL allowed. Errors: RADIUS, RANGE, ARGUMENT.
 ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *options, ovoid_error *error);
 
+/// 1 if the allowance's axis is zero, or of length 1 and there for a length `outside`.
+int allowance_is_normal(const ovoid_allowance *allowance);
+
 /// A block with all that follows from the hull; radius, report and ellipsoids are not set. NULL with MEMORY.
 ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error);
 

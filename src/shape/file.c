@@ -1,5 +1,5 @@
 // The file of a shape (".ovoid"): version 1; 2 where it has an allowance; 3 with the triangles of its hull, for solids
-// of many vertices. docs/polytope.md has the table.
+// of many vertices; 4 and 5 are 2 and 3 with the allowance's axis. docs/polytope.md has the table.
 //
 // A file holds what a shape cannot be made from again: the vertices, the ellipsoids as they were fitted, the radius,
 // the allowance, and what became of the points given. Facets, adjacency, planes and measures depend on the vertices and
@@ -28,6 +28,8 @@
 #define HEADER_SIZE 328
 #define ALLOWANCE_AT HEADER_SIZE
 #define ALLOWANCE_SIZE 16
+#define AXIS_SIZE 24
+#define VERSION_MOST 5
 #define CHECKSUM_SIZE 8
 static const uint8_t magic[8] = {0x89, 'O', 'V', 'O', 'I', 'D', '\n', 0x1a};
 
@@ -44,11 +46,15 @@ typedef struct layout {
     uint32_t triangle_count;                // that it holds
 } layout;
 
+static int has_triangles(uint32_t version) { return version == 3 || version == 5; }
+static int has_axis(uint32_t version) { return version >= 4; }
+
 // By Euler's formula a solid of n vertices has 2 n - 4 triangles.
 static layout make_layout(uint32_t version, uint32_t vertex_count) {
     layout l = {.version = version, .vertices_at = HEADER_SIZE + (version > 1 ? ALLOWANCE_SIZE : 0)};
+    if (has_axis(version)) l.vertices_at += AXIS_SIZE;
     l.triangles_at = l.vertices_at + (size_t)vertex_count * 24;
-    l.triangle_count = version == 3 && vertex_count > 3 ? 2 * vertex_count - 4 : 0;
+    l.triangle_count = has_triangles(version) && vertex_count > 3 ? 2 * vertex_count - 4 : 0;
     l.size = l.triangles_at + (size_t)l.triangle_count * 12 + CHECKSUM_SIZE;
     return l;
 }
@@ -110,6 +116,7 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
         put_double(&w, shape->allowance.outside);
         put_double(&w, shape->allowance.inside);
     }
+    if (has_axis(version)) put_vec3(&w, shape->allowance.axis);
     const double *vertices = shape_vertices(shape);
     for (size_t i = 0; i < 3 * (size_t)shape->vertex_count; i++) put_double(&w, vertices[i]);
     const uint32_t *triangles = ovoid_shape_get_polytope(shape).triangles;
@@ -120,8 +127,9 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
 
 // The proof of the triangles wants a point inside: the centre of an inner ellipsoid that is more than a point.
 static uint32_t choose_version(const ovoid_shape *s) {
-    if (s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0) return 3;
-    return s->has_allowance ? 2 : 1;
+    int is_large = s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0;
+    if (shape_has_axis(s)) return is_large ? 5 : 4;
+    return is_large ? 3 : s->has_allowance ? 2 : 1;
 }
 
 size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity) {
@@ -191,9 +199,10 @@ static ovoid_code validate_envelope(reader *r, size_t size, content *c) {
     if (size < HEADER_SIZE + CHECKSUM_SIZE) return refuse(r, size, "the file ends within its header");
     r->at = sizeof magic;
     uint64_t version = get_integer(r, 4);
-    if (version < 1 || version > 3) return refuse(r, 8, "written by another version of the format");
+    if (version < 1 || version > VERSION_MOST) return refuse(r, 8, "written by another version of the format");
     c->rank = (uint32_t)get_integer(r, 4);
-    if (version == 3 && c->rank != 3) return refuse(r, 12, "only the file of a solid holds triangles");
+    if (has_triangles((uint32_t)version) && c->rank != 3)
+        return refuse(r, 12, "only the file of a solid holds triangles");
     uint64_t total = get_integer(r, 8), count = get_integer(r, 8);
     if (total != size) return refuse(r, size, total > size ? "the file is truncated" : "bytes after the end");
     if (count > 0 && count <= POINTS_MAX) c->at = make_layout((uint32_t)version, (uint32_t)count);
@@ -237,6 +246,14 @@ static ovoid_code read_report(reader *r, content *c) {
     return OVOID_OK;
 }
 
+// An axis is there for an allowance `outside`, and of length 1 as shape_options_make leaves it.
+static ovoid_code read_axis(reader *r, content *c) {
+    size_t start = r->at;
+    c->allowance.axis = get_vec3(r);
+    if (allowance_is_normal(&c->allowance) && vec3_norm_squared(c->allowance.axis) > 0) return OVOID_OK;
+    return refuse(r, start, "the allowance's axis is not a direction of length 1, or there is nothing outside");
+}
+
 static ovoid_code read_allowance(reader *r, content *c) {
     if (c->at.version == 1) return OVOID_OK;
     size_t start = r->at;
@@ -246,7 +263,7 @@ static ovoid_code read_allowance(reader *r, content *c) {
           is_length(c->allowance.inside)) ||
         (c->at.version == 2 && c->allowance.outside + c->allowance.inside == 0))
         return refuse(r, start, "the allowance is not two lengths, one above zero");
-    return OVOID_OK;
+    return has_axis(c->at.version) ? read_axis(r, c) : OVOID_OK;
 }
 
 static ovoid_code read_header(reader *r, content *c) {

@@ -122,8 +122,9 @@ static ovoid_shape *create_turned(const turned *t, const ovoid_shape_options *op
 //
 // With the greatest angle g between neighbours of a circle of radius R, the cylinder's extreme points, those of its two
 // circles, are within R (1 - cos(g / 2)) of the prism, and across the axis; the distance from a convex body is a convex
-// function, so no point of the cylinder is farther. Nor does it stand out along the axis: the allowance has that axis. With u = 2^-53, rounding moves a corner along the circle by less than 32 u R and
-// away from it by less than 4 u R: 64 u R and 8 u R pay for both. A cone has the same circle, and its apex is exact.
+// function, so no point of the cylinder is farther. Nor does it stand out along the axis: the allowance has that axis.
+// With u = 2^-53, rounding moves a corner along the circle by less than 32 u R and away from it by less than 4 u R: 64
+// u R and 8 u R pay for both. A cone has the same circle, and its apex is exact.
 
 // By how much the circle of radius 1 stands out of a regular polygon: 1 - cos(pi / n), rounding included.
 static double compute_sagitta(double sides) {
@@ -160,7 +161,8 @@ static ovoid_shape *create_round(const turned *t, double tolerance, const ovoid_
                     tolerance, by.radius, (int)SIDES_MAX);
         return NULL;
     }
-    if (!(o.allowance.outside > 0) || is_along_z(o.allowance.axis)) o.allowance.axis = (ovoid_vec3){0, 0, 1};
+    int is_across = !(o.allowance.outside > 0) || is_along_z(o.allowance.axis);
+    if (vec3_is_finite(o.allowance.axis)) o.allowance.axis = (ovoid_vec3){0, 0, is_across};
     o.allowance.outside += by.radius * compute_sagitta(by.sides);
     o.allowance.inside += by.radius * (8 * 0x1p-53);
     ovoid_shape *shape = create_turned(&by, &o, error);

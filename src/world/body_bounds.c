@@ -21,7 +21,10 @@ body_sphere body_compute_sphere(const ovoid_body *body) {
     }
     if (body->solid) return (body_sphere){body->solid->center, body->solid->reach, 0, body->solid->extent};
     vec3 local = vec3_add(s->origin, s->center);
-    return (body_sphere){local, s->reach, s->lower_radius, vec3_max_abs(s->origin) + s->span + s->lower_radius};
+    double size = vec3_max_abs(s->origin) + s->span + s->lower_radius;
+    if (!shape_has_axis(s)) return (body_sphere){local, s->reach, s->lower_radius, size};
+    // What stands out across an axis turns with the body.
+    return (body_sphere){local, nextafter(s->reach + s->allowance.outside, INFINITY), s->radius, size};
 }
 
 static double find_center_error(const body_sphere *ball, const ovoid_pose *pose) {

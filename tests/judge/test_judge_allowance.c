@@ -55,7 +55,8 @@ static ovoid_shape *make_shape(bits_family f, uint64_t *s) {
         xyz[3 * i + 2] = p.origin.z + p.vertices[3 * i + 2];
     }
     for (int k = 0; k < 2; k++) lengths[k] = random_next(s) % 3 ? size * random_uniform(s, 0, 0.2) : 0;
-    ovoid_shape_options o = {.radius = ovoid_shape_get_radius(plain), .allowance = {.outside = lengths[0], .inside = lengths[1]}};
+    ovoid_shape_options o = {.radius = ovoid_shape_get_radius(plain),
+                             .allowance = {.outside = lengths[0], .inside = lengths[1]}};
     shape = ovoid_shape_create_from_points(xyz, p.vertex_count, &o, NULL);
     ovoid_shape_destroy(plain);
     CHECK(shape != NULL);

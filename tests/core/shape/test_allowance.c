@@ -17,7 +17,8 @@ typedef struct known {
     ovoid_shape *shape, *body;
 } known;
 
-typedef enum style { ENLARGED, SHRUNK, DISPLACED, PULLED, STYLES } style;
+/// ACROSS: displaced across an axis, which the allowance has.
+typedef enum style { ENLARGED, SHRUNK, DISPLACED, PULLED, ACROSS, STYLES } style;
 
 static ovoid_vec3 random_step(uint64_t *s, double length) {
     ovoid_vec3 v = vec3_unit((vec3){random_normal(s), random_normal(s), random_normal(s)});
@@ -28,12 +29,13 @@ static ovoid_vec3 random_step(uint64_t *s, double length) {
 static known make_known_of(int count, style how, double by, uint64_t *s) {
     double given[3 * 24], moved[3 * 24];
     for (int i = 0; i < 3 * count; i++) given[i] = moved[i] = random_uniform(s, -1, 1);
-    vec3 middle = {0, 0, 0};
+    vec3 middle = {0, 0, 0}, axis = random_step(s, 1);
     for (int i = 0; i < count; i++) middle = vec3_add_scaled(middle, vec3_at(given, (size_t)i), 1.0 / count);
     for (int i = 0; i < count; i++) {
         vec3 v = vec3_at(given, (size_t)i), in = vec3_sub(middle, v), step = {0, 0, 0};
         double far = vec3_norm(in);
-        if (how == DISPLACED) step = random_step(s, by);
+        if (how == DISPLACED || how == ACROSS) step = random_step(s, by);
+        if (how == ACROSS) step = vec3_add_scaled(step, axis, -vec3_dot(axis, step) / vec3_norm_squared(axis));
         if (how == PULLED && far > 0) step = vec3_scale(in, fmin(by, far) * (1 - 1e-9) / far);
         moved[3 * i] += step.x, moved[3 * i + 1] += step.y, moved[3 * i + 2] += step.z;
     }
@@ -41,7 +43,8 @@ static known make_known_of(int count, style how, double by, uint64_t *s) {
     ovoid_shape_options of_shape = {.radius = radius}, of_body = {.radius = radius};
     if (how != SHRUNK) of_shape.allowance.outside = by;
     // What rounding may put out of the true body.
-    of_shape.allowance.inside = how == SHRUNK || how == DISPLACED ? by : how == PULLED ? 1e-15 : 0;
+    of_shape.allowance.inside = how == SHRUNK || how == DISPLACED || how == ACROSS ? by : how == PULLED ? 1e-15 : 0;
+    if (how == ACROSS) of_shape.allowance.axis = vec3_scale(axis, random_uniform(s, 0.5, 2));
     if (how == ENLARGED) of_body.radius += by;
     if (how == SHRUNK) of_body.radius -= by;
     known k = {ovoid_shape_create_from_points(moved, (size_t)count, &of_shape, NULL),
@@ -374,6 +377,7 @@ static void run_world(uint64_t seed, ovoid_query_kind kind, double margin, int m
         check_contacts(&found, bodies, poses, ids, margin);
         for (int i = 0; i < BODIES; i++) {
             poses[i].position = vec3_add(poses[i].position, random_vec3(&s, 0.05));
+            poses[i].rotation.x += random_uniform(&s, -0.05, 0.05);
             ovoid_world_move(w, ids[i], &poses[i], NULL);
         }
     }

@@ -24,10 +24,12 @@ static void check_body(ovoid_shape *s) {
     int solid = s->rank == 3 && s->inner.q.xx != 0;
     size_t size = ovoid_shape_write(s, NULL, 0), most = size + 24 * (size_t)s->vertex_count + 16;
     uint8_t *bytes = malloc(most);
-    uint32_t expected = solid && s->vertex_count >= SHAPE_TRIANGLES_LEAST ? 3 : s->has_allowance ? 2 : 1;
+    int is_large = solid && s->vertex_count >= SHAPE_TRIANGLES_LEAST, has_axis = shape_has_axis(s);
+    uint32_t expected = has_axis ? (is_large ? 5 : 4) : is_large ? 3 : s->has_allowance ? 2 : 1;
+    uint32_t other = has_axis ? 5 : 3;
     for (uint32_t k = 0; k < (solid ? 2u : 1u); k++) {
-        size = k ? shape_write_version(s, 3, bytes, most) : ovoid_shape_write(s, bytes, most);
-        CHECK_EQ(bytes[8], k ? 3u : expected);
+        size = k ? shape_write_version(s, other, bytes, most) : ovoid_shape_write(s, bytes, most);
+        CHECK_EQ(bytes[8], k ? other : expected);
         ovoid_error e = {0};
         ovoid_shape *t = ovoid_shape_read(bytes, size, NULL, &e);
         if (!t) printf("    %u vertices: %s\n", s->vertex_count, e.message);
@@ -422,6 +424,25 @@ static void check_allowances(void) {
     ovoid_shape_destroy(s);
 }
 
+// Axes that no allowance has: zero, not of length 1, not a number, or of nothing that stands out.
+static void check_axes(void) {
+    static const vec3 wrong[] = {{0, 0, 0}, {0, 0, 2}, {0, 0, 1 - 1e-9}, {NAN, 0, 1}, {0, INFINITY, 0}};
+    ovoid_shape *s = ovoid_shape_create_cylinder(1, 1, 0.05, NULL, NULL);
+    for (size_t i = 0; i < 2 * (sizeof wrong / sizeof *wrong + 1); i++) {
+        uint32_t version = 4 + i % 2;
+        forgery f = {NULL, shape_write_version(s, version, NULL, 0), s->vertex_count, s->counts.triangles};
+        f.bytes = malloc(f.size);
+        shape_write_version(s, version, f.bytes, f.size);
+        CHECK_EQ(f.bytes[8], version);
+        if (i / 2 < sizeof wrong / sizeof *wrong)
+            memcpy(f.bytes + 344, &wrong[i / 2], sizeof *wrong);
+        else
+            memset(f.bytes + 328, 0, 8);
+        check_refused(&f, "axis", 344);
+    }
+    ovoid_shape_destroy(s);
+}
+
 // Ranks and versions that do not go together.
 static void check_headers(void) {
     ovoid_shape *s = make_round(12);
@@ -432,7 +453,7 @@ static void check_headers(void) {
         check_refused(&f, "solid", 12);
     }
     forgery f = forge(s);
-    f.bytes[8] = 4;
+    f.bytes[8] = 6;
     check_refused(&f, "version", 8);
     f = forge(s);
     f.bytes[8] = 2;
@@ -459,6 +480,7 @@ int main(void) {
     check_ninth();
     check_other_triangles();
     check_allowances();
+    check_axes();
     check_headers();
     return check_end();
 }

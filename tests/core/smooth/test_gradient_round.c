@@ -270,7 +270,8 @@ static void test_kinks(void) {
     const double half = 0.5 * atan2(0.5, 2);
     const ovoid_vec3 aside = {3 * cos(2 * half), 0, 3 * sin(2 * half)};
     const ovoid_quat along = {cos(half), 0, -sin(half), 0};
-    ovoid_shape *known = ovoid_shape_create_cylinder(0.5, 1, 0, &(ovoid_shape_options){.allowance = {.outside = 1e-3, .inside = 0}}, NULL);
+    ovoid_shape *known = ovoid_shape_create_cylinder(
+        0.5, 1, 0, &(ovoid_shape_options){.allowance = {.outside = 1e-3, .inside = 0}}, NULL);
     const struct {
         const ovoid_shape *a, *b;
         ovoid_vec3 at;
