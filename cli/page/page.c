@@ -129,12 +129,12 @@ typedef struct left_item {
     size_t count;
 } left_item;
 
-enum { LEFT_ITEMS = 7 };
+enum { LEFT_ITEMS = 8 };
 
 static void list_left_out(const page_left_out *left, left_item items[LEFT_ITEMS]) {
     const left_item all[LEFT_ITEMS] = {{"pairs", left->pairs},   {"bodies", left->bodies}, {"meshes", left->meshes},
                                        {"proofs", left->proofs}, {"frames", left->frames}, {"events", left->events},
-                                       {"states", left->states}};
+                                       {"states", left->states}, {"steps", left->steps}};
     memcpy(items, all, sizeof all);
 }
 

@@ -19,7 +19,7 @@
 typedef struct page_left_out {
     size_t pairs, bodies, meshes, proofs; ///< the nearest stay
     size_t frames, events;                ///< of a motion
-    size_t states;                        ///< of a robot
+    size_t states, steps;                 ///< of a robot, of a path's proof
 } page_left_out;
 
 /// A page that is being written. All zero is one that nobody asked for.

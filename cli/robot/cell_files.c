@@ -70,14 +70,6 @@ int cell_set_paddings(const cli_command *command, const cli_cell *cell, ovoid_ro
     return 0;
 }
 
-int cell_has_solids(const cli_cell *cell) {
-    for (size_t i = 0; i < cell->description.element_count; i++)
-        if (cell->description.elements[i].solid) return 1;
-    for (size_t i = 0; i < cell->id_count; i++)
-        if (ovoid_obstacles_get(cell->obstacles, i).solid) return 1;
-    return 0;
-}
-
 int cell_open(const cli_command *command, const char *urdf, const cell_settings *settings, cli_cell *cell) {
     ovoid_error error;
     *cell = (cli_cell){.cell = NULL};

@@ -60,9 +60,6 @@ typedef struct cli_cell {
     ovoid_placed_obstacle *placed; ///< of each obstacle
 } cli_cell;
 
-/// 1: a link or an obstacle is a solid or a surface.
-int cell_has_solids(const cli_cell *cell);
-
 /// Reads the files and makes the cell. 0, or an exit code after a message, with nothing left open.
 int cell_open(const cli_command *command, const char *urdf, const cell_settings *settings, cli_cell *cell);
 void cell_close(cli_cell *cell);

@@ -326,7 +326,7 @@ static int run_check(check *c) {
     if (code != worst) return code;
     if (c->listed < count) message_note("%zu more states%s", count - c->listed, is_table ? ": --top 0, or --json" : "");
     tally_report(&c->tally, c->form.cell, progress_get_seconds() - start);
-    const robot_page_source source = {c->urdf, &s->cell, c->form.cell, c->form.states, NULL, 0};
+    const robot_page_source source = {c->urdf, &s->cell, c->form.cell, c->form.states, NULL, NULL};
     return robot_page_write(c->page, &source) ? EXIT_INPUT : code;
 }
 
@@ -349,7 +349,6 @@ static int run(const cli_command *command, int argc, char **argv) {
     robot_page page;
     if (robot_page_open(&page, s.html)) return EXIT_INPUT;
     code = cell_open(command, operands.items[0], &s.cell, &cell);
-    if (!code && s.html) code = robot_page_check(command, &cell);
     if (code) return robot_page_close(&page), code;
     states.part = s.part;
     code = states_open(command, &s.states, &cell, &states);

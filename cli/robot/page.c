@@ -6,9 +6,9 @@
 #include "page/shapes.h"
 #include "page/write.h"
 #include "robot/page_clearance.h"
+#include "robot/page_steps.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /// Most states of a page.
 #define STATES_MOST 10000
@@ -33,7 +33,7 @@ void robot_page_add_state(robot_page *p, const report_form *form, const report_s
 
 void robot_page_add_path(robot_page *p, const path_report *report) {
     path_report plain = *report;
-    plain.steps = NULL;
+    plain.has_proofs = 0;
     // Edges of states that are on the page.
     if (!p->answers || (report->is_edge && 2 * report->number + 2 > STATES_MOST)) return;
     if (p->count++) fputc(',', p->answers);
@@ -103,24 +103,53 @@ static void write_tree(FILE *file, const cli_cell *cell) {
     fputc(']', file);
 }
 
-/// Adds the shapes of a robot and its obstacles; 0 where memory is out.
-static int add_shapes(page_shapes *shapes, const cli_cell *cell) {
+/// Adds a shape, or a solid with its hull. 0, or EXIT_INPUT after a message.
+static int add_shape(page_shapes *shapes, cli_page *page, const ovoid_shape *shape, const ovoid_solid *solid) {
     size_t number;
-    int done = 1;
-    for (size_t i = 0; i < cell->description.element_count && done; i++)
-        done = page_shapes_add(shapes, cell->description.elements[i].shape, &number);
-    for (size_t i = 0; i < cell->id_count && done; i++)
-        done = page_shapes_add(shapes, ovoid_obstacles_get(cell->obstacles, i).shape, &number);
-    return done;
+    if (solid) return page_shapes_add_solid(shapes, page, shape, solid);
+    return page_shapes_add(shapes, shape, &number) ? 0 : (message_error("out of memory"), EXIT_INPUT);
 }
 
+/// Adds the shapes of a robot and its obstacles. 0, or EXIT_INPUT after a message.
+static int add_shapes(page_shapes *shapes, cli_page *page, const cli_cell *cell) {
+    int code = 0;
+    for (size_t i = 0; i < cell->description.element_count && !code; i++) {
+        const ovoid_robot_element *e = &cell->description.elements[i];
+        code = add_shape(shapes, page, e->shape, e->solid);
+    }
+    for (size_t i = 0; i < cell->id_count && !code; i++) {
+        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
+        code = add_shape(shapes, page, o.shape, o.solid);
+    }
+    return code;
+}
+
+/// Something that is drawn, and where.
+typedef struct placed_shape {
+    const ovoid_shape *shape;
+    const ovoid_solid *solid;
+    const ovoid_pose *pose;
+} placed_shape;
+
 /// Writes the number and the pose of a shape that was added before.
-static void write_place(FILE *file, page_shapes *shapes, const ovoid_shape *shape, const ovoid_pose *pose) {
+static void write_place(FILE *file, page_shapes *shapes, const placed_shape *at) {
     size_t number = 0;
-    (void)page_shapes_add(shapes, shape, &number);
-    fprintf(file, ",\"shape\":%zu,\"pose\":", number);
-    page_write_pose(file, pose);
-    fputc('}', file);
+    (void)page_shapes_add(shapes, at->shape, &number);
+    fprintf(file, ",\"shape\":%zu%s,\"pose\":", number, at->solid ? ",\"solid\":true" : "");
+    page_write_pose(file, at->pose);
+}
+
+/// Writes the links that an obstacle, or what a link holds, is let touch.
+static void write_allowed(FILE *file, const cli_cell *cell, ovoid_id id) {
+    const char *before = "";
+    fputs(",\"touching\":[", file);
+    for (uint32_t i = 0; i < cell->description.link_count; i++) {
+        if (!ovoid_robot_cell_is_body_allowed(cell->cell, id, i)) continue;
+        fputs(before, file);
+        page_write_text(file, cell->description.links[i].name);
+        before = ",";
+    }
+    fputc(']', file);
 }
 
 static void write_elements(FILE *file, page_shapes *shapes, const cli_cell *cell) {
@@ -130,43 +159,44 @@ static void write_elements(FILE *file, page_shapes *shapes, const cli_cell *cell
         const ovoid_robot_element *e = &d->elements[i];
         write_key(file, i ? ",{" : "{", "link", d->links[e->link].name);
         if (e->name) write_key(file, ",", "name", e->name);
-        write_place(file, shapes, e->shape, &e->pose);
-    }
-    // What a link holds is one of its elements.
-    size_t count = d->element_count;
-    for (size_t i = 0; i < cell->id_count; i++) {
-        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        if (cell->placed[i].link == OVOID_ROBOT_NONE) continue;
-        write_key(file, count++ ? ",{" : "{", "link", d->links[cell->placed[i].link].name);
-        write_key(file, ",", "name", o.name);
-        write_place(file, shapes, o.shape, &cell->placed[i].pose);
-    }
-    fputs("],\"obstacles\":[", file);
-    count = 0;
-    for (size_t i = 0; i < cell->id_count; i++) {
-        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        if (cell->placed[i].link != OVOID_ROBOT_NONE) continue;
-        write_key(file, count++ ? ",{" : "{", "name", o.name);
-        write_place(file, shapes, o.shape, &cell->placed[i].pose);
+        write_place(file, shapes, &(placed_shape){e->shape, e->solid, &e->pose});
+        fputc('}', file);
     }
     fputc(']', file);
 }
 
-// ---- pairs that are not queried
-
-static int compare_pairs(const void *a, const void *b) {
-    const ovoid_robot_pair *p = a, *q = b;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return p->b < q->b ? -1 : p->b > q->b;
+/// Writes what links hold, or what stands in the world.
+static void write_obstacles(FILE *file, page_shapes *shapes, const cli_cell *cell, int is_held) {
+    const char *before = "{";
+    fprintf(file, ",\"%s\":[", is_held ? "held" : "obstacles");
+    for (size_t i = 0; i < cell->id_count; i++) {
+        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
+        const ovoid_placed_obstacle *at = &cell->placed[i];
+        if ((at->link != OVOID_ROBOT_NONE) != is_held) continue;
+        write_key(file, before, "name", o.name);
+        if (is_held) write_key(file, ",", "link", cell->description.links[at->link].name);
+        write_place(file, shapes, &(placed_shape){o.shape, o.solid, &at->pose});
+        write_allowed(file, cell, at->id);
+        fputc('}', file);
+        before = ",{";
+    }
+    fputc(']', file);
 }
 
-/// 1 if two links, a < b, are disabled, or never move against each other.
-static int is_left_out(const cli_cell *cell, uint32_t a, uint32_t b) {
-    const ovoid_robot_description *d = &cell->description;
-    const ovoid_robot_pair key = {a, b, NULL};
-    // The compiled description has them sorted.
-    if (d->disabled_count && bsearch(&key, d->disabled, d->disabled_count, sizeof key, compare_pairs)) return 1;
-    return ovoid_robot_is_rigid_pair(cell->robot.robot, a, b);
+static void write_paddings(FILE *file, const cli_cell *cell) {
+    const char *before = "[";
+    fputs(",\"paddings\":[", file);
+    for (uint32_t i = 0; i < cell->description.link_count; i++) {
+        double padding = ovoid_robot_cell_get_padding(cell->cell, i);
+        if (!(padding > 0)) continue;
+        fputs(before, file);
+        page_write_text(file, cell->description.links[i].name);
+        fputc(',', file);
+        json_write_number(file, padding);
+        fputc(']', file);
+        before = ",[";
+    }
+    fputc(']', file);
 }
 
 /// Writes the pairs of links with elements that are not queried. 0 where memory is out.
@@ -179,7 +209,7 @@ static int write_disabled(FILE *file, const cli_cell *cell) {
     fputs(",\"disabled\":[", file);
     for (uint32_t a = 0; a < d->link_count; a++)
         for (uint32_t b = a + 1; b < d->link_count && has_element[a]; b++) {
-            if (!has_element[b] || !is_left_out(cell, a, b)) continue;
+            if (!has_element[b] || !ovoid_robot_cell_is_allowed(cell->cell, a, b)) continue;
             fprintf(file, "%s[", before);
             page_write_text(file, d->links[a].name);
             fputc(',', file);
@@ -201,7 +231,15 @@ static size_t write_states(FILE *file, const cli_states *states) {
     return states->count - count;
 }
 
-/// Writes the answers, and the clearance of a path. 0, or EXIT_INPUT after a message.
+/// Writes the clearance of a path and the steps that prove it. 0, or EXIT_INPUT after a message.
+static int write_path(robot_page *p, const robot_page_source *s) {
+    const ovoid_robot_query_options options = cell_make_options(s->settings);
+    if (s->path->answer.status == OVOID_ROBOT_REFUSED) return 0;
+    int code = page_write_steps(p->page.file, s->path, &p->page.left_out.steps);
+    return code ? code : page_write_clearance(p->page.file, s->cell, s->states, s->checker, &options);
+}
+
+/// Writes the answers. 0, or EXIT_INPUT after a message.
 static int write_answers(robot_page *p, const robot_page_source *s) {
     FILE *file = p->page.file, *answers = p->answers;
     p->answers = NULL;
@@ -210,36 +248,27 @@ static int write_answers(robot_page *p, const robot_page_source *s) {
     page_copy_json(file, p->text, p->size);
     fputs("]", file);
     if (!s->checker) return 0;
-    const ovoid_robot_query_options options = cell_make_options(s->settings);
-    int code = s->has_clearance ? page_write_clearance(file, s->cell, s->states, s->checker, &options) : 0;
+    int code = s->path ? write_path(p, s) : 0;
     fputc('}', file);
     return code;
-}
-
-int robot_page_check(const cli_command *command, cli_cell *cell) {
-    if (!cell_has_solids(cell)) return 0;
-    cell_close(cell);
-    return args_complain(
-        command,
-        "%s: --html draws hulls and asks about them, and there are meshes that are none: add --hull to "
-        "ask about hulls",
-        command->name);
 }
 
 int robot_page_write(robot_page *p, const robot_page_source *s) {
     const page_head head = {s->urdf, NULL, "m", s->settings->margin > 0 ? s->settings->margin : -1};
     page_shapes shapes = {.items = NULL};
     if (!p->page.path) return 0;
-    if (s->settings->paddings.count)
-        message_warning("the page has no paddings: what it finds by itself is without them");
     int code = page_begin(&p->page, &head);
     FILE *file = p->page.file;
-    if (!code && !add_shapes(&shapes, s->cell)) code = EXIT_INPUT, message_error("out of memory");
+    if (!code) code = add_shapes(&shapes, &p->page, s->cell);
     if (!code) code = page_shapes_write(&shapes, file);
     if (!code) {
         fputs(",\"bodies\":[],\"pairs\":[]", file);
         write_tree(file, s->cell);
         write_elements(file, &shapes, s->cell);
+        write_obstacles(file, &shapes, s->cell, 1);
+        write_obstacles(file, &shapes, s->cell, 0);
+        write_paddings(file, s->cell);
+        write_value(file, "limit_slack", s->settings->slack);
         if (!write_disabled(file, s->cell)) code = EXIT_INPUT, message_error("out of memory");
     }
     if (!code) {

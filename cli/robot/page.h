@@ -14,10 +14,6 @@ typedef struct robot_page {
     size_t size, count;
 } robot_page;
 
-/// A page draws hulls and asks about them: 0, or, after a message and with the cell closed, an exit code where a body
-/// is none.
-int robot_page_check(const cli_command *command, cli_cell *cell);
-
 /// Opens a page; path NULL: none is wanted, and nothing is done below. 0, or EXIT_INPUT after a message.
 int robot_page_open(robot_page *page, const char *path);
 
@@ -32,7 +28,7 @@ typedef struct robot_page_source {
     const cli_cell *cell;
     const cli_states *states;
     ovoid_robot_checker *checker; ///< of a path, NULL: the answers are those of states
-    int has_clearance;            ///< of one path: it is sampled
+    const path_report *path;      ///< one path, with its steps; NULL: several, or states
 } robot_page_source;
 
 /// Writes the page. 0, or EXIT_INPUT after a message.

@@ -233,6 +233,16 @@ OVOID_API ovoid_code ovoid_robot_cell_set_body_allowed(ovoid_robot_cell *cell, o
 OVOID_API ovoid_code ovoid_robot_cell_set_padding(ovoid_robot_cell *cell, uint32_t link, double padding,
                                                   ovoid_error *error);
 
+/**
+ * 1: a pair of links is not queried: the description disables it, the cell allows it, the two never move against each
+ * other, or are one. Links must be of the robot.
+ */
+OVOID_API int ovoid_robot_cell_is_allowed(const ovoid_robot_cell *cell, uint32_t a, uint32_t b);
+/** 1: an obstacle or an attached body of the cell and a link are not queried. 0 for an id of no body. */
+OVOID_API int ovoid_robot_cell_is_body_allowed(const ovoid_robot_cell *cell, ovoid_id id, uint32_t link);
+/** By how much a link is enlarged against obstacles. */
+OVOID_API double ovoid_robot_cell_get_padding(const ovoid_robot_cell *cell, uint32_t link);
+
 /** What one thread needs to query states of a cell: memory, and the proofs of its last state, where the next begins. */
 typedef struct ovoid_robot_checker ovoid_robot_checker;
 

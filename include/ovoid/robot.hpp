@@ -134,6 +134,16 @@ class robot_cell : public detail::owner<detail::pointer<ovoid_robot_cell>, ovoid
     }
     /** Enlarges a link against obstacles. Throws INDEX, RADIUS. */
     void set_padding(std::uint32_t link, double padding) { call(ovoid_robot_cell_set_padding, link, padding); }
+    /** Whether a pair of links is not queried. */
+    bool is_allowed(std::uint32_t a, std::uint32_t b) const noexcept {
+        return ovoid_robot_cell_is_allowed(get(), a, b) != 0;
+    }
+    /** Whether a body and a link are not queried. */
+    bool is_body_allowed(id b, std::uint32_t link) const noexcept {
+        return ovoid_robot_cell_is_body_allowed(get(), b, link) != 0;
+    }
+    /** By how much a link is enlarged against obstacles. */
+    double padding(std::uint32_t link) const noexcept { return ovoid_robot_cell_get_padding(get(), link); }
 
   private:
     template <class Function, class... Arguments> void call(Function function, Arguments... arguments) {

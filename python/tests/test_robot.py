@@ -237,6 +237,14 @@ class Cells(unittest.TestCase):
         self.assertEqual(cell.collide(nearly).status, ovoid.RobotStatus.HIT)
         cell.remove(held)
         cell.set_padding("lower", 0.5)
+        self.assertEqual((cell.get_padding("lower"), cell.get_padding("upper")), (0.5, 0))
+        cell.allow("base", "lower")
+        cell.allow_body(block := cell.add(ovoid.Shape.box([1, 1, 1]), at(0, 0, 9)), "lower")
+        self.assertEqual([cell.is_allowed("base", "lower"), cell.is_body_allowed(block, "lower"), cell.is_body_allowed(block, "upper")],
+                         [True, True, False])
+        cell.allow("base", "lower", False)
+        self.assertFalse(cell.is_allowed("base", "lower"))
+        cell.remove(block)
         self.assertEqual(cell.collide(nearly).status, ovoid.RobotStatus.HIT)
         for call in (lambda: cell.remove(held), lambda: cell.move(7, None), lambda: cell.set_padding("lower", -1),
                      lambda: cell.allow("upper", "nowhere"), lambda: cell.allow(9, 1), lambda: cell.add("ball"),

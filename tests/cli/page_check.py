@@ -282,10 +282,39 @@ def check_robot():
     for i, answer in enumerate(lines("robot", "check", *robot, "--states", f"{arm}/path.csv", "--near", "9", "--json")):
         nearest = answer["near"][0]
         check("clearance", samples[i][3:] == [nearest["a"], nearest["b"]] and samples[i][1] <= nearest["upper"] and nearest["lower"] <= samples[i][2])
+    steps, pairs = given["path"]["steps"], given["path"]["pairs"]
+    named = {number for step in steps for number in step[3]}
+    check("steps", len(steps) == path[0]["steps"] > 0 and named == set(range(len(pairs))) and all(step[2] in ("outer", "middle", "ends", "solid") for step in steps))
+    check("pairs", all(any(number in step[3] and step[0] == 0 for step in steps) for number in named))
     check("samples", len(samples) == 101 and sorted(samples) == [s[0] for s in given["path"]["clearance"]])
     edges = lines("robot", "path", *robot, "--state", "up", "--state", "shoulder=1.4", "--state", "up", "--state", "shoulder=0.1", "--edges", "--json", "--html", "edges.html")
     data = read("edges.html")
     check("edges", data["robot"]["path"] == {"edges": edges} and [edge["status"] for edge in edges] == ["hit", "free"])
+
+
+def check_held():
+    # A rod in the tip, a padded arm, and a scene that replaces what the SRDF disables.
+    link = '<link name="{}"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>'
+    joint = '<joint name="to {1}" type="prismatic"><parent link="{0}"/><child link="{1}"/><origin xyz="1 0 0"/><limit lower="-1" upper="1"/></joint>'
+    with open("held.urdf", "w") as file:
+        file.write('<robot name="r">' + "".join(map(link.format, "abc")) + joint.format("a", "b") + joint.format("b", "c")
+                   + '<link name="e"><collision><geometry><mesh filename="dent.off"/></geometry></collision></link>' + joint.format("a", "e") + "</robot>")
+    with open("held.yaml", "w") as file:
+        file.write("""robot_state:
+  attached_collision_objects:
+    - {link_name: c, touch_links: [b], object: {id: rod, header: {frame_id: c}, primitives: [{type: sphere, dimensions: [0.2]}]}}
+link_padding: [{link_name: b, padding: 0.25}]
+world: {collision_objects: [{id: post, primitives: [{type: sphere, dimensions: [0.3]}], primitive_poses: [{position: [0, 9, 0]}]}]}
+allowed_collision_matrix: {entry_names: [a, b, c, post, e], entry_values: [[0, 1, 0, 0, 0], [1, 0, 0, 1, 0], [0, 0, 0, 0, 0], [0, 1, 0, 0, 0], [0, 0, 0, 0, 0]]}
+""")
+    run("robot", "check", "held.urdf", "--scene", "held.yaml", "--state", "to b=0.1", "--limit-slack", "0.5", "--html", "held.html")
+    data = read("held.html")
+    given = data["robot"]
+    dents = [e for e in given["elements"] if e.get("solid")]
+    check("links that are no hulls", [e["link"] for e in dents] == ["e"] and is_dent("d", data["shapes"][dents[0]["shape"]]["solid"]))
+    check("held", [(h["name"], h["link"], h["touching"]) for h in given["held"]] == [("rod", "c", ["b", "c"])])
+    check("allowed", given["disabled"] == [["a", "b"]] and [(o["name"], o["touching"]) for o in given["obstacles"]] == [("post", ["b"])])
+    check("paddings", given["paddings"] == [["b", 0.25]] and given["limit_slack"] == 0.5)
 
 
 def check_rigid():
@@ -316,7 +345,7 @@ def check_many_states():
 
 tests = [check_scene, check_areas, check_many, check_meshes, check_proofs, check_motion]
 if "robot" in run("complete")[0].split():
-    tests += [check_robot, check_rigid, check_many_states]
+    tests += [check_robot, check_held, check_rigid, check_many_states]
 for each in tests:
     each()
 print(f"{counts['passed']} passed, {counts['failed']} failed, 0 skipped")

@@ -61,7 +61,10 @@ int main() {
     CHECK(clearance.status == OVOID_ROBOT_FREE && clearance.lower > 0 && clearance.lower <= clearance.upper);
     cell.set_padding(1, 2);
     CHECK_EQ(checker.collide({q.data(), 1}, options).status, OVOID_ROBOT_HIT);
+    CHECK_EQ(cell.padding(1), 2);
+    CHECK(!cell.is_body_allowed(wall, 1) && cell.is_allowed(1, 1));
     cell.set_body_allowed(wall, 1, true);
+    CHECK(cell.is_body_allowed(wall, 1));
     CHECK_EQ(checker.collide({q.data(), 1}, options).status, OVOID_ROBOT_UNDECIDED); // no pair is left to compare
     cell.move(wall, far);
     const auto held = cell.attach(1, ovoid::body(box, far));

@@ -138,6 +138,25 @@ static int counts(const scene *c, const ovoid_robot_side *a, const ovoid_robot_s
     return 1;
 }
 
+// What a cell says of its pairs and paddings is what was set.
+static void check_settings(const scene *c) {
+    for (uint32_t a = 0; a < c->a.d.link_count; a++) {
+        const ovoid_robot_side side = {.link = a};
+        for (uint32_t b = 0; b < c->a.d.link_count; b++) {
+            const ovoid_robot_side other = {.link = b};
+            CHECK_EQ(ovoid_robot_cell_is_allowed(c->cell, a, b), !counts(c, &side, &other));
+        }
+        for (int i = 0; i < OBSTACLES; i++) {
+            const ovoid_robot_side obstacle = {.link = OVOID_ROBOT_NONE, .body = c->ids[i]};
+            CHECK_EQ(ovoid_robot_cell_is_body_allowed(c->cell, c->ids[i], a), !counts(c, &side, &obstacle));
+        }
+        const ovoid_robot_side held = {.link = c->held_link, .body = c->held_id};
+        CHECK_EQ(ovoid_robot_cell_is_body_allowed(c->cell, c->held_id, a), !counts(c, &side, &held));
+        CHECK_EQ(ovoid_robot_cell_is_body_allowed(c->cell, c->held_id + 1, a), 0);
+        CHECK_EQ(ovoid_robot_cell_get_padding(c->cell, a), c->padding[a]);
+    }
+}
+
 // All pairs that count, with their depths.
 static size_t find_truth(const scene *c, const double *q, true_pair *pairs) {
     ovoid_pose poses[ROBOT_LINKS];
@@ -292,6 +311,7 @@ static void test_truth(void) {
         scene c;
         check_seed = (uint64_t)round;
         make_scene(&s, &c);
+        check_settings(&c);
         ovoid_robot_checker *x = ovoid_robot_checker_create(c.cell, NULL, &error);
         CHECK(x != NULL);
         double q[7 * ROBOT_LINKS];

@@ -152,5 +152,5 @@ export function bindBodies(core) {
     return calls.body_verify(kinds[0] | (kinds[1] << 2), a.address, b.address) ? memory.error() : null;
   }
 
-  return { Compound, Solid, query, verify };
+  return { Compound, Solid, kindOf, query, verify };
 }

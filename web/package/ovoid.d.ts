@@ -42,6 +42,8 @@ export declare class Shape {
   private constructor();
   /** The convex hull of points: n arrays of three, or 3 n numbers. */
   static fromPoints(points: ArrayLike<number> | readonly Vector[], options?: ShapeOptions): Shape;
+  /** The convex hull of a solid's points. */
+  static hullOf(solid: Solid): Shape;
   static box(half: Vector, options?: ShapeOptions): Shape;
   static sphere(radius: number, options?: ShapeOptions): Shape;
   /** Along z, as are all of the following. */
@@ -138,22 +140,31 @@ export interface Joint {
 }
 export interface RobotDescription {
   links: string[]; joints: Joint[];
-  /** Shapes are borrowed: do not free them before the robot. */
-  elements?: { link: string; shape: Shape; pose?: Pose }[];
+  /** Bodies are borrowed: do not free them before the robot. A Solid is asked about with all its dents. */
+  elements?: { link: string; shape: Shape | Solid; pose?: Pose }[];
   disabled?: [string, string][];
 }
-export interface Side { link: string | null; element: number | null; obstacle: number | null }
-export interface StateAnswer { status: 'undecided' | 'free' | 'hit' | 'refused'; variable?: number; a?: Side; b?: Side; lower?: number; upper?: number }
+export interface Side { link: string | null; element: number | null; obstacle: number | null; part: number }
+/** code: of a refused state why, of variable; of an undecided one without a and b: no pair is asked about. */
+export interface StateAnswer { status: 'undecided' | 'free' | 'hit' | 'refused'; code?: string; variable?: number; a?: Side; b?: Side; lower?: number; upper?: number }
 export interface NearPair { a: Side; b: Side; status: Status; lower: number; upper: number; point_a: number[]; point_b: number[]; normal: number[] }
 export declare class Robot {
   constructor(description: RobotDescription);
   readonly description: RobotDescription;
   readonly variableCount: number;
   poses(q: ArrayLike<number>): { xyz: number[]; quat_wxyz: number[] }[];
-  add(shape: Shape, pose?: Pose): number;
+  /** Adds an obstacle; attaches a body to a link, in whose frame its pose is, and which may touch this link and some others. */
+  add(body: AnyBody, pose?: Pose): number;
+  attach(link: string, body: AnyBody, pose?: Pose, touching?: readonly string[]): number;
   move(id: number, pose: Pose): void;
   remove(id: number): void;
-  collide(q: ArrayLike<number>, margin?: number): StateAnswer;
+  /** Lets two links, or a body and a link, touch; or takes that back. */
+  allow(a: string, b: string, allowed?: boolean): void;
+  allowBody(id: number, link: string, allowed?: boolean): void;
+  /** Enlarges a link, with what is attached to it, against obstacles. */
+  setPadding(link: string, padding: number): void;
+  /** One with variables outside their limits by more than limitSlack (Infinity) is refused. */
+  collide(q: ArrayLike<number>, margin?: number, limitSlack?: number): StateAnswer;
   near(q: ArrayLike<number>, margin: number, most?: number): NearPair[];
   free(): void;
 }

@@ -20,7 +20,8 @@ export async function load(source) {
   core.drop = (object) => collected.unregister(object);
   const Shape = bindShapes(core);
   core.Shape = Shape;
-  const { Compound, Solid, ...bodies } = bindBodies(core);
+  const { Compound, Solid, kindOf, ...bodies } = bindBodies(core);
+  Object.assign(core, { Solid, kindOf });
   return {
     get memoryBytes() {
       return core.calls.memory.buffer.byteLength;
@@ -65,6 +66,10 @@ function bindShapes(core) {
       const xyz = toNumbers(points);
       if (xyz.length % 3) throw new TypeError(`points: ${xyz.length} numbers are no number of points, which take three each`);
       return Shape.#make(options, [], () => memory.with([xyz], (address) => calls.shape_from_points(address, xyz.length / 3)));
+    }
+
+    static hullOf(solid) {
+      return Shape.#make({}, [], () => calls.solid_create_hull(solid.address));
     }
 
     static #create(kind, options, ...numbers) {

@@ -3,7 +3,7 @@ import { toPose, toVector } from './values.mjs';
 
 const TYPES = ['fixed', 'revolute', 'continuous', 'prismatic', 'planar', 'floating'];
 const STATES = ['undecided', 'free', 'hit', 'refused'];
-const NEAR = 18;
+const NEAR = 20;
 
 function toModel(description) {
   const { links, joints, elements = [], disabled = [] } = description;
@@ -26,13 +26,13 @@ function toModel(description) {
     names: new TextEncoder().encode([...links, ...joints.map((j) => j.name)].map((name) => `${name}\0`).join('')),
     joints: Float64Array.from(rows),
     elements: Float64Array.from(elements.flatMap((e) => [link(e.link), ...toPose(e.pose, `an element of ${e.link}`)])),
-    shapes: Uint32Array.from(elements, (e) => e.shape.address),
+    shapes: Uint32Array.from(elements.flatMap((e) => [e.shape.address, e.solid?.address ?? 0])),
     disabled: Uint32Array.from(disabled.flatMap(([a, b]) => [link(a), link(b)])),
   };
 }
 
 export function bindRobots(core) {
-  const { memory, calls, names } = core;
+  const { memory, calls, names, kindOf, Shape, Solid } = core, codes = (i) => memory.text(calls.get_code_name(i));
 
   /** A robot among obstacles. */
   class Robot {
@@ -40,8 +40,9 @@ export function bindRobots(core) {
     #cell;
     #checker;
 
-    constructor(description) {
-      const m = toModel(description);
+    constructor(given) {
+      const elements = (given.elements ?? []).map((e) => (e.shape instanceof Solid ? { ...e, shape: Shape.hullOf(e.shape), solid: e.shape } : e));
+      const description = { ...given, elements }, m = toModel(description);
       this.description = description;
       this.#robot = memory.with([m.counts, m.names, m.joints, m.elements, m.shapes, m.disabled], calls.robot_create);
       if (!this.#robot) throw memory.error();
@@ -84,14 +85,44 @@ export function bindRobots(core) {
       });
     }
 
-    /** Adds an obstacle; its number. */
-    add(shape, pose) {
-      memory.set(toPose(pose));
-      const id = calls.cell_add(this.#open, shape.address);
+    #link(name) {
+      const i = this.description.links.indexOf(name);
+      if (i < 0) throw new TypeError(`no such link: ${name}`);
+      return i;
+    }
+
+    #keep(id, body) {
       if (!id) throw memory.error();
-      this.obstacles.set(id, shape);
+      this.obstacles.set(id, body);
       return id;
     }
+
+    /** Adds an obstacle; its number. */
+    add(body, pose) {
+      memory.set(toPose(pose));
+      return this.#keep(calls.cell_add(this.#open, kindOf(body), body.address), body);
+    }
+
+    /** Attaches a body to a link, in whose frame its pose is; its number. It may touch this link and those of touching. */
+    attach(link, body, pose, touching = []) {
+      const at = this.#link(link), list = Uint32Array.from(touching, (name) => this.#link(name));
+      memory.set(toPose(pose));
+      return this.#keep(memory.with([list], (t) => calls.cell_attach(this.#open, at, kindOf(body), body.address, t, list.length)), body);
+    }
+
+    /** Lets two links touch, or takes that back. */
+    allow(a, b, allowed = true) {
+      if (calls.cell_set_allowed(this.#open, this.#link(a), this.#link(b), allowed ? 1 : 0)) throw memory.error();
+    }
+    /** Lets an obstacle or an attached body touch a link, or takes that back. */
+    allowBody(id, link, allowed = true) {
+      if (calls.cell_set_body_allowed(this.#open, id, this.#link(link), allowed ? 1 : 0)) throw memory.error();
+    }
+    /** Enlarges a link, with what is attached to it, against obstacles. */
+    setPadding(link, padding) {
+      if (calls.cell_set_padding(this.#open, this.#link(link), padding)) throw memory.error();
+    }
+
     move(id, pose) {
       memory.set(toPose(pose));
       if (calls.cell_move(this.#open, id)) throw memory.error();
@@ -102,17 +133,18 @@ export function bindRobots(core) {
     }
 
     #side(n) {
-      return { link: n[0] < 0 ? null : this.description.links[n[0]], element: n[1] < 0 ? null : n[1], obstacle: n[2] || null };
+      return { link: n[0] < 0 ? null : this.description.links[n[0]], element: n[1] < 0 ? null : n[1], obstacle: n[2] || null, part: n[3] };
     }
 
-    /** Is the state free by a margin? */
-    collide(q, margin = 0) {
+    /** Is the state free by a margin? One with variables outside their limits by more than limitSlack is refused. */
+    collide(q, margin = 0, limitSlack = Infinity) {
       return memory.with([this.#state(q)], (s) => {
-        memory.set([margin]);
+        memory.set([margin, limitSlack]);
         if (calls.checker_collide(this.#checker, s)) throw memory.error();
-        const n = memory.get(11), status = STATES[n[0]];
-        if (status !== 'hit' && status !== 'undecided') return { status, variable: status === 'refused' ? n[2] : undefined };
-        return { status, a: this.#side(n.slice(3, 6)), b: this.#side(n.slice(6, 9)), lower: n[9], upper: n[10] };
+        const n = memory.get(14), status = STATES[n[0]];
+        if (status === 'refused') return { status, code: codes(n[1]), variable: n[2] };
+        if (!n[3]) return status === 'free' ? { status } : { status, code: codes(n[1]) };
+        return { status, a: this.#side(n.slice(4, 8)), b: this.#side(n.slice(8, 12)), lower: n[12], upper: n[13] };
       });
     }
 
@@ -125,8 +157,8 @@ export function bindRobots(core) {
         return Array.from({ length: Math.min(count, most) }, (_, i) => {
           const x = [...n.slice(NEAR * i, NEAR * (i + 1))];
           return {
-            a: this.#side(x.slice(0, 3)), b: this.#side(x.slice(3, 6)), status: names.status[x[6]], lower: x[7], upper: x[8],
-            point_a: x.slice(9, 12), point_b: x.slice(12, 15), normal: x.slice(15, 18),
+            a: this.#side(x.slice(0, 4)), b: this.#side(x.slice(4, 8)), status: names.status[x[8]], lower: x[9], upper: x[10],
+            point_a: x.slice(11, 14), point_b: x.slice(14, 17), normal: x.slice(17, 20),
           };
         });
       });

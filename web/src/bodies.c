@@ -4,8 +4,12 @@
 
 #include <stdlib.h>
 
-/// What a body is: two bits each of `kinds`, those of a first.
-enum { IS_SHAPE, IS_COMPOUND, IS_SOLID };
+const double *read_body(const double *from, unsigned kind, const void *body, ovoid_body *out) {
+    *out = (ovoid_body){.shape = kind == IS_SHAPE ? body : NULL,
+                        .compound = kind == IS_COMPOUND ? body : NULL,
+                        .solid = kind == IS_SOLID ? body : NULL};
+    return read_pose(from, &out->pose);
+}
 
 /// poses: seven numbers each.
 ovoid_compound *EXPORT(compound_create)(ovoid_shape *const *shapes, const double *poses, size_t count) {
@@ -39,13 +43,6 @@ ovoid_exclusion *EXPORT(set_exclusions)(size_t count) {
     }
     exclusions.count = count;
     return exclusions.items;
-}
-
-static const double *read_body(const double *from, unsigned kind, const void *body, ovoid_body *out) {
-    *out = (ovoid_body){.shape = kind == IS_SHAPE ? body : NULL,
-                        .compound = kind == IS_COMPOUND ? body : NULL,
-                        .solid = kind == IS_SOLID ? body : NULL};
-    return read_pose(from, &out->pose);
 }
 
 static const double *read_bodies(unsigned kinds, const void *a, const void *b, ovoid_body_pair *pair) {

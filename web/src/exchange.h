@@ -26,6 +26,12 @@ double *write_vec3(double *to, ovoid_vec3 v);
 double *write_sym3(double *to, ovoid_sym3 m);
 double *write_pose(double *to, const ovoid_pose *pose);
 
+/// What a body is: two bits each of `kinds`, those of a first.
+enum { IS_SHAPE, IS_COMPOUND, IS_SOLID };
+
+/// A body of one kind, with its pose.
+const double *read_body(const double *from, unsigned kind, const void *body, ovoid_body *out);
+
 /// A number as an unsigned one: what is none, or too large, becomes the largest, which is no index of anything.
 uint32_t read_index(double x);
 

@@ -36,9 +36,10 @@ typedef struct model {
     ovoid_robot_pair *disabled;
 } model;
 
-/// counts: links, joints, elements, disabled pairs. names: of all links, then of all joints.
+/// counts: links, joints, elements, disabled pairs. names: of all links, then of all joints. shapes: of each element
+/// the shape, then the solid or 0.
 ovoid_robot *EXPORT(robot_create)(const uint32_t counts[4], const char *names, const double *joints,
-                                  const double *elements, ovoid_shape *const *shapes, const uint32_t *disabled) {
+                                  const double *elements, void *const *shapes, const uint32_t *disabled) {
     model m = {calloc(counts[0] + 1, sizeof *m.links), calloc(counts[1] + 1, sizeof *m.joints),
                calloc(counts[2] + 1, sizeof *m.elements), calloc(counts[3] + 1, sizeof *m.disabled)};
     ovoid_robot *robot = NULL;
@@ -46,7 +47,8 @@ ovoid_robot *EXPORT(robot_create)(const uint32_t counts[4], const char *names, c
         for (uint32_t i = 0; i < counts[0]; i++) m.links[i].name = take_name(&names);
         for (uint32_t i = 0; i < counts[1]; i++) read_joint(joints + JOINT * i, take_name(&names), &m.joints[i]);
         for (uint32_t i = 0; i < counts[2]; i++) {
-            m.elements[i] = (ovoid_robot_element){.link = read_index(elements[ELEMENT * i]), .shape = shapes[i]};
+            m.elements[i] = (ovoid_robot_element){
+                .link = read_index(elements[ELEMENT * i]), .shape = shapes[2 * i], .solid = shapes[2 * i + 1]};
             read_pose(elements + ELEMENT * i + 1, &m.elements[i].pose);
         }
         for (uint32_t i = 0; i < counts[3]; i++)
@@ -89,11 +91,27 @@ ovoid_robot_cell *EXPORT(cell_create)(const ovoid_robot *robot) {
 }
 void EXPORT(cell_destroy)(ovoid_robot_cell *cell) { ovoid_robot_cell_destroy(cell); }
 
-/// Reads the pose. The obstacle's id, 0 on failure.
-double EXPORT(cell_add)(ovoid_robot_cell *cell, const ovoid_shape *shape) {
-    ovoid_body body = {.shape = shape};
-    read_pose(exchange, &body.pose);
-    return (double)ovoid_robot_cell_add(cell, &body, &exchange_error);
+/// Reads the pose. The obstacle's id, 0 on failure. kind: of the body, as read_body has it.
+double EXPORT(cell_add)(ovoid_robot_cell *cell, unsigned kind, const void *body) {
+    ovoid_body obstacle;
+    read_body(exchange, kind, body, &obstacle);
+    return (double)ovoid_robot_cell_add(cell, &obstacle, &exchange_error);
+}
+/// Reads the pose in the link's frame. The body's id, 0 on failure; touching: links that it may touch.
+double EXPORT(cell_attach)(ovoid_robot_cell *cell, uint32_t link, unsigned kind, const void *body,
+                           const uint32_t *touching, size_t count) {
+    ovoid_body held;
+    read_body(exchange, kind, body, &held);
+    return (double)ovoid_robot_cell_attach(cell, link, &held, touching, count, &exchange_error);
+}
+int EXPORT(cell_set_allowed)(ovoid_robot_cell *cell, uint32_t a, uint32_t b, int allowed) {
+    return (int)ovoid_robot_cell_set_allowed(cell, a, b, allowed, &exchange_error);
+}
+int EXPORT(cell_set_body_allowed)(ovoid_robot_cell *cell, double id, uint32_t link, int allowed) {
+    return (int)ovoid_robot_cell_set_body_allowed(cell, (ovoid_id)id, link, allowed, &exchange_error);
+}
+int EXPORT(cell_set_padding)(ovoid_robot_cell *cell, uint32_t link, double padding) {
+    return (int)ovoid_robot_cell_set_padding(cell, link, padding, &exchange_error);
 }
 int EXPORT(cell_move)(ovoid_robot_cell *cell, double id) {
     ovoid_pose pose;
@@ -109,27 +127,32 @@ ovoid_robot_checker *EXPORT(checker_create)(const ovoid_robot_cell *cell) {
 }
 void EXPORT(checker_destroy)(ovoid_robot_checker *checker) { ovoid_robot_checker_destroy(checker); }
 
+const char *EXPORT(get_code_name)(int code) { return ovoid_code_get_name((ovoid_code)code); }
+
 // Links and obstacles as numbers; -1: none.
 static double *write_side(double *to, const ovoid_robot_side *s) {
     *to++ = s->link == OVOID_ROBOT_NONE ? -1 : (double)s->link;
     *to++ = s->element == OVOID_ROBOT_NONE ? -1 : (double)s->element;
-    *to++ = (double)s->body;
+    *to++ = (double)s->body, *to++ = s->part;
     return to;
 }
 
-/// Reads the margin. Writes status, code, variable, both sides, lower, upper. 0, or the error's code.
+/// Reads the margin and the slack of the limits. Writes status, code, variable, whether there is a pair, both sides,
+/// lower, upper. 0, or the error's code. Each state is asked as if it were the first one.
 int EXPORT(checker_collide)(ovoid_robot_checker *checker, const double *q) {
-    ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
+    ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = exchange[1]};
     ovoid_robot_answer a;
+    ovoid_robot_checker_reset(checker);
     int code = (int)ovoid_robot_collide(checker, q, &options, &a, &exchange_error);
     double *to = exchange;
     *to++ = a.status, *to++ = a.code, *to++ = a.variable;
+    *to++ = a.status == OVOID_ROBOT_HIT || (a.status == OVOID_ROBOT_UNDECIDED && a.code != OVOID_ERROR_EMPTY);
     to = write_side(write_side(to, &a.a), &a.b);
     *to++ = a.lower, *to++ = a.upper;
     return code;
 }
 
-/// Near pairs, 18 numbers each: both sides, status, lower, upper, points, normal; nearest first. Reads the margin;
+/// Near pairs, 20 numbers each: both sides, status, lower, upper, points, normal; nearest first. Reads the margin;
 /// writes how many there are. 0, or the error's code.
 int EXPORT(checker_find_near)(ovoid_robot_checker *checker, const double *q, double *out, size_t capacity) {
     ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};

@@ -7,6 +7,12 @@ ovoid_solid *EXPORT(solid_create)(const double *xyz, size_t point_count, const u
 }
 void EXPORT(solid_destroy)(ovoid_solid *solid) { ovoid_solid_destroy(solid); }
 
+/// The hull of its points.
+ovoid_shape *EXPORT(solid_create_hull)(const ovoid_solid *solid) {
+    size_t count = (size_t)ovoid_solid_get_report(solid).points;
+    return ovoid_shape_create_from_points(ovoid_solid_get_points(solid), count, NULL, &exchange_error);
+}
+
 /// Points, triangles, components, unmatched and crowded edges, degenerate, duplicates, closed, volume, area, box.
 void EXPORT(solid_describe)(const ovoid_solid *solid) {
     ovoid_solid_report r = ovoid_solid_get_report(solid);

@@ -220,6 +220,38 @@ test('robots', () => {
   const near = robot.near([Math.PI / 2, Math.PI], 5);
   assert.equal(near.length, 2);
   assert.ok(near[0].lower <= near[1].lower && near[0].upper >= 0.6 && near[0].lower <= 0.6);
+  assert.deepEqual([near[0].a.part, near[0].b.part], [0, 0]);
+  assert.equal(robot.collide([4, 0], 0, 0.5).status, 'refused');
+  assert.deepEqual(robot.collide([4, 0], 0, 0), { status: 'refused', code: 'out of range', variable: 0 });
+  assert.equal(robot.collide([4, 0]).status, 'free');
+  // What is held is asked about, what may be touched is not, and what is padded is larger.
+  const aside = [Math.PI / 2, 1.5], held = robot.attach('lower', Shape.sphere(0.2), { xyz: [1.4, 0, 0] });
+  assert.equal(robot.collide([Math.PI / 2, 0]).status, 'hit');
+  robot.move(id, { xyz: [0, 3.05, 0] });
+  assert.deepEqual([robot.collide([Math.PI / 2, 0]).a.obstacle, robot.collide(aside).status], [held, 'free']);
+  robot.remove(held);
+  assert.equal(robot.collide([Math.PI / 2, 0]).status, 'free');
+  robot.setPadding('lower', 0.8);
+  assert.equal(robot.collide([Math.PI / 2, 0]).status, 'hit');
+  robot.allowBody(id, 'lower');
+  assert.equal(robot.collide([Math.PI / 2, 0]).status, 'free');
+  robot.setPadding('lower', 0);
+  robot.allow('base', 'lower');
+  robot.allow('base', 'lower', false);
+  assert.throws(() => robot.allow('base', 'nowhere'), /no such link/);
+  // A wall with a corner cut out, as an obstacle and as a link: nothing touches in the dent.
+  const wall = Solid.fromTriangles(corners, faces), corner = robot.add(wall, { xyz: [0.9, -2.2, -0.5] });
+  assert.deepEqual([robot.collide([0, -1.5707]).status, robot.collide([0, 0]).status], ['hit', 'free']);
+  robot.remove(corner);
+  const dented = new Robot({
+    links: ['base', 'slide'], joints: [{ name: 'x', type: 'prismatic', parent: 'base', child: 'slide', axis: [1, 0, 0], lower: -9, upper: 9 }],
+    elements: [{ link: 'slide', shape: wall }],
+  });
+  const ball = Shape.sphere(0.3);
+  dented.add(ball, { xyz: [1.5, 1.5, 0.5] });
+  assert.deepEqual([0, 1, -1].map((x) => dented.collide([x]).status), ['free', 'hit', 'free']);
+  assert.equal(ovoid.collide(Shape.hullOf(wall), null, ball, { xyz: [1.5, 1.2, 0.5] }).status, 'overlapping');
+  dented.free();
   robot.move(id, { xyz: [0, 9, 0] });
   assert.equal(robot.collide([Math.PI / 2, 0]).status, 'free');
   robot.remove(id);

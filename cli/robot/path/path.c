@@ -182,8 +182,8 @@ static int draw(const settings *s, path_run *run) {
     const path_report *r = &run->report;
     const ovoid_robot_query_options o = cell_make_options(&s->cell);
     int code = s->plot ? path_plot(s->plot, r, run->checker, &o) : 0;
-    int has_clearance = !s->edges && r->answer.status != OVOID_ROBOT_REFUSED;
-    const robot_page_source source = {run->urdf, &s->cell, r->cell, r->states, run->checker, has_clearance};
+    const path_report *alone = s->edges ? NULL : r;
+    const robot_page_source source = {run->urdf, &s->cell, r->cell, r->states, run->checker, alone};
     return code ? code : robot_page_write(&run->page, &source);
 }
 
@@ -264,7 +264,6 @@ static int run(const cli_command *command, int argc, char **argv) {
     path_run run = {.urdf = operands.items[0]};
     if (robot_page_open(&run.page, s.html)) return EXIT_INPUT;
     code = cell_open(command, operands.items[0], &s.cell, &cell);
-    if (!code && s.html) code = robot_page_check(command, &cell);
     if (code) return robot_page_close(&run.page), code;
     code = states_open(command, &s.states, &cell, &states);
     int is_too_fast = 0;
@@ -273,10 +272,12 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!code) code = check_times(&s, &cell, &states, &is_too_fast);
     if (!code) {
         path_report *r = &run.report;
-        *r = (path_report){.cell = &cell, .states = &states, .margin = s.cell.margin, .is_edge = s.edges};
+        *r = (path_report){
+            .cell = &cell, .states = &states, .margin = s.cell.margin, .has_proofs = s.proofs, .is_edge = s.edges};
         run.checker = ovoid_robot_checker_create(cell.cell, NULL, &error);
-        if (run.checker && s.proofs) r->steps = malloc(STEPS_ROOM * sizeof *r->steps);
-        if (!run.checker || (s.proofs && !r->steps))
+        int has_steps = s.proofs || (s.html && !s.edges);
+        if (run.checker && has_steps) r->steps = malloc(STEPS_ROOM * sizeof *r->steps);
+        if (!run.checker || (has_steps && !r->steps))
             message_error("out of memory"), code = EXIT_INPUT;
         else
             code = run_paths(&s, &run);

@@ -13,6 +13,7 @@ typedef struct path_report {
     const cli_states *states;
     ovoid_robot_path_answer answer;
     ovoid_robot_step *steps; ///< answer.step_count; NULL: not asked for
+    int has_proofs;          ///< 1: they are written as lines
     double margin;
     size_t number;                          ///< of the path, from 0
     int is_edge;                            ///< 1: one of many
@@ -27,6 +28,9 @@ size_t path_get_segment(const ovoid_robot_path_answer *answer, size_t count);
 
 /// The state at s, linear between its neighbours, for the answer's pictures and reports.
 void path_compute_state(const cli_states *states, double s, double *q);
+
+/// "outer", "middle", "ends", "solid".
+const char *path_get_step_kind(uint16_t kind);
 
 void path_write_text(FILE *file, const path_report *report);
 void path_write_csv_header(FILE *file);

@@ -219,10 +219,14 @@ static void write_sides(FILE *file, const path_report *r, const ovoid_robot_side
     cell_write_side_json(file, r->cell, b);
 }
 
-static void write_step(FILE *file, const ovoid_robot_step *step) {
+const char *path_get_step_kind(uint16_t kind) {
     static const char *const kinds[] = {"", "outer", "middle", "ends", "solid"};
+    return kinds[kind];
+}
+
+static void write_step(FILE *file, const ovoid_robot_step *step) {
     const char *before = "";
-    fprintf(file, "{\"step\":\"%s\"", kinds[step->kind]);
+    fprintf(file, "{\"step\":\"%s\"", path_get_step_kind(step->kind));
     write_value(file, "begin", step->begin);
     write_value(file, "end", step->end);
     if (step->kind == OVOID_ROBOT_STEP_MIDDLE || step->kind == OVOID_ROBOT_STEP_ENDS) {
@@ -256,7 +260,7 @@ static void write_clearance_json(FILE *file, const path_report *r) {
 void path_write_json(FILE *file, const path_report *r) {
     const ovoid_robot_path_answer *a = &r->answer;
     fputc('{', file);
-    if (r->is_edge || r->steps) fprintf(file, "\"path\":%zu,", r->number);
+    if (r->is_edge || r->has_proofs) fprintf(file, "\"path\":%zu,", r->number);
     fprintf(file, "\"status\":\"%s\",\"states\":%zu", cell_get_status_name(a->status), r->states->count);
     write_value(file, "margin", r->margin);
     if (a->status == OVOID_ROBOT_REFUSED) {
@@ -273,14 +277,15 @@ void path_write_json(FILE *file, const path_report *r) {
     }
     if (has_pair(a)) {
         fprintf(file, ",\"segment\":%zu,", get_segment(r));
-        if (r->steps) fprintf(file, "\"pair\":%lu,", (unsigned long)proof_find_pair(r->cell, &a->hit.a, &a->hit.b));
+        if (r->has_proofs)
+            fprintf(file, "\"pair\":%lu,", (unsigned long)proof_find_pair(r->cell, &a->hit.a, &a->hit.b));
         write_sides(file, r, &a->hit.a, &a->hit.b);
         write_value(file, "lower", a->hit.lower);
         write_value(file, "upper", a->hit.upper);
     }
     fprintf(file, ",\"looked_at\":%lu,\"steps\":%zu", (unsigned long)a->states, a->step_count);
-    if (r->steps) states_write_json(file, r->states, "q", r->states->count);
+    if (r->has_proofs) states_write_json(file, r->states, "q", r->states->count);
     if (r->clearance && r->clearance->status != OVOID_ROBOT_REFUSED) write_clearance_json(file, r);
     fputs("}\n", file);
-    for (size_t i = 0; i < a->step_count && r->steps; i++) write_step(file, &r->steps[i]);
+    for (size_t i = 0; i < a->step_count && r->has_proofs; i++) write_step(file, &r->steps[i]);
 }

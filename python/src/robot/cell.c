@@ -224,6 +224,36 @@ static PyObject *set_padding(PyObject *object, PyObject *arguments, PyObject *ke
 
 // ---- what it is
 
+static PyObject *is_allowed(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"a", "b", NULL};
+    cell_object *self = (cell_object *)object;
+    PyObject *first, *second;
+    uint32_t a, b;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO:is_allowed", names, &first, &second) ||
+        link_read(self->robot, first, &a) || link_read(self->robot, second, &b))
+        return NULL;
+    return PyBool_FromLong(ovoid_robot_cell_is_allowed(self->cell, a, b));
+}
+
+static PyObject *is_body_allowed(PyObject *object, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"id", "link", NULL};
+    cell_object *self = (cell_object *)object;
+    PyObject *given;
+    ovoid_id id;
+    uint32_t link;
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&O:is_body_allowed", names, id_read, &id, &given) ||
+        link_read(self->robot, given, &link))
+        return NULL;
+    return PyBool_FromLong(ovoid_robot_cell_is_body_allowed(self->cell, id, link));
+}
+
+static PyObject *get_padding(PyObject *object, PyObject *given) {
+    cell_object *self = (cell_object *)object;
+    uint32_t link;
+    if (link_read(self->robot, given, &link)) return NULL;
+    return PyFloat_FromDouble(ovoid_robot_cell_get_padding(self->cell, link));
+}
+
 static PyObject *get_robot(PyObject *self, void *closure) {
     (void)closure;
     return Py_NewRef((PyObject *)((cell_object *)self)->robot);
@@ -273,6 +303,12 @@ static PyMethodDef own_methods[] = {
     {"set_padding", METHOD_KEYWORDS(set_padding), METH_VARARGS | METH_KEYWORDS,
      "set_padding(link, padding)\n--\n\nEnlarges a link, with what is attached to it, against obstacles by a length >= "
      "0."},
+    {"is_allowed", METHOD_KEYWORDS(is_allowed), METH_VARARGS | METH_KEYWORDS,
+     "is_allowed(a, b)\n--\n\nWhether a pair of links is not queried: disabled, allowed, or rigid."},
+    {"is_body_allowed", METHOD_KEYWORDS(is_body_allowed), METH_VARARGS | METH_KEYWORDS,
+     "is_body_allowed(id, link)\n--\n\nWhether an obstacle or an attached body and a link are not queried."},
+    {"get_padding", get_padding, METH_O,
+     "get_padding(link, /)\n--\n\nBy how much a link is enlarged against obstacles."},
     {"pair", pair, METH_O, "pair(number, /)\n--\n\nThe two Sides of a pair, 0 <= number < pair_count."},
     {"reset", reset, METH_NOARGS,
      "reset()\n--\n\nForgets the states before: the next query has the bits of a new cell's."},

@@ -127,6 +127,9 @@ static inline int cell_is_allowed(const ovoid_robot_cell *c, const ovoid_robot_s
            keys_are_holding(&c->allowed_bodies, cell_make_key((uint32_t)(obstacle->body >> 32), item->link));
 }
 
+/// 1 if elements of two links are asked about.
+int cell_are_links_queried(const ovoid_robot_cell *c, uint32_t a, uint32_t b);
+
 /// 1 if there is a pair to ask about.
 int cell_has_pairs(const ovoid_robot_cell *c, const ovoid_robot_query_options *options);
 

@@ -228,11 +228,17 @@ ovoid_id ovoid_robot_cell_attach(ovoid_robot_cell *cell, uint32_t link, const ov
     ENVIRONMENT_RETURN(ovoid_id, cell, add(cell, link, body, touching, count, error));
 }
 
+// 1 if the id is of a body that is there.
+static int is_body(const ovoid_robot_cell *c, ovoid_id id) {
+    uint32_t slot = (uint32_t)(id >> 32);
+    if (slot >= c->bodies.count) return 0;
+    const cell_body *b = &cell_bodies(c)[slot];
+    return b->is_used && cell_make_id(slot, b->generation) == id;
+}
+
 // The slot of an id, or NULL with the error.
 static cell_body *find_body(ovoid_robot_cell *c, ovoid_id id, ovoid_error *error) {
-    uint32_t slot = (uint32_t)(id >> 32);
-    cell_body *b = (cell_body *)c->bodies.items + slot;
-    if (slot < c->bodies.count && b->is_used && cell_make_id(slot, b->generation) == id) return b;
+    if (is_body(c, id)) return (cell_body *)c->bodies.items + (uint32_t)(id >> 32);
     error_write(error, OVOID_ERROR_INDEX, -1, "the id is of no body of this cell");
     return NULL;
 }
@@ -314,3 +320,16 @@ ovoid_code ovoid_robot_cell_set_padding(ovoid_robot_cell *cell, uint32_t link, d
     cell->padding[link] = padding;
     return OVOID_OK;
 }
+
+int ovoid_robot_cell_is_allowed(const ovoid_robot_cell *cell, uint32_t a, uint32_t b) {
+    return !cell_are_links_queried(cell, a, b);
+}
+
+int ovoid_robot_cell_is_body_allowed(const ovoid_robot_cell *cell, ovoid_id id, uint32_t link) {
+    if (!is_body(cell, id)) return 0;
+    uint32_t slot = (uint32_t)(id >> 32), holder = cell_bodies(cell)[slot].link;
+    if (holder != OVOID_ROBOT_NONE && cell->rigid[holder] == cell->rigid[link]) return 1;
+    return keys_are_holding(&cell->allowed_bodies, cell_make_key(slot, link));
+}
+
+double ovoid_robot_cell_get_padding(const ovoid_robot_cell *cell, uint32_t link) { return cell->padding[link]; }

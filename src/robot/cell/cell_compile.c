@@ -294,7 +294,7 @@ static int is_disabled(const ovoid_robot *r, uint32_t a, uint32_t b) {
     return 0;
 }
 
-static int are_links_queried(const ovoid_robot_cell *c, uint32_t a, uint32_t b) {
+int cell_are_links_queried(const ovoid_robot_cell *c, uint32_t a, uint32_t b) {
     uint32_t low = a < b ? a : b, high = a < b ? b : a;
     if (c->rigid[a] == c->rigid[b]) return 0;
     if (!c->ignores_disabled && is_disabled(c->robot, low, high)) return 0;
@@ -310,7 +310,7 @@ static int is_attached_allowed(const ovoid_robot_cell *c, const ovoid_robot_side
 // links alone is queried for them.
 static int are_queried(const ovoid_robot_cell *c, const ovoid_robot_side *a, const ovoid_robot_side *b) {
     if (c->rigid[a->link] == c->rigid[b->link]) return 0;
-    if (!a->body && !b->body) return are_links_queried(c, a->link, b->link);
+    if (!a->body && !b->body) return cell_are_links_queried(c, a->link, b->link);
     return !is_attached_allowed(c, a, b->link) && !is_attached_allowed(c, b, a->link);
 }
 

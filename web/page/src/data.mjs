@@ -13,16 +13,29 @@ export async function unpack(text) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** Adds what only one link of a robot or one obstacle is: bodies of one shape each. */
+/** Which body a side of a robot's pair is: an element of a link, in its order, or a part of an obstacle. */
+export const sideKey = ({ link, element, obstacle, part }) => (link !== undefined ? `link ${element} ${link}` : `obstacle ${part} ${obstacle}`);
+
+// Groups of things by a name, in their order.
+function groupBy(list, name) {
+  const groups = new Map();
+  for (const item of list) groups.set(item[name], [...(groups.get(item[name]) ?? []), item]);
+  return groups;
+}
+
+/** Adds a body for each element of a link, for what a link holds, and for each obstacle, named as the tool names them. */
 function addRobot(data) {
   const { robot } = data;
   if (!robot) return;
   data.bodies = [];
-  const byLink = new Map(robot.links.map((name) => [name, []]));
-  for (const element of robot.elements) byLink.get(element.link).push(element);
-  for (const [link, elements] of byLink)
-    if (elements.length) data.bodies.push({ name: link, link, pose: {}, parts: elements.map(({ shape, pose }) => ({ shape, pose })) });
-  for (const { name, shape, pose } of robot.obstacles ?? []) data.bodies.push({ name, obstacle: true, pose, parts: [{ shape }] });
+  const add = (item, side, name, more) => {
+    item.key = sideKey(side);
+    data.bodies.push({ name, key: item.key, parts: [{ shape: item.shape }], pose: item.pose, solid: item.solid, ...more });
+  };
+  for (const [link, parts] of groupBy([...robot.elements, ...(robot.held ?? [])], 'link'))
+    parts.forEach((e, i) => add(e, { link, element: i }, parts.length > 1 ? `${link}[${e.name ?? i}]` : link, { link, at: e.pose }));
+  for (const [name, parts] of groupBy(robot.obstacles ?? [], 'name'))
+    parts.forEach((o, i) => add(o, { obstacle: name, part: i }, parts.length > 1 ? `${name}[${i}]` : name, { obstacle: true }));
 }
 
 /** The page's data with arrays in the place of base64; throws where it is not what this page reads. */

@@ -1,33 +1,58 @@
-// A robot: a slider for each joint; links follow, and the near pairs are asked live.
+// A robot: a slider for each joint; links follow, what is near is asked live, and so is whether the state is free.
+import { sideKey } from './data.mjs';
+import { compose } from './model.mjs';
 import { element, formatLength } from './panel.mjs';
+
+const COUNTS = { revolute: 1, continuous: 1, prismatic: 1, planar: 3, floating: 7 };
+const format = (x) => String(Number(x.toPrecision(6)));
+
+/** A bracket of a distance in words. */
+export function formatBracket({ lower, upper }, unit) {
+  const [low, high] = [formatLength(lower, unit), formatLength(upper, unit)];
+  return low === high ? low : `${formatLength(lower, '')} to ${high}`;
+}
 
 export class Joints {
   constructor(root, model, onMove) {
-    const { robot: given, shapes } = model.data;
+    const { robot: given } = model.data;
     this.model = model;
+    this.given = given;
     this.onMove = onMove;
-    this.robot = new model.ovoid.Robot({ ...given, elements: given.elements.map((e) => ({ ...e, shape: model.shapes[e.shape].shape })) });
-    this.links = new Map(given.links.map((name, i) => [name, i]));
-    this.obstacles = new Map((given.obstacles ?? []).map(({ name, shape, pose }) => [this.robot.add(model.shapes[shape].shape, pose), name]));
-    this.states = given.states ?? [];
-    this.q = [...(this.states[0] ?? new Array(this.robot.variableCount).fill(0))];
-    this.margin = model.data.margin ?? model.ball.radius / 5;
+    this.#make();
+    this.byKey = new Map(model.bodies.map((body) => [body.key, body]));
+    this.q = [...(given.states?.[0] ?? new Array(this.robot.variableCount).fill(0))];
+    this.margin = model.data.margin ?? 0;
+    this.shown = Math.max(this.margin, model.ball.radius / 5);
+    this.verdict = element('p', { id: 'verdict', role: 'status' });
     root.hidden = false;
-    root.replaceChildren(...this.#states(), ...this.#sliders(given), (this.verdict = element('p', { id: 'verdict', role: 'status' })));
+    root.replaceChildren(this.verdict, ...this.#sliders(given));
     this.move();
   }
 
-  #states() {
-    if (this.states.length < 2) return [];
-    const slider = element('input', {
-      type: 'range', id: 'state', min: 0, max: this.states.length - 1, step: 1, value: 0, 'aria-label': 'state',
-      oninput: () => {
-        this.q = [...this.states[slider.value]];
-        this.inputs.forEach(({ input, at }) => (input.value = this.q[at]));
-        this.move();
-      },
-    });
-    return [element('label', { className: 'row' }, element('span', { textContent: `state of ${this.states.length}` }), slider)];
+  // The robot as the tool asked about it.
+  #make() {
+    const { elements, held = [], obstacles = [], paddings = [] } = this.given;
+    const shape = (e) => this.model.shapes[e.shape].shape, solid = (e) => (e.solid ? this.model.shapes[e.shape].solid : null);
+    this.robot = new this.model.ovoid.Robot({ ...this.given, elements: elements.map((e) => ({ ...e, shape: shape(e), solid: solid(e) })) });
+    this.links = new Map(this.given.links.map((name, i) => [name, i]));
+    this.ids = new Map();
+    for (const h of held) this.ids.set(this.robot.attach(h.link, solid(h) ?? shape(h), h.pose, h.touching), h.key);
+    for (const o of obstacles) {
+      const id = this.robot.add(solid(o) ?? shape(o), o.pose);
+      this.ids.set(id, o.key);
+      for (const link of o.touching) this.robot.allowBody(id, link);
+    }
+    for (const [link, padding] of paddings) this.robot.setPadding(link, padding);
+    this.hulls = [...elements, ...held, ...obstacles].filter((e) => e.solid && !solid(e)).length;
+  }
+
+  /** The body of a side that the package names. */
+  find({ element, obstacle }) {
+    return this.byKey.get(obstacle === null ? this.given.elements[element].key : this.ids.get(obstacle));
+  }
+  /** The body of a side that the tool named. */
+  findTold(side) {
+    return this.byKey.get(sideKey(side));
   }
 
   #sliders({ joints }) {
@@ -36,41 +61,90 @@ export class Joints {
     const rows = [];
     for (const joint of joints) {
       if (joint.mimic) continue;
-      const count = { revolute: 1, continuous: 1, prismatic: 1, planar: 3, floating: 7 }[joint.type] ?? 0;
-      if (count === 1) {
-        const isFree = joint.type === 'continuous', place = at;
-        const input = element('input', {
-          type: 'range', min: isFree ? -Math.PI : joint.lower, max: isFree ? Math.PI : joint.upper, step: 'any', value: this.q[place], 'aria-label': joint.name,
-          oninput: () => {
-            this.q[place] = Number(input.value);
-            this.move();
-          },
-        });
-        input.value = this.q[place];
-        this.inputs.push({ input, at: place });
-        rows.push(element('label', { className: 'row' }, element('span', { textContent: joint.name }), input));
-      }
+      const count = COUNTS[joint.type] ?? 0;
+      if (count === 1) rows.push(this.#slider(joint, at));
       at += count;
     }
     return rows;
   }
 
+  #slider(joint, at) {
+    const isFree = joint.type === 'continuous', given = (this.given.states ?? []).map((q) => q[at]);
+    const limits = isFree ? [-Math.PI, Math.PI] : [joint.lower, joint.upper], unit = joint.type === 'prismatic' ? this.model.unit : 'rad';
+    // A state outside the limits is shown where it is.
+    const min = given.reduce((x, y) => Math.min(x, y), limits[0]), max = given.reduce((x, y) => Math.max(x, y), limits[1]);
+    const value = element('output', {}), row = element('label', { className: 'row joint' });
+    const input = element('input', {
+      type: 'range', min, max, step: 'any', 'aria-label': joint.name,
+      oninput: () => {
+        this.q[at] = Number(input.value);
+        this.onChange?.();
+        this.move();
+      },
+    });
+    row.append(element('span', { textContent: joint.name }), input, value);
+    const show = () => {
+      input.value = this.q[at];
+      value.textContent = `${format(this.q[at])} ${unit}`;
+      row.classList.toggle('outside', !isFree && (this.q[at] < joint.lower || this.q[at] > joint.upper));
+    };
+    this.inputs.push(show);
+    return row;
+  }
+
+  /** Goes to a state. */
+  set(q) {
+    this.q = [...q];
+    this.move();
+  }
+
+  /** Obstacles go where the data have them. */
+  reset() {
+    const { held = [], obstacles = [] } = this.given, homes = new Map([...held, ...obstacles].map((o) => [o.key, o.pose]));
+    for (const [id, key] of this.ids) this.robot.move(id, homes.get(key));
+    this.move();
+  }
+
+  /** An obstacle was moved by hand. */
+  place(body) {
+    for (const [id, key] of this.ids) if (key === body.key) this.robot.move(id, body.pose);
+    this.onChange?.();
+    this.move();
+  }
+
   move() {
     const poses = this.robot.poses(this.q);
-    for (const body of this.model.bodies) if (body.link !== undefined) body.pose = poses[this.links.get(body.link)];
-    const near = this.robot.near(this.q, this.margin), byName = new Map(this.model.bodies.map((body) => [body.name, body]));
-    const find = (side) => byName.get(side.link ?? this.obstacles.get(side.obstacle));
-    const best = new Map();
-    for (const { a, b, ...answer } of near) {
-      const pair = { a: find(a), b: find(b), answer: { ...answer, stage: 'robot' }, isLive: true };
-      const key = `${pair.a.index} ${pair.b.index}`;
-      if (!best.has(key)) best.set(key, pair);
-    }
-    this.model.pairs = [...best.values()];
+    for (const body of this.model.bodies) if (body.link !== undefined) body.pose = compose(poses[this.links.get(body.link)], body.at);
+    this.inputs.forEach((show) => show());
+    const near = this.robot.near(this.q, this.shown);
+    this.model.pairs = near.map(({ a, b, ...answer }) => ({ a: this.find(a), b: this.find(b), answer: { ...answer, stage: 'robot' }, isLive: true }));
     this.model.byBody = new Map(this.model.bodies.map((body) => [body, this.model.pairs.filter((p) => p.a === body || p.b === body)]));
-    const { status } = this.robot.collide(this.q);
-    this.verdict.textContent = status === 'free' ? `free; nearest ${near.length ? formatLength(near[0].lower, this.model.unit) : `beyond ${formatLength(this.margin, this.model.unit)}`}` : status;
-    this.verdict.className = status;
+    this.answer = this.robot.collide(this.q, this.margin, this.given.limit_slack ?? 0);
+    this.verdict.textContent = `This state: ${this.describe(this.answer, near[0])}`;
+    this.verdict.className = this.answer.status;
     this.onMove();
+  }
+
+  /** An answer to a state in words. */
+  describe({ status, a, b, code, variable, ...bracket }, nearest) {
+    const { unit } = this.model, hulls = this.hulls ? ` (${this.hulls} bodies count as their hulls here: their triangles are too many for the page)` : '';
+    if (status === 'free') return `free; nearest ${nearest ? formatBracket(nearest, unit) : `beyond ${formatLength(this.shown, unit)}`}${hulls}`;
+    if (status === 'refused') return `refused: ${this.describeVariable(variable)}${code === 'out of range' ? '' : `: ${code}`}`;
+    if (!a) return `${status}: nothing is compared`;
+    return `${status}: ${this.find(a).name} – ${this.find(b).name}, ${formatBracket(bracket, unit)}${hulls}`;
+  }
+
+  /** A variable with its value and its limits. */
+  describeVariable(variable, q = this.q) {
+    let at = 0;
+    for (const joint of this.given.joints) {
+      const count = joint.mimic ? 0 : COUNTS[joint.type] ?? 0;
+      if (variable < at + count) {
+        const isLimited = joint.type === 'revolute' || joint.type === 'prismatic', isOutside = isLimited && (q[at] < joint.lower || q[at] > joint.upper);
+        return `${this.given.variables[variable]} ${format(q[variable])}${isOutside ? ` is outside its limits, ${format(joint.lower)} to ${format(joint.upper)}` : ''}`;
+      }
+      at += count;
+    }
+    return String(variable);
   }
 }

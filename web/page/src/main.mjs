@@ -6,6 +6,7 @@ import { Model } from './model.mjs';
 import { element, Panel } from './panel.mjs';
 import { saveModel, savePicture } from './save.mjs';
 import { Timeline } from './timeline.mjs';
+import { Track } from './track.mjs';
 import { Painter } from './painter.mjs';
 import { makeRenderer } from './renderer.mjs';
 import { Layer } from './layers.mjs';
@@ -30,7 +31,11 @@ class Page {
       hold: (mode) => this.hold(mode),
     });
     if (model.data.motion) this.timeline = new Timeline($('timeline'), model, () => this.atTime());
-    if (model.data.robot) this.joints = new Joints($('joints'), model, () => this.atJoints());
+    if (model.data.robot) {
+      this.joints = new Joints($('joints'), model, () => this.atJoints());
+      this.track = new Track({ whole: $('whole'), track: $('timeline') }, model, this.joints);
+      this.panel.fill();
+    }
     this.view.onDrawn = (drawn, all) => this.#sayDrawn(drawn, all);
     this.#layers();
     this.#buttons();
@@ -60,7 +65,7 @@ class Page {
     this.panel.show(pair);
     this.view.choose(this.#chosen(), this.isIsolated);
     this.view.showAnswer(pair?.answer);
-    this.timeline?.show(pair);
+    (this.timeline ?? this.track)?.show(pair);
     if (!pair) return;
     this.fly();
     // On a phone what is known of the pair is below the list.
@@ -96,7 +101,8 @@ class Page {
   }
 
   moved(body) {
-    this.model.refresh(body);
+    if (this.joints) this.joints.place(body);
+    else this.model.refresh(body);
     this.panel.update(this.model.byBody.get(body));
     this.panel.updateBody(body);
   }
@@ -126,6 +132,7 @@ class Page {
   reset() {
     this.view.hold(null);
     this.model.reset();
+    this.joints?.reset();
     this.panel.fill();
     this.choosePair(null);
     this.view.placeAll();
@@ -177,7 +184,7 @@ class Page {
     const actions = {
       f: () => this.view.fit(), g: () => this.hold('translate'), r: () => this.hold('rotate'), x: () => this.isolate(), t: () => this.#theme(),
       p: () => document.getElementById('check')?.click(), escape: () => this.choosePair(null), '?': () => $('keys').showModal(),
-      arrowdown: () => this.#next(1), arrowup: () => this.#next(-1), ' ': () => this.timeline?.toggle(),
+      arrowdown: () => this.#next(1), arrowup: () => this.#next(-1), ' ': () => (this.timeline ?? this.track)?.toggle(),
     };
     if (box) box.click();
     else if (actions[key] && !(key.startsWith('arrow') && event.target.matches('input'))) {

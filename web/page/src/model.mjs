@@ -8,6 +8,9 @@ class Body {
     this.index = index;
     this.name = given.name;
     this.link = given.link;
+    // Of a robot: what it is in answers, and where it is in its link's frame.
+    this.key = given.key;
+    this.at = given.at && complete(given.at);
     this.isObstacle = given.obstacle === true;
     this.home = complete(given.pose);
     this.pose = complete(given.pose);
@@ -65,6 +68,13 @@ function makeBallOfPoints(points) {
 function move({ xyz, quat_wxyz: [w, x, y, z] }, [a, b, c]) {
   const s = 2 / (w * w + x * x + y * y + z * z), u = y * c - z * b, v = z * a - x * c, t = x * b - y * a;
   return [xyz[0] + a + s * (w * u + y * t - z * v), xyz[1] + b + s * (w * v + z * u - x * t), xyz[2] + c + s * (w * t + x * v - y * u)];
+}
+
+/** A pose in the frame of another one, in the frame of that. */
+export function compose(outer, inner) {
+  const [w, x, y, z] = outer.quat_wxyz, [a, b, c, d] = inner.quat_wxyz;
+  const quat_wxyz = [w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c, w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a];
+  return { xyz: move(outer, inner.xyz), quat_wxyz };
 }
 
 /** A shape of the page, with what is drawn of it; a mesh that counts with its dents is a solid of the library. */

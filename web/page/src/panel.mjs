@@ -13,6 +13,14 @@ export function element(tag, properties = {}, ...children) {
   return node;
 }
 
+/** The same of a picture. */
+export function svg(tag, attributes, ...children) {
+  const node = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  node.append(...children);
+  return node;
+}
+
 /** A length with the digits that are known, and its unit. */
 export function formatLength(x, unit, digits = 6) {
   if (!Number.isFinite(x)) return x > 0 ? '∞' : '-∞';
@@ -64,7 +72,7 @@ export class Panel {
       }),
     );
     const all = this.model.pairs.length, hits = this.model.pairs.filter((p) => p.answer.status !== 'separated').length;
-    this.summary.textContent = `${this.model.bodies.length} bodies, ${all} pairs; ${hits} not apart`;
+    this.summary.textContent = this.model.summary ?? `${this.model.bodies.length} bodies, ${all} pairs; ${hits} not apart`;
     this.more.textContent = pairs.length > MOST_ROWS ? `${pairs.length - MOST_ROWS} more: narrow the filter` : pairs.length < all ? `${pairs.length} of ${all}` : '';
   }
 

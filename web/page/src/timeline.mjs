@@ -1,13 +1,8 @@
 // A motion: a slider over its times, and the distance of the chosen pair over them, asked live.
-import { element, formatLength } from './panel.mjs';
+import { element, formatLength, svg } from './panel.mjs';
+import { Player } from './player.mjs';
 
 const SAMPLES = 240;
-const NS = 'http://www.w3.org/2000/svg';
-const svg = (tag, attributes) => {
-  const node = document.createElementNS(NS, tag);
-  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
-  return node;
-};
 
 export class Timeline {
   constructor(root, model, onTime) {
@@ -17,9 +12,10 @@ export class Timeline {
     root.hidden = false;
     this.slider = element('input', { type: 'range', id: 'time', min: 0, max: this.motion.times.length - 1, step: 1, value: 0, 'aria-label': 'time', oninput: () => this.set(Number(this.slider.value)) });
     this.label = element('output', { id: 'now' });
-    this.play = element('button', { id: 'play', textContent: '▶', title: 'play (space)', onclick: () => this.toggle() });
+    const last = this.motion.times.length - 1;
+    this.player = new Player(last, Math.min(12, Math.max(2, last / 30)), () => this.frame, (at) => Math.round(at) !== this.frame && this.set(Math.min(last, Math.round(at))));
     this.plot = svg('svg', { viewBox: '0 0 600 90', preserveAspectRatio: 'none', class: 'plot' });
-    root.replaceChildren(element('div', { className: 'row' }, this.play, this.slider, this.label), this.plot);
+    root.replaceChildren(element('div', { className: 'row' }, this.player.button, this.slider, this.label), this.plot);
     this.set(0);
   }
 
@@ -38,17 +34,7 @@ export class Timeline {
   }
 
   toggle() {
-    this.isPlaying = !this.isPlaying;
-    this.play.textContent = this.isPlaying ? '⏸' : '▶';
-    const begin = performance.now(), from = this.frame, { times } = this.motion, last = times.length - 1;
-    const seconds = Math.min(12, Math.max(2, last / 30));
-    const step = (now) => {
-      if (!this.isPlaying) return;
-      const frame = (from + Math.round(((now - begin) / 1000 / seconds) * last)) % (last + 1);
-      if (frame !== this.frame) this.set(frame);
-      requestAnimationFrame(step);
-    };
-    requestAnimationFrame(step);
+    this.player.toggle();
   }
 
   /** The distance of a pair over time; margin and events marked. */
