@@ -1,17 +1,11 @@
-// The same random numbers on every machine: SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, 2014).
+// Directions and rotations at random.
 #ifndef OVOID_BENCH_COMMON_RANDOM_H
 #define OVOID_BENCH_COMMON_RANDOM_H
 
+#include "tools/random.h"
+
 #include <math.h>
 #include <ovoid/linear.h>
-
-static inline double random_uniform(uint64_t *state, double low, double high) {
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
-}
 
 static inline ovoid_vec3 random_unit(uint64_t *state) {
     for (;;) {

@@ -4,6 +4,7 @@
 
 #include "paper/models.h"
 #include "paper/report.h"
+#include "tools/random.h"
 
 typedef struct experiment {
     report *report;
@@ -53,9 +54,6 @@ exit_rays experiment_find_rays(const ovoid_pair *pair);
 
 // ---- numbers
 
-/// SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, 2014).
-uint64_t random_next(uint64_t *state);
-double random_uniform(uint64_t *state, double low, double high);
 ovoid_vec3 random_direction(uint64_t *state);
 ovoid_quat random_rotation(uint64_t *state);
 

@@ -5,17 +5,6 @@
 #include <stdlib.h>
 #include <time.h>
 
-uint64_t random_next(uint64_t *state) {
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-double random_uniform(uint64_t *state, double low, double high) {
-    return low + (high - low) * ((double)(random_next(state) >> 11) * 0x1p-53);
-}
-
 ovoid_vec3 random_direction(uint64_t *state) {
     for (;;) {
         ovoid_vec3 v;

@@ -1,6 +1,8 @@
 // Exclusions: their order, and the search for one by its ranges.
 #include "body/exclusions.h"
 
+#include "tools/heap.h"
+
 void exclusions_begin(ovoid_exclusions *exclusions) {
     if (!exclusions) return;
     exclusions->count = 0;
@@ -15,24 +17,18 @@ static int compare(const ovoid_exclusion *a, const ovoid_exclusion *b) {
     return a->end_b < b->end_b ? -1 : a->end_b > b->end_b;
 }
 
-// Sifts the heap's item at `at` down. Heap sort: J. W. J. Williams, Algorithm 232, 1964.
-static void sink(ovoid_exclusion *items, size_t at, size_t count) {
-    ovoid_exclusion x = items[at];
-    for (size_t child; (child = 2 * at + 1) < count; at = child) {
-        if (child + 1 < count && compare(&items[child], &items[child + 1]) < 0) child++;
-        if (compare(&x, &items[child]) >= 0) break;
-        items[at] = items[child];
-    }
-    items[at] = x;
-}
+static int is_later(const void *a, const void *b) { return compare(a, b) > 0; }
 
+// Heap sort: J. W. J. Williams, Algorithm 232, 1964.
 static void sort(ovoid_exclusion *items, size_t count) {
-    for (size_t i = count / 2; i-- > 0;) sink(items, i, count);
+    for (size_t i = count / 2; i-- > 0;) {
+        ovoid_exclusion moved = items[i];
+        heap_sink(items, count, sizeof moved, i, &moved, is_later);
+    }
     for (size_t end = count; end-- > 1;) {
         ovoid_exclusion last = items[end];
         items[end] = items[0];
-        items[0] = last;
-        sink(items, 0, end);
+        heap_sink(items, end, sizeof last, 0, &last, is_later);
     }
 }
 

@@ -3,6 +3,7 @@
 // visited first. A pair whose bound is beyond what the goal needs, or not below the best pair's upper bound less the
 // tolerance, is left out. The stack is as deep as both trees together; nothing is allocated.
 #include "body/search.h"
+#include "tools/heap.h"
 
 enum { WAITING_ROOM = 1280, HEAP_MOST = 1024 };
 _Static_assert(WAITING_ROOM > 2 * (BOX8 - 1) * SOLID_DEPTH_MAX + 1, "the deepest trees leave room for a heap");
@@ -119,22 +120,18 @@ static void waiting_begin(waiting *q, const solid_search *h) {
     q->heap_room = WAITING_ROOM - most < HEAP_MOST ? WAITING_ROOM - most : HEAP_MOST;
 }
 
+static int is_nearer(const void *a, const void *b) {
+    return ((const packed_pair *)a)->lower < ((const packed_pair *)b)->lower;
+}
+
 static void push_heap(waiting *q, const waiting_pair *w) {
-    uint32_t at = q->heaped++;
-    for (uint32_t parent; at > 0 && q->heap[parent = (at - 1) / 2].lower > w->lower; at = parent)
-        q->heap[at] = q->heap[parent];
-    q->heap[at] = pack(w);
+    packed_pair item = pack(w);
+    heap_push(q->heap, q->heaped++, sizeof item, &item, is_nearer);
 }
 
 static packed_pair pop_heap(waiting *q) {
-    packed_pair top = q->heap[0], last = q->heap[--q->heaped];
-    uint32_t at = 0;
-    for (uint32_t child; (child = 2 * at + 1) < q->heaped; at = child) {
-        if (child + 1 < q->heaped && q->heap[child + 1].lower < q->heap[child].lower) child++;
-        if (q->heap[child].lower >= last.lower) break;
-        q->heap[at] = q->heap[child];
-    }
-    q->heap[at] = last;
+    packed_pair top;
+    heap_pop(q->heap, q->heaped--, sizeof top, &top, is_nearer);
     return top;
 }
 

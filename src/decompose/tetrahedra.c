@@ -4,6 +4,8 @@
 #include "decompose/tetrahedra.h"
 
 #include "base/watch.h"
+#include "linear/tetrahedron.h"
+#include "tools/heap.h"
 
 vec3 cell_compute_middle(const cell *c) {
     vec3 sum = vec3_add(vec3_add(c->corner[0], c->corner[1]), vec3_add(c->corner[2], c->corner[3]));
@@ -79,39 +81,22 @@ uint32_t cell_cut(const cell *c, const ovoid_plane *plane, cell pieces[CELL_PIEC
 }
 
 uint32_t cell_halve(const cell *c, cell pieces[CELL_PIECES]) {
-    int a = 0, b = 1;
-    double longest = -1;
-    for (int i = 0; i < 4; i++)
-        for (int j = i + 1; j < 4; j++) {
-            double d = vec3_norm_squared(vec3_sub(c->corner[j], c->corner[i]));
-            if (d > longest) longest = d, a = i, b = j;
-        }
-    vec3 middle = vec3_scale(vec3_add(c->corner[a], c->corner[b]), 0.5);
-    for (int k = 0; k < 2; k++) {
-        pieces[k] = *c;
-        pieces[k].depth = c->depth + 1;
-        pieces[k].corner[k ? a : b] = middle;
-    }
+    vec3 halves[2][4];
+    (void)tetrahedron_halve(c->corner, halves);
+    for (int k = 0; k < 2; k++)
+        add_piece(c, halves[k][0], halves[k][1], halves[k][2], halves[k][3], pieces, (uint32_t)k);
     return 2;
 }
 
 // ---- the heap
 
-static void push(cell_search *s, const cell *c) {
-    size_t i = s->count++;
-    for (; i > 0 && s->heap[(i - 1) / 2].bound < c->bound; i = (i - 1) / 2) s->heap[i] = s->heap[(i - 1) / 2];
-    s->heap[i] = *c;
-}
+static int is_worse(const void *a, const void *b) { return ((const cell *)a)->bound > ((const cell *)b)->bound; }
+
+static void push(cell_search *s, const cell *c) { heap_push(s->heap, s->count++, sizeof *c, c, is_worse); }
 
 static cell pop(cell_search *s) {
-    cell top = s->heap[0], last = s->heap[--s->count];
-    size_t i = 0;
-    for (size_t child; (child = 2 * i + 1) < s->count; i = child) {
-        child += child + 1 < s->count && s->heap[child + 1].bound > s->heap[child].bound;
-        if (!(s->heap[child].bound > last.bound)) break;
-        s->heap[i] = s->heap[child];
-    }
-    s->heap[i] = last;
+    cell top;
+    heap_pop(s->heap, s->count--, sizeof top, &top, is_worse);
     return top;
 }
 
@@ -138,17 +123,12 @@ void cell_search_add(cell_search *s, cell *c) {
         push(s, c);
 }
 
-// The box in six tetrahedra around a diagonal (H. W. Kuhn, 1960).
 void cell_search_add_box(cell_search *s, const box *around, uint32_t owner) {
-    static const uint8_t orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    vec3 corners[6][4];
+    tetrahedra_fill_box(around, corners);
     for (int i = 0; i < 6; i++) {
-        double at[3] = {around->min.x, around->min.y, around->min.z};
-        const double end[3] = {around->max.x, around->max.y, around->max.z};
         cell c = {.bound = INFINITY, .owner = owner};
-        for (int k = 0; k < 4; k++) {
-            c.corner[k] = (vec3){at[0], at[1], at[2]};
-            if (k < 3) at[orders[i][k]] = end[orders[i][k]];
-        }
+        memcpy(c.corner, corners[i], sizeof c.corner);
         cell_search_add(s, &c);
     }
 }

@@ -3,6 +3,8 @@
 #ifndef OVOID_TESTS_CHECK_H
 #define OVOID_TESTS_CHECK_H
 
+#include "tools/random.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -135,17 +137,6 @@ static inline int check_end(void) {
     return check_failed ? 1 : 0;
 }
 
-// Random numbers: SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators, 2014).
-static inline uint64_t random_next(uint64_t *state) {
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-/// Uniform in [low, high).
-static inline double random_uniform(uint64_t *state, double low, double high) {
-    return low + (high - low) * ((double)(random_next(state) >> 11) * 0x1p-53);
-}
 /// Standard normal (Box and Muller 1958).
 static inline double random_normal(uint64_t *state) {
     double u = 1 - random_uniform(state, 0, 1), v = random_uniform(state, 0, 1);

@@ -54,6 +54,8 @@ expect program_absent bench/a.c '#include "gjk.h"\n' \
     '1: a program includes <ovoid/...> and its own headers only: gjk.h'
 expect program_up cli/a.c '#include "../src/exact/gjk.h"\n' \
     '1: a program includes <ovoid/...> and its own headers only: ../src/exact/gjk.h'
+expect tools bench/a.c '#include "tools/gjk.h"\n' \
+    '1: a program includes <ovoid/...> and its own headers only: tools/gjk.h'
 expect own cli/a.c '#include "args.h"\n#include <ovoid/ovoid.h>\n#include <ovoid/ovoid.hpp>\n' ''
 expect long src/query/a.c "$(awk 'BEGIN { for (i = 0; i < 801; i++) printf "int a%d;\\n", i }')" '801: over 800 lines'
 

@@ -5,19 +5,13 @@
 
 #include "base/message.h"
 #include "base/progress.h"
+#include "tools/random.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
 enum { CHUNK = 4096 };
-
-static double draw(uint64_t *state) {
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
 
 /// A number for a variable: within its limits; of a continuous joint within a turn; else the default.
 static double draw_value(const cli_cell *cell, size_t variable, uint64_t *random) {
@@ -26,7 +20,7 @@ static double draw_value(const cli_cell *cell, size_t variable, uint64_t *random
     int is_turning = cell->description.joints[v.joint].type == OVOID_JOINT_CONTINUOUS;
     if (is_turning) v.lower = -half_turn, v.upper = half_turn;
     if (!isfinite(v.lower) || !isfinite(v.upper)) return states_get_default(cell, variable);
-    double x = v.lower + draw(random) * (v.upper - v.lower);
+    double x = v.lower + random_share(random) * (v.upper - v.lower);
     return x < v.upper ? x : v.upper;
 }
 

@@ -2,19 +2,18 @@
 // the cycles of the permutation, once.
 #include "robot/cell/near_list.h"
 
+#include "tools/heap.h"
+
 static int is_before(near_key a, near_key b) { return a.lower < b.lower || (a.lower == b.lower && a.found < b.found); }
 
 // ---- the farthest of those that are kept
 
-static void sift_down(near_key *heap, size_t count, size_t at) {
+// The farthest belongs above.
+static int is_farther(const void *a, const void *b) { return is_before(*(const near_key *)b, *(const near_key *)a); }
+
+static void sink(near_key *heap, size_t count, size_t at) {
     near_key moved = heap[at];
-    for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
-        child += child + 1 < count && is_before(heap[child], heap[child + 1]);
-        if (!is_before(moved, heap[child])) break;
-        heap[at] = heap[child];
-        at = child;
-    }
-    heap[at] = moved;
+    heap_sink(heap, count, sizeof moved, at, &moved, is_farther);
 }
 
 uint32_t near_list_find_slot(near_list *x, double lower) {
@@ -24,12 +23,12 @@ uint32_t near_list_find_slot(near_list *x, double lower) {
         return (uint32_t)x->kept++;
     }
     if (x->capacity == 0) return NEAR_LIST_FULL;
-    for (size_t i = x->is_heap ? 0 : x->kept / 2; i-- > 0;) sift_down(x->keys, x->kept, i);
+    for (size_t i = x->is_heap ? 0 : x->kept / 2; i-- > 0;) sink(x->keys, x->kept, i);
     x->is_heap = 1;
     if (!(lower < x->keys[0].lower)) return NEAR_LIST_FULL;
     x->keys[0] = (near_key){lower, found, x->keys[0].slot};
     uint32_t slot = x->keys[0].slot;
-    sift_down(x->keys, x->kept, 0);
+    sink(x->keys, x->kept, 0);
     return slot;
 }
 

@@ -4,6 +4,7 @@
 #include "base/watch.h"
 #include "robot/cell/checker.h"
 #include "robot/matrix/matrix.h"
+#include "tools/random.h"
 
 // What is known of a pair of links in the state that is looked at.
 typedef struct pair_mark {
@@ -25,17 +26,10 @@ typedef struct sampler {
     ovoid_code code;
 } sampler;
 
-static uint64_t draw(uint64_t *s) {
-    uint64_t z = *s += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 static void draw_state(sampler *s, double *q) {
     const matrix_work *w = s->work;
     for (uint32_t i = 0; i < w->cell->robot->variable_count; i++) {
-        double share = (double)(draw(&s->random) >> 11) * 0x1p-53;
+        double share = random_share(&s->random);
         q[i] = min2(w->low[i] + share * (w->high[i] - w->low[i]), w->high[i]);
     }
 }

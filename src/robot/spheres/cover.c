@@ -74,7 +74,7 @@ static ovoid_code open_making(making *m, const spheres_link *link, size_t balls,
 // ---- points
 
 static vec3 draw_in(uint64_t *random, const box *b) {
-    double x = spheres_draw(random), y = spheres_draw(random), z = spheres_draw(random);
+    double x = random_share(random), y = random_share(random), z = random_share(random);
     return (vec3){b->min.x + (b->max.x - b->min.x) * x, b->min.y + (b->max.y - b->min.y) * y,
                   b->min.z + (b->max.z - b->min.z) * z};
 }

@@ -136,7 +136,7 @@ static uint32_t find_nearest(const spheres_samples *s, uint32_t count, vec3 x, d
     return nearest;
 }
 
-static uint32_t draw_index(spheres_samples *s, uint32_t count) { return (uint32_t)(spheres_draw(&s->random) * count); }
+static uint32_t draw_index(spheres_samples *s, uint32_t count) { return (uint32_t)(random_share(&s->random) * count); }
 
 static void spread_centers(spheres_samples *s, uint32_t count) {
     s->balls[0].center = s->points[draw_index(s, s->point_count)];
@@ -189,7 +189,7 @@ static void shrink_neighbours(spheres_samples *s, uint32_t i) {
 }
 
 static vec3 draw_step(spheres_samples *s, double size) {
-    double x = spheres_draw(&s->random), y = spheres_draw(&s->random), z = spheres_draw(&s->random);
+    double x = random_share(&s->random), y = random_share(&s->random), z = random_share(&s->random);
     return (vec3){(2 * x - 1) * size, (2 * y - 1) * size, (2 * z - 1) * size};
 }
 
@@ -198,7 +198,7 @@ static void push(spheres_samples *s, uint32_t i, double step, double growth) {
     spheres_samples_gather(s, i);
     vec3 center = vec3_add(s->balls[i].center, draw_step(s, step * s->balls[i].radius));
     double radius = s->own_count ? sphere_compute_radius(&s->own[0].x, s->own_count, center) : 0;
-    radius = max2(radius, s->balls[i].radius * 0.5) * (1 + growth * spheres_draw(&s->random));
+    radius = max2(radius, s->balls[i].radius * 0.5) * (1 + growth * random_share(&s->random));
     replace(s, i, widen((sphere){center, radius}));
     shrink_neighbours(s, i);
     spheres_samples_fit(s, i, NULL);
@@ -247,14 +247,14 @@ static void divide(spheres_samples *s, uint32_t i, uint32_t k) {
     vec3 middle = vec3_scale(vec3_add(s->balls[i].center, s->balls[k].center), 0.5);
     vec3 between = vec3_sub(s->balls[k].center, s->balls[i].center);
     double size = s->balls[i].radius + s->balls[k].radius, apart = vec3_norm(between);
-    double kind = spheres_draw(&s->random);
+    double kind = random_share(&s->random);
     // Across the line of centres, turned a little; or across an axis of the frame; or any plane.
     vec3 normal = draw_step(s, kind < 0.5 ? 0.5 * apart : 1);
     if (kind < 0.5)
         normal = vec3_add(between, normal);
     else if (kind < 0.8)
         normal = kind < 0.6 ? (vec3){1, 0, 0} : kind < 0.7 ? (vec3){0, 1, 0} : (vec3){0, 0, 1};
-    double off = spheres_draw(&s->random);
+    double off = random_share(&s->random);
     middle = vec3_add(middle, draw_step(s, 0.3 * size * off * off * off));
     replace(s, i, (sphere){s->balls[i].center, -1});
     replace(s, k, (sphere){s->balls[k].center, -1});
@@ -281,13 +281,13 @@ static uint32_t draw_small(spheres_samples *s) {
 
 static void move(spheres_samples *s, double heat) {
     uint32_t i = draw_index(s, s->ball_count), k = draw_index(s, s->ball_count);
-    double kind = spheres_draw(&s->random);
+    double kind = random_share(&s->random);
     if (kind < 0.04)
         relocate(s, draw_small(s));
     else if (kind < 0.4 && i != k && is_near(&s->balls[i], &s->balls[k]))
         divide(s, i, k);
     else
-        push(s, i, 0.01 + 0.3 * heat * spheres_draw(&s->random), kind < 0.5 ? 0.3 * heat : 0.05);
+        push(s, i, 0.01 + 0.3 * heat * random_share(&s->random), kind < 0.5 ? 0.3 * heat : 0.05);
 }
 
 static int is_within_region(const spheres_samples *s) {
@@ -319,7 +319,7 @@ void spheres_samples_improve(spheres_samples *s, spheres_samples *scratch, size_
         double heat = hot + (cold - hot) * ((double)k / (double)moves);
         move(s, heat);
         long worse = s->excess - scratch->excess;
-        if (worse <= (long)(heat * heat * (double)allowed * spheres_draw(&s->random)) && is_within_region(s))
+        if (worse <= (long)(heat * heat * (double)allowed * random_share(&s->random)) && is_within_region(s))
             copy_state(scratch, s);
         else
             copy_state(s, scratch);

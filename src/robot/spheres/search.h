@@ -4,6 +4,7 @@
 
 #include "polytope/sphere.h"
 #include "robot/spheres/spheres.h"
+#include "tools/random.h"
 
 enum { SPHERES_MOST = 4096, SAMPLES = 12000, OUTSIDE = 16000, SAMPLES_MORE = 4096, BLOCK = 32 };
 
@@ -24,15 +25,6 @@ typedef struct spheres_samples {
     box *point_boxes, *outside_boxes; ///< of each block of points
     const ovoid_watch *watch;         ///< asked before each move
 } spheres_samples;
-
-/// Uniform in [0, 1): SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators,
-/// 2014).
-static inline double spheres_draw(uint64_t *state) {
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
 
 /// Adds a ball's hits (by 1) or takes them away (by -1). One of negative radius is no ball.
 void spheres_samples_count(spheres_samples *s, const sphere *ball, int by);
