@@ -105,7 +105,7 @@ typedef struct ovoid_convexity {
     ovoid_mesh_kind kind;     /**< what it is taken as where nobody asks for another: HULL, SOLID or SURFACE; HULL of
                                    points without faces, and of no mesh */
     double allowance;         /**< of HULL: 0, or the `inside` of the hull's allowance that keeps brackets true of the
-                                   mesh itself, as ovoid_triangles_match_hull proves */
+                                   mesh itself, as ovoid_triangles_compute_hull_match proves */
     uint64_t edges_unmatched; /**< of SURFACE: the edges that are open */
     double mesh_volume;       /**< for information: what the triangles enclose, counted as often as they wind around it;
                                    NaN where they are not closed, or there are none */
@@ -113,9 +113,9 @@ typedef struct ovoid_convexity {
 } ovoid_convexity;
 
 /**
- * What a part of a mesh is: the hull, a solid or a surface, by exact signs (ovoid_triangles_match_hull). hull: of its
- * points. A part with a face that cannot be cut into triangles counts as a solid, which ovoid_mesh_create_solid refuses
- * with the reason. Errors: MEMORY. Cost: as there.
+ * What a part of a mesh is: the hull, a solid or a surface, by exact signs (ovoid_triangles_compute_hull_match). hull:
+ * of its points. A part with a face that cannot be cut into triangles counts as a solid, which ovoid_mesh_create_solid
+ * refuses with the reason. Errors: MEMORY. Cost: as there.
  */
 OVOID_API ovoid_code ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull,
                                                   ovoid_convexity *convexity, ovoid_error *error);

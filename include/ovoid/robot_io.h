@@ -54,9 +54,9 @@ typedef struct ovoid_robot_read_options {
     const ovoid_robot_link_scale *scales; /**< NULL: every factor is 1; a link comes once at most */
     size_t scale_count;
     const ovoid_shape_options *shape; /**< of all shapes; their radius must be 0; NULL: the default */
-    int hull; /**< 0: a mesh counts as what it is (ovoid_triangles_match_hull): its hull, exactly or with an allowance
-                 that keeps brackets true of it; the solid that its triangles enclose; or, where they are not closed,
-                 their surface, of which a note tells. 1: as its hull. Without effect on `parts` */
+    int hull; /**< 0: a mesh counts as what it is (ovoid_triangles_compute_hull_match): its hull, exactly or with an
+                 allowance that keeps brackets true of it; the solid that its triangles enclose; or, where they are not
+                 closed, their surface, of which a note tells. 1: as its hull. Without effect on `parts` */
     void (*note)(void *context, const ovoid_robot_note *note); /**< NULL: notes are dropped */
     void *context;
 } ovoid_robot_read_options;

@@ -106,8 +106,8 @@ typedef struct ovoid_hull_match {
  * encloses nothing and is none. Errors: those of ovoid_solid_create_from_triangles, ARGUMENT (no hull). Cost: linear
  * but for the matching of edges that are open; of triangles that are no hull mostly less.
  */
-OVOID_API ovoid_code ovoid_triangles_match_hull(const ovoid_triangles *triangles, const ovoid_shape *hull,
-                                                ovoid_hull_match *match, ovoid_error *error);
+OVOID_API ovoid_code ovoid_triangles_compute_hull_match(const ovoid_triangles *triangles, const ovoid_shape *hull,
+                                                        ovoid_hull_match *match, ovoid_error *error);
 
 /** Where a surface meets itself. */
 typedef struct ovoid_solid_crossings {

@@ -191,7 +191,7 @@ static PyObject *crossings(PyObject *self, PyObject *arguments, PyObject *keywor
 static ovoid_shape *create_match(const ovoid_triangles *t, ovoid_error *error) {
     ovoid_hull_match match;
     ovoid_shape *made = NULL, *hull = ovoid_shape_create_from_points(t->xyz, t->point_count, NULL, error);
-    if (hull && !ovoid_triangles_match_hull(t, hull, &match, error) && match.is_closed && match.is_hull)
+    if (hull && !ovoid_triangles_compute_hull_match(t, hull, &match, error) && match.is_closed && match.is_hull)
         made = ovoid_shape_create_allowed(hull, (ovoid_allowance){.inside = match.allowance}, NULL, error);
     ovoid_shape_destroy(hull);
     return made;

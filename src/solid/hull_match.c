@@ -275,7 +275,7 @@ static ovoid_code match_hull(const ovoid_triangles *given, const ovoid_shape *hu
     return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory to compare %zu triangles with their hull", given->count);
 }
 
-ovoid_code ovoid_triangles_match_hull(const ovoid_triangles *triangles, const ovoid_shape *hull,
-                                      ovoid_hull_match *found, ovoid_error *error) {
+ovoid_code ovoid_triangles_compute_hull_match(const ovoid_triangles *triangles, const ovoid_shape *hull,
+                                              ovoid_hull_match *found, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, hull, match_hull(triangles, hull, found, error));
 }

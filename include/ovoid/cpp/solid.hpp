@@ -72,7 +72,7 @@ class solid : public detail::owner<solid_view, ovoid_solid, ovoid_solid_destroy>
 inline ovoid_hull_match match_hull(const ovoid_triangles &triangles, const shape_view &hull) {
     ovoid_hull_match found;
     ovoid_error e;
-    detail::require(ovoid_triangles_match_hull(&triangles, hull.get(), &found, &e), e);
+    detail::require(ovoid_triangles_compute_hull_match(&triangles, hull.get(), &found, &e), e);
     return found;
 }
 

@@ -1,6 +1,6 @@
-// What a mesh is: its hull, a solid or a surface. Exact signs decide (ovoid_triangles_match_hull); volumes are for
-// information: what a closed surface encloses is the sum of the signed tetrahedra that its triangles span with any one
-// point (the divergence theorem). Cost: linear in the indices but for the matching of open edges.
+// What a mesh is: its hull, a solid or a surface. Exact signs decide (ovoid_triangles_compute_hull_match); volumes are
+// for information: what a closed surface encloses is the sum of the signed tetrahedra that its triangles span with any
+// one point (the divergence theorem). Cost: linear in the indices but for the matching of open edges.
 #include "io/mesh/mesh_build.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ static ovoid_code compare(const ovoid_faces *faces, const ovoid_shape *hull, ovo
     uint32_t *indices = mesh_cut_polygons(faces, &triangles.count, &why);
     triangles.indices = indices;
     c->kind = OVOID_MESH_SOLID;
-    if (indices && !ovoid_triangles_match_hull(&triangles, hull, &match, &why)) {
+    if (indices && !ovoid_triangles_compute_hull_match(&triangles, hull, &match, &why)) {
         c->kind = !match.is_closed ? OVOID_MESH_SURFACE : match.is_hull ? OVOID_MESH_HULL : OVOID_MESH_SOLID;
         c->allowance = match.allowance;
         c->edges_unmatched = match.edges_unmatched;

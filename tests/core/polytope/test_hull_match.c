@@ -22,7 +22,7 @@ static ovoid_hull_match match(const double *xyz, size_t points, const uint32_t *
     ovoid_hull_match m = {0, 0, 0, 0};
     const ovoid_triangles triangles = {xyz, points, indices, count};
     ovoid_shape *hull = ovoid_shape_create_from_points(xyz, points, NULL, NULL);
-    CHECK_EQ(ovoid_triangles_match_hull(&triangles, hull, &m, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_triangles_compute_hull_match(&triangles, hull, &m, NULL), OVOID_OK);
     ovoid_shape_destroy(hull);
     return m;
 }
@@ -337,9 +337,9 @@ static void check_refusals(void) {
     ovoid_error error;
     const ovoid_triangles good = {corners, 8, cube, 12}, bad = {corners, 7, cube, 12}, none = {corners, 8, cube, 0};
     ovoid_shape *hull = ovoid_shape_create_from_points(corners, 8, NULL, NULL);
-    CHECK_EQ(ovoid_triangles_match_hull(&good, NULL, &m, &error), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_triangles_match_hull(&bad, hull, &m, &error), OVOID_ERROR_INDEX);
-    CHECK_EQ(ovoid_triangles_match_hull(&none, hull, &m, &error), OVOID_ERROR_EMPTY);
+    CHECK_EQ(ovoid_triangles_compute_hull_match(&good, NULL, &m, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_triangles_compute_hull_match(&bad, hull, &m, &error), OVOID_ERROR_INDEX);
+    CHECK_EQ(ovoid_triangles_compute_hull_match(&none, hull, &m, &error), OVOID_ERROR_EMPTY);
     // A point of the hull that no triangle has: they are not all of it.
     double more[27] = {0};
     memcpy(more, corners, sizeof corners);

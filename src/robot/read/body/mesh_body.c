@@ -1,4 +1,4 @@
-// Exact signs decide what a mesh is (ovoid_triangles_match_hull). Cost: linear, plus a tree of what is no hull.
+// Exact signs decide what a mesh is (ovoid_triangles_compute_hull_match). Cost: linear, plus a tree of what is no hull.
 #include "robot/read/body/mesh_body.h"
 
 // The hull with the allowance that keeps brackets true of the triangles.
@@ -16,7 +16,7 @@ ovoid_code mesh_body_make(const ovoid_triangles *triangles, ovoid_shape *hull, c
                           mesh_body *body, ovoid_error *error) {
     ovoid_hull_match match;
     *body = (mesh_body){.kind = OVOID_MESH_HULL, .shape = hull};
-    ovoid_code code = ovoid_triangles_match_hull(triangles, hull, &match, error);
+    ovoid_code code = ovoid_triangles_compute_hull_match(triangles, hull, &match, error);
     if (!code && match.is_hull) {
         if (match.allowance > 0) code = allow(body, match.allowance, allocator, error);
     } else if (!code) {
