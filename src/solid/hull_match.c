@@ -20,12 +20,15 @@
 // what is rounded of it nothing. Where none will do, as of slivers, n comes from the depth of the triangle in H, and h
 // from all vertices of H.
 //
+// Neither M nor K need be near H for that: of any solid for which one l < 1 suffices, w is the gap of its hull.
+//
 // Cost: for each triangle the neighbors of a vertex; where it is not exact, the triangles around its corners.
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/dd3.h"
 #include "ovoid/query.h"
+#include "shape/block.h"
 #include "solid/edges.h"
 #include "solid/merge.h"
 
@@ -34,6 +37,9 @@
 #define SHARE_OF_DIAGONAL 1e-6
 #define SHARE_OF_COORDINATE 4e-7
 #define LARGEST_SHARE 1e-4
+
+/// What l may be of a solid's hull gap: K is at least half of H.
+#define LARGEST_GAP 0.5
 
 /// How many vertices of H are looked at for triangles that need them all, for each triangle there is, and in any case.
 #define LOOKS_OF_TRIANGLE 64
@@ -133,9 +139,10 @@ static double measure_direction(const match *m, const vec3 corner[3], vec3 n) {
     return height > 2 * off ? (deepest + off) / (height - off) * (1 + 0x1p-50) : INFINITY;
 }
 
-// l by the depth of the triangle in H.
-static double measure_depth(match *m, const vec3 corner[3]) {
-    if (m->looks < 2 * (uint64_t)m->hull.vertex_count) return INFINITY;
+// l by the depth of the triangle in H; infinity where all looks are used up. 0 where there is no memory.
+static int measure_depth(match *m, const vec3 corner[3], double *l) {
+    *l = INFINITY;
+    if (m->looks < 2 * (uint64_t)m->hull.vertex_count) return 1;
     m->looks -= 2 * (uint64_t)m->hull.vertex_count;
     double xyz[9];
     for (int i = 0; i < 3; i++) {
@@ -143,19 +150,21 @@ static double measure_depth(match *m, const vec3 corner[3]) {
         xyz[3 * i] = v.x, xyz[3 * i + 1] = v.y, xyz[3 * i + 2] = v.z;
     }
     const ovoid_shape_options options = {.allocator = m->allocator};
-    ovoid_shape *triangle = ovoid_shape_create_from_points(xyz, 3, &options, NULL);
-    if (!triangle) return INFINITY;
+    ovoid_error why;
+    ovoid_shape *triangle = ovoid_shape_create_from_points(xyz, 3, &options, &why);
+    if (!triangle) return why.code != OVOID_ERROR_MEMORY;
     ovoid_pair pair = {m->shape, triangle, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
     vec3 n = ovoid_depth(&pair, NULL, NULL, NULL).normal;
     ovoid_shape_destroy(triangle);
-    return min2(measure_direction(m, corner, n), measure_direction(m, corner, vec3_scale(n, -1)));
+    *l = min2(measure_direction(m, corner, n), measure_direction(m, corner, vec3_scale(n, -1)));
+    return 1;
 }
 
 // ---- all triangles
 
 static int has_area(const vec3 c[3]) { return !solid_is_collinear(c[0], c[1], c[2]); }
 
-// 0 where a triangle parts H from the body by more than is allowed.
+// 0 where a triangle parts H from the body by more than is allowed, -1 where there is no memory.
 static int match_triangle(match *m, uint32_t t) {
     const uint32_t *point = m->parts->triangles[t].point;
     vec3 corner[3];
@@ -175,7 +184,11 @@ static int match_triangle(match *m, uint32_t t) {
     if (orient3d_sign(corner[0], corner[1], corner[2], get_vertex(m, v)) == 0 && is_support(m, corner, v)) return 1;
     look_around(m, corner, v, &best);
     double l = best.triangle == UINT32_MAX ? INFINITY : measure_plane(m, corner, best.triangle);
-    if (!(l <= m->most)) l = min2(l, measure_depth(m, corner));
+    if (!(l <= m->most)) {
+        double deep;
+        if (!measure_depth(m, corner, &deep)) return -1;
+        l = min2(l, deep);
+    }
     m->least = max2(m->least, l);
     return l <= m->most;
 }
@@ -242,17 +255,25 @@ static int match_triangles(match *m, const solid_merger *merger) {
     return is_hull;
 }
 
-// The allowance is rounded up, and stays a double of lengths.
+// Whether K lies in the body; -1 where there is no memory.
+static int match_body(match *m, const solid_merger *merger) {
+    int is_hull = match_triangles(m, merger);
+    return is_hull > 0 ? winds_around_center(m) : is_hull;
+}
+
+// w, rounded up; it stays a double of lengths.
+static double compute_gap(const match *m) { return m->least * m->reach / m->scale * (1 + 0x1p-50); }
+
 static int fill(match *m, const solid_merger *merger, ovoid_hull_match *out) {
     solid_edges edges;
     if (!solid_find_edges(m->parts, m->allocator, &edges)) return 0;
     *out = (ovoid_hull_match){.is_closed = edges.unmatched == 0, .edges_unmatched = edges.unmatched};
     if (!out->is_closed || m->hull.rank < 3) return 1;
     measure_hull(m);
-    int is_hull = match_triangles(m, merger);
+    int is_hull = match_body(m, merger);
     if (is_hull < 0) return 0;
-    out->is_hull = is_hull && winds_around_center(m);
-    if (out->is_hull) out->allowance = m->least * m->reach / m->scale * (1 + 0x1p-50);
+    out->is_hull = is_hull;
+    if (is_hull) out->allowance = compute_gap(m);
     return 1;
 }
 
@@ -278,4 +299,31 @@ static ovoid_code match_hull(const ovoid_triangles *given, const ovoid_shape *hu
 ovoid_code ovoid_triangles_compute_hull_match(const ovoid_triangles *triangles, const ovoid_shape *hull,
                                               ovoid_hull_match *found, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, hull, match_hull(triangles, hull, found, error));
+}
+
+static ovoid_code measure_gap(const ovoid_solid *solid, const ovoid_shape *hull, double *gap, ovoid_error *error) {
+    *gap = INFINITY;
+    match m = {hull, ovoid_shape_get_polytope(hull), .allocator = &solid->allocator};
+    int is_plain = hull->lower_radius == 0 && hull->upper_radius == 0 && m.hull.rank == 3;
+    if (!solid->report.is_closed || !is_plain) return OVOID_OK;
+    const ovoid_triangles given = {solid->points, solid->point_count, solid->triangles->point, solid->triangle_count};
+    solid_merger merger;
+    int is_inside = -1;
+    if (merger_make(&merger, &given, m.allocator)) {
+        const solid_parts parts = {merger.points, merger.triangles, merger.count, solid->triangle_count};
+        m.parts = &parts;
+        measure_hull(&m);
+        m.most = LARGEST_GAP;
+        is_inside = match_body(&m, &merger);
+        merger_destroy(&merger, m.allocator);
+    }
+    if (is_inside > 0) *gap = compute_gap(&m);
+    if (is_inside >= 0) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory to compare a solid of %u triangles with its hull",
+                     solid->triangle_count);
+}
+
+ovoid_code ovoid_solid_compute_hull_gap(const ovoid_solid *solid, const ovoid_shape *hull, double *gap,
+                                        ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, hull, measure_gap(solid, hull, gap, error));
 }

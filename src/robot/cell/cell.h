@@ -36,6 +36,7 @@ typedef struct cell_part {
     oriented_box box;
     inner_region inside; ///< in the world
     double inside_size;  ///< the lengths that its centre is made of, summed
+    double gap;          ///< as of shape_inside
     ovoid_robot_side side;
 } cell_part;
 
@@ -63,6 +64,7 @@ typedef struct cell_body {
     ovoid_body body;
     ovoid_shape *hull;         ///< of a solid, the cell's own; else NULL
     inner_region inside;       ///< of a solid
+    double gap;                ///< as of shape_inside
     uint32_t generation, link; ///< link NONE: an obstacle
     int is_used;
 } cell_body;
@@ -102,6 +104,14 @@ static inline const cell_group *cell_groups(const ovoid_robot_cell *c) { return 
 static inline const group_pair *cell_group_pairs(const ovoid_robot_cell *c) { return c->group_pairs.items; }
 static inline const box8 *cell_boxes(const ovoid_robot_cell *c) { return c->boxes.items; }
 static inline const cell_body *cell_bodies(const ovoid_robot_cell *c) { return c->bodies.items; }
+
+/// The solids of an item and a part, and of two items.
+static inline solid_sides cell_get_part_solids(const cell_item *a, const cell_part *b) {
+    return (solid_sides){a->solid, b->solid, (a->inside->gap + b->gap) * (1 + 0x1p-50)};
+}
+static inline solid_sides cell_get_item_solids(const cell_item *a, const cell_item *b) {
+    return (solid_sides){a->solid, b->solid, (a->inside->gap + b->inside->gap) * (1 + 0x1p-50)};
+}
 
 static inline ovoid_id cell_make_id(uint32_t slot, uint32_t generation) { return (uint64_t)slot << 32 | generation; }
 static inline uint64_t cell_make_key(uint32_t high, uint32_t low) { return (uint64_t)high << 32 | low; }

@@ -150,16 +150,13 @@ static ovoid_code create_hull(const ovoid_robot_cell *c, const ovoid_body *body,
 
 // What is inside a solid, for which there is the hull.
 static ovoid_code find_inside(const ovoid_robot_cell *c, const ovoid_body *body, const ovoid_shape *hull,
-                              inner_region *region, ovoid_error *error) {
-    shape_inside inside = {.size = 0};
-    if (hull) {
-        ovoid_shape *point = shape_create_point(&c->allocator);
-        if (!point) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a body of the cell");
-        shape_inside_find(hull, body->solid, point, &inside);
-        ovoid_shape_destroy(point);
-    }
-    *region = inside.region;
-    return OVOID_OK;
+                              shape_inside *inside, ovoid_error *error) {
+    *inside = (shape_inside){.size = 0};
+    if (!hull) return OVOID_OK;
+    ovoid_shape *point = shape_create_point(&c->allocator);
+    ovoid_code code = point ? shape_inside_find(hull, body->solid, point, inside) : OVOID_ERROR_MEMORY;
+    ovoid_shape_destroy(point);
+    return code == OVOID_OK ? code : error_set(error, code, -1, "no memory for a body of the cell");
 }
 
 // A free slot; it is used only once the body has its place.
@@ -191,12 +188,12 @@ static ovoid_id add(ovoid_robot_cell *c, uint32_t link, const ovoid_body *body, 
         if (touching[i] >= c->robot->link_count)
             return (void)error_set(error, OVOID_ERROR_INDEX, (int64_t)i, "there is no link %u", touching[i]), 0;
     if (create_hull(c, body, &hull, error) != OVOID_OK) return 0;
-    inner_region inside;
+    shape_inside inside;
     code = find_inside(c, body, hull, &inside, error);
     if (code == OVOID_OK) code = find_slot(c, &slot);
     if (code == OVOID_OK) {
         cell_body *b = (cell_body *)c->bodies.items + slot;
-        *b = (cell_body){*body, hull, inside, b->generation + 1, link, 1};
+        *b = (cell_body){*body, hull, inside.region, inside.gap, b->generation + 1, link, 1};
         for (size_t i = 0; code == OVOID_OK && i < count; i++)
             code = keys_set(&c->allocator, &c->allowed_bodies, cell_make_key(slot, touching[i]), 1);
         if (code == OVOID_OK) {

@@ -109,7 +109,7 @@ static void set_insides(compiler *x) {
             items[i].inside = robot_get_inside(c->robot, items[i].side.element);
             continue;
         }
-        shape_inside_find(items[i].shape, items[i].solid, point, next);
+        if (shape_inside_find(items[i].shape, items[i].solid, point, next) != OVOID_OK) x->has_memory = 0;
         items[i].inside = next++;
     }
     ovoid_shape_destroy(point);
@@ -214,7 +214,8 @@ static void add_parts_of(compiler *x, uint32_t slot) {
         ovoid_posed_shape posed = {b->body.solid ? b->hull : b->body.shape, b->body.pose};
         if (b->body.compound) posed = ovoid_compound_get_part(b->body.compound, i);
         side.part = (uint32_t)i;
-        cell_part part = {.shape = posed.shape, .solid = b->body.solid, .pose = posed.pose, .side = side};
+        cell_part part = {
+            .shape = posed.shape, .solid = b->body.solid, .pose = posed.pose, .gap = b->gap, .side = side};
         append(x, &x->cell->parts, &part, sizeof part);
     }
 }

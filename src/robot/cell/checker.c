@@ -308,7 +308,7 @@ checker_pair checker_make_part_pair(ovoid_robot_checker *x, uint32_t item, uint3
                       .mark = &x->part_marks[at],
                       .near = &x->part_nears[at]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), b->pose};
-    p.solids = (solid_sides){a->solid, b->solid};
+    p.solids = cell_get_part_solids(a, b);
     p.error = x->errors[item];
     p.padding = c->padding[a->side.link];
     return p;
@@ -324,7 +324,7 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair) {
                       .mark = &x->pair_marks[pair],
                       .near = &x->pair_nears[pair]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(x, a), get_pose(x, b)};
-    p.solids = (solid_sides){a->solid, b->solid};
+    p.solids = cell_get_item_solids(a, b);
     p.rotation = &get_frame(x, a->frame)->matrix;
     p.error = x->errors[both.a] + x->errors[both.b];
     return p;

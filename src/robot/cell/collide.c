@@ -52,8 +52,11 @@ static int ask_pair(state_search *s, const checker_pair *p, pair_name name, cons
     double margin = add_up(s->margin, p->padding, p->error);
     ovoid_answer is = ovoid_within(&p->pair, margin, NULL, earlier);
     pair_remember(s->checker, p, &is.proof);
-    if (sides_have_solid(&p->solids) && !(is.lower > margin))
-        is = solid_pair_within(&p->pair, &p->solids, margin, &is, pair_get_clear(p));
+    if (sides_have_solid(&p->solids) && !(is.lower > margin)) {
+        is.upper = solid_sides_raise(&p->solids, is.upper);
+        if (!(upper_outward(p, is.upper) <= s->margin))
+            is = solid_pair_within(&p->pair, &p->solids, margin, &is, pair_get_clear(p));
+    }
     return is.lower > margin || take_bracket(s, p, name, is.lower, is.upper);
 }
 

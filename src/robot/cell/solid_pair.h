@@ -5,12 +5,20 @@
 
 #include "ovoid/solid.h"
 
+#include <math.h>
+
 /// The solids of a pair of hulls; NULL: that body is the shape itself.
 typedef struct solid_sides {
     const ovoid_solid *a, *b;
+    double gap; ///< how much farther apart than the hulls they are at most; infinity where that is not known
 } solid_sides;
 
 static inline int sides_have_solid(const solid_sides *s) { return s->a || s->b; }
+
+/// The upper end of the bodies' distance from that of their hulls, rounded up.
+static inline double solid_sides_raise(const solid_sides *s, double upper) {
+    return upper + s->gap + 0x1p-51 * (fabs(upper) + s->gap);
+}
 
 /// Whether the bodies are within a margin, or their distance with the nearest points, from the answer of their hulls.
 /// Its points and normal are those of the deciding pair of triangles. clear: by how much the bodies may be nearer than

@@ -56,10 +56,15 @@ static int is_far(const prover *p, uint32_t pair) {
 }
 
 // 1 where the middle is proven in contact.
+static int is_proven(const path_pair *at, double upper) {
+    return upper + at->error + 0x1p-51 * (fabs(upper) + at->error) <= 0;
+}
+
 static int is_hit(prover *p, uint32_t pair, const path_pair *at) {
     ovoid_answer is = ovoid_within(&at->pair, at->error, NULL, get_proof(p, pair));
-    if (sides_have_solid(&at->solids)) is = solid_pair_within(&at->pair, &at->solids, at->error, &is, at->error);
-    return is.upper + at->error + 0x1p-51 * (fabs(is.upper) + at->error) <= 0;
+    if (!sides_have_solid(&at->solids)) return is_proven(at, is.upper);
+    if (is_proven(at, solid_sides_raise(&at->solids, is.upper))) return 1;
+    return is_proven(at, solid_pair_within(&at->pair, &at->solids, at->error, &is, at->error).upper);
 }
 
 static cell_verdict look_for_free(prover *p) {

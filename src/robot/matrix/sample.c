@@ -62,8 +62,11 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     if (s->marks[both].hit == s->state) return 1;
     ovoid_answer is = ovoid_within(&p->pair, p->error, NULL, pair_get_earlier(s->checker, p));
     pair_remember(s->checker, p, &is.proof);
-    if (sides_have_solid(&p->solids) && !(is.lower > p->error))
-        is = solid_pair_within(&p->pair, &p->solids, p->error, &is, p->error);
+    if (sides_have_solid(&p->solids) && !(is.lower > p->error)) {
+        is.upper = solid_sides_raise(&p->solids, is.upper);
+        if (!(upper_outward(p, is.upper) <= 0))
+            is = solid_pair_within(&p->pair, &p->solids, p->error, &is, p->error);
+    }
     if (is.lower > p->error) return 1;
     if (upper_outward(p, is.upper) <= 0)
         take_hit(s, both);

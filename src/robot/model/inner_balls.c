@@ -172,7 +172,8 @@ static inner_region make_ball(const inner_balls *b) {
     return (inner_region){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, center, {0, 0, 0}, 1, radius, 1};
 }
 
-void shape_inside_find(const ovoid_shape *s, const ovoid_solid *solid, const ovoid_shape *point, shape_inside *in) {
+ovoid_code shape_inside_find(const ovoid_shape *s, const ovoid_solid *solid, const ovoid_shape *point,
+                             shape_inside *in) {
     const ball_search search = {s, point, solid};
     find_balls(&search, &in->balls);
     in->region = solid ? make_ball(&in->balls) : inner_region_find(s);
@@ -182,4 +183,6 @@ void shape_inside_find(const ovoid_shape *s, const ovoid_solid *solid, const ovo
         in->least = min2(in->least, in->balls.column[BALLS_RADIUS][i]);
     }
     in->size = 3 * (s->extent + vec3_max_abs(s->origin));
+    in->gap = 0;
+    return solid ? ovoid_solid_compute_hull_gap(solid, s, &in->gap, NULL) : OVOID_OK;
 }

@@ -23,11 +23,12 @@ typedef struct shape_inside {
     inner_region region;
     double most, least; ///< radii of the balls
     double size;        ///< the lengths that centres are made of, summed
+    double gap;         ///< ovoid_solid_compute_hull_gap of a solid; 0: the shape is the body
 } shape_inside;
 /// solid: NULL, or the body; nothing is inside a surface. point: a shape that is a point at its frame's origin. Cost:
-/// some hundred passes over the facets, and some tens of distances from the solid's surface.
-void shape_inside_find(const ovoid_shape *shape, const ovoid_solid *solid, const ovoid_shape *point,
-                       shape_inside *inside);
+/// some hundred passes over the facets, and some tens of distances from the solid's surface. MEMORY, or OK.
+ovoid_code shape_inside_find(const ovoid_shape *shape, const ovoid_solid *solid, const ovoid_shape *point,
+                             shape_inside *inside);
 
 /// The region inside a shape in its user's frame, without its radius. Cost: none.
 inner_region inner_region_find(const ovoid_shape *shape);

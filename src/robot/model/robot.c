@@ -197,12 +197,15 @@ static ovoid_code find_insides(ovoid_robot *r, ovoid_error *error) {
         r->element_inside[uses[i].element] = count - 1;
     }
     r->insides = uses && point ? allocator_allocate(&r->allocator, (size_t)count + 1, sizeof *r->insides) : NULL;
-    for (uint32_t i = 0; r->insides && i < r->element_count; i++)
-        if (i == 0 || compare_uses(&uses[i], &uses[i - 1]) != 0)
-            shape_inside_find(uses[i].shape, uses[i].solid, point, &r->insides[r->element_inside[uses[i].element]]);
+    ovoid_code code = r->insides ? OVOID_OK : OVOID_ERROR_MEMORY;
+    for (uint32_t i = 0; code == OVOID_OK && i < r->element_count; i++) {
+        if (i > 0 && compare_uses(&uses[i], &uses[i - 1]) == 0) continue;
+        shape_inside *inside = &r->insides[r->element_inside[uses[i].element]];
+        code = shape_inside_find(uses[i].shape, uses[i].solid, point, inside);
+    }
     allocator_release(&r->allocator, uses);
     ovoid_shape_destroy(point);
-    return r->insides ? OVOID_OK : error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a robot's shapes");
+    return code == OVOID_OK ? code : error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a robot's shapes");
 }
 
 // What is worked out from the copy.

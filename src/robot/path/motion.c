@@ -322,14 +322,14 @@ path_pair path_make_pair(const path_work *w, uint32_t number, const link_frame *
         const cell_part *b = &cell_parts(w->cell)[of.part];
         p.b = &b->side;
         p.pair = (ovoid_pair){a->shape, b->shape, pose, b->pose};
-        p.solids = (solid_sides){a->solid, b->solid};
+        p.solids = cell_get_part_solids(a, b);
         p.padding = w->cell->padding[a->side.link];
         p.frame = OVOID_ROBOT_NONE;
     } else {
         const cell_item *b = &cell_items(w->cell)[of.other];
         p.b = &b->side;
         p.pair = (ovoid_pair){a->shape, b->shape, pose, get_pose(&frames[b->frame])};
-        p.solids = (solid_sides){a->solid, b->solid};
+        p.solids = cell_get_item_solids(a, b);
         p.error += w->errors[of.other];
         p.apart = a->far + b->far;
         p.frame = w->pairs[of.pair].frame;
