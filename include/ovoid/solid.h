@@ -112,8 +112,8 @@ OVOID_API ovoid_code ovoid_triangles_compute_hull_match(const ovoid_triangles *t
 /**
  * How much farther from any body a solid is than its hull, at most: with *gap = g, d(hull, B) <= d(solid, B) <=
  * d(hull, B) + g for every B, depths included, so that hulls which are deeper than g in each other prove an overlap. g
- * is 0 where the solid is its hull by exact signs, and infinity where no convex body of at least half the hull's size is
- * shown to lie inside it, of the hull's form and about its centroid; of a surface it is. hull: of all points of the
+ * is 0 where the solid is its hull by exact signs, and infinity where no convex body of at least half the hull's size
+ * is shown to lie inside it, of the hull's form and about its centroid; of a surface it is. hull: of all points of the
  * solid; where it has a radius or an allowance, or a rank below 3, g is infinity. Errors: MEMORY (of the solid's
  * allocator). Cost: that of ovoid_triangles_match_hull.
  */

@@ -30,9 +30,14 @@ typedef struct scene {
     double padding;
 } scene;
 
+// 1: solids are nearly their hulls, so that deep hulls prove that they overlap.
+static int are_nearly_convex;
+
 static body make_body(int is_solid, double scale, uint64_t *s) {
     body b = {.pose = {random_vec3(s, 0.2), random_quat(s)}};
-    if (is_solid)
+    if (is_solid && are_nearly_convex)
+        mesh_add_star(&b.m, (ovoid_vec3){0, 0, 0}, scale, 4, 5, 0.35, s);
+    else if (is_solid)
         mesh_add_random(&b.m, scale, s);
     else
         mesh_add_star(&b.m, (ovoid_vec3){0, 0, 0}, scale, 2, 4, 0, s);
@@ -277,6 +282,61 @@ static void test_states(void) {
     printf("  %ld distances, %ld overlaps, %ld slopes\n", proven, overlaps, compared);
     CHECK(proven > 300 && overlaps > 30 && compared > 80);
     check_seed = 0;
+}
+
+static int is_free(const scene *c, const double *q) {
+    ovoid_robot_answer is;
+    CHECK_EQ(ovoid_robot_collide(c->x, q, NULL, &is, &error), OVOID_OK);
+    return is.status == OVOID_ROBOT_FREE;
+}
+
+// The state between two where a hit ends, a little on either side.
+static void find_contact(const scene *c, const double *from, const double *to, double off, double *q) {
+    double hit = 0, apart = 1;
+    for (int i = 0; i < 20; i++) {
+        double middle = 0.5 * (hit + apart);
+        for (int k = 0; k < JOINTS; k++) q[k] = from[k] + middle * (to[k] - from[k]);
+        if (is_free(c, q))
+            apart = middle;
+        else
+            hit = middle;
+    }
+    for (int k = 0; k < JOINTS; k++) q[k] = from[k] + (apart + off) * (to[k] - from[k]);
+}
+
+// Dents as deep as a third of the body, and states around contact: hulls that overlap by less than the dents prove
+// nothing.
+static void test_nearly_convex(void) {
+    uint64_t s = 11;
+    long hits = 0, dents = 0;
+    are_nearly_convex = 1;
+    for (int i = 0; i < 12; i++) {
+        scene c;
+        check_seed = (uint64_t)i;
+        make_scene(&c, &s);
+        for (int k = 0; k < 16; k++) {
+            double q[JOINTS], from[JOINTS], to[JOINTS];
+            true_pair pairs[PAIRS];
+            do make_state(from, &s);
+            while (is_free(&c, from));
+            do make_state(to, &s);
+            while (!is_free(&c, to));
+            find_contact(&c, from, to, k % 2 ? 1e-3 : -1e-2, q);
+            int count = find_truth(&c, q, pairs);
+            for (int j = 0; j < count; j++) {
+                const ovoid_pair hulls = {pairs[j].a->hull, pairs[j].b->hull, pairs[j].pose_a, pairs[j].pose_b};
+                hits += is_common(&pairs[j]);
+                dents += !is_common(&pairs[j]) && ovoid_collide(&hulls, NULL, NULL).status == OVOID_OVERLAPPING;
+            }
+            collide_state(&c, q, pairs, count, 0);
+            collide_state(&c, q, pairs, count, 0.01);
+        }
+        destroy_scene(&c);
+    }
+    are_nearly_convex = 0;
+    check_seed = 0;
+    printf("  nearly convex: %ld hits, %ld in dents\n", hits, dents);
+    CHECK(hits > 50 && dents > 15);
 }
 
 // ---- paths
@@ -587,6 +647,7 @@ int main(void) {
     test_padded_peg();
     test_post();
     test_states();
+    test_nearly_convex();
     test_paths();
     return check_end();
 }

@@ -76,6 +76,15 @@ inline ovoid_hull_match match_hull(const ovoid_triangles &triangles, const shape
     return found;
 }
 
+/** How much farther from any body a solid is than its hull, at most; infinity where that is not shown. Throws MEMORY.
+ */
+inline double hull_gap(const solid_view &solid, const shape_view &hull) {
+    double gap;
+    ovoid_error e;
+    detail::require(ovoid_solid_compute_hull_gap(solid.get(), hull.get(), &gap, &e), e);
+    return gap;
+}
+
 inline body::body(solid_view s, const ovoid::pose &at) noexcept : ovoid_body{nullptr, nullptr, at, s.get()} {}
 
 inline moving_body::moving_body(solid_view s, const ovoid::motion &m) noexcept

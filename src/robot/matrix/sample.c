@@ -64,8 +64,7 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     pair_remember(s->checker, p, &is.proof);
     if (sides_have_solid(&p->solids) && !(is.lower > p->error)) {
         is.upper = solid_sides_raise(&p->solids, is.upper);
-        if (!(upper_outward(p, is.upper) <= 0))
-            is = solid_pair_within(&p->pair, &p->solids, p->error, &is, p->error);
+        if (!(upper_outward(p, is.upper) <= 0)) is = solid_pair_within(&p->pair, &p->solids, p->error, &is, p->error);
     }
     if (is.lower > p->error) return 1;
     if (upper_outward(p, is.upper) <= 0)

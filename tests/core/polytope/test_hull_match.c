@@ -1,6 +1,7 @@
 // What triangles are: the hull of their points exactly, nearly, or not; closed or open. Truth: closed forms of boxes,
 // plates with windows and dents; for random bodies the winding number at points of the body that the allowance
 // promises, and supports, each of which may be nowhere lower by more than the allowance.
+#include "failing.h"
 #include "solids.h"
 
 static uint64_t seed = 1;
@@ -356,6 +357,107 @@ static void check_refusals(void) {
     ovoid_shape_destroy(hull);
 }
 
+// ---- the gap between a solid and its hull
+
+// The cube [-1, 1]^3 with a dent of that depth in the middle of its top.
+static void make_dented(soup *s, double depth) {
+    s->points = s->count = 0;
+    for (int i = 0; i < 8; i++)
+        add_point(s, 2 * corners[3 * i] - 1, 2 * corners[3 * i + 1] - 1, 2 * corners[3 * i + 2] - 1);
+    uint32_t middle = add_point(s, 0, 0, 1 - depth);
+    for (size_t t = 0; t < 12; t++)
+        if (t != 2 && t != 3) add_triangle(s, cube[3 * t], cube[3 * t + 1], cube[3 * t + 2]);
+    for (uint32_t i = 0; i < 4; i++) add_triangle(s, 4 + i, 4 + (i + 1) % 4, middle);
+}
+
+static ovoid_solid *create_solid(const soup *s, const ovoid_allocator *allocator) {
+    return ovoid_solid_create_from_triangles(s->xyz, s->points, s->indices, s->count, allocator, NULL);
+}
+
+static double measure_gap(const ovoid_solid *solid, const ovoid_shape *hull) {
+    double gap = NAN;
+    CHECK_EQ(ovoid_solid_compute_hull_gap(solid, hull, &gap, NULL), OVOID_OK);
+    return gap;
+}
+
+// No probe is farther from the solid than from its hull by more than the gap.
+static void check_probes(const ovoid_solid *solid, const ovoid_shape *hull, double gap) {
+    ovoid_shape *probes[] = {ovoid_shape_create_sphere(0, NULL, NULL), ovoid_shape_create_sphere(0.25, NULL, NULL),
+                             ovoid_shape_create_box((ovoid_vec3){0.05, 0.05, 0.8}, NULL, NULL)};
+    for (int i = 0; i < 300; i++) {
+        const ovoid_shape *probe = probes[i % 3];
+        ovoid_pose pose = ovoid_pose_make_identity();
+        pose.position = (ovoid_vec3){random_double(-1, 1), random_double(-1, 1), random_double(0.5, 2)};
+        if (i < 30) pose.position = (ovoid_vec3){0, 0, i % 3 == 2 ? 1.8 : i % 3 == 1 ? 1.25 : 1};
+        const ovoid_pair hulls = {probe, hull, pose, ovoid_pose_make_identity()};
+        const ovoid_body_pair bodies = {{.shape = probe, .pose = pose},
+                                        {.solid = solid, .pose = ovoid_pose_make_identity()}};
+        double least = ovoid_solid_distance(&bodies, NULL, NULL, NULL).lower;
+        double most = ovoid_depth(&hulls, NULL, NULL, NULL).upper + gap;
+        if (!CHECK(least <= most)) printf("  probe %d: %.17g beyond %.17g\n", i, least, most);
+    }
+    for (size_t i = 0; i < sizeof probes / sizeof *probes; i++) ovoid_shape_destroy(probes[i]);
+}
+
+static void check_gaps(void) {
+    static soup s;
+    for (int i = 0; i < 12; i++) {
+        double depth = i == 0 ? 0 : ldexp(1, -i - 1);
+        make_dented(&s, depth);
+        ovoid_solid *solid = create_solid(&s, NULL);
+        ovoid_shape *hull = ovoid_shape_create_from_points(s.xyz, s.points, NULL, NULL);
+        double gap = measure_gap(solid, hull);
+        // All of the dent is at least 1 - depth from the centre, where the top is at 1; a corner is at the root of 3.
+        CHECK_NEAR(gap, sqrt(3) * depth, 1e-12);
+        CHECK(gap >= sqrt(3) * depth);
+        check_probes(solid, hull, gap);
+        // A hull with a radius is another body.
+        ovoid_shape *rounded =
+            ovoid_shape_create_from_points(s.xyz, s.points, &(ovoid_shape_options){.radius = 0.5}, NULL);
+        CHECK_EQ(measure_gap(solid, rounded), INFINITY);
+        ovoid_shape_destroy(rounded);
+        ovoid_solid_destroy(solid);
+        // Without one triangle it is a surface.
+        s.count--;
+        solid = create_solid(&s, NULL);
+        CHECK_EQ(measure_gap(solid, hull), INFINITY);
+        ovoid_solid_destroy(solid);
+        ovoid_shape_destroy(hull);
+    }
+    // Nothing of half the hull's size about its centroid is in a body that is dented beyond that.
+    make_dented(&s, 0.75);
+    ovoid_solid *solid = create_solid(&s, NULL);
+    ovoid_shape *hull = ovoid_shape_create_from_points(s.xyz, s.points, NULL, NULL);
+    CHECK_EQ(measure_gap(solid, hull), INFINITY);
+    ovoid_shape_destroy(hull);
+    ovoid_solid_destroy(solid);
+}
+
+static soup dented;
+static ovoid_shape *dented_hull;
+static ovoid_solid *dented_solid;
+
+static int match_dented(ovoid_error *error) {
+    ovoid_hull_match m;
+    const ovoid_triangles triangles = {dented.xyz, dented.points, dented.indices, dented.count};
+    return ovoid_triangles_match_hull(&triangles, dented_hull, &m, error) == OVOID_OK && m.is_closed && !m.is_hull;
+}
+
+static int measure_dented(ovoid_error *error) {
+    double gap;
+    return ovoid_solid_compute_hull_gap(dented_solid, dented_hull, &gap, error) == OVOID_OK && gap < 1;
+}
+
+static void check_memory(void) {
+    make_dented(&dented, 0.125);
+    dented_hull = ovoid_shape_create_from_points(dented.xyz, dented.points, NULL, NULL);
+    dented_solid = create_solid(&dented, NULL);
+    check_operation("match", 0, match_dented);
+    check_operation("gap", 0, measure_dented);
+    ovoid_solid_destroy(dented_solid);
+    ovoid_shape_destroy(dented_hull);
+}
+
 int main(void) {
     check_edges();
     check_corner_on_edge();
@@ -365,5 +467,7 @@ int main(void) {
     check_slot();
     check_random();
     check_refusals();
+    check_gaps();
+    check_memory();
     return check_end();
 }
