@@ -1,9 +1,9 @@
 // What ovoid decompose writes: the report, JSON, CSV, and the parts as an OBJ file.
 #include "base/args.h"
 #include "base/finish.h"
-#include "base/json.h"
 #include "base/message.h"
 #include "body/decompose.h"
+#include "io/fields.h"
 
 #include <string.h>
 
@@ -71,10 +71,10 @@ static void write_length(FILE *file, const char *name, const ovoid_decomposition
 void decomposed_write_json(FILE *file, const decomposed *d) {
     ovoid_solid_report r = ovoid_solid_get_report(d->view.solid);
     fputs("{\"mesh\":", file);
-    json_write_text(file, d->path);
+    ovoid_text_write_json(file, d->path);
     if (*d->unit) {
         fputs(",\"unit\":", file);
-        json_write_text(file, d->unit);
+        ovoid_text_write_json(file, d->unit);
     }
     fprintf(file, ",\"triangles\":%llu", (unsigned long long)r.triangles);
     write_field(file, "volume", r.volume);

@@ -2,8 +2,8 @@
 // that is not finite is null in JSON and empty in CSV.
 #include "body/fit.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 
 #include <math.h>
 
@@ -97,96 +97,96 @@ void fit_write_table_row(FILE *file, const fitted *f) {
 
 /* ---- for programs ---- */
 
-static void write_vector(FILE *file, ovoid_vec3 v) {
-    const double items[] = {v.x, v.y, v.z};
-    json_write_numbers(file, items, 3);
-}
+static const char *name_kind(int kind) { return ovoid_mesh_kind_get_name((ovoid_mesh_kind)kind); }
+static const field_names kinds = {name_kind, OVOID_MESH_HULL, OVOID_MESH_SURFACE};
 
-static void write_step_json(FILE *file, const fitted *f, int step) {
+#define FIT(member) FIELD_AT(fitted, member), .column = FIELD_COLUMN
+static const field body_fields[] = {
+    {"file", FIELD_TEXT, FIT(file)},
+    {"name", FIELD_TEXT, FIT(name)},
+    {"points", FIELD_WHOLE, FIT(report.points)},
+    {"vertices", FIELD_WHOLE, FIT(report.vertices)},
+    {"duplicates", FIELD_WHOLE, FIT(report.duplicates)},
+    {"interior", FIELD_WHOLE, FIT(report.interior)},
+    {"coplanar", FIELD_WHOLE, FIT(report.coplanar)},
+    {"rank", FIELD_WHOLE, FIT(report.rank)},
+    {"facets", FIELD_WHOLE, FIT(facets)},
+    {"triangles", FIELD_WHOLE, FIT(triangles)},
+    {"radius", FIELD_MEASURE, FIT(radius)},
+    {"outside", FIELD_MEASURE, FIT(allowance.outside)},
+    {"inside", FIELD_MEASURE, FIT(allowance.inside)},
+    {"volume", FIELD_MEASURE, FIT(measures.volume)},
+    {"area", FIELD_MEASURE, FIT(measures.area)},
+    {"mesh_kind", FIELD_NAME, FIT(convexity.kind), .names = &kinds},
+    {"mesh_volume", FIELD_MEASURE, FIT(convexity.mesh_volume)},
+};
+static const field_table body_table = FIELD_TABLE(fitted, body_fields);
+
+static const field time_fields[] = {
+    {"read_seconds", FIELD_SECONDS, FIT(read_seconds)},
+    {"make_seconds", FIELD_SECONDS, FIT(make_seconds)},
+    {"output", FIELD_TEXT, FIT(output)},
+};
+static const field_table time_table = FIELD_TABLE(fitted, time_fields);
+
+/// A step's ellipsoid.
+typedef struct step_row {
+    double volume, gap, radius[3], seconds;
+    ovoid_vec3 center;
+    uint32_t iterations;
+} step_row;
+
+#define STEP(member) FIELD_AT(step_row, member)
+static const field step_fields[] = {
+    {"volume", FIELD_MEASURE, STEP(volume), .column = FIELD_COLUMN},
+    {"gap", FIELD_MEASURE, STEP(gap), .column = FIELD_COLUMN},
+    {"center", FIELD_VECTOR, STEP(center)},
+    {"radii", FIELD_VECTOR, STEP(radius)},
+    {"radius1", FIELD_MEASURE, STEP(radius[0]), .column = FIELD_COLUMN, .bit = 1},
+    {"radius2", FIELD_MEASURE, STEP(radius[1]), .column = FIELD_COLUMN, .bit = 1},
+    {"radius3", FIELD_MEASURE, STEP(radius[2]), .column = FIELD_COLUMN, .bit = 1},
+    {"iterations", FIELD_WHOLE, STEP(iterations)},
+    {"seconds", FIELD_SECONDS, STEP(seconds), .column = FIELD_COLUMN},
+};
+static const field_table step_table = FIELD_TABLE(step_row, step_fields);
+
+static step_row make_step(const fitted *f, int step) {
     const ovoid_fit *s = &f->steps[step];
-    if (isnan(s->volume)) {
-        fprintf(file, ",\"%s\":null", step_keys[step]);
-        return;
-    }
-    fprintf(file, ",\"%s\":{\"volume\":", step_keys[step]);
-    json_write_number(file, s->volume);
-    fprintf(file, ",\"gap\":");
-    json_write_number(file, s->gap);
-    fprintf(file, ",\"center\":");
-    write_vector(file, s->ellipsoid.center);
-    fprintf(file, ",\"radii\":");
-    write_vector(file, ovoid_ellipsoid_compute_radii(&s->ellipsoid));
-    fprintf(file, ",\"iterations\":%u,\"seconds\":%.9f}", (unsigned)s->iterations, f->seconds[step]);
+    if (isnan(s->volume)) return (step_row){s->volume, s->gap, {NAN, NAN, NAN}, NAN, {0, 0, 0}, 0};
+    ovoid_vec3 radii = ovoid_ellipsoid_compute_radii(&s->ellipsoid);
+    return (step_row){s->volume,           s->gap,       {radii.x, radii.y, radii.z}, f->seconds[step],
+                      s->ellipsoid.center, s->iterations};
 }
 
 void fit_write_json(FILE *file, const fitted *f) {
-    const ovoid_report *r = &f->report;
-    fprintf(file, "{\"file\":");
-    json_write_text(file, f->file);
-    fprintf(file, ",\"name\":");
-    json_write_text(file, f->name);
-    fprintf(file, ",\"points\":%llu,\"vertices\":%llu,\"duplicates\":%llu,\"interior\":%llu,\"coplanar\":%llu",
-            (unsigned long long)r->points, (unsigned long long)r->vertices, (unsigned long long)r->duplicates,
-            (unsigned long long)r->interior, (unsigned long long)r->coplanar);
-    fprintf(file,
-            ",\"rank\":%u,\"facets\":%u,\"triangles\":%u,\"radius\":%.17g,\"outside\":%.17g,\"inside\":%.17g,"
-            "\"volume\":%.17g,\"area\":%.17g",
-            (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles, f->radius, f->allowance.outside,
-            f->allowance.inside, f->measures.volume, f->measures.area);
-    fprintf(file, ",\"mesh_kind\":\"%s\",\"mesh_volume\":", ovoid_mesh_kind_get_name(f->convexity.kind));
-    json_write_number(file, f->convexity.mesh_volume);
-    for (int i = 0; i < FIT_STEPS; i++) write_step_json(file, f, i);
-    fprintf(file, ",\"read_seconds\":%.9f,\"make_seconds\":%.9f,\"output\":", f->read_seconds, f->make_seconds);
-    if (f->output)
-        json_write_text(file, f->output);
-    else
-        fputs("null", file);
+    fields_write_members(file, "\"", "{", &body_table, f, 0);
+    for (int i = 0; i < FIT_STEPS; i++) {
+        const step_row step = make_step(f, i);
+        fprintf(file, ",\"%s\":", step_keys[i]);
+        if (isnan(step.volume))
+            fputs("null", file);
+        else
+            fields_write_json(file, "\"", &step_table, &step, 0);
+    }
+    fields_write_members(file, "\"", ",", &time_table, f, 0);
     fputs("}\n", file);
 }
 
 void fit_write_csv_title(FILE *file) {
-    fprintf(file, "file,name,points,vertices,duplicates,interior,coplanar,rank,facets,triangles,radius,outside,inside,"
-                  "volume,area,mesh_kind,mesh_volume");
+    fields_write_csv_header(file, "", &body_table, FIELD_COLUMN);
     for (int i = 0; i < FIT_STEPS; i++)
-        fprintf(file, ",%s_volume,%s_gap,%s_radius1,%s_radius2,%s_radius3,%s_seconds", step_keys[i], step_keys[i],
-                step_keys[i], step_keys[i], step_keys[i], step_keys[i]);
-    fprintf(file, ",read_seconds,make_seconds,output\n");
-}
-
-/// Writes a comma and a number, or nothing after the comma where it is not finite.
-static void write_column(FILE *file, double number) {
-    fputc(',', file);
-    if (isfinite(number)) fprintf(file, "%.17g", number);
+        for (const field *column = step_fields; column < step_fields + step_table.count; column++)
+            if (column->column) fprintf(file, ",%s_%s", step_keys[i], column->key);
+    fields_write_csv_header(file, ",", &time_table, FIELD_COLUMN);
+    fputc('\n', file);
 }
 
 void fit_write_csv_row(FILE *file, const fitted *f) {
-    const ovoid_report *r = &f->report;
-    ovoid_text_write_csv(file, f->file);
-    fputc(',', file);
-    ovoid_text_write_csv(file, f->name);
-    fprintf(file, ",%llu,%llu,%llu,%llu,%llu,%u,%u,%u", (unsigned long long)r->points, (unsigned long long)r->vertices,
-            (unsigned long long)r->duplicates, (unsigned long long)r->interior, (unsigned long long)r->coplanar,
-            (unsigned)r->rank, (unsigned)f->facets, (unsigned)f->triangles);
-    write_column(file, f->radius);
-    write_column(file, f->allowance.outside);
-    write_column(file, f->allowance.inside);
-    write_column(file, f->measures.volume);
-    write_column(file, f->measures.area);
-    fprintf(file, ",%s", ovoid_mesh_kind_get_name(f->convexity.kind));
-    write_column(file, f->convexity.mesh_volume);
+    fields_write_csv(file, "", &body_table, f, 0, FIELD_COLUMN);
     for (int i = 0; i < FIT_STEPS; i++) {
-        int none = isnan(f->steps[i].volume);
-        ovoid_vec3 radii = ovoid_ellipsoid_compute_radii(&f->steps[i].ellipsoid);
-        write_column(file, f->steps[i].volume);
-        write_column(file, f->steps[i].gap);
-        write_column(file, none ? NAN : radii.x);
-        write_column(file, none ? NAN : radii.y);
-        write_column(file, none ? NAN : radii.z);
-        write_column(file, none ? NAN : f->seconds[i]);
+        const step_row step = make_step(f, i);
+        fields_write_csv(file, ",", &step_table, &step, 1, FIELD_COLUMN);
     }
-    write_column(file, f->read_seconds);
-    write_column(file, f->make_seconds);
-    fputc(',', file);
-    if (f->output) ovoid_text_write_csv(file, f->output);
+    fields_write_csv(file, ",", &time_table, f, 0, FIELD_COLUMN);
     fputc('\n', file);
 }

@@ -4,10 +4,10 @@
 
 #include "base/finish.h"
 #include "base/inputs.h"
-#include "base/json.h"
 #include "base/message.h"
 #include "base/outputs.h"
 #include "base/progress.h"
+#include "io/fields.h"
 #include "pairs/solids.h"
 
 #include <ovoid/ovoid.h>
@@ -127,7 +127,7 @@ static void write_number(const char *key, double number) {
 static void write_json(const info *x) {
     const ovoid_solid_report *r = &x->report;
     fputs("{\"mesh\":", stdout);
-    json_write_text(stdout, x->path);
+    ovoid_text_write_json(stdout, x->path);
     write_count("triangles", r->triangles);
     write_count("points", r->points);
     write_count("components", r->components);

@@ -1,8 +1,8 @@
 // Frames come one after another, and nobody knows how many: whenever there is no more room every second one is dropped.
 #include "page/motion.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 #include "page/write.h"
 
 #include <math.h>

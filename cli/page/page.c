@@ -2,8 +2,8 @@
 #include "page/page.h"
 
 #include "base/finish.h"
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 #include "page/write.h"
 
 #include <ovoid/ovoid.h>

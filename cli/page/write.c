@@ -1,7 +1,7 @@
 // JSON for a script element, and base64.
 #include "page/write.h"
 
-#include "base/json.h"
+#include "io/fields.h"
 
 #include <stdlib.h>
 #include <string.h>

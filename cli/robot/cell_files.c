@@ -1,8 +1,8 @@
 // Cells from files, and names for what is in them.
 #include "robot/cell_files.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -154,11 +154,11 @@ int cell_format_side(char text[CELL_SIDE_ROOM], const cli_cell *cell, const ovoi
 void cell_write_side_json(FILE *file, const cli_cell *cell, const ovoid_robot_side *side) {
     cell_side s = cell_get_side(cell, side);
     fputs(s.link ? "{\"link\":" : "{\"obstacle\":", file);
-    json_write_text(file, s.link ? s.link : s.obstacle);
+    ovoid_text_write_json(file, s.link ? s.link : s.obstacle);
     fprintf(file, ",\"%s\":%zu", s.link ? "element" : "part", s.number);
     if (s.element) {
         fputs(",\"name\":", file);
-        json_write_text(file, s.element);
+        ovoid_text_write_json(file, s.element);
     }
     fputc('}', file);
 }
@@ -207,7 +207,7 @@ void cell_write_variable_name(FILE *file, const cli_cell *cell, size_t variable)
 void cell_write_variable_json(FILE *file, const cli_cell *cell, size_t variable) {
     char name[CELL_SIDE_ROOM];
     cell_format_variable(name, cell, variable);
-    json_write_text(file, name);
+    ovoid_text_write_json(file, name);
 }
 
 const char *cell_get_status_name(ovoid_robot_status status) {

@@ -1,8 +1,8 @@
 // A robot as data: links, joints, elements, which pairs are not queried, obstacles, states, answers.
 #include "robot/page.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 #include "page/shapes.h"
 #include "page/write.h"
 #include "robot/page_clearance.h"

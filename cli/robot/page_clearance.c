@@ -1,8 +1,8 @@
 // Samples of the clearance: what holds at these s, not between them.
 #include "robot/page_clearance.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 #include "page/write.h"
 #include "robot/path/path.h"
 

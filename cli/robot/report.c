@@ -1,19 +1,36 @@
 // The states of a check, written. Rows of a table and lines of CSV are alike: one a state, or one a near pair.
 #include "robot/report.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 
 #include <math.h>
 #include <string.h>
 
+/// What a row has.
+enum { ROW_PAIR = 1, ROW_NEAR = 2 };
+
 /// One row: a pair of a state, or a state without one.
 typedef struct pair_row {
     const ovoid_robot_side *a, *b; ///< NULL: no pair
-    double lower, upper;
-    const ovoid_robot_near *near; ///< NULL: the pair of the answer
-    const double *gradient;       ///< NULL: none
+    ovoid_robot_near pair;
+    int is_near;            ///< 0: the pair of the answer, without points
+    const double *gradient; ///< NULL: none
 } pair_row;
+
+#define NEAR(member) FIELD_AT(ovoid_robot_near, member)
+static const field pair_fields[] = {
+    {"lower", FIELD_NUMBER, NEAR(lower), .column = FIELD_COLUMN, .bit = ROW_PAIR},
+    {"upper", FIELD_NUMBER, NEAR(upper), .column = FIELD_COLUMN, .bit = ROW_PAIR},
+    {"point_a", FIELD_VECTOR, NEAR(point_a), .column = ROW_NEAR, .bit = ROW_NEAR},
+    {"point_b", FIELD_VECTOR, NEAR(point_b), .column = ROW_NEAR, .bit = ROW_NEAR},
+    {"normal", FIELD_VECTOR, NEAR(normal), .column = ROW_NEAR, .bit = ROW_NEAR},
+};
+static const field_table pair_table = FIELD_TABLE(ovoid_robot_near, pair_fields);
+
+static unsigned get_columns(const report_form *form) { return FIELD_COLUMN | (form->has_near ? ROW_NEAR : 0u); }
+
+static uint64_t get_bits(const pair_row *row) { return (row->a ? ROW_PAIR : 0u) | (row->is_near ? ROW_NEAR : 0u); }
 
 static size_t get_row_count(const report_form *form, const report_state *s) {
     return form->has_near && s->count ? s->count : 1;
@@ -24,40 +41,26 @@ static pair_row get_row(const report_form *form, const report_state *s, size_t i
     size_t n = form->states->variable_count;
     if (form->has_near && s->count) {
         const ovoid_robot_near *near = &s->near[i];
-        return (pair_row){&near->a,    &near->b, near->lower,
-                          near->upper, near,     s->gradients ? s->gradients + i * n : NULL};
+        return (pair_row){&near->a, &near->b, *near, 1, s->gradients ? s->gradients + i * n : NULL};
     }
-    if (!cell_has_pair(answer)) return (pair_row){.near = NULL};
-    return (pair_row){&answer->a, &answer->b, answer->lower, answer->upper, NULL, NULL};
+    if (!cell_has_pair(answer)) return (pair_row){.a = NULL};
+    return (pair_row){&answer->a, &answer->b, {.lower = answer->lower, .upper = answer->upper}, 0, NULL};
 }
 
 // ---- JSON Lines
-
-static void write_vector(FILE *file, const char *key, ovoid_vec3 v) {
-    const double items[] = {v.x, v.y, v.z};
-    fprintf(file, ",\"%s\":", key);
-    json_write_numbers(file, items, 3);
-}
 
 static void write_pair(FILE *file, const report_form *form, const pair_row *row) {
     fputs("\"a\":", file);
     cell_write_side_json(file, form->cell, row->a);
     fputs(",\"b\":", file);
     cell_write_side_json(file, form->cell, row->b);
-    fputs(",\"lower\":", file);
-    json_write_number(file, row->lower);
-    fputs(",\"upper\":", file);
-    json_write_number(file, row->upper);
-    if (!row->near) return;
-    write_vector(file, "point_a", row->near->point_a);
-    write_vector(file, "point_b", row->near->point_b);
-    write_vector(file, "normal", row->near->normal);
+    fields_write_members(file, "\"", ",", &pair_table, &row->pair, get_bits(row));
     for (size_t i = 0; i < form->states->variable_count && row->gradient; i++) {
         fputs(i ? "," : ",\"gradient\":[", file);
         json_write_number(file, row->gradient[i]);
     }
     if (row->gradient && form->states->variable_count)
-        fprintf(file, "],\"gradient_is_shown\":%s", row->near->has_gradient ? "true" : "false");
+        fprintf(file, "],\"gradient_is_shown\":%s", row->pair.has_gradient ? "true" : "false");
 }
 
 void report_write_json(FILE *file, const report_form *form, const report_state *s) {
@@ -67,7 +70,7 @@ void report_write_json(FILE *file, const report_form *form, const report_state *
     fprintf(file, "{\"state\":%zu", s->index);
     if (name) {
         fputs(",\"name\":", file);
-        json_write_text(file, name);
+        ovoid_text_write_json(file, name);
     }
     fprintf(file, ",\"status\":\"%s\"", cell_get_status_name(s->answer.status));
     if (s->answer.status == OVOID_ROBOT_REFUSED) {
@@ -93,9 +96,8 @@ void report_write_json(FILE *file, const report_form *form, const report_state *
 // ---- CSV
 
 void report_write_csv_header(FILE *file, const report_form *form) {
-    fputs("state,status," CELL_PAIR_COLUMNS ",lower,upper", file);
-    if (form->has_near)
-        fputs(",point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z", file);
+    fputs("state,status," CELL_PAIR_COLUMNS, file);
+    fields_write_csv_header(file, ",", &pair_table, get_columns(form));
     for (size_t i = 0; i < form->states->variable_count && form->has_gradient; i++) {
         char name[CELL_SIDE_ROOM + 2] = "d ";
         cell_format_variable(name + 2, form->cell, i);
@@ -113,19 +115,8 @@ static void write_numbers(FILE *file, const double *numbers, size_t count) {
 }
 
 static void write_csv_row(FILE *file, const report_form *form, const pair_row *row) {
-    const double bracket[] = {row->lower, row->upper};
     cell_write_pair_csv(file, form->cell, row->a, row->b);
-    write_numbers(file, row->a ? bracket : NULL, 2);
-    if (form->has_near) {
-        const ovoid_robot_near *n = row->near;
-        double v[9] = {0};
-        if (n) {
-            const double all[] = {n->point_a.x, n->point_a.y, n->point_a.z, n->point_b.x, n->point_b.y,
-                                  n->point_b.z, n->normal.x,  n->normal.y,  n->normal.z};
-            memcpy(v, all, sizeof v);
-        }
-        write_numbers(file, n ? v : NULL, 9);
-    }
+    fields_write_csv(file, ",", &pair_table, &row->pair, get_bits(row), get_columns(form));
     if (form->has_gradient) write_numbers(file, row->gradient, form->states->variable_count);
     fputc('\n', file);
 }
@@ -187,7 +178,7 @@ static void write_gradient(FILE *file, const report_form *form, const pair_row *
         cell_write_variable_name(file, form->cell, i);
         fprintf(file, " %.6g", row->gradient[i]);
     }
-    if (!row->near->has_gradient) fputs("  (not shown)", file);
+    if (!row->pair.has_gradient) fputs("  (not shown)", file);
 }
 
 static void write_state(FILE *file, const report_form *form, const report_state *s, const widths *w) {
@@ -202,7 +193,7 @@ static void write_state(FILE *file, const report_form *form, const report_state 
             fprintf(file, "%*s", 11 - (int)strlen(cell_get_status_name(s->answer.status)), "");
             write_side(file, form, row.a, w->a);
             write_side(file, form, row.b, w->b);
-            cell_format_bracket(bracket, row.lower, row.upper);
+            cell_format_bracket(bracket, row.pair.lower, row.pair.upper);
             fputs(bracket, file);
         }
         if (row.gradient) write_gradient(file, form, &row);

@@ -2,8 +2,8 @@
 // is not given is MoveIt's default (moveit_core, RobotModel::getVariableDefaultPositions), and a note says so.
 #include "robot/states.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -164,17 +164,17 @@ static double *add_state(reader *r) {
 
 // ---- text
 
-/// Cuts the field at `*at` off a line, without the blanks and quotes around it; *at becomes NULL behind the last one.
+/// Cuts the column at `*at` off a line, without the blanks and quotes around it; *at becomes NULL behind the last one.
 static char *take_field(char **at) {
-    char *field = *at, *comma = strchr(field, ',');
+    char *column = *at, *comma = strchr(column, ',');
     if (comma) *comma = 0;
     *at = comma ? comma + 1 : NULL;
-    while (isspace((unsigned char)*field)) field++;
-    size_t length = strlen(field);
-    while (length && isspace((unsigned char)field[length - 1])) length--;
-    if (length > 1 && field[0] == '"' && field[length - 1] == '"') field++, length -= 2;
-    field[length] = 0;
-    return field;
+    while (isspace((unsigned char)*column)) column++;
+    size_t length = strlen(column);
+    while (length && isspace((unsigned char)column[length - 1])) length--;
+    if (length > 1 && column[0] == '"' && column[length - 1] == '"') column++, length -= 2;
+    column[length] = 0;
+    return column;
 }
 
 /// A finite number; 0 where the text is none, with r->why filled.
@@ -321,16 +321,16 @@ static int read_assignments(reader *r, const char *text, double *state) {
     int good = copy != NULL;
     if (!copy) snprintf(r->why, WHY_ROOM, "out of memory");
     for (char *at = copy; at && good;) {
-        char *field = take_field(&at), *equals = strchr(field, '=');
+        char *column = take_field(&at), *equals = strchr(column, '=');
         double value;
         if (!equals) {
-            snprintf(r->why, WHY_ROOM, "\"%.60s\" is not of the form joint=number", field);
+            snprintf(r->why, WHY_ROOM, "\"%.60s\" is not of the form joint=number", column);
             good = 0;
             break;
         }
         *equals = 0;
         char *number = equals + 1;
-        uint32_t variable = take_variable(r, take_field(&field));
+        uint32_t variable = take_variable(r, take_field(&column));
         good = variable != OVOID_ROBOT_NONE && read_number(r, take_field(&number), &value);
         if (good && variable != COLUMN_FOLLOWS) state[variable] = value;
     }

@@ -11,6 +11,7 @@ typedef enum field_kind {
     FIELD_FINITE,  ///< double; null is not read
     FIELD_NUMBER,  ///< double; what is not finite is null in JSON, and is read as `if_null`; "inf", "nan" in CSV
     FIELD_MEASURE, ///< the same, but empty in CSV where it is not finite
+    FIELD_SECONDS, ///< the same, with nine digits behind the point in JSON
     FIELD_WHOLE,   ///< uint16_t, uint32_t, uint64_t or size_t, by its size
     FIELD_RANGE,   ///< uint32_t[2], or two members that follow one another
     FIELD_VECTOR,  ///< ovoid_vec3; three columns of CSV: key_x, key_y, key_z
@@ -69,10 +70,12 @@ typedef struct field_table {
     const char *missing; ///< what it says of one that is not there; NULL: what is wrong with its value
 } field_table;
 
-/// The row of a member, and a table of rows.
+/// The row of a member; a table of rows, and one that is read, too, with its sentences.
 #define FIELD_AT(type, member) .offset = offsetof(type, member), .size = sizeof(((type *)NULL)->member)
-#define FIELD_TABLE(type, rows, ...)                                                                                   \
-    { (rows), sizeof(rows) / sizeof *(rows), sizeof(type), __VA_ARGS__ }
+#define FIELD_TABLE(type, rows)                                                                                        \
+    { .fields = (rows), .count = sizeof(rows) / sizeof *(rows), .size = sizeof(type) }
+#define FIELD_TABLE_READ(type, rows, foreign, missing)                                                                 \
+    { (rows), sizeof(rows) / sizeof *(rows), sizeof(type), (foreign), (missing) }
 
 /// Writes the struct as an object, without what its bits leave out.
 void fields_write_json(FILE *file, const char *quote, const field_table *table, const void *item, uint64_t bits);

@@ -148,7 +148,8 @@ static const char *read_value(fields_reader *r, json_t *value, const field *f, v
     switch (f->kind) {
     case FIELD_FINITE:
     case FIELD_NUMBER:
-    case FIELD_MEASURE: good = read_bounded(value, f, at); break;
+    case FIELD_MEASURE:
+    case FIELD_SECONDS: good = read_bounded(value, f, at); break;
     case FIELD_WHOLE: good = read_whole(value, f->size, at); break;
     case FIELD_RANGE: good = read_range(value, at); break;
     case FIELD_VECTOR: good = read_numbers(value, 3, at); break;

@@ -116,6 +116,7 @@ static void write_value(FILE *file, const char *quote, const field *f, const voi
     case FIELD_FINITE:
     case FIELD_NUMBER:
     case FIELD_MEASURE: json_write_number(file, *(const double *)at); break;
+    case FIELD_SECONDS: fprintf(file, "%.9f", *(const double *)at); break;
     case FIELD_WHOLE: write_whole(file, get_whole(at, f->size)); break;
     case FIELD_RANGE: write_wholes(file, at, 2); break;
     case FIELD_VECTOR: json_write_numbers(file, at, 3); break;
@@ -175,6 +176,7 @@ static void write_column(FILE *file, const field *f, const void *item, uint64_t 
     case FIELD_FINITE:
     case FIELD_NUMBER: csv_write_number(file, *(const double *)at); break;
     case FIELD_MEASURE:
+    case FIELD_SECONDS:
         if (isfinite(*(const double *)at)) csv_write_number(file, *(const double *)at);
         break;
     case FIELD_NAME: fputs(field_get_name(f->names, at), file); break;

@@ -1,14 +1,14 @@
 // The report for programs: one object of JSON in a line.
 #include "robot/info/info.h"
 
-#include "base/json.h"
+#include "io/fields.h"
 
 static void write_key(FILE *file, const char *before, const char *key) { fprintf(file, "%s\"%s\":", before, key); }
 
 static void write_member(FILE *file, const char *before, const char *key, const char *text) {
     write_key(file, before, key);
     if (text)
-        json_write_text(file, text);
+        ovoid_text_write_json(file, text);
     else
         fputs("null", file);
 }
@@ -129,7 +129,7 @@ static void write_names(FILE *file, const char *key, const uint32_t *items, size
     fputc('[', file);
     for (size_t i = 0; i < count; i++) {
         if (i) fputc(',', file);
-        json_write_text(file, *(const char *const *)((const char *)names + items[i] * stride));
+        ovoid_text_write_json(file, *(const char *const *)((const char *)names + items[i] * stride));
     }
     fputc(']', file);
 }
@@ -156,7 +156,7 @@ static void write_states(FILE *file, const cli_robot *robot, const ovoid_robot_d
         for (size_t k = 0; k < s.value_count; k++) {
             const ovoid_robot_value *v = &s.values[k];
             if (k) fputc(',', file);
-            json_write_text(file, d->joints[v->joint].name);
+            ovoid_text_write_json(file, d->joints[v->joint].name);
             fputc(':', file);
             json_write_numbers(file, v->values, v->count);
         }
@@ -175,7 +175,7 @@ static void write_rest(FILE *file, const cli_robot *robot, const ovoid_robot_des
     for (size_t i = 0; i < ovoid_robot_file_get_ignored_count(robot->file); i++) {
         ovoid_robot_ignored kind = ovoid_robot_file_get_ignored(robot->file, i);
         if (i) fputc(',', file);
-        json_write_text(file, kind.name);
+        ovoid_text_write_json(file, kind.name);
         fprintf(file, ":%zu", kind.count);
     }
     fprintf(file, "},\"warnings\":%zu}\n", robot->note_count);

@@ -2,7 +2,7 @@
 #include "robot/matrix/matrix.h"
 #include "robot/xml_text.h"
 
-#include "base/json.h"
+#include "io/fields.h"
 
 #include <string.h>
 
@@ -28,7 +28,7 @@ matrix_finding matrix_find(const matrix_view *v, const ovoid_robot_matrix_pair *
 static void write_text(FILE *file, const char *before, const char *key, const char *text) {
     fprintf(file, "%s\"%s\":", before, key);
     if (text)
-        json_write_text(file, text);
+        ovoid_text_write_json(file, text);
     else
         fputs("null", file);
 }

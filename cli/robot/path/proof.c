@@ -2,7 +2,7 @@
 // and the obstacles as they were compiled: it tells files apart that were mixed up; that a proof holds it need not say.
 #include "robot/path/proof.h"
 
-#include "base/json.h"
+#include "io/fields.h"
 
 #include <string.h>
 
@@ -103,7 +103,7 @@ uint32_t proof_find_pair(const cli_cell *cell, const ovoid_robot_side *a, const 
 static void write_path(FILE *file, const char *key, const char *path) {
     fprintf(file, ",\"%s\":", key);
     if (path)
-        json_write_text(file, path);
+        ovoid_text_write_json(file, path);
     else
         fputs("null", file);
 }
@@ -112,7 +112,7 @@ static void write_list(FILE *file, const char *key, const args_list *list) {
     fprintf(file, ",\"%s\":[", key);
     for (int i = 0; i < list->count; i++) {
         if (i) fputc(',', file);
-        json_write_text(file, list->items[i]);
+        ovoid_text_write_json(file, list->items[i]);
     }
     fputc(']', file);
 }

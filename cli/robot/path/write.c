@@ -1,6 +1,6 @@
 // The answer to a path, for people and as lines; with the steps of its proof.
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 #include "robot/path/path.h"
 #include "robot/path/proof.h"
 

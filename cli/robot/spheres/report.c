@@ -2,8 +2,8 @@
 // two disagree.
 #include "robot/spheres/spheres.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 
 #include <math.h>
 #include <string.h>
@@ -159,7 +159,7 @@ static void write_numbers(FILE *file, const char *key, const double *items, size
 static void write_json_row(FILE *file, const sphere_report *r, const sphere_set *set, const sphere_row *row) {
     const ovoid_robot_sphere_audit *a = &row->audit;
     fprintf(file, "{\"spheres\":\"%s\",\"link\":", set->name);
-    json_write_text(file, r->cell->description.links[row->link].name);
+    ovoid_text_write_json(file, r->cell->description.links[row->link].name);
     fprintf(file, ",\"count\":%zu", row->count);
     if (row->count) {
         const double point[] = {a->point.x, a->point.y, a->point.z};

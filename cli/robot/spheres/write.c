@@ -4,9 +4,9 @@
 #include "robot/xml_text.h"
 
 #include "base/finish.h"
-#include "base/json.h"
 #include "base/message.h"
 #include "base/outputs.h"
+#include "io/fields.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -163,7 +163,7 @@ static void write_json(FILE *file, const cli_cell *cell, const sphere_list *list
         int is_first = i == 0 || s[-1].link != s->link;
         if (is_first) {
             fputs(i ? "]," : "", file);
-            json_write_text(file, cell->description.links[s->link].name);
+            ovoid_text_write_json(file, cell->description.links[s->link].name);
             fputs(":[", file);
         }
         fprintf(file, "%s{\"center\":[%.17g,%.17g,%.17g],\"radius\":%.17g}", is_first ? "" : ",", s->ball.center.x,

@@ -20,7 +20,7 @@ static const field length_fields[] = {
     {"point", FIELD_VECTOR, LENGTH(point), .wrong = "must be a point of three numbers"},
     {"part", FIELD_WHOLE, LENGTH(part), .wrong = "must be the number of a part"},
 };
-static const field_table length = FIELD_TABLE(ovoid_decomposition_length, length_fields, wrong_keys, wrong_keys);
+static const field_table length = FIELD_TABLE_READ(ovoid_decomposition_length, length_fields, wrong_keys, wrong_keys);
 
 #define LINE(member) FIELD_AT(proof_line, member)
 static const field line_fields[] = {
@@ -30,7 +30,7 @@ static const field line_fields[] = {
     {"uncovered", FIELD_OBJECT, LINE(uncovered), .table = &length},
     {"excess", FIELD_OBJECT, LINE(excess), .table = &length},
 };
-static const field_table line_table = FIELD_TABLE(proof_line, line_fields, wrong_keys, wrong_keys);
+static const field_table line_table = FIELD_TABLE_READ(proof_line, line_fields, wrong_keys, wrong_keys);
 
 // A lower bound of 0 needs no point.
 static ovoid_decomposition_length make_length(ovoid_decomposition_length l) {

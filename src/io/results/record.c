@@ -153,7 +153,7 @@ static const field exclusion_fields[] = {
     {"lower", FIELD_NUMBER, EXCLUSION(lower), .if_null = -INFINITY, .wrong = NUMBER},
 };
 static const field_table exclusions =
-    FIELD_TABLE(ovoid_exclusion, exclusion_fields, "is not that of an exclusion", "is not that of an exclusion");
+    FIELD_TABLE_READ(ovoid_exclusion, exclusion_fields, "is not that of an exclusion", "is not that of an exclusion");
 
 #define STEP(member) FIELD_AT(ovoid_step, member)
 static const field step_fields[] = {
@@ -162,7 +162,8 @@ static const field step_fields[] = {
     {"frame", FIELD_NAME, STEP(frame), .bit = FIELD_NOT_ZERO, .names = &frames,
      .wrong = "of a step must be \"a\" or \"b\""},
 };
-static const field_table steps = FIELD_TABLE(ovoid_step, step_fields, "is not that of a step", "is not that of a step");
+static const field_table steps =
+    FIELD_TABLE_READ(ovoid_step, step_fields, "is not that of a step", "is not that of a step");
 
 #define GROUP(member) FIELD_AT(ovoid_step_group, member)
 static const field group_fields[] = {
@@ -171,7 +172,7 @@ static const field group_fields[] = {
     {"count", FIELD_WHOLE, GROUP(count), .wrong = WHOLE},
 };
 static const field_table groups =
-    FIELD_TABLE(ovoid_step_group, group_fields, "is not that of a group", "is not that of a group");
+    FIELD_TABLE_READ(ovoid_step_group, group_fields, "is not that of a group", "is not that of a group");
 
 #define SURFACE(member) FIELD_AT(ovoid_answer, member)
 #define SURFACES "must be of \"surfaces\" with a status, a limit, lower and upper"
@@ -181,7 +182,7 @@ static const field surface_fields[] = {
     {"lower", FIELD_NUMBER, SURFACE(lower), .if_null = -INFINITY, .wrong = SURFACES},
     {"upper", FIELD_NUMBER, SURFACE(upper), .if_null = INFINITY, .wrong = SURFACES},
 };
-static const field_table surfaces = FIELD_TABLE(ovoid_answer, surface_fields, SURFACES, SURFACES);
+static const field_table surfaces = FIELD_TABLE_READ(ovoid_answer, surface_fields, SURFACES, SURFACES);
 
 #define RECORD(member) FIELD_AT(record_line, record.member)
 #define PROOF(member) FIELD_AT(record_line, record.answer.proof.member)
@@ -208,7 +209,7 @@ static const field proof_fields[] = {
     {"parting", FIELD_VECTOR, SOLID(parting), .bit = RECORD_PARTING, .wrong = VECTOR,
      .apart = "goes with \"surfaces\" and a lower bound of at most 0"},
 };
-static const field_table proof = FIELD_TABLE(record_line, proof_fields, "does not belong into a proof", NULL);
+static const field_table proof = FIELD_TABLE_READ(record_line, proof_fields, "does not belong into a proof", NULL);
 
 #define COLUMN .column = FIELD_COLUMN
 #define TIMED(name, bits, null, columns_bits)                                                                          \
@@ -263,7 +264,7 @@ static const field record_fields[] = {
     {"hull_volume_b", FIELD_MEASURE, VOLUME(mesh_b.hull_volume)},
     {"proof", FIELD_OBJECT, .table = &proof, .column = OVOID_RECORD_PROOF},
 };
-const field_table record_table = FIELD_TABLE(record_line, record_fields, "is not a key of results", "is missing");
+const field_table record_table = FIELD_TABLE_READ(record_line, record_fields, "is not a key of results", "is missing");
 
 // ---- what a record has
 

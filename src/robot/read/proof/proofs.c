@@ -59,7 +59,7 @@ static const field side_fields[] = {
     {"obstacle", FIELD_TEXT, SIDE(obstacle), .bit = SIDE_OBSTACLE, .wrong = TEXT, .apart = SIDES},
     {"part", FIELD_WHOLE, SIDE(number), .bit = SIDE_OBSTACLE, .wrong = WHOLE, .apart = SIDES},
 };
-static const field_table side_table = FIELD_TABLE(ovoid_robot_proof_side, side_fields, SIDES, SIDES);
+static const field_table side_table = FIELD_TABLE_READ(ovoid_robot_proof_side, side_fields, SIDES, SIDES);
 
 static int read_side(const json_t *value, ovoid_robot_proof_side *side) {
     fields_reader reader = {.key = ""};
@@ -126,7 +126,7 @@ static const field source_fields[] = {
     {"pairs", FIELD_OWN, .own = &own_pairs},
 };
 static const field_table source_table =
-    FIELD_TABLE(source_line, source_fields, "is no key of their first line", "is missing");
+    FIELD_TABLE_READ(source_line, source_fields, "is no key of their first line", "is missing");
 
 /// The line of a path.
 typedef struct path_line {
@@ -198,7 +198,7 @@ static const field path_fields[] = {
     {"q", FIELD_OWN, .own = &own_q},
     {"times", FIELD_OWN, .own = &own_times, .bit = PATH_TIMES},
 };
-static const field_table path_table = FIELD_TABLE(path_line, path_fields, "is no key of a path", "is missing");
+static const field_table path_table = FIELD_TABLE_READ(path_line, path_fields, "is no key of a path", "is missing");
 
 /// The line of a step.
 typedef struct step_line {
@@ -238,7 +238,7 @@ static const field step_fields[] = {
     {"normal", FIELD_VECTOR, STEP(normal), .bit = STEP_NORMAL, .wrong = NORMAL, .apart = NORMAL},
     {"pairs", FIELD_OWN, .own = &own_mask},
 };
-static const field_table step_table = FIELD_TABLE(step_line, step_fields, "is no key of a step", "is missing");
+static const field_table step_table = FIELD_TABLE_READ(step_line, step_fields, "is no key of a step", "is missing");
 
 // ---- lines
 
