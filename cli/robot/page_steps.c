@@ -1,8 +1,8 @@
 // Steps as short arrays: a page lists thousands of them.
 #include "robot/page_steps.h"
 
-#include "base/json.h"
 #include "base/message.h"
+#include "io/fields.h"
 #include "page/write.h"
 
 #include <stdlib.h>
