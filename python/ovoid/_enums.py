@@ -4,10 +4,24 @@ import enum
 
 
 class Named(enum.IntEnum):
-    """Numbers as in arrays of results; str() is the library's word."""
+    """Numbers as in arrays of results; str() is the library's word, which a member equals. Another text raises ValueError."""
 
     def __str__(self):
         return self.name.lower()
+
+    def __eq__(self, other):
+        if not isinstance(other, str):
+            return int.__eq__(self, other)
+        names = [str(member) for member in type(self)]
+        if other not in names:
+            raise ValueError(f"{type(self).__name__} has no {other!r}: {', '.join(names)}")
+        return str(self) == other
+
+    def __ne__(self, other):
+        equal = self == other
+        return equal if equal is NotImplemented else not equal
+
+    __hash__ = int.__hash__
 
 
 class Status(Named):

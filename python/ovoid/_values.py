@@ -54,6 +54,12 @@ solid from its nearest part; enlarge_parts by its upper end covers. excess: the 
 the solid, excess_of_parts no less than each part's own. The points show the lower ends; uncovered_part is one of the nearest,
 excess_part has the point. cells: looked at."""
 
+
+def _refuse_bool(self):
+    raise TypeError(f"an answer is neither true nor false (ovoid.{type(self).__name__}): compare its status, for example "
+                    'answer.status == "free"')
+
+
 Obstacle = namedtuple("Obstacle", "name shape pose solid frame link")
 Obstacle.__doc__ = """An obstacle of a scene: a solid counts in the place of the shape; the link that holds it, or None."""
 
@@ -68,3 +74,5 @@ looked_at: states."""
 Comparison = namedtuple("Comparison", "counts agreements deepest_state deepest")
 Comparison.__doc__ = """States of a robot beside a model: counts by Agreement, the Agreement of each state (an array, by number), and of the missed
 states that where the robot overlaps most, with its pair, a record as of Cell.near; None where none is missed."""
+
+StateAnswer.__bool__ = Clearance.__bool__ = _refuse_bool

@@ -199,6 +199,7 @@ static PyType_Slot slots[] = {
      "minus the depth where they overlap. ovoid.verify(answer) checks its proof."},
     {Py_tp_dealloc, answer_dealloc},
     {Py_tp_repr, repr},
+    {Py_nb_bool, bool_refuse},
     {Py_tp_getset, fields},
     {Py_tp_methods, methods},
     {0, NULL}};

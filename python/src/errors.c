@@ -30,6 +30,14 @@ void *raise_code(module_state *state, ovoid_code code, Py_ssize_t place, const c
     return raise(state, sentence, code, place);
 }
 
+int bool_refuse(PyObject *self) {
+    PyErr_Format(PyExc_TypeError,
+                 "an answer is neither true nor false (%R): compare its status, for example answer.status == "
+                 "\"overlapping\"",
+                 (PyObject *)Py_TYPE(self));
+    return -1;
+}
+
 PyObject *enum_get(module_state *state, enum_kind kind, uint32_t value) {
     PyObject *member = PyTuple_GetItem(state->enums[kind], (Py_ssize_t)value);
     Py_XINCREF(member);

@@ -262,6 +262,7 @@ static PyGetSetDef impact_fields[] = {
 static PyType_Slot impact_slots[] = {
     {Py_tp_doc, "When two moving bodies come within a margin: the true time is in [free_until, hit_at]."},
     {Py_tp_dealloc, impact_dealloc},
+    {Py_nb_bool, bool_refuse},
     {Py_tp_getset, impact_fields},
     {0, NULL}};
 static PyType_Spec impact_spec = {"ovoid.Impact", sizeof(impact_object), 0,
@@ -283,6 +284,7 @@ static PyGetSetDef approach_fields[] = {
 static PyType_Slot approach_slots[] = {
     {Py_tp_doc, "How near two moving bodies come: lower <= smallest signed distance <= upper."},
     {Py_tp_dealloc, impact_dealloc},
+    {Py_nb_bool, bool_refuse},
     {Py_tp_getset, approach_fields},
     {0, NULL}};
 static PyType_Spec approach_spec = {"ovoid.Approach", sizeof(impact_object), 0,
@@ -328,8 +330,11 @@ static PyGetSetDef ray_fields[] = {
     FIELD(ray_hit_object, FIELD_VEC3, "point", hit.point, "The body's point that is met, world frame."),
     FIELD(ray_hit_object, FIELD_VEC3, "normal", hit.normal, "Unit, out of the body."),
     {NULL, NULL, NULL, NULL, NULL}};
-static PyType_Slot ray_slots[] = {
-    {Py_tp_doc, "Where a ray meets a shape."}, {Py_tp_dealloc, object_free}, {Py_tp_getset, ray_fields}, {0, NULL}};
+static PyType_Slot ray_slots[] = {{Py_tp_doc, "Where a ray meets a shape."},
+                                  {Py_tp_dealloc, object_free},
+                                  {Py_nb_bool, bool_refuse},
+                                  {Py_tp_getset, ray_fields},
+                                  {0, NULL}};
 static PyType_Spec ray_spec = {"ovoid.RayHit", sizeof(ray_hit_object), 0,
                                Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, ray_slots};
 

@@ -70,6 +70,8 @@ module_state *state_of_module(PyObject *module);
 
 /// Raises ovoid.Error with the library's sentence (MemoryError for MEMORY); returns NULL.
 void *raise_error(module_state *state, const ovoid_error *error);
+/// bool() of an answer: -1 with a TypeError that says what to ask.
+int bool_refuse(PyObject *self);
 /// Raises ovoid.Error with a sentence as of PyUnicode_FromFormat; returns NULL.
 void *raise_code(module_state *state, ovoid_code code, Py_ssize_t place, const char *format, ...);
 /// Member `value` of an enumeration, a new reference.

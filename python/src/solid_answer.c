@@ -187,6 +187,7 @@ static PyType_Slot slots[] = {
      "or\nminus the least way that parts the bodies where they overlap. ovoid.verify(answer) checks its proof."},
     {Py_tp_dealloc, solid_answer_dealloc},
     {Py_tp_repr, repr},
+    {Py_nb_bool, bool_refuse},
     {Py_tp_getset, fields},
     {Py_tp_methods, methods},
     {0, NULL}};

@@ -286,6 +286,26 @@ class Arrays(unittest.TestCase):
             with self.assertRaises(TypeError, msg=bad.dtype):
                 ovoid.Shape.from_points(bad)
 
+    def test_answers_are_neither_true_nor_false(self):
+        """A status equals its word and raises for another; bool() of an answer raises with what to ask."""
+        box, far = ovoid.Shape.box([1, 1, 1]), [3, 0, 0]
+        answer = ovoid.collide(box, box, None, far)
+        self.assertTrue(answer.status == "separated" and answer.status != "overlapping" and "separated" == answer.status)
+        self.assertFalse(answer.status != "separated")
+        self.assertEqual((answer.status, {answer.status: 1}[1], answer.status in ("touching", "separated")), (1, 1, True))
+        self.assertNotEqual(answer.status, None)
+        for wrong in ("apart", "Separated", "hit"):
+            with self.assertRaisesRegex(ValueError, "undecided, separated, touching, overlapping"):
+                answer.status == wrong  # noqa: B015
+            with self.assertRaises(ValueError):
+                answer.status != wrong  # noqa: B015
+        start, end = ovoid.Motion.poses(far, [9, 0, 0]), ovoid.Motion.poses(None, None)
+        solid = ovoid.Solid.from_triangles([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+        for given in (answer, ovoid.distance(box, solid, None, far), ovoid.find_impact(box, box, end, start), ovoid.find_approach(box, box, end, start),
+                      ovoid.cast_ray(box, None, [5, 0, 0], [-1, 0, 0])):
+            with self.assertRaisesRegex(TypeError, "compare its status"):
+                bool(given)
+
     def test_names_are_the_librarys(self):
         for name, words in ovoid._ovoid._get_names().items():
             members = list(getattr(ovoid, name))

@@ -222,6 +222,7 @@ static PyType_Slot slots[] = {{Py_tp_doc,
                                "search, and raises Error where they prove less, or where the cell has changed since."},
                               {Py_tp_dealloc, path_dealloc},
                               {Py_tp_repr, repr},
+                              {Py_nb_bool, bool_refuse},
                               {Py_tp_getset, fields},
                               {0, NULL}};
 static PyType_Spec spec = {"ovoid.RobotPath", sizeof(path_object), 0,
