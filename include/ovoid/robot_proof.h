@@ -67,8 +67,9 @@ OVOID_API void ovoid_robot_proofs_reader_close(ovoid_robot_proofs_reader *proofs
 
 /**
  * Reads the next path, after the source where one comes before it. Strictly: the keys of the format, in any
- * order, each once, no other; whole numbers where counts are; as many steps as the answer says. 1; 0: the file ends; -1: *error is
- * filled (place: the line): FORMAT, FILE, MEMORY. NOT_FINITE where a state's number is none. Cost: linear in the text.
+ * order, each once, no other; whole numbers where counts are; as many steps as the answer says. 1; 0: the file ends;
+ * -1: *error is filled (place: the line): FORMAT, FILE, MEMORY. NOT_FINITE where a state's number is none. Cost: linear
+ * in the text.
  */
 OVOID_API int ovoid_robot_proofs_reader_read(ovoid_robot_proofs_reader *proofs, ovoid_robot_proof *proof,
                                              ovoid_error *error);

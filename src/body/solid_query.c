@@ -138,13 +138,37 @@ static ovoid_limit begin(solid_search *h, const ovoid_body_pair *pair, const ovo
     return OVOID_LIMIT_NONE;
 }
 
+// The whole query; the limit is that of a refusal.
+static ovoid_limit search_from(solid_search *h, const ovoid_body_pair *pair, const ovoid_options *options,
+                               const query_goal *goal, const ovoid_compound_proof *earlier) {
+    *h->out = (ovoid_solid_answer){.status = OVOID_UNDECIDED};
+    exclusions_begin(h->exclusions);
+    ovoid_limit refused = begin(h, pair, options, goal);
+    if (refused != OVOID_LIMIT_NONE) return refused;
+    visit_earlier(h, earlier);
+    search_traverse(h);
+    finish(h);
+    return OVOID_LIMIT_NONE;
+}
+
+// A search that began elsewhere might do better.
+static int is_improvable(const ovoid_solid_answer *x) {
+    return answer_is_improvable(&x->surfaces) || limit_is_stuck(x->limit) || x->status == OVOID_TOUCHING ||
+           x->status == OVOID_UNDECIDED;
+}
+
+static int is_better(ovoid_status status, double width, const ovoid_solid_answer *than) {
+    if ((status == OVOID_UNDECIDED) != (than->status == OVOID_UNDECIDED)) return status != OVOID_UNDECIDED;
+    return status == than->status && width < than->upper - than->lower;
+}
+
 COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *options,
                                            const query_goal *goal, const ovoid_compound_proof *earlier,
                                            ovoid_exclusions *exclusions, ovoid_solid_answer *out) {
     solid_search h;
-    *out = (ovoid_solid_answer){.status = OVOID_UNDECIDED};
-    exclusions_begin(exclusions);
-    ovoid_limit refused = begin(&h, pair, options, goal);
+    h.out = out;
+    h.exclusions = exclusions;
+    ovoid_limit refused = search_from(&h, pair, options, goal, earlier);
     if (refused != OVOID_LIMIT_NONE) {
         out->surfaces = answer_make_refused(refused);
         out->limit = refused;
@@ -152,11 +176,12 @@ COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ov
         out->upper = INFINITY;
         return;
     }
-    h.out = out;
-    h.exclusions = exclusions;
-    visit_earlier(&h, earlier);
-    search_traverse(&h);
-    finish(&h);
+    if (!earlier || !is_improvable(out)) return;
+    // No earlier proof makes an answer worse: the query alone, unless the one from the proof says more.
+    ovoid_status status = out->status;
+    double width = out->upper - out->lower;
+    (void)search_from(&h, pair, options, goal, NULL);
+    if (is_better(status, width, out)) (void)search_from(&h, pair, options, goal, earlier);
 }
 
 // The same, with the compound's answer as its own.

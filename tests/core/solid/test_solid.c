@@ -213,6 +213,58 @@ static void check_flush(void) {
     ovoid_solid_destroy(corner);
 }
 
+// ---- warm starts
+
+static int is_worse(const ovoid_solid_answer *warm, const ovoid_solid_answer *cold) {
+    if (cold->status != OVOID_UNDECIDED && warm->status != cold->status) return 1;
+    // Which crossing shows an overlap first is left open, and with it how deep it is shown to be.
+    if (cold->status == OVOID_OVERLAPPING || warm->status != cold->status) return 0;
+    double least = warm->upper - warm->lower, most = cold->upper - cold->lower;
+    return cold->limit != OVOID_LIMIT_ANSWERED && !(least <= most + 1e-9);
+}
+
+// Proofs of other pairs, of other poses and of any triangles, with few iterations: no answer is worse than a cold one.
+static void check_warm(void) {
+    uint64_t s = 23;
+    long improved = 0;
+    ovoid_compound_proof earlier = {0};
+    for (int i = 0; i < 200; i++) {
+        mesh m[2] = {{.points = 0}, {.points = 0}};
+        for (int k = 0; k < 2; k++) mesh_add_random(&m[k], 0.5, &s);
+        ovoid_solid *a = mesh_make_solid(&m[0]), *b = mesh_make_solid(&m[1]);
+        check_seed = (uint64_t)i;
+        for (int k = 0; k < 20; k++) {
+            ovoid_body_pair pair = {{.solid = a, .pose = {{0, 0, 0}, random_quat(&s)}},
+                                    {.solid = b, .pose = {random_vec3(&s, 1), random_quat(&s)}}};
+            ovoid_options o = {.iterations = k % 3 ? 1 + (uint32_t)(random_next(&s) % 20) : 1};
+            if (k % 4 == 0) pair.b.pose = pair.a.pose;
+            if (k % 2)
+                earlier.part_a = (uint32_t)(random_next(&s) % 40), earlier.part_b = (uint32_t)(random_next(&s) % 40);
+            ovoid_solid_answer cold[2], warm[2];
+            cold[0] = ovoid_solid_distance(&pair, &o, NULL, NULL), cold[1] = ovoid_solid_collide(&pair, &o, NULL, NULL);
+            ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
+            warm[0] = ovoid_solid_distance(&pair, &o, &earlier, &all);
+            if (all.count <= all.capacity)
+                CHECK_EQ(ovoid_solid_answer_verify(&pair, &warm[0], &o, &all, NULL), OVOID_OK);
+            warm[1] = ovoid_solid_collide(&pair, &o, &earlier, NULL);
+            for (int q = 0; q < 2; q++) {
+                if (!CHECK(!is_worse(&warm[q], &cold[q])))
+                    printf("  %d, %u iterations: %d [%.17g, %.17g], cold %d %d [%.17g, %.17g]\n", q, o.iterations,
+                           warm[q].status, warm[q].lower, warm[q].upper, cold[q].status, cold[q].limit, cold[q].lower,
+                           cold[q].upper);
+                improved += warm[q].upper - warm[q].lower < cold[q].upper - cold[q].lower;
+            }
+            earlier = (ovoid_compound_proof){warm[0].triangle_a, warm[0].triangle_b, warm[0].surfaces.proof};
+        }
+        ovoid_solid_destroy(a);
+        ovoid_solid_destroy(b);
+        mesh_clear(&m[0]);
+        mesh_clear(&m[1]);
+    }
+    check_seed = 0;
+    printf("  warm: %ld brackets narrower\n", improved);
+}
+
 int main(void) {
     check_flush();
     check_peg();
@@ -220,5 +272,6 @@ int main(void) {
     check_random(30, 1e-20, 2000);
     check_random(30, 1e20, 3000);
     check_shapes(40, 4000);
+    check_warm();
     return check_end();
 }
