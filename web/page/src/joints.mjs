@@ -1,16 +1,10 @@
 // A robot: a slider for each joint; links follow, what is near is asked live, and so is whether the state is free.
 import { sideKey } from './data.mjs';
 import { compose } from './model.mjs';
-import { element, formatLength } from './panel.mjs';
+import { element, formatBracket, formatLength } from './panel.mjs';
 
 const COUNTS = { revolute: 1, continuous: 1, prismatic: 1, planar: 3, floating: 7 };
 const format = (x) => String(Number(x.toPrecision(6)));
-
-/** A bracket of a distance in words. */
-export function formatBracket({ lower, upper }, unit) {
-  const [low, high] = [formatLength(lower, unit), formatLength(upper, unit)];
-  return low === high ? low : `${formatLength(lower, '')} to ${high}`;
-}
 
 export class Joints {
   constructor(root, model, onMove) {

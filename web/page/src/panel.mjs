@@ -24,8 +24,16 @@ export function svg(tag, attributes, ...children) {
 /** A length with the digits that are known, and its unit. */
 export function formatLength(x, unit, digits = 6) {
   if (!Number.isFinite(x)) return x > 0 ? '∞' : '-∞';
+  if (x === 0) x = 0; // one sign of zero
   const text = x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e6) ? String(Number(x.toPrecision(digits))) : x.toExponential(digits - 2);
   return unit ? `${text} ${unit}` : text;
+}
+
+/** A bracket of a distance in words: one number where it is narrow, 0 where bodies touch. */
+export function formatBracket({ status, lower, upper }, unit) {
+  if (status === 'touching') return formatLength(0, unit);
+  const isNarrow = upper - lower <= 1e-5 * Math.max(Math.abs(lower), Math.abs(upper)), low = formatLength(lower, isNarrow ? unit : '');
+  return isNarrow ? low : `${low} to ${formatLength(upper, unit)}`;
 }
 
 const words = { separated: 'apart', touching: 'touching', overlapping: 'overlapping', undecided: 'not proven' };
@@ -78,10 +86,10 @@ export class Panel {
 
   #write(pair, row) {
     const { a, b, answer } = pair;
-    row.className = `${answer.status}${pair === this.chosen ? ' chosen' : ''}${pair.isLive ? ' live' : ''}`;
+    row.className = `${answer.status}${pair === this.chosen ? ' chosen' : ''}${pair.isLive ? ' live' : ''}${pair.isBroken ? ' broken' : ''}`;
     row.replaceChildren(
       element('td', { textContent: `${a.name} – ${b.name}` }),
-      element('td', { className: 'number', textContent: formatLength(answer.lower, this.model.unit), title: `${answer.lower} to ${answer.upper}` }),
+      element('td', { className: 'number', textContent: formatBracket(answer, this.model.unit), title: `${answer.lower} to ${answer.upper}` }),
     );
   }
 

@@ -1,7 +1,6 @@
 // The states of a robot, or a path through them: a slider with a mark for each state, what the tool has proven of them,
 // the distance of the nearest pair over a path, and which steps prove which stretch of it.
-import { formatBracket } from './joints.mjs';
-import { element, formatLength, svg } from './panel.mjs';
+import { element, formatBracket, formatLength, svg } from './panel.mjs';
 import { Player } from './player.mjs';
 
 const WIDTH = 600, BAND = 10, CURVE = [16, 68], ROWS = 74;

@@ -89,6 +89,9 @@ async function refuseAltered(file, change, takes = () => true) {
     count = data.pairs.length;
   });
   const { page } = await open('altered.html', flat);
+  await page.evaluate(() => window.ovoidPage.verifyAll());
+  assert.equal(await page.textContent('#checked'), `${count} of ${count} proofs do not hold`);
+  assert.equal(await page.$$eval('tr.broken', (rows) => rows.length), count);
   const checked = await checkAll(page);
   assert.equal(checked.length, count);
   for (const { names, text, isBad } of checked) assert.ok(isBad, `${names}: ${text}`);
@@ -111,6 +114,9 @@ test('the list is that of ovoid check, good proofs hold, altered ones do not', {
   await page.keyboard.press('p');
   assert.equal(await page.textContent('#proof'), 'The proof holds.');
   for (const { names, text, isGood } of await checkAll(page)) assert.ok(isGood && text === 'The proof holds.', `${names}: ${text}`);
+  await page.click('#check-all');
+  await page.waitForFunction(() => document.getElementById('checked').className);
+  assert.equal(await page.textContent('#checked'), `${lines.length} of ${lines.length} proofs hold`);
   await page.fill('#filter', 'ball');
   assert.ok((await readRows(page)).every(([names]) => names.includes('ball')));
   await page.fill('#filter', '');
@@ -324,6 +330,8 @@ test('a motion: the slider moves the bodies, the chosen pair follows', { skip },
   writeFileSync(join(folder, 'go.csv'), 'time,body,x,y,z,qw,qx,qy,qz\n0,ball,4,0,0,1,0,0,0\n1,ball,3,0,0,1,0,0,0\n2,ball,1,0,0,1,0,0,0\n3,ball,5,0,0,1,0,0,0\n');
   run('run', 'motion.json', '--motion', 'go.csv', '--html', 'motion.html', '-o', 'motion.csv');
   const { page, errors } = await open('motion.html', flat);
+  await page.evaluate(() => window.ovoidPage.verifyAll());
+  assert.equal(await page.textContent('#checked'), '1 of 1 proofs hold');
   await page.click('#pairs tr');
   assert.equal(await page.evaluate(() => window.ovoidPage.timeline.frame), 2);
   assert.match(await page.textContent('#lower'), /^0\.3999|^0\.4/);
