@@ -61,7 +61,7 @@ static void put_at(const workload *work, placed *p, ovoid_vec3 u, double t) {
     p->pose_b.position = add_scaled(add_scaled(add_scaled(p->pose_a.position, centers[0], 1), centers[1], -1), u, t);
 }
 
-/// Likewise so that the signed distance is the gap; returns t.
+/// Moves B so far along u that the signed distance is the gap; returns t.
 static double put_with_gap(const workload *work, placed *p, ovoid_vec3 u, double gap) {
     double low = 0, high = p->size + (gap > 0 ? gap : 0);
     for (int i = 0; i < 40 && high - low > 1e-9 * p->size; i++) {

@@ -21,8 +21,8 @@ const char *placement_get_name(placement place);
 /// Neighbours in the list, uncorrelated poses. pairs NULL where memory is out. Free with workload_destroy.
 workload workload_create_still(const char *name, const bodies *all, placement place);
 
-/// The same, each pair over so many frames: both turn, and B goes around A by 1 % of the size a frame, at that
-/// distance.
+/// As workload_create_still, each pair over so many frames: both turn, and B goes around A by 1 % of the size a frame,
+/// at that distance.
 workload workload_create_moving(const char *name, const bodies *all, placement place, uint32_t frames);
 
 /// Body 0 goes past each of the others from `first` to `last` on a straight line, 1 % of the size a frame, coming as

@@ -26,7 +26,7 @@ void meeting_truth_destroy(meeting_truth *truth);
 int swarm_compute_truth(const swarm *what, const ovoid_pose *poses, meeting_truth *truth);
 
 /// Of a state: every pair within the margin (0: that touch) with its distance, by trying all pairs; overlapping ones
-/// have distance 0. Proofs are checked likewise. find_one: stops at the first that is sure to touch.
+/// have distance 0. Each proof is put before ovoid_answer_verify. find_one: stops at the first that is sure to touch.
 int cell_compute_truth(const workcell *what, const ovoid_pose *links, double margin, int find_one,
                        meeting_truth *truth);
 

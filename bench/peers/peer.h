@@ -56,7 +56,7 @@ typedef struct found {
 typedef struct peer {
     const char *name;
     unsigned questions;                    ///< bit 1 << question: it answers this
-    unsigned warm;                         ///< likewise: it can start from the last frame
+    unsigned warm;                         ///< bit 1 << question: it can start from the last frame
     int is_float;                          ///< single precision
     void *(*create)(const workload *work); ///< bodies and poses in its own form; not timed. NULL: it cannot
     /// All pairs in order, one answer each. warm: with what it keeps from frame to frame, none for the first frame.

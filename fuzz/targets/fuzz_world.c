@@ -1,7 +1,7 @@
 // A world of up to twelve bodies under any sequence of its functions. Truth: a model of the bodies and their groups,
 // and the query of each pair alone: a frame's contacts are sorted, are pairs, leave none out that is proven within the
-// margin, and each bracket has a point in common with the pair's own; whole answers pass their check. What is asked
-// between frames likewise: nothing nearer is left out.
+// margin, and each bracket has a point in common with the pair's own; whole answers are verified. Queries between
+// frames leave out nothing that is nearer.
 #include "bodies.h"
 
 enum { SHAPES = 4, BODIES = 12, OPERATIONS = 48 };

@@ -234,7 +234,7 @@ typedef struct ovoid_scene_object {
 
 /** Reads a scene and the meshes it names. options: of all shapes; their radius must be 0. The caller destroys it. */
 OVOID_API ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error);
-/** The same, but a mesh of which the scene says neither "solid": true nor "hull": false is its convex hull. */
+/** Reads a scene in which a mesh is its convex hull, unless the scene says "solid": true or "hull": false of it. */
 OVOID_API ovoid_scene *ovoid_scene_read_hulls(const char *path, const ovoid_shape_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_scene_destroy(ovoid_scene *scene);

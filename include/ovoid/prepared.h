@@ -27,10 +27,11 @@ typedef struct ovoid_prepared_shape {
     ovoid_posed_shape body;
     double rotation[9];    /**< to the world, by rows */
     ovoid_vec3 center;     /**< of the enclosing sphere, from the origin of the body frame, in the world's axes */
-    ovoid_vec3 first;      /**< vertex 0, likewise */
+    ovoid_vec3 first;      /**< vertex 0, from that origin, in those axes */
     uint32_t is_ready;     /**< 0: refused, or to be placed afresh by each query (docs/query.md) */
     uint32_t turned_count; /**< of `turned`, a multiple of 8; 0: none */
-    double turned[3 * OVOID_PREPARED_VERTICES]; /**< x, then y, then z of the vertices, likewise */
+    double
+        turned[3 * OVOID_PREPARED_VERTICES]; /**< x, then y, then z of the vertices, from that origin, in those axes */
 } ovoid_prepared_shape;
 
 /**

@@ -29,7 +29,7 @@ typedef struct ovoid_robot_proof_source {
     const char *const *scales, *const *paddings; /**< LINK=X, or X: of all links that have no other */
     size_t scale_count, padding_count;
     int parts, hull, visual, fixed_base; /**< as in ovoid_robot_read_options */
-    double tolerance;                    /**< of cylinders, likewise */
+    double tolerance;                    /**< of cylinders, as in ovoid_robot_read_options */
     double margin, limit_slack;          /**< as in ovoid_robot_query_options */
     size_t path_count;                   /**< paths that follow */
     uint64_t digest;                     /**< of the robot and its obstacles */

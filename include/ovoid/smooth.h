@@ -33,7 +33,7 @@ typedef struct ovoid_smooth_value {
 /** outer.value <= d <= inner.value. */
 typedef struct ovoid_smooth {
     ovoid_limit limit; /**< NONE; SHAPE_A, SHAPE_B, POSE_A, POSE_B: refused, -infinity and infinity, the rest zero;
-                            OPTIONS: likewise, the order */
+                            OPTIONS: the order is refused, in the same form */
     ovoid_smooth_value outer, inner;
 } ovoid_smooth;
 

@@ -254,9 +254,9 @@ int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
 const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.
 int limit_raise(module_state *state, ovoid_limit limit);
-/// Checks an answer by its proof and the options of its query: OVOID_OK, or what ovoid_answer_verify says.
+/// Verifies an answer by its proof and the options of its query: OVOID_OK, or what ovoid_answer_verify says.
 ovoid_code answer_verify(const answer_object *self, ovoid_error *error);
-/// Checks an impact or an approach likewise.
+/// Verifies an impact or an approach by its proof and the options of its query.
 ovoid_code impact_verify(module_state *state, PyObject *object, ovoid_error *error);
 
 // ---- what each file adds to the module

@@ -65,7 +65,8 @@ static inline double find_reach(const compound_node *node, vec3 n) {
     return min2((fabs(n.x) * h->x + fabs(n.y) * h->y) + fabs(n.z) * h->z, node->radius);
 }
 
-// The same, or that of its ellipsoid where it is less. The sign of the direction matters, as the centres differ.
+// The support of a node, which is in its box and in its ellipsoid, from the centre of the box. The sign of the
+// direction matters, as the two centres differ.
 static inline double find_round_reach(const compound_node *node, vec3 n, double reach) {
     if (!node_is_round(node)) return reach;
     return min2(reach, vec3_dot(n, node->shift) + sqrt(sym3_quadratic(node->round, n)));

@@ -31,7 +31,7 @@ static void finish_surfaces(solid_search *h) {
     if (!h->has_best) {
         search_visit_leaves(h, 0, 0, NULL);
     } else if (!h->is_answered) {
-        // Known by the kernel only.
+        // The kernel found the deciding pair without a proof: the pair is queried for one.
         ovoid_pair pair = search_get_pair(h, h->best.place_a, h->best.place_b);
         query_goal goal = h->whole_goal;
         goal.far = max2(goal.far, h->frame.claim);
@@ -184,7 +184,7 @@ COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ov
     if (is_better(status, width, out)) (void)search_from(&h, pair, options, goal, earlier);
 }
 
-// The same, with the compound's answer as its own.
+// Queries two bodies of which none is a solid, with the answer of compounds.
 COMPILER_NOINLINE static void find_as_compound(const ovoid_body_pair *pair, const ovoid_options *options,
                                                const query_goal *goal, const ovoid_compound_proof *earlier,
                                                ovoid_exclusions *exclusions, ovoid_compound_answer *out) {

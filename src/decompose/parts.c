@@ -44,9 +44,9 @@ static ovoid_parts *create_parts(const ovoid_allocator *memory, size_t count, ov
     return parts;
 }
 
-// ---- the making
+// ---- cutting and joining
 
-typedef struct making {
+typedef struct parts_work {
     const body *b;
     const ovoid_decomposition_options *o;
     piece *pieces;
@@ -55,26 +55,26 @@ typedef struct making {
     size_t wanted;
     double *costs; ///< of joining pieces i > k, at i (i - 1) / 2 + k
     size_t steps;
-} making;
+} parts_work;
 
-static void report(making *m, size_t done, size_t total) {
+static void report(parts_work *m, size_t done, size_t total) {
     if (m->o->progress) m->o->progress(m->o->progress_context, done < total ? done : total, total);
 }
 
-static void destroy_pieces(making *m) {
+static void destroy_pieces(parts_work *m) {
     for (size_t i = 0; i < m->count; i++) piece_destroy(m->b, &m->pieces[i]);
     allocator_release(&m->b->memory, m->pieces);
     allocator_release(&m->b->memory, m->costs);
 }
 
-static size_t find_worst(const making *m) {
+static size_t find_worst(const parts_work *m) {
     size_t worst = m->room;
     for (size_t i = 0; i < m->count; i++)
         if (!m->pieces[i].is_finished && (worst == m->room || m->pieces[i].excess > m->pieces[worst].excess)) worst = i;
     return worst;
 }
 
-static ovoid_code cut_pieces(making *m, ovoid_error *error) {
+static ovoid_code cut_pieces(parts_work *m, ovoid_error *error) {
     while (m->count < m->room && !watch_is_stopped(&m->o->watch)) {
         size_t worst = find_worst(m);
         if (worst == m->room || m->pieces[worst].excess <= m->error) return OVOID_OK;
@@ -96,7 +96,7 @@ static ovoid_code cut_pieces(making *m, ovoid_error *error) {
 
 // ---- joining
 
-static double *get_cost(making *m, size_t i, size_t k) {
+static double *get_cost(parts_work *m, size_t i, size_t k) {
     return i > k ? &m->costs[i * (i - 1) / 2 + k] : &m->costs[k * (k - 1) / 2 + i];
 }
 
@@ -121,7 +121,7 @@ static ovoid_code join_points(const body *b, const piece *p, const piece *q, vec
     return OVOID_OK;
 }
 
-static ovoid_code find_cost(making *m, size_t i, size_t k, double enough, ovoid_error *error) {
+static ovoid_code find_cost(parts_work *m, size_t i, size_t k, double enough, ovoid_error *error) {
     double *cost = get_cost(m, i, k);
     const piece *p = &m->pieces[i], *q = &m->pieces[k];
     *cost = INFINITY;
@@ -134,7 +134,7 @@ static ovoid_code find_cost(making *m, size_t i, size_t k, double enough, ovoid_
     return code;
 }
 
-static ovoid_code find_costs(making *m, double enough, ovoid_error *error) {
+static ovoid_code find_costs(parts_work *m, double enough, ovoid_error *error) {
     for (size_t i = 1; i < m->count; i++) {
         for (size_t k = 0; k < i; k++) {
             ovoid_code code = find_cost(m, i, k, enough, error);
@@ -145,7 +145,7 @@ static ovoid_code find_costs(making *m, double enough, ovoid_error *error) {
     return OVOID_OK;
 }
 
-static int find_cheapest(making *m, double enough, size_t *first, size_t *second) {
+static int find_cheapest(parts_work *m, double enough, size_t *first, size_t *second) {
     double least = INFINITY;
     for (size_t i = 1; i < m->count; i++)
         for (size_t k = 0; k < i; k++)
@@ -155,7 +155,7 @@ static int find_cheapest(making *m, double enough, size_t *first, size_t *second
 }
 
 // The second piece into the first; the last takes the second's place.
-static ovoid_code join(making *m, size_t first, size_t second, double enough, ovoid_error *error) {
+static ovoid_code join(parts_work *m, size_t first, size_t second, double enough, ovoid_error *error) {
     piece *p = &m->pieces[first], *q = &m->pieces[second];
     vec3 *points;
     ovoid_code code = join_points(m->b, p, q, &points, error);
@@ -176,7 +176,7 @@ static ovoid_code join(making *m, size_t first, size_t second, double enough, ov
     return code;
 }
 
-static ovoid_code join_pieces(making *m, ovoid_error *error) {
+static ovoid_code join_pieces(parts_work *m, ovoid_error *error) {
     if (m->count < 2) return OVOID_OK;
     m->costs = allocator_allocate(&m->b->memory, m->count * (m->count - 1) / 2, sizeof *m->costs);
     if (!m->costs) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu pieces", m->count);
@@ -194,7 +194,7 @@ static ovoid_code join_pieces(making *m, ovoid_error *error) {
 
 // ---- the whole
 
-static ovoid_parts *make_shapes(making *m, ovoid_error *error) {
+static ovoid_parts *make_shapes(parts_work *m, ovoid_error *error) {
     ovoid_parts *parts = create_parts(&m->b->memory, m->count, error);
     for (size_t i = 0; parts && i < m->count; i++) {
         piece *p = &m->pieces[i];
@@ -208,7 +208,7 @@ static ovoid_parts *make_shapes(making *m, ovoid_error *error) {
     return parts;
 }
 
-static void set_aims(making *m) {
+static void set_aims(parts_work *m) {
     m->error = m->o->error * m->b->inverse;
     m->wanted = m->o->parts;
     if (!m->wanted && !(m->error > 0)) m->error = 0.02 * m->b->diagonal;
@@ -224,7 +224,7 @@ static ovoid_parts *create_from_solid(const ovoid_solid *solid, const ovoid_deco
     body b;
     if (body_validate_options(given, &options, error) != OVOID_OK) return NULL;
     if (body_open(&b, solid, &options, error) != OVOID_OK) return NULL;
-    making m = {.b = &b, .o = &options};
+    parts_work m = {.b = &b, .o = &options};
     set_aims(&m);
     m.pieces = allocator_allocate(&b.memory, m.room, sizeof *m.pieces);
     ovoid_parts *parts = NULL;

@@ -1,4 +1,4 @@
-// Proofs of containment.
+// Proofs that an ellipsoid holds a polytope, or is inside one.
 //
 // Outside: with the proven factor W of Q (factor.h), (v - c)' Q^-1 (v - c) <= |W (v - c)|^2 / (1 - defect). Each term
 // is computed in doubles and enlarged by a bound of its rounding. The price is about 2^-50 times the ratio of the

@@ -19,10 +19,11 @@ small_gjk_kept kept_get_simplex(const pair_frame *frame, const query_goal *goal,
 /// Most vertices of both bodies for a distance: the nearest points of larger ones move on to other vertices mostly.
 enum { KEPT_VERTICES = 2048 };
 
-/// 1 if kept_run may be asked: for a bracket, of bodies without an allowance. spheres: as in small_fits.
-static inline int kept_fits(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
+/// 1 if kept_run may be asked: for a bracket, of bodies without an allowance. sphere_gap: as in small_fits.
+static inline int kept_fits(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap) {
     int is_few = (goal->far < INFINITY) | (a->vertex_count + b->vertex_count <= KEPT_VERTICES);
-    return is_few & goal->wants_bracket & !(a->has_allowance | b->has_allowance) & (!goal->wants_depth | (spheres > 0));
+    return is_few & goal->wants_bracket & !(a->has_allowance | b->has_allowance) &
+           (!goal->wants_depth | (sphere_gap > 0));
 }
 
 /// Of bodies with any number of vertices that were apart: 1 if the point between the kept differences answers the

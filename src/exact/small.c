@@ -54,9 +54,9 @@ static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, 
 #define INNER_DEPTH 0.4
 
 // An overlap that `upper` proves, without a search. The lower bound is that of the spheres, along the line of centres.
-static void end_at_overlap(double spheres, vec3 line, double upper, ovoid_proof_kind kind, ovoid_stage stage,
+static void end_at_overlap(double sphere_gap, vec3 line, double upper, ovoid_proof_kind kind, ovoid_stage stage,
                            small_end *end) {
-    end->lower = spheres;
+    end->lower = sphere_gap;
     end->upper = upper;
     end->normal = vec3_unit(line);
     end->kind = kind;
@@ -65,11 +65,11 @@ static void end_at_overlap(double spheres, vec3 line, double upper, ovoid_proof_
 }
 
 // A common point of the inner ellipsoids: 1 if it proves an overlap.
-static int run_inner(const pair_frame *f, double spheres, vec3 line, small_end *end) {
+static int run_inner(const pair_frame *f, double sphere_gap, vec3 line, small_end *end) {
     double upper = inner_compute_upper_in_world(f, &end->inner);
     if (!(upper < 0)) return 0;
     clear_points(&end->points);
-    end_at_overlap(spheres, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_INNER, end);
+    end_at_overlap(sphere_gap, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_INNER, end);
     return 1;
 }
 
@@ -93,10 +93,10 @@ small_gjk_query small_make_query(const pair_frame *f, const query_goal *goal) {
                              goal->iterations};
 }
 
-int small_begin(const pair_frame *f, const query_goal *goal, double spheres, small_gjk_query *q, small_end *end) {
+int small_begin(const pair_frame *f, const query_goal *goal, double sphere_gap, small_gjk_query *q, small_end *end) {
     vec3 d = f->between;
     if (!(vec3_norm_squared(d) > 1e-150)) return 0;
-    if (spheres < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, spheres, d, end)) return 1;
+    if (sphere_gap < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, sphere_gap, d, end)) return 1;
     *q = small_make_query(f, goal);
     return -1;
 }
@@ -128,10 +128,10 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     return query_goal_is_met(goal, end->lower, end->upper);
 }
 
-int small_run(const pair_frame *f, const query_goal *goal, double spheres, small_end *end) {
+int small_run(const pair_frame *f, const query_goal *goal, double sphere_gap, small_end *end) {
     small_gjk_query q;
     small_gjk_result r;
-    int is_over = small_begin(f, goal, spheres, &q, end);
+    int is_over = small_begin(f, goal, sphere_gap, &q, end);
     if (is_over >= 0) return is_over;
     simd_run_small_gjk(&q, &r);
     return small_finish(f, goal, &r, end);
@@ -140,7 +140,7 @@ int small_run(const pair_frame *f, const query_goal *goal, double spheres, small
 // ---- from an earlier proof
 
 // The hull of four differences that was around the origin: 1 if it still is.
-static int run_kept_hull(const pair_frame *f, const ovoid_proof *p, double spheres, vec3 line, small_end *end) {
+static int run_kept_hull(const pair_frame *f, const ovoid_proof *p, double sphere_gap, vec3 line, small_end *end) {
     vec3 w[4];
     for (int i = 0; i < 4; i++) {
         end->points.p[i] = kept_get_difference(f, p, i);
@@ -150,26 +150,26 @@ static int run_kept_hull(const pair_frame *f, const ovoid_proof *p, double spher
     if (!(depth > 0)) return 0;
     end->points.count = 4;
     end->inner = (vec3){0, 0, 0};
-    end_at_overlap(spheres, line, -depth - f->upper_radii, OVOID_PROOF_HULL, OVOID_STAGE_PROOF, end);
+    end_at_overlap(sphere_gap, line, -depth - f->upper_radii, OVOID_PROOF_HULL, OVOID_STAGE_PROOF, end);
     return 1;
 }
 
 // The common point of the inner ellipsoids as it was, fixed in A, or another one.
-static int run_kept_inner(const pair_frame *f, const ovoid_proof *p, double spheres, vec3 line, small_end *end) {
+static int run_kept_inner(const pair_frame *f, const ovoid_proof *p, double sphere_gap, vec3 line, small_end *end) {
     double upper = inner_compute_upper_at(f, p->inner_a);
-    if (!(upper < 0)) return run_inner(f, spheres, line, end);
+    if (!(upper < 0)) return run_inner(f, sphere_gap, line, end);
     end->inner = p->inner_a;
     clear_points(&end->points);
-    end_at_overlap(spheres, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_PROOF, end);
+    end_at_overlap(sphere_gap, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_PROOF, end);
     return 1;
 }
 
-static small_outcome run_kept_overlap(const pair_frame *f, const ovoid_proof *p, double spheres, small_end *end) {
+static small_outcome run_kept_overlap(const pair_frame *f, const ovoid_proof *p, double sphere_gap, small_end *end) {
     vec3 line = f->between;
     int is_proven = 0;
     if (!(vec3_norm_squared(line) > 1e-150) || !proof_is_sound(f, p)) return SMALL_UNKNOWN;
-    if (p->kind == OVOID_PROOF_INNER) is_proven = run_kept_inner(f, p, spheres, line, end);
-    if (p->kind == OVOID_PROOF_HULL && p->count == 4) is_proven = run_kept_hull(f, p, spheres, line, end);
+    if (p->kind == OVOID_PROOF_INNER) is_proven = run_kept_inner(f, p, sphere_gap, line, end);
+    if (p->kind == OVOID_PROOF_HULL && p->count == 4) is_proven = run_kept_hull(f, p, sphere_gap, line, end);
     return is_proven ? SMALL_ANSWERED : SMALL_UNKNOWN;
 }
 

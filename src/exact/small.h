@@ -26,25 +26,25 @@ typedef struct small_end {
     uint32_t iterations;
 } small_end;
 
-/// 1 if both bodies have few vertices and no allowance, and no depth is asked for. spheres: the lower bound of
+/// 1 if both bodies have few vertices and no allowance, and no depth is asked for. sphere_gap: the lower bound of
 /// reject_by_spheres.
-static inline int small_fits(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
+static inline int small_fits(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap) {
     int is_small =
         (a->padded_count <= SMALL_POINTS) & (b->padded_count <= SMALL_POINTS) & !(a->has_allowance | b->has_allowance);
-    return is_small & (!goal->wants_depth | (spheres > 0));
+    return is_small & (!goal->wants_depth | (sphere_gap > 0));
 }
 
 /// 1 if the pair is one for small_run. For a distance the line of centres is as good a start as any. For a yes or no of
 /// more vertices the outer ellipsoids are asked: alone they cost what they save, in lanes a quarter of it.
 enum { SMALL_LINE_VERTICES = 40 };
-static inline int small_takes(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double spheres) {
+static inline int small_takes(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap) {
     int is_line = (goal->far == INFINITY) | (a->vertex_count + b->vertex_count <= SMALL_LINE_VERTICES);
-    return is_line & small_fits(goal, a, b, spheres);
+    return is_line & small_fits(goal, a, b, sphere_gap);
 }
 
 /// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much. 1: answered; 0:
 /// unusual, and nothing is known. The frame needs only frame_place.
-int small_run(const pair_frame *frame, const query_goal *goal, double spheres, small_end *end);
+int small_run(const pair_frame *frame, const query_goal *goal, double sphere_gap, small_end *end);
 
 /// The pair as the kernel takes it, from the line of centres.
 small_gjk_query small_make_query(const pair_frame *frame, const query_goal *goal);
@@ -52,7 +52,7 @@ small_gjk_query small_make_query(const pair_frame *frame, const query_goal *goal
 /// small_run in parts, for searches in lanes. Before the kernel's search: 1: answered, 0: unusual, -1: *query is to be
 /// searched; it refers to the frame. After it: 1: answered, 0: unusual. Of the frame small_finish reads the size, what
 /// is hidden and the radii.
-int small_begin(const pair_frame *frame, const query_goal *goal, double spheres, small_gjk_query *query,
+int small_begin(const pair_frame *frame, const query_goal *goal, double sphere_gap, small_gjk_query *query,
                 small_end *end);
 int small_finish(const pair_frame *frame, const query_goal *goal, const small_gjk_result *result, small_end *end);
 

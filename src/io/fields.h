@@ -10,8 +10,8 @@
 typedef enum field_kind {
     FIELD_FINITE,  ///< double; null is not read
     FIELD_NUMBER,  ///< double; what is not finite is null in JSON, and is read as `if_null`; "inf", "nan" in CSV
-    FIELD_MEASURE, ///< the same, but empty in CSV where it is not finite
-    FIELD_SECONDS, ///< the same, with nine digits behind the point in JSON
+    FIELD_MEASURE, ///< double; as FIELD_NUMBER, but empty in CSV where it is not finite
+    FIELD_SECONDS, ///< double; as FIELD_MEASURE, with nine digits behind the point in JSON
     FIELD_WHOLE,   ///< uint16_t, uint32_t, uint64_t or size_t, by its size
     FIELD_RANGE,   ///< uint32_t[2], or two members that follow one another
     FIELD_VECTOR,  ///< ovoid_vec3; three columns of CSV: key_x, key_y, key_z

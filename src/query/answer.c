@@ -227,14 +227,14 @@ static vec3 find_line(const pair_frame *f) {
 // The stages before the exact search, and the simplex that it starts from. A depth query whose spheres overlap goes to
 // EPA at once. A distance query starts from the earlier proof's simplex; where a separating direction may end the
 // query, that of the ellipsoids is tried.
-static void run_stages(search *s, double spheres, const ovoid_proof *earlier, simplex *start) {
+static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier, simplex *start) {
     stage_proof(s, earlier, start);
     if (search_is_done(s)) return;
     if (!s->goal.wants_depth) stage_inner(s);
     if (search_is_done(s) || (start->count && s->goal.far == INFINITY)) return;
     vec3 n;
     if (s->goal.wants_depth && may_overlap(s)) return;
-    if (query_goal_takes_line(&s->goal, s->frame->a, s->frame->b, spheres))
+    if (query_goal_takes_line(&s->goal, s->frame->a, s->frame->b, sphere_gap))
         n = find_line(s->frame);
     else
         stage_outer(s, &n);
@@ -328,7 +328,7 @@ static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given
 typedef struct open_query {
     const ovoid_pair *pair;
     const pair_frame *frame;
-    double spheres;
+    double sphere_gap;
     const query_goal *goal;
     ovoid_cover *cover;
 } open_query;
@@ -337,13 +337,13 @@ typedef struct open_query {
 static void search_in_doubles(const open_query *q, const ovoid_proof *earlier, search *s) {
     simplex start;
     search_make(s, q->frame, q->goal);
-    run_stages(s, q->spheres, earlier, &start);
+    run_stages(s, q->sphere_gap, earlier, &start);
     if (!search_is_done(s)) run_exact(s, &start, q->cover);
 }
 
 // The query as it is without an earlier proof, from the beginning that the spheres left open.
 static void search_afresh(const open_query *q, ovoid_answer *out) {
-    rejection found = {.lower = q->spheres};
+    rejection found = {.lower = q->sphere_gap};
     small_end end;
     search s;
     if (begin_after_spheres(q->frame, q->goal, NULL, &found, &end) == BEGIN_SMALL) {
@@ -376,10 +376,10 @@ COMPILER_NOINLINE static void search_again(const open_query *q, const ovoid_proo
     *out = warm;
 }
 
-void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const query_goal *goal,
+void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double sphere_gap, const query_goal *goal,
                        const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out) {
     frame_relate(frame);
-    const open_query q = {pair, frame, spheres, goal, cover};
+    const open_query q = {pair, frame, sphere_gap, goal, cover};
     search s;
     search_in_doubles(&q, earlier, &s);
     if (!search_is_done(&s) && earlier) {
@@ -408,11 +408,11 @@ void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, qu
 
 // Returned by value from functions that are not inlined: where no address of the answer is taken, it is made in the
 // caller's place, and a rejection ends sooner than its answer could be copied.
-COMPILER_NOINLINE static ovoid_answer search_by_value(const ovoid_pair *pair, pair_frame *frame, double spheres,
+COMPILER_NOINLINE static ovoid_answer search_by_value(const ovoid_pair *pair, pair_frame *frame, double sphere_gap,
                                                       const query_goal *goal, const ovoid_proof *earlier,
                                                       ovoid_cover *cover) {
     ovoid_answer out;
-    answer_run_search(pair, frame, spheres, goal, earlier, cover, &out);
+    answer_run_search(pair, frame, sphere_gap, goal, earlier, cover, &out);
     return out;
 }
 

@@ -33,7 +33,7 @@ ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, con
                          const ovoid_proof *earlier, ovoid_cover *cover);
 
 /// Of a pair whose beginning left it to the search: the rest of the pipeline. The frame needs only frame_place.
-void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double spheres, const query_goal *goal,
+void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double sphere_gap, const query_goal *goal,
                        const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out);
 
 /// answer_find for callers inside a public function, which has set the default floating-point environment already.
@@ -78,12 +78,12 @@ ovoid_code lower_verify_internal(const ovoid_pair *pair, double lower, const ovo
 /// 1 if a query starts from the line of centres instead of the outer ellipsoids' direction. For bodies far apart it is
 /// as good a direction. With few vertices a support costs less than the ellipsoids: these are worth it only where the
 /// goal is the sign and the spheres overlap so far that the line may fail and another direction may separate the
-/// bodies. spheres: the lower bound by the enclosing spheres (reject.h).
+/// bodies. sphere_gap: the lower bound by the enclosing spheres (reject.h).
 static inline int query_goal_takes_line(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b,
-                                        double spheres) {
+                                        double sphere_gap) {
     double reach = a->reach + b->reach;
-    if (a->vertex_count + b->vertex_count > SMALL_LINE_VERTICES) return goal->far == INFINITY && spheres > reach;
-    return goal->far == INFINITY || spheres > -0.3 * reach || spheres < -0.6 * reach;
+    if (a->vertex_count + b->vertex_count > SMALL_LINE_VERTICES) return goal->far == INFINITY && sphere_gap > reach;
+    return goal->far == INFINITY || sphere_gap > -0.3 * reach || sphere_gap < -0.6 * reach;
 }
 
 #endif

@@ -435,12 +435,12 @@ static unsigned add_small(const batch_state *c, const lane_group *e, unsigned op
     unsigned small = 0;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        double spheres = e->lanes->lower.lane[k];
-        if (!small_takes(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, spheres)) continue;
+        double sphere_gap = e->lanes->lower.lane[k];
+        if (!small_takes(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, sphere_gap)) continue;
         small |= 1u << k;
         pair_frame frame = get_frame(e, k);
         query_goal goal = get_goal(c, e, k);
-        small_pool_add(c->small, e->index[k], &frame, &goal, spheres);
+        small_pool_add(c->small, e->index[k], &frame, &goal, sphere_gap);
     }
     return small;
 }

@@ -50,19 +50,19 @@ static unsigned find_group(small_pool *p) {
 
 // 1 where a place in the lanes costs more than it saves: the first supports end most searches of bodies far apart, and
 // most of yes or no whose spheres do not overlap by a fifth.
-static int is_short(const pair_frame *f, const query_goal *goal, double spheres) {
-    return spheres > (goal->wants_bracket ? 1 : -0.2) * (f->a->reach + f->b->reach);
+static int is_short(const pair_frame *f, const query_goal *goal, double sphere_gap) {
+    return sphere_gap > (goal->wants_bracket ? 1 : -0.2) * (f->a->reach + f->b->reach);
 }
 
-void small_pool_add(small_pool *p, size_t index, const pair_frame *f, const query_goal *goal, double spheres) {
+void small_pool_add(small_pool *p, size_t index, const pair_frame *f, const query_goal *goal, double sphere_gap) {
     small_gjk_query q;
     small_end end;
-    int is_over = small_begin(f, goal, spheres, &q, &end);
+    int is_over = small_begin(f, goal, sphere_gap, &q, &end);
     if (is_over >= 0) {
         p->owner.finish(p->owner.self, index, goal, f, is_over ? &end : NULL);
         return;
     }
-    if (is_short(f, goal, spheres)) {
+    if (is_short(f, goal, sphere_gap)) {
         small_gjk_result r;
         simd_run_small_gjk(&q, &r);
         p->owner.finish(p->owner.self, index, goal, f, small_finish(f, goal, &r, &end) ? &end : NULL);

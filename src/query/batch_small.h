@@ -36,7 +36,7 @@ void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner
 
 /// Begins the search of a couple for which small_takes is 1; others may end meanwhile. The frame is that of
 /// frame_place.
-void small_pool_add(small_pool *pool, size_t index, const pair_frame *frame, const query_goal *goal, double spheres);
+void small_pool_add(small_pool *pool, size_t index, const pair_frame *frame, const query_goal *goal, double sphere_gap);
 
 /// Goes on until all have ended.
 void small_pool_finish(small_pool *pool);

@@ -59,12 +59,12 @@ COMPILER_NOINLINE static ovoid_verdict find_afresh(prepared_pair x, const ovoid_
     return answer_get_verdict(&answer);
 }
 
-COMPILER_NOINLINE static ovoid_verdict search_on(prepared_pair x, pair_frame *frame, double spheres,
+COMPILER_NOINLINE static ovoid_verdict search_on(prepared_pair x, pair_frame *frame, double sphere_gap,
                                                  const query_goal *goal, const ovoid_proof *earlier,
                                                  const ovoid_evidence *out) {
     ovoid_pair pair = get_pair(x);
     ovoid_answer answer;
-    answer_run_search(&pair, frame, spheres, goal, earlier, NULL, &answer);
+    answer_run_search(&pair, frame, sphere_gap, goal, earlier, NULL, &answer);
     if (out) write_evidence(out, &answer);
     return answer_get_verdict(&answer);
 }

@@ -17,7 +17,7 @@ typedef struct box8 {
 } box8;
 
 /// Numbers rounded down and up to single precision: off by a rounding of the product, of the sum and of the conversion,
-/// together below 2^-23 |x| + 2^-140. Beyond the largest float a lower end stays there, and an upper one likewise.
+/// together below 2^-23 |x| + 2^-140. An end beyond the largest float is set to that float.
 static inline float box8_round_down(double x) {
     double low = x - ((x < 0 ? -x : x) * 0x1p-22 + 0x1p-140);
     return (float)(low < 0x1p127 ? low : 0x1p127);

@@ -66,8 +66,8 @@ typedef struct small_gjk_kept {
     uint32_t count, a[4], b[4];
 } small_gjk_kept;
 
-/// The same, from these differences; query->start is not read. Mostly the nearest point still lies between them, and
-/// the first support is the last: it is measured before the bodies are posed.
+/// Runs the search from these differences; query->start is not read. Mostly the nearest point still lies between them,
+/// and the first support is the last: it is measured before the bodies are posed.
 void simd_run_small_gjk_kept(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result);
 
 /// The nearest point of kept differences of bodies with any number of points, without a support: KEPT where it lies

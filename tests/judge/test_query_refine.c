@@ -238,8 +238,8 @@ static void test_far_vertices(void) {
     judge_forget(court);
 }
 
-// Likewise turned by anything, so that their rotation is rounded: closed in by A's position, a double near 0, on a gap
-// near what is hidden. Truth: the judge, and the sign by brute force.
+// Bodies far from their origins, turned by anything, so that their rotation is rounded: closed in by A's position, a
+// double near 0, on a gap near what is hidden. Truth: the judge, and the sign by brute force.
 static void test_far_turned(uint64_t seed) {
     uint64_t r = check_seed = seed;
     ovoid_shape *s[2];

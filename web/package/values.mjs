@@ -50,7 +50,7 @@ export class Names {
   }
 }
 
-/** The same, written to an array. */
+/** Writes a pose to an array, from `at` on. */
 export function putPose(numbers, at, pose, what) {
   const wxyz = pose?.quat_wxyz, xyz = pose?.xyz;
   if (xyz?.length === 3 && wxyz?.length === 4 && Object.keys(pose).length === 2) {

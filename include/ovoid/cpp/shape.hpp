@@ -134,7 +134,7 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
         return made(
             [&](ovoid_error *e) { return ovoid_shape_create_cylinder(radius, half_length, tolerance, &options, e); });
     }
-    /** The cone along z, apex at z = +half_length, likewise. */
+    /** The cone along z, apex at z = +half_length, held by a pyramid with an allowance of at most the tolerance. */
     static shape cone(double radius, double half_length, double tolerance = 0,
                       const ovoid_shape_options &options = shape_options()) {
         return made(

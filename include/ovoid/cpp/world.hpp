@@ -159,8 +159,8 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
         return find(ovoid_world_find_any_to, items.data(), items.size());
     }
     /**
-     * The same, and does one of the couples of probes, a contiguous container of couple, touch? Throws as add, INDEX
-     * (place: the couple that names no probe).
+     * Does any of these probes touch a body of the world, or does one of the couples of probes, a contiguous container
+     * of couple, touch? Throws as add, INDEX (place: the couple that names no probe).
      */
     template <class Probes, class Couples> world_hit find_any_of(const Probes &probes, const Couples &couples) const {
         const auto items = detail::items_of<ovoid_world_body>(probes);

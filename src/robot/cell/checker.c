@@ -30,7 +30,7 @@ static void forget(ovoid_robot_checker *x) {
     x->last = (pair_name){OVOID_ROBOT_NONE, OVOID_ROBOT_NONE};
     x->last_count = 0;
     if (++x->generation) return;
-    // All numbers have been used.
+    // The generation has wrapped around to 0: marks of earlier generations would be taken for marks of this one.
     memset(x->part_marks, 0, x->cell->items.count * x->cell->parts.count * sizeof *x->part_marks);
     memset(x->pair_marks, 0, x->cell->pairs.count * sizeof *x->pair_marks);
     x->generation = 1;

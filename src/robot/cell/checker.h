@@ -102,7 +102,7 @@ static inline ovoid_robot_answer answer_make_empty(void) {
     return (ovoid_robot_answer){.code = OVOID_ERROR_EMPTY, .a = none, .b = none, .lower = -INFINITY, .upper = INFINITY};
 }
 
-/// Whether the options are ones.
+/// OVOID_OK where margin and slack are numbers >= 0; else ARGUMENT.
 ovoid_code query_options_validate(const ovoid_robot_query_options *options, ovoid_error *error);
 
 /// Makes errors those of states of that magnitude.

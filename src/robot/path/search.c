@@ -160,7 +160,7 @@ static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t nu
 static pair_outcome test_pair(path_search *s, const path_span *i, uint32_t number) {
     // The bodies hold their spheres' centres, or nearly: no query can show more than these are apart. Where that is not
     // well above the motion, half the interval is the cheaper question.
-    // A ring does not.
+    // That holds of convex bodies alone: a solid such as a ring need not hold its sphere's centre.
     pair_parts of = pair_take_apart(s->w->cell, number);
     if (!path_has_solid(s->w, &of) && path_get_center_distance(s->w, &of) < 2 * path_get_motion(s->w, &of).moved)
         return PAIR_LEFT;

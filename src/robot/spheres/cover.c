@@ -19,17 +19,17 @@ enum {
 
 #define HEAT 0.25
 
-// A cover in the making.
-typedef struct making {
+// What a search for a cover works with.
+typedef struct cover_work {
     const spheres_link *link;
     spheres_samples now, scratch;
     ovoid_robot_sphere *written; ///< the balls in the caller's unit, for the audit
     spheres_heap heap;
     size_t moves;
     uint64_t seed;
-} making;
+} cover_work;
 
-static void close_making(making *m) {
+static void close_work(cover_work *m) {
     const ovoid_allocator *memory = &m->link->memory;
     allocator_release(memory, m->heap.cells);
     allocator_release(memory, m->written);
@@ -46,7 +46,7 @@ static void close_making(making *m) {
     allocator_release(memory, m->now.points);
 }
 
-static ovoid_code open_making(making *m, const spheres_link *link, size_t balls, ovoid_error *error) {
+static ovoid_code open_work(cover_work *m, const spheres_link *link, size_t balls, ovoid_error *error) {
     const ovoid_allocator *memory = &link->memory;
     size_t room = SAMPLES + SAMPLES_MORE;
     m->link = link;
@@ -67,7 +67,7 @@ static ovoid_code open_making(making *m, const spheres_link *link, size_t balls,
         m->now.outside_hits && m->now.balls && m->now.own && m->scratch.balls && m->scratch.point_hits &&
         m->scratch.outside_hits && m->written && spheres_heap_open(&m->heap, link, CELLS, NULL) == OVOID_OK)
         return OVOID_OK;
-    close_making(m);
+    close_work(m);
     return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a cover of %zu spheres", balls);
 }
 
@@ -90,12 +90,12 @@ static vec3 draw_point(const spheres_link *link, const spheres_part *part, uint6
 }
 
 // How many points a search is worth: a short one not many.
-static uint32_t choose_count(const making *m, uint32_t most) {
+static uint32_t choose_count(const cover_work *m, uint32_t most) {
     return m->moves < most / 2 - 1000 ? 2000 + 2 * (uint32_t)m->moves : most;
 }
 
 // Points of all parts: of the vertices as many as there is room for at even steps, then random ones.
-static void draw_points(making *m) {
+static void draw_points(cover_work *m) {
     spheres_samples *s = &m->now;
     uint32_t most = choose_count(m, SAMPLES);
     s->point_count = 0;
@@ -119,7 +119,7 @@ static int is_outside(const spheres_link *link, vec3 x) {
 }
 
 // Points outside the link in the box of the balls there are.
-static void draw_outside(making *m) {
+static void draw_outside(cover_work *m) {
     spheres_samples *s = &m->now;
     box b = m->link->box;
     for (uint32_t i = 0; i < s->ball_count; i++) {
@@ -142,7 +142,7 @@ static void draw_outside(making *m) {
 
 // ---- proof
 
-static ovoid_code audit(making *m, double tolerance, spheres_depth *depth, ovoid_error *error) {
+static ovoid_code audit(cover_work *m, double tolerance, spheres_depth *depth, ovoid_error *error) {
     for (uint32_t i = 0; i < m->now.ball_count; i++)
         m->written[i] = (ovoid_robot_sphere){vec3_scale(m->now.balls[i].center, m->link->unit),
                                              max2(m->now.balls[i].radius, 0) * m->link->unit};
@@ -156,7 +156,7 @@ static ovoid_code audit(making *m, double tolerance, spheres_depth *depth, ovoid
 }
 
 // Adds the deepest uncovered point, and what covers it, until none is deeper than about the tolerance.
-static ovoid_code exchange(making *m, int rounds, double tolerance, ovoid_error *error) {
+static ovoid_code exchange(cover_work *m, int rounds, double tolerance, ovoid_error *error) {
     spheres_samples *s = &m->now;
     for (int round = 0; round < rounds; round++) {
         spheres_depth depth;
@@ -171,7 +171,7 @@ static ovoid_code exchange(making *m, int rounds, double tolerance, ovoid_error 
 }
 
 // Radii grow by what is proven to suffice, at the end by more each time: one ball around all ends it.
-static ovoid_code finish(making *m, double tolerance, spheres_depth *depth, ovoid_error *error) {
+static ovoid_code finish(cover_work *m, double tolerance, spheres_depth *depth, ovoid_error *error) {
     for (int round = 0;; round++) {
         ovoid_code code = audit(m, tolerance / 4, depth, error);
         if (code != OVOID_OK || depth->upper <= 0) return code;
@@ -182,7 +182,7 @@ static ovoid_code finish(making *m, double tolerance, spheres_depth *depth, ovoi
 }
 
 // The best of several beginnings, each improved a little.
-static void make_start(making *m, uint32_t count) {
+static void make_start(cover_work *m, uint32_t count) {
     spheres_samples *s = &m->now;
     double least = INFINITY;
     int starts = count == 1 ? 1 : m->moves < SHORT ? STARTS_SHORT : STARTS;
@@ -201,7 +201,7 @@ static void make_start(making *m, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) s->balls[i] = (sphere){m->written[i].center, m->written[i].radius};
 }
 
-static ovoid_code make_cover(making *m, uint32_t count, spheres_depth *depth, ovoid_error *error) {
+static ovoid_code make_cover(cover_work *m, uint32_t count, spheres_depth *depth, ovoid_error *error) {
     double tolerance = 3e-4 * spheres_link_get_size(m->link);
     ovoid_code code = OVOID_OK;
     // Each phase ends with audits, which a short search does not pay for.
@@ -220,7 +220,7 @@ static ovoid_code make_cover(making *m, uint32_t count, spheres_depth *depth, ov
 
 // How far a ball stands out of the link, at most: no farther than out of one part, of which the farthest point of the
 // ball is its radius farther than its centre.
-static double find_excess(const making *m) {
+static double find_excess(const cover_work *m) {
     double most = 0;
     for (uint32_t i = 0; i < m->now.ball_count; i++) {
         double least = INFINITY;
@@ -232,7 +232,7 @@ static double find_excess(const making *m) {
 }
 
 // With one more ball each time, or an eighth more.
-static ovoid_code make_fewest(making *m, size_t room, double excess, spheres_depth *depth, ovoid_error *error) {
+static ovoid_code make_fewest(cover_work *m, size_t room, double excess, spheres_depth *depth, ovoid_error *error) {
     double best = INFINITY;
     for (size_t count = 1; count <= room; count += 1 + count / 8) {
         ovoid_code code = make_cover(m, (uint32_t)count, depth, error);
@@ -249,8 +249,8 @@ static ovoid_code make_fewest(making *m, size_t room, double excess, spheres_dep
 
 static ovoid_code cover_link(const spheres_link *link, const ovoid_robot_cover_options *o, ovoid_robot_sphere *spheres,
                              size_t *count, ovoid_robot_bracket *bracket, ovoid_error *error) {
-    making m = {.moves = o->rounds ? o->rounds : MOVES, .seed = o->seed};
-    ovoid_code code = open_making(&m, link, *count, error);
+    cover_work m = {.moves = o->rounds ? o->rounds : MOVES, .seed = o->seed};
+    ovoid_code code = open_work(&m, link, *count, error);
     if (code != OVOID_OK) return code;
     m.now.watch = m.heap.watch = &o->watch;
     spheres_depth depth;
@@ -261,7 +261,7 @@ static ovoid_code cover_link(const spheres_link *link, const ovoid_robot_cover_o
         for (size_t i = 0; i < *count; i++) spheres[i] = m.written[i];
         if (bracket) *bracket = (ovoid_robot_bracket){depth.lower * link->unit, depth.upper * link->unit};
     }
-    close_making(&m);
+    close_work(&m);
     return code;
 }
 

@@ -106,7 +106,7 @@ spheres_volumes spheres_find_volumes(const spheres_link *link, const spheres_tre
         }
         for (int i = 0; i < 2; i++) {
             fill_cell(link, tree, &half[i]);
-            // What is decided is not held.
+            // A cell whose volume is decided (key 0) is added to the sum, and leaves the heap.
             if (half[i].key > 0)
                 spheres_heap_push(heap, &half[i]);
             else

@@ -25,7 +25,7 @@ static point nearest_of_segment(point a, point b) {
     return t <= 0 ? a : t >= 1 ? b : along(a, e, t);
 }
 
-/// Likewise of a triangle: the foot on its plane if it is inside, else on an edge.
+/// The triangle's point nearest to the origin: the foot on its plane if it is inside, else on an edge.
 static point nearest_of_triangle(point a, point b, point c) {
     point n = cross(sub(b, a), sub(c, a)), foot = along((point){0, 0, 0}, n, dot(n, a) / dot(n, n));
     real u = dot(n, cross(sub(b, foot), sub(c, foot))), v = dot(n, cross(sub(c, foot), sub(a, foot)));

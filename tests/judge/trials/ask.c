@@ -66,7 +66,7 @@ static double pair_unresolved_sign(const ovoid_pair *pair) {
            16 * OVOID_LENGTH_MIN;
 }
 
-// The least that a bracket can be asked to be narrower than: the same, and of the witness points' positions.
+// The least width that a bracket can be asked to have: that of the sign, and what the bodies' positions leave.
 double pair_unresolved(const ovoid_pair *pair) {
     return 0x1p-88 * (sum_abs(pair->pose_a.position) + sum_abs(pair->pose_b.position)) + pair_unresolved_sign(pair);
 }

@@ -44,8 +44,8 @@ typedef struct item {
 /// How B is placed by A.
 typedef enum place_kind {
     PLACE_ANY,     // anywhere, in any orientation, then along the normal to a gap of any order
-    PLACE_FAR,     // likewise, 1e7 away from the world's origin
-    PLACE_NORMS,   // likewise, quaternions of norms 1e-150 to 1e150
+    PLACE_FAR,     // as ANY, 1e7 away from the world's origin
+    PLACE_NORMS,   // as ANY, quaternions of norms 1e-150 to 1e150
     PLACE_ALIGNED, // of one orientation, at multiples of a half
     PLACE_COMMON,  // both in one pose: what the vertices share, they share exactly
     PLACE_INSIDE,  // centres nearly in one place

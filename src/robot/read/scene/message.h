@@ -18,7 +18,7 @@ typedef struct message_reader {
 /// Reports "path:line: object "x": sentence".
 COMPILER_PRINTF(4, 5)
 void message_report(const message_reader *r, const yaml_value *at, ovoid_code code, const char *format, ...);
-/// The same, with the value of its code: a macro, so that compilers know that it is not OVOID_OK.
+/// Reports as message_report, and has the value of the code: a macro, so that compilers know that it is not OVOID_OK.
 #define message_fail(r, at, code, ...) (message_report(r, at, code, __VA_ARGS__), (code))
 /// Tells the caller of something; at NULL: about the file.
 COMPILER_PRINTF(3, 4)

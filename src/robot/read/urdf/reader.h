@@ -58,7 +58,7 @@ typedef struct robot_reader {
 /// Reports "path:line: joint "x": sentence", where the element is, or is in, a child of the root that has a name.
 COMPILER_PRINTF(4, 5)
 void robot_report(const robot_reader *r, const xml_element *element, ovoid_code code, const char *format, ...);
-/// The same, with the value of its code: a macro, so that compilers know that it is not OVOID_OK.
+/// Reports as robot_report, and has the value of the code: a macro, so that compilers know that it is not OVOID_OK.
 #define robot_fail(r, element, code, ...) (robot_report(r, element, code, __VA_ARGS__), (code))
 ovoid_code robot_fail_memory(const robot_reader *r);
 /// Hands a note about the line of the element (NULL: about the file) to the caller.
