@@ -1,5 +1,6 @@
-// A hash table of pairs, with linear probing.
+// A hash table of pairs.
 #include "seen.h"
+#include "tools/hash.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,11 +8,14 @@
 /// The larger index is not 0, so no key is.
 static uint64_t make_key(ovoid_couple c) { return c.a < c.b ? (uint64_t)c.b << 32 | c.a : (uint64_t)c.a << 32 | c.b; }
 
+static int is_end(const void *table, size_t slot, const void *key) {
+    uint64_t held = ((const uint64_t *)table)[slot];
+    return !held || held == *(const uint64_t *)key;
+}
+
 /// The slot of a key, or the empty one where it would be.
 static size_t find_slot(const cli_seen *s, uint64_t key) {
-    size_t at = (size_t)(key * 0x9e3779b97f4a7c15u >> 20) & (s->slot_count - 1);
-    while (s->slots[at] && s->slots[at] != key) at = (at + 1) & (s->slot_count - 1);
-    return at;
+    return hash_find(hash_number(key), s->slot_count, s->slots, &key, is_end);
 }
 
 static int grow(cli_seen *s) {

@@ -8,6 +8,7 @@
 // radius. With Q^-1 = adj Q / det Q nothing is divided.
 #include "parts.h"
 #include "shell.h"
+#include "tools/hash.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -165,10 +166,13 @@ static void compute_facts(pool *p, const body *b, facts *f) {
     pool_release(p, mark);
 }
 
+static int is_end(const void *table, size_t at, const void *key) {
+    const ovoid_shape *shape = ((const facts *)table)[at].shape;
+    return !shape || shape == key;
+}
+
 static size_t find_slot(const facts *table, size_t capacity, const ovoid_shape *shape) {
-    size_t i = (size_t)(((uintptr_t)shape >> 6) * 0x9e3779b97f4a7c15u) % capacity;
-    while (table[i].shape && table[i].shape != shape) i = (i + 1) % capacity;
-    return i;
+    return hash_find(hash_number((uintptr_t)shape >> 6), capacity, table, shape, is_end);
 }
 
 static void grow_table(judge *j) {

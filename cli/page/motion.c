@@ -4,6 +4,7 @@
 #include "base/message.h"
 #include "io/fields.h"
 #include "page/write.h"
+#include "tools/array.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,15 +88,10 @@ static void add_event(page_motion *m, page_event event) {
         m->event_lost++;
         return;
     }
-    if (m->event_count == m->event_capacity) {
-        size_t capacity = m->event_capacity ? 2 * m->event_capacity : 64;
-        page_event *events = realloc(m->events, capacity * sizeof *events);
-        m->failed |= !events;
-        if (!events) return;
-        m->events = events;
-        m->event_capacity = capacity;
-    }
-    m->events[m->event_count++] = event;
+    if (!array_reserve((void **)&m->events, &m->event_capacity, m->event_count, sizeof event))
+        m->failed = 1;
+    else
+        m->events[m->event_count++] = event;
 }
 
 void page_motion_add_impact(page_motion *m, ovoid_couple couple, const ovoid_record *record, double until) {

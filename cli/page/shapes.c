@@ -4,17 +4,19 @@
 #include "base/message.h"
 #include "page/areas.h"
 #include "page/write.h"
+#include "tools/hash.h"
 
 #include <stdlib.h>
 
 // ---- the table
 
+static int is_end(const void *table, size_t slot, const void *key) {
+    const page_shapes *s = table;
+    return !s->slots[slot] || s->items[s->slots[slot] - 1] == key;
+}
+
 static size_t *find_slot(const page_shapes *s, const ovoid_shape *shape) {
-    uint64_t hash = ((uint64_t)(uintptr_t)shape >> 4) * 0x9e3779b97f4a7c15u;
-    for (size_t at = (size_t)(hash >> 20) & (s->slot_count - 1);; at = (at + 1) & (s->slot_count - 1)) {
-        size_t *slot = &s->slots[at];
-        if (!*slot || s->items[*slot - 1] == shape) return slot;
-    }
+    return &s->slots[hash_find(hash_number((uint64_t)(uintptr_t)shape >> 4), s->slot_count, s, shape, is_end)];
 }
 
 /// Room for one more shape; 0 where memory is out.

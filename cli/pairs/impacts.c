@@ -6,6 +6,7 @@
 #include "base/message.h"
 #include "base/pipeline.h"
 #include "pairs/sweep.h"
+#include "tools/array.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -56,13 +57,8 @@ void impacts_close(cli_impacts *x) {
 }
 
 static int add_couple(ovoid_couple **couples, size_t *count, size_t *capacity, ovoid_couple couple) {
-    if (*count == *capacity) {
-        size_t grown = *capacity ? 2 * *capacity : 256;
-        ovoid_couple *moved = realloc(*couples, grown * sizeof *moved);
-        if (!moved) return message_error("out of memory for %zu pairs", grown), EXIT_INPUT;
-        *couples = moved;
-        *capacity = grown;
-    }
+    if (!array_reserve((void **)couples, capacity, *count, sizeof **couples))
+        return message_error("out of memory for %zu pairs", *count + 1), EXIT_INPUT;
     (*couples)[(*count)++] = couple;
     return 0;
 }

@@ -6,6 +6,8 @@
 #include "base/finish.h"
 #include "base/message.h"
 #include "results.h"
+#include "tools/array.h"
+#include "tools/hash.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,23 +24,15 @@
 
 /* ---- keeping */
 
-/// Makes room for one more item; 0 where memory is out.
-static int reserve(void **items, size_t *capacity, size_t count, size_t size) {
-    if (count < *capacity) return 1;
-    size_t grown = *capacity ? 2 * *capacity : 16;
-    void *moved = realloc(*items, grown * size);
-    if (!moved) return 0;
-    *items = moved;
-    *capacity = grown;
-    return 1;
+static int is_end(const void *table, size_t slot, const void *key) {
+    const cli_track *t = table;
+    const ovoid_couple *couple = key;
+    size_t at = t->slots[slot];
+    return !at || (t->pairs[at - 1].a == couple->a && t->pairs[at - 1].b == couple->b);
 }
 
 static size_t *find_slot(const cli_track *t, uint32_t a, uint32_t b) {
-    uint64_t hash = ((uint64_t)a << 32 | b) * 0x9e3779b97f4a7c15u;
-    for (size_t at = (size_t)(hash >> 20) & (t->slot_count - 1);; at = (at + 1) & (t->slot_count - 1)) {
-        size_t *slot = &t->slots[at];
-        if (!*slot || (t->pairs[*slot - 1].a == a && t->pairs[*slot - 1].b == b)) return slot;
-    }
+    return &t->slots[hash_find(hash_pair(a, b), t->slot_count, t, &(ovoid_couple){a, b}, is_end)];
 }
 
 static int grow_slots(cli_track *t) {
@@ -57,7 +51,7 @@ static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     if (!grow_slots(t)) return NULL;
     size_t *slot = find_slot(t, couple.a, couple.b);
     if (*slot) return &t->pairs[*slot - 1];
-    if (!reserve((void **)&t->pairs, &t->pair_capacity, t->pair_count, sizeof *t->pairs)) return NULL;
+    if (!array_reserve((void **)&t->pairs, &t->pair_capacity, t->pair_count, sizeof *t->pairs)) return NULL;
     t->pairs[t->pair_count] = (track_pair){.a = couple.a, .b = couple.b, .lowest = INFINITY};
     *slot = ++t->pair_count;
     return &t->pairs[t->pair_count - 1];
@@ -71,7 +65,7 @@ static int add_point(cli_track *t, ovoid_couple couple, const ovoid_record *reco
     if (!pair) return 0;
     if (answer->lower < pair->lowest) pair->lowest = answer->lower, pair->lowest_frame = t->frame_count - 1;
     if (!t->has_plot) return 1;
-    if (!reserve((void **)&pair->points, &pair->capacity, pair->count, sizeof *pair->points)) return 0;
+    if (!array_reserve((void **)&pair->points, &pair->capacity, pair->count, sizeof *pair->points)) return 0;
     pair->points[pair->count++] = (track_point){.frame = t->frame_count - 1,
                                                 .time = record->time,
                                                 .lower = answer->lower,
@@ -111,7 +105,7 @@ static unsigned find_states(const cli_track *t, ovoid_couple couple) {
 
 /// Adds a pair of the first frame; they come in ascending order.
 static void add_start(cli_track *t, ovoid_couple couple, unsigned states) {
-    t->failed |= !reserve((void **)&t->starts, &t->start_capacity, t->start_count, sizeof *t->starts);
+    t->failed |= !array_reserve((void **)&t->starts, &t->start_capacity, t->start_count, sizeof *t->starts);
     if (!t->failed) t->starts[t->start_count++] = (track_start){couple, states};
 }
 

@@ -2,6 +2,7 @@
 #include "robot/tally.h"
 
 #include "base/message.h"
+#include "tools/array.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,13 +41,7 @@ int tally_add(tally *t, const ovoid_robot_answer *answer) {
     const tally_pair pair = {answer->a, answer->b, 0};
     size_t at = find_place(t, &pair);
     if (at == t->pair_count || compare_pairs(&t->pairs[at], &pair) != 0) {
-        if (t->pair_count == t->capacity) {
-            size_t capacity = 2 * t->capacity + 16;
-            tally_pair *pairs = realloc(t->pairs, capacity * sizeof *pairs);
-            if (!pairs) return 0;
-            t->pairs = pairs;
-            t->capacity = capacity;
-        }
+        if (!array_reserve((void **)&t->pairs, &t->capacity, t->pair_count, sizeof *t->pairs)) return 0;
         memmove(t->pairs + at + 1, t->pairs + at, (t->pair_count - at) * sizeof *t->pairs);
         t->pairs[at] = pair;
         t->pair_count++;

@@ -143,17 +143,6 @@ ovoid_code bytes_read_input(const char *path, size_t most, bytes *out, ovoid_err
     return strcmp(path, "-") == 0 ? read_input(most, out, error) : read_file(path, most, out, error);
 }
 
-int array_reserve(void **data, size_t *capacity, size_t count, size_t size) {
-    if (count < *capacity) return 1;
-    if (*capacity > SIZE_MAX / 4 / size) return 0;
-    size_t grown = *capacity ? *capacity * 2 : 8;
-    void *moved = realloc(*data, grown * size);
-    if (!moved) return 0;
-    *data = moved;
-    *capacity = grown;
-    return 1;
-}
-
 // ---- text and paths
 
 char *text_copy(const char *text, size_t length) {

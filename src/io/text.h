@@ -3,6 +3,8 @@
 #ifndef OVOID_IO_TEXT_H
 #define OVOID_IO_TEXT_H
 
+#include "tools/array.h"
+
 #include "base/compiler.h"
 #include "ovoid/io.h"
 
@@ -51,9 +53,6 @@ bytes bytes_skip_mark(bytes text);
 int text_is_pointer(const char *text, size_t length);
 /// The sentence that says so.
 #define TEXT_POINTER_SENTENCE "is a Git LFS pointer, not the file itself; \"git lfs pull\" fetches that"
-
-/// Makes room in a growing array for one more item of size bytes. 0 where there is no memory.
-int array_reserve(void **data, size_t *capacity, size_t count, size_t size);
 
 /// Reads a decimal number, or inf, infinity, nan in any case, with a sign; always with a point. Returns the byte after
 /// it, or NULL where none begins at `at`. Correctly rounded; beyond the range of double it is infinite or zero.

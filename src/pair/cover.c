@@ -8,6 +8,7 @@
 #include "pair/cover.h"
 
 #include "pair/simplex.h"
+#include "tools/hash.h"
 
 #include <string.h>
 
@@ -124,6 +125,11 @@ double surface_compute_depth(const surface *s, double error) {
     return 0;
 }
 
+static int is_end(const void *table, size_t slot, const void *key) {
+    uint32_t held = ((const uint32_t *)table)[slot];
+    return held == UINT32_MAX || held == *(const uint32_t *)key;
+}
+
 int surface_is_closed(const surface *s) {
     // Directed edges in a hash table with open addressing; each must be new, and have its reverse in the end.
     enum { SLOTS = 8192 };
@@ -136,8 +142,7 @@ int surface_is_closed(const surface *s) {
                 uint32_t from = s->triangles[t][e], to = s->triangles[t][(e + 1) % 3];
                 if (from >= s->point_count || to >= s->point_count || from == to) return 0;
                 uint32_t key = pass == 0 ? from << 16 | to : to << 16 | from;
-                uint32_t slot = (key * 2654435761u) >> 19;
-                while (table[slot] != UINT32_MAX && table[slot] != key) slot = (slot + 1) % SLOTS;
+                size_t slot = hash_find(hash_number(key), SLOTS, table, &key, is_end);
                 if ((table[slot] == key) != (pass == 1)) return 0;
                 table[slot] = key;
             }

@@ -16,6 +16,7 @@
 #include "base/allocator.h"
 #include "base/error.h"
 #include "linear/exact.h"
+#include "tools/hash.h"
 
 #include <string.h>
 
@@ -67,17 +68,15 @@ static vec3 make_origin(const double *xyz, size_t count, const bounds *b) {
     return (vec3){origin[0], origin[1], origin[2]};
 }
 
-// A hash of the point's bits; -0 counts as 0.
-static uint64_t compute_hash(const double *p) {
-    uint64_t h = 0;
-    for (int c = 0; c < 3; c++) {
-        double v = p[c] + 0.0;
-        uint64_t bits;
-        memcpy(&bits, &v, sizeof bits);
-        h = (h ^ bits) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 32;
-    }
-    return h;
+// Points by their values: slots with indices, and the points.
+typedef struct point_slots {
+    const uint32_t *slots;
+    const double *xyz;
+} point_slots;
+
+static int is_end(const void *table, size_t slot, const void *key) {
+    const point_slots *t = table;
+    return t->slots[slot] == NOTHING || hash_is_same_point(t->xyz + 3 * (size_t)t->slots[slot], key);
 }
 
 int points_find_first(const double *xyz, size_t count, const ovoid_allocator *allocator, uint32_t *first) {
@@ -88,11 +87,7 @@ int points_find_first(const double *xyz, size_t count, const ovoid_allocator *al
     memset(table, 0xff, capacity * sizeof *table);
     for (size_t i = 0; i < count; i++) {
         const double *a = xyz + 3 * i;
-        size_t slot = (size_t)compute_hash(a) & (capacity - 1);
-        for (; table[slot] != NOTHING; slot = (slot + 1) & (capacity - 1)) {
-            const double *b = xyz + 3 * (size_t)table[slot];
-            if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) break;
-        }
+        size_t slot = hash_find(hash_point(a), capacity, &(point_slots){table, xyz}, a, is_end);
         if (table[slot] == NOTHING) table[slot] = (uint32_t)i;
         first[i] = table[slot];
     }

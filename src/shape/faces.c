@@ -19,6 +19,7 @@
 #include "polytope/hull.h"
 #include "polytope/points.h"
 #include "shape/create.h"
+#include "tools/hash.h"
 
 #include <string.h>
 
@@ -75,13 +76,14 @@ typedef struct edge_table {
     size_t mask;
 } edge_table;
 
+static int is_end(const void *table, size_t slot, const void *key) {
+    const edge *held = (const edge *)table + slot, *wanted = key;
+    return held->face == NOTHING || (held->from == wanted->from && held->to == wanted->to);
+}
+
 // The slot of the edge, or the empty one where it belongs.
 static edge *find_edge(const edge_table *t, uint32_t from, uint32_t to) {
-    uint64_t hash = ((uint64_t)from << 32 | to) * 0x9e3779b97f4a7c15u;
-    size_t slot = (size_t)(hash ^ hash >> 32) & t->mask;
-    while (t->slots[slot].face != NOTHING && (t->slots[slot].from != from || t->slots[slot].to != to))
-        slot = (slot + 1) & t->mask;
-    return &t->slots[slot];
+    return &t->slots[hash_find(hash_pair(from, to), t->mask + 1, t->slots, &(edge){from, to, 0}, is_end)];
 }
 
 static ovoid_code add_edges(const checker *c, edge_table *t) {

@@ -3,6 +3,7 @@
 
 #include "base/allocator.h"
 #include "base/error.h"
+#include "tools/hash.h"
 
 #include <string.h>
 
@@ -33,37 +34,14 @@ ovoid_code solid_validate_triangles(const ovoid_triangles *given, ovoid_error *e
     return OVOID_OK;
 }
 
-// Coordinates as they are stored.
-typedef struct point_bits {
-    uint64_t bits[3];
-} point_bits;
-
-static point_bits get_bits(const double p[3]) {
-    point_bits b;
-    memcpy(&b, p, sizeof b);
-    return b;
+static int is_end(const void *table, size_t slot, const void *key) {
+    const solid_merger *m = table;
+    return m->table[slot] == UINT32_MAX || hash_is_same_point(m->points + 3 * (size_t)m->table[slot], key);
 }
 
-static int is_same(point_bits a, point_bits b) {
-    return a.bits[0] == b.bits[0] && a.bits[1] == b.bits[1] && a.bits[2] == b.bits[2];
-}
-
-static uint64_t hash(point_bits p) {
-    uint64_t h = 0;
-    for (int k = 0; k < 3; k++) {
-        h = (h ^ p.bits[k]) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 32;
-    }
-    return h;
-}
-
-// The slot of an equal point, or the free one where it belongs. Zeros of both signs are one.
-static uint32_t find_slot(const solid_merger *m, const double p[3]) {
-    point_bits bits = get_bits(p);
-    uint32_t at = (uint32_t)hash(bits) & m->mask;
-    while (m->table[at] != UINT32_MAX && !is_same(get_bits(m->points + 3 * (size_t)m->table[at]), bits))
-        at = (at + 1) & m->mask;
-    return at;
+// The slot of an equal point, or the free one where it belongs.
+static size_t find_slot(const solid_merger *m, const double p[3]) {
+    return hash_find(hash_point(p), (size_t)m->mask + 1, m, p, is_end);
 }
 
 uint32_t merger_find(const solid_merger *m, vec3 point) {
@@ -73,7 +51,7 @@ uint32_t merger_find(const solid_merger *m, vec3 point) {
 
 static uint32_t merge_point(solid_merger *m, const double *xyz) {
     const double p[3] = {xyz[0] + 0.0, xyz[1] + 0.0, xyz[2] + 0.0};
-    uint32_t at = find_slot(m, p);
+    size_t at = find_slot(m, p);
     if (m->table[at] != UINT32_MAX) return m->table[at];
     memcpy(m->points + 3 * (size_t)m->count, p, sizeof p);
     return m->table[at] = m->count++;

@@ -1,17 +1,17 @@
 // The hash set of ignored pairs.
 #include "world/ignored.h"
+#include "tools/hash.h"
 
-// Multiplication by the golden ratio, upper bits (D. E. Knuth, 6.4).
-static size_t find_home(const ignored *set, uint64_t key) {
-    uint64_t mixed = (key ^ key >> 29) * 0x9e3779b97f4a7c15u;
-    return (size_t)(mixed >> 20) & (set->capacity - 1);
+static size_t find_home(const ignored *set, uint64_t key) { return (size_t)hash_number(key) & (set->capacity - 1); }
+
+static int is_end(const void *table, size_t slot, const void *key) {
+    uint64_t held = ((const uint64_t *)table)[slot];
+    return held == IGNORED_NONE || held == *(const uint64_t *)key;
 }
 
 // The place of the key, or the free place where it would be.
 static size_t find_place(const ignored *set, uint64_t key) {
-    size_t at = find_home(set, key);
-    while (set->keys[at] != key && set->keys[at] != IGNORED_NONE) at = (at + 1) & (set->capacity - 1);
-    return at;
+    return hash_find(hash_number(key), set->capacity, set->keys, &key, is_end);
 }
 
 int ignored_is_in(const ignored *set, uint64_t key) { return set->count && set->keys[find_place(set, key)] == key; }

@@ -3,18 +3,14 @@
 
 #include "base/message.h"
 #include "base/outputs.h"
+#include "tools/array.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 int sphere_list_add(sphere_list *list, uint32_t link, ovoid_robot_sphere ball) {
-    if (list->count == list->capacity) {
-        size_t capacity = 2 * list->capacity + 64;
-        ovoid_robot_link_sphere *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) return message_error("out of memory for %zu spheres", capacity), 0;
-        list->items = items;
-        list->capacity = capacity;
-    }
+    if (!array_reserve((void **)&list->items, &list->capacity, list->count, sizeof *list->items))
+        return message_error("out of memory for %zu spheres", list->count + 1), 0;
     // Behind those of its link and of the links before.
     size_t at = list->count++;
     for (; at && list->items[at - 1].link > link; at--) list->items[at] = list->items[at - 1];

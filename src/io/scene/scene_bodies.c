@@ -1,6 +1,7 @@
 // The geometry of a scene's objects: shapes and compounds. Equal geometries are made once and shared: they are found by
 // a text of all that they are made from, through a hash table. Cost: linear in the file, plus the shapes.
 #include "io/scene/scene.h"
+#include "tools/hash.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -411,14 +412,14 @@ static char *make_key(const geometry *g) {
     return k.data;
 }
 
+static int is_end(const void *table, size_t slot, const void *key) {
+    const scene_reader *r = table;
+    return !r->slots[slot] || strcmp(r->scene->bodies[r->slots[slot] - 1].key, key) == 0;
+}
+
 // The slot of the body with that key, or the free slot where it belongs. There always is a free one.
 static size_t *find_slot(const scene_reader *r, uint64_t hash, const char *key) {
-    for (size_t at = (size_t)hash & (r->slot_count - 1);; at = (at + 1) & (r->slot_count - 1)) {
-        size_t *slot = &r->slots[at];
-        if (!*slot) return slot;
-        const scene_body *body = &r->scene->bodies[*slot - 1];
-        if (body->hash == hash && strcmp(body->key, key) == 0) return slot;
-    }
+    return &r->slots[hash_find(hash, r->slot_count, r, key, is_end)];
 }
 
 // Doubles the slots where they are half full.
