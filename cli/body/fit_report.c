@@ -10,6 +10,12 @@
 static const char *const step_titles[FIT_STEPS] = {"outer", "phase 1", "phase 2", "phase 3", "inner"};
 static const char *const step_keys[FIT_STEPS] = {"outer", "phase1", "phase2", "phase3", "inner"};
 
+/// 1 where the allowance is one across an axis.
+static int has_axis(const fitted *f) {
+    const ovoid_vec3 axis = f->allowance.axis;
+    return fabs(axis.x) + fabs(axis.y) + fabs(axis.z) > 0;
+}
+
 static const char *get_rank_name(uint32_t rank) {
     static const char *const names[] = {"a point", "a segment", "flat", "solid"};
     return rank < 4 ? names[rank] : "?";
@@ -64,6 +70,8 @@ void fit_write_report(FILE *file, const fitted *f) {
     if (f->radius > 0) fprintf(file, "  rounding radius %.9g (not part of the measures)\n", f->radius);
     if (f->allowance.outside > 0 || f->allowance.inside > 0)
         fprintf(file, "  allowance %.9g outside, %.9g inside\n", f->allowance.outside, f->allowance.inside);
+    const ovoid_vec3 axis = f->allowance.axis;
+    if (has_axis(f)) fprintf(file, "  axis     (%.9g, %.9g, %.9g): nothing outside along it\n", axis.x, axis.y, axis.z);
     fprintf(file, "\n  %-8s %-12s %8s  %-8s %-34s %8s\n", "", get_measure_name(r->rank), "of body", "gap", "radii",
             "time");
     for (int i = 0; i < FIT_STEPS; i++) write_step(file, f, i);
@@ -115,6 +123,7 @@ static const field body_fields[] = {
     {"radius", FIELD_MEASURE, FIT(radius)},
     {"outside", FIELD_MEASURE, FIT(allowance.outside)},
     {"inside", FIELD_MEASURE, FIT(allowance.inside)},
+    {"axis", FIELD_VECTOR, FIELD_AT(fitted, allowance.axis), .bit = FIELD_NOT_ZERO},
     {"volume", FIELD_MEASURE, FIT(measures.volume)},
     {"area", FIELD_MEASURE, FIT(measures.area)},
     {"mesh_kind", FIELD_NAME, FIT(convexity.kind), .names = &kinds},

@@ -51,10 +51,14 @@ static void print_name(FILE *file, const char *title, const char *name) {
     message_write_text(file, name);
 }
 
+static int has_axis(const ovoid_allowance *x) { return fabs(x->axis.x) + fabs(x->axis.y) + fabs(x->axis.z) > 0; }
+
 static void print_allowance(const report *r, const char *title, const ovoid_allowance *allowance) {
     if (allowance->outside > 0 || allowance->inside > 0)
         fprintf(r->file, "; %s: %.9g%s outside, %.9g%s inside", title, allowance->outside, r->unit, allowance->inside,
                 r->unit);
+    const ovoid_vec3 axis = allowance->axis;
+    if (has_axis(allowance)) fprintf(r->file, ", outside across (%.9g, %.9g, %.9g) only", axis.x, axis.y, axis.z);
 }
 
 /// The largest allowances of the parts of a file.

@@ -100,6 +100,13 @@ static PyObject *get_allowance(PyObject *self, void *closure) {
     return Py_BuildValue("(dd)", a.outside, a.inside);
 }
 
+static PyObject *get_allowance_axis(PyObject *self, void *closure) {
+    (void)closure;
+    ovoid_vec3 axis = ovoid_shape_get_allowance(get(self)).axis;
+    if (!(fabs(axis.x) + fabs(axis.y) + fabs(axis.z) > 0)) Py_RETURN_NONE;
+    return Py_BuildValue("(ddd)", axis.x, axis.y, axis.z);
+}
+
 static PyObject *get_rank(PyObject *self, void *closure) {
     (void)closure;
     return PyLong_FromUnsignedLong(ovoid_shape_get_polytope(get(self)).rank);
@@ -242,6 +249,8 @@ static PyGetSetDef fields[] = {
     {"inner", get_fit, NULL, "The largest ellipsoid inside the polyhedron.", ""},
     {"radius", get_radius, NULL, "The rounding radius, part of the body.", NULL},
     {"allowance", get_allowance, NULL, "(outside, inside): what the true body may differ by.", NULL},
+    {"allowance_axis", get_allowance_axis, NULL,
+     "The direction, of length 1, across which alone the true body stands out; None: it may in all directions.", NULL},
     {"rank", get_rank, NULL, "0 a point, 1 a segment, 2 flat, 3 solid.", NULL},
     {"report", get_report, NULL, "What the constructor did with the points given, a dict.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};

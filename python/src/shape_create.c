@@ -14,22 +14,35 @@
 // ---- the options of all shapes
 
 typedef struct shape_keywords {
-    double rounding, gap, outside, inside;
+    double rounding, gap;
+    ovoid_allowance allowance;
     const char *inner;
 } shape_keywords;
-#define SHAPE_FORMAT "$ddz(dd)"
+#define SHAPE_FORMAT "$ddzO&"
 #define SHAPE_NAMES "rounding", "gap", "inner", "allowance"
-#define SHAPE_TARGETS(k) &(k).rounding, &(k).gap, &(k).inner, &(k).outside, &(k).inside
+#define SHAPE_TARGETS(k) &(k).rounding, &(k).gap, &(k).inner, read_allowance, &(k).allowance
 #define SHAPE_DOC                                                                                                      \
     "\n\nrounding: a radius >= 0 added around the hull. gap: the relative volume gap of the ellipsoids, 0 for 1e-6.\n" \
     "inner: 'maximum' or 'phases', which inner ellipsoid. allowance: (outside, inside), by how much the true body "    \
     "may\n"                                                                                                            \
-    "stand out of the shape, and the shape out of the true body."
+    "stand out of the shape, and the shape out of the true body; (outside, inside, (x, y, z)): it stands out across "  \
+    "that\naxis alone."
 #define SHAPE_SIGNATURE "*, rounding=0, gap=0, inner='maximum', allowance=(0, 0)"
 
+// (outside, inside), or with an axis.
+static int read_allowance(PyObject *from, void *to) {
+    ovoid_allowance a = {0};
+    PyObject *all = PySequence_Tuple(from);
+    if (!all) return 0;
+    int ok = PyArg_ParseTuple(all, "dd|(ddd);allowance: (outside, inside) or (outside, inside, (x, y, z)) is wanted",
+                              &a.outside, &a.inside, &a.axis.x, &a.axis.y, &a.axis.z);
+    Py_DECREF(all);
+    if (ok) *(ovoid_allowance *)to = a;
+    return ok;
+}
+
 static int make_options(module_state *state, const shape_keywords *k, ovoid_shape_options *options) {
-    *options = (ovoid_shape_options){
-        .radius = k->rounding, .gap = k->gap, .allowance = {.outside = k->outside, .inside = k->inside}};
+    *options = (ovoid_shape_options){.radius = k->rounding, .gap = k->gap, .allowance = k->allowance};
     if (!k->inner || !strcmp(k->inner, "maximum")) return 0;
     options->inner = OVOID_INNER_PHASES;
     if (!strcmp(k->inner, "phases")) return 0;

@@ -49,6 +49,21 @@ class Shapes(unittest.TestCase):
         self.assertEqual(len(ovoid.Shape.prism(1, 1, 5).vertices), 10)
         self.assertEqual(len(ovoid.Shape.pyramid(1, 1, 5).vertices), 6)
         self.assertEqual(ovoid.Shape.box((1, 1, 1), allowance=(0.25, 0.125)).allowance, (0.25, 0.125))
+
+    def test_allowance_axis(self):
+        table = ovoid.Shape.box((2, 2, 0.25))
+        for post in (ovoid.Shape.cylinder(0.5, 1), ovoid.Shape.cone(0.5, 1)):
+            self.assertEqual(post.allowance_axis, (0, 0, 1))
+            for gap, status in ((0, "TOUCHING"), (1e-6, "SEPARATED"), (-1e-6, "OVERLAPPING")):
+                answer = ovoid.collide(table, post, (0, 0, -0.25), (0.5, 0.2, 1 + gap))
+                self.assertEqual(answer.status.name, status)
+        self.assertIsNone(table.allowance_axis)
+        self.assertIsNone(ovoid.Shape.cylinder(0.5, 1, allowance=(0.1, 0)).allowance_axis)
+        slab = ovoid.Shape.box((1, 1, 1), allowance=[0.25, 0, [0, 3, 0]])
+        self.assertEqual((slab.allowance, slab.allowance_axis), ((0.25, 0), (0, 1, 0)))
+        for wrong in ((1,), (1, 0, 2), (1, 0, (1, 2)), 3, "no"):
+            with self.assertRaises(TypeError):
+                ovoid.Shape.sphere(1, allowance=wrong)
         cube = ovoid.Shape.from_faces(BOX.vertices, BOX.faces)
         self.assertEqual(cube.volume, 48)
         class Mesh:

@@ -291,6 +291,10 @@ static const bad_input bad_scenes[] = {
     {"capsule.json", OBJECT("\"capsule\": {\"radius\": 1}"), OVOID_ERROR_FORMAT, 4, "\"capsule\" needs \"length\""},
     {"capsule_key.json", OBJECT("\"capsule\": {\"radius\": 1, \"length\": 1, \"sides\": 3}"), OVOID_ERROR_FORMAT, 4,
      "\"capsule\" must be"},
+    {"axis.json", OBJECT("\"sphere\": 1, \"allowance\": {\"outside\": 1, \"axis\": [0, 0, 0]}"), OVOID_ERROR_FORMAT, 3,
+     "\"axis\" of an allowance must be"},
+    {"axes.json", OBJECT("\"sphere\": 1, \"allowance\": {\"outside\": 1, \"axis\": 3}"), OVOID_ERROR_FORMAT, 3,
+     "\"axis\" of an allowance must be"},
     {"sides.json", OBJECT("\"cylinder\": {\"radius\": 1, \"length\": 1, \"sides\": 2}"), OVOID_ERROR_FORMAT, 4,
      "\"cylinder\" needs a whole number of sides"},
     {"half_sides.json", OBJECT("\"cone\": {\"radius\": 1, \"length\": 1, \"sides\": 3.5}"), OVOID_ERROR_FORMAT, 4,
@@ -432,8 +436,28 @@ static void check_shape_files(void) {
     ovoid_shape_destroy(shape);
 }
 
+// Bodies that differ by the axis of their allowance alone are not the same.
+static void check_axes(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    const char *path = file_write_text(
+        "axes_of.json",
+        "{\"objects\": [\n"
+        "{\"name\": \"a\", \"box\": [1, 1, 1], \"allowance\": {\"outside\": 0.5, \"axis\": [0, 2, 0]}},\n"
+        "{\"name\": \"b\", \"box\": [1, 1, 1], \"allowance\": {\"outside\": 0.5}},\n"
+        "{\"name\": \"c\", \"cone\": {\"radius\": 1, \"length\": 2}}]}\n");
+    ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
+    if (!CHECK(scene != NULL)) return;
+    static const double wanted[3][2] = {{1, 0}, {0, 0}, {0, 1}};
+    for (size_t i = 0; i < 3; i++) {
+        ovoid_vec3 axis = ovoid_shape_get_allowance(ovoid_scene_get(scene, i).shape).axis;
+        CHECK(axis.x == 0 && axis.y == wanted[i][0] && axis.z == wanted[i][1]);
+    }
+    ovoid_scene_destroy(scene);
+}
+
 int main(void) {
     check_unit();
+    check_axes();
     check_good();
     check_compounds();
     check_solids();

@@ -20,8 +20,8 @@ export interface ShapeOptions {
   /** Relative volume gap of the ellipsoids, 1e-6. */
   gap?: number;
   inner?: 'maximum' | 'phases';
-  /** What the true body may differ by: brackets are of the true body. */
-  allowance?: { outside?: number; inside?: number };
+  /** What the true body may differ by: brackets are of the true body. With an axis, it stands out across that alone. */
+  allowance?: { outside?: number; inside?: number; axis?: number[] | null };
 }
 /** { x : (x - center)' Q^-1 (x - center) <= 1 }, q the upper triangle of Q: xx xy xz yy yz zz. */
 export interface Ellipsoid { center: number[]; q: number[]; volume: number; gap: number }
@@ -29,7 +29,7 @@ export interface Description {
   vertexCount: number; triangleCount: number;
   /** 0 point, 1 segment, 2 flat, 3 solid. */
   rank: number;
-  radius: number; allowance: { outside: number; inside: number };
+  radius: number; allowance: { outside: number; inside: number; axis: number[] | null };
   volume: number; area: number; centroid: number[]; inertia: number[];
   box: { min: number[]; max: number[] };
   /** Of the body frame, which vertices and ellipsoids are in, in the frame of the points given. */

@@ -1,13 +1,13 @@
 // Shapes: made, read, written, described.
 #include "src/exchange.h"
 
-// Numbers 0 to 4: radius, gap, inner method, allowance.
+// Numbers 0 to 7: radius, gap, inner method, allowance, its axis.
 static ovoid_shape_options read_shape_options(void) {
     const double *x = exchange;
     return (ovoid_shape_options){.radius = x[0],
                                  .gap = x[1],
                                  .inner = x[2] == 1 ? OVOID_INNER_PHASES : OVOID_INNER_MAXIMUM,
-                                 .allowance = {.outside = x[3], .inside = x[4]}};
+                                 .allowance = {.outside = x[3], .inside = x[4], .axis = {x[5], x[6], x[7]}}};
 }
 
 ovoid_shape *EXPORT(shape_from_points)(const double *xyz, size_t count) {
@@ -15,10 +15,10 @@ ovoid_shape *EXPORT(shape_from_points)(const double *xyz, size_t count) {
     return ovoid_shape_create_from_points(xyz, count, &options, &exchange_error);
 }
 
-/// Numbers from 5 on: of a box the half sizes, else radius, half length, tolerance or sides.
+/// Numbers from 8 on: of a box the half sizes, else radius, half length, tolerance or sides.
 ovoid_shape *EXPORT(shape_create)(int kind) {
     ovoid_shape_options options = read_shape_options();
-    const double *x = exchange + 5;
+    const double *x = exchange + 8;
     ovoid_error *e = &exchange_error;
     uint32_t sides = x[2] >= 0 && x[2] <= 1e6 ? (uint32_t)x[2] : 0;
     switch (kind) {
@@ -46,7 +46,8 @@ static double *write_fit(double *to, ovoid_fit f) {
     return to;
 }
 
-/// Counts of vertices and triangles, rank, radius, allowance, volume, area, centroid, inertia, box, origin, both fits.
+/// Counts of vertices and triangles, rank, radius, allowance, volume, area, centroid, inertia, box, origin, both fits,
+/// the allowance's axis.
 void EXPORT(shape_describe)(const ovoid_shape *shape) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_measures m = ovoid_shape_get_measures(shape);
@@ -58,7 +59,8 @@ void EXPORT(shape_describe)(const ovoid_shape *shape) {
     to = write_sym3(write_vec3(to, m.centroid), m.inertia);
     to = write_vec3(write_vec3(to, m.box.min), m.box.max);
     to = write_vec3(to, p.origin);
-    write_fit(write_fit(to, ovoid_shape_get_outer(shape)), ovoid_shape_get_inner(shape));
+    to = write_fit(write_fit(to, ovoid_shape_get_outer(shape)), ovoid_shape_get_inner(shape));
+    write_vec3(to, allowance.axis);
 }
 
 /// Views into the shape: three numbers a vertex, three indices a triangle.

@@ -280,9 +280,20 @@ static ovoid_code read_radius(scene_reader *r, const json_t *object, geometry *g
     return OVOID_OK;
 }
 
-// Reads "allowance": {"outside", "inside"}, each 0 where it is not given.
+// "axis": along which there is no allowance `outside`; none where it is not given.
+static ovoid_code read_axis(scene_reader *r, const json_t *allowance, ovoid_vec3 *axis) {
+    const json_t *value = json_object_get(allowance, "axis");
+    double n[3];
+    if (!value) return OVOID_OK;
+    if (!scene_read_numbers(value, n, 3) || !(fabs(n[0]) > 0 || fabs(n[1]) > 0 || fabs(n[2]) > 0))
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, "axis", "of an allowance must be [x, y, z], not all zero");
+    *axis = (ovoid_vec3){n[0], n[1], n[2]};
+    return OVOID_OK;
+}
+
+// Reads "allowance": {"outside", "inside", "axis"}, each length 0 where it is not given.
 static ovoid_code read_allowance(scene_reader *r, const json_t *object, geometry *g) {
-    static const char *const words[] = {"outside", "inside", NULL};
+    static const char *const words[] = {"outside", "inside", "axis", NULL};
     const char *unknown;
     json_t *allowance = json_object_get(object, "allowance");
     g->options.allowance = (ovoid_allowance){0};
@@ -290,9 +301,11 @@ static ovoid_code read_allowance(scene_reader *r, const json_t *object, geometry
     if (strcmp(g->kind, "compound") == 0)
         return scene_fail_member(r, OVOID_ERROR_FORMAT, "allowance", "is for the parts of a compound, each its own");
     if (!json_is_object(allowance) || !scene_has_only(allowance, words, &unknown))
-        return scene_fail_member(r, OVOID_ERROR_FORMAT, "allowance", "must be {\"outside\", \"inside\"}, two lengths");
+        return scene_fail_member(r, OVOID_ERROR_FORMAT, "allowance",
+                                 "must be {\"outside\", \"inside\", \"axis\"}, two lengths and [x, y, z]");
     ovoid_code code = read_size(r, allowance, "allowance", "outside", 0, &g->options.allowance.outside);
-    return code ? code : read_size(r, allowance, "allowance", "inside", 0, &g->options.allowance.inside);
+    if (!code) code = read_size(r, allowance, "allowance", "inside", 0, &g->options.allowance.inside);
+    return code ? code : read_axis(r, allowance, &g->options.allowance.axis);
 }
 
 static ovoid_code read_parts(scene_reader *r, const json_t *object, geometry *g) {
@@ -401,9 +414,10 @@ static void add_value(key_text *k, const json_t *value) {
 static char *make_key(const geometry *g) {
     key_text k = {malloc(160), 0, 160};
     add_text(&k, g->kind, strlen(g->kind));
-    const double numbers[] = {
-        g->options.radius, g->options.allowance.outside, g->options.allowance.inside, g->read.scale, g->read.parts,
-        g->solid};
+    const ovoid_allowance *allowance = &g->options.allowance;
+    const ovoid_vec3 axis = allowance->axis;
+    const double numbers[] = {g->options.radius, allowance->outside, allowance->inside, axis.x, axis.y, axis.z,
+                              g->read.scale,     g->read.parts,      g->solid};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) add_number(&k, numbers[i]);
     if (g->mesh)
         add_text(&k, g->mesh, strlen(g->mesh));
