@@ -37,7 +37,19 @@ static uint64_t get_whole(const void *at, size_t size) {
     return half;
 }
 
-static void write_whole(FILE *file, uint64_t value) { fprintf(file, "%llu", (unsigned long long)value); }
+// fprintf costs more than all the digits of a line.
+static void write_whole(FILE *file, uint64_t value) {
+    char digits[24], *at = digits + sizeof digits;
+    do *--at = (char)('0' + value % 10);
+    while (value /= 10);
+    fwrite(at, 1, (size_t)(digits + sizeof digits - at), file);
+}
+
+static void write_quoted(FILE *file, const char *quote, const char *text) {
+    fputs(quote, file);
+    fputs(text, file);
+    fputs(quote, file);
+}
 
 const char *field_get_name(const field_names *names, const void *at) {
     int value;
@@ -120,7 +132,7 @@ static void write_value(FILE *file, const char *quote, const field *f, const voi
     case FIELD_WHOLE: write_whole(file, get_whole(at, f->size)); break;
     case FIELD_RANGE: write_wholes(file, at, 2); break;
     case FIELD_VECTOR: json_write_numbers(file, at, 3); break;
-    case FIELD_NAME: fprintf(file, "%s%s%s", quote, field_get_name(f->names, at), quote); break;
+    case FIELD_NAME: write_quoted(file, quote, field_get_name(f->names, at)); break;
     case FIELD_TEXT: write_text(file, get_pointer(at)); break;
     case FIELD_FLAG: fputs(*(const int *)at ? "true" : "false", file); break;
     case FIELD_WHOLES: write_wholes(file, at, get_count(f, item)); break;
@@ -136,7 +148,9 @@ const char *fields_write_members(FILE *file, const char *quote, const char *befo
                                  const void *item, uint64_t bits) {
     for (const field *f = table->fields; f < table->fields + table->count; f++) {
         if (!is_there(f, item, bits)) continue;
-        fprintf(file, "%s%s%s%s:", before, quote, f->key, quote);
+        fputs(before, file);
+        write_quoted(file, quote, f->key);
+        fputc(':', file);
         write_value(file, quote, f, item, bits);
         before = ",";
     }
