@@ -19,6 +19,9 @@ function say(text) {
   $('said').hidden = !text;
 }
 
+/** Most pairs of a motion that are asked about in each frame. */
+const LIVE_PAIRS = 50;
+
 class Page {
   constructor(model, renderer) {
     this.model = model;
@@ -108,7 +111,13 @@ class Page {
   }
 
   #again() {
+    const { pairs } = this.model;
     this.view.placeAll();
+    // Of many pairs the one that is chosen is asked about alone.
+    if (pairs.length <= LIVE_PAIRS) {
+      for (const pair of pairs) pair.now = this.model.ask(pair.a, pair.b) ?? undefined;
+      this.panel.update(pairs.filter((pair) => pair !== this.panel.chosen));
+    }
     if (this.panel.chosen) {
       const { chosen } = this.panel;
       this.model.askAgain(chosen);

@@ -49,6 +49,7 @@ export class Panel {
     this.list = root.querySelector('#pairs');
     this.more = root.querySelector('#more');
     this.details = root.querySelector('#details');
+    if (model.data.motion) this.list.before(element('thead', {}, element('tr', {}, ...['pair', 'now', 'least over the motion (at t)'].map((textContent) => element('th', { textContent })))));
     root.querySelector('#filter').addEventListener('input', (event) => {
       this.filter = event.target.value.toLowerCase();
       this.fill();
@@ -64,8 +65,13 @@ export class Panel {
   matching() {
     const { filter, margin } = this;
     return this.model.pairs
-      .filter(({ a, b, answer }) => answer.lower <= margin && (!filter || `${a.name} ${b.name}`.toLowerCase().includes(filter)))
-      .sort((x, y) => x.answer.lower - y.answer.lower);
+      .filter(({ a, b, ...pair }) => this.#rank(pair) <= margin && (!filter || `${a.name} ${b.name}`.toLowerCase().includes(filter)))
+      .sort((x, y) => this.#rank(x) - this.#rank(y));
+  }
+
+  // By what pairs are listed: of a motion by the least distance.
+  #rank({ answer, given }) {
+    return (this.model.data.motion ? given : answer).lower;
   }
 
   fill() {
@@ -85,12 +91,12 @@ export class Panel {
   }
 
   #write(pair, row) {
-    const { a, b, answer } = pair;
-    row.className = `${answer.status}${pair === this.chosen ? ' chosen' : ''}${pair.isLive ? ' live' : ''}${pair.isBroken ? ' broken' : ''}`;
-    row.replaceChildren(
-      element('td', { textContent: `${a.name} – ${b.name}` }),
-      element('td', { className: 'number', textContent: formatBracket(answer, this.model.unit), title: `${answer.lower} to ${answer.upper}` }),
-    );
+    const { a, b, answer } = pair, number = (said, more = '') => element('td', {
+      className: `number ${said?.status ?? ''}`, textContent: said ? formatBracket(said, this.model.unit) + more : '', title: said ? `${said.lower} to ${said.upper}` : '',
+    });
+    row.className = `${pair === this.chosen ? 'chosen' : ''}${pair.isLive ? ' live' : ''}${pair.isBroken ? ' broken' : ''}`;
+    const { motion } = this.model.data, least = motion && number(pair.given, ` (t ${formatLength(motion.times[pair.frame], '')})`);
+    row.replaceChildren(element('td', { textContent: `${a.name} – ${b.name}` }), ...(motion ? [number(pair.isLive ? answer : pair.now), least] : [number(answer)]));
   }
 
   /** Writes the rows of pairs anew whose answers changed. */

@@ -332,6 +332,10 @@ test('a motion: the slider moves the bodies, the chosen pair follows', { skip },
   const { page, errors } = await open('motion.html', flat);
   await page.evaluate(() => window.ovoidPage.verifyAll());
   assert.equal(await page.textContent('#checked'), '1 of 1 proofs hold');
+  // At the beginning the ball is at 3.4; the least is 0.4, at t = 2.
+  const [[names, now, least]] = await readRows(page);
+  assert.deepEqual([names, parseFloat(now).toFixed(4), parseFloat(least).toFixed(4)], ['wall – ball', '3.4000', '0.4000']);
+  assert.match(least, /\(t 2\)$/);
   await page.click('#pairs tr');
   assert.equal(await page.evaluate(() => window.ovoidPage.timeline.frame), 2);
   assert.match(await page.textContent('#lower'), /^0\.3999|^0\.4/);
@@ -339,6 +343,7 @@ test('a motion: the slider moves the bodies, the chosen pair follows', { skip },
   assert.equal(await page.textContent('#proof'), 'The proof holds.');
   await page.evaluate(() => window.ovoidPage.timeline.set(1));
   assert.equal(parseFloat(await page.textContent('#lower')).toFixed(6), '2.400000');
+  assert.deepEqual((await readRows(page))[0].slice(1).map((text) => parseFloat(text).toFixed(4)), ['2.4000', '0.4000']);
   await page.click('#check');
   assert.equal(await page.textContent('#proof'), 'The proof holds.');
   assert.equal(await page.$$eval('.curve', (curves) => curves.length), 1);
