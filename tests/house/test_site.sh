@@ -44,7 +44,7 @@ for name in $(grep -ohE 'OVOID_API [^(;]*\(' include/ovoid/*.h | grep -oE 'ovoid
     passed=$((passed + 1))
 done
 check 'functions of C that the search does not find' "$missing"
-for name in ovoid::shape::box ovoid::world::add ovoid::robot_cell distance check_path; do
+for name in ovoid::shape::box ovoid::world::add ovoid::robot_cell distance find_hit; do
     check "$name in the search" "$(grep -qE "[\"',{[]${name}[\"',:]" "$index" || echo 'is absent')"
 done
 for page in docs/*.md; do
