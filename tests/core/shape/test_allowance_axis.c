@@ -281,6 +281,35 @@ static void test_world(void) {
     ovoid_shape_destroy(plate);
 }
 
+// A point that stands for a disc: what stands out across the axis moves as it turns, the point does not. Once the
+// disc's rim is in the plate no aged bound says that they are apart.
+static void test_turning_disc(void) {
+    const double origin[3] = {0, 0, 0};
+    ovoid_world *w = ovoid_world_create(NULL, NULL);
+    ovoid_shape_options o = {.allowance = {.outside = 0.5, .axis = {0, 0, 1}}};
+    ovoid_shape *plate = ovoid_shape_create_box((ovoid_vec3){4, 4, 0.5}, NULL, NULL),
+                *disc = ovoid_shape_create_from_points(origin, 1, &o, NULL);
+    ovoid_world_body bodies[2] = {{.body = {.shape = plate, .pose = {{0, 0, -0.5}, {1, 0, 0, 0}}}},
+                                  {.body = {.shape = disc, .pose = {{0, 0, 0.1}, {1, 0, 0, 0}}}}};
+    ovoid_id ids[2];
+    for (int i = 0; i < 2; i++) ids[i] = ovoid_world_add(w, &bodies[i], NULL);
+    int apart = 0;
+    for (int step = 0; step <= 400; step++) {
+        double tilt = 1e-3 * step;
+        ovoid_pose to = {{0, 0, 0.1}, {cos(0.5 * tilt), sin(0.5 * tilt), 0, 0}};
+        ovoid_world_move(w, ids[1], &to, NULL);
+        ovoid_contact_query query = {OVOID_QUERY_COLLIDE, 0, NULL};
+        ovoid_contacts found;
+        if (!CHECK(ovoid_world_compute_contacts(w, &query, &found, NULL) == OVOID_OK)) break;
+        if (0.5 * sin(tilt) > 0.1) CHECK_EQ(found.count, 1);
+        apart += found.count == 0;
+    }
+    CHECK(apart > 100);
+    ovoid_world_destroy(w);
+    ovoid_shape_destroy(disc);
+    ovoid_shape_destroy(plate);
+}
+
 // A cylinder that slides on air over a plate is free, though its allowance is wider; one that tilts on the way hits
 // when its rim does.
 static void test_motions(void) {
@@ -376,6 +405,7 @@ int main(void) {
     test_gap();
     test_bodies();
     test_world();
+    test_turning_disc();
     test_motions();
     return check_end();
 }
