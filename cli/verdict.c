@@ -79,20 +79,19 @@ ovoid_code verdict_verify(verdict *v, const ovoid_pair *pair, const ovoid_answer
     return code;
 }
 
-ovoid_code verdict_verify_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+ovoid_code verdict_verify_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                    const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
     judge *mine = take(v);
     ovoid_code code = judge_verify_compound(mine, pair, answer, exclusions, error);
-    if (code == OVOID_OK && points && answer->answer.status != OVOID_UNDECIDED)
-        code = judge_verify_points(mine, points, &answer->answer, error);
+    if (code == OVOID_OK && points && answer->status != OVOID_UNDECIDED)
+        code = judge_verify_points(mine, points, &answer->deciding, error);
     give_back(v, mine);
     return code;
 }
 
-ovoid_code verdict_verify_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code verdict_verify_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                 const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
-    if (pair->a.compound || pair->b.compound)
-        return ovoid_solid_answer_verify(pair, answer, &v->options, exclusions, error);
+    if (pair->a.compound || pair->b.compound) return ovoid_body_verify(pair, answer, &v->options, exclusions, error);
     judge *mine = take(v);
     ovoid_code code = judge_verify_solid(mine, pair, answer, exclusions, points, error);
     give_back(v, mine);
@@ -123,16 +122,16 @@ ovoid_code verdict_verify(verdict *v, const ovoid_pair *pair, const ovoid_answer
     return ovoid_answer_verify(pair, answer, &v->options, cover, error);
 }
 
-ovoid_code verdict_verify_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+ovoid_code verdict_verify_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                    const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
     (void)points;
-    return ovoid_compound_answer_verify(pair, answer, &v->options, exclusions, error);
+    return ovoid_body_verify(pair, answer, &v->options, exclusions, error);
 }
 
-ovoid_code verdict_verify_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code verdict_verify_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                 const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
     (void)points;
-    return ovoid_solid_answer_verify(pair, answer, &v->options, exclusions, error);
+    return ovoid_body_verify(pair, answer, &v->options, exclusions, error);
 }
 
 int verdict_is_exact(void) { return 0; }

@@ -19,11 +19,11 @@ ovoid_code verdict_verify(verdict *verdict, const ovoid_pair *pair, const ovoid_
 
 /// The same for the answer of two bodies, of which one at least is a compound, with its exclusions and cover. points:
 /// the deciding parts, where their witness points are checked; else NULL.
-ovoid_code verdict_verify_compound(verdict *verdict, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+ovoid_code verdict_verify_compound(verdict *verdict, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                    const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error);
 
 /// The same for the answer of two bodies, of which one at least is a solid. points: of the deciding triangles.
-ovoid_code verdict_verify_solid(verdict *verdict, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code verdict_verify_solid(verdict *verdict, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                 const ovoid_exclusions *exclusions, int points, ovoid_error *error);
 
 /// 1 if the checks are in exact arithmetic.

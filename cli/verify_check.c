@@ -36,9 +36,8 @@ static int get_parts(const ovoid_body_pair *bodies, const ovoid_record *record, 
 /// of parts. points: the deciding parts, whose witness points are checked too, or NULL.
 static ovoid_code check_compound(const verify *v, const claim *item, const ovoid_pair *points, ovoid_error *error) {
     const ovoid_record *r = &item->record;
-    ovoid_compound_answer answer = {.answer = r->answer,
-                                    .part_a = item->pair.a.compound ? r->part_a : 0,
-                                    .part_b = item->pair.b.compound ? r->part_b : 0};
+    ovoid_body_answer answer = ovoid_body_answer_make(&r->answer, item->pair.a.compound ? r->part_a : 0,
+                                                      item->pair.b.compound ? r->part_b : 0);
     ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count,
                                    (ovoid_cover *)r->cover};
     return verdict_verify_compound(v->verdict, &item->pair, &answer, &exclusions, points, error);
@@ -71,9 +70,9 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
                                   .hit = *answer};
     if (a->solid || b->solid) {
         // The parts of solids' records are those of the whole bodies' answer, which decides where the impact ends.
-        found.part_a = r->solid ? r->solid->triangle_a : 0;
-        found.part_b = r->solid ? r->solid->triangle_b : 0;
-        found.impact.hit = r->solid ? r->solid->surfaces : *answer;
+        found.part_a = r->solid ? r->solid->part_a : 0;
+        found.part_b = r->solid ? r->solid->part_b : 0;
+        found.impact.hit = r->solid ? r->solid->deciding : *answer;
     } else if (!a->compound && !b->compound) {
         // The distance at the end of the free time is not claimed, so it is queried here.
         ovoid_pair free = {a->shape, b->shape, ovoid_motion_compute_pose(&a->motion, r->free_for),
@@ -91,7 +90,7 @@ static ovoid_code check_solids(const verify *v, const claim *item, ovoid_error *
         snprintf(error->message, sizeof error->message, "it is an answer about solids, which the bodies are not");
         return OVOID_ERROR_PROOF;
     }
-    int points = claims_points(v, item, &r->solid->surfaces);
+    int points = claims_points(v, item, &r->solid->deciding);
     return verdict_verify_solid(v->verdict, &item->pair, r->solid, &exclusions, points, error);
 }
 

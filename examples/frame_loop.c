@@ -31,13 +31,13 @@ int main(void) {
         queried += frame.queried;
         // The whole answer of a contact, with its proof, where it is wanted.
         if (frame.count) {
-            ovoid_compound_answer answer;
+            ovoid_body_answer answer;
             ovoid_world_body a, b;
             ovoid_world_compute_proof(world, &frame.items[0], NULL, &answer, NULL);
             ovoid_world_get(world, frame.items[0].a, &a, NULL);
             ovoid_world_get(world, frame.items[0].b, &b, NULL);
             ovoid_pair pair = {a.body.shape, b.body.shape, a.body.pose, b.body.pose};
-            wrong += ovoid_answer_verify(&pair, &answer.answer, NULL, NULL, NULL) != OVOID_OK;
+            wrong += ovoid_answer_verify(&pair, &answer.deciding, NULL, NULL, NULL) != OVOID_OK;
         }
         for (int i = 0; i < BODIES; i++) {
             ovoid_pose *pose = &bodies[i].body.pose;

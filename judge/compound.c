@@ -176,18 +176,21 @@ static ovoid_code verify_touching(const judge *context, const ovoid_body_pair *p
     return judge_verify_touching(context, x, size, ma.reach + mb.reach, error);
 }
 
-ovoid_code judge_verify_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+ovoid_code judge_verify_compound(judge *context, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                  const ovoid_exclusions *exclusions, ovoid_error *error) {
     if (!context || !pair || !answer) return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
-    table t = {.context = context, .lower = answer->answer.lower, .error = error};
+    table t = {.context = context, .lower = answer->lower, .error = error};
     ovoid_code code = read_side(&pair->a, answer->part_a, &t.a, &t.place_a, error);
     if (code == OVOID_OK) code = read_side(&pair->b, answer->part_b, &t.b, &t.place_b, error);
     if (code != OVOID_OK) return code;
+    const ovoid_answer *of_parts = &answer->deciding;
+    if (answer->status != of_parts->status || answer->lower != of_parts->lower || answer->upper != of_parts->upper)
+        return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not that of the deciding pair");
     if (exclusions) t.items = exclusions->items, t.count = exclusions->count;
     if (exclusions && exclusions->count > exclusions->capacity)
         return judge_reject(error, OVOID_ERROR_PROOF, "%zu exclusions, but there was room for %zu", exclusions->count,
                             exclusions->capacity);
-    ovoid_answer own = answer->answer;
+    ovoid_answer own = answer->deciding;
     // A refusal claims nothing.
     if (own.status == OVOID_UNDECIDED && own.lower == -INFINITY && own.upper == INFINITY) return OVOID_OK;
     if (own.status == OVOID_TOUCHING && (pair->a.compound || pair->b.compound)) {

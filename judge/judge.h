@@ -6,7 +6,7 @@
 #ifndef OVOID_JUDGE_H
 #define OVOID_JUDGE_H
 
-#include "ovoid/solid.h"
+#include "ovoid/body.h"
 
 /// Working numbers, and what was proven of each shape's inner ellipsoid (by address: a shape that was seen must live as
 /// long as the judge, or judge_forget must be called before it is destroyed). One thread at a time.
@@ -33,20 +33,20 @@ void judge_set_options(judge *context, const ovoid_options *options);
 ovoid_code judge_verify_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
                                const ovoid_cover *cover, ovoid_error *error);
 
-/// OVOID_OK if everything is proven that the answer of a query of bodies (ovoid_compound_distance and its sisters)
+/// OVOID_OK if everything is proven that the answer of a query of bodies (ovoid_body_distance and its sisters)
 /// claims: the deciding pair's answer with the bodies' lower bound, as judge_verify_answer judges it; that each
 /// exclusion's pairs of parts are no nearer than it says, and none of them is nearer than the lower bound; and that the
 /// exclusions and the deciding pair leave out no pair of parts. The relative tolerance of "touching" is of the bodies'
 /// size. Codes as above; place: the exclusion, or -1. exclusions: those of the query; NULL is enough for two shapes.
 /// Cost: the parts of all exclusions, some 15 us each. That the tree's order names each part once is checked too.
-ovoid_code judge_verify_compound(judge *context, const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
+ovoid_code judge_verify_compound(judge *context, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                  const ovoid_exclusions *exclusions, ovoid_error *error);
 
 /// The same for two bodies of which one at least is a solid: the deciding pair of triangles, each exclusion by all
 /// points of its triangles, that they leave out no pair of triangles, what is inside by exact winding numbers of all
 /// components, and a depth by all points along its direction. points: the deciding pair's as judge_verify_points does.
 /// Cost: the triangles of all exclusions, some microseconds each, and for each component all triangles of the other.
-ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                               const ovoid_exclusions *exclusions, int points, ovoid_error *error);
 
 /// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: that point_b - point_a =

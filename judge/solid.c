@@ -27,7 +27,7 @@ typedef struct side {
 typedef struct trial {
     pool *p;
     side a, b;
-    const ovoid_solid_answer *x;
+    const ovoid_body_answer *x;
     const ovoid_exclusion *items;
     size_t count;
     ovoid_error *error;
@@ -89,18 +89,18 @@ static body make_leaf(pool *p, const side *s, uint32_t triangle, double room[9])
 
 static ovoid_code verify_leaves(judge *context, const trial *t, int points) {
     double room[2][9];
-    posed s = posed_join(t->p, make_leaf(t->p, &t->a, t->x->triangle_a, room[0]),
-                         make_leaf(t->p, &t->b, t->x->triangle_b, room[1]));
-    ovoid_answer own = t->x->surfaces;
+    posed s =
+        posed_join(t->p, make_leaf(t->p, &t->a, t->x->part_a, room[0]), make_leaf(t->p, &t->b, t->x->part_b, room[1]));
+    ovoid_answer own = t->x->deciding;
     // How narrow the bracket of touching must be is a question to the bodies, whose triangles may be small.
     if (own.status == OVOID_TOUCHING) own.status = OVOID_UNDECIDED, own.limit = OVOID_LIMIT_PRECISION;
     ovoid_code code = judge_verify_posed(context, &s, &own, NULL, t->error);
-    if (code != OVOID_OK || !points || t->x->surfaces.status == OVOID_UNDECIDED) return code;
-    return judge_verify_points_posed(&s, &t->x->surfaces, t->error);
+    if (code != OVOID_OK || !points || t->x->deciding.status == OVOID_UNDECIDED) return code;
+    return judge_verify_points_posed(&s, &t->x->deciding, t->error);
 }
 
 static ovoid_code verify_touching(const judge *context, const trial *t) {
-    const ovoid_solid_answer *x = t->x;
+    const ovoid_body_answer *x = t->x;
     ovoid_vec3 a = t->a.of->pose.position, b = t->b.of->pose.position;
     double radii = num_to_double(num_add(t->p, t->a.posed.radius, t->b.posed.radius));
     const posed both = posed_join(t->p, t->a.posed, t->b.posed);
@@ -152,7 +152,7 @@ static ovoid_code verify_exclusions(const trial *t) {
         const ovoid_exclusion *e = &t->items[i];
         if (!(e->first_a < e->end_a && e->end_a <= t->a.count && e->first_b < e->end_b && e->end_b <= t->b.count))
             return reject_item(t, i, "names triangles that there are not");
-        if (!(e->lower >= t->x->surfaces.lower)) return reject_item(t, i, "is below the answer's lower bound");
+        if (!(e->lower >= t->x->deciding.lower)) return reject_item(t, i, "is below the answer's lower bound");
     }
     if (!judge_is_covered(&all, &row, &column))
         return judge_reject(t->error, OVOID_ERROR_PROOF, "nothing excludes triangle %u of a and triangle %u of b",
@@ -414,7 +414,7 @@ static double measure_clearance(const trial *t, const side *s, const scaled *at)
 }
 
 static ovoid_code verify_common_point(const trial *t) {
-    const ovoid_solid_answer *x = t->x;
+    const ovoid_body_answer *x = t->x;
     const char *why = "the common point does not show the overlap";
     if (!is_finite(x->common)) return reject(t, why);
     scaled in_a = find_common(t, &t->a), in_b = find_common(t, &t->b);
@@ -428,8 +428,8 @@ static ovoid_code verify_common_point(const trial *t) {
 // --- the bodies
 
 static ovoid_code verify_apart(const trial *t) {
-    const ovoid_solid_answer *x = t->x;
-    if (!(x->lower > 0 && x->lower <= x->surfaces.lower && x->upper >= x->surfaces.upper) || x->inside)
+    const ovoid_body_answer *x = t->x;
+    if (!(x->lower > 0 && x->lower <= x->deciding.lower && x->upper >= x->deciding.upper) || x->inside)
         return reject(t, "the distance is not that of the surfaces");
     if (has_inside(t, &t->a, &t->b, UINT32_MAX) || has_inside(t, &t->b, &t->a, UINT32_MAX))
         return reject(t, "one body is inside of the other");
@@ -437,17 +437,17 @@ static ovoid_code verify_apart(const trial *t) {
 }
 
 static ovoid_code verify_overlap(const trial *t) {
-    const ovoid_solid_answer *x = t->x;
+    const ovoid_body_answer *x = t->x;
     if (!(x->upper < 0)) return reject(t, "an overlap whose bracket reaches 0");
     if (!x->inside)
-        return x->surfaces.upper < 0 && x->upper >= x->surfaces.upper ? OVOID_OK
+        return x->deciding.upper < 0 && x->upper >= x->deciding.upper ? OVOID_OK
                                                                       : reject(t, "an overlap without a reason");
-    if (x->inside == OVOID_SOLID_COMMON_POINT) return verify_common_point(t);
-    if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
+    if (x->inside == OVOID_BODY_COMMON_POINT) return verify_common_point(t);
+    if (x->inside != OVOID_BODY_A_INSIDE && x->inside != OVOID_BODY_B_INSIDE)
         return reject(t, "an overlap without a reason");
-    if (!(x->surfaces.lower > 0 && x->upper >= -x->surfaces.lower))
+    if (!(x->deciding.lower > 0 && x->upper >= -x->deciding.lower))
         return reject(t, "the surfaces are nearer than is claimed of what is inside");
-    const side *own = x->inside == OVOID_SOLID_A_INSIDE ? &t->a : &t->b, *other = own == &t->a ? &t->b : &t->a;
+    const side *own = x->inside == OVOID_BODY_A_INSIDE ? &t->a : &t->b, *other = own == &t->a ? &t->b : &t->a;
     return has_inside(t, own, other, x->component) == 1 ? OVOID_OK : reject(t, "what is said to be inside is not");
 }
 
@@ -458,19 +458,19 @@ static ovoid_code verify_depth(const trial *t) {
 }
 
 static ovoid_code verify_bodies(const judge *context, const trial *t) {
-    const ovoid_solid_answer *x = t->x;
+    const ovoid_body_answer *x = t->x;
     if (!(x->lower <= x->upper)) return reject(t, "the bracket is empty");
     if (x->status == OVOID_SEPARATED) return verify_apart(t);
     ovoid_code code = OVOID_OK;
     if (x->status == OVOID_OVERLAPPING)
         code = verify_overlap(t);
-    else if (x->inside || !(x->lower <= 0 && x->upper >= 0 && x->upper >= x->surfaces.upper))
+    else if (x->inside || !(x->lower <= 0 && x->upper >= 0 && x->upper >= x->deciding.upper))
         code = reject(t, "the status does not follow from the bracket");
     if (code == OVOID_OK && x->status == OVOID_TOUCHING) code = verify_touching(context, t);
     return code == OVOID_OK ? verify_depth(t) : code;
 }
 
-ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
+ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                               const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
     if (!context || !pair || !answer) return judge_reject(error, OVOID_ERROR_ARGUMENT, "a pointer is NULL");
     // A refusal claims nothing.
@@ -481,8 +481,8 @@ ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const
     size_t mark = pool_get_mark(context->p);
     trial t = {.p = context->p, .x = answer, .error = error};
     if (exclusions) t.items = exclusions->items, t.count = exclusions->count;
-    ovoid_code code = read_side(t.p, &pair->a, answer->triangle_a, &t.a, error);
-    if (code == OVOID_OK) code = read_side(t.p, &pair->b, answer->triangle_b, &t.b, error);
+    ovoid_code code = read_side(t.p, &pair->a, answer->part_a, &t.a, error);
+    if (code == OVOID_OK) code = read_side(t.p, &pair->b, answer->part_b, &t.b, error);
     if (code == OVOID_OK) code = verify_leaves(context, &t, points);
     if (code == OVOID_OK) code = verify_exclusions(&t);
     if (code == OVOID_OK) code = verify_bodies(context, &t);

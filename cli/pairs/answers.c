@@ -35,11 +35,11 @@ ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid
     return ovoid_scene_get_body(scene, object, pose);
 }
 
-static ovoid_compound_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {
+static ovoid_body_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {
     ovoid_options options = {.absolute_tolerance = q->tolerance};
-    if (q->query == QUERY_COLLIDE) return ovoid_compound_collide(pair, &options, q->earlier, exclusions);
-    if (q->query == QUERY_WITHIN) return ovoid_compound_within(pair, q->margin, &options, q->earlier, exclusions);
-    return ovoid_compound_depth(pair, &options, q->earlier, exclusions);
+    if (q->query == QUERY_COLLIDE) return ovoid_body_collide(pair, &options, q->earlier, exclusions);
+    if (q->query == QUERY_WITHIN) return ovoid_body_within(pair, q->margin, &options, q->earlier, exclusions);
+    return ovoid_body_depth(pair, &options, q->earlier, exclusions);
 }
 
 void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_record *record) {
@@ -83,49 +83,26 @@ void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, dou
     if (2 * (find_width(&pair->a) + find_width(&pair->b)) > width) answer->limit = OVOID_LIMIT_ALLOWANCE;
 }
 
-static ovoid_solid_answer find_solids(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *proof) {
-    ovoid_options options = {.absolute_tolerance = q->tolerance};
-    if (q->query == QUERY_COLLIDE) return ovoid_solid_collide(pair, &options, q->earlier, proof);
-    if (q->query == QUERY_WITHIN) return ovoid_solid_within(pair, q->margin, &options, q->earlier, proof);
-    return ovoid_solid_distance(pair, &options, q->earlier, proof);
-}
-
-/// answers_find of a pair with a solid.
-static int answer_solids(answer_room *room, const ovoid_body_pair *pair, const answers_query *query,
-                         ovoid_record *record) {
-    ovoid_exclusions proof = {room->items, room->capacity, 0, NULL};
-    room->solid = find_solids(pair, query, query->wants_proof ? &proof : NULL);
-    if (proof.count > room->capacity) {
-        if (!reserve(room, proof.count)) return 0;
-        proof.items = room->items;
-        proof.capacity = room->capacity;
-        room->solid = find_solids(pair, query, &proof);
-    }
-    ovoid_record_set_solid(record, &room->solid);
-    record->part_a = pair->a.compound ? room->solid.triangle_a : OVOID_RECORD_NO_PART;
-    record->part_b = pair->b.compound ? room->solid.triangle_b : OVOID_RECORD_NO_PART;
-    record->exclusions = proof.items;
-    record->exclusion_count = proof.count;
-    return 1;
-}
-
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
+    int is_solid = pair->a.solid || pair->b.solid;
     if (!reserve(room, ROOM)) return 0;
-    record->solid = NULL;
-    if (pair->a.solid || pair->b.solid) return answer_solids(room, pair, query, record);
     ovoid_exclusions proof = {room->items, room->capacity, 0, query->query == QUERY_DISTANCE ? room->cover : NULL};
     room->cover->point_count = 0;
-    ovoid_compound_answer found = find(pair, query, query->wants_proof ? &proof : NULL);
+    room->body = find(pair, query, query->wants_proof ? &proof : NULL);
     if (proof.count > room->capacity) {
         if (!reserve(room, proof.count)) return 0;
         proof.items = room->items;
         proof.capacity = room->capacity;
-        found = find(pair, query, &proof);
+        room->body = find(pair, query, &proof);
     }
-    record->answer = found.answer;
-    if (query->query == QUERY_DISTANCE) answers_settle_limit(&record->answer, pair, query->margin, query->tolerance);
-    record->part_a = pair->a.compound ? found.part_a : OVOID_RECORD_NO_PART;
-    record->part_b = pair->b.compound ? found.part_b : OVOID_RECORD_NO_PART;
+    record->solid = NULL;
+    record->answer = room->body.deciding;
+    if (is_solid)
+        ovoid_record_set_solid(record, &room->body);
+    else if (query->query == QUERY_DISTANCE)
+        answers_settle_limit(&record->answer, pair, query->margin, query->tolerance);
+    record->part_a = pair->a.compound ? room->body.part_a : OVOID_RECORD_NO_PART;
+    record->part_b = pair->b.compound ? room->body.part_b : OVOID_RECORD_NO_PART;
     record->cover = query->wants_proof && room->cover->point_count ? room->cover : NULL;
     record->exclusions = proof.items;
     record->exclusion_count = proof.count;

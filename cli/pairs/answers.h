@@ -16,15 +16,15 @@ typedef struct answer_room {
     ovoid_cover *cover;
     ovoid_exclusion *items;
     size_t capacity;
-    ovoid_solid_answer solid;
+    ovoid_body_answer body;
 } answer_room;
 
 /// A query of two bodies.
 typedef struct answers_query {
     int query; ///< of enum query
     double margin, tolerance;
-    int wants_proof;                     ///< 1: with cover and exclusions
-    const ovoid_compound_proof *earlier; ///< of this pair, or NULL
+    int wants_proof;                 ///< 1: with cover and exclusions
+    const ovoid_body_proof *earlier; ///< of this pair, or NULL
 } answers_query;
 
 /// Answers one query: the record's answer and parts, and with a proof its cover and exclusions, which live in the room

@@ -154,12 +154,11 @@ static void print_report(const report *r, const cli_body bodies[2], const ovoid_
 static int check_record(const ovoid_body_pair *pair, const ovoid_record *record, double tolerance) {
     ovoid_error error;
     const ovoid_options asked = {.absolute_tolerance = tolerance};
-    ovoid_compound_answer answer = {.answer = record->answer,
-                                    .part_a = pair->a.compound ? record->part_a : 0,
-                                    .part_b = pair->b.compound ? record->part_b : 0};
+    ovoid_body_answer answer = ovoid_body_answer_make(&record->answer, pair->a.compound ? record->part_a : 0,
+                                                      pair->b.compound ? record->part_b : 0);
     ovoid_exclusions exclusions = {(ovoid_exclusion *)record->exclusions, record->exclusion_count,
                                    record->exclusion_count, (ovoid_cover *)record->cover};
-    if (ovoid_compound_answer_verify(pair, &answer, &asked, &exclusions, &error) == OVOID_OK) return 1;
+    if (ovoid_body_verify(pair, &answer, &asked, &exclusions, &error) == OVOID_OK) return 1;
     message_error("the proof does not hold: %s", error.message);
     return 0;
 }

@@ -236,7 +236,7 @@ static int answer_compounds(const cli_impacts *x, const impact *item, answer_roo
     int done = answers_find(room, &pair, &query, record);
     if (!done || !is_hit(item) || record->answer.upper <= x->margin) return done;
     // Of bodies with allowances the few pairs of one proof may show less than those of the hit.
-    ovoid_compound_proof earlier = {item->pair.found.part_a, item->pair.found.part_b, get_impact(item)->hit.proof};
+    ovoid_body_proof earlier = {item->pair.found.part_a, item->pair.found.part_b, get_impact(item)->hit.proof};
     query.earlier = &earlier;
     return answers_find(room, &pair, &query, record);
 }
@@ -279,16 +279,8 @@ static int is_arrival(const cli_impacts *x, const impact *item) {
     if (!pair_impact_is_arrival(&item->pair)) return 0;
     ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &f->poses[c.a]),
                             answers_get_body(x->scene, c.b, &f->poses[c.b])};
-    ovoid_answer at_end;
-    if (pair.a.solid || pair.b.solid) {
-        ovoid_record record = {.a = NULL};
-        ovoid_solid_answer found = ovoid_solid_within(&pair, x->margin, NULL, NULL, NULL);
-        ovoid_record_set_solid(&record, &found);
-        at_end = record.answer;
-    } else {
-        at_end = ovoid_compound_within(&pair, x->margin, NULL, NULL, NULL).answer;
-    }
-    int within = ovoid_answer_is_within(&at_end, x->margin);
+    ovoid_body_answer at_end = ovoid_body_within(&pair, x->margin, NULL, NULL, NULL);
+    int within = ovoid_body_answer_is_within(&at_end, x->margin);
     return within > 0 || (within < 0 && at_end.limit == OVOID_LIMIT_NONE);
 }
 

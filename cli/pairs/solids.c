@@ -88,7 +88,7 @@ void solids_describe_bodies(const cli_body bodies[2], ovoid_record *record) {
 
 /// An answer with its proof, and whether that holds.
 typedef struct solids_result {
-    ovoid_solid_answer answer;
+    ovoid_body_answer answer;
     ovoid_exclusions exclusions;
     int holds;
 } solids_result;
@@ -100,10 +100,10 @@ static int find_answer(const solids_pair *p, const solids_query *q, solids_resul
         free(r->exclusions.items);
         r->exclusions = (ovoid_exclusions){malloc(room * sizeof(ovoid_exclusion)), room, 0, NULL};
         if (!r->exclusions.items) return 0;
-        r->answer = ovoid_solid_distance(&p->pair, &options, NULL, &r->exclusions);
+        r->answer = ovoid_body_distance(&p->pair, &options, NULL, &r->exclusions);
         if (r->exclusions.count <= room) break;
     }
-    r->holds = ovoid_solid_answer_verify(&p->pair, &r->answer, &options, &r->exclusions, &error) == OVOID_OK;
+    r->holds = ovoid_body_verify(&p->pair, &r->answer, &options, &r->exclusions, &error) == OVOID_OK;
     if (!r->holds) message_error("the proof does not hold: %s", error.message);
     return 1;
 }
@@ -140,8 +140,8 @@ static void print_vector(FILE *file, const char *title, ovoid_vec3 v, const char
     fprintf(file, "%-11s %.9g %.9g %.9g%s\n", title, v.x, v.y, v.z, unit);
 }
 
-static void print_margin(FILE *file, const solids_query *q, const ovoid_solid_answer *x, const char *unit) {
-    int within = ovoid_solid_answer_is_within(x, q->margin);
+static void print_margin(FILE *file, const solids_query *q, const ovoid_body_answer *x, const char *unit) {
+    int within = ovoid_body_answer_is_within(x, q->margin);
     const char *word = within > 0 ? "yes" : within == 0 ? "no" : x->limit == OVOID_LIMIT_NONE ? "at" : "unproven";
     fprintf(file, "%-11s %.9g%s: within: %s\n", "margin", q->margin, unit, word);
 }
@@ -158,7 +158,7 @@ static void print_surfaces(FILE *file, const solids_pair *p) {
 }
 
 static void print_report(FILE *file, const solids_pair *p, const solids_query *q, const solids_result *r) {
-    const ovoid_solid_answer *x = &r->answer;
+    const ovoid_body_answer *x = &r->answer;
     char unit[8], text[64];
     snprintf(unit, sizeof unit, "%s%s", q->unit[0] ? " " : "", q->unit);
     print_body(file, "a", p, 0, q->unit);
@@ -172,18 +172,18 @@ static void print_report(FILE *file, const solids_pair *p, const solids_query *q
     fprintf(file, "%-11s %s%s\n", is_depth ? "depth" : "distance", text, unit);
     fprintf(file, "%-11s %.17g .. %.17g%s\n", "bracket", x->lower, x->upper, unit);
     if (q->margin >= 0) print_margin(file, q, x, unit);
-    if (p->solids[0]) fprintf(file, "%-11s %u of a\n", "triangle", (unsigned)x->triangle_a);
-    if (p->solids[1]) fprintf(file, "%-11s %u of b\n", "triangle", (unsigned)x->triangle_b);
-    if (x->inside == OVOID_SOLID_COMMON_POINT)
+    if (p->solids[0]) fprintf(file, "%-11s %u of a\n", "triangle", (unsigned)x->part_a);
+    if (p->solids[1]) fprintf(file, "%-11s %u of b\n", "triangle", (unsigned)x->part_b);
+    if (x->inside == OVOID_BODY_COMMON_POINT)
         print_vector(file, "common", x->common, unit);
     else if (x->inside)
-        fprintf(file, "%-11s %s\n", "inside", x->inside == OVOID_SOLID_A_INSIDE ? "a in b" : "b in a");
+        fprintf(file, "%-11s %s\n", "inside", x->inside == OVOID_BODY_A_INSIDE ? "a in b" : "b in a");
     if (x->status == OVOID_OVERLAPPING) print_surfaces(file, p);
-    print_vector(file, "point on a", x->surfaces.point_a, unit);
-    print_vector(file, "point on b", x->surfaces.point_b, unit);
-    print_vector(file, "normal", x->surfaces.normal, "");
+    print_vector(file, "point on a", x->deciding.point_a, unit);
+    print_vector(file, "point on b", x->deciding.point_b, unit);
+    print_vector(file, "normal", x->deciding.normal, "");
     if (x->limit != OVOID_LIMIT_NONE) fprintf(file, "%-11s %s\n", "stopped by", ovoid_limit_get_name(x->limit));
-    fprintf(file, "%-11s %s; exclusions: %zu; %s\n", "proof", ovoid_proof_kind_get_name(x->surfaces.proof.kind),
+    fprintf(file, "%-11s %s; exclusions: %zu; %s\n", "proof", ovoid_proof_kind_get_name(x->deciding.proof.kind),
             r->exclusions.count, r->holds ? "checked" : "DOES NOT HOLD");
 }
 

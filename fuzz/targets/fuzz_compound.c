@@ -7,7 +7,7 @@
 #include <judge.h>
 
 /// What the library's check accepts, exact arithmetic must accept too.
-static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *options,
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_options *options,
                              const ovoid_exclusions *exclusions) {
     static judge *the_judge;
     if (!the_judge) the_judge = judge_create();
@@ -18,7 +18,7 @@ static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_a
     judge_forget(the_judge);
 }
 #else
-static void put_before_judge(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *options,
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_options *options,
                              const ovoid_exclusions *exclusions) {
     (void)pair, (void)x, (void)options, (void)exclusions;
 }
@@ -30,38 +30,38 @@ typedef struct findings {
     const ovoid_body_pair *pair;
     const ovoid_options *options; ///< of the queries
     double lower, upper;
-    ovoid_compound_proof last;
+    ovoid_body_proof last;
 } findings;
 
-static void check(findings *f, const ovoid_compound_answer *x, const ovoid_exclusions *exclusions) {
+static void check(findings *f, const ovoid_body_answer *x, const ovoid_exclusions *exclusions) {
     ovoid_error error = {OVOID_OK, -1, ""};
     // Without all exclusions there is nothing to check it by.
     if (exclusions->count <= exclusions->capacity) {
-        fuzz_require_code(ovoid_compound_answer_verify(f->pair, x, f->options, exclusions, &error), &error);
+        fuzz_require_code(ovoid_body_verify(f->pair, x, f->options, exclusions, &error), &error);
         put_before_judge(f->pair, x, f->options, exclusions);
     }
-    f->lower = fmax(f->lower, x->answer.lower);
-    f->upper = fmin(f->upper, x->answer.upper);
+    f->lower = fmax(f->lower, x->lower);
+    f->upper = fmin(f->upper, x->upper);
     fuzz_require(f->lower <= f->upper);
-    f->last = (ovoid_compound_proof){x->part_a, x->part_b, x->answer.proof};
+    f->last = (ovoid_body_proof){x->part_a, x->part_b, x->deciding.proof};
 }
 
-static void ask_all(findings *f, double margin, const ovoid_options *options, const ovoid_compound_proof *earlier,
+static void ask_all(findings *f, double margin, const ovoid_options *options, const ovoid_body_proof *earlier,
                     size_t capacity) {
     static ovoid_exclusion items[ITEMS];
     static ovoid_cover cover;
     ovoid_exclusions exclusions = {items, capacity, 0, &cover};
     f->options = options;
-    ovoid_compound_answer x = ovoid_compound_collide(f->pair, options, earlier, &exclusions);
+    ovoid_body_answer x = ovoid_body_collide(f->pair, options, earlier, &exclusions);
     check(f, &x, &exclusions);
-    x = ovoid_compound_within(f->pair, margin, options, earlier, &exclusions);
+    x = ovoid_body_within(f->pair, margin, options, earlier, &exclusions);
     check(f, &x, &exclusions);
-    int within = ovoid_answer_is_within(&x.answer, margin);
+    int within = ovoid_answer_is_within(&x.deciding, margin);
     if (within == 1) fuzz_require(f->lower <= margin);
     if (within == 0) fuzz_require(f->upper > margin);
-    x = ovoid_compound_distance(f->pair, options, earlier, &exclusions);
+    x = ovoid_body_distance(f->pair, options, earlier, &exclusions);
     check(f, &x, &exclusions);
-    x = ovoid_compound_depth(f->pair, options, earlier, &exclusions);
+    x = ovoid_body_depth(f->pair, options, earlier, &exclusions);
     check(f, &x, &exclusions);
 }
 
@@ -122,7 +122,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         if (!isfinite(margin)) margin = 0;
         ovoid_options options = {.relative_tolerance = ldexp(1, take_byte(&from) / 4 - 32),
                                  .iterations = 1 + (uint32_t)(take_byte(&from) & 15)};
-        ovoid_compound_proof earlier = {(uint32_t)take_byte(&from), (uint32_t)take_byte(&from), fuzz_take_proof(&from)};
+        ovoid_body_proof earlier = {(uint32_t)take_byte(&from), (uint32_t)take_byte(&from), fuzz_take_proof(&from)};
         findings f = {&pair, NULL, -INFINITY, INFINITY, earlier};
         ask_all(&f, margin, NULL, NULL, ITEMS);
         ask_all(&f, margin, NULL, &earlier, ITEMS);

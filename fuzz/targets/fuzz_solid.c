@@ -10,7 +10,7 @@
 #ifdef OVOID_HAVE_JUDGE
 #include <judge.h>
 
-static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     static judge *the_judge;
     if (!the_judge) the_judge = judge_create();
     fuzz_require(the_judge != NULL);
@@ -21,7 +21,7 @@ static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answ
     judge_forget(the_judge);
 }
 #else
-static void put_before_judge(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+static void put_before_judge(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     (void)pair, (void)x, (void)all;
 }
 #endif
@@ -62,10 +62,10 @@ typedef struct findings {
     double lower, upper;
 } findings;
 
-static void check(findings *f, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+static void check(findings *f, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {OVOID_OK, -1, ""};
     if (all->count <= all->capacity) {
-        fuzz_require_code(ovoid_solid_answer_verify(f->pair, x, NULL, all, &error), &error);
+        fuzz_require_code(ovoid_body_verify(f->pair, x, NULL, all, &error), &error);
         put_before_judge(f->pair, x, all);
     }
     f->lower = fmax(f->lower, x->lower);
@@ -73,17 +73,17 @@ static void check(findings *f, const ovoid_solid_answer *x, const ovoid_exclusio
     fuzz_require(f->lower <= f->upper);
 }
 
-static void ask(findings *f, double margin, const ovoid_compound_proof *earlier, size_t capacity) {
+static void ask(findings *f, double margin, const ovoid_body_proof *earlier, size_t capacity) {
     static ovoid_exclusion items[ITEMS];
     ovoid_exclusions all = {items, capacity, 0, NULL};
-    ovoid_solid_answer x = ovoid_solid_collide(f->pair, NULL, earlier, &all);
+    ovoid_body_answer x = ovoid_body_collide(f->pair, NULL, earlier, &all);
     check(f, &x, &all);
-    x = ovoid_solid_within(f->pair, margin, NULL, earlier, &all);
+    x = ovoid_body_within(f->pair, margin, NULL, earlier, &all);
     check(f, &x, &all);
-    x = ovoid_solid_distance(f->pair, NULL, earlier, &all);
+    x = ovoid_body_distance(f->pair, NULL, earlier, &all);
     check(f, &x, &all);
-    ovoid_compound_proof known = {x.triangle_a, x.triangle_b, x.surfaces.proof};
-    x = ovoid_solid_distance(f->pair, NULL, &known, &all);
+    ovoid_body_proof known = {x.part_a, x.part_b, x.deciding.proof};
+    x = ovoid_body_distance(f->pair, NULL, &known, &all);
     check(f, &x, &all);
 }
 
@@ -129,7 +129,7 @@ static void ask_impact(fuzz_bytes *from, const ovoid_body_pair *pair, double mar
         ovoid_body_pair at = *pair;
         at.a.pose = ovoid_motion_compute_pose(&a.motion, time);
         at.b.pose = ovoid_motion_compute_pose(&b.motion, time);
-        fuzz_require(ovoid_solid_within(&at, margin, NULL, NULL, NULL).upper > margin - slack);
+        fuzz_require(ovoid_body_within(&at, margin, NULL, NULL, NULL).upper > margin - slack);
     }
 }
 
@@ -153,8 +153,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
                                  .pose = take_any_pose(&from, is_wild)}};
         double margin = fabs(take_double(&from));
         if (!isfinite(margin)) margin = 0;
-        ovoid_compound_proof earlier = {(uint32_t)take_byte(&from) & 31, (uint32_t)take_byte(&from) & 31,
-                                        fuzz_take_proof(&from)};
+        ovoid_body_proof earlier = {(uint32_t)take_byte(&from) & 31, (uint32_t)take_byte(&from) & 31,
+                                    fuzz_take_proof(&from)};
         findings f = {&pair, -INFINITY, INFINITY};
         ask(&f, margin, NULL, ITEMS);
         ask(&f, margin, &earlier, (size_t)(take_byte(&from) & 3));

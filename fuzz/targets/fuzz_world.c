@@ -94,15 +94,15 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
     int i = find_body(m, c->a), j = find_body(m, c->b);
     fuzz_require(c->a < c->b && i >= 0 && j >= 0 && is_pair(m, i, j) && ovoid_world_is_pair(m->world, c->a, c->b));
     ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
-    ovoid_compound_answer alone = ovoid_compound_depth(&pair, NULL, NULL, NULL), whole;
-    fuzz_require(c->verdict.lower <= alone.answer.upper && alone.answer.lower <= c->verdict.upper);
+    ovoid_body_answer alone = ovoid_body_depth(&pair, NULL, NULL, NULL), whole;
+    fuzz_require(c->verdict.lower <= alone.upper && alone.lower <= c->verdict.upper);
     fuzz_require(!(c->verdict.lower > margin));
     static ovoid_exclusion items[256];
     static ovoid_cover cover;
     ovoid_exclusions exclusions = {items, 256, 0, &cover};
     ovoid_error error = {OVOID_OK, -1, ""};
     fuzz_require_code(ovoid_world_compute_proof(m->world, c, &exclusions, &whole, &error), &error);
-    fuzz_require_code(ovoid_compound_answer_verify(&pair, &whole, NULL, &exclusions, &error), &error);
+    fuzz_require_code(ovoid_body_verify(&pair, &whole, NULL, &exclusions, &error), &error);
 }
 
 static void ask_frame(model *m, fuzz_bytes *from) {
@@ -127,24 +127,24 @@ static void ask_frame(model *m, fuzz_bytes *from) {
         for (int j = 0; j < i; j++) {
             if (!is_pair(m, i, j)) continue;
             ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
-            ovoid_compound_answer x = ovoid_compound_within(&pair, query.margin, NULL, NULL, NULL);
+            ovoid_body_answer x = ovoid_body_within(&pair, query.margin, NULL, NULL, NULL);
             int is_there = 0;
             for (size_t k = 0; k < frame.count; k++)
                 is_there |= (frame.items[k].a == m->bodies[i].id && frame.items[k].b == m->bodies[j].id) ||
                             (frame.items[k].b == m->bodies[i].id && frame.items[k].a == m->bodies[j].id);
-            if (ovoid_answer_is_within(&x.answer, query.margin) == 1) fuzz_require(is_there);
+            if (ovoid_answer_is_within(&x.deciding, query.margin) == 1) fuzz_require(is_there);
         }
 }
 
 // The answer about a pair alone.
 static ovoid_answer ask_alone(const ovoid_body *a, const ovoid_body *b) {
     ovoid_body_pair pair = {*a, *b};
-    return ovoid_compound_depth(&pair, NULL, NULL, NULL).answer;
+    return ovoid_body_depth(&pair, NULL, NULL, NULL).deciding;
 }
 
 // No pair that was asked about is nearer than the hit says; body: the one asked about, or -1 for all pairs.
 static void check_nearest(const model *m, const ovoid_world_hit *hit, int body) {
-    int is_overlap = hit->b && hit->answer.answer.lower <= 0;
+    int is_overlap = hit->b && hit->answer.lower <= 0;
     for (int i = 0; i < m->count; i++)
         for (int j = 0; j < i; j++)
             if (is_pair(m, i, j) && (body < 0 || i == body || j == body)) {
@@ -155,7 +155,7 @@ static void check_nearest(const model *m, const ovoid_world_hit *hit, int body) 
     int i = find_body(m, hit->a), j = find_body(m, hit->b);
     fuzz_require(i >= 0 && j >= 0 && is_pair(m, i, j));
     ovoid_answer alone = ask_alone(&m->bodies[i].body, &m->bodies[j].body);
-    fuzz_require(hit->answer.answer.lower <= alone.upper && alone.lower <= hit->answer.answer.upper);
+    fuzz_require(hit->answer.lower <= alone.upper && alone.lower <= hit->answer.upper);
 }
 
 static void check_overlaps(const model *m, const ovoid_world_body *probe, double margin) {
@@ -169,7 +169,7 @@ static void check_overlaps(const model *m, const ovoid_world_body *probe, double
     fuzz_require(hits.count <= (size_t)m->count);
     // Of huge bodies another question may prove more: what is proven here counts.
     for (size_t k = 0; k < hits.count; k++) {
-        fuzz_require(!(items[k].answer.answer.lower > margin));
+        fuzz_require(!(items[k].answer.lower > margin));
         if (k) fuzz_require(items[k - 1].b < items[k].b);
     }
     for (int i = 0; i < m->count; i++) {

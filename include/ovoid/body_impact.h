@@ -5,8 +5,8 @@
 #ifndef OVOID_BODY_IMPACT_H
 #define OVOID_BODY_IMPACT_H
 
+#include "ovoid/body.h"
 #include "ovoid/motion.h"
-#include "ovoid/solid.h"
 
 #ifdef __cplusplus
 extern "C" {

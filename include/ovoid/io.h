@@ -13,10 +13,9 @@
 #ifndef OVOID_IO_H
 #define OVOID_IO_H
 
-#include "ovoid/compound.h"
+#include "ovoid/body.h"
 #include "ovoid/decompose.h"
 #include "ovoid/motion.h"
-#include "ovoid/solid.h"
 
 #include <stdio.h>
 
@@ -369,14 +368,14 @@ typedef struct ovoid_record {
     ovoid_mesh_kind kind_a, kind_b; /**< what the bodies are taken as; always written */
     ovoid_convexity mesh_a, mesh_b; /**< of their meshes: the allowance, written where it is not 0 and the kind is HULL;
                                          the volumes, NaN where there is no mesh, or it has none */
-    const ovoid_solid_answer *solid; /**< the answer of solids, beside `answer`; NULL: there is none */
+    const ovoid_body_answer *solid; /**< the answer of solids, beside `answer`; NULL: there is none */
 } ovoid_record;
 
 /**
  * Makes a record that of solids: `solid` is the answer, which must live as long, and `answer` that of the deciding pair
  * with the bracket, status and limit of the bodies. The meshes' kinds and the exclusions are left to the caller.
  */
-OVOID_API void ovoid_record_set_solid(ovoid_record *record, const ovoid_solid_answer *answer);
+OVOID_API void ovoid_record_set_solid(ovoid_record *record, const ovoid_body_answer *answer);
 
 /**
  * One line of JSON with the keys time, frame, free_for, hit_after, a, part_a, b, part_b, status, limit, margin, within,

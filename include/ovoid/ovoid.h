@@ -6,6 +6,7 @@
 #define OVOID_OVOID_H
 
 #include "ovoid/base.h"
+#include "ovoid/body.h"
 #include "ovoid/body_impact.h"
 #include "ovoid/compound.h"
 #include "ovoid/decompose.h"

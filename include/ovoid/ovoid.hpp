@@ -16,6 +16,7 @@
 #ifndef OVOID_OVOID_HPP
 #define OVOID_OVOID_HPP
 
+#include "ovoid/cpp/body.hpp"
 #include "ovoid/cpp/compound.hpp"
 #include "ovoid/cpp/decompose.hpp"
 #include "ovoid/cpp/error.hpp"

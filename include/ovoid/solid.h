@@ -1,13 +1,12 @@
 /**
  * @file solid.h
- * Solids of triangles, convex or not, and their proximity to each other, to shapes and to compounds.
- * A solid is immutable: any number of bodies and threads share it. Queries allocate nothing and keep no state; stack 16
- * KB beside what <ovoid/query.h> says, so a thread of 128 KB will do.
+ * Solids of triangles, convex or not. Queries about them are in <ovoid/body.h>.
+ * A solid is immutable: any number of bodies and threads share it.
  */
 #ifndef OVOID_SOLID_H
 #define OVOID_SOLID_H
 
-#include "ovoid/compound.h"
+#include "ovoid/shape.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -133,75 +132,6 @@ typedef struct ovoid_solid_crossings {
  * not counted. Stops at `most` pairs. Cost: for each triangle those whose boxes meet its own, some microseconds.
  */
 OVOID_API ovoid_solid_crossings ovoid_solid_compute_crossings(const ovoid_solid *solid, uint64_t most);
-
-/** Which body has a point of the other inside, if that is what proves an overlap. */
-typedef enum ovoid_solid_inside {
-    OVOID_SOLID_INSIDE_NONE = 0,
-    OVOID_SOLID_A_INSIDE,    /**< a component of a is inside b; of a compound a part, of a shape the whole of it */
-    OVOID_SOLID_B_INSIDE,    /**< a component of b is inside a */
-    OVOID_SOLID_COMMON_POINT /**< neither; `common` is a point of both bodies, away from their surfaces */
-} ovoid_solid_inside;
-
-/**
- * The answer to a query: lower <= d <= upper, d positive apart, else minus the least translation that parts the bodies.
- *
- * `surfaces` is the answer of the deciding pair of triangles (of a shape the whole of it, of a compound a part), with
- * its points, normal and proof; but its lower end holds for all pairs. SEPARATED: that bracket is d's. OVERLAPPING:
- * surfaces.upper < 0, two triangles cross (or one reaches into a shape or a part); or `inside` says which body has a
- * component in the other, at least surfaces.lower away from its surface, or that a point lies in both. Else rounding
- * leaves open whether the surfaces cross: upper is theirs, lower what parts the bodies; TOUCHING where that bracket is
- * as narrow as the tolerance, and UNDECIDED where it is not, as of bodies that interlock, or touch around a corner.
- */
-typedef struct ovoid_solid_answer {
-    ovoid_status status;
-    ovoid_limit limit;   /**< as in ovoid_answer; of an overlap NONE though its depth is not searched for */
-    double lower, upper; /**< of d; -infinity and infinity where refused */
-    ovoid_vec3 parting;  /**< unit, world frame: along it the boxes show `lower`, where that is below 0 */
-    ovoid_solid_inside inside;
-    uint32_t component;              /**< the component that is inside; else 0 */
-    ovoid_vec3 common;               /**< COMMON_POINT: the point, frame of a; else 0 */
-    uint32_t triangle_a, triangle_b; /**< the deciding pair; 0 for a shape, of a compound the part */
-    uint32_t visited;                /**< pairs of nodes and triangles whose bounds were looked at */
-    uint32_t tested;                 /**< pairs queried */
-    ovoid_answer surfaces;
-} ovoid_solid_answer;
-
-/*
- * The bodies are solids, shapes or compounds; a compound is the union of its parts. Options as in <ovoid/query.h>; the
- * relative tolerance is of the pair of bodies' size: the largest point norms in their frames, radii, and the distance
- * of the frames' origins. Refused as there, SHAPE_A or SHAPE_B where a body has not exactly one of shape, compound and
- * solid, POSE_A or POSE_B where it would lie beyond OVOID_LENGTH_MAX. earlier: of this
- * pair of bodies, or NULL: its parts are the triangles that decided. exclusions: NULL where no proof is wanted; its
- * items' ranges are of the trees' orders; its cover is not used.
- */
-
-/** Do the bodies touch? Stops at the first two triangles that cross. */
-OVOID_API ovoid_solid_answer ovoid_solid_collide(const ovoid_body_pair *pair, const ovoid_options *options,
-                                                 const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions);
-/** Are the bodies within margin (>= 0) of each other? Read it with ovoid_solid_answer_is_within. */
-OVOID_API ovoid_solid_answer ovoid_solid_within(const ovoid_body_pair *pair, double margin,
-                                                const ovoid_options *options, const ovoid_compound_proof *earlier,
-                                                ovoid_exclusions *exclusions);
-/** The distance to the tolerance and the nearest triangles; where the bodies overlap that is proven, with a depth. */
-OVOID_API ovoid_solid_answer ovoid_solid_distance(const ovoid_body_pair *pair, const ovoid_options *options,
-                                                  const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions);
-
-/** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: the bracket straddles it. */
-OVOID_API int ovoid_solid_answer_is_within(const ovoid_solid_answer *answer, double margin);
-
-/**
- * Checks an answer without any search: the deciding pair as ovoid_answer_verify does, each exclusion by all its
- * triangles' points along its normal, that with the deciding pair they leave out no pair of triangles, what is inside
- * by the winding numbers of all components, a common point by its distance from all triangles, the depth by all points
- * along `parting`; and that both statuses follow from their brackets and the tolerance. Not claims, and not checked:
- * visited, tested, `parting` of what is apart, why a bracket is wide (a limit other than NONE). OVOID_OK, or PROOF with
- * a sentence in *error (may be NULL; place: the exclusion). options: those of the query, or NULL, the default.
- * exclusions: those of the query. Cost: the triangles of all exclusions, and for each component that is not outside of
- * the other's box all triangles.
- */
-OVOID_API ovoid_code ovoid_solid_answer_verify(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                                               const ovoid_options *options, const ovoid_exclusions *exclusions,
-                                               ovoid_error *error);
 
 #ifdef __cplusplus
 }

@@ -8,15 +8,15 @@
  * mathematics.
  *
  * Functions that take a const world may run at the same time in any number of threads; all others need exclusive access
- * to the world. Stack as in <ovoid/query.h>, with solids as in <ovoid/solid.h>; the world's own threads have 1 MB. In a
+ * to the world. Stack as in <ovoid/query.h>, with solids as in <ovoid/body.h>; the world's own threads have 1 MB. In a
  * child made by fork, while no function was changing the world, it works on in one thread. Lengths are the caller's
  * unit, poses are in the world frame, quaternions as ovoid_pose has them.
  */
 #ifndef OVOID_WORLD_H
 #define OVOID_WORLD_H
 
+#include "ovoid/body.h"
 #include "ovoid/motion.h"
-#include "ovoid/solid.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -131,7 +131,7 @@ typedef enum ovoid_query_kind {
     OVOID_QUERY_WITHIN,      /**< are they within the margin? (ovoid_within) */
     OVOID_QUERY_DISTANCE,    /**< how far apart, if within the margin? (ovoid_distance with the margin as cap) */
     OVOID_QUERY_DEPTH /**< how far apart, or how deep, if within the margin? (ovoid_depth); of a pair with a solid
-                           the depth is as wide a bracket as ovoid_solid_distance gives */
+                           the depth is as wide a bracket as ovoid_body_distance gives */
 } ovoid_query_kind;
 
 /** The query of all pairs of a world. */
@@ -175,21 +175,19 @@ OVOID_API ovoid_code ovoid_world_compute_contacts(ovoid_world *world, const ovoi
                                                   ovoid_contacts *contacts, ovoid_error *error);
 
 /**
- * The whole answer of a contact at the present poses, with the proof that ovoid_compound_answer_verify takes (of two
- * shapes: that ovoid_answer_verify takes): the query is that of the last step, warm from its cache. exclusions: as in
- * ovoid_compound_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT (also: a pair with a solid, of which
- * ovoid_solid_distance and its sisters give the proof). Cost: one query.
+ * The whole answer of a contact at the present poses, with the proof that ovoid_body_verify takes (of two shapes: that
+ * ovoid_answer_verify takes): the query is that of the last step, warm from its cache. exclusions: as in
+ * ovoid_body_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT. Cost: one query.
  */
 OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const ovoid_contact *contact,
-                                               ovoid_exclusions *exclusions, ovoid_compound_answer *answer,
+                                               ovoid_exclusions *exclusions, ovoid_body_answer *answer,
                                                ovoid_error *error);
 
 /*
  * Queries between steps. None of them allocates or changes anything; each takes the bodies where they are now, in any
  * thread, while no other thread changes the world. Pairs that are filtered out (ovoid_world_is_pair) are left out; of a
  * probe, which is no body of the world, groups and masks count, ignored pairs and the filter do not. Answers are those
- * of <ovoid/compound.h>, cold; of a pair with a solid those of <ovoid/solid.h>, with the surfaces' points and proof,
- * triangles as parts, and status and bracket of the bodies (their check takes the ovoid_solid_answer, asked again).
+ * of <ovoid/body.h>, cold.
  * Errors of all: ARGUMENT (options, margin), INDEX (an id), and for a probe those of ovoid_world_add.
  */
 
@@ -198,7 +196,7 @@ typedef struct ovoid_world_hit {
     ovoid_id a, b; /**< b: the body found; 0: none. a: the querying body; for a probe 0, or its number of several */
     double lower;  /**< nearest: no pair queried is nearer, unless two overlap, which ends the search; where none was
                         found the cap, or infinity */
-    ovoid_compound_answer answer; /**< of the bodies of a and b, in that order */
+    ovoid_body_answer answer; /**< of the bodies of a and b, in that order */
 } ovoid_world_hit;
 
 /**

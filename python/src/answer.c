@@ -67,11 +67,11 @@ ovoid_code answer_verify(const answer_object *self, ovoid_error *error) {
     ovoid_body_pair bodies = {body_make(state, self->a, self->pose_a), body_make(state, self->b, self->pose_b)};
     if (bodies.a.shape && bodies.b.shape) {
         ovoid_pair pair = {bodies.a.shape, bodies.b.shape, self->pose_a, self->pose_b};
-        return ovoid_answer_verify(&pair, &self->of.answer, &self->options, cover, error);
+        return ovoid_answer_verify(&pair, &self->of.deciding, &self->options, cover, error);
     }
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count,
                                    self->cover ? &unpacked : NULL};
-    return ovoid_compound_answer_verify(&bodies, &self->of, &self->options, &exclusions, error);
+    return ovoid_body_verify(&bodies, &self->of, &self->options, &exclusions, error);
 }
 
 static ovoid_code verify_any(module_state *state, PyObject *what, ovoid_error *error) {
@@ -119,12 +119,12 @@ static PyMethodDef verify_methods[] = {
 
 static PyObject *get_distance(PyObject *self, void *closure) {
     (void)closure;
-    return PyFloat_FromDouble(ovoid_answer_get_distance(&((answer_object *)self)->of.answer));
+    return PyFloat_FromDouble(ovoid_answer_get_distance(&((answer_object *)self)->of.deciding));
 }
 
 static PyObject *get_proof(PyObject *self, void *closure) {
     (void)closure;
-    const ovoid_proof *proof = &((answer_object *)self)->of.answer.proof;
+    const ovoid_proof *proof = &((answer_object *)self)->of.deciding.proof;
     return array_copy(state_of(self), RECORD_PROOF, 1, (Py_ssize_t[]){1}, proof);
 }
 
@@ -141,13 +141,13 @@ static PyObject *get_pose(PyObject *self, void *closure) {
 static PyObject *is_within(PyObject *self, PyObject *margin) {
     double wanted = PyFloat_AsDouble(margin);
     if (wanted == -1 && PyErr_Occurred()) return NULL;
-    int within = ovoid_answer_is_within(&((answer_object *)self)->of.answer, wanted);
+    int within = ovoid_answer_is_within(&((answer_object *)self)->of.deciding, wanted);
     if (within < 0) Py_RETURN_NONE;
     return PyBool_FromLong(within);
 }
 
 static PyObject *repr(PyObject *self) {
-    const ovoid_answer *x = &((answer_object *)self)->of.answer;
+    const ovoid_answer *x = &((answer_object *)self)->of.deciding;
     char text[160];
     PyOS_snprintf(text, sizeof text, "<ovoid.Answer: %s, %.17g <= d <= %.17g, by %s>", ovoid_status_get_name(x->status),
                   x->lower, x->upper, ovoid_stage_get_name(x->stage));
@@ -164,18 +164,18 @@ static void answer_dealloc(PyObject *object) {
 }
 
 static PyGetSetDef fields[] = {
-    FIELD(answer_object, FIELD_ENUM + ENUM_STATUS, "status", of.answer.status,
+    FIELD(answer_object, FIELD_ENUM + ENUM_STATUS, "status", of.deciding.status,
           "What is proven of the signed distance d: a Status."),
-    FIELD(answer_object, FIELD_DOUBLE, "lower", of.answer.lower, "Proven: lower <= d, rounding included."),
-    FIELD(answer_object, FIELD_DOUBLE, "upper", of.answer.upper, "Proven: d <= upper, rounding included."),
-    FIELD(answer_object, FIELD_VEC3, "point_a", of.answer.point_a,
+    FIELD(answer_object, FIELD_DOUBLE, "lower", of.deciding.lower, "Proven: lower <= d, rounding included."),
+    FIELD(answer_object, FIELD_DOUBLE, "upper", of.deciding.upper, "Proven: d <= upper, rounding included."),
+    FIELD(answer_object, FIELD_VEC3, "point_a", of.deciding.point_a,
           "Witness point of a, world frame. Of distance and depth: point_b - point_a = d normal."),
-    FIELD(answer_object, FIELD_VEC3, "point_b", of.answer.point_b, "Witness point of b, world frame."),
-    FIELD(answer_object, FIELD_VEC3, "normal", of.answer.normal, "Unit normal from a to b, world frame."),
-    FIELD(answer_object, FIELD_ENUM + ENUM_LIMIT, "limit", of.answer.limit,
+    FIELD(answer_object, FIELD_VEC3, "point_b", of.deciding.point_b, "Witness point of b, world frame."),
+    FIELD(answer_object, FIELD_VEC3, "normal", of.deciding.normal, "Unit normal from a to b, world frame."),
+    FIELD(answer_object, FIELD_ENUM + ENUM_LIMIT, "limit", of.deciding.limit,
           "Why the bracket is not narrower: a Limit."),
-    FIELD(answer_object, FIELD_ENUM + ENUM_STAGE, "stage", of.answer.stage, "What decided: a Stage."),
-    FIELD(answer_object, FIELD_UINT, "iterations", of.answer.iterations, "Iterations of the exact methods."),
+    FIELD(answer_object, FIELD_ENUM + ENUM_STAGE, "stage", of.deciding.stage, "What decided: a Stage."),
+    FIELD(answer_object, FIELD_UINT, "iterations", of.deciding.iterations, "Iterations of the exact methods."),
     FIELD(answer_object, FIELD_UINT, "part_a", of.part_a, "The deciding part of a compound a; 0 of a shape."),
     FIELD(answer_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of a compound b; 0 of a shape."),
     {"distance", get_distance, NULL,

@@ -17,25 +17,20 @@ static ovoid_answer ask_shapes(const bodies_query *q, const ovoid_body_pair *of)
     }
 }
 
-static ovoid_answer ask_compounds(const bodies_query *q, const ovoid_body_pair *pair) {
+static ovoid_body_answer ask_once(const bodies_query *q, const ovoid_body_pair *pair) {
     switch (q->name) {
-    case QUERY_COLLIDE: return ovoid_compound_collide(pair, q->options, NULL, NULL).answer;
-    case QUERY_WITHIN: return ovoid_compound_within(pair, q->margin, q->options, NULL, NULL).answer;
-    case QUERY_DISTANCE: return ovoid_compound_distance(pair, q->options, NULL, NULL).answer;
-    default: return ovoid_compound_depth(pair, q->options, NULL, NULL).answer;
+    case QUERY_COLLIDE: return ovoid_body_collide(pair, q->options, NULL, NULL);
+    case QUERY_WITHIN: return ovoid_body_within(pair, q->margin, q->options, NULL, NULL);
+    case QUERY_DISTANCE: return ovoid_body_distance(pair, q->options, NULL, NULL);
+    default: return ovoid_body_depth(pair, q->options, NULL, NULL);
     }
 }
 
-// The deciding triangles' answer with the bracket of the bodies.
-static ovoid_answer ask_solids(const bodies_query *q, const ovoid_body_pair *pair) {
-    ovoid_solid_answer x = q->name == QUERY_COLLIDE  ? ovoid_solid_collide(pair, q->options, NULL, NULL)
-                           : q->name == QUERY_WITHIN ? ovoid_solid_within(pair, q->margin, q->options, NULL, NULL)
-                                                     : ovoid_solid_distance(pair, q->options, NULL, NULL);
-    x.surfaces.status = x.status;
-    x.surfaces.limit = x.limit;
-    x.surfaces.lower = x.lower;
-    x.surfaces.upper = x.upper;
-    return x.surfaces;
+// The deciding parts' answer with the bracket of the bodies.
+static ovoid_answer ask(const bodies_query *q, const ovoid_body_pair *pair) {
+    if (pair->a.shape && pair->b.shape) return ask_shapes(q, pair);
+    ovoid_body_answer x = ask_once(q, pair);
+    return ovoid_body_answer_get_answer(&x);
 }
 
 ovoid_code bodies_ask(const bodies_query *q, const ovoid_couple *couples, size_t count, ovoid_verdict *verdicts,
@@ -44,9 +39,7 @@ ovoid_code bodies_ask(const bodies_query *q, const ovoid_couple *couples, size_t
         if (couples[i].a >= q->body_count || couples[i].b >= q->body_count) return OVOID_ERROR_INDEX;
     for (size_t i = 0; i < count; i++) {
         ovoid_body_pair pair = {q->bodies[couples[i].a], q->bodies[couples[i].b]};
-        ovoid_answer x = pair.a.solid || pair.b.solid   ? ask_solids(q, &pair)
-                         : pair.a.shape && pair.b.shape ? ask_shapes(q, &pair)
-                                                        : ask_compounds(q, &pair);
+        ovoid_answer x = ask(q, &pair);
         verdicts[i] = make_verdict(&x);
         if (witnesses) witnesses[i] = make_witness(&x);
     }

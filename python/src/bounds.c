@@ -25,8 +25,8 @@ static PyObject *bounds(PyObject *module, PyObject *arguments, PyObject *keyword
         return NULL;
     answer_object *to = answer_make(state, given[0], given[1], &pair.pose_a, &pair.pose_b);
     if (!to) return NULL;
-    to->of.answer = ovoid_pair_compute_bounds(&pair);
-    if (!limit_raise(state, to->of.answer.limit)) return (PyObject *)to;
+    to->of.deciding = ovoid_pair_compute_bounds(&pair);
+    if (!limit_raise(state, to->of.deciding.limit)) return (PyObject *)to;
     Py_DECREF((PyObject *)to);
     return NULL;
 }

@@ -192,7 +192,7 @@ static PyObject *ask_solids(const impact_object *self, const ovoid_moving_body *
     module_state *state = state_of((PyObject *)self);
     ovoid_body_pair pair = {body_make(state, self->a, ovoid_motion_compute_pose(&a->motion, time)),
                             body_make(state, self->b, ovoid_motion_compute_pose(&b->motion, time))};
-    ovoid_compound_proof earlier = {self->of.part_a, self->of.part_b, answer->proof};
+    ovoid_body_proof earlier = {self->of.part_a, self->of.part_b, answer->proof};
     return solid_answer_ask(state, self->a, self->b, &pair, self->margin, &earlier);
 }
 
@@ -204,7 +204,7 @@ static PyObject *make_answer(const impact_object *self, double time, const ovoid
     ovoid_pose pose_a = get_part_pose(&a, self->of.part_a, time), pose_b = get_part_pose(&b, self->of.part_b, time);
     answer_object *made = answer_make(state, get_part(self->a, state, self->of.part_a),
                                       get_part(self->b, state, self->of.part_b), &pose_a, &pose_b);
-    if (made) made->of.answer = *answer;
+    if (made) made->of = ovoid_body_answer_make(answer, 0, 0);
     return (PyObject *)made;
 }
 

@@ -203,7 +203,7 @@ typedef struct kept_cover {
 
 /// The answer to a query, with what it takes to check it.
 typedef struct answer_object {
-    PyObject_HEAD ovoid_compound_answer of;
+    PyObject_HEAD ovoid_body_answer of;
     PyObject *a, *b; ///< shapes or compounds
     ovoid_pose pose_a, pose_b;
     ovoid_options options;       ///< of the query

@@ -93,8 +93,8 @@ static int read_earlier(module_state *state, PyObject *from, query_input *in) {
     if (!from || from == Py_None) return 0;
     in->has_earlier = 1;
     if (Py_TYPE(from) == state->answer) {
-        const ovoid_compound_answer *of = &((const answer_object *)from)->of;
-        in->earlier = (ovoid_compound_proof){of->part_a, of->part_b, of->answer.proof};
+        const ovoid_body_answer *of = &((const answer_object *)from)->of;
+        in->earlier = ovoid_body_answer_get_proof(of);
         return 0;
     }
     if (Py_TYPE(from) == state->solid_answer) {
@@ -103,7 +103,7 @@ static int read_earlier(module_state *state, PyObject *from, query_input *in) {
     }
     Py_buffer view;
     if (records_view(state, from, "earlier", RECORD_PROOF, 1, 0, &view)) return -1;
-    in->earlier = (ovoid_compound_proof){.part_a = 0};
+    in->earlier = (ovoid_body_proof){.part_a = 0};
     memcpy(&in->earlier.proof, view.buf, sizeof in->earlier.proof);
     PyBuffer_Release(&view);
     return 0;
@@ -160,7 +160,7 @@ static int read_input(module_state *state, PyObject *const x[ARGUMENT_COUNT], qu
 static void query_prepared(const query_input *in, answer_object *to) {
     ovoid_proof proof = {.count = 0};
     if (in->has_earlier) proof = in->earlier.proof;
-    ovoid_evidence evidence = {.proof = in->has_earlier ? &proof : NULL, .answer = &to->of.answer};
+    ovoid_evidence evidence = {.proof = in->has_earlier ? &proof : NULL, .answer = &to->of.deciding};
     if (in->name == QUERY_COLLIDE)
         ovoid_prepared_collide(in->prepared_a, in->prepared_b, &in->options, &evidence);
     else if (in->name == QUERY_WITHIN)
@@ -175,15 +175,15 @@ static int query_shapes(const query_input *in, answer_object *to) {
     if (in->prepared_a && in->name != QUERY_DEPTH)
         query_prepared(in, to);
     else if (in->name == QUERY_COLLIDE)
-        to->of.answer = ovoid_collide(&pair, &in->options, earlier);
+        to->of.deciding = ovoid_collide(&pair, &in->options, earlier);
     else if (in->name == QUERY_WITHIN)
-        to->of.answer = ovoid_within(&pair, in->margin, &in->options, earlier);
+        to->of.deciding = ovoid_within(&pair, in->margin, &in->options, earlier);
     else if (in->name == QUERY_DISTANCE)
-        to->of.answer = ovoid_distance(&pair, &in->options, earlier);
+        to->of.deciding = ovoid_distance(&pair, &in->options, earlier);
     else {
         ovoid_cover cover;
         cover.point_count = 0;
-        to->of.answer = ovoid_depth(&pair, &in->options, earlier, &cover);
+        to->of.deciding = ovoid_depth(&pair, &in->options, earlier, &cover);
         return answer_keep_cover(to, &cover);
     }
     return 0;
@@ -191,13 +191,13 @@ static int query_shapes(const query_input *in, answer_object *to) {
 
 // ---- compounds
 
-static ovoid_compound_answer query_once(const query_input *in, ovoid_exclusions *exclusions) {
-    const ovoid_compound_proof *earlier = in->has_earlier ? &in->earlier : NULL;
+ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exclusions) {
+    const ovoid_body_proof *earlier = in->has_earlier ? &in->earlier : NULL;
     switch (in->name) {
-    case QUERY_COLLIDE: return ovoid_compound_collide(&in->pair, &in->options, earlier, exclusions);
-    case QUERY_WITHIN: return ovoid_compound_within(&in->pair, in->margin, &in->options, earlier, exclusions);
-    case QUERY_DISTANCE: return ovoid_compound_distance(&in->pair, &in->options, earlier, exclusions);
-    default: return ovoid_compound_depth(&in->pair, &in->options, earlier, exclusions);
+    case QUERY_COLLIDE: return ovoid_body_collide(&in->pair, &in->options, earlier, exclusions);
+    case QUERY_WITHIN: return ovoid_body_within(&in->pair, in->margin, &in->options, earlier, exclusions);
+    case QUERY_DISTANCE: return ovoid_body_distance(&in->pair, &in->options, earlier, exclusions);
+    default: return ovoid_body_depth(&in->pair, &in->options, earlier, exclusions);
     }
 }
 
@@ -236,7 +236,7 @@ static PyObject *query(PyObject *module, query_name name, PyObject *const *given
     if (!to) return NULL;
     to->options = in.options;
     int failed = in.pair.a.shape && in.pair.b.shape ? query_shapes(&in, to) : query_compounds(&in, to);
-    if (failed || limit_raise(state, to->of.answer.limit)) {
+    if (failed || limit_raise(state, to->of.deciding.limit)) {
         Py_DECREF(to);
         return NULL;
     }

@@ -13,9 +13,12 @@ typedef struct query_input {
     const ovoid_prepared_shape *prepared_a, *prepared_b; ///< both or none
     double margin;
     ovoid_options options;
-    ovoid_compound_proof earlier;
+    ovoid_body_proof earlier;
     int has_earlier;
 } query_input;
+
+/// The query of two bodies, once.
+ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exclusions);
 
 // ---- solid.c
 
@@ -34,10 +37,10 @@ PyObject *solid_query(module_state *state, const query_input *in);
 /// The SolidAnswer to two bodies at their poses, asked for their distance, or where the margin is at least 0 whether
 /// they are within it. earlier: of this pair, or NULL.
 PyObject *solid_answer_ask(module_state *state, PyObject *a, PyObject *b, const ovoid_body_pair *pair, double margin,
-                           const ovoid_compound_proof *earlier);
+                           const ovoid_body_proof *earlier);
 /// Its parts and proof as a warm start.
-ovoid_compound_proof solid_answer_get_proof(PyObject *answer);
-/// Checks a SolidAnswer by its proof: OVOID_OK, or what ovoid_solid_answer_verify says.
+ovoid_body_proof solid_answer_get_proof(PyObject *answer);
+/// Checks a SolidAnswer by its proof: OVOID_OK, or what ovoid_body_verify says.
 ovoid_code solid_answer_verify(PyObject *answer, ovoid_error *error);
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 typedef struct solid_answer_object {
-    PyObject_HEAD ovoid_solid_answer of;
+    PyObject_HEAD ovoid_body_answer of;
     PyObject *a, *b; ///< shapes, compounds or solids
     ovoid_pose pose_a, pose_b;
     ovoid_options options; ///< of the query
@@ -18,18 +18,10 @@ static ovoid_body_pair make_pair(module_state *state, const solid_answer_object 
 
 // ---- asking
 
-static ovoid_solid_answer query_once(const query_input *in, const ovoid_body_pair *pair, ovoid_exclusions *exclusions) {
-    const ovoid_compound_proof *earlier = in->has_earlier ? &in->earlier : NULL;
-    switch (in->name) {
-    case QUERY_COLLIDE: return ovoid_solid_collide(pair, &in->options, earlier, exclusions);
-    case QUERY_WITHIN: return ovoid_solid_within(pair, in->margin, &in->options, earlier, exclusions);
-    default: return ovoid_solid_distance(pair, &in->options, earlier, exclusions);
-    }
-}
-
 // Asks again with more memory where the exclusions were more than there was room for.
 static int find_answer(module_state *state, const query_input *in, solid_answer_object *to) {
-    ovoid_body_pair pair = make_pair(state, to);
+    query_input own = *in;
+    own.pair = make_pair(state, to);
     for (size_t capacity = 256;; capacity = to->exclusion_count) {
         ovoid_exclusion *grown = realloc(to->exclusions, capacity * sizeof *grown);
         if (!grown) {
@@ -39,7 +31,7 @@ static int find_answer(module_state *state, const query_input *in, solid_answer_
         to->exclusions = grown;
         ovoid_exclusions exclusions = {grown, capacity, 0, NULL};
         Py_BEGIN_ALLOW_THREADS;
-        to->of = query_once(in, &pair, &exclusions);
+        to->of = query_once(&own, &exclusions);
         Py_END_ALLOW_THREADS;
         to->exclusion_count = exclusions.count;
         if (exclusions.count <= capacity) return limit_raise(state, to->of.limit);
@@ -65,7 +57,7 @@ PyObject *solid_query(module_state *state, const query_input *in) {
 }
 
 PyObject *solid_answer_ask(module_state *state, PyObject *a, PyObject *b, const ovoid_body_pair *pair, double margin,
-                           const ovoid_compound_proof *earlier) {
+                           const ovoid_body_proof *earlier) {
     query_input in = {.name = margin >= 0 ? QUERY_WITHIN : QUERY_DISTANCE, .a = a, .b = b, .pair = *pair};
     in.margin = margin;
     in.has_earlier = earlier != NULL;
@@ -73,9 +65,9 @@ PyObject *solid_answer_ask(module_state *state, PyObject *a, PyObject *b, const 
     return solid_query(state, &in);
 }
 
-ovoid_compound_proof solid_answer_get_proof(PyObject *answer) {
-    const ovoid_solid_answer *of = &((const solid_answer_object *)answer)->of;
-    return (ovoid_compound_proof){of->triangle_a, of->triangle_b, of->surfaces.proof};
+ovoid_body_proof solid_answer_get_proof(PyObject *answer) {
+    const ovoid_body_answer *of = &((const solid_answer_object *)answer)->of;
+    return ovoid_body_answer_get_proof(of);
 }
 
 ovoid_code solid_answer_verify(PyObject *answer, ovoid_error *error) {
@@ -84,7 +76,7 @@ ovoid_code solid_answer_verify(PyObject *answer, ovoid_error *error) {
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count, NULL};
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_solid_answer_verify(&pair, &self->of, &self->options, &exclusions, error);
+    code = ovoid_body_verify(&pair, &self->of, &self->options, &exclusions, error);
     Py_END_ALLOW_THREADS;
     return code;
 }
@@ -93,14 +85,14 @@ ovoid_code solid_answer_verify(PyObject *answer, ovoid_error *error) {
 
 static PyObject *get_proof(PyObject *self, void *closure) {
     (void)closure;
-    const ovoid_proof *proof = &((solid_answer_object *)self)->of.surfaces.proof;
+    const ovoid_proof *proof = &((solid_answer_object *)self)->of.deciding.proof;
     return array_copy(state_of(self), RECORD_PROOF, 1, (Py_ssize_t[]){1}, proof);
 }
 
 static PyObject *get_component(PyObject *self, void *closure) {
     (void)closure;
-    const ovoid_solid_answer *of = &((solid_answer_object *)self)->of;
-    int is = of->inside == OVOID_SOLID_A_INSIDE || of->inside == OVOID_SOLID_B_INSIDE;
+    const ovoid_body_answer *of = &((solid_answer_object *)self)->of;
+    int is = of->inside == OVOID_BODY_A_INSIDE || of->inside == OVOID_BODY_B_INSIDE;
     return is ? PyLong_FromUnsignedLong(of->component) : Py_NewRef(Py_None);
 }
 
@@ -117,12 +109,12 @@ static PyObject *get_pose(PyObject *self, void *closure) {
 static PyObject *is_within(PyObject *self, PyObject *margin) {
     double wanted = PyFloat_AsDouble(margin);
     if (wanted == -1 && PyErr_Occurred()) return NULL;
-    int within = ovoid_solid_answer_is_within(&((solid_answer_object *)self)->of, wanted);
+    int within = ovoid_body_answer_is_within(&((solid_answer_object *)self)->of, wanted);
     return within < 0 ? Py_NewRef(Py_None) : PyBool_FromLong(within);
 }
 
 static PyObject *repr(PyObject *self) {
-    const ovoid_solid_answer *x = &((solid_answer_object *)self)->of;
+    const ovoid_body_answer *x = &((solid_answer_object *)self)->of;
     char text[160];
     PyOS_snprintf(text, sizeof text, "<ovoid.SolidAnswer: %s, %.17g <= d <= %.17g>", ovoid_status_get_name(x->status),
                   x->lower, x->upper);
@@ -151,13 +143,13 @@ static PyGetSetDef fields[] = {
           "Why the bracket is not narrower: a Limit; of an overlap NONE, though its depth is not searched for."),
     FIELD(solid_answer_object, FIELD_DOUBLE, "lower", of.lower, "Proven: lower <= d, rounding included."),
     FIELD(solid_answer_object, FIELD_DOUBLE, "upper", of.upper, "Proven: d <= upper, rounding included."),
-    FIELD(solid_answer_object, FIELD_VEC3, "point_a", of.surfaces.point_a,
+    FIELD(solid_answer_object, FIELD_VEC3, "point_a", of.deciding.point_a,
           "Witness point of a, of the deciding triangles, world frame."),
-    FIELD(solid_answer_object, FIELD_VEC3, "point_b", of.surfaces.point_b, "Witness point of b, world frame."),
-    FIELD(solid_answer_object, FIELD_VEC3, "normal", of.surfaces.normal, "Unit normal from a to b, world frame."),
-    FIELD(solid_answer_object, FIELD_DOUBLE, "surfaces_lower", of.surfaces.lower,
+    FIELD(solid_answer_object, FIELD_VEC3, "point_b", of.deciding.point_b, "Witness point of b, world frame."),
+    FIELD(solid_answer_object, FIELD_VEC3, "normal", of.deciding.normal, "Unit normal from a to b, world frame."),
+    FIELD(solid_answer_object, FIELD_DOUBLE, "surfaces_lower", of.deciding.lower,
           "Proven: no triangle of a is nearer to one of b."),
-    FIELD(solid_answer_object, FIELD_DOUBLE, "surfaces_upper", of.surfaces.upper,
+    FIELD(solid_answer_object, FIELD_DOUBLE, "surfaces_upper", of.deciding.upper,
           "Proven: the deciding triangles are no farther apart."),
     FIELD(solid_answer_object, FIELD_VEC3, "parting", of.parting,
           "Unit direction, world frame, along which a way of -lower parts the bodies, where lower is below 0."),
@@ -166,9 +158,9 @@ static PyGetSetDef fields[] = {
     {"component", get_component, NULL, "The component that is inside, or None.", NULL},
     FIELD(solid_answer_object, FIELD_VEC3, "common", of.common,
           "Where inside is Inside.POINT: the point that both bodies cover, frame of a; else zeros."),
-    FIELD(solid_answer_object, FIELD_UINT, "triangle_a", of.triangle_a,
+    FIELD(solid_answer_object, FIELD_UINT, "triangle_a", of.part_a,
           "The deciding triangle of a; of a compound the part, of a shape 0."),
-    FIELD(solid_answer_object, FIELD_UINT, "triangle_b", of.triangle_b,
+    FIELD(solid_answer_object, FIELD_UINT, "triangle_b", of.part_b,
           "The deciding triangle of b; of a compound the part, of a shape 0."),
     FIELD(solid_answer_object, FIELD_UINT, "visited", of.visited,
           "How many pairs of nodes and triangles were bounded."),

@@ -15,13 +15,14 @@
 #include "linear/rotation.h"
 
 typedef struct cut {
-    const ovoid_solid_answer *x; ///< NULL: of bodies without a solid
+    const ovoid_body_answer *x;
     const ovoid_exclusions *all;
     double lower; ///< of all pairs of parts
     double tolerance;
     solid_view a, b;
     solid_frame frame;
     uint32_t place_a, place_b;
+    int has_solid;
     triangle_shape room_a, room_b;
 } cut;
 
@@ -106,7 +107,8 @@ static ovoid_code verify_cut(const cut *c, ovoid_error *error) {
                              solid_view_get_index(&c->a, ref_get_place(a)),
                              solid_view_get_index(&c->b, ref_get_place(b)));
         }
-        int is_first = c->x ? solid_views_split_first(&c->a, a, &c->b, b) : parts_views_split_first(&c->a, a, &c->b, b);
+        int is_first =
+            c->has_solid ? solid_views_split_first(&c->a, a, &c->b, b) : parts_views_split_first(&c->a, a, &c->b, b);
         solid_ref children[BOX8];
         uint32_t more = solid_view_get_children(is_first ? &c->a : &c->b, is_first ? a : b, children);
         for (uint32_t i = 0; i < more; i++, count++) {
@@ -132,14 +134,14 @@ static ovoid_code verify_exclusions(cut *c, ovoid_error *error) {
 // ---- the bodies
 
 static ovoid_code verify_depth(const cut *c, ovoid_error *error) {
-    const ovoid_solid_answer *x = c->x;
+    const ovoid_body_answer *x = c->x;
     if (x->lower == -INFINITY) return OVOID_OK;
     ovoid_exclusion all = {0, c->a.count, 0, c->b.count, x->parting, {0, 0, 0}, x->lower};
     return measure_gap(c, &all) >= x->lower ? OVOID_OK : refuse_all(error, "the depth is not shown by its direction");
 }
 
 static ovoid_code verify_common_point(const cut *c, ovoid_error *error) {
-    const ovoid_solid_answer *x = c->x;
+    const ovoid_body_answer *x = c->x;
     const framed_pair pair = {&c->frame, &c->a, &c->b};
     if (!vec3_is_finite(x->common) || !(vec3_norm(x->common) <= c->frame.size))
         return refuse_all(error, "the common point is beyond the bodies");
@@ -149,58 +151,58 @@ static ovoid_code verify_common_point(const cut *c, ovoid_error *error) {
 }
 
 static ovoid_code verify_inside(const cut *c, ovoid_error *error) {
-    const ovoid_solid_answer *x = c->x;
-    if (x->inside == OVOID_SOLID_COMMON_POINT) return verify_common_point(c, error);
-    const solid_view *own = x->inside == OVOID_SOLID_A_INSIDE ? &c->a : &c->b, *other = own == &c->a ? &c->b : &c->a;
-    if (x->inside != OVOID_SOLID_A_INSIDE && x->inside != OVOID_SOLID_B_INSIDE)
+    const ovoid_body_answer *x = c->x;
+    if (x->inside == OVOID_BODY_COMMON_POINT) return verify_common_point(c, error);
+    const solid_view *own = x->inside == OVOID_BODY_A_INSIDE ? &c->a : &c->b, *other = own == &c->a ? &c->b : &c->a;
+    if (x->inside != OVOID_BODY_A_INSIDE && x->inside != OVOID_BODY_B_INSIDE)
         return refuse_all(error, "an overlap without a reason");
     if (x->component >= solid_view_get_component_count(own)) return refuse_all(error, "there is no such component");
-    if (!(x->surfaces.lower > c->frame.claim / 2) || !(x->upper >= -x->surfaces.lower))
+    if (!(x->deciding.lower > c->frame.claim / 2) || !(x->upper >= -x->deciding.lower))
         return refuse_all(error, "the surfaces are nearer than is claimed of what is inside");
     return solid_is_inside(own, other, x->component, 1) == 1 ? OVOID_OK
                                                              : refuse_all(error, "what is said to be inside is not");
 }
 
 static ovoid_code verify_apart(const cut *c, ovoid_error *error) {
-    const ovoid_solid_answer *x = c->x;
-    ovoid_solid_inside inside;
+    const ovoid_body_answer *x = c->x;
+    ovoid_body_inside inside;
     uint32_t component;
-    if (!(x->surfaces.lower > 0) || !(x->lower <= x->surfaces.lower) || !(x->upper >= x->surfaces.upper))
+    if (!(x->deciding.lower > 0) || !(x->lower <= x->deciding.lower) || !(x->upper >= x->deciding.upper))
         return refuse_all(error, "the distance is not that of the surfaces");
     if (!solid_view_is_closed(&c->a) && !solid_view_is_closed(&c->b)) return OVOID_OK;
-    if (!(x->surfaces.lower > c->frame.claim / 2) || solid_find_inside(&c->a, &c->b, 1, &inside, &component) != 0)
+    if (!(x->deciding.lower > c->frame.claim / 2) || solid_find_inside(&c->a, &c->b, 1, &inside, &component) != 0)
         return refuse_all(error, "one body is inside of the other, or so near that it could be");
     return OVOID_OK;
 }
 
 // 1 if what proves no overlap, and what is not of the kind that proves it, is not there.
-static int inside_is_sound(const ovoid_solid_answer *x) {
-    int is_component = x->inside == OVOID_SOLID_A_INSIDE || x->inside == OVOID_SOLID_B_INSIDE;
+static int inside_is_sound(const ovoid_body_answer *x) {
+    int is_component = x->inside == OVOID_BODY_A_INSIDE || x->inside == OVOID_BODY_B_INSIDE;
     int has_point = fabs(x->common.x) > 0 || fabs(x->common.y) > 0 || fabs(x->common.z) > 0;
-    if (x->inside != OVOID_SOLID_INSIDE_NONE && x->status != OVOID_OVERLAPPING) return 0;
-    if (!vec3_is_finite(x->common) || (has_point && x->inside != OVOID_SOLID_COMMON_POINT)) return 0;
+    if (x->inside != OVOID_BODY_INSIDE_NONE && x->status != OVOID_OVERLAPPING) return 0;
+    if (!vec3_is_finite(x->common) || (has_point && x->inside != OVOID_BODY_COMMON_POINT)) return 0;
     return is_component || x->component == 0;
 }
 
 static ovoid_code verify_overlap(const cut *c, ovoid_error *error) {
-    const ovoid_solid_answer *x = c->x;
-    if (x->inside != OVOID_SOLID_INSIDE_NONE) return verify_inside(c, error);
-    if (x->surfaces.upper < 0 && x->upper >= x->surfaces.upper) return OVOID_OK;
+    const ovoid_body_answer *x = c->x;
+    if (x->inside != OVOID_BODY_INSIDE_NONE) return verify_inside(c, error);
+    if (x->deciding.upper < 0 && x->upper >= x->deciding.upper) return OVOID_OK;
     return refuse_all(error, "an overlap without a reason");
 }
 
 // "none" claims a narrow bracket, but of an overlap, whose depth is not searched for.
 static int limit_is_sound(const cut *c) {
-    const ovoid_solid_answer *x = c->x;
+    const ovoid_body_answer *x = c->x;
     if ((unsigned)x->limit > OVOID_LIMIT_ALLOWANCE) return 0;
     if (x->limit != OVOID_LIMIT_NONE || x->status == OVOID_OVERLAPPING) return 1;
     return x->upper - x->lower <= c->tolerance + (c->a.allowance + c->b.allowance);
 }
 
 static ovoid_code verify_bodies(const cut *c, ovoid_error *error) {
-    const ovoid_solid_answer *x = c->x;
+    const ovoid_body_answer *x = c->x;
     ovoid_code code =
-        status_verify_internal(x->surfaces.status, x->surfaces.lower, x->surfaces.upper, c->tolerance, error);
+        status_verify_internal(x->deciding.status, x->deciding.lower, x->deciding.upper, c->tolerance, error);
     if (code == OVOID_OK) code = status_verify_internal(x->status, x->lower, x->upper, c->tolerance, error);
     if (code != OVOID_OK) return code;
     if (!inside_is_sound(x)) return refuse_all(error, "what is said to be inside proves nothing of that status");
@@ -208,9 +210,45 @@ static ovoid_code verify_bodies(const cut *c, ovoid_error *error) {
     if (x->status == OVOID_SEPARATED) return verify_apart(c, error);
     if (x->status == OVOID_OVERLAPPING)
         code = verify_overlap(c, error);
-    else if (!(x->upper >= x->surfaces.upper))
+    else if (!(x->upper >= x->deciding.upper))
         code = refuse_all(error, "the upper bound is below that of the surfaces");
     return code == OVOID_OK ? verify_depth(c, error) : code;
+}
+
+// ---- bodies without a solid
+
+// Status and limit by the bodies' tolerance, or that of the deciding pair, in which is what far origins hide.
+static ovoid_code verify_terms(const cut *c, const ovoid_pair *parts, const ovoid_options *given, ovoid_error *error) {
+    pair_frame f = {.size = 0};
+    ovoid_options options;
+    (void)options_make(given, &options);
+    double cap = options.cap < INFINITY ? options.cap : 0;
+    options_take_size(&options, c->frame.size);
+    (void)frame_place(parts, &f);
+    const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), c->a.allowance + c->b.allowance,
+                                cap};
+    return terms_verify_internal(&c->x->deciding, &terms, error);
+}
+
+// 1 if the bodies' bracket is that of the deciding pair, and nothing is said to be inside.
+static int is_of_parts(const ovoid_body_answer *x) {
+    const ovoid_answer *own = &x->deciding;
+    // Not a number is no bracket.
+    int has_bracket = x->lower >= own->lower && x->lower <= own->lower && x->upper >= own->upper &&
+                      x->upper <= own->upper && x->status == own->status && x->limit == own->limit;
+    return has_bracket && x->inside == OVOID_BODY_INSIDE_NONE && inside_is_sound(x);
+}
+
+static ovoid_code verify_parts(cut *c, const ovoid_pair *parts, const ovoid_options *given, ovoid_error *error) {
+    const ovoid_answer *x = &c->x->deciding;
+    if (!is_of_parts(c->x)) return refuse_all(error, "the bracket is not that of the deciding pair");
+    // Two shapes are asked with the options as they are.
+    if (c->a.shape && c->b.shape) return answer_verify_internal(parts, x, given, c->all->cover, error);
+    ovoid_code code = verify_terms(c, parts, given, error);
+    // A first look at the bodies has its points by their rounding.
+    const answer_claims claims = {parts, x, c->all->cover, c->frame.claim};
+    if (code == OVOID_OK) code = bounds_verify_internal(&claims, error);
+    return code == OVOID_OK ? verify_exclusions(c, error) : code;
 }
 
 // ---- both bodies
@@ -224,86 +262,41 @@ static ovoid_limit find_refusal(const ovoid_body_pair *pair, const ovoid_options
     if (!solid_view_make(&pair->b, &c->b)) return OVOID_LIMIT_POSE_B;
     solid_frame_make(&c->a, &c->b, &c->frame);
     c->tolerance = solid_frame_compute_tolerance(&c->frame, &options);
+    c->has_solid = c->a.solid || c->b.solid;
     if (c->a.solid) triangle_begin(&c->room_a);
     if (c->b.solid) triangle_begin(&c->room_b);
     return OVOID_LIMIT_NONE;
 }
 
-// The deciding pair, as ordinary shapes.
-static ovoid_code take_deciding(cut *c, uint32_t a, uint32_t b, ovoid_pair *pair, ovoid_error *error) {
-    if (a >= c->a.count || b >= c->b.count)
-        return error_set(error, OVOID_ERROR_PROOF, -1, "parts %u and %u are not both there", a, b);
-    c->place_a = solid_view_get_place(&c->a, a);
-    c->place_b = solid_view_get_place(&c->b, b);
-    *pair = get_pair(c, c->place_a, c->place_b);
-    return OVOID_OK;
-}
+static int is_refusal(ovoid_limit limit) { return limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B; }
 
-static const ovoid_exclusions no_exclusions = {NULL, 0, 0, NULL};
-
-static ovoid_code verify_solids(const ovoid_body_pair *pair, const ovoid_solid_answer *x, const ovoid_options *options,
-                                const ovoid_exclusions *all, ovoid_error *error) {
+static ovoid_code verify_solids(cut *c, const ovoid_pair *leaves, ovoid_error *error) {
     static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
-    const ovoid_verdict claimed = {.status = x->status, .limit = x->limit, .lower = x->lower, .upper = x->upper};
-    cut c = {.x = x, .all = all ? all : &no_exclusions, .lower = x->surfaces.lower};
-    ovoid_pair leaves;
-    ovoid_limit refused = find_refusal(pair, options, &c);
-    if (refused != OVOID_LIMIT_NONE || (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B))
-        return refusal_verify_internal(claimed, refused, error);
-    ovoid_code code = take_deciding(&c, x->triangle_a, x->triangle_b, &leaves, error);
     // Of the deciding pair the bounds; what its status means is a matter of the bodies' size.
-    if (code == OVOID_OK) code = answer_verify_internal(&leaves, &x->surfaces, &of_leaves, NULL, error);
-    if (code == OVOID_OK) code = verify_exclusions(&c, error);
-    return code == OVOID_OK ? verify_bodies(&c, error) : code;
+    ovoid_code code = answer_verify_internal(leaves, &c->x->deciding, &of_leaves, NULL, error);
+    if (code == OVOID_OK) code = verify_exclusions(c, error);
+    return code == OVOID_OK ? verify_bodies(c, error) : code;
 }
 
-// ---- bodies without a solid
-
-// Status and limit by the bodies' tolerance, or that of the deciding pair, in which is what far origins hide.
-static ovoid_code verify_terms(const cut *c, const ovoid_pair *parts, const ovoid_answer *x, const ovoid_options *given,
-                               ovoid_error *error) {
-    pair_frame f = {.size = 0};
-    ovoid_options options;
-    (void)options_make(given, &options);
-    double cap = options.cap < INFINITY ? options.cap : 0;
-    options_take_size(&options, c->frame.size);
-    (void)frame_place(parts, &f);
-    const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), c->a.allowance + c->b.allowance,
-                                cap};
-    return terms_verify_internal(x, &terms, error);
+static ovoid_code verify(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_options *options,
+                         const ovoid_exclusions *all, ovoid_error *error) {
+    static const ovoid_exclusions none = {NULL, 0, 0, NULL};
+    cut c = {.x = x, .all = all ? all : &none, .lower = x->deciding.lower};
+    ovoid_limit refused = find_refusal(pair, options, &c);
+    if (refused != OVOID_LIMIT_NONE || is_refusal(x->limit)) {
+        const ovoid_verdict claimed = {.status = x->status, .limit = x->limit, .lower = x->lower, .upper = x->upper};
+        return refusal_verify_internal(claimed, refused, error);
+    }
+    if (x->part_a >= c.a.count || x->part_b >= c.b.count)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "parts %u and %u are not both there", x->part_a, x->part_b);
+    c.place_a = solid_view_get_place(&c.a, x->part_a);
+    c.place_b = solid_view_get_place(&c.b, x->part_b);
+    ovoid_pair parts = get_pair(&c, c.place_a, c.place_b);
+    return c.has_solid ? verify_solids(&c, &parts, error) : verify_parts(&c, &parts, options, error);
 }
 
-static ovoid_code verify_parts(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_options *given,
-                               const ovoid_exclusions *all, ovoid_error *error) {
-    cut c = {.all = all ? all : &no_exclusions, .lower = x->answer.lower};
-    ovoid_pair parts;
-    ovoid_limit refused = find_refusal(pair, given, &c);
-    if (pair->a.solid || pair->b.solid) refused = pair->a.solid ? OVOID_LIMIT_SHAPE_A : OVOID_LIMIT_SHAPE_B;
-    if (refused != OVOID_LIMIT_NONE || x->answer.limit == OVOID_LIMIT_OPTIONS)
-        return refusal_verify_internal(answer_get_verdict(&x->answer), refused, error);
-    ovoid_code code = take_deciding(&c, x->part_a, x->part_b, &parts, error);
-    if (code != OVOID_OK) return code;
-    // Two shapes are asked with the options as they are.
-    if (c.a.shape && c.b.shape) return answer_verify_internal(&parts, &x->answer, given, c.all->cover, error);
-    code = verify_terms(&c, &parts, &x->answer, given, error);
-    // A first look at the bodies has its points by their rounding.
-    const answer_claims claims = {&parts, &x->answer, c.all->cover, c.frame.claim};
-    if (code == OVOID_OK) code = bounds_verify_internal(&claims, error);
-    return code == OVOID_OK ? verify_exclusions(&c, error) : code;
-}
-
-// ---- the public functions
-
-ovoid_code ovoid_compound_answer_verify(const ovoid_body_pair *pair, const ovoid_compound_answer *answer,
-                                        const ovoid_options *options, const ovoid_exclusions *exclusions,
-                                        ovoid_error *error) {
+ovoid_code ovoid_body_verify(const ovoid_body_pair *pair, const ovoid_body_answer *answer, const ovoid_options *options,
+                             const ovoid_exclusions *exclusions, ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
-    ENVIRONMENT_RETURN(ovoid_code, pair, verify_parts(pair, answer, options, exclusions, error));
-}
-
-ovoid_code ovoid_solid_answer_verify(const ovoid_body_pair *pair, const ovoid_solid_answer *answer,
-                                     const ovoid_options *options, const ovoid_exclusions *exclusions,
-                                     ovoid_error *error) {
-    OVOID_ASSERT(pair && answer);
-    ENVIRONMENT_RETURN(ovoid_code, pair, verify_solids(pair, answer, options, exclusions, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, verify(pair, answer, options, exclusions, error));
 }

@@ -3,6 +3,7 @@
 #define OVOID_BODY_BODY_VIEW_H
 
 #include "compound/compound.h"
+#include "ovoid/body.h"
 #include "query/answer.h"
 
 /// The options of a query of bodies of that size become those of its pairs of parts: the tolerance of the bodies.
@@ -44,10 +45,8 @@ static inline uint32_t body_view_get_index(const body_view *v, uint32_t place) {
     return v->compound ? v->compound->order[place] : 0;
 }
 
-/// The pipeline of all compound queries, for callers inside a public function, which has set the default floating-point
-/// environment already. options, earlier and exclusions may be NULL.
-void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                            const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions,
-                            ovoid_compound_answer *out);
+/// The pipeline of queries without a solid (body_find.h).
+void parts_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
+                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out);
 
 #endif

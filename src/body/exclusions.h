@@ -2,7 +2,7 @@
 #ifndef OVOID_BODY_EXCLUSIONS_H
 #define OVOID_BODY_EXCLUSIONS_H
 
-#include "ovoid/compound.h"
+#include "ovoid/body.h"
 
 /// Forgets what an earlier query wrote; exclusions may be NULL.
 void exclusions_begin(ovoid_exclusions *exclusions);

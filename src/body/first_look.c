@@ -28,7 +28,7 @@ static void exclude_all(const body_view *a, const body_view *b, vec3 normal, dou
 }
 
 int first_look(const body_view *a, const body_view *b, const ovoid_options *options, const query_goal *goal,
-               ovoid_exclusions *exclusions, ovoid_compound_answer *out) {
+               ovoid_exclusions *exclusions, ovoid_body_answer *out) {
     mat3 ra = quat_to_mat3(a->pose->rotation), rb = quat_to_mat3(b->pose->rotation);
     vec3 offset = vec3_sub(b->pose->position, a->pose->position);
     vec3 between =
@@ -47,7 +47,7 @@ int first_look(const body_view *a, const body_view *b, const ovoid_options *opti
     out->part_b = body_view_get_index(b, 0);
     out->visited = 1;
     out->tested = 0;
-    out->answer = (ovoid_answer){
+    out->deciding = (ovoid_answer){
         .status = OVOID_SEPARATED,
         .stage = OVOID_STAGE_SPHERE,
         .limit = find_limit(lower, upper, tolerance, a->allowance + b->allowance, goal),

@@ -6,6 +6,6 @@
 
 /// The whole answer, and the exclusion of all pairs of parts, where they are: 1. The options are made.
 int first_look(const body_view *a, const body_view *b, const ovoid_options *options, const query_goal *goal,
-               ovoid_exclusions *exclusions, ovoid_compound_answer *out);
+               ovoid_exclusions *exclusions, ovoid_body_answer *out);
 
 #endif

@@ -123,7 +123,7 @@ static inline int solid_view_is_closed(const solid_view *v) { return v->solid &&
 /// Is a component of one body inside of the other? For bodies whose surfaces are farther apart than frame->claim: 0 no,
 /// 1 yes, with side (the body whose component it is) and component; -1: a winding number could not be found. linear: as
 /// in solid_find_winding.
-int solid_find_inside(const solid_view *a, const solid_view *b, int linear, ovoid_solid_inside *inside,
+int solid_find_inside(const solid_view *a, const solid_view *b, int linear, ovoid_body_inside *inside,
                       uint32_t *component);
 /// The same for one component: 1 if the other body winds around its point.
 int solid_is_inside(const solid_view *own, const solid_view *other, uint32_t component, int linear);

@@ -230,7 +230,7 @@ COMPILER_NOINLINE static int begin_decides(descent *d) {
     ovoid_body_impact *out = d->out;
     if (!d->trees.has_solid) return 0;
     moving_trees_ask(&d->trees, d->margin, d->begin, &at);
-    const ovoid_solid_answer *answer = &at.answer;
+    const ovoid_body_answer *answer = &at.answer;
     int is_hit = answer->upper + at.shift <= d->margin;
     if (!is_hit && moving_answer_is_apart(&at, 0)) return 0;
     out->impact.status = is_hit ? OVOID_IMPACT_HIT : OVOID_IMPACT_UNDECIDED;
@@ -238,10 +238,10 @@ COMPILER_NOINLINE static int begin_decides(descent *d) {
     out->impact.free_until = d->begin;
     out->impact.hit_at = is_hit ? d->begin : INFINITY;
     out->impact.iterations = 1;
-    out->part_a = answer->triangle_a;
-    out->part_b = answer->triangle_b;
+    out->part_a = answer->part_a;
+    out->part_b = answer->part_b;
     ovoid_answer *x = &out->impact.hit;
-    *x = answer->surfaces;
+    *x = answer->deciding;
     x->status = answer->status;
     x->limit = answer->limit;
     x->lower = answer->lower;

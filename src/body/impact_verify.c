@@ -100,7 +100,7 @@ static ovoid_code verify_parts(const claim *c, const ovoid_answer *hit, double m
 }
 
 // The claimed bracket contains what is found, and says the same of the sign.
-static int holds(const ovoid_answer *claimed, const ovoid_solid_answer *found) {
+static int holds(const ovoid_answer *claimed, const ovoid_body_answer *found) {
     int follows = status_verify_internal(claimed->status, claimed->lower, claimed->upper, INFINITY, NULL) == OVOID_OK;
     if (!follows) return 0;
     return claimed->lower <= found->lower && claimed->upper >= found->upper && claimed->status == found->status;
@@ -114,10 +114,10 @@ static ovoid_code verify_hit_at_begin(const claim *c, ovoid_error *error) {
     moving_trees_ask(&c->trees, c->margin, x->begin, &at);
     if (at.answer.upper + at.shift > c->margin) return verify_parts(c, &x->hit, c->margin, error);
     ovoid_answer surfaces = x->hit;
-    surfaces.status = at.answer.surfaces.status;
-    surfaces.limit = at.answer.surfaces.limit;
-    surfaces.lower = at.answer.surfaces.lower;
-    surfaces.upper = at.answer.surfaces.upper;
+    surfaces.status = at.answer.deciding.status;
+    surfaces.limit = at.answer.deciding.limit;
+    surfaces.lower = at.answer.deciding.lower;
+    surfaces.upper = at.answer.deciding.upper;
     if (!holds(&x->hit, &at.answer) || x->hit.upper + at.shift > c->margin)
         return error_set(error, OVOID_ERROR_PROOF, -1, "the hit at the beginning is not what the bodies show there");
     return verify_parts(c, &surfaces, INFINITY, error);

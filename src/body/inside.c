@@ -36,7 +36,7 @@ int solid_is_inside(const solid_view *own, const solid_view *other, uint32_t com
     return winding != 0;
 }
 
-int solid_find_inside(const solid_view *a, const solid_view *b, int linear, ovoid_solid_inside *inside,
+int solid_find_inside(const solid_view *a, const solid_view *b, int linear, ovoid_body_inside *inside,
                       uint32_t *component) {
     int is_open = 0;
     for (int side = 0; side < 2; side++) {
@@ -47,7 +47,7 @@ int solid_find_inside(const solid_view *a, const solid_view *b, int linear, ovoi
             int is = solid_is_inside(own, other, i, linear);
             is_open |= is < 0;
             if (is <= 0) continue;
-            *inside = side ? OVOID_SOLID_B_INSIDE : OVOID_SOLID_A_INSIDE;
+            *inside = side ? OVOID_BODY_B_INSIDE : OVOID_BODY_A_INSIDE;
             *component = i;
             return 1;
         }

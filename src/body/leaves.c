@@ -171,7 +171,7 @@ void search_visit_leaves(solid_search *h, uint32_t a, uint32_t b, const ovoid_pr
     int is_better = !h->has_best || x->upper < h->best.upper;
     search_take(h, &c);
     if (!is_better) return;
-    h->out->surfaces = *x;
+    h->out->deciding = *x;
     h->is_answered = 1;
 }
 

@@ -95,10 +95,10 @@ void moving_trees_ask(const moving_trees *trees, double margin, double time, mov
 }
 
 int moving_answer_is_apart(const moving_answer *x, int linear) {
-    const ovoid_solid_answer *answer = &x->answer;
-    if (answer->status != OVOID_SEPARATED || !(answer->surfaces.lower > x->shift)) return 0;
+    const ovoid_body_answer *answer = &x->answer;
+    if (answer->status != OVOID_SEPARATED || !(answer->deciding.lower > x->shift)) return 0;
     solid_view a, b;
-    ovoid_solid_inside inside;
+    ovoid_body_inside inside;
     uint32_t component;
     if (!linear) return 1;
     if (!solid_view_make(&x->pair.a, &a) || !solid_view_make(&x->pair.b, &b)) return 0;

@@ -53,7 +53,7 @@ int moving_trees_split_first(const moving_trees *trees, solid_ref a, solid_ref b
 /// may differ from these.
 typedef struct moving_answer {
     ovoid_body_pair pair;
-    ovoid_solid_answer answer;
+    ovoid_body_answer answer;
     double shift;
 } moving_answer;
 void moving_trees_ask(const moving_trees *trees, double margin, double time, moving_answer *out);

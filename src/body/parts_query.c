@@ -9,7 +9,6 @@
 //
 // The traversal's stack is as deep as both trees together; nothing is allocated. At worst every pair of parts is
 // queried.
-#include "base/environment.h"
 #include "body/exclusions.h"
 #include "body/first_look.h"
 #include "body/node_bounds.h"
@@ -24,7 +23,7 @@ typedef struct traversal {
     query_goal whole_goal, goal; ///< the query's goal, and what is left of it: once a margin is met, the sign
     double tolerance, allowance; ///< the latter is not in the former
     // The best pair of parts so far, with its answer in *out; place_a is count_a where there is none.
-    ovoid_compound_answer *out;
+    ovoid_body_answer *out;
     uint32_t place_a, place_b;
     uint32_t warm_a, warm_b; ///< the pair of parts of the earlier proof, or count_a
     double enough;           ///< bounds from here on are pruned: at least the best pair's upper bound
@@ -126,7 +125,7 @@ static const ovoid_pair *pose_pair(traversal *h, uint32_t a, uint32_t b) {
 
 // Lowers the bound from which on pairs are pruned.
 static void tighten(traversal *h) {
-    const ovoid_answer *best = &h->out->answer;
+    const ovoid_answer *best = &h->out->deciding;
     if (h->goal.wants_bracket) {
         // Parts known to within less may have a lower upper bound, whatever their lower one.
         double near = best->upper - h->tolerance;
@@ -137,8 +136,8 @@ static void tighten(traversal *h) {
 }
 
 static void take_best(traversal *h, uint32_t a, uint32_t b, const ovoid_answer *x) {
-    if (h->place_a < h->a.count) exclude_parts(h, h->place_a, h->place_b, &h->out->answer);
-    h->out->answer = *x;
+    if (h->place_a < h->a.count) exclude_parts(h, h->place_a, h->place_b, &h->out->deciding);
+    h->out->deciding = *x;
     h->place_a = a;
     h->place_b = b;
     nodes_frame_set_normal(&h->frame, x->proof.normal);
@@ -149,17 +148,17 @@ static void take_best(traversal *h, uint32_t a, uint32_t b, const ovoid_answer *
 static void visit_parts(traversal *h, uint32_t a, uint32_t b, const ovoid_proof *earlier) {
     query_goal goal = h->goal;
     int has_best = h->place_a < h->a.count;
-    if (has_best && goal.wants_bracket && h->out->answer.upper < goal.far) {
+    if (has_best && goal.wants_bracket && h->out->deciding.upper < goal.far) {
         goal.far = max2(h->enough, 0);
         goal.beyond = OVOID_LIMIT_CAP;
     }
     // The best pair's cover is replaced by that of a deeper one only.
     ovoid_cover *cover = goal.wants_depth && h->exclusions ? h->exclusions->cover : NULL;
     goal.has_cover = has_best;
-    if (has_best) goal.covered = h->out->answer.upper;
+    if (has_best) goal.covered = h->out->deciding.upper;
     answer_find_internal(pose_pair(h, a, b), &h->options, goal, earlier, cover, &h->spare);
     h->out->tested++;
-    if (has_best && !(h->spare.upper < h->out->answer.upper)) {
+    if (has_best && !(h->spare.upper < h->out->deciding.upper)) {
         exclude_parts(h, a, b, &h->spare);
         return;
     }
@@ -171,7 +170,7 @@ static void visit_parts(traversal *h, uint32_t a, uint32_t b, const ovoid_proof 
 
 // 1 if no pair that is left can change the answer.
 static int is_decided(const traversal *h) {
-    return h->place_a < h->a.count && h->out->answer.upper < 0 && !h->goal.wants_depth;
+    return h->place_a < h->a.count && h->out->deciding.upper < 0 && !h->goal.wants_depth;
 }
 static int is_pruned(const traversal *h, double lower) { return lower > h->goal.far || lower >= h->enough; }
 
@@ -213,7 +212,7 @@ static void traverse(traversal *h) {
 }
 
 // Starts with the pair of parts that decided the earlier query. Its indices may be out of range.
-static void visit_earlier(traversal *h, const ovoid_compound_proof *earlier) {
+static void visit_earlier(traversal *h, const ovoid_body_proof *earlier) {
     if (!earlier || earlier->part_a >= h->a.count || earlier->part_b >= h->b.count) return;
     h->warm_a = h->a.compound ? h->a.compound->places[earlier->part_a] : 0;
     h->warm_b = h->b.compound ? h->b.compound->places[earlier->part_b] : 0;
@@ -242,10 +241,10 @@ static void exclude_all(traversal *h) {
 }
 
 static void finish(traversal *h) {
-    ovoid_compound_answer *out = h->out;
+    ovoid_body_answer *out = h->out;
     if (h->place_a == h->a.count) visit_parts(h, 0, 0, NULL);
     if (is_decided(h)) exclude_all(h);
-    ovoid_answer *x = &out->answer;
+    ovoid_answer *x = &out->deciding;
     take_trouble(h, x);
     double lower = min2(x->lower, h->lower);
     ovoid_status status = find_status(h, x, lower);
@@ -276,7 +275,7 @@ static void traversal_make(traversal *h, query_goal goal) {
 }
 
 // The whole traversal, from an earlier proof or NULL. Nodes visited and pairs tested are counted on.
-static void search_from(traversal *h, query_goal goal, const ovoid_compound_proof *earlier) {
+static void search_from(traversal *h, query_goal goal, const ovoid_body_proof *earlier) {
     exclusions_begin(h->exclusions);
     traversal_make(h, goal);
     visit_earlier(h, earlier);
@@ -284,9 +283,8 @@ static void search_from(traversal *h, query_goal goal, const ovoid_compound_proo
     finish(h);
 }
 
-void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                            const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions,
-                            ovoid_compound_answer *out) {
+static void search_parts(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
+                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out) {
     out->part_a = out->part_b = out->visited = out->tested = 0;
     exclusions_begin(exclusions);
     ovoid_cover *cover = exclusions ? exclusions->cover : NULL;
@@ -294,12 +292,12 @@ void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *op
     ovoid_limit refused = OVOID_LIMIT_OPTIONS;
     if (options_make(options, &h.options) && goal.far >= 0) refused = body_pair_view(pair, &h.a, &h.b);
     if (refused != OVOID_LIMIT_NONE) {
-        out->answer = answer_make_refused(refused);
+        out->deciding = answer_make_refused(refused);
         return;
     }
     if (!h.a.compound && !h.b.compound) {
         ovoid_pair parts = {pair->a.shape, pair->b.shape, pair->a.pose, pair->b.pose};
-        answer_find_internal(&parts, options, goal, earlier ? &earlier->proof : NULL, cover, &out->answer);
+        answer_find_internal(&parts, options, goal, earlier ? &earlier->proof : NULL, cover, &out->deciding);
         out->tested = 1;
         return;
     }
@@ -307,32 +305,23 @@ void compound_find_internal(const ovoid_body_pair *pair, const ovoid_options *op
     h.out = out;
     h.exclusions = exclusions;
     search_from(&h, goal, earlier);
-    if (!earlier || !answer_is_improvable(&out->answer)) return;
+    if (!earlier || !answer_is_improvable(&out->deciding)) return;
     // No earlier proof makes an answer worse: the query alone, unless only the proof decides it.
-    int was_decided = out->answer.status != OVOID_UNDECIDED;
+    int was_decided = out->deciding.status != OVOID_UNDECIDED;
     search_from(&h, goal, NULL);
-    if (was_decided && out->answer.status == OVOID_UNDECIDED) search_from(&h, goal, earlier);
+    if (was_decided && out->deciding.status == OVOID_UNDECIDED) search_from(&h, goal, earlier);
 }
 
-static ovoid_compound_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                                  const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    ENVIRONMENT_RETURN_FILLED(ovoid_compound_answer, out, goal,
-                              compound_find_internal(pair, options, goal, earlier, exclusions, &out));
-}
-
-ovoid_compound_answer ovoid_compound_collide(const ovoid_body_pair *pair, const ovoid_options *options,
-                                             const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_collide(), earlier, exclusions);
-}
-ovoid_compound_answer ovoid_compound_within(const ovoid_body_pair *pair, double margin, const ovoid_options *options,
-                                            const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_within(margin), earlier, exclusions);
-}
-ovoid_compound_answer ovoid_compound_distance(const ovoid_body_pair *pair, const ovoid_options *options,
-                                              const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_distance(options), earlier, exclusions);
-}
-ovoid_compound_answer ovoid_compound_depth(const ovoid_body_pair *pair, const ovoid_options *options,
-                                           const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_depth(options), earlier, exclusions);
+void parts_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
+                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+    static const vec3 none = {0, 0, 0};
+    search_parts(pair, options, goal, earlier, exclusions, out);
+    const ovoid_answer *x = &out->deciding;
+    out->status = x->status;
+    out->limit = x->limit;
+    out->lower = x->lower;
+    out->upper = x->upper;
+    out->inside = OVOID_BODY_INSIDE_NONE;
+    out->component = 0;
+    out->parting = out->common = none;
 }

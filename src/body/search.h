@@ -28,7 +28,7 @@ typedef struct solid_search {
     double enough; ///< and bounds from here on: at least the best pair's upper bound
     double lower;  ///< the least of what was left out
     ovoid_exclusions *exclusions;
-    ovoid_solid_answer *out; ///< its `surfaces` are of the best pair where is_answered
+    ovoid_body_answer *out; ///< its `surfaces` are of the best pair where is_answered
     solid_candidate best;
     // Normals of best pairs, in a's frame; the last one is tried on all boxes. A pair that waits knows which one its
     // bound may rest on.

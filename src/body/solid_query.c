@@ -1,8 +1,6 @@
 // Proximity of solids and shapes: which pair of triangles decides, what of the others is left out, and what lies inside
 // what.
 #include "base/compiler.h"
-#include "base/environment.h"
-#include "base/error.h"
 #include "body/body_find.h"
 #include "body/exclusions.h"
 #include "body/search.h"
@@ -17,7 +15,7 @@ static void exclude_all(solid_search *h) {
 }
 
 static ovoid_limit find_limit(const solid_search *h, double lower, double upper, ovoid_status status) {
-    final_bracket b = {.lower = lower, .upper = upper, .status = status, .kind = h->out->surfaces.proof.kind};
+    final_bracket b = {.lower = lower, .upper = upper, .status = status, .kind = h->out->deciding.proof.kind};
     b.tolerance = h->tolerance + h->allowance;
     b.allowance = h->allowance;
     if (bracket_is_left_open(&b, &h->whole_goal)) return OVOID_LIMIT_ALLOWANCE;
@@ -27,7 +25,7 @@ static ovoid_limit find_limit(const solid_search *h, double lower, double upper,
 
 // The bracket of the surfaces, with the answer of the pair that decides it.
 static void finish_surfaces(solid_search *h) {
-    ovoid_solid_answer *out = h->out;
+    ovoid_body_answer *out = h->out;
     if (!h->has_best) {
         search_visit_leaves(h, 0, 0, NULL);
     } else if (!h->is_answered) {
@@ -35,31 +33,31 @@ static void finish_surfaces(solid_search *h) {
         ovoid_pair pair = search_get_pair(h, h->best.place_a, h->best.place_b);
         query_goal goal = h->whole_goal;
         goal.far = max2(goal.far, h->frame.claim);
-        answer_find_internal(&pair, &h->options, goal, NULL, NULL, &out->surfaces);
+        answer_find_internal(&pair, &h->options, goal, NULL, NULL, &out->deciding);
         out->tested++;
     }
     if (search_is_decided(h)) exclude_all(h);
-    ovoid_answer *x = &out->surfaces;
+    ovoid_answer *x = &out->deciding;
     x->lower = min2(x->lower, h->lower);
     x->status = bracket_find_status(x->lower, x->upper, h->tolerance);
     x->limit = find_limit(h, x->lower, x->upper, x->status);
-    out->triangle_a = solid_view_get_index(&h->a, h->best.place_a);
-    out->triangle_b = solid_view_get_index(&h->b, h->best.place_b);
+    out->part_a = solid_view_get_index(&h->a, h->best.place_a);
+    out->part_b = solid_view_get_index(&h->b, h->best.place_b);
     exclusions_finish(h->exclusions);
 }
 
 // 1, 0, or -1 where it is open: nearer than half the claim the point's rounding may cross a surface.
 static int find_inside(solid_search *h) {
     if (!solid_view_is_closed(&h->a) && !solid_view_is_closed(&h->b)) return 0;
-    if (!(h->out->surfaces.lower > h->frame.claim / 2)) return -1;
+    if (!(h->out->deciding.lower > h->frame.claim / 2)) return -1;
     return solid_find_inside(&h->a, &h->b, 0, &h->out->inside, &h->out->component);
 }
 
 // What parts the bodies: of a distance, which is asked for its bracket, and of bodies that touch, by all points.
 static void find_parting(solid_search *h) {
-    ovoid_solid_answer *out = h->out;
+    ovoid_body_answer *out = h->out;
     int is_distance = h->whole_goal.wants_bracket && h->whole_goal.near == -INFINITY;
-    box_gap gap = is_distance || !(out->upper < 0) ? solid_find_parting(&h->frame, &h->a, &h->b, out->surfaces.normal)
+    box_gap gap = is_distance || !(out->upper < 0) ? solid_find_parting(&h->frame, &h->a, &h->b, out->deciding.normal)
                                                    : solid_frame_find_parting(&h->frame, &h->a, &h->b);
     out->lower = min2(gap.lower, min2(out->upper, 0));
     out->parting = gap.normal;
@@ -67,11 +65,11 @@ static void find_parting(solid_search *h) {
 
 // Surfaces that touch leave open how deep the bodies are in each other: a point of both may show it.
 static void find_common_point(solid_search *h) {
-    ovoid_solid_answer *out = h->out;
+    ovoid_body_answer *out = h->out;
     const framed_pair pair = {&h->frame, &h->a, &h->b};
     common_point found;
     if (!framed_pair_find_common_point(&pair, &h->flush, &found)) return;
-    out->inside = OVOID_SOLID_COMMON_POINT;
+    out->inside = OVOID_BODY_COMMON_POINT;
     out->common = found.point;
     out->upper = -found.depth;
     out->lower = min2(out->lower, out->upper);
@@ -79,9 +77,9 @@ static void find_common_point(solid_search *h) {
 
 // From the surfaces to the bodies: what is inside what, and how deep an overlap may be.
 static void finish(solid_search *h) {
-    ovoid_solid_answer *out = h->out;
+    ovoid_body_answer *out = h->out;
     finish_surfaces(h);
-    const ovoid_answer *x = &out->surfaces;
+    const ovoid_answer *x = &out->deciding;
     out->status = x->status;
     out->limit = x->limit;
     out->lower = x->lower;
@@ -100,7 +98,7 @@ static void finish(solid_search *h) {
 
 // ---- the beginning
 
-static void visit_earlier(solid_search *h, const ovoid_compound_proof *earlier) {
+static void visit_earlier(solid_search *h, const ovoid_body_proof *earlier) {
     h->warm_a = h->a.count;
     h->warm_b = h->b.count;
     if (!earlier || earlier->part_a >= h->a.count || earlier->part_b >= h->b.count) return;
@@ -140,8 +138,8 @@ static ovoid_limit begin(solid_search *h, const ovoid_body_pair *pair, const ovo
 
 // The whole query; the limit is that of a refusal.
 static ovoid_limit search_from(solid_search *h, const ovoid_body_pair *pair, const ovoid_options *options,
-                               const query_goal *goal, const ovoid_compound_proof *earlier) {
-    *h->out = (ovoid_solid_answer){.status = OVOID_UNDECIDED};
+                               const query_goal *goal, const ovoid_body_proof *earlier) {
+    *h->out = (ovoid_body_answer){.status = OVOID_UNDECIDED};
     exclusions_begin(h->exclusions);
     ovoid_limit refused = begin(h, pair, options, goal);
     if (refused != OVOID_LIMIT_NONE) return refused;
@@ -152,25 +150,27 @@ static ovoid_limit search_from(solid_search *h, const ovoid_body_pair *pair, con
 }
 
 // A search that began elsewhere might do better.
-static int is_improvable(const ovoid_solid_answer *x) {
-    return answer_is_improvable(&x->surfaces) || limit_is_stuck(x->limit) || x->status == OVOID_TOUCHING ||
+static int is_improvable(const ovoid_body_answer *x) {
+    return answer_is_improvable(&x->deciding) || limit_is_stuck(x->limit) || x->status == OVOID_TOUCHING ||
            x->status == OVOID_UNDECIDED;
 }
 
-static int is_better(ovoid_status status, double width, const ovoid_solid_answer *than) {
+static int is_better(ovoid_status status, double width, const ovoid_body_answer *than) {
     if ((status == OVOID_UNDECIDED) != (than->status == OVOID_UNDECIDED)) return status != OVOID_UNDECIDED;
     return status == than->status && width < than->upper - than->lower;
 }
 
 COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *options,
-                                           const query_goal *goal, const ovoid_compound_proof *earlier,
-                                           ovoid_exclusions *exclusions, ovoid_solid_answer *out) {
+                                           const query_goal *goal, const ovoid_body_proof *earlier,
+                                           ovoid_exclusions *exclusions, ovoid_body_answer *out) {
     solid_search h;
+    query_goal own = *goal;
+    own.wants_depth = 0;
     h.out = out;
     h.exclusions = exclusions;
-    ovoid_limit refused = search_from(&h, pair, options, goal, earlier);
+    ovoid_limit refused = search_from(&h, pair, options, &own, earlier);
     if (refused != OVOID_LIMIT_NONE) {
-        out->surfaces = answer_make_refused(refused);
+        out->deciding = answer_make_refused(refused);
         out->limit = refused;
         out->lower = -INFINITY;
         out->upper = INFINITY;
@@ -180,54 +180,6 @@ COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ov
     // No earlier proof makes an answer worse: the query alone, unless the one from the proof says more.
     ovoid_status status = out->status;
     double width = out->upper - out->lower;
-    (void)search_from(&h, pair, options, goal, NULL);
-    if (is_better(status, width, out)) (void)search_from(&h, pair, options, goal, earlier);
-}
-
-// Queries two bodies of which none is a solid, with the answer of compounds.
-COMPILER_NOINLINE static void find_as_compound(const ovoid_body_pair *pair, const ovoid_options *options,
-                                               const query_goal *goal, const ovoid_compound_proof *earlier,
-                                               ovoid_exclusions *exclusions, ovoid_compound_answer *out) {
-    ovoid_solid_answer x;
-    solid_find_internal(pair, options, goal, earlier, exclusions, &x);
-    *out = (ovoid_compound_answer){
-        .answer = x.surfaces, .part_a = x.triangle_a, .part_b = x.triangle_b, .visited = x.visited, .tested = x.tested};
-    out->answer.status = x.status;
-    out->answer.limit = x.limit;
-    out->answer.lower = x.lower;
-    out->answer.upper = x.upper;
-}
-
-void body_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                        const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions, ovoid_compound_answer *out) {
-    if (!body_pair_has_solid(pair)) {
-        compound_find_internal(pair, options, goal, earlier, exclusions, out);
-        return;
-    }
-    goal.wants_depth = 0;
-    find_as_compound(pair, options, &goal, earlier, exclusions, out);
-}
-
-static ovoid_solid_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                               const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    OVOID_ASSERT(pair);
-    ENVIRONMENT_RETURN_FILLED(ovoid_solid_answer, out, goal,
-                              solid_find_internal(pair, options, &goal, earlier, exclusions, &out));
-}
-
-ovoid_solid_answer ovoid_solid_collide(const ovoid_body_pair *pair, const ovoid_options *options,
-                                       const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_collide(), earlier, exclusions);
-}
-ovoid_solid_answer ovoid_solid_within(const ovoid_body_pair *pair, double margin, const ovoid_options *options,
-                                      const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_within(margin), earlier, exclusions);
-}
-ovoid_solid_answer ovoid_solid_distance(const ovoid_body_pair *pair, const ovoid_options *options,
-                                        const ovoid_compound_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_distance(options), earlier, exclusions);
-}
-
-int ovoid_solid_answer_is_within(const ovoid_solid_answer *x, double margin) {
-    return x->upper <= margin ? 1 : x->lower > margin ? 0 : -1;
+    (void)search_from(&h, pair, options, &own, NULL);
+    if (is_better(status, width, out)) (void)search_from(&h, pair, options, &own, earlier);
 }

@@ -3,6 +3,7 @@
 
 #include "base/allocator.h"
 #include "base/error.h"
+#include "ovoid/query.h"
 
 enum { CELLS = 1 << 18, CELLS_LEAST = 4096, WORK = 1 << 21 };
 

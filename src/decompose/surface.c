@@ -3,7 +3,7 @@
 // it holds of any two polytopes). Any direction that shows a gap proves it, whatever rounding made of the direction.
 #include "decompose/body.h"
 
-#include "ovoid/solid.h"
+#include "ovoid/body.h"
 
 // ---- the nearest point of a triangle (C. Ericson, Real-time collision detection, 2004)
 
@@ -211,6 +211,6 @@ double body_find_outside(const body *b, vec3 x) {
     ovoid_body_pair pair = {.a = {.shape = b->point, .pose = at},
                             .b = {.solid = b->solid, .pose = ovoid_pose_make_identity()}};
     ovoid_options options = {.absolute_tolerance = b->tolerance};
-    ovoid_solid_answer answer = ovoid_solid_distance(&pair, &options, NULL, NULL);
+    ovoid_body_answer answer = ovoid_body_distance(&pair, &options, NULL, NULL);
     return answer.status == OVOID_SEPARATED ? answer.lower * b->inverse : 0;
 }

@@ -6,12 +6,13 @@
 
 /// Two shapes are asked directly, without a compound's traversal.
 static inline void bodies_query(const ovoid_body *a, const ovoid_body *b, const ovoid_options *options, query_goal goal,
-                                ovoid_compound_answer *out) {
+                                ovoid_body_answer *out) {
     if (a->shape && b->shape) {
         ovoid_pair two = {a->shape, b->shape, a->pose, b->pose};
-        out->part_a = out->part_b = out->visited = 0;
+        ovoid_answer x;
+        answer_find_internal(&two, options, goal, NULL, NULL, &x);
+        *out = body_answer_make(&x, 0, 0);
         out->tested = 1;
-        answer_find_internal(&two, options, goal, NULL, NULL, &out->answer);
         return;
     }
     ovoid_body_pair pair = {*a, *b};

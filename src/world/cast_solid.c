@@ -100,7 +100,7 @@ static void traverse(ray_search *x) {
 }
 
 // Does the solid hold the ray's point, or its ball, at a time? *answer: the bodies'.
-static int holds(const ray_search *x, double time, ovoid_solid_answer *answer) {
+static int holds(const ray_search *x, double time, ovoid_body_answer *answer) {
     point_shape point;
     point_make(&point, x->ray->radius);
     vec3 at = vec3_add(x->ray->origin, vec3_scale(x->ray->direction, time));
@@ -113,16 +113,16 @@ static int holds(const ray_search *x, double time, ovoid_solid_answer *answer) {
 
 // A ray that begins inside.
 static int take_beginning(ray_search *x) {
-    ovoid_solid_answer at;
+    ovoid_body_answer at;
     if (!holds(x, 0, &at)) return 0;
-    x->hit = (part_hit){at.triangle_a, 0, OVOID_IMPACT_HIT, 0, 0, at.surfaces.point_a, at.surfaces.normal};
+    x->hit = (part_hit){at.part_a, 0, OVOID_IMPACT_HIT, 0, 0, at.deciding.point_a, at.deciding.normal};
     return 1;
 }
 
 // Looks behind the crossings for a point that is inside, first a rounding and then ever farther, up to the next one.
 static void take_crossings(ray_search *x) {
     double scale = vec3_norm(x->ray->direction), size = x->view.extent + vec3_norm(x->origin);
-    ovoid_solid_answer at;
+    ovoid_body_answer at;
     for (uint32_t i = 0; i < x->count && !(x->hit.upper < INFINITY); i++) {
         double first = x->crossing[i].lower, next = x->ray->length;
         for (uint32_t k = i + 1; k < x->count && !(next < x->ray->length); k++)

@@ -3,8 +3,8 @@
 #define OVOID_WORLD_CAST_SOLID_H
 
 #include "linear/vec3.h"
+#include "ovoid/body.h"
 #include "ovoid/motion.h"
-#include "ovoid/solid.h"
 
 /// The hit of one part: bracket of its time; upper is infinity where no hit is proven.
 typedef struct part_hit {

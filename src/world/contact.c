@@ -21,7 +21,7 @@ static const world_pair *find_pair(const ovoid_world *w, uint64_t key) {
 }
 
 static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_exclusions *exclusions,
-                                ovoid_compound_answer *out, ovoid_error *error) {
+                                ovoid_body_answer *out, ovoid_error *error) {
     OVOID_ASSERT(w && contact && out);
     uint32_t a = world_find_body(w, contact->a), b = world_find_body(w, contact->b);
     if (a == NONE) return world_refuse_id(error, 0, contact->a);
@@ -32,14 +32,11 @@ static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *conta
     const world_pair *p = find_pair(w, key_make(a, b));
     const pair_cache *warm = p && p->flags & PAIR_KNOWN ? &w->pair_cache[p->slot] : NULL;
     ovoid_body_pair both = {w->bodies[a].body, w->bodies[b].body};
-    if (body_pair_has_solid(&both))
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1,
-                         "a pair with a solid: ask ovoid_solid_distance and its sisters about its bodies");
     pair_query(w, &both, warm, exclusions, out);
     return OVOID_OK;
 }
 
 ovoid_code ovoid_world_compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_exclusions *exclusions,
-                                     ovoid_compound_answer *out, ovoid_error *error) {
+                                     ovoid_body_answer *out, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, w, compute_proof(w, contact, exclusions, out, error));
 }

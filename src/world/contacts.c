@@ -4,6 +4,7 @@
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "query/goal.h"
 #include "world/pair_update.h"
 
 #include <string.h>

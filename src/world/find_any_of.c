@@ -30,7 +30,7 @@ typedef struct state_search {
     query_goal goal;
     placed_probe *probe; ///< the one that traverses the tree
     uint32_t group, mask;
-    ovoid_compound_answer found;
+    ovoid_body_answer found;
     uint32_t body; ///< the one that was found, or NONE
 } state_search;
 
@@ -77,7 +77,7 @@ static int find_touch(void *context, const tree_node *leaf) {
     tighten(p);
     if (!box_is_overlapping(&p->at.bounds, &leaf->bounds)) return 1;
     bodies_query(p->body, &b->body, &x->options, x->goal, &x->found);
-    if (x->found.answer.lower > 0) return 1;
+    if (x->found.lower > 0) return 1;
     x->body = leaf->body;
     return 0;
 }
@@ -106,7 +106,7 @@ static int do_touch(state_search *x, placed_probe *a, placed_probe *b) {
     tighten(b);
     if (!box_is_overlapping(&a->at.bounds, &b->at.bounds)) return 0;
     bodies_query(a->body, b->body, &x->options, x->goal, &x->found);
-    return !(x->found.answer.lower > 0);
+    return !(x->found.lower > 0);
 }
 
 // The number of the first couple that is not proven apart; couple_count where all are.
@@ -134,7 +134,7 @@ static ovoid_code validate_couples(const ovoid_world_probes *all, ovoid_error *e
 static void write_none(ovoid_world_hit *hit) { memset(hit, 0, sizeof *hit); }
 
 static void write_hit(const state_search *x, size_t a, ovoid_id b, ovoid_world_hit *hit) {
-    *hit = (ovoid_world_hit){a, b, x->found.answer.lower, x->found};
+    *hit = (ovoid_world_hit){a, b, x->found.lower, x->found};
 }
 
 static ovoid_code find_any_of(const ovoid_world *w, const ovoid_world_probes *all, ovoid_world_hit *hit,

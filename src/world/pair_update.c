@@ -60,8 +60,8 @@ static query_goal make_goal(const ovoid_world *w) {
 }
 
 void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *k, ovoid_exclusions *exclusions,
-                ovoid_compound_answer *out) {
-    ovoid_compound_proof earlier;
+                ovoid_body_answer *out) {
+    ovoid_body_proof earlier;
     if (k && k->proof == OVOID_PROOF_NONE) k = NULL;
     if (k) {
         earlier.part_a = k->part_a;
@@ -161,12 +161,13 @@ static void query_pair(ovoid_world *w, const world_pair *p, pair_cache *k) {
         cache_answer(w, p, k, &x);
         return;
     }
-    ovoid_compound_answer x;
+    ovoid_body_answer x;
     ovoid_body_pair both = {w->bodies[p->a].body, w->bodies[p->b].body};
     pair_query(w, &both, k, NULL, &x);
     k->part_a = x.part_a;
     k->part_b = x.part_b;
-    cache_answer(w, p, k, &x.answer);
+    ovoid_answer own = body_answer_get_answer(&x);
+    cache_answer(w, p, k, &own);
 }
 
 void pair_update(ovoid_world *w, world_pair *p) {

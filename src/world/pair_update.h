@@ -2,12 +2,12 @@
 #ifndef OVOID_WORLD_PAIR_UPDATE_H
 #define OVOID_WORLD_PAIR_UPDATE_H
 
-#include "compound/compound.h"
+#include "ovoid/body.h"
 #include "world/state.h"
 
 /// The query of two bodies at the present poses, warm from the cache (NULL: cold).
 void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *k, ovoid_exclusions *exclusions,
-                ovoid_compound_answer *out);
+                ovoid_body_answer *out);
 
 /// Sets how long the cached answer answers the world's query: kind, v, c and CONTACT.
 void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k);

@@ -23,7 +23,7 @@ typedef struct world_search {
     query_goal goal;
     double bound; ///< of the traversal, length
     double lower; ///< the least lower bound of all pairs queried
-    ovoid_compound_answer found;
+    ovoid_body_answer found;
     uint32_t found_a, found_b;
     // Overlaps, in the caller's memory.
     ovoid_world_hit *hits;
@@ -71,7 +71,7 @@ static int is_queried(const world_search *x, uint32_t j) {
     return j != x->self && (x->after == NONE || j > x->after) && world_is_pair(x->w, x->self, j);
 }
 
-static void query_body(const world_search *x, uint32_t j, ovoid_compound_answer *out) {
+static void query_body(const world_search *x, uint32_t j, ovoid_body_answer *out) {
     bodies_query(&x->body, &x->w->bodies[j].body, &x->options, x->goal, out);
 }
 
@@ -83,25 +83,25 @@ static double measure_distance(const void *context, const box *bounds) {
 static void visit_nearest(void *context, uint32_t j) {
     world_search *x = context;
     if (!is_queried(x, j)) return;
-    ovoid_compound_answer out;
+    ovoid_body_answer out;
     x->goal.far = x->bound;
     query_body(x, j, &out);
-    x->lower = min2(x->lower, out.answer.lower);
-    if (!(out.answer.upper <= x->bound)) return;
+    x->lower = min2(x->lower, out.lower);
+    if (!(out.upper <= x->bound)) return;
     x->found = out;
     x->found_a = x->self;
     x->found_b = j;
     // No pair is nearer than one that overlaps.
-    x->bound = out.answer.upper > 0 ? out.answer.upper : -INFINITY;
+    x->bound = out.upper > 0 ? out.upper : -INFINITY;
 }
 
 static int find_touch(void *context, const tree_node *leaf) {
     world_search *x = context;
     uint32_t j = leaf->body;
     if (!is_queried(x, j)) return 1;
-    ovoid_compound_answer out;
+    ovoid_body_answer out;
     query_body(x, j, &out);
-    if (out.answer.lower > 0) return 1;
+    if (out.lower > 0) return 1;
     x->found = out;
     x->found_a = x->self;
     x->found_b = j;
@@ -113,11 +113,11 @@ static ovoid_id get_id(const ovoid_world *w, uint32_t i) { return i == NONE ? 0 
 static void visit_overlaps(void *context, uint32_t j) {
     world_search *x = context;
     if (!is_queried(x, j)) return;
-    ovoid_compound_answer out;
+    ovoid_body_answer out;
     query_body(x, j, &out);
-    if (out.answer.lower > x->goal.far) return;
+    if (out.lower > x->goal.far) return;
     if (x->count < x->capacity)
-        x->hits[x->count] = (ovoid_world_hit){get_id(x->w, x->self), body_get_id(x->w, j), out.answer.lower, out};
+        x->hits[x->count] = (ovoid_world_hit){get_id(x->w, x->self), body_get_id(x->w, j), out.lower, out};
     x->count++;
 }
 
@@ -134,8 +134,8 @@ static void write_hit(const world_search *x, ovoid_world_hit *hit) {
         hit->lower = min2(x->lower, x->bound);
         return;
     }
-    *hit = (ovoid_world_hit){get_id(x->w, x->found_a), body_get_id(x->w, x->found_b),
-                             min2(x->lower, x->found.answer.lower), x->found};
+    *hit = (ovoid_world_hit){get_id(x->w, x->found_a), body_get_id(x->w, x->found_b), min2(x->lower, x->found.lower),
+                             x->found};
 }
 
 static ovoid_code find_nearest_of(world_search *x, ovoid_world_hit *hit) {

@@ -3,7 +3,7 @@
 #define OVOID_TESTS_ALTER_ANSWER_H
 
 #include "alter.h"
-#include "ovoid/compound.h"
+#include "ovoid/body.h"
 
 #define ALTER_VEC3(member)                                                                                             \
     ALTER_FIELD(ovoid_answer, member.x, ALTER_REAL, 1e-9), ALTER_FIELD(ovoid_answer, member.y, ALTER_REAL, 1e-9),      \

@@ -3,7 +3,7 @@
 #define OVOID_TESTS_COMPOUNDS_H
 
 #include "check.h"
-#include "ovoid/compound.h"
+#include "ovoid/body.h"
 
 enum { SHAPES = 12 };
 

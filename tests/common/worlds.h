@@ -44,17 +44,17 @@ static inline ovoid_vec3 random_place(uint64_t *s, double side) {
 }
 
 /// The answer of the pair alone, cold.
-static inline ovoid_compound_answer world_ask(const ovoid_world_body *a, const ovoid_world_body *b,
-                                              const ovoid_contact_query *q) {
+static inline ovoid_body_answer world_ask(const ovoid_world_body *a, const ovoid_world_body *b,
+                                          const ovoid_contact_query *q) {
     ovoid_body_pair pair = {a->body, b->body};
     ovoid_options o = {.cap = 0};
     if (q->options) o = *q->options;
     o.cap = q->margin > 0 ? q->margin : 1e-300;
     switch (q->kind) {
-    case OVOID_QUERY_COLLIDE: return ovoid_compound_collide(&pair, &o, NULL, NULL);
-    case OVOID_QUERY_WITHIN: return ovoid_compound_within(&pair, q->margin, &o, NULL, NULL);
-    case OVOID_QUERY_DISTANCE: return ovoid_compound_distance(&pair, &o, NULL, NULL);
-    default: return ovoid_compound_depth(&pair, &o, NULL, NULL);
+    case OVOID_QUERY_COLLIDE: return ovoid_body_collide(&pair, &o, NULL, NULL);
+    case OVOID_QUERY_WITHIN: return ovoid_body_within(&pair, q->margin, &o, NULL, NULL);
+    case OVOID_QUERY_DISTANCE: return ovoid_body_distance(&pair, &o, NULL, NULL);
+    default: return ovoid_body_depth(&pair, &o, NULL, NULL);
     }
 }
 
@@ -82,19 +82,19 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     static ovoid_cover cover;
     ovoid_exclusions exclusions = {items, 4096, 0, &cover};
     ovoid_body_pair pair = {a->body, b->body};
-    ovoid_answer alone = world_ask(a, b, q).answer, truth = ovoid_compound_depth(&pair, NULL, NULL, NULL).answer;
+    ovoid_answer alone = world_ask(a, b, q).deciding, truth = ovoid_body_depth(&pair, NULL, NULL, NULL).deciding;
     CHECK_EQ(c->verdict.status, alone.status);
     CHECK_LE(c->verdict.lower, truth.upper);
     CHECK_LE(truth.lower, c->verdict.upper);
     // The reported bounds show the status.
     CHECK(c->verdict.status != OVOID_SEPARATED || c->verdict.lower > 0);
     CHECK(c->verdict.status != OVOID_OVERLAPPING || c->verdict.upper < 0);
-    ovoid_compound_answer proven;
+    ovoid_body_answer proven;
     ovoid_error error = {0};
     CHECK(ovoid_world_compute_proof(w, c, &exclusions, &proven, &error) == OVOID_OK);
-    if (!CHECK(ovoid_compound_answer_verify(&pair, &proven, q->options, &exclusions, &error) == OVOID_OK))
+    if (!CHECK(ovoid_body_verify(&pair, &proven, q->options, &exclusions, &error) == OVOID_OK))
         printf("  %s\n", error.message);
-    CHECK_EQ(proven.answer.status, alone.status);
+    CHECK_EQ(proven.status, alone.status);
     // Two brackets of one distance, each as wide as the tolerance.
     double near = 2e-9 * world_find_size(&a->body, &b->body);
     if (q->kind == OVOID_QUERY_DEPTH) CHECK_NEAR(c->verdict.upper, truth.upper, near);
@@ -119,7 +119,7 @@ static inline void world_validate_frame(const ovoid_world *w, const ovoid_contac
             } else if (is_in) {
                 world_check_contact(w, c, &body_a, &body_b, q);
             } else {
-                ovoid_answer alone = world_ask(&body_a, &body_b, q).answer;
+                ovoid_answer alone = world_ask(&body_a, &body_b, q).deciding;
                 CHECK(alone.lower > q->margin || (q->kind == OVOID_QUERY_DISTANCE && alone.lower >= q->margin));
             }
         }

@@ -75,8 +75,8 @@ void check_scenes() {
     const auto hulls = ovoid::scene::read_hulls(folder + "/meshes.json");
     CHECK(ovoid_scene_get(hulls.get(), 0).solid == nullptr && ovoid_scene_get(meshes.get(), 0).solid != nullptr);
     CHECK(scene.pair_count() == ovoid_scene_get_pair_count(scene.get()));
-    const ovoid::compound_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));
-    CHECK(a.answer.lower <= 7 && a.answer.upper >= 7 && a.part_b == 0);
+    const ovoid::body_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));
+    CHECK(a.lower <= 7 && a.upper >= 7 && a.part_b == 0);
     auto world = ovoid::world::create();
     for (std::size_t i = 0; i < scene.size(); i++) world.add(scene[i]);
     CHECK_EQ(world.compute_contacts({OVOID_QUERY_WITHIN, 8}).size(), 1);

@@ -71,9 +71,9 @@ void check_pairs() {
     for (const ovoid_limit l : {ovoid::collide(one, bad).limit, ovoid::within(one, 1, bad).limit,
                                 ovoid::distance(one, bad).limit, ovoid::depth(one, bad).limit})
         CHECK_EQ(l, OVOID_LIMIT_OPTIONS);
-    for (const ovoid::compound_answer &a :
+    for (const ovoid::body_answer &a :
          {ovoid::collide(two, bad), ovoid::within(two, 1, bad), ovoid::distance(two, bad), ovoid::depth(two, bad)})
-        CHECK_EQ(a.answer.limit, OVOID_LIMIT_OPTIONS);
+        CHECK_EQ(a.limit, OVOID_LIMIT_OPTIONS);
     const ovoid::answer refused = ovoid::distance({b.box, b.pill, {}, vec3(NAN, 0, 0)});
     CHECK(refused.limit == OVOID_LIMIT_POSE_B && std::strcmp(ovoid::name(refused.status), "undecided") == 0);
     CHECK(std::strcmp(ovoid::name(refused.limit), ovoid_limit_get_name(OVOID_LIMIT_POSE_B)) == 0);
@@ -130,21 +130,22 @@ void check_compounds() {
     const ovoid::body_pair p({arm, vec3(0, 0, 1)}, {b.hull, vec3(7, 1, 0)});
     const ovoid_body_pair c = {{nullptr, arm.get(), pose(vec3(0, 0, 1)), nullptr},
                                {b.hull.get(), nullptr, pose(vec3(7, 1, 0)), nullptr}};
-    const ovoid_compound_answer truth = ovoid_compound_distance(&c, nullptr, nullptr, nullptr);
+    const ovoid_body_answer truth = ovoid_body_distance(&c, nullptr, nullptr, nullptr);
     std::vector<ovoid_exclusion> space(10);
     ovoid::exclusions e(space);
-    const ovoid::compound_answer found = ovoid::distance(p, {}, nullptr, &e);
-    CHECK(is_same_answer(found.answer, truth.answer) && found.part_a == truth.part_a && found.part_b == truth.part_b);
+    const ovoid::body_answer found = ovoid::distance(p, {}, nullptr, &e);
+    CHECK(is_same_answer(found.deciding, truth.deciding) && found.part_a == truth.part_a &&
+          found.part_b == truth.part_b);
     CHECK(e.is_complete() && e.written().size() == e.count && ovoid::is_proven(p, found, ovoid::options(), &e));
     ovoid::verify(p, found, ovoid::options(), &e);
-    const ovoid::compound_proof warm = ovoid::proof_of(found);
-    CHECK(is_same_answer(ovoid::collide(p).answer, ovoid_compound_collide(&c, nullptr, nullptr, nullptr).answer));
-    CHECK(is_same_answer(ovoid::collide(p, {}, &warm).answer,
-                         ovoid_compound_collide(&c, nullptr, &warm, nullptr).answer));
-    CHECK(is_same_answer(ovoid::within(p, 3).answer, ovoid_compound_within(&c, 3, nullptr, nullptr, nullptr).answer));
-    CHECK(is_same_answer(ovoid::depth(p).answer, ovoid_compound_depth(&c, nullptr, nullptr, nullptr).answer));
-    ovoid::compound_answer wrong = found;
-    wrong.answer.lower += 1;
+    const ovoid::body_proof warm = ovoid::proof_of(found);
+    CHECK(is_same_answer(ovoid::collide(p).deciding, ovoid_body_collide(&c, nullptr, nullptr, nullptr).deciding));
+    CHECK(is_same_answer(ovoid::collide(p, {}, &warm).deciding,
+                         ovoid_body_collide(&c, nullptr, &warm, nullptr).deciding));
+    CHECK(is_same_answer(ovoid::within(p, 3).deciding, ovoid_body_within(&c, 3, nullptr, nullptr, nullptr).deciding));
+    CHECK(is_same_answer(ovoid::depth(p).deciding, ovoid_body_depth(&c, nullptr, nullptr, nullptr).deciding));
+    ovoid::body_answer wrong = found;
+    wrong.lower += 1;
     CHECK(!ovoid::is_proven(p, wrong, ovoid::options(), &e));
     CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::verify(p, wrong, ovoid::options(), &e); }));
     CHECK(throws(OVOID_ERROR_EMPTY, -1, "", [] { ovoid::compound::create(std::vector<ovoid::posed_shape>()); }));

@@ -2,10 +2,10 @@
 // C answers to the same bodies, options and earlier proofs; and of an L and a cube, distances known by their corners.
 #include "same.hpp"
 
+using ovoid::body_pair;
 using ovoid::pose;
 using ovoid::shape;
 using ovoid::solid;
-using ovoid::solid_pair;
 
 namespace {
 
@@ -18,10 +18,10 @@ const std::uint32_t triangles[60] = {0,  2, 1,  0,  3,  2, 0,  4, 3, 0, 5,  4, 6
 
 solid make_angle() { return solid::from_triangles(corners, 12, triangles, 20); }
 
-bool is_same_solid_answer(const ovoid_solid_answer &a, const ovoid_solid_answer &b) {
+bool is_same_solid_answer(const ovoid_body_answer &a, const ovoid_body_answer &b) {
     return a.status == b.status && a.limit == b.limit && is_same(a.lower, b.lower) && is_same(a.upper, b.upper) &&
            is_same(a.parting, b.parting) && a.inside == b.inside && a.component == b.component &&
-           a.triangle_a == b.triangle_a && a.triangle_b == b.triangle_b && is_same_answer(a.surfaces, b.surfaces);
+           a.part_a == b.part_a && a.part_b == b.part_b && is_same_answer(a.deciding, b.deciding);
 }
 
 void check_views() {
@@ -60,32 +60,31 @@ void check_queries() {
     ovoid_exclusion items[512], other[512];
     for (const pose &at : {pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0}), pose::rpy({1.1, 0.9, 0.5}, {0.2, 0.1, 0.7}),
                            pose::rpy({0.5, 0.5, 0.5}, {0, 0, 0})}) {
-        const solid_pair p({angle}, {cube, at}), two({angle}, {angle, at});
-        for (const solid_pair *q : {&p, &two}) {
+        const body_pair p({angle}, {cube, at}), two({angle}, {angle, at});
+        for (const body_pair *q : {&p, &two}) {
             ovoid_exclusions all = {items, 512, 0, nullptr}, c = {other, 512, 0, nullptr};
-            const ovoid::solid_answer x = ovoid::distance(*q, {}, nullptr, &all);
-            CHECK(is_same_solid_answer(x, ovoid_solid_distance(q, nullptr, nullptr, &c)));
+            const ovoid::body_answer x = ovoid::distance(*q, {}, nullptr, &all);
+            CHECK(is_same_solid_answer(x, ovoid_body_distance(q, nullptr, nullptr, &c)));
             CHECK_EQ(all.count, c.count);
             CHECK(ovoid::is_proven(*q, x, ovoid::options(), &all));
-            ovoid::solid_answer wrong = x;
-            wrong.surfaces.lower += 0.1;
+            ovoid::body_answer wrong = x;
+            wrong.deciding.lower += 0.1;
             CHECK(!ovoid::is_proven(*q, wrong, ovoid::options(), &all));
-            const ovoid::compound_proof earlier = ovoid::proof_of(x);
+            const ovoid::body_proof earlier = ovoid::proof_of(x);
             CHECK(is_same_solid_answer(ovoid::distance(*q, {}, &earlier),
-                                       ovoid_solid_distance(q, nullptr, &earlier, nullptr)));
-            CHECK(is_same_solid_answer(ovoid::collide(*q), ovoid_solid_collide(q, nullptr, nullptr, nullptr)));
-            const ovoid::solid_answer w = ovoid::within(*q, 0.5);
-            CHECK(is_same_solid_answer(w, ovoid_solid_within(q, 0.5, nullptr, nullptr, nullptr)));
-            CHECK_EQ(ovoid::is_within(w, 0.5), ovoid_solid_answer_is_within(&w, 0.5));
+                                       ovoid_body_distance(q, nullptr, &earlier, nullptr)));
+            CHECK(is_same_solid_answer(ovoid::collide(*q), ovoid_body_collide(q, nullptr, nullptr, nullptr)));
+            const ovoid::body_answer w = ovoid::within(*q, 0.5);
+            CHECK(is_same_solid_answer(w, ovoid_body_within(q, 0.5, nullptr, nullptr, nullptr)));
+            CHECK_EQ(ovoid::is_within(w, 0.5), ovoid_body_answer_is_within(&w, 0.5));
         }
     }
     // In the notch a quarter from both of its walls; in the L.
-    const ovoid::solid_answer apart =
-        ovoid::distance(solid_pair({angle}, {cube, pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0})}));
+    const ovoid::body_answer apart = ovoid::distance(body_pair({angle}, {cube, pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0})}));
     CHECK_EQ(apart.status, OVOID_SEPARATED);
     CHECK_NEAR(apart.lower, 0.25, 1e-9);
-    const ovoid::solid_answer in = ovoid::distance(solid_pair({angle}, {cube, pose::rpy({0.5, 0.5, 0.5}, {0, 0, 0})}));
-    CHECK_EQ(in.inside, OVOID_SOLID_B_INSIDE);
+    const ovoid::body_answer in = ovoid::distance(body_pair({angle}, {cube, pose::rpy({0.5, 0.5, 0.5}, {0, 0, 0})}));
+    CHECK_EQ(in.inside, OVOID_BODY_B_INSIDE);
     CHECK_NEAR(in.upper, -0.25, 1e-9);
 }
 
@@ -97,9 +96,9 @@ void check_bodies() {
         {{cube, pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0})}, {cube, pose::rpy({4, 4, 0.5}, {0, 0, 0})}});
     ovoid_exclusion items[512];
     ovoid_exclusions all = {items, 512, 0, nullptr};
-    const solid_pair beside(angle, two);
-    const ovoid::solid_answer x = ovoid::distance(beside, {}, nullptr, &all);
-    CHECK_EQ(x.triangle_b, 0u);
+    const body_pair beside(angle, two);
+    const ovoid::body_answer x = ovoid::distance(beside, {}, nullptr, &all);
+    CHECK_EQ(x.part_b, 0u);
     CHECK_NEAR(x.lower, 0.25, 1e-9);
     CHECK(ovoid::is_proven(beside, x, ovoid::options(), &all));
     ovoid::world w = ovoid::world::create();

@@ -39,7 +39,7 @@ struct worlds {
 
 bool is_same_hit(const ovoid_world_hit &a, const ovoid_world_hit &b) {
     return a.a == b.a && a.b == b.b && a.lower == b.lower &&
-           (a.b == 0 || is_same_answer(a.answer.answer, b.answer.answer));
+           (a.b == 0 || is_same_answer(a.answer.deciding, b.answer.deciding));
 }
 
 void check_contacts(worlds &w) {
@@ -59,9 +59,9 @@ void check_contacts(worlds &w) {
             i++;
         }
         CHECK_EQ(i, truth.count);
-        ovoid_compound_answer proof;
+        ovoid_body_answer proof;
         CHECK_EQ(ovoid_world_compute_proof(w.theirs, truth.items, nullptr, &proof, nullptr), OVOID_OK);
-        CHECK(is_same_answer(w.ours.compute_proof(found[0]).answer, proof.answer));
+        CHECK(is_same_answer(w.ours.compute_proof(found[0]).deciding, proof.deciding));
     }
 }
 

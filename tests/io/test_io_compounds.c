@@ -38,10 +38,10 @@ static void destroy_object(object *o) {
     ovoid_shapes_destroy(o->shapes);
 }
 
-static void check_checks(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
+static void check_checks(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     CHECK_LE(all->count, CAPACITY);
-    if (!CHECK(ovoid_compound_answer_verify(pair, x, NULL, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(ovoid_body_verify(pair, x, NULL, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
 }
 
 static void check_pair(const object *a, const object *b, uint64_t *s) {
@@ -49,19 +49,19 @@ static void check_pair(const object *a, const object *b, uint64_t *s) {
     ovoid_body_pair pair = {{.compound = a->compound, .pose = {random_vec3(s, reach), random_quat(s)}},
                             {.compound = b->compound, .pose = {random_vec3(s, reach), random_quat(s)}}};
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-    ovoid_compound_answer distance = ovoid_compound_distance(&pair, NULL, NULL, &all);
+    ovoid_body_answer distance = ovoid_body_distance(&pair, NULL, NULL, &all);
     check_checks(&pair, &distance, &all);
-    ovoid_compound_answer collide = ovoid_compound_collide(&pair, NULL, NULL, &all);
+    ovoid_body_answer collide = ovoid_body_collide(&pair, NULL, NULL, &all);
     check_checks(&pair, &collide, &all);
-    CHECK_EQ(collide.answer.status, distance.answer.status);
-    ovoid_compound_answer depth = ovoid_compound_depth(&pair, NULL, NULL, NULL);
-    CHECK_LE(depth.answer.lower, distance.answer.upper);
-    CHECK_LE(distance.answer.lower, depth.answer.upper);
+    CHECK_EQ(collide.status, distance.status);
+    ovoid_body_answer depth = ovoid_body_depth(&pair, NULL, NULL, NULL);
+    CHECK_LE(depth.lower, distance.upper);
+    CHECK_LE(distance.lower, depth.upper);
     if (get_count(&pair.a) * get_count(&pair.b) > 150) return;
     bracket truth = find_brute(&pair, 1);
-    CHECK_LE(depth.answer.lower, truth.upper);
-    CHECK_LE(truth.lower, depth.answer.upper);
-    CHECK_LE(depth.answer.upper - depth.answer.lower, 1e-8 * (4 * reach + a->reach + b->reach));
+    CHECK_LE(depth.lower, truth.upper);
+    CHECK_LE(truth.lower, depth.upper);
+    CHECK_LE(depth.upper - depth.lower, 1e-8 * (4 * reach + a->reach + b->reach));
 }
 
 int main(void) {

@@ -1,4 +1,4 @@
-// A liar for ovoid_compound_answer_verify: true answers about compounds and shapes, of all four queries, are altered
+// A liar for ovoid_body_verify: true answers about compounds and shapes, of all four queries, are altered
 // one field at a time (alter.h), and their exclusions: each field of some, one left out, doubled, another's, two
 // swapped. Truth: exact arithmetic (the judge), by the parts of every exclusion; and for the limit what its words
 // promise. What these show to be false must be refused; what is still true may pass. Answers as they were must pass.
@@ -17,7 +17,7 @@ static judge *court;
 typedef struct told {
     ovoid_body_pair pair;
     ovoid_options options;
-    ovoid_compound_answer other;
+    ovoid_body_answer other;
     uint32_t counts[2];
     double most;
 } told;
@@ -34,45 +34,51 @@ static const alter_field exclusion_fields[] = {ALTER_FIELD(ovoid_exclusion, firs
                                                EXCLUSION_VEC3(normal_low),
                                                ALTER_FIELD(ovoid_exclusion, lower, ALTER_REAL, 1e-9)};
 enum { EXCLUSION_FIELDS = sizeof exclusion_fields / sizeof *exclusion_fields };
-static const alter_field part_fields[] = {ALTER_FIELD(ovoid_compound_answer, part_a, ALTER_U32, 0),
-                                          ALTER_FIELD(ovoid_compound_answer, part_b, ALTER_U32, 0)};
+static const alter_field part_fields[] = {
+    ALTER_FIELD(ovoid_body_answer, part_a, ALTER_U32, 0),      ALTER_FIELD(ovoid_body_answer, part_b, ALTER_U32, 0),
+    ALTER_FIELD(ovoid_body_answer, status, ALTER_INT, 0),      ALTER_FIELD(ovoid_body_answer, limit, ALTER_INT, 0),
+    ALTER_FIELD(ovoid_body_answer, lower, ALTER_REAL, 1e-9),   ALTER_FIELD(ovoid_body_answer, upper, ALTER_REAL, 1e-9),
+    ALTER_FIELD(ovoid_body_answer, inside, ALTER_INT, 0),      ALTER_FIELD(ovoid_body_answer, component, ALTER_U32, 0),
+    ALTER_FIELD(ovoid_body_answer, common.x, ALTER_REAL, 1e-9)};
+enum { PART_FIELDS = sizeof part_fields / sizeof *part_fields };
 
 static alter_count of_answer, of_parts, of_fields[EXCLUSION_FIELDS], of_lists, of_cover;
 
-static void tell(const told *t, const ovoid_compound_answer *x, const ovoid_exclusions *all, alter_count *n,
+static void tell(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, alter_count *n,
                  const char *what, const char *how) {
     ovoid_error why = {.message = ""};
-    int is_refused = ovoid_compound_answer_verify(&t->pair, x, &t->options, all, NULL) != OVOID_OK;
+    int is_refused = ovoid_body_verify(&t->pair, x, &t->options, all, NULL) != OVOID_OK;
     judge_set_options(court, &t->options);
     int is_lie = !is_refused && (judge_verify_compound(court, &t->pair, x, all, &why) != OVOID_OK ||
-                                 alter_limit_is_false(&x->answer, t->most, 0, t->options.cap));
+                                 alter_limit_is_false(&x->deciding, t->most, 0, t->options.cap));
     if (!CHECK(alter_take(n, is_lie, is_refused)) && check_failed < 20)
-        printf("  accepted: %s %s: %s %s [%.17g, %.17g]: %s\n", what, how, ovoid_status_get_name(x->answer.status),
-               ovoid_limit_get_name(x->answer.limit), x->answer.lower, x->answer.upper, why.message);
+        printf("  accepted: %s %s: %s %s [%.17g, %.17g]: %s\n", what, how, ovoid_status_get_name(x->status),
+               ovoid_limit_get_name(x->limit), x->lower, x->upper, why.message);
 }
 
-static void lie_about_answer(const told *t, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
+static void lie_about_answer(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     for (int i = 0; i < ALTER_ANSWER_FIELDS; i++)
         for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            ovoid_compound_answer y = *x;
-            if (alter_apply(&y.answer, &t->other.answer, &alter_answer_fields[i], kind))
-                tell(t, &y, all, &of_answer, alter_answer_fields[i].name, alter_names[kind]);
+            ovoid_body_answer y = *x;
+            if (!alter_apply(&y.deciding, &t->other.deciding, &alter_answer_fields[i], kind)) continue;
+            y = ovoid_body_answer_make(&y.deciding, y.part_a, y.part_b);
+            tell(t, &y, all, &of_answer, alter_answer_fields[i].name, alter_names[kind]);
         }
     for (int which = 0; which < ALTER_ANSWER_FORGERIES; which++) {
-        ovoid_compound_answer y = *x;
-        if (alter_answer_forge(&y.answer, &t->other.answer, t->counts, which))
-            tell(t, &y, all, &of_answer, "forged", "");
+        ovoid_body_answer y = *x;
+        if (!alter_answer_forge(&y.deciding, &t->other.deciding, t->counts, which)) continue;
+        y = ovoid_body_answer_make(&y.deciding, y.part_a, y.part_b);
+        tell(t, &y, all, &of_answer, "forged", "");
     }
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < PART_FIELDS; i++)
         for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            ovoid_compound_answer y = *x;
+            ovoid_body_answer y = *x;
             if (alter_apply(&y, &t->other, &part_fields[i], kind))
                 tell(t, &y, all, &of_parts, "part", alter_names[kind]);
         }
 }
 
-static void lie_about_exclusions(const told *t, const ovoid_compound_answer *x, const ovoid_exclusions *all,
-                                 uint64_t *s) {
+static void lie_about_exclusions(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, uint64_t *s) {
     ovoid_exclusions y = {altered, CAPACITY, all->count, all->cover};
     size_t at = random_next(s) % all->count, other = random_next(s) % all->count, bytes = all->count * sizeof *items;
     for (int i = 0; i < EXCLUSION_FIELDS; i++)
@@ -95,7 +101,7 @@ static void lie_about_exclusions(const told *t, const ovoid_compound_answer *x, 
     }
 }
 
-static void lie_about_cover(const told *t, const ovoid_compound_answer *x, const ovoid_exclusions *all, uint64_t *s) {
+static void lie_about_cover(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, uint64_t *s) {
     const ovoid_cover kept = cover;
     uint32_t point = (uint32_t)(random_next(s) % kept.point_count);
     uint16_t *triangle = cover.triangles[random_next(s) % kept.triangle_count];
@@ -111,12 +117,12 @@ static void lie_about_cover(const told *t, const ovoid_compound_answer *x, const
     }
 }
 
-static ovoid_compound_answer ask(const told *t, int query, double margin, ovoid_exclusions *all) {
+static ovoid_body_answer ask(const told *t, int query, double margin, ovoid_exclusions *all) {
     switch (query) {
-    case 0: return ovoid_compound_collide(&t->pair, &t->options, NULL, all);
-    case 1: return ovoid_compound_within(&t->pair, margin, &t->options, NULL, all);
-    case 2: return ovoid_compound_distance(&t->pair, &t->options, NULL, all);
-    default: return ovoid_compound_depth(&t->pair, &t->options, NULL, all);
+    case 0: return ovoid_body_collide(&t->pair, &t->options, NULL, all);
+    case 1: return ovoid_body_within(&t->pair, margin, &t->options, NULL, all);
+    case 2: return ovoid_body_distance(&t->pair, &t->options, NULL, all);
+    default: return ovoid_body_depth(&t->pair, &t->options, NULL, all);
     }
 }
 
@@ -125,7 +131,7 @@ static uint32_t find_vertex_count(const ovoid_body *body, uint32_t part) {
 }
 
 static void check_pair(told *t, uint64_t *s) {
-    static ovoid_compound_answer last;
+    static ovoid_body_answer last;
     ovoid_exclusions all = {items, CAPACITY, 0, &cover};
     ovoid_error error = {.message = ""};
     t->options = (ovoid_options){0};
@@ -133,7 +139,7 @@ static void check_pair(told *t, uint64_t *s) {
     if (which == 1) t->options.absolute_tolerance = random_uniform(s, 0, 2);
     if (which == 2) t->options.relative_tolerance = random_uniform(s, 0, 0.1);
     if (which == 3) t->options.cap = random_uniform(s, 0, 3);
-    ovoid_compound_answer x = ask(t, (int)(random_next(s) % 4), random_uniform(s, 0, 2), &all);
+    ovoid_body_answer x = ask(t, (int)(random_next(s) % 4), random_uniform(s, 0, 2), &all);
     if (all.count > CAPACITY) return;
     double relative = t->options.relative_tolerance > 0 ? t->options.relative_tolerance : 1e-9;
     // No compound here is larger, the shape that lies 1000 from its own origin counted.
@@ -141,7 +147,7 @@ static void check_pair(told *t, uint64_t *s) {
     t->other = last;
     t->counts[0] = find_vertex_count(&t->pair.a, x.part_a);
     t->counts[1] = find_vertex_count(&t->pair.b, x.part_b);
-    if (!CHECK(ovoid_compound_answer_verify(&t->pair, &x, &t->options, &all, &error) == OVOID_OK)) puts(error.message);
+    if (!CHECK(ovoid_body_verify(&t->pair, &x, &t->options, &all, &error) == OVOID_OK)) puts(error.message);
     lie_about_answer(t, &x, &all);
     if (all.count) lie_about_exclusions(t, &x, &all, s);
     if (cover.point_count) lie_about_cover(t, &x, &all, s);

@@ -31,22 +31,22 @@ static void judge_excluded(const ovoid_body_pair *pair, const ovoid_exclusion *e
     expect_accepted(&parts, &x, NULL);
 }
 
-static ovoid_code judge_all(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
+static ovoid_code judge_all(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     return judge_verify_compound(court, pair, x, all, NULL);
 }
 
 // The whole answer is accepted, and refused once an exclusion is taken away or claims more than its normal shows.
-static void judge_whole(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
+static void judge_whole(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     if (!CHECK(judge_verify_compound(court, pair, x, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
-    if (x->answer.lower == -INFINITY) return;
+    if (x->lower == -INFINITY) return;
     for (size_t i = 0; i < all->count; i++) {
         ovoid_exclusion kept = all->items[i];
         // Farther than any two parts here are.
         all->items[i].lower = 100;
         CHECK(judge_all(pair, x, all) != OVOID_OK);
         all->items[i] = kept;
-        all->items[i].lower = nextafter(x->answer.lower, -INFINITY);
+        all->items[i].lower = nextafter(x->lower, -INFINITY);
         CHECK(judge_all(pair, x, all) != OVOID_OK);
         all->items[i] = all->items[all->count - 1];
         ovoid_exclusions fewer = {all->items, all->capacity, all->count - 1, all->cover};
@@ -58,9 +58,9 @@ static void judge_whole(const ovoid_body_pair *pair, const ovoid_compound_answer
     }
 }
 
-static void judge_answer(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
+static void judge_answer(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_pair parts = get_pair(pair, x->part_a, x->part_b);
-    expect_accepted(&parts, &x->answer, all->cover);
+    expect_accepted(&parts, &x->deciding, all->cover);
     if (!CHECK_LE(all->count, all->capacity)) return;
     judge_whole(pair, x, all);
     for (size_t i = 0; i < all->count; i++)
@@ -69,7 +69,7 @@ static void judge_answer(const ovoid_body_pair *pair, const ovoid_compound_answe
                 judge_excluded(pair, &all->items[i], a, b);
 }
 
-static void judge_truth_of(const ovoid_body_pair *pair, const ovoid_compound_answer *x) {
+static void judge_truth_of(const ovoid_body_pair *pair, const ovoid_body_answer *x) {
     double low = INFINITY, high = INFINITY;
     for (size_t a = 0; a < get_count(&pair->a); a++)
         for (size_t b = 0; b < get_count(&pair->b); b++) {
@@ -79,8 +79,8 @@ static void judge_truth_of(const ovoid_body_pair *pair, const ovoid_compound_ans
             low = fmin(low, truth.low);
             high = fmin(high, truth.high);
         }
-    CHECK_LE(x->answer.lower, high);
-    CHECK_LE(low, x->answer.upper);
+    CHECK_LE(x->lower, high);
+    CHECK_LE(low, x->upper);
 }
 
 // Small hulls of few vertices; the brute force takes the fourth power of them.
@@ -108,12 +108,12 @@ static void check_round(int round) {
     if (round % 5 == 1) pair.b = (ovoid_body){.shape = shapes[0], .pose = pair.b.pose};
     if (CHECK(a && b)) {
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
-        ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
         judge_answer(&pair, &x, &all);
-        x = ovoid_compound_depth(&pair, NULL, NULL, &all);
+        x = ovoid_body_depth(&pair, NULL, NULL, &all);
         judge_answer(&pair, &x, &all);
         judge_truth_of(&pair, &x);
-        x = ovoid_compound_collide(&pair, NULL, NULL, &all);
+        x = ovoid_body_collide(&pair, NULL, NULL, &all);
         judge_answer(&pair, &x, &all);
     }
     judge_forget(court);
@@ -137,7 +137,7 @@ static void check_edges(void) {
                             {.compound = row, .pose = ovoid_pose_make_identity()}};
     pair.b.pose.position.x = 4;
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
-    ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
     CHECK(judge_all(&pair, &x, &all) == OVOID_OK);
     // All at once: the deciding pair is among them, which is no fault.
     items[0] = (ovoid_exclusion){0, 3, 0, 3, {1, 0, 0}, {0, 0, 0}, 1.5};

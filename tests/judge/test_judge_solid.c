@@ -266,7 +266,7 @@ typedef struct inquiry {
     ovoid_exclusions all;
 } inquiry;
 
-static void judge_answer(inquiry *q, const ovoid_solid_answer *x, int is_distance) {
+static void judge_answer(inquiry *q, const ovoid_body_answer *x, int is_distance) {
     ovoid_error error = {.message = ""};
     solid_truth t = q->truth;
     q->t->answers++;
@@ -276,7 +276,7 @@ static void judge_answer(inquiry *q, const ovoid_solid_answer *x, int is_distanc
     q->t->overlapping += x->status == OVOID_OVERLAPPING;
     if (!CHECK_LE(q->all.count, q->all.capacity)) return;
     // A proof by a common point names no nearest ones.
-    ovoid_proof_kind kind = x->surfaces.proof.kind;
+    ovoid_proof_kind kind = x->deciding.proof.kind;
     int points = is_distance && kind != OVOID_PROOF_HULL && kind != OVOID_PROOF_INNER;
     if (!CHECK_EQ(judge_verify_solid(court, &q->pair, x, &q->all, points, &error), OVOID_OK))
         printf("  %s\n", error.message);
@@ -285,7 +285,7 @@ static void judge_answer(inquiry *q, const ovoid_solid_answer *x, int is_distanc
     if (t.surfaces <= 0 && x->status == OVOID_SEPARATED) CHECK_LE(x->lower, q->slack);
     if (!t.is_common) CHECK_LE(x->lower, t.surfaces + q->slack);
     if (!t.is_common) CHECK_LE(t.surfaces, x->upper + q->slack);
-    if (t.is_common && t.surfaces > 0) CHECK_LE(x->surfaces.lower, t.surfaces + q->slack);
+    if (t.is_common && t.surfaces > 0) CHECK_LE(x->deciding.lower, t.surfaces + q->slack);
     int is_open = x->status == OVOID_UNDECIDED && t.surfaces > q->tolerance;
     q->t->open += is_open;
     CHECK(!is_open);
@@ -293,33 +293,33 @@ static void judge_answer(inquiry *q, const ovoid_solid_answer *x, int is_distanc
 
 static void ask(inquiry *q, uint64_t *s) {
     const ovoid_body_pair *pair = &q->pair;
-    ovoid_solid_answer x = ovoid_solid_distance(pair, NULL, NULL, &q->all);
+    ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &q->all);
     judge_answer(q, &x, 1);
     if (x.status == OVOID_SEPARATED) CHECK_LE(x.upper - x.lower, q->tolerance);
-    ovoid_compound_proof earlier = {x.triangle_a, x.triangle_b, x.surfaces.proof};
-    x = ovoid_solid_distance(pair, NULL, &earlier, &q->all);
+    ovoid_body_proof earlier = {x.part_a, x.part_b, x.deciding.proof};
+    x = ovoid_body_distance(pair, NULL, &earlier, &q->all);
     judge_answer(q, &x, 1);
-    x = ovoid_solid_collide(pair, NULL, NULL, &q->all);
+    x = ovoid_body_collide(pair, NULL, NULL, &q->all);
     judge_answer(q, &x, 0);
     earlier.part_a = (uint32_t)(random_next(s) % 40), earlier.part_b = (uint32_t)(random_next(s) % 40);
-    x = ovoid_solid_collide(pair, NULL, &earlier, &q->all);
+    x = ovoid_body_collide(pair, NULL, &earlier, &q->all);
     judge_answer(q, &x, 0);
     double margin = q->truth.surfaces * random_uniform(s, 0.5, 2);
-    x = ovoid_solid_within(pair, margin, NULL, NULL, &q->all);
+    x = ovoid_body_within(pair, margin, NULL, NULL, &q->all);
     judge_answer(q, &x, 0);
-    int is = ovoid_solid_answer_is_within(&x, margin);
+    int is = ovoid_body_answer_is_within(&x, margin);
     if (!q->truth.is_common && q->truth.surfaces > margin + q->tolerance) CHECK_EQ(is, 0);
     if (q->truth.is_common || q->truth.surfaces < margin - q->tolerance)
         CHECK(is == 1 || q->truth.surfaces <= q->slack);
     ovoid_options options = {.cap = random_uniform(s, 0, 2) * q->truth.surfaces};
     if (q->truth.surfaces > q->slack) {
-        x = ovoid_solid_distance(pair, &options, NULL, &q->all);
+        x = ovoid_body_distance(pair, &options, NULL, &q->all);
         judge_answer(q, &x, 0);
     }
     // The other way round.
     ovoid_body_pair turned = {pair->b, pair->a};
     q->pair = turned;
-    x = ovoid_solid_distance(&turned, NULL, NULL, &q->all);
+    x = ovoid_body_distance(&turned, NULL, NULL, &q->all);
     judge_answer(q, &x, 1);
 }
 

@@ -1,4 +1,4 @@
-// A liar for ovoid_solid_answer_verify. Right answers about solids, surfaces, hulls and compounds are altered one field
+// A liar for ovoid_body_verify. Right answers about solids, surfaces, hulls and compounds are altered one field
 // at a time (alter.h), their exclusions too, and others are forged: an overlap without a reason, a distance of what
 // overlaps, touching within a wide bracket.
 //
@@ -16,7 +16,7 @@ static judge *court;
 
 typedef struct truth {
     ovoid_body_pair pair;
-    ovoid_solid_answer right;
+    ovoid_body_answer right;
     ovoid_exclusions all;
     solid_truth brute;
     double slack;
@@ -31,15 +31,15 @@ static const char *lie_name = "", *lie_kind = "";
 static int is_finite_vector(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
 
 // A bracket that has no point in common with the right one, or that is none.
-static int bracket_is_false(const truth *t, const ovoid_solid_answer *x) {
-    const ovoid_solid_answer *r = &t->right;
+static int bracket_is_false(const truth *t, const ovoid_body_answer *x) {
+    const ovoid_body_answer *r = &t->right;
     if (!(x->lower <= x->upper) || x->lower > r->upper || x->upper < r->lower) return 1;
-    if (x->surfaces.lower > r->surfaces.upper || x->surfaces.upper < r->surfaces.lower) return 1;
+    if (x->deciding.lower > r->deciding.upper || x->deciding.upper < r->deciding.lower) return 1;
     if (t->brute.is_common) return x->lower > t->slack;
     return x->upper < t->brute.surfaces - t->slack || x->lower > t->brute.surfaces + t->slack;
 }
 
-static int status_is_false(const truth *t, const ovoid_solid_answer *x) {
+static int status_is_false(const truth *t, const ovoid_body_answer *x) {
     double tolerance = 1e-8 * (t->slack / 1e-13);
     switch (x->status) {
     case OVOID_SEPARATED: return !(x->lower > 0) || x->inside;
@@ -50,12 +50,12 @@ static int status_is_false(const truth *t, const ovoid_solid_answer *x) {
     return 1;
 }
 
-static int is_false(const truth *t, const ovoid_solid_answer *x, const ovoid_exclusions *all) {
+static int is_false(const truth *t, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error;
     int claims = x->status != OVOID_UNDECIDED || x->lower != -INFINITY || x->upper != INFINITY;
     if (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B)
         return claims || x->limit != OVOID_LIMIT_OPTIONS;
-    if (x->triangle_a >= t->count_a || x->triangle_b >= t->count_b || !is_finite_vector(x->common)) return 1;
+    if (x->part_a >= t->count_a || x->part_b >= t->count_b || !is_finite_vector(x->common)) return 1;
     if (bracket_is_false(t, x) || status_is_false(t, x)) return 1;
     if (t->has_compound) return 0;
     ovoid_code code = judge_verify_solid(court, &t->pair, x, all, 0, &error);
@@ -65,41 +65,41 @@ static int is_false(const truth *t, const ovoid_solid_answer *x, const ovoid_exc
 
 // ---- lies
 
-static void tell(truth *t, const ovoid_solid_answer *x, const ovoid_exclusions *all, alter_count *n) {
-    int is_refused = ovoid_solid_answer_verify(&t->pair, x, NULL, all, NULL) != OVOID_OK;
+static void tell(truth *t, const ovoid_body_answer *x, const ovoid_exclusions *all, alter_count *n) {
+    int is_refused = ovoid_body_verify(&t->pair, x, NULL, all, NULL) != OVOID_OK;
     int is_noticed = alter_take(n, !is_refused && is_false(t, x, all), is_refused);
     if (!CHECK(is_noticed) && check_failed <= 20) printf("  accepted: %s, %s\n", lie_name, lie_kind);
 }
 
-#define REAL(member, tolerance) ALTER_FIELD(ovoid_solid_answer, member, ALTER_REAL, tolerance)
+#define REAL(member, tolerance) ALTER_FIELD(ovoid_body_answer, member, ALTER_REAL, tolerance)
 #define VECTOR(member, tolerance) REAL(member.x, tolerance), REAL(member.y, tolerance), REAL(member.z, tolerance)
-#define WHOLE(member) ALTER_FIELD(ovoid_solid_answer, member, ALTER_U32, 0)
+#define WHOLE(member) ALTER_FIELD(ovoid_body_answer, member, ALTER_U32, 0)
 static const alter_field fields[] = {
-    ALTER_FIELD(ovoid_solid_answer, status, ALTER_INT, 0),
-    ALTER_FIELD(ovoid_solid_answer, limit, ALTER_INT, 0),
+    ALTER_FIELD(ovoid_body_answer, status, ALTER_INT, 0),
+    ALTER_FIELD(ovoid_body_answer, limit, ALTER_INT, 0),
     REAL(lower, 1e-9),
     REAL(upper, 1e-9),
     VECTOR(parting, 1e-9),
-    ALTER_FIELD(ovoid_solid_answer, inside, ALTER_INT, 0),
+    ALTER_FIELD(ovoid_body_answer, inside, ALTER_INT, 0),
     WHOLE(component),
     VECTOR(common, 1e-3),
-    WHOLE(triangle_a),
-    WHOLE(triangle_b),
-    ALTER_FIELD(ovoid_solid_answer, surfaces.status, ALTER_INT, 0),
-    REAL(surfaces.lower, 1e-9),
-    REAL(surfaces.upper, 1e-9),
-    VECTOR(surfaces.point_a, 1e-9),
-    VECTOR(surfaces.point_b, 1e-9),
-    VECTOR(surfaces.normal, 1e-9),
-    VECTOR(surfaces.proof.normal, 1e-9),
-    VECTOR(surfaces.proof.normal_low, 1e-9),
-    ALTER_FIELD(ovoid_solid_answer, surfaces.proof.kind, ALTER_INT, 0),
-    WHOLE(surfaces.proof.count),
-    WHOLE(surfaces.proof.a[0]),
-    WHOLE(surfaces.proof.b[0]),
-    WHOLE(surfaces.proof.b[1]),
-    REAL(surfaces.proof.weight_a[0], 1e-9),
-    REAL(surfaces.proof.weight_b[1], 1e-9),
+    WHOLE(part_a),
+    WHOLE(part_b),
+    ALTER_FIELD(ovoid_body_answer, deciding.status, ALTER_INT, 0),
+    REAL(deciding.lower, 1e-9),
+    REAL(deciding.upper, 1e-9),
+    VECTOR(deciding.point_a, 1e-9),
+    VECTOR(deciding.point_b, 1e-9),
+    VECTOR(deciding.normal, 1e-9),
+    VECTOR(deciding.proof.normal, 1e-9),
+    VECTOR(deciding.proof.normal_low, 1e-9),
+    ALTER_FIELD(ovoid_body_answer, deciding.proof.kind, ALTER_INT, 0),
+    WHOLE(deciding.proof.count),
+    WHOLE(deciding.proof.a[0]),
+    WHOLE(deciding.proof.b[0]),
+    WHOLE(deciding.proof.b[1]),
+    REAL(deciding.proof.weight_a[0], 1e-9),
+    REAL(deciding.proof.weight_b[1], 1e-9),
 };
 enum { FIELDS = sizeof fields / sizeof *fields };
 #define ITEM(member) ALTER_FIELD(ovoid_exclusion, member, ALTER_U32, 0)
@@ -119,10 +119,10 @@ static alter_field in_units(const alter_field *f, double scale) {
     return own;
 }
 
-static void lie_about(truth *t, const ovoid_solid_answer *other, double scale) {
+static void lie_about(truth *t, const ovoid_body_answer *other, double scale) {
     for (int f = 0; f < FIELDS; f++)
         for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            ovoid_solid_answer x = t->right;
+            ovoid_body_answer x = t->right;
             alter_field field = in_units(&fields[f], scale);
             if (!alter_apply(&x, other, &field, kind)) continue;
             lie_name = field.name;
@@ -156,7 +156,7 @@ static void lie_about_exclusions(truth *t, double scale) {
 
 // ---- forgeries
 
-static void forge(truth *t, const char *name, const ovoid_solid_answer *x) {
+static void forge(truth *t, const char *name, const ovoid_body_answer *x) {
     lie_name = name;
     lie_kind = "forged";
     tell(t, x, &t->all, &forged_count);
@@ -164,39 +164,39 @@ static void forge(truth *t, const char *name, const ovoid_solid_answer *x) {
 
 // An overlap of depth r by every reason that there is.
 static void forge_overlaps(truth *t, double r, uint64_t *s) {
-    ovoid_solid_answer x = t->right;
+    ovoid_body_answer x = t->right;
     x.status = OVOID_OVERLAPPING;
     x.limit = OVOID_LIMIT_NONE;
     x.upper = -r;
     x.lower = fmin(x.lower, x.upper);
-    for (int inside = 0; inside <= OVOID_SOLID_COMMON_POINT; inside++) {
-        x.inside = (ovoid_solid_inside)inside;
+    for (int inside = 0; inside <= OVOID_BODY_COMMON_POINT; inside++) {
+        x.inside = (ovoid_body_inside)inside;
         x.component = 0;
-        x.common = inside == OVOID_SOLID_COMMON_POINT ? random_vec3(s, 10 * r) : (ovoid_vec3){0, 0, 0};
+        x.common = inside == OVOID_BODY_COMMON_POINT ? random_vec3(s, 10 * r) : (ovoid_vec3){0, 0, 0};
         forge(t, "overlapping", &x);
-        x.surfaces.upper = fmin(x.surfaces.upper, x.upper);
+        x.deciding.upper = fmin(x.deciding.upper, x.upper);
         forge(t, "overlapping, and so the surfaces", &x);
-        x.surfaces = t->right.surfaces;
+        x.deciding = t->right.deciding;
     }
 }
 
 static void forge_all(truth *t, double scale, uint64_t *s) {
-    const ovoid_solid_answer *r = &t->right;
+    const ovoid_body_answer *r = &t->right;
     double size = scale * random_uniform(s, 1e-3, 1);
     forge_overlaps(t, size, s);
-    forge_overlaps(t, fabs(r->surfaces.lower), s);
-    ovoid_solid_answer x = *r;
-    x.status = OVOID_SEPARATED, x.inside = OVOID_SOLID_INSIDE_NONE, x.component = 0, x.common = (ovoid_vec3){0, 0, 0};
-    x.lower = r->surfaces.lower, x.upper = r->surfaces.upper;
+    forge_overlaps(t, fabs(r->deciding.lower), s);
+    ovoid_body_answer x = *r;
+    x.status = OVOID_SEPARATED, x.inside = OVOID_BODY_INSIDE_NONE, x.component = 0, x.common = (ovoid_vec3){0, 0, 0};
+    x.lower = r->deciding.lower, x.upper = r->deciding.upper;
     forge(t, "separated by the surfaces", &x);
     x.upper = 0.5 * x.upper, x.lower = fmin(x.lower, x.upper);
     forge(t, "separated by half of it", &x);
-    x = *r, x.inside = OVOID_SOLID_INSIDE_NONE, x.component = 0, x.common = (ovoid_vec3){0, 0, 0};
+    x = *r, x.inside = OVOID_BODY_INSIDE_NONE, x.component = 0, x.common = (ovoid_vec3){0, 0, 0};
     for (int status = 0; status < 3; status += 2) {
         x.status = status ? OVOID_TOUCHING : OVOID_UNDECIDED;
         x.lower = fmin(r->lower, 0), x.upper = fmax(r->upper, 0);
         forge(t, "open", &x);
-        x.upper = 0.5 * fmax(r->surfaces.upper, 0);
+        x.upper = 0.5 * fmax(r->deciding.upper, 0);
         forge(t, "open, below the surfaces", &x);
         x.lower = -size, x.upper = size;
         forge(t, "open, wide", &x);
@@ -270,20 +270,20 @@ static void set_second(truth *t, mesh *m, int kind, ovoid_shape **shape, ovoid_c
     if (kind == 11) *compound = ovoid_compound_create(parts, 2, NULL, NULL), t->has_compound = 1, t->count_b = 2;
 }
 
-static ovoid_solid_answer ask(const truth *t, int query, ovoid_exclusions *all) {
+static ovoid_body_answer ask(const truth *t, int query, ovoid_exclusions *all) {
     double margin = 0.5 * fmax(t->brute.surfaces, 0);
-    return query == 0   ? ovoid_solid_distance(&t->pair, NULL, NULL, all)
-           : query == 1 ? ovoid_solid_collide(&t->pair, NULL, NULL, all)
-                        : ovoid_solid_within(&t->pair, margin, NULL, NULL, all);
+    return query == 0   ? ovoid_body_distance(&t->pair, NULL, NULL, all)
+           : query == 1 ? ovoid_body_collide(&t->pair, NULL, NULL, all)
+                        : ovoid_body_within(&t->pair, margin, NULL, NULL, all);
 }
 
 static void try_answer(truth *t, int query, double scale, uint64_t *s) {
-    static ovoid_solid_answer other;
+    static ovoid_body_answer other;
     ovoid_error error;
     t->all = (ovoid_exclusions){.items = items, .capacity = CAPACITY};
     t->right = ask(t, query, &t->all);
     if (t->all.count > t->all.capacity) return;
-    if (!CHECK_EQ(ovoid_solid_answer_verify(&t->pair, &t->right, NULL, &t->all, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_body_verify(&t->pair, &t->right, NULL, &t->all, &error), OVOID_OK))
         printf("  %s\n", error.message);
     CHECK(!is_false(t, &t->right, &t->all));
     lie_about(t, &other, scale);

@@ -56,40 +56,18 @@ typedef struct question {
     ovoid_body_pair pair;
     double margin;
     ovoid_options options;
-    ovoid_compound_proof earlier;
+    ovoid_body_proof earlier;
     int is_warm;
 } question;
 
-static ovoid_solid_answer ask_solids(const question *q) {
-    const ovoid_compound_proof *earlier = q->is_warm ? &q->earlier : NULL;
+static ovoid_body_answer ask(const question *q) {
+    const ovoid_body_proof *earlier = q->is_warm ? &q->earlier : NULL;
     switch (q->kind) {
-    case 0: return ovoid_solid_collide(&q->pair, &q->options, earlier, &exclusions);
-    case 1: return ovoid_solid_within(&q->pair, q->margin, &q->options, earlier, &exclusions);
-    default: return ovoid_solid_distance(&q->pair, &q->options, earlier, &exclusions);
+    case 0: return ovoid_body_collide(&q->pair, &q->options, earlier, &exclusions);
+    case 1: return ovoid_body_within(&q->pair, q->margin, &q->options, earlier, &exclusions);
+    case 2: return ovoid_body_distance(&q->pair, &q->options, earlier, &exclusions);
+    default: return ovoid_body_depth(&q->pair, &q->options, earlier, &exclusions);
     }
-}
-
-static ovoid_compound_answer ask_compounds(const question *q) {
-    const ovoid_compound_proof *earlier = q->is_warm ? &q->earlier : NULL;
-    switch (q->kind) {
-    case 0: return ovoid_compound_collide(&q->pair, &q->options, earlier, &exclusions);
-    case 1: return ovoid_compound_within(&q->pair, q->margin, &q->options, earlier, &exclusions);
-    case 2: return ovoid_compound_distance(&q->pair, &q->options, earlier, &exclusions);
-    default: return ovoid_compound_depth(&q->pair, &q->options, earlier, &exclusions);
-    }
-}
-
-// The answer of a pair as one of solids; of compounds the surfaces are not used.
-static ovoid_solid_answer ask(const question *q) {
-    if (has_solid(&q->pair)) return ask_solids(q);
-    ovoid_compound_answer c = ask_compounds(q);
-    return (ovoid_solid_answer){.status = c.answer.status,
-                                .limit = c.answer.limit,
-                                .lower = c.answer.lower,
-                                .upper = c.answer.upper,
-                                .triangle_a = c.part_a,
-                                .triangle_b = c.part_b,
-                                .surfaces = c.answer};
 }
 
 /// kind: collide, within, distance, depth. Reads both poses, the margin, four options and, where is_warm, the deciding
@@ -107,44 +85,43 @@ void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, 
     }
     exclusions.cover = kind == 3 ? &cover : NULL;
     cover.point_count = cover.triangle_count = 0;
-    ovoid_solid_answer s = ask(&q);
+    ovoid_body_answer s = ask(&q);
     // Once more where there was too little room: the search is the same.
     if (exclusions.count > exclusions.capacity && set_exclusions(exclusions.count)) s = ask(&q);
     double *to = exchange;
-    *to++ = (double)exclusions.count, *to++ = s.triangle_a, *to++ = s.triangle_b;
+    *to++ = (double)exclusions.count, *to++ = s.part_a, *to++ = s.part_b;
     to = write_vec3(to, s.parting);
     *to++ = s.inside, *to++ = s.component;
     to = write_vec3(to, s.common);
-    *to++ = s.surfaces.status, *to++ = s.surfaces.limit, *to++ = s.surfaces.lower, *to++ = s.surfaces.upper;
-    ovoid_answer answer = s.surfaces;
-    answer.status = s.status, answer.limit = s.limit, answer.lower = s.lower, answer.upper = s.upper;
+    *to++ = s.deciding.status, *to++ = s.deciding.limit, *to++ = s.deciding.lower, *to++ = s.deciding.upper;
+    ovoid_answer answer = ovoid_body_answer_get_answer(&s);
     write_proof(write_answer(to, &answer), &answer.proof);
 }
 
-static int verify_compounds(const ovoid_body_pair *pair, const ovoid_solid_answer *s, const ovoid_options *options) {
+static int verify_compounds(const ovoid_body_pair *pair, const ovoid_body_answer *s, const ovoid_options *options) {
     exclusions.cover = cover.point_count ? &cover : NULL;
-    ovoid_compound_answer c = {.answer = s->surfaces, .part_a = s->triangle_a, .part_b = s->triangle_b};
-    return (int)ovoid_compound_answer_verify(pair, &c, options, &exclusions, &exchange_error);
+    ovoid_body_answer c = ovoid_body_answer_make(&s->deciding, s->part_a, s->part_b);
+    return (int)ovoid_body_verify(pair, &c, options, &exclusions, &exchange_error);
 }
 
 /// Reads both poses, the four options of the query and what body_query wrote; the exclusions are those of
 /// set_exclusions. 0, or the error's code.
 int EXPORT(body_verify)(unsigned kinds, const void *a, const void *b) {
     ovoid_body_pair pair;
-    ovoid_solid_answer s = {0};
+    ovoid_body_answer s = {0};
     ovoid_options options;
     const double *from = read_options(read_bodies(kinds, a, b, &pair), &options) + 1;
-    s.triangle_a = read_index(*from++), s.triangle_b = read_index(*from++);
+    s.part_a = read_index(*from++), s.part_b = read_index(*from++);
     from = read_vec3(from, &s.parting);
-    s.inside = (ovoid_solid_inside)(read_index(*from++) & 0xff);
+    s.inside = (ovoid_body_inside)(read_index(*from++) & 0xff);
     s.component = read_index(*from++);
     from = read_vec3(from, &s.common);
     const double *surfaces = from;
-    read_proof(read_answer(from + 4, &s.surfaces), &s.surfaces.proof);
+    read_proof(read_answer(from + 4, &s.deciding), &s.deciding.proof);
     if (!has_solid(&pair)) return verify_compounds(&pair, &s, &options);
-    s.status = s.surfaces.status, s.limit = s.surfaces.limit, s.lower = s.surfaces.lower, s.upper = s.surfaces.upper;
-    s.surfaces.status = (ovoid_status)(read_index(surfaces[0]) & 0xff);
-    s.surfaces.limit = (ovoid_limit)(read_index(surfaces[1]) & 0xff);
-    s.surfaces.lower = surfaces[2], s.surfaces.upper = surfaces[3];
-    return (int)ovoid_solid_answer_verify(&pair, &s, &options, &exclusions, &exchange_error);
+    s.status = s.deciding.status, s.limit = s.deciding.limit, s.lower = s.deciding.lower, s.upper = s.deciding.upper;
+    s.deciding.status = (ovoid_status)(read_index(surfaces[0]) & 0xff);
+    s.deciding.limit = (ovoid_limit)(read_index(surfaces[1]) & 0xff);
+    s.deciding.lower = surfaces[2], s.deciding.upper = surfaces[3];
+    return (int)ovoid_body_verify(&pair, &s, &options, &exclusions, &exchange_error);
 }

@@ -6,7 +6,7 @@
 #define OVOID_CPP_MOTION_HPP
 
 #include "ovoid/body_impact.h"
-#include "ovoid/cpp/compound.hpp"
+#include "ovoid/cpp/body.hpp"
 #include "ovoid/motion.h"
 
 namespace ovoid {
@@ -83,8 +83,8 @@ struct moving_body : ovoid_moving_body {
     moving_body(shape_view s, const ovoid::motion &m) noexcept : ovoid_moving_body{s.get(), nullptr, m, nullptr} {}
     /** A compound and its motion. */
     moving_body(compound_view c, const ovoid::motion &m) noexcept : ovoid_moving_body{nullptr, c.get(), m, nullptr} {}
-    /** A solid and its motion: in <ovoid/cpp/solid.hpp>. */
-    moving_body(solid_view s, const ovoid::motion &m) noexcept;
+    /** A solid and its motion. */
+    moving_body(solid_view s, const ovoid::motion &m) noexcept : ovoid_moving_body{nullptr, nullptr, m, s.get()} {}
     /** From the C struct. */
     template <class T, std::enable_if_t<std::is_same<T, ovoid_moving_body>::value, int> = 0>
     moving_body(const T &from) noexcept : ovoid_moving_body(from) {}

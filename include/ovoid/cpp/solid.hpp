@@ -1,17 +1,14 @@
 /**
  * @file solid.hpp
- * Solids of triangles, and their proximity to each other, to shapes and to compounds.
+ * Solids of triangles.
  */
 #ifndef OVOID_CPP_SOLID_HPP
 #define OVOID_CPP_SOLID_HPP
 
-#include "ovoid/cpp/motion.hpp"
+#include "ovoid/cpp/query.hpp"
 #include "ovoid/solid.h"
 
 namespace ovoid {
-
-/** The answer to a query about solids. */
-using solid_answer = ovoid_solid_answer;
 
 /** A solid that someone else owns: one pointer, passed by value. */
 class solid_view {
@@ -83,43 +80,6 @@ inline double hull_gap(const solid_view &solid, const shape_view &hull) {
     ovoid_error e;
     detail::require(ovoid_solid_compute_hull_gap(solid.get(), hull.get(), &gap, &e), e);
     return gap;
-}
-
-inline body::body(solid_view s, const ovoid::pose &at) noexcept : ovoid_body{nullptr, nullptr, at, s.get()} {}
-
-inline moving_body::moving_body(solid_view s, const ovoid::motion &m) noexcept
-    : ovoid_moving_body{nullptr, nullptr, m, s.get()} {}
-
-/** Two bodies, of which one may be a solid: answers about them are solid_answer. */
-struct solid_pair : body_pair {
-    using body_pair::body_pair;
-};
-
-/** Do the bodies touch? e: receives what proves it, or nullptr. */
-inline solid_answer collide(const solid_pair &p, const ovoid_options &o = options(),
-                            const ovoid_compound_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_solid_collide(&p, &o, earlier, e);
-}
-/** Are the bodies within margin (>= 0) of each other? */
-inline solid_answer within(const solid_pair &p, double margin, const ovoid_options &o = options(),
-                           const ovoid_compound_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_solid_within(&p, margin, &o, earlier, e);
-}
-/** The distance to the tolerance and the nearest triangles. */
-inline solid_answer distance(const solid_pair &p, const ovoid_options &o = options(),
-                             const ovoid_compound_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_solid_distance(&p, &o, earlier, e);
-}
-/** 1: proven within the margin; 0: proven farther; -1: the bracket straddles it. */
-inline int is_within(const solid_answer &a, double margin) noexcept { return ovoid_solid_answer_is_within(&a, margin); }
-/** The warm start of the pair's next query. */
-inline compound_proof proof_of(const ovoid_solid_answer &a) noexcept {
-    return ovoid_compound_proof{a.triangle_a, a.triangle_b, a.surfaces.proof};
-}
-/** True where the answer follows from its proof, the exclusions and the query's options. */
-inline bool is_proven(const solid_pair &p, const ovoid_solid_answer &a, const ovoid_options &o = options(),
-                      const ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_solid_answer_verify(&p, &a, &o, e, nullptr) == OVOID_OK;
 }
 
 } // namespace ovoid

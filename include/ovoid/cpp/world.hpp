@@ -137,8 +137,8 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
     bool is_pair(id a, id b) const noexcept { return ovoid_world_is_pair(get(), a, b) != 0; }
     /** The whole answer of a contact, with its proof. excluded: receives exclusions, or nullptr. Throws INDEX,
      * ARGUMENT. */
-    compound_answer compute_proof(const contact &c, ovoid_exclusions *excluded = nullptr) const {
-        ovoid_compound_answer found;
+    body_answer compute_proof(const contact &c, ovoid_exclusions *excluded = nullptr) const {
+        ovoid_body_answer found;
         call(ovoid_world_compute_proof, &c, excluded, &found);
         return found;
     }

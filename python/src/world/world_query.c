@@ -9,10 +9,10 @@
 
 // Of solids the whole answer is asked again, with the deciding triangles first.
 static PyObject *make_answer(module_state *state, PyObject *a, PyObject *b, const ovoid_pose poses[2],
-                             const ovoid_compound_answer *of, const ovoid_options *options) {
+                             const ovoid_body_answer *of, const ovoid_options *options) {
     ovoid_body_pair pair = {body_make(state, a, poses[0]), body_make(state, b, poses[1])};
     if (pair.a.solid || pair.b.solid) {
-        ovoid_compound_proof earlier = {of->part_a, of->part_b, of->answer.proof};
+        ovoid_body_proof earlier = ovoid_body_answer_get_proof(of);
         return solid_answer_ask(state, a, b, &pair, -1, &earlier);
     }
     answer_object *made = answer_make(state, a, b, &poses[0], &poses[1]);

@@ -28,7 +28,7 @@ static const field_names statuses = {name_status, OVOID_UNDECIDED, OVOID_OVERLAP
                          proofs = {name_proof, OVOID_PROOF_NONE, OVOID_PROOF_COVER},
                          kinds = {name_kind, OVOID_MESH_HULL, OVOID_MESH_SURFACE},
                          frames = {name_frame, OVOID_STEP_A, OVOID_STEP_B},
-                         insides = {name_inside, OVOID_SOLID_A_INSIDE, OVOID_SOLID_COMMON_POINT};
+                         insides = {name_inside, OVOID_BODY_A_INSIDE, OVOID_BODY_COMMON_POINT};
 
 const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind) {
     static const char *const names[] = {"hull", "parts", "solid", "surface"};
@@ -205,7 +205,7 @@ static const field proof_fields[] = {
     {"exclusions", FIELD_LIST, LIST(exclusions, exclusion_count), .table = &exclusions},
     {"steps", FIELD_LIST, LIST(steps, step_count), .table = &steps},
     {"groups", FIELD_LIST, LIST(groups, group_count), .table = &groups},
-    {"surfaces", FIELD_OBJECT, SOLID(surfaces), .bit = RECORD_SURFACES, .table = &surfaces},
+    {"surfaces", FIELD_OBJECT, SOLID(deciding), .bit = RECORD_SURFACES, .table = &surfaces},
     {"parting", FIELD_VECTOR, SOLID(parting), .bit = RECORD_PARTING, .wrong = VECTOR,
      .apart = "goes with \"surfaces\" and a lower bound of at most 0"},
 };
@@ -230,10 +230,10 @@ static const field record_fields[] = {
     {"hit_after", FIELD_NUMBER, TIMED(hit_after, RECORD_IMPACT, INFINITY, OVOID_RECORD_IMPACT), .wrong = TIMES},
     {"a", FIELD_OWN, .own = &own_a, COLUMN},
     {"part_a", FIELD_WHOLE, RECORD(part_a), .bit = RECORD_PART_A, COLUMN, .wrong = WHOLE},
-    {"triangle_a", FIELD_WHOLE, SOLID(triangle_a), SIDE(RECORD_TRIANGLE_A)},
+    {"triangle_a", FIELD_WHOLE, SOLID(part_a), SIDE(RECORD_TRIANGLE_A)},
     {"b", FIELD_OWN, .own = &own_b, COLUMN},
     {"part_b", FIELD_WHOLE, RECORD(part_b), .bit = RECORD_PART_B, COLUMN, .wrong = WHOLE},
-    {"triangle_b", FIELD_WHOLE, SOLID(triangle_b), SIDE(RECORD_TRIANGLE_B)},
+    {"triangle_b", FIELD_WHOLE, SOLID(part_b), SIDE(RECORD_TRIANGLE_B)},
     {"status", FIELD_NAME, RECORD(answer.status), .names = &statuses, COLUMN, .wrong = "is not a status"},
     {"limit", FIELD_NAME, RECORD(answer.limit), .names = &limits, COLUMN, .wrong = "is not a limit"},
     {"margin", FIELD_FINITE, RECORD(margin), .bit = RECORD_MARGIN, COLUMN,
@@ -292,11 +292,11 @@ static int has_allowance(ovoid_mesh_kind kind, const ovoid_convexity *mesh) {
 
 static uint64_t find_solid_bits(const record_line *line) {
     const ovoid_record *r = &line->record;
-    ovoid_solid_inside inside = line->solid.inside;
+    ovoid_body_inside inside = line->solid.inside;
     uint64_t bits = RECORD_SURFACES;
     if (record_has_triangles(r->kind_a)) bits |= RECORD_TRIANGLE_A;
     if (record_has_triangles(r->kind_b)) bits |= RECORD_TRIANGLE_B;
-    if (inside) bits |= RECORD_INSIDE | (inside == OVOID_SOLID_COMMON_POINT ? RECORD_COMMON : RECORD_COMPONENT);
+    if (inside) bits |= RECORD_INSIDE | (inside == OVOID_BODY_COMMON_POINT ? RECORD_COMMON : RECORD_COMPONENT);
     return r->answer.lower <= 0 && r->answer.lower != -INFINITY ? bits | RECORD_PARTING : bits;
 }
 

@@ -7,8 +7,8 @@
 /// A record with what its pointers point at, so that each field has a place.
 typedef struct record_line {
     ovoid_record record;
-    ovoid_solid_answer solid; ///< of record.solid; zero where there is none
-    ovoid_cover *cover;       ///< where one that is read is put
+    ovoid_body_answer solid; ///< of record.solid; zero where there is none
+    ovoid_cover *cover;      ///< where one that is read is put
 } record_line;
 
 /// All keys of a line of JSON, in their order; the columns of CSV are those in the same order but for those of

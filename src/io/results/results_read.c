@@ -44,20 +44,20 @@ static void set_fields(record_line *line, uint64_t bits) {
 // The answer of solids: the deciding pair's, but for the bracket, status and limit of its surfaces.
 static void set_solid(record_line *line) {
     ovoid_record *r = &line->record;
-    ovoid_solid_answer *x = &line->solid;
-    const ovoid_answer surfaces = x->surfaces;
-    x->surfaces = r->answer;
-    x->surfaces.status = surfaces.status;
-    x->surfaces.limit = surfaces.limit;
-    x->surfaces.lower = surfaces.lower;
-    x->surfaces.upper = surfaces.upper;
+    ovoid_body_answer *x = &line->solid;
+    const ovoid_answer surfaces = x->deciding;
+    x->deciding = r->answer;
+    x->deciding.status = surfaces.status;
+    x->deciding.limit = surfaces.limit;
+    x->deciding.lower = surfaces.lower;
+    x->deciding.upper = surfaces.upper;
     x->status = r->answer.status;
     x->limit = r->answer.limit;
     x->lower = r->answer.lower;
     x->upper = r->answer.upper;
     // Of a compound beside a solid the deciding part.
-    if (r->kind_a == OVOID_MESH_PARTS && r->part_a != OVOID_RECORD_NO_PART) x->triangle_a = r->part_a;
-    if (r->kind_b == OVOID_MESH_PARTS && r->part_b != OVOID_RECORD_NO_PART) x->triangle_b = r->part_b;
+    if (r->kind_a == OVOID_MESH_PARTS && r->part_a != OVOID_RECORD_NO_PART) x->part_a = r->part_a;
+    if (r->kind_b == OVOID_MESH_PARTS && r->part_b != OVOID_RECORD_NO_PART) x->part_b = r->part_b;
     r->solid = x;
 }
 

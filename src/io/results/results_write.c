@@ -5,9 +5,9 @@
 /// Columns of CSV that come last.
 #define LATE ((unsigned)OVOID_RECORD_SOLIDS | OVOID_RECORD_PROOF)
 
-void ovoid_record_set_solid(ovoid_record *record, const ovoid_solid_answer *answer) {
+void ovoid_record_set_solid(ovoid_record *record, const ovoid_body_answer *answer) {
     record->solid = answer;
-    record->answer = answer->surfaces;
+    record->answer = answer->deciding;
     record->answer.status = answer->status;
     record->answer.limit = answer->limit;
     record->answer.lower = answer->lower;

@@ -1,4 +1,4 @@
-// Solids among a robot's bodies, by the queries of <ovoid/solid.h>. docs/robot-states.md has the bracket.
+// Solids among a robot's bodies, by the queries of <ovoid/body.h>. docs/robot-states.md has the bracket.
 #include "robot/cell/solid_pair.h"
 
 static ovoid_body_pair get_bodies(const ovoid_pair *hulls, const solid_sides *s) {
@@ -8,25 +8,22 @@ static ovoid_body_pair get_bodies(const ovoid_pair *hulls, const solid_sides *s)
     return pair;
 }
 
-static ovoid_answer make_answer(const ovoid_solid_answer *x, const ovoid_answer *of_hulls, double clear) {
-    ovoid_answer is = x->surfaces;
-    is.status = x->status;
-    is.limit = x->limit;
-    is.lower = x->lower > clear ? x->lower : of_hulls->lower;
-    is.upper = x->upper;
+static ovoid_answer make_answer(const ovoid_body_answer *x, const ovoid_answer *of_hulls, double clear) {
+    ovoid_answer is = ovoid_body_answer_get_answer(x);
+    if (!(is.lower > clear)) is.lower = of_hulls->lower;
     return is;
 }
 
 ovoid_answer solid_pair_within(const ovoid_pair *hulls, const solid_sides *solids, double margin,
                                const ovoid_answer *of_hulls, double clear) {
     ovoid_body_pair pair = get_bodies(hulls, solids);
-    ovoid_solid_answer is = ovoid_solid_within(&pair, margin, NULL, NULL, NULL);
+    ovoid_body_answer is = ovoid_body_within(&pair, margin, NULL, NULL, NULL);
     return make_answer(&is, of_hulls, clear);
 }
 
 ovoid_answer solid_pair_distance(const ovoid_pair *hulls, const solid_sides *solids, const ovoid_options *options,
                                  const ovoid_answer *of_hulls, double clear) {
     ovoid_body_pair pair = get_bodies(hulls, solids);
-    ovoid_solid_answer is = ovoid_solid_distance(&pair, options, NULL, NULL);
+    ovoid_body_answer is = ovoid_body_distance(&pair, options, NULL, NULL);
     return make_answer(&is, of_hulls, clear);
 }

@@ -3,7 +3,7 @@
 #ifndef OVOID_ROBOT_CELL_SOLID_PAIR_H
 #define OVOID_ROBOT_CELL_SOLID_PAIR_H
 
-#include "ovoid/solid.h"
+#include "ovoid/body.h"
 
 #include <math.h>
 

@@ -74,8 +74,8 @@ static double prove_in_solid(const ball_search *x, vec3 center) {
     ovoid_body_pair pair = {{.shape = x->point, .pose = ovoid_pose_make_identity()},
                             {.solid = x->solid, .pose = ovoid_pose_make_identity()}};
     pair.a.pose.position = center;
-    ovoid_solid_answer is = ovoid_solid_distance(&pair, NULL, NULL, NULL);
-    return is.inside == OVOID_SOLID_A_INSIDE && is.surfaces.lower > 0 ? is.surfaces.lower : 0;
+    ovoid_body_answer is = ovoid_body_distance(&pair, NULL, NULL, NULL);
+    return is.inside == OVOID_BODY_A_INSIDE && is.deciding.lower > 0 ? is.deciding.lower : 0;
 }
 
 // The ball around a point that is proven to lie in the body, radius and allowance counted; 0: none is.

@@ -7,7 +7,7 @@
 #ifndef OVOID_ROBOT_MODEL_INNER_BALLS_H
 #define OVOID_ROBOT_MODEL_INNER_BALLS_H
 
-#include "ovoid/solid.h"
+#include "ovoid/body.h"
 #include "shape/block.h"
 #include "simd/robot/robot8.h"
 

@@ -193,16 +193,16 @@ static void ask_compounds(void) {
         ovoid_exclusions all = {.items = items, .capacity = 256};
         ovoid_body_pair p = {{.compound = compound, .pose = pairs[i].pose_b},
                              {.compound = compound, .pose = {{2.5 * i, third, 0}, {1, 0, 0, 1}}}};
-        ovoid_compound_answer x[4] = {
-            ovoid_compound_collide(&p, NULL, NULL, NULL), ovoid_compound_within(&p, third, NULL, NULL, NULL),
-            ovoid_compound_distance(&p, NULL, NULL, NULL), ovoid_compound_depth(&p, NULL, NULL, &all)};
+        ovoid_body_answer x[4] = {ovoid_body_collide(&p, NULL, NULL, NULL),
+                                  ovoid_body_within(&p, third, NULL, NULL, NULL),
+                                  ovoid_body_distance(&p, NULL, NULL, NULL), ovoid_body_depth(&p, NULL, NULL, &all)};
         for (int k = 0; k < 4; k++) {
-            add_answer(&x[k].answer);
+            add_answer(&x[k].deciding);
             ADD(x[k].part_a);
             ADD(x[k].visited);
         }
         for (size_t k = 0; k < all.count && k < 256; k++) ADD(items[k].lower);
-        ovoid_code code = ovoid_compound_answer_verify(&p, &x[3], NULL, &all, NULL);
+        ovoid_code code = ovoid_body_verify(&p, &x[3], NULL, &all, NULL);
         ADD(code);
     }
     ovoid_compound_destroy(compound);
@@ -272,7 +272,7 @@ static void add_hit(const ovoid_world_hit *hit) {
     ADD(hit->b);
     ADD(hit->lower);
     ADD(hit->answer.part_a);
-    if (hit->b) add_answer(&hit->answer.answer);
+    if (hit->b) add_answer(&hit->answer.deciding);
 }
 
 static void ask_world_between(ovoid_world *w, ovoid_id id) {
@@ -320,10 +320,10 @@ static void ask_world(void) {
         ovoid_contacts f;
         code += (int)ovoid_world_compute_contacts(w, &q, &f, NULL);
         add(f.items, f.count * sizeof *f.items);
-        ovoid_compound_answer x;
+        ovoid_body_answer x;
         for (size_t i = 0; i < f.count; i++) {
             code += (int)ovoid_world_compute_proof(w, &f.items[i], NULL, &x, NULL);
-            add_answer(&x.answer);
+            add_answer(&x.deciding);
         }
         for (int i = 0; i < PAIRS; i++) {
             bodies[i].body.pose.position.z = steps[k];

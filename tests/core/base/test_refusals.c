@@ -132,17 +132,16 @@ static void ask_solids(wrong w, int both) {
     ovoid_body_pair s = {{.compound = compound, .pose = p.pose_a}, {.shape = shape, .pose = p.pose_b}};
     ovoid_body *bad = w.b ? &s.b : &s.a;
     if (w.is == NO_SHAPE) bad->shape = both ? shape : NULL, bad->compound = both ? compound : NULL;
-    ovoid_compound_answer x[4] = {
-        ovoid_compound_collide(&s, NULL, NULL, NULL), ovoid_compound_within(&s, 1, NULL, NULL, NULL),
-        ovoid_compound_distance(&s, NULL, NULL, NULL), ovoid_compound_depth(&s, NULL, NULL, NULL)};
+    ovoid_body_answer x[4] = {ovoid_body_collide(&s, NULL, NULL, NULL), ovoid_body_within(&s, 1, NULL, NULL, NULL),
+                              ovoid_body_distance(&s, NULL, NULL, NULL), ovoid_body_depth(&s, NULL, NULL, NULL)};
     static const char *const names[4] = {"compound_collide", "compound_within", "compound_distance", "compound_depth"};
     for (int i = 0; i < 4; i++) {
         asked = names[i];
-        expect_refused(&x[i].answer, get_limit(w));
+        expect_refused(&x[i].deciding, get_limit(w));
         asked = "compound_answer_check";
-        EXPECT(ovoid_compound_answer_verify(&s, &x[i], NULL, NULL, NULL) == OVOID_OK);
-        x[i].answer.lower = 0;
-        EXPECT(ovoid_compound_answer_verify(&s, &x[i], NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+        EXPECT(ovoid_body_verify(&s, &x[i], NULL, NULL, NULL) == OVOID_OK);
+        x[i].lower = 0;
+        EXPECT(ovoid_body_verify(&s, &x[i], NULL, NULL, NULL) == OVOID_ERROR_PROOF);
     }
     asked = "compound_impact";
     ovoid_moving_body a = {.shape = s.a.shape, .compound = s.a.compound, .motion = ovoid_motion_make_still(s.a.pose)};

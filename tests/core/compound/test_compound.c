@@ -8,14 +8,14 @@ static ovoid_exclusion items[CAPACITY];
 static ovoid_cover cover;
 
 // Everything that an answer claims.
-static void check_answer(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all,
+static void check_answer(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all,
                          bracket truth) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_compound_answer_verify(pair, x, NULL, all, &error);
+    ovoid_code code = ovoid_body_verify(pair, x, NULL, all, &error);
     if (!CHECK_EQ(code, OVOID_OK)) printf("  %s\n", error.message);
-    CHECK_LE(x->answer.lower, truth.upper);
-    CHECK_LE(truth.lower, x->answer.upper);
-    CHECK_LE(x->answer.lower, x->answer.upper);
+    CHECK_LE(x->lower, truth.upper);
+    CHECK_LE(truth.lower, x->upper);
+    CHECK_LE(x->lower, x->upper);
     CHECK(x->part_a < get_count(&pair->a) && x->part_b < get_count(&pair->b));
 }
 
@@ -48,48 +48,48 @@ static void check_pair(const ovoid_body_pair *pair, uint64_t *s) {
     double tolerance = 1.001e-9 * get_size(pair);
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
 
-    ovoid_compound_answer depth = ovoid_compound_depth(pair, NULL, NULL, &all);
+    ovoid_body_answer depth = ovoid_body_depth(pair, NULL, NULL, &all);
     check_answer(pair, &depth, &all, truth);
-    if (depth.answer.limit == OVOID_LIMIT_NONE) CHECK_LE(depth.answer.upper - depth.answer.lower, tolerance);
-    CHECK(depth.answer.limit == OVOID_LIMIT_NONE || truth.upper - truth.lower > 1e-12);
+    if (depth.limit == OVOID_LIMIT_NONE) CHECK_LE(depth.upper - depth.lower, tolerance);
+    CHECK(depth.limit == OVOID_LIMIT_NONE || truth.upper - truth.lower > 1e-12);
     CHECK(all.count <= CAPACITY);
 
-    ovoid_compound_answer distance = ovoid_compound_distance(pair, NULL, NULL, &all);
+    ovoid_body_answer distance = ovoid_body_distance(pair, NULL, NULL, &all);
     check_answer(pair, &distance, &all, truth);
-    if (truth.lower > 0) CHECK_LE(distance.answer.upper - distance.answer.lower, tolerance);
-    if (truth.lower > 0) CHECK_EQ(distance.answer.status, OVOID_SEPARATED);
-    if (truth.upper < 0) CHECK(distance.answer.status == OVOID_OVERLAPPING || truth.upper > -tolerance);
+    if (truth.lower > 0) CHECK_LE(distance.upper - distance.lower, tolerance);
+    if (truth.lower > 0) CHECK_EQ(distance.status, OVOID_SEPARATED);
+    if (truth.upper < 0) CHECK(distance.status == OVOID_OVERLAPPING || truth.upper > -tolerance);
 
-    ovoid_compound_answer collide = ovoid_compound_collide(pair, NULL, NULL, &all);
+    ovoid_body_answer collide = ovoid_body_collide(pair, NULL, NULL, &all);
     check_answer(pair, &collide, &all, truth);
-    if (truth.lower > 0) CHECK_EQ(collide.answer.status, OVOID_SEPARATED);
-    if (truth.upper < 0) CHECK_EQ(collide.answer.status, OVOID_OVERLAPPING);
+    if (truth.lower > 0) CHECK_EQ(collide.status, OVOID_SEPARATED);
+    if (truth.upper < 0) CHECK_EQ(collide.status, OVOID_OVERLAPPING);
 
     double margin = fmax(truth.lower, 0) * random_uniform(s, 0.5, 2) + tolerance;
-    ovoid_compound_answer within = ovoid_compound_within(pair, margin, NULL, NULL, &all);
+    ovoid_body_answer within = ovoid_body_within(pair, margin, NULL, NULL, &all);
     check_answer(pair, &within, &all, truth);
-    int is = ovoid_answer_is_within(&within.answer, margin);
+    int is = ovoid_answer_is_within(&within.deciding, margin);
     if (truth.upper <= margin) CHECK(is == 1 || (is == -1 && truth.upper > margin - tolerance));
     if (truth.lower > margin) CHECK(is == 0 || (is == -1 && truth.lower <= margin + tolerance));
-    if (is == 1 && fabs(truth.lower) > tolerance) CHECK(within.answer.status != OVOID_UNDECIDED);
+    if (is == 1 && fabs(truth.lower) > tolerance) CHECK(within.status != OVOID_UNDECIDED);
 
     // Again, from what is known; and from nonsense.
-    ovoid_compound_proof known = {depth.part_a, depth.part_b, depth.answer.proof};
-    ovoid_compound_answer again = ovoid_compound_depth(pair, NULL, &known, &all);
+    ovoid_body_proof known = {depth.part_a, depth.part_b, depth.deciding.proof};
+    ovoid_body_answer again = ovoid_body_depth(pair, NULL, &known, &all);
     check_answer(pair, &again, &all, truth);
     CHECK_LE(again.visited, depth.visited);
     known.part_a = (uint32_t)(random_next(s) % (2 * get_count(&pair->a)));
     known.part_b = (uint32_t)random_next(s) % 3;
-    again = ovoid_compound_distance(pair, NULL, &known, &all);
+    again = ovoid_body_distance(pair, NULL, &known, &all);
     check_answer(pair, &again, &all, truth);
 
     // A cap below the distance: proven farther.
     ovoid_options options = {.cap = 0.5 * truth.lower};
     if (truth.lower > tolerance) {
-        again = ovoid_compound_distance(pair, &options, NULL, &all);
+        again = ovoid_body_distance(pair, &options, NULL, &all);
         check_answer(pair, &again, &all, truth);
-        CHECK_LE(options.cap, again.answer.lower);
-        CHECK(again.answer.limit == OVOID_LIMIT_CAP || again.answer.limit == OVOID_LIMIT_NONE);
+        CHECK_LE(options.cap, again.lower);
+        CHECK(again.limit == OVOID_LIMIT_CAP || again.limit == OVOID_LIMIT_NONE);
     }
 }
 
@@ -145,14 +145,14 @@ static void check_grid(void) {
         ovoid_body_pair pair = {{.compound = grid, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
                                 {.shape = ball, .pose = {at, {0, 3, 4, 0}}}};
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-        ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
         // With its centre in a cube the ball is deeper than this formula says.
         bracket known = {truth > -0.25 ? truth - 1e-12 : -INFINITY, truth + 1e-12};
         check_answer(&pair, &x, &all, known);
         CHECK_LE(x.visited, 2000);
-        x = ovoid_compound_collide(&pair, NULL, NULL, &all);
+        x = ovoid_body_collide(&pair, NULL, NULL, &all);
         check_answer(&pair, &x, &all, known);
-        CHECK_EQ(x.answer.status, truth > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING);
+        CHECK_EQ(x.status, truth > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING);
     }
     check_seed = 0;
     CHECK(grid != NULL);
@@ -185,15 +185,15 @@ static void check_cup(void) {
                                     {.compound = one, .pose = {{moves[i][0], 0, 0}, none}}};
             if (as_shape) pair.b.shape = ball, pair.b.compound = NULL;
             ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
-            ovoid_compound_answer x = ovoid_compound_depth(&pair, NULL, NULL, &all);
+            ovoid_body_answer x = ovoid_body_depth(&pair, NULL, NULL, &all);
             double gap = moves[i][1];
             check_answer(&pair, &x, &all, (bracket){gap, gap});
-            CHECK_NEAR(x.answer.upper, gap, 1e-8);
-            CHECK_EQ(x.answer.status, gap > 0 ? OVOID_SEPARATED : gap < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING);
+            CHECK_NEAR(x.upper, gap, 1e-8);
+            CHECK_EQ(x.status, gap > 0 ? OVOID_SEPARATED : gap < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING);
             if (i) CHECK_EQ(x.part_a, moves[i][0] > 0 ? 0 : 1);
-            x = ovoid_compound_collide(&pair, NULL, NULL, &all);
+            x = ovoid_body_collide(&pair, NULL, NULL, &all);
             check_answer(&pair, &x, &all, (bracket){gap, gap});
-            CHECK_EQ(x.answer.status, gap > 0 ? OVOID_SEPARATED : gap < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING);
+            CHECK_EQ(x.status, gap > 0 ? OVOID_SEPARATED : gap < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING);
         }
     CHECK(cup && one);
     ovoid_compound_destroy(cup);
@@ -214,21 +214,22 @@ static void check_touching(void) {
     const ovoid_body_pair pair = {{.compound = c, .pose = parts[0].pose},
                                   {.shape = box, .pose = {{3, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-    ovoid_compound_answer x = ovoid_compound_distance(&pair, NULL, NULL, &all);
-    CHECK_EQ(x.answer.status, OVOID_SEPARATED);
-    x.answer.proof.normal = x.answer.normal = (ovoid_vec3){0.8, 0.6, 0};
-    x.answer.lower = -0.5;
-    x.answer.limit = OVOID_LIMIT_PRECISION;
-    x.answer.status = OVOID_UNDECIDED;
-    CHECK_EQ(ovoid_compound_answer_verify(&pair, &x, NULL, &all, NULL), OVOID_OK);
-    x.answer.status = OVOID_TOUCHING;
-    CHECK_EQ(ovoid_compound_answer_verify(&pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
-    double width = x.answer.upper - x.answer.lower, size = 100 + 2 * sqrt(3) + 3;
+    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+    CHECK_EQ(x.status, OVOID_SEPARATED);
+    x.deciding.proof.normal = x.deciding.normal = (ovoid_vec3){0.8, 0.6, 0};
+    x.deciding.lower = -0.5;
+    x.deciding.limit = OVOID_LIMIT_PRECISION;
+    x.deciding.status = OVOID_UNDECIDED;
+    x = ovoid_body_answer_make(&x.deciding, x.part_a, x.part_b);
+    CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_OK);
+    x.deciding.status = x.status = OVOID_TOUCHING;
+    CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    double width = x.upper - x.lower, size = 100 + 2 * sqrt(3) + 3;
     for (int i = 0; i < 4; i++) {
         double share = i % 2 ? 1 + 1e-9 : 1 - 1e-9;
         ovoid_options o = {0};
         *(i / 2 ? &o.relative_tolerance : &o.absolute_tolerance) = share * (i / 2 ? width / size : width);
-        CHECK_EQ(ovoid_compound_answer_verify(&pair, &x, &o, &all, NULL) == OVOID_OK, i % 2);
+        CHECK_EQ(ovoid_body_verify(&pair, &x, &o, &all, NULL) == OVOID_OK, i % 2);
     }
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(box);
@@ -238,15 +239,15 @@ static void check_touching(void) {
 
 static void expect_refused(const ovoid_body_pair *pair, const ovoid_options *options, ovoid_limit limit) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .count = 7};
-    ovoid_compound_answer x = ovoid_compound_distance(pair, options, NULL, &all);
-    CHECK_EQ(x.answer.limit, limit);
-    CHECK(x.answer.status == OVOID_UNDECIDED && x.answer.lower == -INFINITY && x.answer.upper == INFINITY);
+    ovoid_body_answer x = ovoid_body_distance(pair, options, NULL, &all);
+    CHECK_EQ(x.limit, limit);
+    CHECK(x.status == OVOID_UNDECIDED && x.lower == -INFINITY && x.upper == INFINITY);
     CHECK_EQ(all.count, 0);
-    CHECK_EQ(ovoid_compound_answer_verify(pair, &x, NULL, &all, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, NULL), OVOID_OK);
     // An answer where there can be none.
-    x.answer.lower = 1;
-    x.answer.status = OVOID_SEPARATED;
-    CHECK_EQ(ovoid_compound_answer_verify(pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    x.lower = 1;
+    x.status = OVOID_SEPARATED;
+    CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
 }
 
 static void check_refused(void) {
@@ -272,14 +273,14 @@ static void check_refused(void) {
     static const ovoid_options wrong[4] = {
         {.absolute_tolerance = -1}, {.relative_tolerance = NAN}, {.cap = -1}, {.cap = NAN}};
     for (int i = 0; i < 4; i++) expect_refused(&sound, &wrong[i], OVOID_LIMIT_OPTIONS);
-    ovoid_compound_answer x = ovoid_compound_within(&sound, -1, NULL, NULL, NULL);
-    CHECK_EQ(x.answer.limit, OVOID_LIMIT_OPTIONS);
-    x = ovoid_compound_within(&sound, NAN, NULL, NULL, NULL);
-    CHECK_EQ(x.answer.limit, OVOID_LIMIT_OPTIONS);
+    ovoid_body_answer x = ovoid_body_within(&sound, -1, NULL, NULL, NULL);
+    CHECK_EQ(x.limit, OVOID_LIMIT_OPTIONS);
+    x = ovoid_body_within(&sound, NAN, NULL, NULL, NULL);
+    CHECK_EQ(x.limit, OVOID_LIMIT_OPTIONS);
     // A warm start made of nonsense.
-    ovoid_compound_proof nonsense = {1, 0, {.kind = OVOID_PROOF_POINTS, .count = 77, .normal = {NAN, 1e300, 0}}};
-    x = ovoid_compound_distance(&sound, NULL, &nonsense, NULL);
-    CHECK_NEAR(x.answer.upper, 2, 1e-8);
+    ovoid_body_proof nonsense = {1, 0, {.kind = OVOID_PROOF_POINTS, .count = 77, .normal = {NAN, 1e300, 0}}};
+    x = ovoid_body_distance(&sound, NULL, &nonsense, NULL);
+    CHECK_NEAR(x.upper, 2, 1e-8);
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(box);
 }

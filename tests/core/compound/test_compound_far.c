@@ -3,17 +3,17 @@
 #include "extended.h"
 #include "worlds.h"
 
-typedef ovoid_compound_answer ask(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all);
+typedef ovoid_body_answer ask(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all);
 
-static ovoid_compound_answer ask_collide(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
+static ovoid_body_answer ask_collide(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
     (void)margin;
-    return ovoid_compound_collide(pair, NULL, NULL, all);
+    return ovoid_body_collide(pair, NULL, NULL, all);
 }
-static ovoid_compound_answer ask_within(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
-    return ovoid_compound_within(pair, margin, NULL, NULL, all);
+static ovoid_body_answer ask_within(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
+    return ovoid_body_within(pair, margin, NULL, NULL, all);
 }
-static ovoid_compound_answer ask_capped(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
-    return ovoid_compound_distance(pair, &(ovoid_options){.cap = margin}, NULL, all);
+static ovoid_body_answer ask_capped(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
+    return ovoid_body_distance(pair, &(ovoid_options){.cap = margin}, NULL, all);
 }
 static ask *const asks[] = {ask_collide, ask_within, ask_capped};
 
@@ -23,25 +23,25 @@ static int first_looks;
 static void check_answer(const ovoid_body_pair *pair, ask *how, double margin, double lower, double upper) {
     ovoid_exclusion items[512];
     ovoid_exclusions all = {items, 512, 0, NULL};
-    ovoid_compound_answer x = how(pair, margin, &all), same = how(pair, margin, NULL);
+    ovoid_body_answer x = how(pair, margin, &all), same = how(pair, margin, NULL);
     ovoid_error error = {0};
-    if (!CHECK(ovoid_compound_answer_verify(pair, &x, NULL, &all, &error) == OVOID_OK)) printf("  %s\n", error.message);
-    CHECK(x.answer.lower <= upper && lower <= x.answer.upper);
-    CHECK(same.answer.lower == x.answer.lower && same.answer.upper == x.answer.upper);
+    if (!CHECK(ovoid_body_verify(pair, &x, NULL, &all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    CHECK(x.lower <= upper && lower <= x.upper);
+    CHECK(same.lower == x.lower && same.upper == x.upper);
     if (x.tested) return;
     first_looks++;
-    CHECK(x.answer.status == OVOID_SEPARATED && x.answer.stage == OVOID_STAGE_SPHERE && x.visited == 1);
+    CHECK(x.status == OVOID_SEPARATED && x.deciding.stage == OVOID_STAGE_SPHERE && x.visited == 1);
     CHECK(all.count == 1 && items[0].first_a == 0 && items[0].first_b == 0);
     ovoid_limit beyond = how == ask_capped ? OVOID_LIMIT_CAP : OVOID_LIMIT_ANSWERED;
-    CHECK(x.answer.limit == (x.answer.upper - x.answer.lower < 1e-9 ? OVOID_LIMIT_NONE : beyond));
+    CHECK(x.limit == (x.upper - x.lower < 1e-9 ? OVOID_LIMIT_NONE : beyond));
     // The points are at the upper bound's distance.
-    ovoid_vec3 d = {x.answer.point_b.x - x.answer.point_a.x, x.answer.point_b.y - x.answer.point_a.y,
-                    x.answer.point_b.z - x.answer.point_a.z};
-    CHECK_NEAR(sqrt(d.x * d.x + d.y * d.y + d.z * d.z), x.answer.upper, 1e-12 * (1 + x.answer.upper) + 1e-5);
+    ovoid_vec3 d = {x.deciding.point_b.x - x.deciding.point_a.x, x.deciding.point_b.y - x.deciding.point_a.y,
+                    x.deciding.point_b.z - x.deciding.point_a.z};
+    CHECK_NEAR(sqrt(d.x * d.x + d.y * d.y + d.z * d.z), x.upper, 1e-12 * (1 + x.upper) + 1e-5);
     // Room for no exclusion changes nothing but that.
     ovoid_exclusions none = {NULL, 0, 0, NULL};
-    ovoid_compound_answer without = how(pair, margin, &none);
-    CHECK(none.count == 1 && without.answer.lower == x.answer.lower);
+    ovoid_body_answer without = how(pair, margin, &none);
+    CHECK(none.count == 1 && without.lower == x.lower);
 }
 
 static void test_compounds(uint64_t seed) {
@@ -57,7 +57,7 @@ static void test_compounds(uint64_t seed) {
         ovoid_body_pair pair = {{.compound = c[0], .pose = at_a}, {.compound = c[1], .pose = at_b}};
         if (k % 3 == 1) pair.a = (ovoid_body){.shape = shapes[k % WORLD_SHAPES], .pose = at_a};
         if (k % 3 == 2) pair.b = (ovoid_body){.shape = shapes[k % WORLD_SHAPES], .pose = at_b};
-        ovoid_answer truth = ovoid_compound_distance(&pair, NULL, NULL, NULL).answer;
+        ovoid_answer truth = ovoid_body_distance(&pair, NULL, NULL, NULL).deciding;
         double margin = fmax(truth.lower, 0.1) * random_uniform(&s, 0.2, 1.1);
         for (int i = 0; i < 3; i++) check_answer(&pair, asks[i], margin, truth.lower, truth.upper);
     }
@@ -82,11 +82,11 @@ static void test_balls(uint64_t seed) {
     long double truth = extended3_norm(d) - ra - rb;
     ovoid_body_pair pair = {{.compound = c[0], .pose = {at, random_quat(&s)}},
                             {.compound = c[1], .pose = {to, random_quat(&s)}}};
-    ovoid_compound_answer x = ovoid_compound_collide(&pair, NULL, NULL, NULL);
-    CHECK(x.answer.lower <= truth && truth <= x.answer.upper);
+    ovoid_body_answer x = ovoid_body_collide(&pair, NULL, NULL, NULL);
+    CHECK(x.lower <= truth && truth <= x.upper);
     CHECK(x.tested == 0 || gap < 1e-6);
     // A margin that is more than the gap is met, one that is less is not.
-    CHECK(ovoid_compound_within(&pair, gap * (1 + 1e-6) + 1e-12, NULL, NULL, NULL).answer.lower <= gap * (1 + 1e-6));
+    CHECK(ovoid_body_within(&pair, gap * (1 + 1e-6) + 1e-12, NULL, NULL, NULL).lower <= gap * (1 + 1e-6));
     for (int i = 0; i < 3; i++) check_answer(&pair, asks[i], 0.5 * gap, (double)truth - 1e-14, (double)truth + 1e-14);
     for (int i = 0; i < 2; i++) ovoid_compound_destroy(c[i]), ovoid_shape_destroy(balls[i]);
 }

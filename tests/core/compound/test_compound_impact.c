@@ -63,7 +63,7 @@ static void check_samples(const ovoid_moving_body *a, const ovoid_moving_body *b
         ovoid_body_pair pair = {
             {.shape = a->shape, .compound = a->compound, .pose = ovoid_motion_compute_pose(&a->motion, t)},
             {.shape = b->shape, .compound = b->compound, .pose = ovoid_motion_compute_pose(&b->motion, t)}};
-        if (t < x->free_until) CHECK_LE(margin - 1e-10, ovoid_compound_distance(&pair, NULL, NULL, NULL).answer.upper);
+        if (t < x->free_until) CHECK_LE(margin - 1e-10, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
     }
 }
 

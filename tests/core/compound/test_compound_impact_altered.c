@@ -31,7 +31,7 @@ static ovoid_body place(const ovoid_moving_body *m, double time) {
 }
 static ovoid_answer ask(const truth *t, double time) {
     ovoid_body_pair pair = {place(&t->a, time), place(&t->b, time)};
-    return ovoid_compound_distance(&pair, NULL, NULL, NULL).answer;
+    return ovoid_body_distance(&pair, NULL, NULL, NULL).deciding;
 }
 static ovoid_answer ask_parts(const truth *t, uint32_t part_a, uint32_t part_b, double time) {
     ovoid_moving_shape a = ovoid_moving_body_get_part(&t->a, part_a), b = ovoid_moving_body_get_part(&t->b, part_b);

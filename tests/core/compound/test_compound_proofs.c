@@ -27,9 +27,9 @@ static double measure(const ovoid_body_pair *pair, const ovoid_exclusion *e) {
     return -find_extreme(&pair->b, e->first_b, e->end_b, vec3_neg(n)) - find_extreme(&pair->a, e->first_a, e->end_a, n);
 }
 
-static int is_accepted(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all) {
+static int is_accepted(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_compound_answer_verify(pair, x, NULL, all, &error);
+    ovoid_code code = ovoid_body_verify(pair, x, NULL, all, &error);
     CHECK(code == OVOID_OK || (code == OVOID_ERROR_PROOF && error.message[0]));
     return code == OVOID_OK;
 }
@@ -41,7 +41,7 @@ static int is_at(const ovoid_body *body, uint32_t part, uint32_t first, uint32_t
 }
 
 // Each number of one exclusion.
-static void alter_item(const ovoid_body_pair *pair, const ovoid_compound_answer *x, ovoid_exclusions *all, size_t i,
+static void alter_item(const ovoid_body_pair *pair, const ovoid_body_answer *x, ovoid_exclusions *all, size_t i,
                        double size) {
     ovoid_exclusion *e = &all->items[i], kept = *e;
     double shown = measure(pair, e);
@@ -52,7 +52,7 @@ static void alter_item(const ovoid_body_pair *pair, const ovoid_compound_answer 
     CHECK(!is_accepted(pair, x, all));
     *e = kept;
     // Less than the answer claims.
-    e->lower = x->answer.lower - 1e-9 * size;
+    e->lower = x->lower - 1e-9 * size;
     CHECK(!is_accepted(pair, x, all));
     *e = kept;
     e->normal = vec3_neg(e->normal);
@@ -85,13 +85,13 @@ static void alter_item(const ovoid_body_pair *pair, const ovoid_compound_answer 
     *e = kept;
 }
 
-static void alter_answer(const ovoid_body_pair *pair, const ovoid_compound_answer *x, const ovoid_exclusions *all,
+static void alter_answer(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all,
                          double size) {
-    ovoid_compound_answer y = *x;
-    y.answer.lower = x->answer.upper + 1e-9 * size;
+    ovoid_body_answer y = *x;
+    y.lower = x->upper + 1e-9 * size;
     CHECK(!is_accepted(pair, &y, all));
     y = *x;
-    y.answer.upper = x->answer.lower - 1e-9 * size;
+    y.upper = x->lower - 1e-9 * size;
     CHECK(!is_accepted(pair, &y, all));
     y = *x;
     y.part_a = (uint32_t)get_count(&pair->a);
@@ -100,7 +100,7 @@ static void alter_answer(const ovoid_body_pair *pair, const ovoid_compound_answe
     y.part_b = UINT32_MAX;
     CHECK(!is_accepted(pair, &y, all));
     y = *x;
-    y.answer.status = y.answer.status == OVOID_SEPARATED ? OVOID_OVERLAPPING : OVOID_SEPARATED;
+    y.deciding.status = y.status = y.status == OVOID_SEPARATED ? OVOID_OVERLAPPING : OVOID_SEPARATED;
     CHECK(!is_accepted(pair, &y, all));
     // Without exclusions nothing is known of the other pairs, unless there are none.
     ovoid_exclusions none = {.cover = all->cover}, cut = *all;
@@ -110,30 +110,29 @@ static void alter_answer(const ovoid_body_pair *pair, const ovoid_compound_answe
         CHECK(!is_accepted(pair, x, &cut));
     }
     y = *x;
-    y.answer.lower = -INFINITY;
-    y.answer.limit = OVOID_LIMIT_ANSWERED; // a depth's would promise a narrow bracket
-    if (x->answer.status == OVOID_OVERLAPPING) CHECK(is_accepted(pair, &y, &none));
+    y.deciding.lower = y.lower = -INFINITY;
+    y.deciding.limit = y.limit = OVOID_LIMIT_ANSWERED; // a depth's would promise a narrow bracket
+    if (x->status == OVOID_OVERLAPPING) CHECK(is_accepted(pair, &y, &none));
 }
 
 static void check_pair(const ovoid_body_pair *pair, double size, uint64_t *s) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
     for (int question = 0; question < 3; question++) {
-        ovoid_compound_answer x = question == 0   ? ovoid_compound_distance(pair, NULL, NULL, &all)
-                                  : question == 1 ? ovoid_compound_depth(pair, NULL, NULL, &all)
-                                                  : ovoid_compound_within(pair, 0.1 * size, NULL, NULL, &all);
+        ovoid_body_answer x = question == 0   ? ovoid_body_distance(pair, NULL, NULL, &all)
+                              : question == 1 ? ovoid_body_depth(pair, NULL, NULL, &all)
+                                              : ovoid_body_within(pair, 0.1 * size, NULL, NULL, &all);
         CHECK_LE(all.count, CAPACITY);
         if (!CHECK(is_accepted(pair, &x, &all))) return;
         alter_answer(pair, &x, &all, size);
         for (int i = 0; i < 6 && all.count; i++) alter_item(pair, &x, &all, random_next(s) % all.count, size);
         CHECK(is_accepted(pair, &x, &all));
         // The deciding pair may not be another one: nothing excludes it.
-        ovoid_compound_answer y = x;
+        ovoid_body_answer y = x;
         y.part_a = (x.part_a + 1) % (uint32_t)get_count(&pair->a);
         ovoid_pair parts = get_pair(pair, y.part_a, y.part_b);
-        y.answer = ovoid_depth(&parts, NULL, NULL, &cover);
-        y.answer.lower = fmin(y.answer.lower, x.answer.lower);
-        if (y.part_a != x.part_a && x.answer.status == OVOID_SEPARATED && question == 0)
-            CHECK(!is_accepted(pair, &y, &all));
+        y.deciding = ovoid_depth(&parts, NULL, NULL, &cover);
+        y.lower = fmin(y.lower, x.lower);
+        if (y.part_a != x.part_a && x.status == OVOID_SEPARATED && question == 0) CHECK(!is_accepted(pair, &y, &all));
     }
 }
 
@@ -148,13 +147,13 @@ static void check_fine(void) {
         ovoid_body_pair pair = {{.compound = c, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
                                 {.compound = c, .pose = {{2, 0, 0}, {1, 0, 0, 0}}}};
         pair.b.pose.position.x += i < 20 ? 0 : ldexp(1, -i - 20);
-        ovoid_compound_answer x = ovoid_compound_collide(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_collide(&pair, NULL, NULL, &all);
         if (i >= 20)
-            CHECK_EQ(x.answer.status, OVOID_SEPARATED);
+            CHECK_EQ(x.status, OVOID_SEPARATED);
         else
-            CHECK_EQ(x.answer.status, OVOID_TOUCHING);
+            CHECK_EQ(x.status, OVOID_TOUCHING);
         CHECK(is_accepted(&pair, &x, &all));
-        x = ovoid_compound_distance(&pair, NULL, NULL, &all);
+        x = ovoid_body_distance(&pair, NULL, NULL, &all);
         CHECK(is_accepted(&pair, &x, &all));
     }
     ovoid_compound_destroy(c);

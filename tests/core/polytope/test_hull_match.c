@@ -392,7 +392,7 @@ static void check_probes(const ovoid_solid *solid, const ovoid_shape *hull, doub
         const ovoid_pair hulls = {probe, hull, pose, ovoid_pose_make_identity()};
         const ovoid_body_pair bodies = {{.shape = probe, .pose = pose},
                                         {.solid = solid, .pose = ovoid_pose_make_identity()}};
-        double least = ovoid_solid_distance(&bodies, NULL, NULL, NULL).lower;
+        double least = ovoid_body_distance(&bodies, NULL, NULL, NULL).lower;
         double most = ovoid_depth(&hulls, NULL, NULL, NULL).upper + gap;
         if (!CHECK(least <= most)) printf("  probe %d: %.17g beyond %.17g\n", i, least, most);
     }
@@ -440,7 +440,7 @@ static ovoid_solid *dented_solid;
 static int match_dented(ovoid_error *error) {
     ovoid_hull_match m;
     const ovoid_triangles triangles = {dented.xyz, dented.points, dented.indices, dented.count};
-    return ovoid_triangles_match_hull(&triangles, dented_hull, &m, error) == OVOID_OK && m.is_closed && !m.is_hull;
+    return ovoid_triangles_compute_hull_match(&triangles, dented_hull, &m, error) == OVOID_OK && m.is_closed && !m.is_hull;
 }
 
 static int measure_dented(ovoid_error *error) {

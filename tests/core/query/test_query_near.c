@@ -150,13 +150,13 @@ static void check_compounds(const ovoid_pair *p, const ovoid_proof *foreign) {
     static ovoid_cover cover;
     ovoid_exclusions all = {items, 64, 0, &cover};
     ovoid_body_pair pair = {{.compound = ca, .pose = p->pose_a}, {.compound = cb, .pose = p->pose_b}};
-    ovoid_compound_answer cold = ovoid_compound_depth(&pair, NULL, NULL, NULL);
+    ovoid_body_answer cold = ovoid_body_depth(&pair, NULL, NULL, NULL);
     for (int i = 0; i < 2; i++) {
-        ovoid_compound_proof earlier = {cold.part_a, cold.part_b, i ? *foreign : cold.answer.proof};
-        ovoid_compound_answer warm = ovoid_compound_depth(&pair, NULL, &earlier, &all);
-        if (cold.answer.status != OVOID_UNDECIDED) CHECK_EQ(warm.answer.status, cold.answer.status);
-        CHECK(is_stuck(&cold.answer) || !is_stuck(&warm.answer));
-        CHECK_EQ(ovoid_compound_answer_verify(&pair, &warm, NULL, &all, NULL), OVOID_OK);
+        ovoid_body_proof earlier = {cold.part_a, cold.part_b, i ? *foreign : cold.deciding.proof};
+        ovoid_body_answer warm = ovoid_body_depth(&pair, NULL, &earlier, &all);
+        if (cold.status != OVOID_UNDECIDED) CHECK_EQ(warm.status, cold.status);
+        CHECK(is_stuck(&cold.deciding) || !is_stuck(&warm.deciding));
+        CHECK_EQ(ovoid_body_verify(&pair, &warm, NULL, &all, NULL), OVOID_OK);
     }
     ovoid_compound_destroy(ca);
     ovoid_compound_destroy(cb);

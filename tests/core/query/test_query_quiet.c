@@ -82,8 +82,8 @@ int main(void) {
         sum += ovoid_shape_cast_ray(&(ovoid_posed_shape){a, p.pose_b}, &ray).iterations;
         sum += ovoid_shape_cast(&p, (ovoid_vec3){1, 2, 3}, 0, NULL).free_until;
         ovoid_body_pair bodies = {{.compound = compound, .pose = p.pose_a}, {.compound = compound, .pose = p.pose_b}};
-        ovoid_compound_answer y = ovoid_compound_depth(&bodies, NULL, NULL, &all);
-        sum += y.answer.upper + (double)ovoid_compound_answer_verify(&bodies, &y, NULL, &all, NULL);
+        ovoid_body_answer y = ovoid_body_depth(&bodies, NULL, NULL, &all);
+        sum += y.upper + (double)ovoid_body_verify(&bodies, &y, NULL, &all, NULL);
     }
     CHECK(isfinite(sum));
     CHECK_EQ(allocations - before, 0);

@@ -49,8 +49,8 @@ static ovoid_moving_body moving_bodies[2];
 static ovoid_solid *solids[2];
 static ovoid_body_pair solid_pair;
 static ovoid_moving_body moving_solids[2];
-static ovoid_solid_answer solid_answer;
-static ovoid_compound_answer compound_answer;
+static ovoid_body_answer solid_answer;
+static ovoid_body_answer compound_answer;
 static ovoid_body_impact compound_impact;
 static ovoid_step_group groups[4096];
 static ovoid_exclusion items[256];
@@ -114,18 +114,14 @@ static void ask_cast(void) { impact = ovoid_shape_cast(&pair, (ovoid_vec3){-2, 0
 static void ask_ray(void) { ray_hit = ovoid_shape_cast_ray(&posed[1], &ray); }
 static void ask_box(void) { box = ovoid_moving_shape_compute_box(&moving[0], 0, 1); }
 
-static void ask_compound_collide(void) {
-    compound_answer = ovoid_compound_collide(&body_pair, NULL, NULL, &exclusions);
-}
+static void ask_compound_collide(void) { compound_answer = ovoid_body_collide(&body_pair, NULL, NULL, &exclusions); }
 static void ask_compound_within(void) {
-    compound_answer = ovoid_compound_within(&body_pair, 0.01, NULL, NULL, &exclusions);
+    compound_answer = ovoid_body_within(&body_pair, 0.01, NULL, NULL, &exclusions);
 }
-static void ask_compound_distance(void) {
-    compound_answer = ovoid_compound_distance(&body_pair, NULL, NULL, &exclusions);
-}
-static void ask_compound_depth(void) { compound_answer = ovoid_compound_depth(&body_pair, NULL, NULL, &exclusions); }
+static void ask_compound_distance(void) { compound_answer = ovoid_body_distance(&body_pair, NULL, NULL, &exclusions); }
+static void ask_compound_depth(void) { compound_answer = ovoid_body_depth(&body_pair, NULL, NULL, &exclusions); }
 static void ask_compound_check(void) {
-    CHECK(ovoid_compound_answer_verify(&body_pair, &compound_answer, NULL, &exclusions, NULL) == OVOID_OK);
+    CHECK(ovoid_body_verify(&body_pair, &compound_answer, NULL, &exclusions, NULL) == OVOID_OK);
 }
 static void ask_compound_impact(void) {
     compound_impact = ovoid_body_impact_find(&moving_bodies[0], &moving_bodies[1], 0, &recording);
@@ -136,12 +132,12 @@ static void ask_compound_impact_check(void) {
 }
 static void ask_compound_box(void) { box = ovoid_moving_body_compute_box(&moving_bodies[0], 0, 1); }
 
-static void ask_solid_collide(void) { solid_answer = ovoid_solid_collide(&solid_pair, NULL, NULL, &exclusions); }
-static void ask_solid_within(void) { solid_answer = ovoid_solid_within(&solid_pair, 0.01, NULL, NULL, &exclusions); }
-static void ask_solid_distance(void) { solid_answer = ovoid_solid_distance(&solid_pair, NULL, NULL, &exclusions); }
+static void ask_solid_collide(void) { solid_answer = ovoid_body_collide(&solid_pair, NULL, NULL, &exclusions); }
+static void ask_solid_within(void) { solid_answer = ovoid_body_within(&solid_pair, 0.01, NULL, NULL, &exclusions); }
+static void ask_solid_distance(void) { solid_answer = ovoid_body_distance(&solid_pair, NULL, NULL, &exclusions); }
 /// Of the distance, where there was room for its proof.
 static void ask_solid_check(void) {
-    ovoid_code code = ovoid_solid_answer_verify(&solid_pair, &solid_answer, NULL, &exclusions, NULL);
+    ovoid_code code = ovoid_body_verify(&solid_pair, &solid_answer, NULL, &exclusions, NULL);
     CHECK(code == OVOID_OK || exclusions.count > exclusions.capacity);
 }
 static void ask_solid_impact(void) {

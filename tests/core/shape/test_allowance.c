@@ -240,13 +240,13 @@ static void check_shape_beside(const assembly *b, ovoid_pose to, double by, uint
     ovoid_pose at = {random_vec3(s, 5), random_quat(s)};
     ovoid_body_pair shapes = {{.shape = one.shape, .pose = at}, {.compound = b->shape, .pose = to}},
                     bodies = {{.shape = one.body, .pose = at}, {.compound = b->body, .pose = to}};
-    ovoid_compound_answer truth = ovoid_compound_depth(&bodies, NULL, NULL, NULL),
-                          x = ovoid_compound_depth(&shapes, NULL, NULL, NULL),
-                          y = ovoid_compound_collide(&shapes, NULL, NULL, NULL);
-    CHECK_LE(x.answer.lower, truth.answer.upper);
-    CHECK_LE(truth.answer.lower, x.answer.upper);
-    CHECK_LE(y.answer.lower, truth.answer.upper);
-    CHECK_LE(truth.answer.lower, y.answer.upper);
+    ovoid_body_answer truth = ovoid_body_depth(&bodies, NULL, NULL, NULL),
+                      x = ovoid_body_depth(&shapes, NULL, NULL, NULL),
+                      y = ovoid_body_collide(&shapes, NULL, NULL, NULL);
+    CHECK_LE(x.lower, truth.upper);
+    CHECK_LE(truth.lower, x.upper);
+    CHECK_LE(y.lower, truth.upper);
+    CHECK_LE(truth.lower, y.upper);
     destroy_known(one);
 }
 
@@ -262,21 +262,21 @@ static void test_compounds(void) {
         ovoid_exclusion items[256];
         static ovoid_cover cover;
         ovoid_exclusions all = {.items = items, .capacity = 256, .cover = &cover};
-        ovoid_compound_answer truth = ovoid_compound_depth(&bodies, NULL, NULL, NULL),
-                              x = ovoid_compound_depth(&shapes, NULL, NULL, &all);
-        CHECK_LE(x.answer.lower, truth.answer.upper);
-        CHECK_LE(truth.answer.lower, x.answer.upper);
-        CHECK_LE(x.answer.upper - x.answer.lower, 8 * by + 1e-6);
-        CHECK(all.count <= all.capacity && ovoid_compound_answer_verify(&shapes, &x, NULL, &all, NULL) == OVOID_OK);
-        ovoid_compound_answer y = ovoid_compound_collide(&shapes, NULL, NULL, &all);
-        CHECK_LE(y.answer.lower, truth.answer.upper);
-        CHECK_LE(truth.answer.lower, y.answer.upper);
-        CHECK(ovoid_compound_answer_verify(&shapes, &y, NULL, &all, NULL) == OVOID_OK);
-        check_decided(&y.answer, &truth.answer);
-        y = ovoid_compound_within(&shapes, 0.5, NULL, NULL, NULL);
-        int is_within = ovoid_answer_is_within(&y.answer, 0.5);
-        if (is_within == 0) CHECK(truth.answer.upper > 0.5);
-        if (is_within == 1) CHECK(truth.answer.lower <= 0.5);
+        ovoid_body_answer truth = ovoid_body_depth(&bodies, NULL, NULL, NULL),
+                          x = ovoid_body_depth(&shapes, NULL, NULL, &all);
+        CHECK_LE(x.lower, truth.upper);
+        CHECK_LE(truth.lower, x.upper);
+        CHECK_LE(x.upper - x.lower, 8 * by + 1e-6);
+        CHECK(all.count <= all.capacity && ovoid_body_verify(&shapes, &x, NULL, &all, NULL) == OVOID_OK);
+        ovoid_body_answer y = ovoid_body_collide(&shapes, NULL, NULL, &all);
+        CHECK_LE(y.lower, truth.upper);
+        CHECK_LE(truth.lower, y.upper);
+        CHECK(ovoid_body_verify(&shapes, &y, NULL, &all, NULL) == OVOID_OK);
+        check_decided(&y.deciding, &truth.deciding);
+        y = ovoid_body_within(&shapes, 0.5, NULL, NULL, NULL);
+        int is_within = ovoid_answer_is_within(&y.deciding, 0.5);
+        if (is_within == 0) CHECK(truth.upper > 0.5);
+        if (is_within == 1) CHECK(truth.lower <= 0.5);
         for (int i = 0; i < 4; i++) check_shape_beside(&b, to, by, &s);
         destroy_assembly(&a);
         destroy_assembly(&b);
@@ -296,15 +296,15 @@ static void test_mixed(void) {
     ovoid_compound *c = ovoid_compound_create(parts, 2, NULL, NULL);
     ovoid_body_pair pair = {{.compound = c, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
                             {.shape = box, .pose = {{1.9, 0, 0}, {1, 0, 0, 0}}}};
-    ovoid_compound_answer x = ovoid_compound_depth(&pair, NULL, NULL, NULL);
-    CHECK(x.answer.status == OVOID_OVERLAPPING);
-    CHECK_LE(x.answer.upper, -0.1 + 1e-8);
+    ovoid_body_answer x = ovoid_body_depth(&pair, NULL, NULL, NULL);
+    CHECK(x.status == OVOID_OVERLAPPING);
+    CHECK_LE(x.upper, -0.1 + 1e-8);
     pair.b.pose.position.x = 3;
-    x = ovoid_compound_distance(&pair, NULL, NULL, NULL);
-    CHECK_NEAR(x.answer.upper, 1, 1e-8);
-    CHECK_NEAR(x.answer.lower, 0.2, 1e-8);
-    x = ovoid_compound_within(&pair, 1.0001, NULL, NULL, NULL);
-    CHECK_EQ(ovoid_answer_is_within(&x.answer, 1.0001), 1);
+    x = ovoid_body_distance(&pair, NULL, NULL, NULL);
+    CHECK_NEAR(x.upper, 1, 1e-8);
+    CHECK_NEAR(x.lower, 0.2, 1e-8);
+    x = ovoid_body_within(&pair, 1.0001, NULL, NULL, NULL);
+    CHECK_EQ(ovoid_answer_is_within(&x.deciding, 1.0001), 1);
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(ball);
     ovoid_shape_destroy(cloud);
@@ -322,14 +322,14 @@ static void test_exclusion(void) {
                             {.compound = c, .pose = {{apart, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_exclusion items[8];
     ovoid_exclusions all = {.items = items, .capacity = 8};
-    ovoid_compound_answer x = ovoid_compound_collide(&pair, NULL, NULL, &all);
-    if (CHECK(x.answer.status == OVOID_SEPARATED && all.count > 0 && all.count <= 8)) {
+    ovoid_body_answer x = ovoid_body_collide(&pair, NULL, NULL, &all);
+    if (CHECK(x.status == OVOID_SEPARATED && all.count > 0 && all.count <= 8)) {
         ovoid_exclusion e = {0, 2, 0, 2, {1, 0, 0}, {0, 0, 0}, apart - 2 * (radius + outside) - 1e-12};
         all.count = 1;
         items[0] = e;
-        CHECK(ovoid_compound_answer_verify(&pair, &x, NULL, &all, NULL) == OVOID_OK);
+        CHECK(ovoid_body_verify(&pair, &x, NULL, &all, NULL) == OVOID_OK);
         items[0].lower += 0.5 * outside;
-        CHECK(ovoid_compound_answer_verify(&pair, &x, NULL, &all, NULL) == OVOID_ERROR_PROOF);
+        CHECK(ovoid_body_verify(&pair, &x, NULL, &all, NULL) == OVOID_ERROR_PROOF);
     }
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(ball);

@@ -203,12 +203,12 @@ static ovoid_answer ask_bodies(const ovoid_body_pair *pair, int has_solid) {
     ovoid_exclusions all = {.items = items, .capacity = 4096};
     ovoid_error e = {.message = ""};
     if (!has_solid) {
-        ovoid_compound_answer x = ovoid_compound_distance(pair, NULL, NULL, &all);
-        if (!CHECK_EQ(ovoid_compound_answer_verify(pair, &x, NULL, &all, &e), OVOID_OK)) printf("  %s\n", e.message);
-        return x.answer;
+        ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &all);
+        if (!CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, &e), OVOID_OK)) printf("  %s\n", e.message);
+        return x.deciding;
     }
-    ovoid_solid_answer x = ovoid_solid_distance(pair, NULL, NULL, &all);
-    if (!CHECK_EQ(ovoid_solid_answer_verify(pair, &x, NULL, &all, &e), OVOID_OK)) printf("  %s\n", e.message);
+    ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &all);
+    if (!CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, &e), OVOID_OK)) printf("  %s\n", e.message);
     return (ovoid_answer){.status = x.status, .limit = x.limit, .lower = x.lower, .upper = x.upper};
 }
 

@@ -1,4 +1,4 @@
-// Solids that move. Truth: distances at sampled times, from ovoid_solid_distance, which other tests hold against brute
+// Solids that move. Truth: distances at sampled times, from ovoid_body_distance, which other tests hold against brute
 // force: never within the margin before free_until, and within it at hit_at; every pair of triangles by
 // ovoid_impact_find for small solids; closed forms of a peg that falls through a ring and a ball inside a hollow.
 // Proofs are checked, and what is altered is refused.
@@ -14,10 +14,10 @@ static ovoid_motion make_motion(uint64_t *s, double far) {
     return ovoid_motion_make_velocity(start, random_vec3(s, 6), random_vec3(s, random_next(s) % 3 ? 2 : 0), 1);
 }
 
-static ovoid_solid_answer ask(const ovoid_moving_body *a, const ovoid_moving_body *b, double time) {
+static ovoid_body_answer ask(const ovoid_moving_body *a, const ovoid_moving_body *b, double time) {
     ovoid_body_pair pair = {{a->shape, a->compound, ovoid_motion_compute_pose(&a->motion, time), a->solid},
                             {b->shape, b->compound, ovoid_motion_compute_pose(&b->motion, time), b->solid}};
-    return ovoid_solid_distance(&pair, NULL, NULL, NULL);
+    return ovoid_body_distance(&pair, NULL, NULL, NULL);
 }
 
 static int is_proven(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
@@ -32,7 +32,7 @@ static void check_samples(const ovoid_moving_body *a, const ovoid_moving_body *b
                           uint64_t *s) {
     for (int i = 0; i < 12; i++) {
         double t = x->free_until * (i ? random_uniform(s, 0, 1) : 1 - 1e-9);
-        ovoid_solid_answer at = ask(a, b, t);
+        ovoid_body_answer at = ask(a, b, t);
         if (x->free_until > 0) CHECK(at.upper >= margin - 1e-9 && at.status != OVOID_OVERLAPPING);
     }
     if (x->status == OVOID_IMPACT_HIT) CHECK_LE(ask(a, b, x->hit_at).lower, margin + 1e-12);
@@ -163,7 +163,7 @@ static void check_begin(int rounds) {
         ovoid_solid *b = ovoid_solid_create_from_triangles(v, 36, t, 12, NULL, NULL);
         ovoid_pose here = ovoid_pose_make_identity(), there = {{0, 4, 0}, random_quat(&s)};
         ovoid_body_pair pair = {{.solid = a, .pose = here}, {.solid = b, .pose = there}};
-        double d = ovoid_solid_distance(&pair, &exact, NULL, NULL).upper;
+        double d = ovoid_body_distance(&pair, &exact, NULL, NULL).upper;
         const ovoid_vec3 none = {0, 0, 0}, up = {0, 1, 0};
         ovoid_moving_body x = {.solid = a, .motion = ovoid_motion_make_velocity(here, up, none, 1)},
                           y = {.solid = b, .motion = ovoid_motion_make_velocity(there, none, none, 1)};

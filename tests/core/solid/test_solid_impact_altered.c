@@ -30,9 +30,9 @@ typedef struct truth {
 static ovoid_body place(const ovoid_moving_body *m, double time) {
     return (ovoid_body){m->shape, m->compound, ovoid_motion_compute_pose(&m->motion, time), m->solid};
 }
-static ovoid_solid_answer ask(const truth *t, double time) {
+static ovoid_body_answer ask(const truth *t, double time) {
     ovoid_body_pair pair = {place(&t->a, time), place(&t->b, time)};
-    return ovoid_solid_distance(&pair, NULL, NULL, NULL);
+    return ovoid_body_distance(&pair, NULL, NULL, NULL);
 }
 
 // A body's leaf as a shape of its own, which is to be destroyed; its pose is that of the body, of a part the part's
@@ -93,7 +93,7 @@ static int hit_is_false(const truth *t, const ovoid_body_impact *x) {
     ovoid_answer leaves = ask_leaves(t, x->part_a, x->part_b, x->impact.hit_at);
     double lower = leaves.lower, upper = leaves.upper;
     if (x->impact.hit_at <= x->impact.begin) {
-        ovoid_solid_answer bodies = ask(t, x->impact.hit_at);
+        ovoid_body_answer bodies = ask(t, x->impact.hit_at);
         lower = fmin(lower, bodies.lower), upper = fmax(upper, bodies.upper);
         if (bodies.lower - t->slack > t->margin) return 1;
     } else if (leaves.lower - t->slack > t->margin) {
@@ -214,7 +214,7 @@ static ovoid_body_impact make_free(const truth *t, double begin, double end, siz
     for (size_t i = 0; i < count; i++) {
         double from = begin + (end - begin) * (double)i / (double)count;
         double until = i + 1 < count ? begin + (end - begin) * (double)(i + 1) / (double)count : end;
-        steps[i] = (ovoid_step){until, ask(t, from).surfaces.normal, OVOID_STEP_WORLD};
+        steps[i] = (ovoid_step){until, ask(t, from).deciding.normal, OVOID_STEP_WORLD};
     }
     return (ovoid_body_impact){.impact = {.status = OVOID_IMPACT_FREE,
                                           .begin = begin,
@@ -222,7 +222,7 @@ static ovoid_body_impact make_free(const truth *t, double begin, double end, siz
                                           .free_until = end,
                                           .hit_at = INFINITY,
                                           .step_count = count,
-                                          .free = ask(t, end).surfaces},
+                                          .free = ask(t, end).deciding},
                                .group_count = 1};
 }
 

@@ -56,9 +56,9 @@ static int rays_met, solids_met;
 // A hit's answer holds for its pair, and its proof.
 static void check_hit(const ovoid_body *a, const ovoid_body *b, const ovoid_world_hit *hit) {
     ovoid_body_pair pair = {*a, *b};
-    ovoid_answer truth = ovoid_compound_depth(&pair, NULL, NULL, NULL).answer;
-    CHECK_LE(hit->answer.answer.lower, truth.upper);
-    CHECK_LE(truth.lower, hit->answer.answer.upper);
+    ovoid_answer truth = ovoid_body_depth(&pair, NULL, NULL, NULL).deciding;
+    CHECK_LE(hit->answer.lower, truth.upper);
+    CHECK_LE(truth.lower, hit->answer.upper);
 }
 
 static void test_nearest(scene *x) {
@@ -69,12 +69,12 @@ static void test_nearest(scene *x) {
         for (int j = 0; j < BODIES; j++) {
             if (!ovoid_world_is_pair(x->world, x->ids[i], x->ids[j])) continue;
             ovoid_body_pair pair = {a.body, get_body(x, j).body};
-            least = fmin(least, ovoid_compound_distance(&pair, NULL, NULL, NULL).answer.upper);
+            least = fmin(least, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
         }
         ovoid_world_hit hit;
         CHECK(ovoid_world_find_nearest(x->world, x->ids[i], NULL, &hit, NULL) == OVOID_OK);
         CHECK(hit.a == x->ids[i]);
-        CHECK_NEAR(fmax(hit.answer.answer.upper, 0), fmax(least, 0), 1e-7);
+        CHECK_NEAR(fmax(hit.answer.upper, 0), fmax(least, 0), 1e-7);
         if (least > 0) CHECK_LE(hit.lower, least);
         ovoid_world_body b;
         CHECK(ovoid_world_get(x->world, hit.b, &b, NULL) == OVOID_OK);
@@ -83,7 +83,7 @@ static void test_nearest(scene *x) {
     }
     ovoid_world_hit hit;
     CHECK(ovoid_world_find_nearest_pair(x->world, NULL, &hit, NULL) == OVOID_OK);
-    CHECK_NEAR(fmax(hit.answer.answer.upper, 0), fmax(best, 0), 1e-7);
+    CHECK_NEAR(fmax(hit.answer.upper, 0), fmax(best, 0), 1e-7);
     CHECK(hit.a < hit.b && ovoid_world_is_pair(x->world, hit.a, hit.b));
     if (best > 0) CHECK_LE(hit.lower, best);
     ovoid_options none_near = {.cap = best / 2};
@@ -105,7 +105,7 @@ static void test_nearest_loosely(scene *x) {
         for (int j = 0; j < BODIES; j++) {
             if (!ovoid_world_is_pair(x->world, x->ids[i], x->ids[j])) continue;
             ovoid_body_pair pair = {self.body, get_body(x, j).body};
-            nearest = fmin(nearest, ovoid_compound_distance(&pair, NULL, NULL, NULL).answer.upper);
+            nearest = fmin(nearest, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
         }
         if (nearest > 0) CHECK_LE(hit.lower, nearest);
     }
@@ -119,12 +119,12 @@ static void test_any(scene *x) {
         for (int j = 0; j < BODIES; j++) {
             if (!ovoid_world_is_pair(x->world, x->ids[i], x->ids[j])) continue;
             ovoid_body_pair pair = {a.body, get_body(x, j).body};
-            touches |= ovoid_compound_collide(&pair, NULL, NULL, NULL).answer.status != OVOID_SEPARATED;
+            touches |= ovoid_body_collide(&pair, NULL, NULL, NULL).status != OVOID_SEPARATED;
         }
         ovoid_world_hit hit;
         CHECK(ovoid_world_find_any(x->world, &x->ids[i], 1, NULL, &hit, NULL) == OVOID_OK);
         CHECK_EQ(hit.b != 0, touches);
-        if (hit.b) CHECK(hit.a == x->ids[i] && hit.answer.answer.status != OVOID_SEPARATED);
+        if (hit.b) CHECK(hit.a == x->ids[i] && hit.answer.status != OVOID_SEPARATED);
         all |= touches;
     }
     ovoid_world_hit hit;
@@ -150,7 +150,7 @@ static void check_any_to(scene *x, const ovoid_world_body *probes, size_t count)
     ovoid_world_body b;
     CHECK(ovoid_world_get(x->world, hit.b, &b, NULL) == OVOID_OK);
     check_hit(&probes[first].body, &b.body, &hit);
-    CHECK(hit.answer.answer.status != OVOID_SEPARATED);
+    CHECK(hit.answer.status != OVOID_SEPARATED);
 }
 
 static void check_overlaps(scene *x, const ovoid_world_body *probe, double margin) {
@@ -163,8 +163,8 @@ static void check_overlaps(scene *x, const ovoid_world_body *probe, double margi
         ovoid_world_body b = get_body(x, j);
         if (!is_in_groups(probe, &b)) continue;
         ovoid_body_pair pair = {probe->body, b.body};
-        ovoid_answer alone = ovoid_compound_within(&pair, margin, NULL, NULL, NULL).answer;
-        nearest = fmin(nearest, ovoid_compound_distance(&pair, NULL, NULL, NULL).answer.upper);
+        ovoid_answer alone = ovoid_body_within(&pair, margin, NULL, NULL, NULL).deciding;
+        nearest = fmin(nearest, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
         if (alone.lower > margin) continue;
         CHECK(at < hits.count && items[at].b == x->ids[j] && items[at].a == 0);
         if (at < hits.count) check_hit(&probe->body, &b.body, &items[at]);
@@ -176,7 +176,7 @@ static void check_overlaps(scene *x, const ovoid_world_body *probe, double margi
     CHECK_EQ(none.count, hits.count);
     ovoid_world_hit hit;
     CHECK(ovoid_world_find_nearest_to(x->world, probe, NULL, &hit, NULL) == OVOID_OK);
-    CHECK_NEAR(fmax(hit.answer.answer.upper, 0), fmax(nearest, 0), 1e-7);
+    CHECK_NEAR(fmax(hit.answer.upper, 0), fmax(nearest, 0), 1e-7);
 }
 
 static void test_probes(scene *x) {

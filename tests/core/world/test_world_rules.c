@@ -139,7 +139,7 @@ static void test_queries_refused(const ovoid_shape *box) {
     ovoid_options bad = {.relative_tolerance = NAN};
     q = (ovoid_contact_query){.options = &bad};
     expect(ovoid_world_compute_contacts(w, &q, &f, &e), OVOID_ERROR_ARGUMENT, &e, "tolerance");
-    ovoid_compound_answer x;
+    ovoid_body_answer x;
     ovoid_contact c = {.a = ids[0], .b = ids[1]};
     expect(ovoid_world_compute_proof(w, &c, NULL, &x, &e), OVOID_ERROR_ARGUMENT, &e, "no contact");
     CHECK_EQ(count_contacts(w), 1);

@@ -62,18 +62,18 @@ static void end(stage *x) {
     for (int k = 0; k < SOLIDS; k++) mesh_clear(&x->meshes[k]);
 }
 
-static ovoid_solid_answer ask(const ovoid_body *a, const ovoid_body *b, const ovoid_contact_query *q) {
+static ovoid_body_answer ask(const ovoid_body *a, const ovoid_body *b, const ovoid_contact_query *q) {
     const ovoid_body_pair pair = {*a, *b};
     const ovoid_options o = {.cap = q->margin > 0 ? q->margin : 1e-300};
-    if (q->kind == OVOID_QUERY_COLLIDE) return ovoid_solid_collide(&pair, NULL, NULL, NULL);
-    if (q->kind == OVOID_QUERY_WITHIN) return ovoid_solid_within(&pair, q->margin, NULL, NULL, NULL);
-    return ovoid_solid_distance(&pair, &o, NULL, NULL);
+    if (q->kind == OVOID_QUERY_COLLIDE) return ovoid_body_collide(&pair, NULL, NULL, NULL);
+    if (q->kind == OVOID_QUERY_WITHIN) return ovoid_body_within(&pair, q->margin, NULL, NULL, NULL);
+    return ovoid_body_distance(&pair, &o, NULL, NULL);
 }
 
 static void check_contact(stage *x, const ovoid_contact *c, const ovoid_body *a, const ovoid_body *b,
                           const ovoid_contact_query *q) {
     const ovoid_body_pair pair = {*a, *b};
-    ovoid_solid_answer alone = ask(a, b, q), truth = ovoid_solid_distance(&pair, NULL, NULL, NULL);
+    ovoid_body_answer alone = ask(a, b, q), truth = ovoid_body_distance(&pair, NULL, NULL, NULL);
     CHECK_EQ(c->verdict.status, alone.status);
     CHECK_LE(c->verdict.lower, c->verdict.upper);
     CHECK_LE(c->verdict.lower, truth.upper);
@@ -83,10 +83,12 @@ static void check_contact(stage *x, const ovoid_contact *c, const ovoid_body *a,
     CHECK(c->verdict.status != OVOID_OVERLAPPING || c->verdict.upper < 0);
     if (q->kind >= OVOID_QUERY_DISTANCE && alone.status == OVOID_SEPARATED)
         CHECK_NEAR(c->verdict.lower, truth.lower, 1e-7);
-    ovoid_compound_answer proof;
+    ovoid_body_answer proof;
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_world_compute_proof(x->w, c, NULL, &proof, &error);
-    CHECK_EQ(code, a->solid || b->solid ? OVOID_ERROR_ARGUMENT : OVOID_OK);
+    static ovoid_exclusion items[4096];
+    ovoid_exclusions exclusions = {items, 4096, 0, NULL};
+    CHECK_EQ(ovoid_world_compute_proof(x->w, c, &exclusions, &proof, &error), OVOID_OK);
+    CHECK_EQ(ovoid_body_verify(&pair, &proof, q->options, &exclusions, &error), OVOID_OK);
 }
 
 static void check_frame(stage *x, const ovoid_contact_query *q) {
@@ -140,8 +142,8 @@ static void check_between(stage *x) {
     }
     CHECK_EQ(ovoid_world_find_nearest_to(x->w, &probe, NULL, &hit, &error), OVOID_OK);
     CHECK(hit.b != 0 && hit.lower <= nearest);
-    if (nearest > 0) CHECK_NEAR(hit.answer.answer.upper, nearest, 1e-7);
-    if (nearest <= 0) CHECK(hit.answer.answer.upper <= 0);
+    if (nearest > 0) CHECK_NEAR(hit.answer.upper, nearest, 1e-7);
+    if (nearest <= 0) CHECK(hit.answer.upper <= 0);
     CHECK_EQ(ovoid_world_find_any_to(x->w, &probe, 1, &hit, &error), OVOID_OK);
     CHECK_EQ(hit.b != 0, touching);
     ovoid_world_hit found[BODIES];
@@ -178,7 +180,7 @@ static void check_rays(stage *x) {
                 {1, 0, 0, 0}};
             for (int j = 0; j < BODIES; j++) {
                 const ovoid_body_pair pair = {make_body(x, j, x->poses[j]), {.shape = ball, .pose = at}};
-                ovoid_solid_answer y = ovoid_solid_collide(&pair, NULL, NULL, NULL);
+                ovoid_body_answer y = ovoid_body_collide(&pair, NULL, NULL, NULL);
                 if (t < cast.lower - 1e-9) CHECK(y.status != OVOID_OVERLAPPING);
                 is_in |= !k && x->ids[j] == cast.body && y.upper <= 1e-9;
             }
@@ -207,7 +209,7 @@ static void check_cast(stage *x) {
             at.pose.position.x += t * way.x, at.pose.position.y += t * way.y, at.pose.position.z += t * way.z;
             for (int j = 0; j < BODIES; j++) {
                 const ovoid_body_pair pair = {make_body(x, j, x->poses[j]), at};
-                ovoid_solid_answer y = ovoid_solid_distance(&pair, NULL, NULL, NULL);
+                ovoid_body_answer y = ovoid_body_distance(&pair, NULL, NULL, NULL);
                 if (t < cast.lower - 1e-9) CHECK(y.status != OVOID_OVERLAPPING);
                 is_in |= !k && x->ids[j] == cast.body && y.lower <= 1e-8;
             }

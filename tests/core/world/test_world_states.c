@@ -83,7 +83,7 @@ static ovoid_world_body draw(scene *x, double side) {
 
 static int do_touch(const ovoid_body *a, const ovoid_body *b) {
     ovoid_body_pair pair = {*a, *b};
-    return ovoid_compound_collide(&pair, NULL, NULL, NULL).answer.status != OVOID_SEPARATED;
+    return ovoid_body_collide(&pair, NULL, NULL, NULL).status != OVOID_SEPARATED;
 }
 
 static int are_in_groups(const ovoid_world_body *a, const ovoid_world_body *b) {
@@ -120,7 +120,7 @@ static void collide_state(const scene *x) {
     } else if (couple < x->couple_count) {
         CHECK_EQ(hit.a, x->couples[couple].a);
         CHECK(hit.b == (OVOID_WORLD_PROBE | x->couples[couple].b));
-        CHECK(hit.answer.answer.status != OVOID_SEPARATED);
+        CHECK(hit.answer.status != OVOID_SEPARATED);
         ends[1]++;
     } else {
         CHECK(hit.b == 0 && hit.a == 0 && hit.lower == 0);

@@ -23,7 +23,7 @@ extern ovoid_answer answer;
 extern ovoid_world_body body;
 extern ovoid_contact_query query;
 extern ovoid_contacts frame;
-extern ovoid_compound_answer answer;
+extern ovoid_body_answer answer;
 #endif
 #ifdef PAGE_robot_spheres
 extern ovoid_robot *robot;

@@ -1,0 +1,69 @@
+// The queries of two bodies: each goes to the search of its kind, chosen by whether one of them is a solid.
+#include "base/environment.h"
+#include "base/error.h"
+#include "body/body_find.h"
+
+ovoid_body_answer body_answer_make(const ovoid_answer *x, uint32_t part_a, uint32_t part_b) {
+    return (ovoid_body_answer){.status = x->status,
+                               .limit = x->limit,
+                               .lower = x->lower,
+                               .upper = x->upper,
+                               .part_a = part_a,
+                               .part_b = part_b,
+                               .deciding = *x};
+}
+
+ovoid_answer body_answer_get_answer(const ovoid_body_answer *x) {
+    ovoid_answer own = x->deciding;
+    own.status = x->status;
+    own.limit = x->limit;
+    own.lower = x->lower;
+    own.upper = x->upper;
+    return own;
+}
+
+void body_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
+                        const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+    if (body_pair_has_solid(pair))
+        solid_find_internal(pair, options, &goal, earlier, exclusions, out);
+    else
+        parts_find_internal(pair, options, goal, earlier, exclusions, out);
+}
+
+static ovoid_body_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
+                              const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
+    OVOID_ASSERT(pair);
+    ENVIRONMENT_RETURN_FILLED(ovoid_body_answer, out, goal,
+                              body_find_internal(pair, options, goal, earlier, exclusions, &out));
+}
+
+ovoid_body_answer ovoid_body_collide(const ovoid_body_pair *pair, const ovoid_options *options,
+                                     const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
+    return find(pair, options, query_goal_make_collide(), earlier, exclusions);
+}
+ovoid_body_answer ovoid_body_within(const ovoid_body_pair *pair, double margin, const ovoid_options *options,
+                                    const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
+    return find(pair, options, query_goal_make_within(margin), earlier, exclusions);
+}
+ovoid_body_answer ovoid_body_distance(const ovoid_body_pair *pair, const ovoid_options *options,
+                                      const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
+    return find(pair, options, query_goal_make_distance(options), earlier, exclusions);
+}
+ovoid_body_answer ovoid_body_depth(const ovoid_body_pair *pair, const ovoid_options *options,
+                                   const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
+    return find(pair, options, query_goal_make_depth(options), earlier, exclusions);
+}
+
+int ovoid_body_answer_is_within(const ovoid_body_answer *x, double margin) {
+    return x->upper <= margin ? 1 : x->lower > margin ? 0 : -1;
+}
+
+ovoid_body_proof ovoid_body_answer_get_proof(const ovoid_body_answer *x) {
+    return (ovoid_body_proof){x->part_a, x->part_b, x->deciding.proof};
+}
+
+ovoid_answer ovoid_body_answer_get_answer(const ovoid_body_answer *x) { return body_answer_get_answer(x); }
+
+ovoid_body_answer ovoid_body_answer_make(const ovoid_answer *deciding, uint32_t part_a, uint32_t part_b) {
+    return body_answer_make(deciding, part_a, part_b);
+}
