@@ -114,7 +114,7 @@ OVOID_API ovoid_code ovoid_triangles_compute_hull_match(const ovoid_triangles *t
  * is 0 where the solid is its hull by exact signs, and infinity where no convex body of at least half the hull's size
  * is shown to lie inside it, of the hull's form and about its centroid; of a surface it is. hull: of all points of the
  * solid; where it has a radius or an allowance, or a rank below 3, g is infinity. Errors: MEMORY (of the solid's
- * allocator). Cost: that of ovoid_triangles_match_hull.
+ * allocator). Cost: that of ovoid_triangles_compute_hull_match.
  */
 OVOID_API ovoid_code ovoid_solid_compute_hull_gap(const ovoid_solid *solid, const ovoid_shape *hull, double *gap,
                                                   ovoid_error *error);
