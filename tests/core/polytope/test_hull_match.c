@@ -440,7 +440,8 @@ static ovoid_solid *dented_solid;
 static int match_dented(ovoid_error *error) {
     ovoid_hull_match m;
     const ovoid_triangles triangles = {dented.xyz, dented.points, dented.indices, dented.count};
-    return ovoid_triangles_compute_hull_match(&triangles, dented_hull, &m, error) == OVOID_OK && m.is_closed && !m.is_hull;
+    return ovoid_triangles_compute_hull_match(&triangles, dented_hull, &m, error) == OVOID_OK && m.is_closed &&
+           !m.is_hull;
 }
 
 static int measure_dented(ovoid_error *error) {

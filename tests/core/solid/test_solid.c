@@ -244,8 +244,7 @@ static void check_warm(void) {
             cold[0] = ovoid_body_distance(&pair, &o, NULL, NULL), cold[1] = ovoid_body_collide(&pair, &o, NULL, NULL);
             ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
             warm[0] = ovoid_body_distance(&pair, &o, &earlier, &all);
-            if (all.count <= all.capacity)
-                CHECK_EQ(ovoid_body_verify(&pair, &warm[0], &o, &all, NULL), OVOID_OK);
+            if (all.count <= all.capacity) CHECK_EQ(ovoid_body_verify(&pair, &warm[0], &o, &all, NULL), OVOID_OK);
             warm[1] = ovoid_body_collide(&pair, &o, &earlier, NULL);
             for (int q = 0; q < 2; q++) {
                 if (!CHECK(!is_worse(&warm[q], &cold[q])))
