@@ -41,7 +41,7 @@ void check_shapes() {
     CHECK_NEAR(second.measures().volume, 8000.0 / 6, 1e-9);
     CHECK_NEAR(mesh.compute_convexity(1, second).mesh_volume, 8000.0 / 6, 1e-9);
     CHECK(mesh.create_solid(1).report().is_closed);
-    CHECK_EQ(second.allowed({0, 0.5}).allowance().inside, 0.5);
+    CHECK_EQ(second.allowed({0, 0.5, {0, 0, 0}}).allowance().inside, 0.5);
     const std::uint32_t one[3] = {0, 1, 2};
     CHECK(!ovoid::match_hull({mesh[1].faces.vertices, mesh[1].faces.vertex_count, one, 1}, second).is_closed);
     const auto shapes = ovoid::shapes::read_file(path, each);
