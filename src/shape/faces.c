@@ -104,6 +104,20 @@ static ovoid_code add_edges(const checker *c, edge_table *t) {
     return OVOID_OK;
 }
 
+// Refuses the first face, in the order given, that has an edge without a face beyond it.
+static ovoid_code validate_edges(const checker *c, const edge_table *t) {
+    const uint32_t *corner = c->faces->indices;
+    for (size_t face = 0; face < c->faces->face_count; corner += c->faces->sizes[face++])
+        for (uint32_t i = 0; i < c->faces->sizes[face]; i++) {
+            uint32_t from = c->first[corner[i]], to = c->first[corner[i + 1 < c->faces->sizes[face] ? i + 1 : 0]];
+            if (find_edge(t, to, from)->face == NOTHING)
+                return error_set(c->error, OVOID_ERROR_NOT_CONVEX, (int64_t)face,
+                                 "the surface is open: no face is beyond the edge from vertex %u to %u of face %zu",
+                                 from, to, face);
+        }
+    return OVOID_OK;
+}
+
 static ovoid_code validate_closed(const checker *c) {
     edge_table t = {NULL, 16};
     while (t.mask < 2 * c->corners) t.mask *= 2;
@@ -112,13 +126,7 @@ static ovoid_code validate_closed(const checker *c) {
     memset(t.slots, 0xff, t.mask * sizeof *t.slots);
     t.mask--;
     ovoid_code code = add_edges(c, &t);
-    for (size_t i = 0; !code && i <= t.mask; i++) {
-        const edge *e = &t.slots[i];
-        if (e->face != NOTHING && find_edge(&t, e->to, e->from)->face == NOTHING)
-            code = error_set(c->error, OVOID_ERROR_NOT_CONVEX, (int64_t)e->face,
-                             "the surface is open: no face is beyond the edge from vertex %u to %u of face %u", e->from,
-                             e->to, e->face);
-    }
+    if (!code) code = validate_edges(c, &t);
     allocator_release(c->allocator, t.slots);
     return code;
 }
