@@ -132,6 +132,7 @@ static void time_rival(robots_run *run, const rival *r, const edge *e, double *q
 static void time_along(robots_run *run, robots_scene *s, const edge *e) {
     const machine *m = run->machine;
     uint32_t hits = 0;
+    if (!e->samples) return;
     double *all = malloc(sizeof *all * e->samples * (m->variable_count + 1));
     ovoid_robot_answer *answers = malloc(sizeof *answers * e->samples);
     if (all && answers) {

@@ -3,22 +3,22 @@
 #include "base/error.h"
 #include "body/body_find.h"
 
-ovoid_body_answer body_answer_make(const ovoid_answer *x, uint32_t part_a, uint32_t part_b) {
-    return (ovoid_body_answer){.status = x->status,
-                               .limit = x->limit,
-                               .lower = x->lower,
-                               .upper = x->upper,
+ovoid_body_answer body_answer_make(const ovoid_answer *deciding, uint32_t part_a, uint32_t part_b) {
+    return (ovoid_body_answer){.status = deciding->status,
+                               .limit = deciding->limit,
+                               .lower = deciding->lower,
+                               .upper = deciding->upper,
                                .part_a = part_a,
                                .part_b = part_b,
-                               .deciding = *x};
+                               .deciding = *deciding};
 }
 
-ovoid_answer body_answer_get_answer(const ovoid_body_answer *x) {
-    ovoid_answer own = x->deciding;
-    own.status = x->status;
-    own.limit = x->limit;
-    own.lower = x->lower;
-    own.upper = x->upper;
+ovoid_answer body_answer_get_answer(const ovoid_body_answer *answer) {
+    ovoid_answer own = answer->deciding;
+    own.status = answer->status;
+    own.limit = answer->limit;
+    own.lower = answer->lower;
+    own.upper = answer->upper;
     return own;
 }
 

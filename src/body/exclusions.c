@@ -36,11 +36,11 @@ void exclusions_finish(ovoid_exclusions *exclusions) {
     if (exclusions && exclusions->count <= exclusions->capacity) sort(exclusions->items, exclusions->count);
 }
 
-int exclusions_have(const ovoid_exclusions *all, const ovoid_exclusion *wanted) {
-    size_t low = 0, high = all->count;
+int exclusions_have(const ovoid_exclusions *exclusions, const ovoid_exclusion *wanted) {
+    size_t low = 0, high = exclusions->count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        int order = compare(&all->items[middle], wanted);
+        int order = compare(&exclusions->items[middle], wanted);
         if (order == 0) return 1;
         if (order < 0)
             low = middle + 1;

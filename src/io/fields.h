@@ -50,10 +50,10 @@ typedef struct field_own {
 typedef struct field {
     const char *key;
     field_kind kind;
+    unsigned column;                 ///< any of these bits makes it a column of CSV; 0: it never is
     size_t offset, size;             ///< of the member
     size_t count;                    ///< offset of the number of items: uint32_t of an array in the struct, else size_t
     uint64_t bit;                    ///< with which it is there; FIELD_ALWAYS: it is
-    unsigned column;                 ///< any of these bits makes it a column of CSV; 0: it never is
     const field_names *names;        ///< of NAME
     const struct field_table *table; ///< of OBJECT and LIST
     const field_own *own;            ///< of OWN

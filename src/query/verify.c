@@ -161,10 +161,10 @@ ovoid_code terms_verify_internal(const ovoid_answer *x, const answer_terms *term
                      ovoid_limit_get_name(x->limit), x->lower, x->upper);
 }
 
-ovoid_code refusal_verify_internal(ovoid_verdict x, ovoid_limit refused, ovoid_error *error) {
-    int claims = x.lower != -INFINITY || x.upper != INFINITY || x.status != OVOID_UNDECIDED;
+ovoid_code refusal_verify_internal(ovoid_verdict answer, ovoid_limit refused, ovoid_error *error) {
+    int claims = answer.lower != -INFINITY || answer.upper != INFINITY || answer.status != OVOID_UNDECIDED;
     // The margin that is refused too is not among the options.
-    if (!claims && (x.limit == refused || x.limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
+    if (!claims && (answer.limit == refused || answer.limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer or another reason");
 }
 
