@@ -15,8 +15,4 @@ void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *optio
 void body_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out);
 
-/// The public functions of these names.
-ovoid_answer body_answer_get_answer(const ovoid_body_answer *answer);
-ovoid_body_answer body_answer_make(const ovoid_answer *deciding, uint32_t part_a, uint32_t part_b);
-
 #endif

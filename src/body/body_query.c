@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "body/body_find.h"
 
-ovoid_body_answer body_answer_make(const ovoid_answer *deciding, uint32_t part_a, uint32_t part_b) {
+ovoid_body_answer ovoid_body_answer_make(const ovoid_answer *deciding, uint32_t part_a, uint32_t part_b) {
     return (ovoid_body_answer){.status = deciding->status,
                                .limit = deciding->limit,
                                .lower = deciding->lower,
@@ -13,7 +13,7 @@ ovoid_body_answer body_answer_make(const ovoid_answer *deciding, uint32_t part_a
                                .deciding = *deciding};
 }
 
-ovoid_answer body_answer_get_answer(const ovoid_body_answer *answer) {
+ovoid_answer ovoid_body_answer_get_answer(const ovoid_body_answer *answer) {
     ovoid_answer own = answer->deciding;
     own.status = answer->status;
     own.limit = answer->limit;
@@ -60,10 +60,4 @@ int ovoid_body_answer_is_within(const ovoid_body_answer *x, double margin) {
 
 ovoid_body_proof ovoid_body_answer_get_proof(const ovoid_body_answer *x) {
     return (ovoid_body_proof){x->part_a, x->part_b, x->deciding.proof};
-}
-
-ovoid_answer ovoid_body_answer_get_answer(const ovoid_body_answer *x) { return body_answer_get_answer(x); }
-
-ovoid_body_answer ovoid_body_answer_make(const ovoid_answer *deciding, uint32_t part_a, uint32_t part_b) {
-    return body_answer_make(deciding, part_a, part_b);
 }

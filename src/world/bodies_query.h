@@ -11,7 +11,7 @@ static inline void bodies_query(const ovoid_body *a, const ovoid_body *b, const 
         ovoid_pair two = {a->shape, b->shape, a->pose, b->pose};
         ovoid_answer x;
         answer_find_internal(&two, options, goal, NULL, NULL, &x);
-        *out = body_answer_make(&x, 0, 0);
+        *out = ovoid_body_answer_make(&x, 0, 0);
         out->tested = 1;
         return;
     }

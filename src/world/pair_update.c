@@ -166,7 +166,7 @@ static void query_pair(ovoid_world *w, const world_pair *p, pair_cache *k) {
     pair_query(w, &both, k, NULL, &x);
     k->part_a = x.part_a;
     k->part_b = x.part_b;
-    ovoid_answer own = body_answer_get_answer(&x);
+    ovoid_answer own = ovoid_body_answer_get_answer(&x);
     cache_answer(w, p, k, &own);
 }
 
