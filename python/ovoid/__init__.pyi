@@ -1,7 +1,7 @@
 # Types of the package; docstrings have the words. Arrays are numpy.ndarray where NumPy can be imported, else Array.
 import os
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Final, Literal, NamedTuple, Protocol, SupportsIndex, TypeAlias, overload
+from typing import Any, Final, Literal, NamedTuple, Protocol, SupportsIndex, TypeAlias
 
 from ._enums import Agreement as Agreement
 from ._enums import Code as Code
@@ -138,31 +138,6 @@ class PartsAudit(NamedTuple):
 
 def enlarge_parts(parts: Iterable[Shape], radius: float) -> tuple[Shape, ...]: ...
 
-class SolidAnswer:
-    status: Final[Status]
-    limit: Final[Limit]
-    lower: Final[float]
-    upper: Final[float]
-    point_a: Final[_Vec3]
-    point_b: Final[_Vec3]
-    normal: Final[_Vec3]
-    surfaces_lower: Final[float]
-    surfaces_upper: Final[float]
-    parting: Final[_Vec3]
-    inside: Final[Inside]
-    component: Final[int | None]
-    common: Final[_Vec3]
-    triangle_a: Final[int]
-    triangle_b: Final[int]
-    visited: Final[int]
-    tested: Final[int]
-    proof: Final[_Array]
-    a: Final[_Body]
-    b: Final[_Body]
-    pose_a: Final[Pose]
-    pose_b: Final[Pose]
-    def is_within(self, margin: float, /) -> bool | None: ...
-
 class Pose:
     def __new__(cls, pose: _Pose = None) -> Pose: ...
     @classmethod
@@ -205,10 +180,18 @@ class Answer:
     iterations: Final[int]
     part_a: Final[int]
     part_b: Final[int]
+    visited: Final[int]
+    tested: Final[int]
+    surfaces_lower: Final[float | None]
+    surfaces_upper: Final[float | None]
+    inside: Final[Inside | None]
+    component: Final[int | None]
+    common: Final[_Vec3 | None]
+    parting: Final[_Vec3 | None]
     distance: Final[float]
     proof: Final[_Array]
-    a: Final[_Convex]
-    b: Final[_Convex]
+    a: Final[_Body]
+    b: Final[_Body]
     pose_a: Final[Pose]
     pose_b: Final[Pose]
     def is_within(self, margin: float, /) -> bool | None: ...
@@ -235,7 +218,7 @@ class Hit(NamedTuple):
     a: int
     b: int
     lower: float
-    answer: Answer | SolidAnswer
+    answer: Answer
 
 class Cast(NamedTuple):
     body: int
@@ -263,7 +246,7 @@ class World:
     def set_ignored(self, a: SupportsIndex, b: SupportsIndex, ignored: bool = True, /) -> None: ...
     def is_pair(self, a: SupportsIndex, b: SupportsIndex, /) -> bool: ...
     def contacts(self, kind: Literal["collide", "within", "distance", "depth"] = "distance", margin: float = 0, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0) -> Contacts: ...
-    def proof(self, a: SupportsIndex, b: SupportsIndex, /) -> Answer | SolidAnswer: ...
+    def proof(self, a: SupportsIndex, b: SupportsIndex, /) -> Answer: ...
     def nearest(self, id: SupportsIndex, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0) -> Hit | None: ...
     def nearest_to(self, body: _Body, pose: _Pose = None, *, group: int = 0, mask: int = 0, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0) -> Hit | None: ...
     def nearest_pair(self, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0) -> Hit | None: ...
@@ -297,8 +280,8 @@ class Impact:
     part_a: Final[int]
     part_b: Final[int]
     margin: Final[float]
-    free: Final[Answer | SolidAnswer | None]
-    hit: Final[Answer | SolidAnswer | None]
+    free: Final[Answer | None]
+    hit: Final[Answer | None]
     steps: Final[_Array]
 
 class Approach:
@@ -346,32 +329,17 @@ class Gradient:
     margin: Final[float]
 
 def read(path: str | bytes | os.PathLike[str], *, scale: float = 1, unit: str | None = None, rounding: float = 0, gap: float = 0, inner: _Inner = "maximum", allowance: _Allowance = (0, 0), hull: bool = False) -> Shape | Solid: ...
-@overload
-def collide(a: Solid, b: _Body, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: SolidAnswer | _Array | None = None) -> SolidAnswer: ...
-@overload
-def collide(a: _Convex, b: Solid, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: SolidAnswer | _Array | None = None) -> SolidAnswer: ...
-@overload
-def collide(a: _Convex | Prepared, b: _Convex | Prepared, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: Answer | _Array | None = None) -> Answer: ...
-@overload
-def within(a: Solid, b: _Body, pose_a: _Pose = None, pose_b: _Pose = None, *, margin: float, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: SolidAnswer | _Array | None = None) -> SolidAnswer: ...
-@overload
-def within(a: _Convex, b: Solid, pose_a: _Pose = None, pose_b: _Pose = None, *, margin: float, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: SolidAnswer | _Array | None = None) -> SolidAnswer: ...
-@overload
-def within(a: _Convex | Prepared, b: _Convex | Prepared, pose_a: _Pose = None, pose_b: _Pose = None, *, margin: float, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: Answer | _Array | None = None) -> Answer: ...
-@overload
-def distance(a: Solid, b: _Body, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: SolidAnswer | _Array | None = None) -> SolidAnswer: ...
-@overload
-def distance(a: _Convex, b: Solid, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: SolidAnswer | _Array | None = None) -> SolidAnswer: ...
-@overload
-def distance(a: _Convex | Prepared, b: _Convex | Prepared, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: Answer | _Array | None = None) -> Answer: ...
+def collide(a: _Body | Prepared, b: _Body | Prepared, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: Answer | _Array | None = None) -> Answer: ...
+def within(a: _Body | Prepared, b: _Body | Prepared, pose_a: _Pose = None, pose_b: _Pose = None, *, margin: float, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: Answer | _Array | None = None) -> Answer: ...
+def distance(a: _Body | Prepared, b: _Body | Prepared, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: Answer | _Array | None = None) -> Answer: ...
 def depth(a: _Convex | Prepared, b: _Convex | Prepared, pose_a: _Pose = None, pose_b: _Pose = None, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, earlier: Answer | _Array | None = None) -> Answer: ...
 def collide_batch(bodies: Bodies, couples: _Numbers, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, threads: int = 1, out: _Array | None = None, witnesses: bool | _Array = False, proofs: _Array | None = None, progress: _Progress | None = None) -> Any: ...
 def within_batch(bodies: Bodies, couples: _Numbers, margin: float, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, threads: int = 1, out: _Array | None = None, witnesses: bool | _Array = False, proofs: _Array | None = None, progress: _Progress | None = None) -> Any: ...
 def distance_batch(bodies: Bodies, couples: _Numbers, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, threads: int = 1, out: _Array | None = None, witnesses: bool | _Array = False, proofs: _Array | None = None, progress: _Progress | None = None) -> Any: ...
 def depth_batch(bodies: Bodies, couples: _Numbers, *, absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0, threads: int = 1, out: _Array | None = None, witnesses: bool | _Array = False, proofs: _Array | None = None, progress: _Progress | None = None) -> Any: ...
 def zeros(kind: Literal["verdicts", "witnesses", "proofs", "states"], count: int, /) -> _Array: ...
-def verify(answer: Answer | SolidAnswer | Impact | Approach | RobotPath, /) -> None: ...
-def is_proven(answer: Answer | SolidAnswer | Impact | Approach | RobotPath, /) -> bool: ...
+def verify(answer: Answer | Impact | Approach | RobotPath, /) -> None: ...
+def is_proven(answer: Answer | Impact | Approach | RobotPath, /) -> bool: ...
 def find_impact(a: _Body, b: _Body, motion_a: _Moving = None, motion_b: _Moving = None, *, margin: float = 0, begin: float = 0, end: float = 0, tolerance: float = 0, iterations: int = 0) -> Impact: ...
 def find_approach(a: Shape, b: Shape, motion_a: _Moving = None, motion_b: _Moving = None, *, begin: float = 0, end: float = 0, tolerance: float = 0, iterations: int = 0) -> Approach: ...
 def cast_ray(shape: Shape, pose: _Pose, origin: _Numbers, direction: _Numbers, length: float = ..., *, radius: float = 0) -> RayHit: ...

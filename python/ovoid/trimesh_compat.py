@@ -26,7 +26,7 @@ _EXTERNAL = "__external"
 class _PairData:
     def __init__(self, names, answer):
         self._names = tuple(names)
-        self.answer = answer  #: the Answer or SolidAnswer, which ovoid.verify takes
+        self.answer = answer  #: the Answer, which ovoid.verify takes
 
     @property
     def names(self):
@@ -38,7 +38,7 @@ class _PairData:
         is_first = name == self._names[0]
         if not isinstance(self.answer.a if is_first else self.answer.b, Solid):
             raise NotImplementedError("this body is a hull: it has no face of the mesh to name")
-        return self.answer.triangle_a if is_first else self.answer.triangle_b
+        return self.answer.part_a if is_first else self.answer.part_b
 
 
 class ContactData(_PairData):

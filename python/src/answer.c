@@ -71,12 +71,15 @@ ovoid_code answer_verify(const answer_object *self, ovoid_error *error) {
     }
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count,
                                    self->cover ? &unpacked : NULL};
-    return ovoid_body_verify(&bodies, &self->of, &self->options, &exclusions, error);
+    ovoid_code code;
+    Py_BEGIN_ALLOW_THREADS;
+    code = ovoid_body_verify(&bodies, &self->of, &self->options, &exclusions, error);
+    Py_END_ALLOW_THREADS;
+    return code;
 }
 
 static ovoid_code verify_any(module_state *state, PyObject *what, ovoid_error *error) {
     if (Py_TYPE(what) == state->answer) return answer_verify((const answer_object *)what, error);
-    if (Py_TYPE(what) == state->solid_answer) return solid_answer_verify(what, error);
 #ifdef OVOID_PYTHON_ROBOT
     if (Py_TYPE(what) == state->robot_path) return path_verify(what, error);
 #endif
@@ -84,11 +87,10 @@ static ovoid_code verify_any(module_state *state, PyObject *what, ovoid_error *e
 }
 
 static int is_verifiable(module_state *state, PyObject *what) {
-    PyTypeObject *const types[] = {state->answer, state->solid_answer, state->impact, state->approach,
-                                   state->robot_path};
+    PyTypeObject *const types[] = {state->answer, state->impact, state->approach, state->robot_path};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (Py_TYPE(what) == types[i]) return 1;
-    PyErr_Format(PyExc_TypeError, "an Answer, SolidAnswer, Impact, Approach or RobotPath is wanted, not %R",
+    PyErr_Format(PyExc_TypeError, "an Answer, Impact, Approach or RobotPath is wanted, not %R",
                  (PyObject *)Py_TYPE(what));
     return 0;
 }
@@ -109,17 +111,44 @@ static PyObject *is_proven(PyObject *module, PyObject *what) {
 
 static PyMethodDef verify_methods[] = {
     {"verify", verify, METH_O,
-     "verify(answer)\n--\n\nChecks an Answer, SolidAnswer, Impact, Approach or RobotPath by its proof alone, without "
-     "any "
-     "search; raises Error where\nthe proof does not hold."},
+     "verify(answer)\n--\n\nChecks an Answer, Impact, Approach or RobotPath by its proof alone, without any search; "
+     "raises "
+     "Error where\nthe proof does not hold."},
     {"is_proven", is_proven, METH_O, "is_proven(answer)\n--\n\nTrue where verify(answer) finds nothing wrong."},
     {NULL, NULL, 0, NULL}};
 
 // ---- what it is
 
+static int has_solid(const answer_object *self) {
+    const PyTypeObject *solid = state_of((PyObject *)self)->solid;
+    return Py_TYPE(self->a) == solid || Py_TYPE(self->b) == solid;
+}
+
+// A field of answers of solids; None of others.
+static PyObject *get_of_solid(PyObject *self, void *closure) {
+    return has_solid((const answer_object *)self) ? field_get(self, closure) : Py_NewRef(Py_None);
+}
+
+static PyObject *get_component(PyObject *self, void *closure) {
+    const ovoid_body_answer *of = &((answer_object *)self)->of;
+    int is = of->inside == OVOID_BODY_A_INSIDE || of->inside == OVOID_BODY_B_INSIDE;
+    return is ? field_get(self, closure) : Py_NewRef(Py_None);
+}
+
+static PyObject *get_common(PyObject *self, void *closure) {
+    int is = ((answer_object *)self)->of.inside == OVOID_BODY_COMMON_POINT;
+    return is ? field_get(self, closure) : Py_NewRef(Py_None);
+}
+
+static PyObject *get_parting(PyObject *self, void *closure) {
+    int is = ((answer_object *)self)->of.lower < 0;
+    return is ? get_of_solid(self, closure) : Py_NewRef(Py_None);
+}
+
 static PyObject *get_distance(PyObject *self, void *closure) {
     (void)closure;
-    return PyFloat_FromDouble(ovoid_answer_get_distance(&((answer_object *)self)->of.deciding));
+    ovoid_answer answer = ovoid_body_answer_get_answer(&((answer_object *)self)->of);
+    return PyFloat_FromDouble(ovoid_answer_get_distance(&answer));
 }
 
 static PyObject *get_proof(PyObject *self, void *closure) {
@@ -141,16 +170,16 @@ static PyObject *get_pose(PyObject *self, void *closure) {
 static PyObject *is_within(PyObject *self, PyObject *margin) {
     double wanted = PyFloat_AsDouble(margin);
     if (wanted == -1 && PyErr_Occurred()) return NULL;
-    int within = ovoid_answer_is_within(&((answer_object *)self)->of.deciding, wanted);
+    int within = ovoid_body_answer_is_within(&((answer_object *)self)->of, wanted);
     if (within < 0) Py_RETURN_NONE;
     return PyBool_FromLong(within);
 }
 
 static PyObject *repr(PyObject *self) {
-    const ovoid_answer *x = &((answer_object *)self)->of.deciding;
+    const ovoid_body_answer *x = &((answer_object *)self)->of;
     char text[160];
     PyOS_snprintf(text, sizeof text, "<ovoid.Answer: %s, %.17g <= d <= %.17g, by %s>", ovoid_status_get_name(x->status),
-                  x->lower, x->upper, ovoid_stage_get_name(x->stage));
+                  x->lower, x->upper, ovoid_stage_get_name(x->deciding.stage));
     return PyUnicode_FromString(text);
 }
 
@@ -164,24 +193,44 @@ static void answer_dealloc(PyObject *object) {
 }
 
 static PyGetSetDef fields[] = {
-    FIELD(answer_object, FIELD_ENUM + ENUM_STATUS, "status", of.deciding.status,
+    FIELD(answer_object, FIELD_ENUM + ENUM_STATUS, "status", of.status,
           "What is proven of the signed distance d: a Status."),
-    FIELD(answer_object, FIELD_DOUBLE, "lower", of.deciding.lower, "Proven: lower <= d, rounding included."),
-    FIELD(answer_object, FIELD_DOUBLE, "upper", of.deciding.upper, "Proven: d <= upper, rounding included."),
-    FIELD(answer_object, FIELD_VEC3, "point_a", of.deciding.point_a,
-          "Witness point of a, world frame. Of distance and depth: point_b - point_a = d normal."),
+    FIELD(answer_object, FIELD_DOUBLE, "lower", of.lower, "Proven: lower <= d, rounding included."),
+    FIELD(answer_object, FIELD_DOUBLE, "upper", of.upper, "Proven: d <= upper, rounding included."),
+    FIELD(
+        answer_object, FIELD_VEC3, "point_a", of.deciding.point_a,
+        "Witness point of a, of the deciding parts, world frame. Of distance and depth: point_b - point_a = d normal."),
     FIELD(answer_object, FIELD_VEC3, "point_b", of.deciding.point_b, "Witness point of b, world frame."),
     FIELD(answer_object, FIELD_VEC3, "normal", of.deciding.normal, "Unit normal from a to b, world frame."),
-    FIELD(answer_object, FIELD_ENUM + ENUM_LIMIT, "limit", of.deciding.limit,
-          "Why the bracket is not narrower: a Limit."),
-    FIELD(answer_object, FIELD_ENUM + ENUM_STAGE, "stage", of.deciding.stage, "What decided: a Stage."),
+    FIELD(answer_object, FIELD_ENUM + ENUM_LIMIT, "limit", of.limit,
+          "Why the bracket is not narrower: a Limit; of an overlap of Solids NONE, though its depth is not searched "
+          "for."),
+    FIELD(answer_object, FIELD_ENUM + ENUM_STAGE, "stage", of.deciding.stage,
+          "What decided about the deciding parts: a Stage."),
     FIELD(answer_object, FIELD_UINT, "iterations", of.deciding.iterations, "Iterations of the exact methods."),
-    FIELD(answer_object, FIELD_UINT, "part_a", of.part_a, "The deciding part of a compound a; 0 of a shape."),
-    FIELD(answer_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of a compound b; 0 of a shape."),
+    FIELD(answer_object, FIELD_UINT, "part_a", of.part_a,
+          "The deciding part of a: of a Compound its part, of a Solid its triangle, of a Shape 0."),
+    FIELD(answer_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of b."),
+    FIELD(answer_object, FIELD_UINT, "visited", of.visited,
+          "How many pairs of nodes and parts were bounded; 0 of two Shapes."),
+    FIELD(answer_object, FIELD_UINT, "tested", of.tested, "How many pairs of parts were queried; 0 of two Shapes."),
+    FIELD_BY(get_of_solid, answer_object, FIELD_DOUBLE, "surfaces_lower", of.deciding.lower,
+             "Proven: no triangle of a is nearer to one of b. None without a Solid."),
+    FIELD_BY(get_of_solid, answer_object, FIELD_DOUBLE, "surfaces_upper", of.deciding.upper,
+             "Proven: the deciding triangles are no farther apart. None without a Solid."),
+    FIELD_BY(get_of_solid, answer_object, FIELD_ENUM + ENUM_INSIDE, "inside", of.inside,
+             "What is inside, where that is what proves an overlap: an Inside. None without a Solid."),
+    FIELD_BY(get_component, answer_object, FIELD_UINT, "component", of.component,
+             "The component that is inside where inside is Inside.A or Inside.B; else None."),
+    FIELD_BY(get_common, answer_object, FIELD_VEC3, "common", of.common,
+             "The point that both bodies cover, frame of a, where inside is Inside.POINT; else None."),
+    FIELD_BY(get_parting, answer_object, FIELD_VEC3, "parting", of.parting,
+             "Unit direction, world frame, along which a translation by -lower parts the bodies, where lower is below "
+             "0. None\nwithout a Solid."),
     {"distance", get_distance, NULL,
      "The signed distance as one number, never above the true one; NaN where the bracket is wider than the tolerance.",
      NULL},
-    {"proof", get_proof, NULL, "The proof of the deciding shapes, an array of one record: earlier= takes it.", NULL},
+    {"proof", get_proof, NULL, "The proof of the deciding parts, an array of one record: earlier= takes it.", NULL},
     {"a", get_body, NULL, "The first body.", NULL},
     {"b", get_body, NULL, "The second body.", ""},
     {"pose_a", get_pose, NULL, "The pose of a.", NULL},
@@ -196,7 +245,9 @@ static PyMethodDef methods[] = {
 static PyType_Slot slots[] = {
     {Py_tp_doc,
      "The answer to a query of two bodies: lower <= d <= upper, where d is the signed distance, positive apart,\n"
-     "minus the depth where they overlap. ovoid.verify(answer) checks its proof."},
+     "minus the depth where they overlap: of Compounds that of the deepest pair of parts, of Solids the least "
+     "translation\n"
+     "that parts the bodies. ovoid.verify(answer) checks its proof. What only Solids have is None without one."},
     {Py_tp_dealloc, answer_dealloc},
     {Py_tp_repr, repr},
     {Py_nb_bool, bool_refuse},

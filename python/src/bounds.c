@@ -25,8 +25,9 @@ static PyObject *bounds(PyObject *module, PyObject *arguments, PyObject *keyword
         return NULL;
     answer_object *to = answer_make(state, given[0], given[1], &pair.pose_a, &pair.pose_b);
     if (!to) return NULL;
-    to->of.deciding = ovoid_pair_compute_bounds(&pair);
-    if (!limit_raise(state, to->of.deciding.limit)) return (PyObject *)to;
+    ovoid_answer answer = ovoid_pair_compute_bounds(&pair);
+    to->of = ovoid_body_answer_make(&answer, 0, 0);
+    if (!limit_raise(state, to->of.limit)) return (PyObject *)to;
     Py_DECREF((PyObject *)to);
     return NULL;
 }

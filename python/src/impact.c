@@ -193,7 +193,7 @@ static PyObject *ask_solids(const impact_object *self, const ovoid_moving_body *
     ovoid_body_pair pair = {body_make(state, self->a, ovoid_motion_compute_pose(&a->motion, time)),
                             body_make(state, self->b, ovoid_motion_compute_pose(&b->motion, time))};
     ovoid_body_proof earlier = {self->of.part_a, self->of.part_b, answer->proof};
-    return solid_answer_ask(state, self->a, self->b, &pair, self->margin, &earlier);
+    return query_ask(state, self->a, self->b, &pair, self->margin, &earlier);
 }
 
 // The answer of the deciding parts at a time.
@@ -255,8 +255,8 @@ static PyGetSetDef impact_fields[] = {
     FIELD(impact_object, FIELD_UINT, "part_a", of.part_a, "The deciding part of a compound a, triangle of a solid."),
     FIELD(impact_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of a compound b, triangle of a solid."),
     FIELD(impact_object, FIELD_DOUBLE, "margin", margin, "The margin that was asked about."),
-    {"free", get_free, NULL, "The Answer (of Solids a SolidAnswer, asked again) at free_until, or None.", NULL},
-    {"hit", get_hit, NULL, "The Answer (of Solids a SolidAnswer, asked again) at hit_at, or None.", NULL},
+    {"free", get_free, NULL, "The Answer (of Solids asked again) at free_until, or None.", NULL},
+    {"hit", get_hit, NULL, "The Answer (of Solids asked again) at hit_at, or None.", NULL},
     {"steps", get_steps, NULL, "The steps that prove free_until: until, normal, frame.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot impact_slots[] = {

@@ -104,12 +104,12 @@ static PyMethodDef own_methods[] = {
 // ---- the module
 
 static int execute(PyObject *module) {
-    static int (*const adders[])(PyObject *) = {array_add,    pose_add,  shape_add,       compound_add, answer_add,
-                                                bodies_add,   world_add, motion_add,      impact_add,   smooth_add,
+    static int (*const adders[])(PyObject *) = {array_add,    pose_add,  shape_add,      compound_add, answer_add,
+                                                bodies_add,   world_add, motion_add,     impact_add,   smooth_add,
 #ifdef OVOID_PYTHON_ROBOT
                                                 robot_add,    cell_add,  robot_path_add,
 #endif
-                                                prepared_add, solid_add, solid_answer_add};
+                                                prepared_add, solid_add};
     PyMethodDef *const functions[] = {
         own_methods,        query_methods, batch_methods,  impact_methods,
         smooth_methods,     array_methods, bounds_methods, decompose_methods,
@@ -135,10 +135,10 @@ static int execute(PyObject *module) {
 }
 
 static PyObject **get_object(module_state *s, size_t i) {
-    PyTypeObject **types[] = {
-        &s->array,  &s->shape,    &s->pose,     &s->compound,     &s->answer, &s->bodies,       &s->world,
-        &s->motion, &s->impact,   &s->approach, &s->ray_hit,      &s->smooth, &s->smooth_value, &s->gradient,
-        &s->fit,    &s->prepared, &s->solid,    &s->solid_answer, &s->robot,  &s->cell,         &s->robot_path};
+    PyTypeObject **types[] = {&s->array,    &s->shape,  &s->pose,         &s->compound, &s->answer,
+                              &s->bodies,   &s->world,  &s->motion,       &s->impact,   &s->approach,
+                              &s->ray_hit,  &s->smooth, &s->smooth_value, &s->gradient, &s->fit,
+                              &s->prepared, &s->solid,  &s->robot,        &s->cell,     &s->robot_path};
     size_t type_count = sizeof types / sizeof *types;
     if (i < type_count) return (PyObject **)types[i];
     i -= type_count;

@@ -49,7 +49,7 @@ typedef enum record_kind {
 /// The types that hold C values; names as in Python, in lower case.
 typedef struct module_state {
     PyTypeObject *array, *shape, *pose, *compound, *answer, *bodies, *world, *motion, *impact, *approach, *ray_hit,
-        *smooth, *smooth_value, *gradient, *fit, *prepared, *solid, *solid_answer, *robot, *cell, *robot_path;
+        *smooth, *smooth_value, *gradient, *fit, *prepared, *solid, *robot, *cell, *robot_path;
     PyObject *error; ///< ovoid.Error
     /// Named tuples of ovoid/_values.py.
     PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
@@ -170,10 +170,11 @@ typedef struct field {
 } field;
 /// The getter of all fields; closure: a field.
 PyObject *field_get(PyObject *self, void *closure);
-#define FIELD(object, kind, name, member, doc)                                                                         \
+#define FIELD_BY(getter, object, kind, name, member, doc)                                                              \
     {                                                                                                                  \
-        name, field_get, NULL, doc, &(field) { kind, offsetof(object, member) }                                        \
+        name, getter, NULL, doc, &(field) { kind, offsetof(object, member) }                                           \
     }
+#define FIELD(object, kind, name, member, doc) FIELD_BY(field_get, object, kind, name, member, doc)
 
 PyObject *vec3_make(ovoid_vec3 v);
 /// A matrix of an ellipsoid as a (3, 3) array.
@@ -204,11 +205,11 @@ typedef struct kept_cover {
 /// The answer to a query, with what it takes to check it.
 typedef struct answer_object {
     PyObject_HEAD ovoid_body_answer of;
-    PyObject *a, *b; ///< shapes or compounds
+    PyObject *a, *b; ///< shapes, compounds or solids
     ovoid_pose pose_a, pose_b;
     ovoid_options options;       ///< of the query
     kept_cover *cover;           ///< of a depth; NULL: none
-    ovoid_exclusion *exclusions; ///< of compounds
+    ovoid_exclusion *exclusions; ///< of compounds and solids
     size_t exclusion_count;
 } answer_object;
 
@@ -254,7 +255,7 @@ int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
 const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.
 int limit_raise(module_state *state, ovoid_limit limit);
-/// Verifies an answer by its proof and the options of its query: OVOID_OK, or what ovoid_answer_verify says.
+/// Verifies an answer by its proof and the options of its query: OVOID_OK, or what ovoid_body_verify says.
 ovoid_code answer_verify(const answer_object *self, ovoid_error *error);
 /// Verifies an impact or an approach by its proof and the options of its query.
 ovoid_code impact_verify(module_state *state, PyObject *object, ovoid_error *error);
@@ -273,7 +274,6 @@ int impact_add(PyObject *module);
 int smooth_add(PyObject *module);
 int prepared_add(PyObject *module);
 int solid_add(PyObject *module);
-int solid_answer_add(PyObject *module);
 int robot_add(PyObject *module);
 int cell_add(PyObject *module);
 int robot_path_add(PyObject *module);

@@ -1,7 +1,7 @@
 // collide, within, distance, depth of two bodies at their poses: one answer each.
 //
 // The arguments are read by hand (METH_FASTCALL): a call should cost little more than the query. Two shapes keep the
-// interpreter's lock, since a query of them takes microseconds; compounds and solids (solid_answer.c) give it up.
+// interpreter's lock, since a query of them takes microseconds; compounds and solids give it up.
 #include "src/query.h"
 #include "src/prepared.h"
 
@@ -97,10 +97,6 @@ static int read_earlier(module_state *state, PyObject *from, query_input *in) {
         in->earlier = ovoid_body_answer_get_proof(of);
         return 0;
     }
-    if (Py_TYPE(from) == state->solid_answer) {
-        in->earlier = solid_answer_get_proof(from);
-        return 0;
-    }
     Py_buffer view;
     if (records_view(state, from, "earlier", RECORD_PROOF, 1, 0, &view)) return -1;
     in->earlier = (ovoid_body_proof){.part_a = 0};
@@ -172,26 +168,26 @@ static void query_prepared(const query_input *in, answer_object *to) {
 static int query_shapes(const query_input *in, answer_object *to) {
     ovoid_pair pair = {in->pair.a.shape, in->pair.b.shape, in->pair.a.pose, in->pair.b.pose};
     const ovoid_proof *earlier = in->has_earlier ? &in->earlier.proof : NULL;
+    ovoid_answer *answer = &to->of.deciding;
+    ovoid_cover cover;
+    cover.point_count = 0;
     if (in->prepared_a && in->name != QUERY_DEPTH)
         query_prepared(in, to);
     else if (in->name == QUERY_COLLIDE)
-        to->of.deciding = ovoid_collide(&pair, &in->options, earlier);
+        *answer = ovoid_collide(&pair, &in->options, earlier);
     else if (in->name == QUERY_WITHIN)
-        to->of.deciding = ovoid_within(&pair, in->margin, &in->options, earlier);
+        *answer = ovoid_within(&pair, in->margin, &in->options, earlier);
     else if (in->name == QUERY_DISTANCE)
-        to->of.deciding = ovoid_distance(&pair, &in->options, earlier);
-    else {
-        ovoid_cover cover;
-        cover.point_count = 0;
-        to->of.deciding = ovoid_depth(&pair, &in->options, earlier, &cover);
-        return answer_keep_cover(to, &cover);
-    }
-    return 0;
+        *answer = ovoid_distance(&pair, &in->options, earlier);
+    else
+        *answer = ovoid_depth(&pair, &in->options, earlier, &cover);
+    to->of = ovoid_body_answer_make(answer, 0, 0);
+    return answer_keep_cover(to, &cover);
 }
 
-// ---- compounds
+// ---- compounds and solids
 
-ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exclusions) {
+static ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exclusions) {
     const ovoid_body_proof *earlier = in->has_earlier ? &in->earlier : NULL;
     switch (in->name) {
     case QUERY_COLLIDE: return ovoid_body_collide(&in->pair, &in->options, earlier, exclusions);
@@ -202,9 +198,9 @@ ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exclusions
 }
 
 // Asks again with more memory where the exclusions were more than there was room for.
-static int query_compounds(const query_input *in, answer_object *to) {
+static int query_bodies(const query_input *in, answer_object *to) {
     ovoid_cover cover;
-    size_t capacity = 64;
+    size_t capacity = in->pair.a.solid || in->pair.b.solid ? 256 : 64;
     for (;;) {
         ovoid_exclusion *grown = realloc(to->exclusions, capacity * sizeof *grown);
         if (!grown) {
@@ -225,22 +221,37 @@ static int query_compounds(const query_input *in, answer_object *to) {
 
 // ---- what is called
 
+PyObject *query_answer(module_state *state, const query_input *in) {
+    if (in->name == QUERY_DEPTH && (in->pair.a.solid || in->pair.b.solid)) {
+        PyErr_SetString(PyExc_TypeError, "depth() takes Shapes and Compounds: distance() of solids that overlap has a "
+                                         "bracket of their depth");
+        return NULL;
+    }
+    answer_object *to = answer_make(state, in->a, in->b, &in->pair.a.pose, &in->pair.b.pose);
+    if (!to) return NULL;
+    to->options = in->options;
+    int failed = in->pair.a.shape && in->pair.b.shape ? query_shapes(in, to) : query_bodies(in, to);
+    if (!failed && !limit_raise(state, to->of.limit)) return (PyObject *)to;
+    Py_DECREF(to);
+    return NULL;
+}
+
+PyObject *query_ask(module_state *state, PyObject *a, PyObject *b, const ovoid_body_pair *pair, double margin,
+                    const ovoid_body_proof *earlier) {
+    query_input in = {.name = margin >= 0 ? QUERY_WITHIN : QUERY_DISTANCE, .a = a, .b = b, .pair = *pair};
+    in.margin = margin;
+    in.has_earlier = earlier != NULL;
+    if (earlier) in.earlier = *earlier;
+    return query_answer(state, &in);
+}
+
 static PyObject *query(PyObject *module, query_name name, PyObject *const *given, Py_ssize_t count, PyObject *names) {
     module_state *state = PyModule_GetState(module);
     PyObject *sorted[ARGUMENT_COUNT] = {NULL};
     query_input in;
     in.name = name;
     if (sort_arguments(name, given, count, names, sorted) || read_input(state, sorted, &in)) return NULL;
-    if (in.pair.a.solid || in.pair.b.solid) return solid_query(state, &in);
-    answer_object *to = answer_make(state, in.a, in.b, &in.pair.a.pose, &in.pair.b.pose);
-    if (!to) return NULL;
-    to->options = in.options;
-    int failed = in.pair.a.shape && in.pair.b.shape ? query_shapes(&in, to) : query_compounds(&in, to);
-    if (failed || limit_raise(state, to->of.deciding.limit)) {
-        Py_DECREF(to);
-        return NULL;
-    }
-    return (PyObject *)to;
+    return query_answer(state, &in);
 }
 
 static PyObject *collide(PyObject *module, PyObject *const *given, Py_ssize_t count, PyObject *names) {
@@ -265,8 +276,7 @@ static PyObject *depth(PyObject *module, PyObject *const *given, Py_ssize_t coun
     "lengths in the shapes' unit, world frame. It stops where upper - lower is at most absolute_tolerance or\n"        \
     "relative_tolerance (0: 1e-9) of the pair's size, or d is proven above cap (0: none). earlier: the Answer or "     \
     "proof\n"                                                                                                          \
-    "of an earlier query of this pair, a warm start that is never trusted. Returns an Answer; of Solids a "            \
-    "SolidAnswer."
+    "of an earlier query of this pair, a warm start that is never trusted. Returns an Answer."
 
 PyMethodDef query_methods[] = {
     {"collide", METHOD_KEYWORDS(collide), METH_FASTCALL | METH_KEYWORDS,

@@ -17,8 +17,12 @@ typedef struct query_input {
     int has_earlier;
 } query_input;
 
-/// The query of two bodies, once.
-ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exclusions);
+/// The Answer to the query.
+PyObject *query_answer(module_state *state, const query_input *in);
+/// The Answer to two bodies at the poses of the pair, asked for their distance, or where the margin is at least 0
+/// whether they are within it. earlier: of this pair, or NULL.
+PyObject *query_ask(module_state *state, PyObject *a, PyObject *b, const ovoid_body_pair *pair, double margin,
+                    const ovoid_body_proof *earlier);
 
 // ---- solid.c
 
@@ -29,18 +33,5 @@ typedef struct solid_object {
 
 /// A Solid of a file that the owner keeps.
 PyObject *solid_borrow(module_state *state, const ovoid_solid *solid, PyObject *owner);
-
-// ---- solid_answer.c
-
-/// The SolidAnswer to a query of which one body at least is a solid.
-PyObject *solid_query(module_state *state, const query_input *in);
-/// The SolidAnswer to two bodies at their poses, asked for their distance, or where the margin is at least 0 whether
-/// they are within it. earlier: of this pair, or NULL.
-PyObject *solid_answer_ask(module_state *state, PyObject *a, PyObject *b, const ovoid_body_pair *pair, double margin,
-                           const ovoid_body_proof *earlier);
-/// Its parts and proof as a warm start.
-ovoid_body_proof solid_answer_get_proof(PyObject *answer);
-/// Checks a SolidAnswer by its proof: OVOID_OK, or what ovoid_body_verify says.
-ovoid_code solid_answer_verify(PyObject *answer, ovoid_error *error);
 
 #endif

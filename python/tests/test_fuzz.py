@@ -95,7 +95,7 @@ class Anything(unittest.TestCase):
             return
         except ZeroDivisionError:
             return  # the callback above
-        if isinstance(result, (ovoid.Answer, ovoid.SolidAnswer, ovoid.Impact, ovoid.Approach)):
+        if isinstance(result, (ovoid.Answer, ovoid.Impact, ovoid.Approach)):
             ovoid.verify(result)
         if ROBOTS and isinstance(result, ovoid.RobotPath) and result.status != ovoid.RobotStatus.REFUSED:
             ovoid.verify(result)

@@ -214,16 +214,26 @@ class Queries(unittest.TestCase):
         self.assertEqual((answer.surfaces_lower, answer.surfaces_upper), (answer.lower, answer.upper))
         self.assertAlmostEqual(max(abs(x) for x in answer.normal), 1, delta=1e-9)
         # The wall that the triangle is of: x = 1 or y = 1.
-        wall = [POINTS[i] for i in FACES[answer.triangle_a]]
+        wall = [POINTS[i] for i in FACES[answer.part_a]]
         self.assertTrue({x for x, _, _ in wall} == {1} or {y for _, y, _ in wall} == {1}, wall)
         gap = math.dist(answer.point_a, answer.point_b)
         self.assertAlmostEqual(gap, 0.25, delta=1e-7)
-        self.assertEqual((answer.triangle_b, answer.inside, answer.component, answer.b), (0, ovoid.Inside.NONE, None, BALL))
+        self.assertEqual((answer.part_b, answer.inside, answer.component, answer.b), (0, ovoid.Inside.NONE, None, BALL))
         self.assertEqual((answer.is_within(0.2), answer.is_within(0.3)), (False, True))
         self.assertEqual(answer.pose_b.xyz, (1.5, 1.5, 0.5))
         ovoid.verify(answer)
+        self.assertEqual((answer.distance, answer.common, answer.parting), (answer.lower, None, None))
+        self.assertTrue(answer.visited > 0 and answer.tested > 0)
         touching = ovoid.distance(ovoid.Shape.from_points(POINTS), BALL, None, at(1.4, 1.4, 0.5))
         self.assertEqual(touching.status, ovoid.Status.OVERLAPPING)
+
+    def test_without(self):
+        """An answer without a Solid has None where only solids have something."""
+        for body in (BLOCKS[0], ovoid.Compound(BLOCKS)):
+            for answer in (ovoid.distance(body, BALL, None, at(9)), ovoid.depth(body, BALL)):
+                names = ("surfaces_lower", "surfaces_upper", "inside", "component", "common", "parting")
+                self.assertEqual([getattr(answer, name) for name in names], [None] * 6)
+                self.assertFalse(math.isnan(answer.distance))
 
     def test_as_blocks(self):
         """Beside the union of two convex blocks, and in both orders."""
@@ -253,7 +263,7 @@ class Queries(unittest.TestCase):
             self.assertEqual(answer.status, same.status)
             if answer.status == ovoid.Status.SEPARATED:
                 self.assertTrue(answer.lower <= same.upper and same.lower <= answer.upper)
-            self.assertLess(answer.triangle_b, 2)
+            self.assertLess(answer.part_b, 2)
             ovoid.verify(answer)
             self.assertEqual(ovoid.collide(blocks, L, pose).status, answer.status)
 

@@ -439,7 +439,7 @@ static PyObject *compute_proof(world_object *self, const ovoid_contact *contact)
     ovoid_pose pose_a, pose_b;
     if (!world_find(self, contact->a, &a, &pose_a) && !world_find(self, contact->b, &b, &pose_b)) {
         ovoid_body_pair pair = {body_make(state, a, pose_a), body_make(state, b, pose_b)};
-        made = pair.a.solid || pair.b.solid ? solid_answer_ask(state, a, b, &pair, -1, NULL)
+        made = pair.a.solid || pair.b.solid ? query_ask(state, a, b, &pair, -1, NULL)
                                             : fill_proof(self, contact, answer_make(state, a, b, &pose_a, &pose_b));
     }
     Py_XDECREF(a);
@@ -485,7 +485,7 @@ static PyMethodDef methods[] = {
      "pairs that are not proven farther than the margin: a Contacts tuple. kind: 'collide' (margin 0), 'within',\n"
      "'distance' or 'depth'."},
     {"proof", proof, METH_VARARGS,
-     "proof(a, b)\n--\n\nThe whole Answer (SolidAnswer) of a contact at the present poses, which verify() takes."},
+     "proof(a, b)\n--\n\nThe whole Answer of a contact at the present poses, which verify() takes."},
     {NULL, NULL, 0, NULL}};
 
 static PyType_Slot slots[] = {

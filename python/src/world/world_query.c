@@ -13,7 +13,7 @@ static PyObject *make_answer(module_state *state, PyObject *a, PyObject *b, cons
     ovoid_body_pair pair = {body_make(state, a, poses[0]), body_make(state, b, poses[1])};
     if (pair.a.solid || pair.b.solid) {
         ovoid_body_proof earlier = ovoid_body_answer_get_proof(of);
-        return solid_answer_ask(state, a, b, &pair, -1, &earlier);
+        return query_ask(state, a, b, &pair, -1, &earlier);
     }
     answer_object *made = answer_make(state, a, b, &poses[0], &poses[1]);
     if (made) made->of = *of;
