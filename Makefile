@@ -6,7 +6,7 @@ PYTHON_FOLDER ?= build/python
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 BUILD := build/release
 
-.PHONY: all help demo check check-all test python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs site install deb deb-root format lint clean
+.PHONY: all help demo check check-all test abi coverage python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs site install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release
 	@scripts/setup.sh build
@@ -33,6 +33,14 @@ check-all: check ## all that CI runs: check; then sanitizers, other processors, 
 test: ## the tests of one floor after a change: make test FLOOR=solid
 	@scripts/setup.sh build
 	@JOBS=$(JOBS) scripts/test-floor.sh "$(FLOOR)"
+
+abi: ## whether programs linked with the last release work with these libraries
+	@scripts/setup.sh check
+	@JOBS=$(JOBS) scripts/abi.sh
+
+coverage: ## which lines and branches the tests run, by folder; half an hour; build/coverage/html has each line
+	@scripts/setup.sh coverage
+	@JOBS=$(JOBS) scripts/coverage.sh
 
 python: ## the Python package, its tests and gallery, installed into PYTHON_FOLDER=build/python
 	@$(call build,python,ovoid_python)

@@ -2,7 +2,7 @@
 # check.sh [check | rest]: what must hold before a change lands, in two parts.
 # check: floors, format and shell scripts; then the optimised build, warnings as errors, with all tests but those that take minutes.
 # rest: these tests; clang with ASan and UBSan, and gcc with these, which does not run the tool's transcripts again; the same bits from musl,
-# 64-bit ARM and WebAssembly; the page; static analysis; the manual. It stands on the build that check makes.
+# 64-bit ARM and WebAssembly; the page; the binary interface; static analysis; the manual. It stands on the build that check makes.
 # Goes on after a failure; the last line sums all, exit 1 if any failed. Each line says how many minutes are left.
 set -u
 # shellcheck source=scripts/help.sh
@@ -88,6 +88,7 @@ run_rest() {
     step 240 "check-gcc: build" configure_and_build check-gcc && run_tests 300 check-gcc -E '^test_(cli|demo|docs|mutations|page)'
     step 60 "ports: musl, 64-bit ARM" scripts/ports.sh quick
     step 90 "wasm and the page, with their tests" scripts/page.sh --check
+    step 10 "abi: the shared libraries" scripts/abi.sh
     step 180 "lint: tidy" scripts/lint.sh tidy
     step 20 "docs" scripts/docs.sh
 }

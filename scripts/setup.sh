@@ -1,5 +1,5 @@
 #!/bin/sh
-# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, deb, deb-root, demo, bench, fuzz, ports, wasm, page, python, cluster, docs or site.
+# setup.sh WHAT...: installs the Debian packages that are missing for WHAT: build, check, coverage, deb, deb-root, demo, bench, fuzz, ports, wasm, page, python, cluster, docs or site.
 # Nothing missing: nothing is called. Nowhere to install from or no right to: a sentence that names the packages.
 set -eu
 # shellcheck source=scripts/help.sh
@@ -10,7 +10,8 @@ packages_of() {
     for job in "$@"; do
         case $job in
         build) echo build-essential cmake pkgconf libjansson-dev libassimp-dev libexpat1-dev libyaml-dev libgmp-dev ;;
-        check) packages_of build deb python page site && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel ;;
+        check) packages_of build deb python page site && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel abigail-tools ;;
+        coverage) packages_of check && echo gcovr ;;
         deb) packages_of build && echo dpkg-dev lintian ;;
         deb-root) packages_of deb && echo debootstrap ;;
         demo) packages_of build && echo libcgal-demo ;;

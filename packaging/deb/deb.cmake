@@ -2,15 +2,12 @@
 # Included at the end of the top project. What dpkg wants beyond CPack's own (dependencies, shlibs, symbols, changelog,
 # compressed pages) is added by finish.cmake, which CPack runs after its installation and before it packs.
 #
-# The names: Debian Policy 8.1 names a package of a shared library after its soname. It is libovoid.so.0 until version 1.0,
-# hence libovoid0; libovoid1 will come with libovoid.so.1. Before 1.0 a minor version may change anything, and the soname does
-# not tell: so the shlibs ask for the very minor version (>= 0.1.0, << 0.2~). libovoid_io has packages of its own, since it
+# The names: Debian Policy 8.1 names a package of a shared library after its soname: libovoid.so.0.2 is in libovoid0.2. Two minor
+# versions are then installed side by side. libovoid_io has packages of its own, since it
 # needs jansson and Assimp, and the core must not bring these along; libovoid_robot too. The tool holds both libraries statically: its
 # answers are those of the build that was tested, whatever else is installed.
 set(CPACK_OVOID_SOURCE_DIR ${PROJECT_SOURCE_DIR})
 set(CPACK_OVOID_LIBDIR ${CMAKE_INSTALL_LIBDIR})
-math(EXPR next_minor "${PROJECT_VERSION_MINOR} + 1")
-set(CPACK_OVOID_NEXT ${PROJECT_VERSION_MAJOR}.${next_minor})
 set(CPACK_OVOID_LIBRARY_RUNTIME libovoid)
 set(CPACK_OVOID_LIBRARY_IO libovoid_io)
 set(CPACK_OVOID_LIBRARY_ROBOT libovoid_robot)
@@ -45,7 +42,7 @@ deep they overlap and when moving ones meet. Every answer is a bracket that
 holds with rounding included, and has a proof that anyone can check.
 .
 ")
-set(so ${PROJECT_VERSION_MAJOR})
+set(so ${OVOID_SOVERSION})
 ovoid_deb(runtime libovoid${so} libs "" "proximity queries between convex bodies, with proofs
 ${about}This package has the shared library.")
 ovoid_deb(dev libovoid-dev libdevel "libovoid${so} (= ${full})" "proximity queries between convex bodies (development)

@@ -18,25 +18,23 @@ for tool in dpkg dpkg-shlibdeps lintian cpack; do
     fi
 done
 
-# The version of header and packages is one.
 define() { sed -n "s/^#define OVOID_VERSION_$1 //p" "$OVOID_SOURCE_DIR/include/ovoid/base.h"; }
 version=$(define MAJOR).$(define MINOR).$(define PATCH)
-changelog=$OVOID_SOURCE_DIR/packaging/deb/changelog
-check "version of the changelog" [ "$(dpkg-parsechangelog -l "$changelog" -S Version)" = "$version-1" ]
 
 rm -rf "$root" "$folder"/out_*
 mkdir -p "$folder"
 check "build, with lintian" "$OVOID_SOURCE_DIR/scripts/deb.sh" "$folder/build"
-packages="libovoid0 libovoid-dev libovoid-io0 libovoid-io-dev libovoid-robot0 libovoid-robot-dev ovoid"
+so=$(define MAJOR).$(define MINOR)
+packages="libovoid$so libovoid-dev libovoid-io$so libovoid-io-dev libovoid-robot$so libovoid-robot-dev ovoid"
 for package in $packages; do
     file=$(find "$folder/build" -maxdepth 1 -name "${package}_$version-1_*.deb")
     check "package $package" [ -f "$file" ]
-    [ "$package" = libovoid0 ] && core=$file
+    [ "$package" = "libovoid$so" ] && core=$file
 done
 
 # The soname is what the package is named after, and the core needs the C library alone.
 check "dependencies of the core" [ "$(dpkg -f "$core" Depends | sed 's/ (>= [0-9.]*)//')" = libc6 ]
-check "shlibs of the core" sh -c "dpkg --ctrl-tarfile '$core' | tar -xO ./shlibs | grep -q '^libovoid 0 libovoid0 (>= $version), libovoid0 (<< '"
+check "shlibs of the core" sh -c "dpkg --ctrl-tarfile '$core' | tar -xO ./shlibs | grep -qx 'libovoid $so libovoid$so (>= $version)'"
 
 # dpkg into a root that has this machine's list of packages.
 mkdir -p "$root/var/lib/dpkg/info" "$root/var/lib/dpkg/updates" "$root/var/lib/dpkg/triggers"
@@ -50,7 +48,7 @@ dev=$(find "$folder/build" -maxdepth 1 -name 'libovoid-dev_*.deb')
 check "development without the library" fails in_root -i "$dev"
 check install in_root -i "$folder"/build/*.deb
 
-libraries=$(dirname "$(find "$root/usr/lib" -name 'libovoid.so.0')")
+libraries=$(dirname "$(find "$root/usr/lib" -name "libovoid.so.$so")")
 export LD_LIBRARY_PATH="$libraries" PKG_CONFIG_PATH="$libraries/pkgconfig"
 # compile SOURCE PACKAGE KIND
 compile() {
