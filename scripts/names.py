@@ -70,9 +70,13 @@ def find_cpp():
 
 def find_python():
     """The public names of the stub, and those called in the binding."""
-    stub = ast.parse((ROOT / "python" / "ovoid" / "__init__.pyi").read_text(encoding="utf-8"))
+    package = ROOT / "python" / "ovoid"
+    nodes = ast.parse((package / "__init__.pyi").read_text(encoding="utf-8")).body
+    modules = {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.level and (package / f"{node.module}.py").exists()}
+    for module in modules:
+        nodes += ast.parse((package / f"{module}.py").read_text(encoding="utf-8")).body
     public = {"__version__"}
-    for node in stub.body:
+    for node in nodes:
         if isinstance(node, ast.ImportFrom):
             public |= {one.asname or one.name for one in node.names}
         if isinstance(node, (ast.ClassDef, ast.FunctionDef)):

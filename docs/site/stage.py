@@ -152,6 +152,10 @@ def stage_cpp(out, xml_folder):
 def python_functions(tree):
     """(name, declaration) of each public function and method of the package's types."""
     for node in tree.body:
+        if isinstance(node, ast.ImportFrom):
+            for one in node.names:
+                if one.asname:
+                    yield one.name, f"class {one.name}" if one.name[0].isupper() else one.name
         inner = node.body if isinstance(node, ast.ClassDef) else [node]
         before = f"{node.name}." if isinstance(node, ast.ClassDef) else ""
         if before and not before.startswith("_"):

@@ -22,15 +22,11 @@ from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint
                       PartsAudit, Side, SphereAudit, StateAnswer, Variable)
 
 
-def read(path, **options):
-    """The body that a file holds: a Shape of an .ovoid file and of a mesh that is its convex hull, or nearly so (then with
-    an allowance for the difference); a Solid of any other mesh, a surface where that is open. hull=True: the hull of any
-    mesh. Arguments as of Shape.read; a Solid has no rounding and no allowance."""
-    from . import _ovoid
+if not has_io:
 
-    if not has_io:
+    def read(path, **options):
+        """Reads a file, in a build that has libovoid_io."""
         raise Error("this build of ovoid reads no files: it was built without libovoid_io", Code.FILE)
-    return _ovoid.read(path, **options)
 
 
 __all__ = [name for name in dir() if not name.startswith("_")]

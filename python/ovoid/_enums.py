@@ -6,10 +6,10 @@ import enum
 class Named(enum.IntEnum):
     """Numbers as in arrays of results; str() is the library's word, which a member equals. Another text raises ValueError."""
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.name.lower()
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         if not isinstance(other, str):
             return int.__eq__(self, other)
         names = [str(member) for member in type(self)]
@@ -17,7 +17,7 @@ class Named(enum.IntEnum):
             raise ValueError(f"{type(self).__name__} has no {other!r}: {', '.join(names)}")
         return str(self) == other
 
-    def __ne__(self, other):
+    def __ne__(self, other: object) -> bool:
         equal = self == other
         return equal if equal is NotImplemented else not equal
 
@@ -123,7 +123,7 @@ class Touch(Named):
     SOMETIMES = 5  #: proven
     RIGID = 6  #: nothing but fixed joints between them
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.name.lower().replace("_", " ")
 
 
@@ -145,7 +145,7 @@ class Agreement(Named):
     MISSED = 3  #: proven: the robot hits, and its model is free
     INVENTED = 4  #: proven: the robot is free, and its model hits
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.name.lower().replace("_", " ")
 
 
@@ -155,10 +155,10 @@ class Error(ValueError):
     place: the 0-based vertex, face or item, or the 1-based line of a file; -1 where none applies.
     """
 
-    def __init__(self, sentence, code=Code.ARGUMENT, place=-1):
+    def __init__(self, sentence: str, code: Code = Code.ARGUMENT, place: int = -1) -> None:
         super().__init__(sentence)
         self.code = code
         self.place = place
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[type, tuple[str, Code, int]]:
         return Error, (self.args[0], self.code, self.place)

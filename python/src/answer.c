@@ -111,10 +111,11 @@ static PyObject *is_proven(PyObject *module, PyObject *what) {
 
 static PyMethodDef verify_methods[] = {
     {"verify", verify, METH_O,
-     "verify(answer)\n--\n\nChecks an Answer, Impact, Approach or RobotPath by its proof alone, without any search; "
-     "raises "
-     "Error where\nthe proof does not hold."},
-    {"is_proven", is_proven, METH_O, "is_proven(answer)\n--\n\nTrue where verify(answer) finds nothing wrong."},
+     "verify(answer: Answer | Impact | Approach | RobotPath, /) -> None\n--\n\nChecks an Answer, Impact, Approach or "
+     "RobotPath by its proof alone, without any search; raises Error where\nthe proof does not hold."},
+    {"is_proven", is_proven, METH_O,
+     "is_proven(answer: Answer | Impact | Approach | RobotPath, /) -> bool\n--\n\nTrue where verify(answer) finds "
+     "nothing wrong."},
     {NULL, NULL, 0, NULL}};
 
 // ---- what it is
@@ -193,54 +194,55 @@ static void answer_dealloc(PyObject *object) {
 }
 
 static PyGetSetDef fields[] = {
-    FIELD(answer_object, FIELD_ENUM + ENUM_STATUS, "status", of.status,
-          "What is proven of the signed distance d: a Status."),
-    FIELD(answer_object, FIELD_DOUBLE, "lower", of.lower, "Proven: lower <= d, rounding included."),
-    FIELD(answer_object, FIELD_DOUBLE, "upper", of.upper, "Proven: d <= upper, rounding included."),
+    FIELD(answer_object, STATUS, "status", of.status, "What is proven of the signed distance d."),
+    FIELD(answer_object, DOUBLE, "lower", of.lower, "Proven: lower <= d, rounding included."),
+    FIELD(answer_object, DOUBLE, "upper", of.upper, "Proven: d <= upper, rounding included."),
     FIELD(
-        answer_object, FIELD_VEC3, "point_a", of.deciding.point_a,
+        answer_object, VEC3, "point_a", of.deciding.point_a,
         "Witness point of a, of the deciding parts, world frame. Of distance and depth: point_b - point_a = d normal."),
-    FIELD(answer_object, FIELD_VEC3, "point_b", of.deciding.point_b, "Witness point of b, world frame."),
-    FIELD(answer_object, FIELD_VEC3, "normal", of.deciding.normal, "Unit normal from a to b, world frame."),
-    FIELD(answer_object, FIELD_ENUM + ENUM_LIMIT, "limit", of.limit,
-          "Why the bracket is not narrower: a Limit; of an overlap of Solids NONE, though its depth is not searched "
+    FIELD(answer_object, VEC3, "point_b", of.deciding.point_b, "Witness point of b, world frame."),
+    FIELD(answer_object, VEC3, "normal", of.deciding.normal, "Unit normal from a to b, world frame."),
+    FIELD(answer_object, LIMIT, "limit", of.limit,
+          "Why the bracket is not narrower; of an overlap of Solids NONE, though its depth is not searched "
           "for."),
-    FIELD(answer_object, FIELD_ENUM + ENUM_STAGE, "stage", of.deciding.stage,
-          "What decided about the deciding parts: a Stage."),
-    FIELD(answer_object, FIELD_UINT, "iterations", of.deciding.iterations, "Iterations of the exact methods."),
-    FIELD(answer_object, FIELD_UINT, "part_a", of.part_a,
+    FIELD(answer_object, STAGE, "stage", of.deciding.stage, "What decided about the deciding parts."),
+    FIELD(answer_object, UINT, "iterations", of.deciding.iterations, "Iterations of the exact methods."),
+    FIELD(answer_object, UINT, "part_a", of.part_a,
           "The deciding part of a: of a Compound its part, of a Solid its triangle, of a Shape 0."),
-    FIELD(answer_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of b."),
-    FIELD(answer_object, FIELD_UINT, "visited", of.visited,
+    FIELD(answer_object, UINT, "part_b", of.part_b, "The deciding part of b."),
+    FIELD(answer_object, UINT, "visited", of.visited,
           "How many pairs of nodes and parts were bounded; 0 of two Shapes."),
-    FIELD(answer_object, FIELD_UINT, "tested", of.tested, "How many pairs of parts were queried; 0 of two Shapes."),
-    FIELD_BY(get_of_solid, answer_object, FIELD_DOUBLE, "surfaces_lower", of.deciding.lower,
-             "Proven: no triangle of a is nearer to one of b. None without a Solid."),
-    FIELD_BY(get_of_solid, answer_object, FIELD_DOUBLE, "surfaces_upper", of.deciding.upper,
-             "Proven: the deciding triangles are no farther apart. None without a Solid."),
-    FIELD_BY(get_of_solid, answer_object, FIELD_ENUM + ENUM_INSIDE, "inside", of.inside,
-             "What is inside, where that is what proves an overlap: an Inside. None without a Solid."),
-    FIELD_BY(get_component, answer_object, FIELD_UINT, "component", of.component,
-             "The component that is inside where inside is Inside.A or Inside.B; else None."),
-    FIELD_BY(get_common, answer_object, FIELD_VEC3, "common", of.common,
-             "The point that both bodies cover, frame of a, where inside is Inside.POINT; else None."),
-    FIELD_BY(get_parting, answer_object, FIELD_VEC3, "parting", of.parting,
-             "Unit direction, world frame, along which a translation by -lower parts the bodies, where lower is below "
-             "0. None\nwithout a Solid."),
+    FIELD(answer_object, UINT, "tested", of.tested, "How many pairs of parts were queried; 0 of two Shapes."),
+    FIELD_OPTIONAL(get_of_solid, answer_object, DOUBLE, "surfaces_lower", of.deciding.lower,
+                   "Proven: no triangle of a is nearer to one of b. None without a Solid."),
+    FIELD_OPTIONAL(get_of_solid, answer_object, DOUBLE, "surfaces_upper", of.deciding.upper,
+                   "Proven: the deciding triangles are no farther apart. None without a Solid."),
+    FIELD_OPTIONAL(get_of_solid, answer_object, INSIDE, "inside", of.inside,
+                   "What is inside, where that is what proves an overlap. None without a Solid."),
+    FIELD_OPTIONAL(get_component, answer_object, UINT, "component", of.component,
+                   "The component that is inside where inside is Inside.A or Inside.B; else None."),
+    FIELD_OPTIONAL(get_common, answer_object, VEC3, "common", of.common,
+                   "The point that both bodies cover, frame of a, where inside is Inside.POINT; else None."),
+    FIELD_OPTIONAL(
+        get_parting, answer_object, VEC3, "parting", of.parting,
+        "Unit direction, world frame, along which a translation by -lower parts the bodies, where lower is below "
+        "0. None\nwithout a Solid."),
     {"distance", get_distance, NULL,
-     "The signed distance as one number, never above the true one; NaN where the bracket is wider than the tolerance.",
+     "float: The signed distance as one number, never above the true one; NaN where the bracket is wider than the "
+     "tolerance.",
      NULL},
-    {"proof", get_proof, NULL, "The proof of the deciding parts, an array of one record: earlier= takes it.", NULL},
-    {"a", get_body, NULL, "The first body.", NULL},
-    {"b", get_body, NULL, "The second body.", ""},
-    {"pose_a", get_pose, NULL, "The pose of a.", NULL},
-    {"pose_b", get_pose, NULL, "The pose of b.", ""},
+    {"proof", get_proof, NULL, "Records: The proof of the deciding parts, an array of one record: earlier= takes it.",
+     NULL},
+    {"a", get_body, NULL, "Body: The first body.", NULL},
+    {"b", get_body, NULL, "Body: The second body.", ""},
+    {"pose_a", get_pose, NULL, "Pose: The pose of a.", NULL},
+    {"pose_b", get_pose, NULL, "Pose: The pose of b.", ""},
     {NULL, NULL, NULL, NULL, NULL}};
 
-static PyMethodDef methods[] = {
-    {"is_within", is_within, METH_O,
-     "is_within(margin)\n--\n\nTrue: proven within the margin; False: proven farther; None: the bracket straddles it."},
-    {NULL, NULL, 0, NULL}};
+static PyMethodDef methods[] = {{"is_within", is_within, METH_O,
+                                 "is_within(margin: float, /) -> bool | None\n--\n\nTrue: proven within the margin; "
+                                 "False: proven farther; None: the bracket straddles it."},
+                                {NULL, NULL, 0, NULL}};
 
 static PyType_Slot slots[] = {
     {Py_tp_doc,
@@ -258,5 +260,5 @@ static PyType_Spec spec = {"ovoid.Answer", sizeof(answer_object), 0,
                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
 
 int answer_add(PyObject *module) {
-    return type_add(module, &spec, &state_of_module(module)->answer) || PyModule_AddFunctions(module, verify_methods);
+    return type_add(module, &spec, &state_of_module(module)->answer) || functions_add(module, verify_methods);
 }

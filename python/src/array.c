@@ -201,9 +201,9 @@ static PyObject *array_tolist(PyObject *self, PyObject *ignored) {
     return list;
 }
 
-static PyMethodDef methods[] = {
-    {"tolist", array_tolist, METH_NOARGS, "tolist()\n--\n\nThe items as lists; records as dicts by their fields."},
-    {NULL, NULL, 0, NULL}};
+static PyMethodDef methods[] = {{"tolist", array_tolist, METH_NOARGS,
+                                 "tolist() -> list[Any]\n--\n\nThe items as lists; records as dicts by their fields."},
+                                {NULL, NULL, 0, NULL}};
 
 static PyType_Slot slots[] = {
     {Py_tp_doc, "Numbers or records of a result, where there is no NumPy. memoryview(array) and whatever reads buffers "
@@ -242,6 +242,7 @@ static PyObject *zeros(PyObject *module, PyObject *arguments) {
 
 PyMethodDef array_methods[] = {
     {"zeros", zeros, METH_VARARGS,
-     "zeros(kind, count)\n--\n\nAn array of zeros for the results of batches: kind is 'verdicts', 'witnesses', "
-     "'proofs' or,\nof a Cell's, 'states'. Proofs of zeros say nothing, so they begin a series of batches."},
+     "zeros(kind: Literal['verdicts', 'witnesses', 'proofs', 'states'], count: int, /) -> Records\n--\n\nAn array of "
+     "zeros for the results of batches: kind is 'verdicts', 'witnesses', 'proofs' or,\nof a Cell's, 'states'. Proofs "
+     "of zeros say nothing, so they begin a series of batches."},
     {NULL, NULL, 0, NULL}};

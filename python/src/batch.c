@@ -347,8 +347,8 @@ static PyObject *depth_batch(PyObject *module, PyObject *arguments, PyObject *ke
 }
 
 #define BATCH_SIGNATURE                                                                                                \
-    "*, absolute_tolerance=0, relative_tolerance=0, cap=0, iterations=0, threads=1, out=None, witnesses=False, "       \
-    "proofs=None, progress=None)\n--\n\n"
+    "*, " QUERY_SIGNATURE ", threads: int = 1, out: Records | None = None, witnesses: bool | Records = False, "        \
+    "proofs: Records | None = None, progress: Progress | None = None) -> Any\n--\n\n"
 #define BATCH_DOC                                                                                                      \
     " for each couple, with the same bits.\n\nbodies: Bodies. couples: integers (m, 2), which bodies; uint32 and "     \
     "int64 are "                                                                                                       \
@@ -362,12 +362,13 @@ static PyObject *depth_batch(PyObject *module, PyObject *arguments, PyObject *ke
     "with "                                                                                                            \
     "part of them written."
 
-PyMethodDef batch_methods[] = {{"collide_batch", METHOD_KEYWORDS(collide_batch), METH_VARARGS | METH_KEYWORDS,
-                                "collide_batch(bodies, couples, " BATCH_SIGNATURE "collide()" BATCH_DOC},
-                               {"within_batch", METHOD_KEYWORDS(within_batch), METH_VARARGS | METH_KEYWORDS,
-                                "within_batch(bodies, couples, margin, " BATCH_SIGNATURE "within()" BATCH_DOC},
-                               {"distance_batch", METHOD_KEYWORDS(distance_batch), METH_VARARGS | METH_KEYWORDS,
-                                "distance_batch(bodies, couples, " BATCH_SIGNATURE "distance()" BATCH_DOC},
-                               {"depth_batch", METHOD_KEYWORDS(depth_batch), METH_VARARGS | METH_KEYWORDS,
-                                "depth_batch(bodies, couples, " BATCH_SIGNATURE "depth()" BATCH_DOC},
-                               {NULL, NULL, 0, NULL}};
+PyMethodDef batch_methods[] = {
+    {"collide_batch", METHOD_KEYWORDS(collide_batch), METH_VARARGS | METH_KEYWORDS,
+     "collide_batch(bodies: Bodies, couples: Numbers, " BATCH_SIGNATURE "collide()" BATCH_DOC},
+    {"within_batch", METHOD_KEYWORDS(within_batch), METH_VARARGS | METH_KEYWORDS,
+     "within_batch(bodies: Bodies, couples: Numbers, margin: float, " BATCH_SIGNATURE "within()" BATCH_DOC},
+    {"distance_batch", METHOD_KEYWORDS(distance_batch), METH_VARARGS | METH_KEYWORDS,
+     "distance_batch(bodies: Bodies, couples: Numbers, " BATCH_SIGNATURE "distance()" BATCH_DOC},
+    {"depth_batch", METHOD_KEYWORDS(depth_batch), METH_VARARGS | METH_KEYWORDS,
+     "depth_batch(bodies: Bodies, couples: Numbers, " BATCH_SIGNATURE "depth()" BATCH_DOC},
+    {NULL, NULL, 0, NULL}};

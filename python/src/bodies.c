@@ -123,15 +123,15 @@ static void bodies_dealloc(PyObject *object) {
 }
 
 static PyMethodDef methods[] = {{"move", METHOD_KEYWORDS(move), METH_VARARGS | METH_KEYWORDS,
-                                 "move(poses, *, order=None)\n--\n\nNew poses for all bodies, as in Bodies(...); where "
-                                 "one is refused none has moved."},
+                                 "move(poses: PosesLike, *, order: Order = None) -> None\n--\n\nNew poses for all "
+                                 "bodies, as in Bodies(...); where one is refused none has moved."},
                                 {NULL, NULL, 0, NULL}};
 static PyType_Slot slots[] = {
     {Py_tp_doc,
-     "Bodies(shapes, poses, *, order=None)\n--\n\nPosed bodies for batches.\n\nshapes: a sequence of Shapes, "
-     "Compounds and Solids, or one for all. poses: an array (n, 4, 4), or (n, 7) of x y z and a quaternion "
-     "whose\norder= is 'wxyz' or 'xyzw', or "
-     "a sequence of poses. Copied and checked; a pose that is refused is named by the\nError's place."},
+     "Bodies(shapes: Sequence[Body] | Body, poses: PosesLike, *, order: Order = None) -> Bodies\n--\n\nPosed bodies "
+     "for batches.\n\nshapes: a sequence of Shapes, Compounds and Solids, or one for all. poses: an array (n, 4, 4), "
+     "or (n, 7) of x y z and a quaternion whose\norder= is 'wxyz' or 'xyzw', or a sequence of poses. Copied and "
+     "checked; a pose that is refused is named by the\nError's place."},
     {Py_tp_new, bodies_new},
     {Py_tp_dealloc, bodies_dealloc},
     {Py_mp_length, length},

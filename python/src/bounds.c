@@ -49,10 +49,10 @@ static PyObject *gap(PyObject *module, PyObject *arguments, PyObject *keywords) 
 
 PyMethodDef bounds_methods[] = {
     {"bounds", METHOD_KEYWORDS(bounds), METH_VARARGS | METH_KEYWORDS,
-     "bounds(a, b, pose_a=None, pose_b=None)\n--\n\nThe bracket of the signed distance from the ellipsoids of two "
-     "Shapes alone, without a search: an Answer whose\nbracket is wide."},
+     "bounds(a: Shape, b: Shape, pose_a: PoseLike = None, pose_b: PoseLike = None) -> Answer\n--\n\nThe bracket of the "
+     "signed distance from the ellipsoids of two Shapes alone, without a search: an Answer whose\nbracket is wide."},
     {"gap", METHOD_KEYWORDS(gap), METH_VARARGS | METH_KEYWORDS,
-     "gap(a, b, pose_a=None, pose_b=None, *, direction)\n--\n\nThe gap of two Shapes along a direction from a to b "
-     "(world frame, any length but zero): a proven lower bound of\nthe signed distance; -inf where the direction is "
-     "refused."},
+     "gap(a: Shape, b: Shape, pose_a: PoseLike = None, pose_b: PoseLike = None, *, direction: Numbers) -> "
+     "float\n--\n\nThe gap of two Shapes along a direction from a to b (world frame, any length but zero): a proven "
+     "lower bound of\nthe signed distance; -inf where the direction is refused."},
     {NULL, NULL, 0, NULL}};

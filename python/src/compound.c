@@ -120,20 +120,20 @@ static void compound_dealloc(PyObject *object) {
     object_free(object);
 }
 
-static PyGetSetDef fields[] = {{"shapes", get_shapes, NULL, "The shapes of its parts, a tuple.", NULL},
-                               {"poses", get_poses, NULL, "The poses of its parts in its frame, a tuple.", NULL},
-                               {"outer", get_ellipsoid, NULL,
-                                "An ellipsoid that encloses all parts; its gap is NaN, as it is not the smallest.",
-                                NULL},
-                               {"inner", get_ellipsoid, NULL, "The largest of the parts' inner ellipsoids.", ""},
-                               {"order", get_order, NULL, "The parts in the order of the tree's leaves.", NULL},
-                               {NULL, NULL, NULL, NULL, NULL}};
+static PyGetSetDef fields[] = {
+    {"shapes", get_shapes, NULL, "tuple[Shape, ...]: The shapes of its parts, a tuple.", NULL},
+    {"poses", get_poses, NULL, "tuple[Pose, ...]: The poses of its parts in its frame, a tuple.", NULL},
+    {"outer", get_ellipsoid, NULL,
+     "Ellipsoid: An ellipsoid that encloses all parts; its gap is NaN, as it is not the smallest.", NULL},
+    {"inner", get_ellipsoid, NULL, "Ellipsoid: The largest of the parts' inner ellipsoids.", ""},
+    {"order", get_order, NULL, "Indices: The parts in the order of the tree's leaves.", NULL},
+    {NULL, NULL, NULL, NULL, NULL}};
 static PyMethodDef methods[] = {{"__reduce__", reduce, METH_NOARGS, NULL}, {NULL, NULL, 0, NULL}};
 static PyType_Slot slots[] = {
-    {Py_tp_doc,
-     "Compound(shapes, poses=None, *, order=None)\n--\n\nSeveral shapes in one body, which may overlap: the "
-     "answer of a query is that of the nearest (deepest) parts.\n\nposes: in the compound's frame: a sequence of "
-     "poses, or an array (n, 4, 4) or (n, 7), whose order= is 'wxyz'\nor 'xyzw'; None: all at the identity."},
+    {Py_tp_doc, "Compound(shapes: Sequence[Shape], poses: PosesLike | None = None, *, order: Order = None) -> "
+                "Compound\n--\n\nSeveral shapes in one body, which may overlap: the answer of a query is that of the "
+                "nearest (deepest) parts.\n\nposes: in the compound's frame: a sequence of poses, or an array (n, 4, "
+                "4) or (n, 7), whose order= is 'wxyz'\nor 'xyzw'; None: all at the identity."},
     {Py_tp_new, compound_new},
     {Py_tp_dealloc, compound_dealloc},
     {Py_mp_length, length},

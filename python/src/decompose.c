@@ -161,19 +161,21 @@ static PyObject *audit_parts(PyObject *self, PyObject *arguments, PyObject *keyw
 
 PyMethodDef solid_decompositions[] = {
     {"decompose", METHOD_KEYWORDS(decompose), METH_VARARGS | METH_KEYWORDS,
-     "decompose(*, error=0, parts=0, progress=None)\n--\n\nCuts a closed solid into convex parts: a tuple of Shapes in "
-     "its frame, which together cover it but for rounding.\n\nerror: a length, by how much none shall stand out of the "
-     "solid, as estimated; audit_parts proves it. parts: at most so\nmany. Both 0: an error of 1/50 of the diagonal of "
-     "its box. progress(done, total) is called about twenty times a second."},
+     "decompose(*, error: float = 0, parts: int = 0, progress: Progress | None = None) -> tuple[Shape, "
+     "...]\n--\n\nCuts a closed solid into convex parts: a tuple of Shapes in its frame, which together cover it but "
+     "for rounding.\n\nerror: a length, by how much none shall stand out of the solid, as estimated; audit_parts "
+     "proves it. parts: at most so\nmany. Both 0: an error of 1/50 of the diagonal of its box. progress(done, total) "
+     "is called about twenty times a second."},
     {"audit_parts", METHOD_KEYWORDS(audit_parts), METH_VARARGS | METH_KEYWORDS,
-     "audit_parts(parts, *, tolerance=0, cells=0, work=0, progress=None)\n--\n\nHow far convex parts, Shapes in the "
-     "solid's frame, are from it: a PartsAudit of brackets that are true.\n\ntolerance: a length; they need not be "
-     "narrower (0: 1/1000 of the diagonal). cells, work: most cells held, and looked at\nfor each length (0: 2^18, "
-     "2^21). progress(done, total) is called about twenty times a second."},
+     "audit_parts(parts: Iterable[Shape], *, tolerance: float = 0, cells: int = 0, work: int = 0, progress: Progress | "
+     "None = None) -> PartsAudit\n--\n\nHow far convex parts, Shapes in the solid's frame, are from it: a PartsAudit "
+     "of brackets that are true.\n\ntolerance: a length; they need not be narrower (0: 1/1000 of the diagonal). cells, "
+     "work: most cells held, and looked at\nfor each length (0: 2^18, 2^21). progress(done, total) is called about "
+     "twenty times a second."},
     {NULL, NULL, 0, NULL}};
 
 PyMethodDef decompose_methods[] = {
     {"enlarge_parts", METHOD_KEYWORDS(enlarge_parts), METH_VARARGS | METH_KEYWORDS,
-     "enlarge_parts(parts, radius)\n--\n\nShapes that hold all points within radius of the Shapes given, and little "
-     "more: what has to be grown by r to cover a\nsolid covers it so."},
+     "enlarge_parts(parts: Iterable[Shape], radius: float) -> tuple[Shape, ...]\n--\n\nShapes that hold all points "
+     "within radius of the Shapes given, and little more: what has to be grown by r to cover a\nsolid covers it so."},
     {NULL, NULL, 0, NULL}};

@@ -242,22 +242,21 @@ static PyObject *get_steps(PyObject *object, void *closure) {
 }
 
 static PyGetSetDef impact_fields[] = {
-    FIELD(impact_object, FIELD_ENUM + ENUM_IMPACT_STATUS, "status", of.impact.status,
-          "What is proven: an ImpactStatus."),
-    FIELD(impact_object, FIELD_ENUM + ENUM_LIMIT, "limit", of.impact.limit, "Why it is not decided: a Limit."),
-    FIELD(impact_object, FIELD_DOUBLE, "free_until", of.impact.free_until,
+    FIELD(impact_object, IMPACT_STATUS, "status", of.impact.status, "What is proven."),
+    FIELD(impact_object, LIMIT, "limit", of.impact.limit, "Why it is not decided."),
+    FIELD(impact_object, DOUBLE, "free_until", of.impact.free_until,
           "Proven: farther apart than the margin before it."),
-    FIELD(impact_object, FIELD_DOUBLE, "hit_at", of.impact.hit_at,
+    FIELD(impact_object, DOUBLE, "hit_at", of.impact.hit_at,
           "Proven: within the margin then; infinity where that is not proven."),
-    FIELD(impact_object, FIELD_DOUBLE, "begin", of.impact.begin, "The first time queried."),
-    FIELD(impact_object, FIELD_DOUBLE, "end", of.impact.end, "The last time queried."),
-    FIELD(impact_object, FIELD_UINT, "iterations", of.impact.iterations, "Queries at single times."),
-    FIELD(impact_object, FIELD_UINT, "part_a", of.part_a, "The deciding part of a compound a, triangle of a solid."),
-    FIELD(impact_object, FIELD_UINT, "part_b", of.part_b, "The deciding part of a compound b, triangle of a solid."),
-    FIELD(impact_object, FIELD_DOUBLE, "margin", margin, "The margin that was asked about."),
-    {"free", get_free, NULL, "The Answer (of Solids asked again) at free_until, or None.", NULL},
-    {"hit", get_hit, NULL, "The Answer (of Solids asked again) at hit_at, or None.", NULL},
-    {"steps", get_steps, NULL, "The steps that prove free_until: until, normal, frame.", NULL},
+    FIELD(impact_object, DOUBLE, "begin", of.impact.begin, "The first time queried."),
+    FIELD(impact_object, DOUBLE, "end", of.impact.end, "The last time queried."),
+    FIELD(impact_object, UINT, "iterations", of.impact.iterations, "Queries at single times."),
+    FIELD(impact_object, UINT, "part_a", of.part_a, "The deciding part of a compound a, triangle of a solid."),
+    FIELD(impact_object, UINT, "part_b", of.part_b, "The deciding part of a compound b, triangle of a solid."),
+    FIELD(impact_object, DOUBLE, "margin", margin, "The margin that was asked about."),
+    {"free", get_free, NULL, "Answer | None: The Answer (of Solids asked again) at free_until, or None.", NULL},
+    {"hit", get_hit, NULL, "Answer | None: The Answer (of Solids asked again) at hit_at, or None.", NULL},
+    {"steps", get_steps, NULL, "Records: The steps that prove free_until: until, normal, frame.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot impact_slots[] = {
     {Py_tp_doc, "When two moving bodies come within a margin: the true time is in [free_until, hit_at]."},
@@ -269,17 +268,16 @@ static PyType_Spec impact_spec = {"ovoid.Impact", sizeof(impact_object), 0,
                                   Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, impact_slots};
 
 static PyGetSetDef approach_fields[] = {
-    FIELD(impact_object, FIELD_ENUM + ENUM_STATUS, "status", approach.status,
-          "What is proven of the smallest distance: a Status."),
-    FIELD(impact_object, FIELD_ENUM + ENUM_LIMIT, "limit", approach.limit, "Why the bracket is not narrower: a Limit."),
-    FIELD(impact_object, FIELD_DOUBLE, "lower", approach.lower, "Proven: at no time are they nearer."),
-    FIELD(impact_object, FIELD_DOUBLE, "upper", approach.upper, "Proven: at .time they are this near."),
-    FIELD(impact_object, FIELD_DOUBLE, "time", approach.time, "The distance at this time is at most upper."),
-    FIELD(impact_object, FIELD_DOUBLE, "begin", approach.begin, "The first time queried."),
-    FIELD(impact_object, FIELD_DOUBLE, "end", approach.end, "The last time queried."),
-    FIELD(impact_object, FIELD_UINT, "iterations", approach.iterations, "Queries at single times."),
-    {"answer", get_nearest, NULL, "The Answer at .time.", NULL},
-    {"steps", get_steps, NULL, "The steps that prove lower: until, normal, frame.", NULL},
+    FIELD(impact_object, STATUS, "status", approach.status, "What is proven of the smallest distance."),
+    FIELD(impact_object, LIMIT, "limit", approach.limit, "Why the bracket is not narrower."),
+    FIELD(impact_object, DOUBLE, "lower", approach.lower, "Proven: at no time are they nearer."),
+    FIELD(impact_object, DOUBLE, "upper", approach.upper, "Proven: at .time they are this near."),
+    FIELD(impact_object, DOUBLE, "time", approach.time, "The distance at this time is at most upper."),
+    FIELD(impact_object, DOUBLE, "begin", approach.begin, "The first time queried."),
+    FIELD(impact_object, DOUBLE, "end", approach.end, "The last time queried."),
+    FIELD(impact_object, UINT, "iterations", approach.iterations, "Queries at single times."),
+    {"answer", get_nearest, NULL, "Answer: The Answer at .time.", NULL},
+    {"steps", get_steps, NULL, "Records: The steps that prove lower: until, normal, frame.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot approach_slots[] = {
     {Py_tp_doc, "How near two moving bodies come: lower <= smallest signed distance <= upper."},
@@ -322,13 +320,13 @@ static PyObject *cast_ray(PyObject *module, PyObject *arguments, PyObject *keywo
 }
 
 static PyGetSetDef ray_fields[] = {
-    FIELD(ray_hit_object, FIELD_ENUM + ENUM_IMPACT_STATUS, "status", hit.status, "What is proven: an ImpactStatus."),
-    FIELD(ray_hit_object, FIELD_ENUM + ENUM_LIMIT, "limit", hit.limit, "Why it is not decided: a Limit."),
-    FIELD(ray_hit_object, FIELD_DOUBLE, "lower", hit.lower,
+    FIELD(ray_hit_object, IMPACT_STATUS, "status", hit.status, "What is proven."),
+    FIELD(ray_hit_object, LIMIT, "limit", hit.limit, "Why it is not decided."),
+    FIELD(ray_hit_object, DOUBLE, "lower", hit.lower,
           "lower <= t: the first t in the body; the length where it misses."),
-    FIELD(ray_hit_object, FIELD_DOUBLE, "upper", hit.upper, "t <= upper; infinity where it misses."),
-    FIELD(ray_hit_object, FIELD_VEC3, "point", hit.point, "The body's point that is met, world frame."),
-    FIELD(ray_hit_object, FIELD_VEC3, "normal", hit.normal, "Unit, out of the body."),
+    FIELD(ray_hit_object, DOUBLE, "upper", hit.upper, "t <= upper; infinity where it misses."),
+    FIELD(ray_hit_object, VEC3, "point", hit.point, "The body's point that is met, world frame."),
+    FIELD(ray_hit_object, VEC3, "normal", hit.normal, "Unit, out of the body."),
     {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot ray_slots[] = {{Py_tp_doc, "Where a ray meets a shape."},
                                   {Py_tp_dealloc, object_free},
@@ -351,16 +349,15 @@ int impact_add(PyObject *module) {
 
 PyMethodDef impact_methods[] = {
     {"find_impact", METHOD_KEYWORDS(find_impact), METH_VARARGS | METH_KEYWORDS,
-     "find_impact(a, b, motion_a=None, motion_b=None, *, margin=0, begin=0, end=0, tolerance=0, "
-     "iterations=0)\n--\n\nWhen "
-     "do two moving bodies first come within margin >= 0 of each other? An Impact: no tunnels." MOTION_DOC},
+     "find_impact(a: Body, b: Body, motion_a: MotionLike = None, motion_b: MotionLike = None, *, margin: float = 0, "
+     "begin: float = 0, end: float = 0, tolerance: float = 0, iterations: int = 0) -> Impact\n--\n\nWhen do two moving "
+     "bodies first come within margin >= 0 of each other? An Impact: no tunnels." MOTION_DOC},
     {"find_approach", METHOD_KEYWORDS(find_approach), METH_VARARGS | METH_KEYWORDS,
-     "find_approach(a, b, motion_a=None, motion_b=None, *, begin=0, end=0, tolerance=0, iterations=0)\n--\n\nHow near "
-     "do two "
-     "moving shapes come, and when? An Approach." MOTION_DOC},
+     "find_approach(a: Shape, b: Shape, motion_a: MotionLike = None, motion_b: MotionLike = None, *, begin: float = 0, "
+     "end: float = 0, tolerance: float = 0, iterations: int = 0) -> Approach\n--\n\nHow near do two moving shapes "
+     "come, and when? An Approach." MOTION_DOC},
     {"cast_ray", METHOD_KEYWORDS(cast_ray), METH_VARARGS | METH_KEYWORDS,
-     "cast_ray(shape, pose, origin, direction, length=1e999, *, radius=0)\n--\n\nWhere does a ray, thick where radius "
-     "> "
-     "0, "
-     "first meet a shape? A RayHit; t and length in lengths of direction."},
+     "cast_ray(shape: Shape, pose: PoseLike, origin: Numbers, direction: Numbers, length: float = 1e999, *, radius: "
+     "float = 0) -> RayHit\n--\n\nWhere does a ray, thick where radius > 0, first meet a shape? A RayHit; t and length "
+     "in lengths of direction."},
     {NULL, NULL, 0, NULL}};

@@ -9,6 +9,10 @@ module_state *state_of_type(PyObject *type) { return PyType_GetModuleState((PyTy
 module_state *state_of(PyObject *self) { return PyType_GetModuleState(Py_TYPE(self)); }
 
 int type_add(PyObject *module, PyType_Spec *spec, PyTypeObject **type) {
+    for (PyType_Slot *slot = spec->slots; slot->slot; slot++) {
+        if (slot->slot == Py_tp_doc && !(slot->pfunc = (void *)doc_make(slot->pfunc))) return -1;
+        if (slot->slot == Py_tp_methods && docs_make(slot->pfunc)) return -1;
+    }
     *type = (PyTypeObject *)PyType_FromModuleAndSpec(module, spec, NULL);
     return *type ? PyModule_AddType(module, *type) : -1;
 }
@@ -121,7 +125,7 @@ static int execute(PyObject *module) {
     for (size_t i = 0; i < sizeof adders / sizeof *adders; i++)
         if (adders[i](module)) return -1;
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        if (PyModule_AddFunctions(module, functions[i])) return -1;
+        if (functions_add(module, functions[i])) return -1;
     int has_io = 0, has_robot = 0;
 #ifdef OVOID_PYTHON_IO
     has_io = 1;

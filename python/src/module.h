@@ -162,8 +162,28 @@ typedef enum field_kind {
     FIELD_SYM3,
     FIELD_DOUBLES_12,
     FIELD_DOUBLES_12_12,
-    FIELD_ENUM ///< plus enum_kind
+    FIELD_ENUM, ///< plus enum_kind
+    FIELD_STATUS = FIELD_ENUM + ENUM_STATUS,
+    FIELD_STAGE = FIELD_ENUM + ENUM_STAGE,
+    FIELD_LIMIT = FIELD_ENUM + ENUM_LIMIT,
+    FIELD_IMPACT_STATUS = FIELD_ENUM + ENUM_IMPACT_STATUS,
+    FIELD_ROBOT_STATUS = FIELD_ENUM + ENUM_ROBOT_STATUS,
+    FIELD_INSIDE = FIELD_ENUM + ENUM_INSIDE
 } field_kind;
+#define FIELD_TYPE_DOUBLE "float"
+#define FIELD_TYPE_UINT "int"
+#define FIELD_TYPE_SIZE "int"
+#define FIELD_TYPE_BOOL "bool"
+#define FIELD_TYPE_VEC3 "Vec3"
+#define FIELD_TYPE_SYM3 "Floats"
+#define FIELD_TYPE_DOUBLES_12 "Floats"
+#define FIELD_TYPE_DOUBLES_12_12 "Floats"
+#define FIELD_TYPE_STATUS "Status"
+#define FIELD_TYPE_STAGE "Stage"
+#define FIELD_TYPE_LIMIT "Limit"
+#define FIELD_TYPE_IMPACT_STATUS "ImpactStatus"
+#define FIELD_TYPE_ROBOT_STATUS "RobotStatus"
+#define FIELD_TYPE_INSIDE "Inside"
 typedef struct field {
     int kind;
     size_t offset; ///< in the object
@@ -172,9 +192,14 @@ typedef struct field {
 PyObject *field_get(PyObject *self, void *closure);
 #define FIELD_BY(getter, object, kind, name, member, doc)                                                              \
     {                                                                                                                  \
-        name, getter, NULL, doc, &(field) { kind, offsetof(object, member) }                                           \
+        name, getter, NULL, doc, &(field) { FIELD_##kind, offsetof(object, member) }                                   \
     }
-#define FIELD(object, kind, name, member, doc) FIELD_BY(field_get, object, kind, name, member, doc)
+/// An attribute: the object that has it, how it is shown, its name, where it is, its words.
+#define FIELD(object, kind, name, member, doc)                                                                         \
+    FIELD_BY(field_get, object, kind, name, member, FIELD_TYPE_##kind ": " doc)
+/// One that may be None, as its getter says.
+#define FIELD_OPTIONAL(getter, object, kind, name, member, doc)                                                        \
+    FIELD_BY(getter, object, kind, name, member, FIELD_TYPE_##kind " | None: " doc)
 
 PyObject *vec3_make(ovoid_vec3 v);
 /// A matrix of an ellipsoid as a (3, 3) array.
@@ -237,6 +262,8 @@ typedef struct query_keywords {
     unsigned long long iterations;
 } query_keywords;
 #define QUERY_FORMAT "dddK"
+#define QUERY_SIGNATURE                                                                                                \
+    "absolute_tolerance: float = 0, relative_tolerance: float = 0, cap: float = 0, iterations: int = 0"
 #define QUERY_NAMES "absolute_tolerance", "relative_tolerance", "cap", "iterations"
 #define QUERY_TARGETS(k)                                                                                               \
     &(k).options.absolute_tolerance, &(k).options.relative_tolerance, &(k).options.cap, &(k).iterations
@@ -284,7 +311,16 @@ extern PyMethodDef shape_constructors[], world_queries[], solid_decompositions[]
 
 /// Joins two tables of methods in `all`, which the type keeps, and enters it in the slots.
 void slots_set_methods(PyType_Slot *slots, PyMethodDef *all, const PyMethodDef *first, const PyMethodDef *second);
-/// Makes a type of the module from its spec and adds it by its name.
+// ---- docs.c
+
+/// A docstring as Python has it, from one whose signature has types; NULL: an exception. It is never freed.
+const char *doc_make(const char *doc);
+/// Makes those of a table, in place.
+int docs_make(PyMethodDef *methods);
+/// Adds functions to the module, with their docstrings made.
+int functions_add(PyObject *module, PyMethodDef *functions);
+
+/// Makes a type of the module from its spec and adds it by its name, with its docstrings made.
 int type_add(PyObject *module, PyType_Spec *spec, PyTypeObject **type);
 /// A new object of a type without arguments, zeroed.
 void *object_make(PyTypeObject *type);

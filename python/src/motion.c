@@ -117,22 +117,22 @@ static void motion_dealloc(PyObject *self) {
 }
 
 static PyMethodDef methods[] = {
-    {"still", still, METH_O | METH_CLASS, "still(pose)\n--\n\nAt a pose at all times."},
+    {"still", still, METH_O | METH_CLASS, "still(pose: PoseLike, /) -> Motion\n--\n\nAt a pose at all times."},
     {"velocity", METHOD_KEYWORDS(velocity), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "velocity(start, linear, angular, duration, *, pivot=(0, 0, 0))\n--\n\nConstant velocities from time 0 to "
-     "duration: "
-     "linear in lengths, angular in radians a unit of time, world axes. pivot,\nlocal frame: the point that moves "
-     "along a "
-     "straight line."},
+     "velocity(start: PoseLike, linear: Numbers, angular: Numbers, duration: float, *, pivot: Numbers = (0, 0, 0)) -> "
+     "Motion\n--\n\nConstant velocities from time 0 to duration: linear in lengths, angular in radians a unit of time, "
+     "world axes. pivot,\nlocal frame: the point that moves along a straight line."},
     {"poses", METHOD_KEYWORDS(poses), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "poses(start, end, duration=1)\n--\n\nFrom one pose to another, the shorter way round (slerp)."},
+     "poses(start: PoseLike, end: PoseLike, duration: float = 1) -> Motion\n--\n\nFrom one pose to another, the "
+     "shorter way round (slerp)."},
     {"path", METHOD_KEYWORDS(path), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "path(times, poses, *, order=None)\n--\n\nThrough poses at strictly increasing times (n,); poses and order as in "
-     "Bodies."},
-    {"pose", pose, METH_O, "pose(time)\n--\n\nThe pose at a time; before and after its times a motion rests."},
+     "path(times: Numbers, poses: PosesLike, *, order: Order = None) -> Motion\n--\n\nThrough poses at strictly "
+     "increasing times (n,); poses and order as in Bodies."},
+    {"pose", pose, METH_O,
+     "pose(time: float, /) -> Pose\n--\n\nThe pose at a time; before and after its times a motion rests."},
     {"swept", swept, METH_VARARGS,
-     "swept(body, begin, end)\n--\n\nA box that holds a body at all times of [begin, end]: (least corner, "
-     "greatest corner)."},
+     "swept(body: Body, begin: float, end: float, /) -> Box\n--\n\nA box that holds a body at all times of [begin, "
+     "end]: (least corner, greatest corner)."},
     {NULL, NULL, 0, NULL}};
 static PyType_Slot slots[] = {{Py_tp_doc, "A motion: Motion.still, velocity, poses or path. Immutable."},
                               {Py_tp_dealloc, motion_dealloc},

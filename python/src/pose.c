@@ -348,38 +348,40 @@ static PyObject *make(PyObject *type, PyObject *arguments) {
 
 static PyMethodDef methods[] = {
     {"from_translation", METHOD_KEYWORDS(from_translation), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "from_translation(xyz)\n--\n\nFrom a position; nothing is turned. Three numbers mean this wherever a pose is "
-     "wanted."},
+     "from_translation(xyz: Numbers) -> Pose\n--\n\nFrom a position; nothing is turned. Three numbers mean this "
+     "wherever a pose is wanted."},
     {"from_quaternion", METHOD_KEYWORDS(from_quaternion), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "from_quaternion(xyz, *, wxyz=None, xyzw=None)\n--\n\nFrom a position and four numbers whose order is named.\n\n"
-     "Any norm but zero: the rotation is that of the normalised quaternion."},
+     "from_quaternion(xyz: Numbers, *, wxyz: Numbers = None, xyzw: Numbers = None) -> Pose\n--\n\nFrom a position and "
+     "four numbers whose order is named.\n\nAny norm but zero: the rotation is that of the normalised quaternion."},
     {"from_rotation", METHOD_KEYWORDS(from_rotation), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "from_rotation(xyz, rotation)\n--\n\nFrom a position and a 3x3 matrix or a SciPy Rotation (anything with "
-     "as_quat(), x y z w)."},
+     "from_rotation(xyz: Numbers, rotation: Rotation | Numbers) -> Pose\n--\n\nFrom a position and a 3x3 matrix or a "
+     "SciPy Rotation (anything with as_quat(), x y z w)."},
     {"from_rpy", METHOD_KEYWORDS(from_rpy), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "from_rpy(xyz, rpy)\n--\n\nAs in URDF: fixed-axis roll, pitch, yaw in radians, Rz(yaw) Ry(pitch) Rx(roll)."},
+     "from_rpy(xyz: Numbers, rpy: Numbers) -> Pose\n--\n\nAs in URDF: fixed-axis roll, pitch, yaw in radians, Rz(yaw) "
+     "Ry(pitch) Rx(roll)."},
     {"from_axis_angle", METHOD_KEYWORDS(from_axis_angle), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "from_axis_angle(xyz, axis, angle)\n--\n\nTurned by an angle in radians about an axis of any length but zero."},
-    {"inverse", inverse, METH_NOARGS, "inverse()\n--\n\nThe inverse pose."},
-    {"apply", apply, METH_O, "apply(points)\n--\n\nLocal points, (3,) or (n, 3), in the world frame."},
+     "from_axis_angle(xyz: Numbers, axis: Numbers, angle: float) -> Pose\n--\n\nTurned by an angle in radians about an "
+     "axis of any length but zero."},
+    {"inverse", inverse, METH_NOARGS, "inverse() -> Pose\n--\n\nThe inverse pose."},
+    {"apply", apply, METH_O,
+     "apply(points: Numbers, /) -> Floats\n--\n\nLocal points, (3,) or (n, 3), in the world frame."},
     {"apply_inverse", apply_inverse, METH_O,
-     "apply_inverse(points)\n--\n\nWorld points, (3,) or (n, 3), in the local frame."},
+     "apply_inverse(points: Numbers, /) -> Floats\n--\n\nWorld points, (3,) or (n, 3), in the local frame."},
     {"_make", make, METH_VARARGS | METH_CLASS, NULL},
     {"__reduce__", reduce, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL}};
 
 static PyGetSetDef fields[] = {
-    FIELD(pose_object, FIELD_VEC3, "xyz", pose.position, "The position, in the world frame."),
-    {"wxyz", get_quaternion, NULL, "The quaternion, w x y z, as it was given.", NULL},
-    {"xyzw", get_quaternion, NULL, "The quaternion, x y z w, as it was given.", ""},
-    {"matrix", get_matrix, NULL, "The 4x4 homogeneous matrix: world = matrix @ local.", NULL},
+    FIELD(pose_object, VEC3, "xyz", pose.position, "The position, in the world frame."),
+    {"wxyz", get_quaternion, NULL, "Vec4: The quaternion, w x y z, as it was given.", NULL},
+    {"xyzw", get_quaternion, NULL, "Vec4: The quaternion, x y z w, as it was given.", ""},
+    {"matrix", get_matrix, NULL, "Floats: The 4x4 homogeneous matrix: world = matrix @ local.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyType_Slot slots[] = {
-    {Py_tp_doc, "Pose(pose=None)\n--\n\nWhere a body is: world = xyz + R local.\n\nFrom None (the identity), three "
-                "numbers (a position), a 4x4 array whose last row is\n0 0 0 1, a tuple (xyz, SciPy Rotation), or "
-                "another Pose. a @ b is the pose of "
-                "b in the frame that a poses. Immutable."},
+    {Py_tp_doc, "Pose(pose: PoseLike = None) -> Pose\n--\n\nWhere a body is: world = xyz + R local.\n\nFrom None (the "
+                "identity), three numbers (a position), a 4x4 array whose last row is\n0 0 0 1, a tuple (xyz, SciPy "
+                "Rotation), or another Pose. a @ b is the pose of b in the frame that a poses. Immutable."},
     {Py_tp_new, pose_new},
     {Py_tp_dealloc, object_free},
     {Py_tp_richcompare, compare},

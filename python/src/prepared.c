@@ -34,14 +34,13 @@ static PyObject *get_pose(PyObject *self, void *closure) {
     return pose_wrap(state_of(self), ((prepared_object *)self)->of.body.pose);
 }
 
-static PyGetSetDef fields[] = {{"shape", get_shape, NULL, "The Shape.", NULL},
-                               {"pose", get_pose, NULL, "Its Pose.", NULL},
+static PyGetSetDef fields[] = {{"shape", get_shape, NULL, "Shape: The Shape.", NULL},
+                               {"pose", get_pose, NULL, "Pose: Its Pose.", NULL},
                                {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot slots[] = {
-    {Py_tp_doc, "Prepared(shape, pose=None)\n--\n\nA Shape at a pose, prepared once to be asked about many times: "
-                "collide(prepared_a, prepared_b), and so within,\ndistance, depth, without poses. The answers have the "
-                "bits of the "
-                "same queries of Shapes. Immutable."},
+    {Py_tp_doc, "Prepared(shape: Shape, pose: PoseLike = None) -> Prepared\n--\n\nA Shape at a pose, prepared once to "
+                "be asked about many times: collide(prepared_a, prepared_b), and so within,\ndistance, depth, without "
+                "poses. The answers have the bits of the same queries of Shapes. Immutable."},
     {Py_tp_new, prepared_new},
     {Py_tp_dealloc, prepared_dealloc},
     {Py_tp_getset, fields},

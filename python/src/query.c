@@ -267,7 +267,8 @@ static PyObject *depth(PyObject *module, PyObject *const *given, Py_ssize_t coun
     return query(module, QUERY_DEPTH, given, count, names);
 }
 
-#define QUERY_SIGNATURE "absolute_tolerance=0, relative_tolerance=0, cap=0, iterations=0, earlier=None)\n--\n\n"
+#define ASKED "(a: Body | Prepared, b: Body | Prepared, pose_a: PoseLike = None, pose_b: PoseLike = None, *, "
+#define ANSWERED QUERY_SIGNATURE ", earlier: Answer | Records | None = None) -> Answer\n--\n\n"
 #define QUERY_DOC                                                                                                      \
     "\n\na, b: Shapes, Compounds or Solids, or two Prepared without poses. pose_a, pose_b: "                           \
     "None (the identity), a Pose, a "                                                                                  \
@@ -280,15 +281,15 @@ static PyObject *depth(PyObject *module, PyObject *const *given, Py_ssize_t coun
 
 PyMethodDef query_methods[] = {
     {"collide", METHOD_KEYWORDS(collide), METH_FASTCALL | METH_KEYWORDS,
-     "collide(a, b, pose_a=None, pose_b=None, *, " QUERY_SIGNATURE
+     "collide" ASKED ANSWERED
      "Do the bodies touch? Stops as soon as the sign of the signed distance is proven." QUERY_DOC},
     {"within", METHOD_KEYWORDS(within), METH_FASTCALL | METH_KEYWORDS,
-     "within(a, b, pose_a=None, pose_b=None, *, margin, " QUERY_SIGNATURE
+     "within" ASKED "margin: float, " ANSWERED
      "Are the bodies within margin >= 0 of each other? Ask answer.is_within(margin)." QUERY_DOC},
     {"distance", METHOD_KEYWORDS(distance), METH_FASTCALL | METH_KEYWORDS,
-     "distance(a, b, pose_a=None, pose_b=None, *, " QUERY_SIGNATURE
+     "distance" ASKED ANSWERED
      "The distance to the tolerance, where the bodies are apart; where they overlap only that is proven." QUERY_DOC},
     {"depth", METHOD_KEYWORDS(depth), METH_FASTCALL | METH_KEYWORDS,
-     "depth(a, b, pose_a=None, pose_b=None, *, " QUERY_SIGNATURE
+     "depth" ASKED ANSWERED
      "The signed distance to the tolerance: where the bodies overlap, minus the penetration depth." QUERY_DOC},
     {NULL, NULL, 0, NULL}};

@@ -75,12 +75,11 @@ static PyObject *get_radii(PyObject *self, void *closure) {
 }
 
 static PyGetSetDef fit_fields[] = {
-    FIELD(fit_object, FIELD_VEC3, "center", fit.ellipsoid.center, "The centre, local frame."),
-    FIELD(fit_object, FIELD_SYM3, "matrix", fit.ellipsoid.q,
-          "Q, (3, 3): the x with (x - center)' Q^-1 (x - center) <= 1."),
-    FIELD(fit_object, FIELD_DOUBLE, "volume", fit.volume, "Its volume; area or length of a flat one."),
-    FIELD(fit_object, FIELD_DOUBLE, "gap", fit.gap, "The proven relative gap of the volume to the optimum."),
-    {"radii", get_radii, NULL, "The radii, in descending order.", NULL},
+    FIELD(fit_object, VEC3, "center", fit.ellipsoid.center, "The centre, local frame."),
+    FIELD(fit_object, SYM3, "matrix", fit.ellipsoid.q, "Q, (3, 3): the x with (x - center)' Q^-1 (x - center) <= 1."),
+    FIELD(fit_object, DOUBLE, "volume", fit.volume, "Its volume; area or length of a flat one."),
+    FIELD(fit_object, DOUBLE, "gap", fit.gap, "The proven relative gap of the volume to the optimum."),
+    {"radii", get_radii, NULL, "Vec3: The radii, in descending order.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot fit_slots[] = {{Py_tp_doc, "An ellipsoid around or inside a shape."},
                                   {Py_tp_dealloc, object_free},
@@ -219,40 +218,44 @@ static void shape_dealloc(PyObject *self) {
 }
 
 static PyMethodDef methods[] = {
-    {"to_bytes", to_bytes, METH_NOARGS, "to_bytes()\n--\n\nThe bytes of an .ovoid file; pickle uses them too."},
+    {"to_bytes", to_bytes, METH_NOARGS,
+     "to_bytes() -> bytes\n--\n\nThe bytes of an .ovoid file; pickle uses them too."},
 #ifdef OVOID_PYTHON_IO
     {"write", write_file, METH_VARARGS,
-     "write(path)\n--\n\nWrites an .ovoid file: all of it, or the path is as it was."},
+     "write(path: PathLike, /) -> None\n--\n\nWrites an .ovoid file: all of it, or the path is as it was."},
 #endif
     {"divided", METHOD_KEYWORDS(divided), METH_VARARGS | METH_KEYWORDS,
-     "divided(normal, offset, *, rounding=0)\n--\n\nThe shape cut by the plane normal . x = offset (local frame): the "
-     "part "
-     "below and the part above; None where\nnothing is left."},
+     "divided(normal: Numbers, offset: float, *, rounding: float = 0) -> tuple[Shape | None, Shape | None]\n--\n\nThe "
+     "shape cut by the plane normal . x = offset (local frame): the part below and the part above; None where\nnothing "
+     "is left."},
     {"deformed", METHOD_KEYWORDS(deformed), METH_VARARGS | METH_KEYWORDS,
-     "deformed(points, *, rounding=0)\n--\n\nThe shape with its vertices moved: one point (n, 3) for each of "
-     ".vertices, in "
-     "their order."},
+     "deformed(points: Numbers, *, rounding: float = 0) -> Shape\n--\n\nThe shape with its vertices moved: one point "
+     "(n, 3) for each of .vertices, in their order."},
     {"__reduce__", reduce, METH_NOARGS, NULL},
     {"__copy__", copy, METH_NOARGS, NULL},
     {"__deepcopy__", copy, METH_O, NULL},
     {NULL, NULL, 0, NULL}};
 
 static PyGetSetDef fields[] = {
-    {"vertices", get_vertices, NULL, "The extreme points, (n, 3), local frame.", NULL},
-    {"faces", get_faces, NULL, "Triangles, (m, 3) indices of vertices, counter-clockwise from outside.", NULL},
-    {"volume", get_measure, NULL, "Volume of the polyhedron, without the rounding radius.", "v"},
-    {"area", get_measure, NULL, "Surface of the polyhedron; of a flat polygon both sides.", "a"},
-    {"centroid", get_measure, NULL, "Centroid, local frame.", "c"},
-    {"inertia", get_measure, NULL, "Inertia tensor about the centroid, (3, 3), unit density.", "i"},
-    {"bounds", get_measure, NULL, "The box of the vertices: ((x, y, z) of its least corner, of its greatest).", "b"},
-    {"outer", get_fit, NULL, "The smallest ellipsoid around the polyhedron.", NULL},
-    {"inner", get_fit, NULL, "The largest ellipsoid inside the polyhedron.", ""},
-    {"radius", get_radius, NULL, "The rounding radius, part of the body.", NULL},
-    {"allowance", get_allowance, NULL, "(outside, inside): what the true body may differ by.", NULL},
+    {"vertices", get_vertices, NULL, "Floats: The extreme points, (n, 3), local frame.", NULL},
+    {"faces", get_faces, NULL, "Indices: Triangles, (m, 3) indices of vertices, counter-clockwise from outside.", NULL},
+    {"volume", get_measure, NULL, "float: Volume of the polyhedron, without the rounding radius.", "v"},
+    {"area", get_measure, NULL, "float: Surface of the polyhedron; of a flat polygon both sides.", "a"},
+    {"centroid", get_measure, NULL, "Vec3: Centroid, local frame.", "c"},
+    {"inertia", get_measure, NULL, "Floats: Inertia tensor about the centroid, (3, 3), unit density.", "i"},
+    {"bounds", get_measure, NULL, "Box: The box of the vertices: ((x, y, z) of its least corner, of its greatest).",
+     "b"},
+    {"outer", get_fit, NULL, "Ellipsoid: The smallest ellipsoid around the polyhedron.", NULL},
+    {"inner", get_fit, NULL, "Ellipsoid: The largest ellipsoid inside the polyhedron.", ""},
+    {"radius", get_radius, NULL, "float: The rounding radius, part of the body.", NULL},
+    {"allowance", get_allowance, NULL, "tuple[float, float]: (outside, inside): what the true body may differ by.",
+     NULL},
     {"allowance_axis", get_allowance_axis, NULL,
-     "The direction, of length 1, across which alone the true body stands out; None: it may in all directions.", NULL},
-    {"rank", get_rank, NULL, "0 a point, 1 a segment, 2 flat, 3 solid.", NULL},
-    {"report", get_report, NULL, "What the constructor did with the points given, a dict.", NULL},
+     "tuple[float, float, float] | None: The direction, of length 1, across which alone the true body stands out; "
+     "None: it may in all directions.",
+     NULL},
+    {"rank", get_rank, NULL, "int: 0 a point, 1 a segment, 2 flat, 3 solid.", NULL},
+    {"report", get_report, NULL, "dict[str, int]: What the constructor did with the points given, a dict.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyType_Slot slots[] = {

@@ -27,7 +27,9 @@ typedef struct shape_keywords {
     "may\n"                                                                                                            \
     "stand out of the shape, and the shape out of the true body; (outside, inside, (x, y, z)): it stands out across "  \
     "that\naxis alone."
-#define SHAPE_SIGNATURE "*, rounding=0, gap=0, inner='maximum', allowance=(0, 0)"
+#define SHAPE_SIGNATURE                                                                                                \
+    "*, rounding: float = 0, gap: float = 0, inner: Literal['maximum', 'phases'] = 'maximum', allowance: Allowance = " \
+    "(0, 0)"
 
 // (outside, inside), or with an axis.
 static int read_allowance(PyObject *from, void *to) {
@@ -416,58 +418,61 @@ static PyObject *read_body(PyObject *module, PyObject *arguments, PyObject *keyw
 
 PyMethodDef shape_file_methods[] = {
     {"read", METHOD_KEYWORDS(read_body), METH_VARARGS | METH_KEYWORDS,
-     "read(path, scale=1, unit=None, " SHAPE_SIGNATURE
-     ", hull=False)\n--\n\nThe body of a file: ovoid.read." SHAPE_DOC},
+     "read(path: PathLike, scale: float = 1, unit: str | None = None, " SHAPE_SIGNATURE
+     ", hull: bool = False) -> Shape | Solid\n--\n\nThe body that a file holds: a Shape of an .ovoid file and of a "
+     "mesh that is its convex hull, or nearly so (then with\nan allowance for the difference); a Solid of any other "
+     "mesh, a surface where that is open. hull=True: the hull of any\nmesh. scale: of the file's numbers; unit: of the "
+     "result, 'm' or 'mm' for example, where the file says its own. A Solid\nhas no rounding and no "
+     "allowance." SHAPE_DOC},
     {"read_parts", METHOD_KEYWORDS(read_parts), METH_VARARGS | METH_KEYWORDS,
-     "read_parts(path, scale=1, unit=None, " SHAPE_SIGNATURE
-     ")\n--\n\nThe objects of a mesh file, each as its convex hull: a list of (name, Shape), each where the file has "
-     "it; "
-     "Compound([shape\nfor name, shape in ...]) is the body of them all. Arguments as of Shape.read." SHAPE_DOC},
+     "read_parts(path: PathLike, scale: float = 1, unit: str | None = None, " SHAPE_SIGNATURE
+     ") -> list[tuple[str, Shape]]\n--\n\nThe objects of a mesh file, each as its convex hull: a list of (name, "
+     "Shape), each where the file has it; Compound([shape\nfor name, shape in ...]) is the body of them all. Arguments "
+     "as of Shape.read." SHAPE_DOC},
     {NULL, NULL, 0, NULL}};
 #endif
 
 PyMethodDef shape_constructors[] = {
     {"from_points", METHOD_KEYWORDS(from_points), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "from_points(points, " SHAPE_SIGNATURE
-     ")\n--\n\nThe convex hull of points (n, 3), in any unit of length." SHAPE_DOC},
+     "from_points(points: Numbers, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nThe convex hull of points (n, 3), in any unit of length." SHAPE_DOC},
     {"hull_of", METHOD_KEYWORDS(hull_of), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "hull_of(mesh, " SHAPE_SIGNATURE ")\n--\n\nThe convex hull of anything with .vertices (n, 3), as a "
-     "trimesh.Trimesh." SHAPE_DOC},
+     "hull_of(mesh: HasVertices, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nThe convex hull of anything with .vertices (n, 3), as a trimesh.Trimesh." SHAPE_DOC},
     {"from_faces", METHOD_KEYWORDS(from_faces), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "from_faces(vertices, faces, " SHAPE_SIGNATURE ")\n--\n\nFrom vertices (n, 3) and faces that claim to be convex, "
-     "counter-clockwise from outside: an array (m, k) of\nindices or a sequence of sequences. Checked, never "
-     "trusted." SHAPE_DOC},
+     "from_faces(vertices: Numbers, faces: Numbers, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nFrom vertices (n, 3) and faces that claim to be convex, counter-clockwise from outside: an "
+     "array (m, k) of\nindices or a sequence of sequences. Checked, never trusted." SHAPE_DOC},
     {"box", METHOD_KEYWORDS(box), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "box(half_sizes, " SHAPE_SIGNATURE ")\n--\n\nAn axis-aligned box around the origin, of the given half sizes "
-     "(x, y, z)." SHAPE_DOC},
+     "box(half_sizes: Numbers, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nAn axis-aligned box around the origin, of the given half sizes (x, y, z)." SHAPE_DOC},
     {"sphere", METHOD_KEYWORDS(sphere), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "sphere(radius, " SHAPE_SIGNATURE ")\n--\n\nA sphere around the origin; exact." SHAPE_DOC},
+     "sphere(radius: float, " SHAPE_SIGNATURE ") -> Shape\n--\n\nA sphere around the origin; exact." SHAPE_DOC},
     {"capsule", METHOD_KEYWORDS(capsule), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "capsule(radius, half_length, " SHAPE_SIGNATURE ")\n--\n\nA capsule along z: a segment of length 2 half_length "
-     "with a radius; exact." SHAPE_DOC},
+     "capsule(radius: float, half_length: float, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nA capsule along z: a segment of length 2 half_length with a radius; exact." SHAPE_DOC},
     {"cylinder", METHOD_KEYWORDS(cylinder), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "cylinder(radius, half_length, tolerance=0, " SHAPE_SIGNATURE ")\n--\n\nThe cylinder along z, held by a prism "
-     "with an allowance of at most the tolerance, a length; 0: radius / 200." SHAPE_DOC},
+     "cylinder(radius: float, half_length: float, tolerance: float = 0, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nThe cylinder along z, held by a prism with an allowance of at most the tolerance, a length; 0: "
+     "radius / 200." SHAPE_DOC},
     {"cone", METHOD_KEYWORDS(cone), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "cone(radius, half_length, tolerance=0, " SHAPE_SIGNATURE ")\n--\n\nThe cone, apex at z = +half_length; as "
-     "cylinder." SHAPE_DOC},
+     "cone(radius: float, half_length: float, tolerance: float = 0, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nThe cone, apex at z = +half_length; as cylinder." SHAPE_DOC},
     {"prism", METHOD_KEYWORDS(prism), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "prism(radius, half_length, sides, " SHAPE_SIGNATURE
-     ")\n--\n\nA prism along z, inscribed in the cylinder." SHAPE_DOC},
+     "prism(radius: float, half_length: float, sides: int, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nA prism along z, inscribed in the cylinder." SHAPE_DOC},
     {"pyramid", METHOD_KEYWORDS(pyramid), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "pyramid(radius, half_length, sides, " SHAPE_SIGNATURE
-     ")\n--\n\nA pyramid along z, apex at z = +half_length." SHAPE_DOC},
+     "pyramid(radius: float, half_length: float, sides: int, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nA pyramid along z, apex at z = +half_length." SHAPE_DOC},
     {"from_bytes", from_bytes, METH_O | METH_CLASS,
-     "from_bytes(data)\n--\n\nA shape from the bytes of an .ovoid file, each of them checked; bit for bit the one that "
-     "was "
-     "written."},
+     "from_bytes(data: Any, /) -> Shape\n--\n\nA shape from the bytes of an .ovoid file, each of them checked; bit for "
+     "bit the one that was written."},
 #ifdef OVOID_PYTHON_IO
     {"read", METHOD_KEYWORDS(read_shape), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "read(path, scale=1, unit=None, " SHAPE_SIGNATURE
-     ", hull=False)\n--\n\nA shape from an .ovoid file, or from a mesh "
-     "file (STL, OBJ, OFF, PLY, ...) whose mesh is its convex hull, or nearly\nso: then the shape has an allowance for "
-     "the "
-     "difference. Any other mesh, closed and not convex or open, is refused:\nSolid.load takes it as it is, hull=True "
-     "takes its hull." SHAPE_DOC},
+     "read(path: PathLike, scale: float = 1, unit: str | None = None, " SHAPE_SIGNATURE
+     ", hull: bool = False) -> Shape\n--\n\nA shape from an .ovoid file, or from a mesh file (STL, OBJ, OFF, PLY, ...) "
+     "whose mesh is its convex hull, or nearly\nso: then the shape has an allowance for the difference. Any other "
+     "mesh, closed and not convex or open, is refused:\nSolid.read takes it as it is, hull=True takes its "
+     "hull." SHAPE_DOC},
 #endif
     {NULL, NULL, 0, NULL}};

@@ -63,15 +63,13 @@ static PyObject *gradient(PyObject *module, PyObject *given) {
 
 PyMethodDef smooth_methods[] = {
     {"smooth", METHOD_KEYWORDS(smooth), METH_VARARGS | METH_KEYWORDS,
-     "smooth(a, b, pose_a=None, pose_b=None, *, order=1)\n--\n\nA smooth bracket of the signed distance of two Shapes, "
-     "from "
-     "their ellipsoids: outer.value <= d <= inner.value.\norder: 0 values, 1 gradients too, 2 Hessians too. "
-     "Derivatives are "
-     "by 12 numbers: the translation of a (world), its\nrotation vector (world axes, radians), those of b."},
+     "smooth(a: Shape, b: Shape, pose_a: PoseLike = None, pose_b: PoseLike = None, *, order: Literal[0, 1, 2] = 1) -> "
+     "Smooth\n--\n\nA smooth bracket of the signed distance of two Shapes, from their ellipsoids: outer.value <= d <= "
+     "inner.value.\norder: 0 values, 1 gradients too, 2 Hessians too. Derivatives are by 12 numbers: the translation "
+     "of a (world), its\nrotation vector (world axes, radians), those of b."},
     {"gradient", gradient, METH_O,
-     "gradient(answer)\n--\n\nThe gradient of the exact signed distance, as far as the Answer of distance or depth "
-     "shows it; "
-     "numbers as in smooth."},
+     "gradient(answer: Answer, /) -> Gradient\n--\n\nThe gradient of the exact signed distance, as far as the Answer "
+     "of distance or depth shows it; numbers as in smooth."},
     {NULL, NULL, 0, NULL}};
 
 // ---- the types
@@ -82,9 +80,10 @@ static PyObject *get_side(PyObject *self, void *closure) {
     return (PyObject *)made;
 }
 
-static PyGetSetDef smooth_fields[] = {{"outer", get_side, NULL, "Of the outer ellipsoids: value <= d.", NULL},
-                                      {"inner", get_side, NULL, "Of the inner ellipsoids: d <= value.", ""},
-                                      {NULL, NULL, NULL, NULL, NULL}};
+static PyGetSetDef smooth_fields[] = {
+    {"outer", get_side, NULL, "SmoothValue: Of the outer ellipsoids: value <= d.", NULL},
+    {"inner", get_side, NULL, "SmoothValue: Of the inner ellipsoids: d <= value.", ""},
+    {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot smooth_slots[] = {{Py_tp_doc, "outer.value <= d <= inner.value."},
                                      {Py_tp_dealloc, object_free},
                                      {Py_tp_getset, smooth_fields},
@@ -93,16 +92,15 @@ static PyType_Spec smooth_spec = {"ovoid.Smooth", sizeof(smooth_object), 0,
                                   Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, smooth_slots};
 
 static PyGetSetDef value_fields[] = {
-    FIELD(smooth_value_object, FIELD_DOUBLE, "value", value.value, "Proven, rounding included."),
-    FIELD(smooth_value_object, FIELD_DOUBLE, "error", value.error,
-          "The ellipsoids' own distance is within this of value."),
-    FIELD(smooth_value_object, FIELD_DOUBLE, "condition", value.condition, "How much roundings grow in the gradient."),
-    FIELD(smooth_value_object, FIELD_BOOL, "is_smooth", value.is_smooth, "False: not known to be differentiable here."),
-    FIELD(smooth_value_object, FIELD_VEC3, "point_a", value.point_a, "The point of a's ellipsoid, world frame."),
-    FIELD(smooth_value_object, FIELD_VEC3, "point_b", value.point_b, "The point of b's ellipsoid, world frame."),
-    FIELD(smooth_value_object, FIELD_VEC3, "normal", value.normal, "Unit, from a to b, world frame."),
-    FIELD(smooth_value_object, FIELD_DOUBLES_12, "gradient", value.gradient, "(12,); zero where order is 0."),
-    FIELD(smooth_value_object, FIELD_DOUBLES_12_12, "hessian", value.hessian, "(12, 12); zero where order is below 2."),
+    FIELD(smooth_value_object, DOUBLE, "value", value.value, "Proven, rounding included."),
+    FIELD(smooth_value_object, DOUBLE, "error", value.error, "The ellipsoids' own distance is within this of value."),
+    FIELD(smooth_value_object, DOUBLE, "condition", value.condition, "How much roundings grow in the gradient."),
+    FIELD(smooth_value_object, BOOL, "is_smooth", value.is_smooth, "False: not known to be differentiable here."),
+    FIELD(smooth_value_object, VEC3, "point_a", value.point_a, "The point of a's ellipsoid, world frame."),
+    FIELD(smooth_value_object, VEC3, "point_b", value.point_b, "The point of b's ellipsoid, world frame."),
+    FIELD(smooth_value_object, VEC3, "normal", value.normal, "Unit, from a to b, world frame."),
+    FIELD(smooth_value_object, DOUBLES_12, "gradient", value.gradient, "(12,); zero where order is 0."),
+    FIELD(smooth_value_object, DOUBLES_12_12, "hessian", value.hessian, "(12, 12); zero where order is below 2."),
     {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot value_slots[] = {{Py_tp_doc, "One side of the smooth bracket."},
                                     {Py_tp_dealloc, object_free},
@@ -112,15 +110,14 @@ static PyType_Spec value_spec = {"ovoid.SmoothValue", sizeof(smooth_value_object
                                  Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, value_slots};
 
 static PyGetSetDef gradient_fields[] = {
-    FIELD(gradient_object, FIELD_DOUBLES_12, "gradient", gradient.gradient,
+    FIELD(gradient_object, DOUBLES_12, "gradient", gradient.gradient,
           "(12,): by translations and rotations of a and b."),
-    FIELD(gradient_object, FIELD_BOOL, "has_translation", gradient.has_translation, "That by translations is shown."),
-    FIELD(gradient_object, FIELD_BOOL, "has_rotation", gradient.has_rotation, "That by rotations is shown too."),
-    FIELD(gradient_object, FIELD_DOUBLE, "turn", gradient.turn, "Radians: how far the exact normal may be."),
-    FIELD(gradient_object, FIELD_DOUBLE, "slope", gradient.slope, "0: the witness points are not unique."),
-    FIELD(gradient_object, FIELD_DOUBLE, "slide", gradient.slide, "Length: how far the exact witness points may be."),
-    FIELD(gradient_object, FIELD_DOUBLE, "margin", gradient.margin,
-          "Of a depth: every other way out is longer by this."),
+    FIELD(gradient_object, BOOL, "has_translation", gradient.has_translation, "That by translations is shown."),
+    FIELD(gradient_object, BOOL, "has_rotation", gradient.has_rotation, "That by rotations is shown too."),
+    FIELD(gradient_object, DOUBLE, "turn", gradient.turn, "Radians: how far the exact normal may be."),
+    FIELD(gradient_object, DOUBLE, "slope", gradient.slope, "0: the witness points are not unique."),
+    FIELD(gradient_object, DOUBLE, "slide", gradient.slide, "Length: how far the exact witness points may be."),
+    FIELD(gradient_object, DOUBLE, "margin", gradient.margin, "Of a depth: every other way out is longer by this."),
     {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot gradient_slots[] = {{Py_tp_doc, "The gradient of the exact signed distance."},
                                        {Py_tp_dealloc, object_free},

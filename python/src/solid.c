@@ -237,46 +237,50 @@ static PyObject *repr(PyObject *self) {
 
 static PyMethodDef methods[] = {
     {"from_triangles", METHOD_KEYWORDS(from_triangles), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "from_triangles(vertices, faces)\n--\n\nOf points (n, 3) and triangles (m, 3), indices of points, "
-     "counter-clockwise "
-     "from outside. Every triangle is kept,\nalso what has no area; equal points become one. Whether the surface is "
-     "closed, and what else was found, is told by\n.report; how triangles face does not matter to queries."},
+     "from_triangles(vertices: Numbers, faces: Numbers) -> Solid\n--\n\nOf points (n, 3) and triangles (m, 3), indices "
+     "of points, counter-clockwise from outside. Every triangle is kept,\nalso what has no area; equal points become "
+     "one. Whether the surface is closed, and what else was found, is told by\n.report; how triangles face does not "
+     "matter to queries."},
     {"from_mesh", from_mesh, METH_O | METH_CLASS,
-     "from_mesh(mesh, /)\n--\n\nOf anything with .vertices (n, 3) and .faces (m, 3), as a trimesh.Trimesh."},
+     "from_mesh(mesh: HasFaces, /) -> Solid\n--\n\nOf anything with .vertices (n, 3) and .faces (m, 3), as a "
+     "trimesh.Trimesh."},
 #ifdef OVOID_PYTHON_IO
     {"read", METHOD_KEYWORDS(read_solid), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "read(path, scale=1, unit=None)\n--\n\nThe triangles of a mesh file (STL, OBJ, OFF, PLY, ...) as one solid; "
-     "polygons are cut into triangles. Arguments as of\nShape.load."},
+     "read(path: PathLike, scale: float = 1, unit: str | None = None) -> Solid\n--\n\nThe triangles of a mesh file "
+     "(STL, OBJ, OFF, PLY, ...) as one solid; polygons are cut into triangles. Arguments as of\nShape.read."},
 #endif
     {"winding", winding, METH_O,
-     "winding(point, /)\n--\n\nHow often a closed solid winds around a point (x, y, z) of its frame, exactly: 0 "
-     "outside, "
-     "1 inside, -1 inside one that\nis inside out. None where it is not closed, or the point is on its surface."},
+     "winding(point: Numbers, /) -> int | None\n--\n\nHow often a closed solid winds around a point (x, y, z) of its "
+     "frame, exactly: 0 outside, 1 inside, -1 inside one that\nis inside out. None where it is not closed, or the "
+     "point is on its surface."},
     {"crossings", METHOD_KEYWORDS(crossings), METH_VARARGS | METH_KEYWORDS,
-     "crossings(most=18446744073709551615)\n--\n\nWhere the surface meets itself: (pairs, is_complete, pair), how many "
-     "pairs of "
-     "triangles have a point in common that is\nno corner or edge of both, by exact signs; False where the search "
-     "ended at "
-     "most of them; the first pair, or None."},
+     "crossings(most: int = 18446744073709551615) -> tuple[int, bool, tuple[int, int] | None]\n--\n\nWhere the surface "
+     "meets itself: (pairs, is_complete, pair), how many pairs of triangles have a point in common that is\nno corner "
+     "or edge of both, by exact signs; False where the search ended at most of them; the first pair, or None."},
     {"match_hull", match_hull, METH_NOARGS,
-     "match_hull()\n--\n\nThe Shape that it is: the convex hull of its points where the triangles are closed and lie "
-     "on it, exactly or so\nnearly that the shape's allowance holds the difference; else None. Exact signs decide."},
+     "match_hull() -> Shape | None\n--\n\nThe Shape that it is: the convex hull of its points where the triangles are "
+     "closed and lie on it, exactly or so\nnearly that the shape's allowance holds the difference; else None. Exact "
+     "signs decide."},
     {"__reduce__", reduce, METH_NOARGS, NULL},
     {"__copy__", copy, METH_NOARGS, NULL},
     {"__deepcopy__", copy, METH_O, NULL},
     {NULL, NULL, 0, NULL}};
 
 static PyGetSetDef fields[] = {
-    {"vertices", get_vertices, NULL, "The points that triangles use, (n, 3), its frame.", NULL},
-    {"faces", get_faces, NULL, "The triangles as given, (m, 3) indices of vertices.", NULL},
-    {"order", get_order, NULL, "The triangles in the order of the tree's leaves.", NULL},
-    {"kind", get_kind, NULL, "\"solid\" where the triangles are closed, else \"surface\", as results have it.", NULL},
-    {"is_closed", get_is_closed, NULL, "True: a solid with an inside; False: a surface, the triangles alone.", NULL},
-    {"volume", get_measure, NULL, "Below 0 where it is inside out; 0 where it is not closed. Rounded.", NULL},
-    {"area", get_measure, NULL, "The area of all triangles, rounded.", ""},
-    {"bounds", get_bounds, NULL, "The box of the points: ((x, y, z) of its least corner, of its greatest).", NULL},
+    {"vertices", get_vertices, NULL, "Floats: The points that triangles use, (n, 3), its frame.", NULL},
+    {"faces", get_faces, NULL, "Indices: The triangles as given, (m, 3) indices of vertices.", NULL},
+    {"order", get_order, NULL, "Indices: The triangles in the order of the tree's leaves.", NULL},
+    {"kind", get_kind, NULL,
+     "Literal['solid', 'surface']: \"solid\" where the triangles are closed, else \"surface\", as results have it.",
+     NULL},
+    {"is_closed", get_is_closed, NULL, "bool: True: a solid with an inside; False: a surface, the triangles alone.",
+     NULL},
+    {"volume", get_measure, NULL, "float: Below 0 where it is inside out; 0 where it is not closed. Rounded.", NULL},
+    {"area", get_measure, NULL, "float: The area of all triangles, rounded.", ""},
+    {"bounds", get_bounds, NULL, "Box: The box of the points: ((x, y, z) of its least corner, of its greatest).", NULL},
     {"report", get_report, NULL,
-     "What was found of the triangles, a dict: points, triangles, components, edges_unmatched (0: closed), "
+     "dict[str, int]: What was found of the triangles, a dict: points, triangles, components, edges_unmatched (0: "
+     "closed), "
      "edges_crowded\n(of more than two triangles), degenerate (without area), duplicates.",
      NULL},
     {NULL, NULL, NULL, NULL, NULL}};

@@ -1,10 +1,13 @@
 """The words around the code. Truth: what inspect finds is what the stubs and the page say; the examples run."""
 
-import ast
 import doctest
 import inspect
 import os
 import re
+import shutil
+import subprocess
+import sys
+import tempfile
 import unittest
 
 import common
@@ -18,63 +21,65 @@ def read(path):
         return file.read()
 
 
-def get_arguments(function):
-    """Names of the arguments by a stub's node, without self and cls."""
-    names = [argument.arg for argument in function.args.posonlyargs + function.args.args + function.args.kwonlyargs]
-    return [name for name in names if name not in ("self", "cls")]
+USER = """
+import ovoid
+from ovoid.trimesh_compat import CollisionManager
 
+def clearance(half: float, gap: float) -> float:
+    box = ovoid.Shape.box((half, half, half))
+    answer = ovoid.distance(box, ovoid.Compound([box]), None, ovoid.Pose((2 * half + gap, 0, 0)))
+    ovoid.verify(answer)
+    if answer.inside is not None and answer.component is not None:
+        return float(answer.component)
+    return answer.lower if answer.status == ovoid.Status.SEPARATED else 0.0
 
-def get_name(node):
-    """Of a stub's method or attribute."""
-    return node.target.id if isinstance(node, ast.AnnAssign) else node.name
+def at_once(count: int) -> float:
+    world = ovoid.World(threads=2)
+    ids = world.add_many([ovoid.Shape.sphere(1)] * count, [(3 * i, 0, 0) for i in range(count)])
+    hit = world.nearest(ids[0])
+    first: float = world.contacts("distance", 2).items["lower"][0]
+    return first + (hit.lower if hit else 0) + float(ovoid.Shape.sphere(1).vertices[0, 0])
 
-
-# What a build without libovoid_robot, or without readers of files, lacks.
-OF_ROBOTS = {"Robot", "Cell", "RobotPath", "compare_states"}
-OF_FILES = {"read_obstacles", "read_motion_request", "find_problems", "read_path_sources"}
+def manage() -> bool:
+    manager = CollisionManager()
+    manager.add_object("a", ovoid.Shape.sphere(1))
+    hit, names = manager.in_collision_internal(return_names=True)
+    return bool(hit)
+"""
 
 
 class Stubs(unittest.TestCase):
-    def setUp(self):
-        self.tree = ast.parse(read("python/ovoid/__init__.pyi"))
-        lacking = (set() if ovoid.has_robot else OF_ROBOTS) | (set() if ovoid.has_robot and ovoid.has_io else OF_FILES)
-        if not ovoid.has_io:
-            lacking.add("read_parts")
-        self.tree.body = [node for node in self.tree.body if getattr(node, "name", None) not in lacking]
+    @unittest.skipUnless(ovoid.has_io and ovoid.has_robot, "needs a build with files and robots")
+    def test_stub(self):
+        """The stub is what the package says, so every name in it has a docstring with its types."""
+        folder = os.path.dirname(os.path.dirname(ovoid.__file__))
+        script = os.path.join(SOURCE, "scripts/python-stubs")
+        self.assertEqual(subprocess.run([sys.executable, script, "--check", folder], check=False).returncode, 0)
 
-    def check_function(self, stub, function, where):
-        try:
-            signature = inspect.signature(function)
-        except ValueError:
-            self.fail(f"{where} has no signature in its docstring")
-        names = [name for name in signature.parameters if name not in ("self", "cls")]
-        self.assertEqual(names, get_arguments(stub), where)
+    def test_docstrings(self):
+        """Everything public has words, and what is called has a signature that inspect reads."""
+        for name in ovoid.__all__:
+            item = getattr(ovoid, name)
+            members = {f"{name}.{key}": getattr(item, key) for key in vars(item) if key[0] != "_"} if inspect.isclass(item) else {}
+            for where, what in {name: item, **members}.items():
+                if isinstance(what, (int, str)):
+                    continue
+                self.assertTrue(what.__doc__, where)
+                if inspect.isroutine(what) and getattr(what, "__module__", None) != "enum":
+                    inspect.signature(what)
 
-    def test_functions(self):
-        stubs = {node.name: node for node in self.tree.body if isinstance(node, ast.FunctionDef)}
-        functions = {name for name in ovoid.__all__ if inspect.isroutine(getattr(ovoid, name))}
-        self.assertEqual(set(stubs), functions)
-        for name in functions - {"read"}:
-            self.check_function(stubs[name], getattr(ovoid, name), name)
-
-    def test_classes(self):
-        stubs = {node.name: node for node in self.tree.body if isinstance(node, ast.ClassDef) and node.name[0] != "_"}
-        classes = {name for name in ovoid.__all__ if inspect.isclass(getattr(ovoid, name))}
-        imported = {alias.asname for node in self.tree.body if isinstance(node, ast.ImportFrom) for alias in node.names}
-        self.assertEqual(set(stubs), classes - imported)
-        for name, stub in stubs.items():
-            kind = getattr(ovoid, name)
-            if issubclass(kind, tuple):
-                continue
-            said = {get_name(node): node for node in stub.body}
-            there = {key for key in vars(kind) if not key.startswith("_")}
-            if not ovoid.has_io:
-                there |= {"read", "read_paths", "write"} & set(said)
-            self.assertEqual({key for key in said if not key.startswith("_")}, there, name)
-            for key in there:
-                if inspect.isroutine(getattr(kind, key, None)) and key != "tolist":
-                    self.check_function(said[key], getattr(kind, key), f"{name}.{key}")
-                self.assertTrue(getattr(kind, key, ovoid.read).__doc__, f"{name}.{key}")
+    @unittest.skipUnless(shutil.which("mypy"), "needs mypy")
+    def test_mypy(self):
+        """A user's file, and one with a mistake, by mypy --strict."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "user.py")
+            environment = dict(os.environ, MYPYPATH=os.path.dirname(os.path.dirname(ovoid.__file__)))
+            for text, is_good in ((USER, True), (USER + "\nclearance(1, 2).status\novoid.distance(1, 2)\n", False)):
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(text)
+                run = subprocess.run(["mypy", "--strict", "--cache-dir", folder, path], capture_output=True, text=True,
+                                     check=False, env=environment)
+                self.assertEqual(run.stdout.count(" error: "), 0 if is_good else 3, run.stdout + run.stderr)
 
 
 class Words(unittest.TestCase):

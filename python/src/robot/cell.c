@@ -288,43 +288,48 @@ static PyObject *pair(PyObject *object, PyObject *given) {
 
 static PyMethodDef own_methods[] = {
     {"add", METHOD_KEYWORDS(add), METH_VARARGS | METH_KEYWORDS,
-     "add(body, pose=None)\n--\n\nAdds an obstacle, a Shape or a Compound, posed in the root link's frame: its id."},
+     "add(body: Body, pose: PoseLike = None) -> int\n--\n\nAdds an obstacle, a Shape or a Compound, posed in the root "
+     "link's frame: its id."},
     {"attach", METHOD_KEYWORDS(attach), METH_VARARGS | METH_KEYWORDS,
-     "attach(link, body, pose=None, touching=())\n--\n\nAttaches a body to a link, in whose frame its pose is: its id. "
-     "It may touch this link and those of touching."},
-    {"remove", remove_body, METH_O, "remove(id, /)\n--\n\nRemoves an obstacle or an attached body."},
+     "attach(link: LinkLike, body: Body, pose: PoseLike = None, touching: Sequence[LinkLike] = ()) -> "
+     "int\n--\n\nAttaches a body to a link, in whose frame its pose is: its id. It may touch this link and those of "
+     "touching."},
+    {"remove", remove_body, METH_O, "remove(id: int, /) -> None\n--\n\nRemoves an obstacle or an attached body."},
     {"move", move, METH_VARARGS,
-     "move(id, pose, /)\n--\n\nMoves an obstacle, or an attached body in its link's frame."},
+     "move(id: int, pose: PoseLike, /) -> None\n--\n\nMoves an obstacle, or an attached body in its link's frame."},
     {"allow", METHOD_KEYWORDS(allow), METH_VARARGS | METH_KEYWORDS,
-     "allow(a, b, allowed=True)\n--\n\nLets two links touch, or takes that back."},
+     "allow(a: LinkLike, b: LinkLike, allowed: bool = True) -> None\n--\n\nLets two links touch, or takes that back."},
     {"allow_body", METHOD_KEYWORDS(allow_body), METH_VARARGS | METH_KEYWORDS,
-     "allow_body(id, link, allowed=True)\n--\n\nLets an obstacle or an attached body touch a link, or takes that "
-     "back."},
+     "allow_body(id: int, link: LinkLike, allowed: bool = True) -> None\n--\n\nLets an obstacle or an attached body "
+     "touch a link, or takes that back."},
     {"set_padding", METHOD_KEYWORDS(set_padding), METH_VARARGS | METH_KEYWORDS,
-     "set_padding(link, padding)\n--\n\nEnlarges a link, with what is attached to it, against obstacles by a length >= "
-     "0."},
+     "set_padding(link: LinkLike, padding: float) -> None\n--\n\nEnlarges a link, with what is attached to it, against "
+     "obstacles by a length >= 0."},
     {"is_allowed", METHOD_KEYWORDS(is_allowed), METH_VARARGS | METH_KEYWORDS,
-     "is_allowed(a, b)\n--\n\nWhether a pair of links is not queried: disabled, allowed, or rigid."},
+     "is_allowed(a: LinkLike, b: LinkLike) -> bool\n--\n\nWhether a pair of links is not queried: disabled, allowed, "
+     "or rigid."},
     {"is_body_allowed", METHOD_KEYWORDS(is_body_allowed), METH_VARARGS | METH_KEYWORDS,
-     "is_body_allowed(id, link)\n--\n\nWhether an obstacle or an attached body and a link are not queried."},
+     "is_body_allowed(id: int, link: LinkLike) -> bool\n--\n\nWhether an obstacle or an attached body and a link are "
+     "not queried."},
     {"get_padding", get_padding, METH_O,
-     "get_padding(link, /)\n--\n\nBy how much a link is enlarged against obstacles."},
-    {"pair", pair, METH_O, "pair(number, /)\n--\n\nThe two Sides of a pair, 0 <= number < pair_count."},
+     "get_padding(link: LinkLike, /) -> float\n--\n\nBy how much a link is enlarged against obstacles."},
+    {"pair", pair, METH_O,
+     "pair(number: int, /) -> tuple[Side, Side]\n--\n\nThe two Sides of a pair, 0 <= number < pair_count."},
     {"reset", reset, METH_NOARGS,
-     "reset()\n--\n\nForgets the states before: the next query has the bits of a new cell's."},
+     "reset() -> None\n--\n\nForgets the states before: the next query has the bits of a new cell's."},
     {NULL, NULL, 0, NULL}};
 
 static PyGetSetDef fields[] = {
-    {"robot", get_robot, NULL, "The Robot.", NULL},
-    {"bodies", get_bodies, NULL, "A dict of the bodies by their ids.", NULL},
-    {"pair_count", get_pair_count, NULL, "How many pairs there are, queried or left out.", NULL},
+    {"robot", get_robot, NULL, "Robot: The Robot.", NULL},
+    {"bodies", get_bodies, NULL, "dict[int, Body]: A dict of the bodies by their ids.", NULL},
+    {"pair_count", get_pair_count, NULL, "int: How many pairs there are, queried or left out.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyType_Slot slots[] = {
     {Py_tp_doc,
-     "Cell(robot)\n--\n\nA robot among obstacles, what it holds, which pairs are left out. A pair of links is queried "
-     "unless the description\ndisables it, the cell allows it, or nothing but fixed joints is between the two. Any "
-     "number of threads may query it\nat once; a change meanwhile raises RuntimeError."},
+     "Cell(robot: Robot) -> Cell\n--\n\nA robot among obstacles, what it holds, which pairs are left out. A pair of "
+     "links is queried unless the description\ndisables it, the cell allows it, or nothing but fixed joints is between "
+     "the two. Any number of threads may query it\nat once; a change meanwhile raises RuntimeError."},
     {Py_tp_new, cell_new},
     {Py_tp_dealloc, cell_dealloc},
     {Py_tp_methods, NULL},
@@ -340,8 +345,8 @@ int cell_add(PyObject *module) {
     static PyMethodDef files[8], with_files[32];
     slots_set_methods(slots, files, cell_scenes, cell_proofs);
     slots_set_methods(slots, with_files, all, files);
-    if (PyModule_AddFunctions(module, robot_proof_functions)) return -1;
+    if (functions_add(module, robot_proof_functions)) return -1;
 #endif
-    if (PyModule_AddFunctions(module, robot_functions)) return -1;
+    if (functions_add(module, robot_functions)) return -1;
     return type_add(module, &spec, &state_of_module(module)->cell);
 }

@@ -280,40 +280,42 @@ static PyObject *nearest_batch(PyObject *object, PyObject *arguments, PyObject *
 
 PyObject *find_hit(PyObject *object, PyObject *arguments, PyObject *keywords);
 
-#define NEAREST_SIGNATURE "margin=1e999, limit_slack=0, without_self=False, without_obstacles=False"
+#define NEAREST_SIGNATURE                                                                                              \
+    "margin: float = 1e999, limit_slack: float = 0, without_self: bool = False, without_obstacles: bool = False"
 #define NEAR_DOC                                                                                                       \
     "records link_a, element_a, body_a, part_a,\nlink_b, ..., status, lower, upper, point_a, point_b, normal (root "   \
     "link's frame), has_gradient; and the gradients\nd distance / d q, "
 PyMethodDef cell_queries[] = {
     {"collide", METHOD_KEYWORDS(collide), METH_VARARGS | METH_KEYWORDS,
-     "collide(q, *, " ROBOT_QUERY_SIGNATURE
-     ")\n--\n\nIs a state, an array (variables,), free? A StateAnswer: its status is FREE (all pairs proven farther "
-     "apart than\nmargin), HIT (a pair proven within it), UNDECIDED (treat it as a hit) or REFUSED (outside its limits "
-     "by more than\nlimit_slack). Begins with the pair that ended the state before."},
+     "collide(q: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     ") -> StateAnswer\n--\n\nIs a state, an array (variables,), free? A StateAnswer: its status is FREE (all pairs "
+     "proven farther apart than\nmargin), HIT (a pair proven within it), UNDECIDED (treat it as a hit) or REFUSED "
+     "(outside its limits by more than\nlimit_slack). Begins with the pair that ended the state before."},
     {"collide_batch", METHOD_KEYWORDS(collide_batch), METH_VARARGS | METH_KEYWORDS,
-     "collide_batch(q, *, " ROBOT_QUERY_SIGNATURE
-     ", threads=1, out=None, progress=None)\n--\n\nMany states, (n, variables): an array of n records status "
-     "(RobotStatus by number), code, variable, link_a, element_a,\nbody_a, part_a, link_b, ..., lower, upper; 2**32 - "
-     "1 is no link, no element. The same bits on any number of threads.\nout: an array of zeros('states', n). "
-     "progress(done, total) is called now and then; Ctrl-C ends it."},
+     "collide_batch(q: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     ", threads: int = 1, out: Records | None = None, progress: Progress | None = None) -> Records\n--\n\nMany states, "
+     "(n, variables): an array of n records status (RobotStatus by number), code, variable, link_a, "
+     "element_a,\nbody_a, part_a, link_b, ..., lower, upper; 2**32 - 1 is no link, no element. The same bits on any "
+     "number of threads.\nout: an array of zeros('states', n). progress(done, total) is called now and then; Ctrl-C "
+     "ends it."},
     {"near", METHOD_KEYWORDS(near), METH_VARARGS | METH_KEYWORDS,
-     "near(q, margin, *, limit_slack=0, without_self=False, without_obstacles=False, without_depths=False)\n--\n\nAll "
-     "pairs that are not "
-     "proven farther apart than margin, nearest first: " NEAR_DOC "(m, variables). without_depths: of most pairs that "
-     "overlap only that is\nsaid, by a bracket that ends below zero."},
+     "near(q: Numbers, margin: float, *, limit_slack: float = 0, without_self: bool = False, without_obstacles: bool = "
+     "False, without_depths: bool = False) -> tuple[Records, Floats]\n--\n\nAll pairs that are not proven farther "
+     "apart than margin, nearest first: " NEAR_DOC "(m, variables). without_depths: of most pairs that overlap only "
+     "that is\nsaid, by a bracket that ends below zero."},
     {"nearest", METHOD_KEYWORDS(nearest), METH_VARARGS | METH_KEYWORDS,
-     "nearest(q, *, " NEAREST_SIGNATURE ")\n--\n\nThe nearest pair, where one is not proven farther apart than margin: "
-     "one record or none, as of near, and "
-     "its gradient."},
+     "nearest(q: Numbers, *, " NEAREST_SIGNATURE
+     ") -> tuple[Records, Floats]\n--\n\nThe nearest pair, where one is not proven farther apart than margin: one "
+     "record or none, as of near, and its gradient."},
     {"nearest_batch", METHOD_KEYWORDS(nearest_batch), METH_VARARGS | METH_KEYWORDS,
-     "nearest_batch(q, *, " NEAREST_SIGNATURE
-     ", progress=None)\n--\n\nThe nearest pair of many states, (n, variables): n " NEAR_DOC
-     "(n, variables). Where none is within margin, lower is margin\nand upper inf. A state that is refused raises "
-     "Error, place its number."},
+     "nearest_batch(q: Numbers, *, " NEAREST_SIGNATURE
+     ", progress: Progress | None = None) -> tuple[Records, Floats]\n--\n\nThe nearest pair of many states, (n, "
+     "variables): n " NEAR_DOC "(n, variables). Where none is within margin, lower is margin\nand upper inf. A state "
+     "that is refused raises Error, place its number."},
     {"find_hit", METHOD_KEYWORDS(find_hit), METH_VARARGS | METH_KEYWORDS,
-     "find_hit(states, *, " ROBOT_QUERY_SIGNATURE
-     ", tolerance=0, most_states=0, any_hit=False)\n--\n\nIs the path through "
-     "states (n, variables), linear in between, free at all "
-     "times? A RobotPath with its proof,\nwhich verify() checks. tolerance: of hit_at - free_until, 0: 2**-20; "
-     "most_states: looked at, 0: 100 000. any_hit: the search ends with any hit, which need not be the first."},
+     "find_hit(states: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     ", tolerance: float = 0, most_states: int = 0, any_hit: bool = False) -> RobotPath\n--\n\nIs the path through "
+     "states (n, variables), linear in between, free at all times? A RobotPath with its proof,\nwhich verify() checks. "
+     "tolerance: of hit_at - free_until, 0: 2**-20; most_states: looked at, 0: 100 000. any_hit: the search ends with "
+     "any hit, which need not be the first."},
     {NULL, NULL, 0, NULL}};

@@ -99,12 +99,11 @@ static PyObject *compare_states(PyObject *module, PyObject *arguments, PyObject 
     return made;
 }
 
-PyMethodDef robot_functions[] = {{"compare_states", METHOD_KEYWORDS(compare_states), METH_VARARGS | METH_KEYWORDS,
-                                  "compare_states(robot, model, q, *, " ROBOT_QUERY_SIGNATURE
-                                  ", progress=None)\n--\n\nIn which states (n, variables) do two "
-                                  "Cells disagree, of a robot and of a model of it such as robot.with_spheres(...)?\nA "
-                                  "Comparison: counts, an Agreement "
-                                  "of each state, and the missed state where the robot overlaps most. What is said "
-                                  "to\nbe missed or invented is proven. "
-                                  "progress(done, total) is called now and then; Ctrl-C ends it."},
-                                 {NULL, NULL, 0, NULL}};
+PyMethodDef robot_functions[] = {
+    {"compare_states", METHOD_KEYWORDS(compare_states), METH_VARARGS | METH_KEYWORDS,
+     "compare_states(robot: Cell, model: Cell, q: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     ", progress: Progress | None = None) -> Comparison\n--\n\nIn which states (n, variables) do two Cells disagree, "
+     "of a robot and of a model of it such as robot.with_spheres(...)?\nA Comparison: counts, an Agreement of each "
+     "state, and the missed state where the robot overlaps most. What is said to\nbe missed or invented is proven. "
+     "progress(done, total) is called now and then; Ctrl-C ends it."},
+    {NULL, NULL, 0, NULL}};

@@ -293,13 +293,14 @@ static PyObject *read_robot(PyObject *type, PyObject *arguments, PyObject *keywo
 
 PyMethodDef robot_constructors[] = {
     {"read", METHOD_KEYWORDS(read_robot), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
-     "read(urdf, srdf=None, *, packages=None, parts=False, visual=False, solids=True, scales=None, fixed_base=False, "
-     "tolerance=0)\n--\n\nFrom a URDF with its meshes, perhaps with an SRDF; metres. packages: {name: folder} of "
-     "package:// addresses. solids: a\nmesh counts as what it is, its hull, the solid that its triangles enclose, or, "
-     "where they are not closed, their surface;\nFalse: as its hull. parts: as the hulls of its objects. visual: links "
-     "without collision geometry take their visual one.\nscales: {link: factor} of the sizes of links, None: of all "
-     "others. fixed_base: the SRDF's virtual joint adds nothing.\ntolerance: of cylinders. What should be known is a "
-     "UserWarning."},
+     "read(urdf: PathLike, srdf: PathLike | None = None, *, packages: dict[str, PathLike] | None = None, parts: bool = "
+     "False, visual: bool = False, solids: bool = True, scales: dict[str | None, float] | None = None, fixed_base: "
+     "bool = False, tolerance: float = 0) -> Robot\n--\n\nFrom a URDF with its meshes, perhaps with an SRDF; metres. "
+     "packages: {name: folder} of package:// addresses. solids: a\nmesh counts as what it is, its hull, the solid that "
+     "its triangles enclose, or, where they are not closed, their surface;\nFalse: as its hull. parts: as the hulls of "
+     "its objects. visual: links without collision geometry take their visual one.\nscales: {link: factor} of the "
+     "sizes of links, None: of all others. fixed_base: the SRDF's virtual joint adds nothing.\ntolerance: of "
+     "cylinders. What should be known is a UserWarning."},
     {NULL, NULL, 0, NULL}};
 
 // ---- scenes
@@ -423,17 +424,17 @@ static PyObject *find_problems(PyObject *module, PyObject *given) {
 
 PyMethodDef robot_file_functions[] = {
     {"read_obstacles", METHOD_KEYWORDS(read_obstacles), METH_VARARGS | METH_KEYWORDS,
-     "read_obstacles(path, tolerance=0, *, solids=True)\n--\n\nThe obstacles of a scene, MoveIt's YAML or ovoid's "
-     "JSON: "
-     "Obstacle tuples (name, shape, pose, solid, frame, link). A solid\ncounts in the place of the shape, which is its "
-     "hull. frame: the link or fixed frame in which the pose is, None: the root's.\nlink: the link that holds it, or "
-     "None. tolerance: of cylinders and cones, a length. solids=False: meshes are their hulls."},
+     "read_obstacles(path: PathLike, tolerance: float = 0, *, solids: bool = True) -> list[Obstacle]\n--\n\nThe "
+     "obstacles of a scene, MoveIt's YAML or ovoid's JSON: Obstacle tuples (name, shape, pose, solid, frame, link). A "
+     "solid\ncounts in the place of the shape, which is its hull. frame: the link or fixed frame in which the pose is, "
+     "None: the root's.\nlink: the link that holds it, or None. tolerance: of cylinders and cones, a length. "
+     "solids=False: meshes are their hulls."},
     {"read_motion_request", read_motion_request, METH_O,
-     "read_motion_request(path, /)\n--\n\nA motion planning request of MoveIt (YAML): a MotionRequest (group, start, "
-     "goals), states as dicts of joints."},
+     "read_motion_request(path: PathLike, /) -> MotionRequest\n--\n\nA motion planning request of MoveIt (YAML): a "
+     "MotionRequest (group, start, goals), states as dicts of joints."},
     {"find_problems", find_problems, METH_O,
-     "find_problems(folder, /)\n--\n\nThe planning problems of a folder: a list of (name, path of the scene, path of "
-     "the request)."},
+     "find_problems(folder: PathLike, /) -> list[tuple[str, str, str]]\n--\n\nThe planning problems of a folder: a "
+     "list of (name, path of the scene, path of the request)."},
     {NULL, NULL, 0, NULL}};
 
 // ---- Cell.read
@@ -513,9 +514,10 @@ static PyObject *read_into(PyObject *object, PyObject *arguments, PyObject *keyw
 
 PyMethodDef cell_scenes[] = {
     {"read", METHOD_KEYWORDS(read_into), METH_VARARGS | METH_KEYWORDS,
-     "read(path, tolerance=0, *, solids=True, paddings=None)\n--\n\nPuts a scene around the robot, as read_obstacles "
-     "reads it: obstacles, what links hold, paddings and allowed collisions. A\nlist of (name, id). paddings: {link: "
-     "length}, None: of all other links; they count before those of the scene."},
+     "read(path: PathLike, tolerance: float = 0, *, solids: bool = True, paddings: dict[str | None, float] | None = "
+     "None) -> list[tuple[str, int]]\n--\n\nPuts a scene around the robot, as read_obstacles reads it: obstacles, what "
+     "links hold, paddings and allowed collisions. A\nlist of (name, id). paddings: {link: length}, None: of all other "
+     "links; they count before those of the scene."},
     {NULL, NULL, 0, NULL}};
 #else
 typedef int nothing_to_read; // ISO C wants a declaration

@@ -57,7 +57,7 @@ static PyObject *compute_matrix(PyObject *object, PyObject *arguments, PyObject 
 
 PyMethodDef robot_matrix_methods[] = {
     {"compute_matrix", METHOD_KEYWORDS(compute_matrix), METH_VARARGS | METH_KEYWORDS,
-     "compute_matrix(*, samples=0, budget=0, seed=0)\n--\n\nWhich pairs of links never touch, always do, or sometimes "
-     "do, within the limits: MatrixPair tuples. samples: random\nstates, 0: 10 000; budget: cells of joint space a "
-     "proof looks at, 0: 100 000. Takes seconds; Ctrl-C ends it."},
+     "compute_matrix(*, samples: int = 0, budget: int = 0, seed: int = 0) -> tuple[MatrixPair, ...]\n--\n\nWhich pairs "
+     "of links never touch, always do, or sometimes do, within the limits: MatrixPair tuples. samples: random\nstates, "
+     "0: 10 000; budget: cells of joint space a proof looks at, 0: 100 000. Takes seconds; Ctrl-C ends it."},
     {NULL, NULL, 0, NULL}};

@@ -200,20 +200,21 @@ static PyObject *repr(PyObject *self) {
 }
 
 static PyGetSetDef fields[] = {
-    FIELD(path_object, FIELD_ENUM + ENUM_ROBOT_STATUS, "status", of.status,
-          "What is proven of the path: a RobotStatus."),
-    FIELD(path_object, FIELD_DOUBLE, "free_until", of.free_until,
+    FIELD(path_object, ROBOT_STATUS, "status", of.status, "What is proven of the path."),
+    FIELD(path_object, DOUBLE, "free_until", of.free_until,
           "Proven: free at all s before it; s is i at state i, linear in between."),
-    FIELD(path_object, FIELD_DOUBLE, "hit_at", of.hit_at, "Where it is proven to be a hit; inf where it is not one."),
-    FIELD(path_object, FIELD_UINT, "looked_at", of.states, "How many states were looked at."),
+    FIELD(path_object, DOUBLE, "hit_at", of.hit_at, "Where it is proven to be a hit; inf where it is not one."),
+    FIELD(path_object, UINT, "looked_at", of.states, "How many states were looked at."),
     {"hit", get_hit, NULL,
-     "The StateAnswer at hit_at, or of what is undecided or refused; None where it is free, or a file does not tell.",
+     "StateAnswer | None: The StateAnswer at hit_at, or of what is undecided or refused; None where it is free, or a "
+     "file does not tell.",
      NULL},
-    {"refused", get_refused, NULL, "The state that is refused, or at whose beginning a segment is; else None.", NULL},
+    {"refused", get_refused, NULL,
+     "int | None: The state that is refused, or at whose beginning a segment is; else None.", NULL},
     {"steps", get_steps, NULL,
-     "The proof: an array of records begin, end, pair, kind (1 outer, 2 middle, 3 ends), mask, normal.", NULL},
-    {"states", get_states, NULL, "The states of the path, (n, variables).", NULL},
-    {"cell", get_cell, NULL, "The Cell that was asked.", NULL},
+     "Records: The proof: an array of records begin, end, pair, kind (1 outer, 2 middle, 3 ends), mask, normal.", NULL},
+    {"states", get_states, NULL, "Floats: The states of the path, (n, variables).", NULL},
+    {"cell", get_cell, NULL, "Cell: The Cell that was asked.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyType_Slot slots[] = {{Py_tp_doc,

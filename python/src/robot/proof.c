@@ -141,18 +141,16 @@ static PyObject *read_path_sources(PyObject *module, PyObject *given) {
 
 PyMethodDef cell_proofs[] = {
     {"read_paths", read_paths, METH_O,
-     "read_paths(path, /)\n--\n\nThe paths of a file that `ovoid robot path --proofs` wrote, as claims about this "
-     "cell: a "
-     "list of RobotPaths, which verify()\nmeasures. Error where the file's variables or pairs of bodies are others; "
-     "the "
-     "cell's obstacles count by their\norder, not by name."},
+     "read_paths(path: PathLike, /) -> list[RobotPath]\n--\n\nThe paths of a file that `ovoid robot path --proofs` "
+     "wrote, as claims about this cell: a list of RobotPaths, which verify()\nmeasures. Error where the file's "
+     "variables or pairs of bodies are others; the cell's obstacles count by their\norder, not by name."},
     {NULL, NULL, 0, NULL}};
-PyMethodDef robot_proof_functions[] = {{"read_path_sources", read_path_sources, METH_O,
-                                        "read_path_sources(path, /)\n--\n\nWhat the paths of a file of path proofs are "
-                                        "of, a list of dicts: the files robot, "
-                                        "srdf and scene, packages, scales,\npaddings, how they were read, margin, "
-                                        "limit_slack, variables, path_count, digest."},
-                                       {NULL, NULL, 0, NULL}};
+PyMethodDef robot_proof_functions[] = {
+    {"read_path_sources", read_path_sources, METH_O,
+     "read_path_sources(path: PathLike, /) -> list[dict[str, Any]]\n--\n\nWhat the paths of a file of path proofs are "
+     "of, a list of dicts: the files robot, srdf and scene, packages, scales,\npaddings, how they were read, margin, "
+     "limit_slack, variables, path_count, digest."},
+    {NULL, NULL, 0, NULL}};
 #else
 typedef int nothing_to_prove; // ISO C wants a declaration
 #endif

@@ -237,33 +237,35 @@ static PyObject *repr(PyObject *self) {
 
 static PyMethodDef own_methods[] = {
     {"poses", METHOD_KEYWORDS(poses), METH_VARARGS | METH_KEYWORDS,
-     "poses(q, *, order=None)\n--\n\nWhere the links are, in the root link's frame: of one state (variables,) an array "
-     "(links, 4, 4), of many (n, variables)\n(n, links, 4, 4). order 'wxyz' or 'xyzw': x y z and a quaternion instead, "
-     "(..., 7). Limits are not looked at."},
+     "poses(q: Numbers, *, order: Order = None) -> Floats\n--\n\nWhere the links are, in the root link's frame: of one "
+     "state (variables,) an array (links, 4, 4), of many (n, variables)\n(n, links, 4, 4). order 'wxyz' or 'xyzw': x y "
+     "z and a quaternion instead, (..., 7). Limits are not looked at."},
     {"pose_errors", pose_errors, METH_O,
-     "pose_errors(q)\n--\n\nHow far the poses of one state are from the exact kinematics at most: an array (links, 2), "
-     "of the origin (a length) and\nof the rotation (operator norm)."},
+     "pose_errors(q: Numbers, /) -> Floats\n--\n\nHow far the poses of one state are from the exact kinematics at "
+     "most: an array (links, 2), of the origin (a length) and\nof the rotation (operator norm)."},
     {"validate_limits", METHOD_KEYWORDS(validate_limits), METH_VARARGS | METH_KEYWORDS,
-     "validate_limits(q, slack=0)\n--\n\nRaises Error, place the variable, where one is outside its limits by more "
-     "than "
-     "slack."},
+     "validate_limits(q: Numbers, slack: float = 0) -> None\n--\n\nRaises Error, place the variable, where one is "
+     "outside its limits by more than slack."},
     {"is_rigid_pair", is_rigid_pair, METH_VARARGS,
-     "is_rigid_pair(a, b, /)\n--\n\nTrue where nothing but fixed joints is between two links (names or indices)."},
-    {"find_link", find_link, METH_O, "find_link(name, /)\n--\n\nThe index of a link."},
-    {"find_joint", find_joint, METH_O, "find_joint(name, /)\n--\n\nThe index of a joint."},
+     "is_rigid_pair(a: LinkLike, b: LinkLike, /) -> bool\n--\n\nTrue where nothing but fixed joints is between two "
+     "links (names or indices)."},
+    {"find_link", find_link, METH_O, "find_link(name: LinkLike, /) -> int\n--\n\nThe index of a link."},
+    {"find_joint", find_joint, METH_O, "find_joint(name: str, /) -> int\n--\n\nThe index of a joint."},
     {"parent_joint", parent_joint, METH_O,
-     "parent_joint(link, /)\n--\n\nThe index of the joint whose child a link is; None for the root."},
+     "parent_joint(link: LinkLike, /) -> int | None\n--\n\nThe index of the joint whose child a link is; None for the "
+     "root."},
     {"joint_variable", joint_variable, METH_O,
-     "joint_variable(joint, /)\n--\n\nThe first variable that moves a joint, which may be that of the joint it mimics; "
-     "None: it is fixed."},
+     "joint_variable(joint: str, /) -> int | None\n--\n\nThe first variable that moves a joint, which may be that of "
+     "the joint it mimics; None: it is fixed."},
     {NULL, NULL, 0, NULL}};
 
 static PyType_Slot slots[] = {
     {Py_tp_doc,
-     "Robot(links, joints, elements=(), disabled=(), *, name=None)\n--\n\nLinks that hang on joints. Robot.read reads "
-     "a URDF.\n\nlinks: names. joints: Joint tuples, which make one tree of all links; mimic names another joint. "
-     "elements:\n(link, shape, pose, name) each, pose and name may be left out. disabled: pairs of names. Lengths are "
-     "the caller's\nunit, angles radians. Immutable; a Cell says what it touches."},
+     "Robot(links: Sequence[str], joints: Sequence[Joint], elements: Sequence[tuple[Any, ...]] = (), disabled: "
+     "Sequence[tuple[str, str]] = (), *, name: str | None = None) -> Robot\n--\n\nLinks that hang on joints. "
+     "Robot.read reads a URDF.\n\nlinks: names. joints: Joint tuples, which make one tree of all links; mimic names "
+     "another joint. elements:\n(link, shape, pose, name) each, pose and name may be left out. disabled: pairs of "
+     "names. Lengths are the caller's\nunit, angles radians. Immutable; a Cell says what it touches."},
     {Py_tp_new, robot_new},
     {Py_tp_dealloc, robot_dealloc},
     {Py_tp_repr, repr},
@@ -280,7 +282,7 @@ int robot_add(PyObject *module) {
 #ifdef OVOID_PYTHON_ROBOT_READ
     static PyMethodDef with_files[24];
     slots_set_methods(slots, with_files, all, robot_constructors);
-    if (PyModule_AddFunctions(module, robot_file_functions)) return -1;
+    if (functions_add(module, robot_file_functions)) return -1;
 #endif
     return type_add(module, &spec, &state_of_module(module)->robot);
 }

@@ -62,7 +62,8 @@ int cell_keep(cell_object *self, ovoid_id id, PyObject *body);
 
 /// The options that every query of a cell takes, as arguments of PyArg_ParseTupleAndKeywords.
 #define ROBOT_QUERY_FORMAT "ddpp"
-#define ROBOT_QUERY_SIGNATURE "margin=0, limit_slack=0, without_self=False, without_obstacles=False"
+#define ROBOT_QUERY_SIGNATURE                                                                                          \
+    "margin: float = 0, limit_slack: float = 0, without_self: bool = False, without_obstacles: bool = False"
 #define ROBOT_QUERY_NAMES "margin", "limit_slack", "without_self", "without_obstacles"
 #define ROBOT_QUERY_TARGETS(o) &(o).margin, &(o).limit_slack, &(o).without_self, &(o).without_obstacles
 

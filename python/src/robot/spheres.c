@@ -130,16 +130,16 @@ static PyObject *with_spheres(PyObject *object, PyObject *given) {
 
 PyMethodDef robot_spheres_methods[] = {
     {"with_spheres", with_spheres, METH_O,
-     "with_spheres(spheres, /)\n--\n\nThe Robot with spheres in the place of its elements: (link, (x, y, z), radius) "
-     "each, "
-     "centre in the link's frame, as\n.spheres has them. A link that no sphere is of has no elements."},
+     "with_spheres(spheres: Sequence[tuple[LinkLike, Numbers, float]], /) -> Robot\n--\n\nThe Robot with spheres in "
+     "the place of its elements: (link, (x, y, z), radius) each, centre in the link's frame, as\n.spheres has them. A "
+     "link that no sphere is of has no elements."},
     {"audit_spheres", METHOD_KEYWORDS(audit_spheres), METH_VARARGS | METH_KEYWORDS,
-     "audit_spheres(link, spheres, *, tolerance=0, depth_cells=0, volume_cells=0, without_volumes=False)\n--\n\nHow "
-     "far "
-     "spheres, (n, 4) of centre (link's frame) and radius, are from covering a link: a SphereAudit of brackets."},
+     "audit_spheres(link: LinkLike, spheres: Numbers, *, tolerance: float = 0, depth_cells: int = 0, volume_cells: int "
+     "= 0, without_volumes: bool = False) -> SphereAudit\n--\n\nHow far spheres, (n, 4) of centre (link's frame) and "
+     "radius, are from covering a link: a SphereAudit of brackets."},
     {"cover_spheres", METHOD_KEYWORDS(cover_spheres), METH_VARARGS | METH_KEYWORDS,
-     "cover_spheres(link, count, *, excess=0, rounds=0, seed=0)\n--\n\nAt most count spheres that are proven to cover "
-     "a "
-     "link: an array (n, 4), and the bracket of the deepest uncovered\npoint's depth, whose upper end is at most 0. "
-     "excess > 0: the fewest spheres of which none stands out by more."},
+     "cover_spheres(link: LinkLike, count: int, *, excess: float = 0, rounds: int = 0, seed: int = 0) -> "
+     "tuple[Floats, tuple[float, float]]\n--\n\nAt most count spheres that are proven to cover a link: an array (n, "
+     "4), and the bracket of the deepest uncovered\npoint's depth, whose upper end is at most 0. excess > 0: the "
+     "fewest spheres of which none stands out by more."},
     {NULL, NULL, 0, NULL}};

@@ -459,41 +459,43 @@ static PyObject *proof(PyObject *object, PyObject *arguments) {
 
 static PyMethodDef methods[] = {
     {"add", METHOD_KEYWORDS(add), METH_VARARGS | METH_KEYWORDS,
-     "add(body, pose=None, *, group=0, mask=0)\n--\n\nAdds a Shape, Compound or Solid; returns its id. Two bodies are "
-     "a pair "
-     "if "
-     "a.group & b.mask and b.group & a.mask are\nboth not zero; both zero: all of both."},
+     "add(body: Body, pose: PoseLike = None, *, group: int = 0, mask: int = 0) -> int\n--\n\nAdds a Shape, Compound or "
+     "Solid; returns its id. Two bodies are a pair if a.group & b.mask and b.group & a.mask are\nboth not zero; both "
+     "zero: all of both."},
     {"add_many", METHOD_KEYWORDS(add_many), METH_VARARGS | METH_KEYWORDS,
-     "add_many(bodies, poses, *, order=None, group=0, mask=0)\n--\n\nAdds many, all or none; returns an array of their "
-     "ids. "
-     "poses and order as in Bodies."},
-    {"remove", remove_one, METH_O, "remove(id)\n--\n\nRemoves a body."},
-    {"remove_many", remove_many, METH_O, "remove_many(ids, /)\n--\n\nRemoves many bodies, all or none."},
-    {"move", move, METH_VARARGS, "move(id, pose)\n--\n\nMoves a body to a pose."},
+     "add_many(bodies: Sequence[Body], poses: PosesLike, *, order: Order = None, group: int = 0, mask: int = 0) -> "
+     "Ids\n--\n\nAdds many, all or none; returns an array of their ids. poses and order as in Bodies."},
+    {"remove", remove_one, METH_O, "remove(id: SupportsIndex, /) -> None\n--\n\nRemoves a body."},
+    {"remove_many", remove_many, METH_O,
+     "remove_many(ids: Numbers, /) -> None\n--\n\nRemoves many bodies, all or none."},
+    {"move", move, METH_VARARGS, "move(id: SupportsIndex, pose: PoseLike, /) -> None\n--\n\nMoves a body to a pose."},
     {"move_many", METHOD_KEYWORDS(move_many), METH_VARARGS | METH_KEYWORDS,
-     "move_many(ids, poses, *, order=None)\n--\n\nMoves many, all or none. poses and order as in Bodies."},
-    {"pose", get_pose, METH_O, "pose(id)\n--\n\nThe pose of a body."},
-    {"body", get_kept, METH_O, "body(id)\n--\n\nThe Shape, Compound or Solid of a body."},
-    {"ids", get_ids, METH_NOARGS, "ids()\n--\n\nThe ids of all bodies, in ascending order."},
-    {"set_groups", set_groups, METH_VARARGS, "set_groups(id, group, mask)\n--\n\nOther groups for a body."},
+     "move_many(ids: Numbers, poses: PosesLike, *, order: Order = None) -> None\n--\n\nMoves many, all or none. poses "
+     "and order as in Bodies."},
+    {"pose", get_pose, METH_O, "pose(id: SupportsIndex, /) -> Pose\n--\n\nThe pose of a body."},
+    {"body", get_kept, METH_O, "body(id: SupportsIndex, /) -> Body\n--\n\nThe Shape, Compound or Solid of a body."},
+    {"ids", get_ids, METH_NOARGS, "ids() -> Ids\n--\n\nThe ids of all bodies, in ascending order."},
+    {"set_groups", set_groups, METH_VARARGS,
+     "set_groups(id: SupportsIndex, group: int, mask: int, /) -> None\n--\n\nOther groups for a body."},
     {"set_ignored", set_ignored, METH_VARARGS,
-     "set_ignored(a, b, ignored=True)\n--\n\nLeaves a pair of ids out from now on, or takes it back."},
-    {"is_pair", is_pair, METH_VARARGS, "is_pair(a, b)\n--\n\nTrue where the two would be queried as a pair."},
+     "set_ignored(a: SupportsIndex, b: SupportsIndex, ignored: bool = True, /) -> None\n--\n\nLeaves a pair of ids out "
+     "from now on, or takes it back."},
+    {"is_pair", is_pair, METH_VARARGS,
+     "is_pair(a: SupportsIndex, b: SupportsIndex, /) -> bool\n--\n\nTrue where the two would be queried as a pair."},
     {"contacts", METHOD_KEYWORDS(contacts), METH_VARARGS | METH_KEYWORDS,
-     "contacts(kind='distance', margin=0, *, absolute_tolerance=0, relative_tolerance=0, cap=0, "
-     "iterations=0)\n--\n\nAll "
-     "pairs that are not proven farther than the margin: a Contacts tuple. kind: 'collide' (margin 0), 'within',\n"
-     "'distance' or 'depth'."},
+     "contacts(kind: Literal['collide', 'within', 'distance', 'depth'] = 'distance', margin: float = 0, "
+     "*, " QUERY_SIGNATURE ") -> Contacts\n--\n\nAll pairs that are not proven farther than the margin: a Contacts "
+     "tuple. kind: 'collide' (margin 0), 'within',\n'distance' or 'depth'."},
     {"proof", proof, METH_VARARGS,
-     "proof(a, b)\n--\n\nThe whole Answer of a contact at the present poses, which verify() takes."},
+     "proof(a: SupportsIndex, b: SupportsIndex, /) -> Answer\n--\n\nThe whole Answer of a contact at the present "
+     "poses, which verify() takes."},
     {NULL, NULL, 0, NULL}};
 
 static PyType_Slot slots[] = {
-    {Py_tp_doc,
-     "World(*, threads=1, enlargement=0)\n--\n\nMany bodies that move, and from step to step which of them touch or "
-     "are near; the proof of each pair is kept and\ngoes into the next step. Contacts have the same bits on any "
-     "number of threads. enlargement: how far a body may go\nbefore the tree is updated, in units of its size; "
-     "0: the world's choice."},
+    {Py_tp_doc, "World(*, threads: int = 1, enlargement: float = 0) -> World\n--\n\nMany bodies that move, and from "
+                "step to step which of them touch or are near; the proof of each pair is kept and\ngoes into the next "
+                "step. Contacts have the same bits on any number of threads. enlargement: how far a body may "
+                "go\nbefore the tree is updated, in units of its size; 0: the world's choice."},
     {Py_tp_new, world_new},
     {Py_tp_dealloc, world_dealloc},
     {Py_mp_length, length},

@@ -343,39 +343,36 @@ static PyObject *cast_body(PyObject *object, PyObject *arguments, PyObject *keyw
     return code == OVOID_OK ? make_cast(state, &cast) : raise_error(state, &error);
 }
 
-#define OPTIONS_SIGNATURE "absolute_tolerance=0, relative_tolerance=0, cap=0, iterations=0)\n--\n\n"
 PyMethodDef world_queries[] = {
     {"nearest", METHOD_KEYWORDS(nearest), METH_VARARGS | METH_KEYWORDS,
-     "nearest(id, *, " OPTIONS_SIGNATURE
-     "The body nearest to a body, within cap (0: any): a Hit, or None. Of those that "
+     "nearest(id: SupportsIndex, *, " QUERY_SIGNATURE
+     ") -> Hit | None\n--\n\nThe body nearest to a body, within cap (0: any): a Hit, or None. Of those that "
      "overlap it, one."},
     {"nearest_to", METHOD_KEYWORDS(nearest_to), METH_VARARGS | METH_KEYWORDS,
-     "nearest_to(body, pose=None, *, group=0, mask=0, " OPTIONS_SIGNATURE
-     "The body nearest to one that is not in the world: a Hit, or None."},
+     "nearest_to(body: Body, pose: PoseLike = None, *, group: int = 0, mask: int = 0, " QUERY_SIGNATURE
+     ") -> Hit | None\n--\n\nThe body nearest to one that is not in the world: a Hit, or None."},
     {"nearest_pair", METHOD_KEYWORDS(nearest_pair), METH_VARARGS | METH_KEYWORDS,
-     "nearest_pair(*, " OPTIONS_SIGNATURE
-     "The two nearest of all bodies: a Hit, or None. Two that overlap end the search."},
+     "nearest_pair(*, " QUERY_SIGNATURE
+     ") -> Hit | None\n--\n\nThe two nearest of all bodies: a Hit, or None. Two that overlap end the search."},
     {"find_any", find_any, METH_VARARGS,
-     "find_any(ids=None)\n--\n\nDoes any of these bodies (None: of all) touch another? The first Hit that is not "
-     "proven "
-     "apart, or None."},
+     "find_any(ids: Numbers | None = None, /) -> Hit | None\n--\n\nDoes any of these bodies (None: of all) touch "
+     "another? The first Hit that is not proven apart, or None."},
     {"find_any_to", METHOD_KEYWORDS(find_any_to), METH_VARARGS | METH_KEYWORDS,
-     "find_any_to(bodies, poses, *, order=None)\n--\n\nDoes any of these bodies, which are not in the world, touch one "
-     "of "
-     "it? The Hit whose a is its number, or None."},
+     "find_any_to(bodies: Sequence[Body], poses: PosesLike, *, order: Order = None) -> Hit | None\n--\n\nDoes any of "
+     "these bodies, which are not in the world, touch one of it? The Hit whose a is its number, or None."},
     {"find_any_of", METHOD_KEYWORDS(find_any_of), METH_VARARGS | METH_KEYWORDS,
-     "find_any_of(bodies, poses, couples, *, order=None)\n--\n\nfind_any_to, and then whether two of these bodies "
-     "touch: couples (m, 2), numbers of bodies, in the order given. Of\nsuch a couple the Hit's b is 2**63 plus the "
-     "number of the other."},
+     "find_any_of(bodies: Sequence[Body], poses: PosesLike, couples: Numbers, *, order: Order = None) -> Hit | "
+     "None\n--\n\nfind_any_to, and then whether two of these bodies touch: couples (m, 2), numbers of bodies, in the "
+     "order given. Of\nsuch a couple the Hit's b is 2**63 plus the number of the other."},
     {"overlaps", METHOD_KEYWORDS(overlaps), METH_VARARGS | METH_KEYWORDS,
-     "overlaps(body, pose=None, *, margin=0, group=0, mask=0, " OPTIONS_SIGNATURE
-     "All bodies that are not proven farther than margin from one that is not in the world: Hits, sorted by id."},
+     "overlaps(body: Body, pose: PoseLike = None, *, margin: float = 0, group: int = 0, mask: int = 0, " QUERY_SIGNATURE
+     ") -> list[Hit]\n--\n\nAll bodies that are not proven farther than margin from one that is not in the world: "
+     "Hits, sorted by id."},
     {"cast_ray", METHOD_KEYWORDS(cast_ray), METH_VARARGS | METH_KEYWORDS,
-     "cast_ray(origin, direction, length=1e999, *, radius=0, group=0, mask=0)\n--\n\nThe first hit of a ray, thick "
-     "where "
-     "its "
-     "radius is above 0: a Cast, whose body is 0 where there is none; t and length\nin lengths of direction."},
+     "cast_ray(origin: Numbers, direction: Numbers, length: float = 1e999, *, radius: float = 0, group: int = 0, mask: "
+     "int = 0) -> Cast\n--\n\nThe first hit of a ray, thick where its radius is above 0: a Cast, whose body is 0 where "
+     "there is none; t and length\nin lengths of direction."},
     {"cast_body", METHOD_KEYWORDS(cast_body), METH_VARARGS | METH_KEYWORDS,
-     "cast_body(body, pose, displacement, *, group=0, mask=0)\n--\n\nThe first hit of a body moved along displacement "
-     "without turning: a Cast, t from 0 to 1."},
+     "cast_body(body: Body, pose: PoseLike, displacement: Numbers, *, group: int = 0, mask: int = 0) -> "
+     "Cast\n--\n\nThe first hit of a body moved along displacement without turning: a Cast, t from 0 to 1."},
     {NULL, NULL, 0, NULL}};
