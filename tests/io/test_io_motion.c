@@ -57,29 +57,29 @@ static void check_velocities(void) {
 }
 
 static const bad_input bad_files[] = {
-    {"m_empty.csv", "", OVOID_ERROR_EMPTY, 1, "the file is empty"},
-    {"m_header.csv", "time,body\n", OVOID_ERROR_FORMAT, 1, "the first line must be time,body,x,y,z,qw,qx,qy,qz, or"},
-    {"m_no_header.csv", GOOD, OVOID_ERROR_FORMAT, 1, "the first line must be"},
-    {"m_few.csv", POSES GOOD "1,a,2\n", OVOID_ERROR_FORMAT, 3, "fewer than 9 columns"},
-    {"m_one.csv", POSES "1\n", OVOID_ERROR_FORMAT, 2, "fewer than 9 columns"},
-    {"m_many.csv", VELOCITIES "0,a,1,2,3,4,5,6,7\n", OVOID_ERROR_FORMAT, 2, "more than 8 columns"},
-    {"m_word.csv", POSES "0,a,1,2,three,1,0,0,0\n", OVOID_ERROR_FORMAT, 2, "column z: \"three\""},
-    {"m_blank.csv", POSES "0,a,1,,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 2, "column y: \"\" is not a number"},
-    {"m_time.csv", POSES "noon,a,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 2, "column time: \"noon\""},
-    {"m_nan_time.csv", POSES GOOD "nan,a,1,2,3,1,0,0,0\n", OVOID_ERROR_NOT_FINITE, 3, "column time is not finite"},
-    {"m_order.csv", POSES GOOD "1,a,1,2,3,1,0,0,0\n0.5,a,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 4, "sort them"},
-    {"m_twice.csv", POSES GOOD "0,b\n0,a,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 3, "fewer"},
-    {"m_again.csv", POSES GOOD "\n0,a,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 4, "\"a\" has a line at this time already"},
-    {"m_body.csv", POSES GOOD "0,nobody,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 3, "the scene has no object \"nobody\""},
-    {"m_no_body.csv", POSES "0,,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 2, "column body: is empty"},
-    {"m_quote.csv", POSES "0,\"a,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 2, "closing quote is missing"},
-    {"m_behind.csv", POSES "0,\"a\" b,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 2, "follows the closing quote"},
-    {"m_within.csv", POSES "0,a\"b,1,2,3,1,0,0,0\n", OVOID_ERROR_FORMAT, 2, "a quote within a text"},
-    {"m_nan.csv", POSES "0,a,nan,2,3,1,0,0,0\n", OVOID_ERROR_NOT_FINITE, 2, "column x is not finite"},
-    {"m_infinite.csv", VELOCITIES "0,a,1,2,3,1,0,1e999\n", OVOID_ERROR_NOT_FINITE, 2, "column wz is not finite"},
-    {"m_zero.csv", POSES "0,a,1,2,3,0,0,0,0\n", OVOID_ERROR_ROTATION, 2, "pose of \"a\" has a quaternion of four"},
-    {"m_far.csv", POSES "0,a,1e99,2,3,1,0,0,0\n", OVOID_ERROR_RANGE, 2, "pose of \"a\" has a number out of range"},
-    {"m_fast.csv", VELOCITIES "0,a,1,2,3,1,0,-1e99\n", OVOID_ERROR_RANGE, 2, "velocity of \"a\" has a number above"},
+    {"m_empty.csv", "", 1, "the file is empty", OVOID_ERROR_EMPTY},
+    {"m_header.csv", "time,body\n", 1, "the first line must be time,body,x,y,z,qw,qx,qy,qz, or"},
+    {"m_no_header.csv", GOOD, 1, "the first line must be"},
+    {"m_few.csv", POSES GOOD "1,a,2\n", 3, "fewer than 9 columns"},
+    {"m_one.csv", POSES "1\n", 2, "fewer than 9 columns"},
+    {"m_many.csv", VELOCITIES "0,a,1,2,3,4,5,6,7\n", 2, "more than 8 columns"},
+    {"m_word.csv", POSES "0,a,1,2,three,1,0,0,0\n", 2, "column z: \"three\""},
+    {"m_blank.csv", POSES "0,a,1,,3,1,0,0,0\n", 2, "column y: \"\" is not a number"},
+    {"m_time.csv", POSES "noon,a,1,2,3,1,0,0,0\n", 2, "column time: \"noon\""},
+    {"m_nan_time.csv", POSES GOOD "nan,a,1,2,3,1,0,0,0\n", 3, "column time is not finite", OVOID_ERROR_NOT_FINITE},
+    {"m_order.csv", POSES GOOD "1,a,1,2,3,1,0,0,0\n0.5,a,1,2,3,1,0,0,0\n", 4, "sort them"},
+    {"m_twice.csv", POSES GOOD "0,b\n0,a,1,2,3,1,0,0,0\n", 3, "fewer"},
+    {"m_again.csv", POSES GOOD "\n0,a,1,2,3,1,0,0,0\n", 4, "\"a\" has a line at this time already"},
+    {"m_body.csv", POSES GOOD "0,nobody,1,2,3,1,0,0,0\n", 3, "the scene has no object \"nobody\""},
+    {"m_no_body.csv", POSES "0,,1,2,3,1,0,0,0\n", 2, "column body: is empty"},
+    {"m_quote.csv", POSES "0,\"a,1,2,3,1,0,0,0\n", 2, "closing quote is missing"},
+    {"m_behind.csv", POSES "0,\"a\" b,1,2,3,1,0,0,0\n", 2, "follows the closing quote"},
+    {"m_within.csv", POSES "0,a\"b,1,2,3,1,0,0,0\n", 2, "a quote within a text"},
+    {"m_nan.csv", POSES "0,a,nan,2,3,1,0,0,0\n", 2, "column x is not finite", OVOID_ERROR_NOT_FINITE},
+    {"m_infinite.csv", VELOCITIES "0,a,1,2,3,1,0,1e999\n", 2, "column wz is not finite", OVOID_ERROR_NOT_FINITE},
+    {"m_zero.csv", POSES "0,a,1,2,3,0,0,0,0\n", 2, "pose of \"a\" has a quaternion of four", OVOID_ERROR_ROTATION},
+    {"m_far.csv", POSES "0,a,1e99,2,3,1,0,0,0\n", 2, "pose of \"a\" has a number out of range", OVOID_ERROR_RANGE},
+    {"m_fast.csv", VELOCITIES "0,a,1,2,3,1,0,-1e99\n", 2, "velocity of \"a\" has a number above", OVOID_ERROR_RANGE},
 };
 
 static int read_all(const char *path, ovoid_error *error) {
@@ -91,13 +91,10 @@ static int read_all(const char *path, ovoid_error *error) {
     return got;
 }
 
+static int accepts(const char *path, ovoid_error *error) { return read_all(path, error) != -1; }
+
 static void check_bad(void) {
-    for (size_t i = 0; i < sizeof bad_files / sizeof *bad_files; i++) {
-        ovoid_error error = {OVOID_OK, -2, ""};
-        int got = read_all(file_write_text(bad_files[i].name, bad_files[i].text), &error);
-        CHECK_EQ(got, -1);
-        check_error(&bad_files[i], &error);
-    }
+    check_bad_inputs(bad_files, sizeof bad_files / sizeof *bad_files, accepts);
     ovoid_error error;
     CHECK(read_all(file_path("absent.csv"), &error) == -1 && error.code == OVOID_ERROR_FILE);
     CHECK(read_all(OVOID_BUILD_DIR, NULL) == -1);

@@ -238,106 +238,94 @@ static void check_many(void) {
 #define BOX "\"box\": [1, 1, 1],\n"
 
 static const bad_input bad_scenes[] = {
-    {"empty.json", "", OVOID_ERROR_EMPTY, -1, "empty"},
-    {"c_parts.json", OBJECT(BOX "\"parts\": true"), OVOID_ERROR_FORMAT, 5, "object \"b\": \"parts\" is for meshes"},
-    {"c_parts_type.json", OBJECT("\"mesh\": \"tetra.obj\",\n\"parts\": 1"), OVOID_ERROR_FORMAT, 5,
-     "\"parts\" must be true or false"},
-    {"c_none.json", OBJECT("\"compound\": []"), OVOID_ERROR_FORMAT, 4, "\"compound\" must be a list of parts"},
-    {"c_type.json", OBJECT("\"compound\": {}"), OVOID_ERROR_FORMAT, 4, "\"compound\" must be a list of parts"},
-    {"c_number.json", OBJECT("\"compound\": [\n7]"), OVOID_ERROR_FORMAT, 5,
-     "object \"b\": part 0: must be a JSON object"},
-    {"c_radius.json", OBJECT("\"radius\": 1,\n\"compound\": [{\"sphere\": 1}]"), OVOID_ERROR_FORMAT, 4,
-     "\"radius\" is for the parts"},
-    {"c_scale.json", OBJECT("\"compound\": [{\"sphere\": 1}],\n\"scale\": 2"), OVOID_ERROR_FORMAT, 5,
-     "\"scale\" is for meshes and points"},
-    {"c_name.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"sphere\": 1, \"name\": \"x\"}]"), OVOID_ERROR_FORMAT, 5,
+    {"empty.json", "", -1, "empty", OVOID_ERROR_EMPTY},
+    {"c_parts.json", OBJECT(BOX "\"parts\": true"), 5, "object \"b\": \"parts\" is for meshes"},
+    {"c_parts_type.json", OBJECT("\"mesh\": \"tetra.obj\",\n\"parts\": 1"), 5, "\"parts\" must be true or false"},
+    {"c_none.json", OBJECT("\"compound\": []"), 4, "\"compound\" must be a list of parts"},
+    {"c_type.json", OBJECT("\"compound\": {}"), 4, "\"compound\" must be a list of parts"},
+    {"c_number.json", OBJECT("\"compound\": [\n7]"), 5, "object \"b\": part 0: must be a JSON object"},
+    {"c_radius.json", OBJECT("\"radius\": 1,\n\"compound\": [{\"sphere\": 1}]"), 4, "\"radius\" is for the parts"},
+    {"c_scale.json", OBJECT("\"compound\": [{\"sphere\": 1}],\n\"scale\": 2"), 5, "\"scale\" is for meshes and points"},
+    {"c_name.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"sphere\": 1, \"name\": \"x\"}]"), 5,
      "object \"b\": part 1: \"name\" is not a key of parts"},
-    {"c_nested.json", OBJECT("\"compound\": [\n{\"compound\": [{\"sphere\": 1}]}]"), OVOID_ERROR_FORMAT, 5,
+    {"c_nested.json", OBJECT("\"compound\": [\n{\"compound\": [{\"sphere\": 1}]}]"), 5,
      "part 0: \"compound\" is not a key of parts"},
-    {"c_size.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"pose\": {},\n\"sphere\": -1}]"), OVOID_ERROR_FORMAT, 6,
+    {"c_size.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"pose\": {},\n\"sphere\": -1}]"), 6,
      "object \"b\": part 1: \"sphere\" must be a radius"},
-    {"c_pose.json", OBJECT("\"compound\": [{\"sphere\": 1,\n\"pose\": 1}]"), OVOID_ERROR_FORMAT, 5,
-     "part 0: \"pose\" must"},
-    {"c_bare.json", OBJECT("\"compound\": [{\"pose\": {}}]"), OVOID_ERROR_FORMAT, 4, "part 0: no geometry"},
-    {"c_absent.json", OBJECT("\"compound\": [{\"mesh\": \"absent.obj\"}]"), OVOID_ERROR_FILE, 4, "part 0: "},
-    {"c_far.json", OBJECT("\"compound\": [{\"sphere\": 1, \"pose\": {\"xyz\": [1e99, 0, 0]}}]"), OVOID_ERROR_RANGE, 4,
-     "part 0: \"pose\" has a number out of range"},
-    {"syntax.json", "{\"objects\": [\n{\"name\": }]}", OVOID_ERROR_FORMAT, 2, "JSON: "},
-    {"late.json", "{\"objects\": [\n{\"name\": 3},\n{\"name\": \"a\", \"sphere\": 1,}\n]}", OVOID_ERROR_FORMAT, 3,
-     "JSON: "},
-    {"last.json", "{\"objects\": [\n{\"name\": \"a\", \"sphere\": 1}\n],\n\"ignore\": [}", OVOID_ERROR_FORMAT, 4,
-     "JSON: "},
-    {"comma.json", "{\"objects\": [\n{\"name\": \"a\", \"sphere\": 1}\n,]}", OVOID_ERROR_FORMAT, 3, "JSON: "},
-    {"element.json", "{\"objects\": [\n{\"name\": \"a\", \"sphere\": 1},\n3]}", OVOID_ERROR_FORMAT, 3,
-     "must be a JSON object"},
-    {"array.json", "[]", OVOID_ERROR_FORMAT, 1, "must be a JSON object"},
-    {"twice.json", "{\"objects\": [],\n\"objects\": []}", OVOID_ERROR_FORMAT, 2, "JSON: duplicate"},
-    {"key.json", "{\"objects\": [],\n\"color\": 3}", OVOID_ERROR_FORMAT, 2, "\"color\" is not a key of scenes"},
-    {"no_objects.json", "{\"ignore\": []}", OVOID_ERROR_FORMAT, -1, "needs \"objects\""},
-    {"none.json", "{\"objects\": []}", OVOID_ERROR_EMPTY, -1, "no objects"},
-    {"number.json", "{\"objects\": [\n3]}", OVOID_ERROR_FORMAT, 2, "object 0: must be a JSON object"},
-    {"no_name.json", "{\"objects\": [\n{\"sphere\": 1}]}", OVOID_ERROR_FORMAT, 2, "object 0: \"name\" must be"},
-    {"empty_name.json", "{\"objects\": [{\n\"name\": \"\"}]}", OVOID_ERROR_FORMAT, 2, "object 0: \"name\" must be"},
-    {"object_key.json", OBJECT(BOX "\"colour\": 1"), OVOID_ERROR_FORMAT, 5, "object \"b\": \"colour\" is not a key"},
-    {"no_geometry.json", OBJECT("\"pose\": {}"), OVOID_ERROR_FORMAT, 3, "object \"b\": no geometry"},
-    {"two.json", OBJECT(BOX "\n\"sphere\": 1"), OVOID_ERROR_FORMAT, 6, "\"sphere\" is a second geometry"},
-    {"same_name.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1},\n{\"name\": \"x\", \"sphere\": 2}]}",
-     OVOID_ERROR_FORMAT, 2, "object \"x\": \"name\" is that of an earlier object"},
-    {"box.json", OBJECT("\"box\": [1, 2]"), OVOID_ERROR_FORMAT, 4, "\"box\" must be three sizes"},
-    {"box_sign.json", OBJECT("\"box\": [1, 2, -3]"), OVOID_ERROR_FORMAT, 4, "\"box\" must be three sizes"},
-    {"box_type.json", OBJECT("\"box\": [1, 2, \"3\"]"), OVOID_ERROR_FORMAT, 4, "\"box\" must be three sizes"},
-    {"sphere.json", OBJECT("\"sphere\": -1"), OVOID_ERROR_FORMAT, 4, "\"sphere\" must be a radius"},
-    {"huge.json", OBJECT("\"sphere\": 1e999"), OVOID_ERROR_FORMAT, 4, "JSON: "},
-    {"capsule.json", OBJECT("\"capsule\": {\"radius\": 1}"), OVOID_ERROR_FORMAT, 4, "\"capsule\" needs \"length\""},
-    {"capsule_key.json", OBJECT("\"capsule\": {\"radius\": 1, \"length\": 1, \"sides\": 3}"), OVOID_ERROR_FORMAT, 4,
-     "\"capsule\" must be"},
-    {"axis.json", OBJECT("\"sphere\": 1, \"allowance\": {\"outside\": 1, \"axis\": [0, 0, 0]}"), OVOID_ERROR_FORMAT, 3,
+    {"c_pose.json", OBJECT("\"compound\": [{\"sphere\": 1,\n\"pose\": 1}]"), 5, "part 0: \"pose\" must"},
+    {"c_bare.json", OBJECT("\"compound\": [{\"pose\": {}}]"), 4, "part 0: no geometry"},
+    {"c_absent.json", OBJECT("\"compound\": [{\"mesh\": \"absent.obj\"}]"), 4, "part 0: ", OVOID_ERROR_FILE},
+    {"c_far.json", OBJECT("\"compound\": [{\"sphere\": 1, \"pose\": {\"xyz\": [1e99, 0, 0]}}]"), 4,
+     "part 0: \"pose\" has a number out of range", OVOID_ERROR_RANGE},
+    {"syntax.json", "{\"objects\": [\n{\"name\": }]}", 2, "JSON: "},
+    {"late.json", "{\"objects\": [\n{\"name\": 3},\n{\"name\": \"a\", \"sphere\": 1,}\n]}", 3, "JSON: "},
+    {"last.json", "{\"objects\": [\n{\"name\": \"a\", \"sphere\": 1}\n],\n\"ignore\": [}", 4, "JSON: "},
+    {"comma.json", "{\"objects\": [\n{\"name\": \"a\", \"sphere\": 1}\n,]}", 3, "JSON: "},
+    {"element.json", "{\"objects\": [\n{\"name\": \"a\", \"sphere\": 1},\n3]}", 3, "must be a JSON object"},
+    {"array.json", "[]", 1, "must be a JSON object"},
+    {"twice.json", "{\"objects\": [],\n\"objects\": []}", 2, "JSON: duplicate"},
+    {"key.json", "{\"objects\": [],\n\"color\": 3}", 2, "\"color\" is not a key of scenes"},
+    {"no_objects.json", "{\"ignore\": []}", -1, "needs \"objects\""},
+    {"none.json", "{\"objects\": []}", -1, "no objects", OVOID_ERROR_EMPTY},
+    {"number.json", "{\"objects\": [\n3]}", 2, "object 0: must be a JSON object"},
+    {"no_name.json", "{\"objects\": [\n{\"sphere\": 1}]}", 2, "object 0: \"name\" must be"},
+    {"empty_name.json", "{\"objects\": [{\n\"name\": \"\"}]}", 2, "object 0: \"name\" must be"},
+    {"object_key.json", OBJECT(BOX "\"colour\": 1"), 5, "object \"b\": \"colour\" is not a key"},
+    {"no_geometry.json", OBJECT("\"pose\": {}"), 3, "object \"b\": no geometry"},
+    {"two.json", OBJECT(BOX "\n\"sphere\": 1"), 6, "\"sphere\" is a second geometry"},
+    {"same_name.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1},\n{\"name\": \"x\", \"sphere\": 2}]}", 2,
+     "object \"x\": \"name\" is that of an earlier object"},
+    {"box.json", OBJECT("\"box\": [1, 2]"), 4, "\"box\" must be three sizes"},
+    {"box_sign.json", OBJECT("\"box\": [1, 2, -3]"), 4, "\"box\" must be three sizes"},
+    {"box_type.json", OBJECT("\"box\": [1, 2, \"3\"]"), 4, "\"box\" must be three sizes"},
+    {"sphere.json", OBJECT("\"sphere\": -1"), 4, "\"sphere\" must be a radius"},
+    {"huge.json", OBJECT("\"sphere\": 1e999"), 4, "JSON: "},
+    {"capsule.json", OBJECT("\"capsule\": {\"radius\": 1}"), 4, "\"capsule\" needs \"length\""},
+    {"capsule_key.json", OBJECT("\"capsule\": {\"radius\": 1, \"length\": 1, \"sides\": 3}"), 4, "\"capsule\" must be"},
+    {"axis.json", OBJECT("\"sphere\": 1, \"allowance\": {\"outside\": 1, \"axis\": [0, 0, 0]}"), 3,
      "\"axis\" of an allowance must be"},
-    {"axes.json", OBJECT("\"sphere\": 1, \"allowance\": {\"outside\": 1, \"axis\": 3}"), OVOID_ERROR_FORMAT, 3,
+    {"axes.json", OBJECT("\"sphere\": 1, \"allowance\": {\"outside\": 1, \"axis\": 3}"), 3,
      "\"axis\" of an allowance must be"},
-    {"sides.json", OBJECT("\"cylinder\": {\"radius\": 1, \"length\": 1, \"sides\": 2}"), OVOID_ERROR_FORMAT, 4,
+    {"sides.json", OBJECT("\"cylinder\": {\"radius\": 1, \"length\": 1, \"sides\": 2}"), 4,
      "\"cylinder\" needs a whole number of sides"},
-    {"half_sides.json", OBJECT("\"cone\": {\"radius\": 1, \"length\": 1, \"sides\": 3.5}"), OVOID_ERROR_FORMAT, 4,
+    {"half_sides.json", OBJECT("\"cone\": {\"radius\": 1, \"length\": 1, \"sides\": 3.5}"), 4,
      "\"cone\" needs a whole number of sides"},
-    {"points.json", OBJECT("\"points\": []"), OVOID_ERROR_FORMAT, 4, "\"points\" must be a list"},
-    {"points_type.json", OBJECT("\"points\": [[0, 0, 0], [1, 2]]"), OVOID_ERROR_FORMAT, 4, "\"points\" must be a list"},
-    {"radius.json", OBJECT(BOX "\"radius\": -0.1"), OVOID_ERROR_RADIUS, 5, "\"radius\" must be a number >= 0"},
-    {"scale.json", OBJECT(BOX "\"scale\": 2"), OVOID_ERROR_FORMAT, 5, "\"scale\" is for meshes and points"},
-    {"scale_zero.json", OBJECT("\"points\": [[0, 0, 0]],\n\"scale\": 0"), OVOID_ERROR_FORMAT, 5, "\"scale\" must be"},
-    {"unit.json", OBJECT("\"points\": [[0, 0, 0]],\n\"unit\": \"yd\""), OVOID_ERROR_FORMAT, 5,
-     "\"unit\" must be m, cm"},
-    {"unit_dae.json", OBJECT("\"mesh\": \"x.dae\",\n\"unit\": \"mm\""), OVOID_ERROR_FORMAT, 5, "is not for COLLADA"},
-    {"scene_unit.json", "{\"objects\": [{\"name\": \"a\", \"sphere\": 1}],\n\"unit\": \"yd\"}", OVOID_ERROR_FORMAT, 2,
+    {"points.json", OBJECT("\"points\": []"), 4, "\"points\" must be a list"},
+    {"points_type.json", OBJECT("\"points\": [[0, 0, 0], [1, 2]]"), 4, "\"points\" must be a list"},
+    {"radius.json", OBJECT(BOX "\"radius\": -0.1"), 5, "\"radius\" must be a number >= 0", OVOID_ERROR_RADIUS},
+    {"scale.json", OBJECT(BOX "\"scale\": 2"), 5, "\"scale\" is for meshes and points"},
+    {"scale_zero.json", OBJECT("\"points\": [[0, 0, 0]],\n\"scale\": 0"), 5, "\"scale\" must be"},
+    {"unit.json", OBJECT("\"points\": [[0, 0, 0]],\n\"unit\": \"yd\""), 5, "\"unit\" must be m, cm"},
+    {"unit_dae.json", OBJECT("\"mesh\": \"x.dae\",\n\"unit\": \"mm\""), 5, "is not for COLLADA"},
+    {"scene_unit.json", "{\"objects\": [{\"name\": \"a\", \"sphere\": 1}],\n\"unit\": \"yd\"}", 2,
      "\"unit\" must be m, cm, mm, um, in or ft"},
-    {"mesh_type.json", OBJECT("\"mesh\": 3"), OVOID_ERROR_FORMAT, 4, "\"mesh\" must be the path"},
-    {"mesh_absent.json", OBJECT("\"mesh\": \"nowhere.stl\""), OVOID_ERROR_FILE, 4, "nowhere.stl: cannot be opened"},
-    {"pose_type.json", OBJECT(BOX "\"pose\": [1, 2, 3]"), OVOID_ERROR_FORMAT, 5, "\"pose\" must be"},
-    {"pose_key.json", OBJECT(BOX "\"pose\": {\"rotation\": 1}"), OVOID_ERROR_FORMAT, 5, "\"pose\" must be"},
-    {"pose_both.json", OBJECT(BOX "\"pose\": {\"rpy\": [0, 0, 0], \"quat_wxyz\": [1, 0, 0, 0]}"), OVOID_ERROR_FORMAT, 5,
-     "has both"},
-    {"xyz.json", OBJECT(BOX "\"pose\": {\"xyz\": [1, 2]}"), OVOID_ERROR_FORMAT, 5, "three numbers in xyz"},
-    {"quat.json", OBJECT(BOX "\"pose\": {\"quat_wxyz\": [1, 2, 3]}"), OVOID_ERROR_FORMAT, 5,
-     "four numbers in quat_wxyz"},
-    {"zero.json", OBJECT(BOX "\"pose\": {\"quat_wxyz\": [0, 0, 0, 0]}"), OVOID_ERROR_ROTATION, 5, "four zeros"},
-    {"far.json", OBJECT(BOX "\"pose\": {\"xyz\": [0, 0, 1e99]}"), OVOID_ERROR_RANGE, 5, "out of range"},
-    {"ignore_type.json", "{\"ignore\": {},\n\"objects\": [{\"name\": \"x\", \"sphere\": 1}]}", OVOID_ERROR_FORMAT, 1,
+    {"mesh_type.json", OBJECT("\"mesh\": 3"), 4, "\"mesh\" must be the path"},
+    {"mesh_absent.json", OBJECT("\"mesh\": \"nowhere.stl\""), 4, "nowhere.stl: cannot be opened", OVOID_ERROR_FILE},
+    {"pose_type.json", OBJECT(BOX "\"pose\": [1, 2, 3]"), 5, "\"pose\" must be"},
+    {"pose_key.json", OBJECT(BOX "\"pose\": {\"rotation\": 1}"), 5, "\"pose\" must be"},
+    {"pose_both.json", OBJECT(BOX "\"pose\": {\"rpy\": [0, 0, 0], \"quat_wxyz\": [1, 0, 0, 0]}"), 5, "has both"},
+    {"xyz.json", OBJECT(BOX "\"pose\": {\"xyz\": [1, 2]}"), 5, "three numbers in xyz"},
+    {"quat.json", OBJECT(BOX "\"pose\": {\"quat_wxyz\": [1, 2, 3]}"), 5, "four numbers in quat_wxyz"},
+    {"zero.json", OBJECT(BOX "\"pose\": {\"quat_wxyz\": [0, 0, 0, 0]}"), 5, "four zeros", OVOID_ERROR_ROTATION},
+    {"far.json", OBJECT(BOX "\"pose\": {\"xyz\": [0, 0, 1e99]}"), 5, "out of range", OVOID_ERROR_RANGE},
+    {"ignore_type.json", "{\"ignore\": {},\n\"objects\": [{\"name\": \"x\", \"sphere\": 1}]}", 1,
      "\"ignore\" must be a list"},
-    {"ignore_pair.json", "{\"ignore\": [\n[\"x\"]],\n\"objects\": [{\"name\": \"x\", \"sphere\": 1}]}",
-     OVOID_ERROR_FORMAT, 2, "must be two names"},
-    {"ignore_name.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1}],\n\"ignore\": [\n\n[\"x\", \"y\"]]}",
-     OVOID_ERROR_FORMAT, 4, "there is no object \"y\""},
-    {"ignore_self.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1}],\n\"ignore\": [[\"x\", \"x\"]]}",
-     OVOID_ERROR_FORMAT, 2, "one object twice"},
+    {"ignore_pair.json", "{\"ignore\": [\n[\"x\"]],\n\"objects\": [{\"name\": \"x\", \"sphere\": 1}]}", 2,
+     "must be two names"},
+    {"ignore_name.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1}],\n\"ignore\": [\n\n[\"x\", \"y\"]]}", 4,
+     "there is no object \"y\""},
+    {"ignore_self.json", "{\"objects\": [{\"name\": \"x\", \"sphere\": 1}],\n\"ignore\": [[\"x\", \"x\"]]}", 2,
+     "one object twice"},
 };
 
+static int accepts(const char *path, ovoid_error *error) {
+    ovoid_scene *scene = ovoid_scene_read(path, NULL, error);
+    ovoid_scene_destroy(scene);
+    return scene != NULL;
+}
+
 static void check_bad(void) {
-    for (size_t i = 0; i < sizeof bad_scenes / sizeof *bad_scenes; i++) {
-        ovoid_error error = {OVOID_OK, -2, ""};
-        ovoid_scene *scene = ovoid_scene_read(file_write_text(bad_scenes[i].name, bad_scenes[i].text), NULL, &error);
-        CHECK(scene == NULL);
-        check_error(&bad_scenes[i], &error);
-        ovoid_scene_destroy(scene);
-    }
+    check_bad_inputs(bad_scenes, sizeof bad_scenes / sizeof *bad_scenes, accepts);
     // What is wrong inside a mesh has the mesh's own path and line.
     file_write_text("broken.obj", "v 0 0 0\nv 1 0 nan\n");
     ovoid_error error = {OVOID_OK, -1, ""};
@@ -387,6 +375,12 @@ static void check_shapes(void) {
     ovoid_shapes_destroy(shapes);
 }
 
+static int accepts_list(const char *path, ovoid_error *error) {
+    ovoid_shapes *shapes = ovoid_shapes_read_list(path, NULL, NULL, error);
+    ovoid_shapes_destroy(shapes);
+    return shapes != NULL;
+}
+
 static void check_list(void) {
     ovoid_error error = {OVOID_OK, -1, ""};
     file_write_text("tetra.obj", tetrahedron);
@@ -399,15 +393,10 @@ static void check_list(void) {
     }
     ovoid_shapes_destroy(shapes);
     static const bad_input bad[] = {
-        {"none.txt", "# nothing\n\n", OVOID_ERROR_EMPTY, -1, "names no files"},
-        {"absent.txt", "tetra.obj\nno.obj\n", OVOID_ERROR_FILE, 2, "no.obj: cannot be opened"},
-        {"empty.txt", "", OVOID_ERROR_EMPTY, -1, "the file is empty"}};
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        shapes = ovoid_shapes_read_list(file_write_text(bad[i].name, bad[i].text), NULL, NULL, &error);
-        CHECK(shapes == NULL);
-        check_error(&bad[i], &error);
-        ovoid_shapes_destroy(shapes);
-    }
+        {"none.txt", "# nothing\n\n", -1, "names no files", OVOID_ERROR_EMPTY},
+        {"absent.txt", "tetra.obj\nno.obj\n", 2, "no.obj: cannot be opened", OVOID_ERROR_FILE},
+        {"empty.txt", "", -1, "the file is empty", OVOID_ERROR_EMPTY}};
+    check_bad_inputs(bad, sizeof bad / sizeof *bad, accepts_list);
 }
 
 // A shape written to a file comes back with the same bytes; damaged ones are refused with their path.
