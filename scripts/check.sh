@@ -87,7 +87,7 @@ run_rest() {
     step 300 "check: build" configure_and_build check && run_tests 540 check
     step 240 "check-gcc: build" configure_and_build check-gcc && run_tests 300 check-gcc -E '^test_(cli|demo|docs|mutations|page)'
     step 60 "ports: musl, 64-bit ARM" scripts/ports.sh quick
-    step 90 "wasm and the page, with their tests" scripts/page.sh --check
+    step 180 "wasm and the page, with their tests" scripts/page.sh --check
     step 10 "abi: the shared libraries" scripts/abi.sh
     step 180 "lint: tidy" scripts/lint.sh tidy
     step 20 "docs" scripts/docs.sh

@@ -13,7 +13,7 @@ out=build/page
 for tool in node npm; do
     command -v $tool >/dev/null || { echo "page: $tool is not here: scripts/setup.sh page" >&2 && exit 1; }
 done
-scripts/wasm.sh
+case ${1:-} in --check) scripts/wasm.sh --check ;; *) scripts/wasm.sh ;; esac
 # In a copy, so that nothing is installed among the sources.
 mkdir -p $out/web
 rm -rf $out/web/page/src

@@ -1,7 +1,9 @@
 #!/bin/sh
 # wasm.sh: the package for JavaScript, in build/wasm/package and packed as build/wasm/ovoid-VERSION.tgz, at most 300 kB; its
-# tests under Node.js, which compare it with build/release/ovoid bit by bit. Exit 1 where something is missing or wrong.
+# tests under Node.js, which compare it with build/release/ovoid bit by bit. --check also bundles it by four bundlers and checks its types by TypeScript,
+# where npm has its registry. Exit 1 where something is missing or wrong.
 set -eu
+options=--check
 # shellcheck source=scripts/help.sh
 . "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
@@ -21,7 +23,7 @@ build >$out/build.log 2>&1 || { cat $out/build.log >&2 && exit 1; }
 
 rm -rf $out/package
 mkdir -p $out/package
-cp web/package/* $out/cmake/web/ovoid.wasm LICENSE README.md $out/package/
+cp web/package/* $out/cmake/web/ovoid.wasm LICENSE $out/package/
 version=$(sed -n 's/^ *"version": "\(.*\)",$/\1/p' web/package/package.json)
 [ "$version" = "$(build/release/ovoid --version | sed 's/^ovoid //;q')" ] || { echo "wasm: package.json says $version, the tool another version" >&2 && exit 1; }
 tar -C $out --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --use-compress-program='gzip -9n' -cf "$out/ovoid-$version.tgz" package
@@ -29,5 +31,24 @@ size=$(stat -c %s "$out/ovoid-$version.tgz")
 printf '%s: %s bytes, ovoid.wasm in it %s\n' "$out/ovoid-$version.tgz" "$size" "$(stat -c %s $out/package/ovoid.wasm)"
 [ "$size" -le $most ] || { echo "wasm: more than $most bytes" >&2 && exit 1; }
 
-OVOID=$PWD/build/release/ovoid node --test web/test >$out/test.log 2>&1 || { cat $out/test.log >&2 && exit 1; }
+# The bundlers of its tests, in a copy, so that nothing is installed among the sources; without a registry their tests are skipped.
+if [ "${1:-}" = --check ]; then
+    bundlers=$out/bundlers
+    mkdir -p $bundlers
+    cp web/test/bundlers/* $bundlers/
+    if ! cmp -s $bundlers/package-lock.json $bundlers/installed; then
+        rm -f $bundlers/installed
+        if (cd $bundlers && npm install --no-save --no-audit --no-fund --ignore-scripts) >$out/npm.log 2>&1; then
+            cp web/test/bundlers/package-lock.json $bundlers/installed
+        else
+            echo "wasm: npm could not install the bundlers ($out/npm.log): their tests are skipped"
+        fi
+    fi
+    if [ -f $bundlers/installed ]; then
+        rm -rf $bundlers/node_modules/ovoid
+        cp -R $out/package $bundlers/node_modules/ovoid
+        BUNDLERS=$PWD/$bundlers && export BUNDLERS
+    fi
+fi
+OVOID=$PWD/build/release/ovoid node --test web/test/*.test.mjs >$out/test.log 2>&1 || { cat $out/test.log >&2 && exit 1; }
 grep -E '^# (pass|fail|skipped) ' $out/test.log | awk '{ n[$2] = $3 } END { printf "%d passed, %d failed, %d skipped\n", n["pass"], n["fail"], n["skipped"] }'

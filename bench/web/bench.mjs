@@ -7,7 +7,7 @@ import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { load } from '../../build/wasm/package/ovoid.mjs';
+import { load } from '../../build/wasm/package/node.mjs';
 import { makePairs, writePairs } from './pairs.mjs';
 
 const COUNT = 1000, ROUNDS = 15, FAR = 10;
@@ -106,7 +106,7 @@ for (const vertices of [8, 32, 128])
         const ns = time(pairs, peer[query]);
         let worst = 0;
         for (const pair of pairs) {
-          const { lower, upper, status } = ovoid.depth(shapes[pair.a], null, shapes[pair.b], pair.pose), said = peer[query](pair);
+          const { lower, upper, status } = ovoid.depth(shapes[pair.a], shapes[pair.b], null, pair.pose), said = peer[query](pair);
           worst = Math.max(worst, query === 'collide' ? Number(said !== (status === 'overlapping')) : Math.max(lower - said, said - upper, 0));
         }
         return [ns.toFixed(0), query === 'collide' ? (worst ? 'wrong' : 'right') : Number.isNaN(worst) ? 'no answer' : worst.toExponential(0)];

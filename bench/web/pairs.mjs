@@ -27,7 +27,7 @@ export function makePairs(ovoid, vertices, gap, count) {
     const a = i % HULLS, b = Math.floor(random() * HULLS), u = unit(3), quat_wxyz = unit(4);
     let far = 2 + gap;
     for (let k = 0; k < 30; k++) {
-      const d = ovoid.depth(shapes[a], null, shapes[b], { xyz: u.map((x) => x * far), quat_wxyz });
+      const d = ovoid.depth(shapes[a], shapes[b], null, { xyz: u.map((x) => x * far), quat_wxyz });
       far = Math.max(0.05, far - (d.lower - gap));
     }
     return { a, b, pose: { xyz: u.map((x) => x * far), quat_wxyz } };

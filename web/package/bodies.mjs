@@ -104,7 +104,7 @@ export function bindBodies(core) {
 
   const kindOf = (body) => {
     const kind = classes.findIndex((type) => body instanceof type);
-    if (kind < 0) throw new TypeError('a Shape, a Compound or a Solid is needed');
+    if (kind < 0) throw new TypeError('a Shape, a Compound or a Solid is needed; the arguments are a, b, poseA, poseB');
     return kind;
   };
 

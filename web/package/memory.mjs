@@ -25,13 +25,10 @@ const imports = {
   },
 };
 
-/** The instance of a module, from its bytes, a compiled module, a response, an address, or the file beside this one. */
+/** The instance of a module, from its bytes, a compiled module, a response, an address, or what stands beside this file. */
 export async function instantiate(source) {
   if (source === undefined) source = new URL('./ovoid.wasm', import.meta.url);
-  if (source instanceof URL && source.protocol === 'file:') {
-    const { readFile } = await import('node:fs/promises');
-    source = await readFile(source);
-  } else if (source instanceof URL || typeof source === 'string') source = await fetch(source);
+  if (source instanceof URL || typeof source === 'string') source = await fetch(source);
   if (typeof Response !== 'undefined' && source instanceof Response) {
     if (!source.ok) throw new Error(`ovoid: ${source.url}: ${source.status} ${source.statusText}`);
     source = await source.arrayBuffer();

@@ -44,7 +44,8 @@ export declare class Shape {
   static fromPoints(points: ArrayLike<number> | readonly Vector[], options?: ShapeOptions): Shape;
   /** The convex hull of a solid's points. */
   static hullOf(solid: Solid): Shape;
-  static box(half: Vector, options?: ShapeOptions): Shape;
+  /** Half sizes, as in C and Python; or by name: `{ half }`, `{ size }`. */
+  static box(half: Vector | { half: Vector; size?: never } | { size: Vector; half?: never }, options?: ShapeOptions): Shape;
   static sphere(radius: number, options?: ShapeOptions): Shape;
   /** Along z, as are all of the following. */
   static capsule(radius: number, halfLength: number, options?: ShapeOptions): Shape;
@@ -64,7 +65,11 @@ export declare class Shape {
   free(): void;
 }
 
-export type Status = 'undecided' | 'separated' | 'touching' | 'overlapping';
+/** The statuses by name: `answer.status === Status.separated`. TypeScript refuses to compare with a name that is none. */
+export declare const Status: { readonly undecided: 'undecided'; readonly separated: 'separated'; readonly touching: 'touching'; readonly overlapping: 'overlapping' };
+export type Status = (typeof Status)[keyof typeof Status];
+export type Limit =
+  | 'none' | 'answered' | 'cap' | 'iterations' | 'precision' | 'capacity' | 'pose_a' | 'pose_b' | 'options' | 'shape_a' | 'shape_b' | 'allowance';
 export type Stage = 'none' | 'proof' | 'sphere' | 'outer' | 'support' | 'inner' | 'gjk' | 'epa' | 'refine';
 export interface Proof {
   normal: number[]; normal_low?: number[];
@@ -74,17 +79,25 @@ export interface Proof {
   cover?: { pairs: number[][]; triangles: number[][] };
   /** Of compounds and solids: why no other parts decide; and of solids the bracket of their surfaces, and what parts the bodies. */
   exclusions?: { a: number[]; b: number[]; normal: number[]; normal_low?: number[]; lower: number }[];
-  surfaces?: { status: Status; limit: string; lower: number; upper: number }; parting?: number[];
+  surfaces?: { status: Status; limit: Limit; lower: number; upper: number }; parting?: number[];
 }
 /** As a line of the tool's JSON: `ovoid check --json` writes what `verify` takes. */
-export interface Answer {
-  status: Status; limit: string; lower: number; upper: number;
+export interface AnswerFields {
+  status: Status; limit: Limit; lower: number; upper: number;
   /** World frame; the normal is from a to b. */
   point_a: number[]; point_b: number[]; normal: number[];
   stage: Stage; iterations: number; proof: Proof;
   /** What decided: of a compound the part, of a solid the triangle; and of solids which component is inside the other. */
   part_a?: number; part_b?: number; triangle_a?: number; triangle_b?: number; inside?: 'a in b' | 'b in a' | 'common point'; component?: number;
   common?: [number, number, number];
+}
+/** What a query returns. An object is always true in JavaScript: ask `answer.is('overlapping')`, not `if (answer)`. Used as a number it throws. */
+export interface Answer extends AnswerFields {
+  /** Whether the status is this one; a name that is none throws. */
+  is(status: Status): boolean;
+  /** Whether the bodies are within the margin: true, false, or null where the bracket does not say. */
+  isWithin(margin: number): boolean | null;
+  toJSON(): AnswerFields;
 }
 export interface Options {
   absoluteTolerance?: number;
@@ -94,7 +107,7 @@ export interface Options {
   cap?: number;
   iterations?: number;
   /** The answer about this pair a moment ago: where the search begins. */
-  earlier?: Answer;
+  earlier?: AnswerFields;
 }
 export interface Body { shape: Shape; pose?: Pose }
 /** A column of each; status, stage and limit are numbers of names. */
@@ -107,14 +120,14 @@ export interface SmoothValue {
 }
 export interface Moving { shape: Shape; start: Pose; end?: Pose }
 export interface MotionOptions { duration?: number; margin?: number; tolerance?: number }
-export type BareAnswer = Omit<Answer, 'proof'>;
+export type BareAnswer = Omit<AnswerFields, 'proof'>;
 export interface Impact {
-  status: 'undecided' | 'free' | 'hit'; limit: string; iterations: number; begin: number; end: number;
+  status: 'undecided' | 'free' | 'hit'; limit: Limit; iterations: number; begin: number; end: number;
   /** The time of impact is in [free_until, hit_at]; Infinity: none is proven. */
   free_until: number; hit_at: number; steps: number; free: BareAnswer; hit: BareAnswer;
 }
 export interface Approach {
-  status: Status; limit: string; iterations: number; begin: number; end: number; lower: number; upper: number; time: number; answer: BareAnswer;
+  status: Status; limit: Limit; iterations: number; begin: number; end: number; lower: number; upper: number; time: number; answer: BareAnswer;
 }
 
 export interface SolidReport {
@@ -170,15 +183,15 @@ export declare class Robot {
 }
 
 export type AnyBody = Shape | Compound | Solid;
-type Ask<B> = (a: B, poseA: Pose | null | undefined, b: B, poseB?: Pose | null, options?: Options) => Answer;
-type AskWithin<B> = (a: B, poseA: Pose | null | undefined, b: B, poseB: Pose | null | undefined, margin: number, options?: Options) => Answer;
+type Ask<B> = (a: B, b: B, poseA?: Pose | null, poseB?: Pose | null, options?: Options) => Answer;
+type AskWithin<B> = (a: B, b: B, poseA: Pose | null | undefined, poseB: Pose | null | undefined, margin: number, options?: Options) => Answer;
 
 export interface Ovoid {
   version: string;
   /** What the module has of memory; it grows and never shrinks. */
   readonly memoryBytes: number;
-  names: { status: Status[]; stage: Stage[]; limit: string[]; kind: string[] };
-  Shape: typeof Shape; Compound: typeof Compound; Solid: typeof Solid; Robot: typeof Robot; OvoidError: typeof OvoidError;
+  names: { status: Status[]; stage: Stage[]; limit: Limit[]; kind: string[] };
+  Shape: typeof Shape; Compound: typeof Compound; Solid: typeof Solid; Robot: typeof Robot; OvoidError: typeof OvoidError; Status: typeof Status;
   /** Do they touch? Ends as soon as the sign is proven. */
   collide: Ask<AnyBody>;
   within: AskWithin<AnyBody>;
@@ -187,11 +200,11 @@ export interface Ovoid {
   /** The signed distance: minus the penetration depth where they overlap; of compounds of the deepest parts. */
   depth: Ask<Shape | Compound>;
   /** Checks an answer by its proof alone, its status by the tolerance of the options that it was asked with. null: it holds; else what does not. */
-  verify(a: AnyBody, poseA: Pose | null | undefined, b: AnyBody, poseB: Pose | null | undefined, answer: Answer, options?: Options): OvoidError | null;
+  verify(a: AnyBody, b: AnyBody, poseA: Pose | null | undefined, poseB: Pose | null | undefined, answer: AnswerFields, options?: Options): OvoidError | null;
   /** Many couples [a, b] of bodies at once, eight in lanes; the bits of single queries. */
-  batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Options & { margin?: number }): Batch;
+  batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Omit<Options, 'earlier'> & { margin?: number }): Batch;
   /** The signed distances of both ellipsoids: outer.value <= d <= inner.value. order 1: gradients, 2: Hessians too. */
-  smooth(a: Shape, poseA: Pose | null | undefined, b: Shape, poseB: Pose | null | undefined, order?: 0 | 1 | 2): { limit: string; outer: SmoothValue; inner: SmoothValue };
+  smooth(a: Shape, b: Shape, poseA?: Pose | null, poseB?: Pose | null, order?: 0 | 1 | 2): { limit: Limit; outer: SmoothValue; inner: SmoothValue };
   /** When two bodies that move from start to end (screw motions, time 0 to duration) first come within the margin. */
   impact(a: Moving, b: Moving, options?: MotionOptions): Impact;
   /** How near they come, and when. */

@@ -3,8 +3,9 @@ import { instantiate, Memory, OvoidError } from './memory.mjs';
 import { Answer, ANSWER, fromAnswer, fromProof, Names, PROOF, putPose, toPose, toVector } from './values.mjs';
 import { bindRobots } from './robots.mjs';
 import { bindBodies } from './bodies.mjs';
+import { checkFields, checkName, Status } from './words.mjs';
 
-export { OvoidError };
+export { OvoidError, Status };
 
 const QUERIES = ['collide', 'within', 'distance', 'depth'];
 const COVER_POINTS = 512;
@@ -26,7 +27,7 @@ export async function load(source) {
     get memoryBytes() {
       return core.calls.memory.buffer.byteLength;
     },
-    Shape, Compound, Solid, OvoidError, version: memory.text(core.calls.get_version()), names: core.names,
+    Shape, Compound, Solid, OvoidError, Status, version: memory.text(core.calls.get_version()), names: core.names,
     ...bindQueries(core, bodies), ...bindMotions(core), ...bindRobots(core),
   };
 }
@@ -38,6 +39,8 @@ function toNumbers(points) {
   return Float64Array.from(Array.isArray(points[0]) || ArrayBuffer.isView(points[0]) ? points.flatMap((p) => [...p]) : points);
 }
 
+const SHAPE = new Set(['radius', 'gap', 'inner', 'allowance']), ROUND = new Set([...SHAPE, 'tolerance']), ALLOWANCE = new Set(['outside', 'inside', 'axis']);
+const BOX = new Set(['half', 'size']);
 const KINDS = ['box', 'sphere', 'capsule', 'cylinder', 'cone', 'prism', 'pyramid'];
 
 function bindShapes(core) {
@@ -53,7 +56,9 @@ function bindShapes(core) {
       core.hold(this, calls.shape_destroy, address);
     }
 
-    static #make(options, numbers, call) {
+    static #make(options, numbers, call, known = SHAPE) {
+      checkFields(options, known, 'options');
+      checkFields(options?.allowance, ALLOWANCE, 'allowance');
       const { radius = 0, gap = 0, inner = 'maximum', allowance = {} } = options ?? {};
       if (inner !== 'maximum' && inner !== 'phases') throw new TypeError(`inner: maximum or phases, not ${inner}`);
       memory.set([radius, gap, inner === 'phases' ? 1 : 0, allowance.outside ?? 0, allowance.inside ?? 0, ...(allowance.axis ?? [0, 0, 0]), ...numbers]);
@@ -74,11 +79,15 @@ function bindShapes(core) {
 
     static #create(kind, options, ...numbers) {
       for (const x of numbers) if (typeof x !== 'number') throw new TypeError(`${kind}: numbers are needed`);
-      return Shape.#make(options, [...numbers, 0, 0].slice(0, 3), () => calls.shape_create(KINDS.indexOf(kind)));
+      return Shape.#make(options, [...numbers, 0, 0].slice(0, 3), () => calls.shape_create(KINDS.indexOf(kind)), kind === 'cylinder' || kind === 'cone' ? ROUND : SHAPE);
     }
 
-    static box(half, options) {
-      return Shape.#create('box', options, ...toVector(half, 'half'));
+    // Half sizes, or { half }, or { size }.
+    static box(sizes, options) {
+      if (sizes?.length !== undefined) return Shape.#create('box', options, ...toVector(sizes, 'half sizes'));
+      checkFields(sizes, BOX, 'a box');
+      if (!sizes?.half === !sizes?.size) throw new TypeError('a box: half sizes [x, y, z], or one of { half } and { size } are needed');
+      return Shape.#create('box', options, ...(sizes.half ? toVector(sizes.half, 'half') : Array.from(toVector(sizes.size, 'size'), (x) => x / 2)));
     }
     static sphere(radius, options) {
       return Shape.#create('sphere', options, radius);
@@ -186,6 +195,9 @@ function writeCover(core, cover) {
 
 const settings = (o) => [o?.absoluteTolerance ?? 0, o?.relativeTolerance ?? 0, o?.cap ?? 0, o?.iterations ?? 0];
 
+const QUERY = new Set(['absoluteTolerance', 'relativeTolerance', 'cap', 'iterations', 'earlier']), BATCH = new Set([...QUERY, 'margin']);
+BATCH.delete('earlier');
+
 function bindQueries(core, bodies) {
   const { memory, calls, names, Shape } = core;
   const areShapes = (a, b) => a instanceof Shape && b instanceof Shape;
@@ -196,7 +208,8 @@ function bindQueries(core, bodies) {
     memory.set([...(arePlain ? [] : [side('a'), side('b')]), ...fromProof(earlier.proof, names)], 19);
   }
 
-  function query(kind, a, poseA, b, poseB, margin, options) {
+  function query(kind, a, b, poseA, poseB, margin, options) {
+    checkFields(options, QUERY, 'options');
     const earlier = options?.earlier, arePlain = areShapes(a, b);
     const { doubles, place } = memory;
     putPose(doubles, place, poseA, 'poseA');
@@ -213,7 +226,8 @@ function bindQueries(core, bodies) {
     return new Answer(n, names, cover && ((proof) => (proof.cover = cover())));
   }
 
-  function verify(a, poseA, b, poseB, answer, options) {
+  function verify(a, b, poseA, poseB, answer, options) {
+    checkFields(options, QUERY, 'options');
     memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB'), ...settings(options)]);
     writeCover(core, answer.proof.cover);
     if (!areShapes(a, b)) return bodies.verify(a, b, answer);
@@ -222,8 +236,9 @@ function bindQueries(core, bodies) {
   }
 
   function batch(kind, bodies, couples, options) {
+    checkName(kind, QUERIES, 'query');
+    checkFields(options, BATCH, 'options');
     const index = QUERIES.indexOf(kind);
-    if (index < 0) throw new TypeError(`${kind}: no query; there are ${QUERIES.join(', ')}`);
     const shapes = Uint32Array.from(bodies, (b) => b.shape.address), poses = Float64Array.from(bodies.flatMap((b) => toPose(b.pose)));
     const pairs = couples instanceof Uint32Array ? couples : Uint32Array.from(couples.flat());
     if (pairs.length % 2) throw new TypeError('couples: two indices each are needed');
@@ -239,7 +254,7 @@ function bindQueries(core, bodies) {
     });
   }
 
-  function smooth(a, poseA, b, poseB, order = 0) {
+  function smooth(a, b, poseA, poseB, order = 0) {
     memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB')]);
     calls.smooth(a.address, b.address, order);
     const size = 4 + 9 + 12 + (order === 2 ? 144 : 0), n = memory.get(1 + 2 * size);
@@ -251,20 +266,24 @@ function bindQueries(core, bodies) {
   }
 
   return {
-    collide: (a, poseA, b, poseB, options) => query(0, a, poseA, b, poseB, 0, options),
-    within: (a, poseA, b, poseB, margin, options) => query(1, a, poseA, b, poseB, margin, options),
-    distance: (a, poseA, b, poseB, options) => query(2, a, poseA, b, poseB, 0, options),
-    depth: (a, poseA, b, poseB, options) => query(3, a, poseA, b, poseB, 0, options),
+    collide: (a, b, poseA, poseB, options) => query(0, a, b, poseA, poseB, 0, options),
+    within: (a, b, poseA, poseB, margin, options) => query(1, a, b, poseA, poseB, margin, options),
+    distance: (a, b, poseA, poseB, options) => query(2, a, b, poseA, poseB, 0, options),
+    depth: (a, b, poseA, poseB, options) => query(3, a, b, poseA, poseB, 0, options),
     verify, batch, smooth,
   };
 }
 
 // ---- motions
 
+const MOTION = new Set(['duration', 'margin', 'tolerance']), MOVING = new Set(['shape', 'start', 'end']);
+
 function bindMotions(core) {
   const { memory, calls, names } = core, statuses = ['undecided', 'free', 'hit'];
 
   function ask(call, a, b, options) {
+    checkFields(options, MOTION, 'options');
+    for (const moving of [a, b]) checkFields(moving, MOVING, 'a moving body');
     const { duration = 1, margin = 0, tolerance = 0 } = options ?? {};
     memory.set([duration, margin, tolerance, ...[a, b].flatMap((m) => [...toPose(m.start, 'start'), ...toPose(m.end ?? m.start, 'end')])]);
     call(a.shape.address, b.shape.address);

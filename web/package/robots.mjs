@@ -1,20 +1,27 @@
 // Robots: a model from links, joints and shapes, where its links are, what is near.
 import { toPose, toVector } from './values.mjs';
+import { checkFields, suggest } from './words.mjs';
 
 const TYPES = ['fixed', 'revolute', 'continuous', 'prismatic', 'planar', 'floating'];
 const STATES = ['undecided', 'free', 'hit', 'refused'];
 const NEAR = 20;
+const ROBOT = new Set(['links', 'joints', 'elements', 'disabled']), ELEMENT = new Set(['link', 'shape', 'solid', 'pose']);
+const JOINT = new Set(['name', 'type', 'parent', 'child', 'origin', 'axis', 'lower', 'upper', 'velocity', 'mimic']), MIMIC = new Set(['joint', 'multiplier', 'offset']);
 
 function toModel(description) {
+  checkFields(description, ROBOT, 'a robot');
   const { links, joints, elements = [], disabled = [] } = description;
   const index = new Map(links.map((name, i) => [name, i])), places = new Map(joints.map((j, i) => [j.name, i]));
   const link = (name) => {
-    if (!index.has(name)) throw new TypeError(`no such link: ${name}`);
+    if (!index.has(name)) throw new TypeError(`no such link: ${name}${suggest(String(name), links)}`);
     return index.get(name);
   };
+  for (const e of elements) checkFields(e, ELEMENT, `an element of ${e.link}`);
   const rows = joints.flatMap((j) => {
+    checkFields(j, JOINT, `joint ${j.name}`);
+    checkFields(j.mimic, MIMIC, `joint ${j.name}: mimic`);
     const type = TYPES.indexOf(j.type);
-    if (type < 0) throw new TypeError(`joint ${j.name}: no such type: ${j.type}; there are ${TYPES.join(', ')}`);
+    if (type < 0) throw new TypeError(`joint ${j.name}: no such type: ${j.type}${suggest(String(j.type), TYPES)}`);
     if (j.mimic && !places.has(j.mimic.joint)) throw new TypeError(`joint ${j.name}: no such joint to mimic: ${j.mimic.joint}`);
     return [
       type, link(j.parent), link(j.child), ...toPose(j.origin, `joint ${j.name}`), ...toVector(j.axis ?? [1, 0, 0], `joint ${j.name}: axis`),

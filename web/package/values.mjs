@@ -1,5 +1,7 @@
 // Values: poses, vectors and answers, as the tool's JSON has them, to numbers and back.
 
+import { checkFields, checkName } from './words.mjs';
+
 /** Three finite or infinite numbers. */
 export function toVector(v, what) {
   if (v === undefined || v === null || v.length !== 3) throw new TypeError(`${what}: three numbers are needed`);
@@ -22,13 +24,12 @@ function toQuaternion(pose, what) {
   return [cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy];
 }
 
-const known = new Set(['xyz', 'quat_wxyz', 'quat_xyzw', 'rpy']);
+const POSE = new Set(['xyz', 'quat_wxyz', 'quat_xyzw', 'rpy']);
 
 /** Seven numbers of a pose { xyz, quat_wxyz | quat_xyzw | rpy }; undefined: at the origin, not turned. */
 export function toPose(pose, what = 'pose') {
   if (pose === undefined || pose === null) return [0, 0, 0, 1, 0, 0, 0];
-  for (const key of Object.keys(pose))
-    if (!known.has(key)) throw new TypeError(`${what}: no such field: ${key}; a pose has xyz and one of quat_wxyz, quat_xyzw, rpy`);
+  checkFields(pose, POSE, what);
   return [...(pose.xyz ? toVector(pose.xyz, `${what}.xyz`) : [0, 0, 0]), ...toQuaternion(pose, what)];
 }
 
@@ -114,8 +115,25 @@ export class Answer {
     return this.#proof;
   }
 
+  /** Whether the status is this one; a name that is none throws. */
+  is(status) {
+    checkName(status, this.#names.status, 'status');
+    return this.status === status;
+  }
+
+  /** Whether the bodies are within the margin: true, false, or null where the bracket does not say. */
+  isWithin(margin) {
+    return this.upper <= margin ? true : this.lower > margin ? false : null;
+  }
+
   toJSON() {
     return { ...this, proof: this.proof };
+  }
+
+  // Of an object `answer < 0.1` and `answer == 'separated'` would be false without a word.
+  [Symbol.toPrimitive](hint) {
+    if (hint !== 'string') throw new TypeError("an answer is neither a number nor a name: ask for answer.lower, answer.upper or answer.is('separated')");
+    return `${this.status}, ${this.lower} to ${this.upper}`;
   }
 }
 

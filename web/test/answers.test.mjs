@@ -6,7 +6,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { load } from '../../build/wasm/package/ovoid.mjs';
+import { load } from '../../build/wasm/package/node.mjs';
 
 const ovoid = await load();
 const { Shape, Compound, Solid, Robot } = ovoid;
@@ -51,7 +51,7 @@ test("a scene's pairs have the bits of the tool, proofs included, and every proo
   assert.equal(lines.length, (40 * 39) / 2);
   for (const { a, b, kind_a, kind_b, ...line } of lines) {
     assert.deepEqual([kind_a, kind_b], ['hull', 'hull']);
-    const pair = [shapes.get(a), poses.get(a), shapes.get(b), poses.get(b)];
+    const pair = [shapes.get(a), shapes.get(b), poses.get(a), poses.get(b)];
     const answer = ovoid.depth(...pair);
     assert.deepEqual(answer.toJSON(), line);
     assert.equal(ovoid.verify(...pair, line), null);
@@ -85,7 +85,7 @@ test('compounds and solids have the bits of the tool; their proofs hold, altered
   objects.push({ name: 'within', box: [1, 1, 1], pose: { xyz: [12, 12, 20] } });
   const byName = new Map(objects.map(({ name }, i) => [name, bodies[i]])), seen = { separated: 0, overlapping: 0 };
   for (const { a, b, kind_a, kind_b, mesh_volume_a, mesh_volume_b, hull_volume_a, hull_volume_b, ...line } of checkByTool({ objects }, { 'l.off': off })) {
-    const [p, q] = [byName.get(a), byName.get(b)], pair = [p.body, p.pose, q.body, q.pose];
+    const [p, q] = [byName.get(a), byName.get(b)], pair = [p.body, q.body, p.pose, q.pose];
     const answer = ovoid[line.proof.surfaces ? 'distance' : 'depth'](...pair);
     assert.deepEqual(answer.toJSON(), line, `${a} ${b}`);
     assert.equal(ovoid.verify(...pair, line), null);
@@ -105,12 +105,12 @@ test('compounds and solids have the bits of the tool; their proofs hold, altered
     seen[line.status]++;
   }
   assert.ok(seen.separated > 10 && seen.overlapping > 3 && seen.inside, JSON.stringify(seen));
-  assert.ok(ovoid.distance(bodies[1].body, null, bodies[4].body, { xyz: [9, 0, 0] }).proof.exclusions.length > 0);
+  assert.ok(ovoid.distance(bodies[1].body, bodies[4].body, null, { xyz: [9, 0, 0] }).proof.exclusions.length > 0);
   // The same body twice: all faces are flush, and a point of both proves the overlap.
-  const flush = ovoid.distance(solid, null, solid, null).toJSON();
+  const flush = ovoid.distance(solid, solid, null, null).toJSON();
   assert.deepEqual([flush.status, flush.inside, flush.common.length, flush.component], ['overlapping', 'common point', 3, undefined]);
-  assert.equal(ovoid.verify(solid, null, solid, null, flush), null);
-  assert.ok(ovoid.verify(solid, null, solid, null, { ...flush, common: [1.5, 1.5, 0.5] }));
+  assert.equal(ovoid.verify(solid, solid, null, null, flush), null);
+  assert.ok(ovoid.verify(solid, solid, null, null, { ...flush, common: [1.5, 1.5, 0.5] }));
 });
 
 test('batches have the bits of single queries', () => {
@@ -119,12 +119,12 @@ test('batches have the bits of single queries', () => {
   for (const kind of ['collide', 'distance', 'depth']) {
     const all = ovoid.batch(kind, bodies, couples);
     couples.forEach(([a, b], i) => {
-      const one = ovoid[kind](bodies[a].shape, bodies[a].pose, bodies[b].shape, bodies[b].pose);
+      const one = ovoid[kind](bodies[a].shape, bodies[b].shape, bodies[a].pose, bodies[b].pose);
       assert.deepEqual([ovoid.names.status[all.status[i]], ovoid.names.stage[all.stage[i]], all.lower[i], all.upper[i]], [one.status, one.stage, one.lower, one.upper]);
     });
   }
   assert.throws(() => ovoid.batch('distance', bodies, [[0, 24]]), { name: 'OvoidError', place: 0 });
-  assert.throws(() => ovoid.batch('near', bodies, [[0, 1]]), /no query/);
+  assert.throws(() => ovoid.batch('near', bodies, [[0, 1]]), /no such query/);
 });
 
 test('known shapes', () => {
@@ -144,19 +144,19 @@ test('known shapes', () => {
 
 test('known distances; a warm start', () => {
   const box = Shape.box([1, 1, 1]), ball = Shape.sphere(0.5), at = { xyz: [3, 0.2, 0.1] };
-  const far = ovoid.distance(box, null, ball, at);
+  const far = ovoid.distance(box, ball, null, at);
   assert.equal(far.status, 'separated');
   assert.ok(far.lower <= 1.5 && far.upper >= 1.5 && far.upper - far.lower < 1e-8);
-  assert.equal(ovoid.distance(box, null, ball, { xyz: [3.001, 0.2, 0.1] }, { earlier: far }).status, 'separated');
-  assert.equal(ovoid.within(box, null, ball, at, 1.6).upper <= 1.6, true);
-  assert.equal(ovoid.within(box, null, ball, at, 1.4).lower > 1.4, true);
-  assert.equal(ovoid.collide(box, null, ball, { xyz: [1.2, 0, 0] }).status, 'overlapping');
+  assert.equal(ovoid.distance(box, ball, null, { xyz: [3.001, 0.2, 0.1] }, { earlier: far }).status, 'separated');
+  assert.equal(ovoid.within(box, ball, null, at, 1.6).upper <= 1.6, true);
+  assert.equal(ovoid.within(box, ball, null, at, 1.4).lower > 1.4, true);
+  assert.equal(ovoid.collide(box, ball, null, { xyz: [1.2, 0, 0] }).status, 'overlapping');
   const turned = [{ rpy: [0, 0, Math.PI / 4] }, { quat_wxyz: [Math.cos(Math.PI / 8), 0, 0, Math.sin(Math.PI / 8)] }, { quat_xyzw: [0, 0, Math.sin(Math.PI / 8), Math.cos(Math.PI / 8)] }];
   for (const turn of turned) {
-    const d = ovoid.distance(box, { xyz: [0, 0, 0], ...turn }, ball, { xyz: [3, 0, 0] });
+    const d = ovoid.distance(box, ball, { xyz: [0, 0, 0], ...turn }, { xyz: [3, 0, 0] });
     assert.ok(Math.abs(d.lower - (2.5 - Math.SQRT2)) < 1e-9);
   }
-  const s = ovoid.smooth(box, null, ball, at, 2);
+  const s = ovoid.smooth(box, ball, null, at, 2);
   assert.ok(s.outer.value <= 1.5 && s.inner.value >= 1.5 && s.outer.hessian.length === 12);
   assert.ok(Math.abs(s.outer.gradient[6] + s.outer.gradient[0]) < 1e-12);
 });
@@ -176,27 +176,27 @@ test('compounds and solids: known answers, and what is refused', () => {
   const solid = Solid.fromTriangles(corners, faces), ball = Shape.sphere(0.1), pose = { xyz: [1.5, 1.5, 0.5] };
   assert.equal(solid.report.isClosed, true);
   assert.ok(Math.abs(solid.report.volume - 3) < 1e-12);
-  const d = ovoid.distance(solid, null, ball, pose);
+  const d = ovoid.distance(solid, ball, null, pose);
   assert.ok(d.lower <= 0.4 && d.upper >= 0.4 && d.upper - d.lower < 1e-8);
-  assert.equal(ovoid.collide(solid, null, Shape.fromPoints([[0.5, 0.5, 0.5]]), {}).status, 'overlapping');
-  assert.equal(ovoid.within(ball, pose, solid, null, 0.3).lower > 0.3, true);
+  assert.equal(ovoid.collide(solid, Shape.fromPoints([[0.5, 0.5, 0.5]]), null, {}).status, 'overlapping');
+  assert.equal(ovoid.within(ball, solid, pose, null, 0.3).lower > 0.3, true);
   assert.throws(() => Solid.fromTriangles([[0, 0, 0]], [[0, 0, 9]]), { name: 'OvoidError' });
-  assert.throws(() => ovoid.depth(solid, null, ball, pose), /ask for the distance/);
-  assert.throws(() => ovoid.distance(solid, null, {}, pose), /a Shape, a Compound or a Solid/);
+  assert.throws(() => ovoid.depth(solid, ball, null, pose), /ask for the distance/);
+  assert.throws(() => ovoid.distance(solid, {}, null, pose), /a Shape, a Compound or a Solid/);
 
   const box = Shape.box([0.5, 0.5, 0.5]), rack = new Compound([{ shape: box }, { shape: box, pose: { xyz: [0, 0, 3] } }]);
-  const far = ovoid.depth(rack, { xyz: [1, 0, 0] }, ball, { xyz: [1, 0, 2] });
+  const far = ovoid.depth(rack, ball, { xyz: [1, 0, 0] }, { xyz: [1, 0, 2] });
   assert.deepEqual([far.status, far.part_a, far.part_b], ['separated', 1, undefined]);
   assert.ok(far.lower <= 0.4 && far.upper >= 0.4);
-  assert.equal(ovoid.collide(solid, null, rack, { xyz: [0.5, 0.5, -2.5] }).part_b, 1);
+  assert.equal(ovoid.collide(solid, rack, null, { xyz: [0.5, 0.5, -2.5] }).part_b, 1);
   assert.throws(() => new Compound([]), { name: 'OvoidError', message: /part/ });
   assert.throws(() => new Compound([{ shape: solid }]), /the parts of a compound/);
   assert.throws(() => new Compound([{ shape: box, pose: { quat_wxyz: [0, 0, 0, 0] } }]), { name: 'OvoidError', place: 0 });
   box.free();
-  assert.throws(() => ovoid.distance(rack, null, ball, pose), /the shape was freed/);
+  assert.throws(() => ovoid.distance(rack, ball, null, pose), /the shape was freed/);
   rack.free();
   rack.free();
-  assert.throws(() => ovoid.distance(rack, null, ball, pose), /the compound was freed/);
+  assert.throws(() => ovoid.distance(rack, ball, null, pose), /the compound was freed/);
 });
 
 test('robots', () => {
@@ -250,7 +250,7 @@ test('robots', () => {
   const ball = Shape.sphere(0.3);
   dented.add(ball, { xyz: [1.5, 1.5, 0.5] });
   assert.deepEqual([0, 1, -1].map((x) => dented.collide([x]).status), ['free', 'hit', 'free']);
-  assert.equal(ovoid.collide(Shape.hullOf(wall), null, ball, { xyz: [1.5, 1.2, 0.5] }).status, 'overlapping');
+  assert.equal(ovoid.collide(Shape.hullOf(wall), ball, null, { xyz: [1.5, 1.2, 0.5] }).status, 'overlapping');
   dented.free();
   robot.move(id, { xyz: [0, 9, 0] });
   assert.equal(robot.collide([Math.PI / 2, 0]).status, 'free');
@@ -272,16 +272,52 @@ test('what is wrong is refused, and nothing is lost', () => {
   assert.throws(() => new Shape(), TypeError);
   assert.throws(() => Shape.fromBytes(new Uint8Array(100)), { name: 'OvoidError' });
   const box = Shape.box([1, 1, 1]);
-  assert.throws(() => ovoid.distance(box, { position: [0, 0, 0] }, box), /no such field: position/);
-  assert.throws(() => ovoid.distance(box, { rpy: [0, 0, 0], quat_wxyz: [1, 0, 0, 0] }, box), /one of/);
-  assert.equal(ovoid.distance(box, { xyz: [NaN, 0, 0] }, box).limit, 'pose_a');
-  assert.equal(ovoid.distance(box, {}, box, { quat_wxyz: [0, 0, 0, 0] }).limit, 'pose_b');
-  const good = ovoid.distance(box, {}, box, { xyz: [3, 0, 0] });
+  assert.throws(() => ovoid.distance(box, box, { position: [0, 0, 0] }), /no such field: position/);
+  assert.throws(() => ovoid.distance(box, box, { rpy: [0, 0, 0], quat_wxyz: [1, 0, 0, 0] }), /one of/);
+  assert.equal(ovoid.distance(box, box, { xyz: [NaN, 0, 0] }).limit, 'pose_a');
+  assert.equal(ovoid.distance(box, box, {}, { quat_wxyz: [0, 0, 0, 0] }).limit, 'pose_b');
+  const good = ovoid.distance(box, box, {}, { xyz: [3, 0, 0] });
   for (const bad of [{ kind: 'cover' }, { kind: 'nonsense' }, { a: [99, 99, 99] }, { normal: [NaN, 0, 0] }, { weight_a: [-1, -1, -1] }, { a: new Array(9).fill(0) }])
-    assert.ok(ovoid.verify(box, {}, box, { xyz: [3, 0, 0] }, { ...good.toJSON(), proof: { ...good.proof, ...bad } }), JSON.stringify(bad));
+    assert.ok(ovoid.verify(box, box, {}, { xyz: [3, 0, 0] }, { ...good.toJSON(), proof: { ...good.proof, ...bad } }), JSON.stringify(bad));
   box.free();
   box.free();
   assert.throws(() => box.vertices, /freed/);
+});
+
+test('names that are none are refused with the nearest one', () => {
+  const box = Shape.box([1, 1, 1]), refused = (call, message) => assert.throws(call, { name: 'TypeError', message });
+  refused(() => ovoid.distance(box, box, null, null, { absolute_tolerence: 1 }), 'options: no such field: absolute_tolerence; did you mean absoluteTolerance?');
+  refused(() => ovoid.verify(box, box, null, null, ovoid.distance(box, box), { Cap: 1 }), 'options: no such field: Cap; did you mean cap?');
+  refused(() => ovoid.collide(box, box, { position: [0, 0, 0] }), 'poseA: no such field: position; there are xyz, quat_wxyz, quat_xyzw, rpy');
+  refused(() => ovoid.collide(box, box, null, { quat_wxzy: [1, 0, 0, 0] }), /did you mean quat_wxyz/);
+  refused(() => ovoid.batch('distanse', [{ shape: box }], [[0, 0]]), 'no such query: distanse; did you mean distance?');
+  refused(() => ovoid.batch('distance', [{ shape: box }], [[0, 0]], { earlier: {} }), /no such field: earlier/);
+  refused(() => ovoid.impact({ shape: box, start: {} }, { shape: box, begin: {} }), /a moving body: no such field: begin/);
+  refused(() => ovoid.approach({ shape: box }, { shape: box }, { tolerence: 1 }), /did you mean tolerance/);
+  refused(() => Shape.sphere(1, { tolerance: 1 }), /no such field: tolerance/);
+  refused(() => Shape.sphere(1, { allowance: { outsid: 1 } }), /did you mean outside/);
+  refused(() => Shape.sphere(1, 0.1), /an object is needed/);
+  refused(() => Shape.box({ sizes: [1, 1, 1] }), /did you mean size/);
+  refused(() => Shape.box({ half: [1, 1, 1], size: [2, 2, 2] }), /one of/);
+  refused(() => Shape.box({}), /one of/);
+  refused(() => new Robot({ links: ['a'], joint: [] }), /did you mean joints/);
+  refused(() => new Robot({ links: ['arm', 'leg'], joints: [{ name: 'j', type: 'revolut', parent: 'arm', child: 'leg' }] }), /did you mean revolute/);
+  refused(() => new Robot({ links: ['arm', 'leg'], joints: [{ name: 'j', type: 'fixed', parent: 'arn', child: 'leg' }] }), /did you mean arm/);
+  refused(() => ovoid.distance(box, null, box, null), /the arguments are a, b, poseA, poseB/);
+  assert.equal(Shape.box({ size: [2, 4, 6] }).volume, Shape.box({ half: [1, 2, 3] }).volume);
+  assert.equal(Shape.box({ half: [1, 2, 3] }).volume, Shape.box([1, 2, 3]).volume);
+});
+
+test('an answer is asked by name, and is no number', () => {
+  const box = Shape.box([1, 1, 1]), answer = ovoid.distance(box, box, null, { xyz: [3, 0, 0] }), { Status } = ovoid;
+  assert.deepEqual(Object.values(Status), ovoid.names.status);
+  assert.ok(Object.isFrozen(Status) && answer.status === Status.separated && answer.is('separated') && !answer.is('overlapping'));
+  assert.throws(() => answer.is('seperated'), { name: 'TypeError', message: 'no such status: seperated; did you mean separated?' });
+  assert.throws(() => answer < 0.1, /answer.lower/);
+  assert.throws(() => answer == 'separated', /answer.is/);
+  assert.match(String(answer), /^separated, 0?\.?[\d.]+ to [\d.]+$/);
+  assert.deepEqual([0.5, 1.5].map((margin) => answer.isWithin(margin)), [false, true]);
+  assert.equal(answer.isWithin((answer.lower + answer.upper) / 2), null);
 });
 
 test('memory goes back', () => {

@@ -126,7 +126,7 @@ export class Model {
   ask(a, b) {
     if (!a.asked || !b.asked) return null;
     const kind = a.isSolid || b.isSolid ? 'distance' : 'depth';
-    return this.ovoid[kind](a.asked, a.pose, b.asked, b.pose);
+    return this.ovoid[kind](a.asked, b.asked, a.pose, b.pose);
   }
 
   askAgain(pair) {
@@ -154,7 +154,7 @@ export class Model {
     if (!a.asked || !b.asked) return { isVerified: false, text: 'The triangles are too many for the page: ovoid verify checks this proof.' };
     // What is near a robot comes without proofs, and those that were too many for the page.
     if (!pair.answer.proof) this.askAgain(pair);
-    const error = this.ovoid.verify(a.asked, a.pose, b.asked, b.pose, pair.answer);
+    const error = this.ovoid.verify(a.asked, b.asked, a.pose, b.pose, pair.answer);
     return { isVerified: true, holds: error === null, text: error ? error.message : 'The proof holds.' };
   }
 }
