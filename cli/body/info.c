@@ -37,31 +37,31 @@ typedef struct info {
     ovoid_mesh_kind kind; ///< as what ovoid distance takes it
 } info;
 
-static int is_inside_out(const info *x) { return x->report.is_closed && x->report.volume < 0; }
+static int is_inside_out(const info *report) { return report->report.is_closed && report->report.volume < 0; }
 
 /// 1 where there is nothing to find fault with.
-static int is_clean(const info *x) {
-    const ovoid_solid_report *r = &x->report;
+static int is_clean(const info *report) {
+    const ovoid_solid_report *r = &report->report;
     return r->is_closed && r->volume > 0 && !r->edges_crowded && !r->degenerate && !r->duplicates &&
-           !x->crossings.pairs;
+           !report->crossings.pairs;
 }
 
 /// Reads a mesh. 0 after a message.
-static int read_mesh(const char *path, const settings *s, info *x) {
+static int read_mesh(const char *path, const settings *s, info *report) {
     cli_body body;
     read_settings read = s->read;
     read.solid = 1;
-    *x = (info){.path = path, .unit = inputs_get_unit(&s->read)};
+    *report = (info){.path = path, .unit = inputs_get_unit(&s->read)};
     if (ovoid_path_is_shape(path)) {
         message_error("%s is a shape, not a mesh: ovoid fit tells about it", path);
         return 0;
     }
     if (inputs_open_body(path, &read, 0, &body)) return 0;
     ovoid_named_shape mesh = ovoid_shapes_get(body.parts, 0);
-    x->convexity = mesh.convexity;
-    x->kind = mesh.convexity.kind;
-    x->report = ovoid_solid_get_report(mesh.solid);
-    x->crossings = ovoid_solid_compute_crossings(mesh.solid, CROSSINGS_MAX);
+    report->convexity = mesh.convexity;
+    report->kind = mesh.convexity.kind;
+    report->report = ovoid_solid_get_report(mesh.solid);
+    report->crossings = ovoid_solid_compute_crossings(mesh.solid, CROSSINGS_MAX);
     inputs_close_body(&body);
     return 1;
 }
@@ -72,45 +72,46 @@ static void print_count(const char *title, uint64_t count, const char *what) {
     if (count) printf("  %-11s %llu%s\n", title, (unsigned long long)count, what);
 }
 
-static void print_crossings(const info *x) {
-    const ovoid_solid_crossings *c = &x->crossings;
+static void print_crossings(const info *report) {
+    const ovoid_solid_crossings *c = &report->crossings;
     if (!c->pairs) return;
     printf("  %-11s %llu%s pairs of triangles; the first: %lu and %lu\n", "crossings", (unsigned long long)c->pairs,
            c->is_complete ? "" : " and more", (unsigned long)c->triangle_a, (unsigned long)c->triangle_b);
 }
 
-static void print_volumes(const info *x) {
-    const ovoid_solid_report *r = &x->report;
+static void print_volumes(const info *report) {
+    const ovoid_solid_report *r = &report->report;
     char unit[8] = "";
-    if (x->unit[0]) snprintf(unit, sizeof unit, " %s^3", x->unit);
+    if (report->unit[0]) snprintf(unit, sizeof unit, " %s^3", report->unit);
     if (r->is_closed) printf("  %-11s %.6g%s\n", "volume", r->volume, unit);
-    printf("  %-11s %.6g%s", "hull", x->convexity.hull_volume, unit);
-    if (r->is_closed && x->convexity.hull_volume > 0)
-        printf("; filled to %.4g %%", 100 * fabs(r->volume) / x->convexity.hull_volume);
+    printf("  %-11s %.6g%s", "hull", report->convexity.hull_volume, unit);
+    if (r->is_closed && report->convexity.hull_volume > 0)
+        printf("; filled to %.4g %%", 100 * fabs(r->volume) / report->convexity.hull_volume);
     putchar('\n');
 }
 
-static void print_info(const info *x) {
-    const ovoid_solid_report *r = &x->report;
-    message_write_text(stdout, x->path);
+static void print_info(const info *report) {
+    const ovoid_solid_report *r = &report->report;
+    message_write_text(stdout, report->path);
     printf("\n  %-11s %llu; points: %llu; components: %llu\n", "triangles", (unsigned long long)r->triangles,
            (unsigned long long)r->points, (unsigned long long)r->components);
     if (r->is_closed)
-        printf("  %-11s yes%s\n", "closed", is_inside_out(x) ? "; inside out" : "");
+        printf("  %-11s yes%s\n", "closed", is_inside_out(report) ? "; inside out" : "");
     else
         printf("  %-11s no: %llu edges are not matched\n", "closed", (unsigned long long)r->edges_unmatched);
-    print_volumes(x);
+    print_volumes(report);
     if (r->is_flat) puts("  flat        encloses no volume but what rounding left: a sheet with two sides");
     print_count("crowded", r->edges_crowded, " edges of more than two triangles");
     print_count("degenerate", r->degenerate, " triangles without area");
     print_count("duplicates", r->duplicates, " triangles that are there before");
-    print_crossings(x);
-    printf("  %-11s %s", "counts as", ovoid_mesh_kind_get_name(x->kind));
-    double allowance = x->kind == OVOID_MESH_HULL ? x->convexity.allowance : 0;
+    print_crossings(report);
+    printf("  %-11s %s", "counts as", ovoid_mesh_kind_get_name(report->kind));
+    double allowance = report->kind == OVOID_MESH_HULL ? report->convexity.allowance : 0;
     if (allowance > 0)
-        printf(", off the mesh by at most %.2g%s%s: answers allow for it", allowance, *x->unit ? " " : "", x->unit);
-    if (x->kind == OVOID_MESH_HULL && !(allowance > 0)) fputs(", which it is exactly", stdout);
-    if (x->kind == OVOID_MESH_SURFACE)
+        printf(", off the mesh by at most %.2g%s%s: answers allow for it", allowance, *report->unit ? " " : "",
+               report->unit);
+    if (report->kind == OVOID_MESH_HULL && !(allowance > 0)) fputs(", which it is exactly", stdout);
+    if (report->kind == OVOID_MESH_SURFACE)
         printf(", without an inside: %llu edges are open", (unsigned long long)r->edges_unmatched);
     putchar('\n');
 }
@@ -124,31 +125,32 @@ static void write_number(const char *key, double number) {
     json_write_number(stdout, number);
 }
 
-static void write_json(const info *x) {
-    const ovoid_solid_report *r = &x->report;
+static void write_json(const info *report) {
+    const ovoid_solid_report *r = &report->report;
     fputs("{\"mesh\":", stdout);
-    ovoid_text_write_json(stdout, x->path);
+    ovoid_text_write_json(stdout, report->path);
     write_count("triangles", r->triangles);
     write_count("points", r->points);
     write_count("components", r->components);
-    printf(",\"closed\":%s,\"inside_out\":%s", r->is_closed ? "true" : "false", is_inside_out(x) ? "true" : "false");
+    printf(",\"closed\":%s,\"inside_out\":%s", r->is_closed ? "true" : "false",
+           is_inside_out(report) ? "true" : "false");
     write_count("edges_unmatched", r->edges_unmatched);
     write_count("edges_crowded", r->edges_crowded);
     write_count("degenerate", r->degenerate);
     write_count("duplicates", r->duplicates);
-    write_count("crossings", x->crossings.pairs);
-    printf(",\"crossings_complete\":%s,\"first_crossing\":", x->crossings.is_complete ? "true" : "false");
-    if (x->crossings.pairs)
-        printf("[%lu,%lu]", (unsigned long)x->crossings.triangle_a, (unsigned long)x->crossings.triangle_b);
+    write_count("crossings", report->crossings.pairs);
+    printf(",\"crossings_complete\":%s,\"first_crossing\":", report->crossings.is_complete ? "true" : "false");
+    if (report->crossings.pairs)
+        printf("[%lu,%lu]", (unsigned long)report->crossings.triangle_a, (unsigned long)report->crossings.triangle_b);
     else
         fputs("null", stdout);
     write_number("volume", r->is_closed ? r->volume : NAN);
     printf(",\"flat\":%s", r->is_flat ? "true" : "false");
     write_number("area", r->area);
-    write_number("mesh_volume", x->convexity.mesh_volume);
-    write_number("hull_volume", x->convexity.hull_volume);
-    printf(",\"kind\":\"%s\",\"allowance\":", ovoid_mesh_kind_get_name(x->kind));
-    json_write_number(stdout, x->kind == OVOID_MESH_HULL ? x->convexity.allowance : 0);
+    write_number("mesh_volume", report->convexity.mesh_volume);
+    write_number("hull_volume", report->convexity.hull_volume);
+    printf(",\"kind\":\"%s\",\"allowance\":", ovoid_mesh_kind_get_name(report->kind));
+    json_write_number(stdout, report->kind == OVOID_MESH_HULL ? report->convexity.allowance : 0);
     fputs("}\n", stdout);
 }
 
@@ -159,11 +161,11 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code >= 0) return code;
     progress_start("meshes", (size_t)paths.count);
     for (int i = 0; i < paths.count; i++) {
-        info x;
-        int is_read = read_mesh(paths.items[i], &s, &x);
+        info report;
+        int is_read = read_mesh(paths.items[i], &s, &report);
         failed |= !is_read;
-        faults |= is_read && !is_clean(&x);
-        if (is_read) (s.json ? write_json : print_info)(&x);
+        faults |= is_read && !is_clean(&report);
+        if (is_read) (s.json ? write_json : print_info)(&report);
         progress_set((size_t)i + 1);
     }
     progress_end();

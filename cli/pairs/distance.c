@@ -51,7 +51,9 @@ static void print_name(FILE *file, const char *title, const char *name) {
     message_write_text(file, name);
 }
 
-static int has_axis(const ovoid_allowance *x) { return fabs(x->axis.x) + fabs(x->axis.y) + fabs(x->axis.z) > 0; }
+static int has_axis(const ovoid_allowance *allowance) {
+    return fabs(allowance->axis.x) + fabs(allowance->axis.y) + fabs(allowance->axis.z) > 0;
+}
 
 static void print_allowance(const report *r, const char *title, const ovoid_allowance *allowance) {
     if (allowance->outside > 0 || allowance->inside > 0)
@@ -117,11 +119,11 @@ static void print_margin(const report *r, const ovoid_answer *answer, double mar
 }
 
 /// Prints the distance or the depth; of a bracket that is wide both ends.
-static void print_distance(const report *r, const ovoid_answer *x) {
+static void print_distance(const report *r, const ovoid_answer *answer) {
     char text[64];
-    int is_depth = x->upper < 0;
-    ovoid_answer shown = *x;
-    if (is_depth) shown.lower = -x->upper, shown.upper = -x->lower;
+    int is_depth = answer->upper < 0;
+    ovoid_answer shown = *answer;
+    if (is_depth) shown.lower = -answer->upper, shown.upper = -answer->lower;
     (void)ovoid_answer_write_distance(text, &shown);
     double middle = shown.lower + (shown.upper - shown.lower) / 2;
     if (!strstr(text, " .. ")) snprintf(text, sizeof text, "%.9g", fabs(middle));
@@ -131,21 +133,22 @@ static void print_distance(const report *r, const ovoid_answer *x) {
 /// Prints the report for people: bodies, distance, proof.
 static void print_report(const report *r, const cli_body bodies[2], const ovoid_record *record, int holds) {
     FILE *file = r->file;
-    const ovoid_answer *x = &record->answer;
+    const ovoid_answer *answer = &record->answer;
     print_body(r, "a", record->a, &bodies[0]);
     print_body(r, "b", record->b, &bodies[1]);
-    fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(x->status));
-    print_distance(r, x);
-    fprintf(file, "%-11s %.17g .. %.17g%s\n", "bracket", x->lower, x->upper, r->unit);
-    if (record->margin >= 0) print_margin(r, x, record->margin);
+    fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(answer->status));
+    print_distance(r, answer);
+    fprintf(file, "%-11s %.17g .. %.17g%s\n", "bracket", answer->lower, answer->upper, r->unit);
+    if (record->margin >= 0) print_margin(r, answer, record->margin);
     print_part(file, "part of a", &bodies[0], record->part_a);
     print_part(file, "part of b", &bodies[1], record->part_b);
-    print_vector(r, "point on a", x->point_a, r->unit);
-    print_vector(r, "point on b", x->point_b, r->unit);
-    print_vector(r, "normal", x->normal, "");
-    fprintf(file, "%-11s %s; iterations: %u", "decided by", ovoid_stage_get_name(x->stage), (unsigned)x->iterations);
-    if (x->limit != OVOID_LIMIT_NONE) fprintf(file, "; stopped by: %s", ovoid_limit_get_name(x->limit));
-    fprintf(file, "\n%-11s %s; ", "proof", ovoid_proof_kind_get_name(x->proof.kind));
+    print_vector(r, "point on a", answer->point_a, r->unit);
+    print_vector(r, "point on b", answer->point_b, r->unit);
+    print_vector(r, "normal", answer->normal, "");
+    fprintf(file, "%-11s %s; iterations: %u", "decided by", ovoid_stage_get_name(answer->stage),
+            (unsigned)answer->iterations);
+    if (answer->limit != OVOID_LIMIT_NONE) fprintf(file, "; stopped by: %s", ovoid_limit_get_name(answer->limit));
+    fprintf(file, "\n%-11s %s; ", "proof", ovoid_proof_kind_get_name(answer->proof.kind));
     if (bodies[0].compound) fprintf(file, "exclusions: %zu; ", record->exclusion_count);
     fprintf(file, "%s\n", holds ? "checked" : "DOES NOT HOLD");
 }

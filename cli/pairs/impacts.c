@@ -37,23 +37,23 @@ typedef struct work_state {
     size_t next;
 } work_state;
 
-int impacts_open(cli_impacts *x) {
-    size_t count = ovoid_scene_get_count(x->scene);
-    x->boxes = calloc(count + 1, sizeof *x->boxes);
-    x->is_fresh = calloc(count + 1, 1);
-    if (x->boxes && x->is_fresh) return 0;
+int impacts_open(cli_impacts *impacts) {
+    size_t count = ovoid_scene_get_count(impacts->scene);
+    impacts->boxes = calloc(count + 1, sizeof *impacts->boxes);
+    impacts->is_fresh = calloc(count + 1, 1);
+    if (impacts->boxes && impacts->is_fresh) return 0;
     message_error("out of memory");
-    impacts_close(x);
+    impacts_close(impacts);
     return EXIT_INPUT;
 }
 
-void impacts_close(cli_impacts *x) {
-    free(x->boxes);
-    free(x->is_fresh);
-    free(x->held);
-    free(x->open);
-    free(x->couples);
-    *x = (cli_impacts){.scene = NULL};
+void impacts_close(cli_impacts *impacts) {
+    free(impacts->boxes);
+    free(impacts->is_fresh);
+    free(impacts->held);
+    free(impacts->open);
+    free(impacts->couples);
+    *impacts = (cli_impacts){.scene = NULL};
 }
 
 static int add_couple(ovoid_couple **couples, size_t *count, size_t *capacity, ovoid_couple couple) {
@@ -63,12 +63,12 @@ static int add_couple(ovoid_couple **couples, size_t *count, size_t *capacity, o
     return 0;
 }
 
-int impacts_hold(cli_impacts *x, ovoid_couple couple) {
-    return add_couple(&x->held, &x->held_count, &x->held_capacity, couple);
+int impacts_hold(cli_impacts *impacts, ovoid_couple couple) {
+    return add_couple(&impacts->held, &impacts->held_count, &impacts->held_capacity, couple);
 }
 
-int impacts_leave_open(cli_impacts *x, ovoid_couple couple) {
-    return add_couple(&x->open, &x->open_count, &x->open_capacity, couple);
+int impacts_leave_open(cli_impacts *impacts, ovoid_couple couple) {
+    return add_couple(&impacts->open, &impacts->open_count, &impacts->open_capacity, couple);
 }
 
 /* ---- which pairs come near each other */
@@ -80,19 +80,19 @@ ovoid_moving_body impacts_get_moving(const ovoid_scene *scene, const cli_frames 
         .shape = o.shape, .compound = o.compound, .motion = frames_get_motion(frames, object), .solid = o.solid};
 }
 
-static ovoid_moving_body get_moving(const cli_impacts *x, size_t object) {
-    return impacts_get_moving(x->scene, x->frames, object);
+static ovoid_moving_body get_moving(const cli_impacts *impacts, size_t object) {
+    return impacts_get_moving(impacts->scene, impacts->frames, object);
 }
 
-static double get_duration(const cli_impacts *x) { return x->frames->time - x->frames->earlier; }
+static double get_duration(const cli_impacts *impacts) { return impacts->frames->time - impacts->frames->earlier; }
 
-static void make_box(cli_impacts *x, size_t object) {
-    int moves = x->frames->is_moved[object];
-    if (!moves && x->is_fresh[object]) return;
-    ovoid_moving_body moving = get_moving(x, object);
-    ovoid_box *box = &x->boxes[object];
-    *box = ovoid_moving_body_compute_box(&moving, 0, get_duration(x));
-    x->is_fresh[object] = !moves;
+static void make_box(cli_impacts *impacts, size_t object) {
+    int moves = impacts->frames->is_moved[object];
+    if (!moves && impacts->is_fresh[object]) return;
+    ovoid_moving_body moving = get_moving(impacts, object);
+    ovoid_box *box = &impacts->boxes[object];
+    *box = ovoid_moving_body_compute_box(&moving, 0, get_duration(impacts));
+    impacts->is_fresh[object] = !moves;
 }
 
 static int compare_couples(const void *a, const void *b) {
@@ -108,25 +108,26 @@ static int has_couple(const ovoid_couple *couples, size_t count, ovoid_couple c)
 
 /// 1 for a candidate: one of the two moves, the scene does not ignore the pair, and it was not proven within the
 /// margin.
-static int is_candidate(const cli_impacts *x, ovoid_couple c) {
-    if (!x->frames->is_moved[c.a] && !x->frames->is_moved[c.b]) return 0;
-    if (!shard_part_has_pair(x->part, c.a, c.b)) return 0;
-    if (ovoid_scene_is_ignored(x->scene, c.a, c.b)) return 0;
-    return !has_couple(x->held, x->held_count, c);
+static int is_candidate(const cli_impacts *impacts, ovoid_couple c) {
+    if (!impacts->frames->is_moved[c.a] && !impacts->frames->is_moved[c.b]) return 0;
+    if (!shard_part_has_pair(impacts->part, c.a, c.b)) return 0;
+    if (ovoid_scene_is_ignored(impacts->scene, c.a, c.b)) return 0;
+    return !has_couple(impacts->held, impacts->held_count, c);
 }
 
 static int visit_couple(void *context, ovoid_couple couple) {
-    cli_impacts *x = context;
-    if (!is_candidate(x, couple)) return 0;
-    return add_couple(&x->couples, &x->couple_count, &x->couple_capacity, couple);
+    cli_impacts *impacts = context;
+    if (!is_candidate(impacts, couple)) return 0;
+    return add_couple(&impacts->couples, &impacts->couple_count, &impacts->couple_capacity, couple);
 }
 
-static int find_couples(cli_impacts *x) {
-    size_t count = ovoid_scene_get_count(x->scene);
-    x->couple_count = 0;
-    for (size_t i = 0; i < count; i++) make_box(x, i);
-    int code = sweep_find(x->boxes, count, x->margin, visit_couple, x);
-    if (x->couple_count) qsort(x->couples, x->couple_count, sizeof *x->couples, compare_couples);
+static int find_couples(cli_impacts *impacts) {
+    size_t count = ovoid_scene_get_count(impacts->scene);
+    impacts->couple_count = 0;
+    for (size_t i = 0; i < count; i++) make_box(impacts, i);
+    int code = sweep_find(impacts->boxes, count, impacts->margin, visit_couple, impacts);
+    if (impacts->couple_count)
+        qsort(impacts->couples, impacts->couple_count, sizeof *impacts->couples, compare_couples);
     return code;
 }
 
@@ -167,8 +168,8 @@ void pair_impact_clear(pair_impact *p) {
 }
 
 int pair_impact_is_arrival(const pair_impact *p) {
-    const ovoid_impact *x = &p->found.impact;
-    return x->status == OVOID_IMPACT_UNDECIDED && x->free_until >= (1 - TOLERANCE) * x->end;
+    const ovoid_impact *found = &p->found.impact;
+    return found->status == OVOID_IMPACT_UNDECIDED && found->free_until >= (1 - TOLERANCE) * found->end;
 }
 
 static int fill(void *context, void *slot) {
@@ -182,12 +183,12 @@ static void work(void *context, void *slot) {
     const work_state *w = context;
     const chunk *k = slot;
     for (size_t i = k->first; i < k->first + k->count; i++) {
-        const cli_impacts *x = w->impacts;
-        impact_proof proof = results_have_proofs(x->results) ? IMPACT_PROOF_RECORD : IMPACT_PROOF_NONE;
-        const ovoid_couple c = x->couples[i];
-        const ovoid_moving_body bodies[2] = {get_moving(x, c.a), get_moving(x, c.b)};
+        const cli_impacts *impacts = w->impacts;
+        impact_proof proof = results_have_proofs(impacts->results) ? IMPACT_PROOF_RECORD : IMPACT_PROOF_NONE;
+        const ovoid_couple c = impacts->couples[i];
+        const ovoid_moving_body bodies[2] = {get_moving(impacts, c.a), get_moving(impacts, c.b)};
         w->items[i].couple = c;
-        w->items[i].failed = !pair_impact_find(&w->items[i].pair, bodies, x->margin, proof);
+        w->items[i].failed = !pair_impact_find(&w->items[i].pair, bodies, impacts->margin, proof);
     }
 }
 
@@ -219,22 +220,23 @@ static int compare_impacts(const void *a, const void *b) {
     return compare_couples(&p->couple, &q->couple);
 }
 
-static int is_shape(const cli_impacts *x, size_t object) {
-    ovoid_scene_object o = ovoid_scene_get(x->scene, object);
+static int is_shape(const cli_impacts *impacts, size_t object) {
+    ovoid_scene_object o = ovoid_scene_get(impacts->scene, object);
     return !o.compound && !o.solid;
 }
 
 /// The answer of compounds or solids at a time between the frames, at which a hit is within the margin. 0 where memory
 /// is out.
-static int answer_compounds(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
+static int answer_compounds(const cli_impacts *impacts, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
     double at = get_time(item);
-    ovoid_motion motions[2] = {frames_get_motion(x->frames, c.a), frames_get_motion(x->frames, c.b)};
+    ovoid_motion motions[2] = {frames_get_motion(impacts->frames, c.a), frames_get_motion(impacts->frames, c.b)};
     ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], at), ovoid_motion_compute_pose(&motions[1], at)};
-    ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &poses[0]), answers_get_body(x->scene, c.b, &poses[1])};
-    answers_query query = {QUERY_WITHIN, x->margin, 0, results_have_proofs(x->results), NULL};
+    ovoid_body_pair pair = {answers_get_body(impacts->scene, c.a, &poses[0]),
+                            answers_get_body(impacts->scene, c.b, &poses[1])};
+    answers_query query = {QUERY_WITHIN, impacts->margin, 0, results_have_proofs(impacts->results), NULL};
     int done = answers_find(room, &pair, &query, record);
-    if (!done || !is_hit(item) || record->answer.upper <= x->margin) return done;
+    if (!done || !is_hit(item) || record->answer.upper <= impacts->margin) return done;
     // Of bodies with allowances the few pairs of one proof may show less than those of the hit.
     ovoid_body_proof earlier = {item->pair.found.part_a, item->pair.found.part_b, get_impact(item)->hit.proof};
     query.earlier = &earlier;
@@ -244,17 +246,17 @@ static int answer_compounds(const cli_impacts *x, const impact *item, answer_roo
 /// Makes the record of an impact. Of compounds the answer is that of the whole bodies at that time, whose proof is
 /// complete. Where the impact is not proven, the record says why, and has the answer where the free time ends. 0 where
 /// memory is out.
-static int make_record(const cli_impacts *x, const impact *item, answer_room *room, ovoid_record *record) {
+static int make_record(const cli_impacts *impacts, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
     const ovoid_impact *found = get_impact(item);
     double at = get_time(item);
-    *record = (ovoid_record){.a = ovoid_scene_get(x->scene, c.a).name,
-                             .b = ovoid_scene_get(x->scene, c.b).name,
+    *record = (ovoid_record){.a = ovoid_scene_get(impacts->scene, c.a).name,
+                             .b = ovoid_scene_get(impacts->scene, c.b).name,
                              .answer = is_hit(item) ? found->hit : found->free,
-                             .fields = x->results->fields,
-                             .time = x->frames->earlier + at,
-                             .frame = x->frames->earlier,
-                             .margin = x->margin,
+                             .fields = impacts->results->fields,
+                             .time = impacts->frames->earlier + at,
+                             .frame = impacts->frames->earlier,
+                             .margin = impacts->margin,
                              .free_for = found->free_until,
                              .hit_after = found->hit_at,
                              .part_a = OVOID_RECORD_NO_PART,
@@ -264,8 +266,8 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
     record->groups = item->pair.groups;
     record->group_count = item->pair.groups ? item->pair.found.group_count : 0;
     int done = 1;
-    answers_describe(x->scene, c, record);
-    if (!is_shape(x, c.a) || !is_shape(x, c.b)) done = answer_compounds(x, item, room, record);
+    answers_describe(impacts->scene, c, record);
+    if (!is_shape(impacts, c.a) || !is_shape(impacts, c.b)) done = answer_compounds(impacts, item, room, record);
     if (!is_hit(item)) record->answer.limit = found->limit;
     return done;
 }
@@ -273,67 +275,68 @@ static int make_record(const cli_impacts *x, const impact *item, answer_room *ro
 /// 1 if a pair that is proven free until the frame, but for the tolerance, is not proven beyond the margin there: it
 /// arrives with the frame, whose own line says how near it is. That it meets no later than that, a bracket of the
 /// distance around the margin cannot prove.
-static int is_arrival(const cli_impacts *x, const impact *item) {
-    const cli_frames *f = x->frames;
+static int is_arrival(const cli_impacts *impacts, const impact *item) {
+    const cli_frames *f = impacts->frames;
     const ovoid_couple c = item->couple;
     if (!pair_impact_is_arrival(&item->pair)) return 0;
-    ovoid_body_pair pair = {answers_get_body(x->scene, c.a, &f->poses[c.a]),
-                            answers_get_body(x->scene, c.b, &f->poses[c.b])};
-    ovoid_body_answer at_end = ovoid_body_within(&pair, x->margin, NULL, NULL, NULL);
-    int within = ovoid_body_answer_is_within(&at_end, x->margin);
+    ovoid_body_pair pair = {answers_get_body(impacts->scene, c.a, &f->poses[c.a]),
+                            answers_get_body(impacts->scene, c.b, &f->poses[c.b])};
+    ovoid_body_answer at_end = ovoid_body_within(&pair, impacts->margin, NULL, NULL, NULL);
+    int within = ovoid_body_answer_is_within(&at_end, impacts->margin);
     return within > 0 || (within < 0 && at_end.limit == OVOID_LIMIT_NONE);
 }
 
 /// Writes the line of an impact. Those of a frame come before its own lines, in the order of compare_impacts.
-static int write_impact(cli_impacts *x, const impact *item, const ovoid_record *record) {
-    if (!x->results->shard) return results_add(x->results, record);
-    const shard_key key = {{2 * (uint64_t)x->frames->count, shard_key_from_number(get_time(item)),
+static int write_impact(cli_impacts *impacts, const impact *item, const ovoid_record *record) {
+    if (!impacts->results->shard) return results_add(impacts->results, record);
+    const shard_key key = {{2 * (uint64_t)impacts->frames->count, shard_key_from_number(get_time(item)),
                             (uint64_t)item->couple.a << 32 | item->couple.b}};
-    return results_add_record(x->results, &key, record);
+    return results_add_record(impacts->results, &key, record);
 }
 
-static int write_impacts(cli_impacts *x, const impact *items) {
+static int write_impacts(cli_impacts *impacts, const impact *items) {
     answer_room room = {.cover = NULL};
     int code = 0;
-    for (size_t i = 0; i < x->couple_count && !code; i++) {
+    for (size_t i = 0; i < impacts->couple_count && !code; i++) {
         ovoid_record record;
         if (get_impact(&items[i])->status == OVOID_IMPACT_FREE) continue;
         // That an open pair stays open is in the lines of the frames.
-        if (!is_hit(&items[i]) && has_couple(x->open, x->open_count, items[i].couple)) continue;
-        int arrives = is_arrival(x, &items[i]);
+        if (!is_hit(&items[i]) && has_couple(impacts->open, impacts->open_count, items[i].couple)) continue;
+        int arrives = is_arrival(impacts, &items[i]);
         if (is_hit(&items[i]) || arrives)
-            x->found++;
+            impacts->found++;
         else
-            x->not_proven++;
-        if (!make_record(x, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
-        if (arrives) record.hit_after = x->frames->time - x->frames->earlier, record.time = x->frames->time;
-        if (!code && !arrives) code = write_impact(x, &items[i], &record);
-        if (!code) x->take(x->context, items[i].couple, &record);
+            impacts->not_proven++;
+        if (!make_record(impacts, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
+        if (arrives)
+            record.hit_after = impacts->frames->time - impacts->frames->earlier, record.time = impacts->frames->time;
+        if (!code && !arrives) code = write_impact(impacts, &items[i], &record);
+        if (!code) impacts->take(impacts->context, items[i].couple, &record);
     }
     answer_room_clear(&room);
     return code;
 }
 
 /// Finds the impacts of the candidates and writes them.
-static int find_impacts(cli_impacts *x) {
-    work_state w = {x, calloc(x->couple_count, sizeof(impact)), 0};
+static int find_impacts(cli_impacts *impacts) {
+    work_state w = {impacts, calloc(impacts->couple_count, sizeof(impact)), 0};
     int code = 0;
     if (!w.items) return message_error("out of memory"), EXIT_INPUT;
     cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
-    unsigned threads = pipeline_get_threads(x->threads);
-    code = pipeline_run(&line, x->couple_count <= CHUNK ? 1 : threads);
+    unsigned threads = pipeline_get_threads(impacts->threads);
+    code = pipeline_run(&line, impacts->couple_count <= CHUNK ? 1 : threads);
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;
-    if (!code) qsort(w.items, x->couple_count, sizeof *w.items, compare_impacts);
-    if (!code) code = write_impacts(x, w.items);
-    for (size_t i = 0; i < x->couple_count; i++) pair_impact_clear(&w.items[i].pair);
+    if (!code) qsort(w.items, impacts->couple_count, sizeof *w.items, compare_impacts);
+    if (!code) code = write_impacts(impacts, w.items);
+    for (size_t i = 0; i < impacts->couple_count; i++) pair_impact_clear(&w.items[i].pair);
     free(w.items);
     return code;
 }
 
-int impacts_find(cli_impacts *x) {
-    int code = frames_validate_motions(x->frames);
-    if (!code) code = find_couples(x);
-    if (!code && x->couple_count) code = find_impacts(x);
-    x->held_count = x->open_count = 0;
+int impacts_find(cli_impacts *impacts) {
+    int code = frames_validate_motions(impacts->frames);
+    if (!code) code = find_couples(impacts);
+    if (!code && impacts->couple_count) code = find_impacts(impacts);
+    impacts->held_count = impacts->open_count = 0;
     return code;
 }

@@ -54,19 +54,19 @@ void pair_impact_clear(pair_impact *pair);
 int pair_impact_is_arrival(const pair_impact *pair);
 
 /// Makes room for the objects. 0, or EXIT_INPUT after a message. Members that the caller has set stay.
-int impacts_open(cli_impacts *x);
+int impacts_open(cli_impacts *impacts);
 
 /// Notes a pair that is within or at the margin in this frame: in ascending order, before the next frame. 0, or
 /// EXIT_INPUT after a message.
-int impacts_hold(cli_impacts *x, ovoid_couple couple);
+int impacts_hold(cli_impacts *impacts, ovoid_couple couple);
 
 /// The same for a pair that is not proven on either side of the margin: only a proven impact of it is written.
-int impacts_leave_open(cli_impacts *x, ovoid_couple couple);
+int impacts_leave_open(cli_impacts *impacts, ovoid_couple couple);
 
 /// Finds the impacts from the frame before to this one, of pairs that were not held then, writes them in the order of
 /// their times, also those of which nothing is proven, and clears the held pairs. 0, or an exit code after a message.
-int impacts_find(cli_impacts *x);
+int impacts_find(cli_impacts *impacts);
 
-void impacts_close(cli_impacts *x);
+void impacts_close(cli_impacts *impacts);
 
 #endif

@@ -140,9 +140,9 @@ static void print_vector(FILE *file, const char *title, ovoid_vec3 v, const char
     fprintf(file, "%-11s %.9g %.9g %.9g%s\n", title, v.x, v.y, v.z, unit);
 }
 
-static void print_margin(FILE *file, const solids_query *q, const ovoid_body_answer *x, const char *unit) {
-    int within = ovoid_body_answer_is_within(x, q->margin);
-    const char *word = within > 0 ? "yes" : within == 0 ? "no" : x->limit == OVOID_LIMIT_NONE ? "at" : "unproven";
+static void print_margin(FILE *file, const solids_query *q, const ovoid_body_answer *found, const char *unit) {
+    int within = ovoid_body_answer_is_within(found, q->margin);
+    const char *word = within > 0 ? "yes" : within == 0 ? "no" : found->limit == OVOID_LIMIT_NONE ? "at" : "unproven";
     fprintf(file, "%-11s %.9g%s: within: %s\n", "margin", q->margin, unit, word);
 }
 
@@ -158,32 +158,32 @@ static void print_surfaces(FILE *file, const solids_pair *p) {
 }
 
 static void print_report(FILE *file, const solids_pair *p, const solids_query *q, const solids_result *r) {
-    const ovoid_body_answer *x = &r->answer;
+    const ovoid_body_answer *found = &r->answer;
     char unit[8], text[64];
     snprintf(unit, sizeof unit, "%s%s", q->unit[0] ? " " : "", q->unit);
     print_body(file, "a", p, 0, q->unit);
     print_body(file, "b", p, 1, q->unit);
-    fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(x->status));
-    ovoid_answer shown = {.status = x->status, .lower = x->lower, .upper = x->upper};
-    int is_depth = x->upper < 0 && solids_get_kind(p->solids[0]) != OVOID_MESH_SURFACE &&
+    fprintf(file, "%-11s %s\n", "status", ovoid_status_get_name(found->status));
+    ovoid_answer shown = {.status = found->status, .lower = found->lower, .upper = found->upper};
+    int is_depth = found->upper < 0 && solids_get_kind(p->solids[0]) != OVOID_MESH_SURFACE &&
                    solids_get_kind(p->solids[1]) != OVOID_MESH_SURFACE;
-    if (is_depth) shown.lower = -x->upper, shown.upper = -x->lower;
+    if (is_depth) shown.lower = -found->upper, shown.upper = -found->lower;
     (void)ovoid_answer_write_distance(text, &shown);
     fprintf(file, "%-11s %s%s\n", is_depth ? "depth" : "distance", text, unit);
-    fprintf(file, "%-11s %.17g .. %.17g%s\n", "bracket", x->lower, x->upper, unit);
-    if (q->margin >= 0) print_margin(file, q, x, unit);
-    if (p->solids[0]) fprintf(file, "%-11s %u of a\n", "triangle", (unsigned)x->part_a);
-    if (p->solids[1]) fprintf(file, "%-11s %u of b\n", "triangle", (unsigned)x->part_b);
-    if (x->inside == OVOID_BODY_COMMON_POINT)
-        print_vector(file, "common", x->common, unit);
-    else if (x->inside)
-        fprintf(file, "%-11s %s\n", "inside", x->inside == OVOID_BODY_A_INSIDE ? "a in b" : "b in a");
-    if (x->status == OVOID_OVERLAPPING) print_surfaces(file, p);
-    print_vector(file, "point on a", x->deciding.point_a, unit);
-    print_vector(file, "point on b", x->deciding.point_b, unit);
-    print_vector(file, "normal", x->deciding.normal, "");
-    if (x->limit != OVOID_LIMIT_NONE) fprintf(file, "%-11s %s\n", "stopped by", ovoid_limit_get_name(x->limit));
-    fprintf(file, "%-11s %s; exclusions: %zu; %s\n", "proof", ovoid_proof_kind_get_name(x->deciding.proof.kind),
+    fprintf(file, "%-11s %.17g .. %.17g%s\n", "bracket", found->lower, found->upper, unit);
+    if (q->margin >= 0) print_margin(file, q, found, unit);
+    if (p->solids[0]) fprintf(file, "%-11s %u of a\n", "triangle", (unsigned)found->part_a);
+    if (p->solids[1]) fprintf(file, "%-11s %u of b\n", "triangle", (unsigned)found->part_b);
+    if (found->inside == OVOID_BODY_COMMON_POINT)
+        print_vector(file, "common", found->common, unit);
+    else if (found->inside)
+        fprintf(file, "%-11s %s\n", "inside", found->inside == OVOID_BODY_A_INSIDE ? "a in b" : "b in a");
+    if (found->status == OVOID_OVERLAPPING) print_surfaces(file, p);
+    print_vector(file, "point on a", found->deciding.point_a, unit);
+    print_vector(file, "point on b", found->deciding.point_b, unit);
+    print_vector(file, "normal", found->deciding.normal, "");
+    if (found->limit != OVOID_LIMIT_NONE) fprintf(file, "%-11s %s\n", "stopped by", ovoid_limit_get_name(found->limit));
+    fprintf(file, "%-11s %s; exclusions: %zu; %s\n", "proof", ovoid_proof_kind_get_name(found->deciding.proof.kind),
             r->exclusions.count, r->holds ? "checked" : "DOES NOT HOLD");
 }
 

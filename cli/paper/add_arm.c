@@ -48,9 +48,9 @@ static int find_nearest(const arm *a, const ovoid_pose poses[LINKS], ovoid_proof
     int nearest = 0;
     for (int i = 0; i < LINKS; i++) {
         ovoid_pair pair = {a->links[i], a->obstacle, poses[i], a->obstacle_pose};
-        ovoid_answer x = ovoid_depth(&pair, NULL, &proofs[i], NULL);
-        proofs[i] = x.proof;
-        if (i == 0 || x.lower < answer->lower) nearest = i, *answer = x;
+        ovoid_answer found = ovoid_depth(&pair, NULL, &proofs[i], NULL);
+        proofs[i] = found.proof;
+        if (i == 0 || found.lower < answer->lower) nearest = i, *answer = found;
     }
     return nearest;
 }

@@ -24,10 +24,10 @@ static double get_gap(int bin) { return ldexp(1, bin - 6); }
 /// Moves B along the line of the witness points until the distance is the gap; 0 if that fails.
 static int set_gap(ovoid_pair *p, double gap) {
     for (int i = 0; i < 12; i++) {
-        ovoid_answer x = ovoid_depth(p, NULL, NULL, NULL);
-        double step = gap - x.lower;
+        ovoid_answer answer = ovoid_depth(p, NULL, NULL, NULL);
+        double step = gap - answer.lower;
         if (fabs(step) <= 1e-6 * gap) return 1;
-        p->pose_b.position = vec3_add_scaled(p->pose_b.position, x.normal, step);
+        p->pose_b.position = vec3_add_scaled(p->pose_b.position, answer.normal, step);
     }
     return 0;
 }

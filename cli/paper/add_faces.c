@@ -41,8 +41,8 @@ static ovoid_sym3 compute_inverse_root(ovoid_sym3 q) {
 }
 
 /// Pieces in the octants that a rule keeps for the direction to the other body.
-static double count_pieces(const exits *x, ovoid_vec3 toward, ovoid_area_rule rule) {
-    const ovoid_sym3 *r = &x->root;
+static double count_pieces(const exits *list, ovoid_vec3 toward, ovoid_area_rule rule) {
+    const ovoid_sym3 *r = &list->root;
     ovoid_vec3 d = {r->xx * toward.x + r->xy * toward.y + r->xz * toward.z,
                     r->xy * toward.x + r->yy * toward.y + r->yz * toward.z,
                     r->xz * toward.x + r->yz * toward.y + r->zz * toward.z};
@@ -52,36 +52,37 @@ static double count_pieces(const exits *x, ovoid_vec3 toward, ovoid_area_rule ru
         int dropped = rule == OVOID_RULE_PAPER   ? (a + b + c) / size < -sqrt(0.5)
                       : rule == OVOID_RULE_SIGNS ? a < 0 && b < 0 && c < 0
                                                  : 0;
-        if (!dropped) kept += x->split.per_octant[octant];
+        if (!dropped) kept += list->split.per_octant[octant];
     }
     return kept;
 }
 
-static int exits_make(exits *x, const ovoid_shape *shape, const ovoid_areas *octants, uint32_t capacity) {
-    *x = (exits){.direction = calloc(capacity, sizeof *x->direction), .toward = calloc(capacity, sizeof *x->toward)};
+static int exits_make(exits *list, const ovoid_shape *shape, const ovoid_areas *octants, uint32_t capacity) {
+    *list = (exits){.direction = calloc(capacity, sizeof *list->direction),
+                    .toward = calloc(capacity, sizeof *list->toward)};
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_ellipsoid inner = ovoid_shape_get_inner(shape).ellipsoid;
-    x->split = ovoid_polytope_compute_split(&p, &inner);
-    x->root = compute_inverse_root(inner.q);
-    for (int i = 0; i < WAYS; i++) x->areas[i] = octants;
-    int good = x->direction && x->toward;
+    list->split = ovoid_polytope_compute_split(&p, &inner);
+    list->root = compute_inverse_root(inner.q);
+    for (int i = 0; i < WAYS; i++) list->areas[i] = octants;
+    int good = list->direction && list->toward;
     for (int i = 0; i < CUBES && good; i++) {
-        x->own[i] = ovoid_areas_create(&p, &inner, OVOID_SPLIT_CUBE, 1u << i, NULL, NULL);
-        x->areas[RULES + i] = x->own[i];
-        good = x->own[i] != NULL;
+        list->own[i] = ovoid_areas_create(&p, &inner, OVOID_SPLIT_CUBE, 1u << i, NULL, NULL);
+        list->areas[RULES + i] = list->own[i];
+        good = list->own[i] != NULL;
     }
     return good;
 }
 
-static void exits_destroy(exits *x) {
-    for (int i = 0; i < CUBES; i++) ovoid_areas_destroy(x->own[i]);
-    free(x->direction);
-    free(x->toward);
+static void exits_destroy(exits *list) {
+    for (int i = 0; i < CUBES; i++) ovoid_areas_destroy(list->own[i]);
+    free(list->direction);
+    free(list->toward);
 }
 
-static void exits_add(exits *x, ovoid_vec3 direction, ovoid_vec3 toward) {
-    x->direction[x->count] = direction;
-    x->toward[x->count++] = toward;
+static void exits_add(exits *list, ovoid_vec3 direction, ovoid_vec3 toward) {
+    list->direction[list->count] = direction;
+    list->toward[list->count++] = toward;
 }
 
 /// The cost of a way, summed over rays.
@@ -90,29 +91,29 @@ typedef struct cost {
     double pieces; ///< of the faces as the three planes split them, in the octants that the rule keeps
 } cost;
 
-static void count_exits(const exits *x, cost sums[WAYS]) {
-    for (uint32_t i = 0; i < x->count; i++) {
+static void count_exits(const exits *list, cost sums[WAYS]) {
+    for (uint32_t i = 0; i < list->count; i++) {
         double truth = 0;
         for (int way = 0; way < WAYS; way++) {
-            ovoid_exit e = ovoid_areas_find_exit(x->areas[way], x->direction[i], x->toward[i], get_rule(way));
+            ovoid_exit e = ovoid_areas_find_exit(list->areas[way], list->direction[i], list->toward[i], get_rule(way));
             if (way == 0) truth = e.t;
             sums[way].touched += e.touched;
             sums[way].wrong += e.t != truth;
             sums[way].rays++;
-            sums[way].pieces += count_pieces(x, x->toward[i], get_rule(way));
+            sums[way].pieces += count_pieces(list, list->toward[i], get_rule(way));
         }
     }
 }
 
 /// Adds the least time of several repetitions of all rays, alternating between the ways.
-static void time_exits(const exits *x, cost sums[WAYS]) {
+static void time_exits(const exits *list, cost sums[WAYS]) {
     double best[WAYS], sum = 0;
     for (int way = 0; way < WAYS; way++) best[way] = INFINITY;
     for (int repeat = 0; repeat < REPEATS; repeat++)
         for (int way = 0; way < WAYS; way++) {
             double start = clock_get_ns();
-            for (uint32_t i = 0; i < x->count; i++)
-                sum += ovoid_areas_find_exit(x->areas[way], x->direction[i], x->toward[i], get_rule(way)).t;
+            for (uint32_t i = 0; i < list->count; i++)
+                sum += ovoid_areas_find_exit(list->areas[way], list->direction[i], list->toward[i], get_rule(way)).t;
             best[way] = fmin(best[way], clock_get_ns() - start);
         }
     for (int way = 0; way < WAYS; way++) sums[way].ns += isnan(sum) ? NAN : best[way];
@@ -144,20 +145,20 @@ static int measure_model(const experiment *e, int object, cost sums[WAYS]) {
 /// Measures one model against every other one, at the poses of experiment_get_mutual.
 static int measure_mutual(const experiment *e, int model, cost sums[WAYS]) {
     uint32_t places = (e->frames + 15) / 16;
-    exits x;
-    int good = exits_make(&x, e->models[model].shape, e->models[model].areas, MODEL_COUNT * places);
+    exits list;
+    int good = exits_make(&list, e->models[model].shape, e->models[model].areas, MODEL_COUNT * places);
     for (int other = 0; other < MODEL_COUNT && good; other++)
         for (uint32_t k = 0; k < places && other != model; k++) {
             int first = model < other;
             ovoid_pair pair = experiment_get_mutual(e, first ? model : other, first ? other : model, k);
             exit_rays rays = experiment_find_rays(&pair);
-            if (!rays.overlap) exits_add(&x, rays.direction[!first], rays.toward[!first]);
+            if (!rays.overlap) exits_add(&list, rays.direction[!first], rays.toward[!first]);
         }
     if (good) {
-        count_exits(&x, sums);
-        time_exits(&x, sums);
+        count_exits(&list, sums);
+        time_exits(&list, sums);
     }
-    exits_destroy(&x);
+    exits_destroy(&list);
     return good;
 }
 
@@ -318,17 +319,17 @@ static int measure_ball(const experiment *e, uint32_t vertices, cost sums[WAYS])
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_ellipsoid inner = ovoid_shape_get_inner(shape).ellipsoid;
     ovoid_areas *octants = ovoid_areas_create(&p, &inner, OVOID_SPLIT_OCTANTS, 0, NULL, NULL);
-    exits x;
-    int good = octants && exits_make(&x, shape, octants, RAYS);
+    exits list;
+    int good = octants && exits_make(&list, shape, octants, RAYS);
     for (int i = 0; i < RAYS && good; i++) {
         ovoid_vec3 u = random_direction(&state);
-        exits_add(&x, u, u);
+        exits_add(&list, u, u);
     }
     if (good) {
-        count_exits(&x, sums);
-        time_exits(&x, sums);
+        count_exits(&list, sums);
+        time_exits(&list, sums);
     }
-    if (octants) exits_destroy(&x);
+    if (octants) exits_destroy(&list);
     ovoid_areas_destroy(octants);
     ovoid_shape_destroy(shape);
     return good;

@@ -93,10 +93,10 @@ exit_rays experiment_find_rays(const ovoid_pair *pair) {
                                 ovoid_shape_get_inner(pair->shape_b).ellipsoid};
     ovoid_ellipsoid a = ovoid_ellipsoid_compute_posed(&inner[0], &pair->pose_a);
     ovoid_ellipsoid b = ovoid_ellipsoid_compute_posed(&inner[1], &pair->pose_b);
-    ovoid_nearest x = ovoid_ellipsoid_compute_nearest_by_sphere(&a, &b);
-    exit_rays r = {.overlap = (int)x.overlap};
-    r.direction[0] = vec3_sub(ovoid_pose_compute_local_point(&pair->pose_a, x.point_a), inner[0].center);
-    r.direction[1] = vec3_sub(ovoid_pose_compute_local_point(&pair->pose_b, x.point_b), inner[1].center);
+    ovoid_nearest found = ovoid_ellipsoid_compute_nearest_by_sphere(&a, &b);
+    exit_rays r = {.overlap = (int)found.overlap};
+    r.direction[0] = vec3_sub(ovoid_pose_compute_local_point(&pair->pose_a, found.point_a), inner[0].center);
+    r.direction[1] = vec3_sub(ovoid_pose_compute_local_point(&pair->pose_b, found.point_b), inner[1].center);
     r.toward[0] = vec3_sub(ovoid_pose_compute_local_point(&pair->pose_a, b.center), inner[0].center);
     r.toward[1] = vec3_sub(ovoid_pose_compute_local_point(&pair->pose_b, a.center), inner[1].center);
     return r;

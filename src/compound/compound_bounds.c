@@ -51,17 +51,17 @@ ovoid_ellipsoid ellipsoid_enlarge(ovoid_ellipsoid e, double r) {
 
 // 1: done. 0: no memory. -1: the points have no hull.
 static int fit_outer(ovoid_compound *c, const double *points, size_t count, double radius) {
-    hull h;
-    ovoid_code code = hull_create(points, count, &c->allocator, &h, NULL);
+    hull body_hull;
+    ovoid_code code = hull_create(points, count, &c->allocator, &body_hull, NULL);
     if (code != OVOID_OK) return code == OVOID_ERROR_MEMORY ? 0 : -1;
-    ovoid_polytope polytope = hull_get_polytope(&h);
+    ovoid_polytope polytope = hull_get_polytope(&body_hull);
     ovoid_fit fit;
     code = ovoid_ellipsoid_compute_outer(&polytope, 1e-4, &fit, &c->allocator);
     if (code == OVOID_OK) {
         c->outer = ellipsoid_enlarge(fit.ellipsoid, radius);
         c->outer.center = vec3_add(fit.ellipsoid.center, polytope.origin);
     }
-    hull_destroy(&h, &c->allocator);
+    hull_destroy(&body_hull, &c->allocator);
     return code == OVOID_OK;
 }
 

@@ -40,20 +40,22 @@ static double measure(sampling *s, vec3 x, double least) {
     return distance > least && body_find_inside(s->b, x) == 0 ? distance : 0;
 }
 
-static vec3 get_corner(const hull *h, uint32_t triangle, int k) {
-    return vec3_add(h->origin, vec3_at(h->vertices, h->triangles[3 * (size_t)triangle + (size_t)k]));
+static vec3 get_corner(const hull *polytope, uint32_t triangle, int k) {
+    return vec3_add(polytope->origin,
+                    vec3_at(polytope->vertices, polytope->triangles[3 * (size_t)triangle + (size_t)k]));
 }
 
-static double compute_area_of(const hull *h, uint32_t t) {
-    vec3 a = get_corner(h, t, 0), u = vec3_sub(get_corner(h, t, 1), a), v = vec3_sub(get_corner(h, t, 2), a);
+static double compute_area_of(const hull *polytope, uint32_t t) {
+    vec3 a = get_corner(polytope, t, 0), u = vec3_sub(get_corner(polytope, t, 1), a),
+         v = vec3_sub(get_corner(polytope, t, 2), a);
     return vec3_norm(vec3_cross(u, v));
 }
 
-static vec3 get_on_face(const hull *h, uint32_t t, double u, double v) {
+static vec3 get_on_face(const hull *polytope, uint32_t t, double u, double v) {
     if (u + v > 1) u = 1 - u, v = 1 - v;
-    vec3 a = get_corner(h, t, 0);
-    return vec3_add_scaled(vec3_add_scaled(a, vec3_sub(get_corner(h, t, 1), a), u), vec3_sub(get_corner(h, t, 2), a),
-                           v);
+    vec3 a = get_corner(polytope, t, 0);
+    return vec3_add_scaled(vec3_add_scaled(a, vec3_sub(get_corner(polytope, t, 1), a), u),
+                           vec3_sub(get_corner(polytope, t, 2), a), v);
 }
 
 // Faces at even steps of area; each point also drawn towards the middle for the inside.
@@ -76,10 +78,10 @@ static void sample_faces(sampling *s, vec3 middle) {
 }
 
 // 1 if the point is in the hull, to rounding.
-static int is_in_hull(const hull *h, vec3 x) {
-    vec3 y = vec3_sub(x, h->origin);
-    for (uint32_t f = 0; f < h->facet_count; f++)
-        if (vec3_dot(h->planes[f].normal, y) > h->planes[f].offset + 1e-12) return 0;
+static int is_in_hull(const hull *polytope, vec3 x) {
+    vec3 y = vec3_sub(x, polytope->origin);
+    for (uint32_t f = 0; f < polytope->facet_count; f++)
+        if (vec3_dot(polytope->planes[f].normal, y) > polytope->planes[f].offset + 1e-12) return 0;
     return 1;
 }
 
@@ -114,17 +116,17 @@ static void climb_all(sampling *s, double step) {
 }
 
 static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoid_error *error) {
-    hull h;
-    ovoid_code code = hull_create(&points[0].x, count, &s->b->memory, &h, error);
+    hull polytope;
+    ovoid_code code = hull_create(&points[0].x, count, &s->b->memory, &polytope, error);
     if (code != OVOID_OK) return code;
-    s->h = &h;
+    s->h = &polytope;
     box around = box_make_around(&points[0].x, count);
     vec3 sum = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, points[i]);
     sample_faces(s, vec3_scale(sum, 1.0 / count));
     // The planes of a flat hull do not bound it; its faces are all there is of it.
-    if (s->excess <= s->enough && h.rank == 3) climb_all(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
-    hull_destroy(&h, &s->b->memory);
+    if (s->excess <= s->enough && polytope.rank == 3) climb_all(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
+    hull_destroy(&polytope, &s->b->memory);
     s->h = NULL;
     return OVOID_OK;
 }

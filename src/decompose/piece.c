@@ -105,14 +105,14 @@ static ovoid_code find_points(const body *b, piece *p, ovoid_error *error) {
         vec3 corner = piece_get_frame_point(b, &frame, i);
         if (piece_is_inside(b, corner, middle)) p->triangles.corners[count++] = corner;
     }
-    hull h;
-    ovoid_code code = hull_create(&p->triangles.corners[0].x, count, &b->memory, &h, error);
+    hull polytope;
+    ovoid_code code = hull_create(&p->triangles.corners[0].x, count, &b->memory, &polytope, error);
     if (code != OVOID_OK) return code;
-    p->points = allocator_allocate(&b->memory, h.vertex_count, sizeof *p->points);
-    p->point_count = h.vertex_count;
-    for (uint32_t i = 0; p->points && i < h.vertex_count; i++)
-        p->points[i] = vec3_add(h.origin, vec3_at(h.vertices, i));
-    hull_destroy(&h, &b->memory);
+    p->points = allocator_allocate(&b->memory, polytope.vertex_count, sizeof *p->points);
+    p->point_count = polytope.vertex_count;
+    for (uint32_t i = 0; p->points && i < polytope.vertex_count; i++)
+        p->points[i] = vec3_add(polytope.origin, vec3_at(polytope.vertices, i));
+    hull_destroy(&polytope, &b->memory);
     return p->points ? OVOID_OK : report_memory(error);
 }
 

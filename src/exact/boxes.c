@@ -55,19 +55,19 @@ static void make_query(const pair_frame *f, box_axes_query *q) {
 }
 
 // The pair of the least height, lowered by its error; of several the first.
-static uint32_t find_nearest(const box_axes *x) {
+static uint32_t find_nearest(const box_axes *axes) {
     uint32_t nearest = 0;
     for (uint32_t i = 1; i < BOX_AXES_PAIRS; i++)
-        if (x->height[i] - x->error[i] < x->height[nearest] - x->error[nearest]) nearest = i;
+        if (axes->height[i] - axes->error[i] < axes->height[nearest] - axes->error[nearest]) nearest = i;
     return nearest;
 }
 
 // The ends of the segments, as bits, of the face of a pair that looks along its normal (side 1) or against it (0);
 // those of its own segments are 0.
-static uint32_t find_face(const box_axes *x, uint32_t pair, int side) {
+static uint32_t find_face(const box_axes *axes, uint32_t pair, int side) {
     uint32_t ends = 0;
     for (uint32_t k = 0; k < BOX_AXES_SEGMENTS; k++)
-        if ((int)(x->positive[k] >> pair & 1) == side) ends |= 1u << k;
+        if ((int)(axes->positive[k] >> pair & 1) == side) ends |= 1u << k;
     return ends & ~(1u << box_axes_first[pair] | 1u << box_axes_second[pair]);
 }
 
@@ -81,7 +81,7 @@ static difference get_corner(const pair_frame *f, const box_axes_query *q, uint3
 // The foot of the origin on the nearest face, which looks toward `outward`, as three of the face's corners. 0 if it is
 // not in the face, to rounding.
 static int find_foot(const pair_frame *f, const box_axes_query *q, uint32_t pair, uint32_t face, vec3 foot,
-                     evidence *x) {
+                     evidence *found) {
     uint32_t i = box_axes_first[pair], j = box_axes_second[pair];
     vec3 u = get_segment(q, i), v = get_segment(q, j), n = vec3_cross(u, v);
     vec3 low = get_corner(f, q, face).w, to = vec3_sub(foot, vec3_add(low, vec3_add(u, v)));
@@ -93,15 +93,15 @@ static int find_foot(const pair_frame *f, const box_axes_query *q, uint32_t pair
     int is_high = s + t > 0;
     uint32_t from = is_high ? face | 1u << i | 1u << j : face;
     double along_u = (is_high ? 1 - s : 1 + s) / 2, along_v = (is_high ? 1 - t : 1 + t) / 2;
-    x->p[0] = get_corner(f, q, from);
-    x->p[1] = get_corner(f, q, from ^ 1u << i);
-    x->p[2] = get_corner(f, q, from ^ 1u << j);
-    x->weight[0] = max2(0, 1 - along_u - along_v);
-    x->weight[1] = along_u;
-    x->weight[2] = along_v;
-    x->count = 3;
+    found->p[0] = get_corner(f, q, from);
+    found->p[1] = get_corner(f, q, from ^ 1u << i);
+    found->p[2] = get_corner(f, q, from ^ 1u << j);
+    found->weight[0] = max2(0, 1 - along_u - along_v);
+    found->weight[1] = along_u;
+    found->weight[2] = along_v;
+    found->count = 3;
     vec3 off = vec3_neg(foot);
-    for (int k = 0; k < 3; k++) off = vec3_add_scaled(off, x->p[k].w, x->weight[k]);
+    for (int k = 0; k < 3; k++) off = vec3_add_scaled(off, found->p[k].w, found->weight[k]);
     return vec3_norm(off) <= f->claim;
 }
 
@@ -121,17 +121,17 @@ static uint32_t add_point(builder *b, uint32_t ends) {
     if (b->point_of[ends]) return b->point_of[ends] - 1u;
     if (c->point_count == COVER_POINTS) return COVER_POINTS;
     uint32_t at = c->point_count++;
-    difference x = get_corner(b->frame, b->query, ends);
-    b->w[at] = frame_difference(b->frame, x.a, x.b);
-    c->a[at] = x.a;
-    c->b[at] = x.b;
+    difference vertex = get_corner(b->frame, b->query, ends);
+    b->w[at] = frame_difference(b->frame, vertex.a, vertex.b);
+    c->a[at] = vertex.a;
+    c->b[at] = vertex.b;
     b->point_of[ends] = (uint8_t)(at + 1);
     return at;
 }
 
 // Two triangles, counter-clockwise from outside.
-static int add_face(builder *b, const box_axes *x, uint32_t pair, int side) {
-    uint32_t i = 1u << box_axes_first[pair], j = 1u << box_axes_second[pair], face = find_face(x, pair, side);
+static int add_face(builder *b, const box_axes *axes, uint32_t pair, int side) {
+    uint32_t i = 1u << box_axes_first[pair], j = 1u << box_axes_second[pair], face = find_face(axes, pair, side);
     uint32_t ring[4] = {face, face | (side ? i : j), face | i | j, face | (side ? j : i)}, v[4];
     for (int k = 0; k < 4; k++)
         if ((v[k] = add_point(b, ring[k])) == COVER_POINTS) return 0;
@@ -145,14 +145,14 @@ static int add_face(builder *b, const box_axes *x, uint32_t pair, int side) {
 }
 
 // All faces, the nearest pair's first. 0 if they do not show the depth.
-static int build_cover(const pair_frame *f, const box_axes_query *q, const box_axes *x, uint32_t nearest, double depth,
-                       ovoid_cover *cover) {
+static int build_cover(const pair_frame *f, const box_axes_query *q, const box_axes *axes, uint32_t nearest,
+                       double depth, ovoid_cover *cover) {
     builder b = {.frame = f, .query = q, .cover = cover};
     cover->point_count = cover->triangle_count = 0;
     for (uint32_t i = 0; i < BOX_AXES_PAIRS; i++) {
         uint32_t pair = (nearest + i) % BOX_AXES_PAIRS;
-        int near = !(x->along[pair] >= 0);
-        if (!add_face(&b, x, pair, near) || !add_face(&b, x, pair, !near)) return 0;
+        int near = !(axes->along[pair] >= 0);
+        if (!add_face(&b, axes, pair, near) || !add_face(&b, axes, pair, !near)) return 0;
     }
     surface all = {b.w, (const uint16_t(*)[3])cover->triangles, cover->point_count, cover->triangle_count};
     return surface_is_closed(&all) && surface_compute_depth(&all, f->claim) >= depth;
@@ -168,20 +168,21 @@ static int is_for_here(const search *s) {
 int boxes_take_depth(search *s, ovoid_cover *cover) {
     const pair_frame *f = s->frame;
     box_axes_query q;
-    box_axes x;
+    box_axes axes;
     if (!is_for_here(s)) return 0;
     make_query(f, &q);
-    if (!box_axes_find(&q, &x)) return 0;
-    uint32_t pair = find_nearest(&x);
-    double slack = x.error[pair] + 2 * f->claim, depth = x.height[pair] - slack;
-    double upper = -depth - f->upper_radii, lower = -x.height[pair] - slack - f->lower_radii;
+    if (!box_axes_find(&q, &axes)) return 0;
+    uint32_t pair = find_nearest(&axes);
+    double slack = axes.error[pair] + 2 * f->claim, depth = axes.height[pair] - slack;
+    double upper = -depth - f->upper_radii, lower = -axes.height[pair] - slack - f->lower_radii;
     if (!(depth > 0 && upper < s->upper && upper - lower <= s->goal.tolerance)) return 0;
     // From A to B, along which Z is nearest behind the origin.
-    int is_along = x.along[pair] >= 0;
-    vec3 n = {x.n[0][pair], x.n[1][pair], x.n[2][pair]}, normal = is_along ? n : vec3_neg(n);
+    int is_along = axes.along[pair] >= 0;
+    vec3 n = {axes.n[0][pair], axes.n[1][pair], axes.n[2][pair]}, normal = is_along ? n : vec3_neg(n);
     evidence foot;
-    if (!find_foot(f, &q, pair, find_face(&x, pair, !is_along), vec3_scale(normal, -x.height[pair]), &foot)) return 0;
-    if (cover && !(s->goal.has_cover && !(upper < s->goal.covered)) && !build_cover(f, &q, &x, pair, depth, cover)) {
+    if (!find_foot(f, &q, pair, find_face(&axes, pair, !is_along), vec3_scale(normal, -axes.height[pair]), &foot))
+        return 0;
+    if (cover && !(s->goal.has_cover && !(upper < s->goal.covered)) && !build_cover(f, &q, &axes, pair, depth, cover)) {
         cover->point_count = cover->triangle_count = 0;
         return 0;
     }

@@ -46,9 +46,9 @@ typedef struct growth {
     ovoid_cover *cover;
 } growth;
 
-static int has_point(const expansion *e, const frame_support *x) {
+static int has_point(const expansion *e, const frame_support *support) {
     for (uint32_t i = 0; i < e->points; i++)
-        if (e->a[i] == x->a && e->b[i] == x->b) return 1;
+        if (e->a[i] == support->a && e->b[i] == support->b) return 1;
     return 0;
 }
 
@@ -118,28 +118,29 @@ static int complete(const prober *p, expansion *e) {
             n = vec3_cross(e1, vec3_sub(e->w[2], w));
             if (vec3_dot(n, w) < 0) n = vec3_neg(n);
         }
-        frame_support x = probe_find(p, vec3_neg(vec3_unit(n)));
-        if (has_point(e, &x)) return 0;
-        push(e, x);
+        frame_support support = probe_find(p, vec3_neg(vec3_unit(n)));
+        if (has_point(e, &support)) return 0;
+        push(e, support);
     }
     return is_solid(e);
 }
 
 // The first difference: the support along the line of centres.
-static void probe_center(const prober *p, simplex *x) {
+static void probe_center(const prober *p, simplex *points) {
     const pair_frame *f = p->s->frame;
     vec3 d = vec3_sub(f->a->center, frame_b(f, f->b->center));
     frame_support w = probe_find(p, vec3_norm_squared(d) > 0 ? vec3_unit(d) : (vec3){1, 0, 0});
-    x->p[0] = (difference){w.w, w.a, w.b};
-    x->weight[0] = 1;
-    x->count = 1;
+    points->p[0] = (difference){w.w, w.a, w.b};
+    points->weight[0] = 1;
+    points->count = 1;
 }
 
 static int is_apart(const search *s) { return s->lower + s->frame->lower_radii > 0; }
 
 // The differences at hand made a tetrahedron, else one found afresh. 0 where there is none, or none is needed.
-COMPILER_NOINLINE static int start(const prober *p, expansion *e, simplex *x, int is_first) {
-    for (int i = 0; i < x->count; i++) (void)expansion_add_point(e, x->p[i].w, x->p[i].a, x->p[i].b);
+COMPILER_NOINLINE static int start(const prober *p, expansion *e, simplex *points, int is_first) {
+    for (int i = 0; i < points->count; i++)
+        (void)expansion_add_point(e, points->p[i].w, points->p[i].a, points->p[i].b);
     return (complete(p, e) || find_tetrahedron(p, e)) && !(is_first && is_apart(p->s));
 }
 
@@ -147,21 +148,21 @@ COMPILER_NOINLINE static int start(const prober *p, expansion *e, simplex *x, in
 static evidence face_evidence(const expansion *e, const face *f, vec3 target, double *distance) {
     // In a unit of the face's size, so that no product of four lengths underflows.
     double unit = ldexp(1, -find_unit_exponent(vec3_max_abs(e->w[f->v[0]])));
-    simplex x = {.count = 3};
+    simplex points = {.count = 3};
     for (int i = 0; i < 3; i++)
-        x.p[i] = (difference){vec3_scale(vec3_sub(e->w[f->v[i]], target), unit), e->a[f->v[i]], e->b[f->v[i]]};
-    (void)simplex_reduce(&x);
-    *distance = vec3_norm(simplex_compute_point(&x)) / unit;
-    return evidence_make(&x);
+        points.p[i] = (difference){vec3_scale(vec3_sub(e->w[f->v[i]], target), unit), e->a[f->v[i]], e->b[f->v[i]]};
+    (void)simplex_reduce(&points);
+    *distance = vec3_norm(simplex_compute_point(&points)) / unit;
+    return evidence_make(&points);
 }
 
 // The foot of the origin on the nearest face's plane as evidence, if it lies in the face f.
-static int find_foot(const growth *g, const face *f, evidence *x) {
+static int find_foot(const growth *g, const face *f, evidence *found) {
     const expansion *e = &g->e;
     const face *nearest = &e->f[g->nearest];
     difference corner[3];
     for (int i = 0; i < 3; i++) corner[i] = (difference){e->w[f->v[i]], e->a[f->v[i]], e->b[f->v[i]]};
-    return epa_find_foot(g->s, corner, nearest->n, nearest->low, x);
+    return epa_find_foot(g->s, corner, nearest->n, nearest->low, found);
 }
 
 // The surface's point nearest to the target, of the face `first` and those whose planes are no farther than `most`.
@@ -173,8 +174,8 @@ static evidence find_near(const growth *g, const face *first, vec3 target, doubl
         const face *f = &e->f[i];
         if (!f->alive || f->low > most) continue;
         double distance;
-        evidence x = face_evidence(e, f, target, &distance);
-        if (distance < least) least = distance, best = x;
+        evidence found = face_evidence(e, f, target, &distance);
+        if (distance < least) least = distance, best = found;
     }
     return best;
 }
@@ -265,9 +266,9 @@ static int take_tetrahedron(search *s, const expansion *e) {
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
         if (!f->alive || f->v[0] == 0 || f->v[1] == 0 || f->v[2] == 0) continue;
-        evidence x = {.count = 4, .p = {{e->w[0], e->a[0], e->b[0]}}};
-        for (int k = 0; k < 3; k++) x.p[k + 1] = (difference){e->w[f->v[k]], e->a[f->v[k]], e->b[f->v[k]]};
-        if (!search_take_hull(s, &x)) continue;
+        evidence found = {.count = 4, .p = {{e->w[0], e->a[0], e->b[0]}}};
+        for (int k = 0; k < 3; k++) found.p[k + 1] = (difference){e->w[f->v[k]], e->a[f->v[k]], e->b[f->v[k]]};
+        if (!search_take_hull(s, &found)) continue;
         evidence_set_weights(&s->witness);
         taken = 1;
         if (search_is_done(s)) return 1;
@@ -281,11 +282,11 @@ static int take_hull(growth *g) {
     const expansion *e = &g->e;
     int taken = take_tetrahedron(s, e), kept[OVOID_PROOF_PAIRS];
     if (!(taken && search_is_done(s)) && e->points <= HULL_POINTS_MAX && e->faces <= 3 * HULL_POINTS_MAX) {
-        evidence x = {
+        evidence found = {
             .count = hull_find_reduced(&g->room.few.reduced, e->w, (int)e->points, s->frame->claim, e->slack, kept)};
-        for (int i = 0; i < x.count; i++) x.p[i] = (difference){e->w[kept[i]], e->a[kept[i]], e->b[kept[i]]};
-        evidence_set_weights(&x);
-        if (x.count > 0) taken |= search_take_hull(s, &x);
+        for (int i = 0; i < found.count; i++) found.p[i] = (difference){e->w[kept[i]], e->a[kept[i]], e->b[kept[i]]};
+        evidence_set_weights(&found);
+        if (found.count > 0) taken |= search_take_hull(s, &found);
     }
     if (taken) s->stage = OVOID_STAGE_EPA;
     return taken;
@@ -345,19 +346,19 @@ static int grow(growth *g) {
     expansion *e = &g->e;
     face *f = &e->f[g->nearest];
     double lower = s->lower;
-    frame_support x = probe_find(&g->p, f->n);
-    double high = vec3_dot(f->n, x.w);
-    g->gap = x.gap;
+    frame_support support = probe_find(&g->p, f->n);
+    double high = vec3_dot(f->n, support.w);
+    g->gap = support.gap;
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
     e->bound = -(s->lower + s->frame->lower_radii);
     if (s->goal.wants_depth && is_narrow(s, f->low, high)) return 0;
     if (high - f->low <= e->slack) return 0;
-    if (high - f->low < 1e-3 * s->frame->size && has_point(e, &x)) return measure_sliver(e, f);
+    if (high - f->low < 1e-3 * s->frame->size && has_point(e, &support)) return measure_sliver(e, f);
     if (e->points == EXPANSION_POINTS) {
         s->limit = OVOID_LIMIT_CAPACITY;
         return 0;
     }
-    if (expansion_join(e, g->nearest, expansion_add_point(e, x.w, x.a, x.b))) return 1;
+    if (expansion_join(e, g->nearest, expansion_add_point(e, support.w, support.a, support.b))) return 1;
     e->points--;
     return -1;
 }
@@ -368,9 +369,9 @@ static void find_next(growth *g) {
 }
 
 // Grows in lanes. 1 if that answered the query; else the surface, if there is one, is to be continued.
-static int grow_in_lanes(growth *g, const simplex *x) {
+static int grow_in_lanes(growth *g, const simplex *points) {
     epa8 *lanes = &g->room.few.lanes;
-    epa8_end end = epa_lanes_grow(lanes, &g->p, x, g->e.slack, g->e.doubt);
+    epa8_end end = epa_lanes_grow(lanes, &g->p, points, g->e.slack, g->e.doubt);
     if (end == EPA8_FLAT) return 0;
     if (end == EPA8_NARROW && !g->cover && epa_lanes_take_depth(g->s, lanes)) return 1;
     g->nearest = expansion_take(&g->e, lanes);
@@ -380,10 +381,10 @@ static int grow_in_lanes(growth *g, const simplex *x) {
 }
 
 // Leaves the nearest face as the simplex for the next method.
-static void leave(growth *g, simplex *x) {
+static void leave(growth *g, simplex *points) {
     const face *f = &g->e.f[g->nearest];
-    x->count = 3;
-    for (int i = 0; i < 3; i++) x->p[i] = (difference){g->e.w[f->v[i]], g->e.a[f->v[i]], g->e.b[f->v[i]]};
+    points->count = 3;
+    for (int i = 0; i < 3; i++) points->p[i] = (difference){g->e.w[f->v[i]], g->e.a[f->v[i]], g->e.b[f->v[i]]};
 }
 
 // 1 where a proven overlap of the shapes ends the run: where it is one of the bodies too, that is, or no allowance asks
@@ -391,24 +392,24 @@ static void leave(growth *g, simplex *x) {
 static int is_shown(const search *s) { return !(s->goal.allowance > 0) || search_is_done(s); }
 
 // The first surface: in lanes, or a tetrahedron. 0 where there is none, or the query is answered.
-static int begin(growth *g, simplex *x, int is_first) {
+static int begin(growth *g, simplex *points, int is_first) {
     search *s = g->s;
-    if (x->count == 0) probe_center(&g->p, x);
+    if (points->count == 0) probe_center(&g->p, points);
     if (is_first && is_apart(s)) return 0;
     if (is_first && s->goal.wants_depth && epa_lanes_serve(s)) {
-        if (grow_in_lanes(g, x)) return 0;
+        if (grow_in_lanes(g, points)) return 0;
         if (g->e.points) {
             if (!g->is_grown) find_next(g);
             return 1;
         }
     }
-    if (!start(&g->p, &g->e, x, is_first)) return 0;
+    if (!start(&g->p, &g->e, points, is_first)) return 0;
     expansion_make_tetrahedron(&g->e);
     find_next(g);
     return 1;
 }
 
-int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
+int epa_run(search *s, simplex *points, int is_first, ovoid_cover *cover) {
     growth g;
     g.s = s;
     g.cover = cover;
@@ -418,7 +419,7 @@ int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
     expansion_clear(&g.e, 16 * 0x1p-53 * s->frame->size);
     g.e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
     uint32_t before = s->iterations;
-    if (!begin(&g, x, is_first)) return search_is_done(s);
+    if (!begin(&g, points, is_first)) return search_is_done(s);
     for (; !g.is_grown; s->iterations++) {
         if (s->iterations - before >= s->goal.iterations) {
             s->limit = OVOID_LIMIT_ITERATIONS;
@@ -433,6 +434,6 @@ int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover) {
     }
     finish(&g);
     if (search_is_done(s) || s->limit != OVOID_LIMIT_NONE) return 1;
-    leave(&g, x);
+    leave(&g, points);
     return 0;
 }

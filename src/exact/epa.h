@@ -6,7 +6,7 @@
 
 /// Runs from at most four differences and narrows the bracket. 1: the query is answered, or a limit is met, which goes
 /// into s->limit. 0: EPA can do no more; where is_first is set also if the cores are apart, so that GJK should go on
-/// from the differences in *x. *cover (may be NULL) receives the surface where the upper bound rests on it.
-int epa_run(search *s, simplex *x, int is_first, ovoid_cover *cover);
+/// from the differences in *points. *cover (may be NULL) receives the surface where the upper bound rests on it.
+int epa_run(search *s, simplex *points, int is_first, ovoid_cover *cover);
 
 #endif

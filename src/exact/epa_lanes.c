@@ -15,15 +15,15 @@ static simd_difference find(const void *bodies, double x, double y, double z) {
     return (simd_difference){w.gap, w.w.x, w.w.y, w.w.z, w.a, w.b};
 }
 
-epa8_end epa_lanes_grow(epa8 *lanes, const prober *p, const simplex *x, double slack, double doubt) {
+epa8_end epa_lanes_grow(epa8 *lanes, const prober *p, const simplex *points, double slack, double doubt) {
     search *s = p->s;
     double claim = s->frame->claim, narrow = s->goal.tolerance - s->goal.allowance - 2 * claim;
     epa8_query query = {p->a,  p->b,  p->is_posed ? NULL : find, p, claim, narrow, 2 * epa_get_face_doubt(s),
                         slack, doubt, s->goal.iterations};
-    lanes->points = (uint32_t)x->count;
-    for (int i = 0; i < x->count; i++) {
-        lanes->w[0][i] = x->p[i].w.x, lanes->w[1][i] = x->p[i].w.y, lanes->w[2][i] = x->p[i].w.z;
-        lanes->a[i] = x->p[i].a, lanes->b[i] = x->p[i].b;
+    lanes->points = (uint32_t)points->count;
+    for (int i = 0; i < points->count; i++) {
+        lanes->w[0][i] = points->p[i].w.x, lanes->w[1][i] = points->p[i].w.y, lanes->w[2][i] = points->p[i].w.z;
+        lanes->a[i] = points->p[i].a, lanes->b[i] = points->p[i].b;
     }
     epa8_end end = epa8_grow(lanes, &query);
     if (end == EPA8_FLAT) return end;
@@ -89,23 +89,23 @@ int epa_lanes_take_depth(search *s, const epa8 *lanes) {
     return 1;
 }
 
-int epa_find_foot(const search *s, const difference corner[3], vec3 n, double low, evidence *x) {
+int epa_find_foot(const search *s, const difference corner[3], vec3 n, double low, evidence *found) {
     vec3 p[3];
     double sum = 0;
     for (int i = 0; i < 3; i++) {
-        x->p[i] = corner[i];
+        found->p[i] = corner[i];
         p[i] = vec3_add_scaled(corner[i].w, n, -low);
     }
     for (int i = 0; i < 3; i++) {
-        x->weight[i] = vec3_dot(n, vec3_cross(p[(i + 1) % 3], p[(i + 2) % 3]));
-        if (!(x->weight[i] > 0)) return 0;
-        sum += x->weight[i];
+        found->weight[i] = vec3_dot(n, vec3_cross(p[(i + 1) % 3], p[(i + 2) % 3]));
+        if (!(found->weight[i] > 0)) return 0;
+        sum += found->weight[i];
     }
     vec3 off = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
-        x->weight[i] /= sum;
-        off = vec3_add_scaled(off, p[i], x->weight[i]);
+        found->weight[i] /= sum;
+        off = vec3_add_scaled(off, p[i], found->weight[i]);
     }
-    x->count = 3;
+    found->count = 3;
     return vec3_norm(off) <= s->frame->claim;
 }

@@ -26,16 +26,16 @@ typedef struct heading {
     double height, square;
 } heading;
 
-static int is_known(const simplex *x, const frame_support *p) {
-    for (int i = 0; i < x->count; i++)
-        if (x->p[i].a == p->a && x->p[i].b == p->b) return 1;
+static int is_known(const simplex *points, const frame_support *p) {
+    for (int i = 0; i < points->count; i++)
+        if (points->p[i].a == p->a && points->p[i].b == p->b) return 1;
     return 0;
 }
 
 // Takes the simplex's nearest point as upper bound.
-static void take_upper(search *s, const simplex *x) {
+static void take_upper(search *s, const simplex *points) {
     double upper = s->upper;
-    search_take_points(s, x);
+    search_take_points(s, points);
     if (s->upper < upper) s->stage = OVOID_STAGE_GJK;
 }
 
@@ -45,23 +45,23 @@ static void take_lower(search *s, double lower, vec3 n) {
 }
 
 // The points of a tetrahedron's faces: where it is flat its volumes are noise, and so are the weights they give.
-static void take_faces(search *s, const simplex *x) {
+static void take_faces(search *s, const simplex *points) {
     for (int out = 0; out < 4; out++) {
         simplex face = {.count = 3};
         for (int i = 0, k = 0; i < 4; i++)
-            if (i != out) face.p[k++] = x->p[i];
+            if (i != out) face.p[k++] = points->p[i];
         (void)simplex_reduce(&face);
         search_take_points(s, &face);
     }
 }
 
 // Ends a run whose simplex holds the origin, to rounding.
-static gjk_end end_inside(search *s, const simplex *x) {
+static gjk_end end_inside(search *s, const simplex *points) {
     s->stage = OVOID_STAGE_GJK;
-    evidence inside = evidence_make(x);
-    if (x->count < 4 || !search_take_hull(s, &inside)) {
-        search_take_points(s, x);
-        if (x->count == 4) take_faces(s, x);
+    evidence inside = evidence_make(points);
+    if (points->count < 4 || !search_take_hull(s, &inside)) {
+        search_take_points(s, points);
+        if (points->count == 4) take_faces(s, points);
     }
     return search_is_done(s) ? GJK_ANSWERED : GJK_CONTACT;
 }
@@ -76,8 +76,8 @@ static int seems_done(const search *s, double distance) {
 
 // 1 if the query is answered. Where the goal is a bracket it is taken along n, the witness points' own direction, so
 // that points, normal and distance agree.
-static int is_answered(search *s, const simplex *x, double lower, vec3 n) {
-    take_upper(s, x);
+static int is_answered(search *s, const simplex *points, double lower, vec3 n) {
+    take_upper(s, points);
     if (!search_is_done(s)) return 0;
     if (s->lower > s->goal.far || !s->goal.wants_bracket || s->upper <= s->goal.near) return 1;
     if (s->upper - lower > s->goal.tolerance) return 0;
@@ -86,9 +86,9 @@ static int is_answered(search *s, const simplex *x, double lower, vec3 n) {
 }
 
 // The robust step, and the first one from several points. 0 if the origin lies in the simplex.
-static int reduce(simplex *x, heading *to) {
-    vec3 n = simplex_reduce(x);
-    *to = (heading){n, vec3_norm(simplex_compute_point(x)), vec3_norm_squared(n)};
+static int reduce(simplex *points, heading *to) {
+    vec3 n = simplex_reduce(points);
+    *to = (heading){n, vec3_norm(simplex_compute_point(points)), vec3_norm_squared(n)};
     return to->square > 0;
 }
 
@@ -96,11 +96,11 @@ static int reduce(simplex *x, heading *to) {
 static int is_in_range(double square) { return square > 1e-200 && square < 1e200; }
 
 // The first direction. 0 if the origin lies in the simplex.
-static int start(simplex *x, heading *to) {
-    vec3 w = x->p[0].w;
+static int start(simplex *points, heading *to) {
+    vec3 w = points->p[0].w;
     double square = vec3_norm_squared(w);
-    if (x->count > 1 || !is_in_range(square)) return reduce(x, to);
-    x->weight[0] = 1;
+    if (points->count > 1 || !is_in_range(square)) return reduce(points, to);
+    points->weight[0] = 1;
     *to = (heading){w, square, square};
     return 1;
 }
@@ -115,16 +115,16 @@ static void set_corner(gjk_state *k, int i, const difference *p) {
     k->b[i] = p->b;
 }
 
-static void state_make(gjk_state *k, const simplex *x) {
-    for (int i = 0; i < 4; i++) set_corner(k, i, &x->p[i < x->count ? i : 0]);
-    k->valid = (1u << x->count) - 1;
+static void state_make(gjk_state *k, const simplex *points) {
+    for (int i = 0; i < 4; i++) set_corner(k, i, &points->p[i < points->count ? i : 0]);
+    k->valid = (1u << points->count) - 1;
 }
 
 // The corners of the state as a simplex.
-static void state_get_simplex(const gjk_state *k, simplex *x) {
-    x->count = 0;
+static void state_get_simplex(const gjk_state *k, simplex *points) {
+    points->count = 0;
     for (int i = 0; i < 4; i++)
-        if (k->valid >> i & 1) x->p[x->count++] = (difference){get_corner(k, i), k->a[i], k->b[i]};
+        if (k->valid >> i & 1) points->p[points->count++] = (difference){get_corner(k, i), k->a[i], k->b[i]};
 }
 
 static int is_corner(const gjk_state *k, const frame_support *p) {
@@ -196,16 +196,16 @@ static step_result seed_triangle(search *s, const prober *by, gjk_state *k, head
     return state;
 }
 
-static gjk_end run_fast(search *s, const prober *by, simplex *x) {
+static gjk_end run_fast(search *s, const prober *by, simplex *points) {
     heading to;
     gjk_state k;
     vec3 n;
-    if (!start(x, &to)) return end_inside(s, x);
-    state_make(&k, x);
+    if (!start(points, &to)) return end_inside(s, points);
+    state_make(&k, points);
     // An earlier proof's single corner comes without the direction it was met along.
-    step_result state = x->count == 1 && s->lower > -INFINITY ? seed_triangle(s, by, &k, &to) : STEP_ON;
+    step_result state = points->count == 1 && s->lower > -INFINITY ? seed_triangle(s, by, &k, &to) : STEP_ON;
     if (s->lower > s->goal.far) {
-        take_upper(s, x);
+        take_upper(s, points);
         return GJK_ANSWERED;
     }
     for (; state == STEP_ON && s->iterations < s->goal.iterations; s->iterations++) {
@@ -215,27 +215,27 @@ static gjk_end run_fast(search *s, const prober *by, simplex *x) {
         frame_support p = probe_measure(by, to.n);
         double lower = take_gap(s, &to, scale, p.gap, &n);
         if (seems_done(s, distance)) {
-            state_get_simplex(&k, x);
-            simplex_compute_weights(x);
-            if (is_answered(s, x, lower, n)) return GJK_ANSWERED;
+            state_get_simplex(&k, points);
+            simplex_compute_weights(points);
+            if (is_answered(s, points, lower, n)) return GJK_ANSWERED;
         }
         if (is_corner(&k, &p)) break;
         // From above: the nearest point of the simplex with the new corner.
         state = take_step(&k, &p, distance, &to);
     }
-    state_get_simplex(&k, x);
+    state_get_simplex(&k, points);
     if (state == STEP_INSIDE) {
-        simplex_compute_inside_weights(x);
-        return end_inside(s, x);
+        simplex_compute_inside_weights(points);
+        return end_inside(s, points);
     }
     return GJK_STALLED;
 }
 
-static gjk_end run_robust(search *s, const prober *by, simplex *x) {
+static gjk_end run_robust(search *s, const prober *by, simplex *points) {
     double last = INFINITY;
     heading to;
     vec3 n;
-    if (!reduce(x, &to)) return end_inside(s, x);
+    if (!reduce(points, &to)) return end_inside(s, points);
     for (; s->iterations < s->goal.iterations; s->iterations++) {
         double distance = to.height;
         if (distance <= s->frame->claim) return GJK_CONTACT;
@@ -243,20 +243,20 @@ static gjk_end run_robust(search *s, const prober *by, simplex *x) {
         last = distance;
         frame_support p = probe_measure(by, to.n);
         double lower = take_gap(s, &to, 1, p.gap, &n);
-        if (seems_done(s, distance) && is_answered(s, x, lower, n)) return GJK_ANSWERED;
-        if (is_known(x, &p)) return GJK_STALLED;
-        x->p[x->count++] = (difference){p.w, p.a, p.b};
-        if (!reduce(x, &to)) return end_inside(s, x);
+        if (seems_done(s, distance) && is_answered(s, points, lower, n)) return GJK_ANSWERED;
+        if (is_known(points, &p)) return GJK_STALLED;
+        points->p[points->count++] = (difference){p.w, p.a, p.b};
+        if (!reduce(points, &to)) return end_inside(s, points);
     }
     return GJK_ITERATIONS;
 }
 
-gjk_end gjk_run(search *s, simplex *x) {
+gjk_end gjk_run(search *s, simplex *points) {
     prober by;
     prober_make(&by, s, 0);
-    gjk_end end = run_fast(s, &by, x);
-    if (end != GJK_ANSWERED && s->kind != OVOID_PROOF_HULL) end = run_robust(s, &by, x);
+    gjk_end end = run_fast(s, &by, points);
+    if (end != GJK_ANSWERED && s->kind != OVOID_PROOF_HULL) end = run_robust(s, &by, points);
     if (end == GJK_ANSWERED) return end;
-    take_upper(s, x);
+    take_upper(s, points);
     return search_is_done(s) ? GJK_ANSWERED : end;
 }

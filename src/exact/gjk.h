@@ -13,6 +13,6 @@ typedef enum gjk_end {
 } gjk_end;
 
 /// Runs from the simplex (1 to 4 differences), which holds the last simplex afterwards.
-gjk_end gjk_run(search *s, simplex *x);
+gjk_end gjk_run(search *s, simplex *points);
 
 #endif

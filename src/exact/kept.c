@@ -36,12 +36,12 @@ static vec3 choose_direction(const query_goal *goal, const ovoid_proof *earlier,
 // The gap along a unit direction.
 static void set_gap(const pair_frame *f, vec3 n, small_gjk_result *r) {
     vec3 in_a = mat3_mul_transposed_vec3(f->world, n), in_b = mat3_mul_transposed_vec3(f->world_b, n);
-    simd_pair x = frame_find_pair(f, in_a, vec3_neg(in_b));
+    simd_pair ends = frame_find_pair(f, in_a, vec3_neg(in_b));
     r->n[0] = n.x;
     r->n[1] = n.y;
     r->n[2] = n.z;
     r->square = 1;
-    r->gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value;
+    r->gap = (vec3_dot(n, f->offset) - ends.low.value) - ends.high.value;
 }
 
 int kept_run(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier, small_end *end) {

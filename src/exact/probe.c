@@ -25,9 +25,9 @@ static frame_support find_small(const prober *p, vec3 n) {
     const pair_frame *f = p->s->frame;
     vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
     double up[3] = {n.x, n.y, n.z}, down[3] = {in_b.x, in_b.y, in_b.z};
-    simd_pair x = simd_find_pair(&p->a, up, &p->b, down);
-    double gap = (vec3_dot(n, f->translation) - x.low.value) - x.high.value;
-    return (frame_support){x.high.index, x.low.index, gap, frame_difference(f, x.high.index, x.low.index)};
+    simd_pair ends = simd_find_pair(&p->a, up, &p->b, down);
+    double gap = (vec3_dot(n, f->translation) - ends.low.value) - ends.high.value;
+    return (frame_support){ends.high.index, ends.low.index, gap, frame_difference(f, ends.high.index, ends.low.index)};
 }
 
 frame_support probe_measure(const prober *p, vec3 n) {
@@ -39,7 +39,7 @@ frame_support probe_measure(const prober *p, vec3 n) {
 }
 
 frame_support probe_find(const prober *p, vec3 n) {
-    frame_support x = probe_measure(p, vec3_neg(n));
-    search_take_gap(p->s, vec3_neg(n), x.gap);
-    return x;
+    frame_support support = probe_measure(p, vec3_neg(n));
+    search_take_gap(p->s, vec3_neg(n), support.gap);
+    return support;
 }

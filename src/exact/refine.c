@@ -68,19 +68,19 @@ static void split_weight(dd weight, double *high, double *low) {
 
 // Takes the simplex's nearest point as upper bound; the low half of each weight becomes the weight of a second entry of
 // the same pair.
-static void take_points(refinement *r, const fine_simplex *x) {
+static void take_points(refinement *r, const fine_simplex *points) {
     search *s = r->s;
-    double upper = fine_compute_upper(&r->f, x->distance, r->f.claim);
-    if (!(upper < s->upper) || x->count > 3) return;
+    double upper = fine_compute_upper(&r->f, points->distance, r->f.claim);
+    if (!(upper < s->upper) || points->count > 3) return;
     s->upper = upper;
     s->kind = OVOID_PROOF_POINTS;
     s->stage = OVOID_STAGE_REFINE;
     r->has_points = 1;
-    int n = x->count;
+    int n = points->count;
     s->witness = (evidence){.count = 2 * n};
     for (int i = 0; i < n; i++) {
-        s->witness.p[i] = s->witness.p[n + i] = (difference){dd3_high(x->p[i].w), x->p[i].a, x->p[i].b};
-        split_weight(x->weight[i], &s->witness.weight[i], &s->witness.weight[n + i]);
+        s->witness.p[i] = s->witness.p[n + i] = (difference){dd3_high(points->p[i].w), points->p[i].a, points->p[i].b};
+        split_weight(points->weight[i], &s->witness.weight[i], &s->witness.weight[n + i]);
     }
 }
 
@@ -146,18 +146,18 @@ static dd3 across(dd3 v, const subspace *b) {
 }
 
 // The nearest point of the affine hull of some points (up to three), if it is inside their hull.
-static int find_nearest(const refinement *r, fine_simplex *x) {
+static int find_nearest(const refinement *r, fine_simplex *points) {
     const dd one = {1, 0};
-    dd3 p = x->p[0].w;
-    x->weight[0] = one;
-    x->nearest = p;
-    if (x->count > 1) {
-        dd3 e1 = dd3_sub(x->p[1].w, p);
+    dd3 p = points->p[0].w;
+    points->weight[0] = one;
+    points->nearest = p;
+    if (points->count > 1) {
+        dd3 e1 = dd3_sub(points->p[1].w, p);
         dd ee = dd3_dot(e1, e1), s, t = {0, 0};
         if (!(ee.high > r->noise * r->noise)) return 0;
-        if (x->count == 3) {
+        if (points->count == 3) {
             // The second edge made orthogonal to the first.
-            dd3 e2 = dd3_sub(x->p[2].w, p), f = dd3_sub(e2, dd3_mul(e1, dd_div(dd3_dot(e1, e2), ee)));
+            dd3 e2 = dd3_sub(points->p[2].w, p), f = dd3_sub(e2, dd3_mul(e1, dd_div(dd3_dot(e1, e2), ee)));
             dd ff = dd3_dot(f, f);
             if (!(ff.high > r->noise * r->noise)) return 0;
             t = dd_neg(dd_div(dd3_dot(p, f), ff));
@@ -167,19 +167,20 @@ static int find_nearest(const refinement *r, fine_simplex *x) {
         s = dd_neg(dd_div(dd3_dot(p, e1), ee));
         dd rest = dd_sub(dd_sub(one, s), t);
         if (!(s.high > 0) || !(rest.high > 0)) return 0;
-        x->weight[0] = rest, x->weight[1] = s, x->weight[2] = t;
-        x->nearest = dd3_add_scaled(p, e1, s);
+        points->weight[0] = rest, points->weight[1] = s, points->weight[2] = t;
+        points->nearest = dd3_add_scaled(p, e1, s);
     }
-    x->distance = dd3_norm(x->nearest);
+    points->distance = dd3_norm(points->nearest);
     return 1;
 }
 
 // 1 if the origin is inside the tetrahedron or on its surface, as the signs of four determinants have it.
-static int is_inside(const fine_simplex *x) {
+static int is_inside(const fine_simplex *points) {
     static const int faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
     int above = 0, below = 0;
     for (int i = 0; i < 4; i++) {
-        double det = dd3_dot(x->p[faces[i][0]].w, dd3_cross(x->p[faces[i][1]].w, x->p[faces[i][2]].w)).high;
+        double det =
+            dd3_dot(points->p[faces[i][0]].w, dd3_cross(points->p[faces[i][1]].w, points->p[faces[i][2]].w)).high;
         above += det >= 0;
         below += det <= 0;
     }
@@ -187,86 +188,86 @@ static int is_inside(const fine_simplex *x) {
 }
 
 // Reduces the simplex to its face of fewest points that is nearest to the origin.
-static void reduce(const refinement *r, fine_simplex *x) {
+static void reduce(const refinement *r, fine_simplex *points) {
     fine_simplex best = {.count = 0, .distance = {INFINITY, 0}};
     for (int size = 1; size <= 3 && best.distance.high > r->noise; size++)
-        for (int some = 1; some < 1 << x->count; some++) {
+        for (int some = 1; some < 1 << points->count; some++) {
             fine_simplex part = {.count = 0};
-            for (int i = 0; i < x->count; i++)
-                if (some >> i & 1 && part.count < 4) part.p[part.count++] = x->p[i];
+            for (int i = 0; i < points->count; i++)
+                if (some >> i & 1 && part.count < 4) part.p[part.count++] = points->p[i];
             if (part.count == size && find_nearest(r, &part) && dd_is_less(part.distance, best.distance)) best = part;
         }
-    *x = best;
+    *points = best;
 }
 
 // The unit direction to the nearest point, orthogonal to the simplex and to a subspace that holds the origin.
-static dd3 find_direction(const fine_simplex *x, const subspace *b) {
-    dd3 n = x->nearest;
+static dd3 find_direction(const fine_simplex *points, const subspace *b) {
+    dd3 n = points->nearest;
     subspace own = nothing;
-    for (int i = 1; i < x->count; i++) {
-        dd3 e = dd3_sub(x->p[i].w, x->p[0].w);
+    for (int i = 1; i < points->count; i++) {
+        dd3 e = dd3_sub(points->p[i].w, points->p[0].w);
         own.axis[i - 1] = dd3_unit(across(e, &own));
         own.dimensions = i;
     }
-    if (x->count == 3) {
+    if (points->count == 3) {
         // A triangle's own normal: the nearest point may be as near as its rounding.
         n = dd3_cross(own.axis[0], own.axis[1]);
-        if (dd3_dot(n, x->p[0].w).high < 0) n = dd3_neg(n);
+        if (dd3_dot(n, points->p[0].w).high < 0) n = dd3_neg(n);
     }
     n = dd3_unit(n);
     n = across(across(n, &own), b);
     return dd3_unit(n);
 }
 
-static int is_known(const fine_simplex *x, const fine_support *p) {
-    for (int i = 0; i < x->count; i++)
-        if (x->p[i].a == p->a && x->p[i].b == p->b) return 1;
+static int is_known(const fine_simplex *points, const fine_support *p) {
+    for (int i = 0; i < points->count; i++)
+        if (points->p[i].a == p->a && points->p[i].b == p->b) return 1;
     return 0;
 }
 
 // Adds the difference of a support, projected along a subspace.
-static void add(const refinement *r, fine_simplex *x, fine_support p, const subspace *b) {
+static void add(const refinement *r, fine_simplex *points, fine_support p, const subspace *b) {
     dd3 w = across(fine_difference(&r->f, p.a, p.b), b);
-    x->p[x->count++] = (fine_point){w, p.a, p.b};
+    points->p[points->count++] = (fine_point){w, p.a, p.b};
 }
 
 // --- GJK
 
 // Where the nearest point is so near that its direction is rounding, probes along the normals of the triangles around
 // it.
-static void probe_triangles(refinement *r, const fine_simplex *x) {
+static void probe_triangles(refinement *r, const fine_simplex *points) {
     for (int left = 0; left < 4 && !is_done(r->s); left++) {
         fine_simplex t = {.count = 0};
-        for (int i = 0; i < x->count; i++)
-            if (i != left && t.count < 3) t.p[t.count++] = x->p[i];
-        if (t.count == 3 && (x->count == 4 || left == 3)) (void)probe(r, find_direction(&t, &nothing));
+        for (int i = 0; i < points->count; i++)
+            if (i != left && t.count < 3) t.p[t.count++] = points->p[i];
+        if (t.count == 3 && (points->count == 4 || left == 3)) (void)probe(r, find_direction(&t, &nothing));
     }
 }
 
 // Runs GJK until the query is answered, or the origin is on or in the simplex, or nothing improves.
-static void find_distance(refinement *r, fine_simplex *x) {
+static void find_distance(refinement *r, fine_simplex *points) {
     double last = INFINITY;
     while (r->steps < r->most) {
-        if (x->count == 4 && is_inside(x)) {
-            take_hull(r, x->p, 4);
+        if (points->count == 4 && is_inside(points)) {
+            take_hull(r, points->p, 4);
             if (is_done(r->s)) return;
         }
-        fine_simplex all = *x;
-        reduce(r, x);
-        take_points(r, x);
-        if (is_done(r->s) || x->distance.high <= r->noise) return;
-        if (!(x->distance.high < last)) {
+        fine_simplex all = *points;
+        reduce(r, points);
+        take_points(r, points);
+        if (is_done(r->s) || points->distance.high <= r->noise) return;
+        if (!(points->distance.high < last)) {
             probe_triangles(r, &all);
             return;
         }
-        last = x->distance.high;
-        fine_support p = probe(r, find_direction(x, &nothing));
+        last = points->distance.high;
+        fine_support p = probe(r, find_direction(points, &nothing));
         if (is_done(r->s)) return;
-        if (is_known(x, &p)) {
+        if (is_known(points, &p)) {
             probe_triangles(r, &all);
             return;
         }
-        add(r, x, p, &nothing);
+        add(r, points, p, &nothing);
     }
 }
 
@@ -283,22 +284,22 @@ static dd3 find_first(const subspace *b, dd3 normal) {
 
 // Finds points of the difference body whose projections along a subspace hold the origin, none of them at it. 0 if a
 // direction orthogonal to the subspace supports the body at the origin, to rounding, or if no such points are found.
-static int surround(refinement *r, const subspace *b, dd3 normal, fine_simplex *x) {
+static int surround(refinement *r, const subspace *b, dd3 normal, fine_simplex *points) {
     double last = INFINITY;
     dd3 n = find_first(b, normal);
-    x->count = 0;
+    points->count = 0;
     while (r->steps < r->most) {
         fine_support p = probe(r, n);
-        if (p.gap.high >= -r->noise || is_known(x, &p)) return 0;
-        add(r, x, p, b);
-        fine_simplex face = *x;
+        if (p.gap.high >= -r->noise || is_known(points, &p)) return 0;
+        add(r, points, p, b);
+        fine_simplex face = *points;
         reduce(r, &face);
-        if (x->count == 4 && face.distance.high > r->noise && is_inside(x)) return 1;
-        *x = face;
-        if (x->distance.high <= r->noise) return x->count > 1;
-        if (!(x->distance.high < last) || x->count > 3 - b->dimensions) return 0;
-        last = x->distance.high;
-        n = find_direction(x, b);
+        if (points->count == 4 && face.distance.high > r->noise && is_inside(points)) return 1;
+        *points = face;
+        if (points->distance.high <= r->noise) return points->count > 1;
+        if (!(points->distance.high < last) || points->count > 3 - b->dimensions) return 0;
+        last = points->distance.high;
+        n = find_direction(points, b);
     }
     return 0;
 }
@@ -310,15 +311,15 @@ typedef struct surrounding {
     int sizes[3], levels, count;
 } surrounding;
 
-static void append(surrounding *c, const fine_simplex *x) {
-    for (int i = 0; i < x->count; i++) {
-        c->p[c->count++] = x->p[i];
+static void append(surrounding *c, const fine_simplex *points) {
+    for (int i = 0; i < points->count; i++) {
+        c->p[c->count++] = points->p[i];
         if (i == 0) continue;
-        dd3 e = dd3_unit(across(dd3_sub(x->p[i].w, x->p[0].w), &c->space));
+        dd3 e = dd3_unit(across(dd3_sub(points->p[i].w, points->p[0].w), &c->space));
         c->space.axis[c->space.dimensions] = dd3_unit(across(e, &c->space));
         c->space.dimensions++;
     }
-    c->sizes[c->levels++] = x->count;
+    c->sizes[c->levels++] = points->count;
 }
 
 // Takes the points as a hull, in the order of a proof: tips first, then the ring.
@@ -336,9 +337,9 @@ static void find_side(refinement *r, const fine_simplex *on, dd3 normal) {
     surrounding c = {.space = nothing};
     if (on->count > 1) append(&c, on);
     while (c.space.dimensions < 3) {
-        fine_simplex x;
-        if (!surround(r, &c.space, normal, &x)) return;
-        append(&c, &x);
+        fine_simplex points;
+        if (!surround(r, &c.space, normal, &points)) return;
+        append(&c, &points);
     }
     take_surrounding(r, &c);
 }
@@ -353,14 +354,14 @@ static int is_wanted(const search *s) {
 }
 
 // The double search's points, and the support along its direction.
-static void set_start(refinement *r, fine_simplex *x, const fine_support *first) {
+static void set_start(refinement *r, fine_simplex *points, const fine_support *first) {
     const search *s = r->s;
-    *x = (fine_simplex){.distance = {INFINITY, 0}};
-    add(r, x, *first, &nothing);
+    *points = (fine_simplex){.distance = {INFINITY, 0}};
+    add(r, points, *first, &nothing);
     if (s->kind != OVOID_PROOF_POINTS) return;
-    for (int i = 0; i < s->witness.count && x->count < 4; i++) {
+    for (int i = 0; i < s->witness.count && points->count < 4; i++) {
         fine_support p = {.a = s->witness.p[i].a, .b = s->witness.p[i].b};
-        if (!is_known(x, &p)) add(r, x, p, &nothing);
+        if (!is_known(points, &p)) add(r, points, p, &nothing);
     }
 }
 
@@ -381,11 +382,11 @@ static void run(refinement *r) {
     dd3 normal = dd3_from(frame_direction_to_world(s->frame, s->normal));
     fine_support first = probe(r, normal);
     if (is_done(s)) return;
-    fine_simplex x;
-    set_start(r, &x, &first);
-    find_distance(r, &x);
+    fine_simplex points;
+    set_start(r, &points, &first);
+    find_distance(r, &points);
     // Only contact is left: of the cores, or of nothing that the radii do not decide.
-    if (!is_done(s) && x.distance.high <= 0x1p-40) find_side(r, &x, normal);
+    if (!is_done(s) && points.distance.high <= 0x1p-40) find_side(r, &points, normal);
 }
 
 void refine_run(search *s, const ovoid_pair *pair) {

@@ -11,40 +11,40 @@ static difference get_corner(const small_gjk_result *r, int i) {
     return (difference){{r->at.x[i], r->at.y[i], r->at.z[i]}, r->a[i], r->b[i]};
 }
 
-static void clear_points(simplex *x) {
-    x->count = 0;
+static void clear_points(simplex *points) {
+    points->count = 0;
     for (int i = 0; i < 4; i++) {
-        x->p[i].a = x->p[i].b = 0;
-        x->weight[i] = 0;
+        points->p[i].a = points->p[i].b = 0;
+        points->weight[i] = 0;
     }
 }
 
-static void get_corners(const small_gjk_result *r, simplex *x) {
+static void get_corners(const small_gjk_result *r, simplex *points) {
     for (int i = 0; i < 4; i++)
-        if (r->valid >> i & 1) x->p[x->count++] = get_corner(r, i);
+        if (r->valid >> i & 1) points->p[points->count++] = get_corner(r, i);
 }
 
 // One to three corners that were kept, with their weights: all but the differences, which no one asks for.
-static void get_kept_corners(const small_gjk_result *r, simplex *x) {
-    x->count = r->valid == 1 ? 1 : r->valid == 3 ? 2 : 3;
+static void get_kept_corners(const small_gjk_result *r, simplex *points) {
+    points->count = r->valid == 1 ? 1 : r->valid == 3 ? 2 : 3;
     for (int i = 0; i < 3; i++) {
-        x->p[i].a = r->a[i];
-        x->p[i].b = r->b[i];
-        x->weight[i] = r->weight[i];
+        points->p[i].a = r->a[i];
+        points->p[i].b = r->b[i];
+        points->weight[i] = r->weight[i];
     }
 }
 
 // The upper bound: of the nearest point, or of the hull around the origin; infinity where the origin is not proven
 // inside.
 static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, small_end *end) {
-    simplex *x = &end->points;
+    simplex *points = &end->points;
     if (kind != SMALL_GJK_INSIDE) {
         end->kind = OVOID_PROOF_POINTS;
-        simplex_compute_weights(x);
-        return vec3_norm(simplex_compute_point(x)) - f->upper_radii + claim;
+        simplex_compute_weights(points);
+        return vec3_norm(simplex_compute_point(points)) - f->upper_radii + claim;
     }
-    vec3 w[4] = {x->p[0].w, x->p[1].w, x->p[2].w, x->p[3].w};
-    double depth = hull_find_weights(w, claim, x->weight);
+    vec3 w[4] = {points->p[0].w, points->p[1].w, points->p[2].w, points->p[3].w};
+    double depth = hull_find_weights(w, claim, points->weight);
     if (!(depth > 0)) return INFINITY;
     end->kind = OVOID_PROOF_HULL;
     return -depth - f->upper_radii;

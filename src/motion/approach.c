@@ -21,32 +21,32 @@ typedef struct sample {
 } sample;
 
 // Queries the distance at a time and records the smallest. An overlap ends this search, as the smallest there is.
-static sample query_at(approach *x, double time) {
-    sweep *s = &x->s;
+static sample query_at(approach *state, double time) {
+    sweep *s = &state->s;
     sweep_query(s, time);
-    if (sweep_get_upper(s) < x->out->upper) {
-        x->out->upper = sweep_get_upper(s);
-        x->out->time = time;
-        x->out->answer = s->answer;
+    if (sweep_get_upper(s) < state->out->upper) {
+        state->out->upper = sweep_get_upper(s);
+        state->out->time = time;
+        state->out->answer = s->answer;
     }
     return (sample){time, s->answer.upper, s->fall};
 }
 
-static int is_over(const approach *x) { return x->out->upper < 0 || x->s.used >= x->s.most; }
+static int is_over(const approach *state) { return state->out->upper < 0 || state->s.used >= state->s.most; }
 
 // The least distance between two times, where it falls at the first and rises at the second.
-static void descend_between(approach *x, sample low, sample high) {
-    for (int round = 0; round < DESCENT_MAX && !is_over(x); round++) {
+static void descend_between(approach *state, sample low, sample high) {
+    for (int round = 0; round < DESCENT_MAX && !is_over(state); round++) {
         // Where the tangents meet, kept away from both ends.
         double wide = high.time - low.time, fall = max2(low.fall, 0), rise = max2(-high.fall, 0);
         double share = fall + rise > 0 ? (rise + (low.distance - high.distance) / wide) / (fall + rise) : 0.5;
         double floor = low.distance - fall * share * wide;
         double least = min2(low.distance, high.distance);
-        if (least - floor <= 0.25 * x->tolerance && share >= 0 && share <= 1) return;
+        if (least - floor <= 0.25 * state->tolerance && share >= 0 && share <= 1) return;
         if (round % 3 == 2 || !(share > 0 && share < 1)) share = 0.5;
         double time = low.time + min2(max2(share, 0.02), 0.98) * wide;
         if (!(time > low.time && time < high.time)) return;
-        sample middle = query_at(x, time);
+        sample middle = query_at(state, time);
         if (middle.fall > 0 && middle.distance <= low.distance)
             low = middle;
         else
@@ -55,14 +55,14 @@ static void descend_between(approach *x, sample low, sample high) {
 }
 
 // From a time at which the distance falls: ahead until it rises, then between.
-static void descend(approach *x, sample from) {
-    double ahead = 1e-3 * (x->s.end - x->s.begin);
-    for (int round = 0; round < DESCENT_MAX && !is_over(x); round++, ahead *= 2) {
-        double time = min2(from.time + ahead, x->s.end);
+static void descend(approach *state, sample from) {
+    double ahead = 1e-3 * (state->s.end - state->s.begin);
+    for (int round = 0; round < DESCENT_MAX && !is_over(state); round++, ahead *= 2) {
+        double time = min2(from.time + ahead, state->s.end);
         if (!(time > from.time)) return;
-        sample next = query_at(x, time);
+        sample next = query_at(state, time);
         if (next.fall <= 0 || next.distance >= from.distance) {
-            descend_between(x, from, next);
+            descend_between(state, from, next);
             return;
         }
         from = next;
@@ -71,40 +71,41 @@ static void descend(approach *x, sample from) {
 
 // How far the level is below the smallest distance. Once half of the queries are used it is lowered, so that the search
 // ends with a wider bracket instead of none.
-static double compute_slack(const approach *x) {
-    double spent = 2 * ((double)x->s.used / x->s.most) - 1;
-    return x->tolerance * (spent > 0 ? ldexp(1, (int)(32 * spent)) : 1);
+static double compute_slack(const approach *state) {
+    double spent = 2 * ((double)state->s.used / state->s.most) - 1;
+    return state->tolerance * (spent > 0 ? ldexp(1, (int)(32 * spent)) : 1);
 }
 
 // One pass over all times. A step that doubles do not prove is tried again at a lower level.
-static void run(approach *x) {
-    sweep *s = &x->s;
+static void run(approach *state) {
+    sweep *s = &state->s;
     double lowered = 1;
-    (void)query_at(x, s->end);
-    (void)query_at(x, s->begin + 0.5 * (s->end - s->begin));
-    while (!is_over(x) && s->time < s->end) {
-        sample here = query_at(x, s->time);
-        double before = x->out->upper, time = s->time, level = before - s->allowance - lowered * compute_slack(x);
-        if (is_over(x)) return;
+    (void)query_at(state, s->end);
+    (void)query_at(state, s->begin + 0.5 * (s->end - s->begin));
+    while (!is_over(state) && s->time < s->end) {
+        sample here = query_at(state, s->time);
+        double before = state->out->upper, time = s->time,
+               level = before - s->allowance - lowered * compute_slack(state);
+        if (is_over(state)) return;
         vec3 n = vec3_unit(s->answer.normal);
         int moved = sweep_step(s, n, level);
         if (!moved && lowered > 1e6) {
-            x->out->limit = OVOID_LIMIT_PRECISION;
+            state->out->limit = OVOID_LIMIT_PRECISION;
             return;
         }
         if (!moved) lowered *= 4;
         // A short step, and ahead the distance falls below the smallest one found.
         if (here.fall > 0 && s->time - time < 0.01 * (s->end - s->begin)) {
             sweep_query(s, s->time);
-            if (sweep_get_lower(s) + s->allowance < before + x->tolerance && s->fall > 0)
-                descend(x, (sample){s->time, s->answer.upper, s->fall});
+            if (sweep_get_lower(s) + s->allowance < before + state->tolerance && s->fall > 0)
+                descend(state, (sample){s->time, s->answer.upper, s->fall});
         }
     }
 }
 
-static void finish(approach *x) {
-    const sweep *s = &x->s;
-    ovoid_approach *out = x->out;
+static void finish(approach *state) {
+    const sweep *s = &state->s;
+    ovoid_approach *out = state->out;
     out->iterations = s->used;
     out->begin = s->begin;
     out->end = s->end;
@@ -115,10 +116,10 @@ static void finish(approach *x) {
         out->status = OVOID_OVERLAPPING;
     else if (out->lower > 0)
         out->status = OVOID_SEPARATED;
-    else if (out->upper - out->lower <= x->tolerance)
+    else if (out->upper - out->lower <= state->tolerance)
         out->status = OVOID_TOUCHING;
     if (out->status == OVOID_OVERLAPPING || out->limit != OVOID_LIMIT_NONE) return;
-    if (out->upper - out->lower <= 1.001 * x->tolerance + s->allowance) {
+    if (out->upper - out->lower <= 1.001 * state->tolerance + s->allowance) {
         if (out->status == OVOID_UNDECIDED) out->limit = OVOID_LIMIT_ALLOWANCE;
         return;
     }
@@ -129,18 +130,18 @@ static ovoid_approach find(const ovoid_moving_shape *a, const ovoid_moving_shape
                            const ovoid_motion_options *options) {
     OVOID_ASSERT(a && b);
     ovoid_approach out = {.lower = -INFINITY, .upper = INFINITY};
-    approach x = {.out = &out};
-    out.limit = sweep_make(&x.s, (moving_shapes){a, b}, options, APPROACH_TOLERANCE);
+    approach state = {.out = &out};
+    out.limit = sweep_make(&state.s, (moving_shapes){a, b}, options, APPROACH_TOLERANCE);
     if (out.limit != OVOID_LIMIT_NONE) {
         out.answer = answer_make_refused(out.limit);
         return out;
     }
-    x.tolerance = x.s.tolerance * sweep_find_size(&x.s);
-    if (x.s.begin < x.s.end)
-        run(&x);
+    state.tolerance = state.s.tolerance * sweep_find_size(&state.s);
+    if (state.s.begin < state.s.end)
+        run(&state);
     else
-        (void)query_at(&x, x.s.begin);
-    finish(&x);
+        (void)query_at(&state, state.s.begin);
+    finish(&state);
     return out;
 }
 

@@ -47,9 +47,9 @@ typedef struct step_proof {
 } step_proof;
 
 /// 1 if an impact says that its query is refused; 1 if it claims nothing of the bodies.
-int impact_is_refusal(const ovoid_impact *x);
-int impact_is_empty(const ovoid_impact *x);
+int impact_is_refusal(const ovoid_impact *impact);
+int impact_is_empty(const ovoid_impact *impact);
 /// 1 if status, limit and times of an impact agree.
-int impact_is_sound(const ovoid_impact *x, double margin);
+int impact_is_sound(const ovoid_impact *impact, double margin);
 
 #endif

@@ -81,33 +81,37 @@ ovoid_code impact_verify_query(moving_shapes shapes, const query_claim *claim, o
                      claim->begin, claim->end, ovoid_limit_get_name(claim->limit), ovoid_limit_get_name(limit));
 }
 
-int impact_is_refusal(const ovoid_impact *x) { return is_refusal(x->limit); }
+int impact_is_refusal(const ovoid_impact *impact) { return is_refusal(impact->limit); }
 
-int impact_is_empty(const ovoid_impact *x) {
-    return x->status == OVOID_IMPACT_UNDECIDED && x->free_until == 0 && x->hit_at == INFINITY && x->step_count == 0;
+int impact_is_empty(const ovoid_impact *impact) {
+    return impact->status == OVOID_IMPACT_UNDECIDED && impact->free_until == 0 && impact->hit_at == INFINITY &&
+           impact->step_count == 0;
 }
 
-int impact_is_sound(const ovoid_impact *x, double margin) {
-    int is_hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
-    int is_known = (unsigned)x->status <= OVOID_IMPACT_HIT && (unsigned)x->limit <= OVOID_LIMIT_ALLOWANCE;
-    int times = x->free_until >= x->begin && x->free_until <= x->end && x->hit_at >= x->free_until;
-    int hit = is_hit ? x->hit_at <= x->end : x->hit_at == INFINITY;
-    return is_known && times && hit && !(is_free && x->free_until != x->end) && margin >= 0;
+int impact_is_sound(const ovoid_impact *impact, double margin) {
+    int is_hit = impact->status == OVOID_IMPACT_HIT, is_free = impact->status == OVOID_IMPACT_FREE;
+    int is_known = (unsigned)impact->status <= OVOID_IMPACT_HIT && (unsigned)impact->limit <= OVOID_LIMIT_ALLOWANCE;
+    int times = impact->free_until >= impact->begin && impact->free_until <= impact->end &&
+                impact->hit_at >= impact->free_until;
+    int hit = is_hit ? impact->hit_at <= impact->end : impact->hit_at == INFINITY;
+    return is_known && times && hit && !(is_free && impact->free_until != impact->end) && margin >= 0;
 }
 
-static ovoid_code verify_impact(moving_shapes shapes, double margin, const ovoid_impact *x, const step_proof *proof,
-                                ovoid_error *error) {
-    OVOID_ASSERT(shapes.a && shapes.b && x && (proof->steps || !x->step_count));
-    const query_claim query = {margin, proof->options, x->begin, x->end, x->limit, impact_is_empty(x)};
+static ovoid_code verify_impact(moving_shapes shapes, double margin, const ovoid_impact *impact,
+                                const step_proof *proof, ovoid_error *error) {
+    OVOID_ASSERT(shapes.a && shapes.b && impact && (proof->steps || !impact->step_count));
+    const query_claim query = {margin,      proof->options, impact->begin,
+                               impact->end, impact->limit,  impact_is_empty(impact)};
     ovoid_code code = impact_verify_query(shapes, &query, error);
-    if (code != OVOID_OK || impact_is_refusal(x)) return code;
-    int is_hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
-    if (!impact_is_sound(x, margin))
+    if (code != OVOID_OK || impact_is_refusal(impact)) return code;
+    int is_hit = impact->status == OVOID_IMPACT_HIT, is_free = impact->status == OVOID_IMPACT_FREE;
+    if (!impact_is_sound(impact, margin))
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
-                         ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
-    const step_claim free = {x->begin, x->free_until, margin, proof->steps, x->step_count};
-    const answer_claim at_end = {x->free_until, &x->free, is_free && !x->step_count ? margin : -INFINITY, INFINITY};
-    const answer_claim at_hit = {x->hit_at, &x->hit, -INFINITY, margin};
+                         ovoid_impact_status_get_name(impact->status), impact->free_until, impact->hit_at);
+    const step_claim free = {impact->begin, impact->free_until, margin, proof->steps, impact->step_count};
+    const answer_claim at_end = {impact->free_until, &impact->free, is_free && !impact->step_count ? margin : -INFINITY,
+                                 INFINITY};
+    const answer_claim at_hit = {impact->hit_at, &impact->hit, -INFINITY, margin};
     code = impact_verify_steps(shapes, &free, error);
     if (code == OVOID_OK) code = impact_verify_answer(shapes, &at_end, error);
     if (code == OVOID_OK && is_hit) code = impact_verify_answer(shapes, &at_hit, error);
@@ -122,40 +126,43 @@ ovoid_code ovoid_impact_verify(const ovoid_moving_shape *a, const ovoid_moving_s
 }
 
 // 1 if the status says what the bracket says; of bodies that touch, within the tolerance that was asked for.
-static int approach_is_sound(moving_shapes shapes, const ovoid_approach *x, const ovoid_motion_options *options) {
-    if ((unsigned)x->limit > OVOID_LIMIT_ALLOWANCE || !(x->time >= x->begin && x->time <= x->end)) return 0;
-    if (!(x->lower <= x->upper)) return 0;
+static int approach_is_sound(moving_shapes shapes, const ovoid_approach *claimed, const ovoid_motion_options *options) {
+    if ((unsigned)claimed->limit > OVOID_LIMIT_ALLOWANCE ||
+        !(claimed->time >= claimed->begin && claimed->time <= claimed->end))
+        return 0;
+    if (!(claimed->lower <= claimed->upper)) return 0;
     sweep s;
-    const ovoid_motion_options own = {.begin = x->begin, .end = x->end};
-    switch (x->status) {
-    case OVOID_SEPARATED: return x->lower > 0;
-    case OVOID_OVERLAPPING: return x->upper < 0;
+    const ovoid_motion_options own = {.begin = claimed->begin, .end = claimed->end};
+    switch (claimed->status) {
+    case OVOID_SEPARATED: return claimed->lower > 0;
+    case OVOID_OVERLAPPING: return claimed->upper < 0;
     case OVOID_TOUCHING:
         (void)sweep_make(&s, shapes, options ? options : &own, APPROACH_TOLERANCE);
-        return x->lower <= 0 && x->upper >= 0 && x->upper - x->lower <= s.tolerance * sweep_find_size(&s);
-    case OVOID_UNDECIDED: return x->lower <= 0 && x->upper >= 0;
+        return claimed->lower <= 0 && claimed->upper >= 0 &&
+               claimed->upper - claimed->lower <= s.tolerance * sweep_find_size(&s);
+    case OVOID_UNDECIDED: return claimed->lower <= 0 && claimed->upper >= 0;
     }
     return 0;
 }
 
-static ovoid_code verify_approach(moving_shapes shapes, const ovoid_approach *x, const step_proof *proof,
+static ovoid_code verify_approach(moving_shapes shapes, const ovoid_approach *claimed, const step_proof *proof,
                                   ovoid_error *error) {
-    OVOID_ASSERT(shapes.a && shapes.b && x && (proof->steps || !x->step_count));
-    int is_empty = x->status == OVOID_UNDECIDED && x->lower == -INFINITY && x->upper == INFINITY;
-    const query_claim query = {0, proof->options, x->begin, x->end, x->limit, is_empty};
+    OVOID_ASSERT(shapes.a && shapes.b && claimed && (proof->steps || !claimed->step_count));
+    int is_empty = claimed->status == OVOID_UNDECIDED && claimed->lower == -INFINITY && claimed->upper == INFINITY;
+    const query_claim query = {0, proof->options, claimed->begin, claimed->end, claimed->limit, is_empty};
     ovoid_code code = impact_verify_query(shapes, &query, error);
-    if (code != OVOID_OK || is_refusal(x->limit)) return code;
-    if (!approach_is_sound(shapes, x, proof->options))
+    if (code != OVOID_OK || is_refusal(claimed->limit)) return code;
+    if (!approach_is_sound(shapes, claimed, proof->options))
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from the bracket [%.17g, %.17g]",
-                         ovoid_status_get_name(x->status), x->lower, x->upper);
+                         ovoid_status_get_name(claimed->status), claimed->lower, claimed->upper);
     // lower is proven if every step is above the number just below it.
-    double level = nextafter(x->lower, -INFINITY);
-    const step_claim above = {x->begin, x->end, level, proof->steps, x->step_count};
-    const answer_claim alone = {x->begin, &x->answer, level, INFINITY};
-    const answer_claim nearest = {x->time, &x->answer, -INFINITY, x->upper};
-    if (x->lower > -INFINITY && x->begin < x->end)
+    double level = nextafter(claimed->lower, -INFINITY);
+    const step_claim above = {claimed->begin, claimed->end, level, proof->steps, claimed->step_count};
+    const answer_claim alone = {claimed->begin, &claimed->answer, level, INFINITY};
+    const answer_claim nearest = {claimed->time, &claimed->answer, -INFINITY, claimed->upper};
+    if (claimed->lower > -INFINITY && claimed->begin < claimed->end)
         code = impact_verify_steps(shapes, &above, error);
-    else if (x->lower > -INFINITY)
+    else if (claimed->lower > -INFINITY)
         code = impact_verify_answer(shapes, &alone, error);
     if (code == OVOID_OK) code = impact_verify_answer(shapes, &nearest, error);
     return code;

@@ -52,14 +52,14 @@ void motion_gap_find(const motion_pair *p, double time, vec3 n, motion_gap *g) {
     double shift = motion_pair_find_pair(p, time, &at);
     if (frame_place(&at, &f) != OVOID_LIMIT_NONE) return;
     vec3 in_a = mat3_mul_transposed_vec3(f.world, n), in_b = vec3_neg(mat3_mul_transposed_vec3(f.world_b, n));
-    simd_pair x = frame_find_pair(&f, in_a, in_b);
+    simd_pair ends = frame_find_pair(&f, in_a, in_b);
     g->base = vec3_dot(n, f.offset) - (p->a.radius + p->b.radius);
-    set_support(&p->a, n, in_a, x.high, g->support[0], g->speed[0]);
-    set_support(&p->b, vec3_neg(n), in_b, x.low, g->support[1], g->speed[1]);
+    set_support(&p->a, n, in_a, ends.high, g->support[0], g->speed[0]);
+    set_support(&p->b, vec3_neg(n), in_b, ends.low, g->support[1], g->speed[1]);
     g->error = (shift + GAP_CHECK * f.size + f.hidden) * (1 + 16 * ROUNDING);
     g->size = f.size;
-    vec3 xa = mat3_mul_vec3(f.world, frame_vertex_a(&f, x.high.index));
-    vec3 xb = mat3_mul_vec3(f.world_b, vec3_at(shape_vertices(f.b), x.low.index));
+    vec3 xa = mat3_mul_vec3(f.world, frame_vertex_a(&f, ends.high.index));
+    vec3 xb = mat3_mul_vec3(f.world_b, vec3_at(shape_vertices(f.b), ends.low.index));
     g->apart = vec3_add(f.offset, vec3_sub(xb, xa));
 }
 

@@ -43,7 +43,7 @@ static ovoid_ray_hit cast(const ovoid_posed_shape *body, const ovoid_ray *ray) {
     if (motion_validate(&still.motion, 0, 0, NULL) != OVOID_OK) return refuse(OVOID_LIMIT_POSE_B);
     if (!ray_is_sound(ray)) return refuse(OVOID_LIMIT_OPTIONS);
     point_shape point;
-    ovoid_impact x;
+    ovoid_impact impact;
     point_make(&point, ray->radius);
     double most = vec3_max_abs(ray->direction);
     vec3 scaled = vec3_scale(ray->direction, 1 / most);
@@ -52,15 +52,15 @@ static ovoid_ray_hit cast(const ovoid_posed_shape *body, const ovoid_ray *ray) {
     moving = (ovoid_moving_shape){&point.shape, ovoid_motion_make_still(at), none};
     if (length > 0)
         moving.motion = ovoid_motion_make_velocity(at, unit, (vec3){0, 0, 0}, min2(length, find_end(body, ray)));
-    impact_find((moving_shapes){&still, &moving}, 0, NULL, 1e-12, &x);
-    ovoid_ray_hit out = {.status = x.status, .limit = x.limit, .iterations = x.iterations};
-    if (x.limit == OVOID_LIMIT_POSE_B) return refuse(OVOID_LIMIT_OPTIONS);
-    out.point = x.free.point_a;
-    out.normal = x.free.normal;
-    out.lower = x.free_until / norm / most * (1 - 8 * 0x1p-53);
-    out.upper = x.hit_at / norm / most * (1 + 8 * 0x1p-53);
-    if (x.status == OVOID_IMPACT_FREE) out.lower = ray->length;
-    if (x.hit_at == 0) take_inside(&(ovoid_pair){body->shape, &point.shape, body->pose, at}, &out);
+    impact_find((moving_shapes){&still, &moving}, 0, NULL, 1e-12, &impact);
+    ovoid_ray_hit out = {.status = impact.status, .limit = impact.limit, .iterations = impact.iterations};
+    if (impact.limit == OVOID_LIMIT_POSE_B) return refuse(OVOID_LIMIT_OPTIONS);
+    out.point = impact.free.point_a;
+    out.normal = impact.free.normal;
+    out.lower = impact.free_until / norm / most * (1 - 8 * 0x1p-53);
+    out.upper = impact.hit_at / norm / most * (1 + 8 * 0x1p-53);
+    if (impact.status == OVOID_IMPACT_FREE) out.lower = ray->length;
+    if (impact.hit_at == 0) take_inside(&(ovoid_pair){body->shape, &point.shape, body->pose, at}, &out);
     return out;
 }
 

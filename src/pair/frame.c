@@ -97,8 +97,8 @@ ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
     return OVOID_LIMIT_NONE;
 }
 
-static mat3 get_rotation(const ovoid_prepared_shape *x) {
-    const double *r = x->rotation;
+static mat3 get_rotation(const ovoid_prepared_shape *shape) {
+    const double *r = shape->rotation;
     return (mat3){{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
 }
 
@@ -141,9 +141,9 @@ static frame_support find_support_apart(const pair_frame *f, vec3 n, vec3 in_b) 
 frame_support frame_find_support(const pair_frame *f, vec3 n) {
     if (f->a->support.k | f->b->support.k)
         return find_support_apart(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
-    simd_pair x = frame_find_pair(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
-    double gap = (vec3_dot(n, f->translation) - x.low.value) - x.high.value;
-    return (frame_support){x.high.index, x.low.index, gap, frame_difference(f, x.high.index, x.low.index)};
+    simd_pair ends = frame_find_pair(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
+    double gap = (vec3_dot(n, f->translation) - ends.low.value) - ends.high.value;
+    return (frame_support){ends.high.index, ends.low.index, gap, frame_difference(f, ends.high.index, ends.low.index)};
 }
 
 double frame_measure_gap(const pair_frame *f, vec3 n) {

@@ -6,15 +6,15 @@ int reject_by_normal(const pair_frame *f, double far, const ovoid_proof *earlier
     if (!vec3_is_finite(earlier->normal)) return 0;
     vec3 n = vec3_unit(earlier->normal);
     vec3 in_a = mat3_mul_transposed_vec3(f->world, n), in_b = vec3_neg(mat3_mul_transposed_vec3(f->world_b, n));
-    simd_pair x = frame_find_pair(f, in_a, in_b);
-    double gap = (vec3_dot(n, f->offset) - x.low.value) - x.high.value,
+    simd_pair ends = frame_find_pair(f, in_a, in_b);
+    double gap = (vec3_dot(n, f->offset) - ends.low.value) - ends.high.value,
            lower = gap - f->lower_radii - reject_get_claim(f);
     if (frame_has_axis(f)) lower = frame_take_gain(lower, frame_compute_gain(f, in_a, in_b, AXIS_CLAIM));
-    found->a = x.high.index;
-    found->b = x.low.index;
+    found->a = ends.high.index;
+    found->b = ends.low.index;
     // A direction that underflowed to nothing proves nothing.
     if (!(lower > far) || !(vec3_norm_squared(n) > 0.5)) return 0;
-    *found = (rejection){lower, n, x.high.index, x.low.index, OVOID_STAGE_PROOF};
+    *found = (rejection){lower, n, ends.high.index, ends.low.index, OVOID_STAGE_PROOF};
     return 1;
 }
 

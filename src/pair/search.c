@@ -32,11 +32,11 @@ frame_support search_probe(search *s, vec3 n) {
 }
 
 // Writes only the entries that count, a small part of the struct.
-static void take_evidence(evidence *e, const simplex *x) {
-    e->count = x->count;
-    for (int i = 0; i < x->count; i++) {
-        e->p[i] = x->p[i];
-        e->weight[i] = x->weight[i];
+static void take_evidence(evidence *e, const simplex *points) {
+    e->count = points->count;
+    for (int i = 0; i < points->count; i++) {
+        e->p[i] = points->p[i];
+        e->weight[i] = points->weight[i];
     }
 }
 
@@ -49,29 +49,29 @@ void search_take_points(search *s, const simplex *points) {
     take_evidence(&s->witness, points);
 }
 
-evidence evidence_make(const simplex *x) {
+evidence evidence_make(const simplex *points) {
     evidence e;
-    take_evidence(&e, x);
+    take_evidence(&e, points);
     return e;
 }
 
-void evidence_set_weights(evidence *x) {
+void evidence_set_weights(evidence *found) {
     double best = INFINITY;
-    for (unsigned some = 0; some < 1u << x->count; some++) {
+    for (unsigned some = 0; some < 1u << found->count; some++) {
         simplex t = {.count = 0};
         int at[4];
-        for (int i = 0; i < x->count; i++)
-            if (some >> i & 1 && t.count < 4) at[t.count] = i, t.p[t.count++] = x->p[i];
+        for (int i = 0; i < found->count; i++)
+            if (some >> i & 1 && t.count < 4) at[t.count] = i, t.p[t.count++] = found->p[i];
         if (t.count != 4) continue;
         simplex all = t;
         (void)simplex_reduce(&t);
         double distance = vec3_norm(simplex_compute_point(&t));
         if (!(distance < best)) continue;
         best = distance;
-        memset(x->weight, 0, sizeof x->weight);
+        memset(found->weight, 0, sizeof found->weight);
         for (int i = 0; i < t.count; i++)
             for (int k = 0; k < 4; k++)
-                if (all.p[k].a == t.p[i].a && all.p[k].b == t.p[i].b) x->weight[at[k]] = t.weight[i];
+                if (all.p[k].a == t.p[i].a && all.p[k].b == t.p[i].b) found->weight[at[k]] = t.weight[i];
     }
 }
 

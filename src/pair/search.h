@@ -97,9 +97,9 @@ void search_take_points(search *s, const simplex *points);
 int search_take_hull(search *s, const evidence *hull);
 
 /// The simplex as evidence.
-evidence evidence_make(const simplex *x);
+evidence evidence_make(const simplex *points);
 
 /// Sets the weights of the point nearest to the origin, by the best of the tetrahedra of four of the differences.
-void evidence_set_weights(evidence *x);
+void evidence_set_weights(evidence *found);
 
 #endif

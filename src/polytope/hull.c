@@ -114,49 +114,52 @@ static uint32_t find_rank(const points *p, const surface *s, vec3 *normal) {
 }
 
 static int fill_vertices(const builder *b) {
-    hull *h = b->hull;
+    hull *polytope = b->hull;
     const points *p = &b->p;
-    h->vertex_count = p->count;
-    h->origin = p->origin;
-    h->vertices = allocator_allocate(b->allocator, p->count, 3 * sizeof *h->vertices);
-    h->neighbor_starts = allocator_allocate(b->allocator, (size_t)p->count + 1, sizeof *h->neighbor_starts);
-    if (!h->vertices || !h->neighbor_starts) return 0;
-    memset(h->neighbor_starts, 0, ((size_t)p->count + 1) * sizeof *h->neighbor_starts);
+    polytope->vertex_count = p->count;
+    polytope->origin = p->origin;
+    polytope->vertices = allocator_allocate(b->allocator, p->count, 3 * sizeof *polytope->vertices);
+    polytope->neighbor_starts =
+        allocator_allocate(b->allocator, (size_t)p->count + 1, sizeof *polytope->neighbor_starts);
+    if (!polytope->vertices || !polytope->neighbor_starts) return 0;
+    memset(polytope->neighbor_starts, 0, ((size_t)p->count + 1) * sizeof *polytope->neighbor_starts);
     for (size_t i = 0; i < p->count; i++) {
         // + 0.0 makes every zero a positive one.
         vec3 v = vec3_sub(vec3_at(b->xyz, p->source[i]), p->origin);
-        h->vertices[3 * i] = v.x + 0.0;
-        h->vertices[3 * i + 1] = v.y + 0.0;
-        h->vertices[3 * i + 2] = v.z + 0.0;
+        polytope->vertices[3 * i] = v.x + 0.0;
+        polytope->vertices[3 * i + 1] = v.y + 0.0;
+        polytope->vertices[3 * i + 2] = v.z + 0.0;
     }
     return 1;
 }
 
 static ovoid_code fill_solid(builder *b) {
-    hull *h = b->hull;
+    hull *polytope = b->hull;
     surface *s = &b->s;
-    h->triangle_count = s->triangle_count;
-    h->triangle_facets = allocator_allocate(b->allocator, h->triangle_count, sizeof *h->triangle_facets);
-    h->neighbors = allocator_allocate(b->allocator, h->triangle_count, 3 * sizeof *h->neighbors);
-    if (!h->triangle_facets || !h->neighbors) return OVOID_ERROR_MEMORY;
-    facets f = {.of = h->triangle_facets};
+    polytope->triangle_count = s->triangle_count;
+    polytope->triangle_facets =
+        allocator_allocate(b->allocator, polytope->triangle_count, sizeof *polytope->triangle_facets);
+    polytope->neighbors = allocator_allocate(b->allocator, polytope->triangle_count, 3 * sizeof *polytope->neighbors);
+    if (!polytope->triangle_facets || !polytope->neighbors) return OVOID_ERROR_MEMORY;
+    facets f = {.of = polytope->triangle_facets};
     if (!facets_create(s, &b->p, &f, b->allocator)) return OVOID_ERROR_MEMORY;
-    facets_set_offsets(s, h->vertices, &f);
-    h->planes = f.planes;
-    h->facet_count = f.count;
-    if (!neighbors_compute(s, h->neighbor_starts, h->neighbors, b->allocator)) return OVOID_ERROR_MEMORY;
-    h->triangles = s->triangles;
+    facets_set_offsets(s, polytope->vertices, &f);
+    polytope->planes = f.planes;
+    polytope->facet_count = f.count;
+    if (!neighbors_compute(s, polytope->neighbor_starts, polytope->neighbors, b->allocator)) return OVOID_ERROR_MEMORY;
+    polytope->triangles = s->triangles;
     s->triangles = NULL;
     return OVOID_OK;
 }
 
 // Joins each corner of a loop to the one before and the one after; two corners to each other.
-static void join_loop(hull *h, const uint32_t *loop, uint32_t count) {
+static void join_loop(hull *polytope, const uint32_t *loop, uint32_t count) {
     uint32_t degree = count > 2 ? 2 : count - 1;
-    for (uint32_t i = 0; i < count; i++) h->neighbor_starts[loop[i] + 1] = degree;
-    for (uint32_t v = 0; v < h->vertex_count; v++) h->neighbor_starts[v + 1] += h->neighbor_starts[v];
+    for (uint32_t i = 0; i < count; i++) polytope->neighbor_starts[loop[i] + 1] = degree;
+    for (uint32_t v = 0; v < polytope->vertex_count; v++)
+        polytope->neighbor_starts[v + 1] += polytope->neighbor_starts[v];
     for (uint32_t i = 0; i < count && degree; i++) {
-        uint32_t *neighbor = h->neighbors + h->neighbor_starts[loop[i]];
+        uint32_t *neighbor = polytope->neighbors + polytope->neighbor_starts[loop[i]];
         neighbor[0] = loop[(i + count - 1) % count];
         neighbor[degree - 1] = loop[(i + 1) % count];
     }
@@ -164,22 +167,24 @@ static void join_loop(hull *h, const uint32_t *loop, uint32_t count) {
 
 // A fan from the first corner, and the plane on its side.
 static ovoid_code fill_fan(const builder *b, const uint32_t *loop, uint32_t count, vec3 normal) {
-    hull *h = b->hull;
-    h->triangle_count = count - 2;
-    h->facet_count = 1;
-    h->triangles = allocator_allocate(b->allocator, h->triangle_count, 3 * sizeof *h->triangles);
-    h->triangle_facets = allocator_allocate(b->allocator, h->triangle_count, sizeof *h->triangle_facets);
-    h->planes = allocator_allocate(b->allocator, 1, sizeof *h->planes);
-    if (!h->triangles || !h->triangle_facets || !h->planes) return OVOID_ERROR_MEMORY;
-    for (uint32_t t = 0; t < h->triangle_count; t++) {
-        h->triangles[3 * (size_t)t] = loop[0];
-        h->triangles[3 * (size_t)t + 1] = loop[t + 1];
-        h->triangles[3 * (size_t)t + 2] = loop[t + 2];
-        h->triangle_facets[t] = 0;
+    hull *polytope = b->hull;
+    polytope->triangle_count = count - 2;
+    polytope->facet_count = 1;
+    polytope->triangles = allocator_allocate(b->allocator, polytope->triangle_count, 3 * sizeof *polytope->triangles);
+    polytope->triangle_facets =
+        allocator_allocate(b->allocator, polytope->triangle_count, sizeof *polytope->triangle_facets);
+    polytope->planes = allocator_allocate(b->allocator, 1, sizeof *polytope->planes);
+    if (!polytope->triangles || !polytope->triangle_facets || !polytope->planes) return OVOID_ERROR_MEMORY;
+    for (uint32_t t = 0; t < polytope->triangle_count; t++) {
+        polytope->triangles[3 * (size_t)t] = loop[0];
+        polytope->triangles[3 * (size_t)t + 1] = loop[t + 1];
+        polytope->triangles[3 * (size_t)t + 2] = loop[t + 2];
+        polytope->triangle_facets[t] = 0;
     }
     double offset = -INFINITY;
-    for (uint32_t i = 0; i < h->vertex_count; i++) offset = fmax(offset, vec3_dot(normal, vec3_at(h->vertices, i)));
-    h->planes[0] = (ovoid_plane){normal, offset};
+    for (uint32_t i = 0; i < polytope->vertex_count; i++)
+        offset = fmax(offset, vec3_dot(normal, vec3_at(polytope->vertices, i)));
+    polytope->planes[0] = (ovoid_plane){normal, offset};
     return OVOID_OK;
 }
 
@@ -197,12 +202,12 @@ static ovoid_code fill_polygon(const builder *b, vec3 normal, uint32_t *loop) {
 
 // Rank 0 to 2.
 static ovoid_code fill_flat(const builder *b, vec3 normal) {
-    hull *h = b->hull;
+    hull *polytope = b->hull;
     uint32_t *loop = allocator_allocate(b->allocator, b->p.count, sizeof *loop);
-    h->neighbors = allocator_allocate(b->allocator, b->p.count, 2 * sizeof *h->neighbors);
-    ovoid_code code = loop && h->neighbors ? OVOID_OK : OVOID_ERROR_MEMORY;
-    if (!code && h->rank == 2) code = fill_polygon(b, normal, loop);
-    if (!code && h->rank < 2) join_loop(h, b->s.corner, h->rank + 1);
+    polytope->neighbors = allocator_allocate(b->allocator, b->p.count, 2 * sizeof *polytope->neighbors);
+    ovoid_code code = loop && polytope->neighbors ? OVOID_OK : OVOID_ERROR_MEMORY;
+    if (!code && polytope->rank == 2) code = fill_polygon(b, normal, loop);
+    if (!code && polytope->rank < 2) join_loop(polytope, b->s.corner, polytope->rank + 1);
     allocator_release(b->allocator, loop);
     return code;
 }
@@ -222,58 +227,59 @@ static ovoid_code fill(builder *b) {
 
 // The hull from the points left and their surface, unless finding these failed; both are destroyed.
 static ovoid_code finish(builder *b, size_t count, ovoid_code code) {
-    hull *h = b->hull;
+    hull *polytope = b->hull;
     if (!code) code = fill(b);
     if (!code) {
-        h->report = b->report;
-        h->report.points = count;
-        h->report.duplicates = b->p.duplicates;
-        h->report.vertices = b->p.count;
-        h->report.interior = count - b->p.count - b->p.duplicates;
-        h->report.rank = h->rank;
+        polytope->report = b->report;
+        polytope->report.points = count;
+        polytope->report.duplicates = b->p.duplicates;
+        polytope->report.vertices = b->p.count;
+        polytope->report.interior = count - b->p.count - b->p.duplicates;
+        polytope->report.rank = polytope->rank;
     }
     surface_destroy(&b->s, b->allocator);
     points_destroy(&b->p, b->allocator);
     return code;
 }
 
-ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *h, ovoid_error *error) {
-    *h = (hull){0};
-    builder b = {.xyz = xyz, .hull = h, .allocator = allocator, .error = error};
+ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *polytope,
+                       ovoid_error *error) {
+    *polytope = (hull){0};
+    builder b = {.xyz = xyz, .hull = polytope, .allocator = allocator, .error = error};
     ovoid_code code = points_create(xyz, count, allocator, &b.p, error);
     return code ? code : finish(&b, count, find_extreme(&b));
 }
 
-ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator *allocator, hull *h,
+ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator *allocator, hull *polytope,
                               surface_flaw *flaw) {
-    *h = (hull){0};
+    *polytope = (hull){0};
     *flaw = (surface_flaw){"the vertices have no hull", 0, 1};
-    builder b = {.xyz = claim->xyz, .hull = h, .allocator = allocator};
+    builder b = {.xyz = claim->xyz, .hull = polytope, .allocator = allocator};
     ovoid_code code = points_create_distinct(claim->xyz, claim->count, allocator, &b.p, NULL);
     if (code) return code == OVOID_ERROR_MEMORY ? code : OVOID_ERROR_HULL;
     return finish(&b, claim->count, surface_create_proven(claim, &b.p, allocator, &b.s, flaw));
 }
 
-void hull_destroy(hull *h, const ovoid_allocator *allocator) {
-    allocator_release(allocator, h->vertices);
-    allocator_release(allocator, h->triangles);
-    allocator_release(allocator, h->triangle_facets);
-    allocator_release(allocator, h->neighbor_starts);
-    allocator_release(allocator, h->neighbors);
-    allocator_release(allocator, h->planes);
-    *h = (hull){0};
+void hull_destroy(hull *polytope, const ovoid_allocator *allocator) {
+    allocator_release(allocator, polytope->vertices);
+    allocator_release(allocator, polytope->triangles);
+    allocator_release(allocator, polytope->triangle_facets);
+    allocator_release(allocator, polytope->neighbor_starts);
+    allocator_release(allocator, polytope->neighbors);
+    allocator_release(allocator, polytope->planes);
+    *polytope = (hull){0};
 }
 
-ovoid_polytope hull_get_polytope(const hull *h) {
-    return (ovoid_polytope){.vertices = h->vertices,
-                            .triangles = h->triangles,
-                            .triangle_facets = h->triangle_facets,
-                            .planes = h->planes,
-                            .neighbor_starts = h->neighbor_starts,
-                            .neighbors = h->neighbors,
-                            .origin = h->origin,
-                            .vertex_count = h->vertex_count,
-                            .triangle_count = h->triangle_count,
-                            .facet_count = h->facet_count,
-                            .rank = h->rank};
+ovoid_polytope hull_get_polytope(const hull *polytope) {
+    return (ovoid_polytope){.vertices = polytope->vertices,
+                            .triangles = polytope->triangles,
+                            .triangle_facets = polytope->triangle_facets,
+                            .planes = polytope->planes,
+                            .neighbor_starts = polytope->neighbor_starts,
+                            .neighbors = polytope->neighbors,
+                            .origin = polytope->origin,
+                            .vertex_count = polytope->vertex_count,
+                            .triangle_count = polytope->triangle_count,
+                            .facet_count = polytope->facet_count,
+                            .rank = polytope->rank};
 }

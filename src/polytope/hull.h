@@ -17,19 +17,20 @@ typedef struct hull {
 
 /// The convex hull of the points: exactly its extreme points, in the order given, in the body frame. All but the report
 /// and the origin depends on these vertices alone: the hull of a hull's vertices is that hull, bit for bit.
-/// Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY, HULL; *h needs no destroying then.
+/// Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY, HULL; *polytope needs no destroying then.
 /// Cost: n log n for points as they come.
-ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *h, ovoid_error *error);
+ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *polytope,
+                       ovoid_error *error);
 
 /// The hull of vertices whose surface is claimed: the proof of the claim, then facets, planes and adjacency from it.
 /// With the triangles of hull_create and its vertices this is that hull, bit for bit, and costs a fraction; with others
 /// that hold, it is the same body, and they are its triangles. A rank below 3, to rounding, is no error; the triangles
-/// are then not the claim's. Errors: MEMORY; HULL, with *flaw filled. *h needs no destroying then. Cost: linear.
-ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator *allocator, hull *h,
+/// are then not the claim's. Errors: MEMORY; HULL, with *flaw filled. *polytope needs no destroying then. Cost: linear.
+ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator *allocator, hull *polytope,
                               surface_flaw *flaw);
-void hull_destroy(hull *h, const ovoid_allocator *allocator);
+void hull_destroy(hull *polytope, const ovoid_allocator *allocator);
 
 /// A view of the hull.
-ovoid_polytope hull_get_polytope(const hull *h);
+ovoid_polytope hull_get_polytope(const hull *polytope);
 
 #endif

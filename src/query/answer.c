@@ -115,10 +115,11 @@ ovoid_verdict answer_make_verdict(search *s) {
 
 void answer_write(search *s, ovoid_answer *out) {
     const pair_frame *f = s->frame;
-    ovoid_verdict is = answer_make_verdict(s);
-    *out = (ovoid_answer){.status = is.status, .stage = is.stage, .limit = is.limit, .iterations = is.iterations};
-    out->lower = is.lower;
-    out->upper = is.upper;
+    ovoid_verdict verdict = answer_make_verdict(s);
+    *out = (ovoid_answer){
+        .status = verdict.status, .stage = verdict.stage, .limit = verdict.limit, .iterations = verdict.iterations};
+    out->lower = verdict.lower;
+    out->upper = verdict.upper;
     int refined = vec3_norm_squared(s->world) > 0;
     out->normal = out->proof.normal = refined ? s->world : frame_direction_to_world(f, s->normal);
     out->proof.normal_low = s->world_low;
@@ -128,11 +129,11 @@ void answer_write(search *s, ovoid_answer *out) {
     out->point_b = frame_point_to_world(f, w.b);
 }
 
-ovoid_verdict answer_make_small_verdict(const small_end *x, const query_goal *goal) {
-    ovoid_status status = find_status(x->lower, x->upper, goal);
-    final_bracket b = {x->lower, x->upper, goal->tolerance, 0, status, x->kind};
+ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal) {
+    ovoid_status status = find_status(end->lower, end->upper, goal);
+    final_bracket b = {end->lower, end->upper, goal->tolerance, 0, status, end->kind};
     ovoid_limit limit = bracket_is_narrow(&b, goal) ? OVOID_LIMIT_NONE : bracket_find_limit(&b, goal, OVOID_LIMIT_NONE);
-    return (ovoid_verdict){status, x->stage, limit, x->iterations, x->lower, x->upper};
+    return (ovoid_verdict){status, end->stage, limit, end->iterations, end->lower, end->upper};
 }
 
 // The witness points of a pair of small bodies, world.
@@ -142,10 +143,10 @@ typedef struct small_points {
 
 // Rounding radii move the witness points along their difference, or where the radii overlap along the normal, as in
 // witness_compute_points.
-static inline void add_radii(const small_end *x, const pair_frame *f, vec3 *a, vec3 *b) {
+static inline void add_radii(const small_end *end, const pair_frame *f, vec3 *a, vec3 *b) {
     double radii = f->a->radius + f->b->radius;
-    if (!(radii > 0) || x->kind != OVOID_PROOF_POINTS) return;
-    vec3 d = vec3_sub(*b, *a), n = vec3_norm(d) > radii ? vec3_unit(d) : x->normal;
+    if (!(radii > 0) || end->kind != OVOID_PROOF_POINTS) return;
+    vec3 d = vec3_sub(*b, *a), n = vec3_norm(d) > radii ? vec3_unit(d) : end->normal;
     *a = vec3_add_scaled(*a, n, f->a->radius);
     *b = vec3_add_scaled(*b, n, -f->b->radius);
 }
@@ -157,30 +158,30 @@ static inline vec3 get_share(const double *vertices, uint32_t i, double weight) 
 
 // By value, into the place of what is written: nothing is copied. Three terms always, which is faster than a loop of
 // as many as count: those of no weight add zeros.
-static inline __attribute__((always_inline)) small_points find_small_points(const small_end *x, const pair_frame *f) {
-    if (x->kind == OVOID_PROOF_INNER) {
-        vec3 p = frame_point_to_world(f, x->inner);
+static inline __attribute__((always_inline)) small_points find_small_points(const small_end *end, const pair_frame *f) {
+    if (end->kind == OVOID_PROOF_INNER) {
+        vec3 p = frame_point_to_world(f, end->inner);
         return (small_points){p, p};
     }
-    const difference *p = x->points.p;
-    const double *w = x->points.weight, *of_a = shape_vertices(f->a), *of_b = shape_vertices(f->b);
+    const difference *p = end->points.p;
+    const double *w = end->points.weight, *of_a = shape_vertices(f->a), *of_b = shape_vertices(f->b);
     vec3 a =
         vec3_add(vec3_add(get_share(of_a, p[0].a, w[0]), get_share(of_a, p[1].a, w[1])), get_share(of_a, p[2].a, w[2]));
     vec3 b =
         vec3_add(vec3_add(get_share(of_b, p[0].b, w[0]), get_share(of_b, p[1].b, w[1])), get_share(of_b, p[2].b, w[2]));
-    if (x->points.count > 3) {
+    if (end->points.count > 3) {
         a = vec3_add(a, get_share(of_a, p[3].a, w[3]));
         b = vec3_add(b, get_share(of_b, p[3].b, w[3]));
     }
     a = mat3_mul_vec3(f->world, a);
     b = vec3_add(f->offset, mat3_mul_vec3(f->world_b, b));
-    add_radii(x, f, &a, &b);
+    add_radii(end, f, &a, &b);
     return (small_points){vec3_add(f->world_origin, a), vec3_add(f->world_origin, b)};
 }
 
-ovoid_witness answer_make_small_witness(const small_end *x, const pair_frame *f) {
-    small_points p = find_small_points(x, f);
-    return (ovoid_witness){p.a, p.b, x->normal};
+ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *f) {
+    small_points p = find_small_points(end, f);
+    return (ovoid_witness){p.a, p.b, end->normal};
 }
 
 // The initialiser of a proof. Within one expression gcc 12 builds it in the place of what it is for; it would copy a
@@ -195,21 +196,21 @@ ovoid_witness answer_make_small_witness(const small_end *x, const pair_frame *f)
         .inner_a = (x)->inner,                                                                                         \
     }
 
-ovoid_proof answer_make_small_proof(const small_end *x) { return (ovoid_proof)SMALL_PROOF(x); }
+ovoid_proof answer_make_small_proof(const small_end *end) { return (ovoid_proof)SMALL_PROOF(end); }
 
-ovoid_answer answer_make_small(const small_end *x, const pair_frame *f, const query_goal *goal) {
-    ovoid_verdict is = answer_make_small_verdict(x, goal);
-    small_points p = find_small_points(x, f);
-    return (ovoid_answer){.status = is.status,
-                          .stage = is.stage,
-                          .limit = is.limit,
-                          .iterations = is.iterations,
-                          .lower = is.lower,
-                          .upper = is.upper,
+ovoid_answer answer_make_small(const small_end *end, const pair_frame *f, const query_goal *goal) {
+    ovoid_verdict verdict = answer_make_small_verdict(end, goal);
+    small_points p = find_small_points(end, f);
+    return (ovoid_answer){.status = verdict.status,
+                          .stage = verdict.stage,
+                          .limit = verdict.limit,
+                          .iterations = verdict.iterations,
+                          .lower = verdict.lower,
+                          .upper = verdict.upper,
                           .point_a = p.a,
                           .point_b = p.b,
-                          .normal = x->normal,
-                          .proof = SMALL_PROOF(x)};
+                          .normal = end->normal,
+                          .proof = SMALL_PROOF(end)};
 }
 
 static int may_overlap(const search *s) {

@@ -11,18 +11,19 @@ void answer_write(search *s, ovoid_answer *out);
 ovoid_verdict answer_make_verdict(search *s);
 
 /// The answer of a search of small bodies, with points and proof or without. Its frame needs only frame_place.
-ovoid_answer answer_make_small(const small_end *x, const pair_frame *frame, const query_goal *goal);
-ovoid_witness answer_make_small_witness(const small_end *x, const pair_frame *frame);
-ovoid_proof answer_make_small_proof(const small_end *x);
-ovoid_verdict answer_make_small_verdict(const small_end *x, const query_goal *goal);
+ovoid_answer answer_make_small(const small_end *end, const pair_frame *frame, const query_goal *goal);
+ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *frame);
+ovoid_proof answer_make_small_proof(const small_end *end);
+ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal);
 
 /// The exact methods, from the bounds and the simplex that the stages before them left, until the query is answered or
 /// no method makes progress.
 void answer_search(search *s, const ovoid_pair *pair, simplex *start);
 
 /// The beginning of an answer.
-static inline ovoid_verdict answer_get_verdict(const ovoid_answer *x) {
-    return (ovoid_verdict){x->status, x->stage, x->limit, x->iterations, x->lower, x->upper};
+static inline ovoid_verdict answer_get_verdict(const ovoid_answer *answer) {
+    return (ovoid_verdict){answer->status,     answer->stage, answer->limit,
+                           answer->iterations, answer->lower, answer->upper};
 }
 
 /// The answer of a query that was refused: no bracket.
@@ -41,7 +42,7 @@ void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, qu
                           const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out);
 
 /// ovoid_answer_verify for callers inside a public function.
-ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
+ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_options *given,
                                   const ovoid_cover *cover, ovoid_error *error);
 
 /// What an answer was asked by: the tolerance, to which allowances add nothing; the width that these make; the cap, or
@@ -51,7 +52,7 @@ typedef struct answer_terms {
 } answer_terms;
 
 /// OVOID_OK if the answer's status and limit follow from its bracket.
-ovoid_code terms_verify_internal(const ovoid_answer *x, const answer_terms *terms, ovoid_error *error);
+ovoid_code terms_verify_internal(const ovoid_answer *answer, const answer_terms *terms, ovoid_error *error);
 
 /// What is claimed of a pair. slack: by how much the witness points may be off beside the pair's own rounding.
 typedef struct answer_claims {

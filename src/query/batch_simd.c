@@ -54,9 +54,9 @@ typedef struct batch_state {
 } batch_state;
 
 static void leave_alone(const batch_state *c, size_t index) {
-    open_couple *x = &c->open->items[c->open->count++];
-    x->index = index;
-    x->is_alone = 1;
+    open_couple *couple = &c->open->items[c->open->count++];
+    couple->index = index;
+    couple->is_alone = 1;
 }
 
 // 1 if a couple has no earlier proof, or one that holds nothing.
@@ -64,15 +64,15 @@ static int is_blank(const ovoid_proof *p) {
     return p->kind == OVOID_PROOF_NONE && p->count == 0 && !(p->normal.x != 0 || p->normal.y != 0 || p->normal.z != 0);
 }
 
-void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *x) {
-    if (batch->proofs) batch->proofs[i] = x->proof;
-    if (batch->verdicts) batch->verdicts[i] = answer_get_verdict(x);
-    if (batch->answers && x != &batch->answers[i]) batch->answers[i] = *x;
-    if (batch->witnesses) batch->witnesses[i] = (ovoid_witness){x->point_a, x->point_b, x->normal};
+void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *answer) {
+    if (batch->proofs) batch->proofs[i] = answer->proof;
+    if (batch->verdicts) batch->verdicts[i] = answer_get_verdict(answer);
+    if (batch->answers && answer != &batch->answers[i]) batch->answers[i] = *answer;
+    if (batch->witnesses) batch->witnesses[i] = (ovoid_witness){answer->point_a, answer->point_b, answer->normal};
 }
 
-static void write_verdict(const ovoid_batch *batch, size_t i, ovoid_verdict is) {
-    if (batch->verdicts) batch->verdicts[i] = is;
+static void write_verdict(const ovoid_batch *batch, size_t i, ovoid_verdict verdict) {
+    if (batch->verdicts) batch->verdicts[i] = verdict;
 }
 
 static ovoid_pair get_pair(const ovoid_batch *batch, size_t i) {
@@ -208,12 +208,12 @@ static void leave_open(const batch_state *c, const lane_group *e, unsigned k, ui
 }
 
 // What is known after the supports.
-static void take_supports(search *s, const open_couple *x, simplex *start) {
-    *start = (simplex){.p = {{x->w, x->a, x->b}}, .weight = {1}, .count = 1};
+static void take_supports(search *s, const open_couple *couple, simplex *start) {
+    *start = (simplex){.p = {{couple->w, couple->a, couple->b}}, .weight = {1}, .count = 1};
     s->stage = OVOID_STAGE_SUPPORT;
-    s->lower = x->lower;
-    s->normal = x->n;
-    s->upper = x->upper;
+    s->lower = couple->lower;
+    s->normal = couple->n;
+    s->upper = couple->upper;
     s->kind = OVOID_PROOF_POINTS;
     s->witness = evidence_make(start);
 }
@@ -232,25 +232,26 @@ static void end_at_support(const batch_state *c, const lane_group *e, unsigned k
     } else {
         pair_frame frame;
         search s = get_search(c, e, k, OVOID_STAGE_SUPPORT, &frame);
-        open_couple x = {.lower = lower, .upper = upper, .n = get3(e->lanes->n, k), .w = get3(e->lanes->w, k), a, b, 0};
+        open_couple couple = {
+            .lower = lower, .upper = upper, .n = get3(e->lanes->n, k), .w = get3(e->lanes->w, k), a, b, 0};
         simplex start;
-        take_supports(&s, &x, &start);
+        take_supports(&s, &couple, &start);
         end_search(c->batch, 1, e->index[k], &s);
     }
 }
 
 // The exact search of a couple that was left open.
-static void search_open(const ovoid_batch *batch, query_goal goal, int wants_evidence, const open_couple *x) {
-    ovoid_pair pair = get_pair(batch, x->index);
+static void search_open(const ovoid_batch *batch, query_goal goal, int wants_evidence, const open_couple *couple) {
+    ovoid_pair pair = get_pair(batch, couple->index);
     pair_frame frame;
     search s;
     simplex start;
     (void)frame_make(&pair, &frame);
-    goal.tolerance = x->tolerance;
+    goal.tolerance = couple->tolerance;
     search_make(&s, &frame, &goal);
-    take_supports(&s, x, &start);
+    take_supports(&s, couple, &start);
     answer_search(&s, &pair, &start);
-    end_search(batch, wants_evidence, x->index, &s);
+    end_search(batch, wants_evidence, couple->index, &s);
 }
 
 COMPILER_NOINLINE static void search_all_open(const ovoid_batch *batch, query_goal goal, int wants_evidence,
@@ -273,11 +274,11 @@ static void meet(const batch_state *c, lane_group *e, unsigned open) {
         pair_frame f;
         f.a = get_a(e, k)->shape;
         f.b = get_b(e, k)->shape;
-        simd_pair x = frame_find_pair(&f, get3(o->n, k), get3(o->low, k));
-        o->high_value.lane[k] = x.high.value;
-        o->low_value.lane[k] = x.low.value;
-        put3(o->vertex_a, k, frame_vertex_a(&f, a[k] = x.high.index));
-        put3(o->vertex_b, k, vec3_at(shape_vertices(f.b), b[k] = x.low.index));
+        simd_pair ends = frame_find_pair(&f, get3(o->n, k), get3(o->low, k));
+        o->high_value.lane[k] = ends.high.value;
+        o->low_value.lane[k] = ends.low.value;
+        put3(o->vertex_a, k, frame_vertex_a(&f, a[k] = ends.high.index));
+        put3(o->vertex_b, k, vec3_at(shape_vertices(f.b), b[k] = ends.low.index));
     }
     c->kernels->supports(o);
     for (unsigned rest = open; rest; rest &= rest - 1) {

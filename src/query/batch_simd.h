@@ -18,8 +18,8 @@ enum {
                           sizeof(shape_inner) == 8 * sizeof(double)
 };
 
-/// Writes what the batch wants of the answer x of couple i.
-void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *x);
+/// Writes what the batch wants of the answer of couple i.
+void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *answer);
 
 /// The query of couple i alone.
 void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal);

@@ -25,17 +25,17 @@ static void take_inner(search *s) {
     const ovoid_ellipsoid *a = &f->a->inner, *b_body = &f->b->inner;
     if (f->a->rank < 3 || f->b->rank < 3) return;
     ovoid_ellipsoid b = {frame_b(f, b_body->center), sym3_rotate(b_body->q, f->rotation)};
-    ovoid_nearest x = ovoid_ellipsoid_compute_nearest(a, &b);
-    double upper = x.overlap ? inner_compute_upper(f, x.point_a) : 0;
+    ovoid_nearest found = ovoid_ellipsoid_compute_nearest(a, &b);
+    double upper = found.overlap ? inner_compute_upper(f, found.point_a) : 0;
     if (upper < 0) {
-        s->inner_a = x.point_a;
+        s->inner_a = found.point_a;
         s->upper = upper;
         s->kind = OVOID_PROOF_INNER;
         return;
     }
-    vec3 in_b = mat3_mul_transposed_vec3(f->rotation, vec3_sub(x.point_b, f->translation));
+    vec3 in_b = mat3_mul_transposed_vec3(f->rotation, vec3_sub(found.point_b, f->translation));
     for (double shrink = 2e-6; shrink < 1; shrink *= 8) {
-        s->inner_a = vec3_add_scaled(x.point_a, vec3_sub(a->center, x.point_a), shrink);
+        s->inner_a = vec3_add_scaled(found.point_a, vec3_sub(a->center, found.point_a), shrink);
         s->inner_b = vec3_add_scaled(in_b, vec3_sub(b_body->center, in_b), shrink);
         s->upper = inner_points_compute_upper(f, s->inner_a, s->inner_b, f->claim);
         if (s->upper < INFINITY) break;

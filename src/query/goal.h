@@ -74,8 +74,8 @@ static inline int limit_is_stuck(ovoid_limit limit) {
 }
 
 /// 1 if a search that began elsewhere might do better: it got stuck, or found no sign within the tolerance.
-static inline int answer_is_improvable(const ovoid_answer *x) {
-    return limit_is_stuck(x->limit) || x->status == OVOID_TOUCHING;
+static inline int answer_is_improvable(const ovoid_answer *answer) {
+    return limit_is_stuck(answer->limit) || answer->status == OVOID_TOUCHING;
 }
 
 /// Why a bracket that is not narrow is wide. trouble: what kept the search from narrowing it, or NONE.

@@ -39,30 +39,31 @@ typedef struct prepared_pair {
     const ovoid_prepared_shape *a, *b;
 } prepared_pair;
 
-static void write_evidence(const ovoid_evidence *to, const ovoid_answer *x) {
-    if (to->proof) *to->proof = x->proof;
-    if (to->witness) *to->witness = (ovoid_witness){x->point_a, x->point_b, x->normal};
-    if (to->answer) *to->answer = *x;
+static void write_evidence(const ovoid_evidence *to, const ovoid_answer *answer) {
+    if (to->proof) *to->proof = answer->proof;
+    if (to->witness) *to->witness = (ovoid_witness){answer->point_a, answer->point_b, answer->normal};
+    if (to->answer) *to->answer = *answer;
 }
 
-static ovoid_pair get_pair(prepared_pair x) {
-    return (ovoid_pair){x.a->body.shape, x.b->body.shape, x.a->body.pose, x.b->body.pose};
+static ovoid_pair get_pair(prepared_pair pair) {
+    return (ovoid_pair){pair.a->body.shape, pair.b->body.shape, pair.a->body.pose, pair.b->body.pose};
 }
 
 // As one that was not prepared.
-COMPILER_NOINLINE static ovoid_verdict find_afresh(prepared_pair x, const ovoid_options *given, const query_goal *goal,
-                                                   const ovoid_proof *earlier, const ovoid_evidence *out) {
-    ovoid_pair pair = get_pair(x);
+COMPILER_NOINLINE static ovoid_verdict find_afresh(prepared_pair both, const ovoid_options *given,
+                                                   const query_goal *goal, const ovoid_proof *earlier,
+                                                   const ovoid_evidence *out) {
+    ovoid_pair pair = get_pair(both);
     ovoid_answer answer;
     answer_find_internal(&pair, given, *goal, earlier, NULL, &answer);
     if (out) write_evidence(out, &answer);
     return answer_get_verdict(&answer);
 }
 
-COMPILER_NOINLINE static ovoid_verdict search_on(prepared_pair x, pair_frame *frame, double sphere_gap,
+COMPILER_NOINLINE static ovoid_verdict search_on(prepared_pair both, pair_frame *frame, double sphere_gap,
                                                  const query_goal *goal, const ovoid_proof *earlier,
                                                  const ovoid_evidence *out) {
-    ovoid_pair pair = get_pair(x);
+    ovoid_pair pair = get_pair(both);
     ovoid_answer answer;
     answer_run_search(&pair, frame, sphere_gap, goal, earlier, NULL, &answer);
     if (out) write_evidence(out, &answer);
@@ -70,9 +71,9 @@ COMPILER_NOINLINE static ovoid_verdict search_on(prepared_pair x, pair_frame *fr
 }
 
 // A rejection by the spheres; rejection_make_answer, without evidence.
-static inline ovoid_verdict end_at_spheres(prepared_pair x, const pair_frame *f, const rejection *found,
+static inline ovoid_verdict end_at_spheres(prepared_pair pair, const pair_frame *f, const rejection *found,
                                            const query_goal *goal) {
-    vec3 d = vec3_add(f->offset, vec3_sub(x.b->first, x.a->first));
+    vec3 d = vec3_add(f->offset, vec3_sub(pair.b->first, pair.a->first));
     double upper = vec3_norm(d) - f->upper_radii + reject_get_claim(f);
     ovoid_limit limit = upper - found->lower <= goal->tolerance ? OVOID_LIMIT_NONE : goal->beyond;
     return (ovoid_verdict){OVOID_SEPARATED, found->stage, limit, 0, found->lower, upper};
@@ -96,45 +97,45 @@ static ovoid_verdict end_at_small(const pair_frame *f, const small_end *end, con
 }
 
 // Of bodies that the spheres do not part, or with evidence.
-COMPILER_NOINLINE static ovoid_verdict find_near(prepared_pair x, const ovoid_options *given, const query_goal *wanted,
-                                                 const ovoid_evidence *out) {
+COMPILER_NOINLINE static ovoid_verdict find_near(prepared_pair pair, const ovoid_options *given,
+                                                 const query_goal *wanted, const ovoid_evidence *out) {
     const ovoid_proof *earlier = out ? out->proof : NULL;
     ovoid_options options;
     query_goal goal = *wanted;
-    if (!(x.a->is_ready & x.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
-        return find_afresh(x, given, wanted, earlier, out);
+    if (!(pair.a->is_ready & pair.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
+        return find_afresh(pair, given, wanted, earlier, out);
     pair_frame frame;
     rejection found;
     small_end end;
-    frame_place_prepared(x.a, x.b, &frame);
-    frame_place_rotations(x.a, x.b, &frame);
+    frame_place_prepared(pair.a, pair.b, &frame);
+    frame_place_rotations(pair.a, pair.b, &frame);
     set_numbers(&goal, &options, &frame);
     if (reject_by_spheres(&frame, goal.far, &found)) return end_at_rejection(&frame, &found, &goal, out);
     switch (begin_after_spheres(&frame, &goal, earlier, &found, &end)) {
     case BEGIN_REJECTED: return end_at_rejection(&frame, &found, &goal, out);
     case BEGIN_SMALL: return end_at_small(&frame, &end, &goal, out);
-    default: return search_on(x, &frame, found.lower, &goal, earlier, out);
+    default: return search_on(pair, &frame, found.lower, &goal, earlier, out);
     }
 }
 
 // What it computes for the spheres stays in registers: no function but inline ones sees the frame.
-COMPILER_NOINLINE static ovoid_verdict find(prepared_pair x, const ovoid_options *given, const query_goal *wanted,
+COMPILER_NOINLINE static ovoid_verdict find(prepared_pair pair, const ovoid_options *given, const query_goal *wanted,
                                             const ovoid_evidence *out) {
     ovoid_options options;
     query_goal goal = *wanted;
     pair_frame frame;
     rejection found;
-    if (out || !(x.a->is_ready & x.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
-        return find_near(x, given, wanted, out);
-    frame_place_prepared(x.a, x.b, &frame);
+    if (out || !(pair.a->is_ready & pair.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
+        return find_near(pair, given, wanted, out);
+    frame_place_prepared(pair.a, pair.b, &frame);
     set_numbers(&goal, &options, &frame);
-    if (!reject_by_spheres(&frame, goal.far, &found)) return find_near(x, given, wanted, NULL);
-    return end_at_spheres(x, &frame, &found, &goal);
+    if (!reject_by_spheres(&frame, goal.far, &found)) return find_near(pair, given, wanted, NULL);
+    return end_at_spheres(pair, &frame, &found, &goal);
 }
 
-static ovoid_verdict run(prepared_pair x, const ovoid_options *given, const query_goal *goal,
+static ovoid_verdict run(prepared_pair pair, const ovoid_options *given, const query_goal *goal,
                          const ovoid_evidence *out) {
-    ENVIRONMENT_RETURN_CALL(find(x, given, goal, out));
+    ENVIRONMENT_RETURN_CALL(find(pair, given, goal, out));
 }
 
 ovoid_verdict ovoid_prepared_collide(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,

@@ -88,9 +88,9 @@ static double measure_cover(const pair_frame *f, const ovoid_cover *cover) {
     return depth > 0 ? -depth - f->upper_radii : INFINITY;
 }
 
-static ovoid_code verify_upper(measure *m, const ovoid_answer *x, const ovoid_cover *cover, ovoid_error *error) {
+static ovoid_code verify_upper(measure *m, const ovoid_answer *answer, const ovoid_cover *cover, ovoid_error *error) {
     const pair_frame *f = m->frame;
-    const ovoid_proof *p = &x->proof;
+    const ovoid_proof *p = &answer->proof;
     double found = INFINITY;
     switch (p->kind) {
     case OVOID_PROOF_NONE: break;
@@ -104,25 +104,25 @@ static ovoid_code verify_upper(measure *m, const ovoid_answer *x, const ovoid_co
     case OVOID_PROOF_INNER_POINTS: found = inner_points_compute_upper(f, p->inner_a, p->inner_b, f->check); break;
     case OVOID_PROOF_COVER: found = measure_cover(f, cover); break;
     }
-    if (p->kind == OVOID_PROOF_COVER && !cover) return refuse(error, "a depth without its cover", x->upper, found);
-    if (!(found <= x->upper) && make_fine(m)) found = fmin(found, measure_upper_again(m, p));
-    return found <= x->upper ? OVOID_OK : refuse(error, "upper bound", x->upper, found);
+    if (p->kind == OVOID_PROOF_COVER && !cover) return refuse(error, "a depth without its cover", answer->upper, found);
+    if (!(found <= answer->upper) && make_fine(m)) found = fmin(found, measure_upper_again(m, p));
+    return found <= answer->upper ? OVOID_OK : refuse(error, "upper bound", answer->upper, found);
 }
 
 // The answer's points and normal must be those of the proof, to rounding and the slack.
-static ovoid_code verify_witness(const pair_frame *f, const ovoid_answer *x, double slack, ovoid_error *error) {
-    vec3 turn = vec3_sub(x->normal, x->proof.normal);
-    if (!(vec3_max_abs(turn) <= 0)) return refuse(error, "normal is not the proof's", vec3_norm(x->normal), 1);
-    if (!(fabs(vec3_norm(x->normal) - 1) <= 1e-12))
-        return refuse(error, "length of the normal", vec3_norm(x->normal), 1);
-    if (!(vec3_max_abs(x->proof.normal_low) <= 1e-12))
-        return refuse(error, "normal is not the proof's, with its low part", vec3_max_abs(x->proof.normal_low), 0);
-    if (!vec3_is_finite(x->point_a) || !vec3_is_finite(x->point_b))
+static ovoid_code verify_witness(const pair_frame *f, const ovoid_answer *answer, double slack, ovoid_error *error) {
+    vec3 turn = vec3_sub(answer->normal, answer->proof.normal);
+    if (!(vec3_max_abs(turn) <= 0)) return refuse(error, "normal is not the proof's", vec3_norm(answer->normal), 1);
+    if (!(fabs(vec3_norm(answer->normal) - 1) <= 1e-12))
+        return refuse(error, "length of the normal", vec3_norm(answer->normal), 1);
+    if (!(vec3_max_abs(answer->proof.normal_low) <= 1e-12))
+        return refuse(error, "normal is not the proof's, with its low part", vec3_max_abs(answer->proof.normal_low), 0);
+    if (!vec3_is_finite(answer->point_a) || !vec3_is_finite(answer->point_b))
         return error_set(error, OVOID_ERROR_PROOF, -1, "a witness point is not finite");
-    witness_points w = witness_compute_points(f, &x->proof);
-    slack += f->claim + 0x1p-50 * (vec3_max_abs(x->point_a) + vec3_max_abs(x->point_b));
-    double off = fmax(vec3_norm(vec3_sub(frame_point_to_world(f, w.a), x->point_a)),
-                      vec3_norm(vec3_sub(frame_point_to_world(f, w.b), x->point_b)));
+    witness_points w = witness_compute_points(f, &answer->proof);
+    slack += f->claim + 0x1p-50 * (vec3_max_abs(answer->point_a) + vec3_max_abs(answer->point_b));
+    double off = fmax(vec3_norm(vec3_sub(frame_point_to_world(f, w.a), answer->point_a)),
+                      vec3_norm(vec3_sub(frame_point_to_world(f, w.b), answer->point_b)));
     return off <= slack ? OVOID_OK : refuse(error, "witness points are not the proof's, off by", off, slack);
 }
 
@@ -138,14 +138,14 @@ ovoid_code status_verify_internal(ovoid_status status, double lower, double uppe
 
 // 1 if what the limit says is so: NONE and ALLOWANCE are promises of a width, on which ovoid_answer_get_distance rests,
 // CAP is one of a distance. The others are reasons why there is no promise.
-static int is_limit_shown(const ovoid_answer *x, const answer_terms *terms) {
-    double width = x->upper - x->lower, most = terms->tolerance + terms->allowance;
-    switch (x->limit) {
+static int is_limit_shown(const ovoid_answer *answer, const answer_terms *terms) {
+    double width = answer->upper - answer->lower, most = terms->tolerance + terms->allowance;
+    switch (answer->limit) {
     case OVOID_LIMIT_NONE: return width <= most;
     case OVOID_LIMIT_ALLOWANCE:
         return terms->allowance > 0 &&
-               (width <= most || (x->lower >= -terms->allowance && x->upper <= terms->allowance));
-    case OVOID_LIMIT_CAP: return x->lower > terms->cap;
+               (width <= most || (answer->lower >= -terms->allowance && answer->upper <= terms->allowance));
+    case OVOID_LIMIT_CAP: return answer->lower > terms->cap;
     case OVOID_LIMIT_ANSWERED:
     case OVOID_LIMIT_ITERATIONS:
     case OVOID_LIMIT_PRECISION:
@@ -154,11 +154,11 @@ static int is_limit_shown(const ovoid_answer *x, const answer_terms *terms) {
     }
 }
 
-ovoid_code terms_verify_internal(const ovoid_answer *x, const answer_terms *terms, ovoid_error *error) {
-    ovoid_code code = status_verify_internal(x->status, x->lower, x->upper, terms->tolerance, error);
-    if (code != OVOID_OK || is_limit_shown(x, terms)) return code;
+ovoid_code terms_verify_internal(const ovoid_answer *answer, const answer_terms *terms, ovoid_error *error) {
+    ovoid_code code = status_verify_internal(answer->status, answer->lower, answer->upper, terms->tolerance, error);
+    if (code != OVOID_OK || is_limit_shown(answer, terms)) return code;
     return error_set(error, OVOID_ERROR_PROOF, -1, "limit %s does not follow from the bracket [%.17g, %.17g]",
-                     ovoid_limit_get_name(x->limit), x->lower, x->upper);
+                     ovoid_limit_get_name(answer->limit), answer->lower, answer->upper);
 }
 
 ovoid_code refusal_verify_internal(ovoid_verdict answer, ovoid_limit refused, ovoid_error *error) {
@@ -169,27 +169,27 @@ ovoid_code refusal_verify_internal(ovoid_verdict answer, ovoid_limit refused, ov
 }
 
 static ovoid_code verify_bounds(const pair_frame *f, const answer_claims *claims, ovoid_error *error) {
-    const ovoid_answer *x = claims->answer;
-    if (!proof_is_sound(f, &x->proof))
+    const ovoid_answer *answer = claims->answer;
+    if (!proof_is_sound(f, &answer->proof))
         return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
     measure m = {.pair = claims->pair, .frame = f};
-    ovoid_code code = verify_lower(&m, x->lower, &x->proof, error);
-    if (code == OVOID_OK) code = verify_upper(&m, x, claims->cover, error);
-    return code == OVOID_OK ? verify_witness(f, x, claims->slack, error) : code;
+    ovoid_code code = verify_lower(&m, answer->lower, &answer->proof, error);
+    if (code == OVOID_OK) code = verify_upper(&m, answer, claims->cover, error);
+    return code == OVOID_OK ? verify_witness(f, answer, claims->slack, error) : code;
 }
 
-ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *given,
+ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_options *given,
                                   const ovoid_cover *cover, ovoid_error *error) {
-    OVOID_ASSERT(pair && x);
+    OVOID_ASSERT(pair && answer);
     pair_frame f;
     ovoid_options options;
     ovoid_limit refused = options_make(given, &options) ? frame_make(pair, &f) : OVOID_LIMIT_OPTIONS;
-    if (refused != OVOID_LIMIT_NONE || x->limit == OVOID_LIMIT_OPTIONS)
-        return refusal_verify_internal(answer_get_verdict(x), refused, error);
+    if (refused != OVOID_LIMIT_NONE || answer->limit == OVOID_LIMIT_OPTIONS)
+        return refusal_verify_internal(answer_get_verdict(answer), refused, error);
     const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), frame_get_allowance(&f),
                                 given ? given->cap : 0};
-    ovoid_code code = terms_verify_internal(x, &terms, error);
-    return code == OVOID_OK ? verify_bounds(&f, &(answer_claims){pair, x, cover, 0}, error) : code;
+    ovoid_code code = terms_verify_internal(answer, &terms, error);
+    return code == OVOID_OK ? verify_bounds(&f, &(answer_claims){pair, answer, cover, 0}, error) : code;
 }
 
 ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *error) {
@@ -199,7 +199,7 @@ ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *erro
                                        : refusal_verify_internal(answer_get_verdict(claims->answer), refused, error);
 }
 
-ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_options *options,
+ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_options *options,
                                const ovoid_cover *cover, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, pair, answer_verify_internal(pair, x, options, cover, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, answer_verify_internal(pair, answer, options, cover, error));
 }

@@ -147,8 +147,8 @@ void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit 
     shape->inside = make_inside(inner->ellipsoid.q, shape->rank);
 }
 
-ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error) {
-    ovoid_polytope p = hull_get_polytope(h);
+ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, ovoid_error *error) {
+    ovoid_polytope p = hull_get_polytope(polytope);
     ovoid_allocator use = allocator_make(allocator);
     support_table support;
     simd_cell *cells;
@@ -157,8 +157,8 @@ ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator,
         error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
         return NULL;
     }
-    block_counts counts = {h->vertex_count, h->triangle_count, h->facet_count, h->neighbor_starts[h->vertex_count],
-                           support.cell_count};
+    block_counts counts = {polytope->vertex_count, polytope->triangle_count, polytope->facet_count,
+                           polytope->neighbor_starts[polytope->vertex_count], support.cell_count};
     ovoid_shape *shape = block_create(counts, allocator, error);
     if (shape) {
         block_fill(shape, &p);
@@ -169,15 +169,15 @@ ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator,
     return shape;
 }
 
-ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *o, const ovoid_shape *near,
+ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *o, const ovoid_shape *near,
                                     ovoid_error *error) {
-    ovoid_shape *shape = shape_create_block(h, o->allocator, error);
+    ovoid_shape *shape = shape_create_block(polytope, o->allocator, error);
     if (!shape) return NULL;
     block_set_radius(shape, o->radius, o->allowance);
-    shape->report = h->report;
+    shape->report = polytope->report;
     ovoid_code code = fit_ellipsoids(shape, o, near);
     if (code == OVOID_OK) return shape;
-    error_write(error, code, -1, "no memory for the ellipsoids of %u vertices", h->vertex_count);
+    error_write(error, code, -1, "no memory for the ellipsoids of %u vertices", polytope->vertex_count);
     ovoid_shape_destroy(shape);
     return NULL;
 }
@@ -191,10 +191,10 @@ ovoid_shape *shape_create_from_points(const double *xyz, size_t count, const ovo
         return NULL;
     }
     ovoid_allocator allocator = allocator_make(o.allocator);
-    hull h;
-    if (hull_create(xyz, count, &allocator, &h, error) != OVOID_OK) return NULL;
-    ovoid_shape *shape = shape_create_from_hull(&h, &o, near, error);
-    hull_destroy(&h, &allocator);
+    hull polytope;
+    if (hull_create(xyz, count, &allocator, &polytope, error) != OVOID_OK) return NULL;
+    ovoid_shape *shape = shape_create_from_hull(&polytope, &o, near, error);
+    hull_destroy(&polytope, &allocator);
     return shape;
 }
 

@@ -12,7 +12,7 @@ ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_opti
 int allowance_is_normal(const ovoid_allowance *allowance);
 
 /// A block with all that follows from the hull; radius, report and ellipsoids are not set. NULL with MEMORY.
-ovoid_shape *shape_create_block(const hull *h, const ovoid_allocator *allocator, ovoid_error *error);
+ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, ovoid_error *error);
 
 /// 1 if the ellipsoid is proven to lie in the shape's hull; of a flat body, if it lies there to 1e-7 of its size.
 int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *ellipsoid);
@@ -22,7 +22,7 @@ void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit 
 
 /// The shape of a hull with its ellipsoids. The options are checked already. near: a shape from whose ellipsoids the
 /// fits start, or NULL. NULL with MEMORY.
-ovoid_shape *shape_create_from_hull(const hull *h, const ovoid_shape_options *options, const ovoid_shape *near,
+ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *options, const ovoid_shape *near,
                                     ovoid_error *error);
 
 /// ovoid_shape_create_from_points, for callers that have set up the floating-point environment. near: a shape from

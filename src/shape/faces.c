@@ -170,19 +170,19 @@ static face_plane make_plane(const checker *c, const uint32_t *corner, uint32_t 
 
 // The vertex of the hull that is highest along n, by climbing from `start`; of a flat body by a search of all.
 static uint32_t find_highest(const checker *c, vec3 n, uint32_t start) {
-    const hull *h = c->hull;
+    const hull *polytope = c->hull;
     uint32_t best = start, from;
     double top = vec3_dot(n, get_vertex(c, best));
     do {
         from = best;
-        uint32_t first = h->rank < 3 ? 0 : h->neighbor_starts[from];
-        uint32_t end = h->rank < 3 ? h->vertex_count : h->neighbor_starts[from + 1];
+        uint32_t first = polytope->rank < 3 ? 0 : polytope->neighbor_starts[from];
+        uint32_t end = polytope->rank < 3 ? polytope->vertex_count : polytope->neighbor_starts[from + 1];
         for (uint32_t i = first; i < end; i++) {
-            uint32_t v = h->rank < 3 ? i : h->neighbors[i];
+            uint32_t v = polytope->rank < 3 ? i : polytope->neighbors[i];
             double height = vec3_dot(n, get_vertex(c, v));
             if (height > top) top = height, best = v;
         }
-    } while (best != from && h->rank == 3);
+    } while (best != from && polytope->rank == 3);
     return best;
 }
 
@@ -261,12 +261,13 @@ static ovoid_shape *create_from_faces(const ovoid_faces *faces, const ovoid_shap
     if (shape_options_make(options, &o, error) || !is_argument(faces, error)) return NULL;
     ovoid_allocator allocator = allocator_make(o.allocator);
     checker c = {.faces = faces, .allocator = &allocator, .error = error};
-    hull h;
-    if (validate_indices(&c) || hull_create(faces->vertices, faces->vertex_count, &allocator, &h, error)) return NULL;
-    c.hull = &h;
-    h.report.faces = faces->face_count;
-    ovoid_shape *shape = validate_surface(&c) ? NULL : shape_create_from_hull(&h, &o, NULL, error);
-    hull_destroy(&h, &allocator);
+    hull polytope;
+    if (validate_indices(&c) || hull_create(faces->vertices, faces->vertex_count, &allocator, &polytope, error))
+        return NULL;
+    c.hull = &polytope;
+    polytope.report.faces = faces->face_count;
+    ovoid_shape *shape = validate_surface(&c) ? NULL : shape_create_from_hull(&polytope, &o, NULL, error);
+    hull_destroy(&polytope, &allocator);
     return shape;
 }
 

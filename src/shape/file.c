@@ -296,11 +296,11 @@ static void read_triangles(reader *r, content *c) {
 }
 
 // The hull of the vertices must be these vertices.
-static ovoid_code validate_hull(const reader *r, const content *c, const hull *h) {
-    if (h->vertex_count != c->vertex_count) return refuse(r, c->at.vertices_at, "a vertex is not extreme");
-    if (h->origin.x != 0 || h->origin.y != 0 || h->origin.z != 0)
+static ovoid_code validate_hull(const reader *r, const content *c, const hull *polytope) {
+    if (polytope->vertex_count != c->vertex_count) return refuse(r, c->at.vertices_at, "a vertex is not extreme");
+    if (polytope->origin.x != 0 || polytope->origin.y != 0 || polytope->origin.z != 0)
         return refuse(r, c->at.vertices_at, "the vertices are not in the body frame");
-    if (h->rank != c->rank) return refuse(r, 12, "the rank is not that of the vertices");
+    if (polytope->rank != c->rank) return refuse(r, 12, "the rank is not that of the vertices");
     return OVOID_OK;
 }
 
@@ -329,9 +329,9 @@ static ovoid_code set_radius(const reader *r, const content *c, ovoid_shape *sha
     return refuse(r, ALLOWANCE_AT + 8, "the allowance inside is larger than the body");
 }
 
-static ovoid_shape *make_shape(const reader *r, const content *c, hull *h, const ovoid_allocator *allocator) {
-    h->origin = c->origin;
-    ovoid_shape *shape = shape_create_block(h, allocator, r->error);
+static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope, const ovoid_allocator *allocator) {
+    polytope->origin = c->origin;
+    ovoid_shape *shape = shape_create_block(polytope, allocator, r->error);
     if (!shape) return NULL;
     shape->report = c->report;
     shape_set_fits(shape, &c->outer, &c->inner);
@@ -341,17 +341,17 @@ static ovoid_shape *make_shape(const reader *r, const content *c, hull *h, const
 }
 
 // The hull from the vertices alone.
-static ovoid_code find_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *h) {
-    ovoid_code code = hull_create(c->vertices, c->vertex_count, allocator, h, r->error);
+static ovoid_code find_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *polytope) {
+    ovoid_code code = hull_create(c->vertices, c->vertex_count, allocator, polytope, r->error);
     if (code == OVOID_OK || code == OVOID_ERROR_MEMORY) return code;
     return refuse(r, c->at.vertices_at, "the vertices have no hull");
 }
 
 // The hull from vertices and triangles.
-static ovoid_code prove_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *h) {
+static ovoid_code prove_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *polytope) {
     surface_claim claim = {c->vertices, c->vertex_count, c->triangles, c->at.triangle_count, c->inner.ellipsoid.center};
     surface_flaw flaw;
-    ovoid_code code = hull_create_proven(&claim, allocator, h, &flaw);
+    ovoid_code code = hull_create_proven(&claim, allocator, polytope, &flaw);
     if (code == OVOID_OK) return code;
     if (code == OVOID_ERROR_MEMORY)
         return error_set(r->error, code, -1, "no memory for a hull of %u vertices", c->vertex_count);
@@ -362,10 +362,11 @@ static ovoid_code prove_hull(const reader *r, const content *c, const ovoid_allo
 static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *allocator) {
     if (read_header(r, c) || read_vertices(r, c)) return NULL;
     read_triangles(r, c);
-    hull h;
-    if (c->at.triangle_count ? prove_hull(r, c, allocator, &h) : find_hull(r, c, allocator, &h)) return NULL;
-    ovoid_shape *shape = validate_hull(r, c, &h) ? NULL : make_shape(r, c, &h, allocator);
-    hull_destroy(&h, allocator);
+    hull polytope;
+    if (c->at.triangle_count ? prove_hull(r, c, allocator, &polytope) : find_hull(r, c, allocator, &polytope))
+        return NULL;
+    ovoid_shape *shape = validate_hull(r, c, &polytope) ? NULL : make_shape(r, c, &polytope, allocator);
+    hull_destroy(&polytope, allocator);
     return shape;
 }
 

@@ -25,40 +25,40 @@
 static const double rounding = 0x1p-53;
 
 // The vertices of positive weight, and their mean.
-static void take_vertices(feature *x, const uint32_t *index, const double *weight, uint32_t count) {
+static void take_vertices(feature *own, const uint32_t *index, const double *weight, uint32_t count) {
     double sum = 0;
     for (uint32_t i = 0; i < count; i++) sum += weight[i];
-    x->count = 0;
-    x->point = (vec3){0, 0, 0};
+    own->count = 0;
+    own->point = (vec3){0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
-        x->point = vec3_add_scaled(x->point, vec3_at(shape_vertices(x->shape), index[i]), weight[i] / sum);
+        own->point = vec3_add_scaled(own->point, vec3_at(shape_vertices(own->shape), index[i]), weight[i] / sum);
         int is_known = !(weight[i] > 0x1p-40 * sum);
-        for (int k = 0; k < x->count; k++) is_known |= x->v[k] == index[i];
-        if (!is_known) x->v[x->count++] = index[i];
+        for (int k = 0; k < own->count; k++) is_known |= own->v[k] == index[i];
+        if (!is_known) own->v[own->count++] = index[i];
     }
 }
 
-static int has_vertex(const feature *x, uint32_t v) {
-    for (int k = 0; k < x->count; k++)
-        if (x->v[k] == v) return 1;
+static int has_vertex(const feature *own, uint32_t v) {
+    for (int k = 0; k < own->count; k++)
+        if (own->v[k] == v) return 1;
     return 0;
 }
 
 // The least slope of the edges that leave the feature, across the edge where it is one; infinity where no edge leaves
 // it.
-static double find_slope(const feature *x) {
-    const char *block = (const char *)x->shape;
-    const uint32_t *starts = (const uint32_t *)(block + x->shape->at.neighbor_starts);
-    const uint32_t *neighbors = (const uint32_t *)(block + x->shape->at.neighbors);
+static double find_slope(const feature *own) {
+    const char *block = (const char *)own->shape;
+    const uint32_t *starts = (const uint32_t *)(block + own->shape->at.neighbor_starts);
+    const uint32_t *neighbors = (const uint32_t *)(block + own->shape->at.neighbors);
     double least = INFINITY; // its square
-    for (int k = 0; k < x->count; k++) {
-        vec3 corner = vec3_at(shape_vertices(x->shape), x->v[k]);
-        for (uint32_t i = starts[x->v[k]]; i < starts[x->v[k] + 1]; i++) {
-            if (has_vertex(x, neighbors[i])) continue;
-            vec3 e = vec3_sub(vec3_at(shape_vertices(x->shape), neighbors[i]), corner);
-            double fall = -vec3_dot(x->n, e) - 8 * rounding * x->shape->extent;
-            vec3 t = vec3_add_scaled(e, x->n, -vec3_dot(x->n, e));
-            if (x->count == 2) t = vec3_add_scaled(t, x->edge, -vec3_dot(x->edge, t));
+    for (int k = 0; k < own->count; k++) {
+        vec3 corner = vec3_at(shape_vertices(own->shape), own->v[k]);
+        for (uint32_t i = starts[own->v[k]]; i < starts[own->v[k] + 1]; i++) {
+            if (has_vertex(own, neighbors[i])) continue;
+            vec3 e = vec3_sub(vec3_at(shape_vertices(own->shape), neighbors[i]), corner);
+            double fall = -vec3_dot(own->n, e) - 8 * rounding * own->shape->extent;
+            vec3 t = vec3_add_scaled(e, own->n, -vec3_dot(own->n, e));
+            if (own->count == 2) t = vec3_add_scaled(t, own->edge, -vec3_dot(own->edge, t));
             double run = vec3_norm_squared(t);
             if (!(fall > 0)) return 0;
             if (run > 0) least = min2(least, fall * fall / run);
@@ -68,14 +68,14 @@ static double find_slope(const feature *x) {
 }
 
 feature feature_make(const ovoid_shape *shape, vec3 n, const uint32_t *index, const double *weight, uint32_t count) {
-    feature x = {.shape = shape, .n = n};
-    take_vertices(&x, index, weight, count);
-    if (x.count == 2) {
-        vec3 e = vec3_sub(vec3_at(shape_vertices(shape), x.v[1]), vec3_at(shape_vertices(shape), x.v[0]));
-        x.edge = vec3_unit(vec3_add_scaled(e, n, -vec3_dot(n, e)));
+    feature own = {.shape = shape, .n = n};
+    take_vertices(&own, index, weight, count);
+    if (own.count == 2) {
+        vec3 e = vec3_sub(vec3_at(shape_vertices(shape), own.v[1]), vec3_at(shape_vertices(shape), own.v[0]));
+        own.edge = vec3_unit(vec3_add_scaled(e, n, -vec3_dot(n, e)));
     }
-    x.slope = x.count <= 2 ? find_slope(&x) : 0;
-    return x;
+    own.slope = own.count <= 2 ? find_slope(&own) : 0;
+    return own;
 }
 
 // The least slope by which the two bodies fall away from each other.
@@ -164,22 +164,22 @@ static void add_rotation(const pair_frame *f, const ovoid_proof *p, vec3 n, doub
 // known.
 static double get_core_radius(const ovoid_shape *s) { return s->has_allowance ? 0 : s->radius; }
 
-static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *cover, ovoid_gradient *out) {
-    OVOID_ASSERT(pair && x);
+static void compute(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover, ovoid_gradient *out) {
+    OVOID_ASSERT(pair && answer);
     pair_frame f;
-    vec3 n = vec3_unit(x->normal);
+    vec3 n = vec3_unit(answer->normal);
     *out = (ovoid_gradient){.has_translation = 0};
     out->turn = gradient_find_angle_above(2);
     out->slide = INFINITY;
     if (frame_make(pair, &f) != OVOID_LIMIT_NONE) return;
-    if (!(vec3_norm_squared(n) > 0.5) || !vec3_is_finite(n) || !(x->lower <= x->upper)) return;
+    if (!(vec3_norm_squared(n) > 0.5) || !vec3_is_finite(n) || !(answer->lower <= answer->upper)) return;
     put(out->gradient, vec3_neg(n));
     put(out->gradient + 6, n);
 
     // Bounds of the hulls, without radii; of true bodies that are known to within allowances, of these bodies.
     int is_exact = !f.a->has_allowance && !f.b->has_allowance;
     double radii = get_core_radius(f.a) + get_core_radius(f.b);
-    double lower = x->lower + radii, upper = x->upper + radii, off = INFINITY;
+    double lower = answer->lower + radii, upper = answer->upper + radii, off = INFINITY;
     if (lower > 0) {
         out->turn = gradient_find_angle_above((upper - lower) / upper);
         out->margin = INFINITY;
@@ -190,16 +190,17 @@ static void compute(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_c
         off = out->turn * -lower;
     }
     out->has_translation = out->margin > 0;
-    int has_points = x->proof.kind == OVOID_PROOF_POINTS || x->proof.kind == OVOID_PROOF_COVER;
-    if (has_points && x->proof.count && proof_is_sound(&f, &x->proof))
-        add_rotation(&f, &x->proof, n, upper - lower, off, out);
+    int has_points = answer->proof.kind == OVOID_PROOF_POINTS || answer->proof.kind == OVOID_PROOF_COVER;
+    if (has_points && answer->proof.count && proof_is_sound(&f, &answer->proof))
+        add_rotation(&f, &answer->proof, n, upper - lower, off, out);
     if (is_exact) return;
     // The points of the true bodies, and how these fall away there, are not known but of those in closed form.
     out->has_rotation = 0;
     out->slope = 0;
     out->slide = INFINITY;
-    if (has_points && x->proof.kind == OVOID_PROOF_POINTS && x->proof.count && proof_is_sound(&f, &x->proof))
-        gradient_refine_round(&f, pair, &x->proof, out);
+    if (has_points && answer->proof.kind == OVOID_PROOF_POINTS && answer->proof.count &&
+        proof_is_sound(&f, &answer->proof))
+        gradient_refine_round(&f, pair, &answer->proof, out);
 }
 
 ovoid_gradient ovoid_answer_compute_gradient(const ovoid_pair *pair, const ovoid_answer *answer,

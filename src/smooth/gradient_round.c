@@ -103,31 +103,31 @@ static vec3 find_vertex(const round_body *b, uint32_t v) {
 // ---- a round body and a polyhedron
 
 // The polyhedron's nearest point to x->p, and its feature. 0 where there is none.
-static int ask_point(const round_body *hull, nearest *x) {
+static int ask_point(const round_body *hull, nearest *result) {
     point_shape point;
     point_make(&point, 0);
-    const ovoid_pair pair = {&point.shape, hull->shape, {x->p, {1, 0, 0, 0}}, hull->pose};
+    const ovoid_pair pair = {&point.shape, hull->shape, {result->p, {1, 0, 0, 0}}, hull->pose};
     const ovoid_options options = {.relative_tolerance = 1e-14};
     ovoid_answer found;
     answer_find_internal(&pair, &options, query_goal_make_distance(&options), NULL, NULL, &found);
     const ovoid_proof *proof = &found.proof;
     if (proof->kind != OVOID_PROOF_POINTS || !proof->count) return 0;
-    x->of_q = feature_make(hull->shape, (vec3){0, 0, 0}, proof->b, proof->weight_b, proof->count);
-    x->q = vec3_add(hull->base, mat3_mul_vec3(hull->rotation, x->of_q.point));
-    x->upper = vec3_norm(vec3_sub(x->q, x->p));
-    return x->upper > 0;
+    result->of_q = feature_make(hull->shape, (vec3){0, 0, 0}, proof->b, proof->weight_b, proof->count);
+    result->q = vec3_add(hull->base, mat3_mul_vec3(hull->rotation, result->of_q.point));
+    result->upper = vec3_norm(vec3_sub(result->q, result->p));
+    return result->upper > 0;
 }
 
 // The nearest points of a round body and an edge: halving on where the way to the body is across the edge.
-static void solve_edge(const round_body *round, vec3 from, vec3 to, nearest *x) {
+static void solve_edge(const round_body *round, vec3 from, vec3 to, nearest *found) {
     vec3 e = vec3_sub(to, from);
     double low = 0, high = 1;
     for (int i = 0; i < HALVINGS; i++) {
         double t = low + 0.5 * (high - low);
         if (!(t > low && t < high)) break;
-        x->q = vec3_add_scaled(from, e, t);
-        x->p = find_round_point(round, x->q);
-        if (vec3_dot(vec3_sub(x->q, x->p), e) < 0)
+        found->q = vec3_add_scaled(from, e, t);
+        found->p = find_round_point(round, found->q);
+        if (vec3_dot(vec3_sub(found->q, found->p), e) < 0)
             low = t;
         else
             high = t;
@@ -135,22 +135,22 @@ static void solve_edge(const round_body *round, vec3 from, vec3 to, nearest *x) 
 }
 
 // The nearest points of the round body and the feature.
-static void solve_feature(const round_body *round, const round_body *hull, nearest *x) {
-    const uint32_t *v = x->of_q.v;
+static void solve_feature(const round_body *round, const round_body *hull, nearest *found) {
+    const uint32_t *v = found->of_q.v;
     vec3 first = find_vertex(hull, v[0]);
-    if (x->of_q.count >= 3) {
+    if (found->of_q.count >= 3) {
         vec3 n =
             vec3_unit(vec3_cross(vec3_sub(find_vertex(hull, v[1]), first), vec3_sub(find_vertex(hull, v[2]), first)));
-        if (vec3_dot(n, vec3_sub(first, x->p)) < 0) n = vec3_neg(n);
-        (void)find_round_support(round, n, &x->p);
-        x->n = n;
+        if (vec3_dot(n, vec3_sub(first, found->p)) < 0) n = vec3_neg(n);
+        (void)find_round_support(round, n, &found->p);
+        found->n = n;
         return;
     }
-    if (x->of_q.count == 2)
-        solve_edge(round, first, find_vertex(hull, v[1]), x);
+    if (found->of_q.count == 2)
+        solve_edge(round, first, find_vertex(hull, v[1]), found);
     else
-        x->p = find_round_point(round, x->q = first);
-    x->n = vec3_unit(vec3_sub(x->q, x->p));
+        found->p = find_round_point(round, found->q = first);
+    found->n = vec3_unit(vec3_sub(found->q, found->p));
 }
 
 static int has_same_feature(const feature *a, const feature *b) {
@@ -161,13 +161,13 @@ static int has_same_feature(const feature *a, const feature *b) {
 }
 
 // From a point q of the polyhedron.
-static int find_with_hull(const round_body *round, const round_body *hull, vec3 q, nearest *x) {
-    x->p = find_round_point(round, q);
+static int find_with_hull(const round_body *round, const round_body *hull, vec3 q, nearest *found) {
+    found->p = find_round_point(round, q);
     for (int i = 0; i < ROUNDS; i++) {
-        feature before = x->of_q;
-        if (!ask_point(hull, x)) return 0;
-        if (i > 0 && has_same_feature(&before, &x->of_q)) return 1;
-        solve_feature(round, hull, x);
+        feature before = found->of_q;
+        if (!ask_point(hull, found)) return 0;
+        if (i > 0 && has_same_feature(&before, &found->of_q)) return 1;
+        solve_feature(round, hull, found);
     }
     return 1;
 }
@@ -175,39 +175,39 @@ static int find_with_hull(const round_body *round, const round_body *hull, vec3 
 // ---- two round bodies
 
 // From the axis of a cylinder, which is an edge with a radius where the points are on its side; 0 where they are not.
-static int find_from_axis(const round_body *a, const round_body *b, nearest *x) {
+static int find_from_axis(const round_body *a, const round_body *b, nearest *found) {
     vec3 end = vec3_scale(b->axis, b->form.half_length);
-    if (b->form.kind != ROUND_CYLINDER || !(fabs(vec3_dot(x->n, b->axis)) < 0.25)) return 0;
-    nearest y = *x;
+    if (b->form.kind != ROUND_CYLINDER || !(fabs(vec3_dot(found->n, b->axis)) < 0.25)) return 0;
+    nearest y = *found;
     solve_edge(a, vec3_sub(b->center, end), vec3_add(b->center, end), &y);
     y.n = vec3_unit(vec3_sub(y.q, y.p));
     y.q = find_round_point(b, y.p);
     y.upper = vec3_norm(vec3_sub(y.q, y.p));
-    if (!(fabs(vec3_dot(y.n, b->axis)) < 0x1p-40) || !(y.upper < x->upper * (1 + 0x1p-40))) return 0;
-    *x = y;
+    if (!(fabs(vec3_dot(y.n, b->axis)) < 0x1p-40) || !(y.upper < found->upper * (1 + 0x1p-40))) return 0;
+    *found = y;
     return 1;
 }
 
-static int find_with_round(const round_body *a, const round_body *b, vec3 q, nearest *x) {
-    x->q = q;
-    x->of_q.count = 0;
+static int find_with_round(const round_body *a, const round_body *b, vec3 q, nearest *found) {
+    found->q = q;
+    found->of_q.count = 0;
     for (int i = 0; i < TURNS; i++) {
-        vec3 before = x->q;
-        x->p = find_round_point(a, x->q);
-        x->q = find_round_point(b, x->p);
-        if (!(vec3_max_abs(vec3_sub(before, x->q)) > 0)) break;
+        vec3 before = found->q;
+        found->p = find_round_point(a, found->q);
+        found->q = find_round_point(b, found->p);
+        if (!(vec3_max_abs(vec3_sub(before, found->q)) > 0)) break;
     }
-    vec3 w = vec3_sub(x->q, x->p);
-    x->upper = vec3_norm(w);
-    x->n = vec3_unit(w);
-    if (!(x->upper > 0)) return 0;
-    if (find_from_axis(a, b, x)) return 1;
-    nearest y = {.p = x->q, .q = x->p, .n = vec3_neg(x->n), .upper = x->upper};
+    vec3 w = vec3_sub(found->q, found->p);
+    found->upper = vec3_norm(w);
+    found->n = vec3_unit(w);
+    if (!(found->upper > 0)) return 0;
+    if (find_from_axis(a, b, found)) return 1;
+    nearest y = {.p = found->q, .q = found->p, .n = vec3_neg(found->n), .upper = found->upper};
     if (find_from_axis(b, a, &y)) {
-        x->p = y.q;
-        x->q = y.p;
-        x->n = vec3_neg(y.n);
-        x->upper = y.upper;
+        found->p = y.q;
+        found->q = y.p;
+        found->n = vec3_neg(y.n);
+        found->upper = y.upper;
     }
     return 1;
 }
@@ -231,11 +231,11 @@ static double find_round_slide(const round_body *b, vec3 n, double turn, double 
     return radius * turn / (across - turn);
 }
 
-static double find_slide(const round_body *b, const nearest *x, vec3 n, double turn, double *angle) {
+static double find_slide(const round_body *b, const nearest *found, vec3 n, double turn, double *angle) {
     if (b->form.kind != ROUND_NONE) return find_round_slide(b, n, turn, angle);
     const double weight[OVOID_PROOF_PAIRS] = {1, 1, 1, 1, 1, 1};
-    feature f =
-        feature_make(b->shape, mat3_mul_transposed_vec3(b->rotation, n), x->of_q.v, weight, (uint32_t)x->of_q.count);
+    feature f = feature_make(b->shape, mat3_mul_transposed_vec3(b->rotation, n), found->of_q.v, weight,
+                             (uint32_t)found->of_q.count);
     *angle = f.count == 1 ? min2(f.slope, 1) : 0;
     return *angle > 2 * turn + 256 * ROUNDING ? 0 : INFINITY;
 }
@@ -248,34 +248,34 @@ static double find_room(const round_body *b, vec3 n, vec3 point, double turn) {
 
 // The side of a cylinder that crosses an edge, or another cylinder's side: the slope by which they fall away from each
 // other, else 0. *room: how far the points may be moved along them.
-static double find_crossing(const round_body bodies[2], const nearest *x, double turn, double *room) {
+static double find_crossing(const round_body bodies[2], const nearest *found, double turn, double *room) {
     const round_body *other = &bodies[1];
-    *room = find_room(&bodies[0], x->n, x->p, turn);
+    *room = find_room(&bodies[0], found->n, found->p, turn);
     if (other->form.kind != ROUND_NONE) {
-        *room = min2(*room, find_room(other, x->n, x->q, turn));
+        *room = min2(*room, find_room(other, found->n, found->q, turn));
         return vec3_norm(vec3_cross(other->axis, bodies[0].axis));
     }
-    if (x->of_q.count != 2) return 0;
+    if (found->of_q.count != 2) return 0;
     const double weight[2] = {1, 1};
-    vec3 n = mat3_mul_transposed_vec3(other->rotation, vec3_neg(x->n));
-    feature f = feature_make(other->shape, n, x->of_q.v, weight, 2);
+    vec3 n = mat3_mul_transposed_vec3(other->rotation, vec3_neg(found->n));
+    feature f = feature_make(other->shape, n, found->of_q.v, weight, 2);
     return min2(f.slope, 1) * vec3_norm(vec3_cross(mat3_mul_vec3(other->rotation, f.edge), bodies[0].axis));
 }
 
 // Of the first body, which is round, and the second; *slide and *slope as in ovoid_gradient.
-static void find_points(const round_body bodies[2], const nearest *x, double turn, double excess, double off,
+static void find_points(const round_body bodies[2], const nearest *found, double turn, double excess, double off,
                         double *slope, double *slide) {
     double angle;
     *slide = INFINITY;
     *slope = 0;
     for (int k = 0; k < 2; k++) {
-        double own = find_slide(&bodies[k], x, k ? vec3_neg(x->n) : x->n, turn, &angle);
+        double own = find_slide(&bodies[k], found, k ? vec3_neg(found->n) : found->n, turn, &angle);
         if (!(own + off < *slide)) continue;
         *slide = own + off;
         *slope = angle;
     }
     if (*slide < INFINITY) return;
-    double room, cross = find_crossing(bodies, x, turn, &room);
+    double room, cross = find_crossing(bodies, found, turn, &room);
     if (!(cross > 2 * turn + 256 * ROUNDING) || !((excess + off) / cross < room)) return;
     *slide = (excess + off) / cross;
     *slope = cross;
@@ -290,22 +290,22 @@ void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ov
     round_body bodies[2];
     bodies[is_swapped] = make_body(f->a, &f->world, pair->pose_a.rotation, (vec3){0, 0, 0});
     bodies[!is_swapped] = make_body(f->b, &f->world_b, pair->pose_b.rotation, f->offset);
-    nearest x = {.upper = 0};
+    nearest found = {.upper = 0};
     feature start = is_swapped ? feature_make(f->a, (vec3){0, 0, 0}, proof->a, proof->weight_a, proof->count)
                                : feature_make(f->b, (vec3){0, 0, 0}, proof->b, proof->weight_b, proof->count);
     vec3 q = vec3_add(bodies[1].base, mat3_mul_vec3(bodies[1].rotation, start.point));
-    int is_found = bodies[1].form.kind == ROUND_NONE ? find_with_hull(&bodies[0], &bodies[1], q, &x)
-                                                     : find_with_round(&bodies[0], &bodies[1], q, &x);
-    if (!is_found || !(vec3_norm_squared(x.n) > 0.5)) return;
+    int is_found = bodies[1].form.kind == ROUND_NONE ? find_with_hull(&bodies[0], &bodies[1], q, &found)
+                                                     : find_with_round(&bodies[0], &bodies[1], q, &found);
+    if (!is_found || !(vec3_norm_squared(found.n) > 0.5)) return;
 
-    double gap = -find_support(&bodies[1], vec3_neg(x.n)) - find_support(&bodies[0], x.n);
-    double lower = gap - 2 * f->check, upper = x.upper + 2 * f->check;
+    double gap = -find_support(&bodies[1], vec3_neg(found.n)) - find_support(&bodies[0], found.n);
+    double lower = gap - 2 * f->check, upper = found.upper + 2 * f->check;
     if (!(lower > 0)) return;
     double turn = gradient_find_angle_above((upper - lower) / upper), slope, slide;
     if (!(turn < out->turn)) return;
-    find_points(bodies, &x, turn, upper - lower, sqrt(max2((upper - lower) * (upper + lower), 0)), &slope, &slide);
-    vec3 n = is_swapped ? vec3_neg(x.n) : x.n, to_p = vec3_sub(x.p, bodies[0].base),
-         to_q = vec3_sub(x.q, bodies[1].base);
+    find_points(bodies, &found, turn, upper - lower, sqrt(max2((upper - lower) * (upper + lower), 0)), &slope, &slide);
+    vec3 n = is_swapped ? vec3_neg(found.n) : found.n, to_p = vec3_sub(found.p, bodies[0].base),
+         to_q = vec3_sub(found.q, bodies[1].base);
     gradient_put(f, n, is_swapped ? to_q : to_p, is_swapped ? to_p : to_q, out);
     out->turn = turn;
     out->margin = INFINITY;

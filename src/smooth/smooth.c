@@ -42,19 +42,19 @@ static vec3 find_lever(const ovoid_shape *shape, const mat3 *rotation, const smo
 
 static void fill_value(const pair_frame *f, int is_inner, int order, double unit, ovoid_smooth_value *out) {
     smooth_pair s = make_pair(f, is_inner, unit);
-    smooth_state x;
+    smooth_state state;
     double upper, lower;
-    smooth_search(&s, &x, &upper, &out->iterations);
-    lower = x.gap - s.claim;
+    smooth_search(&s, &state, &upper, &out->iterations);
+    lower = state.gap - s.claim;
     out->error = (upper - lower) * unit;
     out->value = is_inner ? upper * unit - f->upper_radii : lower * unit - f->lower_radii;
-    out->normal = x.n;
-    vec3 from_a = vec3_add(s.a.center, x.xa), from_b = vec3_sub(s.b.center, x.xb);
+    out->normal = state.n;
+    vec3 from_a = vec3_add(s.a.center, state.xa), from_b = vec3_sub(s.b.center, state.xb);
     out->point_a = vec3_add_scaled(f->world_origin, from_a, unit);
     out->point_b = vec3_add(f->world_origin, vec3_add_scaled(f->offset, from_b, unit));
-    vec3 levers[2] = {vec3_add(find_lever(f->a, &f->world, &s.a, unit), x.xa),
-                      vec3_sub(find_lever(f->b, &f->world_b, &s.b, unit), x.xb)};
-    smooth_derive(&s, &x, levers, order, out);
+    vec3 levers[2] = {vec3_add(find_lever(f->a, &f->world, &s.a, unit), state.xa),
+                      vec3_sub(find_lever(f->b, &f->world_b, &s.b, unit), state.xb)};
+    smooth_derive(&s, &state, levers, order, out);
 }
 
 static void compute(const ovoid_pair *pair, int order, ovoid_smooth *out) {

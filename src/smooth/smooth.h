@@ -47,16 +47,16 @@ smooth_body smooth_body_make_inner(const ovoid_shape *shape, const mat3 *rotatio
 uint32_t smooth_climb(const smooth_pair *pair, vec3 n, smooth_state *best);
 /// The direction of the largest gap, and a proven upper bound of the largest gap (scaled, claim included). *steps is
 /// raised by the number of steps.
-void smooth_search(const smooth_pair *pair, smooth_state *x, double *upper, uint32_t *steps);
+void smooth_search(const smooth_pair *pair, smooth_state *state, double *upper, uint32_t *steps);
 
 /// An upper bound of the largest gap where it is negative, by one enclosed ellipsoid through the state; or by a hull
 /// that grows, which leaves the direction of the largest gap found in *n. infinity where there is none. smooth_depth.c
-double smooth_compute_bound(const smooth_pair *pair, const smooth_state *x);
+double smooth_compute_bound(const smooth_pair *pair, const smooth_state *state);
 double smooth_grow(const smooth_pair *pair, vec3 *n, uint32_t *steps);
 
 /// The derivatives at the state, to the order given (0: none). levers: from the poses' positions to the two points.
 /// smooth_hessian.c
-void smooth_derive(const smooth_pair *pair, const smooth_state *x, const vec3 levers[2], int order,
+void smooth_derive(const smooth_pair *pair, const smooth_state *state, const vec3 levers[2], int order,
                    ovoid_smooth_value *out);
 
 #endif

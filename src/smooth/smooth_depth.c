@@ -22,9 +22,9 @@ typedef struct turn {
     vec3 p[3], q[3]; ///< S = sum of p[k] q[k]'
 } turn;
 
-static turn find_turn(const smooth_pair *pair, const smooth_state *x) {
-    vec3 p1 = vec3_orthogonal(x->p), q1 = vec3_orthogonal(x->q);
-    vec3 p2 = vec3_cross(x->p, p1), q2 = vec3_cross(x->q, q1);
+static turn find_turn(const smooth_pair *pair, const smooth_state *state) {
+    vec3 p1 = vec3_orthogonal(state->p), q1 = vec3_orthogonal(state->q);
+    vec3 p2 = vec3_cross(state->p, p1), q2 = vec3_cross(state->q, q1);
     vec3 a1 = root3_map(&pair->a.root, p1), a2 = root3_map(&pair->a.root, p2);
     vec3 b1 = root3_map(&pair->b.root, q1), b2 = root3_map(&pair->b.root, q2);
     // Of all turns and reflections, that with the largest sum of (Ea p_i).(Eb q_j) over the pairs joined.
@@ -35,15 +35,15 @@ static turn find_turn(const smooth_pair *pair, const smooth_state *x) {
     if (most > 0) c = (xx + sign * yy) / most, s = (yx - sign * xy) / most;
     vec3 t1 = vec3_add_scaled(vec3_scale(p1, c), p2, s);
     vec3 t2 = vec3_add_scaled(vec3_scale(p2, sign * c), p1, -sign * s);
-    return (turn){{x->p, t1, t2}, {x->q, q1, q2}};
+    return (turn){{state->p, t1, t2}, {state->q, q1, q2}};
 }
 
-double smooth_compute_bound(const smooth_pair *pair, const smooth_state *x) {
-    double depth = -x->gap, off = vec3_norm(x->across);
+double smooth_compute_bound(const smooth_pair *pair, const smooth_state *state) {
+    double depth = -state->gap, off = vec3_norm(state->across);
     if (!(depth > 0) || off > 0x1p-20 * depth) return INFINITY;
     root3 sum = pair->a.root;
-    if (vec3_norm_squared(x->p) > 0.5 && vec3_norm_squared(x->q) > 0.5) {
-        turn t = find_turn(pair, x);
+    if (vec3_norm_squared(state->p) > 0.5 && vec3_norm_squared(state->q) > 0.5) {
+        turn t = find_turn(pair, state);
         vec3 b[3];
         for (int k = 0; k < 3; k++) b[k] = root3_map(&pair->b.root, t.q[k]);
         for (int k = 0; k < 3; k++) {
@@ -51,23 +51,23 @@ double smooth_compute_bound(const smooth_pair *pair, const smooth_state *x) {
             const double px[3] = {t.p[k].x, t.p[k].y, t.p[k].z};
             for (int i = 0; i < 3; i++) sum.axis[i] = vec3_add_scaled(sum.axis[i], b[k], px[i]);
         }
-    } else if (!(vec3_norm_squared(x->p) > 0.5)) {
+    } else if (!(vec3_norm_squared(state->p) > 0.5)) {
         sum = pair->b.root;
     }
-    double room = depth * (x->sa + x->sb) * (1 + 0x1p-40), trace = 0;
+    double room = depth * (state->sa + state->sb) * (1 + 0x1p-40), trace = 0;
     for (int k = 0; k < 3; k++) trace += vec3_norm_squared(sum.axis[k]);
     room += 128 * 0x1p-53 * trace;
     sym3 m = sym3_diagonal(-room, -room, -room);
     for (int k = 0; k < 3; k++) m = sym3_add(m, sym3_outer(sum.axis[k], 1));
     ldl3 f;
-    return ldl3_make(m, &f) ? x->gap + off + pair->claim : INFINITY;
+    return ldl3_make(m, &f) ? state->gap + off + pair->claim : INFINITY;
 }
 
 // The point of the sum (of B less A) that is farthest along n.
 static vec3 find_support(const smooth_pair *pair, vec3 n) {
-    smooth_state x;
-    smooth_evaluate(pair, vec3_neg(n), &x);
-    return x.w;
+    smooth_state state;
+    smooth_evaluate(pair, vec3_neg(n), &state);
+    return state.w;
 }
 
 static int grow(const smooth_pair *pair, expansion *e, vec3 *n, uint32_t *steps) {

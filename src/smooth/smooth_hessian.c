@@ -125,32 +125,32 @@ static void unscale(double h[12][12], double unit) {
     }
 }
 
-void smooth_derive(const smooth_pair *pair, const smooth_state *x, const vec3 levers[2], int order,
+void smooth_derive(const smooth_pair *pair, const smooth_state *state, const vec3 levers[2], int order,
                    ovoid_smooth_value *out) {
-    tangents plane = tangents_make(x->n);
-    curvature a = smooth_compute_curvature(&pair->a.root, &plane, x->p, x->sa);
-    curvature b = smooth_compute_curvature(&pair->b.root, &plane, x->q, x->sb);
-    springs s = springs_make(&a, &b, x->gap);
+    tangents plane = tangents_make(state->n);
+    curvature a = smooth_compute_curvature(&pair->a.root, &plane, state->p, state->sa);
+    curvature b = smooth_compute_curvature(&pair->b.root, &plane, state->q, state->sb);
+    springs s = springs_make(&a, &b, state->gap);
     out->condition = max2(1, max2(pair->size / s.least, s.stiffest / pair->size));
     if (!(s.least > 0) || !(out->condition < INFINITY)) out->condition = INFINITY;
-    out->is_smooth = out->condition < 0x1p50 && vec3_norm(x->across) <= 0x1p-30 * pair->size;
+    out->is_smooth = out->condition < 0x1p50 && vec3_norm(state->across) <= 0x1p-30 * pair->size;
     if (order < 1) return;
 
     // A residue of w across n is rounding times A and B: the points move to where it vanishes, each by its share.
     vec3 lever[2] = {levers[0], levers[1]};
     if (out->is_smooth) {
-        double r0 = vec3_dot(plane.e0, x->across), r1 = vec3_dot(plane.e1, x->across);
+        double r0 = vec3_dot(plane.e0, state->across), r1 = vec3_dot(plane.e1, state->across);
         mat2 sa = s.by_a, sb = s.by_b; // transposed: A K^-1, B K^-1
         lever[0] = vec3_add_scaled(lever[0], plane.e0, sa.xx * r0 + sa.yx * r1);
         lever[0] = vec3_add_scaled(lever[0], plane.e1, sa.xy * r0 + sa.yy * r1);
         lever[1] = vec3_add_scaled(lever[1], plane.e0, -(sb.xx * r0 + sb.yx * r1));
         lever[1] = vec3_add_scaled(lever[1], plane.e1, -(sb.xy * r0 + sb.yy * r1));
     }
-    put(out->gradient, vec3_neg(x->n));
-    put(out->gradient + 3, vec3_scale(vec3_cross(x->n, lever[0]), pair->unit));
-    put(out->gradient + 6, x->n);
-    put(out->gradient + 9, vec3_scale(vec3_cross(lever[1], x->n), pair->unit));
+    put(out->gradient, vec3_neg(state->n));
+    put(out->gradient + 3, vec3_scale(vec3_cross(state->n, lever[0]), pair->unit));
+    put(out->gradient + 6, state->n);
+    put(out->gradient + 9, vec3_scale(vec3_cross(lever[1], state->n), pair->unit));
     if (order < 2 || !out->is_smooth) return;
-    fill_hessian(&s, &plane, x->n, lever, out->hessian);
+    fill_hessian(&s, &plane, state->n, lever, out->hessian);
     unscale(out->hessian, pair->unit);
 }

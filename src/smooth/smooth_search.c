@@ -18,19 +18,20 @@ enum { STEPS = 24, HALVINGS = 8 };
 #define STEP_MIN 0x1p-48
 
 // Newton's step from the state, as a tangent vector. *growth: the next step over the square of this one, at most.
-static vec3 find_step(const smooth_pair *pair, const smooth_state *x, double *growth) {
-    tangents plane = tangents_make(x->n);
-    curvature a = smooth_compute_curvature(&pair->a.root, &plane, x->p, x->sa);
-    curvature b = smooth_compute_curvature(&pair->b.root, &plane, x->q, x->sb);
-    curvature k = curvature_add(&a, &b, x->gap);
+static vec3 find_step(const smooth_pair *pair, const smooth_state *state, double *growth) {
+    tangents plane = tangents_make(state->n);
+    curvature a = smooth_compute_curvature(&pair->a.root, &plane, state->p, state->sa);
+    curvature b = smooth_compute_curvature(&pair->b.root, &plane, state->q, state->sb);
+    curvature k = curvature_add(&a, &b, state->gap);
     // The matrix changes over angles of about its least eigenvalue and the spreads, in units of the size.
-    *growth = ((k.xx + k.yy) / k.det + (1 / x->sa + 1 / x->sb)) * pair->size;
-    if (x->gap < 0) {
+    *growth = ((k.xx + k.yy) / k.det + (1 / state->sa + 1 / state->sb)) * pair->size;
+    if (state->gap < 0) {
         // Shifted where it is not positive, so that the step points up.
-        double least = curvature_compute_least(&k), enough = 0.1 * ((k.xx + k.yy) - 2 * x->gap) + 0x1p-40 * pair->size;
-        if (!(least > 0.1 * fabs(x->gap) || least > enough)) k = curvature_add(&a, &b, enough - least + x->gap);
+        double least = curvature_compute_least(&k),
+               enough = 0.1 * ((k.xx + k.yy) - 2 * state->gap) + 0x1p-40 * pair->size;
+        if (!(least > 0.1 * fabs(state->gap) || least > enough)) k = curvature_add(&a, &b, enough - least + state->gap);
     }
-    double r0 = vec3_dot(plane.e0, x->across), r1 = vec3_dot(plane.e1, x->across);
+    double r0 = vec3_dot(plane.e0, state->across), r1 = vec3_dot(plane.e1, state->across);
     double d0 = (k.yy * r0 - k.xy * r1) / k.det, d1 = (k.xx * r1 - k.xy * r0) / k.det;
     return vec3_add_scaled(vec3_scale(plane.e0, d0), plane.e1, d1);
 }
@@ -63,13 +64,13 @@ static vec3 find_start(const smooth_pair *pair) {
     vec3 n = vec3_unit(pair->d);
     if (!(vec3_norm_squared(n) > 0.5)) return (vec3){1, 0, 0};
     for (int round = 0; round < 2; round++) {
-        smooth_state x;
-        smooth_evaluate(pair, n, &x);
-        double g = max2(x.gap, 0x1p-30 * pair->size);
+        smooth_state state;
+        smooth_evaluate(pair, n, &state);
+        double g = max2(state.gap, 0x1p-30 * pair->size);
         sym3 m = sym3_diagonal(g, g, g);
         for (int k = 0; k < 3; k++) {
-            m = sym3_add(m, sym3_outer(pair->a.root.axis[k], 1 / max2(x.sa, 0x1p-30 * pair->size)));
-            m = sym3_add(m, sym3_outer(pair->b.root.axis[k], 1 / max2(x.sb, 0x1p-30 * pair->size)));
+            m = sym3_add(m, sym3_outer(pair->a.root.axis[k], 1 / max2(state.sa, 0x1p-30 * pair->size)));
+            m = sym3_add(m, sym3_outer(pair->b.root.axis[k], 1 / max2(state.sb, 0x1p-30 * pair->size)));
         }
         ldl3 f;
         if (!ldl3_make(m, &f)) return n;
@@ -81,7 +82,7 @@ static vec3 find_start(const smooth_pair *pair) {
 }
 
 // The search by multipliers, for flat bodies that are apart. 1 if its state is better.
-static int search_by_multipliers(const smooth_pair *pair, smooth_state *x, uint32_t *steps) {
+static int search_by_multipliers(const smooth_pair *pair, smooth_state *state, uint32_t *steps) {
     root3_nearest found;
     if (!roots_find_nearest(&pair->a.root, &pair->b.root, pair->d, &found)) return 0;
     *steps += found.rounds;
@@ -91,9 +92,9 @@ static int search_by_multipliers(const smooth_pair *pair, smooth_state *x, uint3
     y.p = vec3_norm_squared(found.p) > 1 - 0x1p-40 ? vec3_unit(found.p) : found.p;
     y.q = vec3_norm_squared(found.q) > 1 - 0x1p-40 ? vec3_unit(found.q) : found.q;
     smooth_set_points(pair, &y);
-    if (!(vec3_norm_squared(y.across) < vec3_norm_squared(x->across)) || y.gap < x->gap - 0x1p-40 * pair->size)
+    if (!(vec3_norm_squared(y.across) < vec3_norm_squared(state->across)) || y.gap < state->gap - 0x1p-40 * pair->size)
         return 0;
-    *x = y;
+    *state = y;
     return 1;
 }
 
@@ -101,7 +102,7 @@ static double clamp(double t) { return max2(-1, min2(t, 1)); }
 
 // Two segments or points, apart: the nearest points by clamping (C. Ericson, Real-time collision detection, 2005). 1 if
 // both bodies are such.
-static int search_segments(const smooth_pair *pair, smooth_state *x) {
+static int search_segments(const smooth_pair *pair, smooth_state *state) {
     const vec3 *ea = pair->a.root.axis, *eb = pair->b.root.axis;
     double rest =
         (vec3_norm_squared(ea[1]) + vec3_norm_squared(ea[2])) + (vec3_norm_squared(eb[1]) + vec3_norm_squared(eb[2]));
@@ -118,33 +119,33 @@ static int search_segments(const smooth_pair *pair, smooth_state *x) {
     }
     vec3 w = vec3_sub(vec3_add_scaled(pair->d, ea[0], -s), vec3_scale(eb[0], t)), n = vec3_unit(w);
     if (!(vec3_norm_squared(n) > 0.5)) return 0;
-    smooth_evaluate(pair, n, x);
-    x->p = (vec3){s, 0, 0};
-    x->q = (vec3){t, 0, 0};
-    smooth_set_points(pair, x);
-    return x->gap > 0;
+    smooth_evaluate(pair, n, state);
+    state->p = (vec3){s, 0, 0};
+    state->q = (vec3){t, 0, 0};
+    smooth_set_points(pair, state);
+    return state->gap > 0;
 }
 
-void smooth_search(const smooth_pair *pair, smooth_state *x, double *upper, uint32_t *steps) {
+void smooth_search(const smooth_pair *pair, smooth_state *state, double *upper, uint32_t *steps) {
     double good = 0x1p-44 * pair->size;
-    if (search_segments(pair, x) && vec3_norm(x->across) <= good) {
-        *upper = vec3_norm(x->w) + pair->claim;
+    if (search_segments(pair, state) && vec3_norm(state->across) <= good) {
+        *upper = vec3_norm(state->w) + pair->claim;
         return;
     }
-    *steps += smooth_climb(pair, find_start(pair), x);
-    int is_done = vec3_norm(x->across) <= good;
-    if (!is_done && search_by_multipliers(pair, x, steps)) is_done = x->gap > 0;
-    *upper = vec3_norm(x->w) + pair->claim;
-    if (x->gap > 0 && is_done) return;
+    *steps += smooth_climb(pair, find_start(pair), state);
+    int is_done = vec3_norm(state->across) <= good;
+    if (!is_done && search_by_multipliers(pair, state, steps)) is_done = state->gap > 0;
+    *upper = vec3_norm(state->w) + pair->claim;
+    if (state->gap > 0 && is_done) return;
     // Overlapping or nearly so: another direction may be better.
-    double bound = smooth_compute_bound(pair, x);
-    if (x->gap < 0 && bound == INFINITY) {
+    double bound = smooth_compute_bound(pair, state);
+    if (state->gap < 0 && bound == INFINITY) {
         vec3 n;
         double grown = smooth_grow(pair, &n, steps);
         smooth_state y;
         *steps += smooth_climb(pair, n, &y);
-        if (y.gap > x->gap) *x = y;
-        bound = min2(grown, smooth_compute_bound(pair, x));
+        if (y.gap > state->gap) *state = y;
+        bound = min2(grown, smooth_compute_bound(pair, state));
     }
-    *upper = min2(vec3_norm(x->w) + pair->claim, bound);
+    *upper = min2(vec3_norm(state->w) + pair->claim, bound);
 }

@@ -21,24 +21,24 @@ static inline tangents tangents_make(vec3 n) {
 }
 
 /// Fills in xa, xb, w and across from n, p and q.
-static inline void smooth_set_points(const smooth_pair *pair, smooth_state *x) {
-    x->xa = root3_map(&pair->a.root, x->p);
-    x->xb = root3_map(&pair->b.root, x->q);
-    x->w = vec3_sub(vec3_sub(pair->d, x->xa), x->xb);
-    x->across = vec3_add_scaled(x->w, x->n, -vec3_dot(x->n, x->w));
+static inline void smooth_set_points(const smooth_pair *pair, smooth_state *state) {
+    state->xa = root3_map(&pair->a.root, state->p);
+    state->xb = root3_map(&pair->b.root, state->q);
+    state->w = vec3_sub(vec3_sub(pair->d, state->xa), state->xb);
+    state->across = vec3_add_scaled(state->w, state->n, -vec3_dot(state->n, state->w));
 }
 
 /// Fills the state of the unit direction n.
-static inline void smooth_evaluate(const smooth_pair *pair, vec3 n, smooth_state *x) {
-    x->n = n;
+static inline void smooth_evaluate(const smooth_pair *pair, vec3 n, smooth_state *state) {
+    state->n = n;
     vec3 p = root3_map_transposed(&pair->a.root, n), q = root3_map_transposed(&pair->b.root, n);
     double sa = vec3_norm(p), sb = vec3_norm(q);
-    x->gap = (vec3_dot(n, pair->d) - sa) - sb;
-    x->sa = max2(sa, SMOOTH_SPREAD_MIN);
-    x->sb = max2(sb, SMOOTH_SPREAD_MIN);
-    x->p = vec3_scale(p, 1 / x->sa);
-    x->q = vec3_scale(q, 1 / x->sb);
-    smooth_set_points(pair, x);
+    state->gap = (vec3_dot(n, pair->d) - sa) - sb;
+    state->sa = max2(sa, SMOOTH_SPREAD_MIN);
+    state->sb = max2(sb, SMOOTH_SPREAD_MIN);
+    state->p = vec3_scale(p, 1 / state->sa);
+    state->q = vec3_scale(q, 1 / state->sb);
+    smooth_set_points(pair, state);
 }
 
 /// The second derivative of the support of a body in its tangent plane, at the point p of the unit ball.

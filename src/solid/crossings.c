@@ -21,11 +21,11 @@ typedef struct search {
     ovoid_solid_crossings *out;
 } search;
 
-static facet make_facet(const search *h, uint32_t place) {
+static facet make_facet(const search *state, uint32_t place) {
     facet f;
     for (int i = 0; i < 3; i++) {
-        f.index[i] = h->solid->triangles[place].point[i];
-        f.c[i] = vec3_scale(vec3_at(h->solid->points, f.index[i]), h->scale);
+        f.index[i] = state->solid->triangles[place].point[i];
+        f.c[i] = vec3_scale(vec3_at(state->solid->points, f.index[i]), state->scale);
     }
     return f;
 }
@@ -139,40 +139,40 @@ static int do_meet(const facet *a, const facet *b) {
     return 0;
 }
 
-static void take(search *h, uint32_t one, uint32_t other) {
-    const uint32_t *order = h->solid->order;
-    if (h->out->pairs++) return;
+static void take(search *state, uint32_t one, uint32_t other) {
+    const uint32_t *order = state->solid->order;
+    if (state->out->pairs++) return;
     int is_first = order[one] < order[other];
-    h->out->triangle_a = is_first ? order[one] : order[other];
-    h->out->triangle_b = is_first ? order[other] : order[one];
+    state->out->triangle_a = is_first ? order[one] : order[other];
+    state->out->triangle_b = is_first ? order[other] : order[one];
 }
 
 /// All others behind it in the tree's order. 0: there are as many as were wanted.
-static int visit(search *h, uint32_t place) {
+static int visit(search *state, uint32_t place) {
     enum { ROOM = 64 };
     uint32_t places[ROOM], found;
-    facet own = make_facet(h, place);
+    facet own = make_facet(state, place);
     if (!has_area(&own)) return 1;
-    box bounds = solid_make_bounds(h->solid, &h->solid->triangles[place]);
+    box bounds = solid_make_bounds(state->solid, &state->solid->triangles[place]);
     const double ends[6] = {bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z};
     box8_walk walk;
-    box8_begin(&walk, h->solid->boxes, ends);
+    box8_begin(&walk, state->solid->boxes, ends);
     while ((found = box8_find_leaves(&walk, places, ROOM)) > 0)
         for (uint32_t i = 0; i < found; i++) {
             if (places[i] <= place) continue;
-            facet other = make_facet(h, places[i]);
+            facet other = make_facet(state, places[i]);
             if (!has_area(&other) || !do_meet(&own, &other)) continue;
-            take(h, place, places[i]);
-            if (h->out->pairs >= h->most) return 0;
+            take(state, place, places[i]);
+            if (state->out->pairs >= state->most) return 0;
         }
     return 1;
 }
 
 static void find_crossings(const ovoid_solid *s, uint64_t most, ovoid_solid_crossings *out) {
-    search h = {s, ldexp(1, -find_unit_exponent(s->extent)), most, out};
+    search state = {s, ldexp(1, -find_unit_exponent(s->extent)), most, out};
     *out = (ovoid_solid_crossings){.pairs = 0};
     uint32_t place = 0;
-    while (place < s->triangle_count && out->pairs < most && visit(&h, place)) place++;
+    while (place < s->triangle_count && out->pairs < most && visit(&state, place)) place++;
     out->is_complete = place == s->triangle_count;
 }
 

@@ -9,9 +9,9 @@ static inline void bodies_query(const ovoid_body *a, const ovoid_body *b, const 
                                 ovoid_body_answer *out) {
     if (a->shape && b->shape) {
         ovoid_pair two = {a->shape, b->shape, a->pose, b->pose};
-        ovoid_answer x;
-        answer_find_internal(&two, options, goal, NULL, NULL, &x);
-        *out = ovoid_body_answer_make(&x, 0, 0);
+        ovoid_answer answer;
+        answer_find_internal(&two, options, goal, NULL, NULL, &answer);
+        *out = ovoid_body_answer_make(&answer, 0, 0);
         out->tested = 1;
         return;
     }

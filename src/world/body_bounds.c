@@ -41,10 +41,10 @@ vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double
 static void find_extent(const ovoid_shape *s, vec3 row, double *low, double *high) {
     simd_points points = {shape_x(s), shape_y(s), shape_z(s), s->padded_count};
     double up[3] = {row.x, row.y, row.z}, down[3] = {-row.x, -row.y, -row.z};
-    simd_pair x = simd_find_pair(&points, up, &points, down);
+    simd_pair ends = simd_find_pair(&points, up, &points, down);
     double c = vec3_dot(row, s->center);
-    *high = x.high.value - c;
-    *low = -x.low.value - c;
+    *high = ends.high.value - c;
+    *low = -ends.low.value - c;
 }
 
 static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
@@ -104,15 +104,15 @@ body_outline body_compute_outline(const ovoid_body *body, const body_sphere *bal
     mat3 r = quat_to_mat3(body->pose.rotation);
     double center_error = find_center_error(ball, &body->pose);
     vec3 at = vec3_add(body->pose.position, mat3_mul_vec3(r, ball->local));
-    body_outline x = {.at = at, .reach = (ball->reach + ball->radius) * (1 + 0x1p-48) + center_error};
+    body_outline outline = {.at = at, .reach = (ball->reach + ball->radius) * (1 + 0x1p-48) + center_error};
     if (has_own_box(body)) {
-        x.bounds = find_own_box(body, ball, r, at, center_error);
-        x.is_tight = 1;
-        return x;
+        outline.bounds = find_own_box(body, ball, r, at, center_error);
+        outline.is_tight = 1;
+        return outline;
     }
     box turned = find_turned_box(body->shape, r, body->pose.position, center_error);
-    double around = x.reach + 4 * 0x1p-53 * vec3_max_abs(at);
-    x.bounds.min = most(turned.min, vec3_sub(at, make_even(around)));
-    x.bounds.max = least(turned.max, vec3_add(at, make_even(around)));
-    return x;
+    double around = outline.reach + 4 * 0x1p-53 * vec3_max_abs(at);
+    outline.bounds.min = most(turned.min, vec3_sub(at, make_even(around)));
+    outline.bounds.max = least(turned.max, vec3_add(at, make_even(around)));
+    return outline;
 }

@@ -36,11 +36,11 @@ static int enter_slab(double low, double high, double from, double way, double r
     return range[0] <= range[1];
 }
 
-static double measure_entry(const void *context, const box *x) {
+static double measure_entry(const void *context, const box *bounds) {
     const casting *c = context;
     double range[2] = {0, c->length};
-    double slack = 4 * WIDER * (vec3_max_abs(x->min) + vec3_max_abs(x->max) + vec3_max_abs(c->grow));
-    vec3 low = vec3_sub(x->min, c->grow), high = vec3_add(x->max, c->grow);
+    double slack = 4 * WIDER * (vec3_max_abs(bounds->min) + vec3_max_abs(bounds->max) + vec3_max_abs(c->grow));
+    vec3 low = vec3_sub(bounds->min, c->grow), high = vec3_add(bounds->max, c->grow);
     int meets = enter_slab(low.x - slack, high.x + slack, c->origin.x, c->direction.x, range) &&
                 enter_slab(low.y - slack, high.y + slack, c->origin.y, c->direction.y, range) &&
                 enter_slab(low.z - slack, high.z + slack, c->origin.z, c->direction.z, range);
@@ -80,8 +80,14 @@ static void visit_ray(void *context, uint32_t i) {
     if (!body_view_make(body, &view)) return;
     for (uint32_t k = 0; k < view.count; k++) {
         ovoid_posed_shape part = body_view_get_part(&view, k);
-        ovoid_ray_hit x = ovoid_shape_cast_ray(&part, c->ray);
-        part_hit hit = {body_view_get_index(&view, k), 0, x.status, x.lower, x.upper, x.point, x.normal};
+        ovoid_ray_hit ray_hit = ovoid_shape_cast_ray(&part, c->ray);
+        part_hit hit = {body_view_get_index(&view, k),
+                        0,
+                        ray_hit.status,
+                        ray_hit.lower,
+                        ray_hit.upper,
+                        ray_hit.point,
+                        ray_hit.normal};
         take_hit(c, i, &hit);
     }
 }
@@ -101,14 +107,14 @@ static void visit_body(void *context, uint32_t i) {
         for (uint32_t m = 0; m < probe.count; m++) {
             ovoid_posed_shape a = body_view_get_part(&view, k), b = body_view_get_part(&probe, m);
             ovoid_pair pair = {a.shape, b.shape, a.pose, b.pose};
-            ovoid_impact x = ovoid_shape_cast(&pair, c->direction, 0, NULL);
+            ovoid_impact impact = ovoid_shape_cast(&pair, c->direction, 0, NULL);
             part_hit hit = {body_view_get_index(&view, k),
                             body_view_get_index(&probe, m),
-                            x.status,
-                            x.free_until,
-                            x.hit_at,
-                            x.hit.point_a,
-                            x.hit.normal};
+                            impact.status,
+                            impact.free_until,
+                            impact.hit_at,
+                            impact.hit.point_a,
+                            impact.hit.normal};
             take_hit(c, i, &hit);
         }
     }
@@ -120,8 +126,8 @@ static void run(casting *c, uint32_t group, uint32_t mask, tree_visit *visit) {
     c->mask = all ? ~0u : mask;
     c->bound = c->length;
     *c->out = (ovoid_world_cast){.lower = c->length, .upper = INFINITY};
-    tree_traversal x = {&c->w->tree, measure_entry, visit, c, &c->bound};
-    dynamic_tree_find_nearest(&x);
+    tree_traversal traversal = {&c->w->tree, measure_entry, visit, c, &c->bound};
+    dynamic_tree_find_nearest(&traversal);
 }
 
 static int is_length(vec3 v) { return vec3_is_finite(v) && vec3_max_abs(v) <= OVOID_LENGTH_MAX; }

@@ -43,53 +43,54 @@ static int enter_slab(double low, double high, double from, double way, double r
 }
 
 // When the ray meets a node's box; infinity where it does not.
-static double find_entry(const ray_search *x, solid_ref ref) {
-    tree_box at = solid_view_get_box(&x->view, ref);
-    vec3 grown = vec3_add(at.half, (vec3){x->slack, x->slack, x->slack});
-    vec3 from = vec3_sub(vec3_sub(x->origin, x->view.center), at.center), d = x->direction;
-    double range[2] = {0, x->ray->length};
+static double find_entry(const ray_search *state, solid_ref ref) {
+    tree_box at = solid_view_get_box(&state->view, ref);
+    vec3 grown = vec3_add(at.half, (vec3){state->slack, state->slack, state->slack});
+    vec3 from = vec3_sub(vec3_sub(state->origin, state->view.center), at.center), d = state->direction;
+    double range[2] = {0, state->ray->length};
     int meets = enter_slab(-grown.x, grown.x, from.x, d.x, range) &&
                 enter_slab(-grown.y, grown.y, from.y, d.y, range) && enter_slab(-grown.z, grown.z, from.z, d.z, range);
     return meets ? range[0] : INFINITY;
 }
 
 // In the order of their times; of too many the farthest is dropped.
-static void keep_crossing(ray_search *x, const part_hit *c) {
-    if (x->count == CROSSINGS && x->crossing[CROSSINGS - 1].lower <= c->lower) return;
-    uint32_t at = x->count < CROSSINGS ? x->count++ : CROSSINGS - 1;
-    for (; at > 0 && x->crossing[at - 1].lower > c->lower; at--) x->crossing[at] = x->crossing[at - 1];
-    x->crossing[at] = *c;
+static void keep_crossing(ray_search *state, const part_hit *c) {
+    if (state->count == CROSSINGS && state->crossing[CROSSINGS - 1].lower <= c->lower) return;
+    uint32_t at = state->count < CROSSINGS ? state->count++ : CROSSINGS - 1;
+    for (; at > 0 && state->crossing[at - 1].lower > c->lower; at--) state->crossing[at] = state->crossing[at - 1];
+    state->crossing[at] = *c;
 }
 
-static void visit_triangle(ray_search *x, uint32_t place) {
+static void visit_triangle(ray_search *state, uint32_t place) {
     triangle_shape room;
     triangle_begin(&room);
-    ovoid_posed_shape leaf = solid_view_get_leaf(&x->view, place, &room);
-    ovoid_ray_hit h = ovoid_shape_cast_ray(&leaf, x->ray);
-    if (h.status == OVOID_IMPACT_FREE) return;
-    part_hit found = {solid_view_get_index(&x->view, place), 0, h.status, h.lower, h.upper, h.point, h.normal};
-    double lower = min2(x->hit.lower, h.lower);
-    if (h.status == OVOID_IMPACT_HIT && h.upper < x->hit.upper) x->hit = found;
-    if (h.status == OVOID_IMPACT_UNDECIDED) keep_crossing(x, &found);
-    if (x->hit.status == OVOID_IMPACT_FREE) x->hit.status = OVOID_IMPACT_UNDECIDED;
-    x->hit.lower = lower;
+    ovoid_posed_shape leaf = solid_view_get_leaf(&state->view, place, &room);
+    ovoid_ray_hit hit = ovoid_shape_cast_ray(&leaf, state->ray);
+    if (hit.status == OVOID_IMPACT_FREE) return;
+    part_hit found = {
+        solid_view_get_index(&state->view, place), 0, hit.status, hit.lower, hit.upper, hit.point, hit.normal};
+    double lower = min2(state->hit.lower, hit.lower);
+    if (hit.status == OVOID_IMPACT_HIT && hit.upper < state->hit.upper) state->hit = found;
+    if (hit.status == OVOID_IMPACT_UNDECIDED) keep_crossing(state, &found);
+    if (state->hit.status == OVOID_IMPACT_FREE) state->hit.status = OVOID_IMPACT_UNDECIDED;
+    state->hit.lower = lower;
 }
 
-static void traverse(ray_search *x) {
+static void traverse(ray_search *state) {
     struct {
         solid_ref ref;
         double entry;
-    } stack[SOLID_DEPTH_MAX * BOX8] = {{solid_view_get_root(&x->view), 0}};
+    } stack[SOLID_DEPTH_MAX * BOX8] = {{solid_view_get_root(&state->view), 0}};
     for (uint32_t top = 1; top > 0;) {
         solid_ref ref = stack[--top].ref, children[BOX8];
-        if (!(stack[top].entry <= x->ray->length) || stack[top].entry > x->hit.upper) continue;
+        if (!(stack[top].entry <= state->ray->length) || stack[top].entry > state->hit.upper) continue;
         if (ref_is_triangle(ref)) {
-            visit_triangle(x, ref_get_place(ref));
+            visit_triangle(state, ref_get_place(ref));
             continue;
         }
-        uint32_t more = solid_view_get_children(&x->view, ref, children), first = top;
+        uint32_t more = solid_view_get_children(&state->view, ref, children), first = top;
         for (uint32_t i = 0; i < more; i++) {
-            double entry = find_entry(x, children[i]);
+            double entry = find_entry(state, children[i]);
             uint32_t at = top++;
             // The nearest on top.
             for (; at > first && stack[at - 1].entry < entry; at--) stack[at] = stack[at - 1];
@@ -100,11 +101,11 @@ static void traverse(ray_search *x) {
 }
 
 // Does the solid hold the ray's point, or its ball, at a time? *answer: the bodies'.
-static int holds(const ray_search *x, double time, ovoid_body_answer *answer) {
+static int holds(const ray_search *state, double time, ovoid_body_answer *answer) {
     point_shape point;
-    point_make(&point, x->ray->radius);
-    vec3 at = vec3_add(x->ray->origin, vec3_scale(x->ray->direction, time));
-    const ovoid_body_pair pair = {*x->body, {.shape = &point.shape, .pose = {at, {1, 0, 0, 0}}}};
+    point_make(&point, state->ray->radius);
+    vec3 at = vec3_add(state->ray->origin, vec3_scale(state->ray->direction, time));
+    const ovoid_body_pair pair = {*state->body, {.shape = &point.shape, .pose = {at, {1, 0, 0, 0}}}};
     const query_goal goal = query_goal_make_collide();
     if (!(vec3_max_abs(at) <= OVOID_LENGTH_MAX)) return 0;
     solid_find_internal(&pair, NULL, &goal, NULL, NULL, answer);
@@ -112,48 +113,49 @@ static int holds(const ray_search *x, double time, ovoid_body_answer *answer) {
 }
 
 // A ray that begins inside.
-static int take_beginning(ray_search *x) {
+static int take_beginning(ray_search *state) {
     ovoid_body_answer at;
-    if (!holds(x, 0, &at)) return 0;
-    x->hit = (part_hit){at.part_a, 0, OVOID_IMPACT_HIT, 0, 0, at.deciding.point_a, at.deciding.normal};
+    if (!holds(state, 0, &at)) return 0;
+    state->hit = (part_hit){at.part_a, 0, OVOID_IMPACT_HIT, 0, 0, at.deciding.point_a, at.deciding.normal};
     return 1;
 }
 
 // Looks behind the crossings for a point that is inside, first a rounding and then ever farther, up to the next one.
-static void take_crossings(ray_search *x) {
-    double scale = vec3_norm(x->ray->direction), size = x->view.extent + vec3_norm(x->origin);
+static void take_crossings(ray_search *state) {
+    double scale = vec3_norm(state->ray->direction), size = state->view.extent + vec3_norm(state->origin);
     ovoid_body_answer at;
-    for (uint32_t i = 0; i < x->count && !(x->hit.upper < INFINITY); i++) {
-        double first = x->crossing[i].lower, next = x->ray->length;
-        for (uint32_t k = i + 1; k < x->count && !(next < x->ray->length); k++)
-            if (x->crossing[k].lower > first + 0x1p-30 * size / scale) next = x->crossing[k].lower;
+    for (uint32_t i = 0; i < state->count && !(state->hit.upper < INFINITY); i++) {
+        double first = state->crossing[i].lower, next = state->ray->length;
+        for (uint32_t k = i + 1; k < state->count && !(next < state->ray->length); k++)
+            if (state->crossing[k].lower > first + 0x1p-30 * size / scale) next = state->crossing[k].lower;
         for (double way = 0x1p-42 * size / scale; way <= 0x1p-10 * size / scale; way *= 4) {
             double time = first + way;
             if (!(time < next)) break;
-            if (!holds(x, time, &at)) continue;
-            double lower = x->hit.lower;
-            x->hit = x->crossing[i];
-            x->hit.status = OVOID_IMPACT_HIT;
-            x->hit.lower = lower;
-            x->hit.upper = time * (1 + WIDER);
+            if (!holds(state, time, &at)) continue;
+            double lower = state->hit.lower;
+            state->hit = state->crossing[i];
+            state->hit.status = OVOID_IMPACT_HIT;
+            state->hit.lower = lower;
+            state->hit.upper = time * (1 + WIDER);
             return;
         }
     }
 }
 
 part_hit solid_cast_ray(const ovoid_body *body, const ovoid_ray *ray) {
-    ray_search x = {.body = body, .ray = ray, .hit = {.lower = INFINITY, .upper = INFINITY}};
-    x.hit.status = OVOID_IMPACT_FREE;
-    if (!solid_view_make(body, &x.view)) return x.hit;
+    ray_search state = {.body = body, .ray = ray, .hit = {.lower = INFINITY, .upper = INFINITY}};
+    state.hit.status = OVOID_IMPACT_FREE;
+    if (!solid_view_make(body, &state.view)) return state.hit;
     mat3 r = quat_to_mat3(body->pose.rotation);
     vec3 offset = vec3_sub(ray->origin, body->pose.position);
-    x.origin = mat3_mul_transposed_vec3(r, offset);
-    x.direction = mat3_mul_transposed_vec3(r, ray->direction);
-    x.slack = ray->radius + 256 * 0x1p-53 * (vec3_norm(offset) + x.view.extent + ray->radius) + OVOID_LENGTH_MIN;
-    if (take_beginning(&x)) return x.hit;
-    traverse(&x);
-    if (solid_view_is_closed(&x.view) && x.count) take_crossings(&x);
-    return x.hit;
+    state.origin = mat3_mul_transposed_vec3(r, offset);
+    state.direction = mat3_mul_transposed_vec3(r, ray->direction);
+    state.slack =
+        ray->radius + 256 * 0x1p-53 * (vec3_norm(offset) + state.view.extent + ray->radius) + OVOID_LENGTH_MIN;
+    if (take_beginning(&state)) return state.hit;
+    traverse(&state);
+    if (solid_view_is_closed(&state.view) && state.count) take_crossings(&state);
+    return state.hit;
 }
 
 part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 way) {
@@ -162,7 +164,7 @@ part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 w
     const ovoid_moving_body a = {body->shape, body->compound, still, body->solid};
     const ovoid_motion motion = ovoid_motion_make_velocity(moved->pose, way, (vec3){0, 0, 0}, 1);
     const ovoid_moving_body b = {moved->shape, moved->compound, motion, moved->solid};
-    ovoid_body_impact x = ovoid_body_impact_find(&a, &b, 0, &options);
-    const ovoid_impact *i = &x.impact;
-    return (part_hit){x.part_a, x.part_b, i->status, i->free_until, i->hit_at, i->hit.point_a, i->hit.normal};
+    ovoid_body_impact impact = ovoid_body_impact_find(&a, &b, 0, &options);
+    const ovoid_impact *i = &impact.impact;
+    return (part_hit){impact.part_a, impact.part_b, i->status, i->free_until, i->hit_at, i->hit.point_a, i->hit.normal};
 }

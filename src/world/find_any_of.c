@@ -68,55 +68,55 @@ static ovoid_code validate_probe(const ovoid_body *body, size_t number, ovoid_er
 // ---- a probe and the world
 
 static int find_touch(void *context, const tree_node *leaf) {
-    state_search *x = context;
-    const world_body *b = &x->w->bodies[leaf->body];
-    placed_probe *p = x->probe;
-    if (!(x->group & b->mask) || !(b->group & x->mask)) return 1;
-    if (are_apart(p->at.at, x->w->places[leaf->body].at, p->at.reach + (b->reach + b->radius + b->center_error)))
+    state_search *state = context;
+    const world_body *b = &state->w->bodies[leaf->body];
+    placed_probe *p = state->probe;
+    if (!(state->group & b->mask) || !(b->group & state->mask)) return 1;
+    if (are_apart(p->at.at, state->w->places[leaf->body].at, p->at.reach + (b->reach + b->radius + b->center_error)))
         return 1;
     tighten(p);
     if (!box_is_overlapping(&p->at.bounds, &leaf->bounds)) return 1;
-    bodies_query(p->body, &b->body, &x->options, x->goal, &x->found);
-    if (x->found.lower > 0) return 1;
-    x->body = leaf->body;
+    bodies_query(p->body, &b->body, &state->options, state->goal, &state->found);
+    if (state->found.lower > 0) return 1;
+    state->body = leaf->body;
     return 0;
 }
 
 // 1 if the probe touches a body of the world.
-static int meets_world(state_search *x, placed_probe *p, const ovoid_world_body *given) {
+static int meets_world(state_search *state, placed_probe *p, const ovoid_world_body *given) {
     int all = !given->group && !given->mask;
-    x->group = all ? ~0u : given->group;
-    x->mask = all ? ~0u : given->mask;
-    x->probe = p;
-    return !dynamic_tree_find_overlaps(&x->w->tree, &p->at.bounds, find_touch, x);
+    state->group = all ? ~0u : given->group;
+    state->mask = all ? ~0u : given->mask;
+    state->probe = p;
+    return !dynamic_tree_find_overlaps(&state->w->tree, &p->at.bounds, find_touch, state);
 }
 
 // ---- two probes
 
-static placed_probe *get_probe(const state_search *x, uint32_t number, placed_probe *kept, placed_probe *spare) {
+static placed_probe *get_probe(const state_search *state, uint32_t number, placed_probe *kept, placed_probe *spare) {
     if (number < KEPT) return &kept[number];
-    *spare = place_probe(&x->probes->items[number].body);
+    *spare = place_probe(&state->probes->items[number].body);
     return spare;
 }
 
-static int do_touch(state_search *x, placed_probe *a, placed_probe *b) {
+static int do_touch(state_search *state, placed_probe *a, placed_probe *b) {
     if (are_apart(a->at.at, b->at.at, a->at.reach + b->at.reach)) return 0;
     if (!box_is_overlapping(&a->at.bounds, &b->at.bounds)) return 0;
     tighten(a);
     tighten(b);
     if (!box_is_overlapping(&a->at.bounds, &b->at.bounds)) return 0;
-    bodies_query(a->body, b->body, &x->options, x->goal, &x->found);
-    return !(x->found.lower > 0);
+    bodies_query(a->body, b->body, &state->options, state->goal, &state->found);
+    return !(state->found.lower > 0);
 }
 
 // The number of the first couple that is not proven apart; couple_count where all are.
-static size_t find_couple(state_search *x, placed_probe *kept) {
-    const ovoid_world_probes *all = x->probes;
+static size_t find_couple(state_search *state, placed_probe *kept) {
+    const ovoid_world_probes *all = state->probes;
     placed_probe spare[2];
     size_t k = 0;
     for (; k < all->couple_count; k++) {
         ovoid_couple c = all->couples[k];
-        if (do_touch(x, get_probe(x, c.a, kept, &spare[0]), get_probe(x, c.b, kept, &spare[1]))) break;
+        if (do_touch(state, get_probe(state, c.a, kept, &spare[0]), get_probe(state, c.b, kept, &spare[1]))) break;
     }
     return k;
 }
@@ -133,8 +133,8 @@ static ovoid_code validate_couples(const ovoid_world_probes *all, ovoid_error *e
 
 static void write_none(ovoid_world_hit *hit) { memset(hit, 0, sizeof *hit); }
 
-static void write_hit(const state_search *x, size_t a, ovoid_id b, ovoid_world_hit *hit) {
-    *hit = (ovoid_world_hit){a, b, x->found.lower, x->found};
+static void write_hit(const state_search *state, size_t a, ovoid_id b, ovoid_world_hit *hit) {
+    *hit = (ovoid_world_hit){a, b, state->found.lower, state->found};
 }
 
 static ovoid_code find_any_of(const ovoid_world *w, const ovoid_world_probes *all, ovoid_world_hit *hit,
@@ -142,8 +142,8 @@ static ovoid_code find_any_of(const ovoid_world *w, const ovoid_world_probes *al
     OVOID_ASSERT(w && hit && all && (all->items || !all->count) && (all->couples || !all->couple_count));
     ovoid_code code = validate_couples(all, error);
     if (code != OVOID_OK) return code;
-    state_search x = {.w = w, .probes = all, .goal = query_goal_make_collide(), .body = NONE};
-    (void)options_make(NULL, &x.options);
+    state_search state = {.w = w, .probes = all, .goal = query_goal_make_collide(), .body = NONE};
+    (void)options_make(NULL, &state.options);
     placed_probe kept[KEPT], spare;
     for (size_t k = 0; k < all->count; k++) {
         const ovoid_world_body *given = &all->items[k];
@@ -151,13 +151,13 @@ static ovoid_code find_any_of(const ovoid_world *w, const ovoid_world_probes *al
         if (code != OVOID_OK) return code;
         placed_probe *p = k < KEPT ? &kept[k] : &spare;
         *p = place_probe(&given->body);
-        if (!meets_world(&x, p, given)) continue;
-        write_hit(&x, k, body_get_id(w, x.body), hit);
+        if (!meets_world(&state, p, given)) continue;
+        write_hit(&state, k, body_get_id(w, state.body), hit);
         return OVOID_OK;
     }
-    size_t couple = find_couple(&x, kept);
+    size_t couple = find_couple(&state, kept);
     if (couple < all->couple_count)
-        write_hit(&x, all->couples[couple].a, OVOID_WORLD_PROBE | all->couples[couple].b, hit);
+        write_hit(&state, all->couples[couple].a, OVOID_WORLD_PROBE | all->couples[couple].b, hit);
     else
         write_none(hit);
     return OVOID_OK;

@@ -63,8 +63,8 @@ box world_compute_box(ovoid_world *w, uint32_t i) {
                 ((double)b->low[2] + more) * SLACK};
     vec3 high = {((double)b->high[0] + more) * SLACK, ((double)b->high[1] + more) * SLACK,
                  ((double)b->high[2] + more) * SLACK};
-    box x = body_compute_box(&b->body, &ball);
-    return (box){vec3_sub(x.min, low), vec3_add(x.max, high)};
+    box bounds = body_compute_box(&b->body, &ball);
+    return (box){vec3_sub(bounds.min, low), vec3_add(bounds.max, high)};
 }
 
 // 1 if no point of the body left its enlarged box along an axis: none moved farther than r did, and its turns.

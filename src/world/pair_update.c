@@ -143,15 +143,16 @@ static void query_shapes(const ovoid_world *w, const world_pair *p, const pair_c
     answer_find_internal(&both, &w->query_options, make_goal(w), is_warm ? &earlier : NULL, NULL, out);
 }
 
-static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *k, const ovoid_answer *x) {
-    k->lower = x->lower;
-    k->upper = x->upper;
-    k->status = (uint8_t)x->status;
-    k->stage = (uint8_t)x->stage;
-    k->limit = (uint8_t)x->limit;
-    k->iterations = x->iterations;
-    cache_proof(k, &x->proof);
-    if (world_is_measuring(w)) w->witnesses[p->slot] = (ovoid_witness){x->point_a, x->point_b, x->normal};
+static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *k, const ovoid_answer *answer) {
+    k->lower = answer->lower;
+    k->upper = answer->upper;
+    k->status = (uint8_t)answer->status;
+    k->stage = (uint8_t)answer->stage;
+    k->limit = (uint8_t)answer->limit;
+    k->iterations = answer->iterations;
+    cache_proof(k, &answer->proof);
+    if (world_is_measuring(w))
+        w->witnesses[p->slot] = (ovoid_witness){answer->point_a, answer->point_b, answer->normal};
 }
 
 static void query_pair(ovoid_world *w, const world_pair *p, pair_cache *k) {
@@ -182,15 +183,16 @@ void pair_update(ovoid_world *w, world_pair *p) {
 
 ovoid_contact pair_make_contact(const ovoid_world *w, const world_pair *p) {
     const pair_cache *k = &w->pair_cache[p->slot];
-    ovoid_contact x = {.a = body_get_id(w, p->a), .b = body_get_id(w, p->b), .part_a = k->part_a, .part_b = k->part_b};
-    x.verdict = (ovoid_verdict){
+    ovoid_contact contact = {
+        .a = body_get_id(w, p->a), .b = body_get_id(w, p->b), .part_a = k->part_a, .part_b = k->part_b};
+    contact.verdict = (ovoid_verdict){
         (ovoid_status)k->status, (ovoid_stage)k->stage, (ovoid_limit)k->limit, k->iterations, k->lower, k->upper};
-    if (p->flags & PAIR_STILL) return x;
+    if (p->flags & PAIR_STILL) return contact;
     double age = pair_compute_age(w, p, k);
-    x.verdict = (ovoid_verdict){.status = (ovoid_status)k->status,
-                                .stage = OVOID_STAGE_PROOF,
-                                .limit = OVOID_LIMIT_ANSWERED,
-                                .lower = k->lower - age,
-                                .upper = k->upper + age};
-    return x;
+    contact.verdict = (ovoid_verdict){.status = (ovoid_status)k->status,
+                                      .stage = OVOID_STAGE_PROOF,
+                                      .limit = OVOID_LIMIT_ANSWERED,
+                                      .lower = k->lower - age,
+                                      .upper = k->upper + age};
+    return contact;
 }

@@ -56,16 +56,16 @@ typedef struct pair_search {
 } pair_search;
 
 static int take_leaf(void *context, const tree_node *leaf) {
-    const pair_search *x = context;
-    uint32_t i = x->body, j = leaf->body;
-    if (j == i || !is_new(x->w, i, j, &leaf->bounds) || !world_is_pair(x->w, i, j)) return 1;
-    return gather(x->w, x->found, key_make(i, j));
+    const pair_search *search = context;
+    uint32_t i = search->body, j = leaf->body;
+    if (j == i || !is_new(search->w, i, j, &leaf->bounds) || !world_is_pair(search->w, i, j)) return 1;
+    return gather(search->w, search->found, key_make(i, j));
 }
 
 static int find_pairs_of(const ovoid_world *w, uint32_t i, gathered *g) {
     box bounds = w->tree.nodes[w->leaf_of[i]].bounds;
-    pair_search x = {w, i, g};
-    return dynamic_tree_find_overlaps(&w->tree, &bounds, take_leaf, &x);
+    pair_search search = {w, i, g};
+    return dynamic_tree_find_overlaps(&w->tree, &bounds, take_leaf, &search);
 }
 
 static void find_pairs(void *work, uint32_t first, uint32_t end, uint32_t worker) {

@@ -32,131 +32,132 @@ typedef struct world_search {
 
 // ---- the search
 
-static void set_box(world_search *x) {
-    body_sphere ball = body_compute_sphere(&x->body);
-    x->bounds = body_compute_box(&x->body, &ball);
+static void set_box(world_search *state) {
+    body_sphere ball = body_compute_sphere(&state->body);
+    state->bounds = body_compute_box(&state->body, &ball);
 }
 
-static void take_body(world_search *x, uint32_t i) {
-    x->self = i;
-    x->body = x->w->bodies[i].body;
-    set_box(x);
+static void take_body(world_search *state, uint32_t i) {
+    state->self = i;
+    state->body = state->w->bodies[i].body;
+    set_box(state);
 }
 
-static ovoid_code take_probe(world_search *x, const ovoid_world_body *probe, ovoid_error *error) {
+static ovoid_code take_probe(world_search *state, const ovoid_world_body *probe, ovoid_error *error) {
     ovoid_code code = world_validate_body(&probe->body, -1, error);
     if (code != OVOID_OK) return code;
     int all = !probe->group && !probe->mask;
-    x->self = NONE;
-    x->body = probe->body;
-    x->group = all ? ~0u : probe->group;
-    x->mask = all ? ~0u : probe->mask;
-    set_box(x);
+    state->self = NONE;
+    state->body = probe->body;
+    state->group = all ? ~0u : probe->group;
+    state->mask = all ? ~0u : probe->mask;
+    set_box(state);
     return OVOID_OK;
 }
 
-static void world_search_make(world_search *x, const ovoid_world *w) {
-    x->w = w;
-    x->after = x->found_a = x->found_b = NONE;
-    x->bound = x->lower = INFINITY;
-    x->hits = NULL;
-    x->capacity = x->count = 0;
+static void world_search_make(world_search *state, const ovoid_world *w) {
+    state->w = w;
+    state->after = state->found_a = state->found_b = NONE;
+    state->bound = state->lower = INFINITY;
+    state->hits = NULL;
+    state->capacity = state->count = 0;
 }
 
 // ---- leaves
 
-static int is_queried(const world_search *x, uint32_t j) {
-    const world_body *b = &x->w->bodies[j];
-    if (x->self == NONE) return (x->group & b->mask) && (b->group & x->mask);
-    return j != x->self && (x->after == NONE || j > x->after) && world_is_pair(x->w, x->self, j);
+static int is_queried(const world_search *state, uint32_t j) {
+    const world_body *b = &state->w->bodies[j];
+    if (state->self == NONE) return (state->group & b->mask) && (b->group & state->mask);
+    return j != state->self && (state->after == NONE || j > state->after) && world_is_pair(state->w, state->self, j);
 }
 
-static void query_body(const world_search *x, uint32_t j, ovoid_body_answer *out) {
-    bodies_query(&x->body, &x->w->bodies[j].body, &x->options, x->goal, out);
+static void query_body(const world_search *state, uint32_t j, ovoid_body_answer *out) {
+    bodies_query(&state->body, &state->w->bodies[j].body, &state->options, state->goal, out);
 }
 
 static double measure_distance(const void *context, const box *bounds) {
-    const world_search *x = context;
-    return box_compute_distance(&x->bounds, bounds);
+    const world_search *state = context;
+    return box_compute_distance(&state->bounds, bounds);
 }
 
 static void visit_nearest(void *context, uint32_t j) {
-    world_search *x = context;
-    if (!is_queried(x, j)) return;
+    world_search *state = context;
+    if (!is_queried(state, j)) return;
     ovoid_body_answer out;
-    x->goal.far = x->bound;
-    query_body(x, j, &out);
-    x->lower = min2(x->lower, out.lower);
-    if (!(out.upper <= x->bound)) return;
-    x->found = out;
-    x->found_a = x->self;
-    x->found_b = j;
+    state->goal.far = state->bound;
+    query_body(state, j, &out);
+    state->lower = min2(state->lower, out.lower);
+    if (!(out.upper <= state->bound)) return;
+    state->found = out;
+    state->found_a = state->self;
+    state->found_b = j;
     // No pair is nearer than one that overlaps.
-    x->bound = out.upper > 0 ? out.upper : -INFINITY;
+    state->bound = out.upper > 0 ? out.upper : -INFINITY;
 }
 
 static int find_touch(void *context, const tree_node *leaf) {
-    world_search *x = context;
+    world_search *state = context;
     uint32_t j = leaf->body;
-    if (!is_queried(x, j)) return 1;
+    if (!is_queried(state, j)) return 1;
     ovoid_body_answer out;
-    query_body(x, j, &out);
+    query_body(state, j, &out);
     if (out.lower > 0) return 1;
-    x->found = out;
-    x->found_a = x->self;
-    x->found_b = j;
+    state->found = out;
+    state->found_a = state->self;
+    state->found_b = j;
     return 0;
 }
 
 static ovoid_id get_id(const ovoid_world *w, uint32_t i) { return i == NONE ? 0 : body_get_id(w, i); }
 
 static void visit_overlaps(void *context, uint32_t j) {
-    world_search *x = context;
-    if (!is_queried(x, j)) return;
+    world_search *state = context;
+    if (!is_queried(state, j)) return;
     ovoid_body_answer out;
-    query_body(x, j, &out);
-    if (out.lower > x->goal.far) return;
-    if (x->count < x->capacity)
-        x->hits[x->count] = (ovoid_world_hit){get_id(x->w, x->self), body_get_id(x->w, j), out.lower, out};
-    x->count++;
+    query_body(state, j, &out);
+    if (out.lower > state->goal.far) return;
+    if (state->count < state->capacity)
+        state->hits[state->count] =
+            (ovoid_world_hit){get_id(state->w, state->self), body_get_id(state->w, j), out.lower, out};
+    state->count++;
 }
 
-static void run(world_search *x, tree_visit *visit) {
-    tree_traversal all = {&x->w->tree, measure_distance, visit, x, &x->bound};
+static void run(world_search *state, tree_visit *visit) {
+    tree_traversal all = {&state->w->tree, measure_distance, visit, state, &state->bound};
     dynamic_tree_find_nearest(&all);
 }
 
 // ---- queries
 
-static void write_hit(const world_search *x, ovoid_world_hit *hit) {
-    if (x->found_b == NONE) {
+static void write_hit(const world_search *state, ovoid_world_hit *hit) {
+    if (state->found_b == NONE) {
         memset(hit, 0, sizeof *hit);
-        hit->lower = min2(x->lower, x->bound);
+        hit->lower = min2(state->lower, state->bound);
         return;
     }
-    *hit = (ovoid_world_hit){get_id(x->w, x->found_a), body_get_id(x->w, x->found_b), min2(x->lower, x->found.lower),
-                             x->found};
+    *hit = (ovoid_world_hit){get_id(state->w, state->found_a), body_get_id(state->w, state->found_b),
+                             min2(state->lower, state->found.lower), state->found};
 }
 
-static ovoid_code find_nearest_of(world_search *x, ovoid_world_hit *hit) {
-    x->bound = x->options.cap;
-    x->goal = query_goal_make_distance(NULL);
-    run(x, visit_nearest);
-    write_hit(x, hit);
+static ovoid_code find_nearest_of(world_search *state, ovoid_world_hit *hit) {
+    state->bound = state->options.cap;
+    state->goal = query_goal_make_distance(NULL);
+    run(state, visit_nearest);
+    write_hit(state, hit);
     return OVOID_OK;
 }
 
 static ovoid_code find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_options *options, ovoid_world_hit *hit,
                                ovoid_error *error) {
     OVOID_ASSERT(w && hit);
-    world_search x;
-    world_search_make(&x, w);
-    ovoid_code code = options_validate(options, &x.options, error);
+    world_search state;
+    world_search_make(&state, w);
+    ovoid_code code = options_validate(options, &state.options, error);
     uint32_t i = world_find_body(w, id);
     if (code == OVOID_OK && i == NONE) code = world_refuse_id(error, -1, id);
     if (code != OVOID_OK) return code;
-    take_body(&x, i);
-    return find_nearest_of(&x, hit);
+    take_body(&state, i);
+    return find_nearest_of(&state, hit);
 }
 
 ovoid_code ovoid_world_find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_options *options,
@@ -167,11 +168,11 @@ ovoid_code ovoid_world_find_nearest(const ovoid_world *w, ovoid_id id, const ovo
 static ovoid_code find_nearest_to(const ovoid_world *w, const ovoid_world_body *probe, const ovoid_options *options,
                                   ovoid_world_hit *hit, ovoid_error *error) {
     OVOID_ASSERT(w && probe && hit);
-    world_search x;
-    world_search_make(&x, w);
-    ovoid_code code = options_validate(options, &x.options, error);
-    if (code == OVOID_OK) code = take_probe(&x, probe, error);
-    return code == OVOID_OK ? find_nearest_of(&x, hit) : code;
+    world_search state;
+    world_search_make(&state, w);
+    ovoid_code code = options_validate(options, &state.options, error);
+    if (code == OVOID_OK) code = take_probe(&state, probe, error);
+    return code == OVOID_OK ? find_nearest_of(&state, hit) : code;
 }
 
 ovoid_code ovoid_world_find_nearest_to(const ovoid_world *w, const ovoid_world_body *probe,
@@ -183,22 +184,22 @@ ovoid_code ovoid_world_find_nearest_to(const ovoid_world *w, const ovoid_world_b
 static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
                            ovoid_world_hit *hit, ovoid_error *error) {
     OVOID_ASSERT(w && hit);
-    world_search x;
-    world_search_make(&x, w);
-    ovoid_code code = options_validate(options, &x.options, error);
+    world_search state;
+    world_search_make(&state, w);
+    ovoid_code code = options_validate(options, &state.options, error);
     for (size_t k = 0; ids && k < count && code == OVOID_OK; k++)
         if (world_find_body(w, ids[k]) == NONE) code = world_refuse_id(error, (int64_t)k, ids[k]);
     if (code != OVOID_OK) return code;
-    x.goal = query_goal_make_collide();
-    for (size_t k = 0; k < (ids ? count : w->used) && x.found_b == NONE; k++) {
+    state.goal = query_goal_make_collide();
+    for (size_t k = 0; k < (ids ? count : w->used) && state.found_b == NONE; k++) {
         uint32_t i = ids ? (uint32_t)(ids[k] >> 32) : (uint32_t)k;
         if (w->leaf_of[i] == NONE) continue;
-        take_body(&x, i);
-        if (!ids) x.after = i;
-        (void)dynamic_tree_find_overlaps(&w->tree, &x.bounds, find_touch, &x);
+        take_body(&state, i);
+        if (!ids) state.after = i;
+        (void)dynamic_tree_find_overlaps(&w->tree, &state.bounds, find_touch, &state);
     }
-    x.bound = 0;
-    write_hit(&x, hit);
+    state.bound = 0;
+    write_hit(&state, hit);
     return OVOID_OK;
 }
 
@@ -233,20 +234,20 @@ static void sort_hits(ovoid_world_hit *hits, size_t count) {
 static ovoid_code find_overlaps(const ovoid_world *w, const ovoid_world_body *probe, double margin,
                                 ovoid_world_hits *hits, ovoid_error *error) {
     OVOID_ASSERT(w && probe && hits);
-    world_search x;
-    world_search_make(&x, w);
+    world_search state;
+    world_search_make(&state, w);
     if (!(margin >= 0 && margin <= OVOID_LENGTH_MAX))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "margin %.17g: it must be finite and not negative", margin);
-    ovoid_code code = options_validate(hits->options, &x.options, error);
-    if (code == OVOID_OK) code = take_probe(&x, probe, error);
+    ovoid_code code = options_validate(hits->options, &state.options, error);
+    if (code == OVOID_OK) code = take_probe(&state, probe, error);
     if (code != OVOID_OK) return code;
-    x.hits = hits->items;
-    x.capacity = hits->items ? hits->capacity : 0;
-    x.goal = margin > 0 ? query_goal_make_within(margin) : query_goal_make_collide();
-    x.bound = margin;
-    run(&x, visit_overlaps);
-    hits->count = x.count;
-    sort_hits(x.hits, x.count < x.capacity ? x.count : x.capacity);
+    state.hits = hits->items;
+    state.capacity = hits->items ? hits->capacity : 0;
+    state.goal = margin > 0 ? query_goal_make_within(margin) : query_goal_make_collide();
+    state.bound = margin;
+    run(&state, visit_overlaps);
+    hits->count = state.count;
+    sort_hits(state.hits, state.count < state.capacity ? state.count : state.capacity);
     return OVOID_OK;
 }
 
@@ -265,78 +266,78 @@ typedef struct couple_entry {
 // Couples that wait: two for each step down, of either tree.
 enum { COUPLES = 192 };
 
-static void visit_pair(world_search *x, uint32_t i, uint32_t j) {
-    take_body(x, i < j ? i : j);
-    visit_nearest(x, i < j ? j : i);
+static void visit_pair(world_search *state, uint32_t i, uint32_t j) {
+    take_body(state, i < j ? i : j);
+    visit_nearest(state, i < j ? j : i);
 }
 
 // Two subtrees at the full stack: all leaves of one against the other.
-static void run_pair_below(world_search *x, uint32_t a, uint32_t b) {
-    const dynamic_tree *t = &x->w->tree;
+static void run_pair_below(world_search *state, uint32_t a, uint32_t b) {
+    const dynamic_tree *t = &state->w->tree;
     uint32_t end_a = dynamic_tree_skip(t, a), end_b = dynamic_tree_skip(t, b);
     for (uint32_t i = a; i != end_a; i = t->nodes[i].child ? t->nodes[i].child : dynamic_tree_skip(t, i)) {
         const tree_node *leaf = &t->nodes[i];
         for (uint32_t j = b; j != end_b && !leaf->child;) {
             const tree_node *n = &t->nodes[j];
-            int is_near = box_compute_distance(&leaf->bounds, &n->bounds) <= x->bound;
-            if (is_near && !n->child && (a != b || leaf->body < n->body)) visit_pair(x, leaf->body, n->body);
+            int is_near = box_compute_distance(&leaf->bounds, &n->bounds) <= state->bound;
+            if (is_near && !n->child && (a != b || leaf->body < n->body)) visit_pair(state, leaf->body, n->body);
             j = is_near && n->child ? n->child : dynamic_tree_skip(t, j);
         }
     }
 }
 
-static couple_entry make_entry(const world_search *x, uint32_t a, uint32_t b) {
-    const tree_node *nodes = x->w->tree.nodes;
+static couple_entry make_entry(const world_search *state, uint32_t a, uint32_t b) {
+    const tree_node *nodes = state->w->tree.nodes;
     return (couple_entry){a, b, a == b ? 0 : box_compute_distance(&nodes[a].bounds, &nodes[b].bounds)};
 }
 
 // Pushes the pairs of children of a pair of nodes, the nearer one on top.
-static uint32_t push_below(const world_search *x, couple_entry e, couple_entry *stack, uint32_t count) {
-    const tree_node *nodes = x->w->tree.nodes, *a = &nodes[e.a], *b = &nodes[e.b];
+static uint32_t push_below(const world_search *state, couple_entry e, couple_entry *stack, uint32_t count) {
+    const tree_node *nodes = state->w->tree.nodes, *a = &nodes[e.a], *b = &nodes[e.b];
     if (e.a == e.b) {
         if (!a->child) return count;
-        stack[count++] = make_entry(x, a->child, a->child + 1);
-        stack[count++] = make_entry(x, a->child + 1, a->child + 1);
-        stack[count++] = make_entry(x, a->child, a->child);
+        stack[count++] = make_entry(state, a->child, a->child + 1);
+        stack[count++] = make_entry(state, a->child + 1, a->child + 1);
+        stack[count++] = make_entry(state, a->child, a->child);
         return count;
     }
     int splits_a = a->child && (!b->child || box_compute_surface(&a->bounds) >= box_compute_surface(&b->bounds));
-    couple_entry left = splits_a ? make_entry(x, a->child, e.b) : make_entry(x, e.a, b->child);
-    couple_entry right = splits_a ? make_entry(x, a->child + 1, e.b) : make_entry(x, e.a, b->child + 1);
+    couple_entry left = splits_a ? make_entry(state, a->child, e.b) : make_entry(state, e.a, b->child);
+    couple_entry right = splits_a ? make_entry(state, a->child + 1, e.b) : make_entry(state, e.a, b->child + 1);
     int is_right_first = right.key < left.key;
     stack[count++] = is_right_first ? left : right;
     stack[count++] = is_right_first ? right : left;
     return count;
 }
 
-static void run_pairs(world_search *x) {
-    const tree_node *nodes = x->w->tree.nodes;
+static void run_pairs(world_search *state) {
+    const tree_node *nodes = state->w->tree.nodes;
     couple_entry stack[COUPLES + 3];
     uint32_t count = 0;
-    if (x->w->count > 1) stack[count++] = make_entry(x, 0, 0);
+    if (state->w->count > 1) stack[count++] = make_entry(state, 0, 0);
     while (count) {
         couple_entry e = stack[--count];
-        if (!(e.key <= x->bound)) continue;
+        if (!(e.key <= state->bound)) continue;
         if (e.a != e.b && !nodes[e.a].child && !nodes[e.b].child)
-            visit_pair(x, nodes[e.a].body, nodes[e.b].body);
+            visit_pair(state, nodes[e.a].body, nodes[e.b].body);
         else if (count >= COUPLES)
-            run_pair_below(x, e.a, e.b);
+            run_pair_below(state, e.a, e.b);
         else
-            count = push_below(x, e, stack, count);
+            count = push_below(state, e, stack, count);
     }
 }
 
 static ovoid_code find_nearest_pair(const ovoid_world *w, const ovoid_options *options, ovoid_world_hit *hit,
                                     ovoid_error *error) {
     OVOID_ASSERT(w && hit);
-    world_search x;
-    world_search_make(&x, w);
-    ovoid_code code = options_validate(options, &x.options, error);
+    world_search state;
+    world_search_make(&state, w);
+    ovoid_code code = options_validate(options, &state.options, error);
     if (code != OVOID_OK) return code;
-    x.bound = x.options.cap;
-    x.goal = query_goal_make_distance(NULL);
-    run_pairs(&x);
-    write_hit(&x, hit);
+    state.bound = state.options.cap;
+    state.goal = query_goal_make_distance(NULL);
+    run_pairs(&state);
+    write_hit(&state, hit);
     return OVOID_OK;
 }
 

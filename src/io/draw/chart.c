@@ -120,16 +120,16 @@ static void draw_y_axis(const canvas *c) {
 
 // Of labels that would overlap, only every n-th is drawn.
 static void draw_categories(const canvas *c) {
-    const ovoid_chart *h = c->chart;
+    const ovoid_chart *chart = c->chart;
     size_t longest = 1;
-    for (size_t i = 0; i < h->category_count; i++) {
-        size_t length = strlen(h->categories[i]);
+    for (size_t i = 0; i < chart->category_count; i++) {
+        size_t length = strlen(chart->categories[i]);
         if (length > longest) longest = length;
     }
-    double room = fabs(c->x.to - c->x.from) / (double)h->category_count;
+    double room = fabs(c->x.to - c->x.from) / (double)chart->category_count;
     size_t each = (size_t)ceil(6.6 * (double)(longest + 1) / room);
-    for (size_t i = 0; i < h->category_count; i += each ? each : 1)
-        write_text(c->file, axis_project(&c->x, (double)i), c->y.from + 17, "middle", "", h->categories[i]);
+    for (size_t i = 0; i < chart->category_count; i += each ? each : 1)
+        write_text(c->file, axis_project(&c->x, (double)i), c->y.from + 17, "middle", "", chart->categories[i]);
 }
 
 // A label under its tick; at the ends of the axis it is moved into the picture, and left out where it would run into

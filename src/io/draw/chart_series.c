@@ -103,33 +103,33 @@ static void draw_band(const canvas *c, size_t i) {
 }
 
 // The number of columns side by side at a place: all bars, and the stack.
-static size_t count_columns(const ovoid_chart *h, size_t until) {
+static size_t count_columns(const ovoid_chart *chart, size_t until) {
     size_t count = 0, stacks = 0;
     for (size_t i = 0; i < until; i++) {
-        count += h->series[i].kind == OVOID_SERIES_BARS;
-        stacks |= h->series[i].kind == OVOID_SERIES_STACK;
+        count += chart->series[i].kind == OVOID_SERIES_BARS;
+        stacks |= chart->series[i].kind == OVOID_SERIES_STACK;
     }
     return count + stacks;
 }
 
 // The height of the stack below series i at place k.
-static double get_base(const ovoid_chart *h, size_t i, size_t k) {
+static double get_base(const ovoid_chart *chart, size_t i, size_t k) {
     double sum = 0;
     for (size_t n = 0; n < i; n++) {
-        const ovoid_series *s = &h->series[n];
+        const ovoid_series *s = &chart->series[n];
         if (s->kind == OVOID_SERIES_STACK && k < s->count && isfinite(s->y[k])) sum += s->y[k];
     }
     return sum;
 }
 
 static void draw_bars(const canvas *c, size_t i) {
-    const ovoid_chart *h = c->chart;
-    const ovoid_series *s = &h->series[i];
+    const ovoid_chart *chart = c->chart;
+    const ovoid_series *s = &chart->series[i];
     int stacked = s->kind == OVOID_SERIES_STACK;
-    size_t columns = count_columns(h, h->series_count), column = count_columns(h, stacked ? 0 : i);
+    size_t columns = count_columns(chart, chart->series_count), column = count_columns(chart, stacked ? 0 : i);
     double room = 0.8 / (double)columns;
     for (size_t k = 0; k < s->count; k++) {
-        double base = stacked       ? get_base(h, i, k)
+        double base = stacked       ? get_base(chart, i, k)
                       : c->y.is_log ? c->y.low
                                     : 0,
                top = stacked ? base + s->y[k] : s->y[k];

@@ -44,21 +44,21 @@ static void set_fields(record_line *line, uint64_t bits) {
 // The answer of solids: the deciding pair's, but for the bracket, status and limit of its surfaces.
 static void set_solid(record_line *line) {
     ovoid_record *r = &line->record;
-    ovoid_body_answer *x = &line->solid;
-    const ovoid_answer surfaces = x->deciding;
-    x->deciding = r->answer;
-    x->deciding.status = surfaces.status;
-    x->deciding.limit = surfaces.limit;
-    x->deciding.lower = surfaces.lower;
-    x->deciding.upper = surfaces.upper;
-    x->status = r->answer.status;
-    x->limit = r->answer.limit;
-    x->lower = r->answer.lower;
-    x->upper = r->answer.upper;
+    ovoid_body_answer *found = &line->solid;
+    const ovoid_answer surfaces = found->deciding;
+    found->deciding = r->answer;
+    found->deciding.status = surfaces.status;
+    found->deciding.limit = surfaces.limit;
+    found->deciding.lower = surfaces.lower;
+    found->deciding.upper = surfaces.upper;
+    found->status = r->answer.status;
+    found->limit = r->answer.limit;
+    found->lower = r->answer.lower;
+    found->upper = r->answer.upper;
     // Of a compound beside a solid the deciding part.
-    if (r->kind_a == OVOID_MESH_PARTS && r->part_a != OVOID_RECORD_NO_PART) x->part_a = r->part_a;
-    if (r->kind_b == OVOID_MESH_PARTS && r->part_b != OVOID_RECORD_NO_PART) x->part_b = r->part_b;
-    r->solid = x;
+    if (r->kind_a == OVOID_MESH_PARTS && r->part_a != OVOID_RECORD_NO_PART) found->part_a = r->part_a;
+    if (r->kind_b == OVOID_MESH_PARTS && r->part_b != OVOID_RECORD_NO_PART) found->part_b = r->part_b;
+    r->solid = found;
 }
 
 // The keys that are there must be those that a writer of this record writes.

@@ -13,9 +13,9 @@ typedef struct compiler {
     int has_memory;
 } compiler;
 
-static void append(compiler *x, cell_array *to, const void *item, size_t size) {
-    if (!x->has_memory || !cell_reserve(&x->cell->allocator, to, to->count + 1, size)) {
-        x->has_memory = 0;
+static void append(compiler *state, cell_array *to, const void *item, size_t size) {
+    if (!state->has_memory || !cell_reserve(&state->cell->allocator, to, to->count + 1, size)) {
+        state->has_memory = 0;
         return;
     }
     memcpy((char *)to->items + to->count++ * size, item, size);
@@ -30,11 +30,11 @@ typedef struct placed_frame {
 } placed_frame;
 
 // A new frame at a pose in another one; that one itself where the pose is the identity.
-static placed_frame add_frame(compiler *x, placed_frame parent, const ovoid_pose *pose) {
+static placed_frame add_frame(compiler *state, placed_frame parent, const ovoid_pose *pose) {
     if (pose_is_identity(pose)) return parent;
-    uint32_t root = x->cell->robot->root, next = x->cell->frame_count++;
+    uint32_t root = state->cell->robot->root, next = state->cell->frame_count++;
     chain_step s = step_make_fixed(parent.frame == root ? OVOID_ROBOT_NONE : parent.frame, next, pose);
-    append(x, &x->cell->own, &s, sizeof s);
+    append(state, &state->cell->own, &s, sizeof s);
     return (placed_frame){next, ovoid_pose_compute_product(&parent.in_link, pose)};
 }
 
@@ -53,7 +53,7 @@ static void find_box(const ovoid_shape *s, vec3 *middle, vec3 *half) {
     *half = (vec3){(high[0] - low[0]) / 2, (high[1] - low[1]) / 2, (high[2] - low[2]) / 2};
 }
 
-static void add_item(compiler *x, const ovoid_shape *shape, const ovoid_solid *solid, placed_frame at,
+static void add_item(compiler *state, const ovoid_shape *shape, const ovoid_solid *solid, placed_frame at,
                      ovoid_robot_side side) {
     // The user's frame and the body frame differ by the shape's origin, without rotation.
     vec3 own = vec3_add(shape->center, shape->origin);
@@ -69,38 +69,38 @@ static void add_item(compiler *x, const ovoid_shape *shape, const ovoid_solid *s
     item.in_link = at.in_link;
     find_box(shape, &item.middle, &item.half);
     item.radius = shape->lower_radius + CELL_SLACK * (lengths + 2 * norm_of(item.middle));
-    append(x, &x->cell->items, &item, sizeof item);
+    append(state, &state->cell->items, &item, sizeof item);
 }
 
-static void add_attached(compiler *x, uint32_t slot) {
-    const cell_body b = cell_bodies(x->cell)[slot];
-    placed_frame at = add_frame(x, (placed_frame){b.link, ovoid_pose_make_identity()}, &b.body.pose);
+static void add_attached(compiler *state, uint32_t slot) {
+    const cell_body b = cell_bodies(state->cell)[slot];
+    placed_frame at = add_frame(state, (placed_frame){b.link, ovoid_pose_make_identity()}, &b.body.pose);
     ovoid_robot_side side = {b.link, OVOID_ROBOT_NONE, cell_make_id(slot, b.generation), 0};
     if (!b.body.compound) {
-        add_item(x, b.body.solid ? b.hull : b.body.shape, b.body.solid, at, side);
+        add_item(state, b.body.solid ? b.hull : b.body.shape, b.body.solid, at, side);
         return;
     }
-    for (size_t i = 0; x->has_memory && i < ovoid_compound_get_part_count(b.body.compound); i++) {
+    for (size_t i = 0; state->has_memory && i < ovoid_compound_get_part_count(b.body.compound); i++) {
         ovoid_posed_shape part = ovoid_compound_get_part(b.body.compound, i);
         side.part = (uint32_t)i;
-        add_item(x, part.shape, NULL, add_frame(x, at, &part.pose), side);
+        add_item(state, part.shape, NULL, add_frame(state, at, &part.pose), side);
     }
 }
 
 // What is inside of each item: an element's is the robot's, an attached body's the cell's.
-static void set_insides(compiler *x) {
-    ovoid_robot_cell *c = x->cell;
+static void set_insides(compiler *state) {
+    ovoid_robot_cell *c = state->cell;
     cell_item *items = c->items.items;
     size_t attached = 0;
     for (size_t i = 0; i < c->items.count; i++) attached += items[i].side.body != 0;
-    if (!x->has_memory || !cell_reserve(&c->allocator, &c->insides, attached, sizeof(shape_inside))) {
-        x->has_memory = 0;
+    if (!state->has_memory || !cell_reserve(&c->allocator, &c->insides, attached, sizeof(shape_inside))) {
+        state->has_memory = 0;
         return;
     }
     c->insides.count = attached;
     ovoid_shape *point = attached ? shape_create_point(&c->allocator) : NULL;
     if (attached && !point) {
-        x->has_memory = 0;
+        state->has_memory = 0;
         return;
     }
     shape_inside *next = c->insides.items;
@@ -109,7 +109,7 @@ static void set_insides(compiler *x) {
             items[i].inside = robot_get_inside(c->robot, items[i].side.element);
             continue;
         }
-        if (shape_inside_find(items[i].shape, items[i].solid, point, next) != OVOID_OK) x->has_memory = 0;
+        if (shape_inside_find(items[i].shape, items[i].solid, point, next) != OVOID_OK) state->has_memory = 0;
         items[i].inside = next++;
     }
     ovoid_shape_destroy(point);
@@ -123,17 +123,19 @@ static int compare_items(const void *x, const void *y) {
     return (a->part > b->part) - (a->part < b->part);
 }
 
-static void add_items(compiler *x) {
-    const ovoid_robot *r = x->cell->robot;
-    for (uint32_t i = 0; x->has_memory && i < r->element_count; i++) {
+static void add_items(compiler *state) {
+    const ovoid_robot *r = state->cell->robot;
+    for (uint32_t i = 0; state->has_memory && i < r->element_count; i++) {
         const ovoid_robot_element *e = &r->elements[i];
-        placed_frame at = add_frame(x, (placed_frame){e->link, ovoid_pose_make_identity()}, &e->pose);
-        add_item(x, e->shape, e->solid, at, (ovoid_robot_side){e->link, i, 0, 0});
+        placed_frame at = add_frame(state, (placed_frame){e->link, ovoid_pose_make_identity()}, &e->pose);
+        add_item(state, e->shape, e->solid, at, (ovoid_robot_side){e->link, i, 0, 0});
     }
-    for (uint32_t i = 0; x->has_memory && i < x->cell->bodies.count; i++)
-        if (cell_bodies(x->cell)[i].is_used && cell_bodies(x->cell)[i].link != OVOID_ROBOT_NONE) add_attached(x, i);
-    if (x->cell->items.count) qsort(x->cell->items.items, x->cell->items.count, sizeof(cell_item), compare_items);
-    set_insides(x);
+    for (uint32_t i = 0; state->has_memory && i < state->cell->bodies.count; i++)
+        if (cell_bodies(state->cell)[i].is_used && cell_bodies(state->cell)[i].link != OVOID_ROBOT_NONE)
+            add_attached(state, i);
+    if (state->cell->items.count)
+        qsort(state->cell->items.items, state->cell->items.count, sizeof(cell_item), compare_items);
+    set_insides(state);
 }
 
 // The sphere around the box around the items' spheres.
@@ -172,42 +174,42 @@ static void set_box(const cell_item *items, cell_group *g) {
     g->radius = CELL_SLACK * (2 * norm_of(g->middle) + norm_of(g->half));
 }
 
-static void add_groups(compiler *x) {
-    const cell_item *items = cell_items(x->cell);
-    for (uint32_t i = 0; x->has_memory && i < x->cell->items.count;) {
+static void add_groups(compiler *state) {
+    const cell_item *items = cell_items(state->cell);
+    for (uint32_t i = 0; state->has_memory && i < state->cell->items.count;) {
         cell_group g = {.link = items[i].side.link, .first = i};
-        while (i < x->cell->items.count && items[i].side.link == g.link) i++;
+        while (i < state->cell->items.count && items[i].side.link == g.link) i++;
         g.end = i;
         set_sphere(items, &g);
         set_box(items, &g);
-        append(x, &x->cell->groups, &g, sizeof g);
+        append(state, &state->cell->groups, &g, sizeof g);
     }
 }
 
 // The steps of the links with items, and of those that they hang on.
-static void add_steps(compiler *x) {
-    const ovoid_robot *r = x->cell->robot;
-    unsigned char *is_needed = allocator_allocate(&x->cell->allocator, r->link_count, 1);
+static void add_steps(compiler *state) {
+    const ovoid_robot *r = state->cell->robot;
+    unsigned char *is_needed = allocator_allocate(&state->cell->allocator, r->link_count, 1);
     if (!is_needed) {
-        x->has_memory = 0;
+        state->has_memory = 0;
         return;
     }
     memset(is_needed, 0, r->link_count);
-    for (size_t i = 0; i < x->cell->groups.count; i++) is_needed[cell_groups(x->cell)[i].link] = 1;
+    for (size_t i = 0; i < state->cell->groups.count; i++) is_needed[cell_groups(state->cell)[i].link] = 1;
     for (uint32_t i = r->joint_count; i-- > 0;)
         is_needed[r->joints[r->order[i]].parent] |= is_needed[r->joints[r->order[i]].child];
     for (uint32_t i = 0; i < r->joint_count; i++) {
         if (!is_needed[r->steps[i].child]) continue;
-        append(x, &x->cell->steps, &r->steps[i], sizeof *r->steps);
-        append(x, &x->cell->step_joints, &r->order[i], sizeof *r->order);
+        append(state, &state->cell->steps, &r->steps[i], sizeof *r->steps);
+        append(state, &state->cell->step_joints, &r->order[i], sizeof *r->order);
     }
-    allocator_release(&x->cell->allocator, is_needed);
+    allocator_release(&state->cell->allocator, is_needed);
 }
 
 // ---- parts of obstacles
 
-static void add_parts_of(compiler *x, uint32_t slot) {
-    const cell_body *b = &cell_bodies(x->cell)[slot];
+static void add_parts_of(compiler *state, uint32_t slot) {
+    const cell_body *b = &cell_bodies(state->cell)[slot];
     ovoid_robot_side side = {OVOID_ROBOT_NONE, OVOID_ROBOT_NONE, cell_make_id(slot, b->generation), 0};
     size_t count = b->body.compound ? ovoid_compound_get_part_count(b->body.compound) : 1;
     for (size_t i = 0; i < count; i++) {
@@ -216,14 +218,14 @@ static void add_parts_of(compiler *x, uint32_t slot) {
         side.part = (uint32_t)i;
         cell_part part = {
             .shape = posed.shape, .solid = b->body.solid, .pose = posed.pose, .gap = b->gap, .side = side};
-        append(x, &x->cell->parts, &part, sizeof part);
+        append(state, &state->cell->parts, &part, sizeof part);
     }
 }
 
-static void add_parts(compiler *x) {
-    for (uint32_t slot = 0; x->has_memory && slot < x->cell->bodies.count; slot++) {
-        const cell_body *b = &cell_bodies(x->cell)[slot];
-        if (b->is_used && b->link == OVOID_ROBOT_NONE) add_parts_of(x, slot);
+static void add_parts(compiler *state) {
+    for (uint32_t slot = 0; state->has_memory && slot < state->cell->bodies.count; slot++) {
+        const cell_body *b = &cell_bodies(state->cell)[slot];
+        if (b->is_used && b->link == OVOID_ROBOT_NONE) add_parts_of(state, slot);
     }
 }
 
@@ -316,8 +318,8 @@ static int are_queried(const ovoid_robot_cell *c, const ovoid_robot_side *a, con
 }
 
 // The pairs of items of two groups; LIMIT where there are too many.
-static ovoid_code find_group_pairs(compiler *x, uint32_t a, uint32_t b) {
-    ovoid_robot_cell *c = x->cell;
+static ovoid_code find_group_pairs(compiler *state, uint32_t a, uint32_t b) {
+    ovoid_robot_cell *c = state->cell;
     const cell_group *g = cell_groups(c), *h = g + b;
     g += a;
     if (c->rigid[g->link] == c->rigid[h->link]) return OVOID_OK;
@@ -327,18 +329,18 @@ static ovoid_code find_group_pairs(compiler *x, uint32_t a, uint32_t b) {
             item_pair pair = {i, k};
             if (!are_queried(c, &cell_items(c)[i].side, &cell_items(c)[k].side)) continue;
             if (c->pairs.count >= PAIRS_MOST) return OVOID_ERROR_LIMIT;
-            append(x, &c->pairs, &pair, sizeof pair);
+            append(state, &c->pairs, &pair, sizeof pair);
         }
     both.end = (uint32_t)c->pairs.count;
-    if (both.end > both.first) append(x, &c->group_pairs, &both, sizeof both);
+    if (both.end > both.first) append(state, &c->group_pairs, &both, sizeof both);
     return OVOID_OK;
 }
 
-static ovoid_code find_pairs(compiler *x) {
+static ovoid_code find_pairs(compiler *state) {
     ovoid_code code = OVOID_OK;
-    for (uint32_t a = 0; a < x->cell->groups.count; a++)
-        for (uint32_t b = a + 1; code == OVOID_OK && x->has_memory && b < x->cell->groups.count; b++)
-            code = find_group_pairs(x, a, b);
+    for (uint32_t a = 0; a < state->cell->groups.count; a++)
+        for (uint32_t b = a + 1; code == OVOID_OK && state->has_memory && b < state->cell->groups.count; b++)
+            code = find_group_pairs(state, a, b);
     return code;
 }
 
@@ -357,16 +359,16 @@ ovoid_code cell_compile(ovoid_robot_cell *c, ovoid_error *error) {
     c->items.count = c->parts.count = c->boxes.count = c->pairs.count = c->groups.count = c->group_pairs.count = 0;
     c->steps.count = c->step_joints.count = c->own.count = c->insides.count = 0;
     c->frame_count = c->robot->link_count;
-    compiler x = {c, 1};
-    add_items(&x);
-    add_groups(&x);
-    add_steps(&x);
-    add_parts(&x);
-    ovoid_code code = x.has_memory ? place_new_parts(c, 0) : OVOID_ERROR_MEMORY;
-    if (code == OVOID_OK) code = find_pairs(&x);
+    compiler state = {c, 1};
+    add_items(&state);
+    add_groups(&state);
+    add_steps(&state);
+    add_parts(&state);
+    ovoid_code code = state.has_memory ? place_new_parts(c, 0) : OVOID_ERROR_MEMORY;
+    if (code == OVOID_OK) code = find_pairs(&state);
     if (code == OVOID_ERROR_LIMIT)
         return error_set(error, code, -1, "more than %d pairs of elements are to be queried", (int)PAIRS_MOST);
-    if (!x.has_memory || code != OVOID_OK)
+    if (!state.has_memory || code != OVOID_OK)
         return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the bodies of the cell");
     c->is_whole = 1;
     return OVOID_OK;
@@ -376,10 +378,10 @@ ovoid_code cell_append_obstacle(ovoid_robot_cell *c, uint32_t slot, ovoid_error 
     if (!c->is_whole || slot + 1 != c->bodies.count) return cell_compile(c, error);
     c->version++;
     c->is_whole = 0;
-    compiler x = {c, 1};
+    compiler state = {c, 1};
     uint32_t first = (uint32_t)c->parts.count;
-    add_parts_of(&x, slot);
-    if (!x.has_memory || place_new_parts(c, first) != OVOID_OK)
+    add_parts_of(&state, slot);
+    if (!state.has_memory || place_new_parts(c, first) != OVOID_OK)
         return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the bodies of the cell");
     c->is_whole = 1;
     return OVOID_OK;

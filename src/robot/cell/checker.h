@@ -89,12 +89,12 @@ struct ovoid_robot_checker {
 };
 
 /// How many pairs there are to find.
-static inline size_t checker_count_pairs(const ovoid_robot_checker *x) {
-    return x->cell->items.count * x->cell->parts.count + x->cell->pairs.count;
+static inline size_t checker_count_pairs(const ovoid_robot_checker *checker) {
+    return checker->cell->items.count * checker->cell->parts.count + checker->cell->pairs.count;
 }
 
 /// Makes the checker's memory fit its cell; all is forgotten where that has changed.
-ovoid_code checker_renew(ovoid_robot_checker *x, ovoid_error *error);
+ovoid_code checker_renew(ovoid_robot_checker *checker, ovoid_error *error);
 
 /// The answer where there is no pair to ask about.
 static inline ovoid_robot_answer answer_make_empty(void) {
@@ -106,11 +106,11 @@ static inline ovoid_robot_answer answer_make_empty(void) {
 ovoid_code query_options_validate(const ovoid_robot_query_options *options, ovoid_error *error);
 
 /// Makes errors those of states of that magnitude.
-void checker_set_level(ovoid_robot_checker *x, double magnitude);
+void checker_set_level(ovoid_robot_checker *checker, double magnitude);
 
 /// Frames, places and errors of a state; options: the limits. The codes of a refused state, with its variable as
 /// place.
-ovoid_code checker_place(ovoid_robot_checker *x, const double *q, double limit_slack, ovoid_error *error);
+ovoid_code checker_place(ovoid_robot_checker *checker, const double *q, double limit_slack, ovoid_error *error);
 
 /// What is refused of a state, or OVOID_OK; and the magnitude of its errors.
 typedef struct lane_state {
@@ -120,13 +120,13 @@ typedef struct lane_state {
 } lane_state;
 
 /// Frames and places of up to eight states, side by side; those that are refused have none.
-void checker_place_lanes(ovoid_robot_checker *x, const double *q, size_t count, double limit_slack,
+void checker_place_lanes(ovoid_robot_checker *checker, const double *q, size_t count, double limit_slack,
                          lane_state states[ROBOT8]);
 /// Finds what spheres and boxes leave of the states that were placed; the search of each is then to have these options
 /// and their margin.
-void checker_filter_lanes(ovoid_robot_checker *x, const ovoid_robot_query_options *options);
+void checker_filter_lanes(ovoid_robot_checker *checker, const ovoid_robot_query_options *options);
 /// Makes one of them the state that is placed.
-void checker_take_lane(ovoid_robot_checker *x, uint32_t which, const lane_state *state);
+void checker_take_lane(ovoid_robot_checker *checker, uint32_t which, const lane_state *state);
 
 /// A pair as its query wants it.
 typedef struct checker_pair {
@@ -141,16 +141,16 @@ typedef struct checker_pair {
     uint64_t *near;       ///< the last state in which it was found near
 } checker_pair;
 
-checker_pair checker_make_part_pair(ovoid_robot_checker *x, uint32_t item, uint32_t part);
-checker_pair checker_make_item_pair(ovoid_robot_checker *x, uint32_t pair);
+checker_pair checker_make_part_pair(ovoid_robot_checker *checker, uint32_t item, uint32_t part);
+checker_pair checker_make_item_pair(ovoid_robot_checker *checker, uint32_t pair);
 
 /// 1 where the boxes of a pair prove it farther apart than the margin; padding is added.
-int checker_is_part_far(ovoid_robot_checker *x, uint32_t item, uint32_t part, double margin);
-int checker_is_pair_far(ovoid_robot_checker *x, uint32_t pair, double margin);
+int checker_is_part_far(ovoid_robot_checker *checker, uint32_t item, uint32_t part, double margin);
+int checker_is_pair_far(ovoid_robot_checker *checker, uint32_t pair, double margin);
 
 /// 1 where what is known to lie inside both bodies overlaps: then a bracket of the signed
 /// distance as the poses are, the upper bound below zero.
-int checker_prove_overlap(ovoid_robot_checker *x, pair_name name, double *lower, double *upper);
+int checker_prove_overlap(ovoid_robot_checker *checker, pair_name name, double *lower, double *upper);
 
 /// Called for each pair that is not proven farther apart than `margin`; 0 ends the search.
 typedef int checker_visit(void *context, const checker_pair *pair, pair_name name);
@@ -167,40 +167,40 @@ typedef struct checker_search {
 void checker_find_pairs(const checker_search *s);
 
 /// d(distance)/d(variables) of the state placed last, from the gradient by both poses.
-void checker_compute_gradient(const ovoid_robot_checker *x, const checker_pair *p, const double gradient[12],
+void checker_compute_gradient(const ovoid_robot_checker *checker, const checker_pair *p, const double gradient[12],
                               const double *q, double *row);
 
 /// The answer to a state by a checker that fits its cell; 0: the state is refused.
-int collide_state(ovoid_robot_checker *x, const double *q, const ovoid_robot_query_options *options,
+int collide_state(ovoid_robot_checker *checker, const double *q, const ovoid_robot_query_options *options,
                   ovoid_robot_answer *answer);
 /// The number of the pair that ended the last state that hit.
-static inline uint32_t checker_get_last_number(const ovoid_robot_checker *x) {
-    size_t parts = x->cell->parts.count, first = x->cell->items.count * parts;
-    if (x->last.item == OVOID_ROBOT_NONE) return (uint32_t)(first + x->last.index);
-    return (uint32_t)(x->last.item * parts + x->last.index);
+static inline uint32_t checker_get_last_number(const ovoid_robot_checker *checker) {
+    size_t parts = checker->cell->parts.count, first = checker->cell->items.count * parts;
+    if (checker->last.item == OVOID_ROBOT_NONE) return (uint32_t)(first + checker->last.index);
+    return (uint32_t)(checker->last.item * parts + checker->last.index);
 }
 
 /// The states of a batch from `first` to before `end`, by a checker that has forgotten all and fits its cell.
-void collide_block(ovoid_robot_checker *x, const ovoid_robot_batch *batch, size_t first, size_t end);
+void collide_block(ovoid_robot_checker *checker, const ovoid_robot_batch *batch, size_t first, size_t end);
 
 /// What the pair's last query proved, or NULL. Of two links the normal is kept in the frame of the first, with which it
 /// turns: what parted them often still does. A proof is measured again, so any normal is safe.
-static inline const ovoid_proof *pair_get_earlier(const ovoid_robot_checker *x, const checker_pair *p) {
-    if (*p->mark != x->generation) return NULL;
+static inline const ovoid_proof *pair_get_earlier(const ovoid_robot_checker *checker, const checker_pair *p) {
+    if (*p->mark != checker->generation) return NULL;
     if (p->rotation) p->proof->normal = mat3_mul_vec3(*p->rotation, p->proof->normal);
     return p->proof;
 }
-static inline void pair_remember(const ovoid_robot_checker *x, const checker_pair *p, const ovoid_proof *proof) {
+static inline void pair_remember(const ovoid_robot_checker *checker, const checker_pair *p, const ovoid_proof *proof) {
     *p->proof = *proof;
-    *p->mark = x->generation;
+    *p->mark = checker->generation;
     if (!p->rotation) return;
     p->proof->normal = mat3_mul_transposed_vec3(*p->rotation, proof->normal);
     p->proof->normal_low = (vec3){0, 0, 0};
 }
 
 /// Did the pair's last query part its bodies?
-static inline int pair_was_apart(const ovoid_robot_checker *x, const checker_pair *p) {
-    return *p->mark == x->generation && p->proof->kind == OVOID_PROOF_POINTS;
+static inline int pair_was_apart(const ovoid_robot_checker *checker, const checker_pair *p) {
+    return *p->mark == checker->generation && p->proof->kind == OVOID_PROOF_POINTS;
 }
 
 /// a + b + c, not below the exact sum.

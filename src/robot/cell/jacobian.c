@@ -24,13 +24,13 @@ static void add_quaternion(const motion_gradient *g, const mat3 *matrix, vec3 ce
     }
 }
 
-static void add_joint(const ovoid_robot_checker *x, uint32_t joint, const motion_gradient *g, const double *q,
+static void add_joint(const ovoid_robot_checker *checker, uint32_t joint, const motion_gradient *g, const double *q,
                       double *row) {
-    const ovoid_robot *r = x->cell->robot;
+    const ovoid_robot *r = checker->cell->robot;
     const chain_step *s = &r->steps[r->step_of[joint]];
     if (s->kind == STEP_FIXED) return;
-    const link_frame *child = &x->frames[s->child];
-    const link_frame *parent = &x->frames[s->parent == OVOID_ROBOT_NONE ? r->root : s->parent];
+    const link_frame *child = &checker->frames[s->child];
+    const link_frame *parent = &checker->frames[s->parent == OVOID_ROBOT_NONE ? r->root : s->parent];
     uint32_t lengths = step_count_lengths(s->kind), variable = r->joint_variable[joint];
     row += variable;
     for (uint32_t i = 0; i < lengths; i++)
@@ -50,9 +50,9 @@ static int64_t find_place_above(const ovoid_robot *r, uint32_t link) {
     return joint == OVOID_ROBOT_NONE ? -1 : (int64_t)r->step_of[joint];
 }
 
-void checker_compute_gradient(const ovoid_robot_checker *x, const checker_pair *p, const double gradient[12],
+void checker_compute_gradient(const ovoid_robot_checker *checker, const checker_pair *p, const double gradient[12],
                               const double *q, double *row) {
-    const ovoid_robot *r = x->cell->robot;
+    const ovoid_robot *r = checker->cell->robot;
     const double *g = gradient;
     for (uint32_t i = 0; i < r->variable_count; i++) row[i] = 0;
     motion_gradient of_a = {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}, p->pair.pose_a.position};
@@ -63,7 +63,7 @@ void checker_compute_gradient(const ovoid_robot_checker *x, const checker_pair *
     while (a != b) {
         int64_t *later = a > b ? &a : &b;
         uint32_t joint = r->order[*later];
-        add_joint(x, joint, a > b ? &of_a : &of_b, q, row);
+        add_joint(checker, joint, a > b ? &of_a : &of_b, q, row);
         *later = find_place_above(r, r->joints[joint].parent);
     }
 }

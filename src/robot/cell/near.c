@@ -23,45 +23,46 @@ static ovoid_status find_status(double lower, double upper, ovoid_status of_shap
 static void put(double *to, vec3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 
 // Of solids: that of the deciding pair of triangles at its points. That no other pair is as near is not shown.
-static ovoid_gradient make_gradient(const checker_pair *p, const ovoid_answer *is) {
+static ovoid_gradient make_gradient(const checker_pair *p, const ovoid_answer *answer) {
     ovoid_gradient g = {.has_translation = 0};
-    vec3 lever_a = vec3_sub(is->point_a, p->pair.pose_a.position),
-         lever_b = vec3_sub(is->point_b, p->pair.pose_b.position);
-    put(g.gradient, vec3_neg(is->normal));
-    put(g.gradient + 3, vec3_cross(is->normal, lever_a));
-    put(g.gradient + 6, is->normal);
-    put(g.gradient + 9, vec3_cross(lever_b, is->normal));
+    vec3 lever_a = vec3_sub(answer->point_a, p->pair.pose_a.position),
+         lever_b = vec3_sub(answer->point_b, p->pair.pose_b.position);
+    put(g.gradient, vec3_neg(answer->normal));
+    put(g.gradient + 3, vec3_cross(answer->normal, lever_a));
+    put(g.gradient + 6, answer->normal);
+    put(g.gradient + 9, vec3_cross(lever_b, answer->normal));
     return g;
 }
 
 // cover: NULL of solids.
-static void keep(const near_search *s, uint32_t at, const checker_pair *p, const ovoid_answer *is,
+static void keep(const near_search *s, uint32_t at, const checker_pair *p, const ovoid_answer *answer,
                  const ovoid_cover *cover) {
     const near_list *list = &s->list;
     ovoid_robot_near *n = &list->items[at];
-    double lower = lower_outward(p, is->lower), upper = upper_outward(p, is->upper);
+    double lower = lower_outward(p, answer->lower), upper = upper_outward(p, answer->upper);
     *n = (ovoid_robot_near){.a = *p->a,
                             .b = *p->b,
-                            .status = find_status(lower, upper, is->status),
+                            .status = find_status(lower, upper, answer->status),
                             .lower = lower,
                             .upper = upper,
-                            .point_b = is->point_b,
-                            .normal = is->normal};
-    n->point_a = vec3_add_scaled(is->point_a, is->normal, p->padding);
+                            .point_b = answer->point_b,
+                            .normal = answer->normal};
+    n->point_a = vec3_add_scaled(answer->point_a, answer->normal, p->padding);
     if (!list->gradients) return;
-    ovoid_gradient g = cover ? ovoid_answer_compute_gradient(&p->pair, is, cover) : make_gradient(p, is);
+    ovoid_gradient g = cover ? ovoid_answer_compute_gradient(&p->pair, answer, cover) : make_gradient(p, answer);
     n->has_gradient = g.has_translation && g.has_rotation;
     checker_compute_gradient(s->checker, p, g.gradient, s->q, list->gradients + at * list->variables);
 }
 
 // An overlap without its depth, where balls inside the bodies prove it.
 static int take_overlap(near_search *s, const checker_pair *p, pair_name name) {
-    ovoid_answer is = {.status = OVOID_OVERLAPPING};
-    if (pair_was_apart(s->checker, p) || !checker_prove_overlap(s->checker, name, &is.lower, &is.upper)) return 0;
-    if (!(upper_outward(p, is.upper) < 0)) return 0;
+    ovoid_answer answer = {.status = OVOID_OVERLAPPING};
+    if (pair_was_apart(s->checker, p) || !checker_prove_overlap(s->checker, name, &answer.lower, &answer.upper))
+        return 0;
+    if (!(upper_outward(p, answer.upper) < 0)) return 0;
     *p->near = s->checker->state;
-    uint32_t slot = near_list_find_slot(&s->list, lower_outward(p, is.lower));
-    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &is, NULL);
+    uint32_t slot = near_list_find_slot(&s->list, lower_outward(p, answer.lower));
+    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &answer, NULL);
     return 1;
 }
 
@@ -71,20 +72,20 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     ovoid_options options = {.cap = add_up(s->margin, p->padding, p->error)};
     if (!(options.cap > 0)) options.cap = OVOID_LENGTH_MIN;
     if (s->without_depths && take_overlap(s, p, name)) return 1;
-    ovoid_answer is = ovoid_depth(&p->pair, &options, pair_get_earlier(s->checker, p), &cover);
-    pair_remember(s->checker, p, &is.proof);
-    int asks_solids = sides_have_solid(&p->solids) && !(lower_outward(p, is.lower) > s->margin);
-    if (asks_solids) is = solid_pair_distance(&p->pair, &p->solids, &options, &is, pair_get_clear(p));
-    double lower = lower_outward(p, is.lower);
+    ovoid_answer answer = ovoid_depth(&p->pair, &options, pair_get_earlier(s->checker, p), &cover);
+    pair_remember(s->checker, p, &answer.proof);
+    int asks_solids = sides_have_solid(&p->solids) && !(lower_outward(p, answer.lower) > s->margin);
+    if (asks_solids) answer = solid_pair_distance(&p->pair, &p->solids, &options, &answer, pair_get_clear(p));
+    double lower = lower_outward(p, answer.lower);
     if (lower > s->margin) return 1;
     *p->near = s->checker->state;
     uint32_t slot = near_list_find_slot(&s->list, lower);
-    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &is, asks_solids ? NULL : &cover);
+    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &answer, asks_solids ? NULL : &cover);
     if (s->wants_one) s->margin = min2(s->margin, s->list.items[0].upper);
     return 1;
 }
 
-static ovoid_code find(ovoid_robot_checker *x, const double *q, const ovoid_robot_query_options *options,
+static ovoid_code find(ovoid_robot_checker *checker, const double *q, const ovoid_robot_query_options *options,
                        ovoid_robot_nears *nears, int wants_one, ovoid_error *error) {
     static const ovoid_robot_query_options none = {0, 0, 0, 0};
     if (!options) options = &none;
@@ -92,18 +93,18 @@ static ovoid_code find(ovoid_robot_checker *x, const double *q, const ovoid_robo
     if ((wants_one || nears->capacity) && (!nears->items || nears->capacity == 0))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "there is no room for near pairs");
     ovoid_code code = query_options_validate(options, error);
-    if (code == OVOID_OK) code = checker_renew(x, error);
-    if (code == OVOID_OK) code = checker_place(x, q, options->limit_slack, error);
+    if (code == OVOID_OK) code = checker_renew(checker, error);
+    if (code == OVOID_OK) code = checker_place(checker, q, options->limit_slack, error);
     if (code != OVOID_OK) return code;
     near_list list = {.items = nears->items,
                       .gradients = nears->gradients,
-                      .variables = x->cell->robot->variable_count,
-                      .row = x->near_row,
+                      .variables = checker->cell->robot->variable_count,
+                      .row = checker->near_row,
                       .capacity = wants_one ? 1 : nears->capacity,
-                      .keys = x->near_keys,
-                      .scratch = x->near_keys + checker_count_pairs(x)};
-    near_search s = {x, q, list, options->margin, wants_one, nears->without_depths && !wants_one};
-    checker_search search = {x, options, &s.margin, ask_pair, &s, !wants_one};
+                      .keys = checker->near_keys,
+                      .scratch = checker->near_keys + checker_count_pairs(checker)};
+    near_search s = {checker, q, list, options->margin, wants_one, nears->without_depths && !wants_one};
+    checker_search search = {checker, options, &s.margin, ask_pair, &s, !wants_one};
     checker_find_pairs(&search);
     near_list_sort(&s.list);
     nears->count = wants_one ? s.list.kept : s.list.found;

@@ -16,19 +16,19 @@ static void sink(near_key *heap, size_t count, size_t at) {
     heap_sink(heap, count, sizeof moved, at, &moved, is_farther);
 }
 
-uint32_t near_list_find_slot(near_list *x, double lower) {
-    uint32_t found = (uint32_t)x->found++;
-    if (x->kept < x->capacity) {
-        x->keys[x->kept] = (near_key){lower, found, (uint32_t)x->kept};
-        return (uint32_t)x->kept++;
+uint32_t near_list_find_slot(near_list *list, double lower) {
+    uint32_t found = (uint32_t)list->found++;
+    if (list->kept < list->capacity) {
+        list->keys[list->kept] = (near_key){lower, found, (uint32_t)list->kept};
+        return (uint32_t)list->kept++;
     }
-    if (x->capacity == 0) return NEAR_LIST_FULL;
-    for (size_t i = x->is_heap ? 0 : x->kept / 2; i-- > 0;) sink(x->keys, x->kept, i);
-    x->is_heap = 1;
-    if (!(lower < x->keys[0].lower)) return NEAR_LIST_FULL;
-    x->keys[0] = (near_key){lower, found, x->keys[0].slot};
-    uint32_t slot = x->keys[0].slot;
-    sink(x->keys, x->kept, 0);
+    if (list->capacity == 0) return NEAR_LIST_FULL;
+    for (size_t i = list->is_heap ? 0 : list->kept / 2; i-- > 0;) sink(list->keys, list->kept, i);
+    list->is_heap = 1;
+    if (!(lower < list->keys[0].lower)) return NEAR_LIST_FULL;
+    list->keys[0] = (near_key){lower, found, list->keys[0].slot};
+    uint32_t slot = list->keys[0].slot;
+    sink(list->keys, list->kept, 0);
     return slot;
 }
 
@@ -46,44 +46,44 @@ static void merge(const near_key *from, size_t middle, size_t count, near_key *t
     while (b < count) *to++ = from[b++];
 }
 
-static void sort_keys(near_list *x) {
-    size_t n = x->kept;
+static void sort_keys(near_list *list) {
+    size_t n = list->kept;
     for (size_t width = 1; width < n; width *= 2) {
         for (size_t at = 0; at < n; at += 2 * width) {
             size_t count = n - at < 2 * width ? n - at : 2 * width;
-            merge(x->keys + at, width < count ? width : count, count, x->scratch + at);
+            merge(list->keys + at, width < count ? width : count, count, list->scratch + at);
         }
-        near_key *sorted = x->scratch;
-        x->scratch = x->keys;
-        x->keys = sorted;
+        near_key *sorted = list->scratch;
+        list->scratch = list->keys;
+        list->keys = sorted;
     }
 }
 
-static double *get_row(const near_list *x, uint32_t slot) { return x->gradients + slot * x->variables; }
+static double *get_row(const near_list *list, uint32_t slot) { return list->gradients + slot * list->variables; }
 
-static void copy_row(const near_list *x, const double *from, double *to) {
-    for (size_t i = 0; i < x->variables; i++) to[i] = from[i];
+static void copy_row(const near_list *list, const double *from, double *to) {
+    for (size_t i = 0; i < list->variables; i++) to[i] = from[i];
 }
 
 // What belongs at `begin` is moved there, what belongs where that was is moved there, and so on, until what was at
 // `begin` has its place.
-static void run_cycle(near_list *x, uint32_t begin) {
-    ovoid_robot_near first = x->items[begin];
+static void run_cycle(near_list *list, uint32_t begin) {
+    ovoid_robot_near first = list->items[begin];
     uint32_t at = begin;
-    if (x->gradients) copy_row(x, get_row(x, begin), x->row);
-    for (uint32_t next = x->keys[at].slot; next != begin; next = x->keys[at].slot) {
-        x->items[at] = x->items[next];
-        if (x->gradients) copy_row(x, get_row(x, next), get_row(x, at));
-        x->keys[at].slot = at;
+    if (list->gradients) copy_row(list, get_row(list, begin), list->row);
+    for (uint32_t next = list->keys[at].slot; next != begin; next = list->keys[at].slot) {
+        list->items[at] = list->items[next];
+        if (list->gradients) copy_row(list, get_row(list, next), get_row(list, at));
+        list->keys[at].slot = at;
         at = next;
     }
-    x->items[at] = first;
-    if (x->gradients) copy_row(x, x->row, get_row(x, at));
-    x->keys[at].slot = at;
+    list->items[at] = first;
+    if (list->gradients) copy_row(list, list->row, get_row(list, at));
+    list->keys[at].slot = at;
 }
 
-void near_list_sort(near_list *x) {
-    sort_keys(x);
-    for (uint32_t i = 0; i < x->kept; i++)
-        if (x->keys[i].slot != i) run_cycle(x, i);
+void near_list_sort(near_list *list) {
+    sort_keys(list);
+    for (uint32_t i = 0; i < list->kept; i++)
+        if (list->keys[i].slot != i) run_cycle(list, i);
 }

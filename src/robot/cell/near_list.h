@@ -26,8 +26,8 @@ typedef struct near_list {
 #define NEAR_LIST_FULL UINT32_MAX
 
 /// The slot of a pair that was found; FULL: as many are at least as near, and it falls out. Cost: O(log n).
-uint32_t near_list_find_slot(near_list *x, double lower);
+uint32_t near_list_find_slot(near_list *list, double lower);
 /// Sorts keys, items and rows. Cost: n log n comparisons, each item and row moved once, one of each cycle twice.
-void near_list_sort(near_list *x);
+void near_list_sort(near_list *list);
 
 #endif

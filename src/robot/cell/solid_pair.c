@@ -8,22 +8,22 @@ static ovoid_body_pair get_bodies(const ovoid_pair *hulls, const solid_sides *s)
     return pair;
 }
 
-static ovoid_answer make_answer(const ovoid_body_answer *x, const ovoid_answer *of_hulls, double clear) {
-    ovoid_answer is = ovoid_body_answer_get_answer(x);
-    if (!(is.lower > clear)) is.lower = of_hulls->lower;
-    return is;
+static ovoid_answer make_answer(const ovoid_body_answer *found, const ovoid_answer *of_hulls, double clear) {
+    ovoid_answer answer = ovoid_body_answer_get_answer(found);
+    if (!(answer.lower > clear)) answer.lower = of_hulls->lower;
+    return answer;
 }
 
 ovoid_answer solid_pair_within(const ovoid_pair *hulls, const solid_sides *solids, double margin,
                                const ovoid_answer *of_hulls, double clear) {
     ovoid_body_pair pair = get_bodies(hulls, solids);
-    ovoid_body_answer is = ovoid_body_within(&pair, margin, NULL, NULL, NULL);
-    return make_answer(&is, of_hulls, clear);
+    ovoid_body_answer found = ovoid_body_within(&pair, margin, NULL, NULL, NULL);
+    return make_answer(&found, of_hulls, clear);
 }
 
 ovoid_answer solid_pair_distance(const ovoid_pair *hulls, const solid_sides *solids, const ovoid_options *options,
                                  const ovoid_answer *of_hulls, double clear) {
     ovoid_body_pair pair = get_bodies(hulls, solids);
-    ovoid_body_answer is = ovoid_body_distance(&pair, options, NULL, NULL);
-    return make_answer(&is, of_hulls, clear);
+    ovoid_body_answer found = ovoid_body_distance(&pair, options, NULL, NULL);
+    return make_answer(&found, of_hulls, clear);
 }

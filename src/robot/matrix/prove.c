@@ -61,10 +61,10 @@ static int is_proven(const path_pair *at, double upper) {
 }
 
 static int is_hit(prover *p, uint32_t pair, const path_pair *at) {
-    ovoid_answer is = ovoid_within(&at->pair, at->error, NULL, get_proof(p, pair));
-    if (!sides_have_solid(&at->solids)) return is_proven(at, is.upper);
-    if (is_proven(at, solid_sides_raise(&at->solids, is.upper))) return 1;
-    return is_proven(at, solid_pair_within(&at->pair, &at->solids, at->error, &is, at->error).upper);
+    ovoid_answer answer = ovoid_within(&at->pair, at->error, NULL, get_proof(p, pair));
+    if (!sides_have_solid(&at->solids)) return is_proven(at, answer.upper);
+    if (is_proven(at, solid_sides_raise(&at->solids, answer.upper))) return 1;
+    return is_proven(at, solid_pair_within(&at->pair, &at->solids, at->error, &answer, at->error).upper);
 }
 
 static cell_verdict look_for_free(prover *p) {
@@ -73,12 +73,12 @@ static cell_verdict look_for_free(prover *p) {
         if (is_far(p, i)) continue;
         path_pair at = path_make_pair(&p->w, i, p->at.frames);
         double margin = add_up(at.motion.moved, at.error, 0);
-        ovoid_answer is = ovoid_within(&at.pair, margin, NULL, get_proof(p, i));
-        remember(p, i, &is.proof);
-        if (sides_have_solid(&at.solids) && !(is.lower > margin))
-            is = solid_pair_within(&at.pair, &at.solids, margin, &is, at.error);
-        if (is.lower > margin) continue;
-        if (p->is_state && !(is.lower > at.error) && is_hit(p, i, &at)) return CELL_REFUTED;
+        ovoid_answer answer = ovoid_within(&at.pair, margin, NULL, get_proof(p, i));
+        remember(p, i, &answer.proof);
+        if (sides_have_solid(&at.solids) && !(answer.lower > margin))
+            answer = solid_pair_within(&at.pair, &at.solids, margin, &answer, at.error);
+        if (answer.lower > margin) continue;
+        if (p->is_state && !(answer.lower > at.error) && is_hit(p, i, &at)) return CELL_REFUTED;
         if (verdict == CELL_PROVEN) p->widest = i;
         verdict = CELL_OPEN;
     }
@@ -93,13 +93,13 @@ static cell_verdict look_for_contact(prover *p) {
         if (is_far(p, i)) continue;
         path_pair at = path_make_pair(&p->w, i, p->at.frames);
         ovoid_cover cover;
-        ovoid_answer is = ovoid_depth(&at.pair, NULL, get_proof(p, i), &cover);
-        remember(p, i, &is.proof);
-        if (sides_have_solid(&at.solids) && !(is.lower > at.error))
-            is = solid_pair_distance(&at.pair, &at.solids, NULL, &is, at.error);
-        if (is.upper < -add_up(at.motion.moved, at.error, 0)) return CELL_PROVEN;
-        is_free &= is.lower > at.error;
-        if (is.upper < deepest) deepest = is.upper, p->widest = i;
+        ovoid_answer answer = ovoid_depth(&at.pair, NULL, get_proof(p, i), &cover);
+        remember(p, i, &answer.proof);
+        if (sides_have_solid(&at.solids) && !(answer.lower > at.error))
+            answer = solid_pair_distance(&at.pair, &at.solids, NULL, &answer, at.error);
+        if (answer.upper < -add_up(at.motion.moved, at.error, 0)) return CELL_PROVEN;
+        is_free &= answer.lower > at.error;
+        if (answer.upper < deepest) deepest = answer.upper, p->widest = i;
     }
     return is_free && p->is_state ? CELL_REFUTED : CELL_OPEN;
 }

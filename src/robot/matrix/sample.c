@@ -60,14 +60,15 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     sampler *s = context;
     uint32_t both = s->owner[name.index];
     if (s->marks[both].hit == s->state) return 1;
-    ovoid_answer is = ovoid_within(&p->pair, p->error, NULL, pair_get_earlier(s->checker, p));
-    pair_remember(s->checker, p, &is.proof);
-    if (sides_have_solid(&p->solids) && !(is.lower > p->error)) {
-        is.upper = solid_sides_raise(&p->solids, is.upper);
-        if (!(upper_outward(p, is.upper) <= 0)) is = solid_pair_within(&p->pair, &p->solids, p->error, &is, p->error);
+    ovoid_answer answer = ovoid_within(&p->pair, p->error, NULL, pair_get_earlier(s->checker, p));
+    pair_remember(s->checker, p, &answer.proof);
+    if (sides_have_solid(&p->solids) && !(answer.lower > p->error)) {
+        answer.upper = solid_sides_raise(&p->solids, answer.upper);
+        if (!(upper_outward(p, answer.upper) <= 0))
+            answer = solid_pair_within(&p->pair, &p->solids, p->error, &answer, p->error);
     }
-    if (is.lower > p->error) return 1;
-    if (upper_outward(p, is.upper) <= 0)
+    if (answer.lower > p->error) return 1;
+    if (upper_outward(p, answer.upper) <= 0)
         take_hit(s, both);
     else
         take_open(s, both);

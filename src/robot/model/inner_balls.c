@@ -70,27 +70,27 @@ static void put_ball(inner_balls *b, uint32_t at, vec3 center, double radius) {
 }
 
 // How far a point inside a solid is from all of its surface; 0: it is not shown to be inside.
-static double prove_in_solid(const ball_search *x, vec3 center) {
-    ovoid_body_pair pair = {{.shape = x->point, .pose = ovoid_pose_make_identity()},
-                            {.solid = x->solid, .pose = ovoid_pose_make_identity()}};
+static double prove_in_solid(const ball_search *search, vec3 center) {
+    ovoid_body_pair pair = {{.shape = search->point, .pose = ovoid_pose_make_identity()},
+                            {.solid = search->solid, .pose = ovoid_pose_make_identity()}};
     pair.a.pose.position = center;
-    ovoid_body_answer is = ovoid_body_distance(&pair, NULL, NULL, NULL);
-    return is.inside == OVOID_BODY_A_INSIDE && is.deciding.lower > 0 ? is.deciding.lower : 0;
+    ovoid_body_answer found = ovoid_body_distance(&pair, NULL, NULL, NULL);
+    return found.inside == OVOID_BODY_A_INSIDE && found.deciding.lower > 0 ? found.deciding.lower : 0;
 }
 
 // The ball around a point that is proven to lie in the body, radius and allowance counted; 0: none is.
-static double prove_radius(const ball_search *x, vec3 center) {
-    if (x->solid) return prove_in_solid(x, center);
-    ovoid_pair pair = {x->point, x->shape, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
+static double prove_radius(const ball_search *search, vec3 center) {
+    if (search->solid) return prove_in_solid(search, center);
+    ovoid_pair pair = {search->point, search->shape, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
     pair.pose_a.position = center;
     double upper = ovoid_depth(&pair, NULL, NULL, NULL).upper;
     return upper < 0 ? -upper : 0;
 }
 
-static uint32_t find_in_solid(const ball_search *x, inner_balls *b) {
-    ovoid_polytope p = ovoid_shape_get_polytope(x->shape);
+static uint32_t find_in_solid(const ball_search *search, inner_balls *b) {
+    ovoid_polytope p = ovoid_shape_get_polytope(search->shape);
     lattice l;
-    fill_lattice(&l, x->shape, &p);
+    fill_lattice(&l, search->shape, &p);
     uint32_t count = 0;
     // Of a solid any number of the hull's points may be outside.
     for (uint32_t tries = 0; count < BALLS && tries < TRIES; tries++) {
@@ -98,29 +98,29 @@ static uint32_t find_in_solid(const ball_search *x, inner_balls *b) {
         if (next == l.count) break;
         (void)cover(&l, next, 1);
         l.is_covered[next] = 1;
-        vec3 center = vec3_add(x->shape->origin, l.points[next]);
-        double radius = prove_radius(x, center);
+        vec3 center = vec3_add(search->shape->origin, l.points[next]);
+        double radius = prove_radius(search, center);
         if (radius > 0) put_ball(b, count++, center, radius);
     }
     return count;
 }
 
 // Along the segment from the first to the last vertex.
-static uint32_t find_in_segment(const ball_search *x, inner_balls *b) {
-    const double *vertices = shape_vertices(x->shape);
-    vec3 from = vec3_at(vertices, 0), to = vec3_at(vertices, x->shape->vertex_count - 1);
+static uint32_t find_in_segment(const ball_search *search, inner_balls *b) {
+    const double *vertices = shape_vertices(search->shape);
+    vec3 from = vec3_at(vertices, 0), to = vec3_at(vertices, search->shape->vertex_count - 1);
     uint32_t count = 0;
     for (uint32_t i = 0; i < BALLS; i++) {
         double t = i / (BALLS - 1.0);
-        vec3 center = vec3_add(x->shape->origin, vec3_add(vec3_scale(from, 1 - t), vec3_scale(to, t)));
-        double radius = prove_radius(x, center);
+        vec3 center = vec3_add(search->shape->origin, vec3_add(vec3_scale(from, 1 - t), vec3_scale(to, t)));
+        double radius = prove_radius(search, center);
         if (radius > 0) put_ball(b, count++, center, radius);
     }
     return count;
 }
 
-static void find_balls(const ball_search *x, inner_balls *b) {
-    uint32_t count = x->shape->rank == 3 ? find_in_solid(x, b) : find_in_segment(x, b);
+static void find_balls(const ball_search *search, inner_balls *b) {
+    uint32_t count = search->shape->rank == 3 ? find_in_solid(search, b) : find_in_segment(search, b);
     for (uint32_t i = count; i < BALLS; i++)
         for (uint32_t k = 0; k < BALLS_COLUMNS; k++)
             b->column[k][i] = count ? b->column[k][0] : k == BALLS_RADIUS ? -INFINITY : 0;

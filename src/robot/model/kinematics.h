@@ -47,14 +47,14 @@ static inline turn step_compute_half_turn(const chain_step *s, const double *val
 }
 
 /// The child's frame from the parent's (not read where the step has none), the step's own values and their half turn.
-static inline void step_apply(const chain_step *s, const link_frame *parent, const double *values, turn h,
+static inline void step_apply(const chain_step *s, const link_frame *parent, const double *values, turn half,
                               link_frame *child) {
     ovoid_quat q = s->rest;
     vec3 p = s->origin;
     uint32_t lengths = step_count_lengths(s->kind);
     for (uint32_t i = 0; i < lengths; i++) p = vec3_add_scaled(p, s->along[i], values[i]);
     if (s->kind == STEP_TURN || s->kind == STEP_PLANE) {
-        double c = h.cosine, d = h.sine;
+        double c = half.cosine, d = half.sine;
         ovoid_quat o = q, t = s->turned;
         q = (ovoid_quat){c * o.w + d * t.w, c * o.x + d * t.x, c * o.y + d * t.y, c * o.z + d * t.z};
     } else if (s->kind == STEP_FREE) {
@@ -74,13 +74,13 @@ static inline void steps_compute_frames(const chain_step *steps, size_t count, u
                                         const double *cosines, const double *sines, link_frame *frames) {
     for (size_t i = 0; i < count; i++) {
         const chain_step *s = &steps[i];
-        turn h = {1, 0};
+        turn half = {1, 0};
         if (s->kind == STEP_TURN || s->kind == STEP_PLANE) {
             uint32_t at = s->value + step_count_lengths(s->kind);
-            h = (turn){cosines[at], sines[at]};
+            half = (turn){cosines[at], sines[at]};
         }
         uint32_t parent = s->parent == OVOID_ROBOT_NONE ? root : s->parent;
-        step_apply(s, &frames[parent], values + s->value, h, &frames[s->child]);
+        step_apply(s, &frames[parent], values + s->value, half, &frames[s->child]);
     }
 }
 

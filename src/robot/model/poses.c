@@ -97,8 +97,8 @@ static ovoid_code compute_poses(const ovoid_robot *r, const double *q, ovoid_pos
             const ovoid_pose *p = &poses[s->parent];
             parent = (link_frame){p->position, p->rotation, quat_to_mat3(p->rotation)};
         }
-        turn h = step_compute_half_turn(s, values);
-        step_apply(s, &parent, values, h, &child);
+        turn half = step_compute_half_turn(s, values);
+        step_apply(s, &parent, values, half, &child);
         poses[s->child] = (ovoid_pose){child.position, child.rotation};
     }
     if (!errors) return OVOID_OK;

@@ -26,42 +26,43 @@ static double get_place(uint32_t i) {
 }
 
 // Is the checker's pair within the margin at t of the exact path too?
-static int is_hit_on_path(const path_any_hit *x, double t, uint32_t number, ovoid_robot_answer *hit) {
-    path_work *w = x->w;
+static int is_hit_on_path(const path_any_hit *search, double t, uint32_t number, ovoid_robot_answer *hit) {
+    path_work *w = search->w;
     pair_parts of = pair_take_apart(w->cell, number);
-    path_compute_frames(w, x->q0, x->q1, t, &x->state);
-    path_set_item(w, &x->state, of.item, 0);
-    if (of.part == OVOID_ROBOT_NONE) path_set_item(w, &x->state, of.other, 0);
-    path_pair p = path_make_pair(w, number, x->state.frames);
+    path_compute_frames(w, search->q0, search->q1, t, &search->state);
+    path_set_item(w, &search->state, of.item, 0);
+    if (of.part == OVOID_ROBOT_NONE) path_set_item(w, &search->state, of.other, 0);
+    path_pair p = path_make_pair(w, number, search->state.frames);
     const checker_pair known = {.error = p.error + p.motion.rounded, .padding = p.padding};
-    double margin = x->options->margin;
-    ovoid_answer is = {.upper = INFINITY};
+    double margin = search->options->margin;
+    ovoid_answer answer = {.upper = INFINITY};
     if (!sides_have_solid(&p.solids))
-        is = ovoid_within(&p.pair, add_up(margin, known.padding, known.error), NULL, NULL);
+        answer = ovoid_within(&p.pair, add_up(margin, known.padding, known.error), NULL, NULL);
     // Touching by less than the errors: the depth may be more than them.
-    if (!(upper_outward(&known, is.upper) <= margin)) is = path_ask_exactly(&p, &known);
-    double upper = upper_outward(&known, is.upper);
+    if (!(upper_outward(&known, answer.upper) <= margin)) answer = path_ask_exactly(&p, &known);
+    double upper = upper_outward(&known, answer.upper);
     *hit = (ovoid_robot_answer){
-        .status = OVOID_ROBOT_HIT, .a = *p.a, .b = *p.b, .lower = lower_outward(&known, is.lower), .upper = upper};
+        .status = OVOID_ROBOT_HIT, .a = *p.a, .b = *p.b, .lower = lower_outward(&known, answer.lower), .upper = upper};
     return upper <= margin;
 }
 
-double path_find_any_hit(const path_any_hit *x, uint32_t *states, ovoid_robot_answer *hit) {
-    const ovoid_robot *r = x->w->cell->robot;
-    ovoid_robot_query_options options = *x->options;
+double path_find_any_hit(const path_any_hit *search, uint32_t *states, ovoid_robot_answer *hit) {
+    const ovoid_robot *r = search->w->cell->robot;
+    ovoid_robot_query_options options = *search->options;
     // Between two states that are within their limits rounding may leave them.
     options.limit_slack = INFINITY;
-    uint32_t count = count_states(x->w);
+    uint32_t count = count_states(search->w);
     for (uint32_t i = 0; i < count; i++) {
         double t = get_place(i);
         uint32_t number;
-        ovoid_robot_answer is;
+        ovoid_robot_answer answer;
         for (uint32_t k = 0; k < r->variable_count; k++)
-            x->w->state[k] = t == 1 ? x->q1[k] : x->q0[k] + t * (x->q1[k] - x->q0[k]);
+            search->w->state[k] = t == 1 ? search->q1[k] : search->q0[k] + t * (search->q1[k] - search->q0[k]);
         ++*states;
-        if (!collide_state(x->checker, x->w->state, &options, &is) || is.status != OVOID_ROBOT_HIT) continue;
-        number = checker_get_last_number(x->checker);
-        if (is_hit_on_path(x, t, number, hit)) return t;
+        if (!collide_state(search->checker, search->w->state, &options, &answer) || answer.status != OVOID_ROBOT_HIT)
+            continue;
+        number = checker_get_last_number(search->checker);
+        if (is_hit_on_path(search, t, number, hit)) return t;
     }
     return INFINITY;
 }

@@ -38,18 +38,18 @@ static double get_margin(const clearance_search *s) { return s->out->upper - s->
 // ---- one pair in an interval
 
 static ovoid_answer measure(clearance_search *s, const path_pair *p, uint32_t number, double cap) {
-    ovoid_robot_checker *x = s->checker;
+    ovoid_robot_checker *checker = s->checker;
     pair_parts of = pair_take_apart(s->w.cell, number);
     int is_part = of.part != OVOID_ROBOT_NONE;
-    ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
-    uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
+    ovoid_proof *proof = is_part ? &checker->part_proofs[number] : &checker->pair_proofs[of.pair];
+    uint32_t *mark = is_part ? &checker->part_marks[number] : &checker->pair_marks[of.pair];
     const checker_pair known = {.pair = p->pair, .a = p->a, .b = p->b, .proof = proof, .mark = mark};
     // No cap is 0: a body that is nearer than that is measured in full.
     const ovoid_options capped = {.cap = cap > 0 && cap < INFINITY ? cap : 0};
-    ovoid_answer is = ovoid_distance(&p->pair, &capped, pair_get_earlier(x, &known));
-    if (is.status == OVOID_OVERLAPPING) is = ovoid_depth(&p->pair, NULL, &is.proof, NULL);
-    pair_remember(x, &known, &is.proof);
-    return is;
+    ovoid_answer answer = ovoid_distance(&p->pair, &capped, pair_get_earlier(checker, &known));
+    if (answer.status == OVOID_OVERLAPPING) answer = ovoid_depth(&p->pair, NULL, &answer.proof, NULL);
+    pair_remember(checker, &known, &answer.proof);
+    return answer;
 }
 
 // The nearest so far.
@@ -95,10 +95,10 @@ static int test_solids(clearance_search *s, const path_span *i, uint32_t number,
     checker_pair outward = {.pair = p->pair, .error = p->error + p->motion.rounded, .padding = p->padding};
     double clear = add_up(p->padding, outward.error, p->motion.moved), cap = add_up(margin, clear, 0);
     const ovoid_options capped = {.cap = cap > 0 && cap < INFINITY ? cap : 0};
-    ovoid_answer is = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, clear);
-    take(s, p, upper_outward(&outward, is.upper), 0.5 * (i->begin + i->end));
-    *least = find_least(&outward, p, is.lower);
-    if (is.status == OVOID_OVERLAPPING) {
+    ovoid_answer answer = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, clear);
+    take(s, p, upper_outward(&outward, answer.upper), 0.5 * (i->begin + i->end));
+    *least = find_least(&outward, p, answer.lower);
+    if (answer.status == OVOID_OVERLAPPING) {
         keep_least(s, *least);
         return 1;
     }
@@ -112,12 +112,12 @@ static int test_pair(clearance_search *s, const path_span *i, uint32_t number, d
     path_pair p = path_make_pair(&s->w, number, i->middle->frames);
     checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
     double cap = add_up(add_up(get_margin(s), p.padding, outward.error), p.motion.moved, 0);
-    ovoid_answer is = measure(s, &p, number, cap);
-    *least = find_least(&outward, &p, is.lower);
-    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &is, least);
-    take(s, &p, upper_outward(&outward, is.upper), 0.5 * (i->begin + i->end));
+    ovoid_answer answer = measure(s, &p, number, cap);
+    *least = find_least(&outward, &p, answer.lower);
+    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &answer, least);
+    take(s, &p, upper_outward(&outward, answer.upper), 0.5 * (i->begin + i->end));
     if (*least > get_margin(s)) return 1;
-    return is_above_by_ends(s, i, number, &p, path_turn_back(&p, i->middle->frames, is.normal)) ||
+    return is_above_by_ends(s, i, number, &p, path_turn_back(&p, i->middle->frames, answer.normal)) ||
            is_narrow(s, &p, *least);
 }
 
@@ -312,29 +312,29 @@ static ovoid_code validate_options(const ovoid_robot_path *path, const ovoid_rob
     return OVOID_OK;
 }
 
-static ovoid_code compute(ovoid_robot_checker *x, const ovoid_robot_path *path, const ovoid_robot_clearance_options *o,
-                          ovoid_robot_clearance *out, ovoid_error *error) {
+static ovoid_code compute(ovoid_robot_checker *checker, const ovoid_robot_path *path,
+                          const ovoid_robot_clearance_options *o, ovoid_robot_clearance *out, ovoid_error *error) {
     static const ovoid_robot_clearance_options none;
     if (!o) o = &none;
     *out = (ovoid_robot_clearance){.lower = -INFINITY, .upper = INFINITY};
     ovoid_code code = validate_options(path, o, error);
-    if (code == OVOID_OK) code = checker_renew(x, error);
+    if (code == OVOID_OK) code = checker_renew(checker, error);
     if (code != OVOID_OK) return code;
-    clearance_search s = {.checker = x,
+    clearance_search s = {.checker = checker,
                           .options = &o->query,
                           .out = out,
-                          .tolerance = find_tolerance(x->cell, o->tolerance),
+                          .tolerance = find_tolerance(checker->cell, o->tolerance),
                           .states_most = o->states ? o->states : 100000 + 100 * (uint32_t)path->count,
                           .watch = &o->watch};
-    code = path_work_create(&s.w, x->cell, &x->allocator, error);
+    code = path_work_create(&s.w, checker->cell, &checker->allocator, error);
     if (code != OVOID_OK) return code;
     code = allocate(&s, error);
     if (code == OVOID_OK) {
         out->lower = INFINITY;
         run(&s, path);
     }
-    allocator_release(&x->allocator, s.masks);
-    allocator_release(&x->allocator, s.states);
+    allocator_release(&checker->allocator, s.masks);
+    allocator_release(&checker->allocator, s.states);
     path_work_destroy(&s.w);
     return code;
 }

@@ -355,9 +355,9 @@ double path_measure(const path_work *w, const path_pair *p, const link_frame *fr
 }
 
 ovoid_answer path_ask_exactly(const path_pair *p, const checker_pair *outward) {
-    ovoid_answer is = ovoid_depth(&p->pair, NULL, NULL, NULL);
-    if (!sides_have_solid(&p->solids)) return is;
-    return solid_pair_distance(&p->pair, &p->solids, NULL, &is, pair_get_clear(outward));
+    ovoid_answer answer = ovoid_depth(&p->pair, NULL, NULL, NULL);
+    if (!sides_have_solid(&p->solids)) return answer;
+    return solid_pair_distance(&p->pair, &p->solids, NULL, &answer, pair_get_clear(outward));
 }
 
 path_place path_find_place(const ovoid_robot_cell *cell, const ovoid_robot_path *path, double s) {
@@ -375,12 +375,12 @@ ovoid_robot_answer path_ask_hit(path_work *w, const path_place *place, uint32_t 
     if (of.part == OVOID_ROBOT_NONE) path_set_item(w, memory, of.other, 0);
     path_pair p = path_make_pair(w, number, memory->frames);
     const checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
-    ovoid_answer is = path_ask_exactly(&p, &outward);
+    ovoid_answer answer = path_ask_exactly(&p, &outward);
     return (ovoid_robot_answer){.status = OVOID_ROBOT_HIT,
                                 .a = *p.a,
                                 .b = *p.b,
-                                .lower = lower_outward(&outward, is.lower),
-                                .upper = upper_outward(&outward, is.upper)};
+                                .lower = lower_outward(&outward, answer.lower),
+                                .upper = upper_outward(&outward, answer.upper)};
 }
 
 static int is_side(const ovoid_robot_side *a, const ovoid_robot_side *b) {

@@ -170,7 +170,7 @@ typedef struct path_any_hit {
     path_state state; ///< memory
 } path_any_hit;
 /// Where one hits, 0 to 1, or infinity: none was found. *states grows by those looked at.
-double path_find_any_hit(const path_any_hit *x, uint32_t *states, ovoid_robot_answer *hit);
+double path_find_any_hit(const path_any_hit *search, uint32_t *states, ovoid_robot_answer *hit);
 
 /// 1 where one of two bodies is a solid.
 static inline int path_has_solid(const path_work *w, const pair_parts *of) {

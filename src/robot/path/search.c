@@ -54,11 +54,11 @@ static void take_answer(path_search *s, const path_pair *p, ovoid_robot_status s
 }
 
 static checker_pair get_checker_pair(const path_search *s, uint32_t number, const path_pair *p) {
-    ovoid_robot_checker *x = s->checker;
+    ovoid_robot_checker *checker = s->checker;
     pair_parts of = pair_take_apart(s->w->cell, number);
     int is_part = of.part != OVOID_ROBOT_NONE;
-    ovoid_proof *proof = is_part ? &x->part_proofs[number] : &x->pair_proofs[of.pair];
-    uint32_t *mark = is_part ? &x->part_marks[number] : &x->pair_marks[of.pair];
+    ovoid_proof *proof = is_part ? &checker->part_proofs[number] : &checker->pair_proofs[of.pair];
+    uint32_t *mark = is_part ? &checker->part_marks[number] : &checker->pair_marks[of.pair];
     // The normal stays in the world here: one that a check kept in a link's frame is a bad hint once, and no more.
     return (checker_pair){.pair = p->pair,
                           .solids = p->solids,
@@ -91,15 +91,17 @@ static int may_be_free_by_ends(const path_search *s, const path_span *i, const p
     return p->motion.curved * width * width < 16 * (lower - s->margin);
 }
 
-static int is_proven(path_search *s, const path_span *i, uint32_t number, const path_pair *p, const ovoid_answer *is) {
+static int is_proven(path_search *s, const path_span *i, uint32_t number, const path_pair *p,
+                     const ovoid_answer *answer) {
     double near = add_up(s->margin, p->padding, p->error);
-    if (!(is->lower > near)) return 0;
-    vec3 normal = path_turn_back(p, i->middle->frames, is->normal);
-    if (is->lower > add_up(near, p->motion.moved, 0) && (!s->options->steps || is_free_by_middle(s, i, p, normal))) {
+    if (!(answer->lower > near)) return 0;
+    vec3 normal = path_turn_back(p, i->middle->frames, answer->normal);
+    if (answer->lower > add_up(near, p->motion.moved, 0) &&
+        (!s->options->steps || is_free_by_middle(s, i, p, normal))) {
         add_step(s, i, number, OVOID_ROBOT_STEP_MIDDLE, 1, normal);
         return 1;
     }
-    if (!may_be_free_by_ends(s, i, p, is->lower) || !is_free_by_ends(s, i, number, p, normal)) return 0;
+    if (!may_be_free_by_ends(s, i, p, answer->lower) || !is_free_by_ends(s, i, number, p, normal)) return 0;
     add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal);
     return 1;
 }
@@ -121,14 +123,14 @@ static pair_outcome test_solids(path_search *s, const path_span *i, uint32_t num
     double near = add_up(s->margin, p->padding, p->error);
     const ovoid_options capped = {.cap = add_up(near, p->motion.moved, 0),
                                   .absolute_tolerance = 0.05 * p->motion.moved};
-    ovoid_answer is = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, pair_get_clear(&known));
-    if (is.lower > capped.cap && (!s->options->steps || path_is_solid_far(p, s->margin))) {
+    ovoid_answer answer = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, pair_get_clear(&known));
+    if (answer.lower > capped.cap && (!s->options->steps || path_is_solid_far(p, s->margin))) {
         add_step(s, i, number, OVOID_ROBOT_STEP_SOLID, 1, (vec3){0, 0, 0});
         return PAIR_APART;
     }
-    double upper = upper_outward(&known, is.upper);
+    double upper = upper_outward(&known, answer.upper);
     int is_hit = upper <= s->margin;
-    take_answer(s, p, is_hit ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED, lower_outward(&known, is.lower), upper);
+    take_answer(s, p, is_hit ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED, lower_outward(&known, answer.lower), upper);
     return is_hit ? PAIR_HIT : PAIR_LEFT;
 }
 
@@ -142,16 +144,16 @@ static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t nu
     // A normal need not be better than the motion lets it count.
     const ovoid_options capped = {.cap = add_up(add_up(s->margin, p.padding, p.error), p.motion.moved, 0),
                                   .absolute_tolerance = 0.05 * p.motion.moved};
-    ovoid_answer is = ovoid_distance(&p.pair, &capped, earlier);
-    pair_remember(s->checker, &known, &is.proof);
-    if (is_proven(s, i, number, &p, &is)) return PAIR_APART;
-    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &is);
-    double upper = upper_outward(&known, is.upper);
-    if (is.status == OVOID_OVERLAPPING && upper > s->margin) {
-        is = ovoid_depth(&p.pair, NULL, &is.proof, NULL);
-        upper = upper_outward(&known, is.upper);
+    ovoid_answer answer = ovoid_distance(&p.pair, &capped, earlier);
+    pair_remember(s->checker, &known, &answer.proof);
+    if (is_proven(s, i, number, &p, &answer)) return PAIR_APART;
+    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &answer);
+    double upper = upper_outward(&known, answer.upper);
+    if (answer.status == OVOID_OVERLAPPING && upper > s->margin) {
+        answer = ovoid_depth(&p.pair, NULL, &answer.proof, NULL);
+        upper = upper_outward(&known, answer.upper);
     }
-    take_answer(s, &p, OVOID_ROBOT_UNDECIDED, lower_outward(&known, is.lower), upper);
+    take_answer(s, &p, OVOID_ROBOT_UNDECIDED, lower_outward(&known, answer.lower), upper);
     if (!(upper <= s->margin)) return PAIR_LEFT;
     s->answer->hit.status = OVOID_ROBOT_HIT;
     return PAIR_HIT;
@@ -181,9 +183,9 @@ static int test_mask(path_search *s, const path_span *i, uint8_t *mask, uint32_t
     *mask &= (uint8_t)~gone;
     for (unsigned rest = *mask; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        pair_outcome is = test_pair(s, i, first + k);
-        if (is == PAIR_HIT) return 1;
-        if (is == PAIR_APART) *mask &= (uint8_t) ~(1u << k);
+        pair_outcome outcome = test_pair(s, i, first + k);
+        if (outcome == PAIR_HIT) return 1;
+        if (outcome == PAIR_APART) *mask &= (uint8_t) ~(1u << k);
     }
     return 0;
 }
@@ -204,22 +206,22 @@ typedef struct open_count {
 
 static open_count test_all(path_search *s, const path_span *i, uint8_t *masks) {
     const ovoid_robot_cell *c = s->w->cell;
-    open_count is = {0, 0};
+    open_count open = {0, 0};
     uint32_t parts = (uint32_t)(c->items.count * c->parts.count);
-    for (uint32_t k = 0; !is.is_hit && k < s->memory->mask_count; k++) {
+    for (uint32_t k = 0; !open.is_hit && k < s->memory->mask_count; k++) {
         if (!masks[k]) continue;
         uint32_t item = k / (s->memory->groups ? s->memory->groups : 1),
                  group = s->memory->groups ? k % s->memory->groups : 0;
         if (item < c->items.count && s->memory->groups) {
             unsigned far = path_find_far_parts(s->w, item, group, s->margin);
-            is.is_hit = test_mask(s, i, &masks[k], item * (uint32_t)c->parts.count + group * ROBOT8, far);
+            open.is_hit = test_mask(s, i, &masks[k], item * (uint32_t)c->parts.count + group * ROBOT8, far);
         } else {
             uint32_t first = ROBOT8 * (k - (uint32_t)c->items.count * s->memory->groups);
-            is.is_hit = test_mask(s, i, &masks[k], parts + first, find_far_pairs(s, first, masks[k]));
+            open.is_hit = test_mask(s, i, &masks[k], parts + first, find_far_pairs(s, first, masks[k]));
         }
-        is.left |= masks[k];
+        open.left |= masks[k];
     }
-    return is;
+    return open;
 }
 
 // ---- intervals
@@ -322,26 +324,26 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
     uint8_t *masks = get_masks(s, level);
     place_open(s, masks, &state, 0.5 * (end - begin));
     ovoid_robot_answer known = a->hit;
-    open_count is = test_all(s, &i, masks);
-    if (!is.is_hit && !is.left) {
+    open_count open = test_all(s, &i, masks);
+    if (!open.is_hit && !open.left) {
         a->hit = known;
         return 1;
     }
-    if (is.is_hit && s->options->any_hit) {
+    if (open.is_hit && s->options->any_hit) {
         end_with(s, begin, middle, &a->hit);
         return 0;
     }
-    if (is.is_hit)
+    if (open.is_hit)
         a->hit_at = s->segment + middle;
     else if (a->hit_at < INFINITY)
         a->hit = known;
     int is_narrow = a->hit_at - (s->segment + begin) <= s->tolerance;
     if (s->is_still || is_narrow || level + 1 == LEVELS) {
-        end_at(s, &i, masks, is.is_hit);
+        end_at(s, &i, masks, open.is_hit);
         return 0;
     }
     memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
-    if (!visit(s, level + 1, begin, middle, at_begin, &state) || is.is_hit) return 0;
+    if (!visit(s, level + 1, begin, middle, at_begin, &state) || open.is_hit) return 0;
     memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
     return visit(s, level + 1, middle, end, &state, at_end);
 }
@@ -381,8 +383,8 @@ static int find_any_hit(path_search *s, const ovoid_robot_path *path, size_t seg
     for (size_t i = 0; i < segments && !watch_is_stopped(&s->options->watch); i++) {
         ovoid_robot_answer hit;
         if (s->answer->states >= s->states_most || set_segment(s, i, path, &refused) != OVOID_OK) return 0;
-        path_any_hit x = {s->w, s->checker, &s->options->query, s->q0, s->q1, get_state(s, LEVELS + 2)};
-        double at = path_find_any_hit(&x, &s->answer->states, &hit);
+        path_any_hit search = {s->w, s->checker, &s->options->query, s->q0, s->q1, get_state(s, LEVELS + 2)};
+        double at = path_find_any_hit(&search, &s->answer->states, &hit);
         if (!(at < INFINITY)) continue;
         s->segment = 0;
         end_with(s, 0, (double)i + at, &hit);
@@ -445,18 +447,18 @@ static int allocate(path_memory *m, const ovoid_robot_cell *c) {
 }
 
 // The checker's memory, made where there is none for the cell as it is.
-static ovoid_code get_memory(ovoid_robot_checker *x, ovoid_error *error) {
-    if (x->path) return OVOID_OK;
-    path_memory *m = allocator_allocate(&x->allocator, 1, sizeof *m);
+static ovoid_code get_memory(ovoid_robot_checker *checker, ovoid_error *error) {
+    if (checker->path) return OVOID_OK;
+    path_memory *m = allocator_allocate(&checker->allocator, 1, sizeof *m);
     if (!m) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
     *m = (path_memory){.groups = 0};
-    ovoid_code code = path_work_create(&m->w, x->cell, &x->allocator, error);
+    ovoid_code code = path_work_create(&m->w, checker->cell, &checker->allocator, error);
     if (code != OVOID_OK) {
-        allocator_release(&x->allocator, m);
+        allocator_release(&checker->allocator, m);
         return code;
     }
-    if (allocate(m, x->cell)) {
-        x->path = m;
+    if (allocate(m, checker->cell)) {
+        checker->path = m;
         return OVOID_OK;
     }
     path_memory_destroy(m);
@@ -492,19 +494,19 @@ static void search(path_search *s, const ovoid_robot_path *path) {
     s->answer->hit = answer_make_empty();
 }
 
-static ovoid_code find_hit(ovoid_robot_checker *x, const ovoid_robot_path *path,
+static ovoid_code find_hit(ovoid_robot_checker *checker, const ovoid_robot_path *path,
                            const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
                            ovoid_error *error) {
     static const ovoid_robot_path_options none;
     if (!options) options = &none;
     *answer = (ovoid_robot_path_answer){.hit_at = INFINITY, .hit = {.lower = -INFINITY, .upper = INFINITY}};
     ovoid_code code = validate_options(path, options, error);
-    if (code == OVOID_OK) code = checker_renew(x, error);
-    if (code == OVOID_OK) code = get_memory(x, error);
+    if (code == OVOID_OK) code = checker_renew(checker, error);
+    if (code == OVOID_OK) code = get_memory(checker, error);
     if (code != OVOID_OK) return code;
-    path_search s = {.w = &x->path->w,
-                     .memory = x->path,
-                     .checker = x,
+    path_search s = {.w = &checker->path->w,
+                     .memory = checker->path,
+                     .checker = checker,
                      .options = options,
                      .answer = answer,
                      .margin = options->query.margin,

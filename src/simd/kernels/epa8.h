@@ -158,12 +158,12 @@ LANES_INLINE uint32_t find_nearest_face(const epa8 *s) {
 }
 
 // The faces that see a point, as bits.
-LANES_INLINE uint64_t find_seen(const epa8 *s, const epa8_query *q, const simd_difference *x, uint64_t seen[2]) {
+LANES_INLINE uint64_t find_seen(const epa8 *s, const epa8_query *q, const simd_difference *point, uint64_t seen[2]) {
     for (uint32_t half = 0; half < 2; half++) {
         uint64_t bits = 0;
         for (uint64_t rest = s->alive[half]; rest; rest &= rest - 1) {
             uint32_t at = 64 * half + (uint32_t)__builtin_ctzll(rest);
-            double along = (s->n[0][at] * x->x + s->n[1][at] * x->y) + s->n[2][at] * x->z;
+            double along = (s->n[0][at] * point->x + s->n[1][at] * point->y) + s->n[2][at] * point->z;
             bits |= along - s->low[at] > q->slack ? rest & -rest : 0;
         }
         seen[half] = bits;
@@ -210,8 +210,8 @@ LANES_INLINE uint32_t find_nearest_face(const epa8 *s) {
 }
 
 // The faces that see a point, as bits.
-LANES_INLINE uint64_t find_seen(const epa8 *s, const epa8_query *q, const simd_difference *x, uint64_t seen[2]) {
-    lane3 w = {lane_set(x->x), lane_set(x->y), lane_set(x->z)};
+LANES_INLINE uint64_t find_seen(const epa8 *s, const epa8_query *q, const simd_difference *point, uint64_t seen[2]) {
+    lane3 w = {lane_set(point->x), lane_set(point->y), lane_set(point->z)};
     seen[0] = seen[1] = 0;
     for (uint32_t row = 0; row < s->groups; row += EPA8_ROW) {
         uint64_t bits = 0;
@@ -355,15 +355,15 @@ LANES_INLINE int add_cone(epa8 *s, const epa8_query *q, uint32_t apex, vec3 w, c
 
 // ---- growth
 
-LANES_INLINE void set_point(epa8 *s, uint32_t i, const simd_difference *x) {
-    s->w[0][i] = x->x, s->w[1][i] = x->y, s->w[2][i] = x->z;
-    s->a[i] = x->a, s->b[i] = x->b;
+LANES_INLINE void set_point(epa8 *s, uint32_t i, const simd_difference *point) {
+    s->w[0][i] = point->x, s->w[1][i] = point->y, s->w[2][i] = point->z;
+    s->a[i] = point->a, s->b[i] = point->b;
 }
 LANES_INLINE vec3 get_point(const epa8 *s, uint32_t i) { return (vec3){s->w[0][i], s->w[1][i], s->w[2][i]}; }
 
-LANES_INLINE int has_point(const epa8 *s, const simd_difference *x) {
+LANES_INLINE int has_point(const epa8 *s, const simd_difference *point) {
     int found = 0;
-    for (uint32_t i = 0; i < s->points; i++) found |= s->a[i] == x->a && s->b[i] == x->b;
+    for (uint32_t i = 0; i < s->points; i++) found |= s->a[i] == point->a && s->b[i] == point->b;
     return found;
 }
 
@@ -385,9 +385,9 @@ LANES_INLINE vec3 find_toward(const epa8 *s) {
 LANES_INLINE int complete(epa8 *s, const epa8_query *q, int is_own) {
     while (s->points < EPA8_START) {
         vec3 n = find_toward(s);
-        simd_difference x = find_difference(q, is_own, n.x, n.y, n.z);
-        if (has_point(s, &x)) return 0;
-        set_point(s, s->points++, &x);
+        simd_difference point = find_difference(q, is_own, n.x, n.y, n.z);
+        if (has_point(s, &point)) return 0;
+        set_point(s, s->points++, &point);
     }
     vec3 w = get_point(s, 0), e1 = vec3_sub(get_point(s, 1), w), e2 = vec3_sub(get_point(s, 2), w);
     vec3 e3 = vec3_sub(get_point(s, 3), w);
@@ -420,13 +420,13 @@ LANES_INLINE int make_tetrahedron(epa8 *s, const epa8_query *q, int sign) {
 }
 
 // Joins a point to the surface. 0 if no face sees it, or that is not for here: then nothing is changed.
-LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *x) {
+LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *point) {
     uint64_t seen[2];
     rim r;
-    if (s->points == EPA8_POINTS || !find_seen(s, q, x, seen) || !find_rim(s, seen, &r)) return 0;
-    if (!add_cone(s, q, s->points, (vec3){x->x, x->y, x->z}, &r)) return 0;
+    if (s->points == EPA8_POINTS || !find_seen(s, q, point, seen) || !find_rim(s, seen, &r)) return 0;
+    if (!add_cone(s, q, s->points, (vec3){point->x, point->y, point->z}, &r)) return 0;
     // Only now: the planes' wide loads of the points would wait for a narrow store among them.
-    set_point(s, s->points, x);
+    set_point(s, s->points, point);
     for (int i = 0; i < 2; i++) s->alive[i] &= ~seen[i], s->inward[i] &= ~seen[i];
     s->points++;
     return 1;
@@ -436,13 +436,13 @@ LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *x) {
 LANES_INLINE simd_difference measure_support(epa8 *s, const epa8_query *q, int is_own) {
     uint32_t f = s->nearest = find_nearest_face(s);
     double n[3] = {s->n[0][f], s->n[1][f], s->n[2][f]};
-    simd_difference x = find_difference(q, is_own, n[0], n[1], n[2]);
+    simd_difference point = find_difference(q, is_own, n[0], n[1], n[2]);
     s->supports++;
-    if (x.gap > s->best_gap) {
-        s->best_gap = x.gap;
+    if (point.gap > s->best_gap) {
+        s->best_gap = point.gap;
         for (int k = 0; k < 3; k++) s->best_n[k] = n[k];
     }
-    return x;
+    return point;
 }
 
 LANES_INLINE epa8_end grow(epa8 *s, const epa8_query *q, int is_own) {
@@ -451,15 +451,15 @@ LANES_INLINE epa8_end grow(epa8 *s, const epa8_query *q, int is_own) {
     int sign = complete(s, q, is_own);
     if (!sign || !make_tetrahedron(s, q, sign)) return EPA8_FLAT;
     while (s->supports < q->most) {
-        simd_difference x = measure_support(s, q, is_own);
-        double low = s->low[s->nearest], high = -x.gap;
-        if (x.gap > q->claim) return EPA8_APART;
+        simd_difference point = measure_support(s, q, is_own);
+        double low = s->low[s->nearest], high = -point.gap;
+        if (point.gap > q->claim) return EPA8_APART;
         if (low > q->claim && high - low <= q->narrow) {
-            s->gap = x.gap;
+            s->gap = point.gap;
             find_below(s, lane_set(low + q->near), s->near);
             return EPA8_NARROW;
         }
-        if (high - low <= q->slack || !join(s, q, &x)) return EPA8_LEFT;
+        if (high - low <= q->slack || !join(s, q, &point)) return EPA8_LEFT;
     }
     return EPA8_LEFT;
 }

@@ -7,33 +7,33 @@ typedef struct traversal_entry {
 } traversal_entry;
 
 // The subtree below a node at the full stack, in the order of the tree.
-static void run_below(const tree_traversal *x, uint32_t root) {
-    uint32_t end = dynamic_tree_skip(x->tree, root);
+static void run_below(const tree_traversal *traversal, uint32_t root) {
+    uint32_t end = dynamic_tree_skip(traversal->tree, root);
     for (uint32_t at = root; at != end;) {
-        const tree_node *n = &x->tree->nodes[at];
-        int is_near = x->measure(x->context, &n->bounds) <= *x->bound;
-        if (is_near && !n->child) x->visit(x->context, n->body);
-        at = is_near && n->child ? n->child : dynamic_tree_skip(x->tree, at);
+        const tree_node *n = &traversal->tree->nodes[at];
+        int is_near = traversal->measure(traversal->context, &n->bounds) <= *traversal->bound;
+        if (is_near && !n->child) traversal->visit(traversal->context, n->body);
+        at = is_near && n->child ? n->child : dynamic_tree_skip(traversal->tree, at);
     }
 }
 
-void dynamic_tree_find_nearest(const tree_traversal *x) {
-    const tree_node *nodes = x->tree->nodes;
+void dynamic_tree_find_nearest(const tree_traversal *traversal) {
+    const tree_node *nodes = traversal->tree->nodes;
     traversal_entry stack[TREE_STACK + 2];
     uint32_t count = 0;
-    if (!x->tree->leaf_count) return;
-    stack[count++] = (traversal_entry){0, x->measure(x->context, &nodes[0].bounds)};
+    if (!traversal->tree->leaf_count) return;
+    stack[count++] = (traversal_entry){0, traversal->measure(traversal->context, &nodes[0].bounds)};
     while (count) {
         traversal_entry e = stack[--count];
         const tree_node *n = &nodes[e.node];
-        if (!(e.key <= *x->bound)) continue;
+        if (!(e.key <= *traversal->bound)) continue;
         if (!n->child) {
-            x->visit(x->context, n->body);
+            traversal->visit(traversal->context, n->body);
         } else if (count >= TREE_STACK) {
-            run_below(x, e.node);
+            run_below(traversal, e.node);
         } else {
-            traversal_entry left = {n->child, x->measure(x->context, &nodes[n->child].bounds)};
-            traversal_entry right = {n->child + 1, x->measure(x->context, &nodes[n->child + 1].bounds)};
+            traversal_entry left = {n->child, traversal->measure(traversal->context, &nodes[n->child].bounds)};
+            traversal_entry right = {n->child + 1, traversal->measure(traversal->context, &nodes[n->child + 1].bounds)};
             int is_right_first = right.key < left.key;
             stack[count++] = is_right_first ? left : right;
             stack[count++] = is_right_first ? right : left;

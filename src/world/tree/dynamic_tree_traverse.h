@@ -18,7 +18,7 @@ typedef struct tree_traversal {
     double *bound; ///< nodes that measure above it are skipped
 } tree_traversal;
 
-void dynamic_tree_find_nearest(const tree_traversal *x);
+void dynamic_tree_find_nearest(const tree_traversal *traversal);
 
 /// Called for a leaf whose box overlaps; 0 ends the traversal.
 typedef int tree_touch(void *context, const tree_node *leaf);

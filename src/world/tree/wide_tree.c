@@ -53,8 +53,8 @@ static void clear(box8 *wide) {
 }
 
 // Makes a wide node; those of its children wait. How many are waiting then.
-static uint32_t make_node(dynamic_tree *t, uint32_t own, const waiting *x, waiting *stack, uint32_t waits) {
-    family f = find_children(t, x->node);
+static uint32_t make_node(dynamic_tree *t, uint32_t own, const waiting *entry, waiting *stack, uint32_t waits) {
+    family f = find_children(t, entry->node);
     box8 *wide = &t->wide[own];
     clear(wide);
     for (uint32_t i = 0; i < f.count; i++) {
@@ -62,7 +62,7 @@ static uint32_t make_node(dynamic_tree *t, uint32_t own, const waiting *x, waiti
         n->link = own * BOX8 + i;
         wide_tree_set_box(t, n);
         if (n->child) {
-            stack[waits++] = (waiting){f.node[i], x->depth + 1, n->link};
+            stack[waits++] = (waiting){f.node[i], entry->depth + 1, n->link};
         } else {
             wide->leaves |= 1u << i;
             wide->child[i] = f.node[i];
@@ -79,13 +79,13 @@ void wide_tree_build(dynamic_tree *t) {
     t->nodes[0].link = NONE;
     stack[waits++] = (waiting){0, 1, NONE};
     while (waits) {
-        waiting x = stack[--waits];
-        if (x.depth > BOX8_DEPTH) {
+        waiting entry = stack[--waits];
+        if (entry.depth > BOX8_DEPTH) {
             t->wide_count = 0;
             return;
         }
         t->wide_count = made + 1;
-        if (x.link != NONE) t->wide[x.link / BOX8].child[x.link % BOX8] = made;
-        waits = make_node(t, made++, &x, stack, waits);
+        if (entry.link != NONE) t->wide[entry.link / BOX8].child[entry.link % BOX8] = made;
+        waits = make_node(t, made++, &entry, stack, waits);
     }
 }

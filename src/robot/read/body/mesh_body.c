@@ -3,9 +3,9 @@
 
 // The hull with the allowance that keeps brackets true of the triangles.
 static ovoid_code allow(mesh_body *body, double allowance, const ovoid_allocator *allocator, ovoid_error *error) {
-    ovoid_allowance is = ovoid_shape_get_allowance(body->shape);
-    is.inside += allowance;
-    ovoid_shape *allowed = ovoid_shape_create_allowed(body->shape, is, allocator, error);
+    ovoid_allowance own = ovoid_shape_get_allowance(body->shape);
+    own.inside += allowance;
+    ovoid_shape *allowed = ovoid_shape_create_allowed(body->shape, own, allocator, error);
     ovoid_shape_destroy(body->shape);
     body->shape = allowed;
     body->allowance = allowance;

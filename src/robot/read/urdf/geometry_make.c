@@ -104,9 +104,9 @@ static ovoid_code keep_solid(robot_reader *r, geometry *g, ovoid_solid *solid) {
 // matter. What the scaled triangles are is looked at anew: rounding may take them off their hull.
 static ovoid_code make_scaled(const open_mesh *open, const double *scale, ovoid_shape *hull, mesh_body *body,
                               ovoid_error *why) {
-    ovoid_solid_report is = ovoid_solid_get_report(open->solid);
+    ovoid_solid_report report = ovoid_solid_get_report(open->solid);
     const double *points = ovoid_solid_get_points(open->solid);
-    size_t count = (size_t)is.points, triangles = (size_t)is.triangles;
+    size_t count = (size_t)report.points, triangles = (size_t)report.triangles;
     double *xyz = malloc(3 * count * sizeof *xyz);
     uint32_t *indices = malloc(3 * triangles * sizeof *indices);
     ovoid_code code = OVOID_ERROR_MEMORY;
