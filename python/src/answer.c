@@ -158,16 +158,6 @@ static PyObject *get_proof(PyObject *self, void *closure) {
     return array_copy(state_of(self), RECORD_PROOF, 1, (Py_ssize_t[]){1}, proof);
 }
 
-static PyObject *get_body(PyObject *self, void *closure) {
-    answer_object *answer = (answer_object *)self;
-    return Py_NewRef(closure ? answer->b : answer->a);
-}
-
-static PyObject *get_pose(PyObject *self, void *closure) {
-    answer_object *answer = (answer_object *)self;
-    return pose_wrap(state_of(self), closure ? answer->pose_b : answer->pose_a);
-}
-
 static PyObject *is_within(PyObject *self, PyObject *margin) {
     double wanted = PyFloat_AsDouble(margin);
     if (wanted == -1 && PyErr_Occurred()) return NULL;
@@ -233,10 +223,10 @@ static PyGetSetDef fields[] = {
      NULL},
     {"proof", get_proof, NULL, "Records: The proof of the deciding parts, an array of one record: earlier= takes it.",
      NULL},
-    {"a", get_body, NULL, "Body: The first body.", NULL},
-    {"b", get_body, NULL, "Body: The second body.", ""},
-    {"pose_a", get_pose, NULL, "Pose: The pose of a.", NULL},
-    {"pose_b", get_pose, NULL, "Pose: The pose of b.", ""},
+    FIELD_PYTHON(answer_object, "Body", "a", a, "The first body."),
+    FIELD_PYTHON(answer_object, "Body", "b", b, "The second body."),
+    FIELD(answer_object, POSE, "pose_a", pose_a, "The pose of a."),
+    FIELD(answer_object, POSE, "pose_b", pose_b, "The pose of b."),
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyMethodDef methods[] = {{"is_within", is_within, METH_O,

@@ -76,20 +76,14 @@ static PyObject *compound_new(PyTypeObject *type, PyObject *arguments, PyObject 
     return raise_error(state, &error);
 }
 
-static PyObject *get_shapes(PyObject *self, void *closure) {
-    (void)closure;
-    return Py_NewRef(((compound_object *)self)->shapes);
+static PyObject *make_pose(const void *self, size_t i) {
+    const compound_object *compound = self;
+    return pose_wrap(state_of((PyObject *)self), ovoid_compound_get_part(compound->compound, i).pose);
 }
 
 static PyObject *get_poses(PyObject *self, void *closure) {
     (void)closure;
-    Py_ssize_t count = (Py_ssize_t)ovoid_compound_get_part_count(get(self));
-    PyObject *poses = PyTuple_New(count);
-    for (Py_ssize_t i = 0; poses && i < count; i++) {
-        PyObject *pose = pose_wrap(state_of(self), ovoid_compound_get_part(get(self), (size_t)i).pose);
-        if (!pose || PyTuple_SetItem(poses, i, pose)) Py_CLEAR(poses);
-    }
-    return poses;
+    return tuple_make(ovoid_compound_get_part_count(get(self)), make_pose, self);
 }
 
 static PyObject *get_ellipsoid(PyObject *self, void *closure) {
@@ -121,8 +115,8 @@ static void compound_dealloc(PyObject *object) {
 }
 
 static PyGetSetDef fields[] = {
-    {"shapes", get_shapes, NULL, "tuple[Shape, ...]: The shapes of its parts, a tuple.", NULL},
-    {"poses", get_poses, NULL, "tuple[Pose, ...]: The poses of its parts in its frame, a tuple.", NULL},
+    FIELD_PYTHON(compound_object, "tuple[Shape, ...]", "shapes", shapes, "The shapes of its parts."),
+    {"poses", get_poses, NULL, "tuple[Pose, ...]: The poses of its parts in its frame.", NULL},
     {"outer", get_ellipsoid, NULL,
      "Ellipsoid: An ellipsoid that encloses all parts; its gap is NaN, as it is not the smallest.", NULL},
     {"inner", get_ellipsoid, NULL, "Ellipsoid: The largest of the parts' inner ellipsoids.", ""},

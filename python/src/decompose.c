@@ -52,6 +52,18 @@ static const ovoid_shape **read_parts(module_state *state, PyObject *given, PyOb
 
 static void destroy_parts(PyObject *owner) { ovoid_parts_destroy(PyCapsule_GetPointer(owner, "parts")); }
 
+/// Shapes that belong to a capsule.
+typedef struct owned_parts {
+    module_state *state;
+    const ovoid_shape *const *shapes;
+    PyObject *owner;
+} owned_parts;
+
+static PyObject *borrow_part(const void *context, size_t i) {
+    const owned_parts *p = context;
+    return shape_borrow(p->state, p->shapes[i], p->owner);
+}
+
 // A tuple of Shapes, which keep the parts that they belong to.
 static PyObject *wrap_parts(module_state *state, ovoid_parts *made, const ovoid_error *error) {
     if (!made) return raise_error(state, error);
@@ -60,12 +72,8 @@ static PyObject *wrap_parts(module_state *state, ovoid_parts *made, const ovoid_
         ovoid_parts_destroy(made);
         return NULL;
     }
-    Py_ssize_t count = (Py_ssize_t)ovoid_parts_get_count(made);
-    PyObject *shapes = PyTuple_New(count);
-    for (Py_ssize_t i = 0; shapes && i < count; i++) {
-        PyObject *shape = shape_borrow(state, ovoid_parts_get_shapes(made)[i], owner);
-        if (!shape || PyTuple_SetItem(shapes, i, shape)) Py_CLEAR(shapes);
-    }
+    owned_parts all = {state, ovoid_parts_get_shapes(made), owner};
+    PyObject *shapes = tuple_make(ovoid_parts_get_count(made), borrow_part, &all);
     Py_DECREF(owner);
     return shapes;
 }

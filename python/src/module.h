@@ -160,6 +160,10 @@ typedef enum field_kind {
     FIELD_BOOL,
     FIELD_VEC3,
     FIELD_SYM3,
+    FIELD_BOX,
+    FIELD_PAIR,
+    FIELD_POSE,
+    FIELD_OBJECT, ///< of Python, never NULL
     FIELD_DOUBLES_12,
     FIELD_DOUBLES_12_12,
     FIELD_ENUM, ///< plus enum_kind
@@ -176,6 +180,9 @@ typedef enum field_kind {
 #define FIELD_TYPE_BOOL "bool"
 #define FIELD_TYPE_VEC3 "Vec3"
 #define FIELD_TYPE_SYM3 "Floats"
+#define FIELD_TYPE_BOX "Box"
+#define FIELD_TYPE_PAIR "tuple[float, float]"
+#define FIELD_TYPE_POSE "Pose"
 #define FIELD_TYPE_DOUBLES_12 "Floats"
 #define FIELD_TYPE_DOUBLES_12_12 "Floats"
 #define FIELD_TYPE_STATUS "Status"
@@ -184,24 +191,38 @@ typedef enum field_kind {
 #define FIELD_TYPE_IMPACT_STATUS "ImpactStatus"
 #define FIELD_TYPE_ROBOT_STATUS "RobotStatus"
 #define FIELD_TYPE_INSIDE "Inside"
+enum { FIELD_FACTS_MOST = 512 };
 typedef struct field {
     int kind;
-    size_t offset; ///< in the object
+    size_t offset;                          ///< in the object, or in its facts
+    void (*load)(PyObject *self, void *to); ///< writes the facts, at most FIELD_FACTS_MOST bytes; NULL: there are none
 } field;
 /// The getter of all fields; closure: a field.
 PyObject *field_get(PyObject *self, void *closure);
 #define FIELD_BY(getter, object, kind, name, member, doc)                                                              \
     {                                                                                                                  \
-        name, getter, NULL, doc, &(field) { FIELD_##kind, offsetof(object, member) }                                   \
+        name, getter, NULL, doc, &(field) { FIELD_##kind, offsetof(object, member), NULL }                             \
     }
 /// An attribute: the object that has it, how it is shown, its name, where it is, its words.
 #define FIELD(object, kind, name, member, doc)                                                                         \
     FIELD_BY(field_get, object, kind, name, member, FIELD_TYPE_##kind ": " doc)
+/// One of Python, of the type that is named.
+#define FIELD_PYTHON(object, type, name, member, doc) FIELD_BY(field_get, object, OBJECT, name, member, type ": " doc)
+/// One of the facts that load writes.
+#define FIELD_FACT(load, facts, kind, name, member, doc)                                                               \
+    {                                                                                                                  \
+        name, field_get, NULL, FIELD_TYPE_##kind ": " doc, &(field) { FIELD_##kind, offsetof(facts, member), load }    \
+    }
 /// One that may be None, as its getter says.
 #define FIELD_OPTIONAL(getter, object, kind, name, member, doc)                                                        \
     FIELD_BY(getter, object, kind, name, member, FIELD_TYPE_##kind " | None: " doc)
 
 PyObject *vec3_make(ovoid_vec3 v);
+PyObject *pair_make(double first, double second);
+PyObject *box_make(ovoid_box box);
+/// A tuple of count objects, each made by make(context, i).
+PyObject *tuple_make(size_t count, PyObject *(*make)(const void *context, size_t i), const void *context);
+PyObject *list_make(size_t count, PyObject *(*make)(const void *context, size_t i), const void *context);
 /// A matrix of an ellipsoid as a (3, 3) array.
 PyObject *sym3_make(module_state *state, const ovoid_sym3 *m);
 

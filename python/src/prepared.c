@@ -24,18 +24,8 @@ static void prepared_dealloc(PyObject *object) {
     object_free(object);
 }
 
-static PyObject *get_shape(PyObject *self, void *closure) {
-    (void)closure;
-    return Py_NewRef(((prepared_object *)self)->shape);
-}
-
-static PyObject *get_pose(PyObject *self, void *closure) {
-    (void)closure;
-    return pose_wrap(state_of(self), ((prepared_object *)self)->of.body.pose);
-}
-
-static PyGetSetDef fields[] = {{"shape", get_shape, NULL, "Shape: The Shape.", NULL},
-                               {"pose", get_pose, NULL, "Pose: Its Pose.", NULL},
+static PyGetSetDef fields[] = {FIELD_PYTHON(prepared_object, "Shape", "shape", shape, "The Shape."),
+                               FIELD(prepared_object, POSE, "pose", of.body.pose, "Its Pose."),
                                {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot slots[] = {
     {Py_tp_doc, "Prepared(shape: Shape, pose: PoseLike = None) -> Prepared\n--\n\nA Shape at a pose, prepared once to "

@@ -34,18 +34,30 @@ static PyObject *get_faces(PyObject *self, void *closure) {
 
 // ---- measures and ellipsoids
 
-static PyObject *get_measure(PyObject *self, void *closure) {
+/// What is the same for every reader of a shape, in the user's local frame.
+typedef struct shape_facts {
+    double volume, area, radius;
+    ovoid_vec3 centroid;
+    ovoid_sym3 inertia;
+    ovoid_box bounds;
+    ovoid_allowance allowance;
+    uint32_t rank;
+} shape_facts;
+_Static_assert(sizeof(shape_facts) <= FIELD_FACTS_MOST, "the facts of a shape");
+
+static ovoid_vec3 move(ovoid_vec3 x, ovoid_vec3 by) { return (ovoid_vec3){x.x + by.x, x.y + by.y, x.z + by.z}; }
+
+static void load_facts(PyObject *self, void *to) {
     ovoid_measures m = ovoid_shape_get_measures(get(self));
-    ovoid_vec3 o = ovoid_shape_get_polytope(get(self)).origin;
-    switch (*(const char *)closure) {
-    case 'v': return PyFloat_FromDouble(m.volume);
-    case 'a': return PyFloat_FromDouble(m.area);
-    case 'c': return vec3_make((ovoid_vec3){m.centroid.x + o.x, m.centroid.y + o.y, m.centroid.z + o.z});
-    case 'i': return sym3_make(state_of(self), &m.inertia);
-    default:
-        return Py_BuildValue("((ddd)(ddd))", m.box.min.x + o.x, m.box.min.y + o.y, m.box.min.z + o.z, m.box.max.x + o.x,
-                             m.box.max.y + o.y, m.box.max.z + o.z);
-    }
+    ovoid_polytope p = ovoid_shape_get_polytope(get(self));
+    *(shape_facts *)to = (shape_facts){.volume = m.volume,
+                                       .area = m.area,
+                                       .radius = ovoid_shape_get_radius(get(self)),
+                                       .centroid = move(m.centroid, p.origin),
+                                       .inertia = m.inertia,
+                                       .bounds = {move(m.box.min, p.origin), move(m.box.max, p.origin)},
+                                       .allowance = ovoid_shape_get_allowance(get(self)),
+                                       .rank = p.rank};
 }
 
 typedef struct fit_object {
@@ -63,9 +75,7 @@ static PyObject *get_fit(PyObject *self, void *closure) {
     fit_object *made = object_make(state_of(self)->fit);
     if (!made) return NULL;
     made->fit = closure ? ovoid_shape_get_inner(get(self)) : ovoid_shape_get_outer(get(self));
-    ovoid_vec3 o = ovoid_shape_get_polytope(get(self)).origin;
-    ovoid_vec3 *center = &made->fit.ellipsoid.center;
-    *center = (ovoid_vec3){center->x + o.x, center->y + o.y, center->z + o.z};
+    made->fit.ellipsoid.center = move(made->fit.ellipsoid.center, ovoid_shape_get_polytope(get(self)).origin);
     return (PyObject *)made;
 }
 
@@ -88,27 +98,11 @@ static PyType_Slot fit_slots[] = {{Py_tp_doc, "An ellipsoid around or inside a s
 static PyType_Spec fit_spec = {"ovoid.Ellipsoid", sizeof(fit_object), 0,
                                Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, fit_slots};
 
-static PyObject *get_radius(PyObject *self, void *closure) {
-    (void)closure;
-    return PyFloat_FromDouble(ovoid_shape_get_radius(get(self)));
-}
-
-static PyObject *get_allowance(PyObject *self, void *closure) {
-    (void)closure;
-    ovoid_allowance a = ovoid_shape_get_allowance(get(self));
-    return Py_BuildValue("(dd)", a.outside, a.inside);
-}
-
 static PyObject *get_allowance_axis(PyObject *self, void *closure) {
     (void)closure;
     ovoid_vec3 axis = ovoid_shape_get_allowance(get(self)).axis;
     if (!(fabs(axis.x) + fabs(axis.y) + fabs(axis.z) > 0)) Py_RETURN_NONE;
-    return Py_BuildValue("(ddd)", axis.x, axis.y, axis.z);
-}
-
-static PyObject *get_rank(PyObject *self, void *closure) {
-    (void)closure;
-    return PyLong_FromUnsignedLong(ovoid_shape_get_polytope(get(self)).rank);
+    return vec3_make(axis);
 }
 
 static PyObject *get_report(PyObject *self, void *closure) {
@@ -200,7 +194,7 @@ static PyObject *copy(PyObject *self, PyObject *ignored) {
 
 static PyObject *repr(PyObject *self) {
     ovoid_polytope p = ovoid_shape_get_polytope(get(self));
-    PyObject *radius = get_radius(self, NULL);
+    PyObject *radius = PyFloat_FromDouble(ovoid_shape_get_radius(get(self)));
     PyObject *text = radius ? PyUnicode_FromFormat("<ovoid.Shape: %u vertices, %u faces, radius %S>", p.vertex_count,
                                                    p.triangle_count, radius)
                             : NULL;
@@ -239,22 +233,25 @@ static PyMethodDef methods[] = {
 static PyGetSetDef fields[] = {
     {"vertices", get_vertices, NULL, "Floats: The extreme points, (n, 3), local frame.", NULL},
     {"faces", get_faces, NULL, "Indices: Triangles, (m, 3) indices of vertices, counter-clockwise from outside.", NULL},
-    {"volume", get_measure, NULL, "float: Volume of the polyhedron, without the rounding radius.", "v"},
-    {"area", get_measure, NULL, "float: Surface of the polyhedron; of a flat polygon both sides.", "a"},
-    {"centroid", get_measure, NULL, "Vec3: Centroid, local frame.", "c"},
-    {"inertia", get_measure, NULL, "Floats: Inertia tensor about the centroid, (3, 3), unit density.", "i"},
-    {"bounds", get_measure, NULL, "Box: The box of the vertices: ((x, y, z) of its least corner, of its greatest).",
-     "b"},
+    FIELD_FACT(load_facts, shape_facts, DOUBLE, "volume", volume,
+               "Volume of the polyhedron, without the rounding radius."),
+    FIELD_FACT(load_facts, shape_facts, DOUBLE, "area", area,
+               "Surface of the polyhedron; of a flat polygon both sides."),
+    FIELD_FACT(load_facts, shape_facts, VEC3, "centroid", centroid, "Centroid, local frame."),
+    FIELD_FACT(load_facts, shape_facts, SYM3, "inertia", inertia,
+               "Inertia tensor about the centroid, (3, 3), unit density."),
+    FIELD_FACT(load_facts, shape_facts, BOX, "bounds", bounds,
+               "The box of the vertices: ((x, y, z) of its least corner, of its greatest)."),
     {"outer", get_fit, NULL, "Ellipsoid: The smallest ellipsoid around the polyhedron.", NULL},
     {"inner", get_fit, NULL, "Ellipsoid: The largest ellipsoid inside the polyhedron.", ""},
-    {"radius", get_radius, NULL, "float: The rounding radius, part of the body.", NULL},
-    {"allowance", get_allowance, NULL, "tuple[float, float]: (outside, inside): what the true body may differ by.",
-     NULL},
+    FIELD_FACT(load_facts, shape_facts, DOUBLE, "radius", radius, "The rounding radius, part of the body."),
+    FIELD_FACT(load_facts, shape_facts, PAIR, "allowance", allowance,
+               "(outside, inside): what the true body may differ by."),
     {"allowance_axis", get_allowance_axis, NULL,
      "tuple[float, float, float] | None: The direction, of length 1, across which alone the true body stands out; "
      "None: it may in all directions.",
      NULL},
-    {"rank", get_rank, NULL, "int: 0 a point, 1 a segment, 2 flat, 3 solid.", NULL},
+    FIELD_FACT(load_facts, shape_facts, UINT, "rank", rank, "0 a point, 1 a segment, 2 flat, 3 solid."),
     {"report", get_report, NULL, "dict[str, int]: What the constructor did with the points given, a dict.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 

@@ -209,93 +209,55 @@ static PyObject *box(PyObject *type, PyObject *arguments, PyObject *keywords) {
     return shape_wrap(state, ovoid_shape_create_box(half, &options, &error), &error);
 }
 
-static PyObject *sphere(PyObject *type, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"radius", SHAPE_NAMES, NULL};
-    double radius;
-    shape_keywords k = {0};
-    ovoid_shape_options options;
-    ovoid_error error;
-    module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "d|" SHAPE_FORMAT ":sphere", names, &radius,
-                                     SHAPE_TARGETS(k)) ||
-        make_options(state, &k, &options))
-        return NULL;
-    return shape_wrap(state, ovoid_shape_create_sphere(radius, &options, &error), &error);
-}
-
-static PyObject *capsule(PyObject *type, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"radius", "half_length", SHAPE_NAMES, NULL};
-    double radius, half_length;
-    shape_keywords k = {0};
-    ovoid_shape_options options;
-    ovoid_error error;
-    module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "dd|" SHAPE_FORMAT ":capsule", names, &radius, &half_length,
-                                     SHAPE_TARGETS(k)) ||
-        make_options(state, &k, &options))
-        return NULL;
-    return shape_wrap(state, ovoid_shape_create_capsule(radius, half_length, &options, &error), &error);
-}
-
-typedef ovoid_shape *create_round(double radius, double half_length, double tolerance,
-                                  const ovoid_shape_options *options, ovoid_error *error);
-
-// The true cylinder or cone, held by a polyhedron with an allowance.
-static PyObject *make_round(PyObject *type, PyObject *arguments, PyObject *keywords, create_round *create) {
-    static char *names[] = {"radius", "half_length", "tolerance", SHAPE_NAMES, NULL};
-    double radius, half_length, tolerance = 0;
-    shape_keywords k = {0};
-    ovoid_shape_options options;
-    ovoid_error error;
-    module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "dd|d" SHAPE_FORMAT, names, &radius, &half_length, &tolerance,
-                                     SHAPE_TARGETS(k)) ||
-        make_options(state, &k, &options))
-        return NULL;
-    ovoid_shape *shape;
-    Py_BEGIN_ALLOW_THREADS;
-    shape = create(radius, half_length, tolerance, &options, &error);
-    Py_END_ALLOW_THREADS;
-    return shape_wrap(state, shape, &error);
-}
-
-static PyObject *cylinder(PyObject *type, PyObject *arguments, PyObject *keywords) {
-    return make_round(type, arguments, keywords, ovoid_shape_create_cylinder);
-}
-static PyObject *cone(PyObject *type, PyObject *arguments, PyObject *keywords) {
-    return make_round(type, arguments, keywords, ovoid_shape_create_cone);
-}
-
-typedef ovoid_shape *create_sided(double radius, double half_length, uint32_t sides, const ovoid_shape_options *options,
-                                  ovoid_error *error);
-
-static PyObject *make_sided(PyObject *type, PyObject *arguments, PyObject *keywords, create_sided *create) {
-    static char *names[] = {"radius", "half_length", "sides", SHAPE_NAMES, NULL};
-    double radius, half_length;
+/// What round bodies are made of; a constructor takes some of it.
+typedef struct round_sizes {
+    double radius, half_length, tolerance;
     long sides;
-    shape_keywords k = {0};
-    ovoid_shape_options options;
-    ovoid_error error;
-    module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "ddl|" SHAPE_FORMAT, names, &radius, &half_length, &sides,
-                                     SHAPE_TARGETS(k)) ||
-        make_options(state, &k, &options))
-        return NULL;
-    if (sides < 3 || sides > 1 << 24)
-        return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "sides: 3 to %d are wanted, not %ld", 1 << 24, sides);
-    ovoid_shape *shape;
-    Py_BEGIN_ALLOW_THREADS;
-    shape = create(radius, half_length, (uint32_t)sides, &options, &error);
-    Py_END_ALLOW_THREADS;
-    return shape_wrap(state, shape, &error);
+} round_sizes;
+
+static int validate_sides(module_state *state, long sides) {
+    if (sides >= 3 && sides <= 1 << 24) return 0;
+    raise_code(state, OVOID_ERROR_ARGUMENT, -1, "sides: 3 to %d are wanted, not %ld", 1 << 24, sides);
+    return -1;
 }
 
-static PyObject *prism(PyObject *type, PyObject *arguments, PyObject *keywords) {
-    return make_sided(type, arguments, keywords, ovoid_shape_create_prism);
-}
-static PyObject *pyramid(PyObject *type, PyObject *arguments, PyObject *keywords) {
-    return make_sided(type, arguments, keywords, ovoid_shape_create_pyramid);
-}
+/// The constructor of a round body: the kinds of its sizes (PyArg_ParseTupleAndKeywords), where in round_sizes s they
+/// go, the call that makes it, and their names.
+#define LISTED(...) __VA_ARGS__
+#define ROUND(name, kinds, targets, create, ...)                                                                       \
+    static PyObject *name(PyObject *type, PyObject *arguments, PyObject *keywords) {                                   \
+        static char *names[] = {__VA_ARGS__, SHAPE_NAMES, NULL};                                                       \
+        module_state *state = state_of_type(type);                                                                     \
+        round_sizes s = {.sides = 3};                                                                                  \
+        shape_keywords k = {0};                                                                                        \
+        ovoid_shape_options options;                                                                                   \
+        ovoid_error error;                                                                                             \
+        if (!PyArg_ParseTupleAndKeywords(arguments, keywords, kinds SHAPE_FORMAT ":" #name, names, targets,            \
+                                         SHAPE_TARGETS(k)) ||                                                          \
+            make_options(state, &k, &options) || validate_sides(state, s.sides))                                       \
+            return NULL;                                                                                               \
+        ovoid_shape *shape;                                                                                            \
+        Py_BEGIN_ALLOW_THREADS;                                                                                        \
+        shape = create;                                                                                                \
+        Py_END_ALLOW_THREADS;                                                                                          \
+        return shape_wrap(state, shape, &error);                                                                       \
+    }
+
+ROUND(sphere, "d|", &s.radius, ovoid_shape_create_sphere(s.radius, &options, &error), "radius")
+ROUND(capsule, "dd|", LISTED(&s.radius, &s.half_length),
+      ovoid_shape_create_capsule(s.radius, s.half_length, &options, &error), "radius", "half_length")
+ROUND(cylinder, "dd|d", LISTED(&s.radius, &s.half_length, &s.tolerance),
+      ovoid_shape_create_cylinder(s.radius, s.half_length, s.tolerance, &options, &error), "radius", "half_length",
+      "tolerance")
+ROUND(cone, "dd|d", LISTED(&s.radius, &s.half_length, &s.tolerance),
+      ovoid_shape_create_cone(s.radius, s.half_length, s.tolerance, &options, &error), "radius", "half_length",
+      "tolerance")
+ROUND(prism, "ddl|", LISTED(&s.radius, &s.half_length, &s.sides),
+      ovoid_shape_create_prism(s.radius, s.half_length, (uint32_t)s.sides, &options, &error), "radius", "half_length",
+      "sides")
+ROUND(pyramid, "ddl|", LISTED(&s.radius, &s.half_length, &s.sides),
+      ovoid_shape_create_pyramid(s.radius, s.half_length, (uint32_t)s.sides, &options, &error), "radius", "half_length",
+      "sides")
 
 // ---- from bytes and files
 
@@ -357,23 +319,21 @@ static PyObject *read_shape(PyObject *type, PyObject *arguments, PyObject *keywo
 
 static void destroy_shapes(PyObject *owner) { ovoid_shapes_destroy(PyCapsule_GetPointer(owner, "shapes")); }
 
-// The shapes of a file as a list of (name, Shape), which keep it.
-static PyObject *make_named(module_state *state, ovoid_shapes *shapes) {
-    PyObject *owner = PyCapsule_New(shapes, "shapes", destroy_shapes), *list = owner ? PyList_New(0) : NULL;
-    if (!owner) ovoid_shapes_destroy(shapes);
-    for (size_t i = 0; list && i < ovoid_shapes_get_count(shapes); i++) {
-        ovoid_named_shape one = ovoid_shapes_get(shapes, i);
-        PyObject *pair =
-            Py_BuildValue("NN", PyUnicode_DecodeFSDefault(one.name), shape_borrow(state, one.shape, owner));
-        if (!pair || PyList_Append(list, pair)) Py_CLEAR(list);
-        Py_XDECREF(pair);
-    }
-    Py_XDECREF(owner);
-    return list;
+/// The shapes of a file, and the capsule that keeps them.
+typedef struct kept_shapes {
+    module_state *state;
+    const ovoid_shapes *shapes;
+    PyObject *owner;
+} kept_shapes;
+
+static PyObject *make_named(const void *context, size_t i) {
+    const kept_shapes *k = context;
+    ovoid_named_shape one = ovoid_shapes_get(k->shapes, i);
+    return Py_BuildValue("NN", PyUnicode_DecodeFSDefault(one.name), shape_borrow(k->state, one.shape, k->owner));
 }
 
-// The shapes of the file; NULL with an exception. Releases the path.
-static ovoid_shapes *read_shapes(module_state *state, file_keywords *f) {
+// The shapes of the file in a capsule that owns them; NULL with an exception. Releases the path.
+static PyObject *read_shapes(module_state *state, file_keywords *f) {
     ovoid_error error;
     ovoid_shapes *shapes;
     const char *name = PyBytes_AsString(f->path);
@@ -381,16 +341,22 @@ static ovoid_shapes *read_shapes(module_state *state, file_keywords *f) {
     shapes = ovoid_shapes_read_file(name, &f->read, &f->options, &error);
     Py_END_ALLOW_THREADS;
     Py_DECREF(f->path);
-    if (!shapes) raise_error(state, &error);
-    return shapes;
+    if (!shapes) return raise_error(state, &error);
+    PyObject *owner = PyCapsule_New(shapes, "shapes", destroy_shapes);
+    if (!owner) ovoid_shapes_destroy(shapes);
+    return owner;
 }
 
 static PyObject *read_parts(PyObject *module, PyObject *arguments, PyObject *keywords) {
     file_keywords f = {.read = {.parts = 1}};
     module_state *state = state_of_module(module);
     if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT ":read_parts", &f)) return NULL;
-    ovoid_shapes *shapes = read_shapes(state, &f);
-    return shapes ? make_named(state, shapes) : NULL;
+    PyObject *owner = read_shapes(state, &f);
+    if (!owner) return NULL;
+    kept_shapes kept = {state, PyCapsule_GetPointer(owner, "shapes"), owner};
+    PyObject *list = list_make(ovoid_shapes_get_count(kept.shapes), make_named, &kept);
+    Py_DECREF(owner);
+    return list;
 }
 
 // The body of a file: its triangles where they are not their hull, else the shape. Borrowed from the owner.
@@ -408,10 +374,8 @@ static PyObject *read_body(PyObject *module, PyObject *arguments, PyObject *keyw
     file_keywords f = {.read = {.scale = 0}};
     module_state *state = state_of_module(module);
     if (read_file_keywords(state, arguments, keywords, "O&|dz" SHAPE_FORMAT "p:read", &f)) return NULL;
-    ovoid_shapes *shapes = read_shapes(state, &f);
-    PyObject *owner = shapes ? PyCapsule_New(shapes, "shapes", destroy_shapes) : NULL;
-    if (shapes && !owner) ovoid_shapes_destroy(shapes);
-    PyObject *body = owner ? make_body(state, ovoid_shapes_get(shapes, 0), &f.options, owner) : NULL;
+    PyObject *owner = read_shapes(state, &f), *body = NULL;
+    if (owner) body = make_body(state, ovoid_shapes_get(PyCapsule_GetPointer(owner, "shapes"), 0), &f.options, owner);
     Py_XDECREF(owner);
     return body;
 }

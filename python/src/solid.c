@@ -142,21 +142,8 @@ static PyObject *get_kind(PyObject *self, void *closure) {
     return PyUnicode_FromString(ovoid_solid_get_report(get(self)).is_closed ? "solid" : "surface");
 }
 
-static PyObject *get_is_closed(PyObject *self, void *closure) {
-    (void)closure;
-    return PyBool_FromLong(ovoid_solid_get_report(get(self)).is_closed);
-}
-
-static PyObject *get_measure(PyObject *self, void *closure) {
-    ovoid_solid_report r = ovoid_solid_get_report(get(self));
-    return PyFloat_FromDouble(closure ? r.area : r.volume);
-}
-
-static PyObject *get_bounds(PyObject *self, void *closure) {
-    (void)closure;
-    ovoid_box box = ovoid_solid_get_report(get(self)).box;
-    return Py_BuildValue("(NN)", vec3_make(box.min), vec3_make(box.max));
-}
+static void load_report(PyObject *self, void *to) { *(ovoid_solid_report *)to = ovoid_solid_get_report(get(self)); }
+_Static_assert(sizeof(ovoid_solid_report) <= FIELD_FACTS_MOST, "the facts of a solid");
 
 static PyObject *get_report(PyObject *self, void *closure) {
     (void)closure;
@@ -273,11 +260,13 @@ static PyGetSetDef fields[] = {
     {"kind", get_kind, NULL,
      "Literal['solid', 'surface']: \"solid\" where the triangles are closed, else \"surface\", as results have it.",
      NULL},
-    {"is_closed", get_is_closed, NULL, "bool: True: a solid with an inside; False: a surface, the triangles alone.",
-     NULL},
-    {"volume", get_measure, NULL, "float: Below 0 where it is inside out; 0 where it is not closed. Rounded.", NULL},
-    {"area", get_measure, NULL, "float: The area of all triangles, rounded.", ""},
-    {"bounds", get_bounds, NULL, "Box: The box of the points: ((x, y, z) of its least corner, of its greatest).", NULL},
+    FIELD_FACT(load_report, ovoid_solid_report, BOOL, "is_closed", is_closed,
+               "True: a solid with an inside; False: a surface, the triangles alone."),
+    FIELD_FACT(load_report, ovoid_solid_report, DOUBLE, "volume", volume,
+               "Below 0 where it is inside out; 0 where it is not closed. Rounded."),
+    FIELD_FACT(load_report, ovoid_solid_report, DOUBLE, "area", area, "The area of all triangles, rounded."),
+    FIELD_FACT(load_report, ovoid_solid_report, BOX, "bounds", box,
+               "The box of the points: ((x, y, z) of its least corner, of its greatest)."),
     {"report", get_report, NULL,
      "dict[str, int]: What was found of the triangles, a dict: points, triangles, components, edges_unmatched (0: "
      "closed), "

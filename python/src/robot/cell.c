@@ -254,11 +254,6 @@ static PyObject *get_padding(PyObject *object, PyObject *given) {
     return PyFloat_FromDouble(ovoid_robot_cell_get_padding(self->cell, link));
 }
 
-static PyObject *get_robot(PyObject *self, void *closure) {
-    (void)closure;
-    return Py_NewRef((PyObject *)((cell_object *)self)->robot);
-}
-
 static PyObject *get_bodies(PyObject *self, void *closure) {
     (void)closure;
     return PyDict_Copy(((cell_object *)self)->kept);
@@ -320,7 +315,7 @@ static PyMethodDef own_methods[] = {
     {NULL, NULL, 0, NULL}};
 
 static PyGetSetDef fields[] = {
-    {"robot", get_robot, NULL, "Robot: The Robot.", NULL},
+    FIELD_PYTHON(cell_object, "Robot", "robot", robot, "The Robot."),
     {"bodies", get_bodies, NULL, "dict[int, Body]: A dict of the bodies by their ids.", NULL},
     {"pair_count", get_pair_count, NULL, "int: How many pairs there are, queried or left out.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};

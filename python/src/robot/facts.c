@@ -21,24 +21,13 @@ static PyObject *get_root(PyObject *self, void *closure) {
     return robot_name_make(ovoid_robot_get_description(get(self)).links[ovoid_robot_get_root(get(self))].name);
 }
 
-// A tuple of count objects, each made by make(self, i).
-static PyObject *make_tuple(PyObject *self, size_t count, PyObject *(*make)(PyObject *self, size_t i)) {
-    PyObject *made = PyTuple_New((Py_ssize_t)count);
-    for (size_t i = 0; made && i < count; i++) {
-        PyObject *one = make(self, i);
-        if (!one)
-            Py_CLEAR(made);
-        else
-            PyTuple_SetItem(made, (Py_ssize_t)i, one);
-    }
-    return made;
-}
-
-static PyObject *make_link(PyObject *self, size_t i) {
+static PyObject *make_link(const void *context, size_t i) {
+    PyObject *self = (PyObject *)context;
     return robot_name_make(ovoid_robot_get_description(get(self)).links[i].name);
 }
 
-static PyObject *make_joint(PyObject *self, size_t i) {
+static PyObject *make_joint(const void *context, size_t i) {
+    PyObject *self = (PyObject *)context;
     module_state *state = state_of(self);
     ovoid_robot_description d = ovoid_robot_get_description(get(self));
     const ovoid_robot_joint *j = &d.joints[i];
@@ -66,44 +55,47 @@ PyObject *robot_variable_name_make(const robot_object *self, size_t i) {
     return make_variable_name(&ovoid_robot_get_description(self->robot).joints[v.joint], v.component);
 }
 
-static PyObject *make_variable(PyObject *self, size_t i) {
+static PyObject *make_variable(const void *context, size_t i) {
+    PyObject *self = (PyObject *)context;
     ovoid_robot_variable v = ovoid_robot_get_variable(get(self), i);
     const ovoid_robot_joint *joint = &ovoid_robot_get_description(get(self)).joints[v.joint];
     return PyObject_CallFunction(state_of(self)->variable, "NNIddd", make_variable_name(joint, v.component),
                                  robot_name_make(joint->name), v.component, v.lower, v.upper, v.velocity);
 }
 
-static PyObject *make_element(PyObject *self, size_t i) {
+static PyObject *make_element(const void *context, size_t i) {
+    PyObject *self = (PyObject *)context;
     const ovoid_robot_element *e = &ovoid_robot_get_description(get(self)).elements[i];
     PyObject *shape = PyTuple_GetItem(((robot_object *)self)->shapes, (Py_ssize_t)i);
     return PyObject_CallFunction(state_of(self)->element, "NONN", make_link(self, e->link), shape,
                                  pose_wrap(state_of(self), e->pose), robot_name_make(e->name));
 }
 
-static PyObject *make_disabled(PyObject *self, size_t i) {
+static PyObject *make_disabled(const void *context, size_t i) {
+    PyObject *self = (PyObject *)context;
     ovoid_robot_pair pair = ovoid_robot_get_description(get(self)).disabled[i];
     return Py_BuildValue("NNN", make_link(self, pair.a), make_link(self, pair.b), robot_name_make(pair.reason));
 }
 
 static PyObject *get_links(PyObject *self, void *closure) {
     (void)closure;
-    return make_tuple(self, ovoid_robot_get_description(get(self)).link_count, make_link);
+    return tuple_make(ovoid_robot_get_description(get(self)).link_count, make_link, self);
 }
 static PyObject *get_joints(PyObject *self, void *closure) {
     (void)closure;
-    return make_tuple(self, ovoid_robot_get_description(get(self)).joint_count, make_joint);
+    return tuple_make(ovoid_robot_get_description(get(self)).joint_count, make_joint, self);
 }
 static PyObject *get_variables(PyObject *self, void *closure) {
     (void)closure;
-    return make_tuple(self, ovoid_robot_get_variable_count(get(self)), make_variable);
+    return tuple_make(ovoid_robot_get_variable_count(get(self)), make_variable, self);
 }
 static PyObject *get_elements(PyObject *self, void *closure) {
     (void)closure;
-    return make_tuple(self, ovoid_robot_get_description(get(self)).element_count, make_element);
+    return tuple_make(ovoid_robot_get_description(get(self)).element_count, make_element, self);
 }
 static PyObject *get_disabled(PyObject *self, void *closure) {
     (void)closure;
-    return make_tuple(self, ovoid_robot_get_description(get(self)).disabled_count, make_disabled);
+    return tuple_make(ovoid_robot_get_description(get(self)).disabled_count, make_disabled, self);
 }
 
 // The lower limits of all variables, or with a closure the upper ones.

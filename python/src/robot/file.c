@@ -138,100 +138,87 @@ static int read_scales(read_input *in) {
 
 // ---- what a file says beside the description
 
-static const char *joint_name(const ovoid_robot_description *d, uint32_t i) { return d->joints[i].name; }
-static const char *link_name(const ovoid_robot_description *d, uint32_t i) { return d->links[i].name; }
+/// A file, and of which of its parts.
+typedef struct file_part {
+    const ovoid_robot_file *file;
+    ovoid_robot_description d;
+    const uint32_t *indices; ///< of joints or links
+} file_part;
 
-static PyObject *make_names(const ovoid_robot_description *d, const uint32_t *indices, size_t count,
-                            const char *(*name)(const ovoid_robot_description *, uint32_t)) {
-    PyObject *made = PyTuple_New((Py_ssize_t)count);
-    for (size_t i = 0; made && i < count; i++) {
-        PyObject *text = PyUnicode_FromString(name(d, indices[i]));
-        if (!text)
-            Py_CLEAR(made);
-        else
-            PyTuple_SetItem(made, (Py_ssize_t)i, text);
-    }
-    return made;
+static PyObject *make_joint_name(const void *context, size_t i) {
+    const file_part *p = context;
+    return PyUnicode_FromString(p->d.joints[p->indices[i]].name);
 }
 
-static PyObject *make_group(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
-    ovoid_robot_group g = ovoid_robot_file_get_group(file, i);
-    return Py_BuildValue("sNN", g.name, make_names(d, g.joints, g.joint_count, joint_name),
-                         make_names(d, g.links, g.link_count, link_name));
+static PyObject *make_link_name(const void *context, size_t i) {
+    const file_part *p = context;
+    return PyUnicode_FromString(p->d.links[p->indices[i]].name);
 }
 
-static PyObject *make_named_state(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
-    ovoid_robot_state s = ovoid_robot_file_get_state(file, i);
+static PyObject *make_group(const void *context, size_t i) {
+    const file_part *p = context;
+    ovoid_robot_group g = ovoid_robot_file_get_group(p->file, i);
+    file_part joints = {p->file, p->d, g.joints}, links = {p->file, p->d, g.links};
+    return Py_BuildValue("sNN", g.name, tuple_make(g.joint_count, make_joint_name, &joints),
+                         tuple_make(g.link_count, make_link_name, &links));
+}
+
+static PyObject *make_number(const void *numbers, size_t i) { return PyFloat_FromDouble(((const double *)numbers)[i]); }
+
+static PyObject *make_named_state(const void *context, size_t i) {
+    const file_part *p = context;
+    ovoid_robot_state s = ovoid_robot_file_get_state(p->file, i);
     PyObject *values = PyDict_New();
     for (size_t k = 0; values && k < s.value_count; k++) {
         const ovoid_robot_value *v = &s.values[k];
-        PyObject *numbers = PyTuple_New(v->count);
-        for (uint32_t c = 0; numbers && c < v->count; c++)
-            PyTuple_SetItem(numbers, c, PyFloat_FromDouble(v->values[c]));
-        if (!numbers || PyDict_SetItemString(values, joint_name(d, v->joint), numbers)) Py_CLEAR(values);
+        PyObject *numbers = tuple_make(v->count, make_number, v->values);
+        if (!numbers || PyDict_SetItemString(values, p->d.joints[v->joint].name, numbers)) Py_CLEAR(values);
         Py_XDECREF(numbers);
     }
     return Py_BuildValue("ssN", s.name, s.group, values);
 }
 
-static PyObject *make_mesh(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
-    (void)d;
-    ovoid_robot_mesh m = ovoid_robot_file_get_mesh(file, i);
+static PyObject *make_mesh(const void *context, size_t i) {
+    ovoid_robot_mesh m = ovoid_robot_file_get_mesh(((const file_part *)context)->file, i);
     return Py_BuildValue("{s:s,s:s,s:N,s:n,s:n,s:d,s:d,s:s,s:d}", "path", m.path, "address", m.address, "scale",
                          vec3_make(m.scale), "parts", (Py_ssize_t)m.part_count, "uses", (Py_ssize_t)m.use_count,
                          "mesh_volume", m.convexity.mesh_volume, "hull_volume", m.convexity.hull_volume, "kind",
                          ovoid_mesh_kind_get_name(m.kind), "allowance", m.allowance);
 }
 
-static PyObject *make_sphere(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
+static PyObject *make_sphere(const void *context, size_t i) {
+    const file_part *p = context;
     size_t count;
-    return Py_BuildValue("sNd", link_name(d, ovoid_robot_file_get_spheres(file, &count)[i].link),
-                         vec3_make(ovoid_robot_file_get_spheres(file, &count)[i].ball.center),
-                         ovoid_robot_file_get_spheres(file, &count)[i].ball.radius);
+    const ovoid_robot_link_sphere *s = &ovoid_robot_file_get_spheres(p->file, &count)[i];
+    return Py_BuildValue("sNd", p->d.links[s->link].name, vec3_make(s->ball.center), s->ball.radius);
 }
 
-static PyObject *make_ignored(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i) {
-    (void)d;
-    ovoid_robot_ignored ignored = ovoid_robot_file_get_ignored(file, i);
+static PyObject *make_ignored(const void *context, size_t i) {
+    ovoid_robot_ignored ignored = ovoid_robot_file_get_ignored(((const file_part *)context)->file, i);
     return Py_BuildValue("sn", ignored.name, (Py_ssize_t)ignored.count);
 }
 
-typedef PyObject *fact_maker(const ovoid_robot_file *file, const ovoid_robot_description *d, size_t i);
-
-static int add_facts(PyObject *facts, const char *key, const ovoid_robot_file *file, size_t count, fact_maker *make) {
-    ovoid_robot_description d = ovoid_robot_file_get_description(file);
-    PyObject *made = PyTuple_New((Py_ssize_t)count);
-    for (size_t i = 0; made && i < count; i++) {
-        PyObject *one = make(file, &d, i);
-        if (!one)
-            Py_CLEAR(made);
-        else
-            PyTuple_SetItem(made, (Py_ssize_t)i, one);
-    }
-    int failed = !made || PyDict_SetItemString(facts, key, made);
-    Py_XDECREF(made);
-    return failed ? -1 : 0;
-}
-
 static PyObject *make_facts(const ovoid_robot_file *file) {
-    ovoid_robot_description d = ovoid_robot_file_get_description(file);
     size_t spheres, passive;
     ovoid_robot_file_get_spheres(file, &spheres);
-    const uint32_t *joints = ovoid_robot_file_get_passive(file, &passive);
-    PyObject *facts = PyDict_New(), *names = make_names(&d, joints, passive, joint_name);
-    if (!facts || !names || PyDict_SetItemString(facts, "passive", names) ||
-        add_facts(facts, "groups", file, ovoid_robot_file_get_group_count(file), make_group) ||
-        add_facts(facts, "states", file, ovoid_robot_file_get_state_count(file), make_named_state) ||
-        add_facts(facts, "meshes", file, ovoid_robot_file_get_mesh_count(file), make_mesh) ||
-        add_facts(facts, "spheres", file, spheres, make_sphere) ||
-        add_facts(facts, "ignored", file, ovoid_robot_file_get_ignored_count(file), make_ignored))
-        Py_CLEAR(facts);
-    size_t mimics = ovoid_robot_file_get_fixed_mimic_count(file);
-    PyObject *count = facts ? PyLong_FromSize_t(mimics) : NULL;
-    if (facts && (!count || PyDict_SetItemString(facts, "fixed_mimics", count))) Py_CLEAR(facts);
-    Py_XDECREF(count);
-    Py_XDECREF(names);
-    return facts;
+    file_part part = {file, ovoid_robot_file_get_description(file), ovoid_robot_file_get_passive(file, &passive)};
+    const struct {
+        const char *key;
+        size_t count;
+        PyObject *(*make)(const void *context, size_t i);
+    } facts[] = {{"groups", ovoid_robot_file_get_group_count(file), make_group},
+                 {"states", ovoid_robot_file_get_state_count(file), make_named_state},
+                 {"meshes", ovoid_robot_file_get_mesh_count(file), make_mesh},
+                 {"spheres", spheres, make_sphere},
+                 {"passive", passive, make_joint_name},
+                 {"ignored", ovoid_robot_file_get_ignored_count(file), make_ignored}};
+    PyObject *all = Py_BuildValue("{s:n}", "fixed_mimics", (Py_ssize_t)ovoid_robot_file_get_fixed_mimic_count(file));
+    for (size_t i = 0; all && i < sizeof facts / sizeof *facts; i++) {
+        PyObject *made = tuple_make(facts[i].count, facts[i].make, &part);
+        if (!made || PyDict_SetItemString(all, facts[i].key, made)) Py_CLEAR(all);
+        Py_XDECREF(made);
+    }
+    return all;
 }
 
 // ---- shapes that belong to a file
@@ -309,23 +296,20 @@ static PyObject *make_solid(module_state *state, const ovoid_solid *solid, PyObj
     return solid ? solid_borrow(state, solid, owner) : Py_NewRef(Py_None);
 }
 
-static PyObject *make_text(const char *text) { return text ? robot_name_make(text) : Py_NewRef(Py_None); }
+/// A scene, and the capsule that keeps its shapes.
+typedef struct kept_obstacles {
+    module_state *state;
+    const ovoid_obstacles *obstacles;
+    PyObject *owner;
+} kept_obstacles;
 
-// The obstacles of a file as a list of tuples; the owner keeps the shapes.
-static PyObject *make_obstacles(module_state *state, const ovoid_obstacles *obstacles, PyObject *owner) {
-    size_t count = ovoid_obstacles_get_count(obstacles);
-    PyObject *list = PyList_New(0);
-    for (size_t i = 0; list && i < count; i++) {
-        ovoid_obstacle o = ovoid_obstacles_get(obstacles, i);
-        PyObject *solid = make_solid(state, o.solid, owner);
-        PyObject *one =
-            solid ? PyObject_CallFunction(state->obstacle, "sNNNNN", o.name, shape_borrow(state, o.shape, owner),
-                                          pose_wrap(state, o.pose), solid, make_text(o.frame), make_text(o.link))
-                  : NULL;
-        if (!one || PyList_Append(list, one)) Py_CLEAR(list);
-        Py_XDECREF(one);
-    }
-    return list;
+static PyObject *make_obstacle(const void *context, size_t i) {
+    const kept_obstacles *k = context;
+    ovoid_obstacle o = ovoid_obstacles_get(k->obstacles, i);
+    PyObject *solid = make_solid(k->state, o.solid, k->owner);
+    if (!solid) return NULL;
+    return PyObject_CallFunction(k->state->obstacle, "sNNNNN", o.name, shape_borrow(k->state, o.shape, k->owner),
+                                 pose_wrap(k->state, o.pose), solid, robot_name_make(o.frame), robot_name_make(o.link));
 }
 
 // Reads a scene; the capsule owns it.
@@ -358,7 +342,8 @@ static PyObject *read_obstacles(PyObject *module, PyObject *arguments, PyObject 
     module_state *state = state_of_module(module);
     PyObject *owner = read_scene(state, path, tolerance, solids);
     Py_DECREF(path);
-    if (owner) list = make_obstacles(state, PyCapsule_GetPointer(owner, "obstacles"), owner);
+    kept_obstacles kept = {state, owner ? PyCapsule_GetPointer(owner, "obstacles") : NULL, owner};
+    if (owner) list = list_make(ovoid_obstacles_get_count(kept.obstacles), make_obstacle, &kept);
     Py_XDECREF(owner);
     return list;
 }
@@ -375,17 +360,18 @@ static PyObject *make_positions(const ovoid_joint_position *positions, size_t co
     return made;
 }
 
+static PyObject *make_goal(const void *request, size_t i) {
+    size_t count;
+    const ovoid_joint_position *goal = ovoid_motion_request_get_goal(request, i, &count);
+    return make_positions(goal, count);
+}
+
 static PyObject *make_request(module_state *state, const ovoid_motion_request *request) {
     size_t count;
     const ovoid_joint_position *start = ovoid_motion_request_get_start(request, &count);
-    PyObject *first = make_positions(start, count), *goals = PyList_New(0);
-    for (size_t i = 0; goals && i < ovoid_motion_request_get_goal_count(request); i++) {
-        const ovoid_joint_position *goal = ovoid_motion_request_get_goal(request, i, &count);
-        PyObject *one = make_positions(goal, count);
-        if (!one || PyList_Append(goals, one)) Py_CLEAR(goals);
-        Py_XDECREF(one);
-    }
-    return PyObject_CallFunction(state->motion_request, "sNN", ovoid_motion_request_get_group(request), first, goals);
+    return PyObject_CallFunction(state->motion_request, "sNN", ovoid_motion_request_get_group(request),
+                                 make_positions(start, count),
+                                 list_make(ovoid_motion_request_get_goal_count(request), make_goal, request));
 }
 
 static PyObject *read_motion_request(PyObject *module, PyObject *given) {
@@ -403,6 +389,11 @@ static PyObject *read_motion_request(PyObject *module, PyObject *given) {
     return made;
 }
 
+static PyObject *make_problem(const void *problems, size_t i) {
+    ovoid_problem p = ovoid_problems_get(problems, i);
+    return Py_BuildValue("sNN", p.name, PyUnicode_DecodeFSDefault(p.scene), PyUnicode_DecodeFSDefault(p.request));
+}
+
 static PyObject *find_problems(PyObject *module, PyObject *given) {
     PyObject *path = NULL;
     ovoid_error error;
@@ -410,14 +401,7 @@ static PyObject *find_problems(PyObject *module, PyObject *given) {
     ovoid_problems *problems = ovoid_problems_find(PyBytes_AsString(path), &error);
     Py_DECREF(path);
     if (!problems) return raise_error(state_of_module(module), &error);
-    PyObject *list = PyList_New(0);
-    for (size_t i = 0; list && i < ovoid_problems_get_count(problems); i++) {
-        ovoid_problem p = ovoid_problems_get(problems, i);
-        PyObject *one =
-            Py_BuildValue("sNN", p.name, PyUnicode_DecodeFSDefault(p.scene), PyUnicode_DecodeFSDefault(p.request));
-        if (!one || PyList_Append(list, one)) Py_CLEAR(list);
-        Py_XDECREF(one);
-    }
+    PyObject *list = list_make(ovoid_problems_get_count(problems), make_problem, problems);
     ovoid_problems_destroy(problems);
     return list;
 }

@@ -8,30 +8,24 @@ static PyObject *make_state(module_state *state, const double *q, size_t variabl
     return array_copy(state, RECORD_DOUBLE, 1, (Py_ssize_t[]){(Py_ssize_t)variables}, q);
 }
 
-static PyObject *make_pair(const robot_object *self, const ovoid_robot_matrix_pair *pair) {
-    module_state *state = state_of((PyObject *)self);
-    size_t variables = robot_variable_count(self);
-    const ovoid_robot_link *links = ovoid_robot_get_description(self->robot).links;
-    return PyObject_CallFunction(state->matrix_pair, "ssNNnnnnNNzz", links[pair->a].name, links[pair->b].name,
-                                 enum_get(state, ENUM_ROBOT_TOUCH, pair->touch), PyBool_FromLong(pair->is_neighbour),
-                                 (Py_ssize_t)pair->samples, (Py_ssize_t)pair->hits, (Py_ssize_t)pair->frees,
-                                 (Py_ssize_t)pair->cells, make_state(state, pair->hit, variables),
-                                 make_state(state, pair->free, variables), ovoid_robot_matrix_pair_get_reason(pair, 0),
-                                 ovoid_robot_matrix_pair_get_reason(pair, 1));
-}
+/// A matrix and whose it is.
+typedef struct pairs {
+    const robot_object *robot;
+    const ovoid_robot_matrix *matrix;
+} pairs;
 
-static PyObject *make_pairs(const robot_object *self, const ovoid_robot_matrix *matrix) {
-    size_t count = ovoid_robot_matrix_get_count(matrix);
-    PyObject *made = PyTuple_New((Py_ssize_t)count);
-    for (size_t i = 0; made && i < count; i++) {
-        ovoid_robot_matrix_pair pair = ovoid_robot_matrix_get_pair(matrix, i);
-        PyObject *one = make_pair(self, &pair);
-        if (!one)
-            Py_CLEAR(made);
-        else
-            PyTuple_SetItem(made, (Py_ssize_t)i, one);
-    }
-    return made;
+static PyObject *make_pair(const void *context, size_t i) {
+    const pairs *p = context;
+    ovoid_robot_matrix_pair pair = ovoid_robot_matrix_get_pair(p->matrix, i);
+    module_state *state = state_of((PyObject *)p->robot);
+    size_t variables = robot_variable_count(p->robot);
+    const ovoid_robot_link *links = ovoid_robot_get_description(p->robot->robot).links;
+    return PyObject_CallFunction(state->matrix_pair, "ssNNnnnnNNzz", links[pair.a].name, links[pair.b].name,
+                                 enum_get(state, ENUM_ROBOT_TOUCH, pair.touch), PyBool_FromLong(pair.is_neighbour),
+                                 (Py_ssize_t)pair.samples, (Py_ssize_t)pair.hits, (Py_ssize_t)pair.frees,
+                                 (Py_ssize_t)pair.cells, make_state(state, pair.hit, variables),
+                                 make_state(state, pair.free, variables), ovoid_robot_matrix_pair_get_reason(&pair, 0),
+                                 ovoid_robot_matrix_pair_get_reason(&pair, 1));
 }
 
 static PyObject *compute_matrix(PyObject *object, PyObject *arguments, PyObject *keywords) {
@@ -50,7 +44,8 @@ static PyObject *compute_matrix(PyObject *object, PyObject *arguments, PyObject 
     ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(self->robot, &o, NULL, &error);
     int is_raised = interrupt_end(&signals);
     if (!matrix && !is_raised) return raise_error(state_of(object), &error);
-    PyObject *made = is_raised ? NULL : make_pairs(self, matrix);
+    pairs all = {self, matrix};
+    PyObject *made = is_raised ? NULL : tuple_make(ovoid_robot_matrix_get_count(matrix), make_pair, &all);
     ovoid_robot_matrix_destroy(matrix);
     return made;
 }

@@ -185,11 +185,6 @@ static PyObject *get_states(PyObject *self, void *closure) {
     return array_copy(state_of(self), RECORD_DOUBLE, 2, shape, path->states);
 }
 
-static PyObject *get_cell(PyObject *self, void *closure) {
-    (void)closure;
-    return Py_NewRef((PyObject *)((path_object *)self)->cell);
-}
-
 static PyObject *repr(PyObject *self) {
     static const char *const words[] = {"undecided", "free", "hit", "refused"};
     const ovoid_robot_path_answer *x = &((path_object *)self)->of;
@@ -214,7 +209,7 @@ static PyGetSetDef fields[] = {
     {"steps", get_steps, NULL,
      "Records: The proof: an array of records begin, end, pair, kind (1 outer, 2 middle, 3 ends), mask, normal.", NULL},
     {"states", get_states, NULL, "Floats: The states of the path, (n, variables).", NULL},
-    {"cell", get_cell, NULL, "Cell: The Cell that was asked.", NULL},
+    FIELD_PYTHON(path_object, "Cell", "cell", cell, "The Cell that was asked."),
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyType_Slot slots[] = {{Py_tp_doc,

@@ -9,17 +9,8 @@
 
 // ---- what the paths of a file are of
 
-static PyObject *make_texts(const char *const *texts, size_t count) {
-    PyObject *made = PyTuple_New((Py_ssize_t)count);
-    for (size_t i = 0; made && i < count; i++) {
-        PyObject *text = robot_name_make(texts[i]);
-        if (!text)
-            Py_CLEAR(made);
-        else
-            PyTuple_SetItem(made, (Py_ssize_t)i, text);
-    }
-    return made;
-}
+static PyObject *make_text(const void *texts, size_t i) { return robot_name_make(((const char *const *)texts)[i]); }
+static PyObject *make_texts(const char *const *texts, size_t count) { return tuple_make(count, make_text, texts); }
 
 static PyObject *make_source(const ovoid_robot_proof_source *s) {
     return Py_BuildValue("{s:N,s:N,s:N,s:N,s:N,s:N,s:O,s:O,s:O,s:O,s:d,s:d,s:d,s:n,s:K,s:N}", "robot",
