@@ -77,7 +77,7 @@ static void work(void *context, void *slot) {
             i->holds = verify_prove_rest(v, &c->room, i);
             continue;
         }
-        if (!i->message[0] && verify_check(v, i, &error) != OVOID_OK)
+        if (!i->message[0] && verify_claim(v, i, &error) != OVOID_OK)
             snprintf(i->message, sizeof i->message, "%s", error.message[0] ? error.message : "the proof does not hold");
         i->holds = !i->message[0];
     }
@@ -229,7 +229,7 @@ static int run_results(verify *v) {
 /* ---- the inputs ---- */
 
 /// Checks the operands and options together. -1 to go on, or EXIT_USAGE.
-static int check_inputs(const cli_command *command, const verify_settings *s, const cli_operands *paths) {
+static int validate_inputs(const cli_command *command, const verify_settings *s, const cli_operands *paths) {
     int has_list = s->list || s->pairs;
     if (has_list && (!s->list || !s->pairs)) return args_complain(command, "verify: --shapes and --pairs go together");
     if (has_list && paths->count > 1)
@@ -288,7 +288,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code < 0 && has_path_proofs(&s, &paths)) return verify_paths(command, &s, &paths);
     if (code < 0 && paths.count == 3 && ovoid_decomposition_is_proof(paths.items[0]))
         return decomposed_verify(paths.items, &s.read);
-    if (code < 0) code = check_inputs(command, &s, &paths);
+    if (code < 0) code = validate_inputs(command, &s, &paths);
     if (code >= 0) return code;
     if (s.query == QUERY_NONE) s.query = s.list ? QUERY_WITHIN : QUERY_DISTANCE;
     verify v = {.settings = &s, .path = paths.items[0], .margin = s.margin >= 0 ? s.margin : NAN};

@@ -123,9 +123,9 @@ void verify_clear_rest(verify_rest *rest);
 int verify_prove_rest(const verify *v, answer_room *room, const claim *item);
 
 /// Checks a result by its proof alone.
-ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error);
+ovoid_code verify_claim(const verify *v, const claim *item, ovoid_error *error);
 /// Checks an impact between two frames, or that there is none.
-ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_body_impact *found,
+ovoid_code verify_claim_impact(const claim *item, double margin, const ovoid_body_impact *found,
                                const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error);
 
 #endif

@@ -73,7 +73,7 @@ static int has_come(const verify *v, const ovoid_record *record) {
 }
 
 /// A result of a motion is of the frame at hand, or it is wrong.
-static void check_frame(const verify *v, const ovoid_record *record, claim *item) {
+static void verify_frame(const verify *v, const ovoid_record *record, claim *item) {
     const cli_frames *f = &v->bodies.frames;
     if (!(record->fields & OVOID_RECORD_TIME))
         disprove(item, "it has no time, which the results of a motion have");
@@ -110,7 +110,7 @@ static double get_allowance(ovoid_mesh_kind kind, const ovoid_convexity *mesh) {
 }
 
 /// What a result says of its meshes must be so.
-static void check_meshes(const ovoid_record *record, const ovoid_record *meshes, claim *item) {
+static void verify_meshes(const ovoid_record *record, const ovoid_record *meshes, claim *item) {
     if (item->message[0]) return;
     if (record->kind_a != meshes->kind_a || record->kind_b != meshes->kind_b)
         disprove(item, "kind_a and kind_b are not what the bodies are taken as: --solid, --parts and --hull choose");
@@ -124,14 +124,14 @@ static void check_meshes(const ovoid_record *record, const ovoid_record *meshes,
 }
 
 /// Of a scene: an answer about solids goes with a pair that has one, and what is said of the meshes must be so.
-static void check_objects(const ovoid_scene *scene, ovoid_couple couple, const ovoid_record *record, claim *item) {
+static void verify_objects(const ovoid_scene *scene, ovoid_couple couple, const ovoid_record *record, claim *item) {
     ovoid_record meshes = {.a = NULL};
     int have_solids = item->pair.a.solid || item->pair.b.solid;
     answers_describe(scene, couple, &meshes);
     if (!item->message[0] && !record->solid != !have_solids)
         disprove(item, have_solids ? "it is an answer about hulls or parts, and an object is a solid: give --hull"
                                    : "it is an answer about solids, which the objects are not: give no --hull");
-    check_meshes(record, &meshes, item);
+    verify_meshes(record, &meshes, item);
 }
 
 /// What the result says of the margin of the question, without which of its sign.
@@ -166,12 +166,12 @@ static int find_in_scene(verify *v, const ovoid_record *record, claim *item) {
         return 1;
     }
     const cli_frames *f = &v->bodies.frames;
-    if (v->settings->motion) check_frame(v, record, item);
+    if (v->settings->motion) verify_frame(v, record, item);
     if (!v->settings->motion && record->fields & OVOID_RECORD_TIME) disprove(item, "it has a time: give the --motion");
     ovoid_pose pose_a = f->poses ? f->poses[a] : ovoid_scene_get(scene, a).pose;
     ovoid_pose pose_b = f->poses ? f->poses[b] : ovoid_scene_get(scene, b).pose;
     item->pair = (ovoid_body_pair){answers_get_body(scene, a, &pose_a), answers_get_body(scene, b, &pose_b)};
-    check_objects(scene, (ovoid_couple){(uint32_t)a, (uint32_t)b}, record, item);
+    verify_objects(scene, (ovoid_couple){(uint32_t)a, (uint32_t)b}, record, item);
     if (is_impact(record) && !item->message[0]) set_impact(v, record, a, b, item);
     if (!item->message[0] && (a == b || ovoid_scene_is_ignored(scene, a, b)))
         disprove(item, "the scene does not ask about this pair");
@@ -192,7 +192,7 @@ static int find_in_list(verify *v, const ovoid_record *record, claim *item) {
     ovoid_record meshes = {.mesh_a = ovoid_shapes_get(bodies->list, pair.a).convexity,
                            .mesh_b = ovoid_shapes_get(bodies->list, pair.b).convexity};
     if (!v->settings->choice.hull) meshes.kind_a = meshes.mesh_a.kind, meshes.kind_b = meshes.mesh_b.kind;
-    check_meshes(record, &meshes, item);
+    verify_meshes(record, &meshes, item);
     return 1;
 }
 
@@ -208,7 +208,7 @@ static void find_given(verify *v, const ovoid_record *record, claim *item) {
         disprove(item, "it is an answer about solids, which the bodies are not: give --solid, or no --hull");
     else if (!record->solid && are_solids)
         disprove(item, "it is an answer about hulls or parts, and a body is a solid: give --hull or --parts");
-    check_meshes(record, &bodies->meshes, item);
+    verify_meshes(record, &bodies->meshes, item);
 }
 
 /// A copy of `size` bytes; NULL for none, and where memory is out.
@@ -256,7 +256,7 @@ static void settle_margin(verify *v) {
 }
 
 /// All results have the margin of the question.
-static void check_margin(const verify *v, const ovoid_record *record, claim *item) {
+static void verify_margin(const verify *v, const ovoid_record *record, claim *item) {
     double least = is_impact(record) ? 0 : -1;
     if (!isnan(v->margin) && get_margin(record) != fmax(v->margin, least))
         disprove(item, "its margin is not the one that was asked");
@@ -267,7 +267,7 @@ static int make_result(verify *v, claim *item) {
     const ovoid_record *record = &v->record;
     int got = 1;
     *item = (claim){.kind = CLAIM_RESULT, .line = ovoid_results_reader_get_line(v->reader)};
-    check_margin(v, record, item);
+    verify_margin(v, record, item);
     if (v->bodies.scene)
         got = find_in_scene(v, record, item);
     else if (v->bodies.list)

@@ -177,7 +177,7 @@ static int prove_beyond(const verify *v, answer_room *room, const claim *item) {
     asked.record = (ovoid_record){.fields = OVOID_RECORD_PARTS};
     if (!answers_find(room, &item->pair, &query, &asked.record)) return 0;
     return ovoid_answer_is_within(&asked.record.answer, query.margin) == 0 &&
-           verify_check(v, &asked, &error) == OVOID_OK;
+           verify_claim(v, &asked, &error) == OVOID_OK;
 }
 
 /// 1 where no impact is due: the pair does not come within the margin, or not before the frame, whose result has it; of
@@ -193,7 +193,7 @@ static int prove_free(const verify *v, const claim *item) {
     ovoid_error error;
     double margin = get_impact_margin(v);
     int is = pair_impact_find(&p, item->moving, margin, IMPACT_PROOF_GROUPS) && is_excused(&p, item->flags) &&
-             verify_check_impact(item, margin, &p.found, p.steps, p.groups, &error) == OVOID_OK;
+             verify_claim_impact(item, margin, &p.found, p.steps, p.groups, &error) == OVOID_OK;
     pair_impact_clear(&p);
     return is;
 }

@@ -317,7 +317,7 @@ static int complain_missing(const cli_command *command, int place) {
 }
 
 /// Reports too few operands or too many; -1 where their number is right.
-static int check_count(const cli_command *command, const cli_operands *operands) {
+static int validate_count(const cli_command *command, const cli_operands *operands) {
     if (operands->count < command->operands_min) return complain_missing(command, operands->count);
     if (command->operands_max >= 0 && operands->count > command->operands_max)
         return args_complain(command, "%s: one argument too many: %s", command->name,
@@ -326,7 +326,7 @@ static int check_count(const cli_command *command, const cli_operands *operands)
 }
 
 /// Refuses standard input in two places; -1 where it is in one at most.
-static int check_input(const cli_command *command, const void *settings, const cli_operands *operands) {
+static int validate_input(const cli_command *command, const void *settings, const cli_operands *operands) {
     int count = 0;
     for (int i = 0; i < operands->count; i++) count += strcmp(operands->items[i], "-") == 0;
     for (const cli_option *o = command->options; o->name; o++) {
@@ -352,8 +352,8 @@ int args_parse(const cli_command *command, int argc, char **argv, void *settings
         else
             code = parse_short(command, given, &at, settings);
     }
-    if (code < 0) code = check_count(command, operands);
-    return code < 0 ? check_input(command, settings, operands) : code;
+    if (code < 0) code = validate_count(command, operands);
+    return code < 0 ? validate_input(command, settings, operands) : code;
 }
 
 const char *args_get_last_word(const cli_command *command) {

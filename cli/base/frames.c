@@ -75,7 +75,7 @@ ovoid_motion frames_get_motion(const cli_frames *f, size_t object) {
 }
 
 /// 1 if the object's motion to this frame is valid, or 0 after a message.
-static int check_motion(const cli_frames *f, size_t object, const ovoid_motion *motion) {
+static int validate_motion(const cli_frames *f, size_t object, const ovoid_motion *motion) {
     ovoid_error error;
     if (ovoid_motion_validate(motion, &error) == OVOID_OK) return 1;
     message_error("%s: object \"%.60s\" from time %.9g to %.9g: %s", f->path, ovoid_scene_get(f->scene, object).name,
@@ -86,7 +86,7 @@ static int check_motion(const cli_frames *f, size_t object, const ovoid_motion *
 int frames_validate_motions(const cli_frames *f) {
     for (size_t i = 0; i < f->moved_count; i++) {
         const ovoid_motion motion = frames_get_motion(f, f->moved[i]);
-        if (!check_motion(f, f->moved[i], &motion)) return EXIT_INPUT;
+        if (!validate_motion(f, f->moved[i], &motion)) return EXIT_INPUT;
     }
     return 0;
 }
@@ -100,7 +100,7 @@ static int integrate(cli_frames *f) {
         if (is_zero(f->used[i]) || !(f->time > f->earlier)) continue;
         ovoid_motion motion =
             ovoid_motion_make_velocity(f->starts[i], f->used[i][0], f->used[i][1], f->time - f->earlier);
-        if (!check_motion(f, i, &motion)) return -1;
+        if (!validate_motion(f, i, &motion)) return -1;
         ovoid_pose pose = ovoid_motion_compute_pose(&motion, motion.duration);
         set_pose(f, i, &pose);
     }

@@ -42,8 +42,8 @@ static const char *get_path(const cli_option *o, const void *settings) {
     return *(const char *const *)((const char *)settings + o->offset);
 }
 
-static int check_output(const cli_command *command, const cli_option *o, const void *settings,
-                        const cli_operands *operands) {
+static int validate_output(const cli_command *command, const cli_option *o, const void *settings,
+                           const cli_operands *operands) {
     const char *path = get_path(o, settings);
     if (!is_allowed(path, o->choices))
         return args_complain(command, "%s: --%s %s: the output is %s; choose a name that says so", command->name,
@@ -62,14 +62,14 @@ static int check_output(const cli_command *command, const cli_option *o, const v
     return -1;
 }
 
-static int check_outputs(const cli_command *command, const void *settings, const cli_operands *operands) {
+static int validate_outputs(const cli_command *command, const void *settings, const cli_operands *operands) {
     int code = -1;
     for (const cli_option *o = command->options; o->name && code < 0; o++)
-        if (o->kind == OPTION_OUTPUT && get_path(o, settings)) code = check_output(command, o, settings, operands);
+        if (o->kind == OPTION_OUTPUT && get_path(o, settings)) code = validate_output(command, o, settings, operands);
     return code;
 }
 
 int command_parse(const cli_command *command, int argc, char **argv, void *settings, cli_operands *operands) {
     int code = args_parse(command, argc, argv, settings, operands);
-    return code < 0 ? check_outputs(command, settings, operands) : code;
+    return code < 0 ? validate_outputs(command, settings, operands) : code;
 }

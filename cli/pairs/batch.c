@@ -236,7 +236,7 @@ static int settle(const cli_command *command, settings *s) {
 }
 
 /// Refuses meshes that are not their hulls, unless those are asked for: -1 to go on, or EXIT_INPUT after a message.
-static int check_meshes(const settings *s, const ovoid_shapes *shapes) {
+static int validate_meshes(const settings *s, const ovoid_shapes *shapes) {
     if (s->read.hull) return inputs_warn_list(shapes), -1;
     for (size_t i = 0; i < ovoid_shapes_get_count(shapes); i++) {
         ovoid_named_shape shape = ovoid_shapes_get(shapes, i);
@@ -258,7 +258,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     batch b = {.settings = &s};
     ovoid_shapes *shapes = inputs_read_list(s.list, &s.read);
     if (!shapes) return EXIT_INPUT;
-    if ((code = check_meshes(&s, shapes)) >= 0) return ovoid_shapes_destroy(shapes), code;
+    if ((code = validate_meshes(&s, shapes)) >= 0) return ovoid_shapes_destroy(shapes), code;
     b.shapes = shapes;
     b.reader = ovoid_pairs_reader_open(s.pairs, ovoid_shapes_get_count(shapes), &b.error);
     shard_job job = {command, &s, &none, s.part, .seen = shard_digest_make(), .units = "pairs"};

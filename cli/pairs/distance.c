@@ -154,7 +154,7 @@ static void print_report(const report *r, const cli_body bodies[2], const ovoid_
 }
 
 /// Checks a record by its proof alone.
-static int check_record(const ovoid_body_pair *pair, const ovoid_record *record, double tolerance) {
+static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record, double tolerance) {
     ovoid_error error;
     const ovoid_options asked = {.absolute_tolerance = tolerance};
     ovoid_body_answer answer = ovoid_body_answer_make(&record->answer, pair->a.compound ? record->part_a : 0,
@@ -178,7 +178,7 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
         answer_room_clear(&room);
         return EXIT_INPUT;
     }
-    int holds = check_record(&pair, &record, s->tolerance);
+    int holds = verify_record(&pair, &record, s->tolerance);
     int code = holds ? (int)results_judge(&record.answer, s->margin) : EXIT_NOT_PROVEN;
     const char *unit = inputs_get_unit(&s->read);
     solids_describe_bodies(bodies, &record);

@@ -1,7 +1,7 @@
 // The kernels that every processor of a build runs: the scalar twins of those in avx2.c and avx512.c.
 #include "simd/kernels.h"
 
-#include "simd/kernels/narrowest.h"
+#include "simd/kernels/baseline_lanes.h"
 #include "simd/kernels/small_gjk_scalar.h"
 
 #include "simd/kernels/small_gjk_kept.h"

@@ -62,13 +62,13 @@ static void take(clearance_search *s, const path_pair *p, double upper, double a
     out->b = *p->b;
 }
 
-static int is_above_by_ends(const clearance_search *s, const path_span *i, uint32_t number, const path_pair *p,
+static int is_above_by_ends(const clearance_search *s, const path_span *span, uint32_t number, const path_pair *p,
                             vec3 normal) {
-    path_pair at_begin = path_make_pair(&s->w, number, i->at_begin->frames),
-              at_end = path_make_pair(&s->w, number, i->at_end->frames);
-    double begin = path_measure(&s->w, &at_begin, i->at_begin->frames, normal) - p->motion.rounded;
-    double end = path_measure(&s->w, &at_end, i->at_end->frames, normal) - p->motion.rounded;
-    return path_is_free_between(begin, end, get_margin(s), p->motion.curved, i->end - i->begin);
+    path_pair at_begin = path_make_pair(&s->w, number, span->at_begin->frames),
+              at_end = path_make_pair(&s->w, number, span->at_end->frames);
+    double begin = path_measure(&s->w, &at_begin, span->at_begin->frames, normal) - p->motion.rounded;
+    double end = path_measure(&s->w, &at_end, span->at_end->frames, normal) - p->motion.rounded;
+    return path_is_free_between(begin, end, get_margin(s), p->motion.curved, span->end - span->begin);
 }
 
 // What the pair is not nearer than in the interval, by what it is not nearer than in the middle.
@@ -87,16 +87,16 @@ static int is_narrow(clearance_search *s, const path_pair *p, double least) {
 
 // The hulls, then the solids themselves. Of an overlap no more is known than the bracket in the middle: the depth of
 // solids may jump.
-static int test_solids(clearance_search *s, const path_span *i, uint32_t number, const path_pair *p,
+static int test_solids(clearance_search *s, const path_span *span, uint32_t number, const path_pair *p,
                        const ovoid_answer *of_hulls, double *least) {
     double margin = get_margin(s);
     if (*least > margin) return 1;
-    if (is_above_by_ends(s, i, number, p, path_turn_back(p, i->middle->frames, of_hulls->normal))) return 1;
+    if (is_above_by_ends(s, span, number, p, path_turn_back(p, span->middle->frames, of_hulls->normal))) return 1;
     checker_pair outward = {.pair = p->pair, .error = p->error + p->motion.rounded, .padding = p->padding};
     double clear = add_up(p->padding, outward.error, p->motion.moved), cap = add_up(margin, clear, 0);
     const ovoid_options capped = {.cap = cap > 0 && cap < INFINITY ? cap : 0};
     ovoid_answer answer = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, clear);
-    take(s, p, upper_outward(&outward, answer.upper), 0.5 * (i->begin + i->end));
+    take(s, p, upper_outward(&outward, answer.upper), 0.5 * (span->begin + span->end));
     *least = find_least(&outward, p, answer.lower);
     if (answer.status == OVOID_OVERLAPPING) {
         keep_least(s, *least);
@@ -106,29 +106,29 @@ static int test_solids(clearance_search *s, const path_span *i, uint32_t number,
 }
 
 // 1: the pair need not be looked at again in the interval. *least: what it is not nearer than.
-static int test_pair(clearance_search *s, const path_span *i, uint32_t number, double *least) {
+static int test_pair(clearance_search *s, const path_span *span, uint32_t number, double *least) {
     vec3 normal;
-    if (path_test_boxes(&s->w, number, i, get_margin(s), &normal) != PATH_BOXES_OPEN) return 1;
-    path_pair p = path_make_pair(&s->w, number, i->middle->frames);
+    if (path_test_boxes(&s->w, number, span, get_margin(s), &normal) != PATH_BOXES_OPEN) return 1;
+    path_pair p = path_make_pair(&s->w, number, span->middle->frames);
     checker_pair outward = {.pair = p.pair, .error = p.error + p.motion.rounded, .padding = p.padding};
     double cap = add_up(add_up(get_margin(s), p.padding, outward.error), p.motion.moved, 0);
     ovoid_answer answer = measure(s, &p, number, cap);
     *least = find_least(&outward, &p, answer.lower);
-    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &answer, least);
-    take(s, &p, upper_outward(&outward, answer.upper), 0.5 * (i->begin + i->end));
+    if (sides_have_solid(&p.solids)) return test_solids(s, span, number, &p, &answer, least);
+    take(s, &p, upper_outward(&outward, answer.upper), 0.5 * (span->begin + span->end));
     if (*least > get_margin(s)) return 1;
-    return is_above_by_ends(s, i, number, &p, path_turn_back(&p, i->middle->frames, answer.normal)) ||
+    return is_above_by_ends(s, span, number, &p, path_turn_back(&p, span->middle->frames, answer.normal)) ||
            is_narrow(s, &p, *least);
 }
 
 // ---- all pairs in an interval
 
 // Of one eight; *least falls to what those that stay open are not nearer than.
-static void test_mask(clearance_search *s, const path_span *i, uint8_t *mask, uint32_t first, double *least) {
+static void test_mask(clearance_search *s, const path_span *span, uint8_t *mask, uint32_t first, double *least) {
     for (unsigned rest = *mask; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         double own;
-        if (test_pair(s, i, first + k, &own))
+        if (test_pair(s, span, first + k, &own))
             *mask &= (uint8_t) ~(1u << k);
         else if (own < *least)
             *least = own;
@@ -145,7 +145,7 @@ static unsigned find_far_pairs(const clearance_search *s, uint32_t first, unsign
 }
 
 // What pairs that stay open are not nearer than; infinite: none does.
-static double test_all(clearance_search *s, const path_span *i, uint8_t *masks) {
+static double test_all(clearance_search *s, const path_span *span, uint8_t *masks) {
     const ovoid_robot_cell *c = s->w.cell;
     double least = INFINITY;
     uint32_t parts = (uint32_t)(c->items.count * c->parts.count), of_parts = (uint32_t)c->items.count * s->groups;
@@ -156,7 +156,7 @@ static double test_all(clearance_search *s, const path_span *i, uint8_t *masks) 
         unsigned far = k < of_parts ? path_find_far_parts(&s->w, k / s->groups, k % s->groups, get_margin(s))
                                     : find_far_pairs(s, first - parts, masks[k]);
         masks[k] &= (uint8_t)~far;
-        test_mask(s, i, &masks[k], first, &least);
+        test_mask(s, span, &masks[k], first, &least);
     }
     return least;
 }
@@ -185,9 +185,9 @@ static void visit(clearance_search *s, uint32_t level, const path_span *span, do
     path_state state = get_state(s, level);
     path_compute_state(&s->w, s->q0, s->q1, middle, &state);
     path_set_interval(&s->w, &state, 0.5 * (end - begin));
-    const path_span i = {begin, end, span->at_begin, span->at_end, &state};
+    const path_span interval = {begin, end, span->at_begin, span->at_end, &state};
     uint8_t *masks = get_masks(s, level);
-    double least = test_all(s, &i, masks);
+    double least = test_all(s, &interval, masks);
     if (!(least < INFINITY)) return;
     if (path_is_still(&s->w) || level + 1 == LEVELS) {
         keep_least(s, least);
@@ -241,9 +241,9 @@ static void look_at_some(clearance_search *s) {
         s->out->states++;
         path_compute_state(&s->w, s->q0, s->q1, t, &state);
         path_set_interval(&s->w, &state, 0);
-        const path_span i = {t, t, &state, &state, &state};
+        const path_span span = {t, t, &state, &state, &state};
         open_all(s, get_masks(s, 0));
-        (void)test_all(s, &i, get_masks(s, 0));
+        (void)test_all(s, &span, get_masks(s, 0));
     }
 }
 

@@ -38,12 +38,12 @@ typedef struct path_search {
 
 // ---- steps
 
-static void add_step(path_search *s, const path_span *i, uint32_t pair, ovoid_robot_step_kind kind, unsigned mask,
+static void add_step(path_search *s, const path_span *span, uint32_t pair, ovoid_robot_step_kind kind, unsigned mask,
                      vec3 normal) {
     size_t at = s->answer->step_count++;
     if (!s->options->steps || at >= s->options->capacity) return;
-    s->options->steps[at] =
-        (ovoid_robot_step){s->segment + i->begin, s->segment + i->end, pair, (uint16_t)kind, (uint16_t)mask, normal};
+    s->options->steps[at] = (ovoid_robot_step){s->segment + span->begin, s->segment + span->end, pair,
+                                               (uint16_t)kind,           (uint16_t)mask,         normal};
 }
 
 // ---- one pair in an interval
@@ -71,53 +71,53 @@ static checker_pair get_checker_pair(const path_search *s, uint32_t number, cons
 }
 
 // 1 where the interval's ends and the second order prove it along the normal.
-static int is_free_by_ends(path_search *s, const path_span *i, uint32_t number, const path_pair *p, vec3 normal) {
-    path_pair at_begin = path_make_pair(s->w, number, i->at_begin->frames),
-              at_end = path_make_pair(s->w, number, i->at_end->frames);
-    double begin = path_measure(s->w, &at_begin, i->at_begin->frames, normal) - p->motion.rounded;
+static int is_free_by_ends(path_search *s, const path_span *span, uint32_t number, const path_pair *p, vec3 normal) {
+    path_pair at_begin = path_make_pair(s->w, number, span->at_begin->frames),
+              at_end = path_make_pair(s->w, number, span->at_end->frames);
+    double begin = path_measure(s->w, &at_begin, span->at_begin->frames, normal) - p->motion.rounded;
     if (!(begin > s->margin)) return 0;
-    double end = path_measure(s->w, &at_end, i->at_end->frames, normal) - p->motion.rounded;
-    return path_is_free_between(begin, end, s->margin, p->motion.curved, i->end - i->begin);
+    double end = path_measure(s->w, &at_end, span->at_end->frames, normal) - p->motion.rounded;
+    return path_is_free_between(begin, end, s->margin, p->motion.curved, span->end - span->begin);
 }
 
 // 1 where the gap along the normal in the middle proves the interval.
-static int is_free_by_middle(const path_search *s, const path_span *i, const path_pair *p, vec3 normal) {
-    return path_is_above(path_measure(s->w, p, i->middle->frames, normal), s->margin, p->motion.moved);
+static int is_free_by_middle(const path_search *s, const path_span *span, const path_pair *p, vec3 normal) {
+    return path_is_above(path_measure(s->w, p, span->middle->frames, normal), s->margin, p->motion.moved);
 }
 
 // What the ends may give: less than the second order takes away in between, and there is no use in measuring them.
-static int may_be_free_by_ends(const path_search *s, const path_span *i, const path_pair *p, double lower) {
-    double width = i->end - i->begin;
+static int may_be_free_by_ends(const path_search *s, const path_span *span, const path_pair *p, double lower) {
+    double width = span->end - span->begin;
     return p->motion.curved * width * width < 16 * (lower - s->margin);
 }
 
-static int is_proven(path_search *s, const path_span *i, uint32_t number, const path_pair *p,
+static int is_proven(path_search *s, const path_span *span, uint32_t number, const path_pair *p,
                      const ovoid_answer *answer) {
     double near = add_up(s->margin, p->padding, p->error);
     if (!(answer->lower > near)) return 0;
-    vec3 normal = path_turn_back(p, i->middle->frames, answer->normal);
+    vec3 normal = path_turn_back(p, span->middle->frames, answer->normal);
     if (answer->lower > add_up(near, p->motion.moved, 0) &&
-        (!s->options->steps || is_free_by_middle(s, i, p, normal))) {
-        add_step(s, i, number, OVOID_ROBOT_STEP_MIDDLE, 1, normal);
+        (!s->options->steps || is_free_by_middle(s, span, p, normal))) {
+        add_step(s, span, number, OVOID_ROBOT_STEP_MIDDLE, 1, normal);
         return 1;
     }
-    if (!may_be_free_by_ends(s, i, p, answer->lower) || !is_free_by_ends(s, i, number, p, normal)) return 0;
-    add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal);
+    if (!may_be_free_by_ends(s, span, p, answer->lower) || !is_free_by_ends(s, span, number, p, normal)) return 0;
+    add_step(s, span, number, OVOID_ROBOT_STEP_ENDS, 1, normal);
     return 1;
 }
 
 // Along what parted the pair in an earlier interval.
-static int is_proven_earlier(path_search *s, const path_span *i, uint32_t number, const path_pair *p, vec3 world) {
-    vec3 normal = path_turn_back(p, i->middle->frames, world);
-    if (!is_free_by_ends(s, i, number, p, normal)) return 0;
-    add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal);
+static int is_proven_earlier(path_search *s, const path_span *span, uint32_t number, const path_pair *p, vec3 world) {
+    vec3 normal = path_turn_back(p, span->middle->frames, world);
+    if (!is_free_by_ends(s, span, number, p, normal)) return 0;
+    add_step(s, span, number, OVOID_ROBOT_STEP_ENDS, 1, normal);
     return 1;
 }
 
 typedef enum pair_outcome { PAIR_APART, PAIR_LEFT, PAIR_HIT } pair_outcome;
 
 // What the hulls leave open: the solids' distance in the middle.
-static pair_outcome test_solids(path_search *s, const path_span *i, uint32_t number, const path_pair *p,
+static pair_outcome test_solids(path_search *s, const path_span *span, uint32_t number, const path_pair *p,
                                 const ovoid_answer *of_hulls) {
     checker_pair known = get_checker_pair(s, number, p);
     double near = add_up(s->margin, p->padding, p->error);
@@ -125,7 +125,7 @@ static pair_outcome test_solids(path_search *s, const path_span *i, uint32_t num
                                   .absolute_tolerance = 0.05 * p->motion.moved};
     ovoid_answer answer = solid_pair_distance(&p->pair, &p->solids, &capped, of_hulls, pair_get_clear(&known));
     if (answer.lower > capped.cap && (!s->options->steps || path_is_solid_far(p, s->margin))) {
-        add_step(s, i, number, OVOID_ROBOT_STEP_SOLID, 1, (vec3){0, 0, 0});
+        add_step(s, span, number, OVOID_ROBOT_STEP_SOLID, 1, (vec3){0, 0, 0});
         return PAIR_APART;
     }
     double upper = upper_outward(&known, answer.upper);
@@ -135,19 +135,19 @@ static pair_outcome test_solids(path_search *s, const path_span *i, uint32_t num
 }
 
 // In the middle: apart by more than the motion, or along one normal at both ends, or left open, or a hit.
-static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t number) {
-    path_pair p = path_make_pair(s->w, number, i->middle->frames);
+static pair_outcome test_exactly(path_search *s, const path_span *span, uint32_t number) {
+    path_pair p = path_make_pair(s->w, number, span->middle->frames);
     checker_pair known = get_checker_pair(s, number, &p);
     const ovoid_proof *earlier = pair_get_earlier(s->checker, &known);
     int is_known = *known.mark == s->checker->generation;
-    if (is_known && is_proven_earlier(s, i, number, &p, known.proof->normal)) return PAIR_APART;
+    if (is_known && is_proven_earlier(s, span, number, &p, known.proof->normal)) return PAIR_APART;
     // A normal need not be better than the motion lets it count.
     const ovoid_options capped = {.cap = add_up(add_up(s->margin, p.padding, p.error), p.motion.moved, 0),
                                   .absolute_tolerance = 0.05 * p.motion.moved};
     ovoid_answer answer = ovoid_distance(&p.pair, &capped, earlier);
     pair_remember(s->checker, &known, &answer.proof);
-    if (is_proven(s, i, number, &p, &answer)) return PAIR_APART;
-    if (sides_have_solid(&p.solids)) return test_solids(s, i, number, &p, &answer);
+    if (is_proven(s, span, number, &p, &answer)) return PAIR_APART;
+    if (sides_have_solid(&p.solids)) return test_solids(s, span, number, &p, &answer);
     double upper = upper_outward(&known, answer.upper);
     if (answer.status == OVOID_OVERLAPPING && upper > s->margin) {
         answer = ovoid_depth(&p.pair, NULL, &answer.proof, NULL);
@@ -159,7 +159,7 @@ static pair_outcome test_exactly(path_search *s, const path_span *i, uint32_t nu
     return PAIR_HIT;
 }
 
-static pair_outcome test_pair(path_search *s, const path_span *i, uint32_t number) {
+static pair_outcome test_pair(path_search *s, const path_span *span, uint32_t number) {
     // The bodies hold their spheres' centres, or nearly: no query can show more than these are apart. Where that is not
     // well above the motion, half the interval is the cheaper question.
     // That holds of convex bodies alone: a solid such as a ring need not hold its sphere's centre.
@@ -167,23 +167,23 @@ static pair_outcome test_pair(path_search *s, const path_span *i, uint32_t numbe
     if (!path_has_solid(s->w, &of) && path_get_center_distance(s->w, &of) < 2 * path_get_motion(s->w, &of).moved)
         return PAIR_LEFT;
     vec3 normal = {0, 0, 0};
-    switch (path_test_boxes(s->w, number, i, s->margin, &normal)) {
-    case PATH_BOXES_FAR: add_step(s, i, number, OVOID_ROBOT_STEP_OUTER, 1, (vec3){0, 0, 0}); return PAIR_APART;
-    case PATH_BOXES_PART: add_step(s, i, number, OVOID_ROBOT_STEP_ENDS, 1, normal); return PAIR_APART;
-    default: return test_exactly(s, i, number);
+    switch (path_test_boxes(s->w, number, span, s->margin, &normal)) {
+    case PATH_BOXES_FAR: add_step(s, span, number, OVOID_ROBOT_STEP_OUTER, 1, (vec3){0, 0, 0}); return PAIR_APART;
+    case PATH_BOXES_PART: add_step(s, span, number, OVOID_ROBOT_STEP_ENDS, 1, normal); return PAIR_APART;
+    default: return test_exactly(s, span, number);
     }
 }
 
 // ---- all pairs in an interval
 
 // Of one eight: those that stay open. 1: one is a hit.
-static int test_mask(path_search *s, const path_span *i, uint8_t *mask, uint32_t first, unsigned far) {
+static int test_mask(path_search *s, const path_span *span, uint8_t *mask, uint32_t first, unsigned far) {
     unsigned gone = *mask & far;
-    if (gone) add_step(s, i, first, OVOID_ROBOT_STEP_OUTER, gone, (vec3){0, 0, 0});
+    if (gone) add_step(s, span, first, OVOID_ROBOT_STEP_OUTER, gone, (vec3){0, 0, 0});
     *mask &= (uint8_t)~gone;
     for (unsigned rest = *mask; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        pair_outcome outcome = test_pair(s, i, first + k);
+        pair_outcome outcome = test_pair(s, span, first + k);
         if (outcome == PAIR_HIT) return 1;
         if (outcome == PAIR_APART) *mask &= (uint8_t) ~(1u << k);
     }
@@ -204,7 +204,7 @@ typedef struct open_count {
     unsigned left;
 } open_count;
 
-static open_count test_all(path_search *s, const path_span *i, uint8_t *masks) {
+static open_count test_all(path_search *s, const path_span *span, uint8_t *masks) {
     const ovoid_robot_cell *c = s->w->cell;
     open_count open = {0, 0};
     uint32_t parts = (uint32_t)(c->items.count * c->parts.count);
@@ -214,10 +214,10 @@ static open_count test_all(path_search *s, const path_span *i, uint8_t *masks) {
                  group = s->memory->groups ? k % s->memory->groups : 0;
         if (item < c->items.count && s->memory->groups) {
             unsigned far = path_find_far_parts(s->w, item, group, s->margin);
-            open.is_hit = test_mask(s, i, &masks[k], item * (uint32_t)c->parts.count + group * ROBOT8, far);
+            open.is_hit = test_mask(s, span, &masks[k], item * (uint32_t)c->parts.count + group * ROBOT8, far);
         } else {
             uint32_t first = ROBOT8 * (k - (uint32_t)c->items.count * s->memory->groups);
-            open.is_hit = test_mask(s, i, &masks[k], parts + first, find_far_pairs(s, first, masks[k]));
+            open.is_hit = test_mask(s, span, &masks[k], parts + first, find_far_pairs(s, first, masks[k]));
         }
         open.left |= masks[k];
     }
@@ -260,11 +260,11 @@ static int is_hit_at(path_search *s, double t, const path_state *state, const ui
     ovoid_robot_path_answer answer = *s->answer;
     at.answer = &answer;
     at.options = &(const ovoid_robot_path_options){.query = s->options->query};
-    path_span i = {t, t, state, state, state};
+    path_span span = {t, t, state, state, state};
     uint8_t *masks = get_masks(s, LEVELS);
     memcpy(masks, open, s->memory->mask_count);
     place_open(s, masks, state, 0);
-    if (!test_all(&at, &i, masks).is_hit) return 0;
+    if (!test_all(&at, &span, masks).is_hit) return 0;
     s->answer->hit = answer.hit;
     return 1;
 }
@@ -283,17 +283,17 @@ static void look_ahead(path_search *s, double from) {
 
 // The interval is as short as intervals get, and not proven free: its first state that is a hit, or a later one that
 // is known.
-static void end_at(path_search *s, const path_span *i, const uint8_t *open, int is_hit) {
+static void end_at(path_search *s, const path_span *span, const uint8_t *open, int is_hit) {
     ovoid_robot_path_answer *a = s->answer;
-    a->free_until = s->segment + i->begin;
-    if (is_hit_at(s, i->begin, i->at_begin, open))
+    a->free_until = s->segment + span->begin;
+    if (is_hit_at(s, span->begin, span->at_begin, open))
         a->hit_at = a->free_until;
     else if (is_hit)
-        a->hit_at = s->segment + 0.5 * (i->begin + i->end);
-    else if (is_hit_at(s, i->end, i->at_end, open))
-        a->hit_at = s->segment + i->end;
+        a->hit_at = s->segment + 0.5 * (span->begin + span->end);
+    else if (is_hit_at(s, span->end, span->at_end, open))
+        a->hit_at = s->segment + span->end;
     else if (!(a->hit_at < INFINITY))
-        look_ahead(s, i->end);
+        look_ahead(s, span->end);
     a->status = a->hit_at < INFINITY ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED;
     if (a->status == OVOID_ROBOT_HIT) a->hit.status = OVOID_ROBOT_HIT;
 }
@@ -313,7 +313,7 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
     ovoid_robot_path_answer *a = s->answer;
     double middle = 0.5 * (begin + end);
     path_state state = get_state(s, level);
-    path_span i = {begin, end, at_begin, at_end, &state};
+    path_span span = {begin, end, at_begin, at_end, &state};
     if (a->states >= s->states_most || watch_is_stopped(&s->options->watch)) {
         a->free_until = s->segment + begin;
         a->status = a->hit_at < INFINITY ? OVOID_ROBOT_HIT : OVOID_ROBOT_UNDECIDED;
@@ -324,7 +324,7 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
     uint8_t *masks = get_masks(s, level);
     place_open(s, masks, &state, 0.5 * (end - begin));
     ovoid_robot_answer known = a->hit;
-    open_count open = test_all(s, &i, masks);
+    open_count open = test_all(s, &span, masks);
     if (!open.is_hit && !open.left) {
         a->hit = known;
         return 1;
@@ -339,7 +339,7 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
         a->hit = known;
     int is_narrow = a->hit_at - (s->segment + begin) <= s->tolerance;
     if (s->is_still || is_narrow || level + 1 == LEVELS) {
-        end_at(s, &i, masks, open.is_hit);
+        end_at(s, &span, masks, open.is_hit);
         return 0;
     }
     memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);

@@ -1,5 +1,5 @@
 // The scalar twin of the kernels of robot8.h, and the choice among them.
-#include "simd/kernels/narrowest.h"
+#include "simd/kernels/baseline_lanes.h"
 
 #include "simd/robot/robot8_kernel.h"
 

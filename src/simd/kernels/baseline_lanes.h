@@ -1,7 +1,7 @@
 // LANES of the kernels that every processor of a build runs: 2 by SIMD128 of WebAssembly, where nothing is chosen when
 // a program starts, else 1, the scalar twins.
-#ifndef OVOID_SIMD_KERNELS_NARROWEST_H
-#define OVOID_SIMD_KERNELS_NARROWEST_H
+#ifndef OVOID_SIMD_KERNELS_BASELINE_LANES_H
+#define OVOID_SIMD_KERNELS_BASELINE_LANES_H
 
 #ifdef __wasm_simd128__
 #define LANES 2

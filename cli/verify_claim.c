@@ -34,7 +34,7 @@ static int get_parts(const ovoid_body_pair *bodies, const ovoid_record *record, 
 
 /// Checks the answer of compounds: that of the deciding parts, and that the exclusions hold and leave out no other pair
 /// of parts. points: the deciding parts, whose witness points are checked too, or NULL.
-static ovoid_code check_compound(const verify *v, const claim *item, const ovoid_pair *points, ovoid_error *error) {
+static ovoid_code verify_compound(const verify *v, const claim *item, const ovoid_pair *points, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     ovoid_body_answer answer = ovoid_body_answer_make(&r->answer, item->pair.a.compound ? r->part_a : 0,
                                                       item->pair.b.compound ? r->part_b : 0);
@@ -43,7 +43,7 @@ static ovoid_code check_compound(const verify *v, const claim *item, const ovoid
     return verdict_verify_compound(v->verdict, &item->pair, &answer, &exclusions, points, error);
 }
 
-ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_body_impact *found,
+ovoid_code verify_claim_impact(const claim *item, double margin, const ovoid_body_impact *found,
                                const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
     if (!a->shape || !b->shape || found->group_count)
@@ -54,7 +54,7 @@ ovoid_code verify_check_impact(const claim *item, double margin, const ovoid_bod
 
 /// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is
 /// not; of one that is not proven, the steps alone.
-static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ovoid_error *error) {
+static ovoid_code verify_impact(const claim *item, const ovoid_answer *answer, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     if (!(r->fields & OVOID_RECORD_IMPACT)) return OVOID_OK;
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
@@ -79,11 +79,11 @@ static ovoid_code check_impact(const claim *item, const ovoid_answer *answer, ov
                            ovoid_motion_compute_pose(&b->motion, r->free_for)};
         found.impact.free = ovoid_within(&free, r->margin, NULL, NULL);
     }
-    return verify_check_impact(item, r->margin, &found, r->steps, r->groups, error);
+    return verify_claim_impact(item, r->margin, &found, r->steps, r->groups, error);
 }
 
 /// The answer of solids is that of their surfaces, of which the points are, and what follows from it.
-static ovoid_code check_solids(const verify *v, const claim *item, ovoid_error *error) {
+static ovoid_code verify_solids(const verify *v, const claim *item, ovoid_error *error) {
     const ovoid_record *r = &item->record;
     ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count, NULL};
     if (!item->pair.a.solid && !item->pair.b.solid) {
@@ -94,10 +94,10 @@ static ovoid_code check_solids(const verify *v, const claim *item, ovoid_error *
     return verdict_verify_solid(v->verdict, &item->pair, r->solid, &exclusions, points, error);
 }
 
-ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) {
+ovoid_code verify_claim(const verify *v, const claim *item, ovoid_error *error) {
     if (item->record.solid) {
-        ovoid_code held = check_solids(v, item, error);
-        return held == OVOID_OK ? check_impact(item, &item->record.answer, error) : held;
+        ovoid_code held = verify_solids(v, item, error);
+        return held == OVOID_OK ? verify_impact(item, &item->record.answer, error) : held;
     }
     ovoid_pair pair;
     const ovoid_answer answer = item->record.answer;
@@ -107,7 +107,7 @@ ovoid_code verify_check(const verify *v, const claim *item, ovoid_error *error) 
         return OVOID_ERROR_PROOF;
     }
     int points = claims_points(v, item, &answer);
-    ovoid_code code = is_compound ? check_compound(v, item, points ? &pair : NULL, error)
+    ovoid_code code = is_compound ? verify_compound(v, item, points ? &pair : NULL, error)
                                   : verdict_verify(v->verdict, &pair, &answer, item->record.cover, points, error);
-    return code == OVOID_OK ? check_impact(item, &answer, error) : code;
+    return code == OVOID_OK ? verify_impact(item, &answer, error) : code;
 }
