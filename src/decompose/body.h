@@ -40,7 +40,7 @@ ovoid_code body_validate_options(const ovoid_decomposition_options *given, ovoid
 ovoid_code body_open(body *b, const ovoid_solid *solid, const ovoid_decomposition_options *options, ovoid_error *error);
 /// Errors: ARGUMENT, EMPTY, LIMIT.
 ovoid_code body_validate_parts(const ovoid_decomposition *d, ovoid_error *error);
-/// With the parts of a decomposition. Errors: those, EMPTY, LIMIT.
+/// Opens a body with the parts of a decomposition. Errors: those of body_open, EMPTY, LIMIT.
 ovoid_code body_open_parts(body *b, const ovoid_decomposition *d, const ovoid_decomposition_options *options,
                            ovoid_error *error);
 void body_close(body *b);
@@ -54,7 +54,7 @@ typedef struct part_distance {
 } part_distance;
 part_distance body_probe_part(const body *b, uint32_t part, vec3 x, double cap);
 
-/// By how much the part reaches beyond x along the unit vector n, at most.
+/// The length by which the part reaches beyond x along the unit vector n, at most.
 double body_find_depth(const body *b, uint32_t part, vec3 x, vec3 n);
 
 // ---- the solid's surface

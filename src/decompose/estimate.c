@@ -85,7 +85,7 @@ static int is_in_hull(const hull *polytope, vec3 x) {
     return 1;
 }
 
-// From a point by shorter and shorter steps along the axes.
+// Climbs from a point by shorter and shorter steps along the axes.
 static void climb(sampling *s, vec3 at, double best, double step) {
     for (int round = 0; round < CLIMB; round++) {
         int is_better = 0;
@@ -102,7 +102,7 @@ static void climb(sampling *s, vec3 at, double best, double step) {
     keep(s, at, best);
 }
 
-// From the farthest points that are not near each other.
+// Climbs from the farthest points that are not near each other.
 static void climb_all(sampling *s, double step) {
     outlier starts[CLIMBS];
     uint32_t count = 0;

@@ -72,7 +72,8 @@ static void find_bound(cell_search *s, cell *c) {
         find_bound_inside(b, c, middle, d.upper == 0);
 }
 
-// Where the cell reaches farther beyond an edge of the triangle, in its plane, than the margin: there, by half of that.
+// Finds a plane to cut along, where the cell reaches farther beyond an edge of the triangle, in its plane, than the
+// margin: half the margin beyond the edge.
 static int find_edge(const vec3 t[3], vec3 normal, const cell *c, double margin, ovoid_plane *plane) {
     double most = margin;
     for (int i = 0; i < 3; i++) {
@@ -84,7 +85,8 @@ static int find_edge(const vec3 t[3], vec3 normal, const cell *c, double margin,
     return most > margin;
 }
 
-// Where the cell reaches out of its part by more than the margin: along the plane that touches the part there.
+// Finds a plane to cut along, where the cell reaches farther beyond an edge of the triangle, in its plane, than the
+// margin: half the margin beyond the edge.
 static int find_face(const body *b, const cell *c, double margin, ovoid_plane *plane) {
     double most = margin;
     for (int i = 0; i < 4; i++) {

@@ -180,7 +180,7 @@ static ovoid_code join_pieces(parts_work *m, ovoid_error *error) {
     if (m->count < 2) return OVOID_OK;
     m->costs = allocator_allocate(&m->b->memory, m->count * (m->count - 1) / 2, sizeof *m->costs);
     if (!m->costs) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu pieces", m->count);
-    // Of as many as asked for, more and more is allowed; else the error.
+    // If a number of parts is wanted, more and more excess is allowed until there are so few; else the error is.
     double enough = m->wanted ? max2(m->error, 2 * m->pieces[find_worst(m) % m->room].excess) : m->error;
     for (;;) {
         ovoid_code code = find_costs(m, enough, error);
@@ -212,7 +212,7 @@ static void set_aims(parts_work *m) {
     m->error = m->o->error * m->b->inverse;
     m->wanted = m->o->parts;
     if (!m->wanted && !(m->error > 0)) m->error = 0.02 * m->b->diagonal;
-    // Of a number of parts, somewhat more are made and joined again.
+    // If a number of parts is wanted, more pieces are made and joined again.
     m->room = m->wanted ? 2 * m->wanted : PIECES_MOST;
     if (m->room > OVOID_DECOMPOSITION_PARTS_MAX) m->room = OVOID_DECOMPOSITION_PARTS_MAX;
     if (m->wanted) m->error = max2(m->error, 1e-6 * m->b->diagonal);

@@ -29,7 +29,7 @@ vec3 triangle_find_nearest(const vec3 c[3], vec3 x) {
     double d00 = vec3_norm_squared(ab), d01 = vec3_dot(ab, ac), d11 = vec3_norm_squared(ac);
     double d20 = vec3_dot(ax, ab), d21 = vec3_dot(ax, ac), area = d00 * d11 - d01 * d01;
     double v = (d11 * d20 - d01 * d21) / area, w = (d00 * d21 - d01 * d20) / area;
-    // Of a triangle of nearly no area, and outside of the prism over it, an edge has it.
+    // If the triangle has nearly no area, or the point is outside of the prism over it, an edge has the nearest point.
     if (!(area > 1e-12 * d00 * d11) || !(v >= 0 && w >= 0 && v + w <= 1)) return find_on_edges(c, x);
     return vec3_add(vec3_add_scaled(c[0], ab, v), vec3_scale(ac, w));
 }

@@ -22,7 +22,7 @@ enum { CELL_DEPTH = 200, CELL_PIECES = 6 };
 #define CELL_TOUCH 0x1p-40
 
 vec3 cell_compute_middle(const cell *c);
-/// No point of the cell is farther from x.
+/// The radius of the cell about x: none of its points is farther from x.
 double cell_compute_radius(const cell *c, vec3 x);
 box cell_compute_box(const cell *c);
 /// Cuts along the plane: how many pieces, which take owner, hint and bound, those below the plane first; 0 where the

@@ -89,7 +89,7 @@ static int find_foot(const pair_frame *f, const box_axes_query *q, uint32_t pair
     // The foot is the face's middle + s u + t v.
     double s = vec3_dot(vec3_cross(to, v), n) * scale, t = vec3_dot(vec3_cross(u, to), n) * scale;
     if (!(fabs(s) <= 1 && fabs(t) <= 1)) return 0;
-    // By the half of the face that it is in: that of the corner low or of the one opposite.
+    // The foot's triangle is the half of the face that it lies in: that of the corner `low`, or of the opposite one.
     int is_high = s + t > 0;
     uint32_t from = is_high ? face | 1u << i | 1u << j : face;
     double along_u = (is_high ? 1 - s : 1 + s) / 2, along_v = (is_high ? 1 - t : 1 + t) / 2;
@@ -176,7 +176,7 @@ int boxes_take_depth(search *s, ovoid_cover *cover) {
     double slack = axes.error[pair] + 2 * f->claim, depth = axes.height[pair] - slack;
     double upper = -depth - f->upper_radii, lower = -axes.height[pair] - slack - f->lower_radii;
     if (!(depth > 0 && upper < s->upper && upper - lower <= s->goal.tolerance)) return 0;
-    // From A to B, along which Z is nearest behind the origin.
+    // The direction from A to B along which Z is nearest behind the origin.
     int is_along = axes.along[pair] >= 0;
     vec3 n = {axes.n[0][pair], axes.n[1][pair], axes.n[2][pair]}, normal = is_along ? n : vec3_neg(n);
     evidence foot;

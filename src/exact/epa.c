@@ -146,7 +146,7 @@ COMPILER_NOINLINE static int start(const prober *p, expansion *e, simplex *point
 
 // The corners of a face as evidence, weighted to the point nearest to the target; *distance: how near.
 static evidence face_evidence(const expansion *e, const face *f, vec3 target, double *distance) {
-    // In a unit of the face's size, so that no product of four lengths underflows.
+    // The unit is the face's size, so that no product of four lengths underflows.
     double unit = ldexp(1, -find_unit_exponent(vec3_max_abs(e->w[f->v[0]])));
     simplex points = {.count = 3};
     for (int i = 0; i < 3; i++)

@@ -31,7 +31,7 @@ epa8_end epa_lanes_grow(epa8 *lanes, const prober *p, const simplex *points, dou
     const double *n = lanes->best_n;
     search_take_gap(s, (vec3){-n[0], -n[1], -n[2]}, lanes->best_gap);
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
-    // As in epa.c, the support that ends the growth is not counted.
+    // The support that ends the growth is not counted; epa.c does not count it either.
     s->iterations += lanes->points - EPA8_START;
     return end;
 }
@@ -64,7 +64,7 @@ static int find_foot(const search *s, const epa8 *lanes, uint32_t face, evidence
     return epa_find_foot(s, corner, get_normal(lanes, lanes->nearest), lanes->low[lanes->nearest], foot);
 }
 
-// In the nearest face, or in another triangle of its facet.
+// The foot in the nearest face, or in another triangle of its facet.
 static int find_witness(const search *s, const epa8 *lanes, evidence *foot) {
     if (find_foot(s, lanes, lanes->nearest, foot)) return 1;
     for (uint32_t half = 0; half < 2; half++)

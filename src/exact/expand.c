@@ -301,7 +301,7 @@ int expansion_make_hull(expansion *p, const vec3 *w, int count, double slack) {
         expansion_add_point(p, w[i], (uint32_t)i, 0);
     }
     expansion_make_tetrahedron(p);
-    // Then each other point that lies outside.
+    // Each other point that lies outside is joined.
     for (int i = 0; i < count; i++) {
         uint16_t seen = find_seen(p, w[i]);
         if (seen == NONE) continue;

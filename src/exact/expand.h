@@ -66,7 +66,7 @@ typedef struct expansion {
 
 EXPANSION_ROOM(expansion_room, EXPANSION_POINTS, EXPANSION_FACES);
 
-/// No points yet.
+/// Clears the expansion: it has no points then.
 void expansion_clear(expansion *p, double slack);
 
 /// Adds a point without joining it to the surface; there must be room.

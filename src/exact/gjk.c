@@ -20,7 +20,7 @@ typedef struct gjk_state {
     unsigned valid;
 } gjk_state;
 
-// Where the nearest point lies: along n, of any length, at height / |n|.
+// The place of the nearest point: along n, of any length, at height / |n|.
 typedef struct heading {
     vec3 n;
     double height, square;
@@ -211,7 +211,7 @@ static gjk_end run_fast(search *s, const prober *by, simplex *points) {
     for (; state == STEP_ON && s->iterations < s->goal.iterations; s->iterations++) {
         double scale = 1 / sqrt(to.square), distance = to.height * scale;
         if (distance <= s->frame->claim) break;
-        // From below: the gap along the direction to the nearest point.
+        // The lower bound: the gap along the direction to the nearest point.
         frame_support p = probe_measure(by, to.n);
         double lower = take_gap(s, &to, scale, p.gap, &n);
         if (seems_done(s, distance)) {
@@ -220,7 +220,7 @@ static gjk_end run_fast(search *s, const prober *by, simplex *points) {
             if (is_answered(s, points, lower, n)) return GJK_ANSWERED;
         }
         if (is_corner(&k, &p)) break;
-        // From above: the nearest point of the simplex with the new corner.
+        // The upper bound: the nearest point of the simplex with the new corner.
         state = take_step(&k, &p, distance, &to);
     }
     state_get_simplex(&k, points);

@@ -233,8 +233,8 @@ static void add(const refinement *r, fine_simplex *points, fine_support p, const
 
 // --- GJK
 
-// Where the nearest point is so near that its direction is rounding, probes along the normals of the triangles around
-// it.
+// Probes along the normals of the triangles around the nearest point, where that is so near that its direction is
+// rounding.
 static void probe_triangles(refinement *r, const fine_simplex *points) {
     for (int left = 0; left < 4 && !is_done(r->s); left++) {
         fine_simplex t = {.count = 0};
@@ -385,7 +385,7 @@ static void run(refinement *r) {
     fine_simplex points;
     set_start(r, &points, &first);
     find_distance(r, &points);
-    // Only contact is left: of the cores, or of nothing that the radii do not decide.
+    // The bodies can only be in contact: their cores touch, or their radii decide nothing.
     if (!is_done(s) && points.distance.high <= 0x1p-40) find_side(r, &points, normal);
 }
 

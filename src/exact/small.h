@@ -63,8 +63,9 @@ typedef enum small_outcome {
     SMALL_UNKNOWN   ///< the earlier proof says nothing of the pair as it is now; nothing was searched
 } small_outcome;
 
-/// Of a pair that fits: what an earlier proof shows of it now, and of bodies that were apart a search that goes on from
-/// there. The proof may hold any bytes. found: as reject_by_spheres left it; of REJECTED the rejection.
+/// For a pair that fits: what an earlier proof shows of it now, and for bodies that were apart a search that goes on
+/// from there. The proof may hold any bytes. found: as reject_by_spheres left it; if REJECTED is returned, the
+/// rejection.
 small_outcome small_run_earlier(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
                                 rejection *found, small_end *end);
 

@@ -37,7 +37,7 @@ static int is_over(const approach *state) { return state->out->upper < 0 || stat
 // The least distance between two times, where it falls at the first and rises at the second.
 static void descend_between(approach *state, sample low, sample high) {
     for (int round = 0; round < DESCENT_MAX && !is_over(state); round++) {
-        // Where the tangents meet, kept away from both ends.
+        // The next time is where the tangents meet, kept away from both ends.
         double wide = high.time - low.time, fall = max2(low.fall, 0), rise = max2(-high.fall, 0);
         double share = fall + rise > 0 ? (rise + (low.distance - high.distance) / wide) / (fall + rise) : 0.5;
         double floor = low.distance - fall * share * wide;
@@ -54,7 +54,7 @@ static void descend_between(approach *state, sample low, sample high) {
     }
 }
 
-// From a time at which the distance falls: ahead until it rises, then between.
+// Descends from a time at which the distance falls: ahead until it rises, then between the two.
 static void descend(approach *state, sample from) {
     double ahead = 1e-3 * (state->s.end - state->s.begin);
     for (int round = 0; round < DESCENT_MAX && !is_over(state); round++, ahead *= 2) {

@@ -46,8 +46,8 @@ static double guess_ahead(const advance *state) {
     return max2(min2(ahead, most), 4 * least);
 }
 
-// After a query that found the bodies beyond the margin: steps there along its normal or along the last one; 1 if that
-// is proven free.
+// Steps on from a query that found the bodies beyond the margin, along its normal or along the last one; 1 if that is
+// proven free.
 static int step_to_query(advance *state, vec3 before) {
     sweep *s = &state->s;
     double until = s->queried_at;
@@ -155,7 +155,7 @@ static void finish(advance *state) {
     if (out->status == OVOID_IMPACT_FREE || out->limit != OVOID_LIMIT_NONE) return;
     double wide = out->status == OVOID_IMPACT_HIT ? out->hit_at - s->time : INFINITY;
     if (wide <= s->tolerance * (s->end - s->begin) || wide <= state->finest) return;
-    // At the end of the free times the bracket of the distance holds the margin: is it the allowances' width?
+    // The bracket of the distance at the end of the free times holds the margin: 1 if the allowances make it that wide.
     int is_allowed = 2 * s->allowance > out->free.upper - out->free.lower;
     out->limit = s->used >= s->most ? OVOID_LIMIT_ITERATIONS
                  : is_allowed       ? OVOID_LIMIT_ALLOWANCE

@@ -63,7 +63,7 @@ static const motion_pair *find_pieces(const sweep *s, double time, motion_pair *
     return other;
 }
 
-// Before and after the query, which needs the stack.
+// These run before and after the query, which needs the stack: they are not inlined.
 COMPILER_NOINLINE static double find_pair(const sweep *s, double time, ovoid_pair *pair) {
     motion_pair other;
     return motion_pair_find_pair(find_pieces(s, time, &other), time, pair);

@@ -159,7 +159,7 @@ static void set_poses(motion_piece *p, const ovoid_pose *first, const ovoid_pose
     p->turn_error = 64 * ROUNDING;
 }
 
-// Of a slower turn the reciprocal of its speed may overflow: it is taken as one of this speed, and as much in error.
+// The reciprocal of a slower turn's speed may overflow: the turn is taken as one of this speed, and as much in error.
 #define SLOWEST 0x1p-900
 
 static void set_velocity(motion_piece *p, const ovoid_motion *m) {

@@ -26,7 +26,7 @@
 
 #include "motion/motion.h"
 
-/// Both bodies, each in a piece of its motion.
+/// A pair of bodies, each in a piece of its motion.
 typedef struct motion_pair {
     motion_body a, b;
     double begin, end; ///< the times that both pieces have in common

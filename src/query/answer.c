@@ -54,7 +54,7 @@ static void take_spheres(search *s) {
     s->normal = n;
 }
 
-// Where a stage proved one bound only, the other comes from the spheres (lower) or from any pair of vertices (upper).
+// A stage may prove one bound only: the other one comes from the spheres (lower) or from any pair of vertices (upper).
 static void complete(search *s) {
     if (s->lower == -INFINITY) take_spheres(s);
     if (s->upper == INFINITY) {
@@ -156,8 +156,8 @@ static inline vec3 get_share(const double *vertices, uint32_t i, double weight) 
     return vec3_scale(vec3_at(vertices, i), weight);
 }
 
-// By value, into the place of what is written: nothing is copied. Three terms always, which is faster than a loop of
-// as many as count: those of no weight add zeros.
+// Returned by value, into the place of what is written: nothing is copied. There are always three terms, which is
+// faster than a loop of as many as count: terms without weight add zeros.
 static inline __attribute__((always_inline)) small_points find_small_points(const small_end *end, const pair_frame *f) {
     if (end->kind == OVOID_PROOF_INNER) {
         vec3 p = frame_point_to_world(f, end->inner);

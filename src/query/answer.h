@@ -33,7 +33,7 @@ ovoid_answer answer_make_refused(ovoid_limit limit);
 ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, const query_goal *goal,
                          const ovoid_proof *earlier, ovoid_cover *cover);
 
-/// Of a pair whose beginning left it to the search: the rest of the pipeline. The frame needs only frame_place.
+/// The rest of the pipeline, for a pair that its beginning left to the search. The frame needs only frame_place.
 void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double sphere_gap, const query_goal *goal,
                        const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out);
 

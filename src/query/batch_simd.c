@@ -218,14 +218,14 @@ static void take_supports(search *s, const open_couple *couple, simplex *start) 
     s->witness = evidence_make(start);
 }
 
-// After the supports: answered, or left open.
+// Takes the result of the supports: the couple is answered, or left open.
 static void end_at_support(const batch_state *c, const lane_group *e, unsigned k, uint32_t a, uint32_t b) {
     double lower = e->lanes->lower.lane[k], upper = e->lanes->upper.lane[k];
     query_goal goal = get_goal(c, e, k);
     if (!query_goal_is_met(&goal, lower, upper)) {
         leave_open(c, e, k, a, b);
     } else if (goal.wants_bracket && e->lanes->radii.lane[k] > 0) {
-        // Where radii overlap the single query looks a second time (stage_support).
+        // If radii overlap, the single query takes a second look (stage_support).
         leave_alone(c, e->index[k]);
     } else if (!c->wants_evidence) {
         write_bounds(c, e, k, OVOID_STAGE_SUPPORT, (unsigned)(upper - lower <= goal.tolerance) << k);
@@ -478,7 +478,7 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
     if (c->waiting_count > PAIR8 * (PAIR8_GROUPS - 1)) settle(c);
 }
 
-// From couple `first` on, until enough are left open or all couples are through; the next one.
+// Runs from couple `first` on, until enough couples are left open or all are done; returns the next one.
 COMPILER_NOINLINE static size_t run_lanes(const ovoid_batch *batch, query_goal goal, pair8_query numbers, size_t first,
                                           open_list *open) {
     pair8 lanes[PAIR8_GROUPS + 1];

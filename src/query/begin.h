@@ -39,7 +39,8 @@ static inline void set_numbers(query_goal *goal, const ovoid_options *options, c
     goal->iterations = options->iterations;
 }
 
-/// After the spheres, which come first, as they cost the same for any number of vertices: found has their bound.
+/// The stages after the spheres. The spheres come first, as they cost the same for any number of vertices; found has
+/// their bound.
 static inline beginning begin_after_spheres(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
                                             rejection *found, small_end *end) {
     switch (run_small(frame, goal, earlier, found, end)) {

@@ -49,7 +49,7 @@ static ovoid_pair get_pair(prepared_pair pair) {
     return (ovoid_pair){pair.a->body.shape, pair.b->body.shape, pair.a->body.pose, pair.b->body.pose};
 }
 
-// As one that was not prepared.
+// The query of the pair as if its bodies were not prepared.
 COMPILER_NOINLINE static ovoid_verdict find_afresh(prepared_pair both, const ovoid_options *given,
                                                    const query_goal *goal, const ovoid_proof *earlier,
                                                    const ovoid_evidence *out) {
@@ -96,7 +96,7 @@ static ovoid_verdict end_at_small(const pair_frame *f, const small_end *end, con
     return answer_make_small_verdict(end, goal);
 }
 
-// Of bodies that the spheres do not part, or with evidence.
+// The query of bodies that the spheres do not separate, or one whose evidence is wanted.
 COMPILER_NOINLINE static ovoid_verdict find_near(prepared_pair pair, const ovoid_options *given,
                                                  const query_goal *wanted, const ovoid_evidence *out) {
     const ovoid_proof *earlier = out ? out->proof : NULL;

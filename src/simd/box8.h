@@ -24,7 +24,7 @@ static inline float box8_round_down(double x) {
 }
 static inline float box8_round_up(double x) { return -box8_round_down(-x); }
 
-/// No path is longer.
+/// No path from the root of a tree to a leaf is longer.
 enum { BOX8_DEPTH = 64 };
 
 /// A traversal: nodes that wait.
@@ -42,7 +42,7 @@ void box8_begin(box8_walk *walk, const box8 *nodes, const double *ends);
 typedef uint32_t box8_function(box8_walk *walk, uint32_t *leaves, uint32_t room);
 uint32_t box8_find_leaves(box8_walk *walk, uint32_t *leaves, uint32_t room);
 
-/// That of one instruction set, for tests; NULL where this machine or build lacks it, or has no use for it.
+/// The kernel of one instruction set, for tests; NULL where this machine or build lacks it, or has no use for it.
 box8_function *box8_get(simd_isa isa);
 
 #endif

@@ -31,7 +31,7 @@ typedef struct box_axes {
 /// beyond rounding, so that the faces are parallelograms and there are no others, and all heights beyond the doubt.
 typedef int box_axes_function(const box_axes_query *query, box_axes *out);
 
-/// By the widest instruction set of this machine.
+/// Runs the kernel of the widest instruction set of this machine.
 int box_axes_find(const box_axes_query *query, box_axes *out);
 
 /// The kernel of one instruction set, for tests; NULL where this machine or build lacks it.

@@ -56,7 +56,7 @@ typedef struct epa8 {
 /// The kernel of one instruction set: grows from the first `points` of w, a, b, one to four. The same bits from each.
 typedef epa8_end epa8_function(epa8 *s, const epa8_query *query);
 
-/// By the widest instruction set of this machine.
+/// Runs the kernel of the widest instruction set of this machine.
 epa8_end epa8_grow(epa8 *s, const epa8_query *query);
 
 /// The kernel of one instruction set, for tests; NULL where this machine or build lacks it.

@@ -37,7 +37,7 @@ static small_gjk_kept_function *const small_gjk_kept_of[SIMD_ISA_COUNT] =
 static small_gjk_kept_function *const find_kept_of[SIMD_ISA_COUNT] =
     KERNELS(small_gjk_find_kept_scalar, small_gjk_find_kept_avx2, small_gjk_find_kept_avx2);
 
-// By the widest set.
+// The kernels of the widest instruction set of this machine.
 int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_of[find_widest()](query, out); }
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
 const gjk8_kernels *gjk8_get_kernels(void) { return gjk8_of[find_widest()]; }
@@ -53,7 +53,7 @@ void simd_find_kept(const small_gjk_query *query, const small_gjk_kept *kept, sm
     find_kept_of[find_widest()](query, kept, result);
 }
 
-// By one set, for tests: NULL where this machine or build lacks it.
+// The kernels of one instruction set, for tests: NULL where this machine or build lacks it.
 box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
 const gjk8_kernels *gjk8_get_kernels_of(simd_isa isa) { return has(isa) ? gjk8_of[isa] : NULL; }

@@ -140,7 +140,7 @@ simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_
     if (high->padded_count > MOST || low->padded_count > MOST)
         return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, h[0], h[1], h[2]),
                            simd_find_support(low->x, low->y, low->z, low->padded_count, l[0], l[1], l[2])};
-    // As in simd_find_support: up to 16 points the wider kernel's last step costs more than it saves.
+    // Up to 16 points the wider kernel's last step costs more than it saves, as in simd_find_support.
     int is_small = high->padded_count <= 16 && low->padded_count <= 16;
     if (!is_small && __builtin_cpu_supports("avx512f")) return find_pair_avx512(high, h, low, l);
     if (__builtin_cpu_supports("avx2")) return find_pair_avx2(high, h, low, l);

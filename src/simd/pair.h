@@ -15,8 +15,8 @@ typedef struct simd_pair {
     support_result high, low;
 } simd_pair;
 
-/// The same bits as two calls of simd_find_support. Fastest up to 64 points a set: all values stay in registers or the
-/// first cache, and the index is that of the first one equal to the largest.
+/// The result has the bits of two calls of simd_find_support. Fastest up to 64 points a set: all values stay in
+/// registers or the first cache, and the index is that of the first one equal to the largest.
 simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]);
 
 /// The difference B minus A that is least along n, of two sets in one frame.
@@ -26,7 +26,7 @@ typedef struct simd_difference {
     uint32_t a, b;
 } simd_difference;
 
-/// The same indices and values as simd_find_pair of A along n and of B along -n: gap = -low - high.
+/// The indices and values are those of simd_find_pair of A along n and of B along -n: gap = -low - high.
 simd_difference simd_find_difference(const simd_points *a, const simd_points *b, double nx, double ny, double nz);
 
 /// The points rotated (by rows of a matrix) and translated, from->padded_count numbers each to x, y, z. The same bits

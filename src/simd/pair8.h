@@ -43,14 +43,15 @@ typedef struct pair8 {
 /// How many columns, from the first one on, are written before `ellipsoids`.
 enum { PAIR8_SPHERE_COLUMNS = 3 + 3 + 3 + 3 + 3 + 9 + 9 + 3 + 3 + 1 + 1 };
 
-/// Where the numbers of a lane group's bodies and shapes are. Body: a number that is not read, position xyz, rotation
-/// wxyz. Shape: reach, radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not read.
+/// The places of the numbers of a lane group's bodies and shapes. Body: a number that is not read, position xyz,
+/// rotation wxyz. Shape: reach, radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not
+/// read.
 typedef struct pair8_places {
     const double *body_a[PAIR8], *body_b[PAIR8], *shape_a[PAIR8], *shape_b[PAIR8];
 } pair8_places;
 
-/// Where the numbers of the ellipsoids are. Outer: centre xyz, Q (xx xy xz yy yz zz), inner centre xyz. Inner: W (6),
-/// least radius, largest.
+/// The places of the numbers of the ellipsoids. Outer: centre xyz, Q (xx xy xz yy yz zz), inner centre xyz. Inner: W
+/// (6), least radius, largest.
 typedef struct pair8_ellipsoids {
     const double *outer_a[PAIR8], *outer_b[PAIR8], *inner_a[PAIR8], *inner_b[PAIR8];
 } pair8_ellipsoids;
@@ -73,7 +74,7 @@ typedef struct pair8_found {
 
 /// Kernels of one instruction set.
 typedef struct pair8_kernels {
-    /// Both bodies in the world, and the enclosing spheres: lower, upper.
+    /// Places both bodies in the world and computes the bounds of the enclosing spheres: lower, upper.
     pair8_found (*spheres)(const pair8_places *from, const pair8_query *query, pair8 *o);
     /// B in the frame of A, inner and outer ellipsoids: lower and upper where these decide, the direction for the other
     /// lanes. For `count` lane groups, at most PAIR8_GROUPS: together they are faster.

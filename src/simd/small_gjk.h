@@ -60,8 +60,8 @@ typedef struct small_gjk_result {
 /// is a proof: the caller makes the bounds from them.
 void simd_run_small_gjk(const small_gjk_query *query, small_gjk_result *result);
 
-/// Where a search ended a moment ago: the points of one to three differences, whose indices the bodies have. Places
-/// from `count` on repeat the first.
+/// The end of a search a moment ago: the points of one to three differences, whose indices the bodies have. Places from
+/// `count` on repeat the first.
 typedef struct small_gjk_kept {
     uint32_t count, a[4], b[4];
 } small_gjk_kept;

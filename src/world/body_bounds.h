@@ -22,7 +22,7 @@ vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double
 /// A box that holds the body, rounding included.
 box body_compute_box(const ovoid_body *body, const body_sphere *ball);
 
-/// Where a body is, by its pose alone: no vertex is looked at.
+/// Bounds of a body by its pose alone: no vertex is looked at.
 typedef struct body_outline {
     vec3 at;      ///< the centre r in the world, rounded
     double reach; ///< no point of the body is farther than this from `at`, rounding included

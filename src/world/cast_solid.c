@@ -53,7 +53,7 @@ static double find_entry(const ray_search *state, solid_ref ref) {
     return meets ? range[0] : INFINITY;
 }
 
-// In the order of their times; of too many the farthest is dropped.
+// Crossings are kept in the order of their times; of too many the farthest is dropped.
 static void keep_crossing(ray_search *state, const part_hit *c) {
     if (state->count == CROSSINGS && state->crossing[CROSSINGS - 1].lower <= c->lower) return;
     uint32_t at = state->count < CROSSINGS ? state->count++ : CROSSINGS - 1;

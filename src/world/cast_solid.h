@@ -14,7 +14,7 @@ typedef struct part_hit {
     vec3 point, normal;
 } part_hit;
 
-/// Where a ray first meets a solid, its part the triangle. The ray must be valid.
+/// The place where a ray first meets a solid; the part is the triangle. The ray must be valid.
 part_hit solid_cast_ray(const ovoid_body *body, const ovoid_ray *ray);
 
 /// When a body that is moved along `way`, without turning, first meets another; one of them at least is a solid.

@@ -72,8 +72,7 @@ static void decide_chunks(void *work, uint32_t first, uint32_t end, uint32_t wor
         decide_chunk(w, &w->pairs[(size_t)c * CHUNK], get_chunk_size(w, c), &w->chunks[c]);
 }
 
-// After a change of the query: how long each cached answer holds for the new one. Witness points are not cached for all
-// queries.
+// How long each cached answer holds after a change of the query. Witness points are not cached for all queries.
 static void renew_ages(ovoid_world *w) {
     for (size_t i = 0; i < w->pair_count; i++) {
         world_pair *p = &w->pairs[i];

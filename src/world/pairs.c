@@ -44,7 +44,7 @@ static int gather(const ovoid_world *w, gathered *g, uint64_t key) {
 // 1 if boxes that overlap now did not when the list was made.
 static int is_new(const ovoid_world *w, uint32_t i, uint32_t j, const box *box_j) {
     if (!(w->marks[j] & (MARK_BOX | MARK_FRESH))) return !box_is_overlapping(&w->bodies[i].seen, box_j);
-    // Both have changed: both find the pair, and the lower index reports it.
+    // If both bodies have changed, both find the pair, and the lower index reports it.
     return i < j && !box_is_overlapping(&w->bodies[i].seen, &w->bodies[j].seen);
 }
 

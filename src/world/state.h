@@ -82,7 +82,7 @@ typedef struct gathered {
     int failed;
 } gathered;
 
-/// Of CHUNK pairs: contacts, later the contacts before them; pairs that were queried again.
+/// Counts of a chunk of CHUNK pairs: its contacts, later the contacts before it; its pairs that were queried again.
 typedef struct chunk {
     size_t contacts, queried;
 } chunk;

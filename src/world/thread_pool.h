@@ -14,7 +14,7 @@ thread_pool *thread_pool_create(uint32_t threads, const ovoid_allocator *allocat
 /// Ends and joins the threads; NULL is allowed.
 void thread_pool_destroy(thread_pool *p, const ovoid_allocator *allocator);
 
-/// Where tasks run: in the pool, in the host's task system, or with neither in the caller's thread alone.
+/// Tasks run in the pool, in the host's task system, or with neither in the caller's thread alone.
 typedef struct task_host {
     thread_pool *own;
     ovoid_tasks tasks;

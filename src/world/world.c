@@ -105,7 +105,7 @@ static int reserve_bodies(ovoid_world *w, uint32_t count) {
         while (i--) world_release(w, larger[i], (size_t)room + 1, sizes[i]);
         return 0;
     }
-    // Of the nodes, two for each body and two more, only the used ones are copied.
+    // Only the used nodes are copied; there are two for each body and two more.
     const size_t used[ARRAYS] = {w->used, w->used, w->used, w->used, w->changed_count, w->used, (w->tree.used + 1) / 2};
     for (int i = 0; i < ARRAYS; i++) {
         if (old[i] && used[i]) memcpy(larger[i], old[i], used[i] * sizes[i]);

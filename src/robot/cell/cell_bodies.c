@@ -20,7 +20,7 @@ int cell_reserve(const ovoid_allocator *memory, cell_array *a, size_t count, siz
     return 1;
 }
 
-// Where a key is, or would be.
+// The place of a key, or the place that it would have.
 static size_t find_key(const cell_array *keys, uint64_t key) {
     const uint64_t *k = keys->items;
     size_t low = 0, high = keys->count;
@@ -299,7 +299,7 @@ static ovoid_code set_body_allowed(ovoid_robot_cell *c, ovoid_id id, uint32_t li
     code = keys_set(&c->allocator, &c->allowed_bodies, cell_make_key((uint32_t)(id >> 32), link), allowed);
     if (code != OVOID_OK) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a pair");
     if (b->link != OVOID_ROBOT_NONE || !c->is_whole) return cell_compile(c, error);
-    // Of an obstacle the arrays stay as they are.
+    // The links that are allowed to touch an obstacle change nothing in the arrays.
     c->version++;
     return OVOID_OK;
 }

@@ -266,7 +266,7 @@ static const inner_balls *get_balls(ovoid_robot_checker *checker, uint32_t item)
 static double compute_depth(ovoid_robot_checker *checker, uint32_t item, const inner_region *g, double radius,
                             double size) {
     const shape_inside *in = cell_items(checker->cell)[item].inside;
-    // Of a body that may be smaller than its shape too little is known.
+    // Too little is known of a body that may be smaller than its shape.
     if (!(radius >= 0)) return 0;
     double more = radius - CELL_SLACK * size * g->condition;
     double deep = checker->kernels->balls_in_region(get_balls(checker, item), g, more);

@@ -5,13 +5,13 @@
 #include "robot/cell/cell.h"
 #include "robot/cell/near_list.h"
 
-/// Where a sphere around items is.
+/// The place of a sphere around items.
 typedef struct sphere_place {
     double center[3]; ///< world
     double reach;     ///< its radius, by how much the items may be elsewhere, and what rounding does to the centre
 } sphere_place;
 
-/// From its centre, and its reach without what rounding does to that.
+/// A sphere by its centre, and by its reach without what rounding does to the centre.
 static inline sphere_place sphere_place_make(vec3 center, double reach) {
     return (sphere_place){{center.x, center.y, center.z}, reach + CELL_SLACK * vec3_sum_abs(center)};
 }
@@ -206,7 +206,7 @@ static inline int pair_was_apart(const ovoid_robot_checker *checker, const check
 /// a + b + c, not below the exact sum.
 static inline double add_up(double a, double b, double c) { return ((a + b) + c) * (1 + 0x1p-50); }
 
-/// By how much the bodies may be nearer than they are as posed.
+/// The length by which the bodies may be nearer than they are as posed.
 static inline double pair_get_clear(const checker_pair *p) { return add_up(p->padding, p->error, 0); }
 
 /// Moves the exact query's bracket outward by the poses' errors, and by the padding.

@@ -60,7 +60,8 @@ static int ask_pair(state_search *s, const checker_pair *p, pair_name name, cons
     return answer.lower > margin || take_bracket(s, p, name, answer.lower, answer.upper);
 }
 
-// With the earlier proof where that parted the bodies: one of an overlap seldom holds for a state that is not close.
+// Takes the earlier proof if that separated the bodies: a proof of an overlap seldom holds for a state that is not
+// close.
 static int ask_candidate(state_search *s, const checker_pair *p, pair_name name) {
     return ask_pair(s, p, name, pair_was_apart(s->checker, p) ? pair_get_earlier(s->checker, p) : NULL);
 }
@@ -91,7 +92,7 @@ static int ask_last(state_search *s, const ovoid_robot_query_options *options) {
     checker_pair p =
         is_self ? checker_make_item_pair(checker, last.index) : checker_make_part_pair(checker, last.item, last.index);
     double lower, upper;
-    // Of solids what lies inside is the cheaper question.
+    // What lies inside both bodies is the cheaper test of solids.
     if (sides_have_solid(&p.solids) && checker_prove_overlap(checker, last, &lower, &upper) &&
         !take_bracket(s, &p, last, lower, upper))
         return 0;

@@ -9,7 +9,7 @@ typedef struct motion_gradient {
     vec3 point; ///< that the rotation is about
 } motion_gradient;
 
-// By a turn about an axis through `center`.
+// The derivative by a turn about an axis through `center`.
 static double find_turn(const motion_gradient *g, vec3 axis, vec3 center) {
     return vec3_dot(g->by_translation, vec3_cross(axis, vec3_sub(g->point, center))) + vec3_dot(g->by_rotation, axis);
 }
@@ -57,8 +57,8 @@ void checker_compute_gradient(const ovoid_robot_checker *checker, const checker_
     for (uint32_t i = 0; i < r->variable_count; i++) row[i] = 0;
     motion_gradient of_a = {{g[0], g[1], g[2]}, {g[3], g[4], g[5]}, p->pair.pose_a.position};
     motion_gradient of_b = {{g[6], g[7], g[8]}, {g[9], g[10], g[11]}, p->pair.pose_b.position};
-    // Up both chains, the later of two joints first, as parents come before children: where the chains meet no joint is
-    // left that moves one body alone.
+    // Goes up both chains, the later of two joints first, as parents come before children: where the chains meet no
+    // joint is left that moves one body alone.
     int64_t a = find_place_above(r, p->a->link), b = find_place_above(r, p->b->link);
     while (a != b) {
         int64_t *later = a > b ? &a : &b;

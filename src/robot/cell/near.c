@@ -22,7 +22,8 @@ static ovoid_status find_status(double lower, double upper, ovoid_status of_shap
 
 static void put(double *to, vec3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 
-// Of solids: that of the deciding pair of triangles at its points. That no other pair is as near is not shown.
+// The gradient of solids is that of the deciding pair of triangles at its points. That no other pair is as near is not
+// shown.
 static ovoid_gradient make_gradient(const checker_pair *p, const ovoid_answer *answer) {
     ovoid_gradient g = {.has_translation = 0};
     vec3 lever_a = vec3_sub(answer->point_a, p->pair.pose_a.position),

@@ -5,7 +5,8 @@
 
 #include "ovoid/robot.h"
 
-/// Where a pair that was kept is, and what it is sorted by: nearer ones first, of equal ones those found first.
+/// The place of a pair that was kept, and what it is sorted by: nearer pairs come first, of equal ones those found
+/// first.
 typedef struct near_key {
     double lower;
     uint32_t found; ///< how many were found before it

@@ -65,7 +65,7 @@ static chain_step make_step(const ovoid_robot *r, uint32_t joint) {
     return s;
 }
 
-// Not known yet.
+// Stands for what a joint follows, before that is known.
 #define OPEN UINT32_MAX
 
 // What a joint follows, from what the joint that it mimics follows: m (f q + c) + o. Each mimic composed costs both

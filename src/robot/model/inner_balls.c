@@ -26,7 +26,7 @@ static double find_radius(const ovoid_polytope *p, vec3 x) {
     return least;
 }
 
-// At the middles of the box' cells.
+// Fills the lattice with the middles of the box's cells.
 static void fill_lattice(lattice *l, const ovoid_shape *s, const ovoid_polytope *p) {
     vec3 low = s->measures.box.min, size = vec3_sub(s->measures.box.max, low);
     l->count = 0;
@@ -92,7 +92,7 @@ static uint32_t find_in_solid(const ball_search *search, inner_balls *b) {
     lattice l;
     fill_lattice(&l, search->shape, &p);
     uint32_t count = 0;
-    // Of a solid any number of the hull's points may be outside.
+    // Any number of the hull's points may be outside of a solid.
     for (uint32_t tries = 0; count < BALLS && tries < TRIES; tries++) {
         uint32_t next = find_next(&l);
         if (next == l.count) break;

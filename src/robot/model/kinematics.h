@@ -108,7 +108,7 @@ typedef struct frame_error {
     double quaternion, position, distance;
 } frame_error;
 
-/// Of a step's own place: its length, what that is off by, and what its quaternion is off by.
+/// Errors of a step's own place: its length, what that is off by, and what its quaternion is off by.
 typedef struct step_error {
     double length, length_error, quaternion;
 } step_error;

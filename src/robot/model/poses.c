@@ -114,7 +114,7 @@ ovoid_code ovoid_robot_compute_poses(const ovoid_robot *robot, const double *q, 
 
 // ---- many states
 
-// Up to eight states, a lane each; empty lanes repeat the first.
+// A group of up to eight states, a lane each; empty lanes repeat the first.
 typedef struct lane_group {
     double (*values)[ROBOT8];
     frame8 *frames;
@@ -163,7 +163,7 @@ ovoid_code ovoid_robot_compute_poses_batch(const ovoid_robot *robot, const doubl
 
 // ---- limits
 
-// Where a joint that follows another one is, outside its own limits by more than slack and what rounding may do: 1.
+// 1 if a joint that follows another one is outside its own limits by more than slack and what rounding may do.
 static int is_follower_outside(const ovoid_robot *r, uint32_t joint, const double *q, double slack, double *value) {
     const joint_lead *lead = &r->leads[joint];
     double leader = q[r->joint_variable[joint]];

@@ -15,7 +15,7 @@ static size_t advance(size_t *at, size_t count, size_t size) {
     return start;
 }
 
-// Where the arrays are in the block.
+// The places of the arrays in the block.
 typedef struct layout {
     size_t links, joints, elements, disabled, link_names, joint_names, parent_joint, order, joint_variable, variables,
         leads, steps, step_of, value_first, sources, element_inside, free_values, followers, text, size;

@@ -19,7 +19,7 @@ typedef struct joint_lead {
     uint32_t lengths; ///< how many of the joint's values, the first ones, are lengths
 } joint_lead;
 
-/// Where a value of the chain comes from, where all is well with it: factor * q[variable] + offset, at most `most`.
+/// The source of a value of the chain, where all is well with it: factor * q[variable] + offset, at most `most`.
 typedef struct value_source {
     double factor, offset, most;
     double scale; ///< 1: errors grow with the variable; 0

@@ -39,7 +39,7 @@ static ovoid_robot_variable make_variable(const ovoid_robot_joint *j, uint32_t j
                                   j->velocity};
 }
 
-// Not known yet: the joint follows another.
+// Stands for a variable that is not known yet, since the joint follows another.
 #define OPEN (OVOID_ROBOT_NONE - 1)
 
 // Sets the variable of a joint that follows another, and of those that it follows: each chain is walked once.

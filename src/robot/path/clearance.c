@@ -44,7 +44,7 @@ static ovoid_answer measure(clearance_search *s, const path_pair *p, uint32_t nu
     ovoid_proof *proof = is_part ? &checker->part_proofs[number] : &checker->pair_proofs[of.pair];
     uint32_t *mark = is_part ? &checker->part_marks[number] : &checker->pair_marks[of.pair];
     const checker_pair known = {.pair = p->pair, .a = p->a, .b = p->b, .proof = proof, .mark = mark};
-    // No cap is 0: a body that is nearer than that is measured in full.
+    // A cap of 0 is none: a body that is nearer than that is measured in full.
     const ovoid_options capped = {.cap = cap > 0 && cap < INFINITY ? cap : 0};
     ovoid_answer answer = ovoid_distance(&p->pair, &capped, pair_get_earlier(checker, &known));
     if (answer.status == OVOID_OVERLAPPING) answer = ovoid_depth(&p->pair, NULL, &answer.proof, NULL);
@@ -123,7 +123,7 @@ static int test_pair(clearance_search *s, const path_span *span, uint32_t number
 
 // ---- all pairs in an interval
 
-// Of one eight; *least falls to what those that stay open are not nearer than.
+// Tests the pairs of one mask; *least falls to what those that stay open are not nearer than.
 static void test_mask(clearance_search *s, const path_span *span, uint8_t *mask, uint32_t first, double *least) {
     for (unsigned rest = *mask; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);

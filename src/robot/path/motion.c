@@ -424,7 +424,7 @@ int path_is_far_pair(const path_work *w, uint32_t pair, double margin) {
 
 double path_get_center_distance(const path_work *w, const pair_parts *of) {
     const double *a = w->places[of->item].center, *b = w->places[of->other].center;
-    // Of a cell without obstacles there are no parts.
+    // A cell without obstacles has no parts.
     vec3 other = {b[0], b[1], b[2]};
     if (of->part != OVOID_ROBOT_NONE) other = cell_parts(w->cell)[of->part].box.center;
     return vec3_norm(vec3_sub(other, (vec3){a[0], a[1], a[2]}));

@@ -24,8 +24,8 @@ typedef struct step_speed {
     double turn_slack, slide_slack;
 } step_speed;
 
-/// Of two items: how many moving steps of each are below the lowest frame that is above both, and that frame (NONE: the
-/// world).
+/// The chains of two items: how many moving steps of each are below the lowest frame that is above both, and that frame
+/// (NONE: the world).
 typedef struct pair_chain {
     uint32_t count_a, count_b, frame;
 } pair_chain;
@@ -69,7 +69,8 @@ void path_work_destroy(path_work *w);
 /// The segment from q0 to q1: speeds and errors. The codes of a refused state, and ARGUMENT: a floating joint moves.
 ovoid_code path_set_segment(path_work *w, const double *q0, const double *q1, double limit_slack, ovoid_error *error);
 
-/// Where everything is at one t: all frames, the axes of the steps that turn along the segment, a box around each item.
+/// The places of everything at one t: all frames, the axes of the steps that turn along the segment, a box around each
+/// item.
 typedef struct path_state {
     link_frame *frames;
     vec3 *axes;
@@ -135,7 +136,7 @@ int path_is_solid_far(const path_pair *p, double margin);
 /// 1 where OUTER, MIDDLE or ENDS hold for the interval that was set.
 unsigned path_find_far_parts(const path_work *w, uint32_t item, uint32_t group, double margin);
 int path_is_far_pair(const path_work *w, uint32_t pair, double margin);
-/// By the boxes of the bodies, which are closer to them than spheres.
+/// path_is_far_pair by the boxes of the bodies, which are closer to them than spheres.
 int path_is_far_by_boxes(const path_work *w, uint32_t number, const path_state *at, double margin);
 
 /// An interval of the segment, and the states at its beginning, end and middle.
@@ -169,7 +170,7 @@ typedef struct path_any_hit {
     const double *q0, *q1;
     path_state state; ///< memory
 } path_any_hit;
-/// Where one hits, 0 to 1, or infinity: none was found. *states grows by those looked at.
+/// The time of a hit, 0 to 1, or infinity: none was found. *states grows by the states looked at.
 double path_find_any_hit(const path_any_hit *search, uint32_t *states, ovoid_robot_answer *hit);
 
 /// 1 where one of two bodies is a solid.

@@ -134,7 +134,8 @@ static pair_outcome test_solids(path_search *s, const path_span *span, uint32_t 
     return is_hit ? PAIR_HIT : PAIR_LEFT;
 }
 
-// In the middle: apart by more than the motion, or along one normal at both ends, or left open, or a hit.
+// Tests the pair in the middle of the interval: it is apart by more than the motion, or along one normal at both ends,
+// or left open, or a hit.
 static pair_outcome test_exactly(path_search *s, const path_span *span, uint32_t number) {
     path_pair p = path_make_pair(s->w, number, span->middle->frames);
     checker_pair known = get_checker_pair(s, number, &p);
@@ -176,7 +177,7 @@ static pair_outcome test_pair(path_search *s, const path_span *span, uint32_t nu
 
 // ---- all pairs in an interval
 
-// Of one eight: those that stay open. 1: one is a hit.
+// Tests the pairs of one mask and keeps those that stay open; 1 if one is a hit.
 static int test_mask(path_search *s, const path_span *span, uint8_t *mask, uint32_t first, unsigned far) {
     unsigned gone = *mask & far;
     if (gone) add_step(s, span, first, OVOID_ROBOT_STEP_OUTER, gone, (vec3){0, 0, 0});
@@ -233,7 +234,7 @@ static uint8_t *get_masks(const path_search *s, uint32_t level) {
     return s->memory->masks + level * s->memory->mask_count;
 }
 
-// Where the items are that have open pairs, and how they move.
+// Places the items that have open pairs, and computes how they move.
 static void place_open(path_search *s, const uint8_t *masks, const path_state *state, double half) {
     const ovoid_robot_cell *c = s->w->cell;
     uint32_t items = (uint32_t)c->items.count, first = items * s->memory->groups;
@@ -269,7 +270,7 @@ static int is_hit_at(path_search *s, double t, const path_state *state, const ui
     return 1;
 }
 
-// Where a body's allowance hides when it is met, a hit soon after it; farther and farther ahead.
+// Looks farther and farther ahead for a hit soon after `from`, as an allowance may hide the time at which bodies meet.
 static void look_ahead(path_search *s, double from) {
     path_state state = get_state(s, LEVELS + 2);
     for (double by = s->tolerance; by <= AHEAD && from + by <= 1; by *= 2) {

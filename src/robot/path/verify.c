@@ -132,7 +132,7 @@ static int is_queried(const path_checker *state, uint32_t pair) {
     return !state->options->query.without_obstacles && path_is_queried(&state->w, of.item, of.part);
 }
 
-// From 0 on the steps of each queried pair follow one another up to `until`.
+// The steps of each queried pair follow one another from 0 up to `until`.
 static ovoid_code verify_cover(const path_checker *state, const covered *items, size_t count, double until,
                                ovoid_error *error) {
     const ovoid_robot_cell *c = state->w.cell;

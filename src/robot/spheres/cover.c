@@ -231,7 +231,7 @@ static double find_excess(const cover_work *m) {
     return most * (1 + 8 * ROUNDING);
 }
 
-// With one more ball each time, or an eighth more.
+// Tries with one more ball each time, or an eighth more.
 static ovoid_code make_fewest(cover_work *m, size_t room, double excess, spheres_depth *depth, ovoid_error *error) {
     double best = INFINITY;
     for (size_t count = 1; count <= room; count += 1 + count / 8) {

@@ -30,8 +30,8 @@ static void try_point(search *s, uint32_t part, vec3 x, double off) {
     }
 }
 
-// From a point that is better than all before: away from the nearest sphere, and back to the part. The distance from
-// one sphere grows with each step, as the part is convex; where another sphere is nearer then, nothing is lost.
+// Climbs from a point that is better than all before: away from the nearest sphere, and back to the part. The distance
+// from one sphere grows with each step, as the part is convex; where another sphere is nearer then, nothing is lost.
 static void climb(search *s, uint32_t index) {
     const spheres_part *part = &s->link->parts[index];
     for (int step = 0; step < 4; step++) {

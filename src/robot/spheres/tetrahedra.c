@@ -61,7 +61,7 @@ spheres_cell spheres_heap_pop(spheres_heap *heap) {
     return top;
 }
 
-// Where on the edge from a corner with value a <= 0 to one with b > 0 the zero is.
+// The zero on the edge from a corner with value a <= 0 to one with b > 0.
 static double find_zero(double a, double b) { return a <= -INFINITY ? 1 : b >= INFINITY ? 0 : a / (a - b); }
 
 // One corner on its side: the product of three. Three: all but such a product, written without cancellation. Two: the

@@ -425,7 +425,7 @@ LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *point
     rim r;
     if (s->points == EPA8_POINTS || !find_seen(s, q, point, seen) || !find_rim(s, seen, &r)) return 0;
     if (!add_cone(s, q, s->points, (vec3){point->x, point->y, point->z}, &r)) return 0;
-    // Only now: the planes' wide loads of the points would wait for a narrow store among them.
+    // The point is stored only now: the planes' wide loads of the points would wait for a narrow store among them.
     set_point(s, s->points, point);
     for (int i = 0; i < 2; i++) s->alive[i] &= ~seen[i], s->inward[i] &= ~seen[i];
     s->points++;

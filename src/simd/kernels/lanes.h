@@ -61,7 +61,7 @@ LANES_INLINE lane_mask lane_or(lane_mask a, lane_mask b) { return _mm256_or_pd(a
 LANES_INLINE lane_mask lane_not(lane_mask m) { return _mm256_xor_pd(m, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))); }
 LANES_INLINE unsigned lane_bits(lane_mask m) { return (unsigned)_mm256_movemask_pd(m); }
 LANES_INLINE lane_mask lane_none(void) { return _mm256_setzero_pd(); }
-// Of a mask only the sign bits are read.
+// Only the sign bits of a mask are read.
 LANES_INLINE lane_mask lane_sign(lane v) { return v; }
 
 #elif LANES == 2

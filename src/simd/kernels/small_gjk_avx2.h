@@ -46,7 +46,7 @@ SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, co
     }
 }
 
-// Of points that are turned already; the same bits.
+// Moves points that are turned already; the bits are those of posing them.
 SMALL_GJK_INLINE void move_points(small_gjk_body *p, const simd_points *from, const double t[3], uint32_t blocks) {
     lanes3 by = {_mm256_set1_pd(t[0]), _mm256_set1_pd(t[1]), _mm256_set1_pd(t[2])};
     for (uint32_t i = 0; i < 8 * blocks; i += 4) {
@@ -88,7 +88,7 @@ SMALL_GJK_INLINE uint32_t find_extreme(const small_gjk_body *p, lanes3 n, uint32
     return find_best(v, blocks, is_least, value);
 }
 
-// The same of a body in its own frame.
+// The extreme point of a body whose points are in its own frame.
 SMALL_GJK_INLINE uint32_t find_extreme_point(const simd_points *p, const double n[3], uint32_t blocks, int is_least,
                                              double *value) {
     lanes3 along = {_mm256_set1_pd(n[0]), _mm256_set1_pd(n[1]), _mm256_set1_pd(n[2])};
@@ -114,7 +114,7 @@ typedef lanes3 corners;
 
 SMALL_GJK_INLINE void corners_fill(corners *c, const met *m) { *c = m->w; }
 
-// In registers: a load of four lanes just after the store of one would wait for it.
+// The corner is blended in registers: a load of four lanes just after the store of one would wait for it.
 SMALL_GJK_INLINE void corners_put(corners *c, unsigned i, const met *m) {
     static const _Alignas(32) int64_t place[4][4] = {{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, -1}};
     __m256d lane = _mm256_castsi256_pd(_mm256_load_si256((const __m256i *)place[i]));

@@ -26,7 +26,7 @@ SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, co
     simd_pose_points_scalar(from, rows, t, p->x, p->y, p->z);
 }
 
-// Of points that are turned already; the same bits.
+// Moves points that are turned already; the bits are those of posing them.
 SMALL_GJK_INLINE void move_points(small_gjk_body *p, const simd_points *from, const double t[3], uint32_t blocks) {
     (void)blocks;
     p->count = from->padded_count;

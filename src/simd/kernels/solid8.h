@@ -15,7 +15,7 @@ LANES_INLINE lane least(lane a, lane b) { return lane_select(lane_less(a, b), a,
 LANES_INLINE lane clamp(lane x) { return least(lane_max(x, lane_set(0)), lane_set(1)); }
 LANES_INLINE lane3 lane3_abs(lane3 v) { return (lane3){lane_abs(v.x), lane_abs(v.y), lane_abs(v.z)}; }
 
-// Of gaps along three axes: their norm where one is above zero, else the largest.
+// The distance by gaps along three axes: their norm where one is above zero, else the largest.
 LANES_INLINE lane join_gaps(lane3 gap) {
     lane zero = lane_set(0), most = lane_max(lane_max(gap.x, gap.y), gap.z);
     lane3 out = {lane_max(gap.x, zero), lane_max(gap.y, zero), lane_max(gap.z, zero)};

@@ -80,13 +80,13 @@ typedef struct robot8_kernels {
     /// One bit for each box that is not proven farther than reach from a point. Reach and radii count what rounding
     /// does to the lengths that point and centres are made of.
     unsigned (*near_boxes)(const box8 *boxes, const double point[3], double reach);
-    /// Of each of `count` boxes one bit for each state in which a sphere is near it, as near_boxes has it; both numbers
-    /// of `more` come to its reach.
+    /// One bit for each state in which a sphere is near a box, for each of `count` boxes, as near_boxes has it; both
+    /// numbers of `more` are added to the sphere's reach.
     void (*near_boxes8)(const box8 *boxes, uint32_t count, const sphere8 *sphere, const double more[2],
                         unsigned char near[ROBOT8]);
     /// One bit for each state in which two spheres are not proven farther apart than the margin.
     unsigned (*near_spheres)(const sphere8 *a, const sphere8 *b, double margin);
-    /// The same of two boxes: robot/cell/oriented_box.h has the twin.
+    /// One bit for each state in which two boxes are near each other. robot/cell/oriented_box.h has the scalar twin.
     unsigned (*near_linked_boxes)(const linked_box8 *a, const linked_box8 *b, double margin);
     /// Balls of a frame in the world; their radii lose what rounding does to the centres.
     void (*place_balls)(const mat3 *rotation, const double position[3], const inner_balls *local, inner_balls *world);

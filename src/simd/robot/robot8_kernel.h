@@ -305,7 +305,7 @@ LANES_TARGET static double run_balls_in_region(const inner_balls *balls, const i
     return find_greatest(most);
 }
 
-// Of one ball and all of another body.
+// The greatest (r + s)^2 - distance^2, by the sum's sign, of one ball and all balls of another body.
 LANES_INLINE lane compute_ball_depth(const inner_balls *a, uint32_t k, const inner_balls *b) {
     lane3 c = {lane_set(a->column[0][k]), lane_set(a->column[1][k]), lane_set(a->column[2][k])};
     lane radius = lane_set(a->column[BALLS_RADIUS][k]), most = lane_set(-INFINITY);

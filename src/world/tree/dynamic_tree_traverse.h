@@ -43,7 +43,7 @@ static inline int dynamic_tree_find_wide(const dynamic_tree *t, const box *bound
     return 1;
 }
 
-/// The same by the binary tree. Both children are tested and pushed without a branch, since which of them overlap
+/// The traversal by the binary tree. Both children are tested and pushed without a branch, since which of them overlap
 /// cannot be predicted.
 static inline int dynamic_tree_find_narrow(const dynamic_tree *t, const box *bounds, tree_touch *touch, void *context) {
     const tree_node *nodes = t->nodes;

@@ -2,7 +2,7 @@
 // with the largest surface gives way to its own two, until there are eight or all of them are leaves.
 #include "world/tree/wide_tree.h"
 
-// Of wide nodes whose places in a node's link would not fit.
+// The most wide nodes: the places of more would not fit in a node's link.
 enum { WIDE_MOST = (1u << 31) / BOX8 - 1 };
 
 // A node of the binary tree whose wide node is still to be made, and the lane that is to name it.
@@ -46,7 +46,7 @@ static family find_children(dynamic_tree *t, uint32_t root) {
     return f;
 }
 
-// Not a number overlaps nothing; an empty box would overlap one whose ends are beyond all floats.
+// A box of NaN overlaps nothing; an empty box would overlap one whose ends are beyond all floats.
 static void clear(box8 *wide) {
     *wide = (box8){.leaves = 0};
     for (int i = 0; i < BOX8; i++) wide->low[0][i] = NAN;

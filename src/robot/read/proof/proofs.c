@@ -409,7 +409,7 @@ static int read_source(ovoid_robot_proofs_reader *f, json_t *json) {
     return wrong ? fail(f, &f->source_fields, wrong) : 1;
 }
 
-// Where a source ends: 0, or -1 with the error filled.
+// Checks the number of paths where a source ends: 0, or -1 with the error filled.
 static int check_paths(const ovoid_robot_proofs_reader *f) {
     if (f->path_count == f->source.path_count) return 0;
     io_report(f->error, OVOID_ERROR_FORMAT, get_place(f), "there are %zu of %zu paths: it was cut off", f->path_count,

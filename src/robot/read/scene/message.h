@@ -26,7 +26,7 @@ void message_note(const message_reader *r, const yaml_value *at, const char *for
 
 /// The member of that key; NULL where there is none, or where it is empty or null; refused where there are two.
 ovoid_code message_find(const message_reader *r, const yaml_value *map, const char *key, const yaml_value **member);
-/// The same of a member that must be a map (YAML_MAP), a list or a text where it is there.
+/// Finds a member that must be a map (YAML_MAP), a list or a text, where it is there.
 ovoid_code message_find_kind(const message_reader *r, const yaml_value *map, const char *key, yaml_kind kind,
                              const yaml_value **member);
 /// A text that is kept; "" where it is not there.

@@ -246,7 +246,7 @@ static ovoid_code read_matrix(const message_reader *r, const yaml_value *root, s
 int scene_matrix_is_allowed(const scene_matrix *m, const char *a, const char *b) {
     uint32_t i = name_index_find(&m->rows, a), k = name_index_find(&m->rows, b);
     if (i != UINT32_MAX && k != UINT32_MAX) return m->entries[i < k ? i * m->count + k : k * m->count + i];
-    // Of two defaults one that forbids wins; one alone counts.
+    // If the two defaults differ, the one that forbids wins; one alone counts.
     i = name_index_find(&m->defaults, a), k = name_index_find(&m->defaults, b);
     if (i == UINT32_MAX || k == UINT32_MAX) return (i != UINT32_MAX && i) || (k != UINT32_MAX && k);
     return i && k;

@@ -48,7 +48,7 @@ ovoid_code robot_ignore_attributes(robot_reader *r, const xml_element *element) 
         ovoid_code code = robot_ignore(r, element->name, "@", a->name);
         if (code) return code;
     }
-    // As deep as XML_DEPTH_MAX at most.
+    // The recursion is at most XML_DEPTH_MAX deep.
     for (const xml_element *e = element->first; e; e = e->next) {
         ovoid_code code = robot_ignore_attributes(r, e);
         if (code) return code;

@@ -124,7 +124,7 @@ static ovoid_code make_scaled(const open_mesh *open, const double *scale, ovoid_
     return code;
 }
 
-// By the rule of all files: a mesh is what its triangles are, unless its hull, or hulls of parts, are asked for.
+// A mesh is what its triangles are, unless its hull, or hulls of parts, are asked for, as in all files.
 static ovoid_code make_body(robot_reader *r, geometry *g, open_mesh *open, ovoid_shape *hull, mesh_body *body) {
     ovoid_error why = {OVOID_ERROR_MEMORY, -1, ""};
     *body = (mesh_body){.kind = OVOID_MESH_HULL, .shape = hull};

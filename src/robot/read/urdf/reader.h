@@ -69,9 +69,9 @@ void robot_note(const robot_reader *r, const xml_element *element, const char *f
 int robot_is_among(const char *word, const char *words);
 /// Keeps in mind that something is not read.
 ovoid_code robot_ignore(robot_reader *r, const char *parent, const char *between, const char *name);
-/// The same for all children whose names are not among "one|two".
+/// Keeps in mind that children whose names are not among "one|two" are not read.
 ovoid_code robot_ignore_others(robot_reader *r, const xml_element *element, const char *known);
-/// The same for all attributes, here and further in, that have no effect on elements that are read.
+/// Keeps in mind all attributes, here and further in, that have no effect on elements that are read.
 ovoid_code robot_ignore_attributes(robot_reader *r, const xml_element *element);
 /// Sums the ignored elements up in the file.
 ovoid_code robot_finish_ignored(robot_reader *r);

@@ -176,7 +176,7 @@ static ovoid_code refuse_xacro(robot_reader *r, const xml_element *e) {
         if (found)
             return robot_fail(r, e, OVOID_ERROR_FORMAT,
                               "this is xacro, of which URDF is made: run \"xacro FILE > robot.urdf\" and give that");
-        // As deep as XML_DEPTH_MAX at most.
+        // The recursion is at most XML_DEPTH_MAX deep.
         ovoid_code code = refuse_xacro(r, e->first);
         if (code) return code;
     }
