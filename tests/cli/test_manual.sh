@@ -1,9 +1,9 @@
 #!/bin/sh
-# The manual page: clean for mandoc, and it names every command and every option that the tool has (and the tool every
-# option that the page names).
+# The manual page: clean for mandoc, its options are those of the tables (scripts/manual.py), and it names every command and every option
+# that the tool has (and the tool every option that the page names).
 set -u
-if [ ! -x "$OVOID_TOOL" ] || ! command -v mandoc >/dev/null; then
-    echo "skipped: the tool or mandoc is absent"
+if [ ! -x "$OVOID_TOOL" ] || ! command -v mandoc >/dev/null || ! command -v python3 >/dev/null; then
+    echo "skipped: the tool, mandoc or python3 is absent"
     echo "0 passed, 0 failed, 1 skipped"
     exit 0
 fi
@@ -22,6 +22,7 @@ check() {
 }
 
 check lint "$(mandoc -Tlint "$page" 2>&1)"
+check tables "$(python3 "$OVOID_SOURCE_DIR/scripts/manual.py" "$OVOID_TOOL" "$page" 2>&1)"
 
 # Options of the tool, and those of the page: "-name" after Fl, or after a comma in a list of them.
 : >"$work/tool"
