@@ -22,6 +22,10 @@ void *raise_error(module_state *state, const ovoid_error *error) {
     return raise(state, sentence, error->code, error->place);
 }
 
+PyObject *none_or_raise(module_state *state, ovoid_code code, const ovoid_error *error) {
+    return code == OVOID_OK ? Py_NewRef(Py_None) : raise_error(state, error);
+}
+
 void *raise_code(module_state *state, ovoid_code code, Py_ssize_t place, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);

@@ -54,26 +54,14 @@ static int import_python(module_state *state) {
     Py_DECREF(enums);
     PyObject *values = failed ? NULL : PyImport_ImportModule("ovoid._values");
     if (!values) return -1;
-    const struct {
-        PyObject **to;
-        const char *name;
-    } tuples[] = {{&state->contacts, "Contacts"},
-                  {&state->hit, "Hit"},
-                  {&state->cast, "Cast"},
-                  {&state->joint, "Joint"},
-                  {&state->variable, "Variable"},
-                  {&state->element, "Element"},
-                  {&state->side, "Side"},
-                  {&state->state_answer, "StateAnswer"},
-                  {&state->matrix_pair, "MatrixPair"},
-                  {&state->sphere_audit, "SphereAudit"},
-                  {&state->obstacle, "Obstacle"},
-                  {&state->motion_request, "MotionRequest"},
-                  {&state->clearance, "Clearance"},
-                  {&state->comparison, "Comparison"},
-                  {&state->parts_audit, "PartsAudit"}};
-    for (size_t i = 0; !failed && i < sizeof tuples / sizeof *tuples; i++)
-        failed = !(*tuples[i].to = PyObject_GetAttrString(values, tuples[i].name));
+    static const char *const tuples[] = {"Contacts", "Hit",           "Cast",        "Joint",      "Variable",
+                                         "Element",  "Side",          "StateAnswer", "MatrixPair", "SphereAudit",
+                                         "Obstacle", "MotionRequest", "Clearance",   "Comparison", "PartsAudit"};
+    enum { TUPLES = sizeof tuples / sizeof *tuples };
+    _Static_assert(offsetof(module_state, enums) - offsetof(module_state, contacts) == TUPLES * sizeof(PyObject *),
+                   "a name for each, in their order");
+    PyObject **to = &state->contacts;
+    for (size_t i = 0; !failed && i < TUPLES; i++) failed = !(to[i] = PyObject_GetAttrString(values, tuples[i]));
     Py_DECREF(values);
     return failed ? -1 : 0;
 }
@@ -138,36 +126,19 @@ static int execute(PyObject *module) {
     return PyModule_AddStringConstant(module, "__version__", ovoid_get_version());
 }
 
-static PyObject **get_object(module_state *s, size_t i) {
-    PyTypeObject **types[] = {&s->array,    &s->shape,  &s->pose,         &s->compound, &s->answer,
-                              &s->bodies,   &s->world,  &s->motion,       &s->impact,   &s->approach,
-                              &s->ray_hit,  &s->smooth, &s->smooth_value, &s->gradient, &s->fit,
-                              &s->prepared, &s->solid,  &s->robot,        &s->cell,     &s->robot_path};
-    size_t type_count = sizeof types / sizeof *types;
-    if (i < type_count) return (PyObject **)types[i];
-    i -= type_count;
-    if (i < ENUM_COUNT) return &s->enums[i];
-    i -= ENUM_COUNT;
-    if (i < RECORD_COUNT) return &s->numpy_types[i];
-    i -= RECORD_COUNT;
-    PyObject **others[] = {&s->dtype_name,   &s->error,       &s->numpy_array,  &s->contacts, &s->hit,
-                           &s->cast,         &s->joint,       &s->variable,     &s->element,  &s->side,
-                           &s->state_answer, &s->matrix_pair, &s->sphere_audit, &s->obstacle, &s->motion_request,
-                           &s->clearance,    &s->comparison,  &s->parts_audit};
-    return i < sizeof others / sizeof *others ? others[i] : NULL;
-}
+// The references, from the first to the last.
+enum { REFERENCES = offsetof(module_state, numpy_formats) / sizeof(PyObject *) };
+_Static_assert(offsetof(module_state, array) == 0 && sizeof(PyTypeObject *) == sizeof(PyObject *), "references alone");
 
 static int traverse(PyObject *module, visitproc visit, void *arg) {
-    module_state *state = state_of_module(module);
-    PyObject **object;
-    for (size_t i = 0; state && (object = get_object(state, i)); i++) Py_VISIT(*object);
+    PyObject **objects = (PyObject **)(void *)state_of_module(module);
+    for (size_t i = 0; objects && i < REFERENCES; i++) Py_VISIT(objects[i]);
     return 0;
 }
 
 static int clear(PyObject *module) {
-    module_state *state = state_of_module(module);
-    PyObject **object;
-    for (size_t i = 0; state && (object = get_object(state, i)); i++) Py_CLEAR(*object);
+    PyObject **objects = (PyObject **)(void *)state_of_module(module);
+    for (size_t i = 0; objects && i < REFERENCES; i++) Py_CLEAR(objects[i]);
     return 0;
 }
 

@@ -46,7 +46,8 @@ typedef enum record_kind {
     RECORD_COUNT
 } record_kind;
 
-/// The types that hold C values; names as in Python, in lower case.
+/// What the module keeps: the types that hold C values, names as in Python, in lower case; then what is Python's own.
+/// All before numpy_formats are references, one after the other.
 typedef struct module_state {
     PyTypeObject *array, *shape, *pose, *compound, *answer, *bodies, *world, *motion, *impact, *approach, *ray_hit,
         *smooth, *smooth_value, *gradient, *fit, *prepared, *solid, *robot, *cell, *robot_path;
@@ -70,6 +71,8 @@ module_state *state_of_module(PyObject *module);
 
 /// Raises ovoid.Error with the library's sentence (MemoryError for MEMORY); returns NULL.
 void *raise_error(module_state *state, const ovoid_error *error);
+/// What a call without a result returns: None, or NULL where its code is an error, which it raises.
+PyObject *none_or_raise(module_state *state, ovoid_code code, const ovoid_error *error);
 /// bool() of an answer: -1 with a TypeError that says what to ask.
 int bool_refuse(PyObject *self);
 /// Raises ovoid.Error with a sentence as of PyUnicode_FromFormat; returns NULL.

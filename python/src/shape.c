@@ -139,8 +139,7 @@ static PyObject *write_file(PyObject *self, PyObject *arguments) {
     if (!PyArg_ParseTuple(arguments, "O&:write", PyUnicode_FSConverter, &path)) return NULL;
     ovoid_code code = ovoid_shape_write_file(get(self), PyBytes_AsString(path), &error);
     Py_DECREF(path);
-    if (code != OVOID_OK) return raise_error(state_of(self), &error);
-    Py_RETURN_NONE;
+    return none_or_raise(state_of(self), code, &error);
 }
 #endif
 

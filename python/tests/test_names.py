@@ -1,6 +1,7 @@
 """The words around the code. Truth: what inspect finds is what the stubs and the page say; the examples run."""
 
 import doctest
+import glob
 import inspect
 import os
 import re
@@ -68,12 +69,34 @@ class Stubs(unittest.TestCase):
                 if inspect.isroutine(what) and getattr(what, "__module__", None) != "enum":
                     inspect.signature(what)
 
+    def test_arguments(self):
+        """The names that C reads its arguments by are those of the signatures."""
+        files = sorted(glob.glob(os.path.join(SOURCE, "python/src/**/*.[ch]"), recursive=True))
+        text = "\n".join(read(path) for path in files).replace("\\\n", "")
+        macros = dict(re.findall(r"#define (\w+_NAMES) (.*)", text))
+        said = {}
+        for name in ovoid.__all__:
+            item = getattr(ovoid, name)
+            for key, what in [(name, item), *(vars(item).items() if inspect.isclass(item) else [])]:
+                what = getattr(item, key) if inspect.isclass(item) and key != name else what
+                if callable(what) and "\n\nTypes: (" in (what.__doc__ or ""):
+                    said.setdefault(key, []).append([one for one in inspect.signature(what).parameters if one not in ("self", "cls")])
+        parsed = re.findall(r"static char \*names\[\] = \{([^}]*)\};(?:(?!\n\}).)*?:(\w+)\"", text, re.S)
+        self.assertGreater(len(parsed), 40)
+        for names, function in parsed:
+            for _ in range(2):
+                names = re.sub(r"\w+_NAMES", lambda found: macros[found[0]], names)
+            names = re.findall(r'"(\w+)"', names)
+            if function in said:
+                self.assertIn(names, said[function], function)
+
     @unittest.skipUnless(shutil.which("mypy"), "needs mypy")
     def test_mypy(self):
         """A user's file, and one with a mistake, by mypy --strict."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "user.py")
             environment = dict(os.environ, MYPYPATH=os.path.dirname(os.path.dirname(ovoid.__file__)))
+            environment.pop("LD_PRELOAD", None)  # a sanitizer's runtime, which is not for mypy
             for text, is_good in ((USER, True), (USER + "\nclearance(1, 2).status\novoid.distance(1, 2)\n", False)):
                 with open(path, "w", encoding="utf-8") as file:
                     file.write(text)

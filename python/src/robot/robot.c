@@ -174,7 +174,7 @@ static PyObject *validate_limits(PyObject *object, PyObject *arguments, PyObject
     ovoid_error error;
     ovoid_code code = ovoid_robot_validate_limits(get(object), q, slack, &error);
     free(q);
-    return code == OVOID_OK ? Py_NewRef(Py_None) : raise_error(state, &error);
+    return none_or_raise(state, code, &error);
 }
 
 // ---- what it is made of

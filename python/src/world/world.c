@@ -215,8 +215,7 @@ static PyObject *move(PyObject *object, PyObject *arguments) {
         return NULL;
     ovoid_code code = ovoid_world_move(self->world, id, &pose, &error);
     world_leave(self, 1);
-    if (code != OVOID_OK) return raise_error(state, &error);
-    Py_RETURN_NONE;
+    return none_or_raise(state, code, &error);
 }
 
 static PyObject *move_many(PyObject *object, PyObject *arguments, PyObject *keywords) {
@@ -314,8 +313,7 @@ static PyObject *set_groups(PyObject *object, PyObject *arguments) {
         return NULL;
     ovoid_code code = ovoid_world_set_groups(self->world, id, group, mask, &error);
     world_leave(self, 1);
-    if (code != OVOID_OK) return raise_error(state_of(object), &error);
-    Py_RETURN_NONE;
+    return none_or_raise(state_of(object), code, &error);
 }
 
 static PyObject *set_ignored(PyObject *object, PyObject *arguments) {
@@ -327,8 +325,7 @@ static PyObject *set_ignored(PyObject *object, PyObject *arguments) {
         return NULL;
     ovoid_code code = ovoid_world_set_ignored(self->world, a, b, ignored, &error);
     world_leave(self, 1);
-    if (code != OVOID_OK) return raise_error(state_of(object), &error);
-    Py_RETURN_NONE;
+    return none_or_raise(state_of(object), code, &error);
 }
 
 static PyObject *is_pair(PyObject *object, PyObject *arguments) {
