@@ -10,11 +10,10 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 // Most couples of a chunk: its copy stays in the nearest cache, and in memory that malloc keeps.
 // Of bodies that are no shapes a couple may take milliseconds.
-enum { CHUNK_MOST = 2048, CHUNK_DEPTH = 512, CHUNK_LEAST = 64, CHUNK_OTHERS = 4, THREADS_MOST = 256 };
+enum { CHUNK_MOST = 2048, CHUNK_DEPTH = 512, CHUNK_LEAST = 64, CHUNK_OTHERS = 4 };
 
 /// The couples as they were given: pairs of integers of 4 or 8 bytes, in a buffer or in memory of our own.
 typedef struct couples {
@@ -149,21 +148,15 @@ static void *work(void *context) {
     return NULL;
 }
 
-static double get_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 // The calling thread's share, without the lock; -1 where it was interrupted.
 static int work_and_look(job *j, PyObject *progress) {
-    double looked = get_seconds();
+    double looked = seconds_get();
     ovoid_couple *copied = malloc(j->chunk * sizeof *copied);
     int failed = copied ? 0 : -1;
     if (failed) PyErr_NoMemory();
     PyThreadState *saved = PyEval_SaveThread();
     while (!failed && work_chunk(j, copied)) {
-        double now = get_seconds();
+        double now = seconds_get();
         if (now - looked < 0.05) continue;
         looked = now;
         PyEval_RestoreThread(saved);
@@ -290,11 +283,7 @@ static int validate_input(module_state *state, const batch_input *in, const job 
                      (PyObject *)Py_TYPE(in->bodies));
         return -1;
     }
-    if (in->threads < 1 || in->threads > THREADS_MOST) {
-        raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, in->threads);
-        return -1;
-    }
-    if (progress_validate(in->progress)) return -1;
+    if (threads_validate(state, in->threads) || progress_validate(in->progress)) return -1;
     const bodies_object *bodies = (const bodies_object *)in->bodies;
     if (bodies->has_solids && j->name == QUERY_DEPTH) {
         PyErr_SetString(PyExc_TypeError, "bodies: depth_batch() takes Shapes and Compounds: distance_batch() of Solids "

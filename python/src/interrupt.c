@@ -3,10 +3,16 @@
 
 #include <time.h>
 
-static double get_seconds(void) {
+double seconds_get(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+int threads_validate(module_state *state, int threads) {
+    if (threads >= 1 && threads <= THREADS_MOST) return 0;
+    raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, threads);
+    return -1;
 }
 
 int look_around(PyObject *progress, size_t done, size_t total) {
@@ -21,7 +27,7 @@ static int is_stopped(void *context) {
     interrupt *i = context;
     if (i->is_raised) return 1;
     if (++i->calls % i->every) return 0;
-    double now = get_seconds();
+    double now = seconds_get();
     if (now - i->looked < 0.05) return 0;
     i->looked = now;
     PyEval_RestoreThread(i->thread);
@@ -33,7 +39,7 @@ static int is_stopped(void *context) {
 
 ovoid_watch interrupt_begin(interrupt *i) {
     // The clock costs a tenth of what a state of a robot does.
-    *i = (interrupt){.looked = get_seconds(), .every = 8};
+    *i = (interrupt){.looked = seconds_get(), .every = 8};
     i->thread = PyEval_SaveThread();
     return (ovoid_watch){is_stopped, i};
 }
@@ -55,7 +61,7 @@ int pieces_run(module_state *state, const pieces *p) {
     ovoid_error error;
     for (size_t done = 0, size = p->least; done < p->total;) {
         size_t count = p->total - done < size ? p->total - done : size;
-        double begun = get_seconds();
+        double begun = seconds_get();
         ovoid_code code;
         Py_BEGIN_ALLOW_THREADS;
         code = p->run(p->context, done, count, &error);
@@ -66,7 +72,7 @@ int pieces_run(module_state *state, const pieces *p) {
         }
         done += count;
         if (look_around(p->progress, done, p->total)) return -1;
-        if (get_seconds() - begun < 0.02 && size < ((size_t)1 << 24)) size *= 2;
+        if (seconds_get() - begun < 0.02 && size < ((size_t)1 << 24)) size *= 2;
     }
     return 0;
 }

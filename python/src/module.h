@@ -111,6 +111,11 @@ int pieces_run(module_state *state, const pieces *p);
 int look_around(PyObject *progress, size_t done, size_t total);
 /// Refuses what is no function; -1 then.
 int progress_validate(PyObject *progress);
+/// The most threads of a batch; refuses another number than 1 to that, -1 then.
+enum { THREADS_MOST = 256 };
+int threads_validate(module_state *state, int threads);
+/// Seconds of the monotonic clock.
+double seconds_get(void);
 
 // ---- buffers.c
 

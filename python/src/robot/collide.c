@@ -9,7 +9,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { THREADS_MOST = 256 };
 // As the formats of array.c say.
 _Static_assert(sizeof(ovoid_robot_side) == 24 && sizeof(ovoid_robot_answer) == 80 && sizeof(ovoid_robot_near) == 152,
                "the formats name every byte");
@@ -201,11 +200,7 @@ static int read_input(cell_object *self, states_input *in, job *j) {
     module_state *state = state_of((PyObject *)self);
     j->variables = robot_variable_count(self->robot);
     if (query_options_validate(state, &j->options)) return -1;
-    if (in->threads < 1 || in->threads > THREADS_MOST) {
-        raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d", THREADS_MOST, in->threads);
-        return -1;
-    }
-    if (progress_validate(in->progress)) return -1;
+    if (threads_validate(state, in->threads) || progress_validate(in->progress)) return -1;
     if (items_read(state, in->q, "q", 2, (Py_ssize_t[]){-1, (Py_ssize_t)j->variables}, 'd', &in->states)) return -1;
     j->q = in->states.data;
     j->count = (size_t)in->states.shape[0];
