@@ -259,6 +259,7 @@ static int set_value(const cli_command *command, const cli_option *o, const char
     case OPTION_POSE: return set_pose(command, o, text, place);
     case OPTION_PART: return set_part(command, o, text, place);
     case OPTION_LIST: return add_to_list(command, o, text, place);
+    case OPTION_TEXT:
     case OPTION_FILE:
     case OPTION_OUTPUT: break;
     }

@@ -28,6 +28,7 @@ typedef enum option_kind {
     OPTION_AMOUNT,   ///< a whole number from 0 to 1 000 000 000; unsigned
     OPTION_CHOICE,   ///< one of `choices`; int, its place in the list
     OPTION_SET,      ///< some of `choices`, between commas; unsigned, bit i for the i-th
+    OPTION_TEXT,     ///< a name; const char *
     OPTION_FILE,     ///< a path that is read; const char *
     OPTION_OUTPUT,   ///< a path that is written, in the formats of `choices`; const char *
     OPTION_VECTOR,   ///< three numbers in one argument; ovoid_vec3

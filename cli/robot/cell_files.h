@@ -6,6 +6,9 @@
 
 #include <ovoid/robot.h>
 
+/// The default of --limit-slack, radians or metres: limits and states are often rounded to six digits.
+#define CELL_SLACK 1e-6
+
 /// Options of every command that asks about states.
 typedef struct cell_settings {
     const robot_settings *robot; ///< set by the command
@@ -40,7 +43,8 @@ typedef struct cell_settings {
          "what is nearer than M counts as a hit (default: 0)"},                                                        \
     {                                                                                                                  \
         "limit-slack", 0, OPTION_LENGTH, offsetof(settings, cell.slack), "S", NULL,                                    \
-            "variables may be outside their limits by S; 1e50: limits do not count (default: 0)"                       \
+            "variables may be outside their limits by S, the rounding of URDFs that were written with few digits; 0: " \
+            "none, 1e50: limits do not count (default: 1e-6)"                                                          \
     }
 
 /// An obstacle by its id.

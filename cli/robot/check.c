@@ -331,7 +331,7 @@ static int run_check(check *c) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    settings s = {.top = TOP_UNSET};
+    settings s = {.top = TOP_UNSET, .cell.slack = CELL_SLACK};
     cli_operands operands;
     cli_cell cell;
     cli_states states = {.part = {0, 0}};
@@ -339,7 +339,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code < 0) code = results_settle_part(command, &s.out, s.part);
     if (code < 0) code = page_settle(command, s.html, s.part);
     if (code < 0) code = robot_settle(command, &s.robot);
-    if (code < 0) code = states_settle(command, &s.states);
+    if (code < 0) code = states_settle(command, &s.states, &s.cell);
     if (code < 0 && s.part.count && !s.states.path)
         code = args_complain(command, "%s: --shard goes with --states Q.csv", command->name);
     if (code < 0 && s.gradient && s.near == 0)

@@ -107,13 +107,27 @@ static int read_file(const char *urdf, const robot_settings *s, const package_li
     return EXIT_INPUT;
 }
 
-/// Warns of objects that are not convex and were asked to count as convex parts.
+/// Meshes that are named in a warning.
+enum { MESHES_NAMED = 3 };
+
+/// Warns in one line of meshes with objects that are not convex and were asked to count as convex parts.
 static void warn_parts(const cli_robot *robot) {
-    for (size_t i = 0; i < ovoid_robot_file_get_mesh_count(robot->file); i++) {
+    size_t count = 0, size = 0;
+    double mesh = 0, hull = 0;
+    char *text = NULL;
+    FILE *list = open_memstream(&text, &size);
+    for (size_t i = 0; i < ovoid_robot_file_get_mesh_count(robot->file) && list; i++) {
         ovoid_robot_mesh m = ovoid_robot_file_get_mesh(robot->file, i);
         if (m.convexity.kind == OVOID_MESH_HULL || m.kind != OVOID_MESH_PARTS) continue;
-        message_warning("the mesh %s has objects that are not convex and count as their hulls (--parts)", m.address);
+        if (count < MESHES_NAMED) fprintf(list, "%s%s", count ? ", " : "", m.address);
+        mesh += m.convexity.mesh_volume, hull += m.convexity.hull_volume, count++;
     }
+    if (list && fclose(list) == 0 && count)
+        message_warning("%zu mesh%s objects that are not convex and count as their hulls (--parts), which add %.2g %% "
+                        "of volume: %s%s",
+                        count, count == 1 ? " has" : "es have", mesh > 0 ? 100 * (hull / mesh - 1) : 0.0, text,
+                        count > MESHES_NAMED ? ", ..." : "");
+    free(text);
 }
 
 int robot_open_beside(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {

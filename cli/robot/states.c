@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /// The column of a joint that follows another one: it is not read.
 #define COLUMN_FOLLOWS 0xfffffffeu
@@ -218,8 +219,18 @@ static int read_names(reader *r, const char *line, char *name) {
     return check_quaternions(r);
 }
 
+/// 1: the columns of a header are apart by a character that is no comma; r->why is filled.
+static int has_other_commas(reader *r, const char *line) {
+    const char *semicolon = strchr(line, ';'), *tab = strchr(line, '\t');
+    if (strchr(line, ',') || (!semicolon && !tab)) return 0;
+    snprintf(r->why, WHY_ROOM, "%s between the columns, where commas are wanted: tr '%s' ',' <FILE >COMMAS.csv",
+             semicolon ? "semicolons stand" : "tabs stand", semicolon ? ";" : "\\t");
+    return 1;
+}
+
 static int read_header(reader *r, const char *line) {
     size_t most = 1;
+    if (has_other_commas(r, line)) return 0;
     for (const char *c = line; *c; c++) most += *c == ',';
     char *name = malloc(strlen(line) + 1);
     r->columns = malloc(most * sizeof *r->columns);
@@ -295,11 +306,13 @@ static int read_file(reader *r, const char *path) {
 /// The joints' numbers of all states of the SRDF with that name, which may be of several groups.
 static int read_named(reader *r, const char *name, double *state) {
     const ovoid_robot_file *file = r->cell->robot.file;
-    size_t count = ovoid_robot_file_get_state_count(file), found = 0;
+    const char *group = r->states->group;
+    size_t count = ovoid_robot_file_get_state_count(file), found = 0, words_count = 0;
     const char *words[WORDS_MAX];
     for (size_t i = 0; i < count; i++) {
         ovoid_robot_state s = ovoid_robot_file_get_state(file, i);
-        if (i < WORDS_MAX) words[i] = s.name;
+        if (group && strcmp(s.group, group) != 0) continue;
+        if (words_count < WORDS_MAX) words[words_count++] = s.name;
         if (strcmp(s.name, name) != 0) continue;
         found++;
         for (size_t k = 0; k < s.value_count; k++) {
@@ -309,10 +322,11 @@ static int read_named(reader *r, const char *name, double *state) {
         }
     }
     if (found) return 1;
-    const char *similar = args_find_similar(name, words, count < WORDS_MAX ? count : WORDS_MAX);
+    const char *similar = args_find_similar(name, words, words_count);
     if (!count) return snprintf(r->why, WHY_ROOM, "no SRDF names states: --srdf, or \"joint=number,...\""), 0;
-    snprintf(r->why, WHY_ROOM, "the SRDF has no such state%s%.60s%s", similar ? "; did you mean " : "",
-             similar ? similar : "", similar ? "?" : ": give one as \"joint=number,...\"");
+    snprintf(r->why, WHY_ROOM, "the SRDF has no such state%s%.60s%s%.60s%s", group ? " of the group " : "",
+             group ? group : "", similar ? "; did you mean " : "", similar ? similar : "",
+             similar ? "?" : ": give one as \"joint=number,...\"");
     return 0;
 }
 
@@ -351,19 +365,104 @@ static int read_texts(reader *r, const cli_command *command, const args_list *te
     return 0;
 }
 
-int states_settle(const cli_command *command, const states_settings *settings) {
-    if (settings->path && settings->texts.count)
-        return args_complain(command, "%s: --states and --state exclude each other", command->name);
-    if (!settings->path && !settings->texts.count)
-        return args_complain(command, "%s: there is no state: --states Q.csv, or --state \"joint=number,...\"",
+// ---- requests
+
+/// The numbers that a request gives; `state` has those that it does not.
+static int read_positions(reader *r, const ovoid_joint_position *items, size_t count, double *state) {
+    memset(r->given, 0, r->states->variable_count);
+    for (size_t i = 0; i < count; i++) {
+        uint32_t variable = take_variable(r, items[i].joint);
+        if (variable == OVOID_ROBOT_NONE) return 0;
+        if (variable != COLUMN_FOLLOWS) state[variable] = items[i].position;
+    }
+    return 1;
+}
+
+/// The start and each goal, in which joints that it does not name stay where the start has them.
+static int read_all_positions(reader *r, const ovoid_motion_request *request, const char *path) {
+    size_t count, goals = ovoid_motion_request_get_goal_count(request), n = r->states->variable_count;
+    for (size_t i = 0; i <= goals; i++) {
+        const ovoid_joint_position *items =
+            i ? ovoid_motion_request_get_goal(request, i - 1, &count) : ovoid_motion_request_get_start(request, &count);
+        double *state = add_state(r);
+        if (!state) return EXIT_INPUT;
+        if (i && n) memcpy(state, r->states->q, n * sizeof *state);
+        if (!read_positions(r, items, count, state)) {
+            message_error("%s: %s: %s", path, i ? "goal_constraints" : "start_state", r->why);
+            return EXIT_INPUT;
+        }
+        if (!i) report_missing(r, path);
+    }
+    return 0;
+}
+
+static int read_request(reader *r, const char *path) {
+    ovoid_error error;
+    // The notes are shown as those of the robot are, and only here.
+    cli_robot notes = {.note_count = 0};
+    const ovoid_robot_read_options options = {.note = robot_warn, .context = &notes};
+    ovoid_motion_request *request = ovoid_motion_request_read(path, &options, &error);
+    if (!request) return message_error("%s", error.message), EXIT_INPUT;
+    size_t goals = ovoid_motion_request_get_goal_count(request);
+    const char *group = ovoid_motion_request_get_group(request);
+    message_note("%s: state 0 is the start%s%s%s; of goals the positions are used, not their tolerances; what tells a "
+                 "planner how to search is not used",
+                 path,
+                 goals == 1 ? ", state 1 the goal"
+                 : goals    ? ", the others are the goals"
+                            : "; there is no goal",
+                 *group ? "; group: " : "", group);
+    int code = read_all_positions(r, request, path);
+    ovoid_motion_request_destroy(request);
+    return code;
+}
+
+int states_check_goal(const states_settings *settings, const cli_states *states) {
+    if (!settings->request || states->count == 2) return 0;
+    if (states->count == 1)
+        message_error("%s: there is no goal, and a path leads to one", settings->request);
+    else
+        message_error("%s: there are %zu goals, and a path leads to one: \"ovoid robot check\" takes all of them",
+                      settings->request, states->count - 1);
+    return EXIT_INPUT;
+}
+
+/// Takes the scene that stands beside the request, "sceneX.yaml" for "requestX.yaml", where there is one.
+static void find_scene(states_settings *settings, cell_settings *cell) {
+    static const char head[] = "request";
+    const char *path = settings->request, *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    struct stat status;
+    if (cell->scene || strncmp(name, head, sizeof head - 1) != 0) return;
+    int length = snprintf(settings->scene, sizeof settings->scene, "%.*sscene%s", (int)(name - path), path,
+                          name + sizeof head - 1);
+    if (length < 0 || (size_t)length >= sizeof settings->scene || stat(settings->scene, &status) != 0) {
+        message_note("%s: there is no scene of that name beside it, and no --scene: no obstacles", path);
+        return;
+    }
+    cell->scene = settings->scene;
+    message_note("%s: the obstacles are those of %s", path, settings->scene);
+}
+
+int states_settle(const cli_command *command, states_settings *settings, cell_settings *cell) {
+    int kinds = (settings->path != NULL) + (settings->texts.count > 0) + (settings->request != NULL);
+    if (kinds > 1)
+        return args_complain(command, "%s: --states, --state and --request exclude each other", command->name);
+    if (!kinds)
+        return args_complain(command,
+                             "%s: there is no state: --states Q.csv, --state \"joint=number,...\", or --request FILE",
                              command->name);
+    if (settings->group && !settings->texts.count)
+        return args_complain(command, "%s: --group goes with --state NAME", command->name);
+    if (settings->request) find_scene(settings, cell);
     return -1;
 }
 
 int states_open(const cli_command *command, const states_settings *settings, const cli_cell *cell, cli_states *states) {
     size_t n = ovoid_robot_get_variable_count(cell->robot.robot);
-    *states =
-        (cli_states){.variable_count = n, .part = states->part, .texts = settings->path ? NULL : &settings->texts};
+    *states = (cli_states){.variable_count = n,
+                           .part = states->part,
+                           .texts = settings->texts.count ? &settings->texts : NULL,
+                           .group = settings->group};
     double *defaults = calloc(n + 1, sizeof *defaults);
     reader r = {.cell = cell, .states = states, .defaults = defaults, .given = calloc(n + 1, 1)};
     for (size_t i = 0; i < n && defaults; i++) defaults[i] = states_get_default(cell, i);
@@ -371,7 +470,9 @@ int states_open(const cli_command *command, const states_settings *settings, con
     if (!defaults || !r.given)
         message_error("out of memory");
     else
-        code = settings->path ? read_file(&r, settings->path) : read_texts(&r, command, &settings->texts);
+        code = settings->path      ? read_file(&r, settings->path)
+               : settings->request ? read_request(&r, settings->request)
+                                   : read_texts(&r, command, &settings->texts);
     free(defaults);
     free(r.given);
     free(r.columns);

@@ -6,8 +6,11 @@
 
 /// Options of every command that takes states.
 typedef struct states_settings {
-    const char *path; ///< NULL: not given
-    args_list texts;  ///< names and assignments
+    const char *path;    ///< NULL: not given
+    const char *request; ///< NULL: not given
+    const char *group;   ///< NULL: named states of all groups
+    char scene[4096];    ///< the scene beside the request
+    args_list texts;     ///< names and assignments
 } states_settings;
 
 /// The rows of these options; `states` is the member of the settings that holds them.
@@ -19,6 +22,21 @@ typedef struct states_settings {
      "Q.csv",                                                                                                          \
      NULL,                                                                                                             \
      "states, one a line, below a header of joints' or variables' names in any order; \"-\": standard input"},         \
+        {"request",                                                                                                    \
+         0,                                                                                                            \
+         OPTION_FILE,                                                                                                  \
+         offsetof(settings, states.request),                                                                           \
+         "FILE",                                                                                                       \
+         NULL,                                                                                                         \
+         "the start and the goals of a motion planning request of MoveIt (.yaml); requestX.yaml takes the obstacles "  \
+         "of sceneX.yaml beside it, unless --scene is given"},                                                         \
+        {"group",                                                                                                      \
+         0,                                                                                                            \
+         OPTION_TEXT,                                                                                                  \
+         offsetof(settings, states.group),                                                                             \
+         "NAME",                                                                                                       \
+         NULL,                                                                                                         \
+         "named states are those of this group of the SRDF (default: of all groups)"},                                 \
     {                                                                                                                  \
         "state", 0, OPTION_LIST, offsetof(settings, states.texts), "STATE", NULL,                                      \
             "a state: a name of the SRDF's, \"joint=number,...\", or \"\", all at their default; may be given "        \
@@ -33,10 +51,15 @@ typedef struct cli_states {
     double *times;   ///< of each state that is stored, in seconds: the column "time" of a file; NULL: there is none
     shard_part part; ///< of the blocks of OVOID_ROBOT_BLOCK states, dealt out in turn
     const args_list *texts; ///< of the states, NULL where they come from a file
+    const char *group;      ///< whose named states are meant; NULL: all groups
 } cli_states;
 
-/// Refuses a command line without states, or with both kinds. -1 to go on, or EXIT_USAGE.
-int states_settle(const cli_command *command, const states_settings *settings);
+/// Refuses a command line without states, or with two kinds of them. With a request that has a scene beside it, that is
+/// the cell's, unless there is one. -1 to go on, or EXIT_USAGE.
+int states_settle(const cli_command *command, states_settings *settings, cell_settings *cell);
+
+/// A path leads from a request's start to one goal. 0, or EXIT_INPUT after a message.
+int states_check_goal(const states_settings *settings, const cli_states *states);
 
 /// Reads the states; of a file those of states->part alone are looked at, all others are only counted. 0, or an exit
 /// code after a message, with nothing left open.

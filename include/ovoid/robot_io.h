@@ -220,8 +220,9 @@ typedef struct ovoid_motion_request ovoid_motion_request;
 
 /**
  * Reads a request (YAML): start_state: joint_state, goal_constraints: joint_constraints, group_name. Keys that tell a
- * planner how to search mean nothing here; any other key is refused with its line, as are goals that are not given by
- * joints, and a base that is not where its frame is.
+ * planner how to search mean nothing here; constraints of the path and reference trajectories are not read, and a note
+ * names them. Any other key is refused with its line, as are goals that are not given by joints, and a base that is not
+ * where its frame is.
  */
 OVOID_API ovoid_motion_request *ovoid_motion_request_read(const char *path, const ovoid_robot_read_options *options,
                                                           ovoid_error *error);

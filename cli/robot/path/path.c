@@ -236,7 +236,7 @@ static int check_times(const settings *s, const cli_cell *cell, const cli_states
 /// Settles the command line. -1 to go on, or an exit code.
 static int settle(const cli_command *command, settings *s) {
     int code = results_settle(command, &s->out);
-    if (code < 0) code = states_settle(command, &s->states);
+    if (code < 0) code = states_settle(command, &s->states, &s->cell);
     if (code < 0 && s->proofs && s->out.csv)
         code = args_complain(command, "%s: --proofs goes with JSON Lines, not with CSV", command->name);
     if (code < 0 && s->edges && s->plot)
@@ -250,7 +250,7 @@ static int settle(const cli_command *command, settings *s) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    settings s = {.tolerance = 0};
+    settings s = {.cell.slack = CELL_SLACK};
     cli_operands operands;
     cli_cell cell;
     cli_states states = {.part = {0, 0}};
@@ -267,6 +267,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code) return robot_page_close(&run.page), code;
     code = states_open(command, &s.states, &cell, &states);
     int is_too_fast = 0;
+    if (!code) code = states_check_goal(&s.states, &states);
     if (!code && s.edges && states.count % 2)
         message_error("--edges: an even number of states is wanted, not %zu", states.count), code = EXIT_INPUT;
     if (!code) code = check_times(&s, &cell, &states, &is_too_fast);

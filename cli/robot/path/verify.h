@@ -20,8 +20,20 @@ typedef struct path_verify_settings {
      "FILE",                                                                                                           \
      NULL,                                                                                                             \
      "of path proofs: the SRDF, where it is not where the proofs say"},                                                \
-        {"scene", 0, OPTION_FILE, offsetof(settings, paths.scene), "FILE", NULL, "of path proofs: the obstacles, where they are elsewhere now"},            \
-        {"package", 'p', OPTION_LIST, offsetof(settings, paths.packages), "NAME=DIR", NULL, "of path proofs: the packages of the robot"},  \
+        {"scene",                                                                                                      \
+         0,                                                                                                            \
+         OPTION_FILE,                                                                                                  \
+         offsetof(settings, paths.scene),                                                                              \
+         "FILE",                                                                                                       \
+         NULL,                                                                                                         \
+         "of path proofs: the obstacles, where they are elsewhere now"},                                               \
+        {"package",                                                                                                    \
+         'p',                                                                                                          \
+         OPTION_LIST,                                                                                                  \
+         offsetof(settings, paths.packages),                                                                           \
+         "NAME=DIR",                                                                                                   \
+         NULL,                                                                                                         \
+         "of path proofs: the packages of the robot"},                                                                 \
     {                                                                                                                  \
         "states", 0, OPTION_FILE, offsetof(settings, paths.states), "Q.csv", NULL,                                     \
             "the states that the paths must be through (default: those that the proofs say)"                           \

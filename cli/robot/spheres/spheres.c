@@ -229,9 +229,11 @@ static int get_samples(const cli_command *command, run_state *r) {
     return states_open(command, &s->states, &r->cell, &r->samples.states);
 }
 
+static int has_given_states(const settings *s) { return s->states.path || s->states.request || s->states.texts.count; }
+
 static int work(const cli_command *command, run_state *r, const char *urdf) {
     const settings *s = r->settings;
-    int has_states = s->samples || s->states.path || s->states.texts.count;
+    int has_states = s->samples || has_given_states(s);
     const ovoid_robot_audit_options how = {.volume_cells = s->cells};
     int code = has_states ? get_samples(command, r) : 0;
     if (!code) code = get_sets(command, r, urdf);
@@ -259,17 +261,17 @@ static void close_run(run_state *r) {
 }
 
 /// Settles the command line. -1 to go on, or EXIT_USAGE.
-static int settle(const cli_command *command, const settings *s) {
+static int settle(const cli_command *command, settings *s) {
     static const char *const formats[] = {"urdf", "srdf", "csv", "json"};
-    int is_format = !s->output, has_states = s->states.path || s->states.texts.count;
+    int is_format = !s->output, has_states = has_given_states(s);
     for (int i = 0; i < 4 && s->output; i++) is_format |= outputs_has_extension(s->output, formats[i]);
     if (!is_format)
         return args_complain(command, "%s: --output %s: its name must end in .urdf, .srdf, .csv or .json",
                              command->name, s->output);
     if (s->samples && has_states)
         return args_complain(command, "%s: --samples and given states exclude each other", command->name);
-    if (has_states) return states_settle(command, &s->states);
-    if (!s->samples && (s->cell.scene || s->cell.margin > 0 || s->cell.slack > 0 || s->cell.paddings.count))
+    if (has_states) return states_settle(command, &s->states, &s->cell);
+    if (!s->samples && (s->cell.scene || s->cell.margin > 0 || s->cell.slack != CELL_SLACK || s->cell.paddings.count))
         return args_complain(command,
                              "%s: --scene, --padding, --margin and --limit-slack go with --samples N or --states Q.csv",
                              command->name);
@@ -277,7 +279,7 @@ static int settle(const cli_command *command, const settings *s) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    settings s = {.json = 0};
+    settings s = {.cell.slack = CELL_SLACK};
     cli_operands operands;
     run_state r = {.settings = &s};
     int code = command_parse(command, argc, argv, &s, &operands);

@@ -100,8 +100,7 @@ static ovoid_code read_goal(const message_reader *r, const yaml_value *value, po
     return code;
 }
 
-// What a planner is told of how to search, and what a path must do beside being free, means nothing here. An object
-// that a link holds at the start does.
+// What a planner is told of how to search means nothing here. An object that a link holds at the start does.
 static ovoid_code refuse_others(const message_reader *r, const yaml_value *root) {
     const yaml_value *start;
     ovoid_code code = message_refuse_others(
@@ -118,9 +117,31 @@ static ovoid_code refuse_others(const message_reader *r, const yaml_value *root)
                                         "of a request are not read: put them into the scene's robot_state");
 }
 
+// 1: there is a text or a number that is not zero in the value, or in what it holds.
+static int is_filled(const yaml_value *value) {
+    if (value->kind == YAML_TEXT) return value->text[0] && value->text[strspn(value->text, "0.-~")];
+    for (const yaml_value *v = value->first; v; v = v->next)
+        if (is_filled(v)) return 1;
+    return 0;
+}
+
+// What a path must do beside being free is not checked here: a note names it.
+static ovoid_code tell_unread(const message_reader *r, const yaml_value *root) {
+    static const char *const keys[] = {"path_constraints", "trajectory_constraints", "reference_trajectories"};
+    for (int i = 0; i < 3; i++) {
+        const yaml_value *value;
+        ovoid_code code = message_find(r, root, keys[i], &value);
+        if (code) return code;
+        if (value && is_filled(value))
+            message_note(r, value, "%s of a request are not read: no state is checked against them", keys[i]);
+    }
+    return OVOID_OK;
+}
+
 static ovoid_code read_request(const message_reader *r, const yaml_value *root, ovoid_motion_request *out) {
     const yaml_value *goals;
     ovoid_code code = refuse_others(r, root);
+    if (!code) code = tell_unread(r, root);
     if (!code) code = message_read_text(r, root, "group_name", &out->group);
     if (!code) code = read_start(r, root, &out->start);
     if (!code) code = message_find_kind(r, root, "goal_constraints", YAML_LIST, &goals);
