@@ -12,6 +12,10 @@
 /// A function that is called, not copied into its caller: its part of the stack is gone when it returns.
 #define COMPILER_NOINLINE __attribute__((noinline))
 
+/// A function that is copied into every caller: its constant arguments are constants there, and functions among them
+/// are copied too.
+#define COMPILER_INLINED static inline __attribute__((always_inline))
+
 /// A function whose argument number `format_at` is that of printf, for those from `first` on. (mingw has two printfs;
 /// ours is C's.)
 #if defined(__MINGW32__)

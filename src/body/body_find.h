@@ -1,13 +1,22 @@
 // Two bodies of any kind, for callers that ask about bodies whatever they are.
-#ifndef OVOID_SOLID_BODY_FIND_H
-#define OVOID_SOLID_BODY_FIND_H
+#ifndef OVOID_BODY_BODY_FIND_H
+#define OVOID_BODY_BODY_FIND_H
 
-#include "body/body_view.h"
+#include "body/body_tree.h"
+#include "query/answer.h"
 
 static inline int body_pair_has_solid(const ovoid_body_pair *pair) { return pair->a.solid || pair->b.solid; }
 
+/// The options of a query of bodies of that size become those of its pairs of parts: the tolerance of the bodies.
+static inline void options_take_size(ovoid_options *options, double size) {
+    options->absolute_tolerance = options_compute_tolerance(options, size, 0);
+}
+
 /// Of a pair with a solid. The goal's depth is not searched for.
 void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, const query_goal *goal,
+                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out);
+/// Of a pair without a solid.
+void parts_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                          const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out);
 
 /// The pipeline of ovoid_body_collide and its sisters, for callers inside a public function, which has set the default

@@ -10,6 +10,7 @@
 // two 10 u, the normal's length 4 u: below 148 u S.
 #include "base/environment.h"
 #include "base/error.h"
+#include "body/body_find.h"
 #include "body/clearance.h"
 #include "body/exclusions.h"
 #include "linear/rotation.h"
@@ -19,8 +20,8 @@ typedef struct cut {
     const ovoid_exclusions *all;
     double lower; ///< of all pairs of parts
     double tolerance;
-    solid_view a, b;
-    solid_frame frame;
+    body_tree a, b;
+    tree_frame frame;
     uint32_t place_a, place_b;
     int has_solid;
     triangle_shape room_a, room_b;
@@ -39,17 +40,17 @@ static double find_shape_top(const ovoid_shape *s, vec3 n) {
 
 // The largest n.x over the leaves at [first, end), from the origin of the body's frame; n in the world, and in that
 // frame.
-static double find_top(const solid_view *v, uint32_t first, uint32_t end, vec3 world, vec3 n) {
-    if (v->shape) return find_shape_top(v->shape, n);
+static double find_top(const body_tree *tree, uint32_t first, uint32_t end, vec3 world, vec3 n) {
+    if (tree->shape) return find_shape_top(tree->shape, n);
     double most = -INFINITY;
-    for (uint32_t place = first; place < end && v->compound; place++) {
-        ovoid_posed_shape part = solid_view_get_leaf(v, place, NULL);
+    for (uint32_t place = first; place < end && tree->compound; place++) {
+        ovoid_posed_shape part = body_tree_get_leaf(tree, place, NULL);
         vec3 in = mat3_mul_transposed_vec3(quat_to_mat3(part.pose.rotation), world);
-        double at = vec3_dot(world, vec3_sub(part.pose.position, v->pose->position));
+        double at = vec3_dot(world, vec3_sub(part.pose.position, tree->pose->position));
         most = max2(most, at + find_shape_top(part.shape, in));
     }
-    for (uint32_t place = first; place < end && v->solid; place++)
-        for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(n, solid_get_corner(v->solid, place, i)));
+    for (uint32_t place = first; place < end && tree->solid; place++)
+        for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(n, solid_get_corner(tree->solid, place, i)));
     return most;
 }
 
@@ -64,7 +65,7 @@ static double measure_gap(const cut *c, const ovoid_exclusion *e) {
 }
 
 static ovoid_pair get_pair(cut *c, uint32_t a, uint32_t b) {
-    ovoid_posed_shape x = solid_view_get_leaf(&c->a, a, &c->room_a), y = solid_view_get_leaf(&c->b, b, &c->room_b);
+    ovoid_posed_shape x = body_tree_get_leaf(&c->a, a, &c->room_a), y = body_tree_get_leaf(&c->b, b, &c->room_b);
     return (ovoid_pair){x.shape, y.shape, x.pose, y.pose};
 }
 
@@ -86,31 +87,30 @@ static ovoid_code verify_bound(cut *c, size_t i, ovoid_error *error) {
     return refuse(error, i, "is not shown by its normal");
 }
 
-static int is_excluded(const cut *c, solid_ref a, solid_ref b) {
+static int is_excluded(const cut *c, tree_ref a, tree_ref b) {
     ovoid_exclusion wanted;
-    solid_view_get_range(&c->a, a, &wanted.first_a, &wanted.end_a);
-    solid_view_get_range(&c->b, b, &wanted.first_b, &wanted.end_b);
+    body_tree_get_range(&c->a, a, &wanted.first_a, &wanted.end_a);
+    body_tree_get_range(&c->b, b, &wanted.first_b, &wanted.end_b);
     return exclusions_have(c->all, &wanted);
 }
 
 // OVOID_OK if the cut leaves out no pair of parts.
 static ovoid_code verify_cut(const cut *c, ovoid_error *error) {
     struct {
-        solid_ref a, b;
-    } stack[2 * SOLID_DEPTH_MAX * BOX8] = {{solid_view_get_root(&c->a), solid_view_get_root(&c->b)}};
+        tree_ref a, b;
+    } stack[2 * SOLID_DEPTH_MAX * BOX8] = {{body_tree_get_root(&c->a), body_tree_get_root(&c->b)}};
     for (uint32_t count = 1; count > 0;) {
-        solid_ref a = stack[--count].a, b = stack[count].b;
+        tree_ref a = stack[--count].a, b = stack[count].b;
         if (is_excluded(c, a, b)) continue;
-        if (ref_is_triangle(a) && ref_is_triangle(b)) {
-            if (ref_get_place(a) == c->place_a && ref_get_place(b) == c->place_b) continue;
+        if (ref_is_leaf(a) && ref_is_leaf(b)) {
+            uint32_t place_a = body_tree_get_leaf_place(&c->a, a), place_b = body_tree_get_leaf_place(&c->b, b);
+            if (place_a == c->place_a && place_b == c->place_b) continue;
             return error_set(error, OVOID_ERROR_PROOF, -1, "nothing excludes part %u of a and part %u of b",
-                             solid_view_get_index(&c->a, ref_get_place(a)),
-                             solid_view_get_index(&c->b, ref_get_place(b)));
+                             body_tree_get_index(&c->a, place_a), body_tree_get_index(&c->b, place_b));
         }
-        int is_first =
-            c->has_solid ? solid_views_split_first(&c->a, a, &c->b, b) : parts_views_split_first(&c->a, a, &c->b, b);
-        solid_ref children[BOX8];
-        uint32_t more = solid_view_get_children(is_first ? &c->a : &c->b, is_first ? a : b, children);
+        int is_first = trees_split_first(&c->a, a, &c->b, b);
+        tree_ref children[BOX8];
+        uint32_t more = body_tree_get_children(is_first ? &c->a : &c->b, is_first ? a : b, children);
         for (uint32_t i = 0; i < more; i++, count++) {
             stack[count].a = is_first ? children[i] : a;
             stack[count].b = is_first ? b : children[i];
@@ -153,14 +153,14 @@ static ovoid_code verify_common_point(const cut *c, ovoid_error *error) {
 static ovoid_code verify_inside(const cut *c, ovoid_error *error) {
     const ovoid_body_answer *x = c->x;
     if (x->inside == OVOID_BODY_COMMON_POINT) return verify_common_point(c, error);
-    const solid_view *own = x->inside == OVOID_BODY_A_INSIDE ? &c->a : &c->b, *other = own == &c->a ? &c->b : &c->a;
+    const body_tree *own = x->inside == OVOID_BODY_A_INSIDE ? &c->a : &c->b, *other = own == &c->a ? &c->b : &c->a;
     if (x->inside != OVOID_BODY_A_INSIDE && x->inside != OVOID_BODY_B_INSIDE)
         return refuse_all(error, "an overlap without a reason");
-    if (x->component >= solid_view_get_component_count(own)) return refuse_all(error, "there is no such component");
+    if (x->component >= body_tree_get_component_count(own)) return refuse_all(error, "there is no such component");
     if (!(x->deciding.lower > c->frame.claim / 2) || !(x->upper >= -x->deciding.lower))
         return refuse_all(error, "the surfaces are nearer than is claimed of what is inside");
-    return solid_is_inside(own, other, x->component, 1) == 1 ? OVOID_OK
-                                                             : refuse_all(error, "what is said to be inside is not");
+    return tree_is_inside(own, other, x->component, 1) == 1 ? OVOID_OK
+                                                            : refuse_all(error, "what is said to be inside is not");
 }
 
 static ovoid_code verify_apart(const cut *c, ovoid_error *error) {
@@ -169,8 +169,8 @@ static ovoid_code verify_apart(const cut *c, ovoid_error *error) {
     uint32_t component;
     if (!(x->deciding.lower > 0) || !(x->lower <= x->deciding.lower) || !(x->upper >= x->deciding.upper))
         return refuse_all(error, "the distance is not that of the surfaces");
-    if (!solid_view_is_closed(&c->a) && !solid_view_is_closed(&c->b)) return OVOID_OK;
-    if (!(x->deciding.lower > c->frame.claim / 2) || solid_find_inside(&c->a, &c->b, 1, &inside, &component) != 0)
+    if (!body_tree_is_closed(&c->a) && !body_tree_is_closed(&c->b)) return OVOID_OK;
+    if (!(x->deciding.lower > c->frame.claim / 2) || trees_find_inside(&c->a, &c->b, 1, &inside, &component) != 0)
         return refuse_all(error, "one body is inside of the other, or so near that it could be");
     return OVOID_OK;
 }
@@ -256,12 +256,10 @@ static ovoid_code verify_parts(cut *c, const ovoid_pair *parts, const ovoid_opti
 static ovoid_limit find_refusal(const ovoid_body_pair *pair, const ovoid_options *given, cut *c) {
     ovoid_options options;
     if (!options_make(given, &options)) return OVOID_LIMIT_OPTIONS;
-    if (!body_is_one(&pair->a)) return OVOID_LIMIT_SHAPE_A;
-    if (!body_is_one(&pair->b)) return OVOID_LIMIT_SHAPE_B;
-    if (!solid_view_make(&pair->a, &c->a)) return OVOID_LIMIT_POSE_A;
-    if (!solid_view_make(&pair->b, &c->b)) return OVOID_LIMIT_POSE_B;
-    solid_frame_make(&c->a, &c->b, &c->frame);
-    c->tolerance = solid_frame_compute_tolerance(&c->frame, &options);
+    ovoid_limit refused = body_trees_make(pair, &c->a, &c->b);
+    if (refused != OVOID_LIMIT_NONE) return refused;
+    tree_frame_make(&c->a, &c->b, &c->frame);
+    c->tolerance = tree_frame_compute_tolerance(&c->frame, &options);
     c->has_solid = c->a.solid || c->b.solid;
     if (c->a.solid) triangle_begin(&c->room_a);
     if (c->b.solid) triangle_begin(&c->room_b);
@@ -289,8 +287,8 @@ static ovoid_code verify(const ovoid_body_pair *pair, const ovoid_body_answer *x
     }
     if (x->part_a >= c.a.count || x->part_b >= c.b.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "parts %u and %u are not both there", x->part_a, x->part_b);
-    c.place_a = solid_view_get_place(&c.a, x->part_a);
-    c.place_b = solid_view_get_place(&c.b, x->part_b);
+    c.place_a = body_tree_get_place(&c.a, x->part_a);
+    c.place_b = body_tree_get_place(&c.b, x->part_b);
     ovoid_pair parts = get_pair(&c, c.place_a, c.place_b);
     return c.has_solid ? verify_solids(&c, &parts, error) : verify_parts(&c, &parts, options, error);
 }

@@ -121,21 +121,21 @@ static vec3 bring_to_pose(const framed_pair *f, vec3 point, const ovoid_pose *po
 }
 
 // Parts whose ball is farther than the best clearance are passed over, which can only lower it.
-static double find_in_compound(const framed_pair *f, const solid_view *v, vec3 point, vec3 in) {
+static double find_in_compound(const framed_pair *f, const body_tree *tree, vec3 point, vec3 in) {
     double best = -INFINITY;
-    for (uint32_t place = 0; place < v->count; place++) {
-        const compound_part *part = &v->compound->parts[place];
+    for (uint32_t place = 0; place < tree->count; place++) {
+        const compound_part *part = &tree->compound->parts[place];
         if (part->reach - vec3_norm(vec3_sub(in, part->center)) <= best && best <= 0) continue;
-        ovoid_posed_shape leaf = solid_view_get_leaf(v, place, NULL);
+        ovoid_posed_shape leaf = body_tree_get_leaf(tree, place, NULL);
         best = max2(best, find_in_shape(leaf.shape, bring_to_pose(f, point, &leaf.pose)));
     }
     return best;
 }
 
 double framed_pair_find_clearance(const framed_pair *f, int side, vec3 point, int linear) {
-    const solid_view *v = side ? f->b : f->a;
-    vec3 in = side ? bring_to_pose(f, point, v->pose) : point;
-    return v->solid      ? find_in_solid(v->solid, in, linear)
-           : v->compound ? find_in_compound(f, v, point, in)
-                         : find_in_shape(v->shape, in);
+    const body_tree *tree = side ? f->b : f->a;
+    vec3 in = side ? bring_to_pose(f, point, tree->pose) : point;
+    return tree->solid      ? find_in_solid(tree->solid, in, linear)
+           : tree->compound ? find_in_compound(f, tree, point, in)
+                            : find_in_shape(tree->shape, in);
 }

@@ -2,12 +2,12 @@
 #ifndef OVOID_SOLID_CLEARANCE_H
 #define OVOID_SOLID_CLEARANCE_H
 
-#include "body/frame.h"
+#include "body/tree_frame.h"
 
 /// A pair of bodies in the frame of the first.
 typedef struct framed_pair {
-    const solid_frame *frame;
-    const solid_view *a, *b;
+    const tree_frame *frame;
+    const body_tree *a, *b;
 } framed_pair;
 
 /// The clearance of a point in a body: above 0 the body covers a ball of that radius around the point; else a point of

@@ -70,21 +70,21 @@ static int try_sides(hunt *h, vec3 from, const vec3 t[3]) {
 
 // ---- the triangles of leaves, in a's frame
 
-static uint32_t count_triangles(const solid_view *v, uint32_t place) {
-    if (v->solid) return 1;
-    return v->compound ? v->compound->parts[place].shape->counts.triangles : v->shape->counts.triangles;
+static uint32_t count_triangles(const body_tree *tree, uint32_t place) {
+    if (tree->solid) return 1;
+    return tree->compound ? tree->compound->parts[place].shape->counts.triangles : tree->shape->counts.triangles;
 }
 
 static void get_triangle(const hunt *h, int side, uint32_t place, uint32_t i, vec3 corner[3]) {
     const framed_pair *pair = h->pair;
-    const solid_view *v = side ? pair->b : pair->a;
+    const body_tree *tree = side ? pair->b : pair->a;
     for (int k = 0; k < 3; k++) {
         vec3 x;
-        if (v->solid) {
-            x = solid_get_corner(v->solid, place, k);
+        if (tree->solid) {
+            x = solid_get_corner(tree->solid, place, k);
         } else {
-            const compound_part *part = v->compound ? &v->compound->parts[place] : NULL;
-            ovoid_polytope p = ovoid_shape_get_polytope(part ? part->shape : v->shape);
+            const compound_part *part = tree->compound ? &tree->compound->parts[place] : NULL;
+            ovoid_polytope p = ovoid_shape_get_polytope(part ? part->shape : tree->shape);
             vec3 own = vec3_at(p.vertices, p.triangles[3 * (size_t)i + (size_t)k]);
             x = part ? vec3_add(part->at, mat3_mul_vec3(part->rotation, own)) : vec3_add(p.origin, own);
         }
@@ -160,10 +160,10 @@ static int is_in_room(const hunt *h, vec3 p) {
 }
 
 static int try_samples(hunt *h, int side) {
-    const solid_view *v = side ? h->pair->b : h->pair->a;
+    const body_tree *tree = side ? h->pair->b : h->pair->a;
     h->left = SAMPLE_TRIES / 2;
     for (uint32_t i = 0; i < SAMPLES; i++) {
-        uint32_t place = (uint32_t)((uint64_t)i * v->count / SAMPLES), count = count_triangles(v, place);
+        uint32_t place = (uint32_t)((uint64_t)i * tree->count / SAMPLES), count = count_triangles(tree, place);
         vec3 t[3];
         double least;
         if (count == 0) continue;
@@ -223,16 +223,16 @@ static int try_boxes(hunt *h) {
 
 // ---- all
 
-static int has_inside(const solid_view *v) {
-    if (v->solid) return v->solid->report.is_closed;
-    return v->compound || v->shape->rank == 3 || v->shape->upper_radius > 0;
+static int has_inside(const body_tree *tree) {
+    if (tree->solid) return tree->solid->report.is_closed;
+    return tree->compound || tree->shape->rank == 3 || tree->shape->upper_radius > 0;
 }
 
 /// What both boxes have in common, in a's frame.
 static int find_room(const framed_pair *pair, tree_box *room) {
-    const solid_frame *f = pair->frame;
-    tree_box a = solid_view_get_box(pair->a, solid_view_get_root(pair->a)),
-             b = solid_view_get_box(pair->b, solid_view_get_root(pair->b));
+    const tree_frame *f = pair->frame;
+    tree_box a = body_tree_get_box(pair->a, body_tree_get_root(pair->a)),
+             b = body_tree_get_box(pair->b, body_tree_get_root(pair->b));
     a.center = vec3_add(pair->a->center, a.center);
     b.center = vec3_add(vec3_add(pair->a->center, f->between), mat3_mul_vec3(f->to_a, b.center));
     b.half = mat3_mul_vec3(f->absolute_a, b.half);

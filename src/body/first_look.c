@@ -6,14 +6,11 @@
 // (node_bounds.c): its claim covers them, for the bounds and for whoever checks them in the world poses of the parts.
 #include "body/first_look.h"
 
-#include "body/exclusions.h"
-#include "body/node_bounds.h"
 #include "linear/rotation.h"
 
 // The deciding parts are the first of the trees' order; one vertex of each, from its body's origin, in the world's
 // axes.
-static vec3 find_vertex(const body_view *v, mat3 r) {
-    const compound_part *part = &v->parts[0];
+static vec3 find_vertex(const compound_part *part, mat3 r) {
     return mat3_mul_vec3(r, vec3_add(part->at, mat3_mul_vec3(part->rotation, part->shape->first)));
 }
 
@@ -22,29 +19,31 @@ static ovoid_limit find_limit(double lower, double upper, double tolerance, doub
     return bracket_is_narrow(&b, goal) ? OVOID_LIMIT_NONE : bracket_find_limit(&b, goal, OVOID_LIMIT_NONE);
 }
 
-static void exclude_all(const body_view *a, const body_view *b, vec3 normal, double lower, ovoid_exclusions *all) {
-    const ovoid_exclusion roots = {0, a->count, 0, b->count, normal, {0, 0, 0}, lower};
-    if (all) exclusions_add(all, &roots);
+static void exclude_all(const body_search *state, vec3 normal, double lower) {
+    const ovoid_exclusion roots = {0, state->a.count, 0, state->b.count, normal, {0, 0, 0}, lower};
+    if (state->exclusions) exclusions_add(state->exclusions, &roots);
 }
 
-int first_look(const body_view *a, const body_view *b, const ovoid_options *options, const query_goal *goal,
-               ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+int first_look(const body_search *state, const query_goal *goal) {
+    const body_tree *a = &state->a, *b = &state->b;
+    const compound_node *node_a = state->parts.nodes[0], *node_b = state->parts.nodes[1];
+    const compound_part *part_a = state->parts.parts[0], *part_b = state->parts.parts[1];
+    ovoid_body_answer *out = state->out;
     mat3 ra = quat_to_mat3(a->pose->rotation), rb = quat_to_mat3(b->pose->rotation);
     vec3 offset = vec3_sub(b->pose->position, a->pose->position);
-    vec3 between =
-        vec3_add(offset, vec3_sub(mat3_mul_vec3(rb, b->nodes[0].center), mat3_mul_vec3(ra, a->nodes[0].center)));
-    double length = vec3_norm(between), size = nodes_compute_size(a, b, offset),
-           claim = nodes_compute_claim(a, b, size);
-    double lower = length - (a->nodes[0].radius + b->nodes[0].radius) - claim;
+    vec3 between = vec3_add(offset, vec3_sub(mat3_mul_vec3(rb, node_b->center), mat3_mul_vec3(ra, node_a->center)));
+    double length = vec3_norm(between), size = trees_compute_size(a, b, offset),
+           claim = trees_compute_claim(a, b, size);
+    double lower = length - (node_a->radius + node_b->radius) - claim;
     if (!(lower > goal->far)) return 0;
     // A vertex of each; the radii go along their difference, which is longer than both.
-    vec3 from = find_vertex(a, ra), d = vec3_add(offset, vec3_sub(find_vertex(b, rb), from));
-    const ovoid_shape *shape_a = a->parts[0].shape, *shape_b = b->parts[0].shape;
+    vec3 from = find_vertex(part_a, ra), d = vec3_add(offset, vec3_sub(find_vertex(part_b, rb), from));
+    const ovoid_shape *shape_a = part_a->shape, *shape_b = part_b->shape;
     double distance = vec3_norm(d), upper = distance - (shape_a->upper_radius + shape_b->upper_radius) + claim;
     vec3 point = vec3_add(a->pose->position, from), normal = vec3_scale(between, 1 / length);
-    double tolerance = options_compute_tolerance(options, size, 0);
-    out->part_a = body_view_get_index(a, 0);
-    out->part_b = body_view_get_index(b, 0);
+    double tolerance = options_compute_tolerance(&state->options, size, 0);
+    out->part_a = body_tree_get_index(a, 0);
+    out->part_b = body_tree_get_index(b, 0);
     out->visited = 1;
     out->tested = 0;
     out->deciding = (ovoid_answer){
@@ -57,6 +56,6 @@ int first_look(const body_view *a, const body_view *b, const ovoid_options *opti
         .point_b = vec3_add_scaled(vec3_add(point, d), d, -(shape_b->radius / distance)),
         .normal = normal,
         .proof = {.normal = normal, .kind = OVOID_PROOF_POINTS, .count = 1, .weight_a = {1}, .weight_b = {1}}};
-    exclude_all(a, b, normal, lower, exclusions);
+    exclude_all(state, normal, lower);
     return 1;
 }

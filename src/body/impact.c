@@ -15,7 +15,7 @@
 #include "motion/impact_sweep.h"
 
 typedef struct couple {
-    solid_ref a, b;
+    tree_ref a, b;
     double after; ///< no two of their parts meet before this time
 } couple;
 
@@ -54,8 +54,8 @@ static ovoid_motion_options make_options(const descent *d, double tolerance) {
 static void take_group(descent *d, const couple *c, size_t count) {
     ovoid_step_group g = {.count = count};
     if (!is_recording(d)) return;
-    solid_view_get_range(&d->trees.a.view, c->a, &g.first_a, &g.end_a);
-    solid_view_get_range(&d->trees.b.view, c->b, &g.first_b, &g.end_b);
+    body_tree_get_range(&d->trees.a.tree, c->a, &g.first_a, &g.end_a);
+    body_tree_get_range(&d->trees.b.tree, c->b, &g.first_b, &g.end_b);
     size_t *groups = &d->out->group_count;
     if (*groups < d->options.group_capacity) d->options.groups[*groups] = g;
     ++*groups;
@@ -73,7 +73,7 @@ static size_t count_steps(const descent *d, const ovoid_impact *x) {
 
 // ---- the search
 
-static int is_parts(const couple *c) { return ref_is_triangle(c->a) && ref_is_triangle(c->b); }
+static int is_parts(const couple *c) { return ref_is_leaf(c->a) && ref_is_leaf(c->b); }
 
 // 1 if the balls are free up to the first hit found; that is a group of the proof. Else c->after: the time until which
 // they are free. A tolerance of 1e-3 is enough to order them. The parts of compounds are queried without balls.
@@ -123,10 +123,10 @@ COMPILER_NOINLINE static void take_parts(descent *d, const couple *c) {
 // Pushes the pairs of children, the one that may meet first on top; of two that may meet at once the first of a
 // compound's, the last of a solid's.
 static uint32_t open_couple(descent *d, const couple *c, couple *stack) {
-    int is_a = moving_trees_split_first(&d->trees, c->a, c->b), is_last_first = d->trees.has_solid;
+    int is_a = trees_split_first(&d->trees.a.tree, c->a, &d->trees.b.tree, c->b), is_last_first = d->trees.has_solid;
     const moving_tree *opened = is_a ? &d->trees.a : &d->trees.b;
-    solid_ref children[BOX8];
-    uint32_t more = solid_view_get_children(&opened->view, is_a ? c->a : c->b, children), count = 0;
+    tree_ref children[BOX8];
+    uint32_t more = body_tree_get_children(&opened->tree, is_a ? c->a : c->b, children), count = 0;
     for (uint32_t i = 0; i < more; i++) {
         couple next = {is_a ? children[i] : c->a, is_a ? c->b : children[i], c->after};
         d->out->visited++;
@@ -152,7 +152,7 @@ static int is_late(descent *d, couple *c) {
 
 static void descend(descent *d, couple *stack) {
     uint32_t top = 0;
-    stack[top++] = (couple){solid_view_get_root(&d->trees.a.view), solid_view_get_root(&d->trees.b.view), d->begin};
+    stack[top++] = (couple){body_tree_get_root(&d->trees.a.tree), body_tree_get_root(&d->trees.b.tree), d->begin};
     while (top > 0) {
         couple c = stack[--top];
         if (is_late(d, &c)) continue;
@@ -189,13 +189,17 @@ COMPILER_NOINLINE static void find_deciding_steps(descent *d) {
     best->iterations = iterations;
 }
 
+static uint32_t get_part(const body_tree *tree, tree_ref leaf) {
+    return body_tree_get_index(tree, body_tree_get_leaf_place(tree, leaf));
+}
+
 static void finish(descent *d) {
     ovoid_body_impact *out = d->out;
     ovoid_impact *best = &out->impact;
     if (is_recording(d)) best->step_count = d->step_count;
     if (best->status == OVOID_IMPACT_FREE) return;
-    out->part_a = solid_view_get_index(&d->trees.a.view, ref_get_place(d->deciding.a));
-    out->part_b = solid_view_get_index(&d->trees.b.view, ref_get_place(d->deciding.b));
+    out->part_a = get_part(&d->trees.a.tree, d->deciding.a);
+    out->part_b = get_part(&d->trees.b.tree, d->deciding.b);
     if (!is_recording(d) && d->options.steps) find_deciding_steps(d);
     // Another pair may have been proven free for a shorter time without being hit.
     if (!(d->free_until < best->free_until)) return;
@@ -214,8 +218,8 @@ COMPILER_NOINLINE static ovoid_limit start(descent *d, const ovoid_moving_body *
     d->options = given ? *given : none;
     ovoid_limit limit = moving_trees_make(a, b, &d->trees);
     if (limit != OVOID_LIMIT_NONE) return limit;
-    const moving_shapes balls = moving_trees_make_balls(&d->trees, solid_view_get_root(&d->trees.a.view),
-                                                        solid_view_get_root(&d->trees.b.view), &made);
+    const moving_shapes balls = moving_trees_make_balls(&d->trees, body_tree_get_root(&d->trees.a.tree),
+                                                        body_tree_get_root(&d->trees.b.tree), &made);
     limit = sweep_make(&s, balls, &d->options, 1e-9);
     if (limit == OVOID_LIMIT_NONE && !(d->margin >= 0 && d->margin < INFINITY)) limit = OVOID_LIMIT_OPTIONS;
     d->begin = s.begin;

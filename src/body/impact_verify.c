@@ -16,18 +16,18 @@ typedef struct claim {
 } claim;
 
 // The node or leaf over exactly these leaves; descends to the child that holds them. 0 where there is none.
-static int find_node(const solid_view *v, uint32_t first, uint32_t end, solid_ref *found) {
+static int find_node(const body_tree *tree, uint32_t first, uint32_t end, tree_ref *found) {
     uint32_t from, to;
-    if (first >= end || end > v->count) return 0;
-    for (solid_ref at = solid_view_get_root(v);;) {
-        solid_ref children[BOX8];
-        solid_view_get_range(v, at, &from, &to);
+    if (first >= end || end > tree->count) return 0;
+    for (tree_ref at = body_tree_get_root(tree);;) {
+        tree_ref children[BOX8];
+        body_tree_get_range(tree, at, &from, &to);
         *found = at;
-        if (from == first && to == end && (end - first > 1 || ref_is_triangle(at))) return 1;
-        if (ref_is_triangle(at)) return 0;
-        uint32_t count = solid_view_get_children(v, at, children), i = 0;
+        if (from == first && to == end && (end - first > 1 || ref_is_leaf(at))) return 1;
+        if (ref_is_leaf(at)) return 0;
+        uint32_t count = body_tree_get_children(tree, at, children), i = 0;
         for (; i < count; i++) {
-            solid_view_get_range(v, children[i], &from, &to);
+            body_tree_get_range(tree, children[i], &from, &to);
             if (from <= first && end <= to) break;
         }
         if (i == count) return 0;
@@ -42,11 +42,11 @@ static int groups_are_apart(const ovoid_step_group *x, const ovoid_step_group *y
 
 // OVOID_OK if the groups leave out no pair of parts.
 static ovoid_code verify_cover(const claim *c, ovoid_error *error) {
-    const solid_view *a = &c->trees.a.view, *b = &c->trees.b.view;
+    const body_tree *a = &c->trees.a.tree, *b = &c->trees.b.tree;
     const ovoid_step_group *groups = c->groups;
     size_t count = c->found->group_count;
     uint64_t area = 0;
-    solid_ref node;
+    tree_ref node;
     for (size_t i = 0; i < count; i++) {
         if (!find_node(a, groups[i].first_a, groups[i].end_a, &node) ||
             !find_node(b, groups[i].first_b, groups[i].end_b, &node))
@@ -61,14 +61,14 @@ static ovoid_code verify_cover(const claim *c, ovoid_error *error) {
 }
 
 static ovoid_code verify_group(const claim *c, const ovoid_step_group *g, const ovoid_step *steps, ovoid_error *error) {
-    solid_ref a, b;
+    tree_ref a, b;
     moving_couple made;
-    (void)find_node(&c->trees.a.view, g->first_a, g->end_a, &a);
-    (void)find_node(&c->trees.b.view, g->first_b, g->end_b, &b);
+    (void)find_node(&c->trees.a.tree, g->first_a, g->end_a, &a);
+    (void)find_node(&c->trees.b.tree, g->first_b, g->end_b, &b);
     const ovoid_impact *x = &c->found->impact;
     const step_claim free = {x->begin, x->free_until, c->margin, steps, g->count};
     // Two triangles may be free by their balls.
-    if (c->trees.has_solid && ref_is_triangle(a) && ref_is_triangle(b)) {
+    if (c->trees.has_solid && ref_is_leaf(a) && ref_is_leaf(b)) {
         moving_shapes balls = moving_trees_make_balls(&c->trees, a, b, &made);
         if (impact_verify_steps(balls, &free, NULL) == OVOID_OK) return OVOID_OK;
     }
@@ -93,10 +93,10 @@ static ovoid_code verify_groups(const claim *c, ovoid_error *error) {
 static ovoid_code verify_parts(const claim *c, const ovoid_answer *hit, double most, ovoid_error *error) {
     const moving_tree *a = &c->trees.a, *b = &c->trees.b;
     moving_couple made;
-    solid_ref part_a = solid_view_get_place(&a->view, c->found->part_a) | SOLID_TRIANGLE;
-    solid_ref part_b = solid_view_get_place(&b->view, c->found->part_b) | SOLID_TRIANGLE;
+    uint32_t place_a = body_tree_get_place(&a->tree, c->found->part_a);
+    uint32_t place_b = body_tree_get_place(&b->tree, c->found->part_b);
     const answer_claim own = {c->found->impact.hit_at, hit, -INFINITY, most};
-    return impact_verify_answer(moving_trees_get_pair(&c->trees, part_a, part_b, &made), &own, error);
+    return impact_verify_answer(moving_trees_get_leaves(&c->trees, place_a, place_b, &made), &own, error);
 }
 
 // The claimed bracket contains what is found, and says the same of the sign.
@@ -151,8 +151,8 @@ static ovoid_code verify_query(claim *c, const ovoid_moving_body *a, const ovoid
         if (x->limit == limit && is_empty) return OVOID_OK;
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body needs exactly one of shape, compound and solid");
     }
-    const moving_shapes balls = moving_trees_make_balls(&c->trees, solid_view_get_root(&c->trees.a.view),
-                                                        solid_view_get_root(&c->trees.b.view), &made);
+    const moving_shapes balls = moving_trees_make_balls(&c->trees, body_tree_get_root(&c->trees.a.tree),
+                                                        body_tree_get_root(&c->trees.b.tree), &made);
     const query_claim query = {c->margin, c->options, x->begin, x->end, x->limit, is_empty};
     return impact_verify_query(balls, &query, error);
 }
@@ -162,8 +162,8 @@ static ovoid_code verify(claim *c, const ovoid_moving_body *a, const ovoid_movin
     OVOID_ASSERT((c->steps || !x->step_count) && (c->groups || !c->found->group_count));
     ovoid_code code = verify_query(c, a, b, error);
     if (code != OVOID_OK || impact_is_refusal(x)) return code;
-    if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->trees.a.view.count ||
-        c->found->part_b >= c->trees.b.view.count)
+    if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->trees.a.tree.count ||
+        c->found->part_b >= c->trees.b.tree.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from free until %.17g, hit at %.17g",
                          ovoid_impact_status_get_name(x->status), x->free_until, x->hit_at);
     code = verify_begin(c, error);

@@ -9,18 +9,18 @@
 // The point is rounded in the other's frame, off by less than 91 u S (of a part 136 u S), and the surfaces are farther
 // apart than the claim of 512 u S: on the way from the exact point to the rounded one no surface is met, so the winding
 // number is the same.
-#include "body/frame.h"
+#include "body/tree_frame.h"
 
 #include "linear/rotation.h"
 
 // A point of a component in the frame of the other body.
-static vec3 find_point(const solid_view *own, const solid_view *other, uint32_t component) {
+static vec3 find_point(const body_tree *own, const body_tree *other, uint32_t component) {
     vec3 p;
     ovoid_pose pose = *own->pose;
     if (own->solid) {
         p = vec3_at(own->solid->points, own->solid->components[component]);
     } else {
-        ovoid_posed_shape leaf = solid_view_get_leaf(own, solid_view_get_place(own, component), NULL);
+        ovoid_posed_shape leaf = body_tree_get_leaf(own, body_tree_get_place(own, component), NULL);
         p = vec3_add(leaf.shape->origin, leaf.shape->first);
         pose = leaf.pose;
     }
@@ -29,22 +29,22 @@ static vec3 find_point(const solid_view *own, const solid_view *other, uint32_t 
     return mat3_mul_transposed_vec3(q, vec3_add(mat3_mul_vec3(r, p), offset));
 }
 
-int solid_is_inside(const solid_view *own, const solid_view *other, uint32_t component, int linear) {
+int tree_is_inside(const body_tree *own, const body_tree *other, uint32_t component, int linear) {
     int64_t winding;
-    if (!solid_view_is_closed(other)) return 0;
+    if (!body_tree_is_closed(other)) return 0;
     if (!solid_find_winding(other->solid, find_point(own, other, component), linear, &winding)) return -1;
     return winding != 0;
 }
 
-int solid_find_inside(const solid_view *a, const solid_view *b, int linear, ovoid_body_inside *inside,
+int trees_find_inside(const body_tree *a, const body_tree *b, int linear, ovoid_body_inside *inside,
                       uint32_t *component) {
     int is_open = 0;
     for (int side = 0; side < 2; side++) {
-        const solid_view *own = side ? b : a, *other = side ? a : b;
-        uint32_t count = solid_view_get_component_count(own);
-        if (!solid_view_is_closed(other)) continue;
+        const body_tree *own = side ? b : a, *other = side ? a : b;
+        uint32_t count = body_tree_get_component_count(own);
+        if (!body_tree_is_closed(other)) continue;
         for (uint32_t i = 0; i < count; i++) {
-            int is = solid_is_inside(own, other, i, linear);
+            int is = tree_is_inside(own, other, i, linear);
             is_open |= is < 0;
             if (is <= 0) continue;
             *inside = side ? OVOID_BODY_B_INSIDE : OVOID_BODY_A_INSIDE;

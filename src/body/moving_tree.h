@@ -2,21 +2,21 @@
 #ifndef OVOID_BODY_MOVING_TREE_H
 #define OVOID_BODY_MOVING_TREE_H
 
-#include "body/frame.h"
+#include "body/tree_frame.h"
 #include "motion/impact.h"
 #include "ovoid/body_impact.h"
 #include "shape/point.h"
 
 typedef struct moving_tree {
     const ovoid_moving_body *body;
-    solid_view view; ///< in the moving frame; its pose is not used
-    int has_boxes;   ///< balls are around the nodes' boxes; 0: those of a compound's nodes and of a shape
-    vec3 center;     ///< of the ball around a shape
+    body_tree tree; ///< in the moving frame; its pose is not used
+    int has_boxes;  ///< balls are around the nodes' boxes; 0: those of a compound's nodes and of a shape
+    vec3 center;    ///< of the ball around a shape
     double radius;
 } moving_tree;
 
 /// 0 where the body has not exactly one of shape, compound and solid. has_boxes: beside a solid.
-int moving_tree_make(const ovoid_moving_body *body, int has_boxes, moving_tree *tree);
+int moving_tree_make(const ovoid_moving_body *body, int has_boxes, moving_tree *moving);
 
 /// Both bodies of a pair.
 typedef struct moving_trees {
@@ -33,9 +33,9 @@ typedef union moving_room {
 } moving_room;
 
 /// The leaf at a place: the triangle, the part, the shape.
-ovoid_moving_shape moving_tree_get_leaf(const moving_tree *tree, uint32_t place, moving_room *room);
+ovoid_moving_shape moving_tree_get_leaf(const moving_tree *moving, uint32_t place, moving_room *room);
 /// A ball around a node or a leaf.
-ovoid_moving_shape moving_tree_make_ball(const moving_tree *tree, solid_ref ref, moving_room *room);
+ovoid_moving_shape moving_tree_make_ball(const moving_tree *moving, tree_ref ref, moving_room *room);
 
 /// Two moving shapes and the room that they are made in.
 typedef struct moving_couple {
@@ -43,11 +43,11 @@ typedef struct moving_couple {
     ovoid_moving_shape made[2];
 } moving_couple;
 /// The balls around two nodes or leaves.
-moving_shapes moving_trees_make_balls(const moving_trees *trees, solid_ref a, solid_ref b, moving_couple *couple);
+moving_shapes moving_trees_make_balls(const moving_trees *trees, tree_ref a, tree_ref b, moving_couple *couple);
+/// The leaves at two places.
+moving_shapes moving_trees_get_leaves(const moving_trees *trees, uint32_t a, uint32_t b, moving_couple *couple);
 /// The leaves where both are leaves, else the balls: what a group of steps is about.
-moving_shapes moving_trees_get_pair(const moving_trees *trees, solid_ref a, solid_ref b, moving_couple *couple);
-/// 1 if of a pair, not both leaves, the first is to be split.
-int moving_trees_split_first(const moving_trees *trees, solid_ref a, solid_ref b);
+moving_shapes moving_trees_get_pair(const moving_trees *trees, tree_ref a, tree_ref b, moving_couple *couple);
 
 /// The bodies at a time: whether they are within the margin there, for computed poses, and by how much the exact motion
 /// may differ from these.

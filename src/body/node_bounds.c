@@ -15,48 +15,25 @@
 
 #include "linear/rotation.h"
 
-static mat3 find_sizes(const mat3 *m) {
-    return (mat3){{fabs(m->r0.x), fabs(m->r0.y), fabs(m->r0.z)},
-                  {fabs(m->r1.x), fabs(m->r1.y), fabs(m->r1.z)},
-                  {fabs(m->r2.x), fabs(m->r2.y), fabs(m->r2.z)}};
+// The other body in the frame of the own one.
+typedef struct side_view {
+    const mat3 *rotation;
+    const mat3 *sizes; ///< its entries without their signs
+    const vec3 *translation;
+} side_view;
+
+static inline side_view get_side(const tree_frame *f, int side) {
+    return side ? (side_view){&f->to_b, &f->absolute_b, &f->translation_a}
+                : (side_view){&f->to_a, &f->absolute_a, &f->translation};
 }
 
-double nodes_compute_size(const body_view *a, const body_view *b, vec3 offset) {
-    return a->extent + b->extent + vec3_norm(offset);
-}
+static int has_normal(const parts_direction *d) { return d->normal.x != 0 || d->normal.y != 0 || d->normal.z != 0; }
 
-double nodes_compute_claim(const body_view *a, const body_view *b, double size) {
-    double positions = vec3_norm(a->pose->position) + vec3_norm(b->pose->position);
-    return 512 * 0x1p-53 * size + 8 * 0x1p-53 * positions + 4 * OVOID_LENGTH_MIN;
-}
-
-void nodes_frame_make(const body_view *a, const body_view *b, nodes_frame *f) {
-    f->world[0] = quat_to_mat3(a->pose->rotation);
-    f->world[1] = quat_to_mat3(b->pose->rotation);
-    vec3 offset = vec3_sub(b->pose->position, a->pose->position);
-    nodes_side *of_a = &f->sides[0], *of_b = &f->sides[1];
-    of_a->rotation = mat3_mul_transposed(f->world[0], f->world[1]);
-    of_a->sizes = find_sizes(&of_a->rotation);
-    of_a->translation = mat3_mul_transposed_vec3(f->world[0], offset);
-    of_b->rotation = mat3_transpose(of_a->rotation);
-    of_b->sizes = mat3_transpose(of_a->sizes);
-    of_b->translation = vec3_neg(mat3_mul_transposed_vec3(f->world[1], offset));
-    f->size = nodes_compute_size(a, b, offset);
-    f->claim = nodes_compute_claim(a, b, f->size);
-    f->check = 100 * 0x1p-53 * f->size + OVOID_LENGTH_MIN;
-    nodes_frame_set_normal(f, (vec3){0, 0, 0});
-}
-
-static int has_normal(const nodes_frame *f) { return f->normal.x != 0 || f->normal.y != 0 || f->normal.z != 0; }
-
-void nodes_frame_set_normal(nodes_frame *f, vec3 normal) {
+parts_direction parts_direction_make(const tree_frame *f, vec3 normal) {
     vec3 n = vec3_is_finite(normal) ? vec3_unit(normal) : (vec3){0, 0, 0};
-    if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){0, 0, 0};
-    f->normal = n;
-    if (!has_normal(f)) return;
-    f->in_a = mat3_mul_transposed_vec3(f->world[0], n);
-    f->in_b = mat3_mul_transposed_vec3(f->world[1], n);
-    f->offset = vec3_dot(f->in_a, f->sides[0].translation);
+    if (!(vec3_norm_squared(n) > 0.5)) return (parts_direction){.offset = 0};
+    vec3 in_a = mat3_mul_transposed_vec3(f->world, n), in_b = mat3_mul_transposed_vec3(f->world_b, n);
+    return (parts_direction){n, in_a, in_b, vec3_dot(in_a, f->translation)};
 }
 
 // The support of a node's box along a unit direction of its axes, from its centre.
@@ -73,17 +50,21 @@ static inline double find_round_reach(const compound_node *node, vec3 n, double 
 }
 
 // A point of the other body in the own frame.
-static inline vec3 turn_point(const nodes_side *s, vec3 other) {
-    return vec3_add(mat3_mul_vec3(s->rotation, other), s->translation);
+static inline vec3 turn_point(const side_view *s, vec3 other) {
+    return vec3_add(mat3_mul_vec3(*s->rotation, other), *s->translation);
+}
+// From a point of a to one of b, in a's frame.
+static inline vec3 find_way(const tree_frame *f, vec3 a, vec3 b) {
+    return vec3_sub(vec3_add(mat3_mul_vec3(f->to_a, b), f->translation), a);
 }
 static vec3 find_world_direction(const mat3 *world, vec3 t) {
     vec3 n = vec3_unit(t);
     return mat3_mul_vec3(*world, vec3_norm_squared(n) > 0.5 ? n : (vec3){1, 0, 0});
 }
 
-nodes_other nodes_turn(const nodes_frame *f, int side, const compound_node *other) {
-    const nodes_side *s = &f->sides[side];
-    return (nodes_other){other, turn_point(s, other->center), mat3_mul_vec3(s->sizes, other->half)};
+nodes_other nodes_turn(const tree_frame *f, int side, const compound_node *other) {
+    const side_view s = get_side(f, side);
+    return (nodes_other){other, turn_point(&s, other->center), mat3_mul_vec3(*s.sizes, other->half)};
 }
 
 // The gaps of two boxes along their three common axes, negative where they overlap.
@@ -101,16 +82,16 @@ static inline double measure(vec3 g) {
 static inline int is_inside(vec3 t, vec3 half) {
     return fabs(t.x) < half.x && fabs(t.y) < half.y && fabs(t.z) < half.z;
 }
-static inline nodes_bound lowered(nodes_bound x, const nodes_frame *f) {
+static inline nodes_bound lowered(nodes_bound x, const tree_frame *f) {
     return (nodes_bound){x.lower - f->claim, x.means};
 }
 static inline void take(nodes_bound *best, double gap, nodes_means means) {
     if (gap > best->lower) *best = (nodes_bound){gap, means};
 }
 
-nodes_bound nodes_compute_lower(const nodes_frame *f, int side, const compound_node *own, const nodes_other *other,
+nodes_bound nodes_compute_lower(const tree_frame *f, int side, const compound_node *own, const nodes_other *other,
                                 double enough) {
-    const nodes_side *s = &f->sides[side];
+    const side_view s = get_side(f, side);
     const compound_node *node = other->node;
     enough += f->claim;
     // The line of the centres: spheres first, then boxes and ellipsoids, which show nothing of nodes with overlapping
@@ -121,7 +102,7 @@ nodes_bound nodes_compute_lower(const nodes_frame *f, int side, const compound_n
     if (best.lower > enough) return lowered(best, f);
     // With a centre inside the other box the boxes overlap, and how deep only a depth query needs.
     if (enough >= 0 && is_inside(t, own->half)) return lowered(best, f);
-    vec3 back = mat3_mul_transposed_vec3(s->rotation, t);
+    vec3 back = mat3_mul_transposed_vec3(*s.rotation, t);
     if (enough >= 0 && is_inside(back, node->half)) return lowered(best, f);
     if (length > own->radius || length > node->radius) {
         vec3 n = vec3_scale(t, 1 / length), m = vec3_scale(back, -1 / length);
@@ -136,7 +117,7 @@ nodes_bound nodes_compute_lower(const nodes_frame *f, int side, const compound_n
     // The boxes along the axes of either body.
     take(&best, measure(find_gaps(t, own->half, other->half)), side ? NODES_BOX_B : NODES_BOX_A);
     if (best.lower > enough) return lowered(best, f);
-    take(&best, measure(find_gaps(back, node->half, mat3_mul_transposed_vec3(s->sizes, own->half))),
+    take(&best, measure(find_gaps(back, node->half, mat3_mul_transposed_vec3(*s.sizes, own->half))),
          side ? NODES_BOX_A : NODES_BOX_B);
     return lowered(best, f);
 }
@@ -152,38 +133,37 @@ static vec3 find_direction(vec3 g, vec3 t) {
 }
 
 // The direction of the boxes along the axes of the own body, from it to the other; world frame.
-static vec3 find_box_normal(const nodes_frame *f, int side, const compound_node *own, const compound_node *other) {
-    const nodes_side *s = &f->sides[side];
-    vec3 t = vec3_sub(turn_point(s, other->center), own->center);
-    vec3 gaps = find_gaps(t, own->half, mat3_mul_vec3(s->sizes, other->half));
-    return mat3_mul_vec3(f->world[side], find_direction(gaps, t));
+static vec3 find_box_normal(const tree_frame *f, int side, const compound_node *own, const compound_node *other) {
+    const side_view s = get_side(f, side);
+    vec3 t = vec3_sub(turn_point(&s, other->center), own->center);
+    vec3 gaps = find_gaps(t, own->half, mat3_mul_vec3(*s.sizes, other->half));
+    return mat3_mul_vec3(side ? f->world_b : f->world, find_direction(gaps, t));
 }
 
-vec3 nodes_compute_normal(const nodes_frame *f, const compound_node *a, const compound_node *b, nodes_means means) {
+vec3 nodes_compute_normal(const tree_frame *f, const compound_node *a, const compound_node *b, nodes_means means) {
     switch (means) {
     case NODES_BOX_A: return find_box_normal(f, 0, a, b);
     case NODES_BOX_B: return vec3_neg(find_box_normal(f, 1, b, a));
-    default: return find_world_direction(&f->world[0], vec3_sub(turn_point(&f->sides[0], b->center), a->center));
+    default: return find_world_direction(&f->world, find_way(f, a->center, b->center));
     }
 }
 
-nodes_bound parts_compute_lower(const nodes_frame *f, const compound_part *a, const compound_part *b, double enough) {
-    const nodes_side *s = &f->sides[0];
-    vec3 t = vec3_sub(turn_point(s, b->center), a->center);
+nodes_bound parts_compute_lower(const tree_frame *f, const parts_direction *d, const compound_part *a,
+                                const compound_part *b, double enough) {
+    vec3 t = find_way(f, a->center, b->center);
     nodes_bound best = {vec3_norm(t) - (a->reach + b->reach), NODES_PARTS};
-    if (!(best.lower > enough + f->claim) && has_normal(f)) {
+    if (!(best.lower > enough + f->claim) && has_normal(d)) {
         // The parts' own vertices along the normal.
-        vec3 in_a = mat3_mul_transposed_vec3(a->rotation, f->in_a);
-        vec3 in_b = mat3_mul_transposed_vec3(b->rotation, f->in_b);
+        vec3 in_a = mat3_mul_transposed_vec3(a->rotation, d->in_a);
+        vec3 in_b = mat3_mul_transposed_vec3(b->rotation, d->in_b);
         simd_pair most = shapes_find_pair(a->shape, b->shape, in_a, vec3_neg(in_b));
-        double apart = (f->offset + vec3_dot(f->in_b, b->at)) - vec3_dot(f->in_a, a->at);
+        double apart = (d->offset + vec3_dot(d->in_b, b->at)) - vec3_dot(d->in_a, a->at);
         double gap = (apart - (most.high.value + most.low.value)) - (a->shape->lower_radius + b->shape->lower_radius);
         take(&best, gap, NODES_NORMAL);
     }
     return lowered(best, f);
 }
 
-vec3 parts_compute_normal(const nodes_frame *f, const compound_part *a, const compound_part *b, nodes_means means) {
-    if (means == NODES_NORMAL) return f->normal;
-    return find_world_direction(&f->world[0], vec3_sub(turn_point(&f->sides[0], b->center), a->center));
+vec3 parts_compute_normal(const tree_frame *f, const compound_part *a, const compound_part *b) {
+    return find_world_direction(&f->world, find_way(f, a->center, b->center));
 }

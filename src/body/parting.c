@@ -81,18 +81,18 @@ static farthest find_farthest_of_parts(const ovoid_compound *c, vec3 n) {
     return best;
 }
 
-static farthest find_farthest(const solid_view *v, vec3 n) {
-    if (v->solid) return find_farthest_of_solid(v->solid, n);
-    if (v->compound) return find_farthest_of_parts(v->compound, n);
-    simd_extreme x = shape_find_extreme(v->shape, n);
-    vec3 p = vec3_add(v->shape->origin, (vec3){x.x, x.y, x.z});
-    double r = shape_compute_lower_radius(v->shape, n, AXIS_CLAIM);
-    return (farthest){vec3_dot(n, v->shape->origin) + x.value + r, vec3_add_scaled(p, n, r)};
+static farthest find_farthest(const body_tree *tree, vec3 n) {
+    if (tree->solid) return find_farthest_of_solid(tree->solid, n);
+    if (tree->compound) return find_farthest_of_parts(tree->compound, n);
+    simd_extreme x = shape_find_extreme(tree->shape, n);
+    vec3 p = vec3_add(tree->shape->origin, (vec3){x.x, x.y, x.z});
+    double r = shape_compute_lower_radius(tree->shape, n, AXIS_CLAIM);
+    return (farthest){vec3_dot(n, tree->shape->origin) + x.value + r, vec3_add_scaled(p, n, r)};
 }
 
 /// The gap of both bodies along a unit direction of a's frame, below 0 where they overlap along it; *farther: from the
 /// last point of a to the first of b.
-static double measure(const solid_frame *f, const solid_view *a, const solid_view *b, vec3 n, vec3 *farther) {
+static double measure(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 n, vec3 *farther) {
     farthest top = find_farthest(a, n), bottom = find_farthest(b, vec3_neg(mat3_mul_vec3(f->to_b, n)));
     *farther = vec3_sub(vec3_add(f->translation, mat3_mul_vec3(f->to_a, bottom.point)), top.point);
     return (vec3_dot(n, f->translation) - bottom.top) - top.top;
@@ -104,7 +104,7 @@ typedef struct parting {
     vec3 farther;
 } parting;
 
-static int try_direction(const solid_frame *f, const solid_view *a, const solid_view *b, vec3 n, parting *best) {
+static int try_direction(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 n, parting *best) {
     vec3 farther;
     if (!(vec3_norm_squared(n) > 0.5)) return 0;
     double lower = measure(f, a, b, n, &farther);
@@ -120,12 +120,12 @@ static vec3 get_column(const mat3 *m, int i) {
 }
 
 // n and -n, that first along which b's centre lies.
-static void try_both(const solid_frame *f, const solid_view *a, const solid_view *b, vec3 n, parting *best) {
+static void try_both(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 n, parting *best) {
     try_direction(f, a, b, n, best);
     try_direction(f, a, b, vec3_neg(n), best);
 }
 
-static void descend(const solid_frame *f, const solid_view *a, const solid_view *b, parting *best) {
+static void descend(const tree_frame *f, const body_tree *a, const body_tree *b, parting *best) {
     double step = 0.5;
     for (int i = 0; i < DESCENT; i++) {
         // Toward the difference, across n: so the gap along n grows.
@@ -136,7 +136,7 @@ static void descend(const solid_frame *f, const solid_view *a, const solid_view 
     }
 }
 
-box_gap solid_find_parting(const solid_frame *f, const solid_view *a, const solid_view *b, vec3 normal) {
+box_gap trees_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 normal) {
     parting best = {{-INFINITY, {1, 0, 0}}, {0, 0, 0}};
     const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int i = 0; i < 3; i++) {

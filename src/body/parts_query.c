@@ -1,321 +1,186 @@
-// Proximity of two bodies: which pair of parts decides, and which exclusions prove it.
-//
-// Both trees are traversed at once, from the pair of roots down, the nearer children first (S. Quinlan, Efficient
-// distance computation between non-convex objects, 1994; E. Larsen, S. Gottschalk, M. C. Lin, D. Manocha, Fast distance
-// queries with rectangular swept sphere volumes, 2000). A pair of nodes is pruned where its lower bound (node_bounds.c)
-// is above what the goal needs, or not below the best pair's upper bound. A pair of parts is an ordinary query that may
-// stop beyond the best upper bound. So the answer's bracket is that of the best pair, its lower end lowered to the
-// least bound of all that was pruned.
-//
-// The traversal's stack is as deep as both trees together; nothing is allocated. At worst every pair of parts is
-// queried.
-#include "body/exclusions.h"
+// The search of two bodies without a solid: shapes and compounds. The bounds of nodes are those of node_bounds.c, two
+// parts are an ordinary query, which may stop beyond the best upper bound.
+#include "body/body_find.h"
 #include "body/first_look.h"
-#include "body/node_bounds.h"
-#include "query/answer.h"
+#include "body/traverse.h"
 
-typedef struct traversal {
-    body_view a, b;
-    nodes_frame frame;
-    nodes_other turned; ///< a node along the axes of the other body, shared by several of its nodes
-    int turned_side;
-    ovoid_options options;       ///< of the queries of pairs of parts
-    query_goal whole_goal, goal; ///< the query's goal, and what is left of it: once a margin is met, the sign
-    double tolerance, allowance; ///< the latter is not in the former
-    // The best pair of parts so far, with its answer in *out; place_a is count_a where there is none.
-    ovoid_body_answer *out;
-    uint32_t place_a, place_b;
-    uint32_t warm_a, warm_b; ///< the pair of parts of the earlier proof, or count_a
-    double enough;           ///< bounds from here on are pruned: at least the best pair's upper bound
-    double lower;            ///< the least lower bound of all that was pruned
-    ovoid_limit trouble;     ///< of a pair of parts whose bracket stayed wide, or NONE
-    ovoid_exclusions *exclusions;
-    // The world poses of the parts queried last.
-    ovoid_pair pair;
-    uint32_t posed_a, posed_b;
-    ovoid_answer spare;
-} traversal;
+// ---- what is left out
 
-// ---- pruning
-
-// A pair of nodes on the stack, with its lower bound.
-typedef struct node_pair {
-    const compound_node *a, *b;
-    nodes_bound bound;
-} node_pair;
-
-// A pair of nodes as the stack holds it: nodes by their places, which takes half the room.
-typedef struct stacked_pair {
-    uint32_t a, b;
-    nodes_bound bound;
-} stacked_pair;
-
-// The pairs of a node's children with the other node, the nearer one last. side: 0 where the node is of a, 1 where of
-// b.
-static void bound_children(traversal *h, int side, const node_pair *w, node_pair two[2]) {
-    const compound_node *node = side ? w->b : w->a;
-    const compound_node *children[2] = {node_get_right(node), node_get_left(node)};
-    // Often that of the pair before, and always where the other body is a shape.
-    const compound_node *rest = side ? w->a : w->b;
-    if (h->turned.node != rest || h->turned_side != side) {
-        h->turned = nodes_turn(&h->frame, side, rest);
-        h->turned_side = side;
-    }
-    double enough = min2(h->goal.far, h->enough);
-    nodes_bound bounds[2];
-    for (int i = 0; i < 2; i++) bounds[i] = nodes_compute_lower(&h->frame, side, children[i], &h->turned, enough);
-    h->out->visited += 2;
-    int turned = bounds[0].lower < bounds[1].lower;
-    for (int i = 0; i < 2; i++) {
-        const compound_node *child = children[i ^ turned];
-        two[i].a = side ? rest : child;
-        two[i].b = side ? child : rest;
-        two[i].bound = bounds[i ^ turned];
-    }
+static const compound_node *get_node(const body_search *state, int side, tree_ref ref) {
+    return &state->parts.nodes[side][ref_get_index(ref)];
+}
+static tree_ref get_ref(const body_search *state, int side, const compound_node *node) {
+    return (tree_ref)(node - state->parts.nodes[side]) | (node_is_leaf(node) ? TREE_LEAF : 0);
 }
 
-static node_pair bound_roots(traversal *h, double enough) {
-    nodes_other other = nodes_turn(&h->frame, 0, h->b.nodes);
-    nodes_bound bound = nodes_compute_lower(&h->frame, 0, h->a.nodes, &other, enough);
-    return (node_pair){h->a.nodes, h->b.nodes, bound};
+static vec3 find_normal(const body_search *state, const compound_node *a, const compound_node *b, nodes_means means) {
+    const compound_part *const *parts = state->parts.parts;
+    if (means == NODES_NORMAL) return state->parts.direction.normal;
+    return means == NODES_PARTS ? parts_compute_normal(&state->frame, &parts[0][a->first], &parts[1][b->first])
+                                : nodes_compute_normal(&state->frame, a, b, means);
 }
 
-static void exclude_nodes(traversal *h, const node_pair *w) {
-    h->lower = min2(h->lower, w->bound.lower);
-    if (!h->exclusions) return;
-    const compound_node *a = w->a, *b = w->b;
-    ovoid_exclusion x = {a->first, a->end, b->first, b->end, {0, 0, 0}, {0, 0, 0}, w->bound.lower};
-    nodes_means means = w->bound.means;
-    x.normal = means < NODES_PARTS
-                   ? nodes_compute_normal(&h->frame, a, b, means)
-                   : parts_compute_normal(&h->frame, &h->a.parts[a->first], &h->b.parts[b->first], means);
-    exclusions_add(h->exclusions, &x);
+static void exclude_nodes(body_search *state, const waiting_pair *w) {
+    state->lower = min2(state->lower, w->lower);
+    if (!state->exclusions) return;
+    const compound_node *a = get_node(state, 0, waiting_get_a(w)), *b = get_node(state, 1, waiting_get_b(w));
+    ovoid_exclusion x = {a->first, a->end, b->first, b->end, {0, 0, 0}, {0, 0, 0}, w->lower};
+    x.normal = find_normal(state, a, b, (nodes_means)waiting_get_reason(w));
+    exclusions_add(state->exclusions, &x);
 }
 
-static void take_trouble(traversal *h, const ovoid_answer *x) {
-    if (limit_is_stuck(x->limit) && h->trouble == OVOID_LIMIT_NONE) h->trouble = x->limit;
+static int take(body_search *state, const leaf_pair *pair) {
+    if (!search_take(state, pair)) return 0;
+    state->parts.direction = parts_direction_make(&state->frame, pair->normal);
+    return 1;
 }
 
-static void exclude_parts(traversal *h, uint32_t a, uint32_t b, const ovoid_answer *x) {
-    h->lower = min2(h->lower, x->lower);
-    take_trouble(h, x);
-    if (!h->exclusions) return;
-    ovoid_exclusion e = {a, a + 1, b, b + 1, x->proof.normal, x->proof.normal_low, x->lower};
-    exclusions_add(h->exclusions, &e);
+// ---- the steps of the traversal
+
+static waiting_pair bound_roots(const body_search *state, double enough) {
+    const compound_node *a = state->parts.nodes[0], *b = state->parts.nodes[1];
+    nodes_other other = nodes_turn(&state->frame, 0, b);
+    nodes_bound bound = nodes_compute_lower(&state->frame, 0, a, &other, enough);
+    return waiting_make(get_ref(state, 0, a), get_ref(state, 1, b), bound.lower, bound.means);
 }
-
-// ---- pairs of parts
-
-// The pair of parts at two places, in the world; a part posed by the last call is reused.
-static const ovoid_pair *pose_pair(traversal *h, uint32_t a, uint32_t b) {
-    if (h->posed_a != a) {
-        ovoid_posed_shape body = body_view_get_part(&h->a, a);
-        h->pair.shape_a = body.shape;
-        h->pair.pose_a = body.pose;
-        h->posed_a = a;
-    }
-    if (h->posed_b != b) {
-        ovoid_posed_shape body = body_view_get_part(&h->b, b);
-        h->pair.shape_b = body.shape;
-        h->pair.pose_b = body.pose;
-        h->posed_b = b;
-    }
-    return &h->pair;
-}
-
-// Lowers the bound from which on pairs are pruned.
-static void tighten(traversal *h) {
-    const ovoid_answer *best = &h->out->deciding;
-    if (h->goal.wants_bracket) {
-        // Parts known to within less may have a lower upper bound, whatever their lower one.
-        double near = best->upper - h->tolerance;
-        h->enough = h->allowance > 0 ? near : min2(best->lower, near);
-    }
-    // The margin is met: only the sign is left to find.
-    if (best->upper <= h->goal.near) h->goal = query_goal_make_collide();
-}
-
-static void take_best(traversal *h, uint32_t a, uint32_t b, const ovoid_answer *x) {
-    if (h->place_a < h->a.count) exclude_parts(h, h->place_a, h->place_b, &h->out->deciding);
-    h->out->deciding = *x;
-    h->place_a = a;
-    h->place_b = b;
-    nodes_frame_set_normal(&h->frame, x->proof.normal);
-    tighten(h);
-}
-
-// Queries a pair of parts: the query may stop once it is proven not to be nearer than the best pair.
-static void visit_parts(traversal *h, uint32_t a, uint32_t b, const ovoid_proof *earlier) {
-    query_goal goal = h->goal;
-    int has_best = h->place_a < h->a.count;
-    if (has_best && goal.wants_bracket && h->out->deciding.upper < goal.far) {
-        goal.far = max2(h->enough, 0);
-        goal.beyond = OVOID_LIMIT_CAP;
-    }
-    // The best pair's cover is replaced by that of a deeper one only.
-    ovoid_cover *cover = goal.wants_depth && h->exclusions ? h->exclusions->cover : NULL;
-    goal.has_cover = has_best;
-    if (has_best) goal.covered = h->out->deciding.upper;
-    answer_find_internal(pose_pair(h, a, b), &h->options, goal, earlier, cover, &h->spare);
-    h->out->tested++;
-    if (has_best && !(h->spare.upper < h->out->deciding.upper)) {
-        exclude_parts(h, a, b, &h->spare);
-        return;
-    }
-    take_best(h, a, b, &h->spare);
-    if (cover && h->spare.proof.kind != OVOID_PROOF_COVER) cover->point_count = cover->triangle_count = 0;
-}
-
-// ---- the traversal
-
-// 1 if no pair that is left can change the answer.
-static int is_decided(const traversal *h) {
-    return h->place_a < h->a.count && h->out->deciding.upper < 0 && !h->goal.wants_depth;
-}
-static int is_pruned(const traversal *h, double lower) { return lower > h->goal.far || lower >= h->enough; }
 
 // Two parts: the closer bounds of their own spheres and supports, then the query.
-static void visit_leaves(traversal *h, node_pair *w) {
-    uint32_t a = w->a->first, b = w->b->first;
-    if (a == h->warm_a && b == h->warm_b) return;
-    w->bound = parts_compute_lower(&h->frame, &h->a.parts[a], &h->b.parts[b], min2(h->goal.far, h->enough));
-    if (is_pruned(h, w->bound.lower))
-        exclude_nodes(h, w);
-    else
-        visit_parts(h, a, b, NULL);
+static void visit_leaves(body_search *state, const waiting_pair *w) {
+    const parts_state *parts = &state->parts;
+    uint32_t a = get_node(state, 0, waiting_get_a(w))->first, b = get_node(state, 1, waiting_get_b(w))->first;
+    if (a == state->warm_a && b == state->warm_b) return;
+    nodes_bound bound = parts_compute_lower(&state->frame, &parts->direction, &parts->parts[0][a], &parts->parts[1][b],
+                                            min2(state->far, state->enough));
+    if (!search_is_left_out(state, bound.lower)) {
+        search_query_leaves(state, a, b, NULL);
+        return;
+    }
+    const waiting_pair closer = waiting_make(waiting_get_a(w), waiting_get_b(w), bound.lower, bound.means);
+    exclude_nodes(state, &closer);
 }
 
-static stacked_pair stack_pair(const traversal *h, const node_pair *w) {
-    return (stacked_pair){(uint32_t)(w->a - h->a.nodes), (uint32_t)(w->b - h->b.nodes), w->bound};
+// The other node of a pair, along the axes of the body whose node is opened: often that of the pair before, and always
+// where the other body is a shape.
+static inline const nodes_other *turn(body_search *state, int side, const compound_node *rest) {
+    parts_state *parts = &state->parts;
+    if (parts->turned.node != rest || parts->turned_side != side) {
+        parts->turned = nodes_turn(&state->frame, side, rest);
+        parts->turned_side = side;
+    }
+    return &parts->turned;
 }
 
-static void traverse(traversal *h) {
-    // Each step down either tree leaves one pair on the stack.
-    stacked_pair stack[2 * COMPOUND_DEPTH_MAX];
-    node_pair roots = bound_roots(h, min2(h->goal.far, h->enough)), two[2];
-    stack[0] = stack_pair(h, &roots);
-    h->out->visited++;
-    for (int count = 1; count > 0 && !is_decided(h);) {
-        const stacked_pair *top = &stack[--count];
-        node_pair w = {h->a.nodes + top->a, h->b.nodes + top->b, top->bound};
-        if (is_pruned(h, w.bound.lower)) {
-            exclude_nodes(h, &w);
-            continue;
-        }
-        if (node_is_leaf(w.a) && node_is_leaf(w.b)) {
-            visit_leaves(h, &w);
-            continue;
-        }
-        bound_children(h, !node_is_split_first(w.a, w.b), &w, two);
-        for (int i = 0; i < 2; i++) stack[count++] = stack_pair(h, &two[i]);
+// The children of a node of a tree in preorder, the right one first.
+static inline void get_children(const compound_node *node, tree_ref ref, tree_ref children[2]) {
+    const compound_node *left = node + 1;
+    uint32_t below = left->end - left->first, all = node->end - node->first;
+    children[1] = (ref + 1) | (below == 1 ? TREE_LEAF : 0);
+    children[0] = (ref + 2 * below) | (all - below == 1 ? TREE_LEAF : 0);
+}
+
+// The pairs of a node's children with the other node wait, the nearer one on top.
+COMPILER_INLINED void open_nodes(body_search *state, const waiting_pair *w, waiting *q) {
+    const tree_ref ref_a = waiting_get_a(w), ref_b = waiting_get_b(w);
+    const compound_node *a = get_node(state, 0, ref_a), *b = get_node(state, 1, ref_b);
+    int side = ref_is_leaf(ref_b) ? 0 : ref_is_leaf(ref_a) || a->radius < b->radius;
+    const nodes_other *other = turn(state, side, side ? a : b);
+    double enough = min2(state->far, state->enough);
+    tree_ref children[2];
+    nodes_bound bounds[2];
+    get_children(side ? b : a, side ? ref_b : ref_a, children);
+    for (int i = 0; i < 2; i++)
+        bounds[i] = nodes_compute_lower(&state->frame, side, get_node(state, side, children[i]), other, enough);
+    state->out->visited += 2;
+    int turned = bounds[0].lower < bounds[1].lower;
+    for (int i = 0; i < 2; i++) {
+        tree_ref child = children[i ^ turned];
+        const nodes_bound *bound = &bounds[i ^ turned];
+        const waiting_pair next = waiting_make(side ? ref_a : child, side ? child : ref_b, bound->lower, bound->means);
+        waiting_push(q, &next);
     }
 }
 
-// Starts with the pair of parts that decided the earlier query. Its indices may be out of range.
-static void visit_earlier(traversal *h, const ovoid_body_proof *earlier) {
-    if (!earlier || earlier->part_a >= h->a.count || earlier->part_b >= h->b.count) return;
-    h->warm_a = h->a.compound ? h->a.compound->places[earlier->part_a] : 0;
-    h->warm_b = h->b.compound ? h->b.compound->places[earlier->part_b] : 0;
-    visit_parts(h, h->warm_a, h->warm_b, &earlier->proof);
+static void traverse(body_search *state);
+static const search_kind kind = {bound_roots, exclude_nodes, visit_leaves, open_nodes, traverse, take};
+
+static void traverse(body_search *state) {
+    // Each step down either tree leaves one pair on the stack.
+    waiting_pair stack[2 * COMPOUND_DEPTH_MAX];
+    waiting q = {.stack = stack};
+    if (!search_is_decided(state)) search_traverse(state, &kind, &q);
 }
 
-// ---- the answer
+// ---- the query
 
-// A deciding pair that touches within its own tolerance, in which is what far origins hide, keeps its status.
-static ovoid_status find_status(const traversal *h, const ovoid_answer *x, double lower) {
-    ovoid_status status = bracket_find_status(lower, x->upper, h->tolerance);
-    return status == OVOID_UNDECIDED && x->status == OVOID_TOUCHING && lower >= x->lower ? OVOID_TOUCHING : status;
+// The nodes and parts of a body; a shape beside a compound is one node.
+static void set_nodes(parts_state *parts, int side, const body_tree *tree) {
+    if (tree->compound) {
+        parts->nodes[side] = tree->compound->nodes;
+        parts->parts[side] = tree->compound->parts;
+        return;
+    }
+    const ovoid_posed_shape own = {tree->shape, {{0, 0, 0}, {1, 0, 0, 0}}};
+    parts->own_node = node_make_shape(tree->shape);
+    parts->own_part = part_make(&own);
+    parts->nodes[side] = &parts->own_node;
+    parts->parts[side] = &parts->own_part;
 }
 
-static ovoid_limit find_limit(const traversal *h, const final_bracket *b) {
-    if (bracket_is_left_open(b, &h->whole_goal)) return OVOID_LIMIT_ALLOWANCE;
-    if (bracket_is_narrow(b, &h->whole_goal)) return OVOID_LIMIT_NONE;
-    return bracket_find_limit(b, &h->whole_goal, h->trouble);
+// From an earlier proof or NULL. Nodes visited and pairs tested are counted on.
+static void search_from(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
+    search_begin(state, goal);
+    state->parts.direction = (parts_direction){.offset = 0};
+    state->parts.turned.node = NULL;
+    search_run(state, earlier);
 }
 
-// Where the traversal ended early: one exclusion of all pairs of parts, by the roots.
-static void exclude_all(traversal *h) {
-    if (h->exclusions) h->exclusions->count = 0;
-    node_pair roots = bound_roots(h, INFINITY);
-    exclude_nodes(h, &roots);
+static void find(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
+    tree_frame_make(&state->a, &state->b, &state->frame);
+    options_take_size(&state->options, state->frame.size);
+    state->tolerance = state->slack = state->options.absolute_tolerance;
+    state->least_far = 0;
+    search_from(state, goal, earlier);
+    const ovoid_answer *x = &state->out->deciding;
+    if (!earlier || !answer_is_improvable(x)) return;
+    // No earlier proof makes an answer worse: the query alone, unless only the proof decides it.
+    int was_decided = x->status != OVOID_UNDECIDED;
+    search_from(state, goal, NULL);
+    if (was_decided && x->status == OVOID_UNDECIDED) search_from(state, goal, earlier);
 }
 
-static void finish(traversal *h) {
-    ovoid_body_answer *out = h->out;
-    if (h->place_a == h->a.count) visit_parts(h, 0, 0, NULL);
-    if (is_decided(h)) exclude_all(h);
-    ovoid_answer *x = &out->deciding;
-    take_trouble(h, x);
-    double lower = min2(x->lower, h->lower);
-    ovoid_status status = find_status(h, x, lower);
-    final_bracket b = {lower, x->upper, h->tolerance + h->allowance, h->allowance, status, x->proof.kind};
-    x->limit = find_limit(h, &b);
-    x->status = status;
-    x->lower = lower;
-    out->part_a = body_view_get_index(&h->a, h->place_a);
-    out->part_b = body_view_get_index(&h->b, h->place_b);
-    exclusions_finish(h->exclusions);
-}
-
-// Starts a traversal; the options are set already.
-static void traversal_make(traversal *h, query_goal goal) {
-    nodes_frame_make(&h->a, &h->b, &h->frame);
-    options_take_size(&h->options, h->frame.size);
-    h->tolerance = h->options.absolute_tolerance;
-    h->allowance = h->a.allowance + h->b.allowance;
-    h->whole_goal = h->goal = goal;
-    h->enough = h->lower = INFINITY;
-    h->place_a = h->warm_a = h->a.count;
-    h->place_b = h->warm_b = h->b.count;
-    h->posed_a = h->a.count;
-    h->posed_b = h->b.count;
-    h->trouble = OVOID_LIMIT_NONE;
-    h->turned.node = NULL;
-    h->turned_side = 0;
-}
-
-// The whole traversal, from an earlier proof or NULL. Nodes visited and pairs tested are counted on.
-static void search_from(traversal *h, query_goal goal, const ovoid_body_proof *earlier) {
-    exclusions_begin(h->exclusions);
-    traversal_make(h, goal);
-    visit_earlier(h, earlier);
-    if (!is_decided(h)) traverse(h);
-    finish(h);
-}
-
-static void search_parts(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+static void search_parts(body_search *state, const ovoid_body_pair *pair, const ovoid_options *options,
+                         const query_goal *goal, const ovoid_body_proof *earlier) {
+    ovoid_body_answer *out = state->out;
     out->part_a = out->part_b = out->visited = out->tested = 0;
-    exclusions_begin(exclusions);
-    ovoid_cover *cover = exclusions ? exclusions->cover : NULL;
-    traversal h;
+    exclusions_begin(state->exclusions);
+    ovoid_cover *cover = state->exclusions ? state->exclusions->cover : NULL;
     ovoid_limit refused = OVOID_LIMIT_OPTIONS;
-    if (options_make(options, &h.options) && goal.far >= 0) refused = body_pair_view(pair, &h.a, &h.b);
+    if (options_make(options, &state->options) && goal->far >= 0) refused = body_trees_make(pair, &state->a, &state->b);
     if (refused != OVOID_LIMIT_NONE) {
         out->deciding = answer_make_refused(refused);
         return;
     }
-    if (!h.a.compound && !h.b.compound) {
-        ovoid_pair parts = {pair->a.shape, pair->b.shape, pair->a.pose, pair->b.pose};
-        answer_find_internal(&parts, options, goal, earlier ? &earlier->proof : NULL, cover, &out->deciding);
+    if (pair->a.shape && pair->b.shape) {
+        ovoid_pair shapes = {pair->a.shape, pair->b.shape, pair->a.pose, pair->b.pose};
+        answer_find_internal(&shapes, options, *goal, earlier ? &earlier->proof : NULL, cover, &out->deciding);
         out->tested = 1;
         return;
     }
-    if (goal.far < INFINITY && first_look(&h.a, &h.b, &h.options, &goal, exclusions, out)) return;
-    h.out = out;
-    h.exclusions = exclusions;
-    search_from(&h, goal, earlier);
-    if (!earlier || !answer_is_improvable(&out->deciding)) return;
-    // No earlier proof makes an answer worse: the query alone, unless only the proof decides it.
-    int was_decided = out->deciding.status != OVOID_UNDECIDED;
-    search_from(&h, goal, NULL);
-    if (was_decided && out->deciding.status == OVOID_UNDECIDED) search_from(&h, goal, earlier);
+    set_nodes(&state->parts, 0, &state->a);
+    set_nodes(&state->parts, 1, &state->b);
+    if (goal->far < INFINITY && first_look(state, goal)) return;
+    find(state, goal, earlier);
 }
 
 void parts_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                          const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out) {
     static const vec3 none = {0, 0, 0};
-    search_parts(pair, options, goal, earlier, exclusions, out);
+    body_search state;
+    state.kind = &kind;
+    state.has_solid = 0;
+    state.out = out;
+    state.exclusions = exclusions;
+    search_parts(&state, pair, options, &goal, earlier);
     const ovoid_answer *x = &out->deciding;
     out->status = x->status;
     out->limit = x->limit;

@@ -57,10 +57,6 @@ static inline const compound_node *node_get_right(const compound_node *n) {
     const compound_node *left = n + 1;
     return n + 2 * (size_t)(left->end - left->first);
 }
-/// 1 if of a pair of nodes, not both leaves, the first is to be split.
-static inline int node_is_split_first(const compound_node *a, const compound_node *b) {
-    return node_is_leaf(b) || (!node_is_leaf(a) && a->radius >= b->radius);
-}
 
 /// The E of a part: an upper bound of all lengths from which its place in the compound's frame is computed.
 double posed_shape_compute_extent(const ovoid_posed_shape *body);

@@ -38,7 +38,7 @@ vec3 triangle_find_nearest(const vec3 c[3], vec3 x) {
 
 typedef struct waiting {
     double square; ///< of the distance of the box, in the tree's unit
-    solid_ref ref;
+    tree_ref ref;
 } waiting;
 
 typedef struct nearest {
@@ -98,8 +98,8 @@ uint32_t body_find_triangle(const body *b, vec3 x, uint32_t hint, double *distan
     while (n.count > 0) {
         waiting w = n.stack[--n.count];
         if (!(w.square < n.limit)) continue;
-        if (ref_is_triangle(w.ref))
-            try_triangle(&n, ref_get_place(w.ref));
+        if (ref_is_leaf(w.ref))
+            try_triangle(&n, ref_get_index(w.ref));
         else
             open_node(&n, w.ref);
     }

@@ -45,15 +45,15 @@ static inline vec3 solid_get_corner(const ovoid_solid *s, uint32_t place, int co
     return vec3_at(s->points, s->triangles[place].point[corner]);
 }
 
-/// A node of the tree, or the triangle at a place.
-typedef uint32_t solid_ref;
-#define SOLID_TRIANGLE 0x80000000u
-static inline int ref_is_triangle(solid_ref r) { return (r & SOLID_TRIANGLE) != 0; }
-static inline uint32_t ref_get_place(solid_ref r) { return r & ~SOLID_TRIANGLE; }
+/// A node of a tree, or a leaf: of a solid the triangle at a place.
+typedef uint32_t tree_ref;
+#define TREE_LEAF 0x80000000u
+static inline int ref_is_leaf(tree_ref r) { return (r & TREE_LEAF) != 0; }
+static inline uint32_t ref_get_index(tree_ref r) { return r & ~TREE_LEAF; }
 /// Child i < nodes[node].children of a node.
-static inline solid_ref solid_get_child(const ovoid_solid *s, uint32_t node, uint32_t i) {
+static inline tree_ref solid_get_child(const ovoid_solid *s, uint32_t node, uint32_t i) {
     const box8 *b = &s->boxes[node];
-    return b->child[i] | (b->leaves >> i & 1 ? SOLID_TRIANGLE : 0);
+    return b->child[i] | (b->leaves >> i & 1 ? TREE_LEAF : 0);
 }
 
 /// Steps down a tree of 2^26 triangles: each child of more than eight has at most three quarters of its parent's.

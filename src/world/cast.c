@@ -7,7 +7,7 @@
 // the rounding of that sum.
 #include "base/environment.h"
 #include "base/error.h"
-#include "body/body_view.h"
+#include "body/body_tree.h"
 #include "world/body_bounds.h"
 #include "world/cast_solid.h"
 #include "world/state.h"
@@ -69,7 +69,7 @@ static int is_met(const casting *c, uint32_t i) {
 
 static void visit_ray(void *context, uint32_t i) {
     casting *c = context;
-    body_view view;
+    body_tree tree;
     const ovoid_body *body = &c->w->bodies[i].body;
     if (!is_met(c, i)) return;
     if (body->solid) {
@@ -77,11 +77,11 @@ static void visit_ray(void *context, uint32_t i) {
         take_hit(c, i, &hit);
         return;
     }
-    if (!body_view_make(body, &view)) return;
-    for (uint32_t k = 0; k < view.count; k++) {
-        ovoid_posed_shape part = body_view_get_part(&view, k);
+    if (!body_tree_make(body, &tree)) return;
+    for (uint32_t k = 0; k < tree.count; k++) {
+        ovoid_posed_shape part = body_tree_get_leaf(&tree, k, NULL);
         ovoid_ray_hit ray_hit = ovoid_shape_cast_ray(&part, c->ray);
-        part_hit hit = {body_view_get_index(&view, k),
+        part_hit hit = {body_tree_get_index(&tree, k),
                         0,
                         ray_hit.status,
                         ray_hit.lower,
@@ -94,7 +94,7 @@ static void visit_ray(void *context, uint32_t i) {
 
 static void visit_body(void *context, uint32_t i) {
     casting *c = context;
-    body_view view, probe;
+    body_tree tree, probe;
     const ovoid_body *body = &c->w->bodies[i].body;
     if (!is_met(c, i)) return;
     if (body->solid || c->body.solid) {
@@ -102,14 +102,14 @@ static void visit_body(void *context, uint32_t i) {
         take_hit(c, i, &hit);
         return;
     }
-    if (!body_view_make(body, &view) || !body_view_make(&c->body, &probe)) return;
-    for (uint32_t k = 0; k < view.count; k++) {
+    if (!body_tree_make(body, &tree) || !body_tree_make(&c->body, &probe)) return;
+    for (uint32_t k = 0; k < tree.count; k++) {
         for (uint32_t m = 0; m < probe.count; m++) {
-            ovoid_posed_shape a = body_view_get_part(&view, k), b = body_view_get_part(&probe, m);
+            ovoid_posed_shape a = body_tree_get_leaf(&tree, k, NULL), b = body_tree_get_leaf(&probe, m, NULL);
             ovoid_pair pair = {a.shape, b.shape, a.pose, b.pose};
             ovoid_impact impact = ovoid_shape_cast(&pair, c->direction, 0, NULL);
-            part_hit hit = {body_view_get_index(&view, k),
-                            body_view_get_index(&probe, m),
+            part_hit hit = {body_tree_get_index(&tree, k),
+                            body_tree_get_index(&probe, m),
                             impact.status,
                             impact.free_until,
                             impact.hit_at,

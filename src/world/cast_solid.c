@@ -10,7 +10,7 @@
 #include "world/cast_solid.h"
 
 #include "body/body_find.h"
-#include "body/frame.h"
+#include "body/tree_frame.h"
 #include "linear/rotation.h"
 #include "motion/impact.h"
 #include "ovoid/body_impact.h"
@@ -22,7 +22,7 @@
 enum { CROSSINGS = 32 };
 
 typedef struct ray_search {
-    solid_view view;
+    body_tree tree;
     const ovoid_body *body;
     const ovoid_ray *ray;
     vec3 origin, direction; ///< of the ray, in the solid's frame
@@ -43,10 +43,10 @@ static int enter_slab(double low, double high, double from, double way, double r
 }
 
 // When the ray meets a node's box; infinity where it does not.
-static double find_entry(const ray_search *state, solid_ref ref) {
-    tree_box at = solid_view_get_box(&state->view, ref);
+static double find_entry(const ray_search *state, tree_ref ref) {
+    tree_box at = body_tree_get_box(&state->tree, ref);
     vec3 grown = vec3_add(at.half, (vec3){state->slack, state->slack, state->slack});
-    vec3 from = vec3_sub(vec3_sub(state->origin, state->view.center), at.center), d = state->direction;
+    vec3 from = vec3_sub(vec3_sub(state->origin, state->tree.center), at.center), d = state->direction;
     double range[2] = {0, state->ray->length};
     int meets = enter_slab(-grown.x, grown.x, from.x, d.x, range) &&
                 enter_slab(-grown.y, grown.y, from.y, d.y, range) && enter_slab(-grown.z, grown.z, from.z, d.z, range);
@@ -64,11 +64,11 @@ static void keep_crossing(ray_search *state, const part_hit *c) {
 static void visit_triangle(ray_search *state, uint32_t place) {
     triangle_shape room;
     triangle_begin(&room);
-    ovoid_posed_shape leaf = solid_view_get_leaf(&state->view, place, &room);
+    ovoid_posed_shape leaf = body_tree_get_leaf(&state->tree, place, &room);
     ovoid_ray_hit hit = ovoid_shape_cast_ray(&leaf, state->ray);
     if (hit.status == OVOID_IMPACT_FREE) return;
     part_hit found = {
-        solid_view_get_index(&state->view, place), 0, hit.status, hit.lower, hit.upper, hit.point, hit.normal};
+        body_tree_get_index(&state->tree, place), 0, hit.status, hit.lower, hit.upper, hit.point, hit.normal};
     double lower = min2(state->hit.lower, hit.lower);
     if (hit.status == OVOID_IMPACT_HIT && hit.upper < state->hit.upper) state->hit = found;
     if (hit.status == OVOID_IMPACT_UNDECIDED) keep_crossing(state, &found);
@@ -78,17 +78,17 @@ static void visit_triangle(ray_search *state, uint32_t place) {
 
 static void traverse(ray_search *state) {
     struct {
-        solid_ref ref;
+        tree_ref ref;
         double entry;
-    } stack[SOLID_DEPTH_MAX * BOX8] = {{solid_view_get_root(&state->view), 0}};
+    } stack[SOLID_DEPTH_MAX * BOX8] = {{body_tree_get_root(&state->tree), 0}};
     for (uint32_t top = 1; top > 0;) {
-        solid_ref ref = stack[--top].ref, children[BOX8];
+        tree_ref ref = stack[--top].ref, children[BOX8];
         if (!(stack[top].entry <= state->ray->length) || stack[top].entry > state->hit.upper) continue;
-        if (ref_is_triangle(ref)) {
-            visit_triangle(state, ref_get_place(ref));
+        if (ref_is_leaf(ref)) {
+            visit_triangle(state, ref_get_index(ref));
             continue;
         }
-        uint32_t more = solid_view_get_children(&state->view, ref, children), first = top;
+        uint32_t more = body_tree_get_children(&state->tree, ref, children), first = top;
         for (uint32_t i = 0; i < more; i++) {
             double entry = find_entry(state, children[i]);
             uint32_t at = top++;
@@ -122,7 +122,7 @@ static int take_beginning(ray_search *state) {
 
 // Looks behind the crossings for a point that is inside, first a rounding and then ever farther, up to the next one.
 static void take_crossings(ray_search *state) {
-    double scale = vec3_norm(state->ray->direction), size = state->view.extent + vec3_norm(state->origin);
+    double scale = vec3_norm(state->ray->direction), size = state->tree.extent + vec3_norm(state->origin);
     ovoid_body_answer at;
     for (uint32_t i = 0; i < state->count && !(state->hit.upper < INFINITY); i++) {
         double first = state->crossing[i].lower, next = state->ray->length;
@@ -145,16 +145,16 @@ static void take_crossings(ray_search *state) {
 part_hit solid_cast_ray(const ovoid_body *body, const ovoid_ray *ray) {
     ray_search state = {.body = body, .ray = ray, .hit = {.lower = INFINITY, .upper = INFINITY}};
     state.hit.status = OVOID_IMPACT_FREE;
-    if (!solid_view_make(body, &state.view)) return state.hit;
+    if (!body_tree_make(body, &state.tree)) return state.hit;
     mat3 r = quat_to_mat3(body->pose.rotation);
     vec3 offset = vec3_sub(ray->origin, body->pose.position);
     state.origin = mat3_mul_transposed_vec3(r, offset);
     state.direction = mat3_mul_transposed_vec3(r, ray->direction);
     state.slack =
-        ray->radius + 256 * 0x1p-53 * (vec3_norm(offset) + state.view.extent + ray->radius) + OVOID_LENGTH_MIN;
+        ray->radius + 256 * 0x1p-53 * (vec3_norm(offset) + state.tree.extent + ray->radius) + OVOID_LENGTH_MIN;
     if (take_beginning(&state)) return state.hit;
     traverse(&state);
-    if (solid_view_is_closed(&state.view) && state.count) take_crossings(&state);
+    if (body_tree_is_closed(&state.tree) && state.count) take_crossings(&state);
     return state.hit;
 }
 

@@ -2,7 +2,7 @@
 #include "world/state.h"
 
 #include "base/error.h"
-#include "body/body_view.h"
+#include "body/body_tree.h"
 #include "compound/compound.h"
 #include "linear/pose.h"
 #include "solid/solid.h"

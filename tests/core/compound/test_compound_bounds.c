@@ -5,7 +5,7 @@
 #include "compounds.h"
 #include "extended.h"
 
-#include "body/body_view.h"
+#include "body/body_tree.h"
 
 enum { CAPACITY = 4000, DIRECTIONS = 12 };
 static ovoid_exclusion items[CAPACITY];
@@ -107,10 +107,10 @@ static void check_inner(const ovoid_compound *c) {
 
 // ---- exclusions
 
-static long double find_top(const body_view *view, uint32_t first, uint32_t end, extended3 n) {
+static long double find_top(const body_tree *tree, uint32_t first, uint32_t end, extended3 n) {
     long double most = -INFINITY;
     for (uint32_t place = first; place < end; place++) {
-        ovoid_posed_shape part = body_view_get_part(view, place);
+        ovoid_posed_shape part = body_tree_get_leaf(tree, place, NULL);
         for (uint32_t i = 0; i < count_vertices(part.shape); i++)
             most = fmaxl(most, extended3_dot(n, find_vertex(&part, i)) + ovoid_shape_get_radius(part.shape));
     }
@@ -118,8 +118,8 @@ static long double find_top(const body_view *view, uint32_t first, uint32_t end,
 }
 
 static long double find_gap(const ovoid_body_pair *pair, const ovoid_exclusion *e) {
-    body_view a, b;
-    CHECK(body_view_make(&pair->a, &a) && body_view_make(&pair->b, &b));
+    body_tree a, b;
+    CHECK(body_tree_make(&pair->a, &a) && body_tree_make(&pair->b, &b));
     extended3 n = extended3_from(e->normal);
     n = extended3_scale(n, 1 / extended3_norm(n));
     return -find_top(&b, e->first_b, e->end_b, extended3_scale(n, -1)) - find_top(&a, e->first_a, e->end_a, n);

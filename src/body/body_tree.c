@@ -1,0 +1,153 @@
+// A posed body as a tree, and triangles as shapes.
+#include "body/body_tree.h"
+
+#include "linear/rotation.h"
+
+#include <string.h>
+
+int body_tree_make(const ovoid_body *body, body_tree *tree) {
+    if (!body_is_one(body) || pose_validate(&body->pose) != OVOID_OK) return 0;
+    *tree = (body_tree){
+        .solid = body->solid, .shape = body->shape, .compound = body->compound, .pose = &body->pose, .count = 1};
+    if (tree->solid) {
+        tree->center = tree->solid->center;
+        tree->extent = tree->solid->extent;
+        tree->count = tree->solid->triangle_count;
+    } else if (tree->compound) {
+        tree->extent = tree->compound->extent;
+        tree->allowance = tree->compound->allowance;
+        tree->count = tree->compound->count;
+    } else {
+        const ovoid_shape *s = tree->shape;
+        const ovoid_box *b = &s->measures.box;
+        tree->center = vec3_add(s->origin, vec3_scale(vec3_add(b->min, b->max), 0.5));
+        tree->half = vec3_scale(vec3_sub(b->max, b->min), 0.5);
+        double r = s->lower_radius;
+        tree->half = vec3_add(tree->half, (vec3){r, r, r});
+        tree->extent = vec3_norm(s->origin) * (1 + 0x1p-50) + s->span + s->lower_radius;
+        tree->allowance = shape_get_width(s);
+    }
+    return vec3_norm(tree->pose->position) + tree->extent <= OVOID_LENGTH_MAX;
+}
+
+ovoid_limit body_trees_make(const ovoid_body_pair *pair, body_tree *a, body_tree *b) {
+    if (!body_is_one(&pair->a)) return OVOID_LIMIT_SHAPE_A;
+    if (!body_is_one(&pair->b)) return OVOID_LIMIT_SHAPE_B;
+    if (!body_tree_make(&pair->a, a)) return OVOID_LIMIT_POSE_A;
+    return body_tree_make(&pair->b, b) ? OVOID_LIMIT_NONE : OVOID_LIMIT_POSE_B;
+}
+
+void body_tree_get_range(const body_tree *tree, tree_ref ref, uint32_t *first, uint32_t *end) {
+    uint32_t at = ref_get_index(ref);
+    if (tree->compound) {
+        *first = tree->compound->nodes[at].first;
+        *end = tree->compound->nodes[at].end;
+    } else if (ref_is_leaf(ref)) {
+        *first = at;
+        *end = at + 1;
+    } else {
+        *first = tree->solid->nodes[at].first;
+        *end = tree->solid->nodes[at].end;
+    }
+}
+
+uint32_t body_tree_get_children(const body_tree *tree, tree_ref node, tree_ref children[BOX8]) {
+    if (tree->compound) {
+        const compound_node *n = &tree->compound->nodes[node];
+        children[0] = compound_get_ref(tree->compound, node_get_left(n));
+        children[1] = compound_get_ref(tree->compound, node_get_right(n));
+        return 2;
+    }
+    uint32_t count = tree->solid->nodes[node].children;
+    for (uint32_t i = 0; i < count; i++) children[i] = solid_get_child(tree->solid, node, i);
+    return count;
+}
+
+// The triangle's box as its node has it: rounded to single precision, so that both have the same centre.
+static void set_triangle_box(const ovoid_solid *s, uint32_t place, float low[3], float high[3]) {
+    box b = solid_make_bounds(s, &s->triangles[place]);
+    const double least[3] = {b.min.x, b.min.y, b.min.z}, most[3] = {b.max.x, b.max.y, b.max.z};
+    for (int k = 0; k < 3; k++) {
+        low[k] = box8_round_down(least[k]);
+        high[k] = box8_round_up(most[k]);
+    }
+}
+
+tree_box body_tree_get_box(const body_tree *tree, tree_ref ref) {
+    if (tree->shape) return (tree_box){{0, 0, 0}, tree->half};
+    if (tree->compound) {
+        const compound_node *n = &tree->compound->nodes[ref_get_index(ref)];
+        return (tree_box){n->center, n->half};
+    }
+    float own[2][3];
+    const float *low = own[0], *high = own[1];
+    if (ref_is_leaf(ref)) {
+        set_triangle_box(tree->solid, ref_get_index(ref), own[0], own[1]);
+    } else {
+        low = tree->solid->nodes[ref].low;
+        high = tree->solid->nodes[ref].high;
+    }
+    vec3 from = {low[0], low[1], low[2]}, to = {high[0], high[1], high[2]};
+    double half = 0.5 * tree->solid->unit;
+    return (tree_box){vec3_scale(vec3_add(to, from), half), vec3_scale(vec3_sub(to, from), half)};
+}
+
+int trees_split_first(const body_tree *a, tree_ref ref_a, const body_tree *b, tree_ref ref_b) {
+    if (ref_is_leaf(ref_a) || ref_is_leaf(ref_b)) return ref_is_leaf(ref_b);
+    if (a->compound && b->compound) return a->compound->nodes[ref_a].radius >= b->compound->nodes[ref_b].radius;
+    tree_box box_a = body_tree_get_box(a, ref_a), box_b = body_tree_get_box(b, ref_b);
+    return boxes_split_first(ref_a, &box_a, ref_b, &box_b);
+}
+
+void triangle_begin(triangle_shape *t) {
+    memset(t, 0, sizeof *t);
+    block_set_radius(&t->shape, 0, (ovoid_allowance){0});
+    t->shape.vertex_count = t->shape.counts.vertices = 3;
+    t->shape.padded_count = 8;
+    t->shape.rank = 2;
+    t->shape.at.x = offsetof(triangle_shape, lanes);
+    t->shape.at.y = t->shape.at.x + sizeof t->lanes[0];
+    t->shape.at.z = t->shape.at.y + sizeof t->lanes[0];
+    t->shape.at.vertices = offsetof(triangle_shape, vertices);
+    t->shape.at.size = sizeof *t;
+}
+
+void triangle_set(triangle_shape *t, const vec3 c[3]) {
+    ovoid_shape *s = &t->shape;
+    for (int i = 0; i < 8; i++) {
+        vec3 p = c[i < 3 ? i : 0];
+        t->lanes[0][i] = p.x;
+        t->lanes[1][i] = p.y;
+        t->lanes[2][i] = p.z;
+    }
+    for (int i = 0; i < 3; i++) {
+        t->vertices[3 * i] = c[i].x;
+        t->vertices[3 * i + 1] = c[i].y;
+        t->vertices[3 * i + 2] = c[i].z;
+    }
+    // A sphere around the middle of the box, and the ellipsoids that queries may look at: that sphere, and a corner.
+    vec3 low = {min2(c[0].x, min2(c[1].x, c[2].x)), min2(c[0].y, min2(c[1].y, c[2].y)),
+                min2(c[0].z, min2(c[1].z, c[2].z))};
+    vec3 high = {max2(c[0].x, max2(c[1].x, c[2].x)), max2(c[0].y, max2(c[1].y, c[2].y)),
+                 max2(c[0].z, max2(c[1].z, c[2].z))};
+    s->center = vec3_scale(vec3_add(low, high), 0.5);
+    double reach = 0, extent = 0;
+    for (int i = 0; i < 3; i++) {
+        reach = max2(reach, vec3_norm(vec3_sub(c[i], s->center)));
+        extent = max2(extent, vec3_norm(c[i]));
+    }
+    // Norms are off by 4 u, differences from the centre by u of the corner.
+    s->reach = reach * (1 + 0x1p-49) + OVOID_LENGTH_MIN;
+    s->extent = s->span = extent * (1 + 0x1p-49) + OVOID_LENGTH_MIN;
+    s->first = c[0];
+    double square = 1.01 * s->reach * s->reach;
+    s->outer = (ovoid_ellipsoid){.center = s->center, .q = {square, 0, 0, square, 0, square}};
+    s->inner = (ovoid_ellipsoid){.center = c[0]};
+}
+
+ovoid_posed_shape solid_get_leaf(const body_tree *tree, uint32_t place, triangle_shape *room) {
+    const vec3 corner[3] = {solid_get_corner(tree->solid, place, 0), solid_get_corner(tree->solid, place, 1),
+                            solid_get_corner(tree->solid, place, 2)};
+    triangle_set(room, corner);
+    return (ovoid_posed_shape){&room->shape, *tree->pose};
+}

@@ -1,0 +1,116 @@
+// The nodes of two bodies with a solid: bounds of eight children at a time, and which pairs wait where.
+#include "body/solid_search.h"
+
+enum { WAITING_ROOM = 1280, HEAP_MOST = 1024 };
+_Static_assert(WAITING_ROOM > 2 * (BOX8 - 1) * SOLID_DEPTH_MAX + 1, "the deepest trees leave room for a heap");
+
+// The children of a node that are not left out, farthest first.
+typedef struct children {
+    waiting_pair pair[BOX8];
+    uint32_t count;
+} children;
+
+static void insert(children *c, const waiting_pair *w) {
+    uint32_t at = c->count++;
+    for (; at > 0 && c->pair[at - 1].lower < w->lower; at--) c->pair[at] = c->pair[at - 1];
+    c->pair[at] = *w;
+}
+
+// The bounds of the children of a solid's node, in lanes. side 0: nodes of a beside a box of b.
+static void bound_boxes(const body_search *state, int side, tree_ref node, const tree_box *rest, double lower[BOX8]) {
+    const ovoid_solid *s = side ? state->b.solid : state->a.solid;
+    solid8_other other;
+    tree_frame_turn(&state->frame, side, rest, solids_get_normal(state), &other);
+    other.unit = s->unit;
+    state->solids.kernels->boxes(&s->boxes[node], &other, lower);
+}
+
+// Of the two children of a compound's node.
+static void bound_nodes(const body_search *state, int side, const tree_ref *two, const tree_box *rest,
+                        double lower[BOX8]) {
+    for (int i = 0; i < 2; i++) {
+        tree_box own = body_tree_get_box(side ? &state->b : &state->a, two[i]);
+        lower[i] =
+            tree_frame_find_gap(&state->frame, side ? rest : &own, side ? &own : rest, solids_get_normal(state)).lower;
+    }
+}
+
+static void bound_children(body_search *state, const waiting_pair *w, int side, const tree_box *rest, children *found) {
+    const body_tree *tree = side ? &state->b : &state->a;
+    tree_ref node = side ? waiting_get_b(w) : waiting_get_a(w), all[BOX8];
+    uint32_t count = body_tree_get_children(tree, node, all);
+    double lower[BOX8];
+    if (tree->solid)
+        bound_boxes(state, side, node, rest, lower);
+    else
+        bound_nodes(state, side, all, rest, lower);
+    state->out->visited += count;
+    found->count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const waiting_pair next = waiting_make(side ? waiting_get_a(w) : all[i], side ? all[i] : waiting_get_b(w),
+                                               lower[i] - state->frame.claim, state->solids.normal_count - 1);
+        if (search_is_left_out(state, next.lower))
+            solids_exclude_boxes(state, &next);
+        else
+            insert(found, &next);
+    }
+}
+
+// Children that are triangles, of a node beside a triangle: in lanes.
+static void visit_triangles(body_search *state, int side, const children *found) {
+    uint32_t places[BOX8], one = ref_get_index(side ? waiting_get_a(&found->pair[0]) : waiting_get_b(&found->pair[0]));
+    for (uint32_t i = 0; i < found->count; i++) {
+        // The nearest first.
+        const waiting_pair *w = &found->pair[found->count - 1 - i];
+        places[i] = ref_get_index(side ? waiting_get_b(w) : waiting_get_a(w));
+    }
+    solids_visit_triangles(state, side, one, places, found->count);
+}
+
+// Children wait: boxes that overlap on the stack, since each has to be opened, the others in the heap; where that is
+// full on the stack too. Triangles beside a triangle are visited at once.
+static void pass_on(body_search *state, int side, const children *found, waiting *q) {
+    children leaves = {.count = 0};
+    for (uint32_t i = 0; i < found->count; i++) {
+        const waiting_pair *w = &found->pair[i];
+        if (waiting_is_leaves(w) && state->a.solid && state->b.solid)
+            leaves.pair[leaves.count++] = *w;
+        else if (!(w->lower > 0 && waiting_push_heap(q, w)))
+            waiting_push(q, w);
+    }
+    if (leaves.count) visit_triangles(state, side, &leaves);
+}
+
+waiting_pair solids_bound_roots(const body_search *state, double enough) {
+    (void)enough;
+    tree_ref root_a = body_tree_get_root(&state->a), root_b = body_tree_get_root(&state->b);
+    tree_box a = body_tree_get_box(&state->a, root_a), b = body_tree_get_box(&state->b, root_b);
+    double gap = tree_frame_find_gap(&state->frame, &a, &b, solids_get_normal(state)).lower;
+    return waiting_make(root_a, root_b, gap - state->frame.claim, state->solids.normal_count - 1);
+}
+
+static void open_nodes(body_search *state, const waiting_pair *w, waiting *q) {
+    const tree_ref ref_a = waiting_get_a(w), ref_b = waiting_get_b(w);
+    tree_box a = body_tree_get_box(&state->a, ref_a), b = body_tree_get_box(&state->b, ref_b);
+    int side = !boxes_split_first(ref_a, &a, ref_b, &b);
+    children found;
+    bound_children(state, w, side, side ? &a : &b, &found);
+    pass_on(state, side, &found, q);
+}
+
+// Down a path of both trees each node leaves all its children but one.
+static uint32_t find_most_stacked(const body_tree *tree) {
+    return tree->solid ? (BOX8 - 1) * tree->solid->depth : tree->compound ? COMPOUND_DEPTH_MAX : 0;
+}
+
+static void traverse(body_search *state);
+const search_kind solids_kind = {solids_bound_roots, solids_exclude_boxes, solids_visit_leaves, open_nodes,
+                                 traverse,           solids_take};
+
+// The stack is at the beginning of the memory, the heap behind the most that the stack can take.
+static void traverse(body_search *state) {
+    waiting_pair room[WAITING_ROOM];
+    uint32_t most = 1 + find_most_stacked(&state->a) + find_most_stacked(&state->b), left = WAITING_ROOM - most;
+    waiting q = {.stack = room, .heap = room + most, .heap_room = left < HEAP_MOST ? left : HEAP_MOST};
+    search_traverse(state, &solids_kind, &q);
+}

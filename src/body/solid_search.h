@@ -1,0 +1,23 @@
+// The search of two bodies of which one is a solid: the steps of its traversal.
+#ifndef OVOID_BODY_SOLID_SEARCH_H
+#define OVOID_BODY_SOLID_SEARCH_H
+
+#include "body/traverse.h"
+
+extern const search_kind solids_kind;
+
+/// The normal that is tried on boxes, in a's frame.
+static inline vec3 solids_get_normal(const body_search *state) {
+    return state->solids.normals[state->solids.normal_count - 1];
+}
+
+/// The steps (search_kind).
+waiting_pair solids_bound_roots(const body_search *state, double enough);
+void solids_exclude_boxes(body_search *state, const waiting_pair *pair);
+void solids_visit_leaves(body_search *state, const waiting_pair *pair);
+int solids_take(body_search *state, const leaf_pair *pair);
+
+/// Triangles of the body `side` (0: a) at places, with one triangle of the other, in lanes. count <= 8.
+void solids_visit_triangles(body_search *state, int side, uint32_t one, const uint32_t *places, uint32_t count);
+
+#endif

@@ -1,0 +1,86 @@
+// The frame of a pair, and the gaps of boxes in it.
+#include "body/tree_frame.h"
+
+#include "linear/rotation.h"
+
+static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
+
+static mat3 absolute_matrix(mat3 m) { return (mat3){absolute(m.r0), absolute(m.r1), absolute(m.r2)}; }
+
+double trees_compute_size(const body_tree *a, const body_tree *b, vec3 offset) {
+    return a->extent + b->extent + vec3_norm(offset);
+}
+
+double trees_compute_claim(const body_tree *a, const body_tree *b, double size) {
+    double claim = TREE_CLAIM * size + 4 * OVOID_LENGTH_MIN;
+    if (!a->compound && !b->compound) return claim;
+    return claim + 8 * 0x1p-53 * (vec3_norm(a->pose->position) + vec3_norm(b->pose->position));
+}
+
+void tree_frame_make(const body_tree *a, const body_tree *b, tree_frame *f) {
+    f->world = quat_to_mat3(a->pose->rotation);
+    f->world_b = quat_to_mat3(b->pose->rotation);
+    f->to_a = mat3_mul_transposed(f->world, f->world_b);
+    f->to_b = mat3_transpose(f->to_a);
+    f->absolute_a = absolute_matrix(f->to_a);
+    f->absolute_b = absolute_matrix(f->to_b);
+    f->offset = vec3_sub(b->pose->position, a->pose->position);
+    f->translation = mat3_mul_transposed_vec3(f->world, f->offset);
+    f->translation_a = vec3_neg(mat3_mul_transposed_vec3(f->world_b, f->offset));
+    f->between = vec3_sub(vec3_add(f->translation, mat3_mul_vec3(f->to_a, b->center)), a->center);
+    f->size = trees_compute_size(a, b, f->offset);
+    f->claim = trees_compute_claim(a, b, f->size);
+    f->check = TREE_CHECK * f->size + OVOID_LENGTH_MIN;
+}
+
+// The gap of boxes of the given half sizes around two centres, and its direction, along the axes of the frame.
+static box_gap find_axis_gap(vec3 d, vec3 half) {
+    vec3 gap = vec3_sub(absolute(d), half);
+    vec3 out = {max2(gap.x, 0), max2(gap.y, 0), max2(gap.z, 0)};
+    double norm = vec3_norm(out), most = max2(gap.x, max2(gap.y, gap.z));
+    if (!(norm > 0)) out = (vec3){gap.x >= most, gap.x < most && gap.y >= most, gap.x < most && gap.y < most};
+    vec3 n = vec3_unit((vec3){d.x < 0 ? -out.x : out.x, d.y < 0 ? -out.y : out.y, d.z < 0 ? -out.z : out.z});
+    return (box_gap){norm > 0 ? norm : most, n};
+}
+
+static double find_reach(vec3 half, vec3 n) { return vec3_dot(half, absolute(n)); }
+
+// The gap along a unit direction of a's frame.
+static box_gap find_gap_along(const tree_frame *f, const tree_box *a, const tree_box *b, vec3 d, vec3 n) {
+    return (box_gap){vec3_dot(n, d) - find_reach(a->half, n) - find_reach(b->half, mat3_mul_vec3(f->to_b, n)), n};
+}
+
+box_gap tree_frame_find_gap(const tree_frame *f, const tree_box *a, const tree_box *b, vec3 normal) {
+    vec3 d = vec3_sub(vec3_add(f->between, mat3_mul_vec3(f->to_a, b->center)), a->center);
+    box_gap best = find_axis_gap(d, vec3_add(a->half, mat3_mul_vec3(f->absolute_a, b->half)));
+    box_gap next = find_axis_gap(mat3_mul_vec3(f->to_b, d), vec3_add(b->half, mat3_mul_vec3(f->absolute_b, a->half)));
+    next.normal = mat3_mul_vec3(f->to_a, next.normal);
+    if (next.lower > best.lower) best = next;
+    next = find_gap_along(f, a, b, d, normal);
+    if (next.lower > best.lower) best = next;
+    vec3 line = vec3_unit(d);
+    if (!(vec3_norm_squared(line) > 0.5)) return best;
+    next = find_gap_along(f, a, b, d, line);
+    return next.lower > best.lower ? next : best;
+}
+
+box_gap tree_frame_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b) {
+    tree_box box_a = body_tree_get_box(a, body_tree_get_root(a)), box_b = body_tree_get_box(b, body_tree_get_root(b));
+    box_gap gap = tree_frame_find_gap(f, &box_a, &box_b, (vec3){1, 0, 0});
+    gap.lower -= f->claim;
+    gap.normal = mat3_mul_vec3(f->world, gap.normal);
+    return gap;
+}
+
+void tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal, solid8_other *o) {
+    // A box of b beside nodes of a, or the other way round; the normal goes from a to b.
+    o->center = side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->center, f->between))
+                     : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->center));
+    o->rotation = side ? f->to_a : f->to_b;
+    o->absolute = side ? f->absolute_a : f->absolute_b;
+    o->turned = mat3_mul_vec3(side ? f->absolute_b : f->absolute_a, rest->half);
+    o->half = rest->half;
+    vec3 in_b = mat3_mul_vec3(f->to_b, normal);
+    o->normal = side ? vec3_neg(in_b) : normal;
+    o->reach = find_reach(rest->half, side ? normal : in_b);
+}

@@ -1,0 +1,63 @@
+// A pair of posed bodies, each a solid, a shape or a compound, in the frame of the first.
+//
+// With u = 2^-53, ea, eb the largest point norms in the bodies' frames (of a shape its origin's norm, span and radius),
+// t the place of b's frame and S = ea + eb + |t|:
+// - the rotation of b in a's frame is off by 82 u, t by 43 u |t| (two rotations of a difference that is off by u);
+// - a point of b in a's frame is off by 91 u S, as in pair/frame.h; so is one of a in b's;
+// - centres and half sizes of boxes are off by 8 u S beside that, since boxes are rounded outward to single precision
+//   when they are made; the largest of gaps, sums and a root by 16 u S;
+// - a gap of two triangles along a unit direction is off by 100 u S, turning the direction to the world moves it by
+//   42 u S, and whoever measures it again there is off by 148 u S.
+// Together below 400 u S; a bound is lowered by 512 u S and twice what underflow can hide.
+// A part of a compound is where the rounded product of two poses has it (compound.h): off by 45 u S more, and by u of
+// its body's position; where a compound takes part, a bound is lowered by 8 u of both positions beside that.
+#ifndef OVOID_BODY_TREE_FRAME_H
+#define OVOID_BODY_TREE_FRAME_H
+
+#include "body/body_tree.h"
+
+#define TREE_CLAIM (512 * 0x1p-53)
+#define TREE_CHECK (148 * 0x1p-53)
+
+typedef struct tree_frame {
+    mat3 world, world_b;         ///< of a's and of b's frame to the world
+    mat3 to_a, to_b;             ///< of b's frame to a's, and of a's to b's: the transpose
+    mat3 absolute_a, absolute_b; ///< the sizes of their entries
+    vec3 offset;                 ///< of b's frame from a's, world
+    vec3 translation;            ///< of b's frame, in a's
+    vec3 translation_a;          ///< of a's frame, in b's
+    vec3 between;                ///< of b's tree's frame from a's, in a's frame
+    double size;                 ///< S
+    double claim;                ///< by this a computed bound is lowered
+    double check;                ///< the error of measuring an exclusion
+} tree_frame;
+
+/// The size and the claim of a frame, for bodies whose origins are `offset` apart.
+double trees_compute_size(const body_tree *a, const body_tree *b, vec3 offset);
+double trees_compute_claim(const body_tree *a, const body_tree *b, double size);
+
+void tree_frame_make(const body_tree *a, const body_tree *b, tree_frame *frame);
+
+/// The width that a bracket of two bodies may keep beside their allowances.
+static inline double tree_frame_compute_tolerance(const tree_frame *f, const ovoid_options *options) {
+    return options_compute_tolerance(options, f->size, OVOID_LENGTH_MIN);
+}
+
+/// The bound of two boxes, and a unit direction in a's frame that shows it: as the kernel's. normal: one to try, in a's
+/// frame.
+typedef struct box_gap {
+    double lower;
+    vec3 normal;
+} box_gap;
+box_gap tree_frame_find_gap(const tree_frame *f, const tree_box *a, const tree_box *b, vec3 normal);
+
+/// A box of b (side 0) or of a (side 1) as the kernel wants it beside nodes of the other; the
+/// unit of these is left to the caller.
+void tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal, solid8_other *other);
+
+/// The bound by the boxes of both roots, lowered by the claim, and its direction in the world: what parts the bodies.
+box_gap tree_frame_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b);
+/// What parts the bodies by all points, along the best of some directions (parting.c). normal: one to try, world frame.
+box_gap trees_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 normal);
+
+#endif
